@@ -1,0 +1,77 @@
+#!/bin/sh
+# Runs the benchmarks that are built and writes their tables (.md and .json) to a folder. Builds
+# nothing.
+#
+#   bench/run.sh BUILD OUT [DATA]
+#
+# BUILD: the build folder. OUT: where the tables go. DATA: a folder of meshes (.obj) with their
+# exact answers NAME.vID.txt beside them; without it, samples are measured.
+# QUICK=1: few repeats, to see that everything runs.
+set -eu
+
+if [ $# -lt 2 ] || [ $# -gt 3 ]; then
+  sed -n '5,9s/^# \{0,1\}//p' "$0" >&2
+  exit 2
+fi
+bin=$1/bin
+out=$2
+data=${3:-}
+samples=$(dirname "$0")/../data
+
+if [ "${QUICK:-0}" = 1 ]; then
+  effort="--sources 3 --repeats 1 --budget 1 --limit 60"
+  exact="--exact-limit 2000"
+  scale="--sizes 5000,20000 $effort"
+else
+  effort="--sources 16 --repeats 3"
+  exact=""
+  scale=""
+fi
+
+mkdir -p "$out"
+if [ -n "$data" ]; then
+  set -- "$data"/*.obj
+else
+  set -- "$samples"/knot.ply "$samples"/hills.off "$samples"/torus.obj
+fi
+if [ ! -e "$1" ]; then
+  echo "$data: no .obj in it" >&2
+  exit 3
+fi
+
+# run NAME PROGRAM ARGUMENTS...: the JSON is the measurement, the Markdown a view of it.
+run() {
+  name=$1
+  shift
+  echo "== $name" >&2
+  "$@" --markdown "$out/$name.md" --json > "$out/$name.json"
+}
+
+cxx=$(sed -n 's/^CMAKE_CXX_COMPILER:[^=]*=//p' "$bin/../CMakeCache.txt")
+{
+  echo "date: $(date -u +%Y-%m-%d)"
+  echo "processor: $(sed -n 's/^model name[^:]*: //p' /proc/cpuinfo 2>/dev/null | head -n 1)"
+  echo "cores: $(getconf _NPROCESSORS_ONLN)"
+  echo "memory: $(sed -n 's/^MemTotal: *//p' /proc/meminfo 2>/dev/null)"
+  echo "compiler: $("$cxx" --version 2>/dev/null | head -n 1)"
+  echo "build type: $(sed -n 's/^CMAKE_BUILD_TYPE:[^=]*=//p' "$bin/../CMakeCache.txt")"
+  echo "native: $(sed -n 's/^PLEXWAY_NATIVE:[^=]*=//p' "$bin/../CMakeCache.txt")"
+  echo "load at start: $(cut -d ' ' -f 1 /proc/loadavg 2>/dev/null)"
+} > "$out/machine.txt"
+
+peers=$bin/bench_cgal
+[ -x "$peers" ] || peers=$bin/bench_peers
+# The arguments in $effort and its like are words of their own.
+# shellcheck disable=SC2086
+{
+  run peers "$peers" "$@" $effort $exact
+  run policy "$bin/bench_policy" "$@" $effort
+  # Two good scans, cut into four until they have a million vertices; otherwise the sphere alone.
+  set --
+  for scan in bunny armadillo; do
+    [ ! -e "$data/$scan.obj" ] || set -- "$@" "$data/$scan.obj"
+  done
+  run scale "$bin/bench_scale" "$@" $scale
+  run scale_shuffled "$bin/bench_scale" --shuffle $scale
+}
+echo "$out: $(cd "$out" && ls | tr '\n' ' ')"

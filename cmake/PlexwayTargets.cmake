@@ -1,0 +1,83 @@
+# How every plexway target is made, so that flags, include paths and install rules agree.
+
+# Flags of all our code. They stay PRIVATE: a consumer keeps its own.
+#   -fno-math-errno    sqrt compiles to one instruction, without a branch that sets errno
+#   -ffp-contract=off  no fused multiply-add: the kernel gives the same bits as its GLSL twin
+function(plexway_compile_options target)
+  target_compile_features(${target} PUBLIC cxx_std_20)
+  set_target_properties(${target} PROPERTIES CXX_EXTENSIONS OFF)
+  if(MSVC)
+    target_compile_options(${target} PRIVATE /W4 /permissive- /fp:precise
+      $<$<BOOL:${PLEXWAY_WERROR}>:/WX>)
+    return()
+  endif()
+  target_compile_options(${target} PRIVATE
+    -fno-math-errno -ffp-contract=off -Wno-psabi
+    -Wall -Wextra -Wpedantic -Wshadow -Wconversion
+    $<$<BOOL:${PLEXWAY_WERROR}>:-Werror>
+    $<$<CONFIG:Release>:-O3>
+    $<$<BOOL:${PLEXWAY_NATIVE}>:-march=native>)
+endfunction()
+
+# plexway_add_component(NAME SOURCES ... HEADERS_FROM dir... DEPENDS component...)
+# A library plexway_NAME, also known as plexway::NAME, installed as the package component NAME.
+function(plexway_add_component name)
+  cmake_parse_arguments(arg "" "" "SOURCES;HEADERS_FROM;DEPENDS" ${ARGN})
+  set(target plexway_${name})
+  add_library(${target} ${arg_SOURCES})
+  add_library(plexway::${name} ALIAS ${target})
+  plexway_compile_options(${target})
+  set_target_properties(${target} PROPERTIES
+    EXPORT_NAME ${name}
+    POSITION_INDEPENDENT_CODE ON
+    VERSION ${PROJECT_VERSION}
+    SOVERSION ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR}
+    WINDOWS_EXPORT_ALL_SYMBOLS ON)
+  foreach(dir IN LISTS arg_HEADERS_FROM)
+    target_include_directories(${target} PUBLIC "$<BUILD_INTERFACE:${dir}>")
+  endforeach()
+  target_include_directories(${target} INTERFACE "$<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>")
+  foreach(component IN LISTS arg_DEPENDS)
+    target_link_libraries(${target} PUBLIC plexway::${component})
+  endforeach()
+  set_property(GLOBAL APPEND PROPERTY PLEXWAY_COMPONENTS ${name})
+  set_property(GLOBAL PROPERTY PLEXWAY_DEPENDS_${name} "${arg_DEPENDS}")
+  set_property(GLOBAL PROPERTY PLEXWAY_HEADERS_${name} "${arg_HEADERS_FROM}")
+endfunction()
+
+# plexway_require(NAME [version] PACKAGE <Debian package> FOR <option>): find_package that fails with
+# what to install. A macro, because some packages set variables that their user needs.
+macro(plexway_require name)
+  cmake_parse_arguments(require "" "PACKAGE;FOR" "" ${ARGN})
+  find_package(${name} ${require_UNPARSED_ARGUMENTS} QUIET)
+  if(NOT ${name}_FOUND)
+    message(FATAL_ERROR "plexway: ${require_FOR} needs ${name}: install ${require_PACKAGE} "
+      "(.ci/packages installs all) or set ${require_FOR}=OFF")
+  endif()
+endmacro()
+
+# The command-line tool: target plexway_tool, file name plexway. It takes every component built.
+function(plexway_add_tool)
+  if(NOT PLEXWAY_BUILD_TOOL)
+    return()
+  endif()
+  file(GLOB sources CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/src/cli/*.cpp")
+  plexway_require(CLI11 PACKAGE libcli11-dev FOR PLEXWAY_BUILD_TOOL)
+  plexway_require(nlohmann_json PACKAGE nlohmann-json3-dev FOR PLEXWAY_BUILD_TOOL)
+  add_executable(plexway_tool ${sources})
+  set_target_properties(plexway_tool PROPERTIES OUTPUT_NAME plexway)
+  plexway_compile_options(plexway_tool)
+  target_include_directories(plexway_tool PRIVATE "${PROJECT_SOURCE_DIR}/src")
+  target_link_libraries(plexway_tool PRIVATE CLI11::CLI11 nlohmann_json::nlohmann_json)
+  plexway_link_all(plexway_tool)
+endfunction()
+
+# Links every component that this build has; PLEXWAY_HAS_<COMPONENT> says so to the code.
+function(plexway_link_all target)
+  get_property(components GLOBAL PROPERTY PLEXWAY_COMPONENTS)
+  foreach(component IN LISTS components)
+    target_link_libraries(${target} PRIVATE plexway::${component})
+    string(TOUPPER ${component} upper)
+    target_compile_definitions(${target} PRIVATE PLEXWAY_HAS_${upper}=1)
+  endforeach()
+endfunction()

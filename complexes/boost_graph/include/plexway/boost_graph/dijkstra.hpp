@@ -1,0 +1,49 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <memory>
+#include <span>
+
+#include <plexway/complex/ids.hpp>
+
+namespace plexway::boost_graph {
+
+/// Shortest paths along the edges of a surface by Boost.Graph's Dijkstra on a compressed sparse
+/// row graph.
+///
+/// An upper bound of the geodesic distance, some per cent above it however fine the mesh, and the
+/// peer that propagation is measured against. Two vertices are joined once, whatever the number of
+/// triangles on their edge; a face that names a vertex twice adds no loop.
+template <class Real>
+class EdgeDijkstra {
+ public:
+  /// From n positions in any unit and m triangles of vertex indices < n. Throws InputError naming
+  /// the face for an index out of range or an edge whose length Real cannot hold, and for more
+  /// than 2^32 - 1 directed edges. Cost: linear.
+  EdgeDijkstra(std::span<const std::array<double, 3>> positions,
+               std::span<const std::array<Index, 3>> faces);
+  ~EdgeDijkstra();
+  EdgeDijkstra(EdgeDijkstra&&) noexcept;
+  EdgeDijkstra& operator=(EdgeDijkstra&&) noexcept;
+  EdgeDijkstra(const EdgeDijkstra&) = delete;
+  EdgeDijkstra& operator=(const EdgeDijkstra&) = delete;
+
+  /// Distances from one vertex, with the 4-ary heap that Boost brings. Throws UsageError for a
+  /// vertex that is not there. Cost: O(n log n), 60 to 160 ns a vertex.
+  void run(Index source);
+  /// What the last run found: one a vertex in the caller's order, +inf where unreached (or before
+  /// the first run).
+  [[nodiscard]] std::span<const Real> distance() const;
+  /// Bytes held between runs. A run takes 8 a vertex more, and the heap.
+  [[nodiscard]] std::size_t bytes() const;
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+extern template class EdgeDijkstra<float>;
+extern template class EdgeDijkstra<double>;
+
+}  // namespace plexway::boost_graph

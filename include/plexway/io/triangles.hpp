@@ -1,0 +1,45 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <span>
+#include <string_view>
+#include <vector>
+
+namespace plexway::io {
+
+/// A triangle surface as a file has it: nothing merged, reordered or dropped.
+///
+/// Vertex i is the i-th vertex of the file, referenced or not. Polygons with more than three
+/// corners are cut into a fan around their first corner, in file order.
+struct Triangles {
+  std::vector<std::array<double, 3>> positions;         ///< finite, in file units
+  std::vector<std::array<std::uint32_t, 3>> triangles;  ///< 0-based, each < positions.size()
+};
+
+/// Reads the surface in `file`; the extension (any case) picks the format.
+///
+/// Throws InputError, one line "FILE:LINE: cause" or "FILE: cause", when the file is missing,
+/// truncated or malformed, holds a coordinate that is not finite, an index out of range, a face
+/// with fewer than three corners, no face at all, or when the extension is not known.
+Triangles read_triangles(const std::filesystem::path& file);
+
+/// The extensions `read_triangles` knows, with the dot, in lower case.
+std::span<const std::string_view> triangle_extensions();
+
+/// Wavefront OBJ: `v` and `f` (all index forms, negative indices, `\` at a line's end); all other
+/// statements are ignored. `name` stands for the file in messages. Throws InputError.
+Triangles parse_obj(std::string_view text, std::string_view name);
+
+/// Object File Format, ascii: OFF and its C, N and ST variants. Throws InputError.
+Triangles parse_off(std::string_view text, std::string_view name);
+
+/// Stanford PLY: ascii, binary little and big endian. Throws InputError.
+Triangles parse_ply(std::string_view bytes, std::string_view name);
+
+/// STL, ascii or binary. It is a soup of triangles: corners with identical coordinates become one
+/// vertex, numbered in order of first appearance. Throws InputError.
+Triangles parse_stl(std::string_view bytes, std::string_view name);
+
+}  // namespace plexway::io

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include <plexway/complex/ids.hpp>
+
+namespace plexway {
+
+/// What a propagation cost.
+struct PropagateStatistics {
+  std::size_t expansions = 0;  ///< simplices taken from the queue
+  std::size_t updates = 0;     ///< labels accepted
+  std::size_t reached_simplices = 0;
+};
+
+/// Distances at the vertices, in the caller's order and the domain's unit.
+///
+/// +inf where no path leads (or beyond the radius), exactly the source's offset (0 by default) at a
+/// source vertex, never NaN.
+template <class Real>
+struct DistanceField {
+  std::vector<Real> distance;  ///< one a vertex
+  std::vector<Index> label;    ///< nearest source of each vertex, by its place in the list of
+                               ///< sources; none where unreached. Empty for a single source.
+  bool complete = true;        ///< false if max_expansions ended the propagation early
+  PropagateStatistics statistics;
+};
+
+}  // namespace plexway

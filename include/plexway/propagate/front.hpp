@@ -1,0 +1,116 @@
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <limits>
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include <plexway/complex/ids.hpp>
+
+namespace plexway {
+
+/// Room for so many simplices waiting at once, allocated once and touched only where used.
+struct FrontStorage {
+  std::unique_ptr<Index[]> near, far;
+  std::size_t capacity = 0;
+  std::vector<std::pair<double, Index>> heap;
+
+  void reserve(std::size_t simplices) {
+    if (capacity > simplices) return;
+    capacity = simplices + 1;
+    near = std::make_unique_for_overwrite<Index[]>(capacity);
+    far = std::make_unique_for_overwrite<Index[]>(capacity);
+  }
+};
+
+/// The front as two first-in first-out queues: labels nearer than a limit wait in one, the others
+/// in the second; when the first is empty the limit moves on by `step` and they change places.
+///
+/// GSP's dual queue (GSP 2021, section 5) with one change: what is still beyond the limit when its
+/// turn comes goes back to the second queue, so that the order stays near to far for any step. With
+/// an infinite step it is a plain queue. Each simplex waits at most once.
+template <class Real>
+class DualQueue {
+ public:
+  DualQueue(FrontStorage& storage, Real step)
+      : near_(storage.near.get()), far_(storage.far.get()), capacity_(storage.capacity),
+        step_(step), limit_(step) {}
+
+  /// Adds a simplex if `wanted`. Written to both queues and kept in one: no branch to mispredict.
+  [[gnu::always_inline]] void push(Index simplex, Real distance, bool wanted = true) {
+    const bool is_near = distance < limit_;
+    near_[near_end_] = simplex;
+    far_[far_end_] = simplex;
+    near_end_ = advance(near_end_, wanted && is_near);
+    far_end_ = advance(far_end_, wanted && !is_near);
+    nearest_far_ = std::min(nearest_far_, wanted && !is_near ? distance : nearest_far_);
+  }
+
+  /// Takes the next simplex. False when none waits. `distance_of` gives its present distance.
+  template <class DistanceOf>
+  [[gnu::always_inline]] bool pop(Index& simplex, DistanceOf distance_of) {
+    for (;;) {
+      if (near_begin_ == near_end_) {
+        if (far_end_ == 0) return false;
+        std::swap(near_, far_);
+        near_begin_ = 0;
+        near_end_ = far_end_;
+        far_end_ = 0;
+        limit_ = std::max(limit_, nearest_far_) + step_;
+        nearest_far_ = std::numeric_limits<Real>::infinity();
+      }
+      simplex = near_[near_begin_];
+      near_begin_ = advance(near_begin_, true);
+      const Real distance = distance_of(simplex);
+      if (distance < limit_) [[likely]]
+        return true;
+      far_[far_end_] = simplex;
+      far_end_ = advance(far_end_, true);
+      nearest_far_ = std::min(nearest_far_, distance);
+    }
+  }
+
+ private:
+  std::size_t advance(std::size_t at, bool by) const {
+    at += by;
+    return at == capacity_ ? 0 : at;
+  }
+
+  Index* near_;
+  Index* far_;
+  std::size_t capacity_;
+  std::size_t near_begin_ = 0, near_end_ = 0, far_end_ = 0;
+  Real step_, limit_;
+  Real nearest_far_ = std::numeric_limits<Real>::infinity();
+};
+
+/// Nearest first. A simplex may wait several times; what is out of date is skipped.
+template <class Real>
+class PriorityQueue {
+ public:
+  explicit PriorityQueue(FrontStorage& storage) : heap_(&storage.heap) { heap_->clear(); }
+
+  void push(Index simplex, Real distance, bool = true) {
+    heap_->emplace_back(-static_cast<double>(distance), simplex);
+    std::push_heap(heap_->begin(), heap_->end());
+  }
+
+  template <class DistanceOf>
+  bool pop(Index& simplex, DistanceOf distance_of) {
+    while (!heap_->empty()) {
+      std::pop_heap(heap_->begin(), heap_->end());
+      const auto [distance, candidate] = heap_->back();
+      heap_->pop_back();
+      simplex = candidate;
+      if (static_cast<Real>(-distance) == distance_of(candidate)) return true;
+    }
+    return false;
+  }
+
+ private:
+  std::vector<std::pair<double, Index>>* heap_;
+};
+
+}  // namespace plexway

@@ -1,0 +1,52 @@
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <limits>
+
+namespace plexway {
+
+/// When does a simplex see the virtual source through a hinge, and where does the path bend if not?
+enum class Visibility {
+  /// Default: each label remembers the saddle nearest to its line of sight on either side, and
+  /// bends there; elsewhere it keeps its source until a whole hinge lies in shadow.
+  saddles,
+  /// Probe between centroid and apex by the published table (GSP 2021, section 4).
+  tuned,
+  /// Probe the centroid.
+  centroid,
+  /// Probe the apex: coarser, but no distance is below the exact one.
+  upper_bound,
+};
+
+/// Which label propagates next?
+enum class Schedule {
+  dual_queue,  ///< default: first in first out, nearer labels than the current limit first
+  fifo,        ///< first in first out
+  priority,    ///< nearest first: fewest expansions, a heap to pay for them
+};
+
+/// How far along a propagation is.
+struct Progress {
+  std::size_t expansions;  ///< simplices expanded so far
+  std::size_t reached;     ///< simplices reached so far
+  std::size_t simplices;   ///< in the whole domain
+  double distance;         ///< the front is about here, in the domain's unit
+};
+
+struct PropagateOptions {
+  Visibility visibility = Visibility::saddles;
+  Schedule schedule = Schedule::dual_queue;
+  /// Width of the dual queue's limit, in mean edge lengths, > 0.
+  double step = 1;
+  /// Simplices whose centre is farther than this (domain's unit) are not expanded.
+  double radius = std::numeric_limits<double>::infinity();
+  /// Stop after this many expansions; what is known by then stays (DistanceField::complete).
+  std::size_t max_expansions = std::numeric_limits<std::size_t>::max();
+  /// Called about every 65536 expansions; returning false stops with Cancelled.
+  std::function<bool(const Progress&)> progress;
+  /// false: the plain step for every hinge instead of the vectorised one (same answers; for tests).
+  bool vectorised = true;
+};
+
+}  // namespace plexway

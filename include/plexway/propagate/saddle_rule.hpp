@@ -1,0 +1,213 @@
+#pragma once
+
+#include <cmath>
+#include <limits>
+#include <span>
+
+#include <plexway/complex/triangle_record.hpp>
+#include <plexway/propagate/saddle_label.hpp>
+#include <plexway/propagate/saddle_step.hpp>
+#include <plexway/propagate/saddle_step_lanes.hpp>
+
+namespace plexway {
+
+/// Visibility::saddles on triangles: where labels live, and how they get from one to the next.
+template <class Real, class Front>
+class SaddleRule {
+ public:
+  using Label = SaddleLabel<Real>;
+  using Posed = PosedSaddles<Real>;
+  using Point = typename Posed::Point;
+
+  SaddleRule(std::span<const TriangleRecord<Real>> triangles, Label* labels, Front& front,
+             bool vectorised)
+      : triangles_(triangles.data()), sentinel_(static_cast<Index>(triangles.size() - 1)),
+        labels_(labels), front_(front), vectorised_(vectorised) {
+    labels_[sentinel_].h = kernel::Lanes<Real>(0, 0, 0, -1);  // nothing is nearer: never accepted
+  }
+
+  /// The same rule on another front, so that a loop can keep its front in registers.
+  [[nodiscard]] SaddleRule on(Front& front) const {
+    return SaddleRule(triangles_, sentinel_, labels_, front, vectorised_);
+  }
+
+  [[nodiscard]] Real distance(Index f) const { return labels_[f].h[3]; }
+  [[nodiscard, gnu::always_inline]] Real distance_or_inf(Index f) const {
+    return front_.reached(f) ? distance(f) : std::numeric_limits<Real>::infinity();
+  }
+
+  /// The hot loop's body: pushes the label of triangle f over the two hinges it did not come by.
+  /// `full(f, edge)` applies the full rule where the common case does not hold.
+  template <class Full>
+  [[gnu::always_inline]] void expand(Index f, Full full) const {
+    const TriangleRecord<Real>& t = triangles_[f];
+    const std::size_t in = front_.hinge(f);
+    const std::size_t left = in == 0 ? 2 : in - 1, right = in == 2 ? 0 : in + 1;
+    const Index over_left = t.across[left], over_right = t.across[right];
+    if (((over_left | over_right) & Across::special) || !vectorised_) [[unlikely]] {
+      full(f, left);
+      full(f, right);
+      return;
+    }
+    const Index l = over_left >> Across::face_shift, r = over_right >> Across::face_shift;
+    const std::size_t kl = over_left & Across::edge_mask, kr = over_right & Across::edge_mask;
+    const TriangleRecord<Real>&tl = triangles_[l], &tr = triangles_[r];
+    // Read before anything is accepted: one hinge must not change what the other compares with.
+    const Real known_left = distance_or_inf(l), known_right = distance_or_inf(r);
+    const SaddleStepLanes<Real> step(t, in, left, right, labels_[f], tl.apex_x(kl), tl.apex_h(kl),
+                                     tr.apex_x(kr), tr.apex_h(kr));
+    const Index source = front_.source(f);
+    if (step.left_distance < known_left) {
+      if (step.left_rare()) [[unlikely]] {
+        full(f, left);
+      } else {
+        labels_[l] = step.left_label();
+        front_.accept(l, kl, step.left_distance, source);
+        prefetch(tl, kl);
+      }
+    }
+    if (step.right_distance < known_right) {
+      if (step.right_rare()) [[unlikely]] {
+        full(f, right);
+      } else {
+        labels_[r] = step.right_label();
+        front_.accept(r, kr, step.right_distance, source);
+        prefetch(tr, kr);
+      }
+    }
+  }
+
+  /// The full rule over one edge, to every triangle there.
+  [[gnu::noinline]] void cross(Index f, std::size_t edge, bool last_resort) {
+    const std::size_t in = front_.hinge(f);
+    int pivot = -1;
+    const Posed here = leave(f, in, edge, pivot);
+    const Index start = triangles_[f].across[edge];
+    bool flip = (start & Across::flip) != 0;
+    const Index source = front_.source(f);
+    for (Index across = start;;) {
+      const Index g = across >> Across::face_shift;
+      const std::size_t k = across & Across::edge_mask;
+      if (g == sentinel_ || (g == f && k == edge)) break;
+      enter(g, k, here, flip, pivot, last_resort, source);
+      if (!(across & Across::fan)) break;
+      across = triangles_[g].across[k];
+      flip = flip == ((across & Across::flip) != 0);
+    }
+  }
+
+  /// A path of length sigma ends at corner i of triangle f; false if f knows a better one.
+  bool seed_corner(Index f, std::size_t i, Real sigma, Index source) {
+    const TriangleRecord<Real>& t = triangles_[f];
+    const Real x = (t.length[i] + t.apex_x(i)) / 3, h = t.apex_h(i) / 3;
+    const Real d = sigma + std::sqrt(x * x + h * h);
+    if (!(d < distance_or_inf(f))) return false;
+    labels_[f].x = kernel::Lanes<Real>(0, 0, 0, sigma);
+    labels_[f].h = kernel::Lanes<Real>(0, 0, 0, d);
+    front_.accept(f, i, d, source);
+    return true;
+  }
+
+  /// A path of length sigma ends inside triangle f, at (x, y) over its edge 0.
+  void seed_inside(Index f, Real x, Real y, Real sigma, Index source) {
+    const TriangleRecord<Real>& t = triangles_[f];
+    const Real dx = (t.length[0] + t.apex_x(0)) / 3 - x, dy = t.apex_h(0) / 3 - y;
+    const Real d = sigma + std::sqrt(dx * dx + dy * dy);
+    if (!(d < distance_or_inf(f))) return;
+    labels_[f].x = kernel::Lanes<Real>(x, x, x, sigma);
+    labels_[f].h = kernel::Lanes<Real>(-y, -y, -y, d);
+    front_.accept(f, 0, d, source);
+    cross(f, 0, true);  // expansion takes the other two
+  }
+
+  /// Length of the path to corner i of a reached triangle.
+  [[nodiscard]] Real corner_distance(Index f, std::size_t i) const {
+    const TriangleRecord<Real>& t = triangles_[f];
+    const std::size_t in = front_.hinge(f);
+    const Posed label = posed(labels_[f]);
+    Point q = {{Real(0)}, Real(0)};
+    if (i == (in + 1) % 3) q.x[0] = t.length[in];
+    if (i == (in + 2) % 3) q = {{t.apex_x(in)}, t.apex_h(in)};
+    return path_length<Real>(label, t.length[in], q);
+  }
+
+  [[nodiscard]] const Label& label(Index f) const { return labels_[f]; }
+
+ private:
+  SaddleRule(const TriangleRecord<Real>* triangles, Index sentinel, Label* labels, Front& front,
+             bool vectorised)
+      : triangles_(triangles), sentinel_(sentinel), labels_(labels), front_(front),
+        vectorised_(vectorised) {}
+
+  static Posed posed(const Label& label) {
+    Posed p;
+    p.source = {{label.x[0]}, label.h[0]};
+    p.limit[0] = {{label.x[1]}, label.h[1]};
+    p.limit[1] = {{label.x[2]}, label.h[2]};
+    p.sigma = label.x[3];
+    return p;
+  }
+
+  /// The label of f posed on one of its edges, as a neighbour that runs the other way sees it.
+  Posed leave(Index f, std::size_t in, std::size_t edge, int& pivot) const {
+    const TriangleRecord<Real>& t = triangles_[f];
+    Posed p = posed(labels_[f]);
+    if (edge == in) {  // only from a source inside f
+      p.source = {{t.length[in] - p.source.x[0]}, -p.source.h};
+      p.limit[0] = p.limit[1] = p.source;
+      pivot = -1;
+      return p;
+    }
+    const bool left = edge == (in == 0 ? 2 : in - 1);
+    pivot = left ? 0 : 1;
+    const std::size_t corner = left ? in : edge;
+    const Real cosine = t.cosine[corner], sine = t.sine(corner);
+    for (Point* q : {&p.source, &p.limit[0], &p.limit[1]}) {
+      const Real u = left ? q->x[0] : t.length[in] - q->x[0];
+      const Real along = u * cosine - q->h * sine;
+      q->h = u * sine + q->h * cosine;
+      q->x[0] = left ? along : t.length[edge] - along;
+    }
+    return p;
+  }
+
+  void enter(Index g, std::size_t k, Posed label, bool flip, int pivot, bool last_resort, Index source) {
+    const TriangleRecord<Real>& t = triangles_[g];
+    const std::size_t after = k == 2 ? 0 : k + 1;
+    SaddleHinge<Real> hinge;
+    hinge.length = t.length[k];
+    hinge.apex = {{t.apex_x(k)}, t.apex_h(k)};
+    hinge.saddle[0] = t.saddle(k);
+    hinge.saddle[1] = t.saddle(after);
+    hinge.pivot = flip && pivot >= 0 ? 1 - pivot : pivot;
+    if (flip) {
+      std::swap(label.limit[0], label.limit[1]);
+      for (Point* q : {&label.source, &label.limit[0], &label.limit[1]})
+        q->x[0] = hinge.length - q->x[0];
+    }
+    const Real d = cross_hinge<Real>(label, hinge, last_resort);
+    if (!(d < distance_or_inf(g))) return;
+    labels_[g].x = kernel::Lanes<Real>(label.source.x[0], label.limit[0].x[0],
+                                       label.limit[1].x[0], label.sigma);
+    labels_[g].h = kernel::Lanes<Real>(label.source.h, label.limit[0].h, label.limit[1].h, d);
+    front_.accept(g, k, d, source);
+  }
+
+  // What the neighbours of a triangle come in by edge k will need when its turn comes.
+  [[gnu::always_inline]] void prefetch(const TriangleRecord<Real>& t, std::size_t k) const {
+    const Index a = t.across[k == 0 ? 2 : k - 1] >> Across::face_shift;
+    const Index b = t.across[k == 2 ? 0 : k + 1] >> Across::face_shift;
+    __builtin_prefetch(&triangles_[a]);
+    __builtin_prefetch(&labels_[a]);
+    __builtin_prefetch(&triangles_[b]);
+    __builtin_prefetch(&labels_[b]);
+  }
+
+  const TriangleRecord<Real>* triangles_;
+  Index sentinel_;
+  Label* labels_;
+  Front& front_;
+  bool vectorised_;
+};
+
+}  // namespace plexway

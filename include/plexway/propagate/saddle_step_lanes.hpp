@@ -1,0 +1,120 @@
+#pragma once
+
+#include <plexway/complex/triangle_record.hpp>
+#include <plexway/propagate/saddle_step.hpp>
+
+namespace plexway {
+
+/// The step of saddle_step.hpp for both hinges by which a path leaves a triangle, at once.
+///
+/// A path that came in by edge i leaves by the edge before it, around corner i, or by the edge
+/// after it, around corner i + 1: around a pivot, left or right. Measured from the pivot both are
+/// the same, so lanes 0 1 are the left hinge and lanes 2 3 the right one; and on each hinge the
+/// left limit is the mirror image of the right one, so even lanes hold the pivot's side and odd
+/// lanes the far side, each with x measured from its own end.
+///
+/// Only what is common is done here: neither source nor limit given up, at most one bend. `rare`
+/// says which hinges need the full rule.
+template <class Real>
+class SaddleStepLanes {
+ public:
+  using L = kernel::Lanes<Real>;
+  using Mask = typename L::Mask;
+  using Kernel = kernel::HingeKernel<L, 1>;
+
+  /// `in` is the edge the label is posed on, `before` and `after` its neighbours. The apexes are
+  /// those of the triangles beyond, over the left and the right hinge.
+  [[gnu::always_inline]] SaddleStepLanes(const TriangleRecord<Real>& t, std::size_t in,
+                                         std::size_t before, std::size_t after,
+                                         const SaddleLabel<Real>& label, Real left_apex_x,
+                                         Real left_apex_h, Real right_apex_x, Real right_apex_h) {
+    const Real width = t.length[in], left = t.length[before], right = t.length[after];
+    const L length(left, left, right, right);
+
+    // The angle at each pivot. Sign bits of sines say where paths may bend.
+    const L cosine(t.cosine[in], t.cosine[in], t.cosine[after], t.cosine[after]);
+    const Real s0 = t.signed_sine[in], s1 = t.signed_sine[after], s2 = t.signed_sine[before];
+    constexpr auto sign = std::numeric_limits<typename L::Integer>::min();
+    const L sine = (typename L::Vector)((Mask)L(s0, s0, s1, s1).v & ~Mask{sign, sign, sign, sign});
+    const Mask saddle = (Mask)L(s0, s2, s1, s2).v < 0;
+
+    // S and the limits from the pivots, turned onto the hinges.
+    const L flip(1, 1, -1, -1), mirror(1, -1, 1, -1), from(0, 0, width, width);
+    const L off(0, left, 0, right);
+    const auto turn = [&](typename L::Vector x, typename L::Vector h) [[gnu::always_inline]] {
+      const L u = from + flip * L(x);
+      typename Kernel::HingePoint p;
+      p.x[0] = off + mirror * (u * cosine - L(h) * sine);
+      p.h = u * sine + L(h) * cosine;
+      return p;
+    };
+    const typename L::Vector x = label.x.v, h = label.h.v;
+    const auto S =
+        turn(__builtin_shufflevector(x, x, 0, 0, 0, 0), __builtin_shufflevector(h, h, 0, 0, 0, 0));
+    const auto limit =
+        turn(__builtin_shufflevector(x, x, 1, 2, 2, 1), __builtin_shufflevector(h, h, 1, 2, 2, 1));
+
+    // The centres beyond.
+    constexpr Real third = Real(1. / 3);
+    const Real c0 = (left + left_apex_x) * third, c1 = (right + right_apex_x) * third;
+    const Real h0 = left_apex_h * third, h1 = right_apex_h * third;
+    typename Kernel::HingePoint q;
+    q.x[0] = L(c0, left - c0, right - c1, c1);
+    q.h = L(h0, h0, h1, h1);
+
+    // Limits for this probe: the remembered one or, where it is tighter, the hinge's own end.
+    const L px = limit.x[0] - S.x[0], py = S.h - limit.h;
+    const Mask loose = px * S.h + py * S.x[0] > L(0);  // the remembered limit is the tighter one
+    const L ex = select(loose, px, -S.x[0]), ey = select(loose, py, S.h);
+    const L gx = q.x[0] - S.x[0], gy = q.h + S.h;
+    const Mask dark = ex * gy - ey * gx > L(0);
+    const L bx = gx - ex, by = gy - ey;
+    const L straight = sqrt(gx * gx + gy * gy);
+    const L bent = sqrt(ex * ex + ey * ey) + sqrt(bx * bx + by * by);
+    const L way = select(dark, bent, straight);
+    const L sigma = __builtin_shufflevector(x, x, 3, 3, 3, 3);
+    const L both = max(way, L(__builtin_shufflevector(way.v, way.v, 1, 0, 3, 2))) + sigma;
+    // Behind the hinge, and neither a limit nor the pivot to bend at: dropped.
+    const Mask behind = S.h < L(0);
+    const L inf(std::numeric_limits<Real>::infinity());
+    const L kept = select(behind & ~(loose | saddle), inf, both);
+    left_distance = kept[0];
+    right_distance = kept[2];
+
+    const Mask wholly_dark = px * S.h - py * (length - S.x[0]) > L(0);
+    const Mask bends_twice = dark & loose & (Kernel::crossing(limit, q).x[0] < L(0));
+    rare_ = kernel::lane_bits(wholly_dark | bends_twice | behind);
+
+    // An end that is a saddle and tighter than the limit takes its place.
+    const Mask keep = loose | ~saddle;
+    source_ = S;
+    limit_x_ = (typename L::Vector)((Mask)limit.x[0].v & keep);
+    limit_h_ = (typename L::Vector)((Mask)limit.h.v & keep);
+    far_x_ = length - limit_x_;
+    sigma_ = x[3];
+  }
+
+  /// Of the centre beyond, where not rare.
+  Real left_distance, right_distance;
+
+  [[nodiscard, gnu::always_inline]] bool left_rare() const { return rare_ & 3; }
+  [[nodiscard, gnu::always_inline]] bool right_rare() const { return rare_ & 12; }
+
+  /// The label of the triangle beyond, where not rare.
+  [[nodiscard, gnu::always_inline]] SaddleLabel<Real> left_label() const {
+    return {L(source_.x[0][0], limit_x_[0], far_x_[1], sigma_),
+            L(source_.h[0], limit_h_[0], limit_h_[1], left_distance)};
+  }
+  [[nodiscard, gnu::always_inline]] SaddleLabel<Real> right_label() const {
+    return {L(source_.x[0][3], limit_x_[3], far_x_[2], sigma_),
+            L(source_.h[3], limit_h_[3], limit_h_[2], right_distance)};
+  }
+
+ private:
+  typename Kernel::HingePoint source_;
+  L limit_x_, limit_h_, far_x_;
+  Real sigma_;
+  int rare_;
+};
+
+}  // namespace plexway

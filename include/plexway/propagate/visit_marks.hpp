@@ -1,0 +1,42 @@
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include <plexway/complex/ids.hpp>
+
+namespace plexway {
+
+/// Per simplex: reached in this propagation or an earlier one, waiting or not, and by which hinge
+/// the path came in. Two bytes, and nothing to clear between propagations: marks of earlier ones
+/// carry an older number.
+class VisitMarks {
+ public:
+  using Mark = std::uint16_t;
+  static constexpr Mark hinge_mask = 3, waiting = 4;
+  static constexpr int epoch_shift = 3;
+
+  void resize(std::size_t simplices) {
+    if (marks_.size() != simplices) marks_.assign(simplices, 0), epoch_ = 0;
+  }
+  /// All unreached.
+  void start() {
+    if (++epoch_ == 1 << (16 - epoch_shift)) {
+      std::fill(marks_.begin(), marks_.end(), Mark{0});
+      epoch_ = 1;
+    }
+    current_ = static_cast<Mark>(epoch_ << epoch_shift);
+  }
+  [[nodiscard]] Mark* data() { return marks_.data(); }
+  [[nodiscard]] Mark current() const { return current_; }
+  [[nodiscard]] std::size_t bytes() const { return marks_.capacity() * sizeof(Mark); }
+
+ private:
+  std::vector<Mark> marks_;
+  int epoch_ = 0;
+  Mark current_ = 0;
+};
+
+}  // namespace plexway

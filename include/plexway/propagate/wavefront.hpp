@@ -1,0 +1,92 @@
+#pragma once
+
+#include <cstddef>
+#include <functional>
+
+#include <plexway/error.hpp>
+#include <plexway/propagate/front.hpp>
+#include <plexway/propagate/options.hpp>
+#include <plexway/propagate/visit_marks.hpp>
+
+namespace plexway {
+
+/// Which simplices are reached, wait, and came in by which hinge: the bookkeeping that all rules
+/// share. `Front` orders the waiting ones. kLabels: carry the nearest source along.
+template <class Real, class Front, bool kLabels>
+class Wavefront {
+ public:
+  Wavefront(VisitMarks& marks, Front front, Index* source, std::size_t simplices, double unit,
+            const PropagateOptions& options)
+      : mark_(marks.data()), current_(marks.current()), front_(front), source_(source),
+        simplices_(simplices), unit_(unit), options_(&options) {}
+
+  [[nodiscard, gnu::always_inline]] bool reached(Index s) const { return is_current(mark_[s]); }
+  [[nodiscard, gnu::always_inline]] std::size_t hinge(Index s) const {
+    return mark_[s] & VisitMarks::hinge_mask;
+  }
+
+  /// A simplex has a better label, come in by `hinge` from `from`: it waits.
+  [[gnu::always_inline]] void accept(Index s, std::size_t hinge, Real distance, Index source) {
+    const VisitMarks::Mark mark = mark_[s];
+    const bool known = is_current(mark);
+    const bool waits = known && (mark & VisitMarks::waiting) != 0;
+    mark_[s] = static_cast<VisitMarks::Mark>(current_ | VisitMarks::waiting | hinge);
+    if constexpr (kLabels) source_[s] = source;
+    front_.push(s, distance, !waits);
+    reached_ += !known;
+    ++updates_;
+  }
+
+  [[nodiscard]] Index source(Index s) const {
+    if constexpr (kLabels) return source_[s];
+    return 0;
+  }
+
+  /// The next simplex to expand; false when none is left or the current share of the budget is
+  /// spent: then `take_stock` says whether to go on.
+  template <class DistanceOf>
+  [[gnu::always_inline]] bool next(Index& s, DistanceOf distance_of) {
+    if (countdown_ == 0 || !front_.pop(s, distance_of)) return false;
+    --countdown_;
+    mark_[s] = static_cast<VisitMarks::Mark>(mark_[s] & ~VisitMarks::waiting);
+    return true;
+  }
+
+  [[nodiscard]] bool share_spent() const { return countdown_ == 0; }
+  [[nodiscard]] std::size_t expansions() const { return granted_ - countdown_; }
+  [[nodiscard]] std::size_t updates() const { return updates_; }
+  [[nodiscard]] std::size_t reached_count() const { return reached_; }
+  [[nodiscard]] bool out_of_budget() const { return out_of_budget_; }
+
+  /// Grants the next share of the budget and reports progress. `distance` is where the front is.
+  /// False if the budget is spent. Throws Cancelled.
+  bool take_stock(Real distance) {
+    if (countdown_ != 0) return false;
+    if (options_->progress && granted_ > 0 &&
+        !options_->progress(
+            {granted_, reached_, simplices_, static_cast<double>(distance) * unit_}))
+      throw Cancelled("cancelled by the progress callback");
+    constexpr std::size_t share = 65536;
+    countdown_ = std::min(share, options_->max_expansions - granted_);
+    granted_ += countdown_;
+    out_of_budget_ = countdown_ == 0;
+    return countdown_ != 0;
+  }
+
+ private:
+  [[gnu::always_inline]] bool is_current(VisitMarks::Mark mark) const {
+    return (mark ^ current_) < (1 << VisitMarks::epoch_shift);
+  }
+
+  VisitMarks::Mark* mark_;
+  VisitMarks::Mark current_;
+  Front front_;
+  Index* source_;
+  std::size_t simplices_;
+  double unit_;
+  const PropagateOptions* options_;
+  std::size_t countdown_ = 0, granted_ = 0, updates_ = 0, reached_ = 0;
+  bool out_of_budget_ = false;
+};
+
+}  // namespace plexway

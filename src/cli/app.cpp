@@ -1,0 +1,120 @@
+#include "app.hpp"
+
+#include <CLI/CLI.hpp>
+#include <exception>
+#include <new>
+#include <stdexcept>
+#include <string>
+
+#include <plexway/error.hpp>
+#include <plexway/version.hpp>
+
+#include "commands.hpp"
+#include "console.hpp"
+#include "exit_codes.hpp"
+
+namespace plexway::cli {
+namespace {
+
+std::string version_text() {
+  std::string providers;
+#ifdef PLEXWAY_HAS_BOOST_GRAPH
+  providers += " boost_graph";
+#endif
+  return std::string("plexway ") + version_string +
+         "\nprecision  float double\nexecutors  serial\nproviders " +
+         (providers.empty() ? " none" : providers) + "\nlicence    MIT\n";
+}
+
+// The command that was being parsed when something went wrong.
+const CLI::App& innermost(const CLI::App& tool) {
+  const auto chosen = tool.get_subcommands();
+  return chosen.empty() ? tool : *chosen.front();
+}
+
+std::string usage_complaint(const CLI::App& tool, const CLI::ParseError& error) {
+  const CLI::App& app = innermost(tool);
+  const bool in_tool = &app == &tool;
+  std::string message = error.what();
+  // A word that nobody knows is the likelier slip than the option that is missed because of it.
+  if (const auto unknown = tool.remaining(true); !unknown.empty()) {
+    const std::string& first = unknown.front();
+    const char* const what = first.substr(0, 1) == "-" ? "unknown option '"
+                             : in_tool                 ? "unknown command '"
+                                                       : "unexpected argument '";
+    message = what + first + "'";
+  }
+  const std::string name = in_tool ? "plexway" : "plexway " + app.get_name();
+  return message + "; try '" + name + " --help'";
+}
+
+int parse_and_run(int argc, const char* const* argv) {
+  Action action;
+  CLI::App tool("Geodesic distance by virtual source propagation", "plexway");
+  bool version = false;
+  tool.add_flag("--version", version, "version, precisions, executors, providers and licence");
+  tool.require_subcommand(0, 1);
+  tool.footer(
+      "'plexway COMMAND --help' tells more about a command.\n\n"
+      "Examples:\n"
+      "  plexway distance knot.ply --source vertex:0 --out distance.ply\n"
+      "  plexway info knot.ply\n"
+      "  plexway bench bunny.obj --source vertex:3160 --truth bunny.v3160.txt\n\n"
+      "Exit codes: 0 ok, 1 failure, 2 usage, 3 bad input, 4 not built in, 5 nothing reached.");
+  add_distance_command(tool, action);
+  add_info_command(tool, action);
+  add_bench_command(tool, action);
+
+  try {
+    tool.parse(argc, argv);
+  } catch (const CLI::Success&) {  // help was asked for
+    write_output(tool.help());
+    flush_output();
+    return exit_ok;
+  } catch (const CLI::ParseError& error) {
+    throw UsageError(usage_complaint(tool, error));
+  }
+  if (version) {
+    write_output(version_text());
+    flush_output();
+    return exit_ok;
+  }
+  if (!action) throw UsageError("no command given; try 'plexway --help'");
+  action();
+  return exit_ok;
+}
+
+int fail(ExitCode code, const char* message) noexcept {
+  say_error(message);
+  return code;
+}
+
+}  // namespace
+
+int run(int argc, const char* const* argv) noexcept {
+  ignore_closed_pipes();
+  try {
+    return parse_and_run(argc, argv);
+  } catch (const OutputClosed&) {
+    return exit_ok;
+  } catch (const UsageError& error) {
+    return fail(exit_usage, error.what());
+  } catch (const InputError& error) {
+    return fail(exit_bad_input, error.what());
+  } catch (const NotBuiltError& error) {
+    return fail(exit_not_built, error.what());
+  } catch (const NothingReached& error) {
+    return fail(exit_nothing_reached, error.what());
+  } catch (const std::bad_alloc&) {
+    return fail(exit_failure,
+                "out of memory: the input does not fit into what this process may use");
+  } catch (const std::length_error&) {
+    return fail(exit_failure, "out of memory: an array would be larger than any can be");
+  } catch (const std::exception& error) {
+    return fail(exit_failure, error.what());
+  } catch (...) {
+    return fail(exit_failure, "an unknown failure");
+  }
+}
+
+}  // namespace plexway::cli

@@ -1,0 +1,243 @@
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <optional>
+#include <random>
+#include <string>
+#include <vector>
+
+#include <plexway/error.hpp>
+
+#include "commands.hpp"
+#include "console.hpp"
+#include "dijkstra_peer.hpp"
+#include "domain.hpp"
+#include "progress.hpp"
+#include "report.hpp"
+#include "solve_options.hpp"
+#include "solver.hpp"
+#include "source_argument.hpp"
+#include "truth_file.hpp"
+
+namespace plexway::cli {
+namespace {
+
+struct BenchCommand {
+  std::string input;
+  std::string as;
+  std::vector<std::string> sources;
+  std::vector<std::string> truths;
+  std::size_t repeats = 20;
+  std::size_t random_sources = 0;
+  SolveOptions solve;
+  bool json = false;
+  bool quiet = false;
+};
+
+// Times of single runs, in ns a vertex.
+struct Times {
+  std::vector<double> plexway, dijkstra;
+};
+
+struct Result {
+  double load = 0, build = 0, dijkstra_build = 0;
+  bool has_dijkstra = false;
+  std::size_t sources = 0;
+  Times times;
+  ErrorGauge errors;
+};
+
+double median(std::vector<double> values) {
+  if (values.empty()) return std::nan("");
+  std::sort(values.begin(), values.end());
+  const std::size_t half = values.size() / 2;
+  return values.size() % 2 == 1 ? values[half] : (values[half - 1] + values[half]) / 2;
+}
+
+// A graph search starts at a vertex: for a point of a triangle at the nearest corner, nearly.
+Index vertex_near(const Domain& domain, const PointSource& source) {
+  if (source.vertex != none) return source.vertex;
+  const auto& weight = source.barycentric;
+  const auto corner = std::max_element(weight.begin(), weight.end()) - weight.begin();
+  return domain.surface().triangles[source.simplex][static_cast<std::size_t>(corner)];
+}
+
+// `count` vertices that a path from the first source leads to: times of empty fields mean nothing.
+void add_random_sources(std::vector<PointSource>& sources, std::size_t count,
+                        const std::vector<double>& distance_from_first) {
+  std::vector<Index> reached;
+  for (std::size_t v = 0; v < distance_from_first.size(); ++v) {
+    if (std::isfinite(distance_from_first[v])) reached.push_back(static_cast<Index>(v));
+  }
+  if (reached.empty()) return;
+  std::mt19937_64 random(20210712);
+  for (std::size_t i = 0; i < count; ++i)
+    sources.push_back(PointSource::at(reached[random() % reached.size()]));
+}
+
+std::vector<std::vector<double>> read_truths(const BenchCommand& command, const Domain& domain) {
+  std::vector<std::vector<double>> truths;
+  for (const std::string& file : command.truths)
+    truths.push_back(read_truth(file, domain.vertices()));
+  return truths;
+}
+
+// Every source in turn, the two solvers in turn: one source again and again would train the branch
+// predictor, and blocks of one solver would see another clock than blocks of the other.
+Times measure(const BenchCommand& command, const Domain& domain, Solver& solver,
+              DijkstraPeer* dijkstra, const std::vector<PointSource>& sources,
+              const PropagateOptions& options, ProgressLine& progress) {
+  Times times;
+  const double to_ns_a_vertex = 1e9 / static_cast<double>(domain.vertices());
+  for (std::size_t repeat = 0; repeat < command.repeats; ++repeat) {
+    const PointSource& source = sources[repeat % sources.size()];
+    if (dijkstra != nullptr) {
+      const Index start = vertex_near(domain, source);
+      const Stopwatch running;
+      dijkstra->run(start);
+      times.dijkstra.push_back(running.seconds() * to_ns_a_vertex);
+    }
+    const Stopwatch solving;
+    solver.solve({&source, 1}, options);
+    times.plexway.push_back(solving.seconds() * to_ns_a_vertex);
+    progress.done(static_cast<double>(repeat + 1) / static_cast<double>(command.repeats));
+  }
+  return times;
+}
+
+Json to_json(const BenchCommand& command, const Domain& domain, const Solver& solver,
+             const Result& result) {
+  const double ns = median(result.times.plexway);
+  const double dijkstra_ns = median(result.times.dijkstra);
+  Json json;
+  json["input"] = command.input;
+  json["kind"] = domain.kind();
+  json["vertices"] = domain.vertices();
+  json["simplices"] = domain.simplices();
+  json["precision"] = command.solve.precision;
+  json["executor"] = command.solve.executor;
+  json["visibility"] = command.solve.visibility;
+  json["sources"] = result.sources;
+  json["repeats"] = command.repeats;
+  json["seconds"] = {
+      {"load", result.load},
+      {"build", result.build},
+      {"dijkstra_build", result.has_dijkstra ? Json(result.dijkstra_build) : Json(nullptr)}};
+  json["bytes_per_vertex"] =
+      static_cast<double>(solver.bytes()) / static_cast<double>(domain.vertices());
+  json["ns_per_vertex"] = json_number(ns);
+  json["dijkstra_ns_per_vertex"] = json_number(dijkstra_ns);
+  json["ratio"] = json_number(ns / dijkstra_ns);
+  json["mean"] = json_number(result.errors.mean());
+  json["p99"] = json_number(result.errors.percentile(99));
+  json["max"] = json_number(result.errors.max());
+  json["most_below"] = json_number(result.errors.most_below());
+  json["compared"] = result.errors.compared();
+  json["mismatched_unreached"] = result.errors.mismatched_unreached();
+  return json;
+}
+
+// The same object for people, a line a value.
+std::string to_text(const Json& json) {
+  Table table;
+  for (const auto& [key, value] : json.items()) {
+    if (value.is_object()) continue;
+    table.add(key, value.is_string()         ? value.get<std::string>()
+                   : value.is_number_float() ? short_number(value.get<double>())
+                   : value.is_null()         ? "-"
+                                             : value.dump());
+  }
+  for (const auto& [key, value] : json["seconds"].items()) {
+    if (!value.is_null()) table.add(key + " seconds", short_number(value.get<double>()));
+  }
+  return table.text();
+}
+
+void run_bench(const BenchCommand& command) {
+  const PropagateOptions options = propagate_options(command.solve);
+  const Precision precision = precision_of(command.solve);
+  require_executor(command.solve);
+  const std::vector<SourceArgument> arguments = parse_sources(command.sources);
+  if (command.truths.size() > arguments.size())
+    throw UsageError("more --truth than --source: give one file for each source, in order");
+
+  Result result;
+  ProgressLine progress(command.quiet);
+  progress.phase("reading " + command.input);
+  const Stopwatch loading;
+  const Domain domain = Domain::load(command.input, command.as);
+  result.load = loading.seconds();
+  std::vector<PointSource> sources = locate_sources(domain, arguments);
+  const auto truths = read_truths(command, domain);
+
+  progress.phase("building");
+  const Stopwatch building;
+  const auto solver = make_solver(domain, precision);
+  result.build = building.seconds();
+  const Stopwatch building_graph;
+  const auto dijkstra = make_dijkstra_peer(domain, precision);
+  result.dijkstra_build = building_graph.seconds();
+  result.has_dijkstra = dijkstra != nullptr;
+
+  // Not timed; it also brings workspace and field to their size.
+  progress.phase("comparing with the truth");
+  std::vector<double> distance_from_first;
+  for (std::size_t i = 0; i < sources.size(); ++i) {
+    solver->solve({&sources[i], 1}, options);
+    const std::vector<double> distance = solver->distance();
+    if (i < truths.size()) result.errors.add(distance, truths[i]);
+    if (i == 0) distance_from_first = distance;
+  }
+  add_random_sources(sources, command.random_sources, distance_from_first);
+  result.sources = sources.size();
+
+  progress.phase("measuring");
+  result.times = measure(command, domain, *solver, dijkstra.get(), sources, options, progress);
+  progress.clear();
+
+  const Json json = to_json(command, domain, *solver, result);
+  write_output(command.json ? json_text(json) : to_text(json));
+  flush_output();
+  if (!result.has_dijkstra && !command.quiet)
+    say_note("this build has no Boost.Graph, so there is no Dijkstra to compare with");
+}
+
+}  // namespace
+
+void add_bench_command(CLI::App& tool, Action& action) {
+  auto command = std::make_shared<BenchCommand>();
+  CLI::App& app = *tool.add_subcommand(
+      "bench", "Speed against Boost.Graph's Dijkstra, and error against truth");
+  app.add_option("INPUT", command->input, "a surface: .obj .off .ply .stl")
+      ->type_name("FILE")
+      ->required();
+  app.add_option("--source,-s", command->sources,
+                 "vertex:ID or point:X,Y,Z; repeat it to take turns between sources")
+      ->required()
+      ->type_name("WHERE")
+      ->allow_extra_args(false);
+  app.add_option("--truth", command->truths,
+                 "exact distances from the source in the same place: one a line, in\n"
+                 "vertex order; nan lines are skipped, inf means unreached")
+      ->type_name("FILE")
+      ->allow_extra_args(false);
+  app.add_option("--random-sources", command->random_sources,
+                 "take turns with K more vertices, always the same ones")
+      ->check(CLI::Range(0, 1'000'000))
+      ->type_name("K");
+  app.add_option("--repeats", command->repeats, "timed runs of each solver (default 20)")
+      ->check(CLI::Range(1, 1'000'000))
+      ->type_name("N");
+  app.add_option("--as", command->as, "what the input is: surface (default)")->type_name("KIND");
+  app.add_flag("--json", command->json, "print one JSON object");
+  app.add_flag("--quiet,-q", command->quiet, "no notes, no progress");
+  add_solve_options(app, command->solve, false);
+  app.footer(
+      "Examples:\n"
+      "  plexway bench bunny.obj --source vertex:3160 --truth bunny.v3160.txt\n"
+      "  plexway bench bunny.obj --source vertex:3160 --random-sources 10 --json");
+  app.callback([command, &action] { action = [command] { run_bench(*command); }; });
+}
+
+}  // namespace plexway::cli

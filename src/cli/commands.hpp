@@ -1,0 +1,18 @@
+#pragma once
+
+#include <functional>
+
+namespace CLI {
+class App;
+}
+
+namespace plexway::cli {
+
+/// What the command line asks for; set while it is parsed, run afterwards.
+using Action = std::function<void()>;
+
+void add_distance_command(CLI::App& tool, Action& action);
+void add_info_command(CLI::App& tool, Action& action);
+void add_bench_command(CLI::App& tool, Action& action);
+
+}  // namespace plexway::cli

@@ -1,0 +1,220 @@
+#include <CLI/CLI.hpp>
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <set>
+#include <string>
+#include <vector>
+
+#include <plexway/error.hpp>
+
+#include "commands.hpp"
+#include "console.hpp"
+#include "distance_output.hpp"
+#include "domain.hpp"
+#include "exit_codes.hpp"
+#include "progress.hpp"
+#include "report.hpp"
+#include "solve_options.hpp"
+#include "solver.hpp"
+#include "source_argument.hpp"
+
+namespace plexway::cli {
+namespace {
+
+struct DistanceCommand {
+  std::string input;
+  std::string as;
+  std::vector<std::string> sources;
+  std::string out;
+  SolveOptions solve;
+  bool json = false;
+  bool quiet = false;
+};
+
+// What came out, as far as a report tells it.
+struct Outcome {
+  double load = 0, build = 0, solve = 0;
+  std::size_t reached = 0;        // sources included
+  std::size_t beside_source = 0;  // reached, and not a source
+  double max_distance = 0;
+  std::size_t farthest = 0;
+};
+
+Outcome survey(const std::vector<double>& distance, const std::vector<PointSource>& sources) {
+  Outcome outcome;
+  outcome.max_distance = -std::numeric_limits<double>::infinity();
+  for (std::size_t v = 0; v < distance.size(); ++v) {
+    if (!std::isfinite(distance[v])) continue;
+    ++outcome.reached;
+    if (distance[v] <= outcome.max_distance) continue;
+    outcome.max_distance = distance[v];
+    outcome.farthest = v;
+  }
+  std::set<Index> at;
+  for (const PointSource& source : sources) {
+    if (source.vertex != none && std::isfinite(distance[source.vertex])) at.insert(source.vertex);
+  }
+  outcome.beside_source = outcome.reached - at.size();
+  return outcome;
+}
+
+Json to_json(const DistanceCommand& command, const Domain& domain, const Solver& solver,
+             const Outcome& outcome) {
+  Json json;
+  json["input"] = command.input;
+  json["kind"] = domain.kind();
+  json["vertices"] = domain.vertices();
+  json["simplices"] = domain.simplices();
+  json["components"] = solver.components();
+  json["seconds"] = {{"load", outcome.load}, {"build", outcome.build}, {"solve", outcome.solve}};
+  json["reached"] = outcome.reached;
+  json["unreached"] = domain.vertices() - outcome.reached;
+  json["max_distance"] = json_number(outcome.max_distance);
+  json["expansions"] = solver.statistics().expansions;
+  json["updates"] = solver.statistics().updates;
+  json["executor"] = command.solve.executor;
+  return json;
+}
+
+std::string to_text(const DistanceCommand& command, const Domain& domain, const Solver& solver,
+                    const std::vector<SourceArgument>& arguments,
+                    const std::vector<PointSource>& sources, const Outcome& outcome) {
+  Table table;
+  table.add("input", command.input);
+  table.add(std::string(domain.kind()), counted(domain.vertices(), "vertices") + ", " +
+                                            counted(domain.simplices(), domain.simplex_name()) +
+                                            ", " + counted(solver.components(), "components"));
+  for (std::size_t i = 0; i < sources.size(); ++i) {
+    const std::string label = sources.size() == 1 ? "source" : "source " + std::to_string(i);
+    table.add(label, describe_source(domain, arguments[i], sources[i]));
+  }
+  std::string reached =
+      std::to_string(outcome.reached) + " of " + counted(domain.vertices(), "vertices");
+  if (outcome.reached > 0) {
+    reached += "; the farthest is vertex " + std::to_string(outcome.farthest) + " at " +
+               short_number(outcome.max_distance);
+  }
+  table.add("reached", reached);
+  table.add("work", counted(solver.statistics().expansions, "expansions") + ", " +
+                        counted(solver.statistics().updates, "updates"));
+  table.add("time", "load " + short_time(outcome.load) + ", build " + short_time(outcome.build) +
+                        ", solve " + short_time(outcome.solve) + " (" + command.solve.executor +
+                        ", " + command.solve.precision + ")");
+  if (!command.out.empty() && command.out != "-") table.add("written", command.out);
+  return table.text();
+}
+
+// Things the user should know, though nothing failed.
+void say_notes(const Domain& domain, const Solver& solver, const Outcome& outcome, bool bounded) {
+  if (!solver.complete()) {
+    say_note("stopped after " + counted(solver.statistics().expansions, "expansions") +
+             ": distances may still be too long");
+  }
+  const std::size_t unreached = domain.vertices() - outcome.reached;
+  if (unreached == 0) return;
+  std::string note = counted(unreached, "vertices") + " not reached (inf): the " +
+                     std::string(domain.kind()) + " has " +
+                     counted(solver.components(), "components");
+  if (bounded) note += ", and --radius or --max-expansions ends the search early";
+  say_note(note);
+}
+
+void run_distance(const DistanceCommand& command) {
+  const PropagateOptions wanted = propagate_options(command.solve);
+  const Precision precision = precision_of(command.solve);
+  require_executor(command.solve);
+  const std::vector<SourceArgument> arguments = parse_sources(command.sources);
+  check_output_name(command.out, command.input);
+
+  ProgressLine progress(command.quiet);
+  progress.phase("reading " + command.input);
+  const Stopwatch loading;
+  const Domain domain = Domain::load(command.input, command.as);
+  const double load = loading.seconds();
+  const std::vector<PointSource> sources = locate_sources(domain, arguments);
+
+  progress.phase("building");
+  const Stopwatch building;
+  const auto solver = make_solver(domain, precision);
+  const double build = building.seconds();
+
+  progress.phase("solving");
+  PropagateOptions options = wanted;
+  options.progress = progress.callback();
+  const Stopwatch solving;
+  solver->solve(sources, options);
+  const double solve = solving.seconds();
+
+  const std::vector<double> distance = solver->distance();
+  Outcome outcome = survey(distance, sources);
+  outcome.load = load;
+  outcome.build = build;
+  outcome.solve = solve;
+
+  const bool to_stdout = command.out == "-";
+  if (!command.out.empty()) {
+    progress.phase("writing " + (to_stdout ? "the distances" : command.out));
+    const std::vector<std::int32_t> label = solver->label();
+    if (to_stdout) {
+      progress.clear();
+      write_distance_csv(distance, label);
+    } else {
+      domain.write_field(command.out, distance, label);
+    }
+  }
+  progress.clear();
+
+  std::string report;
+  if (command.json)
+    report = json_text(to_json(command, domain, *solver, outcome));
+  else if (!command.quiet)
+    report = to_text(command, domain, *solver, arguments, sources, outcome);
+  if (to_stdout)
+    write_diagnostics(report);
+  else
+    write_output(report);
+  flush_output();
+
+  if (outcome.beside_source == 0) {
+    throw NothingReached(command.input +
+                         ": nothing reached: no vertex but the source itself has "
+                         "a finite distance");
+  }
+  const bool bounded = command.solve.radius || command.solve.max_expansions;
+  if (!command.quiet) say_notes(domain, *solver, outcome, bounded);
+}
+
+}  // namespace
+
+void add_distance_command(CLI::App& tool, Action& action) {
+  auto command = std::make_shared<DistanceCommand>();
+  CLI::App& app = *tool.add_subcommand(
+      "distance", "Geodesic distance of every vertex from one or more sources");
+  app.add_option("INPUT", command->input, "a surface: .obj .off .ply .stl")
+      ->type_name("FILE")
+      ->required();
+  app.add_option("--source,-s", command->sources,
+                 "vertex:ID (0-based, file order) or point:X,Y,Z (closest point of the\n"
+                 "domain); repeat it for several sources, each vertex then gets the nearest")
+      ->required()
+      ->type_name("WHERE")
+      ->allow_extra_args(false);
+  app.add_option("--out,-o", command->out,
+                 "write the distances: .csv .npy .ply .vtu by extension, or - for CSV on\n"
+                 "standard output (the summary then goes to standard error)")
+      ->type_name("FILE");
+  app.add_option("--as", command->as, "what the input is: surface (default)")->type_name("KIND");
+  app.add_flag("--json", command->json, "print the summary as one JSON object");
+  app.add_flag("--quiet,-q", command->quiet, "no summary, notes or progress; errors stay");
+  add_solve_options(app, command->solve, true);
+  app.footer(
+      "Examples:\n"
+      "  plexway distance knot.ply --source vertex:0 --out distance.ply\n"
+      "  plexway distance knot.ply --source point:1,0,0.5 --radius 2 --json\n"
+      "  plexway distance knot.ply --source vertex:0 --source vertex:99 --out nearest.csv\n"
+      "  plexway distance knot.ply --source vertex:0 --quiet --out - | sort -t, -gk2 | tail -1");
+  app.callback([command, &action] { action = [command] { run_distance(*command); }; });
+}
+
+}  // namespace plexway::cli

@@ -1,0 +1,67 @@
+#include "distance_output.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <filesystem>
+#include <system_error>
+
+#include <plexway/error.hpp>
+#include <plexway/io/field.hpp>
+
+#include "console.hpp"
+
+namespace plexway::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+template <class Number>
+void append(std::string& text, Number value) {
+  char digits[32];
+  const auto result = std::to_chars(digits, digits + sizeof digits, value);
+  text.append(digits, result.ptr);
+}
+
+}  // namespace
+
+void check_output_name(const std::string& out, const std::string& input) {
+  if (out.empty() || out == "-") return;
+  const fs::path file = out;
+  std::string extension = file.extension().string();
+  for (char& c : extension) {
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  }
+  const auto known = io::field_extensions();
+  if (std::find(known.begin(), known.end(), extension) == known.end()) {
+    std::string names;
+    for (const std::string_view name : known) names.append(" ").append(name);
+    throw UsageError("--out " + out + ": unknown extension; those written are" + names);
+  }
+  std::error_code error;
+  if (fs::equivalent(file, input, error))
+    throw UsageError("--out " + out + ": is the input itself");
+  const fs::path folder = file.has_parent_path() ? file.parent_path() : fs::path(".");
+  if (!fs::is_directory(folder, error))
+    throw Error("cannot write " + out + ": there is no folder " + folder.string());
+}
+
+void write_distance_csv(std::span<const double> distance, std::span<const std::int32_t> label) {
+  std::string text = label.empty() ? "vertex,distance\n" : "vertex,distance,label\n";
+  for (std::size_t v = 0; v < distance.size(); ++v) {
+    append(text, v);
+    text += ',';
+    append(text, distance[v]);
+    if (!label.empty()) {
+      text += ',';
+      append(text, label[v]);
+    }
+    text += '\n';
+    if (text.size() < (std::size_t{1} << 16)) continue;
+    write_output(text);
+    text.clear();
+  }
+  write_output(text);
+  flush_output();
+}
+
+}  // namespace plexway::cli

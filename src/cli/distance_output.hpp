@@ -1,0 +1,17 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+
+namespace plexway::cli {
+
+/// Before any work: throws UsageError where `out` has an extension that cannot be written or is the
+/// input itself, and Error where its folder does not exist. Empty and "-" are fine.
+void check_output_name(const std::string& out, const std::string& input);
+
+/// CSV on standard output: `vertex,distance` and `,label` where there are labels.
+/// Throws as write_output.
+void write_distance_csv(std::span<const double> distance, std::span<const std::int32_t> label);
+
+}  // namespace plexway::cli

@@ -1,0 +1,55 @@
+#include "report.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+namespace plexway::cli {
+
+std::string counted(std::size_t count, std::string_view plural) {
+  std::string text = std::to_string(count) + " ";
+  constexpr std::string_view vertices = "vertices";
+  if (count != 1) return text += plural;
+  if (plural.ends_with(vertices)) {
+    plural.remove_suffix(vertices.size());
+    return (text += plural) += "vertex";
+  }
+  if (plural.ends_with("s")) plural.remove_suffix(1);
+  return text += plural;
+}
+
+std::string short_number(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.4g", value);
+  return text;
+}
+
+std::string short_time(double seconds) {
+  char text[32];
+  if (seconds >= 1)
+    std::snprintf(text, sizeof text, "%.2f s", seconds);
+  else
+    std::snprintf(text, sizeof text, "%.2f ms", 1e3 * seconds);
+  return text;
+}
+
+void Table::add(std::string label, std::string text) {
+  lines_.emplace_back(std::move(label), std::move(text));
+}
+
+std::string Table::text() const {
+  std::size_t widest = 0;
+  for (const auto& line : lines_) widest = std::max(widest, line.first.size());
+  std::string text;
+  for (const auto& [label, what] : lines_)
+    text += label + std::string(widest + 2 - label.size(), ' ') + what + "\n";
+  return text;
+}
+
+std::string json_text(const Json& object) {
+  return object.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+Json json_number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
+
+}  // namespace plexway::cli

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include <plexway/propagate/options.hpp>
+
+namespace CLI {
+class App;
+}
+
+namespace plexway::cli {
+
+enum class Precision { single, twice };
+
+/// The options that say how to solve, as typed.
+struct SolveOptions {
+  std::string visibility = "saddles";
+  std::string schedule = "dual_queue";
+  double step = PropagateOptions{}.step;
+  std::optional<double> radius;
+  std::optional<std::size_t> max_expansions;
+  std::string precision = "float";
+  std::string executor = "serial";
+};
+
+/// Names of the executors in this build.
+inline constexpr const char* built_executors[] = {"serial"};
+
+/// Adds the options to a command; `bounded` adds those that end a propagation early.
+void add_solve_options(CLI::App& command, SolveOptions& options, bool bounded);
+
+/// Throw UsageError for a value that does not exist or is out of range, and NotBuiltError for an
+/// executor that this build lacks.
+PropagateOptions propagate_options(const SolveOptions& options);
+Precision precision_of(const SolveOptions& options);
+void require_executor(const SolveOptions& options);
+
+}  // namespace plexway::cli

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include <plexway/propagate/distance_field.hpp>
+#include <plexway/propagate/options.hpp>
+#include <plexway/source/point_source.hpp>
+
+#include "domain.hpp"
+#include "solve_options.hpp"
+
+namespace plexway::cli {
+
+/// A domain made ready for distances, its precision and its kind hidden.
+///
+/// Keeps complex, workspace and field, so that `solve` may be timed again and again.
+class Solver {
+ public:
+  virtual ~Solver() = default;
+  Solver() = default;
+  Solver(const Solver&) = delete;
+  Solver& operator=(const Solver&) = delete;
+
+  [[nodiscard]] virtual std::size_t components() const = 0;
+  /// One propagation, read-out to vertices included. Throws as plexway::propagate.
+  virtual void solve(std::span<const PointSource> sources, const PropagateOptions& options) = 0;
+
+  // Of the last solve.
+  [[nodiscard]] virtual std::vector<double> distance() const = 0;
+  /// Nearest source of each vertex, -1 where unreached; empty for a single source.
+  [[nodiscard]] virtual std::vector<std::int32_t> label() const = 0;
+  [[nodiscard]] virtual const PropagateStatistics& statistics() const = 0;
+  [[nodiscard]] virtual bool complete() const = 0;
+
+  /// Bytes held: complex, workspace and field.
+  [[nodiscard]] virtual std::size_t bytes() const = 0;
+};
+
+/// Builds the complex. Throws InputError "FILE: cause".
+std::unique_ptr<Solver> make_solver(const Domain& domain, Precision precision);
+
+}  // namespace plexway::cli

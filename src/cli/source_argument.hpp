@@ -1,0 +1,35 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include <plexway/source/point_source.hpp>
+
+#include "domain.hpp"
+
+namespace plexway::cli {
+
+/// What `--source` says, before the domain is known.
+struct SourceArgument {
+  std::string text;  ///< as typed
+  /// A vertex by its number in the file (`none` for a number that no file can have), or a point.
+  std::variant<Index, std::array<double, 3>> where;
+};
+
+/// Reads `vertex:ID` and `point:X,Y,Z`. Throws UsageError for anything else.
+SourceArgument parse_source(const std::string& text);
+std::vector<SourceArgument> parse_sources(const std::vector<std::string>& texts);
+
+/// The source in `domain`. Throws InputError for a vertex that is not there.
+PointSource locate_source(const Domain& domain, const SourceArgument& argument);
+std::vector<PointSource> locate_sources(const Domain& domain,
+                                        const std::vector<SourceArgument>& arguments);
+
+/// For people: "vertex 12", or "point:1,2,3 (in triangle 7, 0.01 from the surface)".
+std::string describe_source(const Domain& domain, const SourceArgument& argument,
+                            const PointSource& source);
+
+}  // namespace plexway::cli

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include <plexway/complex/ids.hpp>
+
+namespace plexway {
+
+/// across[f][i]: the halfedge 3 g + j that comes after halfedge 3 f + i around its edge, or none.
+using Gluing = std::vector<std::array<Index, 3>>;
+using Faces = std::span<const std::array<Index, 3>>;
+
+/// Glues triangles where two corners share both vertices. More than two on an edge form a cycle.
+Gluing glue_by_vertices(std::size_t vertices, Faces faces);
+
+/// Throws InputError where `across` is not made of cycles over the same pair of vertices.
+void check_gluing(Faces faces, std::span<const std::array<Index, 3>> across);
+
+/// Which faces to turn over so that neighbours run opposite ways wherever that is possible (edges
+/// with more than two triangles do not count). Empty if all do already.
+struct Orientation {
+  std::vector<char> turned;
+  bool orientable = true;
+};
+Orientation orient(Faces faces, const Gluing& across);
+
+/// Faces by component and, in each, breadth first.
+std::vector<Index> breadth_first_order(const Gluing& across);
+
+/// Faces along a space-filling (Morton) curve through their centroids.
+std::vector<Index> morton_order(std::span<const std::array<double, 3>> positions, Faces faces);
+
+}  // namespace plexway

@@ -1,0 +1,289 @@
+#include <plexway/complex/triangle_mesh.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <string>
+
+#include <plexway/error.hpp>
+
+#include "complex/gluing.hpp"
+#include "complex/triangle_shape.hpp"
+#include "complex/vertex_fans.hpp"
+
+namespace plexway {
+namespace {
+
+// Edges without length get this one (in mean edges), so that no quotient is 0 / 0.
+constexpr double tiny_length = 1e-30;
+
+// A path may bend at an interior vertex with more than 2 pi around it, or a boundary vertex with
+// more than pi. The excess below is rounding on flat parts; on boundaries a smooth arc is made of
+// many vertices that each count, so they get less.
+constexpr double interior_excess = 1e-5;
+constexpr double boundary_excess = 1e-6;
+
+Index next(Index i) { return i == 2 ? 0 : i + 1; }
+
+void check_faces(std::size_t vertices, Faces faces) {
+  if (faces.empty()) throw InputError("the surface has no faces");
+  if (vertices >= none) throw InputError("more than 4294967294 vertices");
+  if (faces.size() > Across::limit - 2)
+    throw InputError(std::to_string(faces.size()) + " faces: at most " +
+                     std::to_string(Across::limit - 2) + " fit the index");
+  for (std::size_t f = 0; f < faces.size(); ++f)
+    for (const Index v : faces[f])
+      if (v >= vertices)
+        throw InputError("face " + std::to_string(f) + ": vertex " + std::to_string(v) +
+                         " is out of range, there are " + std::to_string(vertices));
+}
+
+// In a surface given by vertices alone a repeated corner leaves nothing to glue by.
+void check_corners(Faces faces) {
+  for (std::size_t f = 0; f < faces.size(); ++f)
+    for (Index i = 0; i < 3; ++i)
+      if (faces[f][i] == faces[f][next(i)])
+        throw InputError("face " + std::to_string(f) + ": vertex " + std::to_string(faces[f][i]) +
+                         " occurs twice");
+}
+
+// Rounds an angle's cosine and sine so that turning by it keeps lengths: cos^2 + sin^2 = 1. Errors
+// there would add up hinge by hinge, on regular grids all with one sign.
+template <class Real>
+void round_angle(double cosine, double sine, Real& c, Real& s) {
+  const Real c0 = static_cast<Real>(cosine), s0 = static_cast<Real>(sine);
+  c = c0;
+  s = s0;
+  double best = std::numeric_limits<double>::infinity();
+  for (int i = -1; i <= 1; ++i)
+    for (int j = -1; j <= 1; ++j) {
+      const auto shifted = [](Real value, int by) {  // by one unit in the last place
+        return value + static_cast<Real>(by) * std::abs(value) * std::numeric_limits<Real>::epsilon() *
+                           Real(0.75);
+      };
+      const Real ci = shifted(c0, i), sj = shifted(s0, j);
+      const double cd = static_cast<double>(ci), sd = static_cast<double>(sj);
+      const double error = std::abs((cd - 1) * (cd + 1) + sd * sd) + (i || j ? 1e-17 : 0);
+      if (error < best) best = error, c = ci, s = sj;
+    }
+}
+
+}  // namespace
+
+template <class Real>
+TriangleMesh<Real>::TriangleMesh(std::span<const std::array<double, 3>> positions,
+                                 std::span<const std::array<Index, 3>> faces) {
+  check_faces(positions.size(), faces);
+  check_corners(faces);
+  for (std::size_t v = 0; v < positions.size(); ++v)
+    for (const double x : positions[v])
+      if (!std::isfinite(x))
+        throw InputError("vertex " + std::to_string(v) + ": a coordinate is not finite");
+  std::vector<TriangleShape> shapes(faces.size());
+  for (std::size_t f = 0; f < faces.size(); ++f)
+    shapes[f] = shape_from_positions(
+        {&positions[faces[f][0]], &positions[faces[f][1]], &positions[faces[f][2]]});
+  assemble(positions.size(), faces, shapes, morton_order(positions, faces),
+           glue_by_vertices(positions.size(), faces));
+}
+
+template <class Real>
+TriangleMesh<Real>::TriangleMesh(std::size_t vertices, std::span<const std::array<Index, 3>> faces,
+                                 std::span<const std::array<double, 3>> lengths) {
+  check_faces(vertices, faces);
+  check_corners(faces);
+  *this = TriangleMesh(vertices, faces, lengths, glue_by_vertices(vertices, faces));
+}
+
+template <class Real>
+TriangleMesh<Real>::TriangleMesh(std::size_t vertices, std::span<const std::array<Index, 3>> faces,
+                                 std::span<const std::array<double, 3>> lengths,
+                                 std::span<const std::array<Index, 3>> across) {
+  check_faces(vertices, faces);
+  if (lengths.size() != faces.size() || across.size() != faces.size())
+    throw InputError(std::to_string(faces.size()) + " faces with " +
+                     std::to_string(lengths.size()) + " rows of lengths and " +
+                     std::to_string(across.size()) + " of gluings");
+  for (std::size_t f = 0; f < faces.size(); ++f)
+    for (const double l : lengths[f])
+      if (!std::isfinite(l) || l < 0)
+        throw InputError("face " + std::to_string(f) + ": an edge length is negative or not finite");
+  check_gluing(faces, across);
+  std::vector<TriangleShape> shapes(faces.size());
+  for (std::size_t f = 0; f < faces.size(); ++f) {
+    // Both sides of an edge must agree to the last bit.
+    std::array<double, 3> mean{};
+    for (Index i = 0; i < 3; ++i) {
+      double sum = lengths[f][i];
+      int count = 1;
+      const Index self = static_cast<Index>(3 * f + i);
+      for (Index h = across[f][i]; h != none && h != self; h = across[h / 3][h % 3]) {
+        sum += lengths[h / 3][h % 3];
+        ++count;
+      }
+      const bool equal = sum == count * lengths[f][i];
+      mean[i] = equal ? lengths[f][i] : sum / count;
+    }
+    shapes[f] = shape_from_lengths(mean);
+  }
+  std::vector<std::array<Index, 3>> gluing(across.begin(), across.end());
+  std::vector<Index> order = breadth_first_order(gluing);
+  assemble(vertices, faces, shapes, std::move(order), std::move(gluing));
+}
+
+template <class Real>
+void TriangleMesh<Real>::assemble(std::size_t vertices,
+                                  std::span<const std::array<Index, 3>> faces,
+                                  std::span<const TriangleShape> shapes,
+                                  std::vector<Index> face_order,
+                                  std::vector<std::array<Index, 3>> across) {
+  const std::size_t m = faces.size();
+  const Orientation orientation = orient(faces, across);
+  summary_.vertices = vertices;
+  summary_.faces = m;
+  summary_.orientable = orientation.orientable;
+
+  double sum = 0, longest = 0;
+  for (const Index f : face_order)
+    for (const double l : shapes[f].length) {
+      if (!std::isfinite(l))
+        throw InputError("face " + std::to_string(f) + ": too long for a number");
+      longest = std::max(longest, l);
+    }
+  for (const Index f : face_order)
+    for (const double l : shapes[f].length) sum += longest > 0 ? l / longest : 0;
+  const double unit = longest > 0 ? longest * (sum / (3 * static_cast<double>(m))) : 1;
+  summary_.mean_edge = unit;
+
+  std::vector<Index> face_to_inside(m);
+  for (std::size_t i = 0; i < m; ++i) face_to_inside[face_order[i]] = static_cast<Index>(i);
+  vertex_to_inside_.assign(vertices, none);
+  Index named = 0;
+  for (const Index f : face_order)
+    for (const Index v : faces[f])
+      if (vertex_to_inside_[v] == none) vertex_to_inside_[v] = named++;
+  summary_.unreferenced_vertices = vertices - named;
+  for (Index& v : vertex_to_inside_)
+    if (v == none) v = named++;
+
+  // Corner and edge numbers of a turned face: corners 0 2 1, edges 2 1 0.
+  const auto turned = [&](Index f) { return !orientation.turned.empty() && orientation.turned[f]; };
+  const auto edge_inside = [&](Index f, Index i) { return turned(f) ? 2 - i : i; };
+  const auto corner_outside = [&](Index f, Index i) { return turned(f) && i != 0 ? 3 - i : i; };
+
+  triangles_.resize(m + 1);
+  for (std::size_t inside = 0; inside < m; ++inside) {
+    const Index f = face_order[inside];
+    TriangleRecord<Real>& t = triangles_[inside];
+    const TriangleShape& shape = shapes[f];
+    t.face = f | (turned(f) ? reversed : 0);
+    summary_.degenerate_faces += shape.degenerate;
+    summary_.violated_faces += shape.violated;
+    for (Index i = 0; i < 3; ++i) {
+      const Index e = edge_inside(f, i);
+      t.length[e] = static_cast<Real>(std::max(shape.length[i] / unit, tiny_length));
+      const Index h = across[f][i];
+      if (h == none) {
+        t.across[e] = static_cast<Index>(m) << Across::face_shift;
+        ++summary_.boundary_edges;
+        ++summary_.edges;
+        continue;
+      }
+      const Index g = h / 3, j = h % 3;
+      const bool fan = across[g][j] != 3 * f + i;
+      // Opposite unless the vertices say otherwise, each seen through its own turn.
+      const bool loop = faces[f][i] == faces[f][next(i)];
+      const bool same_way = !loop && faces[f][i] == faces[g][j];
+      const bool flip = same_way != (turned(f) != turned(g));
+      t.across[e] = face_to_inside[g] << Across::face_shift | edge_inside(g, j) |
+                    (flip ? Across::flip : 0) | (fan ? Across::fan : 0);
+      if (!fan) {
+        summary_.edges += 3 * f + i < h;
+      } else {
+        bool lowest = true;
+        for (Index k = h; k != 3 * f + i; k = across[k / 3][k % 3]) lowest &= 3 * f + i < k;
+        summary_.edges += lowest;
+        summary_.non_manifold_edges += lowest;
+      }
+    }
+    for (Index i = 0; i < 3; ++i) {
+      const Index c = corner_outside(f, i);
+      t.corner[i] = vertex_to_inside_[faces[f][c]];
+      round_angle(shape.cosine[c], shape.sine[c], t.cosine[i], t.signed_sine[i]);
+    }
+  }
+  TriangleRecord<Real>& sentinel = triangles_[m];
+  for (Index i = 0; i < 3; ++i) {
+    sentinel.across[i] = static_cast<Index>(m) << Across::face_shift;
+    sentinel.length[i] = 1;
+    sentinel.cosine[i] = 0;
+    sentinel.signed_sine[i] = 1;
+    sentinel.corner[i] = 0;
+  }
+  sentinel.face = none;
+
+  VertexFans fans = find_vertex_fans<Real>(triangles_, vertices);
+  corner_of_vertex_ = std::move(fans.corner);
+  irregular_ = std::move(fans.irregular);
+  irregular_begin_ = std::move(fans.irregular_begin);
+  irregular_corners_ = std::move(fans.irregular_corners);
+  pinched_ = std::move(fans.pinched);
+  summary_.pinched_vertices = pinched_.size();
+  summary_.components = fans.components;
+
+  // Saddles: vertices with so much angle around them that shortest paths bend there.
+  std::vector<double> angle(vertices, 0);
+  for (std::size_t inside = 0; inside < m; ++inside) {
+    const Index f = face_order[inside];
+    for (Index i = 0; i < 3; ++i) {
+      const Index c = corner_outside(f, i);
+      angle[triangles_[inside].corner[i]] += std::atan2(shapes[f].sine[c], shapes[f].cosine[c]);
+    }
+  }
+  for (std::size_t inside = 0; inside < m; ++inside)
+    for (Index i = 0; i < 3; ++i) {
+      const Index v = triangles_[inside].corner[i];
+      const bool boundary = fans.on_boundary[v];
+      const double flat = boundary ? std::numbers::pi + boundary_excess
+                                   : 2 * std::numbers::pi + interior_excess;
+      const bool irregular = std::binary_search(irregular_.begin(), irregular_.end(), v);
+      if (angle[v] > flat || irregular)
+        triangles_[inside].signed_sine[i] =
+            std::copysign(triangles_[inside].signed_sine[i], Real(-1));
+    }
+}
+
+template <class Real>
+std::size_t TriangleMesh<Real>::bytes() const {
+  const auto of = [](const auto& v) { return v.capacity() * sizeof(v[0]); };
+  return sizeof(*this) + of(triangles_) + of(vertex_to_inside_) + of(corner_of_vertex_) +
+         of(irregular_) + of(irregular_begin_) + of(irregular_corners_) + of(pinched_);
+}
+
+template <class Real>
+std::pair<Index, bool> TriangleMesh<Real>::inside_face(Index face) const {
+  for (std::size_t i = 0; i + 1 < triangles_.size(); ++i)
+    if ((triangles_[i].face & ~reversed) == face)
+      return {static_cast<Index>(i), (triangles_[i].face & reversed) != 0};
+  return {none, false};
+}
+
+template <class Real>
+void TriangleMesh<Real>::corners_at(Index vertex, std::vector<Index>& corners) const {
+  corners.clear();
+  const Index first = corner_of_vertex_[vertex];
+  if (first == none) return;
+  const auto found = std::lower_bound(irregular_.begin(), irregular_.end(), vertex);
+  if (found != irregular_.end() && *found == vertex) {
+    const std::size_t row = static_cast<std::size_t>(found - irregular_.begin());
+    corners.assign(irregular_corners_.begin() + irregular_begin_[row],
+                   irregular_corners_.begin() + irregular_begin_[row + 1]);
+    return;
+  }
+  walk_fan<Real>(triangles_, first, [&](Index corner) { corners.push_back(corner); });
+}
+
+template class TriangleMesh<float>;
+template class TriangleMesh<double>;
+
+}  // namespace plexway

@@ -1,0 +1,104 @@
+// Wavefront OBJ. Why no library reads it for us: docs/FORMATS.md.
+
+#include <plexway/io/triangles.hpp>
+
+#include "surface_checks.hpp"
+#include "text_scanner.hpp"
+
+namespace plexway::io {
+namespace {
+
+constexpr std::uint64_t no_limit = most_vertices;
+
+/// Room for as many vertices and faces as there are lines that look like one. Counting lines
+/// first costs a few per cent and saves the vectors from growing by copies.
+void reserve_by_lines(std::string_view text, Triangles& surface) {
+  std::size_t vertices = 0;
+  std::size_t faces = 0;
+  for (std::size_t at = 0; at + 1 < text.size();) {
+    if (text[at + 1] == ' ') {
+      if (text[at] == 'v') ++vertices;
+      if (text[at] == 'f') ++faces;
+    }
+    const auto newline = text.find('\n', at);
+    if (newline == std::string_view::npos) break;
+    at = newline + 1;
+  }
+  surface.positions.reserve(vertices);
+  surface.triangles.reserve(faces);
+}
+
+void read_vertex(TextScanner& scanner, Triangles& surface) {
+  const double x = scanner.number("coordinate x");
+  const double y = scanner.number("coordinate y");
+  const double z = scanner.number("coordinate z");
+  while (scanner.to_field()) scanner.number("the field after z");  // weight or colour
+  if (surface.positions.size() == most_vertices) scanner.fail("more vertices than 32 bits count");
+  surface.positions.push_back({x, y, z});
+}
+
+/// One corner of a face: `v`, `v/vt`, `v//vn` or `v/vt/vn`. Returns the vertex, 0-based.
+std::uint64_t read_corner(TextScanner& scanner, std::size_t face, std::size_t vertices_so_far,
+                          std::uint64_t limit) {
+  const std::int64_t index = scanner.integer("a vertex of the face", '/');
+  const std::string_view rest = scanner.rest_of_field();
+  if (rest.find_first_not_of("/-+0123456789") != std::string_view::npos)
+    scanner.fail("a corner of the face is not like 1, 1/2, 1//3 or 1/2/3: it goes on with " +
+                 quote(rest));
+  if (index > 0) {
+    const auto vertex = static_cast<std::uint64_t>(index) - 1;
+    if (vertex >= limit) scanner.fail(bad_index(face, index, static_cast<std::size_t>(limit)));
+    return vertex;
+  }
+  if (index == 0)
+    scanner.fail("face " + std::to_string(face) + " names vertex 0; OBJ counts from 1");
+  const auto back = std::uint64_t{0} - static_cast<std::uint64_t>(index);
+  if (back > vertices_so_far)
+    scanner.fail("face " + std::to_string(face) + " names vertex " + std::to_string(index) +
+                 ", but only " + std::to_string(vertices_so_far) + " vertices come before it");
+  return vertices_so_far - back;
+}
+
+/// Reads all statements. A face may name vertices that come later, so `limit` is the number of
+/// vertices of the whole file, if known. Returns one more than the highest vertex named.
+std::uint64_t read_statements(std::string_view text, std::string_view name, std::uint64_t limit,
+                              Triangles& surface) {
+  TextScanner scanner(text, name, TextScanner::Backslash::joins_lines);
+  std::uint64_t needed = 0;
+  std::size_t faces = 0;
+  while (scanner.to_content()) {
+    if (scanner.take_letter('v')) {
+      read_vertex(scanner, surface);
+    } else if (scanner.take_letter('f')) {
+      Fan fan(surface);
+      while (scanner.to_field()) {
+        const auto vertex = read_corner(scanner, faces, surface.positions.size(), limit);
+        if (vertex >= needed) needed = vertex + 1;
+        fan.corner(static_cast<std::uint32_t>(vertex));
+      }
+      if (fan.corners() < 3) scanner.fail(too_few_corners(faces, fan.corners()));
+      ++faces;
+    }
+    scanner.next_line();
+  }
+  return needed;
+}
+
+}  // namespace
+
+Triangles parse_obj(std::string_view text, std::string_view name) {
+  Triangles surface;
+  reserve_by_lines(text, surface);
+  const std::uint64_t needed = read_statements(text, name, no_limit, surface);
+  require_faces(surface, name);
+  const std::size_t vertices = surface.positions.size();
+  if (needed > vertices) {
+    // Some face names a vertex that never came. Only now that is certain; the second reading
+    // stops at its line.
+    surface = {};
+    read_statements(text, name, vertices, surface);
+  }
+  return surface;
+}
+
+}  // namespace plexway::io

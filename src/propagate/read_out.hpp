@@ -1,0 +1,120 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <span>
+
+#include <plexway/complex/triangle_mesh.hpp>
+#include <plexway/propagate/saddle_rule.hpp>
+#include <plexway/propagate/workspace.hpp>
+
+namespace plexway {
+
+/// Distances of the apexes of two triangles over the edges their paths came in by: path_length of
+/// saddle_step.hpp for both, with lanes 0 1 the two sides of one and lanes 2 3 those of the other.
+template <class Real>
+struct ApexDistances {
+  using L = kernel::Lanes<Real>;
+  using Mask = typename L::Mask;
+  Real distance[2];
+  int bends_twice;  ///< bits 0 1 or 2 3: the full rule is needed
+
+  [[gnu::always_inline]] ApexDistances(const SaddleLabel<Real>& a, const SaddleLabel<Real>& b,
+                                       const Real length[2], const Real apex_x[2],
+                                       const Real apex_h[2]) {
+    const L mirror(1, -1, 1, -1), off(0, length[0], 0, length[1]);
+    const auto pair = [](typename L::Vector u, typename L::Vector w, auto i, auto j) {
+      return L(u[i], u[j], w[i], w[j]);
+    };
+    const auto ax = a.x.v, ah = a.h.v, bx = b.x.v, bh = b.h.v;
+    const L Sx = off + mirror * pair(ax, bx, 0, 0), Sh = pair(ah, bh, 0, 0);
+    const L Px = off + mirror * pair(ax, bx, 1, 2), Ph = pair(ah, bh, 1, 2);
+    const L qx(apex_x[0], length[0] - apex_x[0], apex_x[1], length[1] - apex_x[1]);
+    const L qh(apex_h[0], apex_h[0], apex_h[1], apex_h[1]);
+    const L px = Px - Sx, py = Sh - Ph;
+    const Mask loose = px * Sh + py * Sx > L(0);
+    const L ex = select(loose, px, -Sx), ey = select(loose, py, Sh);
+    const L gx = qx - Sx, gy = qh + Sh;
+    const Mask dark = ex * gy - ey * gx > L(0);
+    const L rx = gx - ex, ry = gy - ey;
+    const L bent = sqrt(ex * ex + ey * ey) + sqrt(rx * rx + ry * ry);
+    const L d = select(dark, bent, sqrt(gx * gx + gy * gy));
+    distance[0] = std::max(d[0], d[1]) + ax[3];
+    distance[1] = std::max(d[2], d[3]) + bx[3];
+    bends_twice = kernel::lane_bits(dark & loose & (Px * qh + qx * Ph < L(0)));
+  }
+};
+
+/// Every reached triangle offers its apex a distance; vertices keep the least.
+template <class Real, bool kLabels, class Rule, class Front>
+void read_out_apexes(std::span<const TriangleRecord<Real>> triangles, const Rule& rule,
+                     const Front& front, Workspace<Real>& workspace) {
+  const auto offer = [&](Index v, Real d, Index f) {
+    if constexpr (kLabels) {
+      if (d < workspace.vertex[v]) workspace.vertex[v] = d, workspace.vertex_source[v] = front.source(f);
+    } else {
+      workspace.vertex[v] = std::min(workspace.vertex[v], d);
+    }
+  };
+  const auto one = [&](Index f) {
+    const std::size_t i = (front.hinge(f) + 2) % 3;
+    offer(triangles[f].corner[i], rule.corner_distance(f, i), f);
+  };
+  const Index faces = static_cast<Index>(triangles.size() - 1);
+  constexpr std::size_t before[3] = {2, 0, 1};
+  Index f = 0;
+  for (; f + 1 < faces; f += 2) {
+    if (!front.reached(f) || !front.reached(f + 1)) {
+      for (const Index g : {f, f + 1})
+        if (front.reached(g)) one(g);
+      continue;
+    }
+    const std::size_t in[2] = {front.hinge(f), front.hinge(f + 1)};
+    const TriangleRecord<Real>&s = triangles[f], &t = triangles[f + 1];
+    const Real length[2] = {s.length[in[0]], t.length[in[1]]};
+    const Real x[2] = {s.apex_x(in[0]), t.apex_x(in[1])};
+    const Real h[2] = {s.apex_h(in[0]), t.apex_h(in[1])};
+    const ApexDistances<Real> apex(rule.label(f), rule.label(f + 1), length, x, h);
+    Real d[2] = {apex.distance[0], apex.distance[1]};
+    if (apex.bends_twice) [[unlikely]]
+      for (const std::size_t side : {0, 1})
+        if (apex.bends_twice >> (2 * side) & 3)
+          d[side] = rule.corner_distance(f + static_cast<Index>(side), before[in[side]]);
+    offer(s.corner[before[in[0]]], d[0], f);
+    offer(t.corner[before[in[1]]], d[1], f + 1);
+  }
+  if (f < faces && front.reached(f)) one(f);
+}
+
+/// Every corner of every reached triangle offers a distance.
+template <class Real, bool kLabels, class Rule, class Front>
+void read_out_corners(std::span<const TriangleRecord<Real>> triangles, const Rule& rule,
+                      const Front& front, Workspace<Real>& workspace) {
+  for (Index f = 0; f + 1 < triangles.size(); ++f) {
+    if (!front.reached(f)) continue;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const Index v = triangles[f].corner[i];
+      const Real d = rule.corner_distance(f, i);
+      if (!(d < workspace.vertex[v])) continue;
+      workspace.vertex[v] = d;
+      if constexpr (kLabels) workspace.vertex_source[v] = front.source(f);
+    }
+  }
+}
+
+/// A vertex that is no reached triangle's apex takes the best path to one of its other corners.
+template <class Real, bool kLabels, class Rule, class Front>
+void read_out_around(const TriangleMesh<Real>& mesh, const Rule& rule, const Front& front,
+                     Index vertex, Workspace<Real>& workspace) {
+  mesh.corners_at(vertex, workspace.corners);
+  for (const Index c : workspace.corners) {
+    if (!front.reached(c / 3)) continue;
+    const Real d = rule.corner_distance(c / 3, c % 3);
+    if (!(d < workspace.vertex[vertex])) continue;
+    workspace.vertex[vertex] = d;
+    if constexpr (kLabels) workspace.vertex_source[vertex] = front.source(c / 3);
+  }
+}
+
+}  // namespace plexway

@@ -1,0 +1,147 @@
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <limits>
+#include <span>
+
+#include <plexway/complex/triangle_mesh.hpp>
+#include <plexway/propagate/distance_field.hpp>
+#include <plexway/propagate/options.hpp>
+#include <plexway/propagate/wavefront.hpp>
+#include <plexway/propagate/workspace.hpp>
+#include <plexway/source/point_source.hpp>
+
+namespace plexway {
+
+/// One propagation over a surface from seeds to the last label, for any rule, front and executor of
+/// one thread.
+template <class Real, class Rule, class Front, bool kLabels>
+class TrianglePropagation {
+ public:
+  TrianglePropagation(const TriangleMesh<Real>& mesh, Workspace<Real>& workspace, Rule rule,
+                      Front& front, const PropagateOptions& options)
+      : mesh_(mesh), triangles_(mesh.triangles()), workspace_(workspace), rule_(rule),
+        front_(front), radius_(static_cast<Real>(options.radius / mesh.unit())) {}
+
+  void seed(const PointSource& source, Index number) {
+    const Real sigma = static_cast<Real>(source.offset / mesh_.unit());
+    if (source.vertex != none) {
+      seed_vertex(mesh_.inside_vertex(source.vertex), sigma, number);
+      return;
+    }
+    std::array<double, 3> b = source.barycentric;
+    const auto [f, turned] = mesh_.inside_face(source.simplex);
+    if (turned) std::swap(b[1], b[2]);
+    for (int i = 0; i < 3; ++i)
+      if (b[static_cast<std::size_t>(i)] == 1) {
+        seed_vertex(triangles_[f].corner[i], sigma, number);
+        return;
+      }
+    const TriangleRecord<Real>& t = triangles_[f];
+    const double x = b[1] * static_cast<double>(t.length[0]) +
+                     b[2] * static_cast<double>(t.apex_x(0));
+    const double y = b[2] * static_cast<double>(t.apex_h(0));
+    rule_.seed_inside(f, static_cast<Real>(x), static_cast<Real>(y), sigma, number);
+  }
+
+  void run() {
+    int revivals = 0;
+    do {
+      spread(revivals > 8);
+      if (front_.out_of_budget()) return;
+    } while (pass_pinches() || revive(++revivals));
+  }
+
+ private:
+  void seed_vertex(Index vertex, Real sigma, Index number) {
+    mesh_.corners_at(vertex, workspace_.corners);
+    for (const Index c : workspace_.corners)
+      rule_.seed_corner(c / 3, c % 3, sigma, number);
+  }
+
+  void spread(bool last_resort) {
+    Index f = 0;
+    while (!spread_share(last_resort, f))
+      if (!front_.take_stock(rule_.distance(f))) return;
+  }
+
+  /// The hot loop, until no triangle waits (true) or the share of the budget is spent. It works on
+  /// a copy of the front that nothing points to, which the compiler can keep in registers; the
+  /// rare full rule gets the original.
+  bool spread_share(bool last_resort, Index& f) {
+    Front wave = front_;
+    const Rule rule = rule_.on(wave);
+    const auto full = [&](Index g, std::size_t edge) {
+      front_ = wave;
+      rule_.cross(g, edge, last_resort);
+      wave = front_;
+    };
+    const auto distance_of = [&](Index g) { return rule.distance(g); };
+    const Real radius = radius_;
+    while (wave.next(f, distance_of)) {
+      if (rule.distance(f) > radius) [[unlikely]]
+        if (rule.distance(f) - longest(triangles_[f]) > radius) continue;
+      rule.expand(f, full);
+    }
+    front_ = wave;
+    return !wave.share_spent();
+  }
+
+  static Real longest(const TriangleRecord<Real>& t) {
+    return std::max({t.length[0], t.length[1], t.length[2]});
+  }
+
+  /// A path may pass a vertex where fans of triangles only touch: it bends there (a hinge of
+  /// dimension 0). True if some triangle got a better label.
+  bool pass_pinches() {
+    bool any = false;
+    for (const Index v : mesh_.pinched()) {
+      mesh_.corners_at(v, workspace_.corners);
+      Real best = std::numeric_limits<Real>::infinity();
+      Index number = none;
+      for (const Index c : workspace_.corners) {
+        if (!front_.reached(c / 3)) continue;
+        const Real d = rule_.corner_distance(c / 3, c % 3);
+        if (d < best) best = d, number = front_.source(c / 3);
+      }
+      if (!(best < std::numeric_limits<Real>::infinity()) || best > radius_) continue;
+      for (const Index c : workspace_.corners) {
+        const std::size_t i = c % 3;
+        // Within rounding of its own path it stays with that one; else this would not end.
+        if (front_.reached(c / 3) &&
+            rule_.corner_distance(c / 3, i) <= best * (1 + 64 * std::numeric_limits<Real>::epsilon()))
+          continue;
+        any |= rule_.seed_corner(c / 3, i, best, number);
+      }
+    }
+    return any;
+  }
+
+  /// Updates that turn around a vertex where no path bends are dropped. Where that leaves a
+  /// triangle without any label, they are taken after all.
+  bool revive(int times) {
+    const std::size_t faces = mesh_.face_count();
+    if (front_.reached_count() == faces || radius_ < std::numeric_limits<Real>::infinity() ||
+        times > 64)
+      return false;
+    const std::size_t before = front_.updates();
+    for (Index f = 0; f < faces; ++f) {
+      if (!front_.reached(f)) continue;
+      for (std::size_t e = 0; e < 3; ++e) {
+        const Index g = triangles_[f].across[e] >> Across::face_shift;
+        if (!front_.reached(g) && e != front_.hinge(f)) rule_.cross(f, e, true);
+      }
+    }
+    return front_.updates() != before;
+  }
+
+  const TriangleMesh<Real>& mesh_;
+  std::span<const TriangleRecord<Real>> triangles_;
+  Workspace<Real>& workspace_;
+  Rule rule_;
+  Front& front_;
+  Real radius_;
+};
+
+}  // namespace plexway

@@ -1,0 +1,41 @@
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+namespace cli_testing {
+
+/// What a run of the tool left behind.
+struct Outcome {
+  int code = -1;    ///< exit code; 128 + N where signal N ended it
+  std::string out;  ///< standard output
+  std::string err;  ///< standard error
+
+  [[nodiscard]] nlohmann::json json() const { return nlohmann::json::parse(out); }
+  /// Lines on standard error.
+  [[nodiscard]] std::size_t complaints() const;
+};
+
+/// Runs the tool as a process of its own, without a shell and without a terminal.
+Outcome run_tool(const std::vector<std::string>& arguments);
+
+/// The same, with standard output connected to what a shell would write as `> FILE`.
+Outcome run_tool_into(const std::string& file, const std::vector<std::string>& arguments);
+
+/// The same, with a standard output whose reader is gone.
+Outcome run_tool_into_closed_pipe(const std::vector<std::string>& arguments);
+
+/// The same, with a terminal as standard error.
+Outcome run_tool_on_terminal(const std::vector<std::string>& arguments);
+
+/// The path of a sample in data/.
+std::string sample(const std::string& name);
+
+/// The values of the column named `column` in a CSV text with a header.
+std::vector<double> csv_column(const std::string& csv, const std::string& column);
+
+/// An OFF file of the square [0, 1]^2 in the plane z = 0: n x n vertices, row by row.
+std::string square_off(int n);
+
+}  // namespace cli_testing

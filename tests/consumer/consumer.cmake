@@ -1,0 +1,40 @@
+# The consumer project, built both ways. The sanitizers of this build must be those of the consumer,
+# which links our libraries; the same holds for the compiler.
+set(consumer_dir "${CMAKE_CURRENT_BINARY_DIR}/consumer")
+set(consumer_prefix "${consumer_dir}/prefix")
+list(JOIN plexway_sanitize_flags " " consumer_flags)
+set(consumer_common
+  --build-generator "${CMAKE_GENERATOR}"
+  --build-options
+    "-DCMAKE_CXX_COMPILER=${CMAKE_CXX_COMPILER}"
+    "-DCMAKE_CXX_COMPILER_LAUNCHER=${CMAKE_CXX_COMPILER_LAUNCHER}"
+    "-DCMAKE_BUILD_TYPE=$<CONFIG>"
+    "-DCMAKE_CXX_FLAGS=${CMAKE_CXX_FLAGS} ${consumer_flags}")
+
+add_test(NAME "consumer/install"
+  COMMAND "${CMAKE_COMMAND}" --install "${PROJECT_BINARY_DIR}" --config $<CONFIG>
+    --prefix "${consumer_prefix}")
+set_tests_properties("consumer/install" PROPERTIES FIXTURES_SETUP plexway_installed LABELS consumer)
+
+# plexway_consumer_test(NAME options...) configures and builds in a fresh folder, then runs it.
+function(plexway_consumer_test name)
+  add_test(NAME "consumer/${name}"
+    COMMAND "${CMAKE_CTEST_COMMAND}"
+      --build-and-test "${CMAKE_CURRENT_SOURCE_DIR}/consumer" "${consumer_dir}/${name}"
+      ${consumer_common} ${ARGN}
+      --test-command consumer)
+  set_tests_properties("consumer/${name}" PROPERTIES LABELS consumer TIMEOUT 600)
+endfunction()
+
+plexway_consumer_test(find_package
+  "-DCMAKE_PREFIX_PATH=${consumer_prefix}" "-DPLEXWAY_WANTED=core,io" -DPLEXWAY_WANTED_VERSION=0.1)
+set_tests_properties("consumer/find_package" PROPERTIES FIXTURES_REQUIRED plexway_installed)
+
+plexway_consumer_test(missing_component
+  "-DCMAKE_PREFIX_PATH=${consumer_prefix}" "-DPLEXWAY_WANTED=core,teapots")
+set_tests_properties("consumer/missing_component" PROPERTIES
+  FIXTURES_REQUIRED plexway_installed
+  PASS_REGULAR_EXPRESSION "no component 'teapots', only: core, io")
+
+plexway_consumer_test(add_subdirectory "-DPLEXWAY_SUBDIRECTORY=${PROJECT_SOURCE_DIR}"
+  -DPLEXWAY_WITH_BOOST_GRAPH=OFF)

@@ -1,0 +1,22 @@
+# Every public header compiles alone, and twice: one generated source a header.
+set(header_sources "")
+get_property(components GLOBAL PROPERTY PLEXWAY_COMPONENTS)
+foreach(component IN LISTS components)
+  get_property(dirs GLOBAL PROPERTY PLEXWAY_HEADERS_${component})
+  foreach(dir IN LISTS dirs)
+    file(GLOB_RECURSE headers CONFIGURE_DEPENDS RELATIVE "${dir}" "${dir}/plexway/*.hpp")
+    foreach(header IN LISTS headers)
+      string(REPLACE "/" "__" source "${header}")
+      set(source "${CMAKE_CURRENT_BINARY_DIR}/headers/${source}.cpp")
+      file(CONFIGURE OUTPUT "${source}" CONTENT "#include <${header}>\n#include <${header}>\n")
+      list(APPEND header_sources "${source}")
+    endforeach()
+  endforeach()
+endforeach()
+
+add_library(plexway_headers_alone OBJECT ${header_sources})
+plexway_compile_options(plexway_headers_alone)
+# Only syntax and types matter here.
+target_compile_options(plexway_headers_alone PRIVATE $<$<NOT:$<CXX_COMPILER_ID:MSVC>>:-O0>)
+plexway_link_all(plexway_headers_alone)
+target_link_libraries(plexway_headers_alone PRIVATE Eigen3::Eigen)

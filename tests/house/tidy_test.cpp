@@ -1,0 +1,121 @@
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <filesystem>
+#include <regex>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "house/source_tree.hpp"
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t most_lines = 500;
+
+std::string text_of(const std::string& file) {
+  std::string text;
+  for (const std::string& line : house::lines_of(file)) text += line + '\n';
+  return text;
+}
+
+// The package names of cmake/packages.txt.
+std::set<std::string> listed_packages() {
+  std::set<std::string> packages;
+  for (std::string line : house::lines_of("cmake/packages.txt")) {
+    line.resize(std::min(line.find('#'), line.size()));
+    while (!line.empty() && line.back() == ' ') line.pop_back();
+    if (!line.empty() && line.front() != '[') packages.insert(line);
+  }
+  return packages;
+}
+
+}  // namespace
+
+TEST_CASE("one idea a file: none is too long") {
+  for (const char* dir :
+       {"include", "src", "complexes", "tests", "examples", "bench", "shaders", "data", "cmake"}) {
+    for (const std::string& file : house::files_under(dir)) {
+      if (!house::is_code(file)) continue;
+      INFO(file);
+      CHECK(house::lines_of(file).size() <= most_lines);
+    }
+  }
+}
+
+TEST_CASE("headers have an include guard that cannot clash") {
+  for (const char* dir : {"include", "src", "complexes", "tests", "bench", "examples"}) {
+    for (const std::string& file : house::files_under(dir)) {
+      if (fs::path(file).extension() != ".hpp") continue;
+      const auto lines = house::lines_of(file);
+      INFO(file);
+      CHECK(std::find(lines.begin(), lines.end(), "#pragma once") != lines.end());
+    }
+  }
+}
+
+TEST_CASE("the top level is the one agreed on") {
+  const std::set<std::string> agreed = {"CMakeLists.txt",
+                                        "include",
+                                        "src",
+                                        "complexes",
+                                        "tests",
+                                        "examples",
+                                        "shaders",
+                                        "data",
+                                        "docs",
+                                        "README.md",
+                                        "cmake",
+                                        "bench",
+                                        "LICENSE",
+                                        ".ci",
+                                        ".git",
+                                        "CONTRIBUTING.md",
+                                        ".clang-format",
+                                        ".clang-tidy",
+                                        ".gitignore",
+                                        "build",
+                                        "CMakePresets.json",
+                                        "CMakeUserPresets.json"};
+  for (const auto& entry : fs::directory_iterator(house::root())) {
+    const std::string name = entry.path().filename().string();
+    // An editor's or a tool's own folder is nobody's business here.
+    if (name.front() == '.' || name.rfind("build", 0) == 0) continue;
+    INFO(name);
+    CHECK(agreed.count(name) == 1);
+  }
+}
+
+TEST_CASE("one package list serves the README's commands and CI") {
+  const std::string readme = text_of("README.md");
+  CHECK(readme.find(".ci/demo") != readme.npos);
+  CHECK(readme.find(".ci/test") != readme.npos);
+  CHECK(text_of(".ci/packages").find("cmake/packages.txt") != std::string::npos);
+  CHECK(text_of(".ci/demo").find(".ci/packages") != std::string::npos);
+  CHECK(text_of(".ci/test").find(".ci/packages") != std::string::npos);
+  CHECK(text_of(".ci/run").find(".ci/test") != std::string::npos);
+  for (const char* file : {"README.md", "CONTRIBUTING.md", ".ci/demo", ".ci/test", ".ci/run"}) {
+    INFO(file << " must leave installing to .ci/packages");
+    CHECK(text_of(file).find("apt-get") == std::string::npos);
+    CHECK(text_of(file).find("apt install") == std::string::npos);
+  }
+}
+
+TEST_CASE("packages that build messages name are on the list") {
+  const std::set<std::string> listed = listed_packages();
+  CHECK(listed.count("catch2") == 1);
+  static const std::regex named(R"(PACKAGE\s+([a-z0-9.+-]+)|left out: ([a-z0-9.+-]+) is not)");
+  for (const char* dir : {"cmake", "complexes", "tests", "bench", "examples", "src"}) {
+    for (const std::string& file : house::files_under(dir)) {
+      const fs::path path = file;
+      if (path.filename() != "CMakeLists.txt" && path.extension() != ".cmake") continue;
+      const std::string text = text_of(file);
+      for (std::sregex_iterator it(text.begin(), text.end(), named), end; it != end; ++it) {
+        const std::string package = (*it)[1].matched ? (*it)[1] : (*it)[2];
+        INFO(file << " names the package " << package);
+        CHECK(listed.count(package) == 1);
+      }
+    }
+  }
+}

@@ -1,0 +1,104 @@
+#pragma once
+
+#include <unistd.h>
+
+#include <array>
+#include <atomic>
+#include <bit>
+#include <catch2/catch.hpp>
+#include <cstdint>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <string>
+#include <string_view>
+#include <type_traits>
+#include <vector>
+
+#include <plexway/error.hpp>
+#include <plexway/io/triangles.hpp>
+
+namespace io_testing {
+
+/// A folder of its own, removed at the end.
+class Folder {
+ public:
+  Folder() {
+    static std::atomic<int> made = 0;
+    path_ = std::filesystem::temp_directory_path() /
+            ("plexway-io-" + std::to_string(::getpid()) + "-" + std::to_string(made++));
+    std::filesystem::create_directories(path_);
+  }
+  ~Folder() {
+    std::error_code ignored;
+    std::filesystem::remove_all(path_, ignored);
+  }
+  Folder(const Folder&) = delete;
+  Folder& operator=(const Folder&) = delete;
+
+  const std::filesystem::path& path() const { return path_; }
+
+  std::filesystem::path write(const std::string& name, std::string_view bytes) const {
+    std::ofstream(path_ / name, std::ios::binary) << bytes;
+    return path_ / name;
+  }
+
+  std::size_t files() const {
+    return static_cast<std::size_t>(std::distance(std::filesystem::directory_iterator(path_), {}));
+  }
+
+ private:
+  std::filesystem::path path_;
+};
+
+inline std::string bytes_of(const std::filesystem::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+/// The message of the InputError that `parse(bytes, "mesh")` must throw.
+template <class Parser>
+std::string complaint(Parser parse, std::string_view bytes) {
+  try {
+    parse(bytes, "mesh");
+  } catch (const plexway::InputError& error) {
+    return error.what();
+  }
+  return "no complaint";
+}
+
+/// The bytes of numbers in little or big endian order, one after the other, as declared.
+class Packer {
+ public:
+  explicit Packer(bool big_endian) : big_(big_endian) {}
+
+  template <class Number>
+  Packer& put(Number value) {
+    std::string bytes(sizeof value, '\0');
+    std::uint64_t bits = 0;
+    static_assert(sizeof value <= sizeof bits);
+    if constexpr (std::is_same_v<Number, float>)
+      bits = std::bit_cast<std::uint32_t>(value);
+    else if constexpr (std::is_same_v<Number, double>)
+      bits = std::bit_cast<std::uint64_t>(value);
+    else
+      bits = static_cast<std::uint64_t>(value);
+    for (std::size_t i = 0; i < sizeof value; ++i) {
+      const auto byte = static_cast<char>((bits >> (8 * i)) & 0xFF);
+      bytes[big_ ? sizeof value - 1 - i : i] = byte;
+    }
+    bytes_ += bytes;
+    return *this;
+  }
+
+  const std::string& bytes() const { return bytes_; }
+
+ private:
+  bool big_;
+  std::string bytes_;
+};
+
+using Positions = std::vector<std::array<double, 3>>;
+using Faces = std::vector<std::array<std::uint32_t, 3>>;
+
+}  // namespace io_testing
