@@ -190,6 +190,10 @@ inline std::vector<PeerKind> common_peers() {
     kinds.push_back({single ? "Boost Dijkstra, float" : "Boost Dijkstra, double", single,
                      [single](const Surface& surface) { return reference_peer(surface, single); },
                      false});
+  kinds.push_back(
+      {"Boost Dijkstra, fastest variant", true,
+       [](const Surface& surface) { return std::make_unique<DijkstraPeer<float>>(surface, true); },
+       false});
 #endif
   kinds.push_back(plexway_peer<float>("plexway saddles, float", Visibility::saddles));
   kinds.push_back(plexway_peer<double>("plexway saddles, double", Visibility::saddles));

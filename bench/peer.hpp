@@ -84,9 +84,15 @@ PeerKind plexway_peer(std::string name, plexway::Visibility visibility) {
 template <class Real>
 class DijkstraPeer final : public Peer {
  public:
-  explicit DijkstraPeer(const Surface& surface) : dijkstra_(surface.positions, surface.faces) {}
+  explicit DijkstraPeer(const Surface& surface, bool without_colours = false)
+      : dijkstra_(surface.positions, surface.faces), without_colours_(without_colours) {}
 
-  void solve(Index source) override { dijkstra_.run(source); }
+  void solve(Index source) override {
+    if (without_colours_)
+      dijkstra_.run_without_colours(source);
+    else
+      dijkstra_.run(source);
+  }
   [[nodiscard]] std::vector<double> distance() const override {
     return {dijkstra_.distance().begin(), dijkstra_.distance().end()};
   }
@@ -94,6 +100,7 @@ class DijkstraPeer final : public Peer {
 
  private:
   plexway::boost_graph::EdgeDijkstra<Real> dijkstra_;
+  bool without_colours_;
 };
 
 #endif

@@ -44,8 +44,7 @@ Gluing glue_by_vertices(std::size_t vertices, Faces faces) {
       auto end = run + 1;
       while (end != last && upper(*end) == upper(*run)) ++end;
       if (end - run > 1)
-        for (auto h = run; h != end; ++h)
-          across[*h / 3][*h % 3] = h + 1 == end ? *run : *(h + 1);
+        for (auto h = run; h != end; ++h) across[*h / 3][*h % 3] = h + 1 == end ? *run : *(h + 1);
       run = end;
     }
   }
@@ -58,8 +57,7 @@ void check_gluing(Faces faces, std::span<const std::array<Index, 3>> across) {
   for (std::size_t h = 0; h < halfedges; ++h) {
     const Index to = across[h / 3][h % 3];
     if (to == none) continue;
-    const std::string where =
-        "face " + std::to_string(h / 3) + ", edge " + std::to_string(h % 3);
+    const std::string where = "face " + std::to_string(h / 3) + ", edge " + std::to_string(h % 3);
     if (to >= halfedges) throw InputError(where + ": glued to a halfedge that does not exist");
     if (to == h) throw InputError(where + ": glued to itself");
     if (entered[to]++) throw InputError(where + ": its other side is glued twice");

@@ -14,9 +14,6 @@
 namespace plexway {
 namespace {
 
-// Edges without length get this one (in mean edges), so that no quotient is 0 / 0.
-constexpr double tiny_length = 1e-30;
-
 // A path may bend at an interior vertex with more than 2 pi around it, or a boundary vertex with
 // more than pi. The excess below is rounding on flat parts; on boundaries a smooth arc is made of
 // many vertices that each count, so they get less.
@@ -58,14 +55,69 @@ void round_angle(double cosine, double sine, Real& c, Real& s) {
   for (int i = -1; i <= 1; ++i)
     for (int j = -1; j <= 1; ++j) {
       const auto shifted = [](Real value, int by) {  // by one unit in the last place
-        return value + static_cast<Real>(by) * std::abs(value) * std::numeric_limits<Real>::epsilon() *
-                           Real(0.75);
+        return value + static_cast<Real>(by) * std::abs(value) *
+                           std::numeric_limits<Real>::epsilon() * Real(0.75);
       };
       const Real ci = shifted(c0, i), sj = shifted(s0, j);
       const double cd = static_cast<double>(ci), sd = static_cast<double>(sj);
       const double error = std::abs((cd - 1) * (cd + 1) + sd * sd) + (i || j ? 1e-17 : 0);
       if (error < best) best = error, c = ci, s = sj;
     }
+}
+
+using Lengths = std::vector<std::array<double, 3>>;
+using GluingView = std::span<const std::array<Index, 3>>;
+
+// Calls visit(halfedge) for each halfedge of the edge of h, h included.
+template <class Visit>
+void around_edge(GluingView across, Index h, Visit visit) {
+  visit(h);
+  for (Index o = across[h / 3][h % 3]; o != none && o != h; o = across[o / 3][o % 3]) visit(o);
+}
+
+// Both sides of an edge must agree to the last bit: the mean of what they say.
+void agree_on_edges(Lengths& lengths, GluingView across) {
+  for (Index h = 0; h < lengths.size() * 3; ++h) {
+    double sum = 0;
+    int count = 0;
+    bool equal = true, first = true;
+    around_edge(across, h, [&](Index o) {
+      sum += lengths[o / 3][o % 3];
+      ++count;
+      equal = equal && lengths[o / 3][o % 3] == lengths[h / 3][h % 3];
+      first = first && o >= h;
+    });
+    if (!equal && first)
+      around_edge(across, h, [&](Index o) { lengths[o / 3][o % 3] = sum / count; });
+  }
+}
+
+// By how much an edge is longer than the way around by the others, beyond rounding; or 0.
+double longest_excess(const std::array<double, 3>& l) {
+  const double longest = std::max({l[0], l[1], l[2]});
+  const double excess = longest - (l[0] + l[1] + l[2] - longest);
+  return excess > 1e-14 * longest ? excess : 0;
+}
+
+// An edge longer than the way around takes that length, as in the metric that the lengths span;
+// which may break the next triangle, so it goes on until none is left. Unfolding triangles that do
+// not close could make a path shorter each time it goes around, without end.
+void shorten_to_triangles(Lengths& lengths, GluingView across) {
+  std::vector<Index> queue;
+  for (Index f = 0; f < lengths.size(); ++f)
+    if (longest_excess(lengths[f]) > 0) queue.push_back(f);
+  while (!queue.empty()) {
+    const std::array<double, 3>& l = lengths[queue.back()];
+    const Index f = queue.back();
+    queue.pop_back();
+    if (longest_excess(l) == 0) continue;
+    const Index e = static_cast<Index>(std::max_element(l.begin(), l.end()) - l.begin());
+    const double shorter = l[(e + 1) % 3] + l[(e + 2) % 3];
+    around_edge(across, 3 * f + e, [&](Index h) {
+      lengths[h / 3][h % 3] = shorter;
+      if (longest_excess(lengths[h / 3]) > 0) queue.push_back(h / 3);
+    });
+  }
 }
 
 }  // namespace
@@ -107,24 +159,18 @@ TriangleMesh<Real>::TriangleMesh(std::size_t vertices, std::span<const std::arra
   for (std::size_t f = 0; f < faces.size(); ++f)
     for (const double l : lengths[f])
       if (!std::isfinite(l) || l < 0)
-        throw InputError("face " + std::to_string(f) + ": an edge length is negative or not finite");
+        throw InputError("face " + std::to_string(f) +
+                         ": an edge length is negative or not finite");
   check_gluing(faces, across);
+  std::vector<std::array<double, 3>> agreed(lengths.begin(), lengths.end());
+  agree_on_edges(agreed, across);
   std::vector<TriangleShape> shapes(faces.size());
+  std::vector<char> violated(faces.size(), 0);
+  for (std::size_t f = 0; f < faces.size(); ++f) violated[f] = longest_excess(agreed[f]) > 0;
+  shorten_to_triangles(agreed, across);
   for (std::size_t f = 0; f < faces.size(); ++f) {
-    // Both sides of an edge must agree to the last bit.
-    std::array<double, 3> mean{};
-    for (Index i = 0; i < 3; ++i) {
-      double sum = lengths[f][i];
-      int count = 1;
-      const Index self = static_cast<Index>(3 * f + i);
-      for (Index h = across[f][i]; h != none && h != self; h = across[h / 3][h % 3]) {
-        sum += lengths[h / 3][h % 3];
-        ++count;
-      }
-      const bool equal = sum == count * lengths[f][i];
-      mean[i] = equal ? lengths[f][i] : sum / count;
-    }
-    shapes[f] = shape_from_lengths(mean);
+    shapes[f] = shape_from_lengths(agreed[f]);
+    shapes[f].violated = violated[f] != 0;
   }
   std::vector<std::array<Index, 3>> gluing(across.begin(), across.end());
   std::vector<Index> order = breadth_first_order(gluing);
@@ -132,8 +178,7 @@ TriangleMesh<Real>::TriangleMesh(std::size_t vertices, std::span<const std::arra
 }
 
 template <class Real>
-void TriangleMesh<Real>::assemble(std::size_t vertices,
-                                  std::span<const std::array<Index, 3>> faces,
+void TriangleMesh<Real>::assemble(std::size_t vertices, std::span<const std::array<Index, 3>> faces,
                                   std::span<const TriangleShape> shapes,
                                   std::vector<Index> face_order,
                                   std::vector<std::array<Index, 3>> across) {
@@ -181,7 +226,7 @@ void TriangleMesh<Real>::assemble(std::size_t vertices,
     summary_.violated_faces += shape.violated;
     for (Index i = 0; i < 3; ++i) {
       const Index e = edge_inside(f, i);
-      t.length[e] = static_cast<Real>(std::max(shape.length[i] / unit, tiny_length));
+      t.length[e] = static_cast<Real>(shape.length[i] / unit);
       const Index h = across[f][i];
       if (h == none) {
         t.across[e] = static_cast<Index>(m) << Across::face_shift;
@@ -244,8 +289,8 @@ void TriangleMesh<Real>::assemble(std::size_t vertices,
     for (Index i = 0; i < 3; ++i) {
       const Index v = triangles_[inside].corner[i];
       const bool boundary = fans.on_boundary[v];
-      const double flat = boundary ? std::numbers::pi + boundary_excess
-                                   : 2 * std::numbers::pi + interior_excess;
+      const double flat =
+          boundary ? std::numbers::pi + boundary_excess : 2 * std::numbers::pi + interior_excess;
       const bool irregular = std::binary_search(irregular_.begin(), irregular_.end(), v);
       if (angle[v] > flat || irregular)
         triangles_[inside].signed_sine[i] =

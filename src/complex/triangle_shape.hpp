@@ -42,8 +42,8 @@ inline TriangleShape shape_from_positions(const std::array<const std::array<doub
       w[d] = -edge[(i + 2) % 3][d] / shape.length[(i + 2) % 3];
     }
     const double dot = u[0] * w[0] + u[1] * w[1] + u[2] * w[2];
-    const double cross = std::hypot(u[1] * w[2] - u[2] * w[1], u[2] * w[0] - u[0] * w[2],
-                                    u[0] * w[1] - u[1] * w[0]);
+    const double cross =
+        std::hypot(u[1] * w[2] - u[2] * w[1], u[2] * w[0] - u[0] * w[2], u[0] * w[1] - u[1] * w[0]);
     const double norm = std::hypot(dot, cross);
     shape.cosine[i] = dot / norm;
     shape.sine[i] = cross / norm;

@@ -8,7 +8,9 @@ namespace {
 
 class Sets {
  public:
-  explicit Sets(std::size_t count) : parent_(count) { std::iota(parent_.begin(), parent_.end(), 0); }
+  explicit Sets(std::size_t count) : parent_(count) {
+    std::iota(parent_.begin(), parent_.end(), 0);
+  }
   Index find(Index a) {
     while (parent_[a] != a) a = parent_[a] = parent_[parent_[a]];
     return a;

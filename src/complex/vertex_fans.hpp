@@ -11,12 +11,12 @@ namespace plexway {
 
 /// Which corners meet at each vertex, and how.
 struct VertexFans {
-  std::vector<Index> corner;       ///< one corner 3 f + i a vertex, none where unreferenced
-  std::vector<char> on_boundary;   ///< an end of an edge with one triangle
-  std::vector<Index> irregular;    ///< vertices whose corners one walk does not find, ascending
+  std::vector<Index> corner;      ///< one corner 3 f + i a vertex, none where unreferenced
+  std::vector<char> on_boundary;  ///< an end of an edge with one triangle
+  std::vector<Index> irregular;   ///< vertices whose corners one walk does not find, ascending
   std::vector<Index> irregular_begin, irregular_corners;  ///< their corners, row by row
-  std::vector<Index> pinched;      ///< irregular ones where no chain of edges joins all corners
-  std::size_t components = 0;      ///< joined by edges or pinched vertices
+  std::vector<Index> pinched;  ///< irregular ones where no chain of edges joins all corners
+  std::size_t components = 0;  ///< joined by edges or pinched vertices
 };
 
 template <class Real>

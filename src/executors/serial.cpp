@@ -21,12 +21,12 @@ void check(const TriangleMesh<Real>& mesh, std::span<const PointSource> sources,
   for (const PointSource& s : sources) {
     if (s.vertex != none) {
       if (s.vertex >= mesh.vertex_count())
-        throw UsageError("source vertex " + std::to_string(s.vertex) + " is out of range, there are " +
-                         std::to_string(mesh.vertex_count()));
+        throw UsageError("source vertex " + std::to_string(s.vertex) +
+                         " is out of range, there are " + std::to_string(mesh.vertex_count()));
     } else {
       if (s.simplex >= mesh.face_count())
-        throw UsageError("source face " + std::to_string(s.simplex) + " is out of range, there are " +
-                         std::to_string(mesh.face_count()));
+        throw UsageError("source face " + std::to_string(s.simplex) +
+                         " is out of range, there are " + std::to_string(mesh.face_count()));
       double sum = 0;
       bool inside = true;
       for (const double b : s.barycentric) inside = inside && b >= 0, sum += b;
@@ -107,7 +107,8 @@ void solve(const TriangleMesh<Real>& mesh, std::span<const PointSource> sources,
     d *= unit;
     const bool in = d <= radius;
     field.distance[v] = in ? d : infinity;
-    if constexpr (kLabels) field.label[v] = in && d < infinity ? workspace.vertex_source[inside[v]] : none;
+    if constexpr (kLabels)
+      field.label[v] = in && d < infinity ? workspace.vertex_source[inside[v]] : none;
   }
   // An offset survives scaling exactly.
   for (const PointSource& s : sources)

@@ -11,28 +11,29 @@
 
 namespace plexway {
 
-/// Distances of the apexes of two triangles over the edges their paths came in by: path_length of
-/// saddle_step.hpp for both, with lanes 0 1 the two sides of one and lanes 2 3 those of the other.
+/// Distances of the corners of two triangles from the edges their paths came in by: path_length of
+/// saddle_step.hpp for the apexes, and the straight way to the edges' ends where no limit hides
+/// them. Lanes 0 1 are the two sides of one triangle and lanes 2 3 those of the other.
 template <class Real>
-struct ApexDistances {
+struct CornerDistances {
   using L = kernel::Lanes<Real>;
   using Mask = typename L::Mask;
   Real distance[2];
+  L ends;           ///< first and second end of one, first and second of the other; may be +inf
   int bends_twice;  ///< bits 0 1 or 2 3: the full rule is needed
 
-  [[gnu::always_inline]] ApexDistances(const SaddleLabel<Real>& a, const SaddleLabel<Real>& b,
-                                       const Real length[2], const Real apex_x[2],
-                                       const Real apex_h[2]) {
+  [[gnu::always_inline]] CornerDistances(const SaddleLabel<Real>& a, const SaddleLabel<Real>& b,
+                                         const Real length[2], const Real apex_x[2],
+                                         const Real apex_h[2]) {
     const L mirror(1, -1, 1, -1), off(0, length[0], 0, length[1]);
     const auto pair = [](typename L::Vector u, typename L::Vector w, auto i, auto j) {
       return L(u[i], u[j], w[i], w[j]);
     };
     const auto ax = a.x.v, ah = a.h.v, bx = b.x.v, bh = b.h.v;
     const L Sx = off + mirror * pair(ax, bx, 0, 0), Sh = pair(ah, bh, 0, 0);
-    const L Px = off + mirror * pair(ax, bx, 1, 2), Ph = pair(ah, bh, 1, 2);
+    const L px = mirror * pair(ax, bx, 1, 2), ph = pair(ah, bh, 1, 2), py = -ph;
     const L qx(apex_x[0], length[0] - apex_x[0], apex_x[1], length[1] - apex_x[1]);
     const L qh(apex_h[0], apex_h[0], apex_h[1], apex_h[1]);
-    const L px = Px - Sx, py = Sh - Ph;
     const Mask loose = px * Sh + py * Sx > L(0);
     const L ex = select(loose, px, -Sx), ey = select(loose, py, Sh);
     const L gx = qx - Sx, gy = qh + Sh;
@@ -42,27 +43,30 @@ struct ApexDistances {
     const L d = select(dark, bent, sqrt(gx * gx + gy * gy));
     distance[0] = std::max(d[0], d[1]) + ax[3];
     distance[1] = std::max(d[2], d[3]) + bx[3];
-    bends_twice = kernel::lane_bits(dark & loose & (Px * qh + qx * Ph < L(0)));
+    const L inf(std::numeric_limits<Real>::infinity());
+    ends = select(loose, inf, sqrt(Sx * Sx + Sh * Sh)) + L(ax[3], ax[3], bx[3], bx[3]);
+    bends_twice = kernel::lane_bits(dark & loose & ((Sx + px) * qh + qx * (Sh + ph) < L(0)));
   }
 };
 
-/// Every reached triangle offers its apex a distance; vertices keep the least.
+/// Every reached triangle offers its corners distances; vertices keep the least.
 template <class Real, bool kLabels, class Rule, class Front>
 void read_out_apexes(std::span<const TriangleRecord<Real>> triangles, const Rule& rule,
                      const Front& front, Workspace<Real>& workspace) {
   const auto offer = [&](Index v, Real d, Index f) {
     if constexpr (kLabels) {
-      if (d < workspace.vertex[v]) workspace.vertex[v] = d, workspace.vertex_source[v] = front.source(f);
+      if (d < workspace.vertex[v])
+        workspace.vertex[v] = d, workspace.vertex_source[v] = front.source(f);
     } else {
       workspace.vertex[v] = std::min(workspace.vertex[v], d);
     }
   };
   const auto one = [&](Index f) {
-    const std::size_t i = (front.hinge(f) + 2) % 3;
-    offer(triangles[f].corner[i], rule.corner_distance(f, i), f);
+    for (std::size_t i = 0; i < 3; ++i)
+      offer(triangles[f].corner[i], rule.corner_distance(f, i), f);
   };
   const Index faces = static_cast<Index>(triangles.size() - 1);
-  constexpr std::size_t before[3] = {2, 0, 1};
+  constexpr std::size_t before[3] = {2, 0, 1}, after[3] = {1, 2, 0};
   Index f = 0;
   for (; f + 1 < faces; f += 2) {
     if (!front.reached(f) || !front.reached(f + 1)) {
@@ -75,7 +79,7 @@ void read_out_apexes(std::span<const TriangleRecord<Real>> triangles, const Rule
     const Real length[2] = {s.length[in[0]], t.length[in[1]]};
     const Real x[2] = {s.apex_x(in[0]), t.apex_x(in[1])};
     const Real h[2] = {s.apex_h(in[0]), t.apex_h(in[1])};
-    const ApexDistances<Real> apex(rule.label(f), rule.label(f + 1), length, x, h);
+    const CornerDistances<Real> apex(rule.label(f), rule.label(f + 1), length, x, h);
     Real d[2] = {apex.distance[0], apex.distance[1]};
     if (apex.bends_twice) [[unlikely]]
       for (const std::size_t side : {0, 1})
@@ -83,6 +87,10 @@ void read_out_apexes(std::span<const TriangleRecord<Real>> triangles, const Rule
           d[side] = rule.corner_distance(f + static_cast<Index>(side), before[in[side]]);
     offer(s.corner[before[in[0]]], d[0], f);
     offer(t.corner[before[in[1]]], d[1], f + 1);
+    offer(s.corner[in[0]], apex.ends[0], f);
+    offer(s.corner[after[in[0]]], apex.ends[1], f);
+    offer(t.corner[in[1]], apex.ends[2], f + 1);
+    offer(t.corner[after[in[1]]], apex.ends[3], f + 1);
   }
   if (f < faces && front.reached(f)) one(f);
 }
@@ -103,7 +111,7 @@ void read_out_corners(std::span<const TriangleRecord<Real>> triangles, const Rul
   }
 }
 
-/// A vertex that is no reached triangle's apex takes the best path to one of its other corners.
+/// A vertex that no triangle offered a distance takes the best path to one of its corners.
 template <class Real, bool kLabels, class Rule, class Front>
 void read_out_around(const TriangleMesh<Real>& mesh, const Rule& rule, const Front& front,
                      Index vertex, Workspace<Real>& workspace) {

@@ -21,8 +21,12 @@ class TrianglePropagation {
  public:
   TrianglePropagation(const TriangleMesh<Real>& mesh, Workspace<Real>& workspace, Rule rule,
                       Front& front, const PropagateOptions& options)
-      : mesh_(mesh), triangles_(mesh.triangles()), workspace_(workspace), rule_(rule),
-        front_(front), radius_(static_cast<Real>(options.radius / mesh.unit())) {}
+      : mesh_(mesh),
+        triangles_(mesh.triangles()),
+        workspace_(workspace),
+        rule_(rule),
+        front_(front),
+        radius_(static_cast<Real>(options.radius / mesh.unit())) {}
 
   void seed(const PointSource& source, Index number) {
     const Real sigma = static_cast<Real>(source.offset / mesh_.unit());
@@ -39,8 +43,8 @@ class TrianglePropagation {
         return;
       }
     const TriangleRecord<Real>& t = triangles_[f];
-    const double x = b[1] * static_cast<double>(t.length[0]) +
-                     b[2] * static_cast<double>(t.apex_x(0));
+    const double x =
+        b[1] * static_cast<double>(t.length[0]) + b[2] * static_cast<double>(t.apex_x(0));
     const double y = b[2] * static_cast<double>(t.apex_h(0));
     rule_.seed_inside(f, static_cast<Real>(x), static_cast<Real>(y), sigma, number);
   }
@@ -56,8 +60,7 @@ class TrianglePropagation {
  private:
   void seed_vertex(Index vertex, Real sigma, Index number) {
     mesh_.corners_at(vertex, workspace_.corners);
-    for (const Index c : workspace_.corners)
-      rule_.seed_corner(c / 3, c % 3, sigma, number);
+    for (const Index c : workspace_.corners) rule_.seed_corner(c / 3, c % 3, sigma, number);
   }
 
   void spread(bool last_resort) {
@@ -109,8 +112,8 @@ class TrianglePropagation {
       for (const Index c : workspace_.corners) {
         const std::size_t i = c % 3;
         // Within rounding of its own path it stays with that one; else this would not end.
-        if (front_.reached(c / 3) &&
-            rule_.corner_distance(c / 3, i) <= best * (1 + 64 * std::numeric_limits<Real>::epsilon()))
+        if (front_.reached(c / 3) && rule_.corner_distance(c / 3, i) <=
+                                         best * (1 + 64 * std::numeric_limits<Real>::epsilon()))
           continue;
         any |= rule_.seed_corner(c / 3, i, best, number);
       }

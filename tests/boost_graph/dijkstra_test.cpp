@@ -106,6 +106,8 @@ TEMPLATE_TEST_CASE("Boost's Dijkstra agrees with the textbook's", "", float, dou
     dijkstra.run(source);
     REQUIRE(dijkstra.distance()[source] == 0);
     REQUIRE(worst_difference(dijkstra.distance(), textbook(soup, source)) <= tolerance);
+    dijkstra.run_without_colours(source);
+    REQUIRE(worst_difference(dijkstra.distance(), textbook(soup, source)) <= tolerance);
   }
 }
 

@@ -27,7 +27,7 @@ struct Case {
   static constexpr double close = std::is_same_v<Real, float> ? 1e-3 : 1e-11;
 };
 
-#define ALL_CASES                                                                          \
+#define ALL_CASES                                                                            \
   (Case<float, 0>), (Case<float, 1>), (Case<float, 2>), (Case<float, 3>), (Case<double, 0>), \
       (Case<double, 1>), (Case<double, 2>), (Case<double, 3>)
 
@@ -78,8 +78,7 @@ Vector embedded(const Hinge& hinge, const Posed<C>& posed,
   c.w = 1;
   const auto weights = C::Kernel::weights(posed.pose, c);
   Vector sum = Vector::Zero(hinge.S.size());
-  for (size_t i = 0; i < hinge.I.size(); ++i)
-    sum += static_cast<double>(weights.b[i]) * hinge.I[i];
+  for (size_t i = 0; i < hinge.I.size(); ++i) sum += static_cast<double>(weights.b[i]) * hinge.I[i];
   return sum;
 }
 
@@ -351,9 +350,9 @@ TEMPLATE_TEST_CASE("no input gives NaN", "[kernel]", ALL_CASES) {
     const auto step = Kernel::carry(pose, S, Real(0), q, i % 5 == 0, Real(1e-6));
     const auto o = Kernel::offset(pose, q, S, any());
     bool good = finite<TestType>(S.x) && S.h >= 0 && finite<TestType>(step.source.x);
-    for (const Real x : {S.h, q.h, step.sigma, step.source.h, o.point.h, o.r2,
-                         Kernel::distance_squared(pose, step.source, q),
-                         Kernel::behind(pose, S, q, s2[0])})
+    for (const Real x :
+         {S.h, q.h, step.sigma, step.source.h, o.point.h, o.r2,
+          Kernel::distance_squared(pose, step.source, q), Kernel::behind(pose, S, q, s2[0])})
       good = good && std::isfinite(x);
     bad += !good || step.sigma < 0 || o.r2 < 0;
   }

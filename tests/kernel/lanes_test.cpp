@@ -24,11 +24,21 @@ Result each(F f) {
   for (int i = 0; i < 4; ++i) r.at[i] = f(i);
   return r;
 }
-Float4 operator+(Float4 a, Float4 b) { return each([&](int i) { return a.at[i] + b.at[i]; }); }
-Float4 operator-(Float4 a, Float4 b) { return each([&](int i) { return a.at[i] - b.at[i]; }); }
-Float4 operator*(Float4 a, Float4 b) { return each([&](int i) { return a.at[i] * b.at[i]; }); }
-Float4 operator/(Float4 a, Float4 b) { return each([&](int i) { return a.at[i] / b.at[i]; }); }
-Float4 operator-(Float4 a) { return each([&](int i) { return -a.at[i]; }); }
+Float4 operator+(Float4 a, Float4 b) {
+  return each([&](int i) { return a.at[i] + b.at[i]; });
+}
+Float4 operator-(Float4 a, Float4 b) {
+  return each([&](int i) { return a.at[i] - b.at[i]; });
+}
+Float4 operator*(Float4 a, Float4 b) {
+  return each([&](int i) { return a.at[i] * b.at[i]; });
+}
+Float4 operator/(Float4 a, Float4 b) {
+  return each([&](int i) { return a.at[i] / b.at[i]; });
+}
+Float4 operator-(Float4 a) {
+  return each([&](int i) { return -a.at[i]; });
+}
 Float4& operator+=(Float4& a, Float4 b) { return a = a + b; }
 Float4& operator-=(Float4& a, Float4 b) { return a = a - b; }
 Mask4 operator>(Float4 a, Float4 b) {

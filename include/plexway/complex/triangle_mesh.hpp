@@ -23,8 +23,8 @@ struct SurfaceSummary {
   std::size_t pinched_vertices = 0;       ///< several fans of triangles meet there only
   std::size_t unreferenced_vertices = 0;  ///< in no triangle: no path leads to them
   std::size_t degenerate_faces = 0;       ///< no area, in the input's precision
-  std::size_t violated_faces = 0;         ///< lengths break the triangle inequality (flattened)
-  std::size_t components = 0;             ///< of triangles joined by edges or pinched vertices
+  std::size_t violated_faces = 0;  ///< lengths broke the triangle inequality (see the constructor)
+  std::size_t components = 0;      ///< of triangles joined by edges or pinched vertices
   bool orientable = true;
   double mean_edge = 0;  ///< in the input's unit; the library works in this unit inside
 };
@@ -34,7 +34,8 @@ struct SurfaceSummary {
 /// A Delta-complex: what counts is which halfedge is glued to which, so two vertices may share
 /// several edges and a triangle may be glued to itself. Boundary, several components, more than two
 /// triangles on an edge, non-orientable surfaces, unreferenced vertices, triangles without area and
-/// edges without length are all allowed. Immutable once built, so any number of threads may read it.
+/// edges without length are all allowed. Immutable once built, so any number of threads may read
+/// it.
 ///
 /// Vertices and faces have the caller's numbers in this interface. Inside they are reordered for
 /// locality. Memory: 64 bytes a triangle and 8 a vertex in float.
@@ -50,8 +51,9 @@ class TriangleMesh {
 
   /// From lengths alone: lengths[f][i] is the length of the edge from corner i of face f to the
   /// next, and must be the same from both sides (up to rounding; the mean is taken). Triangles are
-  /// glued where two corners share both vertices. Throws as above, and for a length that is
-  /// negative or not finite.
+  /// glued where two corners share both vertices. An edge longer than the way around by the other
+  /// two is shortened to it, and so on (SurfaceSummary::violated_faces counts). Throws as above,
+  /// and for a length that is negative or not finite.
   TriangleMesh(std::size_t vertices, std::span<const std::array<Index, 3>> faces,
                std::span<const std::array<double, 3>> lengths);
 

@@ -29,10 +29,10 @@ template <class Real>
 struct alignas(sizeof(Real) == 4 ? 64 : 8) TriangleRecord {
   Index across[3];  ///< Across of each edge; the sentinel's index on a boundary
   Real length[3];
-  Real cosine[3];   ///< of the angle at corner i
+  Real cosine[3];       ///< of the angle at corner i
   Real signed_sine[3];  ///< of that angle, >= 0; the sign bit says that a path may bend at corner i
-  Index corner[3];  ///< vertices, numbers inside
-  Index face;       ///< the caller's number; `reversed` is added if the corners run backwards
+  Index corner[3];      ///< vertices, numbers inside
+  Index face;           ///< the caller's number; `reversed` is added if the corners run backwards
 
   [[nodiscard]] Real sine(std::size_t i) const { return std::abs(signed_sine[i]); }
   [[nodiscard]] bool saddle(std::size_t i) const { return std::signbit(signed_sine[i]); }

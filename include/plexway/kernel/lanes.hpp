@@ -50,9 +50,12 @@ struct Lanes {
   [[gnu::always_inline]] friend Lanes& operator+=(Lanes& a, Lanes b) { return a = a + b; }
   [[gnu::always_inline]] friend Mask operator>(Lanes a, Lanes b) { return a.v > b.v; }
   [[gnu::always_inline]] friend Mask operator<(Lanes a, Lanes b) { return a.v < b.v; }
+  [[gnu::always_inline]] friend Lanes abs(Lanes a) { return a.v < 0 ? -a.v : a.v; }
   [[gnu::always_inline]] friend Lanes max(Lanes a, Lanes b) { return b.v > a.v ? b.v : a.v; }
   [[gnu::always_inline]] friend Lanes min(Lanes a, Lanes b) { return b.v < a.v ? b.v : a.v; }
-  [[gnu::always_inline]] friend Lanes select(Mask condition, Lanes a, Lanes b) { return condition ? a.v : b.v; }
+  [[gnu::always_inline]] friend Lanes select(Mask condition, Lanes a, Lanes b) {
+    return condition ? a.v : b.v;
+  }
   [[gnu::always_inline]] friend Lanes sqrt(Lanes a) {
     for (int i = 0; i < 4; ++i) a.v[i] = kernel::sqrt(a.v[i]);
     return a;

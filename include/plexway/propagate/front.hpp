@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <limits>
 #include <memory>
@@ -35,8 +36,11 @@ template <class Real>
 class DualQueue {
  public:
   DualQueue(FrontStorage& storage, Real step)
-      : near_(storage.near.get()), far_(storage.far.get()), capacity_(storage.capacity),
-        step_(step), limit_(step) {}
+      : near_(storage.near.get()),
+        far_(storage.far.get()),
+        capacity_(storage.capacity),
+        step_(step),
+        limit_(step) {}
 
   /// Adds a simplex if `wanted`. Written to both queues and kept in one: no branch to mispredict.
   [[gnu::always_inline]] void push(Index simplex, Real distance, bool wanted = true) {
@@ -59,6 +63,8 @@ class DualQueue {
         near_end_ = far_end_;
         far_end_ = 0;
         limit_ = std::max(limit_, nearest_far_) + step_;
+        if (!(nearest_far_ < limit_))  // the step drowns in the distance
+          limit_ = std::nextafter(nearest_far_, std::numeric_limits<Real>::infinity());
         nearest_far_ = std::numeric_limits<Real>::infinity();
       }
       simplex = near_[near_begin_];

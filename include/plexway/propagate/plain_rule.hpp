@@ -24,8 +24,11 @@ class PlainRule {
 
   PlainRule(std::span<const TriangleRecord<Real>> triangles, Label* labels, Front& front,
             Visibility policy)
-      : triangles_(triangles.data()), sentinel_(static_cast<Index>(triangles.size() - 1)),
-        labels_(labels), front_(front), policy_(policy) {}
+      : triangles_(triangles.data()),
+        sentinel_(static_cast<Index>(triangles.size() - 1)),
+        labels_(labels),
+        front_(front),
+        policy_(policy) {}
 
   [[nodiscard]] Real distance(Index f) const { return labels_[f].centre; }
   [[nodiscard]] Real distance_or_inf(Index f) const {

@@ -8,11 +8,12 @@ namespace plexway {
 /// its centre, and the saddles nearest to the line of sight on either side.
 ///
 /// All are posed on the edge the path came in by, as (x, h): x along it from its first corner, h >=
-/// 0 away from the triangle. Left is the side of the first corner. A limit that equals S is none.
+/// 0 away from the triangle. Left is the side of the first corner. Limits are kept as offsets from
+/// S: no limit is an offset of 0, which turning keeps exactly 0.
 template <class Real>
 struct SaddleLabel {
-  kernel::Lanes<Real> x;  ///< S, left limit, right limit, sigma (walked from the source to S)
-  kernel::Lanes<Real> h;  ///< S, left limit, right limit, distance of the triangle's centre
+  kernel::Lanes<Real> x;  ///< S, left and right limit from S, sigma (walked to S)
+  kernel::Lanes<Real> h;  ///< S, left and right limit from S, distance of the triangle's centre
 };
 
 }  // namespace plexway

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <span>
@@ -21,8 +22,11 @@ class SaddleRule {
 
   SaddleRule(std::span<const TriangleRecord<Real>> triangles, Label* labels, Front& front,
              bool vectorised)
-      : triangles_(triangles.data()), sentinel_(static_cast<Index>(triangles.size() - 1)),
-        labels_(labels), front_(front), vectorised_(vectorised) {
+      : triangles_(triangles.data()),
+        sentinel_(static_cast<Index>(triangles.size() - 1)),
+        labels_(labels),
+        front_(front),
+        vectorised_(vectorised) {
     labels_[sentinel_].h = kernel::Lanes<Real>(0, 0, 0, -1);  // nothing is nearer: never accepted
   }
 
@@ -32,8 +36,11 @@ class SaddleRule {
   }
 
   [[nodiscard]] Real distance(Index f) const { return labels_[f].h[3]; }
-  [[nodiscard, gnu::always_inline]] Real distance_or_inf(Index f) const {
-    return front_.reached(f) ? distance(f) : std::numeric_limits<Real>::infinity();
+  /// What a label for f must be below. Around a bend all paths are equally long from both sides, so
+  /// rounding would decide which label stays; a gain must be more than that.
+  [[nodiscard, gnu::always_inline]] Real to_beat(Index f) const {
+    constexpr Real gain = Real(1) - Real(16) * std::numeric_limits<Real>::epsilon();
+    return front_.reached(f) ? distance(f) * gain : std::numeric_limits<Real>::infinity();
   }
 
   /// The hot loop's body: pushes the label of triangle f over the two hinges it did not come by.
@@ -53,25 +60,31 @@ class SaddleRule {
     const std::size_t kl = over_left & Across::edge_mask, kr = over_right & Across::edge_mask;
     const TriangleRecord<Real>&tl = triangles_[l], &tr = triangles_[r];
     // Read before anything is accepted: one hinge must not change what the other compares with.
-    const Real known_left = distance_or_inf(l), known_right = distance_or_inf(r);
+    const Real known_left = to_beat(l), known_right = to_beat(r);
     const SaddleStepLanes<Real> step(t, in, left, right, labels_[f], tl.apex_x(kl), tl.apex_h(kl),
                                      tr.apex_x(kr), tr.apex_h(kr));
     const Index source = front_.source(f);
     if (step.left_distance < known_left) {
-      if (step.left_rare()) [[unlikely]] {
-        full(f, left);
-      } else {
-        labels_[l] = step.left_label();
-        front_.accept(l, kl, step.left_distance, source);
+      SaddleLabel<Real> label;
+      if (step.left_rare()) [[unlikely]]
+        label = resolve(step.left_posed(), tl, kl, 0, false);
+      else
+        label = step.left_label();
+      if (label.h[3] < known_left) [[likely]] {
+        labels_[l] = label;
+        front_.accept(l, kl, label.h[3], source);
         prefetch(tl, kl);
       }
     }
     if (step.right_distance < known_right) {
-      if (step.right_rare()) [[unlikely]] {
-        full(f, right);
-      } else {
-        labels_[r] = step.right_label();
-        front_.accept(r, kr, step.right_distance, source);
+      SaddleLabel<Real> label;
+      if (step.right_rare()) [[unlikely]]
+        label = resolve(step.right_posed(), tr, kr, 1, false);
+      else
+        label = step.right_label();
+      if (label.h[3] < known_right) [[likely]] {
+        labels_[r] = label;
+        front_.accept(r, kr, label.h[3], source);
         prefetch(tr, kr);
       }
     }
@@ -79,9 +92,12 @@ class SaddleRule {
 
   /// The full rule over one edge, to every triangle there.
   [[gnu::noinline]] void cross(Index f, std::size_t edge, bool last_resort) {
-    const std::size_t in = front_.hinge(f);
     int pivot = -1;
-    const Posed here = leave(f, in, edge, pivot);
+    const Posed here = leave(f, front_.hinge(f), edge, pivot);
+    cross_posed(f, edge, here, pivot, last_resort);
+  }
+
+  void cross_posed(Index f, std::size_t edge, const Posed& here, int pivot, bool last_resort) {
     const Index start = triangles_[f].across[edge];
     bool flip = (start & Across::flip) != 0;
     const Index source = front_.source(f);
@@ -101,7 +117,7 @@ class SaddleRule {
     const TriangleRecord<Real>& t = triangles_[f];
     const Real x = (t.length[i] + t.apex_x(i)) / 3, h = t.apex_h(i) / 3;
     const Real d = sigma + std::sqrt(x * x + h * h);
-    if (!(d < distance_or_inf(f))) return false;
+    if (!(d < to_beat(f))) return false;
     labels_[f].x = kernel::Lanes<Real>(0, 0, 0, sigma);
     labels_[f].h = kernel::Lanes<Real>(0, 0, 0, d);
     front_.accept(f, i, d, source);
@@ -113,11 +129,18 @@ class SaddleRule {
     const TriangleRecord<Real>& t = triangles_[f];
     const Real dx = (t.length[0] + t.apex_x(0)) / 3 - x, dy = t.apex_h(0) / 3 - y;
     const Real d = sigma + std::sqrt(dx * dx + dy * dy);
-    if (!(d < distance_or_inf(f))) return;
-    labels_[f].x = kernel::Lanes<Real>(x, x, x, sigma);
-    labels_[f].h = kernel::Lanes<Real>(-y, -y, -y, d);
+    if (!(d < to_beat(f))) return;
+    labels_[f].x = kernel::Lanes<Real>(x, 0, 0, sigma);
+    labels_[f].h = kernel::Lanes<Real>(-y, 0, 0, d);
     front_.accept(f, 0, d, source);
-    cross(f, 0, true);  // expansion takes the other two
+    // Expansion would not take edge 0, and would take a source on an edge for one behind it.
+    for (std::size_t edge = 0; edge < 3; ++edge) {
+      int pivot = -1;
+      Posed here = leave(f, 0, edge, pivot);
+      here.source.h = std::max(here.source.h, Real(0));
+      here.limit[0] = here.limit[1] = here.source;
+      cross_posed(f, edge, here, -1, true);
+    }
   }
 
   /// Length of the path to corner i of a reached triangle.
@@ -136,14 +159,17 @@ class SaddleRule {
  private:
   SaddleRule(const TriangleRecord<Real>* triangles, Index sentinel, Label* labels, Front& front,
              bool vectorised)
-      : triangles_(triangles), sentinel_(sentinel), labels_(labels), front_(front),
+      : triangles_(triangles),
+        sentinel_(sentinel),
+        labels_(labels),
+        front_(front),
         vectorised_(vectorised) {}
 
   static Posed posed(const Label& label) {
     Posed p;
     p.source = {{label.x[0]}, label.h[0]};
-    p.limit[0] = {{label.x[1]}, label.h[1]};
-    p.limit[1] = {{label.x[2]}, label.h[2]};
+    p.limit[0] = {{label.x[0] + label.x[1]}, label.h[0] + label.h[1]};
+    p.limit[1] = {{label.x[0] + label.x[2]}, label.h[0] + label.h[2]};
     p.sigma = label.x[3];
     return p;
   }
@@ -171,26 +197,34 @@ class SaddleRule {
     return p;
   }
 
-  void enter(Index g, std::size_t k, Posed label, bool flip, int pivot, bool last_resort, Index source) {
+  void enter(Index g, std::size_t k, Posed label, bool flip, int pivot, bool last_resort,
+             Index source) {
     const TriangleRecord<Real>& t = triangles_[g];
-    const std::size_t after = k == 2 ? 0 : k + 1;
+    if (flip) {
+      std::swap(label.limit[0], label.limit[1]);
+      for (Point* q : {&label.source, &label.limit[0], &label.limit[1]})
+        q->x[0] = t.length[k] - q->x[0];
+      if (pivot >= 0) pivot = 1 - pivot;
+    }
+    const Label entered = resolve(label, t, k, pivot, last_resort);
+    if (!(entered.h[3] < to_beat(g))) return;
+    labels_[g] = entered;
+    front_.accept(g, k, entered.h[3], source);
+  }
+
+  /// The full rule for one triangle beyond.
+  [[gnu::noinline]] static Label resolve(Posed label, const TriangleRecord<Real>& t, std::size_t k,
+                                         int pivot, bool last_resort) {
     SaddleHinge<Real> hinge;
     hinge.length = t.length[k];
     hinge.apex = {{t.apex_x(k)}, t.apex_h(k)};
     hinge.saddle[0] = t.saddle(k);
-    hinge.saddle[1] = t.saddle(after);
-    hinge.pivot = flip && pivot >= 0 ? 1 - pivot : pivot;
-    if (flip) {
-      std::swap(label.limit[0], label.limit[1]);
-      for (Point* q : {&label.source, &label.limit[0], &label.limit[1]})
-        q->x[0] = hinge.length - q->x[0];
-    }
+    hinge.saddle[1] = t.saddle(k == 2 ? 0 : k + 1);
+    hinge.pivot = pivot;
     const Real d = cross_hinge<Real>(label, hinge, last_resort);
-    if (!(d < distance_or_inf(g))) return;
-    labels_[g].x = kernel::Lanes<Real>(label.source.x[0], label.limit[0].x[0],
-                                       label.limit[1].x[0], label.sigma);
-    labels_[g].h = kernel::Lanes<Real>(label.source.h, label.limit[0].h, label.limit[1].h, d);
-    front_.accept(g, k, d, source);
+    const Point &S = label.source, &l = label.limit[0], &r = label.limit[1];
+    return {kernel::Lanes<Real>(S.x[0], l.x[0] - S.x[0], r.x[0] - S.x[0], label.sigma),
+            kernel::Lanes<Real>(S.h, l.h - S.h, r.h - S.h, d)};
   }
 
   // What the neighbours of a triangle come in by edge k will need when its turn comes.

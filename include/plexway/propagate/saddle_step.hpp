@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <limits>
 
 #include <plexway/complex/triangle_record.hpp>
@@ -55,6 +56,21 @@ Real left_of(const typename PosedSaddles<Real>::Point& S,
   return (p.x[0] - S.x[0]) * (S.h + q.h) - (S.h - p.h) * (q.x[0] - S.x[0]);
 }
 
+/// What rounding may do to a coordinate of S posed on the hinge.
+template <class Real>
+Real rounding(const typename PosedSaddles<Real>::Point& S, Real length) {
+  return Real(64) * std::numeric_limits<Real>::epsilon() *
+         (std::abs(S.x[0]) + std::abs(S.h) + length);
+}
+
+/// Does this limit hide the whole hinge? `turn` is its left_of for the hinge's far end, positive if
+/// hidden. Where the limit is that very end, turn is 0 but for rounding, and all else is hidden.
+template <class Real>
+bool hides_hinge(const PosedSaddles<Real>& label, int side, Real length, Real turn) {
+  const auto &S = label.source, &limit = label.limit[side];
+  return turn > -length * rounding<Real>(S, length) && (limit.x[0] != S.x[0] || limit.h != S.h);
+}
+
 template <class Real>
 void give_up_source(PosedSaddles<Real>& label, const typename PosedSaddles<Real>::Point& bend) {
   label.sigma += distance<Real>(label.source, bend);
@@ -96,8 +112,9 @@ Real cross_hinge(PosedSaddles<Real>& label, const SaddleHinge<Real>& hinge, bool
   const Point end[2] = {{{Real(0)}, Real(0)}, {{hinge.length}, Real(0)}};
   for (int bends = 0; bends < 3; ++bends) {
     Point& S = label.source;
-    if (S.h < 0 && hinge.pivot >= 0) {
-      // The strip has turned by more than half a circle around the pivot.
+    if (S.h < -detail::rounding<Real>(S, hinge.length) && hinge.pivot >= 0) {
+      // The strip has turned by more than half a circle around the pivot. (An S in the line of the
+      // hinge, at the pivot for one, is not behind it.)
       const Point& limit = label.limit[hinge.pivot];
       const Real turn = detail::left_of<Real>(S, limit, end[hinge.pivot]);
       if (bends < 2 && (hinge.pivot == 0 ? turn > 0 : turn < 0)) {
@@ -108,8 +125,10 @@ Real cross_hinge(PosedSaddles<Real>& label, const SaddleHinge<Real>& hinge, bool
       detail::give_up_source<Real>(label, end[hinge.pivot]);
       break;
     }
-    const bool left = detail::left_of<Real>(S, label.limit[0], end[1]) > 0;
-    const bool right = detail::left_of<Real>(S, label.limit[1], end[0]) < 0;
+    const bool left = detail::hides_hinge<Real>(label, 0, hinge.length,
+                                                detail::left_of<Real>(S, label.limit[0], end[1]));
+    const bool right = detail::hides_hinge<Real>(label, 1, hinge.length,
+                                                 -detail::left_of<Real>(S, label.limit[1], end[0]));
     if (!left && !right) break;
     detail::give_up_source<Real>(label, Point(label.limit[left ? 0 : 1]));
   }

@@ -38,21 +38,19 @@ class SaddleStepLanes {
     const L sine = (typename L::Vector)((Mask)L(s0, s0, s1, s1).v & ~Mask{sign, sign, sign, sign});
     const Mask saddle = (Mask)L(s0, s2, s1, s2).v < 0;
 
-    // S and the limits from the pivots, turned onto the hinges.
+    // S from the pivots, and the limits from S, turned onto the hinges.
     const L flip(1, 1, -1, -1), mirror(1, -1, 1, -1), from(0, 0, width, width);
     const L off(0, left, 0, right);
-    const auto turn = [&](typename L::Vector x, typename L::Vector h) [[gnu::always_inline]] {
-      const L u = from + flip * L(x);
-      typename Kernel::HingePoint p;
-      p.x[0] = off + mirror * (u * cosine - L(h) * sine);
-      p.h = u * sine + L(h) * cosine;
-      return p;
-    };
     const typename L::Vector x = label.x.v, h = label.h.v;
-    const auto S =
-        turn(__builtin_shufflevector(x, x, 0, 0, 0, 0), __builtin_shufflevector(h, h, 0, 0, 0, 0));
-    const auto limit =
-        turn(__builtin_shufflevector(x, x, 1, 2, 2, 1), __builtin_shufflevector(h, h, 1, 2, 2, 1));
+    const L u = from + flip * L(__builtin_shufflevector(x, x, 0, 0, 0, 0));
+    const L uh = __builtin_shufflevector(h, h, 0, 0, 0, 0);
+    typename Kernel::HingePoint S;
+    S.x[0] = off + mirror * (u * cosine - uh * sine);
+    S.h = u * sine + uh * cosine;
+    const L w = flip * L(__builtin_shufflevector(x, x, 1, 2, 2, 1));
+    const L wh = __builtin_shufflevector(h, h, 1, 2, 2, 1);
+    const L px = mirror * (w * cosine - wh * sine);
+    const L ph = w * sine + wh * cosine, py = -ph;
 
     // The centres beyond.
     constexpr Real third = Real(1. / 3);
@@ -63,7 +61,6 @@ class SaddleStepLanes {
     q.h = L(h0, h0, h1, h1);
 
     // Limits for this probe: the remembered one or, where it is tighter, the hinge's own end.
-    const L px = limit.x[0] - S.x[0], py = S.h - limit.h;
     const Mask loose = px * S.h + py * S.x[0] > L(0);  // the remembered limit is the tighter one
     const L ex = select(loose, px, -S.x[0]), ey = select(loose, py, S.h);
     const L gx = q.x[0] - S.x[0], gy = q.h + S.h;
@@ -75,22 +72,27 @@ class SaddleStepLanes {
     const L sigma = __builtin_shufflevector(x, x, 3, 3, 3, 3);
     const L both = max(way, L(__builtin_shufflevector(way.v, way.v, 1, 0, 3, 2))) + sigma;
     // Behind the hinge, and neither a limit nor the pivot to bend at: dropped.
-    const Mask behind = S.h < L(0);
+    const L rounding =
+        L(Real(64) * std::numeric_limits<Real>::epsilon()) * (abs(S.x[0]) + abs(S.h) + length);
+    const Mask behind = S.h < -rounding;
     const L inf(std::numeric_limits<Real>::infinity());
     const L kept = select(behind & ~(loose | saddle), inf, both);
     left_distance = kept[0];
     right_distance = kept[2];
 
-    const Mask wholly_dark = px * S.h - py * (length - S.x[0]) > L(0);
-    const Mask bends_twice = dark & loose & (Kernel::crossing(limit, q).x[0] < L(0));
+    // As hides_hinge in saddle_step.hpp.
+    const Mask limited = (px.v != 0) | (py.v != 0);
+    const Mask wholly_dark = (px * S.h - py * (length - S.x[0]) > -(length * rounding)) & limited;
+    const Mask bends_twice = dark & loose & ((S.x[0] + px) * q.h + q.x[0] * (S.h + ph) < L(0));
     rare_ = kernel::lane_bits(wholly_dark | bends_twice | behind);
 
     // An end that is a saddle and tighter than the limit takes its place.
     const Mask keep = loose | ~saddle;
     source_ = S;
-    limit_x_ = (typename L::Vector)((Mask)limit.x[0].v & keep);
-    limit_h_ = (typename L::Vector)((Mask)limit.h.v & keep);
-    far_x_ = length - limit_x_;
+    bare_x_ = px;
+    bare_h_ = ph;
+    limit_x_ = select(keep, px, -S.x[0]);
+    limit_h_ = select(keep, ph, -S.h);
     sigma_ = x[3];
   }
 
@@ -102,17 +104,32 @@ class SaddleStepLanes {
 
   /// The label of the triangle beyond, where not rare.
   [[nodiscard, gnu::always_inline]] SaddleLabel<Real> left_label() const {
-    return {L(source_.x[0][0], limit_x_[0], far_x_[1], sigma_),
+    return {L(source_.x[0][0], limit_x_[0], -limit_x_[1], sigma_),
             L(source_.h[0], limit_h_[0], limit_h_[1], left_distance)};
   }
   [[nodiscard, gnu::always_inline]] SaddleLabel<Real> right_label() const {
-    return {L(source_.x[0][3], limit_x_[3], far_x_[2], sigma_),
+    return {L(source_.x[0][3], limit_x_[3], -limit_x_[2], sigma_),
             L(source_.h[3], limit_h_[3], limit_h_[2], right_distance)};
   }
 
+  /// What the full rule starts from, where rare.
+  [[nodiscard, gnu::always_inline]] PosedSaddles<Real> left_posed() const { return posed(0, 1); }
+  [[nodiscard, gnu::always_inline]] PosedSaddles<Real> right_posed() const { return posed(3, 2); }
+
  private:
+  // The lanes of the hinge's first and second end.
+  [[nodiscard, gnu::always_inline]] PosedSaddles<Real> posed(int first, int second) const {
+    PosedSaddles<Real> p;
+    const Real Sx = source_.x[0][first], Sh = source_.h[first];
+    p.source = {{Sx}, Sh};
+    p.limit[0] = {{Sx + bare_x_[first]}, Sh + bare_h_[first]};
+    p.limit[1] = {{Sx - bare_x_[second]}, Sh + bare_h_[second]};
+    p.sigma = sigma_;
+    return p;
+  }
+
   typename Kernel::HingePoint source_;
-  L limit_x_, limit_h_, far_x_;
+  L bare_x_, bare_h_, limit_x_, limit_h_;
   Real sigma_;
   int rare_;
 };

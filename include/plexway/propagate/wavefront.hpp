@@ -17,8 +17,13 @@ class Wavefront {
  public:
   Wavefront(VisitMarks& marks, Front front, Index* source, std::size_t simplices, double unit,
             const PropagateOptions& options)
-      : mark_(marks.data()), current_(marks.current()), front_(front), source_(source),
-        simplices_(simplices), unit_(unit), options_(&options) {}
+      : mark_(marks.data()),
+        current_(marks.current()),
+        front_(front),
+        source_(source),
+        simplices_(simplices),
+        unit_(unit),
+        options_(&options) {}
 
   [[nodiscard, gnu::always_inline]] bool reached(Index s) const { return is_current(mark_[s]); }
   [[nodiscard, gnu::always_inline]] std::size_t hinge(Index s) const {

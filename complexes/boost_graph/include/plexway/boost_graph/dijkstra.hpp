@@ -29,9 +29,13 @@ class EdgeDijkstra {
   EdgeDijkstra(const EdgeDijkstra&) = delete;
   EdgeDijkstra& operator=(const EdgeDijkstra&) = delete;
 
-  /// Distances from one vertex, with the 4-ary heap that Boost brings. Throws UsageError for a
-  /// vertex that is not there. Cost: O(n log n), 60 to 160 ns a vertex.
+  /// Distances from one vertex by the call that Boost documents: dijkstra_shortest_paths with its
+  /// own 4-ary heap and defaults. Throws UsageError for a vertex that is not there. Cost:
+  /// O(n log n), 70 to 200 ns a vertex.
   void run(Index source);
+  /// The same by the fastest of Boost's variants (no colour map, no initialisation of its own):
+  /// 10 to 20 % less time.
+  void run_without_colours(Index source);
   /// What the last run found: one a vertex in the caller's order, +inf where unreached (or before
   /// the first run).
   [[nodiscard]] std::span<const Real> distance() const;
@@ -39,6 +43,8 @@ class EdgeDijkstra {
   [[nodiscard]] std::size_t bytes() const;
 
  private:
+  void check_source(Index source) const;
+
   struct State;
   std::unique_ptr<State> state_;
 };

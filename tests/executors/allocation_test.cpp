@@ -1,0 +1,71 @@
+#include <catch2/catch.hpp>
+
+#include <atomic>
+#include <cstdlib>
+#include <new>
+
+#include "propagate/solving.hpp"
+
+namespace {
+std::atomic<std::size_t> allocations{0};
+
+void* counted(std::size_t size) {
+  ++allocations;
+  if (void* memory = std::malloc(size ? size : 1)) return memory;
+  throw std::bad_alloc();
+}
+}  // namespace
+
+// The library's own, in this program, so that allocations can be counted.
+void* operator new(std::size_t size) { return counted(size); }
+void* operator new[](std::size_t size) { return counted(size); }
+void* operator new(std::size_t size, std::align_val_t align) {
+  ++allocations;
+  const std::size_t unit = static_cast<std::size_t>(align);
+  if (void* memory = std::aligned_alloc(unit, (size + unit - 1) / unit * unit)) return memory;
+  throw std::bad_alloc();
+}
+void* operator new[](std::size_t size, std::align_val_t align) { return operator new(size, align); }
+void operator delete(void* memory) noexcept { std::free(memory); }
+void operator delete[](void* memory) noexcept { std::free(memory); }
+void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
+void operator delete[](void* memory, std::size_t) noexcept { std::free(memory); }
+void operator delete(void* memory, std::align_val_t) noexcept { std::free(memory); }
+void operator delete[](void* memory, std::align_val_t) noexcept { std::free(memory); }
+void operator delete(void* memory, std::size_t, std::align_val_t) noexcept { std::free(memory); }
+void operator delete[](void* memory, std::size_t, std::align_val_t) noexcept { std::free(memory); }
+
+using namespace plexway;
+using namespace plexway::testing;
+
+TEMPLATE_TEST_CASE("a second solve allocates nothing", "", float, double) {
+  const PointSource first[] = {PointSource::at(3)};
+  const PointSource second[] = {PointSource::in(40, {.2, .3, .5})};
+  const PointSource several[] = {PointSource::at(3), PointSource::at(60), PointSource::at(9)};
+  for (const Surface& s : {grid(60, 60), bow_tie(20), sheets(3, 12), moebius(50, 9)}) {
+    const auto mesh = s.mesh<TestType>();
+    for (const Visibility visibility : visibilities)
+      for (const Schedule schedule : schedules) {
+        PropagateOptions options;
+        options.visibility = visibility;
+        options.schedule = schedule;
+        Workspace<TestType> workspace;
+        DistanceField<TestType> field;
+        propagate(Serial{}, mesh, first, options, workspace, field);
+        std::size_t before = allocations;
+        propagate(Serial{}, mesh, first, options, workspace, field);
+        std::size_t spent = allocations - before;
+        CAPTURE(name(options));
+        CHECK(spent == 0);
+        propagate(Serial{}, mesh, several, options, workspace, field);
+        if (schedule == Schedule::priority) continue;  // its heap may grow with the source
+        before = allocations;
+        propagate(Serial{}, mesh, several, options, workspace, field);
+        propagate(Serial{}, mesh, second, options, workspace, field);
+        propagate(Serial{}, mesh, several, options, workspace, field);
+        spent = allocations - before;
+        // The list of labels comes back after a single source had none.
+        CHECK(spent == 0);
+      }
+  }
+}

@@ -1,0 +1,234 @@
+#include <catch2/catch.hpp>
+
+#include "propagate/solving.hpp"
+
+using namespace plexway;
+using namespace plexway::testing;
+
+namespace {
+
+template <class Real>
+constexpr double exact_to = sizeof(Real) == 4 ? 1e-5 : 1e-12;
+
+Position point_of(const Surface& s, Index face, const std::array<double, 3>& b) {
+  Position p{};
+  for (std::size_t i = 0; i < 3; ++i)
+    for (std::size_t d = 0; d < 3; ++d) p[d] += b[i] * s.positions[s.faces[face][i]][d];
+  return p;
+}
+
+}  // namespace
+
+TEMPLATE_TEST_CASE("sources anywhere in a face", "", float, double) {
+  const Surface flat = random_polygon(6, 60, 80, 2);
+  for (const Surface& s : {grid(9, 7), flat, renamed(flat, 4, true, true).surface}) {
+    const auto mesh = s.mesh<TestType>();
+    std::mt19937 random(6);
+    for (int n = 0; n < 60; ++n) {
+      const Index face = below(random, s.faces.size());
+      std::array<double, 3> b = {uniform(random), uniform(random), uniform(random)};
+      if (n % 3 == 1) b[below(random, 3)] = 0;  // on an edge
+      const double sum = b[0] + b[1] + b[2];
+      for (double& x : b) x /= sum;
+      if (n % 3 == 2) {  // at a corner
+        b = {0, 0, 0};
+        b[below(random, 3)] = 1;
+      }
+      for (const Schedule schedule : schedules) {
+        PropagateOptions options;
+        options.schedule = schedule;
+        const Position p = point_of(s, face, b);
+        const std::vector<double> d = solve(mesh, PointSource::in(face, b), options);
+        const std::vector<double> exact = straight(s, p);
+        double worst = 0;
+        for (std::size_t v = 0; v < d.size(); ++v)
+          worst = std::max(worst, std::abs(d[v] - exact[v]) / std::max(exact[v], .05));
+        CAPTURE(n, face, b[0], b[1], b[2], name(options));
+        CHECK(worst <= exact_to<TestType>);
+      }
+    }
+  }
+}
+
+TEMPLATE_TEST_CASE("a corner by its barycentric coordinates is that vertex", "", float, double) {
+  for (const Surface& s : {sphere(2), renamed(cube(4), 2, true, true).surface, moebius(12)}) {
+    const auto mesh = s.mesh<TestType>();
+    for (const Index face : {0u, 17u, 30u})
+      for (std::size_t i = 0; i < 3; ++i) {
+        std::array<double, 3> b{};
+        b[i] = 1;
+        const auto d = solve(mesh, PointSource::in(face, b));
+        const auto e = solve(mesh, PointSource::at(s.faces[face][i]));
+        CHECK(compare(d, e).max <= (sizeof(TestType) == 4 ? 1e-6 : 1e-14));
+        CHECK(d[s.faces[face][i]] == 0);
+      }
+  }
+}
+
+TEMPLATE_TEST_CASE("sources in a face under the other policies", "", float, double) {
+  const Surface s = sphere(3);
+  const auto mesh = s.mesh<TestType>();
+  const std::array<double, 3> b = {.3, .1, .6};
+  Position p = point_of(s, 100, b);
+  const double r = std::hypot(p[0], p[1], p[2]);
+  for (double& c : p) c /= r;
+  const std::vector<double> exact = by_rule(s, [&](const Position& q) {
+    return 2 * std::asin(std::min(1., std::hypot(p[0] - q[0], p[1] - q[1], p[2] - q[2]) / 2));
+  });
+  for (const Visibility visibility : visibilities)
+    for (const Schedule schedule : schedules) {
+      PropagateOptions options;
+      options.visibility = visibility;
+      options.schedule = schedule;
+      const Errors e = compare(solve(mesh, PointSource::in(100, b), options), exact);
+      CAPTURE(name(options), e.mean, e.max);
+      CHECK(e.fits);
+      CHECK(e.mean < 3e-2);
+    }
+}
+
+TEMPLATE_TEST_CASE("the distance at a source is its offset, exactly", "", float, double) {
+  const auto mesh = sphere(3).mesh<TestType>();
+  for (const double offset : {0., 1e-20, .1, 3., 1e4}) {
+    const auto field = propagate(Serial{}, mesh, PointSource{.vertex = 20, .offset = offset});
+    CHECK(field.distance[20] == static_cast<TestType>(offset));
+    const auto plain = propagate(Serial{}, mesh, PointSource::at(20));
+    double worst = 0;
+    for (std::size_t v = 0; v < field.distance.size(); ++v)
+      worst =
+          std::max(worst, std::abs(double(field.distance[v]) - offset - double(plain.distance[v])));
+    CHECK(worst <= (sizeof(TestType) == 4 ? 1e-5 : 1e-12) * (1 + offset));
+  }
+}
+
+TEMPLATE_TEST_CASE("an offset so large that an edge hardly counts beside it", "", float, double) {
+  const Surface s = sphere(2);
+  for (const double offset : {1e9, 1e18}) {
+    const auto field =
+        propagate(Serial{}, s.mesh<TestType>(), PointSource{.vertex = 20, .offset = offset});
+    bool near = true;
+    for (const TestType d : field.distance) near &= std::abs(double(d) / offset - 1) < 1e-6;
+    CHECK(near);
+  }
+}
+
+TEMPLATE_TEST_CASE("a source on a boundary edge or a diagonal sees both sides", "", float, double) {
+  // Where it is rounded to must not count as behind its own edge.
+  const Surface s = grid(9, 7);
+  const auto mesh = s.mesh<TestType>();
+  for (const Index face : {14u, 35u, 44u, 61u, 100u})
+    for (std::size_t i = 0; i < 3; ++i)
+      for (const double at : {.1, .3, .5, .549536, .728666, .955}) {
+        std::array<double, 3> b{};
+        b[i] = at;
+        b[(i + 1) % 3] = 1 - at;
+        for (const Visibility visibility : {Visibility::saddles, Visibility::centroid}) {
+          PropagateOptions options;
+          options.visibility = visibility;
+          const Errors e = compare(solve(mesh, PointSource::in(face, b), options),
+                                   straight(s, point_of(s, face, b)));
+          CAPTURE(face, i, at, name(options));
+          // The plain step keeps squared lengths only: a source on a hinge gets its height as the
+          // root of a rounding error.
+          const bool squared = visibility == Visibility::centroid && sizeof(TestType) == 4;
+          CHECK(e.max <= (squared ? 0.1 : 1e-5));
+        }
+      }
+}
+
+TEMPLATE_TEST_CASE("an unreferenced vertex as source reaches itself only", "", float, double) {
+  Surface s = grid(3, 3);
+  const Index lone = s.add(.5, .5);
+  const auto mesh = s.mesh<TestType>();
+  for (const Visibility visibility : visibilities) {
+    PropagateOptions options;
+    options.visibility = visibility;
+    const auto d = solve(mesh, PointSource::at(lone), options);
+    CHECK(d[lone] == 0);
+    CHECK(std::count_if(d.begin(), d.end(), [](double x) { return std::isinf(x); }) == 16);
+    const PointSource both[] = {PointSource::at(lone), PointSource::at(5)};
+    const auto field = propagate(Serial{}, mesh, both, options);
+    CHECK(field.label[lone] == 0);
+    CHECK(field.label[0] == 1);
+    CHECK(field.distance[lone] == 0);
+  }
+}
+
+TEMPLATE_TEST_CASE("several sources: the nearest one counts, and its label", "", float, double) {
+  Surface s = grid(24, 24);
+  const Index far = s.add(9, 9), b = s.add(10, 9), c = s.add(9, 10);
+  s.triangle(far, b, c);
+  s.add(50, 50);
+  const auto mesh = s.mesh<TestType>();
+  std::mt19937 random(3);
+  for (int n = 0; n < 6; ++n) {
+    std::vector<PointSource> sources;
+    std::vector<Position> places;
+    for (int i = 0; i < 2 + n; ++i) {
+      const Index v = below(random, 625);
+      sources.push_back({.vertex = v, .offset = i % 2 ? .1 * uniform(random) : 0});
+      places.push_back(s.positions[v]);
+    }
+    for (const Schedule schedule : schedules) {
+      PropagateOptions options;
+      options.schedule = schedule;
+      const auto field = propagate(Serial{}, mesh, sources, options);
+      REQUIRE(field.label.size() == s.positions.size());
+      // Exact within a cell; where cells meet, a triangle's centre speaks for its corners.
+      double worst = 0, label_gap = 0;
+      for (std::size_t v = 0; v < 625; ++v) {
+        std::vector<double> d;
+        for (std::size_t i = 0; i < sources.size(); ++i)
+          d.push_back(sources[i].offset + std::hypot(s.positions[v][0] - places[i][0],
+                                                     s.positions[v][1] - places[i][1]));
+        const double least = *std::min_element(d.begin(), d.end());
+        worst = std::max(worst, std::abs(double(field.distance[v]) - least));
+        REQUIRE(field.label[v] < sources.size());
+        label_gap = std::max(label_gap, d[field.label[v]] - least);
+      }
+      CAPTURE(n, name(options));
+      CHECK(worst < 1. / 24);
+      CHECK(label_gap < 1. / 24);
+      for (std::size_t v = 625; v < s.positions.size(); ++v) {
+        CHECK(std::isinf(field.distance[v]));
+        CHECK(field.label[v] == none);
+      }
+    }
+  }
+}
+
+TEMPLATE_TEST_CASE("several sources agree with each alone", "", float, double) {
+  const Surface s = sphere(4);
+  const auto mesh = s.mesh<TestType>();
+  const std::vector<PointSource> sources = {PointSource::at(0), PointSource::in(500, {.2, .5, .3}),
+                                            PointSource::at(900)};
+  for (const Visibility visibility : visibilities) {
+    PropagateOptions options;
+    options.visibility = visibility;
+    const auto field = propagate(Serial{}, mesh, sources, options);
+    std::vector<std::vector<double>> alone;
+    for (const PointSource& source : sources) alone.push_back(solve(mesh, source, options));
+    double worst = 0, sum = 0;
+    for (std::size_t v = 0; v < field.distance.size(); ++v) {
+      const double least = std::min({alone[0][v], alone[1][v], alone[2][v]});
+      const double e = std::abs(double(field.distance[v]) - least);
+      worst = std::max(worst, e);
+      sum += e;
+    }
+    CAPTURE(name(options), sum);
+    CHECK(worst < .06);
+    CHECK(sum / double(field.distance.size()) < 4e-3);
+    CHECK(field.label[0] == 0);
+    CHECK(field.label[900] == 2);
+    for (const Index v : s.faces[500]) CHECK(field.label[v] == 1);
+  }
+}
+
+TEST_CASE("the same source twice: the first is named") {
+  const auto mesh = grid(4, 4).mesh<float>();
+  const PointSource twice[] = {PointSource::at(7), PointSource::at(7)};
+  const auto field = propagate(Serial{}, mesh, twice);
+  CHECK(field.distance[7] == 0);
+  CHECK(field.label[7] == 0);
+  CHECK(propagate(Serial{}, mesh, PointSource::at(7)).label.empty());
+}
