@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <span>
+#include <utility>
 
 #include <plexway/complex/triangle_mesh.hpp>
 #include <plexway/propagate/saddle_rule.hpp>
@@ -12,14 +13,14 @@
 namespace plexway {
 
 /// Distances of the corners of two triangles from the edges their paths came in by: path_length of
-/// saddle_step.hpp for the apexes, and the straight way to the edges' ends where no limit hides
-/// them. Lanes 0 1 are the two sides of one triangle and lanes 2 3 those of the other.
+/// saddle_step.hpp for the apexes, and the same for the ends of the edges. Lanes 0 1 are the two
+/// sides of one triangle and lanes 2 3 those of the other.
 template <class Real>
 struct CornerDistances {
   using L = kernel::Lanes<Real>;
   using Mask = typename L::Mask;
   Real distance[2];
-  L ends;           ///< first and second end of one, first and second of the other; may be +inf
+  L ends;           ///< first and second end of one, first and second of the other
   int bends_twice;  ///< bits 0 1 or 2 3: the full rule is needed
 
   [[gnu::always_inline]] CornerDistances(const SaddleLabel<Real>& a, const SaddleLabel<Real>& b,
@@ -43,8 +44,9 @@ struct CornerDistances {
     const L d = select(dark, bent, sqrt(gx * gx + gy * gy));
     distance[0] = std::max(d[0], d[1]) + ax[3];
     distance[1] = std::max(d[2], d[3]) + bx[3];
-    const L inf(std::numeric_limits<Real>::infinity());
-    ends = select(loose, inf, sqrt(Sx * Sx + Sh * Sh)) + L(ax[3], ax[3], bx[3], bx[3]);
+    const L tx = Sx + px, th = Sh + ph;  // the limit
+    const L hidden = sqrt(px * px + ph * ph) + sqrt(tx * tx + th * th);
+    ends = select(loose, hidden, sqrt(Sx * Sx + Sh * Sh)) + L(ax[3], ax[3], bx[3], bx[3]);
     bends_twice = kernel::lane_bits(dark & loose & ((Sx + px) * qh + qx * (Sh + ph) < L(0)));
   }
 };
@@ -107,6 +109,29 @@ void read_out_corners(std::span<const TriangleRecord<Real>> triangles, const Rul
       if (!(d < workspace.vertex[v])) continue;
       workspace.vertex[v] = d;
       if constexpr (kLabels) workspace.vertex_source[v] = front.source(f);
+    }
+  }
+}
+
+/// No vertex is farther than a neighbour and the edge between. A triangle keeps one label, the best
+/// for its centre, and now and then, at a corner on a ragged boundary, that one is poor.
+template <class Real, bool kLabels>
+void read_out_edges(std::span<const TriangleRecord<Real>> triangles, Workspace<Real>& workspace) {
+  Real* d = workspace.vertex.data();
+  for (std::size_t f = 0; f + 1 < triangles.size(); ++f) {
+    const TriangleRecord<Real>& t = triangles[f];
+    const Real a = d[t.corner[0]], b = d[t.corner[1]], c = d[t.corner[2]];
+    const Real x = t.length[0], y = t.length[1], z = t.length[2];
+    const bool fine = std::abs(a - b) <= x && std::abs(b - c) <= y && std::abs(c - a) <= z;
+    if (fine) [[likely]]
+      continue;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const Index v = t.corner[i], w = t.corner[i == 2 ? 0 : i + 1];
+      for (const auto& [from, to] : {std::pair(v, w), std::pair(w, v)})
+        if (d[from] + t.length[i] < d[to] && d[to] < std::numeric_limits<Real>::infinity()) {
+          d[to] = d[from] + t.length[i];
+          if constexpr (kLabels) workspace.vertex_source[to] = workspace.vertex_source[from];
+        }
     }
   }
 }

@@ -110,7 +110,7 @@ TEST_CASE("an infinite step is first in first out") {
 TEST_CASE("a step too small to move the limit does not stop the queue") {
   FrontStorage storage;
   storage.reserve(3);
-  for (const float distance : {1e9f, 1e30f, std::numeric_limits<float>::infinity()}) {
+  for (const float distance : {1e9f, 1e30f, 3e38f}) {
     DualQueue<float> front(storage, 1);
     front.push(1, distance);
     int asked = 0;
