@@ -45,7 +45,8 @@ struct PropagateOptions {
   std::size_t max_expansions = std::numeric_limits<std::size_t>::max();
   /// Called about every 65536 expansions; returning false stops with Cancelled.
   std::function<bool(const Progress&)> progress;
-  /// false: the plain step for every hinge instead of the vectorised one (same answers; for tests).
+  /// false: the full rule for every hinge, instead of the vectorised step where that is enough. The
+  /// same rule; rounding may choose between equal paths. For tests and benchmarks.
   bool vectorised = true;
 };
 
