@@ -54,7 +54,8 @@ class TrianglePropagation {
     do {
       spread(revivals > 8);
       if (front_.out_of_budget()) return;
-    } while (pass_pinches() || revive(++revivals));
+      ++revivals;
+    } while (pass_pinches() || revive());
   }
 
  private:
@@ -85,6 +86,11 @@ class TrianglePropagation {
     while (wave.next(f, distance_of)) {
       if (rule.distance(f) > radius) [[unlikely]]
         if (rule.distance(f) - longest(triangles_[f]) > radius) continue;
+      if (last_resort) [[unlikely]] {
+        for (std::size_t e = 0; e < 3; ++e)
+          if (e != wave.hinge(f)) full(f, e);
+        continue;
+      }
       rule.expand(f, full);
     }
     front_ = wave;
@@ -122,11 +128,11 @@ class TrianglePropagation {
   }
 
   /// Updates that turn around a vertex where no path bends are dropped. Where that leaves a
-  /// triangle without any label, they are taken after all.
-  bool revive(int times) {
+  /// triangle without any label, they are taken after all; after some rounds of it, everywhere, so
+  /// that rounds end.
+  bool revive() {
     const std::size_t faces = mesh_.face_count();
-    if (front_.reached_count() == faces || radius_ < std::numeric_limits<Real>::infinity() ||
-        times > 64)
+    if (front_.reached_count() == faces || radius_ < std::numeric_limits<Real>::infinity())
       return false;
     const std::size_t before = front_.updates();
     for (Index f = 0; f < faces; ++f) {
