@@ -30,7 +30,7 @@ void check(const TriangleMesh<Real>& mesh, std::span<const PointSource> sources,
       double sum = 0;
       bool inside = true;
       for (const double b : s.barycentric) inside = inside && b >= 0, sum += b;
-      if (!inside || !(std::abs(sum - 1) < 1e-6))
+      if (!inside || s.barycentric[3] != 0 || !(std::abs(sum - 1) < 1e-6))
         throw UsageError("a source's barycentric coordinates must be >= 0 and sum to 1");
     }
     if (!(s.offset >= 0) || !std::isfinite(s.offset))
@@ -59,7 +59,7 @@ void read_out_sources(const TriangleMesh<Real>& mesh, std::span<const PointSourc
     }
     const auto [f, turned] = mesh.inside_face(sources[n].simplex);
     const TriangleRecord<Real>& t = mesh.triangles()[f];
-    std::array<double, 3> b = sources[n].barycentric;
+    std::array<double, 4> b = sources[n].barycentric;
     if (turned) std::swap(b[1], b[2]);
     const double px[3] = {0, static_cast<double>(t.length[0]), static_cast<double>(t.apex_x(0))};
     const double py[3] = {0, 0, static_cast<double>(t.apex_h(0))};

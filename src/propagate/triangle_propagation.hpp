@@ -34,7 +34,7 @@ class TrianglePropagation {
       seed_vertex(mesh_.inside_vertex(source.vertex), sigma, number);
       return;
     }
-    std::array<double, 3> b = source.barycentric;
+    std::array<double, 4> b = source.barycentric;
     const auto [f, turned] = mesh_.inside_face(source.simplex);
     if (turned) std::swap(b[1], b[2]);
     for (int i = 0; i < 3; ++i)
