@@ -20,6 +20,11 @@ struct Across {
 /// Added to TriangleRecord::face where orientation turned the caller's triangle over.
 inline constexpr Index reversed = Index{1} << 31;
 
+/// The edges before and after an edge of a triangle. Without a branch: which edge a path came in by
+/// is as good as random.
+[[nodiscard]] constexpr std::size_t edge_before(std::size_t i) { return 0x12u >> (2 * i) & 3; }
+[[nodiscard]] constexpr std::size_t edge_after(std::size_t i) { return 0x09u >> (2 * i) & 3; }
+
 /// All that propagation reads of one triangle, in one cache line (float). Edge i runs from corner
 /// i to corner i + 1 (mod 3); its apex is corner i + 2. Lengths are in units of the mean edge.
 ///

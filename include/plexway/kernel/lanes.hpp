@@ -50,9 +50,22 @@ struct Lanes {
   [[gnu::always_inline]] friend Lanes& operator+=(Lanes& a, Lanes b) { return a = a + b; }
   [[gnu::always_inline]] friend Mask operator>(Lanes a, Lanes b) { return a.v > b.v; }
   [[gnu::always_inline]] friend Mask operator<(Lanes a, Lanes b) { return a.v < b.v; }
-  [[gnu::always_inline]] friend Lanes abs(Lanes a) { return a.v < 0 ? -a.v : a.v; }
-  [[gnu::always_inline]] friend Lanes max(Lanes a, Lanes b) { return b.v > a.v ? b.v : a.v; }
-  [[gnu::always_inline]] friend Lanes min(Lanes a, Lanes b) { return b.v < a.v ? b.v : a.v; }
+  [[gnu::always_inline]] friend Lanes abs(Lanes a) {
+    constexpr Integer rest = std::numeric_limits<Integer>::max();
+    return (Vector)((Mask)a.v & Mask{rest, rest, rest, rest});
+  }
+  [[gnu::always_inline]] friend Lanes max(Lanes a, Lanes b) {
+#if defined(__SSE2__)
+    if constexpr (sizeof(Real) == 4) return __builtin_ia32_maxps(b.v, a.v);
+#endif
+    return b.v > a.v ? b.v : a.v;
+  }
+  [[gnu::always_inline]] friend Lanes min(Lanes a, Lanes b) {
+#if defined(__SSE2__)
+    if constexpr (sizeof(Real) == 4) return __builtin_ia32_minps(b.v, a.v);
+#endif
+    return b.v < a.v ? b.v : a.v;
+  }
   [[gnu::always_inline]] friend Lanes select(Mask condition, Lanes a, Lanes b) {
     return condition ? a.v : b.v;
   }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <cstddef>
 #include <limits>
@@ -20,7 +21,7 @@ struct FrontStorage {
 
   void reserve(std::size_t simplices) {
     if (capacity > simplices) return;
-    capacity = simplices + 1;
+    capacity = std::bit_ceil(simplices + 1);
     near = std::make_unique_for_overwrite<Index[]>(capacity);
     far = std::make_unique_for_overwrite<Index[]>(capacity);
   }
@@ -79,10 +80,7 @@ class DualQueue {
   }
 
  private:
-  std::size_t advance(std::size_t at, bool by) const {
-    at += by;
-    return at == capacity_ ? 0 : at;
-  }
+  std::size_t advance(std::size_t at, bool by) const { return (at + by) & (capacity_ - 1); }
 
   Index* near_;
   Index* far_;

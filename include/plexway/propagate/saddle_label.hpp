@@ -12,8 +12,11 @@ namespace plexway {
 /// S: no limit is an offset of 0, which turning keeps exactly 0.
 template <class Real>
 struct SaddleLabel {
-  kernel::Lanes<Real> x;  ///< S, left and right limit from S, sigma (walked to S)
-  kernel::Lanes<Real> h;  ///< S, left and right limit from S, distance of the triangle's centre
+  kernel::Lanes<Real> x;  ///< S, sigma (walked to S), left and right limit from S
+  kernel::Lanes<Real> h;  ///< S, distance of the triangle's centre, left and right limit from S
+
+  [[nodiscard, gnu::always_inline]] Real sigma() const { return x[1]; }
+  [[nodiscard, gnu::always_inline]] Real distance() const { return h[1]; }
 };
 
 }  // namespace plexway

@@ -1,9 +1,12 @@
 #pragma once
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <span>
+#include <type_traits>
 
 #include <plexway/complex/triangle_record.hpp>
 #include <plexway/propagate/saddle_label.hpp>
@@ -27,7 +30,7 @@ class SaddleRule {
         labels_(labels),
         front_(front),
         vectorised_(vectorised) {
-    labels_[sentinel_].h = kernel::Lanes<Real>(0, 0, 0, -1);  // nothing is nearer: never accepted
+    labels_[sentinel_].h = kernel::Lanes<Real>(0, -1, 0, 0);  // nothing is nearer: never accepted
   }
 
   /// The same rule on another front, so that a loop can keep its front in registers.
@@ -35,7 +38,7 @@ class SaddleRule {
     return SaddleRule(triangles_, sentinel_, labels_, front, vectorised_);
   }
 
-  [[nodiscard]] Real distance(Index f) const { return labels_[f].h[3]; }
+  [[nodiscard]] Real distance(Index f) const { return labels_[f].distance(); }
   /// What a label for f must be below. Around a bend all paths are equally long from both sides, so
   /// rounding would decide which label stays; a gain must be more than that.
   [[nodiscard, gnu::always_inline]] Real to_beat(Index f) const {
@@ -49,7 +52,7 @@ class SaddleRule {
   [[gnu::always_inline]] void expand(Index f, Full full) const {
     const TriangleRecord<Real>& t = triangles_[f];
     const std::size_t in = front_.hinge(f);
-    const std::size_t left = in == 0 ? 2 : in - 1, right = in == 2 ? 0 : in + 1;
+    const std::size_t left = edge_before(in), right = edge_after(in);
     const Index over_left = t.across[left], over_right = t.across[right];
     if (((over_left | over_right) & Across::special) || !vectorised_) [[unlikely]] {
       full(f, left);
@@ -59,20 +62,23 @@ class SaddleRule {
     const Index l = over_left >> Across::face_shift, r = over_right >> Across::face_shift;
     const std::size_t kl = over_left & Across::edge_mask, kr = over_right & Across::edge_mask;
     const TriangleRecord<Real>&tl = triangles_[l], &tr = triangles_[r];
-    // Read before anything is accepted: one hinge must not change what the other compares with.
-    const Real known_left = to_beat(l), known_right = to_beat(r);
     const SaddleStepLanes<Real> step(t, in, left, right, labels_[f], tl.apex_x(kl), tl.apex_h(kl),
                                      tr.apex_x(kr), tr.apex_h(kr));
+    // Read before anything is accepted: one hinge must not change what the other compares with.
+    // And after the arithmetic, so that it is under way when a branch is mispredicted here.
+    const Real known_left = to_beat(l), known_right = to_beat(r);
     const Index source = front_.source(f);
     if (step.left_distance < known_left) {
       SaddleLabel<Real> label;
       if (step.left_rare()) [[unlikely]]
         label = resolve(step.left_posed(), tl, kl, 0, false);
+      else if (step.left_bent()) [[unlikely]]
+        label = step.bent_label(true, tl, kl);
       else
         label = step.left_label();
-      if (label.h[3] < known_left) [[likely]] {
+      if (label.distance() < known_left) [[likely]] {
         labels_[l] = label;
-        front_.accept(l, kl, label.h[3], source);
+        front_.accept(l, kl, label.distance(), source);
         prefetch(tl, kl);
       }
     }
@@ -80,11 +86,13 @@ class SaddleRule {
       SaddleLabel<Real> label;
       if (step.right_rare()) [[unlikely]]
         label = resolve(step.right_posed(), tr, kr, 1, false);
+      else if (step.right_bent()) [[unlikely]]
+        label = step.bent_label(false, tr, kr);
       else
         label = step.right_label();
-      if (label.h[3] < known_right) [[likely]] {
+      if (label.distance() < known_right) [[likely]] {
         labels_[r] = label;
-        front_.accept(r, kr, label.h[3], source);
+        front_.accept(r, kr, label.distance(), source);
         prefetch(tr, kr);
       }
     }
@@ -118,8 +126,8 @@ class SaddleRule {
     const Real x = (t.length[i] + t.apex_x(i)) / 3, h = t.apex_h(i) / 3;
     const Real d = sigma + std::sqrt(x * x + h * h);
     if (!(d < to_beat(f))) return false;
-    labels_[f].x = kernel::Lanes<Real>(0, 0, 0, sigma);
-    labels_[f].h = kernel::Lanes<Real>(0, 0, 0, d);
+    labels_[f].x = kernel::Lanes<Real>(0, sigma, 0, 0);
+    labels_[f].h = kernel::Lanes<Real>(0, d, 0, 0);
     front_.accept(f, i, d, source);
     return true;
   }
@@ -130,8 +138,8 @@ class SaddleRule {
     const Real dx = (t.length[0] + t.apex_x(0)) / 3 - x, dy = t.apex_h(0) / 3 - y;
     const Real d = sigma + std::sqrt(dx * dx + dy * dy);
     if (!(d < to_beat(f))) return;
-    labels_[f].x = kernel::Lanes<Real>(x, 0, 0, sigma);
-    labels_[f].h = kernel::Lanes<Real>(-y, 0, 0, d);
+    labels_[f].x = kernel::Lanes<Real>(x, sigma, 0, 0);
+    labels_[f].h = kernel::Lanes<Real>(-y, d, 0, 0);
     front_.accept(f, 0, d, source);
     // Expansion would not take edge 0, and would take a source on an edge for one behind it.
     for (std::size_t edge = 0; edge < 3; ++edge) {
@@ -168,9 +176,9 @@ class SaddleRule {
   static Posed posed(const Label& label) {
     Posed p;
     p.source = {{label.x[0]}, label.h[0]};
-    p.limit[0] = {{label.x[0] + label.x[1]}, label.h[0] + label.h[1]};
-    p.limit[1] = {{label.x[0] + label.x[2]}, label.h[0] + label.h[2]};
-    p.sigma = label.x[3];
+    p.limit[0] = {{label.x[0] + label.x[2]}, label.h[0] + label.h[2]};
+    p.limit[1] = {{label.x[0] + label.x[3]}, label.h[0] + label.h[3]};
+    p.sigma = label.sigma();
     return p;
   }
 
@@ -207,9 +215,9 @@ class SaddleRule {
       if (pivot >= 0) pivot = 1 - pivot;
     }
     const Label entered = resolve(label, t, k, pivot, last_resort);
-    if (!(entered.h[3] < to_beat(g))) return;
+    if (!(entered.distance() < to_beat(g))) return;
     labels_[g] = entered;
-    front_.accept(g, k, entered.h[3], source);
+    front_.accept(g, k, entered.distance(), source);
   }
 
   /// The full rule for one triangle beyond.
@@ -223,8 +231,8 @@ class SaddleRule {
     hinge.pivot = pivot;
     const Real d = cross_hinge<Real>(label, hinge, last_resort);
     const Point &S = label.source, &l = label.limit[0], &r = label.limit[1];
-    return {kernel::Lanes<Real>(S.x[0], l.x[0] - S.x[0], r.x[0] - S.x[0], label.sigma),
-            kernel::Lanes<Real>(S.h, l.h - S.h, r.h - S.h, d)};
+    return {kernel::Lanes<Real>(S.x[0], label.sigma, l.x[0] - S.x[0], r.x[0] - S.x[0]),
+            kernel::Lanes<Real>(S.h, d, l.h - S.h, r.h - S.h)};
   }
 
   // What the neighbours of a triangle come in by edge k will need when its turn comes.

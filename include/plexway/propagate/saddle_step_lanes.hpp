@@ -13,8 +13,8 @@ namespace plexway {
 /// left limit is the mirror image of the right one, so even lanes hold the pivot's side and odd
 /// lanes the far side, each with x measured from its own end.
 ///
-/// Only what is common is done here: neither source nor limit given up, at most one bend. `rare`
-/// says which hinges need the full rule.
+/// Only what is common is done for all: neither source nor limit given up, at most one bend. `bent`
+/// says where that is not so (`bent_label` sees to it), `rare` which hinges need the full rule.
 template <class Real>
 class SaddleStepLanes {
  public:
@@ -47,8 +47,8 @@ class SaddleStepLanes {
     typename Kernel::HingePoint S;
     S.x[0] = off + mirror * (u * cosine - uh * sine);
     S.h = u * sine + uh * cosine;
-    const L w = flip * L(__builtin_shufflevector(x, x, 1, 2, 2, 1));
-    const L wh = __builtin_shufflevector(h, h, 1, 2, 2, 1);
+    const L w = flip * L(__builtin_shufflevector(x, x, 2, 3, 3, 2));
+    const L wh = __builtin_shufflevector(h, h, 2, 3, 3, 2);
     const L px = mirror * (w * cosine - wh * sine);
     const L ph = w * sine + wh * cosine, py = -ph;
 
@@ -69,7 +69,7 @@ class SaddleStepLanes {
     const L straight = sqrt(gx * gx + gy * gy);
     const L bent = sqrt(ex * ex + ey * ey) + sqrt(bx * bx + by * by);
     const L way = select(dark, bent, straight);
-    const L sigma = __builtin_shufflevector(x, x, 3, 3, 3, 3);
+    const L sigma = __builtin_shufflevector(x, x, 1, 1, 1, 1);
     const L both = max(way, L(__builtin_shufflevector(way.v, way.v, 1, 0, 3, 2))) + sigma;
     // Behind the hinge, and neither a limit nor the pivot to bend at: dropped.
     const L rounding =
@@ -84,16 +84,22 @@ class SaddleStepLanes {
     const Mask limited = (px.v != 0) | (py.v != 0);
     const Mask wholly_dark = (px * S.h - py * (length - S.x[0]) > -(length * rounding)) & limited;
     const Mask bends_twice = dark & loose & ((S.x[0] + px) * q.h + q.x[0] * (S.h + ph) < L(0));
-    rare_ = kernel::lane_bits(wholly_dark | bends_twice | behind);
+    const Mask far_side = {0, -1, 0, -1};
+    rare_ = kernel::lane_bits((wholly_dark & far_side) | behind);
+    bent_ = kernel::lane_bits(wholly_dark | bends_twice);
+    wholly_dark_ = kernel::lane_bits(wholly_dark);
+    saddle_ = kernel::lane_bits(saddle);
 
-    // An end that is a saddle and tighter than the limit takes its place.
+    // An end that is a saddle and tighter than the limit takes its place. `along` makes all x run
+    // from the hinge's first end.
+    const L along(1, -1, -1, 1);
     const Mask keep = loose | ~saddle;
     source_ = S;
     bare_x_ = px;
     bare_h_ = ph;
-    limit_x_ = select(keep, px, -S.x[0]);
+    limit_x_ = along * select(keep, px, -S.x[0]);
     limit_h_ = select(keep, ph, -S.h);
-    sigma_ = x[3];
+    sigma_ = x[1];
   }
 
   /// Of the centre beyond, where not rare.
@@ -101,15 +107,56 @@ class SaddleStepLanes {
 
   [[nodiscard, gnu::always_inline]] bool left_rare() const { return rare_ & 3; }
   [[nodiscard, gnu::always_inline]] bool right_rare() const { return rare_ & 12; }
+  [[nodiscard, gnu::always_inline]] bool left_bent() const { return bent_ & 3; }
+  [[nodiscard, gnu::always_inline]] bool right_bent() const { return bent_ & 12; }
+
+  /// The label of the triangle beyond where the pivot's limit hides all of the hinge, or the path
+  /// to the centre bends twice; not where rare. `t` and `k` are that triangle and its edge.
+  [[nodiscard, gnu::noinline]] SaddleLabel<Real> bent_label(bool left,
+                                                            const TriangleRecord<Real>& t,
+                                                            std::size_t k) const {
+    const int i = left ? 0 : 2, j = i + 1;  // the lanes of the pivot's side and of the far side
+    const Real length = t.length[k];
+    const Real c = (length + t.apex_x(k)) * Real(1. / 3), qh = t.apex_h(k) * Real(1. / 3);
+    const Real qx = left ? c : length - c, fx = length - qx;
+    Real Sx = source_.x[0][i], Sh = source_.h[i], sigma = sigma_;
+    Real px = bare_x_[i], ph = bare_h_[i], rx = bare_x_[j], rh = bare_h_[j], d;
+    const auto norm = [](Real x, Real y) { return kernel::sqrt(x * x + y * y); };
+    if (wholly_dark_ >> i & 1) {
+      sigma += norm(px, ph);
+      Sx += px, Sh += ph;
+      const bool bends_here = saddle_ >> i & 1, bends_there = saddle_ >> j & 1;
+      px = bends_here ? -Sx : Real(0), ph = bends_here ? -Sh : Real(0);
+      rx = bends_there ? Sx - length : Real(0), rh = bends_there ? -Sh : Real(0);
+      if (Sx * qh + qx * Sh < Real(0))
+        d = norm(Sx, Sh) + norm(qx, qh);
+      else if ((length - Sx) * qh + fx * Sh < Real(0))
+        d = norm(length - Sx, Sh) + norm(fx, qh);
+      else
+        d = norm(qx - Sx, qh + Sh);
+    } else {
+      const Real tx = Sx + px, ux = length - Sx + rx, th = Sh + ph, uh = Sh + rh;
+      d = Real(0);
+      if (bent_ >> i & 1) d = norm(px, ph) + norm(tx, th) + norm(qx, qh);
+      if (bent_ >> j & 1) d = std::max(d, norm(rx, rh) + norm(ux, uh) + norm(fx, qh));
+      px = limit_x_[i] * (left ? Real(1) : Real(-1)), ph = limit_h_[i];
+      rx = limit_x_[j] * (left ? Real(-1) : Real(1)), rh = limit_h_[j];
+    }
+    d += sigma;
+    if (left) return {L(Sx, sigma, px, -rx), L(Sh, d, ph, rh)};
+    return {L(length - Sx, sigma, rx, -px), L(Sh, d, rh, ph)};
+  }
 
   /// The label of the triangle beyond, where not rare.
   [[nodiscard, gnu::always_inline]] SaddleLabel<Real> left_label() const {
-    return {L(source_.x[0][0], limit_x_[0], -limit_x_[1], sigma_),
-            L(source_.h[0], limit_h_[0], limit_h_[1], left_distance)};
+    return {
+        L(__builtin_shufflevector(L(source_.x[0][0], sigma_, 0, 0).v, limit_x_.v, 0, 1, 4, 5)),
+        L(__builtin_shufflevector(L(source_.h[0], left_distance, 0, 0).v, limit_h_.v, 0, 1, 4, 5))};
   }
   [[nodiscard, gnu::always_inline]] SaddleLabel<Real> right_label() const {
-    return {L(source_.x[0][3], limit_x_[3], -limit_x_[2], sigma_),
-            L(source_.h[3], limit_h_[3], limit_h_[2], right_distance)};
+    return {L(__builtin_shufflevector(L(source_.x[0][3], sigma_, 0, 0).v, limit_x_.v, 0, 1, 7, 6)),
+            L(__builtin_shufflevector(L(source_.h[3], right_distance, 0, 0).v, limit_h_.v, 0, 1, 7,
+                                      6))};
   }
 
   /// What the full rule starts from, where rare.
@@ -131,7 +178,7 @@ class SaddleStepLanes {
   typename Kernel::HingePoint source_;
   L bare_x_, bare_h_, limit_x_, limit_h_;
   Real sigma_;
-  int rare_;
+  int rare_, bent_, wholly_dark_, saddle_;
 };
 
 }  // namespace plexway
