@@ -184,26 +184,46 @@ class SolidRule {
   /// The same with a bend at a limit.
   [[nodiscard]] Reach reach_by(const Label& label, int limit, const Point& q) const {
     const ReflexEdge<Real>& edge = reflex_[label.limit[limit]];
-    Point before = reach(label, q).eye;
-    Point b = bend_point(edge, before, q);
-    if (label.ring != none) {
-      before = reach(label, b).eye;
-      b = bend_point(edge, before, q);
-    }
+    Point b = bend_point(edge, reach(label, q).eye, q);
+    if (label.ring != none) b = bend_point(edge, reach(label, b).eye, q);
     return {b, reach(label, b).length + norm(q - b), limit};
+  }
+
+  /// The same with a bend at limit `first` and then at the other.
+  [[nodiscard]] Reach reach_by_both(const Label& label, int first, const Point& q) const {
+    const ReflexEdge<Real>& two = reflex_[label.limit[1 - first]];
+    Point c = bend_point(two, reach_by(label, first, q).eye, q), b = c;
+    for (int i = 0; i < 2; ++i) {
+      b = reach_by(label, first, c).eye;
+      c = bend_point(two, b, q);
+    }
+    const Reach there = reach_by(label, first, c);
+    return {c, there.length + norm(q - c), first};
+  }
+
+  [[nodiscard]] bool hides(const Label& label, int limit, const Point& eye, const Point& q) const {
+    return label.limit[limit] != none &&
+           shade(reflex_[label.limit[limit]], eye, q, slack).dark;
   }
 
   /// The path with what hides q.
   [[nodiscard]] Reach measure(const Label& label, const Point& q) const {
     const Reach straight = reach(label, q);
-    Reach longest = straight;
-    for (int k = 0; k < 2; ++k) {
-      if (label.limit[k] == none) break;
-      if (!shade(reflex_[label.limit[k]], straight.eye, q, slack).dark) continue;
-      const Reach bent = reach_by(label, k, q);
-      if (bent.length > longest.length) longest = bent;
+    if (label.limit[0] == none) return straight;
+    const bool dark[2] = {hides(label, 0, straight.eye, q), hides(label, 1, straight.eye, q)};
+    if (!dark[0] && !dark[1]) return straight;
+    int k = dark[0] ? 0 : 1;
+    Reach bent = reach_by(label, k, q);
+    if (label.limit[1] == none) return bent;
+    if (dark[0] && dark[1]) {
+      const Reach other = reach_by(label, 1, q);
+      if (other.length > bent.length) bent = other, k = 1;
     }
-    return longest;
+    // The way to the bend may be hidden itself, or the way on.
+    if (hides(label, 1 - k, reach(label, bent.eye).eye, bent.eye))
+      return reach_by_both(label, 1 - k, q);
+    if (hides(label, 1 - k, bent.eye, q)) return reach_by_both(label, k, q);
+    return bent;
   }
 
   /// Bends at a limit for good.
@@ -225,33 +245,31 @@ class SolidRule {
                                const Point& c) const {
     for (const Point* p : {&a, &b, &c}) {
       const Shade<Real> s = shade(reflex_[edge], eye, *p, slack);
-      if (s.light > Real(1e-4) || s.beyond < Real(0.999)) return false;
+      if (s.light > Real(1e-4)) return false;
     }
     return true;
   }
 
+  struct Candidates {
+    Index edge[16];
+    int count = 0;
+    void add(Index e) {
+      if (e == none || count == 16) return;
+      for (int i = 0; i < count; ++i)
+        if (edge[i] == e) return;
+      edge[count++] = e;
+    }
+  };
+
   /// Chooses which edges the label remembers for q in u: its own, those of t, and those of
   /// neighbours of u that look at the same scene.
   void gather(Index t, Index u, Label& label, const Point& q) const {
-    Index chosen[2] = {none, none};
-    Real key[2] = {std::numeric_limits<Real>::infinity(), std::numeric_limits<Real>::infinity()};
-    const Point eye = reach(label, q).eye;
-    const auto consider = [&](Index edge) {
-      if (edge == none || edge == label.ring || edge == chosen[0] || edge == chosen[1]) return;
-      const Shade<Real> s = shade(reflex_[edge], eye, q, slack);
-      const Real k = s.dark ? Real(-1) / (1 + s.angle2) : s.angle2;
-      if (k < key[0]) {
-        key[1] = key[0], chosen[1] = chosen[0];
-        key[0] = k, chosen[0] = edge;
-      } else if (k < key[1]) {
-        key[1] = k, chosen[1] = edge;
-      }
-    };
-    consider(label.limit[0]);
-    consider(label.limit[1]);
+    Candidates found;
+    found.add(label.limit[0]);
+    found.add(label.limit[1]);
     if (Index e = tets_[t].reflex; e != none)
       for (;; ++e) {
-        consider(list_[e] >> ReflexEntry::edge_shift);
+        found.add(list_[e] >> ReflexEntry::edge_shift);
         if (list_[e] & ReflexEntry::last) break;
       }
     if (u != sentinel_)
@@ -260,13 +278,41 @@ class SolidRule {
         if (v == t || v == sentinel_ || !front_->reached(v)) continue;
         const Label& other = labels_[v];
         if (other.path == label.path) {
-          consider(other.limit[0]);
-          consider(other.limit[1]);
+          found.add(other.limit[0]);
+          found.add(other.limit[1]);
         } else if (other.ring != none &&
                    SolidPath::before(other.path, other.ring) == label.path) {
-          consider(other.ring);
+          found.add(other.ring);
         }
       }
+    Point eye = reach(label, q).eye;
+    // An edge that hides the ring itself comes before it.
+    if (label.ring != none)
+      for (int i = 0; i < found.count; ++i) {
+        const Index edge = found.edge[i];
+        if (edge == label.ring || !shade(reflex_[edge], label.source, eye, slack).dark) continue;
+        label.path = SolidPath::bent(SolidPath::before(label.path, label.ring), edge);
+        found.edge[i] = label.ring;
+        label.ring = edge;
+        eye = reach(label, q).eye;
+      }
+    Index chosen[2] = {none, none};
+    const auto choose = [&](int place) {
+      Real least = std::numeric_limits<Real>::infinity();
+      for (int i = 0; i < found.count; ++i) {
+        const Index edge = found.edge[i];
+        if (edge == label.ring || edge == chosen[0]) continue;
+        const Shade<Real> s = shade(reflex_[edge], eye, q, slack);
+        const Real key = s.dark ? Real(-1) / (1 + s.close2) : s.close2;
+        if (key < least) least = key, chosen[place] = edge;
+      }
+      return least;
+    };
+    const bool dark = choose(0) < 0;
+    label.limit[0] = chosen[0];
+    label.limit[1] = none;
+    if (dark) eye = reach_by(label, 0, q).eye;  // what else is in the way is so from there
+    choose(1);
     label.limit[0] = chosen[0];
     label.limit[1] = chosen[1];
   }

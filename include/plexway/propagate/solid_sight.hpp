@@ -33,13 +33,12 @@ Vector3<Real> bend_point(const ReflexEdge<Real>& e, const Vector3<Real>& p,
   return bend_point(e.end[0], e.end[1], p, q);
 }
 
-/// How a line of sight from an eye to q passes a reflex edge.
+/// How the line of sight from an eye to q passes a reflex edge.
 template <class Real>
 struct Shade {
-  bool dark = false;     ///< q is behind it
-  Real light = 0;        ///< sine of the angle by which q is out of its shadow; < 0: in it
-  Real beyond = 0;       ///< q's distance over the edge's, along the line of sight
-  Real angle2 = std::numeric_limits<Real>::infinity();  ///< how closely it passes, squared
+  bool dark = false;  ///< the edge hides q: the way there bends at it
+  Real light = 0;     ///< sine of the angle by which q is out of its shadow; < 0: in it
+  Real close2 = std::numeric_limits<Real>::infinity();  ///< how closely it passes: an angle, squared
 };
 
 /// `slack`: how far beyond the edge's ends it still hides, in lengths of the edge.
@@ -47,24 +46,33 @@ template <class Real>
 Shade<Real> shade(const ReflexEdge<Real>& edge, const Vector3<Real>& eye, const Vector3<Real>& q,
                   Real slack) {
   Shade<Real> s;
-  const Vector3<Real> a = edge.end[0] - eye, b = edge.end[1] - eye, g = q - eye;
-  const Vector3<Real> n = cross(a, b);
-  const Real nn = dot(n, n), gg = dot(g, g);
-  constexpr Real tiny = solid_rounding<Real>;
-  if (!(nn > tiny * tiny * dot(a, a) * dot(b, b)) || !(gg > 0)) return s;  // end on
-  // Facing both sides of the edge: it hides nothing.
-  if (std::max(dot(a, edge.normal[0]), dot(a, edge.normal[1])) < 0) return s;
+  constexpr Real tiny = solid_rounding<Real>, behind = 1024 * tiny;
+  const Vector3<Real> a = edge.end[0] - eye, b = edge.end[1] - eye, g = q - eye, u = b - a;
+  const Vector3<Real> n = cross(a, u);
+  const Real nn = dot(n, n), gg = dot(g, g), uu = dot(u, u);
+  if (!(nn > tiny * tiny * dot(a, a) * uu) || !(gg > 0)) return s;  // end on
+  // In front of both sides of the edge an eye has nothing hidden from it, and behind both it does
+  // not see the edge.
+  const Real eye0 = -dot(a, edge.normal[0]), eye1 = -dot(a, edge.normal[1]);
+  if (std::min(eye0, eye1) > 0 || std::max(eye0, eye1) < -behind) return s;
   const Real across = dot(n, edge.normal[0] + edge.normal[1]);  // the solid is there
   const Real h = dot(n, g) / std::sqrt(nn * gg);
   s.light = across > 0 ? h : -h;
-  const Real alpha = dot(cross(g, b), n), beta = dot(cross(a, g), n), sum = alpha + beta;
-  s.beyond = sum / nn;
-  if (!(s.beyond > tiny)) return s;
-  const Real at = beta / sum;
-  const Vector3<Real> m = a + std::clamp(at, Real(0), Real(1)) * (b - a);
-  const Vector3<Real> off = Real(1) / s.beyond * g - m;
-  s.angle2 = dot(off, off) / dot(m, m);
-  s.dark = s.light < -tiny && s.beyond > 1 && at > -slack && at < 1 + slack;
+  // Where the path over the edge would bend, by unfolding.
+  const Vector3<Real> aq = q - edge.end[0];
+  const Real xp = -dot(a, u) / uu, xq = dot(aq, u) / uu;
+  const Vector3<Real> oq = aq - xq * u;
+  const Real hp = std::sqrt(nn / uu), hq = norm(oq);
+  const Real x = (xp * hq + xq * hp) / (hp + hq);
+  const Real outside = std::max(std::max(-x, x - 1), Real(0));
+  const Real at = std::clamp(x, Real(0), Real(1));
+  const Vector3<Real> m = a + at * u;
+  s.close2 = h * h + outside * outside * uu / dot(m, m);
+  // Hidden, unless q is before the obstacle rather than behind.
+  const Real q0 = dot(aq, edge.normal[0]), q1 = dot(aq, edge.normal[1]);
+  const Real front = eye0 > eye1 ? q0 : q1, back = eye0 > eye1 ? q1 : q0;
+  const bool before = back <= tiny && front >= -tiny;
+  s.dark = s.light < -tiny && !before && outside <= slack;
   return s;
 }
 
