@@ -51,6 +51,19 @@ class WirePropagation {
     if (b[0] != 1) seed_vertex(edge.to, sigma + b[0] * length, number, front);
   }
 
+  /// A path of this length ends at a vertex (number inside); false if it knows a better one.
+  template <class Front>
+  bool seed_vertex(Index v, double distance, Index number, Front& front) {
+    const Real sigma = static_cast<Real>(distance), known = label_[v];
+    if (!(sigma < std::abs(known))) return false;
+    label_[v] = -sigma;
+    if constexpr (kLabels) source_[v] = number;
+    front.push(v, sigma, !std::signbit(known));
+    ++updates_;
+    reached_ += known == infinity;
+    return true;
+  }
+
   /// Until no label waits or the budget is spent. False, with labels still waiting, if it took more
   /// than `patience` looks along an edge. Throws Cancelled.
   template <class Front>
@@ -107,6 +120,11 @@ class WirePropagation {
       if (std::signbit(label_[v])) front.push(static_cast<Index>(v), -label_[v]);
   }
 
+  [[nodiscard]] bool out_of_budget() const { return out_of_budget_; }
+  [[nodiscard]] PropagateStatistics statistics() const {
+    return {granted_ - left_, updates_, reached_};
+  }
+
   void read_out(std::span<const PointSource> sources, DistanceField<Real>& field) const {
     const std::size_t n = wireframe_.vertex_count();
     field.distance.resize(n);
@@ -125,21 +143,10 @@ class WirePropagation {
       if (s.vertex != none && s.offset <= options_.radius)
         field.distance[s.vertex] = std::min(field.distance[s.vertex], static_cast<Real>(s.offset));
     field.complete = !out_of_budget_;
-    field.statistics = {granted_ - left_, updates_, reached_};
+    field.statistics = statistics();
   }
 
  private:
-  template <class Front>
-  void seed_vertex(Index v, double distance, Index number, Front& front) {
-    const Real sigma = static_cast<Real>(distance), known = label_[v];
-    if (!(sigma < std::abs(known))) return;
-    label_[v] = -sigma;
-    if constexpr (kLabels) source_[v] = number;
-    front.push(v, sigma, !std::signbit(known));
-    ++updates_;
-    reached_ += known == infinity;
-  }
-
   /// Grants the next share of the budget and reports progress; false if the budget is spent.
   bool take_stock(Real distance) {
     if (options_.progress && granted_ > 0 &&
@@ -147,7 +154,8 @@ class WirePropagation {
                             static_cast<double>(distance) * wireframe_.unit()}))
       throw Cancelled("cancelled by the progress callback");
     constexpr std::size_t share = 65536;
-    left_ = std::min(share, options_.max_expansions - granted_);
+    left_ = granted_ < options_.max_expansions ? std::min(share, options_.max_expansions - granted_)
+                                               : 0;
     granted_ += left_;
     out_of_budget_ = left_ == 0;
     return !out_of_budget_;

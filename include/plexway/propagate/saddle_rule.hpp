@@ -102,13 +102,13 @@ class SaddleRule {
   [[gnu::noinline]] void cross(Index f, std::size_t edge, bool last_resort) {
     int pivot = -1;
     const Posed here = leave(f, front_.hinge(f), edge, pivot);
-    cross_posed(f, edge, here, pivot, last_resort);
+    cross_posed(f, edge, here, pivot, last_resort, front_.source(f));
   }
 
-  void cross_posed(Index f, std::size_t edge, const Posed& here, int pivot, bool last_resort) {
+  void cross_posed(Index f, std::size_t edge, const Posed& here, int pivot, bool last_resort,
+                   Index source) {
     const Index start = triangles_[f].across[edge];
     bool flip = (start & Across::flip) != 0;
-    const Index source = front_.source(f);
     for (Index across = start;;) {
       const Index g = across >> Across::face_shift;
       const std::size_t k = across & Across::edge_mask;
@@ -147,7 +147,7 @@ class SaddleRule {
       Posed here = leave(f, 0, edge, pivot);
       here.source.h = std::max(here.source.h, Real(0));
       here.limit[0] = here.limit[1] = here.source;
-      cross_posed(f, edge, here, -1, true);
+      cross_posed(f, edge, here, -1, true, front_.source(f));
     }
   }
 
@@ -163,6 +163,86 @@ class SaddleRule {
   }
 
   [[nodiscard]] const Label& label(Index f) const { return labels_[f]; }
+
+  // What follows is for simplices of other complexes that share an edge or all of a triangle.
+
+  /// The source of f as seen from one of its edges, x from the edge's first corner: behind the bend
+  /// where the middle of the edge is in shadow. Limits are dropped.
+  [[nodiscard]] Posed seen_from(Index f, std::size_t edge) const {
+    const TriangleRecord<Real>& t = triangles_[f];
+    const std::size_t in = front_.hinge(f);
+    int pivot = -1;
+    Posed p = posed(labels_[f]);
+    const bool from_inside = edge != in || p.source.h < 0;
+    if (from_inside) p = leave(f, in, edge, pivot);
+    SaddleHinge<Real> middle;  // a triangle without area: its apex is the edge's middle
+    middle.length = t.length[edge];
+    middle.apex = {{t.length[edge] / 2}, Real(0)};
+    middle.saddle[0] = middle.saddle[1] = false;
+    middle.pivot = pivot;
+    cross_hinge<Real>(p, middle, true);
+    const bool left = detail::left_of<Real>(p.source, p.limit[0], middle.apex) > 0;
+    const bool right = detail::left_of<Real>(p.source, p.limit[1], middle.apex) < 0;
+    if (left || right) detail::give_up_source<Real>(p, Point(p.limit[left ? 0 : 1]));
+    p.source.h = std::max(p.source.h, Real(0));
+    if (from_inside) p.source.x[0] = t.length[edge] - p.source.x[0];
+    p.limit[0] = p.limit[1] = p.source;
+    return p;
+  }
+
+  /// The source of f as its centre sees it, posed on the edge that f's label came in by.
+  [[nodiscard]] Posed seen_from_centre(Index f) const {
+    const TriangleRecord<Real>& t = triangles_[f];
+    const std::size_t in = front_.hinge(f);
+    const Real length = t.length[in];
+    Posed p = posed(labels_[f]);
+    const Point q = {{(length + t.apex_x(in)) / 3}, t.apex_h(in) / 3};
+    const bool left = detail::left_of<Real>(p.source, p.limit[0], q) > 0;
+    const bool right = detail::left_of<Real>(p.source, p.limit[1], q) < 0;
+    if (left || right) detail::give_up_source<Real>(p, Point(p.limit[left ? 0 : 1]));
+    const auto c = Posed::Kernel::crossing(p.source, q);
+    if (p.source.h >= 0 && (c.x[0] < 0 || c.x[0] > length * c.w))
+      detail::give_up_source<Real>(p, {{c.x[0] < 0 ? Real(0) : length}, Real(0)});
+    return p;
+  }
+
+  /// A source comes over edge k of f from elsewhere, (x, h) on the far side, x from its first
+  /// corner.
+  bool enter_over(Index f, std::size_t k, Real x, Real h, Real sigma, Index source) {
+    Posed p;
+    p.source = p.limit[0] = p.limit[1] = {{x}, h};
+    p.sigma = sigma;
+    const std::size_t before = front_.updates();
+    enter(f, k, p, false, -1, true, source);
+    return front_.updates() != before;
+  }
+
+  /// A source lies at height h over (x, y) of f, y over its edge 0: the neighbours see it over
+  /// the edges; f itself gets the way by its best corner.
+  bool enter_from_above(Index f, Real x, Real y, Real h, Real sigma, Index source) {
+    const TriangleRecord<Real>& t = triangles_[f];
+    const std::size_t before = front_.updates();
+    const Real cx[3] = {0, t.length[0], t.apex_x(0)}, cy[3] = {0, 0, t.apex_h(0)};
+    for (std::size_t i = 0; i < 3; ++i) {
+      const Real d2 = (cx[i] - x) * (cx[i] - x) + (cy[i] - y) * (cy[i] - y) + h * h;
+      seed_corner(f, i, sigma + std::sqrt(d2), source);
+    }
+    if (!front_.reached(f)) return false;
+    for (std::size_t edge = 0; edge < 3; ++edge) {
+      const std::size_t i = edge, j = edge == 2 ? 0 : edge + 1;
+      const Real length = t.length[edge];
+      if (!(length > 0)) continue;
+      const Real ux = (cx[j] - cx[i]) / length, uy = (cy[j] - cy[i]) / length;
+      const Real along = (x - cx[i]) * ux + (y - cy[i]) * uy;
+      const Real off = (y - cy[i]) * ux - (x - cx[i]) * uy;
+      Posed p;
+      p.source = {{length - along}, std::sqrt(off * off + h * h)};
+      p.limit[0] = p.limit[1] = p.source;
+      p.sigma = sigma;
+      cross_posed(f, edge, p, -1, true, source);
+    }
+    return front_.updates() != before;
+  }
 
  private:
   SaddleRule(const TriangleRecord<Real>* triangles, Index sentinel, Label* labels, Front& front,

@@ -31,6 +31,7 @@ class SolidRule {
         list_(mesh.reflex_list().data()),
         sentinel_(static_cast<Index>(mesh.tet_count())),
         any_reflex_(!mesh.reflex_edges().empty()),
+        own_rings_(static_cast<Index>(mesh.reflex_edges().size())),
         labels_(labels),
         front_(&front) {
     labels_[sentinel_].centre = -1;  // nothing is nearer: never accepted
@@ -62,8 +63,7 @@ class SolidRule {
   [[nodiscard]] Real way(Index t, Index i) const {
     const TetRecord<Real>& r = tets_[t];
     Point middle = {0, 0, 0};
-    for (const Index k : tet_face_corners[i])
-      middle = middle + Real(1) / 3 * points_[r.corner[k]];
+    for (const Index k : tet_face_corners[i]) middle = middle + Real(1) / 3 * points_[r.corner[k]];
     const Index u = r.across[i] >> TetAcross::tet_shift;
     return norm(middle - r.centre) + norm(tets_[u].centre - middle);
   }
@@ -164,10 +164,62 @@ class SolidRule {
     return true;
   }
 
+  // What follows is for simplices of other complexes that share a face or an edge.
+
+  /// Edges beyond the solid's own at which paths may bend, for `enter_edge`: the ring numbered
+  /// mesh.reflex_edges().size() + i is edge i here, behind a copy of the solid's own.
+  void set_rings(std::span<const ReflexEdge<Real>> own_and_further) {
+    reflex_ = own_and_further.data();
+  }
+
+  struct Sight {
+    Point eye;
+    Real sigma;
+  };
+  /// The last bend on the way from the source of t to q, a point of its boundary.
+  [[nodiscard]] Sight seen_from(Index t, const Point& q) const {
+    Label label = labels_[t];
+    gather(t, sentinel_, label, q);
+    const Reach path = measure(label, q);
+    return {path.eye, path.length - norm(q - path.eye)};
+  }
+
+  /// A source at `eye`, outside, comes in over a face of t.
+  bool enter_face(Index t, std::size_t face, const Point& eye, Real sigma, Index source) const {
+    const Point q = tets_[t].centre;
+    Label label = {eye, sigma, 0, none, {none, none}, SolidPath::from_source(source)};
+    Reach path = {eye, sigma + norm(q - eye), -1};
+    if (!(path.length < to_beat(t))) return false;
+    // The face as seen from within, where the path goes on.
+    const Index* order = tet_face_corners[face];
+    const Index* corner = tets_[t].corner;
+    const Point &a = points_[corner[order[0]]], &b = points_[corner[order[2]]],
+                &c = points_[corner[order[1]]];
+    if (!passes(path.eye, q, a, b, c, tolerance)) bend_anywhere(label, path, q, a, b, c);
+    return enter(t, face, label, path.length, source);
+  }
+
+  /// A source that is seen over an edge of t only: a ring about it.
+  bool enter_edge(Index t, std::size_t face, Index ring, const Point& eye, Real sigma,
+                  Index source) const {
+    const Index path = SolidPath::bent(SolidPath::from_source(source), ring);
+    const Label label = {eye, sigma, 0, ring, {none, none}, path};
+    return enter(t, face, label, reach(label, tets_[t].centre).length, source);
+  }
+
   static constexpr Real tolerance = Real(1e-4);
   static constexpr Real slack = Real(0.5);
 
  private:
+  bool enter(Index t, std::size_t face, Label label, Real centre, Index source) const {
+    if (!(centre < to_beat(t))) return false;
+    label.centre = centre;
+    labels_[t] = label;
+    front_->accept(t, face, centre, source);
+    cross(t, static_cast<Index>(face), false);  // which `expand` leaves out
+    return true;
+  }
+
   struct Reach {
     Point eye;  // the last bend
     Real length;
@@ -202,8 +254,7 @@ class SolidRule {
   }
 
   [[nodiscard]] bool hides(const Label& label, int limit, const Point& eye, const Point& q) const {
-    return label.limit[limit] != none &&
-           shade(reflex_[label.limit[limit]], eye, q, slack).dark;
+    return label.limit[limit] != none && shade(reflex_[label.limit[limit]], eye, q, slack).dark;
   }
 
   /// The path with what hides q.
@@ -280,14 +331,14 @@ class SolidRule {
         if (other.path == label.path) {
           found.add(other.limit[0]);
           found.add(other.limit[1]);
-        } else if (other.ring != none &&
+        } else if (other.ring < own_rings_ &&
                    SolidPath::before(other.path, other.ring) == label.path) {
           found.add(other.ring);
         }
       }
     Point eye = reach(label, q).eye;
     // An edge that hides the ring itself comes before it.
-    if (label.ring != none)
+    if (label.ring < own_rings_)
       for (int i = 0; i < found.count; ++i) {
         const Index edge = found.edge[i];
         if (edge == label.ring || !shade(reflex_[edge], label.source, eye, slack).dark) continue;
@@ -359,6 +410,7 @@ class SolidRule {
   const Index* list_;
   Index sentinel_;
   bool any_reflex_;
+  Index own_rings_;  // rings from here on are further edges, which hide nothing
   Label* labels_;
   Front* front_;
 };

@@ -72,7 +72,8 @@ class Wavefront {
             {granted_, reached_, simplices_, static_cast<double>(distance) * unit_}))
       throw Cancelled("cancelled by the progress callback");
     constexpr std::size_t share = 65536;
-    countdown_ = std::min(share, options_->max_expansions - granted_);
+    const std::size_t most = options_->max_expansions;
+    countdown_ = granted_ < most ? std::min(share, most - granted_) : 0;
     granted_ += countdown_;
     out_of_budget_ = countdown_ == 0;
     return countdown_ != 0;

@@ -1,0 +1,119 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <variant>
+#include <vector>
+
+#include <plexway/complex/ids.hpp>
+#include <plexway/complex/tet_mesh.hpp>
+#include <plexway/complex/triangle_mesh.hpp>
+#include <plexway/complex/wireframe.hpp>
+
+namespace plexway {
+
+/// Which intersections of simplices of two welded pieces become hinges.
+struct WeldOptions {
+  /// Vertices of the two pieces are one if they are this close, in the domain's unit, >= 0.
+  double tolerance = 0;
+  /// The maximal intersections always are hinges: faces that both pieces have, edges that both
+  /// have and that lie in no such face, vertices in no such edge. Lower ones by request:
+  bool all_edges = false;     ///< every edge that both pieces have
+  bool all_vertices = false;  ///< every welded vertex
+};
+
+/// What a mixed domain is made of.
+struct MixedSummary {
+  std::size_t pieces = 0, vertices = 0, simplices = 0;
+  std::size_t welded_vertices = 0;         ///< pairs
+  std::array<std::size_t, 3> hinges = {};  ///< between pieces, by dimension
+};
+
+/// Complexes of different dimension in one domain, welded at vertices.
+///
+/// Pieces keep their own complex, so that inside each the best rule for its dimension applies.
+/// Vertices and simplices are numbered through, piece after piece; nothing is merged: a welded
+/// vertex keeps a number in each of its pieces, with equal distances. Built once, then read by any
+/// number of threads.
+template <class Real>
+class MixedComplex {
+ public:
+  using Complex = std::variant<TriangleMesh<Real>, TetMesh<Real>, Wireframe<Real>>;
+
+  /// A piece's place in the numbering of the whole.
+  struct Piece {
+    Index number, first_vertex, vertices, first_simplex, simplices;
+    /// The number in the domain of a vertex or a simplex of this piece. Throws UsageError if there
+    /// is none such.
+    [[nodiscard]] Index vertex(Index of_piece) const;
+    [[nodiscard]] Index simplex(Index of_piece) const;
+  };
+
+  /// Adds a piece. `positions`, one a vertex, are needed to weld by nearness only. Throws
+  /// UsageError for positions of another count, a solid without coordinates, or more than 2^32 - 2
+  /// vertices or simplices in all.
+  Piece add(Complex complex, std::span<const std::array<double, 3>> positions = {});
+
+  /// Makes nearby vertices of two pieces one. Returns how many pairs; with none, nothing changes.
+  /// Throws UsageError for a piece that is not of this domain, twice the same, without positions,
+  /// or a tolerance that is negative or not a number. Cost: linear.
+  std::size_t weld(const Piece& a, const Piece& b, const WeldOptions& options = {});
+
+  /// The same for given pairs (vertex of a, vertex of b), in the pieces' own numbers.
+  std::size_t weld(const Piece& a, const Piece& b, std::span<const std::array<Index, 2>> pairs,
+                   const WeldOptions& options = {});
+
+  [[nodiscard]] std::size_t vertex_count() const { return summary_.vertices; }
+  [[nodiscard]] std::size_t simplex_count() const { return summary_.simplices; }
+  [[nodiscard]] const MixedSummary& summary() const { return summary_; }
+  [[nodiscard]] std::span<const Piece> pieces() const { return pieces_; }
+  [[nodiscard]] const Complex& complex(const Piece& piece) const {
+    return complexes_[piece.number];
+  }
+  /// Bytes this domain holds.
+  [[nodiscard]] std::size_t bytes() const;
+
+  // What follows serves the floors above and uses the numbers inside the pieces.
+
+  /// A simplex at a hinge: its number, and which of its corners are the hinge's vertices 0 .. K.
+  struct Member {
+    Index simplex;
+    std::array<std::uint8_t, 3> corner;
+  };
+  /// A hinge of dimension 1 or 2 between two pieces: the simplices at it on either side, from
+  /// begin[side] to end[side] in `members`.
+  struct Hinge {
+    std::uint8_t dimension;
+    Index piece[2];
+    Index begin[2], end[2];
+  };
+  /// Two vertices that are one; a hinge of dimension 0 if `hinge`.
+  struct Weld {
+    Index piece[2], vertex[2];
+    bool hinge;
+  };
+  [[nodiscard]] std::span<const Hinge> hinges() const { return hinges_; }
+  [[nodiscard]] std::span<const Member> members() const { return members_; }
+  [[nodiscard]] std::span<const Weld> welds() const { return welds_; }
+  /// The same pairs in the domain's numbers.
+  [[nodiscard]] std::span<const std::array<Index, 2>> outer_welds() const { return outer_welds_; }
+
+ private:
+  void check(const Piece& a, const Piece& b, const WeldOptions& options) const;
+
+  MixedSummary summary_;
+  std::vector<Piece> pieces_;
+  std::vector<Complex> complexes_;
+  std::vector<std::vector<std::array<double, 3>>> positions_;
+  std::vector<Hinge> hinges_;
+  std::vector<Member> members_;
+  std::vector<Weld> welds_;
+  std::vector<std::array<Index, 2>> outer_welds_;
+};
+
+extern template class MixedComplex<float>;
+extern template class MixedComplex<double>;
+
+}  // namespace plexway

@@ -1,0 +1,140 @@
+#include <plexway/complex/mixed_complex.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+
+#include <plexway/error.hpp>
+
+#include "complex/nearby.hpp"
+#include "complex/shared_faces.hpp"
+
+namespace plexway {
+
+template <class Real>
+Index MixedComplex<Real>::Piece::vertex(Index of_piece) const {
+  if (of_piece >= vertices)
+    throw UsageError("piece " + std::to_string(number) + " has no vertex " +
+                     std::to_string(of_piece) + ", there are " + std::to_string(vertices));
+  return first_vertex + of_piece;
+}
+
+template <class Real>
+Index MixedComplex<Real>::Piece::simplex(Index of_piece) const {
+  if (of_piece >= simplices)
+    throw UsageError("piece " + std::to_string(number) + " has no simplex " +
+                     std::to_string(of_piece) + ", there are " + std::to_string(simplices));
+  return first_simplex + of_piece;
+}
+
+template <class Real>
+typename MixedComplex<Real>::Piece MixedComplex<Real>::add(
+    Complex complex, std::span<const std::array<double, 3>> positions) {
+  if (const auto* solid = std::get_if<TetMesh<Real>>(&complex); solid && !solid->embedded())
+    throw UsageError("a solid in a mixed domain needs coordinates, not lengths alone");
+  const std::size_t vertices = std::visit([](const auto& c) { return c.vertex_count(); }, complex);
+  const std::size_t simplices = std::visit(
+      [](const auto& c) {
+        if constexpr (requires { c.face_count(); })
+          return c.face_count();
+        else if constexpr (requires { c.tet_count(); })
+          return c.tet_count();
+        else
+          return c.edge_count();
+      },
+      complex);
+  if (!positions.empty() && positions.size() != vertices)
+    throw UsageError("a piece of " + std::to_string(vertices) + " vertices came with " +
+                     std::to_string(positions.size()) + " positions");
+  if (summary_.vertices + vertices >= none || summary_.simplices + simplices >= none)
+    throw UsageError("a mixed domain holds at most 2^32 - 2 vertices and simplices");
+  pieces_.push_back({static_cast<Index>(pieces_.size()), static_cast<Index>(summary_.vertices),
+                     static_cast<Index>(vertices), static_cast<Index>(summary_.simplices),
+                     static_cast<Index>(simplices)});
+  complexes_.push_back(std::move(complex));
+  positions_.emplace_back(positions.begin(), positions.end());
+  ++summary_.pieces;
+  summary_.vertices += vertices;
+  summary_.simplices += simplices;
+  return pieces_.back();
+}
+
+template <class Real>
+void MixedComplex<Real>::check(const Piece& a, const Piece& b, const WeldOptions& options) const {
+  for (const Piece& p : {a, b})
+    if (p.number >= pieces_.size() || pieces_[p.number].first_vertex != p.first_vertex ||
+        pieces_[p.number].vertices != p.vertices)
+      throw UsageError("this piece is not of this domain");
+  if (a.number == b.number) throw UsageError("a piece cannot be welded to itself");
+  if (!(options.tolerance >= 0) || !std::isfinite(options.tolerance))
+    throw UsageError("the tolerance of a weld must be a number >= 0");
+}
+
+template <class Real>
+std::size_t MixedComplex<Real>::weld(const Piece& a, const Piece& b, const WeldOptions& options) {
+  check(a, b, options);
+  for (const Piece& p : {a, b})
+    if (positions_[p.number].empty())
+      throw UsageError("piece " + std::to_string(p.number) +
+                       " came without positions: weld it by pairs of vertices");
+  return weld(a, b, nearby_pairs(positions_[a.number], positions_[b.number], options.tolerance),
+              options);
+}
+
+template <class Real>
+std::size_t MixedComplex<Real>::weld(const Piece& a, const Piece& b,
+                                     std::span<const std::array<Index, 2>> pairs,
+                                     const WeldOptions& options) {
+  check(a, b, options);
+  if (pairs.empty()) return 0;
+  const Complex &one = complexes_[a.number], &other = complexes_[b.number];
+  std::vector<std::array<Index, 2>> inside;
+  for (const auto& [v, w] : pairs) {
+    if (v >= a.vertices || w >= b.vertices)
+      throw UsageError("cannot weld vertex " + std::to_string(v) + " to vertex " +
+                       std::to_string(w) + ": the pieces have " + std::to_string(a.vertices) +
+                       " and " + std::to_string(b.vertices));
+    inside.push_back({std::visit([v = v](const auto& c) { return c.inside_vertex(v); }, one),
+                      std::visit([w = w](const auto& c) { return c.inside_vertex(w); }, other)});
+  }
+  for (const auto& [v, w] : pairs) outer_welds_.push_back({a.first_vertex + v, b.first_vertex + w});
+  std::sort(inside.begin(), inside.end());
+  inside.erase(std::unique(inside.begin(), inside.end()), inside.end());
+
+  SharedFaces shared = std::visit(
+      [&](const auto& c, const auto& d) { return find_shared_faces(c, d, inside); }, one, other);
+  for (SharedFace& face : shared.faces) {
+    if (face.contained && !options.all_edges) continue;
+    Hinge hinge{face.dimension, {a.number, b.number}, {}, {}};
+    for (const std::size_t side : {0, 1}) {
+      hinge.begin[side] = static_cast<Index>(members_.size());
+      for (const SharedMember& m : face.members[side]) members_.push_back({m.simplex, m.corner});
+      hinge.end[side] = static_cast<Index>(members_.size());
+    }
+    hinges_.push_back(hinge);
+    ++summary_.hinges[face.dimension];
+  }
+  for (std::size_t i = 0; i < inside.size(); ++i) {
+    const bool hinge = !shared.vertex_contained[i] || options.all_vertices;
+    welds_.push_back({{a.number, b.number}, {inside[i][0], inside[i][1]}, hinge});
+    summary_.hinges[0] += hinge;
+  }
+  summary_.welded_vertices += inside.size();
+  return inside.size();
+}
+
+template <class Real>
+std::size_t MixedComplex<Real>::bytes() const {
+  std::size_t sum = hinges_.capacity() * sizeof(Hinge) + members_.capacity() * sizeof(Member) +
+                    welds_.capacity() * sizeof(Weld);
+  for (const Complex& c : complexes_)
+    sum += std::visit([](const auto& complex) { return complex.bytes(); }, c);
+  for (const auto& p : positions_) sum += p.capacity() * sizeof(p[0]);
+  return sum;
+}
+
+template class MixedComplex<float>;
+template class MixedComplex<double>;
+
+}  // namespace plexway

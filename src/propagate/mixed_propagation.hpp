@@ -1,0 +1,182 @@
+#pragma once
+
+#include <algorithm>
+#include <limits>
+#include <memory>
+#include <vector>
+
+#include <plexway/complex/mixed_complex.hpp>
+
+#include "propagate/mixed_piece.hpp"
+#include "propagate/mixed_solid.hpp"
+#include "propagate/mixed_surface.hpp"
+#include "propagate/mixed_wire.hpp"
+
+namespace plexway {
+
+/// One propagation over a mixed domain: pieces take turns, and between them labels cross the welds.
+template <class Real>
+class MixedPropagation {
+ public:
+  using Domain = MixedComplex<Real>;
+  using Member = typename Domain::Member;
+
+  /// `offered` is room for what has crossed already.
+  MixedPropagation(const Domain& domain, std::span<Workspace<Real>> workspaces,
+                   std::vector<Real>& offered, const PropagateOptions& options)
+      : domain_(domain), options_(options), offered_(offered) {
+    const Real step =
+        options.schedule == Schedule::fifo ? infinity : static_cast<Real>(options.step);
+    // What pieces count and report is summed up here.
+    PropagateOptions mine = options;
+    if (options.progress) mine.progress = [this](const Progress& p) { return report(p); };
+    std::vector<std::vector<Member>> edges(domain.pieces().size());
+    ring_.assign(domain.hinges().size(), {none, none});
+    for (std::size_t n = 0; n < domain.hinges().size(); ++n) {
+      const auto& hinge = domain.hinges()[n];
+      for (const std::size_t side : {0, 1}) {
+        if (hinge.dimension != 1) continue;
+        ring_[n][side] = static_cast<Index>(edges[hinge.piece[side]].size());
+        edges[hinge.piece[side]].push_back(domain.members()[hinge.begin[side]]);
+      }
+    }
+    for (const auto& piece : domain.pieces()) {
+      Workspace<Real>& workspace = workspaces[piece.number];
+      const auto& complex = domain.complex(piece);
+      if (const auto* surface = std::get_if<TriangleMesh<Real>>(&complex))
+        pieces_.push_back(std::make_unique<MixedSurface<Real>>(*surface, workspace, mine, step));
+      else if (const auto* solid = std::get_if<TetMesh<Real>>(&complex))
+        pieces_.push_back(
+            std::make_unique<MixedSolid<Real>>(*solid, workspace, mine, step, edges[piece.number]));
+      else
+        pieces_.push_back(std::make_unique<MixedWire<Real>>(std::get<Wireframe<Real>>(complex),
+                                                            workspace, mine, step));
+    }
+    waits_.assign(pieces_.size(), 0);
+    offered_.assign(domain.members().size() + 2 * domain.welds().size(), infinity);
+  }
+
+  /// A source in the piece's own numbers. A welded vertex is one in its other pieces too.
+  void seed(Index piece, const PointSource& source, Index number) {
+    pieces_[piece]->seed(source, number);
+    waits_[piece] = 1;
+    if (source.vertex == none) return;
+    const Index vertex = std::visit([&](const auto& c) { return c.inside_vertex(source.vertex); },
+                                    domain_.complex(domain_.pieces()[piece]));
+    for (const auto& weld : domain_.welds())
+      for (const std::size_t side : {0, 1})
+        if (weld.piece[side] == piece && weld.vertex[side] == vertex)
+          if (pieces_[weld.piece[1 - side]]->enter_vertex(weld.vertex[1 - side],
+                                                          static_cast<Real>(source.offset), number))
+            waits_[weld.piece[1 - side]] = 1;
+  }
+
+  void run() {
+    do {
+      for (std::size_t p = 0; p < pieces_.size(); ++p) {
+        if (!waits_[p]) continue;
+        waits_[p] = 0;
+        running_ = p;
+        const std::size_t spent = expansions();
+        const std::size_t left =
+            options_.max_expansions > spent ? options_.max_expansions - spent : 0;
+        const std::size_t own = pieces_[p]->statistics().expansions;
+        constexpr std::size_t most = std::numeric_limits<std::size_t>::max();
+        pieces_[p]->run(left > most - own ? most : own + left);
+        if (pieces_[p]->out_of_budget()) complete_ = false;
+      }
+    } while (complete_ && cross());
+  }
+
+  /// One a vertex of the domain; `distance` and `label` are room for a piece.
+  void read_out(std::vector<Real>& distance, std::vector<Index>& label,
+                DistanceField<Real>& field) const {
+    field.distance.assign(domain_.vertex_count(), infinity);
+    field.label.assign(domain_.vertex_count(), none);
+    for (const auto& piece : domain_.pieces()) {
+      distance.resize(piece.vertices);
+      label.resize(piece.vertices);
+      pieces_[piece.number]->read_out(distance, label);
+      std::copy(distance.begin(), distance.end(), field.distance.begin() + piece.first_vertex);
+      std::copy(label.begin(), label.end(), field.label.begin() + piece.first_vertex);
+    }
+    field.complete = complete_;
+    field.statistics = {};
+    for (const auto& piece : pieces_) {
+      const PropagateStatistics s = piece->statistics();
+      field.statistics.expansions += s.expansions;
+      field.statistics.updates += s.updates;
+      field.statistics.reached_simplices += s.reached_simplices;
+    }
+  }
+
+ private:
+  static constexpr Real infinity = std::numeric_limits<Real>::infinity();
+
+  std::size_t expansions() const {
+    std::size_t sum = 0;
+    for (const auto& piece : pieces_) sum += piece->statistics().expansions;
+    return sum;
+  }
+
+  bool report(const Progress& of_piece) const {
+    Progress all = of_piece;
+    all.simplices = domain_.simplex_count();
+    for (std::size_t p = 0; p < pieces_.size(); ++p) {
+      if (p == running_) continue;
+      all.expansions += pieces_[p]->statistics().expansions;
+      all.reached += pieces_[p]->statistics().reached_simplices;
+    }
+    return options_.progress(all);
+  }
+
+  // Over all hinges what has got better since. True if something was accepted.
+  bool cross() {
+    bool any = false;
+    const auto accepted = [&](Index piece, bool yes) {
+      if (yes) waits_[piece] = 1, any = true;
+    };
+    std::size_t slot = 0;
+    for (const auto& weld : domain_.welds())
+      for (const std::size_t side : {0, 1}) {
+        Real& offered = offered_[slot++];
+        if (!weld.hinge) continue;
+        const auto found = pieces_[weld.piece[side]]->at_vertex(weld.vertex[side]);
+        if (!(found.distance < offered)) continue;
+        offered = found.distance;
+        if (static_cast<double>(found.distance) > options_.radius) continue;
+        const Index to = weld.piece[1 - side];
+        accepted(to,
+                 pieces_[to]->enter_vertex(weld.vertex[1 - side], found.distance, found.source));
+      }
+    for (std::size_t n = 0; n < domain_.hinges().size(); ++n) {
+      const auto& hinge = domain_.hinges()[n];
+      for (const std::size_t side : {0, 1}) {
+        const Index from = hinge.piece[side], to = hinge.piece[1 - side];
+        for (Index m = hinge.begin[side]; m < hinge.end[side]; ++m) {
+          const Member& member = domain_.members()[m];
+          Real& offered = offered_[2 * domain_.welds().size() + m];
+          const Real distance = pieces_[from]->distance(member.simplex);
+          if (!(distance < offered)) continue;
+          offered = distance;
+          const auto posed = pieces_[from]->leave(member, hinge.dimension);
+          for (Index k = hinge.begin[1 - side]; k < hinge.end[1 - side]; ++k)
+            accepted(to, pieces_[to]->enter(domain_.members()[k], hinge.dimension, posed,
+                                            ring_[n][1 - side]));
+        }
+      }
+    }
+    return any;
+  }
+
+  const Domain& domain_;
+  const PropagateOptions& options_;
+  std::vector<Real>& offered_;
+  std::vector<std::unique_ptr<MixedPiece<Real>>> pieces_;
+  std::vector<std::array<Index, 2>> ring_;  // by hinge: its place among the edges of each piece
+  std::vector<char> waits_;
+  std::size_t running_ = 0;
+  bool complete_ = true;
+};
+
+}  // namespace plexway

@@ -1,0 +1,183 @@
+#pragma once
+
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include <plexway/propagate/solid_rule.hpp>
+
+#include "propagate/mixed_piece.hpp"
+#include "propagate/solid_propagation.hpp"
+#include "propagate/solid_read_out.hpp"
+
+namespace plexway {
+
+/// A solid in a mixed domain.
+template <class Real>
+class MixedSolid final : public MixedPiece<Real> {
+ public:
+  using typename MixedPiece<Real>::Member;
+  using typename MixedPiece<Real>::Found;
+  using Point = Vector3<Real>;
+  using Wave = Wavefront<Real, DualQueue<Real>, true>;
+  using Rule = SolidRule<Real, Wave>;
+
+  /// `edges`: a member of each hinge of dimension 1, where sources are rings.
+  MixedSolid(const TetMesh<Real>& mesh, Workspace<Real>& workspace, const PropagateOptions& options,
+             Real step, std::span<const Member> edges)
+      : mesh_(mesh),
+        workspace_(prepare(mesh, workspace)),
+        options_(options),
+        unit_(static_cast<Real>(mesh.unit())),
+        rings_(with_rings(mesh, edges)),
+        wave_(workspace.marks, DualQueue<Real>(workspace.front, step), workspace.source.data(),
+              mesh.tet_count(), mesh.unit(), options_),
+        rule_(make_rule()),
+        propagation_(mesh, rule_, wave_, options_) {}
+
+  void seed(const PointSource& source, Index number) override { propagation_.seed(source, number); }
+  void run(std::size_t budget) override {
+    options_.max_expansions = budget;
+    propagation_.run();
+  }
+
+  Found at_vertex(Index vertex) override {
+    Found best = {infinity, none};
+    for (const Index c : mesh_.corners_at(vertex)) {
+      if (!wave_.reached(c / 4)) continue;
+      const Real d = rule_.corner_distance(c / 4, c % 4) * unit_;
+      if (d < best.distance) best = {d, wave_.source(c / 4)};
+    }
+    return best;
+  }
+
+  bool enter_vertex(Index vertex, Real distance, Index source) override {
+    constexpr Real gain = 1 - 64 * std::numeric_limits<Real>::epsilon();
+    if (!(distance < at_vertex(vertex).distance * gain)) return false;
+    bool any = false;
+    for (const Index c : mesh_.corners_at(vertex))
+      any |= rule_.seed_corner(c / 4, c % 4, distance / unit_, source);
+    return any;
+  }
+
+  Real distance(Index t) const override {
+    return wave_.reached(t) ? rule_.distance(t) * unit_ : infinity;
+  }
+
+  PosedSource<Real> leave(const Member& m, int dimension) const override {
+    const Frame frame(*this, m, dimension);
+    const auto sight = rule_.seen_from(m.simplex, frame.middle);
+    const Point d = sight.eye - frame.origin;
+    const Real x = dot(d, frame.u), y = dimension == 2 ? dot(d, frame.w) : Real(0);
+    const Point off = d - x * frame.u - y * frame.w;
+    const Real h = dimension == 2 ? std::abs(dot(d, frame.out)) : norm(off);
+    return {x * unit_, y * unit_, h * unit_, sight.sigma * unit_, wave_.source(m.simplex)};
+  }
+
+  bool enter(const Member& m, int dimension, const PosedSource<Real>& from, Index ring) override {
+    const Frame frame(*this, m, dimension);
+    const Point eye = frame.origin + (from.x / unit_) * frame.u + (from.y / unit_) * frame.w +
+                      (from.h / unit_) * frame.out;
+    std::size_t face = 0;  // one that contains the hinge
+    for (const auto is_corner =
+             [&](std::size_t i) {
+               for (int k = 0; k <= dimension; ++k)
+                 if (m.corner[static_cast<std::size_t>(k)] == i) return true;
+               return false;
+             };
+         is_corner(face);)
+      ++face;
+    const Real sigma = from.sigma / unit_;
+    if (dimension == 2) return rule_.enter_face(m.simplex, face, eye, sigma, from.source);
+    const Index first = static_cast<Index>(mesh_.reflex_edges().size());
+    return rule_.enter_edge(m.simplex, face, first + ring, eye, sigma, from.source);
+  }
+
+  void read_out(std::span<Real> distance, std::span<Index> label) override {
+    const std::size_t vertices = mesh_.vertex_count();
+    workspace_.vertex.assign(vertices, infinity);
+    workspace_.vertex_source.assign(vertices, none);
+    read_out_tets<Real, true>(mesh_, rule_, wave_, workspace_);
+    read_out_tet_edges<Real, true>(mesh_, workspace_);
+    for (std::size_t v = 0; v < vertices; ++v) {
+      distance[v] = workspace_.vertex[mesh_.vertices_inside()[v]] * unit_;
+      label[v] = workspace_.vertex_source[mesh_.vertices_inside()[v]];
+    }
+  }
+
+  PropagateStatistics statistics() const override {
+    return {wave_.expansions(), wave_.updates(), wave_.reached_count()};
+  }
+  bool out_of_budget() const override { return wave_.out_of_budget(); }
+
+ private:
+  static constexpr Real infinity = std::numeric_limits<Real>::infinity();
+
+  static Workspace<Real>& prepare(const TetMesh<Real>& mesh, Workspace<Real>& workspace) {
+    const std::size_t records = mesh.tet_count() + 1;
+    workspace.front.reserve(mesh.tet_count());
+    workspace.marks.resize(records);
+    workspace.marks.start();
+    workspace.marks.data()[mesh.tet_count()] = workspace.marks.current();  // the sentinel
+    workspace.source.resize(records);
+    return workspace;
+  }
+
+  static std::vector<ReflexEdge<Real>> with_rings(const TetMesh<Real>& mesh,
+                                                  std::span<const Member> edges) {
+    std::vector<ReflexEdge<Real>> rings(mesh.reflex_edges().begin(), mesh.reflex_edges().end());
+    for (const Member& m : edges) {
+      ReflexEdge<Real> ring = {};
+      for (std::size_t i = 0; i < 2; ++i) {
+        ring.vertex[i] = mesh.tets()[m.simplex].corner[m.corner[i]];
+        ring.end[i] = mesh.points()[ring.vertex[i]];
+      }
+      rings.push_back(ring);
+    }
+    return rings;
+  }
+
+  Rule make_rule() {
+    Rule rule(mesh_, workspace_.solids.reserve(mesh_.tet_count() + 1), wave_);
+    rule.set_rings(rings_);
+    return rule;
+  }
+
+  // The hinge's frame in space; `out` points away from the tetrahedron.
+  struct Frame {
+    Point origin, middle, u = {0, 0, 0}, w = {0, 0, 0}, out = {0, 0, 0};
+    Frame(const MixedSolid& solid, const Member& m, int dimension) {
+      const TetRecord<Real>& t = solid.mesh_.tets()[m.simplex];
+      const auto points = solid.mesh_.points();
+      const auto at = [&](std::size_t i) { return points[t.corner[m.corner[i]]]; };
+      const auto unit = [](const Point& p) {
+        const Real length = norm(p);
+        return length > 0 ? 1 / length * p : p;
+      };
+      origin = at(0);
+      u = unit(at(1) - origin);
+      const Point in = t.centre - origin;
+      if (dimension == 2) {
+        middle = Real(1) / 3 * (at(0) + at(1) + at(2));
+        const Point s = at(2) - origin;
+        w = unit(s - dot(s, u) * u);
+        out = cross(u, w);
+        if (dot(out, in) > 0) out = Real(-1) * out;
+      } else {
+        middle = Real(0.5) * (at(0) + at(1));
+        out = Real(-1) * unit(in - dot(in, u) * u);
+      }
+    }
+  };
+
+  const TetMesh<Real>& mesh_;
+  Workspace<Real>& workspace_;
+  PropagateOptions options_;
+  Real unit_;
+  std::vector<ReflexEdge<Real>> rings_;
+  Wave wave_;
+  Rule rule_;
+  SolidPropagation<Real, Rule, Wave> propagation_;
+};
+
+}  // namespace plexway
