@@ -36,7 +36,8 @@ class SolidRule {
         front_(&front) {
     labels_[sentinel_].centre = -1;  // nothing is nearer: never accepted
     labels_[sentinel_].path = 0;
-    labels_[sentinel_].ring = labels_[sentinel_].limit[0] = labels_[sentinel_].limit[1] = none;
+    labels_[sentinel_].ring = none;
+    clear_limits(labels_[sentinel_]);
   }
   [[nodiscard]] SolidRule on(Front& front) const {
     SolidRule rule = *this;
@@ -76,46 +77,29 @@ class SolidRule {
   }
 
   /// Over one face.
-  void cross(Index t, Index face, bool last_resort) const {
+  [[gnu::always_inline]] void cross(Index t, Index face, bool last_resort) const {
     const Index across = tets_[t].across[face];
     const Index u = across >> TetAcross::tet_shift;
     const Label& from = labels_[t];
-    const Real known = to_beat(u);
-    const Point q = tets_[u].centre;
-    if (from.ring == none) {
-      if (!(from.sigma + norm(q - from.source) < known)) return;
-    } else if (!(reach(from, q).length < known)) {
+    const Real known = to_beat(u), left = known - from.sigma;
+    const Point& q = tets_[u].centre;
+    const Point g = q - from.source;
+    // A ring's way is longer than the straight one.
+    const Real straight2 = dot(g, g);
+    if (!(left > 0) || !(straight2 < left * left)) return;
+    if (any_reflex_ || last_resort) {
+      cross_fully(t, face, across, known, last_resort);
       return;
-    }
-    Label label = from;
-    Reach path;
-    if (any_reflex_) {
-      gather(t, u, label, q);
-      path = measure(label, q);
-      if (!(path.length < known)) return;
-    } else {
-      path = reach(label, q);
     }
     const Index* corner = tets_[t].corner;
     const Index* order = tet_face_corners[face];
-    const Point &a = points_[corner[order[0]]], &b = points_[corner[order[1]]],
-                &c = points_[corner[order[2]]];
-    if (path.bend >= 0) {
-      const Index edge = label.limit[path.bend];
-      if (hides_all(edge, reach(label, q).eye, a, b, c)) {
-        turn(label, path.bend, q);
-        path = measure(label, q);
-      }
-    }
-    if (!passes(path.eye, q, a, b, c, tolerance)) {
-      if (!last_resort) return;
-      bend_anywhere(label, path, q, a, b, c);
-      if (!(path.length < known)) return;
-    }
-    if (!(path.length < known)) return;
-    label.centre = path.length;
-    labels_[u] = label;
-    front_->accept(u, across & TetAcross::face_mask, path.length, front_->source(t));
+    if (!passes(from.source, q, points_[corner[order[0]]], points_[corner[order[1]]],
+                points_[corner[order[2]]], tolerance))
+      return;
+    Label& label = labels_[u];
+    label = from;
+    label.centre = from.sigma + std::sqrt(straight2);
+    front_->accept(u, across & TetAcross::face_mask, label.centre, front_->source(t));
     prefetch(u);
   }
 
@@ -133,11 +117,17 @@ class SolidRule {
     for (Index i = 0; i < 4; ++i) cross(t, i, false);
   }
 
-  /// Length of the path to corner i of a reached tetrahedron.
-  [[nodiscard]] Real corner_distance(Index t, Index i) const {
-    const Point q = points_[tets_[t].corner[i]];
-    Label label = labels_[t];
-    if (tets_[t].reflex == none && label.limit[0] == none) return reach(label, q).length;
+  /// Length of the path to corner i of a reached tetrahedron, as far as it is below `known`.
+  [[nodiscard]] Real corner_distance(
+      Index t, Index i, Real known = std::numeric_limits<Real>::infinity()) const {
+    const Point& q = points_[tets_[t].corner[i]];
+    const Label& from = labels_[t];
+    const Real straight = from.sigma + norm(q - from.source);
+    if (!any_reflex_ || !(straight < known)) return straight;
+    const Reach simple = reach(from, q);
+    if (!(simple.length < known)) return simple.length;
+    if (tets_[t].reflex == none) return measure(from, q).length;
+    Label label = from;
     gather(t, sentinel_, label, q);
     return measure(label, q).length;
   }
@@ -152,7 +142,8 @@ class SolidRule {
     const Reach there = measure(from, b);
     label.source = b;
     label.sigma = there.length;
-    label.ring = label.limit[0] = label.limit[1] = none;
+    label.ring = none;
+    clear_limits(label);
     label.path = SolidPath::bent(from.path, v ^ w);
     label.centre = label.sigma + norm(q - b);
     if (!(label.centre < to_beat(t) * known_gain)) return false;
@@ -170,6 +161,7 @@ class SolidRule {
   /// mesh.reflex_edges().size() + i is edge i here, behind a copy of the solid's own.
   void set_rings(std::span<const ReflexEdge<Real>> own_and_further) {
     reflex_ = own_and_further.data();
+    any_reflex_ = !own_and_further.empty();
   }
 
   struct Sight {
@@ -187,7 +179,8 @@ class SolidRule {
   /// A source at `eye`, outside, comes in over a face of t.
   bool enter_face(Index t, std::size_t face, const Point& eye, Real sigma, Index source) const {
     const Point q = tets_[t].centre;
-    Label label = {eye, sigma, 0, none, {none, none}, SolidPath::from_source(source)};
+    Label label = {eye, sigma, 0, none, {}, SolidPath::from_source(source)};
+    clear_limits(label);
     Reach path = {eye, sigma + norm(q - eye), -1};
     if (!(path.length < to_beat(t))) return false;
     // The face as seen from within, where the path goes on.
@@ -203,12 +196,14 @@ class SolidRule {
   bool enter_edge(Index t, std::size_t face, Index ring, const Point& eye, Real sigma,
                   Index source) const {
     const Index path = SolidPath::bent(SolidPath::from_source(source), ring);
-    const Label label = {eye, sigma, 0, ring, {none, none}, path};
+    Label label = {eye, sigma, 0, ring, {}, path};
+    clear_limits(label);
     return enter(t, face, label, reach(label, tets_[t].centre).length, source);
   }
 
   static constexpr Real tolerance = Real(1e-4);
   static constexpr Real slack = Real(0.5);
+  static constexpr Real far2 = Real(0.25);
 
  private:
   bool enter(Index t, std::size_t face, Label label, Real centre, Index source) const {
@@ -241,39 +236,45 @@ class SolidRule {
     return {b, reach(label, b).length + norm(q - b), limit};
   }
 
-  /// The same with a bend at limit `first` and then at the other.
-  [[nodiscard]] Reach reach_by_both(const Label& label, int first, const Point& q) const {
-    const ReflexEdge<Real>& two = reflex_[label.limit[1 - first]];
-    Point c = bend_point(two, reach_by(label, first, q).eye, q), b = c;
+  /// The same with a bend at limit `first` and then at limit `second`.
+  [[nodiscard]] Reach reach_by_both(const Label& label, int first, int second,
+                                    const Point& q) const {
+    const ReflexEdge<Real>& two = reflex_[label.limit[second]];
+    Point b, c = bend_point(two, reach_by(label, first, q).eye, q);
     for (int i = 0; i < 2; ++i) {
       b = reach_by(label, first, c).eye;
       c = bend_point(two, b, q);
     }
-    const Reach there = reach_by(label, first, c);
-    return {c, there.length + norm(q - c), first};
+    return {c, reach_by(label, first, c).length + norm(q - c), first};
   }
 
-  [[nodiscard]] bool hides(const Label& label, int limit, const Point& eye, const Point& q) const {
-    return label.limit[limit] != none && shade(reflex_[label.limit[limit]], eye, q, slack).dark;
+  [[nodiscard]] bool hides(Index edge, const Point& eye, const Point& q) const {
+    return EdgeView<Real>(reflex_[edge], eye).hides(q, slack);
   }
 
   /// The path with what hides q.
   [[nodiscard]] Reach measure(const Label& label, const Point& q) const {
     const Reach straight = reach(label, q);
-    if (label.limit[0] == none) return straight;
-    const bool dark[2] = {hides(label, 0, straight.eye, q), hides(label, 1, straight.eye, q)};
-    if (!dark[0] && !dark[1]) return straight;
-    int k = dark[0] ? 0 : 1;
-    Reach bent = reach_by(label, k, q);
-    if (label.limit[1] == none) return bent;
-    if (dark[0] && dark[1]) {
-      const Reach other = reach_by(label, 1, q);
-      if (other.length > bent.length) bent = other, k = 1;
-    }
+    Reach bent = straight;
+    for (int k = 0; k < Label::limits && label.limit[k] != none; ++k)
+      if (hides(label.limit[k], straight.eye, q)) {
+        const Reach other = reach_by(label, k, q);
+        if (other.length > bent.length || bent.bend < 0) bent = other;
+      }
+    const int k = bent.bend;
+    if (k < 0) return straight;
     // The way to the bend may be hidden itself, or the way on.
-    if (hides(label, 1 - k, reach(label, bent.eye).eye, bent.eye))
-      return reach_by_both(label, 1 - k, q);
-    if (hides(label, 1 - k, bent.eye, q)) return reach_by_both(label, k, q);
+    const Reach one = bent;
+    const Point before = reach(label, one.eye).eye;
+    for (int j = 0; j < Label::limits && label.limit[j] != none; ++j) {
+      if (j == k) continue;
+      Reach both = one;
+      if (hides(label.limit[j], before, one.eye))
+        both = reach_by_both(label, j, k, q);
+      else if (hides(label.limit[j], one.eye, q))
+        both = reach_by_both(label, k, j, q);
+      if (both.length > bent.length) bent = both;
+    }
     return bent;
   }
 
@@ -288,24 +289,81 @@ class SolidRule {
     }
     label.path = SolidPath::bent(label.path, edge);
     label.ring = edge;
-    label.limit[limit] = label.limit[1];
-    label.limit[1] = none;
+    for (int k = limit; k + 1 < Label::limits; ++k) label.limit[k] = label.limit[k + 1];
+    label.limit[Label::limits - 1] = none;
+  }
+
+  static void clear_limits(Label& label) {
+    for (Index& limit : label.limit) limit = none;
   }
 
   [[nodiscard]] bool hides_all(Index edge, const Point& eye, const Point& a, const Point& b,
                                const Point& c) const {
-    for (const Point* p : {&a, &b, &c}) {
-      const Shade<Real> s = shade(reflex_[edge], eye, *p, slack);
-      if (s.light > Real(1e-4)) return false;
+    const EdgeView<Real> view(reflex_[edge], eye);
+    constexpr Real small = Real(1e-8);
+    return !view.lights(a, small) && !view.lights(b, small) && !view.lights(c, small);
+  }
+
+  /// The full rule over one face.
+  [[gnu::noinline]] void cross_fully(Index t, Index face, Index across, Real known,
+                                     bool last_resort) const {
+    const Index u = across >> TetAcross::tet_shift;
+    const Label& from = labels_[t];
+    const Point q = tets_[u].centre;
+    Reach path = reach(from, q);
+    if (!(path.length < known)) return;
+    const Index* corner = tets_[t].corner;
+    const Index* order = tet_face_corners[face];
+    const Point &a = points_[corner[order[0]]], &b = points_[corner[order[1]]],
+                &c = points_[corner[order[2]]];
+    const bool through = passes(path.eye, q, a, b, c, tolerance);
+    // A line that misses the face passes it if it bends at an edge known here.
+    if (!through && !last_resort && !may_bend(t, path.eye, q)) return;
+    Label label = from;
+    gather(t, u, label, q);
+    if (label.limit[0] != none || label.ring != from.ring) {
+      path = measure(label, q);
+      if (!(path.length < known)) return;
     }
-    return true;
+    if (path.bend >= 0) {
+      const Index edge = label.limit[path.bend];
+      if (hides_all(edge, reach(label, q).eye, a, b, c)) {
+        turn(label, path.bend, q);
+        path = measure(label, q);
+      }
+    }
+    if (!(path.bend < 0 && label.ring == from.ring ? through
+                                                   : passes(path.eye, q, a, b, c, tolerance))) {
+      if (!last_resort) return;
+      bend_anywhere(label, path, q, a, b, c);
+    }
+    if (!(path.length < known)) return;
+    label.centre = path.length;
+    labels_[u] = label;
+    front_->accept(u, across & TetAcross::face_mask, path.length, front_->source(t));
+    prefetch(u);
+  }
+
+  /// Is there an edge in t's memory, or at t, that hides q?
+  [[nodiscard]] bool may_bend(Index t, const Point& eye, const Point& q) const {
+    for (const Index limit : labels_[t].limit) {
+      if (limit == none) break;
+      if (hides(limit, eye, q)) return true;
+    }
+    if (Index e = tets_[t].reflex; e != none)
+      for (;; ++e) {
+        const Index edge = list_[e] >> ReflexEntry::edge_shift;
+        if (edge != labels_[t].ring && hides(edge, eye, q)) return true;
+        if (list_[e] & ReflexEntry::last) break;
+      }
+    return false;
   }
 
   struct Candidates {
-    Index edge[16];
+    Index edge[24];
     int count = 0;
     void add(Index e) {
-      if (e == none || count == 16) return;
+      if (e == none || count == 24) return;
       for (int i = 0; i < count; ++i)
         if (edge[i] == e) return;
       edge[count++] = e;
@@ -316,8 +374,7 @@ class SolidRule {
   /// neighbours of u that look at the same scene.
   void gather(Index t, Index u, Label& label, const Point& q) const {
     Candidates found;
-    found.add(label.limit[0]);
-    found.add(label.limit[1]);
+    for (const Index limit : label.limit) found.add(limit);
     if (Index e = tets_[t].reflex; e != none)
       for (;; ++e) {
         found.add(list_[e] >> ReflexEntry::edge_shift);
@@ -329,43 +386,52 @@ class SolidRule {
         if (v == t || v == sentinel_ || !front_->reached(v)) continue;
         const Label& other = labels_[v];
         if (other.path == label.path) {
-          found.add(other.limit[0]);
-          found.add(other.limit[1]);
+          for (const Index limit : other.limit) found.add(limit);
         } else if (other.ring < own_rings_ &&
                    SolidPath::before(other.path, other.ring) == label.path) {
           found.add(other.ring);
         }
       }
+    if (found.count == 0) return;
     Point eye = reach(label, q).eye;
     // An edge that hides the ring itself comes before it.
     if (label.ring < own_rings_)
       for (int i = 0; i < found.count; ++i) {
         const Index edge = found.edge[i];
-        if (edge == label.ring || !shade(reflex_[edge], label.source, eye, slack).dark) continue;
+        if (edge == label.ring || !hides(edge, label.source, eye)) continue;
         label.path = SolidPath::bent(SolidPath::before(label.path, label.ring), edge);
         found.edge[i] = label.ring;
         label.ring = edge;
         eye = reach(label, q).eye;
       }
-    Index chosen[2] = {none, none};
-    const auto choose = [&](int place) {
-      Real least = std::numeric_limits<Real>::infinity();
+    clear_limits(label);
+    // The nearest, and first of all those that hide q.
+    Real key[Label::limits];
+    int count = 0;
+    const auto choose = [&](int first) {
+      count = first;
       for (int i = 0; i < found.count; ++i) {
         const Index edge = found.edge[i];
-        if (edge == label.ring || edge == chosen[0]) continue;
-        const Shade<Real> s = shade(reflex_[edge], eye, q, slack);
-        const Real key = s.dark ? Real(-1) / (1 + s.close2) : s.close2;
-        if (key < least) least = key, chosen[place] = edge;
+        if (edge == label.ring || (first > 0 && edge == label.limit[0])) continue;
+        const EdgeView<Real> view(reflex_[edge], eye);
+        if (!view.can_hide() || view.lights(q, far2)) continue;
+        const Real close2 = view.closeness(q);
+        const bool dark = view.hides(q, slack);
+        if (!dark && close2 > far2) continue;
+        const Real k = dark ? Real(-1) / (1 + close2) : close2;
+        int place = count < Label::limits ? count++ : Label::limits;
+        for (; place > first && k < key[place - 1]; --place)
+          if (place < Label::limits)
+            key[place] = key[place - 1], label.limit[place] = label.limit[place - 1];
+        if (place < Label::limits) key[place] = k, label.limit[place] = edge;
       }
-      return least;
     };
-    const bool dark = choose(0) < 0;
-    label.limit[0] = chosen[0];
-    label.limit[1] = none;
-    if (dark) eye = reach_by(label, 0, q).eye;  // what else is in the way is so from there
+    choose(0);
+    if (count == 0 || !(key[0] < 0)) return;
+    // What else is in the way is so from the bend.
+    for (int k = 1; k < Label::limits; ++k) label.limit[k] = none;
+    eye = reach_by(label, 0, q).eye;
     choose(1);
-    label.limit[0] = chosen[0];
-    label.limit[1] = chosen[1];
   }
 
   /// No straight line: over the best point of the face's edges.
@@ -383,7 +449,8 @@ class SolidRule {
     walked += path.length - norm(q - path.eye);
     label.source = at;
     label.sigma = walked;
-    label.ring = label.limit[0] = label.limit[1] = none;
+    label.ring = none;
+    clear_limits(label);
     label.path = SolidPath::bent(label.path, none - 1);
     path = {at, walked + norm(q - at), -1};
   }
@@ -391,7 +458,13 @@ class SolidRule {
   bool seed(Index t, const Point& at, Index hinge, Real sigma, Index source) const {
     const Real d = sigma + norm(tets_[t].centre - at);
     if (!(d < to_beat(t))) return false;
-    labels_[t] = {at, sigma, d, none, {none, none}, SolidPath::from_source(source)};
+    Label& label = labels_[t];
+    label.source = at;
+    label.sigma = sigma;
+    label.centre = d;
+    label.ring = none;
+    clear_limits(label);
+    label.path = SolidPath::from_source(source);
     front_->accept(t, hinge, d, source);
     return true;
   }
