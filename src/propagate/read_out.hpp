@@ -16,39 +16,36 @@ namespace plexway {
 /// by: path_length of saddle_step.hpp for the apexes, and the same for the ends
 /// of the edges. Lanes 0 1 are the two sides of one triangle and lanes 2 3
 /// those of the other.
-template <class Real> struct CornerDistances {
+template <class Real>
+struct CornerDistances {
   using L = kernel::Lanes<Real>;
   using Mask = typename L::Mask;
   Real distance[2];
-  L ends; ///< first and second end of one, first and second of the other
+  L ends;  ///< first and second end of one, first and second of the other
 
   /// `sides` leads from each lane's end of the edge to the apex.
-  [[gnu::always_inline]] CornerDistances(const SaddleLabel<Real> &a,
-                                         const SaddleLabel<Real> &b,
-                                         const Real length[2],
-                                         const Real apex_x[2],
-                                         const Real apex_h[2], const L &sides) {
+  [[gnu::always_inline]] CornerDistances(const SaddleLabel<Real>& a, const SaddleLabel<Real>& b,
+                                         const Real length[2], const Real apex_x[2],
+                                         const Real apex_h[2], const L& sides) {
     const L mirror(1, -1, 1, -1), off(0, length[0], 0, length[1]);
-    const auto pair = [](typename L::Vector u, typename L::Vector w, auto i,
-                         auto j) { return L(u[i], u[j], w[i], w[j]); };
+    const auto pair = [](typename L::Vector u, typename L::Vector w, auto i, auto j) {
+      return L(u[i], u[j], w[i], w[j]);
+    };
     const auto ax = a.x.v, ah = a.h.v, bx = b.x.v, bh = b.h.v;
     const L Sx = off + mirror * pair(ax, bx, 0, 0), Sh = pair(ah, bh, 0, 0);
     const L px = mirror * pair(ax, bx, 2, 3), ph = pair(ah, bh, 2, 3), py = -ph;
-    const L qx(apex_x[0], length[0] - apex_x[0], apex_x[1],
-               length[1] - apex_x[1]);
+    const L qx(apex_x[0], length[0] - apex_x[0], apex_x[1], length[1] - apex_x[1]);
     const L qh(apex_h[0], apex_h[0], apex_h[1], apex_h[1]);
     const Mask loose = px * Sh + py * Sx > L(0);
     const L ex = select(loose, px, -Sx), ey = select(loose, py, Sh);
     const L gx = qx - Sx, gy = qh + Sh;
     const Mask dark = ex * gy - ey * gx > L(0);
     const L rx = gx - ex, ry = gy - ey;
-    const L tx = Sx + px, th = Sh + ph; // the limit
+    const L tx = Sx + px, th = Sh + ph;  // the limit
     const L near = sqrt(ex * ex + ey * ey), far = sqrt(tx * tx + th * th);
-    const L by_limit = near + select(loose, far, L(0)); // to the hinge's end
-    const Mask misses =
-        tx * qh + qx * th < L(0); // from the limit past the hinge's end
-    const L bent = select(misses & loose, by_limit + sides,
-                          near + sqrt(rx * rx + ry * ry));
+    const L by_limit = near + select(loose, far, L(0));  // to the hinge's end
+    const Mask misses = tx * qh + qx * th < L(0);        // from the limit past the hinge's end
+    const L bent = select(misses & loose, by_limit + sides, near + sqrt(rx * rx + ry * ry));
     const L d = select(dark, bent, sqrt(gx * gx + gy * gy));
     distance[0] = std::max(d[0], d[1]) + a.sigma();
     distance[1] = std::max(d[2], d[3]) + b.sigma();
@@ -59,9 +56,8 @@ template <class Real> struct CornerDistances {
 /// Every reached triangle offers its corners distances; vertices keep the
 /// least.
 template <class Real, bool kLabels, class Rule, class Front>
-void read_out_apexes(std::span<const TriangleRecord<Real>> triangles,
-                     const Rule &rule, const Front &front,
-                     Workspace<Real> &workspace) {
+void read_out_apexes(std::span<const TriangleRecord<Real>> triangles, const Rule& rule,
+                     const Front& front, Workspace<Real>& workspace) {
   const auto offer = [&](Index v, Real d, Index f) {
     if constexpr (kLabels) {
       if (d < workspace.vertex[v])
@@ -80,20 +76,17 @@ void read_out_apexes(std::span<const TriangleRecord<Real>> triangles,
   for (; f + 1 < faces; f += 2) {
     if (!front.reached(f) || !front.reached(f + 1)) {
       for (const Index g : {f, f + 1})
-        if (front.reached(g))
-          one(g);
+        if (front.reached(g)) one(g);
       continue;
     }
     const std::size_t in[2] = {front.hinge(f), front.hinge(f + 1)};
-    const TriangleRecord<Real> &s = triangles[f], &t = triangles[f + 1];
+    const TriangleRecord<Real>&s = triangles[f], &t = triangles[f + 1];
     const Real length[2] = {s.length[in[0]], t.length[in[1]]};
     const Real x[2] = {s.apex_x(in[0]), t.apex_x(in[1])};
     const Real h[2] = {s.apex_h(in[0]), t.apex_h(in[1])};
-    const kernel::Lanes<Real> sides(
-        s.length[before[in[0]]], s.length[after[in[0]]],
-        t.length[before[in[1]]], t.length[after[in[1]]]);
-    const CornerDistances<Real> found(rule.label(f), rule.label(f + 1), length,
-                                      x, h, sides);
+    const kernel::Lanes<Real> sides(s.length[before[in[0]]], s.length[after[in[0]]],
+                                    t.length[before[in[1]]], t.length[after[in[1]]]);
+    const CornerDistances<Real> found(rule.label(f), rule.label(f + 1), length, x, h, sides);
     offer(s.corner[before[in[0]]], found.distance[0], f);
     offer(t.corner[before[in[1]]], found.distance[1], f + 1);
     offer(s.corner[in[0]], found.ends[0], f);
@@ -101,26 +94,21 @@ void read_out_apexes(std::span<const TriangleRecord<Real>> triangles,
     offer(t.corner[in[1]], found.ends[2], f + 1);
     offer(t.corner[after[in[1]]], found.ends[3], f + 1);
   }
-  if (f < faces && front.reached(f))
-    one(f);
+  if (f < faces && front.reached(f)) one(f);
 }
 
 /// Every corner of every reached triangle offers a distance.
 template <class Real, bool kLabels, class Rule, class Front>
-void read_out_corners(std::span<const TriangleRecord<Real>> triangles,
-                      const Rule &rule, const Front &front,
-                      Workspace<Real> &workspace) {
+void read_out_corners(std::span<const TriangleRecord<Real>> triangles, const Rule& rule,
+                      const Front& front, Workspace<Real>& workspace) {
   for (Index f = 0; f + 1 < triangles.size(); ++f) {
-    if (!front.reached(f))
-      continue;
+    if (!front.reached(f)) continue;
     for (std::size_t i = 0; i < 3; ++i) {
       const Index v = triangles[f].corner[i];
       const Real d = rule.corner_distance(f, i);
-      if (!(d < workspace.vertex[v]))
-        continue;
+      if (!(d < workspace.vertex[v])) continue;
       workspace.vertex[v] = d;
-      if constexpr (kLabels)
-        workspace.vertex_source[v] = front.source(f);
+      if constexpr (kLabels) workspace.vertex_source[v] = front.source(f);
     }
   }
 }
@@ -129,25 +117,21 @@ void read_out_corners(std::span<const TriangleRecord<Real>> triangles,
 /// one label, the best for its centre, and now and then, at a corner on a
 /// ragged boundary, that one is poor.
 template <class Real, bool kLabels>
-void read_out_edges(std::span<const TriangleRecord<Real>> triangles,
-                    Workspace<Real> &workspace) {
-  Real *d = workspace.vertex.data();
+void read_out_edges(std::span<const TriangleRecord<Real>> triangles, Workspace<Real>& workspace) {
+  Real* d = workspace.vertex.data();
   for (std::size_t f = 0; f + 1 < triangles.size(); ++f) {
-    const TriangleRecord<Real> &t = triangles[f];
+    const TriangleRecord<Real>& t = triangles[f];
     const Real a = d[t.corner[0]], b = d[t.corner[1]], c = d[t.corner[2]];
     const Real x = t.length[0], y = t.length[1], z = t.length[2];
-    const bool fine =
-        std::abs(a - b) <= x && std::abs(b - c) <= y && std::abs(c - a) <= z;
+    const bool fine = std::abs(a - b) <= x && std::abs(b - c) <= y && std::abs(c - a) <= z;
     if (fine) [[likely]]
       continue;
     for (std::size_t i = 0; i < 3; ++i) {
       const Index v = t.corner[i], w = t.corner[i == 2 ? 0 : i + 1];
-      for (const auto &[from, to] : {std::pair(v, w), std::pair(w, v)})
-        if (d[from] + t.length[i] < d[to] &&
-            d[to] < std::numeric_limits<Real>::infinity()) {
+      for (const auto& [from, to] : {std::pair(v, w), std::pair(w, v)})
+        if (d[from] + t.length[i] < d[to] && d[to] < std::numeric_limits<Real>::infinity()) {
           d[to] = d[from] + t.length[i];
-          if constexpr (kLabels)
-            workspace.vertex_source[to] = workspace.vertex_source[from];
+          if constexpr (kLabels) workspace.vertex_source[to] = workspace.vertex_source[from];
         }
     }
   }
@@ -156,20 +140,16 @@ void read_out_edges(std::span<const TriangleRecord<Real>> triangles,
 /// A vertex that no triangle offered a distance takes the best path to one of
 /// its corners.
 template <class Real, bool kLabels, class Rule, class Front>
-void read_out_around(const TriangleMesh<Real> &mesh, const Rule &rule,
-                     const Front &front, Index vertex,
-                     Workspace<Real> &workspace) {
+void read_out_around(const TriangleMesh<Real>& mesh, const Rule& rule, const Front& front,
+                     Index vertex, Workspace<Real>& workspace) {
   mesh.corners_at(vertex, workspace.corners);
   for (const Index c : workspace.corners) {
-    if (!front.reached(c / 3))
-      continue;
+    if (!front.reached(c / 3)) continue;
     const Real d = rule.corner_distance(c / 3, c % 3);
-    if (!(d < workspace.vertex[vertex]))
-      continue;
+    if (!(d < workspace.vertex[vertex])) continue;
     workspace.vertex[vertex] = d;
-    if constexpr (kLabels)
-      workspace.vertex_source[vertex] = front.source(c / 3);
+    if constexpr (kLabels) workspace.vertex_source[vertex] = front.source(c / 3);
   }
 }
 
-} // namespace plexway
+}  // namespace plexway
