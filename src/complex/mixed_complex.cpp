@@ -11,6 +11,27 @@
 #include "complex/shared_faces.hpp"
 
 namespace plexway {
+namespace {
+
+// Of an edge of shared triangles, keeps the triangles of a surface that are not such themselves:
+// there the surface goes on alone. False if there are none.
+template <class Complex>
+bool keep_free(SharedFace& face, const Complex& one, const Complex& other) {
+  bool any = false;
+  for (const std::size_t side : {0, 1}) {
+    if (std::visit(
+            [](const auto& c) {
+              return requires { c.tets(); };
+            },
+            side == 0 ? one : other))
+      continue;
+    std::erase_if(face.members[side], [](const SharedMember& m) { return m.in_larger; });
+    any |= !face.members[side].empty();
+  }
+  return any && !face.members[0].empty() && !face.members[1].empty();
+}
+
+}  // namespace
 
 template <class Real>
 Index MixedComplex<Real>::Piece::vertex(Index of_piece) const {
@@ -105,7 +126,7 @@ std::size_t MixedComplex<Real>::weld(const Piece& a, const Piece& b,
   SharedFaces shared = std::visit(
       [&](const auto& c, const auto& d) { return find_shared_faces(c, d, inside); }, one, other);
   for (SharedFace& face : shared.faces) {
-    if (face.contained && !options.all_edges) continue;
+    if (face.contained && !options.all_edges && !keep_free(face, one, other)) continue;
     Hinge hinge{face.dimension, {a.number, b.number}, {}, {}};
     for (const std::size_t side : {0, 1}) {
       hinge.begin[side] = static_cast<Index>(members_.size());

@@ -91,20 +91,33 @@ SharedFaces find_shared_faces(const A& a, const B& b, std::span<const std::array
     std::vector<Record> edges[2], faces[2];
     collect_all(a, 0, pairs, edges[0], faces[0]);
     collect_all(b, 1, pairs, edges[1], faces[1]);
-    std::vector<std::array<Index, 2>> contained;  // edges of shared triangles
+    std::vector<std::array<Index, 2>> contained;        // edges of shared triangles
+    std::vector<std::array<Index, 3>> contained_in[2];  // and the simplices that have those
     const auto add = [&](std::uint8_t dimension, bool within, auto one, auto other) {
       shared.faces.push_back({dimension, within, {std::move(one), std::move(other)}});
     };
     match(faces[0], faces[1], [&](const auto& key, auto one, auto other) {
       for (const Index p : key) shared.vertex_contained[p] = 1;
       contained.insert(contained.end(), {{key[0], key[1]}, {key[0], key[2]}, {key[1], key[2]}});
+      for (const auto* members : {&one, &other})
+        for (const SharedMember& m : *members)
+          for (const auto& [i, j] : {std::pair(0, 1), std::pair(0, 2), std::pair(1, 2)})
+            contained_in[members == &other].push_back(
+                {key[static_cast<std::size_t>(i)], key[static_cast<std::size_t>(j)], m.simplex});
       add(2, false, std::move(one), std::move(other));
     });
     std::sort(contained.begin(), contained.end());
+    for (auto& list : contained_in) std::sort(list.begin(), list.end());
     match(edges[0], edges[1], [&](const auto& key, auto one, auto other) {
       shared.vertex_contained[key[0]] = shared.vertex_contained[key[1]] = 1;
       const bool within = std::binary_search(contained.begin(), contained.end(),
                                              std::array<Index, 2>{key[0], key[1]});
+      for (auto* members : {&one, &other})
+        for (SharedMember& m : *members) {
+          const auto& list = contained_in[members == &other];
+          m.in_larger = std::binary_search(list.begin(), list.end(),
+                                           std::array<Index, 3>{key[0], key[1], m.simplex});
+        }
       add(1, within, std::move(one), std::move(other));
     });
   }

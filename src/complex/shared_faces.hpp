@@ -15,6 +15,7 @@ namespace plexway {
 struct SharedMember {
   Index simplex;
   std::array<std::uint8_t, 3> corner;
+  bool in_larger = false;  ///< of an edge: this simplex has a shared triangle there
 };
 
 /// An edge or a triangle that two welded complexes both have, with the simplices at it.

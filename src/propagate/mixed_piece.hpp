@@ -49,6 +49,9 @@ class MixedPiece {
   virtual Real distance(Index) const = 0;
   virtual PosedSource<Real> leave(const Member&, int dimension) const = 0;
   virtual bool enter(const Member&, int dimension, const PosedSource<Real>&, Index ring) = 0;
+  /// K = 1 into a solid: paths from one source may pass the hinge's line from x = low to high.
+  /// Gives the `ring` to enter with.
+  virtual Index open_ring(const Member&, Real, Real) { return none; }
 
   /// One a vertex, in the caller's order.
   virtual void read_out(std::span<Real> distance, std::span<Index> label) = 0;

@@ -1,12 +1,14 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <limits>
 #include <memory>
 #include <vector>
 
 #include <plexway/complex/mixed_complex.hpp>
 
+#include "propagate/hinge_chains.hpp"
 #include "propagate/mixed_piece.hpp"
 #include "propagate/mixed_solid.hpp"
 #include "propagate/mixed_surface.hpp"
@@ -24,30 +26,23 @@ class MixedPropagation {
   /// `offered` is room for what has crossed already.
   MixedPropagation(const Domain& domain, std::span<Workspace<Real>> workspaces,
                    std::vector<Real>& offered, const PropagateOptions& options)
-      : domain_(domain), options_(options), offered_(offered) {
+      : domain_(domain),
+        options_(options),
+        offered_(offered),
+        posed_(domain.members().size()),
+        chains_(domain) {
     const Real step =
         options.schedule == Schedule::fifo ? infinity : static_cast<Real>(options.step);
     // What pieces count and report is summed up here.
     PropagateOptions mine = options;
     if (options.progress) mine.progress = [this](const Progress& p) { return report(p); };
-    std::vector<std::vector<Member>> edges(domain.pieces().size());
-    ring_.assign(domain.hinges().size(), {none, none});
-    for (std::size_t n = 0; n < domain.hinges().size(); ++n) {
-      const auto& hinge = domain.hinges()[n];
-      for (const std::size_t side : {0, 1}) {
-        if (hinge.dimension != 1) continue;
-        ring_[n][side] = static_cast<Index>(edges[hinge.piece[side]].size());
-        edges[hinge.piece[side]].push_back(domain.members()[hinge.begin[side]]);
-      }
-    }
     for (const auto& piece : domain.pieces()) {
       Workspace<Real>& workspace = workspaces[piece.number];
       const auto& complex = domain.complex(piece);
       if (const auto* surface = std::get_if<TriangleMesh<Real>>(&complex))
         pieces_.push_back(std::make_unique<MixedSurface<Real>>(*surface, workspace, mine, step));
       else if (const auto* solid = std::get_if<TetMesh<Real>>(&complex))
-        pieces_.push_back(
-            std::make_unique<MixedSolid<Real>>(*solid, workspace, mine, step, edges[piece.number]));
+        pieces_.push_back(std::make_unique<MixedSolid<Real>>(*solid, workspace, mine, step));
       else
         pieces_.push_back(std::make_unique<MixedWire<Real>>(std::get<Wireframe<Real>>(complex),
                                                             workspace, mine, step));
@@ -149,22 +144,36 @@ class MixedPropagation {
         accepted(to,
                  pieces_[to]->enter_vertex(weld.vertex[1 - side], found.distance, found.source));
       }
-    for (std::size_t n = 0; n < domain_.hinges().size(); ++n) {
+    // First what has got better, then all of that goes over.
+    changed_.clear();
+    for (Index n = 0; n < domain_.hinges().size(); ++n) {
       const auto& hinge = domain_.hinges()[n];
-      for (const std::size_t side : {0, 1}) {
-        const Index from = hinge.piece[side], to = hinge.piece[1 - side];
+      for (const std::size_t side : {0, 1})
         for (Index m = hinge.begin[side]; m < hinge.end[side]; ++m) {
           const Member& member = domain_.members()[m];
           Real& offered = offered_[2 * domain_.welds().size() + m];
-          const Real distance = pieces_[from]->distance(member.simplex);
+          const Real distance = pieces_[hinge.piece[side]]->distance(member.simplex);
           if (!(distance < offered)) continue;
           offered = distance;
-          const auto posed = pieces_[from]->leave(member, hinge.dimension);
-          for (Index k = hinge.begin[1 - side]; k < hinge.end[1 - side]; ++k)
-            accepted(to, pieces_[to]->enter(domain_.members()[k], hinge.dimension, posed,
-                                            ring_[n][1 - side]));
+          posed_[m] = pieces_[hinge.piece[side]]->leave(member, hinge.dimension);
+          changed_.push_back({n, static_cast<Index>(side), m});
         }
+    }
+    // Over edges first: of equal paths, one with a ring serves more points than one that bends at
+    // the best point for a single centre.
+    std::stable_partition(changed_.begin(), changed_.end(), [&](const Change& change) {
+      return domain_.hinges()[change.hinge].dimension == 1;
+    });
+    for (const auto& [n, side, m] : changed_) {
+      const auto& hinge = domain_.hinges()[n];
+      const Index to = hinge.piece[1 - side];
+      Index ring = none;
+      if (chains_.at_solid(n, 1 - side)) {
+        const auto [low, high] = chains_.visible(n, side, posed_, m);
+        ring = pieces_[to]->open_ring(domain_.members()[hinge.begin[1 - side]], low, high);
       }
+      for (Index k = hinge.begin[1 - side]; k < hinge.end[1 - side]; ++k)
+        accepted(to, pieces_[to]->enter(domain_.members()[k], hinge.dimension, posed_[m], ring));
     }
     return any;
   }
@@ -173,7 +182,12 @@ class MixedPropagation {
   const PropagateOptions& options_;
   std::vector<Real>& offered_;
   std::vector<std::unique_ptr<MixedPiece<Real>>> pieces_;
-  std::vector<std::array<Index, 2>> ring_;  // by hinge: its place among the edges of each piece
+  struct Change {
+    Index hinge, side, member;
+  };
+  std::vector<Change> changed_;
+  std::vector<PosedSource<Real>> posed_;  // by member: what it offered last
+  HingeChains<Real> chains_;
   std::vector<char> waits_;
   std::size_t running_ = 0;
   bool complete_ = true;

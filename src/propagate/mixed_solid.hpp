@@ -22,18 +22,18 @@ class MixedSolid final : public MixedPiece<Real> {
   using Wave = Wavefront<Real, DualQueue<Real>, true>;
   using Rule = SolidRule<Real, Wave>;
 
-  /// `edges`: a member of each hinge of dimension 1, where sources are rings.
   MixedSolid(const TetMesh<Real>& mesh, Workspace<Real>& workspace, const PropagateOptions& options,
-             Real step, std::span<const Member> edges)
+             Real step)
       : mesh_(mesh),
         workspace_(prepare(mesh, workspace)),
         options_(options),
         unit_(static_cast<Real>(mesh.unit())),
-        rings_(with_rings(mesh, edges)),
+        rings_(mesh.reflex_edges().begin(), mesh.reflex_edges().end()),
         wave_(workspace.marks, DualQueue<Real>(workspace.front, step), workspace.source.data(),
               mesh.tet_count(), mesh.unit(), options_),
-        rule_(make_rule()),
-        propagation_(mesh, rule_, wave_, options_) {}
+        propagation_(mesh, Rule(mesh, workspace.solids.reserve(mesh.tet_count() + 1), wave_), wave_,
+                     options_),
+        rule_(propagation_.rule()) {}
 
   void seed(const PointSource& source, Index number) override { propagation_.seed(source, number); }
   void run(std::size_t budget) override {
@@ -89,8 +89,17 @@ class MixedSolid final : public MixedPiece<Real> {
       ++face;
     const Real sigma = from.sigma / unit_;
     if (dimension == 2) return rule_.enter_face(m.simplex, face, eye, sigma, from.source);
-    const Index first = static_cast<Index>(mesh_.reflex_edges().size());
-    return rule_.enter_edge(m.simplex, face, first + ring, eye, sigma, from.source);
+    return rule_.enter_edge(m.simplex, face, ring, eye, sigma, from.source);
+  }
+
+  Index open_ring(const Member& m, Real low, Real high) override {
+    const Frame frame(*this, m, 1);
+    ReflexEdge<Real> ring = {};
+    ring.end[0] = frame.origin + (low / unit_) * frame.u;
+    ring.end[1] = frame.origin + (high / unit_) * frame.u;
+    rings_.push_back(ring);
+    rule_.set_rings(rings_);
+    return static_cast<Index>(rings_.size() - 1);
   }
 
   void read_out(std::span<Real> distance, std::span<Index> label) override {
@@ -121,26 +130,6 @@ class MixedSolid final : public MixedPiece<Real> {
     workspace.marks.data()[mesh.tet_count()] = workspace.marks.current();  // the sentinel
     workspace.source.resize(records);
     return workspace;
-  }
-
-  static std::vector<ReflexEdge<Real>> with_rings(const TetMesh<Real>& mesh,
-                                                  std::span<const Member> edges) {
-    std::vector<ReflexEdge<Real>> rings(mesh.reflex_edges().begin(), mesh.reflex_edges().end());
-    for (const Member& m : edges) {
-      ReflexEdge<Real> ring = {};
-      for (std::size_t i = 0; i < 2; ++i) {
-        ring.vertex[i] = mesh.tets()[m.simplex].corner[m.corner[i]];
-        ring.end[i] = mesh.points()[ring.vertex[i]];
-      }
-      rings.push_back(ring);
-    }
-    return rings;
-  }
-
-  Rule make_rule() {
-    Rule rule(mesh_, workspace_.solids.reserve(mesh_.tet_count() + 1), wave_);
-    rule.set_rings(rings_);
-    return rule;
   }
 
   // The hinge's frame in space; `out` points away from the tetrahedron.
@@ -176,8 +165,8 @@ class MixedSolid final : public MixedPiece<Real> {
   Real unit_;
   std::vector<ReflexEdge<Real>> rings_;
   Wave wave_;
-  Rule rule_;
   SolidPropagation<Real, Rule, Wave> propagation_;
+  Rule& rule_;
 };
 
 }  // namespace plexway

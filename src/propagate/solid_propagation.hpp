@@ -53,6 +53,8 @@ class SolidPropagation {
     } while (++rounds < 64 && (pass_pinches() | repair()));
   }
 
+  [[nodiscard]] Rule& rule() { return rule_; }
+
  private:
   void seed_vertex(Index vertex, Real sigma, Index number) {
     for (const Index c : mesh_.corners_at(vertex)) rule_.seed_corner(c / 4, c % 4, sigma, number);

@@ -18,8 +18,9 @@ namespace plexway {
 struct WeldOptions {
   /// Vertices of the two pieces are one if they are this close, in the domain's unit, >= 0.
   double tolerance = 0;
-  /// The maximal intersections always are hinges: faces that both pieces have, edges that both
-  /// have and that lie in no such face, vertices in no such edge. Lower ones by request:
+  /// The maximal intersections always are hinges: faces that both pieces have; edges that both
+  /// have and that lie in no such face, or from where a surface goes on alone; vertices in no such
+  /// edge or face. Lower ones by request:
   bool all_edges = false;     ///< every edge that both pieces have
   bool all_vertices = false;  ///< every welded vertex
 };
