@@ -118,8 +118,11 @@ class SolidPropagation {
       for (Index i = 0; i < 4; ++i) {
         const Index u = tets_[t].across[i] >> TetAcross::tet_shift;
         if (u == tets) continue;
-        if (!front_.reached(u) || rule_.distance(u) > rule_.distance(t) + rule_.way(t, i))
-          rule_.cross(t, i, true);
+        if (front_.reached(u)) {
+          const Real excess = rule_.distance(u) - rule_.distance(t);
+          if (!(excess > rule_.least_way(t, u)) || !(excess > rule_.way(t, i))) continue;
+        }
+        rule_.cross(t, i, true);
       }
     }
     return front_.updates() != before;

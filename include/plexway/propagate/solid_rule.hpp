@@ -45,6 +45,8 @@ class SolidRule {
   }
 
   [[nodiscard]] Real distance(Index t) const { return labels_[t].centre; }
+  /// Says which way the path came; labels that agree in it agree about distances.
+  [[nodiscard]] Index path(Index t) const { return labels_[t].path; }
   /// What a label for t must be below: by more than rounding.
   [[nodiscard, gnu::always_inline]] Real to_beat(Index t) const {
     constexpr Real gain = Real(1) - Real(16) * std::numeric_limits<Real>::epsilon();
@@ -58,6 +60,11 @@ class SolidRule {
     return longest;
   }
 
+  /// No more than `way`; cheap.
+  [[nodiscard]] Real least_way(Index t, Index u) const {
+    const Point between = tets_[u].centre - tets_[t].centre;
+    return std::max(std::max(std::abs(between.x), std::abs(between.y)), std::abs(between.z));
+  }
   /// Longest way worth comparing with from the centre of t over face i to the next centre: through
   /// the face's centroid.
   [[nodiscard]] Real way(Index t, Index i) const {
@@ -155,7 +162,7 @@ class SolidRule {
     return true;
   }
 
-  static constexpr Real tolerance = Real(1e-4);
+  static constexpr Real tolerance = Real(0.1);
   static constexpr Real slack = Real(0.5);
 
  private:
