@@ -179,24 +179,24 @@ class SolidRule {
     return {b, label.sigma + norm(b - label.source) + norm(q - b), -1};
   }
 
-  /// The same with a bend at a limit.
-  [[nodiscard]] Reach reach_by(const Label& label, int limit, const Point& q) const {
-    const ReflexEdge<Real>& edge = reflex_[label.limit[limit]];
-    Point b = bend_point(edge, reach(label, q).eye, q);
-    if (label.ring != none) b = bend_point(edge, reach(label, b).eye, q);
-    return {b, reach(label, b).length + norm(q - b), limit};
+  /// The same with bends at one limit, or at two in a row: relaxed once, which is exact for a
+  /// single bend after a point and never too short.
+  [[nodiscard]] Reach reach_by(const Label& label, const Point& eye, int limit,
+                               const Point& q) const {
+    const Point b = bend_point(reflex_[label.limit[limit]], eye, q);
+    return {b, way_to(label, b) + norm(q - b), limit};
   }
-
-  /// The same with a bend at limit `first` and then at limit `second`.
-  [[nodiscard]] Reach reach_by_both(const Label& label, int first, int second,
-                                    const Point& q) const {
+  [[nodiscard]] Reach reach_by(const Label& label, const Point& eye, int first, int second,
+                               const Point& q) const {
+    const ReflexEdge<Real>& one = reflex_[label.limit[first]];
     const ReflexEdge<Real>& two = reflex_[label.limit[second]];
-    Point b, c = bend_point(two, reach_by(label, first, q).eye, q);
-    for (int i = 0; i < 2; ++i) {
-      b = reach_by(label, first, c).eye;
-      c = bend_point(two, b, q);
-    }
-    return {c, reach_by(label, first, c).length + norm(q - c), first};
+    Point c = bend_point(two, bend_point(one, eye, q), q);
+    const Point b = bend_point(one, eye, c);
+    c = bend_point(two, b, q);
+    return {c, way_to(label, b) + norm(c - b) + norm(q - c), first};
+  }
+  [[nodiscard]] Real way_to(const Label& label, const Point& q) const {
+    return reach(label, q).length;
   }
 
   [[nodiscard]] bool hides(Index edge, const Point& eye, const Point& q) const {
@@ -211,21 +211,20 @@ class SolidRule {
     Reach bent = straight;
     for (int k = 0; k < Label::limits && label.limit[k] != none; ++k)
       if (hides(label.limit[k], straight.eye, q)) {
-        const Reach other = reach_by(label, k, q);
+        const Reach other = reach_by(label, straight.eye, k, q);
         if (other.length > bent.length || bent.bend < 0) bent = other;
       }
     const int k = bent.bend;
     if (k < 0) return straight;
     // The way to the bend may be hidden itself, or the way on.
     const Reach one = bent;
-    const Point before = reach(label, one.eye).eye;
     for (int j = 0; j < Label::limits && label.limit[j] != none; ++j) {
       if (j == k) continue;
       Reach both = one;
-      if (hides(label.limit[j], before, one.eye))
-        both = reach_by_both(label, j, k, q);
+      if (hides(label.limit[j], straight.eye, one.eye))
+        both = reach_by(label, straight.eye, j, k, q);
       else if (hides(label.limit[j], one.eye, q))
-        both = reach_by_both(label, k, j, q);
+        both = reach_by(label, straight.eye, k, j, q);
       if (both.length > bent.length) bent = both;
     }
     return bent;
@@ -235,8 +234,7 @@ class SolidRule {
   void turn(Label& label, int limit, const Point& q) const {
     const Index edge = label.limit[limit];
     if (label.ring != none) {
-      const Point b = reach_by(label, limit, q).eye;
-      const Reach r = reach(label, b);
+      const Reach r = reach(label, reach_by(label, reach(label, q).eye, limit, q).eye);
       label.sigma += norm(r.eye - label.source);
       label.source = r.eye;
     }
@@ -385,7 +383,7 @@ class SolidRule {
     if (count == 0 || !(key[0] < 0)) return;
     // What else is in the way is so from the bend.
     for (int k = 1; k < Label::limits; ++k) label.limit[k] = none;
-    eye = reach_by(label, 0, q).eye;
+    eye = reach_by(label, eye, 0, q).eye;
     choose(1);
   }
 
