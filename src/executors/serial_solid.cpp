@@ -79,6 +79,7 @@ void solve(const TetMesh<Real>& mesh, std::span<const PointSource> sources,
   constexpr Real infinity = std::numeric_limits<Real>::infinity();
   const std::size_t vertices = mesh.vertex_count();
   workspace.vertex.assign(vertices, infinity);
+  workspace.vertex_path.assign(vertices, 0);
   if constexpr (kLabels) workspace.vertex_source.assign(vertices, none);
   read_out_tets<Real, kLabels>(mesh, rule, front, workspace);
   read_out_sources<Real, kLabels>(mesh, sources, workspace);

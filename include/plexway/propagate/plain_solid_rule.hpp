@@ -35,6 +35,7 @@ class PlainSolidRule {
         front_(&front) {}
 
   [[nodiscard]] Real distance(Index t) const { return labels_[t].centre; }
+  [[nodiscard]] Index path(Index) const { return 0; }  // not known
   [[nodiscard]] Real distance_or_inf(Index t) const {
     return front_->reached(t) ? distance(t) : std::numeric_limits<Real>::infinity();
   }
@@ -46,6 +47,10 @@ class PlainSolidRule {
   }
   /// Nothing is ever dropped, so nothing is ever too long.
   [[nodiscard]] Real way(Index, Index) const { return std::numeric_limits<Real>::infinity(); }
+
+  [[nodiscard]] Real least_way(Index, Index) const {
+    return std::numeric_limits<Real>::infinity();
+  }
 
   void expand(Index t, bool) const {
     const Index in = static_cast<Index>(front_->hinge(t));

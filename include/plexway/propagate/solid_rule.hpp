@@ -46,6 +46,8 @@ class SolidRule {
   }
 
   [[nodiscard]] Real distance(Index t) const { return labels_[t].centre; }
+  /// Says which way the path came; labels that agree in it agree about distances.
+  [[nodiscard]] Index path(Index t) const { return labels_[t].path; }
   /// What a label for t must be below: by more than rounding.
   [[nodiscard, gnu::always_inline]] Real to_beat(Index t) const {
     constexpr Real gain = Real(1) - Real(16) * std::numeric_limits<Real>::epsilon();
@@ -59,6 +61,11 @@ class SolidRule {
     return longest;
   }
 
+  /// No more than `way`; cheap.
+  [[nodiscard]] Real least_way(Index t, Index u) const {
+    const Point between = tets_[u].centre - tets_[t].centre;
+    return std::max(std::max(std::abs(between.x), std::abs(between.y)), std::abs(between.z));
+  }
   /// Longest way worth comparing with from the centre of t over face i to the next centre: through
   /// the face's centroid.
   [[nodiscard]] Real way(Index t, Index i) const {
@@ -124,12 +131,12 @@ class SolidRule {
     const Label& from = labels_[t];
     const Real straight = from.sigma + norm(q - from.source);
     if (!any_reflex_ || !(straight < known)) return straight;
-    const Reach simple = reach(from, q);
+    Reach simple = reach(from, q);
     if (!(simple.length < known)) return simple.length;
-    if (tets_[t].reflex == none) return measure(from, q).length;
+    if (tets_[t].reflex == none) return measure(from, q, simple).length;
     Label label = from;
-    gather(t, sentinel_, label, q);
-    return measure(label, q).length;
+    gather(t, sentinel_, label, q, simple);
+    return measure(label, q, simple).length;
   }
 
   /// Labels of u offer a path over the edge (v, w) of t, which touches u in that edge only.
@@ -201,9 +208,8 @@ class SolidRule {
     return enter(t, face, label, reach(label, tets_[t].centre).length, source);
   }
 
-  static constexpr Real tolerance = Real(1e-4);
+  static constexpr Real tolerance = Real(0.1);
   static constexpr Real slack = Real(0.5);
-  static constexpr Real far2 = Real(0.25);
 
  private:
   bool enter(Index t, std::size_t face, Label label, Real centre, Index source) const {
@@ -228,24 +234,24 @@ class SolidRule {
     return {b, label.sigma + norm(b - label.source) + norm(q - b), -1};
   }
 
-  /// The same with a bend at a limit.
-  [[nodiscard]] Reach reach_by(const Label& label, int limit, const Point& q) const {
-    const ReflexEdge<Real>& edge = reflex_[label.limit[limit]];
-    Point b = bend_point(edge, reach(label, q).eye, q);
-    if (label.ring != none) b = bend_point(edge, reach(label, b).eye, q);
-    return {b, reach(label, b).length + norm(q - b), limit};
+  /// The same with bends at one limit, or at two in a row: relaxed once, which is exact for a
+  /// single bend after a point and never too short.
+  [[nodiscard]] Reach reach_by(const Label& label, const Point& eye, int limit,
+                               const Point& q) const {
+    const Point b = bend_point(reflex_[label.limit[limit]], eye, q);
+    return {b, way_to(label, b) + norm(q - b), limit};
   }
-
-  /// The same with a bend at limit `first` and then at limit `second`.
-  [[nodiscard]] Reach reach_by_both(const Label& label, int first, int second,
-                                    const Point& q) const {
+  [[nodiscard]] Reach reach_by(const Label& label, const Point& eye, int first, int second,
+                               const Point& q) const {
+    const ReflexEdge<Real>& one = reflex_[label.limit[first]];
     const ReflexEdge<Real>& two = reflex_[label.limit[second]];
-    Point b, c = bend_point(two, reach_by(label, first, q).eye, q);
-    for (int i = 0; i < 2; ++i) {
-      b = reach_by(label, first, c).eye;
-      c = bend_point(two, b, q);
-    }
-    return {c, reach_by(label, first, c).length + norm(q - c), first};
+    Point c = bend_point(two, bend_point(one, eye, q), q);
+    const Point b = bend_point(one, eye, c);
+    c = bend_point(two, b, q);
+    return {c, way_to(label, b) + norm(c - b) + norm(q - c), first};
+  }
+  [[nodiscard]] Real way_to(const Label& label, const Point& q) const {
+    return reach(label, q).length;
   }
 
   [[nodiscard]] bool hides(Index edge, const Point& eye, const Point& q) const {
@@ -254,25 +260,26 @@ class SolidRule {
 
   /// The path with what hides q.
   [[nodiscard]] Reach measure(const Label& label, const Point& q) const {
-    const Reach straight = reach(label, q);
+    return measure(label, q, reach(label, q));
+  }
+  [[nodiscard]] Reach measure(const Label& label, const Point& q, const Reach& straight) const {
     Reach bent = straight;
     for (int k = 0; k < Label::limits && label.limit[k] != none; ++k)
       if (hides(label.limit[k], straight.eye, q)) {
-        const Reach other = reach_by(label, k, q);
+        const Reach other = reach_by(label, straight.eye, k, q);
         if (other.length > bent.length || bent.bend < 0) bent = other;
       }
     const int k = bent.bend;
     if (k < 0) return straight;
     // The way to the bend may be hidden itself, or the way on.
     const Reach one = bent;
-    const Point before = reach(label, one.eye).eye;
     for (int j = 0; j < Label::limits && label.limit[j] != none; ++j) {
       if (j == k) continue;
       Reach both = one;
-      if (hides(label.limit[j], before, one.eye))
-        both = reach_by_both(label, j, k, q);
+      if (hides(label.limit[j], straight.eye, one.eye))
+        both = reach_by(label, straight.eye, j, k, q);
       else if (hides(label.limit[j], one.eye, q))
-        both = reach_by_both(label, k, j, q);
+        both = reach_by(label, straight.eye, k, j, q);
       if (both.length > bent.length) bent = both;
     }
     return bent;
@@ -282,8 +289,7 @@ class SolidRule {
   void turn(Label& label, int limit, const Point& q) const {
     const Index edge = label.limit[limit];
     if (label.ring != none) {
-      const Point b = reach_by(label, limit, q).eye;
-      const Reach r = reach(label, b);
+      const Reach r = reach(label, reach_by(label, reach(label, q).eye, limit, q).eye);
       label.sigma += norm(r.eye - label.source);
       label.source = r.eye;
     }
@@ -320,14 +326,12 @@ class SolidRule {
     // A line that misses the face passes it if it bends at an edge known here.
     if (!through && !last_resort && !may_bend(t, path.eye, q)) return;
     Label label = from;
-    gather(t, u, label, q);
+    gather(t, u, label, q, path);
     if (label.limit[0] != none || label.ring != from.ring) {
-      path = measure(label, q);
+      const Point eye = path.eye;
+      path = measure(label, q, path);
       if (!(path.length < known)) return;
-    }
-    if (path.bend >= 0) {
-      const Index edge = label.limit[path.bend];
-      if (hides_all(edge, reach(label, q).eye, a, b, c)) {
+      if (path.bend >= 0 && hides_all(label.limit[path.bend], eye, a, b, c)) {
         turn(label, path.bend, q);
         path = measure(label, q);
       }
@@ -362,8 +366,8 @@ class SolidRule {
   struct Candidates {
     Index edge[24];
     int count = 0;
-    void add(Index e) {
-      if (e == none || count == 24) return;
+    void add(Index e, Index except = none) {
+      if (e == none || e == except || count == 24) return;
       for (int i = 0; i < count; ++i)
         if (edge[i] == e) return;
       edge[count++] = e;
@@ -372,12 +376,13 @@ class SolidRule {
 
   /// Chooses which edges the label remembers for q in u: its own, those of t, and those of
   /// neighbours of u that look at the same scene.
-  void gather(Index t, Index u, Label& label, const Point& q) const {
+  void gather(Index t, Index u, Label& label, const Point& q, Reach& straight) const {
     Candidates found;
     for (const Index limit : label.limit) found.add(limit);
+    const int own = found.count;
     if (Index e = tets_[t].reflex; e != none)
       for (;; ++e) {
-        found.add(list_[e] >> ReflexEntry::edge_shift);
+        found.add(list_[e] >> ReflexEntry::edge_shift, label.ring);
         if (list_[e] & ReflexEntry::last) break;
       }
     if (u != sentinel_)
@@ -386,24 +391,28 @@ class SolidRule {
         if (v == t || v == sentinel_ || !front_->reached(v)) continue;
         const Label& other = labels_[v];
         if (other.path == label.path) {
-          for (const Index limit : other.limit) found.add(limit);
+          for (const Index limit : other.limit) found.add(limit, label.ring);
         } else if (other.ring < own_rings_ &&
                    SolidPath::before(other.path, other.ring) == label.path) {
-          found.add(other.ring);
+          found.add(other.ring, label.ring);
         }
       }
-    if (found.count == 0) return;
-    Point eye = reach(label, q).eye;
+    if (found.count == own) return;
     // An edge that hides the ring itself comes before it.
     if (label.ring < own_rings_)
-      for (int i = 0; i < found.count; ++i) {
+      for (int i = own; i < found.count; ++i) {
         const Index edge = found.edge[i];
-        if (edge == label.ring || !hides(edge, label.source, eye)) continue;
+        if (!hides(edge, label.source, straight.eye)) continue;
         label.path = SolidPath::bent(SolidPath::before(label.path, label.ring), edge);
         found.edge[i] = label.ring;
         label.ring = edge;
-        eye = reach(label, q).eye;
+        straight = reach(label, q);
       }
+    if (found.count <= Label::limits) {
+      for (int i = own; i < found.count; ++i) label.limit[i] = found.edge[i];
+      return;
+    }
+    Point eye = straight.eye;
     clear_limits(label);
     // The nearest, and first of all those that hide q.
     Real key[Label::limits];
@@ -414,10 +423,9 @@ class SolidRule {
         const Index edge = found.edge[i];
         if (edge == label.ring || (first > 0 && edge == label.limit[0])) continue;
         const EdgeView<Real> view(reflex_[edge], eye);
-        if (!view.can_hide() || view.lights(q, far2)) continue;
         const Real close2 = view.closeness(q);
+        if (!(close2 < std::numeric_limits<Real>::infinity())) continue;
         const bool dark = view.hides(q, slack);
-        if (!dark && close2 > far2) continue;
         const Real k = dark ? Real(-1) / (1 + close2) : close2;
         int place = count < Label::limits ? count++ : Label::limits;
         for (; place > first && k < key[place - 1]; --place)
@@ -430,7 +438,7 @@ class SolidRule {
     if (count == 0 || !(key[0] < 0)) return;
     // What else is in the way is so from the bend.
     for (int k = 1; k < Label::limits; ++k) label.limit[k] = none;
-    eye = reach_by(label, 0, q).eye;
+    eye = reach_by(label, eye, 0, q).eye;
     choose(1);
   }
 

@@ -42,13 +42,14 @@ struct Workspace {
   FrontStorage front;
   std::vector<Real> vertex;          ///< read-out, in the numbers inside
   std::vector<Index> vertex_source;  ///< its labels
+  std::vector<Index> vertex_path;    ///< in solids: how the path came
   std::vector<Index> corners;        ///< around one vertex
 
   [[nodiscard]] std::size_t bytes() const {
     const auto of = [](const auto& v) { return v.capacity() * sizeof(v[0]); };
     return sizeof(*this) + marks.bytes() + saddles.count * sizeof(SaddleLabel<Real>) +
            plain.count * sizeof(PlainLabel<Real>) + solids.count * sizeof(SolidLabel<Real>) +
-           plain_solids.count * sizeof(PlainSolidLabel<Real>) + of(source) + of(vertex) + of(vertex_source) +
+           plain_solids.count * sizeof(PlainSolidLabel<Real>) + of(source) + of(vertex) + of(vertex_source) + of(vertex_path) +
            of(corners) + front.capacity * 2 * sizeof(Index) + of(front.heap);
   }
 };
