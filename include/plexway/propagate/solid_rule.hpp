@@ -178,8 +178,9 @@ class SolidRule {
   /// The last bend on the way from the source of t to q, a point of its boundary.
   [[nodiscard]] Sight seen_from(Index t, const Point& q) const {
     Label label = labels_[t];
-    gather(t, sentinel_, label, q);
-    const Reach path = measure(label, q);
+    Reach simple = reach(label, q);
+    gather(t, sentinel_, label, q, simple);
+    const Reach path = measure(label, q, simple);
     return {path.eye, path.length - norm(q - path.eye)};
   }
 
