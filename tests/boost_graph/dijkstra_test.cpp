@@ -13,6 +13,8 @@
 #include <plexway/boost_graph/dijkstra.hpp>
 #include <plexway/error.hpp>
 
+#include "complex/test_wires.hpp"
+
 using plexway::Index;
 using plexway::boost_graph::EdgeDijkstra;
 
@@ -122,6 +124,19 @@ TEST_CASE("Dijkstra's distances are infinite before a run and where no edge lead
   dijkstra.run(9);
   CHECK(dijkstra.distance()[9] == 0);
   CHECK(dijkstra.distance()[0] == inf);
+}
+
+TEMPLATE_TEST_CASE("Dijkstra on the edges of any graph", "", float, double) {
+  for (const unsigned seed : {1u, 2u, 3u}) {
+    const auto wires = plexway::testing::random_wires(seed, 90, 140);
+    const plexway::boost_graph::EdgeGraph graph(wires.vertices, wires.edges, wires.lengths);
+    EdgeDijkstra<TestType> dijkstra(graph);
+    const auto exact = plexway::testing::edge_distances(wires, 4);
+    dijkstra.run(4);
+    CHECK(worst_difference(dijkstra.distance(), exact) < 1e-6);
+    dijkstra.run_without_colours(4);
+    CHECK(worst_difference(dijkstra.distance(), exact) < 1e-6);
+  }
 }
 
 TEST_CASE("Dijkstra can be moved and does not copy") {

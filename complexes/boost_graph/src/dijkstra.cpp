@@ -99,6 +99,25 @@ Graph<Real> make_graph(Positions positions, Faces faces) {
 }
 
 template <class Real>
+Graph<Real> make_graph(const EdgeGraph& edges) {
+  std::vector<Edge> arcs;
+  std::vector<Length<Real>> lengths;
+  arcs.reserve(edges.arcs().size());
+  lengths.reserve(edges.arcs().size());
+  for (Index v = 0; v < edges.vertex_count(); ++v)
+    for (Index k = edges.begin()[v]; k < edges.begin()[v + 1]; ++k) {
+      const auto [to, edge] = edges.arcs()[k];
+      const Real length = static_cast<Real>(edges.lengths()[edge]);
+      if (!std::isfinite(length))
+        throw InputError("edge " + std::to_string(edge) + ": length is not finite");
+      arcs.emplace_back(v, to);
+      lengths.push_back({length});
+    }
+  return Graph<Real>(boost::edges_are_sorted, arcs.begin(), arcs.end(), lengths.begin(),
+                     static_cast<Index>(edges.vertex_count()), static_cast<Index>(arcs.size()));
+}
+
+template <class Real>
 constexpr Real infinity = std::numeric_limits<Real>::infinity();
 
 }  // namespace
@@ -113,6 +132,11 @@ template <class Real>
 EdgeDijkstra<Real>::EdgeDijkstra(Positions positions, Faces faces)
     : state_(std::make_unique<State>(State{make_graph<Real>(positions, faces),
                                            std::vector<Real>(positions.size(), infinity<Real>)})) {}
+
+template <class Real>
+EdgeDijkstra<Real>::EdgeDijkstra(const EdgeGraph& edges)
+    : state_(std::make_unique<State>(State{
+          make_graph<Real>(edges), std::vector<Real>(edges.vertex_count(), infinity<Real>)})) {}
 
 template <class Real>
 EdgeDijkstra<Real>::~EdgeDijkstra() = default;
