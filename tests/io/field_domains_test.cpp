@@ -45,8 +45,7 @@ std::string legacy(const std::string& cells, const std::vector<std::int32_t>& nu
          points.bytes() + "\nCELLS " + cells + "\n" + list.bytes() + "\nCELL_TYPES " +
          std::to_string(types.size()) + "\n" + kinds.bytes() +
          "\nPOINT_DATA 6\nSCALARS distance double 1\nLOOKUP_TABLE default\n" + values.bytes() +
-         (with_label ? "\nSCALARS label int 1\nLOOKUP_TABLE default\n" + labels.bytes() : "") +
-         "\n";
+         (with_label ? "\nFIELD FieldData 1\nlabel 1 6 int\n" + labels.bytes() : "") + "\n";
 }
 
 template <class Domain>

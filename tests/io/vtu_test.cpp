@@ -149,6 +149,21 @@ TEST_CASE("vtu: ascii, base64, appended base64 and raw, either byte order and he
   }
 }
 
+TEST_CASE("vtu: files that VTK 9.1 wrote, compressed ones among them") {
+  for (const char* name : {"appended_base64.vtu", "appended_raw.vtu", "appended_zlib.vtu",
+                           "inline_zlib.vtu", "xml_zlib.vtu"}) {
+    INFO(name);
+    const auto folder = std::filesystem::path(PLEXWAY_SOURCE_DIR) / "tests/fuzz/corpus/vtu";
+    try {
+      const auto solid = plexway::io::read_tets(folder / name);
+      CHECK(solid.positions ==
+            Positions{{0.1, 0.5, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {3, 5, 6}});
+      CHECK(solid.tets == TetList{{0, 1, 2, 3}, {4, 3, 2, 1}});
+    } catch (const plexway::NotBuiltError&) {
+    }
+  }
+}
+
 TEST_CASE("vtu: files cut off anywhere are refused") {
   if (!reads_vtu()) return;
   for (const std::string format : {"ascii", "binary", "raw", "appended"}) {
