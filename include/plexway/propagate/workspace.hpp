@@ -1,31 +1,17 @@
 #pragma once
 
 #include <cstddef>
-#include <memory>
 #include <vector>
 
 #include <plexway/complex/ids.hpp>
 #include <plexway/propagate/front.hpp>
+#include <plexway/propagate/label_storage.hpp>
 #include <plexway/propagate/plain_label.hpp>
 #include <plexway/propagate/saddle_label.hpp>
+#include <plexway/propagate/simplex_label.hpp>
 #include <plexway/propagate/visit_marks.hpp>
 
 namespace plexway {
-
-/// Room for one label a simplex, allocated without being touched.
-template <class Label>
-struct LabelStorage {
-  std::unique_ptr<Label[]> labels;
-  std::size_t count = 0;
-
-  Label* reserve(std::size_t simplices) {
-    if (count != simplices) {
-      labels = std::make_unique_for_overwrite<Label[]>(simplices);
-      count = simplices;
-    }
-    return labels.get();
-  }
-};
 
 /// All that a propagation changes: labels, marks, queues. Belongs to one domain and one thread at a
 /// time; grows on first use and is then reused without allocating or clearing.
@@ -34,6 +20,7 @@ struct Workspace {
   VisitMarks marks;
   LabelStorage<SaddleLabel<Real>> saddles;  ///< Visibility::saddles
   LabelStorage<PlainLabel<Real>> plain;     ///< the other policies
+  SimplexLabels<Real> simplex;              ///< SimplicialComplex
   std::vector<Index> source;                ///< nearest source a simplex; empty for one source
   FrontStorage front;
   std::vector<Real> vertex;          ///< read-out, in the numbers inside
@@ -43,8 +30,8 @@ struct Workspace {
   [[nodiscard]] std::size_t bytes() const {
     const auto of = [](const auto& v) { return v.capacity() * sizeof(v[0]); };
     return sizeof(*this) + marks.bytes() + saddles.count * sizeof(SaddleLabel<Real>) +
-           plain.count * sizeof(PlainLabel<Real>) + of(source) + of(vertex) + of(vertex_source) +
-           of(corners) + front.capacity * 2 * sizeof(Index) + of(front.heap);
+           plain.count * sizeof(PlainLabel<Real>) + simplex.bytes() + of(source) + of(vertex) +
+           of(vertex_source) + of(corners) + front.capacity * 2 * sizeof(Index) + of(front.heap);
   }
 };
 
