@@ -61,13 +61,25 @@ class SimplexPropagation {
     }
     const Index s = domain_.inside_simplex(source.simplex);
     const std::array<double, N + 1> b = inside_coordinates(domain_, s, source);
-    for (std::size_t i = 0; i <= N; ++i)
-      if (b[i] == 1) {
-        seed_vertex(domain_.records()[s].corner[i], sigma, number);
-        return;
+    // To all simplices that have the corners it lies between: over a facet that holds the source
+    // its height would come out as the square root of rounding.
+    const auto* const corner = domain_.records()[s].corner;
+    const std::size_t support = static_cast<std::size_t>(
+        std::find_if(b.begin(), b.end(), [](double x) { return x > 0; }) - b.begin());
+    for (const Index c : domain_.corners_at(corner[support])) {
+      const auto& there = domain_.records()[c / sides].corner;
+      std::array<double, N + 1> b_there{};
+      bool holds = true;
+      for (std::size_t i = 0; i <= N && holds; ++i) {
+        if (b[i] == 0) continue;
+        const auto at = std::find(std::begin(there), std::end(there), corner[i]);
+        holds = at != std::end(there);
+        if (holds) b_there[static_cast<std::size_t>(at - std::begin(there))] = b[i];
       }
-    const std::array<double, N + 1> d2 = corner_distances2<Real, N>(domain_.records()[s], b);
-    rule_.seed_inside(s, d2, sigma, number);
+      if (!holds) continue;
+      const auto distance2 = corner_distances2<Real, N>(domain_.records()[c / sides], b_there);
+      rule_.seed_inside(c / sides, distance2, sigma, number);
+    }
   }
 
   void run() {

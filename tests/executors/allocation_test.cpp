@@ -4,7 +4,7 @@
 #include <cstdlib>
 #include <new>
 
-#include "propagate/solving.hpp"
+#include "propagate/simplex_testing.hpp"
 
 namespace {
 std::atomic<std::size_t> allocations{0};
@@ -67,5 +67,22 @@ TEMPLATE_TEST_CASE("a second solve allocates nothing", "", float, double) {
         // The list of labels comes back after a single source had none.
         CHECK(spent == 0);
       }
+  }
+}
+
+TEMPLATE_TEST_CASE("a second solve of a simplicial domain allocates nothing", "", float, double) {
+  const auto grid = cube_grid<4>(4);
+  const auto domain = grid.complex<TestType>([](const auto& c) { return c[0] == 2 && c[1] > 0; });
+  Workspace<TestType> workspace;
+  DistanceField<TestType> field;
+  const PointSource one[] = {PointSource::at(0)};
+  const PointSource several[] = {PointSource::at(3), PointSource::at(60), PointSource::at(624)};
+  for (int round = 0; round < 2; ++round) {
+    const std::size_t before = allocations;
+    propagate(Serial{}, domain, several, {}, workspace, field);
+    propagate(Serial{}, domain, one, {}, workspace, field);
+    propagate(Serial{}, domain, several, {}, workspace, field);
+    const std::size_t spent = allocations - before;
+    if (round == 1) CHECK(spent == 0);
   }
 }
