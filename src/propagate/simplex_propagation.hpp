@@ -111,8 +111,8 @@ class SimplexPropagation {
   }
 
   /// One or two updates a simplex are usual, ten are many. Lengths that no flat simplices have can
-  /// make a path shorter each time around: from 128 updates a simplex on they must gain more and
-  /// more, so that it ends.
+  /// make a path shorter each time around, without end: from 128 updates a simplex on they must
+  /// gain more and more.
   void limit() {
     const double usual = 128 * static_cast<double>(domain_.simplex_count());
     const double more = static_cast<double>(front_.updates()) / usual;

@@ -15,6 +15,43 @@ void refused(const Domain& domain, const PointSource& source,
   CHECK_THROWS_AS(propagate(Serial{}, domain, source, options), UsageError);
 }
 
+/// Simplices thrown together, with lengths that mostly fit no flat simplex.
+template <int N>
+SimplicialComplex<double, N> thrown_together(unsigned seed) {
+  std::mt19937 random(seed);
+  const std::size_t vertices = N + 2 + below(random, 8), count = 3 + below(random, 60);
+  const double wild = std::pow(10, 6 * uniform(random)), zero = uniform(random) < .5 ? .3 : 0;
+  std::vector<std::array<Index, N + 1>> simplices;
+  std::vector<std::array<double, N*(N + 1) / 2>> lengths;
+  while (simplices.size() < count) {
+    std::array<Index, N + 1> corners;
+    for (Index& v : corners) v = below(random, vertices);
+    auto sorted = corners;
+    std::sort(sorted.begin(), sorted.end());
+    if (std::adjacent_find(sorted.begin(), sorted.end()) != sorted.end()) continue;
+    simplices.push_back(corners);
+    for (double& l : lengths.emplace_back())
+      l = uniform(random) < zero ? 0 : std::pow(wild, uniform(random));
+  }
+  return {vertices, simplices, lengths};
+}
+
+template <int N>
+void check_end(unsigned seed) {
+  const auto domain = thrown_together<N>(seed);
+  for (const Schedule schedule : schedules) {
+    PropagateOptions options;
+    options.schedule = schedule;
+    const auto field = propagate(Serial{}, domain, PointSource::at(0), options);
+    CAPTURE(N, seed, name(options), field.statistics.updates);
+    CHECK(field.complete);
+    CHECK(field.statistics.updates < 400000);
+    bool fine = true;
+    for (const double d : field.distance) fine &= d >= 0;
+    CHECK(fine);
+  }
+}
+
 }  // namespace
 
 TEMPLATE_TEST_CASE("simplicial sources and options that make no sense are refused", "", float,
@@ -131,5 +168,16 @@ TEST_CASE("impossible lengths end and reach everything") {
       for (const float d : field.distance) finite &= d >= 0 && d < 1e30F;
       CHECK(finite);
     }
+  }
+}
+
+TEST_CASE("lengths that would shorten a path for ever do not") {
+  // The first two went on without end before updates had to gain more and more.
+  check_end<2>(71565);
+  check_end<3>(91358);
+  for (unsigned seed = 1; seed <= 300; ++seed) {
+    check_end<2>(seed);
+    check_end<3>(seed);
+    check_end<4>(seed);
   }
 }

@@ -147,3 +147,21 @@ TEMPLATE_TEST_CASE("several sources share the 4-cube by nearness", "", float, do
   CHECK(labels);
   CHECK(field.distance[600] == .125);
 }
+
+TEMPLATE_TEST_CASE("simplices without volume carry distances on", "", float, double) {
+  // A 4-cube pressed flat along its first axis: a cube, many times over.
+  const KuhnGrid<4> grid = cube_grid<4>(4, 3);
+  std::vector<double> positions = grid.positions();
+  for (std::size_t i = 0; i < positions.size(); i += 4) positions[i] = 0;
+  const SimplicialComplex<TestType, 4> domain(positions, 4, grid.simplices());
+  CHECK(domain.summary().degenerate_simplices == domain.simplex_count());
+  const auto at = [&](Index v) {
+    return std::array{positions[4 * v + 1], positions[4 * v + 2], positions[4 * v + 3]};
+  };
+  std::vector<double> exact;
+  for (Index v = 0; v < grid.vertex_count(); ++v) exact.push_back(distance_between(at(v), at(0)));
+  const Errors e = compare(solve(domain, PointSource::at(0)), exact);
+  CAPTURE(e.max);
+  CHECK(e.fits);
+  CHECK(e.max < rounding<TestType>);
+}
