@@ -111,7 +111,19 @@ class PlainSimplexRule {
     if (!is_better(t, label)) return false;
     labels_[t] = label;
     front_.accept(t, in, label.centre, source);
+    prefetch(records_[t]);
     return true;
+  }
+
+  /// What a simplex that now waits will offer to.
+  void prefetch(const Record& t) const {
+    for (const Index across : t.across) {
+      const Index a = across == none ? 0 : across >> FacetAcross::simplex_shift;
+      const char* record = reinterpret_cast<const char*>(&records_[a]);
+      for (std::size_t line = 0; line < sizeof(Record); line += 64)
+        __builtin_prefetch(record + line);
+      __builtin_prefetch(&labels_[a]);
+    }
   }
 
   void enter(Index s, std::size_t i, Index t, std::size_t j) {
