@@ -7,6 +7,7 @@
 #include <plexway/executors/serial_wireframe.hpp>
 
 #include "complex/test_wires.hpp"
+#include "propagate/simplex_testing.hpp"
 #include "propagate/solving.hpp"
 
 namespace {
@@ -96,5 +97,22 @@ TEMPLATE_TEST_CASE("a second solve of a wireframe allocates nothing", "", float,
     propagate(Serial{}, w, several, options, workspace, field);
     spent = allocations - before;
     CHECK(spent == 0);
+  }
+}
+
+TEMPLATE_TEST_CASE("a second solve of a simplicial domain allocates nothing", "", float, double) {
+  const auto grid = cube_grid<4>(4);
+  const auto domain = grid.complex<TestType>([](const auto& c) { return c[0] == 2 && c[1] > 0; });
+  Workspace<TestType> workspace;
+  DistanceField<TestType> field;
+  const PointSource one[] = {PointSource::at(0)};
+  const PointSource several[] = {PointSource::at(3), PointSource::at(60), PointSource::at(624)};
+  for (int round = 0; round < 2; ++round) {
+    const std::size_t before = allocations;
+    propagate(Serial{}, domain, several, {}, workspace, field);
+    propagate(Serial{}, domain, one, {}, workspace, field);
+    propagate(Serial{}, domain, several, {}, workspace, field);
+    const std::size_t spent = allocations - before;
+    if (round == 1) CHECK(spent == 0);
   }
 }

@@ -44,7 +44,7 @@ struct PropagateOptions {
   /// Stop after this many expansions; what is known by then stays (DistanceField::complete).
   std::size_t max_expansions = std::numeric_limits<std::size_t>::max();
   /// Called about every 65536 expansions; returning false stops with Cancelled.
-  std::function<bool(const Progress&)> progress;
+  std::function<bool(const Progress&)> progress = {};
   /// false: the full rule for every hinge, instead of the vectorised step where that is enough. The
   /// same rule; rounding may choose between equal paths. For tests and benchmarks.
   bool vectorised = true;

@@ -15,8 +15,8 @@ namespace plexway {
 class VisitMarks {
  public:
   using Mark = std::uint16_t;
-  static constexpr Mark hinge_mask = 3, waiting = 4;
-  static constexpr int epoch_shift = 3;
+  static constexpr Mark hinge_mask = 7, waiting = 8;  // simplices have up to 5 facets
+  static constexpr int epoch_shift = 4;
 
   void resize(std::size_t simplices) {
     if (marks_.size() != simplices) marks_.assign(simplices, 0), epoch_ = 0;

@@ -1,0 +1,68 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <functional>
+#include <vector>
+
+#include <plexway/complex/simplicial_complex.hpp>
+
+namespace plexway {
+
+/// A box of N = 2, 3 or 4 dimensions cut into cells by axis-parallel planes, and every cell into N!
+/// simplices, one an order of the axes: each goes from the cell's lowest corner to its highest,
+/// one axis after another (Freudenthal 1942, Simplizialzerlegungen von beschränkter Flachheit; Kuhn
+/// 1960, Some combinatorial lemmas in topology). Neighbouring cells fit.
+///
+/// Vertices are numbered with axis 0 fastest. Cells may be absent (obstacles): their vertices keep
+/// their numbers, and those that no other cell has belong to no simplex.
+template <int N>
+class KuhnGrid {
+  static_assert(N >= 2 && N <= 4, "grids of dimension 2, 3 or 4");
+
+ public:
+  using Place = std::array<std::size_t, N>;  ///< of a vertex or a cell, along the axes
+  using Point = std::array<double, N>;
+  using Simplex = std::array<Index, N + 1>;
+  using Absent = std::function<bool(const Place& cell)>;
+
+  /// So many cells along each axis, all of one size.
+  /// Throws InputError for no cell, a spacing that is not > 0, or more than 2^32 - 2 vertices.
+  KuhnGrid(const Place& cells, const Point& spacing, const Point& origin = {});
+  /// By the coordinates of the planes across each axis, strictly ascending, at least two.
+  explicit KuhnGrid(std::array<std::vector<double>, N> planes);
+
+  [[nodiscard]] std::size_t vertex_count() const { return vertex_count_; }
+  [[nodiscard]] std::size_t cells(std::size_t axis) const { return planes_[axis].size() - 1; }
+  [[nodiscard]] const std::vector<double>& planes(std::size_t axis) const { return planes_[axis]; }
+
+  [[nodiscard]] Index vertex(const Place& at) const;
+  [[nodiscard]] Place place(Index vertex) const;
+  [[nodiscard]] Point position(Index vertex) const;
+  /// The vertex nearest to a point of space.
+  [[nodiscard]] Index nearest(const Point& point) const;
+  /// The middle of a cell, as a predicate of obstacles wants it.
+  [[nodiscard]] Point centre(const Place& cell) const;
+
+  /// N coordinates a vertex, as SimplicialComplex takes them.
+  [[nodiscard]] std::vector<double> positions() const;
+  /// The simplices of all cells that are not absent, N! a cell, cells with axis 0 fastest.
+  [[nodiscard]] std::vector<Simplex> simplices(const Absent& absent = {}) const;
+  /// All of it as a domain. Throws InputError if every cell is absent.
+  template <class Real>
+  [[nodiscard]] SimplicialComplex<Real, N> complex(const Absent& absent = {}) const {
+    return SimplicialComplex<Real, N>(positions(), N, simplices(absent));
+  }
+
+ private:
+  void check();
+
+  std::array<std::vector<double>, N> planes_;
+  std::size_t vertex_count_ = 0;
+};
+
+extern template class KuhnGrid<2>;
+extern template class KuhnGrid<3>;
+extern template class KuhnGrid<4>;
+
+}  // namespace plexway

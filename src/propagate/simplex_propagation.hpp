@@ -1,0 +1,157 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <span>
+
+#include <plexway/complex/simplicial_complex.hpp>
+#include <plexway/propagate/options.hpp>
+#include <plexway/source/point_source.hpp>
+
+namespace plexway {
+
+/// Squared distances, in the unit inside, of a point from the corners of a record, by its
+/// barycentric coordinates there: sum b_j l_ij^2 - sum b_j b_k l_jk^2.
+template <class Real, int N>
+std::array<double, N + 1> corner_distances2(const SimplexRecord<Real, N>& record,
+                                            std::span<const double, N + 1> b) {
+  using Layout = SimplexLayout<N>;
+  std::array<double, N + 1> distance2{};
+  double inner = 0;
+  for (std::size_t j = 0; j <= N; ++j)
+    for (std::size_t k = 0; k < j; ++k) {
+      const double l2 = static_cast<double>(record.length2[Layout::edge(k, j)]);
+      inner += b[j] * b[k] * l2;
+      distance2[j] += b[k] * l2;
+      distance2[k] += b[j] * l2;
+    }
+  for (double& d : distance2) d = std::max(d - inner, 0.);
+  return distance2;
+}
+
+/// A source that is no vertex, N < 4: its coordinates by the corners of the record.
+template <class Real, int N>
+std::array<double, N + 1> inside_coordinates(const SimplicialComplex<Real, N>& domain, Index inside,
+                                             const PointSource& source) {
+  std::array<double, N + 1> b{};
+  for (std::size_t k = 0; k <= N && k < source.barycentric.size(); ++k)
+    b[domain.place(inside, k)] = source.barycentric[k];
+  return b;
+}
+
+/// One propagation over a complex of any dimension, from seeds to the last label.
+template <class Real, int N, class Rule, class Front>
+class SimplexPropagation {
+ public:
+  SimplexPropagation(const SimplicialComplex<Real, N>& domain, Rule rule, Front& front,
+                     const PropagateOptions& options)
+      : domain_(domain),
+        rule_(rule),
+        front_(front),
+        radius_(static_cast<Real>(options.radius / domain.unit())) {}
+
+  void seed(const PointSource& source, Index number) {
+    const Real sigma = static_cast<Real>(source.offset / domain_.unit());
+    if (source.vertex != none) {
+      seed_vertex(domain_.inside_vertex(source.vertex), sigma, number);
+      return;
+    }
+    const Index s = domain_.inside_simplex(source.simplex);
+    const std::array<double, N + 1> b = inside_coordinates(domain_, s, source);
+    // To all simplices that have the corners it lies between: over a facet that holds the source
+    // its height would come out as the square root of rounding.
+    const auto* const corner = domain_.records()[s].corner;
+    const std::size_t support = static_cast<std::size_t>(
+        std::find_if(b.begin(), b.end(), [](double x) { return x > 0; }) - b.begin());
+    for (const Index c : domain_.corners_at(corner[support])) {
+      const auto& there = domain_.records()[c / sides].corner;
+      std::array<double, N + 1> b_there{};
+      bool holds = true;
+      for (std::size_t i = 0; i <= N && holds; ++i) {
+        if (b[i] == 0) continue;
+        const auto at = std::find(std::begin(there), std::end(there), corner[i]);
+        holds = at != std::end(there);
+        if (holds) b_there[static_cast<std::size_t>(at - std::begin(there))] = b[i];
+      }
+      if (!holds) continue;
+      const auto distance2 = corner_distances2<Real, N>(domain_.records()[c / sides], b_there);
+      rule_.seed_inside(c / sides, distance2, sigma, number);
+    }
+  }
+
+  void run() {
+    do {
+      spread();
+    } while (!front_.out_of_budget() && pass_pinches());
+  }
+
+ private:
+  static constexpr Index sides = N + 1;
+
+  void seed_vertex(Index vertex, Real sigma, Index number) {
+    for (const Index c : domain_.corners_at(vertex))
+      rule_.seed_corner(c / sides, c % sides, sigma, number);
+  }
+
+  void spread() {
+    const auto distance_of = [&](Index s) { return rule_.distance(s); };
+    Index s = 0;
+    for (;;) {
+      while (front_.next(s, distance_of)) {
+        if (rule_.distance(s) > radius_) [[unlikely]]
+          if (rule_.distance(s) - longest(s) > radius_) continue;
+        rule_.expand(s);
+      }
+      if (!front_.share_spent() || !front_.take_stock(rule_.distance(s))) return;
+      limit();
+    }
+  }
+
+  /// One or two updates a simplex are usual, ten are many. Lengths that no flat simplices have can
+  /// make a path shorter each time around, without end: from 128 updates a simplex on they must
+  /// gain more and more.
+  void limit() {
+    const double usual = 128 * static_cast<double>(domain_.simplex_count());
+    const double more = static_cast<double>(front_.updates()) / usual;
+    if (more > 1) rule_.set_patience(std::max(static_cast<Real>(2 - more), Real(1e-20)));
+  }
+
+  [[nodiscard]] Real longest(Index s) const {
+    const auto& l = domain_.records()[s].length2;
+    return std::sqrt(*std::max_element(std::begin(l), std::end(l)));
+  }
+
+  /// A path may pass a vertex where parts only touch: it bends there (a hinge of dimension 0).
+  /// True if some simplex got a better label.
+  bool pass_pinches() {
+    bool any = false;
+    for (const Index v : domain_.pinched()) {
+      Real best = std::numeric_limits<Real>::infinity();
+      Index number = none;
+      for (const Index c : domain_.corners_at(v)) {
+        if (!front_.reached(c / sides)) continue;
+        const Real d = rule_.corner_distance(c / sides, c % sides);
+        if (d < best) best = d, number = front_.source(c / sides);
+      }
+      if (!(best < std::numeric_limits<Real>::infinity()) || best > radius_) continue;
+      for (const Index c : domain_.corners_at(v)) {
+        // Within rounding of its own path it stays with that one; else this would not end.
+        const Real enough = best * (1 + 64 * std::numeric_limits<Real>::epsilon());
+        if (front_.reached(c / sides) && rule_.corner_distance(c / sides, c % sides) <= enough)
+          continue;
+        any |= rule_.seed_corner(c / sides, c % sides, best, number);
+      }
+    }
+    return any;
+  }
+
+  const SimplicialComplex<Real, N>& domain_;
+  Rule rule_;
+  Front& front_;
+  Real radius_;
+};
+
+}  // namespace plexway
