@@ -9,7 +9,9 @@ set(plexway_component_depends "")
 foreach(component IN LISTS components)
   get_property(depends GLOBAL PROPERTY PLEXWAY_DEPENDS_${component})
   get_property(header_dirs GLOBAL PROPERTY PLEXWAY_HEADERS_${component})
-  string(APPEND plexway_component_depends "set(plexway_${component}_depends ${depends})\n")
+  get_property(packages GLOBAL PROPERTY PLEXWAY_PACKAGES_${component})
+  string(APPEND plexway_component_depends "set(plexway_${component}_depends ${depends})\n"
+    "set(plexway_${component}_packages ${packages})\n")
   install(TARGETS plexway_${component} EXPORT plexway-${component}
     LIBRARY DESTINATION "${CMAKE_INSTALL_LIBDIR}"
     ARCHIVE DESTINATION "${CMAKE_INSTALL_LIBDIR}"

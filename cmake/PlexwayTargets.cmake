@@ -45,6 +45,22 @@ function(plexway_add_component name)
   set_property(GLOBAL PROPERTY PLEXWAY_HEADERS_${name} "${arg_HEADERS_FROM}")
 endfunction()
 
+# plexway_use_package(COMPONENT PACKAGE TARGET message): links TARGET into the component, hidden from its
+# users, when PACKAGE is found, and defines PLEXWAY_<COMPONENT>_<PACKAGE>; otherwise says the message.
+macro(plexway_use_package component package target message)
+  find_package(${package} QUIET)
+  if(TARGET ${target})
+    string(TOUPPER "PLEXWAY_${component}_${package}" definition)
+    target_link_libraries(plexway_${component} PRIVATE ${target})
+    target_compile_definitions(plexway_${component} PRIVATE ${definition}=1)
+    if(NOT BUILD_SHARED_LIBS)  # who links a static library links what it needs, too
+      set_property(GLOBAL APPEND PROPERTY PLEXWAY_PACKAGES_${component} ${package})
+    endif()
+  else()
+    message(STATUS "plexway: ${message}")
+  endif()
+endmacro()
+
 # plexway_require(NAME [version] PACKAGE <Debian package> FOR <option>): find_package that fails with
 # what to install. A macro, because some packages set variables that their user needs.
 macro(plexway_require name)

@@ -3,12 +3,15 @@
 namespace plexway::io {
 
 void write_csv(OutputFile& out, const Field& field) {
-  out.write(field.label.empty() ? "vertex,x,y,z,distance\n" : "vertex,x,y,z,distance,label\n");
+  out.write(field.positions.empty() ? "vertex,distance" : "vertex,x,y,z,distance");
+  out.write(field.label.empty() ? "\n" : ",label\n");
   for (std::size_t i = 0; i < field.distance.size(); ++i) {
     out.write_text(i);
-    for (const double c : field.surface.positions[i]) {
-      out.write(",");
-      out.write_text(c);
+    if (!field.positions.empty()) {
+      for (const double c : field.positions[i]) {
+        out.write(",");
+        out.write_text(c);
+      }
     }
     out.write(",");
     out.write_text(field.distance[i]);

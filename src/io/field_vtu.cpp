@@ -8,8 +8,6 @@
 namespace plexway::io {
 namespace {
 
-constexpr std::uint8_t vtk_triangle = 5;
-
 /// Hands out offsets in the order in which the blocks are written.
 class Blocks {
  public:
@@ -31,9 +29,10 @@ class Blocks {
 }  // namespace
 
 void write_vtu(OutputFile& out, const Field& field) {
-  const auto& [positions, triangles] = field.surface;
-  const std::uint64_t vertices = positions.size();
-  const std::uint64_t cells = triangles.size();
+  const std::uint64_t vertices = field.vertices;
+  const std::uint64_t cells = field.cell_count();
+  const std::uint64_t corners = field.corner_count();
+  const bool distances = !field.distance.empty();
   const bool labels = !field.label.empty();
 
   Blocks blocks;
@@ -44,35 +43,44 @@ void write_vtu(OutputFile& out, const Field& field) {
       "  <UnstructuredGrid>\n"
       "    <Piece NumberOfPoints=\"" +
       std::to_string(vertices) + "\" NumberOfCells=\"" + std::to_string(cells) + "\">\n";
-  xml += "      <PointData Scalars=\"distance\">\n";
-  xml += blocks.array("Float64", "distance", 1, 8 * vertices);
-  if (labels) xml += blocks.array("Int32", "label", 1, 4 * vertices);
-  xml += "      </PointData>\n      <Points>\n";
+  if (distances) {
+    xml += "      <PointData Scalars=\"distance\">\n";
+    xml += blocks.array("Float64", "distance", 1, 8 * vertices);
+    if (labels) xml += blocks.array("Int32", "label", 1, 4 * vertices);
+    xml += "      </PointData>\n";
+  }
+  xml += "      <Points>\n";
   xml += blocks.array("Float64", "Points", 3, 24 * vertices);
   xml += "      </Points>\n      <Cells>\n";
-  xml += blocks.array("Int64", "connectivity", 1, 24 * cells);
+  xml += blocks.array("Int64", "connectivity", 1, 8 * corners);
   xml += blocks.array("Int64", "offsets", 1, 8 * cells);
   xml += blocks.array("UInt8", "types", 1, cells);
   xml +=
       "      </Cells>\n    </Piece>\n  </UnstructuredGrid>\n  <AppendedData encoding=\"raw\">\n_";
   out.write(xml);
 
-  out.write_binary(8 * vertices);
-  for (const double d : field.distance) out.write_binary(d);
+  if (distances) {
+    out.write_binary(8 * vertices);
+    for (const double d : field.distance) out.write_binary(d);
+  }
   if (labels) {
     out.write_binary(4 * vertices);
     for (const std::int32_t l : field.label) out.write_binary(l);
   }
   out.write_binary(24 * vertices);
-  for (const auto& position : positions)
+  for (const auto& position : field.positions)
     for (const double c : position) out.write_binary(c);
-  out.write_binary(24 * cells);
-  for (const auto& triangle : triangles)
-    for (const std::uint32_t vertex : triangle) out.write_binary(std::int64_t{vertex});
+  out.write_binary(8 * corners);
+  for (const Cells& kind : field.cells)
+    for (const std::uint32_t vertex : kind.connectivity) out.write_binary(std::int64_t{vertex});
   out.write_binary(8 * cells);
-  for (std::uint64_t i = 1; i <= cells; ++i) out.write_binary(static_cast<std::int64_t>(3 * i));
+  std::int64_t end = 0;
+  for (const Cells& kind : field.cells)
+    for (std::size_t c = 0; c < kind.count(); ++c)
+      out.write_binary(end += static_cast<std::int64_t>(kind.corners));
   out.write_binary(cells);
-  for (std::uint64_t i = 0; i < cells; ++i) out.write_binary(vtk_triangle);
+  for (const Cells& kind : field.cells)
+    for (std::size_t c = 0; c < kind.count(); ++c) out.write_binary(kind.vtk_type);
   out.write("\n  </AppendedData>\n</VTKFile>\n");
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cstddef>
@@ -41,6 +42,14 @@ class OutputFile {
   template <class Number>
   void write_binary(Number value) {
     const auto bytes = little_endian(value);
+    write({bytes.data(), bytes.size()});
+  }
+
+  /// The bytes of `value`, big endian.
+  template <class Number>
+  void write_big_endian(Number value) {
+    auto bytes = little_endian(value);
+    std::reverse(bytes.begin(), bytes.end());
     write({bytes.data(), bytes.size()});
   }
 

@@ -5,19 +5,30 @@
 #include <span>
 #include <string_view>
 
+#include <plexway/io/edges.hpp>
+#include <plexway/io/tets.hpp>
 #include <plexway/io/triangles.hpp>
 
 namespace plexway::io {
 
 /// Writes one distance a vertex, and one label where `label` is not empty, in file order.
 ///
-/// The extension (any case) picks the format: .csv, .npy (distances only), .ply, .vtu. Unreached
-/// vertices carry +inf in each of them. The file appears whole or not at all: it is written
-/// beside its place and renamed at the end.
+/// The extension (any case) picks the format: .csv, .npy (distances only), .ply, .vtk, .vtu.
+/// Unreached vertices carry +inf in each of them. The file appears whole or not at all: it is
+/// written beside its place and renamed at the end.
 ///
 /// Throws UsageError for an unknown extension or arrays that are not as long as
 /// `surface.positions`, and Error "cannot write FILE: reason" when the system refuses.
 void write_field(const std::filesystem::path& file, const Triangles& surface,
+                 std::span<const double> distance, std::span<const std::int32_t> label = {});
+
+/// The same for a solid. A .ply holds its vertices alone.
+void write_field(const std::filesystem::path& file, const Tets& solid,
+                 std::span<const double> distance, std::span<const std::int32_t> label = {});
+
+/// The same for a wireframe. If its vertices have no positions, only .csv (without x, y and z) and
+/// .npy can hold it; UsageError otherwise.
+void write_field(const std::filesystem::path& file, const Edges& wireframe,
                  std::span<const double> distance, std::span<const std::int32_t> label = {});
 
 /// The extensions `write_field` knows, with the dot, in lower case.

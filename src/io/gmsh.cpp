@@ -1,0 +1,282 @@
+// Gmsh's .msh, versions 2 and 4.1, ascii and binary. https://gmsh.info/doc/texinfo/gmsh.html,
+// sections "MSH file format" and "MSH file format version 2 (Legacy)".
+
+#include <string>
+#include <utility>
+
+#include <plexway/io/tets.hpp>
+
+#include "gmsh_elements.hpp"
+#include "node_tags.hpp"
+#include "tet_checks.hpp"
+#include "value_source.hpp"
+
+namespace plexway::io {
+namespace {
+
+using enum NumberType;
+
+/// What stands between $MeshFormat and $EndMeshFormat.
+struct Format {
+  double version = 0;
+  bool binary = false;
+};
+
+/// The sections behind the header, `Source` being TextValues or ByteValues.
+template <class Source>
+class GmshReader {
+ public:
+  GmshReader(Source in, std::string_view name) : in_(in), name_(name) {}
+
+  Tets read(bool version4) {
+    while (!(has_nodes_ && has_elements_)) {
+      const std::string_view section = in_.word();
+      if (section == "$Nodes") {
+        if (has_nodes_) in_.fail("a second section $Nodes");
+        version4 ? nodes4() : nodes2();
+        end_section("$EndNodes");
+        if (const auto twice = tags_.finish())
+          in_.fail("two nodes have the tag " + std::to_string(*twice));
+        has_nodes_ = true;
+      } else if (section == "$Elements") {
+        if (!has_nodes_) in_.fail("$Elements comes before $Nodes");
+        version4 ? elements4() : elements2();
+        end_section("$EndElements");
+        has_elements_ = true;
+      } else if (section.empty()) {
+        in_.fail(std::string("the file ends before its section ") +
+                 (has_nodes_ ? "$Elements" : "$Nodes"));
+      } else if (section[0] == '$' && !section.starts_with("$End")) {
+        in_.skip_past("$End" + std::string(section.substr(1)));
+      } else {
+        in_.fail("expected a section, found " + quote(section));
+      }
+    }
+    require_tets(solid_, others_, name_);
+    return std::move(solid_);
+  }
+
+ private:
+  void end_section(std::string_view end) {
+    if (const auto word = in_.word(); word != end)
+      in_.fail("expected " + std::string(end) + ", found " +
+               (word.empty() ? "the end of the file" : quote(word)));
+  }
+
+  std::uint64_t count(std::int64_t stated, std::string_view what, NumberType type,
+                      std::uint64_t values) {
+    return checked_count(in_, stated, what, type, values);
+  }
+
+  void position() {
+    std::array<double, 3> p{};
+    for (std::size_t k = 0; k < 3; ++k) p[k] = in_.real(f64, axis_names[k]);
+    solid_.positions.push_back(p);
+  }
+
+  void require_few(std::uint64_t nodes) {
+    if (nodes >= most_vertices) in_.fail("more nodes than 32 bits count");
+  }
+
+  void nodes2() {
+    // A node takes three doubles and a tag, 28 bytes; in text four values.
+    const std::uint64_t nodes = count(in_.text_whole("the number of nodes"), "nodes", i32, 4);
+    require_few(nodes);
+    in_.end_line();
+    solid_.positions.reserve(nodes);
+    tags_.reserve(nodes);
+    for (std::uint64_t i = 0; i < nodes; ++i) {
+      tags_.add(in_.whole(i32, "the node's tag"));
+      position();
+      in_.end_item();
+    }
+  }
+
+  void nodes4() {
+    in_.end_line();
+    const std::int64_t blocks = in_.whole(u64, "the number of blocks");
+    const std::uint64_t nodes = count(in_.whole(u64, "the number of nodes"), "nodes", u64, 4);
+    require_few(nodes);
+    in_.skip(u64, 2, "the least and the largest tag");
+    solid_.positions.reserve(nodes);
+    tags_.reserve(nodes);
+    for (std::int64_t b = 0; b < blocks; ++b) {
+      const std::int64_t dimension = in_.whole(i32, "the entity's dimension");
+      in_.skip(i32, 1, "the entity's tag");
+      const bool parametric = in_.whole(i32, "whether nodes are parametric") != 0;
+      if (dimension < 0 || dimension > 3)
+        in_.fail("an entity's dimension is " + std::to_string(dimension));
+      const std::uint64_t here =
+          count(in_.whole(u64, "the number of nodes of the block"), "nodes in a block", u64, 4);
+      if (here > nodes - tags_.size()) more_than("nodes", nodes);
+      for (std::uint64_t i = 0; i < here; ++i) tags_.add(in_.whole(u64, "the node's tag"));
+      for (std::uint64_t i = 0; i < here; ++i) {
+        position();
+        if (parametric)
+          in_.skip(f64, static_cast<std::uint64_t>(dimension), "the node's parameters");
+        in_.end_item();
+      }
+    }
+    if (tags_.size() != nodes) fewer_than("nodes", tags_.size(), nodes);
+  }
+
+  void elements2() {
+    const std::uint64_t elements =
+        count(in_.text_whole("the number of elements"), "elements", i32, 1);
+    in_.end_line();
+    for (std::uint64_t i = 0; i < elements;) {
+      if constexpr (Source::is_text) {
+        const std::int64_t number = in_.whole(i32, "the element's number");
+        const GmshElement* element = find_gmsh_element(in_.whole(i32, "the element's type"));
+        if (element != nullptr) {
+          in_.skip(i32, tag_count(), "the element's tags");
+          this->element(*element, number, i32);
+          in_.end_item();
+        } else {
+          others_.add("elements of an unknown type");
+          in_.end_line();
+        }
+        ++i;
+      } else {
+        const GmshElement& element = known(in_.whole(i32, "the type of elements"));
+        const std::uint64_t here =
+            count(in_.whole(i32, "the number of elements"), "elements in a block", i32, 1);
+        if (here == 0) in_.fail("a block without elements");
+        if (here > elements - i) more_than("elements", elements);
+        const std::uint64_t tags = tag_count();
+        for (std::uint64_t e = 0; e < here; ++e) {
+          const std::int64_t number = in_.whole(i32, "the element's number");
+          in_.skip(i32, tags, "the element's tags");
+          this->element(element, number, i32);
+        }
+        i += here;
+      }
+    }
+  }
+
+  void elements4() {
+    in_.end_line();
+    const std::int64_t blocks = in_.whole(u64, "the number of blocks");
+    const std::uint64_t elements =
+        count(in_.whole(u64, "the number of elements"), "elements", u64, 1);
+    in_.skip(u64, 2, "the least and the largest tag");
+    std::uint64_t seen = 0;
+    for (std::int64_t b = 0; b < blocks; ++b) {
+      in_.skip(i32, 2, "the entity's dimension and tag");
+      const std::int64_t type = in_.whole(i32, "the type of elements");
+      const std::uint64_t here = count(in_.whole(u64, "the number of elements of the block"),
+                                       "elements in a block", u64, 2);
+      if (here > elements - seen) more_than("elements", elements);
+      seen += here;
+      const GmshElement* element = find_gmsh_element(type);
+      if (element == nullptr && Source::is_text) {
+        others_.add("elements of an unknown type", here);
+        for (std::uint64_t e = 0; e <= here; ++e) in_.end_line();
+        continue;
+      }
+      if (element == nullptr) element = &known(type);
+      for (std::uint64_t e = 0; e < here; ++e) {
+        const std::int64_t number = in_.whole(u64, "the element's tag");
+        this->element(*element, number, u64);
+        in_.end_item();
+      }
+    }
+    if (seen != elements) fewer_than("elements", seen, elements);
+  }
+
+  const GmshElement& known(std::int64_t type) {
+    const GmshElement* element = find_gmsh_element(type);
+    if (element == nullptr)
+      in_.fail("elements of type " + std::to_string(type) +
+               ", whose size is not known; save the file as ascii");
+    return *element;
+  }
+
+  std::uint64_t tag_count() {
+    return count(in_.whole(i32, "the number of tags"), "tags of an element", i32, 1);
+  }
+
+  void element(const GmshElement& element, std::int64_t number, NumberType type) {
+    if (element.kind != gmsh_tetrahedra) {
+      others_.add(element.kind);
+      in_.skip(type, element.nodes, "a node of the element");
+      return;
+    }
+    std::array<std::uint32_t, 4> tet{};
+    for (std::uint32_t& corner : tet) {
+      const std::int64_t tag = in_.whole(type, "a node of the tetrahedron");
+      const auto vertex = tags_.find(tag);
+      if (!vertex)
+        in_.fail("tetrahedron " + std::to_string(number) + " names node " + std::to_string(tag) +
+                 ", which is not among the " + std::to_string(tags_.size()) + " nodes");
+      corner = *vertex;
+    }
+    in_.skip(type, element.nodes - 4, "a node of the tetrahedron");
+    solid_.tets.push_back(tet);
+  }
+
+  [[noreturn]] void more_than(std::string_view what, std::uint64_t stated) {
+    in_.fail("the blocks hold more than the " + std::to_string(stated) + " " + std::string(what) +
+             " that the section states");
+  }
+
+  [[noreturn]] void fewer_than(std::string_view what, std::uint64_t have, std::uint64_t stated) {
+    in_.fail("the blocks hold " + std::to_string(have) + " " + std::string(what) +
+             ", but the section states " + std::to_string(stated));
+  }
+
+  Source in_;
+  std::string_view name_;
+  Tets solid_;
+  NodeTags tags_;
+  OtherCells others_;
+  bool has_nodes_ = false;
+  bool has_elements_ = false;
+};
+
+/// Reads the line under $MeshFormat and leaves the scanner on the next.
+Format read_format(TextScanner& scanner) {
+  if (!scanner.to_content()) scanner.fail("expected $MeshFormat, found the end of the file");
+  const std::string_view word = scanner.field();
+  if (word == "$NOD") scanner.fail("version 1 of .msh is not read; save it as version 4.1 or 2.2");
+  if (word != "$MeshFormat") scanner.fail("expected $MeshFormat, found " + quote(word));
+  if (!scanner.to_content()) scanner.fail("the file ends before the version");
+  Format format;
+  format.version = scanner.number("the version");
+  if (!(format.version >= 2 && format.version < 3) && format.version != 4.1)
+    scanner.fail("this version of .msh is not read; save it as version 4.1 or 2.2");
+  const std::int64_t type = scanner.integer("the file type");
+  if (type != 0 && type != 1) scanner.fail("the file type is neither 0, ascii, nor 1, binary");
+  format.binary = type == 1;
+  const std::int64_t size = scanner.integer("the data size");
+  if (size != 8 && format.binary)
+    scanner.fail("the data size is " + std::to_string(size) + "; only 8 is read");
+  if (!scanner.next_line()) scanner.fail("the file ends inside $MeshFormat");
+  return format;
+}
+
+}  // namespace
+
+Tets parse_gmsh(std::string_view bytes, std::string_view name) {
+  TextScanner scanner(bytes, name);
+  const Format format = read_format(scanner);
+  const bool version4 = format.version > 3;
+  if (!format.binary) {
+    if (!scanner.to_content() || scanner.field() != "$EndMeshFormat")
+      scanner.fail("expected $EndMeshFormat");
+    return GmshReader(TextValues(scanner), name).read(version4);
+  }
+  // A one, as an int, tells the byte order.
+  const std::size_t at = bytes.size() - scanner.bytes_left();
+  if (scanner.bytes_left() < 4)
+    scanner.fail("the file ends before the number that tells the order of bytes");
+  std::endian order = std::endian::little;
+  if (load<std::int32_t>(bytes.data() + at, order) != 1) order = std::endian::big;
+  ByteValues in(bytes, name, order, at);
+  if (in.whole(i32, "the number that tells the order of bytes") != 1)
+    in.fail("the number that tells the order of bytes is not 1");
+  if (in.word() != "$EndMeshFormat") in.fail("expected $EndMeshFormat");
+  return GmshReader(in, name).read(version4);
+}
+
+}  // namespace plexway::io

@@ -1,0 +1,70 @@
+#include <plexway/io/tets.hpp>
+
+#include <string>
+
+#include <plexway/error.hpp>
+
+#include "extension.hpp"
+#include "file_bytes.hpp"
+
+namespace plexway::io {
+namespace {
+
+namespace fs = std::filesystem;
+
+using Parser = Tets (*)(std::string_view, std::string_view);
+
+constexpr std::array<std::string_view, 6> extensions = {".node", ".ele", ".mesh",
+                                                        ".msh",  ".vtu", ".vtk"};
+/// In the order of the extensions; a pair of files is none of these.
+constexpr std::array<Parser, 6> parsers = {nullptr,    nullptr,   parse_medit,
+                                           parse_gmsh, parse_vtu, parse_vtk};
+
+/// The file beside `file` that makes it whole; the case of the extension may differ.
+fs::path partner(const fs::path& file, std::string_view lower, std::string_view upper) {
+  fs::path other = file;
+  std::error_code ignored;
+  for (const std::string_view extension : {upper, lower}) {
+    other.replace_extension(extension);
+    if (fs::exists(other, ignored)) return other;
+  }
+  return other;
+}
+
+Tets read_node_ele(const fs::path& file, bool is_node) {
+  const FileBytes given(file);
+  const fs::path other = is_node ? partner(file, ".ele", ".ELE") : partner(file, ".node", ".NODE");
+  std::error_code ignored;
+  if (!fs::exists(other, ignored))
+    throw InputError(file.string() + ": holds only the " +
+                     (is_node ? "vertices; the tetrahedra" : "tetrahedra; the vertices") +
+                     " must lie beside it in " + other.string());
+  const FileBytes second(other);
+  const std::string given_name = file.string();
+  const std::string other_name = other.string();
+  const NamedText a{given.view(), given_name};
+  const NamedText b{second.view(), other_name};
+  return is_node ? parse_node_ele(a, b) : parse_node_ele(b, a);
+}
+
+}  // namespace
+
+std::span<const std::string_view> tet_extensions() { return extensions; }
+
+Tets read_tets(const fs::path& file) {
+  const std::string extension = lower_extension(file);
+  for (std::size_t i = 0; i < extensions.size(); ++i) {
+    if (extension != extensions[i]) continue;
+    if (parsers[i] == nullptr) return read_node_ele(file, extension == ".node");
+    const FileBytes bytes(file);
+    return parsers[i](bytes.view(), file.string());
+  }
+  std::error_code ignored;
+  if (fs::is_directory(file, ignored))
+    throw InputError(file.string() + ": is a directory, not a file");
+  if (extension == ".meshb")
+    throw InputError(file.string() + ": binary .meshb is not read; save it as ascii .mesh");
+  throw InputError(unknown_extension(file, extensions));
+}
+
+}  // namespace plexway::io

@@ -1,0 +1,225 @@
+// VTK's legacy files, up to version 5.1. Keywords are text, what they announce is text or, in
+// binary files, big endian bytes.
+// https://docs.vtk.org/en/latest/design_documents/VTKFileFormats.html
+
+#include <string>
+#include <utility>
+
+#include "vtk_cells.hpp"
+
+namespace plexway::io {
+namespace {
+
+using enum NumberType;
+
+std::string lower(std::string_view word) {
+  std::string text(word);
+  for (char& c : text)
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c + ('a' - 'A'));
+  return text;
+}
+
+/// What follows the first three lines, `Source` being TextValues or ByteValues.
+template <class Source>
+class LegacyReader {
+ public:
+  LegacyReader(Source in, std::string_view name) : in_(in), name_(name) {}
+
+  Tets read(bool version5) {
+    // What comes after these three is data at points and cells.
+    while (!(has_points_ && has_cells_ && has_types_)) {
+      const std::string_view word = in_.word();
+      const std::string keyword = lower(word);
+      if (keyword == "dataset") {
+        const std::string_view kind = in_.word();
+        if (lower(kind) != "unstructured_grid")
+          in_.fail("the dataset is " + quote(kind) + "; tetrahedra need an UNSTRUCTURED_GRID");
+      } else if (keyword == "field") {
+        skip_field();
+      } else if (keyword == "metadata") {
+        in_.skip_to_blank_line();
+      } else if (keyword == "points" && !has_points_) {
+        points();
+      } else if (keyword == "cells" && !has_cells_) {
+        if (!has_points_) in_.fail("CELLS come before POINTS");
+        version5 ? cells5() : cells();
+        has_cells_ = true;
+      } else if (keyword == "cell_types" && !has_types_) {
+        if (!has_cells_) in_.fail("CELL_TYPES come before CELLS");
+        types();
+      } else if (keyword.empty() || keyword == "point_data" || keyword == "cell_data") {
+        in_.fail(std::string("the file has no ") + (!has_points_  ? "POINTS"
+                                                    : !has_cells_ ? "CELLS"
+                                                                  : "CELL_TYPES"));
+      } else {
+        in_.fail("expected POINTS, CELLS or CELL_TYPES, found " + quote(word));
+      }
+    }
+    require_tets(solid_, others_, name_);
+    return std::move(solid_);
+  }
+
+ private:
+  std::uint64_t count(std::string_view what, NumberType type, std::uint64_t values) {
+    return checked_count(in_, in_.text_whole("the number of " + std::string(what)), what, type,
+                         values);
+  }
+
+  NumberType number_type() {
+    const std::string_view word = in_.word();
+    const auto type = vtk_number_type(lower(word));
+    if (!type) in_.fail("numbers of type " + quote(word) + " are not read");
+    return *type;
+  }
+
+  /// Arrays that belong to the grid as a whole.
+  void skip_field() {
+    in_.word();  // its name
+    const std::uint64_t arrays = count("arrays", i8, 1);
+    for (std::uint64_t i = 0; i < arrays;) {
+      const std::string_view word = in_.word();
+      if (word.empty()) in_.fail("the file ends inside FIELD");
+      if (word == "METADATA") {
+        in_.skip_to_blank_line();
+        continue;
+      }
+      const std::uint64_t components = count("components", i8, 1);
+      const std::uint64_t tuples = count("tuples", i8, components == 0 ? 1 : components);
+      const NumberType type = number_type();
+      in_.end_line();
+      in_.skip(type, components * tuples, "a value of the array");
+      ++i;
+    }
+  }
+
+  void points() {
+    const std::uint64_t points = count("points", i8, 3);
+    const NumberType type = number_type();
+    in_.end_line();
+    if (points > in_.most(type) / 3)
+      in_.fail("there should be " + std::to_string(points) + " points, but only " +
+               std::to_string(in_.bytes_left()) + " bytes follow");
+    read_vtk_points(in_, type, points, solid_);
+    has_points_ = true;
+  }
+
+  /// One list: for each cell how many points it has, and these.
+  void cells() {
+    const std::uint64_t cells = count("cells", i32, 1);
+    const std::uint64_t size = count("numbers that make up the cells", i32, 1);
+    in_.end_line();
+    if (size < cells)
+      in_.fail(std::to_string(cells) + " cells cannot be made of " + std::to_string(size) +
+               " numbers");
+    cells_.ends.reserve(cells);
+    cells_.connectivity.reserve(size - cells);
+    for (std::uint64_t c = 0; c < cells; ++c) {
+      const std::int64_t corners = in_.whole(i32, "the number of points of a cell");
+      const std::uint64_t left = size - cells - cells_.connectivity.size();
+      if (corners < 0 || static_cast<std::uint64_t>(corners) > left)
+        in_.fail("cell " + std::to_string(c) + " has " + std::to_string(corners) +
+                 " points, but only " + std::to_string(left) + " are left for it");
+      for (std::int64_t i = 0; i < corners; ++i) corner(i32);
+      cells_.ends.push_back(cells_.connectivity.size());
+    }
+    if (cells_.connectivity.size() != size - cells)
+      in_.fail("the cells are made of " + std::to_string(cells_.connectivity.size() + cells) +
+               " numbers, not of " + std::to_string(size));
+  }
+
+  /// Two lists: where the points of each cell start, one more than there are cells; the points.
+  void cells5() {
+    const std::uint64_t offsets = count("offsets of cells", i8, 1);
+    const std::uint64_t size = count("points of cells", i8, 1);
+    const NumberType type = list("offsets");
+    if (offsets > in_.most(type))
+      in_.fail("there should be " + std::to_string(offsets) + " offsets, but only " +
+               std::to_string(in_.bytes_left()) + " bytes follow");
+    cells_.ends.reserve(offsets);
+    std::int64_t before = 0;
+    for (std::uint64_t i = 0; i < offsets; ++i) {
+      const std::int64_t offset = in_.whole(type, "the offset of a cell");
+      if (offset < before || (i == 0 && offset != 0) || static_cast<std::uint64_t>(offset) > size)
+        in_.fail("offset " + std::to_string(i) + " is " + std::to_string(offset) + " after " +
+                 std::to_string(before) + ", of " + std::to_string(size));
+      before = offset;
+      if (i != 0) cells_.ends.push_back(static_cast<std::uint64_t>(offset));
+    }
+    if (static_cast<std::uint64_t>(before) != size)
+      in_.fail("the last offset is " + std::to_string(before) + ", but the cells have " +
+               std::to_string(size) + " points");
+    const NumberType point = list("connectivity");
+    if (size > in_.most(point))
+      in_.fail("there should be " + std::to_string(size) + " points of cells, but only " +
+               std::to_string(in_.bytes_left()) + " bytes follow");
+    cells_.connectivity.reserve(size);
+    for (std::uint64_t i = 0; i < size; ++i) corner(point);
+  }
+
+  NumberType list(std::string_view keyword) {
+    std::string_view word = in_.word();
+    if (lower(word) == "metadata") {
+      in_.skip_to_blank_line();
+      word = in_.word();
+    }
+    if (lower(word) != keyword) in_.fail("expected " + quote(keyword) + ", found " + quote(word));
+    const NumberType type = number_type();
+    in_.end_line();
+    return type;
+  }
+
+  void corner(NumberType type) {
+    cells_.connectivity.push_back(read_vtk_corner(in_, type, solid_.positions.size()));
+  }
+
+  void types() {
+    const std::uint64_t types = count("types of cells", i32, 1);
+    in_.end_line();
+    if (types != cells_.ends.size())
+      in_.fail("there are " + std::to_string(types) + " types for " +
+               std::to_string(cells_.ends.size()) + " cells");
+    VtkTets tets(solid_, others_);
+    for (std::uint64_t c = 0; c < types; ++c)
+      if (const auto wrong = tets.add(cells_, c, in_.whole(i32, "the type of a cell")))
+        in_.fail(*wrong);
+    has_types_ = true;
+  }
+
+  Source in_;
+  std::string_view name_;
+  Tets solid_;
+  VtkCells cells_;
+  OtherCells others_;
+  bool has_points_ = false;
+  bool has_cells_ = false;
+  bool has_types_ = false;
+};
+
+}  // namespace
+
+Tets parse_vtk(std::string_view bytes, std::string_view name) {
+  // The first line looks like a comment, and the second holds anything.
+  const auto fail = [&](std::size_t line, const std::string& cause) {
+    throw InputError(std::string(name) + ":" + std::to_string(line) + ": " + cause);
+  };
+  constexpr std::string_view magic = "# vtk DataFile Version ";
+  if (!lower(bytes.substr(0, magic.size())).starts_with(lower(magic)))
+    fail(1, "expected '# vtk DataFile Version', found " + quote(bytes.substr(0, bytes.find('\n'))));
+  TextScanner first(bytes.substr(magic.size()), name);
+  const double version = first.number("the version");
+  if (version < 1 || version >= 6)
+    first.fail("this version of .vtk is not read; those up to 5.1 are");
+  TextScanner scanner(bytes, name);
+  if (!scanner.next_line() || !scanner.next_line())
+    scanner.fail("the file ends before ASCII or BINARY");
+  const std::string_view word = scanner.field();
+  const std::string mode = lower(word);
+  if (mode != "ascii" && mode != "binary")
+    scanner.fail("expected ASCII or BINARY, found " + quote(word));
+  scanner.next_line();
+  if (mode == "ascii") return LegacyReader(TextValues(scanner), name).read(version >= 5);
+  const std::size_t at = bytes.size() - scanner.bytes_left();
+  return LegacyReader(ByteValues(bytes, name, std::endian::big, at), name).read(version >= 5);
+}
+
+}  // namespace plexway::io

@@ -1,0 +1,239 @@
+// VTK's XML unstructured grid. The XML is pugixml's work; but raw appended data is not XML, so it
+// is cut off first. https://docs.vtk.org/en/latest/design_documents/VTKFileFormats.html
+
+#include <plexway/io/tets.hpp>
+
+#include <plexway/error.hpp>
+
+#if PLEXWAY_IO_PUGIXML
+
+#include <algorithm>
+#include <charconv>
+#include <pugixml.hpp>
+#include <string>
+
+#include "vtk_cells.hpp"
+#include "vtu_data.hpp"
+
+namespace plexway::io {
+namespace {
+
+class VtuReader {
+ public:
+  VtuReader(std::string_view bytes, std::string_view name) : bytes_(bytes), name_(name) {}
+
+  Tets read() {
+    load();
+    const pugi::xml_node root = document_.child("VTKFile");
+    if (!root) fail(1, "expected the element VTKFile");
+    const std::string_view type = root.attribute("type").value();
+    if (type != "UnstructuredGrid")
+      fail(root, "the file is of type " + quote(type) + "; tetrahedra need an UnstructuredGrid");
+    read_encoding(root);
+    const pugi::xml_node appended = root.child("AppendedData");
+    appended_base64_ = std::string_view(appended.attribute("encoding").value()) == "base64";
+    for (const pugi::xml_node piece : root.child("UnstructuredGrid").children("Piece"))
+      read_piece(piece);
+    require_tets(solid_, others_, name_);
+    return std::move(solid_);
+  }
+
+ private:
+  [[noreturn]] void fail(std::size_t line, const std::string& cause) const {
+    throw InputError(std::string(name_) + ":" + std::to_string(line) + ": " + cause);
+  }
+  [[noreturn]] void fail(pugi::xml_node node, const std::string& cause) const {
+    fail(line_of(node), cause);
+  }
+
+  /// Counts from the place asked for last, which is never far away.
+  std::size_t line_of_byte(std::size_t at) const {
+    at = std::min(at, bytes_.size());
+    const auto [from, to] = std::minmax(at, counted_);
+    const std::string_view between = bytes_.substr(from, to - from);
+    const auto lines = static_cast<std::size_t>(std::count(between.begin(), between.end(), '\n'));
+    counted_line_ = at < counted_ ? counted_line_ - lines : counted_line_ + lines;
+    counted_ = at;
+    return counted_line_;
+  }
+  std::size_t line_of(pugi::xml_node node) const {
+    const std::ptrdiff_t at = node.offset_debug();
+    return at < 0 ? 1 : line_of_byte(static_cast<std::size_t>(at));
+  }
+
+  /// Parses what is XML; `appended_` is what follows the tag AppendedData and its '_'.
+  void load() {
+    std::string xml;
+    const auto tag = bytes_.find("<AppendedData");
+    const auto end = tag == std::string_view::npos ? tag : bytes_.find('>', tag);
+    if (end == std::string_view::npos || bytes_[end - 1] == '/') {
+      xml = bytes_;
+    } else {
+      xml = bytes_.substr(0, end + 1);
+      xml += "</AppendedData></VTKFile>";
+      const auto mark = bytes_.find('_', end);
+      if (mark != std::string_view::npos) appended_ = bytes_.substr(mark + 1);
+    }
+    const auto result =
+        document_.load_buffer(xml.data(), xml.size(), pugi::parse_minimal, pugi::encoding_utf8);
+    if (!result)
+      fail(line_of_byte(static_cast<std::size_t>(std::max<std::ptrdiff_t>(result.offset, 0))),
+           std::string("the XML is broken: ") + result.description());
+  }
+
+  void read_encoding(pugi::xml_node root) {
+    const std::string_view order = root.attribute("byte_order").as_string("LittleEndian");
+    if (order != "LittleEndian" && order != "BigEndian")
+      fail(root, "the byte order is " + quote(order));
+    encoding_.order = order == "BigEndian" ? std::endian::big : std::endian::little;
+    const std::string_view header = root.attribute("header_type").as_string("UInt32");
+    if (header != "UInt32" && header != "UInt64") fail(root, "the header type is " + quote(header));
+    encoding_.header = header == "UInt64" ? NumberType::u64 : NumberType::u32;
+    const std::string_view compressor = root.attribute("compressor").value();
+    if (!compressor.empty() && compressor != "vtkZLibDataCompressor")
+      fail(root, "data packed by " + quote(compressor) +
+                     " are not read; save the file with zlib or without compression");
+    encoding_.compressed = !compressor.empty();
+  }
+
+  std::uint64_t number(pugi::xml_node node, const char* name) const {
+    const std::string_view text = node.attribute(name).value();
+    std::uint64_t value = 0;
+    const auto [stop, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    if (error != std::errc{} || stop != text.data() + text.size())
+      fail(node, std::string(name) + " is not a whole number: " + quote(text));
+    return value;
+  }
+
+  void read_piece(pugi::xml_node piece) {
+    const std::uint64_t points = number(piece, "NumberOfPoints");
+    const std::uint64_t cells = number(piece, "NumberOfCells");
+    const std::size_t base = solid_.positions.size();
+    if (points != 0) {
+      const pugi::xml_node array = piece.child("Points").child("DataArray");
+      if (!array) fail(piece, "the piece has no array of points");
+      if (std::string_view(array.attribute("NumberOfComponents").value()) != "3")
+        fail(array, "points need NumberOfComponents=\"3\"");
+      values(array, "points", points, 3,
+             [&](auto& in, NumberType type) { read_vtk_points(in, type, points, solid_); });
+    }
+    if (cells != 0) read_cells(piece, points, cells, base);
+  }
+
+  void read_cells(pugi::xml_node piece, std::uint64_t points, std::uint64_t cells,
+                  std::size_t base) {
+    VtkCells list;
+    values(cell_array(piece, "offsets"), "offsets", cells, 1, [&](auto& in, NumberType type) {
+      list.ends.reserve(cells);
+      std::int64_t before = 0;
+      for (std::uint64_t c = 0; c < cells; ++c) {
+        const std::int64_t end = in.whole(type, "the offset of a cell");
+        if (end < before)
+          in.fail("offset " + std::to_string(end) + " follows " + std::to_string(before));
+        before = end;
+        list.ends.push_back(static_cast<std::uint64_t>(end));
+      }
+    });
+    const std::uint64_t corners = list.ends.back();
+    values(cell_array(piece, "connectivity"), "points of cells", corners, 1,
+           [&](auto& in, NumberType type) {
+             list.connectivity.reserve(corners);
+             for (std::uint64_t i = 0; i < corners; ++i)
+               list.connectivity.push_back(static_cast<std::uint32_t>(
+                   base + read_vtk_corner(in, type, static_cast<std::size_t>(points))));
+           });
+    values(cell_array(piece, "types"), "types of cells", cells, 1, [&](auto& in, NumberType type) {
+      VtkTets tets(solid_, others_);
+      for (std::uint64_t c = 0; c < cells; ++c)
+        if (const auto wrong = tets.add(list, c, in.whole(type, "the type of a cell")))
+          in.fail(*wrong);
+    });
+  }
+
+  pugi::xml_node cell_array(pugi::xml_node piece, const char* name) const {
+    const pugi::xml_node array =
+        piece.child("Cells").find_child_by_attribute("DataArray", "Name", name);
+    if (!array) fail(piece, "the piece has no array " + quote(name));
+    return array;
+  }
+
+  /// Calls `read` with a source of the array's values, which must be `count` times `components`.
+  template <class Read>
+  void values(pugi::xml_node array, std::string_view what, std::uint64_t count,
+              std::uint64_t components, Read read) {
+    const std::string_view type_name = array.attribute("type").value();
+    const auto type = vtk_number_type(type_name);
+    if (!type) fail(array, "numbers of type " + quote(type_name) + " are not read");
+    const std::string_view format = array.attribute("format").as_string("ascii");
+    const std::string where = std::string(name_) + ":" + std::to_string(line_of(array)) +
+                              ": array " + quote(array.attribute("Name").value());
+    if (count > static_cast<std::uint64_t>(INT64_MAX) / components)
+      throw InputError(where + " cannot hold " + std::to_string(count) + " " + std::string(what));
+
+    if (format == "ascii") {
+      const pugi::xml_node text = text_of(array);
+      TextValues in(TextScanner(text.value(), name_, TextScanner::Backslash::ordinary,
+                                line_of(text ? text : array)));
+      checked_count(in, static_cast<std::int64_t>(count), what, *type, components);
+      read(in, *type);
+      in.finish(what);
+      return;
+    }
+    std::string bytes;
+    if (format == "binary") {
+      bytes = decode_vtu_array(text_of(array).value(), true, encoding_, where);
+    } else if (format == "appended") {
+      const std::uint64_t offset = number(array, "offset");
+      if (offset > appended_.size())
+        throw InputError(where + " starts at byte " + std::to_string(offset) + " of " +
+                         std::to_string(appended_.size()) + " that are appended");
+      bytes = decode_vtu_array(appended_.substr(offset), appended_base64_, encoding_, where);
+    } else {
+      fail(array, "the format is " + quote(format) + "; known are ascii, binary and appended");
+    }
+    ByteValues in(bytes, where, encoding_.order);
+    checked_count(in, static_cast<std::int64_t>(count), what, *type, components);
+    read(in, *type);
+    in.finish(what);
+  }
+
+  /// The text of an element, which may follow elements that it holds.
+  static pugi::xml_node text_of(pugi::xml_node node) {
+    for (const pugi::xml_node child : node.children())
+      if (child.type() == pugi::node_pcdata) return child;
+    return {};
+  }
+
+  std::string_view bytes_;
+  std::string_view name_;
+  mutable std::size_t counted_ = 0;
+  mutable std::size_t counted_line_ = 1;
+  pugi::xml_document document_;
+  std::string_view appended_;
+  bool appended_base64_ = false;
+  VtuEncoding encoding_;
+  Tets solid_;
+  OtherCells others_;
+};
+
+}  // namespace
+
+Tets parse_vtu(std::string_view bytes, std::string_view name) {
+  return VtuReader(bytes, name).read();
+}
+
+}  // namespace plexway::io
+
+#else
+
+namespace plexway::io {
+
+Tets parse_vtu(std::string_view, std::string_view) {
+  throw NotBuiltError(
+      "this plexway reads no .vtu: install libpugixml-dev and build it again, or save the file as "
+      "legacy .vtk");
+}
+
+}  // namespace plexway::io
+
+#endif

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+#include "number_type.hpp"
+
+namespace plexway::io {
+
+/// How the arrays of a VTK XML file are stored.
+struct VtuEncoding {
+  std::endian order = std::endian::little;
+  NumberType header = NumberType::u32;  ///< of the lengths in front of each array
+  bool compressed = false;              ///< by zlib, in blocks
+};
+
+/// The bytes of the array that starts at the front of `data`, which may go on behind it.
+///
+/// `base64` tells how `data` is written; otherwise it is raw. `where` starts the messages. Memory
+/// is asked for only as far as `data` can fill it. Throws InputError, or NotBuiltError if it takes
+/// a zlib that is not there.
+std::string decode_vtu_array(std::string_view data, bool base64, const VtuEncoding& encoding,
+                             const std::string& where);
+
+}  // namespace plexway::io
