@@ -2,6 +2,7 @@
 
 #include <plexway/io/triangles.hpp>
 
+#include "obj_fields.hpp"
 #include "surface_checks.hpp"
 #include "text_scanner.hpp"
 
@@ -28,36 +29,7 @@ void reserve_by_lines(std::string_view text, Triangles& surface) {
   surface.triangles.reserve(faces);
 }
 
-void read_vertex(TextScanner& scanner, Triangles& surface) {
-  const double x = scanner.number("coordinate x");
-  const double y = scanner.number("coordinate y");
-  const double z = scanner.number("coordinate z");
-  while (scanner.to_field()) scanner.number("the field after z");  // weight or colour
-  if (surface.positions.size() == most_vertices) scanner.fail("more vertices than 32 bits count");
-  surface.positions.push_back({x, y, z});
-}
-
-/// One corner of a face: `v`, `v/vt`, `v//vn` or `v/vt/vn`. Returns the vertex, 0-based.
-std::uint64_t read_corner(TextScanner& scanner, std::size_t face, std::size_t vertices_so_far,
-                          std::uint64_t limit) {
-  const std::int64_t index = scanner.integer("a vertex of the face", '/');
-  const std::string_view rest = scanner.rest_of_field();
-  if (rest.find_first_not_of("/-+0123456789") != std::string_view::npos)
-    scanner.fail("a corner of the face is not like 1, 1/2, 1//3 or 1/2/3: it goes on with " +
-                 quote(rest));
-  if (index > 0) {
-    const auto vertex = static_cast<std::uint64_t>(index) - 1;
-    if (vertex >= limit) scanner.fail(bad_index(face, index, static_cast<std::size_t>(limit)));
-    return vertex;
-  }
-  if (index == 0)
-    scanner.fail("face " + std::to_string(face) + " names vertex 0; OBJ counts from 1");
-  const auto back = std::uint64_t{0} - static_cast<std::uint64_t>(index);
-  if (back > vertices_so_far)
-    scanner.fail("face " + std::to_string(face) + " names vertex " + std::to_string(index) +
-                 ", but only " + std::to_string(vertices_so_far) + " vertices come before it");
-  return vertices_so_far - back;
-}
+constexpr ObjElement face = {"face", "a vertex of the face"};
 
 /// Reads all statements. A face may name vertices that come later, so `limit` is the number of
 /// vertices of the whole file, if known. Returns one more than the highest vertex named.
@@ -68,11 +40,11 @@ std::uint64_t read_statements(std::string_view text, std::string_view name, std:
   std::size_t faces = 0;
   while (scanner.to_content()) {
     if (scanner.take_letter('v')) {
-      read_vertex(scanner, surface);
+      read_obj_vertex(scanner, surface.positions);
     } else if (scanner.take_letter('f')) {
       Fan fan(surface);
       while (scanner.to_field()) {
-        const auto vertex = read_corner(scanner, faces, surface.positions.size(), limit);
+        const auto vertex = read_obj_corner(scanner, face, faces, surface.positions.size(), limit);
         if (vertex >= needed) needed = vertex + 1;
         fan.corner(static_cast<std::uint32_t>(vertex));
       }

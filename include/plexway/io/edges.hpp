@@ -3,16 +3,40 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <filesystem>
+#include <span>
+#include <string_view>
 #include <vector>
 
 namespace plexway::io {
 
-/// A wireframe as a file has it.
+/// A wireframe as a file has it: nothing merged, reordered or dropped.
 struct Edges {
-  std::vector<std::array<double, 3>> positions;     ///< empty if the file has none
+  std::vector<std::array<double, 3>> positions;     ///< in file units; empty if the file has none
   std::vector<std::array<std::uint32_t, 2>> edges;  ///< 0-based, each < vertices
   std::vector<double> lengths;                      ///< one an edge; empty: from the positions
-  std::size_t vertices = 0;
+  std::size_t vertices = 0;                         ///< referenced or not
 };
+
+/// Reads the wireframe in `file`; the extension (any case) picks the format.
+///
+/// Throws InputError, one line "FILE:LINE: cause" or "FILE: cause", when the file is missing or
+/// malformed, holds a number that is not finite, an index out of range, no edge at all, or when the
+/// extension is not known.
+Edges read_edges(const std::filesystem::path& file);
+
+/// The extensions `read_edges` knows, with the dot, in lower case.
+std::span<const std::string_view> edge_extensions();
+
+/// The polylines of a Wavefront OBJ: `v` and `l` (`v` or `v/vt`, negative indices, `\` at a line's
+/// end); each pair of neighbours is an edge, and all other statements are ignored. `name` stands
+/// for the file in messages. Throws InputError, also for a file that has faces but no lines.
+Edges parse_obj_lines(std::string_view text, std::string_view name);
+
+/// A list of edges, "a b" or "a b length" a line, vertices counted from 0. All edges have a length
+/// or none has: then it is 1. `#` starts a comment, and `%` a line that is one. There are as many
+/// vertices as a first line "vertices N" says, or else one more than the highest index. Throws
+/// InputError, also for an index so high that it can only be a mistake.
+Edges parse_edge_list(std::string_view text, std::string_view name);
 
 }  // namespace plexway::io

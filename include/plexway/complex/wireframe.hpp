@@ -1,0 +1,93 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include <plexway/complex/ids.hpp>
+
+namespace plexway {
+
+/// What a wireframe is made of, counted while it is built.
+struct WireframeSummary {
+  std::size_t vertices = 0;
+  std::size_t edges = 0;
+  std::size_t components = 0;             ///< of edges joined at vertices
+  std::size_t unreferenced_vertices = 0;  ///< in no edge: no path leads to them
+  std::size_t zero_length_edges = 0;
+  double mean_edge = 0;   ///< in the input's unit
+  std::size_t loops = 0;  ///< edges from a vertex to itself: allowed, but no path gains by one
+};
+
+/// An edge as its vertex has it: where it leads, and its length in the unit inside.
+template <class Real>
+struct WireArc {
+  Index to;
+  Real length;
+};
+
+/// Edges that meet in vertices, each with a length: a graph, a lattice of struts, a tree of
+/// vessels.
+///
+/// Edges are the simplices and vertices the hinges. Several edges between the same two vertices,
+/// loops, edges without length, several components and unreferenced vertices are all allowed.
+/// Immutable once built, so any number of threads may read it.
+///
+/// Vertices and edges have the caller's numbers in this interface. Inside, vertices are sorted for
+/// locality. Memory in float: 8 bytes a vertex and 20 an edge.
+template <class Real>
+class Wireframe {
+ public:
+  /// From n positions in any unit and m edges of vertex indices < n. Throws InputError naming the
+  /// edge for an index out of range or a length too large for a double, the vertex for a coordinate
+  /// that is not finite, and for no edge or more than 2^31 - 1. Cost: n log n, about 0.2 us a
+  /// vertex.
+  Wireframe(std::span<const std::array<double, 3>> positions,
+            std::span<const std::array<Index, 2>> edges);
+
+  /// From one length an edge. Throws as above, and for a length that is negative or not finite.
+  Wireframe(std::size_t vertices, std::span<const std::array<Index, 2>> edges,
+            std::span<const double> lengths);
+
+  [[nodiscard]] std::size_t vertex_count() const { return vertex_to_inside_.size(); }
+  [[nodiscard]] std::size_t edge_count() const { return arc_of_edge_.size(); }
+  [[nodiscard]] const WireframeSummary& summary() const { return summary_; }
+  /// Bytes this complex holds.
+  [[nodiscard]] std::size_t bytes() const;
+  /// One unit inside, in the input's unit: the power of two next to the mean edge length, so that
+  /// changing units costs no digit.
+  [[nodiscard]] double unit() const { return unit_; }
+
+  // What follows serves the floors above and uses the numbers inside.
+
+  /// The arcs of vertex v are those from begin()[v] to begin()[v + 1]. A loop is there once.
+  [[nodiscard]] std::span<const Index> begin() const { return begin_; }
+  [[nodiscard]] std::span<const WireArc<Real>> arcs() const { return arcs_; }
+  [[nodiscard]] Index inside_vertex(Index vertex) const { return vertex_to_inside_[vertex]; }
+  [[nodiscard]] std::span<const Index> vertices_inside() const { return vertex_to_inside_; }
+
+  /// An edge in the caller's direction.
+  struct Ends {
+    Index from, to;
+    Real length;
+  };
+  /// Cost: logarithmic.
+  [[nodiscard]] Ends inside_edge(Index edge) const;
+
+ private:
+  void assemble(std::span<const std::array<Index, 2>> edges, std::span<const double> lengths);
+  void count_components();
+
+  WireframeSummary summary_;
+  double unit_ = 1;
+  std::vector<Index> begin_;
+  std::vector<WireArc<Real>> arcs_;
+  std::vector<Index> vertex_to_inside_;
+  std::vector<Index> arc_of_edge_;  // from the edge's first vertex to its second
+};
+
+extern template class Wireframe<float>;
+extern template class Wireframe<double>;
+
+}  // namespace plexway

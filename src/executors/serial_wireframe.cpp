@@ -1,0 +1,112 @@
+#include <plexway/executors/serial_wireframe.hpp>
+
+#include <cmath>
+#include <limits>
+#include <string>
+#include <type_traits>
+
+#include <plexway/error.hpp>
+#include <plexway/propagate/wire_step.hpp>
+
+#include "propagate/wire_propagation.hpp"
+
+namespace plexway {
+namespace {
+
+template <class Real>
+void check(const Wireframe<Real>& wireframe, std::span<const PointSource> sources,
+           const PropagateOptions& options) {
+  if (sources.empty()) throw UsageError("there is no source: name at least one");
+  if (sources.size() >= none) throw UsageError("too many sources");
+  for (const PointSource& s : sources) {
+    if (s.vertex != none) {
+      if (s.vertex >= wireframe.vertex_count())
+        throw UsageError("source vertex " + std::to_string(s.vertex) +
+                         " is out of range, there are " + std::to_string(wireframe.vertex_count()));
+    } else {
+      if (s.simplex >= wireframe.edge_count())
+        throw UsageError("source edge " + std::to_string(s.simplex) +
+                         " is out of range, there are " + std::to_string(wireframe.edge_count()));
+      const auto& b = s.barycentric;
+      if (!(b[0] >= 0) || !(b[1] >= 0) || b[2] != 0 || b[3] != 0 ||
+          !(std::abs(b[0] + b[1] - 1) < 1e-6))
+        throw UsageError("a source's barycentric coordinates must be >= 0 and sum to 1");
+    }
+    if (!(s.offset >= 0) || !std::isfinite(s.offset))
+      throw UsageError("a source's offset must be a number >= 0");
+  }
+  if (!(options.step > 0)) throw UsageError("the step must be > 0");
+  if (!(options.radius >= 0)) throw UsageError("the radius must be >= 0");
+}
+
+template <class Real, class Step, bool kLabels>
+void solve(const Wireframe<Real>& wireframe, std::span<const PointSource> sources,
+           const PropagateOptions& options, Workspace<Real>& workspace,
+           DistanceField<Real>& field) {
+  WirePropagation<Real, Step, kLabels> propagation(wireframe, workspace, options);
+  constexpr std::size_t unlimited = std::numeric_limits<std::size_t>::max();
+  const auto start = [&](auto& front) {
+    for (std::size_t n = 0; n < sources.size(); ++n)
+      propagation.seed(sources[n], static_cast<Index>(n), front);
+  };
+  workspace.front.reserve(wireframe.vertex_count());
+  if (options.schedule == Schedule::priority) {
+    PriorityQueue<Real> front(workspace.front);
+    start(front);
+    propagation.spread(front, unlimited);
+  } else if (options.schedule == Schedule::fifo) {
+    DualQueue<Real> front(workspace.front, std::numeric_limits<Real>::infinity());
+    start(front);
+    propagation.spread(front, unlimited);
+  } else {
+    const double mean = wireframe.summary().mean_edge / wireframe.unit();
+    DualQueue<Real> front(workspace.front,
+                          static_cast<Real>(mean > 0 ? options.step * mean : options.step));
+    start(front);
+    if (!propagation.spread(front, 8 * wireframe.arcs().size())) {
+      PriorityQueue<Real> nearest_first(workspace.front);
+      propagation.hand_over(nearest_first);
+      propagation.spread(nearest_first, unlimited);
+    }
+  }
+  propagation.read_out(sources, field);
+}
+
+}  // namespace
+
+template <class Real>
+void propagate(Serial, const Wireframe<Real>& wireframe, std::span<const PointSource> sources,
+               const PropagateOptions& options, Workspace<Real>& workspace,
+               DistanceField<Real>& field) {
+  check(wireframe, sources, options);
+  const auto with_step = [&](auto labels, auto step) {
+    solve<Real, decltype(step), decltype(labels)::value>(wireframe, sources, options, workspace,
+                                                         field);
+  };
+  const auto with_labels = [&](auto labels) {
+    options.vectorised ? with_step(labels, WireStep<Real>{})
+                       : with_step(labels, KernelWireStep<Real>{});
+  };
+  sources.size() > 1 ? with_labels(std::true_type{}) : with_labels(std::false_type{});
+}
+
+template <class Real>
+DistanceField<Real> propagate(Serial executor, const Wireframe<Real>& wireframe,
+                              std::span<const PointSource> sources,
+                              const PropagateOptions& options) {
+  Workspace<Real> workspace;
+  DistanceField<Real> field;
+  propagate(executor, wireframe, sources, options, workspace, field);
+  return field;
+}
+
+template void propagate(Serial, const Wireframe<float>&, std::span<const PointSource>,
+                        const PropagateOptions&, Workspace<float>&, DistanceField<float>&);
+template void propagate(Serial, const Wireframe<double>&, std::span<const PointSource>,
+                        const PropagateOptions&, Workspace<double>&, DistanceField<double>&);
+template DistanceField<float> propagate(Serial, const Wireframe<float>&,
+                                        std::span<const PointSource>, const PropagateOptions&);
+template DistanceField<double> propagate(Serial, const Wireframe<double>&,
+                                         std::span<const PointSource>, const PropagateOptions&);
+
+}  // namespace plexway
