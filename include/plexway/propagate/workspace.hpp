@@ -7,7 +7,9 @@
 #include <plexway/complex/ids.hpp>
 #include <plexway/propagate/front.hpp>
 #include <plexway/propagate/plain_label.hpp>
+#include <plexway/propagate/plain_solid_label.hpp>
 #include <plexway/propagate/saddle_label.hpp>
+#include <plexway/propagate/solid_label.hpp>
 #include <plexway/propagate/visit_marks.hpp>
 
 namespace plexway {
@@ -34,6 +36,8 @@ struct Workspace {
   VisitMarks marks;
   LabelStorage<SaddleLabel<Real>> saddles;  ///< Visibility::saddles
   LabelStorage<PlainLabel<Real>> plain;     ///< the other policies
+  LabelStorage<SolidLabel<Real>> solids;    ///< in solids: Visibility::saddles
+  LabelStorage<PlainSolidLabel<Real>> plain_solids;  ///< in solids: the other policies
   std::vector<Index> source;                ///< nearest source a simplex; empty for one source
   FrontStorage front;
   std::vector<Real> vertex;          ///< read-out, in the numbers inside
@@ -43,7 +47,8 @@ struct Workspace {
   [[nodiscard]] std::size_t bytes() const {
     const auto of = [](const auto& v) { return v.capacity() * sizeof(v[0]); };
     return sizeof(*this) + marks.bytes() + saddles.count * sizeof(SaddleLabel<Real>) +
-           plain.count * sizeof(PlainLabel<Real>) + of(source) + of(vertex) + of(vertex_source) +
+           plain.count * sizeof(PlainLabel<Real>) + solids.count * sizeof(SolidLabel<Real>) +
+           plain_solids.count * sizeof(PlainSolidLabel<Real>) + of(source) + of(vertex) + of(vertex_source) +
            of(corners) + front.capacity * 2 * sizeof(Index) + of(front.heap);
   }
 };

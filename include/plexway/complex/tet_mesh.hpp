@@ -1,0 +1,128 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include <plexway/complex/ids.hpp>
+#include <plexway/complex/tet_record.hpp>
+
+namespace plexway {
+
+/// What a solid is made of, counted while it is built.
+struct SolidSummary {
+  std::size_t vertices = 0;
+  std::size_t tets = 0;
+  std::size_t edges = 0;           ///< distinct
+  std::size_t faces = 0;           ///< distinct
+  std::size_t boundary_faces = 0;  ///< of one tetrahedron only
+  std::size_t reflex_edges = 0;    ///< with more than pi of solid around: paths bend there
+  std::size_t reflex_vertices = 0;       ///< ends of reflex edges, and pinched vertices
+  std::size_t pinched_vertices = 0;      ///< tetrahedra touch there in the vertex only
+  std::size_t pinched_edges = 0;         ///< tetrahedra touch there in the edge only
+  std::size_t unreferenced_vertices = 0; ///< in no tetrahedron: no path leads to them
+  std::size_t degenerate_tets = 0;       ///< no volume, in the input's precision
+  std::size_t inverted_tets = 0;  ///< negative volume as given; turned over
+  std::size_t components = 0;     ///< of tetrahedra joined by faces or pinched edges or vertices
+  double mean_edge = 0;           ///< in the input's unit; the library works in this unit inside
+  bool embedded = false;          ///< has coordinates
+};
+
+/// A solid made of tetrahedra, glued where two share a face.
+///
+/// With coordinates it is a part of Euclidean space; with lengths alone, a piecewise flat metric.
+/// Boundary, several components, vertices and edges where tetrahedra only touch, unreferenced
+/// vertices and tetrahedra without volume are all allowed. Immutable once built, so any number of
+/// threads may read it.
+///
+/// Vertices and tetrahedra have the caller's numbers in this interface. Inside they are reordered
+/// for locality. Memory: 68 bytes a tetrahedron and 24 a vertex in float.
+template <class Real>
+class TetMesh {
+ public:
+  /// From coordinates. Shapes: n positions in any unit, m tetrahedra of vertex indices < n, in
+  /// either orientation. Throws InputError naming the vertex, tetrahedron or face for a coordinate
+  /// that is not finite, an index out of range, the same vertex twice in a tetrahedron, no
+  /// tetrahedron, more than two tetrahedra on a face, two on the same side of one, or more than
+  /// 2^30 - 2 tetrahedra. Cost: about 2 us a tetrahedron.
+  TetMesh(std::span<const std::array<double, 3>> positions,
+          std::span<const std::array<Index, 4>> tets);
+
+  /// From lengths alone: lengths[t] are those of the edges (0,1) (0,2) (1,2) (0,3) (1,3) (2,3) of
+  /// tetrahedron t, and must be the same wherever an edge occurs (up to rounding; the mean is
+  /// taken). Lengths that no tetrahedron has are clamped where they are used
+  /// (SolidSummary::degenerate_tets counts). Throws as above, and for a length that is negative or
+  /// not finite.
+  TetMesh(std::size_t vertices, std::span<const std::array<Index, 4>> tets,
+          std::span<const std::array<double, 6>> lengths);
+
+  [[nodiscard]] std::size_t vertex_count() const { return vertex_to_inside_.size(); }
+  [[nodiscard]] std::size_t tet_count() const { return tet_to_inside_.size(); }
+  [[nodiscard]] const SolidSummary& summary() const { return summary_; }
+  [[nodiscard]] bool embedded() const { return summary_.embedded; }
+  /// The mean edge, in the input's unit.
+  [[nodiscard]] double unit() const { return summary_.mean_edge; }
+  /// Bytes this complex holds.
+  [[nodiscard]] std::size_t bytes() const;
+
+  // What follows serves the floors above and uses the numbers inside.
+
+  /// An edge that fans of tetrahedra share without sharing a face at it.
+  struct PinchedEdge {
+    Index vertex[2];
+    Index begin, end;  ///< its tetrahedra in pinched_edge_tets
+  };
+  static constexpr Index turned = Index{1} << 31;
+
+  /// The records, and one sentinel behind them that stands for "no tetrahedron".
+  [[nodiscard]] std::span<const TetRecord<Real>> tets() const { return tets_; }
+  /// Positions in units of the mean edge about the middle of the solid; empty if not embedded.
+  [[nodiscard]] std::span<const Vector3<Real>> points() const { return points_; }
+  /// Squared lengths of a tetrahedron's edges; empty if embedded.
+  [[nodiscard]] std::span<const std::array<Real, 6>> squared_lengths() const { return lengths_; }
+  [[nodiscard]] std::span<const ReflexEdge<Real>> reflex_edges() const { return reflex_; }
+  [[nodiscard]] std::span<const Index> reflex_list() const { return reflex_list_; }
+  [[nodiscard]] std::span<const Index> vertices_inside() const { return vertex_to_inside_; }
+  [[nodiscard]] Index inside_vertex(Index vertex) const { return vertex_to_inside_[vertex]; }
+  /// The second is true if its last two corners are exchanged here.
+  [[nodiscard]] std::pair<Index, bool> inside_tet(Index tet) const {
+    return {tet_to_inside_[tet] & ~turned, (tet_to_inside_[tet] & turned) != 0};
+  }
+  /// Corners 4 t + i at a vertex.
+  [[nodiscard]] std::span<const Index> corners_at(Index inside_vertex) const {
+    return std::span<const Index>(corners_).subspan(
+        corners_begin_[inside_vertex],
+        corners_begin_[inside_vertex + 1] - corners_begin_[inside_vertex]);
+  }
+  /// Vertices (inside) where tetrahedra touch in the vertex only, ascending.
+  [[nodiscard]] std::span<const Index> pinched() const { return pinched_; }
+  [[nodiscard]] std::span<const PinchedEdge> pinched_edges() const { return pinched_edges_; }
+  [[nodiscard]] std::span<const Index> pinched_edge_tets() const { return pinched_edge_tets_; }
+
+ private:
+  void assemble(std::size_t vertices, std::span<const std::array<Index, 4>> tets,
+                std::span<const std::array<double, 3>> scaled,
+                std::span<const std::array<double, 6>> lengths,
+                std::span<const std::array<Index, 4>> across, const std::vector<Index>& order,
+                const std::vector<char>& turn);
+
+  SolidSummary summary_;
+  std::vector<TetRecord<Real>> tets_;
+  std::vector<Vector3<Real>> points_;
+  std::vector<std::array<Real, 6>> lengths_;
+  std::vector<ReflexEdge<Real>> reflex_;
+  std::vector<Index> reflex_list_;
+  std::vector<Index> vertex_to_inside_;
+  std::vector<Index> tet_to_inside_;  // and `turned`
+  std::vector<Index> corners_begin_, corners_;
+  std::vector<Index> pinched_;
+  std::vector<PinchedEdge> pinched_edges_;
+  std::vector<Index> pinched_edge_tets_;
+};
+
+extern template class TetMesh<float>;
+extern template class TetMesh<double>;
+
+}  // namespace plexway

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include <plexway/complex/ids.hpp>
+#include <plexway/complex/tet_record.hpp>
+
+namespace plexway {
+
+/// Four corners of a tetrahedron in space.
+using TetPoints = std::array<Vector3<double>, 4>;
+
+/// Edges, vertices and components of a solid whose tetrahedra are in positive order.
+struct TetTopology {
+  struct PinchedEdge {
+    std::array<Index, 2> vertex;
+    Index begin, end;  ///< in pinched_edge_tets
+  };
+  std::size_t edges = 0;
+  std::size_t reflex_edges = 0;
+  std::vector<ReflexEdge<double>> reflex;  ///< those in a straight row are one
+  std::vector<Index> reflex_list;   ///< ReflexEntry, by tetrahedron
+  std::vector<Index> first_reflex;  ///< of each tetrahedron, or none
+  std::vector<PinchedEdge> pinched_edges;
+  std::vector<Index> pinched_edge_tets;
+  std::vector<Index> pinched_vertices;
+  std::size_t reflex_vertices = 0;
+  std::size_t components = 0;
+};
+
+/// From corners and across (4 u + j, or none) of each tetrahedron. points: of each tetrahedron, in
+/// units of about an edge; all in one frame if `embedded`, else each in its own.
+TetTopology find_tet_topology(std::size_t vertices, std::span<const std::array<Index, 4>> corner,
+                              std::span<const std::array<Index, 4>> across,
+                              std::span<const TetPoints> points, bool embedded);
+
+}  // namespace plexway

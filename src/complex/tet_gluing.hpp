@@ -1,0 +1,34 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include <plexway/complex/ids.hpp>
+
+namespace plexway {
+
+using Tets = std::span<const std::array<Index, 4>>;
+/// across[t][i]: 4 u + j if face i of tetrahedron t is face j of u, or none.
+using TetGluing = std::vector<std::array<Index, 4>>;
+
+/// Throws InputError for indices that no solid can have.
+void check_tets(std::size_t vertices, Tets tets);
+
+/// Glues tetrahedra where two share three vertices. Throws InputError naming those of a face that
+/// has more than two.
+TetGluing glue_tets(std::size_t vertices, Tets tets);
+
+/// Which tetrahedra to turn over (their last two corners exchanged) so that all are positive.
+/// volume[t]: +1, -1 or 0 for none; those take the side that their neighbours leave them. Throws
+/// InputError where two tetrahedra with volume lie on the same side of a face.
+std::vector<char> orient_tets(Tets tets, const TetGluing& across, std::span<const char> volume);
+
+/// Tetrahedra along a space-filling (Morton) curve through their centroids.
+std::vector<Index> morton_order(std::span<const std::array<double, 3>> positions, Tets tets);
+
+/// Tetrahedra by component and, in each, breadth first.
+std::vector<Index> breadth_first_order(const TetGluing& across);
+
+}  // namespace plexway

@@ -1,0 +1,257 @@
+#include <plexway/complex/tet_mesh.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+
+#include <plexway/error.hpp>
+
+#include "complex/tet_edges.hpp"
+#include "complex/tet_gluing.hpp"
+
+namespace plexway {
+namespace {
+
+// Six times the volume, over the product of the three edges from a corner: below this, none.
+constexpr double flat = 1e-14;
+
+Vector3<double> vector(const std::array<double, 3>& p) { return {p[0], p[1], p[2]}; }
+
+// In units of the largest extent and about the middle, so that an offset does no harm and nothing
+// overflows.
+std::vector<std::array<double, 3>> centred(std::span<const std::array<double, 3>> positions,
+                                           double& extent) {
+  std::array<double, 3> low{}, high{};
+  low.fill(std::numeric_limits<double>::infinity());
+  high.fill(-std::numeric_limits<double>::infinity());
+  for (std::size_t v = 0; v < positions.size(); ++v)
+    for (std::size_t d = 0; d < 3; ++d) {
+      const double x = positions[v][d];
+      if (!std::isfinite(x))
+        throw InputError("vertex " + std::to_string(v) + ": a coordinate is not a finite number");
+      low[d] = std::min(low[d], x);
+      high[d] = std::max(high[d], x);
+    }
+  extent = 0;
+  for (std::size_t d = 0; d < 3; ++d) extent = std::max(extent, high[d] / 2 - low[d] / 2);
+  if (extent > std::numeric_limits<double>::max() / 16)
+    throw InputError("the coordinates are too large to take distances: scale them down");
+  if (!(extent > 0)) extent = 1;
+  std::vector<std::array<double, 3>> scaled(positions.size());
+  for (std::size_t v = 0; v < positions.size(); ++v)
+    for (std::size_t d = 0; d < 3; ++d)
+      scaled[v][d] = (positions[v][d] - (low[d] / 2 + high[d] / 2)) / extent;
+  return scaled;
+}
+
+// A tetrahedron with these edge lengths, as far as there is one.
+TetPoints pose(const std::array<double, 6>& length) {
+  const auto square = [](double x) { return x * x; };
+  TetPoints p{};
+  p[1].x = length[0];
+  const auto along = [](double to_first, double to_second, double base) {
+    return base > 0 ? (to_first - to_second + base * base) / (2 * base) : 0;
+  };
+  const double l02 = square(length[1]), l12 = square(length[2]), l03 = square(length[3]);
+  p[2].x = along(l02, l12, length[0]);
+  p[2].y = std::sqrt(std::max(l02 - square(p[2].x), 0.0));
+  p[3].x = along(l03, square(length[4]), length[0]);
+  if (p[2].y > 0)
+    p[3].y = (l03 - square(length[5]) + l02 - 2 * p[3].x * p[2].x) / (2 * p[2].y);
+  p[3].z = std::sqrt(std::max(l03 - square(p[3].x) - square(p[3].y), 0.0));
+  return p;
+}
+
+double determinant(const TetPoints& p) {
+  return dot(cross(p[1] - p[0], p[2] - p[0]), p[3] - p[0]);
+}
+
+bool has_volume(const TetPoints& p) {
+  double product = 1;
+  for (std::size_t i = 1; i < 4; ++i) product *= norm(p[i] - p[0]);
+  return std::abs(determinant(p)) > flat * product;
+}
+
+}  // namespace
+
+template <class Real>
+TetMesh<Real>::TetMesh(std::span<const std::array<double, 3>> positions,
+                       std::span<const std::array<Index, 4>> tets) {
+  check_tets(positions.size(), tets);
+  double extent = 1;
+  auto scaled = centred(positions, extent);
+  const auto across = glue_tets(positions.size(), tets);
+  std::vector<char> volume(tets.size());
+  double sum = 0;
+  for (std::size_t t = 0; t < tets.size(); ++t) {
+    TetPoints p;
+    for (std::size_t i = 0; i < 4; ++i) p[i] = vector(scaled[tets[t][i]]);
+    for (const auto& [i, j] : tet_edge_ends) sum += norm(p[j] - p[i]);
+    volume[t] = !has_volume(p) ? 0 : determinant(p) > 0 ? 1 : -1;
+    summary_.degenerate_tets += volume[t] == 0;
+    summary_.inverted_tets += volume[t] < 0;
+  }
+  const auto turn = orient_tets(tets, across, volume);
+  const double mean = sum > 0 ? sum / (6 * static_cast<double>(tets.size())) : 1;
+  for (auto& p : scaled)
+    for (double& x : p) x /= mean;
+  summary_.embedded = true;
+  summary_.mean_edge = mean * extent;
+  assemble(positions.size(), tets, scaled, {}, across, morton_order(scaled, tets), turn);
+}
+
+template <class Real>
+TetMesh<Real>::TetMesh(std::size_t vertices, std::span<const std::array<Index, 4>> tets,
+                       std::span<const std::array<double, 6>> lengths) {
+  check_tets(vertices, tets);
+  if (lengths.size() != tets.size())
+    throw InputError(std::to_string(tets.size()) + " tets but lengths for " +
+                     std::to_string(lengths.size()));
+  double longest = 0;
+  for (std::size_t t = 0; t < tets.size(); ++t)
+    for (const double l : lengths[t]) {
+      if (!(l >= 0) || !std::isfinite(l))
+        throw InputError("tet " + std::to_string(t) + ": a length is negative or not finite");
+      longest = std::max(longest, l);
+    }
+  double sum = 0;
+  for (const auto& tet : lengths)
+    for (const double l : tet) sum += longest > 0 ? l / longest : 0;
+  const double unit =
+      longest > 0 ? longest * (sum / (6 * static_cast<double>(tets.size()))) : 1;
+  std::vector<std::array<double, 6>> scaled(lengths.begin(), lengths.end());
+  for (auto& tet : scaled)
+    for (double& l : tet) l /= unit;
+  const auto across = glue_tets(vertices, tets);
+  const std::vector<char> unknown(tets.size(), 0);
+  const auto turn = orient_tets(tets, across, unknown);
+  summary_.mean_edge = unit;
+  assemble(vertices, tets, {}, scaled, across, breadth_first_order(across), turn);
+}
+
+template <class Real>
+void TetMesh<Real>::assemble(std::size_t vertices, std::span<const std::array<Index, 4>> tets,
+                             std::span<const std::array<double, 3>> scaled,
+                             std::span<const std::array<double, 6>> lengths,
+                             std::span<const std::array<Index, 4>> across,
+                             const std::vector<Index>& order, const std::vector<char>& turn) {
+  const std::size_t m = tets.size();
+  summary_.vertices = vertices;
+  summary_.tets = m;
+  tet_to_inside_.resize(m);
+  for (std::size_t i = 0; i < m; ++i)
+    tet_to_inside_[order[i]] = static_cast<Index>(i) | (turn[order[i]] ? turned : 0);
+  vertex_to_inside_.assign(vertices, none);
+  Index named = 0;
+  for (const Index t : order)
+    for (const Index v : tets[t])
+      if (vertex_to_inside_[v] == none) vertex_to_inside_[v] = named++;
+  summary_.unreferenced_vertices = vertices - named;
+  for (Index& v : vertex_to_inside_)
+    if (v == none) v = named++;
+
+  // A turned tetrahedron has its last two corners, and so faces, exchanged.
+  const auto corner_inside = [&](Index t, Index i) { return turn[t] && i >= 2 ? 5 - i : i; };
+  std::vector<std::array<Index, 4>> corner(m), over(m);
+  std::vector<TetPoints> points(m);
+  for (std::size_t inside = 0; inside < m; ++inside) {
+    const Index t = order[inside];
+    TetPoints posed;
+    if (summary_.embedded)
+      for (std::size_t i = 0; i < 4; ++i) posed[i] = vector(scaled[tets[t][i]]);
+    else
+      posed = pose(lengths[t]);
+    for (Index i = 0; i < 4; ++i) {
+      const Index k = corner_inside(t, i), o = across[t][i];
+      corner[inside][k] = vertex_to_inside_[tets[t][i]];
+      points[inside][k] = posed[i];
+      over[inside][k] = o == none ? none
+                                  : 4 * (tet_to_inside_[o / 4] & ~turned) +
+                                        corner_inside(o / 4, o % 4);
+      summary_.boundary_faces += o == none;
+    }
+  }
+  summary_.faces = (4 * m + summary_.boundary_faces) / 2;
+
+  TetTopology topology = find_tet_topology(vertices, corner, over, points, summary_.embedded);
+  summary_.edges = topology.edges;
+  summary_.reflex_edges = topology.reflex_edges;
+  summary_.reflex_vertices = topology.reflex_vertices;
+  summary_.pinched_vertices = topology.pinched_vertices.size();
+  summary_.pinched_edges = topology.pinched_edges.size();
+  summary_.components = topology.components;
+  pinched_ = std::move(topology.pinched_vertices);
+  for (const auto& e : topology.pinched_edges)
+    pinched_edges_.push_back({{e.vertex[0], e.vertex[1]}, e.begin, e.end});
+  pinched_edge_tets_ = std::move(topology.pinched_edge_tets);
+
+  const auto rounded = [](const Vector3<double>& p) {
+    return Vector3<Real>{static_cast<Real>(p.x), static_cast<Real>(p.y), static_cast<Real>(p.z)};
+  };
+  tets_.resize(m + 1);
+  for (std::size_t t = 0; t < m; ++t) {
+    TetRecord<Real>& record = tets_[t];
+    Vector3<double> centre = {0, 0, 0};
+    for (std::size_t i = 0; i < 4; ++i) {
+      const Index o = over[t][i];
+      record.across[i] =
+          o == none ? static_cast<Index>(m) << TetAcross::tet_shift
+                    : (o / 4) << TetAcross::tet_shift | o % 4;
+      record.corner[i] = corner[t][i];
+      centre = centre + 0.25 * points[t][i];
+    }
+    record.centre = summary_.embedded ? rounded(centre) : Vector3<Real>{0, 0, 0};
+    record.reflex = summary_.embedded ? topology.first_reflex[t] : none;
+  }
+  for (std::size_t i = 0; i < 4; ++i) {
+    tets_[m].across[i] = static_cast<Index>(m) << TetAcross::tet_shift;
+    tets_[m].corner[i] = 0;
+  }
+  tets_[m].centre = {0, 0, 0};
+  tets_[m].reflex = none;
+
+  if (summary_.embedded) {
+    points_.resize(vertices);
+    for (std::size_t v = 0; v < vertices; ++v)
+      points_[vertex_to_inside_[v]] = rounded(vector(scaled[v]));
+    reflex_list_ = std::move(topology.reflex_list);
+    for (const auto& e : topology.reflex)
+      reflex_.push_back({{rounded(e.end[0]), rounded(e.end[1])},
+                         {rounded(e.normal[0]), rounded(e.normal[1])},
+                         {e.vertex[0], e.vertex[1]}});
+  } else {
+    lengths_.resize(m + 1);
+    for (std::size_t t = 0; t < m; ++t) {
+      // Through the pose, so that they are those of a tetrahedron.
+      summary_.degenerate_tets += !has_volume(points[t]);
+      for (std::size_t e = 0; e < 6; ++e) {
+        const auto d = points[t][tet_edge_ends[e][1]] - points[t][tet_edge_ends[e][0]];
+        lengths_[t][e] = static_cast<Real>(dot(d, d));
+      }
+    }
+  }
+
+  corners_begin_.assign(vertices + 1, 0);
+  for (const auto& tet : corner)
+    for (const Index v : tet) ++corners_begin_[v + 1];
+  for (std::size_t v = 0; v < vertices; ++v) corners_begin_[v + 1] += corners_begin_[v];
+  corners_.resize(4 * m);
+  std::vector<Index> cursor(corners_begin_.begin(), corners_begin_.end() - 1);
+  for (std::size_t t = 0; t < m; ++t)
+    for (std::size_t i = 0; i < 4; ++i)
+      corners_[cursor[corner[t][i]]++] = static_cast<Index>(4 * t + i);
+}
+
+template <class Real>
+std::size_t TetMesh<Real>::bytes() const {
+  const auto of = [](const auto& v) { return v.capacity() * sizeof(v[0]); };
+  return sizeof(*this) + of(tets_) + of(points_) + of(lengths_) + of(reflex_) + of(reflex_list_) +
+         of(vertex_to_inside_) + of(tet_to_inside_) + of(corners_begin_) + of(corners_) +
+         of(pinched_) + of(pinched_edges_) + of(pinched_edge_tets_);
+}
+
+template class TetMesh<float>;
+template class TetMesh<double>;
+
+}  // namespace plexway

@@ -1,0 +1,179 @@
+#include <plexway/executors/serial_solid.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+
+#include <plexway/error.hpp>
+#include <plexway/propagate/plain_solid_rule.hpp>
+#include <plexway/propagate/solid_rule.hpp>
+
+#include "propagate/solid_propagation.hpp"
+#include "propagate/solid_read_out.hpp"
+
+namespace plexway {
+namespace {
+
+template <class Real>
+void check(const TetMesh<Real>& mesh, std::span<const PointSource> sources,
+           const PropagateOptions& options) {
+  if (sources.empty()) throw UsageError("there is no source: name at least one");
+  if (sources.size() >= none) throw UsageError("too many sources");
+  for (const PointSource& s : sources) {
+    if (s.vertex != none) {
+      if (s.vertex >= mesh.vertex_count())
+        throw UsageError("source vertex " + std::to_string(s.vertex) +
+                         " is out of range, there are " + std::to_string(mesh.vertex_count()));
+    } else {
+      if (s.simplex >= mesh.tet_count())
+        throw UsageError("source tet " + std::to_string(s.simplex) +
+                         " is out of range, there are " + std::to_string(mesh.tet_count()));
+      double sum = 0;
+      bool inside = true;
+      for (const double b : s.barycentric) inside = inside && b >= 0, sum += b;
+      if (!inside || !(std::abs(sum - 1) < 1e-6))
+        throw UsageError("a source's barycentric coordinates must be >= 0 and sum to 1");
+    }
+    if (!(s.offset >= 0) || !std::isfinite(s.offset))
+      throw UsageError("a source's offset must be a number >= 0");
+  }
+  if (!(options.step > 0)) throw UsageError("the step must be > 0");
+  if (!(options.radius >= 0)) throw UsageError("the radius must be >= 0");
+  if (options.visibility == Visibility::tuned)
+    throw UsageError(
+        "the tuned policy is a table for triangles: use saddles, centroid or upper_bound in solids");
+}
+
+// The sources themselves, exactly, and the corners of tetrahedra they lie in.
+template <class Real, bool kLabels>
+void read_out_sources(const TetMesh<Real>& mesh, std::span<const PointSource> sources,
+                      Workspace<Real>& workspace) {
+  for (std::size_t n = sources.size(); n-- > 0;) {
+    const Real sigma = static_cast<Real>(sources[n].offset / mesh.unit());
+    Index v = none;
+    if (sources[n].vertex != none) {
+      v = mesh.inside_vertex(sources[n].vertex);
+    } else {
+      const auto [t, turned] = mesh.inside_tet(sources[n].simplex);
+      for (std::size_t i = 0; i < 4; ++i)
+        if (sources[n].barycentric[i] == 1)
+          v = mesh.tets()[t].corner[turned && i >= 2 ? 5 - i : i];
+    }
+    if (v == none || sigma > workspace.vertex[v]) continue;
+    workspace.vertex[v] = sigma;
+    if constexpr (kLabels) workspace.vertex_source[v] = static_cast<Index>(n);
+  }
+}
+
+template <class Real, bool kLabels, class Rule, class Front>
+void solve(const TetMesh<Real>& mesh, std::span<const PointSource> sources,
+           const PropagateOptions& options, Workspace<Real>& workspace, const Rule& rule,
+           Wavefront<Real, Front, kLabels>& front, DistanceField<Real>& field) {
+  SolidPropagation<Real, Rule, Wavefront<Real, Front, kLabels>> propagation(mesh, rule, front,
+                                                                            options);
+  for (std::size_t n = 0; n < sources.size(); ++n)
+    propagation.seed(sources[n], static_cast<Index>(n));
+  propagation.run();
+
+  constexpr Real infinity = std::numeric_limits<Real>::infinity();
+  const std::size_t vertices = mesh.vertex_count();
+  workspace.vertex.assign(vertices, infinity);
+  if constexpr (kLabels) workspace.vertex_source.assign(vertices, none);
+  read_out_tets<Real, kLabels>(mesh, rule, front, workspace);
+  read_out_sources<Real, kLabels>(mesh, sources, workspace);
+  if (mesh.embedded() && options.visibility == Visibility::saddles)
+    read_out_tet_edges<Real, kLabels>(mesh, workspace);
+
+  field.distance.resize(vertices);
+  field.label.resize(kLabels ? vertices : 0);
+  const Real unit = static_cast<Real>(mesh.unit()), radius = static_cast<Real>(options.radius);
+  const std::span<const Index> inside = mesh.vertices_inside();
+  for (std::size_t v = 0; v < vertices; ++v) {
+    const Real d = workspace.vertex[inside[v]] * unit;
+    const bool in = d <= radius;
+    field.distance[v] = in ? d : infinity;
+    if constexpr (kLabels)
+      field.label[v] = in && d < infinity ? workspace.vertex_source[inside[v]] : none;
+  }
+  // An offset survives scaling exactly.
+  for (const PointSource& s : sources)
+    if (s.vertex != none && s.offset <= options.radius)
+      field.distance[s.vertex] = std::min(field.distance[s.vertex], static_cast<Real>(s.offset));
+  field.complete = !front.out_of_budget();
+  field.statistics = {front.expansions(), front.updates(), front.reached_count()};
+}
+
+template <class Real, bool kLabels, class Front>
+void with_front(const TetMesh<Real>& mesh, std::span<const PointSource> sources,
+                const PropagateOptions& options, Workspace<Real>& workspace, Front front,
+                DistanceField<Real>& field) {
+  const std::size_t records = mesh.tet_count() + 1;
+  workspace.marks.resize(records);
+  workspace.marks.start();
+  workspace.marks.data()[mesh.tet_count()] = workspace.marks.current();  // the sentinel
+  if constexpr (kLabels) workspace.source.resize(records);
+  using Wave = Wavefront<Real, Front, kLabels>;
+  Wave wave(workspace.marks, front, workspace.source.data(), mesh.tet_count(), mesh.unit(),
+            options);
+  if (mesh.embedded() && options.visibility == Visibility::saddles) {
+    const SolidRule<Real, Wave> rule(mesh, workspace.solids.reserve(records), wave);
+    solve<Real, kLabels>(mesh, sources, options, workspace, rule, wave, field);
+  } else {
+    const PlainSolidRule<Real, Wave> rule(mesh, workspace.plain_solids.reserve(records), wave,
+                                          options.visibility);
+    solve<Real, kLabels>(mesh, sources, options, workspace, rule, wave, field);
+  }
+}
+
+template <class Real, bool kLabels>
+void with_labels(const TetMesh<Real>& mesh, std::span<const PointSource> sources,
+                 const PropagateOptions& options, Workspace<Real>& workspace,
+                 DistanceField<Real>& field) {
+  workspace.front.reserve(mesh.tet_count());
+  const Real infinity = std::numeric_limits<Real>::infinity();
+  if (options.schedule == Schedule::priority)
+    with_front<Real, kLabels>(mesh, sources, options, workspace,
+                              PriorityQueue<Real>(workspace.front), field);
+  else
+    with_front<Real, kLabels>(
+        mesh, sources, options, workspace,
+        DualQueue<Real>(workspace.front, options.schedule == Schedule::fifo
+                                             ? infinity
+                                             : static_cast<Real>(options.step)),
+        field);
+}
+
+}  // namespace
+
+template <class Real>
+void propagate(Serial, const TetMesh<Real>& mesh, std::span<const PointSource> sources,
+               const PropagateOptions& options, Workspace<Real>& workspace,
+               DistanceField<Real>& field) {
+  check(mesh, sources, options);
+  if (sources.size() > 1)
+    with_labels<Real, true>(mesh, sources, options, workspace, field);
+  else
+    with_labels<Real, false>(mesh, sources, options, workspace, field);
+}
+
+template <class Real>
+DistanceField<Real> propagate(Serial executor, const TetMesh<Real>& mesh,
+                              std::span<const PointSource> sources,
+                              const PropagateOptions& options) {
+  Workspace<Real> workspace;
+  DistanceField<Real> field;
+  propagate(executor, mesh, sources, options, workspace, field);
+  return field;
+}
+
+template void propagate(Serial, const TetMesh<float>&, std::span<const PointSource>,
+                        const PropagateOptions&, Workspace<float>&, DistanceField<float>&);
+template void propagate(Serial, const TetMesh<double>&, std::span<const PointSource>,
+                        const PropagateOptions&, Workspace<double>&, DistanceField<double>&);
+template DistanceField<float> propagate(Serial, const TetMesh<float>&,
+                                        std::span<const PointSource>, const PropagateOptions&);
+template DistanceField<double> propagate(Serial, const TetMesh<double>&,
+                                         std::span<const PointSource>, const PropagateOptions&);
+
+}  // namespace plexway

@@ -1,0 +1,135 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <span>
+#include <utility>
+
+#include <plexway/complex/tet_mesh.hpp>
+#include <plexway/propagate/options.hpp>
+#include <plexway/propagate/wavefront.hpp>
+#include <plexway/propagate/workspace.hpp>
+#include <plexway/source/point_source.hpp>
+
+namespace plexway {
+
+/// One propagation in a solid from seeds to the last label, for any rule, front and executor of one
+/// thread.
+template <class Real, class Rule, class Front>
+class SolidPropagation {
+ public:
+  SolidPropagation(const TetMesh<Real>& mesh, Rule rule, Front& front,
+                   const PropagateOptions& options)
+      : mesh_(mesh),
+        tets_(mesh.tets()),
+        rule_(rule),
+        front_(front),
+        radius_(static_cast<Real>(options.radius / mesh.unit())) {}
+
+  void seed(const PointSource& source, Index number) {
+    const Real sigma = static_cast<Real>(source.offset / mesh_.unit());
+    if (source.vertex != none) {
+      seed_vertex(mesh_.inside_vertex(source.vertex), sigma, number);
+      return;
+    }
+    std::array<double, 4> b = source.barycentric;
+    const auto [t, turned] = mesh_.inside_tet(source.simplex);
+    if (turned) std::swap(b[2], b[3]);
+    for (std::size_t i = 0; i < 4; ++i)
+      if (b[i] == 1) {
+        seed_vertex(tets_[t].corner[i], sigma, number);
+        return;
+      }
+    rule_.seed_inside(t, b, sigma, number);
+  }
+
+  void run() {
+    int rounds = 0;
+    do {
+      spread(rounds > 8);
+      if (front_.out_of_budget()) return;
+    } while (++rounds < 64 && (pass_pinches() | repair()));
+  }
+
+ private:
+  void seed_vertex(Index vertex, Real sigma, Index number) {
+    for (const Index c : mesh_.corners_at(vertex)) rule_.seed_corner(c / 4, c % 4, sigma, number);
+  }
+
+  void spread(bool last_resort) {
+    Index t = 0;
+    while (!spread_share(last_resort, t))
+      if (!front_.take_stock(rule_.distance(t))) return;
+  }
+
+  /// The hot loop, until none waits (true) or the share of the budget is spent.
+  bool spread_share(bool last_resort, Index& t) {
+    const auto distance_of = [&](Index u) { return rule_.distance(u); };
+    while (front_.next(t, distance_of)) {
+      if (rule_.distance(t) > radius_) [[unlikely]]
+        if (rule_.distance(t) - rule_.size(t) > radius_) continue;
+      rule_.expand(t, last_resort);
+    }
+    return !front_.share_spent();
+  }
+
+  /// A path may pass a vertex or an edge where tetrahedra only touch: it bends there. True if some
+  /// tetrahedron got a better label.
+  bool pass_pinches() {
+    constexpr Real infinity = std::numeric_limits<Real>::infinity();
+    // Within rounding of its own path a tetrahedron stays with that one; else this would not end.
+    constexpr Real gain = 1 - 64 * std::numeric_limits<Real>::epsilon();
+    bool any = false;
+    for (const Index v : mesh_.pinched()) {
+      Real best = infinity;
+      Index number = none;
+      for (const Index c : mesh_.corners_at(v)) {
+        if (!front_.reached(c / 4)) continue;
+        const Real d = rule_.corner_distance(c / 4, c % 4);
+        if (d < best) best = d, number = front_.source(c / 4);
+      }
+      if (!(best < infinity) || best > radius_) continue;
+      for (const Index c : mesh_.corners_at(v))
+        if (!front_.reached(c / 4) || rule_.corner_distance(c / 4, c % 4) * gain > best)
+          any |= rule_.seed_corner(c / 4, c % 4, best, number);
+    }
+    for (const auto& edge : mesh_.pinched_edges()) {
+      const auto around =
+          mesh_.pinched_edge_tets().subspan(edge.begin, edge.end - edge.begin);
+      for (const Index t : around) {
+        if (!front_.reached(t) || rule_.distance(t) - rule_.size(t) > radius_) continue;
+        for (const Index u : around)
+          if (u != t) any |= rule_.pass_edge(t, u, edge.vertex[0], edge.vertex[1], gain);
+      }
+    }
+    return any;
+  }
+
+  /// Offers that miss a face where no path bends are dropped. Where that leaves a tetrahedron
+  /// without a label, or with one much longer than a neighbour's and the way between, they are
+  /// taken after all, with a bend on the face.
+  bool repair() {
+    const std::size_t before = front_.updates();
+    const Index tets = static_cast<Index>(mesh_.tet_count());
+    for (Index t = 0; t < tets; ++t) {
+      if (!front_.reached(t) || rule_.distance(t) > radius_) continue;
+      for (Index i = 0; i < 4; ++i) {
+        const Index u = tets_[t].across[i] >> TetAcross::tet_shift;
+        if (u == tets) continue;
+        if (!front_.reached(u) || rule_.distance(u) > rule_.distance(t) + rule_.way(t, i))
+          rule_.cross(t, i, true);
+      }
+    }
+    return front_.updates() != before;
+  }
+
+  const TetMesh<Real>& mesh_;
+  std::span<const TetRecord<Real>> tets_;
+  Rule rule_;
+  Front& front_;
+  Real radius_;
+};
+
+}  // namespace plexway

@@ -1,0 +1,51 @@
+#pragma once
+
+#include <limits>
+#include <span>
+#include <utility>
+
+#include <plexway/complex/tet_mesh.hpp>
+#include <plexway/propagate/workspace.hpp>
+
+namespace plexway {
+
+/// Every corner of every reached tetrahedron offers a distance; vertices keep the least.
+template <class Real, bool kLabels, class Rule, class Front>
+void read_out_tets(const TetMesh<Real>& mesh, const Rule& rule, const Front& front,
+                   Workspace<Real>& workspace) {
+  const std::span<const TetRecord<Real>> tets = mesh.tets();
+  for (Index t = 0; t + 1 < tets.size(); ++t) {
+    if (!front.reached(t)) continue;
+    for (Index i = 0; i < 4; ++i) {
+      const Index v = tets[t].corner[i];
+      const Real d = rule.corner_distance(t, i);
+      if (!(d < workspace.vertex[v])) continue;
+      workspace.vertex[v] = d;
+      if constexpr (kLabels) workspace.vertex_source[v] = front.source(t);
+    }
+  }
+}
+
+/// No vertex is farther than a neighbour and the edge between.
+template <class Real, bool kLabels>
+void read_out_tet_edges(const TetMesh<Real>& mesh, Workspace<Real>& workspace) {
+  const std::span<const TetRecord<Real>> tets = mesh.tets();
+  const std::span<const Vector3<Real>> points = mesh.points();
+  Real* d = workspace.vertex.data();
+  for (std::size_t t = 0; t + 1 < tets.size(); ++t)
+    for (const auto& ends : tet_edge_ends) {
+      Index v = tets[t].corner[ends[0]], w = tets[t].corner[ends[1]];
+      if (d[w] < d[v]) std::swap(v, w);
+      if (!(d[w] < std::numeric_limits<Real>::infinity())) continue;
+      const Vector3<Real> e = points[w] - points[v];
+      const Real rise = d[w] - d[v];
+      if (rise * rise <= dot(e, e)) [[likely]]
+        continue;
+      const Real by = d[v] + norm(e);
+      if (!(by < d[w])) continue;
+      d[w] = by;
+      if constexpr (kLabels) workspace.vertex_source[w] = workspace.vertex_source[v];
+    }
+}
+
+}  // namespace plexway
