@@ -94,7 +94,7 @@ TEST_CASE("out must have a known extension and not be the input") {
       {"distance", sample("knot.ply"), "-s", "vertex:0", "-o", (folder.path() / "d.xyz").string()});
   CHECK(unknown.code == 2);
   CHECK(unknown.complaints() == 1);
-  CHECK(unknown.err.find(".csv .npy .ply .vtu") != std::string::npos);
+  CHECK(unknown.err.find(".csv .npy .ply .vtk .vtu") != std::string::npos);
 
   const std::string ply = (folder.path() / "mesh.ply").string();
   std::filesystem::copy_file(sample("knot.ply"), ply);

@@ -99,6 +99,42 @@ Graph<Real> make_graph(Positions positions, Faces faces) {
 }
 
 template <class Real>
+Graph<Real> make_graph(std::size_t vertices, std::span<const std::array<Index, 2>> edges,
+                       std::span<const double> given) {
+  constexpr std::size_t limit = std::numeric_limits<Index>::max();
+  if (given.size() != edges.size())
+    throw UsageError(std::to_string(given.size()) + " lengths for " + std::to_string(edges.size()) +
+                     " edges");
+  if (vertices >= limit || edges.size() >= limit / 2)
+    throw InputError("more than 2^32 - 1 vertices or directed edges");
+  std::vector<std::size_t> begin(vertices + 1, 0);
+  for (std::size_t e = 0; e < edges.size(); ++e) {
+    for (const Index v : edges[e]) {
+      if (v >= vertices)
+        throw InputError("edge " + std::to_string(e) + ": vertex " + std::to_string(v) +
+                         " out of range, there are " + std::to_string(vertices));
+      if (edges[e][0] != edges[e][1]) ++begin[v + 1];
+    }
+    if (!(given[e] >= 0) || !std::isfinite(static_cast<Real>(given[e])))
+      throw InputError("edge " + std::to_string(e) + ": length is negative or not finite");
+  }
+  for (std::size_t v = 0; v < vertices; ++v) begin[v + 1] += begin[v];
+  std::vector<Edge> directed(begin.back());
+  std::vector<Length<Real>> lengths(begin.back());
+  for (std::size_t e = 0; e < edges.size(); ++e) {
+    const auto& [a, b] = edges[e];
+    if (a == b) continue;
+    for (const auto& [from, to] : {Edge{a, b}, Edge{b, a}}) {
+      const std::size_t at = begin[from]++;
+      directed[at] = {from, to};
+      lengths[at] = {static_cast<Real>(given[e])};
+    }
+  }
+  return Graph<Real>(boost::edges_are_sorted, directed.begin(), directed.end(), lengths.begin(),
+                     static_cast<Index>(vertices), static_cast<Index>(directed.size()));
+}
+
+template <class Real>
 constexpr Real infinity = std::numeric_limits<Real>::infinity();
 
 }  // namespace
@@ -113,6 +149,12 @@ template <class Real>
 EdgeDijkstra<Real>::EdgeDijkstra(Positions positions, Faces faces)
     : state_(std::make_unique<State>(State{make_graph<Real>(positions, faces),
                                            std::vector<Real>(positions.size(), infinity<Real>)})) {}
+
+template <class Real>
+EdgeDijkstra<Real>::EdgeDijkstra(std::size_t vertices, std::span<const std::array<Index, 2>> edges,
+                                 std::span<const double> lengths)
+    : state_(std::make_unique<State>(State{make_graph<Real>(vertices, edges, lengths),
+                                           std::vector<Real>(vertices, infinity<Real>)})) {}
 
 template <class Real>
 EdgeDijkstra<Real>::~EdgeDijkstra() = default;

@@ -9,8 +9,8 @@
 
 namespace plexway::boost_graph {
 
-/// Shortest paths along the edges of a surface by Boost.Graph's Dijkstra on a compressed sparse
-/// row graph.
+/// Shortest paths along the edges of a surface, a solid or a wireframe by Boost.Graph's Dijkstra on
+/// a compressed sparse row graph.
 ///
 /// An upper bound of the geodesic distance, some per cent above it however fine the mesh, and the
 /// peer that propagation is measured against. Two vertices are joined once, whatever the number of
@@ -23,6 +23,12 @@ class EdgeDijkstra {
   /// than 2^32 - 1 directed edges. Cost: linear.
   EdgeDijkstra(std::span<const std::array<double, 3>> positions,
                std::span<const std::array<Index, 3>> faces);
+  /// From n vertices and m edges of vertex indices < n with a length each, in any unit; edges may
+  /// be parallel. Throws InputError naming the edge for an index out of range or a length that is
+  /// negative or not finite in Real, and as above; UsageError where there are not as many lengths
+  /// as edges. Cost: linear.
+  EdgeDijkstra(std::size_t vertices, std::span<const std::array<Index, 2>> edges,
+               std::span<const double> lengths);
   ~EdgeDijkstra();
   EdgeDijkstra(EdgeDijkstra&&) noexcept;
   EdgeDijkstra& operator=(EdgeDijkstra&&) noexcept;
