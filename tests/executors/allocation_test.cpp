@@ -4,6 +4,9 @@
 #include <cstdlib>
 #include <new>
 
+#include <plexway/executors/serial_wireframe.hpp>
+
+#include "complex/test_wires.hpp"
 #include "propagate/solving.hpp"
 
 namespace {
@@ -67,5 +70,31 @@ TEMPLATE_TEST_CASE("a second solve allocates nothing", "", float, double) {
         // The list of labels comes back after a single source had none.
         CHECK(spent == 0);
       }
+  }
+}
+
+TEMPLATE_TEST_CASE("a second solve of a wireframe allocates nothing", "", float, double) {
+  const PointSource first[] = {PointSource::at(3)};
+  const PointSource second[] = {PointSource::in(40, {.2, .8})};
+  const PointSource several[] = {PointSource::at(3), PointSource::at(60), PointSource::at(9)};
+  const auto w = random_wires(1, 3000, 5000).wireframe<TestType>();
+  for (const Schedule schedule : schedules) {
+    PropagateOptions options;
+    options.schedule = schedule;
+    Workspace<TestType> workspace;
+    DistanceField<TestType> field;
+    propagate(Serial{}, w, several, options, workspace, field);
+    std::size_t before = allocations;
+    propagate(Serial{}, w, several, options, workspace, field);
+    std::size_t spent = allocations - before;
+    CAPTURE(name(options));
+    CHECK(spent == 0);
+    if (schedule == Schedule::priority) continue;  // its heap may grow with the source
+    before = allocations;
+    propagate(Serial{}, w, first, options, workspace, field);
+    propagate(Serial{}, w, second, options, workspace, field);
+    propagate(Serial{}, w, several, options, workspace, field);
+    spent = allocations - before;
+    CHECK(spent == 0);
   }
 }

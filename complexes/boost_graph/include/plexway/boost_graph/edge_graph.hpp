@@ -1,0 +1,52 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include <plexway/complex/ids.hpp>
+#include <plexway/complex/triangle_mesh.hpp>
+#include <plexway/complex/wireframe.hpp>
+
+namespace plexway::boost_graph {
+
+/// The vertices and edges of a complex with their lengths, ready to be walked in the caller's
+/// numbers. `view.hpp` shows it to Boost.Graph. Immutable; 4 bytes a vertex and 32 an edge.
+class EdgeGraph {
+ public:
+  /// n vertices and m edges with a length each; parallel edges and loops are kept. Throws
+  /// InputError naming the edge for an index >= n or a length that is negative or not finite, and
+  /// for more than 2^31 - 1 edges. Cost: linear.
+  EdgeGraph(std::size_t vertices, std::span<const std::array<Index, 2>> edges,
+            std::span<const double> lengths);
+
+  /// Of a complex, with the caller's vertices. Edges of a wireframe have the caller's numbers,
+  /// those of a surface an order of its own, each once whatever the number of triangles on it.
+  template <class Real>
+  explicit EdgeGraph(const Wireframe<Real>& wireframe);
+  template <class Real>
+  explicit EdgeGraph(const TriangleMesh<Real>& mesh);
+
+  /// An edge as a vertex has it.
+  struct Arc {
+    Index to, edge;
+  };
+
+  [[nodiscard]] std::size_t vertex_count() const { return begin_.size() - 1; }
+  [[nodiscard]] std::span<const std::array<Index, 2>> edges() const { return edges_; }
+  [[nodiscard]] std::span<const double> lengths() const { return lengths_; }
+  /// The arcs of vertex v are those from begin()[v] to begin()[v + 1]. A loop is there once.
+  [[nodiscard]] std::span<const Index> begin() const { return begin_; }
+  [[nodiscard]] std::span<const Arc> arcs() const { return arcs_; }
+
+ private:
+  void assemble(std::size_t vertices);
+
+  std::vector<std::array<Index, 2>> edges_;
+  std::vector<double> lengths_;
+  std::vector<Index> begin_;
+  std::vector<Arc> arcs_;
+};
+
+}  // namespace plexway::boost_graph

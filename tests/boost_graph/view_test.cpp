@@ -1,0 +1,230 @@
+#include <plexway/boost_graph/view.hpp>
+
+#include <boost/graph/astar_search.hpp>
+#include <boost/graph/breadth_first_search.hpp>
+#include <boost/graph/connected_components.hpp>
+#include <boost/graph/dijkstra_shortest_paths.hpp>
+#include <boost/graph/graph_concepts.hpp>
+#include <boost/graph/kruskal_min_spanning_tree.hpp>
+#include <catch2/catch.hpp>
+
+#include <plexway/boost_graph/graph.hpp>
+#include <plexway/boost_graph/wireframe.hpp>
+#include <plexway/error.hpp>
+#include <plexway/executors/serial_wireframe.hpp>
+
+#include "complex/test_wires.hpp"
+
+using namespace plexway;
+using namespace plexway::testing;
+using boost_graph::Components;
+using boost_graph::EdgeGraph;
+using boost_graph::GraphView;
+
+BOOST_CONCEPT_ASSERT((boost::VertexListGraphConcept<GraphView>));
+BOOST_CONCEPT_ASSERT((boost::EdgeListGraphConcept<GraphView>));
+BOOST_CONCEPT_ASSERT((boost::IncidenceGraphConcept<GraphView>));
+BOOST_CONCEPT_ASSERT((boost::AdjacencyGraphConcept<GraphView>));
+
+namespace {
+
+constexpr double inf = std::numeric_limits<double>::infinity();
+
+std::vector<double> dijkstra(const EdgeGraph& graph, Index source) {
+  std::vector<double> distance(graph.vertex_count());
+  boost::dijkstra_shortest_paths(
+      GraphView(graph), source,
+      boost::distance_map(boost::make_iterator_property_map(
+                              distance.data(), boost::typed_identity_property_map<Index>()))
+          .distance_inf(inf));
+  return distance;
+}
+
+void check_close(const std::vector<double>& found, const std::vector<double>& exact,
+                 double tolerance) {
+  REQUIRE(found.size() == exact.size());
+  for (std::size_t v = 0; v < exact.size(); ++v) {
+    CAPTURE(v, found[v], exact[v]);
+    REQUIRE((found[v] == exact[v] || std::abs(found[v] - exact[v]) <= tolerance * exact[v]));
+  }
+}
+
+struct Found {};
+
+// Stops a search at the goal and counts what it looked at.
+struct GoalVisitor : boost::default_astar_visitor {
+  Index goal;
+  std::size_t* examined;
+  GoalVisitor(Index g, std::size_t* n) : goal(g), examined(n) {}
+  void examine_vertex(Index v, const GraphView&) {
+    ++*examined;
+    if (v == goal) throw Found{};
+  }
+};
+
+}  // namespace
+
+TEST_CASE("view: the caller's edges, from both ends") {
+  const Wires wires = random_wires(4, 30, 50);
+  const EdgeGraph graph(wires.vertices, wires.edges, wires.lengths);
+  const GraphView view(graph);
+  CHECK(num_vertices(view) == 30);
+  CHECK(num_edges(view) == wires.edges.size());
+  std::size_t e = 0;
+  for (auto [it, end] = edges(view); it != end; ++it, ++e) {
+    CHECK(source(*it, view) == wires.edges[e][0]);
+    CHECK(target(*it, view) == wires.edges[e][1]);
+    CHECK(get(boost::edge_index, view, *it) == e);
+    CHECK(get(get(boost::edge_weight, view), *it) == wires.lengths[e]);
+  }
+  CHECK(e == wires.edges.size());
+  std::vector<int> seen(wires.edges.size(), 0);
+  for (auto [v, last] = vertices(view); v != last; ++v) {
+    auto [near, near_end] = adjacent_vertices(*v, view);
+    CHECK(std::size_t(near_end - near) == out_degree(*v, view));
+    for (auto [out, end] = out_edges(*v, view); out != end; ++out, ++near) {
+      CHECK(source(*out, view) == *v);
+      CHECK(target(*out, view) == *near);
+      const Index number = get(boost::edge_index, view, *out);
+      const auto [a, b] = wires.edges[number];
+      CHECK(((a == *v && b == *near) || (b == *v && a == *near)));
+      ++seen[number];
+    }
+  }
+  for (std::size_t i = 0; i < seen.size(); ++i)
+    CHECK(seen[i] == (wires.edges[i][0] == wires.edges[i][1] ? 1 : 2));
+}
+
+TEMPLATE_TEST_CASE("view: Boost's Dijkstra on a wireframe", "", float, double) {
+  for (const unsigned seed : {1u, 2u, 3u}) {
+    const Wires wires = random_wires(seed, 100, 160);
+    const EdgeGraph graph(wires.wireframe<TestType>());
+    for (std::size_t e = 0; e < wires.edges.size(); ++e) CHECK(graph.edges()[e] == wires.edges[e]);
+    check_close(dijkstra(graph, 5), edge_distances(wires, 5), 1e-6);
+  }
+}
+
+TEMPLATE_TEST_CASE("view: a surface's edges, each once", "", float, double) {
+  for (const Surface& s : {grid(7, 5), sphere(2), moebius(12), sheets(3, 4), bow_tie(4)}) {
+    const auto mesh = s.mesh<TestType>();
+    const EdgeGraph graph(mesh);
+    CHECK(graph.edges().size() == mesh.summary().edges);
+    Wires wires{s.positions.size(), {}, {}};
+    for (const Face& f : s.faces)
+      for (std::size_t i = 0; i < 3; ++i) {
+        const Position &a = s.positions[f[i]], &b = s.positions[f[(i + 1) % 3]];
+        wires.add(f[i], f[(i + 1) % 3], std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]));
+      }
+    check_close(dijkstra(graph, 3), edge_distances(wires, 3), 1e-6);
+  }
+}
+
+TEST_CASE("view: A star finds the same way and looks at less") {
+  const Surface s = grid(60, 60);
+  const EdgeGraph graph(s.mesh<double>());
+  const Index from = s.nearest(.1, .1), goal = s.nearest(.6, .7);
+  const auto run = [&](auto heuristic, std::size_t& examined) {
+    std::vector<double> distance(graph.vertex_count());
+    std::vector<Index> before(graph.vertex_count());
+    const boost::typed_identity_property_map<Index> index;
+    try {
+      boost::astar_search(
+          GraphView(graph), from, heuristic,
+          boost::distance_map(boost::make_iterator_property_map(distance.data(), index))
+              .predecessor_map(boost::make_iterator_property_map(before.data(), index))
+              .visitor(GoalVisitor(goal, &examined)));
+    } catch (const Found&) {
+    }
+    std::size_t steps = 0;
+    for (Index v = goal; v != from && steps < before.size(); v = before[v]) ++steps;
+    CHECK(steps < 100);
+    return distance[goal];
+  };
+  struct StraightLine : boost::astar_heuristic<GraphView, double> {
+    const Surface* s;
+    Index goal;
+    StraightLine(const Surface* surface, Index g) : s(surface), goal(g) {}
+    double operator()(Index v) const {
+      const Position &a = s->positions[v], &b = s->positions[goal];
+      return std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]);
+    }
+  };
+  std::size_t with = 0, without = 0;
+  const double d = run(StraightLine(&s, goal), with);
+  CHECK(d == Approx(run(boost::astar_heuristic<GraphView, double>(), without)));
+  // Diagonals run up to the right: 30 of them and 6 steps up.
+  CHECK(d == Approx((30 * std::sqrt(2.) + 6) / 60));
+  CHECK(with < without / 2);
+}
+
+TEST_CASE("view: connected components agree with ours, and with the summary") {
+  for (unsigned seed = 0; seed < 20; ++seed) {
+    const Wires wires = random_wires(seed, 200, 40 + 10 * seed);
+    const auto w = wires.wireframe<float>();
+    const EdgeGraph graph(w);
+    std::vector<Index> of_vertex(wires.vertices);
+    const std::size_t count = boost::connected_components(
+        GraphView(graph), boost::make_iterator_property_map(
+                              of_vertex.data(), boost::typed_identity_property_map<Index>()));
+    const Components ours = boost_graph::connected_components(w);
+    CHECK(ours.count == count);
+    CHECK(ours.of_vertex == of_vertex);  // both number them by their first vertices
+    CHECK(count == w.summary().components + w.summary().unreferenced_vertices);
+    const Components plain = boost_graph::connected_components(wires.vertices, wires.edges);
+    CHECK(plain.of_vertex == of_vertex);
+  }
+}
+
+TEST_CASE("connected components of triangles and tetrahedra") {
+  using boost_graph::connected_components;
+  const Components surfaces =
+      connected_components(9, std::vector<std::array<Index, 3>>{{4, 3, 5}, {0, 1, 2}, {5, 6, 7}});
+  CHECK(surfaces.count == 3);
+  CHECK(surfaces.of_vertex == std::vector<Index>{0, 0, 0, 1, 1, 1, 1, 1, 2});
+  const Components solids =
+      connected_components(9, std::vector<std::array<Index, 4>>{{8, 1, 2, 3}, {4, 5, 6, 7}});
+  CHECK(solids.count == 3);
+  CHECK(solids.of_vertex == std::vector<Index>{0, 1, 1, 1, 2, 2, 2, 2, 1});
+  CHECK_THROWS_WITH(
+      connected_components(3, std::vector<std::array<Index, 3>>{{0, 1, 2}, {0, 1, 3}}),
+      "simplex 1: vertex 3 is out of range, there are 3");
+  const Components mesh = connected_components(bow_tie(3).mesh<float>());
+  CHECK(mesh.count == 1);  // a path may pass the vertex where both halves touch
+}
+
+TEST_CASE("view: other algorithms run as they are") {
+  const Wires wires = random_wires(6, 60, 100);
+  const EdgeGraph graph(wires.vertices, wires.edges, wires.lengths);
+  const GraphView view(graph);
+  std::size_t reached = 0;
+  struct Count : boost::default_bfs_visitor {
+    std::size_t* n;
+    explicit Count(std::size_t* counter) : n(counter) {}
+    void discover_vertex(Index, const GraphView&) { ++*n; }
+  };
+  boost::breadth_first_search(view, 0u, boost::visitor(Count(&reached)));
+  const Components parts = boost_graph::connected_components(wires.vertices, wires.edges);
+  CHECK(reached == std::size_t(std::count(parts.of_vertex.begin(), parts.of_vertex.end(), 0u)));
+  std::vector<GraphView::edge_descriptor> tree;
+  boost::kruskal_minimum_spanning_tree(view, std::back_inserter(tree));
+  CHECK(tree.size() == wires.vertices - parts.count);
+}
+
+TEST_CASE("an edge graph refuses what is none, and a view is a graph to make a wireframe from") {
+  using Edges = std::vector<std::array<Index, 2>>;
+  const auto refuse = [](std::size_t n, const Edges& e, const std::vector<double>& l) {
+    CHECK_THROWS_AS(EdgeGraph(n, e, l), InputError);
+  };
+  refuse(2, {{0, 2}}, {1});
+  refuse(2, {{0, 1}}, {});
+  refuse(2, {{0, 1}}, {-1});
+  refuse(2, {{0, 1}}, {inf});
+  CHECK_NOTHROW(EdgeGraph(3, Edges{}, std::vector<double>{}));
+
+  const Wires wires = random_wires(5, 40, 60);
+  const EdgeGraph graph(wires.vertices, wires.edges, wires.lengths);
+  const auto back = boost_graph::make_wireframe<double>(GraphView(graph),
+                                                        get(boost::edge_weight, GraphView(graph)));
+  const auto field = propagate(Serial{}, back, PointSource::at(0));
+  check_close(field.distance, edge_distances(wires, 0), 1e-14);
+}
