@@ -13,12 +13,13 @@ namespace plexway {
 template <class Real, bool kLabels, class Rule, class Front>
 void read_out_tets(const TetMesh<Real>& mesh, const Rule& rule, const Front& front,
                    Workspace<Real>& workspace) {
+  constexpr Real near = 1 - 8 * std::numeric_limits<Real>::epsilon();  // one path seen from two
   const std::span<const TetRecord<Real>> tets = mesh.tets();
   for (Index t = 0; t + 1 < tets.size(); ++t) {
     if (!front.reached(t)) continue;
     for (Index i = 0; i < 4; ++i) {
       const Index v = tets[t].corner[i];
-      const Real d = rule.corner_distance(t, i);
+      const Real d = rule.corner_distance(t, i, workspace.vertex[v] * near);
       if (!(d < workspace.vertex[v])) continue;
       workspace.vertex[v] = d;
       if constexpr (kLabels) workspace.vertex_source[v] = front.source(t);

@@ -121,7 +121,7 @@ class PlainSolidRule {
     inside_ = none;
   }
 
-  [[nodiscard]] Real corner_distance(Index t, Index i) const {
+  [[nodiscard]] Real corner_distance(Index t, Index i, Real = 0) const {
     return labels_[t].sigma + std::sqrt(labels_[t].distance2[i]);
   }
 

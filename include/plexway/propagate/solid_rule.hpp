@@ -35,7 +35,8 @@ class SolidRule {
         front_(&front) {
     labels_[sentinel_].centre = -1;  // nothing is nearer: never accepted
     labels_[sentinel_].path = 0;
-    labels_[sentinel_].ring = labels_[sentinel_].limit[0] = labels_[sentinel_].limit[1] = none;
+    labels_[sentinel_].ring = none;
+    clear_limits(labels_[sentinel_]);
   }
   [[nodiscard]] SolidRule on(Front& front) const {
     SolidRule rule = *this;
@@ -76,46 +77,29 @@ class SolidRule {
   }
 
   /// Over one face.
-  void cross(Index t, Index face, bool last_resort) const {
+  [[gnu::always_inline]] void cross(Index t, Index face, bool last_resort) const {
     const Index across = tets_[t].across[face];
     const Index u = across >> TetAcross::tet_shift;
     const Label& from = labels_[t];
-    const Real known = to_beat(u);
-    const Point q = tets_[u].centre;
-    if (from.ring == none) {
-      if (!(from.sigma + norm(q - from.source) < known)) return;
-    } else if (!(reach(from, q).length < known)) {
+    const Real known = to_beat(u), left = known - from.sigma;
+    const Point& q = tets_[u].centre;
+    const Point g = q - from.source;
+    // A ring's way is longer than the straight one.
+    const Real straight2 = dot(g, g);
+    if (!(left > 0) || !(straight2 < left * left)) return;
+    if (any_reflex_ || last_resort) {
+      cross_fully(t, face, across, known, last_resort);
       return;
-    }
-    Label label = from;
-    Reach path;
-    if (any_reflex_) {
-      gather(t, u, label, q);
-      path = measure(label, q);
-      if (!(path.length < known)) return;
-    } else {
-      path = reach(label, q);
     }
     const Index* corner = tets_[t].corner;
     const Index* order = tet_face_corners[face];
-    const Point &a = points_[corner[order[0]]], &b = points_[corner[order[1]]],
-                &c = points_[corner[order[2]]];
-    if (path.bend >= 0) {
-      const Index edge = label.limit[path.bend];
-      if (hides_all(edge, reach(label, q).eye, a, b, c)) {
-        turn(label, path.bend, q);
-        path = measure(label, q);
-      }
-    }
-    if (!passes(path.eye, q, a, b, c, tolerance)) {
-      if (!last_resort) return;
-      bend_anywhere(label, path, q, a, b, c);
-      if (!(path.length < known)) return;
-    }
-    if (!(path.length < known)) return;
-    label.centre = path.length;
-    labels_[u] = label;
-    front_->accept(u, across & TetAcross::face_mask, path.length, front_->source(t));
+    if (!passes(from.source, q, points_[corner[order[0]]], points_[corner[order[1]]],
+                points_[corner[order[2]]], tolerance))
+      return;
+    Label& label = labels_[u];
+    label = from;
+    label.centre = from.sigma + std::sqrt(straight2);
+    front_->accept(u, across & TetAcross::face_mask, label.centre, front_->source(t));
     prefetch(u);
   }
 
@@ -133,11 +117,17 @@ class SolidRule {
     for (Index i = 0; i < 4; ++i) cross(t, i, false);
   }
 
-  /// Length of the path to corner i of a reached tetrahedron.
-  [[nodiscard]] Real corner_distance(Index t, Index i) const {
-    const Point q = points_[tets_[t].corner[i]];
-    Label label = labels_[t];
-    if (tets_[t].reflex == none && label.limit[0] == none) return reach(label, q).length;
+  /// Length of the path to corner i of a reached tetrahedron, as far as it is below `known`.
+  [[nodiscard]] Real corner_distance(
+      Index t, Index i, Real known = std::numeric_limits<Real>::infinity()) const {
+    const Point& q = points_[tets_[t].corner[i]];
+    const Label& from = labels_[t];
+    const Real straight = from.sigma + norm(q - from.source);
+    if (!any_reflex_ || !(straight < known)) return straight;
+    const Reach simple = reach(from, q);
+    if (!(simple.length < known)) return simple.length;
+    if (tets_[t].reflex == none) return measure(from, q).length;
+    Label label = from;
     gather(t, sentinel_, label, q);
     return measure(label, q).length;
   }
@@ -152,7 +142,8 @@ class SolidRule {
     const Reach there = measure(from, b);
     label.source = b;
     label.sigma = there.length;
-    label.ring = label.limit[0] = label.limit[1] = none;
+    label.ring = none;
+    clear_limits(label);
     label.path = SolidPath::bent(from.path, v ^ w);
     label.centre = label.sigma + norm(q - b);
     if (!(label.centre < to_beat(t) * known_gain)) return false;
@@ -166,6 +157,7 @@ class SolidRule {
 
   static constexpr Real tolerance = Real(1e-4);
   static constexpr Real slack = Real(0.5);
+  static constexpr Real far2 = Real(FAR2);
 
  private:
   struct Reach {
@@ -184,26 +176,51 @@ class SolidRule {
   /// The same with a bend at a limit.
   [[nodiscard]] Reach reach_by(const Label& label, int limit, const Point& q) const {
     const ReflexEdge<Real>& edge = reflex_[label.limit[limit]];
-    Point before = reach(label, q).eye;
-    Point b = bend_point(edge, before, q);
-    if (label.ring != none) {
-      before = reach(label, b).eye;
-      b = bend_point(edge, before, q);
-    }
+    Point b = bend_point(edge, reach(label, q).eye, q);
+    if (label.ring != none) b = bend_point(edge, reach(label, b).eye, q);
     return {b, reach(label, b).length + norm(q - b), limit};
+  }
+
+  /// The same with a bend at limit `first` and then at limit `second`.
+  [[nodiscard]] Reach reach_by_both(const Label& label, int first, int second,
+                                    const Point& q) const {
+    const ReflexEdge<Real>& two = reflex_[label.limit[second]];
+    Point b, c = bend_point(two, reach_by(label, first, q).eye, q);
+    for (int i = 0; i < 2; ++i) {
+      b = reach_by(label, first, c).eye;
+      c = bend_point(two, b, q);
+    }
+    return {c, reach_by(label, first, c).length + norm(q - c), first};
+  }
+
+  [[nodiscard]] bool hides(Index edge, const Point& eye, const Point& q) const {
+    return EdgeView<Real>(reflex_[edge], eye).hides(q, slack);
   }
 
   /// The path with what hides q.
   [[nodiscard]] Reach measure(const Label& label, const Point& q) const {
     const Reach straight = reach(label, q);
-    Reach longest = straight;
-    for (int k = 0; k < 2; ++k) {
-      if (label.limit[k] == none) break;
-      if (!shade(reflex_[label.limit[k]], straight.eye, q, slack).dark) continue;
-      const Reach bent = reach_by(label, k, q);
-      if (bent.length > longest.length) longest = bent;
+    Reach bent = straight;
+    for (int k = 0; k < Label::limits && label.limit[k] != none; ++k)
+      if (hides(label.limit[k], straight.eye, q)) {
+        const Reach other = reach_by(label, k, q);
+        if (other.length > bent.length || bent.bend < 0) bent = other;
+      }
+    const int k = bent.bend;
+    if (k < 0) return straight;
+    // The way to the bend may be hidden itself, or the way on.
+    const Reach one = bent;
+    const Point before = reach(label, one.eye).eye;
+    for (int j = 0; j < Label::limits && label.limit[j] != none; ++j) {
+      if (j == k) continue;
+      Reach both = one;
+      if (hides(label.limit[j], before, one.eye))
+        both = reach_by_both(label, j, k, q);
+      else if (hides(label.limit[j], one.eye, q))
+        both = reach_by_both(label, k, j, q);
+      if (both.length > bent.length) bent = both;
     }
-    return longest;
+    return bent;
   }
 
   /// Bends at a limit for good.
@@ -217,41 +234,95 @@ class SolidRule {
     }
     label.path = SolidPath::bent(label.path, edge);
     label.ring = edge;
-    label.limit[limit] = label.limit[1];
-    label.limit[1] = none;
+    for (int k = limit; k + 1 < Label::limits; ++k) label.limit[k] = label.limit[k + 1];
+    label.limit[Label::limits - 1] = none;
+  }
+
+  static void clear_limits(Label& label) {
+    for (Index& limit : label.limit) limit = none;
   }
 
   [[nodiscard]] bool hides_all(Index edge, const Point& eye, const Point& a, const Point& b,
                                const Point& c) const {
-    for (const Point* p : {&a, &b, &c}) {
-      const Shade<Real> s = shade(reflex_[edge], eye, *p, slack);
-      if (s.light > Real(1e-4) || s.beyond < Real(0.999)) return false;
-    }
-    return true;
+    const EdgeView<Real> view(reflex_[edge], eye);
+    constexpr Real small = Real(1e-8);
+    return !view.lights(a, small) && !view.lights(b, small) && !view.lights(c, small);
   }
+
+  /// The full rule over one face.
+  [[gnu::noinline]] void cross_fully(Index t, Index face, Index across, Real known,
+                                     bool last_resort) const {
+    const Index u = across >> TetAcross::tet_shift;
+    const Label& from = labels_[t];
+    const Point q = tets_[u].centre;
+    Reach path = reach(from, q);
+    if (!(path.length < known)) return;
+    const Index* corner = tets_[t].corner;
+    const Index* order = tet_face_corners[face];
+    const Point &a = points_[corner[order[0]]], &b = points_[corner[order[1]]],
+                &c = points_[corner[order[2]]];
+    const bool through = passes(path.eye, q, a, b, c, tolerance);
+    // A line that misses the face passes it if it bends at an edge known here.
+    if (!through && !last_resort && !may_bend(t, path.eye, q)) return;
+    Label label = from;
+    gather(t, u, label, q);
+    if (label.limit[0] != none || label.ring != from.ring) {
+      path = measure(label, q);
+      if (!(path.length < known)) return;
+    }
+    if (path.bend >= 0) {
+      const Index edge = label.limit[path.bend];
+      if (hides_all(edge, reach(label, q).eye, a, b, c)) {
+        turn(label, path.bend, q);
+        path = measure(label, q);
+      }
+    }
+    if (!(path.bend < 0 && label.ring == from.ring ? through
+                                                   : passes(path.eye, q, a, b, c, tolerance))) {
+      if (!last_resort) return;
+      bend_anywhere(label, path, q, a, b, c);
+    }
+    if (!(path.length < known)) return;
+    label.centre = path.length;
+    labels_[u] = label;
+    front_->accept(u, across & TetAcross::face_mask, path.length, front_->source(t));
+    prefetch(u);
+  }
+
+  /// Is there an edge in t's memory, or at t, that hides q?
+  [[nodiscard]] bool may_bend(Index t, const Point& eye, const Point& q) const {
+    for (const Index limit : labels_[t].limit) {
+      if (limit == none) break;
+      if (hides(limit, eye, q)) return true;
+    }
+    if (Index e = tets_[t].reflex; e != none)
+      for (;; ++e) {
+        const Index edge = list_[e] >> ReflexEntry::edge_shift;
+        if (edge != labels_[t].ring && hides(edge, eye, q)) return true;
+        if (list_[e] & ReflexEntry::last) break;
+      }
+    return false;
+  }
+
+  struct Candidates {
+    Index edge[24];
+    int count = 0;
+    void add(Index e) {
+      if (e == none || count == 24) return;
+      for (int i = 0; i < count; ++i)
+        if (edge[i] == e) return;
+      edge[count++] = e;
+    }
+  };
 
   /// Chooses which edges the label remembers for q in u: its own, those of t, and those of
   /// neighbours of u that look at the same scene.
   void gather(Index t, Index u, Label& label, const Point& q) const {
-    Index chosen[2] = {none, none};
-    Real key[2] = {std::numeric_limits<Real>::infinity(), std::numeric_limits<Real>::infinity()};
-    const Point eye = reach(label, q).eye;
-    const auto consider = [&](Index edge) {
-      if (edge == none || edge == label.ring || edge == chosen[0] || edge == chosen[1]) return;
-      const Shade<Real> s = shade(reflex_[edge], eye, q, slack);
-      const Real k = s.dark ? Real(-1) / (1 + s.angle2) : s.angle2;
-      if (k < key[0]) {
-        key[1] = key[0], chosen[1] = chosen[0];
-        key[0] = k, chosen[0] = edge;
-      } else if (k < key[1]) {
-        key[1] = k, chosen[1] = edge;
-      }
-    };
-    consider(label.limit[0]);
-    consider(label.limit[1]);
+    Candidates found;
+    for (const Index limit : label.limit) found.add(limit);
     if (Index e = tets_[t].reflex; e != none)
       for (;; ++e) {
-        consider(list_[e] >> ReflexEntry::edge_shift);
+        found.add(list_[e] >> ReflexEntry::edge_shift);
         if (list_[e] & ReflexEntry::last) break;
       }
     if (u != sentinel_)
@@ -260,15 +331,52 @@ class SolidRule {
         if (v == t || v == sentinel_ || !front_->reached(v)) continue;
         const Label& other = labels_[v];
         if (other.path == label.path) {
-          consider(other.limit[0]);
-          consider(other.limit[1]);
+          for (const Index limit : other.limit) found.add(limit);
         } else if (other.ring != none &&
                    SolidPath::before(other.path, other.ring) == label.path) {
-          consider(other.ring);
+          found.add(other.ring);
         }
       }
-    label.limit[0] = chosen[0];
-    label.limit[1] = chosen[1];
+    if (found.count == 0) return;
+    Point eye = reach(label, q).eye;
+    // An edge that hides the ring itself comes before it.
+    if (label.ring != none)
+      for (int i = 0; i < found.count; ++i) {
+        const Index edge = found.edge[i];
+        if (edge == label.ring || !hides(edge, label.source, eye)) continue;
+        label.path = SolidPath::bent(SolidPath::before(label.path, label.ring), edge);
+        found.edge[i] = label.ring;
+        label.ring = edge;
+        eye = reach(label, q).eye;
+      }
+    clear_limits(label);
+    // The nearest, and first of all those that hide q.
+    Real key[Label::limits];
+    int count = 0;
+    const auto choose = [&](int first) {
+      count = first;
+      for (int i = 0; i < found.count; ++i) {
+        const Index edge = found.edge[i];
+        if (edge == label.ring || (first > 0 && edge == label.limit[0])) continue;
+        const EdgeView<Real> view(reflex_[edge], eye);
+        if (!view.can_hide() || view.lights(q, far2)) continue;
+        const Real close2 = view.closeness(q);
+        const bool dark = view.hides(q, slack);
+        if (!dark && close2 > far2) continue;
+        const Real k = dark ? Real(-1) / (1 + close2) : close2;
+        int place = count < Label::limits ? count++ : Label::limits;
+        for (; place > first && k < key[place - 1]; --place)
+          if (place < Label::limits)
+            key[place] = key[place - 1], label.limit[place] = label.limit[place - 1];
+        if (place < Label::limits) key[place] = k, label.limit[place] = edge;
+      }
+    };
+    choose(0);
+    if (count == 0 || !(key[0] < 0)) return;
+    // What else is in the way is so from the bend.
+    for (int k = 1; k < Label::limits; ++k) label.limit[k] = none;
+    eye = reach_by(label, 0, q).eye;
+    choose(1);
   }
 
   /// No straight line: over the best point of the face's edges.
@@ -286,7 +394,8 @@ class SolidRule {
     walked += path.length - norm(q - path.eye);
     label.source = at;
     label.sigma = walked;
-    label.ring = label.limit[0] = label.limit[1] = none;
+    label.ring = none;
+    clear_limits(label);
     label.path = SolidPath::bent(label.path, none - 1);
     path = {at, walked + norm(q - at), -1};
   }
@@ -294,7 +403,13 @@ class SolidRule {
   bool seed(Index t, const Point& at, Index hinge, Real sigma, Index source) const {
     const Real d = sigma + norm(tets_[t].centre - at);
     if (!(d < to_beat(t))) return false;
-    labels_[t] = {at, sigma, d, none, {none, none}, SolidPath::from_source(source)};
+    Label& label = labels_[t];
+    label.source = at;
+    label.sigma = sigma;
+    label.centre = d;
+    label.ring = none;
+    clear_limits(label);
+    label.path = SolidPath::from_source(source);
     front_->accept(t, hinge, d, source);
     return true;
   }
