@@ -49,7 +49,7 @@ void write_ply(OutputFile& out, const Field& field) {
     for (const std::uint8_t c : colour(field.distance[i], largest)) out.write_binary(c);
     if (!field.label.empty()) out.write_binary(field.label[i]);
   }
-  for (const std::size_t corners : {3, 2}) {
+  for (const std::size_t corners : {std::size_t{3}, std::size_t{2}}) {
     for (const Cells& kind : field.cells) {
       if (kind.corners != corners) continue;
       for (std::size_t i = 0; i < kind.connectivity.size(); ++i) {

@@ -38,7 +38,8 @@ void write_vtk(OutputFile& out, const Field& field) {
     for (const double d : field.distance) out.write_big_endian(d);
   }
   if (!field.label.empty()) {
-    out.write("\nSCALARS label int 1\nLOOKUP_TABLE default\n");
+    // Of several SCALARS many readers take the first alone.
+    out.write("\nFIELD FieldData 1\nlabel 1 " + count(field.vertices) + " int\n");
     for (const std::int32_t l : field.label) out.write_big_endian(l);
   }
   out.write("\n");

@@ -43,6 +43,8 @@ class GmshReader {
         version4 ? elements4() : elements2();
         end_section("$EndElements");
         has_elements_ = true;
+      } else if (section == "$ParametricNodes") {
+        in_.fail("$ParametricNodes are not read; save the file without parametric coordinates");
       } else if (section.empty()) {
         in_.fail(std::string("the file ends before its section ") +
                  (has_nodes_ ? "$Elements" : "$Nodes"));

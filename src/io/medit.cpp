@@ -106,7 +106,8 @@ class Medit {
         keyword = in_.word();
       return keyword;
     } else {
-      in_.fail("expected a keyword, found " + quote(keyword));
+      in_.fail("expected a keyword, found " + quote(keyword) +
+               "; the section before it holds more than its count says");
     }
     return in_.word();
   }

@@ -70,8 +70,8 @@ Tets parse_node_ele(NamedText node, NamedText ele) {
     if (dimension != 3)
       nodes.fail("the dimension is " + std::to_string(dimension) + "; a solid needs 3");
   }
-  nodes.next_line();
   require_room(nodes, "vertices", vertices, 4);
+  nodes.next_line();
   solid.positions.reserve(vertices);
   for (std::uint64_t i = 0; i < vertices; ++i) {
     to_item(nodes, "vertices", i, vertices);
@@ -92,8 +92,8 @@ Tets parse_node_ele(NamedText node, NamedText ele) {
   if (corners != 4 && corners != 10)
     elements.fail("cells have " + std::to_string(corners) +
                   " nodes; a tetrahedron has 4, or 10 when it is quadratic");
-  elements.next_line();
   require_room(elements, "tetrahedra", tets, 1 + corners);
+  elements.next_line();
   solid.tets.reserve(tets);
   std::int64_t first = 0;
   for (std::uint64_t i = 0; i < tets; ++i) {

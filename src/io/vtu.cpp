@@ -89,11 +89,8 @@ class VtuReader {
     const std::string_view header = root.attribute("header_type").as_string("UInt32");
     if (header != "UInt32" && header != "UInt64") fail(root, "the header type is " + quote(header));
     encoding_.header = header == "UInt64" ? NumberType::u64 : NumberType::u32;
-    const std::string_view compressor = root.attribute("compressor").value();
-    if (!compressor.empty() && compressor != "vtkZLibDataCompressor")
-      fail(root, "data packed by " + quote(compressor) +
-                     " are not read; save the file with zlib or without compression");
-    encoding_.compressed = !compressor.empty();
+    compressor_ = root.attribute("compressor").value();
+    encoding_.compressed = !compressor_.empty();
   }
 
   std::uint64_t number(pugi::xml_node node, const char* name) const {
@@ -179,6 +176,9 @@ class VtuReader {
       in.finish(what);
       return;
     }
+    if (encoding_.compressed && compressor_ != "vtkZLibDataCompressor")
+      fail(array, "data packed by " + quote(compressor_) +
+                      " are not read; save the file with zlib or without compression");
     std::string bytes;
     if (format == "binary") {
       bytes = decode_vtu_array(text_of(array).value(), true, encoding_, where);
@@ -212,6 +212,7 @@ class VtuReader {
   std::string_view appended_;
   bool appended_base64_ = false;
   VtuEncoding encoding_;
+  std::string_view compressor_;
   Tets solid_;
   OtherCells others_;
 };

@@ -46,7 +46,7 @@ class Stream {
     }
     for (std::size_t i = 0; i < bytes; ++i) {
       if (waiting_ == 0) decode_group();
-      to[i] = group_[static_cast<std::size_t>(decoded_ - waiting_)];
+      to[i] = group_[decoded_ - waiting_];
       --waiting_;
     }
   }
@@ -63,7 +63,7 @@ class Stream {
   /// header of a compressed array), so another may follow it.
   void decode_group() {
     std::uint32_t bits = 0;
-    int padding = 0;
+    std::size_t padding = 0;
     for (int i = 0; i < 4; ++i) {
       const char c = next();
       if (c == '=' && i >= 2) {
@@ -78,7 +78,7 @@ class Stream {
     }
     for (std::size_t i = 0; i < 3; ++i) group_[i] = static_cast<char>(bits >> (16 - 8 * i) & 0xFF);
     decoded_ = 3 - padding;
-    waiting_ = static_cast<std::uint64_t>(decoded_);
+    waiting_ = decoded_;
   }
 
   char next() {
@@ -100,8 +100,8 @@ class Stream {
   const std::string& where_;
   std::size_t at_ = 0;
   std::array<char, 3> group_{};
-  int decoded_ = 0;            ///< bytes in the group
-  std::uint64_t waiting_ = 0;  ///< of these, not yet taken
+  std::size_t decoded_ = 0;  ///< bytes in the group
+  std::size_t waiting_ = 0;  ///< of these, not yet taken
 };
 
 std::string decode_plain(Stream& in, const VtuEncoding& encoding) {

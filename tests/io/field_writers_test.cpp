@@ -208,7 +208,7 @@ TEST_CASE("write_field: wrong calls") {
   using plexway::UsageError;
   CHECK(failure<UsageError>(folder.path() / "d.xyz") ==
         (folder.path() / "d.xyz").string() +
-            ": unknown extension '.xyz'; known are .csv .npy .ply .vtu");
+            ": unknown extension '.xyz'; known are .csv .npy .ply .vtk .vtu");
   const std::vector<double> short_one(3);
   CHECK_THAT(failure<UsageError>(folder.path() / "d.csv", short_one),
              Contains("3 distances for 4 vertices"));
@@ -216,7 +216,7 @@ TEST_CASE("write_field: wrong calls") {
   CHECK_THAT(failure<UsageError>(folder.path() / "d.csv", distance, labels),
              Contains("5 labels for 4 vertices"));
   CHECK(folder.files() == 0);
-  CHECK(plexway::io::field_extensions().size() == 4);
+  CHECK(plexway::io::field_extensions().size() == 5);
 }
 
 TEST_CASE("write_field: what the system refuses is told, and leaves nothing behind") {
@@ -231,14 +231,14 @@ TEST_CASE("write_field: what the system refuses is told, and leaves nothing behi
   CHECK(folder.files() == 1);
 
   if (std::filesystem::exists("/dev/full")) {
-    for (const char* name : {"full.csv", "full.npy", "full.ply", "full.vtu"}) {
+    for (const char* name : {"full.csv", "full.npy", "full.ply", "full.vtk", "full.vtu"}) {
       const auto full = folder.path() / name;
       std::filesystem::create_symlink("/dev/full", full);
       CHECK(failure<plexway::Error>(full) ==
             "cannot write " + full.string() + ": No space left on device");
     }
     CHECK(std::filesystem::is_character_file("/dev/full"));
-    CHECK(folder.files() == 5);
+    CHECK(folder.files() == 6);
   }
 }
 

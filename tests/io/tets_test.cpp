@@ -1,0 +1,166 @@
+#include <algorithm>
+#include <limits>
+
+#include "tets_testing.hpp"
+
+using namespace io_testing;
+using Catch::Contains;
+using plexway::io::read_tets;
+using plexway::io::Tets;
+using plexway::io::write_tets;
+
+namespace {
+
+/// The message of the `Failure` that `act` must throw.
+template <class Failure, class Act>
+std::string failure(Act act) {
+  try {
+    act();
+  } catch (const Failure& error) {
+    return error.what();
+  }
+  return "no failure";
+}
+
+std::string refusal(const std::filesystem::path& file) {
+  return failure<plexway::InputError>([&] { read_tets(file); });
+}
+
+/// Reads, unless this build cannot read that format.
+bool read_if_built(const std::filesystem::path& file, Tets& solid) {
+  try {
+    solid = read_tets(file);
+  } catch (const plexway::NotBuiltError&) {
+    return false;
+  }
+  return true;
+}
+
+bool same_bits(const Positions& a, const Positions& b) {
+  const auto bits = [](const std::array<double, 3>& p) {
+    return std::array{std::bit_cast<std::uint64_t>(p[0]), std::bit_cast<std::uint64_t>(p[1]),
+                      std::bit_cast<std::uint64_t>(p[2])};
+  };
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(),
+                    [&](const auto& p, const auto& q) { return bits(p) == bits(q); });
+}
+
+}  // namespace
+
+TEST_CASE("tets: what is written reads back to the last bit") {
+  const Tets solid = awkward_solid();
+  for (const char* name : {"a.node", "a.ele", "A.NODE", "A.ELE", "a.mesh", "a.msh", "a.vtu",
+                           "a.vtk", "A.MESH", "A.Vtk"}) {
+    INFO(name);
+    const Folder folder;
+    write_tets(folder.path() / name, solid);
+    Tets back;
+    if (!read_if_built(folder.path() / name, back)) continue;
+    CHECK(same_bits(back.positions, solid.positions));
+    CHECK(back.tets == solid.tets);
+    const bool pair = std::string_view(name).substr(2, 1).find_first_of("nNeE") == 0;
+    CHECK(folder.files() == (pair ? 2 : 1));
+  }
+  CHECK(plexway::io::tet_extensions().size() == 6);
+}
+
+TEST_CASE("tets: more than a buffer's worth") {
+  const Folder folder;
+  Tets solid;
+  for (std::uint32_t i = 0; i < 20000; ++i) {
+    solid.positions.push_back({i * 0.1, i % 2 * 1.0, 1.0 / (i + 1)});
+    if (i >= 3) solid.tets.push_back({i - 3, i - 2, i - 1, i});
+  }
+  for (const char* name : {"a.node", "a.mesh", "a.msh", "a.vtu", "a.vtk"}) {
+    INFO(name);
+    write_tets(folder.path() / name, solid);
+    Tets back;
+    if (!read_if_built(folder.path() / name, back)) continue;
+    CHECK(same_bits(back.positions, solid.positions));
+    CHECK(back.tets == solid.tets);
+  }
+}
+
+TEST_CASE("tets: either file of TetGen's pair finds the other") {
+  const Folder folder;
+  folder.write("a.1.node", "4 3 0 0\n1 0 0 0\n2 1 0 0\n3 0 1 0\n4 0 0 1\n");
+  folder.write("a.1.ele", "1 4 0\n1 4 3 2 1\n");
+  for (const char* name : {"a.1.node", "a.1.ele"}) {
+    const Tets solid = read_tets(folder.path() / name);
+    CHECK(solid.positions.size() == 4);
+    CHECK(solid.tets == TetList{{3, 2, 1, 0}});
+  }
+  const auto node = folder.write("b.node", "1 3\n");
+  const auto ele = folder.write("c.ele", "1 4\n");
+  CHECK(refusal(node) == node.string() + ": holds only the vertices; the tetrahedra must lie " +
+                             "beside it in " + (folder.path() / "b.ele").string());
+  CHECK(refusal(ele) == ele.string() + ": holds only the tetrahedra; the vertices must lie " +
+                            "beside it in " + (folder.path() / "c.node").string());
+  CHECK(refusal(folder.path() / "d.ele") == (folder.path() / "d.ele").string() + ": no such file");
+}
+
+TEST_CASE("tets: files that cannot be read at all") {
+  const Folder folder;
+  const auto path = folder.path().string();
+  CHECK(refusal(folder.path() / "none.mesh") == path + "/none.mesh: no such file");
+  CHECK(refusal(folder.write("a.stl", "x")) ==
+        path + "/a.stl: unknown extension '.stl'; known are .node .ele .mesh .msh .vtu .vtk");
+  CHECK(refusal(folder.write("a.meshb", "x")) ==
+        path + "/a.meshb: binary .meshb is not read; save it as ascii .mesh");
+  CHECK(refusal(folder.write("a.msh", "")) == path + "/a.msh: is empty");
+  CHECK(refusal(folder.path()) == path + ": is a directory, not a file");
+}
+
+TEST_CASE("tets: what cannot be written") {
+  const Folder folder;
+  const auto misuse = [&](const char* name, const Tets& solid) {
+    return failure<plexway::UsageError>([&] { write_tets(folder.path() / name, solid); });
+  };
+  CHECK_THAT(misuse("a.off", awkward_solid()), Contains("unknown extension '.off'"));
+  Tets solid = awkward_solid();
+  solid.tets[1][2] = 5;
+  CHECK(misuse("a.mesh", solid) == "write_tets: tetrahedron 1 names vertex 5 of 5");
+  solid = awkward_solid();
+  solid.positions[3][1] = std::numeric_limits<double>::infinity();
+  CHECK(misuse("a.vtu", solid) == "write_tets: vertex 3 has a coordinate that is not finite");
+  CHECK(folder.files() == 0);
+
+  // If one of the pair cannot be written, the other is not either.
+  std::filesystem::create_directory(folder.path() / "p.ele");
+  CHECK(failure<plexway::Error>([&] { write_tets(folder.path() / "p.node", awkward_solid()); }) ==
+        "cannot write " + (folder.path() / "p.ele").string() + ": Is a directory");
+  CHECK(folder.files() == 1);
+}
+
+TEST_CASE("tets: the solids with known answers") {
+  const std::filesystem::path truth = PLEXWAY_TRUTH_DIR;
+  if (truth.empty()) return;
+  struct Known {
+    const char* name;
+    std::size_t vertices;
+    std::size_t tets;
+    double volume;  ///< of what was meshed; 0: not a simple number
+  };
+  for (const Known& known :
+       {Known{"cube_10k", 2822, 11608, 1}, Known{"maze_10k", 4757, 17579, 0},
+        Known{"notch_10k", 3193, 12726, 0.97}, Known{"notch_100k", 18591, 91892, 0.97},
+        Known{"cavity_10k", 3681, 14963, 0}, Known{"cavity_100k", 21157, 103023, 0}}) {
+    INFO(known.name);
+    const Tets solid = read_tets(truth / "solids" / (std::string(known.name) + ".ele"));
+    CHECK(solid.positions.size() == known.vertices);
+    CHECK(solid.tets.size() == known.tets);
+    double volume = 0;
+    for (const auto& [a, b, c, d] : solid.tets) {
+      std::array<std::array<double, 3>, 3> m{};
+      for (std::size_t k = 0; k < 3; ++k)
+        m[k] = {solid.positions[b][k] - solid.positions[a][k],
+                solid.positions[c][k] - solid.positions[a][k],
+                solid.positions[d][k] - solid.positions[a][k]};
+      volume += std::abs(m[0][0] * (m[1][1] * m[2][2] - m[1][2] * m[2][1]) -
+                         m[0][1] * (m[1][0] * m[2][2] - m[1][2] * m[2][0]) +
+                         m[0][2] * (m[1][0] * m[2][1] - m[1][1] * m[2][0])) /
+                6;
+    }
+    if (known.volume != 0) CHECK(volume == Approx(known.volume).epsilon(1e-9));
+  }
+}
