@@ -202,12 +202,12 @@ class Finder {
       if (ends[i + 1].first != v || (i > 0 && ends[i - 1].first == v) ||
           (i + 2 < ends.size() && ends[i + 2].first == v))
         continue;
-      const ReflexEdge<double>&a = found_.reflex[ends[i].second],
+      const TetTopology::Reflex&a = found_.reflex[ends[i].second],
              &b = found_.reflex[ends[i + 1].second];
       if (in_a_row(a, b, v)) rows.join(ends[i].second, ends[i + 1].second);
     }
     std::vector<Index> merged(found_.reflex.size());
-    std::vector<ReflexEdge<double>> kept;
+    std::vector<TetTopology::Reflex> kept;
     for (Index e = 0; e < found_.reflex.size(); ++e) {
       if (rows.root(e) == e) {  // roots are the lowest of their row
         merged[e] = static_cast<Index>(kept.size());
@@ -215,13 +215,14 @@ class Finder {
         continue;
       }
       merged[e] = merged[rows.root(e)];
-      ReflexEdge<double>& row = kept[merged[e]];
-      const ReflexEdge<double>& edge = found_.reflex[e];
+      TetTopology::Reflex& row = kept[merged[e]];
+      const TetTopology::Reflex& edge = found_.reflex[e];
       const auto u = row.end[1] - row.end[0];
       for (std::size_t i = 0; i < 2; ++i) {
         const double along = dot(edge.end[i] - row.end[0], u) / dot(u, u);
-        const int side = along < 0 ? 0 : along > 1 ? 1 : -1;
-        if (side >= 0) row.end[side] = edge.end[i], row.vertex[side] = edge.vertex[i];
+        if (along >= 0 && along <= 1) continue;
+        const std::size_t side = along < 0 ? 0 : 1;
+        row.end[side] = edge.end[i], row.vertex[side] = edge.vertex[i];
       }
     }
     found_.reflex = std::move(kept);
@@ -230,7 +231,7 @@ class Finder {
                (packed & ((1u << ReflexEntry::edge_shift) - 1));
   }
 
-  static bool in_a_row(const ReflexEdge<double>& a, const ReflexEdge<double>& b, Index v) {
+  static bool in_a_row(const TetTopology::Reflex& a, const TetTopology::Reflex& b, Index v) {
     const std::size_t i = a.vertex[0] == v ? 0 : 1, j = b.vertex[0] == v ? 0 : 1;
     const auto u = a.end[i] - a.end[1 - i], w = b.end[1 - j] - b.end[j];
     constexpr double near = 1e-6;

@@ -21,7 +21,11 @@ struct TetTopology {
   };
   std::size_t edges = 0;
   std::size_t reflex_edges = 0;
-  std::vector<ReflexEdge<double>> reflex;  ///< those in a straight row are one
+  struct Reflex {
+    std::array<Vector3<double>, 2> end, normal;
+    std::array<Index, 2> vertex;
+  };
+  std::vector<Reflex> reflex;  ///< those in a straight row are one
   std::vector<Index> reflex_list;   ///< ReflexEntry, by tetrahedron
   std::vector<Index> first_reflex;  ///< of each tetrahedron, or none
   std::vector<PinchedEdge> pinched_edges;

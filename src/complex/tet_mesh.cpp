@@ -216,10 +216,15 @@ void TetMesh<Real>::assemble(std::size_t vertices, std::span<const std::array<In
     for (std::size_t v = 0; v < vertices; ++v)
       points_[vertex_to_inside_[v]] = rounded(vector(scaled[v]));
     reflex_list_ = std::move(topology.reflex_list);
-    for (const auto& e : topology.reflex)
+    for (const auto& e : topology.reflex) {
+      const auto along = e.end[1] - e.end[0];
+      const double length = norm(along);
       reflex_.push_back({{rounded(e.end[0]), rounded(e.end[1])},
+                         rounded(length > 0 ? 1 / length * along : along),
+                         static_cast<Real>(length),
                          {rounded(e.normal[0]), rounded(e.normal[1])},
                          {e.vertex[0], e.vertex[1]}});
+    }
   } else {
     lengths_.resize(m + 1);
     for (std::size_t t = 0; t < m; ++t) {

@@ -57,6 +57,8 @@ struct TetRecord {
 template <class Real>
 struct ReflexEdge {
   Vector3<Real> end[2];
+  Vector3<Real> direction;  ///< from the first end to the second, unit; 0 without length
+  Real length;
   Vector3<Real> normal[2];  ///< of the two boundary faces, unit, into the solid
   Index vertex[2];          ///< numbers inside
 };

@@ -124,12 +124,12 @@ class SolidRule {
     const Label& from = labels_[t];
     const Real straight = from.sigma + norm(q - from.source);
     if (!any_reflex_ || !(straight < known)) return straight;
-    const Reach simple = reach(from, q);
+    Reach simple = reach(from, q);
     if (!(simple.length < known)) return simple.length;
-    if (tets_[t].reflex == none) return measure(from, q).length;
+    if (tets_[t].reflex == none) return measure(from, q, simple).length;
     Label label = from;
-    gather(t, sentinel_, label, q);
-    return measure(label, q).length;
+    gather(t, sentinel_, label, q, simple);
+    return measure(label, q, simple).length;
   }
 
   /// Labels of u offer a path over the edge (v, w) of t, which touches u in that edge only.
@@ -157,7 +157,6 @@ class SolidRule {
 
   static constexpr Real tolerance = Real(1e-4);
   static constexpr Real slack = Real(0.5);
-  static constexpr Real far2 = Real(FAR2);
 
  private:
   struct Reach {
@@ -199,7 +198,9 @@ class SolidRule {
 
   /// The path with what hides q.
   [[nodiscard]] Reach measure(const Label& label, const Point& q) const {
-    const Reach straight = reach(label, q);
+    return measure(label, q, reach(label, q));
+  }
+  [[nodiscard]] Reach measure(const Label& label, const Point& q, const Reach& straight) const {
     Reach bent = straight;
     for (int k = 0; k < Label::limits && label.limit[k] != none; ++k)
       if (hides(label.limit[k], straight.eye, q)) {
@@ -265,14 +266,12 @@ class SolidRule {
     // A line that misses the face passes it if it bends at an edge known here.
     if (!through && !last_resort && !may_bend(t, path.eye, q)) return;
     Label label = from;
-    gather(t, u, label, q);
+    gather(t, u, label, q, path);
     if (label.limit[0] != none || label.ring != from.ring) {
-      path = measure(label, q);
+      const Point eye = path.eye;
+      path = measure(label, q, path);
       if (!(path.length < known)) return;
-    }
-    if (path.bend >= 0) {
-      const Index edge = label.limit[path.bend];
-      if (hides_all(edge, reach(label, q).eye, a, b, c)) {
+      if (path.bend >= 0 && hides_all(label.limit[path.bend], eye, a, b, c)) {
         turn(label, path.bend, q);
         path = measure(label, q);
       }
@@ -307,8 +306,8 @@ class SolidRule {
   struct Candidates {
     Index edge[24];
     int count = 0;
-    void add(Index e) {
-      if (e == none || count == 24) return;
+    void add(Index e, Index except = none) {
+      if (e == none || e == except || count == 24) return;
       for (int i = 0; i < count; ++i)
         if (edge[i] == e) return;
       edge[count++] = e;
@@ -317,12 +316,13 @@ class SolidRule {
 
   /// Chooses which edges the label remembers for q in u: its own, those of t, and those of
   /// neighbours of u that look at the same scene.
-  void gather(Index t, Index u, Label& label, const Point& q) const {
+  void gather(Index t, Index u, Label& label, const Point& q, Reach& straight) const {
     Candidates found;
     for (const Index limit : label.limit) found.add(limit);
+    const int own = found.count;
     if (Index e = tets_[t].reflex; e != none)
       for (;; ++e) {
-        found.add(list_[e] >> ReflexEntry::edge_shift);
+        found.add(list_[e] >> ReflexEntry::edge_shift, label.ring);
         if (list_[e] & ReflexEntry::last) break;
       }
     if (u != sentinel_)
@@ -331,24 +331,28 @@ class SolidRule {
         if (v == t || v == sentinel_ || !front_->reached(v)) continue;
         const Label& other = labels_[v];
         if (other.path == label.path) {
-          for (const Index limit : other.limit) found.add(limit);
+          for (const Index limit : other.limit) found.add(limit, label.ring);
         } else if (other.ring != none &&
                    SolidPath::before(other.path, other.ring) == label.path) {
-          found.add(other.ring);
+          found.add(other.ring, label.ring);
         }
       }
-    if (found.count == 0) return;
-    Point eye = reach(label, q).eye;
+    if (found.count == own) return;
     // An edge that hides the ring itself comes before it.
     if (label.ring != none)
-      for (int i = 0; i < found.count; ++i) {
+      for (int i = own; i < found.count; ++i) {
         const Index edge = found.edge[i];
-        if (edge == label.ring || !hides(edge, label.source, eye)) continue;
+        if (!hides(edge, label.source, straight.eye)) continue;
         label.path = SolidPath::bent(SolidPath::before(label.path, label.ring), edge);
         found.edge[i] = label.ring;
         label.ring = edge;
-        eye = reach(label, q).eye;
+        straight = reach(label, q);
       }
+    if (found.count <= Label::limits) {
+      for (int i = own; i < found.count; ++i) label.limit[i] = found.edge[i];
+      return;
+    }
+    Point eye = straight.eye;
     clear_limits(label);
     // The nearest, and first of all those that hide q.
     Real key[Label::limits];
@@ -359,10 +363,9 @@ class SolidRule {
         const Index edge = found.edge[i];
         if (edge == label.ring || (first > 0 && edge == label.limit[0])) continue;
         const EdgeView<Real> view(reflex_[edge], eye);
-        if (!view.can_hide() || view.lights(q, far2)) continue;
         const Real close2 = view.closeness(q);
+        if (!(close2 < std::numeric_limits<Real>::infinity())) continue;
         const bool dark = view.hides(q, slack);
-        if (!dark && close2 > far2) continue;
         const Real k = dark ? Real(-1) / (1 + close2) : close2;
         int place = count < Label::limits ? count++ : Label::limits;
         for (; place > first && k < key[place - 1]; --place)

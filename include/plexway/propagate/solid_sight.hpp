@@ -13,98 +13,104 @@ namespace plexway {
 template <class Real>
 inline constexpr Real solid_rounding = 64 * std::numeric_limits<Real>::epsilon();
 
-/// The point of segment (a, b) over which p reaches q soonest: unfold q about the line through a
-/// and b until it lies opposite p, and draw a straight line; or an end.
+/// Where the unfolded line from p to q crosses an edge, as a distance from its first end that may
+/// lie outside of the edge. `hp`: p's distance from the edge's line.
 template <class Real>
-Vector3<Real> bend_point(const Vector3<Real>& a, const Vector3<Real>& b, const Vector3<Real>& p,
-                         const Vector3<Real>& q) {
-  const Vector3<Real> u = b - a, ap = p - a, aq = q - a;
-  const Real length2 = dot(u, u);
-  if (!(length2 > 0)) return a;
-  const Real xp = dot(ap, u) / length2, xq = dot(aq, u) / length2;
-  const Vector3<Real> op = ap - xp * u, oq = aq - xq * u;
-  const Real hp = norm(op), hq = norm(oq), h = hp + hq;
-  const Real x = h > 0 ? (xp * hq + xq * hp) / h : xp;
-  return a + std::clamp(x, Real(0), Real(1)) * u;
+Real crossing_along(const ReflexEdge<Real>& e, const Vector3<Real>& p, Real hp,
+                    const Vector3<Real>& q) {
+  const Vector3<Real> ap = p - e.end[0], aq = q - e.end[0];
+  const Real xp = dot(ap, e.direction), xq = dot(aq, e.direction);
+  const Real hq = norm(aq - xq * e.direction);
+  return hp + hq > 0 ? (xp * hq + xq * hp) / (hp + hq) : xp;
 }
+
+/// The point of an edge over which p reaches q soonest: unfold q about the edge's line until it lies
+/// opposite p, and draw a straight line; or an end.
 template <class Real>
 Vector3<Real> bend_point(const ReflexEdge<Real>& e, const Vector3<Real>& p,
                          const Vector3<Real>& q) {
-  return bend_point(e.end[0], e.end[1], p, q);
+  const Vector3<Real> ap = p - e.end[0];
+  const Real hp = norm(ap - dot(ap, e.direction) * e.direction);
+  const Real x = std::clamp(crossing_along(e, p, hp, q), Real(0), e.length);
+  return e.end[0] + x * e.direction;
+}
+/// The same for any segment.
+template <class Real>
+Vector3<Real> bend_point(const Vector3<Real>& a, const Vector3<Real>& b, const Vector3<Real>& p,
+                         const Vector3<Real>& q) {
+  ReflexEdge<Real> edge{};
+  edge.end[0] = a;
+  edge.length = norm(b - a);
+  if (!(edge.length > 0)) return a;
+  edge.direction = 1 / edge.length * (b - a);
+  return bend_point(edge, p, q);
 }
 
-/// A reflex edge seen from a point.
+/// A reflex edge seen from a point: what it hides.
 template <class Real>
 class EdgeView {
  public:
-  EdgeView(const ReflexEdge<Real>& edge, const Vector3<Real>& eye) : edge_(edge), eye_(eye) {
-    a_ = edge.end[0] - eye;
-    u_ = edge.end[1] - edge.end[0];
-    n_ = cross(a_, u_);
-    nn_ = dot(n_, n_);
-    uu_ = dot(u_, u_);
-    front_ = -dot(a_, edge.normal[0]);
-    back_ = -dot(a_, edge.normal[1]);
-    const bool end_on = !(nn_ > tiny * tiny * dot(a_, a_) * uu_);
-    // In front of both sides of the edge an eye has nothing hidden from it; well behind both it
-    // does not see the edge, unless that is almost flat.
-    const bool before = std::min(front_, back_) > 0;
-    const bool behind = std::max(front_, back_) < -1024 * tiny &&
-                        dot(edge.normal[0], edge.normal[1]) < Real(0.5);
-    can_hide_ = !end_on && !before && !behind;
+  EdgeView(const ReflexEdge<Real>& edge, const Vector3<Real>& eye)
+      : edge_(edge), eye_(eye), a_(edge.end[0] - eye), n_(cross(a_, edge.direction)) {
     if (dot(n_, edge.normal[0] + edge.normal[1]) < 0) n_ = Real(-1) * n_;  // to the solid's side
   }
 
-  [[nodiscard]] bool can_hide() const { return can_hide_; }
-
-  /// Not in its shadow, give or take a small angle (squared).
+  /// Not in its shadow, by more than a small angle (squared).
   [[nodiscard]] bool lights(const Vector3<Real>& q, Real angle2) const {
     const Vector3<Real> g = q - eye_;
     const Real h = dot(n_, g);
-    return h > 0 && h * h > angle2 * nn_ * dot(g, g);
+    return h > 0 && h * h > angle2 * dot(n_, n_) * dot(g, g);
   }
 
   /// Is q in its shadow? `slack`: how far beyond its ends it still hides, in its own lengths.
   [[nodiscard]] bool hides(const Vector3<Real>& q, Real slack) const {
-    if (!can_hide_) return false;
     const Vector3<Real> g = q - eye_;
     const Real h = dot(n_, g);
-    if (!(h < 0) || !(h * h > tiny * tiny * nn_ * dot(g, g))) return false;
+    if (!(h < 0)) return false;
+    const Real nn = dot(n_, n_);
+    if (!(h * h > tiny * tiny * nn * dot(g, g)) || !can_hide(nn)) return false;
     // q may be before the obstacle.
     const Vector3<Real> aq = q - edge_.end[0];
     const Real q0 = dot(aq, edge_.normal[0]), q1 = dot(aq, edge_.normal[1]);
-    if (front_ > back_ ? q1 <= tiny && q0 >= -tiny : q0 <= tiny && q1 >= -tiny) return false;
-    return outside(aq) <= slack;
+    const bool first = dot(a_, edge_.normal[0]) < dot(a_, edge_.normal[1]);  // faces the eye
+    if (first ? q1 <= tiny && q0 >= -tiny : q0 <= tiny && q1 >= -tiny) return false;
+    return outside(q, nn) <= slack * edge_.length;
   }
 
   /// How closely the line of sight to q passes it: an angle, squared.
   [[nodiscard]] Real closeness(const Vector3<Real>& q) const {
-    if (!can_hide_) return std::numeric_limits<Real>::infinity();
-    const Vector3<Real> g = q - eye_, aq = q - edge_.end[0];
-    const Real h = dot(n_, g), beyond = outside(aq);
-    const Real sine2 = h * h / (nn_ * dot(g, g));
+    const Real nn = dot(n_, n_);
+    if (!can_hide(nn)) return std::numeric_limits<Real>::infinity();
+    const Vector3<Real> g = q - eye_;
+    const Real h = dot(n_, g), beyond = outside(q, nn);
+    const Real sine2 = h * h / (nn * dot(g, g));
     if (beyond == 0) return sine2;
-    const Vector3<Real> b = a_ + u_;
-    return sine2 + beyond * beyond * uu_ / std::min(dot(a_, a_), dot(b, b));
+    const Vector3<Real> b = edge_.end[1] - eye_;
+    return sine2 + beyond * beyond / std::min(dot(a_, a_), dot(b, b));
   }
 
  private:
   static constexpr Real tiny = solid_rounding<Real>;
 
-  /// How far beyond its ends the path over the edge would bend, by unfolding, in its own lengths.
-  [[nodiscard]] Real outside(const Vector3<Real>& aq) const {
-    const Real xp = -dot(a_, u_) / uu_, xq = dot(aq, u_) / uu_;
-    const Vector3<Real> oq = aq - xq * u_;
-    const Real hp = std::sqrt(nn_ / uu_), hq = norm(oq);
-    const Real x = (xp * hq + xq * hp) / (hp + hq);
-    return std::max(std::max(-x, x - 1), Real(0));
+  /// Not end on; an eye in front of both sides of the edge has nothing hidden from it; well behind
+  /// both it does not see the edge, unless that is almost flat.
+  [[nodiscard]] bool can_hide(Real nn) const {
+    if (!(nn > tiny * tiny * dot(a_, a_))) return false;
+    const Real s0 = dot(a_, edge_.normal[0]), s1 = dot(a_, edge_.normal[1]);
+    if (std::max(s0, s1) < 0) return false;
+    return std::min(s0, s1) <= 1024 * tiny ||
+           dot(edge_.normal[0], edge_.normal[1]) >= Real(0.5);
+  }
+
+  /// How far beyond its ends the path over the edge would bend, by unfolding.
+  [[nodiscard]] Real outside(const Vector3<Real>& q, Real nn) const {
+    const Real x = crossing_along(edge_, eye_, std::sqrt(nn), q);
+    return std::max(std::max(-x, x - edge_.length), Real(0));
   }
 
   const ReflexEdge<Real>& edge_;
   const Vector3<Real>& eye_;
-  Vector3<Real> a_, u_, n_;
-  Real nn_, uu_, front_, back_;
-  bool can_hide_;
+  Vector3<Real> a_, n_;
 };
 
 /// Does the line from `eye` to q, on the other side, pass triangle (a, b, c)? Give or take
