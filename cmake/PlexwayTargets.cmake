@@ -45,8 +45,9 @@ function(plexway_add_component name)
   set_property(GLOBAL PROPERTY PLEXWAY_HEADERS_${name} "${arg_HEADERS_FROM}")
 endfunction()
 
-# plexway_use_package(COMPONENT PACKAGE TARGET message): links TARGET into the component, hidden from its
-# users, when PACKAGE is found, and defines PLEXWAY_<COMPONENT>_<PACKAGE>; otherwise says the message.
+# plexway_use_package(component package target message): links the target into the component, hidden
+# from its users, when find_package finds it, and defines PLEXWAY_<component>_<package> in capitals;
+# otherwise says the message.
 macro(plexway_use_package component package target message)
   find_package(${package} QUIET)
   if(TARGET ${target})

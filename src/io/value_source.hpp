@@ -81,7 +81,7 @@ class TextValues {
     while (scanner_.next_line()) {
       if (scanner_.to_field() && scanner_.field() == end) return;
     }
-    fail("the file ends before " + std::string(end));
+    fail("the file ends before " + quote(end));
   }
 
   void finish(std::string_view what) {
@@ -193,7 +193,7 @@ class ByteValues {
 
   void skip_past(std::string_view end) {
     const auto found = bytes_.find(end, at_);
-    if (found == std::string_view::npos) fail("the file ends before " + std::string(end));
+    if (found == std::string_view::npos) fail("the file ends before " + quote(end));
     at_ = found + end.size();
   }
 

@@ -155,7 +155,7 @@ TEST_CASE("gmsh: what is wrong is named with its line") {
   CHECK(gmsh_complaint(replaced(ascii2(elements2), "$Nodes", "$ParametricNodes")) ==
         "mesh:8: $ParametricNodes are not read; save the file without parametric coordinates");
   CHECK_THAT(gmsh_complaint(replaced(ascii2(elements2), "$PhysicalNames", "$Names")),
-             Contains("the file ends before $EndNames"));
+             Contains("the file ends before '$EndNames'"));
 }
 
 TEST_CASE("gmsh: what is wrong in bytes is named with the byte") {
