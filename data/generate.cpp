@@ -1,4 +1,4 @@
-// Writes the sample surfaces: `generate DIR [NAME...]` or `generate --list`.
+// Writes the samples: `generate DIR [NAME...]` or `generate --list`.
 
 #include <algorithm>
 #include <array>
@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "shapes.hpp"
+#include "solid_shapes.hpp"
 
 namespace {
 
@@ -37,7 +38,18 @@ std::string as_obj(const Shape& shape) {
   std::string out;
   for (const auto& [x, y, z] : shape.points) print(out, "v %.7g %.7g %.7g\n", x, y, z);
   for (const auto& [a, b, c] : shape.faces) print(out, "f %u %u %u\n", a + 1, b + 1, c + 1);
+  for (const auto& [a, b] : shape.lines) print(out, "l %u %u\n", a + 1, b + 1);
   return out;
+}
+
+std::string as_mesh(const Shape& shape) {
+  std::string out = "MeshVersionFormatted 2\nDimension 3\nVertices\n";
+  print(out, "%zu\n", shape.points.size());
+  for (const auto& [x, y, z] : shape.points) print(out, "%.7g %.7g %.7g 0\n", x, y, z);
+  print(out, "Tetrahedra\n%zu\n", shape.tets.size());
+  for (const auto& [a, b, c, d] : shape.tets)
+    print(out, "%u %u %u %u 0\n", a + 1, b + 1, c + 1, d + 1);
+  return out + "End\n";
 }
 
 std::string as_off(const Shape& shape) {
@@ -93,6 +105,9 @@ constexpr std::array all_samples = {
     Sample{"moebius.obj", "Moebius strip: not orientable, one boundary", moebius, true},
     Sample{"two_parts.obj", "two spheres and a lone vertex: parts out of reach", two_parts, true},
     Sample{"box.stl", "box as a binary STL soup", box, true},
+    Sample{"elbow.off", "closed surface of a thick L, 12 vertices", elbow, true},
+    Sample{"elbow.mesh", "the solid inside it, 1152 tetrahedra", elbow_solid, true},
+    Sample{"vessels.obj", "tree of vessels: a wireframe of 763 vertices", vessels, true},
     Sample{"sphere.obj", "unit sphere, 10242 vertices", [] { return geodesic_sphere(32); }, false},
     Sample{"bumpy-50k.ply", "bumpy closed surface, 50412 vertices", [] { return bumpy(71); },
            false},
@@ -104,19 +119,21 @@ void write(const std::filesystem::path& directory, const Sample& sample) {
   const Shape shape = sample.make();
   const std::filesystem::path file = directory / sample.file;
   const std::string extension = file.extension().string();
-  const std::string bytes = extension == ".obj"   ? as_obj(shape)
-                            : extension == ".off" ? as_off(shape)
-                            : extension == ".ply" ? as_ply(shape)
-                                                  : as_stl(shape);
+  const std::string bytes = extension == ".obj"    ? as_obj(shape)
+                            : extension == ".off"  ? as_off(shape)
+                            : extension == ".ply"  ? as_ply(shape)
+                            : extension == ".mesh" ? as_mesh(shape)
+                                                   : as_stl(shape);
   std::ofstream out(file, std::ios::binary);
   out.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
   out.close();
   if (!out) throw std::runtime_error("cannot write " + file.string());
-  std::printf("%s: %zu vertices, %zu faces\n", file.string().c_str(), shape.points.size(),
-              shape.faces.size());
+  std::printf("%s: %zu vertices, %zu simplices\n", file.string().c_str(), shape.points.size(),
+              shape.faces.size() + shape.tets.size() + shape.lines.size());
 }
 
-/// A sample's name is its file's, with or without extension; "million" is all bumpy ones.
+/// A sample's name is its file's, with or without extension (which may name several); "million" is
+/// all bumpy ones.
 bool named(const Sample& sample, std::string_view name) {
   return name == sample.file || name == sample.file.substr(0, sample.file.find('.')) ||
          (name == "million" && sample.file.starts_with("bumpy"));

@@ -1,6 +1,6 @@
 #pragma once
 
-// The sample surfaces as functions. Only the standard library, no randomness but its own, so that
+// The samples as functions. Only the standard library, no randomness but its own, so that
 // a shape is the same wherever it is made.
 
 #include <algorithm>
@@ -21,6 +21,8 @@ using Index = std::uint32_t;
 struct Shape {
   std::vector<Point> points;
   std::vector<std::array<Index, 3>> faces;
+  std::vector<std::array<Index, 4>> tets;   // of solids, which have no faces
+  std::vector<std::array<Index, 2>> lines;  // of wireframes
 
   Index add(Point p) {
     points.push_back(p);

@@ -21,9 +21,14 @@ std::string version_text() {
 #ifdef PLEXWAY_HAS_BOOST_GRAPH
   providers += " boost_graph";
 #endif
+  std::string licence = "MIT";
+#ifdef PLEXWAY_HAS_TETGEN
+  providers += " tetgen";
+  licence += "; TetGen 1.5 (AGPL) is built in, so the AGPL holds for this program as a whole";
+#endif
   return std::string("plexway ") + version_string +
          "\nprecision  float double\nexecutors  serial\nproviders " +
-         (providers.empty() ? " none" : providers) + "\nlicence    MIT\n";
+         (providers.empty() ? " none" : providers) + "\nlicence    " + licence + "\n";
 }
 
 // The command that was being parsed when something went wrong.
@@ -59,11 +64,13 @@ int parse_and_run(int argc, const char* const* argv) {
       "Examples:\n"
       "  plexway distance knot.ply --source vertex:0 --out distance.ply\n"
       "  plexway info knot.ply\n"
+      "  plexway tetrahedralize organ.off --out organ.vtu --max-volume 1e-3\n"
       "  plexway bench bunny.obj --source vertex:3160 --truth bunny.v3160.txt\n\n"
       "Exit codes: 0 ok, 1 failure, 2 usage, 3 bad input, 4 not built in, 5 nothing reached.");
   add_distance_command(tool, action);
   add_info_command(tool, action);
   add_bench_command(tool, action);
+  add_tetrahedralize_command(tool, action);
 
   try {
     tool.parse(argc, argv);

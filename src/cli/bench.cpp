@@ -30,6 +30,7 @@ struct BenchCommand {
   std::vector<std::string> truths;
   std::size_t repeats = 20;
   std::size_t random_sources = 0;
+  FillOptions fill;
   SolveOptions solve;
   bool json = false;
   bool quiet = false;
@@ -41,7 +42,7 @@ struct Times {
 };
 
 struct Result {
-  double load = 0, build = 0, dijkstra_build = 0;
+  double build = 0, dijkstra_build = 0;
   bool has_dijkstra = false;
   std::size_t sources = 0;
   Times times;
@@ -55,12 +56,12 @@ double median(std::vector<double> values) {
   return values.size() % 2 == 1 ? values[half] : (values[half - 1] + values[half]) / 2;
 }
 
-// A graph search starts at a vertex: for a point of a triangle at the nearest corner, nearly.
+// A graph search starts at a vertex: for a point of a simplex at the nearest corner, nearly.
 Index vertex_near(const Domain& domain, const PointSource& source) {
   if (source.vertex != none) return source.vertex;
   const auto& weight = source.barycentric;
   const auto corner = std::max_element(weight.begin(), weight.end()) - weight.begin();
-  return domain.surface().triangles[source.simplex][static_cast<std::size_t>(corner)];
+  return domain.corners(source.simplex)[static_cast<std::size_t>(corner)];
 }
 
 // `count` vertices that a path from the first source leads to: times of empty fields mean nothing.
@@ -120,10 +121,11 @@ Json to_json(const BenchCommand& command, const Domain& domain, const Solver& so
   json["visibility"] = command.solve.visibility;
   json["sources"] = result.sources;
   json["repeats"] = command.repeats;
-  json["seconds"] = {
-      {"load", result.load},
-      {"build", result.build},
-      {"dijkstra_build", result.has_dijkstra ? Json(result.dijkstra_build) : Json(nullptr)}};
+  json["seconds"]["load"] = domain.load_seconds();
+  if (domain.mesh_seconds()) json["seconds"]["mesh"] = *domain.mesh_seconds();
+  json["seconds"]["build"] = result.build;
+  json["seconds"]["dijkstra_build"] =
+      result.has_dijkstra ? Json(result.dijkstra_build) : Json(nullptr);
   json["bytes_per_vertex"] =
       static_cast<double>(solver.bytes()) / static_cast<double>(domain.vertices());
   json["ns_per_vertex"] = json_number(ns);
@@ -164,10 +166,7 @@ void run_bench(const BenchCommand& command) {
 
   Result result;
   ProgressLine progress(command.quiet);
-  progress.phase("reading " + command.input);
-  const Stopwatch loading;
-  const Domain domain = Domain::load(command.input, command.as);
-  result.load = loading.seconds();
+  const Domain domain = Domain::load(command.input, command.as, command.fill, progress);
   std::vector<PointSource> sources = locate_sources(domain, arguments);
   const auto truths = read_truths(command, domain);
 
@@ -209,9 +208,7 @@ void add_bench_command(CLI::App& tool, Action& action) {
   auto command = std::make_shared<BenchCommand>();
   CLI::App& app = *tool.add_subcommand(
       "bench", "Speed against Boost.Graph's Dijkstra, and error against truth");
-  app.add_option("INPUT", command->input, "a surface: .obj .off .ply .stl")
-      ->type_name("FILE")
-      ->required();
+  app.add_option("INPUT", command->input, input_help)->type_name("FILE")->required();
   app.add_option("--source,-s", command->sources,
                  "vertex:ID or point:X,Y,Z; repeat it to take turns between sources")
       ->required()
@@ -229,14 +226,17 @@ void add_bench_command(CLI::App& tool, Action& action) {
   app.add_option("--repeats", command->repeats, "timed runs of each solver (default 20)")
       ->check(CLI::Range(1, 1'000'000))
       ->type_name("N");
-  app.add_option("--as", command->as, "what the input is: surface (default)")->type_name("KIND");
+  app.add_option("--as", command->as, as_help)->type_name("KIND");
   app.add_flag("--json", command->json, "print one JSON object");
   app.add_flag("--quiet,-q", command->quiet, "no notes, no progress");
   add_solve_options(app, command->solve, false);
+  add_fill_options(app, command->fill);
   app.footer(
       "Examples:\n"
       "  plexway bench bunny.obj --source vertex:3160 --truth bunny.v3160.txt\n"
-      "  plexway bench bunny.obj --source vertex:3160 --random-sources 10 --json");
+      "  plexway bench bunny.obj --source vertex:3160 --random-sources 10 --json\n"
+      "  plexway bench cavity.ele --source vertex:170 --truth cavity.v170.txt\n"
+      "  plexway bench vessels.obj --source vertex:0 --random-sources 10");
   app.callback([command, &action] { action = [command] { run_bench(*command); }; });
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <vector>
 
 namespace plexway::cli {
 namespace {
@@ -17,30 +18,35 @@ Vector cross(const Vector& a, const Vector& b) {
   return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
 
+// A point of a simplex with N corners. All that follows looks for the one closest to the origin.
+template <std::size_t N>
 struct Candidate {
   double squared_distance = std::numeric_limits<double>::infinity();
-  Vector barycentric = {1, 0, 0};
+  std::array<double, N> barycentric = {1};
+
+  // Takes a point of the simplex that has only those corners, if it is closer.
+  template <std::size_t M>
+  void improve(const Candidate<M>& other, const std::array<std::size_t, M>& corners) {
+    if (!(other.squared_distance < squared_distance)) return;
+    squared_distance = other.squared_distance;
+    barycentric = {};
+    for (std::size_t i = 0; i < M; ++i) barycentric[corners[i]] = other.barycentric[i];
+  }
 };
 
-// The point of the edge from corner i to corner j that is closest to the origin.
-Candidate closest_on_edge(const std::array<Vector, 3>& corners, std::size_t i, std::size_t j) {
-  const Vector along = minus(corners[j], corners[i]);
+Candidate<2> closest(const std::array<Vector, 2>& corners) {
+  const Vector along = minus(corners[1], corners[0]);
   const double length2 = dot(along, along);
-  const double t = length2 > 0 ? std::clamp(-dot(corners[i], along) / length2, 0.0, 1.0) : 0.0;
-  Candidate found;
-  found.barycentric = {0, 0, 0};
-  found.barycentric[i] = 1 - t;
-  found.barycentric[j] = t;
-  Vector at = corners[i];
+  const double t = length2 > 0 ? std::clamp(-dot(corners[0], along) / length2, 0.0, 1.0) : 0.0;
+  Vector at = corners[0];
   for (std::size_t k = 0; k < 3; ++k) at[k] += t * along[k];
-  if (t == 1) at = corners[j];
-  found.squared_distance = dot(at, at);
-  return found;
+  if (t == 1) at = corners[1];
+  return {dot(at, at), {1 - t, t}};
 }
 
-// The point of the triangle that is closest to the origin: the foot of the perpendicular where it
-// lies inside, else the best of the three edges. A triangle without area has only edges.
-Candidate closest_on_triangle(const std::array<Vector, 3>& corners) {
+// The foot of the perpendicular where it lies inside, else the best of the three edges. A triangle
+// without area has only edges.
+Candidate<3> closest(const std::array<Vector, 3>& corners) {
   const Vector normal = cross(minus(corners[1], corners[0]), minus(corners[2], corners[0]));
   const double normal2 = dot(normal, normal);
   if (normal2 > 0) {
@@ -54,43 +60,82 @@ Candidate closest_on_triangle(const std::array<Vector, 3>& corners) {
       return {height * height / normal2, {weight[0] / sum, weight[1] / sum, weight[2] / sum}};
     }
   }
-  Candidate best = closest_on_edge(corners, 0, 1);
-  for (std::size_t i = 1; i < 3; ++i) {
-    const Candidate other = closest_on_edge(corners, i, (i + 1) % 3);
-    if (other.squared_distance < best.squared_distance) best = other;
+  Candidate<3> best;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const std::size_t j = (i + 1) % 3;
+    best.improve(closest(std::array{corners[i], corners[j]}), std::array{i, j});
+  }
+  return best;
+}
+
+// The origin itself where it lies inside, else the best of the four faces.
+Candidate<4> closest(const std::array<Vector, 4>& corners) {
+  constexpr std::array<std::array<std::size_t, 3>, 4> faces = {
+      {{1, 3, 2}, {0, 2, 3}, {0, 3, 1}, {0, 1, 2}}};  // seen from the corner across, one way round
+  std::array<double, 4> weight;
+  double sum = 0;
+  for (std::size_t i = 0; i < 4; ++i) {
+    const auto& [a, b, c] = faces[i];
+    weight[i] = dot(corners[a], cross(corners[b], corners[c]));
+    sum += weight[i];
+  }
+  if (sum != 0) {
+    for (double& w : weight) w /= sum;
+    if (*std::min_element(weight.begin(), weight.end()) >= 0) return {0, weight};
+  }
+  Candidate<4> best;
+  for (const auto& face : faces) {
+    const auto& [a, b, c] = face;
+    best.improve(closest(std::array{corners[a], corners[b], corners[c]}), face);
   }
   return best;
 }
 
 // Makes the numbers above neither overflow nor underflow, whatever the unit.
-double largest_offset(const io::Triangles& surface, const Vector& point) {
+double largest_offset(const std::vector<Vector>& positions, const Vector& point) {
   double largest = 0;
-  for (const Vector& position : surface.positions) {
+  for (const Vector& position : positions) {
     for (std::size_t k = 0; k < 3; ++k)
       largest = std::max(largest, std::abs(position[k] / 2 - point[k] / 2));
   }
   return largest > 0 ? largest : 1;
 }
 
-}  // namespace
-
-TrianglePoint closest_point(const io::Triangles& surface, const Vector& point) {
-  const double scale = largest_offset(surface, point);
-  TrianglePoint best;
+template <std::size_t N>
+SimplexPoint closest_of_all(const std::vector<Vector>& positions,
+                            const std::vector<std::array<std::uint32_t, N>>& simplices,
+                            const Vector& point) {
+  const double scale = largest_offset(positions, point);
+  SimplexPoint best;
   double best_distance = std::numeric_limits<double>::infinity();
-  for (std::size_t triangle = 0; triangle < surface.triangles.size(); ++triangle) {
-    std::array<Vector, 3> corners;
-    for (std::size_t i = 0; i < 3; ++i) {
-      const Vector& position = surface.positions[surface.triangles[triangle][i]];
+  for (std::size_t simplex = 0; simplex < simplices.size(); ++simplex) {
+    std::array<Vector, N> corners;
+    for (std::size_t i = 0; i < N; ++i) {
+      const Vector& position = positions[simplices[simplex][i]];
       for (std::size_t k = 0; k < 3; ++k) corners[i][k] = (position[k] / 2 - point[k] / 2) / scale;
     }
-    const Candidate found = closest_on_triangle(corners);
+    const Candidate<N> found = closest(corners);
     if (found.squared_distance < best_distance) {
       best_distance = found.squared_distance;
-      best = {triangle, found.barycentric};
+      best = {simplex, {}};
+      std::copy(found.barycentric.begin(), found.barycentric.end(), best.barycentric.begin());
     }
   }
   return best;
+}
+
+}  // namespace
+
+SimplexPoint closest_point(const io::Triangles& surface, const Vector& point) {
+  return closest_of_all(surface.positions, surface.triangles, point);
+}
+
+SimplexPoint closest_point(const io::Tets& solid, const Vector& point) {
+  return closest_of_all(solid.positions, solid.tets, point);
+}
+
+SimplexPoint closest_point(const io::Edges& wireframe, const Vector& point) {
+  return closest_of_all(wireframe.positions, wireframe.edges, point);
 }
 
 }  // namespace plexway::cli

@@ -1,7 +1,11 @@
 #include "dijkstra_peer.hpp"
 
 #ifdef PLEXWAY_HAS_BOOST_GRAPH
+#include <variant>
+
 #include <plexway/boost_graph/dijkstra.hpp>
+
+#include "simplex_edges.hpp"
 #endif
 
 namespace plexway::cli {
@@ -14,6 +18,9 @@ class BoostPeer final : public DijkstraPeer {
  public:
   explicit BoostPeer(const io::Triangles& surface)
       : dijkstra_(surface.positions, surface.triangles) {}
+  explicit BoostPeer(const io::Tets& solid) : BoostPeer(edges_of(solid)) {}
+  explicit BoostPeer(const io::Edges& wireframe)
+      : dijkstra_(wireframe.vertices, wireframe.edges, lengths_of(wireframe)) {}
 
   void run(Index source) override { dijkstra_.run(source); }
 
@@ -24,9 +31,13 @@ class BoostPeer final : public DijkstraPeer {
 }  // namespace
 
 std::unique_ptr<DijkstraPeer> make_dijkstra_peer(const Domain& domain, Precision precision) {
-  return with_file_name(domain, [&]() -> std::unique_ptr<DijkstraPeer> {
-    if (precision == Precision::single) return std::make_unique<BoostPeer<float>>(domain.surface());
-    return std::make_unique<BoostPeer<double>>(domain.surface());
+  return with_file_name(domain, [&] {
+    return std::visit(
+        [&](const auto& shape) -> std::unique_ptr<DijkstraPeer> {
+          if (precision == Precision::single) return std::make_unique<BoostPeer<float>>(shape);
+          return std::make_unique<BoostPeer<double>>(shape);
+        },
+        domain.shape());
   });
 }
 #else

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include <plexway/error.hpp>
+#include <plexway/io/field.hpp>
 
 #include "commands.hpp"
 #include "console.hpp"
@@ -27,6 +28,7 @@ struct DistanceCommand {
   std::string as;
   std::vector<std::string> sources;
   std::string out;
+  FillOptions fill;
   SolveOptions solve;
   bool json = false;
   bool quiet = false;
@@ -34,7 +36,7 @@ struct DistanceCommand {
 
 // What came out, as far as a report tells it.
 struct Outcome {
-  double load = 0, build = 0, solve = 0;
+  double build = 0, solve = 0;
   std::size_t reached = 0;        // sources included
   std::size_t beside_source = 0;  // reached, and not a source
   double max_distance = 0;
@@ -67,7 +69,10 @@ Json to_json(const DistanceCommand& command, const Domain& domain, const Solver&
   json["vertices"] = domain.vertices();
   json["simplices"] = domain.simplices();
   json["components"] = solver.components();
-  json["seconds"] = {{"load", outcome.load}, {"build", outcome.build}, {"solve", outcome.solve}};
+  json["seconds"]["load"] = domain.load_seconds();
+  if (domain.mesh_seconds()) json["seconds"]["mesh"] = *domain.mesh_seconds();
+  json["seconds"]["build"] = outcome.build;
+  json["seconds"]["solve"] = outcome.solve;
   json["reached"] = outcome.reached;
   json["unreached"] = domain.vertices() - outcome.reached;
   json["max_distance"] = json_number(outcome.max_distance);
@@ -98,9 +103,11 @@ std::string to_text(const DistanceCommand& command, const Domain& domain, const 
   table.add("reached", reached);
   table.add("work", counted(solver.statistics().expansions, "expansions") + ", " +
                         counted(solver.statistics().updates, "updates"));
-  table.add("time", "load " + short_time(outcome.load) + ", build " + short_time(outcome.build) +
-                        ", solve " + short_time(outcome.solve) + " (" + command.solve.executor +
-                        ", " + command.solve.precision + ")");
+  const std::string mesh =
+      domain.mesh_seconds() ? ", mesh " + short_time(*domain.mesh_seconds()) : "";
+  table.add("time", "load " + short_time(domain.load_seconds()) + mesh + ", build " +
+                        short_time(outcome.build) + ", solve " + short_time(outcome.solve) + " (" +
+                        command.solve.executor + ", " + command.solve.precision + ")");
   if (!command.out.empty() && command.out != "-") table.add("written", command.out);
   return table.text();
 }
@@ -125,13 +132,10 @@ void run_distance(const DistanceCommand& command) {
   const Precision precision = precision_of(command.solve);
   require_executor(command.solve);
   const std::vector<SourceArgument> arguments = parse_sources(command.sources);
-  check_output_name(command.out, command.input);
+  if (command.out != "-") check_output_name(command.out, command.input, io::field_extensions());
 
   ProgressLine progress(command.quiet);
-  progress.phase("reading " + command.input);
-  const Stopwatch loading;
-  const Domain domain = Domain::load(command.input, command.as);
-  const double load = loading.seconds();
+  const Domain domain = Domain::load(command.input, command.as, command.fill, progress);
   const std::vector<PointSource> sources = locate_sources(domain, arguments);
 
   progress.phase("building");
@@ -148,7 +152,6 @@ void run_distance(const DistanceCommand& command) {
 
   const std::vector<double> distance = solver->distance();
   Outcome outcome = survey(distance, sources);
-  outcome.load = load;
   outcome.build = build;
   outcome.solve = solve;
 
@@ -191,9 +194,7 @@ void add_distance_command(CLI::App& tool, Action& action) {
   auto command = std::make_shared<DistanceCommand>();
   CLI::App& app = *tool.add_subcommand(
       "distance", "Geodesic distance of every vertex from one or more sources");
-  app.add_option("INPUT", command->input, "a surface: .obj .off .ply .stl")
-      ->type_name("FILE")
-      ->required();
+  app.add_option("INPUT", command->input, input_help)->type_name("FILE")->required();
   app.add_option("--source,-s", command->sources,
                  "vertex:ID (0-based, file order) or point:X,Y,Z (closest point of the\n"
                  "domain); repeat it for several sources, each vertex then gets the nearest")
@@ -201,18 +202,21 @@ void add_distance_command(CLI::App& tool, Action& action) {
       ->type_name("WHERE")
       ->allow_extra_args(false);
   app.add_option("--out,-o", command->out,
-                 "write the distances: .csv .npy .ply .vtu by extension, or - for CSV on\n"
+                 "write the distances: .csv .npy .ply .vtk .vtu by extension, or - for CSV on\n"
                  "standard output (the summary then goes to standard error)")
       ->type_name("FILE");
-  app.add_option("--as", command->as, "what the input is: surface (default)")->type_name("KIND");
+  app.add_option("--as", command->as, as_help)->type_name("KIND");
   app.add_flag("--json", command->json, "print the summary as one JSON object");
   app.add_flag("--quiet,-q", command->quiet, "no summary, notes or progress; errors stay");
   add_solve_options(app, command->solve, true);
+  add_fill_options(app, command->fill);
   app.footer(
       "Examples:\n"
       "  plexway distance knot.ply --source vertex:0 --out distance.ply\n"
       "  plexway distance knot.ply --source point:1,0,0.5 --radius 2 --json\n"
       "  plexway distance knot.ply --source vertex:0 --source vertex:99 --out nearest.csv\n"
+      "  plexway distance organ.off --as solid --max-volume 1e-3 --source point:0,0,0 -o d.vtu\n"
+      "  plexway distance vessels.obj --source vertex:0 --out distance.vtk\n"
       "  plexway distance knot.ply --source vertex:0 --quiet --out - | sort -t, -gk2 | tail -1");
   app.callback([command, &action] { action = [command] { run_distance(*command); }; });
 }

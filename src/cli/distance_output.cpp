@@ -6,7 +6,6 @@
 #include <system_error>
 
 #include <plexway/error.hpp>
-#include <plexway/io/field.hpp>
 
 #include "console.hpp"
 
@@ -24,14 +23,14 @@ void append(std::string& text, Number value) {
 
 }  // namespace
 
-void check_output_name(const std::string& out, const std::string& input) {
-  if (out.empty() || out == "-") return;
+void check_output_name(const std::string& out, const std::string& input,
+                       std::span<const std::string_view> known) {
+  if (out.empty()) return;
   const fs::path file = out;
   std::string extension = file.extension().string();
   for (char& c : extension) {
     if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
   }
-  const auto known = io::field_extensions();
   if (std::find(known.begin(), known.end(), extension) == known.end()) {
     std::string names;
     for (const std::string_view name : known) names.append(" ").append(name);

@@ -3,12 +3,14 @@
 #include <cstdint>
 #include <span>
 #include <string>
+#include <string_view>
 
 namespace plexway::cli {
 
-/// Before any work: throws UsageError where `out` has an extension that cannot be written or is the
-/// input itself, and Error where its folder does not exist. Empty and "-" are fine.
-void check_output_name(const std::string& out, const std::string& input);
+/// Before any work: throws UsageError where `out` has an extension that is not `known` or is the
+/// input itself, and Error where its folder does not exist. Empty is fine.
+void check_output_name(const std::string& out, const std::string& input,
+                       std::span<const std::string_view> known);
 
 /// CSV on standard output: `vertex,distance` and `,label` where there are labels.
 /// Throws as write_output.

@@ -1,61 +1,178 @@
 #include "domain.hpp"
 
 #include <algorithm>
+#include <array>
+#include <fstream>
+#include <optional>
+#include <system_error>
+#include <utility>
 
-#include <plexway/error.hpp>
 #include <plexway/io/field.hpp>
 
 #include "closest_point.hpp"
+#include "simplex_edges.hpp"
 
 namespace plexway::cli {
 namespace {
 
-constexpr std::array<std::string_view, 4> kinds = {"surface", "solid", "cloud", "wireframe"};
+enum class Kind { surface, solid, wireframe };  // in the order of Domain::Shape
+constexpr std::array<const char*, 3> kind_names = {"surface", "solid", "wireframe"};
 
-void require_built(const std::string& kind) {
-  if (kind.empty() || kind == "surface") return;
-  if (std::find(kinds.begin(), kinds.end(), kind) != kinds.end())
-    throw NotBuiltError("--as " + kind +
-                        ": domains of this kind are not built in; there is: surface");
-  std::string names;
-  for (const std::string_view name : kinds) names.append(names.empty() ? "" : ", ").append(name);
-  throw UsageError("--as " + kind + ": no such kind; the kinds are " + names);
+std::optional<Kind> asked_for(const std::string& as) {
+  if (as.empty()) return std::nullopt;
+  if (as == "surface") return Kind::surface;
+  if (as == "solid") return Kind::solid;
+  if (as == "wireframe") return Kind::wireframe;
+  if (as == "cloud")
+    throw NotBuiltError(
+        "--as cloud: domains of this kind are not built in; there are: surface, solid, wireframe");
+  throw UsageError("--as " + as + ": no such kind; the kinds are surface, solid, cloud, wireframe");
+}
+
+bool has_extension(const std::filesystem::path& file, std::span<const std::string_view> known) {
+  std::string extension = file.extension().string();
+  for (char& c : extension)
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  return std::find(known.begin(), known.end(), extension) != known.end();
+}
+
+// Whether an .obj has a statement that starts with this letter.
+bool has_statement(const std::string& file, char letter) {
+  std::ifstream in(file);
+  for (std::string line; std::getline(in, line);) {
+    const std::size_t at = line.find_first_not_of(" \t");
+    if (at != line.npos && line[at] == letter && at + 1 < line.size() &&
+        (line[at + 1] == ' ' || line[at + 1] == '\t'))
+      return true;
+  }
+  return false;
+}
+
+// An .obj may be either of two. Only one that cannot be read as a surface is looked at again.
+Domain::Shape read_obj(const std::string& file, std::optional<Kind> asked) {
+  if (asked == Kind::wireframe && has_statement(file, 'l')) return io::read_edges(file);
+  try {
+    return io::read_triangles(file);
+  } catch (const InputError&) {
+    if (asked == Kind::surface || has_statement(file, 'f') || !has_statement(file, 'l')) throw;
+  }
+  return io::read_edges(file);
+}
+
+Domain::Shape read(const std::string& file, std::optional<Kind> asked) {
+  const bool triangles = has_extension(file, io::triangle_extensions());
+  const bool lines = has_extension(file, io::edge_extensions());
+  if (triangles && lines) return read_obj(file, asked);
+  if (triangles) return io::read_triangles(file);
+  if (lines) return io::read_edges(file);
+  if (has_extension(file, io::tet_extensions())) return io::read_tets(file);
+  std::error_code ignored;
+  if (std::filesystem::is_directory(file, ignored))
+    throw InputError(file + ": is a directory, not a file");
+  const std::string extension = std::filesystem::path(file).extension().string();
+  throw InputError(file + ": " +
+                   (extension.empty() ? "no extension" : "unknown extension '" + extension + "'") +
+                   "; known are .obj .off .ply .stl for surfaces, .node .ele .mesh .msh .vtu .vtk "
+                   ".poly .smesh for solids, .edges .obj for wireframes");
+}
+
+[[noreturn]] void cannot_be(const std::string& file, Kind natural, Kind wanted) {
+  throw InputError(file + ": is a " + kind_names[static_cast<std::size_t>(natural)] +
+                   ", which cannot be taken as a " + kind_names[static_cast<std::size_t>(wanted)]);
 }
 
 }  // namespace
 
-Domain Domain::load(const std::filesystem::path& file, const std::string& as) {
-  require_built(as);
+Domain Domain::load(const std::string& file, const std::string& as, const FillOptions& fill,
+                    ProgressLine& progress) {
+  const std::optional<Kind> asked = asked_for(as);
+  check(fill);
   Domain domain;
   domain.file_ = file;
-  domain.surface_ = io::read_triangles(file);
+  progress.phase("reading " + file);
+  const Stopwatch loading;
+  if (!is_poly(file)) domain.shape_ = read(file, asked);
+  domain.load_seconds_ = loading.seconds();
+  const Kind natural = is_poly(file) ? Kind::solid : static_cast<Kind>(domain.shape_.index());
+  const Kind wanted = asked.value_or(natural);
+  if (natural > wanted) cannot_be(file, natural, wanted);
+
+  const bool fills = is_poly(file) || (natural == Kind::surface && wanted == Kind::solid);
+  if (fill.given() && !fills)
+    throw UsageError(
+        "--max-volume, --quality, --keep-surface and --hole need a surface to fill: "
+        "give one with --as solid");
+  if (fills) {
+    require_tetgen(as.empty() ? file : "--as " + as);
+    progress.phase("filling " + file + " with tetrahedra (TetGen tells no progress)");
+    const Stopwatch meshing;
+    domain.shape_ = is_poly(file)
+                        ? fill_poly(file, fill)
+                        : fill_surface(file, std::get<io::Triangles>(domain.shape_), fill);
+    domain.mesh_seconds_ = meshing.seconds();
+  }
+  if (wanted == Kind::wireframe) {
+    if (const auto* surface = std::get_if<io::Triangles>(&domain.shape_))
+      domain.shape_ = edges_of(*surface);
+    else if (const auto* solid = std::get_if<io::Tets>(&domain.shape_))
+      domain.shape_ = edges_of(*solid);
+  }
   return domain;
 }
 
+std::string_view Domain::kind() const { return kind_names[shape_.index()]; }
+
+std::string_view Domain::simplex_name() const {
+  constexpr std::array<std::string_view, 3> names = {"triangles", "tetrahedra", "edges"};
+  return names[shape_.index()];
+}
+
+std::size_t Domain::vertices() const {
+  if (const auto* wireframe = std::get_if<io::Edges>(&shape_)) return wireframe->vertices;
+  return positions().size();
+}
+
+std::size_t Domain::simplices() const {
+  if (const auto* surface = std::get_if<io::Triangles>(&shape_)) return surface->triangles.size();
+  if (const auto* solid = std::get_if<io::Tets>(&shape_)) return solid->tets.size();
+  return std::get<io::Edges>(shape_).edges.size();
+}
+
+std::span<const std::uint32_t> Domain::corners(std::size_t simplex) const {
+  if (const auto* surface = std::get_if<io::Triangles>(&shape_)) return surface->triangles[simplex];
+  if (const auto* solid = std::get_if<io::Tets>(&shape_)) return solid->tets[simplex];
+  return std::get<io::Edges>(shape_).edges[simplex];
+}
+
+std::span<const std::array<double, 3>> Domain::positions() const {
+  return std::visit([](const auto& shape) { return std::span(shape.positions); }, shape_);
+}
+
 PointSource Domain::closest(const std::array<double, 3>& point) const {
-  const TrianglePoint found = closest_point(surface_, point);
-  const auto& corners = surface_.triangles[found.triangle];
-  for (std::size_t i = 0; i < 3; ++i) {
+  const SimplexPoint found =
+      std::visit([&](const auto& shape) { return closest_point(shape, point); }, shape_);
+  const auto at = corners(found.simplex);
+  for (std::size_t i = 0; i < at.size(); ++i) {
     // Nearer to the corner than a rounding error of the coordinates.
-    if (found.barycentric[i] >= 1 - 1e-12) return PointSource::at(corners[i]);
+    if (found.barycentric[i] >= 1 - 1e-12) return PointSource::at(at[i]);
   }
-  return PointSource::in(static_cast<Index>(found.triangle), found.barycentric);
+  return PointSource::in(static_cast<Index>(found.simplex), found.barycentric);
 }
 
 std::array<double, 3> Domain::position(const PointSource& source) const {
-  if (source.vertex != none) return surface_.positions[source.vertex];
+  const auto place = positions();
+  if (source.vertex != none) return place[source.vertex];
   std::array<double, 3> at = {0, 0, 0};
-  const auto& corners = surface_.triangles[source.simplex];
-  for (std::size_t i = 0; i < 3; ++i) {
-    for (std::size_t k = 0; k < 3; ++k)
-      at[k] += source.barycentric[i] * surface_.positions[corners[i]][k];
+  const auto ends = corners(source.simplex);
+  for (std::size_t i = 0; i < ends.size(); ++i) {
+    for (std::size_t k = 0; k < 3; ++k) at[k] += source.barycentric[i] * place[ends[i]][k];
   }
   return at;
 }
 
 void Domain::write_field(const std::filesystem::path& out, std::span<const double> distance,
                          std::span<const std::int32_t> label) const {
-  io::write_field(out, surface_, distance, label);
+  std::visit([&](const auto& shape) { io::write_field(out, shape, distance, label); }, shape_);
 }
 
 }  // namespace plexway::cli

@@ -3,39 +3,59 @@
 #include <array>
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
+#include <variant>
 
 #include <plexway/error.hpp>
+#include <plexway/io/edges.hpp>
+#include <plexway/io/tets.hpp>
 #include <plexway/io/triangles.hpp>
 #include <plexway/source/point_source.hpp>
+
+#include "fill_options.hpp"
+#include "progress.hpp"
 
 namespace plexway::cli {
 
 /// What a user may hand to the tool, as it stands in the file.
 ///
-/// The commands know domains only through this class, so that solids, clouds and wireframes become
-/// further alternatives here and in solver.cpp, not in every command.
+/// The commands know domains through this class; what differs from kind to kind is in solver.cpp,
+/// dijkstra_peer.cpp and the info_*.cpp.
 class Domain {
  public:
-  /// Reads `file`. The extension tells the kind, unless `as` (a kind's name) does.
-  /// Throws InputError as the readers do, UsageError for a kind that does not exist, NotBuiltError
-  /// for one that this build lacks.
-  static Domain load(const std::filesystem::path& file, const std::string& as);
+  using Shape = std::variant<io::Triangles, io::Tets, io::Edges>;
+
+  /// Reads `file`, and fills or unravels it where `as` (a kind's name) asks for that; else the
+  /// extension tells the kind, and an .obj without faces but with lines is a wireframe.
+  /// Throws InputError as the readers do, UsageError for a kind that does not exist or for `fill`
+  /// where nothing is filled, NotBuiltError for what this build lacks.
+  static Domain load(const std::string& file, const std::string& as, const FillOptions& fill,
+                     ProgressLine& progress);
 
   [[nodiscard]] const std::filesystem::path& file() const { return file_; }
-  [[nodiscard]] std::string_view kind() const { return "surface"; }
+  [[nodiscard]] const Shape& shape() const { return shape_; }
+  /// "surface", "solid" or "wireframe".
+  [[nodiscard]] std::string_view kind() const;
   /// What its simplices are called, in the plural.
-  [[nodiscard]] std::string_view simplex_name() const { return "triangles"; }
-  [[nodiscard]] std::size_t vertices() const { return surface_.positions.size(); }
-  [[nodiscard]] std::size_t simplices() const { return surface_.triangles.size(); }
-  [[nodiscard]] const io::Triangles& surface() const { return surface_; }
+  [[nodiscard]] std::string_view simplex_name() const;
+  [[nodiscard]] std::size_t vertices() const;
+  [[nodiscard]] std::size_t simplices() const;
+  /// Corners of a simplex.
+  [[nodiscard]] std::span<const std::uint32_t> corners(std::size_t simplex) const;
+  /// One a vertex; none at all in a wireframe that has only lengths.
+  [[nodiscard]] std::span<const std::array<double, 3>> positions() const;
+
+  /// Seconds that reading took, and those that filling a surface took, if that was done.
+  [[nodiscard]] double load_seconds() const { return load_seconds_; }
+  [[nodiscard]] std::optional<double> mesh_seconds() const { return mesh_seconds_; }
 
   /// The point of the domain closest to `point`; a vertex where it is that vertex. Among several,
-  /// the one in the simplex with the lowest number. Cost: linear.
+  /// the one in the simplex with the lowest number. Needs positions. Cost: linear.
   [[nodiscard]] PointSource closest(const std::array<double, 3>& point) const;
-  /// Where a source is.
+  /// Where a source is. Needs positions.
   [[nodiscard]] std::array<double, 3> position(const PointSource& source) const;
 
   /// Writes one distance a vertex; the extension of `out` picks the format. Throws as
@@ -47,8 +67,18 @@ class Domain {
   Domain() = default;
 
   std::filesystem::path file_;
-  io::Triangles surface_;
+  Shape shape_;
+  double load_seconds_ = 0;
+  std::optional<double> mesh_seconds_;
 };
+
+/// What INPUT may be, for the help of the commands.
+inline constexpr const char* input_help =
+    "a surface: .obj .off .ply .stl; a solid: .node .ele .mesh .msh .vtu .vtk,\n"
+    "and .poly .smesh through TetGen; a wireframe: .edges, or .obj with lines only";
+inline constexpr const char* as_help =
+    "what to take it as: surface, solid (fills a surface with tetrahedra) or\n"
+    "wireframe (the edges alone); default: what the extension says";
 
 /// What `build` makes of `domain`, with the file's name put in front of what is wrong with it: a
 /// complex knows vertices and faces, but not where they came from.

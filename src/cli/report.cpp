@@ -6,16 +6,17 @@
 
 namespace plexway::cli {
 
+std::string singular(std::string_view plural) {
+  const auto swapped = [&](std::string_view end, std::string_view with) {
+    return std::string(plural.substr(0, plural.size() - end.size())).append(with);
+  };
+  if (plural.ends_with("vertices")) return swapped("vertices", "vertex");
+  if (plural.ends_with("hedra")) return swapped("hedra", "hedron");
+  return plural.ends_with("s") ? swapped("s", "") : std::string(plural);
+}
+
 std::string counted(std::size_t count, std::string_view plural) {
-  std::string text = std::to_string(count) + " ";
-  constexpr std::string_view vertices = "vertices";
-  if (count != 1) return text += plural;
-  if (plural.ends_with(vertices)) {
-    plural.remove_suffix(vertices.size());
-    return (text += plural) += "vertex";
-  }
-  if (plural.ends_with("s")) plural.remove_suffix(1);
-  return text += plural;
+  return std::to_string(count).append(" ").append(count == 1 ? singular(plural) : plural);
 }
 
 std::string short_number(double value) {
@@ -35,6 +36,10 @@ std::string short_time(double seconds) {
 
 void Table::add(std::string label, std::string text) {
   lines_.emplace_back(std::move(label), std::move(text));
+}
+
+void Table::add(const Table& other) {
+  lines_.insert(lines_.end(), other.lines_.begin(), other.lines_.end());
 }
 
 std::string Table::text() const {

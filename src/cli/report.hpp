@@ -12,6 +12,8 @@ namespace plexway::cli {
 /// Keeps its keys in the order they were put in.
 using Json = nlohmann::ordered_json;
 
+/// "triangle" for "triangles"; knows "vertices" and "tetrahedra" too.
+std::string singular(std::string_view plural);
 /// "1 triangle", "2 triangles"; the plural is given.
 std::string counted(std::size_t count, std::string_view plural);
 /// Four significant digits, for people: "0.01234", "1.235e-07", "inf".
@@ -23,6 +25,8 @@ std::string short_time(double seconds);
 class Table {
  public:
   void add(std::string label, std::string text);
+  /// All lines of another one.
+  void add(const Table& other);
   [[nodiscard]] std::string text() const;
 
  private:

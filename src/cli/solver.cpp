@@ -1,21 +1,41 @@
 #include "solver.hpp"
 
+#include <type_traits>
+#include <utility>
+#include <variant>
+
 #include <plexway/complex/triangle_mesh.hpp>
 #include <plexway/executors/serial.hpp>
+#include <plexway/executors/serial_solid.hpp>
+#include <plexway/executors/serial_wireframe.hpp>
 
 namespace plexway::cli {
 namespace {
 
+// Each is built in place: complexes are not to be copied.
 template <class Real>
-class SurfaceSolver final : public Solver {
- public:
-  explicit SurfaceSolver(const io::Triangles& surface)
-      : mesh_(surface.positions, surface.triangles) {}
+TriangleMesh<Real> make_complex(const io::Triangles& surface) {
+  return {surface.positions, surface.triangles};
+}
+template <class Real>
+TetMesh<Real> make_complex(const io::Tets& solid) {
+  return {solid.positions, solid.tets};
+}
+template <class Real>
+Wireframe<Real> make_complex(const io::Edges& wireframe) {
+  if (wireframe.lengths.empty()) return {wireframe.positions, wireframe.edges};
+  return {wireframe.vertices, wireframe.edges, wireframe.lengths};
+}
 
-  std::size_t components() const override { return mesh_.summary().components; }
+template <class Real, class Shape>
+class ShapeSolver final : public Solver {
+ public:
+  explicit ShapeSolver(const Shape& shape) : complex_(make_complex<Real>(shape)) {}
+
+  std::size_t components() const override { return complex_.summary().components; }
 
   void solve(std::span<const PointSource> sources, const PropagateOptions& options) override {
-    propagate(Serial{}, mesh_, sources, options, workspace_, field_);
+    propagate(Serial{}, complex_, sources, options, workspace_, field_);
   }
 
   std::vector<double> distance() const override {
@@ -34,12 +54,12 @@ class SurfaceSolver final : public Solver {
   bool complete() const override { return field_.complete; }
 
   std::size_t bytes() const override {
-    return mesh_.bytes() + workspace_.bytes() + field_.distance.capacity() * sizeof(Real) +
+    return complex_.bytes() + workspace_.bytes() + field_.distance.capacity() * sizeof(Real) +
            field_.label.capacity() * sizeof(Index);
   }
 
  private:
-  TriangleMesh<Real> mesh_;
+  decltype(make_complex<Real>(std::declval<Shape>())) complex_;
   Workspace<Real> workspace_;
   DistanceField<Real> field_;
 };
@@ -47,10 +67,15 @@ class SurfaceSolver final : public Solver {
 }  // namespace
 
 std::unique_ptr<Solver> make_solver(const Domain& domain, Precision precision) {
-  return with_file_name(domain, [&]() -> std::unique_ptr<Solver> {
-    if (precision == Precision::single)
-      return std::make_unique<SurfaceSolver<float>>(domain.surface());
-    return std::make_unique<SurfaceSolver<double>>(domain.surface());
+  return with_file_name(domain, [&] {
+    return std::visit(
+        [&](const auto& shape) -> std::unique_ptr<Solver> {
+          using Shape = std::decay_t<decltype(shape)>;
+          if (precision == Precision::single)
+            return std::make_unique<ShapeSolver<float, Shape>>(shape);
+          return std::make_unique<ShapeSolver<double, Shape>>(shape);
+        },
+        domain.shape());
   });
 }
 

@@ -28,6 +28,8 @@ std::optional<Index> parse_id(std::string_view text) {
   return std::from_chars(text.data(), end, id).ec == std::errc{} ? id : none;
 }
 
+}  // namespace
+
 std::optional<std::array<double, 3>> parse_point(std::string_view text) {
   std::array<double, 3> point;
   for (std::size_t i = 0; i < 3; ++i) {
@@ -42,8 +44,6 @@ std::optional<std::array<double, 3>> parse_point(std::string_view text) {
   if (!text.empty()) return std::nullopt;
   return point;
 }
-
-}  // namespace
 
 SourceArgument parse_source(const std::string& text) {
   const std::string_view view = text;
@@ -68,7 +68,12 @@ std::vector<SourceArgument> parse_sources(const std::vector<std::string>& texts)
 }
 
 PointSource locate_source(const Domain& domain, const SourceArgument& argument) {
-  if (const auto* point = std::get_if<1>(&argument.where)) return domain.closest(*point);
+  if (const auto* point = std::get_if<1>(&argument.where)) {
+    if (domain.positions().empty())
+      throw InputError(domain.file().string() + ": source " + argument.text +
+                       ": the vertices have no positions; name one by vertex:ID");
+    return domain.closest(*point);
+  }
   const Index vertex = std::get<0>(argument.where);
   if (vertex >= domain.vertices()) {
     throw InputError(domain.file().string() + ": source " + argument.text +
@@ -93,7 +98,8 @@ std::string describe_source(const Domain& domain, const SourceArgument& argument
   const auto at = domain.position(source);
   const double off = std::hypot(at[0] - (*point)[0], at[1] - (*point)[1], at[2] - (*point)[2]);
   const std::string place = source.vertex != none ? "vertex " + std::to_string(source.vertex)
-                                                  : "triangle " + std::to_string(source.simplex);
+                                                  : singular(domain.simplex_name()) + " " +
+                                                        std::to_string(source.simplex);
   return argument.text + " (" + place + ", " + short_number(off) + " away)";
 }
 

@@ -1,8 +1,9 @@
 #pragma once
 
 #include <array>
-#include <cstdint>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <variant>
 #include <vector>
 
@@ -23,12 +24,16 @@ struct SourceArgument {
 SourceArgument parse_source(const std::string& text);
 std::vector<SourceArgument> parse_sources(const std::vector<std::string>& texts);
 
-/// The source in `domain`. Throws InputError for a vertex that is not there.
+/// "X,Y,Z" as finite numbers.
+std::optional<std::array<double, 3>> parse_point(std::string_view text);
+
+/// The source in `domain`. Throws InputError for a vertex that is not there, and for a point where
+/// the domain has no positions.
 PointSource locate_source(const Domain& domain, const SourceArgument& argument);
 std::vector<PointSource> locate_sources(const Domain& domain,
                                         const std::vector<SourceArgument>& arguments);
 
-/// For people: "vertex 12", or "point:1,2,3 (in triangle 7, 0.01 from the surface)".
+/// For people: "vertex 12", or "point:1,2,3 (triangle 7, 0.01 away)".
 std::string describe_source(const Domain& domain, const SourceArgument& argument,
                             const PointSource& source);
 

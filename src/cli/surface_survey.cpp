@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
 
 #include "report.hpp"
+#include "survey.hpp"
 
 namespace plexway::cli {
 namespace {
@@ -30,37 +30,13 @@ bool is_slender(const std::array<double, 3>& side) {
   return !(std::sqrt(0.75) <= most * height);
 }
 
-std::size_t count_coincident(const io::Triangles& surface) {
-  std::vector<bool> used(surface.positions.size(), false);
-  for (const auto& corners : surface.triangles) {
-    for (const auto v : corners) used[v] = true;
-  }
-  std::vector<std::uint32_t> order;
-  for (std::uint32_t v = 0; v < used.size(); ++v) {
-    if (used[v]) order.push_back(v);
-  }
-  const auto& at = surface.positions;
-  std::sort(order.begin(), order.end(), [&](auto a, auto b) { return at[a] < at[b]; });
-  std::size_t coincident = 0;
-  for (std::size_t i = 0; i < order.size(); ++i) {
-    const bool as_before = i > 0 && at[order[i - 1]] == at[order[i]];
-    const bool as_after = i + 1 < order.size() && at[order[i + 1]] == at[order[i]];
-    if (as_before || as_after) ++coincident;
-  }
-  return coincident;
-}
-
 }  // namespace
 
 SurfaceSurvey survey_surface(const io::Triangles& surface) {
   SurfaceSurvey survey;
-  if (!surface.positions.empty()) survey.low = survey.high = surface.positions.front();
-  for (const Vector& position : surface.positions) {
-    for (std::size_t k = 0; k < 3; ++k) {
-      survey.low[k] = std::min(survey.low[k], position[k]);
-      survey.high[k] = std::max(survey.high[k], position[k]);
-    }
-  }
+  const Box box = bounding_box(surface.positions);
+  survey.low = box.low;
+  survey.high = box.high;
   survey.shortest_edge = std::numeric_limits<double>::infinity();
   double sum = 0;
   std::size_t slender = 0;
@@ -77,7 +53,7 @@ SurfaceSurvey survey_surface(const io::Triangles& surface) {
   const auto triangles = static_cast<double>(surface.triangles.size());
   survey.mean_edge = sum / (3 * triangles);
   survey.slender_share = static_cast<double>(slender) / triangles;
-  survey.coincident_vertices = count_coincident(surface);
+  survey.coincident_vertices = count_coincident(surface.positions, surface.triangles);
   return survey;
 }
 
@@ -93,10 +69,7 @@ std::vector<std::string> surface_warnings(const SurfaceSummary& summary,
        " with more than two triangles: paths may leave into any of them");
   warn(summary.pinched_vertices, "pinched vertices",
        " where separate parts of the surface touch in one point only");
-  if (summary.components > 1) {
-    warnings.push_back(std::to_string(summary.components) +
-                       " components: a source reaches only its own, the others get inf");
-  }
+  if (summary.components > 1) warnings.push_back(components_warning(summary.components));
   warn(summary.unreferenced_vertices, "unreferenced vertices",
        " in no triangle: no path leads there, so they get inf");
   warn(survey.coincident_vertices, "vertices",

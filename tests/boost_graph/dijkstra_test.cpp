@@ -164,3 +164,41 @@ TEST_CASE("Dijkstra refuses what is not a surface, and a source that is not ther
   CHECK_THROWS_WITH(EdgeDijkstra<double>(soup.positions, soup.faces),
                     Catch::Contains("face 3") && Catch::Contains("vertex 9"));
 }
+
+TEST_CASE("Dijkstra takes edges with lengths of their own") {
+  // 0 -1- 1 -1- 2, a shortcut of 1.5 beside an edge of 5, a loop, and vertex 3 apart.
+  const std::vector<std::array<Index, 2>> edges = {{0, 1}, {2, 1}, {0, 2}, {2, 0}, {1, 1}};
+  const std::vector<double> lengths = {1, 1, 5, 1.5, 0.25};
+  EdgeDijkstra<float> dijkstra(4, edges, lengths);
+  dijkstra.run(0);
+  CHECK(std::vector<float>(dijkstra.distance().begin(), dijkstra.distance().end()) ==
+        std::vector<float>{0, 1, 1.5F, static_cast<float>(inf)});
+  dijkstra.run_without_colours(2);
+  CHECK(dijkstra.distance()[0] == 1.5F);
+  CHECK(dijkstra.distance()[1] == 1);
+
+  CHECK_THROWS_AS(EdgeDijkstra<float>(2, edges, lengths), plexway::InputError);
+  CHECK_THROWS_AS(EdgeDijkstra<float>(4, edges, std::vector<double>{1, 1, 5, 1, -1}),
+                  plexway::InputError);
+  CHECK_THROWS_AS(EdgeDijkstra<float>(4, edges, std::vector<double>{1, 1, 5, 1, 1e300}),
+                  plexway::InputError);
+  CHECK_THROWS_AS(EdgeDijkstra<float>(4, edges, std::vector<double>{1}), plexway::UsageError);
+}
+
+TEST_CASE("Dijkstra on the edges of a surface and on the surface agree") {
+  const Soup soup = random_soup(60, 80, 5);
+  std::vector<std::array<Index, 2>> edges;
+  std::vector<double> lengths;
+  for (const auto& face : soup.faces)
+    for (std::size_t i = 0; i < 3; ++i) {
+      const Index a = face[i];
+      const Index b = face[(i + 1) % 3];
+      edges.push_back({a, b});
+      lengths.push_back(std::hypot(soup.positions[a][0] - soup.positions[b][0],
+                                   soup.positions[a][1] - soup.positions[b][1],
+                                   soup.positions[a][2] - soup.positions[b][2]));
+    }
+  EdgeDijkstra<double> dijkstra(soup.positions.size(), edges, lengths);
+  dijkstra.run(7);
+  CHECK(worst_difference(dijkstra.distance(), textbook(soup, 7)) <= 1e-14);
+}

@@ -97,8 +97,12 @@ TEST_CASE("info lists the executors") {
 }
 
 TEST_CASE("help and version go to standard output") {
-  for (const std::vector<std::string>& command : std::vector<std::vector<std::string>>{
-           {"--help"}, {"distance", "--help"}, {"info", "--help"}, {"bench", "--help"}}) {
+  for (const std::vector<std::string>& command :
+       std::vector<std::vector<std::string>>{{"--help"},
+                                             {"distance", "--help"},
+                                             {"info", "--help"},
+                                             {"bench", "--help"},
+                                             {"tetrahedralize", "--help"}}) {
     const auto run = run_tool(command);
     CHECK(run.code == 0);
     CHECK(run.err.empty());

@@ -1,0 +1,206 @@
+// TetGen in a child process. It is not made to be a guest: it writes to standard output even when
+// told to be quiet, leaks all it has when it gives up, and asserts. A child keeps all of that away
+// from the caller, from its other threads and from its standard output.
+
+#include "isolated_run.hpp"
+
+#include <fcntl.h>
+#include <poll.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+#ifdef __linux__
+#include <sys/prctl.h>
+#endif
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <chrono>
+#include <csignal>
+#include <cstdint>
+#include <cstdio>
+#include <cstring>
+#include <new>
+#include <system_error>
+
+#include <plexway/error.hpp>
+
+#include "tetgen_arrays.hpp"
+
+namespace plexway::tetgen {
+namespace {
+
+constexpr std::size_t most_said = std::size_t{1} << 18;
+// Behind it begins what TetGen says; before it may stand what the caller had not flushed yet.
+constexpr std::string_view start_of_speech = "\n\x01plexway\x01\n";
+
+struct Header {
+  std::int32_t ending = 0;
+  std::uint64_t points = 0, tets = 0, attributes = 0;
+};
+
+class Pipe {
+ public:
+  Pipe() {
+    std::array<int, 2> ends = {-1, -1};
+    if (::pipe2(ends.data(), O_CLOEXEC) != 0)
+      throw Error("cannot run TetGen: " + std::generic_category().message(errno));
+    read = ends[0];
+    write = ends[1];
+  }
+  ~Pipe() {
+    close(read);
+    close(write);
+  }
+  Pipe(const Pipe&) = delete;
+  Pipe& operator=(const Pipe&) = delete;
+  static void close(int& end) {
+    if (end >= 0) ::close(end);
+    end = -1;
+  }
+
+  int read = -1, write = -1;
+};
+
+void send(int to, const void* bytes, std::size_t size) {
+  const char* at = static_cast<const char*>(bytes);
+  while (size > 0) {
+    const ssize_t sent = ::write(to, at, size);
+    if (sent < 0 && errno == EINTR) continue;
+    if (sent <= 0) ::_exit(1);
+    at += sent;
+    size -= static_cast<std::size_t>(sent);
+  }
+}
+
+template <class Number>
+void send_array(int to, const Number* numbers, std::uint64_t count) {
+  send(to, numbers, count * sizeof(Number));
+}
+
+[[noreturn]] void child(const PiecewiseLinearComplex& complex, const std::string& switches,
+                        int speech, int answer) {
+  for (const int signal : {SIGABRT, SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGPIPE})
+    std::signal(signal, SIG_DFL);
+#ifdef __linux__
+  ::prctl(PR_SET_PDEATHSIG, SIGKILL);  // nobody would read the answer
+#endif
+  const rlimit no_core = {0, 0};
+  ::setrlimit(RLIMIT_CORE, &no_core);
+  ::dup2(speech, STDOUT_FILENO);
+  ::dup2(speech, STDERR_FILENO);
+  std::fwrite(start_of_speech.data(), 1, start_of_speech.size(), stdout);
+  std::fflush(stdout);
+  std::setvbuf(stdout, nullptr, _IOLBF, 1 << 12);  // abort() does not flush
+
+  // Nothing is freed: the process ends here, and after an error TetGen's memory is not to be
+  // touched.
+  Header header;
+  auto* const in = new tetgenio;
+  auto* const out = new tetgenio;
+  try {
+    to_tetgen(complex, *in);
+    std::string line = switches;
+    ::tetrahedralize(line.data(), in, out);
+  } catch (const int code) {
+    header.ending = code == 0 ? static_cast<int>(Ending::internal_error) : code;
+  } catch (const std::bad_alloc&) {
+    header.ending = static_cast<int>(Ending::out_of_memory);
+  }
+  std::fflush(stdout);
+  if (header.ending == 0) {
+    header.points = static_cast<std::uint64_t>(out->numberofpoints);
+    header.tets = static_cast<std::uint64_t>(out->numberoftetrahedra);
+    if (out->numberoftetrahedronattributes == 1) header.attributes = header.tets;
+  }
+  send(answer, &header, sizeof header);
+  send_array(answer, out->pointlist, 3 * header.points);
+  send_array(answer, out->tetrahedronlist, 4 * header.tets);
+  send_array(answer, out->tetrahedronattributelist, header.attributes);
+  ::_exit(0);
+}
+
+// Milliseconds left for poll, rounded up; negative for no limit.
+int time_left(const Patience& patience, std::chrono::steady_clock::time_point start) {
+  if (!(patience.seconds > 0)) return -1;
+  const std::chrono::duration<double> passed = std::chrono::steady_clock::now() - start;
+  return static_cast<int>(std::clamp(1e3 * (patience.seconds - passed.count()) + 1, 0.0, 1e9));
+}
+
+// Reads both pipes to their ends, whichever has something, so that neither can fill up and block.
+// False where the time was over before.
+bool listen_to(Pipe& speech, Pipe& answer, const Patience& patience, std::string& said,
+               std::string& bytes) {
+  const auto start = std::chrono::steady_clock::now();
+  std::vector<char> buffer(std::size_t{1} << 16);
+  while (speech.read >= 0 || answer.read >= 0) {
+    std::array<pollfd, 2> wait = {{{speech.read, POLLIN, 0}, {answer.read, POLLIN, 0}}};
+    const int ready = ::poll(wait.data(), wait.size(), time_left(patience, start));
+    if (ready < 0 && errno == EINTR) continue;
+    if (ready <= 0) return false;
+    for (std::size_t i = 0; i < 2; ++i) {
+      if (wait[i].fd < 0 || wait[i].revents == 0) continue;
+      const ssize_t got = ::read(wait[i].fd, buffer.data(), buffer.size());
+      if (got < 0 && errno == EINTR) continue;
+      if (got <= 0) {
+        Pipe::close(i == 0 ? speech.read : answer.read);
+        continue;
+      }
+      const auto size = static_cast<std::size_t>(got);
+      if (i == 1) {
+        bytes.append(buffer.data(), size);
+      } else if (said.size() + size <= most_said) {
+        said.append(buffer.data(), size);
+      } else if (patience.until_it_talks) {
+        return false;
+      }
+    }
+  }
+  return true;
+}
+
+template <class Row>
+bool take(std::string_view& bytes, std::vector<Row>& rows, std::uint64_t count) {
+  if (bytes.size() < count * sizeof(Row)) return false;
+  rows.resize(count);
+  if (count > 0) std::memcpy(rows.data(), bytes.data(), count * sizeof(Row));
+  bytes.remove_prefix(count * sizeof(Row));
+  return true;
+}
+
+}  // namespace
+
+Run run_isolated(const PiecewiseLinearComplex& complex, const std::string& switches,
+                 const Patience& patience) {
+  Pipe speech, answer;
+  const pid_t pid = ::fork();
+  if (pid < 0) throw Error("cannot run TetGen: " + std::generic_category().message(errno));
+  if (pid == 0) child(complex, switches, speech.write, answer.write);
+  Pipe::close(speech.write);
+  Pipe::close(answer.write);
+
+  Run run;
+  std::string bytes;
+  const bool to_the_end = listen_to(speech, answer, patience, run.said, bytes);
+  if (!to_the_end) ::kill(pid, SIGKILL);
+  int status = 0;
+  while (::waitpid(pid, &status, 0) < 0 && errno == EINTR) {
+  }
+  const std::size_t start = run.said.find(start_of_speech);
+  run.said.erase(0, start == run.said.npos ? run.said.size() : start + start_of_speech.size());
+
+  // A whole answer says how it ended, even where somebody else waited for our child.
+  if (!to_the_end) run.ending = Ending::out_of_time;
+  Header header;
+  if (!to_the_end || bytes.size() < sizeof header) return run;
+  std::memcpy(&header, bytes.data(), sizeof header);
+  std::string_view rest(bytes);
+  rest.remove_prefix(sizeof header);
+  if (take(rest, run.points, header.points) && take(rest, run.tets, header.tets) &&
+      take(rest, run.attributes, header.attributes))
+    run.ending = static_cast<Ending>(header.ending);
+  return run;
+}
+
+}  // namespace plexway::tetgen

@@ -1,0 +1,47 @@
+#include "simplex_edges.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
+namespace plexway::cli {
+namespace {
+
+template <class Simplices>
+io::Edges collect(const std::vector<std::array<double, 3>>& positions, const Simplices& simplices) {
+  io::Edges made;
+  made.positions = positions;
+  made.vertices = positions.size();
+  auto& edges = made.edges;
+  for (const auto& corners : simplices) {
+    for (std::size_t i = 0; i < corners.size(); ++i)
+      for (std::size_t j = i + 1; j < corners.size(); ++j)
+        if (corners[i] != corners[j])
+          edges.push_back({std::min(corners[i], corners[j]), std::max(corners[i], corners[j])});
+  }
+  std::sort(edges.begin(), edges.end());
+  edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
+  return made;
+}
+
+}  // namespace
+
+io::Edges edges_of(const io::Triangles& surface) {
+  return collect(surface.positions, surface.triangles);
+}
+
+io::Edges edges_of(const io::Tets& solid) { return collect(solid.positions, solid.tets); }
+
+std::vector<double> lengths_of(const io::Edges& wireframe) {
+  if (!wireframe.lengths.empty()) return wireframe.lengths;
+  std::vector<double> lengths;
+  lengths.reserve(wireframe.edges.size());
+  for (const auto& [from, to] : wireframe.edges) {
+    const auto& a = wireframe.positions[from];
+    const auto& b = wireframe.positions[to];
+    lengths.push_back(std::hypot(b[0] - a[0], b[1] - a[1], b[2] - a[2]));
+  }
+  return lengths;
+}
+
+}  // namespace plexway::cli
