@@ -18,7 +18,7 @@ namespace plexway {
 /// over.
 ///
 /// Throws as for surfaces. Cost: 25 to 60 ns a vertex on lattices of a million, a fifth of Boost's
-/// Dijkstra; never more than O((n + m) log n).
+/// Dijkstra; never more than O((n + m) log n), but for Schedule::fifo.
 template <class Real>
 void propagate(Serial, const Wireframe<Real>& wireframe, std::span<const PointSource> sources,
                const PropagateOptions& options, Workspace<Real>& workspace,
