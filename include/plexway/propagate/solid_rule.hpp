@@ -70,8 +70,7 @@ class SolidRule {
   [[nodiscard]] Real way(Index t, Index i) const {
     const TetRecord<Real>& r = tets_[t];
     Point middle = {0, 0, 0};
-    for (const Index k : tet_face_corners[i])
-      middle = middle + Real(1) / 3 * points_[r.corner[k]];
+    for (const Index k : tet_face_corners[i]) middle = middle + Real(1) / 3 * points_[r.corner[k]];
     const Index u = r.across[i] >> TetAcross::tet_shift;
     return norm(middle - r.centre) + norm(tets_[u].centre - middle);
   }
@@ -125,8 +124,8 @@ class SolidRule {
   }
 
   /// Length of the path to corner i of a reached tetrahedron, as far as it is below `known`.
-  [[nodiscard]] Real corner_distance(
-      Index t, Index i, Real known = std::numeric_limits<Real>::infinity()) const {
+  [[nodiscard]] Real corner_distance(Index t, Index i,
+                                     Real known = std::numeric_limits<Real>::infinity()) const {
     const Point& q = points_[tets_[t].corner[i]];
     const Label& from = labels_[t];
     const Real straight = from.sigma + norm(q - from.source);
@@ -337,8 +336,7 @@ class SolidRule {
         const Label& other = labels_[v];
         if (other.path == label.path) {
           for (const Index limit : other.limit) found.add(limit, label.ring);
-        } else if (other.ring != none &&
-                   SolidPath::before(other.path, other.ring) == label.path) {
+        } else if (other.ring != none && SolidPath::before(other.path, other.ring) == label.path) {
           found.add(other.ring, label.ring);
         }
       }
