@@ -94,7 +94,7 @@ Solid cubes(Index nx, Index ny, Index nz, double side, double jitter, Has has) {
 }
 
 /// A cube of side 1.
-inline Solid cube(Index n, double jitter = 0.15) {
+inline Solid solid_cube(Index n, double jitter = 0.15) {
   return cubes(n, n, n, 1.0 / n, jitter, [](Index, Index, Index) { return true; });
 }
 /// The cube without the quarter x > 1/2, y > 1/2: one reflex edge, at (1/2, 1/2, z). n even.

@@ -34,7 +34,7 @@ std::size_t distinct_edges(const Solid& s) {
 }  // namespace
 
 TEMPLATE_TEST_CASE("a cube is counted", "", float, double) {
-  const Solid s = cube(4);
+  const Solid s = solid_cube(4);
   const auto mesh = s.mesh<TestType>();
   const SolidSummary& c = mesh.summary();
   CHECK(c.vertices == 125);
@@ -71,7 +71,7 @@ TEMPLATE_TEST_CASE("reflex edges and what only touches is found", "", float, dou
 }
 
 TEST_CASE("inverted and flat tetrahedra are counted") {
-  Solid s = cube(2, 0);
+  Solid s = solid_cube(2, 0);
   std::swap(s.tets[3][0], s.tets[3][1]);
   std::size_t inverted = 0, positive = 0;
   for (const Tet& t : s.tets) {
@@ -99,11 +99,11 @@ TEMPLATE_TEST_CASE("bad solids name what is wrong", "", float, double) {
   const double infinity = std::numeric_limits<double>::infinity();
   const auto error = [](const Solid& s) { return error_of([&] { return s.mesh<TestType>(); }); };
   for (const double bad : {nan, infinity, -infinity}) {
-    Solid s = cube(2);
+    Solid s = solid_cube(2);
     s.positions[7][1] = bad;
     CHECK_THAT(error(s), Contains("vertex 7"));
   }
-  Solid s = cube(2);
+  Solid s = solid_cube(2);
   s.tets[5][2] = 27;
   CHECK_THAT(error(s), Contains("tet 5") && Contains("vertex 27"));
   s.tets[5] = {0, 1, 2, 1};
@@ -120,7 +120,7 @@ TEMPLATE_TEST_CASE("bad solids name what is wrong", "", float, double) {
   fan.tets = {{0, 1, 2, 3}, {0, 1, 2, 4}};
   CHECK(error(fan).empty());
 
-  const Solid c = cube(2);
+  const Solid c = solid_cube(2);
   auto lengths = c.lengths();
   lengths[4][3] = -1;
   CHECK_THAT(error_of([&] { return TetMesh<TestType>(27, c.tets, lengths); }), Contains("tet 4"));

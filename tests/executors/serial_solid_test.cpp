@@ -41,9 +41,9 @@ TEMPLATE_TEST_CASE("solids: a workspace is reused, bit for bit", "", float, doub
 }
 
 TEST_CASE("solids: what no path reaches is infinite") {
-  Solid s = cube(3);
+  Solid s = solid_cube(3);
   const Index first = static_cast<Index>(s.positions.size());
-  const Solid other = moved(cube(2), 1, {9, 0, 0});
+  const Solid other = moved(solid_cube(2), 1, {9, 0, 0});
   s.positions.insert(s.positions.end(), other.positions.begin(), other.positions.end());
   for (Tet t : other.tets) {
     for (Index& v : t) v += first;
@@ -65,7 +65,7 @@ TEST_CASE("solids: what no path reaches is infinite") {
 }
 
 TEST_CASE("solids: the nearest of several sources, with offsets") {
-  const Solid s = cube(6);
+  const Solid s = solid_cube(6);
   const Index a = s.nearest(0, 0, 0), b = s.nearest(1, 1, 1);
   PointSource late = PointSource::at(b);
   late.offset = 0.5;
@@ -81,7 +81,7 @@ TEST_CASE("solids: the nearest of several sources, with offsets") {
 }
 
 TEST_CASE("solids: radius, budget, progress") {
-  const Solid s = cube(8);
+  const Solid s = solid_cube(8);
   const auto mesh = s.mesh<double>();
   const auto all = propagate(Serial{}, mesh, PointSource::at(0));
   PropagateOptions options;
@@ -98,12 +98,12 @@ TEST_CASE("solids: radius, budget, progress") {
   CHECK(all.complete);
   options = {};
   options.progress = [](const Progress&) { return false; };
-  const auto big = cube(24).mesh<float>();
+  const auto big = solid_cube(24).mesh<float>();
   CHECK_THROWS_AS(propagate(Serial{}, big, PointSource::at(0), options), Cancelled);
 }
 
 TEST_CASE("solids: calls that make no sense are refused") {
-  const auto mesh = cube(2).mesh<double>();
+  const auto mesh = solid_cube(2).mesh<double>();
   const auto refuse = [&](const PointSource& source, const PropagateOptions& options = {}) {
     CHECK_THROWS_AS(propagate(Serial{}, mesh, source, options), UsageError);
   };

@@ -233,9 +233,21 @@ class SolidRule {
   void turn(Label& label, int limit, const Point& q) const {
     const Index edge = label.limit[limit];
     if (label.ring != none) {
-      const Reach r = reach(label, reach_by(label, reach(label, q).eye, limit, q).eye);
-      label.sigma += norm(r.eye - label.source);
-      label.source = r.eye;
+      // If the edges are parallel, S turns about the old ring until it lies in line with the way to
+      // the new one: exact. Else the bend becomes the source.
+      const ReflexEdge<Real>& ring = reflex_[label.ring];
+      const Point c = reach_by(label, reach(label, q).eye, limit, q).eye;
+      const Point b = bend_point(ring, label.source, c);
+      const Real walked = norm(b - label.source), on = norm(c - b);
+      const Real at = dot(b - ring.end[0], ring.direction);
+      const bool parallel =
+          std::abs(dot(ring.direction, reflex_[edge].direction)) > Real(1 - 1e-6);
+      if (parallel && at > 0 && at < ring.length && on > 0) {
+        label.source = b + walked / on * (b - c);
+      } else {
+        label.sigma += walked;
+        label.source = b;
+      }
     }
     label.path = SolidPath::bent(label.path, edge);
     label.ring = edge;
