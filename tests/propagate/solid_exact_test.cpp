@@ -40,10 +40,10 @@ std::vector<double> over_wall(const Solid& s, const Position& a) {
     double flat = std::hypot(px - ax, py - ay);
     if (px > .375) {
       const bool left = below(ax, ay, px, py, .375);
-      const bool right = px > .625 && below(ax, ay, px, py, .625);
+      const bool right = px > .625 - 1e-12 && below(ax, ay, px, py, .625);
       if (left || right) {
         const double one = std::hypot(.375 - ax, .75 - ay), two = std::hypot(px - .625, py - .75);
-        if (px <= .625 || !below(.375, .75, px, py, .625)) {
+        if (px < .625 - 1e-12 || !below(.375, .75, px, py, .625)) {
           flat = one + std::hypot(px - .375, py - .75);
         } else if (!below(ax, ay, .625, .75, .375)) {
           flat = std::hypot(.625 - ax, .75 - ay) + two;
@@ -133,7 +133,8 @@ TEST_CASE("through an edge that two solids share") {
   std::vector<double> exact;
   for (const Position& p : s.positions) {
     const double one = std::sqrt(.5), two = std::hypot(p[0] - .5, p[1] - .5);
-    exact.push_back(std::max(p[0], p[1]) > .5 ? over(one + two, p[2]) : std::hypot(p[0], p[1], p[2]));
+    exact.push_back(std::max(p[0], p[1]) > .5 ? over(one + two, p[2])
+                                              : std::hypot(p[0], p[1], p[2]));
   }
   const Errors e = compare(solve(s.mesh<double>(), PointSource::at(source)), exact);
   CAPTURE(e.mean, e.max, e.below);

@@ -240,8 +240,7 @@ class SolidRule {
       const Point b = bend_point(ring, label.source, c);
       const Real walked = norm(b - label.source), on = norm(c - b);
       const Real at = dot(b - ring.end[0], ring.direction);
-      const bool parallel =
-          std::abs(dot(ring.direction, reflex_[edge].direction)) > Real(1 - 1e-6);
+      const bool parallel = std::abs(dot(ring.direction, reflex_[edge].direction)) > Real(1 - 1e-6);
       if (parallel && at > 0 && at < ring.length && on > 0) {
         label.source = b + walked / on * (b - c);
       } else {

@@ -69,11 +69,16 @@ class EdgeView {
     if (!(h < 0)) return false;
     const Real nn = dot(n_, n_);
     if (!(h * h > tiny * tiny * nn * dot(g, g)) || !can_hide(nn)) return false;
-    // q may be before the obstacle.
+    // Unless q comes out behind the obstacle, it may be before it, or on another side of it.
     const Vector3<Real> aq = q - edge_.end[0];
     const Real q0 = dot(aq, edge_.normal[0]), q1 = dot(aq, edge_.normal[1]);
     const bool first = dot(a_, edge_.normal[0]) < dot(a_, edge_.normal[1]);  // faces the eye
-    if (first ? q1 <= tiny && q0 >= -tiny : q0 <= tiny && q1 >= -tiny) return false;
+    const Real front = first ? q0 : q1, back = first ? q1 : q0;
+    if (back <= tiny && front >= -tiny) return false;
+    if (back < -tiny) {
+      const Real along = dot(a_, edge_.direction);
+      if (!(dot(aq, a_ - along * edge_.direction) > 0)) return false;
+    }
     return outside(q, nn) <= slack * edge_.length;
   }
 
