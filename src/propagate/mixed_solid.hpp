@@ -97,6 +97,8 @@ class MixedSolid final : public MixedPiece<Real> {
     ReflexEdge<Real> ring = {};
     ring.end[0] = frame.origin + (low / unit_) * frame.u;
     ring.end[1] = frame.origin + (high / unit_) * frame.u;
+    ring.direction = frame.u;
+    ring.length = (high - low) / unit_;
     rings_.push_back(ring);
     rule_.set_rings(rings_);
     return static_cast<Index>(rings_.size() - 1);
@@ -106,6 +108,7 @@ class MixedSolid final : public MixedPiece<Real> {
     const std::size_t vertices = mesh_.vertex_count();
     workspace_.vertex.assign(vertices, infinity);
     workspace_.vertex_source.assign(vertices, none);
+    workspace_.vertex_path.assign(vertices, 0);
     read_out_tets<Real, true>(mesh_, rule_, wave_, workspace_);
     read_out_tet_edges<Real, true>(mesh_, workspace_);
     for (std::size_t v = 0; v < vertices; ++v) {

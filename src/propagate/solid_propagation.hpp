@@ -98,8 +98,7 @@ class SolidPropagation {
           any |= rule_.seed_corner(c / 4, c % 4, best, number);
     }
     for (const auto& edge : mesh_.pinched_edges()) {
-      const auto around =
-          mesh_.pinched_edge_tets().subspan(edge.begin, edge.end - edge.begin);
+      const auto around = mesh_.pinched_edge_tets().subspan(edge.begin, edge.end - edge.begin);
       for (const Index t : around) {
         if (!front_.reached(t) || rule_.distance(t) - rule_.size(t) > radius_) continue;
         for (const Index u : around)

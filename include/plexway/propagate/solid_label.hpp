@@ -17,14 +17,13 @@ struct SolidLabel {
   Real centre;           ///< distance of the tetrahedron's centre
   Index ring;            ///< reflex edge at which the path from S bends, or none
   static constexpr int limits = 4;
-  Index limit[limits];   ///< reflex edges that may hide S, the most pressing first, or none
-  Index path;            ///< says which source and which bends led here (see SolidPath)
+  Index limit[limits];  ///< reflex edges that may hide S, the most pressing first, or none
+  Index path;           ///< says which source and which bends led here (see SolidPath)
 };
 
 /// Names for sequences of bends: labels with equal names look at the same scene.
 struct SolidPath {
   static constexpr Index factor = 0x9E3779B1u, inverse = 0x0E8B2F51u;
-  static constexpr Index from_source(Index number) { return factor * (number + 1); }
   static constexpr Index bent(Index path, Index edge) { return path * factor + (edge + 1); }
   static constexpr Index before(Index path, Index edge) { return (path - (edge + 1)) * inverse; }
 };

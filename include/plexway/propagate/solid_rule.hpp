@@ -8,6 +8,7 @@
 
 #include <plexway/complex/tet_mesh.hpp>
 #include <plexway/propagate/solid_label.hpp>
+#include <plexway/propagate/solid_paths.hpp>
 #include <plexway/propagate/solid_sight.hpp>
 
 namespace plexway {
@@ -18,16 +19,21 @@ inline constexpr Index tet_face_corners[4][3] = {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}
 /// Visibility::saddles on solids in space: a virtual source is a point, or a ring about a reflex
 /// edge; paths bend at reflex edges only, and each label remembers two that may hide its source.
 template <class Real, class Front>
-class SolidRule {
+class SolidRule : public SolidPaths<Real> {
+  using Paths = SolidPaths<Real>;
+  using Paths::clear_limits, Paths::hides, Paths::hides_all, Paths::measure, Paths::name_of,
+      Paths::reach, Paths::reach_by, Paths::reflex_, Paths::slack, Paths::turn;
+  using typename Paths::Reach;
+
  public:
   using Label = SolidLabel<Real>;
   using Point = Vector3<Real>;
 
   SolidRule(const TetMesh<Real>& mesh, Label* labels, Front& front)
-      : mesh_(&mesh),
+      : Paths(mesh.reflex_edges().data()),
+        mesh_(&mesh),
         tets_(mesh.tets().data()),
         points_(mesh.points().data()),
-        reflex_(mesh.reflex_edges().data()),
         list_(mesh.reflex_list().data()),
         sentinel_(static_cast<Index>(mesh.tet_count())),
         any_reflex_(!mesh.reflex_edges().empty()),
@@ -125,8 +131,8 @@ class SolidRule {
   }
 
   /// Length of the path to corner i of a reached tetrahedron, as far as it is below `known`.
-  [[nodiscard]] Real corner_distance(
-      Index t, Index i, Real known = std::numeric_limits<Real>::infinity()) const {
+  [[nodiscard]] Real corner_distance(Index t, Index i,
+                                     Real known = std::numeric_limits<Real>::infinity()) const {
     const Point& q = points_[tets_[t].corner[i]];
     const Label& from = labels_[t];
     const Real straight = from.sigma + norm(q - from.source);
@@ -151,7 +157,7 @@ class SolidRule {
     label.sigma = there.length;
     label.ring = none;
     clear_limits(label);
-    label.path = SolidPath::bent(from.path, v ^ w);
+    label.path = name_of(b, label.sigma);
     label.centre = label.sigma + norm(q - b);
     if (!(label.centre < to_beat(t) * known_gain)) return false;
     labels_[t] = label;
@@ -162,7 +168,7 @@ class SolidRule {
     return true;
   }
 
-  // What follows is for simplices of other complexes that share a face or an edge.
+  // What follows is for simplices of other complexes that share a face, an edge or a vertex.
 
   /// Edges beyond the solid's own at which paths may bend, for `enter_edge`: the ring numbered
   /// mesh.reflex_edges().size() + i is edge i here, behind a copy of the solid's own.
@@ -187,7 +193,7 @@ class SolidRule {
   /// A source at `eye`, outside, comes in over a face of t.
   bool enter_face(Index t, std::size_t face, const Point& eye, Real sigma, Index source) const {
     const Point q = tets_[t].centre;
-    Label label = {eye, sigma, 0, none, {}, SolidPath::from_source(source)};
+    Label label = {eye, sigma, 0, none, {}, name_of(eye, sigma)};
     clear_limits(label);
     Reach path = {eye, sigma + norm(q - eye), -1};
     if (!(path.length < to_beat(t))) return false;
@@ -203,14 +209,13 @@ class SolidRule {
   /// A source that is seen over an edge of t only: a ring about it.
   bool enter_edge(Index t, std::size_t face, Index ring, const Point& eye, Real sigma,
                   Index source) const {
-    const Index path = SolidPath::bent(SolidPath::from_source(source), ring);
+    const Index path = SolidPath::bent(name_of(eye, sigma), ring);
     Label label = {eye, sigma, 0, ring, {}, path};
     clear_limits(label);
     return enter(t, face, label, reach(label, tets_[t].centre).length, source);
   }
 
   static constexpr Real tolerance = Real(0.1);
-  static constexpr Real slack = Real(0.5);
 
  private:
   bool enter(Index t, std::size_t face, Label label, Real centre, Index source) const {
@@ -220,95 +225,6 @@ class SolidRule {
     front_->accept(t, face, centre, source);
     cross(t, static_cast<Index>(face), false);  // which `expand` leaves out
     return true;
-  }
-
-  struct Reach {
-    Point eye;  // the last bend
-    Real length;
-    int bend = -1;  // at this limit
-  };
-
-  /// The path as the label has it, limits aside.
-  [[nodiscard]] Reach reach(const Label& label, const Point& q) const {
-    if (label.ring == none) return {label.source, label.sigma + norm(q - label.source), -1};
-    const Point b = bend_point(reflex_[label.ring], label.source, q);
-    return {b, label.sigma + norm(b - label.source) + norm(q - b), -1};
-  }
-
-  /// The same with bends at one limit, or at two in a row: relaxed once, which is exact for a
-  /// single bend after a point and never too short.
-  [[nodiscard]] Reach reach_by(const Label& label, const Point& eye, int limit,
-                               const Point& q) const {
-    const Point b = bend_point(reflex_[label.limit[limit]], eye, q);
-    return {b, way_to(label, b) + norm(q - b), limit};
-  }
-  [[nodiscard]] Reach reach_by(const Label& label, const Point& eye, int first, int second,
-                               const Point& q) const {
-    const ReflexEdge<Real>& one = reflex_[label.limit[first]];
-    const ReflexEdge<Real>& two = reflex_[label.limit[second]];
-    Point c = bend_point(two, bend_point(one, eye, q), q);
-    const Point b = bend_point(one, eye, c);
-    c = bend_point(two, b, q);
-    return {c, way_to(label, b) + norm(c - b) + norm(q - c), first};
-  }
-  [[nodiscard]] Real way_to(const Label& label, const Point& q) const {
-    return reach(label, q).length;
-  }
-
-  [[nodiscard]] bool hides(Index edge, const Point& eye, const Point& q) const {
-    return EdgeView<Real>(reflex_[edge], eye).hides(q, slack);
-  }
-
-  /// The path with what hides q.
-  [[nodiscard]] Reach measure(const Label& label, const Point& q) const {
-    return measure(label, q, reach(label, q));
-  }
-  [[nodiscard]] Reach measure(const Label& label, const Point& q, const Reach& straight) const {
-    Reach bent = straight;
-    for (int k = 0; k < Label::limits && label.limit[k] != none; ++k)
-      if (hides(label.limit[k], straight.eye, q)) {
-        const Reach other = reach_by(label, straight.eye, k, q);
-        if (other.length > bent.length || bent.bend < 0) bent = other;
-      }
-    const int k = bent.bend;
-    if (k < 0) return straight;
-    // The way to the bend may be hidden itself, or the way on.
-    const Reach one = bent;
-    for (int j = 0; j < Label::limits && label.limit[j] != none; ++j) {
-      if (j == k) continue;
-      Reach both = one;
-      if (hides(label.limit[j], straight.eye, one.eye))
-        both = reach_by(label, straight.eye, j, k, q);
-      else if (hides(label.limit[j], one.eye, q))
-        both = reach_by(label, straight.eye, k, j, q);
-      if (both.length > bent.length) bent = both;
-    }
-    return bent;
-  }
-
-  /// Bends at a limit for good.
-  void turn(Label& label, int limit, const Point& q) const {
-    const Index edge = label.limit[limit];
-    if (label.ring != none) {
-      const Reach r = reach(label, reach_by(label, reach(label, q).eye, limit, q).eye);
-      label.sigma += norm(r.eye - label.source);
-      label.source = r.eye;
-    }
-    label.path = SolidPath::bent(label.path, edge);
-    label.ring = edge;
-    for (int k = limit; k + 1 < Label::limits; ++k) label.limit[k] = label.limit[k + 1];
-    label.limit[Label::limits - 1] = none;
-  }
-
-  static void clear_limits(Label& label) {
-    for (Index& limit : label.limit) limit = none;
-  }
-
-  [[nodiscard]] bool hides_all(Index edge, const Point& eye, const Point& a, const Point& b,
-                               const Point& c) const {
-    const EdgeView<Real> view(reflex_[edge], eye);
-    constexpr Real small = Real(1e-8);
-    return !view.lights(a, small) && !view.lights(b, small) && !view.lights(c, small);
   }
 
   /// The full rule over one face.
@@ -460,7 +376,7 @@ class SolidRule {
     label.sigma = walked;
     label.ring = none;
     clear_limits(label);
-    label.path = SolidPath::bent(label.path, none - 1);
+    label.path = name_of(at, walked);
     path = {at, walked + norm(q - at), -1};
   }
 
@@ -473,7 +389,7 @@ class SolidRule {
     label.centre = d;
     label.ring = none;
     clear_limits(label);
-    label.path = SolidPath::from_source(source);
+    label.path = name_of(at, sigma);
     front_->accept(t, hinge, d, source);
     return true;
   }
@@ -488,7 +404,6 @@ class SolidRule {
   const TetMesh<Real>* mesh_;
   const TetRecord<Real>* tets_;
   const Point* points_;
-  const ReflexEdge<Real>* reflex_;
   const Index* list_;
   Index sentinel_;
   bool any_reflex_;

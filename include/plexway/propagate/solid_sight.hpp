@@ -24,8 +24,8 @@ Real crossing_along(const ReflexEdge<Real>& e, const Vector3<Real>& p, Real hp,
   return hp + hq > 0 ? (xp * hq + xq * hp) / (hp + hq) : xp;
 }
 
-/// The point of an edge over which p reaches q soonest: unfold q about the edge's line until it lies
-/// opposite p, and draw a straight line; or an end.
+/// The point of an edge over which p reaches q soonest: unfold q about the edge's line until it
+/// lies opposite p, and draw a straight line; or an end.
 template <class Real>
 Vector3<Real> bend_point(const ReflexEdge<Real>& e, const Vector3<Real>& p,
                          const Vector3<Real>& q) {
@@ -69,11 +69,16 @@ class EdgeView {
     if (!(h < 0)) return false;
     const Real nn = dot(n_, n_);
     if (!(h * h > tiny * tiny * nn * dot(g, g)) || !can_hide(nn)) return false;
-    // q may be before the obstacle.
+    // Unless q comes out behind the obstacle, it may be before it, or on another side of it.
     const Vector3<Real> aq = q - edge_.end[0];
     const Real q0 = dot(aq, edge_.normal[0]), q1 = dot(aq, edge_.normal[1]);
     const bool first = dot(a_, edge_.normal[0]) < dot(a_, edge_.normal[1]);  // faces the eye
-    if (first ? q1 <= tiny && q0 >= -tiny : q0 <= tiny && q1 >= -tiny) return false;
+    const Real front = first ? q0 : q1, back = first ? q1 : q0;
+    if (back <= tiny && front >= -tiny) return false;
+    if (back < -tiny) {
+      const Real along = dot(a_, edge_.direction);
+      if (!(dot(aq, a_ - along * edge_.direction) > 0)) return false;
+    }
     return outside(q, nn) <= slack * edge_.length;
   }
 
@@ -98,8 +103,7 @@ class EdgeView {
     if (!(nn > tiny * tiny * dot(a_, a_))) return false;
     const Real s0 = dot(a_, edge_.normal[0]), s1 = dot(a_, edge_.normal[1]);
     if (std::max(s0, s1) < 0) return false;
-    return std::min(s0, s1) <= 1024 * tiny ||
-           dot(edge_.normal[0], edge_.normal[1]) >= Real(0.5);
+    return std::min(s0, s1) <= 1024 * tiny || dot(edge_.normal[0], edge_.normal[1]) >= Real(0.5);
   }
 
   /// How far beyond its ends the path over the edge would bend, by unfolding.

@@ -1,0 +1,267 @@
+// Geodesic distance in tetrahedral solids: time beside Dijkstra's on the same edges, errors against
+// exact answers, and both as generated solids grow.
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <iostream>
+#include <memory>
+#include <numeric>
+#include <string>
+#include <vector>
+
+#include <plexway/executors/serial_solid.hpp>
+#ifdef PLEXWAY_HAS_BOOST_GRAPH
+#include <plexway/boost_graph/dijkstra.hpp>
+#endif
+
+#include "../data/shapes.hpp"
+#include "harness.hpp"
+#include "isolate.hpp"
+#include "table.hpp"
+
+namespace {
+
+using bench::Index;
+
+struct Solid {
+  std::string name;
+  std::vector<std::array<double, 3>> positions;
+  std::vector<std::array<Index, 4>> tets;
+  std::vector<bench::Truth> truths;
+};
+
+/// TetGen's plain text, 0-based, as the truth folder has it, with its exact answers.
+Solid read_solid(const std::filesystem::path& folder, const std::string& name) {
+  Solid solid{name, {}, {}, {}};
+  std::size_t count = 0;
+  std::size_t skip = 0;
+  std::ifstream nodes(folder / (name + ".node"));
+  nodes >> count >> skip >> skip >> skip;
+  solid.positions.resize(count);
+  for (auto& p : solid.positions) nodes >> skip >> p[0] >> p[1] >> p[2];
+  std::ifstream tets(folder / (name + ".ele"));
+  tets >> count >> skip >> skip;
+  solid.tets.resize(count);
+  for (auto& t : solid.tets) tets >> skip >> t[0] >> t[1] >> t[2] >> t[3];
+  if (!nodes || !tets) throw std::runtime_error((folder / name).string() + ": cannot be read");
+  solid.truths = bench::read_truths(folder, {name, solid.positions, {}});
+  return solid;
+}
+
+/// n^3 cubes of six tetrahedra, inner vertices moved a little; `notched`: without those with
+/// x > 1/2 and y > 1/2. The exact answer is known from everywhere in the first half.
+Solid generated(Index n, bool notched, bool shuffled) {
+  Solid s{(notched ? "l_shape_" : "cube_") + std::to_string(n), {}, {}, {}};
+  const auto has = [&](Index i, Index j, Index k) {
+    return i < n && j < n && k < n && (!notched || i < n / 2 || j < n / 2);
+  };
+  samples::Noise noise(1);
+  std::vector<Index> number(static_cast<std::size_t>(n + 1) * (n + 1) * (n + 1), plexway::none);
+  const auto vertex = [&](Index i, Index j, Index k) -> Index& {
+    return number[(static_cast<std::size_t>(k) * (n + 1) + j) * (n + 1) + i];
+  };
+  for (Index k = 0; k <= n; ++k)
+    for (Index j = 0; j <= n; ++j)
+      for (Index i = 0; i <= n; ++i) {
+        int around = 0;
+        for (Index c = 0; c < 8; ++c) around += has(i - (c & 1), j - (c >> 1 & 1), k - (c >> 2));
+        if (around == 0) continue;
+        std::array<double, 3> p = {double(i), double(j), double(k)};
+        for (double& x : p) x = (x + (around == 8 ? 0.15 * noise() : 0)) / n;
+        vertex(i, j, k) = static_cast<Index>(s.positions.size());
+        s.positions.push_back(p);
+      }
+  for (Index k = 0; k < n; ++k)
+    for (Index j = 0; j < n; ++j)
+      for (Index i = 0; i < n; ++i) {
+        if (!has(i, j, k)) continue;
+        std::array<Index, 3> axis = {0, 1, 2};
+        do {
+          std::array<Index, 3> at = {i, j, k};
+          std::array<Index, 4> tet = {vertex(i, j, k), 0, 0, 0};
+          for (std::size_t e = 0; e < 3; ++e) {
+            ++at[axis[e]];
+            tet[e + 1] = vertex(at[0], at[1], at[2]);
+          }
+          s.tets.push_back(tet);
+        } while (std::next_permutation(axis.begin(), axis.end()));
+      }
+  if (shuffled) {
+    s.name += ", shuffled";
+    std::vector<Index> place(s.positions.size());
+    std::iota(place.begin(), place.end(), Index{0});
+    const auto any = [&](std::size_t limit) {
+      const double at = (noise() + 1) / 2 * static_cast<double>(limit);
+      return std::min(limit - 1, static_cast<std::size_t>(at));
+    };
+    for (std::size_t i = place.size(); i > 1; --i) std::swap(place[i - 1], place[any(i)]);
+    const auto old = s.positions;
+    for (std::size_t v = 0; v < place.size(); ++v) s.positions[place[v]] = old[v];
+    for (auto& t : s.tets)
+      for (Index& v : t) v = place[v];
+    for (std::size_t i = s.tets.size(); i > 1; --i) std::swap(s.tets[i - 1], s.tets[any(i)]);
+  }
+  // From the vertex nearest to the far end of one arm.
+  bench::Truth truth;
+  double least = 10;
+  for (Index v = 0; v < s.positions.size(); ++v) {
+    const auto& p = s.positions[v];
+    const double d = std::hypot(p[0] - 1, p[1], p[2] - 0.5);
+    if (d < least) least = d, truth.source = v;
+  }
+  const auto& a = s.positions[truth.source];
+  for (const auto& p : s.positions) {
+    double flat = std::hypot(p[0] - a[0], p[1] - a[1]);
+    if (notched && p[1] > .5 && a[0] > .5) {
+      const double crossing = a[1] + (p[1] - a[1]) * (.5 - a[0]) / (p[0] - a[0]);
+      if (crossing > .5) flat = std::hypot(a[0] - .5, a[1] - .5) + std::hypot(p[0] - .5, p[1] - .5);
+    }
+    truth.distance.push_back(std::hypot(flat, p[2] - a[2]));
+  }
+  s.truths.push_back(std::move(truth));
+  return s;
+}
+
+#ifdef PLEXWAY_HAS_BOOST_GRAPH
+/// Three faces of a tetrahedron have all its edges.
+std::vector<std::array<Index, 3>> triangles(const Solid& solid) {
+  std::vector<std::array<Index, 3>> faces;
+  for (const auto& [a, b, c, d] : solid.tets)
+    faces.insert(faces.end(), {{a, b, c}, {a, b, d}, {a, c, d}});
+  return faces;
+}
+#endif
+
+template <class Real>
+nlohmann::ordered_json measure(const Solid& solid, const bench::Effort& effort,
+                               plexway::Visibility visibility) {
+  const double vertices = static_cast<double>(solid.positions.size());
+  const double tets = static_cast<double>(solid.tets.size());
+  nlohmann::ordered_json row;
+  std::unique_ptr<plexway::TetMesh<Real>> mesh;
+  row["build_ns_per_tet"] =
+      1e9 / tets * bench::seconds([&] {
+        mesh = std::make_unique<plexway::TetMesh<Real>>(solid.positions, solid.tets);
+      });
+  plexway::PropagateOptions options;
+  options.visibility = visibility;
+  plexway::Workspace<Real> workspace;
+  plexway::DistanceField<Real> field;
+  const auto solve = [&](Index source) {
+    const auto at = plexway::PointSource::at(source);
+    plexway::propagate(plexway::Serial{}, *mesh, std::span(&at, 1), options, workspace, field);
+  };
+  std::vector<Index> sources;
+  for (std::size_t i = 0; i < effort.sources; ++i)
+    sources.push_back(static_cast<Index>((i * 2654435761u) % solid.positions.size()));
+#ifdef PLEXWAY_HAS_BOOST_GRAPH
+  plexway::boost_graph::EdgeDijkstra<Real> dijkstra(solid.positions, triangles(solid));
+  const auto reference = [&](Index source) { dijkstra.run(source); };
+#else
+  const auto reference = [](Index) {};
+#endif
+  const auto times = bench::take_turns(sources, effort, reference, solve);
+  row["ns_per_vertex"] = 1e9 * times.second / vertices;
+  row["ns_per_tet"] = 1e9 * times.second / tets;
+#ifdef PLEXWAY_HAS_BOOST_GRAPH
+  row["dijkstra_ns_per_vertex"] = 1e9 * times.first / vertices;
+  row["ratio"] = times.ratio;
+#endif
+  bench::Errors errors;
+  double updates = 0;
+  for (const bench::Truth& truth : solid.truths) {
+    solve(truth.source);
+    updates += static_cast<double>(field.statistics.updates) / tets;
+    errors.add(truth, std::vector<double>(field.distance.begin(), field.distance.end()));
+  }
+  if (const auto summary = errors.summary()) {
+    row["mean"] = summary->mean;
+    row["p99"] = summary->p99;
+    row["max"] = summary->max;
+    row["most_below"] = summary->most_below;
+    row["updates_per_tet"] = updates / static_cast<double>(solid.truths.size());
+    if (summary->wrong > 0) row["note"] = std::to_string(summary->wrong) + " wrong";
+  }
+  row["mesh_bytes_per_tet"] = static_cast<double>(mesh->bytes()) / tets;
+  row["bytes_per_tet"] = static_cast<double>(mesh->bytes() + workspace.bytes()) / tets;
+  return row;
+}
+
+bench::Table solids_table() {
+  return bench::Table({{"mesh", "mesh"},
+                       {"tets", "tets"},
+                       {"build_ns_per_tet", "build ns/T", "%.0f"},
+                       {"ns_per_vertex", "solve ns/V", "%.0f"},
+                       {"ns_per_tet", "ns/T", "%.0f"},
+                       {"dijkstra_ns_per_vertex", "Dijkstra ns/V", "%.0f"},
+                       {"ratio", "ratio", "%.2f"},
+                       {"mean", "error mean", "%.1e"},
+                       {"p99", "p99", "%.1e"},
+                       {"max", "max", "%.1e"},
+                       {"most_below", "most below", "%.1e"},
+                       {"updates_per_tet", "updates/T", "%.2f"},
+                       {"mesh_bytes_per_tet", "mesh bytes/T", "%.0f"},
+                       {"bytes_per_tet", "with workspace", "%.0f"},
+                       {"note", "note"}});
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  std::filesystem::path truth;
+  std::vector<Index> sizes = {12, 26, 44, 70};
+  bench::Effort effort{6, 2, 20};
+  double limit = 600;
+  bench::Report report;
+  bool single_precision = false;
+  std::string policy = "saddles";
+  CLI::App app("Distance in solids: time, errors, growth: one table");
+  app.add_option("TRUTH", truth, "Folder of .node, .ele and exact answers");
+  app.add_option("--sizes", sizes, "Cubes along a side of the generated solids")
+      ->delimiter(',')
+      ->capture_default_str();
+  app.add_option("--sources", effort.sources, "Sources to rotate")->capture_default_str();
+  app.add_option("--repeats", effort.repeats, "Solves from each source")->capture_default_str();
+  app.add_option("--budget", effort.budget, "Seconds after which a row ends early")
+      ->capture_default_str();
+  app.add_option("--limit", limit, "Seconds after which a row is given up")->capture_default_str();
+  app.add_option("--policy", policy, "saddles, centroid or upper_bound")
+      ->check(CLI::IsMember({"saddles", "centroid", "upper_bound"}))
+      ->capture_default_str();
+  app.add_flag("--float", single_precision, "Float instead of double");
+  report.add_options(app);
+  CLI11_PARSE(app, argc, argv);
+  const auto visibility = policy == "saddles"    ? plexway::Visibility::saddles
+                          : policy == "centroid" ? plexway::Visibility::centroid
+                                                 : plexway::Visibility::upper_bound;
+  bench::Table table = solids_table();
+  const auto measure_one = [&](const auto& make) {
+    nlohmann::ordered_json row = bench::isolated(limit, [&] {
+      const Solid solid = make();
+      nlohmann::ordered_json cells = {{"mesh", solid.name}, {"tets", solid.tets.size()}};
+      std::cerr << solid.name << std::endl;
+      cells.update(single_precision ? measure<float>(solid, effort, visibility)
+                                    : measure<double>(solid, effort, visibility));
+      return cells;
+    });
+    table.add(std::move(row));
+  };
+  try {
+    std::vector<std::string> names;
+    if (!truth.empty())
+      for (const auto& entry : std::filesystem::directory_iterator(truth))
+        if (entry.path().extension() == ".node") names.push_back(entry.path().stem().string());
+    std::sort(names.begin(), names.end());
+    for (const std::string& name : names) measure_one([&] { return read_solid(truth, name); });
+    for (const bool notched : {false, true})
+      for (const Index n : sizes) measure_one([&] { return generated(n, notched, false); });
+    if (!sizes.empty()) measure_one([&] { return generated(sizes.back(), true, true); });
+    report.write(table);
+  } catch (const std::exception& error) {
+    std::cerr << error.what() << '\n';
+    return 1;
+  }
+  return 0;
+}
