@@ -83,6 +83,11 @@ void add_fill_options(CLI::App& command, FillOptions& options) {
       .add_flag("--keep-surface", options.keep_surface,
                 "add points inside only: the triangles of the surface stay")
       ->group(group);
+  command
+      .add_option("--max-seconds", options.max_seconds,
+                  "stop TetGen after S seconds (default: never)")
+      ->type_name("S")
+      ->group(group);
   command.add_option("--hole", options.holes, "a point in a cavity that stays empty; repeat it")
       ->type_name("X,Y,Z")
       ->allow_extra_args(false)
