@@ -159,8 +159,7 @@ class Finder {
     // A single tetrahedron is met from both faces too: told apart by the face.
     if (std::pair(t, l) < std::pair(first_tet, first_face)) return 0;
     ++fans;
-    if (angle > std::numbers::pi + excess)
-      add_reflex(a, b, first_tet, first_face, t, l);
+    if (angle > std::numbers::pi + excess) add_reflex(a, b, first_tet, first_face, t, l);
     return fan_.size();
   }
 
@@ -186,8 +185,7 @@ class Finder {
                              {a, b}});
     on_reflex_[a] = on_reflex_[b] = 1;
     for (const auto& [tet, slot] : fan_)
-      entries_.push_back(
-          {tet, edge << ReflexEntry::edge_shift | slot << ReflexEntry::slot_shift});
+      entries_.push_back({tet, edge << ReflexEntry::edge_shift | slot << ReflexEntry::slot_shift});
   }
 
   // Edges in a straight row, between the same planes, are one to a path.
@@ -202,8 +200,8 @@ class Finder {
       if (ends[i + 1].first != v || (i > 0 && ends[i - 1].first == v) ||
           (i + 2 < ends.size() && ends[i + 2].first == v))
         continue;
-      const TetTopology::Reflex&a = found_.reflex[ends[i].second],
-             &b = found_.reflex[ends[i + 1].second];
+      const TetTopology::Reflex &a = found_.reflex[ends[i].second],
+                                &b = found_.reflex[ends[i + 1].second];
       if (in_a_row(a, b, v)) rows.join(ends[i].second, ends[i + 1].second);
     }
     std::vector<Index> merged(found_.reflex.size());

@@ -25,7 +25,7 @@ struct TetTopology {
     std::array<Vector3<double>, 2> end, normal;
     std::array<Index, 2> vertex;
   };
-  std::vector<Reflex> reflex;  ///< those in a straight row are one
+  std::vector<Reflex> reflex;       ///< those in a straight row are one
   std::vector<Index> reflex_list;   ///< ReflexEntry, by tetrahedron
   std::vector<Index> first_reflex;  ///< of each tetrahedron, or none
   std::vector<PinchedEdge> pinched_edges;

@@ -57,15 +57,12 @@ TetPoints pose(const std::array<double, 6>& length) {
   p[2].x = along(l02, l12, length[0]);
   p[2].y = std::sqrt(std::max(l02 - square(p[2].x), 0.0));
   p[3].x = along(l03, square(length[4]), length[0]);
-  if (p[2].y > 0)
-    p[3].y = (l03 - square(length[5]) + l02 - 2 * p[3].x * p[2].x) / (2 * p[2].y);
+  if (p[2].y > 0) p[3].y = (l03 - square(length[5]) + l02 - 2 * p[3].x * p[2].x) / (2 * p[2].y);
   p[3].z = std::sqrt(std::max(l03 - square(p[3].x) - square(p[3].y), 0.0));
   return p;
 }
 
-double determinant(const TetPoints& p) {
-  return dot(cross(p[1] - p[0], p[2] - p[0]), p[3] - p[0]);
-}
+double determinant(const TetPoints& p) { return dot(cross(p[1] - p[0], p[2] - p[0]), p[3] - p[0]); }
 
 bool has_volume(const TetPoints& p) {
   double product = 1;
@@ -118,8 +115,7 @@ TetMesh<Real>::TetMesh(std::size_t vertices, std::span<const std::array<Index, 4
   double sum = 0;
   for (const auto& tet : lengths)
     for (const double l : tet) sum += longest > 0 ? l / longest : 0;
-  const double unit =
-      longest > 0 ? longest * (sum / (6 * static_cast<double>(tets.size()))) : 1;
+  const double unit = longest > 0 ? longest * (sum / (6 * static_cast<double>(tets.size()))) : 1;
   std::vector<std::array<double, 6>> scaled(lengths.begin(), lengths.end());
   for (auto& tet : scaled)
     for (double& l : tet) l /= unit;
@@ -166,9 +162,8 @@ void TetMesh<Real>::assemble(std::size_t vertices, std::span<const std::array<In
       const Index k = corner_inside(t, i), o = across[t][i];
       corner[inside][k] = vertex_to_inside_[tets[t][i]];
       points[inside][k] = posed[i];
-      over[inside][k] = o == none ? none
-                                  : 4 * (tet_to_inside_[o / 4] & ~turned) +
-                                        corner_inside(o / 4, o % 4);
+      over[inside][k] =
+          o == none ? none : 4 * (tet_to_inside_[o / 4] & ~turned) + corner_inside(o / 4, o % 4);
       summary_.boundary_faces += o == none;
     }
   }
@@ -195,9 +190,8 @@ void TetMesh<Real>::assemble(std::size_t vertices, std::span<const std::array<In
     Vector3<double> centre = {0, 0, 0};
     for (std::size_t i = 0; i < 4; ++i) {
       const Index o = over[t][i];
-      record.across[i] =
-          o == none ? static_cast<Index>(m) << TetAcross::tet_shift
-                    : (o / 4) << TetAcross::tet_shift | o % 4;
+      record.across[i] = o == none ? static_cast<Index>(m) << TetAcross::tet_shift
+                                   : (o / 4) << TetAcross::tet_shift | o % 4;
       record.corner[i] = corner[t][i];
       centre = centre + 0.25 * points[t][i];
     }

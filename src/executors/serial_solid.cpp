@@ -42,7 +42,8 @@ void check(const TetMesh<Real>& mesh, std::span<const PointSource> sources,
   if (!(options.radius >= 0)) throw UsageError("the radius must be >= 0");
   if (options.visibility == Visibility::tuned)
     throw UsageError(
-        "the tuned policy is a table for triangles: use saddles, centroid or upper_bound in solids");
+        "the tuned policy is a table for triangles: use saddles, centroid or upper_bound in "
+        "solids");
 }
 
 // The sources themselves, exactly, and the corners of tetrahedra they lie in.
@@ -57,8 +58,7 @@ void read_out_sources(const TetMesh<Real>& mesh, std::span<const PointSource> so
     } else {
       const auto [t, turned] = mesh.inside_tet(sources[n].simplex);
       for (std::size_t i = 0; i < 4; ++i)
-        if (sources[n].barycentric[i] == 1)
-          v = mesh.tets()[t].corner[turned && i >= 2 ? 5 - i : i];
+        if (sources[n].barycentric[i] == 1) v = mesh.tets()[t].corner[turned && i >= 2 ? 5 - i : i];
     }
     if (v == none || sigma > workspace.vertex[v]) continue;
     workspace.vertex[v] = sigma;
@@ -79,6 +79,7 @@ void solve(const TetMesh<Real>& mesh, std::span<const PointSource> sources,
   constexpr Real infinity = std::numeric_limits<Real>::infinity();
   const std::size_t vertices = mesh.vertex_count();
   workspace.vertex.assign(vertices, infinity);
+  workspace.vertex_path.assign(vertices, 0);
   if constexpr (kLabels) workspace.vertex_source.assign(vertices, none);
   read_out_tets<Real, kLabels>(mesh, rule, front, workspace);
   read_out_sources<Real, kLabels>(mesh, sources, workspace);
@@ -171,8 +172,8 @@ template void propagate(Serial, const TetMesh<float>&, std::span<const PointSour
                         const PropagateOptions&, Workspace<float>&, DistanceField<float>&);
 template void propagate(Serial, const TetMesh<double>&, std::span<const PointSource>,
                         const PropagateOptions&, Workspace<double>&, DistanceField<double>&);
-template DistanceField<float> propagate(Serial, const TetMesh<float>&,
-                                        std::span<const PointSource>, const PropagateOptions&);
+template DistanceField<float> propagate(Serial, const TetMesh<float>&, std::span<const PointSource>,
+                                        const PropagateOptions&);
 template DistanceField<double> propagate(Serial, const TetMesh<double>&,
                                          std::span<const PointSource>, const PropagateOptions&);
 

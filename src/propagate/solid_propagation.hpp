@@ -50,7 +50,7 @@ class SolidPropagation {
     do {
       spread(rounds > 8);
       if (front_.out_of_budget()) return;
-    } while (++rounds < 64 && (pass_pinches() | repair()));
+    } while (++rounds < 64 && (pass_pinches() | repair(rounds)));
   }
 
  private:
@@ -96,8 +96,7 @@ class SolidPropagation {
           any |= rule_.seed_corner(c / 4, c % 4, best, number);
     }
     for (const auto& edge : mesh_.pinched_edges()) {
-      const auto around =
-          mesh_.pinched_edge_tets().subspan(edge.begin, edge.end - edge.begin);
+      const auto around = mesh_.pinched_edge_tets().subspan(edge.begin, edge.end - edge.begin);
       for (const Index t : around) {
         if (!front_.reached(t) || rule_.distance(t) - rule_.size(t) > radius_) continue;
         for (const Index u : around)
@@ -110,19 +109,27 @@ class SolidPropagation {
   /// Offers that miss a face where no path bends are dropped. Where that leaves a tetrahedron
   /// without a label, or with one much longer than a neighbour's and the way between, they are
   /// taken after all, with a bend on the face.
-  bool repair() {
+  bool repair(int round) {
     const std::size_t before = front_.updates();
+    std::size_t unreached = 0;
     const Index tets = static_cast<Index>(mesh_.tet_count());
     for (Index t = 0; t < tets; ++t) {
       if (!front_.reached(t) || rule_.distance(t) > radius_) continue;
       for (Index i = 0; i < 4; ++i) {
         const Index u = tets_[t].across[i] >> TetAcross::tet_shift;
         if (u == tets) continue;
-        if (!front_.reached(u) || rule_.distance(u) > rule_.distance(t) + rule_.way(t, i))
-          rule_.cross(t, i, true);
+        if (front_.reached(u)) {
+          const Real excess = rule_.distance(u) - rule_.distance(t);
+          if (!(excess > rule_.least_way(t, u)) || !(excess > rule_.way(t, i))) continue;
+        } else {
+          ++unreached;
+        }
+        rule_.cross(t, i, true);
       }
     }
-    return front_.updates() != before;
+    // The last few are not worth another look at all.
+    const std::size_t repaired = front_.updates() - before;
+    return repaired > 0 && (unreached > 0 || (round < 4 && repaired > mesh_.tet_count() / 1024));
   }
 
   const TetMesh<Real>& mesh_;

@@ -9,19 +9,22 @@
 
 namespace plexway {
 
-/// Every corner of every reached tetrahedron offers a distance; vertices keep the least.
+/// Every corner of every reached tetrahedron offers a distance; vertices keep the least. Of those
+/// around a vertex that came the same way, one is asked.
 template <class Real, bool kLabels, class Rule, class Front>
 void read_out_tets(const TetMesh<Real>& mesh, const Rule& rule, const Front& front,
                    Workspace<Real>& workspace) {
-  constexpr Real near = 1 - 8 * std::numeric_limits<Real>::epsilon();  // one path seen from two
   const std::span<const TetRecord<Real>> tets = mesh.tets();
   for (Index t = 0; t + 1 < tets.size(); ++t) {
     if (!front.reached(t)) continue;
+    const Index path = rule.path(t);
     for (Index i = 0; i < 4; ++i) {
       const Index v = tets[t].corner[i];
-      const Real d = rule.corner_distance(t, i, workspace.vertex[v] * near);
+      if (workspace.vertex_path[v] == path && path != 0) continue;
+      const Real d = rule.corner_distance(t, i, workspace.vertex[v]);
       if (!(d < workspace.vertex[v])) continue;
       workspace.vertex[v] = d;
+      workspace.vertex_path[v] = path;
       if constexpr (kLabels) workspace.vertex_source[v] = front.source(t);
     }
   }

@@ -7,6 +7,7 @@
 #include <plexway/executors/serial_wireframe.hpp>
 
 #include "complex/test_wires.hpp"
+#include "propagate/solid_solving.hpp"
 #include "propagate/solving.hpp"
 
 namespace {
@@ -96,5 +97,25 @@ TEMPLATE_TEST_CASE("a second solve of a wireframe allocates nothing", "", float,
     propagate(Serial{}, w, several, options, workspace, field);
     spent = allocations - before;
     CHECK(spent == 0);
+  }
+}
+
+TEMPLATE_TEST_CASE("solids: a second solve allocates nothing", "", float, double) {
+  const PointSource first[] = {PointSource::at(3)};
+  const PointSource second[] = {PointSource::in(40, {.2, .3, .4, .1})};
+  for (const Solid& s : {walled(8), edge_touch(6), vertex_touch(6)}) {
+    const auto mesh = s.mesh<TestType>();
+    for (const Visibility visibility : solid_visibilities) {
+      PropagateOptions options;
+      options.visibility = visibility;
+      Workspace<TestType> workspace;
+      DistanceField<TestType> field;
+      propagate(Serial{}, mesh, first, options, workspace, field);
+      const std::size_t before = allocations;
+      propagate(Serial{}, mesh, second, options, workspace, field);
+      propagate(Serial{}, mesh, first, options, workspace, field);
+      const std::size_t spent = allocations - before;
+      CHECK(spent == 0);
+    }
   }
 }

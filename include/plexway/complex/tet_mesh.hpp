@@ -15,19 +15,19 @@ namespace plexway {
 struct SolidSummary {
   std::size_t vertices = 0;
   std::size_t tets = 0;
-  std::size_t edges = 0;           ///< distinct
-  std::size_t faces = 0;           ///< distinct
-  std::size_t boundary_faces = 0;  ///< of one tetrahedron only
-  std::size_t reflex_edges = 0;    ///< with more than pi of solid around: paths bend there
-  std::size_t reflex_vertices = 0;       ///< ends of reflex edges, and pinched vertices
-  std::size_t pinched_vertices = 0;      ///< tetrahedra touch there in the vertex only
-  std::size_t pinched_edges = 0;         ///< tetrahedra touch there in the edge only
-  std::size_t unreferenced_vertices = 0; ///< in no tetrahedron: no path leads to them
-  std::size_t degenerate_tets = 0;       ///< no volume, in the input's precision
-  std::size_t inverted_tets = 0;  ///< negative volume as given; turned over
-  std::size_t components = 0;     ///< of tetrahedra joined by faces or pinched edges or vertices
-  double mean_edge = 0;           ///< in the input's unit; the library works in this unit inside
-  bool embedded = false;          ///< has coordinates
+  std::size_t edges = 0;                  ///< distinct
+  std::size_t faces = 0;                  ///< distinct
+  std::size_t boundary_faces = 0;         ///< of one tetrahedron only
+  std::size_t reflex_edges = 0;           ///< with more than pi of solid around: paths bend there
+  std::size_t reflex_vertices = 0;        ///< ends of reflex edges, and pinched vertices
+  std::size_t pinched_vertices = 0;       ///< tetrahedra touch there in the vertex only
+  std::size_t pinched_edges = 0;          ///< tetrahedra touch there in the edge only
+  std::size_t unreferenced_vertices = 0;  ///< in no tetrahedron: no path leads to them
+  std::size_t degenerate_tets = 0;        ///< no volume, in the input's precision
+  std::size_t inverted_tets = 0;          ///< negative volume as given; turned over
+  std::size_t components = 0;  ///< of tetrahedra joined by faces or pinched edges or vertices
+  double mean_edge = 0;        ///< in the input's unit; the library works in this unit inside
+  bool embedded = false;       ///< has coordinates
 };
 
 /// A solid made of tetrahedra, glued where two share a face.

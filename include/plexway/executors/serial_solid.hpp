@@ -14,8 +14,8 @@ namespace plexway {
 /// The distance of every vertex of a solid from the nearest of `sources`, through the solid.
 ///
 /// With coordinates, Visibility::saddles bends paths at reflex edges; `centroid` is the plain step,
-/// which bends anywhere; `upper_bound` measures only paths that exist. From lengths alone, `saddles`
-/// is the plain step too.
+/// which bends anywhere; `upper_bound` measures only paths that exist. From lengths alone,
+/// `saddles` is the plain step too.
 ///
 /// `workspace` keeps the labels and is reused from call to call: solving again gives bit-identical
 /// results and, once `field` and `workspace` have their size, allocates nothing. The workspace

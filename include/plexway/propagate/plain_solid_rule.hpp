@@ -14,8 +14,8 @@ namespace plexway {
 
 /// The plain step in solids: the K = 2 hinge kernel on labels that hold nothing but squared
 /// lengths. A path may bend on any face. Probing the centroid (Visibility::centroid) is the literal
-/// step; probing the apex (upper_bound) measures only paths that exist: if a face is seen whole, and
-/// the apex through it, then so is all of the tetrahedron.
+/// step; probing the apex (upper_bound) measures only paths that exist: if a face is seen whole,
+/// and the apex through it, then so is all of the tetrahedron.
 template <class Real, class Front>
 class PlainSolidRule {
  public:
@@ -35,6 +35,7 @@ class PlainSolidRule {
         front_(&front) {}
 
   [[nodiscard]] Real distance(Index t) const { return labels_[t].centre; }
+  [[nodiscard]] Index path(Index) const { return 0; }  // not known
   [[nodiscard]] Real distance_or_inf(Index t) const {
     return front_->reached(t) ? distance(t) : std::numeric_limits<Real>::infinity();
   }
@@ -46,6 +47,8 @@ class PlainSolidRule {
   }
   /// Nothing is ever dropped, so nothing is ever too long.
   [[nodiscard]] Real way(Index, Index) const { return std::numeric_limits<Real>::infinity(); }
+
+  [[nodiscard]] Real least_way(Index, Index) const { return std::numeric_limits<Real>::infinity(); }
 
   void expand(Index t, bool) const {
     const Index in = static_cast<Index>(front_->hinge(t));
@@ -80,8 +83,7 @@ class PlainSolidRule {
     const Real t2[3] = {edge2(t, tet_edge(here[0], face)), edge2(t, tet_edge(here[1], face)),
                         edge2(t, tet_edge(here[2], face))};
     const Point back = Kernel::locate(pose, t2);
-    const bool behind =
-        t != inside_ && Kernel::behind(pose, S, back, from.distance2[face]) > 0;
+    const bool behind = t != inside_ && Kernel::behind(pose, S, back, from.distance2[face]) > 0;
     const Real a2[3] = {edge2(u, tet_edge(there[0], apex)), edge2(u, tet_edge(there[1], apex)),
                         edge2(u, tet_edge(there[2], apex))};
     const Point tip = Kernel::locate(pose, a2);
@@ -98,9 +100,8 @@ class PlainSolidRule {
     Label label;
     for (int i = 0; i < 3; ++i)
       label.distance2[there[i]] =
-          step.visible
-              ? s2[i]
-              : Kernel::distance_squared(pose, step.source, Kernel::vertex_point(pose, i));
+          step.visible ? s2[i]
+                       : Kernel::distance_squared(pose, step.source, Kernel::vertex_point(pose, i));
     label.distance2[apex] = Kernel::distance_squared(pose, step.source, tip);
     accept(u, apex, label, step.sigma, front_->source(t));
   }

@@ -17,8 +17,8 @@ struct SolidLabel {
   Real centre;           ///< distance of the tetrahedron's centre
   Index ring;            ///< reflex edge at which the path from S bends, or none
   static constexpr int limits = 4;
-  Index limit[limits];   ///< reflex edges that may hide S, the most pressing first, or none
-  Index path;            ///< says which source and which bends led here (see SolidPath)
+  Index limit[limits];  ///< reflex edges that may hide S, the most pressing first, or none
+  Index path;           ///< says which source and which bends led here (see SolidPath)
 };
 
 /// Names for sequences of bends: labels with equal names look at the same scene.

@@ -45,6 +45,8 @@ class SolidRule {
   }
 
   [[nodiscard]] Real distance(Index t) const { return labels_[t].centre; }
+  /// Says which way the path came; labels that agree in it agree about distances.
+  [[nodiscard]] Index path(Index t) const { return labels_[t].path; }
   /// What a label for t must be below: by more than rounding.
   [[nodiscard, gnu::always_inline]] Real to_beat(Index t) const {
     constexpr Real gain = Real(1) - Real(16) * std::numeric_limits<Real>::epsilon();
@@ -58,13 +60,17 @@ class SolidRule {
     return longest;
   }
 
+  /// No more than `way`; cheap.
+  [[nodiscard]] Real least_way(Index t, Index u) const {
+    const Point between = tets_[u].centre - tets_[t].centre;
+    return std::max(std::max(std::abs(between.x), std::abs(between.y)), std::abs(between.z));
+  }
   /// Longest way worth comparing with from the centre of t over face i to the next centre: through
   /// the face's centroid.
   [[nodiscard]] Real way(Index t, Index i) const {
     const TetRecord<Real>& r = tets_[t];
     Point middle = {0, 0, 0};
-    for (const Index k : tet_face_corners[i])
-      middle = middle + Real(1) / 3 * points_[r.corner[k]];
+    for (const Index k : tet_face_corners[i]) middle = middle + Real(1) / 3 * points_[r.corner[k]];
     const Index u = r.across[i] >> TetAcross::tet_shift;
     return norm(middle - r.centre) + norm(tets_[u].centre - middle);
   }
@@ -118,8 +124,8 @@ class SolidRule {
   }
 
   /// Length of the path to corner i of a reached tetrahedron, as far as it is below `known`.
-  [[nodiscard]] Real corner_distance(
-      Index t, Index i, Real known = std::numeric_limits<Real>::infinity()) const {
+  [[nodiscard]] Real corner_distance(Index t, Index i,
+                                     Real known = std::numeric_limits<Real>::infinity()) const {
     const Point& q = points_[tets_[t].corner[i]];
     const Label& from = labels_[t];
     const Real straight = from.sigma + norm(q - from.source);
@@ -155,7 +161,7 @@ class SolidRule {
     return true;
   }
 
-  static constexpr Real tolerance = Real(1e-4);
+  static constexpr Real tolerance = Real(0.1);
   static constexpr Real slack = Real(0.5);
 
  private:
@@ -172,24 +178,24 @@ class SolidRule {
     return {b, label.sigma + norm(b - label.source) + norm(q - b), -1};
   }
 
-  /// The same with a bend at a limit.
-  [[nodiscard]] Reach reach_by(const Label& label, int limit, const Point& q) const {
-    const ReflexEdge<Real>& edge = reflex_[label.limit[limit]];
-    Point b = bend_point(edge, reach(label, q).eye, q);
-    if (label.ring != none) b = bend_point(edge, reach(label, b).eye, q);
-    return {b, reach(label, b).length + norm(q - b), limit};
+  /// The same with bends at one limit, or at two in a row: relaxed once, which is exact for a
+  /// single bend after a point and never too short.
+  [[nodiscard]] Reach reach_by(const Label& label, const Point& eye, int limit,
+                               const Point& q) const {
+    const Point b = bend_point(reflex_[label.limit[limit]], eye, q);
+    return {b, way_to(label, b) + norm(q - b), limit};
   }
-
-  /// The same with a bend at limit `first` and then at limit `second`.
-  [[nodiscard]] Reach reach_by_both(const Label& label, int first, int second,
-                                    const Point& q) const {
+  [[nodiscard]] Reach reach_by(const Label& label, const Point& eye, int first, int second,
+                               const Point& q) const {
+    const ReflexEdge<Real>& one = reflex_[label.limit[first]];
     const ReflexEdge<Real>& two = reflex_[label.limit[second]];
-    Point b, c = bend_point(two, reach_by(label, first, q).eye, q);
-    for (int i = 0; i < 2; ++i) {
-      b = reach_by(label, first, c).eye;
-      c = bend_point(two, b, q);
-    }
-    return {c, reach_by(label, first, c).length + norm(q - c), first};
+    Point c = bend_point(two, bend_point(one, eye, q), q);
+    const Point b = bend_point(one, eye, c);
+    c = bend_point(two, b, q);
+    return {c, way_to(label, b) + norm(c - b) + norm(q - c), first};
+  }
+  [[nodiscard]] Real way_to(const Label& label, const Point& q) const {
+    return reach(label, q).length;
   }
 
   [[nodiscard]] bool hides(Index edge, const Point& eye, const Point& q) const {
@@ -204,21 +210,20 @@ class SolidRule {
     Reach bent = straight;
     for (int k = 0; k < Label::limits && label.limit[k] != none; ++k)
       if (hides(label.limit[k], straight.eye, q)) {
-        const Reach other = reach_by(label, k, q);
+        const Reach other = reach_by(label, straight.eye, k, q);
         if (other.length > bent.length || bent.bend < 0) bent = other;
       }
     const int k = bent.bend;
     if (k < 0) return straight;
     // The way to the bend may be hidden itself, or the way on.
     const Reach one = bent;
-    const Point before = reach(label, one.eye).eye;
     for (int j = 0; j < Label::limits && label.limit[j] != none; ++j) {
       if (j == k) continue;
       Reach both = one;
-      if (hides(label.limit[j], before, one.eye))
-        both = reach_by_both(label, j, k, q);
+      if (hides(label.limit[j], straight.eye, one.eye))
+        both = reach_by(label, straight.eye, j, k, q);
       else if (hides(label.limit[j], one.eye, q))
-        both = reach_by_both(label, k, j, q);
+        both = reach_by(label, straight.eye, k, j, q);
       if (both.length > bent.length) bent = both;
     }
     return bent;
@@ -228,10 +233,21 @@ class SolidRule {
   void turn(Label& label, int limit, const Point& q) const {
     const Index edge = label.limit[limit];
     if (label.ring != none) {
-      const Point b = reach_by(label, limit, q).eye;
-      const Reach r = reach(label, b);
-      label.sigma += norm(r.eye - label.source);
-      label.source = r.eye;
+      // If the edges are parallel, S turns about the old ring until it lies in line with the way to
+      // the new one: exact. Else the bend becomes the source.
+      const ReflexEdge<Real>& ring = reflex_[label.ring];
+      const Point c = reach_by(label, reach(label, q).eye, limit, q).eye;
+      const Point b = bend_point(ring, label.source, c);
+      const Real walked = norm(b - label.source), on = norm(c - b);
+      const Real at = dot(b - ring.end[0], ring.direction);
+      const bool parallel =
+          std::abs(dot(ring.direction, reflex_[edge].direction)) > Real(1 - 1e-6);
+      if (parallel && at > 0 && at < ring.length && on > 0) {
+        label.source = b + walked / on * (b - c);
+      } else {
+        label.sigma += walked;
+        label.source = b;
+      }
     }
     label.path = SolidPath::bent(label.path, edge);
     label.ring = edge;
@@ -332,8 +348,7 @@ class SolidRule {
         const Label& other = labels_[v];
         if (other.path == label.path) {
           for (const Index limit : other.limit) found.add(limit, label.ring);
-        } else if (other.ring != none &&
-                   SolidPath::before(other.path, other.ring) == label.path) {
+        } else if (other.ring != none && SolidPath::before(other.path, other.ring) == label.path) {
           found.add(other.ring, label.ring);
         }
       }
@@ -378,7 +393,7 @@ class SolidRule {
     if (count == 0 || !(key[0] < 0)) return;
     // What else is in the way is so from the bend.
     for (int k = 1; k < Label::limits; ++k) label.limit[k] = none;
-    eye = reach_by(label, 0, q).eye;
+    eye = reach_by(label, eye, 0, q).eye;
     choose(1);
   }
 

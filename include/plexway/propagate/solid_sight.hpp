@@ -24,8 +24,8 @@ Real crossing_along(const ReflexEdge<Real>& e, const Vector3<Real>& p, Real hp,
   return hp + hq > 0 ? (xp * hq + xq * hp) / (hp + hq) : xp;
 }
 
-/// The point of an edge over which p reaches q soonest: unfold q about the edge's line until it lies
-/// opposite p, and draw a straight line; or an end.
+/// The point of an edge over which p reaches q soonest: unfold q about the edge's line until it
+/// lies opposite p, and draw a straight line; or an end.
 template <class Real>
 Vector3<Real> bend_point(const ReflexEdge<Real>& e, const Vector3<Real>& p,
                          const Vector3<Real>& q) {
@@ -98,8 +98,7 @@ class EdgeView {
     if (!(nn > tiny * tiny * dot(a_, a_))) return false;
     const Real s0 = dot(a_, edge_.normal[0]), s1 = dot(a_, edge_.normal[1]);
     if (std::max(s0, s1) < 0) return false;
-    return std::min(s0, s1) <= 1024 * tiny ||
-           dot(edge_.normal[0], edge_.normal[1]) >= Real(0.5);
+    return std::min(s0, s1) <= 1024 * tiny || dot(edge_.normal[0], edge_.normal[1]) >= Real(0.5);
   }
 
   /// How far beyond its ends the path over the edge would bend, by unfolding.

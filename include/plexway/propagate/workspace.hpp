@@ -34,22 +34,24 @@ struct LabelStorage {
 template <class Real>
 struct Workspace {
   VisitMarks marks;
-  LabelStorage<SaddleLabel<Real>> saddles;  ///< Visibility::saddles
-  LabelStorage<PlainLabel<Real>> plain;     ///< the other policies
-  LabelStorage<SolidLabel<Real>> solids;    ///< in solids: Visibility::saddles
+  LabelStorage<SaddleLabel<Real>> saddles;           ///< Visibility::saddles
+  LabelStorage<PlainLabel<Real>> plain;              ///< the other policies
+  LabelStorage<SolidLabel<Real>> solids;             ///< in solids: Visibility::saddles
   LabelStorage<PlainSolidLabel<Real>> plain_solids;  ///< in solids: the other policies
-  std::vector<Index> source;                ///< nearest source a simplex; empty for one source
+  std::vector<Index> source;  ///< nearest source a simplex; empty for one source
   FrontStorage front;
   std::vector<Real> vertex;          ///< read-out, in the numbers inside
   std::vector<Index> vertex_source;  ///< its labels
+  std::vector<Index> vertex_path;    ///< in solids: how the path came
   std::vector<Index> corners;        ///< around one vertex
 
   [[nodiscard]] std::size_t bytes() const {
     const auto of = [](const auto& v) { return v.capacity() * sizeof(v[0]); };
     return sizeof(*this) + marks.bytes() + saddles.count * sizeof(SaddleLabel<Real>) +
            plain.count * sizeof(PlainLabel<Real>) + solids.count * sizeof(SolidLabel<Real>) +
-           plain_solids.count * sizeof(PlainSolidLabel<Real>) + of(source) + of(vertex) + of(vertex_source) +
-           of(corners) + front.capacity * 2 * sizeof(Index) + of(front.heap);
+           plain_solids.count * sizeof(PlainSolidLabel<Real>) + of(source) + of(vertex) +
+           of(vertex_source) + of(vertex_path) + of(corners) + front.capacity * 2 * sizeof(Index) +
+           of(front.heap);
   }
 };
 

@@ -1,0 +1,194 @@
+#include <catch2/catch.hpp>
+
+#include <algorithm>
+#include <numeric>
+
+#include "propagate/solid_solving.hpp"
+
+using namespace plexway;
+using namespace plexway::testing;
+
+namespace {
+
+/// Around the reflex edge of l_shape at (1/2, 1/2).
+std::vector<double> around_l(const Solid& s, const Position& a) {
+  std::vector<double> d;
+  for (const Position& p : s.positions) {
+    const double ax = a[0] - .5, ay = a[1] - .5, px = p[0] - .5, py = p[1] - .5;
+    // From arm to arm, the line is blocked if it crosses x = 1/2 above y = 1/2.
+    bool inside = false;
+    if ((ax > 0 && py > 0) || (ay > 0 && px > 0)) {
+      const double f = (0 - ax) / (px - ax);
+      inside = ay + f * (py - ay) > 1e-12;
+    }
+    const double z = p[2] - a[2];
+    d.push_back(inside ? over(std::hypot(ax, ay) + std::hypot(px, py), z)
+                       : std::hypot(ax - px, ay - py, z));
+  }
+  return d;
+}
+
+/// Over the wall of `walled`, from a source in front of it: the edges are at x = 3/8 and 5/8,
+/// y = 3/4. In the plane a taut string over a convex corner pair.
+std::vector<double> over_wall(const Solid& s, const Position& a) {
+  std::vector<double> d;
+  for (const Position& p : s.positions) {
+    const double ax = a[0], ay = a[1], px = p[0], py = p[1];
+    const auto below = [](double x0, double y0, double x1, double y1, double x) {
+      return y0 + (y1 - y0) * (x - x0) / (x1 - x0) < .75 - 1e-12;
+    };
+    double flat = std::hypot(px - ax, py - ay);
+    if (px > .375) {
+      const bool left = below(ax, ay, px, py, .375);
+      const bool right = px > .625 && below(ax, ay, px, py, .625);
+      if (left || right) {
+        const double one = std::hypot(.375 - ax, .75 - ay), two = std::hypot(px - .625, py - .75);
+        if (px <= .625 || !below(.375, .75, px, py, .625)) {
+          flat = one + std::hypot(px - .375, py - .75);
+        } else if (!below(ax, ay, .625, .75, .375)) {
+          flat = std::hypot(.625 - ax, .75 - ay) + two;
+        } else {
+          flat = one + .25 + two;
+        }
+      }
+    }
+    d.push_back(over(flat, p[2] - a[2]));
+  }
+  return d;
+}
+
+}  // namespace
+
+TEST_CASE("a convex solid is exact") {
+  for (const double jitter : {0.0, 0.2}) {
+    const Solid s = moved(solid_cube(9, jitter), 3.7, {5, -2, 1});
+    for (const Index source : {Index(0), s.nearest(5, 0, 2), Index(999)}) {
+      const auto field = propagate(Serial{}, s.mesh<double>(), PointSource::at(source));
+      const Errors e = compare(field.distance, straight(s, s.positions[source]));
+      CAPTURE(jitter, source, e.max);
+      CHECK(e.fits);
+      CHECK(e.max < 1e-12);
+      const double updates = static_cast<double>(field.statistics.updates);
+      CHECK(updates < 1.05 * static_cast<double>(s.tets.size()));
+      const Errors f = compare(solve(s.mesh<float>(), PointSource::at(source)),
+                               straight(s, s.positions[source]));
+      CHECK(f.fits);
+      CHECK(f.max < 2e-5);
+    }
+  }
+}
+
+TEST_CASE("a convex solid is exact from inside a tetrahedron, by any schedule") {
+  const Solid s = solid_cube(6);
+  for (const std::array<double, 4>& b : {std::array<double, 4>{.1, .2, .3, .4},
+                                         {.25, .25, .25, .25},
+                                         {.5, .5, 0, 0},
+                                         {0, 1, 0, 0},
+                                         {0, .3, .3, .4}})
+    for (const Index tet : {Index(0), Index(700)})
+      for (const Schedule schedule : schedules) {
+        Position at = {0, 0, 0};
+        for (std::size_t i = 0; i < 4; ++i)
+          for (std::size_t d = 0; d < 3; ++d) at[d] += b[i] * s.positions[s.tets[tet][i]][d];
+        PropagateOptions options;
+        options.schedule = schedule;
+        const Errors e =
+            compare(solve(s.mesh<double>(), PointSource::in(tet, b), options), straight(s, at));
+        CAPTURE(tet, e.max, name(options));
+        CHECK(e.max < 1e-11);
+      }
+}
+
+TEST_CASE("around one reflex edge") {
+  for (const Index n : {6, 12}) {
+    const Solid s = l_shape(n);
+    for (const Position& from : {Position{1, 0, 0}, {1, .5, .5}, {.9, .3, .4}, {0, 0, 1}}) {
+      const Index source = s.nearest(from[0], from[1], from[2]);
+      const Errors e = compare(solve(s.mesh<double>(), PointSource::at(source)),
+                               around_l(s, s.positions[source]));
+      CAPTURE(n, source, e.mean, e.max, e.below);
+      CHECK(e.fits);
+      CHECK(e.mean < 1e-4);
+      CHECK(e.max < 1e-2);
+    }
+  }
+}
+
+TEST_CASE("over a thick wall") {
+  const Solid s = walled(16);
+  for (const Position& from : {Position{0, 0, 0}, {.25, .5, .5}, {0, 1, .3}}) {
+    const Index source = s.nearest(from[0], from[1], from[2]);
+    const Errors e = compare(solve(s.mesh<double>(), PointSource::at(source)),
+                             over_wall(s, s.positions[source]));
+    CAPTURE(source, e.mean, e.max, e.below);
+    CHECK(e.fits);
+    CHECK(e.mean < 1e-3);
+    CHECK(e.max < 1e-2);
+  }
+}
+
+TEST_CASE("through an edge that two solids share") {
+  const Solid s = edge_touch(8);
+  const Index source = s.nearest(0, 0, 0);
+  std::vector<double> exact;
+  for (const Position& p : s.positions) {
+    const double one = std::sqrt(.5), two = std::hypot(p[0] - .5, p[1] - .5);
+    exact.push_back(std::max(p[0], p[1]) > .5 ? over(one + two, p[2]) : std::hypot(p[0], p[1], p[2]));
+  }
+  const Errors e = compare(solve(s.mesh<double>(), PointSource::at(source)), exact);
+  CAPTURE(e.mean, e.max, e.below);
+  CHECK(e.fits);
+  CHECK(e.mean < 1e-2);
+  for (const Visibility visibility : {Visibility::centroid, Visibility::upper_bound}) {
+    PropagateOptions options;
+    options.visibility = visibility;
+    const Errors plain = compare(solve(s.mesh<double>(), PointSource::at(source), options), exact);
+    CAPTURE(name(options), plain.mean, plain.below);
+    CHECK(plain.fits);
+    CHECK(plain.mean < 5e-2);
+    if (visibility == Visibility::upper_bound) CHECK(plain.below > -1e-12);
+  }
+}
+
+TEST_CASE("through a vertex that two solids share") {
+  const Solid s = vertex_touch(6);
+  const Index source = s.nearest(0, 0, 0);
+  std::vector<double> exact;
+  for (const Position& p : s.positions)
+    exact.push_back(std::max({p[0], p[1], p[2]}) > .5
+                        ? std::sqrt(.75) + std::hypot(p[0] - .5, p[1] - .5, p[2] - .5)
+                        : std::hypot(p[0], p[1], p[2]));
+  for (const Visibility visibility : solid_visibilities) {
+    PropagateOptions options;
+    options.visibility = visibility;
+    const Errors e = compare(solve(s.mesh<double>(), PointSource::at(source), options), exact);
+    CAPTURE(name(options), e.mean, e.max);
+    CHECK(e.fits);
+    if (visibility == Visibility::saddles) CHECK(e.max < 1e-11);
+  }
+}
+
+TEST_CASE("upper bounds are bounds, and lengths alone give the plain step") {
+  for (const Solid& s : {solid_cube(7), l_shape(8)}) {
+    const Index source = s.nearest(1, 0, 0);
+    const auto exact = around_l(s, s.positions[source]);
+    PropagateOptions options;
+    options.visibility = Visibility::upper_bound;
+    const TetMesh<double> lengths(s.positions.size(), s.tets, s.lengths());
+    CHECK(!lengths.embedded());
+    const bool convex = s.mesh<double>().summary().reflex_edges == 0;
+    for (const auto& d : {solve(s.mesh<double>(), PointSource::at(source), options),
+                          solve(lengths, PointSource::at(source), options)}) {
+      const Errors e = compare(d, convex ? straight(s, s.positions[source]) : exact);
+      CAPTURE(convex, e.mean, e.max, e.below);
+      CHECK(e.fits);
+      CHECK(e.below > -1e-9);
+      CHECK(e.mean < 1e-1);
+    }
+    const Errors plain = compare(solve(lengths, PointSource::at(source)),
+                                 convex ? straight(s, s.positions[source]) : exact);
+    CAPTURE(plain.mean, plain.below);
+    CHECK(plain.fits);
+    CHECK(plain.mean < 1e-2);
+  }
+}

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <cmath>
+#include <vector>
+
+#include <plexway/executors/serial_solid.hpp>
+
+#include "complex/test_solids.hpp"
+#include "propagate/solving.hpp"
+
+namespace plexway::testing {
+
+inline constexpr Visibility solid_visibilities[] = {Visibility::saddles, Visibility::centroid,
+                                                    Visibility::upper_bound};
+
+template <class Real>
+std::vector<double> solve(const TetMesh<Real>& mesh, const PointSource& source,
+                          const PropagateOptions& options = {}) {
+  const auto field = propagate(Serial{}, mesh, source, options);
+  return {field.distance.begin(), field.distance.end()};
+}
+
+/// Distances around straight edges along z over some ways through the plane.
+inline double over(double flat, double z) { return std::hypot(flat, z); }
+
+}  // namespace plexway::testing

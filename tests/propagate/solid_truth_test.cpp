@@ -1,0 +1,104 @@
+#include <catch2/catch.hpp>
+
+#include <filesystem>
+#include <fstream>
+#include <string>
+
+#include "propagate/solid_solving.hpp"
+
+using namespace plexway;
+using namespace plexway::testing;
+
+namespace {
+
+struct Truth {
+  Solid solid;
+  std::vector<double> exact;
+};
+
+// TetGen's files as they are in the truth folder: 0-based, no attributes.
+Truth read_truth(const std::string& name, Index source) {
+  const std::filesystem::path folder = std::filesystem::path(PLEXWAY_TRUTH_DIR) / "solids";
+  Truth truth;
+  std::size_t count = 0, skip = 0;
+  std::ifstream nodes(folder / (name + ".node"));
+  nodes >> count >> skip >> skip >> skip;
+  truth.solid.positions.resize(count);
+  for (Position& p : truth.solid.positions) nodes >> skip >> p[0] >> p[1] >> p[2];
+  std::ifstream tets(folder / (name + ".ele"));
+  tets >> count >> skip >> skip;
+  truth.solid.tets.resize(count);
+  for (Tet& t : truth.solid.tets) tets >> skip >> t[0] >> t[1] >> t[2] >> t[3];
+  std::ifstream exact(folder / (name + ".v" + std::to_string(source) + ".txt"));
+  truth.exact.resize(truth.solid.positions.size());
+  for (double& d : truth.exact) exact >> d;
+  REQUIRE(nodes);
+  REQUIRE(tets);
+  REQUIRE(exact);
+  return truth;
+}
+
+bool available() {
+  return std::filesystem::exists(std::filesystem::path(PLEXWAY_TRUTH_DIR) / "solids");
+}
+
+// The largest relative error beyond two mean edges from the source.
+double worst_far(const std::vector<double>& found, const std::vector<double>& exact, double unit) {
+  double worst = 0;
+  for (std::size_t v = 0; v < exact.size(); ++v)
+    if (exact[v] > 2 * unit) worst = std::max(worst, std::abs(found[v] / exact[v] - 1));
+  return worst;
+}
+
+template <class Real>
+double mean_error(const std::string& name, Index source, double worst_allowed = .04) {
+  const Truth truth = read_truth(name, source);
+  const auto mesh = truth.solid.mesh<Real>();
+  const auto found = solve(mesh, PointSource::at(source));
+  const Errors e = compare(found, truth.exact);
+  const double worst = worst_far(found, truth.exact, mesh.unit());
+  CAPTURE(name, e.mean, e.max, e.below, worst);
+  CHECK(e.fits);
+  CHECK(worst <= worst_allowed);
+  return e.mean;
+}
+
+}  // namespace
+
+TEST_CASE("solids with exact answers, double") {
+  if (!available()) return;
+  CHECK(mean_error<double>("cube_10k", 8) <= 1e-12);
+  CHECK(mean_error<double>("maze_10k", 32) <= 1.2e-3);
+  const double notch = mean_error<double>("notch_10k", 14);
+  const double finer_notch = mean_error<double>("notch_100k", 14);
+  CHECK(notch <= 1e-5);
+  CHECK(finer_notch <= 1e-5);
+  CHECK(finer_notch < notch);
+  const double cavity = mean_error<double>("cavity_10k", 170);
+  const double finer_cavity = mean_error<double>("cavity_100k", 650);
+  CHECK(cavity <= 1.3e-3);
+  CHECK(finer_cavity <= 5.5e-4);
+}
+
+TEST_CASE("solids with exact answers, float") {
+  if (!available()) return;
+  CHECK(mean_error<float>("cube_10k", 8) <= 1e-6);
+  CHECK(mean_error<float>("maze_10k", 32) <= 1.2e-3);
+  CHECK(mean_error<float>("notch_10k", 14) <= 3.7e-4);
+  CHECK(mean_error<float>("cavity_10k", 170) <= 1.3e-3);
+}
+
+TEST_CASE("plain steps on solids with exact answers") {
+  if (!available()) return;
+  const Truth truth = read_truth("notch_10k", 14);
+  PropagateOptions options;
+  options.visibility = Visibility::centroid;
+  CHECK(compare(solve(truth.solid.mesh<double>(), PointSource::at(14), options), truth.exact).mean <
+        2e-3);
+  options.visibility = Visibility::upper_bound;
+  const Errors bound =
+      compare(solve(truth.solid.mesh<double>(), PointSource::at(14), options), truth.exact);
+  CHECK(bound.fits);
+  CHECK(bound.below > -1e-9);
+  CHECK(bound.mean < 7e-2);
+}
