@@ -40,6 +40,16 @@ double mean_of(std::span<const double> lengths) {
   return longest * (sum / static_cast<double>(lengths.size()));
 }
 
+// See Wireframe::typical_edge; `mean` > 0.
+double typical_of(std::span<const double> lengths, double mean) {
+  std::vector<double> positive(lengths.begin(), lengths.end());
+  std::erase(positive, 0.0);
+  const auto middle = positive.begin() + static_cast<std::ptrdiff_t>(positive.size() / 2);
+  std::nth_element(positive.begin(), middle, positive.end());
+  const double part = std::min(*middle / mean, 1.0);
+  return mean * part * (1 + part) / 2;
+}
+
 }  // namespace
 
 template <class Real>
@@ -89,6 +99,7 @@ void Wireframe<Real>::assemble(std::span<const std::array<Index, 2>> edges,
     unit_ = std::ldexp(1.0, fraction < std::sqrt(0.5) ? exponent - 1 : exponent);
     // At the ends of double's range: a unit that has no inverse would be no unit.
     if (!std::isfinite(unit_) || !std::isfinite(1 / unit_)) unit_ = summary_.mean_edge;
+    typical_edge_ = typical_of(lengths, summary_.mean_edge) / unit_;
   }
 
   begin_.assign(n + 1, 0);

@@ -52,7 +52,7 @@ class WirePropagation {
   }
 
   /// Until no label waits or the budget is spent. False, with labels still waiting, if it took more
-  /// than `patience` looks along an edge. Throws Cancelled.
+  /// than `patience` looks along an edge or at what waits. Throws Cancelled.
   template <class Front>
   bool spread(Front front, std::size_t patience) {
     const Index* const begin = wireframe_.begin().data();
@@ -61,7 +61,10 @@ class WirePropagation {
     const Real radius = radius_;
     std::size_t left = left_, updates = 0, reached = 0, looks = 0;
     const auto keep = [&] { left_ = left, updates_ += updates, reached_ += reached; };
-    const auto distance_of = [label](Index v) { return std::abs(label[v]); };
+    const auto distance_of = [label, &looks](Index v) {
+      ++looks;  // some queues look several times before it is a label's turn
+      return std::abs(label[v]);
+    };
     Index v = 0;
     while (front.pop(v, distance_of)) {
       const Real sigma = std::abs(label[v]);

@@ -99,39 +99,22 @@ Graph<Real> make_graph(Positions positions, Faces faces) {
 }
 
 template <class Real>
-Graph<Real> make_graph(std::size_t vertices, std::span<const std::array<Index, 2>> edges,
-                       std::span<const double> given) {
-  constexpr std::size_t limit = std::numeric_limits<Index>::max();
-  if (given.size() != edges.size())
-    throw UsageError(std::to_string(given.size()) + " lengths for " + std::to_string(edges.size()) +
-                     " edges");
-  if (vertices >= limit || edges.size() >= limit / 2)
-    throw InputError("more than 2^32 - 1 vertices or directed edges");
-  std::vector<std::size_t> begin(vertices + 1, 0);
-  for (std::size_t e = 0; e < edges.size(); ++e) {
-    for (const Index v : edges[e]) {
-      if (v >= vertices)
-        throw InputError("edge " + std::to_string(e) + ": vertex " + std::to_string(v) +
-                         " out of range, there are " + std::to_string(vertices));
-      if (edges[e][0] != edges[e][1]) ++begin[v + 1];
+Graph<Real> make_graph(const EdgeGraph& edges) {
+  std::vector<Edge> arcs;
+  std::vector<Length<Real>> lengths;
+  arcs.reserve(edges.arcs().size());
+  lengths.reserve(edges.arcs().size());
+  for (Index v = 0; v < edges.vertex_count(); ++v)
+    for (Index k = edges.begin()[v]; k < edges.begin()[v + 1]; ++k) {
+      const auto [to, edge] = edges.arcs()[k];
+      const Real length = static_cast<Real>(edges.lengths()[edge]);
+      if (!std::isfinite(length))
+        throw InputError("edge " + std::to_string(edge) + ": length is not finite");
+      arcs.emplace_back(v, to);
+      lengths.push_back({length});
     }
-    if (!(given[e] >= 0) || !std::isfinite(static_cast<Real>(given[e])))
-      throw InputError("edge " + std::to_string(e) + ": length is negative or not finite");
-  }
-  for (std::size_t v = 0; v < vertices; ++v) begin[v + 1] += begin[v];
-  std::vector<Edge> directed(begin.back());
-  std::vector<Length<Real>> lengths(begin.back());
-  for (std::size_t e = 0; e < edges.size(); ++e) {
-    const auto& [a, b] = edges[e];
-    if (a == b) continue;
-    for (const auto& [from, to] : {Edge{a, b}, Edge{b, a}}) {
-      const std::size_t at = begin[from]++;
-      directed[at] = {from, to};
-      lengths[at] = {static_cast<Real>(given[e])};
-    }
-  }
-  return Graph<Real>(boost::edges_are_sorted, directed.begin(), directed.end(), lengths.begin(),
-                     static_cast<Index>(vertices), static_cast<Index>(directed.size()));
+  return Graph<Real>(boost::edges_are_sorted, arcs.begin(), arcs.end(), lengths.begin(),
+                     static_cast<Index>(edges.vertex_count()), static_cast<Index>(arcs.size()));
 }
 
 template <class Real>
@@ -151,10 +134,9 @@ EdgeDijkstra<Real>::EdgeDijkstra(Positions positions, Faces faces)
                                            std::vector<Real>(positions.size(), infinity<Real>)})) {}
 
 template <class Real>
-EdgeDijkstra<Real>::EdgeDijkstra(std::size_t vertices, std::span<const std::array<Index, 2>> edges,
-                                 std::span<const double> lengths)
-    : state_(std::make_unique<State>(State{make_graph<Real>(vertices, edges, lengths),
-                                           std::vector<Real>(vertices, infinity<Real>)})) {}
+EdgeDijkstra<Real>::EdgeDijkstra(const EdgeGraph& edges)
+    : state_(std::make_unique<State>(State{
+          make_graph<Real>(edges), std::vector<Real>(edges.vertex_count(), infinity<Real>)})) {}
 
 template <class Real>
 EdgeDijkstra<Real>::~EdgeDijkstra() = default;

@@ -59,6 +59,11 @@ class Wireframe {
   /// changing units costs no digit.
   [[nodiscard]] double unit() const { return unit_; }
 
+  /// What a dual queue should count as the length of an edge, in the unit inside: the mean m,
+  /// unless lengths are of very different size. The median d then says more, and less of it is
+  /// better: d (1 + d / m) / 2, edges without length left out. > 0.
+  [[nodiscard]] double typical_edge() const { return typical_edge_; }
+
   // What follows serves the floors above and uses the numbers inside.
 
   /// The arcs of vertex v are those from begin()[v] to begin()[v + 1]. A loop is there once.
@@ -80,7 +85,7 @@ class Wireframe {
   void count_components();
 
   WireframeSummary summary_;
-  double unit_ = 1;
+  double unit_ = 1, typical_edge_ = 1;
   std::vector<Index> begin_;
   std::vector<WireArc<Real>> arcs_;
   std::vector<Index> vertex_to_inside_;

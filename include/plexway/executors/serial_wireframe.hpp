@@ -13,11 +13,12 @@ namespace plexway {
 /// As for surfaces, with these differences: labels sit at the vertices, so that the statistics,
 /// `max_expansions` and the progress count vertices, and the radius cuts off vertices; there is no
 /// `visibility` to choose, since every path bends at every vertex; `vectorised = false` runs the
-/// literal hinge kernel. Lengths of very different size make the dual queue expand vertices again
-/// and again: after eight times the work of one pass, nearest first takes over.
+/// literal hinge kernel; `step` counts in typical edges, Wireframe::typical_edge. Where lengths of
+/// very different size make the dual queue look at edges four times on average, nearest first takes
+/// over.
 ///
 /// Throws as for surfaces. Cost: 25 to 60 ns a vertex on lattices of a million, a fifth of Boost's
-/// Dijkstra; never more than O((n + m) log n).
+/// Dijkstra; never more than O((n + m) log n), but for Schedule::fifo.
 template <class Real>
 void propagate(Serial, const Wireframe<Real>& wireframe, std::span<const PointSource> sources,
                const PropagateOptions& options, Workspace<Real>& workspace,

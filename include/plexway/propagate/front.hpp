@@ -92,31 +92,60 @@ class DualQueue {
   Real nearest_far_ = std::numeric_limits<Real>::infinity();
 };
 
-/// Nearest first. A simplex may wait several times; what is out of date is skipped.
+/// Nearest first. A simplex may wait several times; what is out of date is skipped. The heap has
+/// four children a node, side by side: half the levels of a binary one, so half the misses.
 template <class Real>
 class PriorityQueue {
  public:
   explicit PriorityQueue(FrontStorage& storage) : heap_(&storage.heap) { heap_->clear(); }
 
   void push(Index simplex, Real distance, bool = true) {
-    heap_->emplace_back(-static_cast<double>(distance), simplex);
-    std::push_heap(heap_->begin(), heap_->end());
+    const Entry entry(static_cast<double>(distance), simplex);
+    std::size_t at = heap_->size();
+    heap_->push_back(entry);
+    Entry* const heap = heap_->data();
+    for (; at > 0 && entry.first < heap[(at - 1) / 4].first; at = (at - 1) / 4)
+      heap[at] = heap[(at - 1) / 4];
+    heap[at] = entry;
   }
 
   template <class DistanceOf>
   bool pop(Index& simplex, DistanceOf distance_of) {
     while (!heap_->empty()) {
-      std::pop_heap(heap_->begin(), heap_->end());
-      const auto [distance, candidate] = heap_->back();
-      heap_->pop_back();
+      const auto [distance, candidate] = heap_->front();
+      remove_first();
       simplex = candidate;
-      if (static_cast<Real>(-distance) == distance_of(candidate)) return true;
+      if (static_cast<Real>(distance) == distance_of(candidate)) return true;
     }
     return false;
   }
 
  private:
-  std::vector<std::pair<double, Index>>* heap_;
+  using Entry = std::pair<double, Index>;
+
+  /// The place at the top sinks along the nearest children down to a leaf, and the last entry,
+  /// which mostly belongs far down, rises from there.
+  void remove_first() {
+    const Entry last = heap_->back();
+    heap_->pop_back();
+    Entry* const heap = heap_->data();
+    const std::size_t size = heap_->size();
+    if (size == 0) return;
+    std::size_t at = 0;
+    for (std::size_t child = 1; child < size; child = 4 * at + 1) {
+      std::size_t nearest = child;
+      const std::size_t end = std::min(child + 4, size);
+      for (std::size_t c = child + 1; c < end; ++c)
+        nearest = heap[c].first < heap[nearest].first ? c : nearest;
+      heap[at] = heap[nearest];
+      at = nearest;
+    }
+    for (; at > 0 && last.first < heap[(at - 1) / 4].first; at = (at - 1) / 4)
+      heap[at] = heap[(at - 1) / 4];
+    heap[at] = last;
+  }
+
+  std::vector<Entry>* heap_;
 };
 
 }  // namespace plexway

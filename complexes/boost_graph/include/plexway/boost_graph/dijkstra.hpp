@@ -5,16 +5,18 @@
 #include <memory>
 #include <span>
 
+#include <plexway/boost_graph/edge_graph.hpp>
 #include <plexway/complex/ids.hpp>
 
 namespace plexway::boost_graph {
 
-/// Shortest paths along the edges of a surface, a solid or a wireframe by Boost.Graph's Dijkstra on
-/// a compressed sparse row graph.
+/// Shortest paths along the edges of a surface or of any complex by Boost.Graph's Dijkstra on a
+/// compressed sparse row graph.
 ///
-/// An upper bound of the geodesic distance, some per cent above it however fine the mesh, and the
-/// peer that propagation is measured against. Two vertices are joined once, whatever the number of
-/// triangles on their edge; a face that names a vertex twice adds no loop.
+/// On a wireframe that is the geodesic distance; on others an upper bound of it, some per cent
+/// above however fine the mesh. The peer that propagation is measured against. Two vertices are
+/// joined once, whatever the number of triangles on their edge; a face that names a vertex twice
+/// adds no loop.
 template <class Real>
 class EdgeDijkstra {
  public:
@@ -23,12 +25,9 @@ class EdgeDijkstra {
   /// than 2^32 - 1 directed edges. Cost: linear.
   EdgeDijkstra(std::span<const std::array<double, 3>> positions,
                std::span<const std::array<Index, 3>> faces);
-  /// From n vertices and m edges of vertex indices < n with a length each, in any unit; edges may
-  /// be parallel. Throws InputError naming the edge for an index out of range or a length that is
-  /// negative or not finite in Real, and as above; UsageError where there are not as many lengths
-  /// as edges. Cost: linear.
-  EdgeDijkstra(std::size_t vertices, std::span<const std::array<Index, 2>> edges,
-               std::span<const double> lengths);
+  /// Along the edges of a graph, which is copied. Throws InputError for a length that Real cannot
+  /// hold. Cost: linear.
+  explicit EdgeDijkstra(const EdgeGraph& graph);
   ~EdgeDijkstra();
   EdgeDijkstra(EdgeDijkstra&&) noexcept;
   EdgeDijkstra& operator=(EdgeDijkstra&&) noexcept;
