@@ -20,15 +20,12 @@ constexpr std::array<std::string_view, 6> extensions = {".node", ".ele", ".mesh"
 constexpr std::array<Parser, 6> parsers = {nullptr,    nullptr,   parse_medit,
                                            parse_gmsh, parse_vtu, parse_vtk};
 
-/// The file beside `file` that makes it whole; the case of the extension may differ.
-fs::path partner(const fs::path& file, std::string_view lower, std::string_view upper) {
-  fs::path other = file;
+/// The file beside `file` that makes it whole; its extension may be in capitals.
+fs::path partner(fs::path file, std::string_view lower, std::string_view upper) {
   std::error_code ignored;
-  for (const std::string_view extension : {upper, lower}) {
-    other.replace_extension(extension);
-    if (fs::exists(other, ignored)) return other;
-  }
-  return other;
+  const fs::path other = file.replace_extension(lower);
+  if (fs::exists(other, ignored)) return other;
+  return fs::exists(file.replace_extension(upper), ignored) ? file : other;
 }
 
 Tets read_node_ele(const fs::path& file, bool is_node) {
