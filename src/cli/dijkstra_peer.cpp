@@ -4,6 +4,7 @@
 #include <variant>
 
 #include <plexway/boost_graph/dijkstra.hpp>
+#include <plexway/boost_graph/edge_graph.hpp>
 
 #include "simplex_edges.hpp"
 #endif
@@ -20,7 +21,8 @@ class BoostPeer final : public DijkstraPeer {
       : dijkstra_(surface.positions, surface.triangles) {}
   explicit BoostPeer(const io::Tets& solid) : BoostPeer(edges_of(solid)) {}
   explicit BoostPeer(const io::Edges& wireframe)
-      : dijkstra_(wireframe.vertices, wireframe.edges, lengths_of(wireframe)) {}
+      : dijkstra_(
+            boost_graph::EdgeGraph(wireframe.vertices, wireframe.edges, lengths_of(wireframe))) {}
 
   void run(Index source) override { dijkstra_.run(source); }
 

@@ -1,4 +1,5 @@
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <memory>
@@ -112,6 +113,14 @@ std::string to_text(const DistanceCommand& command, const Domain& domain, const 
   return table.text();
 }
 
+// Vertices in no simplex.
+std::size_t count_apart(const Domain& domain) {
+  std::vector<bool> used(domain.vertices(), false);
+  for (std::size_t s = 0; s < domain.simplices(); ++s)
+    for (const auto v : domain.corners(s)) used[v] = true;
+  return static_cast<std::size_t>(std::count(used.begin(), used.end(), false));
+}
+
 // Things the user should know, though nothing failed.
 void say_notes(const Domain& domain, const Solver& solver, const Outcome& outcome, bool bounded) {
   if (!solver.complete()) {
@@ -123,6 +132,10 @@ void say_notes(const Domain& domain, const Solver& solver, const Outcome& outcom
   std::string note = counted(unreached, "vertices") + " not reached (inf): the " +
                      std::string(domain.kind()) + " has " +
                      counted(solver.components(), "components");
+  if (const std::size_t apart = count_apart(domain); apart > 0) {
+    note.append(", ").append(counted(apart, "vertices")).append(apart == 1 ? " is" : " are");
+    note.append(" in none of its ").append(domain.simplex_name());
+  }
   if (bounded) note += ", and --radius or --max-expansions ends the search early";
   say_note(note);
 }

@@ -100,15 +100,15 @@ Domain Domain::load(const std::string& file, const std::string& as, const FillOp
   const bool fills = is_poly(file) || (natural == Kind::surface && wanted == Kind::solid);
   if (fill.given() && !fills)
     throw UsageError(
-        "--max-volume, --quality, --keep-surface and --hole need a surface to fill: "
+        "--max-volume, --quality, --keep-surface, --max-seconds and --hole need a surface to fill: "
         "give one with --as solid");
   if (fills) {
     require_tetgen(as.empty() ? file : "--as " + as);
-    progress.phase("filling " + file + " with tetrahedra (TetGen tells no progress)");
+    progress.phase("filling " + file + " with tetrahedra");
     const Stopwatch meshing;
-    domain.shape_ = is_poly(file)
-                        ? fill_poly(file, fill)
-                        : fill_surface(file, std::get<io::Triangles>(domain.shape_), fill);
+    domain.shape_ =
+        is_poly(file) ? fill_poly(file, fill, progress)
+                      : fill_surface(file, std::get<io::Triangles>(domain.shape_), fill, progress);
     domain.mesh_seconds_ = meshing.seconds();
   }
   if (wanted == Kind::wireframe) {

@@ -27,11 +27,23 @@ std::vector<std::array<double, 3>> hole_points(const FillOptions& options) {
 }
 
 #ifdef PLEXWAY_HAS_TETGEN
-tetgen::TetrahedralizeOptions tetgen_options(const FillOptions& options) {
+tetgen::TetrahedralizeOptions tetgen_options(const FillOptions& options, ProgressLine& progress) {
+  const auto go_on = [&progress, told = false](double seconds) mutable {
+    progress.seconds_passed(seconds);
+    if (seconds > 60 && !told) {
+      told = true;
+      progress.note(
+          "TetGen has taken a minute, and on needles it may never end; --keep-surface or --quality "
+          "0 often help, and --max-seconds sets a limit");
+    }
+    return true;
+  };
   return {.max_volume = options.max_volume,
           .max_radius_edge = options.quality,
           .quality = options.quality > 0,
-          .keep_surface = options.keep_surface};
+          .keep_surface = options.keep_surface,
+          .max_seconds = options.max_seconds,
+          .go_on = go_on};
 }
 
 template <class Fill>
@@ -41,6 +53,10 @@ io::Tets filled(const std::string& file, Fill fill) {
     return {std::move(solid.positions), std::move(solid.tets)};
   } catch (const InputError& error) {
     throw InputError(file + ": cannot be filled: " + error.what());
+  } catch (const UsageError&) {
+    throw;
+  } catch (const Error& error) {
+    throw Error(file + ": cannot be filled: " + error.what());
   }
 }
 #endif
@@ -50,7 +66,7 @@ io::Tets filled(const std::string& file, Fill fill) {
 bool FillOptions::given() const {
   const FillOptions untouched;
   return max_volume != untouched.max_volume || quality != untouched.quality || keep_surface ||
-         !holes.empty();
+         max_seconds != untouched.max_seconds || !holes.empty();
 }
 
 void add_fill_options(CLI::App& command, FillOptions& options) {
@@ -67,6 +83,11 @@ void add_fill_options(CLI::App& command, FillOptions& options) {
       .add_flag("--keep-surface", options.keep_surface,
                 "add points inside only: the triangles of the surface stay")
       ->group(group);
+  command
+      .add_option("--max-seconds", options.max_seconds,
+                  "stop TetGen after S seconds (default: never)")
+      ->type_name("S")
+      ->group(group);
   command.add_option("--hole", options.holes, "a point in a cavity that stays empty; repeat it")
       ->type_name("X,Y,Z")
       ->allow_extra_args(false)
@@ -78,6 +99,8 @@ void check(const FillOptions& options) {
     throw UsageError("--max-volume must be a number greater than 0");
   if (!(options.quality == 0 || options.quality > 1) || std::isinf(options.quality))
     throw UsageError("--quality must be a number greater than 1, or 0 for none");
+  if (!(options.max_seconds >= 0) || std::isinf(options.max_seconds))
+    throw UsageError("--max-seconds must be a number greater than 0");
   (void)hole_points(options);
 }
 
@@ -99,28 +122,31 @@ bool is_poly(const std::string& file) {
 }
 
 io::Tets fill_surface(const std::string& file, const io::Triangles& surface,
-                      const FillOptions& options) {
+                      const FillOptions& options, ProgressLine& progress) {
   check(options);
   require_tetgen(file);
 #ifdef PLEXWAY_HAS_TETGEN
   return filled(file, [&] {
     return tetgen::tetrahedralize(surface.positions, surface.triangles, hole_points(options),
-                                  tetgen_options(options));
+                                  tetgen_options(options, progress));
   });
 #else
   (void)surface;
+  (void)progress;
   return {};
 #endif
 }
 
-io::Tets fill_poly(const std::string& file, const FillOptions& options) {
+io::Tets fill_poly(const std::string& file, const FillOptions& options, ProgressLine& progress) {
   check(options);
   require_tetgen(file);
 #ifdef PLEXWAY_HAS_TETGEN
   auto complex = tetgen::read_poly(file);
   for (const auto& hole : hole_points(options)) complex.holes.push_back(hole);
-  return filled(file, [&] { return tetgen::tetrahedralize(complex, tetgen_options(options)); });
+  return filled(file,
+                [&] { return tetgen::tetrahedralize(complex, tetgen_options(options, progress)); });
 #else
+  (void)progress;
   return {};
 #endif
 }

@@ -7,6 +7,8 @@
 #include <plexway/io/tets.hpp>
 #include <plexway/io/triangles.hpp>
 
+#include "progress.hpp"
+
 namespace CLI {
 class App;
 }
@@ -18,6 +20,7 @@ struct FillOptions {
   double max_volume = 0;
   double quality = 2;
   bool keep_surface = false;
+  double max_seconds = 0;
   std::vector<std::string> holes;
 
   /// Whether any of them differs from its default.
@@ -38,9 +41,10 @@ void require_tetgen(const std::string& what);
 bool is_poly(const std::string& file);
 
 /// The solid inside a surface, or inside what a `.poly` or `.smesh` describes. Throws InputError
-/// "FILE: cause", UsageError as `check`, and NotBuiltError as `require_tetgen`.
+/// "FILE: cause", UsageError as `check`, NotBuiltError as `require_tetgen`, and Error at the time
+/// limit.
 io::Tets fill_surface(const std::string& file, const io::Triangles& surface,
-                      const FillOptions& options);
-io::Tets fill_poly(const std::string& file, const FillOptions& options);
+                      const FillOptions& options, ProgressLine& progress);
+io::Tets fill_poly(const std::string& file, const FillOptions& options, ProgressLine& progress);
 
 }  // namespace plexway::cli

@@ -5,9 +5,12 @@
 #include <algorithm>
 #include <cstdio>
 
+#include "console.hpp"
+
 namespace plexway::cli {
 
-ProgressLine::ProgressLine(bool quiet) : shown_(!quiet && isatty(STDERR_FILENO) == 1) {}
+ProgressLine::ProgressLine(bool quiet)
+    : quiet_(quiet), shown_(!quiet && isatty(STDERR_FILENO) == 1) {}
 
 void ProgressLine::phase(std::string_view what) {
   phase_ = what;
@@ -19,6 +22,18 @@ void ProgressLine::done(double share) {
   if (!shown_ || Clock::now() - drawn_ < 100ms) return;
   const int percent = static_cast<int>(100 * std::clamp(share, 0.0, 1.0));
   draw(phase_ + " ... " + std::to_string(percent) + " %");
+}
+
+void ProgressLine::seconds_passed(double seconds) {
+  using namespace std::chrono_literals;
+  if (!shown_ || Clock::now() - drawn_ < 100ms) return;
+  draw(phase_ + " ... " + std::to_string(static_cast<long>(seconds)) + " s");
+}
+
+void ProgressLine::note(std::string_view message) {
+  if (quiet_) return;
+  if (shown_) std::fputs("\r\033[K", stderr);
+  say_note(message);
 }
 
 void ProgressLine::clear() {

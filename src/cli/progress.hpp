@@ -23,7 +23,11 @@ class ProgressLine {
   void phase(std::string_view what);
   /// How much of it is done, 0 to 1. Draws at most ten times a second.
   void done(double share);
+  /// How long it has taken, where nobody knows how much is done. Draws as above.
+  void seconds_passed(double seconds);
   void clear();
+  /// A line that stays, for people; nothing when quiet.
+  void note(std::string_view message);
 
   /// For PropagateOptions::progress; empty where nothing would be shown.
   [[nodiscard]] std::function<bool(const Progress&)> callback();
@@ -33,6 +37,7 @@ class ProgressLine {
 
   void draw(std::string_view text);
 
+  bool quiet_;
   bool shown_;
   std::string phase_;
   Clock::time_point drawn_;

@@ -17,6 +17,7 @@
 
 using plexway::Index;
 using plexway::boost_graph::EdgeDijkstra;
+using plexway::boost_graph::EdgeGraph;
 
 namespace {
 
@@ -169,7 +170,7 @@ TEST_CASE("Dijkstra takes edges with lengths of their own") {
   // 0 -1- 1 -1- 2, a shortcut of 1.5 beside an edge of 5, a loop, and vertex 3 apart.
   const std::vector<std::array<Index, 2>> edges = {{0, 1}, {2, 1}, {0, 2}, {2, 0}, {1, 1}};
   const std::vector<double> lengths = {1, 1, 5, 1.5, 0.25};
-  EdgeDijkstra<float> dijkstra(4, edges, lengths);
+  EdgeDijkstra<float> dijkstra(EdgeGraph(4, edges, lengths));
   dijkstra.run(0);
   CHECK(std::vector<float>(dijkstra.distance().begin(), dijkstra.distance().end()) ==
         std::vector<float>{0, 1, 1.5F, static_cast<float>(inf)});
@@ -177,12 +178,10 @@ TEST_CASE("Dijkstra takes edges with lengths of their own") {
   CHECK(dijkstra.distance()[0] == 1.5F);
   CHECK(dijkstra.distance()[1] == 1);
 
-  CHECK_THROWS_AS(EdgeDijkstra<float>(2, edges, lengths), plexway::InputError);
-  CHECK_THROWS_AS(EdgeDijkstra<float>(4, edges, std::vector<double>{1, 1, 5, 1, -1}),
-                  plexway::InputError);
-  CHECK_THROWS_AS(EdgeDijkstra<float>(4, edges, std::vector<double>{1, 1, 5, 1, 1e300}),
-                  plexway::InputError);
-  CHECK_THROWS_AS(EdgeDijkstra<float>(4, edges, std::vector<double>{1}), plexway::UsageError);
+  CHECK_THROWS_AS(EdgeGraph(2, edges, lengths), plexway::InputError);
+  CHECK_THROWS_AS(EdgeGraph(4, edges, std::vector<double>{1, 1, 5, 1, -1}), plexway::InputError);
+  const EdgeGraph too_long(4, edges, std::vector<double>{1, 1, 5, 1, 1e300});
+  CHECK_THROWS_AS(EdgeDijkstra<float>(too_long), plexway::InputError);
 }
 
 TEST_CASE("Dijkstra on the edges of a surface and on the surface agree") {
@@ -198,7 +197,7 @@ TEST_CASE("Dijkstra on the edges of a surface and on the surface agree") {
                                    soup.positions[a][1] - soup.positions[b][1],
                                    soup.positions[a][2] - soup.positions[b][2]));
     }
-  EdgeDijkstra<double> dijkstra(soup.positions.size(), edges, lengths);
+  EdgeDijkstra<double> dijkstra(EdgeGraph(soup.positions.size(), edges, lengths));
   dijkstra.run(7);
   CHECK(worst_difference(dijkstra.distance(), textbook(soup, 7)) <= 1e-14);
 }

@@ -213,6 +213,10 @@ TEST_CASE("tetrahedralize has usage errors of its own") {
   check_refused({"tetrahedralize", elbow, "-o", out, "--max-volume", "-1"}, 2, "--max-volume");
   check_refused({"tetrahedralize", elbow, "-o", out, "--max-volume", "nan"}, 2, "--max-volume");
   check_refused({"tetrahedralize", elbow, "-o", out, "--quality", "0.5"}, 2, "--quality");
+  check_refused({"tetrahedralize", elbow, "-o", out, "--max-seconds", "-1"}, 2, "--max-seconds");
+  check_refused(
+      {"tetrahedralize", elbow, "-o", out, "--max-seconds", "0.3", "--max-volume", "1e-8"}, 1,
+      elbow + ": cannot be filled: TetGen was stopped at the time limit");
   check_refused({"tetrahedralize", elbow, "-o", out, "--hole", "1,2"}, 2, "--hole '1,2'");
   check_refused({"tetrahedralize", elbow, "-o", (folder.path() / "no" / "s.mesh").string()}, 1,
                 "there is no folder");

@@ -114,3 +114,17 @@ TEST_CASE("a time limit stops TetGen") {
     CHECK(std::string(error.what()).find("time limit") != std::string::npos);
   }
 }
+
+TEST_CASE("TetGen can be watched and stopped") {
+  int asked = 0;
+  double last = 0;
+  const auto go_on = [&](double seconds) {
+    CHECK(seconds > last);
+    last = seconds;
+    return ++asked < 3;
+  };
+  CHECK_THROWS_AS(fill(cube(), {.max_volume = 1e-8, .go_on = go_on}), plexway::Cancelled);
+  CHECK(asked == 3);
+  const auto fails = [](double) -> bool { throw plexway::UsageError("enough"); };
+  CHECK_THROWS_AS(fill(cube(), {.max_volume = 1e-8, .go_on = fails}), plexway::UsageError);
+}

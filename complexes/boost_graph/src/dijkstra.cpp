@@ -134,11 +134,6 @@ EdgeDijkstra<Real>::EdgeDijkstra(Positions positions, Faces faces)
                                            std::vector<Real>(positions.size(), infinity<Real>)})) {}
 
 template <class Real>
-EdgeDijkstra<Real>::EdgeDijkstra(std::size_t vertices, std::span<const std::array<Index, 2>> edges,
-                                 std::span<const double> lengths)
-    : EdgeDijkstra(EdgeGraph(vertices, edges, lengths)) {}
-
-template <class Real>
 EdgeDijkstra<Real>::EdgeDijkstra(const EdgeGraph& edges)
     : state_(std::make_unique<State>(State{
           make_graph<Real>(edges), std::vector<Real>(edges.vertex_count(), infinity<Real>)})) {}

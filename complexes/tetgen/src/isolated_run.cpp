@@ -121,24 +121,48 @@ void send_array(int to, const Number* numbers, std::uint64_t count) {
   ::_exit(0);
 }
 
-// Milliseconds left for poll, rounded up; negative for no limit.
-int time_left(const Patience& patience, std::chrono::steady_clock::time_point start) {
-  if (!(patience.seconds > 0)) return -1;
-  const std::chrono::duration<double> passed = std::chrono::steady_clock::now() - start;
-  return static_cast<int>(std::clamp(1e3 * (patience.seconds - passed.count()) + 1, 0.0, 1e9));
-}
+// Seconds since it was made, against what a caller is ready to wait.
+class Clock {
+ public:
+  explicit Clock(const Patience& patience) : patience_(patience) {}
 
-// Reads both pipes to their ends, whichever has something, so that neither can fill up and block.
-// False where the time was over before.
-bool listen_to(Pipe& speech, Pipe& answer, const Patience& patience, std::string& said,
-               std::string& bytes) {
-  const auto start = std::chrono::steady_clock::now();
+  // Milliseconds for poll; negative for no end.
+  int wait() const {
+    constexpr int a_while = 200;
+    if (!(patience_.seconds > 0)) return patience_.go_on ? a_while : -1;
+    const double left = std::clamp(1e3 * (patience_.seconds - seconds()) + 1, 0.0, 1e9);
+    return patience_.go_on ? std::min(static_cast<int>(left), a_while) : static_cast<int>(left);
+  }
+
+  // `done` while the run may go on.
+  Ending look() {
+    const double now = seconds();
+    if (patience_.seconds > 0 && now >= patience_.seconds) return Ending::out_of_time;
+    if (!patience_.go_on || now < asked_ + 0.15) return Ending::done;
+    asked_ = now;
+    return patience_.go_on(now) ? Ending::done : Ending::cancelled;
+  }
+
+ private:
+  double seconds() const {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+  }
+
+  const Patience& patience_;
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+  double asked_ = 0;
+};
+
+// Reads both pipes to their ends, whichever has something, so that neither can fill up and block;
+// or until patience is over, and then says how.
+Ending listen_to(Pipe& speech, Pipe& answer, const Patience& patience, std::string& said,
+                 std::string& bytes) {
+  Clock clock(patience);
   std::vector<char> buffer(std::size_t{1} << 16);
   while (speech.read >= 0 || answer.read >= 0) {
     std::array<pollfd, 2> wait = {{{speech.read, POLLIN, 0}, {answer.read, POLLIN, 0}}};
-    const int ready = ::poll(wait.data(), wait.size(), time_left(patience, start));
-    if (ready < 0 && errno == EINTR) continue;
-    if (ready <= 0) return false;
+    if (::poll(wait.data(), wait.size(), clock.wait()) < 0 && errno != EINTR) return Ending::killed;
+    if (const Ending ending = clock.look(); ending != Ending::done) return ending;
     for (std::size_t i = 0; i < 2; ++i) {
       if (wait[i].fd < 0 || wait[i].revents == 0) continue;
       const ssize_t got = ::read(wait[i].fd, buffer.data(), buffer.size());
@@ -153,12 +177,28 @@ bool listen_to(Pipe& speech, Pipe& answer, const Patience& patience, std::string
       } else if (said.size() + size <= most_said) {
         said.append(buffer.data(), size);
       } else if (patience.until_it_talks) {
-        return false;
+        return Ending::out_of_time;
       }
     }
   }
-  return true;
+  return Ending::done;
 }
+
+// The process that TetGen runs in; does not outlive this object.
+class Child {
+ public:
+  explicit Child(pid_t pid) : pid_(pid) {}
+  ~Child() {
+    ::kill(pid_, SIGKILL);
+    while (::waitpid(pid_, nullptr, 0) < 0 && errno == EINTR) {
+    }
+  }
+  Child(const Child&) = delete;
+  Child& operator=(const Child&) = delete;
+
+ private:
+  pid_t pid_;
+};
 
 template <class Row>
 bool take(std::string_view& bytes, std::vector<Row>& rows, std::uint64_t count) {
@@ -180,20 +220,20 @@ Run run_isolated(const PiecewiseLinearComplex& complex, const std::string& switc
   Pipe::close(speech.write);
   Pipe::close(answer.write);
 
+  const Child running(pid);
+
   Run run;
   std::string bytes;
-  const bool to_the_end = listen_to(speech, answer, patience, run.said, bytes);
-  if (!to_the_end) ::kill(pid, SIGKILL);
-  int status = 0;
-  while (::waitpid(pid, &status, 0) < 0 && errno == EINTR) {
-  }
+  const Ending heard = listen_to(speech, answer, patience, run.said, bytes);
   const std::size_t start = run.said.find(start_of_speech);
   run.said.erase(0, start == run.said.npos ? run.said.size() : start + start_of_speech.size());
-
-  // A whole answer says how it ended, even where somebody else waited for our child.
-  if (!to_the_end) run.ending = Ending::out_of_time;
+  if (heard != Ending::done) {
+    run.ending = heard;
+    return run;
+  }
+  // Only a whole answer counts; a child that was killed gives none.
   Header header;
-  if (!to_the_end || bytes.size() < sizeof header) return run;
+  if (bytes.size() < sizeof header) return run;
   std::memcpy(&header, bytes.data(), sizeof header);
   std::string_view rest(bytes);
   rest.remove_prefix(sizeof header);

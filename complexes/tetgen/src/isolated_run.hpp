@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -18,6 +19,7 @@ enum class Ending : int {
   input_error = 10,
   killed = 100,  ///< by a signal, its own abort() included
   out_of_time = 101,
+  cancelled = 102,
 };
 
 /// What a run left behind.
@@ -34,6 +36,8 @@ struct Run {
 struct Patience {
   double seconds = 0;           ///< 0: no limit
   bool until_it_talks = false;  ///< when it has said more than is kept of it
+  /// Asked a few times a second, with the seconds passed; false ends the run. May be empty.
+  std::function<bool(double)> go_on = {};
 };
 
 /// Runs TetGen on `complex` in a child process with the switches of its command line. Indices must

@@ -66,9 +66,8 @@ std::string plural(std::size_t count, const std::string& what) {
 
 void give_reason(const Run& run, const Run& diagnosis, const std::string& facet) {
   if (run.ending == Ending::out_of_memory) throw std::bad_alloc();
-  if (run.ending == Ending::out_of_time)
-    throw Error("TetGen was stopped at the time limit; allow more, or ask for a coarser mesh");
-
+  if (run.ending == Ending::cancelled || diagnosis.ending == Ending::cancelled)
+    throw Cancelled("TetGen was stopped");
   const Clashes clashes = clashes_in(diagnosis.said);
   if (!clashes.all.empty()) {
     const bool only_part = diagnosis.ending != Ending::done;
@@ -79,6 +78,10 @@ void give_reason(const Run& run, const Run& diagnosis, const std::string& facet)
                " in all: the boundary must not cross or cover itself";
     throw InputError(message);
   }
+  if (run.ending == Ending::out_of_time)
+    throw Error(
+        "TetGen was stopped at the time limit; allow more, keep the surface as it is, or ask "
+        "for less quality");
   for (const std::string* said : {&run.said, &diagnosis.said}) {
     const auto [a, b] = merged_in(*said);
     if (a >= 0) {

@@ -155,12 +155,14 @@ Solid fill(const PiecewiseLinearComplex& complex, const TetrahedralizeOptions& o
   // TetGen smooths at the end, and tetrahedra may grow over their bound by that.
   for (int attempt = 0;; ++attempt) {
     Run run = run_isolated(work, switches_for(work, options, max_volume),
-                           {.seconds = options.max_seconds});
+                           {.seconds = options.max_seconds, .go_on = options.go_on});
     if (run.ending != Ending::done || run.tets.empty()) {
       // TetGen's search for what crosses takes less time than filling, but may not end.
+      Patience patience = {.seconds = 20, .until_it_talks = true, .go_on = options.go_on};
+      if (run.ending == Ending::out_of_time)
+        patience.seconds = std::min(patience.seconds, options.max_seconds);
       Run diagnosis;
-      if (run.ending != Ending::out_of_time)
-        diagnosis = run_isolated(work, "pzd", {.seconds = 20, .until_it_talks = true});
+      if (run.ending != Ending::cancelled) diagnosis = run_isolated(work, "pzd", patience);
       give_reason(run, diagnosis, facet);
     }
     Solid solid = solid_of(std::move(run), work.positions);

@@ -10,8 +10,8 @@
 
 namespace plexway::boost_graph {
 
-/// Shortest paths along the edges of a surface, a solid or a wireframe by Boost.Graph's Dijkstra on
-/// a compressed sparse row graph.
+/// Shortest paths along the edges of a surface or of any complex by Boost.Graph's Dijkstra on a
+/// compressed sparse row graph.
 ///
 /// On a wireframe that is the geodesic distance; on others an upper bound of it, some per cent
 /// above however fine the mesh. The peer that propagation is measured against. Two vertices are
@@ -28,10 +28,6 @@ class EdgeDijkstra {
   /// Along the edges of a graph, which is copied. Throws InputError for a length that Real cannot
   /// hold. Cost: linear.
   explicit EdgeDijkstra(const EdgeGraph& graph);
-  /// From n vertices and m edges of vertex indices < n with a length each, in any unit; edges may
-  /// be parallel. Throws as EdgeGraph and above. Cost: linear.
-  EdgeDijkstra(std::size_t vertices, std::span<const std::array<Index, 2>> edges,
-               std::span<const double> lengths);
   ~EdgeDijkstra();
   EdgeDijkstra(EdgeDijkstra&&) noexcept;
   EdgeDijkstra& operator=(EdgeDijkstra&&) noexcept;
