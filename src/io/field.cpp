@@ -1,6 +1,7 @@
 #include <plexway/io/field.hpp>
 
 #include <string>
+#include <vector>
 
 #include <plexway/error.hpp>
 
@@ -61,6 +62,37 @@ void write_field(const std::filesystem::path& file, const Edges& wireframe,
   const bool placed = !wireframe.positions.empty();
   const std::size_t vertices = placed ? wireframe.positions.size() : wireframe.vertices;
   write_field_of(file, {vertices, wireframe.positions, {&cells, 1}, distance, label});
+}
+
+void write_field(const std::filesystem::path& file, std::span<const MixedPart> parts,
+                 std::span<const double> distance, std::span<const std::int32_t> label) {
+  std::vector<std::array<double, 3>> positions;
+  std::vector<std::array<std::uint32_t, 2>> edges;
+  std::vector<std::array<std::uint32_t, 3>> triangles;
+  std::vector<std::array<std::uint32_t, 4>> tets;
+  for (const MixedPart& part : parts) {
+    const auto add = [&](auto& all, const auto& own, const char* what) {
+      for (std::size_t c = 0; c < own.size(); ++c) {
+        all.push_back(own[c]);
+        for (std::uint32_t& v : all.back()) {
+          if (v >= part.positions.size())
+            throw UsageError("write_field: " + std::string(what) + " " + std::to_string(c) +
+                             " of a part names vertex " + std::to_string(v) + " of " +
+                             std::to_string(part.positions.size()));
+          v += static_cast<std::uint32_t>(positions.size());
+        }
+      }
+    };
+    add(edges, part.edges, "edge");
+    add(triangles, part.triangles, "triangle");
+    add(tets, part.tets, "tetrahedron");
+    positions.insert(positions.end(), part.positions.begin(), part.positions.end());
+  }
+  std::vector<Cells> cells;
+  if (!edges.empty()) cells.push_back(cells_of<2>(3, edges));
+  if (!triangles.empty()) cells.push_back(cells_of<3>(5, triangles));
+  if (!tets.empty()) cells.push_back(cells_of<4>(10, tets));
+  write_field_of(file, {positions.size(), positions, cells, distance, label});
 }
 
 }  // namespace plexway::io

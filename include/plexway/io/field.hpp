@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <span>
@@ -29,6 +30,19 @@ void write_field(const std::filesystem::path& file, const Tets& solid,
 /// The same for a wireframe. If its vertices have no positions, only .csv (without x, y and z) and
 /// .npy can hold it; UsageError otherwise.
 void write_field(const std::filesystem::path& file, const Edges& wireframe,
+                 std::span<const double> distance, std::span<const std::int32_t> label = {});
+
+/// A part of a mixed domain; empty lists are left out. The parts' vertices follow one another.
+struct MixedPart {
+  std::span<const std::array<double, 3>> positions;
+  std::span<const std::array<std::uint32_t, 2>> edges = {};
+  std::span<const std::array<std::uint32_t, 3>> triangles = {};
+  std::span<const std::array<std::uint32_t, 4>> tets = {};
+};
+
+/// The same for a mixed domain: all parts in one file, each with its own kind of cell, in the order
+/// in which they were added to the domain. A .ply holds no tetrahedra.
+void write_field(const std::filesystem::path& file, std::span<const MixedPart> parts,
                  std::span<const double> distance, std::span<const std::int32_t> label = {});
 
 /// The extensions `write_field` knows, with the dot, in lower case.
