@@ -217,6 +217,7 @@ void TetMesh<Real>::assemble(std::size_t vertices, std::span<const std::array<In
                          rounded(length > 0 ? 1 / length * along : along),
                          static_cast<Real>(length),
                          {rounded(e.normal[0]), rounded(e.normal[1])},
+                         rounded(e.normal[0] + e.normal[1]),
                          {e.vertex[0], e.vertex[1]}});
     }
   } else {

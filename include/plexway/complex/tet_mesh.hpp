@@ -38,7 +38,7 @@ struct SolidSummary {
 /// threads may read it.
 ///
 /// Vertices and tetrahedra have the caller's numbers in this interface. Inside they are reordered
-/// for locality. Memory: 68 bytes a tetrahedron and 24 a vertex in float.
+/// for locality. Memory: 68 bytes a tetrahedron and 20 a vertex in float.
 template <class Real>
 class TetMesh {
  public:
@@ -51,8 +51,8 @@ class TetMesh {
           std::span<const std::array<Index, 4>> tets);
 
   /// From lengths alone: lengths[t] are those of the edges (0,1) (0,2) (1,2) (0,3) (1,3) (2,3) of
-  /// tetrahedron t, and must be the same wherever an edge occurs (up to rounding; the mean is
-  /// taken). Lengths that no tetrahedron has are clamped where they are used
+  /// tetrahedron t, and must be the same wherever an edge occurs (up to rounding; not checked).
+  /// Lengths that no tetrahedron has are replaced by those of the nearest flat one along that order
   /// (SolidSummary::degenerate_tets counts). Throws as above, and for a length that is negative or
   /// not finite.
   TetMesh(std::size_t vertices, std::span<const std::array<Index, 4>> tets,

@@ -58,6 +58,7 @@ struct ReflexEdge {
   Vector3<Real> direction;  ///< from the first end to the second, unit; 0 without length
   Real length;
   Vector3<Real> normal[2];  ///< of the two boundary faces, unit, into the solid
+  Vector3<Real> solid;      ///< their sum
   Index vertex[2];          ///< numbers inside
 };
 

@@ -52,8 +52,11 @@ class SolidPaths {
     return reach(label, q).length;
   }
 
-  [[nodiscard]] bool hides(Index edge, const Point& eye, const Point& q) const {
-    return EdgeView<Real>(reflex_[edge], eye).hides(q, slack);
+  [[nodiscard, gnu::always_inline]] bool hides(Index edge, const Point& eye, const Point& q) const {
+    const ReflexEdge<Real>& e = reflex_[edge];
+    if (on_bright_side(e, eye, q)) [[likely]]
+      return false;
+    return EdgeView<Real>(e, eye).hides(q, slack);
   }
 
   /// The path with what hides q.

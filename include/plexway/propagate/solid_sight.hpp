@@ -16,8 +16,8 @@ inline constexpr Real solid_rounding = 64 * std::numeric_limits<Real>::epsilon()
 /// Where the unfolded line from p to q crosses an edge, as a distance from its first end that may
 /// lie outside of the edge. `hp`: p's distance from the edge's line.
 template <class Real>
-Real crossing_along(const ReflexEdge<Real>& e, const Vector3<Real>& p, Real hp,
-                    const Vector3<Real>& q) {
+[[gnu::always_inline]] inline Real crossing_along(const ReflexEdge<Real>& e, const Vector3<Real>& p,
+                                                  Real hp, const Vector3<Real>& q) {
   const Vector3<Real> ap = p - e.end[0], aq = q - e.end[0];
   const Real xp = dot(ap, e.direction), xq = dot(aq, e.direction);
   const Real hq = norm(aq - xq * e.direction);
@@ -46,13 +46,22 @@ Vector3<Real> bend_point(const Vector3<Real>& a, const Vector3<Real>& b, const V
   return bend_point(edge, p, q);
 }
 
+/// Most edges do not hide a point, and most of those because it lies on their bright side.
+template <class Real>
+[[gnu::always_inline]] inline bool on_bright_side(const ReflexEdge<Real>& edge,
+                                                  const Vector3<Real>& eye,
+                                                  const Vector3<Real>& q) {
+  const Vector3<Real> n = cross(edge.end[0] - eye, edge.direction);
+  return dot(n, edge.solid) * dot(n, q - eye) >= 0;
+}
+
 /// A reflex edge seen from a point: what it hides.
 template <class Real>
 class EdgeView {
  public:
   EdgeView(const ReflexEdge<Real>& edge, const Vector3<Real>& eye)
       : edge_(edge), eye_(eye), a_(edge.end[0] - eye), n_(cross(a_, edge.direction)) {
-    if (dot(n_, edge.normal[0] + edge.normal[1]) < 0) n_ = Real(-1) * n_;  // to the solid's side
+    if (dot(n_, edge.solid) < 0) n_ = Real(-1) * n_;  // to the solid's side
   }
 
   /// Not in its shadow, by more than a small angle (squared).
