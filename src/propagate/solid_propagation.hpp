@@ -112,6 +112,7 @@ class SolidPropagation {
   bool repair(int round) {
     const std::size_t before = front_.updates();
     std::size_t unreached = 0;
+    if (!rule_.drops() && front_.reached_count() == mesh_.tet_count()) return false;
     const Index tets = static_cast<Index>(mesh_.tet_count());
     for (Index t = 0; t < tets; ++t) {
       if (!front_.reached(t) || rule_.distance(t) > radius_) continue;

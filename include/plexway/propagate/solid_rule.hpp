@@ -60,6 +60,8 @@ class SolidRule {
     return longest;
   }
 
+  /// Can an offer be dropped that another does not make up for? Not without obstacles.
+  [[nodiscard]] bool drops() const { return any_reflex_; }
   /// No more than `way`; cheap.
   [[nodiscard]] Real least_way(Index t, Index u) const {
     const Point between = tets_[u].centre - tets_[t].centre;
