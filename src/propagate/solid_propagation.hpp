@@ -121,7 +121,8 @@ class SolidPropagation {
         if (u == tets) continue;
         if (front_.reached(u)) {
           const Real excess = rule_.distance(u) - rule_.distance(t);
-          if (!(excess > rule_.least_way(t, u)) || !(excess > rule_.way(t, i))) continue;
+          if (!(excess > 0) || !(excess > rule_.least_way(t, u)) || !(excess > rule_.way(t, i)))
+            continue;
         } else {
           ++unreached;
         }
