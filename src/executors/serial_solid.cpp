@@ -83,8 +83,7 @@ void solve(const TetMesh<Real>& mesh, std::span<const PointSource> sources,
   if constexpr (kLabels) workspace.vertex_source.assign(vertices, none);
   read_out_tets<Real, kLabels>(mesh, rule, front, workspace);
   read_out_sources<Real, kLabels>(mesh, sources, workspace);
-  if (mesh.embedded() && options.visibility == Visibility::saddles)
-    read_out_tet_edges<Real, kLabels>(mesh, workspace);
+  if (rule.drops()) read_out_tet_edges<Real, kLabels>(mesh, workspace);
 
   field.distance.resize(vertices);
   field.label.resize(kLabels ? vertices : 0);

@@ -114,6 +114,7 @@ class SolidPropagation {
   bool repair(int round) {
     const std::size_t before = front_.updates();
     std::size_t unreached = 0;
+    if (!rule_.drops() && front_.reached_count() == mesh_.tet_count()) return false;
     const Index tets = static_cast<Index>(mesh_.tet_count());
     for (Index t = 0; t < tets; ++t) {
       if (!front_.reached(t) || rule_.distance(t) > radius_) continue;
@@ -122,7 +123,8 @@ class SolidPropagation {
         if (u == tets) continue;
         if (front_.reached(u)) {
           const Real excess = rule_.distance(u) - rule_.distance(t);
-          if (!(excess > rule_.least_way(t, u)) || !(excess > rule_.way(t, i))) continue;
+          if (!(excess > 0) || !(excess > rule_.least_way(t, u)) || !(excess > rule_.way(t, i)))
+            continue;
         } else {
           ++unreached;
         }

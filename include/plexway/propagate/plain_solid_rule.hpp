@@ -48,6 +48,7 @@ class PlainSolidRule {
   /// Nothing is ever dropped, so nothing is ever too long.
   [[nodiscard]] Real way(Index, Index) const { return std::numeric_limits<Real>::infinity(); }
 
+  [[nodiscard]] bool drops() const { return false; }
   [[nodiscard]] Real least_way(Index, Index) const { return std::numeric_limits<Real>::infinity(); }
 
   void expand(Index t, bool) const {

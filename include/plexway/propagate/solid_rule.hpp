@@ -67,6 +67,10 @@ class SolidRule : public SolidPaths<Real> {
     return longest;
   }
 
+  /// Can an offer be dropped that another does not make up for? Not in a convex solid.
+  [[nodiscard]] bool drops() const {
+    return any_reflex_ || !mesh_->pinched().empty() || !mesh_->pinched_edges().empty();
+  }
   /// No more than `way`; cheap.
   [[nodiscard]] Real least_way(Index t, Index u) const {
     const Point between = tets_[u].centre - tets_[t].centre;
