@@ -8,8 +8,8 @@
 
 #include "complex/test_wires.hpp"
 #include "propagate/simplex_testing.hpp"
-#include "propagate/solving.hpp"
 #include "propagate/solid_solving.hpp"
+#include "propagate/solving.hpp"
 
 namespace {
 std::atomic<std::size_t> allocations{0};
