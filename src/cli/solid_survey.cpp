@@ -73,7 +73,7 @@ SolidSurvey survey_solid(const io::Tets& solid) {
 
 std::vector<std::string> solid_warnings(const SolidSummary& summary, const SolidSurvey& survey) {
   std::vector<std::string> warnings;
-  const auto warn = [&](std::size_t count, std::string_view plural, const char* meaning) {
+  const auto warn = [&](std::size_t count, std::string_view plural, const std::string& meaning) {
     if (count > 0) warnings.push_back(counted(count, plural) + meaning);
   };
   warn(summary.pinched_edges, "pinched edges",
@@ -86,8 +86,11 @@ std::vector<std::string> solid_warnings(const SolidSummary& summary, const Solid
   warn(survey.coincident_vertices, "vertices",
        " exactly where another one lies: if the two sides of a cut have their own vertices, paths "
        "go round it");
-  warn(summary.degenerate_tets, "degenerate tetrahedra", " without volume");
-  warn(summary.inverted_tets, "inverted tetrahedra", " with negative volume: turned over");
+  const auto first = [](Index tet) { return ", tetrahedron " + std::to_string(tet) + " first"; };
+  warn(summary.degenerate_tets, "degenerate tetrahedra",
+       " without volume" + first(summary.first_degenerate));
+  warn(summary.inverted_tets, "inverted tetrahedra",
+       " with negative volume" + first(summary.first_inverted) + ": turned over");
   if (survey.slender_share > 0.01) {
     warnings.push_back("slender tetrahedra (" + short_number(100 * survey.slender_share) +
                        " % have an aspect ratio above 10): distances are less accurate and slower");

@@ -86,8 +86,10 @@ TetMesh<Real>::TetMesh(std::span<const std::array<double, 3>> positions,
     for (std::size_t i = 0; i < 4; ++i) p[i] = vector(scaled[tets[t][i]]);
     for (const auto& [i, j] : tet_edge_ends) sum += norm(p[j] - p[i]);
     volume[t] = !has_volume(p) ? 0 : determinant(p) > 0 ? 1 : -1;
-    summary_.degenerate_tets += volume[t] == 0;
-    summary_.inverted_tets += volume[t] < 0;
+    if (volume[t] == 0 && summary_.degenerate_tets++ == 0)
+      summary_.first_degenerate = static_cast<Index>(t);
+    if (volume[t] < 0 && summary_.inverted_tets++ == 0)
+      summary_.first_inverted = static_cast<Index>(t);
   }
   const auto turn = orient_tets(tets, across, volume);
   const double mean = sum > 0 ? sum / (6 * static_cast<double>(tets.size())) : 1;
@@ -224,7 +226,10 @@ void TetMesh<Real>::assemble(std::size_t vertices, std::span<const std::array<In
     lengths_.resize(m + 1);
     for (std::size_t t = 0; t < m; ++t) {
       // Through the pose, so that they are those of a tetrahedron.
-      summary_.degenerate_tets += !has_volume(points[t]);
+      if (!has_volume(points[t])) {
+        ++summary_.degenerate_tets;
+        summary_.first_degenerate = std::min(summary_.first_degenerate, order[t]);
+      }
       for (std::size_t e = 0; e < 6; ++e) {
         const auto d = points[t][tet_edge_ends[e][1]] - points[t][tet_edge_ends[e][0]];
         lengths_[t][e] = static_cast<Real>(dot(d, d));

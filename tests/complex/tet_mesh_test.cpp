@@ -74,6 +74,7 @@ TEST_CASE("inverted and flat tetrahedra are counted") {
   Solid s = solid_cube(2, 0);
   std::swap(s.tets[3][0], s.tets[3][1]);
   std::size_t inverted = 0, positive = 0;
+  Index first = none;
   for (const Tet& t : s.tets) {
     const auto at = [&](Index i, std::size_t d) {
       return s.positions[t[i]][d] - s.positions[t[0]][d];
@@ -81,15 +82,19 @@ TEST_CASE("inverted and flat tetrahedra are counted") {
     const double volume = at(1, 0) * (at(2, 1) * at(3, 2) - at(2, 2) * at(3, 1)) -
                           at(1, 1) * (at(2, 0) * at(3, 2) - at(2, 2) * at(3, 0)) +
                           at(1, 2) * (at(2, 0) * at(3, 1) - at(2, 1) * at(3, 0));
+    if (volume < 0 && inverted == 0) first = static_cast<Index>(&t - s.tets.data());
     (volume < 0 ? inverted : positive)++;
   }
   CHECK(s.mesh<double>().summary().inverted_tets == inverted);
+  CHECK(s.mesh<double>().summary().first_inverted == first);
+  CHECK(s.mesh<double>().summary().first_degenerate == none);
   // A flat one on two triangles of the boundary.
   Solid flat;
   flat.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}, {0, 0, 1}, {7, 7, 7}};
   flat.tets = {{0, 1, 2, 4}, {1, 3, 2, 4}, {0, 1, 2, 3}};
   const auto mesh = flat.mesh<double>();
   CHECK(mesh.summary().degenerate_tets == 1);
+  CHECK(mesh.summary().first_degenerate == 2);
   CHECK(mesh.summary().unreferenced_vertices == 1);
   CHECK(mesh.summary().boundary_faces == 6);
 }

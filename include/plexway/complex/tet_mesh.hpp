@@ -25,6 +25,7 @@ struct SolidSummary {
   std::size_t unreferenced_vertices = 0;  ///< in no tetrahedron: no path leads to them
   std::size_t degenerate_tets = 0;        ///< no volume, in the input's precision
   std::size_t inverted_tets = 0;          ///< negative volume as given; turned over
+  Index first_degenerate = none, first_inverted = none;  ///< the first such, if there is one
   std::size_t components = 0;  ///< of tetrahedra joined by faces or pinched edges or vertices
   double mean_edge = 0;        ///< in the input's unit; the library works in this unit inside
   bool embedded = false;       ///< has coordinates
