@@ -88,7 +88,6 @@ class SaddleStepLanes {
     rare_ = kernel::lane_bits((wholly_dark & far_side) | behind);
     bent_ = kernel::lane_bits(wholly_dark | bends_twice);
     wholly_dark_ = kernel::lane_bits(wholly_dark);
-    saddle_ = kernel::lane_bits(saddle);
 
     // An end that is a saddle and tighter than the limit takes its place. `along` makes all x run
     // from the hinge's first end.
@@ -112,20 +111,30 @@ class SaddleStepLanes {
 
   /// The label of the triangle beyond where the pivot's limit hides all of the hinge, or the path
   /// to the centre bends twice; not where rare. `t` and `k` are that triangle and its edge.
-  [[nodiscard, gnu::noinline]] SaddleLabel<Real> bent_label(bool left,
-                                                            const TriangleRecord<Real>& t,
-                                                            std::size_t k) const {
+  [[nodiscard, gnu::always_inline]] SaddleLabel<Real> bent_label(bool left,
+                                                                 const TriangleRecord<Real>& t,
+                                                                 std::size_t k) const {
+    return bent_label(left, t, k, source_.x[0], source_.h, bare_x_, bare_h_, limit_x_, limit_h_,
+                      sigma_, bent_, wholly_dark_);
+  }
+
+ private:
+  // Everything by value, so that the numbers of the common case can stay in registers.
+  [[nodiscard, gnu::noinline]] static SaddleLabel<Real> bent_label(
+      bool left, const TriangleRecord<Real>& t, std::size_t k, L source_x, L source_h, L bare_x,
+      L bare_h, L limit_x, L limit_h, Real sigma, int bent, int wholly_dark) {
     const int i = left ? 0 : 2, j = i + 1;  // the lanes of the pivot's side and of the far side
     const Real length = t.length[k];
     const Real c = (length + t.apex_x(k)) * Real(1. / 3), qh = t.apex_h(k) * Real(1. / 3);
     const Real qx = left ? c : length - c, fx = length - qx;
-    Real Sx = source_.x[0][i], Sh = source_.h[i], sigma = sigma_;
-    Real px = bare_x_[i], ph = bare_h_[i], rx = bare_x_[j], rh = bare_h_[j], d;
+    Real Sx = source_x[i], Sh = source_h[i];
+    Real px = bare_x[i], ph = bare_h[i], rx = bare_x[j], rh = bare_h[j], d;
     const auto norm = [](Real x, Real y) { return kernel::sqrt(x * x + y * y); };
-    if (wholly_dark_ >> i & 1) {
+    if (wholly_dark >> i & 1) {
       sigma += norm(px, ph);
       Sx += px, Sh += ph;
-      const bool bends_here = saddle_ >> i & 1, bends_there = saddle_ >> j & 1;
+      const std::size_t far = edge_after(k);
+      const bool bends_here = t.saddle(left ? k : far), bends_there = t.saddle(left ? far : k);
       px = bends_here ? -Sx : Real(0), ph = bends_here ? -Sh : Real(0);
       rx = bends_there ? Sx - length : Real(0), rh = bends_there ? -Sh : Real(0);
       if (Sx * qh + qx * Sh < Real(0))
@@ -137,16 +146,17 @@ class SaddleStepLanes {
     } else {
       const Real tx = Sx + px, ux = length - Sx + rx, th = Sh + ph, uh = Sh + rh;
       d = Real(0);
-      if (bent_ >> i & 1) d = norm(px, ph) + norm(tx, th) + norm(qx, qh);
-      if (bent_ >> j & 1) d = std::max(d, norm(rx, rh) + norm(ux, uh) + norm(fx, qh));
-      px = limit_x_[i] * (left ? Real(1) : Real(-1)), ph = limit_h_[i];
-      rx = limit_x_[j] * (left ? Real(-1) : Real(1)), rh = limit_h_[j];
+      if (bent >> i & 1) d = norm(px, ph) + norm(tx, th) + norm(qx, qh);
+      if (bent >> j & 1) d = std::max(d, norm(rx, rh) + norm(ux, uh) + norm(fx, qh));
+      px = limit_x[i] * (left ? Real(1) : Real(-1)), ph = limit_h[i];
+      rx = limit_x[j] * (left ? Real(-1) : Real(1)), rh = limit_h[j];
     }
     d += sigma;
     if (left) return {L(Sx, sigma, px, -rx), L(Sh, d, ph, rh)};
     return {L(length - Sx, sigma, rx, -px), L(Sh, d, rh, ph)};
   }
 
+ public:
   /// The label of the triangle beyond, where not rare.
   [[nodiscard, gnu::always_inline]] SaddleLabel<Real> left_label() const {
     return {
@@ -178,7 +188,7 @@ class SaddleStepLanes {
   typename Kernel::HingePoint source_;
   L bare_x_, bare_h_, limit_x_, limit_h_;
   Real sigma_;
-  int rare_, bent_, wholly_dark_, saddle_;
+  int rare_, bent_, wholly_dark_;
 };
 
 }  // namespace plexway
