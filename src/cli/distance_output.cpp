@@ -4,6 +4,7 @@
 #include <charconv>
 #include <filesystem>
 #include <system_error>
+#include <vector>
 
 #include <plexway/error.hpp>
 
@@ -36,9 +37,22 @@ void check_output_name(const std::string& out, const std::string& input,
     for (const std::string_view name : known) names.append(" ").append(name);
     throw UsageError("--out " + out + ": unknown extension; those written are" + names);
   }
+  // TetGen's files come in pairs: writing one writes the other, and reading a .poly may read both.
+  const auto files_of = [](const fs::path& name) {
+    std::vector<fs::path> files = {name};
+    const std::string own = name.extension().string();
+    const bool pair = own == ".node" || own == ".ele";
+    if (pair) files.push_back(fs::path(name).replace_extension(".ele"));
+    if (pair || own == ".poly" || own == ".smesh")
+      files.push_back(fs::path(name).replace_extension(".node"));
+    return files;
+  };
   std::error_code error;
-  if (fs::equivalent(file, input, error))
-    throw UsageError("--out " + out + ": is the input itself");
+  for (const fs::path& written : files_of(file))
+    for (const fs::path& read : files_of(input))
+      if (fs::equivalent(written, read, error))
+        throw UsageError("--out " + out + ": would overwrite " + read.string() +
+                         ", which the input needs");
   const fs::path folder = file.has_parent_path() ? file.parent_path() : fs::path(".");
   if (!fs::is_directory(folder, error))
     throw Error("cannot write " + out + ": there is no folder " + folder.string());

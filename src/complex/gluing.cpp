@@ -139,11 +139,12 @@ std::vector<Index> morton_order(std::span<const std::array<double, 3>> positions
   std::array<double, 3> low{}, high{};
   low.fill(std::numeric_limits<double>::infinity());
   high.fill(-std::numeric_limits<double>::infinity());
-  for (const auto& p : positions)
-    for (std::size_t d = 0; d < 3; ++d) {
-      low[d] = std::min(low[d], p[d]);
-      high[d] = std::max(high[d], p[d]);
-    }
+  for (const auto& face : faces)  // a stray vertex must not put all others into one cell
+    for (const Index v : face)
+      for (std::size_t d = 0; d < 3; ++d) {
+        low[d] = std::min(low[d], positions[v][d]);
+        high[d] = std::max(high[d], positions[v][d]);
+      }
   double width = 0;
   for (std::size_t d = 0; d < 3; ++d) width = std::max(width, high[d] / 2 - low[d] / 2);
   const double scale = width > 0 ? 0.5 * 2097151 / width : 0;

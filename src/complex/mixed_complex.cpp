@@ -119,9 +119,15 @@ std::size_t MixedComplex<Real>::weld(const Piece& a, const Piece& b,
     inside.push_back({std::visit([v = v](const auto& c) { return c.inside_vertex(v); }, one),
                       std::visit([w = w](const auto& c) { return c.inside_vertex(w); }, other)});
   }
-  for (const auto& [v, w] : pairs) outer_welds_.push_back({a.first_vertex + v, b.first_vertex + w});
   std::sort(inside.begin(), inside.end());
   inside.erase(std::unique(inside.begin(), inside.end()), inside.end());
+  for (const std::size_t side : {0, 1}) {
+    std::vector<Index> partners((side == 0 ? a : b).vertices, 0);
+    for (const auto& pair : inside)
+      if (++partners[pair[side]] > 16)
+        throw UsageError(
+            "a vertex would be welded to more than 16 others: is the tolerance larger than edges?");
+  }
 
   SharedFaces shared = std::visit(
       [&](const auto& c, const auto& d) { return find_shared_faces(c, d, inside); }, one, other);
@@ -141,6 +147,7 @@ std::size_t MixedComplex<Real>::weld(const Piece& a, const Piece& b,
     welds_.push_back({{a.number, b.number}, {inside[i][0], inside[i][1]}, hinge});
     summary_.hinges[0] += hinge;
   }
+  for (const auto& [v, w] : pairs) outer_welds_.push_back({a.first_vertex + v, b.first_vertex + w});
   summary_.welded_vertices += inside.size();
   return inside.size();
 }
@@ -148,7 +155,8 @@ std::size_t MixedComplex<Real>::weld(const Piece& a, const Piece& b,
 template <class Real>
 std::size_t MixedComplex<Real>::bytes() const {
   std::size_t sum = hinges_.capacity() * sizeof(Hinge) + members_.capacity() * sizeof(Member) +
-                    welds_.capacity() * sizeof(Weld);
+                    welds_.capacity() * sizeof(Weld) +
+                    outer_welds_.capacity() * sizeof(outer_welds_[0]);
   for (const Complex& c : complexes_)
     sum += std::visit([](const auto& complex) { return complex.bytes(); }, c);
   for (const auto& p : positions_) sum += p.capacity() * sizeof(p[0]);

@@ -7,9 +7,12 @@
 
 namespace plexway {
 
-std::vector<std::array<Index, 2>> nearby_pairs(std::span<const std::array<double, 3>> a,
-                                               std::span<const std::array<double, 3>> b,
-                                               double tolerance) {
+namespace {
+
+using Points = std::span<const std::array<double, 3>>;
+
+// For each point of a the nearest of b.
+std::vector<std::array<Index, 2>> nearest_pairs(Points a, Points b, double tolerance) {
   // The points of b along one axis, the one in which they spread most; then a band of them each.
   std::array<double, 3> low = {}, high = {};
   for (std::size_t k = 0; k < 3; ++k) {
@@ -38,6 +41,16 @@ std::vector<std::array<Index, 2>> nearby_pairs(std::span<const std::array<double
     }
     if (best != none) pairs.push_back({static_cast<Index>(i), best});
   }
+  return pairs;
+}
+
+}  // namespace
+
+std::vector<std::array<Index, 2>> nearby_pairs(Points a, Points b, double tolerance) {
+  std::vector<std::array<Index, 2>> pairs = nearest_pairs(a, b, tolerance);
+  for (const auto& [j, i] : nearest_pairs(b, a, tolerance)) pairs.push_back({i, j});
+  std::sort(pairs.begin(), pairs.end());
+  pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
   return pairs;
 }
 

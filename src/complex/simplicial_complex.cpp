@@ -217,10 +217,9 @@ void SimplicialComplex<Real, N>::assemble(std::size_t vertices, std::span<const 
         continue;
       }
       to |= FacetAcross::fan;
-      bool first = true;
-      for (Index f = other; f != facet; f = across[f]) first = first && facet < f;
-      summary_.facets += first;
-      summary_.fan_facets += first;
+      const bool last = other < facet;  // the cycle ascends but for one step
+      summary_.facets += last;
+      summary_.fan_facets += last;
     }
     const SimplexShape shape = simplex_shape<N>(lengths[s]);
     summary_.degenerate_simplices += shape == SimplexShape::degenerate;

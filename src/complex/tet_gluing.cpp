@@ -171,11 +171,12 @@ std::vector<Index> morton_order(std::span<const std::array<double, 3>> positions
   std::array<double, 3> low{}, high{};
   low.fill(std::numeric_limits<double>::infinity());
   high.fill(-std::numeric_limits<double>::infinity());
-  for (const auto& p : positions)
-    for (std::size_t d = 0; d < 3; ++d) {
-      low[d] = std::min(low[d], p[d]);
-      high[d] = std::max(high[d], p[d]);
-    }
+  for (const auto& tet : tets)
+    for (const Index v : tet)
+      for (std::size_t d = 0; d < 3; ++d) {
+        low[d] = std::min(low[d], positions[v][d]);
+        high[d] = std::max(high[d], positions[v][d]);
+      }
   double width = 0;
   for (std::size_t d = 0; d < 3; ++d) width = std::max(width, high[d] - low[d]);
   const double scale = width > 0 ? 2097151 / width : 0;

@@ -21,18 +21,21 @@ Vector3<double> vector(const std::array<double, 3>& p) { return {p[0], p[1], p[2
 // In units of the largest extent and about the middle, so that an offset does no harm and nothing
 // overflows.
 std::vector<std::array<double, 3>> centred(std::span<const std::array<double, 3>> positions,
+                                           std::span<const std::array<Index, 4>> tets,
                                            double& extent) {
   std::array<double, 3> low{}, high{};
   low.fill(std::numeric_limits<double>::infinity());
   high.fill(-std::numeric_limits<double>::infinity());
   for (std::size_t v = 0; v < positions.size(); ++v)
-    for (std::size_t d = 0; d < 3; ++d) {
-      const double x = positions[v][d];
+    for (const double x : positions[v])
       if (!std::isfinite(x))
         throw InputError("vertex " + std::to_string(v) + ": a coordinate is not a finite number");
-      low[d] = std::min(low[d], x);
-      high[d] = std::max(high[d], x);
-    }
+  for (const auto& tet : tets)  // a stray vertex must not cost the others their digits
+    for (const Index v : tet)
+      for (std::size_t d = 0; d < 3; ++d) {
+        low[d] = std::min(low[d], positions[v][d]);
+        high[d] = std::max(high[d], positions[v][d]);
+      }
   extent = 0;
   for (std::size_t d = 0; d < 3; ++d) extent = std::max(extent, high[d] / 2 - low[d] / 2);
   if (extent > std::numeric_limits<double>::max() / 16)
@@ -77,7 +80,7 @@ TetMesh<Real>::TetMesh(std::span<const std::array<double, 3>> positions,
                        std::span<const std::array<Index, 4>> tets) {
   check_tets(positions.size(), tets);
   double extent = 1;
-  auto scaled = centred(positions, extent);
+  auto scaled = centred(positions, tets, extent);
   const auto across = glue_tets(positions.size(), tets);
   std::vector<char> volume(tets.size());
   double sum = 0;

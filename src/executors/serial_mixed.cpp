@@ -90,13 +90,19 @@ void propagate(Serial, const MixedComplex<Real>& domain, std::span<const PointSo
     if (sources[n].vertex != none)
       offer(sources[n].vertex, static_cast<Real>(sources[n].offset), static_cast<Index>(n));
   // Welded vertices are one. A chain of welds may need several rounds.
-  for (bool any = true; any;) {
-    any = false;
-    for (const auto& weld : domain.outer_welds()) {
-      const auto [v, w] = weld;
-      any |= offer(v, field.distance[w], field.label[w]) ||
-             offer(w, field.distance[v], field.label[v]);
+  const auto weld = [&] {
+    bool any = false, again = true;
+    while (again) {
+      again = false;
+      for (const auto& [v, w] : domain.outer_welds())
+        again |= offer(v, field.distance[w], field.label[w]) ||
+                 offer(w, field.distance[v], field.label[v]);
+      any |= again;
     }
+    return any;
+  };
+  weld();
+  while (propagation.relax(field) && weld()) {
   }
   const Real infinity = std::numeric_limits<Real>::infinity();
   for (std::size_t v = 0; v < field.distance.size(); ++v)

@@ -39,7 +39,10 @@ class HingeChains {
   }
 
   /// Does hinge n lead into a solid over an edge, from its side `side`?
-  [[nodiscard]] bool at_solid(Index n, std::size_t side) const { return solid_[n] == side; }
+  [[nodiscard]] bool at_solid(Index n, std::size_t side) const {
+    const auto& hinge = domain_->hinges()[n];
+    return hinge.dimension == 1 && solid_at(hinge.piece[side]) != nullptr;
+  }
 
   /// From x = low to high along hinge n, in its frame, the same source is seen as by member m.
   [[nodiscard]] std::pair<Real, Real> visible(Index n, std::size_t side,

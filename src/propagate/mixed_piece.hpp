@@ -52,9 +52,13 @@ class MixedPiece {
   /// K = 1 into a solid: paths from one source may pass the hinge's line from x = low to high.
   /// Gives the `ring` to enter with.
   virtual Index open_ring(const Member&, Real, Real) { return none; }
+  /// Nothing was accepted with the ring opened last.
+  virtual void close_ring() {}
 
   /// One a vertex, in the caller's order.
   virtual void read_out(std::span<Real> distance, std::span<Index> label) = 0;
+  /// No vertex is farther than a neighbour and the edge between. True if some vertex got nearer.
+  virtual bool relax(std::span<Real>, std::span<Index>) { return false; }
   [[nodiscard]] virtual PropagateStatistics statistics() const = 0;
   [[nodiscard]] virtual bool out_of_budget() const = 0;
 };

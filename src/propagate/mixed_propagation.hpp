@@ -105,6 +105,16 @@ class MixedPropagation {
     }
   }
 
+  /// After sources and welded vertices have had their say. True if some vertex got nearer.
+  bool relax(DistanceField<Real>& field) const {
+    bool any = false;
+    for (const auto& piece : domain_.pieces())
+      any |= pieces_[piece.number]->relax(
+          std::span(field.distance).subspan(piece.first_vertex, piece.vertices),
+          std::span(field.label).subspan(piece.first_vertex, piece.vertices));
+    return any;
+  }
+
  private:
   static constexpr Real infinity = std::numeric_limits<Real>::infinity();
 
@@ -172,8 +182,11 @@ class MixedPropagation {
         const auto [low, high] = chains_.visible(n, side, posed_, m);
         ring = pieces_[to]->open_ring(domain_.members()[hinge.begin[1 - side]], low, high);
       }
+      bool entered = false;
       for (Index k = hinge.begin[1 - side]; k < hinge.end[1 - side]; ++k)
-        accepted(to, pieces_[to]->enter(domain_.members()[k], hinge.dimension, posed_[m], ring));
+        entered |= pieces_[to]->enter(domain_.members()[k], hinge.dimension, posed_[m], ring);
+      accepted(to, entered);
+      if (ring != none && !entered) pieces_[to]->close_ring();
     }
     return any;
   }

@@ -104,17 +104,36 @@ class MixedSolid final : public MixedPiece<Real> {
     return static_cast<Index>(rings_.size() - 1);
   }
 
+  void close_ring() override { rings_.pop_back(); }
+
   void read_out(std::span<Real> distance, std::span<Index> label) override {
     const std::size_t vertices = mesh_.vertex_count();
     workspace_.vertex.assign(vertices, infinity);
     workspace_.vertex_source.assign(vertices, none);
     workspace_.vertex_path.assign(vertices, 0);
     read_out_tets<Real, true>(mesh_, rule_, wave_, workspace_);
-    read_out_tet_edges<Real, true>(mesh_, workspace_);
     for (std::size_t v = 0; v < vertices; ++v) {
       distance[v] = workspace_.vertex[mesh_.vertices_inside()[v]] * unit_;
       label[v] = workspace_.vertex_source[mesh_.vertices_inside()[v]];
     }
+  }
+
+  bool relax(std::span<Real> distance, std::span<Index> label) override {
+    const std::span<const Index> inside = mesh_.vertices_inside();
+    for (std::size_t v = 0; v < distance.size(); ++v) {
+      workspace_.vertex[inside[v]] = distance[v] / unit_;
+      workspace_.vertex_source[inside[v]] = label[v];
+    }
+    if (!read_out_tet_edges<Real, true>(mesh_, workspace_)) return false;
+    bool any = false;
+    for (std::size_t v = 0; v < distance.size(); ++v) {
+      const Real d = workspace_.vertex[inside[v]] * unit_;
+      if (!(d < distance[v])) continue;
+      distance[v] = d;
+      label[v] = workspace_.vertex_source[inside[v]];
+      any = true;
+    }
+    return any;
   }
 
   PropagateStatistics statistics() const override {

@@ -99,11 +99,28 @@ class MixedSurface final : public MixedPiece<Real> {
     for (Index v = 0; v < vertices; ++v)
       if (!(workspace_.vertex[v] < infinity))
         read_out_around<Real, true>(mesh_, rule_, wave_, v, workspace_);
-    read_out_edges<Real, true>(mesh_.triangles(), workspace_);
     for (std::size_t v = 0; v < vertices; ++v) {
       distance[v] = workspace_.vertex[mesh_.vertices_inside()[v]] * unit_;
       label[v] = workspace_.vertex_source[mesh_.vertices_inside()[v]];
     }
+  }
+
+  bool relax(std::span<Real> distance, std::span<Index> label) override {
+    const std::span<const Index> inside = mesh_.vertices_inside();
+    for (std::size_t v = 0; v < distance.size(); ++v) {
+      workspace_.vertex[inside[v]] = distance[v] / unit_;
+      workspace_.vertex_source[inside[v]] = label[v];
+    }
+    if (!read_out_edges<Real, true>(mesh_.triangles(), workspace_)) return false;
+    bool any = false;
+    for (std::size_t v = 0; v < distance.size(); ++v) {
+      const Real d = workspace_.vertex[inside[v]] * unit_;
+      if (!(d < distance[v])) continue;
+      distance[v] = d;
+      label[v] = workspace_.vertex_source[inside[v]];
+      any = true;
+    }
+    return any;
   }
 
   PropagateStatistics statistics() const override {

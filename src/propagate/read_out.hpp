@@ -113,28 +113,38 @@ void read_out_corners(std::span<const TriangleRecord<Real>> triangles, const Rul
   }
 }
 
-/// No vertex is farther than a neighbour and the edge between. A triangle keeps
-/// one label, the best for its centre, and now and then, at a corner on a
-/// ragged boundary, that one is poor.
+/// No vertex is farther than a neighbour and the edge between. A triangle keeps one label, the best
+/// for its centre, and now and then, at a corner on a ragged boundary, that one is poor. True if
+/// some vertex got nearer. Cost: a pass, and as many more as it takes, which is one on most meshes.
 template <class Real, bool kLabels>
-void read_out_edges(std::span<const TriangleRecord<Real>> triangles, Workspace<Real>& workspace) {
+bool read_out_edges(std::span<const TriangleRecord<Real>> triangles, Workspace<Real>& workspace) {
   Real* d = workspace.vertex.data();
-  for (std::size_t f = 0; f + 1 < triangles.size(); ++f) {
-    const TriangleRecord<Real>& t = triangles[f];
+  const auto relax = [&](const TriangleRecord<Real>& t) {
     const Real a = d[t.corner[0]], b = d[t.corner[1]], c = d[t.corner[2]];
     const Real x = t.length[0], y = t.length[1], z = t.length[2];
     const bool fine = std::abs(a - b) <= x && std::abs(b - c) <= y && std::abs(c - a) <= z;
     if (fine) [[likely]]
-      continue;
+      return false;
+    bool nearer = false;
     for (std::size_t i = 0; i < 3; ++i) {
       const Index v = t.corner[i], w = t.corner[i == 2 ? 0 : i + 1];
       for (const auto& [from, to] : {std::pair(v, w), std::pair(w, v)})
         if (d[from] + t.length[i] < d[to] && d[to] < std::numeric_limits<Real>::infinity()) {
           d[to] = d[from] + t.length[i];
           if constexpr (kLabels) workspace.vertex_source[to] = workspace.vertex_source[from];
+          nearer = true;
         }
     }
+    return nearer;
+  };
+  const std::size_t faces = triangles.size() - 1;
+  bool any = false;
+  for (bool again = true, backward = false; again; backward = !backward) {
+    again = false;
+    for (std::size_t f = 0; f < faces; ++f) again |= relax(triangles[backward ? faces - 1 - f : f]);
+    any |= again;
   }
+  return any;
 }
 
 /// A vertex that no triangle offered a distance takes the best path to one of

@@ -46,11 +46,11 @@ class SolidPropagation {
   }
 
   void run() {
-    int rounds = 0;
+    int repairs = 0;
     do {
-      spread(rounds > 8);
+      spread(repairs > 8);
       if (front_.out_of_budget()) return;
-    } while (++rounds < 64 && (pass_pinches() | repair(rounds)));
+    } while (pass_pinches() || (++repairs < 64 && repair(repairs)));
   }
 
   [[nodiscard]] Rule& rule() { return rule_; }

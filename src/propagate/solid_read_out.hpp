@@ -1,5 +1,7 @@
 #pragma once
 
+#include <array>
+#include <cmath>
 #include <limits>
 #include <span>
 #include <utility>
@@ -30,26 +32,41 @@ void read_out_tets(const TetMesh<Real>& mesh, const Rule& rule, const Front& fro
   }
 }
 
-/// No vertex is farther than a neighbour and the edge between.
+/// No vertex is farther than a neighbour and the edge between. True if some vertex got nearer.
+/// Cost: a pass, and as many more as it takes.
 template <class Real, bool kLabels>
-void read_out_tet_edges(const TetMesh<Real>& mesh, Workspace<Real>& workspace) {
+bool read_out_tet_edges(const TetMesh<Real>& mesh, Workspace<Real>& workspace) {
   const std::span<const TetRecord<Real>> tets = mesh.tets();
   const std::span<const Vector3<Real>> points = mesh.points();
+  const std::span<const std::array<Real, 6>> lengths = mesh.squared_lengths();
   Real* d = workspace.vertex.data();
-  for (std::size_t t = 0; t + 1 < tets.size(); ++t)
-    for (const auto& ends : tet_edge_ends) {
-      Index v = tets[t].corner[ends[0]], w = tets[t].corner[ends[1]];
+  const auto relax = [&](std::size_t t) {
+    bool nearer = false;
+    for (std::size_t edge = 0; edge < 6; ++edge) {
+      Index v = tets[t].corner[tet_edge_ends[edge][0]], w = tets[t].corner[tet_edge_ends[edge][1]];
       if (d[w] < d[v]) std::swap(v, w);
       if (!(d[w] < std::numeric_limits<Real>::infinity())) continue;
-      const Vector3<Real> e = points[w] - points[v];
+      const Vector3<Real> e = mesh.embedded() ? points[w] - points[v] : Vector3<Real>{};
+      const Real length2 = mesh.embedded() ? dot(e, e) : lengths[t][edge];
       const Real rise = d[w] - d[v];
-      if (rise * rise <= dot(e, e)) [[likely]]
+      if (rise * rise <= length2) [[likely]]
         continue;
-      const Real by = d[v] + norm(e);
+      const Real by = d[v] + std::sqrt(length2);
       if (!(by < d[w])) continue;
       d[w] = by;
       if constexpr (kLabels) workspace.vertex_source[w] = workspace.vertex_source[v];
+      nearer = true;
     }
+    return nearer;
+  };
+  const std::size_t count = mesh.tet_count();
+  bool any = false;
+  for (bool again = true, backward = false; again; backward = !backward) {
+    again = false;
+    for (std::size_t t = 0; t < count; ++t) again |= relax(backward ? count - 1 - t : t);
+    any |= again;
+  }
+  return any;
 }
 
 }  // namespace plexway

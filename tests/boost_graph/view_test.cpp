@@ -177,6 +177,21 @@ TEST_CASE("view: connected components agree with ours, and with the summary") {
 
 TEST_CASE("connected components of triangles and tetrahedra") {
   using boost_graph::connected_components;
+  {
+    const std::vector<std::array<double, 3>> at = {{0, 0, 0}, {1, 0, 0}, {0, 2, 0},
+                                                   {0, 0, 3}, {1, 2, 3}, {9, 9, 9}};
+    const std::vector<std::array<Index, 4>> tets = {{0, 1, 2, 3}, {4, 1, 2, 3}};
+    const TetMesh<double> solid(at, tets);
+    const Components parts = connected_components(solid);
+    CHECK(parts.count == 2);
+    CHECK(parts.of_vertex == std::vector<Index>{0, 0, 0, 0, 0, 1});
+    const boost_graph::EdgeGraph graph(solid);
+    CHECK(graph.edges().size() == 9);
+    for (std::size_t e = 0; e < graph.edges().size(); ++e) {
+      const auto &p = at[graph.edges()[e][0]], &q = at[graph.edges()[e][1]];
+      CHECK(graph.lengths()[e] == Approx(std::hypot(p[0] - q[0], p[1] - q[1], p[2] - q[2])));
+    }
+  }
   const Components surfaces =
       connected_components(9, std::vector<std::array<Index, 3>>{{4, 3, 5}, {0, 1, 2}, {5, 6, 7}});
   CHECK(surfaces.count == 3);

@@ -49,6 +49,15 @@ std::string cube_off(double shift = 0, bool open = false) {
 
 #ifdef PLEXWAY_HAS_TETGEN
 
+TEST_CASE("tetrahedralize does not overwrite points that its input reads") {
+  const Folder folder;
+  folder.write("part.node", "4 3 0 0\n0 0 0 0\n1 1 0 0\n2 0 1 0\n3 0 0 1\n");
+  const auto poly = folder.write(
+      "part.poly", "0 3 0 0\n4 0\n1\n3 0 1 2\n1\n3 0 1 3\n1\n3 0 2 3\n1\n3 1 2 3\n0\n");
+  check_refused({"tetrahedralize", poly.string(), "--out", (folder.path() / "part.ele").string()},
+                2, "would overwrite");
+}
+
 TEST_CASE("tetrahedralize writes every format, the surface's vertices first") {
   const Folder folder;
   const auto surface = plexway::io::read_triangles(sample("elbow.off"));

@@ -316,6 +316,44 @@ TEST_CASE("two blocks glued on a face are one") {
   }
 }
 
+TEST_CASE("blocks that share an edge are joined by it whichever comes first") {
+  Domain domain(0);
+  const auto one = domain.add(block({0, 0, 0}, {1, 1, 1}, 3));
+  const auto other = domain.add(block({1, 0, 1}, {2, 1, 2}, 3));
+  CHECK(domain.weld(one, other) == 4);
+  CHECK(domain.complex.summary().hinges == std::array<std::size_t, 3>{0, 3, 0});
+  const auto off_edge = [&](Index v) {
+    const Position& p = domain.positions[v];
+    return std::hypot(p[0] - 1, p[2] - 1);
+  };
+  for (const Index source : {one.vertex(0), one.vertex(22), other.vertex(63), other.vertex(40)})
+    CHECK(domain.worst(source, [&](Index v) {
+      const bool same = Domain::of(one, v) == Domain::of(one, source);
+      const Position &p = domain.positions[source], &q = domain.positions[v];
+      return same ? distance(p, q) : around(p[1], off_edge(source), q[1], off_edge(v));
+    }) < 1e-9);
+}
+
+TEST_CASE("welding by nearness is the same from both sides, and refuses too much") {
+  const Sheet big = sheet({0, 0, 0}, {1, 0, 0}, {0, 1, 0}, 1, 1);
+  Sheet twice = big;  // a second sheet whose vertices lie where those of the first do
+  for (const auto& f : big.faces) twice.faces.push_back({f[0] + 4, f[1] + 4, f[2] + 4});
+  twice.positions.insert(twice.positions.end(), big.positions.begin(), big.positions.end());
+  for (const bool turned : {false, true}) {
+    Domain domain(0);
+    const auto a = domain.add(turned ? twice : big), b = domain.add(turned ? big : twice);
+    CHECK(domain.weld(a, b) == 8);
+    CHECK(domain.worst(a.vertex(0), [&](Index v) {
+      return distance(domain.positions[v], {0, 0, 0});
+    }) < 1e-9);
+  }
+  Domain domain(0);
+  const auto fine = domain.add(sheet({0, 0, 0}, {1, 0, 0}, {0, 1, 0}, 12, 12));
+  const auto coarse = domain.add(big);
+  CHECK_THROWS_AS(domain.complex.weld(fine, coarse, {.tolerance = .6}), UsageError);
+  CHECK(domain.complex.weld(fine, coarse, {.tolerance = .01}) == 4);
+}
+
 TEST_CASE("parts that are not welded are not reached") {
   Domain domain(0);
   const auto plate = domain.add(sheet({0, 0, 0}, {1, 0, 0}, {0, 1, 0}, 2, 2));

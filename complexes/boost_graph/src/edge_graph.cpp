@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <string>
 
@@ -73,6 +74,30 @@ EdgeGraph::EdgeGraph(const TriangleMesh<Real>& mesh) {
   assemble(mesh.vertex_count());
 }
 
+template <class Real>
+EdgeGraph::EdgeGraph(const TetMesh<Real>& mesh) {
+  const std::vector<Index> outside = outside_of(mesh.vertices_inside());
+  std::vector<std::array<Index, 4>> found;  // ends, and where the length is
+  for (Index t = 0; t < mesh.tet_count(); ++t)
+    for (Index e = 0; e < 6; ++e) {
+      const Index a = outside[mesh.tets()[t].corner[tet_edge_ends[e][0]]];
+      const Index b = outside[mesh.tets()[t].corner[tet_edge_ends[e][1]]];
+      found.push_back({std::min(a, b), std::max(a, b), t, e});
+    }
+  std::sort(found.begin(), found.end());
+  for (const auto& [a, b, t, e] : found) {
+    if (!edges_.empty() && edges_.back() == std::array<Index, 2>{a, b}) continue;
+    edges_.push_back({a, b});
+    const auto& corner = mesh.tets()[t].corner;
+    const double length =
+        mesh.embedded() ? static_cast<double>(norm(mesh.points()[corner[tet_edge_ends[e][1]]] -
+                                                   mesh.points()[corner[tet_edge_ends[e][0]]]))
+                        : std::sqrt(static_cast<double>(mesh.squared_lengths()[t][e]));
+    lengths_.push_back(length * mesh.unit());
+  }
+  assemble(mesh.vertex_count());
+}
+
 void EdgeGraph::assemble(std::size_t vertices) {
   begin_.assign(vertices + 1, 0);
   for (const auto& [a, b] : edges_) {
@@ -92,6 +117,8 @@ void EdgeGraph::assemble(std::size_t vertices) {
 template EdgeGraph::EdgeGraph(const Wireframe<float>&);
 template EdgeGraph::EdgeGraph(const Wireframe<double>&);
 template EdgeGraph::EdgeGraph(const TriangleMesh<float>&);
+template EdgeGraph::EdgeGraph(const TetMesh<float>&);
+template EdgeGraph::EdgeGraph(const TetMesh<double>&);
 template EdgeGraph::EdgeGraph(const TriangleMesh<double>&);
 
 }  // namespace plexway::boost_graph

@@ -86,6 +86,19 @@ Components connected_components(const TriangleMesh<Real>& mesh) {
       [&](Index v) { return mesh.inside_vertex(v); });
 }
 
+template <class Real>
+Components connected_components(const TetMesh<Real>& mesh) {
+  return components_by(
+      mesh.vertex_count(),
+      [&](auto join) {
+        for (const auto& t : mesh.tets().first(mesh.tet_count()))
+          for (std::size_t i = 1; i < 4; ++i) join(t.corner[0], t.corner[i]);
+      },
+      [&](Index v) { return mesh.inside_vertex(v); });
+}
+
+template Components connected_components(const TetMesh<float>&);
+template Components connected_components(const TetMesh<double>&);
 template Components connected_components(const Wireframe<float>&);
 template Components connected_components(const Wireframe<double>&);
 template Components connected_components(const TriangleMesh<float>&);

@@ -107,6 +107,8 @@ void send_array(int to, const Number* numbers, std::uint64_t count) {
     header.ending = code == 0 ? static_cast<int>(Ending::internal_error) : code;
   } catch (const std::bad_alloc&) {
     header.ending = static_cast<int>(Ending::out_of_memory);
+  } catch (...) {
+    header.ending = static_cast<int>(Ending::internal_error);
   }
   std::fflush(stdout);
   if (header.ending == 0) {

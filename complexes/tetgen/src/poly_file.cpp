@@ -208,13 +208,12 @@ class Reader {
     std::vector<Index> polygon;
     for (std::size_t c = 0; c < corners; ++c) {
       if (!lines_.more()) lines_.expect("all corners of the polygon");
-      const std::int64_t v = lines_.integer("a corner") - first_;
-      if (v < 0 || static_cast<std::size_t>(v) >= complex_.positions.size())
-        lines_.fail(
-            "a polygon names point " + std::to_string(v + first_) + ", but the points are " +
-            std::to_string(first_) + " to " +
-            std::to_string(static_cast<std::int64_t>(complex_.positions.size()) - 1 + first_));
-      polygon.push_back(static_cast<Index>(v));
+      const std::int64_t named = lines_.integer("a corner");
+      const auto points = static_cast<std::int64_t>(complex_.positions.size());
+      if (named < first_ || named - first_ >= points)
+        lines_.fail("a polygon names point " + std::to_string(named) + ", but the points are " +
+                    std::to_string(first_) + " to " + std::to_string(points - 1 + first_));
+      polygon.push_back(static_cast<Index>(named - first_));
     }
     return polygon;
   }

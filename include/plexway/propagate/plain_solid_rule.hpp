@@ -117,10 +117,20 @@ class PlainSolidRule {
     Label label;
     for (Index i = 0; i < 4; ++i)
       label.distance2[i] = std::max(squared_from(t, barycentric, i), Real(0));
-    if (!accept(t, 0, label, sigma, source)) return;
+    // Farther from the centre than another source here, it may still be the nearer one beyond.
+    const bool better = accept(t, 0, label, sigma, source);
+    const Label kept = labels_[t];
+    const Index kept_source = front_->source(t);
+    if (!better) {
+      label.sigma = sigma;
+      labels_[t] = label;
+      front_->set_source(t, source);
+    }
     inside_ = t;
     for (Index i = 0; i < 4; ++i) cross(t, i, false);
     inside_ = none;
+    labels_[t] = kept;
+    front_->set_source(t, kept_source);
   }
 
   [[nodiscard]] Real corner_distance(Index t, Index i, Real = 0) const {

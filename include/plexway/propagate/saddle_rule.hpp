@@ -137,18 +137,21 @@ class SaddleRule {
     const TriangleRecord<Real>& t = triangles_[f];
     const Real dx = (t.length[0] + t.apex_x(0)) / 3 - x, dy = t.apex_h(0) / 3 - y;
     const Real d = sigma + std::sqrt(dx * dx + dy * dy);
-    if (!(d < to_beat(f))) return;
+    // Farther from the centre than another source here, it may still be the nearer one beyond.
+    const bool better = d < to_beat(f);
+    const Label kept = labels_[f];
     labels_[f].x = kernel::Lanes<Real>(x, sigma, 0, 0);
     labels_[f].h = kernel::Lanes<Real>(-y, d, 0, 0);
-    front_.accept(f, 0, d, source);
+    if (better) front_.accept(f, 0, d, source);
     // Expansion would not take edge 0, and would take a source on an edge for one behind it.
     for (std::size_t edge = 0; edge < 3; ++edge) {
       int pivot = -1;
       Posed here = leave(f, 0, edge, pivot);
       here.source.h = std::max(here.source.h, Real(0));
       here.limit[0] = here.limit[1] = here.source;
-      cross_posed(f, edge, here, -1, true, front_.source(f));
+      cross_posed(f, edge, here, -1, true, source);
     }
+    if (!better) labels_[f] = kept;
   }
 
   /// Length of the path to corner i of a reached triangle.
@@ -235,6 +238,7 @@ class SaddleRule {
       const Real ux = (cx[j] - cx[i]) / length, uy = (cy[j] - cy[i]) / length;
       const Real along = (x - cx[i]) * ux + (y - cy[i]) * uy;
       const Real off = (y - cy[i]) * ux - (x - cx[i]) * uy;
+      if (h == 0 && off < 0) continue;  // in the plane of f and already beyond this edge
       Posed p;
       p.source = {{length - along}, std::sqrt(off * off + h * h)};
       p.limit[0] = p.limit[1] = p.source;

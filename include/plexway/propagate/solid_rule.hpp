@@ -17,7 +17,7 @@ namespace plexway {
 inline constexpr Index tet_face_corners[4][3] = {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}};
 
 /// Visibility::saddles on solids in space: a virtual source is a point, or a ring about a reflex
-/// edge; paths bend at reflex edges only, and each label remembers two that may hide its source.
+/// edge; paths bend at reflex edges only, and each label remembers four that may hide its source.
 template <class Real, class Front>
 class SolidRule : public SolidPaths<Real> {
   using Paths = SolidPaths<Real>;
@@ -130,8 +130,17 @@ class SolidRule : public SolidPaths<Real> {
     Point at = {0, 0, 0};
     for (std::size_t i = 0; i < 4; ++i)
       at = at + static_cast<Real>(barycentric[i]) * points_[tets_[t].corner[i]];
-    if (!seed(t, at, 0, sigma, source)) return;
+    // Farther from the centre than another source here, it may still be the nearer one beyond.
+    const bool better = seed(t, at, 0, sigma, source);
+    const Label kept = labels_[t];
+    const Index kept_source = front_->source(t);
+    if (!better) {
+      labels_[t] = point_label(at, sigma);
+      front_->set_source(t, source);
+    }
     for (Index i = 0; i < 4; ++i) cross(t, i, false);
+    labels_[t] = kept;
+    front_->set_source(t, kept_source);
   }
 
   /// Length of the path to corner i of a reached tetrahedron, as far as it is below `known`.
@@ -197,8 +206,7 @@ class SolidRule : public SolidPaths<Real> {
   /// A source at `eye`, outside, comes in over a face of t.
   bool enter_face(Index t, std::size_t face, const Point& eye, Real sigma, Index source) const {
     const Point q = tets_[t].centre;
-    Label label = {eye, sigma, 0, none, {}, name_of(eye, sigma)};
-    clear_limits(label);
+    Label label = point_label(eye, sigma);
     Reach path = {eye, sigma + norm(q - eye), -1};
     if (!(path.length < to_beat(t))) return false;
     // The face as seen from within, where the path goes on.
@@ -384,16 +392,17 @@ class SolidRule : public SolidPaths<Real> {
     path = {at, walked + norm(q - at), -1};
   }
 
+  static Label point_label(const Point& at, Real sigma) {
+    Label label = {at, sigma, 0, none, {}, name_of(at, sigma)};
+    clear_limits(label);
+    return label;
+  }
+
   bool seed(Index t, const Point& at, Index hinge, Real sigma, Index source) const {
     const Real d = sigma + norm(tets_[t].centre - at);
     if (!(d < to_beat(t))) return false;
-    Label& label = labels_[t];
-    label.source = at;
-    label.sigma = sigma;
-    label.centre = d;
-    label.ring = none;
-    clear_limits(label);
-    label.path = name_of(at, sigma);
+    labels_[t] = point_label(at, sigma);
+    labels_[t].centre = d;
     front_->accept(t, hinge, d, source);
     return true;
   }

@@ -47,6 +47,10 @@ class Wavefront {
     return 0;
   }
 
+  void set_source(Index s, Index source) {
+    if constexpr (kLabels) source_[s] = source;
+  }
+
   /// The next simplex to expand; false when none is left or the current share of the budget is
   /// spent: then `take_stock` says whether to go on.
   template <class DistanceOf>

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include <plexway/complex/ids.hpp>
+#include <plexway/complex/tet_mesh.hpp>
 #include <plexway/complex/triangle_mesh.hpp>
 #include <plexway/complex/wireframe.hpp>
 
@@ -22,11 +23,14 @@ class EdgeGraph {
             std::span<const double> lengths);
 
   /// Of a complex, with the caller's vertices. Edges of a wireframe have the caller's numbers,
-  /// those of a surface an order of its own, each once whatever the number of triangles on it.
+  /// those of a surface or a solid an order of its own, each once whatever the number of simplices
+  /// on it.
   template <class Real>
   explicit EdgeGraph(const Wireframe<Real>& wireframe);
   template <class Real>
   explicit EdgeGraph(const TriangleMesh<Real>& mesh);
+  template <class Real>
+  explicit EdgeGraph(const TetMesh<Real>& mesh);
 
   /// An edge as a vertex has it.
   struct Arc {

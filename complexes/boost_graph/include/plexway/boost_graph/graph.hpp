@@ -6,6 +6,7 @@
 #include <vector>
 
 #include <plexway/complex/ids.hpp>
+#include <plexway/complex/tet_mesh.hpp>
 #include <plexway/complex/triangle_mesh.hpp>
 #include <plexway/complex/wireframe.hpp>
 
@@ -27,11 +28,13 @@ struct Components {
 [[nodiscard]] Components connected_components(std::size_t vertices,
                                               std::span<const std::array<Index, 4>> tets);
 
-/// Of a complex, in the caller's order. Triangles that only touch in a vertex are joined by it, as
+/// Of a complex, in the caller's order. Simplices that only touch in a vertex are joined by it, as
 /// paths may pass there.
 template <class Real>
 [[nodiscard]] Components connected_components(const Wireframe<Real>& wireframe);
 template <class Real>
 [[nodiscard]] Components connected_components(const TriangleMesh<Real>& mesh);
+template <class Real>
+[[nodiscard]] Components connected_components(const TetMesh<Real>& mesh);
 
 }  // namespace plexway::boost_graph
