@@ -101,7 +101,8 @@ TetGluing glue_tets(std::size_t vertices, Tets tets) {
   return across;
 }
 
-std::vector<char> orient_tets(Tets tets, const TetGluing& across, std::span<const char> volume) {
+std::vector<char> orient_tets(Tets tets, const TetGluing& across,
+                              std::span<const signed char> volume) {
   std::vector<char> turn(tets.size(), 0);
   std::vector<char> known(tets.size(), 0);
   std::vector<Index> queue;
@@ -113,6 +114,16 @@ std::vector<char> orient_tets(Tets tets, const TetGluing& across, std::span<cons
   const auto fits = [&](std::size_t t, Index i, std::size_t u, Index j) {
     return (is_even(tets[t], i) != (turn[t] != 0)) != (is_even(tets[u], j) != (turn[u] != 0));
   };
+  const auto is_thin = [&](std::size_t t) { return volume[t] == 1 || volume[t] == -1; };
+  for (std::size_t t = 0; t < tets.size(); ++t)
+    for (Index i = 0; i < 4; ++i) {
+      const Index o = across[t][i];
+      if (o == none || !known[t] || !known[o / 4] || fits(t, i, o / 4, o % 4)) continue;
+      if (is_thin(t))
+        known[t] = 0;
+      else if (is_thin(o / 4))
+        known[o / 4] = 0;
+    }
   for (std::size_t t = 0; t < tets.size(); ++t)
     for (Index i = 0; i < 4; ++i) {
       const Index o = across[t][i];

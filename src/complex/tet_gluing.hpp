@@ -21,9 +21,11 @@ void check_tets(std::size_t vertices, Tets tets);
 TetGluing glue_tets(std::size_t vertices, Tets tets);
 
 /// Which tetrahedra to turn over (their last two corners exchanged) so that all are positive.
-/// volume[t]: +1, -1 or 0 for none; those take the side that their neighbours leave them. Throws
-/// InputError where two tetrahedra with volume lie on the same side of a face.
-std::vector<char> orient_tets(Tets tets, const TetGluing& across, std::span<const char> volume);
+/// volume[t]: +2 or -2; +1 or -1 for so little that the rounding of a file may have folded it over;
+/// 0 for none. Those without take the side that their neighbours leave them, and so do thin ones
+/// that do not fit. Throws InputError where two others lie on the same side of a face.
+std::vector<char> orient_tets(Tets tets, const TetGluing& across,
+                              std::span<const signed char> volume);
 
 /// Tetrahedra along a space-filling (Morton) curve through their centroids.
 std::vector<Index> morton_order(std::span<const std::array<double, 3>> positions, Tets tets);

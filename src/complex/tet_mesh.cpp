@@ -15,6 +15,8 @@ namespace {
 
 // Six times the volume, over the product of the three edges from a corner: below this, none.
 constexpr double flat = 1e-14;
+// So little that coordinates of single precision may say it lies on the wrong side.
+constexpr double thin = 1e-6;
 
 Vector3<double> vector(const std::array<double, 3>& p) { return {p[0], p[1], p[2]}; }
 
@@ -67,11 +69,13 @@ TetPoints pose(const std::array<double, 6>& length) {
 
 double determinant(const TetPoints& p) { return dot(cross(p[1] - p[0], p[2] - p[0]), p[3] - p[0]); }
 
-bool has_volume(const TetPoints& p) {
+// Its volume beside that of three edges at right angles.
+double thickness(const TetPoints& p) {
   double product = 1;
   for (std::size_t i = 1; i < 4; ++i) product *= norm(p[i] - p[0]);
-  return std::abs(determinant(p)) > flat * product;
+  return product > 0 ? std::abs(determinant(p)) / product : 0;
 }
+bool has_volume(const TetPoints& p) { return thickness(p) > flat; }
 
 }  // namespace
 
@@ -82,13 +86,15 @@ TetMesh<Real>::TetMesh(std::span<const std::array<double, 3>> positions,
   double extent = 1;
   auto scaled = centred(positions, tets, extent);
   const auto across = glue_tets(positions.size(), tets);
-  std::vector<char> volume(tets.size());
+  std::vector<signed char> volume(tets.size());
   double sum = 0;
   for (std::size_t t = 0; t < tets.size(); ++t) {
     TetPoints p;
     for (std::size_t i = 0; i < 4; ++i) p[i] = vector(scaled[tets[t][i]]);
     for (const auto& [i, j] : tet_edge_ends) sum += norm(p[j] - p[i]);
-    volume[t] = !has_volume(p) ? 0 : determinant(p) > 0 ? 1 : -1;
+    const double thick = thickness(p);
+    volume[t] = static_cast<signed char>(thick <= flat ? 0 : thick < thin ? 1 : 2);
+    if (determinant(p) < 0) volume[t] = static_cast<signed char>(-volume[t]);
     if (volume[t] == 0 && summary_.degenerate_tets++ == 0)
       summary_.first_degenerate = static_cast<Index>(t);
     if (volume[t] < 0 && summary_.inverted_tets++ == 0)
@@ -125,7 +131,7 @@ TetMesh<Real>::TetMesh(std::size_t vertices, std::span<const std::array<Index, 4
   for (auto& tet : scaled)
     for (double& l : tet) l /= unit;
   const auto across = glue_tets(vertices, tets);
-  const std::vector<char> unknown(tets.size(), 0);
+  const std::vector<signed char> unknown(tets.size(), 0);
   const auto turn = orient_tets(tets, across, unknown);
   summary_.mean_edge = unit;
   assemble(vertices, tets, {}, scaled, across, breadth_first_order(across), turn);

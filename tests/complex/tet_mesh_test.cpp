@@ -5,6 +5,7 @@
 #include <string>
 
 #include <plexway/error.hpp>
+#include <plexway/executors/serial_solid.hpp>
 
 #include "complex/test_solids.hpp"
 
@@ -97,6 +98,19 @@ TEST_CASE("inverted and flat tetrahedra are counted") {
   CHECK(mesh.summary().first_degenerate == 2);
   CHECK(mesh.summary().unreferenced_vertices == 1);
   CHECK(mesh.summary().boundary_faces == 6);
+}
+
+TEST_CASE("a sliver that rounding has folded over refuses no solid") {
+  for (const double fold : {-1e-9, 0., 1e-9}) {
+    // Two tetrahedra on a square, and a sliver between them and the one below.
+    Solid s;
+    s.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, fold}, {.5, .5, 1}, {.5, .5, -1}};
+    s.tets = {{0, 1, 2, 4}, {1, 3, 2, 4}, {0, 1, 2, 3}, {0, 1, 3, 5}, {0, 3, 2, 5}};
+    const auto mesh = s.mesh<double>();
+    CHECK(mesh.summary().boundary_faces == 8);
+    const auto field = propagate(Serial{}, mesh, PointSource::at(4));
+    CHECK(field.distance[5] == Approx(2));
+  }
 }
 
 TEMPLATE_TEST_CASE("bad solids name what is wrong", "", float, double) {
