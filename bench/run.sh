@@ -5,12 +5,13 @@
 #   bench/run.sh BUILD OUT [DATA]
 #
 # BUILD: the build folder. OUT: where the tables go. DATA: a folder of meshes (.obj) with their
-# exact answers NAME.vID.txt beside them; without it, samples are measured.
+# exact answers NAME.vID.txt beside them; without it, samples are measured. Solids (.node, .ele) with
+# theirs are looked for in DATA/../solids.
 # QUICK=1: few repeats, to see that everything runs.
 set -eu
 
 if [ $# -lt 2 ] || [ $# -gt 3 ]; then
-  sed -n '5,9s/^# \{0,1\}//p' "$0" >&2
+  sed -n '5,10s/^# \{0,1\}//p' "$0" >&2
   exit 2
 fi
 bin=$1/bin
@@ -22,10 +23,14 @@ if [ "${QUICK:-0}" = 1 ]; then
   effort="--sources 3 --repeats 1 --budget 1 --limit 60"
   exact="--exact-limit 2000"
   scale="--sizes 5000,20000 $effort"
+  solid_sizes="--sizes 8 --sources 2 --repeats 1 --budget 1"
+  wires="--size 0.1 --sources 2 --repeats 1 --budget 1"
 else
   effort="--sources 16 --repeats 3"
   exact=""
   scale=""
+  solid_sizes="--sizes 12,26,70"
+  wires=""
 fi
 
 mkdir -p "$out"
@@ -73,5 +78,9 @@ peers=$bin/bench_cgal
   done
   run scale "$bin/bench_scale" "$@" $scale
   run scale_shuffled "$bin/bench_scale" --shuffle $scale
+  solids=
+  [ -z "$data" ] || [ ! -d "$data/../solids" ] || solids=$data/../solids
+  run solids "$bin/bench_solids" $solids $solid_sizes
+  run wireframes "$bin/bench_wireframes" $wires
 }
 echo "$out: $(cd "$out" && ls | tr '\n' ' ')"
