@@ -88,8 +88,7 @@ void solve(const TriangleMesh<Real>& mesh, std::span<const PointSource> sources,
   else
     read_out_corners<Real, kLabels>(mesh.triangles(), rule, front, workspace);
   read_out_sources<Real, kLabels>(mesh, sources, workspace);
-  if (options.visibility == Visibility::saddles)
-    read_out_edges<Real, kLabels>(mesh.triangles(), workspace);
+  if (options.visibility == Visibility::saddles) read_out_edges<Real, kLabels>(mesh, workspace);
 
   field.distance.resize(vertices);
   field.label.resize(kLabels ? vertices : 0);

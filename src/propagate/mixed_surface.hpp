@@ -111,7 +111,7 @@ class MixedSurface final : public MixedPiece<Real> {
       workspace_.vertex[inside[v]] = distance[v] / unit_;
       workspace_.vertex_source[inside[v]] = label[v];
     }
-    if (!read_out_edges<Real, true>(mesh_.triangles(), workspace_)) return false;
+    if (!read_out_edges<Real, true>(mesh_, workspace_)) return false;
     bool any = false;
     for (std::size_t v = 0; v < distance.size(); ++v) {
       const Real d = workspace_.vertex[inside[v]] * unit_;

@@ -10,6 +10,8 @@
 #include <plexway/propagate/saddle_rule.hpp>
 #include <plexway/propagate/workspace.hpp>
 
+#include "propagate/changed_vertices.hpp"
+
 namespace plexway {
 
 /// Distances of the corners of two triangles from the edges their paths came in
@@ -115,35 +117,45 @@ void read_out_corners(std::span<const TriangleRecord<Real>> triangles, const Rul
 
 /// No vertex is farther than a neighbour and the edge between. A triangle keeps one label, the best
 /// for its centre, and now and then, at a corner on a ragged boundary, that one is poor. True if
-/// some vertex got nearer. Cost: a pass, and as many more as it takes, which is one on most meshes.
+/// some vertex got nearer. Cost: one pass, and the surroundings of what it changed.
 template <class Real, bool kLabels>
-bool read_out_edges(std::span<const TriangleRecord<Real>> triangles, Workspace<Real>& workspace) {
+bool read_out_edges(const TriangleMesh<Real>& mesh, Workspace<Real>& workspace) {
+  const std::span<const TriangleRecord<Real>> triangles = mesh.triangles();
   Real* d = workspace.vertex.data();
-  const auto relax = [&](const TriangleRecord<Real>& t) {
-    const Real a = d[t.corner[0]], b = d[t.corner[1]], c = d[t.corner[2]];
-    const Real x = t.length[0], y = t.length[1], z = t.length[2];
-    const bool fine = std::abs(a - b) <= x && std::abs(b - c) <= y && std::abs(c - a) <= z;
-    if (fine) [[likely]]
-      return false;
-    bool nearer = false;
-    for (std::size_t i = 0; i < 3; ++i) {
-      const Index v = t.corner[i], w = t.corner[i == 2 ? 0 : i + 1];
-      for (const auto& [from, to] : {std::pair(v, w), std::pair(w, v)})
-        if (d[from] + t.length[i] < d[to] && d[to] < std::numeric_limits<Real>::infinity()) {
-          d[to] = d[from] + t.length[i];
-          if constexpr (kLabels) workspace.vertex_source[to] = workspace.vertex_source[from];
-          nearer = true;
-        }
-    }
-    return nearer;
+  ChangedVertices changed(workspace.front);
+  const auto relax = [&](Index from, Index to, Real length) {
+    if (!(d[from] + length < d[to]) || !(d[to] < std::numeric_limits<Real>::infinity())) return;
+    d[to] = d[from] + length;
+    if constexpr (kLabels) workspace.vertex_source[to] = workspace.vertex_source[from];
+    changed.push(to);
   };
-  const std::size_t faces = triangles.size() - 1;
   bool any = false;
-  for (bool again = true, backward = false; again; backward = !backward) {
-    again = false;
-    for (std::size_t f = 0; f < faces; ++f) again |= relax(triangles[backward ? faces - 1 - f : f]);
-    any |= again;
-  }
+  do {
+    changed.clear();
+    for (std::size_t f = 0; f + 1 < triangles.size(); ++f) {
+      const TriangleRecord<Real>& t = triangles[f];
+      const Real a = d[t.corner[0]], b = d[t.corner[1]], c = d[t.corner[2]];
+      const Real x = t.length[0], y = t.length[1], z = t.length[2];
+      const bool fine = std::abs(a - b) <= x && std::abs(b - c) <= y && std::abs(c - a) <= z;
+      if (fine) [[likely]]
+        continue;
+      for (std::size_t i = 0; i < 3; ++i) {
+        const Index v = t.corner[i], w = t.corner[edge_after(i)];
+        relax(v, w, t.length[i]);
+        relax(w, v, t.length[i]);
+      }
+    }
+    any |= changed.some();
+    for (Index v = 0; changed.pop(v);) {
+      mesh.corners_at(v, workspace.corners);
+      for (const Index corner : workspace.corners) {
+        const TriangleRecord<Real>& t = triangles[corner / 3];
+        const std::size_t i = corner % 3;
+        relax(v, t.corner[edge_after(i)], t.length[i]);
+        relax(v, t.corner[edge_before(i)], t.length[edge_before(i)]);
+      }
+    }
+  } while (changed.lost());
   return any;
 }
 

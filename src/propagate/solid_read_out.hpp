@@ -9,6 +9,8 @@
 #include <plexway/complex/tet_mesh.hpp>
 #include <plexway/propagate/workspace.hpp>
 
+#include "propagate/changed_vertices.hpp"
+
 namespace plexway {
 
 /// Every corner of every reached tetrahedron offers a distance; vertices keep the least. Of those
@@ -33,39 +35,40 @@ void read_out_tets(const TetMesh<Real>& mesh, const Rule& rule, const Front& fro
 }
 
 /// No vertex is farther than a neighbour and the edge between. True if some vertex got nearer.
-/// Cost: a pass, and as many more as it takes.
+/// Cost: one pass, and the surroundings of what it changed.
 template <class Real, bool kLabels>
 bool read_out_tet_edges(const TetMesh<Real>& mesh, Workspace<Real>& workspace) {
   const std::span<const TetRecord<Real>> tets = mesh.tets();
   const std::span<const Vector3<Real>> points = mesh.points();
   const std::span<const std::array<Real, 6>> lengths = mesh.squared_lengths();
   Real* d = workspace.vertex.data();
-  const auto relax = [&](std::size_t t) {
-    bool nearer = false;
-    for (std::size_t edge = 0; edge < 6; ++edge) {
-      Index v = tets[t].corner[tet_edge_ends[edge][0]], w = tets[t].corner[tet_edge_ends[edge][1]];
-      if (d[w] < d[v]) std::swap(v, w);
-      if (!(d[w] < std::numeric_limits<Real>::infinity())) continue;
-      const Vector3<Real> e = mesh.embedded() ? points[w] - points[v] : Vector3<Real>{};
-      const Real length2 = mesh.embedded() ? dot(e, e) : lengths[t][edge];
-      const Real rise = d[w] - d[v];
-      if (rise * rise <= length2) [[likely]]
-        continue;
-      const Real by = d[v] + std::sqrt(length2);
-      if (!(by < d[w])) continue;
-      d[w] = by;
-      if constexpr (kLabels) workspace.vertex_source[w] = workspace.vertex_source[v];
-      nearer = true;
-    }
-    return nearer;
+  ChangedVertices changed(workspace.front);
+  const auto relax = [&](std::size_t t, Index i, Index j) {
+    Index v = tets[t].corner[i], w = tets[t].corner[j];
+    if (d[w] < d[v]) std::swap(v, w);
+    if (!(d[w] < std::numeric_limits<Real>::infinity())) return;
+    const Vector3<Real> e = mesh.embedded() ? points[w] - points[v] : Vector3<Real>{};
+    const Real length2 = mesh.embedded() ? dot(e, e) : lengths[t][tet_edge(i, j)];
+    const Real rise = d[w] - d[v];
+    if (rise * rise <= length2) [[likely]]
+      return;
+    const Real by = d[v] + std::sqrt(length2);
+    if (!(by < d[w])) return;
+    d[w] = by;
+    if constexpr (kLabels) workspace.vertex_source[w] = workspace.vertex_source[v];
+    changed.push(w);
   };
-  const std::size_t count = mesh.tet_count();
   bool any = false;
-  for (bool again = true, backward = false; again; backward = !backward) {
-    again = false;
-    for (std::size_t t = 0; t < count; ++t) again |= relax(backward ? count - 1 - t : t);
-    any |= again;
-  }
+  do {
+    changed.clear();
+    for (std::size_t t = 0; t < mesh.tet_count(); ++t)
+      for (const auto& ends : tet_edge_ends) relax(t, ends[0], ends[1]);
+    any |= changed.some();
+    for (Index v = 0; changed.pop(v);)
+      for (const Index corner : mesh.corners_at(v))
+        for (Index j = 0; j < 4; ++j)
+          if (j != corner % 4) relax(corner / 4, corner % 4, j);
+  } while (changed.lost());
   return any;
 }
 
