@@ -122,9 +122,11 @@ class SolidPropagation {
         const Index u = tets_[t].across[i] >> TetAcross::tet_shift;
         if (u == tets) continue;
         if (front_.reached(u)) {
+          // Not whether it is positive first: nobody can predict that.
           const Real excess = rule_.distance(u) - rule_.distance(t);
-          if (!(excess > 0) || !(excess > rule_.least_way(t, u)) || !(excess > rule_.way(t, i)))
+          if (!(excess * std::abs(excess) > rule_.least_way2(t, u))) [[likely]]
             continue;
+          if (!(excess > rule_.way(t, i))) continue;
         } else {
           ++unreached;
         }

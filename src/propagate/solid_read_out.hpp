@@ -38,13 +38,14 @@ void read_out_tet_edges(const TetMesh<Real>& mesh, Workspace<Real>& workspace) {
   Real* d = workspace.vertex.data();
   for (std::size_t t = 0; t + 1 < tets.size(); ++t)
     for (const auto& ends : tet_edge_ends) {
+      // Most need no change, and whichever end is nearer: that cannot be predicted.
       Index v = tets[t].corner[ends[0]], w = tets[t].corner[ends[1]];
-      if (d[w] < d[v]) std::swap(v, w);
-      if (!(d[w] < std::numeric_limits<Real>::infinity())) continue;
       const Vector3<Real> e = points[w] - points[v];
       const Real rise = d[w] - d[v];
       if (rise * rise <= dot(e, e)) [[likely]]
         continue;
+      if (d[w] < d[v]) std::swap(v, w);
+      if (!(d[v] < std::numeric_limits<Real>::infinity())) continue;
       const Real by = d[v] + norm(e);
       if (!(by < d[w])) continue;
       d[w] = by;

@@ -71,10 +71,10 @@ class SolidRule : public SolidPaths<Real> {
   [[nodiscard]] bool drops() const {
     return any_reflex_ || !mesh_->pinched().empty() || !mesh_->pinched_edges().empty();
   }
-  /// No more than `way`; cheap.
-  [[nodiscard]] Real least_way(Index t, Index u) const {
+  /// No more than the square of `way`; cheap.
+  [[nodiscard]] Real least_way2(Index t, Index u) const {
     const Point between = tets_[u].centre - tets_[t].centre;
-    return std::max(std::max(std::abs(between.x), std::abs(between.y)), std::abs(between.z));
+    return dot(between, between);
   }
   /// Longest way worth comparing with from the centre of t over face i to the next centre: through
   /// the face's centroid.
