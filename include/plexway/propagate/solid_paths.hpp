@@ -28,8 +28,8 @@ class SolidPaths {
   /// The path as the label has it, limits aside.
   [[nodiscard]] Reach reach(const Label& label, const Point& q) const {
     if (label.ring == none) return {label.source, label.sigma + norm(q - label.source), -1};
-    const Point b = bend_point(reflex_[label.ring], label.source, q);
-    return {b, label.sigma + norm(b - label.source) + norm(q - b), -1};
+    const WayOver<Real> way = way_over(reflex_[label.ring], label.source, q);
+    return {way.bend, label.sigma + way.length, -1};
   }
 
   /// The same with bends at one limit, or at two in a row: relaxed once, which is exact for a
@@ -53,10 +53,7 @@ class SolidPaths {
   }
 
   [[nodiscard, gnu::always_inline]] bool hides(Index edge, const Point& eye, const Point& q) const {
-    const ReflexEdge<Real>& e = reflex_[edge];
-    if (on_bright_side(e, eye, q)) [[likely]]
-      return false;
-    return EdgeView<Real>(e, eye).hides(q, slack);
+    return EdgeView<Real>(reflex_[edge], eye).hides(q, slack);
   }
 
   /// The path with what hides q.

@@ -343,10 +343,8 @@ class SolidRule : public SolidPaths<Real> {
       for (int i = 0; i < found.count; ++i) {
         const Index edge = found.edge[i];
         if (edge == label.ring || (first > 0 && edge == label.limit[0])) continue;
-        const EdgeView<Real> view(reflex_[edge], eye);
-        const Real close2 = view.closeness(q);
+        const auto [close2, dark] = EdgeView<Real>(reflex_[edge], eye).rank(q, slack);
         if (!(close2 < std::numeric_limits<Real>::infinity())) continue;
-        const bool dark = view.hides(q, slack);
         const Real k = dark ? Real(-1) / (1 + close2) : close2;
         int place = count < Label::limits ? count++ : Label::limits;
         for (; place > first && k < key[place - 1]; --place)
