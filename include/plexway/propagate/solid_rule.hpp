@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstring>
 #include <limits>
 #include <utility>
 
@@ -143,10 +144,10 @@ class SolidRule : public SolidPaths<Real> {
     if (!any_reflex_ || !(straight < known)) return straight;
     Reach simple = reach(from, q);
     if (!(simple.length < known)) return simple.length;
-    if (tets_[t].reflex == none) return measure(from, q, simple).length;
+    if (tets_[t].reflex == none) return measure(from, q, simple, known).length;
     Label label = from;
     gather(t, sentinel_, label, q, simple);
-    return measure(label, q, simple).length;
+    return measure(label, q, simple, known).length;
   }
 
   /// Labels of u offer a path over the edge (v, w) of t, which touches u in that edge only.
@@ -250,7 +251,7 @@ class SolidRule : public SolidPaths<Real> {
     gather(t, u, label, q, path);
     if (label.limit[0] != none || label.ring != from.ring) {
       const Point eye = path.eye;
-      path = measure(label, q, path);
+      path = measure(label, q, path, known);
       if (!(path.length < known)) return;
       if (path.bend >= 0 && hides_all(label.limit[path.bend], eye, a, b, c)) {
         turn(label, path.bend, q);
@@ -287,11 +288,17 @@ class SolidRule : public SolidPaths<Real> {
   struct Candidates {
     Index edge[24];
     int count = 0;
-    void add(Index e, Index except = none) {
-      if (e == none || e == except || count == 24) return;
+    [[gnu::always_inline]] void add(Index e, Index except) {
+      if (e == except || count == 24) return;
       for (int i = 0; i < count; ++i)
         if (edge[i] == e) return;
       edge[count++] = e;
+    }
+    [[gnu::always_inline]] void add(const Label& label, Index except) {
+      for (const Index limit : label.limit) {
+        if (limit == none) break;
+        add(limit, except);
+      }
     }
   };
 
@@ -299,7 +306,10 @@ class SolidRule : public SolidPaths<Real> {
   /// neighbours of u that look at the same scene.
   void gather(Index t, Index u, Label& label, const Point& q, Reach& straight) const {
     Candidates found;
-    for (const Index limit : label.limit) found.add(limit);
+    for (const Index limit : label.limit) {
+      if (limit == none) break;
+      found.edge[found.count++] = limit;
+    }
     const int own = found.count;
     if (Index e = tets_[t].reflex; e != none)
       for (;; ++e) {
@@ -312,7 +322,8 @@ class SolidRule : public SolidPaths<Real> {
         if (v == t || v == sentinel_ || !front_->reached(v)) continue;
         const Label& other = labels_[v];
         if (other.path == label.path) {
-          for (const Index limit : other.limit) found.add(limit, label.ring);
+          if (std::memcmp(other.limit, label.limit, sizeof label.limit) != 0)
+            found.add(other, label.ring);
         } else if (other.ring < own_rings_ &&
                    SolidPath::before(other.path, other.ring) == label.path) {
           found.add(other.ring, label.ring);

@@ -34,6 +34,12 @@ template <class Real>
   return sum > 0 ? (p.along * q.off + q.along * p.off) / sum : p.along;
 }
 
+/// The point at a distance along an edge, or the nearer end.
+template <class Real>
+[[gnu::always_inline]] inline Vector3<Real> point_on(const ReflexEdge<Real>& e, Real along) {
+  return e.end[0] + std::clamp(along, Real(0), e.length) * e.direction;
+}
+
 /// The shortest way from p to q over an edge.
 template <class Real>
 struct WayOver {
@@ -44,9 +50,9 @@ struct WayOver {
 /// an end.
 template <class Real>
 [[gnu::always_inline]] inline WayOver<Real> way_over(const ReflexEdge<Real>& e,
-                                                     const Vector3<Real>& p,
+                                                     const FromEdge<Real>& from,
                                                      const Vector3<Real>& q) {
-  const FromEdge<Real> from(e, p), to(e, q);
+  const FromEdge<Real> to(e, q);
   const Real x = std::clamp(crossing_along(from, to), Real(0), e.length);
   const Real xp = x - from.along, xq = x - to.along;
   return {e.end[0] + x * e.direction,
@@ -58,7 +64,7 @@ template <class Real>
                                                        const Vector3<Real>& p,
                                                        const Vector3<Real>& q) {
   const FromEdge<Real> from(e, p), to(e, q);
-  return e.end[0] + std::clamp(crossing_along(from, to), Real(0), e.length) * e.direction;
+  return point_on(e, crossing_along(from, to));
 }
 /// The same for any segment.
 template <class Real>
@@ -93,6 +99,15 @@ class EdgeView {
   /// Is q in its shadow? `slack`: how far beyond its ends it still hides, in its own lengths.
   /// Most edges do not hide a point, and most of those because it lies on their bright side.
   [[nodiscard, gnu::always_inline]] bool hides(const Vector3<Real>& q, Real slack) const {
+    Crossing unused;
+    return hides(q, slack, unused);
+  }
+  /// Says also where the path would bend, as a distance from the first end: times / sum.
+  struct Crossing {
+    Real times, sum;
+  };
+  [[nodiscard, gnu::always_inline]] bool hides(const Vector3<Real>& q, Real slack,
+                                               Crossing& crossing) const {
     const Vector3<Real> g = q - eye_;
     const Real h = dot(n_, g);
     if (solid_ * h >= 0) [[likely]]
@@ -100,10 +115,10 @@ class EdgeView {
     const Real nn = dot(n_, n_);
     if (!can_hide(nn)) return false;
     const FromEdge<Real> eye(dot(a_, edge_.direction) * Real(-1), std::sqrt(nn)), there(edge_, q);
-    // Where the path would bend, without a division.
     const Real x = eye.along * there.off + there.along * eye.off, sum = eye.off + there.off;
     const Real most = slack * edge_.length * sum;
     if (!(x >= -most && x - edge_.length * sum <= most)) return false;
+    crossing = {x, sum};
     return behind(q, g, h, nn, eye.along);
   }
 
