@@ -276,6 +276,10 @@ class SolidRule : public SolidPaths<Real> {
       if (limit == none) break;
       if (hides(limit, eye, q)) return true;
     }
+    return own_hides(t, eye, q);
+  }
+  /// One at t?
+  [[nodiscard]] bool own_hides(Index t, const Point& eye, const Point& q) const {
     if (Index e = tets_[t].reflex; e != none)
       for (;; ++e) {
         const Index edge = list_[e] >> ReflexEntry::edge_shift;
@@ -349,13 +353,16 @@ class SolidRule : public SolidPaths<Real> {
     // The nearest, and first of all those that hide q.
     Real key[Label::limits];
     int count = 0;
+    constexpr Real infinity = std::numeric_limits<Real>::infinity();
     const auto choose = [&](int first) {
       count = first;
       for (int i = 0; i < found.count; ++i) {
         const Index edge = found.edge[i];
         if (edge == label.ring || (first > 0 && edge == label.limit[0])) continue;
-        const auto [close2, dark] = EdgeView<Real>(reflex_[edge], eye).rank(q, slack);
-        if (!(close2 < std::numeric_limits<Real>::infinity())) continue;
+        const auto [close2, dark] =
+            EdgeView<Real>(reflex_[edge], eye)
+                .rank(q, slack, count < Label::limits ? infinity : key[Label::limits - 1]);
+        if (!(close2 < infinity)) continue;
         const Real k = dark ? Real(-1) / (1 + close2) : close2;
         int place = count < Label::limits ? count++ : Label::limits;
         for (; place > first && k < key[place - 1]; --place)

@@ -126,17 +126,17 @@ class EdgeView {
     Real closeness;  ///< how closely the line of sight passes it: an angle, squared
     bool dark;       ///< as `hides` says
   };
-  /// infinity: it can hide nothing.
-  [[nodiscard]] Rank rank(const Vector3<Real>& q, Real slack) const {
-    const Real nn = dot(n_, n_);
-    if (!can_hide(nn)) return {std::numeric_limits<Real>::infinity(), false};
+  /// infinity: it can hide nothing, or does not hide q and is no closer than `worst`.
+  [[nodiscard]] Rank rank(const Vector3<Real>& q, Real slack, Real worst) const {
     const Vector3<Real> g = q - eye_;
-    const Real h = dot(n_, g);
+    const Real h = dot(n_, g), nn = dot(n_, n_), sine2 = h * h / (nn * dot(g, g));
+    if ((solid_ * h >= 0 && sine2 >= worst) || !can_hide(nn))
+      return {std::numeric_limits<Real>::infinity(), false};
     const FromEdge<Real> eye(dot(a_, edge_.direction) * Real(-1), std::sqrt(nn)), there(edge_, q);
     const Real x = crossing_along(eye, there);
     const Real beyond = std::max(std::max(-x, x - edge_.length), Real(0));
     const Vector3<Real> b = edge_.end[1] - eye_;
-    return {h * h / (nn * dot(g, g)) + beyond * beyond / std::min(dot(a_, a_), dot(b, b)),
+    return {sine2 + beyond * beyond / std::min(dot(a_, a_), dot(b, b)),
             solid_ * h < 0 && beyond <= slack * edge_.length && behind(q, g, h, nn, eye.along)};
   }
 
