@@ -31,7 +31,9 @@ template <class Real>
 [[gnu::always_inline]] inline Real crossing_along(const FromEdge<Real>& p,
                                                   const FromEdge<Real>& q) {
   const Real sum = p.off + q.off;
-  return sum > 0 ? (p.along * q.off + q.along * p.off) / sum : p.along;
+  if (!(sum > 0)) [[unlikely]]
+    return p.along;
+  return (p.along * q.off + q.along * p.off) / sum;
 }
 
 /// The point at a distance along an edge, or the nearer end.
@@ -53,9 +55,14 @@ template <class Real>
                                                      const FromEdge<Real>& from,
                                                      const Vector3<Real>& q) {
   const FromEdge<Real> to(e, q);
-  const Real x = std::clamp(crossing_along(from, to), Real(0), e.length);
-  const Real xp = x - from.along, xq = x - to.along;
-  return {e.end[0] + x * e.direction,
+  const Real x = crossing_along(from, to);
+  if (x >= 0 && x <= e.length) [[likely]] {
+    const Real along = to.along - from.along, off = to.off + from.off;
+    return {e.end[0] + x * e.direction, std::sqrt(along * along + off * off)};
+  }
+  const Real end = x < 0 ? 0 : e.length;
+  const Real xp = end - from.along, xq = end - to.along;
+  return {e.end[0] + end * e.direction,
           std::sqrt(xp * xp + from.off * from.off) + std::sqrt(xq * xq + to.off * to.off)};
 }
 /// The bend alone.
