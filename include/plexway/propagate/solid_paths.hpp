@@ -26,17 +26,17 @@ class SolidPaths {
   };
 
   /// The path as the label has it, limits aside.
-  [[nodiscard]] Reach reach(const Label& label, const Point& q) const {
+  [[nodiscard, gnu::always_inline]] Reach reach(const Label& label, const Point& q) const {
     if (label.ring == none) return {label.source, label.sigma + norm(q - label.source), -1};
     return reach(label, before_ring(label), q);
   }
   /// Where S is from the ring: the same for all q.
-  [[nodiscard]] FromEdge<Real> before_ring(const Label& label) const {
+  [[nodiscard, gnu::always_inline]] FromEdge<Real> before_ring(const Label& label) const {
     if (label.ring == none) return {0, 0};
     return FromEdge<Real>(reflex_[label.ring], label.source);
   }
-  [[nodiscard]] Reach reach(const Label& label, const FromEdge<Real>& before,
-                            const Point& q) const {
+  [[nodiscard, gnu::always_inline]] Reach reach(const Label& label, const FromEdge<Real>& before,
+                                                const Point& q) const {
     if (label.ring == none) return {label.source, label.sigma + norm(q - label.source), -1};
     const WayOver<Real> way = way_over(reflex_[label.ring], before, q);
     return {way.bend, label.sigma + way.length, -1};
@@ -85,8 +85,8 @@ class SolidPaths {
       const Point b = point_on(reflex_[label.limit[dark[i]]], crossing[i].times / crossing[i].sum);
       const Real length = reach(label, before, b).length + norm(q - b);
       if (length > bent.length || bent.bend < 0) bent = {b, length, dark[i]};
+      if (!(length < known)) return bent;
     }
-    if (!(bent.length < known)) return bent;
     const int k = bent.bend;
     // The way to the bend may be hidden itself, or the way on.
     const Reach one = bent;
