@@ -348,35 +348,41 @@ class SolidRule : public SolidPaths<Real> {
       for (int i = own; i < found.count; ++i) label.limit[i] = found.edge[i];
       return;
     }
-    Point eye = straight.eye;
-    clear_limits(label);
-    // The nearest, and first of all those that hide q.
-    Real key[Label::limits];
-    int count = 0;
+    // The one that hides q most closely comes first; what else is in the way is so from that bend.
     constexpr Real infinity = std::numeric_limits<Real>::infinity();
-    const auto choose = [&](int first) {
-      count = first;
-      for (int i = 0; i < found.count; ++i) {
-        const Index edge = found.edge[i];
-        if (edge == label.ring || (first > 0 && edge == label.limit[0])) continue;
-        const auto [close2, dark] =
-            EdgeView<Real>(reflex_[edge], eye)
-                .rank(q, slack, count < Label::limits ? infinity : key[Label::limits - 1]);
-        if (!(close2 < infinity)) continue;
-        const Real k = dark ? Real(-1) / (1 + close2) : close2;
-        int place = count < Label::limits ? count++ : Label::limits;
-        for (; place > first && k < key[place - 1]; --place)
-          if (place < Label::limits)
-            key[place] = key[place - 1], label.limit[place] = label.limit[place - 1];
-        if (place < Label::limits) key[place] = k, label.limit[place] = edge;
-      }
-    };
-    choose(0);
-    if (count == 0 || !(key[0] < 0)) return;
-    // What else is in the way is so from the bend.
-    for (int k = 1; k < Label::limits; ++k) label.limit[k] = none;
-    eye = reach_by(label, eye, 0, q).eye;
-    choose(1);
+    Point eye = straight.eye;
+    Index bend = none;
+    Real closest = infinity;
+    for (int i = 0; i < found.count; ++i) {
+      const Index edge = found.edge[i];
+      const EdgeView<Real> view(reflex_[edge], eye);
+      if (edge == label.ring || !view.hides(q, slack)) continue;
+      const Real close2 = view.rank(q, slack, infinity).closeness;
+      if (close2 < closest) closest = close2, bend = edge;
+    }
+    clear_limits(label);
+    if (bend != none) {
+      label.limit[0] = bend;
+      eye = bend_point(reflex_[bend], eye, q);
+    }
+    // Then the nearest, and before them those that hide q.
+    const int first = bend != none;
+    int count = first;
+    Real key[Label::limits];
+    for (int i = 0; i < found.count; ++i) {
+      const Index edge = found.edge[i];
+      if (edge == label.ring || edge == bend) continue;
+      const auto [close2, dark] =
+          EdgeView<Real>(reflex_[edge], eye)
+              .rank(q, slack, count < Label::limits ? infinity : key[Label::limits - 1]);
+      if (!(close2 < infinity)) continue;
+      const Real k = dark ? Real(-1) / (1 + close2) : close2;
+      int place = count < Label::limits ? count++ : Label::limits;
+      for (; place > first && k < key[place - 1]; --place)
+        if (place < Label::limits)
+          key[place] = key[place - 1], label.limit[place] = label.limit[place - 1];
+      if (place < Label::limits) key[place] = k, label.limit[place] = edge;
+    }
   }
 
   /// No straight line: over the best point of the face's edges.
