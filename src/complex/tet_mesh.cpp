@@ -224,11 +224,11 @@ void TetMesh<Real>::assemble(std::size_t vertices, std::span<const std::array<In
     for (const auto& e : topology.reflex) {
       const auto along = e.end[1] - e.end[0];
       const double length = norm(along);
-      reflex_.push_back({{rounded(e.end[0]), rounded(e.end[1])},
+      reflex_.push_back({rounded(e.normal[0] + e.normal[1]),
                          rounded(length > 0 ? 1 / length * along : along),
+                         {rounded(e.end[0]), rounded(e.end[1])},
                          static_cast<Real>(length),
                          {rounded(e.normal[0]), rounded(e.normal[1])},
-                         rounded(e.normal[0] + e.normal[1]),
                          {e.vertex[0], e.vertex[1]}});
     }
   } else {

@@ -117,14 +117,18 @@ class SolidPropagation {
     if (!rule_.drops() && front_.reached_count() == mesh_.tet_count()) return false;
     const Index tets = static_cast<Index>(mesh_.tet_count());
     for (Index t = 0; t < tets; ++t) {
-      if (!front_.reached(t) || rule_.distance(t) > radius_) continue;
+      if (!front_.reached(t)) continue;
+      const Real here = rule_.distance(t);
+      if (here > radius_) continue;
       for (Index i = 0; i < 4; ++i) {
         const Index u = tets_[t].across[i] >> TetAcross::tet_shift;
         if (u == tets) continue;
         if (front_.reached(u)) {
-          const Real excess = rule_.distance(u) - rule_.distance(t);
-          if (!(excess > 0) || !(excess > rule_.least_way(t, u)) || !(excess > rule_.way(t, i)))
+          // Not whether it is positive first: nobody can predict that.
+          const Real excess = rule_.distance(u) - here;
+          if (!(excess * std::abs(excess) > rule_.least_way2(t, u))) [[likely]]
             continue;
+          if (!(excess > rule_.way(t, i))) continue;
         } else {
           ++unreached;
         }

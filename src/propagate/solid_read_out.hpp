@@ -41,17 +41,19 @@ bool read_out_tet_edges(const TetMesh<Real>& mesh, Workspace<Real>& workspace) {
   const std::span<const TetRecord<Real>> tets = mesh.tets();
   const std::span<const Vector3<Real>> points = mesh.points();
   const std::span<const std::array<Real, 6>> lengths = mesh.squared_lengths();
+  const bool embedded = mesh.embedded();
   Real* d = workspace.vertex.data();
   ChangedVertices changed(workspace.front);
   const auto relax = [&](std::size_t t, Index i, Index j) {
+    // Most need no change, and whichever end is nearer: that cannot be predicted.
     Index v = tets[t].corner[i], w = tets[t].corner[j];
-    if (d[w] < d[v]) std::swap(v, w);
-    if (!(d[w] < std::numeric_limits<Real>::infinity())) return;
-    const Vector3<Real> e = mesh.embedded() ? points[w] - points[v] : Vector3<Real>{};
-    const Real length2 = mesh.embedded() ? dot(e, e) : lengths[t][tet_edge(i, j)];
+    const Vector3<Real> e = embedded ? points[w] - points[v] : Vector3<Real>{};
+    const Real length2 = embedded ? dot(e, e) : lengths[t][tet_edge(i, j)];
     const Real rise = d[w] - d[v];
     if (rise * rise <= length2) [[likely]]
       return;
+    if (d[w] < d[v]) std::swap(v, w);
+    if (!(d[w] < std::numeric_limits<Real>::infinity())) return;
     const Real by = d[v] + std::sqrt(length2);
     if (!(by < d[w])) return;
     d[w] = by;

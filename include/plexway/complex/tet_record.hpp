@@ -54,11 +54,12 @@ struct TetRecord {
 /// fans of tetrahedra touch in one edge, each fan that is reflex has an entry of its own.
 template <class Real>
 struct ReflexEdge {
-  Vector3<Real> end[2];
+  // First what says that a point is not in its shadow.
+  Vector3<Real> solid;      ///< sum of the normals
   Vector3<Real> direction;  ///< from the first end to the second, unit; 0 without length
+  Vector3<Real> end[2];
   Real length;
   Vector3<Real> normal[2];  ///< of the two boundary faces, unit, into the solid
-  Vector3<Real> solid;      ///< their sum
   Index vertex[2];          ///< numbers inside
 };
 

@@ -49,7 +49,9 @@ class PlainSolidRule {
   [[nodiscard]] Real way(Index, Index) const { return std::numeric_limits<Real>::infinity(); }
 
   [[nodiscard]] bool drops() const { return false; }
-  [[nodiscard]] Real least_way(Index, Index) const { return std::numeric_limits<Real>::infinity(); }
+  [[nodiscard]] Real least_way2(Index, Index) const {
+    return std::numeric_limits<Real>::infinity();
+  }
 
   void expand(Index t, bool) const {
     const Index in = static_cast<Index>(front_->hinge(t));

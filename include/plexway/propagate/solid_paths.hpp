@@ -26,10 +26,20 @@ class SolidPaths {
   };
 
   /// The path as the label has it, limits aside.
-  [[nodiscard]] Reach reach(const Label& label, const Point& q) const {
+  [[nodiscard, gnu::always_inline]] Reach reach(const Label& label, const Point& q) const {
     if (label.ring == none) return {label.source, label.sigma + norm(q - label.source), -1};
-    const Point b = bend_point(reflex_[label.ring], label.source, q);
-    return {b, label.sigma + norm(b - label.source) + norm(q - b), -1};
+    return reach(label, before_ring(label), q);
+  }
+  /// Where S is from the ring: the same for all q.
+  [[nodiscard, gnu::always_inline]] FromEdge<Real> before_ring(const Label& label) const {
+    if (label.ring == none) return {0, 0};
+    return FromEdge<Real>(reflex_[label.ring], label.source);
+  }
+  [[nodiscard, gnu::always_inline]] Reach reach(const Label& label, const FromEdge<Real>& before,
+                                                const Point& q) const {
+    if (label.ring == none) return {label.source, label.sigma + norm(q - label.source), -1};
+    const WayOver<Real> way = way_over(reflex_[label.ring], before, q);
+    return {way.bend, label.sigma + way.length, -1};
   }
 
   /// The same with bends at one limit, or at two in a row: relaxed once, which is exact for a
@@ -53,25 +63,31 @@ class SolidPaths {
   }
 
   [[nodiscard, gnu::always_inline]] bool hides(Index edge, const Point& eye, const Point& q) const {
-    const ReflexEdge<Real>& e = reflex_[edge];
-    if (on_bright_side(e, eye, q)) [[likely]]
-      return false;
-    return EdgeView<Real>(e, eye).hides(q, slack);
+    return EdgeView<Real>(reflex_[edge], eye).hides(q, slack);
   }
 
-  /// The path with what hides q.
+  /// The path with what hides q. At `known` or more it need not be exact: it is longer yet.
   [[nodiscard]] Reach measure(const Label& label, const Point& q) const {
     return measure(label, q, reach(label, q));
   }
-  [[nodiscard]] Reach measure(const Label& label, const Point& q, const Reach& straight) const {
-    Reach bent = straight;
+  [[nodiscard]] Reach measure(const Label& label, const Point& q, const Reach& straight,
+                              Real known = std::numeric_limits<Real>::infinity()) const {
+    typename EdgeView<Real>::Crossing crossing[Label::limits];
+    int dark[Label::limits];
+    int count = 0;
     for (int k = 0; k < Label::limits && label.limit[k] != none; ++k)
-      if (hides(label.limit[k], straight.eye, q)) {
-        const Reach other = reach_by(label, straight.eye, k, q);
-        if (other.length > bent.length || bent.bend < 0) bent = other;
-      }
+      if (EdgeView<Real>(reflex_[label.limit[k]], straight.eye).hides(q, slack, crossing[count]))
+        dark[count++] = k;
+    if (count == 0) return straight;
+    const FromEdge<Real> before = before_ring(label);
+    Reach bent = straight;
+    for (int i = 0; i < count; ++i) {
+      const Point b = point_on(reflex_[label.limit[dark[i]]], crossing[i].times / crossing[i].sum);
+      const Real length = reach(label, before, b).length + norm(q - b);
+      if (length > bent.length || bent.bend < 0) bent = {b, length, dark[i]};
+      if (!(length < known)) return bent;
+    }
     const int k = bent.bend;
-    if (k < 0) return straight;
     // The way to the bend may be hidden itself, or the way on.
     const Reach one = bent;
     for (int j = 0; j < Label::limits && label.limit[j] != none; ++j) {

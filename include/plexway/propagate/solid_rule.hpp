@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstring>
 #include <limits>
 #include <utility>
 
@@ -71,10 +72,10 @@ class SolidRule : public SolidPaths<Real> {
   [[nodiscard]] bool drops() const {
     return any_reflex_ || !mesh_->pinched().empty() || !mesh_->pinched_edges().empty();
   }
-  /// No more than `way`; cheap.
-  [[nodiscard]] Real least_way(Index t, Index u) const {
+  /// No more than the square of `way`; cheap.
+  [[nodiscard]] Real least_way2(Index t, Index u) const {
     const Point between = tets_[u].centre - tets_[t].centre;
-    return std::max(std::max(std::abs(between.x), std::abs(between.y)), std::abs(between.z));
+    return dot(between, between);
   }
   /// Longest way worth comparing with from the centre of t over face i to the next centre: through
   /// the face's centroid.
@@ -152,10 +153,10 @@ class SolidRule : public SolidPaths<Real> {
     if (!any_reflex_ || !(straight < known)) return straight;
     Reach simple = reach(from, q);
     if (!(simple.length < known)) return simple.length;
-    if (tets_[t].reflex == none) return measure(from, q, simple).length;
+    if (tets_[t].reflex == none) return measure(from, q, simple, known).length;
     Label label = from;
     gather(t, sentinel_, label, q, simple);
-    return measure(label, q, simple).length;
+    return measure(label, q, simple, known).length;
   }
 
   /// Labels of u offer a path over the edge (v, w) of t, which touches u in that edge only.
@@ -258,7 +259,7 @@ class SolidRule : public SolidPaths<Real> {
     gather(t, u, label, q, path);
     if (label.limit[0] != none || label.ring != from.ring) {
       const Point eye = path.eye;
-      path = measure(label, q, path);
+      path = measure(label, q, path, known);
       if (!(path.length < known)) return;
       if (path.bend >= 0 && hides_all(label.limit[path.bend], eye, a, b, c)) {
         turn(label, path.bend, q);
@@ -283,6 +284,10 @@ class SolidRule : public SolidPaths<Real> {
       if (limit == none) break;
       if (hides(limit, eye, q)) return true;
     }
+    return own_hides(t, eye, q);
+  }
+  /// One at t?
+  [[nodiscard]] bool own_hides(Index t, const Point& eye, const Point& q) const {
     if (Index e = tets_[t].reflex; e != none)
       for (;; ++e) {
         const Index edge = list_[e] >> ReflexEntry::edge_shift;
@@ -295,11 +300,17 @@ class SolidRule : public SolidPaths<Real> {
   struct Candidates {
     Index edge[24];
     int count = 0;
-    void add(Index e, Index except = none) {
-      if (e == none || e == except || count == 24) return;
+    [[gnu::always_inline]] void add(Index e, Index except) {
+      if (e == except || count == 24) return;
       for (int i = 0; i < count; ++i)
         if (edge[i] == e) return;
       edge[count++] = e;
+    }
+    [[gnu::always_inline]] void add(const Label& label, Index except) {
+      for (const Index limit : label.limit) {
+        if (limit == none) break;
+        add(limit, except);
+      }
     }
   };
 
@@ -307,7 +318,10 @@ class SolidRule : public SolidPaths<Real> {
   /// neighbours of u that look at the same scene.
   void gather(Index t, Index u, Label& label, const Point& q, Reach& straight) const {
     Candidates found;
-    for (const Index limit : label.limit) found.add(limit);
+    for (const Index limit : label.limit) {
+      if (limit == none) break;
+      found.edge[found.count++] = limit;
+    }
     const int own = found.count;
     if (Index e = tets_[t].reflex; e != none)
       for (;; ++e) {
@@ -320,7 +334,8 @@ class SolidRule : public SolidPaths<Real> {
         if (v == t || v == sentinel_ || !front_->reached(v)) continue;
         const Label& other = labels_[v];
         if (other.path == label.path) {
-          for (const Index limit : other.limit) found.add(limit, label.ring);
+          if (std::memcmp(other.limit, label.limit, sizeof label.limit) != 0)
+            found.add(other, label.ring);
         } else if (other.ring < own_rings_ &&
                    SolidPath::before(other.path, other.ring) == label.path) {
           found.add(other.ring, label.ring);
@@ -341,34 +356,41 @@ class SolidRule : public SolidPaths<Real> {
       for (int i = own; i < found.count; ++i) label.limit[i] = found.edge[i];
       return;
     }
+    // The one that hides q most closely comes first; what else is in the way is so from that bend.
+    constexpr Real infinity = std::numeric_limits<Real>::infinity();
     Point eye = straight.eye;
+    Index bend = none;
+    Real closest = infinity;
+    for (int i = 0; i < found.count; ++i) {
+      const Index edge = found.edge[i];
+      const EdgeView<Real> view(reflex_[edge], eye);
+      if (edge == label.ring || !view.hides(q, slack)) continue;
+      const Real close2 = view.rank(q, slack, infinity).closeness;
+      if (close2 < closest) closest = close2, bend = edge;
+    }
     clear_limits(label);
-    // The nearest, and first of all those that hide q.
+    if (bend != none) {
+      label.limit[0] = bend;
+      eye = bend_point(reflex_[bend], eye, q);
+    }
+    // Then the nearest, and before them those that hide q.
+    const int first = bend != none;
+    int count = first;
     Real key[Label::limits];
-    int count = 0;
-    const auto choose = [&](int first) {
-      count = first;
-      for (int i = 0; i < found.count; ++i) {
-        const Index edge = found.edge[i];
-        if (edge == label.ring || (first > 0 && edge == label.limit[0])) continue;
-        const EdgeView<Real> view(reflex_[edge], eye);
-        const Real close2 = view.closeness(q);
-        if (!(close2 < std::numeric_limits<Real>::infinity())) continue;
-        const bool dark = view.hides(q, slack);
-        const Real k = dark ? Real(-1) / (1 + close2) : close2;
-        int place = count < Label::limits ? count++ : Label::limits;
-        for (; place > first && k < key[place - 1]; --place)
-          if (place < Label::limits)
-            key[place] = key[place - 1], label.limit[place] = label.limit[place - 1];
-        if (place < Label::limits) key[place] = k, label.limit[place] = edge;
-      }
-    };
-    choose(0);
-    if (count == 0 || !(key[0] < 0)) return;
-    // What else is in the way is so from the bend.
-    for (int k = 1; k < Label::limits; ++k) label.limit[k] = none;
-    eye = reach_by(label, eye, 0, q).eye;
-    choose(1);
+    for (int i = 0; i < found.count; ++i) {
+      const Index edge = found.edge[i];
+      if (edge == label.ring || edge == bend) continue;
+      const auto [close2, dark] =
+          EdgeView<Real>(reflex_[edge], eye)
+              .rank(q, slack, count < Label::limits ? infinity : key[Label::limits - 1]);
+      if (!(close2 < infinity)) continue;
+      const Real k = dark ? Real(-1) / (1 + close2) : close2;
+      int place = count < Label::limits ? count++ : Label::limits;
+      for (; place > first && k < key[place - 1]; --place)
+        if (place < Label::limits)
+          key[place] = key[place - 1], label.limit[place] = label.limit[place - 1];
+      if (place < Label::limits) key[place] = k, label.limit[place] = edge;
+    }
   }
 
   /// No straight line: over the best point of the face's edges.

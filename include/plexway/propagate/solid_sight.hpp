@@ -13,26 +13,65 @@ namespace plexway {
 template <class Real>
 inline constexpr Real solid_rounding = 64 * std::numeric_limits<Real>::epsilon();
 
-/// Where the unfolded line from p to q crosses an edge, as a distance from its first end that may
-/// lie outside of the edge. `hp`: p's distance from the edge's line.
+/// A point, or the eye, from a reflex edge: how far along its line, and how far off it.
 template <class Real>
-[[gnu::always_inline]] inline Real crossing_along(const ReflexEdge<Real>& e, const Vector3<Real>& p,
-                                                  Real hp, const Vector3<Real>& q) {
-  const Vector3<Real> ap = p - e.end[0], aq = q - e.end[0];
-  const Real xp = dot(ap, e.direction), xq = dot(aq, e.direction);
-  const Real hq = norm(aq - xq * e.direction);
-  return hp + hq > 0 ? (xp * hq + xq * hp) / (hp + hq) : xp;
+struct FromEdge {
+  Real along, off;
+  [[gnu::always_inline]] FromEdge(const ReflexEdge<Real>& e, const Vector3<Real>& p) {
+    const Vector3<Real> a = p - e.end[0];
+    along = dot(a, e.direction);
+    off = norm(a - along * e.direction);
+  }
+  FromEdge(Real x, Real h) : along(x), off(h) {}
+};
+
+/// Where the unfolded line from p to q crosses an edge, as a distance from its first end that may
+/// lie outside of the edge.
+template <class Real>
+[[gnu::always_inline]] inline Real crossing_along(const FromEdge<Real>& p,
+                                                  const FromEdge<Real>& q) {
+  const Real sum = p.off + q.off;
+  if (!(sum > 0)) [[unlikely]]
+    return p.along;
+  return (p.along * q.off + q.along * p.off) / sum;
 }
 
-/// The point of an edge over which p reaches q soonest: unfold q about the edge's line until it
-/// lies opposite p, and draw a straight line; or an end.
+/// The point at a distance along an edge, or the nearer end.
 template <class Real>
-Vector3<Real> bend_point(const ReflexEdge<Real>& e, const Vector3<Real>& p,
-                         const Vector3<Real>& q) {
-  const Vector3<Real> ap = p - e.end[0];
-  const Real hp = norm(ap - dot(ap, e.direction) * e.direction);
-  const Real x = std::clamp(crossing_along(e, p, hp, q), Real(0), e.length);
-  return e.end[0] + x * e.direction;
+[[gnu::always_inline]] inline Vector3<Real> point_on(const ReflexEdge<Real>& e, Real along) {
+  return e.end[0] + std::clamp(along, Real(0), e.length) * e.direction;
+}
+
+/// The shortest way from p to q over an edge.
+template <class Real>
+struct WayOver {
+  Vector3<Real> bend;
+  Real length;
+};
+/// Unfolds q about the edge's line until it lies opposite p, and draws a straight line; or bends at
+/// an end.
+template <class Real>
+[[gnu::always_inline]] inline WayOver<Real> way_over(const ReflexEdge<Real>& e,
+                                                     const FromEdge<Real>& from,
+                                                     const Vector3<Real>& q) {
+  const FromEdge<Real> to(e, q);
+  const Real x = crossing_along(from, to);
+  if (x >= 0 && x <= e.length) [[likely]] {
+    const Real along = to.along - from.along, off = to.off + from.off;
+    return {e.end[0] + x * e.direction, std::sqrt(along * along + off * off)};
+  }
+  const Real end = x < 0 ? 0 : e.length;
+  const Real xp = end - from.along, xq = end - to.along;
+  return {e.end[0] + end * e.direction,
+          std::sqrt(xp * xp + from.off * from.off) + std::sqrt(xq * xq + to.off * to.off)};
+}
+/// The bend alone.
+template <class Real>
+[[gnu::always_inline]] inline Vector3<Real> bend_point(const ReflexEdge<Real>& e,
+                                                       const Vector3<Real>& p,
+                                                       const Vector3<Real>& q) {
+  const FromEdge<Real> from(e, p), to(e, q);
+  return point_on(e, crossing_along(from, to));
 }
 /// The same for any segment.
 template <class Real>
@@ -46,61 +85,66 @@ Vector3<Real> bend_point(const Vector3<Real>& a, const Vector3<Real>& b, const V
   return bend_point(edge, p, q);
 }
 
-/// Most edges do not hide a point, and most of those because it lies on their bright side.
-template <class Real>
-[[gnu::always_inline]] inline bool on_bright_side(const ReflexEdge<Real>& edge,
-                                                  const Vector3<Real>& eye,
-                                                  const Vector3<Real>& q) {
-  const Vector3<Real> n = cross(edge.end[0] - eye, edge.direction);
-  return dot(n, edge.solid) * dot(n, q - eye) >= 0;
-}
-
 /// A reflex edge seen from a point: what it hides.
 template <class Real>
 class EdgeView {
  public:
-  EdgeView(const ReflexEdge<Real>& edge, const Vector3<Real>& eye)
-      : edge_(edge), eye_(eye), a_(edge.end[0] - eye), n_(cross(a_, edge.direction)) {
-    if (dot(n_, edge.solid) < 0) n_ = Real(-1) * n_;  // to the solid's side
-  }
+  [[gnu::always_inline]] EdgeView(const ReflexEdge<Real>& edge, const Vector3<Real>& eye)
+      : edge_(edge),
+        eye_(eye),
+        a_(edge.end[0] - eye),
+        n_(cross(a_, edge.direction)),
+        solid_(dot(n_, edge.solid)) {}
 
   /// Not in its shadow, by more than a small angle (squared).
   [[nodiscard]] bool lights(const Vector3<Real>& q, Real angle2) const {
     const Vector3<Real> g = q - eye_;
-    const Real h = dot(n_, g);
+    const Real h = solid_ < 0 ? -dot(n_, g) : dot(n_, g);
     return h > 0 && h * h > angle2 * dot(n_, n_) * dot(g, g);
   }
 
   /// Is q in its shadow? `slack`: how far beyond its ends it still hides, in its own lengths.
-  [[nodiscard]] bool hides(const Vector3<Real>& q, Real slack) const {
+  /// Most edges do not hide a point, and most of those because it lies on their bright side.
+  [[nodiscard, gnu::always_inline]] bool hides(const Vector3<Real>& q, Real slack) const {
+    Crossing unused;
+    return hides(q, slack, unused);
+  }
+  /// Says also where the path would bend, as a distance from the first end: times / sum.
+  struct Crossing {
+    Real times, sum;
+  };
+  [[nodiscard, gnu::always_inline]] bool hides(const Vector3<Real>& q, Real slack,
+                                               Crossing& crossing) const {
     const Vector3<Real> g = q - eye_;
     const Real h = dot(n_, g);
-    if (!(h < 0)) return false;
+    if (solid_ * h >= 0) [[likely]]
+      return false;
     const Real nn = dot(n_, n_);
-    if (!(h * h > tiny * tiny * nn * dot(g, g)) || !can_hide(nn)) return false;
-    // Unless q comes out behind the obstacle, it may be before it, or on another side of it.
-    const Vector3<Real> aq = q - edge_.end[0];
-    const Real q0 = dot(aq, edge_.normal[0]), q1 = dot(aq, edge_.normal[1]);
-    const bool first = dot(a_, edge_.normal[0]) < dot(a_, edge_.normal[1]);  // faces the eye
-    const Real front = first ? q0 : q1, back = first ? q1 : q0;
-    if (back <= tiny && front >= -tiny) return false;
-    if (back < -tiny) {
-      const Real along = dot(a_, edge_.direction);
-      if (!(dot(aq, a_ - along * edge_.direction) > 0)) return false;
-    }
-    return outside(q, nn) <= slack * edge_.length;
+    if (!can_hide(nn)) return false;
+    const FromEdge<Real> eye(dot(a_, edge_.direction) * Real(-1), std::sqrt(nn)), there(edge_, q);
+    const Real x = eye.along * there.off + there.along * eye.off, sum = eye.off + there.off;
+    const Real most = slack * edge_.length * sum;
+    if (!(x >= -most && x - edge_.length * sum <= most)) return false;
+    crossing = {x, sum};
+    return behind(q, g, h, nn, eye.along);
   }
 
-  /// How closely the line of sight to q passes it: an angle, squared.
-  [[nodiscard]] Real closeness(const Vector3<Real>& q) const {
-    const Real nn = dot(n_, n_);
-    if (!can_hide(nn)) return std::numeric_limits<Real>::infinity();
+  struct Rank {
+    Real closeness;  ///< how closely the line of sight passes it: an angle, squared
+    bool dark;       ///< as `hides` says
+  };
+  /// infinity: it can hide nothing, or does not hide q and is no closer than `worst`.
+  [[nodiscard]] Rank rank(const Vector3<Real>& q, Real slack, Real worst) const {
     const Vector3<Real> g = q - eye_;
-    const Real h = dot(n_, g), beyond = outside(q, nn);
-    const Real sine2 = h * h / (nn * dot(g, g));
-    if (beyond == 0) return sine2;
+    const Real h = dot(n_, g), nn = dot(n_, n_), sine2 = h * h / (nn * dot(g, g));
+    if ((solid_ * h >= 0 && sine2 >= worst) || !can_hide(nn))
+      return {std::numeric_limits<Real>::infinity(), false};
+    const FromEdge<Real> eye(dot(a_, edge_.direction) * Real(-1), std::sqrt(nn)), there(edge_, q);
+    const Real x = crossing_along(eye, there);
+    const Real beyond = std::max(std::max(-x, x - edge_.length), Real(0));
     const Vector3<Real> b = edge_.end[1] - eye_;
-    return sine2 + beyond * beyond / std::min(dot(a_, a_), dot(b, b));
+    return {sine2 + beyond * beyond / std::min(dot(a_, a_), dot(b, b)),
+            solid_ * h < 0 && beyond <= slack * edge_.length && behind(q, g, h, nn, eye.along)};
   }
 
  private:
@@ -108,22 +152,30 @@ class EdgeView {
 
   /// Not end on; an eye in front of both sides of the edge has nothing hidden from it; well behind
   /// both it does not see the edge, unless that is almost flat.
-  [[nodiscard]] bool can_hide(Real nn) const {
+  [[nodiscard, gnu::always_inline]] bool can_hide(Real nn) const {
     if (!(nn > tiny * tiny * dot(a_, a_))) return false;
     const Real s0 = dot(a_, edge_.normal[0]), s1 = dot(a_, edge_.normal[1]);
     if (std::max(s0, s1) < 0) return false;
     return std::min(s0, s1) <= 1024 * tiny || dot(edge_.normal[0], edge_.normal[1]) >= Real(0.5);
   }
 
-  /// How far beyond its ends the path over the edge would bend, by unfolding.
-  [[nodiscard]] Real outside(const Vector3<Real>& q, Real nn) const {
-    const Real x = crossing_along(edge_, eye_, std::sqrt(nn), q);
-    return std::max(std::max(-x, x - edge_.length), Real(0));
+  /// Does q, on the dark side, come out behind the obstacle? Else it may be before it, or on
+  /// another side of it.
+  [[nodiscard, gnu::always_inline]] bool behind(const Vector3<Real>& q, const Vector3<Real>& g,
+                                                Real h, Real nn, Real eye_along) const {
+    if (!(h * h > tiny * tiny * nn * dot(g, g))) return false;
+    const Vector3<Real> aq = q - edge_.end[0];
+    const Real q0 = dot(aq, edge_.normal[0]), q1 = dot(aq, edge_.normal[1]);
+    const bool first = dot(a_, edge_.normal[0]) < dot(a_, edge_.normal[1]);  // faces the eye
+    const Real front = first ? q0 : q1, back = first ? q1 : q0;
+    if (back <= tiny && front >= -tiny) return false;
+    return !(back < -tiny) || dot(aq, a_ + eye_along * edge_.direction) > 0;
   }
 
   const ReflexEdge<Real>& edge_;
   const Vector3<Real>& eye_;
   Vector3<Real> a_, n_;
+  Real solid_;  // n's side: > 0 towards the solid
 };
 
 /// Does the line from `eye` to q, on the other side, pass triangle (a, b, c)? Give or take
