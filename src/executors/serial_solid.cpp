@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <string>
+#include <type_traits>
 
 #include <plexway/error.hpp>
 #include <plexway/propagate/plain_solid_rule.hpp>
@@ -105,7 +106,10 @@ void solve(const TetMesh<Real>& mesh, std::span<const PointSource> sources,
   if constexpr (kLabels) workspace.vertex_source.assign(vertices, none);
   read_out_tets<Real, kLabels>(mesh, rule, front, workspace);
   read_out_sources<Real, kLabels>(mesh, sources, workspace);
-  read_out_tet_edges<Real, kLabels>(mesh, workspace);
+  // The full rule is exact where nothing bends a path.
+  constexpr bool plain =
+      std::is_same_v<Rule, PlainSolidRule<Real, Wavefront<Real, Front, kLabels>>>;
+  if (plain || rule.drops()) read_out_tet_edges<Real, kLabels>(mesh, workspace);
 
   field.distance.resize(vertices);
   field.label.resize(kLabels ? vertices : 0);
