@@ -27,10 +27,4 @@ struct Orientation {
 };
 Orientation orient(Faces faces, const Gluing& across);
 
-/// Faces by component and, in each, breadth first.
-std::vector<Index> breadth_first_order(const Gluing& across);
-
-/// Faces along a space-filling (Morton) curve through their centroids.
-std::vector<Index> morton_order(std::span<const std::array<double, 3>> positions, Faces faces);
-
 }  // namespace plexway

@@ -27,10 +27,4 @@ TetGluing glue_tets(std::size_t vertices, Tets tets);
 std::vector<char> orient_tets(Tets tets, const TetGluing& across,
                               std::span<const signed char> volume);
 
-/// Tetrahedra along a space-filling (Morton) curve through their centroids.
-std::vector<Index> morton_order(std::span<const std::array<double, 3>> positions, Tets tets);
-
-/// Tetrahedra by component and, in each, breadth first.
-std::vector<Index> breadth_first_order(const TetGluing& across);
-
 }  // namespace plexway

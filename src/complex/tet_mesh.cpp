@@ -7,6 +7,7 @@
 
 #include <plexway/error.hpp>
 
+#include "complex/simplex_order.hpp"
 #include "complex/tet_edges.hpp"
 #include "complex/tet_gluing.hpp"
 
@@ -106,7 +107,7 @@ TetMesh<Real>::TetMesh(std::span<const std::array<double, 3>> positions,
     for (double& x : p) x /= mean;
   summary_.embedded = true;
   summary_.mean_edge = mean * extent;
-  assemble(positions.size(), tets, scaled, {}, across, morton_order(scaled, tets), turn);
+  assemble(positions.size(), tets, scaled, {}, across, along_curve<4>(scaled, tets), turn);
 }
 
 template <class Real>
@@ -134,7 +135,7 @@ TetMesh<Real>::TetMesh(std::size_t vertices, std::span<const std::array<Index, 4
   const std::vector<signed char> unknown(tets.size(), 0);
   const auto turn = orient_tets(tets, across, unknown);
   summary_.mean_edge = unit;
-  assemble(vertices, tets, {}, scaled, across, breadth_first_order(across), turn);
+  assemble(vertices, tets, {}, scaled, across, breadth_first<4>(across), turn);
 }
 
 template <class Real>

@@ -8,6 +8,7 @@
 #include <plexway/error.hpp>
 
 #include "complex/gluing.hpp"
+#include "complex/simplex_order.hpp"
 #include "complex/triangle_shape.hpp"
 #include "complex/vertex_fans.hpp"
 
@@ -135,7 +136,7 @@ TriangleMesh<Real>::TriangleMesh(std::span<const std::array<double, 3>> position
   for (std::size_t f = 0; f < faces.size(); ++f)
     shapes[f] = shape_from_positions(
         {&positions[faces[f][0]], &positions[faces[f][1]], &positions[faces[f][2]]});
-  assemble(positions.size(), faces, shapes, morton_order(positions, faces),
+  assemble(positions.size(), faces, shapes, along_curve(positions, faces),
            glue_by_vertices(positions.size(), faces));
 }
 
@@ -173,7 +174,7 @@ TriangleMesh<Real>::TriangleMesh(std::size_t vertices, std::span<const std::arra
     shapes[f].violated = violated[f] != 0;
   }
   std::vector<std::array<Index, 3>> gluing(across.begin(), across.end());
-  std::vector<Index> order = breadth_first_order(gluing);
+  std::vector<Index> order = breadth_first(std::span<const std::array<Index, 3>>(gluing));
   assemble(vertices, faces, shapes, std::move(order), std::move(gluing));
 }
 

@@ -1,44 +1,18 @@
 #include <plexway/executors/serial.hpp>
 
 #include <cmath>
-#include <string>
+#include <limits>
 
-#include <plexway/error.hpp>
 #include <plexway/propagate/plain_rule.hpp>
 #include <plexway/propagate/saddle_rule.hpp>
 
+#include "executors/checks.hpp"
+#include "propagate/finish.hpp"
 #include "propagate/read_out.hpp"
 #include "propagate/triangle_propagation.hpp"
 
 namespace plexway {
 namespace {
-
-template <class Real>
-void check(const TriangleMesh<Real>& mesh, std::span<const PointSource> sources,
-           const PropagateOptions& options) {
-  if (sources.empty()) throw UsageError("there is no source: name at least one");
-  if (sources.size() >= none) throw UsageError("too many sources");
-  for (const PointSource& s : sources) {
-    if (s.vertex != none) {
-      if (s.vertex >= mesh.vertex_count())
-        throw UsageError("source vertex " + std::to_string(s.vertex) +
-                         " is out of range, there are " + std::to_string(mesh.vertex_count()));
-    } else {
-      if (s.simplex >= mesh.face_count())
-        throw UsageError("source face " + std::to_string(s.simplex) +
-                         " is out of range, there are " + std::to_string(mesh.face_count()));
-      double sum = 0;
-      bool inside = true;
-      for (const double b : s.barycentric) inside = inside && b >= 0, sum += b;
-      if (!inside || s.barycentric[3] != 0 || !(std::abs(sum - 1) < 1e-6))
-        throw UsageError("a source's barycentric coordinates must be >= 0 and sum to 1");
-    }
-    if (!(s.offset >= 0) || !std::isfinite(s.offset))
-      throw UsageError("a source's offset must be a number >= 0");
-  }
-  if (!(options.step > 0)) throw UsageError("the step must be > 0");
-  if (!(options.radius >= 0)) throw UsageError("the radius must be >= 0");
-}
 
 // The sources themselves, exactly, and the corners of triangles they lie in.
 template <class Real, bool kLabels>
@@ -90,44 +64,22 @@ void solve(const TriangleMesh<Real>& mesh, std::span<const PointSource> sources,
   read_out_sources<Real, kLabels>(mesh, sources, workspace);
   if (options.visibility == Visibility::saddles) read_out_edges<Real, kLabels>(mesh, workspace);
 
-  field.distance.resize(vertices);
-  field.label.resize(kLabels ? vertices : 0);
-  const Real unit = static_cast<Real>(mesh.unit()), radius = static_cast<Real>(options.radius);
-  const std::span<const Index> inside = mesh.vertices_inside();
-  const bool bounded = radius < infinity || front.out_of_budget();
-  for (std::size_t v = 0; v < vertices; ++v) {
-    Real d = workspace.vertex[inside[v]];
-    // Without a radius, whole fans are reached or not; so one of its corners tells of a vertex,
-    // unless fans only touch there.
-    if (!(d < infinity) && mesh.corner_at(inside[v]) != none &&
-        (bounded || !mesh.pinched().empty() || front.reached(mesh.corner_at(inside[v]) / 3)))
-        [[unlikely]] {
-      read_out_around<Real, kLabels>(mesh, rule, front, inside[v], workspace);
-      d = workspace.vertex[inside[v]];
-    }
-    d *= unit;
-    const bool in = d <= radius;
-    field.distance[v] = in ? d : infinity;
-    if constexpr (kLabels)
-      field.label[v] = in && d < infinity ? workspace.vertex_source[inside[v]] : none;
-  }
-  // An offset survives scaling exactly.
-  for (const PointSource& s : sources)
-    if (s.vertex != none && s.offset <= options.radius)
-      field.distance[s.vertex] = std::min(field.distance[s.vertex], static_cast<Real>(s.offset));
-  field.complete = !front.out_of_budget();
-  field.statistics = {front.expansions(), front.updates(), front.reached_count()};
+  // Without a radius, whole fans are reached or not; so one of its corners tells of a vertex,
+  // unless fans only touch there.
+  const bool bounded = options.radius < infinity || front.out_of_budget();
+  for (Index v = 0; v < vertices; ++v)
+    if (!(workspace.vertex[v] < infinity) && mesh.corner_at(v) != none &&
+        (bounded || !mesh.pinched().empty() || front.reached(mesh.corner_at(v) / 3))) [[unlikely]]
+      read_out_around<Real, kLabels>(mesh, rule, front, v, workspace);
+  finish<Real, kLabels>(mesh, sources, options, front, workspace, field);
 }
 
 template <class Real, bool kLabels, class Front>
 void with_front(const TriangleMesh<Real>& mesh, std::span<const PointSource> sources,
                 const PropagateOptions& options, Workspace<Real>& workspace, Front front,
                 DistanceField<Real>& field) {
+  workspace.start(mesh.face_count(), kLabels);
   const std::size_t records = mesh.face_count() + 1;
-  workspace.marks.resize(records);
-  workspace.marks.start();
-  workspace.marks.data()[mesh.face_count()] = workspace.marks.current();  // the sentinel
-  if constexpr (kLabels) workspace.source.resize(records);
   Wavefront<Real, Front, kLabels> wave(workspace.marks, front, workspace.source.data(),
                                        mesh.face_count(), mesh.unit(), options);
   if (options.visibility == Visibility::saddles) {
@@ -146,17 +98,9 @@ void with_labels(const TriangleMesh<Real>& mesh, std::span<const PointSource> so
                  const PropagateOptions& options, Workspace<Real>& workspace,
                  DistanceField<Real>& field) {
   workspace.front.reserve(mesh.face_count());
-  const Real infinity = std::numeric_limits<Real>::infinity();
-  if (options.schedule == Schedule::priority)
-    with_front<Real, kLabels>(mesh, sources, options, workspace,
-                              PriorityQueue<Real>(workspace.front), field);
-  else
-    with_front<Real, kLabels>(
-        mesh, sources, options, workspace,
-        DualQueue<Real>(workspace.front, options.schedule == Schedule::fifo
-                                             ? infinity
-                                             : static_cast<Real>(options.step)),
-        field);
+  with_queue<Real>(options, workspace.front, [&](auto queue) {
+    with_front<Real, kLabels>(mesh, sources, options, workspace, queue, field);
+  });
 }
 
 }  // namespace
@@ -165,7 +109,7 @@ template <class Real>
 void propagate(Serial, const TriangleMesh<Real>& mesh, std::span<const PointSource> sources,
                const PropagateOptions& options, Workspace<Real>& workspace,
                DistanceField<Real>& field) {
-  check(mesh, sources, options);
+  check(sources, options, {mesh.vertex_count(), mesh.face_count(), "face", 3});
   if (sources.size() > 1)
     with_labels<Real, true>(mesh, sources, options, workspace, field);
   else

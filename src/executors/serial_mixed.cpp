@@ -1,11 +1,12 @@
 #include <plexway/executors/serial_mixed.hpp>
 
 #include <algorithm>
-#include <cmath>
+#include <limits>
 #include <string>
 
 #include <plexway/error.hpp>
 
+#include "executors/checks.hpp"
 #include "propagate/mixed_propagation.hpp"
 
 namespace plexway {
@@ -31,32 +32,9 @@ std::pair<Index, PointSource> find_piece(const MixedComplex<Real>& domain,
 }
 
 template <class Real>
-void check_point(const MixedComplex<Real>& domain, Index piece, const PointSource& source) {
-  if (!(source.offset >= 0) || !std::isfinite(source.offset))
-    throw UsageError("a source's offset must be a number >= 0");
-  if (source.vertex != none) return;
-  const auto& complex = domain.complex(domain.pieces()[piece]);
-  const std::size_t corners = std::holds_alternative<Wireframe<Real>>(complex)      ? 2
-                              : std::holds_alternative<TriangleMesh<Real>>(complex) ? 3
-                                                                                    : 4;
-  double sum = 0;
-  bool inside = true;
-  for (std::size_t i = 0; i < 4; ++i) {
-    const double b = source.barycentric[i];
-    inside = inside && b >= 0 && (i < corners || b == 0);
-    sum += b;
-  }
-  if (!inside || !(std::abs(sum - 1) < 1e-6))
-    throw UsageError("a source's barycentric coordinates must be >= 0 and sum to 1");
-}
-
-void check(const PropagateOptions& options) {
-  if (!(options.step > 0)) throw UsageError("the step must be > 0");
-  if (!(options.radius >= 0)) throw UsageError("the radius must be >= 0");
-  if (options.visibility != Visibility::saddles)
-    throw UsageError("mixed domains know the default visibility only");
-  if (options.schedule == Schedule::priority)
-    throw UsageError("mixed domains are not propagated nearest first: use the dual queue");
+std::size_t corners_of(const typename MixedComplex<Real>::Complex& complex) {
+  if (std::holds_alternative<Wireframe<Real>>(complex)) return 2;
+  return std::holds_alternative<TriangleMesh<Real>>(complex) ? 3 : 4;
 }
 
 }  // namespace
@@ -65,11 +43,17 @@ template <class Real>
 void propagate(Serial, const MixedComplex<Real>& domain, std::span<const PointSource> sources,
                const PropagateOptions& options, MixedWorkspace<Real>& workspace,
                DistanceField<Real>& field) {
-  if (sources.empty()) throw UsageError("there is no source: name at least one");
-  if (sources.size() >= none) throw UsageError("too many sources");
-  check(options);
-  for (const PointSource& source : sources)
-    check_point(domain, find_piece(domain, source).first, source);
+  check(sources, options);
+  if (options.visibility != Visibility::saddles)
+    throw UsageError("mixed domains know the default visibility only");
+  if (options.schedule == Schedule::priority)
+    throw UsageError("mixed domains are not propagated nearest first: use the dual queue");
+  for (const PointSource& source : sources) {
+    const auto [number, own] = find_piece(domain, source);
+    const auto& piece = domain.pieces()[number];
+    check_source(
+        own, {piece.vertices, piece.simplices, "simplex", corners_of<Real>(domain.complex(piece))});
+  }
 
   workspace.pieces.resize(domain.pieces().size());
   MixedPropagation<Real> propagation(domain, workspace.pieces, workspace.offered, options);

@@ -11,42 +11,13 @@
 #include <plexway/propagate/plain_solid_rule.hpp>
 #include <plexway/propagate/solid_rule.hpp>
 
+#include "executors/checks.hpp"
+#include "propagate/finish.hpp"
 #include "propagate/solid_propagation.hpp"
 #include "propagate/solid_read_out.hpp"
 
 namespace plexway {
 namespace {
-
-template <class Real>
-void check(const TetMesh<Real>& mesh, std::span<const PointSource> sources,
-           const PropagateOptions& options) {
-  if (sources.empty()) throw UsageError("there is no source: name at least one");
-  if (sources.size() >= none) throw UsageError("too many sources");
-  for (const PointSource& s : sources) {
-    if (s.vertex != none) {
-      if (s.vertex >= mesh.vertex_count())
-        throw UsageError("source vertex " + std::to_string(s.vertex) +
-                         " is out of range, there are " + std::to_string(mesh.vertex_count()));
-    } else {
-      if (s.simplex >= mesh.tet_count())
-        throw UsageError("source tet " + std::to_string(s.simplex) +
-                         " is out of range, there are " + std::to_string(mesh.tet_count()));
-      double sum = 0;
-      bool inside = true;
-      for (const double b : s.barycentric) inside = inside && b >= 0, sum += b;
-      if (!inside || !(std::abs(sum - 1) < 1e-6))
-        throw UsageError("a source's barycentric coordinates must be >= 0 and sum to 1");
-    }
-    if (!(s.offset >= 0) || !std::isfinite(s.offset))
-      throw UsageError("a source's offset must be a number >= 0");
-  }
-  if (!(options.step > 0)) throw UsageError("the step must be > 0");
-  if (!(options.radius >= 0)) throw UsageError("the radius must be >= 0");
-  if (options.visibility == Visibility::tuned)
-    throw UsageError(
-        "the tuned policy is a table for triangles: use saddles, centroid or upper_bound in "
-        "solids");
-}
 
 // The sources themselves, exactly, and the corners of tetrahedra they lie in.
 template <class Real, bool kLabels>
@@ -111,34 +82,15 @@ void solve(const TetMesh<Real>& mesh, std::span<const PointSource> sources,
       std::is_same_v<Rule, PlainSolidRule<Real, Wavefront<Real, Front, kLabels>>>;
   if (plain || rule.drops()) read_out_tet_edges<Real, kLabels>(mesh, workspace);
 
-  field.distance.resize(vertices);
-  field.label.resize(kLabels ? vertices : 0);
-  const Real unit = static_cast<Real>(mesh.unit()), radius = static_cast<Real>(options.radius);
-  const std::span<const Index> inside = mesh.vertices_inside();
-  for (std::size_t v = 0; v < vertices; ++v) {
-    const Real d = workspace.vertex[inside[v]] * unit;
-    const bool in = d <= radius;
-    field.distance[v] = in ? d : infinity;
-    if constexpr (kLabels)
-      field.label[v] = in && d < infinity ? workspace.vertex_source[inside[v]] : none;
-  }
-  // An offset survives scaling exactly.
-  for (const PointSource& s : sources)
-    if (s.vertex != none && s.offset <= options.radius)
-      field.distance[s.vertex] = std::min(field.distance[s.vertex], static_cast<Real>(s.offset));
-  field.complete = !front.out_of_budget();
-  field.statistics = {front.expansions(), front.updates(), front.reached_count()};
+  finish<Real, kLabels>(mesh, sources, options, front, workspace, field);
 }
 
 template <class Real, bool kLabels, class Front>
 void with_front(const TetMesh<Real>& mesh, std::span<const PointSource> sources,
                 const PropagateOptions& options, Workspace<Real>& workspace, Front front,
                 DistanceField<Real>& field) {
+  workspace.start(mesh.tet_count(), kLabels);
   const std::size_t records = mesh.tet_count() + 1;
-  workspace.marks.resize(records);
-  workspace.marks.start();
-  workspace.marks.data()[mesh.tet_count()] = workspace.marks.current();  // the sentinel
-  if constexpr (kLabels) workspace.source.resize(records);
   using Wave = Wavefront<Real, Front, kLabels>;
   Wave wave(workspace.marks, front, workspace.source.data(), mesh.tet_count(), mesh.unit(),
             options);
@@ -157,17 +109,9 @@ void with_labels(const TetMesh<Real>& mesh, std::span<const PointSource> sources
                  const PropagateOptions& options, Workspace<Real>& workspace,
                  DistanceField<Real>& field) {
   workspace.front.reserve(mesh.tet_count());
-  const Real infinity = std::numeric_limits<Real>::infinity();
-  if (options.schedule == Schedule::priority)
-    with_front<Real, kLabels>(mesh, sources, options, workspace,
-                              PriorityQueue<Real>(workspace.front), field);
-  else
-    with_front<Real, kLabels>(
-        mesh, sources, options, workspace,
-        DualQueue<Real>(workspace.front, options.schedule == Schedule::fifo
-                                             ? infinity
-                                             : static_cast<Real>(options.step)),
-        field);
+  with_queue<Real>(options, workspace.front, [&](auto queue) {
+    with_front<Real, kLabels>(mesh, sources, options, workspace, queue, field);
+  });
 }
 
 }  // namespace
@@ -176,7 +120,11 @@ template <class Real>
 void propagate(Serial, const TetMesh<Real>& mesh, std::span<const PointSource> sources,
                const PropagateOptions& options, Workspace<Real>& workspace,
                DistanceField<Real>& field) {
-  check(mesh, sources, options);
+  check(sources, options, {mesh.vertex_count(), mesh.tet_count(), "tet", 4});
+  if (options.visibility == Visibility::tuned)
+    throw UsageError(
+        "the tuned policy is a table for triangles: use saddles, centroid or upper_bound in "
+        "solids");
   if (sources.size() > 1)
     with_labels<Real, true>(mesh, sources, options, workspace, field);
   else

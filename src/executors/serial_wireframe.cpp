@@ -1,13 +1,11 @@
 #include <plexway/executors/serial_wireframe.hpp>
 
-#include <cmath>
 #include <limits>
-#include <string>
 #include <type_traits>
 
-#include <plexway/error.hpp>
 #include <plexway/propagate/wire_step.hpp>
 
+#include "executors/checks.hpp"
 #include "propagate/wire_propagation.hpp"
 
 namespace plexway {
@@ -16,32 +14,6 @@ namespace {
 // How often the dual queue may look at each edge before nearest first takes over. Up to here it is
 // the faster of the two: its expansions cost a quarter.
 constexpr std::size_t patience = 4;
-
-template <class Real>
-void check(const Wireframe<Real>& wireframe, std::span<const PointSource> sources,
-           const PropagateOptions& options) {
-  if (sources.empty()) throw UsageError("there is no source: name at least one");
-  if (sources.size() >= none) throw UsageError("too many sources");
-  for (const PointSource& s : sources) {
-    if (s.vertex != none) {
-      if (s.vertex >= wireframe.vertex_count())
-        throw UsageError("source vertex " + std::to_string(s.vertex) +
-                         " is out of range, there are " + std::to_string(wireframe.vertex_count()));
-    } else {
-      if (s.simplex >= wireframe.edge_count())
-        throw UsageError("source edge " + std::to_string(s.simplex) +
-                         " is out of range, there are " + std::to_string(wireframe.edge_count()));
-      const auto& b = s.barycentric;
-      if (!(b[0] >= 0) || !(b[1] >= 0) || b[2] != 0 || b[3] != 0 ||
-          !(std::abs(b[0] + b[1] - 1) < 1e-6))
-        throw UsageError("a source's barycentric coordinates must be >= 0 and sum to 1");
-    }
-    if (!(s.offset >= 0) || !std::isfinite(s.offset))
-      throw UsageError("a source's offset must be a number >= 0");
-  }
-  if (!(options.step > 0)) throw UsageError("the step must be > 0");
-  if (!(options.radius >= 0)) throw UsageError("the radius must be >= 0");
-}
 
 template <class Real, class Step, bool kLabels>
 void solve(const Wireframe<Real>& wireframe, std::span<const PointSource> sources,
@@ -81,7 +53,7 @@ template <class Real>
 void propagate(Serial, const Wireframe<Real>& wireframe, std::span<const PointSource> sources,
                const PropagateOptions& options, Workspace<Real>& workspace,
                DistanceField<Real>& field) {
-  check(wireframe, sources, options);
+  check(sources, options, {wireframe.vertex_count(), wireframe.edge_count(), "edge", 2});
   const auto with_step = [&](auto labels, auto step) {
     solve<Real, decltype(step), decltype(labels)::value>(wireframe, sources, options, workspace,
                                                          field);

@@ -4,8 +4,7 @@
 
 #include <plexway/error.hpp>
 
-#include "extension.hpp"
-#include "file_bytes.hpp"
+#include "by_extension.hpp"
 
 namespace plexway::io {
 namespace {
@@ -50,18 +49,11 @@ std::span<const std::string_view> tet_extensions() { return extensions; }
 
 Tets read_tets(const fs::path& file) {
   const std::string extension = lower_extension(file);
-  for (std::size_t i = 0; i < extensions.size(); ++i) {
-    if (extension != extensions[i]) continue;
-    if (parsers[i] == nullptr) return read_node_ele(file, extension == ".node");
-    const FileBytes bytes(file);
-    return parsers[i](bytes.view(), file.string());
-  }
+  if (extension == ".node" || extension == ".ele") return read_node_ele(file, extension == ".node");
   std::error_code ignored;
-  if (fs::is_directory(file, ignored))
-    throw InputError(file.string() + ": is a directory, not a file");
-  if (extension == ".meshb")
+  if (extension == ".meshb" && !fs::is_directory(file, ignored))
     throw InputError(file.string() + ": binary .meshb is not read; save it as ascii .mesh");
-  throw InputError(unknown_extension(file, extensions));
+  return read_by_extension<Tets>(file, extensions, parsers);
 }
 
 }  // namespace plexway::io

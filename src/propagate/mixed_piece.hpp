@@ -1,10 +1,13 @@
 #pragma once
 
+#include <cstddef>
+#include <limits>
 #include <span>
 
 #include <plexway/complex/mixed_complex.hpp>
 #include <plexway/propagate/distance_field.hpp>
 #include <plexway/propagate/options.hpp>
+#include <plexway/propagate/workspace.hpp>
 #include <plexway/source/point_source.hpp>
 
 namespace plexway {
@@ -61,6 +64,44 @@ class MixedPiece {
   virtual bool relax(std::span<Real>, std::span<Index>) { return false; }
   [[nodiscard]] virtual PropagateStatistics statistics() const = 0;
   [[nodiscard]] virtual bool out_of_budget() const = 0;
+
+ protected:
+  /// By more than rounding: else offers would go to and fro for ever.
+  static bool gains(Real known, Real offer) {
+    return offer < known * (1 - 64 * std::numeric_limits<Real>::epsilon());
+  }
+
+  // Between the domain's unit in the caller's order and what is read out inside.
+  template <class Complex>
+  static void take_out(const Complex& complex, const Workspace<Real>& workspace,
+                       std::span<Real> distance, std::span<Index> label) {
+    const std::span<const Index> inside = complex.vertices_inside();
+    for (std::size_t v = 0; v < inside.size(); ++v) {
+      distance[v] = workspace.vertex[inside[v]] * static_cast<Real>(complex.unit());
+      label[v] = workspace.vertex_source[inside[v]];
+    }
+  }
+  /// `relax` on the distances as they are in the domain by now; only what got nearer changes.
+  template <class Complex, class Relax>
+  static bool relax_with(const Complex& complex, Workspace<Real>& workspace,
+                         std::span<Real> distance, std::span<Index> label, Relax relax) {
+    const std::span<const Index> inside = complex.vertices_inside();
+    const Real unit = static_cast<Real>(complex.unit());
+    for (std::size_t v = 0; v < inside.size(); ++v) {
+      workspace.vertex[inside[v]] = distance[v] / unit;
+      workspace.vertex_source[inside[v]] = label[v];
+    }
+    if (!relax()) return false;
+    bool any = false;
+    for (std::size_t v = 0; v < inside.size(); ++v) {
+      const Real d = workspace.vertex[inside[v]] * unit;
+      if (!(d < distance[v])) continue;
+      distance[v] = d;
+      label[v] = workspace.vertex_source[inside[v]];
+      any = true;
+    }
+    return any;
+  }
 };
 
 }  // namespace plexway

@@ -52,8 +52,7 @@ class MixedSolid final : public MixedPiece<Real> {
   }
 
   bool enter_vertex(Index vertex, Real distance, Index source) override {
-    constexpr Real gain = 1 - 64 * std::numeric_limits<Real>::epsilon();
-    if (!(distance < at_vertex(vertex).distance * gain)) return false;
+    if (!this->gains(at_vertex(vertex).distance, distance)) return false;
     bool any = false;
     for (const Index c : mesh_.corners_at(vertex))
       any |= rule_.seed_corner(c / 4, c % 4, distance / unit_, source);
@@ -112,28 +111,12 @@ class MixedSolid final : public MixedPiece<Real> {
     workspace_.vertex_source.assign(vertices, none);
     workspace_.vertex_path.assign(vertices, 0);
     read_out_tets<Real, true>(mesh_, rule_, wave_, workspace_);
-    for (std::size_t v = 0; v < vertices; ++v) {
-      distance[v] = workspace_.vertex[mesh_.vertices_inside()[v]] * unit_;
-      label[v] = workspace_.vertex_source[mesh_.vertices_inside()[v]];
-    }
+    this->take_out(mesh_, workspace_, distance, label);
   }
 
   bool relax(std::span<Real> distance, std::span<Index> label) override {
-    const std::span<const Index> inside = mesh_.vertices_inside();
-    for (std::size_t v = 0; v < distance.size(); ++v) {
-      workspace_.vertex[inside[v]] = distance[v] / unit_;
-      workspace_.vertex_source[inside[v]] = label[v];
-    }
-    if (!read_out_tet_edges<Real, true>(mesh_, workspace_)) return false;
-    bool any = false;
-    for (std::size_t v = 0; v < distance.size(); ++v) {
-      const Real d = workspace_.vertex[inside[v]] * unit_;
-      if (!(d < distance[v])) continue;
-      distance[v] = d;
-      label[v] = workspace_.vertex_source[inside[v]];
-      any = true;
-    }
-    return any;
+    return this->relax_with(mesh_, workspace_, distance, label,
+                            [&] { return read_out_tet_edges<Real, true>(mesh_, workspace_); });
   }
 
   PropagateStatistics statistics() const override {
@@ -145,12 +128,8 @@ class MixedSolid final : public MixedPiece<Real> {
   static constexpr Real infinity = std::numeric_limits<Real>::infinity();
 
   static Workspace<Real>& prepare(const TetMesh<Real>& mesh, Workspace<Real>& workspace) {
-    const std::size_t records = mesh.tet_count() + 1;
     workspace.front.reserve(mesh.tet_count());
-    workspace.marks.resize(records);
-    workspace.marks.start();
-    workspace.marks.data()[mesh.tet_count()] = workspace.marks.current();  // the sentinel
-    workspace.source.resize(records);
+    workspace.start(mesh.tet_count(), true);
     return workspace;
   }
 

@@ -50,7 +50,7 @@ class MixedSurface final : public MixedPiece<Real> {
   }
 
   bool enter_vertex(Index vertex, Real distance, Index source) override {
-    if (!gains(at_vertex(vertex).distance, distance)) return false;
+    if (!this->gains(at_vertex(vertex).distance, distance)) return false;
     bool any = false;
     mesh_.corners_at(vertex, workspace_.corners);
     for (const Index c : workspace_.corners)
@@ -99,28 +99,12 @@ class MixedSurface final : public MixedPiece<Real> {
     for (Index v = 0; v < vertices; ++v)
       if (!(workspace_.vertex[v] < infinity))
         read_out_around<Real, true>(mesh_, rule_, wave_, v, workspace_);
-    for (std::size_t v = 0; v < vertices; ++v) {
-      distance[v] = workspace_.vertex[mesh_.vertices_inside()[v]] * unit_;
-      label[v] = workspace_.vertex_source[mesh_.vertices_inside()[v]];
-    }
+    this->take_out(mesh_, workspace_, distance, label);
   }
 
   bool relax(std::span<Real> distance, std::span<Index> label) override {
-    const std::span<const Index> inside = mesh_.vertices_inside();
-    for (std::size_t v = 0; v < distance.size(); ++v) {
-      workspace_.vertex[inside[v]] = distance[v] / unit_;
-      workspace_.vertex_source[inside[v]] = label[v];
-    }
-    if (!read_out_edges<Real, true>(mesh_, workspace_)) return false;
-    bool any = false;
-    for (std::size_t v = 0; v < distance.size(); ++v) {
-      const Real d = workspace_.vertex[inside[v]] * unit_;
-      if (!(d < distance[v])) continue;
-      distance[v] = d;
-      label[v] = workspace_.vertex_source[inside[v]];
-      any = true;
-    }
-    return any;
+    return this->relax_with(mesh_, workspace_, distance, label,
+                            [&] { return read_out_edges<Real, true>(mesh_, workspace_); });
   }
 
   PropagateStatistics statistics() const override {
@@ -131,17 +115,9 @@ class MixedSurface final : public MixedPiece<Real> {
  private:
   static constexpr Real infinity = std::numeric_limits<Real>::infinity();
 
-  static bool gains(Real known, Real offer) {
-    return offer < known * (1 - 64 * std::numeric_limits<Real>::epsilon());
-  }
-
   static Workspace<Real>& prepare(const TriangleMesh<Real>& mesh, Workspace<Real>& workspace) {
-    const std::size_t records = mesh.face_count() + 1;
     workspace.front.reserve(mesh.face_count());
-    workspace.marks.resize(records);
-    workspace.marks.start();
-    workspace.marks.data()[mesh.face_count()] = workspace.marks.current();  // the sentinel
-    workspace.source.resize(records);
+    workspace.start(mesh.face_count(), true);
     return workspace;
   }
 

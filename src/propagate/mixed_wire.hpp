@@ -45,8 +45,7 @@ class MixedWire final : public MixedPiece<Real> {
     return {std::abs(workspace_.vertex[v]) * unit_, workspace_.vertex_source[v]};
   }
   bool enter_vertex(Index v, Real distance, Index source) override {
-    constexpr Real gain = 1 - 64 * std::numeric_limits<Real>::epsilon();
-    if (!(distance < at_vertex(v).distance * gain)) return false;
+    if (!this->gains(at_vertex(v).distance, distance)) return false;
     return propagation_.seed_vertex(v, static_cast<double>(distance / unit_), source, front_);
   }
 

@@ -32,6 +32,15 @@ struct Workspace {
   std::vector<Index> vertex_path;    ///< in solids: how the path came
   std::vector<Index> corners;        ///< around one vertex
 
+  /// Room for a front and marks over so many simplices and a sentinel behind them; all unreached
+  /// but the sentinel, which nothing can improve.
+  void start(std::size_t simplices, bool labels) {
+    marks.resize(simplices + 1);
+    marks.start();
+    marks.data()[simplices] = marks.current();
+    if (labels) source.resize(simplices + 1);
+  }
+
   [[nodiscard]] std::size_t bytes() const {
     const auto of = [](const auto& v) { return v.capacity() * sizeof(v[0]); };
     return sizeof(*this) + marks.bytes() + saddles.count * sizeof(SaddleLabel<Real>) +

@@ -1,0 +1,61 @@
+#pragma once
+
+#include <cmath>
+#include <cstddef>
+#include <span>
+#include <string>
+
+#include <plexway/error.hpp>
+#include <plexway/propagate/options.hpp>
+#include <plexway/source/point_source.hpp>
+
+namespace plexway {
+
+/// What a source may name.
+struct SourceDomain {
+  std::size_t vertices, simplices;
+  const char* simplex;  ///< what one is called
+  std::size_t corners;  ///< of one
+};
+
+/// Throws UsageError for a vertex or a point that `domain` does not have, or an offset below 0.
+inline void check_source(const PointSource& s, const SourceDomain& domain) {
+  const auto check_number = [](const char* what, Index number, std::size_t count) {
+    if (number >= count)
+      throw UsageError(std::string("source ") + what + " " + std::to_string(number) +
+                       " is out of range, there are " + std::to_string(count));
+  };
+  if (s.vertex != none) {
+    check_number("vertex", s.vertex, domain.vertices);
+  } else {
+    check_number(domain.simplex, s.simplex, domain.simplices);
+    double sum = 0;
+    bool inside = true;
+    for (std::size_t i = 0; i < s.barycentric.size(); ++i) {
+      const double b = s.barycentric[i];
+      inside = inside && b >= 0 && (i < domain.corners || b == 0);
+      sum += b;
+    }
+    if (!inside || !(std::abs(sum - 1) < 1e-6))
+      throw UsageError(
+          "a source's barycentric coordinates must be >= 0 and sum to 1, one a corner");
+  }
+  if (!(s.offset >= 0) || !std::isfinite(s.offset))
+    throw UsageError("a source's offset must be a number >= 0");
+}
+
+/// Throws UsageError for no source, or options out of range.
+inline void check(std::span<const PointSource> sources, const PropagateOptions& options) {
+  if (sources.empty()) throw UsageError("there is no source: name at least one");
+  if (sources.size() >= none) throw UsageError("too many sources");
+  if (!(options.step > 0)) throw UsageError("the step must be > 0");
+  if (!(options.radius >= 0)) throw UsageError("the radius must be >= 0");
+}
+
+inline void check(std::span<const PointSource> sources, const PropagateOptions& options,
+                  const SourceDomain& domain) {
+  check(sources, options);
+  for (const PointSource& s : sources) check_source(s, domain);
+}
+
+}  // namespace plexway
