@@ -179,7 +179,7 @@ class SaddleRule {
     const bool from_inside = edge != in || p.source.h < 0;
     if (from_inside) p = leave(f, in, edge, pivot);
     SaddleHinge<Real> middle;  // a triangle without area: its apex is the edge's middle
-    middle.length = t.length[edge];
+    middle.extent = t.length[edge];
     middle.apex = {{t.length[edge] / 2}, Real(0)};
     middle.saddle[0] = middle.saddle[1] = false;
     middle.pivot = pivot;
@@ -308,7 +308,7 @@ class SaddleRule {
   [[gnu::noinline]] static Label resolve(Posed label, const TriangleRecord<Real>& t, std::size_t k,
                                          int pivot, bool last_resort) {
     SaddleHinge<Real> hinge;
-    hinge.length = t.length[k];
+    hinge.extent = t.length[k];
     hinge.apex = {{t.apex_x(k)}, t.apex_h(k)};
     hinge.saddle[0] = t.saddle(k);
     hinge.saddle[1] = t.saddle(k == 2 ? 0 : k + 1);
