@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <limits>
+#include <type_traits>
 
 #include <plexway/propagate/plain_rule.hpp>
 #include <plexway/propagate/saddle_rule.hpp>
@@ -46,9 +47,9 @@ void read_out_sources(const TriangleMesh<Real>& mesh, std::span<const PointSourc
 template <class Real, bool kLabels, class Rule, class Front>
 void solve(const TriangleMesh<Real>& mesh, std::span<const PointSource> sources,
            const PropagateOptions& options, Workspace<Real>& workspace, const Rule& rule,
-           Wavefront<Real, Front, kLabels>& front, DistanceField<Real>& field) {
-  using Propagation = TrianglePropagation<Real, Rule, Wavefront<Real, Front, kLabels>, kLabels>;
-  Propagation propagation(mesh, workspace, rule, front, options);
+           Front& front, DistanceField<Real>& field) {
+  TrianglePropagation<Real, Rule, Front, kLabels> propagation(mesh, workspace, rule, front,
+                                                              options);
   for (std::size_t n = 0; n < sources.size(); ++n)
     propagation.seed(sources[n], static_cast<Index>(n));
   propagation.run();
@@ -74,21 +75,24 @@ void solve(const TriangleMesh<Real>& mesh, std::span<const PointSource> sources,
   finish<Real, kLabels>(mesh, sources, options, front, workspace, field);
 }
 
-template <class Real, bool kLabels, class Front>
+template <class Real, bool kLabels, class Queue>
 void with_front(const TriangleMesh<Real>& mesh, std::span<const PointSource> sources,
-                const PropagateOptions& options, Workspace<Real>& workspace, Front front,
+                const PropagateOptions& options, Workspace<Real>& workspace, Queue queue,
                 DistanceField<Real>& field) {
   workspace.start(mesh.face_count(), kLabels);
   const std::size_t records = mesh.face_count() + 1;
-  Wavefront<Real, Front, kLabels> wave(workspace.marks, front, workspace.source.data(),
-                                       mesh.face_count(), mesh.unit(), options);
+  const auto front = [&](auto* labels) {
+    return Wavefront<Real, std::remove_pointer_t<decltype(labels)>, Queue, kLabels>(
+        workspace.marks, labels, queue, workspace.source.data(), mesh.face_count(), mesh.unit(),
+        options);
+  };
   if (options.visibility == Visibility::saddles) {
-    const SaddleRule<Real, decltype(wave)> rule(
-        mesh.triangles(), workspace.saddles.reserve(records), wave, options.vectorised);
+    auto wave = front(workspace.saddles.reserve(records));
+    const SaddleRule<Real, decltype(wave)> rule(mesh.triangles(), wave, options.vectorised);
     solve<Real, kLabels>(mesh, sources, options, workspace, rule, wave, field);
   } else {
-    const PlainRule<Real, decltype(wave)> rule(mesh.triangles(), workspace.plain.reserve(records),
-                                               wave, options.visibility);
+    auto wave = front(workspace.plain.reserve(records));
+    const PlainRule<Real, decltype(wave)> rule(mesh.triangles(), wave, options.visibility);
     solve<Real, kLabels>(mesh, sources, options, workspace, rule, wave, field);
   }
 }

@@ -54,11 +54,11 @@ void solve(const SimplicialComplex<Real, N>& domain, std::span<const PointSource
            DistanceField<Real>& field) {
   const std::size_t simplices = domain.simplex_count();
   workspace.start(simplices, true);
-  using Front = Wavefront<Real, Queue, true>;
+  using Front = Wavefront<Real, SimplexLabel<Real, N>, Queue, true>;
   using Rule = PlainSimplexRule<Real, N, Front>;
-  Front front(workspace.marks, queue, workspace.source.data(), simplices, domain.unit(), options);
-  const Rule rule(domain.records(), workspace.simplex.template reserve<N>(simplices), front,
-                  options.visibility);
+  Front front(workspace.marks, workspace.simplex.template reserve<N>(simplices), queue,
+              workspace.source.data(), simplices, domain.unit(), options);
+  const Rule rule(domain.records(), front, options.visibility);
   SimplexPropagation<Real, N, Rule, Front> propagation(domain, rule, front, options);
   for (std::size_t n = 0; n < sources.size(); ++n)
     propagation.seed(sources[n], static_cast<Index>(n));

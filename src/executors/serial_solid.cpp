@@ -63,9 +63,8 @@ void read_out_sources(const TetMesh<Real>& mesh, std::span<const PointSource> so
 template <class Real, bool kLabels, class Rule, class Front>
 void solve(const TetMesh<Real>& mesh, std::span<const PointSource> sources,
            const PropagateOptions& options, Workspace<Real>& workspace, const Rule& rule,
-           Wavefront<Real, Front, kLabels>& front, DistanceField<Real>& field) {
-  SolidPropagation<Real, Rule, Wavefront<Real, Front, kLabels>> propagation(mesh, rule, front,
-                                                                            options);
+           Front& front, DistanceField<Real>& field) {
+  SolidPropagation<Real, Rule, Front> propagation(mesh, rule, front, options);
   for (std::size_t n = 0; n < sources.size(); ++n)
     propagation.seed(sources[n], static_cast<Index>(n));
   propagation.run();
@@ -78,28 +77,30 @@ void solve(const TetMesh<Real>& mesh, std::span<const PointSource> sources,
   read_out_tets<Real, kLabels>(mesh, rule, front, workspace);
   read_out_sources<Real, kLabels>(mesh, sources, workspace);
   // The full rule is exact where nothing bends a path.
-  constexpr bool plain =
-      std::is_same_v<Rule, PlainSolidRule<Real, Wavefront<Real, Front, kLabels>>>;
+  constexpr bool plain = std::is_same_v<Rule, PlainSolidRule<Real, Front>>;
   if (plain || rule.drops()) read_out_tet_edges<Real, kLabels>(mesh, workspace);
 
   finish<Real, kLabels>(mesh, sources, options, front, workspace, field);
 }
 
-template <class Real, bool kLabels, class Front>
+template <class Real, bool kLabels, class Queue>
 void with_front(const TetMesh<Real>& mesh, std::span<const PointSource> sources,
-                const PropagateOptions& options, Workspace<Real>& workspace, Front front,
+                const PropagateOptions& options, Workspace<Real>& workspace, Queue queue,
                 DistanceField<Real>& field) {
   workspace.start(mesh.tet_count(), kLabels);
   const std::size_t records = mesh.tet_count() + 1;
-  using Wave = Wavefront<Real, Front, kLabels>;
-  Wave wave(workspace.marks, front, workspace.source.data(), mesh.tet_count(), mesh.unit(),
-            options);
+  const auto front = [&](auto* labels) {
+    return Wavefront<Real, std::remove_pointer_t<decltype(labels)>, Queue, kLabels>(
+        workspace.marks, labels, queue, workspace.source.data(), mesh.tet_count(), mesh.unit(),
+        options);
+  };
   if (mesh.embedded() && options.visibility == Visibility::saddles) {
-    const SolidRule<Real, Wave> rule(mesh, workspace.solids.reserve(records), wave);
+    auto wave = front(workspace.solids.reserve(records));
+    const SolidRule<Real, decltype(wave)> rule(mesh, wave);
     solve<Real, kLabels>(mesh, sources, options, workspace, rule, wave, field);
   } else {
-    const PlainSolidRule<Real, Wave> rule(mesh, workspace.plain_solids.reserve(records), wave,
-                                          options.visibility);
+    auto wave = front(workspace.plain_solids.reserve(records));
+    const PlainSolidRule<Real, decltype(wave)> rule(mesh, wave, options.visibility);
     solve<Real, kLabels>(mesh, sources, options, workspace, rule, wave, field);
   }
 }

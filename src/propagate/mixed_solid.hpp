@@ -19,7 +19,7 @@ class MixedSolid final : public MixedPiece<Real> {
   using typename MixedPiece<Real>::Member;
   using typename MixedPiece<Real>::Found;
   using Point = Vector3<Real>;
-  using Wave = Wavefront<Real, DualQueue<Real>, true>;
+  using Wave = Wavefront<Real, SolidLabel<Real>, DualQueue<Real>, true>;
   using Rule = SolidRule<Real, Wave>;
 
   MixedSolid(const TetMesh<Real>& mesh, Workspace<Real>& workspace, const PropagateOptions& options,
@@ -29,10 +29,10 @@ class MixedSolid final : public MixedPiece<Real> {
         options_(options),
         unit_(static_cast<Real>(mesh.unit())),
         rings_(mesh.reflex_edges().begin(), mesh.reflex_edges().end()),
-        wave_(workspace.marks, DualQueue<Real>(workspace.front, step), workspace.source.data(),
-              mesh.tet_count(), mesh.unit(), options_),
-        propagation_(mesh, Rule(mesh, workspace.solids.reserve(mesh.tet_count() + 1), wave_), wave_,
-                     options_),
+        wave_(workspace.marks, workspace.solids.reserve(mesh.tet_count() + 1),
+              DualQueue<Real>(workspace.front, step), workspace.source.data(), mesh.tet_count(),
+              mesh.unit(), options_),
+        propagation_(mesh, Rule(mesh, wave_), wave_, options_),
         rule_(propagation_.rule()) {}
 
   void seed(const PointSource& source, Index number) override { propagation_.seed(source, number); }

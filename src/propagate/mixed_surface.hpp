@@ -17,7 +17,7 @@ class MixedSurface final : public MixedPiece<Real> {
  public:
   using typename MixedPiece<Real>::Member;
   using typename MixedPiece<Real>::Found;
-  using Wave = Wavefront<Real, DualQueue<Real>, true>;
+  using Wave = Wavefront<Real, SaddleLabel<Real>, DualQueue<Real>, true>;
   using Rule = SaddleRule<Real, Wave>;
 
   MixedSurface(const TriangleMesh<Real>& mesh, Workspace<Real>& workspace,
@@ -26,10 +26,10 @@ class MixedSurface final : public MixedPiece<Real> {
         workspace_(prepare(mesh, workspace)),
         options_(options),
         unit_(static_cast<Real>(mesh.unit())),
-        wave_(workspace.marks, DualQueue<Real>(workspace.front, step), workspace.source.data(),
-              mesh.face_count(), mesh.unit(), options_),
-        rule_(mesh.triangles(), workspace.saddles.reserve(mesh.face_count() + 1), wave_,
-              options.vectorised),
+        wave_(workspace.marks, workspace.saddles.reserve(mesh.face_count() + 1),
+              DualQueue<Real>(workspace.front, step), workspace.source.data(), mesh.face_count(),
+              mesh.unit(), options_),
+        rule_(mesh.triangles(), wave_, options.vectorised),
         propagation_(mesh, workspace, rule_, wave_, options_) {}
 
   void seed(const PointSource& source, Index number) override { propagation_.seed(source, number); }

@@ -22,15 +22,13 @@ class PlainRule {
   using Kernel = kernel::HingeKernel<Real, 1>;
   using Point = typename Kernel::HingePoint;
 
-  PlainRule(std::span<const TriangleRecord<Real>> triangles, Label* labels, Front& front,
-            Visibility policy)
+  PlainRule(std::span<const TriangleRecord<Real>> triangles, Front& front, Visibility policy)
       : triangles_(triangles.data()),
         sentinel_(static_cast<Index>(triangles.size() - 1)),
-        labels_(labels),
         front_(front),
         policy_(policy) {}
 
-  [[nodiscard]] Real distance(Index f) const { return labels_[f].centre; }
+  [[nodiscard]] Real distance(Index f) const { return front_.label(f).centre; }
   [[nodiscard]] Real distance_or_inf(Index f) const {
     return front_.reached(f) ? distance(f) : std::numeric_limits<Real>::infinity();
   }
@@ -41,7 +39,12 @@ class PlainRule {
     full(f, in == 0 ? 2 : in - 1);
     full(f, in == 2 ? 0 : in + 1);
   }
-  [[nodiscard]] PlainRule on(Front&) const { return *this; }
+  [[nodiscard]] PlainRule on(Front&) const { return *this; }  // it only goes by `full`
+  /// The same rule on the front of another executor.
+  template <class Other>
+  [[nodiscard]] PlainRule<Real, Other> on(Other& front) const {
+    return PlainRule<Real, Other>({triangles_, sentinel_ + std::size_t{1}}, front, policy_);
+  }
 
   /// Over one edge, to every triangle there. (A plain step never drops an update: there is no last
   /// resort to take.)
@@ -81,7 +84,7 @@ class PlainRule {
   }
 
   [[nodiscard]] Real corner_distance(Index f, std::size_t i) const {
-    return labels_[f].sigma + std::sqrt(labels_[f].distance2[i]);
+    return front_.label(f).sigma + std::sqrt(front_.label(f).distance2[i]);
   }
 
  private:
@@ -97,15 +100,14 @@ class PlainRule {
     label.sigma = sigma;
     label.centre = centre_distance(triangles_[f], label);
     if (!(label.centre < distance_or_inf(f))) return false;
-    labels_[f] = label;
-    front_.accept(f, in, label.centre, source);
+    front_.accept(f, in, label, label.centre, source);
     return true;
   }
 
   void enter(Index f, int edge, Index g, int k, bool flip) {
     const TriangleRecord<Real>& U = triangles_[f];
     const TriangleRecord<Real>& T = triangles_[g];
-    const Label& from = labels_[f];
+    const Label& from = front_.label(f);
     const int last = (k + 2) % 3, next = (k + 1) % 3;
     const Real edge2[1] = {T.length[k] * T.length[k]};
     const auto pose = Kernel::make_pose(edge2);
@@ -143,7 +145,6 @@ class PlainRule {
 
   const TriangleRecord<Real>* triangles_;
   Index sentinel_;
-  Label* labels_;
   Front& front_;
   Visibility policy_;
   Index inside_ = none;  // the triangle a source lies in, while its own edges are crossed

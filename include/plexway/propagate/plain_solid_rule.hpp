@@ -23,18 +23,23 @@ class PlainSolidRule {
   using Kernel = kernel::HingeKernel<Real, 2>;
   using Point = typename Kernel::HingePoint;
 
-  PlainSolidRule(const TetMesh<Real>& mesh, Label* labels, Front& front, Visibility policy)
+  PlainSolidRule(const TetMesh<Real>& mesh, Front& front, Visibility policy)
       : mesh_(&mesh),
         tets_(mesh.tets().data()),
         points_(mesh.points().data()),
         lengths_(mesh.squared_lengths().data()),
         sentinel_(static_cast<Index>(mesh.tet_count())),
         embedded_(mesh.embedded()),
+        policy_(policy),
         apex_(policy == Visibility::upper_bound),
-        labels_(labels),
         front_(&front) {}
+  /// The same rule on the front of another executor.
+  template <class Other>
+  [[nodiscard]] PlainSolidRule<Real, Other> on(Other& front) const {
+    return PlainSolidRule<Real, Other>(*mesh_, front, policy_);
+  }
 
-  [[nodiscard]] Real distance(Index t) const { return labels_[t].centre; }
+  [[nodiscard]] Real distance(Index t) const { return front_->label(t).centre; }
   [[nodiscard]] Index path(Index) const { return 0; }  // not known
   [[nodiscard]] Real distance_or_inf(Index t) const {
     return front_->reached(t) ? distance(t) : std::numeric_limits<Real>::infinity();
@@ -63,7 +68,7 @@ class PlainSolidRule {
     const Index across = tets_[t].across[face];
     const Index u = across >> TetAcross::tet_shift, apex = across & TetAcross::face_mask;
     if (u == sentinel_) return;
-    const Label& from = labels_[t];
+    const Label& from = front_->label(t);
     // The face in both numberings; its first vertex is an end of its shortest edge, as poses like.
     Index here[3], there[3];
     for (Index i = 0, n = 0; i < 4; ++i)
@@ -121,22 +126,22 @@ class PlainSolidRule {
       label.distance2[i] = std::max(squared_from(t, barycentric, i), Real(0));
     // Farther from the centre than another source here, it may still be the nearer one beyond.
     const bool better = accept(t, 0, label, sigma, source);
-    const Label kept = labels_[t];
+    const Label kept = front_->label(t);
     const Index kept_source = front_->source(t);
     if (!better) {
       label.sigma = sigma;
-      labels_[t] = label;
+      front_->put(t, label);
       front_->set_source(t, source);
     }
     inside_ = t;
     for (Index i = 0; i < 4; ++i) cross(t, i, false);
     inside_ = none;
-    labels_[t] = kept;
+    front_->put(t, kept);
     front_->set_source(t, kept_source);
   }
 
   [[nodiscard]] Real corner_distance(Index t, Index i, Real = 0) const {
-    return labels_[t].sigma + std::sqrt(labels_[t].distance2[i]);
+    return front_->label(t).sigma + std::sqrt(front_->label(t).distance2[i]);
   }
 
   /// Labels of u offer a path over the edge (v, w) of t, which touches u in that edge only.
@@ -146,7 +151,7 @@ class PlainSolidRule {
     const Index t0 = corner_of(t, v), t1 = corner_of(t, w);
     const Real e2[1] = {edge2(t, tet_edge(t0, t1))};
     const auto pose = Edge::make_pose(e2);
-    const Real s2[2] = {labels_[u].distance2[u0], labels_[u].distance2[u1]};
+    const Real s2[2] = {front_->label(u).distance2[u0], front_->label(u).distance2[u1]};
     const auto S = Edge::locate(pose, s2);
     // The best point of the edge for the farther of the others: its distances are then exact.
     Label best;
@@ -169,7 +174,7 @@ class PlainSolidRule {
         }
         label.distance2[j] = Edge::distance_squared(pose, b, at);
       }
-      label.sigma = labels_[u].sigma + std::sqrt(Edge::distance_squared(pose, S, b));
+      label.sigma = front_->label(u).sigma + std::sqrt(Edge::distance_squared(pose, S, b));
       label.centre = centre_distance(t, label);
       if (label.centre < best.centre) best = label;
     }
@@ -214,8 +219,7 @@ class PlainSolidRule {
     label.sigma = sigma;
     label.centre = centre_distance(t, label);
     if (!(label.centre < distance_or_inf(t) * gain)) return false;
-    labels_[t] = label;
-    front_->accept(t, hinge, label.centre, source);
+    front_->accept(t, hinge, label, label.centre, source);
     return true;
   }
 
@@ -224,8 +228,9 @@ class PlainSolidRule {
   const Vector3<Real>* points_;
   const std::array<Real, 6>* lengths_;
   Index sentinel_;
-  bool embedded_, apex_;
-  Label* labels_;
+  bool embedded_;
+  Visibility policy_;
+  bool apex_;
   Front* front_;
   Index inside_ = none;  // the tetrahedron a source lies in, while its faces are crossed
 };

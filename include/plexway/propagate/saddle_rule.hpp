@@ -15,7 +15,7 @@
 
 namespace plexway {
 
-/// Visibility::saddles on triangles: where labels live, and how they get from one to the next.
+/// Visibility::saddles on triangles: how labels get from one to the next.
 template <class Real, class Front>
 class SaddleRule {
  public:
@@ -23,22 +23,22 @@ class SaddleRule {
   using Posed = PosedSaddles<Real>;
   using Point = typename Posed::Point;
 
-  SaddleRule(std::span<const TriangleRecord<Real>> triangles, Label* labels, Front& front,
-             bool vectorised)
+  SaddleRule(std::span<const TriangleRecord<Real>> triangles, Front& front, bool vectorised)
       : triangles_(triangles.data()),
         sentinel_(static_cast<Index>(triangles.size() - 1)),
-        labels_(labels),
         front_(front),
         vectorised_(vectorised) {
-    labels_[sentinel_].h = kernel::Lanes<Real>(0, -1, 0, 0);  // nothing is nearer: never accepted
+    // Nothing is nearer: never accepted.
+    front_.put(sentinel_, {kernel::Lanes<Real>(0, 0, 0, 0), kernel::Lanes<Real>(0, -1, 0, 0)});
   }
 
-  /// The same rule on another front, so that a loop can keep its front in registers.
-  [[nodiscard]] SaddleRule on(Front& front) const {
-    return SaddleRule(triangles_, sentinel_, labels_, front, vectorised_);
+  /// The same rule on another front: of another executor, or one that a loop can keep in registers.
+  template <class Other>
+  [[nodiscard]] SaddleRule<Real, Other> on(Other& front) const {
+    return SaddleRule<Real, Other>(triangles_, sentinel_, front, vectorised_);
   }
 
-  [[nodiscard]] Real distance(Index f) const { return labels_[f].distance(); }
+  [[nodiscard]] Real distance(Index f) const { return front_.label(f).distance(); }
   /// What a label for f must be below. Around a bend all paths are equally long from both sides, so
   /// rounding would decide which label stays; a gain must be more than that.
   [[nodiscard, gnu::always_inline]] Real to_beat(Index f) const {
@@ -62,8 +62,8 @@ class SaddleRule {
     const Index l = over_left >> Across::face_shift, r = over_right >> Across::face_shift;
     const std::size_t kl = over_left & Across::edge_mask, kr = over_right & Across::edge_mask;
     const TriangleRecord<Real>&tl = triangles_[l], &tr = triangles_[r];
-    const SaddleStepLanes<Real> step(t, in, left, right, labels_[f], tl.apex_x(kl), tl.apex_h(kl),
-                                     tr.apex_x(kr), tr.apex_h(kr));
+    const SaddleStepLanes<Real> step(t, in, left, right, front_.label(f), tl.apex_x(kl),
+                                     tl.apex_h(kl), tr.apex_x(kr), tr.apex_h(kr));
     // Read before anything is accepted: one hinge must not change what the other compares with.
     // And after the arithmetic, so that it is under way when a branch is mispredicted here.
     const Real known_left = to_beat(l), known_right = to_beat(r);
@@ -77,8 +77,7 @@ class SaddleRule {
       else
         label = step.left_label();
       if (label.distance() < known_left) [[likely]] {
-        labels_[l] = label;
-        front_.accept(l, kl, label.distance(), source);
+        front_.accept(l, kl, label, label.distance(), source);
         prefetch(tl, kl);
       }
     }
@@ -91,8 +90,7 @@ class SaddleRule {
       else
         label = step.right_label();
       if (label.distance() < known_right) [[likely]] {
-        labels_[r] = label;
-        front_.accept(r, kr, label.distance(), source);
+        front_.accept(r, kr, label, label.distance(), source);
         prefetch(tr, kr);
       }
     }
@@ -126,9 +124,8 @@ class SaddleRule {
     const Real x = (t.length[i] + t.apex_x(i)) / 3, h = t.apex_h(i) / 3;
     const Real d = sigma + std::sqrt(x * x + h * h);
     if (!(d < to_beat(f))) return false;
-    labels_[f].x = kernel::Lanes<Real>(0, sigma, 0, 0);
-    labels_[f].h = kernel::Lanes<Real>(0, d, 0, 0);
-    front_.accept(f, i, d, source);
+    front_.accept(f, i, {kernel::Lanes<Real>(0, sigma, 0, 0), kernel::Lanes<Real>(0, d, 0, 0)}, d,
+                  source);
     return true;
   }
 
@@ -139,10 +136,12 @@ class SaddleRule {
     const Real d = sigma + std::sqrt(dx * dx + dy * dy);
     // Farther from the centre than another source here, it may still be the nearer one beyond.
     const bool better = d < to_beat(f);
-    const Label kept = labels_[f];
-    labels_[f].x = kernel::Lanes<Real>(x, sigma, 0, 0);
-    labels_[f].h = kernel::Lanes<Real>(-y, d, 0, 0);
-    if (better) front_.accept(f, 0, d, source);
+    const Label kept = front_.label(f);
+    const Label label = {kernel::Lanes<Real>(x, sigma, 0, 0), kernel::Lanes<Real>(-y, d, 0, 0)};
+    if (better)
+      front_.accept(f, 0, label, d, source);
+    else
+      front_.put(f, label);
     // Expansion would not take edge 0, and would take a source on an edge for one behind it.
     for (std::size_t edge = 0; edge < 3; ++edge) {
       int pivot = -1;
@@ -151,21 +150,21 @@ class SaddleRule {
       here.limit[0] = here.limit[1] = here.source;
       cross_posed(f, edge, here, -1, true, source);
     }
-    if (!better) labels_[f] = kept;
+    if (!better) front_.put(f, kept);
   }
 
   /// Length of the path to corner i of a reached triangle.
   [[nodiscard]] Real corner_distance(Index f, std::size_t i) const {
     const TriangleRecord<Real>& t = triangles_[f];
     const std::size_t in = front_.hinge(f);
-    const Posed label = posed(labels_[f]);
+    const Posed label = posed(front_.label(f));
     Point q = {{Real(0)}, Real(0)};
     if (i == (in + 1) % 3) q.x[0] = t.length[in];
     if (i == (in + 2) % 3) q = {{t.apex_x(in)}, t.apex_h(in)};
     return path_length<Real>(label, t.length[in], q);
   }
 
-  [[nodiscard]] const Label& label(Index f) const { return labels_[f]; }
+  [[nodiscard]] const Label& label(Index f) const { return front_.label(f); }
 
   // What follows is for simplices of other complexes that share an edge or all of a triangle.
 
@@ -175,7 +174,7 @@ class SaddleRule {
     const TriangleRecord<Real>& t = triangles_[f];
     const std::size_t in = front_.hinge(f);
     int pivot = -1;
-    Posed p = posed(labels_[f]);
+    Posed p = posed(front_.label(f));
     const bool from_inside = edge != in || p.source.h < 0;
     if (from_inside) p = leave(f, in, edge, pivot);
     SaddleHinge<Real> middle;  // a triangle without area: its apex is the edge's middle
@@ -198,7 +197,7 @@ class SaddleRule {
     const TriangleRecord<Real>& t = triangles_[f];
     const std::size_t in = front_.hinge(f);
     const Real length = t.length[in];
-    Posed p = posed(labels_[f]);
+    Posed p = posed(front_.label(f));
     const Point q = {{(length + t.apex_x(in)) / 3}, t.apex_h(in) / 3};
     const bool left = detail::left_of<Real>(p.source, p.limit[0], q) > 0;
     const bool right = detail::left_of<Real>(p.source, p.limit[1], q) < 0;
@@ -249,13 +248,10 @@ class SaddleRule {
   }
 
  private:
-  SaddleRule(const TriangleRecord<Real>* triangles, Index sentinel, Label* labels, Front& front,
-             bool vectorised)
-      : triangles_(triangles),
-        sentinel_(sentinel),
-        labels_(labels),
-        front_(front),
-        vectorised_(vectorised) {}
+  template <class, class>
+  friend class SaddleRule;
+  SaddleRule(const TriangleRecord<Real>* triangles, Index sentinel, Front& front, bool vectorised)
+      : triangles_(triangles), sentinel_(sentinel), front_(front), vectorised_(vectorised) {}
 
   static Posed posed(const Label& label) {
     Posed p;
@@ -269,7 +265,7 @@ class SaddleRule {
   /// The label of f posed on one of its edges, as a neighbour that runs the other way sees it.
   Posed leave(Index f, std::size_t in, std::size_t edge, int& pivot) const {
     const TriangleRecord<Real>& t = triangles_[f];
-    Posed p = posed(labels_[f]);
+    Posed p = posed(front_.label(f));
     if (edge == in) {  // only from a source inside f
       p.source = {{t.length[in] - p.source.x[0]}, -p.source.h};
       p.limit[0] = p.limit[1] = p.source;
@@ -300,8 +296,7 @@ class SaddleRule {
     }
     const Label entered = resolve(label, t, k, pivot, last_resort);
     if (!(entered.distance() < to_beat(g))) return;
-    labels_[g] = entered;
-    front_.accept(g, k, entered.distance(), source);
+    front_.accept(g, k, entered, entered.distance(), source);
   }
 
   /// The full rule for one triangle beyond.
@@ -324,14 +319,13 @@ class SaddleRule {
     const Index a = t.across[k == 0 ? 2 : k - 1] >> Across::face_shift;
     const Index b = t.across[k == 2 ? 0 : k + 1] >> Across::face_shift;
     __builtin_prefetch(&triangles_[a]);
-    __builtin_prefetch(&labels_[a]);
+    __builtin_prefetch(&front_.label(a));
     __builtin_prefetch(&triangles_[b]);
-    __builtin_prefetch(&labels_[b]);
+    __builtin_prefetch(&front_.label(b));
   }
 
   const TriangleRecord<Real>* triangles_;
   Index sentinel_;
-  Label* labels_;
   Front& front_;
   bool vectorised_;
 };

@@ -35,18 +35,15 @@ class PlainSimplexRule {
   /// A source's simplex came in by no facet.
   static constexpr std::size_t no_facet = FacetAcross::facet_mask;
 
-  PlainSimplexRule(std::span<const Record> records, Label* labels, Front& front, Visibility policy)
-      : records_(records.data()),
-        labels_(labels),
-        front_(front),
-        to_apex_(policy == Visibility::upper_bound) {}
+  PlainSimplexRule(std::span<const Record> records, Front& front, Visibility policy)
+      : records_(records.data()), front_(front), to_apex_(policy == Visibility::upper_bound) {}
 
-  [[nodiscard]] Real distance(Index s) const { return labels_[s].centre; }
+  [[nodiscard]] Real distance(Index s) const { return front_.label(s).centre; }
   [[nodiscard]] Real distance_or_inf(Index s) const {
     return front_.reached(s) ? distance(s) : std::numeric_limits<Real>::infinity();
   }
   [[nodiscard]] Real corner_distance(Index s, std::size_t i) const {
-    return labels_[s].sigma + std::sqrt(labels_[s].distance2[i]);
+    return front_.label(s).sigma + std::sqrt(front_.label(s).distance2[i]);
   }
 
   /// An update counts if the centre is nearer than this share of its distance. 1 but where lengths
@@ -109,8 +106,7 @@ class PlainSimplexRule {
   bool offer(Index t, std::size_t in, Label& label, Index source) {
     measure(records_[t], label);
     if (!is_better(t, label)) return false;
-    labels_[t] = label;
-    front_.accept(t, in, label.centre, source);
+    front_.accept(t, in, label, label.centre, source);
     prefetch(records_[t]);
     return true;
   }
@@ -122,13 +118,13 @@ class PlainSimplexRule {
       const char* record = reinterpret_cast<const char*>(&records_[a]);
       for (std::size_t line = 0; line < sizeof(Record); line += 64)
         __builtin_prefetch(record + line);
-      __builtin_prefetch(&labels_[a]);
+      __builtin_prefetch(&front_.label(a));
     }
   }
 
   void enter(Index s, std::size_t i, Index t, std::size_t j) {
     const Record &U = records_[s], &T = records_[t];
-    const Label& from = labels_[s];
+    const Label& from = front_.label(s);
     constexpr auto& tables = Layout::tables;
 
     Real edge2[Kernel::KE] = {}, s2[N], apex2[N];
@@ -175,7 +171,6 @@ class PlainSimplexRule {
   }
 
   const Record* records_;
-  Label* labels_;
   Front& front_;
   bool to_apex_;
   Real patience_ = 1;

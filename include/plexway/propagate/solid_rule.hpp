@@ -30,7 +30,7 @@ class SolidRule : public SolidPaths<Real> {
   using Label = SolidLabel<Real>;
   using Point = Vector3<Real>;
 
-  SolidRule(const TetMesh<Real>& mesh, Label* labels, Front& front)
+  SolidRule(const TetMesh<Real>& mesh, Front& front)
       : Paths(mesh.reflex_edges().data()),
         mesh_(&mesh),
         tets_(mesh.tets().data()),
@@ -39,26 +39,27 @@ class SolidRule : public SolidPaths<Real> {
         sentinel_(static_cast<Index>(mesh.tet_count())),
         any_reflex_(!mesh.reflex_edges().empty()),
         own_rings_(static_cast<Index>(mesh.reflex_edges().size())),
-        labels_(labels),
         front_(&front) {
-    labels_[sentinel_].centre = -1;  // nothing is nearer: never accepted
-    labels_[sentinel_].path = 0;
-    labels_[sentinel_].ring = none;
-    clear_limits(labels_[sentinel_]);
+    Label nearest = {};
+    nearest.centre = -1;  // nothing is nearer: never accepted
+    nearest.ring = none;
+    clear_limits(nearest);
+    front_->put(sentinel_, nearest);
   }
-  [[nodiscard]] SolidRule on(Front& front) const {
-    SolidRule rule = *this;
-    rule.front_ = &front;
-    return rule;
+  /// The same rule on the front of another executor.
+  template <class Other>
+  [[nodiscard]] SolidRule<Real, Other> on(Other& front) const {
+    return SolidRule<Real, Other>(*this, front);
   }
 
-  [[nodiscard]] Real distance(Index t) const { return labels_[t].centre; }
+  [[nodiscard]] Real distance(Index t) const { return front_->label(t).centre; }
   /// Says which way the path came; labels that agree in it agree about distances.
-  [[nodiscard]] Index path(Index t) const { return labels_[t].path; }
+  [[nodiscard]] Index path(Index t) const { return front_->label(t).path; }
   /// What a label for t must be below: by more than rounding.
   [[nodiscard, gnu::always_inline]] Real to_beat(Index t) const {
     constexpr Real gain = Real(1) - Real(16) * std::numeric_limits<Real>::epsilon();
-    return front_->reached(t) ? labels_[t].centre * gain : std::numeric_limits<Real>::infinity();
+    return front_->reached(t) ? front_->label(t).centre * gain
+                              : std::numeric_limits<Real>::infinity();
   }
   /// Longest way from the centre to a corner.
   [[nodiscard]] Real size(Index t) const {
@@ -98,7 +99,7 @@ class SolidRule : public SolidPaths<Real> {
   [[gnu::always_inline]] void cross(Index t, Index face, bool last_resort) const {
     const Index across = tets_[t].across[face];
     const Index u = across >> TetAcross::tet_shift;
-    const Label& from = labels_[t];
+    const Label& from = front_->label(t);
     const Real known = to_beat(u), left = known - from.sigma;
     const Point& q = tets_[u].centre;
     const Point g = q - from.source;
@@ -114,10 +115,9 @@ class SolidRule : public SolidPaths<Real> {
     if (!passes(from.source, q, points_[corner[order[0]]], points_[corner[order[1]]],
                 points_[corner[order[2]]], tolerance))
       return;
-    Label& label = labels_[u];
-    label = from;
+    Label label = from;
     label.centre = from.sigma + std::sqrt(straight2);
-    front_->accept(u, across & TetAcross::face_mask, label.centre, front_->source(t));
+    front_->accept(u, across & TetAcross::face_mask, label, label.centre, front_->source(t));
     prefetch(u);
   }
 
@@ -133,14 +133,14 @@ class SolidRule : public SolidPaths<Real> {
       at = at + static_cast<Real>(barycentric[i]) * points_[tets_[t].corner[i]];
     // Farther from the centre than another source here, it may still be the nearer one beyond.
     const bool better = seed(t, at, 0, sigma, source);
-    const Label kept = labels_[t];
+    const Label kept = front_->label(t);
     const Index kept_source = front_->source(t);
     if (!better) {
-      labels_[t] = point_label(at, sigma);
+      front_->put(t, point_label(at, sigma));
       front_->set_source(t, source);
     }
     for (Index i = 0; i < 4; ++i) cross(t, i, false);
-    labels_[t] = kept;
+    front_->put(t, kept);
     front_->set_source(t, kept_source);
   }
 
@@ -148,7 +148,7 @@ class SolidRule : public SolidPaths<Real> {
   [[nodiscard]] Real corner_distance(Index t, Index i,
                                      Real known = std::numeric_limits<Real>::infinity()) const {
     const Point& q = points_[tets_[t].corner[i]];
-    const Label& from = labels_[t];
+    const Label& from = front_->label(t);
     const Real straight = from.sigma + norm(q - from.source);
     if (!any_reflex_ || !(straight < known)) return straight;
     Reach simple = reach(from, q);
@@ -161,7 +161,7 @@ class SolidRule : public SolidPaths<Real> {
 
   /// Labels of u offer a path over the edge (v, w) of t, which touches u in that edge only.
   bool pass_edge(Index u, Index t, Index v, Index w, Real known_gain) const {
-    const Label& from = labels_[u];
+    const Label& from = front_->label(u);
     const Point q = tets_[t].centre;
     const Reach before = reach(from, bend_point(points_[v], points_[w], from.source, q));
     const Point b = bend_point(points_[v], points_[w], before.eye, q);
@@ -174,10 +174,9 @@ class SolidRule : public SolidPaths<Real> {
     label.path = name_of(b, label.sigma);
     label.centre = label.sigma + norm(q - b);
     if (!(label.centre < to_beat(t) * known_gain)) return false;
-    labels_[t] = label;
     Index face = 0;  // one that contains the edge
     while (tets_[t].corner[face] == v || tets_[t].corner[face] == w) ++face;
-    front_->accept(t, face, label.centre, front_->source(u));
+    front_->accept(t, face, label, label.centre, front_->source(u));
     for (Index i = 0; i < 4; ++i) cross(t, i, false);
     return true;
   }
@@ -197,7 +196,7 @@ class SolidRule : public SolidPaths<Real> {
   };
   /// The last bend on the way from the source of t to q, a point of its boundary.
   [[nodiscard]] Sight seen_from(Index t, const Point& q) const {
-    Label label = labels_[t];
+    Label label = front_->label(t);
     Reach simple = reach(label, q);
     gather(t, sentinel_, label, q, simple);
     const Reach path = measure(label, q, simple);
@@ -231,11 +230,24 @@ class SolidRule : public SolidPaths<Real> {
   static constexpr Real tolerance = Real(0.1);
 
  private:
+  template <class, class>
+  friend class SolidRule;
+  template <class Other>
+  SolidRule(const SolidRule<Real, Other>& rule, Front& front)
+      : Paths(rule.reflex_),
+        mesh_(rule.mesh_),
+        tets_(rule.tets_),
+        points_(rule.points_),
+        list_(rule.list_),
+        sentinel_(rule.sentinel_),
+        any_reflex_(rule.any_reflex_),
+        own_rings_(rule.own_rings_),
+        front_(&front) {}
+
   bool enter(Index t, std::size_t face, Label label, Real centre, Index source) const {
     if (!(centre < to_beat(t))) return false;
     label.centre = centre;
-    labels_[t] = label;
-    front_->accept(t, face, centre, source);
+    front_->accept(t, face, label, centre, source);
     cross(t, static_cast<Index>(face), false);  // which `expand` leaves out
     return true;
   }
@@ -244,7 +256,7 @@ class SolidRule : public SolidPaths<Real> {
   [[gnu::noinline]] void cross_fully(Index t, Index face, Index across, Real known,
                                      bool last_resort) const {
     const Index u = across >> TetAcross::tet_shift;
-    const Label& from = labels_[t];
+    const Label& from = front_->label(t);
     const Point q = tets_[u].centre;
     Reach path = reach(from, q);
     if (!(path.length < known)) return;
@@ -273,14 +285,13 @@ class SolidRule : public SolidPaths<Real> {
     }
     if (!(path.length < known)) return;
     label.centre = path.length;
-    labels_[u] = label;
-    front_->accept(u, across & TetAcross::face_mask, path.length, front_->source(t));
+    front_->accept(u, across & TetAcross::face_mask, label, path.length, front_->source(t));
     prefetch(u);
   }
 
   /// Is there an edge in t's memory, or at t, that hides q?
   [[nodiscard]] bool may_bend(Index t, const Point& eye, const Point& q) const {
-    for (const Index limit : labels_[t].limit) {
+    for (const Index limit : front_->label(t).limit) {
       if (limit == none) break;
       if (hides(limit, eye, q)) return true;
     }
@@ -291,7 +302,7 @@ class SolidRule : public SolidPaths<Real> {
     if (Index e = tets_[t].reflex; e != none)
       for (;; ++e) {
         const Index edge = list_[e] >> ReflexEntry::edge_shift;
-        if (edge != labels_[t].ring && hides(edge, eye, q)) return true;
+        if (edge != front_->label(t).ring && hides(edge, eye, q)) return true;
         if (list_[e] & ReflexEntry::last) break;
       }
     return false;
@@ -332,7 +343,7 @@ class SolidRule : public SolidPaths<Real> {
       for (const Index across : tets_[u].across) {
         const Index v = across >> TetAcross::tet_shift;
         if (v == t || v == sentinel_ || !front_->reached(v)) continue;
-        const Label& other = labels_[v];
+        const Label& other = front_->label(v);
         if (other.path == label.path) {
           if (std::memcmp(other.limit, label.limit, sizeof label.limit) != 0)
             found.add(other, label.ring);
@@ -423,16 +434,16 @@ class SolidRule : public SolidPaths<Real> {
   bool seed(Index t, const Point& at, Index hinge, Real sigma, Index source) const {
     const Real d = sigma + norm(tets_[t].centre - at);
     if (!(d < to_beat(t))) return false;
-    labels_[t] = point_label(at, sigma);
-    labels_[t].centre = d;
-    front_->accept(t, hinge, d, source);
+    Label label = point_label(at, sigma);
+    label.centre = d;
+    front_->accept(t, hinge, label, d, source);
     return true;
   }
 
   [[gnu::always_inline]] void prefetch(Index t) const {
     for (const Index across : tets_[t].across) {
       __builtin_prefetch(&tets_[across >> TetAcross::tet_shift]);
-      __builtin_prefetch(&labels_[across >> TetAcross::tet_shift]);
+      __builtin_prefetch(&front_->label(across >> TetAcross::tet_shift));
     }
   }
 
@@ -443,7 +454,6 @@ class SolidRule : public SolidPaths<Real> {
   Index sentinel_;
   bool any_reflex_;
   Index own_rings_;  // rings from here on are further edges, which hide nothing
-  Label* labels_;
   Front* front_;
 };
 

@@ -10,16 +10,25 @@
 
 namespace plexway {
 
-/// Which simplices are reached, wait, and came in by which hinge: the bookkeeping that all rules
-/// share. `Front` orders the waiting ones. kLabels: carry the nearest source along.
-template <class Real, class Front, bool kLabels>
+/// The front of executors with one thread: labels, which simplices are reached, wait, and came in
+/// by which hinge. `Queue` orders the waiting ones. kLabels: carry the nearest source along.
+///
+/// A rule is the step, the same for all executors: from labels and records it computes offers. What
+/// an executor decides is behind the front that the rule is given:
+///   label(s), hinge(s), source(s)  what a reached simplex knows
+///   reached(s)
+///   accept(s, hinge, label, distance, source)  an offer that beats what s knows: where it is kept,
+///     how the least of several is taken, and how s comes to wait
+template <class Real, class Label, class Queue, bool kLabels>
 class Wavefront {
  public:
-  Wavefront(VisitMarks& marks, Front front, Index* source, std::size_t simplices, double unit,
-            const PropagateOptions& options)
+  /// `labels` and `source` have room for a sentinel behind the simplices.
+  Wavefront(VisitMarks& marks, Label* labels, Queue queue, Index* source, std::size_t simplices,
+            double unit, const PropagateOptions& options)
       : mark_(marks.data()),
         current_(marks.current()),
-        front_(front),
+        labels_(labels),
+        queue_(queue),
         source_(source),
         simplices_(simplices),
         unit_(unit),
@@ -30,14 +39,20 @@ class Wavefront {
     return mark_[s] & VisitMarks::hinge_mask;
   }
 
-  /// A simplex has a better label, come in by `hinge` from `from`: it waits.
-  [[gnu::always_inline]] void accept(Index s, std::size_t hinge, Real distance, Index source) {
+  [[nodiscard, gnu::always_inline]] const Label& label(Index s) const { return labels_[s]; }
+  /// Changes a label and nothing else.
+  void put(Index s, const Label& label) { labels_[s] = label; }
+
+  /// A simplex has a better label, come in by `hinge`, its centre at `distance`: it waits.
+  [[gnu::always_inline]] void accept(Index s, std::size_t hinge, const Label& label, Real distance,
+                                     Index source) {
+    labels_[s] = label;
     const VisitMarks::Mark mark = mark_[s];
     const bool known = is_current(mark);
     const bool waits = known && (mark & VisitMarks::waiting) != 0;
     mark_[s] = static_cast<VisitMarks::Mark>(current_ | VisitMarks::waiting | hinge);
     if constexpr (kLabels) source_[s] = source;
-    front_.push(s, distance, !waits);
+    queue_.push(s, distance, !waits);
     reached_ += !known;
     ++updates_;
   }
@@ -55,7 +70,7 @@ class Wavefront {
   /// spent: then `take_stock` says whether to go on.
   template <class DistanceOf>
   [[gnu::always_inline]] bool next(Index& s, DistanceOf distance_of) {
-    if (countdown_ == 0 || !front_.pop(s, distance_of)) return false;
+    if (countdown_ == 0 || !queue_.pop(s, distance_of)) return false;
     --countdown_;
     mark_[s] = static_cast<VisitMarks::Mark>(mark_[s] & ~VisitMarks::waiting);
     return true;
@@ -90,7 +105,8 @@ class Wavefront {
 
   VisitMarks::Mark* mark_;
   VisitMarks::Mark current_;
-  Front front_;
+  Label* labels_;
+  Queue queue_;
   Index* source_;
   std::size_t simplices_;
   double unit_;
