@@ -21,14 +21,14 @@ void SurfaceSeeds::add(const TriangleMesh<float>& mesh, std::span<const PointSou
   const std::size_t faces = mesh.face_count(), first_cell = field * faces;
   const std::size_t first_vertex = field * mesh.vertex_count();
   const PropagateOptions options;
-  using Wave = Wavefront<float, DualQueue<float>, true>;
+  using Wave = Wavefront<float, SaddleLabel<float>, DualQueue<float>, true>;
   using Rule = SaddleRule<float, Wave>;
   workspace.front.reserve(faces);
   workspace.start(faces, true);
-  Wave front(workspace.marks,
+  Wave front(workspace.marks, workspace.saddles.reserve(faces + 1),
               DualQueue<float>(workspace.front, std::numeric_limits<float>::infinity()),
               workspace.source.data(), faces, mesh.unit(), options);
-  const Rule rule(mesh.triangles(), workspace.saddles.reserve(faces + 1), front, false);
+  const Rule rule(mesh.triangles(), front, false);
   TrianglePropagation<float, Rule, Wave, true> propagation(mesh, workspace, rule, front, options);
   for (std::size_t n = 0; n < sources.size(); ++n)
     propagation.seed(sources[n], static_cast<Index>(n));
@@ -37,7 +37,7 @@ void SurfaceSeeds::add(const TriangleMesh<float>& mesh, std::span<const PointSou
   const auto distance_of = [&](Index s) { return rule.distance(s); };
   while (front.take_stock(0))
     while (front.next(f, distance_of)) {
-      const SaddleLabel<float>& label = rule.label(f);
+      const SaddleLabel<float>& label = front.label(f);
       const auto via = static_cast<GLuint>(front.hinge(f) | std::size_t{front.source(f)} << 2);
       waiting.push_back({static_cast<GLuint>(first_cell + f),
                          std::bit_cast<GLuint>(label.distance())});
