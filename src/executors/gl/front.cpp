@@ -9,8 +9,8 @@
 namespace plexway::gl {
 namespace {
 
-constexpr GLbitfield all_that_follows = GL_SHADER_STORAGE_BARRIER_BIT | GL_COMMAND_BARRIER_BIT |
-                                        GL_BUFFER_UPDATE_BARRIER_BIT;
+constexpr GLbitfield all_that_follows =
+    GL_SHADER_STORAGE_BARRIER_BIT | GL_COMMAND_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT;
 
 }  // namespace
 
