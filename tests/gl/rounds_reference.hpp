@@ -44,6 +44,7 @@ class RoundsReference {
     while (!current.empty()) {
       // All of a round start together: what it lowers makes none of its own entries stale.
       std::erase_if(current, [&](const Entry& e) { return best_[e.triangle] != e.distance; });
+      known_ = best_;
       for (const Entry& e : current) expand(e);
       current.clear();
       if (!near_.empty()) {
@@ -120,7 +121,8 @@ class RoundsReference {
     hinge.pivot = mirrored ? 1 - pivot : pivot;
     const auto crossed = Kernel::cross_hinge(label, hinge, false);
     const float gain = 1 - 16 * std::numeric_limits<float>::epsilon();
-    if (!(crossed.distance < best_[g] * gain)) return;
+    // A gain must be more than rounding; of several offers in one round the least is taken.
+    if (!(crossed.distance < known_[g] * gain && crossed.distance < best_[g])) return;
     best_[g] = crossed.distance;
     Entry e{g, k, crossed.distance, crossed.label};
     rest(e.label);
@@ -158,7 +160,7 @@ class RoundsReference {
 
   const TriangleMesh<float>& mesh_;
   std::span<const TriangleRecord<float>> triangles_;
-  std::vector<float> best_, vertex_;
+  std::vector<float> best_, known_, vertex_;
   std::vector<Entry> labels_, near_, far_;
   float limit_ = 0;
 };

@@ -191,24 +191,28 @@ TEST_CASE("surfaces of many kinds on a device agree with the serial executor", "
 TEST_CASE("shaders do what the same rounds in C++ do", "[gl]") {
   const auto context = device();
   if (!context) return;
-  // Equal offers to one triangle are a race, so that a few may differ; else to the last bit on
-  // llvmpipe.
+  // All of a front start together here; on a device only those of one work group surely do, so
+  // fronts must be small. Equal offers to one triangle are a race, so that a few may differ.
+  const Surface small[] = {
+      grid(9, 6),      slit_square(8), random_polygon(7, 40, 100, 5),
+      prism(9, 12, 4), moebius(30, 4), subdivide(tetrahedron()),
+      sheets(5, 3),    hills(7, 0.2),  renamed(hills(6, 0.3), 3, true).surface};
   int solves = 0, same = 0, close = 0;
   double mean = 0;
-  for (const Named& one : many_kinds()) {
-    const auto mesh = one.surface.mesh<float>();
+  for (const Surface& surface : small) {
+    const auto mesh = surface.mesh<float>();
     std::mt19937 random(8);
     GLWorkspace workspace;
     for (int turn = 0; turn < 10; ++turn) {
-      const Index face = below(random, one.surface.faces.size());
-      const PointSource source = turn % 2 == 0 ? PointSource::at(one.surface.faces[face][0])
+      const Index face = below(random, surface.faces.size());
+      const PointSource source = turn % 2 == 0 ? PointSource::at(surface.faces[face][0])
                                                : PointSource::in(face, {0.2, 0.5, 0.3});
       const std::span<const PointSource> sources(&source, 1);
       DistanceField<float> field;
       propagate(GL{}, mesh, sources, {}, workspace, field);
       const auto rounds = RoundsReference(mesh, sources, 1).distance();
       const Difference found = difference(rounds, field.distance);
-      if (!found.fits) continue;  // pinched, or revived
+      CHECK(found.fits);
       ++solves;
       same += found.max == 0;
       close += found.max <= 1e-3;
@@ -216,10 +220,9 @@ TEST_CASE("shaders do what the same rounds in C++ do", "[gl]") {
     }
   }
   CAPTURE(solves, same, close, mean / solves);
-  CHECK(solves > 100);
   CHECK(close > 0.9 * solves);
   CHECK(mean < 1e-4 * solves);
-  if (exact(*context)) CHECK(same > 0.6 * solves);
+  if (exact(*context)) CHECK(same > 0.95 * solves);
 }
 
 TEST_CASE("several sources on a device: distances and labels", "[gl]") {
