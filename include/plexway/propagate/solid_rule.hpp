@@ -229,6 +229,14 @@ class SolidRule : public SolidPaths<Real> {
 
   static constexpr Real tolerance = Real(0.1);
 
+  /// Fetches what the expansion of t will need.
+  [[gnu::always_inline]] void prefetch(Index t) const {
+    for (const Index across : tets_[t].across) {
+      __builtin_prefetch(&tets_[across >> TetAcross::tet_shift]);
+      __builtin_prefetch(&front_->label(across >> TetAcross::tet_shift));
+    }
+  }
+
  private:
   template <class, class>
   friend class SolidRule;
@@ -438,13 +446,6 @@ class SolidRule : public SolidPaths<Real> {
     label.centre = d;
     front_->accept(t, hinge, label, d, source);
     return true;
-  }
-
-  [[gnu::always_inline]] void prefetch(Index t) const {
-    for (const Index across : tets_[t].across) {
-      __builtin_prefetch(&tets_[across >> TetAcross::tet_shift]);
-      __builtin_prefetch(&front_->label(across >> TetAcross::tet_shift));
-    }
   }
 
   const TetMesh<Real>* mesh_;
