@@ -10,10 +10,11 @@
 
 namespace plexway::flann {
 
-/// A point found, and how far it is in squares of the search's own unit.
+/// A place found: how far it is, in squares of the search's own unit, and its number there.
 struct Found {
   double squared;
-  Index point;
+  Index point;  ///< the caller's number of its first point: it decides between equals
+  Index place;
   friend auto operator<=>(const Found&, const Found&) = default;
 };
 
@@ -24,6 +25,13 @@ class Search {
   ~Search();
 
   [[nodiscard]] const DistinctPoints& places() const { return places_; }
+  /// Place j as place i sees it.
+  [[nodiscard]] Found seen(std::size_t i, Index j) const {
+    double squared = 0;
+    for (std::size_t d = 0; d < 3; ++d)
+      squared += (scaled_[i][d] - scaled_[j][d]) * (scaled_[i][d] - scaled_[j][d]);
+    return {squared, places_.order[j], j};
+  }
   /// The nearest others of place places().order[i]: at most k (0: any number) and not beyond the
   /// radius, nearest first. Any number of threads may search at once.
   void around(std::size_t i, std::size_t k, double radius, std::vector<Found>& found) const;
