@@ -111,6 +111,21 @@ std::vector<TangentFrame> tangent_frames(const Places& places, std::span<const P
   return frames;
 }
 
+bool same_sheet(const Places& places, std::span<const TangentFrame> frames, const SheetRule& rule,
+                Index i, Index j) {
+  const TangentFrame &a = frames[i], &b = frames[j];
+  const double cosine = dot(a.normal, b.normal);
+  if ((rule.oriented ? cosine : std::abs(cosine)) < rule.least_cosine) return false;
+  const Point3 q = minus(places.at[j], places.at[i]);
+  const double length = std::sqrt(dot(q, q));
+  constexpr double rms_of_spacing = 1.6;  // of the 16 nearest
+  const auto fits = [&](const TangentFrame& f) {
+    const double reach = std::max(length, rms_of_spacing * static_cast<double>(f.spacing));
+    return std::abs(dot(f.normal, q)) <= rule.most_offset * reach;
+  };
+  return fits(a) && fits(b);
+}
+
 namespace {
 
 // A neighbour in the tangent plane, and its image in the circle around the place: the Delaunay
@@ -144,21 +159,6 @@ class Umbrella {
   }
 
  private:
-  // Squared offsets of most_offset rms distances.
-  bool same_sheet(Index i, Index j) const {
-    const TangentFrame &a = frames_[i], &b = frames_[j];
-    const Point3 q = minus(places_.at[j], places_.at[i]);
-    const double cosine = dot(a.normal, b.normal);
-    if ((rule_.oriented ? cosine : std::abs(cosine)) < rule_.least_cosine) return false;
-    const double length = std::sqrt(dot(q, q));
-    constexpr double rms_of_spacing = 1.6;  // for k = 16
-    const auto fits = [&](const TangentFrame& f) {
-      const double reach = std::max(length, rms_of_spacing * static_cast<double>(f.spacing));
-      return std::abs(dot(f.normal, q)) <= rule_.most_offset * reach;
-    };
-    return fits(a) && fits(b);
-  }
-
   // A triangle's circle is at most so wide: the inverse of twice its radius.
   double least(Index place, const Spoke& a, const Spoke& b) const {
     const float spacings =
@@ -180,7 +180,8 @@ class Umbrella {
     spokes_.clear();
     Spoke spoke;
     for (const Index j : places_.near.around(place))
-      if (same_sheet(place, j) && project(place, j, spoke)) spokes_.push_back(spoke);
+      if (same_sheet(places_, frames_, rule_, place, j) && project(place, j, spoke))
+        spokes_.push_back(spoke);
     // All neighbours within this are known; a list made symmetric is longer than it is complete.
     const std::size_t known = spokes_.size() * 2 / 3;
     known_ = spokes_.empty() ? 0 : std::hypot(spokes_[known].x, spokes_[known].y);
@@ -205,7 +206,7 @@ class Umbrella {
           if (std::any_of(spokes_.begin(), spokes_.end(),
                           [&](const Spoke& s) { return s.place == c; }))
             continue;
-          if (same_sheet(place, c)) spokes_.push_back(spoke);
+          if (same_sheet(places_, frames_, rule_, place, c)) spokes_.push_back(spoke);
         }
     }
     return spokes_.size() != before;

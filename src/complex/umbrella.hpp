@@ -25,13 +25,17 @@ struct TangentFrame {
   float spacing = 0;            ///< 1 / sqrt(points per area), about
 };
 
-/// Which neighbours are on the same sheet.
+/// Which neighbours are on the same sheet. A chord of a circle makes half the angle with the
+/// tangents at its ends that these make with each other.
 struct SheetRule {
-  double
-      most_offset;  ///< of the tangent plane, in rms distances of the neighbours: sine of an angle
+  double most_offset;   ///< from the tangent plane, in rms distances of neighbours: a sine
   double least_cosine;  ///< of the angle between two normals
-  bool oriented;        ///< normals tell the outside
+  bool oriented;        ///< normals tell inside from outside
 };
+
+/// Are two neighbours on the same sheet, by the tangent planes of both?
+bool same_sheet(const Places& places, std::span<const TangentFrame> frames, const SheetRule& rule,
+                Index i, Index j);
 
 /// Delaunay umbrellas: the neighbours that a place shares triangles with, in order around it.
 struct Umbrellas {
@@ -52,7 +56,7 @@ std::vector<TangentFrame> tangent_frames(const Places& places, std::span<const P
 
 /// The umbrella of each place: the triangles around it in the Delaunay triangulation of its
 /// neighbours on the same sheet, in its tangent plane. None has a circumcircle of more than
-/// `widest` spacings. `refused` counts pairs that are not on one sheet.
+/// `widest` spacings.
 Umbrellas local_umbrellas(const Places& places, std::span<const TangentFrame> frames,
                           const SheetRule& rule, double widest, int threads,
                           const std::function<bool(double)>& progress);
