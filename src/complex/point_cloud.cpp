@@ -11,6 +11,7 @@
 
 #include "complex/cloud_bridges.hpp"
 #include "complex/gluing.hpp"
+#include "complex/tangent_lengths.hpp"
 #include "complex/umbrella.hpp"
 #include "complex/umbrella_sheet.hpp"
 
@@ -94,25 +95,6 @@ struct Sheet {
   std::vector<Triangle> faces;
   std::vector<std::array<double, 3>> lengths;  // empty: as in space
 };
-
-double tangent_length(const Places& places, std::span<const TangentFrame> frames, Index a,
-                      Index b) {
-  const Point3 q = minus(places.at[b], places.at[a]);
-  const double square = dot(q, q);
-  if (a >= frames.size() || b >= frames.size()) return std::sqrt(square);
-  const auto &m = frames[a].normal, &n = frames[b].normal;
-  // On a smooth surface an edge leaves both tangent planes to the same side: nothing along the mean
-  // normal. What there is, is noise; unless the normals differ much, as across an edge of a solid.
-  const double cosine = dot(m, n);
-  constexpr double most = 0.9;  // 25 degrees
-  if (std::abs(cosine) < most) return std::sqrt(square);
-  Point3 mean;
-  for (std::size_t d = 0; d < 3; ++d)
-    mean[d] = static_cast<double>(m[d]) +
-              std::copysign(static_cast<double>(n[d]), cosine * static_cast<double>(n[d]));
-  const double along = dot(mean, q);
-  return std::sqrt(std::max(square - along * along / dot(mean, mean), 0.0));
-}
 
 std::size_t boundary_places(const SheetWedges& sheet, std::size_t places) {
   std::size_t count = 0;
@@ -202,11 +184,19 @@ Sheet make_sheet(Points points, const Neighbours& neighbours, const CloudOptions
     return std::min({a[0], a[1], a[2]}) < std::min({b[0], b[1], b[2]});
   };
   std::stable_sort(result.faces.begin(), result.faces.end(), before);
-  if (options.tangent_lengths)
-    for (const Triangle& t : result.faces)
-      result.lengths.push_back({tangent_length(places, frames, t[0], t[1]),
-                                tangent_length(places, frames, t[1], t[2]),
-                                tangent_length(places, frames, t[2], t[0])});
+  const HeightNoise noise = height_noise(places, frames);
+  summary.noise = noise.height;
+  const double flat = options.lengths == EdgeLengths::in_space     ? 0
+                      : options.lengths == EdgeLengths::tangential ? 1
+                                                                   : noise.share;
+  if (flat > 0) {
+    const auto length = [&](Index a, Index b) {
+      return tangent_length(places, frames, a, b, flat);
+    };
+    result.lengths.reserve(result.faces.size());
+    for (const auto& [a, b, c] : result.faces)
+      result.lengths.push_back({length(a, b), length(b, c), length(c, a)});
+  }
   for (Triangle& t : result.faces)
     for (Index& v : t) v = v < n ? distinct.order[v] : static_cast<Index>(points.size() + (v - n));
   for (Index i = 0; i < points.size(); ++i)
