@@ -36,8 +36,21 @@ void check_input(Points points, const Neighbours& neighbours, const CloudOptions
     throw UsageError("the widest circle must be > 0 spacings");
 }
 
+// A power of two that brings coordinates to about 1: then no square leaves the range of a number.
+double scale_of(Points points) {
+  double largest = 0;
+  for (const Point3& p : points)
+    for (const double x : p) largest = std::max(largest, std::abs(x));
+  int exponent = 0;
+  std::frexp(largest, &exponent);
+  return std::ldexp(1.0, std::clamp(-exponent, -1000, 1000));
+}
+
+Point3 times(double scale, const Point3& p) { return {scale * p[0], scale * p[1], scale * p[2]}; }
+
 // Neighbours between places: points that are not the first at theirs are left out.
-Places places_of(Points points, const Neighbours& neighbours, const DistinctPoints& distinct) {
+Places places_of(Points points, double scale, const Neighbours& neighbours,
+                 const DistinctPoints& distinct) {
   const std::size_t n = distinct.order.size();
   std::vector<Index> place(points.size());
   for (std::size_t p = 0; p < n; ++p) place[distinct.order[p]] = static_cast<Index>(p);
@@ -57,7 +70,7 @@ Places places_of(Points points, const Neighbours& neighbours, const DistinctPoin
   places.near.of.reserve(neighbours.of.size());
   std::size_t next = 0;
   for (Index p = 0; p < n; ++p) {
-    places.at.push_back(points[distinct.order[p]]);
+    places.at.push_back(times(scale, points[distinct.order[p]]));
     const std::size_t start = places.near.of.size();
     const auto row = [&] { return std::span<const Index>(places.near.of).subspan(start); };
     const auto add = [&](Index q, bool twins) {
@@ -142,7 +155,11 @@ void count_pairs(const Places& places, std::span<const TangentFrame> frames, con
 Sheet make_sheet(Points points, const Neighbours& neighbours, const CloudOptions& options,
                  CloudSummary& summary, std::vector<std::array<Index, 2>>& twins) {
   const double angle = options.max_normal_angle * std::numbers::pi / 180;
-  const SheetRule rule = {std::sin(angle / 2), std::cos(angle), !options.normals.empty()};
+  // A chord of a circle makes half the angle with the tangents at its ends that these make with
+  // each other. It is measured at the rms distance of 16 neighbours: farther ones may be no higher.
+  constexpr double rms_of_spacing = 1.6;
+  const SheetRule rule = {rms_of_spacing * std::sin(angle / 2), std::cos(angle),
+                          !options.normals.empty()};
   double done = 0;
   const auto share = [&](double part) {
     return [&options, from = done, part](double s) {
@@ -150,7 +167,8 @@ Sheet make_sheet(Points points, const Neighbours& neighbours, const CloudOptions
     };
   };
   const DistinctPoints distinct = distinct_points(points);
-  Places places = places_of(points, neighbours, distinct);
+  const double scale = scale_of(points);
+  Places places = places_of(points, scale, neighbours, distinct);
   const std::size_t n = places.at.size();
   std::vector<TangentFrame> frames = tangent_frames(places, normals_of(options.normals, distinct),
                                                     rule, options.threads, share(0.1));
@@ -172,10 +190,12 @@ Sheet make_sheet(Points points, const Neighbours& neighbours, const CloudOptions
   summary.duplicates = points.size() - n;
   count_pairs(places, frames, rule, summary);
   count_parts(parts, distinct, summary);
+  summary.mean_spacing /= scale;
   summary.boundary_points = boundary_places(sheet, n);
 
   Sheet result;
-  result.more.assign(places.at.begin() + static_cast<std::ptrdiff_t>(n), places.at.end());
+  for (std::size_t p = n; p < places.at.size(); ++p)
+    result.more.push_back(times(1 / scale, places.at[p]));
   for (const Triangle& t : sheet.triangles())
     if (t[0] != none) result.faces.push_back(t);
   summary.triangles = result.faces.size();
@@ -185,13 +205,13 @@ Sheet make_sheet(Points points, const Neighbours& neighbours, const CloudOptions
   };
   std::stable_sort(result.faces.begin(), result.faces.end(), before);
   const HeightNoise noise = height_noise(places, frames);
-  summary.noise = noise.height;
+  summary.noise = noise.height / scale;
   const double flat = options.lengths == EdgeLengths::in_space     ? 0
                       : options.lengths == EdgeLengths::tangential ? 1
                                                                    : noise.share;
   if (flat > 0) {
     const auto length = [&](Index a, Index b) {
-      return tangent_length(places, frames, a, b, flat);
+      return tangent_length(places, frames, a, b, flat) / scale;
     };
     result.lengths.reserve(result.faces.size());
     for (const auto& [a, b, c] : result.faces)
