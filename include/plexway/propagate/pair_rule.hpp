@@ -1,6 +1,8 @@
 #pragma once
 
+#include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <span>
 
 #include <plexway/complex/point_pairs.hpp>
@@ -18,10 +20,11 @@ namespace plexway {
 /// what a point's better label replaces need not be expanded any more.
 ///
 /// The step is that of Trettner, Bommes, Kobbelt (SGP 2021) for point clouds, with three
-/// changes. (1) Locality, see PointPairs. (2) A line that misses the hinge by up to its length goes
-/// on straight where it passes a point that is on no boundary: a bend there is no shortest path,
-/// and bends add up. (3) No point is farther than a neighbour and the way between: where no hinge
-/// offers that, the path bends at the neighbour (a hinge with K = 0).
+/// changes. (1) Locality, see PointPairs; half as much at a boundary. (2) A line that misses the
+/// hinge by up to its length goes on straight where it passes a point that is on no boundary: a
+/// bend there is no shortest path, and bends add up. (3) No point is farther than a neighbour and
+/// the way between: where no hinge offers that, the path bends at the neighbour (a hinge with K =
+/// 0).
 template <class Real, class Front>
 class PairRule {
  public:
@@ -48,37 +51,22 @@ class PairRule {
   }
 
   void expand(Index c) {
+    if (labels_[c].a2 == 0 || labels_[c].b2 == 0) mend(c);
     const Label label = labels_[c];
     const Index source = front_.source(c);
     Side sides[2];
     int count = 0;
     if (label.a != none) sides[count++] = side(c, label.a, label.b, label, label.a2, label.b2);
     if (label.b != none) sides[count++] = side(c, label.b, label.a, label, label.b2, label.a2);
-    const PairPlace<Real> at = places_[c];
-    const Real here = distance_[c], reach2 = std::abs(at.reach2);
-    const Index last = begin_[c + 1];
-    for (Index k = begin_[c]; k < last; ++k) {
-      const Index x = neighbours_[k];
-      if (!(distance_[x] > here)) continue;
-      const PairPlace<Real> to = places_[x];
-      const Vector d = {to.x - at.x, to.y - at.y, to.z - at.z};
-      const Real c2 = dot(d, d);
-      for (int i = 0; i < count; ++i) {
-        if (dot(d, sides[i].inward) > 0) continue;
-        const Vector e = {to.x - sides[i].end.x, to.y - sides[i].end.y, to.z - sides[i].end.z};
-        const Real q2 = dot(e, e);
-        if (q2 <= reach2 && x != sides[i].q) cross(c, sides[i], label, x, c2, q2, source);
-      }
-      const Real ahead = distance_[x] - here;
-      if (ahead * ahead > c2 * (1 + gain)) {
-        const Real length = std::sqrt(c2);
-        offer(x, {c, none, 0, 0, c2, here}, here + length, source);
-      }
-    }
+    for (Index k = begin_[c]; k < begin_[c + 1]; k += batch)
+      expand(c, label, source, std::span<const Side>(sides, static_cast<std::size_t>(count)), k,
+             std::min(begin_[c + 1], k + batch));
   }
 
  private:
   static constexpr Real gain = Real(1e-4);  // units; less is no gain: it may be rounding
+  // Triangles with a corner on a boundary reach half as far, lest they cut an obstacle's corners.
+  static constexpr Real near_boundary = Real(.25);
 
   struct Vector {
     Real x, y, z;
@@ -97,6 +85,11 @@ class PairRule {
     Real q2;  // squared distance from S
     Point S;
     typename Kernel::HingePose pose;
+  };
+
+  struct Candidate {
+    Index x;
+    Real c2, q2;  // squared distances from the ends of the hinge
   };
 
   Side side(Index c, Index q, Index third, const Label& label, Real q2, Real third2) const {
@@ -120,10 +113,93 @@ class PairRule {
     return s;
   }
 
-  /// Over the hinge to x, at squared distances c2 and q2 from its ends.
-  void cross(Index c, const Side& side, const Label& label, Index x, Real c2, Real q2,
-             Index source) {
-    const Real x2[2] = {c2, q2};
+  static constexpr Real worth_mending = Real(.1);
+  static constexpr Index batch = 32;
+
+  /// The path to x has just bent at another point. If two of its neighbours see the same source,
+  /// over the edge between them it may be straight, though neither came to offer that.
+  void mend(Index x) {
+    struct Seen {
+      Index c;
+      Real d, sigma, x2;
+    };
+    Seen seen[batch];
+    std::size_t count = 0;
+    const Real here = distance_[x], reach2 = std::abs(places_[x].reach2);
+    const Index last = std::min(begin_[x + 1], begin_[x] + batch);
+    for (Index k = begin_[x]; k < last; ++k) {
+      const Index c = neighbours_[k];
+      if (!(distance_[c] < here) || front_.source(c) != front_.source(x)) continue;
+      const Vector to = between(x, c);
+      seen[count++] = {c, distance_[c] - labels_[c].sigma, labels_[c].sigma, dot(to, to)};
+    }
+    Real best = here - worth_mending;
+    Label label = labels_[x];
+    for (std::size_t i = 0; i < count; ++i)
+      for (std::size_t j = 0; j < i; ++j) {
+        if (seen[i].sigma != seen[j].sigma) continue;
+        const Vector along = between(seen[i].c, seen[j].c);
+        const Real edge2[1] = {dot(along, along)};
+        if (edge2[0] > reach2) continue;
+        const auto pose = Kernel::make_pose(edge2);
+        const Real s2[2] = {seen[i].d * seen[i].d, seen[j].d * seen[j].d};
+        const Real x2[2] = {seen[i].x2, seen[j].x2};
+        const Point S = Kernel::locate(pose, s2), X = Kernel::locate(pose, x2);
+        const Real straight2 = Kernel::distance_squared(pose, S, X);
+        const Real straight = seen[i].sigma + std::sqrt(straight2);
+        if (!(straight < best) || !Kernel::inside(pose, Kernel::crossing(S, X), Real(0))) continue;
+        best = straight;
+        label = {seen[i].c, seen[j].c, s2[0], s2[1], straight2, seen[i].sigma};
+      }
+    if (!(best < here - worth_mending)) return;
+    distance_[x] = best;
+    labels_[x] = label;
+  }
+
+  /// To the neighbours from `first` to `last`. What is asked of each of them is a coin toss, so who
+  /// passes is written to a list without a branch.
+  void expand(Index c, const Label& label, Index source, std::span<const Side> sides, Index first,
+              Index last) {
+    const PairPlace<Real> at = places_[c];
+    const Real here = distance_[c], reach2 = std::abs(at.reach2);
+    const bool edge = std::signbit(at.reach2);
+    Index ahead[batch];
+    std::size_t count = 0;
+    for (Index k = first; k < last; ++k) {
+      ahead[count] = neighbours_[k];
+      count += distance_[neighbours_[k]] > here;
+    }
+    Real c2[batch];
+    Candidate across[2][batch];
+    std::size_t candidates[2] = {0, 0};
+    for (std::size_t i = 0; i < count; ++i) {
+      const Index x = ahead[i];
+      const PairPlace<Real> to = places_[x];
+      const Vector d = {to.x - at.x, to.y - at.y, to.z - at.z};
+      c2[i] = dot(d, d);
+      for (std::size_t s = 0; s < sides.size(); ++s) {
+        const Vector e = {to.x - sides[s].end.x, to.y - sides[s].end.y, to.z - sides[s].end.z};
+        const Real q2 = dot(e, e);
+        across[s][candidates[s]] = {x, c2[i], q2};
+        const bool at_boundary = edge | std::signbit(to.reach2) | std::signbit(sides[s].end.reach2);
+        candidates[s] += (q2 <= (at_boundary ? reach2 * near_boundary : reach2)) &
+                         (dot(d, sides[s].inward) <= 0) & (x != sides[s].q);
+      }
+    }
+    for (std::size_t s = 0; s < sides.size(); ++s)
+      for (std::size_t i = 0; i < candidates[s]; ++i)
+        cross(c, sides[s], label, across[s][i], source);
+    for (std::size_t i = 0; i < count; ++i) {
+      const Real more = distance_[ahead[i]] - here;
+      if (more * more > c2[i] * (1 + gain)) [[unlikely]]
+        offer(ahead[i], {c, none, 0, 0, c2[i], here}, here + std::sqrt(c2[i]), source);
+    }
+  }
+
+  /// Over the hinge, to a point behind it.
+  void cross(Index c, const Side& side, const Label& label, const Candidate& to, Index source) {
+    const Index x = to.x;
+    const Real x2[2] = {to.c2, to.q2};
     const Point X = Kernel::locate(side.pose, x2);
     // No bend makes a path shorter: what is not better straight is not looked at further.
     const Real straight2 = Kernel::distance_squared(side.pose, side.S, X);
@@ -164,6 +240,7 @@ class PairRule {
   void take(Index x, const Label& label, Real distance, Index source) {
     distance_[x] = distance;
     labels_[x] = label;
+    __builtin_prefetch(&neighbours_[begin_[x]]);  // it is expanded soon
     front_.accept(x, 0, distance, source);
   }
 
