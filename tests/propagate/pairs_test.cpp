@@ -40,37 +40,39 @@ struct Walled {
 
 TEMPLATE_TEST_CASE("vertex pairs: plane, sphere, cylinder and roll in closed form", "", float,
                    double) {
-  const auto check = [](const SampledCloud& cloud, double mean, double max) {
+  // Edges are straight and up to 5 spacings long: on a circle of this radius they are that much
+  // shorter than its arcs.
+  const auto check = [](const SampledCloud& cloud, double radius) {
+    const double chord = std::pow(5 * cloud.spacing / radius, 2) / 24;
     const PointPairs<TestType> pairs(cloud.points, all_pairs_neighbours(cloud.points));
     CHECK_FALSE(pairs.summary().smoothed);
     for (const Index source : {Index{0}, Index{77}}) {
       const CloudErrors e = compare(solve(pairs, PointSource::at(source)),
                                     cloud.distances_from(source), cloud.spacing);
-      CAPTURE(source, e.mean, e.max);
+      CAPTURE(source, chord, e.mean, e.max, e.off);
       CHECK(e.unreached == 0);
-      CHECK(e.mean < mean);
-      CHECK(e.max < max);
+      CHECK(e.mean < 6e-4 + chord);
+      CHECK(e.max < .15);
+      CHECK(e.off < .01);
     }
   };
-  check(plane_cloud(4000), 1.2e-3, .05);
-  check(sphere_cloud(4000), 2.5e-3, .05);
-  check(cylinder_cloud(4000), 2.5e-3, .05);
-  check(swiss_cloud(8000), 4e-3, .06);
+  check(plane_cloud(4000), never);
+  check(sphere_cloud(4000), 1);
+  check(cylinder_cloud(4000), 1);
+  check(swiss_cloud(8000), 1.5 * samples::pi);
 }
 
-TEST_CASE("vertex pairs: distances get better with density, as fast as the spacing") {
-  for (const auto make : {plane_cloud, sphere_cloud}) {
-    double mean[2] = {0, 0};
-    for (const int fine : {0, 1})
-      for (const std::uint64_t seed : {11, 12, 13}) {
-        const SampledCloud cloud = make(fine ? 8000 : 2000, 0, seed);
-        const PointPairs<float> pairs(cloud.points, all_pairs_neighbours(cloud.points));
-        mean[fine] +=
-            compare(solve(pairs, PointSource::at(0)), cloud.distances_from(0), cloud.spacing).mean;
-      }
-    CAPTURE(mean[0], mean[1]);
-    CHECK(mean[1] < mean[0] / 2);
-  }
+TEST_CASE("vertex pairs: distances on a sphere get better with density, faster than the spacing") {
+  double mean[2] = {0, 0};
+  for (const int fine : {0, 1})
+    for (const std::uint64_t seed : {11, 12, 13}) {
+      const SampledCloud cloud = sphere_cloud(fine ? 8000 : 2000, 0, seed);
+      const PointPairs<float> pairs(cloud.points, all_pairs_neighbours(cloud.points));
+      mean[fine] +=
+          compare(solve(pairs, PointSource::at(0)), cloud.distances_from(0), cloud.spacing).mean;
+    }
+  CAPTURE(mean[0], mean[1]);
+  CHECK(mean[1] < mean[0] / 2);
 }
 
 TEST_CASE("vertex pairs: paths bend around an obstacle") {
@@ -82,7 +84,7 @@ TEST_CASE("vertex pairs: paths bend around an obstacle") {
   const CloudErrors e = compare(solve(pairs, PointSource::at(0)), truth, wall.spacing);
   CAPTURE(e.mean, e.max);
   CHECK(e.mean < 5e-3);
-  CHECK(e.max < .08);
+  CHECK(e.off < .01);
   PropagateOptions bend_everywhere;
   bend_everywhere.visibility = Visibility::upper_bound;
   const CloudErrors u =
@@ -106,8 +108,8 @@ TEST_CASE("vertex pairs: noise costs little, and less with smoothing") {
       const CloudErrors s = compare(solve(smoothed, PointSource::at(0)), truth, cloud.spacing);
       const CloudErrors r = compare(solve(rough, PointSource::at(0)), truth, cloud.spacing);
       CAPTURE(noise, s.mean, r.mean, s.max, r.max);
-      CHECK(s.mean < (noise < 1 ? 4e-3 : 9e-3));
-      CHECK(s.mean < .8 * r.mean);
+      CHECK(s.mean < .015 * noise);
+      CHECK(s.mean < .5 * r.mean);
     }
 }
 
@@ -126,8 +128,8 @@ TEST_CASE("vertex pairs: every source alone against all at once") {
     double best = never;
     for (const auto& d : alone) best = std::min(best, d[i]);
     REQUIRE(field.label[i] < sources.size());
-    REQUIRE(field.distance[i] == Approx(best).margin(.05 * cloud.spacing).epsilon(.01));
-    other += alone[field.label[i]][i] > best + .1 * cloud.spacing;
+    REQUIRE(field.distance[i] == Approx(best).margin(.3 * cloud.spacing));
+    other += alone[field.label[i]][i] > best + .3 * cloud.spacing;
   }
   CHECK(other < 15);
   CHECK(field.distance[5] == 0);
