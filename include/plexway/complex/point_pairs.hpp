@@ -14,7 +14,7 @@ namespace plexway {
 struct PairOptions {
   /// Clouds with at least this much noise, in spacings, are smoothed first (see smooth); infinity:
   /// none.
-  double least_noise = .02;
+  double least_noise = .06;
   int threads = 0;  ///< for building; 0: all there are
   /// Called with the share that is done; returning false stops with Cancelled.
   std::function<bool(double share)> progress = {};
