@@ -46,7 +46,7 @@ TEST_CASE("xyz: comments, blank lines, line ends of Windows, a byte order mark")
 
 TEST_CASE("xyz: a first line with one number is a promise") {
   CHECK(parse_xyz("2\n1 2 3\n4 5 6\n\n# end\n", "mesh").positions.size() == 2);
-  CHECK(xyz_complaint("3\n10 20 30\n4 5 6\n") == "mesh:4: the file ends after 2 of 3 points");
+  CHECK(xyz_complaint("3\n100 200 300\n4 5 6\n") == "mesh:4: the file ends after 2 of 3 points");
   CHECK(xyz_complaint("1\n1 2 3\n4 5 6\n") ==
         "mesh:3: the file goes on after its 1 points with '4'");
   CHECK(xyz_complaint("4000000000\n1 2 3\n") ==
