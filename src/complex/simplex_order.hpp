@@ -12,6 +12,15 @@
 
 namespace plexway {
 
+/// 21 bits spread to every third place.
+constexpr std::uint64_t every_third_bit(std::uint64_t q) {
+  q = (q | q << 32) & 0x1f00000000ffff;
+  q = (q | q << 16) & 0x1f0000ff0000ff;
+  q = (q | q << 8) & 0x100f00f00f00f00f;
+  q = (q | q << 4) & 0x10c30c30c30c30c3;
+  return (q | q << 2) & 0x1249249249249249;
+}
+
 /// Simplices (points, if N is 1) along a space-filling (Morton) curve through their centroids.
 /// Positions are finite; those of no simplex do not matter. Cost: n log n.
 template <std::size_t N>
@@ -43,14 +52,7 @@ std::vector<Index> along_curve(std::span<const std::array<double, 3>> positions,
       double centre = 0;
       for (const Index v : simplices[s])
         centre += (positions[v][d] / share - low[d] / share) * scale;
-      std::uint64_t q = static_cast<std::uint64_t>(std::clamp(centre, 0.0, cells));
-      // Spread 21 bits to every third place.
-      q = (q | q << 32) & 0x1f00000000ffff;
-      q = (q | q << 16) & 0x1f0000ff0000ff;
-      q = (q | q << 8) & 0x100f00f00f00f00f;
-      q = (q | q << 4) & 0x10c30c30c30c30c3;
-      q = (q | q << 2) & 0x1249249249249249;
-      key |= q << d;
+      key |= every_third_bit(static_cast<std::uint64_t>(std::clamp(centre, 0.0, cells))) << d;
     }
     keyed[s] = {key, static_cast<Index>(s)};
   }

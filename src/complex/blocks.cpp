@@ -1,0 +1,59 @@
+#include <plexway/complex/blocks.hpp>
+
+#include <algorithm>
+#include <atomic>
+#include <exception>
+#include <mutex>
+#include <thread>
+#include <vector>
+
+#include <plexway/error.hpp>
+
+namespace plexway {
+
+void for_blocks(std::size_t count, std::size_t block, int threads,
+                const std::function<bool(double)>& progress,
+                const std::function<void(std::size_t, std::size_t)>& work) {
+  std::atomic<std::size_t> next = 0, done = 0;
+  std::atomic<bool> stop = false;
+  std::exception_ptr error;
+  std::mutex error_mutex;
+  const auto keep_error = [&] {
+    const std::lock_guard lock(error_mutex);
+    if (!error) error = std::current_exception();
+    stop = true;
+  };
+  const auto work_on = [&](bool callers) noexcept {
+    try {
+      while (!stop) {
+        const std::size_t first = next.fetch_add(block);
+        if (first >= count) return;
+        const std::size_t last = std::min(first + block, count);
+        work(first, last);
+        done += last - first;
+        if (callers && progress &&
+            !progress(static_cast<double>(done) / static_cast<double>(count)))
+          throw Cancelled("stopped by the progress callback");
+      }
+    } catch (...) {
+      keep_error();
+    }
+  };
+  const std::size_t blocks = count / block + (count % block != 0);
+  const std::size_t asked = threads > 0
+                                ? static_cast<std::size_t>(threads)
+                                : std::max<std::size_t>(std::thread::hardware_concurrency(), 1);
+  std::vector<std::thread> helpers;
+  for (std::size_t i = 1; i < std::min(asked, blocks); ++i) {
+    try {
+      helpers.emplace_back(work_on, false);
+    } catch (const std::system_error&) {
+      break;  // no thread to be had: those there are do the work
+    }
+  }
+  work_on(true);
+  for (std::thread& helper : helpers) helper.join();
+  if (error) std::rethrow_exception(error);
+}
+
+}  // namespace plexway

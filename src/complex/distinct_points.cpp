@@ -1,0 +1,84 @@
+#include <plexway/complex/distinct_points.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <string>
+
+#include <plexway/error.hpp>
+
+#include "complex/simplex_order.hpp"
+
+namespace plexway {
+namespace {
+
+using Points = std::span<const std::array<double, 3>>;
+
+struct Keyed {
+  std::uint64_t key;
+  Index point;
+};
+
+// A cell of the Morton curve for each point; equal points share one.
+std::vector<Keyed> along_curve_with_keys(Points points) {
+  std::array<double, 3> low{}, high{};
+  low.fill(std::numeric_limits<double>::infinity());
+  high.fill(-std::numeric_limits<double>::infinity());
+  for (const auto& p : points)
+    for (std::size_t d = 0; d < 3; ++d) {
+      low[d] = std::min(low[d], p[d]);
+      high[d] = std::max(high[d], p[d]);
+    }
+  double width = 0;  // halves: no overflow near 1e308
+  for (std::size_t d = 0; d < 3; ++d) width = std::max(width, high[d] / 2 - low[d] / 2);
+  constexpr double cells = 2097151;
+  std::vector<Keyed> keyed(points.size());
+  for (Index i = 0; i < points.size(); ++i) {
+    std::uint64_t key = 0;
+    for (std::size_t d = 0; d < 3 && width > 0; ++d) {
+      const double share = (points[i][d] / 2 - low[d] / 2) / width;
+      key |= every_third_bit(static_cast<std::uint64_t>(share * cells)) << d;
+    }
+    keyed[i] = {key, i};
+  }
+  std::sort(keyed.begin(), keyed.end(), [](const Keyed& a, const Keyed& b) {
+    return a.key != b.key ? a.key < b.key : a.point < b.point;
+  });
+  return keyed;
+}
+
+}  // namespace
+
+DistinctPoints distinct_points(Points points) {
+  if (points.size() >= none) throw InputError("more than 4294967294 points");
+  for (std::size_t i = 0; i < points.size(); ++i)
+    for (const double x : points[i])
+      if (!std::isfinite(x))
+        throw InputError("point " + std::to_string(i) +
+                         ": a coordinate is not finite; remove such points first");
+  std::vector<Keyed> keyed = along_curve_with_keys(points);
+  DistinctPoints result;
+  result.first.resize(points.size());
+  result.order.reserve(points.size());
+  for (std::size_t begin = 0, end = 0; begin < keyed.size(); begin = end) {
+    for (end = begin + 1; end < keyed.size() && keyed[end].key == keyed[begin].key;) ++end;
+    const auto at = [&](std::size_t i) -> const auto& { return points[keyed[i].point]; };
+    if (end - begin > 1)
+      std::sort(keyed.begin() + static_cast<std::ptrdiff_t>(begin),
+                keyed.begin() + static_cast<std::ptrdiff_t>(end),
+                [&](const Keyed& a, const Keyed& b) {
+                  const auto &p = points[a.point], &q = points[b.point];
+                  return p != q ? p < q : a.point < b.point;
+                });
+    for (std::size_t i = begin; i < end; ++i) {
+      const Index point = keyed[i].point;
+      const bool twin = i > begin && at(i) == at(i - 1);
+      result.first[point] = twin ? result.first[keyed[i - 1].point] : point;
+      if (!twin) result.order.push_back(point);
+    }
+  }
+  return result;
+}
+
+}  // namespace plexway
