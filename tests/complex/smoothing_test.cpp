@@ -1,0 +1,145 @@
+#include <plexway/complex/smoothing.hpp>
+
+#include <catch2/catch.hpp>
+
+#include <plexway/error.hpp>
+
+#include "complex/sampled_clouds.hpp"
+
+using namespace plexway;
+using namespace plexway::testing;
+
+namespace {
+
+double apart(const Position& a, const Position& b) {
+  const Position d = samples::operator-(a, b);
+  return std::sqrt(samples::dot(d, d));
+}
+
+/// Root of the mean square of how far points are off the clean surface along its normal, in
+/// spacings.
+double roughness(const SampledCloud& cloud, const std::vector<Position>& points) {
+  double sum = 0;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const double off = samples::dot(samples::operator-(points[i], cloud.clean[i]), cloud.normal[i]);
+    sum += off * off;
+  }
+  return std::sqrt(sum / static_cast<double>(points.size())) / cloud.spacing;
+}
+
+}  // namespace
+
+TEST_CASE("the noise of a cloud is read off its points") {
+  for (const auto make : {sphere_cloud, plane_cloud, cylinder_cloud}) {
+    const auto level = [&](double noise) {
+      const SampledCloud cloud = make(3000, noise, 5);
+      return noise_level(cloud.points, all_pairs_neighbours(cloud.points));
+    };
+    CHECK(level(0) < 1e-3);
+    CHECK(level(.05) == Approx(.05).epsilon(.2));
+    CHECK(level(.25) == Approx(.25).epsilon(.2));
+    CHECK(level(1) > .6);
+  }
+}
+
+TEST_CASE("smoothing leaves clean clouds as they are, to the last bit") {
+  for (const SampledCloud& cloud : {sphere_cloud(2000), cylinder_cloud(2000), plane_cloud(500)})
+    CHECK(smooth(cloud.points, all_pairs_neighbours(cloud.points)) == cloud.points);
+}
+
+TEST_CASE("smoothing moves no point of a clean surface, even if asked to") {
+  SmoothOptions always;
+  always.least_noise = 0;
+  const SampledCloud plane = plane_cloud(2000);
+  const auto flat = smooth(plane.points, all_pairs_neighbours(plane.points), always);
+  for (std::size_t i = 0; i < flat.size(); ++i) REQUIRE(apart(flat[i], plane.points[i]) < 1e-12);
+
+  // A sphere leaves its osculating quadric by the fourth power of the distance.
+  double mean[2], largest = 0;
+  for (const int fine : {0, 1}) {
+    const SampledCloud sphere = sphere_cloud(fine ? 4000 : 1000);
+    const auto round = smooth(sphere.points, all_pairs_neighbours(sphere.points), always);
+    const double scale = sphere.spacing * sphere.spacing;  // over the radius, 1
+    mean[fine] = largest = 0;
+    for (std::size_t i = 0; i < round.size(); ++i) {
+      const double moved = apart(round[i], sphere.points[i]) / scale;
+      mean[fine] += moved / static_cast<double>(round.size());
+      largest = std::max(largest, moved);
+    }
+  }
+  CAPTURE(mean[0], mean[1], largest);
+  CHECK(mean[1] < .05);
+  CHECK(largest < .15);
+  CHECK(mean[1] < mean[0] / 3);
+}
+
+TEST_CASE("smoothing takes most of the noise away, and only along the normal") {
+  for (const auto make : {sphere_cloud, plane_cloud, cylinder_cloud})
+    for (const double noise : {.25, .5, 1.0}) {
+      const SampledCloud cloud = make(4000, noise, 6);
+      const auto smoothed = smooth(cloud.points, all_pairs_neighbours(cloud.points));
+      CAPTURE(noise, roughness(cloud, cloud.points), roughness(cloud, smoothed));
+      CHECK(roughness(cloud, smoothed) < (noise < 1 ? .4 : .5) * roughness(cloud, cloud.points));
+      double along = 0;
+      for (std::size_t i = 0; i < smoothed.size(); ++i) {
+        const Position moved = samples::operator-(smoothed[i], cloud.points[i]);
+        const double up = samples::dot(moved, cloud.normal[i]);
+        along += std::sqrt(std::max(samples::dot(moved, moved) - up * up, 0.0)) / 4000;
+      }
+      CHECK(along < .25 * noise * cloud.spacing);
+    }
+}
+
+TEST_CASE("smoothing does not depend on threads, and follows a change of unit and place") {
+  const SampledCloud cloud = sphere_cloud(3000, .4);
+  const auto neighbours = all_pairs_neighbours(cloud.points);
+  SmoothOptions options;
+  options.threads = 1;
+  const auto one = smooth(cloud.points, neighbours, options);
+  for (const int threads : {2, 3}) {
+    options.threads = threads;
+    CHECK(smooth(cloud.points, neighbours, options) == one);
+  }
+  auto larger = cloud.points;
+  for (Position& p : larger) p = samples::operator+(samples::operator*(256, p), {1e4, 0, -1e4});
+  const auto also = smooth(larger, neighbours, options);
+  for (std::size_t i = 0; i < one.size(); ++i)
+    REQUIRE(apart(samples::operator+(samples::operator*(256, one[i]), {1e4, 0, -1e4}), also[i]) <
+            1e-6);
+}
+
+TEST_CASE("smoothing: no surface, no result that is not a number") {
+  SmoothOptions always;
+  always.least_noise = 0;
+  std::vector<Position> line, place(20, {1, 2, 3}), filling;
+  samples::Noise random(9);
+  for (int i = 0; i < 40; ++i) line.push_back({i * .5, i * .25, 0});
+  for (int i = 0; i < 500; ++i) filling.push_back({random(), random(), random()});
+  for (const auto& points : {line, place, filling, std::vector<Position>{{1, 1, 1}}, {}}) {
+    const auto neighbours = all_pairs_neighbours(points);
+    const auto moved = smooth(points, neighbours, always);
+    REQUIRE(moved.size() == points.size());
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      for (const double x : moved[i]) REQUIRE(std::isfinite(x));
+      if (points.size() != filling.size()) CHECK(apart(moved[i], points[i]) < 1e-9);
+    }
+    CHECK(noise_level(points, neighbours) >= 0);
+  }
+}
+
+TEST_CASE("smoothing refuses lists of other points and ends when told to") {
+  const SampledCloud cloud = plane_cloud(3000, .3);
+  const auto neighbours = all_pairs_neighbours(cloud.points);
+  CHECK_THROWS_AS(smooth(std::span(cloud.points).first(10), neighbours), InputError);
+  SmoothOptions options;
+  options.rounds = -1;
+  CHECK_THROWS_AS(smooth(cloud.points, neighbours, options), UsageError);
+  options.rounds = 2;
+  options.progress = [](double) { return false; };
+  CHECK_THROWS_AS(smooth(cloud.points, neighbours, options), Cancelled);
+  double last = 0;
+  options.progress = [&](double share) { return share >= last && (last = share, true); };
+  CHECK_NOTHROW(smooth(cloud.points, neighbours, options));
+  CHECK(last <= 1);
+  CHECK(last > .5);
+}
