@@ -11,8 +11,9 @@ namespace plexway::cli {
 #ifdef PLEXWAY_PCL_MODULE
 const PclFunctions& pcl_functions(const std::string& what) {
   static const PclFunctions* const functions = [&] {
-    // Found by the tool's RUNPATH. It stays loaded: what it throws must outlive it.
-    void* const module = ::dlopen(PLEXWAY_PCL_MODULE, RTLD_NOW | RTLD_LOCAL);
+    // Found by the tool's RUNPATH. Lazily, because to look up all that PCL and VTK might call takes
+    // a third of a second. It stays loaded: what it throws must outlive it.
+    void* const module = ::dlopen(PLEXWAY_PCL_MODULE, RTLD_LAZY | RTLD_LOCAL);
     if (module == nullptr) {
       const char* const reason = ::dlerror();
       throw Error(what + ": the tool's module for PCL cannot be loaded: " +

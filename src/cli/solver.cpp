@@ -6,6 +6,7 @@
 
 #include <plexway/complex/triangle_mesh.hpp>
 #include <plexway/executors/serial.hpp>
+#include <plexway/executors/serial_cloud.hpp>
 #include <plexway/executors/serial_solid.hpp>
 #include <plexway/executors/serial_wireframe.hpp>
 
@@ -26,6 +27,27 @@ Wireframe<Real> make_complex(const io::Edges& wireframe) {
   if (wireframe.lengths.empty()) return {wireframe.positions, wireframe.edges};
   return {wireframe.vertices, wireframe.edges, wireframe.lengths};
 }
+template <class Real>
+PointCloud<Real> make_complex(const Cloud& cloud) {
+  return {cloud.measured(), cloud.neighbours, cloud_options(cloud)};
+}
+
+// How many simplices a complex has, by the name that its summary gives them.
+template <class Complex>
+std::size_t simplex_count(const Complex& complex) {
+  const auto& summary = complex.summary();
+  if constexpr (requires {
+                  summary.faces;
+                  summary.boundary_edges;
+                })
+    return summary.faces;
+  else if constexpr (requires { summary.tets; })
+    return summary.tets;
+  else if constexpr (requires { summary.triangles; })
+    return summary.triangles;
+  else
+    return summary.edges;
+}
 
 template <class Real, class Shape>
 class ShapeSolver final : public Solver {
@@ -33,6 +55,7 @@ class ShapeSolver final : public Solver {
   explicit ShapeSolver(const Shape& shape) : complex_(make_complex<Real>(shape)) {}
 
   std::size_t components() const override { return complex_.summary().components; }
+  std::size_t simplices() const override { return simplex_count(complex_); }
 
   void solve(std::span<const PointSource> sources, const PropagateOptions& options) override {
     propagate(Serial{}, complex_, sources, options, workspace_, field_);
