@@ -66,6 +66,8 @@ void round_angle(double cosine, double sine, Real& c, Real& s) {
     }
 }
 
+std::vector<Index> copy_of(std::span<const Index> order) { return {order.begin(), order.end()}; }
+
 using Lengths = std::vector<std::array<double, 3>>;
 using GluingView = std::span<const std::array<Index, 3>>;
 
@@ -74,6 +76,21 @@ template <class Visit>
 void around_edge(GluingView across, Index h, Visit visit) {
   visit(h);
   for (Index o = across[h / 3][h % 3]; o != none && o != h; o = across[o / 3][o % 3]) visit(o);
+}
+
+// The excess of a vertex and its neighbours together; those on the boundary do not count.
+template <class Real>
+std::vector<double> excess_around(std::span<const TriangleRecord<Real>> triangles,
+                                  std::span<const double> excess, std::span<const char> boundary) {
+  std::vector<double> around(excess.begin(), excess.end());
+  for (const TriangleRecord<Real>& t : triangles.first(triangles.size() - 1))
+    for (std::size_t i = 0; i < 3; ++i) {
+      // An edge inside counts from both its triangles. Of one on the boundary both ends are there.
+      const Index v = t.corner[i], w = t.corner[edge_after(i)];
+      if (!boundary[w]) around[v] += excess[w] / 2;
+      if (!boundary[v]) around[w] += excess[v] / 2;
+    }
+  return around;
 }
 
 // Both sides of an edge must agree to the last bit: the mean of what they say.
@@ -125,7 +142,8 @@ void shorten_to_triangles(Lengths& lengths, GluingView across) {
 
 template <class Real>
 TriangleMesh<Real>::TriangleMesh(std::span<const std::array<double, 3>> positions,
-                                 std::span<const std::array<Index, 3>> faces) {
+                                 std::span<const std::array<Index, 3>> faces,
+                                 const SurfaceHints& hints) {
   check_faces(positions.size(), faces);
   check_corners(faces);
   for (std::size_t v = 0; v < positions.size(); ++v)
@@ -136,8 +154,9 @@ TriangleMesh<Real>::TriangleMesh(std::span<const std::array<double, 3>> position
   for (std::size_t f = 0; f < faces.size(); ++f)
     shapes[f] = shape_from_positions(
         {&positions[faces[f][0]], &positions[faces[f][1]], &positions[faces[f][2]]});
-  assemble(positions.size(), faces, shapes, along_curve(positions, faces),
-           glue_by_vertices(positions.size(), faces));
+  assemble(positions.size(), faces, shapes,
+           hints.order.empty() ? along_curve(positions, faces) : copy_of(hints.order),
+           glue_by_vertices(positions.size(), faces), hints.samples);
 }
 
 template <class Real>
@@ -151,7 +170,8 @@ TriangleMesh<Real>::TriangleMesh(std::size_t vertices, std::span<const std::arra
 template <class Real>
 TriangleMesh<Real>::TriangleMesh(std::size_t vertices, std::span<const std::array<Index, 3>> faces,
                                  std::span<const std::array<double, 3>> lengths,
-                                 std::span<const std::array<Index, 3>> across) {
+                                 std::span<const std::array<Index, 3>> across,
+                                 const SurfaceHints& hints) {
   check_faces(vertices, faces);
   if (lengths.size() != faces.size() || across.size() != faces.size())
     throw InputError(std::to_string(faces.size()) + " faces with " +
@@ -174,15 +194,16 @@ TriangleMesh<Real>::TriangleMesh(std::size_t vertices, std::span<const std::arra
     shapes[f].violated = violated[f] != 0;
   }
   std::vector<std::array<Index, 3>> gluing(across.begin(), across.end());
-  std::vector<Index> order = breadth_first(std::span<const std::array<Index, 3>>(gluing));
-  assemble(vertices, faces, shapes, std::move(order), std::move(gluing));
+  assemble(vertices, faces, shapes,
+           hints.order.empty() ? breadth_first(across) : copy_of(hints.order), std::move(gluing),
+           hints.samples);
 }
 
 template <class Real>
 void TriangleMesh<Real>::assemble(std::size_t vertices, std::span<const std::array<Index, 3>> faces,
                                   std::span<const TriangleShape> shapes,
                                   std::vector<Index> face_order,
-                                  std::vector<std::array<Index, 3>> across) {
+                                  std::vector<std::array<Index, 3>> across, bool samples) {
   const std::size_t m = faces.size();
   const Orientation orientation = orient(faces, across);
   summary_.vertices = vertices;
@@ -286,14 +307,16 @@ void TriangleMesh<Real>::assemble(std::size_t vertices, std::span<const std::arr
       angle[triangles_[inside].corner[i]] += std::atan2(shapes[f].sine[c], shapes[f].cosine[c]);
     }
   }
+  for (std::size_t v = 0; v < vertices; ++v)  // from here on what is more than flat
+    angle[v] -= fans.on_boundary[v] ? std::numbers::pi + boundary_excess
+                                    : 2 * std::numbers::pi + interior_excess;
+  std::vector<double> around;
+  if (samples) around = excess_around<Real>(triangles_, angle, fans.on_boundary);
   for (std::size_t inside = 0; inside < m; ++inside)
     for (Index i = 0; i < 3; ++i) {
       const Index v = triangles_[inside].corner[i];
-      const bool boundary = fans.on_boundary[v];
-      const double flat =
-          boundary ? std::numbers::pi + boundary_excess : 2 * std::numbers::pi + interior_excess;
-      const bool irregular = std::binary_search(irregular_.begin(), irregular_.end(), v);
-      if (angle[v] > flat || irregular)
+      const bool saddle = angle[v] > 0 && (around.empty() || fans.on_boundary[v] || around[v] > 0);
+      if (saddle || std::binary_search(irregular_.begin(), irregular_.end(), v))
         triangles_[inside].signed_sine[i] =
             std::copysign(triangles_[inside].signed_sine[i], Real(-1));
     }

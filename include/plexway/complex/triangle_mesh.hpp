@@ -29,6 +29,15 @@ struct SurfaceSummary {
   double mean_edge = 0;  ///< in the input's unit; the library works in this unit inside
 };
 
+/// What the maker of a surface knows better than the constructor.
+struct SurfaceHints {
+  /// All faces, as they should lie in memory; empty: the constructor looks for an order.
+  std::span<const Index> order = {};
+  /// The vertices are samples of something smooth, and how the triangles bend at one of them is
+  /// half chance: paths bend at an inner vertex only where its neighbourhood is a saddle, too.
+  bool samples = false;
+};
+
 /// A triangle surface as a metric space: triangles with edge lengths, glued along edges.
 ///
 /// A Delta-complex: what counts is which halfedge is glued to which, so two vertices may share
@@ -47,7 +56,7 @@ class TriangleMesh {
   /// of range, the same vertex twice in a face, no face, or more than 2^28 - 2 faces.
   /// Cost: linear, about 0.5 us a face.
   TriangleMesh(std::span<const std::array<double, 3>> positions,
-               std::span<const std::array<Index, 3>> faces);
+               std::span<const std::array<Index, 3>> faces, const SurfaceHints& hints = {});
 
   /// From lengths alone: lengths[f][i] is the length of the edge from corner i of face f to the
   /// next, and must be the same from both sides (up to rounding; the mean is taken). Triangles are
@@ -62,7 +71,7 @@ class TriangleMesh {
   /// edge form a cycle. Throws as above, and when the gluing is not a set of cycles.
   TriangleMesh(std::size_t vertices, std::span<const std::array<Index, 3>> faces,
                std::span<const std::array<double, 3>> lengths,
-               std::span<const std::array<Index, 3>> across);
+               std::span<const std::array<Index, 3>> across, const SurfaceHints& hints = {});
 
   [[nodiscard]] std::size_t vertex_count() const { return vertex_to_inside_.size(); }
   [[nodiscard]] std::size_t face_count() const { return triangles_.size() - 1; }
@@ -91,7 +100,7 @@ class TriangleMesh {
  private:
   void assemble(std::size_t vertices, std::span<const std::array<Index, 3>> faces,
                 std::span<const TriangleShape> shapes, std::vector<Index> face_order,
-                std::vector<std::array<Index, 3>> across);
+                std::vector<std::array<Index, 3>> across, bool samples);
 
   SurfaceSummary summary_;
   std::vector<TriangleRecord<Real>> triangles_;

@@ -1,0 +1,96 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <functional>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include <plexway/complex/ids.hpp>
+#include <plexway/complex/neighbours.hpp>
+#include <plexway/complex/triangle_mesh.hpp>
+
+namespace plexway {
+
+struct CloudOptions {
+  /// Neighbours are refused where their normals differ by more (degrees), or where the segment
+  /// between them is steeper than half of it: so sheets across a thin gap stay apart.
+  double max_normal_angle = 60;
+  /// One a point, of any length, pointing outward everywhere; a zero or NaN stands for unknown.
+  /// Empty: estimated, and then inside and outside are not told apart.
+  std::span<const std::array<double, 3>> normals = {};
+  /// Lengths between tangent planes: without the part of an edge that goes along the mean normal of
+  /// its ends. For noisy clouds; takes away detail of the size of the spacing as well.
+  bool tangent_lengths = false;
+  /// Holes that a circle of so many spacings fits in stay holes.
+  double widest_circle = 3;
+  /// The same at the boundary of the cloud, where chance leaves no such voids.
+  double widest_boundary_circle = 1.1;
+  int threads = 0;  ///< 0: as many as the machine has
+  /// Called with the share that is done; returning false stops with Cancelled.
+  std::function<bool(double share)> progress = {};
+};
+
+/// What a cloud is made of, counted while it is built.
+struct CloudSummary {
+  std::size_t points = 0;
+  std::size_t distinct = 0;         ///< places
+  std::size_t duplicates = 0;       ///< points - distinct
+  std::size_t neighbour_pairs = 0;  ///< of places
+  std::size_t refused_pairs = 0;    ///< of these, not on one sheet
+  std::size_t triangles = 0;
+  std::size_t bridges = 0;                   ///< pairs that only an edge connects, not a sheet
+  std::size_t boundary_points = 0;           ///< places on the boundary of the sheet
+  std::size_t isolated_points = 0;           ///< places that are connected to no other
+  std::size_t components = 0;                ///< places that paths connect; isolated ones count
+  std::size_t largest_component = 0;         ///< its points
+  std::vector<std::size_t> component_sizes;  ///< points of each, descending
+  double mean_spacing = 0;  ///< 1 / sqrt(points per area) about a place, the mean of all
+};
+
+/// A cloud of points on a surface as a metric space: one sheet of triangles with the points as
+/// vertices.
+///
+/// Each point's neighbours make a Delaunay umbrella in its tangent plane; the sheet is made of
+/// triangles that umbrellas agree on, as far as they do, and what closes the holes between them.
+/// Lengths are as in space. Points at one place are one vertex. Immutable once built.
+///
+/// Memory: about 140 bytes a point in float; up to four times that while it is built.
+template <class Real>
+class PointCloud {
+ public:
+  /// From n points in any unit and their neighbours (about 16 each; `symmetric_closure` first).
+  /// Throws InputError naming the point for a coordinate that is not finite or a neighbour >= n,
+  /// for no points, and if there is not one row or normal a point; UsageError for options out of
+  /// range; Cancelled as progress says. The result does not depend on the number of threads. Cost:
+  /// 2 to 4 us a point on one thread, of which half is done in parallel.
+  PointCloud(std::span<const std::array<double, 3>> points, const Neighbours& neighbours,
+             const CloudOptions& options = {});
+
+  [[nodiscard]] std::size_t point_count() const { return summary_.points; }
+  [[nodiscard]] const CloudSummary& summary() const { return summary_; }
+  /// Bytes this complex holds.
+  [[nodiscard]] std::size_t bytes() const;
+  /// The mean edge of the triangles, in the points' unit.
+  [[nodiscard]] double unit() const { return surface_.unit(); }
+
+  /// The sheet. Its vertices are the points, in the caller's numbers, and a few more behind them
+  /// where points hang together by a single edge. A point with a twin of lower number is in no
+  /// triangle.
+  [[nodiscard]] const TriangleMesh<Real>& surface() const { return surface_; }
+  /// The vertex of a point: itself, or its first twin.
+  [[nodiscard]] Index of_point(Index point) const;
+  /// Points that are not the first at their place, ascending, and who is.
+  [[nodiscard]] std::span<const std::array<Index, 2>> twins() const { return twins_; }
+
+ private:
+  CloudSummary summary_;
+  std::vector<std::array<Index, 2>> twins_;
+  TriangleMesh<Real> surface_;
+};
+
+extern template class PointCloud<float>;
+extern template class PointCloud<double>;
+
+}  // namespace plexway

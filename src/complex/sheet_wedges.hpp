@@ -1,0 +1,67 @@
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include <plexway/complex/ids.hpp>
+
+#include "complex/umbrella.hpp"
+
+namespace plexway {
+
+/// Triangles thrown together one by one, and at each place the wedges of its tangent plane that
+/// they take.
+class SheetWedges {
+ public:
+  using Triangle = std::array<Index, 3>;
+  /// A triangle as one of its corners has it.
+  struct Wedge {
+    Index a, b, next, triangle;
+  };
+
+  SheetWedges(const Places& places, std::span<const TangentFrame> frames)
+      : places_(places), frames_(frames), head_(places.at.size(), none) {}
+
+  [[nodiscard]] std::span<const Triangle> triangles() const { return triangles_; }
+  void reserve(std::size_t triangles);
+  void add(const Triangle& t);
+  void remove(Index triangle);
+  [[nodiscard]] bool used(Index place) const { return head_[place] != none; }
+  /// Places that came after the constructor.
+  void add_place() { head_.push_back(none); }
+
+  /// Calls visit(wedge) for the triangles at a place.
+  template <class Visit>
+  void around(Index place, Visit visit) const {
+    for (Index w = head_[place]; w != none; w = wedges_[w].next) visit(wedges_[w]);
+  }
+
+  /// The only triangle on an edge, or none if there is no such one.
+  [[nodiscard]] Index only_triangle(Index a, Index b) const;
+  /// Would it overlap none at any of its corners?
+  [[nodiscard]] bool has_room(const Triangle& t) const;
+  /// From neighbour u away from w to the next neighbour of a place, in its tangent plane.
+  [[nodiscard]] Index next_around(Index place, Index u, Index w) const;
+  /// Radius of the circumcircle, in the mean spacing of the corners.
+  [[nodiscard]] double circle(const Triangle& t) const;
+
+ private:
+  using Plane = std::array<double, 2>;
+  struct Axes {
+    Point3 x, y;
+  };
+  [[nodiscard]] Axes axes(Index place) const;
+  [[nodiscard]] Plane flat(const Axes& axes, Index place, Index other) const;
+  [[nodiscard]] bool has_room(Index place, Index a, Index b) const;
+
+  const Places& places_;
+  std::span<const TangentFrame> frames_;
+  std::vector<Triangle> triangles_;
+  std::vector<Index> head_;
+  std::vector<Wedge> wedges_;
+};
+
+}  // namespace plexway

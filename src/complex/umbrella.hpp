@@ -1,0 +1,64 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <functional>
+#include <span>
+#include <vector>
+
+#include <plexway/complex/ids.hpp>
+#include <plexway/complex/neighbours.hpp>
+
+#include "complex/point3.hpp"
+
+namespace plexway {
+
+/// The places of a cloud along a curve, numbered in that order, with their neighbours.
+struct Places {
+  std::vector<Point3> at;
+  Neighbours near;  ///< between places, without the place itself, nearest first
+};
+
+/// How the surface lies at a place.
+struct TangentFrame {
+  std::array<float, 3> normal;  ///< unit
+  float spacing = 0;            ///< 1 / sqrt(points per area), about
+};
+
+/// Which neighbours are on the same sheet. A chord of a circle makes half the angle with the
+/// tangents at its ends that these make with each other.
+struct SheetRule {
+  double most_offset;   ///< from the tangent plane, in rms distances of neighbours: a sine
+  double least_cosine;  ///< of the angle between two normals
+  bool oriented;        ///< normals tell inside from outside
+};
+
+/// Are two neighbours on the same sheet, by the tangent planes of both?
+bool same_sheet(const Places& places, std::span<const TangentFrame> frames, const SheetRule& rule,
+                Index i, Index j);
+
+/// Delaunay umbrellas: the neighbours that a place shares triangles with, in order around it.
+struct Umbrellas {
+  static constexpr Index gap = Index{1} << 31;  ///< no triangle between this one and the next
+  std::vector<std::size_t> begin;
+  std::vector<Index> ring;
+
+  [[nodiscard]] std::span<const Index> around(Index place) const {
+    return std::span<const Index>(ring).subspan(begin[place], begin[place + 1] - begin[place]);
+  }
+};
+
+/// Normals by the directions in which a place's neighbours spread least, those across a gap left
+/// out as far as that can be seen. `given` has one a place that goes before, or is empty.
+std::vector<TangentFrame> tangent_frames(const Places& places, std::span<const Point3> given,
+                                         const SheetRule& rule, int threads,
+                                         const std::function<bool(double)>& progress);
+
+/// The umbrella of each place: the triangles around it in the Delaunay triangulation of its
+/// neighbours on the same sheet, in its tangent plane. None has a circumcircle of more than
+/// `widest` spacings.
+Umbrellas local_umbrellas(const Places& places, std::span<const TangentFrame> frames,
+                          const SheetRule& rule, double widest, int threads,
+                          const std::function<bool(double)>& progress);
+
+}  // namespace plexway

@@ -1,0 +1,181 @@
+#include "complex/umbrella_sheet.hpp"
+
+#include <algorithm>
+#include <array>
+#include <span>
+#include <vector>
+
+#include <plexway/complex/blocks.hpp>
+
+namespace plexway {
+namespace {
+
+constexpr std::size_t block = 1024;
+using Triangle = SheetWedges::Triangle;
+
+struct Candidate {
+  int missing;  // votes
+  double circle;
+  Triangle corners;
+  friend auto operator<=>(const Candidate&, const Candidate&) = default;
+};
+
+// Does the umbrella of `place` have the triangle with a and b?
+bool votes_for(const Umbrellas& umbrellas, Index place, Index a, Index b) {
+  const std::span<const Index> ring = umbrellas.around(place);
+  for (std::size_t i = 0; i < ring.size(); ++i) {
+    if (ring[i] != a && ring[i] != b) continue;  // with the bit of a gap it is neither
+    const Index next = ring[i + 1 == ring.size() ? 0 : i + 1] & ~Umbrellas::gap;
+    if (next == (ring[i] == a ? b : a)) return true;
+  }
+  return false;
+}
+
+struct Votes {
+  std::vector<Triangle> agreed;
+  std::vector<Candidate> others;
+};
+
+void count_votes(const Umbrellas& umbrellas, const SheetWedges& sheet, Index p, Votes& votes) {
+  const std::span<const Index> ring = umbrellas.around(p);
+  for (std::size_t i = 0; i < ring.size(); ++i) {
+    if (ring[i] & Umbrellas::gap) continue;
+    const Index a = ring[i], b = ring[i + 1 == ring.size() ? 0 : i + 1] & ~Umbrellas::gap;
+    const bool by_a = votes_for(umbrellas, a, p, b), by_b = votes_for(umbrellas, b, p, a);
+    if ((by_a && a < p) || (by_b && b < p)) continue;  // counted there
+    Triangle t = {p, a, b};
+    std::sort(t.begin(), t.end());
+    if (by_a && by_b)
+      votes.agreed.push_back(t);
+    else
+      votes.others.push_back({by_a || by_b ? 1 : 2, sheet.circle(t), t});
+  }
+}
+
+}  // namespace
+
+void add_umbrellas(const Umbrellas& umbrellas, int threads, SheetWedges& sheet) {
+  const std::size_t n = umbrellas.begin.size() - 1;
+  std::vector<Votes> found((n + block - 1) / block);
+  for_blocks(n, block, threads, {}, [&](std::size_t first, std::size_t last) {
+    Votes& votes = found[first / block];
+    votes.agreed.reserve(2 * (last - first));
+    for (Index p = static_cast<Index>(first); p < last; ++p)
+      count_votes(umbrellas, sheet, p, votes);
+  });
+  std::size_t agreed = 0;
+  for (const Votes& votes : found) agreed += votes.agreed.size();
+  sheet.reserve(agreed + agreed / 16);
+  std::vector<Candidate> others;
+  for (Votes& votes : found) {
+    for (const Triangle& t : votes.agreed) sheet.add(t);
+    others.insert(others.end(), votes.others.begin(), votes.others.end());
+    votes = {};
+  }
+  std::sort(others.begin(), others.end());
+  for (const Candidate& c : others)
+    if (sheet.has_room(c.corners)) sheet.add(c.corners);
+}
+
+namespace {
+
+constexpr std::size_t longest_hole = 24;  // edges
+
+// The hole next to triangle (u, v, w) behind its edge u v; empty if it is longer than that.
+bool trace_hole(const SheetWedges& sheet, Index u, Index v, Index w, std::vector<Index>& loop) {
+  loop.assign(1, u);
+  while (loop.size() <= longest_hole) {
+    const Index next = sheet.next_around(v, u, w);
+    if (next == none) return false;
+    const Index triangle = sheet.only_triangle(v, next);
+    if (triangle == none) return false;
+    loop.push_back(v);
+    for (const Index c : sheet.triangles()[triangle])
+      if (c != v && c != next) w = c;
+    u = v;
+    v = next;
+    if (u == loop[0] && v == loop[1]) {
+      loop.pop_back();
+      return true;
+    }
+  }
+  return false;
+}
+
+void fill_hole(double widest, SheetWedges& sheet, std::vector<Index>& loop) {
+  while (loop.size() >= 3) {
+    const std::size_t m = loop.size();
+    std::size_t best = m;
+    double least = widest;
+    Triangle ear{};
+    for (std::size_t i = 0; i < m; ++i) {
+      Triangle t = {loop[(i + m - 1) % m], loop[i], loop[(i + 1) % m]};
+      std::sort(t.begin(), t.end());
+      if (t[0] == t[1] || t[1] == t[2]) continue;
+      const double circle = sheet.circle(t);
+      if (!(circle < least) || !sheet.has_room(t)) continue;
+      best = i;
+      least = circle;
+      ear = t;
+    }
+    if (best == m) return;
+    sheet.add(ear);
+    if (m == 3) return;
+    loop.erase(loop.begin() + static_cast<std::ptrdiff_t>(best));
+  }
+}
+
+}  // namespace
+
+void fill_holes(double widest, SheetWedges& sheet) {
+  // Filling turns edges into inner ones, so each triangle of the beginning is looked at once.
+  const std::size_t count = sheet.triangles().size();
+  std::vector<Index> loop;
+  for (Index f = 0; f < count; ++f) {
+    const Triangle t = sheet.triangles()[f];
+    for (std::size_t i = 0; i < 3; ++i) {
+      const Index u = t[i], v = t[(i + 1) % 3], w = t[(i + 2) % 3];
+      if (sheet.only_triangle(u, v) == none) continue;
+      if (trace_hole(sheet, u, v, w, loop)) fill_hole(widest, sheet, loop);
+    }
+  }
+}
+
+void trim_boundary(double widest, SheetWedges& sheet) {
+  // No deeper than a void by chance would be: where all triangles are that wide nothing is special.
+  constexpr int deepest = 3;
+  struct Loose {
+    Index triangle;
+    int depth;
+  };
+  const auto loose = [&](Index f) { return sheet.circle(sheet.triangles()[f]) > widest; };
+  std::vector<Loose> queue;
+  for (Index f = 0; f < sheet.triangles().size(); ++f) {
+    const Triangle& t = sheet.triangles()[f];
+    if (!loose(f)) continue;
+    for (std::size_t i = 0; i < 3; ++i)
+      if (sheet.only_triangle(t[i], t[(i + 1) % 3]) != none) {
+        queue.push_back({f, 1});
+        break;
+      }
+  }
+  for (std::size_t head = 0; head < queue.size(); ++head) {
+    const auto [f, depth] = queue[head];
+    const Triangle t = sheet.triangles()[f];
+    if (t[0] == none) continue;
+    bool last = false;  // of some place
+    for (const Index place : t) {
+      int at = 0;
+      sheet.around(place, [&](const SheetWedges::Wedge&) { ++at; });
+      last |= at == 1;
+    }
+    if (last) continue;
+    sheet.remove(f);
+    if (depth == deepest) continue;
+    for (std::size_t i = 0; i < 3; ++i)
+      if (const Index g = sheet.only_triangle(t[i], t[(i + 1) % 3]); g != none && loose(g))
+        queue.push_back({g, depth + 1});
+  }
+}
+
+}  // namespace plexway

@@ -1,0 +1,24 @@
+#pragma once
+
+#include "complex/sheet_wedges.hpp"
+#include "complex/umbrella.hpp"
+
+namespace plexway {
+
+/// One sheet of triangles out of all umbrellas: no two overlap at a common corner, so that no edge
+/// has more than two.
+///
+/// A triangle gets a vote from each corner whose umbrella has it. Those with three votes are always
+/// in; no two of them overlap, since an umbrella's triangles do not. Then, where there is room,
+/// those with two votes, and with one, the smallest circles first.
+void add_umbrellas(const Umbrellas& umbrellas, int threads, SheetWedges& sheet);
+
+/// Closes holes of few edges where umbrellas could not agree, ear by ear, with circles of at most
+/// `widest` spacings.
+void fill_holes(double widest, SheetWedges& sheet);
+
+/// Takes triangles with circles of more than `widest` spacings away from the boundary: there they
+/// stand for places where the cloud has no points. Inside they close what chance left open.
+void trim_boundary(double widest, SheetWedges& sheet);
+
+}  // namespace plexway

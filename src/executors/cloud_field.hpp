@@ -1,0 +1,44 @@
+#pragma once
+
+#include <algorithm>
+#include <span>
+#include <string>
+#include <vector>
+
+#include <plexway/complex/point_cloud.hpp>
+#include <plexway/error.hpp>
+#include <plexway/propagate/distance_field.hpp>
+#include <plexway/source/point_source.hpp>
+
+namespace plexway {
+
+/// Solves on a cloud what `solve(surface, sources)` solves on its surface, for any executor:
+/// sources move to the first point at their place, and the field has the points, twins with one
+/// distance.
+template <class Real, class Solve>
+void solve_on_cloud(const PointCloud<Real>& cloud, std::span<const PointSource> sources,
+                    DistanceField<Real>& field, Solve solve) {
+  for (const PointSource& s : sources) {
+    if (s.vertex == none)
+      throw UsageError("a source on a cloud is a point by number, not a place in a triangle");
+    if (s.vertex >= cloud.point_count())
+      throw UsageError("source point " + std::to_string(s.vertex) + " is out of range, there are " +
+                       std::to_string(cloud.point_count()));
+  }
+  if (cloud.twins().empty()) {
+    solve(cloud.surface(), sources);
+  } else {
+    thread_local std::vector<PointSource> moved;  // so that a second solve allocates nothing
+    moved.assign(sources.begin(), sources.end());
+    for (PointSource& s : moved) s.vertex = cloud.of_point(s.vertex);
+    solve(cloud.surface(), std::span<const PointSource>(moved));
+  }
+  field.distance.resize(cloud.point_count());
+  if (!field.label.empty()) field.label.resize(cloud.point_count());
+  for (const auto& [twin, first] : cloud.twins()) {
+    field.distance[twin] = field.distance[first];
+    if (!field.label.empty()) field.label[twin] = field.label[first];
+  }
+}
+
+}  // namespace plexway
