@@ -88,13 +88,24 @@ Neighbours find_neighbours(const Cloud& cloud, const CloudArguments& arguments,
 #endif
 }
 
-}  // namespace
-
-std::span<const std::array<double, 3>> Cloud::normals() const {
-  const bool all = std::none_of(points.normals.begin(), points.normals.end(),
-                                [](const auto& n) { return n[0] == 0 && n[1] == 0 && n[2] == 0; });
-  return all ? std::span(points.normals) : std::span<const std::array<double, 3>>();
+// Normals that only fit a plane have arbitrary signs, half of them the wrong one; those of a
+// scanner or a mesh agree with the nearest point's all but across a gap.
+bool all_point_to_one_side(const Cloud& cloud) {
+  const auto& normals = cloud.points.normals;
+  std::size_t compared = 0, against = 0;
+  for (Index i = 0; i < normals.size(); ++i) {
+    const auto around = cloud.neighbours.around(i);
+    if (around.empty()) continue;
+    const auto& a = normals[i];
+    const auto& b = normals[around.front()];
+    const double along = a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+    compared += along != 0 ? 1 : 0;  // 0 where one is unknown
+    against += along < 0 ? 1 : 0;
+  }
+  return compared > 0 && 20 * against < compared;
 }
+
+}  // namespace
 
 bool is_cloud_file(const std::string& file) {
   const std::string extension = lower_extension(file);
@@ -129,6 +140,8 @@ Cloud make_cloud(const std::string& file, CloudFile read, const CloudArguments& 
   cloud.form = form_of(arguments);
   progress.phase("looking for neighbours");
   cloud.neighbours = find_neighbours(cloud, arguments, progress);
+  cloud.progress = share_shown(progress);
+  cloud.normals_agree = all_point_to_one_side(cloud);
   if (arguments.smooth) {
     progress.phase("smoothing");
     SmoothOptions options;
@@ -142,6 +155,7 @@ CloudOptions cloud_options(const Cloud& cloud) {
   CloudOptions options;
   if (cloud.max_normal_angle) options.max_normal_angle = *cloud.max_normal_angle;
   options.normals = cloud.normals();
+  options.progress = cloud.progress;
   return options;
 }
 

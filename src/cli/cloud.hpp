@@ -3,6 +3,7 @@
 #include <array>
 #include <cstddef>
 #include <filesystem>
+#include <functional>
 #include <limits>
 #include <optional>
 #include <span>
@@ -33,12 +34,16 @@ struct Cloud {
   std::size_t not_finite = 0;  ///< dropped when read
   std::size_t outliers = 0;    ///< dropped by --denoise
   bool thinned = false;
+  bool normals_agree = false;
+  std::function<bool(double)> progress;  ///< of what is made of it
 
   [[nodiscard]] const std::vector<std::array<double, 3>>& measured() const {
     return smoothed.empty() ? points.positions : smoothed;
   }
-  /// The file's normals where every point has one.
-  [[nodiscard]] std::span<const std::array<double, 3>> normals() const;
+  /// The file's normals where they tell inside from outside, else none.
+  [[nodiscard]] std::span<const std::array<double, 3>> normals() const {
+    return normals_agree ? std::span(points.normals) : std::span<const std::array<double, 3>>();
+  }
 };
 
 /// Whether the extension is one of clouds alone, .xyz and .pcd.
@@ -60,7 +65,7 @@ CloudFile read_cloud(const std::string& file);
 Cloud make_cloud(const std::string& file, CloudFile read, const CloudArguments& arguments,
                  ProgressLine& progress);
 
-/// What a cloud says of how its complex is made.
+/// What a cloud says of how its complex is made. The options refer to it.
 CloudOptions cloud_options(const Cloud& cloud);
 
 /// The point nearest to `point`; the first of several. Cost: linear.

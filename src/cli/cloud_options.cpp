@@ -28,8 +28,8 @@ void add_cloud_options(CLI::App& command, CloudArguments& options) {
       ->group(group);
   command
       .add_option("--max-normal-angle", options.max_normal_angle,
-                  "refuse neighbours whose normals differ by more degrees, such as those across\n"
-                  "a thin gap")
+                  "refuse neighbours whose normals differ by more degrees (default 60), such as\n"
+                  "those across a thin gap")
       ->type_name("DEGREES")
       ->group(group);
   command
@@ -69,8 +69,8 @@ void check(const CloudArguments& options) {
   positive(options.voxel, "--voxel");
   positive(options.deviations, "--deviations");
   positive(options.max_normal_angle, "--max-normal-angle");
-  if (options.max_normal_angle && *options.max_normal_angle > 90)
-    throw UsageError("--max-normal-angle must be at most 90 degrees: normals have no sign");
+  if (options.max_normal_angle && *options.max_normal_angle > 180)
+    throw UsageError("--max-normal-angle must be at most 180 degrees");
   if (options.deviations && !options.denoise) throw UsageError("--deviations goes with --denoise");
   (void)form_of(options);
 }

@@ -14,10 +14,13 @@ std::vector<std::string> warnings_of(const Cloud& cloud, const CloudSummary& sum
     if (count > 0) warnings.push_back(counted(count, plural) + meaning);
   };
   if (summary.components > 1) warnings.push_back(why_disconnected(cloud, summary.components));
-  warn(summary.isolated_points, "points", " in no triangle: no path leads there, so they get inf");
+  warn(summary.isolated_points, "points", " connected to no other: no path leads there");
   warn(cloud.not_finite, "points", " not finite, and dropped: vertices count those that are left");
   warn(summary.duplicates, "points", " exactly where an earlier one lies: they count as that one");
-  if (noise > 0.1 && cloud.smoothed.empty())
+  if (!cloud.points.normals.empty() && cloud.normals().empty())
+    warnings.push_back(
+        "normals that do not all point to one side, or are 0: they are estimated instead");
+  if (noise > 0.03 && cloud.smoothed.empty())
     warnings.push_back("noise of " + short_number(noise) +
                        " spacings makes paths too long; --smooth helps");
   return warnings;
@@ -33,7 +36,7 @@ InfoReport info_of(const Domain& domain, const Cloud& cloud) {
   const auto& positions = cloud.points.positions;
   const Spread spread = spread_of(lengths);
   const Box box = bounding_box(positions);
-  const auto sizes = component_sizes(domain);
+  const std::optional<std::vector<std::size_t>> sizes = summary.component_sizes;
   const auto connecting = connecting_k(cloud);
   const double noise = noise_level(cloud.measured(), cloud.neighbours);
   const auto share =
@@ -54,6 +57,8 @@ InfoReport info_of(const Domain& domain, const Cloud& cloud) {
   json["outliers"] = cloud.outliers;
   json["coincident_vertices"] = summary.duplicates;
   json["isolated_vertices"] = summary.isolated_points;
+  json["refused_pairs"] = summary.refused_pairs;
+  json["bridges"] = summary.bridges;
   json["boundary_vertices"] = summary.boundary_points;
   json["normals"] = !cloud.points.normals.empty();
   json["mean_spacing"] = json_number(summary.mean_spacing);
@@ -72,7 +77,9 @@ InfoReport info_of(const Domain& domain, const Cloud& cloud) {
   table.add("connected", short_number(100 * share) + " % in the largest component; all with " +
                              (connecting ? "--k " + std::to_string(*connecting) + " or more"
                                          : "no --k up to 256"));
-  table.add("boundary", counted(summary.boundary_points, "vertices"));
+  table.add("boundary", counted(summary.boundary_points, "vertices") + "; " +
+                            counted(summary.refused_pairs, "neighbour pairs") +
+                            " refused, as not on one sheet");
   table.add("spacing", "mean " + short_number(summary.mean_spacing) + ", noise " +
                            short_number(noise) + " of it");
   table.add("bounding box", to_text(box));

@@ -56,8 +56,6 @@ std::optional<std::vector<std::size_t>> component_sizes(const Domain& domain) {
   std::vector<bool> has_simplices(found.count, false);
   for (std::size_t s = 0; s < domain.simplices(); ++s)
     has_simplices[found.of_vertex[domain.corners(s).front()]] = true;
-  if (domain.cloud() != nullptr)
-    for (std::size_t c = 0; c < found.count; ++c) has_simplices[c] = sizes[c] > 1;
   std::vector<std::size_t> kept;
   for (std::size_t c = 0; c < found.count; ++c) {
     if (has_simplices[c]) kept.push_back(sizes[c]);
