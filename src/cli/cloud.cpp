@@ -159,6 +159,13 @@ CloudOptions cloud_options(const Cloud& cloud) {
   return options;
 }
 
+PairOptions pair_options(const Cloud& cloud) {
+  PairOptions options;
+  options.least_noise = std::numeric_limits<double>::infinity();  // --smooth says so
+  options.progress = cloud.progress;
+  return options;
+}
+
 Index nearest_point(const Cloud& cloud, const std::array<double, 3>& point) {
   Index best = 0;
   double least = std::numeric_limits<double>::infinity();

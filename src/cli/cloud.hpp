@@ -13,6 +13,7 @@
 #include <plexway/complex/ids.hpp>
 #include <plexway/complex/neighbours.hpp>
 #include <plexway/complex/point_cloud.hpp>
+#include <plexway/complex/point_pairs.hpp>
 #include <plexway/io/points.hpp>
 
 #include "cloud_options.hpp"
@@ -67,6 +68,7 @@ Cloud make_cloud(const std::string& file, CloudFile read, const CloudArguments& 
 
 /// What a cloud says of how its complex is made. The options refer to it.
 CloudOptions cloud_options(const Cloud& cloud);
+PairOptions pair_options(const Cloud& cloud);
 
 /// The point nearest to `point`; the first of several. Cost: linear.
 Index nearest_point(const Cloud& cloud, const std::array<double, 3>& point);

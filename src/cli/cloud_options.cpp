@@ -72,7 +72,8 @@ void check(const CloudArguments& options) {
   if (options.max_normal_angle && *options.max_normal_angle > 180)
     throw UsageError("--max-normal-angle must be at most 180 degrees");
   if (options.deviations && !options.denoise) throw UsageError("--deviations goes with --denoise");
-  (void)form_of(options);
+  if (form_of(options) == CloudForm::pairs && options.max_normal_angle)
+    throw UsageError("--max-normal-angle goes with --form umbrellas: pairs have no normals");
 }
 
 CloudForm form_of(const CloudArguments& options) {

@@ -151,6 +151,7 @@ Domain Domain::load(const std::string& file, const std::string& as, const FillOp
 std::string_view Domain::kind() const { return kind_names[shape_.index()]; }
 
 std::string_view Domain::simplex_name() const {
+  if (cloud() != nullptr && cloud()->form == CloudForm::pairs) return "neighbour pairs";
   constexpr std::array<std::string_view, 4> names = {"triangles", "tetrahedra", "edges",
                                                      "triangles"};
   return names[shape_.index()];
