@@ -26,6 +26,9 @@ endforeach()
 if(TARGET plexway_tool)
   install(TARGETS plexway_tool RUNTIME DESTINATION "${CMAKE_INSTALL_BINDIR}")
 endif()
+if(TARGET plexway_pcl_module)
+  install(TARGETS plexway_pcl_module LIBRARY DESTINATION "${CMAKE_INSTALL_LIBDIR}/plexway")
+endif()
 
 configure_package_config_file("${PROJECT_SOURCE_DIR}/cmake/plexwayConfig.cmake.in"
   "${PROJECT_BINARY_DIR}/plexwayConfig.cmake" INSTALL_DESTINATION "${package_dir}")

@@ -86,12 +86,39 @@ function(plexway_add_tool)
   plexway_compile_options(plexway_tool)
   target_include_directories(plexway_tool PRIVATE "${PROJECT_SOURCE_DIR}/src")
   target_link_libraries(plexway_tool PRIVATE CLI11::CLI11 nlohmann_json::nlohmann_json)
-  plexway_link_all(plexway_tool)
+  plexway_link_all(plexway_tool EXCEPT pcl)
+  if(TARGET plexway_pcl AND UNIX)
+    plexway_add_pcl_module()
+  endif()
 endfunction()
 
-# Links every component that this build has; PLEXWAY_HAS_<COMPONENT> says so to the code.
+# PCL's libraries take longer to load than the tool takes for all it does with most files: so it
+# loads what needs them, src/cli/pcl/, when it does.
+function(plexway_add_pcl_module)
+  set(folder "${CMAKE_INSTALL_LIBDIR}/plexway")
+  add_library(plexway_pcl_module MODULE "${PROJECT_SOURCE_DIR}/src/cli/pcl/module.cpp")
+  plexway_compile_options(plexway_pcl_module)
+  set_target_properties(plexway_pcl_module PROPERTIES PREFIX "" OUTPUT_NAME plexway_pcl
+    LIBRARY_OUTPUT_DIRECTORY "${PROJECT_BINARY_DIR}/${folder}")
+  target_include_directories(plexway_pcl_module PRIVATE "${PROJECT_SOURCE_DIR}/src")
+  target_link_libraries(plexway_pcl_module PRIVATE plexway::pcl plexway::io)
+  add_dependencies(plexway_tool plexway_pcl_module)
+  target_compile_definitions(plexway_tool PRIVATE PLEXWAY_HAS_PCL=1
+    PLEXWAY_PCL_MODULE="$<TARGET_FILE_NAME:plexway_pcl_module>")
+  target_link_libraries(plexway_tool PRIVATE ${CMAKE_DL_LIBS})
+  set_target_properties(plexway_tool PROPERTIES
+    BUILD_RPATH "${PROJECT_BINARY_DIR}/${folder}" INSTALL_RPATH "$ORIGIN/../${folder}")
+endfunction()
+
+# Links every component that this build has, but those named behind EXCEPT; PLEXWAY_HAS_<COMPONENT>
+# says so to the code. Other people's libraries that nothing calls are not loaded.
 function(plexway_link_all target)
+  cmake_parse_arguments(arg "" "" "EXCEPT" ${ARGN})
   get_property(components GLOBAL PROPERTY PLEXWAY_COMPONENTS)
+  list(REMOVE_ITEM components ${arg_EXCEPT})
+  if(UNIX AND NOT APPLE)
+    target_link_options(${target} PRIVATE LINKER:--as-needed)
+  endif()
   foreach(component IN LISTS components)
     target_link_libraries(${target} PRIVATE plexway::${component})
     string(TOUPPER ${component} upper)

@@ -13,6 +13,7 @@
 #include <string_view>
 #include <vector>
 
+#include "scan_shapes.hpp"
 #include "shapes.hpp"
 #include "solid_shapes.hpp"
 
@@ -75,6 +76,24 @@ std::string as_ply(const Shape& shape) {
   return out;
 }
 
+std::string as_xyz(const Shape& shape) {
+  std::string out;
+  for (const auto& [x, y, z] : shape.points) print(out, "%.7g %.7g %.7g\n", x, y, z);
+  return out;
+}
+
+/// Organised in rows of 64, as ball_scan makes it.
+std::string as_pcd(const Shape& shape) {
+  std::string out =
+      "# .PCD v0.7 - Point Cloud Data file format\nVERSION 0.7\nFIELDS x y z\nSIZE 4 4 4\n"
+      "TYPE F F F\nCOUNT 1 1 1\n";
+  print(out, "WIDTH 64\nHEIGHT %zu\nVIEWPOINT 0 0 3 1 0 0 0\n", shape.points.size() / 64);
+  print(out, "POINTS %zu\nDATA binary\n", shape.points.size());
+  for (const Point& p : shape.points)
+    for (const double c : p) put(out, static_cast<float>(c));
+  return out;
+}
+
 std::string as_stl(const Shape& shape) {
   std::string out = "a sample of plexway";
   out.resize(80, ' ');
@@ -108,6 +127,9 @@ constexpr std::array all_samples = {
     Sample{"elbow.off", "closed surface of a thick L, 12 vertices", elbow, true},
     Sample{"elbow.mesh", "the solid inside it, 1152 tetrahedra", elbow_solid, true},
     Sample{"vessels.obj", "tree of vessels: a wireframe of 763 vertices", vessels, true},
+    Sample{"roll.xyz", "points of a rolled-up sheet of paper: a cloud of 2400", roll, true},
+    Sample{"scan.pcd", "a ball seen by a depth camera: an organised cloud, binary PCD", ball_scan,
+           true},
     Sample{"sphere.obj", "unit sphere, 10242 vertices", [] { return geodesic_sphere(32); }, false},
     Sample{"bumpy-50k.ply", "bumpy closed surface, 50412 vertices", [] { return bumpy(71); },
            false},
@@ -123,6 +145,8 @@ void write(const std::filesystem::path& directory, const Sample& sample) {
                             : extension == ".off"  ? as_off(shape)
                             : extension == ".ply"  ? as_ply(shape)
                             : extension == ".mesh" ? as_mesh(shape)
+                            : extension == ".xyz"  ? as_xyz(shape)
+                            : extension == ".pcd"  ? as_pcd(shape)
                                                    : as_stl(shape);
   std::ofstream out(file, std::ios::binary);
   out.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));

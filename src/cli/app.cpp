@@ -30,6 +30,12 @@ std::string version_text() {
   providers += " tetgen";
   licence += "; TetGen 1.5 (AGPL) is built in, so the AGPL holds for this program as a whole";
 #endif
+#ifdef PLEXWAY_HAS_FLANN
+  providers += " flann";
+#endif
+#ifdef PLEXWAY_HAS_PCL
+  providers += " pcl";
+#endif
   return std::string("plexway ") + version_string + "\nprecision  float double\nexecutors " +
          executors + "\nproviders " + (providers.empty() ? " none" : providers) + "\nlicence    " +
          licence + "\n";

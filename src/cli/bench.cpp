@@ -31,6 +31,7 @@ struct BenchCommand {
   std::size_t repeats = 20;
   std::size_t random_sources = 0;
   FillOptions fill;
+  CloudArguments cloud;
   SolveOptions solve;
   bool json = false;
   bool quiet = false;
@@ -116,7 +117,7 @@ Json to_json(const BenchCommand& command, const Domain& domain, const Solver& so
   json["input"] = command.input;
   json["kind"] = domain.kind();
   json["vertices"] = domain.vertices();
-  json["simplices"] = domain.simplices();
+  json["simplices"] = solver.simplices();
   json["precision"] = command.solve.precision;
   json["executor"] = executor_name(result.executor);
   json["threads"] = executor_threads(result.executor);
@@ -125,6 +126,7 @@ Json to_json(const BenchCommand& command, const Domain& domain, const Solver& so
   json["repeats"] = command.repeats;
   json["seconds"]["load"] = domain.load_seconds();
   if (domain.mesh_seconds()) json["seconds"]["mesh"] = *domain.mesh_seconds();
+  if (domain.neighbour_seconds()) json["seconds"]["neighbours"] = *domain.neighbour_seconds();
   json["seconds"]["build"] = result.build;
   json["seconds"]["dijkstra_build"] =
       result.has_dijkstra ? Json(result.dijkstra_build) : Json(nullptr);
@@ -167,7 +169,8 @@ void run_bench(const BenchCommand& command) {
 
   Result result;
   ProgressLine progress(command.quiet);
-  const Domain domain = Domain::load(command.input, command.as, command.fill, progress);
+  const Domain domain =
+      Domain::load(command.input, command.as, command.fill, command.cloud, progress);
   std::vector<PointSource> sources = locate_sources(domain, arguments);
   const auto truths = read_truths(command, domain);
 
@@ -234,12 +237,14 @@ void add_bench_command(CLI::App& tool, Action& action) {
   app.add_flag("--quiet,-q", command->quiet, "no notes, no progress");
   add_solve_options(app, command->solve, false);
   add_fill_options(app, command->fill);
+  add_cloud_options(app, command->cloud);
   app.footer(
       "Examples:\n"
       "  plexway bench bunny.obj --source vertex:3160 --truth bunny.v3160.txt\n"
       "  plexway bench bunny.obj --source vertex:3160 --random-sources 10 --json\n"
       "  plexway bench cavity.ele --source vertex:170 --truth cavity.v170.txt\n"
-      "  plexway bench vessels.obj --source vertex:0 --random-sources 10");
+      "  plexway bench vessels.obj --source vertex:0 --random-sources 10\n"
+      "  plexway bench swiss.xyz --source vertex:0 --truth swiss.v0.txt --k 16");
   app.callback([command, &action] { action = [command] { run_bench(*command); }; });
 }
 

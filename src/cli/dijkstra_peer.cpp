@@ -20,6 +20,7 @@ class BoostPeer final : public DijkstraPeer {
   explicit BoostPeer(const io::Triangles& surface)
       : dijkstra_(surface.positions, surface.triangles) {}
   explicit BoostPeer(const io::Tets& solid) : BoostPeer(edges_of(solid)) {}
+  explicit BoostPeer(const Cloud& cloud) : BoostPeer(edges_of(cloud)) {}
   explicit BoostPeer(const io::Edges& wireframe)
       : dijkstra_(
             boost_graph::EdgeGraph(wireframe.vertices, wireframe.edges, lengths_of(wireframe))) {}

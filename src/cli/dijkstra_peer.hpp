@@ -9,7 +9,8 @@
 
 namespace plexway::cli {
 
-/// Boost.Graph's Dijkstra on the edges of a domain, to measure against.
+/// Boost.Graph's Dijkstra on the edges of a domain, to measure against; of a cloud, those to the
+/// neighbours.
 class DijkstraPeer {
  public:
   virtual ~DijkstraPeer() = default;

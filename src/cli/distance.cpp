@@ -30,6 +30,7 @@ struct DistanceCommand {
   std::vector<std::string> sources;
   std::string out;
   FillOptions fill;
+  CloudArguments cloud;
   SolveOptions solve;
   bool json = false;
   bool quiet = false;
@@ -75,10 +76,11 @@ Json to_json(const DistanceCommand& command, const Domain& domain, const Solver&
   json["input"] = command.input;
   json["kind"] = domain.kind();
   json["vertices"] = domain.vertices();
-  json["simplices"] = domain.simplices();
+  json["simplices"] = solver.simplices();
   json["components"] = solver.components();
   json["seconds"]["load"] = domain.load_seconds();
   if (domain.mesh_seconds()) json["seconds"]["mesh"] = *domain.mesh_seconds();
+  if (domain.neighbour_seconds()) json["seconds"]["neighbours"] = *domain.neighbour_seconds();
   json["seconds"]["build"] = outcome.build;
   json["seconds"]["solve"] = outcome.solve;
   json["reached"] = outcome.reached;
@@ -88,6 +90,11 @@ Json to_json(const DistanceCommand& command, const Domain& domain, const Solver&
   json["updates"] = solver.statistics().updates;
   json["executor"] = executor_name(outcome.executor);
   json["threads"] = executor_threads(outcome.executor);
+  if (const Cloud* cloud = domain.cloud()) {
+    json["points_in_file"] = cloud->points_in_file;
+    json["not_finite"] = cloud->not_finite;
+    json["outliers"] = cloud->outliers;
+  }
   return json;
 }
 
@@ -97,8 +104,10 @@ std::string to_text(const DistanceCommand& command, const Domain& domain, const 
   Table table;
   table.add("input", command.input);
   table.add(std::string(domain.kind()), counted(domain.vertices(), "vertices") + ", " +
-                                            counted(domain.simplices(), domain.simplex_name()) +
+                                            counted(solver.simplices(), domain.simplex_name()) +
                                             ", " + counted(solver.components(), "components"));
+  if (domain.cloud() != nullptr && !kept_points(*domain.cloud()).empty())
+    table.add("kept", kept_points(*domain.cloud()));
   for (std::size_t i = 0; i < sources.size(); ++i) {
     const std::string label = sources.size() == 1 ? "source" : "source " + std::to_string(i);
     table.add(label, describe_source(domain, arguments[i], sources[i]));
@@ -112,8 +121,8 @@ std::string to_text(const DistanceCommand& command, const Domain& domain, const 
   table.add("reached", reached);
   table.add("work", counted(solver.statistics().expansions, "expansions") + ", " +
                         counted(solver.statistics().updates, "updates"));
-  const std::string mesh =
-      domain.mesh_seconds() ? ", mesh " + short_time(*domain.mesh_seconds()) : "";
+  std::string mesh = domain.mesh_seconds() ? ", mesh " + short_time(*domain.mesh_seconds()) : "";
+  if (domain.neighbour_seconds()) mesh = ", neighbours " + short_time(*domain.neighbour_seconds());
   table.add("time", "load " + short_time(domain.load_seconds()) + mesh + ", build " +
                         short_time(outcome.build) + ", solve " + short_time(outcome.solve) + " (" +
                         executor_text(outcome.executor) + ", " + command.solve.precision + ")");
@@ -129,33 +138,51 @@ std::size_t count_apart(const Domain& domain) {
   return static_cast<std::size_t>(std::count(used.begin(), used.end(), false));
 }
 
+// Why not all was reached.
+std::string why_unreached(const Domain& domain, const Solver& solver, bool bounded) {
+  std::string why;
+  if (domain.cloud() != nullptr) {
+    if (solver.components() > 1) why = why_disconnected(*domain.cloud(), solver.components());
+  } else {
+    why =
+        "the " + std::string(domain.kind()) + " has " + counted(solver.components(), "components");
+    if (const std::size_t apart = count_apart(domain); apart > 0) {
+      why.append(", ").append(counted(apart, "vertices")).append(apart == 1 ? " is" : " are");
+      why.append(" in none of its ").append(domain.simplex_name());
+    }
+  }
+  if (bounded)
+    why.append(why.empty() ? "" : ", and ")
+        .append("--radius or --max-expansions ends the search early");
+  return why;
+}
+
 // Things the user should know, though nothing failed.
 void say_notes(const Domain& domain, const Solver& solver, const Outcome& outcome, bool bounded) {
+  if (domain.cloud() != nullptr && domain.cloud()->not_finite > 0)
+    say_note(counted(domain.cloud()->not_finite, "points") +
+             " not finite, and dropped: vertices count those that are left");
   if (!solver.complete()) {
     say_note("stopped after " + counted(solver.statistics().expansions, "expansions") +
              ": distances may still be too long");
   }
   const std::size_t unreached = domain.vertices() - outcome.reached;
   if (unreached == 0) return;
-  std::string note = counted(unreached, "vertices") + " not reached (inf): the " +
-                     std::string(domain.kind()) + " has " +
-                     counted(solver.components(), "components");
-  if (const std::size_t apart = count_apart(domain); apart > 0) {
-    note.append(", ").append(counted(apart, "vertices")).append(apart == 1 ? " is" : " are");
-    note.append(" in none of its ").append(domain.simplex_name());
-  }
-  if (bounded) note += ", and --radius or --max-expansions ends the search early";
-  say_note(note);
+  const std::string why = why_unreached(domain, solver, bounded);
+  say_note(counted(unreached, "vertices") + " not reached (inf)" + (why.empty() ? "" : ": " + why));
 }
 
 void run_distance(const DistanceCommand& command) {
   const PropagateOptions wanted = propagate_options(command.solve);
   const Precision precision = precision_of(command.solve);
   const std::vector<SourceArgument> arguments = parse_sources(command.sources);
-  if (command.out != "-") check_output_name(command.out, command.input, io::field_extensions());
+  if (command.out != "-") check_output_name(command.out, command.input, cloud_field_extensions());
 
   ProgressLine progress(command.quiet);
-  const Domain domain = Domain::load(command.input, command.as, command.fill, progress);
+  const Domain domain =
+      Domain::load(command.input, command.as, command.fill, command.cloud, progress);
+  if (domain.cloud() == nullptr && command.out != "-")
+    check_output_name(command.out, command.input, io::field_extensions());
   const std::vector<PointSource> sources = locate_sources(domain, arguments);
 
   progress.phase("building");
@@ -225,14 +252,16 @@ void add_distance_command(CLI::App& tool, Action& action) {
       ->type_name("WHERE")
       ->allow_extra_args(false);
   app.add_option("--out,-o", command->out,
-                 "write the distances: .csv .npy .ply .vtk .vtu by extension, or - for CSV on\n"
-                 "standard output (the summary then goes to standard error)")
+                 "write the distances: .csv .npy .ply .vtk .vtu (and .pcd for clouds) by\n"
+                 "extension, or - for CSV on standard output (the summary then goes to\n"
+                 "standard error)")
       ->type_name("FILE");
   app.add_option("--as", command->as, as_help)->type_name("KIND");
   app.add_flag("--json", command->json, "print the summary as one JSON object");
   app.add_flag("--quiet,-q", command->quiet, "no summary, notes or progress; errors stay");
   add_solve_options(app, command->solve, true);
   add_fill_options(app, command->fill);
+  add_cloud_options(app, command->cloud);
   app.footer(
       "Examples:\n"
       "  plexway distance knot.ply --source vertex:0 --out distance.ply\n"
@@ -240,6 +269,7 @@ void add_distance_command(CLI::App& tool, Action& action) {
       "  plexway distance knot.ply --source vertex:0 --source vertex:99 --out nearest.csv\n"
       "  plexway distance organ.off --as solid --max-volume 1e-3 --source point:0,0,0 -o d.vtu\n"
       "  plexway distance vessels.obj --source vertex:0 --out distance.vtk\n"
+      "  plexway distance scan.pcd --voxel 0.01 --denoise --source point:0,0,0 --out d.ply\n"
       "  plexway distance knot.ply --source vertex:0 --quiet --out - | sort -t, -gk2 | tail -1");
   app.callback([command, &action] { action = [command] { run_distance(*command); }; });
 }

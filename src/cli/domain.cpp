@@ -15,17 +15,15 @@
 namespace plexway::cli {
 namespace {
 
-enum class Kind { surface, solid, wireframe };  // in the order of Domain::Shape
-constexpr std::array<const char*, 3> kind_names = {"surface", "solid", "wireframe"};
+enum class Kind { surface, solid, wireframe, cloud };  // in the order of Domain::Shape
+constexpr std::array<const char*, 4> kind_names = {"surface", "solid", "wireframe", "cloud"};
 
 std::optional<Kind> asked_for(const std::string& as) {
   if (as.empty()) return std::nullopt;
   if (as == "surface") return Kind::surface;
   if (as == "solid") return Kind::solid;
   if (as == "wireframe") return Kind::wireframe;
-  if (as == "cloud")
-    throw NotBuiltError(
-        "--as cloud: domains of this kind are not built in; there are: surface, solid, wireframe");
+  if (as == "cloud") return Kind::cloud;
   throw UsageError("--as " + as + ": no such kind; the kinds are surface, solid, cloud, wireframe");
 }
 
@@ -70,10 +68,22 @@ Domain::Shape read(const std::string& file, std::optional<Kind> asked) {
   if (std::filesystem::is_directory(file, ignored))
     throw InputError(file + ": is a directory, not a file");
   const std::string extension = std::filesystem::path(file).extension().string();
-  throw InputError(file + ": " +
-                   (extension.empty() ? "no extension" : "unknown extension '" + extension + "'") +
-                   "; known are .obj .off .ply .stl for surfaces, .node .ele .mesh .msh .vtu .vtk "
-                   ".poly .smesh for solids, .edges .obj for wireframes");
+  throw InputError(
+      file + ": " + (extension.empty() ? "no extension" : "unknown extension '" + extension + "'") +
+      "; known are .obj .off .ply .stl for surfaces, .node .ele .mesh .msh .vtu .vtk "
+      ".poly .smesh for solids, .edges .obj for wireframes, .xyz .pcd .ply for clouds");
+}
+
+// A .ply is a cloud where it is asked to be one, or where it cannot be a surface.
+bool is_read_as_cloud(const std::string& file, std::optional<Kind> asked) {
+  if (is_cloud_file(file)) return true;
+  if (asked == Kind::cloud) return has_extension(file, io::point_extensions());
+  return !asked && io::is_ply_cloud(file);
+}
+
+bool can_be(Kind natural, Kind wanted) {
+  if (natural == wanted || natural == Kind::surface) return true;
+  return natural == Kind::solid && wanted == Kind::wireframe;
 }
 
 [[noreturn]] void cannot_be(const std::string& file, Kind natural, Kind wanted) {
@@ -84,18 +94,30 @@ Domain::Shape read(const std::string& file, std::optional<Kind> asked) {
 }  // namespace
 
 Domain Domain::load(const std::string& file, const std::string& as, const FillOptions& fill,
-                    ProgressLine& progress) {
+                    const CloudArguments& cloud, ProgressLine& progress) {
   const std::optional<Kind> asked = asked_for(as);
   check(fill);
+  check(cloud);
   Domain domain;
   domain.file_ = file;
   progress.phase("reading " + file);
   const Stopwatch loading;
-  if (!is_poly(file)) domain.shape_ = read(file, asked);
+  const bool is_cloud = is_read_as_cloud(file, asked);
+  CloudFile points;
+  if (is_cloud)
+    points = read_cloud(file);
+  else if (!is_poly(file))
+    domain.shape_ = read(file, asked);
   domain.load_seconds_ = loading.seconds();
-  const Kind natural = is_poly(file) ? Kind::solid : static_cast<Kind>(domain.shape_.index());
+  const Kind natural = is_cloud        ? Kind::cloud
+                       : is_poly(file) ? Kind::solid
+                                       : static_cast<Kind>(domain.shape_.index());
   const Kind wanted = asked.value_or(natural);
-  if (natural > wanted) cannot_be(file, natural, wanted);
+  if (!can_be(natural, wanted)) cannot_be(file, natural, wanted);
+  if (cloud.given() && wanted != Kind::cloud)
+    throw UsageError(
+        "--k, --neighbour-radius, --max-normal-angle, --form, --voxel, --denoise and --smooth need "
+        "a cloud: a file of points, or a surface with --as cloud");
 
   const bool fills = is_poly(file) || (natural == Kind::surface && wanted == Kind::solid);
   if (fill.given() && !fills)
@@ -117,13 +139,21 @@ Domain Domain::load(const std::string& file, const std::string& as, const FillOp
     else if (const auto* solid = std::get_if<io::Tets>(&domain.shape_))
       domain.shape_ = edges_of(*solid);
   }
+  if (wanted == Kind::cloud) {
+    if (!is_cloud) points.points.positions = std::get<io::Triangles>(domain.shape_).positions;
+    const Stopwatch looking;
+    domain.shape_ = make_cloud(file, std::move(points), cloud, progress);
+    domain.neighbour_seconds_ = looking.seconds();
+  }
   return domain;
 }
 
 std::string_view Domain::kind() const { return kind_names[shape_.index()]; }
 
 std::string_view Domain::simplex_name() const {
-  constexpr std::array<std::string_view, 3> names = {"triangles", "tetrahedra", "edges"};
+  if (cloud() != nullptr && cloud()->form == CloudForm::pairs) return "neighbour pairs";
+  constexpr std::array<std::string_view, 4> names = {"triangles", "tetrahedra", "edges",
+                                                     "triangles"};
   return names[shape_.index()];
 }
 
@@ -135,7 +165,8 @@ std::size_t Domain::vertices() const {
 std::size_t Domain::simplices() const {
   if (const auto* surface = std::get_if<io::Triangles>(&shape_)) return surface->triangles.size();
   if (const auto* solid = std::get_if<io::Tets>(&shape_)) return solid->tets.size();
-  return std::get<io::Edges>(shape_).edges.size();
+  if (const auto* wireframe = std::get_if<io::Edges>(&shape_)) return wireframe->edges.size();
+  return 0;
 }
 
 std::span<const std::uint32_t> Domain::corners(std::size_t simplex) const {
@@ -145,12 +176,22 @@ std::span<const std::uint32_t> Domain::corners(std::size_t simplex) const {
 }
 
 std::span<const std::array<double, 3>> Domain::positions() const {
-  return std::visit([](const auto& shape) { return std::span(shape.positions); }, shape_);
+  if (cloud() != nullptr) return cloud()->points.positions;
+  if (const auto* surface = std::get_if<io::Triangles>(&shape_)) return surface->positions;
+  if (const auto* solid = std::get_if<io::Tets>(&shape_)) return solid->positions;
+  return std::get<io::Edges>(shape_).positions;
 }
 
 PointSource Domain::closest(const std::array<double, 3>& point) const {
-  const SimplexPoint found =
-      std::visit([&](const auto& shape) { return closest_point(shape, point); }, shape_);
+  if (cloud() != nullptr) return PointSource::at(nearest_point(*cloud(), point));
+  const SimplexPoint found = std::visit(
+      [&](const auto& shape) -> SimplexPoint {
+        if constexpr (std::is_same_v<std::decay_t<decltype(shape)>, Cloud>)
+          return {};
+        else
+          return closest_point(shape, point);
+      },
+      shape_);
   const auto at = corners(found.simplex);
   for (std::size_t i = 0; i < at.size(); ++i) {
     // Nearer to the corner than a rounding error of the coordinates.
@@ -172,7 +213,8 @@ std::array<double, 3> Domain::position(const PointSource& source) const {
 
 void Domain::write_field(const std::filesystem::path& out, std::span<const double> distance,
                          std::span<const std::int32_t> label) const {
-  std::visit([&](const auto& shape) { io::write_field(out, shape, distance, label); }, shape_);
+  using io::write_field;  // and the one of clouds
+  std::visit([&](const auto& shape) { write_field(out, shape, distance, label); }, shape_);
 }
 
 }  // namespace plexway::cli

@@ -15,6 +15,7 @@
 #include <plexway/io/triangles.hpp>
 #include <plexway/source/point_source.hpp>
 
+#include "cloud.hpp"
 #include "fill_options.hpp"
 #include "progress.hpp"
 
@@ -26,40 +27,48 @@ namespace plexway::cli {
 /// dijkstra_peer.cpp and the info_*.cpp.
 class Domain {
  public:
-  using Shape = std::variant<io::Triangles, io::Tets, io::Edges>;
+  using Shape = std::variant<io::Triangles, io::Tets, io::Edges, Cloud>;
 
   /// Reads `file`, and fills or unravels it where `as` (a kind's name) asks for that; else the
-  /// extension tells the kind, and an .obj without faces but with lines is a wireframe.
+  /// extension tells the kind, an .obj without faces but with lines is a wireframe, and a .ply
+  /// without faces a cloud.
   /// Throws InputError as the readers do, UsageError for a kind that does not exist or for `fill`
-  /// where nothing is filled, NotBuiltError for what this build lacks.
+  /// or `cloud` where nothing is filled or there is no cloud, NotBuiltError for what this build
+  /// lacks.
   static Domain load(const std::string& file, const std::string& as, const FillOptions& fill,
-                     ProgressLine& progress);
+                     const CloudArguments& cloud, ProgressLine& progress);
 
   [[nodiscard]] const std::filesystem::path& file() const { return file_; }
   [[nodiscard]] const Shape& shape() const { return shape_; }
-  /// "surface", "solid" or "wireframe".
+  /// The cloud if it is one, else null.
+  [[nodiscard]] const Cloud* cloud() const { return std::get_if<Cloud>(&shape_); }
+  /// "surface", "solid", "wireframe" or "cloud".
   [[nodiscard]] std::string_view kind() const;
   /// What its simplices are called, in the plural.
   [[nodiscard]] std::string_view simplex_name() const;
   [[nodiscard]] std::size_t vertices() const;
+  /// As given: a cloud has none.
   [[nodiscard]] std::size_t simplices() const;
   /// Corners of a simplex.
   [[nodiscard]] std::span<const std::uint32_t> corners(std::size_t simplex) const;
   /// One a vertex; none at all in a wireframe that has only lengths.
   [[nodiscard]] std::span<const std::array<double, 3>> positions() const;
 
-  /// Seconds that reading took, and those that filling a surface took, if that was done.
+  /// Seconds that reading took, and those that filling a surface and finding the neighbours of a
+  /// cloud took, if that was done.
   [[nodiscard]] double load_seconds() const { return load_seconds_; }
   [[nodiscard]] std::optional<double> mesh_seconds() const { return mesh_seconds_; }
+  [[nodiscard]] std::optional<double> neighbour_seconds() const { return neighbour_seconds_; }
 
   /// The point of the domain closest to `point`; a vertex where it is that vertex. Among several,
-  /// the one in the simplex with the lowest number. Needs positions. Cost: linear.
+  /// the one in the simplex with the lowest number. Of a cloud, the nearest point. Needs positions.
+  /// Cost: linear.
   [[nodiscard]] PointSource closest(const std::array<double, 3>& point) const;
   /// Where a source is. Needs positions.
   [[nodiscard]] std::array<double, 3> position(const PointSource& source) const;
 
   /// Writes one distance a vertex; the extension of `out` picks the format. Throws as
-  /// io::write_field.
+  /// io::write_field; a cloud fits a .pcd as well.
   void write_field(const std::filesystem::path& out, std::span<const double> distance,
                    std::span<const std::int32_t> label) const;
 
@@ -70,15 +79,18 @@ class Domain {
   Shape shape_;
   double load_seconds_ = 0;
   std::optional<double> mesh_seconds_;
+  std::optional<double> neighbour_seconds_;
 };
 
 /// What INPUT may be, for the help of the commands.
 inline constexpr const char* input_help =
     "a surface: .obj .off .ply .stl; a solid: .node .ele .mesh .msh .vtu .vtk,\n"
-    "and .poly .smesh through TetGen; a wireframe: .edges, or .obj with lines only";
+    "and .poly .smesh through TetGen; a wireframe: .edges, or .obj with lines only;\n"
+    "a cloud of points: .xyz, .ply without faces, and .pcd through PCL";
 inline constexpr const char* as_help =
-    "what to take it as: surface, solid (fills a surface with tetrahedra) or\n"
-    "wireframe (the edges alone); default: what the extension says";
+    "what to take it as: surface, solid (fills a surface with tetrahedra),\n"
+    "wireframe (the edges alone) or cloud (the vertices of a surface alone);\n"
+    "default: what the extension says";
 
 /// What `build` makes of `domain`, with the file's name put in front of what is wrong with it: a
 /// complex knows vertices and faces, but not where they came from.

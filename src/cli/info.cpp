@@ -21,6 +21,7 @@ struct InfoCommand {
   std::string input;
   std::string as;
   FillOptions fill;
+  CloudArguments cloud;
   bool devices = false;
   bool json = false;
   bool quiet = false;
@@ -45,7 +46,8 @@ void run_info(const InfoCommand& command) {
   }
   if (command.input.empty()) throw UsageError("INPUT is required; try 'plexway info --help'");
   ProgressLine progress(command.quiet);
-  const Domain domain = Domain::load(command.input, command.as, command.fill, progress);
+  const Domain domain =
+      Domain::load(command.input, command.as, command.fill, command.cloud, progress);
   progress.phase("measuring");
   const InfoReport report =
       std::visit([&](const auto& shape) { return info_of(domain, shape); }, domain.shape());
@@ -70,12 +72,14 @@ void add_info_command(CLI::App& tool, Action& action) {
   app.add_flag("--json", command->json, "print one JSON object");
   app.add_flag("--quiet,-q", command->quiet, "no progress");
   add_fill_options(app, command->fill);
+  add_cloud_options(app, command->cloud);
   app.footer(
       "Examples:\n"
       "  plexway info knot.ply\n"
       "  plexway info knot.ply --json\n"
       "  plexway info cavity.ele\n"
       "  plexway info vessels.obj\n"
+      "  plexway info scan.ply --k 20\n"
       "  plexway info --devices");
   app.callback([command, &action] { action = [command] { run_info(*command); }; });
 }

@@ -20,6 +20,7 @@ struct InfoReport {
 InfoReport info_of(const Domain& domain, const io::Triangles& surface);
 InfoReport info_of(const Domain& domain, const io::Tets& solid);
 InfoReport info_of(const Domain& domain, const io::Edges& wireframe);
+InfoReport info_of(const Domain& domain, const Cloud& cloud);
 
 // Pieces that several kinds have.
 

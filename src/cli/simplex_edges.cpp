@@ -32,6 +32,18 @@ io::Edges edges_of(const io::Triangles& surface) {
 
 io::Edges edges_of(const io::Tets& solid) { return collect(solid.positions, solid.tets); }
 
+io::Edges edges_of(const Cloud& cloud) {
+  io::Edges made;
+  made.positions = cloud.measured();
+  made.vertices = made.positions.size();
+  for (Index i = 0; i < cloud.neighbours.point_count(); ++i)
+    for (const Index j : cloud.neighbours.around(i))
+      made.edges.push_back({std::min(i, j), std::max(i, j)});
+  std::sort(made.edges.begin(), made.edges.end());
+  made.edges.erase(std::unique(made.edges.begin(), made.edges.end()), made.edges.end());
+  return made;
+}
+
 std::vector<double> lengths_of(const io::Edges& wireframe) {
   if (!wireframe.lengths.empty()) return wireframe.lengths;
   std::vector<double> lengths;

@@ -6,6 +6,8 @@
 
 #include <plexway/complex/triangle_mesh.hpp>
 #include <plexway/executors/serial.hpp>
+#include <plexway/executors/serial_cloud.hpp>
+#include <plexway/executors/serial_pairs.hpp>
 #include <plexway/executors/serial_solid.hpp>
 #include <plexway/executors/serial_wireframe.hpp>
 
@@ -26,6 +28,37 @@ Wireframe<Real> make_complex(const io::Edges& wireframe) {
   if (wireframe.lengths.empty()) return {wireframe.positions, wireframe.edges};
   return {wireframe.vertices, wireframe.edges, wireframe.lengths};
 }
+template <class Real>
+PointCloud<Real> make_complex(const Cloud& cloud) {
+  return {cloud.measured(), cloud.neighbours, cloud_options(cloud)};
+}
+// A cloud in its other form.
+struct PairsOf {
+  const Cloud& cloud;
+};
+template <class Real>
+PointPairs<Real> make_complex(const PairsOf& pairs) {
+  return {pairs.cloud.measured(), pairs.cloud.neighbours, pair_options(pairs.cloud)};
+}
+
+// How many simplices a complex has, by the name that its summary gives them.
+template <class Complex>
+std::size_t simplex_count(const Complex& complex) {
+  const auto& summary = complex.summary();
+  if constexpr (requires {
+                  summary.faces;
+                  summary.boundary_edges;
+                })
+    return summary.faces;
+  else if constexpr (requires { summary.tets; })
+    return summary.tets;
+  else if constexpr (requires { summary.triangles; })
+    return summary.triangles;
+  else if constexpr (requires { summary.neighbour_pairs; })
+    return summary.neighbour_pairs;
+  else
+    return summary.edges;
+}
 
 template <class Real, class Shape>
 class ShapeSolver final : public Solver {
@@ -33,6 +66,7 @@ class ShapeSolver final : public Solver {
   explicit ShapeSolver(const Shape& shape) : complex_(make_complex<Real>(shape)) {}
 
   std::size_t components() const override { return complex_.summary().components; }
+  std::size_t simplices() const override { return simplex_count(complex_); }
 
   void solve(const Executor& executor, std::span<const PointSource> sources,
              const PropagateOptions& options) override {
@@ -69,18 +103,20 @@ class ShapeSolver final : public Solver {
   DistanceField<Real> field_;
 };
 
+template <class Shape>
+std::unique_ptr<Solver> solver_of(const Shape& shape, Precision precision) {
+  if (precision == Precision::single) return std::make_unique<ShapeSolver<float, Shape>>(shape);
+  return std::make_unique<ShapeSolver<double, Shape>>(shape);
+}
+
 }  // namespace
 
 std::unique_ptr<Solver> make_solver(const Domain& domain, Precision precision) {
   return with_file_name(domain, [&] {
-    return std::visit(
-        [&](const auto& shape) -> std::unique_ptr<Solver> {
-          using Shape = std::decay_t<decltype(shape)>;
-          if (precision == Precision::single)
-            return std::make_unique<ShapeSolver<float, Shape>>(shape);
-          return std::make_unique<ShapeSolver<double, Shape>>(shape);
-        },
-        domain.shape());
+    if (domain.cloud() != nullptr && domain.cloud()->form == CloudForm::pairs)
+      return solver_of(PairsOf{*domain.cloud()}, precision);
+    return std::visit([&](const auto& shape) { return solver_of(shape, precision); },
+                      domain.shape());
   });
 }
 

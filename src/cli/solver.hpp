@@ -26,6 +26,8 @@ class Solver {
   Solver& operator=(const Solver&) = delete;
 
   [[nodiscard]] virtual std::size_t components() const = 0;
+  /// Of the complex: a cloud has triangles only there.
+  [[nodiscard]] virtual std::size_t simplices() const = 0;
   /// One propagation, read-out to vertices included. Throws as plexway::propagate.
   virtual void solve(const Executor& executor, std::span<const PointSource> sources,
                      const PropagateOptions& options) = 0;

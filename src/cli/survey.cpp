@@ -4,6 +4,8 @@
 #include <numeric>
 #include <variant>
 
+#include "simplex_edges.hpp"
+
 #ifdef PLEXWAY_HAS_BOOST_GRAPH
 #include <plexway/boost_graph/graph.hpp>
 #endif
@@ -42,6 +44,8 @@ std::optional<std::vector<std::size_t>> component_sizes(const Domain& domain) {
           return boost_graph::connected_components(domain.vertices(), shape.triangles);
         else if constexpr (std::is_same_v<Shape, io::Tets>)
           return boost_graph::connected_components(domain.vertices(), shape.tets);
+        else if constexpr (std::is_same_v<Shape, Cloud>)
+          return boost_graph::connected_components(domain.vertices(), edges_of(shape).edges);
         else
           return boost_graph::connected_components(domain.vertices(), shape.edges);
       },

@@ -62,7 +62,7 @@ void run_tetrahedralize(const TetrahedralizeCommand& command) {
   check(command.fill);
   require_tetgen("tetrahedralize");
   ProgressLine progress(command.quiet);
-  const Domain domain = Domain::load(command.input, "solid", command.fill, progress);
+  const Domain domain = Domain::load(command.input, "solid", command.fill, {}, progress);
   if (!domain.mesh_seconds())
     throw InputError(command.input + ": is a solid already; give a surface, .poly or .smesh");
   const auto& solid = std::get<io::Tets>(domain.shape());

@@ -1,5 +1,6 @@
 #include <plexway/io/field.hpp>
 
+#include <numeric>
 #include <string>
 #include <vector>
 
@@ -62,6 +63,14 @@ void write_field(const std::filesystem::path& file, const Edges& wireframe,
   const bool placed = !wireframe.positions.empty();
   const std::size_t vertices = placed ? wireframe.positions.size() : wireframe.vertices;
   write_field_of(file, {vertices, wireframe.positions, {&cells, 1}, distance, label});
+}
+
+void write_field(const std::filesystem::path& file, const Points& cloud,
+                 std::span<const double> distance, std::span<const std::int32_t> label) {
+  std::vector<std::uint32_t> own(cloud.positions.size());
+  std::iota(own.begin(), own.end(), 0u);
+  const Cells cells = {1, 1, own};
+  write_field_of(file, {cloud.positions.size(), cloud.positions, {&cells, 1}, distance, label});
 }
 
 void write_field(const std::filesystem::path& file, std::span<const MixedPart> parts,

@@ -1,270 +1,65 @@
-// Stanford PLY. The header says what an element is made of; the body is read value by value from
-// one of two sources, text or bytes, which look the same to the reader.
+// Stanford PLY as a surface: its vertices and faces.
 
 #include <string>
 
 #include <plexway/io/triangles.hpp>
 
-#include "bytes.hpp"
-#include "ply_header.hpp"
-#include "surface_checks.hpp"
-#include "text_scanner.hpp"
+#include "ply_body.hpp"
 
 namespace plexway::io {
 namespace {
 
-/// The body as text, one instance of an element a line.
-class TextSource {
- public:
-  TextSource(std::string_view body, std::string_view name, const PlyHeader& header)
-      : scanner_(body, name, TextScanner::Backslash::ordinary, header.lines + 1) {}
-
-  [[noreturn]] void fail(const std::string& cause) const { scanner_.fail(cause); }
-  std::uint64_t bytes_left() const { return scanner_.bytes_left(); }
-
-  /// Each value takes a character and a separator; the last needs no separator.
-  std::uint64_t most_instances(const PlyElement& element) const {
-    return (scanner_.bytes_left() + 1) / (2 * element.properties.size());
-  }
-
-  void begin(const PlyElement& element, std::uint64_t instance) {
-    if (!scanner_.to_content())
-      scanner_.fail("the file ends after " + std::to_string(instance) + " of " +
-                    std::to_string(element.count) + " " + quote(element.name) + " elements");
-  }
-
-  void end(const PlyElement& element) {
-    if (scanner_.to_field())
-      scanner_.fail("the line goes on after the last property of " + quote(element.name) +
-                    " with " + quote(scanner_.field()));
-    scanner_.next_line();
-  }
-
-  double real(PlyType, std::string_view what) { return scanner_.number(what); }
-
-  std::int64_t whole(PlyType type, std::string_view what) {
-    if (!is_float(type)) return scanner_.integer(what);
-    const double value = scanner_.number(what);
-    if (value != std::floor(value) || std::abs(value) > 9e15)
-      scanner_.fail(std::string(what) + " is not a whole number");
-    return static_cast<std::int64_t>(value);
-  }
-
-  void skip(PlyType, std::uint64_t values) {
-    for (; values != 0; --values)
-      if (scanner_.field().empty()) scanner_.fail("the line ends before the last property");
-  }
-
-  void finish() {
-    if (scanner_.to_content())
-      scanner_.fail("the file goes on after its last element with " + quote(scanner_.field()));
-  }
-
- private:
-  TextScanner scanner_;
-};
-
-/// The body as bytes.
-class ByteSource {
- public:
-  ByteSource(std::string_view bytes, std::string_view name, const PlyHeader& header)
-      : bytes_(bytes),
-        name_(name),
-        at_(header.size),
-        order_(header.format == PlyFormat::big_endian ? std::endian::big : std::endian::little) {}
-
-  [[noreturn]] void fail(const std::string& cause) const {
-    std::string where = "byte " + std::to_string(at_);
-    if (element_ != nullptr)
-      where = quote(element_->name) + " element " + std::to_string(instance_) + ", " + where;
-    throw InputError(std::string(name_) + ": " + where + ": " + cause);
-  }
-  std::uint64_t bytes_left() const { return bytes_.size() - at_; }
-
-  std::uint64_t most_instances(const PlyElement& element) const {
-    std::uint64_t least = 0;  // bytes of an instance whose lists are empty
-    for (const auto& p : element.properties) least += size_of(p.is_list ? p.count_type : p.type);
-    return bytes_left() / least;
-  }
-
-  void begin(const PlyElement& element, std::uint64_t instance) {
-    element_ = &element;
-    instance_ = instance;
-  }
-  void end(const PlyElement&) { element_ = nullptr; }
-
-  double real(PlyType type, std::string_view what) {
-    double value = 0;
-    switch (type) {
-      case PlyType::f32:
-        value = static_cast<double>(take<float>(what));
-        break;
-      case PlyType::f64:
-        value = take<double>(what);
-        break;
-      default:
-        return static_cast<double>(whole(type, what));
-    }
-    if (!std::isfinite(value)) fail(std::string(what) + " is not finite");
-    return value;
-  }
-
-  std::int64_t whole(PlyType type, std::string_view what) {
-    switch (type) {
-      case PlyType::i8:
-        return take<std::int8_t>(what);
-      case PlyType::u8:
-        return take<std::uint8_t>(what);
-      case PlyType::i16:
-        return take<std::int16_t>(what);
-      case PlyType::u16:
-        return take<std::uint16_t>(what);
-      case PlyType::i32:
-        return take<std::int32_t>(what);
-      case PlyType::u32:
-        return take<std::uint32_t>(what);
-      case PlyType::f32:
-      case PlyType::f64:
-        break;
-    }
-    const double value = real(type, what);
-    if (value != std::floor(value) || std::abs(value) > 9e15)
-      fail(std::string(what) + " is not a whole number");
-    return static_cast<std::int64_t>(value);
-  }
-
-  void skip(PlyType type, std::uint64_t values) {
-    if (values > bytes_left() / size_of(type)) fail("the file ends before the last property");
-    at_ += values * size_of(type);
-  }
-
-  void finish() {
-    for (std::size_t i = at_; i < bytes_.size(); ++i)
-      if (const char c = bytes_[i]; c != '\n' && c != '\r' && c != ' ' && c != '\0')
-        fail("the file goes on after its last element");
-  }
-
- private:
-  template <class T>
-  T take(std::string_view what) {
-    if (bytes_left() < sizeof(T)) fail("the file ends before " + std::string(what));
-    const T value = load<T>(bytes_.data() + at_, order_);
-    at_ += sizeof(T);
-    return value;
-  }
-
-  std::string_view bytes_;
-  std::string_view name_;
-  std::size_t at_;
-  std::endian order_;
-  const PlyElement* element_ = nullptr;
-  std::uint64_t instance_ = 0;
-};
-
-const PlyProperty* find(const PlyElement& element, std::string_view name) {
-  for (const auto& property : element.properties)
-    if (property.name == name) return &property;
-  return nullptr;
-}
-
 /// The vertex and face elements of the header, checked, with the properties that matter.
 struct Layout {
-  const PlyElement* vertex = nullptr;
+  PlyVertex vertex;
   const PlyElement* face = nullptr;
-  std::array<const PlyProperty*, 3> axes{};
   const PlyProperty* corners = nullptr;
 
-  Layout(const PlyHeader& header, std::string_view name) {
-    for (const auto& element : header.elements) {
-      if (element.name == "vertex") vertex = &element;
+  Layout(const PlyHeader& header, std::string_view name) : vertex(header, name) {
+    for (const auto& element : header.elements)
       if (element.name == "face") face = &element;
-    }
-    const auto fail = [&](std::size_t line, const std::string& cause) {
-      throw InputError(std::string(name) + ":" + std::to_string(line) + ": " + cause);
-    };
-    if (vertex == nullptr) fail(header.lines, "the header has no element 'vertex'");
-    for (std::size_t k = 0; k < 3; ++k) {
-      const std::string_view axis = std::string_view("xyz").substr(k, 1);
-      axes[k] = find(*vertex, axis);
-      if (axes[k] == nullptr || axes[k]->is_list)
-        fail(vertex->line, "element 'vertex' has no number " + quote(axis));
-    }
-    if (vertex->count >= most_vertices) fail(vertex->line, "more vertices than 32 bits count");
     if (face == nullptr) return;  // reported as "has no faces" once the rest is known to be sound
-    corners = find(*face, "vertex_indices");
-    if (corners == nullptr) corners = find(*face, "vertex_index");
+    corners = find_property(*face, "vertex_indices");
+    if (corners == nullptr) corners = find_property(*face, "vertex_index");
     if (corners == nullptr || !corners->is_list)
-      fail(face->line, "element 'face' has no list 'vertex_indices' or 'vertex_index'");
+      fail_ply_header(name, face->line,
+                      "element 'face' has no list 'vertex_indices' or 'vertex_index'");
   }
 };
 
 template <class Source>
-void skip_property(Source& source, const PlyProperty& property) {
-  if (!property.is_list) return source.skip(property.type, 1);
-  const std::int64_t length = source.whole(property.count_type, "a list's length");
-  if (length < 0) source.fail("a list's length is negative: " + std::to_string(length));
-  source.skip(property.type, static_cast<std::uint64_t>(length));
-}
-
-template <class Source>
-void read_vertex(Source& source, const Layout& layout, Triangles& surface) {
-  std::array<double, 3> position{};
-  for (const auto& property : layout.vertex->properties) {
-    if (&property == layout.axes[0])
-      position[0] = source.real(property.type, "coordinate x");
-    else if (&property == layout.axes[1])
-      position[1] = source.real(property.type, "coordinate y");
-    else if (&property == layout.axes[2])
-      position[2] = source.real(property.type, "coordinate z");
-    else
-      skip_property(source, property);
-  }
-  surface.positions.push_back(position);
-}
-
-template <class Source>
-void read_face(Source& source, const Layout& layout, std::uint64_t face, Triangles& surface) {
-  const std::uint64_t vertices = layout.vertex->count;
-  for (const auto& property : layout.face->properties) {
-    if (&property != layout.corners) {
-      skip_property(source, property);
-      continue;
-    }
-    const std::int64_t corners = source.whole(property.count_type, "the number of corners");
-    if (corners < 0) source.fail("the number of corners is negative: " + std::to_string(corners));
-    if (corners < 3) source.fail(too_few_corners(face, static_cast<std::size_t>(corners)));
-    Fan fan(surface);
-    for (std::int64_t c = 0; c < corners; ++c) {
-      const std::int64_t index = source.whole(property.type, "a vertex of the face");
-      if (index < 0 || static_cast<std::uint64_t>(index) >= vertices)
-        source.fail(bad_index(face, index, vertices));
-      fan.corner(static_cast<std::uint32_t>(index));
-    }
+void read_corners(Source& source, const Layout& layout, std::uint64_t face, Triangles& surface) {
+  const PlyProperty& property = *layout.corners;
+  const std::uint64_t vertices = layout.vertex.element->count;
+  const std::int64_t corners = source.whole(property.count_type, "the number of corners");
+  if (corners < 0) source.fail("the number of corners is negative: " + std::to_string(corners));
+  if (corners < 3) source.fail(too_few_corners(face, static_cast<std::size_t>(corners)));
+  Fan fan(surface);
+  for (std::int64_t c = 0; c < corners; ++c) {
+    const std::int64_t index = source.whole(property.type, "a vertex of the face");
+    if (index < 0 || static_cast<std::uint64_t>(index) >= vertices)
+      source.fail(bad_index(face, index, vertices));
+    fan.corner(static_cast<std::uint32_t>(index));
   }
 }
 
 template <class Source>
 Triangles read_body(Source source, const PlyHeader& header, const Layout& layout) {
   Triangles surface;
-  for (const auto& element : header.elements) {
-    if (element.properties.empty()) continue;  // takes no room in the file, however many there are
-    if (element.count > source.most_instances(element))
-      source.fail("the header says " + std::to_string(element.count) + " " + quote(element.name) +
-                  " elements, but only " + std::to_string(source.bytes_left()) + " bytes follow");
-    if (&element == layout.vertex) surface.positions.reserve(element.count);
+  const auto begin = [&](const PlyElement& element) {
+    if (&element == layout.vertex.element) surface.positions.reserve(element.count);
     if (&element == layout.face) surface.triangles.reserve(element.count);
-    for (std::uint64_t i = 0; i < element.count; ++i) {
-      source.begin(element, i);
-      if (&element == layout.vertex)
-        read_vertex(source, layout, surface);
-      else if (&element == layout.face)
-        read_face(source, layout, i, surface);
-      else
-        for (const auto& property : element.properties) skip_property(source, property);
-      source.end(element);
+  };
+  const auto read = [&](const PlyElement& element, std::uint64_t i, const PlyProperty& property) {
+    if (&element == layout.vertex.element) {
+      if (&property == &element.properties.front()) surface.positions.push_back({});
+      return layout.vertex.take(source, property, surface.positions.back());
     }
-  }
-  source.finish();
+    if (&property != layout.corners) return false;
+    read_corners(source, layout, i, surface);
+    return true;
+  };
+  walk_ply(source, header, begin, read);
   return surface;
 }
 
@@ -273,10 +68,9 @@ Triangles read_body(Source source, const PlyHeader& header, const Layout& layout
 Triangles parse_ply(std::string_view bytes, std::string_view name) {
   const PlyHeader header = parse_ply_header(bytes, name);
   const Layout layout(header, name);
-  Triangles surface =
-      header.format == PlyFormat::ascii
-          ? read_body(TextSource(bytes.substr(header.size), name, header), header, layout)
-          : read_body(ByteSource(bytes, name, header), header, layout);
+  Triangles surface = header.format == PlyFormat::ascii
+                          ? read_body(PlyText(bytes, name, header), header, layout)
+                          : read_body(PlyBytes(bytes, name, header), header, layout);
   require_faces(surface, name);
   return surface;
 }

@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include <plexway/io/edges.hpp>
+#include <plexway/io/points.hpp>
 #include <plexway/io/tets.hpp>
 #include <plexway/io/triangles.hpp>
 
@@ -30,6 +31,10 @@ void write_field(const std::filesystem::path& file, const Tets& solid,
 /// The same for a wireframe. If its vertices have no positions, only .csv (without x, y and z) and
 /// .npy can hold it; UsageError otherwise.
 void write_field(const std::filesystem::path& file, const Edges& wireframe,
+                 std::span<const double> distance, std::span<const std::int32_t> label = {});
+
+/// The same for a cloud. In .vtk and .vtu each point is a cell of its own.
+void write_field(const std::filesystem::path& file, const Points& cloud,
                  std::span<const double> distance, std::span<const std::int32_t> label = {});
 
 /// A part of a mixed domain; empty lists are left out. The parts' vertices follow one another.

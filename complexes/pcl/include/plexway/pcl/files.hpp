@@ -1,0 +1,50 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <filesystem>
+#include <span>
+#include <string_view>
+#include <vector>
+
+namespace plexway::pcl {
+
+/// A cloud of points as a file has it, but for points that are not finite: organised clouds have
+/// them where the scanner saw nothing.
+struct FilePoints {
+  std::vector<std::array<double, 3>> positions;
+  /// One a point, 0 0 0 where none is known; empty if the file has none.
+  std::vector<std::array<double, 3>> normals;
+  std::size_t dropped = 0;  ///< points that were not finite
+};
+
+/// Reads .pcd (ascii, binary, binary_compressed; coordinates of any type) or .ply through PCL.
+///
+/// PCL answers bad files with crashes and with points at the origin, so a .pcd is checked first.
+/// Throws InputError, one line "FILE:LINE: cause" or "FILE: cause", for a file that is missing,
+/// truncated or malformed, for one without any finite point, and for other extensions. Nothing is
+/// printed: PCL's messages are held back meanwhile, in all threads.
+FilePoints read_points(const std::filesystem::path& file);
+
+enum class PcdForm { ascii, binary, compressed };
+
+/// Writes .pcd in the form asked for or .ply (binary), in single precision, as PCL's types have it.
+/// The file appears whole or not at all.
+///
+/// Throws UsageError for other extensions, no points, and normals that are neither none nor one a
+/// point; Error "cannot write FILE: reason" when PCL or the system refuses.
+void write_points(const std::filesystem::path& file,
+                  std::span<const std::array<double, 3>> positions,
+                  std::span<const std::array<double, 3>> normals = {},
+                  PcdForm form = PcdForm::compressed);
+
+/// The same with one distance a point as the field `intensity`, to be read into a
+/// `pcl::PointCloud<pcl::PointXYZI>`. Unreached points carry +inf.
+void write_field(const std::filesystem::path& file,
+                 std::span<const std::array<double, 3>> positions, std::span<const double> distance,
+                 PcdForm form = PcdForm::compressed);
+
+/// .pcd and .ply.
+std::span<const std::string_view> file_extensions();
+
+}  // namespace plexway::pcl

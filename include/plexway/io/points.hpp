@@ -1,0 +1,53 @@
+#pragma once
+
+#include <array>
+#include <filesystem>
+#include <span>
+#include <string_view>
+#include <vector>
+
+namespace plexway::io {
+
+/// A cloud of points as a file has it: nothing merged, reordered or dropped.
+struct Points {
+  std::vector<std::array<double, 3>> positions;  ///< finite, in file units
+  /// One a point, finite, as long as the file has them (usually 1; 0 0 0 where none is known);
+  /// empty if the file has none.
+  std::vector<std::array<double, 3>> normals;
+};
+
+/// Reads the points in `file`; the extension (any case) picks the format. Of a .ply the vertices
+/// are taken, whatever else it holds.
+///
+/// Throws InputError, one line "FILE:LINE: cause" or "FILE: cause", when the file is missing,
+/// truncated or malformed, holds a number that is not finite or no point at all, or when the
+/// extension is not known; NotBuiltError for a .pcd, which component `pcl` reads.
+Points read_points(const std::filesystem::path& file);
+
+/// Writes the points, and their normals if there are any; the extension (any case) picks the
+/// format: text, or a binary .ply of doubles. It reads back the same, to the last bit. The file
+/// appears whole or not at all.
+///
+/// Throws UsageError for an unknown extension, a number that is not finite or normals that are
+/// neither none nor one a point, NotBuiltError for a .pcd, and Error "cannot write FILE: reason"
+/// when the system refuses.
+void write_points(const std::filesystem::path& file, const Points& points);
+
+/// The extensions `read_points` and `write_points` know, with the dot, in lower case.
+std::span<const std::string_view> point_extensions();
+
+/// Whether `file` is a .ply that has vertices but no faces, as its header says: a cloud. False for
+/// anything else, unreadable files too. Cost: reads the header only.
+bool is_ply_cloud(const std::filesystem::path& file);
+
+/// Points as text, one a line: "x y z" or "x y z nx ny nz", the same on every line, between blanks.
+/// `#` starts a comment, and `%` or `//` a line that is one. A first line with a single whole
+/// number says how many points follow. Throws InputError, also for normals whose length is far from
+/// 1 (and not 0): they are something else, such as colours.
+Points parse_xyz(std::string_view text, std::string_view name);
+
+/// The vertices of a Stanford PLY: ascii, binary little and big endian; `nx ny nz` as normals. All
+/// else is passed over. Throws InputError.
+Points parse_ply_points(std::string_view bytes, std::string_view name);
+
+}  // namespace plexway::io

@@ -1,0 +1,85 @@
+#include "cloud_options.hpp"
+
+#include <CLI/CLI.hpp>
+#include <cmath>
+
+#include <plexway/error.hpp>
+
+namespace plexway::cli {
+
+bool CloudArguments::given() const {
+  return k || neighbour_radius || max_normal_angle || form != CloudArguments{}.form || voxel ||
+         denoise || deviations || smooth;
+}
+
+void add_cloud_options(CLI::App& command, CloudArguments& options) {
+  const std::string group = "How to make a complex of points";
+  command
+      .add_option("--k", options.k,
+                  "neighbours of each point (default 16); with --neighbour-radius at most so\n"
+                  "many, and without --k all within it")
+      ->check(CLI::Range(1, 1000))
+      ->type_name("K")
+      ->group(group);
+  command
+      .add_option("--neighbour-radius", options.neighbour_radius,
+                  "no neighbour is farther away (default: any)")
+      ->type_name("R")
+      ->group(group);
+  command
+      .add_option("--max-normal-angle", options.max_normal_angle,
+                  "refuse neighbours whose normals differ by more degrees (default 60), such as\n"
+                  "those across a thin gap")
+      ->type_name("DEGREES")
+      ->group(group);
+  command
+      .add_option("--form", options.form,
+                  "umbrellas (default: triangles around each point) or pairs (of near points,\n"
+                  "without triangles)")
+      ->type_name("NAME")
+      ->group(group);
+  command
+      .add_option("--voxel", options.voxel,
+                  "first thin the cloud: one point for each cube of this side (through PCL)")
+      ->type_name("SIZE")
+      ->group(group);
+  command
+      .add_flag("--denoise", options.denoise,
+                "first drop points that lie alone, by the distance to their neighbours\n"
+                "(through PCL)")
+      ->group(group);
+  command
+      .add_option("--deviations", options.deviations,
+                  "with --denoise: how many standard deviations above the mean are too many\n"
+                  "(default 3; fewer drop more)")
+      ->type_name("X")
+      ->group(group);
+  command
+      .add_flag("--smooth", options.smooth,
+                "measure along a smooth surface near the points: noise makes paths longer")
+      ->group(group);
+}
+
+void check(const CloudArguments& options) {
+  const auto positive = [](const std::optional<double>& value, const char* name) {
+    if (value && (!(*value > 0) || std::isinf(*value)))
+      throw UsageError(std::string(name) + " must be a number greater than 0");
+  };
+  positive(options.neighbour_radius, "--neighbour-radius");
+  positive(options.voxel, "--voxel");
+  positive(options.deviations, "--deviations");
+  positive(options.max_normal_angle, "--max-normal-angle");
+  if (options.max_normal_angle && *options.max_normal_angle > 180)
+    throw UsageError("--max-normal-angle must be at most 180 degrees");
+  if (options.deviations && !options.denoise) throw UsageError("--deviations goes with --denoise");
+  if (form_of(options) == CloudForm::pairs && options.max_normal_angle)
+    throw UsageError("--max-normal-angle goes with --form umbrellas: pairs have no normals");
+}
+
+CloudForm form_of(const CloudArguments& options) {
+  if (options.form == "umbrellas") return CloudForm::umbrellas;
+  if (options.form == "pairs") return CloudForm::pairs;
+  throw UsageError("--form '" + options.form + "': choose one of umbrellas, pairs");
+}
+
+}  // namespace plexway::cli
