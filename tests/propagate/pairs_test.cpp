@@ -192,9 +192,9 @@ TEST_CASE("vertex pairs: a permutation, a turn, a shift and another unit change 
   for (double& d : exactly) d /= 4;
   CHECK(exactly == base);
 
-  std::vector<Position> reversed(cloud.points.rbegin(), cloud.points.rend());
-  const auto back =
-      solve(PointPairs<float>(reversed, all_pairs_neighbours(reversed)), PointSource::at(2499));
+  std::vector<Position> turned_round(cloud.points.rbegin(), cloud.points.rend());
+  const auto back = solve(PointPairs<float>(turned_round, all_pairs_neighbours(turned_round)),
+                          PointSource::at(2499));
   for (std::size_t i = 0; i < base.size(); ++i)
     REQUIRE(back[2499 - i] == Approx(base[i]).margin(.3 * cloud.spacing));
 }

@@ -181,8 +181,9 @@ class PairRule {
         const Real q2 = dot(e, e);
         across[s][candidates[s]] = {x, c2[i], q2};
         const bool at_boundary = std::min({at.reach2, to.reach2, sides[s].end.reach2}) < 0;
-        candidates[s] += (q2 <= (at_boundary ? reach2 * near_boundary : reach2)) &
-                         (dot(d, sides[s].inward) <= 0) & (x != sides[s].q);
+        const bool near = q2 <= (at_boundary ? reach2 * near_boundary : reach2);
+        const bool beyond = dot(d, sides[s].inward) <= 0, other = x != sides[s].q;
+        candidates[s] += near & beyond & other;
       }
     }
     for (std::size_t s = 0; s < sides.size(); ++s)
