@@ -9,6 +9,7 @@
 #include <fstream>
 #include <functional>
 #include <iostream>
+#include <map>
 #include <memory>
 #include <optional>
 #include <sstream>
@@ -197,7 +198,11 @@ int main(int argc, char** argv) {
   app.add_option("--kinds", kinds, "plane sphere sphn swiss cylinder wall")->capture_default_str();
   app.add_option("-k", options.k, "Neighbours")->capture_default_str();
   app.add_option("--threads", options.threads, "For the set-up")->capture_default_str();
-  app.add_flag("--tangent-lengths", options.cloud.tangent_lengths, "For noise");
+  app.add_option("--lengths", options.cloud.lengths, "automatic, space or tangential")
+      ->transform(CLI::CheckedTransformer(std::map<std::string, plexway::EdgeLengths>{
+          {"automatic", plexway::EdgeLengths::automatic},
+          {"space", plexway::EdgeLengths::in_space},
+          {"tangential", plexway::EdgeLengths::tangential}}));
   app.add_option("--boundary-circle", options.cloud.widest_boundary_circle)->capture_default_str();
   app.add_option("--limit", limit, "Seconds after which a row is given up")->capture_default_str();
   app.add_flag("--double", double_precision, "Double instead of float");

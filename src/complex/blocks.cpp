@@ -54,6 +54,7 @@ void for_blocks(std::size_t count, std::size_t block, int threads,
   work_on(true);
   for (std::thread& helper : helpers) helper.join();
   if (error) std::rethrow_exception(error);
+  if (progress && !progress(1)) throw Cancelled("stopped by the progress callback");
 }
 
 }  // namespace plexway

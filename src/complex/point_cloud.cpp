@@ -9,8 +9,10 @@
 #include <plexway/complex/distinct_points.hpp>
 #include <plexway/error.hpp>
 
+#include "complex/boundary_saddles.hpp"
 #include "complex/cloud_bridges.hpp"
 #include "complex/gluing.hpp"
+#include "complex/tangent_lengths.hpp"
 #include "complex/umbrella.hpp"
 #include "complex/umbrella_sheet.hpp"
 
@@ -35,8 +37,21 @@ void check_input(Points points, const Neighbours& neighbours, const CloudOptions
     throw UsageError("the widest circle must be > 0 spacings");
 }
 
+// A power of two that brings coordinates to about 1: then no square leaves the range of a number.
+double scale_of(Points points) {
+  double largest = 0;
+  for (const Point3& p : points)
+    for (const double x : p) largest = std::max(largest, std::abs(x));
+  int exponent = 0;
+  std::frexp(largest, &exponent);
+  return std::ldexp(1.0, std::clamp(-exponent, -1000, 1000));
+}
+
+Point3 times(double scale, const Point3& p) { return {scale * p[0], scale * p[1], scale * p[2]}; }
+
 // Neighbours between places: points that are not the first at theirs are left out.
-Places places_of(Points points, const Neighbours& neighbours, const DistinctPoints& distinct) {
+Places places_of(Points points, double scale, const Neighbours& neighbours,
+                 const DistinctPoints& distinct) {
   const std::size_t n = distinct.order.size();
   std::vector<Index> place(points.size());
   for (std::size_t p = 0; p < n; ++p) place[distinct.order[p]] = static_cast<Index>(p);
@@ -56,7 +71,7 @@ Places places_of(Points points, const Neighbours& neighbours, const DistinctPoin
   places.near.of.reserve(neighbours.of.size());
   std::size_t next = 0;
   for (Index p = 0; p < n; ++p) {
-    places.at.push_back(points[distinct.order[p]]);
+    places.at.push_back(times(scale, points[distinct.order[p]]));
     const std::size_t start = places.near.of.size();
     const auto row = [&] { return std::span<const Index>(places.near.of).subspan(start); };
     const auto add = [&](Index q, bool twins) {
@@ -95,37 +110,6 @@ struct Sheet {
   std::vector<std::array<double, 3>> lengths;  // empty: as in space
 };
 
-double tangent_length(const Places& places, std::span<const TangentFrame> frames, Index a,
-                      Index b) {
-  const Point3 q = minus(places.at[b], places.at[a]);
-  const double square = dot(q, q);
-  if (a >= frames.size() || b >= frames.size()) return std::sqrt(square);
-  const auto &m = frames[a].normal, &n = frames[b].normal;
-  // On a smooth surface an edge leaves both tangent planes to the same side: nothing along the mean
-  // normal. What there is, is noise; unless the normals differ much, as across an edge of a solid.
-  const double cosine = dot(m, n);
-  constexpr double most = 0.9;  // 25 degrees
-  if (std::abs(cosine) < most) return std::sqrt(square);
-  Point3 mean;
-  for (std::size_t d = 0; d < 3; ++d)
-    mean[d] = static_cast<double>(m[d]) +
-              std::copysign(static_cast<double>(n[d]), cosine * static_cast<double>(n[d]));
-  const double along = dot(mean, q);
-  return std::sqrt(std::max(square - along * along / dot(mean, mean), 0.0));
-}
-
-std::size_t boundary_places(const SheetWedges& sheet, std::size_t places) {
-  std::size_t count = 0;
-  for (Index p = 0; p < places; ++p) {
-    bool open = false;
-    sheet.around(p, [&](const SheetWedges::Wedge& w) {
-      open = open || sheet.only_triangle(p, w.a) != none || sheet.only_triangle(p, w.b) != none;
-    });
-    count += open;
-  }
-  return count;
-}
-
 void count_parts(const CloudParts& parts, const DistinctPoints& distinct, CloudSummary& summary) {
   std::vector<std::size_t> points(parts.part.size(), 0), places(parts.part.size(), 0);
   std::vector<Index> place(distinct.first.size());
@@ -148,8 +132,7 @@ void count_pairs(const Places& places, std::span<const TangentFrame> frames, con
   for (Index i = 0; i < places.near.point_count(); ++i) {
     spacing += static_cast<double>(frames[i].spacing);
     for (const Index j : places.near.around(i)) {
-      const auto back = places.near.around(j);
-      if (j < i && std::find(back.begin(), back.end(), i) != back.end()) continue;
+      if (j < i) continue;  // lists are symmetric
       ++summary.neighbour_pairs;
       summary.refused_pairs += !same_sheet(places, frames, rule, i, j);
     }
@@ -160,7 +143,11 @@ void count_pairs(const Places& places, std::span<const TangentFrame> frames, con
 Sheet make_sheet(Points points, const Neighbours& neighbours, const CloudOptions& options,
                  CloudSummary& summary, std::vector<std::array<Index, 2>>& twins) {
   const double angle = options.max_normal_angle * std::numbers::pi / 180;
-  const SheetRule rule = {std::sin(angle / 2), std::cos(angle), !options.normals.empty()};
+  // A chord of a circle makes half the angle with the tangents at its ends that these make with
+  // each other. It is measured at the rms distance of 16 neighbours: farther ones may be no higher.
+  constexpr double rms_of_spacing = 1.6;
+  const SheetRule rule = {rms_of_spacing * std::sin(angle / 2), std::cos(angle),
+                          !options.normals.empty()};
   double done = 0;
   const auto share = [&](double part) {
     return [&options, from = done, part](double s) {
@@ -168,7 +155,8 @@ Sheet make_sheet(Points points, const Neighbours& neighbours, const CloudOptions
     };
   };
   const DistinctPoints distinct = distinct_points(points);
-  Places places = places_of(points, neighbours, distinct);
+  const double scale = scale_of(points);
+  Places places = places_of(points, scale, neighbours, distinct);
   const std::size_t n = places.at.size();
   std::vector<TangentFrame> frames = tangent_frames(places, normals_of(options.normals, distinct),
                                                     rule, options.threads, share(0.1));
@@ -180,6 +168,7 @@ Sheet make_sheet(Points points, const Neighbours& neighbours, const CloudOptions
   done = 0.6;
   fill_holes(options.widest_circle, sheet);
   trim_boundary(options.widest_boundary_circle, sheet);
+  widen_boundary_saddles(places, frames, sheet);
   const CloudParts parts = bridge_parts(rule, frames, places, sheet);
   if (sheet.triangles().empty()) add_stub(places, sheet);
   if (options.progress && !options.progress(0.7))
@@ -190,10 +179,12 @@ Sheet make_sheet(Points points, const Neighbours& neighbours, const CloudOptions
   summary.duplicates = points.size() - n;
   count_pairs(places, frames, rule, summary);
   count_parts(parts, distinct, summary);
-  summary.boundary_points = boundary_places(sheet, n);
+  summary.mean_spacing /= scale;
+  for (Index p = 0; p < n; ++p) summary.boundary_points += sheet.open(p);
 
   Sheet result;
-  result.more.assign(places.at.begin() + static_cast<std::ptrdiff_t>(n), places.at.end());
+  for (std::size_t p = n; p < places.at.size(); ++p)
+    result.more.push_back(times(1 / scale, places.at[p]));
   for (const Triangle& t : sheet.triangles())
     if (t[0] != none) result.faces.push_back(t);
   summary.triangles = result.faces.size();
@@ -202,11 +193,19 @@ Sheet make_sheet(Points points, const Neighbours& neighbours, const CloudOptions
     return std::min({a[0], a[1], a[2]}) < std::min({b[0], b[1], b[2]});
   };
   std::stable_sort(result.faces.begin(), result.faces.end(), before);
-  if (options.tangent_lengths)
-    for (const Triangle& t : result.faces)
-      result.lengths.push_back({tangent_length(places, frames, t[0], t[1]),
-                                tangent_length(places, frames, t[1], t[2]),
-                                tangent_length(places, frames, t[2], t[0])});
+  const HeightNoise noise = height_noise(places, frames);
+  summary.noise = noise.height / scale;
+  const double flat = options.lengths == EdgeLengths::in_space     ? 0
+                      : options.lengths == EdgeLengths::tangential ? 1
+                                                                   : noise.share;
+  if (flat > 0) {
+    const auto length = [&](Index a, Index b) {
+      return tangent_length(places, frames, a, b, flat) / scale;
+    };
+    result.lengths.reserve(result.faces.size());
+    for (const auto& [a, b, c] : result.faces)
+      result.lengths.push_back({length(a, b), length(b, c), length(c, a)});
+  }
   for (Triangle& t : result.faces)
     for (Index& v : t) v = v < n ? distinct.order[v] : static_cast<Index>(points.size() + (v - n));
   for (Index i = 0; i < points.size(); ++i)

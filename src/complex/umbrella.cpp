@@ -66,21 +66,81 @@ double share_along(const Symmetric& m, const Point3& n) {
   return along / (m[0] + m[1] + m[2]);
 }
 
-Point3 fit_normal(std::span<const Point3> around, double rms, const SheetRule& rule) {
+// Neighbours within `slab` of the plane through the place with normal n.
+Moments near_plane(std::span<const Point3> around, const Point3& n, double slab) {
+  Moments moments;
+  for (const Point3& q : around)
+    if (std::abs(dot(n, q)) <= slab) moments.add(q);
+  return moments;
+}
+
+// How well a plane through the place explains its neighbours: the nearer to it the better, and near
+// neighbours count more.
+double support(std::span<const Point3> around, const Point3& n, double slab) {
+  double sum = 0;
+  for (const Point3& q : around) {
+    const double off = dot(n, q) / slab;
+    if (off * off < 1) sum += (1 - off * off) / (slab * slab + dot(q, q));
+  }
+  return sum;
+}
+
+// Of the planes through the place and two of its nearest neighbours the best: it finds the place's
+// own sheet among several, where the spread of all says nothing.
+Point3 supported_plane(std::span<const Point3> around, double slab, Point3 best) {
+  constexpr std::size_t nearest = 8;
+  double most = support(around, best, slab);
+  for (std::size_t i = 1; i < std::min(nearest, around.size()); ++i)
+    for (std::size_t j = 0; j < i; ++j) {
+      const Point3 n = cross(around[i], around[j]);
+      // Not from a needle.
+      if (!(dot(n, n) > 0.1 * dot(around[i], around[i]) * dot(around[j], around[j]))) continue;
+      const double s = support(around, unit(n), slab);
+      if (s > most) most = s, best = unit(n);
+    }
+  return best;
+}
+
+// A place's normal, and whether its neighbours are too thick a layer to be sure.
+Point3 fit_normal(std::span<const Point3> around, double slab, char& thick) {
   Moments all;
   for (const Point3& q : around) all.add(q);
-  Symmetric m = all.about_mean();
-  Point3 n = least_direction(m);
-  // Thick: noise, an edge, or another sheet. Again, without what lies off the place's own plane.
-  for (int i = 0; i < 3 && share_along(m, n) > 0.02; ++i) {
-    Moments own;
-    for (const Point3& q : around)
-      if (std::abs(dot(n, q)) <= rule.most_offset * rms) own.add(q);
+  const Symmetric spread = all.about_mean();
+  Point3 n = least_direction(spread);
+  thick = share_along(spread, n) > 0.02;  // noise, an edge of a solid, or another sheet
+  if (thick == 0) return n;
+  n = supported_plane(around, slab, n);
+  for (int i = 0; i < 2; ++i) {
+    const Moments own = near_plane(around, n, slab);
     if (own.count < 5) break;
-    m = own.about_mean();
-    n = least_direction(m);
+    n = least_direction(own.about_mean());
   }
   return n;
+}
+
+// Of the normals around a place the one that the others agree with most, near ones above all.
+std::array<float, 3> agreed_normal(const Places& places, std::span<const TangentFrame> frames,
+                                   Index place, std::vector<double>& weight) {
+  const auto row = places.near.around(place);
+  const double spacing = static_cast<double>(frames[place].spacing);
+  weight.clear();
+  for (const Index j : row) {
+    const Point3 q = minus(places.at[j], places.at[place]);
+    weight.push_back(1 / (spacing * spacing + dot(q, q)));
+  }
+  std::array<float, 3> best = frames[place].normal;
+  double most = -1;
+  const auto look = [&](const std::array<float, 3>& n) {
+    double sum = 0;
+    for (std::size_t k = 0; k < row.size(); ++k) {
+      const double cosine = dot(n, frames[row[k]].normal);
+      sum += weight[k] * cosine * cosine;
+    }
+    if (sum > most) most = sum, best = n;
+  };
+  look(frames[place].normal);
+  for (const Index j : row) look(frames[j].normal);
+  return best;
 }
 
 }  // namespace
@@ -89,6 +149,7 @@ std::vector<TangentFrame> tangent_frames(const Places& places, std::span<const P
                                          const SheetRule& rule, int threads,
                                          const std::function<bool(double)>& progress) {
   std::vector<TangentFrame> frames(places.at.size());
+  std::vector<char> thick(places.at.size(), 0);
   for_blocks(places.at.size(), block, threads, progress, [&](std::size_t first, std::size_t last) {
     std::vector<Point3> around;
     for (Index i = static_cast<Index>(first); i < last; ++i) {
@@ -99,15 +160,27 @@ std::vector<TangentFrame> tangent_frames(const Places& places, std::span<const P
         sum += dot(around.back(), around.back());
       }
       const double count = static_cast<double>(around.size());
+      // The mean square of the distances of the nearest in a plane.
       const double rms = count > 0 ? std::sqrt(sum / count) : 0;
+      const double spacing = rms * std::sqrt(2 * std::numbers::pi / (count + 1));
       Point3 n = {0, 0, 0};
       if (!given.empty()) n = given[i];
       const double length = dot(n, n);
-      n = length > 0 && std::isfinite(length) ? unit(n) : fit_normal(around, rms, rule);
+      n = length > 0 && std::isfinite(length)
+              ? unit(n)
+              : fit_normal(around, rule.most_offset * spacing, thick[i]);
       for (std::size_t d = 0; d < 3; ++d) frames[i].normal[d] = static_cast<float>(n[d]);
-      frames[i].spacing = static_cast<float>(rms * std::sqrt(2 * std::numbers::pi / (count + 1)));
+      frames[i].spacing = static_cast<float>(spacing);
     }
   });
+  for (int round = 0; round < 5; ++round) {
+    const std::vector<TangentFrame> before = frames;
+    for_blocks(places.at.size(), block, threads, {}, [&](std::size_t first, std::size_t last) {
+      std::vector<double> weight;
+      for (Index i = static_cast<Index>(first); i < last; ++i)
+        if (thick[i] != 0) frames[i].normal = agreed_normal(places, before, i, weight);
+    });
+  }
   return frames;
 }
 
@@ -117,11 +190,8 @@ bool same_sheet(const Places& places, std::span<const TangentFrame> frames, cons
   const double cosine = dot(a.normal, b.normal);
   if ((rule.oriented ? cosine : std::abs(cosine)) < rule.least_cosine) return false;
   const Point3 q = minus(places.at[j], places.at[i]);
-  const double length = std::sqrt(dot(q, q));
-  constexpr double rms_of_spacing = 1.6;  // of the 16 nearest
   const auto fits = [&](const TangentFrame& f) {
-    const double reach = std::max(length, rms_of_spacing * static_cast<double>(f.spacing));
-    return std::abs(dot(f.normal, q)) <= rule.most_offset * reach;
+    return std::abs(dot(f.normal, q)) <= rule.most_offset * static_cast<double>(f.spacing);
   };
   return fits(a) && fits(b);
 }
@@ -224,7 +294,10 @@ class Umbrella {
     std::size_t at = first;
     do {
       hull_.push_back(at);
-      if (hull_.size() > spokes_.size()) break;  // rounding
+      if (hull_.size() > spokes_.size()) {  // rounding: no way around
+        hull_.clear();
+        return;
+      }
       at = next_on_hull(place, at);
     } while (at != first && at != spokes_.size());
   }
@@ -239,11 +312,15 @@ class Umbrella {
       const double u = spokes_[i].u - a.u, v = spokes_[i].v - a.v;
       const double turn = bu * v - bv * u, square = u * u + v * v;
       constexpr double tie = 1e-12;  // squares
-      const bool tied =
-          best != spokes_.size() && turn * turn <= tie * bb * square && bu * u + bv * v > 0;
-      if (tied) {
-        ties_.push_back(square > bb ? best : i);
-        if (!(square > bb)) continue;
+      if (best != spokes_.size() && turn * turn <= tie * bb * square) {
+        if (bu * u + bv * v > 0) {
+          ties_.push_back(square > bb ? best : i);
+          if (!(square > bb)) continue;
+        } else if (a.u * v <= a.v * u) {  // two ways along a line: one has the place to the left
+          continue;
+        } else {
+          ties_.clear();
+        }
       } else if (best != spokes_.size() && turn >= 0) {
         continue;
       } else {

@@ -25,10 +25,9 @@ struct TangentFrame {
   float spacing = 0;            ///< 1 / sqrt(points per area), about
 };
 
-/// Which neighbours are on the same sheet. A chord of a circle makes half the angle with the
-/// tangents at its ends that these make with each other.
+/// Which neighbours are on the same sheet.
 struct SheetRule {
-  double most_offset;   ///< from the tangent plane, in rms distances of neighbours: a sine
+  double most_offset;   ///< from the tangent planes, in spacings
   double least_cosine;  ///< of the angle between two normals
   bool oriented;        ///< normals tell inside from outside
 };

@@ -13,6 +13,15 @@
 
 namespace plexway {
 
+/// How long an edge of a cloud is.
+enum class EdgeLengths {
+  /// As in space on clean clouds. On noisy ones, as far as they are: without its height along the
+  /// mean normal of its ends. What is noise shows in the heights of near and far neighbours.
+  automatic,
+  in_space,
+  tangential,  ///< always without the heights, detail of the size of the spacing included
+};
+
 struct CloudOptions {
   /// Neighbours are refused where their normals differ by more (degrees), or where the segment
   /// between them is steeper than half of it: so sheets across a thin gap stay apart.
@@ -20,13 +29,11 @@ struct CloudOptions {
   /// One a point, of any length, pointing outward everywhere; a zero or NaN stands for unknown.
   /// Empty: estimated, and then inside and outside are not told apart.
   std::span<const std::array<double, 3>> normals = {};
-  /// Lengths between tangent planes: without the part of an edge that goes along the mean normal of
-  /// its ends. For noisy clouds; takes away detail of the size of the spacing as well.
-  bool tangent_lengths = false;
+  EdgeLengths lengths = EdgeLengths::automatic;
   /// Holes that a circle of so many spacings fits in stay holes.
   double widest_circle = 3;
   /// The same at the boundary of the cloud, where chance leaves no such voids.
-  double widest_boundary_circle = 1.1;
+  double widest_boundary_circle = 1.3;
   int threads = 0;  ///< 0: as many as the machine has
   /// Called with the share that is done; returning false stops with Cancelled.
   std::function<bool(double share)> progress = {};
@@ -46,6 +53,7 @@ struct CloudSummary {
   std::size_t components = 0;                ///< places that paths connect; isolated ones count
   std::size_t largest_component = 0;         ///< its points
   std::vector<std::size_t> component_sizes;  ///< points of each, descending
+  double noise = 0;  ///< median height of neighbours over each other, if that is noise; else 0
   double mean_spacing = 0;  ///< 1 / sqrt(points per area) about a place, the mean of all
 };
 

@@ -1,0 +1,42 @@
+#include <plexway/complex/blocks.hpp>
+
+#include <atomic>
+#include <catch2/catch.hpp>
+#include <stdexcept>
+#include <vector>
+
+#include <plexway/error.hpp>
+
+TEST_CASE("blocks cover every number once on any number of threads") {
+  for (const int threads : {0, 1, 2, 5})
+    for (const std::size_t count : {0u, 1u, 9u, 10u, 11u, 1000u}) {
+      std::vector<std::atomic<int>> seen(count);
+      double last = 0;
+      plexway::for_blocks(
+          count, 10, threads,
+          [&](double share) {
+            CHECK(share >= last);
+            last = share;
+            return true;
+          },
+          [&](std::size_t first, std::size_t end) {
+            for (std::size_t i = first; i < end; ++i) ++seen[i];
+          });
+      for (const auto& s : seen) CHECK(s == 1);
+      CHECK(last <= 1);
+    }
+}
+
+TEST_CASE("blocks hand on what work throws, and stop when progress says so") {
+  for (const int threads : {1, 4}) {
+    CHECK_THROWS_AS(plexway::for_blocks(1000, 10, threads, {},
+                                        [](std::size_t first, std::size_t) {
+                                          if (first == 500) throw std::out_of_range("500");
+                                        }),
+                    std::out_of_range);
+    CHECK_THROWS_AS(
+        plexway::for_blocks(
+            1000000, 10, threads, [](double) { return false; }, [](std::size_t, std::size_t) {}),
+        plexway::Cancelled);
+  }
+}
