@@ -23,7 +23,7 @@ void Neighbourhood::set_neighbours(std::span<const std::array<double, 3>> points
                                    const Neighbours& neighbours, Index centre) {
   const auto around = neighbours.around(centre);
   members_.assign(around.begin(), around.end());
-  measure(points, centre);
+  place(points, centre);
 }
 
 void Neighbourhood::set_two_rings(std::span<const std::array<double, 3>> points,
@@ -38,7 +38,7 @@ void Neighbourhood::set_two_rings(std::span<const std::array<double, 3>> points,
     for (const Index second : neighbours.around(members_[i]))
       if (members_.size() < most) add(second);
   members_.erase(members_.begin());
-  measure(points, centre);
+  place(points, centre);
 }
 
 bool Neighbourhood::add(Index point) {
@@ -50,25 +50,31 @@ bool Neighbourhood::add(Index point) {
   return true;
 }
 
-void Neighbourhood::measure(std::span<const std::array<double, 3>> points, Index centre) {
-  const std::size_t n = members_.size();
-  offset.resize(n);
-  weight.resize(n);
+void Neighbourhood::keep_nearest(std::size_t count) {
+  offset.resize(std::min(count, offset.size()));
+  measure();
+}
+
+void Neighbourhood::place(std::span<const std::array<double, 3>> points, Index centre) {
+  offset.resize(members_.size());
+  for (std::size_t i = 0; i < members_.size(); ++i)
+    for (std::size_t d = 0; d < 3; ++d) offset[i][d] = points[members_[i]][d] - points[centre][d];
+  measure();
+}
+
+void Neighbourhood::measure() {
+  weight.resize(offset.size());
   double largest = 0, sum = 0;
-  for (std::size_t i = 0; i < n; ++i) {
-    double square = 0;
-    for (std::size_t d = 0; d < 3; ++d) {
-      offset[i][d] = points[members_[i]][d] - points[centre][d];
-      square += offset[i][d] * offset[i][d];
-    }
-    weight[i] = square;
-    largest = std::max(largest, square);
-    sum += square;
+  for (std::size_t i = 0; i < offset.size(); ++i) {
+    weight[i] =
+        offset[i][0] * offset[i][0] + offset[i][1] * offset[i][1] + offset[i][2] * offset[i][2];
+    largest = std::max(largest, weight[i]);
+    sum += weight[i];
   }
   // The farthest still count a little: no neighbourhood hangs on fewer points than it has.
   for (double& w : weight) w = largest > 0 ? 1 - w / (1.2 * largest) : 1;
   radius = std::sqrt(largest);
-  mean_square = n > 0 ? sum / static_cast<double>(n) : 0;
+  mean_square = offset.empty() ? 0 : sum / static_cast<double>(offset.size());
 }
 
 }  // namespace plexway

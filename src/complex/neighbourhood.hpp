@@ -28,10 +28,14 @@ struct Neighbourhood {
   void set_two_rings(std::span<const std::array<double, 3>> points, const Neighbours& neighbours,
                      Index centre);
 
+  /// Forgets all but the first so many neighbours.
+  void keep_nearest(std::size_t count);
+
  private:
   static constexpr std::size_t enough = 64, slots = 1024, most = slots / 2;
   bool add(Index point);
-  void measure(std::span<const std::array<double, 3>> points, Index centre);
+  void place(std::span<const std::array<double, 3>> points, Index centre);
+  void measure();
 
   std::vector<Index> members_;
   std::array<Index, slots> table_;  // which points are there, by their numbers' low bits

@@ -21,10 +21,19 @@ namespace {
 using Position = std::array<double, 3>;
 
 constexpr double reach = 3;  // of a triangle's third edge, in mean distances of neighbours
+constexpr double least_reach = 1.1;
 constexpr double gap = 2.2;  // radians without neighbours that make a boundary
 constexpr std::size_t block = 4096;
 
 double dot(const Position& a, const Position& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+
+/// In mean distances of neighbours: less where the surface bends, so that edges do not cut through
+/// it. On a sphere, `variation` is the square of the neighbourhood's radius over the sphere's
+/// by 24.
+double reach_on(double variation) {
+  const double bend = std::sqrt(24 * variation);
+  return std::clamp(.5 / std::max(bend, 1e-3), least_reach, reach);
+}
 
 /// The largest angle around the normal without an offset.
 double widest_gap(const Neighbourhood& around, const LocalFrame& frame,
@@ -122,7 +131,8 @@ PointPairs<Real>::PointPairs(std::span<const Position> points, const Neighbours&
 template <class Real>
 void PointPairs<Real>::measure(std::span<const Position> points, int threads) {
   const Neighbours neighbours{begin_, neighbours_};
-  std::vector<double> mean(points.size());  // distance of the neighbours; below 0 at a boundary
+  std::vector<double> mean(points.size());  // distance of the neighbours
+  std::vector<double> far(points.size());   // a triangle's third edge; below 0 at a boundary
   for_blocks(points.size(), block, threads, {}, [&](std::size_t first, std::size_t last) {
     Neighbourhood around;
     std::vector<double> angles;
@@ -131,16 +141,17 @@ void PointPairs<Real>::measure(std::span<const Position> points, int threads) {
       double sum = 0;
       for (const Position& offset : around.offset) sum += std::sqrt(dot(offset, offset));
       mean[i] = around.offset.empty() ? 0 : sum / static_cast<double>(around.offset.size());
-      if (widest_gap(around, fit_frame(around.offset, around.weight), angles) > gap)
-        mean[i] = -mean[i];
+      const LocalFrame frame = fit_frame(around.offset, around.weight);
+      far[i] = mean[i] * reach_on(frame.variation);
+      if (widest_gap(around, frame, angles) > gap) far[i] = -far[i];
     }
   });
 
   double sum = 0;
-  for (const double m : mean) sum += std::abs(m);
+  for (const double m : mean) sum += m;
   for (std::size_t i = 0; i < points.size(); ++i) {
     summary_.isolated_points += begin_[i] == begin_[i + 1];
-    summary_.boundary_points += std::signbit(mean[i]);
+    summary_.boundary_points += std::signbit(far[i]);
   }
   const std::size_t with_neighbours = points.size() - summary_.isolated_points;
   if (with_neighbours > 0) summary_.mean_spacing = sum / static_cast<double>(with_neighbours);
@@ -156,8 +167,8 @@ void PointPairs<Real>::measure(std::span<const Position> points, int threads) {
     Real at[3];
     for (std::size_t d = 0; d < 3; ++d)
       at[d] = static_cast<Real>((points[i][d] - (low[d] / 2 + high[d] / 2)) / unit_);
-    const double far = reach * std::abs(mean[i]) / unit_;
-    places_[i] = {at[0], at[1], at[2], static_cast<Real>(std::copysign(far * far, mean[i]))};
+    const double edge = far[i] / unit_;
+    places_[i] = {at[0], at[1], at[2], static_cast<Real>(std::copysign(edge * edge, edge))};
   }
 }
 

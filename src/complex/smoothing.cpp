@@ -87,25 +87,51 @@ double spacing(const Neighbourhood& around) {
   return std::sqrt(2 * std::numbers::pi * around.mean_square / count);
 }
 
+/// Squared, in a scale where its median is the square of the noise: the median of the chi-squared
+/// distribution by Wilson and Hilferty.
+double deviation2(const Neighbourhood& around) {
+  const double freedom = static_cast<double>(around.offset.size() + 1 - terms);
+  const double off = Quadric(around).deviation();
+  return off * off / std::pow(1 - 2 / (9 * freedom), 3);
+}
+
+/// Of those that are not negative; 0 without any.
+double median(std::vector<double>& values) {
+  std::erase_if(values, [](double v) { return v < 0; });
+  if (values.empty()) return 0;
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
 }  // namespace
 
 double noise_level(std::span<const std::array<double, 3>> points, const Neighbours& neighbours,
                    int threads) {
   check(points, neighbours);
-  std::vector<double> level(points.size(), -1);
+  // Squares: of the deviation among the nearer half and among all, and of their radii in
+  // proportion.
+  std::vector<double> near(points.size(), -1), all = near, wider = near;
   for_blocks(points.size(), block, threads, {}, [&](std::size_t first, std::size_t last) {
     Neighbourhood around;
     for (std::size_t i = first; i < last; ++i) {
       around.set_neighbours(points, neighbours, static_cast<Index>(i));
-      if (around.offset.size() >= fewest && around.radius > 0)
-        level[i] = Quadric(around).deviation() / spacing(around);
+      if (around.offset.size() < fewest + 4 || !(around.radius > 0)) continue;
+      const double unit = spacing(around);
+      const double radius = around.mean_square;
+      all[i] = deviation2(around) / (unit * unit);
+      around.keep_nearest(std::max(fewest, around.offset.size() * 3 / 5));
+      if (!(around.radius > 0)) continue;
+      near[i] = deviation2(around) / (unit * unit);
+      wider[i] = radius / around.mean_square;
     }
   });
-  std::erase(level, -1.0);
-  if (level.empty()) return 0;
-  const auto middle = level.begin() + static_cast<std::ptrdiff_t>(level.size() / 2);
-  std::nth_element(level.begin(), middle, level.end());
-  return *middle;
+  const double variance = median(near), spread = median(all), ratio = median(wider);
+  if (!(variance > 0)) return 0;
+  // Noise is the same at both scales. What a smooth surface has beyond second order grows with the
+  // third power of the radius.
+  const double growth = std::max(ratio * ratio * ratio, 2.0);
+  return std::sqrt(std::max((growth * variance - spread) / (growth - 1), 0.0));
 }
 
 std::vector<std::array<double, 3>> smooth(std::span<const std::array<double, 3>> points,

@@ -14,7 +14,7 @@ namespace plexway {
 struct PairOptions {
   /// Clouds with at least this much noise, in spacings, are smoothed first (see smooth); infinity:
   /// none.
-  double least_noise = .02;
+  double least_noise = .06;
   int threads = 0;  ///< for building; 0: all there are
   /// Called with the share that is done; returning false stops with Cancelled.
   std::function<bool(double share)> progress = {};
@@ -46,8 +46,9 @@ struct PairPlace {
 ///
 /// Its hinges are pairs of neighbours and exist only while they are expanded: the pair (c, a) leads
 /// to every neighbour x of c, on the other side of the line c a than the path came from, for which
-/// |a x| is at most three times the mean distance of c's neighbours. (Without that bound, pairs
-/// grow and distances become straight chords through space: docs/DESIGN.md.)
+/// |a x| is at most three times the mean distance of c's neighbours, less where the surface bends
+/// (down to 1.1 times), and half of it at a boundary. Without that bound pairs grow, and distances
+/// become straight chords through space.
 ///
 /// Points at one place count as one. At places with an angle of more than 126 degrees without
 /// neighbours the cloud has a boundary. Immutable once built, so any number of threads may read it.

@@ -10,9 +10,10 @@
 namespace plexway {
 
 /// How far the points of a cloud are off a smooth surface, as a share of their spacing: the median
-/// of the deviation from the quadric that fits a point's neighbours best. 0 for clean surfaces with
-/// edges and corners as well, if most points lie elsewhere. It follows the noise up to half a
-/// spacing (0.24 for 0.25, 0.46 for 0.5) and reads less beyond it (0.77 for 1).
+/// over the points. From deviations from the quadrics that fit a point's nearer neighbours, and all
+/// of them, best: noise is the same in both, and what grows with the neighbourhood is detail of the
+/// surface. It follows the noise up to a quarter of a spacing and reads less beyond it (0.40 for
+/// 0.5, 0.47 for 1). Scans of real objects read 0 to 0.05; fewer than 12 neighbours read 0.
 ///
 /// Throws InputError as `smooth`. Cost: 2 us a point for 16 neighbours on one thread.
 [[nodiscard]] double noise_level(std::span<const std::array<double, 3>> points,
@@ -21,7 +22,7 @@ namespace plexway {
 struct SmoothOptions {
   /// Clouds with less noise than this (see noise_level) stay as they are, to the last bit. 0 moves
   /// points of any cloud.
-  double least_noise = .02;
+  double least_noise = .06;
   int rounds = 2;
   int threads = 0;  ///< 0: all there are
   /// Called with the share that is done; returning false stops with Cancelled.
@@ -34,8 +35,8 @@ struct SmoothOptions {
 /// surface does not shrink: points of a clean sphere move by 12 spacing^4 / radius^3 on average.
 /// Edges get rounder, by about a spacing, but only in clouds that are noisy.
 ///
-/// On distances: spheres, planes and rolls with noise of 0.25, 0.5 and 1 spacing come to errors of
-/// 0.03 to 0.15, 0.06 to 0.2 and 0.2 to 0.4 % (vertex pairs); docs/DESIGN.md has the table.
+/// It takes detail away as well, if that is no larger than two or three spacings, and may close
+/// thin parts: so it is for clouds whose noise costs more. On distances: docs/DESIGN.md, Noise.
 ///
 /// Neighbours are those of the points as they came, and may serve afterwards, too; one's own across
 /// a gap must not be among them, or the gap closes. Points with fewer than 8 points around stay.
