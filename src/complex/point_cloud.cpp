@@ -9,6 +9,7 @@
 #include <plexway/complex/distinct_points.hpp>
 #include <plexway/error.hpp>
 
+#include "complex/boundary_saddles.hpp"
 #include "complex/cloud_bridges.hpp"
 #include "complex/gluing.hpp"
 #include "complex/tangent_lengths.hpp"
@@ -109,18 +110,6 @@ struct Sheet {
   std::vector<std::array<double, 3>> lengths;  // empty: as in space
 };
 
-std::size_t boundary_places(const SheetWedges& sheet, std::size_t places) {
-  std::size_t count = 0;
-  for (Index p = 0; p < places; ++p) {
-    bool open = false;
-    sheet.around(p, [&](const SheetWedges::Wedge& w) {
-      open = open || sheet.only_triangle(p, w.a) != none || sheet.only_triangle(p, w.b) != none;
-    });
-    count += open;
-  }
-  return count;
-}
-
 void count_parts(const CloudParts& parts, const DistinctPoints& distinct, CloudSummary& summary) {
   std::vector<std::size_t> points(parts.part.size(), 0), places(parts.part.size(), 0);
   std::vector<Index> place(distinct.first.size());
@@ -143,8 +132,7 @@ void count_pairs(const Places& places, std::span<const TangentFrame> frames, con
   for (Index i = 0; i < places.near.point_count(); ++i) {
     spacing += static_cast<double>(frames[i].spacing);
     for (const Index j : places.near.around(i)) {
-      const auto back = places.near.around(j);
-      if (j < i && std::find(back.begin(), back.end(), i) != back.end()) continue;
+      if (j < i) continue;  // lists are symmetric
       ++summary.neighbour_pairs;
       summary.refused_pairs += !same_sheet(places, frames, rule, i, j);
     }
@@ -180,6 +168,7 @@ Sheet make_sheet(Points points, const Neighbours& neighbours, const CloudOptions
   done = 0.6;
   fill_holes(options.widest_circle, sheet);
   trim_boundary(options.widest_boundary_circle, sheet);
+  widen_boundary_saddles(places, frames, sheet);
   const CloudParts parts = bridge_parts(rule, frames, places, sheet);
   if (sheet.triangles().empty()) add_stub(places, sheet);
   if (options.progress && !options.progress(0.7))
@@ -191,7 +180,7 @@ Sheet make_sheet(Points points, const Neighbours& neighbours, const CloudOptions
   count_pairs(places, frames, rule, summary);
   count_parts(parts, distinct, summary);
   summary.mean_spacing /= scale;
-  summary.boundary_points = boundary_places(sheet, n);
+  for (Index p = 0; p < n; ++p) summary.boundary_points += sheet.open(p);
 
   Sheet result;
   for (std::size_t p = n; p < places.at.size(); ++p)

@@ -3,6 +3,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -29,6 +30,7 @@ class SheetWedges {
   void reserve(std::size_t triangles);
   void add(const Triangle& t);
   void remove(Index triangle);
+  [[nodiscard]] std::size_t place_count() const { return head_.size(); }
   [[nodiscard]] bool used(Index place) const { return head_[place] != none; }
   /// Places that came after the constructor.
   void add_place() { head_.push_back(none); }
@@ -37,6 +39,13 @@ class SheetWedges {
   template <class Visit>
   void around(Index place, Visit visit) const {
     for (Index w = head_[place]; w != none; w = wedges_[w].next) visit(wedges_[w]);
+  }
+
+  /// Is a place on the boundary? (On an edge with one triangle.)
+  [[nodiscard]] bool open(Index place) const {
+    std::uint64_t unpaired = 0;  // neighbours that occur twice cancel
+    around(place, [&](const Wedge& w) { unpaired ^= mixed(w.a) ^ mixed(w.b); });
+    return unpaired != 0;
   }
 
   /// The only triangle on an edge, or none if there is no such one.
@@ -49,6 +58,10 @@ class SheetWedges {
   [[nodiscard]] double circle(const Triangle& t) const;
 
  private:
+  static std::uint64_t mixed(Index i) {
+    const std::uint64_t x = (std::uint64_t{i} + 1) * 0x9E3779B97F4A7C15u;
+    return x ^ x >> 29;
+  }
   using Plane = std::array<double, 2>;
   struct Axes {
     Point3 x, y;

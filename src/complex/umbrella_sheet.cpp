@@ -128,16 +128,21 @@ void fill_hole(double widest, SheetWedges& sheet, std::vector<Index>& loop) {
 }  // namespace
 
 void fill_holes(double widest, SheetWedges& sheet) {
-  // Filling turns edges into inner ones, so each triangle of the beginning is looked at once.
-  const std::size_t count = sheet.triangles().size();
+  struct Edge {
+    Index v, w;  // of the triangle that it belongs to: the far end, and the apex
+  };
+  std::vector<Edge> edges;
   std::vector<Index> loop;
-  for (Index f = 0; f < count; ++f) {
-    const Triangle t = sheet.triangles()[f];
-    for (std::size_t i = 0; i < 3; ++i) {
-      const Index u = t[i], v = t[(i + 1) % 3], w = t[(i + 2) % 3];
-      if (sheet.only_triangle(u, v) == none) continue;
-      if (trace_hole(sheet, u, v, w, loop)) fill_hole(widest, sheet, loop);
-    }
+  for (Index u = 0; u < sheet.place_count(); ++u) {
+    if (!sheet.open(u)) continue;
+    edges.clear();
+    sheet.around(u, [&](const SheetWedges::Wedge& w) {
+      edges.push_back({w.a, w.b});
+      edges.push_back({w.b, w.a});
+    });
+    for (const auto [v, w] : edges)  // what fills one hole closes edges of it
+      if (sheet.only_triangle(u, v) != none && trace_hole(sheet, u, v, w, loop))
+        fill_hole(widest, sheet, loop);
   }
 }
 
@@ -150,15 +155,13 @@ void trim_boundary(double widest, SheetWedges& sheet) {
   };
   const auto loose = [&](Index f) { return sheet.circle(sheet.triangles()[f]) > widest; };
   std::vector<Loose> queue;
-  for (Index f = 0; f < sheet.triangles().size(); ++f) {
-    const Triangle& t = sheet.triangles()[f];
-    if (!loose(f)) continue;
-    for (std::size_t i = 0; i < 3; ++i)
-      if (sheet.only_triangle(t[i], t[(i + 1) % 3]) != none) {
-        queue.push_back({f, 1});
-        break;
-      }
-  }
+  for (Index u = 0; u < sheet.place_count(); ++u)
+    if (sheet.open(u))
+      sheet.around(u, [&](const SheetWedges::Wedge& w) {
+        const bool at_rim =
+            sheet.only_triangle(u, w.a) != none || sheet.only_triangle(u, w.b) != none;
+        if (at_rim && loose(w.triangle)) queue.push_back({w.triangle, 1});
+      });
   for (std::size_t head = 0; head < queue.size(); ++head) {
     const auto [f, depth] = queue[head];
     const Triangle t = sheet.triangles()[f];
