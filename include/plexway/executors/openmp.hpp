@@ -1,5 +1,6 @@
 #pragma once
 
+#include <concepts>
 #include <cstddef>
 #include <span>
 
@@ -85,11 +86,8 @@ template <class Domain>
   return propagate(executor, domain, std::span<const PointSource>(&source, 1), options);
 }
 
-/// What needs order needs one thread.
-template <class Domain, class Sources>
-void propagate(const OpenMP&, const Domain&, const Sources&, const NearestFirst&) = delete;
-template <class Domain, class W, class F>
-void propagate(const OpenMP&, const Domain&, std::span<const PointSource>, const NearestFirst&, W&,
-               F&) = delete;
+/// What needs order needs one thread: a type that says so is refused by the compiler.
+template <class Domain, class Sources, std::derived_from<NearestFirst> Options, class... Rest>
+void propagate(const OpenMP&, const Domain&, const Sources&, const Options&, Rest&&...) = delete;
 
 }  // namespace plexway
