@@ -118,7 +118,7 @@ class SolidRule : public SolidPaths<Real> {
     Label label = from;
     label.centre = from.sigma + std::sqrt(straight2);
     front_->accept(u, across & TetAcross::face_mask, label, label.centre, front_->source(t));
-    prefetch(u);
+    if (front_->expands_soon()) prefetch_around(u);
   }
 
   /// A path of length sigma ends at corner i of t; false if t knows a better one.
@@ -229,8 +229,9 @@ class SolidRule : public SolidPaths<Real> {
 
   static constexpr Real tolerance = Real(0.1);
 
-  /// Fetches what the expansion of t will need.
-  [[gnu::always_inline]] void prefetch(Index t) const {
+  /// Fetches what the expansion of t will need, in two steps: t itself, then its neighbours.
+  [[gnu::always_inline]] void prefetch(Index t) const { __builtin_prefetch(&tets_[t]); }
+  [[gnu::always_inline]] void prefetch_around(Index t) const {
     for (const Index across : tets_[t].across) {
       __builtin_prefetch(&tets_[across >> TetAcross::tet_shift]);
       __builtin_prefetch(&front_->label(across >> TetAcross::tet_shift));
@@ -294,7 +295,7 @@ class SolidRule : public SolidPaths<Real> {
     if (!(path.length < known)) return;
     label.centre = path.length;
     front_->accept(u, across & TetAcross::face_mask, label, path.length, front_->source(t));
-    prefetch(u);
+    if (front_->expands_soon()) prefetch_around(u);
   }
 
   /// Is there an edge in t's memory, or at t, that hides q?
