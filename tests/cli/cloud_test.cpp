@@ -184,13 +184,22 @@ TEST_CASE("two clusters: the note names components and a k that connects them") 
   CHECK_THAT(radius.err, Contains("--neighbour-radius"));
 }
 
-TEST_CASE("two parallel sheets closer than the points stay apart with a smaller angle") {
+TEST_CASE("no path leads from one of two close sheets to the other, unless the angle allows it") {
   const Folder folder;
-  const std::string file =
-      folder.write("sheets.xyz", square_points(30, 0) + square_points(30, 0.01, 0.02));
-  const auto info = run_tool({"info", file, "--max-normal-angle", "20", "--json"}).json();
-  CHECK(info["component_sizes"] == nlohmann::json({900, 900}));
-  CHECK(info["refused_pairs"] > 900);
+  for (const double gap : {0.035, 0.05}) {  // the points are 0.034 apart
+    const std::string file =
+        folder.write("sheets.xyz", square_points(30, 0) + square_points(30, 0.01, gap));
+    const auto run = run_tool({"distance", file, "--source", "vertex:450", "-q", "-o", "-"});
+    REQUIRE(run.code == 0);
+    const auto distance = csv_column(run.out, "distance");
+    for (std::size_t i = 0; i < 1800; ++i) CHECK(std::isfinite(distance[i]) == (i < 900));
+    const auto info = run_tool({"info", file, "--json"}).json();
+    CHECK(info["component_sizes"] == nlohmann::json({900, 900}));
+    CHECK(info["refused_pairs"] > 900);
+    const auto any = run_tool({"info", file, "--max-normal-angle", "180", "--json"}).json();
+    CHECK(any["refused_pairs"] < info["refused_pairs"]);
+    CHECK(any["component_sizes"] == nlohmann::json({1800}));
+  }
 }
 
 TEST_CASE("normals of the file are used where they tell inside from outside") {
