@@ -22,10 +22,11 @@ void solve(const PointPairs<Real>& pairs, std::span<const PointSource> sources,
   if constexpr (kLabels) workspace.vertex_source.assign(places, none);
   const Real radius = static_cast<Real>(options.radius / pairs.unit());
   with_queue<Real>(options, workspace.front, [&](auto queue) {
-    Wavefront<Real, decltype(queue), kLabels> wave(
-        workspace.marks, queue, workspace.vertex_source.data(), places, pairs.unit(), options);
+    Wavefront<Real, PairLabel<Real>, decltype(queue), kLabels> wave(
+        workspace.marks, workspace.pairs.reserve(places), queue, workspace.vertex_source.data(),
+        places, pairs.unit(), options);
     PairRule<Real, decltype(wave)> rule(
-        pairs, workspace.pairs.reserve(places), workspace.vertex.data(), wave,
+        pairs, workspace.vertex.data(), wave,
         static_cast<Real>(options.visibility == Visibility::upper_bound ? 0 : 1));
     for (std::size_t n = 0; n < sources.size(); ++n)
       rule.seed(pairs.inside_vertex(sources[n].vertex),

@@ -34,11 +34,10 @@ class PairRule {
 
   /// `distance`: one a place, infinite where unreached. `slack`: how far a line may miss a hinge,
   /// in its length; 0: paths bend at any point.
-  PairRule(const PointPairs<Real>& pairs, Label* labels, Real* distance, Front& front, Real slack)
+  PairRule(const PointPairs<Real>& pairs, Real* distance, Front& front, Real slack)
       : begin_(pairs.begin().data()),
         neighbours_(pairs.neighbours().data()),
         places_(pairs.places().data()),
-        labels_(labels),
         distance_(distance),
         front_(front),
         slack_(slack) {}
@@ -51,8 +50,8 @@ class PairRule {
   }
 
   void expand(Index c) {
-    if (labels_[c].a2 == 0 || labels_[c].b2 == 0) mend(c);
-    const Label label = labels_[c];
+    if (front_.label(c).a2 == 0 || front_.label(c).b2 == 0) mend(c);
+    const Label label = front_.label(c);
     const Index source = front_.source(c);
     Side sides[2];
     int count = 0;
@@ -131,10 +130,10 @@ class PairRule {
       const Index c = neighbours_[k];
       if (!(distance_[c] < here) || front_.source(c) != front_.source(x)) continue;
       const Vector to = between(x, c);
-      seen[count++] = {c, distance_[c] - labels_[c].sigma, labels_[c].sigma, dot(to, to)};
+      seen[count++] = {c, distance_[c] - front_.label(c).sigma, front_.label(c).sigma, dot(to, to)};
     }
     Real best = here - worth_mending;
-    Label label = labels_[x];
+    Label label = front_.label(x);
     for (std::size_t i = 0; i < count; ++i)
       for (std::size_t j = 0; j < i; ++j) {
         if (seen[i].sigma != seen[j].sigma) continue;
@@ -153,7 +152,7 @@ class PairRule {
       }
     if (!(best < here - worth_mending)) return;
     distance_[x] = best;
-    labels_[x] = label;
+    front_.put(x, label);
   }
 
   /// To the neighbours from `first` to `last`. What is asked of each of them is a coin toss, so who
@@ -239,15 +238,13 @@ class PairRule {
 
   void take(Index x, const Label& label, Real distance, Index source) {
     distance_[x] = distance;
-    labels_[x] = label;
     __builtin_prefetch(&neighbours_[begin_[x]]);  // it is expanded soon
-    front_.accept(x, 0, distance, source);
+    front_.accept(x, 0, label, distance, source);
   }
 
   const Index* begin_;
   const Index* neighbours_;
   const PairPlace<Real>* places_;
-  Label* labels_;
   Real* distance_;
   Front& front_;
   Real slack_;
