@@ -47,7 +47,8 @@ TEMPLATE_TEST_CASE("fields has a row for each source, on every domain", "", floa
   MixedComplex<TestType> mixed;
   const auto a = mixed.add(grid(6, 6).mesh<TestType>());
   const auto b = mixed.add(grid(4, 4).mesh<TestType>());
-  mixed.weld(a, b, WeldOptions{});
+  const std::array<Index, 2> pairs[] = {{6, 0}, {13, 5}, {20, 10}};
+  mixed.weld(a, b, std::span<const std::array<Index, 2>>(pairs));
   check_rows(mixed, 4);
 }
 

@@ -45,7 +45,7 @@ struct OpenMP {
 /// nearest label), for less than one thread or an empty chunk; NotBuiltError in a build without
 /// OpenMP. The progress callback is called by the calling thread.
 /// Memory in float, beyond Serial's: 8 bytes a simplex, and 48 (surfaces) to 64 (solids) for each
-/// label that waits; in double 12, and about twice that.
+/// label that waits; in double 16, and about twice that.
 template <class Real>
 void propagate(const OpenMP& executor, const TriangleMesh<Real>& mesh,
                std::span<const PointSource> sources, const PropagateOptions& options,
