@@ -16,19 +16,10 @@ constexpr float select(bool condition, float yes, float no) { return condition ?
 constexpr double select(bool condition, double yes, double no) { return condition ? yes : no; }
 inline float sqrt(float a) { return std::sqrt(a); }
 inline double sqrt(double a) { return std::sqrt(a); }
+inline float abs(float a) { return std::abs(a); }
+inline double abs(double a) { return std::abs(a); }
 
-#if defined(__GNUC__)
-#define HINGE_FN [[nodiscard, gnu::always_inline]] static inline
-#else
-#define HINGE_FN [[nodiscard]] static inline
-#endif
-#define HINGE_COLD [[nodiscard]] static inline
-#define HINGE_CONST static constexpr
-#define HINGE_IN(type) const type&
-// Relative rounding, and a square below which a length counts as zero: small enough for data in
-// any unit, large enough that no quotient by it overflows.
-#define HINGE_EPSILON Real(std::numeric_limits<Real>::epsilon())
-#define HINGE_TINY (Real(std::numeric_limits<Real>::min()) / (HINGE_EPSILON * HINGE_EPSILON))
+#include <plexway/kernel/text_begin.inl>
 
 /// Updates over an intersection of dimension K (0 a vertex, 1 an edge, 2 a triangle, 3 a
 /// tetrahedron) in float, double, or a SIMD type with their operators, numeric_limits and the
@@ -49,11 +40,6 @@ struct HingeKernel {
 #include <plexway/kernel/hinge_kernel.inl>
 };
 
-#undef HINGE_FN
-#undef HINGE_COLD
-#undef HINGE_CONST
-#undef HINGE_IN
-#undef HINGE_EPSILON
-#undef HINGE_TINY
+#include <plexway/kernel/text_end.inl>
 
 }  // namespace plexway::kernel

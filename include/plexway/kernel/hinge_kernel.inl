@@ -15,6 +15,8 @@
 #define HINGE_FN
 #define HINGE_COLD
 #define HINGE_IN(type) const type
+#define HINGE_PRECISE precise
+#define HINGE_INFINITY Real(uintBitsToFloat(0x7f800000u))
 #define select(condition, yes, no) ((condition) ? (yes) : (no))
 #ifndef HINGE_EPSILON
 #define HINGE_EPSILON Real(1.1920929e-7)
