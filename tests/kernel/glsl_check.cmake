@@ -1,20 +1,38 @@
-# Compiles shaders/kernel_check.comp with glslangValidator for every K, in float and double.
+# Compiles every shader with glslangValidator; the kernel's own for every K, in float and double.
 #   cmake -DROOT=<source tree> -DOUT=<scratch folder> -DGLSLANG=<program> -P glsl_check.cmake
-file(READ "${ROOT}/shaders/kernel_check.comp" shader)
-file(READ "${ROOT}/include/plexway/kernel/hinge_kernel.inl" text)
-string(REPLACE "//@include plexway/kernel/hinge_kernel.inl" "${text}" shader "${shader}")
+include("${ROOT}/cmake/ShaderText.cmake")
 file(MAKE_DIRECTORY "${OUT}")
 
-foreach(k RANGE 3)
-  foreach(type FLOAT DOUBLE)
-    set(defines "#version 430\n#define PLEXWAY_K ${k}\n#define PLEXWAY_${type}\n")
-    string(REPLACE "#version 430\n" "${defines}" source "${shader}")
-    set(file "${OUT}/kernel_check_${k}_${type}.comp")
-    file(WRITE "${file}" "${source}")
-    execute_process(COMMAND "${GLSLANG}" "${file}" RESULT_VARIABLE failed OUTPUT_VARIABLE log
-                    ERROR_VARIABLE log)
-    if(failed)
-      message(FATAL_ERROR "K = ${k}, ${type}: not legal GLSL\n${log}")
-    endif()
-  endforeach()
+# One shader with some lines of #define after its #version.
+function(check_shader name text defines what)
+  string(FIND "${text}" "\n" at)
+  math(EXPR at "${at} + 1")
+  string(SUBSTRING "${text}" 0 ${at} version)
+  string(SUBSTRING "${text}" ${at} -1 rest)
+  set(file "${OUT}/${what}.comp")
+  file(WRITE "${file}" "${version}${defines}#line 2 0\n${rest}")
+  execute_process(COMMAND "${GLSLANG}" "${file}" RESULT_VARIABLE failed OUTPUT_VARIABLE log
+                  ERROR_VARIABLE log)
+  if(failed)
+    message(FATAL_ERROR "${what}: not legal GLSL\n${log}")
+  endif()
+endfunction()
+
+file(GLOB shaders RELATIVE "${ROOT}/shaders" "${ROOT}/shaders/*.comp")
+foreach(shader IN LISTS shaders)
+  set(files "")
+  plexway_expand_shader("${ROOT}" "${shader}" text files)
+  string(REPLACE ".comp" "" name "${shader}")
+  if(name STREQUAL "kernel_check")
+    foreach(k RANGE 3)
+      foreach(type FLOAT DOUBLE)
+        check_shader("${shader}" "${text}" "#define PLEXWAY_K ${k}\n#define PLEXWAY_${type}\n"
+          "${name}_${k}_${type}")
+      endforeach()
+    endforeach()
+  else()
+    check_shader("${shader}" "${text}" "" "${name}")
+    check_shader("${shader}" "${text}" "#define PLEXWAY_LABELS\n#define PLEXWAY_REVIVE\n"
+      "${name}_variant")
+  endif()
 endforeach()

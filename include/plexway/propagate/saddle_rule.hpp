@@ -178,7 +178,7 @@ class SaddleRule {
     const bool from_inside = edge != in || p.source.h < 0;
     if (from_inside) p = leave(f, in, edge, pivot);
     SaddleHinge<Real> middle;  // a triangle without area: its apex is the edge's middle
-    middle.length = t.length[edge];
+    middle.extent = t.length[edge];
     middle.apex = {{t.length[edge] / 2}, Real(0)};
     middle.saddle[0] = middle.saddle[1] = false;
     middle.pivot = pivot;
@@ -275,23 +275,15 @@ class SaddleRule {
     const bool left = edge == (in == 0 ? 2 : in - 1);
     pivot = left ? 0 : 1;
     const std::size_t corner = left ? in : edge;
-    const Real cosine = t.cosine[corner], sine = t.sine(corner);
-    for (Point* q : {&p.source, &p.limit[0], &p.limit[1]}) {
-      const Real u = left ? q->x[0] : t.length[in] - q->x[0];
-      const Real along = u * cosine - q->h * sine;
-      q->h = u * sine + q->h * cosine;
-      q->x[0] = left ? along : t.length[edge] - along;
-    }
-    return p;
+    return kernel::SaddleKernel<Real>::turn_label(p, left, t.length[in], t.length[edge],
+                                                  t.cosine[corner], t.sine(corner));
   }
 
   void enter(Index g, std::size_t k, Posed label, bool flip, int pivot, bool last_resort,
              Index source) {
     const TriangleRecord<Real>& t = triangles_[g];
     if (flip) {
-      std::swap(label.limit[0], label.limit[1]);
-      for (Point* q : {&label.source, &label.limit[0], &label.limit[1]})
-        q->x[0] = t.length[k] - q->x[0];
+      label = kernel::SaddleKernel<Real>::mirror_label(label, t.length[k]);
       if (pivot >= 0) pivot = 1 - pivot;
     }
     const Label entered = resolve(label, t, k, pivot, last_resort);
@@ -303,7 +295,7 @@ class SaddleRule {
   [[gnu::noinline]] static Label resolve(Posed label, const TriangleRecord<Real>& t, std::size_t k,
                                          int pivot, bool last_resort) {
     SaddleHinge<Real> hinge;
-    hinge.length = t.length[k];
+    hinge.extent = t.length[k];
     hinge.apex = {{t.apex_x(k)}, t.apex_h(k)};
     hinge.saddle[0] = t.saddle(k);
     hinge.saddle[1] = t.saddle(k == 2 ? 0 : k + 1);

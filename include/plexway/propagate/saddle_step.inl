@@ -20,7 +20,7 @@ struct PosedSaddles {
 
 /// The hinge as the triangle beyond sees it.
 struct SaddleHinge {
-  Real length;
+  Real extent;      // its length
   HingePoint apex;  // of the triangle beyond
   bool saddle[2];   // may paths bend at the left, the right end?
   int pivot;        // 0 or 1: the end shared with the edge the path came in by, or -1 for neither
@@ -46,8 +46,7 @@ HINGE_COLD Real gap(HINGE_IN(HingePoint) a, HINGE_IN(HingePoint) b) {
 
 /// From S, is q (beyond the hinge) to the left of p (on S's side)? Positive if so.
 HINGE_COLD Real left_of(HINGE_IN(HingePoint) S, HINGE_IN(HingePoint) p, HINGE_IN(HingePoint) q) {
-  HINGE_PRECISE Real turn =
-      (p.x[0] - S.x[0]) * (S.h + q.h) - (S.h - p.h) * (q.x[0] - S.x[0]);
+  HINGE_PRECISE Real turn = (p.x[0] - S.x[0]) * (S.h + q.h) - (S.h - p.h) * (q.x[0] - S.x[0]);
   return turn;
 }
 
@@ -105,12 +104,12 @@ HINGE_COLD CrossedHinge cross_hinge(HINGE_IN(PosedSaddles) arriving, HINGE_IN(Sa
                                     bool last_resort) {
   PosedSaddles label = arriving;
   HingePoint first = saddle_point(Real(0), Real(0));
-  HingePoint second = saddle_point(hinge.length, Real(0));
+  HingePoint second = saddle_point(hinge.extent, Real(0));
   CrossedHinge crossed;
   bool dropped = false;
   for (int bends = 0; bends < 3; ++bends) {
     HingePoint S = label.source;
-    if (S.h < -rounding(S, hinge.length) && hinge.pivot >= 0) {
+    if (S.h < -rounding(S, hinge.extent) && hinge.pivot >= 0) {
       // The strip has turned by more than half a circle around the pivot. (An S in the line of the
       // hinge, at the pivot for one, is not behind it.)
       HingePoint limit = label.limit[1];
@@ -130,8 +129,8 @@ HINGE_COLD CrossedHinge cross_hinge(HINGE_IN(PosedSaddles) arriving, HINGE_IN(Sa
       if (!dropped) label = give_up_source(label, pivot);
       break;
     }
-    bool left = hides_hinge(S, label.limit[0], hinge.length, left_of(S, label.limit[0], second));
-    bool right = hides_hinge(S, label.limit[1], hinge.length, -left_of(S, label.limit[1], first));
+    bool left = hides_hinge(S, label.limit[0], hinge.extent, left_of(S, label.limit[0], second));
+    bool right = hides_hinge(S, label.limit[1], hinge.extent, -left_of(S, label.limit[1], first));
     if (!left && !right) break;
     HingePoint limit = label.limit[1];
     if (left) limit = label.limit[0];
@@ -141,10 +140,10 @@ HINGE_COLD CrossedHinge cross_hinge(HINGE_IN(PosedSaddles) arriving, HINGE_IN(Sa
     label.limit[0] = first;
   if (hinge.saddle[1] && !(left_of(label.source, label.limit[1], second) < Real(0)))
     label.limit[1] = second;
-  HingePoint centre = saddle_point((hinge.length + hinge.apex.x[0]) * Real(1. / 3),
-                                   hinge.apex.h * Real(1. / 3));
+  HingePoint centre =
+      saddle_point((hinge.extent + hinge.apex.x[0]) * Real(1. / 3), hinge.apex.h * Real(1. / 3));
   crossed.label = label;
-  crossed.distance = dropped ? HINGE_INFINITY : path_length(label, hinge.length, centre);
+  crossed.distance = dropped ? HINGE_INFINITY : path_length(label, hinge.extent, centre);
   return crossed;
 }
 

@@ -1,0 +1,108 @@
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include <plexway/complex/triangle_mesh.hpp>
+#include <plexway/complex/wireframe.hpp>
+#include <plexway/propagate/distance_field.hpp>
+#include <plexway/propagate/options.hpp>
+#include <plexway/source/point_source.hpp>
+
+/// The component `gl`: link plexway::gl.
+namespace plexway {
+
+/// OpenGL compute shaders, on a graphics processor or on Mesa's software renderer; no window.
+///
+/// A context and the shaders it has compiled are made at first use, once a process and device, and
+/// then kept (some 0.1 to 1 s). Any thread may call; calls on one device take turns, and what
+/// context was current in the thread is so again afterwards.
+///
+/// Everything here throws NotBuiltError, saying what is missing, where the machine has no EGL, no
+/// OpenGL 4.3, or too small a buffer for the domain.
+struct GL {
+  /// Its number in gl_devices(); -1: the first that is not software, or the first.
+  int device = -1;
+  /// Room for so many waiting labels at first; 0: chosen by the domain. It grows when needed.
+  std::size_t queue = 0;
+  /// Bytes on the device that the fields of one launch may take together (`fields`).
+  std::size_t batch_bytes = std::size_t{1} << 30;
+};
+
+/// What EGL offers on this machine.
+struct GLDevice {
+  int number = 0;
+  std::string vendor, renderer, version;
+  bool software = false;           ///< computes on the processor
+  std::size_t largest_buffer = 0;  ///< bytes a shader can see of one buffer
+  std::size_t group_size = 0;      ///< invocations in a work group
+  std::string problem;             ///< why it cannot be used; empty if it can
+};
+
+/// All devices, also those that cannot be used. Throws NotBuiltError if there is no EGL at all.
+[[nodiscard]] std::vector<GLDevice> gl_devices();
+
+/// All that a propagation keeps on the device: the domain, labels, queues. Belongs to one domain
+/// and one thread at a time; the domain is copied to the device when it is first met, so that a
+/// workspace that is kept makes the second solve cheaper. Movable.
+class GLWorkspace {
+ public:
+  GLWorkspace();
+  ~GLWorkspace();
+  GLWorkspace(GLWorkspace&&) noexcept;
+  GLWorkspace& operator=(GLWorkspace&&) noexcept;
+
+  /// Bytes on the device.
+  [[nodiscard]] std::size_t bytes() const;
+  /// How often the queues had to grow during the last solve.
+  [[nodiscard]] std::size_t growths() const;
+  /// Rounds of the last solve: one launch each.
+  [[nodiscard]] std::size_t rounds() const;
+
+  struct Implementation;
+  [[nodiscard]] Implementation& implementation() { return *implementation_; }
+
+ private:
+  std::unique_ptr<Implementation> implementation_;
+};
+
+/// The distance of every vertex from the nearest of `sources`, as by Serial (executors/serial.hpp)
+/// with these differences. Labels wait in no order but near before far, and many are expanded at
+/// once: which of two nearly equal paths a triangle keeps may differ from run to run, and distances
+/// with it by about 1e-5. Numbers are single precision. Only Visibility::saddles and no
+/// Schedule::priority: UsageError. At most 2^30 sources. Progress is
+/// reported every few rounds. The statistics count what was done, which varies.
+/// Source: Trettner, Bommes, Kobbelt: Geodesic Distance Computation via Virtual Source
+/// Propagation, SGP 2021, section 5.
+void propagate(GL, const TriangleMesh<float>& mesh, std::span<const PointSource> sources,
+               const PropagateOptions& options, GLWorkspace& workspace,
+               DistanceField<float>& field);
+
+/// The same along the edges of a wireframe; `vectorised` has no meaning here.
+void propagate(GL, const Wireframe<float>& wireframe, std::span<const PointSource> sources,
+               const PropagateOptions& options, GLWorkspace& workspace,
+               DistanceField<float>& field);
+
+/// The same with a workspace of its own.
+template <class Domain>
+[[nodiscard]] DistanceField<float> propagate(GL executor, const Domain& domain,
+                                             std::span<const PointSource> sources,
+                                             const PropagateOptions& options = {}) {
+  GLWorkspace workspace;
+  DistanceField<float> field;
+  propagate(executor, domain, sources, options, workspace, field);
+  return field;
+}
+
+/// From a single source.
+template <class Domain>
+[[nodiscard]] DistanceField<float> propagate(GL executor, const Domain& domain,
+                                             const PointSource& source,
+                                             const PropagateOptions& options = {}) {
+  return propagate(executor, domain, std::span<const PointSource>(&source, 1), options);
+}
+
+}  // namespace plexway

@@ -1,0 +1,99 @@
+// How a work group reserves room in the queues: its invocations count together, then one of them
+// adds to the queue's end. All invocations of the group call each of these, in step.
+
+layout(local_size_x = PLEXWAY_GROUP) in;
+
+//@include front_control.glsl
+
+layout(std430, binding = 1) coherent buffer Best { uint best[]; };  // bits of the least distance
+
+// Waiting labels: cell and bits of the distance. The rest of a label lies in its own buffer.
+layout(std430, binding = 3) buffer Waiting { uvec2 waiting[]; };
+
+shared uint group_count[2];
+shared uint group_base[2];
+shared uint group_more;
+shared uint group_nearest;
+shared uint group_tally[3];  // expansions, updates, reached
+
+uint invocation() {
+  return (gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x) * uint(PLEXWAY_GROUP) +
+         gl_LocalInvocationID.x;
+}
+
+void in_step() {
+  memoryBarrierShared();
+  barrier();
+}
+
+void start_group() {
+  if (gl_LocalInvocationID.x == 0u) {
+    group_nearest = UNREACHED;
+    for (int i = 0; i < 3; ++i) group_tally[i] = 0u;
+  }
+  in_step();
+}
+
+/// Room for so many near and far labels: places in the near and in the far queue.
+uvec2 reserve(uvec2 wanted) {
+  in_step();
+  if (gl_LocalInvocationID.x == 0u) {
+    group_count[0] = 0u;
+    group_count[1] = 0u;
+  }
+  in_step();
+  uvec2 place = uvec2(0u);
+  if (wanted.x > 0u) place.x = atomicAdd(group_count[0], wanted.x);
+  if (wanted.y > 0u) place.y = atomicAdd(group_count[1], wanted.y);
+  in_step();
+  if (gl_LocalInvocationID.x == 0u) {
+    group_base[0] = 0u;
+    group_base[1] = 0u;
+    if (group_count[0] > 0u)
+      group_base[0] = atomicAdd(control.waiting_in[control.near], group_count[0]);
+    if (group_count[1] > 0u)
+      group_base[1] = atomicAdd(control.waiting_in[control.far], group_count[1]);
+  }
+  in_step();
+  return place + uvec2(group_base[0], group_base[1]);
+}
+
+/// True in all invocations if it is in one. (After a `reserve`, which keeps uses apart.)
+bool any_in_group(bool mine) {
+  if (gl_LocalInvocationID.x == 0u) group_more = 0u;
+  in_step();
+  if (mine) group_more = 1u;
+  in_step();
+  return group_more != 0u;
+}
+
+/// Lowers the least distance of a cell. True if this label is the one that did it, and must wait.
+bool lower(uint cell, uint distance) {
+  uint known = atomicMin(best[cell], distance);
+  if (distance < known) atomicAdd(group_tally[1], 1u);
+  if (distance < known && known == UNREACHED) atomicAdd(group_tally[2], 1u);
+  return distance < known;
+}
+
+/// A far label's distance, so that the limit can jump to the nearest.
+void note_far(uint distance) { atomicMin(group_nearest, distance); }
+void note_expansion() { atomicAdd(group_tally[0], 1u); }
+
+void add_wide(int which, uint amount) {
+  if (which == 0) {
+    uint before = atomicAdd(control.expansions[0], amount);
+    if (before + amount < before) atomicAdd(control.expansions[1], 1u);
+  } else {
+    uint before = atomicAdd(control.updates[0], amount);
+    if (before + amount < before) atomicAdd(control.updates[1], 1u);
+  }
+}
+
+void end_group() {
+  in_step();
+  if (gl_LocalInvocationID.x != 0u) return;
+  if (group_nearest != UNREACHED) atomicMin(control.nearest_far, group_nearest);
+  if (group_tally[0] > 0u) add_wide(0, group_tally[0]);
+  if (group_tally[1] > 0u) add_wide(1, group_tally[1]);
+  if (group_tally[2] > 0u) atomicAdd(control.reached, group_tally[2]);
+}

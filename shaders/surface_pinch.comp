@@ -1,0 +1,94 @@
+#version 430
+// A path may pass a vertex where fans of triangles only touch: it bends there (a hinge of dimension
+// 0). One invocation a pinched vertex of a field. What it offers waits to be accepted
+// (accept.comp).
+
+#define Real float
+const int K = 1;
+
+#ifndef PLEXWAY_GROUP
+#define PLEXWAY_GROUP 64
+#endif
+//@include plexway/kernel/hinge_kernel.inl
+//@include plexway/propagate/saddle_step.inl
+//@include surface.glsl
+//@include front.glsl
+
+layout(std430, binding = 2) readonly buffer Labels { SurfaceLabel labels[]; };
+layout(std430, binding = 4) buffer WaitingLabels { SurfaceLabel waiting_labels[]; };
+layout(std430, binding = 6) readonly buffer Pinches { uint pinches[]; };  // where each begins
+layout(std430, binding = 7) readonly buffer Corners { uint corners[]; };  // 3 f + i
+
+uniform float radius;
+uniform uint pinch_count, fields;
+
+float corner_distance(uint cell, uint f, uint corner) {
+  uint first = labels[cell].h.y & 3u;
+  float hinge = triangles[f].edge[first];
+  HingePoint q = saddle_point(0.0, 0.0);
+  if (corner == edge_after(first)) q.x[0] = hinge;
+  if (corner == edge_before(first)) q = apex_over(f, first);
+  return path_length(unpack(labels[cell]), hinge, q);
+}
+
+/// The centre of triangle f from its corner.
+float centre_distance(uint f, uint corner) {
+  HingePoint apex = apex_over(f, corner);
+  float x = (triangles[f].edge[corner] + apex.x[0]) / 3.0, h = apex.h / 3.0;
+  return sqrt(x * x + h * h);
+}
+
+void main() {
+  start_group();
+  uint number = invocation();
+  bool alive = number < pinch_count * fields;
+  uint field = 0u, begin = 0u, end = 0u, source = 0u;
+  float least = uintBitsToFloat(UNREACHED);
+  if (alive) {
+    field = number / pinch_count * triangle_count;
+    begin = pinches[number % pinch_count];
+    end = pinches[number % pinch_count + 1u];
+  }
+  for (uint n = begin; n < end; ++n) {
+    uint f = corners[n] / 3u;
+    if (best[field + f] == UNREACHED) continue;
+    float d = corner_distance(field + f, f, corners[n] % 3u);
+    if (d < least) {
+      least = d;
+      source = labels[field + f].h.y & ~3u;
+    }
+  }
+  if (!(least < uintBitsToFloat(UNREACHED)) || least > radius) end = begin;
+
+  // Within rounding of its own path a triangle stays with that one; else this would not end.
+  const float epsilon = 1.1920929e-7;
+  uvec2 count = uvec2(0u), place = uvec2(0u);
+  for (int turn = 0; turn < 2; ++turn) {
+    if (turn == 1) place = reserve(count);
+    for (uint n = begin; n < end; ++n) {
+      uint f = corners[n] / 3u, corner = corners[n] % 3u, known = best[field + f];
+      float d = least + centre_distance(f, corner);
+      if (known != UNREACHED) {
+        if (corner_distance(field + f, f, corner) <= least * (1.0 + 64.0 * epsilon)) continue;
+        if (!(d < uintBitsToFloat(known) * (1.0 - 16.0 * epsilon))) continue;
+      }
+      bool near = d < control.limit;
+      if (turn == 0) {
+        if (near) ++count.x; else ++count.y;
+        continue;
+      }
+      uint slot = near ? place.x++ : place.y++;
+      if (slot >= control.capacity) continue;
+      uint at = (near ? control.near : control.far) * control.capacity + slot;
+      waiting[at] = uvec2(field + f, floatBitsToUint(d));
+      PosedSaddles label;
+      label.source = saddle_point(0.0, 0.0);
+      label.limit[0] = label.source;
+      label.limit[1] = label.source;
+      label.sigma = least;
+      waiting_labels[at] = pack(label, source | corner);
+      if (!near) note_far(floatBitsToUint(d));
+    }
+  }
+  end_group();
+}

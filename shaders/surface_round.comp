@@ -1,0 +1,145 @@
+#version 430
+// One round of a propagation over surfaces: every waiting label of the current queue is stored and
+// offered over the two hinges it did not come by, one invocation a hinge. Entries are fat: they
+// carry the label, and a cell keeps no more than its least distance, lowered by an atomic minimum;
+// of all entries for a cell only the one with that very distance is expanded.
+//
+// With PLEXWAY_REVIVE: every reached triangle offers its label to unreached neighbours, taking
+// updates that turn around a vertex where no path bends.
+
+#define Real float
+const int K = 1;
+
+#ifndef PLEXWAY_GROUP
+#define PLEXWAY_GROUP 64
+#endif
+//@include plexway/kernel/hinge_kernel.inl
+//@include plexway/propagate/saddle_step.inl
+//@include surface.glsl
+//@include front.glsl
+
+layout(std430, binding = 2) buffer Labels { SurfaceLabel labels[]; };
+layout(std430, binding = 4) buffer WaitingLabels { SurfaceLabel waiting_labels[]; };
+
+uniform float radius;       // triangles wholly beyond it are not expanded
+uniform uint last_resort;
+uniform uint cells;         // for PLEXWAY_REVIVE: fields times triangles
+
+void main() {
+  start_group();
+  uint side = invocation() & 1u, number = invocation() >> 1;
+  SurfaceLabel label;
+  uint cell = 0u, bits = UNREACHED;
+  bool alive = false, waits_on = false;
+#ifdef PLEXWAY_REVIVE
+  if (number < cells) {
+    cell = number;
+    bits = best[cell];
+    alive = bits != UNREACHED;
+    if (alive) label = labels[cell];
+  }
+#else
+  if (number < control.count) {
+    uint place = control.current * control.capacity + control.begin + number;
+    cell = waiting[place].x;
+    bits = waiting[place].y;
+    alive = cell != NO_CELL && best[cell] == bits;  // else a better label waits elsewhere
+    if (alive) label = waiting_labels[place];
+  }
+  bool later = alive && uintBitsToFloat(bits) >= control.limit;
+  waits_on = later && side == 0u;
+  alive = alive && !later;
+  if (alive && side == 0u) {
+    labels[cell] = label;
+    note_expansion();
+  }
+#endif
+
+  uint f = cell % triangle_count, field = cell - f;
+  uint in_edge = label.h.y & 3u;
+  if (alive) {
+    float distance = uintBitsToFloat(bits);
+    if (distance > radius) {
+      float longest = max(triangles[f].edge[0], max(triangles[f].edge[1], triangles[f].edge[2]));
+      alive = distance - longest <= radius;
+    }
+  }
+  PosedSaddles here;
+  uint cursor = 0u, out_edge = 0u;
+  bool mirrored = false;
+  SaddleHinge hinge;
+  hinge.pivot = int(side);
+  if (alive) {
+    bool left = side == 0u;
+    out_edge = left ? edge_before(in_edge) : edge_after(in_edge);
+    uint corner = left ? in_edge : out_edge;
+    here = turn_label(unpack(label), left, triangles[f].edge[in_edge], triangles[f].edge[out_edge],
+                      triangles[f].cosine[corner], abs(triangles[f].signed_sine[corner]));
+    cursor = triangles[f].across[out_edge];
+    mirrored = (cursor & ACROSS_FLIP) != 0u;
+  }
+
+  // One triangle beyond, or all around an edge that several share.
+  const float gain = 1.0 - 16.0 * 1.1920929e-7;
+  for (bool more = true; more;) {
+    uint g = cursor >> ACROSS_SHIFT, k = cursor & ACROSS_EDGE;
+    alive = alive && g != triangle_count && !(g == f && k == out_edge);
+    bool wanted = false;
+    float distance = 0.0;
+    SurfaceLabel offered;
+    uint target = field + g;
+    if (alive) {
+      PosedSaddles entering = here;
+      hinge.pivot = int(side);
+      hinge.extent = triangles[g].edge[k];
+      if (mirrored) {
+        entering = mirror_label(entering, hinge.extent);
+        hinge.pivot = 1 - hinge.pivot;
+      }
+      hinge.apex = apex_over(g, k);
+      // By the sign bit: the sine itself may be 0.
+      hinge.saddle[0] = (floatBitsToUint(triangles[g].signed_sine[k]) >> 31) != 0u;
+      hinge.saddle[1] = (floatBitsToUint(triangles[g].signed_sine[edge_after(k)]) >> 31) != 0u;
+      CrossedHinge crossed = cross_hinge(entering, hinge, last_resort != 0u);
+      distance = crossed.distance;
+      uint known = best[target];
+      // Around a bend all paths are equally long from both sides: a gain must be more than rounding.
+      wanted = known == UNREACHED ? distance < uintBitsToFloat(UNREACHED)
+                                  : distance < uintBitsToFloat(known) * gain;
+#ifdef PLEXWAY_REVIVE
+      wanted = wanted && known == UNREACHED;
+#endif
+      offered = pack(crossed.label, (label.h.y & ~3u) | k);
+    }
+    bool near = distance < control.limit;
+    if (waits_on) {  // goes on as it is
+      wanted = true;
+      near = false;
+      target = cell;
+      distance = uintBitsToFloat(bits);
+      offered = label;
+    }
+    uvec2 reserved = reserve(uvec2(wanted && near ? 1u : 0u, wanted && !near ? 1u : 0u));
+    uint queue = near ? control.near : control.far;
+    uint slot = near ? reserved.x : reserved.y;
+    if (wanted && slot < control.capacity) {
+      uint place = queue * control.capacity + slot;
+#ifdef PLEXWAY_REVIVE
+      bool waits = true;  // accepted by a pass of its own: no label that this pass reads may be new
+#else
+      bool waits = waits_on || lower(target, floatBitsToUint(distance));
+#endif
+      waiting[place] = uvec2(waits ? target : NO_CELL, floatBitsToUint(distance));
+      waiting_labels[place] = offered;
+      if (waits && !near) note_far(floatBitsToUint(distance));
+    }
+    waits_on = false;
+    alive = alive && (cursor & ACROSS_FAN) != 0u;
+    if (alive) {
+      cursor = triangles[g].across[k];
+      mirrored = mirrored == ((cursor & ACROSS_FLIP) != 0u);
+    }
+    more = any_in_group(alive);
+  }
+  end_group();
+}

@@ -1,0 +1,82 @@
+#version 430
+// One round of a propagation along edges: every waiting label of the current queue is stored and
+// offered to all neighbours of its vertex, one invocation a vertex. The hinge is a vertex, K = 0,
+// where every path bends: what is left of the step is sigma + length (propagate/wire_step.hpp).
+
+#ifndef PLEXWAY_GROUP
+#define PLEXWAY_GROUP 64
+#endif
+//@include front.glsl
+
+layout(std430, binding = 2) buffer Labels { uint labels[]; };  // the source
+layout(std430, binding = 4) buffer WaitingLabels { uint waiting_labels[]; };
+layout(std430, binding = 5) readonly buffer Rows { uint rows[]; };
+layout(std430, binding = 6) readonly buffer Arcs { uvec2 arcs[]; };  // to, bits of the length
+
+uniform uint vertex_count;
+uniform float radius;
+
+void main() {
+  start_group();
+  uint number = invocation();
+  uint cell = 0u, bits = UNREACHED, source = 0u;
+  bool alive = false, waits_on = false;
+  if (number < control.count) {
+    uint place = control.current * control.capacity + control.begin + number;
+    cell = waiting[place].x;
+    bits = waiting[place].y;
+    alive = cell != NO_CELL && best[cell] == bits;
+    if (alive) source = waiting_labels[place];
+  }
+  float sigma = uintBitsToFloat(bits);
+  waits_on = alive && sigma >= control.limit;
+  alive = alive && !waits_on;
+  if (alive) {
+    labels[cell] = source;
+    note_expansion();
+  }
+  alive = alive && sigma <= radius;
+  uint v = 0u, begin = 0u, end = 0u;
+  if (alive) {
+    v = cell % vertex_count;
+    begin = rows[v];
+    end = rows[v + 1u];
+  }
+
+  // Counted, then written: best only falls, so no more is wanted the second time than the first.
+  uvec2 count = uvec2(0u, waits_on ? 1u : 0u);
+  for (uint k = begin; k < end; ++k) {
+    float offer = sigma + uintBitsToFloat(arcs[k].y);
+    if (floatBitsToUint(offer) >= best[cell - v + arcs[k].x]) continue;
+    if (offer < control.limit) ++count.x; else ++count.y;
+  }
+  uvec2 place = reserve(count), last = place + count;
+  if (waits_on && place.y < control.capacity) {
+    uint at = control.far * control.capacity + place.y;
+    waiting[at] = uvec2(cell, bits);
+    waiting_labels[at] = source;
+    note_far(bits);
+  }
+  if (waits_on) ++place.y;
+  for (uint k = begin; k < end; ++k) {
+    uint target = cell - v + arcs[k].x;
+    float offer = sigma + uintBitsToFloat(arcs[k].y);
+    uint distance = floatBitsToUint(offer);
+    if (distance >= best[target]) continue;
+    bool near = offer < control.limit;
+    uint slot = near ? place.x++ : place.y++;
+    // Without room it must not be accepted: the round will be repeated.
+    if (slot >= control.capacity) continue;
+    bool waits = lower(target, distance);
+    uint at = (near ? control.near : control.far) * control.capacity + slot;
+    waiting[at] = uvec2(waits ? target : NO_CELL, distance);
+    waiting_labels[at] = source;
+    if (waits && !near) note_far(distance);
+  }
+  // Places that were not needed after all.
+  for (; place.x < min(last.x, control.capacity); ++place.x)
+    waiting[control.near * control.capacity + place.x].x = NO_CELL;
+  for (; place.y < min(last.y, control.capacity); ++place.y)
+    waiting[control.far * control.capacity + place.y].x = NO_CELL;
+  end_group();
+}

@@ -1,0 +1,73 @@
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <string>
+
+#include <plexway/executors/gl.hpp>
+
+#include "executors/gl/display.hpp"
+
+namespace plexway::gl {
+
+/// What a device's shaders can do at most.
+struct Limits {
+  std::size_t block = 0;       ///< bytes of a storage block
+  std::size_t groups = 0;      ///< work groups in one dimension of a dispatch
+  std::size_t group_size = 0;  ///< invocations in a work group
+  std::size_t blocks = 0;      ///< storage blocks in a compute shader
+};
+
+/// A device's context with the programs compiled so far.
+class Context {
+ public:
+  /// That of device `number` (see GL::device), made at first use and kept until the process ends:
+  /// when statics are destroyed a driver may be gone already.
+  static std::shared_ptr<Context> of(int number);
+  explicit Context(int number);
+
+  [[nodiscard]] const GLDevice& device() const { return device_; }
+  [[nodiscard]] const Limits& limits() const { return limits_; }
+  /// Invocations in a work group of ours.
+  [[nodiscard]] GLuint group() const { return group_; }
+
+ private:
+  friend class Session;
+  GLuint program(const std::string& shader, const std::string& defines);
+
+  NativeContext native_;
+  std::mutex mutex_;
+  GLDevice device_;
+  Limits limits_;
+  GLuint group_ = 64;
+  std::map<std::string, GLuint> programs_;
+};
+
+/// The right to call OpenGL: the context is locked, and current in this thread.
+class Session {
+ public:
+  explicit Session(Context& context)
+      : gl(context.native_.functions()),
+        context_(&context),
+        lock_(context.mutex_),
+        current_(context.native_) {}
+
+  const Functions& gl;
+
+  [[nodiscard]] Context& context() const { return *context_; }
+  [[nodiscard]] const Limits& limits() const { return context_->limits_; }
+  /// The compute program of a shader with some `#define NAME` lines. Compiled once.
+  /// Throws Error with the compiler's message, in the shader's own file and line.
+  [[nodiscard]] GLuint program(const std::string& shader, const std::string& defines = {}) const {
+    return context_->program(shader, defines);
+  }
+
+ private:
+  Context* context_;
+  std::unique_lock<std::mutex> lock_;
+  MakeCurrent current_;
+};
+
+}  // namespace plexway::gl

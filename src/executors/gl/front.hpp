@@ -1,0 +1,100 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <vector>
+
+#include <plexway/complex/ids.hpp>
+#include <plexway/propagate/options.hpp>
+
+#include "executors/gl/buffer.hpp"
+
+namespace plexway::gl {
+
+/// shaders/front_control.glsl says what these mean.
+struct FrontControl {
+  enum State : GLuint { running, done, overflowed, out_of_budget };
+  std::array<GLuint, 4> dispatch{0, 1, 1, 0};
+  GLuint state = running;
+  GLuint current = 0, near = 1, far = 2;
+  GLuint begin = 0, count = 0, total = 0, capacity = 0;
+  std::array<GLuint, 4> waiting_in{};
+  float limit = 0, step = 0;
+  GLuint nearest_far = unreached, reached = 0;
+  std::array<GLuint, 2> expansions{}, updates{}, budget{};
+  GLuint rounds = 0, spare = 0;
+
+  static constexpr GLuint unreached = 0x7f800000u;  // the bits of +inf
+  [[nodiscard]] static std::size_t wide(const std::array<GLuint, 2>& words) {
+    return words[0] | static_cast<std::size_t>(words[1]) << 32;
+  }
+};
+
+/// A waiting label.
+struct Waiting {
+  GLuint cell, distance;  // bits
+};
+
+/// The labels of a propagation and the queues in which they wait, on the device: who may write
+/// where, and round after round until none waits. The rule is a shader of the owner's.
+class Front {
+ public:
+  Front();
+  void release(const Session& session);
+  [[nodiscard]] std::size_t bytes() const;
+
+  /// All `cells` unreached, nothing waits. `label_bytes`: of one label; `room`: for so many waiting
+  /// ones at first.
+  void start(const Session& session, std::size_t cells, std::size_t label_bytes, std::size_t room,
+             double step, std::size_t max_expansions);
+
+  /// Puts labels into the first queue; each is accepted if it is the best of its cell.
+  template <class Label>
+  void seed(const Session& session, std::span<const Waiting> entries,
+            std::span<const Label> labels) {
+    make_room(session, entries.size());
+    waiting_.write(session, entries);
+    waiting_labels_.write(session, labels);
+    begin_with(session, entries.size());
+  }
+
+  /// Calls `add`, a dispatch that puts labels into the near and the far queue, again with more room
+  /// if it found too little; then accepts them. True if there are any.
+  bool add(const Session& session, const std::function<void()>& add);
+
+  /// Rounds of the program `rule`, a work group of which expands `share` labels, until nothing
+  /// waits. `report` gets the state every few rounds. False if the budget is spent: then the labels
+  /// that still wait have been stored, by keep.comp with `keep_defines`.
+  bool spread(const Session& session, GLuint rule, std::size_t share,
+              const std::string& keep_defines,
+              const std::function<void(const FrontControl&)>& report);
+
+  /// Bindings 0 to 4: control, best, labels, waiting, waiting labels.
+  void bind(const Session& session) const;
+  [[nodiscard]] const Buffer& best() const { return best_; }
+  [[nodiscard]] const Buffer& labels() const { return labels_; }
+  [[nodiscard]] const FrontControl& state() const { return state_; }  ///< when it was last read
+  [[nodiscard]] std::size_t growths() const { return growths_; }
+
+ private:
+  void make_room(const Session& session, std::size_t entries);
+  void begin_with(const Session& session, std::size_t entries);
+  void accept(const Session& session, std::size_t first, std::size_t count);
+  void keep(const Session& session, const std::string& defines);
+  void grow(const Session& session);
+  void write_state(const Session& session);
+  void read_state(const Session& session);
+  void advance(const Session& session, std::size_t share);
+
+  Buffer control_, best_, labels_, waiting_, waiting_labels_;
+  FrontControl state_;
+  std::size_t label_bytes_ = 0, growths_ = 0;
+};
+
+/// Dispatches enough work groups for so many invocations and makes what they write visible.
+void dispatch(const Session& session, std::size_t invocations);
+
+}  // namespace plexway::gl

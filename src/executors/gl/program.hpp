@@ -1,0 +1,17 @@
+#pragma once
+
+#include <string>
+
+#include "executors/gl/functions.hpp"
+
+namespace plexway::gl {
+
+/// A compute program from an embedded shader, with `defines` (whole lines) after its #version.
+/// Throws Error with the compiler's message, where files have their names: `saddle_step.inl:12: ...`.
+GLuint compile(const Functions& gl, const std::string& shader, const std::string& defines);
+
+/// The same from any text put together from `files` (see ShaderText::files), for tests.
+GLuint compile_text(const Functions& gl, const std::string& text, const std::string& files,
+                    const std::string& defines);
+
+}  // namespace plexway::gl
