@@ -77,6 +77,7 @@ class SolidPropagation {
     return !front_.share_spent();
   }
 
+ public:
   /// A path may pass a vertex or an edge where tetrahedra only touch: it bends there. True if some
   /// tetrahedron got a better label.
   bool pass_pinches() {
@@ -108,6 +109,7 @@ class SolidPropagation {
     return any;
   }
 
+ private:
   /// Offers that miss a face where no path bends are dropped. Where that leaves a tetrahedron
   /// without a label, or with one much longer than a neighbour's and the way between, they are
   /// taken after all, with a bend on the face.

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include <plexway/complex/tet_mesh.hpp>
 #include <plexway/complex/triangle_mesh.hpp>
 #include <plexway/complex/wireframe.hpp>
 #include <plexway/propagate/distance_field.hpp>
@@ -83,6 +84,14 @@ void propagate(GL, const TriangleMesh<float>& mesh, std::span<const PointSource>
 
 /// The same along the edges of a wireframe; `vectorised` has no meaning here.
 void propagate(GL, const Wireframe<float>& wireframe, std::span<const PointSource> sources,
+               const PropagateOptions& options, GLWorkspace& workspace,
+               DistanceField<float>& field);
+
+/// The same through a solid that has coordinates (executors/serial_solid.hpp); UsageError for one
+/// given by lengths alone. Which reflex edges a label hears of from its neighbours depends on the
+/// order, on one thread as well: around curved obstacles distances differ by about the rule's own
+/// error.
+void propagate(GL, const TetMesh<float>& mesh, std::span<const PointSource> sources,
                const PropagateOptions& options, GLWorkspace& workspace,
                DistanceField<float>& field);
 
