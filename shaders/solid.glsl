@@ -20,10 +20,15 @@
 #define HINGE_INOUT(type) inout type
 #define HINGE_LIKELY(condition) (condition)
 #define HINGE_RARE(condition) (condition)
+#define HINGE_ROLLED(count) ((count) + nothing)
 #define HINGE_EPSILON 1.1920929e-7
 #define HINGE_INFINITY uintBitsToFloat(0x7f800000u)
 
 const uint none = 0xffffffffu;
+
+// 0; as the compiler does not know that, it cannot unroll loops to that many more. Unrolled, the step
+// takes Mesa ten times as long to compile.
+uniform int nothing;
 
 // In the order that C++ has, and not contracted.
 float dot_in_order(vec3 a, vec3 b) {

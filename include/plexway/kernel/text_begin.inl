@@ -24,6 +24,8 @@
 #endif
 #define HINGE_READS const
 #define HINGE_DO static inline
+// The bound of a loop that shader compilers must not unroll.
+#define HINGE_ROLLED(count) (count)
 // Relative rounding, and a square below which a length counts as zero: small enough for data in
 // any unit, large enough that no quotient by it overflows.
 #define HINGE_EPSILON Real(std::numeric_limits<Real>::epsilon())

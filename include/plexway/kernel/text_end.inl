@@ -10,6 +10,7 @@
 #undef HINGE_RARE
 #undef HINGE_READS
 #undef HINGE_DO
+#undef HINGE_ROLLED
 #undef HINGE_EPSILON
 #undef HINGE_TINY
 #undef HINGE_INFINITY

@@ -54,9 +54,12 @@ Reach reach_by(HINGE_IN(Label) label, HINGE_IN(Point) eye, int first, int second
                HINGE_IN(Point) q) HINGE_READS {
   HINGE_IN(Edge) one = reflex_edge(label.limit[first]);
   HINGE_IN(Edge) two = reflex_edge(label.limit[second]);
-  Point c = bend_point(two, bend_point(one, eye, q), q);
-  Point b = bend_point(one, eye, c);
-  c = bend_point(two, b, q);
+  Point b = eye;
+  Point c = q;
+  for (int n = 0; n < HINGE_ROLLED(2); ++n) {
+    b = bend_point(one, eye, c);
+    c = bend_point(two, b, q);
+  }
   Reach there = {c, way_to(label, b) + norm(c - b) + norm(q - c), first};
   return there;
 }
@@ -73,7 +76,7 @@ Reach measure(HINGE_IN(Label) label, HINGE_IN(Point) q, HINGE_IN(Reach) straight
   Crossing crossing[label_limits];
   int dark[label_limits];
   int count = 0;
-  for (int k = 0; k < label_limits && label.limit[k] != none; ++k) {
+  for (int k = 0; k < HINGE_ROLLED(label_limits) && label.limit[k] != none; ++k) {
     HINGE_IN(Edge) e = reflex_edge(label.limit[k]);
     if (hides_point(e, see_edge(e, straight.eye), straight.eye, q, slack, crossing[count]))
       dark[count++] = k;
@@ -81,8 +84,7 @@ Reach measure(HINGE_IN(Label) label, HINGE_IN(Point) q, HINGE_IN(Reach) straight
   if (count == 0) return straight;
   FromEdge before = before_ring(label);
   Reach bent = straight;
-  for (int i = 0; i < label_limits; ++i) {
-    if (i == count) break;
+  for (int i = 0; i < count; ++i) {
     Point b = point_on(reflex_edge(label.limit[dark[i]]), crossing[i].times / crossing[i].sum);
     Real way = reach(label, before, b).extent + norm(q - b);
     if (way > bent.extent || bent.bend < 0) {
@@ -95,13 +97,16 @@ Reach measure(HINGE_IN(Label) label, HINGE_IN(Point) q, HINGE_IN(Reach) straight
   int k = bent.bend;
   // The way to the bend may be hidden itself, or the way on.
   Reach one = bent;
-  for (int j = 0; j < label_limits && label.limit[j] != none; ++j) {
+  for (int j = 0; j < HINGE_ROLLED(label_limits) && label.limit[j] != none; ++j) {
     if (j == k) continue;
-    Reach both = one;
-    if (hides(label.limit[j], straight.eye, one.eye))
-      both = reach_by(label, straight.eye, j, k, q);
-    else if (hides(label.limit[j], one.eye, q))
-      both = reach_by(label, straight.eye, k, j, q);
+    int first = j;
+    int second = k;
+    if (!hides(label.limit[j], straight.eye, one.eye)) {
+      if (!hides(label.limit[j], one.eye, q)) continue;
+      first = k;
+      second = j;
+    }
+    Reach both = reach_by(label, straight.eye, first, second, q);
     if (both.extent > bent.extent) bent = both;
   }
   return bent;

@@ -62,7 +62,7 @@ bool own_hides(HINGE_IN(Label) from, Index t, HINGE_IN(Point) eye, HINGE_IN(Poin
 
 /// In t's memory, or at t?
 bool may_bend(HINGE_IN(Label) from, Index t, HINGE_IN(Point) eye, HINGE_IN(Point) q) HINGE_READS {
-  for (int k = 0; k < label_limits; ++k) {
+  for (int k = 0; k < HINGE_ROLLED(label_limits); ++k) {
     if (from.limit[k] == none) break;
     if (hides(from.limit[k], eye, q)) return true;
   }
@@ -101,13 +101,13 @@ void gather(Index t, Index u, HINGE_INOUT(Label) label, HINGE_IN(Point) q,
       if (entry_is_last(entry)) break;
     }
   if (u != no_tet())
-    for (Index i = 0u; i < 4u; ++i) {
-      Index v = neighbour(u, i);
+    for (int i = 0; i < HINGE_ROLLED(4); ++i) {
+      Index v = neighbour(u, Index(i));
       if (v == t || v == no_tet() || !reached(v)) continue;
       HINGE_IN(Label) other = label_of(v);
       if (other.path == label.path) {
         if (!same_limits(other, label))
-          for (int k = 0; k < label_limits; ++k) {
+          for (int k = 0; k < HINGE_ROLLED(label_limits); ++k) {
             if (other.limit[k] == none) break;
             add_candidate(found, other.limit[k], label.ring);
           }
@@ -183,10 +183,15 @@ void bend_anywhere(HINGE_INOUT(Label) label, HINGE_INOUT(Reach) path, HINGE_IN(P
   Real best = HINGE_INFINITY;
   Point at = a;
   Real walked = Real(0);
-  for (int i = 0; i < 3; ++i) {
-    Point p = i == 0   ? bend_point(a, b, path.eye, q)
-              : i == 1 ? bend_point(b, c, path.eye, q)
-                       : bend_point(c, a, path.eye, q);
+  Point first = a;
+  Point second = b;
+  Point third = c;
+  for (int i = 0; i < HINGE_ROLLED(3); ++i) {
+    Point p = bend_point(first, second, path.eye, q);
+    Point next = second;
+    second = third;
+    third = first;
+    first = next;
     Real w = norm(p - path.eye);
     Real d = w + norm(q - p);
     if (d < best) {
@@ -222,12 +227,16 @@ HINGE_FAST bool offer_bent(HINGE_IN(Label) from, Index t, Index face, Index u, R
   label = from;
   gather(t, u, label, q, path);
   if (label.limit[0] != none || label.ring != from.ring) {
-    Point eye = path.eye;
-    path = measure(label, q, path, known);
-    if (!(path.extent < known)) return false;
-    if (path.bend >= 0 && hides_all(label.limit[path.bend], eye, a, b, c)) {
+    Real within = known;
+    for (int bends = 0; bends < HINGE_ROLLED(2); ++bends) {
+      Point eye = path.eye;
+      path = measure(label, q, path, within);
+      if (bends == 1) break;
+      if (!(path.extent < known)) return false;
+      if (path.bend < 0 || !hides_all(label.limit[path.bend], eye, a, b, c)) break;
       turn(label, path.bend, q);
-      path = measure(label, q, reach(label, q), HINGE_INFINITY);
+      path = reach(label, q);
+      within = HINGE_INFINITY;
     }
   }
   bool same = path.bend < 0 && label.ring == from.ring;
@@ -247,8 +256,7 @@ HINGE_FAST Real corner_reach(HINGE_IN(Label) from, Index t, Index i, Real known)
   if (!any_reflex() || !(straight < known)) return straight;
   Reach simple = reach(from, q);
   if (!(simple.extent < known)) return simple.extent;
-  if (first_reflex(t) == none) return measure(from, q, simple, known).extent;
   Label label = from;
-  gather(t, no_tet(), label, q, simple);
+  if (first_reflex(t) != none) gather(t, no_tet(), label, q, simple);
   return measure(label, q, simple, known).extent;
 }
