@@ -1,101 +1,11 @@
 #include <plexway/executors/serial.hpp>
 
-#include <cmath>
-#include <limits>
-#include <type_traits>
-
-#include <plexway/propagate/plain_rule.hpp>
-#include <plexway/propagate/saddle_rule.hpp>
-
+#include "executors/alone.hpp"
 #include "executors/checks.hpp"
-#include "propagate/finish.hpp"
-#include "propagate/read_out.hpp"
-#include "propagate/triangle_propagation.hpp"
+#include "executors/solve_surface.hpp"
 
 namespace plexway {
 namespace {
-
-// The sources themselves, exactly, and the corners of triangles they lie in.
-template <class Real, bool kLabels>
-void read_out_sources(const TriangleMesh<Real>& mesh, std::span<const PointSource> sources,
-                      Workspace<Real>& workspace) {
-  const auto offer = [&](Index v, double d, std::size_t number) {
-    if (!(static_cast<Real>(d) < workspace.vertex[v]) &&
-        !(kLabels && static_cast<Real>(d) == workspace.vertex[v]))
-      return;
-    workspace.vertex[v] = static_cast<Real>(d);
-    if constexpr (kLabels) workspace.vertex_source[v] = static_cast<Index>(number);
-  };
-  for (std::size_t n = sources.size(); n-- > 0;) {
-    const double sigma = sources[n].offset / mesh.unit();
-    if (sources[n].vertex != none) {
-      offer(mesh.inside_vertex(sources[n].vertex), sigma, n);
-      continue;
-    }
-    const auto [f, turned] = mesh.inside_face(sources[n].simplex);
-    const TriangleRecord<Real>& t = mesh.triangles()[f];
-    std::array<double, 4> b = sources[n].barycentric;
-    if (turned) std::swap(b[1], b[2]);
-    const double px[3] = {0, static_cast<double>(t.length[0]), static_cast<double>(t.apex_x(0))};
-    const double py[3] = {0, 0, static_cast<double>(t.apex_h(0))};
-    const double x = b[1] * px[1] + b[2] * px[2], y = b[2] * py[2];
-    for (std::size_t i = 0; i < 3; ++i)
-      offer(t.corner[i], b[i] == 1 ? sigma : sigma + std::hypot(px[i] - x, py[i] - y), n);
-  }
-}
-
-template <class Real, bool kLabels, class Rule, class Front>
-void solve(const TriangleMesh<Real>& mesh, std::span<const PointSource> sources,
-           const PropagateOptions& options, Workspace<Real>& workspace, const Rule& rule,
-           Front& front, DistanceField<Real>& field) {
-  TrianglePropagation<Real, Rule, Front, kLabels> propagation(mesh, workspace, rule, front,
-                                                              options);
-  for (std::size_t n = 0; n < sources.size(); ++n)
-    propagation.seed(sources[n], static_cast<Index>(n));
-  propagation.run();
-
-  constexpr Real infinity = std::numeric_limits<Real>::infinity();
-  const std::size_t vertices = mesh.vertex_count();
-  workspace.vertex.assign(vertices, infinity);
-  if constexpr (kLabels) workspace.vertex_source.assign(vertices, none);
-  if constexpr (requires { rule.label(0).x; })
-    read_out_apexes<Real, kLabels>(mesh.triangles(), rule, front, workspace);
-  else
-    read_out_corners<Real, kLabels>(mesh.triangles(), rule, front, workspace);
-  read_out_sources<Real, kLabels>(mesh, sources, workspace);
-  if (options.visibility == Visibility::saddles) read_out_edges<Real, kLabels>(mesh, workspace);
-
-  // Without a radius, whole fans are reached or not; so one of its corners tells of a vertex,
-  // unless fans only touch there.
-  const bool bounded = options.radius < infinity || front.out_of_budget();
-  for (Index v = 0; v < vertices; ++v)
-    if (!(workspace.vertex[v] < infinity) && mesh.corner_at(v) != none &&
-        (bounded || !mesh.pinched().empty() || front.reached(mesh.corner_at(v) / 3))) [[unlikely]]
-      read_out_around<Real, kLabels>(mesh, rule, front, v, workspace);
-  finish<Real, kLabels>(mesh, sources, options, front, workspace, field);
-}
-
-template <class Real, bool kLabels, class Queue>
-void with_front(const TriangleMesh<Real>& mesh, std::span<const PointSource> sources,
-                const PropagateOptions& options, Workspace<Real>& workspace, Queue queue,
-                DistanceField<Real>& field) {
-  workspace.start(mesh.face_count(), kLabels);
-  const std::size_t records = mesh.face_count() + 1;
-  const auto front = [&](auto* labels) {
-    return Wavefront<Real, std::remove_pointer_t<decltype(labels)>, Queue, kLabels>(
-        workspace.marks, labels, queue, workspace.source.data(), mesh.face_count(), mesh.unit(),
-        options);
-  };
-  if (options.visibility == Visibility::saddles) {
-    auto wave = front(workspace.saddles.reserve(records));
-    const SaddleRule<Real, decltype(wave)> rule(mesh.triangles(), wave, options.vectorised);
-    solve<Real, kLabels>(mesh, sources, options, workspace, rule, wave, field);
-  } else {
-    auto wave = front(workspace.plain.reserve(records));
-    const PlainRule<Real, decltype(wave)> rule(mesh.triangles(), wave, options.visibility);
-    solve<Real, kLabels>(mesh, sources, options, workspace, rule, wave, field);
-  }
-}
 
 template <class Real, bool kLabels>
 void with_labels(const TriangleMesh<Real>& mesh, std::span<const PointSource> sources,
@@ -103,7 +13,7 @@ void with_labels(const TriangleMesh<Real>& mesh, std::span<const PointSource> so
                  DistanceField<Real>& field) {
   workspace.front.reserve(mesh.face_count());
   with_queue<Real>(options, workspace.front, [&](auto queue) {
-    with_front<Real, kLabels>(mesh, sources, options, workspace, queue, field);
+    surface::solve_with<Real, kLabels>(mesh, sources, options, workspace, queue, Alone{}, field);
   });
 }
 

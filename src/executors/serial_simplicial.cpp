@@ -1,92 +1,19 @@
 #include <plexway/executors/serial_simplicial.hpp>
 
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <limits>
-
-#include <plexway/error.hpp>
-#include <plexway/propagate/simplex_rule.hpp>
-#include <plexway/propagate/wavefront.hpp>
-
-#include "executors/checks.hpp"
-#include "propagate/finish.hpp"
-#include "propagate/simplex_propagation.hpp"
+#include "executors/alone.hpp"
+#include "executors/solve_simplicial.hpp"
 
 namespace plexway {
-namespace {
-
-// The least that the simplices at a vertex offer; then the sources and the corners of simplices
-// they lie in, exactly.
-template <class Real, int N, class Rule, class Front>
-void read_out(const SimplicialComplex<Real, N>& domain, std::span<const PointSource> sources,
-              const Rule& rule, const Front& front, Workspace<Real>& workspace) {
-  workspace.vertex.assign(domain.vertex_count(), std::numeric_limits<Real>::infinity());
-  workspace.vertex_source.assign(domain.vertex_count(), none);
-  const auto offer = [&](Index v, Real d, Index number) {
-    if (!(d < workspace.vertex[v])) return;
-    workspace.vertex[v] = d;
-    workspace.vertex_source[v] = number;
-  };
-  for (Index s = 0; s < domain.simplex_count(); ++s)
-    if (front.reached(s))
-      for (std::size_t i = 0; i <= N; ++i)
-        offer(domain.records()[s].corner[i], rule.corner_distance(s, i), front.source(s));
-  for (std::size_t n = 0; n < sources.size(); ++n) {
-    const double sigma = sources[n].offset / domain.unit();
-    const Index number = static_cast<Index>(n);
-    if (sources[n].vertex != none) {
-      offer(domain.inside_vertex(sources[n].vertex), static_cast<Real>(sigma), number);
-      continue;
-    }
-    const Index s = domain.inside_simplex(sources[n].simplex);
-    const std::array<double, N + 1> b = inside_coordinates(domain, s, sources[n]);
-    const auto d2 = corner_distances2<Real, N>(domain.records()[s], b);
-    for (std::size_t i = 0; i <= N; ++i)
-      offer(domain.records()[s].corner[i],
-            static_cast<Real>(b[i] == 1 ? sigma : sigma + std::sqrt(d2[i])), number);
-  }
-}
-
-template <class Real, int N, class Queue>
-void solve(const SimplicialComplex<Real, N>& domain, std::span<const PointSource> sources,
-           const PropagateOptions& options, Workspace<Real>& workspace, Queue queue,
-           DistanceField<Real>& field) {
-  const std::size_t simplices = domain.simplex_count();
-  workspace.start(simplices, true);
-  using Front = Wavefront<Real, SimplexLabel<Real, N>, Queue, true>;
-  using Rule = PlainSimplexRule<Real, N, Front>;
-  Front front(workspace.marks, workspace.simplex.template reserve<N>(simplices), queue,
-              workspace.source.data(), simplices, domain.unit(), options);
-  const Rule rule(domain.records(), front, options.visibility);
-  SimplexPropagation<Real, N, Rule, Front> propagation(domain, rule, front, options);
-  for (std::size_t n = 0; n < sources.size(); ++n)
-    propagation.seed(sources[n], static_cast<Index>(n));
-  propagation.run();
-  read_out(domain, sources, rule, front, workspace);
-
-  if (sources.size() > 1)
-    finish<Real, true>(domain, sources, options, front, workspace, field);
-  else
-    finish<Real, false>(domain, sources, options, front, workspace, field);
-}
-
-}  // namespace
 
 template <class Real, int N>
 void propagate(Serial, const SimplicialComplex<Real, N>& domain,
                std::span<const PointSource> sources, const PropagateOptions& options,
                Workspace<Real>& workspace, DistanceField<Real>& field) {
-  if (N == 4)
-    for (const PointSource& s : sources)
-      if (s.vertex == none && s.simplex < domain.simplex_count())
-        throw UsageError(
-            "a source in four dimensions must be a vertex: a point of a 4-simplex has "
-            "five coordinates");
-  check(sources, options, {domain.vertex_count(), domain.simplex_count(), "simplex", N + 1});
+  simplicial::check_sources(domain, sources, options);
   workspace.front.reserve(domain.simplex_count());
-  with_queue<Real>(options, workspace.front,
-                   [&](auto queue) { solve(domain, sources, options, workspace, queue, field); });
+  with_queue<Real>(options, workspace.front, [&](auto queue) {
+    simplicial::solve(domain, sources, options, workspace, queue, Alone{}, field);
+  });
 }
 
 #define PLEXWAY_INSTANTIATE(Real, N)                                                               \

@@ -5,15 +5,12 @@
 
 #include <plexway/propagate/wire_step.hpp>
 
+#include "executors/alone.hpp"
 #include "executors/checks.hpp"
 #include "propagate/wire_propagation.hpp"
 
 namespace plexway {
 namespace {
-
-// How often the dual queue may look at each edge before nearest first takes over. Up to here it is
-// the faster of the two: its expansions cost a quarter.
-constexpr std::size_t patience = 4;
 
 template <class Real, class Step, bool kLabels>
 void solve(const Wireframe<Real>& wireframe, std::span<const PointSource> sources,
@@ -38,13 +35,13 @@ void solve(const Wireframe<Real>& wireframe, std::span<const PointSource> source
     DualQueue<Real> front(workspace.front,
                           static_cast<Real>(options.step * wireframe.typical_edge()));
     start(front);
-    if (!propagation.spread(front, patience * wireframe.arcs().size())) {
+    if (!propagation.spread(front, wire_patience * wireframe.arcs().size())) {
       PriorityQueue<Real> nearest_first(workspace.front);
       propagation.hand_over(nearest_first);
       propagation.spread(nearest_first, unlimited);
     }
   }
-  propagation.read_out(sources, field);
+  propagation.read_out(sources, Alone{}, field);
 }
 
 }  // namespace

@@ -26,28 +26,30 @@ void with_queue(const PropagateOptions& options, FrontStorage& storage, Solve so
 
 /// From what was read out, in the numbers and the unit inside, to the caller's: nothing beyond the
 /// radius, +inf where unreached, a source's own offset to the last bit.
-template <class Real, bool kLabels, class Complex, class Front>
+template <class Real, bool kLabels, class Complex, class Front, class Crew>
 void finish(const Complex& complex, std::span<const PointSource> sources,
             const PropagateOptions& options, const Front& front, const Workspace<Real>& workspace,
-            DistanceField<Real>& field) {
+            const Crew& crew, DistanceField<Real>& field) {
   constexpr Real infinity = std::numeric_limits<Real>::infinity();
   const std::span<const Index> inside = complex.vertices_inside();
   const Real unit = static_cast<Real>(complex.unit()), radius = static_cast<Real>(options.radius);
   field.distance.resize(inside.size());
   field.label.resize(kLabels ? inside.size() : 0);
-  for (std::size_t v = 0; v < inside.size(); ++v) {
-    const Real d = workspace.vertex[inside[v]] * unit;
-    const bool in = d <= radius;
-    field.distance[v] = in ? d : infinity;
-    if constexpr (kLabels)
-      field.label[v] = in && d < infinity ? workspace.vertex_source[inside[v]] : none;
-  }
+  crew.over(inside.size(), [&](std::size_t begin, std::size_t end) {
+    for (std::size_t v = begin; v < end; ++v) {
+      const Real d = workspace.vertex[inside[v]] * unit;
+      const bool in = d <= radius;
+      field.distance[v] = in ? d : infinity;
+      if constexpr (kLabels)
+        field.label[v] = in && d < infinity ? workspace.vertex_source[inside[v]] : none;
+    }
+  });
   // An offset survives scaling exactly.
   for (const PointSource& s : sources)
     if (s.vertex != none && s.offset <= options.radius)
       field.distance[s.vertex] = std::min(field.distance[s.vertex], static_cast<Real>(s.offset));
   field.complete = !front.out_of_budget();
-  field.statistics = {front.expansions(), front.updates(), front.reached_count()};
+  field.statistics = front.statistics();
 }
 
 }  // namespace plexway

@@ -95,7 +95,7 @@ class MixedSurface final : public MixedPiece<Real> {
     const std::size_t vertices = mesh_.vertex_count();
     workspace_.vertex.assign(vertices, infinity);
     workspace_.vertex_source.assign(vertices, none);
-    read_out_apexes<Real, true>(mesh_.triangles(), rule_, wave_, workspace_);
+    read_out_triangles<Real, true>(mesh_.triangles(), rule_, wave_, workspace_);
     for (Index v = 0; v < vertices; ++v)
       if (!(workspace_.vertex[v] < infinity))
         read_out_around<Real, true>(mesh_, rule_, wave_, v, workspace_);

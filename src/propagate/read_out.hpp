@@ -55,27 +55,19 @@ struct CornerDistances {
   }
 };
 
-/// Every reached triangle offers its corners distances; vertices keep the
-/// least.
-template <class Real, bool kLabels, class Rule, class Front>
-void read_out_apexes(std::span<const TriangleRecord<Real>> triangles, const Rule& rule,
-                     const Front& front, Workspace<Real>& workspace) {
-  const auto offer = [&](Index v, Real d, Index f) {
-    if constexpr (kLabels) {
-      if (d < workspace.vertex[v])
-        workspace.vertex[v] = d, workspace.vertex_source[v] = front.source(f);
-    } else {
-      workspace.vertex[v] = std::min(workspace.vertex[v], d);
-    }
-  };
+/// Every reached triangle from `begin` to `end` offers its corners distances:
+/// offer(vertex, distance, triangle).
+template <class Real, class Rule, class Front, class Offer>
+[[gnu::always_inline]] inline void offer_apexes(std::span<const TriangleRecord<Real>> triangles,
+                                                const Rule& rule, const Front& front, Index begin,
+                                                Index end, const Offer& offer) {
   const auto one = [&](Index f) {
     for (std::size_t i = 0; i < 3; ++i)
       offer(triangles[f].corner[i], rule.corner_distance(f, i), f);
   };
-  const Index faces = static_cast<Index>(triangles.size() - 1);
   constexpr std::size_t before[3] = {2, 0, 1}, after[3] = {1, 2, 0};
-  Index f = 0;
-  for (; f + 1 < faces; f += 2) {
+  Index f = begin;
+  for (; f + 1 < end; f += 2) {
     if (!front.reached(f) || !front.reached(f + 1)) {
       for (const Index g : {f, f + 1})
         if (front.reached(g)) one(g);
@@ -96,32 +88,54 @@ void read_out_apexes(std::span<const TriangleRecord<Real>> triangles, const Rule
     offer(t.corner[in[1]], found.ends[2], f + 1);
     offer(t.corner[after[in[1]]], found.ends[3], f + 1);
   }
-  if (f < faces && front.reached(f)) one(f);
+  if (f < end && front.reached(f)) one(f);
 }
 
-/// Every corner of every reached triangle offers a distance.
+/// The same for any rule, corner by corner.
+template <class Real, class Rule, class Front, class Offer>
+void offer_corners(std::span<const TriangleRecord<Real>> triangles, const Rule& rule,
+                   const Front& front, Index begin, Index end, const Offer& offer) {
+  for (Index f = begin; f < end; ++f)
+    if (front.reached(f))
+      for (std::size_t i = 0; i < 3; ++i)
+        offer(triangles[f].corner[i], rule.corner_distance(f, i), f);
+}
+
+/// Vertices keep the least distance that triangles offer.
 template <class Real, bool kLabels, class Rule, class Front>
-void read_out_corners(std::span<const TriangleRecord<Real>> triangles, const Rule& rule,
-                      const Front& front, Workspace<Real>& workspace) {
-  for (Index f = 0; f + 1 < triangles.size(); ++f) {
-    if (!front.reached(f)) continue;
-    for (std::size_t i = 0; i < 3; ++i) {
-      const Index v = triangles[f].corner[i];
-      const Real d = rule.corner_distance(f, i);
-      if (!(d < workspace.vertex[v])) continue;
-      workspace.vertex[v] = d;
-      if constexpr (kLabels) workspace.vertex_source[v] = front.source(f);
+void read_out_triangles(std::span<const TriangleRecord<Real>> triangles, const Rule& rule,
+                        const Front& front, Workspace<Real>& workspace) {
+  const auto offer = [&](Index v, Real d, Index f) {
+    if constexpr (kLabels) {
+      if (d < workspace.vertex[v])
+        workspace.vertex[v] = d, workspace.vertex_source[v] = front.source(f);
+    } else {
+      workspace.vertex[v] = std::min(workspace.vertex[v], d);
     }
-  }
+  };
+  const Index faces = static_cast<Index>(triangles.size() - 1);
+  if constexpr (requires { rule.label(0).x; })
+    offer_apexes(triangles, rule, front, 0, faces, offer);
+  else
+    offer_corners(triangles, rule, front, 0, faces, offer);
 }
 
 /// No vertex is farther than a neighbour and the edge between. A triangle keeps one label, the best
 /// for its centre, and now and then, at a corner on a ragged boundary, that one is poor. True if
 /// some vertex got nearer. Cost: one pass, and the surroundings of what it changed.
-template <class Real, bool kLabels>
-bool read_out_edges(const TriangleMesh<Real>& mesh, Workspace<Real>& workspace) {
+///
+/// search(wrong, look) calls look(f) at least for all triangles that wrong(f) names.
+template <class Real, bool kLabels, class Search>
+bool read_out_edges(const TriangleMesh<Real>& mesh, Workspace<Real>& workspace,
+                    const Search& search) {
   const std::span<const TriangleRecord<Real>> triangles = mesh.triangles();
   Real* d = workspace.vertex.data();
+  const auto wrong = [&](std::size_t f) {
+    const TriangleRecord<Real>& t = triangles[f];
+    const Real a = d[t.corner[0]], b = d[t.corner[1]], c = d[t.corner[2]];
+    const Real x = t.length[0], y = t.length[1], z = t.length[2];
+    return !(std::abs(a - b) <= x && std::abs(b - c) <= y && std::abs(c - a) <= z);
+  };
   ChangedVertices changed(workspace.front);
   const auto relax = [&](Index from, Index to, Real length) {
     if (!(d[from] + length < d[to]) || !(d[to] < std::numeric_limits<Real>::infinity())) return;
@@ -132,19 +146,16 @@ bool read_out_edges(const TriangleMesh<Real>& mesh, Workspace<Real>& workspace) 
   bool any = false;
   do {
     changed.clear();
-    for (std::size_t f = 0; f + 1 < triangles.size(); ++f) {
+    search(wrong, [&](std::size_t f) {
+      if (!wrong(f)) [[likely]]
+        return;
       const TriangleRecord<Real>& t = triangles[f];
-      const Real a = d[t.corner[0]], b = d[t.corner[1]], c = d[t.corner[2]];
-      const Real x = t.length[0], y = t.length[1], z = t.length[2];
-      const bool fine = std::abs(a - b) <= x && std::abs(b - c) <= y && std::abs(c - a) <= z;
-      if (fine) [[likely]]
-        continue;
       for (std::size_t i = 0; i < 3; ++i) {
         const Index v = t.corner[i], w = t.corner[edge_after(i)];
         relax(v, w, t.length[i]);
         relax(w, v, t.length[i]);
       }
-    }
+    });
     any |= changed.some();
     for (Index v = 0; changed.pop(v);) {
       mesh.corners_at(v, workspace.corners);
@@ -157,6 +168,13 @@ bool read_out_edges(const TriangleMesh<Real>& mesh, Workspace<Real>& workspace) 
     }
   } while (changed.lost());
   return any;
+}
+
+template <class Real, bool kLabels>
+bool read_out_edges(const TriangleMesh<Real>& mesh, Workspace<Real>& workspace) {
+  return read_out_edges<Real, kLabels>(mesh, workspace, [&](const auto&, const auto& look) {
+    for (std::size_t f = 0; f < mesh.face_count(); ++f) look(f);
+  });
 }
 
 /// A vertex that no triangle offered a distance takes the best path to one of

@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <limits>
 #include <span>
+#include <utility>
 
 #include <plexway/complex/simplicial_complex.hpp>
 #include <plexway/propagate/options.hpp>
@@ -83,13 +84,38 @@ class SimplexPropagation {
   }
 
   void run() {
+    run([&](bool) { spread(); });
+  }
+  /// With another way to expand all that waits.
+  template <class Spread>
+  void run(const Spread& spread_all) {
     do {
-      spread();
+      spread_all(false);
     } while (!front_.out_of_budget() && pass_pinches());
   }
 
+  /// Expands simplices for the front of a thread, in `rounds` that know how many updates were made.
+  template <class Other, class Rounds>
+  [[nodiscard]] auto expander(Other& front, bool, const Rounds& rounds) const {
+    return Expander<Other, Rounds>{*this, rule_.on(front), rounds};
+  }
+  [[nodiscard]] const Rule& rule() const { return rule_; }
+
  private:
   static constexpr Index sides = N + 1;
+
+  template <class Other, class Rounds>
+  struct Expander {
+    const SimplexPropagation& propagation;
+    decltype(std::declval<const Rule&>().on(std::declval<Other&>())) rule;
+    const Rounds& rounds;
+
+    void operator()(Index s) {
+      propagation.limit(rule, rounds.updates());
+      propagation.expand(rule, s);
+    }
+    void ahead(Index s) const { rule.prefetch(s); }
+  };
 
   void seed_vertex(Index vertex, Real sigma, Index number) {
     for (const Index c : domain_.corners_at(vertex))
@@ -100,23 +126,30 @@ class SimplexPropagation {
     const auto distance_of = [&](Index s) { return rule_.distance(s); };
     Index s = 0;
     for (;;) {
-      while (front_.next(s, distance_of)) {
-        if (rule_.distance(s) > radius_) [[unlikely]]
-          if (rule_.distance(s) - longest(s) > radius_) continue;
-        rule_.expand(s);
-      }
+      while (front_.next(s, distance_of)) expand(rule_, s);
       if (!front_.share_spent() || !front_.take_stock(rule_.distance(s))) return;
-      limit();
+      limit(rule_, front_.updates());
     }
+  }
+
+  /// One simplex, as far as the radius allows.
+  template <class OnFront>
+  void expand(OnFront& rule, Index s) const {
+    if (rule.distance(s) > radius_) [[unlikely]]
+      if (rule.distance(s) - longest(s) > radius_) return;
+    rule.expand(s);
   }
 
   /// One or two updates a simplex are usual, ten are many. Lengths that no flat simplices have can
   /// make a path shorter each time around, without end: from 128 updates a simplex on they must
   /// gain more and more.
-  void limit() {
+  template <class OnFront>
+  void limit(OnFront& rule, std::size_t updates) const {
+    if (updates / 128 < domain_.simplex_count()) [[likely]]
+      return;
     const double usual = 128 * static_cast<double>(domain_.simplex_count());
-    const double more = static_cast<double>(front_.updates()) / usual;
-    if (more > 1) rule_.set_patience(std::max(static_cast<Real>(2 - more), Real(1e-20)));
+    const double more = static_cast<double>(updates) / usual;
+    if (more > 1) rule.set_patience(std::max(static_cast<Real>(2 - more), Real(1e-20)));
   }
 
   [[nodiscard]] Real longest(Index s) const {

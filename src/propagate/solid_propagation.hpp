@@ -15,8 +15,7 @@
 
 namespace plexway {
 
-/// One propagation in a solid from seeds to the last label, for any rule, front and executor of one
-/// thread.
+/// One propagation in a solid from seeds to the last label, for any rule and front.
 template <class Real, class Rule, class Front>
 class SolidPropagation {
  public:
@@ -46,16 +45,50 @@ class SolidPropagation {
   }
 
   void run() {
+    run([&](bool last_resort) { spread(last_resort); },
+        [&](const auto& look) {
+          const Index tets = static_cast<Index>(mesh_.tet_count());
+          for (Index t = 0; t < tets; ++t) look(t);
+        });
+  }
+  /// With other ways to expand all that waits, spread(last_resort), and to find what to repair:
+  /// look(t) at least at all tetrahedra that `may_need_repair` names, in order.
+  template <class Spread, class Search>
+  void run(const Spread& spread_all, const Search& search) {
     int repairs = 0;
     do {
-      spread(repairs > 8);
+      spread_all(repairs > 8);
       if (front_.out_of_budget()) return;
-    } while (pass_pinches() || (++repairs < 64 && repair(repairs)));
+    } while (pass_pinches() || (++repairs < 64 && repair(repairs, search)));
+  }
+
+  /// Does t lack a label or know a better one than a neighbour has? For searches.
+  [[nodiscard]] bool may_need_repair(Index t) const {
+    bool any = false;
+    look_at(t, [&](Index, bool) { any = true; });
+    return any;
+  }
+
+  /// Expands tetrahedra for the front of a thread. The rounds that it is part of do not matter.
+  template <class Other, class Rounds>
+  [[nodiscard]] auto expander(Other& front, bool last_resort, const Rounds&) const {
+    return Expander<Other>{*this, rule_.on(front), last_resort};
   }
 
   [[nodiscard]] Rule& rule() { return rule_; }
+  [[nodiscard]] const Rule& rule() const { return rule_; }
 
  private:
+  template <class Other>
+  struct Expander {
+    const SolidPropagation& propagation;
+    decltype(std::declval<const Rule&>().on(std::declval<Other&>())) rule;
+    bool last_resort;
+
+    void operator()(Index t) const { propagation.expand(rule, t, last_resort); }
+    void ahead(Index t) const { rule.prefetch(t); }
+  };
+
   void seed_vertex(Index vertex, Real sigma, Index number) {
     for (const Index c : mesh_.corners_at(vertex)) rule_.seed_corner(c / 4, c % 4, sigma, number);
   }
@@ -69,12 +102,16 @@ class SolidPropagation {
   /// The hot loop, until none waits (true) or the share of the budget is spent.
   bool spread_share(bool last_resort, Index& t) {
     const auto distance_of = [&](Index u) { return rule_.distance(u); };
-    while (front_.next(t, distance_of)) {
-      if (rule_.distance(t) > radius_) [[unlikely]]
-        if (rule_.distance(t) - rule_.size(t) > radius_) continue;
-      rule_.expand(t, last_resort);
-    }
+    while (front_.next(t, distance_of)) expand(rule_, t, last_resort);
     return !front_.share_spent();
+  }
+
+  /// One tetrahedron, as far as the radius allows.
+  template <class OnFront>
+  [[gnu::always_inline]] void expand(const OnFront& rule, Index t, bool last_resort) const {
+    if (rule.distance(t) > radius_) [[unlikely]]
+      if (rule.distance(t) - rule.size(t) > radius_) return;
+    rule.expand(t, last_resort);
   }
 
  public:
@@ -113,33 +150,42 @@ class SolidPropagation {
   /// Offers that miss a face where no path bends are dropped. Where that leaves a tetrahedron
   /// without a label, or with one much longer than a neighbour's and the way between, they are
   /// taken after all, with a bend on the face.
-  bool repair(int round) {
+  template <class Search>
+  bool repair(int round, const Search& search) {
     const std::size_t before = front_.updates();
     std::size_t unreached = 0;
     if (!rule_.drops() && front_.reached_count() == mesh_.tet_count()) return false;
-    const Index tets = static_cast<Index>(mesh_.tet_count());
-    for (Index t = 0; t < tets; ++t) {
-      if (!front_.reached(t)) continue;
-      const Real here = rule_.distance(t);
-      if (here > radius_) continue;
-      for (Index i = 0; i < 4; ++i) {
-        const Index u = tets_[t].across[i] >> TetAcross::tet_shift;
-        if (u == tets) continue;
-        if (front_.reached(u)) {
-          // Not whether it is positive first: nobody can predict that.
-          const Real excess = rule_.distance(u) - here;
-          if (!(excess * std::abs(excess) > rule_.least_way2(t, u))) [[likely]]
-            continue;
-          if (!(excess > rule_.way(t, i))) continue;
-        } else {
-          ++unreached;
-        }
-        rule_.cross(t, i, true);
-      }
-    }
+    search([&](Index t) {
+      look_at(t, [&](Index face, bool reached) {
+        unreached += !reached;
+        rule_.cross(t, face, true);
+      });
+    });
     // The last few are not worth another look at all.
     const std::size_t repaired = front_.updates() - before;
     return repaired > 0 && (unreached > 0 || (round < 4 && repaired > mesh_.tet_count() / 1024));
+  }
+
+  /// Calls found(face, reached) for each face of t whose neighbour there is to repair.
+  template <class Found>
+  [[gnu::always_inline]] void look_at(Index t, const Found& found) const {
+    if (!front_.reached(t)) return;
+    const Index tets = static_cast<Index>(mesh_.tet_count());
+    const Real here = rule_.distance(t);
+    if (here > radius_) return;
+    for (Index i = 0; i < 4; ++i) {
+      const Index u = tets_[t].across[i] >> TetAcross::tet_shift;
+      if (u == tets) continue;
+      const bool reached = front_.reached(u);
+      if (reached) {
+        // Not whether it is positive first: nobody can predict that.
+        const Real excess = rule_.distance(u) - here;
+        if (!(excess * std::abs(excess) > rule_.least_way2(t, u))) [[likely]]
+          continue;
+        if (!(excess > rule_.way(t, i))) continue;
+      }
+      found(i, reached);
+    }
   }
 
   const TetMesh<Real>& mesh_;

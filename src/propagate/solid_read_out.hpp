@@ -69,21 +69,59 @@ void offer_corners(const TetMesh<Real>& mesh, const PointSource& source, const O
     offer(corner[i], b[i] == 1 ? sigma : sigma + std::sqrt(std::max(toward[i] - within, 0.)));
 }
 
+/// The same for the vertices from `begin` to `end`, each from its own tetrahedra: what several
+/// threads can do at once.
+template <class Real, bool kLabels, class Rule, class Front>
+void read_out_around(const TetMesh<Real>& mesh, const Rule& rule, const Front& front, Index begin,
+                     Index end, Workspace<Real>& workspace) {
+  for (Index v = begin; v < end; ++v) {
+    Real best = std::numeric_limits<Real>::infinity();
+    Index best_path = 0, source = none;
+    for (const Index c : mesh.corners_at(v)) {
+      const Index t = c / 4;
+      if (!front.reached(t)) continue;
+      const Index path = rule.path(t);
+      if (best_path == path && path != 0) continue;
+      const Real d = rule.corner_distance(t, c % 4, best);
+      if (!(d < best)) continue;
+      best = d;
+      best_path = path;
+      source = front.source(t);
+    }
+    workspace.vertex[v] = best;
+    if constexpr (kLabels) workspace.vertex_source[v] = source;
+  }
+}
+
 /// No vertex is farther than a neighbour and the edge between. True if some vertex got nearer.
 /// Cost: one pass, and the surroundings of what it changed.
-template <class Real, bool kLabels>
-bool read_out_tet_edges(const TetMesh<Real>& mesh, Workspace<Real>& workspace) {
+///
+/// search(wrong, look) calls look(t) at least for all tetrahedra that wrong(t) names.
+template <class Real, bool kLabels, class Search>
+bool read_out_tet_edges(const TetMesh<Real>& mesh, Workspace<Real>& workspace,
+                        const Search& search) {
   const std::span<const TetRecord<Real>> tets = mesh.tets();
   const std::span<const Vector3<Real>> points = mesh.points();
   const std::span<const std::array<Real, 6>> lengths = mesh.squared_lengths();
   const bool embedded = mesh.embedded();
   Real* d = workspace.vertex.data();
   ChangedVertices changed(workspace.front);
+  const auto squared_length = [&](std::size_t t, Index i, Index j) {
+    const Vector3<Real> e =
+        embedded ? points[tets[t].corner[j]] - points[tets[t].corner[i]] : Vector3<Real>{};
+    return embedded ? dot(e, e) : lengths[t][tet_edge(i, j)];
+  };
+  const auto wrong = [&](std::size_t t) {
+    for (const auto& ends : tet_edge_ends) {
+      const Real rise = d[tets[t].corner[ends[1]]] - d[tets[t].corner[ends[0]]];
+      if (!(rise * rise <= squared_length(t, ends[0], ends[1]))) return true;
+    }
+    return false;
+  };
   const auto relax = [&](std::size_t t, Index i, Index j) {
     // Most need no change, and whichever end is nearer: that cannot be predicted.
     Index v = tets[t].corner[i], w = tets[t].corner[j];
-    const Vector3<Real> e = embedded ? points[w] - points[v] : Vector3<Real>{};
-    const Real length2 = embedded ? dot(e, e) : lengths[t][tet_edge(i, j)];
+    const Real length2 = squared_length(t, i, j);
     const Real rise = d[w] - d[v];
     if (rise * rise <= length2) [[likely]]
       return;
@@ -98,8 +136,9 @@ bool read_out_tet_edges(const TetMesh<Real>& mesh, Workspace<Real>& workspace) {
   bool any = false;
   do {
     changed.clear();
-    for (std::size_t t = 0; t < mesh.tet_count(); ++t)
+    search(wrong, [&](std::size_t t) {
       for (const auto& ends : tet_edge_ends) relax(t, ends[0], ends[1]);
+    });
     any |= changed.some();
     for (Index v = 0; changed.pop(v);)
       for (const Index corner : mesh.corners_at(v))
@@ -107,6 +146,13 @@ bool read_out_tet_edges(const TetMesh<Real>& mesh, Workspace<Real>& workspace) {
           if (j != corner % 4) relax(corner / 4, corner % 4, j);
   } while (changed.lost());
   return any;
+}
+
+template <class Real, bool kLabels>
+bool read_out_tet_edges(const TetMesh<Real>& mesh, Workspace<Real>& workspace) {
+  return read_out_tet_edges<Real, kLabels>(mesh, workspace, [&](const auto&, const auto& look) {
+    for (std::size_t t = 0; t < mesh.tet_count(); ++t) look(t);
+  });
 }
 
 }  // namespace plexway

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <span>
+#include <utility>
 
 #include <plexway/complex/triangle_mesh.hpp>
 #include <plexway/propagate/distance_field.hpp>
@@ -14,8 +15,7 @@
 
 namespace plexway {
 
-/// One propagation over a surface from seeds to the last label, for any rule, front and executor of
-/// one thread.
+/// One propagation over a surface from seeds to the last label, for any rule and front.
 template <class Real, class Rule, class Front, bool kLabels>
 class TrianglePropagation {
  public:
@@ -50,15 +50,41 @@ class TrianglePropagation {
   }
 
   void run() {
+    run([&](bool last_resort) { spread(last_resort); });
+  }
+  /// With another way to expand all that waits: spread(last_resort).
+  template <class Spread>
+  void run(const Spread& spread_all) {
     int revivals = 0;
     do {
-      spread(revivals > 8);
+      spread_all(revivals > 8);
       if (front_.out_of_budget()) return;
       ++revivals;
     } while (pass_pinches() || revive());
   }
 
+  /// Expands triangles for the front of a thread. The rounds that it is part of do not matter.
+  template <class Other, class Rounds>
+  [[nodiscard]] auto expander(Other& front, bool last_resort, const Rounds&) const {
+    return Expander<Other>{*this, front, rule_.on(front), last_resort};
+  }
+  [[nodiscard]] const Rule& rule() const { return rule_; }
+
  private:
+  template <class Other>
+  struct Expander {
+    const TrianglePropagation& propagation;
+    Other& front;
+    decltype(std::declval<const Rule&>().on(std::declval<Other&>())) rule;
+    bool last_resort;
+
+    void operator()(Index f) {
+      propagation.expand(rule, front, f, last_resort,
+                         [this](Index g, std::size_t edge) { rule.cross(g, edge, last_resort); });
+    }
+    void ahead(Index f) const { rule.prefetch(f); }
+  };
+
   void seed_vertex(Index vertex, Real sigma, Index number) {
     mesh_.corners_at(vertex, workspace_.corners);
     for (const Index c : workspace_.corners) rule_.seed_corner(c / 3, c % 3, sigma, number);
@@ -82,19 +108,24 @@ class TrianglePropagation {
       wave = front_;
     };
     const auto distance_of = [&](Index g) { return rule.distance(g); };
-    const Real radius = radius_;
-    while (wave.next(f, distance_of)) {
-      if (rule.distance(f) > radius) [[unlikely]]
-        if (rule.distance(f) - longest(triangles_[f]) > radius) continue;
-      if (last_resort) [[unlikely]] {
-        for (std::size_t e = 0; e < 3; ++e)
-          if (e != wave.hinge(f)) full(f, e);
-        continue;
-      }
-      rule.expand(f, full);
-    }
+    while (wave.next(f, distance_of)) expand(rule, wave, f, last_resort, full);
     front_ = wave;
     return !wave.share_spent();
+  }
+
+  /// One triangle, as far as the radius allows; full(f, edge) is for the rare full rule.
+  template <class OnFront, class AnyFront, class Full>
+  [[gnu::always_inline]] void expand(const OnFront& rule, const AnyFront& front, Index f,
+                                     bool last_resort, const Full& full) const {
+    const Real radius = radius_;
+    if (rule.distance(f) > radius) [[unlikely]]
+      if (rule.distance(f) - longest(triangles_[f]) > radius) return;
+    if (last_resort) [[unlikely]] {
+      for (std::size_t e = 0; e < 3; ++e)
+        if (e != front.hinge(f)) full(f, e);
+      return;
+    }
+    rule.expand(f, full);
   }
 
   static Real longest(const TriangleRecord<Real>& t) {

@@ -16,7 +16,11 @@
 
 namespace plexway {
 
-/// One propagation over a wireframe, for any front of one thread.
+/// How often the dual queue may look at each edge before nearest first takes over. Up to here it is
+/// the faster of the two: its expansions cost a quarter.
+inline constexpr std::size_t wire_patience = 4;
+
+/// One propagation over a wireframe, for any front.
 ///
 /// Labels sit at the hinges, the vertices. A label that waits to be expanded is kept with its sign
 /// turned: what an offer must look up, distance and whether it waits, is then one number.
@@ -123,24 +127,39 @@ class WirePropagation {
       if (std::signbit(label_[v])) front.push(static_cast<Index>(v), -label_[v]);
   }
 
+  /// For other ways to spread: the labels, and what was done to them.
+  [[nodiscard]] Real* labels() const { return label_; }
+  [[nodiscard]] Index* sources() const { return source_; }
+  [[nodiscard]] Real radius() const { return radius_; }
+  void account(const PropagateStatistics& done, bool out_of_budget) {
+    granted_ += done.expansions;
+    updates_ += done.updates;
+    reached_ += done.reached_simplices;
+    out_of_budget_ = out_of_budget;
+  }
+
   [[nodiscard]] bool out_of_budget() const { return out_of_budget_; }
   [[nodiscard]] PropagateStatistics statistics() const {
     return {granted_ - left_, updates_, reached_};
   }
 
-  void read_out(std::span<const PointSource> sources, DistanceField<Real>& field) const {
+  template <class Crew>
+  void read_out(std::span<const PointSource> sources, const Crew& crew,
+                DistanceField<Real>& field) const {
     const std::size_t n = wireframe_.vertex_count();
     field.distance.resize(n);
     field.label.resize(kLabels ? n : 0);
     const Real unit = static_cast<Real>(wireframe_.unit());
     const Real radius = static_cast<Real>(options_.radius);
     const std::span<const Index> inside = wireframe_.vertices_inside();
-    for (std::size_t v = 0; v < n; ++v) {
-      const Real d = std::abs(label_[inside[v]]) * unit;
-      const bool in = d <= radius;
-      field.distance[v] = in ? d : infinity;
-      if constexpr (kLabels) field.label[v] = in && d < infinity ? source_[inside[v]] : none;
-    }
+    crew.over(n, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t v = begin; v < end; ++v) {
+        const Real d = std::abs(label_[inside[v]]) * unit;
+        const bool in = d <= radius;
+        field.distance[v] = in ? d : infinity;
+        if constexpr (kLabels) field.label[v] = in && d < infinity ? source_[inside[v]] : none;
+      }
+    });
     // An offset survives scaling exactly.
     for (const PointSource& s : sources)
       if (s.vertex != none && s.offset <= options_.radius)

@@ -95,6 +95,17 @@ void propagate(GL, const TetMesh<float>& mesh, std::span<const PointSource> sour
                const PropagateOptions& options, GLWorkspace& workspace,
                DistanceField<float>& field);
 
+/// One field a source: distance[k n + v] is the distance of vertex v of n from source k alone.
+/// Many fields are propagated in one launch, as many as batch_bytes hold: what a graphics
+/// processor does best. `max_expansions` counts a field on average. Returns false if it ended a
+/// launch early. UsageError if `distance` has not n times sources.size() numbers.
+bool propagate_each(GL, const TriangleMesh<float>& mesh, std::span<const PointSource> sources,
+                    const PropagateOptions& options, GLWorkspace& workspace,
+                    std::span<float> distance);
+bool propagate_each(GL, const Wireframe<float>& wireframe, std::span<const PointSource> sources,
+                    const PropagateOptions& options, GLWorkspace& workspace,
+                    std::span<float> distance);
+
 /// The same with a workspace of its own.
 template <class Domain>
 [[nodiscard]] DistanceField<float> propagate(GL executor, const Domain& domain,

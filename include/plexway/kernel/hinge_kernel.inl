@@ -8,8 +8,9 @@
 //
 // Two compilers read this, so structs hold plain arrays, results are returned, and loops have fixed
 // trip counts with a triangular bound as an `if` inside. Down to `distance_squared` nothing
-// branches on a Real, so that there Real may be a SIMD type. A shader that includes this text has
-// said `const int K = ...;` and `#define Real float` before.
+// branches on a Real, so that there Real may be a SIMD type. What is HINGE_PRECISE no shader compiler
+// may rearrange or contract: then llvmpipe gives the bits that C++ gives. A shader that includes
+// this text has said `const int K = ...;` and `#define Real float` before.
 #ifndef __cplusplus
 #define HINGE_CONST const
 #define HINGE_FN
@@ -46,16 +47,16 @@ struct HingeStep { bool visible; Real sigma; HingePoint source; };
 /// I posed from its squared edge lengths, in the order (0,1) (0,2) (1,2) (0,3) (1,3) (2,3). For
 /// K > 1 a thin I is best given with an end of its shortest edge as vertex 0.
 HINGE_FN HingePose make_pose(const Real edge2[KE]) {
-  HingePose hinge;
+  HINGE_PRECISE HingePose hinge;
   for (int j = 0; j < KX; ++j)
     hinge.vertex[j] = hinge.axis2[j] = hinge.inverse[j] = hinge.length2[j] = Real(0);
   for (int i = 1; i <= K; ++i) {
     int first = i * (i - 1) / 2;
-    Real rest = edge2[first];  // of edge (0, i), what the earlier axes do not span
+    HINGE_PRECISE Real rest = edge2[first];  // of edge (0, i), what the earlier axes do not span
     for (int j = 0; j < K; ++j) {
       hinge.vertex[i * KX + j] = Real(j == i - 1 ? 1 : 0);
       if (j < i - 1) {
-        Real dot = Real(0.5) * (edge2[first] + hinge.length2[j] - edge2[first + j + 1]);
+        HINGE_PRECISE Real dot = Real(0.5) * (edge2[first] + hinge.length2[j] - edge2[first + j + 1]);
         for (int k = 0; k < K; ++k)
           if (k < j)
             dot -= hinge.axis2[k] * hinge.vertex[(j + 1) * KX + k] * hinge.vertex[i * KX + k];
@@ -74,7 +75,7 @@ HINGE_FN HingePose make_pose(const Real edge2[KE]) {
 
 /// a . b in the metric of the axes. (K = 0 has one axis too, of length 0.)
 HINGE_FN Real inner(HINGE_IN(HingePose) hinge, const Real a[KX], const Real b[KX]) {
-  Real sum = hinge.axis2[0] * a[0] * b[0];
+  HINGE_PRECISE Real sum = hinge.axis2[0] * a[0] * b[0];
   for (int j = 1; j < K; ++j) sum += hinge.axis2[j] * a[j] * b[j];
   return sum;
 }
@@ -82,7 +83,7 @@ HINGE_FN Real inner(HINGE_IN(HingePose) hinge, const Real a[KX], const Real b[KX
 /// Squared distance of the feet of two points.
 HINGE_FN Real feet_squared(HINGE_IN(HingePose) hinge, HINGE_IN(HingePoint) p,
                            HINGE_IN(HingePoint) r) {
-  Real between[KX];
+  HINGE_PRECISE Real between[KX];
   for (int j = 0; j < KX; ++j) between[j] = p.x[j] - r.x[j];
   return inner(hinge, between, between);
 }
@@ -96,9 +97,9 @@ HINGE_FN HingePoint vertex_point(HINGE_IN(HingePose) hinge, int i) {
 
 /// The point at squared distances d2 from the vertices of I. On a degenerate axis its x is 0.
 HINGE_FN HingePoint locate(HINGE_IN(HingePose) hinge, const Real d2[K + 1]) {
-  HingePoint p = vertex_point(hinge, 0);
+  HINGE_PRECISE HingePoint p = vertex_point(hinge, 0);
   for (int i = 0; i < K; ++i) {
-    Real dot = Real(0.5) * (d2[0] - d2[i + 1] + hinge.length2[i]);
+    HINGE_PRECISE Real dot = Real(0.5) * (d2[0] - d2[i + 1] + hinge.length2[i]);
     for (int j = 0; j < K; ++j)
       if (j < i) dot -= hinge.axis2[j] * hinge.vertex[(i + 1) * KX + j] * p.x[j];
     p.x[i] = dot * hinge.inverse[i];
@@ -119,7 +120,7 @@ HINGE_FN HingePoint locate(HINGE_IN(HingePose) hinge, const Real d2[K + 1]) {
 /// it are signs, and those need no division. When both lie in the span it is S's own foot:
 /// "visible" then means that S is in I, which never makes a path too short.
 HINGE_FN HingeCrossing crossing(HINGE_IN(HingePoint) S, HINGE_IN(HingePoint) q) {
-  HingeCrossing c;
+  HINGE_PRECISE HingeCrossing c;
   Real hq = max(q.h, HINGE_TINY);
   for (int j = 0; j < KX; ++j) c.x[j] = S.x[j] * hq + q.x[j] * S.h;
   c.w = S.h + hq;
@@ -127,7 +128,7 @@ HINGE_FN HingeCrossing crossing(HINGE_IN(HingePoint) S, HINGE_IN(HingePoint) q) 
 }
 
 HINGE_FN HingeWeights weights(HINGE_IN(HingePose) hinge, HINGE_IN(HingeCrossing) c) {
-  HingeWeights l;
+  HINGE_PRECISE HingeWeights l;
   l.b[0] = c.w;
   for (int n = 0; n < K; ++n) {
     int i = K - n;
@@ -151,7 +152,7 @@ HINGE_FN Real slack(HINGE_IN(HingePose) hinge, HINGE_IN(HingeCrossing) c, Real t
 /// straight line from S passes first U and then I. What rounding can explain is not positive.
 HINGE_FN Real behind(HINGE_IN(HingePose) hinge, HINGE_IN(HingePoint) S, HINGE_IN(HingePoint) u,
                      Real d2) {
-  Real level = feet_squared(hinge, S, u) + S.h * S.h + u.h * u.h;
+  HINGE_PRECISE Real level = feet_squared(hinge, S, u) + S.h * S.h + u.h * u.h;
   return d2 - level - Real(8) * HINGE_EPSILON * (d2 + level);
 }
 
@@ -159,9 +160,9 @@ HINGE_FN Real behind(HINGE_IN(HingePose) hinge, HINGE_IN(HingePoint) S, HINGE_IN
 /// more than I: h is v's height along q's perpendicular (below 0 if away from q), r2 the rest.
 HINGE_FN HingeOffset offset(HINGE_IN(HingePose) hinge, HINGE_IN(HingePoint) q,
                             HINGE_IN(HingePoint) v, Real qv2) {
-  HingeOffset o;
+  HINGE_PRECISE HingeOffset o;
   o.point = v;
-  Real twice = feet_squared(hinge, v, q) + v.h * v.h + q.h * q.h - qv2;
+  HINGE_PRECISE Real twice = feet_squared(hinge, v, q) + v.h * v.h + q.h * q.h - qv2;
   Real along = Real(0.5) * twice / max(q.h, HINGE_TINY);
   o.point.h = select(q.h > HINGE_TINY, max(-v.h, min(along, v.h)), v.h);
   o.r2 = v.h * v.h - o.point.h * o.point.h;
@@ -171,7 +172,8 @@ HINGE_FN HingeOffset offset(HINGE_IN(HingePose) hinge, HINGE_IN(HingePoint) q,
 /// From the source to a point of T through the span of I; add r2 for an offset point.
 HINGE_FN Real distance_squared(HINGE_IN(HingePose) hinge, HINGE_IN(HingePoint) S,
                                HINGE_IN(HingePoint) v) {
-  return feet_squared(hinge, S, v) + (S.h + v.h) * (S.h + v.h);
+  HINGE_PRECISE Real sum = feet_squared(hinge, S, v) + (S.h + v.h) * (S.h + v.h);
+  return sum;
 }
 
 HINGE_FN bool inside(HINGE_IN(HingePose) hinge, HINGE_IN(HingeCrossing) c, Real tolerance) {
@@ -180,7 +182,7 @@ HINGE_FN bool inside(HINGE_IN(HingePose) hinge, HINGE_IN(HingeCrossing) c, Real 
 
 HINGE_FN HingeBend bend_at(HINGE_IN(HingePose) hinge, HINGE_IN(HingePoint) S,
                            HINGE_IN(HingePoint) q, HINGE_IN(HingePoint) b) {
-  HingeBend bent;
+  HINGE_PRECISE HingeBend bent;
   bent.point = b;
   bent.walked = sqrt(distance_squared(hinge, S, b));
   bent.total = bent.walked + sqrt(distance_squared(hinge, b, q));
@@ -194,9 +196,9 @@ HINGE_FN HingeBend shorter(HINGE_IN(HingeBend) one, HINGE_IN(HingeBend) other) {
 
 /// p seen from the edge (a, b): x[0] runs from 0 at a to 1 at b, h is the distance from its line.
 HINGE_COLD HingePoint about_edge(HINGE_IN(HingePose) hinge, HINGE_IN(HingePoint) p, int a, int b) {
-  Real edge[KX];
-  Real off[KX];
-  HingePoint seen;
+  HINGE_PRECISE Real edge[KX];
+  HINGE_PRECISE Real off[KX];
+  HINGE_PRECISE HingePoint seen;
   for (int j = 0; j < KX; ++j) {
     edge[j] = hinge.vertex[b * KX + j] - hinge.vertex[a * KX + j];
     off[j] = p.x[j] - hinge.vertex[a * KX + j];
@@ -211,9 +213,9 @@ HINGE_COLD HingePoint about_edge(HINGE_IN(HingePose) hinge, HINGE_IN(HingePoint)
 /// p seen from the face of I opposite vertex m: x its foot in that face's span, h the distance.
 HINGE_COLD HingePoint about_face(HINGE_IN(HingePose) hinge, HINGE_IN(HingePoint) p, int m) {
   HingeCrossing c;
-  HingePoint seen = p;
-  Real normal[KX];
-  Real steep = Real(0);  // squared gradient of barycentric coordinate m, which is 0 on the face
+  HINGE_PRECISE HingePoint seen = p;
+  HINGE_PRECISE Real normal[KX];
+  HINGE_PRECISE Real steep = Real(0);  // squared gradient of barycentric coordinate m, which is 0 on the face
   for (int j = 0; j < KX; ++j) {
     for (int k = 0; k < KX; ++k) c.x[k] = Real(k == j ? 1 : 0);
     c.w = Real(0);
@@ -245,7 +247,7 @@ HINGE_COLD HingeBend bend(HINGE_IN(HingePose) hinge, HINGE_IN(HingePoint) S,
       if (K > 1 && i < j) {
         c = crossing(about_edge(hinge, S, i, j), about_edge(hinge, q, i, j));
         Real t = max(Real(0), min(c.x[0] / c.w, Real(1)));
-        HingePoint b = vertex_point(hinge, i);
+        HINGE_PRECISE HingePoint b = vertex_point(hinge, i);
         for (int k = 0; k < K; ++k) b.x[k] += t * (hinge.vertex[j * KX + k] - b.x[k]);
         best = shorter(best, bend_at(hinge, S, q, b));
       }

@@ -50,4 +50,10 @@ struct PropagateOptions {
   bool vectorised = true;
 };
 
+/// Options whose order is known when a program is compiled. Executors without order do not take
+/// them: that is then an error of the compiler, where PropagateOptions would give one at run time.
+struct NearestFirst : PropagateOptions {
+  NearestFirst() { schedule = Schedule::priority; }
+};
+
 }  // namespace plexway

@@ -46,6 +46,8 @@ class PlainRule {
     return PlainRule<Real, Other>({triangles_, sentinel_ + std::size_t{1}}, front, policy_);
   }
 
+  void prefetch(Index) const {}
+
   /// Over one edge, to every triangle there. (A plain step never drops an update: there is no last
   /// resort to take.)
   void cross(Index f, std::size_t side, bool) {

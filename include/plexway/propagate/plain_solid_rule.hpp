@@ -64,6 +64,8 @@ class PlainSolidRule {
       if (i != in) cross(t, i, false);
   }
 
+  void prefetch(Index) const {}
+
   void cross(Index t, Index face, bool) const {
     const Index across = tets_[t].across[face];
     const Index u = across >> TetAcross::tet_shift, apex = across & TetAcross::face_mask;

@@ -96,6 +96,12 @@ class SaddleRule {
     }
   }
 
+  /// Fetches what the expansion of f will need.
+  [[gnu::always_inline]] void prefetch(Index f) const {
+    const TriangleRecord<Real>& t = triangles_[f];
+    prefetch(t, front_.hinge(f));
+  }
+
   /// The full rule over one edge, to every triangle there.
   [[gnu::noinline]] void cross(Index f, std::size_t edge, bool last_resort) {
     int pivot = -1;

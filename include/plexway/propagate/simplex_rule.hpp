@@ -35,8 +35,14 @@ class PlainSimplexRule {
   /// A source's simplex came in by no facet.
   static constexpr std::size_t no_facet = FacetAcross::facet_mask;
 
-  PlainSimplexRule(std::span<const Record> records, Front& front, Visibility policy)
-      : records_(records.data()), front_(front), to_apex_(policy == Visibility::upper_bound) {}
+  PlainSimplexRule(const Record* records, Front& front, Visibility policy)
+      : records_(records), front_(front), to_apex_(policy == Visibility::upper_bound) {}
+
+  /// The same rule on the front of another executor.
+  template <class Other>
+  [[nodiscard]] PlainSimplexRule<Real, N, Other> on(Other& front) const {
+    return {records_, front, to_apex_ ? Visibility::upper_bound : Visibility::centroid};
+  }
 
   [[nodiscard]] Real distance(Index s) const { return front_.label(s).centre; }
   [[nodiscard]] Real distance_or_inf(Index s) const {
@@ -49,6 +55,9 @@ class PlainSimplexRule {
   /// An update counts if the centre is nearer than this share of its distance. 1 but where lengths
   /// of no flat simplices would have it go on for ever.
   void set_patience(Real share) { patience_ = share; }
+
+  /// Fetches what the expansion of s will need.
+  void prefetch(Index s) const { prefetch(records_[s]); }
 
   /// Offers to all neighbours but the one the path came from.
   void expand(Index s) {
@@ -111,7 +120,6 @@ class PlainSimplexRule {
     return true;
   }
 
-  /// What a simplex that now waits will offer to.
   void prefetch(const Record& t) const {
     for (const Index across : t.across) {
       const Index a = across == none ? 0 : across >> FacetAcross::simplex_shift;

@@ -209,6 +209,14 @@ class SolidRule : public SolidPaths<Real> {
     return enter(t, face, label, reach(label, tets_[t].centre).extent, source);
   }
 
+  /// Fetches what the expansion of t will need.
+  [[gnu::always_inline]] void prefetch(Index t) const {
+    for (const Index across : tets_[t].across) {
+      __builtin_prefetch(&tets_[across >> TetAcross::tet_shift]);
+      __builtin_prefetch(&front_->label(across >> TetAcross::tet_shift));
+    }
+  }
+
  private:
   template <class, class>
   friend class SolidRule;
@@ -279,13 +287,6 @@ class SolidRule : public SolidPaths<Real> {
   [[gnu::always_inline]] const Label& label_of(Index t) const { return front_->label(t); }
   [[gnu::always_inline]] static bool same_limits(const Label& a, const Label& b) {
     return std::memcmp(a.limit, b.limit, sizeof a.limit) == 0;
-  }
-
-  [[gnu::always_inline]] void prefetch(Index t) const {
-    for (const Index across : tets_[t].across) {
-      __builtin_prefetch(&tets_[across >> TetAcross::tet_shift]);
-      __builtin_prefetch(&front_->label(across >> TetAcross::tet_shift));
-    }
   }
 
   const TetMesh<Real>* mesh_;

@@ -4,6 +4,7 @@
 #include <functional>
 
 #include <plexway/error.hpp>
+#include <plexway/propagate/distance_field.hpp>
 #include <plexway/propagate/front.hpp>
 #include <plexway/propagate/options.hpp>
 #include <plexway/propagate/visit_marks.hpp>
@@ -19,9 +20,11 @@ namespace plexway {
 ///   reached(s)
 ///   accept(s, hinge, label, distance, source)  an offer that beats what s knows: where it is kept,
 ///     how the least of several is taken, and how s comes to wait
-template <class Real, class Label, class Queue, bool kLabels>
+template <class Real, class SimplexLabel, class Queue, bool kLabels>
 class Wavefront {
  public:
+  using Label = SimplexLabel;
+
   /// `labels` and `source` have room for a sentinel behind the simplices.
   Wavefront(VisitMarks& marks, Label* labels, Queue queue, Index* source, std::size_t simplices,
             double unit, const PropagateOptions& options)
@@ -40,6 +43,7 @@ class Wavefront {
   }
 
   [[nodiscard, gnu::always_inline]] const Label& label(Index s) const { return labels_[s]; }
+  [[nodiscard]] Label* labels() const { return labels_; }
   /// Changes a label and nothing else.
   void put(Index s, const Label& label) { labels_[s] = label; }
 
@@ -74,6 +78,26 @@ class Wavefront {
     --countdown_;
     mark_[s] = static_cast<VisitMarks::Mark>(mark_[s] & ~VisitMarks::waiting);
     return true;
+  }
+
+  /// Calls take(simplex) for each that waits; none waits then.
+  template <class Take>
+  void drain(const Take& take) {
+    const auto first_of_all = [](Index) { return Real(0); };
+    for (Index s = 0; queue_.pop(s, first_of_all);) {
+      mark_[s] = static_cast<VisitMarks::Mark>(mark_[s] & ~VisitMarks::waiting);
+      take(s);
+    }
+  }
+  /// What others did to labels and marks.
+  void account(const PropagateStatistics& done, bool out_of_budget) {
+    granted_ += done.expansions;
+    updates_ += done.updates;
+    reached_ += done.reached_simplices;
+    out_of_budget_ = out_of_budget;
+  }
+  [[nodiscard]] PropagateStatistics statistics() const {
+    return {expansions(), updates_, reached_};
   }
 
   [[nodiscard]] bool share_spent() const { return countdown_ == 0; }

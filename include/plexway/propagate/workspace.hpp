@@ -8,6 +8,7 @@
 #include <plexway/propagate/label_storage.hpp>
 #include <plexway/propagate/plain_label.hpp>
 #include <plexway/propagate/plain_solid_label.hpp>
+#include <plexway/propagate/room.hpp>
 #include <plexway/propagate/saddle_label.hpp>
 #include <plexway/propagate/simplex_label.hpp>
 #include <plexway/propagate/solid_label.hpp>
@@ -27,6 +28,7 @@ struct Workspace {
   SimplexLabels<Real> simplex;                       ///< SimplicialComplex
   std::vector<Index> source;  ///< nearest source a simplex; empty for one source
   FrontStorage front;
+  TeamRooms team;                    ///< for executors with several threads
   std::vector<Real> vertex;          ///< read-out, in the numbers inside
   std::vector<Index> vertex_source;  ///< its labels
   std::vector<Index> vertex_path;    ///< in solids: how the path came
@@ -47,7 +49,7 @@ struct Workspace {
            plain.count * sizeof(PlainLabel<Real>) + solids.count * sizeof(SolidLabel<Real>) +
            plain_solids.count * sizeof(PlainSolidLabel<Real>) + simplex.bytes() + of(source) +
            of(vertex) + of(vertex_source) + of(vertex_path) + of(corners) +
-           front.capacity * 2 * sizeof(Index) + of(front.heap);
+           front.capacity * 2 * sizeof(Index) + of(front.heap) + team.bytes();
   }
 };
 

@@ -28,7 +28,8 @@ class Buffer {
     if (name_ != 0 && bytes_ >= bytes) return;
     release(session);
     check(session, bytes);
-    while (session.gl.GetError() != GL_NO_ERROR) {}
+    while (session.gl.GetError() != GL_NO_ERROR) {
+    }
     session.gl.GenBuffers(1, &name_);
     session.gl.BindBuffer(GL_SHADER_STORAGE_BUFFER, name_);
     const std::size_t wanted = bytes < 16 ? 16 : bytes;

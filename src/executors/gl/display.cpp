@@ -38,8 +38,7 @@ std::string egl_error() {
 Display open(EGLenum platform, void* native, bool software) {
   Display d;
   d.software = software;
-  const auto get_display =
-      find<PFNEGLGETPLATFORMDISPLAYEXTPROC>("eglGetPlatformDisplayEXT");
+  const auto get_display = find<PFNEGLGETPLATFORMDISPLAYEXTPROC>("eglGetPlatformDisplayEXT");
   d.display = get_display(platform, native, nullptr);
   EGLint major = 0, minor = 0;
   if (d.display == EGL_NO_DISPLAY || eglInitialize(d.display, &major, &minor) != EGL_TRUE) {
@@ -95,8 +94,12 @@ NativeContext::NativeContext(const Display& display)
   const EGLenum before = eglQueryAPI();
   if (eglBindAPI(EGL_OPENGL_API) != EGL_TRUE)
     throw NotBuiltError("EGL offers no OpenGL there, only OpenGL ES");
-  const EGLint wanted[] = {EGL_CONTEXT_MAJOR_VERSION, 4, EGL_CONTEXT_MINOR_VERSION, 3,
-                           EGL_CONTEXT_OPENGL_PROFILE_MASK, EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT,
+  const EGLint wanted[] = {EGL_CONTEXT_MAJOR_VERSION,
+                           4,
+                           EGL_CONTEXT_MINOR_VERSION,
+                           3,
+                           EGL_CONTEXT_OPENGL_PROFILE_MASK,
+                           EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT,
                            EGL_NONE};
   context_ = eglCreateContext(display_, EGL_NO_CONFIG_KHR, EGL_NO_CONTEXT, wanted);
   const std::string error = context_ == EGL_NO_CONTEXT ? egl_error() : "";
@@ -115,7 +118,7 @@ NativeContext::~NativeContext() { eglDestroyContext(display_, context_); }
 
 void NativeContext::load() {
   const MakeCurrent current(*this);
-#define PLEXWAY_GL_LOAD(upper, name)                    \
+#define PLEXWAY_GL_LOAD(upper, name)                      \
   functions_.name = find<PFNGL##upper##PROC>("gl" #name); \
   if (functions_.name == nullptr) throw NotBuiltError("its driver lacks gl" #name);
   PLEXWAY_GL_FUNCTIONS(PLEXWAY_GL_LOAD)

@@ -4,45 +4,45 @@
 
 /// The OpenGL functions we call: exactly these, found through EGL, since what libGL exports differs
 /// from vendor to vendor.
-#define PLEXWAY_GL_FUNCTIONS(F)                          \
-  F(ATTACHSHADER, AttachShader)                          \
-  F(BINDBUFFER, BindBuffer)                              \
-  F(BINDBUFFERBASE, BindBufferBase)                      \
-  F(BUFFERDATA, BufferData)                              \
-  F(BUFFERSUBDATA, BufferSubData)                        \
-  F(CLEARBUFFERDATA, ClearBufferData)                    \
-  F(CLEARBUFFERSUBDATA, ClearBufferSubData)              \
-  F(CLIENTWAITSYNC, ClientWaitSync)                      \
-  F(COMPILESHADER, CompileShader)                        \
-  F(COPYBUFFERSUBDATA, CopyBufferSubData)                \
-  F(CREATEPROGRAM, CreateProgram)                        \
-  F(CREATESHADER, CreateShader)                          \
-  F(DELETEBUFFERS, DeleteBuffers)                        \
-  F(DELETEPROGRAM, DeleteProgram)                        \
-  F(DELETESHADER, DeleteShader)                          \
-  F(DELETESYNC, DeleteSync)                              \
-  F(DISPATCHCOMPUTE, DispatchCompute)                    \
-  F(DISPATCHCOMPUTEINDIRECT, DispatchComputeIndirect)    \
-  F(FENCESYNC, FenceSync)                                \
-  F(FINISH, Finish)                                      \
-  F(FLUSH, Flush)                                        \
-  F(GENBUFFERS, GenBuffers)                              \
-  F(GETBUFFERSUBDATA, GetBufferSubData)                  \
-  F(GETERROR, GetError)                                  \
-  F(GETINTEGER64V, GetInteger64v)                        \
-  F(GETINTEGERI_V, GetIntegeri_v)                        \
-  F(GETINTEGERV, GetIntegerv)                            \
-  F(GETPROGRAMINFOLOG, GetProgramInfoLog)                \
-  F(GETPROGRAMIV, GetProgramiv)                          \
-  F(GETSHADERINFOLOG, GetShaderInfoLog)                  \
-  F(GETSHADERIV, GetShaderiv)                            \
-  F(GETSTRING, GetString)                                \
-  F(GETUNIFORMLOCATION, GetUniformLocation)              \
-  F(LINKPROGRAM, LinkProgram)                            \
-  F(MEMORYBARRIER, MemoryBarrier)                        \
-  F(PROGRAMUNIFORM1F, ProgramUniform1f)                  \
-  F(PROGRAMUNIFORM1UI, ProgramUniform1ui)                \
-  F(SHADERSOURCE, ShaderSource)                          \
+#define PLEXWAY_GL_FUNCTIONS(F)                       \
+  F(ATTACHSHADER, AttachShader)                       \
+  F(BINDBUFFER, BindBuffer)                           \
+  F(BINDBUFFERBASE, BindBufferBase)                   \
+  F(BUFFERDATA, BufferData)                           \
+  F(BUFFERSUBDATA, BufferSubData)                     \
+  F(CLEARBUFFERDATA, ClearBufferData)                 \
+  F(CLEARBUFFERSUBDATA, ClearBufferSubData)           \
+  F(CLIENTWAITSYNC, ClientWaitSync)                   \
+  F(COMPILESHADER, CompileShader)                     \
+  F(COPYBUFFERSUBDATA, CopyBufferSubData)             \
+  F(CREATEPROGRAM, CreateProgram)                     \
+  F(CREATESHADER, CreateShader)                       \
+  F(DELETEBUFFERS, DeleteBuffers)                     \
+  F(DELETEPROGRAM, DeleteProgram)                     \
+  F(DELETESHADER, DeleteShader)                       \
+  F(DELETESYNC, DeleteSync)                           \
+  F(DISPATCHCOMPUTE, DispatchCompute)                 \
+  F(DISPATCHCOMPUTEINDIRECT, DispatchComputeIndirect) \
+  F(FENCESYNC, FenceSync)                             \
+  F(FINISH, Finish)                                   \
+  F(FLUSH, Flush)                                     \
+  F(GENBUFFERS, GenBuffers)                           \
+  F(GETBUFFERSUBDATA, GetBufferSubData)               \
+  F(GETERROR, GetError)                               \
+  F(GETINTEGER64V, GetInteger64v)                     \
+  F(GETINTEGERI_V, GetIntegeri_v)                     \
+  F(GETINTEGERV, GetIntegerv)                         \
+  F(GETPROGRAMINFOLOG, GetProgramInfoLog)             \
+  F(GETPROGRAMIV, GetProgramiv)                       \
+  F(GETSHADERINFOLOG, GetShaderInfoLog)               \
+  F(GETSHADERIV, GetShaderiv)                         \
+  F(GETSTRING, GetString)                             \
+  F(GETUNIFORMLOCATION, GetUniformLocation)           \
+  F(LINKPROGRAM, LinkProgram)                         \
+  F(MEMORYBARRIER, MemoryBarrier)                     \
+  F(PROGRAMUNIFORM1F, ProgramUniform1f)               \
+  F(PROGRAMUNIFORM1UI, ProgramUniform1ui)             \
+  F(SHADERSOURCE, ShaderSource)                       \
   F(USEPROGRAM, UseProgram)
 
 /// In 4.4 and later, or by ARB_buffer_storage; null where missing.

@@ -7,7 +7,8 @@
 namespace plexway::gl {
 
 /// A compute program from an embedded shader, with `defines` (whole lines) after its #version.
-/// Throws Error with the compiler's message, where files have their names: `saddle_step.inl:12: ...`.
+/// Throws Error with the compiler's message, where files have their names: `saddle_step.inl:12:
+/// ...`.
 GLuint compile(const Functions& gl, const std::string& shader, const std::string& defines);
 
 /// The same from any text put together from `files` (see ShaderText::files), for tests.

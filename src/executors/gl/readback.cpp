@@ -14,8 +14,8 @@ Readback::Readback(const Session& session, GLuint buffer, std::size_t bytes)
   gl_.GenBuffers(1, &copies_);
   gl_.BindBuffer(GL_COPY_WRITE_BUFFER, copies_);
   gl_.BufferStorage(GL_COPY_WRITE_BUFFER, all, nullptr, flags);
-  mapped_ = static_cast<const unsigned char*>(
-      gl_.MapBufferRange(GL_COPY_WRITE_BUFFER, 0, all, flags));
+  mapped_ =
+      static_cast<const unsigned char*>(gl_.MapBufferRange(GL_COPY_WRITE_BUFFER, 0, all, flags));
 }
 
 Readback::~Readback() {

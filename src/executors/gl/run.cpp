@@ -1,7 +1,7 @@
 #include "executors/gl/run.hpp"
 
 #include <algorithm>
-#include <memory>
+#include <limits>
 
 #include <plexway/error.hpp>
 
@@ -33,14 +33,34 @@ std::function<void(const FrontControl&)> reporter(const PropagateOptions& option
   };
 }
 
+std::size_t fields_at_once(const Session& session, const GL& executor, std::size_t sources,
+                           std::size_t simplices, std::size_t label_bytes, std::size_t vertices) {
+  const std::size_t bytes = simplices * (label_bytes + sizeof(GLuint)) + vertices * 8;
+  const std::size_t by_memory = executor.batch_bytes / bytes;
+  const std::size_t by_block = session.limits().block / (simplices * label_bytes);
+  const std::size_t by_number = (none - 1) / std::max(simplices, vertices);
+  return std::clamp(std::min({by_memory, by_block, by_number}), std::size_t{1}, sources);
+}
+
+std::size_t budget_of(const PropagateOptions& options, std::size_t fields) {
+  constexpr std::size_t most = std::numeric_limits<std::size_t>::max();
+  return options.max_expansions < most / fields ? options.max_expansions * fields : most;
+}
+
+void check_size(std::span<const float> distance, std::size_t sources, std::size_t vertices) {
+  if (distance.size() != sources * vertices)
+    throw UsageError("room for " + std::to_string(distance.size()) + " distances, but " +
+                     std::to_string(sources) + " fields of " + std::to_string(vertices) +
+                     " vertices need " + std::to_string(sources * vertices));
+}
+
 void finish(const Session& session, GLWorkspace::Implementation& workspace, const Finish& what,
             std::span<float> distance, std::span<Index> label) {
   const std::size_t total = what.vertices * what.fields;
   workspace.distances.reserve(session, total * sizeof(GLuint));
   if (!label.empty()) workspace.sources.reserve(session, total * sizeof(GLuint));
-  const Uniforms program(session, session.program("finish.comp", label.empty()
-                                                                     ? ""
-                                                                     : "#define PLEXWAY_LABELS\n"));
+  const Uniforms program(
+      session, session.program("finish.comp", label.empty() ? "" : "#define PLEXWAY_LABELS\n"));
   program.set("vertex_count", what.vertices);
   program.set("total", total);
   program.set("unit", static_cast<float>(what.unit));

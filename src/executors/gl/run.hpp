@@ -37,4 +37,14 @@ void finish(const Session& session, GLWorkspace::Implementation& workspace, cons
 void set_offsets(std::span<const PointSource> sources, const PropagateOptions& options,
                  std::span<float> distance);
 
+/// Of `sources` fields over so many simplices and vertices, how many one launch should hold.
+std::size_t fields_at_once(const Session& session, const GL& executor, std::size_t sources,
+                           std::size_t simplices, std::size_t label_bytes, std::size_t vertices);
+
+/// Expansions that all fields of a launch may have together.
+std::size_t budget_of(const PropagateOptions& options, std::size_t fields);
+
+/// Throws UsageError unless `distance` has the size of that many fields.
+void check_size(std::span<const float> distance, std::size_t sources, std::size_t vertices);
+
 }  // namespace plexway::gl

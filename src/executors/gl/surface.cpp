@@ -54,7 +54,7 @@ class SurfaceRun {
                             ? std::numeric_limits<double>::infinity()
                             : options_.step;
     front.start(session_, cells(), sizeof(SurfaceLabel), room_for(executor_, cells()), step,
-                options_.max_expansions);
+                budget_of(options_, fields));
     front.seed<SurfaceLabel>(session_, seeds.waiting, seeds.labels);
     const GLuint rule = session_.program("surface_round.comp");
     const auto report = reporter(options_, cells(), mesh_.unit());
@@ -85,11 +85,12 @@ class SurfaceRun {
       if (who && label.empty()) break;
       offer(seeds.offers, who);
       ask_triangles(who);
-      while (relax(who)) {}
+      while (relax(who)) {
+      }
     }
     finish(session_, workspace_,
-           {buffers_.inside, workspace_.vertex_best, workspace_.vertex_source,
-            mesh_.vertex_count(), fields_, mesh_.unit(), options_.radius},
+           {buffers_.inside, workspace_.vertex_best, workspace_.vertex_source, mesh_.vertex_count(),
+            fields_, mesh_.unit(), options_.radius},
            distance, label);
   }
 
@@ -226,6 +227,34 @@ void propagate(GL executor, const TriangleMesh<float>& mesh, std::span<const Poi
   const FrontControl& state = there.front.state();
   field.statistics = {FrontControl::wide(state.expansions), FrontControl::wide(state.updates),
                       state.reached};
+}
+
+bool propagate_each(GL executor, const TriangleMesh<float>& mesh,
+                    std::span<const PointSource> sources, const PropagateOptions& options,
+                    GLWorkspace& workspace, std::span<float> distance) {
+  const std::size_t vertices = mesh.vertex_count();
+  check(sources, options, {vertices, mesh.face_count(), "face", 3});
+  check_options(options, sources.size());
+  check_size(distance, sources.size(), vertices);
+  Implementation& there = workspace.implementation();
+  there.use(Context::of(executor.device));
+  const Session session(*there.context);
+  SurfaceRun run(executor, mesh, options, there, session);
+  const std::size_t most = fields_at_once(session, executor, sources.size(), mesh.face_count(),
+                                          sizeof(SurfaceLabel), vertices);
+  SurfaceSeeds seeds;
+  bool complete = true;
+  for (std::size_t first = 0; first < sources.size(); first += most) {
+    const auto some = sources.subspan(first, std::min(most, sources.size() - first));
+    seeds.clear();
+    for (std::size_t k = 0; k < some.size(); ++k)
+      seeds.add(mesh, some.subspan(k, 1), k, there.host);
+    complete &= run.run(seeds, some.size());
+    run.read_out(seeds, distance.subspan(first * vertices, some.size() * vertices), {});
+  }
+  for (std::size_t k = 0; k < sources.size(); ++k)
+    set_offsets(sources.subspan(k, 1), options, distance.subspan(k * vertices, vertices));
+  return complete;
 }
 
 }  // namespace plexway

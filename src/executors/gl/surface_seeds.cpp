@@ -26,8 +26,8 @@ void SurfaceSeeds::add(const TriangleMesh<float>& mesh, std::span<const PointSou
   workspace.front.reserve(faces);
   workspace.start(faces, true);
   Wave front(workspace.marks, workspace.saddles.reserve(faces + 1),
-              DualQueue<float>(workspace.front, std::numeric_limits<float>::infinity()),
-              workspace.source.data(), faces, mesh.unit(), options);
+             DualQueue<float>(workspace.front, std::numeric_limits<float>::infinity()),
+             workspace.source.data(), faces, mesh.unit(), options);
   const Rule rule(mesh.triangles(), front, false);
   TrianglePropagation<float, Rule, Wave, true> propagation(mesh, workspace, rule, front, options);
   for (std::size_t n = 0; n < sources.size(); ++n)
@@ -39,10 +39,12 @@ void SurfaceSeeds::add(const TriangleMesh<float>& mesh, std::span<const PointSou
     while (front.next(f, distance_of)) {
       const SaddleLabel<float>& label = front.label(f);
       const auto via = static_cast<GLuint>(front.hinge(f) | std::size_t{front.source(f)} << 2);
-      waiting.push_back({static_cast<GLuint>(first_cell + f),
-                         std::bit_cast<GLuint>(label.distance())});
+      waiting.push_back(
+          {static_cast<GLuint>(first_cell + f), std::bit_cast<GLuint>(label.distance())});
       labels.push_back({{label.x[0], label.x[1], label.x[2], label.x[3]},
-                        label.h[0], via, {label.h[2], label.h[3]}});
+                        label.h[0],
+                        via,
+                        {label.h[2], label.h[3]}});
     }
 
   // The sources themselves, exactly, and the corners of triangles they lie in.

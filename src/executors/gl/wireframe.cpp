@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <bit>
 #include <limits>
 
@@ -40,8 +41,8 @@ struct WireSeeds {
            std::size_t field) {
     const std::size_t first = field * wireframe.vertex_count();
     const auto put = [&](Index v, double sigma, std::size_t number) {
-      waiting.push_back({static_cast<GLuint>(first + v),
-                         std::bit_cast<GLuint>(static_cast<float>(sigma))});
+      waiting.push_back(
+          {static_cast<GLuint>(first + v), std::bit_cast<GLuint>(static_cast<float>(sigma))});
       sources.push_back(static_cast<GLuint>(number));
     };
     for (std::size_t n = 0; n < from.size(); ++n) {
@@ -80,16 +81,16 @@ class WireRun {
                             ? std::numeric_limits<double>::infinity()
                             : options_.step * wireframe_.typical_edge();
     front.start(session_, cells, sizeof(GLuint), room_for(executor_, cells), step,
-                options_.max_expansions);
+                budget_of(options_, fields));
     front.seed<GLuint>(session_, seeds.waiting, seeds.sources);
     const Uniforms program(session_, session_.program("wire_round.comp"));
     program.set("vertex_count", wireframe_.vertex_count());
     program.set("radius", static_cast<float>(options_.radius / wireframe_.unit()));
     buffers_.rows.bind(session_, 5);
     buffers_.arcs.bind(session_, 6);
-    const bool complete = front.spread(session_, session_.program("wire_round.comp"),
-                                       session_.context().group(), "#define PLEXWAY_WIRES\n",
-                                       reporter(options_, cells, wireframe_.unit()));
+    const bool complete =
+        front.spread(session_, session_.program("wire_round.comp"), session_.context().group(),
+                     "#define PLEXWAY_WIRES\n", reporter(options_, cells, wireframe_.unit()));
     workspace_.rounds = front.state().rounds;
     return complete;
   }
@@ -122,9 +123,9 @@ class WireRun {
 
 }  // namespace
 
-void propagate(GL executor, const Wireframe<float>& wireframe,
-               std::span<const PointSource> sources, const PropagateOptions& options,
-               GLWorkspace& workspace, DistanceField<float>& field) {
+void propagate(GL executor, const Wireframe<float>& wireframe, std::span<const PointSource> sources,
+               const PropagateOptions& options, GLWorkspace& workspace,
+               DistanceField<float>& field) {
   check(sources, options, {wireframe.vertex_count(), wireframe.edge_count(), "edge", 2});
   check_options(options, sources.size());
   Implementation& there = workspace.implementation();
@@ -141,6 +142,32 @@ void propagate(GL executor, const Wireframe<float>& wireframe,
   const FrontControl& state = there.front.state();
   field.statistics = {FrontControl::wide(state.expansions), FrontControl::wide(state.updates),
                       state.reached};
+}
+
+bool propagate_each(GL executor, const Wireframe<float>& wireframe,
+                    std::span<const PointSource> sources, const PropagateOptions& options,
+                    GLWorkspace& workspace, std::span<float> distance) {
+  const std::size_t vertices = wireframe.vertex_count();
+  check(sources, options, {vertices, wireframe.edge_count(), "edge", 2});
+  check_options(options, sources.size());
+  check_size(distance, sources.size(), vertices);
+  Implementation& there = workspace.implementation();
+  there.use(Context::of(executor.device));
+  const Session session(*there.context);
+  WireRun run(executor, wireframe, options, there, session);
+  const std::size_t most =
+      fields_at_once(session, executor, sources.size(), vertices, sizeof(GLuint), vertices);
+  bool complete = true;
+  for (std::size_t first = 0; first < sources.size(); first += most) {
+    const auto some = sources.subspan(first, std::min(most, sources.size() - first));
+    WireSeeds seeds;
+    for (std::size_t k = 0; k < some.size(); ++k) seeds.add(wireframe, some.subspan(k, 1), k);
+    complete &= run.run(seeds, some.size());
+    run.read_out(distance.subspan(first * vertices, some.size() * vertices), {});
+  }
+  for (std::size_t k = 0; k < sources.size(); ++k)
+    set_offsets(sources.subspan(k, 1), options, distance.subspan(k * vertices, vertices));
+  return complete;
 }
 
 }  // namespace plexway

@@ -1,0 +1,95 @@
+#pragma once
+
+#include <limits>
+#include <span>
+#include <type_traits>
+
+#include <plexway/error.hpp>
+#include <plexway/propagate/plain_solid_rule.hpp>
+#include <plexway/propagate/solid_rule.hpp>
+
+#include "propagate/finish.hpp"
+#include "propagate/solid_propagation.hpp"
+#include "propagate/solid_read_out.hpp"
+
+/// A solve in a solid, for any crew.
+namespace plexway::solid {
+
+/// Throws UsageError for a policy that solids do not have.
+inline void check_policy(const PropagateOptions& options) {
+  if (options.visibility == Visibility::tuned)
+    throw UsageError(
+        "the tuned policy is a table for triangles: use saddles, centroid or upper_bound in "
+        "solids");
+}
+
+/// The sources themselves, exactly, and the corners of tetrahedra they lie in.
+template <class Real, bool kLabels>
+void read_out_sources(const TetMesh<Real>& mesh, std::span<const PointSource> sources,
+                      Workspace<Real>& workspace) {
+  for (std::size_t n = sources.size(); n-- > 0;)
+    offer_corners(mesh, sources[n], [&](Index v, double d) {
+      const Real distance = static_cast<Real>(d);
+      if (distance > workspace.vertex[v]) return;
+      workspace.vertex[v] = distance;
+      if constexpr (kLabels) workspace.vertex_source[v] = static_cast<Index>(n);
+    });
+}
+
+template <class Real, bool kLabels, class Rule, class Front, class Crew>
+void solve(const TetMesh<Real>& mesh, std::span<const PointSource> sources,
+           const PropagateOptions& options, Workspace<Real>& workspace, const Rule& rule,
+           Front& front, const Crew& crew, DistanceField<Real>& field) {
+  SolidPropagation<Real, Rule, Front> propagation(mesh, rule, front, options);
+  for (std::size_t n = 0; n < sources.size(); ++n)
+    propagation.seed(sources[n], static_cast<Index>(n));
+  crew.run(propagation, front, mesh.tet_count());
+
+  constexpr Real infinity = std::numeric_limits<Real>::infinity();
+  const std::size_t vertices = mesh.vertex_count();
+  workspace.vertex.assign(vertices, infinity);
+  if constexpr (kLabels) workspace.vertex_source.assign(vertices, none);
+  if constexpr (requires { crew.team(); }) {
+    crew.over(vertices, [&](std::size_t begin, std::size_t end) {
+      read_out_around<Real, kLabels>(mesh, rule, front, static_cast<Index>(begin),
+                                     static_cast<Index>(end), workspace);
+    });
+  } else {
+    workspace.vertex_path.assign(vertices, 0);
+    read_out_tets<Real, kLabels>(mesh, rule, front, workspace);
+  }
+  read_out_sources<Real, kLabels>(mesh, sources, workspace);
+  // The full rule is exact where nothing bends a path.
+  constexpr bool plain = std::is_same_v<Rule, PlainSolidRule<Real, Front>>;
+  if (plain || rule.drops())
+    read_out_tet_edges<Real, kLabels>(mesh, workspace, [&](const auto& wrong, const auto& look) {
+      crew.search(mesh.tet_count(), wrong, look);
+    });
+
+  finish<Real, kLabels>(mesh, sources, options, front, workspace, crew, field);
+}
+
+/// One solve with a queue of its own: rule and labels by the policy, the rest by the crew.
+template <class Real, bool kLabels, class Queue, class Crew>
+void solve_with(const TetMesh<Real>& mesh, std::span<const PointSource> sources,
+                const PropagateOptions& options, Workspace<Real>& workspace, Queue queue,
+                const Crew& crew, DistanceField<Real>& field) {
+  workspace.start(mesh.tet_count(), kLabels);
+  const std::size_t records = mesh.tet_count() + 1;
+  const auto front = [&](auto* labels) {
+    return Wavefront<Real, std::remove_pointer_t<decltype(labels)>, Queue, kLabels>(
+        workspace.marks, labels, queue, workspace.source.data(), mesh.tet_count(), mesh.unit(),
+        options);
+  };
+  if (mesh.embedded() && options.visibility == Visibility::saddles) {
+    auto wave = front(workspace.solids.reserve(records));
+    const SolidRule<Real, decltype(wave)> rule(mesh, wave);
+    solve<Real, kLabels>(mesh, sources, options, workspace, rule, wave, crew, field);
+  } else {
+    auto wave = front(workspace.plain_solids.reserve(records));
+    const PlainSolidRule<Real, decltype(wave)> rule(mesh, wave, options.visibility);
+    solve<Real, kLabels>(mesh, sources, options, workspace, rule, wave, crew, field);
+  }
+}
+
+}  // namespace plexway::solid

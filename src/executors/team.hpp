@@ -1,0 +1,135 @@
+#pragma once
+
+#include <algorithm>
+#include <atomic>
+#include <cstddef>
+#include <exception>
+#include <mutex>
+#include <thread>
+#include <vector>
+
+#include <plexway/executors/openmp.hpp>
+
+#if defined(PLEXWAY_CORE_OPENMP) && !defined(PLEXWAY_TEAM_OF_THREADS)
+#include <omp.h>
+#endif
+
+namespace plexway {
+
+/// Threads that run the same function at once: OpenMP's or, with PLEXWAY_TEAM_OF_THREADS (builds
+/// for ThreadSanitizer, which does not understand OpenMP's own synchronisation), std::thread's.
+/// Everything else is the same code.
+class Team {
+ public:
+  /// Throws UsageError for settings that make no sense, NotBuiltError without OpenMP.
+  explicit Team(const OpenMP& executor);
+
+  /// At most so many threads.
+  [[nodiscard]] int size() const { return size_; }
+  [[nodiscard]] std::size_t chunk() const { return chunk_; }
+
+  /// Calls work(i, n) with i = 0 to n - 1 at once, 0 on the calling thread, and throws the first
+  /// exception that one of them left behind.
+  template <class Work>
+  void run(const Work& work) const {
+    std::exception_ptr failure;
+    std::mutex mutex;
+    const auto guarded = [&](int i, int n) noexcept {
+      try {
+        work(i, n);
+      } catch (...) {
+        const std::scoped_lock lock(mutex);
+        if (!failure) failure = std::current_exception();
+      }
+    };
+    run_guarded(guarded);
+    if (failure) std::rethrow_exception(failure);
+  }
+
+  /// Calls work(begin, end) for ranges that make up [0, count).
+  template <class Work>
+  void over(std::size_t count, const Work& work) const {
+    constexpr std::size_t least = 4096;  // less is not worth another thread
+    if (size_ == 1 || count < 2 * least) {
+      work(std::size_t{0}, count);
+      return;
+    }
+    std::atomic<std::size_t> next{0};
+    // Even, so that what is done two at a time is so with any number of threads.
+    const std::size_t share = std::max(least, count / (8 * static_cast<std::size_t>(size_)) & ~1);
+    run([&](int, int) {
+      for (;;) {
+        const std::size_t begin = next.fetch_add(share, std::memory_order_relaxed);
+        if (begin >= count) return;
+        work(begin, std::min(begin + share, count));
+      }
+    });
+  }
+
+ private:
+  template <class Guarded>
+  void run_guarded(const Guarded& work) const {
+    if (size_ == 1) {
+      work(0, 1);
+      return;
+    }
+#if defined(PLEXWAY_TEAM_OF_THREADS)
+    std::vector<std::thread> threads;
+    for (int i = 1; i < size_; ++i) threads.emplace_back(work, i, size_);
+    work(0, size_);
+    for (std::thread& thread : threads) thread.join();
+#elif defined(PLEXWAY_CORE_OPENMP)
+#pragma omp parallel num_threads(size_)
+    work(omp_get_thread_num(), omp_get_num_threads());
+#endif
+  }
+
+  int size_;
+  std::size_t chunk_;
+};
+
+/// Where a team's threads wait for each other: all come, the first then does what must be done
+/// alone, and lets the others go. Waits without sleeping at first, as rounds are short.
+class Gate {
+ public:
+  explicit Gate(int threads) {
+    const unsigned cores = std::thread::hardware_concurrency();
+    patience_ = cores == 0 || static_cast<unsigned>(threads) <= cores ? 4000 : 20;
+  }
+
+  /// For all but the first of so many threads.
+  void pass(int threads) {
+    const unsigned round = round_.load(std::memory_order_relaxed);
+    if (arrived_.fetch_add(1, std::memory_order_acq_rel) + 2 == threads) arrived_.notify_one();
+    wait(round_, [round](unsigned now) { return now != round; });
+  }
+
+  /// For the first: waits for the others, calls `alone`, and opens.
+  template <class Alone>
+  void lead(int threads, const Alone& alone) {
+    if (threads > 1) wait(arrived_, [threads](int now) { return now == threads - 1; });
+    arrived_.store(0, std::memory_order_relaxed);
+    alone();
+    if (threads == 1) return;
+    round_.fetch_add(1, std::memory_order_release);
+    round_.notify_all();
+  }
+
+ private:
+  template <class Value, class Done>
+  void wait(std::atomic<Value>& value, Done done) const {
+    for (int i = 0; i < patience_; ++i) {
+      if (done(value.load(std::memory_order_acquire))) return;
+#if defined(__x86_64__) || defined(__i386__)
+      __builtin_ia32_pause();
+#endif
+    }
+    for (Value now; !done(now = value.load(std::memory_order_acquire));) value.wait(now);
+  }
+
+  int patience_;
+  alignas(64) std::atomic<int> arrived_{0};
+  alignas(64) std::atomic<unsigned> round_{0};
+};
+
+}  // namespace plexway

@@ -1,0 +1,91 @@
+#pragma once
+
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+
+#include <plexway/propagate/visit_marks.hpp>
+
+#include "executors/offers.hpp"
+
+namespace plexway {
+
+/// Where the labels of simplices are kept: written between rounds, by one thread each; read while
+/// offers are made.
+template <class SimplexLabel, bool kLabels>
+class SimplexStore {
+ public:
+  using Label = SimplexLabel;
+
+  SimplexStore(VisitMarks& marks, Label* labels, Index* source)
+      : mark_(marks.data()), current_(marks.current()), labels_(labels), source_(source) {}
+
+  [[nodiscard, gnu::always_inline]] bool reached(Index s) const {
+    return (mark_[s] ^ current_) < (1 << VisitMarks::epoch_shift);
+  }
+  [[nodiscard, gnu::always_inline]] std::size_t hinge(Index s) const {
+    return mark_[s] & VisitMarks::hinge_mask;
+  }
+  [[nodiscard, gnu::always_inline]] const Label& label(Index s) const { return labels_[s]; }
+  [[nodiscard]] Index source(Index s) const {
+    if constexpr (kLabels) return source_[s];
+    return 0;
+  }
+
+  /// The label of a simplex from now on. True if it had none.
+  [[gnu::always_inline]] bool settle(const Offer<Label>& offer) const {
+    const Index s = offer.simplex;
+    const bool known = reached(s);
+    labels_[s] = offer.label;
+    mark_[s] = static_cast<VisitMarks::Mark>(current_ | (offer.tie & OfferTie::hinge_mask));
+    if constexpr (kLabels) source_[s] = offer.tie >> OfferTie::source_shift;
+    return !known;
+  }
+  void prefetch(Index s) const {
+    __builtin_prefetch(&labels_[s], 1);
+    __builtin_prefetch(&mark_[s], 1);
+  }
+
+ private:
+  VisitMarks::Mark* mark_;
+  VisitMarks::Mark current_;
+  Label* labels_;
+  Index* source_;
+};
+
+/// What one thread knows while it makes offers: the front that rules see. An offer lowers the
+/// simplex's key by an atomic minimum and, if it is the least so far, waits with its label; the
+/// least of all becomes the label before the next round.
+template <class Real, class Store>
+class TeamFront : public Store {
+ public:
+  using Label = typename Store::Label;
+  using Key = OfferKey<Real>;
+
+  TeamFront(const Store& store, std::uint64_t* key, Room& near, Room& far)
+      : Store(store), key_(key), waiting_{OfferList<Label>(near), OfferList<Label>(far)} {}
+
+  [[gnu::always_inline]] void accept(Index s, std::size_t hinge, const Label& label, Real distance,
+                                     Index source) {
+    const Index tie = OfferTie::of(source, hinge);
+    const std::uint64_t key = Key::of(distance, tie);
+    const std::atomic_ref<std::uint64_t> least(key_[s]);
+    std::uint64_t known = least.load(std::memory_order_relaxed);
+    do {
+      if (key > known || (!Key::ties_apart && key == known)) return;
+      if (key == known) break;
+    } while (!least.compare_exchange_weak(known, key, std::memory_order_relaxed));
+    waiting_[key >= limit_].add({key, s, tie, label});
+  }
+
+  OfferList<Label>& near() { return waiting_[0]; }
+  OfferList<Label>& far() { return waiting_[1]; }
+  void set_limit(std::uint64_t limit) { limit_ = limit; }
+
+ private:
+  std::uint64_t* key_;
+  std::uint64_t limit_ = 0;
+  OfferList<Label> waiting_[2];
+};
+
+}  // namespace plexway

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <limits>
+#include <span>
+
+#include <plexway/error.hpp>
+#include <plexway/propagate/options.hpp>
+#include <plexway/source/point_source.hpp>
+
+#include "executors/offers.hpp"
+
+namespace plexway {
+
+/// Throws UsageError for what an executor without order cannot do.
+inline void check_unordered(std::span<const PointSource> sources, const PropagateOptions& options) {
+  if (options.schedule == Schedule::priority)
+    throw UsageError(
+        "the schedule priority needs one thread that takes the nearest label: use the executor "
+        "Serial, or the schedules dual_queue or fifo");
+  if (sources.size() >= OfferTie::limit) throw UsageError("too many sources");
+}
+
+/// The width of the limit in the unit inside, where `edge` is what counts as an edge.
+template <class Real>
+Real step_of(const PropagateOptions& options, double edge = 1) {
+  return options.schedule == Schedule::fifo ? std::numeric_limits<Real>::infinity()
+                                            : static_cast<Real>(options.step * edge);
+}
+
+}  // namespace plexway

@@ -1,0 +1,130 @@
+// Devices, contexts, shader messages and limits.
+
+#include <catch2/catch.hpp>
+#include <thread>
+
+#include <EGL/egl.h>
+
+#include <plexway/executors/gl.hpp>
+#include <plexway/executors/serial.hpp>
+
+#include "complex/test_meshes.hpp"
+#include "executors/gl/buffer.hpp"
+#include "executors/gl/front.hpp"
+#include "executors/gl/program.hpp"
+#include "executors/gl/shader_text.hpp"
+#include "gl/device.hpp"
+
+using namespace plexway;
+using namespace plexway::testing;
+
+TEST_CASE("devices say what they are, or why they cannot be used", "[gl]") {
+  if (!device()) return;
+  const auto devices = gl_devices();
+  REQUIRE_FALSE(devices.empty());
+  std::size_t useful = 0;
+  for (const GLDevice& d : devices) {
+    CHECK(&d - devices.data() == d.number);
+    if (!d.problem.empty()) continue;
+    ++useful;
+    CHECK_FALSE(d.vendor.empty());
+    CHECK_FALSE(d.renderer.empty());
+    CHECK(d.version.find('.') != std::string::npos);
+    CHECK(d.largest_buffer >= std::size_t{1} << 24);  // what OpenGL 4.3 guarantees
+    CHECK(d.group_size >= 1024);
+  }
+  CHECK(useful > 0);
+}
+
+TEST_CASE("every shader compiles on the device", "[gl]") {
+  const auto context = device();
+  if (!context) return;
+  const gl::Session session(*context);
+  for (std::size_t n = 0; n < gl::shader_text_count; ++n) {
+    INFO(gl::shader_texts[n].name);
+    const bool kernel = std::string(gl::shader_texts[n].name) == "kernel_check.comp";
+    CHECK(session.program(gl::shader_texts[n].name, kernel ? "#define PLEXWAY_K 2\n" : "") != 0);
+  }
+}
+
+TEST_CASE("a shader's errors are told in its own file and line", "[gl]") {
+  const auto context = device();
+  if (!context) return;
+  const gl::Session session(*context);
+  // As cmake/ShaderText.cmake puts texts together.
+  const std::string text =
+      "#version 430\n"
+      "layout(local_size_x = 1) in;\n"
+      "#line 1 1\n"
+      "float good() { return 1.0; }\n"
+      "float bad() { return nonsense; }\n"
+      "#line 4 0\n"
+      "void main() { good(); }\n";
+  std::string message;
+  try {
+    gl::compile_text(session.gl, text, "outer.comp;inner.inl", "#define ONE\n#define TWO\n");
+  } catch (const Error& error) {
+    message = error.what();
+  }
+  INFO(message);
+  CHECK(message.find("inner.inl") != std::string::npos);
+  CHECK(message.find("inner.inl:2") + message.find("inner.inl(2") != 2 * std::string::npos);
+  CHECK(message.find("nonsense") != std::string::npos);
+
+  message.clear();
+  try {
+    gl::compile_text(session.gl, "#version 430\nlayout(local_size_x = 1) in;\nvoid main() { x; }\n",
+                     "alone.comp", "#define ONE\n#define TWO\n");
+  } catch (const Error& error) {
+    message = error.what();
+  }
+  INFO(message);
+  CHECK(message.find("alone.comp:3") + message.find("alone.comp(3") != 2 * std::string::npos);
+}
+
+TEST_CASE("what does not fit on the device is refused with the limit", "[gl]") {
+  const auto context = device();
+  if (!context) return;
+  const gl::Session session(*context);
+  gl::Buffer buffer("labels");
+  const std::size_t limit = context->limits().block;
+  std::string message;
+  try {
+    buffer.reserve(session, limit + 1);
+  } catch (const NotBuiltError& error) {
+    message = error.what();
+  }
+  INFO(message);
+  CHECK(message.find("labels") != std::string::npos);
+  CHECK(message.find("GL_MAX_SHADER_STORAGE_BLOCK_SIZE") != std::string::npos);
+  CHECK(message.find(std::to_string(limit >> 20) + " MiB") != std::string::npos);
+  CHECK(buffer.bytes() == 0);
+  gl::Front front;
+  CHECK_THROWS_AS(front.start(session, std::size_t{1} << 32, 32, 16, 1, 1), NotBuiltError);
+  CHECK_THROWS_AS(front.start(session, limit, 32, 16, 1, 1), NotBuiltError);
+  front.release(session);
+}
+
+TEST_CASE("what context was current stays so, and threads take turns", "[gl]") {
+  if (!device()) return;
+  const auto mesh = grid(12, 12).mesh<float>();
+  const PointSource source = PointSource::at(3);
+  const auto expected = propagate(Serial{}, mesh, source).distance;
+  CHECK(eglGetCurrentContext() == EGL_NO_CONTEXT);
+  std::vector<std::thread> threads;
+  std::vector<DistanceField<float>> fields(4);
+  for (auto& field : fields)
+    threads.emplace_back([&] {
+      for (int n = 0; n < 5; ++n) field = propagate(GL{}, mesh, source);
+    });
+  for (std::thread& t : threads) t.join();
+  for (const auto& field : fields) CHECK(difference(expected, field.distance).max < 1e-5);
+  CHECK(eglGetCurrentContext() == EGL_NO_CONTEXT);
+  // A context of the program's own.
+  const gl::NativeContext own(gl::displays()[0]);
+  const gl::MakeCurrent current(own);
+  const EGLContext before = eglGetCurrentContext();
+  CHECK(before != EGL_NO_CONTEXT);
+  CHECK(difference(expected, propagate(GL{}, mesh, source).distance).max < 1e-5);
+  CHECK(eglGetCurrentContext() == before);
+}
