@@ -16,6 +16,7 @@ layout(std430, binding = 3) readonly buffer Corners { uint corners[]; };
 //@include solid.glsl
 
 uniform uint vertex_count, total;
+uniform uint sources_wanted;
 
 void main() {
   uint at = (gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x) * uint(PLEXWAY_GROUP) +
@@ -39,7 +40,5 @@ void main() {
   }
   if (path == 0u) return;
   vertex_best[at] = floatBitsToUint(least);
-#ifdef PLEXWAY_LABELS
-  vertex_source[at] = source;
-#endif
+  if (sources_wanted != 0u) vertex_source[at] = source;
 }

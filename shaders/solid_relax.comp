@@ -22,7 +22,7 @@ layout(std430, binding = 5) readonly buffer Tets { Tet tets[]; };
 layout(std430, binding = 6) readonly buffer Points { float points[]; };
 
 uniform uint tet_count, cells, vertex_count;
-uniform uint who;
+uniform uint who, sources_wanted;
 
 vec3 point(uint v) { return vec3(points[3u * v], points[3u * v + 1u], points[3u * v + 2u]); }
 
@@ -32,9 +32,7 @@ void relax(uint from, uint to, float edge) {
   uint offer = floatBitsToUint(uintBitsToFloat(start) + edge);
   if (who == 0u) {
     if (offer >= end || offer >= atomicMin(vertex_best[to], offer)) return;
-#ifdef PLEXWAY_LABELS
-    vertex_source[to] = 0xffffffffu;
-#endif
+    if (sources_wanted != 0u) vertex_source[to] = 0xffffffffu;
     changes = 1u;
   } else if (offer == end && vertex_source[to] == 0xffffffffu &&
              vertex_source[from] != 0xffffffffu) {

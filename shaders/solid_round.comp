@@ -3,8 +3,9 @@
 // queue is offered over the three faces it did not come by; four invocations a label, one a face.
 // Entries are fat, as on surfaces (surface_round.comp).
 //
-// With PLEXWAY_REPAIR: every reached tetrahedron offers its label to neighbours without one, or with
-// one much longer than its own and the way between, with a bend on the face if need be.
+// As a repair: every reached tetrahedron offers its label to neighbours without one, or with one much
+// longer than its own and the way between, with a bend on the face if need be. (Not a program of its
+// own: the step takes long to compile.)
 
 #ifndef PLEXWAY_GROUP
 #define PLEXWAY_GROUP 64
@@ -18,7 +19,7 @@ layout(std430, binding = 4) buffer WaitingLabels { uvec4 waiting_labels[]; };
 
 uniform float radius;  // tetrahedra wholly beyond it are not expanded
 uniform uint last_resort;
-uniform uint cells;  // for PLEXWAY_REPAIR: fields times tetrahedra
+uniform uint repair;  // 0, or fields times tetrahedra
 
 void main() {
   start_group();
@@ -26,42 +27,35 @@ void main() {
   uvec4 a, b, c;
   uint cell = 0u, bits = UNREACHED;
   bool alive = false, waits_on = false;
-#ifdef PLEXWAY_REPAIR
-  if (number < cells) {
-    cell = number;
+  if (repair > 0u) {
+    cell = min(number, repair - 1u);
     bits = best[cell];
-    alive = bits != UNREACHED && uintBitsToFloat(bits) <= radius;
+    alive = number < repair && bits != UNREACHED && uintBitsToFloat(bits) <= radius;
     if (alive) {
       a = labels[3u * cell];
       b = labels[3u * cell + 1u];
       c = labels[3u * cell + 2u];
     }
-  }
-#else
-  uint place = control.current * control.capacity + control.begin + number;
-  if (number < control.count) {
+  } else if (number < control.count) {
+    uint place = control.current * control.capacity + control.begin + number;
     cell = waiting[place].x;
     bits = waiting[place].y;
     alive = cell != NO_CELL && best[cell] == bits;  // else a better label waits elsewhere
+    if (alive) {
+      a = waiting_labels[3u * place];
+      b = waiting_labels[3u * place + 1u];
+      c = waiting_labels[3u * place + 2u];
+      bool later = uintBitsToFloat(bits) >= control.limit;
+      waits_on = later && face == 0u;
+      if (!later && face == 0u) note_expansion();
+      alive = !later && b.x != face;
+    }
   }
-  if (alive) {
-    a = waiting_labels[3u * place];
-    b = waiting_labels[3u * place + 1u];
-    c = waiting_labels[3u * place + 2u];
-  }
-  bool later = alive && uintBitsToFloat(bits) >= control.limit;
-  waits_on = later && face == 0u;
-  alive = alive && !later;
-  if (alive && face == 0u) note_expansion();
-  alive = alive && b.x != face;
-#endif
 
   uint t = cell % tet_count;
   cell_base = cell - t;
   float distance = uintBitsToFloat(bits);
-#ifndef PLEXWAY_REPAIR
   if (alive && distance > radius) alive = distance - size_of(t) <= radius;
-#endif
   uint across = 0u, u = 0u, known_bits = UNREACHED;
   if (alive) {
     across = tets[t].across[face];
@@ -69,14 +63,14 @@ void main() {
     alive = u != tet_count;
   }
   if (alive) known_bits = best[cell_base + u];
-#ifdef PLEXWAY_REPAIR
-  if (alive && known_bits != UNREACHED) {
-    float excess = uintBitsToFloat(known_bits) - distance;
-    alive = excess > norm(centre_of(u) - centre_of(t)) && excess > way(t, face);
-  } else if (alive) {
-    atomicAdd(control.spare, 1u);
+  if (alive && repair > 0u) {
+    if (known_bits == UNREACHED) {
+      atomicAdd(control.spare, 1u);
+    } else {
+      float excess = uintBitsToFloat(known_bits) - distance;
+      alive = excess > norm(centre_of(u) - centre_of(t)) && excess > way(t, face);
+    }
   }
-#endif
 
   bool wanted = false;
   SolidLabel label;
@@ -111,11 +105,8 @@ void main() {
   if (wanted && slot < control.capacity) {
     uint to = (near ? control.near : control.far) * control.capacity + slot;
     uint offered = floatBitsToUint(distance);
-#ifdef PLEXWAY_REPAIR
-    bool waits = true;  // accepted by a pass of its own: no label that this pass reads may be new
-#else
-    bool waits = waits_on || lower(target, offered);
-#endif
+    // Repairs are accepted by a pass of its own: no label that this one reads may be new.
+    bool waits = waits_on || repair > 0u || lower(target, offered);
     waiting[to] = uvec2(waits ? target : NO_CELL, offered);
     waiting_labels[3u * to] = a;
     waiting_labels[3u * to + 1u] = b;

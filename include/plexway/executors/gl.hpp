@@ -105,6 +105,9 @@ bool propagate_each(GL, const TriangleMesh<float>& mesh, std::span<const PointSo
 bool propagate_each(GL, const Wireframe<float>& wireframe, std::span<const PointSource> sources,
                     const PropagateOptions& options, GLWorkspace& workspace,
                     std::span<float> distance);
+bool propagate_each(GL, const TetMesh<float>& mesh, std::span<const PointSource> sources,
+                    const PropagateOptions& options, GLWorkspace& workspace,
+                    std::span<float> distance);
 
 /// The same with a workspace of its own.
 template <class Domain>

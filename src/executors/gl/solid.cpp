@@ -71,7 +71,7 @@ class SolidRun {
                             ? std::numeric_limits<double>::infinity()
                             : options_.step;
     front.start(session_, cells(), sizeof(SolidCell), room_for(executor_, cells()), step,
-                options_.max_expansions);
+                budget_of(options_, fields));
     front.clear_labels(session_, cells());
     front.seed<SolidCell>(session_, seeds.waiting, seeds.labels);
     const GLuint rule = session_.program("solid_round.comp");
@@ -80,7 +80,7 @@ class SolidRun {
     bool complete = true;
     std::size_t repairs = 0;
     do {
-      set_rule_uniforms(rule, repairs > 8);
+      set_rule_uniforms(rule, repairs > 8, 0);
       bind_solid();
       const std::size_t share = session_.context().group() / 4;  // four invocations a label
       complete = front.spread(session_, rule, share, "#define PLEXWAY_SOLIDS\n", report, settle);
@@ -150,11 +150,12 @@ class SolidRun {
     program.set("vertex_count", mesh_.vertex_count());
   }
 
-  void set_rule_uniforms(GLuint rule, bool last_resort) const {
+  void set_rule_uniforms(GLuint rule, bool last_resort, std::size_t repaired_cells) const {
     const Uniforms program(session_, rule);
     set_solid_uniforms(program);
     program.set("radius", radius_);
     program.set("last_resort", std::size_t{last_resort});
+    program.set("repair", repaired_cells);
   }
 
   // Few solids have such places: the host sees to them.
@@ -187,8 +188,8 @@ class SolidRun {
     if (!drops_ && front.state().reached == cells()) return false;
     const std::size_t before = FrontControl::wide(front.state().updates);
     const bool any = front.add(session_, [&] {
-      const GLuint rule = session_.program("solid_round.comp", "#define PLEXWAY_REPAIR\n");
-      set_rule_uniforms(rule, true);
+      const GLuint rule = session_.program("solid_round.comp");
+      set_rule_uniforms(rule, true, cells());
       bind_solid();
       session_.gl.UseProgram(rule);
       dispatch(session_, 4 * cells());
@@ -208,17 +209,16 @@ class SolidRun {
     dispatch(session_, offers.size());
   }
 
-  [[nodiscard]] const char* variant() const { return labels_ ? "#define PLEXWAY_LABELS\n" : ""; }
-
   void bind_vertices() {
     workspace_.vertex_best.bind(session_, 0);
     if (labels_) workspace_.vertex_source.bind(session_, 1);
   }
 
   void ask_tets(std::size_t vertices) {
-    const Uniforms program(session_, session_.program("solid_read_out.comp", variant()));
+    const Uniforms program(session_, session_.program("solid_read_out.comp"));
     set_solid_uniforms(program);
     program.set("total", vertices);
+    program.set("sources_wanted", std::size_t{labels_});
     bind_vertices();
     workspace_.front.labels().bind(session_, 2);
     buffers_.corners.bind(session_, 3);
@@ -228,9 +228,10 @@ class SolidRun {
 
   // True if it changed something.
   bool relax(bool who) {
-    const Uniforms program(session_, session_.program("solid_relax.comp", variant()));
+    const Uniforms program(session_, session_.program("solid_relax.comp"));
     set_solid_uniforms(program);
     program.set("who", std::size_t{who});
+    program.set("sources_wanted", std::size_t{labels_});
     bind_vertices();
     workspace_.small.fill(session_, 0, 1);
     workspace_.small.bind(session_, 4);
@@ -253,15 +254,21 @@ class SolidRun {
   std::size_t fields_ = 1;
 };
 
+// Throws UsageError for what solids on the device are not.
+void check_solid(const TetMesh<float>& mesh, std::span<const PointSource> sources,
+                 const PropagateOptions& options) {
+  check(sources, options, {mesh.vertex_count(), mesh.tet_count(), "tet", 4});
+  check_options(options, sources.size());
+  if (!mesh.embedded())
+    throw UsageError("the gl executor needs coordinates of a solid, not lengths alone: use Serial");
+}
+
 }  // namespace
 
 void propagate(GL executor, const TetMesh<float>& mesh, std::span<const PointSource> sources,
                const PropagateOptions& options, GLWorkspace& workspace,
                DistanceField<float>& field) {
-  check(sources, options, {mesh.vertex_count(), mesh.tet_count(), "tet", 4});
-  check_options(options, sources.size());
-  if (!mesh.embedded())
-    throw UsageError("the gl executor needs coordinates of a solid, not lengths alone: use Serial");
+  check_solid(mesh, sources, options);
   Implementation& there = workspace.implementation();
   there.use(Context::of(executor.device));
   SolidSeeds seeds;
@@ -276,6 +283,33 @@ void propagate(GL executor, const TetMesh<float>& mesh, std::span<const PointSou
   const FrontControl& state = there.front.state();
   field.statistics = {FrontControl::wide(state.expansions), FrontControl::wide(state.updates),
                       state.reached};
+}
+
+bool propagate_each(GL executor, const TetMesh<float>& mesh, std::span<const PointSource> sources,
+                    const PropagateOptions& options, GLWorkspace& workspace,
+                    std::span<float> distance) {
+  const std::size_t vertices = mesh.vertex_count();
+  check_solid(mesh, sources, options);
+  check_size(distance, sources.size(), vertices);
+  Implementation& there = workspace.implementation();
+  there.use(Context::of(executor.device));
+  const Session session(*there.context);
+  SolidRun run(executor, mesh, options, there, session);
+  const std::size_t most = fields_at_once(session, executor, sources.size(), mesh.tet_count(),
+                                          sizeof(SolidCell), vertices);
+  SolidSeeds seeds;
+  bool complete = true;
+  for (std::size_t first = 0; first < sources.size(); first += most) {
+    const auto some = sources.subspan(first, std::min(most, sources.size() - first));
+    seeds.clear();
+    for (std::size_t k = 0; k < some.size(); ++k)
+      seeds.add(mesh, some.subspan(k, 1), k, there.host);
+    complete &= run.run(seeds, some.size());
+    run.read_out(seeds, distance.subspan(first * vertices, some.size() * vertices), {});
+  }
+  for (std::size_t k = 0; k < sources.size(); ++k)
+    set_offsets(sources.subspan(k, 1), options, distance.subspan(k * vertices, vertices));
+  return complete;
 }
 
 }  // namespace plexway
