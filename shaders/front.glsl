@@ -10,6 +10,11 @@ layout(std430, binding = 1) coherent buffer Best { uint best[]; };  // bits of t
 // Waiting labels: cell and bits of the distance. The rest of a label lies in its own buffer.
 layout(std430, binding = 3) buffer Waiting { uvec2 waiting[]; };
 
+// What holds during a round, fetched once a group.
+shared uint current_queue, near_queue, far_queue;
+shared uint round_begin, round_count, capacity;
+shared float limit;
+
 shared uint group_count[2];
 shared uint group_base[2];
 shared uint group_more;
@@ -28,6 +33,13 @@ void in_step() {
 
 void start_group() {
   if (gl_LocalInvocationID.x == 0u) {
+    current_queue = control.current;
+    near_queue = control.near;
+    far_queue = control.far;
+    round_begin = control.begin;
+    round_count = control.count;
+    capacity = control.capacity;
+    limit = control.limit;
     group_nearest = UNREACHED;
     for (int i = 0; i < 3; ++i) group_tally[i] = 0u;
   }
@@ -50,9 +62,9 @@ uvec2 reserve(uvec2 wanted) {
     group_base[0] = 0u;
     group_base[1] = 0u;
     if (group_count[0] > 0u)
-      group_base[0] = atomicAdd(control.waiting_in[control.near], group_count[0]);
+      group_base[0] = atomicAdd(control.waiting_in[near_queue], group_count[0]);
     if (group_count[1] > 0u)
-      group_base[1] = atomicAdd(control.waiting_in[control.far], group_count[1]);
+      group_base[1] = atomicAdd(control.waiting_in[far_queue], group_count[1]);
   }
   in_step();
   return place + uvec2(group_base[0], group_base[1]);

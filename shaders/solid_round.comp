@@ -36,8 +36,8 @@ void main() {
       b = labels[3u * cell + 1u];
       c = labels[3u * cell + 2u];
     }
-  } else if (number < control.count) {
-    uint place = control.current * control.capacity + control.begin + number;
+  } else if (number < round_count) {
+    uint place = current_queue * capacity + round_begin + number;
     cell = waiting[place].x;
     bits = waiting[place].y;
     alive = cell != NO_CELL && best[cell] == bits;  // else a better label waits elsewhere
@@ -45,7 +45,7 @@ void main() {
       a = waiting_labels[3u * place];
       b = waiting_labels[3u * place + 1u];
       c = waiting_labels[3u * place + 2u];
-      bool later = uintBitsToFloat(bits) >= control.limit;
+      bool later = uintBitsToFloat(bits) >= limit;
       waits_on = later && face == 0u;
       if (!later && face == 0u) note_expansion();
       alive = !later && b.x != face;
@@ -91,7 +91,7 @@ void main() {
   bool near = false;
   if (wanted) {
     distance = label.centre;
-    near = distance < control.limit;
+    near = distance < limit;
     a = floatBitsToUint(vec4(label.source, label.sigma));
     b = uvec4(across & 3u, label.ring, label.limit[0], label.limit[1]);
     c = uvec4(label.limit[2], label.limit[3], label.path, c.w);
@@ -102,8 +102,8 @@ void main() {
   }
   uvec2 reserved = reserve(uvec2(wanted && near ? 1u : 0u, wanted && !near ? 1u : 0u));
   uint slot = near ? reserved.x : reserved.y;
-  if (wanted && slot < control.capacity) {
-    uint to = (near ? control.near : control.far) * control.capacity + slot;
+  if (wanted && slot < capacity) {
+    uint to = (near ? near_queue : far_queue) * capacity + slot;
     uint offered = floatBitsToUint(distance);
     // Repairs are accepted by a pass of its own: no label that this one reads may be new.
     bool waits = waits_on || repair > 0u || lower(target, offered);

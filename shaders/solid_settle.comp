@@ -11,11 +11,12 @@ layout(std430, binding = 2) writeonly buffer Labels { uvec4 labels[]; };
 layout(std430, binding = 4) readonly buffer WaitingLabels { uvec4 waiting_labels[]; };
 
 void main() {
+  start_group();
   uint part = invocation() & 3u, number = invocation() >> 2;
-  if (number >= control.count || part == 3u) return;
-  uint place = control.current * control.capacity + control.begin + number;
+  if (number >= round_count || part == 3u) return;
+  uint place = current_queue * capacity + round_begin + number;
   uvec2 entry = waiting[place];
   if (entry.x == NO_CELL || best[entry.x] != entry.y) return;  // a better label waits elsewhere
-  if (uintBitsToFloat(entry.y) >= control.limit) return;
+  if (uintBitsToFloat(entry.y) >= limit) return;
   labels[3u * entry.x + part] = waiting_labels[3u * place + part];
 }

@@ -72,14 +72,14 @@ void main() {
         if (corner_distance(field + f, f, corner) <= least * (1.0 + 64.0 * epsilon)) continue;
         if (!(d < uintBitsToFloat(known) * (1.0 - 16.0 * epsilon))) continue;
       }
-      bool near = d < control.limit;
+      bool near = d < limit;
       if (turn == 0) {
         if (near) ++count.x; else ++count.y;
         continue;
       }
       uint slot = near ? place.x++ : place.y++;
-      if (slot >= control.capacity) continue;
-      uint at = (near ? control.near : control.far) * control.capacity + slot;
+      if (slot >= capacity) continue;
+      uint at = (near ? near_queue : far_queue) * capacity + slot;
       waiting[at] = uvec2(field + f, floatBitsToUint(d));
       PosedSaddles label;
       label.source = saddle_point(0.0, 0.0);

@@ -39,14 +39,14 @@ void main() {
     if (alive) label = labels[cell];
   }
 #else
-  if (number < control.count) {
-    uint place = control.current * control.capacity + control.begin + number;
+  if (number < round_count) {
+    uint place = current_queue * capacity + round_begin + number;
     cell = waiting[place].x;
     bits = waiting[place].y;
     alive = cell != NO_CELL && best[cell] == bits;  // else a better label waits elsewhere
     if (alive) label = waiting_labels[place];
   }
-  bool later = alive && uintBitsToFloat(bits) >= control.limit;
+  bool later = alive && uintBitsToFloat(bits) >= limit;
   waits_on = later && side == 0u;
   alive = alive && !later;
   if (alive && side == 0u) {
@@ -111,7 +111,7 @@ void main() {
 #endif
       offered = pack(crossed.label, (label.h.y & ~3u) | k);
     }
-    bool near = distance < control.limit;
+    bool near = distance < limit;
     if (waits_on) {  // goes on as it is
       wanted = true;
       near = false;
@@ -120,10 +120,10 @@ void main() {
       offered = label;
     }
     uvec2 reserved = reserve(uvec2(wanted && near ? 1u : 0u, wanted && !near ? 1u : 0u));
-    uint queue = near ? control.near : control.far;
+    uint queue = near ? near_queue : far_queue;
     uint slot = near ? reserved.x : reserved.y;
-    if (wanted && slot < control.capacity) {
-      uint place = queue * control.capacity + slot;
+    if (wanted && slot < capacity) {
+      uint place = queue * capacity + slot;
 #ifdef PLEXWAY_REVIVE
       bool waits = true;  // accepted by a pass of its own: no label that this pass reads may be new
 #else

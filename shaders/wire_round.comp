@@ -21,15 +21,15 @@ void main() {
   uint number = invocation();
   uint cell = 0u, bits = UNREACHED, source = 0u;
   bool alive = false, waits_on = false;
-  if (number < control.count) {
-    uint place = control.current * control.capacity + control.begin + number;
+  if (number < round_count) {
+    uint place = current_queue * capacity + round_begin + number;
     cell = waiting[place].x;
     bits = waiting[place].y;
     alive = cell != NO_CELL && best[cell] == bits;
     if (alive) source = waiting_labels[place];
   }
   float sigma = uintBitsToFloat(bits);
-  waits_on = alive && sigma >= control.limit;
+  waits_on = alive && sigma >= limit;
   alive = alive && !waits_on;
   if (alive) {
     labels[cell] = source;
@@ -48,11 +48,11 @@ void main() {
   for (uint k = begin; k < end; ++k) {
     float offer = sigma + uintBitsToFloat(arcs[k].y);
     if (floatBitsToUint(offer) >= best[cell - v + arcs[k].x]) continue;
-    if (offer < control.limit) ++count.x; else ++count.y;
+    if (offer < limit) ++count.x; else ++count.y;
   }
   uvec2 place = reserve(count), last = place + count;
-  if (waits_on && place.y < control.capacity) {
-    uint at = control.far * control.capacity + place.y;
+  if (waits_on && place.y < capacity) {
+    uint at = far_queue * capacity + place.y;
     waiting[at] = uvec2(cell, bits);
     waiting_labels[at] = source;
     note_far(bits);
@@ -63,20 +63,20 @@ void main() {
     float offer = sigma + uintBitsToFloat(arcs[k].y);
     uint distance = floatBitsToUint(offer);
     if (distance >= best[target]) continue;
-    bool near = offer < control.limit;
+    bool near = offer < limit;
     uint slot = near ? place.x++ : place.y++;
     // Without room it must not be accepted: the round will be repeated.
-    if (slot >= control.capacity) continue;
+    if (slot >= capacity) continue;
     bool waits = lower(target, distance);
-    uint at = (near ? control.near : control.far) * control.capacity + slot;
+    uint at = (near ? near_queue : far_queue) * capacity + slot;
     waiting[at] = uvec2(waits ? target : NO_CELL, distance);
     waiting_labels[at] = source;
     if (waits && !near) note_far(distance);
   }
   // Places that were not needed after all.
-  for (; place.x < min(last.x, control.capacity); ++place.x)
-    waiting[control.near * control.capacity + place.x].x = NO_CELL;
-  for (; place.y < min(last.y, control.capacity); ++place.y)
-    waiting[control.far * control.capacity + place.y].x = NO_CELL;
+  for (; place.x < min(last.x, capacity); ++place.x)
+    waiting[near_queue * capacity + place.x].x = NO_CELL;
+  for (; place.y < min(last.y, capacity); ++place.y)
+    waiting[far_queue * capacity + place.y].x = NO_CELL;
   end_group();
 }

@@ -5,18 +5,22 @@
 #include <new>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 
 #include <plexway/error.hpp>
 #include <plexway/version.hpp>
 
 #include "commands.hpp"
 #include "console.hpp"
+#include "executor_argument.hpp"
 #include "exit_codes.hpp"
 
 namespace plexway::cli {
 namespace {
 
 std::string version_text() {
+  std::string executors;
+  for (const std::string_view name : built_executors()) executors.append(" ").append(name);
   std::string providers;
 #ifdef PLEXWAY_HAS_BOOST_GRAPH
   providers += " boost_graph";
@@ -26,9 +30,9 @@ std::string version_text() {
   providers += " tetgen";
   licence += "; TetGen 1.5 (AGPL) is built in, so the AGPL holds for this program as a whole";
 #endif
-  return std::string("plexway ") + version_string +
-         "\nprecision  float double\nexecutors  serial\nproviders " +
-         (providers.empty() ? " none" : providers) + "\nlicence    " + licence + "\n";
+  return std::string("plexway ") + version_string + "\nprecision  float double\nexecutors " +
+         executors + "\nproviders " + (providers.empty() ? " none" : providers) + "\nlicence    " +
+         licence + "\n";
 }
 
 // The command that was being parsed when something went wrong.

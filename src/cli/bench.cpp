@@ -44,6 +44,7 @@ struct Times {
 struct Result {
   double build = 0, dijkstra_build = 0;
   bool has_dijkstra = false;
+  Executor executor;
   std::size_t sources = 0;
   Times times;
   ErrorGauge errors;
@@ -88,7 +89,7 @@ std::vector<std::vector<double>> read_truths(const BenchCommand& command, const 
 // predictor, and blocks of one solver would see another clock than blocks of the other.
 Times measure(const BenchCommand& command, const Domain& domain, Solver& solver,
               DijkstraPeer* dijkstra, const std::vector<PointSource>& sources,
-              const PropagateOptions& options, ProgressLine& progress) {
+              const PropagateOptions& options, const Executor& executor, ProgressLine& progress) {
   Times times;
   const double to_ns_a_vertex = 1e9 / static_cast<double>(domain.vertices());
   for (std::size_t repeat = 0; repeat < command.repeats; ++repeat) {
@@ -100,7 +101,7 @@ Times measure(const BenchCommand& command, const Domain& domain, Solver& solver,
       times.dijkstra.push_back(running.seconds() * to_ns_a_vertex);
     }
     const Stopwatch solving;
-    solver.solve({&source, 1}, options);
+    solver.solve(executor, {&source, 1}, options);
     times.plexway.push_back(solving.seconds() * to_ns_a_vertex);
     progress.done(static_cast<double>(repeat + 1) / static_cast<double>(command.repeats));
   }
@@ -117,7 +118,8 @@ Json to_json(const BenchCommand& command, const Domain& domain, const Solver& so
   json["vertices"] = domain.vertices();
   json["simplices"] = domain.simplices();
   json["precision"] = command.solve.precision;
-  json["executor"] = command.solve.executor;
+  json["executor"] = executor_name(result.executor);
+  json["threads"] = executor_threads(result.executor);
   json["visibility"] = command.solve.visibility;
   json["sources"] = result.sources;
   json["repeats"] = command.repeats;
@@ -159,7 +161,6 @@ std::string to_text(const Json& json) {
 void run_bench(const BenchCommand& command) {
   const PropagateOptions options = propagate_options(command.solve);
   const Precision precision = precision_of(command.solve);
-  require_executor(command.solve);
   const std::vector<SourceArgument> arguments = parse_sources(command.sources);
   if (command.truths.size() > arguments.size())
     throw UsageError("more --truth than --source: give one file for each source, in order");
@@ -179,11 +180,12 @@ void run_bench(const BenchCommand& command) {
   result.dijkstra_build = building_graph.seconds();
   result.has_dijkstra = dijkstra != nullptr;
 
+  result.executor = choose_executor(command.solve.executor, options, domain.simplices(), 1);
   // Not timed; it also brings workspace and field to their size.
   progress.phase("comparing with the truth");
   std::vector<double> distance_from_first;
   for (std::size_t i = 0; i < sources.size(); ++i) {
-    solver->solve({&sources[i], 1}, options);
+    solver->solve(result.executor, {&sources[i], 1}, options);
     const std::vector<double> distance = solver->distance();
     if (i < truths.size()) result.errors.add(distance, truths[i]);
     if (i == 0) distance_from_first = distance;
@@ -192,7 +194,8 @@ void run_bench(const BenchCommand& command) {
   result.sources = sources.size();
 
   progress.phase("measuring");
-  result.times = measure(command, domain, *solver, dijkstra.get(), sources, options, progress);
+  result.times = measure(command, domain, *solver, dijkstra.get(), sources, options,
+                         result.executor, progress);
   progress.clear();
 
   const Json json = to_json(command, domain, *solver, result);

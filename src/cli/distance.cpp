@@ -42,7 +42,14 @@ struct Outcome {
   std::size_t beside_source = 0;  // reached, and not a source
   double max_distance = 0;
   std::size_t farthest = 0;
+  Executor executor;
 };
+
+std::string executor_text(const Executor& executor) {
+  const std::size_t threads = executor_threads(executor);
+  return std::string(executor_name(executor)) +
+         (threads > 1 ? " with " + counted(threads, "threads") : "");
+}
 
 Outcome survey(const std::vector<double>& distance, const std::vector<PointSource>& sources) {
   Outcome outcome;
@@ -79,7 +86,8 @@ Json to_json(const DistanceCommand& command, const Domain& domain, const Solver&
   json["max_distance"] = json_number(outcome.max_distance);
   json["expansions"] = solver.statistics().expansions;
   json["updates"] = solver.statistics().updates;
-  json["executor"] = command.solve.executor;
+  json["executor"] = executor_name(outcome.executor);
+  json["threads"] = executor_threads(outcome.executor);
   return json;
 }
 
@@ -108,7 +116,7 @@ std::string to_text(const DistanceCommand& command, const Domain& domain, const 
       domain.mesh_seconds() ? ", mesh " + short_time(*domain.mesh_seconds()) : "";
   table.add("time", "load " + short_time(domain.load_seconds()) + mesh + ", build " +
                         short_time(outcome.build) + ", solve " + short_time(outcome.solve) + " (" +
-                        command.solve.executor + ", " + command.solve.precision + ")");
+                        executor_text(outcome.executor) + ", " + command.solve.precision + ")");
   if (!command.out.empty() && command.out != "-") table.add("written", command.out);
   return table.text();
 }
@@ -143,7 +151,6 @@ void say_notes(const Domain& domain, const Solver& solver, const Outcome& outcom
 void run_distance(const DistanceCommand& command) {
   const PropagateOptions wanted = propagate_options(command.solve);
   const Precision precision = precision_of(command.solve);
-  require_executor(command.solve);
   const std::vector<SourceArgument> arguments = parse_sources(command.sources);
   if (command.out != "-") check_output_name(command.out, command.input, io::field_extensions());
 
@@ -160,13 +167,16 @@ void run_distance(const DistanceCommand& command) {
   PropagateOptions options = wanted;
   options.progress = progress.callback();
   const Stopwatch solving;
-  solver->solve(sources, options);
+  const Executor executor =
+      choose_executor(command.solve.executor, options, domain.simplices(), sources.size());
+  solver->solve(executor, sources, options);
   const double solve = solving.seconds();
 
   const std::vector<double> distance = solver->distance();
   Outcome outcome = survey(distance, sources);
   outcome.build = build;
   outcome.solve = solve;
+  outcome.executor = executor;
 
   const bool to_stdout = command.out == "-";
   if (!command.out.empty()) {

@@ -1,6 +1,7 @@
 #include <CLI/CLI.hpp>
 #include <memory>
 #include <string>
+#include <string_view>
 #include <variant>
 
 #include <plexway/error.hpp>
@@ -8,10 +9,10 @@
 #include "commands.hpp"
 #include "console.hpp"
 #include "domain.hpp"
+#include "executor_argument.hpp"
 #include "info_report.hpp"
 #include "progress.hpp"
 #include "report.hpp"
-#include "solve_options.hpp"
 
 namespace plexway::cli {
 namespace {
@@ -28,9 +29,9 @@ struct InfoCommand {
 void print_devices(bool json) {
   Json names = Json::array();
   std::string text;
-  for (const char* const name : built_executors) {
+  for (const std::string_view name : built_executors()) {
     names.push_back(name);
-    text += std::string(name) + "\n";
+    text.append(name).append("\n");
   }
   write_output(json ? json_text(Json{{"executors", names}}) : text);
 }

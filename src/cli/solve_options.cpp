@@ -54,9 +54,7 @@ void add_solve_options(CLI::App& command, SolveOptions& options, bool bounded) {
   command.add_option("--precision", options.precision, "float (default) or double")
       ->type_name("NAME")
       ->group(group);
-  command.add_option("--executor", options.executor, "what it runs on: serial (default)")
-      ->type_name("NAME")
-      ->group(group);
+  add_executor_options(command, options.executor, group);
 }
 
 PropagateOptions propagate_options(const SolveOptions& options) {
@@ -78,23 +76,13 @@ PropagateOptions propagate_options(const SolveOptions& options) {
     made.radius = *options.radius;
   }
   if (options.max_expansions) made.max_expansions = *options.max_expansions;
+  check_executor(options.executor, made);
   return made;
 }
 
 Precision precision_of(const SolveOptions& options) {
   return choose<Precision>("--precision", options.precision,
                            {{"float", Precision::single}, {"double", Precision::twice}});
-}
-
-void require_executor(const SolveOptions& options) {
-  enum class Executor { serial, openmp, gl };
-  const auto chosen = choose<Executor>(
-      "--executor", options.executor,
-      {{"serial", Executor::serial}, {"openmp", Executor::openmp}, {"gl", Executor::gl}});
-  if (chosen != Executor::serial) {
-    throw NotBuiltError("--executor " + options.executor +
-                        ": not built in; see 'plexway info --devices'");
-  }
 }
 
 }  // namespace plexway::cli

@@ -5,6 +5,8 @@
 
 #include <plexway/propagate/options.hpp>
 
+#include "executor_argument.hpp"
+
 namespace CLI {
 class App;
 }
@@ -21,19 +23,15 @@ struct SolveOptions {
   std::optional<double> radius;
   std::optional<std::size_t> max_expansions;
   std::string precision = "float";
-  std::string executor = "serial";
+  ExecutorArgument executor;
 };
-
-/// Names of the executors in this build.
-inline constexpr const char* built_executors[] = {"serial"};
 
 /// Adds the options to a command; `bounded` adds those that end a propagation early.
 void add_solve_options(CLI::App& command, SolveOptions& options, bool bounded);
 
-/// Throw UsageError for a value that does not exist or is out of range, and NotBuiltError for an
-/// executor that this build lacks.
+/// Throw UsageError for a value that does not exist or is out of range; the first also as
+/// check_executor.
 PropagateOptions propagate_options(const SolveOptions& options);
 Precision precision_of(const SolveOptions& options);
-void require_executor(const SolveOptions& options);
 
 }  // namespace plexway::cli

@@ -34,8 +34,13 @@ class ShapeSolver final : public Solver {
 
   std::size_t components() const override { return complex_.summary().components; }
 
-  void solve(std::span<const PointSource> sources, const PropagateOptions& options) override {
-    propagate(Serial{}, complex_, sources, options, workspace_, field_);
+  void solve(const Executor& executor, std::span<const PointSource> sources,
+             const PropagateOptions& options) override {
+    std::visit(
+        [&](const auto& chosen) {
+          propagate(chosen, complex_, sources, options, workspace_, field_);
+        },
+        executor);
   }
 
   std::vector<double> distance() const override {

@@ -10,6 +10,7 @@
 #include <plexway/source/point_source.hpp>
 
 #include "domain.hpp"
+#include "executor_argument.hpp"
 #include "solve_options.hpp"
 
 namespace plexway::cli {
@@ -26,7 +27,8 @@ class Solver {
 
   [[nodiscard]] virtual std::size_t components() const = 0;
   /// One propagation, read-out to vertices included. Throws as plexway::propagate.
-  virtual void solve(std::span<const PointSource> sources, const PropagateOptions& options) = 0;
+  virtual void solve(const Executor& executor, std::span<const PointSource> sources,
+                     const PropagateOptions& options) = 0;
 
   // Of the last solve.
   [[nodiscard]] virtual std::vector<double> distance() const = 0;

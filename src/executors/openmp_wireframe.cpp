@@ -59,6 +59,7 @@ struct WireExpander {
       if (offer < front.distance(arcs[k].to)) front.accept(arcs[k].to, 0, {}, offer, source);
     }
   }
+  void far_ahead(Index v) const { __builtin_prefetch(&begin[v]); }
   void ahead(Index v) const { __builtin_prefetch(&arcs[begin[v]]); }
 };
 

@@ -72,7 +72,8 @@ class Rounds {
   }
 
   /// Until no offer waits. `make(front)` gives what expands a simplex for a thread: expand(s), and
-  /// ahead(s), called a little earlier, for prefetching. `before` is what was done so far. False
+  /// ahead(s), called a little earlier, and far_ahead(s), earlier still, for
+  /// prefetching. `before` is what was done so far. False
   /// if it ended early, as max_expansions were spent or `patience` expansions done: offers then
   /// still wait. Throws Cancelled.
   template <class Make>
@@ -139,6 +140,8 @@ class Rounds {
 
  private:
   enum class Phase { contest, settle, expand, done };
+  // So many labels, with what their expansion reads, are in a core's cache from round to round.
+  static constexpr std::size_t short_front = 8192;
 
   struct alignas(64) Hand {
     Front front;
@@ -239,10 +242,13 @@ class Rounds {
 
   template <class Expand>
   void expand_chunk(Hand& hand, Expand& expand, std::size_t begin, std::size_t end) {
-    constexpr std::size_t ahead = 4;
-    hand.front.set_limit(limit_);
+    constexpr std::size_t ahead = 4, far_ahead = 8;
+    hand.front.start(limit_, expanding_ < short_front);
+    for (std::size_t i = begin; i < std::min(begin + far_ahead, end); ++i)
+      expand.far_ahead(live_[i]);
     for (std::size_t i = begin; i < std::min(begin + ahead, end); ++i) expand.ahead(live_[i]);
     for (std::size_t i = begin; i < end; ++i) {
+      if (i + far_ahead < end) expand.far_ahead(live_[i + far_ahead]);
       if (i + ahead < end) expand.ahead(live_[i + ahead]);
       expand(live_[i]);
     }

@@ -3,6 +3,7 @@
 #include <string>
 
 #include <plexway/error.hpp>
+#include <plexway/executors/field.hpp>
 
 namespace plexway {
 
@@ -29,5 +30,31 @@ Team::Team(const OpenMP& executor) : size_(executor.threads), chunk_(executor.ch
   size_ = std::min(omp_get_max_threads(), most);
 #endif
 }
+
+namespace detail {
+
+std::size_t team_size(const OpenMP& executor) {
+  return static_cast<std::size_t>(Team(executor).size());
+}
+
+void share_out(const OpenMP& executor, std::size_t count,
+               const std::function<void(std::size_t, std::size_t)>& work) {
+  const Team team(executor);
+  std::atomic<std::size_t> next{0};
+  team.run([&](int thread, int) {
+    for (;;) {
+      const std::size_t k = next.fetch_add(1, std::memory_order_relaxed);
+      if (k >= count) return;
+      try {
+        work(k, static_cast<std::size_t>(thread));
+      } catch (...) {
+        next.store(count, std::memory_order_relaxed);  // no more for the others
+        throw;
+      }
+    }
+  });
+}
+
+}  // namespace detail
 
 }  // namespace plexway

@@ -94,7 +94,7 @@ class Gate {
  public:
   explicit Gate(int threads) {
     const unsigned cores = std::thread::hardware_concurrency();
-    patience_ = cores == 0 || static_cast<unsigned>(threads) <= cores ? 4000 : 20;
+    patience_ = cores == 0 || static_cast<unsigned>(threads) <= cores ? 2000 : 0;
   }
 
   /// For all but the first of so many threads.
@@ -123,6 +123,10 @@ class Gate {
 #if defined(__x86_64__) || defined(__i386__)
       __builtin_ia32_pause();
 #endif
+    }
+    for (int i = 0; i < 32; ++i) {  // somebody may be waiting for this core
+      std::this_thread::yield();
+      if (done(value.load(std::memory_order_acquire))) return;
     }
     for (Value now; !done(now = value.load(std::memory_order_acquire));) value.wait(now);
   }

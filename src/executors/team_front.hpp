@@ -44,6 +44,7 @@ class SimplexStore {
   void prefetch(Index s) const {
     __builtin_prefetch(&labels_[s], 1);
     __builtin_prefetch(&mark_[s], 1);
+    if constexpr (kLabels) __builtin_prefetch(&source_[s], 1);
   }
 
  private:
@@ -80,11 +81,15 @@ class TeamFront : public Store {
 
   OfferList<Label>& near() { return waiting_[0]; }
   OfferList<Label>& far() { return waiting_[1]; }
-  void set_limit(std::uint64_t limit) { limit_ = limit; }
+  [[nodiscard]] bool expands_soon() const { return short_; }
+  /// Before each round: offers beyond the limit wait apart; is the front so short that what is
+  /// fetched in this round is still there in the next?
+  void start(std::uint64_t limit, bool is_short) { limit_ = limit, short_ = is_short; }
 
  private:
   std::uint64_t* key_;
   std::uint64_t limit_ = 0;
+  bool short_ = true;
   OfferList<Label> waiting_[2];
 };
 

@@ -114,7 +114,8 @@ class SimplexPropagation {
       propagation.limit(rule, rounds.updates());
       propagation.expand(rule, s);
     }
-    void ahead(Index s) const { rule.prefetch(s); }
+    void far_ahead(Index s) const { rule.prefetch(s); }
+    void ahead(Index s) const { rule.prefetch_around(s); }
   };
 
   void seed_vertex(Index vertex, Real sigma, Index number) {

@@ -86,7 +86,8 @@ class SolidPropagation {
     bool last_resort;
 
     void operator()(Index t) const { propagation.expand(rule, t, last_resort); }
-    void ahead(Index t) const { rule.prefetch(t); }
+    void far_ahead(Index t) const { rule.prefetch(t); }
+    void ahead(Index t) const { rule.prefetch_around(t); }
   };
 
   void seed_vertex(Index vertex, Real sigma, Index number) {

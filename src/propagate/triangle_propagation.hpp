@@ -82,7 +82,8 @@ class TrianglePropagation {
       propagation.expand(rule, front, f, last_resort,
                          [this](Index g, std::size_t edge) { rule.cross(g, edge, last_resort); });
     }
-    void ahead(Index f) const { rule.prefetch(f); }
+    void far_ahead(Index f) const { rule.prefetch(f); }
+    void ahead(Index f) const { rule.prefetch_around(f); }
   };
 
   void seed_vertex(Index vertex, Real sigma, Index number) {

@@ -47,6 +47,7 @@ class PlainRule {
   }
 
   void prefetch(Index) const {}
+  void prefetch_around(Index) const {}
 
   /// Over one edge, to every triangle there. (A plain step never drops an update: there is no last
   /// resort to take.)

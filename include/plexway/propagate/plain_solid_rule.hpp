@@ -65,6 +65,7 @@ class PlainSolidRule {
   }
 
   void prefetch(Index) const {}
+  void prefetch_around(Index) const {}
 
   void cross(Index t, Index face, bool) const {
     const Index across = tets_[t].across[face];

@@ -78,7 +78,7 @@ class SaddleRule {
         label = step.left_label();
       if (label.distance() < known_left) [[likely]] {
         front_.accept(l, kl, label, label.distance(), source);
-        prefetch(tl, kl);
+        if (front_.expands_soon()) prefetch(tl, kl);
       }
     }
     if (step.right_distance < known_right) {
@@ -91,15 +91,15 @@ class SaddleRule {
         label = step.right_label();
       if (label.distance() < known_right) [[likely]] {
         front_.accept(r, kr, label, label.distance(), source);
-        prefetch(tr, kr);
+        if (front_.expands_soon()) prefetch(tr, kr);
       }
     }
   }
 
-  /// Fetches what the expansion of f will need.
-  [[gnu::always_inline]] void prefetch(Index f) const {
-    const TriangleRecord<Real>& t = triangles_[f];
-    prefetch(t, front_.hinge(f));
+  /// Fetches what the expansion of f will need, in two steps: f itself, then its neighbours.
+  [[gnu::always_inline]] void prefetch(Index f) const { __builtin_prefetch(&triangles_[f]); }
+  [[gnu::always_inline]] void prefetch_around(Index f) const {
+    prefetch(triangles_[f], front_.hinge(f));
   }
 
   /// The full rule over one edge, to every triangle there.

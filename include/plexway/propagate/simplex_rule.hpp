@@ -56,8 +56,9 @@ class PlainSimplexRule {
   /// of no flat simplices would have it go on for ever.
   void set_patience(Real share) { patience_ = share; }
 
-  /// Fetches what the expansion of s will need.
-  void prefetch(Index s) const { prefetch(records_[s]); }
+  /// Fetches what the expansion of s will need, in two steps: s itself, then its neighbours.
+  void prefetch(Index s) const { prefetch_lines(records_[s]); }
+  void prefetch_around(Index s) const { prefetch(records_[s]); }
 
   /// Offers to all neighbours but the one the path came from.
   void expand(Index s) {
@@ -116,16 +117,18 @@ class PlainSimplexRule {
     measure(records_[t], label);
     if (!is_better(t, label)) return false;
     front_.accept(t, in, label, label.centre, source);
-    prefetch(records_[t]);
+    if (front_.expands_soon()) prefetch(records_[t]);
     return true;
   }
 
+  static void prefetch_lines(const Record& t) {
+    const char* record = reinterpret_cast<const char*>(&t);
+    for (std::size_t line = 0; line < sizeof(Record); line += 64) __builtin_prefetch(record + line);
+  }
   void prefetch(const Record& t) const {
     for (const Index across : t.across) {
       const Index a = across == none ? 0 : across >> FacetAcross::simplex_shift;
-      const char* record = reinterpret_cast<const char*>(&records_[a]);
-      for (std::size_t line = 0; line < sizeof(Record); line += 64)
-        __builtin_prefetch(record + line);
+      prefetch_lines(records_[a]);
       __builtin_prefetch(&front_.label(a));
     }
   }

@@ -109,7 +109,7 @@ class SolidRule : public SolidPaths<Real> {
     Label label;
     if (!offer_straight(from, t, face, q, label)) return;
     front_->accept(u, across & TetAcross::face_mask, label, label.centre, front_->source(t));
-    prefetch(u);
+    if (front_->expands_soon()) prefetch_around(u);
   }
 
   /// A path of length sigma ends at corner i of t; false if t knows a better one.
@@ -209,8 +209,9 @@ class SolidRule : public SolidPaths<Real> {
     return enter(t, face, label, reach(label, tets_[t].centre).extent, source);
   }
 
-  /// Fetches what the expansion of t will need.
-  [[gnu::always_inline]] void prefetch(Index t) const {
+  /// Fetches what the expansion of t will need, in two steps: t itself, then its neighbours.
+  [[gnu::always_inline]] void prefetch(Index t) const { __builtin_prefetch(&tets_[t]); }
+  [[gnu::always_inline]] void prefetch_around(Index t) const {
     for (const Index across : tets_[t].across) {
       __builtin_prefetch(&tets_[across >> TetAcross::tet_shift]);
       __builtin_prefetch(&front_->label(across >> TetAcross::tet_shift));
@@ -247,7 +248,7 @@ class SolidRule : public SolidPaths<Real> {
     Label label;
     if (!offer_bent(front_->label(t), t, face, u, known, last_resort, label)) return;
     front_->accept(u, across & TetAcross::face_mask, label, label.centre, front_->source(t));
-    prefetch(u);
+    if (front_->expands_soon()) prefetch_around(u);
   }
 
   static Label point_label(const Point& at, Real sigma) {

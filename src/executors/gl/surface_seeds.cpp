@@ -33,19 +33,16 @@ void SurfaceSeeds::add(const TriangleMesh<float>& mesh, std::span<const PointSou
   for (std::size_t n = 0; n < sources.size(); ++n)
     propagation.seed(sources[n], static_cast<Index>(n));
 
-  Index f = 0;
-  const auto distance_of = [&](Index s) { return rule.distance(s); };
-  while (front.take_stock(0))
-    while (front.next(f, distance_of)) {
-      const SaddleLabel<float>& label = front.label(f);
-      const auto via = static_cast<GLuint>(front.hinge(f) | std::size_t{front.source(f)} << 2);
-      waiting.push_back(
-          {static_cast<GLuint>(first_cell + f), std::bit_cast<GLuint>(label.distance())});
-      labels.push_back({{label.x[0], label.x[1], label.x[2], label.x[3]},
-                        label.h[0],
-                        via,
-                        {label.h[2], label.h[3]}});
-    }
+  front.drain([&](Index f) {
+    const SaddleLabel<float>& label = front.label(f);
+    const auto via = static_cast<GLuint>(front.hinge(f) | std::size_t{front.source(f)} << 2);
+    waiting.push_back(
+        {static_cast<GLuint>(first_cell + f), std::bit_cast<GLuint>(label.distance())});
+    labels.push_back({{label.x[0], label.x[1], label.x[2], label.x[3]},
+                      label.h[0],
+                      via,
+                      {label.h[2], label.h[3]}});
+  });
 
   // The sources themselves, exactly, and the corners of triangles they lie in.
   for (std::size_t n = 0; n < sources.size(); ++n) {

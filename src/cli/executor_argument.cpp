@@ -1,0 +1,73 @@
+#include "executor_argument.hpp"
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <array>
+
+#include <plexway/error.hpp>
+#include <plexway/executors/field.hpp>
+
+namespace plexway::cli {
+namespace {
+
+constexpr std::array<std::string_view, 4> names = {"serial", "openmp", "gl", "auto"};
+constexpr std::size_t many_sources = 64;
+
+}  // namespace
+
+std::string_view executor_name(const Executor& executor) {
+  return std::holds_alternative<OpenMP>(executor) ? "openmp" : "serial";
+}
+
+std::size_t executor_threads(const Executor& executor) {
+  const OpenMP* const team = std::get_if<OpenMP>(&executor);
+  return team == nullptr ? 1 : detail::team_size(*team);
+}
+
+std::vector<std::string_view> built_executors() {
+  std::vector<std::string_view> built = {"serial"};
+  if (openmp_built()) built.push_back("openmp");
+  return built;
+}
+
+void add_executor_options(CLI::App& command, ExecutorArgument& argument, const std::string& group) {
+  command
+      .add_option("--executor", argument.name,
+                  "what it runs on: serial (default), openmp, gl or auto (what is fastest\n"
+                  "for so many simplices and sources)")
+      ->type_name("NAME")
+      ->group(group);
+  command.add_option("--threads", argument.threads, "for openmp and auto (default: all cores)")
+      ->check(CLI::Range(1, 1024))
+      ->type_name("N")
+      ->group(group);
+}
+
+void check_executor(const ExecutorArgument& argument, const PropagateOptions& options) {
+  const std::string& name = argument.name;
+  if (std::find(names.begin(), names.end(), name) == names.end())
+    throw UsageError("--executor '" + name + "': choose one of serial, openmp, gl, auto");
+  if (name == "gl" || (name == "openmp" && !openmp_built()))
+    throw NotBuiltError("--executor " + name + ": not built in; see 'plexway info --devices'");
+  if (argument.threads && name != "openmp" && name != "auto")
+    throw UsageError("--threads needs --executor openmp or auto");
+  if (name == "openmp" && options.schedule == Schedule::priority)
+    throw UsageError(
+        "--schedule priority needs --executor serial: several threads do not take labels in order");
+}
+
+Executor choose_executor(const ExecutorArgument& argument, const PropagateOptions& options,
+                         std::size_t simplices, std::size_t sources) {
+  const OpenMP team{.threads = argument.threads.value_or(0)};
+  if (argument.name == "openmp") return team;
+  if (argument.name != "auto" || !openmp_built() || options.schedule == Schedule::priority)
+    return Serial{};
+  const std::size_t least = sources >= many_sources ? auto_simplices_many : auto_simplices;
+  const bool bounded =
+      options.radius < PropagateOptions{}.radius ||
+      options.max_expansions < PropagateOptions{}.max_expansions;  // fronts may stay short
+  if (simplices < least || bounded || detail::team_size(team) < 2) return Serial{};
+  return team;
+}
+
+}  // namespace plexway::cli
