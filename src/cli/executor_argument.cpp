@@ -12,12 +12,15 @@ namespace {
 
 constexpr std::array<std::string_view, 4> names = {"serial", "openmp", "gl", "auto"};
 constexpr std::size_t many_sources = 64;
+#ifdef PLEXWAY_HAS_GL
+constexpr bool gl_built = true;
+#else
+constexpr bool gl_built = false;
+#endif
 
 }  // namespace
 
-std::string_view executor_name(const Executor& executor) {
-  return std::holds_alternative<OpenMP>(executor) ? "openmp" : "serial";
-}
+std::string_view executor_name(const Executor& executor) { return names[executor.index()]; }
 
 std::size_t executor_threads(const Executor& executor) {
   const OpenMP* const team = std::get_if<OpenMP>(&executor);
@@ -27,6 +30,7 @@ std::size_t executor_threads(const Executor& executor) {
 std::vector<std::string_view> built_executors() {
   std::vector<std::string_view> built = {"serial"};
   if (openmp_built()) built.push_back("openmp");
+  if (gl_built) built.push_back("gl");
   return built;
 }
 
@@ -41,25 +45,36 @@ void add_executor_options(CLI::App& command, ExecutorArgument& argument, const s
       ->check(CLI::Range(1, 1024))
       ->type_name("N")
       ->group(group);
+  command
+      .add_option("--device", argument.device,
+                  "for gl: its number in 'plexway info --devices' (default: the first\n"
+                  "graphics processor)")
+      ->check(CLI::Range(0, 1024))
+      ->type_name("N")
+      ->group(group);
 }
 
 void check_executor(const ExecutorArgument& argument, const PropagateOptions& options) {
   const std::string& name = argument.name;
   if (std::find(names.begin(), names.end(), name) == names.end())
     throw UsageError("--executor '" + name + "': choose one of serial, openmp, gl, auto");
-  if (name == "gl" || (name == "openmp" && !openmp_built()))
+  if ((name == "gl" && !gl_built) || (name == "openmp" && !openmp_built()))
     throw NotBuiltError("--executor " + name + ": not built in; see 'plexway info --devices'");
   if (argument.threads && name != "openmp" && name != "auto")
     throw UsageError("--threads needs --executor openmp or auto");
-  if (name == "openmp" && options.schedule == Schedule::priority)
-    throw UsageError(
-        "--schedule priority needs --executor serial: several threads do not take labels in order");
+  if (argument.device && name != "gl") throw UsageError("--device needs --executor gl");
+  if ((name == "openmp" || name == "gl") && options.schedule == Schedule::priority)
+    throw UsageError("--schedule priority needs --executor serial: " + name +
+                     " does not take labels in order");
+  if (name == "gl" && options.visibility != Visibility::saddles)
+    throw UsageError("--executor gl knows --visibility saddles only");
 }
 
 Executor choose_executor(const ExecutorArgument& argument, const PropagateOptions& options,
                          std::size_t simplices, std::size_t sources) {
   const OpenMP team{.threads = argument.threads.value_or(0)};
   if (argument.name == "openmp") return team;
+  if (argument.name == "gl") return GL{.device = argument.device.value_or(-1)};
   if (argument.name != "auto" || !openmp_built() || options.schedule == Schedule::priority)
     return Serial{};
   const std::size_t least = sources >= many_sources ? auto_simplices_many : auto_simplices;

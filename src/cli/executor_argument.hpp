@@ -7,6 +7,7 @@
 #include <variant>
 #include <vector>
 
+#include <plexway/executors/gl.hpp>
 #include <plexway/executors/openmp.hpp>
 #include <plexway/executors/serial.hpp>
 #include <plexway/propagate/options.hpp>
@@ -17,14 +18,15 @@ class App;
 
 namespace plexway::cli {
 
-/// --executor and --threads, as typed.
+/// --executor, --threads and --device, as typed.
 struct ExecutorArgument {
   std::string name = "serial";
   std::optional<int> threads;
+  std::optional<int> device;
 };
 
 /// What runs a propagation.
-using Executor = std::variant<Serial, OpenMP>;
+using Executor = std::variant<Serial, OpenMP, GL>;
 /// Its name on the command line, and the number of its threads.
 [[nodiscard]] std::string_view executor_name(const Executor& executor);
 [[nodiscard]] std::size_t executor_threads(const Executor& executor);

@@ -1,7 +1,6 @@
 #include <CLI/CLI.hpp>
 #include <memory>
 #include <string>
-#include <string_view>
 #include <variant>
 
 #include <plexway/error.hpp>
@@ -9,7 +8,6 @@
 #include "commands.hpp"
 #include "console.hpp"
 #include "domain.hpp"
-#include "executor_argument.hpp"
 #include "info_report.hpp"
 #include "progress.hpp"
 #include "report.hpp"
@@ -26,20 +24,11 @@ struct InfoCommand {
   bool quiet = false;
 };
 
-void print_devices(bool json) {
-  Json names = Json::array();
-  std::string text;
-  for (const std::string_view name : built_executors()) {
-    names.push_back(name);
-    text.append(name).append("\n");
-  }
-  write_output(json ? json_text(Json{{"executors", names}}) : text);
-}
-
 void run_info(const InfoCommand& command) {
   if (command.devices) {
     if (!command.input.empty()) throw UsageError("--devices takes no INPUT");
-    print_devices(command.json);
+    const InfoReport devices = info_of_devices();
+    write_output(command.json ? json_text(devices.json) : devices.table.text());
     flush_output();
     return;
   }
@@ -66,7 +55,7 @@ void add_info_command(CLI::App& tool, Action& action) {
   CLI::App& app = *tool.add_subcommand("info", "What a domain is made of, and what may surprise");
   app.add_option("INPUT", command->input, input_help)->type_name("FILE");
   app.add_option("--as", command->as, as_help)->type_name("KIND");
-  app.add_flag("--devices", command->devices, "list the executors of this build instead");
+  app.add_flag("--devices", command->devices, "list executors and devices instead");
   app.add_flag("--json", command->json, "print one JSON object");
   app.add_flag("--quiet,-q", command->quiet, "no progress");
   add_fill_options(app, command->fill);

@@ -21,6 +21,9 @@ InfoReport info_of(const Domain& domain, const io::Triangles& surface);
 InfoReport info_of(const Domain& domain, const io::Tets& solid);
 InfoReport info_of(const Domain& domain, const io::Edges& wireframe);
 
+/// The executors of this build, and the devices they find on this machine.
+InfoReport info_of_devices();
+
 // Pieces that several kinds have.
 
 Json to_json(const Box& box);

@@ -36,11 +36,7 @@ class ShapeSolver final : public Solver {
 
   void solve(const Executor& executor, std::span<const PointSource> sources,
              const PropagateOptions& options) override {
-    std::visit(
-        [&](const auto& chosen) {
-          propagate(chosen, complex_, sources, options, workspace_, field_);
-        },
-        executor);
+    std::visit([&](const auto& chosen) { solve_on(chosen, sources, options); }, executor);
   }
 
   std::vector<double> distance() const override {
@@ -59,13 +55,38 @@ class ShapeSolver final : public Solver {
   bool complete() const override { return field_.complete; }
 
   std::size_t bytes() const override {
-    return complex_.bytes() + workspace_.bytes() + field_.distance.capacity() * sizeof(Real) +
-           field_.label.capacity() * sizeof(Index);
+    std::size_t on_device = 0;
+#ifdef PLEXWAY_HAS_GL
+    on_device = gl_workspace_.bytes();
+#endif
+    return complex_.bytes() + workspace_.bytes() + on_device +
+           field_.distance.capacity() * sizeof(Real) + field_.label.capacity() * sizeof(Index);
   }
 
  private:
+  template <class OnThisMachine>
+  void solve_on(const OnThisMachine& executor, std::span<const PointSource> sources,
+                const PropagateOptions& options) {
+    propagate(executor, complex_, sources, options, workspace_, field_);
+  }
+  void solve_on([[maybe_unused]] const GL& executor,
+                [[maybe_unused]] std::span<const PointSource> sources,
+                [[maybe_unused]] const PropagateOptions& options) {
+#ifdef PLEXWAY_HAS_GL
+    if constexpr (!std::is_same_v<Real, float>)
+      throw UsageError("--executor gl computes in single precision: use --precision float");
+    else if constexpr (std::is_same_v<Shape, io::Tets>)
+      throw UsageError("--executor gl knows surfaces and wireframes only: use another executor");
+    else
+      propagate(executor, complex_, sources, options, gl_workspace_, field_);
+#endif
+  }
+
   decltype(make_complex<Real>(std::declval<Shape>())) complex_;
   Workspace<Real> workspace_;
+#ifdef PLEXWAY_HAS_GL
+  GLWorkspace gl_workspace_;
+#endif
   DistanceField<Real> field_;
 };
 

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <sstream>
@@ -88,12 +89,52 @@ TEST_CASE("slender triangles are told from others in any unit") {
   }
 }
 
-TEST_CASE("info lists the executors") {
+TEST_CASE("info lists executors and devices") {
   const auto text = run_tool({"info", "--devices"});
   CHECK(text.code == 0);
-  CHECK(text.out == "serial\n");
-  CHECK(run_tool({"info", "--devices", "--json"}).json()["executors"] ==
-        nlohmann::json::array({"serial"}));
+  CHECK(text.err.empty());
+  CHECK(text.out.find("serial") == 0);
+  const auto json = run_tool({"info", "--devices", "--json"}).json();
+  const auto& executors = json["executors"];
+  CHECK(executors[0] == "serial");
+  CHECK(json["cores"] >= 1);
+  const bool gl = std::find(executors.begin(), executors.end(), "gl") != executors.end();
+  CHECK(json.contains("gl_devices") == gl);
+  if (!gl) return;
+  if (json["gl_devices"].empty()) CHECK(json.contains("gl_problem"));
+  for (const auto& device : json["gl_devices"]) {
+    if (device.contains("problem")) continue;
+    CHECK(device["largest_buffer"] > 0);
+    CHECK(text.out.find(device["renderer"].get<std::string>()) != std::string::npos);
+  }
+}
+
+TEST_CASE("the gl executor gives what the serial one gives, or says why not") {
+  const auto json = run_tool({"info", "--devices", "--json"}).json();
+  const auto solve = [](std::vector<std::string> more) {
+    std::vector<std::string> arguments = {"distance", sample("torus.obj"), "--source", "vertex:7",
+                                          "--json"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return run_tool(arguments);
+  };
+  const auto& executors = json["executors"];
+  const auto gl = solve({"--executor", "gl"});
+  if (std::find(executors.begin(), executors.end(), "gl") == executors.end() ||
+      json["gl_devices"].empty()) {
+    CHECK(gl.code == 4);
+    CHECK(gl.complaints() == 1);
+    return;
+  }
+  INFO(gl.err);
+  REQUIRE(gl.code == 0);
+  CHECK(gl.json()["executor"] == "gl");
+  CHECK(gl.json()["max_distance"].get<double>() ==
+        Approx(solve({}).json()["max_distance"].get<double>()).epsilon(1e-2));
+  CHECK(solve({"--executor", "gl", "--schedule", "priority"}).code == 2);
+  CHECK(solve({"--executor", "gl", "--precision", "double"}).code == 2);
+  CHECK(solve({"--executor", "gl", "--visibility", "tuned"}).code == 2);
+  CHECK(solve({"--executor", "gl", "--device", "99"}).code == 2);
+  CHECK(solve({"--device", "0"}).code == 2);
 }
 
 TEST_CASE("help and version go to standard output") {

@@ -280,6 +280,14 @@ TEST_CASE("real surfaces on a device are as near to the truth as the serial exec
   CHECK(found <= 1.1 * serial);
 }
 
+// What needs order does not compile.
+template <class Executor, class Options>
+concept Takes = requires(const TriangleMesh<float>& mesh, PointSource source, Options options) {
+  propagate(Executor{}, mesh, source, options);
+};
+static_assert(Takes<GL, PropagateOptions> && !Takes<GL, NearestFirst>);
+static_assert(Takes<Serial, NearestFirst>);
+
 TEST_CASE("one field a source on a device", "[gl]") {
   if (!device()) return;
   const Surface s = hills(16, 0.3);
@@ -304,6 +312,14 @@ TEST_CASE("one field a source on a device", "[gl]") {
     }
     totals.check();
   }
+  const auto named = fields(GL{}, mesh, sources);
+  CHECK(named.rows() == sources.size());
+  CHECK(named.complete);
+  CHECK(named.row(4)[sources[4].vertex] == 0);
+  CHECK(named.row(5)[sources[4].vertex] > 0);
+  const auto nearest = field(GL{}, mesh, sources);
+  CHECK(nearest.distance[sources[4].vertex] == 0);
+  CHECK(nearest.distance[sources[5].vertex] == 0);
   std::vector<float> short_of(5);
   GLWorkspace workspace;
   CHECK_THROWS_AS(propagate_each(GL{}, mesh, sources, {}, workspace, short_of), UsageError);

@@ -45,6 +45,7 @@ class Fields {
   }
   /// All rows, one after another.
   [[nodiscard]] std::span<const Real> values() const { return {values_.get(), rows_ * columns_}; }
+  [[nodiscard]] std::span<Real> values() { return {values_.get(), rows_ * columns_}; }
 
   bool complete = true;  ///< false if max_expansions ended one of them early
 

@@ -9,6 +9,7 @@
 #include <plexway/complex/tet_mesh.hpp>
 #include <plexway/complex/triangle_mesh.hpp>
 #include <plexway/complex/wireframe.hpp>
+#include <plexway/executors/field.hpp>
 #include <plexway/propagate/distance_field.hpp>
 #include <plexway/propagate/options.hpp>
 #include <plexway/source/point_source.hpp>
@@ -45,6 +46,9 @@ struct GLDevice {
 
 /// All devices, also those that cannot be used. Throws NotBuiltError if there is no EGL at all.
 [[nodiscard]] std::vector<GLDevice> gl_devices();
+
+/// The one that `executor` runs on.
+[[nodiscard]] GLDevice gl_device(const GL& executor);
 
 /// All that a propagation keeps on the device: the domain, labels, queues. Belongs to one domain
 /// and one thread at a time; the domain is copied to the device when it is first met, so that a
@@ -126,6 +130,25 @@ template <class Domain>
                                              const PointSource& source,
                                              const PropagateOptions& options = {}) {
   return propagate(executor, domain, std::span<const PointSource>(&source, 1), options);
+}
+
+/// What needs order needs one thread.
+template <class Domain, class Sources>
+void propagate(const GL&, const Domain&, const Sources&, const NearestFirst&) = delete;
+template <class Domain, class W, class F>
+void propagate(const GL&, const Domain&, std::span<const PointSource>, const NearestFirst&, W&,
+               F&) = delete;
+
+/// K fields: row k has the distance of every vertex from source k *alone*, all in as few launches
+/// as GL::batch_bytes allows (`propagate_each`). For surfaces and wireframes.
+template <class Domain>
+[[nodiscard]] Fields<float> fields(const GL& executor, const Domain& domain,
+                                   std::span<const PointSource> sources,
+                                   const PropagateOptions& options = {}) {
+  Fields<float> fields(sources.size(), domain.vertex_count());
+  GLWorkspace workspace;
+  fields.complete = propagate_each(executor, domain, sources, options, workspace, fields.values());
+  return fields;
 }
 
 }  // namespace plexway

@@ -98,6 +98,8 @@ GLuint Context::program(const std::string& shader, const std::string& defines) {
 
 namespace plexway {
 
+GLDevice gl_device(const GL& executor) { return gl::Context::of(executor.device)->device(); }
+
 std::vector<GLDevice> gl_devices() {
   std::vector<GLDevice> devices;
   for (std::size_t n = 0; n < gl::displays().size(); ++n) {
