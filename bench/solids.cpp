@@ -3,6 +3,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <iostream>
@@ -12,6 +13,9 @@
 #include <vector>
 
 #include <plexway/executors/serial_solid.hpp>
+#ifdef PLEXWAY_HAS_GL
+#include <plexway/executors/gl.hpp>
+#endif
 #ifdef PLEXWAY_HAS_BOOST_GRAPH
 #include <plexway/boost_graph/dijkstra.hpp>
 #endif
@@ -134,9 +138,40 @@ std::vector<std::array<Index, 3>> triangles(const Solid& solid) {
 }
 #endif
 
+#ifdef PLEXWAY_HAS_GL
+/// Time on the GL device, and how far its distances are from the serial executor's (mean, worst).
+void measure_gl(const plexway::TetMesh<float>& mesh, const std::vector<Index>& sources,
+                const bench::Effort& effort, nlohmann::ordered_json& row) {
+  plexway::GLWorkspace there;
+  plexway::Workspace<float> here;
+  plexway::DistanceField<float> field, serial;
+  double sum = 0, worst = 0, time = 0;
+  std::size_t count = 0;
+  for (const Index source : sources) {
+    const auto at = plexway::PointSource::at(source);
+    plexway::propagate(plexway::Serial{}, mesh, std::span(&at, 1), {}, here, serial);
+    double least = 1e9;
+    for (std::size_t n = 0; n <= effort.repeats; ++n)
+      least =
+          std::min(least, bench::seconds([&] {
+                     plexway::propagate(plexway::GL{}, mesh, std::span(&at, 1), {}, there, field);
+                   }));
+    time += least;
+    for (std::size_t v = 0; v < serial.distance.size(); ++v) {
+      if (!(serial.distance[v] > 0) || std::isinf(serial.distance[v])) continue;
+      const double apart = std::abs(double(field.distance[v]) / double(serial.distance[v]) - 1);
+      sum += apart, worst = std::max(worst, apart), ++count;
+    }
+  }
+  row["gl_ns_per_vertex"] = 1e9 * time / static_cast<double>(sources.size() * mesh.vertex_count());
+  row["gl_apart"] = count > 0 ? sum / static_cast<double>(count) : 0;
+  row["gl_apart_max"] = worst;
+}
+#endif
+
 template <class Real>
 nlohmann::ordered_json measure(const Solid& solid, const bench::Effort& effort,
-                               plexway::Visibility visibility) {
+                               plexway::Visibility visibility, [[maybe_unused]] bool gl) {
   const double vertices = static_cast<double>(solid.positions.size());
   const double tets = static_cast<double>(solid.tets.size());
   nlohmann::ordered_json row;
@@ -169,6 +204,10 @@ nlohmann::ordered_json measure(const Solid& solid, const bench::Effort& effort,
   row["dijkstra_ns_per_vertex"] = 1e9 * times.first / vertices;
   row["ratio"] = times.ratio;
 #endif
+#ifdef PLEXWAY_HAS_GL
+  if constexpr (sizeof(Real) == sizeof(float))
+    if (gl) measure_gl(*mesh, sources, effort, row);
+#endif
   bench::Errors errors;
   double updates = 0;
   for (const bench::Truth& truth : solid.truths) {
@@ -197,6 +236,9 @@ bench::Table solids_table() {
                        {"ns_per_tet", "ns/T", "%.0f"},
                        {"dijkstra_ns_per_vertex", "Dijkstra ns/V", "%.0f"},
                        {"ratio", "ratio", "%.2f"},
+                       {"gl_ns_per_vertex", "GL ns/V", "%.0f"},
+                       {"gl_apart", "GL apart mean", "%.1e"},
+                       {"gl_apart_max", "max", "%.1e"},
                        {"mean", "error mean", "%.1e"},
                        {"p99", "p99", "%.1e"},
                        {"max", "max", "%.1e"},
@@ -216,6 +258,7 @@ int main(int argc, char** argv) {
   double limit = 600;
   bench::Report report;
   bool single_precision = false;
+  bool gl = false;
   std::string policy = "saddles";
   CLI::App app("Distance in solids: time, errors, growth: one table");
   app.add_option("TRUTH", truth, "Folder of .node, .ele and exact answers");
@@ -231,6 +274,9 @@ int main(int argc, char** argv) {
       ->check(CLI::IsMember({"saddles", "centroid", "upper_bound"}))
       ->capture_default_str();
   app.add_flag("--float", single_precision, "Float instead of double");
+#ifdef PLEXWAY_HAS_GL
+  app.add_flag("--gl", gl, "With --float: also on the GL device, beside the serial executor");
+#endif
   report.add_options(app);
   CLI11_PARSE(app, argc, argv);
   const auto visibility = policy == "saddles"    ? plexway::Visibility::saddles
@@ -242,8 +288,8 @@ int main(int argc, char** argv) {
       const Solid solid = make();
       nlohmann::ordered_json cells = {{"mesh", solid.name}, {"tets", solid.tets.size()}};
       std::cerr << solid.name << std::endl;
-      cells.update(single_precision ? measure<float>(solid, effort, visibility)
-                                    : measure<double>(solid, effort, visibility));
+      cells.update(single_precision ? measure<float>(solid, effort, visibility, gl)
+                                    : measure<double>(solid, effort, visibility, gl));
       return cells;
     });
     table.add(std::move(row));

@@ -8,6 +8,8 @@
 
 #ifdef PLEXWAY_WIRES
 #define Label uint
+#elif defined(PLEXWAY_SOLIDS)
+struct Label { uvec4 a, b, c; };
 #else
 struct Label { uvec4 x, h; };
 #endif

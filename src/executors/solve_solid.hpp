@@ -1,12 +1,8 @@
 #pragma once
 
-#include <algorithm>
-#include <array>
-#include <cmath>
 #include <limits>
 #include <span>
 #include <type_traits>
-#include <utility>
 
 #include <plexway/error.hpp>
 #include <plexway/propagate/plain_solid_rule.hpp>
@@ -31,41 +27,13 @@ inline void check_policy(const PropagateOptions& options) {
 template <class Real, bool kLabels>
 void read_out_sources(const TetMesh<Real>& mesh, std::span<const PointSource> sources,
                       Workspace<Real>& workspace) {
-  const auto offer = [&](Index v, double d, std::size_t n) {
-    const Real distance = static_cast<Real>(d);
-    if (distance > workspace.vertex[v]) return;
-    workspace.vertex[v] = distance;
-    if constexpr (kLabels) workspace.vertex_source[v] = static_cast<Index>(n);
-  };
-  for (std::size_t n = sources.size(); n-- > 0;) {
-    const double sigma = sources[n].offset / mesh.unit();
-    if (sources[n].vertex != none) {
-      offer(mesh.inside_vertex(sources[n].vertex), sigma, n);
-      continue;
-    }
-    const auto [t, turned] = mesh.inside_tet(sources[n].simplex);
-    std::array<double, 4> b = sources[n].barycentric;
-    if (turned) std::swap(b[2], b[3]);
-    const auto& corner = mesh.tets()[t].corner;
-    // |p v_i|^2 = sum_j b_j l_ij^2 - sum_(j<k) b_j b_k l_jk^2.
-    std::array<double, 4> toward{};
-    double within = 0;
-    for (std::size_t e = 0; e < 6; ++e) {
-      const std::size_t i = tet_edge_ends[e][0], j = tet_edge_ends[e][1];
-      double length2 = 0;
-      if (mesh.embedded()) {
-        const auto along = mesh.points()[corner[j]] - mesh.points()[corner[i]];
-        length2 = static_cast<double>(dot(along, along));
-      } else {
-        length2 = static_cast<double>(mesh.squared_lengths()[t][e]);
-      }
-      toward[i] += b[j] * length2;
-      toward[j] += b[i] * length2;
-      within += b[i] * b[j] * length2;
-    }
-    for (std::size_t i = 0; i < 4; ++i)
-      offer(corner[i], b[i] == 1 ? sigma : sigma + std::sqrt(std::max(toward[i] - within, 0.)), n);
-  }
+  for (std::size_t n = sources.size(); n-- > 0;)
+    offer_corners(mesh, sources[n], [&](Index v, double d) {
+      const Real distance = static_cast<Real>(d);
+      if (distance > workspace.vertex[v]) return;
+      workspace.vertex[v] = distance;
+      if constexpr (kLabels) workspace.vertex_source[v] = static_cast<Index>(n);
+    });
 }
 
 template <class Real, bool kLabels, class Rule, class Front, class Crew>

@@ -97,7 +97,7 @@ class MixedSolid final : public MixedPiece<Real> {
     ring.end[0] = frame.origin + (low / unit_) * frame.u;
     ring.end[1] = frame.origin + (high / unit_) * frame.u;
     ring.direction = frame.u;
-    ring.length = (high - low) / unit_;
+    ring.extent = (high - low) / unit_;
     rings_.push_back(ring);
     rule_.set_rings(rings_);
     return static_cast<Index>(rings_.size() - 1);

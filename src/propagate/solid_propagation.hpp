@@ -115,6 +115,7 @@ class SolidPropagation {
     rule.expand(t, last_resort);
   }
 
+ public:
   /// A path may pass a vertex or an edge where tetrahedra only touch: it bends there. True if some
   /// tetrahedron got a better label.
   bool pass_pinches() {
@@ -146,6 +147,7 @@ class SolidPropagation {
     return any;
   }
 
+ private:
   /// Offers that miss a face where no path bends are dropped. Where that leaves a tetrahedron
   /// without a label, or with one much longer than a neighbour's and the way between, they are
   /// taken after all, with a bend on the face.

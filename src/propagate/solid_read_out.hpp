@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
@@ -8,6 +9,7 @@
 
 #include <plexway/complex/tet_mesh.hpp>
 #include <plexway/propagate/workspace.hpp>
+#include <plexway/source/point_source.hpp>
 
 #include "propagate/changed_vertices.hpp"
 
@@ -32,6 +34,39 @@ void read_out_tets(const TetMesh<Real>& mesh, const Rule& rule, const Front& fro
       if constexpr (kLabels) workspace.vertex_source[v] = front.source(t);
     }
   }
+}
+
+/// Calls offer(vertex, distance) for a source at a vertex, or for the corners of the tetrahedron it
+/// lies in: inside numbers and unit, exact.
+template <class Real, class Offer>
+void offer_corners(const TetMesh<Real>& mesh, const PointSource& source, const Offer& offer) {
+  const double sigma = source.offset / mesh.unit();
+  if (source.vertex != none) {
+    offer(mesh.inside_vertex(source.vertex), sigma);
+    return;
+  }
+  const auto [t, turned] = mesh.inside_tet(source.simplex);
+  std::array<double, 4> b = source.barycentric;
+  if (turned) std::swap(b[2], b[3]);
+  const auto& corner = mesh.tets()[t].corner;
+  // |p v_i|^2 = sum_j b_j l_ij^2 - sum_(j<k) b_j b_k l_jk^2.
+  std::array<double, 4> toward{};
+  double within = 0;
+  for (std::size_t e = 0; e < 6; ++e) {
+    const std::size_t i = tet_edge_ends[e][0], j = tet_edge_ends[e][1];
+    double length2 = 0;
+    if (mesh.embedded()) {
+      const auto along = mesh.points()[corner[j]] - mesh.points()[corner[i]];
+      length2 = static_cast<double>(dot(along, along));
+    } else {
+      length2 = static_cast<double>(mesh.squared_lengths()[t][e]);
+    }
+    toward[i] += b[j] * length2;
+    toward[j] += b[i] * length2;
+    within += b[i] * b[j] * length2;
+  }
+  for (std::size_t i = 0; i < 4; ++i)
+    offer(corner[i], b[i] == 1 ? sigma : sigma + std::sqrt(std::max(toward[i] - within, 0.)));
 }
 
 /// The same for the vertices from `begin` to `end`, each from its own tetrahedra: what several

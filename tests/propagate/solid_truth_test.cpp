@@ -1,46 +1,14 @@
 #include <catch2/catch.hpp>
 
-#include <filesystem>
-#include <fstream>
 #include <string>
 
 #include "propagate/solid_solving.hpp"
+#include "propagate/solid_truth.hpp"
 
 using namespace plexway;
 using namespace plexway::testing;
 
 namespace {
-
-struct Truth {
-  Solid solid;
-  std::vector<double> exact;
-};
-
-// TetGen's files as they are in the truth folder: 0-based, no attributes.
-Truth read_truth(const std::string& name, Index source) {
-  const std::filesystem::path folder = std::filesystem::path(PLEXWAY_TRUTH_DIR) / "solids";
-  Truth truth;
-  std::size_t count = 0, skip = 0;
-  std::ifstream nodes(folder / (name + ".node"));
-  nodes >> count >> skip >> skip >> skip;
-  truth.solid.positions.resize(count);
-  for (Position& p : truth.solid.positions) nodes >> skip >> p[0] >> p[1] >> p[2];
-  std::ifstream tets(folder / (name + ".ele"));
-  tets >> count >> skip >> skip;
-  truth.solid.tets.resize(count);
-  for (Tet& t : truth.solid.tets) tets >> skip >> t[0] >> t[1] >> t[2] >> t[3];
-  std::ifstream exact(folder / (name + ".v" + std::to_string(source) + ".txt"));
-  truth.exact.resize(truth.solid.positions.size());
-  for (double& d : truth.exact) exact >> d;
-  REQUIRE(nodes);
-  REQUIRE(tets);
-  REQUIRE(exact);
-  return truth;
-}
-
-bool available() {
-  return std::filesystem::exists(std::filesystem::path(PLEXWAY_TRUTH_DIR) / "solids");
-}
 
 // The largest relative error beyond two mean edges from the source.
 double worst_far(const std::vector<double>& found, const std::vector<double>& exact, double unit) {
@@ -52,7 +20,7 @@ double worst_far(const std::vector<double>& found, const std::vector<double>& ex
 
 template <class Real>
 double mean_error(const std::string& name, Index source, double worst_allowed = .04) {
-  const Truth truth = read_truth(name, source);
+  const SolidTruth truth = read_solid_truth(name, source);
   const auto mesh = truth.solid.mesh<Real>();
   const auto found = solve(mesh, PointSource::at(source));
   const Errors e = compare(found, truth.exact);
@@ -66,7 +34,7 @@ double mean_error(const std::string& name, Index source, double worst_allowed = 
 }  // namespace
 
 TEST_CASE("solids with exact answers, double") {
-  if (!available()) return;
+  if (!solids_available()) return;
   CHECK(mean_error<double>("cube_10k", 8) <= 1e-12);
   CHECK(mean_error<double>("maze_10k", 32) <= 1.2e-3);
   const double notch = mean_error<double>("notch_10k", 14);
@@ -81,7 +49,7 @@ TEST_CASE("solids with exact answers, double") {
 }
 
 TEST_CASE("solids with exact answers, float") {
-  if (!available()) return;
+  if (!solids_available()) return;
   CHECK(mean_error<float>("cube_10k", 8) <= 1e-6);
   CHECK(mean_error<float>("maze_10k", 32) <= 1.2e-3);
   CHECK(mean_error<float>("notch_10k", 14) <= 3.7e-4);
@@ -89,8 +57,8 @@ TEST_CASE("solids with exact answers, float") {
 }
 
 TEST_CASE("plain steps on solids with exact answers") {
-  if (!available()) return;
-  const Truth truth = read_truth("notch_10k", 14);
+  if (!solids_available()) return;
+  const SolidTruth truth = read_solid_truth("notch_10k", 14);
   PropagateOptions options;
   options.visibility = Visibility::centroid;
   CHECK(compare(solve(truth.solid.mesh<double>(), PointSource::at(14), options), truth.exact).mean <

@@ -58,7 +58,7 @@ struct ReflexEdge {
   Vector3<Real> solid;      ///< sum of the normals
   Vector3<Real> direction;  ///< from the first end to the second, unit; 0 without length
   Vector3<Real> end[2];
-  Real length;
+  Real extent;              ///< its length; named so that shaders can have it
   Vector3<Real> normal[2];  ///< of the two boundary faces, unit, into the solid
   Index vertex[2];          ///< numbers inside
 };

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include <plexway/complex/tet_mesh.hpp>
 #include <plexway/complex/triangle_mesh.hpp>
 #include <plexway/complex/wireframe.hpp>
 #include <plexway/executors/field.hpp>
@@ -90,6 +91,14 @@ void propagate(GL, const Wireframe<float>& wireframe, std::span<const PointSourc
                const PropagateOptions& options, GLWorkspace& workspace,
                DistanceField<float>& field);
 
+/// The same through a solid that has coordinates (executors/serial_solid.hpp); UsageError for one
+/// given by lengths alone. Which reflex edges a label hears of from its neighbours depends on the
+/// order, on one thread as well: around curved obstacles distances differ by about the rule's own
+/// error.
+void propagate(GL, const TetMesh<float>& mesh, std::span<const PointSource> sources,
+               const PropagateOptions& options, GLWorkspace& workspace,
+               DistanceField<float>& field);
+
 /// One field a source: distance[k n + v] is the distance of vertex v of n from source k alone.
 /// Many fields are propagated in one launch, as many as batch_bytes hold: what a graphics
 /// processor does best. `max_expansions` counts a field on average. Returns false if it ended a
@@ -98,6 +107,9 @@ bool propagate_each(GL, const TriangleMesh<float>& mesh, std::span<const PointSo
                     const PropagateOptions& options, GLWorkspace& workspace,
                     std::span<float> distance);
 bool propagate_each(GL, const Wireframe<float>& wireframe, std::span<const PointSource> sources,
+                    const PropagateOptions& options, GLWorkspace& workspace,
+                    std::span<float> distance);
+bool propagate_each(GL, const TetMesh<float>& mesh, std::span<const PointSource> sources,
                     const PropagateOptions& options, GLWorkspace& workspace,
                     std::span<float> distance);
 

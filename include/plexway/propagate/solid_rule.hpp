@@ -14,6 +14,8 @@
 
 namespace plexway {
 
+#include <plexway/kernel/text_begin.inl>
+
 /// Corners of face i, anticlockwise as seen from outside.
 inline constexpr Index tet_face_corners[4][3] = {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}};
 
@@ -22,9 +24,13 @@ inline constexpr Index tet_face_corners[4][3] = {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}
 template <class Real, class Front>
 class SolidRule : public SolidPaths<Real> {
   using Paths = SolidPaths<Real>;
-  using Paths::clear_limits, Paths::hides, Paths::hides_all, Paths::measure, Paths::name_of,
-      Paths::reach, Paths::reach_by, Paths::reflex_, Paths::slack, Paths::turn;
-  using typename Paths::Reach;
+  using View = kernel::SolidSight<Real>;
+  using Paths::bent_path, Paths::clear_limits, Paths::hides, Paths::hides_all, Paths::label_limits,
+      Paths::measure, Paths::name_of, Paths::path_before, Paths::reach, Paths::reflex_,
+      Paths::reflex_edge, Paths::slack, Paths::turn;
+  using typename Paths::Edge, typename Paths::Reach;
+  using typename View::Crossing, typename View::EdgeSight, typename View::SightRank;
+  using View::bend_point, View::hides_point, View::passes, View::rank_edge, View::see_edge;
 
  public:
   using Label = SolidLabel<Real>;
@@ -52,6 +58,8 @@ class SolidRule : public SolidPaths<Real> {
     return SolidRule<Real, Other>(*this, front);
   }
 
+#include <plexway/propagate/solid_step.inl>
+
   [[nodiscard]] Real distance(Index t) const { return front_->label(t).centre; }
   /// Says which way the path came; labels that agree in it agree about distances.
   [[nodiscard]] Index path(Index t) const { return front_->label(t).path; }
@@ -78,16 +86,6 @@ class SolidRule : public SolidPaths<Real> {
     const Point between = tets_[u].centre - tets_[t].centre;
     return dot(between, between);
   }
-  /// Longest way worth comparing with from the centre of t over face i to the next centre: through
-  /// the face's centroid.
-  [[nodiscard]] Real way(Index t, Index i) const {
-    const TetRecord<Real>& r = tets_[t];
-    Point middle = {0, 0, 0};
-    for (const Index k : tet_face_corners[i]) middle = middle + Real(1) / 3 * points_[r.corner[k]];
-    const Index u = r.across[i] >> TetAcross::tet_shift;
-    return norm(middle - r.centre) + norm(tets_[u].centre - middle);
-  }
-
   /// Offers the label of t over all faces but the one it came by.
   [[gnu::always_inline]] void expand(Index t, bool last_resort) const {
     const Index in = static_cast<Index>(front_->hinge(t));
@@ -100,23 +98,16 @@ class SolidRule : public SolidPaths<Real> {
     const Index across = tets_[t].across[face];
     const Index u = across >> TetAcross::tet_shift;
     const Label& from = front_->label(t);
-    const Real known = to_beat(u), left = known - from.sigma;
+    const Real known = to_beat(u);
     const Point& q = tets_[u].centre;
-    const Point g = q - from.source;
-    // A ring's way is longer than the straight one.
-    const Real straight2 = dot(g, g);
-    if (!(left > 0) || !(straight2 < left * left)) return;
+    const Real straight2 = straight_squared(from, q);
+    if (!may_beat(from, straight2, known)) return;
     if (any_reflex_ || last_resort) {
       cross_fully(t, face, across, known, last_resort);
       return;
     }
-    const Index* corner = tets_[t].corner;
-    const Index* order = tet_face_corners[face];
-    if (!passes(from.source, q, points_[corner[order[0]]], points_[corner[order[1]]],
-                points_[corner[order[2]]], tolerance))
-      return;
-    Label label = from;
-    label.centre = from.sigma + std::sqrt(straight2);
+    Label label;
+    if (!offer_straight(from, t, face, q, label)) return;
     front_->accept(u, across & TetAcross::face_mask, label, label.centre, front_->source(t));
     if (front_->expands_soon()) prefetch_around(u);
   }
@@ -147,16 +138,7 @@ class SolidRule : public SolidPaths<Real> {
   /// Length of the path to corner i of a reached tetrahedron, as far as it is below `known`.
   [[nodiscard]] Real corner_distance(Index t, Index i,
                                      Real known = std::numeric_limits<Real>::infinity()) const {
-    const Point& q = points_[tets_[t].corner[i]];
-    const Label& from = front_->label(t);
-    const Real straight = from.sigma + norm(q - from.source);
-    if (!any_reflex_ || !(straight < known)) return straight;
-    Reach simple = reach(from, q);
-    if (!(simple.length < known)) return simple.length;
-    if (tets_[t].reflex == none) return measure(from, q, simple, known).length;
-    Label label = from;
-    gather(t, sentinel_, label, q, simple);
-    return measure(label, q, simple, known).length;
+    return corner_reach(front_->label(t), t, i, known);
   }
 
   /// Labels of u offer a path over the edge (v, w) of t, which touches u in that edge only.
@@ -168,7 +150,7 @@ class SolidRule : public SolidPaths<Real> {
     Label label;
     const Reach there = measure(from, b);
     label.source = b;
-    label.sigma = there.length;
+    label.sigma = there.extent;
     label.ring = none;
     clear_limits(label);
     label.path = name_of(b, label.sigma);
@@ -199,8 +181,8 @@ class SolidRule : public SolidPaths<Real> {
     Label label = front_->label(t);
     Reach simple = reach(label, q);
     gather(t, sentinel_, label, q, simple);
-    const Reach path = measure(label, q, simple);
-    return {path.eye, path.length - norm(q - path.eye)};
+    const Reach path = measure(label, q, simple, std::numeric_limits<Real>::infinity());
+    return {path.eye, path.extent - norm(q - path.eye)};
   }
 
   /// A source at `eye`, outside, comes in over a face of t.
@@ -208,14 +190,14 @@ class SolidRule : public SolidPaths<Real> {
     const Point q = tets_[t].centre;
     Label label = point_label(eye, sigma);
     Reach path = {eye, sigma + norm(q - eye), -1};
-    if (!(path.length < to_beat(t))) return false;
+    if (!(path.extent < to_beat(t))) return false;
     // The face as seen from within, where the path goes on.
     const Index* order = tet_face_corners[face];
     const Index* corner = tets_[t].corner;
     const Point &a = points_[corner[order[0]]], &b = points_[corner[order[2]]],
                 &c = points_[corner[order[1]]];
-    if (!passes(path.eye, q, a, b, c, tolerance)) bend_anywhere(label, path, q, a, b, c);
-    return enter(t, face, label, path.length, source);
+    if (!passes(path.eye, q, a, b, c, face_tolerance)) bend_anywhere(label, path, q, a, b, c);
+    return enter(t, face, label, path.extent, source);
   }
 
   /// A source that is seen over an edge of t only: a ring about it.
@@ -224,10 +206,8 @@ class SolidRule : public SolidPaths<Real> {
     const Index path = SolidPath::bent(name_of(eye, sigma), ring);
     Label label = {eye, sigma, 0, ring, {}, path};
     clear_limits(label);
-    return enter(t, face, label, reach(label, tets_[t].centre).length, source);
+    return enter(t, face, label, reach(label, tets_[t].centre).extent, source);
   }
-
-  static constexpr Real tolerance = Real(0.1);
 
   /// Fetches what the expansion of t will need, in two steps: t itself, then its neighbours.
   [[gnu::always_inline]] void prefetch(Index t) const { __builtin_prefetch(&tets_[t]); }
@@ -265,173 +245,10 @@ class SolidRule : public SolidPaths<Real> {
   [[gnu::noinline]] void cross_fully(Index t, Index face, Index across, Real known,
                                      bool last_resort) const {
     const Index u = across >> TetAcross::tet_shift;
-    const Label& from = front_->label(t);
-    const Point q = tets_[u].centre;
-    Reach path = reach(from, q);
-    if (!(path.length < known)) return;
-    const Index* corner = tets_[t].corner;
-    const Index* order = tet_face_corners[face];
-    const Point &a = points_[corner[order[0]]], &b = points_[corner[order[1]]],
-                &c = points_[corner[order[2]]];
-    const bool through = passes(path.eye, q, a, b, c, tolerance);
-    // A line that misses the face passes it if it bends at an edge known here.
-    if (!through && !last_resort && !may_bend(t, path.eye, q)) return;
-    Label label = from;
-    gather(t, u, label, q, path);
-    if (label.limit[0] != none || label.ring != from.ring) {
-      const Point eye = path.eye;
-      path = measure(label, q, path, known);
-      if (!(path.length < known)) return;
-      if (path.bend >= 0 && hides_all(label.limit[path.bend], eye, a, b, c)) {
-        turn(label, path.bend, q);
-        path = measure(label, q);
-      }
-    }
-    if (!(path.bend < 0 && label.ring == from.ring ? through
-                                                   : passes(path.eye, q, a, b, c, tolerance))) {
-      if (!last_resort) return;
-      bend_anywhere(label, path, q, a, b, c);
-    }
-    if (!(path.length < known)) return;
-    label.centre = path.length;
-    front_->accept(u, across & TetAcross::face_mask, label, path.length, front_->source(t));
+    Label label;
+    if (!offer_bent(front_->label(t), t, face, u, known, last_resort, label)) return;
+    front_->accept(u, across & TetAcross::face_mask, label, label.centre, front_->source(t));
     if (front_->expands_soon()) prefetch_around(u);
-  }
-
-  /// Is there an edge in t's memory, or at t, that hides q?
-  [[nodiscard]] bool may_bend(Index t, const Point& eye, const Point& q) const {
-    for (const Index limit : front_->label(t).limit) {
-      if (limit == none) break;
-      if (hides(limit, eye, q)) return true;
-    }
-    return own_hides(t, eye, q);
-  }
-  /// One at t?
-  [[nodiscard]] bool own_hides(Index t, const Point& eye, const Point& q) const {
-    if (Index e = tets_[t].reflex; e != none)
-      for (;; ++e) {
-        const Index edge = list_[e] >> ReflexEntry::edge_shift;
-        if (edge != front_->label(t).ring && hides(edge, eye, q)) return true;
-        if (list_[e] & ReflexEntry::last) break;
-      }
-    return false;
-  }
-
-  struct Candidates {
-    Index edge[24];
-    int count = 0;
-    [[gnu::always_inline]] void add(Index e, Index except) {
-      if (e == except || count == 24) return;
-      for (int i = 0; i < count; ++i)
-        if (edge[i] == e) return;
-      edge[count++] = e;
-    }
-    [[gnu::always_inline]] void add(const Label& label, Index except) {
-      for (const Index limit : label.limit) {
-        if (limit == none) break;
-        add(limit, except);
-      }
-    }
-  };
-
-  /// Chooses which edges the label remembers for q in u: its own, those of t, and those of
-  /// neighbours of u that look at the same scene.
-  void gather(Index t, Index u, Label& label, const Point& q, Reach& straight) const {
-    Candidates found;
-    for (const Index limit : label.limit) {
-      if (limit == none) break;
-      found.edge[found.count++] = limit;
-    }
-    const int own = found.count;
-    if (Index e = tets_[t].reflex; e != none)
-      for (;; ++e) {
-        found.add(list_[e] >> ReflexEntry::edge_shift, label.ring);
-        if (list_[e] & ReflexEntry::last) break;
-      }
-    if (u != sentinel_)
-      for (const Index across : tets_[u].across) {
-        const Index v = across >> TetAcross::tet_shift;
-        if (v == t || v == sentinel_ || !front_->reached(v)) continue;
-        const Label& other = front_->label(v);
-        if (other.path == label.path) {
-          if (std::memcmp(other.limit, label.limit, sizeof label.limit) != 0)
-            found.add(other, label.ring);
-        } else if (other.ring < own_rings_ &&
-                   SolidPath::before(other.path, other.ring) == label.path) {
-          found.add(other.ring, label.ring);
-        }
-      }
-    if (found.count == own) return;
-    // An edge that hides the ring itself comes before it.
-    if (label.ring < own_rings_)
-      for (int i = own; i < found.count; ++i) {
-        const Index edge = found.edge[i];
-        if (!hides(edge, label.source, straight.eye)) continue;
-        label.path = SolidPath::bent(SolidPath::before(label.path, label.ring), edge);
-        found.edge[i] = label.ring;
-        label.ring = edge;
-        straight = reach(label, q);
-      }
-    if (found.count <= Label::limits) {
-      for (int i = own; i < found.count; ++i) label.limit[i] = found.edge[i];
-      return;
-    }
-    // The one that hides q most closely comes first; what else is in the way is so from that bend.
-    constexpr Real infinity = std::numeric_limits<Real>::infinity();
-    Point eye = straight.eye;
-    Index bend = none;
-    Real closest = infinity;
-    for (int i = 0; i < found.count; ++i) {
-      const Index edge = found.edge[i];
-      const EdgeView<Real> view(reflex_[edge], eye);
-      if (edge == label.ring || !view.hides(q, slack)) continue;
-      const Real close2 = view.rank(q, slack, infinity).closeness;
-      if (close2 < closest) closest = close2, bend = edge;
-    }
-    clear_limits(label);
-    if (bend != none) {
-      label.limit[0] = bend;
-      eye = bend_point(reflex_[bend], eye, q);
-    }
-    // Then the nearest, and before them those that hide q.
-    const int first = bend != none;
-    int count = first;
-    Real key[Label::limits];
-    for (int i = 0; i < found.count; ++i) {
-      const Index edge = found.edge[i];
-      if (edge == label.ring || edge == bend) continue;
-      const auto [close2, dark] =
-          EdgeView<Real>(reflex_[edge], eye)
-              .rank(q, slack, count < Label::limits ? infinity : key[Label::limits - 1]);
-      if (!(close2 < infinity)) continue;
-      const Real k = dark ? Real(-1) / (1 + close2) : close2;
-      int place = count < Label::limits ? count++ : Label::limits;
-      for (; place > first && k < key[place - 1]; --place)
-        if (place < Label::limits)
-          key[place] = key[place - 1], label.limit[place] = label.limit[place - 1];
-      if (place < Label::limits) key[place] = k, label.limit[place] = edge;
-    }
-  }
-
-  /// No straight line: over the best point of the face's edges.
-  void bend_anywhere(Label& label, Reach& path, const Point& q, const Point& a, const Point& b,
-                     const Point& c) const {
-    const Point* corner[3] = {&a, &b, &c};
-    Real best = std::numeric_limits<Real>::infinity();
-    Point at = a;
-    Real walked = 0;
-    for (int i = 0; i < 3; ++i) {
-      const Point p = bend_point(*corner[i], *corner[i == 2 ? 0 : i + 1], path.eye, q);
-      const Real w = norm(p - path.eye), d = w + norm(q - p);
-      if (d < best) best = d, at = p, walked = w;
-    }
-    walked += path.length - norm(q - path.eye);
-    label.source = at;
-    label.sigma = walked;
-    label.ring = none;
-    clear_limits(label);
-    label.path = name_of(at, walked);
-    path = {at, walked + norm(q - at), -1};
   }
 
   static Label point_label(const Point& at, Real sigma) {
@@ -449,6 +266,30 @@ class SolidRule : public SolidPaths<Real> {
     return true;
   }
 
+  // What solid_step.inl reads.
+  [[gnu::always_inline]] const Point& centre_of(Index t) const { return tets_[t].centre; }
+  [[gnu::always_inline]] const Point& corner_of(Index t, Index i) const {
+    return points_[tets_[t].corner[i]];
+  }
+  [[gnu::always_inline]] const Point& face_corner(Index t, Index face, Index k) const {
+    return corner_of(t, tet_face_corners[face][k]);
+  }
+  [[gnu::always_inline]] Index neighbour(Index t, Index i) const {
+    return tets_[t].across[i] >> TetAcross::tet_shift;
+  }
+  Index no_tet() const { return sentinel_; }
+  [[gnu::always_inline]] Index first_reflex(Index t) const { return tets_[t].reflex; }
+  [[gnu::always_inline]] Index reflex_entry(Index e) const { return list_[e]; }
+  static Index entry_edge(Index entry) { return entry >> ReflexEntry::edge_shift; }
+  static bool entry_is_last(Index entry) { return (entry & ReflexEntry::last) != 0; }
+  bool any_reflex() const { return any_reflex_; }
+  Index own_rings() const { return own_rings_; }
+  [[gnu::always_inline]] bool reached(Index t) const { return front_->reached(t); }
+  [[gnu::always_inline]] const Label& label_of(Index t) const { return front_->label(t); }
+  [[gnu::always_inline]] static bool same_limits(const Label& a, const Label& b) {
+    return std::memcmp(a.limit, b.limit, sizeof a.limit) == 0;
+  }
+
   const TetMesh<Real>* mesh_;
   const TetRecord<Real>* tets_;
   const Point* points_;
@@ -458,5 +299,7 @@ class SolidRule : public SolidPaths<Real> {
   Index own_rings_;  // rings from here on are further edges, which hide nothing
   Front* front_;
 };
+
+#include <plexway/kernel/text_end.inl>
 
 }  // namespace plexway

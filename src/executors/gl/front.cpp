@@ -97,6 +97,7 @@ bool Front::add(const Session& session, const std::function<void()>& add) {
     state_.count = 0;
     state_.waiting_in = {};
     state_.nearest_far = FrontControl::unreached;
+    state_.spare = 0;
     write_state(session);
     bind(session);
     add();
@@ -115,7 +116,7 @@ bool Front::add(const Session& session, const std::function<void()>& add) {
 
 bool Front::spread(const Session& session, GLuint rule, std::size_t share,
                    const std::string& keep_defines,
-                   const std::function<void(const FrontControl&)>& report) {
+                   const std::function<void(const FrontControl&)>& report, GLuint settle) {
   const Functions& gl = session.gl;
   bind(session);
   gl.BindBuffer(GL_DISPATCH_INDIRECT_BUFFER, control_.name());
@@ -125,9 +126,12 @@ bool Front::spread(const Session& session, GLuint rule, std::size_t share,
   std::size_t rounds = 8;
   for (;;) {
     for (std::size_t n = 0; n < rounds; ++n) {
-      gl.UseProgram(rule);
-      gl.DispatchComputeIndirect(0);
-      gl.MemoryBarrier(all_that_follows);
+      for (const GLuint program : {settle, rule}) {
+        if (program == 0) continue;
+        gl.UseProgram(program);
+        gl.DispatchComputeIndirect(0);
+        gl.MemoryBarrier(all_that_follows);
+      }
       gl.UseProgram(advance_program);
       gl.DispatchCompute(1, 1, 1);
       gl.MemoryBarrier(all_that_follows);

@@ -67,10 +67,16 @@ class Front {
 
   /// Rounds of the program `rule`, a work group of which expands `share` labels, until nothing
   /// waits. `report` gets the state every few rounds. False if the budget is spent: then the labels
-  /// that still wait have been stored, by keep.comp with `keep_defines`.
+  /// that still wait have been stored, by keep.comp with `keep_defines`. If there is a program
+  /// `settle`, it is run before the rule in each round, with as many work groups.
   bool spread(const Session& session, GLuint rule, std::size_t share,
               const std::string& keep_defines,
-              const std::function<void(const FrontControl&)>& report);
+              const std::function<void(const FrontControl&)>& report, GLuint settle = 0);
+
+  /// Makes the labels of all cells zeros: for rules that look at those of neighbours.
+  void clear_labels(const Session& session, std::size_t cells) {
+    labels_.fill(session, 0, cells * (label_bytes_ / sizeof(GLuint)));
+  }
 
   /// Bindings 0 to 4: control, best, labels, waiting, waiting labels.
   void bind(const Session& session) const;

@@ -7,6 +7,7 @@
 #include <plexway/complex/triangle_mesh.hpp>
 #include <plexway/source/point_source.hpp>
 
+#include "executors/gl/vertex_offer.hpp"
 #include "executors/gl/workspace.hpp"
 
 namespace plexway::gl {
@@ -17,11 +18,6 @@ struct SurfaceLabel {
   float h;
   GLuint via;
   std::array<float, 2> limit_h;
-};
-
-/// What a source itself offers to a vertex.
-struct VertexOffer {
-  GLuint vertex, distance, source, spare;
 };
 
 /// What propagations start from, computed by the serial rule: labels of cells, and distances of the

@@ -1,0 +1,31 @@
+#version 430
+// Labels found elsewhere wait to be accepted (accept.comp). One invocation a label.
+
+#ifndef PLEXWAY_GROUP
+#define PLEXWAY_GROUP 64
+#endif
+//@include front.glsl
+
+layout(std430, binding = 4) writeonly buffer WaitingLabels { uvec4 waiting_labels[]; };
+struct Offer { uvec4 entry, a, b, c; };  // cell and bits of the distance; the label
+layout(std430, binding = 5) readonly buffer Offers { Offer offers[]; };
+
+uniform uint count;
+
+void main() {
+  start_group();
+  uint i = invocation();
+  bool near = i < count && uintBitsToFloat(offers[i].entry.y) < limit;
+  bool far = i < count && !near;
+  uvec2 reserved = reserve(uvec2(near ? 1u : 0u, far ? 1u : 0u));
+  uint slot = near ? reserved.x : reserved.y;
+  if (i < count && slot < capacity) {
+    uint to = (near ? near_queue : far_queue) * capacity + slot;
+    waiting[to] = offers[i].entry.xy;
+    waiting_labels[3u * to] = offers[i].a;
+    waiting_labels[3u * to + 1u] = offers[i].b;
+    waiting_labels[3u * to + 2u] = offers[i].c;
+    if (far) note_far(offers[i].entry.y);
+  }
+  end_group();
+}

@@ -1,0 +1,44 @@
+#version 430
+// A vertex takes the least distance that its tetrahedra offer, and their source; of those that came
+// the same way one is asked. One invocation a vertex of a field.
+
+#ifndef PLEXWAY_GROUP
+#define PLEXWAY_GROUP 64
+#endif
+layout(local_size_x = PLEXWAY_GROUP) in;
+
+layout(std430, binding = 0) buffer VertexBest { uint vertex_best[]; };
+layout(std430, binding = 1) buffer VertexSource { uint vertex_source[]; };
+layout(std430, binding = 2) readonly buffer Labels { uvec4 labels[]; };
+// Where the corners of each vertex begin, then corners: 4 t + i.
+layout(std430, binding = 3) readonly buffer Corners { uint corners[]; };
+
+//@include solid.glsl
+
+uniform uint vertex_count, total;
+uniform uint sources_wanted;
+
+void main() {
+  uint at = (gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x) * uint(PLEXWAY_GROUP) +
+            gl_LocalInvocationID.x;
+  if (at >= total) return;
+  uint v = at % vertex_count;
+  cell_base = at / vertex_count * tet_count;
+  float least = uintBitsToFloat(vertex_best[at]);
+  uint path = 0u, source = none;
+  uint end = corners[v + 1u];
+  for (uint n = corners[v]; n < end; ++n) {
+    uint corner = corners[vertex_count + 1u + n], t = corner >> 2;
+    if (!reached(t)) continue;
+    SolidLabel label = label_of(t);
+    if (label.path == path) continue;
+    float d = corner_reach(label, t, corner & 3u, least);
+    if (!(d < least)) continue;
+    least = d;
+    path = label.path;
+    source = labels[3u * (cell_base + t) + 2u].w;
+  }
+  if (path == 0u) return;
+  vertex_best[at] = floatBitsToUint(least);
+  if (sources_wanted != 0u) vertex_source[at] = source;
+}

@@ -1,0 +1,117 @@
+#version 430
+// One round of a propagation in solids, after solid_settle.comp: every waiting label of the current
+// queue is offered over the three faces it did not come by; four invocations a label, one a face.
+// Entries are fat, as on surfaces (surface_round.comp).
+//
+// As a repair: every reached tetrahedron offers its label to neighbours without one, or with one much
+// longer than its own and the way between, with a bend on the face if need be. (Not a program of its
+// own: the step takes long to compile.)
+
+#ifndef PLEXWAY_GROUP
+#define PLEXWAY_GROUP 64
+#endif
+//@include front.glsl
+
+layout(std430, binding = 2) readonly buffer Labels { uvec4 labels[]; };
+layout(std430, binding = 4) buffer WaitingLabels { uvec4 waiting_labels[]; };
+
+//@include solid.glsl
+
+uniform float radius;  // tetrahedra wholly beyond it are not expanded
+uniform uint last_resort;
+uniform uint repair;  // 0, or fields times tetrahedra
+
+void main() {
+  start_group();
+  uint face = invocation() & 3u, number = invocation() >> 2;
+  uvec4 a, b, c;
+  uint cell = 0u, bits = UNREACHED;
+  bool alive = false, waits_on = false;
+  if (repair > 0u) {
+    cell = min(number, repair - 1u);
+    bits = best[cell];
+    alive = number < repair && bits != UNREACHED && uintBitsToFloat(bits) <= radius;
+    if (alive) {
+      a = labels[3u * cell];
+      b = labels[3u * cell + 1u];
+      c = labels[3u * cell + 2u];
+    }
+  } else if (number < round_count) {
+    uint place = current_queue * capacity + round_begin + number;
+    cell = waiting[place].x;
+    bits = waiting[place].y;
+    alive = cell != NO_CELL && best[cell] == bits;  // else a better label waits elsewhere
+    if (alive) {
+      a = waiting_labels[3u * place];
+      b = waiting_labels[3u * place + 1u];
+      c = waiting_labels[3u * place + 2u];
+      bool later = uintBitsToFloat(bits) >= limit;
+      waits_on = later && face == 0u;
+      if (!later && face == 0u) note_expansion();
+      alive = !later && b.x != face;
+    }
+  }
+
+  uint t = cell % tet_count;
+  cell_base = cell - t;
+  float distance = uintBitsToFloat(bits);
+  if (alive && distance > radius) alive = distance - size_of(t) <= radius;
+  uint across = 0u, u = 0u, known_bits = UNREACHED;
+  if (alive) {
+    across = tets[t].across[face];
+    u = across >> 2;
+    alive = u != tet_count;
+  }
+  if (alive) known_bits = best[cell_base + u];
+  if (alive && repair > 0u) {
+    if (known_bits == UNREACHED) {
+      atomicAdd(control.spare, 1u);
+    } else {
+      float excess = uintBitsToFloat(known_bits) - distance;
+      alive = excess > norm(centre_of(u) - centre_of(t)) && excess > way(t, face);
+    }
+  }
+
+  bool wanted = false;
+  SolidLabel label;
+  if (alive) {
+    // Around a bend all paths are equally long from both sides: a gain must be more than rounding.
+    const float gain = 1.0 - 16.0 * HINGE_EPSILON;
+    float known = known_bits == UNREACHED ? HINGE_INFINITY : uintBitsToFloat(known_bits) * gain;
+    SolidLabel from = unpack(a, b, c);
+    vec3 q = centre_of(u);
+    if (may_beat(from, straight_squared(from, q), known)) {
+      if (any_reflex() || last_resort != 0u)
+        wanted = offer_bent(from, t, face, u, known, last_resort != 0u, label);
+      else
+        wanted = offer_straight(from, t, face, q, label);
+    }
+  }
+  uint target = cell_base + u;
+  bool near = false;
+  if (wanted) {
+    distance = label.centre;
+    near = distance < limit;
+    a = floatBitsToUint(vec4(label.source, label.sigma));
+    b = uvec4(across & 3u, label.ring, label.limit[0], label.limit[1]);
+    c = uvec4(label.limit[2], label.limit[3], label.path, c.w);
+  }
+  if (waits_on) {  // goes on as it is
+    wanted = true;
+    target = cell;
+  }
+  uvec2 reserved = reserve(uvec2(wanted && near ? 1u : 0u, wanted && !near ? 1u : 0u));
+  uint slot = near ? reserved.x : reserved.y;
+  if (wanted && slot < capacity) {
+    uint to = (near ? near_queue : far_queue) * capacity + slot;
+    uint offered = floatBitsToUint(distance);
+    // Repairs are accepted by a pass of its own: no label that this one reads may be new.
+    bool waits = waits_on || repair > 0u || lower(target, offered);
+    waiting[to] = uvec2(waits ? target : NO_CELL, offered);
+    waiting_labels[3u * to] = a;
+    waiting_labels[3u * to + 1u] = b;
+    waiting_labels[3u * to + 2u] = c;
+    if (waits && !near) note_far(offered);
+  }
+  end_group();
+}

@@ -1,0 +1,125 @@
+#include "executors/gl/solid_seeds.hpp"
+
+#include <bit>
+#include <limits>
+
+#include <plexway/propagate/solid_rule.hpp>
+#include <plexway/propagate/wavefront.hpp>
+
+#include "propagate/solid_propagation.hpp"
+#include "propagate/solid_read_out.hpp"
+
+namespace plexway::gl {
+namespace {
+
+using Wave = Wavefront<float, SolidLabel<float>, DualQueue<float>, true>;
+using Rule = SolidRule<float, Wave>;
+
+// The serial rule in the host's workspace, in which labels wait until they are taken to the device.
+class HostFront {
+ public:
+  HostFront(const TetMesh<float>& mesh, const PropagateOptions& options,
+            Workspace<float>& workspace)
+      : front_(make(mesh, options, workspace)),
+        rule_(mesh, front_),
+        propagation(mesh, rule_, front_, options) {}
+
+  void know(Index t, GLuint distance, const SolidCell& cell) {
+    SolidLabel<float> label;
+    label.source = {cell.place[0], cell.place[1], cell.place[2]};
+    label.sigma = cell.sigma;
+    label.centre = std::bit_cast<float>(distance);
+    label.ring = cell.ring;
+    for (std::size_t k = 0; k < cell.limit.size(); ++k) label.limit[k] = cell.limit[k];
+    label.path = cell.path;
+    front_.accept(t, cell.hinge, label, label.centre, cell.source);
+  }
+
+  /// Takes what waits.
+  template <class Take>
+  void drain(const Take& take) {
+    Index t = 0;
+    const auto distance_of = [&](Index u) { return rule_.distance(u); };
+    do {
+      while (front_.next(t, distance_of)) {
+        const SolidLabel<float>& label = front_.label(t);
+        const Vector3<float>& s = label.source;
+        take(t, std::bit_cast<GLuint>(label.centre),
+             SolidCell{{s.x, s.y, s.z},
+                       label.sigma,
+                       static_cast<GLuint>(front_.hinge(t)),
+                       label.ring,
+                       {label.limit[0], label.limit[1], label.limit[2], label.limit[3]},
+                       label.path,
+                       front_.source(t)});
+      }
+    } while (front_.take_stock(0));
+  }
+
+ private:
+  static Wave make(const TetMesh<float>& mesh, const PropagateOptions& options,
+                   Workspace<float>& workspace) {
+    const std::size_t tets = mesh.tet_count();
+    workspace.front.reserve(tets);
+    workspace.start(tets, true);
+    return Wave(workspace.marks, workspace.solids.reserve(tets + 1),
+                DualQueue<float>(workspace.front, std::numeric_limits<float>::infinity()),
+                workspace.source.data(), tets, mesh.unit(), options);
+  }
+
+  Wave front_;
+  Rule rule_;
+
+ public:
+  SolidPropagation<float, Rule, Wave> propagation;
+};
+
+PropagateOptions without_limits(const PropagateOptions& options) {
+  PropagateOptions all = options;
+  all.max_expansions = std::numeric_limits<std::size_t>::max();
+  all.progress = {};
+  return all;
+}
+
+}  // namespace
+
+void SolidSeeds::clear() {
+  waiting.clear();
+  labels.clear();
+  offers.clear();
+}
+
+void SolidSeeds::add(const TetMesh<float>& mesh, std::span<const PointSource> sources,
+                     std::size_t field, Workspace<float>& workspace) {
+  const PropagateOptions options;
+  HostFront host(mesh, options, workspace);
+  for (std::size_t n = 0; n < sources.size(); ++n) {
+    host.propagation.seed(sources[n], static_cast<Index>(n));
+    offer_corners(mesh, sources[n], [&](Index v, double d) {
+      offers.push_back({static_cast<GLuint>(field * mesh.vertex_count() + v),
+                        std::bit_cast<GLuint>(static_cast<float>(d)), static_cast<GLuint>(n), 0});
+    });
+  }
+  host.drain([&](Index t, GLuint distance, const SolidCell& cell) {
+    waiting.push_back({static_cast<GLuint>(field * mesh.tet_count() + t), distance});
+    labels.push_back(cell);
+  });
+}
+
+void SolidSeeds::add_pinches(const TetMesh<float>& mesh, const PropagateOptions& options,
+                             std::size_t field, std::span<const GLuint> best,
+                             std::span<const SolidCell> known, Workspace<float>& workspace) {
+  const std::size_t tets = mesh.tet_count(), first = field * tets;
+  const PropagateOptions all = without_limits(options);
+  HostFront host(mesh, all, workspace);
+  for (Index t = 0; t < tets; ++t)
+    if (best[first + t] != FrontControl::unreached) host.know(t, best[first + t], known[first + t]);
+  host.drain([](Index, GLuint, const SolidCell&) {});
+  if (!host.propagation.pass_pinches()) return;
+  host.drain([&](Index t, GLuint distance, const SolidCell& cell) {
+    waiting.push_back({static_cast<GLuint>(first + t), distance});
+    labels.push_back(cell);
+  });
+}
+
+}  // namespace plexway::gl
