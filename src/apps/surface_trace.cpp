@@ -1,0 +1,380 @@
+#include "apps/surface_trace.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <unordered_map>
+#include <unordered_set>
+#include <utility>
+
+#include "apps/edge_descent.hpp"
+
+namespace plexway {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+// Labels whose distance at the point is within this share of the least are tried as well.
+constexpr double worth_trying = 1.02;
+
+// Corners of a triangle that runs backwards inside come in the order 0 2 1.
+std::array<double, 3> inside(const std::array<double, 4>& b, bool turned) {
+  return {b[0], turned ? b[2] : b[1], turned ? b[1] : b[2]};
+}
+
+}  // namespace
+
+template <class Real>
+SurfaceTrace<Real>::SurfaceTrace(const TriangleMesh<Real>& mesh, const Solved<Real>& solved)
+    : mesh_(mesh),
+      solved_(solved),
+      shape_(mesh, solved.positions, solved.outer),
+      labels_(mesh, solved),
+      straightener_(mesh_, shape_) {}
+
+template <class Real>
+std::optional<std::array<double, 3>> SurfaceTrace<Real>::source_in(Index f, Index number) const {
+  const PointSource& s = solved_.sources[number];
+  Index vertex = s.vertex;
+  if (vertex == none) {
+    const auto [face, turned] = mesh_.inside_face(s.simplex);
+    const std::array<double, 3> b = inside(s.barycentric, turned);
+    if (f == face) return b;
+    if (const std::size_t i = corner_of(b); i < 3)
+      vertex = solved_.outer[mesh_.triangles()[face].corner[i]];
+  }
+  if (vertex == none) return std::nullopt;
+  for (std::size_t i = 0; i < 3; ++i)
+    if (mesh_.triangles()[f].corner[i] == mesh_.inside_vertex(vertex)) return at_corner(i);
+  return std::nullopt;
+}
+
+/// Over the edge a label came in by, to the triangle it came from: of several there, the nearest.
+template <class Real>
+std::optional<Crossing> SurfaceTrace<Real>::back_from(Index f) const {
+  std::optional<Crossing> back;
+  double best = infinity;
+  across_edge(mesh_, f, labels_.hinge(f), [&](const Crossing& c) {
+    if (!labels_.reached(c.face)) return;
+    const double d = labels_.centre_distance(c.face);
+    if (d < best) best = d, back = c;
+  });
+  return back;
+}
+
+template <class Real>
+Index SurfaceTrace<Real>::beyond_pinch(Index vertex) const {
+  std::vector<Index> corners;
+  mesh_.corners_at(vertex, corners);
+  Index best_corner = none;
+  double best = infinity;
+  for (const Index c : corners) {
+    if (!labels_.reached(c / 3) || labels_.starts_at(c / 3, c % 3)) continue;
+    const double d = labels_.corner_distance(c / 3, c % 3);
+    if (d < best) best = d, best_corner = c;
+  }
+  return best_corner;
+}
+
+/// Back over the hinges. Every triangle is entered once at most, so it ends; false if it comes to
+/// one twice or finds no way on.
+template <class Real>
+bool SurfaceTrace<Real>::follow(Strip leg, Way& way) const {
+  way.legs.clear();
+  std::unordered_set<Index> visited;
+  Index f = leg.last();
+  const auto pinched = mesh_.pinched();
+  for (;;) {
+    if (!labels_.reached(f) || !visited.insert(f).second) return false;
+    const Index number = solved_.source_of(f);
+    if (number >= solved_.sources.size()) return false;
+    if (const auto end = source_in(f, number)) {
+      leg.end = *end;
+      way.legs.push_back(std::move(leg));
+      way.source = number;
+      return true;
+    }
+    bool passes = false;
+    for (std::size_t i = 0; i < 3 && !passes && !pinched.empty(); ++i) {
+      const Index v = mesh_.triangles()[f].corner[i];
+      if (!labels_.starts_at(f, i) || !std::binary_search(pinched.begin(), pinched.end(), v))
+        continue;
+      const Index on = beyond_pinch(v);
+      if (on == none) continue;
+      passes = true;
+      leg.end = at_corner(i);
+      way.legs.push_back(std::move(leg));
+      leg = Strip{};
+      f = leg.first = on / 3;
+      leg.start = at_corner(on % 3);
+    }
+    if (passes) continue;
+    const std::optional<Crossing> back = back_from(f);
+    if (!back) return false;
+    leg.crossings.push_back(*back);
+    f = back->face;
+  }
+}
+
+/// A triangle with the edge (v, w), and the direction of w at v.
+template <class Real>
+std::optional<typename SurfaceTrace<Real>::Heading> SurfaceTrace<Real>::side(Index v,
+                                                                             Index w) const {
+  std::vector<Index> corners;
+  mesh_.corners_at(v, corners);
+  std::optional<Heading> found;
+  double shortest = infinity;
+  for (const Index c : corners) {
+    const Index f = c / 3;
+    const std::size_t i = c % 3;
+    for (const bool after : {true, false}) {
+      if (mesh_.triangles()[f].corner[after ? edge_after(i) : edge_before(i)] != w) continue;
+      const double length = shape_.length(f, after ? i : edge_before(i));
+      if (!(length < shortest)) continue;
+      shortest = length;
+      found = Heading{f, i, after ? 0. : shape_.angle(f, i)};
+    }
+  }
+  return found;
+}
+
+/// Turns at a vertex from one direction to another; where no triangles lead around, one leg ends
+/// and the next begins.
+template <class Real>
+void SurfaceTrace<Real>::add(Way& way, Strip& leg, Heading& at, const Heading& to) const {
+  std::vector<Crossing> around;
+  if (straightener_.around(at.face, at.corner, at.angle, to.face, to.corner, to.angle, infinity,
+                           around)) {
+    leg.crossings.insert(leg.crossings.end(), around.begin(), around.end());
+  } else {
+    leg.end = at_corner(at.corner);
+    way.legs.push_back(std::move(leg));
+    leg = Strip{};
+    leg.first = to.face;
+    leg.start = at_corner(to.corner);
+  }
+  at = to;
+}
+
+template <class Real>
+bool SurfaceTrace<Real>::descend(Index f, const std::array<double, 3>& b, Way& way) const {
+  way.legs.clear();
+  const auto triangles = mesh_.triangles();
+  // Where sources are: a vertex, or a triangle at a vertex.
+  struct End {
+    double left = infinity;
+    Index number = none, corner = none;  // corner: 3 f + i of its triangle, or none
+  };
+  std::unordered_map<Index, End> ends;
+  for (std::size_t n = 0; n < solved_.sources.size(); ++n) {
+    const PointSource& s = solved_.sources[n];
+    const auto offer = [&](Index v, const End& end) {
+      End& known = ends[v];
+      if (end.left < known.left) known = end;
+    };
+    if (s.vertex != none) {
+      offer(mesh_.inside_vertex(s.vertex), {s.offset, static_cast<Index>(n), none});
+      continue;
+    }
+    const auto [face, turned] = mesh_.inside_face(s.simplex);
+    const std::array<double, 3> at = inside(s.barycentric, turned);
+    for (std::size_t i = 0; i < 3; ++i)
+      offer(triangles[face].corner[i],
+            {s.offset + shape_.distance(face, at_corner(i), at), static_cast<Index>(n),
+             3 * face + static_cast<Index>(i)});
+  }
+  const auto distance = [&](Index v) {
+    return static_cast<double>(solved_.field.distance[solved_.outer[v]]);
+  };
+  const auto end = [&](Index v) {
+    const auto found = ends.find(v);
+    return found == ends.end() ? infinity : found->second.left;
+  };
+  std::vector<Index> corners;
+  const auto edges = [&](Index v, auto visit) {
+    mesh_.corners_at(v, corners);
+    for (const Index c : corners) {
+      const std::size_t i = c % 3;
+      visit(triangles[c / 3].corner[edge_after(i)], shape_.length(c / 3, i));
+      visit(triangles[c / 3].corner[edge_before(i)], shape_.length(c / 3, edge_before(i)));
+    }
+  };
+  // From the corner with the shortest way.
+  std::size_t first = corner_of(b);
+  for (std::size_t i = 0; i < 3 && corner_of(b) == 3; ++i) {
+    const auto by = [&](std::size_t k) {
+      return distance(triangles[f].corner[k]) + shape_.distance(f, at_corner(k), b);
+    };
+    if (first == 3 || by(i) < by(first)) first = i;
+  }
+  const std::vector<Index> vertices =
+      descend_edges(triangles[f].corner[first], distance, end, edges);
+  if (vertices.empty()) return false;
+
+  Strip leg;
+  leg.first = f;
+  leg.start = b;
+  const bool at_vertex = corner_of(b) < 3;
+  Heading at{f, first, at_vertex ? 0 : shape_.angle_to(f, first, b)};
+  bool begun = !at_vertex;  // does the leg have a direction to turn from?
+  const auto turn_to = [&](const Heading& to) {
+    if (begun) {
+      add(way, leg, at, to);
+    } else {
+      leg.first = to.face;
+      leg.start = at_corner(to.corner);
+      at = to;
+    }
+    begun = true;
+  };
+  for (std::size_t k = 0; k + 1 < vertices.size(); ++k) {
+    const auto out = side(vertices[k], vertices[k + 1]);
+    if (!out) return false;
+    turn_to(*out);
+    // Along the edge to its other end, and the direction back.
+    const bool after = triangles[out->face].corner[edge_after(out->corner)] == vertices[k + 1] &&
+                       out->angle == 0;
+    const std::size_t there = after ? edge_after(out->corner) : edge_before(out->corner);
+    at = {out->face, there, after ? shape_.angle(out->face, there) : 0};
+  }
+  const End& last = ends.at(vertices.back());
+  if (last.corner == none) {
+    leg.end = at_corner(at.corner);
+  } else {
+    const Index face = last.corner / 3;
+    const auto [inner, turned] = mesh_.inside_face(solved_.sources[last.number].simplex);
+    leg.end = inside(solved_.sources[last.number].barycentric, turned);
+    static_cast<void>(inner);
+    const std::array<double, 3> target = leg.end;
+    turn_to({face, last.corner % 3, shape_.angle_to(face, last.corner % 3, target)});
+    leg.end = target;
+  }
+  way.legs.push_back(std::move(leg));
+  way.source = last.number;
+  return true;
+}
+
+template <class Real>
+typename SurfaceTrace<Real>::Traced SurfaceTrace<Real>::straighten(Way way) const {
+  Traced traced;
+  traced.source = way.source;
+  for (Strip& leg : way.legs) {
+    traced.pulled.push_back(straightener_.straighten(leg));
+    traced.length += traced.pulled.back().length;
+  }
+  traced.legs = std::move(way.legs);
+  return traced;
+}
+
+template <class Real>
+Path SurfaceTrace<Real>::to_path(const Traced& traced) const {
+  Path path;
+  path.source = traced.source;
+  path.length = 0;
+  const auto push = [&](Index f, const std::array<double, 3>& b) {
+    const Index number = mesh_.triangles()[f].face;
+    const bool turned = (number & reversed) != 0;
+    path.points.push_back({number & ~reversed, {b[0], turned ? b[2] : b[1], turned ? b[1] : b[2]}});
+    if (!shape_.embedded()) return;
+    const Vector3<double> p = shape_.place(f, b);
+    path.positions.push_back({p.x, p.y, p.z});
+  };
+  for (std::size_t k = 0; k < traced.legs.size(); ++k) {
+    const Strip& leg = traced.legs[k];
+    const std::size_t triangles = leg.crossings.size() + 1;
+    for (std::size_t i = 0; i < triangles; ++i) {
+      const auto in = entry(leg, traced.pulled[k], i), out = exit(leg, traced.pulled[k], i);
+      if (in == out) continue;
+      push(leg.face(i), in);
+      if (!shape_.embedded()) path.length += shape_.distance(leg.face(i), in, out);
+    }
+  }
+  push(traced.legs.back().last(), traced.legs.back().end);
+  for (std::size_t i = 0; i + 1 < path.positions.size(); ++i) {
+    const auto &p = path.positions[i], &q = path.positions[i + 1];
+    path.length += std::hypot(q[0] - p[0], q[1] - p[1], q[2] - p[2]);
+  }
+  return path;
+}
+
+template <class Real>
+Path SurfaceTrace<Real>::trace(const PointSource& point) const {
+  // The strips to try begin with: the triangle of the point, or one of those around its vertex.
+  struct Begin {
+    double estimate;
+    Strip strip;
+  };
+  std::vector<Begin> begins;
+  Index f = none;
+  std::array<double, 3> b = {};
+  Index vertex = point.vertex;
+  if (vertex == none) {
+    const auto [face, turned] = mesh_.inside_face(point.simplex);
+    f = face;
+    b = inside(point.barycentric, turned);
+    if (const std::size_t i = corner_of(b); i < 3)
+      vertex = solved_.outer[mesh_.triangles()[f].corner[i]];
+  }
+  std::vector<Index> corners;
+  if (vertex != none) {
+    const Index v = mesh_.inside_vertex(vertex);
+    if (mesh_.corner_at(v) == none ||
+        !(static_cast<double>(solved_.field.distance[vertex]) < infinity))
+      return {};
+    mesh_.corners_at(v, corners);
+    f = corners[0] / 3;
+    b = at_corner(corners[0] % 3);
+  } else if (!std::any_of(std::begin(mesh_.triangles()[f].corner),
+                          std::end(mesh_.triangles()[f].corner), [&](Index v) {
+                            return static_cast<double>(
+                                       solved_.field.distance[solved_.outer[v]]) < infinity;
+                          })) {
+    return {};
+  }
+
+  const auto begin_at = [&](Index face, std::size_t i, Strip strip, double more) {
+    if (labels_.reached(face))
+      begins.push_back({labels_.corner_distance(face, i) + more, std::move(strip)});
+  };
+  if (solved_.labels && vertex != none) {
+    for (const Index c : corners) {
+      Strip strip;
+      strip.first = c / 3;
+      strip.start = at_corner(c % 3);
+      begin_at(c / 3, c % 3, std::move(strip), 0);
+    }
+  } else if (solved_.labels) {
+    Strip own;
+    own.first = f;
+    own.start = b;
+    if (labels_.reached(f)) begins.push_back({0, own});
+    // And by each neighbour's label, over the edge between.
+    for (std::size_t e = 0; e < 3; ++e)
+      across_edge(mesh_, f, e, [&](const Crossing& c) {
+        if (!labels_.reached(c.face)) return;
+        Strip strip = own;
+        strip.crossings.push_back(c);
+        begins.push_back({0, strip});
+      });
+  }
+  std::stable_sort(begins.begin(), begins.end(),
+                   [](const Begin& l, const Begin& r) { return l.estimate < r.estimate; });
+
+  Traced best;
+  Way way;
+  const auto keep = [&](Traced traced) {
+    const auto whole = [&](const Traced& t) { return t.length + solved_.sources[t.source].offset; };
+    if (best.source == none || whole(traced) < whole(best)) best = std::move(traced);
+  };
+  for (const Begin& begin : begins) {
+    if (best.source != none && begin.estimate > worth_trying * begins[0].estimate) break;
+    if (follow(begin.strip, way)) keep(straighten(std::move(way)));
+    way = {};
+  }
+  if (best.source == none && descend(f, b, way)) keep(straighten(std::move(way)));
+  return best.source == none ? Path{} : to_path(best);
+}
+
+template class SurfaceTrace<float>;
+template class SurfaceTrace<double>;
+
+}  // namespace plexway
