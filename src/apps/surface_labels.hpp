@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <limits>
 
@@ -9,6 +10,7 @@
 #include <plexway/propagate/saddle_rule.hpp>
 
 #include "apps/solved.hpp"
+#include "apps/vector2.hpp"
 
 namespace plexway {
 
@@ -44,6 +46,49 @@ class SurfaceLabels {
   }
   [[nodiscard]] double centre_distance(Index f) const {
     return ask([&](const auto& rule) { return static_cast<double>(rule.distance(f)); });
+  }
+
+  /// What the label's path to a point q of f looks like from there. In a plane with the edge it came
+  /// in by on the x axis, first corner at 0, and f above. Unit inside.
+  struct Sight {
+    Vector2 source;  ///< the virtual source
+    Vector2 bend;    ///< the last bend before q, or the virtual source again
+  };
+  [[nodiscard]] Vector2 virtual_source(Index f) const {
+    if (saddles_) {
+      const auto& label = solved_.workspace.saddles.labels[f];
+      return {static_cast<double>(label.x[0]), -static_cast<double>(label.h[0])};
+    }
+    const double length = static_cast<double>(mesh_.triangles()[f].length[hinge(f)]);
+    const auto& label = solved_.workspace.plain.labels[f];
+    const double d0 = static_cast<double>(label.distance2[hinge(f)]);
+    const double d1 = static_cast<double>(label.distance2[edge_after(hinge(f))]);
+    const double x = length > 0 ? (d0 - d1 + length * length) / (2 * length) : 0;
+    return {x, -std::sqrt(std::max(d0 - x * x, 0.))};
+  }
+  [[nodiscard]] Sight sight(Index f, const Vector2& q) const {
+    const Vector2 source = virtual_source(f);
+    if (!saddles_) return {source, source};
+    const auto& label = solved_.workspace.saddles.labels[f];
+    using Point = PosedSaddles<double>::Point;
+    Point from = {{source.x}, -source.y};
+    const Point limit[2] = {  // kept as offsets
+        {{source.x + static_cast<double>(label.x[2])},
+         -source.y + static_cast<double>(label.h[2])},
+        {{source.x + static_cast<double>(label.x[3])},
+         -source.y + static_cast<double>(label.h[3])}};
+    const Point to = {{q.x}, q.y};
+    if (detail::left_of<double>(from, limit[0], to) > 0)
+      from = limit[0];
+    else if (detail::left_of<double>(from, limit[1], to) < 0)
+      from = limit[1];
+    const double length = static_cast<double>(mesh_.triangles()[f].length[hinge(f)]);
+    const double sum = from.h + to.h, slack = 1e-4 * length;  // as rounding of labels leaves it
+    const double crossing = sum > 0 ? (from.x[0] * to.h + to.x[0] * from.h) / sum : from.x[0];
+    Vector2 bend = {from.x[0], -from.h};
+    if (from.h >= 0 && crossing < -slack) bend = {0, 0};
+    if (from.h >= 0 && crossing > length + slack) bend = {length, 0};
+    return {source, bend};
   }
 
   /// Does the path of the label come from corner i of its own triangle?

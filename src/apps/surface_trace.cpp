@@ -13,8 +13,11 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-// Labels whose distance at the point is within this share of the least are tried as well.
-constexpr double worth_trying = 1.02;
+// A label is tried if its path promises to be shorter than the best so far, times this: promises
+// are not exact.
+constexpr double doubt = 0.98;
+// A path longer than promised by this is a reason to try the descent over the vertices as well.
+constexpr double disappointment = 1.002;
 
 // Corners of a triangle that runs backwards inside come in the order 0 2 1.
 std::array<double, 3> inside(const std::array<double, 4>& b, bool turned) {
@@ -73,6 +76,149 @@ Index SurfaceTrace<Real>::beyond_pinch(Index vertex) const {
     if (d < best) best = d, best_corner = c;
   }
   return best_corner;
+}
+
+/// From the end of a leg, a point of its last triangle, straight to where the label there says that
+/// the path bends last. `at` becomes the vertex it ends at, looking back.
+///
+/// Triangles that look at the same virtual source say themselves where they had it from; in the
+/// others, and they are why this is needed, the line decides.
+template <class Real>
+typename SurfaceTrace<Real>::Seen SurfaceTrace<Real>::look(Strip& leg, Heading& at,
+                                                           Index number) const {
+  Index f = leg.last();
+  const std::size_t in = labels_.hinge(f);
+  const std::array<double, 3> b = leg.end;
+  const double unit = mesh_.unit();
+  std::array<Vector2, 3> corner;  // of f by number, in the plane
+  corner[in] = {0, 0};
+  corner[edge_after(in)] = {shape_.length(f, in), 0};
+  corner[edge_before(in)] = shape_.apex(f, in);
+  const auto place = [&](const std::array<double, 3>& c) {
+    return c[0] * corner[0] + c[1] * corner[1] + c[2] * corner[2];
+  };
+  const Vector2 q = place(b);
+  const auto sight = labels_.sight(f, 1 / unit * q);
+  const Vector2 source = unit * sight.source, aim = unit * sight.bend, d = aim - q;
+  const double near = 1e-4 * std::max(norm(d), norm(source - q));  // as exact as labels are
+  bool mirrored = false;
+  std::size_t entered = 3;  // the edge it came in by
+
+  // Where the line does not come nearer, as among triangles without area, the count ends it.
+  for (std::size_t steps = 0; steps <= mesh_.face_count(); ++steps) {
+    if (const auto end = source_in(f, number); end && norm(place(*end) - aim) <= near) {
+      leg.end = *end;
+      return Seen::source;
+    }
+    std::size_t arrived = 3;
+    double off = near;
+    for (std::size_t i = 0; i < 3; ++i)
+      if (!(entered == 3 && b[i] == 1) && norm(corner[i] - aim) <= off)
+        off = norm(corner[i] - aim), arrived = i;
+    if (arrived < 3) {
+      double angle = shape_.angle_to(f, arrived, b);
+      if (entered < 3) {  // looking back over the edge it came in by
+        const Vector2 e = corner[edge_after(arrived)] - corner[arrived];
+        angle = std::clamp(std::atan2(std::abs(cross(e, d)), -dot(e, d)), 0.,
+                           shape_.angle(f, arrived));
+      }
+      leg.end = at_corner(arrived);
+      at = {f, arrived, angle};
+      return Seen::vertex;
+    }
+
+    std::size_t out = 3;
+    if (entered == 3) {
+      out = in;
+    } else {
+      // The apex on the left of the line: out over the edge on the right.
+      const std::size_t apex = edge_before(entered);
+      const bool left = cross(d, corner[apex] - q) > 0;
+      out = left != mirrored ? edge_before(apex) : apex;
+      if (labels_.reached(f) && labels_.hinge(f) != entered) {
+        const std::size_t own = labels_.hinge(f);
+        const Vector2 &first = corner[own], w = corner[edge_after(own)] - first;
+        const double length = norm(w);
+        if (length > 0) {
+          const Vector2 s = unit * labels_.virtual_source(f), along = 1 / length * w;
+          const Vector2 up = mirrored ? Vector2{along.y, -along.x} : Vector2{-along.y, along.x};
+          if (norm(first + s.x * along + s.y * up - source) <= near) out = own;
+        }
+      }
+    }
+    // Over an edge of several triangles: to the nearest to the source.
+    std::optional<Crossing> next;
+    double best = infinity;
+    across_edge(mesh_, f, out, [&](const Crossing& c) {
+      const double known = labels_.reached(c.face) ? labels_.centre_distance(c.face) : infinity;
+      if (!next || known < best) next = c, best = known;
+    });
+    if (!next) break;
+    const Vector2 one = corner[next->flip ? out : edge_after(out)];
+    const Vector2 two = corner[next->flip ? edge_after(out) : out], w = two - one;
+    if (!(norm(w) > 0)) break;
+    mirrored = mirrored != next->flip;
+    leg.crossings.push_back(*next);
+    f = next->face;
+    entered = next->edge;
+    const Vector2 apex = shape_.apex(f, entered), along = 1 / norm(w) * w;
+    const Vector2 up = mirrored ? Vector2{along.y, -along.x} : Vector2{-along.y, along.x};
+    corner[entered] = one;
+    corner[edge_after(entered)] = two;
+    corner[edge_before(entered)] = one + apex.x * along + apex.y * up;
+    // Well past it: the line has gone astray.
+    if (dot(corner[edge_before(entered)] - aim, d) > 0 && dot(one - aim, d) > 0 &&
+        dot(two - aim, d) > 0)
+      break;
+  }
+  return Seen::nothing;
+}
+
+/// From bend to bend, each time by the best label at the vertex.
+template <class Real>
+bool SurfaceTrace<Real>::see(const Strip& begin, Way& way) const {
+  way.legs.clear();
+  if (!begin.crossings.empty()) return false;
+  Strip leg = begin;
+  leg.end = leg.start;
+  Index f = leg.first;
+  double known = infinity;
+  std::vector<Index> corners;
+  for (;;) {
+    if (!labels_.reached(f)) return false;
+    const Index number = solved_.source_of(f);
+    Heading at{};
+    const Seen seen = look(leg, at, number);
+    if (seen == Seen::nothing) return false;
+    if (seen == Seen::source) {
+      way.legs.push_back(std::move(leg));
+      way.source = number;
+      return true;
+    }
+    // On from the vertex, by a label that does not come from there itself.
+    const Index v = mesh_.triangles()[at.face].corner[at.corner];
+    mesh_.corners_at(v, corners);
+    Index next = none;
+    double best = known;
+    for (const Index c : corners) {
+      if (!labels_.reached(c / 3)) continue;
+      const Index n = solved_.source_of(c / 3);
+      if (const auto end = source_in(c / 3, n); end && corner_of(*end) == c % 3) {
+        way.legs.push_back(std::move(leg));
+        way.source = n;
+        return true;
+      }
+      if (labels_.starts_at(c / 3, c % 3)) continue;
+      const double d = labels_.corner_distance(c / 3, c % 3);
+      if (d < best) best = d, next = c;
+    }
+    if (next == none) return false;
+    known = best;
+    f = next / 3;
+    // Which way it goes on there is not known before it is pulled: any direction will do.
+    add(way, leg, at, {f, next % 3, shape_.angle(f, next % 3) / 2});
+    leg.end = at_corner(next % 3);
+  }
 }
 
 /// Back over the hinges. Every triangle is entered once at most, so it ends; false if it comes to
@@ -361,16 +507,19 @@ Path SurfaceTrace<Real>::trace(const PointSource& point) const {
 
   Traced best;
   Way way;
+  const auto whole = [&](const Traced& t) { return t.length + solved_.sources[t.source].offset; };
   const auto keep = [&](Traced traced) {
-    const auto whole = [&](const Traced& t) { return t.length + solved_.sources[t.source].offset; };
     if (best.source == none || whole(traced) < whole(best)) best = std::move(traced);
   };
+  const double unit = mesh_.unit();
   for (const Begin& begin : begins) {
-    if (best.source != none && begin.estimate > worth_trying * begins[0].estimate) break;
-    if (follow(begin.strip, way)) keep(straighten(std::move(way)));
+    if (best.source != none && begin.estimate * unit * doubt > whole(best)) break;
+    if (see(begin.strip, way) || follow(begin.strip, way)) keep(straighten(std::move(way)));
     way = {};
   }
-  if (best.source == none && descend(f, b, way)) keep(straighten(std::move(way)));
+  const bool promised = best.source != none && begins[0].estimate > 0 &&
+                        whole(best) <= begins[0].estimate * unit * disappointment;
+  if (!promised && descend(f, b, way)) keep(straighten(std::move(way)));
   return best.source == none ? Path{} : to_path(best);
 }
 

@@ -19,10 +19,13 @@ namespace plexway {
 
 /// Paths on a solved surface.
 ///
-/// A way back is found by the edges that labels came in by; it is a strip of triangles, or several
-/// where it passes a vertex that fans only touch in. A label may have changed after its neighbour
-/// took it over, so the strip need not be that of one label; it may even go round in circles: then
-/// a descent over the vertices' distances, along edges, takes its place.
+/// A way back is a strip of triangles, or several where it passes a vertex that fans only touch in.
+/// It is found in three ways, the first that leads to a source counts:
+///  * by sight: straight towards the last bend that the label knows, whatever labels the triangles
+///    between have by now (large ones mostly have better ones for their own centre), and on from
+///    that vertex. Distances of the vertices fall, so it ends.
+///  * over the edges that labels came in by. No triangle is entered twice, so it ends.
+///  * down over the vertices' distances, along edges.
 template <class Real>
 class SurfaceTrace {
  public:
@@ -48,6 +51,9 @@ class SurfaceTrace {
   };
 
   [[nodiscard]] std::optional<std::array<double, 3>> source_in(Index f, Index number) const;
+  bool see(const Strip& begin, Way& way) const;
+  enum class Seen { vertex, source, nothing };
+  Seen look(Strip& leg, Heading& at, Index number) const;
   bool follow(Strip leg, Way& way) const;
   [[nodiscard]] std::optional<Crossing> back_from(Index f) const;
   /// At a vertex where fans meet, a corner from where a path leads on.
