@@ -78,27 +78,35 @@ class SurfaceLabels {
         {{source.x + static_cast<double>(label.x[3])},
          -source.y + static_cast<double>(label.h[3])}};
     const Point to = {{q.x}, q.y};
-    if (detail::left_of<double>(from, limit[0], to) > 0)
+    const TriangleRecord<Real>& t = mesh_.triangles()[f];
+    const double length = static_cast<double>(t.length[hinge(f)]);
+    const double slack =  // as rounding of labels leaves it
+        1e-4 * static_cast<double>(std::max({t.length[0], t.length[1], t.length[2]}));
+    // A bend at q itself is none.
+    const auto elsewhere = [&](const Vector2& at) { return norm(at - q) > slack; };
+    const auto in_plane = [](const Point& p) { return Vector2{p.x[0], -p.h}; };
+    if (detail::left_of<double>(from, limit[0], to) > 0 && elsewhere(in_plane(limit[0])))
       from = limit[0];
-    else if (detail::left_of<double>(from, limit[1], to) < 0)
+    else if (detail::left_of<double>(from, limit[1], to) < 0 && elsewhere(in_plane(limit[1])))
       from = limit[1];
-    const double length = static_cast<double>(mesh_.triangles()[f].length[hinge(f)]);
-    const double sum = from.h + to.h, slack = 1e-4 * length;  // as rounding of labels leaves it
+    const double sum = from.h + to.h;
     const double crossing = sum > 0 ? (from.x[0] * to.h + to.x[0] * from.h) / sum : from.x[0];
-    Vector2 bend = {from.x[0], -from.h};
-    if (from.h >= 0 && crossing < -slack) bend = {0, 0};
-    if (from.h >= 0 && crossing > length + slack) bend = {length, 0};
+    Vector2 bend = in_plane(from);
+    if (from.h >= 0 && crossing < -slack && elsewhere({0, 0})) bend = {0, 0};
+    if (from.h >= 0 && crossing > length + slack && elsewhere({length, 0})) bend = {length, 0};
     return {source, bend};
   }
 
   /// Does the path of the label come from corner i of its own triangle?
   [[nodiscard]] bool starts_at(Index f, std::size_t i) const {
-    if (!saddles_) return solved_.workspace.plain.labels[f].distance2[i] == 0;
-    const auto& label = solved_.workspace.saddles.labels[f];
-    if (label.h[0] != 0) return false;
+    const TriangleRecord<Real>& t = mesh_.triangles()[f];
     const std::size_t in = hinge(f);
-    return i == in ? label.x[0] == 0
-                   : i == edge_after(in) && label.x[0] == mesh_.triangles()[f].length[in];
+    Vector2 corner = {0, 0};
+    if (i == edge_after(in)) corner = {static_cast<double>(t.length[in]), 0};
+    if (i == edge_before(in))
+      corner = {static_cast<double>(t.apex_x(in)), static_cast<double>(t.apex_h(in))};
+    const double size = static_cast<double>(std::max({t.length[0], t.length[1], t.length[2]}));
+    return norm(virtual_source(f) - corner) <= 1e-4 * size;  // as rounding of labels leaves it
   }
 
  private:

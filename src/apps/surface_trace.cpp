@@ -177,9 +177,8 @@ typename SurfaceTrace<Real>::Seen SurfaceTrace<Real>::look(Strip& leg, Heading& 
 /// From bend to bend, each time by the best label at the vertex.
 template <class Real>
 bool SurfaceTrace<Real>::see(const Strip& begin, Way& way) const {
-  way.legs.clear();
-  if (!begin.crossings.empty()) return false;
   Strip leg = begin;
+  if (!leg.crossings.empty()) return follow(std::move(leg), way);
   leg.end = leg.start;
   Index f = leg.first;
   double known = infinity;
@@ -188,8 +187,14 @@ bool SurfaceTrace<Real>::see(const Strip& begin, Way& way) const {
     if (!labels_.reached(f)) return false;
     const Index number = solved_.source_of(f);
     Heading at{};
+    const std::size_t crossings = leg.crossings.size();
+    const std::array<double, 3> here = leg.end;
     const Seen seen = look(leg, at, number);
-    if (seen == Seen::nothing) return false;
+    if (seen == Seen::nothing) {  // the rest by the other way
+      leg.crossings.resize(crossings);
+      leg.end = here;
+      return follow(std::move(leg), way);
+    }
     if (seen == Seen::source) {
       way.legs.push_back(std::move(leg));
       way.source = number;
@@ -197,6 +202,7 @@ bool SurfaceTrace<Real>::see(const Strip& begin, Way& way) const {
     }
     // On from the vertex, by a label that does not come from there itself.
     const Index v = mesh_.triangles()[at.face].corner[at.corner];
+    way.bends.push_back(v);
     mesh_.corners_at(v, corners);
     Index next = none;
     double best = known;
@@ -225,7 +231,6 @@ bool SurfaceTrace<Real>::see(const Strip& begin, Way& way) const {
 /// one twice or finds no way on.
 template <class Real>
 bool SurfaceTrace<Real>::follow(Strip leg, Way& way) const {
-  way.legs.clear();
   std::unordered_set<Index> visited;
   Index f = leg.last();
   const auto pinched = mesh_.pinched();
@@ -303,7 +308,6 @@ void SurfaceTrace<Real>::add(Way& way, Strip& leg, Heading& at, const Heading& t
 
 template <class Real>
 bool SurfaceTrace<Real>::descend(Index f, const std::array<double, 3>& b, Way& way) const {
-  way.legs.clear();
   const auto triangles = mesh_.triangles();
   // Where sources are: a vertex, or a triangle at a vertex.
   struct End {
@@ -477,16 +481,13 @@ Path SurfaceTrace<Real>::trace(const PointSource& point) const {
     return {};
   }
 
-  const auto begin_at = [&](Index face, std::size_t i, Strip strip, double more) {
-    if (labels_.reached(face))
-      begins.push_back({labels_.corner_distance(face, i) + more, std::move(strip)});
-  };
   if (solved_.labels && vertex != none) {
     for (const Index c : corners) {
+      if (!labels_.reached(c / 3)) continue;
       Strip strip;
       strip.first = c / 3;
       strip.start = at_corner(c % 3);
-      begin_at(c / 3, c % 3, std::move(strip), 0);
+      begins.push_back({labels_.corner_distance(c / 3, c % 3), std::move(strip)});
     }
   } else if (solved_.labels) {
     Strip own;
@@ -506,19 +507,27 @@ Path SurfaceTrace<Real>::trace(const PointSource& point) const {
                    [](const Begin& l, const Begin& r) { return l.estimate < r.estimate; });
 
   Traced best;
-  Way way;
   const auto whole = [&](const Traced& t) { return t.length + solved_.sources[t.source].offset; };
   const auto keep = [&](Traced traced) {
     if (best.source == none || whole(traced) < whole(best)) best = std::move(traced);
   };
   const double unit = mesh_.unit();
+  std::vector<std::pair<Index, std::vector<Index>>> tried;
   for (const Begin& begin : begins) {
     if (best.source != none && begin.estimate * unit * doubt > whole(best)) break;
-    if (see(begin.strip, way) || follow(begin.strip, way)) keep(straighten(std::move(way)));
-    way = {};
+    Way way;
+    if (see(begin.strip, way)) {
+      // Over the same vertices it would be the same path.
+      const auto bends = std::make_pair(way.source, way.bends);
+      if (std::find(tried.begin(), tried.end(), bends) == tried.end()) {
+        tried.push_back(bends);
+        keep(straighten(std::move(way)));
+      }
+    }
   }
   const bool promised = best.source != none && begins[0].estimate > 0 &&
                         whole(best) <= begins[0].estimate * unit * disappointment;
+  Way way;
   if (!promised && descend(f, b, way)) keep(straighten(std::move(way)));
   return best.source == none ? Path{} : to_path(best);
 }

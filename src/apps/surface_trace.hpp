@@ -20,7 +20,7 @@ namespace plexway {
 /// Paths on a solved surface.
 ///
 /// A way back is a strip of triangles, or several where it passes a vertex that fans only touch in.
-/// It is found in three ways, the first that leads to a source counts:
+/// It is found in three ways, each where the one before leads nowhere:
 ///  * by sight: straight towards the last bend that the label knows, whatever labels the triangles
 ///    between have by now (large ones mostly have better ones for their own centre), and on from
 ///    that vertex. Distances of the vertices fall, so it ends.
@@ -42,6 +42,7 @@ class SurfaceTrace {
   struct Way {
     std::vector<Strip> legs;
     Index source = none;
+    std::vector<Index> bends = {};  ///< vertices, as far as they are known before it is pulled
   };
   /// A triangle, a corner of it, and a direction there, as an angle from the edge of that number.
   struct Heading {
