@@ -54,14 +54,19 @@ PathField<Domain<Real>>::PathField(const Domain<Real>& domain,
                      std::to_string(inside.size()) + " vertices: give one a vertex, or none");
   outer_.resize(inside.size());
   for (std::size_t v = 0; v < inside.size(); ++v) outer_[inside[v]] = static_cast<Index>(v);
+  if constexpr (std::is_same_v<Domain<Real>, TetMesh<Real>>) {
+    outer_simplices_.resize(domain.tet_count());
+    for (Index t = 0; t < domain.tet_count(); ++t)
+      outer_simplices_[domain.inside_tet(t).first] = t;
+  }
   if constexpr (std::is_same_v<Domain<Real>, Wireframe<Real>>) {
     // Rows hold their arcs in the order of the edges.
-    arc_edges_.resize(domain.arcs().size());
+    outer_simplices_.resize(domain.arcs().size());
     std::vector<Index> end(domain.begin().begin(), domain.begin().end() - 1);
     for (Index e = 0; e < domain.edge_count(); ++e) {
       const auto edge = domain.inside_edge(e);
-      arc_edges_[end[edge.from]++] = e;
-      if (edge.from != edge.to) arc_edges_[end[edge.to]++] = e;
+      outer_simplices_[end[edge.from]++] = e;
+      if (edge.from != edge.to) outer_simplices_[end[edge.to]++] = e;
     }
   }
 }
@@ -82,13 +87,13 @@ Path PathField<Domain<Real>>::trace(const PointSource& point) const {
   at.offset = 0;
   check_source(at, described(*domain_));
   const Solved<Real> solved = {workspace_, field_,      sources_, positions_,
-                               outer_,     arc_edges_,  visibility_, labels_};
+                               outer_,     outer_simplices_,  visibility_, labels_};
   return trace_in(*domain_, solved, at);
 }
 
 template <template <class> class Domain, class Real>
 std::size_t PathField<Domain<Real>>::bytes() const {
-  return (outer_.capacity() + arc_edges_.capacity()) * sizeof(Index) + workspace_.bytes() +
+  return (outer_.capacity() + outer_simplices_.capacity()) * sizeof(Index) + workspace_.bytes() +
          field_.distance.capacity() * sizeof(Real) + field_.label.capacity() * sizeof(Index) +
          sources_.capacity() * sizeof(PointSource);
 }

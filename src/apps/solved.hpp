@@ -18,7 +18,8 @@ struct Solved {
   std::span<const PointSource> sources;
   std::span<const std::array<double, 3>> positions;  ///< caller's order; may be empty
   std::span<const Index> outer;                      ///< from vertices inside to the caller's
-  std::span<const Index> arc_edges;                  ///< wireframes: the edge of each arc
+  /// The caller's numbers of tetrahedra; the edges that the arcs of wireframes are.
+  std::span<const Index> outer_simplices;
   Visibility visibility;
   bool labels;  ///< are labels and marks in the workspace those of the field?
 

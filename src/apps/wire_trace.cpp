@@ -128,7 +128,7 @@ class WireTrace {
 
   /// The vertex it ends at, as a point of the last edge.
   void finish(Path& path, Index v) const {
-    const Index edge = path.points.empty() ? solved_.arc_edges[wireframe_.begin()[v]]
+    const Index edge = path.points.empty() ? solved_.outer_simplices[wireframe_.begin()[v]]
                                            : path.points.back().simplex;
     std::array<double, 4> b = {};
     b[wireframe_.inside_edge(edge).from == v ? 0 : 1] = 1;
@@ -142,7 +142,7 @@ class WireTrace {
       const auto& arc = wireframe_.arcs()[k];
       if (arc.to != w || !(static_cast<double>(arc.length) < shortest)) continue;
       shortest = static_cast<double>(arc.length);
-      best = solved_.arc_edges[k];
+      best = solved_.outer_simplices[k];
     }
     return best;
   }

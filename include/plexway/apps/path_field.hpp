@@ -32,8 +32,8 @@ class PathField<Domain<Real>> {
  public:
   /// `positions`, one a vertex in the caller's order and unit, are those the domain was made from.
   /// With them paths have coordinates, and all lengths are taken from them in double. Throws
-  /// UsageError for another count. Cost: linear; 4 bytes a vertex, and 8 an
-  /// edge of a wireframe.
+  /// UsageError for another count. Cost: linear; 4 bytes a vertex, and a
+  /// tetrahedron, and 8 an edge of a wireframe.
   explicit PathField(const Domain<Real>& domain,
                      std::span<const std::array<double, 3>> positions = {});
 
@@ -89,8 +89,8 @@ class PathField<Domain<Real>> {
 
   const Domain<Real>* domain_;
   std::span<const std::array<double, 3>> positions_;
-  std::vector<Index> outer_;      // from vertices inside to the caller's
-  std::vector<Index> arc_edges_;  // wireframes: the edge of each arc
+  std::vector<Index> outer_;            // from vertices inside to the caller's
+  std::vector<Index> outer_simplices_;  // of tetrahedra inside, and of the arcs of wireframes
   Workspace<Real> workspace_;
   DistanceField<Real> field_;
   std::vector<PointSource> sources_;
