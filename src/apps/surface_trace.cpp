@@ -308,6 +308,7 @@ void SurfaceTrace<Real>::add(Way& way, Strip& leg, Heading& at, const Heading& t
 
 template <class Real>
 bool SurfaceTrace<Real>::descend(Index f, const std::array<double, 3>& b, Way& way) const {
+  if (solved_.field.distance.empty()) return false;
   const auto triangles = mesh_.triangles();
   // Where sources are: a vertex, or a triangle at a vertex.
   struct End {
@@ -465,19 +466,19 @@ Path SurfaceTrace<Real>::trace(const PointSource& point) const {
       vertex = solved_.outer[mesh_.triangles()[f].corner[i]];
   }
   std::vector<Index> corners;
+  // A search leaves labels only.
+  const auto known = [&](Index v) {
+    if (solved_.field.distance.empty()) return true;
+    return static_cast<double>(solved_.field.distance[solved_.outer[v]]) < infinity;
+  };
   if (vertex != none) {
     const Index v = mesh_.inside_vertex(vertex);
-    if (mesh_.corner_at(v) == none ||
-        !(static_cast<double>(solved_.field.distance[vertex]) < infinity))
-      return {};
+    if (mesh_.corner_at(v) == none || !known(v)) return {};
     mesh_.corners_at(v, corners);
     f = corners[0] / 3;
     b = at_corner(corners[0] % 3);
   } else if (!std::any_of(std::begin(mesh_.triangles()[f].corner),
-                          std::end(mesh_.triangles()[f].corner), [&](Index v) {
-                            return static_cast<double>(
-                                       solved_.field.distance[solved_.outer[v]]) < infinity;
-                          })) {
+                          std::end(mesh_.triangles()[f].corner), known)) {
     return {};
   }
 
