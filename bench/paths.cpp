@@ -61,8 +61,7 @@ void searches(const std::string& file) {
       const Path path = field.trace(target);
       trace_us.push_back((now() - traced) * 1e6);
       const double searched = now();
-      const auto found =
-          search.find(Serial{}, PointSource::at(source), PointSource::at(target));
+      const auto found = search.find(Serial{}, PointSource::at(source), PointSource::at(target));
       search_ms.push_back((now() - searched) * 1e3);
       const auto plain =
           nearest_first.find(Serial{}, PointSource::at(source), PointSource::at(target));
@@ -90,8 +89,8 @@ void bounded() {
   std::vector<std::array<Index, 3>> faces;
   for (Index j = 0; j <= n; ++j)
     for (Index i = 0; i <= n; ++i)
-      positions.push_back({i / double(n), j / double(n),
-                           0.02 * std::sin(40. * i / n) * std::cos(30. * j / n)});
+      positions.push_back(
+          {i / double(n), j / double(n), 0.02 * std::sin(40. * i / n) * std::cos(30. * j / n)});
   for (Index j = 0; j < n; ++j)
     for (Index i = 0; i < n; ++i) {
       const Index a = j * (n + 1) + i, b = a + 1, c = a + n + 1, d = c + 1;

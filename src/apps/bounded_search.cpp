@@ -84,8 +84,8 @@ void BoundedSearch<Real>::find_with(Queue queue, std::span<const PointSource> so
     } while (propagation.pass_pinches(pinches));
   }
 
-  // Distances of the vertices: the least that their triangles offer, no farther than a neighbour and
-  // the edge between.
+  // Distances of the vertices: the least that their triangles offer, no farther than a neighbour
+  // and the edge between.
   std::sort(reached_.begin(), reached_.end());
   reached_.erase(std::unique(reached_.begin(), reached_.end()), reached_.end());
   if (++search_ == 0) {  // after 2^32 searches
@@ -142,7 +142,8 @@ void BoundedSearch<Real>::find_with(Queue queue, std::span<const PointSource> so
   found_.vertices.clear();
   for (const Index v : touched_) {
     const Real distance = d[v] * unit;
-    if (distance <= radius && distance < infinity) found_.vertices.push_back({outer_[v], distance, label[v]});
+    if (distance <= radius && distance < infinity)
+      found_.vertices.push_back({outer_[v], distance, label[v]});
   }
   found_.simplices.clear();
   if (simplices)
@@ -153,9 +154,10 @@ void BoundedSearch<Real>::find_with(Queue queue, std::span<const PointSource> so
 
 template <class Real>
 std::size_t BoundedSearch<Real>::bytes() const {
-  return workspace_.bytes() + (outer_.capacity() + stamp_.capacity() + reached_.capacity() +
-                               touched_.capacity() + found_.simplices.capacity()) *
-                                  sizeof(Index) +
+  return workspace_.bytes() +
+         (outer_.capacity() + stamp_.capacity() + reached_.capacity() + touched_.capacity() +
+          found_.simplices.capacity()) *
+             sizeof(Index) +
          found_.vertices.capacity() * sizeof(found_.vertices[0]);
 }
 

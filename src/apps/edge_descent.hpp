@@ -25,16 +25,32 @@ template <class Distance, class End, class Edges>
 std::vector<Index> descend_edges(Index from, Distance distance, End end, Edges edges) {
   constexpr double infinity = std::numeric_limits<double>::infinity();
   std::vector<Index> way = {from};
+  // Vertices that edges without length join are as good as one: (vertex, where it was seen from).
+  std::vector<std::pair<Index, std::size_t>> level;
   for (;;) {
-    const Index v = way.back();
-    const double here = distance(v), left = end(v);
+    const double here = distance(way.back());
+    level.assign(1, {way.back(), 0});
     double best = infinity;
+    std::size_t leaves_at = 0;
     Index next = none;
-    edges(v, [&](Index w, double length) {
-      if (distance(w) < here && distance(w) + length < best) best = distance(w) + length, next = w;
-    });
-    if (left < infinity && left <= best) return way;
-    if (next == none) break;
+    for (std::size_t k = 0; k < level.size(); ++k) {
+      const Index v = level[k].first;
+      if (const double left = end(v); left < best) best = left, next = none, leaves_at = k;
+      edges(v, [&](Index w, double length) {
+        if (distance(w) < here) {
+          if (distance(w) + length < best) best = distance(w) + length, next = w, leaves_at = k;
+        } else if (length == 0 && distance(w) == here &&
+                   std::none_of(level.begin(), level.end(),
+                                [&](const auto& known) { return known.first == w; })) {
+          level.emplace_back(w, k);
+        }
+      });
+    }
+    if (!(best < infinity)) break;
+    std::vector<Index> along;
+    for (std::size_t k = leaves_at; k != 0; k = level[k].second) along.push_back(level[k].first);
+    way.insert(way.end(), along.rbegin(), along.rend());
+    if (next == none) return way;
     way.push_back(next);
   }
   struct Seen {

@@ -56,8 +56,7 @@ PathField<Domain<Real>>::PathField(const Domain<Real>& domain,
   for (std::size_t v = 0; v < inside.size(); ++v) outer_[inside[v]] = static_cast<Index>(v);
   if constexpr (std::is_same_v<Domain<Real>, TetMesh<Real>>) {
     outer_simplices_.resize(domain.tet_count());
-    for (Index t = 0; t < domain.tet_count(); ++t)
-      outer_simplices_[domain.inside_tet(t).first] = t;
+    for (Index t = 0; t < domain.tet_count(); ++t) outer_simplices_[domain.inside_tet(t).first] = t;
   }
   if constexpr (std::is_same_v<Domain<Real>, Wireframe<Real>>) {
     // Rows hold their arcs in the order of the edges.
@@ -86,8 +85,8 @@ Path PathField<Domain<Real>>::trace(const PointSource& point) const {
   PointSource at = point;
   at.offset = 0;
   check_source(at, described(*domain_));
-  const Solved<Real> solved = {workspace_, field_,      sources_, positions_,
-                               outer_,     outer_simplices_,  visibility_, labels_};
+  const Solved<Real> solved = {workspace_, field_,           sources_,    positions_,
+                               outer_,     outer_simplices_, visibility_, labels_};
   return trace_in(*domain_, solved, at);
 }
 

@@ -62,9 +62,9 @@ struct PathSearch<Real>::State {
   const std::function<double(Index)>* heuristic = nullptr;
   struct Target {
     Vector3<double> at = {0, 0, 0};
-    std::vector<Index> corners;     // 3 f + i, if a vertex
-    Index face = none;              // else
-    std::array<double, 3> b = {};   // there
+    std::vector<Index> corners;    // 3 f + i, if a vertex
+    Index face = none;             // else
+    std::array<double, 3> b = {};  // there
     double best = infinity;
     bool settled = false;
   };
@@ -114,8 +114,8 @@ struct PathSearch<Real>::State {
       const double py[3] = {0, 0, static_cast<double>(t.apex_h(0))};
       const double x = target.b[1] * px[1] + target.b[2] * px[2], y = target.b[2] * py[2];
       for (std::size_t i = 0; i < 3; ++i)
-        best = std::min(best, labels->corner_distance(target.face, i) +
-                                  std::hypot(px[i] - x, py[i] - y));
+        best = std::min(best,
+                        labels->corner_distance(target.face, i) + std::hypot(px[i] - x, py[i] - y));
     }
     return best;
   }
@@ -165,7 +165,7 @@ PathSearch<Real>::PathSearch(const TriangleMesh<Real>& mesh,
   if (scale > least * (1 + rounding))
     throw UsageError("the straight line is no lower bound: ways in face " + std::to_string(worst) +
                      " are shorter than between its positions; a scale of at most " +
-                     std::to_string(std::floor(least * 1e6) * 1e-6) + " would do");
+                     std::to_string(std::floor(least * (1 + 1e-6) * 1e6) * 1e-6) + " would do");
   s.scale = scale * (1 - rounding);
 }
 
@@ -222,8 +222,8 @@ SearchResult PathSearch<Real>::find(Serial, std::span<const PointSource> sources
                                                         mesh.unit(), propagate);
   const SaddleRule<Real, decltype(front)> rule(mesh.triangles(), front, true);
   // SurfaceTrace reads the labels' sources if there are several; one is the first of several.
-  const Solved<Real> solved = {workspace, s.no_field,           sources, s.positions,
-                               s.outer,   {}, Visibility::saddles, true};
+  const Solved<Real> solved = {workspace, s.no_field,          sources, s.positions, s.outer,
+                               {},        Visibility::saddles, true};
   const SurfaceLabels<Real> known(mesh, solved);
   s.labels = &known;
   TrianglePropagation<Real, std::decay_t<decltype(rule)>, decltype(front), true> propagation(

@@ -153,13 +153,12 @@ bool SolidPull<Real>::tighten(std::vector<Knot>& way, std::size_t k) const {
   bool found = chain(a, b.at, c, false, between);
   if (!found) {
     // It may hang on an edge that it only touches: is the way free close by?
-    const double close =
-        1e-3 * std::min(distance(a.at, b.at), distance(b.at, c.at));
+    const double close = 1e-3 * std::min(distance(a.at, b.at), distance(b.at, c.at));
     const Point before = b.at + close / distance(a.at, b.at) * (a.at - b.at);
     const Point after = b.at + close / distance(b.at, c.at) * (c.at - b.at);
     Knot start;
-    found = sees(b, before, &start) && sees(start, after, nullptr) &&
-            chain(a, b.at, c, true, between);
+    found =
+        sees(b, before, &start) && sees(start, after, nullptr) && chain(a, b.at, c, true, between);
   }
   if (!found) return false;
   const auto at = way.erase(way.begin() + static_cast<std::ptrdiff_t>(k));

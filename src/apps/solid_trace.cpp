@@ -17,7 +17,7 @@ namespace plexway {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr double doubt = 0.98;           // promises of labels are not exact
+constexpr double doubt = 0.98;            // promises of labels are not exact
 constexpr double disappointment = 1.002;  // a reason to look for another way
 
 using Barycentric = std::array<double, 4>;
@@ -42,7 +42,8 @@ class SolidTrace {
       const auto [tet, turned] = mesh_.inside_tet(point.simplex);
       t = tet;
       b = inside(point.barycentric, turned);
-      if (const std::size_t i = corner_of(b); i < 4) vertex = solved_.outer[mesh_.tets()[t].corner[i]];
+      if (const std::size_t i = corner_of(b); i < 4)
+        vertex = solved_.outer[mesh_.tets()[t].corner[i]];
     }
     std::vector<Index> begins;
     Index v = none;
@@ -180,7 +181,8 @@ class SolidTrace {
   [[nodiscard]] double edge_length(Index corner, Index j) const {
     const Index t = corner / 4, i = corner % 4;
     if (mesh_.embedded())
-      return norm(walk_.vertex(mesh_.tets()[t].corner[j]) - walk_.vertex(mesh_.tets()[t].corner[i]));
+      return norm(walk_.vertex(mesh_.tets()[t].corner[j]) -
+                  walk_.vertex(mesh_.tets()[t].corner[i]));
     return std::sqrt(static_cast<double>(mesh_.squared_lengths()[t][tet_edge(i, j)])) *
            mesh_.unit();
   }
@@ -238,8 +240,8 @@ class SolidTrace {
       }
       if (first == none) return false;
     }
-    way.vertices =
-        descend_edges(first, [&](Index w) { return distance(w); }, end, edges);
+    way.vertices = descend_edges(
+        first, [&](Index w) { return distance(w); }, end, edges);
     if (way.vertices.empty()) return false;
     way.source = ends.at(way.vertices.back()).number;
     if (v == none && mesh_.embedded()) way.knots.push_back(Knot{walk_.place(t, b), {t}, none});

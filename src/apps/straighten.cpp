@@ -64,7 +64,7 @@ bool Straightener<Real>::around(Index f, std::size_t in, double in_angle, Index 
     leave(v.face, v.corner, v.in == v.corner ? edge_before(v.corner) : v.corner, v.angle + whole,
           next);
   }
-  if (!(best <= most)) return false;
+  if (!(best < std::numeric_limits<double>::infinity()) || !(best <= most)) return false;
   for (std::size_t i = best_visit; i != nobody; i = visits[i].before)
     way.push_back(visits[i].crossing);
   std::reverse(way.begin(), way.end());

@@ -12,9 +12,9 @@ namespace plexway {
 
 /// Makes strips locally shortest.
 ///
-/// A pulled strip touches vertices. Where there is less than pi of surface on the other side of such
-/// a vertex, the strip moves over to that side, and is pulled again (the idea of Sharp and Crane,
-/// You Can Find Geodesic Paths in Triangle Meshes by Just Flipping Edges, 2020, on a row of
+/// A pulled strip touches vertices. Where there is less than pi of surface on the other side of
+/// such a vertex, the strip moves over to that side, and is pulled again (the idea of Sharp and
+/// Crane, You Can Find Geodesic Paths in Triangle Meshes by Just Flipping Edges, 2020, on a row of
 /// triangles instead of a triangulation). The way through the vertex lies in the new strip too and
 /// is not shortest there, so each move makes the path shorter, and as there are only so many strips
 /// shorter than a given length, it ends; moves that rounding keeps from shortening are taken back.

@@ -8,8 +8,8 @@ namespace {
 
 struct Portal {
   Vector2 left, right;
-  bool new_left;      // which end the crossing before did not have
-  bool first_left;    // the edge's first corner, in the triangle beyond, is on the left
+  bool new_left;    // which end the crossing before did not have
+  bool first_left;  // the edge's first corner, in the triangle beyond, is on the left
 };
 
 /// The crossings' edges in the plane; the strip goes "up" through them.
@@ -127,7 +127,8 @@ PulledStrip pull(const SurfaceShape<Real>& shape, const Strip& strip) {
   std::vector<Peg> bends;
   std::deque<Peg> left, right;  // without the tip
   Vector2 tip = start;
-  const auto enter = [&](const Peg& peg, std::deque<Peg>& own, std::deque<Peg>& other, double turn) {
+  const auto enter = [&](const Peg& peg, std::deque<Peg>& own, std::deque<Peg>& other,
+                         double turn) {
     while (!own.empty()) {
       const Vector2 before = own.size() > 1 ? own[own.size() - 2].at : tip;
       if (turn * cross(own.back().at - before, peg.at - before) > 0) break;

@@ -82,9 +82,9 @@ struct Bend {
 
 /// The shortest way within a strip.
 struct PulledStrip {
-  double length = 0;           ///< in the plane
-  std::vector<Bend> bends;     ///< those of one edge overlap by nothing: each crossing has one bend
-  std::vector<double> along;   ///< where it passes each crossing's `edge`, 0 to 1
+  double length = 0;          ///< in the plane
+  std::vector<Bend> bends;    ///< those of one edge overlap by nothing: each crossing has one bend
+  std::vector<double> along;  ///< where it passes each crossing's `edge`, 0 to 1
 };
 
 /// Leaves out what a strip need not visit: triangles around a vertex it starts or ends at, and

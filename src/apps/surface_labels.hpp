@@ -14,7 +14,8 @@
 
 namespace plexway {
 
-/// The labels a propagation left on a surface, as its rule reads them: a front that nothing waits in.
+/// The labels a propagation left on a surface, as its rule reads them: a front that nothing waits
+/// in.
 template <class Real, class Label>
 class LeftLabels {
  public:
@@ -48,8 +49,8 @@ class SurfaceLabels {
     return ask([&](const auto& rule) { return static_cast<double>(rule.distance(f)); });
   }
 
-  /// What the label's path to a point q of f looks like from there. In a plane with the edge it came
-  /// in by on the x axis, first corner at 0, and f above. Unit inside.
+  /// What the label's path to a point q of f looks like from there. In a plane with the edge it
+  /// came in by on the x axis, first corner at 0, and f above. Unit inside.
   struct Sight {
     Vector2 source;  ///< the virtual source
     Vector2 bend;    ///< the last bend before q, or the virtual source again
@@ -72,9 +73,9 @@ class SurfaceLabels {
     const auto& label = solved_.workspace.saddles.labels[f];
     using Point = PosedSaddles<double>::Point;
     Point from = {{source.x}, -source.y};
-    const Point limit[2] = {  // kept as offsets
-        {{source.x + static_cast<double>(label.x[2])},
-         -source.y + static_cast<double>(label.h[2])},
+    const Point limit[2] = {
+        // kept as offsets
+        {{source.x + static_cast<double>(label.x[2])}, -source.y + static_cast<double>(label.h[2])},
         {{source.x + static_cast<double>(label.x[3])},
          -source.y + static_cast<double>(label.h[3])}};
     const Point to = {{q.x}, q.y};
@@ -118,8 +119,7 @@ class SurfaceLabels {
       return question(SaddleRule<Real, decltype(left)>(mesh_.triangles(), left, false));
     }
     LeftLabels<Real, PlainLabel<Real>> left(w.marks, w.plain.labels.get());
-    return question(
-        PlainRule<Real, decltype(left)>(mesh_.triangles(), left, solved_.visibility));
+    return question(PlainRule<Real, decltype(left)>(mesh_.triangles(), left, solved_.visibility));
   }
 
   const TriangleMesh<Real>& mesh_;

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <span>
 
-#include <plexway/complex/triangle_mesh.hpp>
 #include <plexway/complex/tet_record.hpp>
+#include <plexway/complex/triangle_mesh.hpp>
 
 #include "apps/vector2.hpp"
 

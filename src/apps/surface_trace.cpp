@@ -18,6 +18,8 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double doubt = 0.98;
 // A path longer than promised by this is a reason to try the descent over the vertices as well.
 constexpr double disappointment = 1.002;
+// And by this for trying the shortest way along edges.
+constexpr double failure = 1.01;
 
 // Corners of a triangle that runs backwards inside come in the order 0 2 1.
 std::array<double, 3> inside(const std::array<double, 4>& b, bool turned) {
@@ -119,8 +121,8 @@ typename SurfaceTrace<Real>::Seen SurfaceTrace<Real>::look(Strip& leg, Heading& 
       double angle = shape_.angle_to(f, arrived, b);
       if (entered < 3) {  // looking back over the edge it came in by
         const Vector2 e = corner[edge_after(arrived)] - corner[arrived];
-        angle = std::clamp(std::atan2(std::abs(cross(e, d)), -dot(e, d)), 0.,
-                           shape_.angle(f, arrived));
+        angle =
+            std::clamp(std::atan2(std::abs(cross(e, d)), -dot(e, d)), 0., shape_.angle(f, arrived));
       }
       leg.end = at_corner(arrived);
       at = {f, arrived, angle};
@@ -306,9 +308,10 @@ void SurfaceTrace<Real>::add(Way& way, Strip& leg, Heading& at, const Heading& t
   at = to;
 }
 
+/// Along edges: down the distances, or, blindly, the shortest way there is.
 template <class Real>
-bool SurfaceTrace<Real>::descend(Index f, const std::array<double, 3>& b, Way& way) const {
-  if (solved_.field.distance.empty()) return false;
+bool SurfaceTrace<Real>::descend(Index f, const std::array<double, 3>& b, bool blindly,
+                                 Way& way) const {
   const auto triangles = mesh_.triangles();
   // Where sources are: a vertex, or a triangle at a vertex.
   struct End {
@@ -329,9 +332,8 @@ bool SurfaceTrace<Real>::descend(Index f, const std::array<double, 3>& b, Way& w
     const auto [face, turned] = mesh_.inside_face(s.simplex);
     const std::array<double, 3> at = inside(s.barycentric, turned);
     for (std::size_t i = 0; i < 3; ++i)
-      offer(triangles[face].corner[i],
-            {s.offset + shape_.distance(face, at_corner(i), at), static_cast<Index>(n),
-             3 * face + static_cast<Index>(i)});
+      offer(triangles[face].corner[i], {s.offset + shape_.distance(face, at_corner(i), at),
+                                        static_cast<Index>(n), 3 * face + static_cast<Index>(i)});
   }
   const auto distance = [&](Index v) {
     return static_cast<double>(solved_.field.distance[solved_.outer[v]]);
@@ -358,7 +360,9 @@ bool SurfaceTrace<Real>::descend(Index f, const std::array<double, 3>& b, Way& w
     if (first == 3 || by(i) < by(first)) first = i;
   }
   const std::vector<Index> vertices =
-      descend_edges(triangles[f].corner[first], distance, end, edges);
+      blindly ? descend_edges(
+                    triangles[f].corner[first], [](Index) { return infinity; }, end, edges)
+              : descend_edges(triangles[f].corner[first], distance, end, edges);
   if (vertices.empty()) return false;
 
   Strip leg;
@@ -382,8 +386,8 @@ bool SurfaceTrace<Real>::descend(Index f, const std::array<double, 3>& b, Way& w
     if (!out) return false;
     turn_to(*out);
     // Along the edge to its other end, and the direction back.
-    const bool after = triangles[out->face].corner[edge_after(out->corner)] == vertices[k + 1] &&
-                       out->angle == 0;
+    const bool after =
+        triangles[out->face].corner[edge_after(out->corner)] == vertices[k + 1] && out->angle == 0;
     const std::size_t there = after ? edge_after(out->corner) : edge_before(out->corner);
     at = {out->face, there, after ? shape_.angle(out->face, there) : 0};
   }
@@ -526,10 +530,19 @@ Path SurfaceTrace<Real>::trace(const PointSource& point) const {
       }
     }
   }
-  const bool promised = best.source != none && begins[0].estimate > 0 &&
-                        whole(best) <= begins[0].estimate * unit * disappointment;
-  Way way;
-  if (!promised && descend(f, b, way)) keep(straighten(std::move(way)));
+  if (solved_.field.distance.empty()) return best.source == none ? Path{} : to_path(best);
+  double promise = infinity;  // by a corner, as the field has it
+  for (std::size_t i = 0; i < 3; ++i)
+    promise = std::min(
+        promise, static_cast<double>(
+                     solved_.field.distance[shape_.outer_vertex(mesh_.triangles()[f].corner[i])]) +
+                     shape_.distance(f, at_corner(i), b));
+  for (const bool blindly : {false, true}) {
+    const double allowed = promise * (blindly ? failure : disappointment);
+    Way way;
+    if (!(best.source != none && whole(best) <= allowed) && descend(f, b, blindly, way))
+      keep(straighten(std::move(way)));
+  }
   return best.source == none ? Path{} : to_path(best);
 }
 

@@ -25,7 +25,9 @@ namespace plexway {
 ///    between have by now (large ones mostly have better ones for their own centre), and on from
 ///    that vertex. Distances of the vertices fall, so it ends.
 ///  * over the edges that labels came in by. No triangle is entered twice, so it ends.
-///  * down over the vertices' distances, along edges.
+///  * down over the vertices' distances, along edges; and where all that is 1 % longer than the
+///  field
+///    promises, the shortest way along edges, which the path is then no longer than.
 template <class Real>
 class SurfaceTrace {
  public:
@@ -60,7 +62,7 @@ class SurfaceTrace {
   /// At a vertex where fans meet, a corner from where a path leads on.
   [[nodiscard]] Index beyond_pinch(Index vertex) const;
 
-  bool descend(Index f, const std::array<double, 3>& b, Way& way) const;
+  bool descend(Index f, const std::array<double, 3>& b, bool blindly, Way& way) const;
   [[nodiscard]] std::optional<Heading> side(Index v, Index w) const;
   void add(Way& way, Strip& leg, Heading& at, const Heading& to) const;
 

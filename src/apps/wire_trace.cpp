@@ -67,11 +67,15 @@ class WireTrace {
       if (inside != nullptr) along_part(path, *inside, corner, false);
       for (std::size_t i = 0; i + 1 < way.size(); ++i) along_edge(path, way[i], way[i + 1]);
       const PointSource& source = solved_.sources[last.number];
-      if (source.vertex == none)
-        along_part(path, source, wireframe_.inside_edge(source.simplex).from == way.back() ? 0 : 1,
-                   true);
-      else
+      if (source.vertex == none) {
+        const auto edge = wireframe_.inside_edge(source.simplex);
+        const bool loop = edge.from == edge.to;  // the shorter way around
+        const bool first =
+            loop ? source.barycentric[1] <= source.barycentric[0] : edge.from == way.back();
+        along_part(path, source, first ? 0 : 1, true);
+      } else {
         finish(path, way.back());
+      }
       keep(best, std::move(path));
     };
     if (point.vertex != none) {
@@ -159,8 +163,7 @@ class WireTrace {
       const auto &a = solved_.positions[solved_.outer[ends.from]],
                  &b = solved_.positions[solved_.outer[ends.to]];
       std::array<double, 3> at;
-      for (std::size_t i = 0; i < 3; ++i)
-        at[i] = p.barycentric[0] * a[i] + p.barycentric[1] * b[i];
+      for (std::size_t i = 0; i < 3; ++i) at[i] = p.barycentric[0] * a[i] + p.barycentric[1] * b[i];
       path.positions.push_back(at);
     }
   }

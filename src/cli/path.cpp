@@ -137,10 +137,10 @@ std::string to_text(const PathCommand& command, const Domain& domain, const Outc
   for (std::size_t k = 0; k < outcome.paths.size(); ++k) {
     const Path& path = outcome.paths[k];
     table.add(outcome.paths.size() == 1 ? "path" : "path " + std::to_string(k),
-              path.source == none ? command.to[k] + " is not reached"
-                                  : command.to[k] + " to " + command.from[path.source] +
-                                        ": length " + short_number(path.length) + ", " +
-                                        counted(path.points.size(), "points"));
+              path.source == none
+                  ? command.to[k] + " is not reached"
+                  : command.to[k] + " to " + command.from[path.source] + ": length " +
+                        short_number(path.length) + ", " + counted(path.points.size(), "points"));
   }
   table.add("work", counted(outcome.statistics.expansions, "expansions"));
   table.add("time", "load " + short_time(domain.load_seconds()) + ", build " +

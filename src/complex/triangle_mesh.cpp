@@ -303,7 +303,8 @@ template <class Real>
 std::size_t TriangleMesh<Real>::bytes() const {
   const auto of = [](const auto& v) { return v.capacity() * sizeof(v[0]); };
   return sizeof(*this) + of(triangles_) + of(vertex_to_inside_) + of(face_to_inside_) +
-         of(corner_of_vertex_) + of(irregular_) + of(irregular_begin_) + of(irregular_corners_) + of(pinched_);
+         of(corner_of_vertex_) + of(irregular_) + of(irregular_begin_) + of(irregular_corners_) +
+         of(pinched_);
 }
 
 template <class Real>

@@ -54,8 +54,7 @@ void write_obj(OutputFile& out, Paths paths) {
 
 void write_ply(OutputFile& out, Paths paths) {
   std::size_t edges = 0;
-  for (const Path& path : paths)
-    edges += path.positions.empty() ? 0 : path.positions.size() - 1;
+  for (const Path& path : paths) edges += path.positions.empty() ? 0 : path.positions.size() - 1;
   out.write("ply\nformat ascii 1.0\ncomment geodesic paths by plexway\nelement vertex " +
             std::to_string(count_points(paths)) +
             "\nproperty double x\nproperty double y\nproperty double z\nelement edge " +
@@ -85,11 +84,12 @@ void write_vtp(OutputFile& out, Paths paths) {
               "\" format=\"ascii\">\n");
   };
   const auto end = [&] { out.write("\n</DataArray>\n"); };
-  out.write("<?xml version=\"1.0\"?>\n<VTKFile type=\"PolyData\" version=\"0.1\" "
-            "byte_order=\"LittleEndian\">\n<PolyData>\n<Piece NumberOfPoints=\"" +
-            std::to_string(count_points(paths)) + "\" NumberOfVerts=\"0\" NumberOfLines=\"" +
-            std::to_string(lines) + "\" NumberOfStrips=\"0\" NumberOfPolys=\"0\">\n<Points>\n" +
-            "<DataArray type=\"Float64\" NumberOfComponents=\"3\" format=\"ascii\">\n");
+  out.write(
+      "<?xml version=\"1.0\"?>\n<VTKFile type=\"PolyData\" version=\"0.1\" "
+      "byte_order=\"LittleEndian\">\n<PolyData>\n<Piece NumberOfPoints=\"" +
+      std::to_string(count_points(paths)) + "\" NumberOfVerts=\"0\" NumberOfLines=\"" +
+      std::to_string(lines) + "\" NumberOfStrips=\"0\" NumberOfPolys=\"0\">\n<Points>\n" +
+      "<DataArray type=\"Float64\" NumberOfComponents=\"3\" format=\"ascii\">\n");
   for (const Path& path : paths)
     for (const auto& p : path.positions) {
       write_row(out, p, " ");

@@ -78,8 +78,8 @@ void check_path(const Path& path, std::span<const Position> positions, const Sim
       sum += p.barycentric[k];
     }
     proper = proper && std::abs(sum - 1) < 1e-9;
-    misplaced = std::max(misplaced,
-                         apart(place(positions, corners, p.barycentric), path.positions[i]));
+    misplaced =
+        std::max(misplaced, apart(place(positions, corners, p.barycentric), path.positions[i]));
     if (i + 1 == path.points.size()) break;
     length += apart(path.positions[i], path.positions[i + 1]);
     const Position& next = path.positions[i + 1];

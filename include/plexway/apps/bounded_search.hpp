@@ -28,8 +28,8 @@ struct Surroundings {
 };
 
 /// Distances near sources on a surface: the same as `propagate` with a radius, but what it costs
-/// follows what it finds and not the size of the surface. Nothing is cleared and nothing is looked at
-/// but the triangles that are reached. For many searches on one surface.
+/// follows what it finds and not the size of the surface. Nothing is cleared and nothing is looked
+/// at but the triangles that are reached. For many searches on one surface.
 ///
 /// Memory, float: that of a workspace, and 8 bytes a vertex; allocated and touched once, when it is
 /// made. (Every 4095 searches the marks are cleared: 2 bytes a triangle.)
@@ -54,16 +54,16 @@ class BoundedSearch {
 
  private:
   template <class Queue>
-  void find_with(Queue queue, std::span<const PointSource> sources,
-                 const PropagateOptions& options, bool simplices);
+  void find_with(Queue queue, std::span<const PointSource> sources, const PropagateOptions& options,
+                 bool simplices);
 
   const TriangleMesh<Real>* mesh_;
   Workspace<Real> workspace_;
-  std::vector<Index> outer_;      // from vertices inside to the caller's
-  std::vector<Index> stamp_;      // of the search that last touched a vertex (inside)
+  std::vector<Index> outer_;  // from vertices inside to the caller's
+  std::vector<Index> stamp_;  // of the search that last touched a vertex (inside)
   Index search_ = 0;
-  std::vector<Index> reached_;    // triangles inside
-  std::vector<Index> touched_;    // vertices inside
+  std::vector<Index> reached_;  // triangles inside
+  std::vector<Index> touched_;  // vertices inside
   Surroundings<Real> found_;
 };
 

@@ -22,8 +22,8 @@ namespace plexway {
 ///   field.solve(Serial{}, sources);
 ///   Path path = field.trace(PointSource::at(17));
 ///
-/// Domain: TriangleMesh, TetMesh or Wireframe. The domain and the positions are referred to and must
-/// outlive it.
+/// Domain: TriangleMesh, TetMesh or Wireframe. The domain and the positions are referred to and
+/// must outlive it.
 template <class Domain>
 class PathField;
 
@@ -44,8 +44,9 @@ class PathField<Domain<Real>> {
   const DistanceField<Real>& solve(Executor executor, std::span<const PointSource> sources,
                                    const PropagateOptions& options = {}) {
     solved_ = false;
-    constexpr bool keeps_labels =
-        requires { propagate(executor, *domain_, sources, options, workspace_, field_); };
+    constexpr bool keeps_labels = requires {
+      propagate(executor, *domain_, sources, options, workspace_, field_);
+    };
     if constexpr (keeps_labels)
       propagate(executor, *domain_, sources, options, workspace_, field_);
     else
@@ -67,8 +68,9 @@ class PathField<Domain<Real>> {
   /// path of infinite length.
   ///
   /// On surfaces it is straight over every edge and bends only at vertices with at least pi of
-  /// surface on both sides; in solids it bends only at reflex edges and vertices. Solids without
-  /// coordinates: a way along edges, as short as these allow.
+  /// surface on both sides, and is at most 1 % longer than the shortest way along edges; in solids
+  /// it bends only at reflex edges and vertices. Solids without coordinates: a way along edges, as
+  /// short as these allow.
   ///
   /// Throws UsageError for a point that is not in the domain, or before a solve. Any number of
   /// threads may trace at once. Cost: about that of looking at each simplex on the way some ten

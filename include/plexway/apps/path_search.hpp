@@ -37,13 +37,14 @@ struct SearchResult {
 /// Paths to a few targets on a surface without looking at all of it: nearest first, or A* (Hart,
 /// Nilsson, Raphael, A formal basis for the heuristic determination of minimum cost paths, 1968).
 ///
-/// *When it stops.* Labels wait in the order of a lower bound of all paths through their triangle T:
-/// such a path comes to a point x of T after d(x) at least, and has h(x) at least to go. With r the
-/// longest way from T's centre c to its corners, d(x) >= d(c) - r, else the way by x and straight on
-/// to c would be a shorter one to c; and h(x) >= h(c) - r, because a lower bound of distances that
-/// changes faster than these can be cut down to one that does not. So the bound is d(c) + h(c) - 2 r.
-/// Once it is no less than what a target has for the first label that waits, no label that waits can
-/// lead to a shorter path there: the target is settled. The search stops when all are.
+/// *When it stops.* Labels wait in the order of a lower bound of all paths through their triangle
+/// T: such a path comes to a point x of T after d(x) at least, and has h(x) at least to go. With r
+/// the longest way from T's centre c to its corners, d(x) >= d(c) - r, else the way by x and
+/// straight on to c would be a shorter one to c; and h(x) >= h(c) - r, because a lower bound of
+/// distances that changes faster than these can be cut down to one that does not. So the bound is
+/// d(c) + h(c) - 2 r. Once it is no less than what a target has for the first label that waits, no
+/// label that waits can lead to a shorter path there: the target is settled. The search stops when
+/// all are.
 ///
 /// *Only one thread* takes labels in that order: there is no search for other executors.
 template <class Real>
@@ -51,9 +52,9 @@ class PathSearch {
  public:
   /// Nearest first, unless a search brings a heuristic. Refers to the surface.
   explicit PathSearch(const TriangleMesh<Real>& mesh);
-  /// A* by the straight line in space, times `scale`. Throws UsageError, naming the triangle and the
-  /// greatest scale that would do, where a way on the surface may be shorter than that: surfaces
-  /// with another metric than that of their positions. Cost: linear, once. Refers to both.
+  /// A* by the straight line in space, times `scale`. Throws UsageError, naming the triangle and
+  /// the greatest scale that would do, where a way on the surface may be shorter than that:
+  /// surfaces with another metric than that of their positions. Cost: linear, once. Refers to both.
   PathSearch(const TriangleMesh<Real>& mesh, std::span<const std::array<double, 3>> positions,
              double scale = 1);
   ~PathSearch();

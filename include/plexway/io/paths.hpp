@@ -15,8 +15,8 @@ namespace plexway::io {
 /// (lines, with `length` and `source` of each), .json (also lengths, simplices and barycentric
 /// coordinates; paths without positions go nowhere else). The file appears whole or not at all.
 ///
-/// Throws UsageError for an unknown extension or, but for .json, a path without positions, and Error
-/// "cannot write FILE: reason" when the system refuses.
+/// Throws UsageError for an unknown extension or, but for .json, a path without positions, and
+/// Error "cannot write FILE: reason" when the system refuses.
 void write_paths(const std::filesystem::path& file, std::span<const Path> paths);
 
 /// The extensions `write_paths` knows, with the dot, in lower case.
