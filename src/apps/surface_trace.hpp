@@ -17,6 +17,12 @@
 
 namespace plexway {
 
+/// Barycentric coordinates by the corners inside: a triangle that runs backwards there has them in
+/// the order 0 2 1.
+inline std::array<double, 3> inside(const std::array<double, 4>& b, bool turned) {
+  return {b[0], turned ? b[2] : b[1], turned ? b[1] : b[2]};
+}
+
 /// Paths on a solved surface.
 ///
 /// A way back is a strip of triangles, or several where it passes a vertex that fans only touch in.
