@@ -73,6 +73,7 @@ int parse_and_run(int argc, const char* const* argv) {
       "'plexway COMMAND --help' tells more about a command.\n\n"
       "Examples:\n"
       "  plexway distance knot.ply --source vertex:0 --out distance.ply\n"
+      "  plexway path knot.ply --from vertex:0 --to vertex:99 --out path.obj\n"
       "  plexway info knot.ply\n"
       "  plexway tetrahedralize organ.off --out organ.vtu --max-volume 1e-3\n"
       "  plexway bench bunny.obj --source vertex:3160 --truth bunny.v3160.txt\n\n"
@@ -80,6 +81,7 @@ int parse_and_run(int argc, const char* const* argv) {
   add_distance_command(tool, action);
   add_info_command(tool, action);
   add_bench_command(tool, action);
+  add_path_command(tool, action);
   add_tetrahedralize_command(tool, action);
 
   try {

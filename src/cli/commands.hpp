@@ -14,6 +14,7 @@ using Action = std::function<void()>;
 void add_distance_command(CLI::App& tool, Action& action);
 void add_info_command(CLI::App& tool, Action& action);
 void add_bench_command(CLI::App& tool, Action& action);
+void add_path_command(CLI::App& tool, Action& action);
 void add_tetrahedralize_command(CLI::App& tool, Action& action);
 
 }  // namespace plexway::cli

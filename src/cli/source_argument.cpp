@@ -15,8 +15,8 @@ namespace {
 constexpr std::string_view vertex_prefix = "vertex:";
 constexpr std::string_view point_prefix = "point:";
 
-[[noreturn]] void malformed(const std::string& text) {
-  throw UsageError("--source '" + text + "': write vertex:ID (0-based) or point:X,Y,Z");
+[[noreturn]] void malformed(const std::string& text, const std::string& role) {
+  throw UsageError("--" + role + " '" + text + "': write vertex:ID (0-based) or point:X,Y,Z");
 }
 
 // Any integer: one that does not fit is out of range in every file, and not a slip of the syntax.
@@ -45,38 +45,39 @@ std::optional<std::array<double, 3>> parse_point(std::string_view text) {
   return point;
 }
 
-SourceArgument parse_source(const std::string& text) {
+SourceArgument parse_source(const std::string& text, const std::string& role) {
   const std::string_view view = text;
   if (view.substr(0, vertex_prefix.size()) == vertex_prefix) {
     const std::string_view number = view.substr(vertex_prefix.size());
     const auto id = parse_id(number);
-    if (!id) malformed(text);
-    return {text, number.front() == '-' ? none : *id};
+    if (!id) malformed(text, role);
+    return {text, number.front() == '-' ? none : *id, role};
   }
   if (view.substr(0, point_prefix.size()) == point_prefix) {
     const auto point = parse_point(view.substr(point_prefix.size()));
-    if (!point) malformed(text);
-    return {text, *point};
+    if (!point) malformed(text, role);
+    return {text, *point, role};
   }
-  malformed(text);
+  malformed(text, role);
 }
 
-std::vector<SourceArgument> parse_sources(const std::vector<std::string>& texts) {
+std::vector<SourceArgument> parse_sources(const std::vector<std::string>& texts,
+                                          const std::string& role) {
   std::vector<SourceArgument> arguments;
-  for (const std::string& text : texts) arguments.push_back(parse_source(text));
+  for (const std::string& text : texts) arguments.push_back(parse_source(text, role));
   return arguments;
 }
 
 PointSource locate_source(const Domain& domain, const SourceArgument& argument) {
   if (const auto* point = std::get_if<1>(&argument.where)) {
     if (domain.positions().empty())
-      throw InputError(domain.file().string() + ": source " + argument.text +
+      throw InputError(domain.file().string() + ": " + argument.role + " " + argument.text +
                        ": the vertices have no positions; name one by vertex:ID");
     return domain.closest(*point);
   }
   const Index vertex = std::get<0>(argument.where);
   if (vertex >= domain.vertices()) {
-    throw InputError(domain.file().string() + ": source " + argument.text +
+    throw InputError(domain.file().string() + ": " + argument.role + " " + argument.text +
                      " is out of range: the vertices are 0 to " +
                      std::to_string(domain.vertices() - 1));
   }

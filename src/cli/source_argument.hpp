@@ -18,11 +18,13 @@ struct SourceArgument {
   std::string text;  ///< as typed
   /// A vertex by its number in the file (`none` for a number that no file can have), or a point.
   std::variant<Index, std::array<double, 3>> where;
+  std::string role = "source";  ///< what messages call it, and "--" before it the option
 };
 
 /// Reads `vertex:ID` and `point:X,Y,Z`. Throws UsageError for anything else.
-SourceArgument parse_source(const std::string& text);
-std::vector<SourceArgument> parse_sources(const std::vector<std::string>& texts);
+SourceArgument parse_source(const std::string& text, const std::string& role = "source");
+std::vector<SourceArgument> parse_sources(const std::vector<std::string>& texts,
+                                          const std::string& role = "source");
 
 /// "X,Y,Z" as finite numbers.
 std::optional<std::array<double, 3>> parse_point(std::string_view text);

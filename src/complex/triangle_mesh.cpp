@@ -222,8 +222,8 @@ void TriangleMesh<Real>::assemble(std::size_t vertices, std::span<const std::arr
   const double unit = longest > 0 ? longest * (sum / (3 * static_cast<double>(m))) : 1;
   summary_.mean_edge = unit;
 
-  std::vector<Index> face_to_inside(m);
-  for (std::size_t i = 0; i < m; ++i) face_to_inside[face_order[i]] = static_cast<Index>(i);
+  face_to_inside_.resize(m);
+  for (std::size_t i = 0; i < m; ++i) face_to_inside_[face_order[i]] = static_cast<Index>(i);
   vertex_to_inside_.assign(vertices, none);
   Index named = 0;
   for (const Index f : face_order)
@@ -262,7 +262,7 @@ void TriangleMesh<Real>::assemble(std::size_t vertices, std::span<const std::arr
       const bool loop = faces[f][i] == faces[f][next(i)];
       const bool same_way = !loop && faces[f][i] == faces[g][j];
       const bool flip = same_way != (turned(f) != turned(g));
-      t.across[e] = face_to_inside[g] << Across::face_shift | edge_inside(g, j) |
+      t.across[e] = face_to_inside_[g] << Across::face_shift | edge_inside(g, j) |
                     (flip ? Across::flip : 0) | (fan ? Across::fan : 0);
       if (!fan) {
         summary_.edges += 3 * f + i < h;
@@ -325,16 +325,9 @@ void TriangleMesh<Real>::assemble(std::size_t vertices, std::span<const std::arr
 template <class Real>
 std::size_t TriangleMesh<Real>::bytes() const {
   const auto of = [](const auto& v) { return v.capacity() * sizeof(v[0]); };
-  return sizeof(*this) + of(triangles_) + of(vertex_to_inside_) + of(corner_of_vertex_) +
-         of(irregular_) + of(irregular_begin_) + of(irregular_corners_) + of(pinched_);
-}
-
-template <class Real>
-std::pair<Index, bool> TriangleMesh<Real>::inside_face(Index face) const {
-  for (std::size_t i = 0; i + 1 < triangles_.size(); ++i)
-    if ((triangles_[i].face & ~reversed) == face)
-      return {static_cast<Index>(i), (triangles_[i].face & reversed) != 0};
-  return {none, false};
+  return sizeof(*this) + of(triangles_) + of(vertex_to_inside_) + of(face_to_inside_) +
+         of(corner_of_vertex_) + of(irregular_) + of(irregular_begin_) + of(irregular_corners_) +
+         of(pinched_);
 }
 
 template <class Real>

@@ -60,7 +60,7 @@ class TrianglePropagation {
       spread_all(revivals > 8);
       if (front_.out_of_budget()) return;
       ++revivals;
-    } while (pass_pinches() || revive());
+    } while (pass_pinches(mesh_.pinched()) || revive());
   }
 
   /// Expands triangles for the front of a thread. The rounds that it is part of do not matter.
@@ -91,12 +91,14 @@ class TrianglePropagation {
     for (const Index c : workspace_.corners) rule_.seed_corner(c / 3, c % 3, sigma, number);
   }
 
+ public:  // the parts of run, for those who must not look at the whole surface
   void spread(bool last_resort) {
     Index f = 0;
     while (!spread_share(last_resort, f))
       if (!front_.take_stock(rule_.distance(f))) return;
   }
 
+ private:
   /// The hot loop, until no triangle waits (true) or the share of the budget is spent. It works on
   /// a copy of the front that nothing points to, which the compiler can keep in registers; the
   /// rare full rule gets the original.
@@ -133,11 +135,12 @@ class TrianglePropagation {
     return std::max({t.length[0], t.length[1], t.length[2]});
   }
 
+ public:
   /// A path may pass a vertex where fans of triangles only touch: it bends there (a hinge of
   /// dimension 0). True if some triangle got a better label.
-  bool pass_pinches() {
+  bool pass_pinches(std::span<const Index> pinched) {
     bool any = false;
-    for (const Index v : mesh_.pinched()) {
+    for (const Index v : pinched) {
       mesh_.corners_at(v, workspace_.corners);
       Real best = std::numeric_limits<Real>::infinity();
       Index number = none;
@@ -159,6 +162,7 @@ class TrianglePropagation {
     return any;
   }
 
+ private:
   /// Updates that turn around a vertex where no path bends are dropped. Where that leaves a
   /// triangle without any label, they are taken after all; after some rounds of it, everywhere, so
   /// that rounds end.

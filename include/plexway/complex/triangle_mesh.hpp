@@ -47,7 +47,7 @@ struct SurfaceHints {
 /// it.
 ///
 /// Vertices and faces have the caller's numbers in this interface. Inside they are reordered for
-/// locality. Memory: 64 bytes a triangle and 8 a vertex in float.
+/// locality. Memory: 68 bytes a triangle and 8 a vertex in float.
 template <class Real>
 class TriangleMesh {
  public:
@@ -84,8 +84,12 @@ class TriangleMesh {
   /// The records, and one sentinel behind them that stands for "no triangle".
   [[nodiscard]] std::span<const TriangleRecord<Real>> triangles() const { return triangles_; }
   [[nodiscard]] Index inside_vertex(Index vertex) const { return vertex_to_inside_[vertex]; }
-  /// Linear search: one pass over the faces. The second is true if its corners run backwards here.
-  [[nodiscard]] std::pair<Index, bool> inside_face(Index face) const;
+  /// The second is true if its corners run backwards here.
+  [[nodiscard]] std::pair<Index, bool> inside_face(Index face) const {
+    if (face >= face_to_inside_.size()) return {none, false};
+    const Index inside = face_to_inside_[face];
+    return {inside, (triangles_[inside].face & reversed) != 0};
+  }
   [[nodiscard]] std::span<const Index> vertices_inside() const { return vertex_to_inside_; }
   /// Corners 3 f + i at a vertex, all fans.
   void corners_at(Index inside_vertex, std::vector<Index>& corners) const;
@@ -105,6 +109,7 @@ class TriangleMesh {
   SurfaceSummary summary_;
   std::vector<TriangleRecord<Real>> triangles_;
   std::vector<Index> vertex_to_inside_;
+  std::vector<Index> face_to_inside_;
   std::vector<Index> corner_of_vertex_;  // one corner a vertex (inside), or none
   // Vertices whose corners one walk around cannot find: pinched, or on a non-manifold edge.
   std::vector<Index> irregular_, irregular_begin_, irregular_corners_;

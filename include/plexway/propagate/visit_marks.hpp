@@ -30,7 +30,10 @@ class VisitMarks {
     current_ = static_cast<Mark>(epoch_ << epoch_shift);
   }
   [[nodiscard]] Mark* data() { return marks_.data(); }
+  [[nodiscard]] const Mark* data() const { return marks_.data(); }
   [[nodiscard]] Mark current() const { return current_; }
+  [[nodiscard]] bool reached(Index s) const { return (marks_[s] ^ current_) < (1 << epoch_shift); }
+  [[nodiscard]] std::size_t hinge(Index s) const { return marks_[s] & hinge_mask; }
   [[nodiscard]] std::size_t bytes() const { return marks_.capacity() * sizeof(Mark); }
 
  private:

@@ -1,0 +1,73 @@
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include <plexway/complex/triangle_mesh.hpp>
+#include <plexway/executors/serial.hpp>
+#include <plexway/propagate/distance_field.hpp>
+#include <plexway/propagate/options.hpp>
+#include <plexway/propagate/workspace.hpp>
+#include <plexway/source/point_source.hpp>
+
+namespace plexway {
+
+/// What lies within a radius, caller's numbers.
+template <class Real>
+struct Surroundings {
+  struct Vertex {
+    Index vertex;
+    Real distance;
+    Index label;  ///< nearest source, by its place in the list
+  };
+  std::vector<Vertex> vertices;  ///< no farther than the radius, each once
+  std::vector<Index> simplices;  ///< those that were reached, each once; may reach beyond
+  bool complete = true;          ///< false if max_expansions ended the search early
+  PropagateStatistics statistics;
+};
+
+/// Distances near sources on a surface: the same as `propagate` with a radius, but what it costs
+/// follows what it finds and not the size of the surface. Nothing is cleared and nothing is looked
+/// at but the triangles that are reached. For many searches on one surface.
+///
+/// Memory, float: that of a workspace, and 8 bytes a vertex; allocated and touched once, when it is
+/// made. (Every 4095 searches the marks are cleared: 2 bytes a triangle.)
+template <class Real>
+class BoundedSearch {
+ public:
+  explicit BoundedSearch(const TriangleMesh<Real>& mesh);
+
+  /// Vertices within options.radius of the nearest of `sources`. The result stays until the next
+  /// search; with `simplices`, triangles are listed too. Throws as `propagate`, and UsageError
+  /// unless options.visibility is the default. Cost: about 0.2 us a triangle that is reached.
+  const Surroundings<Real>& find(Serial, std::span<const PointSource> sources,
+                                 const PropagateOptions& options, bool simplices = false);
+  const Surroundings<Real>& find(Serial executor, const PointSource& source, double radius,
+                                 bool simplices = false) {
+    PropagateOptions options;
+    options.radius = radius;
+    return find(executor, std::span<const PointSource>(&source, 1), options, simplices);
+  }
+
+  [[nodiscard]] std::size_t bytes() const;
+
+ private:
+  template <class Queue>
+  void find_with(Queue queue, std::span<const PointSource> sources, const PropagateOptions& options,
+                 bool simplices);
+
+  const TriangleMesh<Real>* mesh_;
+  Workspace<Real> workspace_;
+  std::vector<Index> outer_;  // from vertices inside to the caller's
+  std::vector<Index> stamp_;  // of the search that last touched a vertex (inside)
+  Index search_ = 0;
+  std::vector<Index> reached_;  // triangles inside
+  std::vector<Index> touched_;  // vertices inside
+  Surroundings<Real> found_;
+};
+
+extern template class BoundedSearch<float>;
+extern template class BoundedSearch<double>;
+
+}  // namespace plexway

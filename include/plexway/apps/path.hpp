@@ -1,0 +1,31 @@
+#pragma once
+
+#include <array>
+#include <limits>
+#include <vector>
+
+#include <plexway/complex/ids.hpp>
+
+namespace plexway {
+
+/// A point of a simplex, caller's numbers: one coordinate a corner, >= 0, sum 1; 0 beyond them.
+struct PathPoint {
+  Index simplex = none;
+  std::array<double, 4> barycentric = {0, 0, 0, 0};
+};
+
+/// A way through a domain, from the point asked for back to the source.
+///
+/// The straight line from each point to the next lies in the simplex of the first of the two, so
+/// the path never leaves the domain. It is empty, and its length +inf, where no path leads.
+struct Path {
+  std::vector<PathPoint> points;
+  /// Where the points are; empty where the domain has no coordinates.
+  std::vector<std::array<double, 3>> positions;
+  /// Summed over the lines between the points, in double: a path of this length exists, so the
+  /// distance is not more. Without the source's offset.
+  double length = std::numeric_limits<double>::infinity();
+  Index source = none;  ///< where it ends: a place in the list of sources
+};
+
+}  // namespace plexway

@@ -1,0 +1,115 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include <plexway/apps/path.hpp>
+#include <plexway/complex/tet_mesh.hpp>
+#include <plexway/complex/triangle_mesh.hpp>
+#include <plexway/complex/wireframe.hpp>
+#include <plexway/propagate/distance_field.hpp>
+#include <plexway/propagate/options.hpp>
+#include <plexway/propagate/workspace.hpp>
+#include <plexway/source/point_source.hpp>
+
+namespace plexway {
+
+/// A distance field that can tell the way: what a solve learned, and the domain it holds on.
+///
+///   PathField field(mesh, positions);
+///   field.solve(Serial{}, sources);
+///   Path path = field.trace(PointSource::at(17));
+///
+/// Domain: TriangleMesh, TetMesh or Wireframe. The domain and the positions are referred to and
+/// must outlive it.
+template <class Domain>
+class PathField;
+
+template <template <class> class Domain, class Real>
+class PathField<Domain<Real>> {
+ public:
+  /// `positions`, one a vertex in the caller's order and unit, are those the domain was made from.
+  /// With them paths have coordinates, and all lengths are taken from them in double. Throws
+  /// UsageError for another count. Cost: linear; 4 bytes a vertex, and a
+  /// tetrahedron, and 8 an edge of a wireframe.
+  explicit PathField(const Domain<Real>& domain,
+                     std::span<const std::array<double, 3>> positions = {});
+
+  /// The distance of every vertex from the nearest of `sources`. Throws and costs as `propagate`,
+  /// whose header for this executor must be included. Paths can be traced after an executor that
+  /// leaves no labels as well, by the vertices' distances alone.
+  template <class Executor>
+  const DistanceField<Real>& solve(Executor executor, std::span<const PointSource> sources,
+                                   const PropagateOptions& options = {}) {
+    solved_ = false;
+    constexpr bool keeps_labels = requires {
+      propagate(executor, *domain_, sources, options, workspace_, field_);
+    };
+    if constexpr (keeps_labels)
+      propagate(executor, *domain_, sources, options, workspace_, field_);
+    else
+      field_ = propagate(executor, *domain_, sources, options);
+    took(sources, options.visibility, keeps_labels);
+    return field_;
+  }
+  template <class Executor>
+  const DistanceField<Real>& solve(Executor executor, const PointSource& source,
+                                   const PropagateOptions& options = {}) {
+    return solve(executor, std::span<const PointSource>(&source, 1), options);
+  }
+
+  /// What the last solve found.
+  [[nodiscard]] const DistanceField<Real>& distances() const { return field_; }
+
+  /// The way from a point (its offset does not count) back to its nearest source: the shortest
+  /// among those nearby, so that any small change makes it longer. Where no path leads, an empty
+  /// path of infinite length.
+  ///
+  /// On surfaces it is straight over every edge and bends only at vertices with at least pi of
+  /// surface on both sides, and is at most 1 % longer than the shortest way along edges; in solids
+  /// it bends only at reflex edges and vertices. Solids without coordinates: a way along edges, as
+  /// short as these allow.
+  ///
+  /// Throws UsageError for a point that is not in the domain, or before a solve. Any number of
+  /// threads may trace at once. Cost: about that of looking at each simplex on the way some ten
+  /// times.
+  [[nodiscard]] Path trace(const PointSource& point) const;
+  /// From a vertex.
+  [[nodiscard]] Path trace(Index vertex) const { return trace(PointSource::at(vertex)); }
+
+  /// Bytes held, without those of the domain and the positions.
+  [[nodiscard]] std::size_t bytes() const;
+
+  // For the floors above and for further propagation.
+  [[nodiscard]] Workspace<Real>& workspace() { return workspace_; }
+  [[nodiscard]] const Domain<Real>& domain() const { return *domain_; }
+
+ private:
+  void took(std::span<const PointSource> sources, Visibility visibility, bool labels);
+
+  const Domain<Real>* domain_;
+  std::span<const std::array<double, 3>> positions_;
+  std::vector<Index> outer_;            // from vertices inside to the caller's
+  std::vector<Index> outer_simplices_;  // of tetrahedra inside, and of the arcs of wireframes
+  Workspace<Real> workspace_;
+  DistanceField<Real> field_;
+  std::vector<PointSource> sources_;
+  Visibility visibility_ = Visibility::saddles;
+  bool solved_ = false, labels_ = false;
+};
+
+template <template <class> class Domain, class Real>
+PathField(const Domain<Real>&) -> PathField<Domain<Real>>;
+template <template <class> class Domain, class Real, class Positions>
+PathField(const Domain<Real>&, const Positions&) -> PathField<Domain<Real>>;
+
+extern template class PathField<TriangleMesh<float>>;
+extern template class PathField<TriangleMesh<double>>;
+extern template class PathField<TetMesh<float>>;
+extern template class PathField<TetMesh<double>>;
+extern template class PathField<Wireframe<float>>;
+extern template class PathField<Wireframe<double>>;
+
+}  // namespace plexway

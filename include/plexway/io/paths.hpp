@@ -1,0 +1,25 @@
+#pragma once
+
+#include <filesystem>
+#include <span>
+#include <string_view>
+
+#include <plexway/apps/path.hpp>
+
+namespace plexway::io {
+
+/// Writes paths as polylines, in their order, each from its first point to its last. Empty paths
+/// (no way leads) leave no line.
+///
+/// The extension (any case) picks the format: .obj (`v` and `l`), .ply (vertices and edges), .vtp
+/// (lines, with `length` and `source` of each), .json (also lengths, simplices and barycentric
+/// coordinates; paths without positions go nowhere else). The file appears whole or not at all.
+///
+/// Throws UsageError for an unknown extension or, but for .json, a path without positions, and
+/// Error "cannot write FILE: reason" when the system refuses.
+void write_paths(const std::filesystem::path& file, std::span<const Path> paths);
+
+/// The extensions `write_paths` knows, with the dot, in lower case.
+std::span<const std::string_view> path_extensions();
+
+}  // namespace plexway::io

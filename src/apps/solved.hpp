@@ -1,0 +1,39 @@
+#pragma once
+
+#include <array>
+#include <span>
+
+#include <plexway/propagate/distance_field.hpp>
+#include <plexway/propagate/options.hpp>
+#include <plexway/propagate/workspace.hpp>
+#include <plexway/source/point_source.hpp>
+
+namespace plexway {
+
+/// What a solve left behind, for those who trace paths in it.
+template <class Real>
+struct Solved {
+  const Workspace<Real>& workspace;
+  const DistanceField<Real>& field;
+  std::span<const PointSource> sources;
+  std::span<const std::array<double, 3>> positions;  ///< caller's order; may be empty
+  std::span<const Index> outer;                      ///< from vertices inside to the caller's
+  /// The caller's numbers of tetrahedra; the edges that the arcs of wireframes are.
+  std::span<const Index> outer_simplices;
+  Visibility visibility;
+  bool labels;  ///< are labels and marks in the workspace those of the field?
+
+  /// The source that the label of a simplex leads to.
+  [[nodiscard]] Index source_of(Index simplex) const {
+    return sources.size() > 1 ? workspace.source[simplex] : 0;
+  }
+};
+
+/// The corner a source or target lies at, or 4.
+inline std::size_t corner_of(const std::array<double, 4>& b) {
+  for (std::size_t i = 0; i < 4; ++i)
+    if (b[i] == 1) return i;
+  return 4;
+}
+
+}  // namespace plexway
