@@ -91,9 +91,11 @@ TEST_CASE("slender triangles are told from others in any unit") {
 TEST_CASE("info lists the executors") {
   const auto text = run_tool({"info", "--devices"});
   CHECK(text.code == 0);
-  CHECK(text.out == "serial\n");
-  CHECK(run_tool({"info", "--devices", "--json"}).json()["executors"] ==
-        nlohmann::json::array({"serial"}));
+  CHECK(text.out.rfind("serial\n", 0) == 0);
+  const auto executors = run_tool({"info", "--devices", "--json"}).json()["executors"];
+  CHECK(executors[0] == "serial");
+  for (const auto& name : executors)
+    CHECK(text.out.find(name.get<std::string>() + "\n") != std::string::npos);
 }
 
 TEST_CASE("help and version go to standard output") {
