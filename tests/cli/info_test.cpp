@@ -129,7 +129,7 @@ TEST_CASE("the gl executor gives what the serial one gives, or says why not") {
   REQUIRE(gl.code == 0);
   CHECK(gl.json()["executor"] == "gl");
   CHECK(gl.json()["max_distance"].get<double>() ==
-        Approx(solve({}).json()["max_distance"].get<double>()).epsilon(1e-2));
+        Approx(solve({}).json()["max_distance"].get<double>()).epsilon(1e-3));
   CHECK(solve({"--executor", "gl", "--schedule", "priority"}).code == 2);
   CHECK(solve({"--executor", "gl", "--precision", "double"}).code == 2);
   CHECK(solve({"--executor", "gl", "--visibility", "tuned"}).code == 2);

@@ -38,7 +38,8 @@ void check_rows(const Domain& domain, std::size_t count) {
 
 }  // namespace
 
-TEMPLATE_TEST_CASE("fields has a row for each source, on every domain", "", float, double) {
+TEMPLATE_TEST_CASE("fields has a row for each source, on every domain", "[threads]", float,
+                   double) {
   check_rows(sphere(3).mesh<TestType>(), 9);
   check_rows(soup(60, 120, 1).mesh<TestType>(), 4);
   check_rows(walled(4).mesh<TestType>(), 5);
@@ -52,7 +53,7 @@ TEMPLATE_TEST_CASE("fields has a row for each source, on every domain", "", floa
   check_rows(mixed, 4);
 }
 
-TEST_CASE("field is the distance from the nearest source, fields those from each") {
+TEST_CASE("field is the distance from the nearest source, fields those from each", "[threads]") {
   // On a flat grid and in a wireframe both are exact, so the least over the rows is the field.
   const auto compare_with_least = [](const auto& domain, double tolerance) {
     const auto sources = random_sources(domain, 6, 5);
@@ -82,7 +83,7 @@ TEST_CASE("field is the distance from the nearest source, fields those from each
   compare_with_least(random_wires(7, 800, 2000).wireframe<double>(), 0);
 }
 
-TEST_CASE("fields takes every option that Serial takes") {
+TEST_CASE("fields takes every option that Serial takes", "[threads]") {
   const auto mesh = grid(20, 20).mesh<float>();
   const auto sources = random_sources(mesh, 5, 1);
   const std::span<const PointSource> all(sources);
@@ -98,7 +99,7 @@ TEST_CASE("fields takes every option that Serial takes") {
   CHECK(fields(OpenMP{}, mesh, std::span<const PointSource>{}).rows() == 0);
 }
 
-TEST_CASE("fields passes exceptions on") {
+TEST_CASE("fields passes exceptions on", "[threads]") {
   const auto mesh = grid(200, 200).mesh<float>();
   auto sources = random_sources(mesh, 8, 1);
   PropagateOptions options;

@@ -55,7 +55,8 @@ std::vector<Surface> surfaces() {
 
 }  // namespace
 
-TEMPLATE_TEST_CASE("any number of threads gives the same bits on surfaces", "", float, double) {
+TEMPLATE_TEST_CASE("any number of threads gives the same bits on surfaces", "[threads]", float,
+                   double) {
   unsigned seed = 0;
   for (const Surface& s : surfaces())
     for (const Visibility visibility : visibilities)
@@ -69,7 +70,8 @@ TEMPLATE_TEST_CASE("any number of threads gives the same bits on surfaces", "", 
       }
 }
 
-TEMPLATE_TEST_CASE("any number of threads gives the same bits in solids", "", float, double) {
+TEMPLATE_TEST_CASE("any number of threads gives the same bits in solids", "[threads]", float,
+                   double) {
   unsigned seed = 0;
   for (const Solid& s :
        {solid_cube(5), l_shape(4), walled(6), edge_touch(3), vertex_touch(3), walled(4, 0)})
@@ -81,7 +83,8 @@ TEMPLATE_TEST_CASE("any number of threads gives the same bits in solids", "", fl
     }
 }
 
-TEMPLATE_TEST_CASE("any number of threads gives the same bits elsewhere", "", float, double) {
+TEMPLATE_TEST_CASE("any number of threads gives the same bits elsewhere", "[threads]", float,
+                   double) {
   for (unsigned seed = 1; seed <= 4; ++seed)
     check_same_bits(random_wires(seed, 500, 1200, 0.7 * seed).wireframe<TestType>(), {}, seed);
   check_same_bits(cube_grid<2>(12).template complex<TestType>(), {}, 2);
@@ -89,7 +92,7 @@ TEMPLATE_TEST_CASE("any number of threads gives the same bits elsewhere", "", fl
   check_same_bits(cube_grid<4>(3).template complex<TestType>(), {}, 4);
 }
 
-TEST_CASE("200 solves on eight threads are one") {
+TEST_CASE("200 solves on eight threads are one", "[threads]") {
   const auto mesh = sphere(4).mesh<float>();
   const auto sources = random_sources(mesh, 5, 1);
   Workspace<float> workspace;
@@ -103,7 +106,7 @@ TEST_CASE("200 solves on eight threads are one") {
   CHECK(others == 0);
 }
 
-TEST_CASE("queues grow when every vertex is a source") {
+TEST_CASE("queues grow when every vertex is a source", "[threads]") {
   const auto mesh = grid(40, 40).mesh<float>();
   std::vector<PointSource> sources;
   for (Index v = 0; v < mesh.vertex_count(); ++v) sources.push_back(PointSource::at(v));
@@ -122,7 +125,7 @@ TEST_CASE("queues grow when every vertex is a source") {
   CHECK(parity(propagate(Serial{}, mesh, sources), field).worst < 1e-5);
 }
 
-TEST_CASE("a team keeps radius, offsets and sources inside triangles") {
+TEST_CASE("a team keeps radius, offsets and sources inside triangles", "[threads]") {
   const Surface s = grid(30, 30);
   const auto mesh = s.mesh<double>();
   PropagateOptions options;
@@ -142,7 +145,7 @@ TEST_CASE("a team keeps radius, offsets and sources inside triangles") {
     CHECK((field.label[v] == none) == std::isinf(field.distance[v]));
 }
 
-TEST_CASE("a team stops where it is told") {
+TEST_CASE("a team stops where it is told", "[threads]") {
   const auto mesh = grid(60, 60).mesh<float>();
   PropagateOptions options;
   const auto whole = propagate(team(4), mesh, PointSource::at(0), options);
@@ -162,7 +165,7 @@ TEST_CASE("a team stops where it is told") {
   CHECK(same_bits(whole, propagate(team(4), mesh, PointSource::at(0), options)));
 }
 
-TEST_CASE("a team reports to the calling thread and can be cancelled") {
+TEST_CASE("a team reports to the calling thread and can be cancelled", "[threads]") {
   const auto mesh = grid(200, 200).mesh<float>();
   PropagateOptions options;
   const auto caller = std::this_thread::get_id();
@@ -192,7 +195,7 @@ TEST_CASE("a team reports to the calling thread and can be cancelled") {
   CHECK(same_bits(whole, field));
 }
 
-TEST_CASE("a team refuses what needs order, and settings that make no sense") {
+TEST_CASE("a team refuses what needs order, and settings that make no sense", "[threads]") {
   const auto mesh = grid(3, 3).mesh<float>();
   PropagateOptions options;
   options.schedule = Schedule::priority;
@@ -230,4 +233,6 @@ concept Propagates = requires(const TriangleMesh<float>& mesh, Workspace<float>&
 static_assert(Propagates<Serial, PropagateOptions> && Propagates<Serial, NearestFirst>);
 static_assert(Propagates<OpenMP, PropagateOptions> && !Propagates<OpenMP, NearestFirst>);
 
-TEST_CASE("nearest first is a schedule") { CHECK(NearestFirst{}.schedule == Schedule::priority); }
+TEST_CASE("nearest first is a schedule", "[threads]") {
+  CHECK(NearestFirst{}.schedule == Schedule::priority);
+}
