@@ -67,7 +67,8 @@ std::vector<Index> descend_edges(Index from, Distance distance, End end, Edges e
   queue.emplace(0, begin);
   Index found = none;
   while (!queue.empty() && found == none) {
-    const auto [walked, v] = queue.top();
+    const double walked = queue.top().first;
+    const Index v = queue.top().second;
     queue.pop();
     Seen& at = seen[v];
     if (at.done) continue;
