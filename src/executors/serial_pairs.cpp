@@ -5,6 +5,7 @@
 #include <plexway/propagate/pair_rule.hpp>
 #include <plexway/propagate/wavefront.hpp>
 
+#include "executors/alone.hpp"
 #include "executors/checks.hpp"
 #include "propagate/finish.hpp"
 
@@ -37,7 +38,7 @@ void solve(const PointPairs<Real>& pairs, std::span<const PointSource> sources,
       while (wave.next(c, distance_of))
         if (!(rule.distance(c) > radius)) rule.expand(c);
     } while (wave.take_stock(rule.distance(c)));
-    finish<Real, kLabels>(pairs, sources, options, wave, workspace, field);
+    finish<Real, kLabels>(pairs, sources, options, wave, workspace, Alone{}, field);
   });
 }
 
