@@ -178,7 +178,7 @@ bool SolidPull<Real>::slide(std::vector<Knot>& way, std::size_t k) const {
     const double on = dot(b.at - e.end[0], w) / l;
     if (on < -1e-9 * l || on > l * (1 + 1e-9)) continue;
     if (distance(e.end[0] + on / l * w, b.at) > 1e-9 * (l + known)) continue;
-    const Point best = bend_point<double>(e.end[0], e.end[1], a.at, c.at);
+    const Point best = kernel::SolidSight<double>::bend_point(e.end[0], e.end[1], a.at, c.at);
     for (double share = 1; share > 1e-3; share /= 4) {
       const Point to = b.at + share * (best - b.at);
       if (!(distance(a.at, to) + distance(to, c.at) < known * (1 - least_gain))) break;
