@@ -6,6 +6,7 @@
 #include <limits>
 #include <span>
 #include <utility>
+#include <vector>
 
 #include <plexway/complex/tet_mesh.hpp>
 #include <plexway/propagate/options.hpp>
@@ -37,12 +38,21 @@ class SolidPropagation {
     std::array<double, 4> b = source.barycentric;
     const auto [t, turned] = mesh_.inside_tet(source.simplex);
     if (turned) std::swap(b[2], b[3]);
+    seed_inside(t, b, sigma, number);
+  }
+
+  /// The same by numbers and in the unit inside.
+  void seed_inside(Index t, const std::array<double, 4>& b, Real sigma, Index number) {
     for (std::size_t i = 0; i < 4; ++i)
       if (b[i] == 1) {
         seed_vertex(tets_[t].corner[i], sigma, number);
         return;
       }
     rule_.seed_inside(t, b, sigma, number);
+  }
+
+  void seed_vertex(Index vertex, Real sigma, Index number) {
+    for (const Index c : mesh_.corners_at(vertex)) rule_.seed_corner(c / 4, c % 4, sigma, number);
   }
 
   void run() {
@@ -53,13 +63,25 @@ class SolidPropagation {
     } while (pass_pinches() || (++repairs < 64 && repair(repairs)));
   }
 
+  /// The same where labels of earlier propagations stay: looks for what to repair only around those
+  /// that changed. `changed` lists them and grows meanwhile; some may be in it repeatedly.
+  void run(const std::vector<Index>& changed) {
+    std::size_t looked_at = 0;
+    bool again = true;
+    while (again) {
+      spread(false);
+      if (front_.out_of_budget()) return;
+      again = pass_pinches();
+      if (!rule_.drops()) continue;
+      const std::size_t before = front_.updates(), end = changed.size();
+      for (; looked_at < end; ++looked_at) repair_around(changed[looked_at]);
+      again |= front_.updates() != before;
+    }
+  }
+
   [[nodiscard]] Rule& rule() { return rule_; }
 
  private:
-  void seed_vertex(Index vertex, Real sigma, Index number) {
-    for (const Index c : mesh_.corners_at(vertex)) rule_.seed_corner(c / 4, c % 4, sigma, number);
-  }
-
   void spread(bool last_resort) {
     Index t = 0;
     while (!spread_share(last_resort, t))
@@ -116,28 +138,34 @@ class SolidPropagation {
     std::size_t unreached = 0;
     if (!rule_.drops() && front_.reached_count() == mesh_.tet_count()) return false;
     const Index tets = static_cast<Index>(mesh_.tet_count());
-    for (Index t = 0; t < tets; ++t) {
-      if (!front_.reached(t)) continue;
-      const Real here = rule_.distance(t);
-      if (here > radius_) continue;
-      for (Index i = 0; i < 4; ++i) {
-        const Index u = tets_[t].across[i] >> TetAcross::tet_shift;
-        if (u == tets) continue;
-        if (front_.reached(u)) {
-          // Not whether it is positive first: nobody can predict that.
-          const Real excess = rule_.distance(u) - here;
-          if (!(excess * std::abs(excess) > rule_.least_way2(t, u))) [[likely]]
-            continue;
-          if (!(excess > rule_.way(t, i))) continue;
-        } else {
-          ++unreached;
-        }
-        rule_.cross(t, i, true);
-      }
-    }
+    for (Index t = 0; t < tets; ++t)
+      if (front_.reached(t)) unreached += repair_around(t);
     // The last few are not worth another look at all.
     const std::size_t repaired = front_.updates() - before;
     return repaired > 0 && (unreached > 0 || (round < 4 && repaired > mesh_.tet_count() / 1024));
+  }
+
+  /// What a reached tetrahedron offers its neighbours all the same. How many of them are unreached.
+  std::size_t repair_around(Index t) {
+    const Index tets = static_cast<Index>(mesh_.tet_count());
+    std::size_t unreached = 0;
+    const Real here = rule_.distance(t);
+    if (here > radius_) return 0;
+    for (Index i = 0; i < 4; ++i) {
+      const Index u = tets_[t].across[i] >> TetAcross::tet_shift;
+      if (u == tets) continue;
+      if (front_.reached(u)) {
+        // Not whether it is positive first: nobody can predict that.
+        const Real excess = rule_.distance(u) - here;
+        if (!(excess * std::abs(excess) > rule_.least_way2(t, u))) [[likely]]
+          continue;
+        if (!(excess > rule_.way(t, i))) continue;
+      } else {
+        ++unreached;
+      }
+      rule_.cross(t, i, true);
+    }
+    return unreached;
   }
 
   const TetMesh<Real>& mesh_;

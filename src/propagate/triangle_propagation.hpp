@@ -37,6 +37,11 @@ class TrianglePropagation {
     std::array<double, 4> b = source.barycentric;
     const auto [f, turned] = mesh_.inside_face(source.simplex);
     if (turned) std::swap(b[1], b[2]);
+    seed_inside(f, b, sigma, number);
+  }
+
+  /// The same by numbers and in the unit inside.
+  void seed_inside(Index f, const std::array<double, 4>& b, Real sigma, Index number) {
     for (int i = 0; i < 3; ++i)
       if (b[static_cast<std::size_t>(i)] == 1) {
         seed_vertex(triangles_[f].corner[i], sigma, number);
@@ -49,6 +54,11 @@ class TrianglePropagation {
     rule_.seed_inside(f, static_cast<Real>(x), static_cast<Real>(y), sigma, number);
   }
 
+  void seed_vertex(Index vertex, Real sigma, Index number) {
+    mesh_.corners_at(vertex, workspace_.corners);
+    for (const Index c : workspace_.corners) rule_.seed_corner(c / 3, c % 3, sigma, number);
+  }
+
   void run() {
     int revivals = 0;
     do {
@@ -59,11 +69,6 @@ class TrianglePropagation {
   }
 
  private:
-  void seed_vertex(Index vertex, Real sigma, Index number) {
-    mesh_.corners_at(vertex, workspace_.corners);
-    for (const Index c : workspace_.corners) rule_.seed_corner(c / 3, c % 3, sigma, number);
-  }
-
   void spread(bool last_resort) {
     Index f = 0;
     while (!spread_share(last_resort, f))
