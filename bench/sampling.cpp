@@ -36,7 +36,7 @@ int main(int argc, char** argv) {
   o.radius = first.radius;
   double t = 1e9;
   PoissonDisks d;
-  for (int i = 0; i < 5; ++i) t = std::min(t, bench::seconds([&] { d = poisson_disks(Serial{}, mesh, o); }));
+  for (int i = 0; i < 5; ++i) t = std::min(t, bench::seconds([&] { d = poisson_disks(Serial{}, mesh, o, w); }));
   std::printf("poisson %zu darts r %g (%.2f edges) %.2f ms ratio %.2f; thrown %zu back %zu expansions %.2f updates %.2f a face\n", d.darts.size(), d.radius, d.radius / mesh.unit(), t * 1e3, t / best, d.thrown, d.taken_back, double(d.statistics.expansions) / double(mesh.face_count()), double(d.statistics.updates) / double(mesh.face_count()));
   if (std::string_view(argv[1]) == "sphere") {
     std::vector<samples::Point> at;

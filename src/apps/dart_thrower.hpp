@@ -117,15 +117,21 @@ class DartThrower {
   /// While most of the domain is free: anywhere.
   template <class Report>
   void throw_until_crowded(const std::vector<double>& sum, Report& report) {
-    constexpr std::size_t round = 256, enough = 24;
+    // Where to look in `sum` for each part of the whole.
+    const std::size_t marks = sum.size() / 8 + 1;
+    const double scale = static_cast<double>(marks) / sum.back();
+    std::vector<Index> mark(marks + 1, static_cast<Index>(sum.size() - 1));
+    for (std::size_t s = sum.size(); s-- > 0;)
+      mark[std::min(marks, static_cast<std::size_t>(sum[s] * scale))] = static_cast<Index>(s);
+    for (std::size_t m = marks; m-- > 0;) mark[m] = std::min(mark[m], mark[m + 1]);
+    constexpr std::size_t round = 256, enough = 10;
     for (std::size_t hits = round; hits >= enough && !full();) {
       hits = 0;
       for (std::size_t n = 0; n < round && !full(); ++n) {
         const double at = random_.uniform() * sum.back();
-        const auto found = std::upper_bound(sum.begin(), sum.end(), at);
-        const auto s = std::min<std::ptrdiff_t>(found - sum.begin(),
-                                                static_cast<std::ptrdiff_t>(sum.size()) - 1);
-        hits += throw_into(static_cast<Index>(s), whole());
+        Index s = mark[static_cast<std::size_t>(at * scale)];
+        while (s + 1 < sum.size() && !(at < sum[s])) ++s;
+        hits += throw_into(s, whole());
       }
       report(1 - static_cast<double>(hits) / static_cast<double>(round));
     }
@@ -145,10 +151,13 @@ class DartThrower {
     for (std::size_t n = 0; !pieces.empty() && !full(); ++n) {
       if (n % 4096 == 0) report(std::max(0., 1 - pieces.bound() / total));
       const Piece piece = pieces.draw(random_);
+      const std::size_t taken_back = taken_back_;
       throw_into(piece.simplex, piece.corner);
       if (covered(piece)) continue;
-      // Below this no one would find a gap.
-      if (std::ldexp(field_.size(piece.simplex), -piece.level) < Real(1e-4) * limit_) continue;
+      // Below this no one would find a gap. A dart that was taken back found that the piece is
+      // covered after all, though no label here says so.
+      const Real size = std::ldexp(field_.size(piece.simplex), -piece.level) / limit_;
+      if (size < (taken_back_ > taken_back ? Real(5e-3) : Real(1e-4))) continue;
       halve(piece, add);
     }
     maximal_ = pieces.empty();
@@ -232,7 +241,10 @@ class DartThrower {
     bool fits = true;
     for (const Index s : field_.touched()) {
       if (!fits) break;
-      if (field_.source(s) != number) continue;
+      // Fronts meet where both have walked as far, less their offsets: at most half the radius.
+      if (field_.source(s) != number ||
+          field_.distance(s) - (limit_ - own) - 2 * field_.size(s) > own / 2)
+        continue;
       field_.each_meeting(s, [&](Real length, Index other) {
         const Real radius = radius_of(other);
         fits = fits && length - (limit_ - own) - (limit_ - radius) >= radius * least;

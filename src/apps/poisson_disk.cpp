@@ -33,10 +33,12 @@ void check(const PoissonOptions& options, std::size_t vertices) {
 /// A sample with one radius, `most` darts at most.
 template <class Complex>
 PoissonDisks sample(const Complex& domain, const SimplexNumbers<Complex>& numbers,
-                    const PoissonOptions& options, double radius, std::size_t most) {
+                    const PoissonOptions& options, double radius, std::size_t most,
+                    Workspace<typename Growth<Complex>::Number>& kept) {
   using Real = typename Growth<Complex>::Number;
-  // Four edges in a radius: a simplex on the way between two darts then belongs to one of them.
-  std::vector<double> limits(domain.vertex_count(), radius / domain.unit() / 4);
+  // In radii. Simplices on the way between two darts then belong to one of them, not to others.
+  constexpr double longest_edge = 0.4;
+  std::vector<double> limits(domain.vertex_count(), radius / domain.unit() * longest_edge);
   for (std::size_t v = 0; v < options.spacing.size(); ++v)
     limits[domain.inside_vertex(static_cast<Index>(v))] *= options.spacing[v];
   const CutDomain<Complex> fine = cut(domain, std::move(limits));
@@ -46,13 +48,13 @@ PoissonDisks sample(const Complex& domain, const SimplexNumbers<Complex>& number
   const auto inside = [&](Index v) { return fine.copy ? complex.inside_vertex(v) : v; };
   std::vector<double> radii(complex.vertex_count());
   for (Index v = 0; v < radii.size(); ++v)
-    radii[inside(v)] = 4 * fine.limits[v] * domain.unit() / complex.unit();
+    radii[inside(v)] = fine.limits[v] / longest_edge * domain.unit() / complex.unit();
   std::vector<Index> vertices;
   for (Index v = 0; options.at_vertices && v < domain.vertex_count(); ++v)
     vertices.push_back(inside(domain.inside_vertex(v)));
 
-  Workspace<Real> workspace;
-  Growth<Complex> field(complex, workspace);
+  Workspace<Real> own_workspace;
+  Growth<Complex> field(complex, fine.copy ? own_workspace : kept);
   const DartThrower<Complex> thrower(field, radii, vertices, options, most, [&](double share) {
     if (options.progress && !options.progress(std::clamp(share, 0., 1.)))
       throw Cancelled("cancelled by the progress callback");
@@ -64,18 +66,21 @@ PoissonDisks sample(const Complex& domain, const SimplexNumbers<Complex>& number
   result.thrown = thrower.thrown();
   result.taken_back = thrower.taken_back();
   result.statistics = field.totals();
+  if (!fine.copy) {
+    for (const auto& dart : thrower.darts())
+      result.darts.push_back(dart.vertex != none
+                                 ? PointSource::at(numbers.outside_vertex(dart.vertex))
+                                 : numbers.outside(dart.simplex, dart.weights));
+    return result;
+  }
   const SimplexNumbers<Complex> own(complex);
   for (const auto& dart : thrower.darts()) {
-    if (dart.vertex != none) {
-      const Index v = own.outside_vertex(dart.vertex);  // of the copy: a number inside the domain
-      result.darts.push_back(PointSource::at(fine.copy ? numbers.outside_vertex(v) : v));
+    if (dart.vertex != none) {  // the copy knows vertices by their numbers inside the domain
+      const Index v = own.outside_vertex(dart.vertex);
+      result.darts.push_back(PointSource::at(numbers.outside_vertex(v)));
       continue;
     }
     const PointSource there = own.outside(dart.simplex, dart.weights);
-    if (!fine.copy) {
-      result.darts.push_back(there);
-      continue;
-    }
     const auto& part = fine.parts[there.simplex];
     Weights weights{};
     for (std::size_t i = 0; i < 4; ++i)
@@ -86,16 +91,17 @@ PoissonDisks sample(const Complex& domain, const SimplexNumbers<Complex>& number
 }
 
 template <class Complex>
-PoissonDisks poisson(const Complex& domain, const PoissonOptions& options) {
+PoissonDisks poisson(const Complex& domain, const PoissonOptions& options,
+                     Workspace<typename Growth<Complex>::Number>& workspace) {
   check(options, domain.vertex_count());
   const SimplexNumbers<Complex> numbers(domain);
   constexpr std::size_t unlimited = std::numeric_limits<std::size_t>::max();
-  if (options.count == 0) return sample(domain, numbers, options, options.radius, unlimited);
+  if (options.count == 0)
+    return sample(domain, numbers, options, options.radius, unlimited, workspace);
 
   // A flat sample of radius r has 0.70 A / r^2 darts, one in space 0.73 V / r^3 (random sequential
   // adsorption: disks of radius r / 2 cover 0.547 of the plane, balls 0.384 of space).
   constexpr double dimension = Growth<Complex>::corners - 1;
-  Workspace<typename Growth<Complex>::Number> workspace;
   double content = 0;
   {
     const Growth<Complex> field(domain, workspace);
@@ -106,7 +112,7 @@ PoissonDisks poisson(const Complex& domain, const PoissonOptions& options) {
   double too_small = 0, too_large = std::numeric_limits<double>::infinity();
   PoissonDisks best;
   for (int round = 0; round < 16; ++round) {
-    PoissonDisks found = sample(domain, numbers, options, radius, unlimited);
+    PoissonDisks found = sample(domain, numbers, options, radius, unlimited, workspace);
     const double count = static_cast<double>(found.darts.size());
     (count >= wanted ? too_small : too_large) = radius;
     if (count >= wanted && (best.darts.empty() || found.darts.size() < best.darts.size()))
@@ -132,19 +138,25 @@ PoissonDisks poisson(const Complex& domain, const PoissonOptions& options) {
 }  // namespace
 
 template <class Real>
-PoissonDisks poisson_disks(Serial, const TriangleMesh<Real>& mesh, const PoissonOptions& options) {
-  return poisson(mesh, options);
+PoissonDisks poisson_disks(Serial, const TriangleMesh<Real>& mesh, const PoissonOptions& options,
+                           Workspace<Real>& workspace) {
+  return poisson(mesh, options, workspace);
 }
 
 template <class Real>
-PoissonDisks poisson_disks(Serial, const TetMesh<Real>& mesh, const PoissonOptions& options) {
+PoissonDisks poisson_disks(Serial, const TetMesh<Real>& mesh, const PoissonOptions& options,
+                           Workspace<Real>& workspace) {
   if (!mesh.embedded()) throw UsageError("darts in a solid need its coordinates");
-  return poisson(mesh, options);
+  return poisson(mesh, options, workspace);
 }
 
-template PoissonDisks poisson_disks(Serial, const TriangleMesh<float>&, const PoissonOptions&);
-template PoissonDisks poisson_disks(Serial, const TriangleMesh<double>&, const PoissonOptions&);
-template PoissonDisks poisson_disks(Serial, const TetMesh<float>&, const PoissonOptions&);
-template PoissonDisks poisson_disks(Serial, const TetMesh<double>&, const PoissonOptions&);
+template PoissonDisks poisson_disks(Serial, const TriangleMesh<float>&, const PoissonOptions&,
+                                    Workspace<float>&);
+template PoissonDisks poisson_disks(Serial, const TriangleMesh<double>&, const PoissonOptions&,
+                                    Workspace<double>&);
+template PoissonDisks poisson_disks(Serial, const TetMesh<float>&, const PoissonOptions&,
+                                    Workspace<float>&);
+template PoissonDisks poisson_disks(Serial, const TetMesh<double>&, const PoissonOptions&,
+                                    Workspace<double>&);
 
 }  // namespace plexway

@@ -282,18 +282,20 @@ class Growth<TetMesh<Real>>
   template <class Found>
   void each_label(Index t, Found found) {
     const auto rule = this->rule();
-    Index last = none;
     const auto ask = [&](Index u) {
-      if (!this->reached(u) || this->source(u) == last) return false;
-      last = this->source(u);
-      return found(last, [&](const Weights& w) { return rule.distance_at(u, position(t, w)); });
+      return found(this->source(u),
+                   [&](const Weights& w) { return rule.distance_at(u, position(t, w)); });
     };
-    if (ask(t)) return;
-    const Index own = last;
+    if (this->reached(t) && ask(t)) return;
+    Index heard[16] = {this->reached(t) ? this->source(t) : none};
+    std::size_t count = 1;
     for (std::size_t i = 0; i < 4; ++i)
       for (const Index c : this->complex_.corners_at(corners_of(t)[i])) {
-        if (this->reached(c / 4) && this->source(c / 4) == own) continue;
-        if (ask(c / 4)) return;
+        const Index u = c / 4;
+        if (!this->reached(u)) continue;
+        if (std::find(heard, heard + count, this->source(u)) != heard + count) continue;
+        if (count < 16) heard[count++] = this->source(u);
+        if (ask(u)) return;
       }
   }
   template <class Found>

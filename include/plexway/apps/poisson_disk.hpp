@@ -10,6 +10,7 @@
 #include <plexway/complex/triangle_mesh.hpp>
 #include <plexway/executors/serial.hpp>
 #include <plexway/propagate/distance_field.hpp>
+#include <plexway/propagate/workspace.hpp>
 #include <plexway/source/point_source.hpp>
 
 namespace plexway {
@@ -44,8 +45,8 @@ struct PoissonDisks {
   double radius = 0;               ///< that of the options, or what was found for the count
   /// No room is left for another. False only where `count` darts did it before that.
   bool maximal = true;
-  std::size_t thrown = 0;     ///< darts tried
-  std::size_t taken_back = 0; ///< of these, found too near a neighbour when they spread
+  std::size_t thrown = 0;      ///< darts tried
+  std::size_t taken_back = 0;  ///< of these, found too near a neighbour when they spread
   PropagateStatistics statistics;
 };
 
@@ -53,9 +54,9 @@ struct PoissonDisks {
 /// Poisson-disk sampling), by propagation that stops at the radius and keeps what earlier darts
 /// found: each dart is propagated only where it is the nearest.
 ///
-/// What is uncovered is known down to parts of triangles. Triangles with edges longer than a quarter
-/// of the radius are cut first, on a copy. Two darts are at least (1 - 1e-3) radius apart, as far as
-/// the field is exact: where the fronts of a new dart and an earlier one meet, the length of the
+/// What is uncovered is known down to parts of triangles. Triangles with edges longer than 0.4
+/// of the radius are cut first, on a copy. Two darts are at least (1 - 1e-3) radius apart, as far
+/// as the field is exact: where the fronts of a new dart and an earlier one meet, the length of the
 /// path between is measured again.
 ///
 /// Throws UsageError for options out of range, InputError for a radius too small for the domain.
@@ -65,11 +66,25 @@ struct PoissonDisks {
 /// Disk Point Sets by Hierarchical Dart Throwing, RT 2007.
 template <class Real>
 [[nodiscard]] PoissonDisks poisson_disks(Serial, const TriangleMesh<Real>& mesh,
-                                         const PoissonOptions& options);
+                                         const PoissonOptions& options, Workspace<Real>& workspace);
 
 /// The same in a solid, which must have coordinates (UsageError).
 template <class Real>
 [[nodiscard]] PoissonDisks poisson_disks(Serial, const TetMesh<Real>& mesh,
-                                         const PoissonOptions& options);
+                                         const PoissonOptions& options, Workspace<Real>& workspace);
+
+/// With a workspace of its own.
+template <class Real>
+[[nodiscard]] PoissonDisks poisson_disks(Serial executor, const TriangleMesh<Real>& mesh,
+                                         const PoissonOptions& options) {
+  Workspace<Real> workspace;
+  return poisson_disks(executor, mesh, options, workspace);
+}
+template <class Real>
+[[nodiscard]] PoissonDisks poisson_disks(Serial executor, const TetMesh<Real>& mesh,
+                                         const PoissonOptions& options) {
+  Workspace<Real> workspace;
+  return poisson_disks(executor, mesh, options, workspace);
+}
 
 }  // namespace plexway

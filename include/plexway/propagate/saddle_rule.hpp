@@ -177,9 +177,12 @@ class SaddleRule {
   /// near its corners those around it may know better.
   template <class Found>
   void offers_around(Index f, Found found) const {
-    for (std::size_t edge = 0; edge < 3; ++edge)
-      for (const bool about_first : {true, false})
-        if (offers_about(f, edge, about_first, found)) return;
+    // Either way around a vertex: around a saddle they differ.
+    for (const bool about_first : {true, false}) {
+      SourcesHeard heard(front_.reached(f) ? front_.source(f) : none);
+      for (std::size_t edge = 0; edge < 3; ++edge)
+        if (offers_about(f, edge, about_first, heard, found)) return;
+    }
   }
 
   /// `found(length, source)` for each label beyond an edge of f that belongs to another source than
@@ -321,17 +324,47 @@ class SaddleRule {
     return p.source.h >= 0;
   }
 
-  /// From edge to edge about one end of an edge of f, halfway around the vertex at most.
+  /// A few sources that need not be asked again.
+  struct SourcesHeard {
+    explicit SourcesHeard(Index own) : source{own}, count(1) {}
+    bool first_time(Index s) {
+      for (int i = 0; i < count; ++i)
+        if (source[i] == s) return false;
+      if (count < 8) source[count++] = s;
+      return true;
+    }
+    Index source[8];
+    int count;
+  };
+
+  /// As path_length, but a line that misses the edge bends only at a saddle: past any other vertex
+  /// it goes through the triangles beside.
+  Real sight_length(const Posed& p, Index f, std::size_t edge, const Point& q) const {
+    const TriangleRecord<Real>& t = triangles_[f];
+    if (p.source.h >= 0) {
+      const auto c = Posed::Kernel::crossing(p.source, q);
+      const bool left = c.x[0]<0, right = c.x[0]> t.length[edge] * c.w;
+      const bool lit = !(detail::left_of<Real>(p.source, p.limit[0], q) > 0) &&
+                       !(detail::left_of<Real>(p.source, p.limit[1], q) < 0);
+      if (!lit || (left && t.saddle(edge)) || (right && t.saddle(edge_after(edge))))
+        return path_length<Real>(p, t.length[edge], q);
+    }
+    return p.sigma + std::hypot(q.x[0] - p.source.x[0], q.h + p.source.h);
+  }
+
+  /// From edge to edge about one end of an edge of f, halfway around the vertex.
   template <class Found>
-  bool offers_about(Index f, std::size_t edge, bool about_first, Found found) const {
+  bool offers_about(Index f, std::size_t edge, bool about_first, SourcesHeard& heard,
+                    Found found) const {
+    constexpr int half = 4;
     struct Step {
       Index g;
       std::size_t k, on;
       bool flip;
-    } step[6];
-    Index at = f, last = front_.reached(f) ? front_.source(f) : none;
+    } step[half];
+    Index at = f;
     std::size_t out = edge;
-    for (int n = 0; n < 6; ++n) {
+    for (int n = 0; n < half; ++n) {
       const Index across = triangles_[at].across[out];
       const Index g = across >> Across::face_shift;
       if (g == sentinel_ || g == f) return false;
@@ -341,8 +374,7 @@ class SaddleRule {
       about_first = about_first != flip;
       step[n] = {g, k, out, flip};
       at = g;
-      if (front_.reached(g) && front_.source(g) != last) {
-        last = front_.source(g);
+      if (front_.reached(g) && heard.first_time(front_.source(g))) {
         // Back to f. In g the path came by some edge; posed on k it is seen from beyond.
         Posed p = posed(front_.label(g));
         int pivot = -1;
@@ -357,13 +389,10 @@ class SaddleRule {
           if (m == 0) break;
           p = turned(triangles_[step[m - 1].g], p, step[m - 1].on, step[m - 1].k, pivot);
         }
-        const Real length = triangles_[f].length[edge];
         const auto to = [&](const std::array<double, 4>& weight) {
-          const Point q = point_over(f, edge, weight);
-          return p.source.h < 0 ? p.sigma + std::hypot(q.x[0] - p.source.x[0], q.h + p.source.h)
-                                : path_length<Real>(p, length, q);
+          return sight_length(p, f, edge, point_over(f, edge, weight));
         };
-        if (found(to, last)) return true;
+        if (found(to, front_.source(g))) return true;
       }
       if (across & Across::fan) return false;
     }
