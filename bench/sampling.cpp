@@ -1,61 +1,110 @@
+// What sampling costs, in propagations from a single source on the same surface; and how good it
+// is.
+
+#include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <cstdlib>
-#include <numbers>
+#include <string>
 
+#include <plexway/apps/centroidal_voronoi.hpp>
+#include <plexway/apps/distance_matrix.hpp>
+#include <plexway/apps/farthest_points.hpp>
 #include <plexway/apps/poisson_disk.hpp>
 
-#include "harness.hpp"
 #include "../data/shapes.hpp"
+#include "harness.hpp"
 
 using namespace plexway;
-using samples::operator+, samples::operator-, samples::operator*;
+
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+double spread(const std::vector<double>& areas) {
+  double mean = 0, square = 0;
+  for (const double a : areas) mean += a;
+  mean /= static_cast<double>(areas.size());
+  for (const double a : areas) square += (a - mean) * (a - mean);
+  return std::sqrt(square / static_cast<double>(areas.size())) / mean;
+}
+
+void measure(const std::string& name, const std::vector<std::array<double, 3>>& positions,
+             const std::vector<std::array<Index, 3>>& faces, std::size_t count) {
+  const TriangleMesh<float> mesh(positions, faces);
+  Workspace<float> workspace, darts_workspace;
+  DistanceField<float> field;
+  PoissonOptions options;
+  options.count = count;
+  PoissonDisks darts = poisson_disks(Serial{}, mesh, options, darts_workspace);
+  options.count = 0;
+  options.radius = darts.radius;
+  double solve = infinity, poisson = infinity, farthest = infinity, pairs = infinity;
+  double voronoi[2] = {infinity, infinity};
+  FarthestPoints far;
+  CentroidalVoronoi cells[2];
+  const auto least = [](double& best, const auto& work) {
+    best = std::min(best, bench::seconds(work));
+  };
+  std::vector<PointSource> chosen;
+  for (int turn = 0; turn < 5; ++turn) {
+    const PointSource source =
+        PointSource::at(static_cast<Index>(positions.size() / 7) * static_cast<Index>(turn));
+    least(solve, [&] { propagate(Serial{}, mesh, std::span(&source, 1), {}, workspace, field); });
+    least(poisson, [&] { darts = poisson_disks(Serial{}, mesh, options, darts_workspace); });
+    if (turn > 2) continue;
+    for (const int m : {0, 1}) {
+      VoronoiOptions settings;
+      settings.centre = m == 0 ? CellCentre::centroid : CellCentre::farthest_from_border;
+      settings.max_iterations = 20;
+      settings.tolerance = 0;
+      least(voronoi[m],
+            [&] { cells[m] = centroidal_voronoi(Serial{}, mesh, darts.darts, settings); });
+    }
+    const PointSource first = PointSource::at(0);
+    least(farthest,
+          [&] { far = farthest_points(Serial{}, mesh, std::span(&first, 1), {.count = count}); });
+    chosen.assign(far.points.begin(), far.points.begin() + 50);
+    least(pairs, [&] { (void)distance_matrix(Serial{}, mesh, chosen); });
+  }
+  std::printf("%s: %zu triangles, one solve %.1f ms\n", name.c_str(), faces.size(), solve * 1e3);
+  std::printf(
+      "  poisson   %.2f solves (%zu darts, %zu thrown, %zu taken back, %.2f expansions a "
+      "triangle)\n",
+      poisson / solve, darts.darts.size(), darts.thrown, darts.taken_back,
+      static_cast<double>(darts.statistics.expansions) / static_cast<double>(faces.size()));
+  for (const int m : {0, 1}) {
+    const auto& steps = cells[m].steps;
+    std::size_t rises = 0;
+    for (std::size_t n = 1; n < steps.size(); ++n) rises += steps[n].energy > steps[n - 1].energy;
+    std::printf(
+        "  cvt       %.2f solves an iteration, %s: energy %.6g to %.6g, %zu rises; area spread "
+        "%.4f; movement %.2g of the radius\n",
+        voronoi[m] / 21 / solve, m == 0 ? "centroid" : "from border", steps[0].energy,
+        cells[m].energy, rises, spread(cells[m].cell_content),
+        steps.back().movement / darts.radius);
+  }
+  VoronoiOptions none_yet;
+  none_yet.max_iterations = 0;
+  std::printf("            area spread at the start %.4f\n",
+              spread(centroidal_voronoi(Serial{}, mesh, darts.darts, none_yet).cell_content));
+  std::printf("  farthest  %.2f solves for %zu points, covering radius %.3g (poisson %.3g)\n",
+              farthest / solve, far.points.size(), far.covering, darts.radius);
+  std::printf("  pairs     %.3f solves a point of 50\n", pairs / 50 / solve);
+}
+
+}  // namespace
 
 int main(int argc, char** argv) {
-  bench::Surface s;
-  if (std::string_view(argv[1]) == "sphere") {
-    auto shape = samples::geodesic_sphere(100);
-    s = {"sphere", shape.points, shape.faces};
-  } else if (std::string_view(argv[1]) == "bumpy") {
-    auto shape = samples::bumpy(100);
-    s = {"bumpy", shape.points, shape.faces};
-  } else {
-    s = bench::read_surface(argv[1]);
-  }
-  const std::size_t count = argc > 2 ? std::strtoul(argv[2], nullptr, 10) : 1000;
-  TriangleMesh<float> mesh(s.positions, s.faces);
-  Workspace<float> w;
-  DistanceField<float> f;
-  double best = 1e9;
-  for (int i = 0; i < 7; ++i)
-    best = std::min(best, bench::seconds([&] { const PointSource src = PointSource::at(static_cast<Index>(i * 997)); propagate(Serial{}, mesh, {&src, 1}, {}, w, f); }));
-  PoissonOptions o;
-  o.count = count;
-  auto first = poisson_disks(Serial{}, mesh, o);
-  std::printf("%zu faces, solve %.2f ms, expansions %.2f a face\n", mesh.face_count(), best * 1e3, double(f.statistics.expansions) / double(mesh.face_count()));
-  o.count = 0;
-  o.radius = first.radius;
-  double t = 1e9;
-  PoissonDisks d;
-  for (int i = 0; i < 5; ++i) t = std::min(t, bench::seconds([&] { d = poisson_disks(Serial{}, mesh, o, w); }));
-  std::printf("poisson %zu darts r %g (%.2f edges) %.2f ms ratio %.2f; thrown %zu back %zu expansions %.2f updates %.2f a face\n", d.darts.size(), d.radius, d.radius / mesh.unit(), t * 1e3, t / best, d.thrown, d.taken_back, double(d.statistics.expansions) / double(mesh.face_count()), double(d.statistics.updates) / double(mesh.face_count()));
-  if (std::string_view(argv[1]) == "sphere") {
-    std::vector<samples::Point> at;
-    for (auto& p : d.darts) {
-      samples::Point x = {0, 0, 0};
-      for (std::size_t i = 0; i < 3u; ++i) x = x + p.barycentric[i] * s.positions[s.faces[p.simplex][i]];
-      at.push_back(samples::unit(x));
+  const std::size_t count = argc > 1 ? std::strtoul(argv[1], nullptr, 10) : 1000;
+  if (argc > 2) {
+    for (int i = 2; i < argc; ++i) {
+      const bench::Surface s = bench::read_surface(argv[i]);
+      measure(s.name, s.positions, s.faces, count);
     }
-    double least = 9;
-    for (size_t i = 0; i < at.size(); ++i)
-      for (size_t j = 0; j < i; ++j) least = std::min(least, 2 * std::asin(std::sqrt(samples::dot(at[i] - at[j], at[i] - at[j])) / 2));
-    samples::Noise noise(5);
-    double most = 0;
-    for (int k = 0; k < 100000; ++k) {
-      samples::Point x = samples::unit({noise(), noise(), noise()});
-      double near = 9;
-      for (auto& a : at) near = std::min(near, samples::dot(a - x, a - x));
-      most = std::max(most, 2 * std::asin(std::sqrt(near) / 2));
-    }
-    std::printf("least %.5f r  most %.5f r\n", least / d.radius, most / d.radius);
+    return 0;
   }
+  const samples::Shape sphere = samples::geodesic_sphere(100), bumpy = samples::bumpy(100);
+  measure("sphere", sphere.points, sphere.faces, count);
+  measure("bumpy", bumpy.points, bumpy.faces, count);
 }

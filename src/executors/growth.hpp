@@ -83,6 +83,19 @@ class GrowthBase {
     run(radius, [&](auto& propagation) { propagation.seed_vertex(vertex, sigma, number); });
   }
 
+  /// Many at once: `points[i]` is number i.
+  void add_all(std::span<const std::pair<Index, Weights>> points) {
+    run(std::numeric_limits<Real>::infinity(), [&](auto& propagation) {
+      for (std::size_t i = 0; i < points.size(); ++i)
+        propagation.seed_inside(points[i].first, points[i].second, 0, static_cast<Index>(i));
+    });
+  }
+  void add_all_vertices(std::span<const Index> vertices) {
+    run(std::numeric_limits<Real>::infinity(), [&](auto& propagation) {
+      for (const Index v : vertices) propagation.seed_vertex(v, 0, 0);
+    });
+  }
+
   /// Takes the last source back: what it took goes to the neighbours' again.
   void remove_last(Index number, Real radius) {
     std::vector<Index> lost;
