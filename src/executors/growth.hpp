@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <numeric>
 #include <span>
 #include <utility>
 #include <vector>
@@ -24,24 +26,29 @@
 
 namespace plexway {
 
-/// A dual queue that keeps a list of what came to wait.
+/// A dual queue that keeps a list of what came to wait, the latest as many as there is room for.
 template <class Real>
 class LoggedQueue {
  public:
-  LoggedQueue(FrontStorage& storage, Real step, std::vector<Index>& log)
-      : queue_(storage, step), log_(&log) {}
+  /// `room` is a power of two.
+  LoggedQueue(FrontStorage& storage, Real step, Index* log, std::size_t room)
+      : queue_(storage, step), log_(log), mask_(room - 1) {}
+  /// Written in any case and kept if wanted: no branch to mispredict.
   [[gnu::always_inline]] void push(Index simplex, Real distance, bool wanted = true) {
-    if (wanted) log_->push_back(simplex);
+    log_[count_ & mask_] = simplex;
+    count_ += wanted;
     queue_.push(simplex, distance, wanted);
   }
   template <class DistanceOf>
   [[gnu::always_inline]] bool pop(Index& simplex, DistanceOf distance_of) {
     return queue_.pop(simplex, distance_of);
   }
+  [[nodiscard]] std::size_t count() const { return count_; }
 
  private:
   DualQueue<Real> queue_;
-  std::vector<Index>* log_;
+  Index* log_;
+  std::size_t mask_, count_ = 0;
 };
 
 /// Propagation that goes on from what it left: labels stay, each new source is propagated only
@@ -72,8 +79,12 @@ class GrowthBase {
   [[nodiscard]] std::size_t hinge(Index s) const { return wave_.hinge(s); }
   /// All sources together.
   [[nodiscard]] const PropagateStatistics& totals() const { return totals_; }
-  /// Simplices that changed at the last source; some repeatedly.
-  [[nodiscard]] std::span<const Index> touched() const { return touched_; }
+  /// Simplices that changed at the last source; some repeatedly. All, where it changed many.
+  [[nodiscard]] std::span<const Index> touched() {
+    if (wave_.queue().count() <= log_.size()) return std::span(log_).first(wave_.queue().count());
+    std::iota(log_.begin(), log_.end(), Index{0});
+    return std::span(log_).first(simplices_);
+  }
 
   /// A source in a simplex or at a vertex, sigma walked to it; no farther than radius.
   void add(Index s, const Weights& weights, Real sigma, Index number, Real radius) {
@@ -99,7 +110,7 @@ class GrowthBase {
   /// Takes the last source back: what it took goes to the neighbours' again.
   void remove_last(Index number, Real radius) {
     std::vector<Index> lost;
-    for (const Index s : touched_)
+    for (const Index s : touched())
       if (reached(s) && source(s) == number) wave_.forget(s), lost.push_back(s);
     totals_.reached_simplices -= lost.size();
     run(radius, [&](auto&) {
@@ -117,6 +128,7 @@ class GrowthBase {
         simplices_(simplices),
         workspace_(workspace),
         labels_(labels),
+        log_(std::bit_ceil(simplices + 1)),
         wave_(make_wave()) {
     workspace_.front.reserve(simplices);
   }
@@ -124,11 +136,11 @@ class GrowthBase {
   GrowthBase& operator=(const GrowthBase&) = delete;
 
   Wave make_wave() {
-    return Wave(workspace_.marks, labels_, Queue(workspace_.front, Real(1), touched_),
+    return Wave(workspace_.marks, labels_,
+                Queue(workspace_.front, Real(1), log_.data(), log_.size()),
                 workspace_.source.data(), simplices_, complex_.unit(), options_);
   }
   void start_wave() {
-    touched_.clear();
     wave_ = make_wave();
     wave_.resume(totals_.reached_simplices);
   }
@@ -152,7 +164,7 @@ class GrowthBase {
   Workspace<Real>& workspace_;
   Label* labels_;
   PropagateOptions options_;
-  std::vector<Index> touched_;
+  std::vector<Index> log_;
   Wave wave_;
   PropagateStatistics totals_;
 };
@@ -341,7 +353,15 @@ class Growth<TetMesh<Real>>
   }
   template <class Propagation>
   void spread(Propagation& propagation) {
-    propagation.run(this->touched_);
+    // Where all of the log is there, around that only.
+    struct {
+      const Wave& wave;
+      const std::vector<Index>& log;
+      [[nodiscard]] bool complete() const { return size() <= log.size(); }
+      [[nodiscard]] std::size_t size() const { return wave.queue().count(); }
+      Index operator[](std::size_t i) const { return log[i]; }
+    } const changed = {this->wave_, this->log_};
+    propagation.run_around(changed);
   }
 };
 

@@ -6,7 +6,6 @@
 #include <limits>
 #include <span>
 #include <utility>
-#include <vector>
 
 #include <plexway/complex/tet_mesh.hpp>
 #include <plexway/propagate/options.hpp>
@@ -64,17 +63,20 @@ class SolidPropagation {
   }
 
   /// The same where labels of earlier propagations stay: looks for what to repair only around those
-  /// that changed. `changed` lists them and grows meanwhile; some may be in it repeatedly.
-  void run(const std::vector<Index>& changed) {
+  /// that changed. `changed` lists them, some repeatedly, and grows meanwhile; it is `complete` or,
+  /// when too much changed, not.
+  template <class Changed>
+  void run_around(const Changed& changed) {
     std::size_t looked_at = 0;
-    bool again = true;
-    while (again) {
+    for (bool again = true; again;) {
       spread(false);
       if (front_.out_of_budget()) return;
       again = pass_pinches();
       if (!rule_.drops()) continue;
-      const std::size_t before = front_.updates(), end = changed.size();
-      for (; looked_at < end; ++looked_at) repair_around(changed[looked_at]);
+      const std::size_t before = front_.updates();
+      for (const std::size_t end = changed.size(); looked_at < end && changed.complete();)
+        repair_around(changed[looked_at++]);
+      if (!changed.complete()) return run();
       again |= front_.updates() != before;
     }
   }

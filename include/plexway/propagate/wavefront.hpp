@@ -86,6 +86,8 @@ class Wavefront {
     --reached_;
   }
 
+  [[nodiscard]] const Queue& queue() const { return queue_; }
+
   [[nodiscard]] bool share_spent() const { return countdown_ == 0; }
   [[nodiscard]] std::size_t expansions() const { return granted_ - countdown_; }
   [[nodiscard]] std::size_t updates() const { return updates_; }
