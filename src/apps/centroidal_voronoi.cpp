@@ -106,7 +106,8 @@ class Lloyd {
     return std::sqrt(sum / static_cast<double>(cells_.size()));
   }
 
-  /// The simplex of each cell that is farthest from the vertices at its border.
+  /// The simplex of each cell that is farthest from the vertices at its border, and at the
+  /// domain's.
   double from_border(PropagateStatistics& statistics) {
     std::vector<Index> label(domain_.vertex_count(), none), border;
     std::vector<bool> mixed(label.size(), false);
@@ -118,6 +119,10 @@ class Lloyd {
         if (label[v] != field_.source(s) && !mixed[v]) mixed[v] = true, border.push_back(v);
       }
     }
+    // A seed should not go to the rim of the domain.
+    field_.each_rim_vertex([&](Index v) {
+      if (!mixed[v]) mixed[v] = true, border.push_back(v);
+    });
     if (border.empty()) return 0;
     Field away(domain_, border_workspace_);
     away.add_all_vertices(border);

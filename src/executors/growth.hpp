@@ -244,6 +244,15 @@ class Growth<TriangleMesh<Real>>
       }
   }
 
+  /// Ends of boundary edges, some repeatedly.
+  template <class Visit>
+  void each_rim_vertex(Visit visit) const {
+    for (Index f = 0; f < this->simplices_; ++f)
+      for (std::size_t i = 0; i < 3; ++i)
+        if (this->complex_.triangles()[f].across[i] >> Across::face_shift == this->simplices_)
+          visit(corners_of(f)[i]), visit(corners_of(f)[edge_after(i)]);
+  }
+
   using Rule = SaddleRule<Real, Wave>;
   [[nodiscard]] Rule rule() { return Rule(this->complex_.triangles(), this->wave_, true); }
 
@@ -342,6 +351,15 @@ class Growth<TetMesh<Real>>
     for (const Index across : this->complex_.tets()[t].across)
       if ((across >> TetAcross::tet_shift) != this->simplices_)
         visit(across >> TetAcross::tet_shift);
+  }
+
+  /// Corners of boundary faces, some repeatedly.
+  template <class Visit>
+  void each_rim_vertex(Visit visit) const {
+    for (Index t = 0; t < this->simplices_; ++t)
+      for (std::size_t i = 0; i < 4; ++i)
+        if (this->complex_.tets()[t].across[i] >> TetAcross::tet_shift == this->simplices_)
+          for (const Index k : tet_face_corners[i]) visit(corners_of(t)[k]);
   }
 
   using Rule = SolidRule<Real, Wave>;

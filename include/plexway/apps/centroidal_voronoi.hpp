@@ -17,8 +17,8 @@ namespace plexway {
 /// Where a seed moves in its cell.
 enum class CellCentre {
   centroid,  ///< to the mean of the cell as seen from the seed: lowers the energy
-  /// To the point farthest from the cell's border, as published: a second propagation an iteration,
-  /// and the energy need not fall.
+  /// To the simplex farthest from the border of the cell and of the domain, as published: a second
+  /// propagation an iteration, and the energy need not fall.
   farthest_from_border
 };
 
