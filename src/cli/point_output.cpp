@@ -46,8 +46,9 @@ void write_row(OutputFile& out, std::span<const double> numbers, char between) {
 }
 
 void start_ply(OutputFile& out, std::size_t vertices) {
-  out.write("ply\nformat ascii 1.0\nelement vertex " + std::to_string(vertices) +
-            "\nproperty double x\nproperty double y\nproperty double z\n");
+  out.write("ply\nformat ascii 1.0\nelement vertex ");
+  out.write_text(vertices);
+  out.write("\nproperty double x\nproperty double y\nproperty double z\n");
 }
 
 }  // namespace
@@ -80,7 +81,11 @@ void write_points(const std::filesystem::path& out, const Domain& domain,
     start_npy(file, std::to_string(points.size()) + ", 3");
   } else if (extension == ".ply") {
     start_ply(file, points.size());
-    if (!value.empty()) file.write("property double " + std::string(value_name) + "\n");
+    if (!value.empty()) {
+      file.write("property double ");
+      file.write(value_name);
+      file.write("\n");
+    }
     file.write("end_header\n");
   } else if (extension != ".obj") {
     unknown(out, point_file_extensions());
@@ -96,8 +101,11 @@ void write_points(const std::filesystem::path& out, const Domain& domain,
     write_row(file, at, extension == ".csv" ? ',' : ' ');
     if (extension == ".csv") {
       const bool at_vertex = point.vertex != none;
-      file.write("," + (at_vertex ? std::to_string(point.vertex) : std::string("-1")));
-      file.write("," + (at_vertex ? std::string("-1") : std::to_string(point.simplex)) + ",");
+      for (const Index number : {point.vertex, at_vertex ? none : point.simplex}) {
+        file.write(",");
+        file.write_text(number == none ? std::int64_t{-1} : std::int64_t{number});
+      }
+      file.write(",");
       write_row(file, point.barycentric, ',');
     }
     if (!value.empty() && extension != ".obj") {
@@ -131,12 +139,16 @@ void write_surface(const std::filesystem::path& out, std::span<const std::array<
   const std::string extension = extension_of(out);
   OutputFile file(out);
   if (extension == ".off") {
-    file.write("OFF\n" + std::to_string(points.size()) + " " + std::to_string(triangles.size()) +
-               " 0\n");
+    file.write("OFF\n");
+    file.write_text(points.size());
+    file.write(" ");
+    file.write_text(triangles.size());
+    file.write(" 0\n");
   } else if (extension == ".ply") {
     start_ply(file, points.size());
-    file.write("element face " + std::to_string(triangles.size()) +
-               "\nproperty list uchar int vertex_indices\nend_header\n");
+    file.write("element face ");
+    file.write_text(triangles.size());
+    file.write("\nproperty list uchar int vertex_indices\nend_header\n");
   } else if (extension != ".obj") {
     unknown(out, surface_file_extensions());
   }
@@ -148,7 +160,10 @@ void write_surface(const std::filesystem::path& out, std::span<const std::array<
   const bool obj = extension == ".obj";
   for (const auto& t : triangles) {
     file.write(obj ? "f" : "3");
-    for (const auto v : t) file.write(" " + std::to_string(v + (obj ? 1 : 0)));
+    for (const auto v : t) {
+      file.write(" ");
+      file.write_text(v + (obj ? 1 : 0));
+    }
     file.write("\n");
   }
   file.commit();
