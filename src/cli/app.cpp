@@ -83,6 +83,10 @@ int parse_and_run(int argc, const char* const* argv) {
   add_bench_command(tool, action);
   add_path_command(tool, action);
   add_tetrahedralize_command(tool, action);
+  add_poisson_command(tool, action);
+  add_cvt_command(tool, action);
+  add_farthest_command(tool, action);
+  add_pairs_command(tool, action);
 
   try {
     tool.parse(argc, argv);

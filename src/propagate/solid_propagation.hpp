@@ -36,12 +36,21 @@ class SolidPropagation {
     std::array<double, 4> b = source.barycentric;
     const auto [t, turned] = mesh_.inside_tet(source.simplex);
     if (turned) std::swap(b[2], b[3]);
+    seed_inside(t, b, sigma, number);
+  }
+
+  /// The same by numbers and in the unit inside.
+  void seed_inside(Index t, const std::array<double, 4>& b, Real sigma, Index number) {
     for (std::size_t i = 0; i < 4; ++i)
       if (b[i] == 1) {
         seed_vertex(tets_[t].corner[i], sigma, number);
         return;
       }
     rule_.seed_inside(t, b, sigma, number);
+  }
+
+  void seed_vertex(Index vertex, Real sigma, Index number) {
+    for (const Index c : mesh_.corners_at(vertex)) rule_.seed_corner(c / 4, c % 4, sigma, number);
   }
 
   void run() {
@@ -75,6 +84,25 @@ class SolidPropagation {
     return Expander<Other>{*this, rule_.on(front), last_resort};
   }
 
+  /// The same where labels of earlier propagations stay: looks for what to repair only around those
+  /// that changed. `changed` lists them, some repeatedly, and grows meanwhile; it is `complete` or,
+  /// when too much changed, not.
+  template <class Changed>
+  void run_around(const Changed& changed) {
+    std::size_t looked_at = 0;
+    for (bool again = true; again;) {
+      spread(false);
+      if (front_.out_of_budget()) return;
+      again = pass_pinches();
+      if (!rule_.drops()) continue;
+      const std::size_t before = front_.updates();
+      for (const std::size_t end = changed.size(); looked_at < end && changed.complete();)
+        repair_around(changed[looked_at++]);
+      if (!changed.complete()) return run();
+      again |= front_.updates() != before;
+    }
+  }
+
   [[nodiscard]] Rule& rule() { return rule_; }
   [[nodiscard]] const Rule& rule() const { return rule_; }
 
@@ -89,10 +117,6 @@ class SolidPropagation {
     void far_ahead(Index t) const { rule.prefetch(t); }
     void ahead(Index t) const { rule.prefetch_around(t); }
   };
-
-  void seed_vertex(Index vertex, Real sigma, Index number) {
-    for (const Index c : mesh_.corners_at(vertex)) rule_.seed_corner(c / 4, c % 4, sigma, number);
-  }
 
   void spread(bool last_resort) {
     Index t = 0;
@@ -156,15 +180,20 @@ class SolidPropagation {
     const std::size_t before = front_.updates();
     std::size_t unreached = 0;
     if (!rule_.drops() && front_.reached_count() == mesh_.tet_count()) return false;
-    search([&](Index t) {
-      look_at(t, [&](Index face, bool reached) {
-        unreached += !reached;
-        rule_.cross(t, face, true);
-      });
-    });
+    search([&](Index t) { unreached += repair_around(t); });
     // The last few are not worth another look at all.
     const std::size_t repaired = front_.updates() - before;
     return repaired > 0 && (unreached > 0 || (round < 4 && repaired > mesh_.tet_count() / 1024));
+  }
+
+  /// What a reached tetrahedron offers its neighbours all the same. How many of them are unreached.
+  std::size_t repair_around(Index t) {
+    std::size_t unreached = 0;
+    look_at(t, [&](Index face, bool reached) {
+      unreached += !reached;
+      rule_.cross(t, face, true);
+    });
+    return unreached;
   }
 
   /// Calls found(face, reached) for each face of t whose neighbour there is to repair.

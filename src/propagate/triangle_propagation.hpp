@@ -37,6 +37,11 @@ class TrianglePropagation {
     std::array<double, 4> b = source.barycentric;
     const auto [f, turned] = mesh_.inside_face(source.simplex);
     if (turned) std::swap(b[1], b[2]);
+    seed_inside(f, b, sigma, number);
+  }
+
+  /// The same by numbers and in the unit inside.
+  void seed_inside(Index f, const std::array<double, 4>& b, Real sigma, Index number) {
     for (int i = 0; i < 3; ++i)
       if (b[static_cast<std::size_t>(i)] == 1) {
         seed_vertex(triangles_[f].corner[i], sigma, number);
@@ -47,6 +52,11 @@ class TrianglePropagation {
         b[1] * static_cast<double>(t.length[0]) + b[2] * static_cast<double>(t.apex_x(0));
     const double y = b[2] * static_cast<double>(t.apex_h(0));
     rule_.seed_inside(f, static_cast<Real>(x), static_cast<Real>(y), sigma, number);
+  }
+
+  void seed_vertex(Index vertex, Real sigma, Index number) {
+    mesh_.corners_at(vertex, workspace_.corners);
+    for (const Index c : workspace_.corners) rule_.seed_corner(c / 3, c % 3, sigma, number);
   }
 
   void run() {
@@ -85,11 +95,6 @@ class TrianglePropagation {
     void far_ahead(Index f) const { rule.prefetch(f); }
     void ahead(Index f) const { rule.prefetch_around(f); }
   };
-
-  void seed_vertex(Index vertex, Real sigma, Index number) {
-    mesh_.corners_at(vertex, workspace_.corners);
-    for (const Index c : workspace_.corners) rule_.seed_corner(c / 3, c % 3, sigma, number);
-  }
 
  public:  // the parts of run, for those who must not look at the whole surface
   void spread(bool last_resort) {

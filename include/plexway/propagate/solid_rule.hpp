@@ -140,6 +140,24 @@ class SolidRule : public SolidPaths<Real> {
                                      Real known = std::numeric_limits<Real>::infinity()) const {
     return corner_reach(front_->label(t), t, i, known);
   }
+  /// The same to any point of it, or of a neighbour that sees t's source as t does.
+  [[nodiscard]] Real distance_at(Index t, const Point& q,
+                                 Real known = std::numeric_limits<Real>::infinity()) const {
+    return this->reach_at(front_->label(t), t, q, known);
+  }
+
+  /// Length of the path from the source of t through a face to that of the neighbour; +inf if none
+  /// passes there.
+  [[nodiscard]] Real meeting_over(Index t, Index face) const {
+    const Index u = tets_[t].across[face] >> TetAcross::tet_shift;
+    const Index* order = tet_face_corners[face];
+    const Point &a = points_[tets_[t].corner[order[0]]], &b = points_[tets_[t].corner[order[1]]],
+                &c = points_[tets_[t].corner[order[2]]];
+    const Point here = seen_from(t, tets_[u].centre).eye, there = seen_from(u, tets_[t].centre).eye;
+    if (!passes(here, there, a, b, c, face_tolerance)) return std::numeric_limits<Real>::infinity();
+    const Point q = plane_crossing(here, there, a, b, c);
+    return distance_at(t, q) + distance_at(u, q);
+  }
 
   /// Labels of u offer a path over the edge (v, w) of t, which touches u in that edge only.
   bool pass_edge(Index u, Index t, Index v, Index w, Real known_gain) const {

@@ -249,9 +249,8 @@ HINGE_FAST bool offer_bent(HINGE_IN(Label) from, Index t, Index face, Index u, R
   return true;
 }
 
-/// Length of the path to corner i of a reached tetrahedron, as far as it is below `known`.
-HINGE_FAST Real corner_reach(HINGE_IN(Label) from, Index t, Index i, Real known) HINGE_READS {
-  Point q = corner_of(t, i);
+/// Length of the path to a point of a reached tetrahedron, as far as it is below `known`.
+HINGE_FAST Real reach_at(HINGE_IN(Label) from, Index t, HINGE_IN(Point) q, Real known) HINGE_READS {
   Real straight = from.sigma + norm(q - from.source);
   if (!any_reflex() || !(straight < known)) return straight;
   Reach simple = reach(from, q);
@@ -259,4 +258,8 @@ HINGE_FAST Real corner_reach(HINGE_IN(Label) from, Index t, Index i, Real known)
   Label label = from;
   if (first_reflex(t) != none) gather(t, no_tet(), label, q, simple);
   return measure(label, q, simple, known).extent;
+}
+/// To its corner i.
+HINGE_FAST Real corner_reach(HINGE_IN(Label) from, Index t, Index i, Real known) HINGE_READS {
+  return reach_at(from, t, corner_of(t, i), known);
 }

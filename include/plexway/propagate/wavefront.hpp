@@ -102,6 +102,18 @@ class Wavefront {
     return {expansions(), updates_, reached_};
   }
 
+  // A propagation that goes on from what an earlier one left.
+
+  /// So many simplices are reached already.
+  void resume(std::size_t reached) { reached_ = reached; }
+  /// A reached simplex that does not wait is unreached again.
+  void forget(Index s) {
+    mark_[s] = 0;
+    --reached_;
+  }
+
+  [[nodiscard]] const Queue& queue() const { return queue_; }
+
   [[nodiscard]] bool share_spent() const { return countdown_ == 0; }
   [[nodiscard]] std::size_t expansions() const { return granted_ - countdown_; }
   [[nodiscard]] std::size_t updates() const { return updates_; }

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <span>
+#include <vector>
+
+#include <plexway/complex/tet_mesh.hpp>
+#include <plexway/complex/triangle_mesh.hpp>
+#include <plexway/executors/serial.hpp>
+#include <plexway/propagate/distance_field.hpp>
+#include <plexway/source/point_source.hpp>
+
+namespace plexway {
+
+/// Distances between chosen points.
+struct DistanceMatrix {
+  std::size_t size = 0;
+  std::vector<double> distance;  ///< row by row, symmetric, 0 on the diagonal; +inf where no path
+  /// The largest difference between the two ways, in the length of the way: an error estimate.
+  double asymmetry = 0;
+  PropagateStatistics statistics;
+
+  [[nodiscard]] double operator()(std::size_t i, std::size_t j) const {
+    return distance[i * size + j];
+  }
+};
+
+/// All pairs among `points`: one propagation a point, no farther than the triangle inequality and
+/// the rows already known say is needed, read out at the points only. Of the two ways the shorter
+/// counts. Offsets are not asked for (UsageError).
+///
+/// Throws UsageError for no points or a point that is not in the domain, and Cancelled when
+/// `progress`, called with the share that is done, returns false.
+template <class Real>
+[[nodiscard]] DistanceMatrix distance_matrix(
+    Serial, const TriangleMesh<Real>& mesh, std::span<const PointSource> points,
+    const std::function<bool(double share)>& progress = {});
+/// In a solid, which must have coordinates (UsageError).
+template <class Real>
+[[nodiscard]] DistanceMatrix distance_matrix(
+    Serial, const TetMesh<Real>& mesh, std::span<const PointSource> points,
+    const std::function<bool(double share)>& progress = {});
+
+}  // namespace plexway

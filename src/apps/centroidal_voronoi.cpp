@@ -1,0 +1,198 @@
+#include <plexway/apps/centroidal_voronoi.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include <plexway/error.hpp>
+
+#include "apps/cell_moments.hpp"
+#include "executors/checks.hpp"
+
+namespace plexway {
+namespace {
+
+template <class Complex>
+class Lloyd {
+  using Field = Growth<Complex>;
+  using Real = typename Field::Number;
+  using Moments = CellMoments<Complex>;
+  using Place = typename Moments::Place;
+  using Vector = typename Moments::Vector;
+  static constexpr double dimension = Field::corners - 1;
+
+ public:
+  Lloyd(const Complex& domain, std::span<const PointSource> seeds)
+      : domain_(domain), numbers_(domain), field_(domain, workspace_), moments_(domain, field_) {
+    for (const PointSource& seed : seeds) places_.push_back(place_of(seed));
+    cells_.resize(seeds.size());
+  }
+
+  CentroidalVoronoi run(const VoronoiOptions& options) {
+    CentroidalVoronoi result;
+    const double unit = domain_.unit(), size = std::pow(unit, dimension);
+    divide(result.statistics);
+    for (std::size_t n = 0; n < options.max_iterations && !result.converged; ++n) {
+      VoronoiStep step;
+      step.energy = energy_ * size * unit * unit;
+      double content = 0;
+      for (const Cell& cell : cells_) content += cell.content;
+      const double moved =
+          options.centre == CellCentre::centroid ? to_centroids() : from_border(result.statistics);
+      step.movement = moved * unit;
+      result.steps.push_back(step);
+      result.converged =
+          moved <=
+          options.tolerance * std::pow(content / static_cast<double>(cells_.size()), 1 / dimension);
+      divide(result.statistics);
+      if (options.progress && !options.progress(step))
+        throw Cancelled("cancelled by the progress callback");
+    }
+    result.energy = energy_ * size * unit * unit;
+    for (const Place& place : places_)
+      result.seeds.push_back(numbers_.outside(place.first, place.second));
+    for (const Cell& cell : cells_) result.cell_content.push_back(cell.content * size);
+    result.label.assign(field_.simplices(), none);
+    for (Index s = 0; s < field_.simplices(); ++s)
+      if (field_.reached(s)) result.label[numbers_.outside(s, {}).simplex] = field_.source(s);
+    return result;
+  }
+
+ private:
+  struct Cell {
+    double content = 0;
+    Vector vector{};  // content times the mean
+  };
+
+  Place place_of(const PointSource& seed) {
+    if (seed.vertex == none) {
+      const Place place = numbers_.inside(seed);
+      return {place.first, Moments::inside(place.second)};
+    }
+    const Index corner = field_.corner_at(domain_.inside_vertex(seed.vertex));
+    if (corner == none)
+      throw UsageError("vertex " + std::to_string(seed.vertex) +
+                       " lies in no simplex: it cannot be a seed");
+    Weights w{};
+    w[corner % Field::corners] = 1;
+    return {corner / static_cast<Index>(Field::corners), Moments::inside(w)};
+  }
+
+  /// Cells, and what they are around their seeds.
+  void divide(PropagateStatistics& statistics) {
+    field_.clear();
+    field_.add_all(places_);
+    add(statistics, field_.totals());
+    std::fill(cells_.begin(), cells_.end(), Cell{});
+    energy_ = 0;
+    moments_.each(
+        places_, [&](Index seed, double content, const Vector& vector, double squared, double own) {
+          Cell& cell = cells_[seed];
+          cell.content += content;
+          for (std::size_t k = 0; k < vector.size(); ++k) cell.vector[k] += content * vector[k];
+          energy_ += content * (squared + own);
+        });
+  }
+
+  double to_centroids() {
+    double sum = 0;
+    for (std::size_t i = 0; i < cells_.size(); ++i) {
+      if (!(cells_[i].content > 0)) continue;
+      Vector way = cells_[i].vector;
+      for (double& x : way) x /= cells_[i].content, sum += x * x;
+      places_[i] = moments_.walk(places_[i], way);
+    }
+    return std::sqrt(sum / static_cast<double>(cells_.size()));
+  }
+
+  /// The simplex of each cell that is farthest from the vertices at its border, and at the
+  /// domain's.
+  double from_border(PropagateStatistics& statistics) {
+    std::vector<Index> label(domain_.vertex_count(), none), border;
+    std::vector<bool> mixed(label.size(), false);
+    for (Index s = 0; s < field_.simplices(); ++s) {
+      if (!field_.reached(s)) continue;
+      for (std::size_t i = 0; i < Field::corners; ++i) {
+        const Index v = field_.corners_of(s)[i];
+        if (label[v] == none) label[v] = field_.source(s);
+        if (label[v] != field_.source(s) && !mixed[v]) mixed[v] = true, border.push_back(v);
+      }
+    }
+    // A seed should not go to the rim of the domain.
+    field_.each_rim_vertex([&](Index v) {
+      if (!mixed[v]) mixed[v] = true, border.push_back(v);
+    });
+    if (border.empty()) return 0;
+    Field away(domain_, border_workspace_);
+    away.add_all_vertices(border);
+    add(statistics, away.totals());
+    std::vector<std::pair<Real, Index>> best(cells_.size(), {Real(-1), none});
+    for (Index s = 0; s < field_.simplices(); ++s)
+      if (field_.reached(s) && away.reached(s) && away.distance(s) > best[field_.source(s)].first)
+        best[field_.source(s)] = {away.distance(s), s};
+    double sum = 0;
+    for (std::size_t i = 0; i < cells_.size(); ++i) {
+      const Index s = best[i].second;
+      if (s == none) continue;
+      const double d = static_cast<double>(field_.distance(s));
+      if (s == places_[i].first) continue;
+      sum += d * d;
+      Weights w{};
+      std::fill_n(w.begin(), Field::corners, 1. / static_cast<double>(Field::corners));
+      places_[i] = {s, w};
+    }
+    return std::sqrt(sum / static_cast<double>(cells_.size()));
+  }
+
+  static void add(PropagateStatistics& sum, const PropagateStatistics& more) {
+    sum.expansions += more.expansions;
+    sum.updates += more.updates;
+    sum.reached_simplices = more.reached_simplices;
+  }
+
+  const Complex& domain_;
+  SimplexNumbers<Complex> numbers_;
+  Workspace<Real> workspace_, border_workspace_;
+  Field field_;
+  Moments moments_;
+  std::vector<Place> places_;
+  std::vector<Cell> cells_;
+  double energy_ = 0;
+};
+
+template <class Complex>
+CentroidalVoronoi voronoi(const Complex& domain, std::span<const PointSource> seeds,
+                          const VoronoiOptions& options, const SourceDomain& limits) {
+  check(seeds, {}, limits);
+  if (!(options.tolerance >= 0)) throw UsageError("the tolerance must be >= 0");
+  return Lloyd<Complex>(domain, seeds).run(options);
+}
+
+}  // namespace
+
+template <class Real>
+CentroidalVoronoi centroidal_voronoi(Serial, const TriangleMesh<Real>& mesh,
+                                     std::span<const PointSource> seeds,
+                                     const VoronoiOptions& options) {
+  return voronoi(mesh, seeds, options, {mesh.vertex_count(), mesh.face_count(), "face", 3});
+}
+
+template <class Real>
+CentroidalVoronoi centroidal_voronoi(Serial, const TetMesh<Real>& mesh,
+                                     std::span<const PointSource> seeds,
+                                     const VoronoiOptions& options) {
+  if (!mesh.embedded()) throw UsageError("Voronoi cells in a solid need its coordinates");
+  return voronoi(mesh, seeds, options, {mesh.vertex_count(), mesh.tet_count(), "tet", 4});
+}
+
+template CentroidalVoronoi centroidal_voronoi(Serial, const TriangleMesh<float>&,
+                                              std::span<const PointSource>, const VoronoiOptions&);
+template CentroidalVoronoi centroidal_voronoi(Serial, const TriangleMesh<double>&,
+                                              std::span<const PointSource>, const VoronoiOptions&);
+template CentroidalVoronoi centroidal_voronoi(Serial, const TetMesh<float>&,
+                                              std::span<const PointSource>, const VoronoiOptions&);
+template CentroidalVoronoi centroidal_voronoi(Serial, const TetMesh<double>&,
+                                              std::span<const PointSource>, const VoronoiOptions&);
+
+}  // namespace plexway

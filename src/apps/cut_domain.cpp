@@ -1,0 +1,162 @@
+#include "apps/cut_domain.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+#include <utility>
+
+namespace plexway {
+namespace {
+
+template <class Complex, int N>
+void take_parts(const Refinement<N>& fine, CutDomain<Complex>& domain) {
+  domain.limits = fine.limits();
+  domain.parts.reserve(fine.simplices().size());
+  for (const auto& simplex : fine.simplices()) {
+    typename CutDomain<Complex>::Part part = {simplex.parent, {}};
+    std::copy(simplex.place.begin(), simplex.place.end(), part.place.begin());
+    domain.parts.push_back(part);
+  }
+}
+
+}  // namespace
+
+template <class Real>
+CutDomain<TriangleMesh<Real>> cut(const TriangleMesh<Real>& mesh, std::vector<double> limits) {
+  CutDomain<TriangleMesh<Real>> domain;
+  domain.complex = &mesh;
+  const auto triangles = mesh.triangles();
+  const Index faces = static_cast<Index>(mesh.face_count());
+  bool fits = true;
+  for (Index f = 0; f < faces && fits; ++f)
+    for (std::size_t i = 0; i < 3; ++i) {
+      const Index v = triangles[f].corner[i], w = triangles[f].corner[edge_after(i)];
+      fits = fits && static_cast<double>(triangles[f].length[i]) <= std::min(limits[v], limits[w]);
+    }
+  std::vector<std::array<Index, 3>> simplices(fits ? 0 : faces), sides(simplices.size());
+  std::vector<typename Refinement<2>::Edge> edges;
+  constexpr auto side_of = [](std::size_t i) { return Refinement<2>::side(i, edge_after(i)); };
+  for (auto& s : sides) s.fill(none);
+  for (Index f = 0; f < simplices.size(); ++f) {
+    const TriangleRecord<Real>& t = triangles[f];
+    std::copy(t.corner, t.corner + 3, simplices[f].begin());
+    for (std::size_t i = 0; i < 3; ++i) {
+      if (sides[f][side_of(i)] != none) continue;
+      const Index v = t.corner[i], w = t.corner[edge_after(i)];
+      if (v == w) fits = true;
+      const Index edge = static_cast<Index>(edges.size());
+      edges.push_back({{v, w}, static_cast<double>(t.length[i])});
+      sides[f][side_of(i)] = edge;
+      for (Index across = t.across[i]; (across >> Across::face_shift) != faces;) {
+        const Index g = across >> Across::face_shift;
+        const std::size_t k = across & Across::edge_mask;
+        if (g == f) {
+          if (k != i) fits = true;  // glued to itself
+          break;
+        }
+        sides[g][side_of(k)] = edge;
+        if (!(across & Across::fan)) break;
+        across = triangles[g].across[k];
+      }
+    }
+  }
+  if (fits) {  // or there is no way to cut it
+    domain.limits = std::move(limits);
+    return domain;
+  }
+  const Refinement<2> fine(simplices, sides, std::move(edges), std::move(limits));
+  take_parts(fine, domain);
+  const auto& cut = fine.simplices();
+  std::vector<std::array<Index, 3>> faces_cut(cut.size()), across(cut.size());
+  std::vector<std::array<double, 3>> lengths(cut.size());
+  std::vector<Index> first(fine.edges().size(), none), last = first;  // cycles of halfedges
+  for (Index f = 0; f < cut.size(); ++f) {
+    faces_cut[f] = cut[f].vertex;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const Index edge = cut[f].edge[side_of(i)], halfedge = 3 * f + static_cast<Index>(i);
+      lengths[f][i] = fine.edges()[edge].length * mesh.unit();
+      across[f][i] = none;
+      if (first[edge] == none) {
+        first[edge] = halfedge;
+      } else {
+        across[last[edge] / 3][last[edge] % 3] = halfedge;
+        across[f][i] = first[edge];
+      }
+      last[edge] = halfedge;
+    }
+  }
+  domain.copy =
+      std::make_unique<TriangleMesh<Real>>(domain.limits.size(), faces_cut, lengths, across);
+  domain.complex = domain.copy.get();
+  return domain;
+}
+
+template <class Real>
+CutDomain<TetMesh<Real>> cut(const TetMesh<Real>& mesh, std::vector<double> limits) {
+  CutDomain<TetMesh<Real>> domain;
+  domain.complex = &mesh;
+  const auto tets = mesh.tets();
+  const auto points = mesh.points();
+  const Index count = static_cast<Index>(mesh.tet_count());
+  const auto length = [&](Index v, Index w) {
+    return static_cast<double>(norm(points[v] - points[w]));
+  };
+  bool fits = true;
+  for (Index t = 0; t < count && fits; ++t)
+    for (const auto& [i, j] : tet_edge_ends) {
+      const Index v = tets[t].corner[i], w = tets[t].corner[j];
+      fits = fits && length(v, w) <= std::min(limits[v], limits[w]);
+    }
+  if (fits) {
+    domain.limits = std::move(limits);
+    return domain;
+  }
+  struct Side {
+    Index v, w, at;  // at: 6 t + edge
+  };
+  std::vector<Side> all;
+  all.reserve(std::size_t{6} * count);
+  std::vector<std::array<Index, 4>> simplices(count);
+  for (Index t = 0; t < count; ++t) {
+    std::copy(tets[t].corner, tets[t].corner + 4, simplices[t].begin());
+    for (Index e = 0; e < 6; ++e) {
+      const Index v = tets[t].corner[tet_edge_ends[e][0]], w = tets[t].corner[tet_edge_ends[e][1]];
+      all.push_back({std::min(v, w), std::max(v, w), 6 * t + e});
+    }
+  }
+  std::sort(all.begin(), all.end(), [](const Side& a, const Side& b) {
+    return std::tie(a.v, a.w, a.at) < std::tie(b.v, b.w, b.at);
+  });
+  std::vector<std::array<Index, 6>> sides(count);
+  std::vector<typename Refinement<3>::Edge> edges;
+  for (std::size_t n = 0; n < all.size(); ++n) {
+    const Side& s = all[n];
+    if (n == 0 || s.v != all[n - 1].v || s.w != all[n - 1].w)
+      edges.push_back({{s.v, s.w}, length(s.v, s.w)});
+    sides[s.at / 6][s.at % 6] = static_cast<Index>(edges.size() - 1);
+  }
+  const Refinement<3> fine(simplices, sides, std::move(edges), std::move(limits));
+  take_parts(fine, domain);
+  std::vector<std::array<double, 3>> positions;
+  positions.reserve(domain.limits.size());
+  for (const Vector3<Real>& p : points)
+    positions.push_back({static_cast<double>(p.x) * mesh.unit(),
+                         static_cast<double>(p.y) * mesh.unit(),
+                         static_cast<double>(p.z) * mesh.unit()});
+  for (const auto& [v, w] : fine.halved()) {
+    const auto a = positions[v], b = positions[w];
+    positions.push_back({(a[0] + b[0]) / 2, (a[1] + b[1]) / 2, (a[2] + b[2]) / 2});
+  }
+  std::vector<std::array<Index, 4>> cut;
+  for (const auto& simplex : fine.simplices()) cut.push_back(simplex.vertex);
+  domain.copy = std::make_unique<TetMesh<Real>>(positions, cut);
+  domain.complex = domain.copy.get();
+  return domain;
+}
+
+template CutDomain<TriangleMesh<float>> cut(const TriangleMesh<float>&, std::vector<double>);
+template CutDomain<TriangleMesh<double>> cut(const TriangleMesh<double>&, std::vector<double>);
+template CutDomain<TetMesh<float>> cut(const TetMesh<float>&, std::vector<double>);
+template CutDomain<TetMesh<double>> cut(const TetMesh<double>&, std::vector<double>);
+
+}  // namespace plexway

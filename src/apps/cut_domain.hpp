@@ -1,0 +1,37 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include <plexway/complex/tet_mesh.hpp>
+#include <plexway/complex/triangle_mesh.hpp>
+
+#include "apps/refinement.hpp"
+
+namespace plexway {
+
+/// A domain whose edges are no longer than asked for: itself, or a copy cut into smaller simplices.
+/// Numbers are those inside.
+template <class Complex>
+struct CutDomain {
+  const Complex* complex = nullptr;  ///< to work on
+  std::unique_ptr<Complex> copy;     ///< which this is, or none
+  std::vector<double> limits;        ///< one a vertex, of `complex`
+
+  struct Part {
+    Index parent;                                ///< in the domain given
+    std::array<std::array<double, 4>, 4> place;  ///< corners as weights of the parent's
+  };
+  std::vector<Part> parts;  ///< by the numbers that the caller of `copy` knows
+};
+
+/// `limits`: the longest edge wanted at each vertex, in the unit inside.
+template <class Real>
+CutDomain<TriangleMesh<Real>> cut(const TriangleMesh<Real>& mesh, std::vector<double> limits);
+template <class Real>
+CutDomain<TetMesh<Real>> cut(const TetMesh<Real>& mesh, std::vector<double> limits);
+
+}  // namespace plexway

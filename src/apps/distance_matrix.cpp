@@ -1,0 +1,113 @@
+#include <plexway/apps/distance_matrix.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <plexway/error.hpp>
+
+#include "executors/checks.hpp"
+#include "executors/growth.hpp"
+
+namespace plexway {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+template <class Complex>
+DistanceMatrix matrix(const Complex& domain, std::span<const PointSource> points,
+                      const std::function<bool(double)>& progress, const SourceDomain& limits) {
+  using Field = Growth<Complex>;
+  using Real = typename Field::Number;
+  constexpr Index corners = Field::corners;
+  check(points, {}, limits);
+  for (const PointSource& p : points)
+    if (p.offset != 0) throw UsageError("a point of a distance matrix has no offset");
+
+  const std::size_t n = points.size();
+  DistanceMatrix result;
+  result.size = n;
+  result.distance.assign(n * n, infinity);
+  const SimplexNumbers<Complex> numbers(domain);
+  Workspace<Real> workspace;
+  Field field(domain, workspace);
+  std::vector<double>& d = result.distance;
+  for (std::size_t i = 0; i < n; ++i) {
+    if (progress && !progress(static_cast<double>(i) / static_cast<double>(n)))
+      throw Cancelled("cancelled by the progress callback");
+    // By way of the points before: an upper bound for each of the others.
+    double radius = i == 0 ? infinity : 0;
+    for (std::size_t j = 0; j < n && i > 0; ++j) {
+      double bound = infinity;
+      for (std::size_t r = 0; r < i; ++r) bound = std::min(bound, d[r * n + i] + d[r * n + j]);
+      radius = std::max(radius, bound);
+    }
+    field.clear();
+    // Bounds have the errors of the distances that they come from.
+    const Real reach = static_cast<Real>(radius * 1.05 / domain.unit());
+    if (points[i].vertex != none) {
+      field.add_vertex(domain.inside_vertex(points[i].vertex), 0, 0, reach);
+    } else {
+      const auto [s, weights] = numbers.inside(points[i]);
+      field.add(s, weights, 0, 0, reach);
+    }
+    for (std::size_t j = 0; j < n; ++j) {
+      Real found = std::numeric_limits<Real>::infinity();
+      if (points[j].vertex != none) {
+        field.each_corner_at(domain.inside_vertex(points[j].vertex), [&](Index c) {
+          if (field.reached(c / corners))
+            found = std::min(found, field.corner_distance(c / corners, c % corners));
+        });
+      } else {
+        const auto [s, weights] = numbers.inside(points[j]);
+        field.each_label(s, [&](Index, const auto& distance) {
+          found = std::min(found, distance(weights));
+          return false;
+        });
+      }
+      d[i * n + j] = i == j ? 0 : static_cast<double>(found) * domain.unit();
+    }
+    result.statistics.expansions += field.totals().expansions;
+    result.statistics.updates += field.totals().updates;
+    result.statistics.reached_simplices += field.totals().reached_simplices;
+  }
+  for (std::size_t i = 0; i < n; ++i)
+    for (std::size_t j = 0; j < i; ++j) {
+      const double one = d[i * n + j], other = d[j * n + i], least = std::min(one, other);
+      if (least < infinity && least > 0 && std::max(one, other) < infinity)
+        result.asymmetry = std::max(result.asymmetry, std::abs(one - other) / least);
+      d[i * n + j] = d[j * n + i] = least;
+    }
+  return result;
+}
+
+}  // namespace
+
+template <class Real>
+DistanceMatrix distance_matrix(Serial, const TriangleMesh<Real>& mesh,
+                               std::span<const PointSource> points,
+                               const std::function<bool(double)>& progress) {
+  return matrix(mesh, points, progress, {mesh.vertex_count(), mesh.face_count(), "face", 3});
+}
+
+template <class Real>
+DistanceMatrix distance_matrix(Serial, const TetMesh<Real>& mesh,
+                               std::span<const PointSource> points,
+                               const std::function<bool(double)>& progress) {
+  if (!mesh.embedded()) throw UsageError("a distance matrix in a solid needs its coordinates");
+  return matrix(mesh, points, progress, {mesh.vertex_count(), mesh.tet_count(), "tet", 4});
+}
+
+template DistanceMatrix distance_matrix(Serial, const TriangleMesh<float>&,
+                                        std::span<const PointSource>,
+                                        const std::function<bool(double)>&);
+template DistanceMatrix distance_matrix(Serial, const TriangleMesh<double>&,
+                                        std::span<const PointSource>,
+                                        const std::function<bool(double)>&);
+template DistanceMatrix distance_matrix(Serial, const TetMesh<float>&, std::span<const PointSource>,
+                                        const std::function<bool(double)>&);
+template DistanceMatrix distance_matrix(Serial, const TetMesh<double>&,
+                                        std::span<const PointSource>,
+                                        const std::function<bool(double)>&);
+
+}  // namespace plexway

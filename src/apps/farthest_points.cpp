@@ -1,0 +1,124 @@
+#include <plexway/apps/farthest_points.hpp>
+
+#include <cmath>
+#include <limits>
+#include <queue>
+#include <tuple>
+
+#include <plexway/error.hpp>
+
+#include "executors/checks.hpp"
+#include "executors/growth.hpp"
+
+namespace plexway {
+namespace {
+
+template <class Complex>
+class Traversal {
+  using Field = Growth<Complex>;
+  using Real = typename Field::Number;
+
+ public:
+  explicit Traversal(const Complex& domain)
+      : domain_(domain), numbers_(domain), field_(domain, workspace_) {}
+
+  FarthestPoints run(std::span<const PointSource> start, const FarthestOptions& options) {
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    FarthestPoints result;
+    for (const PointSource& point : start) {
+      add(point, static_cast<Index>(result.points.size()));
+      result.points.push_back(point);
+      result.distance.push_back(0);
+    }
+    // Distances only fall, so one that is out of date is too large, and comes up in time.
+    std::priority_queue<std::pair<Real, Index>> farthest;
+    for (Index v = 0; v < domain_.vertex_count(); ++v)
+      if (field_.corner_at(domain_.inside_vertex(v)) != none)
+        farthest.emplace(std::numeric_limits<Real>::infinity(), none - v);
+    while (!farthest.empty()) {
+      const auto [known, packed] = farthest.top();
+      const Index v = none - packed;
+      const Real now = distance(domain_.inside_vertex(v));
+      farthest.pop();
+      if (now < known) {
+        farthest.emplace(now, packed);
+        continue;
+      }
+      result.covering = static_cast<double>(now) * domain_.unit();
+      if (result.points.size() >= options.count || result.covering <= options.radius) break;
+      const Index number = static_cast<Index>(result.points.size());
+      if (options.progress &&
+          !options.progress(static_cast<double>(number) / static_cast<double>(options.count)))
+        throw Cancelled("cancelled by the progress callback");
+      add(PointSource::at(v), number);
+      result.points.push_back(PointSource::at(v));
+      result.distance.push_back(now < std::numeric_limits<Real>::infinity() ? result.covering
+                                                                            : infinity);
+      result.covering = 0;
+    }
+    result.statistics = field_.totals();
+    return result;
+  }
+
+ private:
+  void add(const PointSource& point, Index number) {
+    constexpr Real infinity = std::numeric_limits<Real>::infinity();
+    const Real sigma = static_cast<Real>(point.offset / domain_.unit());
+    if (point.vertex != none) {
+      field_.add_vertex(domain_.inside_vertex(point.vertex), sigma, number, infinity);
+    } else {
+      const auto [s, weights] = numbers_.inside(point);
+      field_.add(s, weights, sigma, number, infinity);
+    }
+  }
+
+  Real distance(Index vertex) {
+    constexpr Index corners = Field::corners;
+    Real nearest = std::numeric_limits<Real>::infinity();
+    field_.each_corner_at(vertex, [&](Index c) {
+      if (field_.reached(c / corners))
+        nearest = std::min(nearest, field_.corner_distance(c / corners, c % corners));
+    });
+    return nearest;
+  }
+
+  const Complex& domain_;
+  SimplexNumbers<Complex> numbers_;
+  Workspace<Real> workspace_;
+  Field field_;
+};
+
+template <class Complex>
+FarthestPoints farthest(const Complex& domain, std::span<const PointSource> start,
+                        const FarthestOptions& options, const SourceDomain& limits) {
+  check(start, {}, limits);
+  if (options.count == 0) throw UsageError("the count of points must be > 0");
+  if (!(options.radius >= 0)) throw UsageError("the radius must be >= 0");
+  return Traversal<Complex>(domain).run(start, options);
+}
+
+}  // namespace
+
+template <class Real>
+FarthestPoints farthest_points(Serial, const TriangleMesh<Real>& mesh,
+                               std::span<const PointSource> start, const FarthestOptions& options) {
+  return farthest(mesh, start, options, {mesh.vertex_count(), mesh.face_count(), "face", 3});
+}
+
+template <class Real>
+FarthestPoints farthest_points(Serial, const TetMesh<Real>& mesh,
+                               std::span<const PointSource> start, const FarthestOptions& options) {
+  if (!mesh.embedded()) throw UsageError("farthest points in a solid need its coordinates");
+  return farthest(mesh, start, options, {mesh.vertex_count(), mesh.tet_count(), "tet", 4});
+}
+
+template FarthestPoints farthest_points(Serial, const TriangleMesh<float>&,
+                                        std::span<const PointSource>, const FarthestOptions&);
+template FarthestPoints farthest_points(Serial, const TriangleMesh<double>&,
+                                        std::span<const PointSource>, const FarthestOptions&);
+template FarthestPoints farthest_points(Serial, const TetMesh<float>&, std::span<const PointSource>,
+                                        const FarthestOptions&);
+template FarthestPoints farthest_points(Serial, const TetMesh<double>&,
+                                        std::span<const PointSource>, const FarthestOptions&);
+
+}  // namespace plexway

@@ -1,0 +1,162 @@
+#include <plexway/apps/poisson_disk.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <string>
+#include <utility>
+
+#include <plexway/error.hpp>
+
+#include "apps/dart_thrower.hpp"
+
+namespace plexway {
+namespace {
+
+void check(const PoissonOptions& options, std::size_t vertices) {
+  if ((options.radius != 0) == (options.count != 0))
+    throw UsageError("give either a radius or a count of darts");
+  if (options.count == 0 && (!(options.radius > 0) || !std::isfinite(options.radius)))
+    throw UsageError("the radius must be > 0");
+  if (options.at_vertices && options.count > vertices)
+    throw UsageError("there are only " + std::to_string(vertices) + " vertices, too few for " +
+                     std::to_string(options.count) + " darts");
+  if (!options.spacing.empty() && options.spacing.size() != vertices)
+    throw UsageError(
+        "the spacing must have one value a vertex: " + std::to_string(options.spacing.size()) +
+        " given, there are " + std::to_string(vertices) + " vertices");
+  for (const double s : options.spacing)
+    if (!(s > 0) || !std::isfinite(s)) throw UsageError("the spacing must be > 0 everywhere");
+}
+
+/// A sample with one radius, `most` darts at most.
+template <class Complex>
+PoissonDisks sample(const Complex& domain, const SimplexNumbers<Complex>& numbers,
+                    const PoissonOptions& options, double radius, std::size_t most,
+                    Workspace<typename Growth<Complex>::Number>& kept) {
+  using Real = typename Growth<Complex>::Number;
+  // In radii. Simplices on the way between two darts then belong to one of them, not to others.
+  constexpr double longest_edge = 0.4;
+  std::vector<double> limits(domain.vertex_count(), radius / domain.unit() * longest_edge);
+  for (std::size_t v = 0; v < options.spacing.size(); ++v)
+    limits[domain.inside_vertex(static_cast<Index>(v))] *= options.spacing[v];
+  const CutDomain<Complex> fine = cut(domain, std::move(limits));
+  const Complex& complex = *fine.complex;
+
+  // The copy has other numbers inside, and another unit.
+  const auto inside = [&](Index v) { return fine.copy ? complex.inside_vertex(v) : v; };
+  std::vector<double> radii(complex.vertex_count());
+  for (Index v = 0; v < radii.size(); ++v)
+    radii[inside(v)] = fine.limits[v] / longest_edge * domain.unit() / complex.unit();
+  std::vector<Index> vertices;
+  for (Index v = 0; options.at_vertices && v < domain.vertex_count(); ++v)
+    vertices.push_back(inside(domain.inside_vertex(v)));
+
+  Workspace<Real> own_workspace;
+  Growth<Complex> field(complex, fine.copy ? own_workspace : kept);
+  const DartThrower<Complex> thrower(field, radii, vertices, options, most, [&](double share) {
+    if (options.progress && !options.progress(std::clamp(share, 0., 1.)))
+      throw Cancelled("cancelled by the progress callback");
+  });
+
+  PoissonDisks result;
+  result.radius = radius;
+  result.maximal = thrower.maximal();
+  result.thrown = thrower.thrown();
+  result.taken_back = thrower.taken_back();
+  result.statistics = field.totals();
+  if (!fine.copy) {
+    for (const auto& dart : thrower.darts())
+      result.darts.push_back(dart.vertex != none
+                                 ? PointSource::at(numbers.outside_vertex(dart.vertex))
+                                 : numbers.outside(dart.simplex, dart.weights));
+    return result;
+  }
+  const SimplexNumbers<Complex> own(complex);
+  for (const auto& dart : thrower.darts()) {
+    if (dart.vertex != none) {  // the copy knows vertices by their numbers inside the domain
+      const Index v = own.outside_vertex(dart.vertex);
+      result.darts.push_back(PointSource::at(numbers.outside_vertex(v)));
+      continue;
+    }
+    const PointSource there = own.outside(dart.simplex, dart.weights);
+    const auto& part = fine.parts[there.simplex];
+    Weights weights{};
+    for (std::size_t i = 0; i < 4; ++i)
+      for (std::size_t k = 0; k < 4; ++k) weights[k] += there.barycentric[i] * part.place[i][k];
+    result.darts.push_back(numbers.outside(part.parent, weights));
+  }
+  return result;
+}
+
+template <class Complex>
+PoissonDisks poisson(const Complex& domain, const PoissonOptions& options,
+                     Workspace<typename Growth<Complex>::Number>& workspace) {
+  check(options, domain.vertex_count());
+  const SimplexNumbers<Complex> numbers(domain);
+  constexpr std::size_t unlimited = std::numeric_limits<std::size_t>::max();
+  if (options.count == 0)
+    return sample(domain, numbers, options, options.radius, unlimited, workspace);
+
+  // A flat sample of radius r has 0.70 A / r^2 darts, one in space 0.73 V / r^3 (random sequential
+  // adsorption: disks of radius r / 2 cover 0.547 of the plane, balls 0.384 of space).
+  constexpr double dimension = Growth<Complex>::corners - 1;
+  double content = 0;
+  {
+    const Growth<Complex> field(domain, workspace);
+    for (Index s = 0; s < field.simplices(); ++s) content += static_cast<double>(field.measure(s));
+  }
+  const double wanted = static_cast<double>(options.count);
+  double radius = domain.unit() * std::pow(0.7 * content / wanted, 1 / dimension);
+  double too_small = 0, too_large = std::numeric_limits<double>::infinity();
+  PoissonDisks best;
+  for (int round = 0; round < 16; ++round) {
+    PoissonDisks found = sample(domain, numbers, options, radius, unlimited, workspace);
+    const double count = static_cast<double>(found.darts.size());
+    (count >= wanted ? too_small : too_large) = radius;
+    if (count >= wanted && (best.darts.empty() || found.darts.size() < best.darts.size()))
+      best = std::move(found);
+    if (!best.darts.empty() && static_cast<double>(best.darts.size()) <= wanted * 1.005) break;
+    // A little below what was asked for, to come out above it.
+    radius *= std::pow(count / (wanted * 1.002), 1 / dimension);
+    if (!(radius > too_small && radius < too_large))
+      radius = too_large < std::numeric_limits<double>::infinity() ? (too_small + too_large) / 2
+                                                                   : too_small * 1.1;
+    if (too_large - too_small < 1e-6 * too_small) break;
+  }
+  if (best.darts.empty())
+    throw UsageError("no radius leaves room for " + std::to_string(options.count) +
+                     " darts: the domain holds fewer");
+  if (best.darts.size() > options.count) {
+    best.darts.resize(options.count);
+    best.maximal = false;
+  }
+  return best;
+}
+
+}  // namespace
+
+template <class Real>
+PoissonDisks poisson_disks(Serial, const TriangleMesh<Real>& mesh, const PoissonOptions& options,
+                           Workspace<Real>& workspace) {
+  return poisson(mesh, options, workspace);
+}
+
+template <class Real>
+PoissonDisks poisson_disks(Serial, const TetMesh<Real>& mesh, const PoissonOptions& options,
+                           Workspace<Real>& workspace) {
+  if (!mesh.embedded()) throw UsageError("darts in a solid need its coordinates");
+  return poisson(mesh, options, workspace);
+}
+
+template PoissonDisks poisson_disks(Serial, const TriangleMesh<float>&, const PoissonOptions&,
+                                    Workspace<float>&);
+template PoissonDisks poisson_disks(Serial, const TriangleMesh<double>&, const PoissonOptions&,
+                                    Workspace<double>&);
+template PoissonDisks poisson_disks(Serial, const TetMesh<float>&, const PoissonOptions&,
+                                    Workspace<float>&);
+template PoissonDisks poisson_disks(Serial, const TetMesh<double>&, const PoissonOptions&,
+                                    Workspace<double>&);
+
+}  // namespace plexway

@@ -1,0 +1,115 @@
+#include "apps/refinement.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <queue>
+#include <utility>
+
+#include <plexway/error.hpp>
+
+namespace plexway {
+
+template <int N>
+Refinement<N>::Refinement(std::span<const std::array<Index, corners>> simplices,
+                          std::span<const std::array<Index, sides>> edges,
+                          std::vector<Edge> lengths, std::vector<double> limits)
+    : edges_(std::move(lengths)), around_(edges_.size()), limits_(std::move(limits)) {
+  simplices_.reserve(simplices.size());
+  for (std::size_t s = 0; s < simplices.size(); ++s) {
+    Simplex simplex = {simplices[s], edges[s], static_cast<Index>(s), {}};
+    for (std::size_t i = 0; i < corners; ++i) simplex.place[i][i] = 1;
+    for (const Index e : edges[s]) around_[e].push_back(static_cast<Index>(s));
+    simplices_.push_back(simplex);
+  }
+  std::priority_queue<std::pair<double, Index>> longest;
+  const auto consider = [&](Index e) {
+    if (excess(e) > 1) longest.emplace(excess(e), e);
+  };
+  for (Index e = 0; e < edges_.size(); ++e) consider(e);
+  while (!longest.empty()) {
+    const Index e = longest.top().second;
+    longest.pop();
+    const std::size_t before = edges_.size();
+    bisect(e);
+    consider(e);  // now its first half
+    for (std::size_t n = before; n < edges_.size(); ++n) consider(static_cast<Index>(n));
+  }
+}
+
+template <int N>
+double Refinement<N>::excess(Index edge) const {
+  const Edge& e = edges_[edge];
+  return e.length / std::min(limits_[e.vertex[0]], limits_[e.vertex[1]]);
+}
+
+template <int N>
+void Refinement<N>::bisect(Index edge) {
+  if (edges_.size() > none / 4 || simplices_.size() > (none >> 4))
+    throw InputError(
+        "the radius is too small for this domain: its simplices would have to be cut "
+        "into more than 2^28 parts");
+  const Edge old = edges_[edge];
+  const Index middle = static_cast<Index>(limits_.size());
+  limits_.push_back((limits_[old.vertex[0]] + limits_[old.vertex[1]]) / 2);
+  halved_.emplace_back(old.vertex[0], old.vertex[1]);
+  edges_[edge] = {{old.vertex[0], middle}, old.length / 2};
+  const Index second = static_cast<Index>(edges_.size());
+  edges_.push_back({{middle, old.vertex[1]}, old.length / 2});
+  around_.emplace_back();
+  const std::vector<Index> around = std::exchange(around_[edge], {});
+  // Edges from the middle to other corners: simplices that share the triangle share the edge.
+  std::vector<std::pair<std::pair<Index, Index>, Index>> medians;
+  for (const Index s : around) {
+    const Simplex whole = simplices_[s];
+    std::size_t i = 0, j = 1;
+    for (std::size_t b = 1; b < corners; ++b)
+      for (std::size_t a = 0; a < b; ++a)
+        if (whole.edge[side(a, b)] == edge) i = a, j = b;
+    if (whole.vertex[i] != old.vertex[0]) std::swap(i, j);
+    Simplex first = whole, last = whole;
+    const Index other = static_cast<Index>(simplices_.size());
+    std::array<double, 4> place;
+    for (std::size_t k = 0; k < 4; ++k) place[k] = (whole.place[i][k] + whole.place[j][k]) / 2;
+    first.vertex[j] = last.vertex[i] = middle;
+    first.place[j] = last.place[i] = place;
+    first.edge[side(i, j)] = edge;
+    last.edge[side(i, j)] = second;
+    for (std::size_t k = 0; k < corners; ++k) {
+      if (k == i || k == j) continue;
+      const Index to_first = whole.edge[side(i, k)], to_last = whole.edge[side(j, k)];
+      const std::pair<Index, Index> key(to_first, to_last);
+      auto known = std::find_if(medians.begin(), medians.end(),
+                                [&](const auto& m) { return N > 2 && m.first == key; });
+      if (known == medians.end()) {
+        const double a = edges_[to_first].length, b = edges_[to_last].length, c = old.length;
+        const double length = std::sqrt(std::max(0., (2 * a * a + 2 * b * b - c * c) / 4));
+        medians.emplace_back(key, static_cast<Index>(edges_.size()));
+        known = medians.end() - 1;
+        edges_.push_back({{whole.vertex[k], middle}, length});
+        around_.emplace_back();
+      }
+      first.edge[side(j, k)] = last.edge[side(i, k)] = known->second;
+      around_[known->second].push_back(s);
+      around_[known->second].push_back(other);
+    }
+    // What the last part took over.
+    for (std::size_t b = 1; b < corners; ++b)
+      for (std::size_t a = 0; a < b; ++a) {
+        if (a == i || b == i) continue;
+        auto& list = around_[last.edge[side(a, b)]];
+        if (a == j || b == j)
+          std::replace(list.begin(), list.end(), s, other);
+        else
+          list.push_back(other);  // an edge that both parts have
+      }
+    around_[edge].push_back(s);
+    around_[second].push_back(other);
+    simplices_[s] = first;
+    simplices_.push_back(last);
+  }
+}
+
+template class Refinement<2>;
+template class Refinement<3>;
+
+}  // namespace plexway

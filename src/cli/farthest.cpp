@@ -1,0 +1,97 @@
+#include <CLI/CLI.hpp>
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <plexway/apps/farthest_points.hpp>
+#include <plexway/error.hpp>
+
+#include "commands.hpp"
+#include "distance_output.hpp"
+#include "point_output.hpp"
+#include "progress.hpp"
+#include "sampling_command.hpp"
+#include "source_argument.hpp"
+
+namespace plexway::cli {
+namespace {
+
+struct FarthestCommand : SamplingCommand {
+  std::size_t count = 0;
+  double radius = 0;
+  std::vector<std::string> sources;
+};
+
+void run_farthest(const FarthestCommand& command) {
+  const Precision precision = precision_of(command);
+  if (command.count == 0 && !(command.radius > 0))
+    throw UsageError("give --count, --radius or both, > 0");
+  if (!(command.radius >= 0)) throw UsageError("--radius must be >= 0");
+  check_output_name(command.out, command.input, point_file_extensions());
+  const auto arguments = parse_sources(
+      command.sources.empty() ? std::vector<std::string>{"vertex:0"} : command.sources);
+  ProgressLine progress(command.quiet);
+  const Domain domain = Domain::load(command.input, command.as, command.fill, progress);
+  const auto start = locate_sources(domain, arguments);
+  FarthestOptions options;
+  options.count = command.count == 0 ? std::numeric_limits<std::size_t>::max() : command.count;
+  options.radius = command.radius;
+  options.progress = [&](double share) {
+    progress.done(share);
+    return true;
+  };
+  progress.phase("looking for the farthest points");
+  FarthestPoints found;
+  double seconds = 0;
+  with_complex(domain, precision, [&](const auto& complex) {
+    const Stopwatch searching;
+    found = farthest_points(Serial{}, complex, start, options);
+    seconds = searching.seconds();
+  });
+  if (!command.out.empty())
+    write_points(command.out, domain, found.points, "distance", found.distance);
+  progress.clear();
+
+  Json json;
+  json["input"] = command.input;
+  json["kind"] = domain.kind();
+  json["points"] = found.points.size();
+  json["covering"] = json_number(found.covering);
+  json["expansions"] = found.statistics.expansions;
+  json["seconds"] = seconds;
+  Table table;
+  table.add("input", command.input);
+  table.add("points", counted(found.points.size(), "points"));
+  table.add("covering", "no vertex is farther than " + short_number(found.covering));
+  table.add("work", counted(found.statistics.expansions, "expansions"));
+  table.add("time", short_time(seconds));
+  if (!command.out.empty()) table.add("written", command.out);
+  print_summary(command, json, table);
+}
+
+}  // namespace
+
+void add_farthest_command(CLI::App& tool, Action& action) {
+  auto command = std::make_shared<FarthestCommand>();
+  CLI::App& app = *tool.add_subcommand(
+      "farthest", "Vertices one after the other, each the farthest from those before");
+  add_sampling_options(app, *command, "write the points and how far each was: .csv .npy .obj .ply");
+  app.add_option("--count,-n", command->count, "so many points, the first ones included")
+      ->check(CLI::NonNegativeNumber)
+      ->type_name("N");
+  app.add_option("--radius,-r", command->radius, "or stop when no vertex is farther than this")
+      ->type_name("R");
+  app.add_option("--source,-s", command->sources,
+                 "where to start: vertex:ID or point:X,Y,Z (default vertex:0); repeatable")
+      ->type_name("WHERE")
+      ->allow_extra_args(false);
+  app.footer(
+      "Examples:\n"
+      "  plexway farthest knot.ply --count 100 --out landmarks.ply\n"
+      "  plexway farthest elbow.mesh --radius 0.5 --source vertex:3 --out cover.csv");
+  app.callback([command, &action] { action = [command] { run_farthest(*command); }; });
+}
+
+}  // namespace plexway::cli

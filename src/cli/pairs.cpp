@@ -1,0 +1,78 @@
+#include <CLI/CLI.hpp>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <plexway/apps/distance_matrix.hpp>
+#include <plexway/error.hpp>
+
+#include "commands.hpp"
+#include "distance_output.hpp"
+#include "point_output.hpp"
+#include "progress.hpp"
+#include "sampling_command.hpp"
+#include "source_argument.hpp"
+
+namespace plexway::cli {
+namespace {
+
+struct PairsCommand : SamplingCommand {
+  std::vector<std::string> sources;
+};
+
+void run_pairs(const PairsCommand& command) {
+  const Precision precision = precision_of(command);
+  check_output_name(command.out, command.input, matrix_file_extensions());
+  const auto arguments = parse_sources(command.sources);
+  ProgressLine progress(command.quiet);
+  const Domain domain = Domain::load(command.input, command.as, command.fill, progress);
+  const auto points = locate_sources(domain, arguments);
+  progress.phase("solving");
+  DistanceMatrix matrix;
+  double seconds = 0;
+  with_complex(domain, precision, [&](const auto& complex) {
+    const Stopwatch solving;
+    matrix = distance_matrix(Serial{}, complex, points, [&](double share) {
+      progress.done(share);
+      return true;
+    });
+    seconds = solving.seconds();
+  });
+  if (!command.out.empty()) write_matrix(command.out, matrix.size, matrix.distance);
+  progress.clear();
+
+  Json json;
+  json["input"] = command.input;
+  json["kind"] = domain.kind();
+  json["points"] = points.size();
+  json["asymmetry"] = matrix.asymmetry;
+  json["expansions"] = matrix.statistics.expansions;
+  json["seconds"] = seconds;
+  Table table;
+  table.add("input", command.input);
+  table.add("points", counted(points.size(), "points"));
+  table.add("two ways", "differ by " + short_number(matrix.asymmetry) + " of the shorter at most");
+  table.add("work", counted(matrix.statistics.expansions, "expansions"));
+  table.add("time", short_time(seconds));
+  if (!command.out.empty()) table.add("written", command.out);
+  print_summary(command, json, table);
+}
+
+}  // namespace
+
+void add_pairs_command(CLI::App& tool, Action& action) {
+  auto command = std::make_shared<PairsCommand>();
+  CLI::App& app =
+      *tool.add_subcommand("pairs", "The matrix of distances between chosen points, symmetric");
+  add_sampling_options(app, *command, "write the matrix: .csv or .npy");
+  app.add_option("--source,-s", command->sources, "a point: vertex:ID or point:X,Y,Z; repeat it")
+      ->required()
+      ->type_name("WHERE")
+      ->allow_extra_args(false);
+  app.footer(
+      "Example:\n"
+      "  plexway pairs knot.ply -s vertex:0 -s vertex:50 -s point:1,0,0.5 --out matrix.csv");
+  app.callback([command, &action] { action = [command] { run_pairs(*command); }; });
+}
+
+}  // namespace plexway::cli

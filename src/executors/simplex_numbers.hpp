@@ -1,0 +1,70 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <utility>
+#include <vector>
+
+#include <plexway/complex/tet_mesh.hpp>
+#include <plexway/complex/triangle_mesh.hpp>
+#include <plexway/source/point_source.hpp>
+
+namespace plexway {
+
+/// Weights of a simplex's corners: barycentric coordinates.
+using Weights = std::array<double, 4>;
+
+/// Points of simplices between the caller's numbers and those inside, many of them: a table is
+/// made once. Vertices, too.
+template <class Complex>
+class SimplexNumbers {
+ public:
+  explicit SimplexNumbers(const Complex& complex) : vertex_(complex.vertex_count()) {
+    const auto inside = complex.vertices_inside();
+    for (Index v = 0; v < inside.size(); ++v) vertex_[inside[v]] = v;
+    list(complex);
+  }
+
+  [[nodiscard]] Index outside_vertex(Index inside) const { return vertex_[inside]; }
+  /// A point of simplex s in the caller's numbers.
+  [[nodiscard]] PointSource outside(Index s, Weights w) const {
+    if (outside_[s] & turned) turn(w);
+    return {.simplex = outside_[s] & ~turned, .barycentric = w};
+  }
+  [[nodiscard]] std::pair<Index, Weights> inside(const PointSource& point) const {
+    Weights w = point.barycentric;
+    const Index s = inside_[point.simplex];
+    if (outside_[s] & turned) turn(w);
+    return {s, w};
+  }
+
+ private:
+  static constexpr Index turned = Index{1} << 31;
+
+  template <class Real>
+  void list(const TriangleMesh<Real>& mesh) {
+    static_assert(reversed == turned);
+    outside_.resize(mesh.face_count());
+    for (Index f = 0; f < outside_.size(); ++f) outside_[f] = mesh.triangles()[f].face;
+    inside_.resize(outside_.size());
+    for (Index f = 0; f < outside_.size(); ++f) inside_[outside_[f] & ~turned] = f;
+    first_ = 1;
+  }
+  template <class Real>
+  void list(const TetMesh<Real>& mesh) {
+    outside_.resize(mesh.tet_count());
+    inside_.resize(outside_.size());
+    for (Index t = 0; t < inside_.size(); ++t) {
+      const auto [at, is_turned] = mesh.inside_tet(t);
+      inside_[t] = at;
+      outside_[at] = is_turned ? t | turned : t;
+    }
+    first_ = 2;
+  }
+  void turn(Weights& w) const { std::swap(w[first_], w[first_ + 1]); }
+
+  std::vector<Index> vertex_, outside_, inside_;
+  std::size_t first_ = 1;  // of the two corners that are exchanged where it is turned
+};
+
+}  // namespace plexway

@@ -1,0 +1,191 @@
+#include <plexway/apps/poisson_disk.hpp>
+
+#include <catch2/catch.hpp>
+#include <set>
+
+#include <plexway/error.hpp>
+
+#include "apps/sampling_testing.hpp"
+#include "data/solid_shapes.hpp"
+
+using namespace plexway;
+using namespace sampling_testing;
+
+namespace {
+
+template <class Real = float>
+std::vector<Point> throw_on(const samples::Shape& shape, const PoissonOptions& options) {
+  const TriangleMesh<Real> mesh(shape.points, shape.faces);
+  const PoissonDisks disks = poisson_disks(Serial{}, mesh, options);
+  CHECK(disks.maximal);
+  return positions(disks.darts, shape.points, shape.faces);
+}
+
+Point noise_in_square(samples::Noise& noise) { return {(noise() + 1) / 2, (noise() + 1) / 2, 0}; }
+
+}  // namespace
+
+TEST_CASE("darts on a square are neither nearer nor farther than the radius") {
+  for (const double radius : {0.05, 0.08, 0.3}) {
+    const auto darts = throw_on(square(60), {.radius = radius, .seed = 3});
+    INFO("radius " << radius << ", " << darts.size() << " darts");
+    CHECK(least_distance(darts, euclid) >= radius * (1 - 1e-3));
+    samples::Noise noise(11);
+    double farthest = 0;
+    for (int n = 0; n < 20000; ++n)
+      farthest = std::max(farthest, nearest(noise_in_square(noise), darts, euclid));
+    CHECK(farthest <= radius * (1 + 1e-5));
+  }
+}
+
+TEST_CASE("triangles larger than the radius are covered all over") {
+  samples::Shape shape;
+  for (const Point& p : {Point{0, 0, 0}, Point{1, 0, 0}, Point{1, 1, 0}, Point{0, 1, 0}})
+    shape.add(p);
+  shape.faces = {{0, 1, 2}, {0, 2, 3}};
+  const auto darts = throw_on(shape, {.radius = 0.06});
+  CHECK(darts.size() > 150);
+  CHECK(least_distance(darts, euclid) >= 0.06 * (1 - 1e-3));
+  samples::Noise noise(12);
+  for (int n = 0; n < 20000; ++n)
+    if (!(nearest(noise_in_square(noise), darts, euclid) <= 0.06 * (1 + 1e-5))) {
+      FAIL_CHECK("a point is not covered");
+      break;
+    }
+}
+
+TEST_CASE("darts on a sphere are neither nearer nor farther than the radius") {
+  const samples::Shape sphere = samples::geodesic_sphere(60);
+  const auto darts = throw_on(sphere, {.radius = 0.2, .seed = 5});
+  CHECK(least_distance(darts, great_circle) >= 0.2 * (1 - 1e-3));
+  samples::Noise noise(13);
+  double farthest = 0;
+  for (int n = 0; n < 20000; ++n)
+    farthest = std::max(farthest, nearest({noise(), noise(), noise()}, darts, great_circle));
+  CHECK(farthest <= 0.2 * (1 + 2e-4));  // the facets are a little inside
+}
+
+TEST_CASE("darts in a cube are neither nearer nor farther than the radius") {
+  samples::Shape cube;
+  for (int i = 0; i < 8; ++i)
+    cube.add(
+        {static_cast<double>(i & 1), static_cast<double>(i >> 1 & 1), static_cast<double>(i >> 2)});
+  cube.tets = {{0, 1, 3, 7}, {0, 3, 2, 7}, {0, 2, 6, 7}, {0, 6, 4, 7}, {0, 4, 5, 7}, {0, 5, 1, 7}};
+  const TetMesh<float> mesh(cube.points, cube.tets);
+  const PoissonDisks disks = poisson_disks(Serial{}, mesh, {.radius = 0.25});
+  const auto darts = positions(disks.darts, cube.points, cube.tets);
+  INFO(darts.size() << " darts");
+  CHECK(least_distance(darts, euclid) >= 0.25 * (1 - 1e-3));
+  samples::Noise noise(14);
+  double farthest = 0;
+  for (int n = 0; n < 20000; ++n)
+    farthest = std::max(farthest, nearest({(noise() + 1) / 2, (noise() + 1) / 2, (noise() + 1) / 2},
+                                          darts, euclid));
+  CHECK(farthest <= 0.25 * (1 + 1e-5));
+}
+
+TEST_CASE("a seed makes the same darts again and another seed other ones") {
+  const samples::Shape shape = square(20);
+  const auto one = throw_on<double>(shape, {.radius = 0.1, .seed = 1});
+  CHECK(one == throw_on<double>(shape, {.radius = 0.1, .seed = 1}));
+  CHECK(one != throw_on<double>(shape, {.radius = 0.1, .seed = 2}));
+  const auto by_face = throw_on<double>(shape, {.radius = 0.1, .order = DartOrder::simplices});
+  CHECK(by_face != one);
+  CHECK(least_distance(by_face, euclid) >= 0.1 * (1 - 1e-3));
+}
+
+TEST_CASE("as many darts as asked for") {
+  const samples::Shape shape = square(40);
+  const TriangleMesh<float> mesh(shape.points, shape.faces);
+  for (const std::size_t count : {1, 7, 100, 500}) {
+    const PoissonDisks disks = poisson_disks(Serial{}, mesh, {.count = count});
+    CHECK(disks.darts.size() == count);
+    const auto darts = positions(disks.darts, shape.points, shape.faces);
+    CHECK(least_distance(darts, euclid) >= disks.radius * (1 - 1e-3));
+  }
+}
+
+TEST_CASE("darts at vertices cover the vertices") {
+  const samples::Shape shape = square(40);
+  for (const double radius : {0.01, 0.033, 0.1}) {  // an edge has about 0.025
+    const TriangleMesh<float> mesh(shape.points, shape.faces);
+    const PoissonDisks disks =
+        poisson_disks(Serial{}, mesh, {.radius = radius, .at_vertices = true});
+    std::set<Index> chosen;
+    for (const PointSource& dart : disks.darts) chosen.insert(dart.vertex);
+    CHECK(chosen.size() == disks.darts.size());
+    CHECK(*chosen.rbegin() < shape.points.size());
+    const auto darts = positions(disks.darts, shape.points, shape.faces);
+    INFO("radius " << radius << ", " << darts.size() << " darts");
+    CHECK(least_distance(darts, euclid) >= radius * (1 - 1e-3));
+    double farthest = 0;
+    for (const Point& p : shape.points) farthest = std::max(farthest, nearest(p, darts, euclid));
+    CHECK(farthest <= radius * (1 + 1e-5));
+  }
+}
+
+TEST_CASE("a spacing makes darts denser where it is smaller") {
+  const samples::Shape shape = square(60);
+  const auto radius_at = [](const Point& p) { return 0.06 * (0.4 + p[0]); };
+  std::vector<double> spacing;
+  for (const Point& p : shape.points) spacing.push_back(0.4 + p[0]);
+  const TriangleMesh<double> mesh(shape.points, shape.faces);
+  const PoissonDisks disks = poisson_disks(Serial{}, mesh, {.radius = 0.06, .spacing = spacing});
+  const auto darts = positions(disks.darts, shape.points, shape.faces);
+  for (std::size_t i = 0; i < darts.size(); ++i)
+    for (std::size_t j = 0; j < i; ++j)
+      if (!(euclid(darts[i], darts[j]) >= radius_at(darts[j]) * (1 - 1e-3)))
+        FAIL_CHECK("darts " << j << " and " << i << " are too near");
+  samples::Noise noise(15);
+  for (int n = 0; n < 10000; ++n) {
+    const Point at = noise_in_square(noise);
+    bool covered = false;
+    for (const Point& dart : darts)
+      covered = covered || euclid(at, dart) <= radius_at(dart) * (1 + 1e-5);
+    if (!covered) FAIL_CHECK("a point is not covered");
+  }
+}
+
+TEST_CASE("darts keep apart along the surface and not through space") {
+  // Two sheets, 0.01 apart, joined far away: a strip folded over.
+  samples::Shape shape;
+  const Index n = 60, m = 20;
+  for (Index i = 0; i <= 2 * n; ++i)
+    for (Index j = 0; j <= m; ++j) {
+      const double s = static_cast<double>(i) / n;
+      const double x = s <= 1 ? s : 2 - s;
+      shape.add({x, static_cast<double>(j) / m / 3, s <= 1 ? 0. : 0.01});
+    }
+  for (Index i = 0; i < 2 * n; ++i)
+    for (Index j = 0; j < m; ++j) {
+      const Index a = i * (m + 1) + j;
+      shape.faces.push_back({a, a + m + 1, a + m + 2});
+      shape.faces.push_back({a, a + m + 2, a + 1});
+    }
+  const auto darts = throw_on(shape, {.radius = 0.12});
+  CHECK(least_distance(darts, euclid) < 0.1);
+  // Unfolded, but for the fold itself.
+  const auto unfolded = [](const Point& a, const Point& b) {
+    const double u = a[2] > 0.005 ? 2 - a[0] : a[0], v = b[2] > 0.005 ? 2 - b[0] : b[0];
+    return std::hypot(u - v, a[1] - b[1]);
+  };
+  CHECK(least_distance(darts, unfolded) >= 0.12 * (1 - 1e-3) - 0.01);
+}
+
+TEST_CASE("darts are refused where options make no sense") {
+  const samples::Shape shape = square(4);
+  const TriangleMesh<float> mesh(shape.points, shape.faces);
+  CHECK_THROWS_AS(poisson_disks(Serial{}, mesh, {}), UsageError);
+  CHECK_THROWS_AS(poisson_disks(Serial{}, mesh, {.radius = 1, .count = 3}), UsageError);
+  CHECK_THROWS_AS(poisson_disks(Serial{}, mesh, {.radius = -1}), UsageError);
+  CHECK_THROWS_AS(poisson_disks(Serial{}, mesh, {.count = 100, .at_vertices = true}), UsageError);
+  const std::vector<double> few = {1, 2};
+  CHECK_THROWS_AS(poisson_disks(Serial{}, mesh, {.radius = 1, .spacing = few}), UsageError);
+  PoissonOptions cancelled{.radius = 0.1};
+  cancelled.progress = [](double) { return false; };
+  CHECK_THROWS_AS(poisson_disks(Serial{}, mesh, cancelled), Cancelled);
+  const std::vector<std::array<Index, 4>> tet = {{0, 1, 2, 3}};
+  const std::vector<std::array<double, 6>> lengths = {{1, 1, 1, 1, 1, 1}};
+  CHECK_THROWS_AS(poisson_disks(Serial{}, TetMesh<float>(4, tet, lengths), {.radius = 1}),
+                  UsageError);
+}
