@@ -133,8 +133,6 @@ TEST_CASE("what this build lacks has its own exit code") {
   const std::string knot = sample("knot.ply");
   check_refused(run_tool({"distance", knot, "-s", "vertex:0", "--as", "cloud"}), 4, "--as ");
   check_refused(run_tool({"info", knot, "--as", "cloud"}), 4, "--as ");
-  check_refused(run_tool({"distance", knot, "-s", "vertex:0", "--executor", "gl"}), 4,
-                "--executor gl");
 }
 
 TEST_CASE("a file name with a line end stays on one line") {

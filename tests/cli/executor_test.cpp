@@ -56,7 +56,7 @@ TEST_CASE("executors and options that do not go together are usage errors") {
     refused({"--executor", "openmp", "--schedule", "priority"}, 2, "--schedule priority");
   else
     refused({"--executor", "openmp"}, 4, "--executor openmp");
-  refused({"--executor", "gl"}, 4, "--executor gl");
+  refused({"--device", "0"}, 2, "--device");
   refused({"--executor", "abacus"}, 2, "abacus");
   refused({"--threads", "2"}, 2, "--threads");
   refused({"--executor", "auto", "--threads", "0"}, 2, "--threads");
