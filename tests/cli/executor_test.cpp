@@ -10,7 +10,7 @@ using namespace cli_testing;
 namespace {
 
 bool has_openmp() {
-  return run_tool({"info", "--devices"}).out.find("openmp\n") != std::string::npos;
+  return run_tool({"info", "--devices"}).out.find("\nopenmp ") != std::string::npos;
 }
 
 Outcome distance(std::vector<std::string> options) {
