@@ -24,6 +24,7 @@ if [ "${QUICK:-0}" = 1 ]; then
   exact="--exact-limit 2000"
   scale="--sizes 5000,20000 $effort"
   solid_sizes="--sizes 8 --sources 2 --repeats 1 --budget 1"
+  gl="--sizes 10000 --batch 8 --repeats 1"
   wires="--size 0.1 --sources 2 --repeats 1 --budget 1"
 else
   effort="--sources 16 --repeats 3"
@@ -31,6 +32,7 @@ else
   scale=""
   solid_sizes="--sizes 12,26,70"
   wires=""
+  gl="--sizes 50000,1000000"
 fi
 
 mkdir -p "$out"
@@ -82,5 +84,8 @@ peers=$bin/bench_cgal
   [ -z "$data" ] || [ ! -d "$data/../solids" ] || solids=$data/../solids
   run solids "$bin/bench_solids" $solids $solid_sizes
   run wireframes "$bin/bench_wireframes" $wires
+  # Only where a device is found.
+  ! "$bin/plexway" info --devices 2>/dev/null | grep -q '^gl [0-9]' ||
+    run gl "$bin/bench_gl" $gl
 }
 echo "$out: $(cd "$out" && ls | tr '\n' ' ')"

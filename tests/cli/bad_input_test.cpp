@@ -131,8 +131,15 @@ TEST_CASE("option values that make no sense are usage errors") {
 
 TEST_CASE("what this build lacks has its own exit code") {
   const std::string knot = sample("knot.ply");
+#ifndef PLEXWAY_HAS_GL
   check_refused(run_tool({"distance", knot, "-s", "vertex:0", "--executor", "gl"}), 4,
                 "--executor gl");
+#endif
+#ifndef PLEXWAY_HAS_FLANN
+  check_refused(run_tool({"distance", knot, "-s", "vertex:0", "--as", "cloud"}), 4, "--as ");
+  check_refused(run_tool({"info", knot, "--as", "cloud"}), 4, "--as ");
+#endif
+  SUCCEED("a build with everything lacks nothing");
 }
 
 TEST_CASE("a file name with a line end stays on one line") {

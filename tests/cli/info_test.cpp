@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <cstdlib>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -19,6 +20,13 @@ nlohmann::json info_of(const std::string& file) {
   REQUIRE(run.code == 0);
   CHECK(run.err.empty());
   return run.json();
+}
+
+// Drivers are other people's code, and not built for that.
+void without_drivers_under_sanitizers() {
+#ifdef PLEXWAY_SANITIZED
+  setenv("__EGL_VENDOR_LIBRARY_FILENAMES", "/none", 1);
+#endif
 }
 
 bool warns_of(const nlohmann::json& info, const std::string& what) {
@@ -90,6 +98,7 @@ TEST_CASE("slender triangles are told from others in any unit") {
 }
 
 TEST_CASE("info lists executors and devices") {
+  without_drivers_under_sanitizers();
   const auto text = run_tool({"info", "--devices"});
   CHECK(text.code == 0);
   CHECK(text.err.empty());
@@ -110,6 +119,7 @@ TEST_CASE("info lists executors and devices") {
 }
 
 TEST_CASE("the gl executor gives what the serial one gives, or says why not") {
+  without_drivers_under_sanitizers();
   const auto json = run_tool({"info", "--devices", "--json"}).json();
   const auto solve = [](std::vector<std::string> more) {
     std::vector<std::string> arguments = {"distance", sample("torus.obj"), "--source", "vertex:7",
@@ -134,7 +144,6 @@ TEST_CASE("the gl executor gives what the serial one gives, or says why not") {
   CHECK(solve({"--executor", "gl", "--precision", "double"}).code == 2);
   CHECK(solve({"--executor", "gl", "--visibility", "tuned"}).code == 2);
   CHECK(solve({"--executor", "gl", "--device", "99"}).code == 2);
-  CHECK(solve({"--device", "0"}).code == 2);
 }
 
 TEST_CASE("help and version go to standard output") {
