@@ -58,7 +58,8 @@ nlohmann::ordered_json measure(const Surface& surface, const Work& work, plexway
   std::vector<float> all(work.batch ? sources.size() * mesh.vertex_count() : 0);
   // In a batch the serial thread solves a few, and is taken to need as long for each of the others.
   const std::size_t few = work.batch ? std::min<std::size_t>(sources.size(), 16) : 1;
-  const double share = static_cast<double>(work.batch ? sources.size() : 1) / few;
+  const double share =
+      static_cast<double>(work.batch ? sources.size() : 1) / static_cast<double>(few);
   const auto serial = [&] {
     for (std::size_t k = 0; k < few; ++k)
       propagate(Serial{}, mesh,

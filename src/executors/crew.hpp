@@ -11,7 +11,6 @@
 #include <plexway/propagate/options.hpp>
 #include <plexway/propagate/workspace.hpp>
 
-#include "executors/alone.hpp"
 #include "executors/rounds.hpp"
 #include "executors/team.hpp"
 #include "propagate/read_out.hpp"
@@ -65,10 +64,9 @@ class TeamCrew {
     team_.over(count, work);
   }
 
-  /// In order.
+  /// In order, and those that are wanted before any is looked at: with any number of threads.
   template <class Wanted, class Look>
   void search(std::size_t count, const Wanted& wanted, const Look& look) const {
-    if (team_.size() == 1) return Alone{}.search(count, wanted, look);
     Index* const found = list();
     std::atomic<std::size_t> number{0};
     team_.over(count, [&](std::size_t begin, std::size_t end) {

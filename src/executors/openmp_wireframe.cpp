@@ -29,7 +29,8 @@ class WireStore {
     if constexpr (kLabels) return source_[v];
     return 0;
   }
-  bool settle(const Offer<Label>& offer) const {
+  template <class Offer>
+  bool settle(const Offer& offer) const {
     const bool known = distance_[offer.simplex] < std::numeric_limits<Real>::infinity();
     distance_[offer.simplex] = OfferKey<Real>::distance(offer.key);
     if constexpr (kLabels) source_[offer.simplex] = offer.tie >> OfferTie::source_shift;

@@ -32,6 +32,7 @@ class Rounds {
   using Front = TeamFront<Real, Store>;
   using Label = typename Store::Label;
   using Key = OfferKey<Real>;
+  using Waiting = typename Front::Waiting;
 
   /// `live` has room for a number a simplex; `step` is the dual queue's, in the unit inside.
   Rounds(const Team& team, TeamRooms& rooms, const Store& store, Index* live, std::size_t simplices,
@@ -43,7 +44,7 @@ class Rounds {
         unit_(unit),
         step_(step),
         key_(rooms.key.reserve<std::uint64_t>(simplices)),
-        tie_(Key::ties_apart ? rooms.tie.reserve<Index>(simplices) : nullptr),
+        tie_(Key::ties_apart ? rooms.tie.reserve<std::uint64_t>(simplices) : nullptr),
         live_(live),
         near_(rooms.near, 64 + simplices / 8),
         far_(rooms.far, 64 + simplices / 8),
@@ -54,7 +55,7 @@ class Rounds {
       hands_.push_back(Hand{Front(store, key_, rooms.hand[2 * i], rooms.hand[2 * i + 1])});
     team.over(simplices, [&](std::size_t begin, std::size_t end) {
       std::fill(key_ + begin, key_ + end, Key::unreached);
-      if constexpr (Key::ties_apart) std::fill(tie_ + begin, tie_ + end, none);
+      if constexpr (Key::ties_apart) std::fill(tie_ + begin, tie_ + end, no_rank);
     });
   }
 
@@ -62,7 +63,7 @@ class Rounds {
   void add(Index s, std::size_t hinge, const Label& label, Real distance, Index source) {
     const Index tie = OfferTie::of(source, hinge);
     key_[s] = Key::of(distance, tie);
-    hands_.front().front.far().add({key_[s], s, tie, label});
+    hands_.front().front.far().add({key_[s], s, tie, round_, label});
     if (hands_.front().front.far().count() > 4096) far_.take_alone(hands_.front().front.far());
   }
   /// The distance of the least offer to a simplex.
@@ -127,9 +128,9 @@ class Rounds {
   /// After it ended early: settles what waits and calls take(simplex) for each.
   template <class Take>
   void hand_over(const Take& take) {
-    for (OfferQueue<Label>* queue : {&near_, &far_}) {
+    for (OfferQueue<Waiting>* queue : {&near_, &far_}) {
       for (std::size_t i = 0; i < queue->count(); ++i) {
-        const Offer<Label>& offer = (*queue)[i];
+        const Waiting& offer = (*queue)[i];
         if (key_[offer.simplex] != offer.key) continue;
         done_.reached_simplices += store_.settle(offer);
         take(offer.simplex);
@@ -142,6 +143,7 @@ class Rounds {
   enum class Phase { contest, settle, expand, done };
   // So many labels, with what their expansion reads, are in a core's cache from round to round.
   static constexpr std::size_t short_front = 8192;
+  static constexpr std::uint64_t no_rank = ~std::uint64_t{0};
 
   struct alignas(64) Hand {
     Front front;
@@ -188,24 +190,24 @@ class Rounds {
     }
   }
 
-  /// Of equal offers in double the one with the least tie wins.
+  /// Of equal offers in double the one with the least rank wins.
   void contest(std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
-      const Offer<Label>& offer = (*queue_)[i];
+      const Waiting& offer = (*queue_)[i];
       if (key_[offer.simplex] != offer.key || offer.key >= limit_) continue;
-      const std::atomic_ref<Index> tie(tie_[offer.simplex]);
-      Index known = tie.load(std::memory_order_relaxed);
-      while (offer.tie < known &&
-             !tie.compare_exchange_weak(known, offer.tie, std::memory_order_relaxed)) {
+      const std::atomic_ref<std::uint64_t> tie(tie_[offer.simplex]);
+      std::uint64_t known = tie.load(std::memory_order_relaxed);
+      while (offer.rank() < known &&
+             !tie.compare_exchange_weak(known, offer.rank(), std::memory_order_relaxed)) {
       }
     }
   }
-  [[nodiscard]] bool wins(const Offer<Label>& offer) const {
+  [[nodiscard]] bool wins(const Waiting& offer) const {
     if constexpr (!Key::ties_apart) return true;
-    const std::atomic_ref<Index> tie(tie_[offer.simplex]);
-    Index known = offer.tie;
+    const std::atomic_ref<std::uint64_t> tie(tie_[offer.simplex]);
+    std::uint64_t known = offer.rank();
     return tie.load(std::memory_order_relaxed) == known &&
-           tie.compare_exchange_strong(known, none, std::memory_order_relaxed);
+           tie.compare_exchange_strong(known, no_rank, std::memory_order_relaxed);
   }
 
   void settle(Hand& hand, std::size_t begin, std::size_t end) {
@@ -223,7 +225,7 @@ class Rounds {
         __builtin_prefetch(&key_[next]);
         store_.prefetch(next);
       }
-      const Offer<Label>& offer = (*queue_)[i];
+      const Waiting& offer = (*queue_)[i];
       if (key_[offer.simplex] != offer.key) continue;  // stale
       if (offer.key >= limit_) {
         hand.nearest = std::min(hand.nearest, offer.key);
@@ -243,7 +245,7 @@ class Rounds {
   template <class Expand>
   void expand_chunk(Hand& hand, Expand& expand, std::size_t begin, std::size_t end) {
     constexpr std::size_t ahead = 4, far_ahead = 8;
-    hand.front.start(limit_, expanding_ < short_front);
+    hand.front.start(round_, limit_, expanding_ < short_front);
     for (std::size_t i = begin; i < std::min(begin + far_ahead, end); ++i)
       expand.far_ahead(live_[i]);
     for (std::size_t i = begin; i < std::min(begin + ahead, end); ++i) expand.ahead(live_[i]);
@@ -266,6 +268,7 @@ class Rounds {
       end_settling();
     } else if (phase_ == Phase::expand) {
       done_.expansions += expanding_;
+      ++round_;
       for (Hand& hand : hands_) {
         near_.take_alone(hand.front.near());
         far_.take_alone(hand.front.far());
@@ -346,16 +349,17 @@ class Rounds {
   double unit_;
   Real step_, distance_ = 0;  // the limit as a distance
   std::uint64_t* key_;
-  Index* tie_;
+  std::uint64_t* tie_;
   Index* live_;
-  OfferQueue<Label> near_, far_, kept_;
+  OfferQueue<Waiting> near_, far_, kept_;
   std::vector<Hand> hands_;
 
   // Changed alone.
   Phase phase_ = Phase::done;
-  OfferQueue<Label>* queue_ = nullptr;  // what is being settled
+  OfferQueue<Waiting>* queue_ = nullptr;  // what is being settled
   std::uint64_t limit_ = 0, nearest_ = Key::unreached;
   std::size_t expanding_ = 0, patience_ = 0, reported_ = 0;
+  std::uint32_t round_ = 0;
   bool stuck_ = false, ended_early_ = false, out_of_budget_ = false;
   PropagateStatistics before_, done_;
 

@@ -33,7 +33,8 @@ class SimplexStore {
   }
 
   /// The label of a simplex from now on. True if it had none.
-  [[gnu::always_inline]] bool settle(const Offer<Label>& offer) const {
+  template <class Offer>
+  [[gnu::always_inline]] bool settle(const Offer& offer) const {
     const Index s = offer.simplex;
     const bool known = reached(s);
     labels_[s] = offer.label;
@@ -62,9 +63,10 @@ class TeamFront : public Store {
  public:
   using Label = typename Store::Label;
   using Key = OfferKey<Real>;
+  using Waiting = Offer<Label, Key::ties_apart>;
 
   TeamFront(const Store& store, std::uint64_t* key, Room& near, Room& far)
-      : Store(store), key_(key), waiting_{OfferList<Label>(near), OfferList<Label>(far)} {}
+      : Store(store), key_(key), waiting_{OfferList<Waiting>(near), OfferList<Waiting>(far)} {}
 
   [[gnu::always_inline]] void accept(Index s, std::size_t hinge, const Label& label, Real distance,
                                      Index source) {
@@ -76,21 +78,24 @@ class TeamFront : public Store {
       if (key > known || (!Key::ties_apart && key == known)) return;
       if (key == known) break;
     } while (!least.compare_exchange_weak(known, key, std::memory_order_relaxed));
-    waiting_[key >= limit_].add({key, s, tie, label});
+    waiting_[key >= limit_].add({key, s, tie, round_, label});
   }
 
-  OfferList<Label>& near() { return waiting_[0]; }
-  OfferList<Label>& far() { return waiting_[1]; }
+  OfferList<Waiting>& near() { return waiting_[0]; }
+  OfferList<Waiting>& far() { return waiting_[1]; }
   [[nodiscard]] bool expands_soon() const { return short_; }
   /// Before each round: offers beyond the limit wait apart; is the front so short that what is
   /// fetched in this round is still there in the next?
-  void start(std::uint64_t limit, bool is_short) { limit_ = limit, short_ = is_short; }
+  void start(std::uint32_t round, std::uint64_t limit, bool is_short) {
+    round_ = round, limit_ = limit, short_ = is_short;
+  }
 
  private:
   std::uint64_t* key_;
   std::uint64_t limit_ = 0;
+  std::uint32_t round_ = 0;
   bool short_ = true;
-  OfferList<Label> waiting_[2];
+  OfferList<Waiting> waiting_[2];
 };
 
 }  // namespace plexway

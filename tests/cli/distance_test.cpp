@@ -80,7 +80,7 @@ TEST_CASE("the JSON of distance has its keys, in order") {
   for (const auto& item : json.items()) keys.push_back(item.key());
   CHECK(keys == std::vector<std::string>{"input", "kind", "vertices", "simplices", "components",
                                          "seconds", "reached", "unreached", "max_distance",
-                                         "expansions", "updates", "executor"});
+                                         "expansions", "updates", "executor", "threads"});
   CHECK(json["input"] == sample("knot.ply"));
   CHECK(json["kind"] == "surface");
   CHECK(json["vertices"] == 5120);
@@ -92,6 +92,7 @@ TEST_CASE("the JSON of distance has its keys, in order") {
   CHECK(json["expansions"].get<std::size_t>() > 10000);
   CHECK(json["updates"].get<std::size_t>() > 10000);
   CHECK(json["executor"] == "serial");
+  CHECK(json["threads"] == 1);
   for (const char* phase : {"load", "build", "solve"}) {
     CHECK(json["seconds"][phase].get<double>() >= 0);
   }

@@ -105,6 +105,26 @@ TEST_CASE("what does not fit on the device is refused with the limit", "[gl]") {
   front.release(session);
 }
 
+TEST_CASE("a surface too large for the device is refused with the limit", "[gl]") {
+  const auto context = device();
+  if (!context) return;
+  const auto side = static_cast<Index>(std::sqrt(double(context->limits().block) / 64 / 2)) + 2;
+  if (side > 1200) {
+    WARN("skipped: this device takes more triangles than a test should make");
+    return;
+  }
+  const auto mesh = grid(side, side).mesh<float>();
+  std::string message;
+  try {
+    (void)propagate(GL{}, mesh, PointSource::at(0));
+  } catch (const NotBuiltError& error) {
+    message = error.what();
+  }
+  INFO(message);
+  CHECK(message.find("triangles") != std::string::npos);
+  CHECK(message.find("GL_MAX_SHADER_STORAGE_BLOCK_SIZE") != std::string::npos);
+}
+
 TEST_CASE("what context was current stays so, and threads take turns", "[gl]") {
   if (!device()) return;
   const auto mesh = grid(12, 12).mesh<float>();

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <concepts>
 #include <cstddef>
 #include <span>
 
@@ -44,7 +45,7 @@ struct OpenMP {
 /// nearest label), for less than one thread or an empty chunk; NotBuiltError in a build without
 /// OpenMP. The progress callback is called by the calling thread.
 /// Memory in float, beyond Serial's: 8 bytes a simplex, and 48 (surfaces) to 64 (solids) for each
-/// label that waits; in double 12, and about twice that.
+/// label that waits; in double 16, and about twice that.
 template <class Real>
 void propagate(const OpenMP& executor, const TriangleMesh<Real>& mesh,
                std::span<const PointSource> sources, const PropagateOptions& options,
@@ -85,11 +86,8 @@ template <class Domain>
   return propagate(executor, domain, std::span<const PointSource>(&source, 1), options);
 }
 
-/// What needs order needs one thread.
-template <class Domain, class Sources>
-void propagate(const OpenMP&, const Domain&, const Sources&, const NearestFirst&) = delete;
-template <class Domain, class W, class F>
-void propagate(const OpenMP&, const Domain&, std::span<const PointSource>, const NearestFirst&, W&,
-               F&) = delete;
+/// What needs order needs one thread: a type that says so is refused by the compiler.
+template <class Domain, class Sources, std::derived_from<NearestFirst> Options, class... Rest>
+void propagate(const OpenMP&, const Domain&, const Sources&, const Options&, Rest&&...) = delete;
 
 }  // namespace plexway

@@ -33,8 +33,13 @@ class Buffer {
     session.gl.GenBuffers(1, &name_);
     session.gl.BindBuffer(GL_SHADER_STORAGE_BUFFER, name_);
     const std::size_t wanted = bytes < 16 ? 16 : bytes;
-    session.gl.BufferData(GL_SHADER_STORAGE_BUFFER, static_cast<GLsizeiptr>(wanted), nullptr,
-                          GL_DYNAMIC_COPY);
+    const auto size = static_cast<GLsizeiptr>(wanted);
+    // Immutable storage stays on the device; the other kind some drivers move to where the
+    // processor reads it.
+    if (session.gl.BufferStorage != nullptr)
+      session.gl.BufferStorage(GL_SHADER_STORAGE_BUFFER, size, nullptr, GL_DYNAMIC_STORAGE_BIT);
+    else
+      session.gl.BufferData(GL_SHADER_STORAGE_BUFFER, size, nullptr, GL_DYNAMIC_COPY);
     if (session.gl.GetError() != GL_NO_ERROR) {
       release(session);
       throw NotBuiltError("the GL device has no room for " + size_of(bytes) + " of " + what_);

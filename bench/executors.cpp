@@ -1,0 +1,162 @@
+// OpenMP against Serial: one field from many sources on a large surface, a batch of fields, and
+// what the size of a chunk does.
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <iostream>
+#include <memory>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include <plexway/executors/field.hpp>
+
+#include "compare.hpp"
+
+namespace {
+
+using plexway::OpenMP;
+using plexway::PointSource;
+using plexway::Serial;
+
+struct Settings {
+  std::size_t vertices = 1'000'000, batch_vertices = 50'000;
+  std::vector<std::size_t> sources = {1, 1000};
+  std::size_t batch = 64, repeats = 5;
+  std::vector<int> threads;
+  std::vector<std::size_t> chunks = {16, 32, 64, 128, 256, 512, 1024, 4096};
+};
+
+std::vector<PointSource> sources_on(const bench::Surface& surface, std::size_t count) {
+  std::vector<PointSource> sources;
+  for (const bench::Index v : bench::rotating_sources(surface, count))
+    sources.push_back(PointSource::at(v));
+  return sources;
+}
+
+/// Seconds of each of `works`, the least of `repeats`; they take turns, so that all see the same
+/// machine.
+std::vector<double> take_turns(std::size_t repeats,
+                               const std::vector<std::function<void()>>& works) {
+  std::vector<double> least(works.size(), 1e300);
+  for (std::size_t r = 0; r < repeats; ++r)
+    for (std::size_t i = 0; i < works.size(); ++i)
+      least[i] = std::min(least[i], bench::seconds(works[i]));
+  return least;
+}
+
+std::string named(const std::string& what, int threads) {
+  return what + ", " + std::to_string(threads) + (threads == 1 ? " thread" : " threads");
+}
+
+template <class Real>
+void measure_field(const bench::Surface& surface, const Settings& settings, std::size_t count,
+                   const std::vector<std::pair<std::string, OpenMP>>& teams, bench::Table& table) {
+  const plexway::TriangleMesh<Real> mesh(surface.positions, surface.faces);
+  const auto sources = sources_on(surface, count);
+  plexway::Workspace<Real> workspace;
+  plexway::DistanceField<Real> field;
+  std::vector<std::size_t> expansions(teams.size() + 1);
+  std::vector<std::function<void()>> works = {[&] {
+    propagate(Serial{}, mesh, sources, {}, workspace, field);
+    expansions[0] = field.statistics.expansions;
+  }};
+  for (std::size_t i = 0; i < teams.size(); ++i)
+    works.push_back([&, i] {
+      propagate(teams[i].second, mesh, sources, {}, workspace, field);
+      expansions[i + 1] = field.statistics.expansions;
+    });
+  const auto seconds = take_turns(settings.repeats, works);
+  for (std::size_t i = 0; i < works.size(); ++i)
+    table.add({{"what", "field, " + std::to_string(count) + " sources"},
+               {"vertices", surface.positions.size()},
+               {"executor", i == 0 ? "Serial" : teams[i - 1].first},
+               {"ms", 1e3 * seconds[i]},
+               {"speed", seconds[0] / seconds[i]},
+               {"expansions",
+                static_cast<double>(expansions[i]) / static_cast<double>(surface.faces.size())}});
+}
+
+template <class Real>
+void measure_batch(const bench::Surface& surface, const Settings& settings, bench::Table& table) {
+  const plexway::TriangleMesh<Real> mesh(surface.positions, surface.faces);
+  const auto list = sources_on(surface, settings.batch);
+  const std::span<const PointSource> sources(list);
+  std::vector<std::function<void()>> works = {[&] { (void)fields(Serial{}, mesh, sources); }};
+  for (const int threads : settings.threads)
+    works.push_back([&, threads] { (void)fields(OpenMP{.threads = threads}, mesh, sources); });
+  const auto seconds = take_turns(settings.repeats, works);
+  for (std::size_t i = 0; i < works.size(); ++i)
+    table.add({{"what", "batch of " + std::to_string(settings.batch)},
+               {"vertices", surface.positions.size()},
+               {"executor", i == 0 ? "Serial" : named("OpenMP", settings.threads[i - 1])},
+               {"ms", 1e3 * seconds[i]},
+               {"speed", seconds[0] / seconds[i]}});
+}
+
+template <class Real>
+void measure_all(const Settings& settings, bench::Table& table) {
+  const bench::Surface large = bench::bumpy_surface(settings.vertices);
+  std::vector<std::pair<std::string, OpenMP>> teams;
+  for (const int threads : settings.threads)
+    teams.push_back({named("OpenMP", threads), OpenMP{.threads = threads}});
+  for (const std::size_t count : settings.sources) {
+    std::cerr << "field from " << count << " sources" << std::endl;
+    measure_field<Real>(large, settings, count, teams, table);
+  }
+  std::cerr << "batch" << std::endl;
+  measure_batch<Real>(bench::bumpy_surface(settings.batch_vertices), settings, table);
+  if (settings.chunks.empty()) return;
+  std::cerr << "chunks" << std::endl;
+  teams.clear();
+  for (const std::size_t chunk : settings.chunks)
+    teams.push_back({named("OpenMP", settings.threads.back()) + ", chunk " + std::to_string(chunk),
+                     OpenMP{.threads = settings.threads.back(), .chunk = chunk}});
+  for (const std::size_t count : settings.sources)
+    measure_field<Real>(large, settings, count, teams, table);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  Settings settings;
+  bench::Report report;
+  bool double_precision = false;
+  CLI::App app("OpenMP against Serial: one table");
+  app.add_option("--vertices", settings.vertices, "Of the surface that one field is solved on")
+      ->capture_default_str();
+  app.add_option("--batch-vertices", settings.batch_vertices, "Of the surface of the batch")
+      ->capture_default_str();
+  app.add_option("--sources", settings.sources, "Of one field")
+      ->delimiter(',')
+      ->capture_default_str();
+  app.add_option("--batch", settings.batch, "Fields in the batch")->capture_default_str();
+  app.add_option("--repeats", settings.repeats, "Turns; the least time counts")
+      ->capture_default_str();
+  app.add_option("--threads", settings.threads, "Teams (default: 1 and one a core)")
+      ->delimiter(',');
+  app.add_option("--chunks", settings.chunks, "Chunks for the last team; none leaves that out")
+      ->delimiter(',')
+      ->expected(0, -1)
+      ->capture_default_str();
+  app.add_flag("--double", double_precision, "Double instead of float");
+  report.add_options(app);
+  CLI11_PARSE(app, argc, argv);
+  if (settings.threads.empty())
+    settings.threads = {1, static_cast<int>(std::max(std::thread::hardware_concurrency(), 1u))};
+
+  bench::Table table({{"what", "what"},
+                      {"vertices", "vertices"},
+                      {"executor", "executor"},
+                      {"ms", "ms", "%.1f"},
+                      {"speed", "times Serial", "%.2f"},
+                      {"expansions", "expansions a face", "%.3f"}});
+  try {
+    double_precision ? measure_all<double>(settings, table) : measure_all<float>(settings, table);
+    report.write(table);
+  } catch (const std::exception& error) {
+    std::cerr << error.what() << '\n';
+    return 1;
+  }
+  return 0;
+}

@@ -1,0 +1,238 @@
+#include <catch2/catch.hpp>
+
+#include <thread>
+#include <type_traits>
+
+#include <plexway/error.hpp>
+#include <plexway/executors/openmp.hpp>
+
+#include "complex/test_wires.hpp"
+#include "executors/parity.hpp"
+#include "propagate/simplex_testing.hpp"
+#include "propagate/solid_solving.hpp"
+#include "propagate/solving.hpp"
+
+using namespace plexway;
+using namespace plexway::testing;
+
+namespace {
+
+// The same bits whatever the number of threads, the chunk, and what the workspace did before.
+template <class Domain>
+void check_same_bits(const Domain& domain, const PropagateOptions& options, unsigned seed) {
+  WorkspaceOf<Domain> workspace;
+  DistanceField<RealOf<Domain>> first, field;
+  for (const std::size_t count : {1, 6}) {
+    const auto sources = random_sources(domain, count, seed);
+    propagate(team(1), domain, sources, options, workspace, first);
+    for (const OpenMP& executor : {team(2), team(8), OpenMP{2, 1}, OpenMP{3, 1000}}) {
+      propagate(executor, domain, sources, options, workspace, field);
+      CHECK(same_bits(first, field));
+    }
+    propagate(Serial{}, domain, sources, options, workspace, field);
+    propagate(team(2), domain, sources, options, workspace, field);
+    CHECK(same_bits(first, field));
+  }
+}
+
+std::vector<Surface> surfaces() {
+  std::vector<Surface> all = {grid(24, 24),
+                              grid(40, 12, 3, 1),
+                              slit_square(12),
+                              cube(8),
+                              sphere(4),
+                              prism(24, 12, 2),
+                              moebius(60, 8),
+                              sheets(3, 8),
+                              bow_tie(10),
+                              soup(60, 120, 1),
+                              soup(80, 60, 2),
+                              tetrahedron(),
+                              subdivide(tetrahedron())};
+  for (unsigned seed = 1; seed <= 4; ++seed) all.push_back(random_polygon(6, 120, 120, seed));
+  return all;
+}
+
+}  // namespace
+
+TEMPLATE_TEST_CASE("any number of threads gives the same bits on surfaces", "[threads]", float,
+                   double) {
+  unsigned seed = 0;
+  for (const Surface& s : surfaces())
+    for (const Visibility visibility : visibilities)
+      for (const Schedule schedule : {Schedule::dual_queue, Schedule::fifo}) {
+        if (schedule == Schedule::fifo && visibility != Visibility::saddles) continue;
+        PropagateOptions options;
+        options.visibility = visibility;
+        options.schedule = schedule;
+        INFO("surface " << seed << " " << name(options));
+        check_same_bits(s.mesh<TestType>(), options, ++seed);
+      }
+}
+
+TEMPLATE_TEST_CASE("any number of threads gives the same bits in solids", "[threads]", float,
+                   double) {
+  unsigned seed = 0;
+  for (const Solid& s :
+       {solid_cube(5), l_shape(4), walled(6), edge_touch(3), vertex_touch(3), walled(4, 0)})
+    for (const Visibility visibility : solid_visibilities) {
+      PropagateOptions options;
+      options.visibility = visibility;
+      INFO("solid " << seed << " " << name(options));
+      check_same_bits(s.mesh<TestType>(), options, ++seed);
+    }
+}
+
+TEMPLATE_TEST_CASE("any number of threads gives the same bits elsewhere", "[threads]", float,
+                   double) {
+  for (unsigned seed = 1; seed <= 4; ++seed)
+    check_same_bits(random_wires(seed, 500, 1200, 0.7 * seed).wireframe<TestType>(), {}, seed);
+  check_same_bits(cube_grid<2>(12).template complex<TestType>(), {}, 2);
+  check_same_bits(cube_grid<3>(5, 3).template complex<TestType>(), {}, 3);
+  check_same_bits(cube_grid<4>(3).template complex<TestType>(), {}, 4);
+}
+
+TEST_CASE("200 solves on eight threads are one", "[threads]") {
+  const auto mesh = sphere(4).mesh<float>();
+  const auto sources = random_sources(mesh, 5, 1);
+  Workspace<float> workspace;
+  DistanceField<float> first, field;
+  propagate(team(8), mesh, sources, {}, workspace, first);
+  std::size_t others = 0;
+  for (int i = 0; i < 200; ++i) {
+    propagate(team(8), mesh, sources, {}, workspace, field);
+    others += !same_bits(first, field);
+  }
+  CHECK(others == 0);
+}
+
+TEST_CASE("queues grow when every vertex is a source", "[threads]") {
+  const auto mesh = grid(40, 40).mesh<float>();
+  std::vector<PointSource> sources;
+  for (Index v = 0; v < mesh.vertex_count(); ++v) sources.push_back(PointSource::at(v));
+  for (const int threads : {1, 8}) {
+    const auto field = propagate(team(threads), mesh, sources);
+    bool own = true;
+    for (Index v = 0; v < mesh.vertex_count(); ++v)
+      own = own && field.distance[v] == 0 && field.label[v] == v;
+    CHECK(own);
+  }
+  // Offsets that no source beats: all wait far apart, most in vain.
+  std::mt19937 random(3);
+  for (PointSource& s : sources) s.offset = 100 * uniform(random);
+  sources[7].offset = 0;
+  const auto field = propagate(team(8), mesh, sources);
+  CHECK(parity(propagate(Serial{}, mesh, sources), field).worst < 1e-5);
+}
+
+TEST_CASE("a team keeps radius, offsets and sources inside triangles", "[threads]") {
+  const Surface s = grid(30, 30);
+  const auto mesh = s.mesh<double>();
+  PropagateOptions options;
+  options.radius = 0.3;
+  const PointSource sources[] = {
+      {.vertex = 100, .offset = 0.05}, PointSource::in(700, {.2, .3, .5}), PointSource::at(900)};
+  const auto alone = propagate(Serial{}, mesh, sources, options);
+  const auto field = propagate(team(4), mesh, sources, options);
+  CHECK(field.distance[100] == 0.05);
+  const Parity p = parity(alone, field);
+  CHECK(p.reached_by_one == 0);
+  CHECK(p.worst < 1e-12);
+  std::size_t beyond = 0;
+  for (const double d : field.distance) beyond += std::isinf(d);
+  CHECK(beyond > 100);
+  for (std::size_t v = 0; v < field.distance.size(); ++v)
+    CHECK((field.label[v] == none) == std::isinf(field.distance[v]));
+}
+
+TEST_CASE("a team stops where it is told", "[threads]") {
+  const auto mesh = grid(60, 60).mesh<float>();
+  PropagateOptions options;
+  const auto whole = propagate(team(4), mesh, PointSource::at(0), options);
+  CHECK(whole.complete);
+  for (const std::size_t most : {0, 1, 100, 3000}) {
+    options.max_expansions = most;
+    const auto field = propagate(team(4), mesh, PointSource::at(0), options);
+    CHECK(!field.complete);
+    CHECK(field.statistics.expansions == most);
+    CHECK(field.distance[0] == 0);
+    bool no_less = true;
+    for (std::size_t v = 0; v < field.distance.size(); ++v)
+      no_less = no_less && field.distance[v] >= whole.distance[v] * (1 - 1e-5f);
+    CHECK(no_less);
+  }
+  options.max_expansions = whole.statistics.expansions;
+  CHECK(same_bits(whole, propagate(team(4), mesh, PointSource::at(0), options)));
+}
+
+TEST_CASE("a team reports to the calling thread and can be cancelled", "[threads]") {
+  const auto mesh = grid(200, 200).mesh<float>();
+  PropagateOptions options;
+  const auto caller = std::this_thread::get_id();
+  std::size_t calls = 0, last = 0;
+  bool in_order = true;
+  options.progress = [&](const Progress& p) {
+    ++calls;
+    in_order = in_order && std::this_thread::get_id() == caller && p.expansions > last &&
+               p.simplices == mesh.face_count() && p.reached <= p.simplices && p.distance > 0;
+    last = p.expansions;
+    return true;
+  };
+  const auto whole = propagate(team(4), mesh, PointSource::at(0), options);
+  CHECK(calls >= 1);
+  CHECK(in_order);
+
+  Workspace<float> workspace;
+  DistanceField<float> field;
+  const PointSource source[] = {PointSource::at(0)};
+  options.progress = [](const Progress&) { return false; };
+  CHECK_THROWS_AS(propagate(team(4), mesh, source, options, workspace, field), Cancelled);
+  struct Own {};
+  options.progress = [](const Progress&) -> bool { throw Own{}; };
+  CHECK_THROWS_AS(propagate(team(4), mesh, source, options, workspace, field), Own);
+  options.progress = nullptr;
+  propagate(team(4), mesh, source, options, workspace, field);
+  CHECK(same_bits(whole, field));
+}
+
+TEST_CASE("a team refuses what needs order, and settings that make no sense", "[threads]") {
+  const auto mesh = grid(3, 3).mesh<float>();
+  PropagateOptions options;
+  options.schedule = Schedule::priority;
+  const auto refused = [&](const OpenMP& executor, const auto& domain,
+                           const PropagateOptions& with = {}) {
+    CHECK_THROWS_AS(propagate(executor, domain, PointSource::at(0), with), UsageError);
+  };
+  refused({}, mesh, options);
+  refused({}, solid_cube(1).mesh<float>(), options);
+  refused({}, random_wires(1, 10, 20).wireframe<float>(), options);
+  refused({}, cube_grid<2>(2).complex<float>(), options);
+  refused({.threads = -1}, mesh);
+  refused({.threads = 1 << 20}, mesh);
+  refused({.chunk = 0}, mesh);
+  options = {};
+  options.visibility = Visibility::tuned;
+  refused({}, solid_cube(1).mesh<float>(), options);
+  CHECK_THROWS_AS(propagate(OpenMP{}, mesh, PointSource::at(99)), UsageError);
+  CHECK_THROWS_AS(propagate(OpenMP{}, mesh, std::span<const PointSource>{}), UsageError);
+
+  MixedComplex<float> mixed;
+  mixed.add(grid(3, 3).mesh<float>());
+  mixed.add(grid(2, 2).mesh<float>());
+  refused({}, mixed);
+}
+
+// What needs order is refused by the compiler where the type says so.
+template <class Executor, class Options>
+concept Propagates = requires(const TriangleMesh<float>& mesh, Workspace<float>& workspace,
+                              DistanceField<float>& field, std::span<const PointSource> sources,
+                              Executor executor, Options options) {
+  propagate(executor, mesh, sources, options, workspace, field);
+  propagate(executor, mesh, sources, options);
+};
+static_assert(Propagates<Serial, PropagateOptions> && Propagates<Serial, NearestFirst>);
+static_assert(Propagates<OpenMP, PropagateOptions> && !Propagates<OpenMP, NearestFirst>);
+
+TEST_CASE("nearest first is a schedule", "[threads]") {
+  CHECK(NearestFirst{}.schedule == Schedule::priority);
+}
