@@ -109,8 +109,6 @@ class ShapeSolver final : public Solver {
 #ifdef PLEXWAY_HAS_GL
     if constexpr (!std::is_same_v<Real, float>)
       throw UsageError("--executor gl computes in single precision: use --precision float");
-    else if constexpr (std::is_same_v<Shape, io::Tets>)
-      throw UsageError("--executor gl knows surfaces and wireframes only: use another executor");
     else
       propagate(executor, complex_, sources, options, gl_workspace_, field_);
 #endif

@@ -140,7 +140,7 @@ void propagate(const GL&, const Domain&, std::span<const PointSource>, const Nea
                F&) = delete;
 
 /// K fields: row k has the distance of every vertex from source k *alone*, all in as few launches
-/// as GL::batch_bytes allows (`propagate_each`). For surfaces and wireframes.
+/// as GL::batch_bytes allows (`propagate_each`).
 template <class Domain>
 [[nodiscard]] Fields<float> fields(const GL& executor, const Domain& domain,
                                    std::span<const PointSource> sources,
