@@ -81,7 +81,7 @@ void run_cvt(const CvtCommand& command) {
   check_output_name(command.dual, command.input, surface_file_extensions());
 
   ProgressLine progress(command.quiet);
-  const Domain domain = Domain::load(command.input, command.as, command.fill, progress);
+  const Domain domain = Domain::load(command.input, command.as, command.fill, {}, progress);
   const auto* surface = std::get_if<io::Triangles>(&domain.shape());
   if (!command.dual.empty() && surface == nullptr)
     throw UsageError("--dual: only a surface has a dual triangulation here");

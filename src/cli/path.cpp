@@ -125,7 +125,7 @@ Json to_json(const PathCommand& command, const Domain& domain, const Outcome& ou
   json["seconds"]["trace"] = outcome.trace;
   json["expansions"] = outcome.statistics.expansions;
   json["updates"] = outcome.statistics.updates;
-  json["executor"] = command.solve.executor;
+  json["executor"] = "serial";
   return json;
 }
 
@@ -153,7 +153,9 @@ std::string to_text(const PathCommand& command, const Domain& domain, const Outc
 void run_path(const PathCommand& command) {
   const PropagateOptions options = propagate_options(command.solve);
   const Precision precision = precision_of(command.solve);
-  require_executor(command.solve);
+  if (command.solve.executor.name != "serial" && command.solve.executor.name != "auto")
+    throw UsageError("--executor '" + command.solve.executor.name +
+                     "': paths are traced on what one thread leaves; choose serial");
   const std::vector<SourceArgument> from = parse_sources(command.from, "from");
   const std::vector<SourceArgument> to = parse_sources(command.to, "to");
   check_output_name(command.out, command.input, io::path_extensions());
@@ -161,7 +163,9 @@ void run_path(const PathCommand& command) {
     throw UsageError("--astar knows the default visibility only");
 
   ProgressLine progress(command.quiet);
-  const Domain domain = Domain::load(command.input, command.as, command.fill, progress);
+  const Domain domain = Domain::load(command.input, command.as, command.fill, {}, progress);
+  if (domain.cloud() != nullptr)
+    throw InputError(command.input + ": is a cloud of points: paths need a mesh or a wireframe");
   if (command.astar && domain.kind() != "surface")
     throw UsageError("--astar: a " + std::string(domain.kind()) +
                      " is solved as a whole; A* is for surfaces");
@@ -170,9 +174,12 @@ void run_path(const PathCommand& command) {
   const Outcome outcome = with_file_name(domain, [&] {
     return std::visit(
         [&](const auto& shape) {
-          if (precision == Precision::single)
+          if constexpr (std::is_same_v<std::decay_t<decltype(shape)>, Cloud>)
+            return Outcome();
+          else if (precision == Precision::single)
             return find_paths<float>(shape, command, sources, targets, options, progress);
-          return find_paths<double>(shape, command, sources, targets, options, progress);
+          else
+            return find_paths<double>(shape, command, sources, targets, options, progress);
         },
         domain.shape());
   });

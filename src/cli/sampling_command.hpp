@@ -35,7 +35,7 @@ void add_sampling_options(CLI::App& app, SamplingCommand& command, const char* o
 /// Throws UsageError where the precision does not exist.
 Precision precision_of(const SamplingCommand& command);
 
-/// Calls `use(complex)` with the surface or the solid; throws InputError for a wireframe.
+/// Calls `use(complex)` with the surface or the solid; throws InputError for another kind.
 template <class Use>
 void with_complex(const Domain& domain, Precision precision, Use use) {
   with_file_name(domain, [&] {
@@ -49,7 +49,7 @@ void with_complex(const Domain& domain, Precision precision, Use use) {
             else if constexpr (std::is_same_v<Shape, io::Tets>)
               use(TetMesh<Real>(shape.positions, shape.tets));
             else
-              throw InputError("is a wireframe: points are chosen on surfaces and in solids");
+              throw InputError("is no surface and no solid: points are chosen on those");
           };
           precision == Precision::single ? build(float{}) : build(double{});
         },
