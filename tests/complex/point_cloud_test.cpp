@@ -102,9 +102,18 @@ TEST_CASE("given normals keep sheets apart that are closer than the points") {
   options.normals = normals;
   const Neighbours near = test_clouds::near_pairs(points);
   CHECK(PointCloud<double>(points, near, options).summary().components == 2);
-  normals[3] = {0, 0, 0};  // unknown
-  normals[4] = {std::numeric_limits<double>::quiet_NaN(), 0, 0};
-  CHECK_NOTHROW(PointCloud<double>(points, near, options));
+}
+
+TEST_CASE("normals that are not known follow those around") {
+  const auto cloud = samples::sphere_cloud(1000);
+  Points normals = cloud.points;  // of the unit sphere
+  for (std::size_t i = 0; i < 300; ++i) normals[3 * i] = {0, 0, 0};
+  normals[1] = {std::numeric_limits<double>::quiet_NaN(), 0, 0};
+  CloudOptions options;
+  options.normals = normals;
+  const PointCloud<double> sphere(cloud.points, test_clouds::near_pairs(cloud.points), options);
+  CHECK(sphere.summary().triangles == 2 * 1000 - 4);
+  CHECK(sphere.summary().refused_pairs == 0);
 }
 
 TEST_CASE("duplicates collapse to one place") {

@@ -33,7 +33,7 @@ struct CloudOptions {
   /// Holes that a circle of so many spacings fits in stay holes.
   double widest_circle = 3;
   /// The same at the boundary of the cloud, where chance leaves no such voids.
-  double widest_boundary_circle = 1.3;
+  double widest_boundary_circle = 1.15;
   int threads = 0;  ///< 0: as many as the machine has
   /// Called with the share that is done; returning false stops with Cancelled.
   std::function<bool(double share)> progress = {};
