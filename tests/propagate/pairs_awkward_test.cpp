@@ -20,7 +20,7 @@ TEMPLATE_TEST_CASE("vertex pairs: points in a row are a path", "", float, double
   std::vector<Position> row;
   for (int i = 0; i < 50; ++i) row.push_back({i * 1.0 + (i % 3) * .1, 2.0 * i, 0});
   for (auto& p : row) p[1] = 2 * p[0];
-  for (const std::size_t k : {1, 2, 5, 60}) {
+  for (const std::size_t k : {1u, 2u, 5u, 60u}) {
     const auto d = solve(pairs_of<TestType>(row, k), PointSource::at(10));
     for (std::size_t i = 0; i < row.size(); ++i) {
       const double truth = std::sqrt(5) * std::abs(row[i][0] - row[10][0]);
@@ -77,7 +77,7 @@ TEST_CASE("vertex pairs: duplicates are one place, whatever their neighbours say
   }
   const PointPairs<double> pairs(points, lists);
   CHECK(pairs.summary().distinct == 1200);
-  for (const Index source : {30, 1210}) {  // the same place
+  for (const Index source : {30u, 1210u}) {  // the same place
     const auto d = solve(pairs, PointSource::at(source));
     for (std::size_t i = 0; i < points.size(); ++i)
       REQUIRE(d[i] == base[i < 1200 ? i : 3 * (i - 1200)]);

@@ -65,7 +65,7 @@ TEMPLATE_TEST_CASE("vertex pairs: plane, sphere, cylinder and roll in closed for
 TEST_CASE("vertex pairs: distances on a sphere get better with density, faster than the spacing") {
   double mean[2] = {0, 0};
   for (const int fine : {0, 1})
-    for (const std::uint64_t seed : {11, 12, 13}) {
+    for (const std::uint64_t seed : {11u, 12u, 13u}) {
       const SampledCloud cloud = sphere_cloud(fine ? 8000 : 2000, 0, seed);
       const PointPairs<float> pairs(cloud.points, all_pairs_neighbours(cloud.points));
       mean[fine] +=
@@ -117,7 +117,7 @@ TEST_CASE("vertex pairs: every source alone against all at once") {
   const SampledCloud cloud = sphere_cloud(1500);
   const PointPairs<double> pairs(cloud.points, all_pairs_neighbours(cloud.points));
   std::vector<PointSource> sources;
-  for (const Index s : {5, 200, 760, 1400, 3}) sources.push_back(PointSource::at(s));
+  for (const Index s : {5u, 200u, 760u, 1400u, 3u}) sources.push_back(PointSource::at(s));
   sources[1].offset = .3;
   sources.push_back(PointSource::at(200));
   const auto field = propagate(Serial{}, pairs, sources);
@@ -192,9 +192,9 @@ TEST_CASE("vertex pairs: a permutation, a turn, a shift and another unit change 
   for (double& d : exactly) d /= 4;
   CHECK(exactly == base);
 
-  std::vector<Position> reversed(cloud.points.rbegin(), cloud.points.rend());
-  const auto back =
-      solve(PointPairs<float>(reversed, all_pairs_neighbours(reversed)), PointSource::at(2499));
+  std::vector<Position> turned_round(cloud.points.rbegin(), cloud.points.rend());
+  const auto back = solve(PointPairs<float>(turned_round, all_pairs_neighbours(turned_round)),
+                          PointSource::at(2499));
   for (std::size_t i = 0; i < base.size(); ++i)
     REQUIRE(back[2499 - i] == Approx(base[i]).margin(.3 * cloud.spacing));
 }

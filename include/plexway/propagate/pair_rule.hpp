@@ -162,7 +162,6 @@ class PairRule {
               Index last) {
     const PairPlace<Real> at = places_[c];
     const Real here = distance_[c], reach2 = std::abs(at.reach2);
-    const bool edge = std::signbit(at.reach2);
     Index ahead[batch];
     std::size_t count = 0;
     for (Index k = first; k < last; ++k) {
@@ -181,9 +180,10 @@ class PairRule {
         const Vector e = {to.x - sides[s].end.x, to.y - sides[s].end.y, to.z - sides[s].end.z};
         const Real q2 = dot(e, e);
         across[s][candidates[s]] = {x, c2[i], q2};
-        const bool at_boundary = edge | std::signbit(to.reach2) | std::signbit(sides[s].end.reach2);
-        candidates[s] += (q2 <= (at_boundary ? reach2 * near_boundary : reach2)) &
-                         (dot(d, sides[s].inward) <= 0) & (x != sides[s].q);
+        const bool at_boundary = std::min({at.reach2, to.reach2, sides[s].end.reach2}) < 0;
+        const bool near = q2 <= (at_boundary ? reach2 * near_boundary : reach2);
+        const bool beyond = dot(d, sides[s].inward) <= 0, other = x != sides[s].q;
+        candidates[s] += near & beyond & other;
       }
     }
     for (std::size_t s = 0; s < sides.size(); ++s)
