@@ -63,7 +63,7 @@ class Rounds {
   void add(Index s, std::size_t hinge, const Label& label, Real distance, Index source) {
     const Index tie = OfferTie::of(source, hinge);
     key_[s] = Key::of(distance, tie);
-    hands_.front().front.far().add({key_[s], s, tie, round_, label});
+    hands_.front().front.far().add({key_[s], s, tie, {round_}, label});
     if (hands_.front().front.far().count() > 4096) far_.take_alone(hands_.front().front.far());
   }
   /// The distance of the least offer to a simplex.

@@ -56,7 +56,7 @@ class Team {
     }
     std::atomic<std::size_t> next{0};
     // Even, so that what is done two at a time is so with any number of threads.
-    const std::size_t share = std::max(least, count / (8 * static_cast<std::size_t>(size_)) & ~1);
+    const std::size_t share = std::max(least, count / (16 * static_cast<std::size_t>(size_)) * 2);
     run([&](int, int) {
       for (;;) {
         const std::size_t begin = next.fetch_add(share, std::memory_order_relaxed);

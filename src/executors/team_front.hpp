@@ -78,7 +78,7 @@ class TeamFront : public Store {
       if (key > known || (!Key::ties_apart && key == known)) return;
       if (key == known) break;
     } while (!least.compare_exchange_weak(known, key, std::memory_order_relaxed));
-    waiting_[key >= limit_].add({key, s, tie, round_, label});
+    waiting_[key >= limit_].add({key, s, tie, {round_}, label});
   }
 
   OfferList<Waiting>& near() { return waiting_[0]; }

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstddef>
+
 #include <plexway/executors/serial_mixed.hpp>
 #include <plexway/propagate/workspace.hpp>
 
@@ -24,6 +26,15 @@ struct DomainTraits<MixedComplex<R>> {
   using Real = R;
   using Workspace = MixedWorkspace<R>;
 };
+
+/// Distances in a field: a domain has vertices or points.
+template <class Domain>
+[[nodiscard]] std::size_t field_size(const Domain& domain) {
+  if constexpr (requires { domain.vertex_count(); })
+    return domain.vertex_count();
+  else
+    return domain.point_count();
+}
 
 }  // namespace detail
 

@@ -92,7 +92,7 @@ template <class Domain>
 [[nodiscard]] Fields<RealOf<Domain>> fields(Serial, const Domain& domain,
                                             std::span<const PointSource> sources,
                                             const PropagateOptions& options = {}) {
-  Fields<RealOf<Domain>> fields(sources.size(), domain.vertex_count());
+  Fields<RealOf<Domain>> fields(sources.size(), detail::field_size(domain));
   WorkspaceOf<Domain> workspace;
   DistanceField<RealOf<Domain>> field;
   for (std::size_t k = 0; k < sources.size(); ++k) {
@@ -118,7 +118,7 @@ template <class Domain>
     DistanceField<RealOf<Domain>> field;
     PropagateOptions options;
   };
-  Fields<RealOf<Domain>> fields(sources.size(), domain.vertex_count());
+  Fields<RealOf<Domain>> fields(sources.size(), detail::field_size(domain));
   std::vector<std::unique_ptr<Own>> own(detail::team_size(executor));
   std::atomic<bool> complete{true}, stop{false};
   detail::share_out(executor, sources.size(), [&](std::size_t k, std::size_t thread) {
