@@ -37,4 +37,4 @@ set_tests_properties("consumer/missing_component" PROPERTIES
   PASS_REGULAR_EXPRESSION "no component 'teapots', only: core, io")
 
 plexway_consumer_test(add_subdirectory "-DPLEXWAY_SUBDIRECTORY=${PROJECT_SOURCE_DIR}"
-  -DPLEXWAY_WITH_BOOST_GRAPH=OFF -DPLEXWAY_WITH_TETGEN=OFF)
+  -DPLEXWAY_WITH_BOOST_GRAPH=OFF -DPLEXWAY_WITH_TETGEN=OFF -DPLEXWAY_WITH_GL=OFF)
