@@ -43,7 +43,7 @@ void check_executor(const ExecutorArgument& argument, const PropagateOptions& op
 /// So many simplices, or so many for each of several sources, are worth several threads.
 inline constexpr std::size_t auto_simplices = 400'000, auto_simplices_many = 100'000;
 
-/// Who solves: `auto` chooses by what was measured (docs/CLI.md). `sources` start one field.
+/// Who solves: `auto` chooses by size (docs/CLI.md). `sources` start one field.
 [[nodiscard]] Executor choose_executor(const ExecutorArgument& argument,
                                        const PropagateOptions& options, std::size_t simplices,
                                        std::size_t sources);

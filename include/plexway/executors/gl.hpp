@@ -75,11 +75,13 @@ class GLWorkspace {
 };
 
 /// The distance of every vertex from the nearest of `sources`, as by Serial (executors/serial.hpp)
-/// with these differences. Labels wait in no order but near before far, and many are expanded at
-/// once: which of two nearly equal paths a triangle keeps may differ from run to run, and distances
-/// with it by about 1e-5. Numbers are single precision. Only Visibility::saddles and no
-/// Schedule::priority: UsageError. At most 2^30 sources. Progress is
-/// reported every few rounds. The statistics count what was done, which varies.
+/// with these differences. Many labels are expanded at once, near before far and else in no order.
+/// Distances differ from Serial's as those of two schedules of Serial do, 2e-4 to 1e-3 in the mean
+/// and 1e-2 at worst, and where fronts are wide a little from run to run; they are as near to the
+/// exact ones (docs/DESIGN.md, "Graphics processors"). On wireframes they are those of Serial to
+/// the bit. Numbers are single precision. Only Visibility::saddles, and no Schedule::priority:
+/// UsageError, as for 2^30 sources or more. Progress is reported every few rounds. The statistics
+/// count what was done, which varies. A bounded search costs memory and time for the whole domain.
 /// Source: Trettner, Bommes, Kobbelt: Geodesic Distance Computation via Virtual Source
 /// Propagation, SGP 2021, section 5.
 void propagate(GL, const TriangleMesh<float>& mesh, std::span<const PointSource> sources,

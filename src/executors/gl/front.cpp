@@ -63,7 +63,7 @@ void Front::start(const Session& session, std::size_t cells, std::size_t label_b
   const std::size_t there = std::min(waiting_.bytes() / (3 * sizeof(Waiting)),
                                      waiting_labels_.bytes() / (3 * label_bytes));
   state_.capacity = static_cast<GLuint>(std::min(there, cells + 1));
-  make_room(session, room);
+  make_room(session, std::min(room, most_entries(session)));
   best_.fill(session, FrontControl::unreached, cells);
 }
 
@@ -177,8 +177,14 @@ void Front::keep(const Session& session, const std::string& defines) {
   }
 }
 
+std::size_t Front::most_entries(const Session& session) const {
+  return session.limits().block / (3 * std::max(label_bytes_, sizeof(Waiting)));
+}
+
 void Front::grow(const Session& session) {
-  const std::size_t old = state_.capacity, capacity = 2 * old;
+  const std::size_t old = state_.capacity, most = most_entries(session);
+  // At the limit twice as many are asked for, which is refused with the limit.
+  const std::size_t capacity = old < most ? std::min(2 * old, most) : 2 * old;
   ++growths_;
   const auto move = [&](Buffer& buffer, std::size_t size) {
     Buffer larger(buffer.what());

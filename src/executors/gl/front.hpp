@@ -86,6 +86,7 @@ class Front {
   [[nodiscard]] std::size_t growths() const { return growths_; }
 
  private:
+  [[nodiscard]] std::size_t most_entries(const Session& session) const;
   void make_room(const Session& session, std::size_t entries);
   void begin_with(const Session& session, std::size_t entries);
   void accept(const Session& session, std::size_t first, std::size_t count);
