@@ -90,7 +90,7 @@ class TrianglePropagation {
     const Real radius = radius_;
     while (wave.next(f, distance_of)) {
       if (rule.distance(f) > radius) [[unlikely]]
-        if (rule.distance(f) - longest(triangles_[f]) > radius) continue;
+        if (rule.distance(f) - size(triangles_[f]) > radius) continue;
       if (last_resort) [[unlikely]] {
         for (std::size_t e = 0; e < 3; ++e)
           if (e != wave.hinge(f)) full(f, e);
@@ -102,8 +102,10 @@ class TrianglePropagation {
     return !wave.share_spent();
   }
 
-  static Real longest(const TriangleRecord<Real>& t) {
-    return std::max({t.length[0], t.length[1], t.length[2]});
+  /// No point of a triangle is farther from its centre: two thirds of a median, and no median is
+  /// longer than the longest edge.
+  static Real size(const TriangleRecord<Real>& t) {
+    return std::max({t.length[0], t.length[1], t.length[2]}) * (Real(2) / 3);
   }
 
   /// A path may pass a vertex where fans of triangles only touch: it bends there (a hinge of
