@@ -100,7 +100,9 @@ class Lloyd {
           cell.content += content;
           for (std::size_t k = 0; k < vector.size(); ++k) cell.vector[k] += content * vector[k];
           energy_ += content * (squared + own);
+          farthest_ = std::max(farthest_, static_cast<Real>(squared));
         });
+    farthest_ = std::sqrt(farthest_) + 1;
   }
 
   double to_centroids() {
