@@ -26,7 +26,14 @@ class CellMoments<TriangleMesh<Real>> {
   using Place = std::pair<Index, Weights>;
 
   CellMoments(const TriangleMesh<Real>& mesh, Growth<TriangleMesh<Real>>& field)
-      : triangles_(mesh.triangles()), field_(field), frame_(mesh.face_count()) {}
+      : triangles_(mesh.triangles()), field_(field), frame_(mesh.face_count()) {
+    still_.reserve(frame_.size());
+    for (Index f = 0; f < frame_.size(); ++f) {
+      Real sides = 0;
+      for (const Real l : triangles_[f].length) sides += l * l;
+      still_.push_back({field_.measure(f), sides / 36});
+    }
+  }
 
   /// `add(cell, content, vector, squared length, own)`: own is the triangle's share of the energy
   /// about its own centre.
@@ -42,16 +49,13 @@ class CellMoments<TriangleMesh<Real>> {
       resolve(f);
       const Frame& frame = frame_[f];
       const double d = static_cast<double>(field_.distance(f));
-      const auto& t = triangles_[f];
-      const double content = static_cast<double>(field_.measure(f));
-      double sides = 0;
-      for (const Real l : t.length) sides += static_cast<double>(l) * static_cast<double>(l);
       Vector vector = {0, 0};
       if (frame.state == known || frame.state == bent) {
         const auto [x, y] = direction(f);
         vector = {d * x, d * y};
       }
-      add(field_.source(f), content, vector, d * d, sides / 36);
+      add(field_.source(f), static_cast<double>(still_[f].content), vector, d * d,
+          static_cast<double>(still_[f].own));
     }
   }
 
@@ -146,7 +150,7 @@ class CellMoments<TriangleMesh<Real>> {
     const auto& label = field_.label(f);
     const double x = static_cast<double>((t.length[in] + t.apex_x(in)) / 3 - label.x[0]);
     const double y = static_cast<double>(t.apex_h(in) / 3 + label.h[0]);
-    const double length = std::hypot(x, y);
+    const double length = std::sqrt(x * x + y * y);
     if (!(length > 0)) return {0, 0};
     const double fx = static_cast<double>(frame.x), fy = static_cast<double>(frame.y);
     return {(x * fx - y * fy) / length, (x * fy + y * fx) / length};
@@ -215,6 +219,10 @@ class CellMoments<TriangleMesh<Real>> {
   std::span<const TriangleRecord<Real>> triangles_;
   Growth<TriangleMesh<Real>>& field_;
   std::vector<Frame> frame_;
+  struct Still {
+    Real content, own;
+  };
+  std::vector<Still> still_;  // what does not change
   std::vector<Index> stack_;
 };
 

@@ -81,9 +81,17 @@ class Lloyd {
 
   /// Cells, and what they are around their seeds.
   void divide(PropagateStatistics& statistics) {
+    constexpr Real infinity = std::numeric_limits<Real>::infinity();
     field_.clear();
-    field_.add_all(places_);
+    field_.add_all(places_, farthest_ * Real(1.1));
     add(statistics, field_.totals());
+    if (farthest_ < infinity && field_.totals().reached_simplices < reached_) {
+      field_.clear();  // cells grew by more than that
+      field_.add_all(places_, infinity);
+      add(statistics, field_.totals());
+    }
+    reached_ = field_.totals().reached_simplices;
+    farthest_ = 0;
     std::fill(cells_.begin(), cells_.end(), Cell{});
     energy_ = 0;
     moments_.each(
@@ -92,7 +100,9 @@ class Lloyd {
           cell.content += content;
           for (std::size_t k = 0; k < vector.size(); ++k) cell.vector[k] += content * vector[k];
           energy_ += content * (squared + own);
+          farthest_ = std::max(farthest_, static_cast<Real>(squared));
         });
+    farthest_ = std::sqrt(farthest_) + 1;
   }
 
   double to_centroids() {
@@ -159,6 +169,8 @@ class Lloyd {
   std::vector<Place> places_;
   std::vector<Cell> cells_;
   double energy_ = 0;
+  Real farthest_ = std::numeric_limits<Real>::infinity();  // of a simplex from its seed, at most
+  std::size_t reached_ = 0;
 };
 
 template <class Complex>

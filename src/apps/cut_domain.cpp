@@ -27,12 +27,17 @@ CutDomain<TriangleMesh<Real>> cut(const TriangleMesh<Real>& mesh, std::vector<do
   domain.complex = &mesh;
   const auto triangles = mesh.triangles();
   const Index faces = static_cast<Index>(mesh.face_count());
+  // Most of the time nothing is near any limit.
+  const double least = *std::min_element(limits.begin(), limits.end());
   bool fits = true;
-  for (Index f = 0; f < faces && fits; ++f)
+  for (Index f = 0; f < faces && fits; ++f) {
+    const Real* length = triangles[f].length;
+    if (static_cast<double>(std::max({length[0], length[1], length[2]})) <= least) continue;
     for (std::size_t i = 0; i < 3; ++i) {
       const Index v = triangles[f].corner[i], w = triangles[f].corner[edge_after(i)];
       fits = fits && static_cast<double>(triangles[f].length[i]) <= std::min(limits[v], limits[w]);
     }
+  }
   std::vector<std::array<Index, 3>> simplices(fits ? 0 : faces), sides(simplices.size());
   std::vector<typename Refinement<2>::Edge> edges;
   constexpr auto side_of = [](std::size_t i) { return Refinement<2>::side(i, edge_after(i)); };

@@ -95,7 +95,10 @@ class DartThrower {
     const Index simplices = static_cast<Index>(field_.simplices());
     std::vector<double> sum(simplices);
     double total = 0;
-    for (Index s = 0; s < simplices; ++s) sum[s] = total += static_cast<double>(field_.measure(s));
+    for (Index s = 0; s < simplices; ++s) {
+      sum[s] = total += static_cast<double>(field_.measure(s));
+      largest_ = std::max(largest_, field_.size(s));
+    }
     if (order == DartOrder::simplices)
       throw_into_each(report);
     else
@@ -124,7 +127,7 @@ class DartThrower {
     for (std::size_t s = sum.size(); s-- > 0;)
       mark[std::min(marks, static_cast<std::size_t>(sum[s] * scale))] = static_cast<Index>(s);
     for (std::size_t m = marks; m-- > 0;) mark[m] = std::min(mark[m], mark[m + 1]);
-    constexpr std::size_t round = 256, enough = 10;
+    constexpr std::size_t round = 256, enough = 5;
     for (std::size_t hits = round; hits >= enough && !full();) {
       hits = 0;
       for (std::size_t n = 0; n < round && !full(); ++n) {
@@ -142,23 +145,26 @@ class DartThrower {
   void throw_into_gaps(double total, Report& report) {
     WeightedPieces<Piece> pieces;
     const auto add = [&](const Piece& piece) {
-      if (!covered(piece))
-        pieces.add(piece, static_cast<double>(field_.measure(piece.simplex)) *
-                              std::ldexp(1., -static_cast<int>(corners - 1) * piece.level));
+      pieces.add(piece, static_cast<double>(field_.measure(piece.simplex)) *
+                            std::ldexp(1., -static_cast<int>(corners - 1) * piece.level));
     };
-    for (Index s = 0; s < field_.simplices(); ++s)
-      if (!field_.reached(s) || field_.distance(s) + field_.size(s) > limit_) add({s, 0, whole()});
+    for (Index s = 0; s < field_.simplices(); ++s) {
+      if (field_.reached(s) && (field_.distance(s) + largest_ <= limit_ ||
+                                field_.distance(s) + field_.size(s) <= limit_))
+        continue;
+      const Piece piece = {s, 0, whole()};
+      if (!covered(piece)) add(piece);
+    }
     for (std::size_t n = 0; !pieces.empty() && !full(); ++n) {
       if (n % 4096 == 0) report(std::max(0., 1 - pieces.bound() / total));
       const Piece piece = pieces.draw(random_);
       const std::size_t taken_back = taken_back_;
       throw_into(piece.simplex, piece.corner);
-      if (covered(piece)) continue;
       // Below this no one would find a gap. A dart that was taken back found that the piece is
       // covered after all, though no label here says so.
       const Real size = std::ldexp(field_.size(piece.simplex), -piece.level) / limit_;
       if (size < (taken_back_ > taken_back ? Real(5e-3) : Real(1e-4))) continue;
-      halve(piece, add);
+      add_open_parts(piece, add);
     }
     maximal_ = pieces.empty();
   }
@@ -181,28 +187,44 @@ class DartThrower {
     return any;
   }
 
-  /// Into 2^N parts of equal size.
+  /// Cut into 2^N parts of equal size; those that no single dart covers.
   template <class Add>
-  static void halve(const Piece& piece, Add add) {
+  void add_open_parts(const Piece& piece, Add add) {
+    constexpr std::size_t count = std::size_t{1} << (corners - 1);
+    std::array<Piece, count> part;
+    halve(piece, part);
+    unsigned open = (1u << count) - 1;
+    field_.each_label(piece.simplex, [&](Index, const auto& distance) {
+      for (std::size_t n = 0; n < count; ++n) {
+        if (!(open >> n & 1)) continue;
+        bool all = true;
+        for (const Weights& w : part[n].corner) all = all && distance(w) <= limit_;
+        if (all) open &= ~(1u << n);
+      }
+      return open == 0;
+    });
+    for (std::size_t n = 0; n < count; ++n)
+      if (open >> n & 1) add(part[n]);
+  }
+
+  template <std::size_t Count>
+  static void halve(const Piece& piece, std::array<Piece, Count>& part) {
     const auto middle = [&](std::size_t i, std::size_t j) {
       Weights w{};
       for (std::size_t k = 0; k < corners; ++k)
         w[k] = (piece.corner[i][k] + piece.corner[j][k]) / 2;
       return w;
     };
-    for (std::size_t i = 0; i < corners; ++i) {
-      Piece part = {piece.simplex, piece.level + 1, {}};
+    for (Piece& p : part) p.simplex = piece.simplex, p.level = piece.level + 1;
+    for (std::size_t i = 0; i < corners; ++i)
       for (std::size_t j = 0; j < corners; ++j)
-        part.corner[j] = i == j ? piece.corner[i] : middle(i, j);
-      add(part);
-    }
+        part[i].corner[j] = i == j ? piece.corner[i] : middle(i, j);
     if constexpr (corners == 3) {
-      add({piece.simplex, piece.level + 1, {middle(0, 1), middle(1, 2), middle(2, 0)}});
+      part[3].corner = {middle(0, 1), middle(1, 2), middle(2, 0)};
     } else {  // an octahedron, around one of its diagonals
       const Weights a = middle(0, 2), b = middle(1, 3);
       const Weights ring[4] = {middle(0, 1), middle(1, 2), middle(2, 3), middle(3, 0)};
-      for (std::size_t i = 0; i < 4; ++i)
-        add({piece.simplex, piece.level + 1, {a, b, ring[i], ring[(i + 1) % 4]}});
+      for (std::size_t i = 0; i < 4; ++i) part[4 + i].corner = {a, b, ring[i], ring[(i + 1) % 4]};
     }
   }
 
@@ -267,7 +289,7 @@ class DartThrower {
 
   Field& field_;
   std::span<const double> radii_;
-  Real limit_;
+  Real limit_, largest_ = 0;
   std::size_t most_;
   Random random_;
   std::vector<Dart> darts_;

@@ -28,7 +28,7 @@ DistanceMatrix matrix(const Complex& domain, std::span<const PointSource> points
   DistanceMatrix result;
   result.size = n;
   result.distance.assign(n * n, infinity);
-  const SimplexNumbers<Complex> numbers(domain);
+  SimplexNumbers<Complex> numbers(domain);
   Workspace<Real> workspace;
   Field field(domain, workspace);
   std::vector<double>& d = result.distance;

@@ -44,6 +44,8 @@ class LoggedQueue {
     return queue_.pop(simplex, distance_of);
   }
   [[nodiscard]] std::size_t count() const { return count_; }
+  /// Was there room for all?
+  [[nodiscard]] bool complete() const { return count_ <= mask_ + 1; }
 
  private:
   DualQueue<Real> queue_;
@@ -81,7 +83,7 @@ class GrowthBase {
   [[nodiscard]] const PropagateStatistics& totals() const { return totals_; }
   /// Simplices that changed at the last source; some repeatedly. All, where it changed many.
   [[nodiscard]] std::span<const Index> touched() {
-    if (wave_.queue().count() <= log_.size()) return std::span(log_).first(wave_.queue().count());
+    if (wave_.queue().complete()) return std::span(log_).first(wave_.queue().count());
     std::iota(log_.begin(), log_.end(), Index{0});
     return std::span(log_).first(simplices_);
   }
@@ -94,14 +96,29 @@ class GrowthBase {
     run(radius, [&](auto& propagation) { propagation.seed_vertex(vertex, sigma, number); });
   }
 
-  /// Many at once: `points[i]` is number i.
-  void add_all(std::span<const std::pair<Index, Weights>> points) {
-    run(std::numeric_limits<Real>::infinity(), [&](auto& propagation) {
-      for (std::size_t i = 0; i < points.size(); ++i)
-        propagation.seed_inside(points[i].first, points[i].second, 0, static_cast<Index>(i));
-    });
+  /// Many: `points[i]` is number i. With a radius that every point of the domain is nearer to one
+  /// of them than, those side by side are taken together and one lot after the other: what is under
+  /// way then stays in the cache, which a thousand fronts at once do not. That is twice as fast,
+  /// though lots overlap.
+  void add_all(std::span<const std::pair<Index, Weights>> points, Real radius) {
+    std::vector<Index> order(points.size());
+    std::iota(order.begin(), order.end(), Index{0});
+    if (radius < std::numeric_limits<Real>::infinity())  // simplices lie along a curve
+      std::stable_sort(order.begin(), order.end(),
+                       [&](Index a, Index b) { return points[a].first < points[b].first; });
+    constexpr std::size_t together = 64;
+    const std::size_t lot =
+        radius < std::numeric_limits<Real>::infinity() ? together : points.size();
+    for (std::size_t begin = 0; begin < points.size(); begin += lot) {
+      if (lot == points.size()) log_room_ = 1;  // there is nothing to take back
+      run(radius, [&](auto& propagation) {
+        for (std::size_t n = begin; n < std::min(begin + lot, points.size()); ++n)
+          propagation.seed_inside(points[order[n]].first, points[order[n]].second, 0, order[n]);
+      });
+    }
   }
   void add_all_vertices(std::span<const Index> vertices) {
+    log_room_ = 1;
     run(std::numeric_limits<Real>::infinity(), [&](auto& propagation) {
       for (const Index v : vertices) propagation.seed_vertex(v, 0, 0);
     });
@@ -136,9 +153,10 @@ class GrowthBase {
   GrowthBase& operator=(const GrowthBase&) = delete;
 
   Wave make_wave() {
-    return Wave(workspace_.marks, labels_,
-                Queue(workspace_.front, Real(1), log_.data(), log_.size()),
-                workspace_.source.data(), simplices_, complex_.unit(), options_);
+    return Wave(
+        workspace_.marks, labels_,
+        Queue(workspace_.front, Real(1), log_.data(), std::exchange(log_room_, log_.size())),
+        workspace_.source.data(), simplices_, complex_.unit(), options_);
   }
   void start_wave() {
     wave_ = make_wave();
@@ -165,6 +183,7 @@ class GrowthBase {
   Label* labels_;
   PropagateOptions options_;
   std::vector<Index> log_;
+  std::size_t log_room_ = log_.size();
   Wave wave_;
   PropagateStatistics totals_;
 };
@@ -375,7 +394,7 @@ class Growth<TetMesh<Real>>
     struct {
       const Wave& wave;
       const std::vector<Index>& log;
-      [[nodiscard]] bool complete() const { return size() <= log.size(); }
+      [[nodiscard]] bool complete() const { return wave.queue().complete(); }
       [[nodiscard]] std::size_t size() const { return wave.queue().count(); }
       Index operator[](std::size_t i) const { return log[i]; }
     } const changed = {this->wave_, this->log_};

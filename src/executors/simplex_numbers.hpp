@@ -14,8 +14,8 @@ namespace plexway {
 /// Weights of a simplex's corners: barycentric coordinates.
 using Weights = std::array<double, 4>;
 
-/// Points of simplices between the caller's numbers and those inside, many of them: a table is
-/// made once. Vertices, too.
+/// Points of simplices between the caller's numbers and those inside, many of them: tables are made
+/// once. Vertices, too.
 template <class Complex>
 class SimplexNumbers {
  public:
@@ -31,7 +31,11 @@ class SimplexNumbers {
     if (outside_[s] & turned) turn(w);
     return {.simplex = outside_[s] & ~turned, .barycentric = w};
   }
-  [[nodiscard]] std::pair<Index, Weights> inside(const PointSource& point) const {
+  [[nodiscard]] std::pair<Index, Weights> inside(const PointSource& point) {
+    if (inside_.empty()) {
+      inside_.resize(outside_.size());
+      for (Index s = 0; s < outside_.size(); ++s) inside_[outside_[s] & ~turned] = s;
+    }
     Weights w = point.barycentric;
     const Index s = inside_[point.simplex];
     if (outside_[s] & turned) turn(w);
@@ -46,17 +50,13 @@ class SimplexNumbers {
     static_assert(reversed == turned);
     outside_.resize(mesh.face_count());
     for (Index f = 0; f < outside_.size(); ++f) outside_[f] = mesh.triangles()[f].face;
-    inside_.resize(outside_.size());
-    for (Index f = 0; f < outside_.size(); ++f) inside_[outside_[f] & ~turned] = f;
     first_ = 1;
   }
   template <class Real>
   void list(const TetMesh<Real>& mesh) {
     outside_.resize(mesh.tet_count());
-    inside_.resize(outside_.size());
-    for (Index t = 0; t < inside_.size(); ++t) {
+    for (Index t = 0; t < outside_.size(); ++t) {
       const auto [at, is_turned] = mesh.inside_tet(t);
-      inside_[t] = at;
       outside_[at] = is_turned ? t | turned : t;
     }
     first_ = 2;

@@ -127,7 +127,7 @@ class TrianglePropagation {
                                      bool last_resort, const Full& full) const {
     const Real radius = radius_;
     if (rule.distance(f) > radius) [[unlikely]]
-      if (rule.distance(f) - longest(triangles_[f]) > radius) return;
+      if (rule.distance(f) - size(triangles_[f]) > radius) return;
     if (last_resort) [[unlikely]] {
       for (std::size_t e = 0; e < 3; ++e)
         if (e != front.hinge(f)) full(f, e);
@@ -136,8 +136,10 @@ class TrianglePropagation {
     rule.expand(f, full);
   }
 
-  static Real longest(const TriangleRecord<Real>& t) {
-    return std::max({t.length[0], t.length[1], t.length[2]});
+  /// No point of a triangle is farther from its centre: two thirds of a median, and no median is
+  /// longer than the longest edge.
+  static Real size(const TriangleRecord<Real>& t) {
+    return std::max({t.length[0], t.length[1], t.length[2]}) * (Real(2) / 3);
   }
 
  public:
