@@ -101,7 +101,10 @@ class ShapeSolver final : public Solver {
   template <class OnThisMachine>
   void solve_on(const OnThisMachine& executor, std::span<const PointSource> sources,
                 const PropagateOptions& options) {
-    propagate(executor, complex_, sources, options, workspace_, field_);
+    if constexpr (kSerialOnly && !std::is_same_v<OnThisMachine, Serial>)
+      throw UsageError("--form pairs is for --executor serial");
+    else
+      propagate(executor, complex_, sources, options, workspace_, field_);
   }
   void solve_on([[maybe_unused]] const GL& executor,
                 [[maybe_unused]] std::span<const PointSource> sources,
@@ -109,12 +112,17 @@ class ShapeSolver final : public Solver {
 #ifdef PLEXWAY_HAS_GL
     if constexpr (!std::is_same_v<Real, float>)
       throw UsageError("--executor gl computes in single precision: use --precision float");
+    else if constexpr (kSerialOnly)
+      throw UsageError("--form pairs is for --executor serial");
     else
       propagate(executor, complex_, sources, options, gl_workspace_, field_);
 #endif
   }
 
-  decltype(make_complex<Real>(std::declval<Shape>())) complex_;
+  using Complex = decltype(make_complex<Real>(std::declval<Shape>()));
+  static constexpr bool kSerialOnly = std::is_same_v<Complex, PointPairs<Real>>;
+
+  Complex complex_;
   Workspace<Real> workspace_;
 #ifdef PLEXWAY_HAS_GL
   GLWorkspace gl_workspace_;

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include <plexway/complex/point_cloud.hpp>
 #include <plexway/complex/tet_mesh.hpp>
 #include <plexway/complex/triangle_mesh.hpp>
 #include <plexway/complex/wireframe.hpp>
@@ -98,6 +99,11 @@ void propagate(GL, const Wireframe<float>& wireframe, std::span<const PointSourc
 /// order, on one thread as well: around curved obstacles distances differ by about the rule's own
 /// error.
 void propagate(GL, const TetMesh<float>& mesh, std::span<const PointSource> sources,
+               const PropagateOptions& options, GLWorkspace& workspace,
+               DistanceField<float>& field);
+
+/// On the sheet of a cloud; sources are points by number, as with Serial.
+void propagate(GL, const PointCloud<float>& cloud, std::span<const PointSource> sources,
                const PropagateOptions& options, GLWorkspace& workspace,
                DistanceField<float>& field);
 

@@ -5,6 +5,7 @@
 #include <span>
 
 #include <plexway/complex/mixed_complex.hpp>
+#include <plexway/complex/point_cloud.hpp>
 #include <plexway/complex/simplicial_complex.hpp>
 #include <plexway/complex/tet_mesh.hpp>
 #include <plexway/complex/triangle_mesh.hpp>
@@ -61,6 +62,12 @@ void propagate(const OpenMP& executor, const Wireframe<Real>& wireframe,
                Workspace<Real>& workspace, DistanceField<Real>& field);
 template <class Real, int N>
 void propagate(const OpenMP& executor, const SimplicialComplex<Real, N>& domain,
+               std::span<const PointSource> sources, const PropagateOptions& options,
+               Workspace<Real>& workspace, DistanceField<Real>& field);
+
+/// On the sheet of a cloud; sources are points by number, as with Serial.
+template <class Real>
+void propagate(const OpenMP& executor, const PointCloud<Real>& cloud,
                std::span<const PointSource> sources, const PropagateOptions& options,
                Workspace<Real>& workspace, DistanceField<Real>& field);
 
