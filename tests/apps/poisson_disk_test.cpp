@@ -84,6 +84,36 @@ TEST_CASE("darts in a cube are neither nearer nor farther than the radius") {
   CHECK(farthest <= 0.25 * (1 + 1e-5));
 }
 
+TEST_CASE("darts in a bent solid keep apart around the bend") {
+  const samples::Shape elbow = samples::elbow_solid();
+  const TetMesh<double> mesh(elbow.points, elbow.tets);
+  constexpr double radius = 0.35;
+  const PoissonDisks disks = poisson_disks(Serial{}, mesh, {.radius = radius});
+  const auto darts = positions(disks.darts, elbow.points, elbow.tets);
+  // Around the edge x = y = 1 where the straight line leaves the L.
+  const auto inside = [](const Point& a, const Point& b) {
+    const double side_a = a[0] - 1, up_a = a[1] - 1, side_b = b[0] - 1, up_b = b[1] - 1;
+    const bool opposite = (side_a > 0 && up_b > 0) || (up_a > 0 && side_b > 0);
+    const double turn = side_a * up_b - up_a * side_b;
+    if (!(opposite && (side_a > 0 ? turn > 0 : turn < 0))) return euclid(a, b);
+    return std::hypot(std::hypot(side_a, up_a) + std::hypot(side_b, up_b), a[2] - b[2]);
+  };
+  INFO(darts.size() << " darts");
+  CHECK(least_distance(darts, inside) >= radius * (1 - 1e-3));
+  samples::Noise noise(16);
+  double farthest = 0;
+  for (int n = 0; n < 20000; ++n) {
+    const auto& tet = elbow.tets[static_cast<std::size_t>(n) % elbow.tets.size()];
+    double w[4], sum = 0;
+    for (double& x : w) sum += x = noise() + 1;
+    Point at = {0, 0, 0};
+    for (std::size_t i = 0; i < 4; ++i)
+      for (std::size_t k = 0; k < 3; ++k) at[k] += w[i] / sum * elbow.points[tet[i]][k];
+    farthest = std::max(farthest, nearest(at, darts, inside));
+  }
+  CHECK(farthest <= radius * (1 + 1e-3));
+}
+
 TEST_CASE("a seed makes the same darts again and another seed other ones") {
   const samples::Shape shape = square(20);
   const auto one = throw_on<double>(shape, {.radius = 0.1, .seed = 1});

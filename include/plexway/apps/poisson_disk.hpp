@@ -60,7 +60,8 @@ struct PoissonDisks {
 /// path between is measured again.
 ///
 /// Throws UsageError for options out of range, InputError for a radius too small for the domain.
-/// Cost: about two propagations from a single source; with `count`, three to ten times that.
+/// Cost: 2.2 to 2.5 propagations from a single source, and more where edges must be cut; with
+/// `count`, three to ten times that.
 /// Source: Trettner, Bommes, Kobbelt: Geodesic Distance Computation via Virtual Source Propagation,
 /// SGP 2021, section 6; the choice among uncovered parts is that of White, Cline, Egbert: Poisson
 /// Disk Point Sets by Hierarchical Dart Throwing, RT 2007.
