@@ -40,7 +40,7 @@ Vector3<Real> plane_crossing(const Vector3<Real>& eye, const Vector3<Real>& q,
                              const Vector3<Real>& c) {
   const Vector3<Real> normal = cross(b - a, c - a);
   const Real from = dot(normal, eye - a), to = dot(normal, q - a);
-  const Real share = from == to ? Real(0.5) : std::clamp(from / (from - to), Real(0), Real(1));
+  const Real share = from == to ? Real(0.5) : kernel::clamp(from / (from - to), Real(0), Real(1));
   return eye + share * (q - eye);
 }
 
