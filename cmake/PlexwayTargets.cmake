@@ -104,7 +104,8 @@ function(plexway_add_pcl_module)
   target_link_libraries(plexway_pcl_module PRIVATE plexway::pcl plexway::io)
   add_dependencies(plexway_tool plexway_pcl_module)
   target_compile_definitions(plexway_tool PRIVATE PLEXWAY_HAS_PCL=1
-    PLEXWAY_PCL_MODULE="$<TARGET_FILE_NAME:plexway_pcl_module>")
+    PLEXWAY_PCL_MODULE="$<TARGET_FILE_NAME:plexway_pcl_module>"
+    PLEXWAY_PCL_FOLDER="../${folder}")
   target_link_libraries(plexway_tool PRIVATE ${CMAKE_DL_LIBS})
   set_target_properties(plexway_tool PROPERTIES
     BUILD_RPATH "${PROJECT_BINARY_DIR}/${folder}" INSTALL_RPATH "$ORIGIN/../${folder}")
