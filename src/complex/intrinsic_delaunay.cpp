@@ -1,0 +1,221 @@
+#include <plexway/complex/intrinsic_delaunay.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <string>
+
+#include <plexway/error.hpp>
+
+#include "complex/intrinsic_triangulation.hpp"
+#include "complex/triangle_shape.hpp"
+
+namespace plexway {
+namespace {
+
+// An edge is Delaunay up to this, as a sine. See the class for why it grows.
+template <class Real>
+constexpr double tolerance_of = sizeof(Real) == 4 ? 1e-5 : 1e-11;
+constexpr std::uint32_t patience = 4096, growth = 16;
+
+}  // namespace
+
+struct IntrinsicDelaunay::State {
+  IntrinsicTriangulation triangulation;
+  std::vector<Index> face_of_slot;  // the caller's
+  std::vector<Index> slot_of_face;
+  double unit = 1;
+  double tolerance = 0;
+  DelaunaySummary summary;
+
+  template <class Real>
+  explicit State(const TriangleMesh<Real>& input)
+      : triangulation(input),
+        face_of_slot(input.face_count()),
+        slot_of_face(input.face_count()),
+        unit(input.unit()),
+        tolerance(tolerance_of<Real>) {
+    for (Index s = 0; s < face_of_slot.size(); ++s) {
+      face_of_slot[s] = input.triangles()[s].face & ~reversed;
+      slot_of_face[face_of_slot[s]] = s;
+    }
+  }
+
+  [[nodiscard]] bool should_flip(Halfedge h) const {
+    const double excess = triangulation.excess(h);
+    if (!(excess > tolerance)) return false;
+    const std::uint32_t flips = triangulation.flips(h);
+    return flips < patience ||
+           excess > std::ldexp(tolerance, static_cast<int>((flips - patience) / growth));
+  }
+
+  // Edge by edge; a flip puts the four edges around it on a stack, so that what it changes is still
+  // in the cache when it is looked at again.
+  void flip_all() {
+    std::vector<Halfedge> stack;
+    const Index slots = static_cast<Index>(triangulation.triangles().size());
+    for (Index slot = 0; slot < slots; ++slot)
+      for (Index edge = 0; edge < 3; ++edge) {
+        stack.push_back(slot << Across::face_shift | edge);
+        while (!stack.empty()) {
+          const Halfedge h = stack.back();
+          stack.pop_back();
+          if (!should_flip(h)) continue;
+          const Index f = h >> Across::face_shift;
+          const Index g =
+              triangulation.triangles()[f].across[h & Across::edge_mask] >> Across::face_shift;
+          if (!triangulation.flip(h)) continue;
+          ++summary.flips;
+          for (const Index t : {g, f})
+            for (const Index i : {2u, 0u}) stack.push_back(t << Across::face_shift | i);
+        }
+      }
+    for (Index slot = 0; slot < slots; ++slot)
+      for (Index edge = 0; edge < 3; ++edge)
+        summary.stuck_edges += triangulation.excess(slot << Across::face_shift | edge) > tolerance;
+    summary.stuck_edges /= 2;
+  }
+
+  [[nodiscard]] SlotPoint slot_point(Index face, const std::array<double, 4>& b) const {
+    SlotPoint point{slot_of_face[face], {b[0], b[1], b[2]}};
+    if (triangulation.turned(point.slot)) std::swap(point.at[1], point.at[2]);
+    return point;
+  }
+  [[nodiscard]] std::array<double, 3> in_face(Index slot, std::array<double, 3> at) const {
+    if (triangulation.turned(slot)) std::swap(at[1], at[2]);
+    return at;
+  }
+};
+
+template <class Real>
+IntrinsicDelaunay::IntrinsicDelaunay(const TriangleMesh<Real>& input)
+    : state_(std::make_unique<State>(input)) {
+  state_->flip_all();
+  state_->triangulation.release_counts();
+}
+template IntrinsicDelaunay::IntrinsicDelaunay(const TriangleMesh<float>&);
+template IntrinsicDelaunay::IntrinsicDelaunay(const TriangleMesh<double>&);
+
+IntrinsicDelaunay::IntrinsicDelaunay(IntrinsicDelaunay&&) noexcept = default;
+IntrinsicDelaunay& IntrinsicDelaunay::operator=(IntrinsicDelaunay&&) noexcept = default;
+IntrinsicDelaunay::~IntrinsicDelaunay() = default;
+
+const DelaunaySummary& IntrinsicDelaunay::summary() const { return state_->summary; }
+
+std::size_t IntrinsicDelaunay::bytes() const {
+  return sizeof(State) + state_->triangulation.bytes() +
+         (state_->face_of_slot.capacity() + state_->slot_of_face.capacity()) * sizeof(Index);
+}
+
+template <class Real>
+TriangleMesh<Real> IntrinsicDelaunay::mesh() const {
+  const auto triangles = state_->triangulation.triangles();
+  const std::size_t m = triangles.size();
+  std::vector<std::array<Index, 3>> faces(m), across(m);
+  std::vector<TriangleShape> shapes(m);
+  const auto face_of = [&](Index slot) { return state_->face_of_slot[slot]; };
+  for (Index s = 0; s < m; ++s) {
+    const IntrinsicTriangle& t = triangles[s];
+    const Index f = face_of(s);
+    faces[f] = t.corner;
+    TriangleShape& shape = shapes[f];
+    shape.violated = false;
+    for (std::size_t i = 0; i < 3; ++i) {
+      shape.length[i] = t.length[i] * state_->unit;
+      shape.cosine[i] = t.angle[i].c;
+      shape.sine[i] = t.angle[i].s;
+      shape.degenerate |= t.length[i] == 0 || t.angle[i].s < 1e-14;
+      const Index o = t.across[i];
+      across[f][i] =
+          o == none ? none : 3 * face_of(o >> Across::face_shift) + (o & Across::edge_mask);
+    }
+  }
+  return TriangleMesh<Real>(state_->triangulation.vertices(), faces, shapes, std::move(across),
+                            SurfaceHints{state_->face_of_slot});
+}
+template TriangleMesh<float> IntrinsicDelaunay::mesh() const;
+template TriangleMesh<double> IntrinsicDelaunay::mesh() const;
+
+PointSource IntrinsicDelaunay::to_intrinsic(const PointSource& point) const {
+  if (point.vertex != none) return point;
+  if (point.simplex >= state_->slot_of_face.size())
+    throw UsageError("face " + std::to_string(point.simplex) + " does not exist: there are " +
+                     std::to_string(state_->slot_of_face.size()));
+  const SlotPoint there =
+      state_->triangulation.history().forward(state_->slot_point(point.simplex, point.barycentric));
+  // A slot that nothing happened to has its corners as they were.
+  PointSource result = PointSource::in(state_->face_of_slot[there.slot], there.at);
+  result.offset = point.offset;
+  return result;
+}
+
+PointSource IntrinsicDelaunay::to_input(const PointSource& point) const {
+  if (point.vertex != none) return point;
+  if (point.simplex >= state_->slot_of_face.size())
+    throw UsageError("face " + std::to_string(point.simplex) + " does not exist: there are " +
+                     std::to_string(state_->slot_of_face.size()));
+  const SlotPoint there = state_->triangulation.history().back(
+      {state_->slot_of_face[point.simplex],
+       {point.barycentric[0], point.barycentric[1], point.barycentric[2]}});
+  PointSource result =
+      PointSource::in(state_->face_of_slot[there.slot], state_->in_face(there.slot, there.at));
+  result.offset = point.offset;
+  return result;
+}
+
+std::vector<IntrinsicDelaunay::Piece> IntrinsicDelaunay::line_to_input(
+    Index face, const std::array<double, 3>& from, const std::array<double, 3>& to) const {
+  std::vector<PatchHistory::Piece> pieces;
+  state_->triangulation.history().back({state_->slot_of_face[face], from, to}, pieces);
+  std::vector<Piece> result;
+  for (const auto& p : pieces)
+    result.push_back({state_->face_of_slot[p.slot], state_->in_face(p.slot, p.from),
+                      state_->in_face(p.slot, p.to)});
+  return result;
+}
+
+template <class Real>
+TriangulationShape measure_triangulation(const TriangleMesh<Real>& mesh) {
+  TriangulationShape shape;
+  const auto triangles = mesh.triangles();
+  const Index sentinel = static_cast<Index>(triangles.size() - 1);
+  constexpr double degree = std::numbers::pi / 180;
+  const Real blunt = static_cast<Real>(std::cos(150 * degree));
+  const Real sharp = static_cast<Real>(std::cos(5 * degree));
+  Real least = 1, most = -1;
+  std::size_t obtuse = 0, needles = 0;
+  for (Index f = 0; f < sentinel; ++f) {
+    const TriangleRecord<Real>& t = triangles[f];
+    const Real low = std::min({t.cosine[0], t.cosine[1], t.cosine[2]});
+    const Real high = std::max({t.cosine[0], t.cosine[1], t.cosine[2]});
+    least = std::min(least, low);
+    most = std::max(most, high);
+    obtuse += low < blunt;
+    needles += high > sharp;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const Index o = t.across[i], g = o >> Across::face_shift;
+      if (g == sentinel || (o & Across::fan) != 0 || g < f) continue;
+      const std::size_t j = o & Across::edge_mask;
+      if (g == f && j < i) continue;
+      ++shape.inner_edges;
+      const Real ca = t.cosine[edge_before(i)], cb = triangles[g].cosine[edge_before(j)];
+      const Real sine = t.sine(edge_before(i)) * cb + ca * triangles[g].sine(edge_before(j));
+      constexpr Real blur = sizeof(Real) == 4 ? Real(1e-4) : Real(1e-9);
+      if (g != f && (sine < -blur || (ca < -blur && cb < -blur))) ++shape.non_delaunay_edges;
+    }
+  }
+  const auto degrees = [](Real cosine) {
+    return std::acos(std::clamp(static_cast<double>(cosine), -1.0, 1.0)) / degree;
+  };
+  shape.largest_angle = degrees(least);
+  shape.smallest_angle = degrees(most);
+  shape.obtuse_share = static_cast<double>(obtuse) / static_cast<double>(sentinel);
+  shape.needle_share = static_cast<double>(needles) / static_cast<double>(sentinel);
+  return shape;
+}
+template TriangulationShape measure_triangulation(const TriangleMesh<float>&);
+template TriangulationShape measure_triangulation(const TriangleMesh<double>&);
+
+bool flipping_pays(const TriangulationShape& shape) { return shape.non_delaunay_share() > 0.05; }
+
+}  // namespace plexway
