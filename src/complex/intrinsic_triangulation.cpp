@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "complex/triangle_shape.hpp"
+
 namespace plexway {
 namespace {
 
@@ -32,6 +34,24 @@ Planar between(double length, const std::array<double, 2>& c, const std::array<T
   const double x = sign_d * d[id] * at_d[id].c - sign_c * c[ic] * at_c[ic].c +
                    (static_cast<double>(id) - static_cast<double>(ic)) * length;
   return {x, -(d[id] * at_d[id].s + c[ic] * at_c[ic].s)};
+}
+
+// Lengths and angles say the same twice. Each flip adds the contradictions of two triangles to its
+// own rounding, and would double them flip by flip: what has grown beyond what lengths alone leave
+// open is cut back to these.
+void reconcile(IntrinsicTriangle& t) {
+  constexpr double allowed = 16 * std::numeric_limits<double>::epsilon();
+  std::size_t i = 0;  // the longest edge
+  for (std::size_t k = 1; k < 3; ++k)
+    if (t.length[k] > t.length[i]) i = k;
+  const std::size_t j = next(i), k = previous(i);
+  const double length = t.length[i], left = t.length[k], right = t.length[j];
+  const double up = left * t.angle[i].s;
+  const double apart = std::hypot(left * t.angle[i].c + right * t.angle[j].c - length,
+                                  up - right * t.angle[j].s);
+  if (apart * up <= allowed * length * std::fmax(std::fmin(left, right), up)) return;
+  const TriangleShape shape = shape_from_lengths(t.length);
+  for (std::size_t c = 0; c < 3; ++c) t.angle[c] = {shape.cosine[c], shape.sine[c]};
 }
 
 }  // namespace
@@ -221,6 +241,8 @@ bool IntrinsicTriangulation::flip(Halfedge h) {
   tg.angle = {b_new, c_right, d_right};
   tg.corner = {b, vc, vd};
   tg.across[1] = halfedge(f, 1);
+  reconcile(tf);
+  reconcile(tg);
   constexpr std::uint16_t most = std::numeric_limits<std::uint16_t>::max();
   if (flips_[f] < most) ++flips_[f];
   if (flips_[g] < most) ++flips_[g];
