@@ -27,6 +27,7 @@ struct IntrinsicDelaunay::State {
   double unit = 1;
   double tolerance = 0;
   DelaunaySummary summary;
+  bool out_of_patience = false;
 
   template <class Real>
   explicit State(const TriangleMesh<Real>& input)
@@ -41,35 +42,45 @@ struct IntrinsicDelaunay::State {
     }
   }
 
-  [[nodiscard]] bool should_flip(Halfedge h) const {
+  [[nodiscard]] bool should_flip(Halfedge h) {
     const double excess = triangulation.excess(h);
     if (!(excess > tolerance)) return false;
     const std::uint32_t flips = triangulation.flips(h);
-    return flips < patience ||
-           excess > std::ldexp(tolerance, static_cast<int>((flips - patience) / growth));
+    if (flips < patience) return true;
+    out_of_patience = true;
+    return excess > std::ldexp(tolerance, static_cast<int>((flips - patience) / growth));
   }
 
   // Edge by edge; a flip puts the four edges around it on a stack, so that what it changes is still
-  // in the cache when it is looked at again.
+  // in the cache when it is looked at again. An edge is looked at from its lower side: whatever
+  // moves it later looks at it again.
   void flip_all() {
     std::vector<Halfedge> stack;
-    const Index slots = static_cast<Index>(triangulation.triangles().size());
+    bool stuck = false;
+    const auto triangles = triangulation.triangles();
+    const Index slots = static_cast<Index>(triangles.size());
     for (Index slot = 0; slot < slots; ++slot)
       for (Index edge = 0; edge < 3; ++edge) {
-        stack.push_back(slot << Across::face_shift | edge);
+        const Halfedge first = slot << Across::face_shift | edge;
+        if (triangles[slot].across[edge] < first) continue;
+        stack.push_back(first);
         while (!stack.empty()) {
           const Halfedge h = stack.back();
           stack.pop_back();
           if (!should_flip(h)) continue;
           const Index f = h >> Across::face_shift;
-          const Index g =
-              triangulation.triangles()[f].across[h & Across::edge_mask] >> Across::face_shift;
-          if (!triangulation.flip(h)) continue;
+          const Index g = triangles[f].across[h & Across::edge_mask] >> Across::face_shift;
+          if (!triangulation.flip(h)) {
+            stuck = true;
+            continue;
+          }
           ++summary.flips;
           for (const Index t : {g, f})
             for (const Index i : {2u, 0u}) stack.push_back(t << Across::face_shift | i);
         }
       }
+    summary.stuck_edges = 0;
+    if (!stuck && !out_of_patience) return;
     for (Index slot = 0; slot < slots; ++slot)
       for (Index edge = 0; edge < 3; ++edge)
         summary.stuck_edges += triangulation.excess(slot << Across::face_shift | edge) > tolerance;
@@ -183,14 +194,14 @@ TriangulationShape measure_triangulation(const TriangleMesh<Real>& mesh) {
   const Real blunt = static_cast<Real>(std::cos(150 * degree));
   const Real sharp = static_cast<Real>(std::cos(5 * degree));
   Real least = 1, most = -1;
-  std::size_t obtuse = 0, needles = 0;
+  std::size_t blunt_ones = 0, needles = 0;
   for (Index f = 0; f < sentinel; ++f) {
     const TriangleRecord<Real>& t = triangles[f];
     const Real low = std::min({t.cosine[0], t.cosine[1], t.cosine[2]});
     const Real high = std::max({t.cosine[0], t.cosine[1], t.cosine[2]});
     least = std::min(least, low);
     most = std::max(most, high);
-    obtuse += low < blunt;
+    blunt_ones += low < blunt;
     needles += high > sharp;
     for (std::size_t i = 0; i < 3; ++i) {
       const Index o = t.across[i], g = o >> Across::face_shift;
@@ -209,7 +220,7 @@ TriangulationShape measure_triangulation(const TriangleMesh<Real>& mesh) {
   };
   shape.largest_angle = degrees(least);
   shape.smallest_angle = degrees(most);
-  shape.obtuse_share = static_cast<double>(obtuse) / static_cast<double>(sentinel);
+  shape.blunt_share = static_cast<double>(blunt_ones) / static_cast<double>(sentinel);
   shape.needle_share = static_cast<double>(needles) / static_cast<double>(sentinel);
   return shape;
 }

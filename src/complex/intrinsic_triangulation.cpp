@@ -47,8 +47,8 @@ void reconcile(IntrinsicTriangle& t) {
   const std::size_t j = next(i), k = previous(i);
   const double length = t.length[i], left = t.length[k], right = t.length[j];
   const double up = left * t.angle[i].s;
-  const double apart = std::hypot(left * t.angle[i].c + right * t.angle[j].c - length,
-                                  up - right * t.angle[j].s);
+  const double apart =
+      std::hypot(left * t.angle[i].c + right * t.angle[j].c - length, up - right * t.angle[j].s);
   if (apart * up <= allowed * length * std::fmax(std::fmin(left, right), up)) return;
   const TriangleShape shape = shape_from_lengths(t.length);
   for (std::size_t c = 0; c < 3; ++c) t.angle[c] = {shape.cosine[c], shape.sine[c]};

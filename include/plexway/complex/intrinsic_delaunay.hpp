@@ -17,7 +17,7 @@ struct TriangulationShape {
       0;                      ///< the angles opposite exceed 180 degrees, by rounding at least
   double smallest_angle = 0;  ///< degrees
   double largest_angle = 0;   ///< degrees
-  double obtuse_share = 0;    ///< of triangles with an angle above 150 degrees
+  double blunt_share = 0;     ///< of triangles with an angle above 150 degrees
   double needle_share = 0;    ///< of triangles with an angle below 5 degrees
 
   /// Share of the inner edges that are not Delaunay.
