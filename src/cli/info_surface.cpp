@@ -1,14 +1,15 @@
 #include <plexway/complex/triangle_mesh.hpp>
 
 #include "info_report.hpp"
+#include "make_complex.hpp"
 #include "surface_survey.hpp"
 #include "triangulation_option.hpp"
 
 namespace plexway::cli {
 
 InfoReport info_of(const Domain& domain, const io::Triangles& surface) {
-  const TriangleMesh<double> mesh = with_file_name(
-      domain, [&] { return TriangleMesh<double>(surface.positions, surface.triangles); });
+  const TriangleMesh<double> mesh =
+      with_file_name(domain, [&] { return make_complex<double>(surface); });
   const SurfaceSummary& summary = mesh.summary();
   const TriangulationShape shape = measure_triangulation(mesh);
   const SurfaceSurvey survey = survey_surface(surface);

@@ -4,6 +4,7 @@
 
 #include <plexway/error.hpp>
 
+#include "make_complex.hpp"
 #include "progress.hpp"
 
 namespace plexway::cli {
@@ -43,7 +44,7 @@ std::optional<IntrinsicDelaunay> retriangulate(Triangulation wanted, const io::T
     if constexpr (sizeof(Real) == sizeof(double))
       delaunay.emplace(mesh);
     else
-      delaunay.emplace(TriangleMesh<double>(surface.positions, surface.triangles));
+      delaunay.emplace(make_complex<double>(surface));
     report.delaunay = true;
     report.flips = delaunay->summary().flips;
     if (report.flips > 0) mesh = delaunay->mesh<Real>();
