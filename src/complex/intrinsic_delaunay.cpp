@@ -7,16 +7,22 @@
 
 #include <plexway/error.hpp>
 
+#include "complex/delaunay_flips.hpp"
 #include "complex/intrinsic_triangulation.hpp"
 #include "complex/triangle_shape.hpp"
 
 namespace plexway {
 namespace {
 
-// An edge is Delaunay up to this, as a sine. See the class for why it grows.
+// An edge is Delaunay up to this, as a sine.
 template <class Real>
 constexpr double tolerance_of = sizeof(Real) == 4 ? 1e-5 : 1e-11;
-constexpr std::uint32_t patience = 4096, growth = 16;
+
+void check_face(Index face, std::size_t faces) {
+  if (face >= faces)
+    throw UsageError("face " + std::to_string(face) + " does not exist: there are " +
+                     std::to_string(faces));
+}
 
 }  // namespace
 
@@ -24,67 +30,21 @@ struct IntrinsicDelaunay::State {
   IntrinsicTriangulation triangulation;
   std::vector<Index> face_of_slot;  // the caller's
   std::vector<Index> slot_of_face;
+  std::size_t faces = 0;  // of the input
   double unit = 1;
-  double tolerance = 0;
   DelaunaySummary summary;
-  bool out_of_patience = false;
 
   template <class Real>
   explicit State(const TriangleMesh<Real>& input)
       : triangulation(input),
         face_of_slot(input.face_count()),
         slot_of_face(input.face_count()),
-        unit(input.unit()),
-        tolerance(tolerance_of<Real>) {
+        faces(input.face_count()),
+        unit(input.unit()) {
     for (Index s = 0; s < face_of_slot.size(); ++s) {
       face_of_slot[s] = input.triangles()[s].face & ~reversed;
       slot_of_face[face_of_slot[s]] = s;
     }
-  }
-
-  [[nodiscard]] bool should_flip(Halfedge h) {
-    const double excess = triangulation.excess(h);
-    if (!(excess > tolerance)) return false;
-    const std::uint32_t flips = triangulation.flips(h);
-    if (flips < patience) return true;
-    out_of_patience = true;
-    return excess > std::ldexp(tolerance, static_cast<int>((flips - patience) / growth));
-  }
-
-  // Edge by edge; a flip puts the four edges around it on a stack, so that what it changes is still
-  // in the cache when it is looked at again. An edge is looked at from its lower side: whatever
-  // moves it later looks at it again.
-  void flip_all() {
-    std::vector<Halfedge> stack;
-    bool stuck = false;
-    const auto triangles = triangulation.triangles();
-    const Index slots = static_cast<Index>(triangles.size());
-    for (Index slot = 0; slot < slots; ++slot)
-      for (Index edge = 0; edge < 3; ++edge) {
-        const Halfedge first = slot << Across::face_shift | edge;
-        if (triangles[slot].across[edge] < first) continue;
-        stack.push_back(first);
-        while (!stack.empty()) {
-          const Halfedge h = stack.back();
-          stack.pop_back();
-          if (!should_flip(h)) continue;
-          const Index f = h >> Across::face_shift;
-          const Index g = triangles[f].across[h & Across::edge_mask] >> Across::face_shift;
-          if (!triangulation.flip(h)) {
-            stuck = true;
-            continue;
-          }
-          ++summary.flips;
-          for (const Index t : {g, f})
-            for (const Index i : {2u, 0u}) stack.push_back(t << Across::face_shift | i);
-        }
-      }
-    summary.stuck_edges = 0;
-    if (!stuck && !out_of_patience) return;
-    for (Index slot = 0; slot < slots; ++slot)
-      for (Index edge = 0; edge < 3; ++edge)
-        summary.stuck_edges += triangulation.excess(slot << Across::face_shift | edge) > tolerance;
-    summary.stuck_edges /= 2;
   }
 
   [[nodiscard]] SlotPoint slot_point(Index face, const std::array<double, 4>& b) const {
@@ -99,13 +59,22 @@ struct IntrinsicDelaunay::State {
 };
 
 template <class Real>
-IntrinsicDelaunay::IntrinsicDelaunay(const TriangleMesh<Real>& input)
+IntrinsicDelaunay::IntrinsicDelaunay(const TriangleMesh<Real>& input, const Refinement& refinement)
     : state_(std::make_unique<State>(input)) {
-  state_->flip_all();
-  state_->triangulation.release_counts();
+  IntrinsicTriangulation& triangulation = state_->triangulation;
+  DelaunayFlips flips(triangulation, tolerance_of<Real>);
+  flips.all();
+  if (refinement.smallest_angle > 0) refine(triangulation, flips, refinement);
+  state_->summary = {flips.count(), flips.stuck(), triangulation.inserted().size()};
+  triangulation.release_counts();
+  for (Index s = static_cast<Index>(input.face_count()); s < triangulation.triangles().size();
+       ++s) {
+    state_->face_of_slot.push_back(s);
+    state_->slot_of_face.push_back(s);
+  }
 }
-template IntrinsicDelaunay::IntrinsicDelaunay(const TriangleMesh<float>&);
-template IntrinsicDelaunay::IntrinsicDelaunay(const TriangleMesh<double>&);
+template IntrinsicDelaunay::IntrinsicDelaunay(const TriangleMesh<float>&, const Refinement&);
+template IntrinsicDelaunay::IntrinsicDelaunay(const TriangleMesh<double>&, const Refinement&);
 
 IntrinsicDelaunay::IntrinsicDelaunay(IntrinsicDelaunay&&) noexcept = default;
 IntrinsicDelaunay& IntrinsicDelaunay::operator=(IntrinsicDelaunay&&) noexcept = default;
@@ -141,17 +110,17 @@ TriangleMesh<Real> IntrinsicDelaunay::mesh() const {
           o == none ? none : 3 * face_of(o >> Across::face_shift) + (o & Across::edge_mask);
     }
   }
+  SurfaceHints hints;  // new triangles lie behind all others: they need a new order
+  if (state_->summary.inserted_vertices == 0) hints.order = state_->face_of_slot;
   return TriangleMesh<Real>(state_->triangulation.vertices(), faces, shapes, std::move(across),
-                            SurfaceHints{state_->face_of_slot});
+                            hints);
 }
 template TriangleMesh<float> IntrinsicDelaunay::mesh() const;
 template TriangleMesh<double> IntrinsicDelaunay::mesh() const;
 
 PointSource IntrinsicDelaunay::to_intrinsic(const PointSource& point) const {
   if (point.vertex != none) return point;
-  if (point.simplex >= state_->slot_of_face.size())
-    throw UsageError("face " + std::to_string(point.simplex) + " does not exist: there are " +
-                     std::to_string(state_->slot_of_face.size()));
+  check_face(point.simplex, state_->faces);
   const SlotPoint there =
       state_->triangulation.history().forward(state_->slot_point(point.simplex, point.barycentric));
   // A slot that nothing happened to has its corners as they were.
@@ -161,13 +130,18 @@ PointSource IntrinsicDelaunay::to_intrinsic(const PointSource& point) const {
 }
 
 PointSource IntrinsicDelaunay::to_input(const PointSource& point) const {
-  if (point.vertex != none) return point;
-  if (point.simplex >= state_->slot_of_face.size())
-    throw UsageError("face " + std::to_string(point.simplex) + " does not exist: there are " +
-                     std::to_string(state_->slot_of_face.size()));
-  const SlotPoint there = state_->triangulation.history().back(
-      {state_->slot_of_face[point.simplex],
-       {point.barycentric[0], point.barycentric[1], point.barycentric[2]}});
+  SlotPoint there;
+  if (point.vertex != none) {
+    const auto inserted = state_->triangulation.inserted();
+    const std::size_t own = state_->triangulation.vertices() - inserted.size();
+    if (point.vertex < own || point.vertex - own >= inserted.size()) return point;
+    there = inserted[point.vertex - own];
+  } else {
+    check_face(point.simplex, state_->slot_of_face.size());
+    there = state_->triangulation.history().back(
+        {state_->slot_of_face[point.simplex],
+         {point.barycentric[0], point.barycentric[1], point.barycentric[2]}});
+  }
   PointSource result =
       PointSource::in(state_->face_of_slot[there.slot], state_->in_face(there.slot, there.at));
   result.offset = point.offset;
@@ -176,6 +150,7 @@ PointSource IntrinsicDelaunay::to_input(const PointSource& point) const {
 
 std::vector<IntrinsicDelaunay::Piece> IntrinsicDelaunay::line_to_input(
     Index face, const std::array<double, 3>& from, const std::array<double, 3>& to) const {
+  check_face(face, state_->slot_of_face.size());
   std::vector<PatchHistory::Piece> pieces;
   state_->triangulation.history().back({state_->slot_of_face[face], from, to}, pieces);
   std::vector<Piece> result;

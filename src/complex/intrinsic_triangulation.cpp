@@ -223,7 +223,7 @@ bool IntrinsicTriangulation::flip(Halfedge h) {
   };
   PatchHistory::Patch patch;
   patch.point = {Planar{0, 0}, Planar{length, 0}, c, d, Planar{}};
-  patch.slot = {f, g, none, none};
+  patch.slot = {f, g, none};
   patch.order = {in_old(order_f, fa), in_old(order_g, gb)};
   patch.kind = PatchHistory::Kind::flip;
   history_.add(patch);
@@ -247,6 +247,100 @@ bool IntrinsicTriangulation::flip(Halfedge h) {
   if (flips_[f] < most) ++flips_[f];
   if (flips_[g] < most) ++flips_[g];
   return true;
+}
+
+Index IntrinsicTriangulation::add_slot() {
+  triangles_.push_back({{}, {}, {none, none, none}, {none, none, none}});
+  flips_.push_back(0);
+  return static_cast<Index>(triangles_.size() - 1);
+}
+
+Index IntrinsicTriangulation::add_vertex(Index slot, const std::array<double, 3>& at) {
+  inserted_.push_back(history_.back({slot, at}));
+  return static_cast<Index>(vertices_++);
+}
+
+void IntrinsicTriangulation::split(Index f, const std::array<double, 3>& at) {
+  const Index vertex = add_vertex(f, at);
+  const Index g = add_slot(), h = add_slot();
+  const IntrinsicTriangle t = triangles_[f];
+  const Planar a, b = {t.length[0], 0};
+  const Planar c = apex(t.length[0], t.length[2], t.angle[0], t.length[1], t.angle[1]);
+  const Planar p = at[1] * b + at[2] * c;
+  PatchHistory::Patch patch;
+  patch.point = {a, b, c, Planar{}, p};
+  patch.slot = {f, g, h};
+  patch.kind = PatchHistory::Kind::split;
+  history_.add(patch);
+
+  const double pa = norm(p), pb = norm(p - b), pc = norm(p - c);
+  const Turn a_first = clamped(turn_between(b - a, p - a)),
+             b_first = clamped(turn_between(p - b, a - b)),
+             c_first = clamped(turn_between(p - c, b - c));
+  const Turn a_rest = clamped(difference(t.angle[0], a_first)),
+             b_rest = clamped(difference(t.angle[1], b_first)),
+             c_rest = clamped(difference(t.angle[2], c_first));
+  const auto third = [](Turn x, Turn y) { return clamped(supplement(sum(x, y))); };
+
+  const std::array<Halfedge, 2> from = {halfedge(f, 1), halfedge(f, 2)};
+  const std::array<Halfedge, 2> to = {halfedge(g, 0), halfedge(h, 0)};
+  rename(from, to);
+  const Index a0 = t.corner[0], b0 = t.corner[1], c0 = t.corner[2];
+  const auto set = [&](Index slot, const std::array<double, 3>& length, Turn x, Turn y,
+                       const std::array<Index, 3>& corner) {
+    IntrinsicTriangle& own = triangles_[slot];
+    own.length = length;
+    own.angle = {x, y, third(x, y)};
+    own.corner = corner;
+    reconcile(own);
+  };
+  set(f, {t.length[0], pb, pa}, a_first, b_first, {a0, b0, vertex});
+  set(g, {t.length[1], pc, pb}, b_rest, c_first, {b0, c0, vertex});
+  set(h, {t.length[2], pa, pc}, c_rest, a_rest, {c0, a0, vertex});
+  const auto glue = [&](Halfedge x, Halfedge y) {
+    across(x) = y;
+    across(y) = x;
+  };
+  glue(halfedge(f, 1), halfedge(g, 2));
+  glue(halfedge(g, 1), halfedge(h, 2));
+  glue(halfedge(h, 1), halfedge(f, 2));
+}
+
+void IntrinsicTriangulation::split_border(Halfedge e) {
+  const Index f = slot_of(e);
+  const std::size_t fa = edge_of(e), fb = next(fa), fc = next(fb);
+  std::array<double, 3> middle{};
+  middle[fa] = middle[fb] = 0.5;
+  const Index vertex = add_vertex(f, middle);
+  const Index g = add_slot();
+  const IntrinsicTriangle t = triangles_[f];
+  const Planar a, b = {t.length[fa], 0}, p = {t.length[fa] / 2, 0};
+  const Planar c = apex(t.length[fa], t.length[fc], t.angle[fa], t.length[fb], t.angle[fb]);
+  PatchHistory::Patch patch;
+  patch.point = {a, b, c, Planar{}, p};
+  patch.slot = {f, g, none};
+  patch.order[0].first = static_cast<std::uint8_t>(fa);
+  patch.kind = PatchHistory::Kind::split_border;
+  history_.add(patch);
+
+  const Turn c_first = clamped(turn_between(a - c, p - c)),
+             c_rest = clamped(difference(t.angle[fc], c_first));
+  const double pc = norm(p - c);
+  const std::array<Halfedge, 2> from = {halfedge(f, fb), halfedge(f, fc)};
+  const std::array<Halfedge, 2> to = {halfedge(g, 1), halfedge(f, 2)};
+  rename(from, to);
+  IntrinsicTriangle &left = triangles_[f], &right = triangles_[g];
+  left.length = {p.x, pc, t.length[fc]};
+  left.angle = {t.angle[fa], clamped(supplement(sum(t.angle[fa], c_first))), c_first};
+  left.corner = {t.corner[fa], vertex, t.corner[fc]};
+  right.length = {p.x, t.length[fb], pc};
+  right.angle = {clamped(supplement(sum(t.angle[fb], c_rest))), t.angle[fb], c_rest};
+  right.corner = {vertex, t.corner[fb], t.corner[fc]};
+  reconcile(left);
+  reconcile(right);
+  left.across[0] = right.across[0] = none;
+  left.across[1] = halfedge(g, 2);
+  right.across[2] = halfedge(f, 1);
 }
 
 }  // namespace plexway

@@ -57,11 +57,12 @@ class IntrinsicTriangulation {
   /// Flips since the start of the slots beside an edge, the larger number.
   [[nodiscard]] std::uint32_t flips(Halfedge h) const;
 
-  /// Puts a new vertex into a triangle, by barycentric coordinates; three slots of one.
-  Index split(Index slot, const std::array<double, 3>& at);
-  /// Puts a new vertex on an edge, at this share of it. The edge has one triangle, or two different
-  /// ones that are not turned over there.
-  Index split_edge(Halfedge h, double share);
+  /// Puts a new vertex into a triangle, by barycentric coordinates: that slot and two new ones.
+  void split(Index slot, const std::array<double, 3>& at);
+  /// Puts a new vertex in the middle of an edge with one triangle: its slot and a new one.
+  void split_border(Halfedge h);
+  /// Where in the input the vertices are that were put in, in order.
+  [[nodiscard]] std::span<const SlotPoint> inserted() const { return inserted_; }
 
  private:
   [[nodiscard]] Index& across(Halfedge h) {
@@ -75,12 +76,14 @@ class IntrinsicTriangulation {
   void turn_over(Index slot);
   [[nodiscard]] bool may_turn_over(Index slot) const;
   Index add_slot();
+  Index add_vertex(Index slot, const std::array<double, 3>& at);
 
   std::size_t vertices_ = 0;
   std::vector<IntrinsicTriangle> triangles_;
   std::vector<std::uint16_t> flips_;
   std::vector<char> turned_;
   PatchHistory history_;
+  std::vector<SlotPoint> inserted_;
 };
 
 }  // namespace plexway

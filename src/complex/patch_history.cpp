@@ -13,14 +13,13 @@ using Corners = std::array<std::uint8_t, 3>;
 struct Form {
   std::size_t before_count, after_count;
   std::array<Corners, 2> before;
-  std::array<Corners, 4> after;
+  std::array<Corners, 3> after;
 };
 
 constexpr std::uint8_t a = 0, b = 1, c = 2, d = 3, p = 4;
-constexpr std::array<Form, 4> forms = {{
+constexpr std::array<Form, 3> forms = {{
     {2, 2, {{{a, b, c}, {b, a, d}}}, {{{a, d, c}, {b, c, d}}}},
     {1, 3, {{{a, b, c}}}, {{{a, b, p}, {b, c, p}, {c, a, p}}}},
-    {2, 4, {{{a, b, c}, {b, a, d}}}, {{{a, p, c}, {b, p, d}, {p, b, c}, {p, a, d}}}},
     {1, 2, {{{a, b, c}}}, {{{a, p, c}, {p, b, c}}}},
 }};
 
@@ -64,8 +63,8 @@ void PatchHistory::add(Patch patch) {
       last_.resize(slot + 1, none);
     }
     Index& last = last_[slot];
-    patch.earlier[k] = k < form.before_count ? last : none;
     if (k < form.before_count) {
+      patch.earlier[k] = last;
       if (last == none)
         first_[slot] = number;
       else

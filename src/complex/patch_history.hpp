@@ -46,14 +46,13 @@ class PatchHistory {
   enum class Kind : std::uint8_t {
     flip,         ///< abc, bad become adc, bcd
     split,        ///< abc becomes abp, bcp, cap
-    split_edge,   ///< abc, bad become apc, bpd, pbc, pad
     split_border  ///< abc becomes apc, pbc
   };
   struct Patch {
     std::array<Planar, 5> point;
-    std::array<Index, 4> slot = {none, none, none, none};  ///< before and after, first to last
-    std::array<Index, 4> earlier = {none, none, none, none};
-    std::array<Index, 4> later = {none, none, none, none};
+    std::array<Index, 3> slot = {none, none, none};  ///< before and after, first to last
+    std::array<Index, 2> earlier = {none, none};
+    std::array<Index, 3> later = {none, none, none};
     std::array<CornerOrder, 2> order;  ///< of the triangles before; those after are as listed
     Kind kind = Kind::flip;
   };

@@ -42,6 +42,15 @@ struct DelaunaySummary {
   std::size_t inserted_vertices = 0;
 };
 
+/// How far to refine: vertices are put in until no angle is smaller.
+struct Refinement {
+  double smallest_angle = 0;  ///< degrees; 0: not at all. Up to 28 it ends by itself mostly
+  /// So many new vertices at most, as a share of those there are. The largest triangles come first.
+  double most_vertices = 4;
+  /// Edges shorter than this, in mean edges, are left alone.
+  double shortest_edge = 1e-3;
+};
+
 /// The intrinsic Delaunay triangulation of a surface: other triangles over the same vertices in
 /// the same metric, such that the two angles opposite to an inner edge never exceed 180 degrees.
 ///
@@ -68,8 +77,13 @@ class IntrinsicDelaunay {
  public:
   /// Cost: a few flips a vertex at most on usual meshes, 0.1 us each, and 0.1 us a triangle;
   /// quadratic at worst. Memory while it lives: 110 bytes a triangle, 160 a flip.
+  ///
+  /// With a refinement, circumcentres of bad triangles become vertices, numbered after the input's,
+  /// or middles of boundary edges that are in between (Chew: Guaranteed-quality mesh generation for
+  /// curved surfaces, 1993; on intrinsic triangulations Sharp, Soliman, Crane: Navigating intrinsic
+  /// triangulations, 2019, section 4.2).
   template <class Real>
-  explicit IntrinsicDelaunay(const TriangleMesh<Real>& input);
+  explicit IntrinsicDelaunay(const TriangleMesh<Real>& input, const Refinement& refinement = {});
   IntrinsicDelaunay(IntrinsicDelaunay&&) noexcept;
   IntrinsicDelaunay& operator=(IntrinsicDelaunay&&) noexcept;
   ~IntrinsicDelaunay();
@@ -84,7 +98,8 @@ class IntrinsicDelaunay {
   /// rounding. Throws UsageError for a triangle that does not exist. Cost: the flips that its
   /// triangles went through, mostly a few.
   [[nodiscard]] PointSource to_intrinsic(const PointSource& point) const;
-  /// And back: the place of a point of the triangulation in the input's triangles.
+  /// And back: the place of a point of the triangulation, or of a vertex that was put in, in the
+  /// input's triangles.
   [[nodiscard]] PointSource to_input(const PointSource& point) const;
 
   /// A straight line in one triangle of the triangulation, as straight lines in triangles of the
