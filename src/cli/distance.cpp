@@ -114,7 +114,8 @@ std::string to_text(const DistanceCommand& command, const Domain& domain, const 
     const std::string label = sources.size() == 1 ? "source" : "source " + std::to_string(i);
     table.add(label, describe_source(domain, arguments[i], sources[i]));
   }
-  if (solver.triangulation().delaunay) table.add("triangles", describe(solver.triangulation()));
+  if (solver.triangulation().done != Retriangulation::keep)
+    table.add("triangles", describe(solver.triangulation()));
   std::string reached =
       std::to_string(outcome.reached) + " of " + counted(domain.vertices(), "vertices");
   if (outcome.reached > 0) {

@@ -71,7 +71,7 @@ class ShapeSolver final : public Solver {
   }
 
   std::vector<double> distance() const override {
-    return {field_.distance.begin(), field_.distance.end()};
+    return {field_.distance.begin(), field_.distance.end() - inserted()};
   }
 
   std::vector<std::int32_t> label() const override {
@@ -79,6 +79,7 @@ class ShapeSolver final : public Solver {
     labels.reserve(field_.label.size());
     for (const Index label : field_.label)
       labels.push_back(label == none ? -1 : static_cast<std::int32_t>(label));
+    if (!labels.empty()) labels.resize(labels.size() - static_cast<std::size_t>(inserted()));
     return labels;
   }
 
@@ -96,6 +97,11 @@ class ShapeSolver final : public Solver {
   }
 
  private:
+  // Vertices at the end that are not the input's.
+  [[nodiscard]] std::ptrdiff_t inserted() const {
+    return static_cast<std::ptrdiff_t>(triangulation_.inserted_vertices);
+  }
+
   template <class OnThisMachine>
   void solve_on(const OnThisMachine& executor, std::span<const PointSource> sources,
                 const PropagateOptions& options) {

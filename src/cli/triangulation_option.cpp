@@ -13,8 +13,9 @@ void add_triangulation_option(CLI::App& command, TriangulationArgument& argument
   command
       .add_option("--triangulation", argument.name,
                   "surfaces: which triangles to solve on: input, delaunay (the intrinsic\n"
-                  "Delaunay triangulation of the same vertices), or auto (default: delaunay\n"
-                  "where the input's are badly shaped; 'plexway info' tells)")
+                  "Delaunay triangulation of the vertices), refined (that, with a quarter more\n"
+                  "vertices inside), or auto (default: what the shape of the input's triangles\n"
+                  "calls for; 'plexway info' tells). Results are for the input's vertices")
       ->type_name("NAME")
       ->group("How to solve");
 }
@@ -22,13 +23,18 @@ void add_triangulation_option(CLI::App& command, TriangulationArgument& argument
 Triangulation triangulation_of(const TriangulationArgument& argument) {
   if (argument.name == "input") return Triangulation::input;
   if (argument.name == "delaunay") return Triangulation::delaunay;
+  if (argument.name == "refined") return Triangulation::refined;
   if (argument.name == "auto") return Triangulation::automatic;
-  throw UsageError("--triangulation '" + argument.name + "': choose one of input, delaunay, auto");
+  throw UsageError("--triangulation '" + argument.name +
+                   "': choose one of input, delaunay, refined, auto");
 }
 
 void check_triangulation(Triangulation wanted, const Domain& domain) {
-  if (wanted == Triangulation::delaunay && domain.kind() != "surface")
-    throw UsageError("--triangulation delaunay: a " + std::string(domain.kind()) +
+  const bool asked = wanted == Triangulation::delaunay || wanted == Triangulation::refined;
+  if (asked && domain.kind() != "surface")
+    throw UsageError(std::string("--triangulation ") +
+                     (wanted == Triangulation::delaunay ? "delaunay" : "refined") + ": a " +
+                     std::string(domain.kind()) +
                      " has no triangles to flip; leave the option out");
 }
 
@@ -39,15 +45,20 @@ std::optional<IntrinsicDelaunay> retriangulate(Triangulation wanted, const io::T
   report = {};
   if (wanted == Triangulation::input) return std::nullopt;
   const Stopwatch working;
+  report.done = wanted == Triangulation::delaunay  ? Retriangulation::flips
+                : wanted == Triangulation::refined ? Retriangulation::refined
+                                                   : what_pays(measure_triangulation(mesh));
   std::optional<IntrinsicDelaunay> delaunay;
-  if (wanted == Triangulation::delaunay || flipping_pays(measure_triangulation(mesh))) {
+  if (report.done != Retriangulation::keep) {
+    Refinement refinement;
+    if (report.done == Retriangulation::refined) refinement = Refinement::moderate();
     if constexpr (sizeof(Real) == sizeof(double))
-      delaunay.emplace(mesh);
+      delaunay.emplace(mesh, refinement);
     else
-      delaunay.emplace(make_complex<double>(surface));
-    report.delaunay = true;
+      delaunay.emplace(make_complex<double>(surface), refinement);
     report.flips = delaunay->summary().flips;
-    if (report.flips > 0) mesh = delaunay->mesh<Real>();
+    report.inserted_vertices = delaunay->summary().inserted_vertices;
+    if (report.flips + report.inserted_vertices > 0) mesh = delaunay->mesh<Real>();
   }
   report.seconds = working.seconds();
   return delaunay;
@@ -58,14 +69,26 @@ template std::optional<IntrinsicDelaunay> retriangulate(Triangulation, const io:
                                                         TriangleMesh<double>&,
                                                         TriangulationReport&);
 
-std::string_view name_of(const TriangulationReport& report) {
-  return report.delaunay ? "delaunay" : "input";
+namespace {
+
+std::string_view name_of(Retriangulation done) {
+  return done == Retriangulation::keep    ? "input"
+         : done == Retriangulation::flips ? "delaunay"
+                                          : "refined";
 }
 
+}  // namespace
+
+std::string_view name_of(const TriangulationReport& report) { return name_of(report.done); }
+
 std::string describe(const TriangulationReport& report) {
-  if (!report.delaunay) return "as in the input";
-  return "intrinsic Delaunay, " + counted(report.flips, "flips") + ", " +
-         short_time(report.seconds);
+  std::string text =
+      report.done == Retriangulation::keep ? "as in the input" : "intrinsic Delaunay, ";
+  if (report.done == Retriangulation::keep) return text;
+  text += counted(report.flips, "flips");
+  if (report.done == Retriangulation::refined)
+    text += " and " + counted(report.inserted_vertices, "vertices") + " put in";
+  return text + ", " + short_time(report.seconds);
 }
 
 void add_shape(const TriangulationShape& shape, Json& json, Table& table) {
@@ -76,12 +99,12 @@ void add_shape(const TriangulationShape& shape, Json& json, Table& table) {
   triangulation["largest_angle"] = shape.largest_angle;
   triangulation["needle_share"] = shape.needle_share;
   triangulation["blunt_share"] = shape.blunt_share;
-  triangulation["auto"] = flipping_pays(shape) ? "delaunay" : "input";
+  triangulation["auto"] = name_of(what_pays(shape));
   table.add("triangles", "angles " + short_number(shape.smallest_angle) + " to " +
                              short_number(shape.largest_angle) + " degrees; " +
                              short_number(100 * shape.non_delaunay_share()) +
                              " % of the inner edges are not Delaunay; --triangulation auto takes " +
-                             (flipping_pays(shape) ? "delaunay" : "input"));
+                             std::string(name_of(what_pays(shape))));
 }
 
 }  // namespace plexway::cli

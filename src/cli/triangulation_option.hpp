@@ -16,7 +16,7 @@ class App;
 namespace plexway::cli {
 
 /// Which triangles a surface is solved on.
-enum class Triangulation { input, delaunay, automatic };
+enum class Triangulation { input, delaunay, refined, automatic };
 
 /// As typed.
 struct TriangulationArgument {
@@ -29,14 +29,15 @@ void add_triangulation_option(CLI::App& command, TriangulationArgument& argument
 /// Throws UsageError for a name that does not exist.
 Triangulation triangulation_of(const TriangulationArgument& argument);
 
-/// Throws UsageError where `delaunay` is asked of what is no surface.
+/// Throws UsageError where `delaunay` or `refined` is asked of what is no surface.
 void check_triangulation(Triangulation wanted, const Domain& domain);
 
 /// Which one it became.
 struct TriangulationReport {
-  bool delaunay = false;
+  Retriangulation done = Retriangulation::keep;
   std::size_t flips = 0;
-  double seconds = 0;  ///< for looking, and for flipping where that was done
+  std::size_t inserted_vertices = 0;  ///< numbered after the input's
+  double seconds = 0;                 ///< for looking, and for flipping where that was done
 };
 
 /// Replaces the mesh of a surface by its intrinsic Delaunay triangulation if that is wanted, or if
@@ -46,7 +47,7 @@ std::optional<IntrinsicDelaunay> retriangulate(Triangulation wanted, const io::T
                                                TriangleMesh<Real>& mesh,
                                                TriangulationReport& report);
 
-/// What a report says of it: "input", or "delaunay"; and for people with the number of flips.
+/// What a report says of it: "input", "delaunay" or "refined"; and a sentence for people.
 [[nodiscard]] std::string_view name_of(const TriangulationReport& report);
 [[nodiscard]] std::string describe(const TriangulationReport& report);
 

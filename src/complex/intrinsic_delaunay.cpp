@@ -202,6 +202,9 @@ TriangulationShape measure_triangulation(const TriangleMesh<Real>& mesh) {
 template TriangulationShape measure_triangulation(const TriangleMesh<float>&);
 template TriangulationShape measure_triangulation(const TriangleMesh<double>&);
 
-bool flipping_pays(const TriangulationShape& shape) { return shape.non_delaunay_share() > 0.05; }
+Retriangulation what_pays(const TriangulationShape& shape) {
+  if (shape.needle_share > 0.1) return Retriangulation::refined;
+  return shape.non_delaunay_share() > 0.05 ? Retriangulation::flips : Retriangulation::keep;
+}
 
 }  // namespace plexway

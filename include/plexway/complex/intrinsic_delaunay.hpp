@@ -32,8 +32,17 @@ struct TriangulationShape {
 template <class Real>
 [[nodiscard]] TriangulationShape measure_triangulation(const TriangleMesh<Real>& mesh);
 
-/// Whether distances are better and faster on the intrinsic Delaunay triangulation.
-[[nodiscard]] bool flipping_pays(const TriangulationShape& shape);
+/// What to do about a triangulation before distances are propagated on it.
+enum class Retriangulation {
+  keep,    ///< nothing pays
+  flips,   ///< the intrinsic Delaunay triangulation of the vertices
+  refined  ///< that, with more vertices
+};
+
+/// What pays, by measured shape: flips if more than one inner edge in twenty is not Delaunay,
+/// refinement as well if more than one triangle in ten has an angle below 5 degrees
+/// (docs/DESIGN.md has the measurements).
+[[nodiscard]] Retriangulation what_pays(const TriangulationShape& shape);
 
 /// What was done to get there.
 struct DelaunaySummary {
@@ -42,13 +51,16 @@ struct DelaunaySummary {
   std::size_t inserted_vertices = 0;
 };
 
-/// How far to refine: vertices are put in until no angle is smaller.
+/// How far to refine: vertices are put in until no angle is smaller, or there are enough.
 struct Refinement {
-  double smallest_angle = 0;  ///< degrees; 0: not at all. Up to 28 it ends by itself mostly
+  double smallest_angle = 0;  ///< degrees; 0: not at all. Up to 28 it mostly ends by itself
   /// So many new vertices at most, as a share of those there are. The largest triangles come first.
-  double most_vertices = 4;
+  double most_vertices = 0.25;
   /// Edges shorter than this, in mean edges, are left alone.
   double shortest_edge = 1e-3;
+
+  /// What pays where refinement pays at all: a quarter more vertices where triangles are worst.
+  static Refinement moderate() { return {.smallest_angle = 20}; }
 };
 
 /// The intrinsic Delaunay triangulation of a surface: other triangles over the same vertices in
