@@ -50,13 +50,13 @@ template <class Real, class Shape>
 class ShapeSolver final : public Solver {
  public:
   explicit ShapeSolver(const Shape& shape, [[maybe_unused]] Triangulation triangulation)
-      : complex_(make_complex<Real>(shape)) {
+      : complex_(make_complex<Real>(shape)), simplices_(simplex_count(complex_)) {
     if constexpr (std::is_same_v<Shape, io::Triangles>)
       delaunay_ = retriangulate(triangulation, shape, complex_, triangulation_);
   }
 
   std::size_t components() const override { return complex_.summary().components; }
-  std::size_t simplices() const override { return simplex_count(complex_); }
+  std::size_t simplices() const override { return simplices_; }
   TriangulationReport triangulation() const override { return triangulation_; }
 
   void solve(const Executor& executor, std::span<const PointSource> sources,
@@ -127,6 +127,7 @@ class ShapeSolver final : public Solver {
   static constexpr bool kSerialOnly = std::is_same_v<Complex, PointPairs<Real>>;
 
   Complex complex_;
+  std::size_t simplices_;  // before any were added
   std::optional<IntrinsicDelaunay> delaunay_;
   TriangulationReport triangulation_;
   std::vector<PointSource> moved_;

@@ -27,7 +27,7 @@ class Solver {
   Solver& operator=(const Solver&) = delete;
 
   [[nodiscard]] virtual std::size_t components() const = 0;
-  /// Of the complex: a cloud has triangles only there.
+  /// Of the complex: a cloud has triangles only there. Without those of a refinement.
   [[nodiscard]] virtual std::size_t simplices() const = 0;
   /// Which triangles a surface is solved on.
   [[nodiscard]] virtual TriangulationReport triangulation() const { return {}; }

@@ -36,13 +36,15 @@ class Refiner {
 
   void run() {
     for (Index s = 0; s < triangulation_.triangles().size(); ++s) look_at(s);
-    // Each entry is taken once, and each insertion makes finitely many: the room is the end.
+    // Each entry is taken once and each insertion makes finitely many, so the room is the end.
     while (!queue_.empty() && triangulation_.inserted().size() < room_) {
       const Bad bad = queue_.top();
       queue_.pop();
       if (badness(bad.slot) != bad.radius) continue;
       const Goal goal = way_to_circumcentre(bad.slot);
-      if (goal.found) insert(goal);
+      if (!goal.found) continue;
+      insert(goal);
+      look_at(bad.slot);  // a border in between was split: the triangle may be as it was
     }
   }
 

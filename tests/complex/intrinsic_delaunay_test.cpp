@@ -89,13 +89,7 @@ std::vector<Face> empty_circles(const Surface& s) {
   return found;
 }
 
-Surface noisy_sphere(int levels, unsigned seed) {
-  Surface s = sphere(levels);
-  std::mt19937 random(seed);
-  for (Position& p : s.positions)
-    for (double& x : p) x += 0.02 * (uniform(random) - 0.5);
-  return s;
-}
+Surface noisy_sphere(int levels, unsigned seed) { return noisy(sphere(levels), 0.02, seed); }
 
 // The same metric in other triangles: random flips of edges that allow it.
 Double shuffled(const Double& mesh, int flips, unsigned seed) {

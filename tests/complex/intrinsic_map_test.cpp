@@ -133,3 +133,49 @@ TEST_CASE("lines of the intrinsic triangulation are lines of the input") {
     }
   CHECK(most > 3);
 }
+
+TEST_CASE("refinement makes good triangles and keeps metric and map") {
+  for (const Surface& s :
+       {random_polygon(6, 60, 800, 3), noisy(sphere(3), 0.3, 4), prism(9, 3, 20),
+        noisy(moebius(40, 2), 0.03, 5), renamed(sheets(3, 4), 1, true).surface}) {
+    const auto input = s.mesh<double>();
+    const IntrinsicDelaunay delaunay(
+        input, {.smallest_angle = 20, .most_vertices = 200, .shortest_edge = 1e-7});
+    const auto mesh = delaunay.mesh<double>();
+    const Plain p = plain(input), q = plain(mesh);
+    CHECK(delaunay.summary().inserted_vertices > 0);
+    CHECK(mesh.vertex_count() == input.vertex_count() + delaunay.summary().inserted_vertices);
+    CHECK(worst_excess(mesh) < 1e-10);
+    CHECK(measure_triangulation(mesh).smallest_angle > 19.99);
+    CHECK(total_area(q) == Approx(total_area(p)).epsilon(1e-10));
+    const auto angles = cone_angles(p, input.vertex_count());
+    const auto now = cone_angles(q, mesh.vertex_count());
+    for (std::size_t v = 0; v < now.size(); ++v) {
+      if (v < angles.size()) {
+        CHECK(now[v] == Approx(angles[v]).epsilon(1e-10));
+      } else {  // inside, or on the boundary
+        const double turns = now[v] / std::numbers::pi;
+        CHECK((std::abs(turns - 2) < 1e-10 || std::abs(turns - 1) < 1e-10));
+      }
+    }
+    // Vertices put in are where edges to the input's vertices say they are: there and back.
+    std::mt19937 random(2);
+    double worst = 0;
+    for (Index f = 0; f < s.faces.size(); ++f) {
+      const auto b = any_point(random);
+      const PointSource back = delaunay.to_input(delaunay.to_intrinsic(PointSource::in(f, b)));
+      worst = std::max(
+          worst, apart(place(s, s.faces[f], b), place(s, s.faces[back.simplex], back.barycentric)));
+    }
+    CHECK(worst < 1e-9);
+    const PointSource last =
+        delaunay.to_input(PointSource::at(static_cast<Index>(mesh.vertex_count() - 1)));
+    REQUIRE(last.vertex == none);
+    const PointSource there = delaunay.to_intrinsic(last);
+    double most = 0;
+    for (std::size_t i = 0; i < 3; ++i)
+      if (q.faces[there.simplex][i] == mesh.vertex_count() - 1)
+        most = std::max(most, there.barycentric[i]);
+    CHECK(most == Approx(1).epsilon(1e-9));
+  }
+}

@@ -110,6 +110,14 @@ inline std::vector<Face> vertex_sets(const Plain& p) {
   return sets;
 }
 
+/// The same triangles, vertices moved at random.
+inline Surface noisy(Surface s, double by, unsigned seed) {
+  std::mt19937 random(seed);
+  for (Position& p : s.positions)
+    for (double& x : p) x += by * (uniform(random) - 0.5);
+  return s;
+}
+
 /// A closed surface of two copies of one triangle, glued along all three edges.
 inline TriangleMesh<double> double_cover(double a, double b, double c) {
   const std::vector<Face> faces = {{0, 1, 2}, {0, 2, 1}};
