@@ -53,7 +53,9 @@ struct DelaunaySummary {
 
 /// How far to refine: vertices are put in until no angle is smaller, or there are enough.
 struct Refinement {
-  double smallest_angle = 0;  ///< degrees; 0: not at all. Up to 28 it mostly ends by itself
+  /// Degrees; 0: not at all. Up to 28 it mostly ends by itself; vertices close to a boundary may
+  /// keep it going down to `shortest_edge`.
+  double smallest_angle = 0;
   /// So many new vertices at most, as a share of those there are. The largest triangles come first.
   double most_vertices = 0.25;
   /// Edges shorter than this, in mean edges, are left alone.
