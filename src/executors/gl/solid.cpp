@@ -33,14 +33,6 @@ struct AddedLabel {
   SolidCell label;
 };
 
-std::size_t identity_of(const TetMesh<float>& mesh) {
-  Identity identity;
-  identity.add_sample(mesh.tets());
-  identity.add_sample(mesh.points());
-  identity.add_sample(mesh.vertices_inside());
-  return identity.value();
-}
-
 template <class T>
 void upload(const Session& session, Buffer& to, std::span<const T> values) {
   to.reserve(session, values.size_bytes());
@@ -58,7 +50,7 @@ class SolidRun {
         workspace_(workspace),
         session_(session),
         buffers_(workspace.domain_buffers<SolidBuffers>(
-            session, identity_of(mesh), [&](SolidBuffers& fresh) { upload_to(fresh); })),
+            session, mesh.identity(), [&](SolidBuffers& fresh) { upload_to(fresh); })),
         radius_(static_cast<float>(options.radius / mesh.unit())),
         drops_(!mesh.reflex_edges().empty() || !mesh.pinched().empty() ||
                !mesh.pinched_edges().empty()) {}

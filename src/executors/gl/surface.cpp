@@ -25,13 +25,6 @@ struct SurfaceBuffers final : Implementation::DomainBuffers {
   }
 };
 
-std::size_t identity_of(const TriangleMesh<float>& mesh) {
-  Identity identity;
-  identity.add_sample(mesh.triangles());
-  identity.add_sample(mesh.vertices_inside());
-  return identity.value();
-}
-
 // Several fields over one surface, in one launch.
 class SurfaceRun {
  public:
@@ -43,7 +36,7 @@ class SurfaceRun {
         workspace_(workspace),
         session_(session),
         buffers_(workspace.domain_buffers<SurfaceBuffers>(
-            session, identity_of(mesh), [&](SurfaceBuffers& fresh) { upload(fresh); })),
+            session, mesh.identity(), [&](SurfaceBuffers& fresh) { upload(fresh); })),
         radius_(static_cast<float>(options.radius / mesh.unit())) {}
 
   /// Until no label waits, in so many fields. False if the budget is spent.

@@ -24,14 +24,6 @@ struct WireBuffers final : Implementation::DomainBuffers {
   }
 };
 
-std::size_t identity_of(const Wireframe<float>& wireframe) {
-  Identity identity;
-  identity.add_sample(wireframe.begin());
-  identity.add_sample(wireframe.arcs());
-  identity.add_sample(wireframe.vertices_inside());
-  return identity.value();
-}
-
 /// What propagations start from.
 struct WireSeeds {
   std::vector<Waiting> waiting;
@@ -71,7 +63,7 @@ class WireRun {
         workspace_(workspace),
         session_(session),
         buffers_(workspace.domain_buffers<WireBuffers>(
-            session, identity_of(wireframe), [&](WireBuffers& fresh) { upload(fresh); })) {}
+            session, wireframe.identity(), [&](WireBuffers& fresh) { upload(fresh); })) {}
 
   bool run(const WireSeeds& seeds, std::size_t fields) {
     fields_ = fields;

@@ -1,10 +1,7 @@
 #pragma once
 
 #include <cstdint>
-#include <cstring>
 #include <memory>
-#include <span>
-#include <vector>
 
 #include <plexway/propagate/workspace.hpp>
 
@@ -32,7 +29,7 @@ struct GLWorkspace::Implementation {
 
   /// The buffers of a domain, made by `make` unless those that are there have this `identity`.
   template <class Buffers, class Make>
-  Buffers& domain_buffers(const gl::Session& session, std::size_t identity, Make make) {
+  Buffers& domain_buffers(const gl::Session& session, std::uint64_t identity, Make make) {
     if (domain && domain_identity == identity)
       if (auto* known = dynamic_cast<Buffers*>(domain.get())) return *known;
     if (domain) domain->release(session);
@@ -48,35 +45,10 @@ struct GLWorkspace::Implementation {
   std::shared_ptr<gl::Context> context;
   gl::Front front;
   std::unique_ptr<DomainBuffers> domain;
-  std::size_t domain_identity = 0;
+  std::uint64_t domain_identity = 0;
   gl::Buffer vertex_best, vertex_source, distances, sources, small;
   Workspace<float> host;  // for seeds
   std::size_t rounds = 0;
 };
 
-namespace gl {
-
-/// A number that tells domains apart: from their sizes and a sample of their content.
-class Identity {
- public:
-  void add(std::size_t value) { hash_ = (hash_ ^ value) * 1099511628211u; }
-  template <class T>
-  void add_sample(std::span<const T> values) {
-    add(values.size());
-    const auto* words = reinterpret_cast<const unsigned char*>(values.data());
-    const std::size_t step = values.size() / 4096 + 1;
-    for (std::size_t i = 0; i < values.size(); i += step)
-      for (std::size_t b = 0; b < sizeof(T); b += 4) {
-        std::uint32_t word = 0;
-        std::memcpy(&word, words + i * sizeof(T) + b, 4);
-        add(word);
-      }
-  }
-  [[nodiscard]] std::size_t value() const { return hash_; }
-
- private:
-  std::size_t hash_ = 14695981039346656037u;
-};
-
-}  // namespace gl
 }  // namespace plexway
