@@ -1,6 +1,6 @@
 #version 430
-// Labels that were put into a queue without asking, seeds for one, are accepted or taken out again:
-// the rule of the rounds, applied to what waits. One invocation an entry.
+// Labels that were put into a queue without asking, seeds for one, are accepted or taken out again,
+// as those of a round are. One invocation an entry.
 
 #ifndef PLEXWAY_GROUP
 #define PLEXWAY_GROUP 64
@@ -14,7 +14,12 @@ void main() {
   uint i = invocation();
   if (i < count) {
     uvec2 entry = waiting[first + i];
-    if (entry.x != NO_CELL && !lower(entry.x, entry.y)) waiting[first + i].x = NO_CELL;
+    if (entry.x != NO_CELL) {
+      if (lower(entry.x, entry.y))
+        note_accepted();
+      else
+        waiting[first + i].x = NO_CELL;
+    }
   }
   end_group();
 }

@@ -14,6 +14,7 @@ layout(std430, binding = 5) readonly buffer Inside { uint inside[]; };
 layout(std430, binding = 6) readonly buffer VertexBest { uint vertex_best[]; };
 
 uniform uint vertex_count, total;
+uniform uint stride;  // of VertexBest; the last of so many numbers is meant
 uniform float unit, radius;
 
 void main() {
@@ -21,7 +22,7 @@ void main() {
            gl_LocalInvocationID.x;
   if (i >= total) return;
   uint v = i % vertex_count, from = i - v + inside[v];
-  uint bits = vertex_best[from];
+  uint bits = vertex_best[from * stride + stride - 1u];
   float d = uintBitsToFloat(bits) * unit;
   bool known = bits < 0x7f800000u && d <= radius;
   distances[i] = known ? floatBitsToUint(d) : 0x7f800000u;

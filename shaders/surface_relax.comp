@@ -22,7 +22,7 @@ layout(std430, binding = 5) readonly buffer Triangles { Triangle triangles[]; };
 layout(std430, binding = 6) coherent buffer VertexBest { uint vertex_best[]; };
 layout(std430, binding = 7) coherent buffer VertexSource { uint vertex_source[]; };
 
-uniform uint triangle_count, cells, vertex_count;
+uniform uint triangle_count, cell_count, vertex_count;
 uniform uint who;
 
 void relax(uint from, uint to, float edge) {
@@ -41,7 +41,7 @@ void relax(uint from, uint to, float edge) {
 void main() {
   uint cell = (gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x) * uint(PLEXWAY_GROUP) +
               gl_LocalInvocationID.x;
-  if (cell >= cells) return;
+  if (cell >= cell_count) return;
   uint f = cell % triangle_count, vertices = cell / triangle_count * vertex_count;
   for (int i = 0; i < 3; ++i) {
     uint v = vertices + triangles[f].corner[i];

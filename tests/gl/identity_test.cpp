@@ -21,10 +21,13 @@ using namespace plexway::testing;
 namespace {
 
 template <class Domain>
-std::vector<float> on_device(const Domain& domain, Index source, GLWorkspace& workspace) {
+std::vector<float> on_device(const Domain& domain, Index source, GLWorkspace& workspace,
+                             double radius = 1e30) {
   const PointSource at = PointSource::at(source);
   DistanceField<float> field;
-  propagate(GL{}, domain, std::span<const PointSource>(&at, 1), {}, workspace, field);
+  PropagateOptions options;
+  options.radius = radius;
+  propagate(GL{}, domain, std::span<const PointSource>(&at, 1), options, workspace, field);
   return field.distance;
 }
 
@@ -40,7 +43,7 @@ TEST_CASE("wireframes that differ in one length only are told apart on a device"
     std::vector<double> lengths(edges, 1);
     lengths[longer] = 3;
     const Wireframe<float> chain(edges + 1, ends, lengths);
-    const auto distance = on_device(chain, longer - 5, workspace);
+    const auto distance = on_device(chain, longer - 5, workspace, 20);
     CAPTURE(longer);
     CHECK(distance[longer] == 5);
     CHECK(distance[longer + 1] == 8);
@@ -55,7 +58,7 @@ TEST_CASE("surfaces that differ around one vertex only are told apart on a devic
     Surface s = grid(n, n, n, n);  // unit cells, and one vertex in a row of them is a spike
     const Index spike = (n + 1) * (70 + k) + 40 + 3 * k;
     s.positions[spike][2] = 4;
-    const auto distance = on_device(s.mesh<float>(), spike, workspace);
+    const auto distance = on_device(s.mesh<float>(), spike, workspace, 8);
     CAPTURE(spike);
     CHECK(double(distance[spike + 1]) == Approx(std::sqrt(17.)).epsilon(1e-5));
   }
@@ -97,4 +100,17 @@ TEST_CASE("domains on a device after moves, copies and assignments", "[gl]") {
   CHECK(taken.identity() == small.identity());
   CHECK(mesh.identity() != small.identity());  // NOLINT(bugprone-use-after-move)
   CHECK(double(on_device(taken, 0, workspace)[4]) == Approx(4));
+}
+
+TEST_CASE("a domain that did not fit leaves nothing of itself on a device", "[gl]") {
+  const auto context = device();
+  if (!context) return;
+  const auto side = static_cast<Index>(std::sqrt(double(context->limits().block) / 64 / 2)) + 2;
+  if (side > 1200) return;  // this device takes more triangles than a test should make
+  GLWorkspace workspace;
+  const auto small = grid(4, 4, 4, 4).mesh<float>();
+  CHECK(double(on_device(small, 0, workspace)[4]) == Approx(4));
+  const auto large = grid(side, side).mesh<float>();
+  CHECK_THROWS_AS(on_device(large, 0, workspace), NotBuiltError);
+  CHECK(double(on_device(small, 0, workspace)[4]) == Approx(4));
 }

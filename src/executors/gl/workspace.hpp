@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <vector>
 
 #include <plexway/propagate/workspace.hpp>
 
@@ -13,8 +14,7 @@ namespace plexway {
 struct GLWorkspace::Implementation {
   struct DomainBuffers {
     virtual ~DomainBuffers() = default;
-    virtual void release(const gl::Session& session) = 0;
-    [[nodiscard]] virtual std::size_t bytes() const = 0;
+    [[nodiscard]] virtual std::vector<gl::Buffer*> all() = 0;
   };
 
   Implementation();
@@ -25,15 +25,16 @@ struct GLWorkspace::Implementation {
   /// Everything goes to another device.
   void use(const std::shared_ptr<gl::Context>& wanted);
   void release(const gl::Session& session);
-  [[nodiscard]] std::size_t bytes() const;
+  void release_domain(const gl::Session& session);
+  [[nodiscard]] std::size_t bytes();
 
   /// The buffers of a domain, made by `make` unless those that are there have this `identity`.
   template <class Buffers, class Make>
   Buffers& domain_buffers(const gl::Session& session, std::uint64_t identity, Make make) {
-    if (domain && domain_identity == identity)
-      if (auto* known = dynamic_cast<Buffers*>(domain.get())) return *known;
-    if (domain) domain->release(session);
-    domain.reset();
+    // Domains of two types have no identity in common.
+    if (domain && domain_identity == identity) return static_cast<Buffers&>(*domain);
+    release_domain(session);
+    domain_identity = 0;  // until all of the new one has arrived
     auto fresh = std::make_unique<Buffers>();
     Buffers& buffers = *fresh;
     domain = std::move(fresh);
