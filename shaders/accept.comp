@@ -13,12 +13,12 @@ void main() {
   start_group();
   uint i = invocation();
   if (i < count) {
-    uvec2 entry = waiting[first + i];
-    if (entry.x != NO_CELL) {
-      if (lower(entry.x, entry.y))
+    Entry entry = waiting[first + i];
+    if (entry.cell != NO_CELL) {
+      if (lower(entry.cell, entry.distance))
         note_accepted();
       else
-        waiting[first + i].x = NO_CELL;
+        waiting[first + i].cell = NO_CELL;
     }
   }
   end_group();

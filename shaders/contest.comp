@@ -13,10 +13,16 @@ void main() {
   uint number = invocation();
   if (number >= round_count) return;
   uint place = place_of(number);
-  uvec2 entry = waiting[place];
-  if (entry.x == NO_CELL) return;
-  if (cells[entry.x].least != entry.y)
-    waiting[place].x = NO_CELL;
-  else if (uintBitsToFloat(entry.y) < limit)
-    atomicMin(cells[entry.x].rank, rank_of(waiting_labels[place]));
+  Entry entry = waiting[place];
+  if (entry.cell == NO_CELL) return;
+  if (cells[entry.cell].least != entry.distance) {
+    waiting[place].cell = NO_CELL;
+  } else if (uintBitsToFloat(entry.distance) < limit) {
+    uint rank = rank_of(waiting_labels[place]);
+    uint before = atomicMin(cells[entry.cell].rank, rank);
+#ifndef PLEXWAY_WIRES  // where twins are alike
+    // A twin: the same neighbour has offered the same distance before, by another label.
+    if (before == rank) control.twin_dispatch[0] = control.settle_dispatch[0];
+#endif
+  }
 }

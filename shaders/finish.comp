@@ -27,6 +27,7 @@ void main() {
   bool known = bits < 0x7f800000u && d <= radius;
   distances[i] = known ? floatBitsToUint(d) : 0x7f800000u;
 #ifdef PLEXWAY_LABELS
-  sources[i] = known ? vertex_source[from] : 0xffffffffu;
+  uint source = vertex_source[from];  // surface_relax.comp puts a mark in the highest bit
+  sources[i] = known && source != 0xffffffffu ? source & 0x7fffffffu : 0xffffffffu;
 #endif
 }

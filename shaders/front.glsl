@@ -5,19 +5,23 @@ layout(local_size_x = PLEXWAY_GROUP) in;
 
 //@include front_control.glsl
 
-/// Of each cell, by bits: the least distance offered, the least rank of those who offered it while
-/// that is being found out, and the distance of the label it has.
+/// Of each cell, by bits: the least distance offered, the least rank and age of those who offered
+/// it while that is being found out, and the distance of the label it has.
 struct Cell {
-  uint least, rank, known;
+  uint least, rank, age, known;
 };
 layout(std430, binding = 1) coherent buffer Cells { Cell cells[]; };
 
-// Waiting labels: cell and bits of the distance. The rest of a label lies in its own buffer.
-layout(std430, binding = 3) buffer Waiting { uvec2 waiting[]; };
+/// A waiting label: cell, bits of the distance, and the round in which it was offered. The rest of
+/// it lies in a buffer of its own.
+struct Entry {
+  uint cell, distance, round;
+};
+layout(std430, binding = 3) buffer Waiting { Entry waiting[]; };
 
 // What holds during a round, fetched once a group.
 shared uint current_queue, near_queue, far_queue;
-shared uint round_begin, round_count, capacity;
+shared uint round_begin, round_count, round_number, capacity;
 shared float limit;
 
 shared uint group_count[2];
@@ -43,6 +47,7 @@ void start_group() {
     far_queue = control.far;
     round_begin = control.begin;
     round_count = control.count;
+    round_number = control.rounds;
     capacity = control.capacity;
     limit = control.limit;
     group_nearest = UNREACHED;

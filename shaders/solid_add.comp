@@ -18,7 +18,7 @@ void main() {
   uint slot = reserve(uvec2(0u, i < count ? 1u : 0u)).y;
   if (i < count && slot < capacity) {
     uint to = far_queue * capacity + slot;
-    waiting[to] = offers[i].entry.xy;
+    waiting[to] = Entry(offers[i].entry.x, offers[i].entry.y, round_number);
     waiting_labels[3u * to] = offers[i].a;
     waiting_labels[3u * to + 1u] = offers[i].b;
     waiting_labels[3u * to + 2u] = offers[i].c;

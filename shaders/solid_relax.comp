@@ -34,10 +34,9 @@ void relax(uint from, uint to, float edge) {
     if (offer >= end || offer >= atomicMin(vertex_best[to], offer)) return;
     if (sources_wanted != 0u) vertex_source[to] = 0xffffffffu;
     changes = 1u;
-  } else if (offer == end && vertex_source[to] == 0xffffffffu &&
-             vertex_source[from] != 0xffffffffu) {
-    atomicMin(vertex_source[to], vertex_source[from]);
-    changes = 1u;
+  } else if (offer == end) {
+    uint source = vertex_source[from] | 0x80000000u;
+    if (source < vertex_source[to] && source < atomicMin(vertex_source[to], source)) changes = 1u;
   }
 }
 

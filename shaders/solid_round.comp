@@ -25,7 +25,7 @@ void main() {
   start_group();
   uint face = invocation() & 3u, number = invocation() >> 2;
   uvec4 a, b, c;
-  uint cell = 0u, bits = UNREACHED;
+  uint cell = 0u, bits = UNREACHED, made = 0u;
   bool alive = false, waits_on = false;
   if (repair > 0u) {
     cell = min(number, repair - 1u);
@@ -38,8 +38,9 @@ void main() {
     }
   } else if (number < round_count) {
     uint place = place_of(number);
-    cell = waiting[place].x;
-    bits = waiting[place].y;
+    cell = waiting[place].cell;
+    bits = waiting[place].distance;
+    made = waiting[place].round;
     alive = cell != NO_CELL;
     if (alive) {
       a = waiting_labels[3u * place];
@@ -107,7 +108,7 @@ void main() {
     uint offered = floatBitsToUint(distance);
     // Repairs are accepted by a pass of its own: no label that this one reads may be new.
     bool waits = waits_on || repair > 0u || lower(target, offered);
-    waiting[to] = uvec2(waits ? target : NO_CELL, offered);
+    waiting[to] = Entry(waits ? target : NO_CELL, offered, waits_on ? made : round_number);
     waiting_labels[3u * to] = a;
     waiting_labels[3u * to + 1u] = b;
     waiting_labels[3u * to + 2u] = c;

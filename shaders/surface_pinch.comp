@@ -79,7 +79,7 @@ void main() {
       uint slot = place++;
       if (slot >= capacity) continue;
       uint at = far_queue * capacity + slot;
-      waiting[at] = uvec2(field + f, floatBitsToUint(d));
+      waiting[at] = Entry(field + f, floatBitsToUint(d), round_number);
       PosedSaddles label;
       label.source = saddle_point(0.0, 0.0);
       label.limit[0] = label.source;

@@ -1,7 +1,8 @@
 #version 430
 // No vertex is farther than a neighbour and the edge between: one pass over all edges of all
 // triangles, one invocation a triangle of a field. With `who`, vertices that no triangle named a
-// source for take that of the neighbour their path comes from.
+// source for take that of the neighbour their path comes from, of several the lowest. A mark, the
+// highest bit, says that a lower one may still come: so it does not matter who is asked first.
 
 #ifndef PLEXWAY_GROUP
 #define PLEXWAY_GROUP 64
@@ -31,10 +32,9 @@ void relax(uint from, uint to, float edge) {
   uint offer = floatBitsToUint(uintBitsToFloat(start) + edge);
   if (who == 0u) {
     if (offer < end && offer < atomicMin(vertex_best[to], offer)) changes = 1u;
-  } else if (offer == end && vertex_source[to] == 0xffffffffu &&
-             vertex_source[from] != 0xffffffffu) {
-    atomicMin(vertex_source[to], vertex_source[from]);
-    changes = 1u;
+  } else if (offer == end) {
+    uint source = vertex_source[from] | 0x80000000u;
+    if (source < vertex_source[to] && source < atomicMin(vertex_source[to], source)) changes = 1u;
   }
 }
 

@@ -28,7 +28,7 @@ void main() {
   start_group();
   uint side = invocation() & 1u, number = invocation() >> 1;
   SurfaceLabel label;
-  uint cell = 0u, bits = UNREACHED;
+  uint cell = 0u, bits = UNREACHED, made = 0u;
   bool alive = false, waits_on = false;
 #ifdef PLEXWAY_REVIVE
   if (number < cell_count) {
@@ -40,8 +40,9 @@ void main() {
 #else
   if (number < round_count) {
     uint place = place_of(number);
-    cell = waiting[place].x;
-    bits = waiting[place].y;
+    cell = waiting[place].cell;
+    bits = waiting[place].distance;
+    made = waiting[place].round;
     alive = cell != NO_CELL;
     if (alive) label = waiting_labels[place];
   }
@@ -130,7 +131,8 @@ void main() {
 #else
       bool waits = waits_on || lower(target, floatBitsToUint(distance));
 #endif
-      waiting[place] = uvec2(waits ? target : NO_CELL, floatBitsToUint(distance));
+      waiting[place] = Entry(waits ? target : NO_CELL, floatBitsToUint(distance),
+                             waits_on ? made : round_number);
       waiting_labels[place] = offered;
     }
     waits_on = false;

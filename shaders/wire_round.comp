@@ -23,12 +23,13 @@ bool wanted(uint target, uint distance) {
 void main() {
   start_group();
   uint number = invocation();
-  uint cell = 0u, bits = UNREACHED, source = 0u;
+  uint cell = 0u, bits = UNREACHED, made = 0u, source = 0u;
   bool alive = false, waits_on = false;
   if (number < round_count) {
     uint place = place_of(number);
-    cell = waiting[place].x;
-    bits = waiting[place].y;
+    cell = waiting[place].cell;
+    bits = waiting[place].distance;
+    made = waiting[place].round;
     alive = cell != NO_CELL;
     if (alive) source = waiting_labels[place];
   }
@@ -52,7 +53,7 @@ void main() {
   uvec2 place = reserve(count), last = place + count;
   if (waits_on && place.y < capacity) {
     uint at = far_queue * capacity + place.y;
-    waiting[at] = uvec2(cell, bits);
+    waiting[at] = Entry(cell, bits, made);
     waiting_labels[at] = source;
   }
   if (waits_on) ++place.y;
@@ -67,12 +68,12 @@ void main() {
     if (slot >= capacity) continue;
     bool waits = lower(target, distance);
     uint at = (near ? near_queue : far_queue) * capacity + slot;
-    waiting[at] = uvec2(waits ? target : NO_CELL, distance);
+    waiting[at] = Entry(waits ? target : NO_CELL, distance, round_number);
     waiting_labels[at] = source;
   }
   // Places that were not needed after all.
   for (; place.x < min(last.x, capacity); ++place.x)
-    waiting[near_queue * capacity + place.x].x = NO_CELL;
+    waiting[near_queue * capacity + place.x].cell = NO_CELL;
   for (; place.y < min(last.y, capacity); ++place.y)
-    waiting[far_queue * capacity + place.y].x = NO_CELL;
+    waiting[far_queue * capacity + place.y].cell = NO_CELL;
 }

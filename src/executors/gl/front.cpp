@@ -120,6 +120,7 @@ bool Front::spread(const Session& session, GLuint rule, std::size_t share,
   constexpr std::size_t offers = offsetof(FrontControl, dispatch);
   constexpr std::size_t settling = offsetof(FrontControl, settle_dispatch);
   const GLuint contest = session.program("contest.comp", label_defines);
+  const GLuint twins = session.program("twins.comp", label_defines);
   const GLuint settle = session.program("settle.comp", label_defines);
   const auto bind_all = [&] {
     bind(session);
@@ -132,6 +133,7 @@ bool Front::spread(const Session& session, GLuint rule, std::size_t share,
   for (;;) {
     for (std::size_t n = 0; n < rounds; ++n) {
       launch(session, contest, settling);
+      launch(session, twins, offsetof(FrontControl, twin_dispatch));
       launch(session, settle, settling);
       launch(session, rule, offers);
       advance(session, share);
@@ -178,11 +180,12 @@ void Front::advance(const Session& session, std::size_t share) {
 void Front::settle_all(const Session& session, const std::string& label_defines) {
   const FrontControl before = state_;
   bind(session);
-  for (const char* const pass : {"contest.comp", "settle.comp"})
+  for (const char* const pass : {"contest.comp", "twins.comp", "settle.comp"})
     for (GLuint queue = 0; queue < 3; ++queue) {
       read_state(session);
       state_.current = queue;
       state_.limit = std::numeric_limits<float>::infinity();
+      state_.twin_dispatch[0] = 1;
       state_.begin = queue == before.current ? before.begin : 0;
       state_.count =
           (queue == before.current ? before.total : before.waiting_in[queue]) - state_.begin;

@@ -17,7 +17,8 @@ namespace plexway::gl {
 /// shaders/front_control.glsl says what these mean.
 struct FrontControl {
   enum State : GLuint { running, done, overflowed, out_of_budget };
-  std::array<GLuint, 4> dispatch{0, 1, 1, 0}, settle_dispatch{0, 1, 1, 0};
+  std::array<GLuint, 4> dispatch{0, 1, 1, 0}, settle_dispatch{0, 1, 1, 0},
+      twin_dispatch{0, 1, 1, 0};
   GLuint state = running;
   GLuint current = 0, near = 1, far = 2;
   GLuint begin = 0, count = 0, total = 0, capacity = 0;
@@ -34,14 +35,14 @@ struct FrontControl {
   }
 };
 
-/// A waiting label.
+/// A waiting label: the same.
 struct Waiting {
-  GLuint cell, distance;  // bits
+  GLuint cell, distance, round = 0;
 };
 
 /// shaders/front.glsl says what is in it.
 struct Cell {
-  GLuint least, rank, known;
+  GLuint least, rank, age, known;
 };
 
 /// The labels of a propagation and the queues in which they wait, on the device: who may write

@@ -22,7 +22,7 @@ struct SolidBuffers final : GLWorkspace::Implementation::DomainBuffers {
 // A label on its way to the device, as shaders/solid_add.comp reads it.
 struct AddedLabel {
   Waiting waiting;
-  std::array<GLuint, 2> spare;
+  GLuint spare;
   SolidCell label;
 };
 
@@ -150,7 +150,7 @@ class SolidRun {
     if (found.waiting.empty()) return false;
     std::vector<AddedLabel> added;
     for (std::size_t n = 0; n < found.waiting.size(); ++n)
-      added.push_back({found.waiting[n], {}, found.labels[n]});
+      added.push_back({found.waiting[n], 0, found.labels[n]});
     return 0 < workspace_.front.add(session_, [&] {
       workspace_.small.reserve(session_, added.size() * sizeof(AddedLabel));
       workspace_.small.write(session_, std::span<const AddedLabel>(added));
