@@ -75,6 +75,12 @@ class TriangleMesh {
                std::span<const std::array<double, 3>> lengths,
                std::span<const std::array<Index, 3>> across, const SurfaceHints& hints = {});
 
+  /// From triangles whose angles are known as well as their lengths, and a gluing: for makers
+  /// inside the library, which answer for both. Throws only where there are no faces.
+  TriangleMesh(std::size_t vertices, std::span<const std::array<Index, 3>> faces,
+               std::span<const TriangleShape> shapes, std::vector<std::array<Index, 3>> across,
+               const SurfaceHints& hints);
+
   [[nodiscard]] std::size_t vertex_count() const { return vertex_to_inside_.size(); }
   [[nodiscard]] std::size_t face_count() const { return triangles_.size() - 1; }
   [[nodiscard]] const SurfaceSummary& summary() const { return summary_; }
