@@ -2,10 +2,12 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <span>
 #include <utility>
 #include <vector>
 
+#include <plexway/complex/identity.hpp>
 #include <plexway/complex/ids.hpp>
 #include <plexway/complex/triangle_record.hpp>
 
@@ -106,6 +108,8 @@ class TriangleMesh {
   /// Vertices (inside) where several fans meet, ascending.
   [[nodiscard]] std::span<const Index> pinched() const { return pinched_; }
   [[nodiscard]] double unit() const { return summary_.mean_edge; }
+  /// Of the content: a copy has the same, everything else another (Identity).
+  [[nodiscard]] std::uint64_t identity() const { return identity_.value(); }
 
  private:
   void assemble(std::size_t vertices, std::span<const std::array<Index, 3>> faces,
@@ -113,6 +117,7 @@ class TriangleMesh {
                 std::vector<std::array<Index, 3>> across, bool samples);
 
   SurfaceSummary summary_;
+  Identity identity_;
   std::vector<TriangleRecord<Real>> triangles_;
   std::vector<Index> vertex_to_inside_;
   std::vector<Index> face_to_inside_;
