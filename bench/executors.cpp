@@ -1,5 +1,6 @@
-// OpenMP against Serial: one field from many sources on a large surface, a batch of fields, and
-// what the size of a chunk does.
+// OpenMP against Serial: one field from many sources on a large surface, a batch of fields, what
+// the size of a chunk does, and from what size and number of sources a team is faster. A row says
+// what is asked of it, where something is, and what was measured.
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -25,7 +26,23 @@ struct Settings {
   std::size_t batch = 64, repeats = 5;
   std::vector<int> threads;
   std::vector<std::size_t> chunks = {16, 32, 64, 128, 256, 512, 1024, 4096};
+  std::vector<std::size_t> sizes = {25'000, 100'000, 400'000}, counts = {1, 8, 64, 512};
 };
+
+/// What is asked of a team of so many threads, in times Serial; 0: nothing.
+double asked_of_field(int threads, std::size_t sources) {
+  if (threads == 1) return 1 / 1.5;
+  return threads == 2 && sources >= 1000 ? 1.6 : 0;
+}
+double asked_of_batch(int threads) { return threads == 2 ? 1.9 : 0; }
+
+void add_row(bench::Table& table, nlohmann::ordered_json row, double asked) {
+  if (asked > 0) {
+    row["asked"] = asked;
+    row["met"] = row["speed"].get<double>() >= asked ? "yes" : "no";
+  }
+  table.add(std::move(row));
+}
 
 std::vector<PointSource> sources_on(const bench::Surface& surface, std::size_t count) {
   std::vector<PointSource> sources;
@@ -68,14 +85,46 @@ void measure_field(const bench::Surface& surface, const Settings& settings, std:
     });
   const auto seconds = take_turns(settings.repeats, works);
   for (std::size_t i = 0; i < works.size(); ++i)
-    table.add({{"what", "field, " + std::to_string(count) + " sources"},
-               {"vertices", surface.positions.size()},
-               {"executor", i == 0 ? "Serial" : teams[i - 1].first},
-               {"ms", 1e3 * seconds[i]},
-               {"speed", seconds[0] / seconds[i]},
-               {"expansions",
-                static_cast<double>(expansions[i]) / static_cast<double>(surface.faces.size())}});
+    add_row(table,
+            {{"what", "field, " + std::to_string(count) + (count == 1 ? " source" : " sources")},
+             {"vertices", surface.positions.size()},
+             {"executor", i == 0 ? "Serial" : teams[i - 1].first},
+             {"ms", 1e3 * seconds[i]},
+             {"speed", seconds[0] / seconds[i]},
+             {"expansions",
+              static_cast<double>(expansions[i]) / static_cast<double>(surface.faces.size())}},
+            i == 0 ? 0 : asked_of_field(teams[i - 1].second.threads, count));
 }
+
+/// As much as this machine's cores can do: threads that share nothing, each with a mesh, a
+/// workspace and a field of its own that are there before the clock starts, and the same number of
+/// sources.
+template <class Real>
+class Strangers {
+ public:
+  Strangers(const bench::Surface& surface, int threads) : own_(static_cast<std::size_t>(threads)) {
+    for (auto& mine : own_) mine = std::make_unique<Own>(surface);
+  }
+  void solve(std::span<const PointSource> sources) {
+    std::vector<std::thread> threads;
+    for (std::size_t i = 0; i < own_.size(); ++i)
+      threads.emplace_back([&, i] {
+        for (std::size_t k = i; k < sources.size(); k += own_.size())
+          propagate(Serial{}, own_[i]->mesh, sources.subspan(k, 1), {}, own_[i]->workspace,
+                    own_[i]->field);
+      });
+    for (std::thread& thread : threads) thread.join();
+  }
+
+ private:
+  struct Own {
+    explicit Own(const bench::Surface& surface) : mesh(surface.positions, surface.faces) {}
+    plexway::TriangleMesh<Real> mesh;
+    plexway::Workspace<Real> workspace;
+    plexway::DistanceField<Real> field;
+  };
+  std::vector<std::unique_ptr<Own>> own_;
+};
 
 template <class Real>
 void measure_batch(const bench::Surface& surface, const Settings& settings, bench::Table& table) {
@@ -85,13 +134,38 @@ void measure_batch(const bench::Surface& surface, const Settings& settings, benc
   std::vector<std::function<void()>> works = {[&] { (void)fields(Serial{}, mesh, sources); }};
   for (const int threads : settings.threads)
     works.push_back([&, threads] { (void)fields(OpenMP{.threads = threads}, mesh, sources); });
+  Strangers<Real> one(surface, 1), all(surface, settings.threads.back());
+  works.push_back([&] { one.solve(sources); });
+  works.push_back([&] { all.solve(sources); });
   const auto seconds = take_turns(settings.repeats, works);
-  for (std::size_t i = 0; i < works.size(); ++i)
-    table.add({{"what", "batch of " + std::to_string(settings.batch)},
-               {"vertices", surface.positions.size()},
-               {"executor", i == 0 ? "Serial" : named("OpenMP", settings.threads[i - 1])},
-               {"ms", 1e3 * seconds[i]},
-               {"speed", seconds[0] / seconds[i]}});
+  const std::size_t teams = settings.threads.size();
+  const auto row = [&](const std::string& executor, double time, double reference, double asked) {
+    add_row(table,
+            {{"what", "batch of " + std::to_string(settings.batch)},
+             {"vertices", surface.positions.size()},
+             {"executor", executor},
+             {"ms", 1e3 * time},
+             {"speed", reference / time}},
+            asked);
+  };
+  row("Serial", seconds[0], seconds[0], 0);
+  for (std::size_t i = 0; i < teams; ++i)
+    row(named("OpenMP", settings.threads[i]), seconds[i + 1], seconds[0],
+        asked_of_batch(settings.threads[i]));
+  // Of one such thread: what is lost here is the machine's.
+  row(named("nothing shared", settings.threads.back()), seconds[teams + 2], seconds[teams + 1], 0);
+}
+
+/// From what size and number of sources is a team faster? What `auto` in the tool goes by.
+template <class Real>
+void measure_sizes(const Settings& settings, bench::Table& table) {
+  const int threads = settings.threads.back();
+  for (const std::size_t size : settings.sizes) {
+    const bench::Surface surface = bench::bumpy_surface(size);
+    for (const std::size_t count : settings.counts)
+      measure_field<Real>(surface, settings, count,
+                          {{named("OpenMP", threads), OpenMP{.threads = threads}}}, table);
+  }
 }
 
 template <class Real>
@@ -106,6 +180,10 @@ void measure_all(const Settings& settings, bench::Table& table) {
   }
   std::cerr << "batch" << std::endl;
   measure_batch<Real>(bench::bumpy_surface(settings.batch_vertices), settings, table);
+  if (!settings.sizes.empty()) {
+    std::cerr << "sizes" << std::endl;
+    measure_sizes<Real>(settings, table);
+  }
   if (settings.chunks.empty()) return;
   std::cerr << "chunks" << std::endl;
   teams.clear();
@@ -139,6 +217,13 @@ int main(int argc, char** argv) {
       ->delimiter(',')
       ->expected(0, -1)
       ->capture_default_str();
+  app.add_option("--sizes", settings.sizes, "Vertices of surfaces that teams are tried on")
+      ->delimiter(',')
+      ->expected(0, -1)
+      ->capture_default_str();
+  app.add_option("--counts", settings.counts, "Sources on each of them")
+      ->delimiter(',')
+      ->capture_default_str();
   app.add_flag("--double", double_precision, "Double instead of float");
   report.add_options(app);
   CLI11_PARSE(app, argc, argv);
@@ -150,6 +235,8 @@ int main(int argc, char** argv) {
                       {"executor", "executor"},
                       {"ms", "ms", "%.1f"},
                       {"speed", "times Serial", "%.2f"},
+                      {"asked", "asked", "%.2f"},
+                      {"met", "met"},
                       {"expansions", "expansions a face", "%.3f"}});
   return report.write(table, [&] {
     double_precision ? measure_all<double>(settings, table) : measure_all<float>(settings, table);

@@ -27,6 +27,7 @@ if [ "${QUICK:-0}" = 1 ]; then
   solid_sizes="--sizes 8 --sources 2 --repeats 1 --budget 1"
   gl="--sizes 10000 --batch 8 --repeats 1"
   wires="--size 0.1 --sources 2 --repeats 1 --budget 1"
+  teams="--vertices 20000 --batch 8 --batch-vertices 5000 --repeats 1 --sizes 5000 --chunks 128"
 else
   effort="--sources 16 --repeats 3"
   exact=""
@@ -34,6 +35,7 @@ else
   triangulation=""
   solid_sizes="--sizes 12,26,70"
   wires=""
+  teams=""
   gl="--sizes 50000,1000000"
 fi
 
@@ -76,6 +78,7 @@ peers=$bin/bench_cgal
   run peers "$peers" "$@" $effort $exact
   run policy "$bin/bench_policy" "$@" $effort
   run triangulation "$bin/bench_triangulation" "$@" $triangulation $effort
+  [ -z "$data" ] || run parity "$bin/bench_parity" "$@"
   # Two good scans, cut into four until they have a million vertices; otherwise the sphere alone.
   set --
   for scan in bunny armadillo; do
@@ -87,6 +90,7 @@ peers=$bin/bench_cgal
   [ -z "$data" ] || [ ! -d "$data/../solids" ] || solids=$data/../solids
   run solids "$bin/bench_solids" $solids $solid_sizes
   run wireframes "$bin/bench_wireframes" $wires
+  run executors "$bin/bench_executors" $teams
   # Only where a device is found.
   ! "$bin/plexway" info --devices 2>/dev/null | grep -q '^gl [0-9]' ||
     run gl "$bin/bench_gl" $gl

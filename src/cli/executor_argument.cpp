@@ -11,7 +11,6 @@ namespace plexway::cli {
 namespace {
 
 constexpr std::array<std::string_view, 4> names = {"serial", "openmp", "gl", "auto"};
-constexpr std::size_t many_sources = 64;
 #ifdef PLEXWAY_HAS_GL
 constexpr bool gl_built = true;
 #else
@@ -77,11 +76,12 @@ Executor choose_executor(const ExecutorArgument& argument, const PropagateOption
   if (argument.name == "gl") return GL{.device = argument.device.value_or(-1)};
   if (argument.name != "auto" || !openmp_built() || options.schedule == Schedule::priority)
     return Serial{};
-  const std::size_t least = sources >= many_sources ? auto_simplices_many : auto_simplices;
   const bool bounded =
       options.radius < PropagateOptions{}.radius ||
       options.max_expansions < PropagateOptions{}.max_expansions;  // fronts may stay short
-  if (simplices < least || bounded || detail::team_size(team) < 2) return Serial{};
+  if (simplices < auto_simplices || sources < auto_sources || bounded ||
+      detail::team_size(team) < 2)
+    return Serial{};
   return team;
 }
 

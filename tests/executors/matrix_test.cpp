@@ -44,10 +44,14 @@ void visit_domains(const Visit& visit) {
   visit("surface", grid(12, 9).mesh<Real>());
   visit("solid", solid_cube(4).template mesh<Real>());
   visit("wireframe", random_wires(4, 200, 600).wireframe<Real>());
-  const Wires wires = random_wires(5, 100, 300);
+  std::vector<std::array<Index, 2>> edges;  // a ring with chords
   std::vector<std::array<double, 1>> lengths;
-  for (const double length : wires.lengths) lengths.push_back({length});
-  visit("simplices, dimension 1", SimplicialComplex<Real, 1>(wires.vertices, wires.edges, lengths));
+  for (Index v = 0; v < 60; ++v)
+    for (const Index step : {1u, 7u}) {
+      edges.push_back({v, (v + step) % 60});
+      lengths.push_back({0.8 * step + 0.01 * v});
+    }
+  visit("simplices, dimension 1", SimplicialComplex<Real, 1>(60, edges, lengths));
   visit("simplices, dimension 2", cube_grid<2>(9, 2).template complex<Real>());
   visit("simplices, dimension 3", cube_grid<3>(4, 2).template complex<Real>());
   visit("simplices, dimension 4", cube_grid<4>(2, 2).template complex<Real>());

@@ -105,6 +105,37 @@ TEST_CASE("what does not fit on the device is refused with the limit", "[gl]") {
   front.release(session);
 }
 
+TEST_CASE("twenty million triangles fit the device's numbers, or are refused with the limit",
+          "[gl]") {
+  const auto context = device();
+  if (!context) return;
+  // Without making them: what a solve asks for, buffer by buffer, before it allocates any.
+  constexpr std::size_t faces = 20'000'000;
+  const gl::Session session(*context);
+  const std::size_t limit = context->limits().block;
+  const auto refused = [&](const char* what, std::size_t bytes) {
+    std::string message;
+    try {
+      gl::Buffer(what).check(session, bytes);
+    } catch (const NotBuiltError& error) {
+      message = error.what();
+    }
+    INFO(what << " " << bytes << ": " << message);
+    CHECK(message.empty() == (bytes <= limit));
+    if (!message.empty()) CHECK(message.find(std::to_string(limit >> 20) + " MiB") != message.npos);
+    return !message.empty();
+  };
+  const bool too_large = refused("triangles", faces * sizeof(TriangleRecord<float>)) ||
+                         refused("labels", faces * 32) || refused("distances", faces * 16);
+  if (exact(*context)) CHECK(too_large);  // llvmpipe: 128 MiB
+  // Where buffers are large enough, 32 bits number every word of them, and every place in a queue.
+  constexpr std::size_t words = std::size_t{1} << 32;
+  static_assert(faces * sizeof(TriangleRecord<float>) / 4 < words);
+  static_assert(faces * sizeof(gl::Cell) / 4 < words && faces * 32 / 4 < words);
+  static_assert(3 * (faces + 1) < words);  // three queues, none longer than there are cells
+  static_assert(faces < (std::size_t{1} << 28) - 2);  // a triangle and its flags in 32 bits
+}
+
 TEST_CASE("a surface too large for the device is refused with the limit", "[gl]") {
   const auto context = device();
   if (!context) return;
