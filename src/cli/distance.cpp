@@ -90,8 +90,8 @@ Json to_json(const DistanceCommand& command, const Domain& domain, const Solver&
   json["expansions"] = solver.statistics().expansions;
   json["updates"] = solver.statistics().updates;
   json["executor"] = executor_name(outcome.executor);
-  if (domain.kind() == "surface") json["triangulation"] = name_of(solver.triangulation());
   json["threads"] = executor_threads(outcome.executor);
+  if (domain.kind() == "surface") json["triangulation"] = name_of(solver.triangulation());
   if (const Cloud* cloud = domain.cloud()) {
     json["points_in_file"] = cloud->points_in_file;
     json["not_finite"] = cloud->not_finite;

@@ -80,7 +80,8 @@ TEST_CASE("the JSON of distance has its keys, in order") {
   for (const auto& item : json.items()) keys.push_back(item.key());
   CHECK(keys == std::vector<std::string>{"input", "kind", "vertices", "simplices", "components",
                                          "seconds", "reached", "unreached", "max_distance",
-                                         "expansions", "updates", "executor", "threads"});
+                                         "expansions", "updates", "executor", "threads",
+                                         "triangulation"});
   CHECK(json["input"] == sample("knot.ply"));
   CHECK(json["kind"] == "surface");
   CHECK(json["vertices"] == 5120);
