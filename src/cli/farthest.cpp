@@ -33,7 +33,8 @@ void run_farthest(const FarthestCommand& command) {
   const auto arguments = parse_sources(
       command.sources.empty() ? std::vector<std::string>{"vertex:0"} : command.sources);
   ProgressLine progress(command.quiet);
-  const Domain domain = Domain::load(command.input, command.as, command.fill, {}, progress);
+  const Domain domain =
+      Domain::load(command.input, command.as, command.fill, command.cloud, progress);
   const auto start = locate_sources(domain, arguments);
   FarthestOptions options;
   options.count = command.count == 0 ? std::numeric_limits<std::size_t>::max() : command.count;

@@ -25,7 +25,8 @@ void run_pairs(const PairsCommand& command) {
   check_output_name(command.out, command.input, matrix_file_extensions());
   const auto arguments = parse_sources(command.sources);
   ProgressLine progress(command.quiet);
-  const Domain domain = Domain::load(command.input, command.as, command.fill, {}, progress);
+  const Domain domain =
+      Domain::load(command.input, command.as, command.fill, command.cloud, progress);
   const auto points = locate_sources(domain, arguments);
   progress.phase("solving");
   DistanceMatrix matrix;

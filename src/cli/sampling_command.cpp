@@ -5,7 +5,7 @@
 namespace plexway::cli {
 
 void add_sampling_options(CLI::App& app, SamplingCommand& command, const char* out_help) {
-  app.add_option("INPUT", command.input, "a surface or a solid, as for 'plexway distance'")
+  app.add_option("INPUT", command.input, "a surface, a solid or a cloud, as for 'plexway distance'")
       ->type_name("FILE")
       ->required();
   app.add_option("--out,-o", command.out, out_help)->type_name("FILE");
@@ -14,6 +14,7 @@ void add_sampling_options(CLI::App& app, SamplingCommand& command, const char* o
   app.add_flag("--json", command.json, "print the summary as one JSON object");
   app.add_flag("--quiet,-q", command.quiet, "no summary or progress; errors stay");
   add_fill_options(app, command.fill);
+  add_cloud_options(app, command.cloud);
 }
 
 Precision precision_of(const SamplingCommand& command) {

@@ -5,13 +5,12 @@
 #include <type_traits>
 #include <variant>
 
-#include <plexway/complex/tet_mesh.hpp>
-#include <plexway/complex/triangle_mesh.hpp>
 #include <plexway/error.hpp>
 
 #include "console.hpp"
 #include "domain.hpp"
 #include "fill_options.hpp"
+#include "make_complex.hpp"
 #include "report.hpp"
 #include "solve_options.hpp"
 
@@ -26,6 +25,7 @@ struct SamplingCommand {
   std::string input, as, out;
   std::string precision = "float";
   FillOptions fill;
+  CloudArguments cloud;
   bool json = false, quiet = false;
 };
 
@@ -35,21 +35,22 @@ void add_sampling_options(CLI::App& app, SamplingCommand& command, const char* o
 /// Throws UsageError where the precision does not exist.
 Precision precision_of(const SamplingCommand& command);
 
-/// Calls `use(complex)` with the surface or the solid; throws InputError for another kind.
+/// Calls `use(complex)` with the surface, the solid or the cloud; throws InputError for another
+/// kind, and for a cloud in the form of pairs.
 template <class Use>
 void with_complex(const Domain& domain, Precision precision, Use use) {
+  if (domain.cloud() != nullptr && domain.cloud()->form == CloudForm::pairs)
+    throw UsageError("--form pairs has no triangles to go over: choose umbrellas");
   with_file_name(domain, [&] {
     std::visit(
         [&](const auto& shape) {
           using Shape = std::decay_t<decltype(shape)>;
           const auto build = [&](auto real) {
             using Real = decltype(real);
-            if constexpr (std::is_same_v<Shape, io::Triangles>)
-              use(TriangleMesh<Real>(shape.positions, shape.triangles));
-            else if constexpr (std::is_same_v<Shape, io::Tets>)
-              use(TetMesh<Real>(shape.positions, shape.tets));
+            if constexpr (std::is_same_v<Shape, io::Edges>)
+              throw InputError("is a wireframe: points are chosen on surfaces, solids and clouds");
             else
-              throw InputError("is no surface and no solid: points are chosen on those");
+              use(make_complex<Real>(shape));
           };
           precision == Precision::single ? build(float{}) : build(double{});
         },
