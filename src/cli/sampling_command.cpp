@@ -23,6 +23,25 @@ Precision precision_of(const SamplingCommand& command) {
   return precision_of(options);
 }
 
+PointSummary::PointSummary(const SamplingCommand& command, const Domain& domain,
+                           std::size_t points) {
+  json["input"] = command.input;
+  json["kind"] = domain.kind();
+  json["points"] = points;
+  table.add("input", command.input);
+  table.add("points", counted(points, "points"));
+}
+
+void PointSummary::finish(const SamplingCommand& command, const PropagateStatistics& work,
+                          double seconds) {
+  json["expansions"] = work.expansions;
+  json["seconds"] = seconds;
+  table.add("work", counted(work.expansions, "expansions"));
+  table.add("time", short_time(seconds));
+  if (!command.out.empty()) table.add("written", command.out);
+  print_summary(command, json, table);
+}
+
 void print_summary(const SamplingCommand& command, const Json& json, const Table& table) {
   if (command.json)
     write_output(json_text(json));

@@ -6,6 +6,7 @@
 #include <variant>
 
 #include <plexway/error.hpp>
+#include <plexway/propagate/distance_field.hpp>
 
 #include "console.hpp"
 #include "domain.hpp"
@@ -57,6 +58,15 @@ void with_complex(const Domain& domain, Precision precision, Use use) {
         domain.shape());
   });
 }
+
+/// A summary of so many points: what the commands say first, and what they say last.
+struct PointSummary {
+  Json json;
+  Table table;
+
+  PointSummary(const SamplingCommand& command, const Domain& domain, std::size_t points);
+  void finish(const SamplingCommand& command, const PropagateStatistics& work, double seconds);
+};
 
 /// The summary, as JSON or as a table, where it is wanted.
 void print_summary(const SamplingCommand& command, const Json& json, const Table& table);
