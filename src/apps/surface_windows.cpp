@@ -69,10 +69,17 @@ void SurfaceTrace<Real>::search_windows(Index f, const std::array<double, 3>& b,
     goals.push_back(goal);
   }
   WindowSearch<Real> search(mesh_, shape_, left, goals);
-  // A path much shorter than the one known tells of a field much too long: once more, wider.
-  constexpr double shorter = 1 - 1e-12, telling = 0.2, widest = 0.1;
-  for (double margin = options.margin; margin > 0 && best.windows < options.max_windows;) {
-    const double known = best.length + solved_.sources[best.source].offset;
+  const auto length = [&] { return best.length + solved_.sources[best.source].offset; };
+  // Where the field and the path it led to disagree, or a path much shorter than that is found, the
+  // field is off by more than usual: look wider.
+  constexpr double shorter = 1 - 1e-12, widest = 0.05;
+  double promise = infinity;
+  for (std::size_t i = 0; i < 3; ++i)
+    promise = std::min(promise,
+                       left(mesh_.triangles()[f].corner[i]) + shape_.distance(f, at_corner(i), b));
+  double margin = options.margin;
+  while (margin > 0 && best.windows < options.max_windows) {
+    const double known = length();
     auto found = search.find(f, b, known * shorter, margin, options.max_windows - best.windows);
     const std::size_t windows = best.windows + found.windows;
     if (found.goal != none) {
@@ -80,9 +87,10 @@ void SurfaceTrace<Real>::search_windows(Index f, const std::array<double, 3>& b,
       if (traced.length + solved_.sources[found.goal].offset < known) best = std::move(traced);
     }
     best.windows = windows;
-    const double gain = 1 - (best.length + solved_.sources[best.source].offset) / known;
-    const bool wider = gain > telling * margin && margin < widest;
-    margin = wider ? std::min(std::max(4 * margin, 4 * gain), widest) : 0;
+    const double gain = 1 - length() / known;
+    const double off = promise > 0 && promise < infinity ? std::abs(length() / promise - 1) : 0;
+    const double next = std::min(4 * std::max(gain, off), widest);
+    margin = next > margin ? std::max(next, 2 * margin) : 0;
   }
 }
 
