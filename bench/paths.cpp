@@ -1,5 +1,7 @@
 // Paths, searches for a target and bounded searches.
 //
+//   bench_paths --truth FOLDER   lengths of paths against exact distances, FOLDER/NAME.obj with
+//                                NAME.vID.txt as they are in data/surfaces
 //   bench_paths MESH...   A* and paths on each; then bounded searches on a surface of a million
 //                         triangles (none of them with MESH alone: --bounded for those only)
 #include <algorithm>
@@ -7,6 +9,9 @@
 #include <cmath>
 #include <cstdio>
 #include <cstring>
+#include <ctime>
+#include <filesystem>
+#include <fstream>
 #include <random>
 #include <string>
 #include <vector>
@@ -42,7 +47,8 @@ void searches(const std::string& file) {
   PathSearch<float> search(mesh, surface.positions), nearest_first(mesh);
   std::mt19937 random(1);
   std::vector<double> shares, plain_shares, gaps, trace_us, search_ms, solve_ms;
-  double mean_share = 0;
+  double mean_share = 0, windows = 0;
+  int apart = 0;
   for (int k = 0; k < 10; ++k) {
     const Index source = static_cast<Index>(random() % surface.positions.size());
     const double begin = now();
@@ -69,17 +75,75 @@ void searches(const std::string& file) {
       plain_shares.push_back(static_cast<double>(plain.statistics.expansions) / all);
       mean_share += shares.back() / 100;
       gaps.push_back(std::abs(found.paths[0].length / path.length - 1));
+      apart += gaps.back() > 1e-4;
+      windows += static_cast<double>(found.paths[0].windows) / 100;
     }
   }
   std::sort(shares.begin(), shares.end());
   std::printf(
       "%-28s %8zu triangles  A* share of expansions: median %.3f mean %.3f most %.3f (nearest "
-      "first: %.3f)  length off: median %.1e most %.1e  solve %.2f ms, A* with path %.2f ms, path "
+      "first: %.3f)  length off: median %.1e most %.1e, %d of 100 by more than 1e-4  windows %.0f  "
+      "solve %.2f ms, A* with path %.2f ms, path "
       "%.0f us\n",
       file.substr(file.rfind('/') + 1).c_str(), surface.triangles.size(), median(shares),
       mean_share, shares.back(), median(plain_shares), median(gaps),
-      *std::max_element(gaps.begin(), gaps.end()), median(solve_ms), median(search_ms),
-      median(trace_us));
+      *std::max_element(gaps.begin(), gaps.end()), apart, windows, median(solve_ms),
+      median(search_ms), median(trace_us));
+}
+
+// Paths against exact distances from one vertex: 200 a source.
+void lengths(const std::filesystem::path& folder) {
+  std::vector<std::filesystem::path> files;
+  for (const auto& entry : std::filesystem::directory_iterator(folder))
+    if (entry.path().extension() == ".txt" && entry.path().stem().extension().string()[1] == 'v')
+      files.push_back(entry.path());
+  std::sort(files.begin(), files.end());
+  std::string last;
+  std::vector<double> errors, times;
+  double below = 0, solve = 0, all = 0;
+  std::size_t count = 0;
+  const auto tell = [&] {
+    if (errors.empty()) return;
+    double sum = 0, most = 0;
+    for (const double e : errors) sum += e, most = std::max(most, e);
+    all += sum, count += errors.size();
+    double time = 0;
+    for (const double t : times) time += t / static_cast<double>(times.size());
+    std::printf(
+        "%-14s paths over exact: mean %.1e most %.1e  %.0f us a path (most %.0f)  solve "
+        "%.2f ms\n",
+        last.c_str(), sum / static_cast<double>(errors.size()), most, time,
+        *std::max_element(times.begin(), times.end()), solve * 1e3);
+    errors.clear(), times.clear();
+  };
+  for (const auto& file : files) {
+    const std::string name = file.stem().stem().string();
+    if (name != last) tell();
+    last = name;
+    const io::Triangles t = io::read_triangles(folder / (name + ".obj"));
+    std::vector<double> exact;
+    std::ifstream in(file);
+    for (std::string value; in >> value;) exact.push_back(std::stod(value));
+    const TriangleMesh<float> mesh(t.positions, t.triangles);
+    PathField field(mesh, t.positions);
+    const double begin = now();
+    field.solve(Serial{}, PointSource::at(static_cast<Index>(
+                              std::stoul(file.stem().extension().string().substr(2)))));
+    solve = now() - begin;
+    std::mt19937 random(1);
+    for (int k = 0; k < 200;) {
+      const Index v = static_cast<Index>(random() % exact.size());
+      if (!(exact[v] > 0) || std::isinf(exact[v])) continue;
+      ++k;
+      const std::clock_t traced = std::clock();  // others on the machine do not count
+      const Path path = field.trace(v);
+      times.push_back(static_cast<double>(std::clock() - traced) / CLOCKS_PER_SEC * 1e6);
+      errors.push_back(path.length / exact[v] - 1);
+      below = std::min(below, errors.back());
+    }
+  }
+  tell();
+  std::printf("all: mean %.2e, lowest %.1e\n", all / static_cast<double>(count), below);
 }
 
 // 1,000 searches that reach about 500 triangles each, against full solves.
@@ -132,6 +196,10 @@ void bounded() {
 
 int main(int argc, char** argv) {
   try {
+    if (argc == 3 && std::strcmp(argv[1], "--truth") == 0) {
+      lengths(argv[2]);
+      return 0;
+    }
     for (int i = 1; i < argc; ++i)
       if (std::strcmp(argv[i], "--bounded") != 0) searches(argv[i]);
     bounded();

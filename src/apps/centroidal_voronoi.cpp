@@ -3,11 +3,14 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <string>
 #include <utility>
 
 #include <plexway/error.hpp>
+#include <plexway/executors/serial_cloud.hpp>
 
 #include "apps/cell_moments.hpp"
+#include "apps/cloud_points.hpp"
 #include "executors/checks.hpp"
 
 namespace plexway {
@@ -192,6 +195,52 @@ CentroidalVoronoi voronoi(const Complex& domain, std::span<const PointSource> se
   return Lloyd<Complex>(domain, seeds).run(options);
 }
 
+/// The point of a cloud nearest to each place in its sheet, no point twice.
+template <class Real>
+std::vector<PointSource> nearest_points(const PointCloud<Real>& cloud,
+                                        std::span<const PointSource> places) {
+  const TriangleMesh<Real>& sheet = cloud.surface();
+  const SimplexNumbers<TriangleMesh<Real>> numbers(sheet);
+  std::vector<bool> taken(sheet.vertex_count(), false);
+  // What joins two points is none.
+  for (Index v = static_cast<Index>(cloud.point_count()); v < taken.size(); ++v)
+    taken[sheet.inside_vertex(v)] = true;
+  std::vector<PointSource> points;
+  std::vector<Index> corners;
+  for (const PointSource& place : places) {
+    const auto [face, turned] = sheet.inside_face(place.simplex);
+    std::array<double, 3> b = {place.barycentric[0], place.barycentric[turned ? 2 : 1],
+                               place.barycentric[turned ? 1 : 2]};
+    // Triangle by triangle around it, until one has a corner that is free.
+    std::vector<Index> around = {face};
+    Index best = none;
+    for (std::size_t k = 0; k < around.size() && best == none; ++k) {
+      const TriangleRecord<Real>& t = sheet.triangles()[around[k]];
+      const double px[3] = {0, static_cast<double>(t.length[0]), static_cast<double>(t.apex_x(0))};
+      const double py[3] = {0, 0, static_cast<double>(t.apex_h(0))};
+      double least = std::numeric_limits<double>::infinity();
+      for (std::size_t i = 0; i < 3; ++i) {
+        const double x = k > 0 ? 0 : b[1] * px[1] + b[2] * px[2] - px[i];
+        const double y = k > 0 ? 0 : b[2] * py[2] - py[i];
+        if (!taken[t.corner[i]] && std::hypot(x, y) < least)
+          least = std::hypot(x, y), best = t.corner[i];
+      }
+      for (const Index v : t.corner) {
+        if (best != none) break;
+        sheet.corners_at(v, corners);
+        for (const Index c : corners)
+          if (std::find(around.begin(), around.end(), c / 3) == around.end())
+            around.push_back(c / 3);
+      }
+    }
+    if (best == none)
+      throw UsageError("there are more seeds than points: " + std::to_string(places.size()));
+    taken[best] = true;
+    points.push_back(PointSource::at(numbers.outside_vertex(best)));
+  }
+  return points;
+}
+
 }  // namespace
 
 template <class Real>
@@ -209,6 +258,33 @@ CentroidalVoronoi centroidal_voronoi(Serial, const TetMesh<Real>& mesh,
   return voronoi(mesh, seeds, options, {mesh.vertex_count(), mesh.tet_count(), "tet", 4});
 }
 
+template <class Real>
+CentroidalVoronoi centroidal_voronoi(Serial executor, const PointCloud<Real>& cloud,
+                                     std::span<const PointSource> seeds,
+                                     const VoronoiOptions& options) {
+  const TriangleMesh<Real>& sheet = cloud.surface();
+  const std::vector<PointSource> start = first_at_place(cloud, seeds);
+  CentroidalVoronoi result =
+      centroidal_voronoi(executor, sheet, std::span<const PointSource>(start), options);
+  result.seeds = nearest_points(cloud, result.seeds);
+  VoronoiOptions stay;
+  stay.max_iterations = 0;
+  const CentroidalVoronoi there =
+      centroidal_voronoi(executor, sheet, std::span<const PointSource>(result.seeds), stay);
+  result.energy = there.energy;
+  result.cell_content = there.cell_content;
+  const auto field = propagate(executor, cloud, std::span<const PointSource>(result.seeds));
+  result.label = field.label;
+  if (result.label.empty())  // a single seed
+    for (const Real d : field.distance)
+      result.label.push_back(d < std::numeric_limits<Real>::infinity() ? 0 : none);
+  return result;
+}
+
+template CentroidalVoronoi centroidal_voronoi(Serial, const PointCloud<float>&,
+                                              std::span<const PointSource>, const VoronoiOptions&);
+template CentroidalVoronoi centroidal_voronoi(Serial, const PointCloud<double>&,
+                                              std::span<const PointSource>, const VoronoiOptions&);
 template CentroidalVoronoi centroidal_voronoi(Serial, const TriangleMesh<float>&,
                                               std::span<const PointSource>, const VoronoiOptions&);
 template CentroidalVoronoi centroidal_voronoi(Serial, const TriangleMesh<double>&,

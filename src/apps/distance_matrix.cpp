@@ -6,6 +6,7 @@
 
 #include <plexway/error.hpp>
 
+#include "apps/cloud_points.hpp"
 #include "executors/checks.hpp"
 #include "executors/growth.hpp"
 
@@ -98,6 +99,20 @@ DistanceMatrix distance_matrix(Serial, const TetMesh<Real>& mesh,
   return matrix(mesh, points, progress, {mesh.vertex_count(), mesh.tet_count(), "tet", 4});
 }
 
+template <class Real>
+DistanceMatrix distance_matrix(Serial executor, const PointCloud<Real>& cloud,
+                               std::span<const PointSource> points,
+                               const std::function<bool(double)>& progress) {
+  return distance_matrix(executor, cloud.surface(),
+                         std::span<const PointSource>(first_at_place(cloud, points)), progress);
+}
+
+template DistanceMatrix distance_matrix(Serial, const PointCloud<float>&,
+                                        std::span<const PointSource>,
+                                        const std::function<bool(double)>&);
+template DistanceMatrix distance_matrix(Serial, const PointCloud<double>&,
+                                        std::span<const PointSource>,
+                                        const std::function<bool(double)>&);
 template DistanceMatrix distance_matrix(Serial, const TriangleMesh<float>&,
                                         std::span<const PointSource>,
                                         const std::function<bool(double)>&);

@@ -1,5 +1,6 @@
 #include <plexway/apps/farthest_points.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <queue>
@@ -7,6 +8,7 @@
 
 #include <plexway/error.hpp>
 
+#include "apps/cloud_points.hpp"
 #include "executors/checks.hpp"
 #include "executors/growth.hpp"
 
@@ -22,7 +24,9 @@ class Traversal {
   explicit Traversal(const Complex& domain)
       : domain_(domain), numbers_(domain), field_(domain, workspace_) {}
 
-  FarthestPoints run(std::span<const PointSource> start, const FarthestOptions& options) {
+  /// Vertices below `vertices` are chosen from.
+  FarthestPoints run(std::span<const PointSource> start, std::size_t vertices,
+                     const FarthestOptions& options) {
     constexpr double infinity = std::numeric_limits<double>::infinity();
     FarthestPoints result;
     for (const PointSource& point : start) {
@@ -32,7 +36,7 @@ class Traversal {
     }
     // Distances only fall, so one that is out of date is too large, and comes up in time.
     std::priority_queue<std::pair<Real, Index>> farthest;
-    for (Index v = 0; v < domain_.vertex_count(); ++v)
+    for (Index v = 0; v < vertices; ++v)
       if (field_.corner_at(domain_.inside_vertex(v)) != none)
         farthest.emplace(std::numeric_limits<Real>::infinity(), none - v);
     while (!farthest.empty()) {
@@ -90,11 +94,12 @@ class Traversal {
 
 template <class Complex>
 FarthestPoints farthest(const Complex& domain, std::span<const PointSource> start,
-                        const FarthestOptions& options, const SourceDomain& limits) {
+                        std::size_t vertices, const FarthestOptions& options,
+                        const SourceDomain& limits) {
   check(start, {}, limits);
   if (options.count == 0) throw UsageError("the count of points must be > 0");
   if (!(options.radius >= 0)) throw UsageError("the radius must be >= 0");
-  return Traversal<Complex>(domain).run(start, options);
+  return Traversal<Complex>(domain).run(start, vertices, options);
 }
 
 }  // namespace
@@ -102,16 +107,32 @@ FarthestPoints farthest(const Complex& domain, std::span<const PointSource> star
 template <class Real>
 FarthestPoints farthest_points(Serial, const TriangleMesh<Real>& mesh,
                                std::span<const PointSource> start, const FarthestOptions& options) {
-  return farthest(mesh, start, options, {mesh.vertex_count(), mesh.face_count(), "face", 3});
+  return farthest(mesh, start, mesh.vertex_count(), options,
+                  {mesh.vertex_count(), mesh.face_count(), "face", 3});
 }
 
 template <class Real>
 FarthestPoints farthest_points(Serial, const TetMesh<Real>& mesh,
                                std::span<const PointSource> start, const FarthestOptions& options) {
   if (!mesh.embedded()) throw UsageError("farthest points in a solid need its coordinates");
-  return farthest(mesh, start, options, {mesh.vertex_count(), mesh.tet_count(), "tet", 4});
+  return farthest(mesh, start, mesh.vertex_count(), options,
+                  {mesh.vertex_count(), mesh.tet_count(), "tet", 4});
 }
 
+template <class Real>
+FarthestPoints farthest_points(Serial, const PointCloud<Real>& cloud,
+                               std::span<const PointSource> start, const FarthestOptions& options) {
+  FarthestPoints found =
+      farthest(cloud.surface(), std::span<const PointSource>(first_at_place(cloud, start)),
+               cloud.point_count(), options, {cloud.point_count(), 0, "face", 3});
+  std::copy(start.begin(), start.end(), found.points.begin());
+  return found;
+}
+
+template FarthestPoints farthest_points(Serial, const PointCloud<float>&,
+                                        std::span<const PointSource>, const FarthestOptions&);
+template FarthestPoints farthest_points(Serial, const PointCloud<double>&,
+                                        std::span<const PointSource>, const FarthestOptions&);
 template FarthestPoints farthest_points(Serial, const TriangleMesh<float>&,
                                         std::span<const PointSource>, const FarthestOptions&);
 template FarthestPoints farthest_points(Serial, const TriangleMesh<double>&,

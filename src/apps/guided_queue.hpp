@@ -9,7 +9,7 @@
 namespace plexway {
 
 /// What a guided queue shares with those who ask and stop it. Guide has
-///   to_go(simplex)   what a path through it has to go at least, less its own size; may be negative
+///   bound(simplex, distance)   of all paths that its label, this far at its centre, leads to
 ///   settled(bound)   true if nothing at this bound or above is wanted any more
 template <class Real, class Guide>
 struct GuidedFront {
@@ -30,7 +30,7 @@ class GuidedQueue {
   explicit GuidedQueue(Front& front) : front_(&front) {}
 
   void push(Index simplex, Real distance, bool = true) {
-    const double bound = static_cast<double>(distance) + front_->guide->to_go(simplex);
+    const double bound = front_->guide->bound(simplex, static_cast<double>(distance));
     front_->heap.push_back({bound, distance, simplex});
     std::push_heap(front_->heap.begin(), front_->heap.end(), later);
   }

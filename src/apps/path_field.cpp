@@ -28,17 +28,18 @@ SourceDomain described(const Wireframe<Real>& wireframe) {
 }
 
 template <class Real>
-Path trace_in(const TriangleMesh<Real>& mesh, const Solved<Real>& solved,
-              const PointSource& point) {
-  return SurfaceTrace<Real>(mesh, solved).trace(point);
+Path trace_in(const TriangleMesh<Real>& mesh, const Solved<Real>& solved, const PointSource& point,
+              const TraceOptions& options) {
+  return SurfaceTrace<Real>(mesh, solved).trace(point, options);
 }
 template <class Real>
-Path trace_in(const TetMesh<Real>& mesh, const Solved<Real>& solved, const PointSource& point) {
+Path trace_in(const TetMesh<Real>& mesh, const Solved<Real>& solved, const PointSource& point,
+              const TraceOptions&) {
   return trace_solid(mesh, solved, point);
 }
 template <class Real>
 Path trace_in(const Wireframe<Real>& wireframe, const Solved<Real>& solved,
-              const PointSource& point) {
+              const PointSource& point, const TraceOptions&) {
   return trace_wire(wireframe, solved, point);
 }
 
@@ -80,14 +81,15 @@ void PathField<Domain<Real>>::took(std::span<const PointSource> sources, Visibil
 }
 
 template <template <class> class Domain, class Real>
-Path PathField<Domain<Real>>::trace(const PointSource& point) const {
+Path PathField<Domain<Real>>::trace(const PointSource& point, const TraceOptions& options) const {
   if (!solved_) throw UsageError("there is nothing to trace before a solve");
   PointSource at = point;
   at.offset = 0;
   check_source(at, described(*domain_));
-  const Solved<Real> solved = {workspace_, field_,           sources_,    positions_,
+  const Solved<Real> solved = {workspace_, field_,           sources_,    positions_, {},
                                outer_,     outer_simplices_, visibility_, labels_};
-  return trace_in(*domain_, solved, at);
+  check(options);
+  return trace_in(*domain_, solved, at, options);
 }
 
 template <template <class> class Domain, class Real>

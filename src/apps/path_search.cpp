@@ -84,6 +84,38 @@ struct PathSearch<Real>::State {
     return {p[0], p[1], p[2]};
   }
 
+  /// Over the edge that the label came in by: the target is turned into the plane about it.
+  [[nodiscard]] double over_edge(Index f, double sigma, const Vector2& source) const {
+    const TriangleRecord<Real>& t = mesh.triangles()[f];
+    const std::size_t in = labels->hinge(f);
+    const Vector3<double> a = position(t.corner[in]);
+    const Vector3<double> edge = position(t.corner[edge_after(in)]) - a;
+    const double length = norm(edge), inside_length = static_cast<double>(t.length[in]);
+    // Nothing is known of a metric within the triangle.
+    if (!(source.y <= 0) || !(length > 0) ||
+        !(std::abs(length / mesh.unit() - inside_length) <= rounding * inside_length))
+      return 0;
+    double least = infinity;
+    for (const Target& target : targets) {
+      if (target.settled) continue;
+      const Vector3<double> to = target.at - a;
+      const double x = dot(to, edge) / (length * mesh.unit());
+      const double h = norm(cross(to, edge)) / (length * mesh.unit()), sum = h - source.y;
+      const double straight = sum > 0 ? (source.x * h - x * source.y) / sum : x;
+      const double at = std::clamp(straight, 0., inside_length);
+      least = std::min(least, std::hypot(at - source.x, source.y) + scale * std::hypot(at - x, h));
+    }
+    return least < infinity ? (sigma + least) * (1 - rounding) : 0;
+  }
+
+  [[nodiscard]] double bound(Index f, double distance) const {
+    double least = distance + to_go(f);
+    if (heuristic == nullptr && scale > 0)
+      least = std::max(least, over_edge(f, labels->sigma(f), labels->virtual_source(f)));
+    return least;
+  }
+
+  /// What a path through f has to go at least, less its own size; may be negative.
   [[nodiscard]] double to_go(Index f) const {
     const TriangleRecord<Real>& t = mesh.triangles()[f];
     const double longest = static_cast<double>(std::max({t.length[0], t.length[1], t.length[2]}));
@@ -187,6 +219,7 @@ SearchResult PathSearch<Real>::find(Serial, std::span<const PointSource> sources
   propagate.max_expansions = options.max_expansions;
   propagate.progress = options.progress;
   check(sources, propagate, domain);
+  plexway::check(options.trace);
   if (targets.empty()) throw UsageError("there is no target: name at least one");
 
   s.heuristic = options.heuristic ? &options.heuristic : nullptr;
@@ -222,7 +255,7 @@ SearchResult PathSearch<Real>::find(Serial, std::span<const PointSource> sources
                                                         mesh.unit(), propagate);
   const SaddleRule<Real, decltype(front)> rule(mesh.triangles(), front, true);
   // SurfaceTrace reads the labels' sources if there are several; one is the first of several.
-  const Solved<Real> solved = {workspace, s.no_field,          sources, s.positions, s.outer,
+  const Solved<Real> solved = {workspace, s.no_field,          sources, s.positions, {}, s.outer,
                                {},        Visibility::saddles, true};
   const SurfaceLabels<Real> known(mesh, solved);
   s.labels = &known;
@@ -240,7 +273,7 @@ SearchResult PathSearch<Real>::find(Serial, std::span<const PointSource> sources
   const SurfaceTrace<Real> trace(mesh, solved);
   for (std::size_t n = 0; n < targets.size(); ++n) {
     result.distance.push_back(s.best_of(s.targets[n]) * mesh.unit());
-    result.paths.push_back(trace.trace(targets[n]));
+    result.paths.push_back(trace.trace(targets[n], options.trace));
   }
   s.labels = nullptr;
   s.heuristic = nullptr;

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
+#include <numeric>
 #include <string>
 #include <utility>
 
@@ -30,11 +30,11 @@ void check(const PoissonOptions& options, std::size_t vertices) {
     if (!(s > 0) || !std::isfinite(s)) throw UsageError("the spacing must be > 0 everywhere");
 }
 
-/// A sample with one radius, `most` darts at most.
+/// A sample with one radius, `most` darts at most. `candidates`: the vertices that darts may hit.
 template <class Complex>
 PoissonDisks sample(const Complex& domain, const SimplexNumbers<Complex>& numbers,
-                    const PoissonOptions& options, double radius, std::size_t most,
-                    Workspace<typename Growth<Complex>::Number>& kept) {
+                    std::span<const Index> candidates, const PoissonOptions& options, double radius,
+                    std::size_t most, Workspace<typename Growth<Complex>::Number>& kept) {
   using Real = typename Growth<Complex>::Number;
   // In radii. Simplices on the way between two darts then belong to one of them, not to others.
   constexpr double longest_edge = 0.4;
@@ -50,8 +50,8 @@ PoissonDisks sample(const Complex& domain, const SimplexNumbers<Complex>& number
   for (Index v = 0; v < radii.size(); ++v)
     radii[inside(v)] = fine.limits[v] / longest_edge * domain.unit() / complex.unit();
   std::vector<Index> vertices;
-  for (Index v = 0; options.at_vertices && v < domain.vertex_count(); ++v)
-    vertices.push_back(inside(domain.inside_vertex(v)));
+  vertices.reserve(candidates.size());
+  for (const Index v : candidates) vertices.push_back(inside(domain.inside_vertex(v)));
 
   Workspace<Real> own_workspace;
   Growth<Complex> field(complex, fine.copy ? own_workspace : kept);
@@ -91,13 +91,13 @@ PoissonDisks sample(const Complex& domain, const SimplexNumbers<Complex>& number
 }
 
 template <class Complex>
-PoissonDisks poisson(const Complex& domain, const PoissonOptions& options,
+PoissonDisks poisson(const Complex& domain, std::span<const Index> candidates,
+                     const PoissonOptions& options,
                      Workspace<typename Growth<Complex>::Number>& workspace) {
-  check(options, domain.vertex_count());
   const SimplexNumbers<Complex> numbers(domain);
   constexpr std::size_t unlimited = std::numeric_limits<std::size_t>::max();
   if (options.count == 0)
-    return sample(domain, numbers, options, options.radius, unlimited, workspace);
+    return sample(domain, numbers, candidates, options, options.radius, unlimited, workspace);
 
   // A flat sample of radius r has 0.70 A / r^2 darts, one in space 0.73 V / r^3 (random sequential
   // adsorption: disks of radius r / 2 cover 0.547 of the plane, balls 0.384 of space).
@@ -112,7 +112,7 @@ PoissonDisks poisson(const Complex& domain, const PoissonOptions& options,
   double too_small = 0, too_large = std::numeric_limits<double>::infinity();
   PoissonDisks best;
   for (int round = 0; round < 16; ++round) {
-    PoissonDisks found = sample(domain, numbers, options, radius, unlimited, workspace);
+    PoissonDisks found = sample(domain, numbers, candidates, options, radius, unlimited, workspace);
     const double count = static_cast<double>(found.darts.size());
     (count >= wanted ? too_small : too_large) = radius;
     if (count >= wanted && (best.darts.empty() || found.darts.size() < best.darts.size()))
@@ -135,6 +135,15 @@ PoissonDisks poisson(const Complex& domain, const PoissonOptions& options,
   return best;
 }
 
+template <class Complex>
+PoissonDisks poisson(const Complex& domain, const PoissonOptions& options,
+                     Workspace<typename Growth<Complex>::Number>& workspace) {
+  check(options, domain.vertex_count());
+  std::vector<Index> all(options.at_vertices ? domain.vertex_count() : 0);
+  std::iota(all.begin(), all.end(), Index{0});
+  return poisson(domain, all, options, workspace);
+}
+
 }  // namespace
 
 template <class Real>
@@ -150,6 +159,38 @@ PoissonDisks poisson_disks(Serial, const TetMesh<Real>& mesh, const PoissonOptio
   return poisson(mesh, options, workspace);
 }
 
+template <class Real>
+PoissonDisks poisson_disks(Serial, const PointCloud<Real>& cloud, const PoissonOptions& options,
+                           Workspace<Real>& workspace) {
+  if (options.order == DartOrder::simplices)
+    throw UsageError(
+        "darts on a cloud are its points, so none is thrown into simplices: leave the order "
+        "uniform");
+  PoissonOptions at_points = options;
+  at_points.at_vertices = true;
+  check(at_points, cloud.point_count());
+  // Of points at one place the first stands for all.
+  std::vector<Index> candidates;
+  candidates.reserve(cloud.point_count());
+  for (Index v = 0; v < cloud.point_count(); ++v)
+    if (cloud.of_point(v) == v) candidates.push_back(v);
+  if (options.count > candidates.size())
+    throw UsageError("there are only " + std::to_string(candidates.size()) +
+                     " points at different places, too few for " + std::to_string(options.count) +
+                     " darts");
+  std::vector<double> spacing(options.spacing.begin(), options.spacing.end());
+  if (!spacing.empty()) {  // what joins points is no place for darts
+    spacing.resize(cloud.surface().vertex_count(),
+                   *std::max_element(spacing.begin(), spacing.end()));
+    at_points.spacing = spacing;
+  }
+  return poisson(cloud.surface(), candidates, at_points, workspace);
+}
+
+template PoissonDisks poisson_disks(Serial, const PointCloud<float>&, const PoissonOptions&,
+                                    Workspace<float>&);
+template PoissonDisks poisson_disks(Serial, const PointCloud<double>&, const PoissonOptions&,
+                                    Workspace<double>&);
 template PoissonDisks poisson_disks(Serial, const TriangleMesh<float>&, const PoissonOptions&,
                                     Workspace<float>&);
 template PoissonDisks poisson_disks(Serial, const TriangleMesh<double>&, const PoissonOptions&,

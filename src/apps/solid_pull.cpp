@@ -19,9 +19,9 @@ double distance(const Point& a, const Point& b) { return norm(b - a); }
 
 template <class Real>
 SolidPull<Real>::SolidPull(const SolidWalk<Real>& walk) : walk_(walk) {
-  edges_.reserve(walk.mesh().reflex_edges().size());
+  all_edges_.reserve(walk.mesh().reflex_edges().size());
   for (const ReflexEdge<Real>& e : walk.mesh().reflex_edges())
-    edges_.push_back({{walk.vertex(e.vertex[0]), walk.vertex(e.vertex[1])}});
+    all_edges_.push_back({{walk.vertex(e.vertex[0]), walk.vertex(e.vertex[1])}});
 }
 
 template <class Real>
@@ -206,11 +206,26 @@ bool SolidPull<Real>::slide(std::vector<Knot>& way, std::size_t k) const {
   return false;
 }
 
+/// A way of length l from p to q stays within |x - p| + |x - q| <= l, and ways only get shorter.
 template <class Real>
-void SolidPull<Real>::pull(std::vector<Knot>& way) const {
+void SolidPull<Real>::look_near(const std::vector<Knot>& way) {
+  const Point p = way.front().at, q = way.back().at;
+  const double most = length(way) * (1 + 1e-9);
+  edges_.clear();
+  for (const Edge& e : all_edges_) {
+    const Point middle = 0.5 * (e.end[0] + e.end[1]);
+    if (distance(middle, p) + distance(middle, q) - distance(e.end[0], e.end[1]) <= most)
+      edges_.push_back(e);
+  }
+}
+
+template <class Real>
+void SolidPull<Real>::pull(std::vector<Knot>& way) {
   skip(way);
   double before = length(way);
+  look_near(way);
   for (int round = 0; round < most_rounds; ++round) {
+    if (round == 1) look_near(way);  // the first gains most
     for (std::size_t k = 1; k + 1 < way.size();) {
       const std::size_t size = way.size();
       if (tighten(way, k) && way.size() < size)

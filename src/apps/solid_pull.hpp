@@ -34,7 +34,7 @@ class SolidPull {
   explicit SolidPull(const SolidWalk<Real>& walk);
 
   /// `way` must be inside the solid and have two knots at least; its ends stay.
-  void pull(std::vector<Knot>& way) const;
+  void pull(std::vector<Knot>& way);
 
   static double length(const std::vector<Knot>& way);
 
@@ -50,8 +50,11 @@ class SolidPull {
   bool chain(const Knot& a, const Point& b, const Knot& c, bool without_b,
              std::vector<Knot>& between) const;
 
+  void look_near(const std::vector<Knot>& way);
+
   const SolidWalk<Real>& walk_;
-  std::vector<Edge> edges_;  // reflex, in the caller's unit
+  std::vector<Edge> all_edges_;  // reflex, in the caller's unit
+  std::vector<Edge> edges_;      // of these, where a way shorter than the present one may pass
 };
 
 }  // namespace plexway

@@ -64,7 +64,7 @@ class SolidTrace {
       return descend(t, b, v, way) ? along_edges(way, t, b, v) : Path{};
     }
 
-    const SolidPull<Real> puller(walk_);
+    SolidPull<Real> puller(walk_);
     Way best;
     double shortest = infinity;
     const auto keep = [&](Way&& way) {

@@ -3,6 +3,8 @@
 #include <array>
 #include <span>
 
+#include <plexway/apps/path.hpp>
+#include <plexway/error.hpp>
 #include <plexway/propagate/distance_field.hpp>
 #include <plexway/propagate/options.hpp>
 #include <plexway/propagate/workspace.hpp>
@@ -17,7 +19,9 @@ struct Solved {
   const DistanceField<Real>& field;
   std::span<const PointSource> sources;
   std::span<const std::array<double, 3>> positions;  ///< caller's order; may be empty
-  std::span<const Index> outer;                      ///< from vertices inside to the caller's
+  /// Where paths are drawn, if not there: lengths are then the domain's own. Surfaces only.
+  std::span<const std::array<double, 3>> drawn;
+  std::span<const Index> outer;  ///< from vertices inside to the caller's
   /// The caller's numbers of tetrahedra; the edges that the arcs of wireframes are.
   std::span<const Index> outer_simplices;
   Visibility visibility;
@@ -28,6 +32,12 @@ struct Solved {
     return sources.size() > 1 ? workspace.source[simplex] : 0;
   }
 };
+
+/// Throws UsageError for a margin out of range.
+inline void check(const TraceOptions& options) {
+  if (!(options.margin >= 0 && options.margin < 1))
+    throw UsageError("the margin of a trace must be >= 0 and < 1");
+}
 
 /// The corner a source or target lies at, or 4.
 inline std::size_t corner_of(const std::array<double, 4>& b) {

@@ -67,6 +67,10 @@ class SurfaceLabels {
     const double x = length > 0 ? (d0 - d1 + length * length) / (2 * length) : 0;
     return {x, -std::sqrt(std::max(d0 - x * x, 0.))};
   }
+  /// The way to the virtual source, with saddles.
+  [[nodiscard]] double sigma(Index f) const {
+    return static_cast<double>(solved_.workspace.saddles.labels[f].x[1]);
+  }
   [[nodiscard]] Sight sight(Index f, const Vector2& q) const {
     const Vector2 source = virtual_source(f);
     if (!saddles_) return {source, source};

@@ -276,14 +276,19 @@ template <class Real>
 Path SurfaceTrace<Real>::to_path(const Traced& traced) const {
   Path path;
   path.source = traced.source;
+  path.windows = traced.windows;
   path.length = 0;
   const auto push = [&](Index f, const std::array<double, 3>& b) {
     const Index number = mesh_.triangles()[f].face;
     const bool turned = (number & reversed) != 0;
     path.points.push_back({number & ~reversed, {b[0], turned ? b[2] : b[1], turned ? b[1] : b[2]}});
-    if (!shape_.embedded()) return;
-    const Vector3<double> p = shape_.place(f, b);
-    path.positions.push_back({p.x, p.y, p.z});
+    const auto places = shape_.embedded() ? solved_.positions : solved_.drawn;
+    if (places.empty()) return;
+    std::array<double, 3> at = {0, 0, 0};
+    for (std::size_t i = 0; i < 3; ++i)
+      for (std::size_t k = 0; k < 3; ++k)
+        at[k] += b[i] * places[solved_.outer[mesh_.triangles()[f].corner[i]]][k];
+    path.positions.push_back(at);
   };
   for (std::size_t k = 0; k < traced.legs.size(); ++k) {
     const Strip& leg = traced.legs[k];
@@ -296,6 +301,7 @@ Path SurfaceTrace<Real>::to_path(const Traced& traced) const {
     }
   }
   push(traced.legs.back().last(), traced.legs.back().end);
+  if (!shape_.embedded()) return path;
   for (std::size_t i = 0; i + 1 < path.positions.size(); ++i) {
     const auto &p = path.positions[i], &q = path.positions[i + 1];
     path.length += std::hypot(q[0] - p[0], q[1] - p[1], q[2] - p[2]);
@@ -304,7 +310,7 @@ Path SurfaceTrace<Real>::to_path(const Traced& traced) const {
 }
 
 template <class Real>
-Path SurfaceTrace<Real>::trace(const PointSource& point) const {
+Path SurfaceTrace<Real>::trace(const PointSource& point, const TraceOptions& options) const {
   // The strips to try begin with: the triangle of the point, or one of those around its vertex.
   struct Begin {
     double estimate;
@@ -382,7 +388,11 @@ Path SurfaceTrace<Real>::trace(const PointSource& point) const {
       }
     }
   }
-  if (solved_.field.distance.empty()) return best.source == none ? Path{} : to_path(best);
+  if (solved_.field.distance.empty()) {
+    if (best.source == none) return {};
+    search_windows(f, b, options, best);
+    return to_path(best);
+  }
   double promise = infinity;  // by a corner, as the field has it
   for (std::size_t i = 0; i < 3; ++i)
     promise = std::min(
@@ -395,7 +405,9 @@ Path SurfaceTrace<Real>::trace(const PointSource& point) const {
     if (!(best.source != none && whole(best) <= allowed) && descend(f, b, blindly, way))
       keep(straighten(std::move(way)));
   }
-  return best.source == none ? Path{} : to_path(best);
+  if (best.source == none) return {};
+  search_windows(f, b, options, best);
+  return to_path(best);
 }
 
 template class SurfaceTrace<float>;

@@ -40,7 +40,7 @@ class SurfaceTrace {
   SurfaceTrace(const TriangleMesh<Real>& mesh, const Solved<Real>& solved);
 
   /// The shortest of the ways that the labels around the point lead. Empty where none does.
-  [[nodiscard]] Path trace(const PointSource& point) const;
+  [[nodiscard]] Path trace(const PointSource& point, const TraceOptions& options) const;
 
   /// Makes a strip from a target to a source locally shortest, for those who know the way.
   [[nodiscard]] const Straightener<Real>& straightener() const { return straightener_; }
@@ -72,11 +72,17 @@ class SurfaceTrace {
   [[nodiscard]] std::optional<Heading> side(Index v, Index w) const;
   void add(Way& way, Strip& leg, Heading& at, const Heading& to) const;
 
+  struct Traced;
+  void search_windows(Index f, const std::array<double, 3>& b, const TraceOptions& options,
+                      Traced& best) const;
+  [[nodiscard]] Way joined(std::vector<Strip> strips, Index source) const;
+
   struct Traced {
     std::vector<Strip> legs;
     std::vector<PulledStrip> pulled;
     double length = 0;
     Index source = none;
+    std::size_t windows = 0;  // looked at
   };
   [[nodiscard]] Traced straighten(Way way) const;
   [[nodiscard]] Path to_path(const Traced& traced) const;

@@ -8,6 +8,7 @@
 #include <plexway/apps/centroidal_voronoi.hpp>
 #include <plexway/apps/poisson_disk.hpp>
 #include <plexway/error.hpp>
+#include <plexway/executors/serial_cloud.hpp>
 #include <plexway/executors/serial_solid.hpp>
 #include <plexway/io/field.hpp>
 
@@ -81,7 +82,8 @@ void run_cvt(const CvtCommand& command) {
   check_output_name(command.dual, command.input, surface_file_extensions());
 
   ProgressLine progress(command.quiet);
-  const Domain domain = Domain::load(command.input, command.as, command.fill, {}, progress);
+  const Domain domain =
+      Domain::load(command.input, command.as, command.fill, command.cloud, progress);
   const auto* surface = std::get_if<io::Triangles>(&domain.shape());
   if (!command.dual.empty() && surface == nullptr)
     throw UsageError("--dual: only a surface has a dual triangulation here");

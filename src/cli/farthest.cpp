@@ -33,7 +33,8 @@ void run_farthest(const FarthestCommand& command) {
   const auto arguments = parse_sources(
       command.sources.empty() ? std::vector<std::string>{"vertex:0"} : command.sources);
   ProgressLine progress(command.quiet);
-  const Domain domain = Domain::load(command.input, command.as, command.fill, {}, progress);
+  const Domain domain =
+      Domain::load(command.input, command.as, command.fill, command.cloud, progress);
   const auto start = locate_sources(domain, arguments);
   FarthestOptions options;
   options.count = command.count == 0 ? std::numeric_limits<std::size_t>::max() : command.count;
@@ -54,21 +55,10 @@ void run_farthest(const FarthestCommand& command) {
     write_points(command.out, domain, found.points, "distance", found.distance);
   progress.clear();
 
-  Json json;
-  json["input"] = command.input;
-  json["kind"] = domain.kind();
-  json["points"] = found.points.size();
-  json["covering"] = json_number(found.covering);
-  json["expansions"] = found.statistics.expansions;
-  json["seconds"] = seconds;
-  Table table;
-  table.add("input", command.input);
-  table.add("points", counted(found.points.size(), "points"));
-  table.add("covering", "no vertex is farther than " + short_number(found.covering));
-  table.add("work", counted(found.statistics.expansions, "expansions"));
-  table.add("time", short_time(seconds));
-  if (!command.out.empty()) table.add("written", command.out);
-  print_summary(command, json, table);
+  PointSummary summary(command, domain, found.points.size());
+  summary.json["covering"] = json_number(found.covering);
+  summary.table.add("covering", "no vertex is farther than " + short_number(found.covering));
+  summary.finish(command, found.statistics, seconds);
 }
 
 }  // namespace

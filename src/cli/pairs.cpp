@@ -25,7 +25,8 @@ void run_pairs(const PairsCommand& command) {
   check_output_name(command.out, command.input, matrix_file_extensions());
   const auto arguments = parse_sources(command.sources);
   ProgressLine progress(command.quiet);
-  const Domain domain = Domain::load(command.input, command.as, command.fill, {}, progress);
+  const Domain domain =
+      Domain::load(command.input, command.as, command.fill, command.cloud, progress);
   const auto points = locate_sources(domain, arguments);
   progress.phase("solving");
   DistanceMatrix matrix;
@@ -41,21 +42,11 @@ void run_pairs(const PairsCommand& command) {
   if (!command.out.empty()) write_matrix(command.out, matrix.size, matrix.distance);
   progress.clear();
 
-  Json json;
-  json["input"] = command.input;
-  json["kind"] = domain.kind();
-  json["points"] = points.size();
-  json["asymmetry"] = matrix.asymmetry;
-  json["expansions"] = matrix.statistics.expansions;
-  json["seconds"] = seconds;
-  Table table;
-  table.add("input", command.input);
-  table.add("points", counted(points.size(), "points"));
-  table.add("two ways", "differ by " + short_number(matrix.asymmetry) + " of the shorter at most");
-  table.add("work", counted(matrix.statistics.expansions, "expansions"));
-  table.add("time", short_time(seconds));
-  if (!command.out.empty()) table.add("written", command.out);
-  print_summary(command, json, table);
+  PointSummary summary(command, domain, points.size());
+  summary.json["asymmetry"] = matrix.asymmetry;
+  summary.table.add("two ways",
+                    "differ by " + short_number(matrix.asymmetry) + " of the shorter at most");
+  summary.finish(command, matrix.statistics, seconds);
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include <variant>
 #include <vector>
 
+#include <plexway/apps/cloud_path_field.hpp>
 #include <plexway/apps/path_field.hpp>
 #include <plexway/apps/path_search.hpp>
 #include <plexway/error.hpp>
@@ -36,7 +37,9 @@ struct PathCommand {
   std::vector<std::string> from, to;
   std::string out;
   FillOptions fill;
+  CloudArguments cloud;
   SolveOptions solve;
+  TraceOptions trace;
   bool astar = false;
   bool json = false;
   bool quiet = false;
@@ -47,6 +50,17 @@ struct Outcome {
   PropagateStatistics statistics;
   double build = 0, solve = 0, trace = 0;
 };
+
+// Where paths are drawn; lengths of their own are not those between positions.
+template <class Shape>
+std::span<const std::array<double, 3>> positions_of(const Shape& shape) {
+  if constexpr (std::is_same_v<Shape, io::Edges>)
+    return shape.lengths.empty() ? std::span(shape.positions) : std::span(shape.positions).first(0);
+  else if constexpr (std::is_same_v<Shape, Cloud>)
+    return shape.measured();
+  else
+    return shape.positions;
+}
 
 template <class Real, class Shape>
 Outcome find_paths(const Shape& shape, const PathCommand& command,
@@ -64,6 +78,7 @@ Outcome find_paths(const Shape& shape, const PathCommand& command,
       progress.phase("searching");
       SearchOptions search_options;
       search_options.progress = progress.callback();
+      search_options.trace = command.trace;
       SearchResult found = search.find(Serial{}, sources, targets, search_options);
       outcome.paths = std::move(found.paths);
       outcome.statistics = found.statistics;
@@ -72,11 +87,7 @@ Outcome find_paths(const Shape& shape, const PathCommand& command,
     }
   }
   progress.phase("solving");
-  std::span<const std::array<double, 3>> positions = shape.positions;
-  // Lengths of their own are not those between positions.
-  if constexpr (std::is_same_v<Shape, io::Edges>)
-    if (!shape.lengths.empty()) positions = {};
-  PathField field(complex, positions);
+  PathField field(complex, positions_of(shape));
   PropagateOptions with_progress = options;
   with_progress.progress = progress.callback();
   field.solve(Serial{}, std::span<const PointSource>(sources), with_progress);
@@ -84,7 +95,8 @@ Outcome find_paths(const Shape& shape, const PathCommand& command,
   outcome.statistics = field.distances().statistics;
   progress.phase("tracing");
   const Stopwatch tracing;
-  for (const PointSource& target : targets) outcome.paths.push_back(field.trace(target));
+  for (const PointSource& target : targets)
+    outcome.paths.push_back(field.trace(target, command.trace));
   outcome.trace = tracing.seconds();
   return outcome;
 }
@@ -103,6 +115,7 @@ Json to_json(const PathCommand& command, const Domain& domain, const Outcome& ou
     one["from"] = path.source == none ? Json() : Json(command.from[path.source]);
     one["length"] = json_number(path.length);
     one["points"] = path.points.size();
+    one["windows"] = path.windows;
     json["paths"].push_back(one);
   }
   json["seconds"]["load"] = domain.load_seconds();
@@ -146,13 +159,16 @@ void run_path(const PathCommand& command) {
   const std::vector<SourceArgument> from = parse_sources(command.from, "from");
   const std::vector<SourceArgument> to = parse_sources(command.to, "to");
   check_output_name(command.out, command.input, io::path_extensions());
+  if (!(command.trace.margin >= 0 && command.trace.margin < 1))
+    throw UsageError("--margin must be >= 0 and < 1");
   if (command.astar && options.visibility != Visibility::saddles)
     throw UsageError("--astar knows the default visibility only");
 
   ProgressLine progress(command.quiet);
-  const Domain domain = Domain::load(command.input, command.as, command.fill, {}, progress);
-  if (domain.cloud() != nullptr)
-    throw InputError(command.input + ": is a cloud of points: paths need a mesh or a wireframe");
+  const Domain domain =
+      Domain::load(command.input, command.as, command.fill, command.cloud, progress);
+  if (domain.cloud() != nullptr && domain.cloud()->form == CloudForm::pairs)
+    throw UsageError("--form pairs has no triangles to go over: choose umbrellas");
   if (command.astar && domain.kind() != "surface")
     throw UsageError("--astar: a " + std::string(domain.kind()) +
                      " is solved as a whole; A* is for surfaces");
@@ -161,9 +177,7 @@ void run_path(const PathCommand& command) {
   const Outcome outcome = with_file_name(domain, [&] {
     return std::visit(
         [&](const auto& shape) {
-          if constexpr (std::is_same_v<std::decay_t<decltype(shape)>, Cloud>)
-            return Outcome();
-          else if (precision == Precision::single)
+          if (precision == Precision::single)
             return find_paths<float>(shape, command, sources, targets, options, progress);
           else
             return find_paths<double>(shape, command, sources, targets, options, progress);
@@ -212,10 +226,16 @@ void add_path_command(CLI::App& tool, Action& action) {
   app.add_option("--as", command->as, as_help)->type_name("KIND");
   app.add_flag("--astar", command->astar,
                "surfaces: look only at what a shortest path may pass, instead of everything");
+  app.add_option(
+         "--margin", command->trace.margin,
+         "surfaces and clouds: the path is the shortest of all where distances are too long\n"
+         "by no more than this share (default 0.003); 0 is quicker, and locally shortest")
+      ->type_name("X");
   app.add_flag("--json", command->json, "print the summary as one JSON object");
   app.add_flag("--quiet,-q", command->quiet, "no summary, notes or progress; errors stay");
   add_solve_options(app, command->solve, false);
   add_fill_options(app, command->fill);
+  add_cloud_options(app, command->cloud);
   app.footer(
       "Examples:\n"
       "  plexway path knot.ply --from vertex:0 --to vertex:99 --out path.obj\n"

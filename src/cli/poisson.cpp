@@ -57,7 +57,8 @@ void run_poisson(const PoissonCommand& command) {
       command.spacing.empty() ? std::vector<double>{} : read_numbers(command.spacing);
 
   ProgressLine progress(command.quiet);
-  const Domain domain = Domain::load(command.input, command.as, command.fill, {}, progress);
+  const Domain domain =
+      Domain::load(command.input, command.as, command.fill, command.cloud, progress);
   if (!spacing.empty() && spacing.size() != domain.vertices())
     throw InputError(command.spacing + ": " + counted(spacing.size(), "numbers") + " for " +
                      counted(domain.vertices(), "vertices"));

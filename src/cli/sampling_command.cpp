@@ -5,7 +5,7 @@
 namespace plexway::cli {
 
 void add_sampling_options(CLI::App& app, SamplingCommand& command, const char* out_help) {
-  app.add_option("INPUT", command.input, "a surface or a solid, as for 'plexway distance'")
+  app.add_option("INPUT", command.input, "a surface, a solid or a cloud, as for 'plexway distance'")
       ->type_name("FILE")
       ->required();
   app.add_option("--out,-o", command.out, out_help)->type_name("FILE");
@@ -14,12 +14,32 @@ void add_sampling_options(CLI::App& app, SamplingCommand& command, const char* o
   app.add_flag("--json", command.json, "print the summary as one JSON object");
   app.add_flag("--quiet,-q", command.quiet, "no summary or progress; errors stay");
   add_fill_options(app, command.fill);
+  add_cloud_options(app, command.cloud);
 }
 
 Precision precision_of(const SamplingCommand& command) {
   SolveOptions options;
   options.precision = command.precision;
   return precision_of(options);
+}
+
+PointSummary::PointSummary(const SamplingCommand& command, const Domain& domain,
+                           std::size_t points) {
+  json["input"] = command.input;
+  json["kind"] = domain.kind();
+  json["points"] = points;
+  table.add("input", command.input);
+  table.add("points", counted(points, "points"));
+}
+
+void PointSummary::finish(const SamplingCommand& command, const PropagateStatistics& work,
+                          double seconds) {
+  json["expansions"] = work.expansions;
+  json["seconds"] = seconds;
+  table.add("work", counted(work.expansions, "expansions"));
+  table.add("time", short_time(seconds));
+  if (!command.out.empty()) table.add("written", command.out);
+  print_summary(command, json, table);
 }
 
 void print_summary(const SamplingCommand& command, const Json& json, const Table& table) {

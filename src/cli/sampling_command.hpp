@@ -6,6 +6,7 @@
 #include <variant>
 
 #include <plexway/error.hpp>
+#include <plexway/propagate/distance_field.hpp>
 
 #include "console.hpp"
 #include "domain.hpp"
@@ -25,6 +26,7 @@ struct SamplingCommand {
   std::string input, as, out;
   std::string precision = "float";
   FillOptions fill;
+  CloudArguments cloud;
   bool json = false, quiet = false;
 };
 
@@ -34,25 +36,37 @@ void add_sampling_options(CLI::App& app, SamplingCommand& command, const char* o
 /// Throws UsageError where the precision does not exist.
 Precision precision_of(const SamplingCommand& command);
 
-/// Calls `use(complex)` with the surface or the solid; throws InputError for another kind.
+/// Calls `use(complex)` with the surface, the solid or the cloud; throws InputError for another
+/// kind, and for a cloud in the form of pairs.
 template <class Use>
 void with_complex(const Domain& domain, Precision precision, Use use) {
+  if (domain.cloud() != nullptr && domain.cloud()->form == CloudForm::pairs)
+    throw UsageError("--form pairs has no triangles to go over: choose umbrellas");
   with_file_name(domain, [&] {
     std::visit(
         [&](const auto& shape) {
           using Shape = std::decay_t<decltype(shape)>;
           const auto build = [&](auto real) {
             using Real = decltype(real);
-            if constexpr (std::is_same_v<Shape, io::Triangles> || std::is_same_v<Shape, io::Tets>)
-              use(make_complex<Real>(shape));
+            if constexpr (std::is_same_v<Shape, io::Edges>)
+              throw InputError("is a wireframe: points are chosen on surfaces, solids and clouds");
             else
-              throw InputError("is no surface and no solid: points are chosen on those");
+              use(make_complex<Real>(shape));
           };
           precision == Precision::single ? build(float{}) : build(double{});
         },
         domain.shape());
   });
 }
+
+/// A summary of so many points: what the commands say first, and what they say last.
+struct PointSummary {
+  Json json;
+  Table table;
+
+  PointSummary(const SamplingCommand& command, const Domain& domain, std::size_t points);
+  void finish(const SamplingCommand& command, const PropagateStatistics& work, double seconds);
+};
 
 /// The summary, as JSON or as a table, where it is wanted.
 void print_summary(const SamplingCommand& command, const Json& json, const Table& table);

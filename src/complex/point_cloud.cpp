@@ -141,7 +141,8 @@ void count_pairs(const Places& places, std::span<const TangentFrame> frames, con
 }
 
 Sheet make_sheet(Points points, const Neighbours& neighbours, const CloudOptions& options,
-                 CloudSummary& summary, std::vector<std::array<Index, 2>>& twins) {
+                 CloudSummary& summary, std::vector<std::array<Index, 2>>& twins,
+                 std::vector<Point3>& more) {
   const double angle = options.max_normal_angle * std::numbers::pi / 180;
   // A chord of a circle makes half the angle with the tangents at its ends that these make with
   // each other. It is measured at the rms distance of 16 neighbours: farther ones may be no higher.
@@ -210,6 +211,7 @@ Sheet make_sheet(Points points, const Neighbours& neighbours, const CloudOptions
     for (Index& v : t) v = v < n ? distinct.order[v] : static_cast<Index>(points.size() + (v - n));
   for (Index i = 0; i < points.size(); ++i)
     if (distinct.first[i] != i) twins.push_back({i, distinct.first[i]});
+  more = result.more;
   return result;
 }
 
@@ -235,14 +237,14 @@ template <class Real>
 PointCloud<Real>::PointCloud(Points points, const Neighbours& neighbours,
                              const CloudOptions& options)
     : surface_((check_input(points, neighbours, options),
-                mesh_of<Real>(points, make_sheet(points, neighbours, options, summary_, twins_)))) {
+                mesh_of<Real>(points, make_sheet(points, neighbours, options, summary_, twins_, more_)))) {
   if (options.progress) options.progress(1);
 }
 
 template <class Real>
 std::size_t PointCloud<Real>::bytes() const {
   return sizeof(*this) - sizeof(surface_) + surface_.bytes() +
-         twins_.capacity() * sizeof(twins_[0]) +
+         twins_.capacity() * sizeof(twins_[0]) + more_.capacity() * sizeof(more_[0]) +
          summary_.component_sizes.capacity() * sizeof(std::size_t);
 }
 

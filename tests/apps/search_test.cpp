@@ -1,8 +1,11 @@
+#include <filesystem>
 #include <limits>
+#include <string>
 
 #include <plexway/apps/bounded_search.hpp>
 #include <plexway/apps/path_search.hpp>
 #include <plexway/error.hpp>
+#include <plexway/io/triangles.hpp>
 
 #include "apps/path_testing.hpp"
 #include "propagate/solving.hpp"
@@ -62,6 +65,43 @@ TEMPLATE_TEST_CASE("a search finds the path that a full solve does, and looks at
   }
   CAPTURE(shares / pairs);
   CHECK(shares <= 0.15 * pairs);
+}
+
+TEST_CASE("a search on scans finds the path of the full solve and looks at a few hundredths") {
+  const std::filesystem::path folder = std::filesystem::path(PLEXWAY_TRUTH_DIR) / "surfaces";
+  if (std::string(PLEXWAY_TRUTH_DIR).empty() || !std::filesystem::exists(folder)) return;
+  std::size_t pairs = 0, apart = 0;
+  double shares = 0, most = 0;
+  for (const char* name : {"spot", "fandisk", "rocker-arm", "camelhead", "beetle_car"}) {
+    const io::Triangles t = io::read_triangles(folder / (std::string(name) + ".obj"));
+    const TriangleMesh<float> mesh(t.positions, t.triangles);
+    PathField field(mesh, t.positions);
+    PathSearch<float> search(mesh, t.positions);
+    std::mt19937 random(7);
+    for (int k = 0; k < 3; ++k) {
+      const Index source = below(random, t.positions.size());
+      const auto& full = field.solve(Serial{}, PointSource::at(source));
+      float farthest = 0;
+      for (const float d : full.distance)
+        if (std::isfinite(d)) farthest = std::max(farthest, d);
+      for (int i = 0; i < 10;) {
+        const Index target = below(random, t.positions.size());
+        if (target == source || !(full.distance[target] <= farthest / 2)) continue;
+        ++i, ++pairs;
+        const auto found = search.find(Serial{}, PointSource::at(source), PointSource::at(target));
+        const double share = static_cast<double>(found.statistics.expansions) /
+                             static_cast<double>(full.statistics.expansions);
+        shares += share, most = std::max(most, share);
+        const double off = std::abs(found.paths[0].length / field.trace(target).length - 1);
+        apart += off > 1e-4;
+        CAPTURE(name, source, target);
+        CHECK(off <= 2e-3);
+      }
+    }
+  }
+  CAPTURE(pairs, apart, shares, most);
+  CHECK(shares <= 0.05 * static_cast<double>(pairs));
+  CHECK(static_cast<double>(apart) <= 0.03 * static_cast<double>(pairs));
 }
 
 TEST_CASE("a search for several targets, some of them out of reach") {

@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include <plexway/complex/point_cloud.hpp>
 #include <plexway/complex/tet_mesh.hpp>
 #include <plexway/complex/triangle_mesh.hpp>
 #include <plexway/executors/serial.hpp>
@@ -39,7 +40,8 @@ struct VoronoiOptions {
 
 struct CentroidalVoronoi {
   std::vector<PointSource> seeds;
-  std::vector<Index> label;          ///< nearest seed of each simplex's centre; none if unreached
+  /// Nearest seed of each simplex's centre, on clouds of each point; none if unreached.
+  std::vector<Index> label;
   std::vector<double> cell_content;  ///< area or volume of each seed's cell
   std::vector<VoronoiStep> steps;
   double energy = 0;               ///< at the end
@@ -65,6 +67,16 @@ template <class Real>
 /// In a solid, which must have coordinates (UsageError).
 template <class Real>
 [[nodiscard]] CentroidalVoronoi centroidal_voronoi(Serial, const TetMesh<Real>& mesh,
+                                                   std::span<const PointSource> seeds,
+                                                   const VoronoiOptions& options = {});
+
+/// On a cloud, with seeds that are its points: they move over the sheet between the points, and go
+/// to the nearest point at last, each to another one. `energy` and `cell_content` are those after
+/// that, so that the energy may end above that of the last step, by less the denser the points.
+/// Throws UsageError as above, and for more seeds than there are places. The start is points by
+/// number.
+template <class Real>
+[[nodiscard]] CentroidalVoronoi centroidal_voronoi(Serial, const PointCloud<Real>& cloud,
                                                    std::span<const PointSource> seeds,
                                                    const VoronoiOptions& options = {});
 

@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include <plexway/complex/point_cloud.hpp>
 #include <plexway/complex/tet_mesh.hpp>
 #include <plexway/complex/triangle_mesh.hpp>
 #include <plexway/executors/serial.hpp>
@@ -40,6 +41,11 @@ template <class Real>
 template <class Real>
 [[nodiscard]] DistanceMatrix distance_matrix(
     Serial, const TetMesh<Real>& mesh, std::span<const PointSource> points,
+    const std::function<bool(double share)>& progress = {});
+/// Among points of a cloud, by number.
+template <class Real>
+[[nodiscard]] DistanceMatrix distance_matrix(
+    Serial, const PointCloud<Real>& cloud, std::span<const PointSource> points,
     const std::function<bool(double share)>& progress = {});
 
 }  // namespace plexway

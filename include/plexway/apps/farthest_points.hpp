@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include <plexway/complex/point_cloud.hpp>
 #include <plexway/complex/tet_mesh.hpp>
 #include <plexway/complex/triangle_mesh.hpp>
 #include <plexway/executors/serial.hpp>
@@ -43,6 +44,12 @@ template <class Real>
 /// In a solid, which must have coordinates (UsageError).
 template <class Real>
 [[nodiscard]] FarthestPoints farthest_points(Serial, const TetMesh<Real>& mesh,
+                                             std::span<const PointSource> start,
+                                             const FarthestOptions& options);
+/// Among the points of a cloud; the start is points by number. Points that nothing is near are left
+/// out.
+template <class Real>
+[[nodiscard]] FarthestPoints farthest_points(Serial, const PointCloud<Real>& cloud,
                                              std::span<const PointSource> start,
                                              const FarthestOptions& options);
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <limits>
 #include <vector>
 
@@ -14,6 +15,15 @@ struct PathPoint {
   std::array<double, 4> barycentric = {0, 0, 0, 0};
 };
 
+/// How hard to look for a path on a surface or a cloud.
+struct TraceOptions {
+  /// The path found is the shortest of all if nowhere near it the field is too long by more than
+  /// this share: what could be shorter is searched for, exactly. 0: not at all, which is some ten
+  /// times faster; then the path is locally shortest.
+  double margin = 3e-3;
+  std::size_t max_windows = 50000;  ///< parts of edges looked at for that at most, 0.2 us each
+};
+
 /// A way through a domain, from the point asked for back to the source.
 ///
 /// The straight line from each point to the next lies in the simplex of the first of the two, so
@@ -25,7 +35,8 @@ struct Path {
   /// Summed over the lines between the points, in double: a path of this length exists, so the
   /// distance is not more. Without the source's offset.
   double length = std::numeric_limits<double>::infinity();
-  Index source = none;  ///< where it ends: a place in the list of sources
+  Index source = none;      ///< where it ends: a place in the list of sources
+  std::size_t windows = 0;  ///< looked at (TraceOptions)
 };
 
 }  // namespace plexway

@@ -68,16 +68,19 @@ class PathField<Domain<Real>> {
   /// path of infinite length.
   ///
   /// On surfaces it is straight over every edge and bends only at vertices with at least pi of
-  /// surface on both sides, and is at most 1 % longer than the shortest way along edges; in solids
+  /// surface on both sides, is at most 1 % longer than the shortest way along edges, and mostly the
+  /// shortest of all (TraceOptions, which elsewhere do not matter); in solids
   /// it bends only at reflex edges and vertices. Solids without coordinates: a way along edges, as
   /// short as these allow.
   ///
   /// Throws UsageError for a point that is not in the domain, or before a solve. Any number of
   /// threads may trace at once. Cost: about that of looking at each simplex on the way some ten
-  /// times.
-  [[nodiscard]] Path trace(const PointSource& point) const;
+  /// times, and on surfaces of the windows.
+  [[nodiscard]] Path trace(const PointSource& point, const TraceOptions& options = {}) const;
   /// From a vertex.
-  [[nodiscard]] Path trace(Index vertex) const { return trace(PointSource::at(vertex)); }
+  [[nodiscard]] Path trace(Index vertex, const TraceOptions& options = {}) const {
+    return trace(PointSource::at(vertex), options);
+  }
 
   /// Bytes held, without those of the domain and the positions.
   [[nodiscard]] std::size_t bytes() const;

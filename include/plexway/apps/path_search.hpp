@@ -21,6 +21,7 @@ struct SearchOptions {
   /// domain's unit. It must change by no more than the distance from vertex to vertex. Empty: the
   /// straight line where the search has positions, else 0.
   std::function<double(Index)> heuristic = {};
+  TraceOptions trace = {};  ///< of the paths, in what was searched
   /// Stop after this many expansions (SearchResult::complete).
   std::size_t max_expansions = ~std::size_t{0};
   std::function<bool(const Progress&)> progress = {};  ///< as in PropagateOptions
@@ -38,13 +39,16 @@ struct SearchResult {
 /// Nilsson, Raphael, A formal basis for the heuristic determination of minimum cost paths, 1968).
 ///
 /// *When it stops.* Labels wait in the order of a lower bound of all paths through their triangle
-/// T: such a path comes to a point x of T after d(x) at least, and has h(x) at least to go. With r
-/// the longest way from T's centre c to its corners, d(x) >= d(c) - r, else the way by x and
-/// straight on to c would be a shorter one to c; and h(x) >= h(c) - r, because a lower bound of
-/// distances that changes faster than these can be cut down to one that does not. So the bound is
-/// d(c) + h(c) - 2 r. Once it is no less than what a target has for the first label that waits, no
-/// label that waits can lead to a shorter path there: the target is settled. The search stops when
-/// all are.
+/// T. By the straight line, such a path comes from the label's virtual source, crosses the edge
+/// that the label came in by at some point x, and has the distance from there to the target in
+/// space to go: the least such sum is that of the straight line once the target is turned into the
+/// plane of T about that edge, or over one of its ends. Other bounds h know vertices: the path
+/// comes to a point x of T after d(x) at least, and has h(x) at least to go. With r the longest way
+/// from T's centre c to its corners, d(x) >= d(c) - r, else the way by x and straight on to c would
+/// be a shorter one to c; and h(x) >= h(c) - r, because a lower bound of distances that changes
+/// faster than these can be cut down to one that does not. So the bound is d(c) + h(c) - 2 r. Once
+/// it is no less than what a target has for the first label that waits, no label that waits can
+/// lead to a shorter path there: the target is settled. The search stops when all are.
 ///
 /// *Only one thread* takes labels in that order: there is no search for other executors.
 template <class Real>

@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include <plexway/complex/point_cloud.hpp>
 #include <plexway/complex/tet_mesh.hpp>
 #include <plexway/complex/triangle_mesh.hpp>
 #include <plexway/executors/serial.hpp>
@@ -28,7 +29,7 @@ struct PoissonOptions {
   std::size_t count = 0;
   std::uint64_t seed = 1;  ///< the same seed gives the same darts, on any machine
   DartOrder order = DartOrder::uniform;
-  /// Only at vertices, as clouds of points want it: then no vertex is farther than the radius.
+  /// Only at vertices: then no vertex is farther than the radius. So it is on clouds, always.
   bool at_vertices = false;
   /// One a vertex, > 0, or empty: the radius about a dart is `radius` times this, linear between
   /// vertices. For a density of darts, give its power -1/2 on surfaces and -1/3 in solids. It
@@ -74,6 +75,12 @@ template <class Real>
 [[nodiscard]] PoissonDisks poisson_disks(Serial, const TetMesh<Real>& mesh,
                                          const PoissonOptions& options, Workspace<Real>& workspace);
 
+/// The same among the points of a cloud: darts are points, and no point is farther than the radius
+/// from all of them. A spacing has one value a point. Throws UsageError for the order `simplices`.
+template <class Real>
+[[nodiscard]] PoissonDisks poisson_disks(Serial, const PointCloud<Real>& cloud,
+                                         const PoissonOptions& options, Workspace<Real>& workspace);
+
 /// With a workspace of its own.
 template <class Real>
 [[nodiscard]] PoissonDisks poisson_disks(Serial executor, const TriangleMesh<Real>& mesh,
@@ -86,6 +93,12 @@ template <class Real>
                                          const PoissonOptions& options) {
   Workspace<Real> workspace;
   return poisson_disks(executor, mesh, options, workspace);
+}
+template <class Real>
+[[nodiscard]] PoissonDisks poisson_disks(Serial executor, const PointCloud<Real>& cloud,
+                                         const PoissonOptions& options) {
+  Workspace<Real> workspace;
+  return poisson_disks(executor, cloud, options, workspace);
 }
 
 }  // namespace plexway

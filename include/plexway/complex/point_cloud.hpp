@@ -91,10 +91,13 @@ class PointCloud {
   [[nodiscard]] Index of_point(Index point) const;
   /// Points that are not the first at their place, ascending, and who is.
   [[nodiscard]] std::span<const std::array<Index, 2>> twins() const { return twins_; }
+  /// Where the surface's vertices behind the points are, in the points' unit; mostly none.
+  [[nodiscard]] std::span<const std::array<double, 3>> more_places() const { return more_; }
 
  private:
   CloudSummary summary_;
   std::vector<std::array<Index, 2>> twins_;
+  std::vector<std::array<double, 3>> more_;
   TriangleMesh<Real> surface_;
 };
 

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include <plexway/complex/point_cloud.hpp>
+#include <plexway/error.hpp>
+#include <plexway/source/point_source.hpp>
+
+namespace plexway {
+
+/// Points of a cloud as vertices of its sheet: each is the first at its place. Throws UsageError
+/// for what is no point of the cloud.
+template <class Real>
+std::vector<PointSource> first_at_place(const PointCloud<Real>& cloud,
+                                        std::span<const PointSource> points) {
+  std::vector<PointSource> first(points.begin(), points.end());
+  for (PointSource& p : first) {
+    if (p.vertex == none)
+      throw UsageError("a place on a cloud is a point by number, not a place in a triangle");
+    if (p.vertex >= cloud.point_count())
+      throw UsageError("point " + std::to_string(p.vertex) + " is out of range, there are " +
+                       std::to_string(cloud.point_count()));
+    p.vertex = cloud.of_point(p.vertex);
+  }
+  return first;
+}
+
+}  // namespace plexway

@@ -1,0 +1,102 @@
+// The shortest way of all, near one that is known.
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "apps/surface_trace.hpp"
+#include "apps/window_search.hpp"
+
+namespace plexway {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+}  // namespace
+
+/// One way of straight strips that meet in vertices.
+template <class Real>
+typename SurfaceTrace<Real>::Way SurfaceTrace<Real>::joined(std::vector<Strip> strips,
+                                                            Index source) const {
+  Way way;
+  way.source = source;
+  // Which way it goes on at a vertex is not known before it is pulled: any direction will do.
+  const auto heading = [&](Index f, const std::array<double, 3>& b) {
+    const std::size_t i = corner_of(b);
+    return Heading{f, i, shape_.angle(f, i) / 2};
+  };
+  Strip leg = std::move(strips[0]);
+  for (std::size_t k = 1; k < strips.size(); ++k) {
+    Heading at = heading(leg.last(), leg.end);
+    add(way, leg, at, heading(strips[k].first, strips[k].start));
+    leg.crossings.insert(leg.crossings.end(), strips[k].crossings.begin(),
+                         strips[k].crossings.end());
+    leg.end = strips[k].end;
+  }
+  way.legs.push_back(std::move(leg));
+  return way;
+}
+
+template <class Real>
+void SurfaceTrace<Real>::search_windows(Index f, const std::array<double, 3>& b,
+                                        const TraceOptions& options, Traced& best) const {
+  const double unit = mesh_.unit();
+  std::vector<Index> corners;
+  const auto left = [&](Index v) {
+    if (!solved_.field.distance.empty())
+      return static_cast<double>(solved_.field.distance[solved_.outer[v]]);
+    double least = infinity;  // a search leaves labels only
+    mesh_.corners_at(v, corners);
+    for (const Index c : corners)
+      if (labels_.reached(c / 3)) least = std::min(least, labels_.corner_distance(c / 3, c % 3));
+    return least * unit;
+  };
+  std::vector<WindowGoal> goals;
+  for (const PointSource& s : solved_.sources) {
+    WindowGoal goal;
+    goal.left = s.offset;
+    if (s.vertex != none) {
+      goal.vertex = mesh_.inside_vertex(s.vertex);
+    } else {
+      const auto [face, turned] = mesh_.inside_face(s.simplex);
+      goal.at = inside(s.barycentric, turned);
+      if (const std::size_t i = corner_of(goal.at); i < 3)
+        goal.vertex = mesh_.triangles()[face].corner[i];
+      else
+        goal.face = face;
+    }
+    goals.push_back(goal);
+  }
+  WindowSearch<Real> search(mesh_, shape_, left, goals);
+  const auto length = [&] { return best.length + solved_.sources[best.source].offset; };
+  // Where the field and the path it led to disagree, or a path much shorter than that is found, the
+  // field is off by more than usual: look wider.
+  constexpr double shorter = 1 - 1e-12, widest = 0.05;
+  double promise = infinity;
+  for (std::size_t i = 0; i < 3; ++i)
+    promise = std::min(promise,
+                       left(mesh_.triangles()[f].corner[i]) + shape_.distance(f, at_corner(i), b));
+  double margin = options.margin;
+  while (margin > 0 && best.windows < options.max_windows) {
+    const double known = length();
+    auto found = search.find(f, b, known * shorter, margin, options.max_windows - best.windows);
+    const std::size_t windows = best.windows + found.windows;
+    if (found.goal != none) {
+      Traced traced = straighten(joined(std::move(found.strips), found.goal));
+      if (traced.length + solved_.sources[found.goal].offset < known) best = std::move(traced);
+    }
+    best.windows = windows;
+    const double gain = 1 - length() / known;
+    const double off = promise > 0 && promise < infinity ? std::abs(length() / promise - 1) : 0;
+    const double next = std::min(4 * std::max(gain, off), widest);
+    margin = next > margin ? std::max(next, 2 * margin) : 0;
+  }
+}
+
+template void SurfaceTrace<float>::search_windows(Index, const std::array<double, 3>&,
+                                                  const TraceOptions&, Traced&) const;
+template void SurfaceTrace<double>::search_windows(Index, const std::array<double, 3>&,
+                                                   const TraceOptions&, Traced&) const;
+
+}  // namespace plexway
