@@ -1,13 +1,14 @@
 #include <plexway/complex/triangle_mesh.hpp>
 
 #include "info_report.hpp"
+#include "make_complex.hpp"
 #include "surface_survey.hpp"
 
 namespace plexway::cli {
 
 InfoReport info_of(const Domain& domain, const io::Triangles& surface) {
-  const SurfaceSummary summary = with_file_name(
-      domain, [&] { return TriangleMesh<double>(surface.positions, surface.triangles).summary(); });
+  const SurfaceSummary summary =
+      with_file_name(domain, [&] { return make_complex<double>(surface).summary(); });
   const SurfaceSurvey survey = survey_surface(surface);
   const Box box{survey.low, survey.high};
   const Spread edge{survey.shortest_edge, survey.mean_edge, survey.longest_edge};

@@ -4,34 +4,19 @@
 #include <utility>
 #include <variant>
 
-#include <plexway/complex/triangle_mesh.hpp>
 #include <plexway/executors/serial.hpp>
 #include <plexway/executors/serial_cloud.hpp>
 #include <plexway/executors/serial_pairs.hpp>
 #include <plexway/executors/serial_solid.hpp>
 #include <plexway/executors/serial_wireframe.hpp>
 
+#include "make_complex.hpp"
+
 namespace plexway::cli {
 namespace {
 
-// Each is built in place: complexes are not to be copied.
-template <class Real>
-TriangleMesh<Real> make_complex(const io::Triangles& surface) {
-  return {surface.positions, surface.triangles};
-}
-template <class Real>
-TetMesh<Real> make_complex(const io::Tets& solid) {
-  return {solid.positions, solid.tets};
-}
-template <class Real>
-Wireframe<Real> make_complex(const io::Edges& wireframe) {
-  if (wireframe.lengths.empty()) return {wireframe.positions, wireframe.edges};
-  return {wireframe.vertices, wireframe.edges, wireframe.lengths};
-}
-template <class Real>
-PointCloud<Real> make_complex(const Cloud& cloud) {
-  return {cloud.measured(), cloud.neighbours, cloud_options(cloud)};
-}
+using cli::make_complex;
+
 // A cloud in its other form.
 struct PairsOf {
   const Cloud& cloud;
