@@ -75,8 +75,10 @@ class Conversion {
   }
 
   void mesh() {
-    const Domain domain =
-        Domain::load(command_.input, kind_for(command_), command_.fill, {}, progress_);
+    FillOptions fill = command_.fill;
+    if (extension_ == ".vdb" && !fill.volume.repair && !is_vdb(command_.input))
+      fill.volume.voxel.reset();  // that of the output
+    const Domain domain = Domain::load(command_.input, kind_for(command_), fill, {}, progress_);
     kind = domain.kind();
     simplex_name = domain.simplex_name();
     note = domain.level_set_note();

@@ -134,6 +134,9 @@ Domain Domain::load(const std::string& file, const std::string& as, const FillOp
     throw UsageError(
         "--max-volume, --quality, --keep-surface, --max-seconds and --hole need a surface to fill: "
         "give one with --as solid");
+  if (fill.volume.voxel && !cut && !fill.volume.repair &&
+      (wanted == Kind::surface || wanted == Kind::wireframe))
+    throw UsageError("--voxel needs a cloud, --repair, or a .vdb to read or to write");
   if (cut || fill.volume.repair)
     domain.load_level_set(file, wanted == Kind::surface || fills, fill.volume, progress);
   if (fills) {
