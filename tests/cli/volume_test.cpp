@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <cstdlib>
 #include <filesystem>
 #include <string>
 
@@ -83,6 +84,20 @@ TEST_CASE("convert: surfaces, solids, wireframes and clouds into other formats")
         2);
   const auto help = run_tool({"convert", "--help"});
   CHECK_THAT(help.out, Contains("Examples:") && Contains("--repair"));
+}
+
+TEST_CASE("NumPy reads the matrix of pairs") {
+  const std::string python = "/usr/bin/python3";
+  if (std::system((python + " -c 'import numpy' >/dev/null 2>&1").c_str()) != 0) return;
+  const Folder folder;
+  for (const char* name : {"m.npy", "m.csv"})
+    REQUIRE(run_tool({"pairs", sample("knot.ply"), "-s", "vertex:0", "-s", "vertex:9", "-s",
+                      "vertex:99", "-q", "-o", (folder.path() / name).string()})
+                .code == 0);
+  const std::string peer = python + " -B '" PLEXWAY_SOURCE_DIR "/tests/io/gltf_peer.py' matrix '";
+  const std::string both =
+      (folder.path() / "m.npy").string() + "' '" + (folder.path() / "m.csv").string() + "'";
+  CHECK(std::system((peer + both).c_str()) == 0);
 }
 
 #ifdef PLEXWAY_HAS_OPENVDB

@@ -3,6 +3,7 @@
 gltf_peer.py check FILE --mode M --vertices N --cells N [--distance ...] [--label ...]
     parses FILE and checks the rules of the glTF 2.0 specification that concern it
 gltf_peer.py numpy FILE VALUES          NumPy's own reader
+gltf_peer.py matrix NPY CSV             the same n x n numbers in both
 gltf_peer.py vtk FOLDER VALUES LABELS   VTK's readers of d.vtu and d.glb, if VTK is installed
 """
 
@@ -117,12 +118,19 @@ def read_vtk(folder, values, labels):
     blocks = reader.GetOutput()
     while not hasattr(blocks, "GetPolys"):
         blocks = blocks.GetBlock(0)
+    raw = blocks.GetPointData().GetArray("_DISTANCE")  # VTK 9.1 has it, older ones pass it over
+    if raw is not None:
+        want = [-1 if v == numpy.inf else v for v in numbers(values)]
+        need(numpy.array_equal(vtk_to_numpy(raw), want), "_DISTANCE")
     need(blocks.GetNumberOfPoints() == 4 and blocks.GetNumberOfPolys() == 2, str(blocks))
 
 
 if __name__ == "__main__":
     if sys.argv[1] == "numpy":
         need(numpy.array_equal(numpy.load(sys.argv[2]), numbers(sys.argv[3])), "values differ")
+    elif sys.argv[1] == "matrix":
+        square, table = numpy.load(sys.argv[2]), numpy.loadtxt(sys.argv[3], delimiter=",")
+        need(square.ndim == 2 and numpy.array_equal(square, table), "values differ")
     elif sys.argv[1] == "vtk":
         read_vtk(*sys.argv[2:])
     else:

@@ -37,7 +37,9 @@ bool peer(const std::string& arguments, const Folder& folder) {
   return good;
 }
 
-std::string quoted(const std::filesystem::path& file) { return "'" + file.string() + "'"; }
+std::string quoted(const std::filesystem::path& file) {
+  return std::string("'").append(file.string()).append("'");
+}
 
 const Triangles surface = {{{0, 0, 0}, {1, 0, 0}, {0, 1.5, 0}, {0, 0, -2}}, {{0, 1, 2}, {0, 2, 3}}};
 const std::vector<double> distance = {0, 1, 1.5, inf};

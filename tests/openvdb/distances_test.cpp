@@ -46,7 +46,7 @@ TEST_CASE("distances agree with those in the solid that TetGen makes of the same
     const plexway::TetMesh<double> own(cut.positions, cut.tets);
 
     // A regular tetrahedron of the edge e has the volume e^3 / (6 sqrt 2); TetGen's are smaller.
-    double bound = 2.2 * std::pow(mean_edge(own), 3) / (6 * std::sqrt(2.0));
+    double bound = 2.4 * std::pow(mean_edge(own), 3) / (6 * std::sqrt(2.0));
     const auto solid = plexway::tetgen::tetrahedralize(surface.positions, surface.triangles, {},
                                                        {.max_volume = bound, .keep_surface = true});
     const plexway::TetMesh<double> peer(solid.positions, solid.tets);

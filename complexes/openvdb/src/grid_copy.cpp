@@ -15,12 +15,8 @@ using ::openvdb::GridBase;
 std::string in_quotes(const std::string& name) { return "'" + name + "'"; }
 
 std::string what_it_is(const GridBase& grid) {
-  const std::string type = grid.valueType();
-  if (grid.getGridClass() == ::openvdb::GRID_FOG_VOLUME)
-    return "a fog volume of " + type + ", not a level set";
-  if (grid.getGridClass() == ::openvdb::GRID_STAGGERED) return "a staggered grid of " + type;
-  if (grid.getGridClass() == ::openvdb::GRID_LEVEL_SET) return "a level set of " + type;
-  return "a grid of " + type + " and unknown class";
+  if (grid.getGridClass() == ::openvdb::GRID_FOG_VOLUME) return "a fog volume";
+  return "a grid of " + grid.valueType();
 }
 
 bool has_fit_values(const GridBase& grid) {
@@ -89,15 +85,17 @@ void copy_grid(const std::string& file, const std::string& wanted,
     name = choose(*metadata, wanted);
     for (const GridBase::Ptr& one : *metadata)
       if (one->getName() == name && !has_fit_values(*one))
-        throw InputError("grid " + in_quotes(name) + " is " + what_it_is(*one));
+        throw InputError("grid " + in_quotes(name) + " is " + what_it_is(*one) +
+                         ", not a level set of numbers");
     grid = input.readGrid(name);
   } catch (const ::openvdb::Exception& error) {
     throw InputError(std::string("OpenVDB cannot read it: ") + error.what());
   }
   if (!grid) throw InputError("OpenVDB gave no grid");
   if (!may_be_level_set(*grid))
-    throw InputError("grid " + in_quotes(name) + " is " + what_it_is(*grid) +
-                     "; give a level set, negative inside (Houdini's Convert VDB makes one)");
+    throw InputError(
+        "grid " + in_quotes(name) + " is " + what_it_is(*grid) +
+        ", not a level set; give one, negative inside (Houdini's Convert VDB makes it)");
   try {
     if (const auto* single = dynamic_cast<const ::openvdb::FloatGrid*>(grid.get()))
       copy(*single, head, brick);

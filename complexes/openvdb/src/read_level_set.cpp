@@ -106,7 +106,8 @@ void limit_resources(std::uintmax_t file_bytes) {
   const rlim_t seconds = 20 + file_bytes / (1 << 20);
   const rlimit time = {seconds, seconds + 1};
   ::setrlimit(RLIMIT_CPU, &time);
-#ifdef RLIMIT_DATA
+#if defined(RLIMIT_DATA) && !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+  // (Sanitizers map terabytes of their own.)
   const rlim_t bytes = (rlim_t{2} << 30) + 400 * file_bytes;
   const rlimit memory = {bytes, bytes};
   ::setrlimit(RLIMIT_DATA, &memory);
