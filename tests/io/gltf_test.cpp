@@ -93,7 +93,7 @@ TEST_CASE("glTF far from the origin keeps the shape by a translation") {
 TEST_CASE("surfaces and wireframes are written in every format and read back the same") {
   const Folder folder;
   for (const std::string_view extension : triangle_output_extensions()) {
-    const auto file = folder.path() / ("s" + std::string(extension));
+    const auto file = folder.path() / std::string("s").append(extension);
     write_triangles(file, surface);
     INFO(file);
     if (extension == ".glb" || extension == ".gltf") {
