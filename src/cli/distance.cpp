@@ -32,6 +32,7 @@ struct DistanceCommand {
   FillOptions fill;
   CloudArguments cloud;
   SolveOptions solve;
+  TriangulationArgument triangulation;
   bool json = false;
   bool quiet = false;
 };
@@ -89,6 +90,7 @@ Json to_json(const DistanceCommand& command, const Domain& domain, const Solver&
   json["expansions"] = solver.statistics().expansions;
   json["updates"] = solver.statistics().updates;
   json["executor"] = executor_name(outcome.executor);
+  if (domain.kind() == "surface") json["triangulation"] = name_of(solver.triangulation());
   json["threads"] = executor_threads(outcome.executor);
   if (!domain.level_set_note().empty()) json["voxels"] = domain.level_set_note();
   if (const Cloud* cloud = domain.cloud()) {
@@ -114,6 +116,8 @@ std::string to_text(const DistanceCommand& command, const Domain& domain, const 
     const std::string label = sources.size() == 1 ? "source" : "source " + std::to_string(i);
     table.add(label, describe_source(domain, arguments[i], sources[i]));
   }
+  if (solver.triangulation().done != Retriangulation::keep)
+    table.add("triangles", describe(solver.triangulation()));
   std::string reached =
       std::to_string(outcome.reached) + " of " + counted(domain.vertices(), "vertices");
   if (outcome.reached > 0) {
@@ -177,6 +181,7 @@ void say_notes(const Domain& domain, const Solver& solver, const Outcome& outcom
 void run_distance(const DistanceCommand& command) {
   const PropagateOptions wanted = propagate_options(command.solve);
   const Precision precision = precision_of(command.solve);
+  const Triangulation triangulation = triangulation_of(command.triangulation);
   const std::vector<SourceArgument> arguments = parse_sources(command.sources);
   if (command.out != "-" && !is_vdb(command.out))
     check_output_name(command.out, command.input, cloud_field_extensions());
@@ -190,7 +195,7 @@ void run_distance(const DistanceCommand& command) {
 
   progress.phase("building");
   const Stopwatch building;
-  const auto solver = make_solver(domain, precision);
+  const auto solver = make_solver(domain, precision, triangulation);
   const double build = building.seconds();
 
   progress.phase("solving");
@@ -264,6 +269,7 @@ void add_distance_command(CLI::App& tool, Action& action) {
   app.add_flag("--json", command->json, "print the summary as one JSON object");
   app.add_flag("--quiet,-q", command->quiet, "no summary, notes or progress; errors stay");
   add_solve_options(app, command->solve, true);
+  add_triangulation_option(app, command->triangulation);
   add_fill_options(app, command->fill);
   add_cloud_options(app, command->cloud);
   app.footer(
@@ -274,6 +280,7 @@ void add_distance_command(CLI::App& tool, Action& action) {
       "  plexway distance organ.off --as solid --max-volume 1e-3 --source point:0,0,0 -o d.vtu\n"
       "  plexway distance fluid.vdb --source point:0,0,0 --out field.vdb\n"
       "  plexway distance broken.stl --repair --as solid --source vertex:0 --out d.glb\n"
+      "  plexway distance part.stl --source vertex:0 --triangulation delaunay -o d.vtu\n"
       "  plexway distance vessels.obj --source vertex:0 --out distance.vtk\n"
       "  plexway distance scan.pcd --voxel 0.01 --denoise --source point:0,0,0 --out d.ply\n"
       "  plexway distance knot.ply --source vertex:0 --quiet --out - | sort -t, -gk2 | tail -1");

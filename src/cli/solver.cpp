@@ -1,5 +1,6 @@
 #include "solver.hpp"
 
+#include <optional>
 #include <type_traits>
 #include <utility>
 #include <variant>
@@ -48,18 +49,29 @@ std::size_t simplex_count(const Complex& complex) {
 template <class Real, class Shape>
 class ShapeSolver final : public Solver {
  public:
-  explicit ShapeSolver(const Shape& shape) : complex_(make_complex<Real>(shape)) {}
+  explicit ShapeSolver(const Shape& shape, [[maybe_unused]] Triangulation triangulation)
+      : complex_(make_complex<Real>(shape)), simplices_(simplex_count(complex_)) {
+    if constexpr (std::is_same_v<Shape, io::Triangles>)
+      delaunay_ = retriangulate(triangulation, shape, complex_, triangulation_);
+  }
 
   std::size_t components() const override { return complex_.summary().components; }
-  std::size_t simplices() const override { return simplex_count(complex_); }
+  std::size_t simplices() const override { return simplices_; }
+  TriangulationReport triangulation() const override { return triangulation_; }
 
   void solve(const Executor& executor, std::span<const PointSource> sources,
              const PropagateOptions& options) override {
-    std::visit([&](const auto& chosen) { solve_on(chosen, sources, options); }, executor);
+    std::span<const PointSource> there = sources;
+    if (delaunay_) {
+      moved_.clear();
+      for (const PointSource& source : sources) moved_.push_back(delaunay_->to_intrinsic(source));
+      there = moved_;
+    }
+    std::visit([&](const auto& chosen) { solve_on(chosen, there, options); }, executor);
   }
 
   std::vector<double> distance() const override {
-    return {field_.distance.begin(), field_.distance.end()};
+    return {field_.distance.begin(), field_.distance.end() - inserted()};
   }
 
   std::vector<std::int32_t> label() const override {
@@ -67,6 +79,7 @@ class ShapeSolver final : public Solver {
     labels.reserve(field_.label.size());
     for (const Index label : field_.label)
       labels.push_back(label == none ? -1 : static_cast<std::int32_t>(label));
+    if (!labels.empty()) labels.resize(labels.size() - static_cast<std::size_t>(inserted()));
     return labels;
   }
 
@@ -78,11 +91,17 @@ class ShapeSolver final : public Solver {
 #ifdef PLEXWAY_HAS_GL
     on_device = gl_workspace_.bytes();
 #endif
-    return complex_.bytes() + workspace_.bytes() + on_device +
-           field_.distance.capacity() * sizeof(Real) + field_.label.capacity() * sizeof(Index);
+    return complex_.bytes() + (delaunay_ ? delaunay_->bytes() : 0) + workspace_.bytes() +
+           on_device + field_.distance.capacity() * sizeof(Real) +
+           field_.label.capacity() * sizeof(Index);
   }
 
  private:
+  // Vertices at the end that are not the input's.
+  [[nodiscard]] std::ptrdiff_t inserted() const {
+    return static_cast<std::ptrdiff_t>(triangulation_.inserted_vertices);
+  }
+
   template <class OnThisMachine>
   void solve_on(const OnThisMachine& executor, std::span<const PointSource> sources,
                 const PropagateOptions& options) {
@@ -108,6 +127,10 @@ class ShapeSolver final : public Solver {
   static constexpr bool kSerialOnly = std::is_same_v<Complex, PointPairs<Real>>;
 
   Complex complex_;
+  std::size_t simplices_;  // before any were added
+  std::optional<IntrinsicDelaunay> delaunay_;
+  TriangulationReport triangulation_;
+  std::vector<PointSource> moved_;
   Workspace<Real> workspace_;
 #ifdef PLEXWAY_HAS_GL
   GLWorkspace gl_workspace_;
@@ -116,18 +139,22 @@ class ShapeSolver final : public Solver {
 };
 
 template <class Shape>
-std::unique_ptr<Solver> solver_of(const Shape& shape, Precision precision) {
-  if (precision == Precision::single) return std::make_unique<ShapeSolver<float, Shape>>(shape);
-  return std::make_unique<ShapeSolver<double, Shape>>(shape);
+std::unique_ptr<Solver> solver_of(const Shape& shape, Precision precision,
+                                  Triangulation triangulation) {
+  if (precision == Precision::single)
+    return std::make_unique<ShapeSolver<float, Shape>>(shape, triangulation);
+  return std::make_unique<ShapeSolver<double, Shape>>(shape, triangulation);
 }
 
 }  // namespace
 
-std::unique_ptr<Solver> make_solver(const Domain& domain, Precision precision) {
+std::unique_ptr<Solver> make_solver(const Domain& domain, Precision precision,
+                                    Triangulation triangulation) {
+  check_triangulation(triangulation, domain);
   return with_file_name(domain, [&] {
     if (domain.cloud() != nullptr && domain.cloud()->form == CloudForm::pairs)
-      return solver_of(PairsOf{*domain.cloud()}, precision);
-    return std::visit([&](const auto& shape) { return solver_of(shape, precision); },
+      return solver_of(PairsOf{*domain.cloud()}, precision, triangulation);
+    return std::visit([&](const auto& shape) { return solver_of(shape, precision, triangulation); },
                       domain.shape());
   });
 }
