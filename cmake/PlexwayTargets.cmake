@@ -86,26 +86,32 @@ function(plexway_add_tool)
   plexway_compile_options(plexway_tool)
   target_include_directories(plexway_tool PRIVATE "${PROJECT_SOURCE_DIR}/src")
   target_link_libraries(plexway_tool PRIVATE CLI11::CLI11 nlohmann_json::nlohmann_json)
-  plexway_link_all(plexway_tool EXCEPT pcl)
-  if(TARGET plexway_pcl AND UNIX)
-    plexway_add_pcl_module()
+  plexway_link_all(plexway_tool EXCEPT pcl openvdb)
+  if(UNIX)
+    plexway_add_tool_module(pcl)
+    plexway_add_tool_module(openvdb)
   endif()
 endfunction()
 
-# PCL's libraries take longer to load than the tool takes for all it does with most files: so it
-# loads what needs them, src/cli/pcl/, when it does.
-function(plexway_add_pcl_module)
+# The libraries of some providers take longer to load than the tool takes for all it does with most
+# files: so it loads what needs them, src/cli/NAME/, when it does.
+function(plexway_add_tool_module name)
+  if(NOT TARGET plexway_${name})
+    return()
+  endif()
+  string(TOUPPER ${name} upper)
+  set(module plexway_${name}_module)
   set(folder "${CMAKE_INSTALL_LIBDIR}/plexway")
-  add_library(plexway_pcl_module MODULE "${PROJECT_SOURCE_DIR}/src/cli/pcl/module.cpp")
-  plexway_compile_options(plexway_pcl_module)
-  set_target_properties(plexway_pcl_module PROPERTIES PREFIX "" OUTPUT_NAME plexway_pcl
+  add_library(${module} MODULE "${PROJECT_SOURCE_DIR}/src/cli/${name}/module.cpp")
+  plexway_compile_options(${module})
+  set_target_properties(${module} PROPERTIES PREFIX "" OUTPUT_NAME plexway_${name}
     LIBRARY_OUTPUT_DIRECTORY "${PROJECT_BINARY_DIR}/${folder}")
-  target_include_directories(plexway_pcl_module PRIVATE "${PROJECT_SOURCE_DIR}/src")
-  target_link_libraries(plexway_pcl_module PRIVATE plexway::pcl plexway::io)
-  add_dependencies(plexway_tool plexway_pcl_module)
-  target_compile_definitions(plexway_tool PRIVATE PLEXWAY_HAS_PCL=1
-    PLEXWAY_PCL_MODULE="$<TARGET_FILE_NAME:plexway_pcl_module>"
-    PLEXWAY_PCL_FOLDER="../${folder}")
+  target_include_directories(${module} PRIVATE "${PROJECT_SOURCE_DIR}/src")
+  target_link_libraries(${module} PRIVATE plexway::${name} plexway::io)
+  add_dependencies(plexway_tool ${module})
+  target_compile_definitions(plexway_tool PRIVATE PLEXWAY_HAS_${upper}=1
+    PLEXWAY_${upper}_MODULE="$<TARGET_FILE_NAME:${module}>"
+    PLEXWAY_MODULE_FOLDER="../${folder}")
   target_link_libraries(plexway_tool PRIVATE ${CMAKE_DL_LIBS})
   set_target_properties(plexway_tool PROPERTIES
     BUILD_RPATH "${PROJECT_BINARY_DIR}/${folder}" INSTALL_RPATH "$ORIGIN/../${folder}")

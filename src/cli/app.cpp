@@ -36,6 +36,9 @@ std::string version_text() {
 #ifdef PLEXWAY_HAS_PCL
   providers += " pcl";
 #endif
+#ifdef PLEXWAY_HAS_OPENVDB
+  providers += " openvdb";
+#endif
   return std::string("plexway ") + version_string + "\nprecision  float double\nexecutors " +
          executors + "\nproviders " + (providers.empty() ? " none" : providers) + "\nlicence    " +
          licence + "\n";
@@ -76,6 +79,7 @@ int parse_and_run(int argc, const char* const* argv) {
       "  plexway path knot.ply --from vertex:0 --to vertex:99 --out path.obj\n"
       "  plexway info knot.ply\n"
       "  plexway tetrahedralize organ.off --out organ.vtu --max-volume 1e-3\n"
+      "  plexway convert broken.stl clean.ply --repair\n"
       "  plexway bench bunny.obj --source vertex:3160 --truth bunny.v3160.txt\n\n"
       "Exit codes: 0 ok, 1 failure, 2 usage, 3 bad input, 4 not built in, 5 nothing reached.");
   add_distance_command(tool, action);
@@ -83,6 +87,7 @@ int parse_and_run(int argc, const char* const* argv) {
   add_bench_command(tool, action);
   add_path_command(tool, action);
   add_tetrahedralize_command(tool, action);
+  add_convert_command(tool, action);
   add_poisson_command(tool, action);
   add_cvt_command(tool, action);
   add_farthest_command(tool, action);

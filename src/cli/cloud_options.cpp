@@ -39,11 +39,6 @@ void add_cloud_options(CLI::App& command, CloudArguments& options) {
       ->type_name("NAME")
       ->group(group);
   command
-      .add_option("--voxel", options.voxel,
-                  "first thin the cloud: one point for each cube of this side (through PCL)")
-      ->type_name("SIZE")
-      ->group(group);
-  command
       .add_flag("--denoise", options.denoise,
                 "first drop points that lie alone, by the distance to their neighbours\n"
                 "(through PCL)")

@@ -19,7 +19,7 @@ struct CloudArguments {
   std::optional<double> neighbour_radius;
   std::optional<double> max_normal_angle;
   std::string form = "umbrellas";
-  std::optional<double> voxel;
+  std::optional<double> voxel;  ///< typed as one of VolumeOptions
   bool denoise = false;
   std::optional<double> deviations;
   bool smooth = false;

@@ -92,6 +92,7 @@ Json to_json(const DistanceCommand& command, const Domain& domain, const Solver&
   json["executor"] = executor_name(outcome.executor);
   json["threads"] = executor_threads(outcome.executor);
   if (domain.kind() == "surface") json["triangulation"] = name_of(solver.triangulation());
+  if (!domain.level_set_note().empty()) json["voxels"] = domain.level_set_note();
   if (const Cloud* cloud = domain.cloud()) {
     json["points_in_file"] = cloud->points_in_file;
     json["not_finite"] = cloud->not_finite;
@@ -108,6 +109,7 @@ std::string to_text(const DistanceCommand& command, const Domain& domain, const 
   table.add(std::string(domain.kind()), counted(domain.vertices(), "vertices") + ", " +
                                             counted(solver.simplices(), domain.simplex_name()) +
                                             ", " + counted(solver.components(), "components"));
+  if (!domain.level_set_note().empty()) table.add("voxels", domain.level_set_note());
   if (domain.cloud() != nullptr && !kept_points(*domain.cloud()).empty())
     table.add("kept", kept_points(*domain.cloud()));
   for (std::size_t i = 0; i < sources.size(); ++i) {
@@ -181,13 +183,14 @@ void run_distance(const DistanceCommand& command) {
   const Precision precision = precision_of(command.solve);
   const Triangulation triangulation = triangulation_of(command.triangulation);
   const std::vector<SourceArgument> arguments = parse_sources(command.sources);
-  if (command.out != "-") check_output_name(command.out, command.input, cloud_field_extensions());
+  if (command.out != "-" && !is_vdb(command.out))
+    check_output_name(command.out, command.input, cloud_field_extensions());
 
   ProgressLine progress(command.quiet);
   const Domain domain =
       Domain::load(command.input, command.as, command.fill, command.cloud, progress);
   if (domain.cloud() == nullptr && command.out != "-")
-    check_output_name(command.out, command.input, io::field_extensions());
+    check_output_name(command.out, command.input, domain.field_extensions());
   const std::vector<PointSource> sources = locate_sources(domain, arguments);
 
   progress.phase("building");
@@ -256,10 +259,11 @@ void add_distance_command(CLI::App& tool, Action& action) {
       ->required()
       ->type_name("WHERE")
       ->allow_extra_args(false);
-  app.add_option("--out,-o", command->out,
-                 "write the distances: .csv .npy .ply .vtk .vtu (and .pcd for clouds) by\n"
-                 "extension, or - for CSV on standard output (the summary then goes to\n"
-                 "standard error)")
+  app.add_option(
+         "--out,-o", command->out,
+         "write the distances: .csv .npy .ply .vtk .vtu .glb .gltf (.pcd of clouds,\n"
+         ".vdb of solids) by extension, or - for CSV on standard output (the summary then goes to\n"
+         "standard error)")
       ->type_name("FILE");
   app.add_option("--as", command->as, as_help)->type_name("KIND");
   app.add_flag("--json", command->json, "print the summary as one JSON object");
@@ -274,6 +278,8 @@ void add_distance_command(CLI::App& tool, Action& action) {
       "  plexway distance knot.ply --source point:1,0,0.5 --radius 2 --json\n"
       "  plexway distance knot.ply --source vertex:0 --source vertex:99 --out nearest.csv\n"
       "  plexway distance organ.off --as solid --max-volume 1e-3 --source point:0,0,0 -o d.vtu\n"
+      "  plexway distance fluid.vdb --source point:0,0,0 --out field.vdb\n"
+      "  plexway distance broken.stl --repair --as solid --source vertex:0 --out d.glb\n"
       "  plexway distance part.stl --source vertex:0 --triangulation delaunay -o d.vtu\n"
       "  plexway distance vessels.obj --source vertex:0 --out distance.vtk\n"
       "  plexway distance scan.pcd --voxel 0.01 --denoise --source point:0,0,0 --out d.ply\n"

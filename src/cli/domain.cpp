@@ -10,6 +10,7 @@
 #include <plexway/io/field.hpp>
 
 #include "closest_point.hpp"
+#include "openvdb_functions.hpp"
 #include "simplex_edges.hpp"
 
 namespace plexway::cli {
@@ -71,7 +72,7 @@ Domain::Shape read(const std::string& file, std::optional<Kind> asked) {
   throw InputError(
       file + ": " + (extension.empty() ? "no extension" : "unknown extension '" + extension + "'") +
       "; known are .obj .off .ply .stl for surfaces, .node .ele .mesh .msh .vtu .vtk "
-      ".poly .smesh for solids, .edges .obj for wireframes, .xyz .pcd .ply for clouds");
+      ".poly .smesh .vdb for solids, .edges .obj for wireframes, .xyz .pcd .ply for clouds");
 }
 
 // A .ply is a cloud where it is asked to be one, or where it cannot be a surface.
@@ -100,30 +101,44 @@ Domain Domain::load(const std::string& file, const std::string& as, const FillOp
   check(cloud);
   Domain domain;
   domain.file_ = file;
+  domain.voxel_ = fill.volume.voxel.value_or(0);
+  if (!fill.volume.grid.empty() && !is_vdb(file))
+    throw UsageError("--grid needs a .vdb: other files have no grids");
   progress.phase("reading " + file);
   const Stopwatch loading;
   const bool is_cloud = is_read_as_cloud(file, asked);
   CloudFile points;
   if (is_cloud)
     points = read_cloud(file);
-  else if (!is_poly(file))
+  else if (!is_poly(file) && !is_vdb(file))
     domain.shape_ = read(file, asked);
   domain.load_seconds_ = loading.seconds();
-  const Kind natural = is_cloud        ? Kind::cloud
-                       : is_poly(file) ? Kind::solid
-                                       : static_cast<Kind>(domain.shape_.index());
+  const Kind natural = is_cloud                        ? Kind::cloud
+                       : is_poly(file) || is_vdb(file) ? Kind::solid
+                                                       : static_cast<Kind>(domain.shape_.index());
   const Kind wanted = asked.value_or(natural);
-  if (!can_be(natural, wanted)) cannot_be(file, natural, wanted);
+  const bool surface_of_vdb = is_vdb(file) && wanted == Kind::surface;
+  if (!can_be(natural, wanted) && !surface_of_vdb) cannot_be(file, natural, wanted);
+  if (fill.volume.repair && (natural != Kind::surface || wanted == Kind::cloud))
+    throw UsageError("--repair needs a surface, and takes it as a surface or as a solid");
   if (cloud.given() && wanted != Kind::cloud)
     throw UsageError(
         "--k, --neighbour-radius, --max-normal-angle, --form, --voxel, --denoise and --smooth need "
         "a cloud: a file of points, or a surface with --as cloud");
 
-  const bool fills = is_poly(file) || (natural == Kind::surface && wanted == Kind::solid);
+  const bool wants_solid = natural == Kind::surface && wanted == Kind::solid;
+  // Without a word about how TetGen should do it, a repaired solid is cut from its level set.
+  const bool cut = is_vdb(file) || (fill.volume.repair && !(wants_solid && fill.given()));
+  const bool fills = is_poly(file) || (wants_solid && !cut);
   if (fill.given() && !fills)
     throw UsageError(
         "--max-volume, --quality, --keep-surface, --max-seconds and --hole need a surface to fill: "
         "give one with --as solid");
+  if (fill.volume.voxel && !cut && !fill.volume.repair &&
+      (wanted == Kind::surface || wanted == Kind::wireframe))
+    throw UsageError("--voxel needs a cloud, --repair, or a .vdb to read or to write");
+  if (cut || fill.volume.repair)
+    domain.load_level_set(file, wanted == Kind::surface || fills, fill.volume, progress);
   if (fills) {
     require_tetgen(as.empty() ? file : "--as " + as);
     progress.phase("filling " + file + " with tetrahedra");
@@ -142,10 +157,39 @@ Domain Domain::load(const std::string& file, const std::string& as, const FillOp
   if (wanted == Kind::cloud) {
     if (!is_cloud) points.points.positions = std::get<io::Triangles>(domain.shape_).positions;
     const Stopwatch looking;
-    domain.shape_ = make_cloud(file, std::move(points), cloud, progress);
+    CloudArguments arguments = cloud;
+    arguments.voxel = fill.volume.voxel;
+    domain.shape_ = make_cloud(file, std::move(points), arguments, progress);
     domain.neighbour_seconds_ = looking.seconds();
   }
   return domain;
+}
+
+void Domain::load_level_set(const std::string& file, bool surface, const VolumeOptions& volume,
+                            ProgressLine& progress) {
+  const double voxel = volume.voxel.value_or(0);
+  const Stopwatch meshing;
+  if (is_vdb(file)) {
+    const OpenvdbFunctions& openvdb = openvdb_functions(file);
+    progress.phase("cutting " + file);
+    if (surface)
+      shape_ = openvdb.surface_of_file(file, volume.grid, voxel, level_set_note_);
+    else
+      shape_ = openvdb.solid_of_file(file, volume.grid, voxel, level_set_note_);
+  } else {
+    const OpenvdbFunctions& openvdb = openvdb_functions("--repair");
+    progress.phase("repairing " + file);
+    const auto broken = std::get<io::Triangles>(std::move(shape_));
+    try {
+      if (surface)
+        shape_ = openvdb.repaired(broken, voxel, level_set_note_);
+      else
+        shape_ = openvdb.solid_inside(broken, voxel, level_set_note_);
+    } catch (const InputError& error) {
+      throw InputError(file + ": cannot be repaired: " + error.what());
+    }
+  }
+  if (!surface) mesh_seconds_ = meshing.seconds();
 }
 
 std::string_view Domain::kind() const { return kind_names[shape_.index()]; }
@@ -213,8 +257,26 @@ std::array<double, 3> Domain::position(const PointSource& source) const {
 
 void Domain::write_field(const std::filesystem::path& out, std::span<const double> distance,
                          std::span<const std::int32_t> label) const {
+  if (is_vdb(out.string())) {
+    const auto* solid = std::get_if<io::Tets>(&shape_);
+    if (solid == nullptr)
+      throw UsageError(out.string() + ": only the field of a solid fits a .vdb");
+    openvdb_functions(out.string()).write_field(out, *solid, distance, label, voxel_);
+    return;
+  }
   using io::write_field;  // and the one of clouds
   std::visit([&](const auto& shape) { write_field(out, shape, distance, label); }, shape_);
+}
+
+std::span<const std::string_view> Domain::field_extensions() const {
+  static const std::vector<std::string_view> of_solids = [] {
+    const auto known = io::field_extensions();
+    std::vector<std::string_view> all(known.begin(), known.end());
+    all.push_back(".vdb");
+    return all;
+  }();
+  if (cloud() != nullptr) return cloud_field_extensions();
+  return std::holds_alternative<io::Tets>(shape_) ? of_solids : io::field_extensions();
 }
 
 }  // namespace plexway::cli

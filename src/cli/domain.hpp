@@ -54,6 +54,9 @@ class Domain {
   /// One a vertex; none at all in a wireframe that has only lengths.
   [[nodiscard]] std::span<const std::array<double, 3>> positions() const;
 
+  /// How a level set came in: the grid and its voxels, or what was repaired; empty where none did.
+  [[nodiscard]] const std::string& level_set_note() const { return level_set_note_; }
+
   /// Seconds that reading took, and those that filling a surface and finding the neighbours of a
   /// cloud took, if that was done.
   [[nodiscard]] double load_seconds() const { return load_seconds_; }
@@ -68,14 +71,21 @@ class Domain {
   [[nodiscard]] std::array<double, 3> position(const PointSource& source) const;
 
   /// Writes one distance a vertex; the extension of `out` picks the format. Throws as
-  /// io::write_field; a cloud fits a .pcd as well.
+  /// io::write_field; a cloud fits a .pcd as well, a solid a .vdb.
   void write_field(const std::filesystem::path& out, std::span<const double> distance,
                    std::span<const std::int32_t> label) const;
+  /// The extensions that its fields may have.
+  [[nodiscard]] std::span<const std::string_view> field_extensions() const;
 
  private:
   Domain() = default;
 
+  void load_level_set(const std::string& file, bool surface, const VolumeOptions& volume,
+                      ProgressLine& progress);
+
   std::filesystem::path file_;
+  double voxel_ = 0;  ///< of a .vdb to write; 0: to be chosen
+  std::string level_set_note_;
   Shape shape_;
   double load_seconds_ = 0;
   std::optional<double> mesh_seconds_;
@@ -85,7 +95,8 @@ class Domain {
 /// What INPUT may be, for the help of the commands.
 inline constexpr const char* input_help =
     "a surface: .obj .off .ply .stl; a solid: .node .ele .mesh .msh .vtu .vtk,\n"
-    "and .poly .smesh through TetGen; a wireframe: .edges, or .obj with lines only;\n"
+    ".poly .smesh through TetGen, and a level set .vdb through OpenVDB; a wireframe: .edges, or "
+    ".obj with lines only;\n"
     "a cloud of points: .xyz, .ply without faces, and .pcd through PCL";
 inline constexpr const char* as_help =
     "what to take it as: surface, solid (fills a surface with tetrahedra),\n"

@@ -92,6 +92,7 @@ void add_fill_options(CLI::App& command, FillOptions& options) {
       ->type_name("X,Y,Z")
       ->allow_extra_args(false)
       ->group(group);
+  add_volume_options(command, options.volume);
 }
 
 void check(const FillOptions& options) {
@@ -102,6 +103,7 @@ void check(const FillOptions& options) {
   if (!(options.max_seconds >= 0) || std::isinf(options.max_seconds))
     throw UsageError("--max-seconds must be a number greater than 0");
   (void)hole_points(options);
+  check(options.volume);
 }
 
 void require_tetgen(const std::string& what) {

@@ -8,6 +8,7 @@
 #include <plexway/io/triangles.hpp>
 
 #include "progress.hpp"
+#include "volume_options.hpp"
 
 namespace CLI {
 class App;
@@ -22,8 +23,9 @@ struct FillOptions {
   bool keep_surface = false;
   double max_seconds = 0;
   std::vector<std::string> holes;
+  VolumeOptions volume;
 
-  /// Whether any of them differs from its default.
+  /// Whether any of them but `volume` differs from its default.
   [[nodiscard]] bool given() const;
 };
 

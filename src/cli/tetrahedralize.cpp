@@ -37,6 +37,7 @@ Json to_json(const TetrahedralizeCommand& command, const Domain& domain,
   json["kind"] = domain.kind();
   json["vertices"] = domain.vertices();
   json["simplices"] = domain.simplices();
+  if (!domain.level_set_note().empty()) json["voxels"] = domain.level_set_note();
   json["volume"] = json_number(survey.volume);
   json["largest_volume"] = json_number(survey.largest_volume);
   json["seconds"] = {{"load", domain.load_seconds()}, {"mesh", *domain.mesh_seconds()}};
@@ -47,6 +48,7 @@ std::string to_text(const TetrahedralizeCommand& command, const Domain& domain,
                     const SolidSurvey& survey) {
   Table table;
   table.add("input", command.input);
+  if (!domain.level_set_note().empty()) table.add("voxels", domain.level_set_note());
   table.add("solid", counted(domain.vertices(), "vertices") + ", " +
                          counted(domain.simplices(), domain.simplex_name()));
   table.add("volume", short_number(survey.volume) + ", largest tetrahedron " +
@@ -60,7 +62,8 @@ std::string to_text(const TetrahedralizeCommand& command, const Domain& domain,
 void run_tetrahedralize(const TetrahedralizeCommand& command) {
   check_output_name(command.out, command.input, io::tet_extensions());
   check(command.fill);
-  require_tetgen("tetrahedralize");
+  if (!is_vdb(command.input) && !(command.fill.volume.repair && !command.fill.given()))
+    require_tetgen("tetrahedralize");
   ProgressLine progress(command.quiet);
   const Domain domain = Domain::load(command.input, "solid", command.fill, {}, progress);
   if (!domain.mesh_seconds())
@@ -83,8 +86,9 @@ void add_tetrahedralize_command(CLI::App& tool, Action& action) {
   auto command = std::make_shared<TetrahedralizeCommand>();
   CLI::App& app = *tool.add_subcommand("tetrahedralize",
                                        "Fills a closed surface with tetrahedra, by TetGen (AGPL)");
-  app.add_option("INPUT", command->input,
-                 "a closed surface: .obj .off .ply .stl, or TetGen's .poly .smesh")
+  app.add_option(
+         "INPUT", command->input,
+         "a closed surface: .obj .off .ply .stl, or TetGen's .poly .smesh; a level set: .vdb")
       ->type_name("FILE")
       ->required();
   app.add_option("--out,-o", command->out,
@@ -100,6 +104,8 @@ void add_tetrahedralize_command(CLI::App& tool, Action& action) {
       "  plexway tetrahedralize organ.off --out organ.vtu\n"
       "  plexway tetrahedralize organ.off --out organ.mesh --max-volume 1e-3 --quality 1.5\n"
       "  plexway tetrahedralize shell.stl --out shell.ele --hole 0,0,0 --keep-surface --json\n"
+      "  plexway tetrahedralize broken.stl --repair --voxel 0.01 --out clean.vtu\n"
+      "  plexway tetrahedralize fluid.vdb --grid surface --out fluid.mesh\n"
       "  plexway tetrahedralize part.poly --out part.msh");
   app.callback([command, &action] { action = [command] { run_tetrahedralize(*command); }; });
 }

@@ -14,8 +14,10 @@ namespace {
 
 using Writer = void (*)(OutputFile&, const Field&);
 
-constexpr std::array<std::string_view, 5> extensions = {".csv", ".npy", ".ply", ".vtk", ".vtu"};
-constexpr std::array<Writer, 5> writers = {write_csv, write_npy, write_ply, write_vtk, write_vtu};
+constexpr std::array<std::string_view, 7> extensions = {".csv", ".npy", ".ply", ".vtk",
+                                                        ".vtu", ".glb", ".gltf"};
+constexpr std::array<Writer, 7> writers = {write_csv, write_npy, write_ply, write_vtk,
+                                           write_vtu, write_glb, write_gltf};
 constexpr std::size_t without_positions = 2;  ///< so many at the front need none
 
 void require_length(std::string_view what, std::size_t length, std::size_t vertices) {

@@ -32,7 +32,7 @@ struct Field {
   std::size_t vertices;
   std::span<const std::array<double, 3>> positions;  ///< one a vertex; empty: there are none
   std::span<const Cells> cells;
-  std::span<const double> distance;     ///< one a vertex; empty (.vtu, .vtk): the mesh alone
+  std::span<const double> distance;     ///< one a vertex; empty (.vtu .vtk .glb): the mesh alone
   std::span<const std::int32_t> label;  ///< one a vertex, or empty
 
   std::size_t cell_count() const {
@@ -55,6 +55,9 @@ void write_ply(OutputFile& out, const Field& field);
 /// Throws Error when there are more vertices than its 32 bits count.
 void write_vtk(OutputFile& out, const Field& field);
 void write_vtu(OutputFile& out, const Field& field);
+/// Of tetrahedra the boundary, with its vertices alone. Throws Error beyond 4 GB.
+void write_glb(OutputFile& out, const Field& field);
+void write_gltf(OutputFile& out, const Field& field);
 
 /// Writes `field` in the format that the extension names. Checks lengths and throws as
 /// `write_field` does for every kind of domain.

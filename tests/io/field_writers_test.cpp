@@ -208,7 +208,7 @@ TEST_CASE("write_field: wrong calls") {
   using plexway::UsageError;
   CHECK(failure<UsageError>(folder.path() / "d.xyz") ==
         (folder.path() / "d.xyz").string() +
-            ": unknown extension '.xyz'; known are .csv .npy .ply .vtk .vtu");
+            ": unknown extension '.xyz'; known are .csv .npy .ply .vtk .vtu .glb .gltf");
   const std::vector<double> short_one(3);
   CHECK_THAT(failure<UsageError>(folder.path() / "d.csv", short_one),
              Contains("3 distances for 4 vertices"));
@@ -216,7 +216,7 @@ TEST_CASE("write_field: wrong calls") {
   CHECK_THAT(failure<UsageError>(folder.path() / "d.csv", distance, labels),
              Contains("5 labels for 4 vertices"));
   CHECK(folder.files() == 0);
-  CHECK(plexway::io::field_extensions().size() == 5);
+  CHECK(plexway::io::field_extensions().size() == 7);
 }
 
 TEST_CASE("write_field: what the system refuses is told, and leaves nothing behind") {

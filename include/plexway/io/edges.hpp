@@ -28,6 +28,14 @@ Edges read_edges(const std::filesystem::path& file);
 /// The extensions `read_edges` knows, with the dot, in lower case.
 std::span<const std::string_view> edge_extensions();
 
+/// Writes the wireframe; the extension (any case) picks the format. An .edges holds lengths instead
+/// of positions. The file appears whole or not at all. Throws as write_triangles does, and
+/// UsageError where a format needs positions and there are none.
+void write_edges(const std::filesystem::path& file, const Edges& wireframe);
+
+/// The extensions `write_edges` knows, with the dot, in lower case.
+std::span<const std::string_view> edge_output_extensions();
+
 /// The polylines of a Wavefront OBJ: `v` and `l` (`v` or `v/vt`, negative indices, `\` at a line's
 /// end); each pair of neighbours is an edge, and all other statements are ignored. `name` stands
 /// for the file in messages. Throws InputError, also for a file that has faces but no lines.

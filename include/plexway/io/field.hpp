@@ -15,16 +15,17 @@ namespace plexway::io {
 
 /// Writes one distance a vertex, and one label where `label` is not empty, in file order.
 ///
-/// The extension (any case) picks the format: .csv, .npy (distances only), .ply, .vtk, .vtu.
-/// Unreached vertices carry +inf in each of them. The file appears whole or not at all: it is
-/// written beside its place and renamed at the end.
+/// The extension (any case) picks the format: .csv, .npy (distances only), .ply, .vtk, .vtu, .glb
+/// and .gltf. Unreached vertices carry +inf in each of them, but -1 in glTF, which knows no
+/// infinity. The file appears whole or not at all: it is written beside its place and renamed at
+/// the end.
 ///
 /// Throws UsageError for an unknown extension or arrays that are not as long as
 /// `surface.positions`, and Error "cannot write FILE: reason" when the system refuses.
 void write_field(const std::filesystem::path& file, const Triangles& surface,
                  std::span<const double> distance, std::span<const std::int32_t> label = {});
 
-/// The same for a solid. A .ply holds its vertices alone.
+/// The same for a solid. A .ply holds its vertices alone, a .glb its boundary.
 void write_field(const std::filesystem::path& file, const Tets& solid,
                  std::span<const double> distance, std::span<const std::int32_t> label = {});
 

@@ -28,6 +28,17 @@ Triangles read_triangles(const std::filesystem::path& file);
 /// The extensions `read_triangles` knows, with the dot, in lower case.
 std::span<const std::string_view> triangle_extensions();
 
+/// Writes the surface; the extension (any case) picks the format. It reads back the same, to the
+/// last bit, but for .stl, .glb and .gltf, which hold single precision. The file appears whole or
+/// not at all.
+///
+/// Throws UsageError for an unknown extension, a coordinate that is not finite or an index out of
+/// range, and Error "cannot write FILE: reason" when the system refuses.
+void write_triangles(const std::filesystem::path& file, const Triangles& surface);
+
+/// The extensions `write_triangles` knows, with the dot, in lower case.
+std::span<const std::string_view> triangle_output_extensions();
+
 /// Wavefront OBJ: `v` and `f` (all index forms, negative indices, `\` at a line's end); all other
 /// statements are ignored. `name` stands for the file in messages. Throws InputError.
 Triangles parse_obj(std::string_view text, std::string_view name);

@@ -1,0 +1,116 @@
+#include <openvdb/openvdb.h>
+#include <openvdb/tools/MeshToVolume.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+
+#include <plexway/error.hpp>
+#include <plexway/openvdb/surface.hpp>
+
+#include "closing.hpp"
+#include "grid_bricks.hpp"
+
+namespace plexway::openvdb {
+namespace {
+
+// What meshToVolume asks of a mesh.
+class Adapter {
+ public:
+  Adapter(const ClosedSurface& surface, double voxel) : surface_(surface), voxel_(voxel) {}
+  [[nodiscard]] std::size_t polygonCount() const { return surface_.triangles.size(); }
+  [[nodiscard]] std::size_t pointCount() const { return surface_.positions.size(); }
+  [[nodiscard]] std::size_t vertexCount(std::size_t) const { return 3; }
+  void getIndexSpacePoint(std::size_t triangle, std::size_t corner, ::openvdb::Vec3d& at) const {
+    const Vector& p = surface_.positions[surface_.triangles[triangle][corner]];
+    at = ::openvdb::Vec3d(p[0] / voxel_, p[1] / voxel_, p[2] / voxel_);
+  }
+
+ private:
+  const ClosedSurface& surface_;
+  double voxel_;
+};
+
+double distance(const Vector& a, const Vector& b) {
+  return std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]);
+}
+
+struct Extent {
+  double diagonal = 0, mean_edge = 0, area = 0, farthest = 0;
+};
+
+Extent extent_of(const ClosedSurface& surface) {
+  constexpr double far = std::numeric_limits<double>::infinity();
+  Vector low = {far, far, far}, high = {-far, -far, -far};
+  Extent extent;
+  for (const auto& t : surface.triangles) {
+    std::array<double, 3> side{};
+    for (std::size_t i = 0; i < 3; ++i) {
+      const Vector& p = surface.positions[t[i]];
+      side[i] = distance(p, surface.positions[t[(i + 1) % 3]]);
+      extent.mean_edge += side[i] / (3.0 * static_cast<double>(surface.triangles.size()));
+      for (std::size_t k = 0; k < 3; ++k) {
+        low[k] = std::min(low[k], p[k]);
+        high[k] = std::max(high[k], p[k]);
+        extent.farthest = std::max(extent.farthest, std::abs(p[k]));
+      }
+    }
+    const double half = (side[0] + side[1] + side[2]) / 2;
+    extent.area +=
+        std::sqrt(std::max(0.0, half * (half - side[0]) * (half - side[1]) * (half - side[2])));
+  }
+  extent.diagonal = distance(low, high);
+  return extent;
+}
+
+double choose_voxel(const Extent& extent, double asked) {
+  if (asked != 0 && (!(asked > 0) || !std::isfinite(asked)))
+    throw UsageError("the voxel must be 0, to have it chosen, or a number above 0");
+  if (!(extent.diagonal > 0)) throw InputError("all vertices lie at one place");
+  const double voxel =
+      asked > 0 ? asked
+                : std::clamp(extent.mean_edge / 2, extent.diagonal / 128, extent.diagonal / 32);
+  // Six voxels across the surface, and a few numbers for each.
+  if (6 * extent.area / (voxel * voxel) > 1e9)
+    throw UsageError("the voxel is too small: more than 10^9 voxels near the surface");
+  if (extent.farthest / voxel > 8.0 * (BrickNumbers::far - 4))
+    throw UsageError("the voxel is too small for a surface so far from the origin");
+  return voxel;
+}
+
+}  // namespace
+
+LevelSet level_set_of(std::span<const std::array<double, 3>> positions,
+                      std::span<const std::array<Index, 3>> triangles,
+                      const SurfaceOptions& options) {
+  Repair own;
+  Repair& report = options.report == nullptr ? own : *options.report;
+  report = {};
+  const ClosedSurface surface = close_surface(positions, triangles, report);
+  const double voxel = choose_voxel(extent_of(surface), options.voxel);
+  report.voxel = voxel;
+  constexpr float half_width = 3;
+  const auto bricks = std::make_shared<Bricks>();
+  try {
+    ::openvdb::initialize();
+    const auto transform = ::openvdb::math::Transform::createLinearTransform(voxel);
+    const auto grid = ::openvdb::tools::meshToVolume<::openvdb::FloatGrid>(
+        Adapter(surface, voxel), *transform, half_width, half_width);
+    bricks->frame = frame_of(*transform);
+    bricks->background = grid->background();
+    bricks->active = grid->activeVoxelCount();
+    hand_out(grid->constTree(), [&](const Cell& corner, const float* values) {
+      values != nullptr ? bricks->add(corner, values) : bricks->add_inside(corner);
+    });
+  } catch (const ::openvdb::Exception& error) {
+    throw Error(std::string("OpenVDB cannot make a level set: ") + error.what());
+  }
+  LevelSet level_set(bricks);
+  if (level_set.inside_voxels() == 0)
+    throw InputError("it encloses nothing as wide as a voxel (" + std::to_string(voxel) +
+                     "): all can be reached from outside, or a smaller voxel is needed");
+  return level_set;
+}
+
+}  // namespace plexway::openvdb
