@@ -49,10 +49,11 @@ class Rounds {
         near_(rooms.near, 64 + simplices / 8),
         far_(rooms.far, 64 + simplices / 8),
         kept_(rooms.kept, 64 + simplices / 8) {
-    rooms.hand.resize(std::max(rooms.hand.size(), 2 * static_cast<std::size_t>(team.size())));
+    rooms.hand.resize(std::max(rooms.hand.size(), 3 * static_cast<std::size_t>(team.size())));
     hands_.reserve(static_cast<std::size_t>(team.size()));
     for (std::size_t i = 0; i < static_cast<std::size_t>(team.size()); ++i)
-      hands_.push_back(Hand{Front(store, key_, rooms.hand[2 * i], rooms.hand[2 * i + 1])});
+      hands_.push_back(Hand{
+          Front(store, key_, rooms.hand[3 * i], rooms.hand[3 * i + 1], rooms.hand[3 * i + 2])});
     team.over(simplices, [&](std::size_t begin, std::size_t end) {
       std::fill(key_ + begin, key_ + end, Key::unreached);
       if constexpr (Key::ties_apart) std::fill(tie_ + begin, tie_ + end, no_rank);
@@ -272,6 +273,7 @@ class Rounds {
       for (Hand& hand : hands_) {
         near_.take_alone(hand.front.near());
         far_.take_alone(hand.front.far());
+        hand.front.put_narrowed();
       }
       const std::size_t live = live_count_.exchange(0, std::memory_order_relaxed);
       out_of_budget_ = expanding_ < live;
