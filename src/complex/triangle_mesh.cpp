@@ -337,11 +337,19 @@ void TriangleMesh<Real>::assemble(std::size_t vertices, std::span<const std::arr
   leave_noise<Real>(triangles_, fans.on_boundary, angle);
   std::vector<double> around;
   if (samples) around = excess_around<Real>(triangles_, angle, fans.on_boundary);
+  for (std::size_t r = 0; r < irregular_.size(); ++r) {
+    const auto corners =
+        std::span<const Index>(irregular_corners_)
+            .subspan(irregular_begin_[r], irregular_begin_[r + 1] - irregular_begin_[r]);
+    const double bends = is_open_book<Real>(triangles_, corners) ? -1 : 1;
+    angle[irregular_[r]] = bends;
+    if (!around.empty()) around[irregular_[r]] = bends;
+  }
   for (std::size_t inside = 0; inside < m; ++inside)
     for (Index i = 0; i < 3; ++i) {
       const Index v = triangles_[inside].corner[i];
       const bool saddle = angle[v] > 0 && (around.empty() || fans.on_boundary[v] || around[v] > 0);
-      if (saddle || std::binary_search(irregular_.begin(), irregular_.end(), v))
+      if (saddle)
         triangles_[inside].signed_sine[i] =
             std::copysign(triangles_[inside].signed_sine[i], Real(-1));
     }

@@ -105,10 +105,12 @@ class SaddleRule {
   /// same source (see narrow_limits). `label` is that of f.
   [[gnu::always_inline]] bool hears_of_limits(const TriangleRecord<Real>& t, Index f,
                                               std::size_t in, Label& label) const {
-    const Real x = label.x[0], h = label.h[0];
+    const Real x = label.x[0], h = label.h[0], width = t.length[in];
     const std::size_t after = edge_after(in);
-    const bool left = x * t.sine(in) + h * t.cosine[in] < 0;
-    if (!left && !((t.length[in] - x) * t.sine(after) + h * t.cosine[after] < 0)) return false;
+    const Real behind =
+        Real(-64) * std::numeric_limits<Real>::epsilon() * (std::abs(x) + std::abs(h) + width);
+    const bool left = x * t.sine(in) + h * t.cosine[in] < behind;
+    if (!left && !((width - x) * t.sine(after) + h * t.cosine[after] < behind)) return false;
     const Index across = t.across[left ? edge_before(in) : after];
     const Index g = across >> Across::face_shift;
     if ((across & Across::special) || h < 0 || !front_.reached(g)) return false;

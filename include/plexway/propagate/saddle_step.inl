@@ -220,7 +220,7 @@ HINGE_COLD NarrowedLimits narrow_limits(HINGE_IN(PosedSaddles) label, HINGE_IN(P
     Real at_pivot = side * left_of(S, limit, pivot), at_apex = side * left_of(S, limit, apex);
     bool hides_edge =
         hides_hinge(S, limit, hinge, at_pivot) && hides_hinge(S, limit, hinge, at_apex);
-    bool hides_centre = side * left_of(S, limit, centre) > Real(0);
+    bool hides_centre = hides_hinge(S, limit, hinge, side * left_of(S, limit, centre));
     bool is_limit = from.x[0] != other.source.x[0] || from.h != other.source.h;
     bool is_known = known.x[0] != S.x[0] || known.h != S.h;
     Real turn = (limit.h - S.h) * (known.x[0] - S.x[0]) - (limit.x[0] - S.x[0]) * (known.h - S.h);
