@@ -100,7 +100,7 @@ std::vector<double> excess_around(std::span<const TriangleRecord<Real>> triangle
 template <class Real>
 void leave_noise(std::span<const TriangleRecord<Real>> triangles, std::span<const char> boundary,
                  std::vector<double>& excess) {
-  constexpr double most = 0.01;
+  constexpr double most = 0.02;
   std::vector<double> lack(excess.size(), 0);
   std::vector<int> neighbours(excess.size(), 0);
   for (const TriangleRecord<Real>& t : triangles.first(triangles.size() - 1))

@@ -105,27 +105,28 @@ class SaddleRule {
   /// same source (see narrow_limits). `label` is that of f.
   [[gnu::always_inline]] bool hears_of_limits(const TriangleRecord<Real>& t, Index f,
                                               std::size_t in, Label& label) const {
+    // Without branches but the last: each would be a coin toss.
     const Real x = label.x[0], h = label.h[0], width = t.length[in];
-    const std::size_t after = edge_after(in);
+    const std::size_t before = edge_before(in), after = edge_after(in);
+    const Real to_left = x * t.sine(in) + h * t.cosine[in];
+    const Real to_right = (width - x) * t.sine(after) + h * t.cosine[after];
+    const bool left = to_left < to_right;
+    const Index across = t.across[left ? before : after];
+    const Index g = across >> Across::face_shift;
+    const Label& other = front_.label(g);
+    using L = kernel::Lanes<Real>;
+    const L theirs = other.x * other.x + other.h * other.h;
+    const L ours = label.x * label.x + label.h * label.h;
+    // A limit as far from the source is the same one.
+    const auto tighter = abs(theirs - ours) > L(Real(0.01)) * theirs;
+    const int limits = kernel::lane_bits(tighter) >> 2;
+    const bool same = std::abs(other.x[1] - label.x[1]) <= same_source * label.h[1];
     const Real behind =
         Real(-64) * std::numeric_limits<Real>::epsilon() * (std::abs(x) + std::abs(h) + width);
-    const bool left = x * t.sine(in) + h * t.cosine[in] < behind;
-    if (!left && !((width - x) * t.sine(after) + h * t.cosine[after] < behind)) return false;
-    const Index across = t.across[left ? edge_before(in) : after];
-    const Index g = across >> Across::face_shift;
-    if ((across & Across::special) || h < 0 || !front_.reached(g)) return false;
-    const Label& other = front_.label(g);
-    // A limit as far from the source is the same one.
-    constexpr Real same = Real(0.01);
-    bool any = false;
-    for (const int i : {2, 3}) {
-      const Real theirs = other.x[i] * other.x[i] + other.h[i] * other.h[i];
-      const Real ours = label.x[i] * label.x[i] + label.h[i] * label.h[i];
-      any |= theirs > 0 && !(std::abs(theirs - ours) <= same * theirs);
-    }
-    if (!any || !(std::abs(other.sigma() - label.sigma()) <= same_source * label.distance()))
+    if (((limits != 0) & same & (std::min(to_left, to_right) < behind)) == 0) [[likely]]
       return false;
-    return front_.hinge(g) != (across & Across::edge_mask) &&
+    return !(across & Across::special) && h >= 0 && front_.reached(g) &&
+           front_.hinge(g) != (across & Across::edge_mask) &&
            front_.source(g) == front_.source(f) && narrow(t, in, left, across, label);
   }
 
