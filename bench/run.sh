@@ -23,6 +23,7 @@ if [ "${QUICK:-0}" = 1 ]; then
   effort="--sources 3 --repeats 1 --budget 1 --limit 60"
   exact="--exact-limit 2000"
   scale="--sizes 5000,20000 $effort"
+  corners="--most 100 --seeds 1"
   solid_sizes="--sizes 8 --sources 2 --repeats 1 --budget 1"
   gl="--sizes 10000 --batch 8 --repeats 1"
   wires="--size 0.1 --sources 2 --repeats 1 --budget 1"
@@ -30,6 +31,7 @@ else
   effort="--sources 16 --repeats 3"
   exact=""
   scale=""
+  corners=
   solid_sizes="--sizes 12,26,70"
   wires=""
   gl="--sizes 50000,1000000"
@@ -73,6 +75,7 @@ peers=$bin/bench_cgal
 {
   run peers "$peers" "$@" $effort $exact
   run policy "$bin/bench_policy" "$@" $effort
+  run corners "$bin/bench_corners" $corners
   # Two good scans, cut into four until they have a million vertices; otherwise the sphere alone.
   set --
   for scan in bunny armadillo; do
