@@ -76,7 +76,8 @@ TEST_CASE("bench splits errors by where they come from") {
   REQUIRE(run.code == 0);
   std::map<std::string, double> share;
   std::map<std::string, int> vertices;
-  for (const auto& row : run.json()["anatomy"]) {
+  const auto json = run.json();
+  for (const auto& row : json["anatomy"]) {
     const std::string split = row["split"];
     share[split] += row["share"].get<double>();
     vertices[split] += row["vertices"].get<int>();
