@@ -70,7 +70,7 @@ Anatomy::Anatomy(const Domain& domain) : domain_(domain), solid_(domain.kind() =
       edges += norm(minus(p[i], p[j]));
       const Vector a = minus(p[j], p[i]), b = minus(p[k], p[i]);
       if (!solid_) angle[c[i]] += std::atan2(norm(cross(a, b)), dot(a, b));
-      std::array<std::uint32_t, 3> facet = {c[i], c[j], solid_ ? c[k] : c[i]};
+      std::array<std::uint32_t, 3> facet = {c[i], c[j], solid_ ? c[k] : none};
       std::sort(facet.begin(), facet.end());
       ++facets[facet];
     }
@@ -86,7 +86,8 @@ Anatomy::Anatomy(const Domain& domain) : domain_(domain), solid_(domain.kind() =
   }
   for (const auto& [facet, count] : facets)
     if (count == 1)
-      for (const std::uint32_t v : facet) curvature_[v] = 5;
+      for (const std::uint32_t v : facet)
+        if (v != none) curvature_[v] = 5;
 }
 
 // How fast the truth rises within a simplex, from its values at the corners: 1 in a plain front.

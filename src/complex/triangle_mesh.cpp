@@ -334,7 +334,7 @@ void TriangleMesh<Real>::assemble(std::size_t vertices, std::span<const std::arr
   for (std::size_t v = 0; v < vertices; ++v)  // from here on what is more than flat
     angle[v] -= fans.on_boundary[v] ? std::numbers::pi + boundary_excess
                                     : 2 * std::numbers::pi + interior_excess;
-  leave_noise<Real>(triangles_, fans.on_boundary, angle);
+  if (!samples) leave_noise<Real>(triangles_, fans.on_boundary, angle);
   std::vector<double> around;
   if (samples) around = excess_around<Real>(triangles_, angle, fans.on_boundary);
   for (std::size_t r = 0; r < irregular_.size(); ++r) {

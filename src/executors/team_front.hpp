@@ -66,7 +66,7 @@ class TeamFront : public Store {
   using Key = OfferKey<Real>;
   using Waiting = Offer<Label, Key::ties_apart>;
 
-  /// Tighter limits for a simplex that is expanded in this round: others may read its label now.
+  /// Tighter limits for a simplex that this round settled: others may read its label now.
   struct Narrowed {
     Index simplex;
     Label label;
@@ -78,13 +78,15 @@ class TeamFront : public Store {
         waiting_{OfferList<Waiting>(near), OfferList<Waiting>(far)},
         narrowed_(narrowed) {}
 
-  void narrow(Index s, const Label& label) { narrowed_.add({s, label}); }
-  /// After the round.
-  void put_narrowed() {
+  void narrow_later(Index s, const Label& label) { narrowed_.add({s, label}); }
+  /// By one thread while no other is at it. Was there any?
+  bool put_narrowed() {
+    const bool any = narrowed_.count() > 0;
     if constexpr (requires(const Label& label) { this->put(Index(), label); })
       for (std::size_t i = 0; i < narrowed_.count(); ++i)
         this->put(narrowed_.data()[i].simplex, narrowed_.data()[i].label);
     narrowed_.clear();
+    return any;
   }
 
   [[gnu::always_inline]] void accept(Index s, std::size_t hinge, const Label& label, Real distance,

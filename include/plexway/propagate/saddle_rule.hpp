@@ -101,6 +101,12 @@ class SaddleRule {
     }
   }
 
+  /// For fronts that want all triangles of a round to have heard before any is expanded.
+  void hear(Index f) const {
+    Label own = front_.label(f);
+    if (hears_of_limits(triangles_[f], f, front_.hinge(f), own)) front_.narrow_later(f, own);
+  }
+
   /// Takes tighter limits over from the neighbour that the source sees before f, if it holds the
   /// same source (see narrow_limits). `label` is that of f.
   [[gnu::always_inline]] bool hears_of_limits(const TriangleRecord<Real>& t, Index f,
