@@ -24,6 +24,7 @@ if [ "${QUICK:-0}" = 1 ]; then
   exact="--exact-limit 2000"
   scale="--sizes 5000,20000 $effort"
   triangulation="--sizes 20000"
+  corners="--most 100 --seeds 1"
   solid_sizes="--sizes 8 --sources 2 --repeats 1 --budget 1"
   gl="--sizes 10000 --batch 8 --repeats 1"
   wires="--size 0.1 --sources 2 --repeats 1 --budget 1"
@@ -33,6 +34,7 @@ else
   exact=""
   scale=""
   triangulation=""
+  corners=
   solid_sizes="--sizes 12,26,70"
   wires=""
   teams=""
@@ -79,6 +81,7 @@ peers=$bin/bench_cgal
   run policy "$bin/bench_policy" "$@" $effort
   run triangulation "$bin/bench_triangulation" "$@" $triangulation $effort
   [ -z "$data" ] || run parity "$bin/bench_parity" "$@"
+  run corners "$bin/bench_corners" $corners
   # Two good scans, cut into four until they have a million vertices; otherwise the sphere alone.
   set --
   for scan in bunny armadillo; do

@@ -9,6 +9,7 @@
 
 #include <plexway/error.hpp>
 
+#include "anatomy.hpp"
 #include "commands.hpp"
 #include "console.hpp"
 #include "dijkstra_peer.hpp"
@@ -34,6 +35,7 @@ struct BenchCommand {
   CloudArguments cloud;
   SolveOptions solve;
   TriangulationArgument triangulation;
+  bool anatomy = false;
   bool json = false;
   bool quiet = false;
 };
@@ -180,6 +182,10 @@ void run_bench(const BenchCommand& command) {
       Domain::load(command.input, command.as, command.fill, command.cloud, progress);
   std::vector<PointSource> sources = locate_sources(domain, arguments);
   const auto truths = read_truths(command, domain);
+  if (command.anatomy && truths.empty())
+    throw UsageError("--anatomy splits errors: give the exact distances with --truth");
+  std::optional<Anatomy> anatomy;
+  if (command.anatomy) anatomy.emplace(domain);
 
   progress.phase("building");
   const Stopwatch building;
@@ -198,6 +204,7 @@ void run_bench(const BenchCommand& command) {
     solver->solve(result.executor, {&sources[i], 1}, options);
     const std::vector<double> distance = solver->distance();
     if (i < truths.size()) result.errors.add(distance, truths[i]);
+    if (i < truths.size() && anatomy) anatomy->add(distance, truths[i]);
     if (i == 0) distance_from_first = distance;
   }
   add_random_sources(sources, command.random_sources, distance_from_first);
@@ -208,8 +215,10 @@ void run_bench(const BenchCommand& command) {
                          result.executor, progress);
   progress.clear();
 
-  const Json json = to_json(command, domain, *solver, result);
-  write_output(command.json ? json_text(json) : to_text(json));
+  Json json = to_json(command, domain, *solver, result);
+  const std::string text = to_text(json) + (anatomy ? "\n" + anatomy->text() : "");
+  if (anatomy) json["anatomy"] = anatomy->json();
+  write_output(command.json ? json_text(json) : text);
   flush_output();
   if (!result.has_dijkstra && !command.quiet)
     say_note("this build has no Boost.Graph, so there is no Dijkstra to compare with");
@@ -240,6 +249,9 @@ void add_bench_command(CLI::App& tool, Action& action) {
       ->check(CLI::Range(1, 1'000'000))
       ->type_name("N");
   app.add_option("--as", command->as, as_help)->type_name("KIND");
+  app.add_flag("--anatomy", command->anatomy,
+               "split the errors: above and below exact, near the source, where\n"
+               "fronts meet, by the shape of simplices, by curvature; needs --truth");
   app.add_flag("--json", command->json, "print one JSON object");
   app.add_flag("--quiet,-q", command->quiet, "no notes, no progress");
   add_solve_options(app, command->solve, false);
@@ -251,6 +263,7 @@ void add_bench_command(CLI::App& tool, Action& action) {
       "  plexway bench bunny.obj --source vertex:3160 --truth bunny.v3160.txt\n"
       "  plexway bench bunny.obj --source vertex:3160 --random-sources 10 --json\n"
       "  plexway bench part.obj --source vertex:0 --truth part.v0.txt --triangulation input\n"
+      "  plexway bench bunny.obj --source vertex:3160 --truth bunny.v3160.txt --anatomy\n"
       "  plexway bench cavity.ele --source vertex:170 --truth cavity.v170.txt\n"
       "  plexway bench vessels.obj --source vertex:0 --random-sources 10\n"
       "  plexway bench swiss.xyz --source vertex:0 --truth swiss.v0.txt --k 16");

@@ -93,6 +93,30 @@ std::vector<double> excess_around(std::span<const TriangleRecord<Real>> triangle
   return around;
 }
 
+// A smooth surface is cut into triangles with chance: every other vertex of it has a little more
+// than 2 pi around, and paths would bend at all of those. So a vertex inside counts by what it has
+// more than its neighbours lack, on average; but no neighbours make nothing of what is much by
+// itself.
+template <class Real>
+void leave_noise(std::span<const TriangleRecord<Real>> triangles, std::span<const char> boundary,
+                 std::vector<double>& excess) {
+  constexpr double most = 0.02;
+  std::vector<double> lack(excess.size(), 0);
+  std::vector<int> neighbours(excess.size(), 0);
+  for (const TriangleRecord<Real>& t : triangles.first(triangles.size() - 1))
+    for (std::size_t i = 0; i < 3; ++i) {
+      const Index v = t.corner[i], w = t.corner[edge_after(i)];
+      for (const auto& [of, by] : {std::pair{v, w}, std::pair{w, v}}) {
+        if (boundary[by]) continue;
+        lack[of] += std::max(0.0, -excess[by]);
+        ++neighbours[of];
+      }
+    }
+  for (std::size_t v = 0; v < excess.size(); ++v)
+    if (!boundary[v] && excess[v] > 0 && neighbours[v] > 0)
+      excess[v] -= std::min(most, lack[v] / neighbours[v]);
+}
+
 // Both sides of an edge must agree to the last bit: the mean of what they say.
 void agree_on_edges(Lengths& lengths, GluingView across) {
   for (Index h = 0; h < lengths.size() * 3; ++h) {
@@ -321,13 +345,22 @@ void TriangleMesh<Real>::assemble(std::size_t vertices, std::span<const std::arr
   for (std::size_t v = 0; v < vertices; ++v)  // from here on what is more than flat
     angle[v] -= fans.on_boundary[v] ? std::numbers::pi + boundary_excess
                                     : 2 * std::numbers::pi + interior_excess;
+  if (!samples) leave_noise<Real>(triangles_, fans.on_boundary, angle);
   std::vector<double> around;
   if (samples) around = excess_around<Real>(triangles_, angle, fans.on_boundary);
+  for (std::size_t r = 0; r < irregular_.size(); ++r) {
+    const auto corners =
+        std::span<const Index>(irregular_corners_)
+            .subspan(irregular_begin_[r], irregular_begin_[r + 1] - irregular_begin_[r]);
+    const double bends = is_open_book<Real>(triangles_, corners) ? -1 : 1;
+    angle[irregular_[r]] = bends;
+    if (!around.empty()) around[irregular_[r]] = bends;
+  }
   for (std::size_t inside = 0; inside < m; ++inside)
     for (Index i = 0; i < 3; ++i) {
       const Index v = triangles_[inside].corner[i];
       const bool saddle = angle[v] > 0 && (around.empty() || fans.on_boundary[v] || around[v] > 0);
-      if (saddle || std::binary_search(irregular_.begin(), irregular_.end(), v))
+      if (saddle)
         triangles_[inside].signed_sine[i] =
             std::copysign(triangles_[inside].signed_sine[i], Real(-1));
     }

@@ -1,6 +1,8 @@
 #include "complex/vertex_fans.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 #include <numeric>
 
 namespace plexway {
@@ -94,6 +96,52 @@ VertexFans find_vertex_fans(std::span<const TriangleRecord<Real>> triangles, std
   return fans;
 }
 
+template <class Real>
+bool is_open_book(std::span<const TriangleRecord<Real>> triangles, std::span<const Index> corners) {
+  const Index sentinel = static_cast<Index>(triangles.size() - 1);
+  constexpr double rounding = 1e-5;
+  std::size_t pages = 0, rims = 0;
+  std::vector<Index> spine;  // what lies across the edges on it
+  std::vector<char> seen(corners.size(), 0);
+  for (std::size_t c = 0; c < corners.size(); ++c) {
+    if (seen[c]) continue;
+    ++pages;
+    double angle = 0;
+    std::size_t ends = 0, rim = 0;
+    walk_fan(triangles, corners[c], [&](Index corner) {
+      seen[static_cast<std::size_t>(std::find(corners.begin(), corners.end(), corner) -
+                                    corners.begin())] = 1;
+      const TriangleRecord<Real>& t = triangles[corner / 3];
+      const std::size_t i = corner % 3;
+      angle += std::atan2(static_cast<double>(t.sine(i)), static_cast<double>(t.cosine[i]));
+      for (const std::size_t edge : {i, edge_before(i)}) {
+        const Index across = t.across[edge];
+        if (across >> Across::face_shift == sentinel)
+          ++ends, ++rim;
+        else if (across & Across::fan)
+          ++ends, spine.push_back(across);
+      }
+    });
+    if (ends != 2 || rim > 1 || angle > std::numbers::pi / (rim == 1 ? 2 : 1) + rounding)
+      return false;
+    rims += rim;
+  }
+  if (rims != 0 && rims != pages) return false;
+  // Each edge of the spine joins all pages.
+  for (const Index start : spine) {
+    std::size_t joined = 0;
+    Index across = start;
+    do {
+      ++joined;
+      across = triangles[across >> Across::face_shift].across[across & Across::edge_mask];
+    } while (joined <= pages && ((across ^ start) & ~Across::special) != 0);
+    if (joined != pages) return false;
+  }
+  return !spine.empty();
+}
+
+template bool is_open_book(std::span<const TriangleRecord<float>>, std::span<const Index>);
+template bool is_open_book(std::span<const TriangleRecord<double>>, std::span<const Index>);
 template VertexFans find_vertex_fans<float>(std::span<const TriangleRecord<float>>, std::size_t);
 template VertexFans find_vertex_fans<double>(std::span<const TriangleRecord<double>>, std::size_t);
 

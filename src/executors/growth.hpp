@@ -15,7 +15,7 @@
 #include <plexway/complex/triangle_mesh.hpp>
 #include <plexway/propagate/distance_field.hpp>
 #include <plexway/propagate/front.hpp>
-#include <plexway/propagate/saddle_rule.hpp>
+#include <plexway/propagate/saddle_offers.hpp>
 #include <plexway/propagate/solid_rule.hpp>
 #include <plexway/propagate/wavefront.hpp>
 #include <plexway/propagate/workspace.hpp>
@@ -234,17 +234,18 @@ class Growth<TriangleMesh<Real>>
   /// it, until it says true; `distance(weights)` is the length of its path to one.
   template <class Found>
   void each_label(Index f, Found found) {
-    const auto rule = this->rule();
+    const auto offers = this->offers();
     if (this->reached(f) &&
-        found(this->source(f), [&](const Weights& w) { return rule.distance_at(f, w); }))
+        found(this->source(f), [&](const Weights& w) { return offers.distance_at(f, w); }))
       return;
-    rule.offers_around(f, [&](const auto& length, Index source) { return found(source, length); });
+    offers.offers_around(f,
+                         [&](const auto& length, Index source) { return found(source, length); });
   }
   /// `found(length, source)` for paths from the source of f through its edges to others.
   template <class Found>
   void each_meeting(Index f, Found found) {
-    const auto rule = this->rule();
-    for (std::size_t edge = 0; edge < 3; ++edge) rule.meetings_over(f, edge, found);
+    const auto offers = this->offers();
+    for (std::size_t edge = 0; edge < 3; ++edge) offers.meetings_over(f, edge, found);
   }
   [[nodiscard]] Real corner_distance(Index f, std::size_t i) {
     return this->rule().corner_distance(f, i);
@@ -274,6 +275,9 @@ class Growth<TriangleMesh<Real>>
 
   using Rule = SaddleRule<Real, Wave>;
   [[nodiscard]] Rule rule() { return Rule(this->complex_.triangles(), this->wave_, true); }
+  [[nodiscard]] SaddleOffers<Real, Wave> offers() {
+    return {this->complex_.triangles(), this->wave_, true};
+  }
 
  private:
   auto propagation() {

@@ -49,10 +49,11 @@ class Rounds {
         near_(rooms.near, 64 + simplices / 8),
         far_(rooms.far, 64 + simplices / 8),
         kept_(rooms.kept, 64 + simplices / 8) {
-    rooms.hand.resize(std::max(rooms.hand.size(), 2 * static_cast<std::size_t>(team.size())));
+    rooms.hand.resize(std::max(rooms.hand.size(), 3 * static_cast<std::size_t>(team.size())));
     hands_.reserve(static_cast<std::size_t>(team.size()));
     for (std::size_t i = 0; i < static_cast<std::size_t>(team.size()); ++i)
-      hands_.push_back(Hand{Front(store, key_, rooms.hand[2 * i], rooms.hand[2 * i + 1])});
+      hands_.push_back(Hand{
+          Front(store, key_, rooms.hand[3 * i], rooms.hand[3 * i + 1], rooms.hand[3 * i + 2])});
     team.over(simplices, [&](std::size_t begin, std::size_t end) {
       std::fill(key_ + begin, key_ + end, Key::unreached);
       if constexpr (Key::ties_apart) std::fill(tie_ + begin, tie_ + end, no_rank);
@@ -81,6 +82,7 @@ class Rounds {
   bool run(const Make& make, const PropagateStatistics& before,
            std::size_t patience = std::numeric_limits<std::size_t>::max()) {
     before_ = before;
+    narrows_ = requires(decltype(make(hands_.front().front))& expand) { expand.narrow(Index()); };
     patience_ = patience;
     done_ = {};
     ended_early_ = out_of_budget_ = stuck_ = false;
@@ -140,7 +142,9 @@ class Rounds {
   }
 
  private:
-  enum class Phase { contest, settle, expand, done };
+  enum class Phase { contest, settle, narrow, expand, done };
+  // So often what simplices hear of their neighbours is passed on before they are expanded.
+  static constexpr int sweeps = 3;
   // So many labels, with what their expansion reads, are in a core's cache from round to round.
   static constexpr std::size_t short_front = 8192;
   static constexpr std::uint64_t no_rank = ~std::uint64_t{0};
@@ -162,7 +166,7 @@ class Rounds {
   }
 
   [[nodiscard]] std::size_t todo() const {
-    return phase_ == Phase::expand ? expanding_ : queue_->count();
+    return phase_ == Phase::expand || phase_ == Phase::narrow ? expanding_ : queue_->count();
   }
 
   // ---- Together ----
@@ -180,6 +184,10 @@ class Rounds {
           break;
         case Phase::settle:
           settle(hand, begin, end);
+          break;
+        case Phase::narrow:
+          if constexpr (requires { expand.narrow(Index()); })
+            for (std::size_t i = begin; i < end; ++i) expand.narrow(live_[i]);
           break;
         case Phase::expand:
           expand_chunk(hand, expand, begin, end);
@@ -266,6 +274,10 @@ class Rounds {
       phase_ = Phase::settle;
     } else if (phase_ == Phase::settle) {
       end_settling();
+    } else if (phase_ == Phase::narrow) {
+      bool any = false;
+      for (Hand& hand : hands_) any |= hand.front.put_narrowed();
+      if (!any || ++sweep_ == sweeps) phase_ = Phase::expand;
     } else if (phase_ == Phase::expand) {
       done_.expansions += expanding_;
       ++round_;
@@ -306,7 +318,8 @@ class Rounds {
     }
     const std::size_t spent = before_.expansions + done_.expansions;
     expanding_ = std::min(live, options_.max_expansions - std::min(options_.max_expansions, spent));
-    phase_ = Phase::expand;
+    phase_ = narrows_ ? Phase::narrow : Phase::expand;
+    sweep_ = 0;
   }
 
   void next_queue() {
@@ -360,7 +373,8 @@ class Rounds {
   std::uint64_t limit_ = 0, nearest_ = Key::unreached;
   std::size_t expanding_ = 0, patience_ = 0, reported_ = 0;
   std::uint32_t round_ = 0;
-  bool stuck_ = false, ended_early_ = false, out_of_budget_ = false;
+  int sweep_ = 0;
+  bool narrows_ = false, stuck_ = false, ended_early_ = false, out_of_budget_ = false;
   PropagateStatistics before_, done_;
 
   std::exception_ptr failure_;

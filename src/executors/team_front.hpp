@@ -32,6 +32,7 @@ class SimplexStore {
     return 0;
   }
 
+  void put(Index s, const Label& label) const { labels_[s] = label; }
   /// The label of a simplex from now on. True if it had none.
   template <class Offer>
   [[gnu::always_inline]] bool settle(const Offer& offer) const {
@@ -65,8 +66,28 @@ class TeamFront : public Store {
   using Key = OfferKey<Real>;
   using Waiting = Offer<Label, Key::ties_apart>;
 
-  TeamFront(const Store& store, std::uint64_t* key, Room& near, Room& far)
-      : Store(store), key_(key), waiting_{OfferList<Waiting>(near), OfferList<Waiting>(far)} {}
+  /// Tighter limits for a simplex that this round settled: others may read its label now.
+  struct Narrowed {
+    Index simplex;
+    Label label;
+  };
+
+  TeamFront(const Store& store, std::uint64_t* key, Room& near, Room& far, Room& narrowed)
+      : Store(store),
+        key_(key),
+        waiting_{OfferList<Waiting>(near), OfferList<Waiting>(far)},
+        narrowed_(narrowed) {}
+
+  void narrow_later(Index s, const Label& label) { narrowed_.add({s, label}); }
+  /// By one thread while no other is at it. Was there any?
+  bool put_narrowed() {
+    const bool any = narrowed_.count() > 0;
+    if constexpr (requires(const Label& label) { this->put(Index(), label); })
+      for (std::size_t i = 0; i < narrowed_.count(); ++i)
+        this->put(narrowed_.data()[i].simplex, narrowed_.data()[i].label);
+    narrowed_.clear();
+    return any;
+  }
 
   [[gnu::always_inline]] void accept(Index s, std::size_t hinge, const Label& label, Real distance,
                                      Index source) {
@@ -96,6 +117,7 @@ class TeamFront : public Store {
   std::uint32_t round_ = 0;
   bool short_ = true;
   OfferList<Waiting> waiting_[2];
+  OfferList<Narrowed> narrowed_;
 };
 
 }  // namespace plexway

@@ -1,6 +1,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <filesystem>
+#include <map>
 #include <sstream>
 #include <string>
 
@@ -63,6 +64,38 @@ TEST_CASE("bench measures speed and error") {
   CHECK(json["dijkstra_ns_per_vertex"].is_null());
   CHECK(json["ratio"].is_null());
 #endif
+}
+
+TEST_CASE("bench splits errors by where they come from") {
+  const Folder folder;
+  const std::string square = folder.write("square.off", square_off(n));
+  // All too short by a fifth, so that every split must add up to that.
+  const std::string truth = folder.write("longer.txt", square_truth("nan", 1.25));
+  const auto run = bench(square, truth, {"--json", "--precision", "double", "--anatomy"});
+  INFO(run.err);
+  REQUIRE(run.code == 0);
+  std::map<std::string, double> share;
+  std::map<std::string, int> vertices;
+  const auto json = run.json();
+  for (const auto& row : json["anatomy"]) {
+    const std::string split = row["split"];
+    share[split] += row["share"].get<double>();
+    vertices[split] += row["vertices"].get<int>();
+    CHECK(row["mean"].get<double>() == Approx(.2));
+    CHECK(row["below"].get<double>() == Approx(.2));
+    CHECK(row["above"].get<double>() == 0);
+    if (row["class"] == "on the boundary") CHECK(row["vertices"] == 4 * (n - 1) - 2);
+    if (row["class"] == "flat") CHECK(row["vertices"] == (n - 2) * (n - 2));
+    if (split == "sign") CHECK(row["class"] == "below exact");
+    if (split == "shape") CHECK(row["class"] == "aspect below 4");
+    if (split == "cut locus") CHECK(row["class"] == "elsewhere");
+  }
+  REQUIRE(share.size() == 5);
+  for (const auto& [split, sum] : share) CHECK(sum == Approx(1));
+  for (const auto& [split, sum] : vertices) CHECK(sum == n * n - 2);
+  const auto text = bench(square, truth, {"--anatomy"});
+  CHECK(text.out.find("within 5 edges of the source") != std::string::npos);
+  CHECK(run_tool({"bench", square, "--source", "vertex:0", "--anatomy"}).code == 2);
 }
 
 TEST_CASE("bench reports signed errors, and what only one side reaches") {

@@ -55,6 +55,10 @@ class SaddleRule {
     const std::size_t in = front_.hinge(f);
     const std::size_t left = edge_before(in), right = edge_after(in);
     const Index over_left = t.across[left], over_right = t.across[right];
+    Label own = front_.label(f);
+    if constexpr (requires { front_.narrow(f, own); })
+      if (hears_of_limits(t, f, in, own)) [[unlikely]]
+        front_.narrow(f, own);
     if (((over_left | over_right) & Across::special) || !vectorised_) [[unlikely]] {
       full(f, left);
       full(f, right);
@@ -63,8 +67,8 @@ class SaddleRule {
     const Index l = over_left >> Across::face_shift, r = over_right >> Across::face_shift;
     const std::size_t kl = over_left & Across::edge_mask, kr = over_right & Across::edge_mask;
     const TriangleRecord<Real>&tl = triangles_[l], &tr = triangles_[r];
-    const SaddleStepLanes<Real> step(t, in, left, right, front_.label(f), tl.apex_x(kl),
-                                     tl.apex_h(kl), tr.apex_x(kr), tr.apex_h(kr));
+    const SaddleStepLanes<Real> step(t, in, left, right, own, tl.apex_x(kl), tl.apex_h(kl),
+                                     tr.apex_x(kr), tr.apex_h(kr));
     // Read before anything is accepted: one hinge must not change what the other compares with.
     // And after the arithmetic, so that it is under way when a branch is mispredicted here.
     const Real known_left = to_beat(l), known_right = to_beat(r);
@@ -95,6 +99,41 @@ class SaddleRule {
         if (front_.expands_soon()) prefetch(tr, kr);
       }
     }
+  }
+
+  /// For fronts that want all triangles of a round to have heard before any is expanded.
+  void hear(Index f) const {
+    Label own = front_.label(f);
+    if (hears_of_limits(triangles_[f], f, front_.hinge(f), own)) front_.narrow_later(f, own);
+  }
+
+  /// Takes tighter limits over from the neighbour that the source sees before f, if it holds the
+  /// same source (see narrow_limits). `label` is that of f.
+  [[gnu::always_inline]] bool hears_of_limits(const TriangleRecord<Real>& t, Index f,
+                                              std::size_t in, Label& label) const {
+    // Without branches but the last: each would be a coin toss.
+    const Real x = label.x[0], h = label.h[0], width = t.length[in];
+    const std::size_t before = edge_before(in), after = edge_after(in);
+    const Real to_left = x * t.sine(in) + h * t.cosine[in];
+    const Real to_right = (width - x) * t.sine(after) + h * t.cosine[after];
+    const bool left = to_left < to_right;
+    const Index across = t.across[left ? before : after];
+    const Index g = across >> Across::face_shift;
+    const Label& other = front_.label(g);
+    using L = kernel::Lanes<Real>;
+    const L theirs = other.x * other.x + other.h * other.h;
+    const L ours = label.x * label.x + label.h * label.h;
+    // A limit as far from the source is the same one.
+    const auto tighter = abs(theirs - ours) > L(Real(0.01)) * theirs;
+    const int limits = kernel::lane_bits(tighter) >> 2;
+    const bool same = std::abs(other.x[1] - label.x[1]) <= same_source * label.h[1];
+    const Real behind =
+        Real(-64) * std::numeric_limits<Real>::epsilon() * (std::abs(x) + std::abs(h) + width);
+    if (((limits != 0) & same & (std::min(to_left, to_right) < behind)) == 0) [[likely]]
+      return false;
+    return !(across & Across::special) && h >= 0 && front_.reached(g) &&
+           front_.hinge(g) != (across & Across::edge_mask) &&
+           front_.source(g) == front_.source(f) && narrow(t, in, left, across, label);
   }
 
   /// Fetches what the expansion of f will need, in two steps: f itself, then its neighbours.
@@ -164,50 +203,6 @@ class SaddleRule {
   }
 
   [[nodiscard]] const Label& label(Index f) const { return front_.label(f); }
-
-  // Any point of a triangle, by the weights of its corners.
-
-  /// Length of the path to a point of a reached triangle, by its own label.
-  [[nodiscard]] Real distance_at(Index f, const std::array<double, 4>& weight) const {
-    const std::size_t in = front_.hinge(f);
-    const Posed label = posed(front_.label(f));
-    const Point q = point_over(f, in, weight);
-    if (label.source.h < 0)  // the source is in f
-      return label.sigma + std::hypot(q.x[0] - label.source.x[0], q.h + label.source.h);
-    return path_length<Real>(label, triangles_[f].length[in], q);
-  }
-
-  /// `found(length, source)` for each label of the triangles around f, those that share a vertex
-  /// with it, that belongs to another source than f's: `length(weight)` is that of its path to a
-  /// point of f. It says true to hear no more. A triangle keeps the label nearest to its centre, so
-  /// near its corners those around it may know better.
-  template <class Found>
-  void offers_around(Index f, Found found) const {
-    // Either way around a vertex: around a saddle they differ.
-    for (const bool about_first : {true, false}) {
-      SourcesHeard heard(front_.reached(f) ? front_.source(f) : none);
-      for (std::size_t edge = 0; edge < 3; ++edge)
-        if (offers_about(f, edge, about_first, heard, found)) return;
-    }
-  }
-
-  /// `found(length, source)` for each label beyond an edge of f that belongs to another source than
-  /// f's: the path from source to source through this edge.
-  template <class Found>
-  void meetings_over(Index f, std::size_t edge, Found found) const {
-    around(f, edge, [&](Index g, std::size_t k, bool flip) {
-      if (!front_.reached(g) || front_.source(g) == front_.source(f)) return;
-      Posed here, there;
-      if (!seen_over(f, edge, here) || !seen_over(g, k, there)) return;
-      const Real length = triangles_[f].length[edge];
-      const Posed p = flip ? mirrored(here, length) : here;
-      const auto opposite = [&](const Point& q) { return Point{{length - q.x[0]}, q.h}; };
-      // Either of the two may have a saddle in the way.
-      found(std::max(path_length<Real>(p, length, opposite(there.source)) + there.sigma,
-                     path_length<Real>(there, length, opposite(p.source)) + p.sigma),
-            front_.source(g));
-    });
-  }
 
   // What follows is for simplices of other complexes that share an edge or all of a triangle.
 
@@ -293,6 +288,8 @@ class SaddleRule {
  private:
   template <class, class>
   friend class SaddleRule;
+
+ protected:
   SaddleRule(const TriangleRecord<Real>* triangles, Index sentinel, Front& front, bool vectorised)
       : triangles_(triangles), sentinel_(sentinel), front_(front), vectorised_(vectorised) {}
 
@@ -303,106 +300,6 @@ class SaddleRule {
     p.limit[1] = {{label.x[0] + label.x[3]}, label.h[0] + label.h[3]};
     p.sigma = label.sigma();
     return p;
-  }
-
-  Point point_over(Index f, std::size_t edge, const std::array<double, 4>& weight) const {
-    const TriangleRecord<Real>& t = triangles_[f];
-    const Real v = static_cast<Real>(weight[edge_after(edge)]);
-    const Real w = static_cast<Real>(weight[edge_before(edge)]);
-    return {{v * t.length[edge] + w * t.apex_x(edge)}, w * t.apex_h(edge)};
-  }
-
-  static Posed mirrored(Posed p, Real length) {
-    std::swap(p.limit[0], p.limit[1]);
-    for (Point* q : {&p.source, &p.limit[0], &p.limit[1]}) q->x[0] = length - q->x[0];
-    return p;
-  }
-
-  /// The label of f as seen from beyond one of its edges; false where it came in by that edge, or
-  /// its source lies behind.
-  bool seen_over(Index f, std::size_t edge, Posed& p) const {
-    const std::size_t in = front_.hinge(f);
-    const bool within = front_.label(f).h[0] < 0;
-    if (in == edge && !within) return false;
-    int pivot = -1;
-    p = leave(f, in, edge, pivot);
-    if (within) p.source.h = std::max(p.source.h, Real(0)), p.limit[0] = p.limit[1] = p.source;
-    return p.source.h >= 0;
-  }
-
-  /// A few sources that need not be asked again.
-  struct SourcesHeard {
-    explicit SourcesHeard(Index own) : source{own}, count(1) {}
-    bool first_time(Index s) {
-      for (int i = 0; i < count; ++i)
-        if (source[i] == s) return false;
-      if (count < 8) source[count++] = s;
-      return true;
-    }
-    Index source[8];
-    int count;
-  };
-
-  /// As path_length, but a line that misses the edge bends only at a saddle: past any other vertex
-  /// it goes through the triangles beside.
-  Real sight_length(const Posed& p, Index f, std::size_t edge, const Point& q) const {
-    const TriangleRecord<Real>& t = triangles_[f];
-    if (p.source.h >= 0) {
-      const auto c = Posed::Kernel::crossing(p.source, q);
-      const bool left = c.x[0]<0, right = c.x[0]> t.length[edge] * c.w;
-      const bool lit = !(detail::left_of<Real>(p.source, p.limit[0], q) > 0) &&
-                       !(detail::left_of<Real>(p.source, p.limit[1], q) < 0);
-      if (!lit || (left && t.saddle(edge)) || (right && t.saddle(edge_after(edge))))
-        return path_length<Real>(p, t.length[edge], q);
-    }
-    return p.sigma + std::hypot(q.x[0] - p.source.x[0], q.h + p.source.h);
-  }
-
-  /// From edge to edge about one end of an edge of f, halfway around the vertex.
-  template <class Found>
-  bool offers_about(Index f, std::size_t edge, bool about_first, SourcesHeard& heard,
-                    Found found) const {
-    constexpr int half = 4;
-    struct Step {
-      Index g;
-      std::size_t k, on;
-      bool flip;
-    } step[half];
-    Index at = f;
-    std::size_t out = edge;
-    for (int n = 0; n < half; ++n) {
-      const Index across = triangles_[at].across[out];
-      const Index g = across >> Across::face_shift;
-      if (g == sentinel_ || g == f) return false;
-      const std::size_t k = across & Across::edge_mask;
-      const bool flip = (across & Across::flip) != 0;
-      out = about_first == flip ? edge_before(k) : edge_after(k);
-      about_first = about_first != flip;
-      step[n] = {g, k, out, flip};
-      at = g;
-      if (front_.reached(g) && heard.first_time(front_.source(g))) {
-        // Back to f. In g the path came by some edge; posed on k it is seen from beyond.
-        Posed p = posed(front_.label(g));
-        int pivot = -1;
-        if (front_.hinge(g) == k && front_.label(g).h[0] >= 0) {
-          p = mirrored(p, triangles_[g].length[k]);
-          for (Point* q : {&p.source, &p.limit[0], &p.limit[1]}) q->h = -q->h;
-        } else {
-          p = turned(triangles_[g], p, front_.hinge(g), k, pivot);
-        }
-        for (int m = n;; --m) {
-          if (step[m].flip) p = mirrored(p, triangles_[step[m].g].length[step[m].k]);
-          if (m == 0) break;
-          p = turned(triangles_[step[m - 1].g], p, step[m - 1].on, step[m - 1].k, pivot);
-        }
-        const auto to = [&](const std::array<double, 4>& weight) {
-          return sight_length(p, f, edge, point_over(f, edge, weight));
-        };
-        if (found(to, front_.source(g))) return true;
-      }
-      if (across & Across::fan) return false;
-    }
-    return false;
   }
 
   /// `visit(g, k, flip)` for each triangle beyond an edge, and whether it runs the same way there.
@@ -438,6 +335,23 @@ class SaddleRule {
     const std::size_t corner = left ? in : edge;
     return kernel::SaddleKernel<Real>::turn_label(p, left, t.length[in], t.length[edge],
                                                   t.cosine[corner], t.sine(corner));
+  }
+
+  [[gnu::noinline]] bool narrow(const TriangleRecord<Real>& t, std::size_t in, bool left,
+                                Index across, Label& label) const {
+    const Index g = across >> Across::face_shift;
+    const std::size_t edge = left ? edge_before(in) : edge_after(in), corner = left ? in : edge;
+    int pivot = -1;
+    const Posed other = leave(g, front_.hinge(g), across & Across::edge_mask, pivot);
+    const auto found = kernel::SaddleKernel<Real>::narrow_limits(
+        posed(label), other, left, t.length[in], t.length[edge], t.cosine[corner], t.sine(corner),
+        {{t.apex_x(in)}, t.apex_h(in)}, same_source * label.distance());
+    for (int i = 0; i < 2; ++i) {
+      if (!found.narrower[i]) continue;
+      label.x.v[2 + i] = found.limit[i].x[0] - label.x[0];
+      label.h.v[2 + i] = found.limit[i].h - label.h[0];
+    }
+    return found.narrower[0] || found.narrower[1];
   }
 
   void enter(Index g, std::size_t k, Posed label, bool flip, int pivot, bool last_resort,
@@ -476,6 +390,10 @@ class SaddleRule {
     __builtin_prefetch(&triangles_[b]);
     __builtin_prefetch(&front_.label(b));
   }
+
+  /// Two labels are of one source if it is at the same place, within this share of its distance:
+  /// what curvature between two strips of triangles may turn it by.
+  static constexpr Real same_source = Real(1. / 128);
 
   const TriangleRecord<Real>* triangles_;
   Index sentinel_;

@@ -71,29 +71,33 @@ HINGE_COLD PosedSaddles give_up_source(HINGE_IN(PosedSaddles) label, HINGE_IN(Hi
   return bent;
 }
 
-/// Length of the path from the source's beginning to q in the triangle beyond the hinge: straight,
-/// or bent at a limit it would pass on the wrong side, then at an end of the hinge it would miss.
-HINGE_COLD Real path_length(HINGE_IN(PosedSaddles) label, Real hinge, HINGE_IN(HingePoint) q) {
-  HingePoint from = label.source;
-  Real walked = label.sigma;
-  bool left = left_of(from, label.limit[0], q) > Real(0);
-  bool right = left_of(from, label.limit[1], q) < Real(0);
-  if (left || right) {
-    HingePoint limit = label.limit[1];
-    if (left) limit = label.limit[0];
-    walked += gap(from, limit);
-    from = limit;
-  }
-  HingeCrossing c = crossing(from, q);
-  if (c.x[0] < Real(0) || c.x[0] > hinge * c.w) {
-    HingePoint end = saddle_point(c.x[0] < Real(0) ? Real(0) : hinge, Real(0));
-    walked += gap(from, end);
-    from = end;
-  }
+/// From a point on S's side to q beyond the hinge: straight, or bent at the end that it would miss.
+HINGE_COLD Real way_beyond(HINGE_IN(HingePoint) from, Real hinge, HINGE_IN(HingePoint) q) {
   HingePose lengths;
   lengths.vertex[0] = Real(0);
   lengths.vertex[1] = lengths.axis2[0] = lengths.inverse[0] = lengths.length2[0] = Real(1);
-  return walked + sqrt(distance_squared(lengths, from, q));
+  HingeCrossing c = crossing(from, q);
+  bool misses = c.x[0] < Real(0) || c.x[0] > hinge * c.w;
+  HingePoint end = saddle_point(c.x[0] < Real(0) ? Real(0) : hinge, Real(0));
+  if (!misses) end = from;
+  return gap(from, end) + sqrt(distance_squared(lengths, end, q));
+}
+
+/// Length of the path from the source's beginning to q in the triangle beyond the hinge: straight,
+/// or bent at a limit it would pass on the wrong side, then at an end of the hinge it would miss.
+/// Where an end of the hinge is tighter than the limit, the path bends there at once.
+HINGE_COLD Real path_length(HINGE_IN(PosedSaddles) label, Real hinge, HINGE_IN(HingePoint) q) {
+  HingePoint S = label.source;
+  HingePoint first = saddle_point(Real(0), Real(0)), second = saddle_point(hinge, Real(0));
+  bool left =
+      left_of(S, label.limit[0], q) > Real(0) && left_of(S, label.limit[0], first) > Real(0);
+  bool right =
+      left_of(S, label.limit[1], q) < Real(0) && left_of(S, label.limit[1], second) < Real(0);
+  if (!left && !right) return label.sigma + way_beyond(S, hinge, q);
+  Real way = Real(0);
+  if (left) way = gap(S, label.limit[0]) + way_beyond(label.limit[0], hinge, q);
+  if (right) way = max(way, gap(S, label.limit[1]) + way_beyond(label.limit[1], hinge, q));
+  return label.sigma + way;
 }
 
 /// Takes a label over the hinge: gives the source up where the whole hinge is in shadow, then lets
@@ -178,4 +182,57 @@ HINGE_COLD PosedSaddles mirror_label(HINGE_IN(PosedSaddles) label, Real hinge) {
   mirrored.limit[0] = saddle_point(hinge - label.limit[1].x[0], label.limit[1].h);
   mirrored.limit[1] = saddle_point(hinge - label.limit[0].x[0], label.limit[0].h);
   return mirrored;
+}
+
+/// A point posed on the edge before (`left`) or after the one a label came in by, as turn_label's
+/// neighbour there would pose it from its own side, posed on the latter.
+HINGE_COLD HingePoint turned_back(HINGE_IN(HingePoint) p, bool left, Real width, Real hinge,
+                                  Real cosine, Real sine) {
+  Real u = left ? hinge - p.x[0] : p.x[0];
+  Real along = u * cosine - p.h * sine;
+  return saddle_point(left ? along : width - along, -(u * sine + p.h * cosine));
+}
+
+/// What `narrow_limits` found.
+struct NarrowedLimits {
+  HingePoint limit[2];
+  bool narrower[2];
+};
+
+/// Lateral inheritance: the limits of a label, with those of a neighbour's where they are tighter.
+/// A line of sight that never touched a saddle does not know of it, though one beside it does.
+/// `other` is the neighbour's label posed on the edge between by turn_label, `apex` that of the
+/// label's triangle. Where the two see the same source it is at the same place, within `close`.
+///
+/// Two limits of a neighbour are of no use here: one that hides the triangle's centre, for then the
+/// label came by the saddle's other side, and one that hides the whole edge between.
+HINGE_COLD NarrowedLimits narrow_limits(HINGE_IN(PosedSaddles) label, HINGE_IN(PosedSaddles) other,
+                                        bool left, Real width, Real hinge, Real cosine, Real sine,
+                                        HINGE_IN(HingePoint) apex, Real close) {
+  NarrowedLimits found;
+  HingePoint S = label.source;
+  HingePoint source = turned_back(other.source, left, width, hinge, cosine, sine);
+  HingePoint pivot = saddle_point(left ? Real(0) : width, Real(0));
+  HingePoint centre = saddle_point((width + apex.x[0]) * Real(1. / 3), apex.h * Real(1. / 3));
+  bool lit = !(left_of(S, label.limit[0], centre) > Real(0)) &&
+             !(left_of(S, label.limit[1], centre) < Real(0));
+  bool same = lit && gap(source, S) <= close;
+  for (int i = 0; i < 2; ++i) {
+    HingePoint known = i == 0 ? label.limit[0] : label.limit[1];
+    HingePoint from = i == 0 ? other.limit[0] : other.limit[1];
+    HingePoint limit = turned_back(from, left, width, hinge, cosine, sine);
+    // Positive where dark.
+    Real side = i == 0 ? Real(1) : Real(-1);
+    Real at_pivot = side * left_of(S, limit, pivot), at_apex = side * left_of(S, limit, apex);
+    bool hides_edge =
+        hides_hinge(S, limit, hinge, at_pivot) && hides_hinge(S, limit, hinge, at_apex);
+    bool hides_centre = hides_hinge(S, limit, hinge, side * left_of(S, limit, centre));
+    bool is_limit = from.x[0] != other.source.x[0] || from.h != other.source.h;
+    bool is_known = known.x[0] != S.x[0] || known.h != S.h;
+    Real turn = (limit.h - S.h) * (known.x[0] - S.x[0]) - (limit.x[0] - S.x[0]) * (known.h - S.h);
+    found.limit[i] = limit;
+    found.narrower[i] =
+        same && is_limit && !hides_edge && !hides_centre && (!is_known || side * turn > Real(0));
+  }
+  return found;
 }

@@ -20,6 +20,7 @@ namespace plexway {
 ///   reached(s)
 ///   accept(s, hinge, label, distance, source)  an offer that beats what s knows: where it is kept,
 ///     how the least of several is taken, and how s comes to wait
+///   narrow(s, label)  tighter limits for s, heard from a neighbour; its distance stays
 template <class Real, class SimplexLabel, class Queue, bool kLabels>
 class Wavefront {
  public:
@@ -48,6 +49,8 @@ class Wavefront {
   [[nodiscard]] Label* labels() const { return labels_; }
   /// Changes a label and nothing else.
   void put(Index s, const Label& label) { labels_[s] = label; }
+
+  void narrow(Index s, const Label& label) { labels_[s] = label; }
 
   /// A simplex has a better label, come in by `hinge`, its centre at `distance`: it waits.
   [[gnu::always_inline]] void accept(Index s, std::size_t hinge, const Label& label, Real distance,
