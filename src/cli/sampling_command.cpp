@@ -14,6 +14,7 @@ void add_sampling_options(CLI::App& app, SamplingCommand& command, const char* o
   app.add_flag("--json", command.json, "print the summary as one JSON object");
   app.add_flag("--quiet,-q", command.quiet, "no summary or progress; errors stay");
   add_fill_options(app, command.fill);
+  add_picture_options(app, command.picture);
 }
 
 Precision precision_of(const SamplingCommand& command) {

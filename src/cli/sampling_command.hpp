@@ -12,6 +12,7 @@
 #include "console.hpp"
 #include "domain.hpp"
 #include "fill_options.hpp"
+#include "picture_options.hpp"
 #include "report.hpp"
 #include "solve_options.hpp"
 
@@ -26,6 +27,7 @@ struct SamplingCommand {
   std::string input, as, out;
   std::string precision = "float";
   FillOptions fill;
+  PictureArguments picture;
   bool json = false, quiet = false;
 };
 
