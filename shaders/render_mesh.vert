@@ -11,6 +11,8 @@ layout(location = 6) in vec4 other_paint_2;
 
 uniform mat4 to_clip;
 uniform float inflate;  // along the normal, where w is 1
+uniform float pull;     // towards the camera
+uniform vec4 eye;       // the camera; or where it lies, fourth 0
 
 out vec3 place;
 out vec3 across;
@@ -20,6 +22,7 @@ flat out vec4 paints[3];
 void main() {
   float w = (to_clip * vec4(position, 1.0)).w;
   place = position + inflate * w * normal.xyz;
+  place += pull * (eye.w > 0.5 ? normalize(eye.xyz - place) : eye.xyz);
   across = normal.xyz;
   values = vec3(value, other_values);
   paints[0] = paint;

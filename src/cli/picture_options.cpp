@@ -48,7 +48,7 @@ bool options_given(const PictureArguments& a) {
   for (const std::string* text :
        {&a.view, &a.size, &a.range, &a.map, &a.clip, &a.isosurfaces, &a.up, &a.title, &a.colour})
     if (!text->empty()) return true;
-  return a.isolines || a.transparent || a.orthographic;
+  return a.isolines || a.transparent || a.orthographic || a.small;
 }
 
 #ifdef PLEXWAY_HAS_RENDER
@@ -168,6 +168,7 @@ void add_picture_options(CLI::App& app, PictureArguments& arguments, bool cells)
       ->type_name("TEXT");
   app.add_flag("--orthographic", arguments.orthographic, "parallel lines stay parallel");
   app.add_flag("--transparent", arguments.transparent, "no background");
+  app.add_flag("--small", arguments.small, "256 colours, a quarter of the bytes");
 }
 
 void check_picture(const PictureArguments& arguments, const std::string& input) {
@@ -226,7 +227,7 @@ void write_picture(const PictureArguments& arguments, const Domain& domain,
     if (!content.label.empty()) dots.colour = {35, 40, 50};
     scene.dots = {dots};
   }
-  render::write_png(arguments.file, render::picture(scene, options));
+  render::write_png(arguments.file, render::picture(scene, options), arguments.small ? 256 : 0);
 }
 
 #else

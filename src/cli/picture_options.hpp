@@ -22,7 +22,7 @@ struct PictureArguments {
   std::string view, size, range, map, clip, isosurfaces, up, title;
   std::optional<std::size_t> isolines;
   std::string colour;  ///< distance or cells, where a command has both
-  bool transparent = false, orthographic = false;
+  bool transparent = false, orthographic = false, small = false;
 
   [[nodiscard]] bool wanted() const { return !file.empty(); }
 };

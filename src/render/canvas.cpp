@@ -131,11 +131,14 @@ class Painter {
     mesh.draw();
   }
 
-  /// All in one colour, wider by so many pixels of the picture.
-  void draw_tinted(const Mesh& mesh, const std::array<float, 4>& tint, double wider) const {
+  /// All in one colour, wider by so many pixels of the picture, and nearer to the camera.
+  void draw_tinted(const Mesh& mesh, const std::array<float, 4>& tint, double wider,
+                   double nearer) const {
     gl_.Uniform4fv(at("tint"), 1, tint.data());
     gl_.Uniform1f(at("inflate"), static_cast<float>(wider * style_.camera.pixel));
+    gl_.Uniform1f(at("pull"), static_cast<float>(nearer));
     mesh.draw();
+    gl_.Uniform1f(at("pull"), 0);
     const std::array<float, 4> none{};
     gl_.Uniform4fv(at("tint"), 1, none.data());
     gl_.Uniform1f(at("inflate"), 0);
@@ -150,6 +153,8 @@ class Painter {
   double scale_;
 };
 
+constexpr std::array<float, 4> veil_ink = {1, 1, 1, 0.3f};
+constexpr double clearly_behind = 0.04;  // of the scene's size
 constexpr std::array<float, 4> outline_ink = {0.07f, 0.08f, 0.1f, 1};
 
 void draw_all(const DrawFunctions& gl, const Painter& painter, std::span<const Batch> batches) {
@@ -177,7 +182,7 @@ void draw_all(const DrawFunctions& gl, const Painter& painter, std::span<const B
         gl.DepthMask(GL_FALSE);
         gl.Enable(GL_BLEND);
         gl.BlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
-        painter.draw_tinted(mesh, {1, 1, 1, 0.3f}, 0);
+        painter.draw_tinted(mesh, veil_ink, 0, clearly_behind);
         gl.Disable(GL_BLEND);
         gl.DepthMask(GL_TRUE);
         gl.DepthFunc(GL_LEQUAL);
@@ -185,7 +190,7 @@ void draw_all(const DrawFunctions& gl, const Painter& painter, std::span<const B
         // The outline: the far side of a slightly thicker body.
         gl.Enable(GL_CULL_FACE);
         gl.CullFace(GL_FRONT);
-        painter.draw_tinted(mesh, outline_ink, 1.1);
+        painter.draw_tinted(mesh, outline_ink, 1.1, 0);
         gl.Disable(GL_CULL_FACE);
       }
       painter.draw(mesh, batch);

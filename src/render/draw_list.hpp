@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <optional>
 #include <vector>
@@ -78,7 +79,11 @@ struct Plane {
   Point normal;
   double offset;
 
-  [[nodiscard]] double over(const Point& p) const { return dot(normal, p) - offset; }
+  /// 0 for points of the plane, in spite of rounding.
+  [[nodiscard]] double over(const Point& p) const {
+    const double d = dot(normal, p) - offset;
+    return std::abs(d) < 1e-9 ? 0 : d;
+  }
 };
 
 Vertex between(const Vertex& a, const Vertex& b, double t);

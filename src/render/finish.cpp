@@ -52,7 +52,7 @@ void shade_hollows(Drawn& drawn, const Camera& camera) {
         // A plane, however it slopes, gives 0.
         const float hollow =
             nearer(x + probe.dx, y + probe.dy) + nearer(x - probe.dx, y - probe.dy);
-        dark += probe.strength * std::max(0.0f, hollow / reach);
+        dark += probe.strength * std::max(0.0f, hollow / reach - 0.15f);
       }
       const float keep = 1 - std::min(dark, 0.6f);
       for (std::size_t c = 0; c < 3; ++c)

@@ -21,7 +21,7 @@ struct Layout {
 
 Layout layout(const Legend& legend, double width, double height) {
   Layout l{};
-  l.text = std::clamp(std::sqrt(width * height) / 66, 6.5, 40.0);
+  l.text = std::clamp(std::sqrt(width * height) / 62, 6.5, 40.0);
   l.margin = 0.045 * std::min(width, height);
   l.bar_width = 1.35 * l.text;
   l.bar_height = std::round(0.56 * height);

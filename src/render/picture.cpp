@@ -112,7 +112,7 @@ void add_part(std::vector<Batch>& batches, const Part& part, const PictureOption
   skin.isolines = true;
   if (!part.triangles.empty()) add_surface(skin, part, cells_at, part.triangles, making);
   if (!part.tets.empty())
-    add_surface(skin, part, cells_at, boundary(part.positions, part.tets), making);
+    add_surface(skin, part, cells_at, boundary(part.positions, part.tets, making), making);
   batches.push_back(std::move(skin));
   for (const double iso : options.isosurfaces) {
     if (!isosurfaces) break;
@@ -138,7 +138,7 @@ void add_overlays(std::vector<Batch>& batches, const Scene& scene, const Making&
     Batch balls(Look::lit);
     const auto count = static_cast<double>(std::max<std::size_t>(dots.positions.size(), 1));
     const double radius =
-        dots.size * std::clamp(0.16 / std::sqrt(count), 1.3 * making.pixel, 0.014);
+        dots.size * std::clamp(0.135 / std::sqrt(count), 1.3 * making.pixel, 0.0085);
     for (std::size_t n = 0; n < dots.positions.size(); ++n) {
       const bool known = !dots.value.empty() && std::isfinite(dots.value[n]);
       Vertex v = at(dots.positions[n], dots.value.empty() ? plain(dots.colour)
@@ -149,7 +149,7 @@ void add_overlays(std::vector<Batch>& batches, const Scene& scene, const Making&
     }
     batches.push_back(std::move(balls));
   }
-  const double width = std::clamp(2.1 * making.pixel, 0.0035, 0.012);
+  const double width = std::clamp(1.9 * making.pixel, 0.0032, 0.012);
   Batch lines(Look::overlay), ends(Look::overlay);
   for (const auto& path : scene.paths) {
     std::vector<Vertex> line;
@@ -163,7 +163,7 @@ void add_overlays(std::vector<Batch>& batches, const Scene& scene, const Making&
 }
 
 // The isolines: where the first is, how far apart they are, and how many.
-void choose_isolines(Style& style, const PictureOptions& options) {
+void choose_isolines(Style& style, const PictureOptions& options, bool cells) {
   const double low = style.low, high = style.high;
   if (options.isolines) {
     style.lines = static_cast<double>(*options.isolines);
@@ -171,7 +171,8 @@ void choose_isolines(Style& style, const PictureOptions& options) {
     style.first_line = low + style.line_step;
     return;
   }
-  style.line_step = ticks(low, high, 6).fine_step();
+  // Few in cells: there they show the shape, and borders matter.
+  style.line_step = cells ? ticks(low, high, 5).step : ticks(low, high, 6).fine_step();
   const double slack = 1e-6 * style.line_step;
   const double first = std::floor((low + slack) / style.line_step) + 1;
   style.first_line = first * style.line_step;
@@ -238,7 +239,9 @@ Image picture(const Scene& scene, const PictureOptions& options) {
   bool any_value = false;
   const auto range = range_of(scene, options, any_value);
   style.low = range[0], style.high = range[1];
-  choose_isolines(style, options);
+  const bool cells = std::any_of(scene.parts.begin(), scene.parts.end(),
+                                 [](const Part& part) { return !part.label.empty(); });
+  choose_isolines(style, options, cells);
 
   std::vector<Batch> batches;
   for (const Part& part : scene.parts) add_part(batches, part, options, making);

@@ -7,30 +7,45 @@
 #include <plexway/render/image.hpp>
 
 #include "io/output_file.hpp"
+#include "palette.hpp"
 
 // libpng's simplified interface reports failures by a code, without longjmp.
 
 namespace plexway::render {
 
-void write_png(const std::filesystem::path& file, const Image& image) {
+void write_png(const std::filesystem::path& file, const Image& image, std::size_t colours) {
   if (image.pixels.empty() || image.pixels.size() != image.width * image.height)
     throw UsageError("cannot write " + file.string() + ": the image is empty");
+  if (colours > 256)
+    throw UsageError("a PNG has at most 256 colours in a list, not " + std::to_string(colours));
   const bool opaque = std::all_of(image.pixels.begin(), image.pixels.end(),
                                   [](const auto& pixel) { return pixel[3] == 255; });
   const std::size_t channels = opaque ? 3 : 4;
-  std::string rows;
-  rows.reserve(image.pixels.size() * channels);
-  for (const auto& pixel : image.pixels)
-    for (std::size_t c = 0; c < channels; ++c) rows.push_back(static_cast<char>(pixel[c]));
+  const auto put = [&](std::string& bytes, const auto& pixels) {
+    for (const auto& pixel : pixels)
+      for (std::size_t c = 0; c < channels; ++c) bytes.push_back(static_cast<char>(pixel[c]));
+  };
+  std::string rows, palette;
+  if (colours > 0) {
+    const Indexed indexed = with_few_colours(image, colours);
+    rows.assign(indexed.index.begin(), indexed.index.end());
+    put(palette, indexed.palette);
+  } else {
+    put(rows, image.pixels);
+  }
 
   png_image png{};
   png.version = PNG_IMAGE_VERSION;
   png.width = static_cast<png_uint_32>(image.width);
   png.height = static_cast<png_uint_32>(image.height);
   png.format = opaque ? PNG_FORMAT_RGB : PNG_FORMAT_RGBA;
+  if (colours > 0) {
+    png.format |= PNG_FORMAT_FLAG_COLORMAP;
+    png.colormap_entries = static_cast<png_uint_32>(palette.size() / channels);
+  }
   png_alloc_size_t size = PNG_IMAGE_PNG_SIZE_MAX(png);
   std::string bytes(size, '\0');
-  if (png_image_write_to_memory(&png, bytes.data(), &size, 0, rows.data(), 0, nullptr) == 0)
+  if (png_image_write_to_memory(&png, bytes.data(), &size, 0, rows.data(), 0, palette.data()) == 0)
     throw Error("cannot write " + file.string() + ": " + png.message);
   bytes.resize(size);
   io::OutputFile out(file);

@@ -56,8 +56,8 @@ Vertex vertex_of(const Part& part, const Cells* cells, std::uint32_t v, const Ma
   return vertex;
 }
 
-// The median distance of points to their nearest, by a grid.
-double spacing(std::span<const Point> points) {
+// How far each point's fourth nearest is, at most twice and at least half of what is usual.
+std::vector<double> spacings(std::span<const Point> points) {
   Point low = points[0], high = points[0];
   for (const Point& p : points)
     for (std::size_t k = 0; k < 3; ++k) {
@@ -66,45 +66,51 @@ double spacing(std::span<const Point> points) {
     }
   const Point size = minus(high, low);
   const double widest = std::max({size[0], size[1], size[2]});
-  if (!(widest > 0)) return 0.1;
-  // Points of a surface: about as many cells as points.
-  const double cell = widest / std::max(1.0, std::sqrt(static_cast<double>(points.size()) / 4));
+  if (!(widest > 0)) return std::vector<double>(points.size(), 0.1);
+  // Some four points in each cell that a surface passes.
+  const double cell = widest / std::max(1.0, std::sqrt(static_cast<double>(points.size()) / 6));
   std::array<std::size_t, 3> cells{};
   for (std::size_t k = 0; k < 3; ++k) cells[k] = static_cast<std::size_t>(size[k] / cell) + 1;
-  const auto cell_of = [&](const Point& p) {
-    std::array<std::size_t, 3> c{};
-    for (std::size_t k = 0; k < 3; ++k)
-      c[k] = std::min(static_cast<std::size_t>((p[k] - low[k]) / cell), cells[k] - 1);
-    return c;
+  const auto cell_of = [&](const Point& p, std::size_t k) {
+    return std::min(static_cast<std::size_t>((p[k] - low[k]) / cell), cells[k] - 1);
   };
   const auto key = [&](std::size_t x, std::size_t y, std::size_t z) {
     return (z * cells[1] + y) * cells[0] + x;
   };
   std::vector<std::pair<std::size_t, std::uint32_t>> sorted;
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    const auto c = cell_of(points[i]);
-    sorted.emplace_back(key(c[0], c[1], c[2]), static_cast<std::uint32_t>(i));
-  }
+  for (std::size_t i = 0; i < points.size(); ++i)
+    sorted.emplace_back(key(cell_of(points[i], 0), cell_of(points[i], 1), cell_of(points[i], 2)),
+                        static_cast<std::uint32_t>(i));
   std::sort(sorted.begin(), sorted.end());
-  std::vector<double> nearest;
-  const std::size_t stride = points.size() / 2000 + 1;
-  for (std::size_t i = 0; i < points.size(); i += stride) {
-    const auto c = cell_of(points[i]);
-    double best = std::numeric_limits<double>::infinity();
-    for (std::size_t z = c[2] > 0 ? c[2] - 1 : 0; z <= c[2] + 1 && z < cells[2]; ++z)
-      for (std::size_t y = c[1] > 0 ? c[1] - 1 : 0; y <= c[1] + 1 && y < cells[1]; ++y)
-        for (std::size_t x = c[0] > 0 ? c[0] - 1 : 0; x <= c[0] + 1 && x < cells[0]; ++x)
-          for (auto at = std::lower_bound(sorted.begin(), sorted.end(),
-                                          std::pair{key(x, y, z), std::uint32_t{0}});
-               at != sorted.end() && at->first == key(x, y, z); ++at) {
-            const Point d = minus(points[at->second], points[i]);
-            if (dot(d, d) > 0) best = std::min(best, dot(d, d));
-          }
-    nearest.push_back(std::min(std::sqrt(best), cell));
+  std::vector<double> found;
+  for (const Point& p : points) {
+    std::array<double, 4> nearest{};
+    nearest.fill(cell * cell);
+    const auto around = [&](std::size_t k) {
+      const std::size_t c = cell_of(p, k);
+      return std::pair{c > 0 ? c - 1 : 0, std::min(c + 2, cells[k])};
+    };
+    const auto [x0, x1] = around(0);
+    const auto [y0, y1] = around(1);
+    const auto [z0, z1] = around(2);
+    for (std::size_t z = z0; z < z1; ++z)
+      for (std::size_t y = y0; y < y1; ++y)
+        for (auto at = std::lower_bound(sorted.begin(), sorted.end(),
+                                        std::pair{key(x0, y, z), std::uint32_t{0}});
+             at != sorted.end() && at->first < key(x1 - 1, y, z) + 1; ++at) {
+          const Point d = minus(points[at->second], p);
+          const double square = dot(d, d);
+          if (!(square > 0) || square >= nearest[3]) continue;
+          nearest[3] = square;
+          std::sort(nearest.begin(), nearest.end());
+        }
+    found.push_back(std::sqrt(nearest[3]));
   }
-  const auto middle = nearest.begin() + static_cast<std::ptrdiff_t>(nearest.size() / 2);
-  std::nth_element(nearest.begin(), middle, nearest.end());
-  return *middle;
+  std::vector<double> copy = found;
+  const auto middle = copy.begin() + static_cast<std::ptrdiff_t>(copy.size() / 2);
+  std::nth_element(copy.begin(), middle, copy.end());
+  for (double& f : found) f = std::clamp(f, *middle / 2, *middle * 2);
+  return found;
 }
 
 }  // namespace
@@ -185,7 +191,7 @@ void add_wires(Batch& batch, const Part& part, const Making& making) {
   const auto middle = lengths.begin() + static_cast<std::ptrdiff_t>(lengths.size() / 2);
   std::nth_element(lengths.begin(), middle, lengths.end());
   const double radius =
-      std::clamp(0.22 * *middle, 0.9 * making.pixel, std::max(2.6 * making.pixel, 0.0075));
+      std::clamp(0.22 * *middle, 0.9 * making.pixel, std::max(2.6 * making.pixel, 0.008));
   const std::size_t sides = part.edges.size() < 20000 ? 12 : part.edges.size() < 100000 ? 6 : 4;
   std::vector<bool> joined(part.positions.size(), false);
   for (const auto& e : part.edges) {
@@ -218,14 +224,15 @@ void add_wires(Batch& batch, const Part& part, const Making& making) {
 void add_discs(Batch& batch, const Part& part, const Making& making) {
   std::optional<Cells> cells;
   if (!part.label.empty()) cells.emplace(part);
-  const double between_points = making.frame.scale * spacing(part.positions);
+  const std::vector<double> spacing = spacings(part.positions);
   const bool flat = !part.normals.empty();
-  const double radius = std::max((flat ? 1.05 : 0.72) * between_points, 1.2 * making.pixel);
   const std::size_t sides = part.positions.size() < 50000 ? 14 : 8;
   for (std::size_t i = 0; i < part.positions.size(); ++i) {
     Vertex centre =
         vertex_of(part, cells ? &*cells : nullptr, static_cast<std::uint32_t>(i), making);
     if (making.clip && making.clip->over(centre.position) > 0) continue;
+    const double radius =
+        std::max((flat ? 0.62 : 0.55) * making.frame.scale * spacing[i], 1.2 * making.pixel);
     Point facing = flat ? unit_or_zero(part.normals[i]) : making.toward;
     const bool bulges = !flat || !(dot(facing, facing) > 0);
     if (bulges) facing = making.toward;
@@ -234,7 +241,8 @@ void add_discs(Batch& batch, const Part& part, const Making& making) {
     centre.normal = facing;
     const auto rim = [&](std::size_t k) {
       Vertex v = moved(centre, ring.at(k, sides), radius);
-      v.normal = bulges ? unit(plus(v.normal, times(0.55, facing))) : facing;
+      // A little round, so that single discs can be told apart.
+      v.normal = unit(plus(v.normal, times(bulges ? 0.55 : 3.5, facing)));
       if (bulges) v.position = minus(v.position, times(0.5 * radius, facing));
       return v;
     };

@@ -28,14 +28,16 @@ struct Making {
   double pixel = 0;           ///< about a pixel's size in the frame, at the scene's middle
 };
 
-/// Triangles of a part's positions with smooth normals, creases of more than 40 degrees kept.
+/// Triangles of a part's positions with smooth normals, creases of more than 55 degrees kept.
 /// `triangles` may be those of the part or others, such as the boundary of its tetrahedra.
 void add_surface(Batch& batch, const Part& part, const Cells* cells,
                  std::span<const std::array<std::uint32_t, 3>> triangles, const Making& making);
 
-/// The triangles of exactly one tetrahedron, facing outwards.
+/// The triangles of exactly one tetrahedron, facing outwards; not those in the clip plane, which
+/// are the cap's.
 std::vector<std::array<std::uint32_t, 3>> boundary(
-    std::span<const Point> positions, std::span<const std::array<std::uint32_t, 4>> tets);
+    std::span<const Point> positions, std::span<const std::array<std::uint32_t, 4>> tets,
+    const Making& making);
 
 /// Where the clip plane cuts the tetrahedra: a polygon of each, values linear in it.
 void add_cap(Batch& batch, const Part& part, const Cells* cells, const Making& making);

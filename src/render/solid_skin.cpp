@@ -42,6 +42,19 @@ Cut cut(const std::array<double, 4>& over) {
   return result;
 }
 
+// The cut where the side above is taken away. A facet in the plane is one if the tetrahedron is
+// below it.
+Cut cap_of(const std::array<double, 4>& over) {
+  const auto below = std::count_if(over.begin(), over.end(), [](double d) { return d < 0; });
+  const auto above = std::count_if(over.begin(), over.end(), [](double d) { return d > 0; });
+  if (below > 0 && above > 0) return cut(over);
+  Cut facet;
+  if (below == 1 && above == 0)
+    for (std::size_t k = 0; k < 4; ++k)
+      if (over[k] == 0) facet.at[facet.count++] = {k, k, 0};
+  return facet;
+}
+
 void add_polygon(Batch& batch, const Cut& where, const std::array<Vertex, 4>& corners,
                  const std::optional<Plane>& clip) {
   std::array<Vertex, 4> ends;
@@ -77,7 +90,13 @@ std::vector<Point> gradients(const Part& part) {
 }  // namespace
 
 std::vector<std::array<std::uint32_t, 3>> boundary(
-    std::span<const Point> positions, std::span<const std::array<std::uint32_t, 4>> tets) {
+    std::span<const Point> positions, std::span<const std::array<std::uint32_t, 4>> tets,
+    const Making& making) {
+  const auto in_plane = [&](const std::array<std::uint32_t, 3>& facet) {
+    return making.clip && std::all_of(facet.begin(), facet.end(), [&](std::uint32_t v) {
+             return making.clip->over(making.frame(positions[v])) == 0;
+           });
+  };
   std::vector<Facet> all;
   all.reserve(4 * tets.size());
   for (const auto& t : tets) {
@@ -98,7 +117,7 @@ std::vector<std::array<std::uint32_t, 3>> boundary(
   for (std::size_t k = 0; k < all.size();) {
     std::size_t end = k + 1;
     while (end < all.size() && all[end].sorted == all[k].sorted) ++end;
-    if (end == k + 1) outer.push_back(all[k].wound);
+    if (end == k + 1 && !in_plane(all[k].wound)) outer.push_back(all[k].wound);
     k = end;
   }
   return outer;
@@ -114,7 +133,7 @@ void add_cap(Batch& batch, const Part& part, const Cells* cells, const Making& m
       v[k].position = making.frame(part.positions[t[k]]);
       over[k] = making.clip->over(v[k].position);
     }
-    const Cut where = cut(over);
+    const Cut where = cap_of(over);
     if (where.count == 0) continue;
     bool reached = true;
     for (std::size_t k = 0; k < 4; ++k) {

@@ -6,7 +6,7 @@
 namespace plexway::render {
 namespace {
 
-constexpr double crease_cosine = 0.766;  // of 40 degrees
+constexpr double crease_cosine = 0.574;  // of 55 degrees
 
 // A face's normal, as long as twice its area.
 Point area_normal(const Part& part, const std::array<std::uint32_t, 3>& t) {

@@ -21,9 +21,10 @@ struct Image {
   }
 };
 
-/// Writes a PNG, without alpha where all is opaque. The file appears whole or not at all. Throws
+/// Writes a PNG, without alpha where all is opaque, or with at most `colours` colours (1 to 256): a
+/// quarter of the bytes, for pages of many pictures. The file appears whole or not at all. Throws
 /// Error "cannot write FILE: reason" when the system refuses, UsageError for an empty image.
-void write_png(const std::filesystem::path& file, const Image& image);
+void write_png(const std::filesystem::path& file, const Image& image, std::size_t colours = 0);
 
 /// Reads any PNG as 8 bits a channel. Throws InputError when it cannot.
 Image read_png(const std::filesystem::path& file);

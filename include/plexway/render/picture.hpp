@@ -48,7 +48,7 @@ struct PictureOptions {
 /// Draws the scene by OpenGL, without a display. The same call gives the same bits on the same
 /// driver.
 ///
-/// Surfaces are shaded on both sides, and smoothly unless they have a crease of more than 40
+/// Surfaces are shaded on both sides, and smoothly unless they have a crease of more than 55
 /// degrees. Solids show their boundary, and where they are cut the field inside: the tetrahedra's
 /// own cross-sections, with values linear in each. Wireframes and paths are tubes, clouds are
 /// discs; what of sources and paths is hidden shines through faintly.
