@@ -30,7 +30,9 @@ const gl::Display& choose(int number) {
         problems += std::string("; ") + error.what();
       }
     }
-  throw NotBuiltError("no device of this machine can draw pictures" + problems);
+  throw NotBuiltError(
+      "no device of this machine can draw pictures: install a driver, such as libgl1-mesa-dri" +
+      problems);
 }
 
 std::string text_of(std::string_view name) {

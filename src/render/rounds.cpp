@@ -232,7 +232,7 @@ void add_discs(Batch& batch, const Part& part, const Making& making) {
         vertex_of(part, cells ? &*cells : nullptr, static_cast<std::uint32_t>(i), making);
     if (making.clip && making.clip->over(centre.position) > 0) continue;
     const double radius =
-        std::max((flat ? 0.62 : 0.55) * making.frame.scale * spacing[i], 1.2 * making.pixel);
+        std::max((flat ? 0.68 : 0.58) * making.frame.scale * spacing[i], 1.2 * making.pixel);
     Point facing = flat ? unit_or_zero(part.normals[i]) : making.toward;
     const bool bulges = !flat || !(dot(facing, facing) > 0);
     if (bulges) facing = making.toward;
