@@ -153,7 +153,6 @@ class Painter {
   double scale_;
 };
 
-constexpr std::array<float, 4> veil_ink = {1, 1, 1, 0.3f};
 constexpr double clearly_behind = 0.04;  // of the scene's size
 constexpr std::array<float, 4> outline_ink = {0.07f, 0.08f, 0.1f, 1};
 
@@ -182,7 +181,7 @@ void draw_all(const DrawFunctions& gl, const Painter& painter, std::span<const B
         gl.DepthMask(GL_FALSE);
         gl.Enable(GL_BLEND);
         gl.BlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
-        painter.draw_tinted(mesh, veil_ink, 0, clearly_behind);
+        painter.draw_tinted(mesh, batch.veil, 0, clearly_behind);
         gl.Disable(GL_BLEND);
         gl.DepthMask(GL_TRUE);
         gl.DepthFunc(GL_LEQUAL);

@@ -1,6 +1,7 @@
 #include "palette.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <numeric>
 
@@ -12,7 +13,7 @@ using Mean = std::array<double, 4>;
 
 struct Count {
   Pixel colour;
-  double pixels;
+  double pixels;  ///< what it weighs: the root of how many have it
 };
 
 /// A range of the list of colours.
@@ -51,6 +52,8 @@ std::vector<Count> counted(const Image& image) {
     if (all.empty() || all.back().colour != p) all.push_back({p, 0});
     ++all.back().pixels;
   }
+  // Small things, such as a colour bar, keep their colours beside large ones.
+  for (Count& count : all) count.pixels = std::sqrt(count.pixels);
   return all;
 }
 

@@ -40,17 +40,22 @@ bool is_cloud(const Part& part) {
   return part.edges.empty() && part.triangles.empty() && part.tets.empty();
 }
 
-// Everything that is drawn: vertices in no simplex are not.
+// Calls `use` with every vertex that is drawn, some more than once. Those in no simplex are not.
+template <class Use>
+void each_vertex(const Part& part, Use use) {
+  const auto all_of = [&](const auto& simplices) {
+    for (const auto& simplex : simplices)
+      for (const std::uint32_t v : simplex) use(v);
+  };
+  all_of(part.edges), all_of(part.triangles), all_of(part.tets);
+  if (is_cloud(part))
+    for (std::uint32_t v = 0; v < part.positions.size(); ++v) use(v);
+}
+
 Box extent(const Scene& scene) {
   Box box;
   for (const Part& part : scene.parts) {
-    const auto add = [&](const auto& simplices) {
-      for (const auto& simplex : simplices)
-        for (const std::uint32_t v : simplex) box.add(part.positions[v]);
-    };
-    if (is_cloud(part))
-      for (const Point& p : part.positions) box.add(p);
-    add(part.edges), add(part.triangles), add(part.tets);
+    each_vertex(part, [&](std::uint32_t v) { box.add(part.positions[v]); });
   }
   for (const auto& path : scene.paths)
     for (const Point& p : path) box.add(p);
@@ -158,8 +163,11 @@ void add_overlays(std::vector<Batch>& batches, const Scene& scene, const Making&
   }
   batches.push_back(std::move(lines));
   for (const Point& p : scene.targets) add_ball(ends, at(p, plain(target_white)), 2.2 * width, 14);
-  for (const Point& p : scene.sources) add_ball(ends, at(p, plain(source_red)), 2.6 * width, 14);
   batches.push_back(std::move(ends));
+  Batch starts(Look::overlay);
+  starts.veil = {1, 0.35f, 0.25f, 0.55f};
+  for (const Point& p : scene.sources) add_ball(starts, at(p, plain(source_red)), 2.6 * width, 14);
+  batches.push_back(std::move(starts));
 }
 
 // The isolines: where the first is, how far apart they are, and how many.
@@ -188,11 +196,12 @@ Legend legend_of(const Scene& scene, const PictureOptions& options, const Style&
   std::int32_t largest = -1;
   bool by_value_somewhere = false;
   for (const Part& part : scene.parts) {
-    for (const double v : part.value) missing = missing || !std::isfinite(v);
-    for (const std::int32_t l : part.label) {
-      largest = std::max(largest, l);
-      missing = missing || l < 0;
-    }
+    each_vertex(part, [&](std::uint32_t v) {
+      missing = missing || (!part.value.empty() && !std::isfinite(part.value[v]));
+      if (part.label.empty()) return;
+      largest = std::max(largest, part.label[v]);
+      missing = missing || part.label[v] < 0;
+    });
     cells = cells || !part.label.empty();
     by_value_somewhere = by_value_somewhere || (!part.value.empty() && part.label.empty() &&
                                                 (!part.ghost || !part.edges.empty()));
@@ -244,7 +253,11 @@ Image picture(const Scene& scene, const PictureOptions& options) {
   choose_isolines(style, options, cells);
 
   std::vector<Batch> batches;
-  for (const Part& part : scene.parts) add_part(batches, part, options, making);
+  for (const Part& part : scene.parts) {
+    Making making_part = making;
+    if (part.whole) making_part.clip.reset();
+    add_part(batches, part, options, making_part);
+  }
   add_overlays(batches, scene, making);
   const bool empty = std::all_of(batches.begin(), batches.end(),
                                  [](const Batch& batch) { return batch.corners.empty(); });

@@ -29,6 +29,7 @@ struct Part {
   std::span<const std::int32_t> label = {};
   std::optional<Colour> colour = {};  ///< of a part without values
   bool ghost = false;                 ///< only a veil: one sees what lies inside
+  bool whole = false;                 ///< the clip plane does not cut it
 };
 
 /// Balls at points, with a colour or with values.
