@@ -34,6 +34,7 @@ struct DistanceCommand {
   CloudArguments cloud;
   SolveOptions solve;
   PictureArguments picture;
+  TriangulationArgument triangulation;
   bool json = false;
   bool quiet = false;
 };
@@ -91,6 +92,7 @@ Json to_json(const DistanceCommand& command, const Domain& domain, const Solver&
   json["expansions"] = solver.statistics().expansions;
   json["updates"] = solver.statistics().updates;
   json["executor"] = executor_name(outcome.executor);
+  if (domain.kind() == "surface") json["triangulation"] = name_of(solver.triangulation());
   json["threads"] = executor_threads(outcome.executor);
   if (const Cloud* cloud = domain.cloud()) {
     json["points_in_file"] = cloud->points_in_file;
@@ -114,6 +116,7 @@ std::string to_text(const DistanceCommand& command, const Domain& domain, const 
     const std::string label = sources.size() == 1 ? "source" : "source " + std::to_string(i);
     table.add(label, describe_source(domain, arguments[i], sources[i]));
   }
+  if (solver.triangulation().delaunay) table.add("triangles", describe(solver.triangulation()));
   std::string reached =
       std::to_string(outcome.reached) + " of " + counted(domain.vertices(), "vertices");
   if (outcome.reached > 0) {
@@ -185,6 +188,7 @@ std::vector<std::int32_t> labels_of(const Solver& solver, const std::vector<doub
 void run_distance(const DistanceCommand& command) {
   const PropagateOptions wanted = propagate_options(command.solve);
   const Precision precision = precision_of(command.solve);
+  const Triangulation triangulation = triangulation_of(command.triangulation);
   const std::vector<SourceArgument> arguments = parse_sources(command.sources);
   if (command.out != "-") check_output_name(command.out, command.input, cloud_field_extensions());
 
@@ -199,7 +203,7 @@ void run_distance(const DistanceCommand& command) {
 
   progress.phase("building");
   const Stopwatch building;
-  const auto solver = make_solver(domain, precision);
+  const auto solver = make_solver(domain, precision, triangulation);
   const double build = building.seconds();
 
   progress.phase("solving");
@@ -284,6 +288,7 @@ void add_distance_command(CLI::App& tool, Action& action) {
   app.add_flag("--json", command->json, "print the summary as one JSON object");
   app.add_flag("--quiet,-q", command->quiet, "no summary, notes or progress; errors stay");
   add_solve_options(app, command->solve, true);
+  add_triangulation_option(app, command->triangulation);
   add_fill_options(app, command->fill);
   add_cloud_options(app, command->cloud);
   add_picture_options(app, command->picture, true);
@@ -293,6 +298,7 @@ void add_distance_command(CLI::App& tool, Action& action) {
       "  plexway distance knot.ply --source point:1,0,0.5 --radius 2 --json\n"
       "  plexway distance knot.ply --source vertex:0 --source vertex:99 --out nearest.csv\n"
       "  plexway distance organ.off --as solid --max-volume 1e-3 --source point:0,0,0 -o d.vtu\n"
+      "  plexway distance part.stl --source vertex:0 --triangulation delaunay -o d.vtu\n"
       "  plexway distance vessels.obj --source vertex:0 --out distance.vtk\n"
       "  plexway distance knot.ply --source vertex:0 --picture knot.png --view iso\n"
       "  plexway distance scan.pcd --voxel 0.01 --denoise --source point:0,0,0 --out d.ply\n"

@@ -114,7 +114,7 @@ class Painter {
     gl.UniformMatrix3fv(at("axes"), 1, GL_FALSE, axes.data());
     gl.Uniform4fv(at("eye"), 1, camera.eye.data());
     gl.Uniform2f(at("range"), static_cast<float>(style.low), static_cast<float>(style.high));
-    gl.Uniform1f(at("border"), static_cast<float>(0.55 * scale));
+    gl.Uniform1f(at("border"), static_cast<float>(0.55 * style.pen * scale));
     std::array<float, 99> colours{};
     for (std::size_t c = 0; c < 33; ++c)
       for (std::size_t j = 0; j < 3; ++j)
@@ -123,9 +123,10 @@ class Painter {
   }
 
   void draw(const Mesh& mesh, const Batch& batch) const {
-    const std::array<float, 4> lines = {
-        static_cast<float>(style_.first_line), static_cast<float>(style_.line_step),
-        batch.isolines ? static_cast<float>(style_.lines) : 0.0f, static_cast<float>(0.5 * scale_)};
+    const std::array<float, 4> lines = {static_cast<float>(style_.first_line),
+                                        static_cast<float>(style_.line_step),
+                                        batch.isolines ? static_cast<float>(style_.lines) : 0.0f,
+                                        static_cast<float>(0.5 * style_.pen * scale_)};
     gl_.Uniform4fv(at("isolines"), 1, lines.data());
     gl_.Uniform1i(at("look"), batch.look == Look::cap ? 1 : batch.look == Look::ghost ? 2 : 0);
     mesh.draw();
@@ -135,7 +136,7 @@ class Painter {
   void draw_tinted(const Mesh& mesh, const std::array<float, 4>& tint, double wider,
                    double nearer) const {
     gl_.Uniform4fv(at("tint"), 1, tint.data());
-    gl_.Uniform1f(at("inflate"), static_cast<float>(wider * style_.camera.pixel));
+    gl_.Uniform1f(at("inflate"), static_cast<float>(wider * style_.pen * style_.camera.pixel));
     gl_.Uniform1f(at("pull"), static_cast<float>(nearer));
     mesh.draw();
     gl_.Uniform1f(at("pull"), 0);

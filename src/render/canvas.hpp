@@ -19,6 +19,7 @@ struct Style {
   std::array<Colour, 256> map{};
   double low = 0, high = 1;                         ///< values at the ends of the map
   double first_line = 0, line_step = 1, lines = 0;  ///< isolines
+  double pen = 1;                                   ///< pixels: lines are wider on large pictures
   bool transparent = false;
   int device = -1;
 };

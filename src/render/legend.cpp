@@ -33,7 +33,9 @@ Layout layout(const Legend& legend, double width, double height) {
   l.bar_top = std::round((height - whole) / 2 + title);
   l.width = 0;
   if (legend.bar) {
-    l.numbers = ticks(legend.low, legend.high, 6);
+    const double room = l.bar_height / (2.6 * l.text);
+    l.numbers =
+        ticks(legend.low, legend.high, static_cast<std::size_t>(std::clamp(room, 1.0, 6.0)));
     for (const std::string& label : l.numbers.label)
       l.width = std::max(l.width, text_width(label, l.text));
     l.width += l.bar_width + 0.95 * l.text;
@@ -47,6 +49,10 @@ Layout layout(const Legend& legend, double width, double height) {
 
 }  // namespace
 
+double line_width(double width, double height) {
+  return std::max(1.0, std::sqrt(width * height / (800.0 * 600.0)));
+}
+
 Window scene_window(const Legend& legend, double width, double height) {
   const Layout l = layout(legend, width, height);
   const double taken = l.width > 0 ? l.width + 1.9 * l.margin : 0;
@@ -59,6 +65,7 @@ Window scene_window(const Legend& legend, double width, double height) {
 void draw_legend(Image& image, const Legend& legend) {
   const auto width = static_cast<double>(image.width), height = static_cast<double>(image.height);
   const Layout l = layout(legend, width, height);
+  const double pen = line_width(width, height);
   double below = l.bar_top;
   if (legend.bar) {
     if (!legend.title.empty())
@@ -85,11 +92,11 @@ void draw_legend(Image& image, const Legend& legend) {
       const Colour c = legend.map[place];
       const bool bright = 0.2126 * c[0] + 0.7152 * c[1] + 0.0722 * c[2] > 97;
       const Ink ink = bright ? Ink{{20, 22, 30}, 0.55} : Ink{{255, 255, 255}, 0.5};
-      fill_box(image, {l.left, y - 0.4}, {right, y + 0.4}, ink);
+      fill_box(image, {l.left, y - 0.4 * pen}, {right, y + 0.4 * pen}, ink);
     }
     for (std::size_t k = 0; k < l.numbers.at.size(); ++k) {
       const double y = y_of(l.numbers.at[k]);
-      fill_box(image, {right, y - 0.5}, {right + 0.4 * l.text, y + 0.5}, fine_ink);
+      fill_box(image, {right, y - 0.5 * pen}, {right + 0.4 * l.text, y + 0.5 * pen}, fine_ink);
       draw_text(image, l.numbers.label[k], {right + 0.95 * l.text, y + 0.5 * l.text}, l.text,
                 text_ink);
     }

@@ -25,6 +25,9 @@ struct Legend {
   std::vector<Swatch> swatches;  ///< below the bar
 };
 
+/// Of thin lines in a picture of this size: 1 pixel, more on larger ones than 800 x 600.
+double line_width(double width, double height);
+
 /// Where the scene goes in a picture of this size.
 Window scene_window(const Legend& legend, double width, double height);
 

@@ -243,6 +243,7 @@ Image picture(const Scene& scene, const PictureOptions& options) {
 
   Style style;
   style.map = map.table();
+  style.pen = line_width(static_cast<double>(options.width), static_cast<double>(options.height));
   style.transparent = options.transparent;
   style.device = options.device;
   bool any_value = false;
