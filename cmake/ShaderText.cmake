@@ -38,17 +38,18 @@ function(plexway_expand_shader root file out files_variable)
 endfunction()
 
 # As a script: -DROOT=<source tree> -DOUT=<file.cpp> -DSHADERS=<name.comp,name.comp,...>
-# writes a table of all, src/executors/gl/shader_text.hpp.
+#   -DSPACE=<namespace in plexway> -DHEADER=<that declares it>
+# writes a table of all, as src/executors/gl/shader_text.hpp has it.
 if(CMAKE_SCRIPT_MODE_FILE AND OUT AND SHADERS)
   string(REPLACE "," ";" shaders "${SHADERS}")
-  set(table "// Made from shaders/ by cmake/ShaderText.cmake.\n#include \"executors/gl/shader_text.hpp\"\n\n")
-  string(APPEND table "namespace plexway::gl {\n\nconst ShaderText shader_texts[] = {\n")
+  set(table "// Made from shaders/ by cmake/ShaderText.cmake.\n#include \"${HEADER}\"\n\n")
+  string(APPEND table "namespace plexway::${SPACE} {\n\nconst ShaderText shader_texts[] = {\n")
   foreach(shader IN LISTS shaders)
     set(files "")
     plexway_expand_shader("${ROOT}" "${shader}" text files)
     string(APPEND table "{\"${shader}\", \"${files}\",\nR\"GLSL(${text})GLSL\"},\n")
   endforeach()
   string(APPEND table "};\n\nconst std::size_t shader_text_count = std::size(shader_texts);\n\n")
-  string(APPEND table "}  // namespace plexway::gl\n")
+  string(APPEND table "}  // namespace plexway::${SPACE}\n")
   file(WRITE "${OUT}" "${table}")
 endif()

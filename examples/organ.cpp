@@ -1,12 +1,33 @@
 // How soon does what enters an organ by its artery get everywhere? It runs along a tree of vessels
 // twenty times as fast as through the tissue between: a wireframe and a solid in one domain, and
 // distances are times. One solve finds for every point the best place to leave the vessels.
+//   example_organ [OUT]    writes the field (.vtu ...), or draws a picture (.png)
 #include <cmath>
 #include <cstdio>
+#include <span>
+#include <string_view>
 
 #include <plexway/complex/kuhn_grid.hpp>
 #include <plexway/executors/serial_mixed.hpp>
 #include <plexway/io/field.hpp>
+
+#ifdef PLEXWAY_HAS_RENDER
+#include <plexway/render/picture.hpp>
+
+// The tissue cut open, with all of the vessels.
+void draw(const char* file, plexway::render::Part tissue, plexway::render::Part vessels) {
+  vessels.whole = true;
+  plexway::render::Scene scene;
+  scene.parts = {tissue, vessels};
+  scene.sources = {vessels.positions[0]};
+  plexway::render::PictureOptions options;
+  options.clip = plexway::render::Clip{{0, 0, 1}, 0.05};
+  options.width = 640, options.height = 480;
+  options.view = plexway::render::View{-20, 50};
+  options.title = "seconds";
+  plexway::render::write_png(file, plexway::render::picture(scene, options), 256);
+}
+#endif
 
 struct Tree {
   std::vector<std::array<double, 3>> points = {{0, 0, 0}};
@@ -55,6 +76,17 @@ int main(int argc, char** argv) {
   std::printf("All is supplied after %.2f s; through tissue alone the far end waits 3 s.\n", last);
   const plexway::io::MixedPart parts[] = {{.positions = tissue, .tets = tets},
                                           {.positions = tree.points, .edges = tree.edges}};
-  if (argc > 1) plexway::io::write_field(argv[1], parts, field.distance);
+  const std::string_view out = argc > 1 ? argv[1] : "";
+#ifdef PLEXWAY_HAS_RENDER
+  if (out.ends_with(".png")) {
+    const auto values = std::span<const double>(field.distance);
+    draw(argv[1], {.positions = tissue, .tets = tets, .value = values.first(tissue.size())},
+         {.positions = tree.points,
+          .edges = tree.edges,
+          .colour = plexway::render::Colour{245, 240, 235}});
+    return 0;
+  }
+#endif
+  if (!out.empty()) plexway::io::write_field(argv[1], parts, field.distance);
   return last < 1.5 && outlets > 20 ? 0 : 1;
 }

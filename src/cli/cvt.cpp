@@ -60,7 +60,7 @@ Result compute(const Complex& complex, const CvtCommand& command, ProgressLine& 
   const Stopwatch moving;
   result.voronoi = centroidal_voronoi(Serial{}, complex, start.darts, options);
   result.seconds = moving.seconds();
-  if (command.cells.empty() && command.dual.empty()) return result;
+  if (command.cells.empty() && command.dual.empty() && !command.picture.wanted()) return result;
   const auto field =
       propagate(Serial{}, complex, std::span<const PointSource>(result.voronoi.seeds));
   result.distance.assign(field.distance.begin(), field.distance.end());
@@ -80,6 +80,7 @@ void run_cvt(const CvtCommand& command) {
   check_output_name(command.out, command.input, point_file_extensions());
   check_output_name(command.cells, command.input, io::field_extensions());
   check_output_name(command.dual, command.input, surface_file_extensions());
+  check_picture(command.picture, command.input);
 
   ProgressLine progress(command.quiet);
   const Domain domain =
@@ -93,10 +94,17 @@ void run_cvt(const CvtCommand& command) {
   const CentroidalVoronoi& voronoi = result.voronoi;
   if (!command.out.empty())
     write_points(command.out, domain, voronoi.seeds, "content", voronoi.cell_content);
+  std::vector<std::int32_t> labels;
+  for (const Index l : result.label)
+    labels.push_back(l == none ? -1 : static_cast<std::int32_t>(l));
+  if (command.picture.wanted()) {
+    PictureContent content;
+    content.distance = result.distance;
+    content.label = labels;
+    for (const PointSource& seed : voronoi.seeds) content.dots.push_back(domain.position(seed));
+    write_picture(command.picture, domain, content);
+  }
   if (!command.cells.empty()) {
-    std::vector<std::int32_t> labels;
-    for (const Index l : result.label)
-      labels.push_back(l == none ? -1 : static_cast<std::int32_t>(l));
     domain.write_field(command.cells, result.distance, labels);
   }
   DualTriangulation dual;
@@ -173,6 +181,7 @@ void add_cvt_command(CLI::App& tool, Action& action) {
   app.footer(
       "Examples:\n"
       "  plexway cvt knot.ply --count 500 --cells cells.vtu --dual remeshed.obj\n"
+      "  plexway cvt knot.ply --count 200 --picture cells.png\n"
       "  plexway cvt elbow.mesh --count 50 --iterations 20 --out seeds.csv --json");
   app.callback([command, &action] { action = [command] { run_cvt(*command); }; });
 }

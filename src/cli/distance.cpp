@@ -15,6 +15,7 @@
 #include "distance_output.hpp"
 #include "domain.hpp"
 #include "exit_codes.hpp"
+#include "picture_options.hpp"
 #include "progress.hpp"
 #include "report.hpp"
 #include "solve_options.hpp"
@@ -32,6 +33,7 @@ struct DistanceCommand {
   FillOptions fill;
   CloudArguments cloud;
   SolveOptions solve;
+  PictureArguments picture;
   TriangulationArgument triangulation;
   bool json = false;
   bool quiet = false;
@@ -178,6 +180,14 @@ void say_notes(const Domain& domain, const Solver& solver, const Outcome& outcom
   say_note(counted(unreached, "vertices") + " not reached (inf)" + (why.empty() ? "" : ": " + why));
 }
 
+// Also where there is one source only.
+std::vector<std::int32_t> labels_of(const Solver& solver, const std::vector<double>& distance) {
+  std::vector<std::int32_t> label = solver.label();
+  if (label.empty())
+    for (const double d : distance) label.push_back(std::isfinite(d) ? 0 : -1);
+  return label;
+}
+
 void run_distance(const DistanceCommand& command) {
   const PropagateOptions wanted = propagate_options(command.solve);
   const Precision precision = precision_of(command.solve);
@@ -185,6 +195,8 @@ void run_distance(const DistanceCommand& command) {
   const std::vector<SourceArgument> arguments = parse_sources(command.sources);
   if (command.out != "-" && !is_vdb(command.out))
     check_output_name(command.out, command.input, cloud_field_extensions());
+
+  check_picture(command.picture, command.input);
 
   ProgressLine progress(command.quiet);
   const Domain domain =
@@ -223,6 +235,18 @@ void run_distance(const DistanceCommand& command) {
     } else {
       domain.write_field(command.out, distance, label);
     }
+  }
+  if (command.picture.wanted()) {
+    progress.phase("drawing " + command.picture.file);
+    PictureContent content;
+    content.distance = distance;
+    const bool cells = command.picture.colour == "cells";
+    const std::vector<std::int32_t> label =
+        cells ? labels_of(*solver, distance) : std::vector<std::int32_t>();
+    content.label = label;
+    if (!domain.positions().empty())
+      for (const PointSource& source : sources) content.sources.push_back(domain.position(source));
+    write_picture(command.picture, domain, content);
   }
   progress.clear();
 
@@ -272,6 +296,7 @@ void add_distance_command(CLI::App& tool, Action& action) {
   add_triangulation_option(app, command->triangulation);
   add_fill_options(app, command->fill);
   add_cloud_options(app, command->cloud);
+  add_picture_options(app, command->picture, true);
   app.footer(
       "Examples:\n"
       "  plexway distance knot.ply --source vertex:0 --out distance.ply\n"
@@ -282,6 +307,7 @@ void add_distance_command(CLI::App& tool, Action& action) {
       "  plexway distance broken.stl --repair --as solid --source vertex:0 --out d.glb\n"
       "  plexway distance part.stl --source vertex:0 --triangulation delaunay -o d.vtu\n"
       "  plexway distance vessels.obj --source vertex:0 --out distance.vtk\n"
+      "  plexway distance knot.ply --source vertex:0 --picture knot.png --view iso\n"
       "  plexway distance scan.pcd --voxel 0.01 --denoise --source point:0,0,0 --out d.ply\n"
       "  plexway distance knot.ply --source vertex:0 --quiet --out - | sort -t, -gk2 | tail -1");
   app.callback([command, &action] { action = [command] { run_distance(*command); }; });

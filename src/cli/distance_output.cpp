@@ -25,7 +25,7 @@ void append(std::string& text, Number value) {
 }  // namespace
 
 void check_output_name(const std::string& out, const std::string& input,
-                       std::span<const std::string_view> known) {
+                       std::span<const std::string_view> known, const char* option) {
   if (out.empty()) return;
   const fs::path file = out;
   std::string extension = file.extension().string();
@@ -35,7 +35,8 @@ void check_output_name(const std::string& out, const std::string& input,
   if (std::find(known.begin(), known.end(), extension) == known.end()) {
     std::string names;
     for (const std::string_view name : known) names.append(" ").append(name);
-    throw UsageError("--out " + out + ": unknown extension; those written are" + names);
+    throw UsageError(std::string(option) + " " + out + ": unknown extension; those written are" +
+                     names);
   }
   // TetGen's files come in pairs: writing one writes the other, and reading a .poly may read both.
   const auto files_of = [](const fs::path& name) {
@@ -51,7 +52,7 @@ void check_output_name(const std::string& out, const std::string& input,
   for (const fs::path& written : files_of(file))
     for (const fs::path& read : files_of(input))
       if (fs::equivalent(written, read, error))
-        throw UsageError("--out " + out + ": would overwrite " + read.string() +
+        throw UsageError(std::string(option) + " " + out + ": would overwrite " + read.string() +
                          ", which the input needs");
   const fs::path folder = file.has_parent_path() ? file.parent_path() : fs::path(".");
   if (!fs::is_directory(folder, error))

@@ -7,10 +7,10 @@
 
 namespace plexway::cli {
 
-/// Before any work: throws UsageError where `out` has an extension that is not `known` or is the
-/// input itself, and Error where its folder does not exist. Empty is fine.
+/// Before any work: throws UsageError where `out`, given by `option`, has an extension that is not
+/// `known` or is the input itself, and Error where its folder does not exist. Empty is fine.
 void check_output_name(const std::string& out, const std::string& input,
-                       std::span<const std::string_view> known);
+                       std::span<const std::string_view> known, const char* option = "--out");
 
 /// CSV on standard output: `vertex,distance` and `,label` where there are labels.
 /// Throws as write_output.

@@ -30,6 +30,7 @@ void run_farthest(const FarthestCommand& command) {
     throw UsageError("give --count, --radius or both, > 0");
   if (!(command.radius >= 0)) throw UsageError("--radius must be >= 0");
   check_output_name(command.out, command.input, point_file_extensions());
+  check_picture(command.picture, command.input);
   const auto arguments = parse_sources(
       command.sources.empty() ? std::vector<std::string>{"vertex:0"} : command.sources);
   ProgressLine progress(command.quiet);
@@ -46,13 +47,23 @@ void run_farthest(const FarthestCommand& command) {
   progress.phase("looking for the farthest points");
   FarthestPoints found;
   double seconds = 0;
+  std::vector<double> nearest;  // to the points found, where a picture shows it
   with_complex(domain, precision, [&](const auto& complex) {
     const Stopwatch searching;
     found = farthest_points(Serial{}, complex, start, options);
     seconds = searching.seconds();
+    if (!command.picture.wanted()) return;
+    const auto field = propagate(Serial{}, complex, std::span<const PointSource>(found.points));
+    nearest.assign(field.distance.begin(), field.distance.end());
   });
   if (!command.out.empty())
     write_points(command.out, domain, found.points, "distance", found.distance);
+  if (command.picture.wanted()) {
+    PictureContent content;
+    content.distance = nearest;
+    for (const PointSource& point : found.points) content.dots.push_back(domain.position(point));
+    write_picture(command.picture, domain, content);
+  }
   progress.clear();
 
   PointSummary summary(command, domain, found.points.size());
@@ -80,6 +91,7 @@ void add_farthest_command(CLI::App& tool, Action& action) {
   app.footer(
       "Examples:\n"
       "  plexway farthest knot.ply --count 100 --out landmarks.ply\n"
+      "  plexway farthest knot.ply --count 50 --picture landmarks.png\n"
       "  plexway farthest elbow.mesh --radius 0.5 --source vertex:3 --out cover.csv");
   app.callback([command, &action] { action = [command] { run_farthest(*command); }; });
 }

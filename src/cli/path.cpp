@@ -23,6 +23,7 @@
 #include "domain.hpp"
 #include "exit_codes.hpp"
 #include "make_complex.hpp"
+#include "picture_options.hpp"
 #include "progress.hpp"
 #include "report.hpp"
 #include "solve_options.hpp"
@@ -40,6 +41,7 @@ struct PathCommand {
   CloudArguments cloud;
   SolveOptions solve;
   TraceOptions trace;
+  PictureArguments picture;
   bool astar = false;
   bool json = false;
   bool quiet = false;
@@ -47,6 +49,7 @@ struct PathCommand {
 
 struct Outcome {
   std::vector<Path> paths;
+  std::vector<double> distance;  // none where only a part was searched
   PropagateStatistics statistics;
   double build = 0, solve = 0, trace = 0;
 };
@@ -93,6 +96,7 @@ Outcome find_paths(const Shape& shape, const PathCommand& command,
   field.solve(Serial{}, std::span<const PointSource>(sources), with_progress);
   outcome.solve = solving.seconds();
   outcome.statistics = field.distances().statistics;
+  outcome.distance.assign(field.distances().distance.begin(), field.distances().distance.end());
   progress.phase("tracing");
   const Stopwatch tracing;
   for (const PointSource& target : targets)
@@ -164,6 +168,8 @@ void run_path(const PathCommand& command) {
   if (command.astar && options.visibility != Visibility::saddles)
     throw UsageError("--astar knows the default visibility only");
 
+  check_picture(command.picture, command.input);
+
   ProgressLine progress(command.quiet);
   const Domain domain =
       Domain::load(command.input, command.as, command.fill, command.cloud, progress);
@@ -187,6 +193,18 @@ void run_path(const PathCommand& command) {
   if (!command.out.empty()) {
     progress.phase("writing " + command.out);
     io::write_paths(command.out, outcome.paths);
+  }
+  if (command.picture.wanted()) {
+    progress.phase("drawing " + command.picture.file);
+    PictureContent content;
+    content.distance = outcome.distance;
+    content.look_inside = true;
+    for (const Path& path : outcome.paths) content.paths.push_back(path.positions);
+    if (!domain.positions().empty()) {
+      for (const PointSource& source : sources) content.sources.push_back(domain.position(source));
+      for (const PointSource& target : targets) content.targets.push_back(domain.position(target));
+    }
+    write_picture(command.picture, domain, content);
   }
   progress.clear();
   if (command.json)
@@ -236,10 +254,12 @@ void add_path_command(CLI::App& tool, Action& action) {
   add_solve_options(app, command->solve, false);
   add_fill_options(app, command->fill);
   add_cloud_options(app, command->cloud);
+  add_picture_options(app, command->picture);
   app.footer(
       "Examples:\n"
       "  plexway path knot.ply --from vertex:0 --to vertex:99 --out path.obj\n"
       "  plexway path knot.ply --from vertex:0 --to vertex:99 --to point:1,0,0 --astar --json\n"
+      "  plexway path knot.ply --from vertex:0 --to vertex:99 --picture path.png\n"
       "  plexway path organ.off --as solid --from point:0,0,0 --to point:1,1,0 -o path.vtp");
   app.callback([command, &action] { action = [command] { run_path(*command); }; });
 }

@@ -53,6 +53,7 @@ void run_poisson(const PoissonCommand& command) {
   if (command.order != "uniform" && command.order != "simplices")
     throw UsageError("--order '" + command.order + "': choose one of uniform, simplices");
   check_output_name(command.out, command.input, point_file_extensions());
+  check_picture(command.picture, command.input);
   const std::vector<double> spacing =
       command.spacing.empty() ? std::vector<double>{} : read_numbers(command.spacing);
 
@@ -82,6 +83,12 @@ void run_poisson(const PoissonCommand& command) {
     seconds = throwing.seconds();
   });
   if (!command.out.empty()) write_points(command.out, domain, disks.darts);
+  if (command.picture.wanted()) {
+    PictureContent content;
+    content.look_inside = true;
+    for (const PointSource& dart : disks.darts) content.dots.push_back(domain.position(dart));
+    write_picture(command.picture, domain, content);
+  }
   progress.clear();
 
   Json json;
@@ -134,6 +141,7 @@ void add_poisson_command(CLI::App& tool, Action& action) {
       "Examples:\n"
       "  plexway poisson knot.ply --radius 0.1 --out darts.ply\n"
       "  plexway poisson knot.ply --count 1000 --seed 7 --out darts.csv --json\n"
+      "  plexway poisson knot.ply --count 1000 --picture darts.png --view top\n"
       "  plexway poisson elbow.mesh --radius 0.2 --out darts.obj");
   app.callback([command, &action] { action = [command] { run_poisson(*command); }; });
 }

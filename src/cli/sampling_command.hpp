@@ -12,6 +12,7 @@
 #include "domain.hpp"
 #include "fill_options.hpp"
 #include "make_complex.hpp"
+#include "picture_options.hpp"
 #include "report.hpp"
 #include "solve_options.hpp"
 
@@ -27,6 +28,7 @@ struct SamplingCommand {
   std::string precision = "float";
   FillOptions fill;
   CloudArguments cloud;
+  PictureArguments picture;
   bool json = false, quiet = false;
 };
 

@@ -3,6 +3,16 @@
 include("${ROOT}/cmake/ShaderText.cmake")
 file(MAKE_DIRECTORY "${OUT}")
 
+# Those of pictures as they are.
+file(GLOB pictures "${ROOT}/shaders/*.vert" "${ROOT}/shaders/*.frag")
+foreach(shader IN LISTS pictures)
+  execute_process(COMMAND "${GLSLANG}" "${shader}" RESULT_VARIABLE failed OUTPUT_VARIABLE log
+                  ERROR_VARIABLE log)
+  if(failed)
+    message(FATAL_ERROR "${shader}: not legal GLSL\n${log}")
+  endif()
+endforeach()
+
 # One shader with some lines of #define after its #version.
 function(check_shader name text defines what)
   string(FIND "${text}" "\n" at)

@@ -1,0 +1,58 @@
+#!/bin/sh
+# Makes the pictures of docs/gallery.md anew, and the page itself.
+#
+#   docs/gallery.sh [BIN] [NAME...]
+#
+# BIN: where the programs are, build/bin if not given. NAME: only these pictures; the page is whole
+# in any case. A picture is one line of the table below: name | title | what to see | command. The
+# command writes NAME.png; `plexway` and `example_*` are looked for in BIN.
+set -eu
+cd "$(dirname "$0")/.."
+bin=${1:-build/bin}
+[ $# -eq 0 ] || shift
+wanted=" $* "
+
+table() {
+  cat <<'TABLE'
+surface | A surface | Distances from the red point along a knotted tube. What is near in space is far on the surface. Lines of equal distance are at round numbers, and so are the marks of the bar. | plexway distance data/knot.ply --source vertex:0 --view 200,35 --small --picture surface.png
+path | Shortest paths | Over hills, from the red point to two others; colours are distances, and paths cross their lines at right angles. | plexway path data/hills.off --from vertex:0 --to vertex:900 --to vertex:1250 --view -35,38 --small --picture path.png
+sources | Several sources | Which source is nearest, on a Moebius strip. Borders run inside the triangles, where both sources are equally far. | plexway distance data/moebius.obj --source vertex:0 --source vertex:300 --source vertex:450 --colour cells --view 20,45 --small --picture sources.png
+solid | A solid, cut open | The same knot filled with tetrahedra: distances through its inside, on the exact section of the tetrahedra. | plexway distance data/knot.ply --as solid --max-volume 0.001 --source vertex:0 --clip z --view 20,50 --small --picture solid.png
+isosurfaces | Surfaces of equal distance | In the same solid, at seven distances; of the solid a veil is left. | plexway distance data/knot.ply --as solid --max-volume 0.001 --source vertex:0 --isosurfaces 1,2.5,4,5.5,7,8.5,10 --view 20,50 --small --picture isosurfaces.png
+inside | A path through a solid | It touches the walls from inside, wherever they are in its way. | plexway path data/knot.ply --as solid --from vertex:0 --to vertex:2600 --view 200,35 --size 640x480 --small --picture inside.png
+cloud | A cloud of points | Points of a rolled-up sheet of paper, as discs; no mesh is given. Distances follow the paper, not the gap. | plexway distance data/roll.xyz --source point:0.5,0,0 --view 200,45 --size 640x480 --small --picture cloud.png
+wireframe | A wireframe | A tree of vessels, lines only. | plexway distance data/vessels.obj --source vertex:0 --map magma --range 0,4.4 --view 20,15 --small --picture wireframe.png
+mixed | Several kinds in one domain | Vessels are twenty times as fast as the tissue around them: a wireframe welded to a solid, cut open. The picture is the library's (`examples/organ.cpp`). | example_organ mixed.png
+poisson | Poisson disks | 700 points, none too near to another along the surface, and none missing. | plexway poisson data/torus.obj --count 700 --size 640x480 --small --picture poisson.png
+cvt | Centroidal Voronoi cells | 120 seeds, each in the middle of its cell. | plexway cvt data/knot.ply --count 120 --view 200,35 --size 640x480 --small --picture cvt.png
+farthest | Farthest points | 30 landmarks; how far is the nearest? | plexway farthest data/torus.obj --count 30 --map cividis --isolines 6 --view 20,40 --size 640x480 --small --picture farthest.png
+flat | Exact where it is known | A flat L: paths bend at its inner corner, and lines of equal distance are arcs around it. Flat things are seen from above. | plexway distance data/ell.obj --source point:1.9,0.1,0 --orthographic --isolines 24 --title length --small --picture flat.png
+unreached | What no path leads to | Two spheres, one source: the other one is grey. | plexway distance data/two_parts.obj --source vertex:0 --small --picture unreached.png
+TABLE
+}
+
+page=docs/gallery.md
+mkdir -p docs/gallery
+{
+  echo "# Gallery"
+  echo
+  echo "One command each. \`--picture\` draws without a display, by EGL; [CLI.md](CLI.md#pictures) lists"
+  echo "what goes with it. \`docs/gallery.sh\` makes this page and its pictures."
+} > "$page"
+table | while IFS='|' read -r name title text command; do
+  name=$(echo "$name" | tr -d ' ')
+  title=$(echo "$title" | sed 's/^ *//; s/ *$//')
+  text=$(echo "$text" | sed 's/^ *//; s/ *$//')
+  command=$(echo "$command" | sed 's/^ *//; s/ *$//')
+  if [ "$wanted" = "  " ] || [ "${wanted#* "$name" }" != "$wanted" ]; then
+    echo "$name" >&2
+    case $command in
+      plexway*) quiet=--quiet ;;
+      *) quiet= ;;
+    esac
+    # shellcheck disable=SC2086
+    "$bin"/$(echo "$command" | sed "s| $name\.png| docs/gallery/$name.png|") $quiet > /dev/null < /dev/null
+  fi
+  printf '\n## %s\n\n%s\n\n    %s\n\n![%s](gallery/%s.png)\n' \
+    "$title" "$text" "$command" "$title" "$name" >> "$page"
+done

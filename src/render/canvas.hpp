@@ -1,0 +1,39 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include <plexway/render/scene.hpp>
+
+#include "camera.hpp"
+#include "draw_list.hpp"
+
+namespace plexway::render {
+
+/// What the device draws with.
+struct Style {
+  Camera camera;
+  std::array<Colour, 256> map{};
+  double low = 0, high = 1;                         ///< values at the ends of the map
+  double first_line = 0, line_step = 1, lines = 0;  ///< isolines
+  double pen = 1;                                   ///< pixels: lines are wider on large pictures
+  bool transparent = false;
+  int device = -1;
+};
+
+/// Colours and depths as drawn, several pixels for one of the picture; rows from the bottom.
+struct Drawn {
+  std::size_t width = 0, height = 0, scale = 1;     ///< scale: pixels along a side of the picture's
+  std::vector<std::array<std::uint8_t, 4>> colour;  ///< alpha multiplied in
+  std::vector<float> depth;                         ///< of one sample a pixel, 1 where empty
+};
+
+/// Draws the batches, 4 samples a pixel drawn: overlays last. Throws NotBuiltError where EGL, a
+/// driver or what is needed of it is missing.
+Drawn draw(std::span<const Batch> batches, std::size_t width, std::size_t height,
+           const Style& style);
+
+}  // namespace plexway::render

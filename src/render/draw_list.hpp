@@ -1,0 +1,96 @@
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include <plexway/render/scene.hpp>
+
+#include "complex/point3.hpp"
+
+namespace plexway::render {
+
+inline Point plus(const Point& a, const Point& b) {
+  return {a[0] + b[0], a[1] + b[1], a[2] + b[2]};
+}
+inline Point times(double s, const Point& a) { return {s * a[0], s * a[1], s * a[2]}; }
+inline Point between(const Point& a, const Point& b, double t) {
+  return plus(times(1 - t, a), times(t, b));
+}
+/// Of any length, 0 included.
+inline Point unit_or_zero(const Point& a) {
+  const double square = dot(a, a);
+  return square > 0 ? unit(a) : Point{};
+}
+
+/// What colours a place: its fourth number says how.
+using Paint = std::array<std::uint8_t, 4>;
+/// By the value and the map, with isolines.
+inline constexpr Paint by_value = {0, 0, 0, 0};
+/// One colour, with isolines of the value.
+inline Paint lined(const Colour& c) { return {c[0], c[1], c[2], 128}; }
+inline Paint plain(const Colour& c) { return {c[0], c[1], c[2], 255}; }
+
+/// A corner of a triangle as the device gets it.
+struct Corner {
+  std::array<float, 3> position;
+  std::array<std::int16_t, 4> normal;
+  float value;
+  Paint paint;
+};
+
+/// The second and third cell that a triangle may belong to: the least of the three values wins.
+struct Others {
+  std::array<float, 2> value;
+  std::array<Paint, 2> paint;
+};
+
+/// A corner before it is cut and packed.
+struct Vertex {
+  Point position{}, normal{};
+  double value = 0;
+  Paint paint = by_value;
+  std::optional<Others> others;
+};
+
+enum class Look {
+  lit,      ///< shaded
+  cap,      ///< a cut through a solid: evenly bright, so that colours are those of the bar
+  overlay,  ///< shaded, outlined, and seen faintly through what is in front
+  ghost     ///< a veil, denser where it is seen edge-on
+};
+
+/// Triangles that look alike.
+struct Batch {
+  explicit Batch(Look l) : look(l) {}
+
+  Look look;
+  bool isolines = false;
+  std::array<float, 4> veil = {1, 1, 1, 0.3f};  ///< an overlay behind something: sRGB and opacity
+  std::vector<Corner> corners;
+  std::vector<Others> others;  ///< as many as corners, or none
+
+  void add(const Vertex& a, const Vertex& b, const Vertex& c);
+};
+
+/// Keeps normal . x <= offset.
+struct Plane {
+  Point normal;
+  double offset;
+
+  /// 0 for points of the plane, in spite of rounding.
+  [[nodiscard]] double over(const Point& p) const {
+    const double d = dot(normal, p) - offset;
+    return std::abs(d) < 1e-9 ? 0 : d;
+  }
+};
+
+Vertex between(const Vertex& a, const Vertex& b, double t);
+
+/// Adds what of the triangle is on this side of the plane.
+void add_clipped(Batch& batch, const std::optional<Plane>& plane, const Vertex& a, const Vertex& b,
+                 const Vertex& c);
+
+}  // namespace plexway::render

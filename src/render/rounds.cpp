@@ -1,0 +1,253 @@
+#include "rounds.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+namespace plexway::render {
+namespace {
+
+constexpr double turn = 6.28318530717958647692;
+
+Vertex moved(const Vertex& v, const Point& normal, double radius) {
+  Vertex out = v;
+  out.normal = normal;
+  out.position = plus(v.position, times(radius, normal));
+  return out;
+}
+
+void add_quad(Batch& batch, const Vertex& a, const Vertex& b, const Vertex& c, const Vertex& d) {
+  batch.add(a, b, c);
+  batch.add(a, c, d);
+}
+
+// Unit vectors across a line, the same for each of its points.
+struct Ring {
+  Point x, y;
+
+  [[nodiscard]] Point at(std::size_t k, std::size_t sides) const {
+    const double angle = turn * static_cast<double>(k % sides) / static_cast<double>(sides);
+    return plus(times(std::cos(angle), x), times(std::sin(angle), y));
+  }
+};
+
+void add_pipe(Batch& batch, const Vertex& from, const Ring& first, const Vertex& to,
+              const Ring& last, double radius, std::size_t sides) {
+  for (std::size_t k = 0; k < sides; ++k)
+    add_quad(batch, moved(from, first.at(k, sides), radius),
+             moved(from, first.at(k + 1, sides), radius), moved(to, last.at(k + 1, sides), radius),
+             moved(to, last.at(k, sides), radius));
+}
+
+// The paint of vertex v of a part without cells, and whether all is reached.
+Vertex vertex_of(const Part& part, const Cells* cells, std::uint32_t v, const Making& making) {
+  Vertex vertex;
+  vertex.position = making.frame(part.positions[v]);
+  if (!part.value.empty()) vertex.value = part.value[v];
+  const bool reached = std::isfinite(vertex.value);
+  if (!reached) vertex.value = 0;
+  if (!reached || (cells != nullptr && part.label[v] < 0))
+    vertex.paint = plain(unreached);
+  else if (cells != nullptr)
+    vertex.paint = plain(cells->colour(part.label[v]));
+  else if (part.value.empty())
+    vertex.paint = plain(part.colour.value_or(Colour{120, 130, 145}));
+  return vertex;
+}
+
+// How far each point's fourth nearest is, at most twice and at least half of what is usual.
+std::vector<double> spacings(std::span<const Point> points) {
+  Point low = points[0], high = points[0];
+  for (const Point& p : points)
+    for (std::size_t k = 0; k < 3; ++k) {
+      low[k] = std::min(low[k], p[k]);
+      high[k] = std::max(high[k], p[k]);
+    }
+  const Point size = minus(high, low);
+  const double widest = std::max({size[0], size[1], size[2]});
+  if (!(widest > 0)) return std::vector<double>(points.size(), 0.1);
+  // Some four points in each cell that a surface passes.
+  const double cell = widest / std::max(1.0, std::sqrt(static_cast<double>(points.size()) / 6));
+  std::array<std::size_t, 3> cells{};
+  for (std::size_t k = 0; k < 3; ++k) cells[k] = static_cast<std::size_t>(size[k] / cell) + 1;
+  const auto cell_of = [&](const Point& p, std::size_t k) {
+    return std::min(static_cast<std::size_t>((p[k] - low[k]) / cell), cells[k] - 1);
+  };
+  const auto key = [&](std::size_t x, std::size_t y, std::size_t z) {
+    return (z * cells[1] + y) * cells[0] + x;
+  };
+  std::vector<std::pair<std::size_t, std::uint32_t>> sorted;
+  for (std::size_t i = 0; i < points.size(); ++i)
+    sorted.emplace_back(key(cell_of(points[i], 0), cell_of(points[i], 1), cell_of(points[i], 2)),
+                        static_cast<std::uint32_t>(i));
+  std::sort(sorted.begin(), sorted.end());
+  std::vector<double> found;
+  for (const Point& p : points) {
+    std::array<double, 4> nearest{};
+    nearest.fill(cell * cell);
+    const auto around = [&](std::size_t k) {
+      const std::size_t c = cell_of(p, k);
+      return std::pair{c > 0 ? c - 1 : 0, std::min(c + 2, cells[k])};
+    };
+    const auto [x0, x1] = around(0);
+    const auto [y0, y1] = around(1);
+    const auto [z0, z1] = around(2);
+    for (std::size_t z = z0; z < z1; ++z)
+      for (std::size_t y = y0; y < y1; ++y)
+        for (auto at = std::lower_bound(sorted.begin(), sorted.end(),
+                                        std::pair{key(x0, y, z), std::uint32_t{0}});
+             at != sorted.end() && at->first < key(x1 - 1, y, z) + 1; ++at) {
+          const Point d = minus(points[at->second], p);
+          const double square = dot(d, d);
+          if (!(square > 0) || square >= nearest[3]) continue;
+          nearest[3] = square;
+          std::sort(nearest.begin(), nearest.end());
+        }
+    found.push_back(std::sqrt(nearest[3]));
+  }
+  std::vector<double> copy = found;
+  const auto middle = copy.begin() + static_cast<std::ptrdiff_t>(copy.size() / 2);
+  std::nth_element(copy.begin(), middle, copy.end());
+  for (double& f : found) f = std::clamp(f, *middle / 2, *middle * 2);
+  return found;
+}
+
+}  // namespace
+
+void add_ball(Batch& batch, const Vertex& centre, double radius, std::size_t rings) {
+  const std::size_t sides = 2 * rings;
+  const auto normal = [&](std::size_t ring, std::size_t side) -> Point {
+    const double polar = turn / 2 * static_cast<double>(ring) / static_cast<double>(rings);
+    const double around = turn * static_cast<double>(side % sides) / static_cast<double>(sides);
+    return {std::sin(polar) * std::cos(around), std::sin(polar) * std::sin(around),
+            std::cos(polar)};
+  };
+  for (std::size_t r = 0; r < rings; ++r)
+    for (std::size_t s = 0; s < sides; ++s) {
+      const Vertex a = moved(centre, normal(r, s), radius);
+      const Vertex b = moved(centre, normal(r + 1, s), radius);
+      const Vertex c = moved(centre, normal(r + 1, s + 1), radius);
+      const Vertex d = moved(centre, normal(r, s + 1), radius);
+      if (r + 1 < rings) batch.add(a, b, c);
+      if (r > 0) batch.add(a, c, d);
+    }
+}
+
+void add_tube(Batch& batch, std::span<const Vertex> points, double radius, std::size_t sides) {
+  std::vector<Vertex> line;
+  for (const Vertex& v : points) {
+    const bool same =
+        !line.empty() && std::sqrt(dot(minus(v.position, line.back().position),
+                                       minus(v.position, line.back().position))) < 1e-3 * radius;
+    if (!same) line.push_back(v);
+  }
+  if (line.empty()) return;
+  const std::size_t rings = std::max<std::size_t>(sides / 2, 3);
+  add_ball(batch, line.front(), radius, rings);
+  if (line.size() == 1) return;
+  add_ball(batch, line.back(), radius, rings);
+  const auto direction = [&](std::size_t k) {
+    return unit(minus(line[k + 1].position, line[k].position));
+  };
+  // The ring is carried along: turned as little as possible at each point.
+  Point along = direction(0);
+  Ring ring{some_perpendicular(along), {}};
+  ring.y = cross(along, ring.x);
+  const auto carry = [&](const Point& to) {
+    ring.x = unit(minus(ring.x, times(dot(ring.x, to), to)));
+    ring.y = cross(to, ring.x);
+    along = to;
+  };
+  for (std::size_t k = 0; k + 1 < line.size(); ++k) {
+    const Ring first = ring;
+    if (k + 2 == line.size()) {
+      add_pipe(batch, line[k], first, line[k + 1], ring, radius, sides);
+      break;
+    }
+    const Point next = direction(k + 1), before = direction(k);
+    if (dot(before, next) > 0.9) {  // a mitre
+      carry(unit(plus(before, next)));
+      add_pipe(batch, line[k], first, line[k + 1], ring, radius, sides);
+      continue;
+    }
+    carry(before);
+    add_pipe(batch, line[k], first, line[k + 1], ring, radius, sides);
+    add_ball(batch, line[k + 1], radius, rings);
+    ring.x = std::abs(dot(ring.x, next)) < 0.99 ? ring.x : some_perpendicular(next);
+    carry(next);
+  }
+}
+
+void add_wires(Batch& batch, const Part& part, const Making& making) {
+  std::optional<Cells> cells;
+  if (!part.label.empty()) cells.emplace(part);
+  const Cells* const cells_at = cells ? &*cells : nullptr;
+  std::vector<double> lengths;
+  for (const auto& e : part.edges) {
+    const Point d = minus(part.positions[e[0]], part.positions[e[1]]);
+    lengths.push_back(making.frame.scale * std::sqrt(dot(d, d)));
+  }
+  const auto middle = lengths.begin() + static_cast<std::ptrdiff_t>(lengths.size() / 2);
+  std::nth_element(lengths.begin(), middle, lengths.end());
+  const double radius =
+      std::clamp(0.22 * *middle, 0.9 * making.pixel, std::max(2.6 * making.pixel, 0.008));
+  const std::size_t sides = part.edges.size() < 20000 ? 12 : part.edges.size() < 100000 ? 6 : 4;
+  std::vector<bool> joined(part.positions.size(), false);
+  for (const auto& e : part.edges) {
+    const Vertex from = vertex_of(part, cells_at, e[0], making);
+    Vertex to = vertex_of(part, cells_at, e[1], making);
+    if (making.clip && (making.clip->over(from.position) > 0 || making.clip->over(to.position) > 0))
+      continue;
+    Vertex middle_of = between(from, to, 0.5), other = middle_of;
+    other.paint = to.paint;
+    const Point d = minus(to.position, from.position);
+    if (dot(d, d) > 0) {
+      const Point along = unit(d);
+      Ring ring{some_perpendicular(along), {}};
+      ring.y = cross(along, ring.x);
+      if (from.paint == to.paint)
+        add_pipe(batch, from, ring, to, ring, radius, sides);
+      else  // half in the colour of each end; a value that is not known does not colour the other
+        middle_of.value = from.value, other.value = to.value,
+        add_pipe(batch, from, ring, middle_of, ring, radius, sides),
+        add_pipe(batch, other, ring, to, ring, radius, sides);
+    }
+    for (std::size_t k = 0; k < 2; ++k) {
+      if (joined[e[k]]) continue;
+      joined[e[k]] = true;
+      add_ball(batch, k == 0 ? from : to, radius, sides / 2);
+    }
+  }
+}
+
+void add_discs(Batch& batch, const Part& part, const Making& making) {
+  std::optional<Cells> cells;
+  if (!part.label.empty()) cells.emplace(part);
+  const std::vector<double> spacing = spacings(part.positions);
+  const bool flat = !part.normals.empty();
+  const std::size_t sides = part.positions.size() < 50000 ? 14 : 8;
+  for (std::size_t i = 0; i < part.positions.size(); ++i) {
+    Vertex centre =
+        vertex_of(part, cells ? &*cells : nullptr, static_cast<std::uint32_t>(i), making);
+    if (making.clip && making.clip->over(centre.position) > 0) continue;
+    const double radius =
+        std::max((flat ? 0.68 : 0.58) * making.frame.scale * spacing[i], 1.2 * making.pixel);
+    Point facing = flat ? unit_or_zero(part.normals[i]) : making.toward;
+    const bool bulges = !flat || !(dot(facing, facing) > 0);
+    if (bulges) facing = making.toward;
+    Ring ring{some_perpendicular(facing), {}};
+    ring.y = cross(facing, ring.x);
+    centre.normal = facing;
+    const auto rim = [&](std::size_t k) {
+      Vertex v = moved(centre, ring.at(k, sides), radius);
+      // A little round, so that single discs can be told apart.
+      v.normal = unit(plus(v.normal, times(bulges ? 0.55 : 3.5, facing)));
+      if (bulges) v.position = minus(v.position, times(0.5 * radius, facing));
+      return v;
+    };
+    for (std::size_t k = 0; k < sides; ++k) batch.add(centre, rim(k), rim(k + 1));
+  }
+}
+
+}  // namespace plexway::render

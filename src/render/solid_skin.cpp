@@ -1,0 +1,179 @@
+#include <algorithm>
+#include <cmath>
+
+#include "skins.hpp"
+
+namespace plexway::render {
+namespace {
+
+constexpr std::array<std::array<std::size_t, 3>, 4> facets = {
+    {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}}};  // outward for positive volume
+
+struct Facet {
+  std::array<std::uint32_t, 3> sorted, wound;
+};
+
+/// A plane through a tetrahedron: on which edges its corners are, in cyclic order.
+struct Cut {
+  struct At {
+    std::size_t a, b;
+    double t;
+  };
+  std::array<At, 4> at{};
+  std::size_t count = 0;
+};
+
+// `over` is linear in the tetrahedron; the cut is where it is 0. Corners with 0 are below.
+Cut cut(const std::array<double, 4>& over) {
+  std::array<std::size_t, 4> above{}, below{};
+  std::size_t many_above = 0, many_below = 0;
+  for (std::size_t k = 0; k < 4; ++k) (over[k] > 0 ? above[many_above++] : below[many_below++]) = k;
+  Cut result;
+  const auto add = [&](std::size_t a, std::size_t b) {
+    result.at[result.count++] = {a, b, over[a] / (over[a] - over[b])};
+  };
+  if (many_above == 1)
+    for (std::size_t k = 0; k < 3; ++k) add(above[0], below[k]);
+  else if (many_above == 3)
+    for (std::size_t k = 0; k < 3; ++k) add(below[0], above[k]);
+  else if (many_above == 2)
+    add(above[0], below[0]), add(above[0], below[1]), add(above[1], below[1]),
+        add(above[1], below[0]);
+  return result;
+}
+
+// The cut where the side above is taken away. A facet in the plane is one if the tetrahedron is
+// below it.
+Cut cap_of(const std::array<double, 4>& over) {
+  const auto below = std::count_if(over.begin(), over.end(), [](double d) { return d < 0; });
+  const auto above = std::count_if(over.begin(), over.end(), [](double d) { return d > 0; });
+  if (below > 0 && above > 0) return cut(over);
+  Cut facet;
+  if (below == 1 && above == 0)
+    for (std::size_t k = 0; k < 4; ++k)
+      if (over[k] == 0) facet.at[facet.count++] = {k, k, 0};
+  return facet;
+}
+
+void add_polygon(Batch& batch, const Cut& where, const std::array<Vertex, 4>& corners,
+                 const std::optional<Plane>& clip) {
+  std::array<Vertex, 4> ends;
+  for (std::size_t k = 0; k < where.count; ++k)
+    ends[k] = between(corners[where.at[k].a], corners[where.at[k].b], where.at[k].t);
+  // Wound so that the front is where the normals point.
+  const Point n =
+      cross(minus(ends[1].position, ends[0].position), minus(ends[2].position, ends[0].position));
+  const bool turned = dot(n, ends[0].normal) < 0;
+  for (std::size_t k = 2; k < where.count; ++k)
+    add_clipped(batch, clip, ends[0], ends[turned ? k : k - 1], ends[turned ? k - 1 : k]);
+}
+
+// The gradient at each vertex: the mean over its tetrahedra by volume.
+std::vector<Point> gradients(const Part& part) {
+  std::vector<Point> sum(part.positions.size(), Point{});
+  for (const auto& t : part.tets) {
+    const Point& p = part.positions[t[0]];
+    const Point a = minus(part.positions[t[1]], p), b = minus(part.positions[t[2]], p),
+                c = minus(part.positions[t[3]], p);
+    const double six_volumes = dot(a, cross(b, c));
+    const double da = part.value[t[1]] - part.value[t[0]], db = part.value[t[2]] - part.value[t[0]],
+                 dc = part.value[t[3]] - part.value[t[0]];
+    const Point g = plus(plus(times(da, cross(b, c)), times(db, cross(c, a))),
+                         times(dc, cross(a, b)));  // times six volumes
+    if (!std::isfinite(dot(g, g))) continue;
+    for (const std::uint32_t v : t) sum[v] = plus(sum[v], times(six_volumes < 0 ? -1 : 1, g));
+  }
+  for (Point& g : sum) g = unit_or_zero(g);
+  return sum;
+}
+
+}  // namespace
+
+std::vector<std::array<std::uint32_t, 3>> boundary(
+    std::span<const Point> positions, std::span<const std::array<std::uint32_t, 4>> tets,
+    const Making& making) {
+  const auto in_plane = [&](const std::array<std::uint32_t, 3>& facet) {
+    return making.clip && std::all_of(facet.begin(), facet.end(), [&](std::uint32_t v) {
+             return making.clip->over(making.frame(positions[v])) == 0;
+           });
+  };
+  std::vector<Facet> all;
+  all.reserve(4 * tets.size());
+  for (const auto& t : tets) {
+    const Point& p = positions[t[0]];
+    const bool positive = dot(minus(positions[t[1]], p),
+                              cross(minus(positions[t[2]], p), minus(positions[t[3]], p))) > 0;
+    for (const auto& f : facets) {
+      Facet facet;
+      facet.wound = {t[f[0]], t[f[positive ? 1 : 2]], t[f[positive ? 2 : 1]]};
+      facet.sorted = facet.wound;
+      std::sort(facet.sorted.begin(), facet.sorted.end());
+      all.push_back(facet);
+    }
+  }
+  std::stable_sort(all.begin(), all.end(),
+                   [](const Facet& a, const Facet& b) { return a.sorted < b.sorted; });
+  std::vector<std::array<std::uint32_t, 3>> outer;
+  for (std::size_t k = 0; k < all.size();) {
+    std::size_t end = k + 1;
+    while (end < all.size() && all[end].sorted == all[k].sorted) ++end;
+    if (end == k + 1 && !in_plane(all[k].wound)) outer.push_back(all[k].wound);
+    k = end;
+  }
+  return outer;
+}
+
+void add_cap(Batch& batch, const Part& part, const Cells* cells, const Making& making) {
+  if (!making.clip) return;
+  const Paint bare = plain(part.colour.value_or(part_grey));
+  for (const auto& t : part.tets) {
+    std::array<Vertex, 4> v;
+    std::array<double, 4> over{};
+    for (std::size_t k = 0; k < 4; ++k) {
+      v[k].position = making.frame(part.positions[t[k]]);
+      over[k] = making.clip->over(v[k].position);
+    }
+    const Cut where = cap_of(over);
+    if (where.count == 0) continue;
+    bool reached = true;
+    for (std::size_t k = 0; k < 4; ++k) {
+      v[k].normal = making.clip->normal;
+      if (part.value.empty()) continue;
+      v[k].value = part.value[t[k]];
+      reached = reached && std::isfinite(v[k].value);
+    }
+    const bool in_cell = cells != nullptr && reached && cells->paint(t, v);
+    if (!in_cell)
+      for (Vertex& corner : v) {
+        corner.paint = part.value.empty() && cells == nullptr ? bare
+                       : reached && cells == nullptr          ? by_value
+                                                              : plain(unreached);
+        if (!reached) corner.value = 0;
+      }
+    add_polygon(batch, where, v, std::nullopt);
+  }
+}
+
+void add_isosurface(Batch& batch, const Part& part, double iso, const Making& making) {
+  const std::vector<Point> gradient = gradients(part);
+  for (const auto& t : part.tets) {
+    std::array<Vertex, 4> v;
+    std::array<double, 4> over{};
+    bool reached = true;
+    for (std::size_t k = 0; k < 4; ++k) {
+      over[k] = part.value[t[k]] - iso;
+      reached = reached && std::isfinite(over[k]);
+    }
+    if (!reached) continue;
+    const Cut where = cut(over);
+    if (where.count == 0) continue;
+    for (std::size_t k = 0; k < 4; ++k) {
+      v[k].position = making.frame(part.positions[t[k]]);
+      v[k].normal = gradient[t[k]];
+      v[k].value = part.value[t[k]];
+    }
+    add_polygon(batch, where, v, making.clip);
+  }
+}
+
+}  // namespace plexway::render

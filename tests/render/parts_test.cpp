@@ -1,0 +1,94 @@
+#include <set>
+
+#include <plexway/render/image.hpp>
+
+#include "io/io_testing.hpp"
+#include "render/drawing.hpp"
+#include "render/palette.hpp"
+#include "render/stroke_font.hpp"
+#include "render/ticks.hpp"
+
+using namespace render_testing;
+
+TEST_CASE("ticks are round, inside, and written as short as they can be") {
+  struct Example {
+    double low, high;
+    std::vector<std::string> label;
+  };
+  const std::vector<Example> examples = {
+      {0, 12.4, {"0", "2", "4", "6", "8", "10", "12"}},
+      {0, 0.92, {"0", "0.2", "0.4", "0.6", "0.8"}},
+      {-1, 1, {"-1.0", "-0.5", "0", "0.5", "1.0"}},
+      {3.21, 3.31, {"3.22", "3.24", "3.26", "3.28", "3.30"}},
+      {0, 3e6, {"0", "5e+05", "1.0e+06", "1.5e+06", "2.0e+06", "2.5e+06", "3.0e+06"}},
+      {0, 5e-6, {"0", "1e-06", "2e-06", "3e-06", "4e-06", "5e-06"}}};
+  for (const Example& e : examples) {
+    const Ticks t = ticks(e.low, e.high, 6);
+    CHECK(t.label == e.label);
+    REQUIRE(t.at.size() == t.label.size());
+    for (std::size_t k = 0; k < t.at.size(); ++k) {
+      CHECK(t.at[k] == Approx(std::stod(t.label[k])).margin(1e-12));
+      CHECK(t.at[k] >= e.low - 1e-9 * std::abs(e.high));
+      CHECK(t.at[k] <= e.high * (1 + 1e-9));
+    }
+    CHECK(std::abs(std::remainder(t.step, t.fine_step())) < 1e-9 * t.step);
+  }
+}
+
+TEST_CASE("every printable character has strokes of its own") {
+  std::set<std::vector<std::vector<std::array<double, 2>>>> seen;
+  for (char c = '!'; c <= '~'; ++c) {
+    const StrokeText text = stroke_text(std::string(1, c));
+    INFO("character " << c);
+    REQUIRE_FALSE(text.strokes.empty());
+    CHECK(text.width >= 0);
+    CHECK(text.width < 9);
+    CHECK(seen.insert(text.strokes).second);
+    for (const auto& stroke : text.strokes) {
+      REQUIRE_FALSE(stroke.empty());
+      for (const auto& p : stroke) CHECK((p[1] > -3 && p[1] < 10 && p[0] > -2 && p[0] < 9));
+    }
+  }
+  CHECK(stroke_text("10").width == stroke_text("11").width);
+  CHECK(stroke_text("\xc3\xa9").strokes.size() == 1);  // one frame for one character
+}
+
+TEST_CASE("a png comes back as it was, with and without alpha") {
+  const io_testing::Folder folder;
+  for (const int alpha : {255, 100}) {
+    Image image;
+    image.width = 7, image.height = 3;
+    for (std::size_t k = 0; k < 21; ++k)
+      image.pixels.push_back({std::uint8_t(k * 12), std::uint8_t(255 - k), std::uint8_t(k),
+                              std::uint8_t(k % 2 == 0 ? 255 : alpha)});
+    const auto file = folder.path() / "a.png";
+    write_png(file, image);
+    const Image back = read_png(file);
+    CHECK(back.width == 7);
+    CHECK(back.height == 3);
+    CHECK(back.pixels == image.pixels);
+    write_png(file, image, 21);
+    CHECK(read_png(file).pixels == image.pixels);
+    write_png(file, image, 2);
+    const Image two = read_png(file);
+    CHECK(std::set(two.pixels.begin(), two.pixels.end()).size() == 2);
+  }
+  CHECK_THROWS_AS(write_png(folder.path() / "b.png", Image{}), plexway::UsageError);
+  CHECK_THROWS_AS(read_png(folder.write("c.png", "no picture")), plexway::InputError);
+}
+
+TEST_CASE("few colours are near those that they stand for") {
+  Image image;
+  image.width = 256, image.height = 64;
+  for (std::size_t y = 0; y < 64; ++y)
+    for (std::size_t x = 0; x < 256; ++x)
+      image.pixels.push_back({std::uint8_t(x), std::uint8_t(255 - x / 2), std::uint8_t(y), 255});
+  const Indexed indexed = with_few_colours(image, 256);
+  CHECK(indexed.palette.size() == 256);
+  REQUIRE(indexed.index.size() == image.pixels.size());
+  double squares = 0;
+  for (std::size_t k = 0; k < image.pixels.size(); ++k)
+    for (std::size_t c = 0; c < 3; ++c)
+      squares += std::pow(indexed.palette[indexed.index[k]][c] - image.pixels[k][c], 2);
+  CHECK(std::sqrt(squares / double(image.pixels.size())) < 5);
+}
