@@ -10,6 +10,7 @@
 #include <plexway/executors/serial_pairs.hpp>
 #include <plexway/executors/serial_solid.hpp>
 #include <plexway/executors/serial_wireframe.hpp>
+#include <plexway/executors/source_sets.hpp>
 
 namespace plexway::cli {
 namespace {
@@ -73,6 +74,11 @@ class ShapeSolver final : public Solver {
     std::visit([&](const auto& chosen) { solve_on(chosen, sources, options); }, executor);
   }
 
+  void solve_from(const Executor& executor, std::span<const Source> sources,
+                  const PropagateOptions& options) override {
+    std::visit([&](const auto& chosen) { solve_on(chosen, sources, options); }, executor);
+  }
+
   std::vector<double> distance() const override {
     return {field_.distance.begin(), field_.distance.end()};
   }
@@ -98,16 +104,16 @@ class ShapeSolver final : public Solver {
   }
 
  private:
-  template <class OnThisMachine>
-  void solve_on(const OnThisMachine& executor, std::span<const PointSource> sources,
+  template <class OnThisMachine, class Sources>
+  void solve_on(const OnThisMachine& executor, const Sources& sources,
                 const PropagateOptions& options) {
     if constexpr (kSerialOnly && !std::is_same_v<OnThisMachine, Serial>)
       throw UsageError("--form pairs is for --executor serial");
     else
       propagate(executor, complex_, sources, options, workspace_, field_);
   }
-  void solve_on([[maybe_unused]] const GL& executor,
-                [[maybe_unused]] std::span<const PointSource> sources,
+  template <class Sources>
+  void solve_on([[maybe_unused]] const GL& executor, [[maybe_unused]] const Sources& sources,
                 [[maybe_unused]] const PropagateOptions& options) {
 #ifdef PLEXWAY_HAS_GL
     if constexpr (!std::is_same_v<Real, float>)

@@ -61,7 +61,8 @@ struct Taker {
       parts.shapes.push_back(number);
       return;
     }
-    for (const PointSource& at : source.points) point(at, source.offset);
+    for (const PointSource& at : source.points)
+      if (!names_nothing(at)) point(at, source.offset);
   }
   void operator()(const SimplexSource& source) {
     check_number(source.offset, "offset");
@@ -83,11 +84,15 @@ void add_shapes(const TriangleMesh<double>& mesh, std::span<const Source> source
     if (const auto* curve = std::get_if<CurveSource>(&sources[n])) {
       for (std::size_t i = 0; i < curve->points.size(); ++i) {
         PointSource at = curve->points[i];
+        if (names_nothing(at)) continue;
         at.offset = 0;
         check_source(at, domain);
         const auto& b = at.barycentric;
         const bool corner = at.vertex != none || b[0] == 1 || b[1] == 1 || b[2] == 1;
-        if (corner || i == 0 || i + 1 == curve->points.size()) take.point(at, curve->offset);
+        const bool end = i == 0 || i + 1 == curve->points.size() ||
+                         names_nothing(curve->points[i - 1]) ||
+                         names_nothing(curve->points[i + 1]);
+        if (corner || end) take.point(at, curve->offset);
       }
     } else {
       const auto& face = std::get<SimplexSource>(sources[n]);

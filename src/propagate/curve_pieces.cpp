@@ -8,6 +8,7 @@
 #include <utility>
 
 #include <plexway/error.hpp>
+#include <plexway/source/source.hpp>
 
 namespace plexway {
 namespace {
@@ -141,9 +142,11 @@ template <class Real>
 std::vector<CurvePiece> cut_curve(const TriangleMesh<Real>& mesh,
                                   std::span<const PointSource> points) {
   std::vector<CurvePiece> pieces;
-  std::vector<Spot> here = spots_of(mesh, points[0]), there;
+  std::vector<Spot> here, there;
+  if (!names_nothing(points[0])) here = spots_of(mesh, points[0]);
   for (std::size_t n = 1; n < points.size(); ++n, here.swap(there)) {
-    there = spots_of(mesh, points[n]);
+    there = names_nothing(points[n]) ? std::vector<Spot>() : spots_of(mesh, points[n]);
+    if (here.empty() || there.empty()) continue;
     const Spot *from = nullptr, *to = nullptr;
     for (const Spot& a : here)
       for (const Spot& b : there) {
@@ -181,7 +184,10 @@ bool runs_straight(const TriangleMesh<Real>& mesh, const CurvePiece& piece, cons
     const auto angle = angle_between(mesh, piece, next, place, side);
     return angle && std::abs(*angle - std::numbers::pi) < straight;
   }
-  if (next.face == piece.face) return std::abs(next.direction() - piece.direction()) < straight;
+  const double near = 1e-8 * size_of(t);
+  if (next.face == piece.face)
+    return std::abs(next.from - piece.to) < near &&
+           std::abs(next.direction() - piece.direction()) < straight;
   if (place == 6) return false;
   const std::size_t edge = place - 3;
   const Index across = t.across[edge];
@@ -189,6 +195,8 @@ bool runs_straight(const TriangleMesh<Real>& mesh, const CurvePiece& piece, cons
   const std::size_t k = across & Across::edge_mask;
   const auto at = corners_of(t), beyond = corners_of(mesh.triangles()[next.face]);
   const Plane here = at[edge_after(edge)] - at[edge], there = beyond[k] - beyond[edge_after(k)];
+  if (std::abs(std::abs(piece.to - at[edge]) - std::abs(next.from - beyond[edge_after(k)])) > near)
+    return false;
   return std::abs(piece.direction() * std::conj(here) / std::abs(here) -
                   next.direction() * std::conj(there) / std::abs(there)) < straight;
 }

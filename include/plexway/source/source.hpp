@@ -29,8 +29,9 @@ struct BallSource {
 /// A segment or a polyline on a surface or a wireframe: from point to point, straight within
 /// simplices. Each point must lie in one simplex with the next; offsets of points do not count.
 struct CurveSource {
-  std::vector<PointSource> points;  ///< at least one
-  double offset = 0;                ///< >= 0
+  /// At least one. One that names nothing, PointSource{}, ends a line; the next begins another.
+  std::vector<PointSource> points;
+  double offset = 0;  ///< >= 0
 };
 
 /// All of one simplex: a triangle of a surface, an edge of a wireframe. Inside it the distance is
@@ -39,6 +40,11 @@ struct SimplexSource {
   Index simplex = none;
   double offset = 0;  ///< >= 0
 };
+
+/// Is it the end of a line of a curve?
+inline bool names_nothing(const PointSource& point) {
+  return point.vertex == none && point.simplex == none;
+}
 
 /// What a field may start from.
 ///
