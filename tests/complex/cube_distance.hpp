@@ -53,6 +53,7 @@ inline double search(const Side& side, const Plane& from, const std::array<doubl
                        1e-12;
     if (lit) best = std::hypot(q[0] - from[0], q[1] - from[1]);
   }
+  if (depth == 5) return best;  // that was the last side
   for (std::size_t j = 0; j < 3; ++j) {
     if (j == side.axis) continue;
     const std::size_t m = 3 - j - side.axis;
