@@ -166,6 +166,27 @@ std::vector<std::array<double, 3>> PathField<Domain<Real>>::gradient() const {
 }
 
 template <template <class> class Domain, class Real>
+std::vector<Index> PathField<Domain<Real>>::simplex_labels() const {
+  if (!solved_) throw UsageError("there is nothing to read before a solve");
+  if (!labels_) throw UsageError("the executor left no labels: use Serial or OpenMP");
+  std::vector<Index> labels;
+  const auto take = [&](Index inside) {
+    const bool many = sources_.size() > 1;
+    labels.push_back(!workspace_.marks.reached(inside) ? none
+                     : many                            ? workspace_.source[inside]
+                                                       : 0);
+  };
+  if constexpr (std::is_same_v<Domain<Real>, TriangleMesh<Real>>) {
+    for (Index f = 0; f < domain_->face_count(); ++f) take(domain_->inside_face(f).first);
+  } else if constexpr (std::is_same_v<Domain<Real>, TetMesh<Real>>) {
+    for (Index t = 0; t < domain_->tet_count(); ++t) take(domain_->inside_tet(t).first);
+  } else {
+    throw UsageError("along wireframes vertices have labels, and edges none");
+  }
+  return labels;
+}
+
+template <template <class> class Domain, class Real>
 std::size_t PathField<Domain<Real>>::bytes() const {
   return (outer_.capacity() + outer_simplices_.capacity()) * sizeof(Index) + workspace_.bytes() +
          field_.distance.capacity() * sizeof(Real) + field_.label.capacity() * sizeof(Index) +

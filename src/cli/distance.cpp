@@ -15,6 +15,7 @@
 #include "distance_output.hpp"
 #include "domain.hpp"
 #include "exit_codes.hpp"
+#include "isoline_options.hpp"
 #include "progress.hpp"
 #include "report.hpp"
 #include "solve_options.hpp"
@@ -29,6 +30,7 @@ struct DistanceCommand {
   std::string as;
   std::vector<std::string> sources;
   std::string out;
+  IsolineOptions isolines;
   FillOptions fill;
   CloudArguments cloud;
   SolveOptions solve;
@@ -182,12 +184,14 @@ void run_distance(DistanceCommand command) {
   Precision precision = precision_of(command.solve);
   const std::vector<SetArgument> arguments = parse_source_sets(command.sources);
   if (command.out != "-") check_output_name(command.out, command.input, cloud_field_extensions());
+  check_isolines(command.isolines, command.input);
 
   ProgressLine progress(command.quiet);
   const Domain domain =
       Domain::load(command.input, command.as, command.fill, command.cloud, progress);
   if (domain.cloud() == nullptr && command.out != "-")
     check_output_name(command.out, command.input, io::field_extensions());
+  check_isolines(command.isolines, domain);
   const std::vector<Source> sources = locate_source_sets(domain, arguments);
   const std::vector<PointSource> points = as_points(sources);
   if (needs_double(domain, sources)) {
@@ -234,6 +238,10 @@ void run_distance(DistanceCommand command) {
       domain.write_field(command.out, distance, label);
     }
   }
+  if (!command.isolines.out.empty()) {
+    progress.phase("writing " + command.isolines.out);
+    write_isolines(command.isolines, domain, distance);
+  }
   progress.clear();
 
   std::string report;
@@ -275,6 +283,7 @@ void add_distance_command(CLI::App& tool, Action& action) {
   app.add_option("--as", command->as, as_help)->type_name("KIND");
   app.add_flag("--json", command->json, "print the summary as one JSON object");
   app.add_flag("--quiet,-q", command->quiet, "no summary, notes or progress; errors stay");
+  add_isoline_options(app, command->isolines);
   add_solve_options(app, command->solve, true);
   add_fill_options(app, command->fill);
   add_cloud_options(app, command->cloud);
@@ -285,6 +294,7 @@ void add_distance_command(CLI::App& tool, Action& action) {
       "  plexway distance knot.ply --source vertex:0 --source vertex:99 --out nearest.csv\n"
       "  plexway distance hills.off --source boundary --source vertex:900+0.5 -o rim.vtu\n"
       "  plexway distance knot.ply --source segment:1,0,0,0,1,0 --source circle:0,0,1,0.2\n"
+      "  plexway distance knot.ply --source vertex:0 --isolines 0.1 --isolines-out lines.obj\n"
       "  plexway distance organ.off --as solid --max-volume 1e-3 --source point:0,0,0 -o d.vtu\n"
       "  plexway distance vessels.obj --source vertex:0 --out distance.vtk\n"
       "  plexway distance scan.pcd --voxel 0.01 --denoise --source point:0,0,0 --out d.ply\n"

@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
-#include <cstdio>
 #include <map>
 #include <random>
 #include <vector>
@@ -64,8 +63,6 @@ TEST_CASE("between the vertices of a cube, level by level") {
       }
     }
   }
-  std::printf("linear %.3g simplex %.3g neighbours %.3g star %.3g\n", mean[0], mean[1], mean[2],
-              mean[3]);
   CHECK(mean[2] <= mean[0] / 3);
   CHECK(mean[3] <= mean[2]);
   CHECK(mean[2] <= mean[1]);
@@ -95,7 +92,6 @@ TEST_CASE("across the edges of a cube") {
         jump[static_cast<int>(level)] += std::abs(field.at(here, level) - field.at(there, level));
     }
   for (double& j : jump) j /= static_cast<double>(edges);
-  std::printf("jumps: %.3g %.3g %.3g %.3g\n", jump[0], jump[1], jump[2], jump[3]);
   CHECK(jump[0] < 1e-12);
   CHECK(jump[2] <= jump[1]);
   CHECK(jump[2] < 1e-4);

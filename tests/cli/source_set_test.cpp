@@ -3,6 +3,8 @@
 #include <cmath>
 #include <functional>
 
+#include <plexway/io/edges.hpp>
+
 #include "cli/tool.hpp"
 #include "io/io_testing.hpp"
 
@@ -99,4 +101,26 @@ TEST_CASE("sources that are none or not there are told by name") {
     CHECK(run.err.find(why) != std::string::npos);
     CHECK(run.complaints() == 1);
   }
+}
+
+TEST_CASE("isolines of a field go into files") {
+  const Folder folder;
+  const std::string square = folder.write("square.off", square_off(11)).string();
+  const std::string out = (folder.path() / "lines.obj").string();
+  const auto run = run_tool({"distance", square, "--source", "segment:0,0,0,0,1,0", "--isolines",
+                             "0.3", "--isolines-out", out, "--quiet"});
+  INFO(run.err);
+  REQUIRE(run.code == 0);
+  const auto lines = plexway::io::read_edges(out);
+  double length = 0;
+  for (const auto& [a, b] : lines.edges)
+    length += std::hypot(lines.positions[a][0] - lines.positions[b][0],
+                         lines.positions[a][1] - lines.positions[b][1]);
+  CHECK(length == Approx(3).epsilon(1e-6));  // at 0.3, 0.6 and 0.9, each 1 long
+  CHECK(run_tool({"distance", square, "-s", "vertex:0", "--isolines", "1"}).code == 2);
+  CHECK(run_tool({"distance", square, "-s", "vertex:0", "--isolines", "-1", "--isolines-out", out})
+            .code == 2);
+  CHECK(run_tool({"distance", sample("elbow.mesh"), "-s", "vertex:0", "--isolines", "1",
+                  "--isolines-out", out})
+            .code == 2);
 }

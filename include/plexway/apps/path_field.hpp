@@ -103,6 +103,11 @@ class PathField<Domain<Real>> {
   /// positions.
   [[nodiscard]] std::vector<std::array<double, 3>> gradient() const;
 
+  /// The source that the label of each simplex leads to, caller's order: the nearest to its centre,
+  /// by its place in the list; none where no path leads. Surfaces and solids; throws as `at`, but
+  /// any policy will do.
+  [[nodiscard]] std::vector<Index> simplex_labels() const;
+
   /// Bytes held, without those of the domain and the positions.
   [[nodiscard]] std::size_t bytes() const;
 
