@@ -12,6 +12,7 @@
 
 #include <plexway/complex/normals.hpp>
 #include <plexway/complex/smoothing.hpp>
+#include <plexway/executors/serial_cloud.hpp>
 #include <plexway/executors/serial_pairs.hpp>
 #include <plexway/executors/serial_wireframe.hpp>
 
@@ -23,10 +24,6 @@
 #endif
 #ifdef PLEXWAY_HAS_BOOST_GRAPH
 #include <plexway/boost_graph/dijkstra.hpp>
-#endif
-#if __has_include(<plexway/executors/serial_cloud.hpp>)
-#include <plexway/executors/serial_cloud.hpp>
-#define CLOUD_UMBRELLAS 1
 #endif
 
 namespace {
@@ -96,9 +93,7 @@ void solve_and_compare(const Complex& complex, const Cloud& cloud,
       if (i < j) edges.push_back({i, j});
   const plexway::Wireframe<float> graph(cloud.points, edges);
   plexway::boost_graph::EdgeDijkstra<float> dijkstra{plexway::boost_graph::EdgeGraph(graph)};
-  std::vector<Index> sources;
-  for (std::size_t i = 0; i < effort.sources; ++i)
-    sources.push_back(static_cast<Index>(i * (cloud.points.size() / effort.sources)));
+  const auto sources = bench::spread_numbers(effort.sources, cloud.points.size());
   const bench::Times times = bench::take_turns(
       sources, effort, [&](Index i) { dijkstra.run(i); }, solve);
   row["ns_per_point"] = 1e9 * times.second / n;
@@ -135,7 +130,6 @@ nlohmann::ordered_json measure(const Cloud& cloud, const Form& form, std::size_t
   row["noise"] = pairs->summary().noise;
   // Neighbours' mean distance is about 1.5 times the side of a point's square.
   const double spacing = pairs->unit() / 1.5;
-#ifdef CLOUD_UMBRELLAS
   if (form.umbrellas) {
     Positions points = cloud.points;
     std::unique_ptr<plexway::PointCloud<float>> umbrellas;
@@ -153,7 +147,6 @@ nlohmann::ordered_json measure(const Cloud& cloud, const Form& form, std::size_t
     solve_and_compare(*umbrellas, cloud, neighbours, spacing, effort, row);
     return row;
   }
-#endif
   solve_and_compare(*pairs, cloud, neighbours, spacing, effort, row);
   return row;
 }
@@ -231,25 +224,25 @@ int main(int argc, char** argv) {
                       {"bytes_per_point", "bytes/P", "%.0f"},
                       {"note", "note"}});
 #if defined(PLEXWAY_HAS_FLANN) && defined(PLEXWAY_HAS_BOOST_GRAPH)
-  std::vector<Form> forms = {{"pairs, as they are", false, false}, {"pairs", true, false}};
-#ifdef CLOUD_UMBRELLAS
-  forms.push_back({"umbrellas, as they are", false, true});
-  forms.push_back({"umbrellas, smoothed", true, true});
-#endif
-  for (const Cloud& cloud : clouds) {
-    std::cerr << cloud.name << std::endl;
-    for (const Form& form : forms) {
-      nlohmann::ordered_json row = {{"cloud", cloud.name}, {"form", form.name}};
-      row.update(bench::isolated(limit, [&] { return measure(cloud, form, k, effort); }));
+  const std::vector<Form> forms = {{"pairs, as they are", false, false},
+                                   {"pairs", true, false},
+                                   {"umbrellas, as they are", false, true},
+                                   {"umbrellas, smoothed", true, true}};
+  return report.write(table, [&] {
+    for (const Cloud& cloud : clouds) {
+      std::cerr << cloud.name << std::endl;
+      for (const Form& form : forms) {
+        nlohmann::ordered_json row = {{"cloud", cloud.name}, {"form", form.name}};
+        row.update(bench::isolated(limit, [&] { return measure(cloud, form, k, effort); }));
+        table.add(std::move(row));
+      }
+      nlohmann::ordered_json row = {{"cloud", cloud.name}, {"form", "Dijkstra on the graph"}};
+      row.update(bench::isolated(limit, [&] { return measure_graph(cloud, k); }));
       table.add(std::move(row));
     }
-    nlohmann::ordered_json row = {{"cloud", cloud.name}, {"form", "Dijkstra on the graph"}};
-    row.update(bench::isolated(limit, [&] { return measure_graph(cloud, k); }));
-    table.add(std::move(row));
-  }
+  });
 #else
   std::cerr << "needs the providers flann and boost_graph\n";
+  return 4;
 #endif
-  report.write(table);
-  return 0;
 }

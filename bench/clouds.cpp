@@ -123,12 +123,7 @@ nlohmann::ordered_json measure(const Measured& cloud, const Options& options) {
     plexway::propagate(plexway::Serial{}, *domain, std::span(&source, 1), {}, workspace, field);
   };
   plexway::boost_graph::EdgeDijkstra<Real> dijkstra(graph_of(cloud, neighbours));
-  std::vector<Index> sources;
-  double place = 0.5;  // steps of the golden section: spread out, never two neighbours in a row
-  for (std::size_t i = 0; i < options.effort.sources; ++i) {
-    sources.push_back(static_cast<Index>(place * n));
-    place = std::fmod(place + 0.6180339887498949, 1.0);
-  }
+  const auto sources = bench::spread_numbers(options.effort.sources, cloud.points.size());
   const auto times = bench::take_turns(
       sources, options.effort, [&](Index v) { dijkstra.run(v); }, solve);
   row["ns"] = 1e9 * times.second / n;
@@ -211,7 +206,7 @@ int main(int argc, char** argv) {
   options.cloud.threads = options.threads;
 
   bench::Table table = cloud_table();
-  try {
+  return report.write(table, [&] {
     std::vector<std::function<Measured()>> all;
     if (!folder.empty()) {
       std::vector<std::filesystem::path> files;
@@ -232,10 +227,5 @@ int main(int argc, char** argv) {
       }));
       table.add(std::move(row));
     }
-    report.write(table);
-  } catch (const std::exception& error) {
-    std::cerr << error.what() << '\n';
-    return 1;
-  }
-  return 0;
+  });
 }

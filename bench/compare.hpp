@@ -167,18 +167,13 @@ inline int compare_peers(int argc, char** argv, const std::vector<PeerKind>& kin
   }
 
   Table table = comparison_table();
-  try {
+  return options.report.write(table, [&] {
     for (const std::filesystem::path mesh : options.meshes)
       compare_on(read_surface(mesh), options.truth.empty() ? mesh.parent_path() : options.truth,
                  kinds, options, table);
     for (const std::size_t vertices : options.generated)
       compare_on(bumpy_surface(vertices), options.truth, kinds, options, table);
-    options.report.write(table);
-  } catch (const std::exception& error) {
-    std::cerr << error.what() << '\n';
-    return 1;
-  }
-  return 0;
+  });
 }
 
 /// The peers that need nothing but this project (and Boost, where its provider is built).

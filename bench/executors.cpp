@@ -151,12 +151,7 @@ int main(int argc, char** argv) {
                       {"ms", "ms", "%.1f"},
                       {"speed", "times Serial", "%.2f"},
                       {"expansions", "expansions a face", "%.3f"}});
-  try {
+  return report.write(table, [&] {
     double_precision ? measure_all<double>(settings, table) : measure_all<float>(settings, table);
-    report.write(table);
-  } catch (const std::exception& error) {
-    std::cerr << error.what() << '\n';
-    return 1;
-  }
-  return 0;
+  });
 }

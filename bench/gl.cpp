@@ -154,7 +154,7 @@ int main(int argc, char** argv) {
     surfaces.push_back([&mesh] { return bench::read_surface(mesh); });
   for (const std::size_t size : sizes)
     surfaces.push_back([size] { return bench::bumpy_surface(size); });
-  try {
+  return report.write(table, [&] {
     for (const auto& make : surfaces) {
       const Surface surface = make();
       for (const Work& work : {Work{1, false}, Work{many, false}, Work{batch, true}}) {
@@ -169,12 +169,7 @@ int main(int argc, char** argv) {
         table.add(std::move(row));
       }
     }
-    report.write(table);
-  } catch (const std::exception& error) {
-    std::cerr << error.what() << '\n';
-    return 1;
-  }
-  return 0;
+  });
 }
 
 #else

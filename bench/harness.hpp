@@ -113,6 +113,18 @@ Times take_turns(std::span<const Index> sources, const Effort& effort, const Fir
 
 // ---- Sources ----
 
+/// `count` numbers below `size`, in steps of the golden section: spread out, and never two
+/// neighbours in a row.
+inline std::vector<Index> spread_numbers(std::size_t count, std::size_t size) {
+  std::vector<Index> numbers;
+  double place = 0.5;
+  for (std::size_t i = 0; i < count; ++i) {
+    numbers.push_back(static_cast<Index>(place * static_cast<double>(size)));
+    place = std::fmod(place + 0.6180339887498949, 1.0);
+  }
+  return numbers;
+}
+
 /// `count` vertices from all over the largest component; always the same for the same surface.
 inline std::vector<Index> rotating_sources(const Surface& surface, std::size_t count) {
   std::vector<Index> parent(surface.positions.size());
@@ -132,14 +144,8 @@ inline std::vector<Index> rotating_sources(const Surface& surface, std::size_t c
   std::vector<Index> members;
   for (Index v = 0; v < parent.size(); ++v)
     if (root(v) == largest) members.push_back(v);
-  std::vector<Index> sources;
-  // Steps of the golden section: spread out, and never two neighbours in a row.
-  double place = 0.5;
-  for (std::size_t i = 0; i < count; ++i) {
-    sources.push_back(
-        members[static_cast<std::size_t>(place * static_cast<double>(members.size()))]);
-    place = std::fmod(place + 0.6180339887498949, 1.0);
-  }
+  auto sources = spread_numbers(count, members.size());
+  for (Index& source : sources) source = members[source];
   return sources;
 }
 

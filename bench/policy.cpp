@@ -121,15 +121,10 @@ int main(int argc, char** argv) {
       table.add(std::move(row));
     }
   };
-  try {
+  return report.write(table, [&] {
     if (meshes.empty()) measure_on(bench::bumpy_surface(50000), truth_folder);
     for (const std::filesystem::path mesh : meshes)
       measure_on(bench::read_surface(mesh),
                  truth_folder.empty() ? mesh.parent_path() : truth_folder);
-    report.write(table);
-  } catch (const std::exception& error) {
-    std::cerr << error.what() << '\n';
-    return 1;
-  }
-  return 0;
+  });
 }

@@ -162,7 +162,7 @@ int main(int argc, char** argv) {
     }
     table.add(std::move(row));
   };
-  try {
+  return report.write(table, [&] {
     std::sort(sizes.begin(), sizes.end());
     for (const std::size_t size : sizes) measure_one("bumpy", bench::bumpy_surface(size));
     for (const std::string& mesh : meshes) {
@@ -172,10 +172,5 @@ int main(int argc, char** argv) {
         surface = subdivide(surface);
       }
     }
-    report.write(table);
-  } catch (const std::exception& error) {
-    std::cerr << error.what() << '\n';
-    return 1;
-  }
-  return 0;
+  });
 }

@@ -294,7 +294,7 @@ int main(int argc, char** argv) {
     });
     table.add(std::move(row));
   };
-  try {
+  return report.write(table, [&] {
     std::vector<std::string> names;
     if (!truth.empty())
       for (const auto& entry : std::filesystem::directory_iterator(truth))
@@ -304,10 +304,5 @@ int main(int argc, char** argv) {
     for (const bool notched : {false, true})
       for (const Index n : sizes) measure_one([&] { return generated(n, notched, false); });
     if (!sizes.empty()) measure_one([&] { return generated(sizes.back(), true, true); });
-    report.write(table);
-  } catch (const std::exception& error) {
-    std::cerr << error.what() << '\n';
-    return 1;
-  }
-  return 0;
+  });
 }

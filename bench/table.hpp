@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 #include <cstddef>
 #include <cstdio>
+#include <exception>
 #include <fstream>
 #include <iostream>
 #include <nlohmann/json.hpp>
@@ -79,12 +80,20 @@ struct Report {
     app.add_option("--markdown", markdown, "Write the Markdown to this file as well");
   }
 
-  void write(const Table& table) const {
+  /// Fills the table and writes it, or says on stderr in one line what was in the way. Returns the
+  /// program's exit code.
+  template <class Fill>
+  int write(const Table& table, const Fill& fill) const try {
+    fill();
     json ? table.write_json(std::cout) : table.write_markdown(std::cout);
-    if (markdown.empty()) return;
+    if (markdown.empty()) return 0;
     std::ofstream file(markdown);
     table.write_markdown(file);
     if (!file) throw std::runtime_error(markdown + ": cannot be written");
+    return 0;
+  } catch (const std::exception& error) {
+    std::cerr << error.what() << '\n';
+    return 1;
   }
 };
 

@@ -96,12 +96,7 @@ nlohmann::ordered_json measure(const Wires& wires, const bench::Effort& effort) 
   plexway::DistanceField<Real> field;
   plexway::boost_graph::EdgeDijkstra<Real> dijkstra{plexway::boost_graph::EdgeGraph(*wireframe)};
 
-  std::vector<Index> sources;
-  double place = 0.5;  // steps of the golden section: spread out, never two neighbours in a row
-  for (std::size_t i = 0; i < effort.sources; ++i) {
-    sources.push_back(static_cast<Index>(place * vertices));
-    place = std::fmod(place + 0.6180339887498949, 1.0);
-  }
+  const auto sources = bench::spread_numbers(effort.sources, wires.positions.size());
   const auto solve = [&](Index v) {
     const auto source = plexway::PointSource::at(v);
     plexway::propagate(plexway::Serial{}, *wireframe, std::span(&source, 1), {}, workspace, field);
@@ -175,7 +170,7 @@ int main(int argc, char** argv) {
       [&] { return spread_lengths(n * n / 2); },
   };
   bench::Table table = wireframe_table();
-  try {
+  return report.write(table, [&] {
     for (const auto& make : all) {
       const Wires wires = make();
       std::cerr << wires.name << std::endl;
@@ -187,10 +182,5 @@ int main(int argc, char** argv) {
       }));
       table.add(std::move(row));
     }
-    report.write(table);
-  } catch (const std::exception& error) {
-    std::cerr << error.what() << '\n';
-    return 1;
-  }
-  return 0;
+  });
 }

@@ -1,6 +1,6 @@
 #version 430
-// Labels that were put into a queue without asking, seeds for one, are accepted or taken out again:
-// the rule of the rounds, applied to what waits. One invocation an entry.
+// Labels that were put into a queue without asking, seeds for one, are accepted or taken out again,
+// as those of a round are. One invocation an entry.
 
 #ifndef PLEXWAY_GROUP
 #define PLEXWAY_GROUP 64
@@ -13,8 +13,13 @@ void main() {
   start_group();
   uint i = invocation();
   if (i < count) {
-    uvec2 entry = waiting[first + i];
-    if (entry.x != NO_CELL && !lower(entry.x, entry.y)) waiting[first + i].x = NO_CELL;
+    Entry entry = waiting[first + i];
+    if (entry.cell != NO_CELL) {
+      if (lower(entry.cell, entry.distance))
+        note_accepted();
+      else
+        waiting[first + i].cell = NO_CELL;
+    }
   }
   end_group();
 }

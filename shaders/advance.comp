@@ -1,23 +1,39 @@
 #version 430
 // Between two rounds, by one invocation: which queue is expanded next, how much of it, and so how
-// many work groups the next round has. A round that did not find room for all its labels stays
-// where it is until the host has seen to it: to repeat it does no harm, because a label that was
-// accepted is not accepted again.
+// many work groups the passes of the next round have. A round that did not find room for all its
+// offers stays where it is until the host has seen to it: its offers are made once more, from the
+// labels that it settled.
 
 layout(local_size_x = 1) in;
 
 //@include front_control.glsl
 
 uniform uint share;         // labels that one work group expands
+uniform uint group;         // entries that one work group settles
 uniform uint most_groups;   // in one dimension of a dispatch
 
 void rest(uint why) {
   control.state = why;
-  control.count = 0u;
   control.dispatch[0] = 0u;
   control.dispatch[1] = 1u;
   control.dispatch[2] = 1u;
+  control.settle_dispatch[0] = 0u;
+  control.settle_dispatch[1] = 1u;
+  control.settle_dispatch[2] = 1u;
+  control.twin_dispatch[0] = 0u;
 }
+
+// The dual queue's limit goes up by a step; where that brought nothing, to where something is.
+void raise_limit() {
+  bool stuck = control.was_far != 0u && control.live == 0u && control.nearest_far != UNREACHED;
+  float from = stuck ? uintBitsToFloat(control.nearest_far) : control.limit;
+  control.limit = from + control.step;
+  if (!(from < control.limit))  // the step drowns in the distance
+    control.limit = uintBitsToFloat(floatBitsToUint(from) + 1u);
+  control.nearest_far = UNREACHED;
+}
+
+uint groups_for(uint entries, uint each) { return entries / each + (entries % each > 0u ? 1u : 0u); }
 
 void main() {
   if (control.state != RUNNING) {
@@ -26,30 +42,30 @@ void main() {
   }
   uint near = control.near, far = control.far;
   if (control.waiting_in[near] > control.capacity || control.waiting_in[far] > control.capacity) {
-    control.waiting_in[near] = min(control.waiting_in[near], control.capacity);
-    control.waiting_in[far] = min(control.waiting_in[far], control.capacity);
+    control.waiting_in[near] = control.near_before;
+    control.waiting_in[far] = control.far_before;
     rest(OVERFLOWED);
     return;
   }
   control.begin += control.count;
+  control.count = 0u;
   if (control.begin >= control.total) {
     control.waiting_in[control.current] = 0u;
     uint next = near;
     if (control.waiting_in[near] > 0u) {
       control.near = control.current;
+      control.was_far = 0u;
     } else if (control.waiting_in[far] > 0u) {
       next = far;
       control.far = control.current;
       // What is still beyond the limit goes back to the far queue.
-      float nearest = uintBitsToFloat(control.nearest_far);
-      control.limit = max(control.limit, nearest) + control.step;
-      if (!(nearest < control.limit))  // the step drowns in the distance
-        control.limit = uintBitsToFloat(control.nearest_far + 1u);
-      control.nearest_far = UNREACHED;
+      raise_limit();
+      control.was_far = 1u;
     } else {
       rest(DONE);
       return;
     }
+    control.live = 0u;
     control.current = next;
     control.begin = 0u;
     control.total = control.waiting_in[next];
@@ -67,15 +83,23 @@ void main() {
     return;
   }
   // So many that a dispatch of two dimensions holds them.
-  uint groups = chunk / share + (chunk % share > 0u ? 1u : 0u);
-  uint rows = groups / most_groups + (groups % most_groups > 0u ? 1u : 0u);
+  uint rows = groups_for(groups_for(chunk, share), most_groups);
   if (rows > most_groups) {
     rows = most_groups;
     chunk = min(chunk, most_groups * most_groups * share);
   }
+  uint groups = groups_for(chunk, share), settling = groups_for(chunk, group);
   control.count = chunk;
   control.dispatch[0] = min(groups, most_groups);
   control.dispatch[1] = rows;
   control.dispatch[2] = 1u;
+  control.settle_dispatch[0] = min(settling, most_groups);
+  control.settle_dispatch[1] = groups_for(settling, most_groups);
+  control.settle_dispatch[2] = 1u;
+  control.twin_dispatch[0] = 0u;
+  control.twin_dispatch[1] = control.settle_dispatch[1];
+  control.twin_dispatch[2] = 1u;
+  control.near_before = control.waiting_in[control.near];
+  control.far_before = control.waiting_in[control.far];
   ++control.rounds;
 }

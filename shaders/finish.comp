@@ -14,6 +14,7 @@ layout(std430, binding = 5) readonly buffer Inside { uint inside[]; };
 layout(std430, binding = 6) readonly buffer VertexBest { uint vertex_best[]; };
 
 uniform uint vertex_count, total;
+uniform uint stride;  // of VertexBest; the last of so many numbers is meant
 uniform float unit, radius;
 
 void main() {
@@ -21,11 +22,12 @@ void main() {
            gl_LocalInvocationID.x;
   if (i >= total) return;
   uint v = i % vertex_count, from = i - v + inside[v];
-  uint bits = vertex_best[from];
+  uint bits = vertex_best[from * stride + stride - 1u];
   float d = uintBitsToFloat(bits) * unit;
   bool known = bits < 0x7f800000u && d <= radius;
   distances[i] = known ? floatBitsToUint(d) : 0x7f800000u;
 #ifdef PLEXWAY_LABELS
-  sources[i] = known ? vertex_source[from] : 0xffffffffu;
+  uint source = vertex_source[from];  // surface_relax.comp puts a mark in the highest bit
+  sources[i] = known && source != 0xffffffffu ? source & 0x7fffffffu : 0xffffffffu;
 #endif
 }

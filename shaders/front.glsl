@@ -5,21 +5,30 @@ layout(local_size_x = PLEXWAY_GROUP) in;
 
 //@include front_control.glsl
 
-layout(std430, binding = 1) coherent buffer Best { uint best[]; };  // bits of the least distance
+/// Of each cell, by bits: the least distance offered, the least rank and age of those who offered
+/// it while that is being found out, and the distance of the label it has.
+struct Cell {
+  uint least, rank, age, known;
+};
+layout(std430, binding = 1) coherent buffer Cells { Cell cells[]; };
 
-// Waiting labels: cell and bits of the distance. The rest of a label lies in its own buffer.
-layout(std430, binding = 3) buffer Waiting { uvec2 waiting[]; };
+/// A waiting label: cell, bits of the distance, and the round in which it was offered. The rest of
+/// it lies in a buffer of its own.
+struct Entry {
+  uint cell, distance, round;
+};
+layout(std430, binding = 3) buffer Waiting { Entry waiting[]; };
 
 // What holds during a round, fetched once a group.
 shared uint current_queue, near_queue, far_queue;
-shared uint round_begin, round_count, capacity;
+shared uint round_begin, round_count, round_number, capacity;
 shared float limit;
 
 shared uint group_count[2];
 shared uint group_base[2];
 shared uint group_more;
 shared uint group_nearest;
-shared uint group_tally[3];  // expansions, updates, reached
+shared uint group_tally[3];  // settled, newly reached, accepted
 
 uint invocation() {
   return (gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x) * uint(PLEXWAY_GROUP) +
@@ -38,6 +47,7 @@ void start_group() {
     far_queue = control.far;
     round_begin = control.begin;
     round_count = control.count;
+    round_number = control.rounds;
     capacity = control.capacity;
     limit = control.limit;
     group_nearest = UNREACHED;
@@ -45,6 +55,9 @@ void start_group() {
   }
   in_step();
 }
+
+/// The place of an entry of this round.
+uint place_of(uint number) { return current_queue * capacity + round_begin + number; }
 
 /// Room for so many near and far labels: places in the near and in the far queue.
 uvec2 reserve(uvec2 wanted) {
@@ -79,33 +92,28 @@ bool any_in_group(bool mine) {
   return group_more != 0u;
 }
 
-/// Lowers the least distance of a cell. True if this label is the one that did it, and must wait.
-bool lower(uint cell, uint distance) {
-  uint known = atomicMin(best[cell], distance);
-  if (distance < known) atomicAdd(group_tally[1], 1u);
-  if (distance < known && known == UNREACHED) atomicAdd(group_tally[2], 1u);
-  return distance < known;
-}
+/// Lowers the least distance of a cell. True if this label must wait: nothing less is known yet, and
+/// of equals contest.comp chooses.
+bool lower(uint cell, uint distance) { return distance <= atomicMin(cells[cell].least, distance); }
 
-/// A far label's distance, so that the limit can jump to the nearest.
+/// Something waits on, so that the limit can jump to the nearest.
 void note_far(uint distance) { atomicMin(group_nearest, distance); }
-void note_expansion() { atomicAdd(group_tally[0], 1u); }
-
-void add_wide(int which, uint amount) {
-  if (which == 0) {
-    uint before = atomicAdd(control.expansions[0], amount);
-    if (before + amount < before) atomicAdd(control.expansions[1], 1u);
-  } else {
-    uint before = atomicAdd(control.updates[0], amount);
-    if (before + amount < before) atomicAdd(control.updates[1], 1u);
-  }
-}
+void note_settled() { atomicAdd(group_tally[0], 1u); }
+void note_reached() { atomicAdd(group_tally[1], 1u); }
+void note_accepted() { atomicAdd(group_tally[2], 1u); }
 
 void end_group() {
   in_step();
   if (gl_LocalInvocationID.x != 0u) return;
   if (group_nearest != UNREACHED) atomicMin(control.nearest_far, group_nearest);
-  if (group_tally[0] > 0u) add_wide(0, group_tally[0]);
-  if (group_tally[1] > 0u) add_wide(1, group_tally[1]);
-  if (group_tally[2] > 0u) atomicAdd(control.reached, group_tally[2]);
+  uint settled = group_tally[0];
+  if (settled > 0u) {
+    atomicAdd(control.live, settled);
+    uint before = atomicAdd(control.expansions[0], settled);
+    if (before + settled < before) atomicAdd(control.expansions[1], 1u);
+    before = atomicAdd(control.updates[0], settled);
+    if (before + settled < before) atomicAdd(control.updates[1], 1u);
+  }
+  if (group_tally[1] > 0u) atomicAdd(control.reached, group_tally[1]);
+  if (group_tally[2] > 0u) atomicAdd(control.accepted, group_tally[2]);
 }

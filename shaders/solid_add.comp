@@ -15,17 +15,12 @@ uniform uint count;
 void main() {
   start_group();
   uint i = invocation();
-  bool near = i < count && uintBitsToFloat(offers[i].entry.y) < limit;
-  bool far = i < count && !near;
-  uvec2 reserved = reserve(uvec2(near ? 1u : 0u, far ? 1u : 0u));
-  uint slot = near ? reserved.x : reserved.y;
+  uint slot = reserve(uvec2(0u, i < count ? 1u : 0u)).y;
   if (i < count && slot < capacity) {
-    uint to = (near ? near_queue : far_queue) * capacity + slot;
-    waiting[to] = offers[i].entry.xy;
+    uint to = far_queue * capacity + slot;
+    waiting[to] = Entry(offers[i].entry.x, offers[i].entry.y, round_number);
     waiting_labels[3u * to] = offers[i].a;
     waiting_labels[3u * to + 1u] = offers[i].b;
     waiting_labels[3u * to + 2u] = offers[i].c;
-    if (far) note_far(offers[i].entry.y);
   }
-  end_group();
 }

@@ -21,7 +21,7 @@ struct Tet {
 layout(std430, binding = 5) readonly buffer Tets { Tet tets[]; };
 layout(std430, binding = 6) readonly buffer Points { float points[]; };
 
-uniform uint tet_count, cells, vertex_count;
+uniform uint tet_count, cell_count, vertex_count;
 uniform uint who, sources_wanted;
 
 vec3 point(uint v) { return vec3(points[3u * v], points[3u * v + 1u], points[3u * v + 2u]); }
@@ -34,17 +34,16 @@ void relax(uint from, uint to, float edge) {
     if (offer >= end || offer >= atomicMin(vertex_best[to], offer)) return;
     if (sources_wanted != 0u) vertex_source[to] = 0xffffffffu;
     changes = 1u;
-  } else if (offer == end && vertex_source[to] == 0xffffffffu &&
-             vertex_source[from] != 0xffffffffu) {
-    atomicMin(vertex_source[to], vertex_source[from]);
-    changes = 1u;
+  } else if (offer == end) {
+    uint source = vertex_source[from] | 0x80000000u;
+    if (source < vertex_source[to] && source < atomicMin(vertex_source[to], source)) changes = 1u;
   }
 }
 
 void main() {
   uint cell = (gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x) * uint(PLEXWAY_GROUP) +
               gl_LocalInvocationID.x;
-  if (cell >= cells) return;
+  if (cell >= cell_count) return;
   uint t = cell % tet_count, vertices = cell / tet_count * vertex_count;
   for (int j = 1; j < 4; ++j)
     for (int i = 0; i < 3; ++i) {

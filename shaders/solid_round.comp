@@ -1,7 +1,7 @@
 #version 430
-// One round of a propagation in solids, after solid_settle.comp: every waiting label of the current
-// queue is offered over the three faces it did not come by; four invocations a label, one a face.
-// Entries are fat, as on surfaces (surface_round.comp).
+// The last pass of a round in solids: every label that this round settled is offered over the three
+// faces it did not come by; four invocations a label, one a face. Entries are fat, as on surfaces
+// (surface_round.comp).
 //
 // As a repair: every reached tetrahedron offers its label to neighbours without one, or with one much
 // longer than its own and the way between, with a bend on the face if need be. (Not a program of its
@@ -25,11 +25,11 @@ void main() {
   start_group();
   uint face = invocation() & 3u, number = invocation() >> 2;
   uvec4 a, b, c;
-  uint cell = 0u, bits = UNREACHED;
+  uint cell = 0u, bits = UNREACHED, made = 0u;
   bool alive = false, waits_on = false;
   if (repair > 0u) {
     cell = min(number, repair - 1u);
-    bits = best[cell];
+    bits = cells[cell].known;
     alive = number < repair && bits != UNREACHED && uintBitsToFloat(bits) <= radius;
     if (alive) {
       a = labels[3u * cell];
@@ -37,17 +37,17 @@ void main() {
       c = labels[3u * cell + 2u];
     }
   } else if (number < round_count) {
-    uint place = current_queue * capacity + round_begin + number;
-    cell = waiting[place].x;
-    bits = waiting[place].y;
-    alive = cell != NO_CELL && best[cell] == bits;  // else a better label waits elsewhere
+    uint place = place_of(number);
+    cell = waiting[place].cell;
+    bits = waiting[place].distance;
+    made = waiting[place].round;
+    alive = cell != NO_CELL;
     if (alive) {
       a = waiting_labels[3u * place];
       b = waiting_labels[3u * place + 1u];
       c = waiting_labels[3u * place + 2u];
       bool later = uintBitsToFloat(bits) >= limit;
       waits_on = later && face == 0u;
-      if (!later && face == 0u) note_expansion();
       alive = !later && b.x != face;
     }
   }
@@ -62,7 +62,7 @@ void main() {
     u = across >> 2;
     alive = u != tet_count;
   }
-  if (alive) known_bits = best[cell_base + u];
+  if (alive) known_bits = cells[cell_base + u].known;
   if (alive && repair > 0u) {
     if (known_bits == UNREACHED) {
       atomicAdd(control.spare, 1u);
@@ -91,7 +91,8 @@ void main() {
   bool near = false;
   if (wanted) {
     distance = label.centre;
-    near = distance < limit;
+    near = distance < limit && repair == 0u;
+    wanted = repair > 0u || floatBitsToUint(distance) <= cells[target].least;
     a = floatBitsToUint(vec4(label.source, label.sigma));
     b = uvec4(across & 3u, label.ring, label.limit[0], label.limit[1]);
     c = uvec4(label.limit[2], label.limit[3], label.path, c.w);
@@ -107,11 +108,9 @@ void main() {
     uint offered = floatBitsToUint(distance);
     // Repairs are accepted by a pass of its own: no label that this one reads may be new.
     bool waits = waits_on || repair > 0u || lower(target, offered);
-    waiting[to] = uvec2(waits ? target : NO_CELL, offered);
+    waiting[to] = Entry(waits ? target : NO_CELL, offered, waits_on ? made : round_number);
     waiting_labels[3u * to] = a;
     waiting_labels[3u * to + 1u] = b;
     waiting_labels[3u * to + 2u] = c;
-    if (waits && !near) note_far(offered);
   }
-  end_group();
 }

@@ -51,7 +51,7 @@ void main() {
   }
   for (uint n = begin; n < end; ++n) {
     uint f = corners[n] / 3u;
-    if (best[field + f] == UNREACHED) continue;
+    if (cells[field + f].known == UNREACHED) continue;
     float d = corner_distance(field + f, f, corners[n] % 3u);
     if (d < least) {
       least = d;
@@ -62,33 +62,30 @@ void main() {
 
   // Within rounding of its own path a triangle stays with that one; else this would not end.
   const float epsilon = 1.1920929e-7;
-  uvec2 count = uvec2(0u), place = uvec2(0u);
+  uint count = 0u, place = 0u;
   for (int turn = 0; turn < 2; ++turn) {
-    if (turn == 1) place = reserve(count);
+    if (turn == 1) place = reserve(uvec2(0u, count)).y;
     for (uint n = begin; n < end; ++n) {
-      uint f = corners[n] / 3u, corner = corners[n] % 3u, known = best[field + f];
+      uint f = corners[n] / 3u, corner = corners[n] % 3u, known = cells[field + f].known;
       float d = least + centre_distance(f, corner);
       if (known != UNREACHED) {
         if (corner_distance(field + f, f, corner) <= least * (1.0 + 64.0 * epsilon)) continue;
         if (!(d < uintBitsToFloat(known) * (1.0 - 16.0 * epsilon))) continue;
       }
-      bool near = d < limit;
       if (turn == 0) {
-        if (near) ++count.x; else ++count.y;
+        ++count;
         continue;
       }
-      uint slot = near ? place.x++ : place.y++;
+      uint slot = place++;
       if (slot >= capacity) continue;
-      uint at = (near ? near_queue : far_queue) * capacity + slot;
-      waiting[at] = uvec2(field + f, floatBitsToUint(d));
+      uint at = far_queue * capacity + slot;
+      waiting[at] = Entry(field + f, floatBitsToUint(d), round_number);
       PosedSaddles label;
       label.source = saddle_point(0.0, 0.0);
       label.limit[0] = label.source;
       label.limit[1] = label.source;
       label.sigma = least;
       waiting_labels[at] = pack(label, source | corner);
-      if (!near) note_far(floatBitsToUint(d));
     }
   }
-  end_group();
 }

@@ -15,18 +15,18 @@ const int K = 1;
 
 layout(local_size_x = PLEXWAY_GROUP) in;
 
-layout(std430, binding = 1) readonly buffer Best { uint best[]; };
+layout(std430, binding = 1) readonly buffer Cells { uint cells[]; };  // four numbers each: front.glsl
 layout(std430, binding = 2) readonly buffer Labels { SurfaceLabel labels[]; };
 layout(std430, binding = 6) coherent buffer VertexBest { uint vertex_best[]; };
 layout(std430, binding = 7) coherent buffer VertexSource { uint vertex_source[]; };
 
-uniform uint cells, vertex_count;
+uniform uint cell_count, vertex_count;
 uniform uint who;  // 1: the second pass
 
 void main() {
   uint cell = (gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x) * uint(PLEXWAY_GROUP) +
               gl_LocalInvocationID.x;
-  if (cell >= cells || best[cell] == 0x7f800000u) return;
+  if (cell >= cell_count || cells[4u * cell + 3u] == 0x7f800000u) return;
   uint f = cell % triangle_count, vertices = cell / triangle_count * vertex_count;
   uint via = labels[cell].h.y, first = via & 3u;
   PosedSaddles label = unpack(labels[cell]);

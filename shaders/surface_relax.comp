@@ -1,7 +1,8 @@
 #version 430
 // No vertex is farther than a neighbour and the edge between: one pass over all edges of all
 // triangles, one invocation a triangle of a field. With `who`, vertices that no triangle named a
-// source for take that of the neighbour their path comes from.
+// source for take that of the neighbour their path comes from, of several the lowest. A mark, the
+// highest bit, says that a lower one may still come: so it does not matter who is asked first.
 
 #ifndef PLEXWAY_GROUP
 #define PLEXWAY_GROUP 64
@@ -22,7 +23,7 @@ layout(std430, binding = 5) readonly buffer Triangles { Triangle triangles[]; };
 layout(std430, binding = 6) coherent buffer VertexBest { uint vertex_best[]; };
 layout(std430, binding = 7) coherent buffer VertexSource { uint vertex_source[]; };
 
-uniform uint triangle_count, cells, vertex_count;
+uniform uint triangle_count, cell_count, vertex_count;
 uniform uint who;
 
 void relax(uint from, uint to, float edge) {
@@ -31,17 +32,16 @@ void relax(uint from, uint to, float edge) {
   uint offer = floatBitsToUint(uintBitsToFloat(start) + edge);
   if (who == 0u) {
     if (offer < end && offer < atomicMin(vertex_best[to], offer)) changes = 1u;
-  } else if (offer == end && vertex_source[to] == 0xffffffffu &&
-             vertex_source[from] != 0xffffffffu) {
-    atomicMin(vertex_source[to], vertex_source[from]);
-    changes = 1u;
+  } else if (offer == end) {
+    uint source = vertex_source[from] | 0x80000000u;
+    if (source < vertex_source[to] && source < atomicMin(vertex_source[to], source)) changes = 1u;
   }
 }
 
 void main() {
   uint cell = (gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x) * uint(PLEXWAY_GROUP) +
               gl_LocalInvocationID.x;
-  if (cell >= cells) return;
+  if (cell >= cell_count) return;
   uint f = cell % triangle_count, vertices = cell / triangle_count * vertex_count;
   for (int i = 0; i < 3; ++i) {
     uint v = vertices + triangles[f].corner[i];

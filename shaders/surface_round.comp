@@ -1,8 +1,7 @@
 #version 430
-// One round of a propagation over surfaces: every waiting label of the current queue is stored and
-// offered over the two hinges it did not come by, one invocation a hinge. Entries are fat: they
-// carry the label, and a cell keeps no more than its least distance, lowered by an atomic minimum;
-// of all entries for a cell only the one with that very distance is expanded.
+// The last pass of a round over surfaces: every label that this round settled is offered over the
+// two hinges it did not come by, one invocation a hinge. Entries are fat: they carry the label, and
+// a cell keeps no more than its least distance, lowered by an atomic minimum.
 //
 // With PLEXWAY_REVIVE: every reached triangle offers its label to unreached neighbours, taking
 // updates that turn around a vertex where no path bends.
@@ -18,41 +17,38 @@ const int K = 1;
 //@include surface.glsl
 //@include front.glsl
 
-layout(std430, binding = 2) buffer Labels { SurfaceLabel labels[]; };
+layout(std430, binding = 2) readonly buffer Labels { SurfaceLabel labels[]; };
 layout(std430, binding = 4) buffer WaitingLabels { SurfaceLabel waiting_labels[]; };
 
 uniform float radius;       // triangles wholly beyond it are not expanded
 uniform uint last_resort;
-uniform uint cells;         // for PLEXWAY_REVIVE: fields times triangles
+uniform uint cell_count;    // for PLEXWAY_REVIVE: fields times triangles
 
 void main() {
   start_group();
   uint side = invocation() & 1u, number = invocation() >> 1;
   SurfaceLabel label;
-  uint cell = 0u, bits = UNREACHED;
+  uint cell = 0u, bits = UNREACHED, made = 0u;
   bool alive = false, waits_on = false;
 #ifdef PLEXWAY_REVIVE
-  if (number < cells) {
+  if (number < cell_count) {
     cell = number;
-    bits = best[cell];
+    bits = cells[cell].known;
     alive = bits != UNREACHED;
     if (alive) label = labels[cell];
   }
 #else
   if (number < round_count) {
-    uint place = current_queue * capacity + round_begin + number;
-    cell = waiting[place].x;
-    bits = waiting[place].y;
-    alive = cell != NO_CELL && best[cell] == bits;  // else a better label waits elsewhere
+    uint place = place_of(number);
+    cell = waiting[place].cell;
+    bits = waiting[place].distance;
+    made = waiting[place].round;
+    alive = cell != NO_CELL;
     if (alive) label = waiting_labels[place];
   }
   bool later = alive && uintBitsToFloat(bits) >= limit;
   waits_on = later && side == 0u;
   alive = alive && !later;
-  if (alive && side == 0u) {
-    labels[cell] = label;
-    note_expansion();
-  }
 #endif
 
   uint f = cell % triangle_count, field = cell - f;
@@ -61,7 +57,7 @@ void main() {
     float distance = uintBitsToFloat(bits);
     if (distance > radius) {
       float longest = max(triangles[f].edge[0], max(triangles[f].edge[1], triangles[f].edge[2]));
-      alive = distance - longest <= radius;
+      alive = distance - longest * (2.0 / 3.0) <= radius;  // no point is farther from its centre
     }
   }
   PosedSaddles here;
@@ -102,16 +98,22 @@ void main() {
       hinge.saddle[1] = (floatBitsToUint(triangles[g].signed_sine[edge_after(k)]) >> 31) != 0u;
       CrossedHinge crossed = cross_hinge(entering, hinge, last_resort != 0u);
       distance = crossed.distance;
-      uint known = best[target];
+      uint known = cells[target].known;
       // Around a bend all paths are equally long from both sides: a gain must be more than rounding.
       wanted = known == UNREACHED ? distance < uintBitsToFloat(UNREACHED)
                                   : distance < uintBitsToFloat(known) * gain;
 #ifdef PLEXWAY_REVIVE
       wanted = wanted && known == UNREACHED;
+#else
+      wanted = wanted && floatBitsToUint(distance) <= cells[target].least;
 #endif
       offered = pack(crossed.label, (label.h.y & ~3u) | k);
     }
+#ifdef PLEXWAY_REVIVE
+    bool near = false;
+#else
     bool near = distance < limit;
+#endif
     if (waits_on) {  // goes on as it is
       wanted = true;
       near = false;
@@ -129,9 +131,9 @@ void main() {
 #else
       bool waits = waits_on || lower(target, floatBitsToUint(distance));
 #endif
-      waiting[place] = uvec2(waits ? target : NO_CELL, floatBitsToUint(distance));
+      waiting[place] = Entry(waits ? target : NO_CELL, floatBitsToUint(distance),
+                             waits_on ? made : round_number);
       waiting_labels[place] = offered;
-      if (waits && !near) note_far(floatBitsToUint(distance));
     }
     waits_on = false;
     alive = alive && (cursor & ACROSS_FAN) != 0u;
@@ -141,5 +143,4 @@ void main() {
     }
     more = any_in_group(alive);
   }
-  end_group();
 }

@@ -33,6 +33,7 @@ struct BenchCommand {
   FillOptions fill;
   CloudArguments cloud;
   SolveOptions solve;
+  TriangulationArgument triangulation;
   bool json = false;
   bool quiet = false;
 };
@@ -122,12 +123,17 @@ Json to_json(const BenchCommand& command, const Domain& domain, const Solver& so
   json["executor"] = executor_name(result.executor);
   json["threads"] = executor_threads(result.executor);
   json["visibility"] = command.solve.visibility;
+  if (domain.kind() == "surface") {
+    json["triangulation"] = name_of(solver.triangulation());
+    json["flips"] = solver.triangulation().flips;
+  }
   json["sources"] = result.sources;
   json["repeats"] = command.repeats;
   json["seconds"]["load"] = domain.load_seconds();
   if (domain.mesh_seconds()) json["seconds"]["mesh"] = *domain.mesh_seconds();
   if (domain.neighbour_seconds()) json["seconds"]["neighbours"] = *domain.neighbour_seconds();
   json["seconds"]["build"] = result.build;
+  if (domain.kind() == "surface") json["seconds"]["triangulation"] = solver.triangulation().seconds;
   json["seconds"]["dijkstra_build"] =
       result.has_dijkstra ? Json(result.dijkstra_build) : Json(nullptr);
   json["bytes_per_vertex"] =
@@ -163,6 +169,7 @@ std::string to_text(const Json& json) {
 void run_bench(const BenchCommand& command) {
   const PropagateOptions options = propagate_options(command.solve);
   const Precision precision = precision_of(command.solve);
+  const Triangulation triangulation = triangulation_of(command.triangulation);
   const std::vector<SourceArgument> arguments = parse_sources(command.sources);
   if (command.truths.size() > arguments.size())
     throw UsageError("more --truth than --source: give one file for each source, in order");
@@ -176,7 +183,7 @@ void run_bench(const BenchCommand& command) {
 
   progress.phase("building");
   const Stopwatch building;
-  const auto solver = make_solver(domain, precision);
+  const auto solver = make_solver(domain, precision, triangulation);
   result.build = building.seconds();
   const Stopwatch building_graph;
   const auto dijkstra = make_dijkstra_peer(domain, precision);
@@ -236,12 +243,14 @@ void add_bench_command(CLI::App& tool, Action& action) {
   app.add_flag("--json", command->json, "print one JSON object");
   app.add_flag("--quiet,-q", command->quiet, "no notes, no progress");
   add_solve_options(app, command->solve, false);
+  add_triangulation_option(app, command->triangulation);
   add_fill_options(app, command->fill);
   add_cloud_options(app, command->cloud);
   app.footer(
       "Examples:\n"
       "  plexway bench bunny.obj --source vertex:3160 --truth bunny.v3160.txt\n"
       "  plexway bench bunny.obj --source vertex:3160 --random-sources 10 --json\n"
+      "  plexway bench part.obj --source vertex:0 --truth part.v0.txt --triangulation input\n"
       "  plexway bench cavity.ele --source vertex:170 --truth cavity.v170.txt\n"
       "  plexway bench vessels.obj --source vertex:0 --random-sources 10\n"
       "  plexway bench swiss.xyz --source vertex:0 --truth swiss.v0.txt --k 16");

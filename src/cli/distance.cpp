@@ -34,6 +34,7 @@ struct DistanceCommand {
   FillOptions fill;
   CloudArguments cloud;
   SolveOptions solve;
+  TriangulationArgument triangulation;
   bool json = false;
   bool quiet = false;
 };
@@ -96,6 +97,7 @@ Json to_json(const DistanceCommand& command, const Domain& domain, const Solver&
   json["expansions"] = solver.statistics().expansions;
   json["updates"] = solver.statistics().updates;
   json["executor"] = executor_name(outcome.executor);
+  if (domain.kind() == "surface") json["triangulation"] = name_of(solver.triangulation());
   json["threads"] = executor_threads(outcome.executor);
   if (const Cloud* cloud = domain.cloud()) {
     json["points_in_file"] = cloud->points_in_file;
@@ -119,6 +121,7 @@ std::string to_text(const DistanceCommand& command, const Domain& domain, const 
     const std::string label = sources.size() == 1 ? "source" : "source " + std::to_string(i);
     table.add(label, describe_source_set(domain, arguments[i], sources[i]));
   }
+  if (solver.triangulation().delaunay) table.add("triangles", describe(solver.triangulation()));
   std::string reached =
       std::to_string(outcome.reached) + " of " + counted(domain.vertices(), "vertices");
   if (outcome.reached > 0) {
@@ -182,6 +185,7 @@ void say_notes(const Domain& domain, const Solver& solver, const Outcome& outcom
 void run_distance(DistanceCommand command) {
   const PropagateOptions wanted = propagate_options(command.solve);
   Precision precision = precision_of(command.solve);
+  Triangulation triangulation = triangulation_of(command.triangulation);
   const std::vector<SetArgument> arguments = parse_source_sets(command.sources);
   if (command.out != "-") check_output_name(command.out, command.input, cloud_field_extensions());
   check_isolines(command.isolines, command.input);
@@ -202,11 +206,13 @@ void run_distance(DistanceCommand command) {
                        "choose serial");
     if (precision == Precision::single) command.solve.precision = "double, which lines need";
     precision = Precision::twice;
+    // Lines lie in the triangles of the file.
+    if (triangulation == Triangulation::automatic) triangulation = Triangulation::input;
   }
 
   progress.phase("building");
   const Stopwatch building;
-  const auto solver = make_solver(domain, precision);
+  const auto solver = make_solver(domain, precision, triangulation);
   const double build = building.seconds();
 
   progress.phase("solving");
@@ -285,6 +291,7 @@ void add_distance_command(CLI::App& tool, Action& action) {
   app.add_flag("--quiet,-q", command->quiet, "no summary, notes or progress; errors stay");
   add_isoline_options(app, command->isolines);
   add_solve_options(app, command->solve, true);
+  add_triangulation_option(app, command->triangulation);
   add_fill_options(app, command->fill);
   add_cloud_options(app, command->cloud);
   app.footer(
@@ -296,6 +303,7 @@ void add_distance_command(CLI::App& tool, Action& action) {
       "  plexway distance knot.ply --source segment:1,0,0,0,1,0 --source circle:0,0,1,0.2\n"
       "  plexway distance knot.ply --source vertex:0 --isolines 0.1 --isolines-out lines.obj\n"
       "  plexway distance organ.off --as solid --max-volume 1e-3 --source point:0,0,0 -o d.vtu\n"
+      "  plexway distance part.stl --source vertex:0 --triangulation delaunay -o d.vtu\n"
       "  plexway distance vessels.obj --source vertex:0 --out distance.vtk\n"
       "  plexway distance scan.pcd --voxel 0.01 --denoise --source point:0,0,0 --out d.ply\n"
       "  plexway distance knot.ply --source vertex:0 --quiet --out - | sort -t, -gk2 | tail -1");

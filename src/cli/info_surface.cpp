@@ -1,13 +1,17 @@
 #include <plexway/complex/triangle_mesh.hpp>
 
 #include "info_report.hpp"
+#include "make_complex.hpp"
 #include "surface_survey.hpp"
+#include "triangulation_option.hpp"
 
 namespace plexway::cli {
 
 InfoReport info_of(const Domain& domain, const io::Triangles& surface) {
-  const SurfaceSummary summary = with_file_name(
-      domain, [&] { return TriangleMesh<double>(surface.positions, surface.triangles).summary(); });
+  const TriangleMesh<double> mesh =
+      with_file_name(domain, [&] { return make_complex<double>(surface); });
+  const SurfaceSummary& summary = mesh.summary();
+  const TriangulationShape shape = measure_triangulation(mesh);
   const SurfaceSurvey survey = survey_surface(surface);
   const Box box{survey.low, survey.high};
   const Spread edge{survey.shortest_edge, survey.mean_edge, survey.longest_edge};
@@ -43,6 +47,7 @@ InfoReport info_of(const Domain& domain, const io::Triangles& surface) {
   table.add("edge length", to_text(edge));
   table.add("slender", short_number(100 * survey.slender_share) +
                            " % of the triangles have an aspect ratio above 10");
+  add_shape(shape, json, table);
   for (const std::string& warning : warnings) table.add("note", warning);
   return report;
 }

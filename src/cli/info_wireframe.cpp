@@ -1,20 +1,14 @@
 #include <numeric>
 
-#include <plexway/complex/wireframe.hpp>
-
 #include "info_report.hpp"
+#include "make_complex.hpp"
 #include "simplex_edges.hpp"
 
 namespace plexway::cli {
 namespace {
 
 WireframeSummary summary_of(const Domain& domain, const io::Edges& wireframe) {
-  return with_file_name(domain, [&] {
-    return wireframe.lengths.empty()
-               ? Wireframe<double>(wireframe.positions, wireframe.edges).summary()
-               : Wireframe<double>(wireframe.vertices, wireframe.edges, wireframe.lengths)
-                     .summary();
-  });
+  return with_file_name(domain, [&] { return make_complex<double>(wireframe).summary(); });
 }
 
 std::vector<std::string> warnings_of(const WireframeSummary& summary, std::size_t coincident) {

@@ -21,6 +21,7 @@
 #include "distance_output.hpp"
 #include "domain.hpp"
 #include "exit_codes.hpp"
+#include "make_complex.hpp"
 #include "progress.hpp"
 #include "report.hpp"
 #include "solve_options.hpp"
@@ -47,20 +48,6 @@ struct Outcome {
   double build = 0, solve = 0, trace = 0;
 };
 
-template <class Real>
-TriangleMesh<Real> complex_of(const io::Triangles& surface) {
-  return {surface.positions, surface.triangles};
-}
-template <class Real>
-TetMesh<Real> complex_of(const io::Tets& solid) {
-  return {solid.positions, solid.tets};
-}
-template <class Real>
-Wireframe<Real> complex_of(const io::Edges& wireframe) {
-  if (wireframe.lengths.empty()) return {wireframe.positions, wireframe.edges};
-  return {wireframe.vertices, wireframe.edges, wireframe.lengths};
-}
-
 template <class Real, class Shape>
 Outcome find_paths(const Shape& shape, const PathCommand& command,
                    const std::vector<PointSource>& sources, const std::vector<PointSource>& targets,
@@ -68,7 +55,7 @@ Outcome find_paths(const Shape& shape, const PathCommand& command,
   Outcome outcome;
   progress.phase("building");
   const Stopwatch building;
-  const auto complex = complex_of<Real>(shape);
+  const auto complex = make_complex<Real>(shape);
   outcome.build = building.seconds();
   const Stopwatch solving;
   if constexpr (std::is_same_v<Shape, io::Triangles>) {

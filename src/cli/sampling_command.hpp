@@ -5,13 +5,12 @@
 #include <type_traits>
 #include <variant>
 
-#include <plexway/complex/tet_mesh.hpp>
-#include <plexway/complex/triangle_mesh.hpp>
 #include <plexway/error.hpp>
 
 #include "console.hpp"
 #include "domain.hpp"
 #include "fill_options.hpp"
+#include "make_complex.hpp"
 #include "report.hpp"
 #include "solve_options.hpp"
 
@@ -44,10 +43,8 @@ void with_complex(const Domain& domain, Precision precision, Use use) {
           using Shape = std::decay_t<decltype(shape)>;
           const auto build = [&](auto real) {
             using Real = decltype(real);
-            if constexpr (std::is_same_v<Shape, io::Triangles>)
-              use(TriangleMesh<Real>(shape.positions, shape.triangles));
-            else if constexpr (std::is_same_v<Shape, io::Tets>)
-              use(TetMesh<Real>(shape.positions, shape.tets));
+            if constexpr (std::is_same_v<Shape, io::Triangles> || std::is_same_v<Shape, io::Tets>)
+              use(make_complex<Real>(shape));
             else
               throw InputError("is no surface and no solid: points are chosen on those");
           };

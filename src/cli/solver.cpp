@@ -1,10 +1,10 @@
 #include "solver.hpp"
 
+#include <optional>
 #include <type_traits>
 #include <utility>
 #include <variant>
 
-#include <plexway/complex/triangle_mesh.hpp>
 #include <plexway/executors/serial.hpp>
 #include <plexway/executors/serial_cloud.hpp>
 #include <plexway/executors/serial_pairs.hpp>
@@ -12,27 +12,13 @@
 #include <plexway/executors/serial_wireframe.hpp>
 #include <plexway/executors/source_sets.hpp>
 
+#include "make_complex.hpp"
+
 namespace plexway::cli {
 namespace {
 
-// Each is built in place: complexes are not to be copied.
-template <class Real>
-TriangleMesh<Real> make_complex(const io::Triangles& surface) {
-  return {surface.positions, surface.triangles};
-}
-template <class Real>
-TetMesh<Real> make_complex(const io::Tets& solid) {
-  return {solid.positions, solid.tets};
-}
-template <class Real>
-Wireframe<Real> make_complex(const io::Edges& wireframe) {
-  if (wireframe.lengths.empty()) return {wireframe.positions, wireframe.edges};
-  return {wireframe.vertices, wireframe.edges, wireframe.lengths};
-}
-template <class Real>
-PointCloud<Real> make_complex(const Cloud& cloud) {
-  return {cloud.measured(), cloud.neighbours, cloud_options(cloud)};
-}
+using cli::make_complex;
+
 // A cloud in its other form.
 struct PairsOf {
   const Cloud& cloud;
@@ -64,19 +50,45 @@ std::size_t simplex_count(const Complex& complex) {
 template <class Real, class Shape>
 class ShapeSolver final : public Solver {
  public:
-  explicit ShapeSolver(const Shape& shape) : complex_(make_complex<Real>(shape)) {}
+  explicit ShapeSolver(const Shape& shape, [[maybe_unused]] Triangulation triangulation)
+      : complex_(make_complex<Real>(shape)) {
+    if constexpr (std::is_same_v<Shape, io::Triangles>)
+      delaunay_ = retriangulate(triangulation, shape, complex_, triangulation_);
+  }
 
   std::size_t components() const override { return complex_.summary().components; }
   std::size_t simplices() const override { return simplex_count(complex_); }
+  TriangulationReport triangulation() const override { return triangulation_; }
 
   void solve(const Executor& executor, std::span<const PointSource> sources,
              const PropagateOptions& options) override {
-    std::visit([&](const auto& chosen) { solve_on(chosen, sources, options); }, executor);
+    std::span<const PointSource> there = sources;
+    if (delaunay_) {
+      moved_.clear();
+      for (const PointSource& source : sources) moved_.push_back(delaunay_->to_intrinsic(source));
+      there = moved_;
+    }
+    std::visit([&](const auto& chosen) { solve_on(chosen, there, options); }, executor);
   }
 
   void solve_from(const Executor& executor, std::span<const Source> sources,
                   const PropagateOptions& options) override {
-    std::visit([&](const auto& chosen) { solve_on(chosen, sources, options); }, executor);
+    std::vector<Source> moved(sources.begin(), sources.end());
+    if (delaunay_) {
+      for (Source& source : moved) {
+        if (auto* point = std::get_if<PointSource>(&source)) {
+          *point = delaunay_->to_intrinsic(*point);
+        } else if (auto* ball = std::get_if<BallSource>(&source)) {
+          ball->centre = delaunay_->to_intrinsic(ball->centre);
+        } else if (!std::holds_alternative<VertexSource>(source)) {
+          throw UsageError(
+              "--triangulation delaunay: lines and triangles lie in the triangles of the file; "
+              "choose input");
+        }
+      }
+    }
+    const std::span<const Source> there = moved;
+    std::visit([&](const auto& chosen) { solve_on(chosen, there, options); }, executor);
   }
 
   std::vector<double> distance() const override {
@@ -99,8 +111,9 @@ class ShapeSolver final : public Solver {
 #ifdef PLEXWAY_HAS_GL
     on_device = gl_workspace_.bytes();
 #endif
-    return complex_.bytes() + workspace_.bytes() + on_device +
-           field_.distance.capacity() * sizeof(Real) + field_.label.capacity() * sizeof(Index);
+    return complex_.bytes() + (delaunay_ ? delaunay_->bytes() : 0) + workspace_.bytes() +
+           on_device + field_.distance.capacity() * sizeof(Real) +
+           field_.label.capacity() * sizeof(Index);
   }
 
  private:
@@ -129,6 +142,9 @@ class ShapeSolver final : public Solver {
   static constexpr bool kSerialOnly = std::is_same_v<Complex, PointPairs<Real>>;
 
   Complex complex_;
+  std::optional<IntrinsicDelaunay> delaunay_;
+  TriangulationReport triangulation_;
+  std::vector<PointSource> moved_;
   Workspace<Real> workspace_;
 #ifdef PLEXWAY_HAS_GL
   GLWorkspace gl_workspace_;
@@ -137,18 +153,22 @@ class ShapeSolver final : public Solver {
 };
 
 template <class Shape>
-std::unique_ptr<Solver> solver_of(const Shape& shape, Precision precision) {
-  if (precision == Precision::single) return std::make_unique<ShapeSolver<float, Shape>>(shape);
-  return std::make_unique<ShapeSolver<double, Shape>>(shape);
+std::unique_ptr<Solver> solver_of(const Shape& shape, Precision precision,
+                                  Triangulation triangulation) {
+  if (precision == Precision::single)
+    return std::make_unique<ShapeSolver<float, Shape>>(shape, triangulation);
+  return std::make_unique<ShapeSolver<double, Shape>>(shape, triangulation);
 }
 
 }  // namespace
 
-std::unique_ptr<Solver> make_solver(const Domain& domain, Precision precision) {
+std::unique_ptr<Solver> make_solver(const Domain& domain, Precision precision,
+                                    Triangulation triangulation) {
+  check_triangulation(triangulation, domain);
   return with_file_name(domain, [&] {
     if (domain.cloud() != nullptr && domain.cloud()->form == CloudForm::pairs)
-      return solver_of(PairsOf{*domain.cloud()}, precision);
-    return std::visit([&](const auto& shape) { return solver_of(shape, precision); },
+      return solver_of(PairsOf{*domain.cloud()}, precision, triangulation);
+    return std::visit([&](const auto& shape) { return solver_of(shape, precision, triangulation); },
                       domain.shape());
   });
 }

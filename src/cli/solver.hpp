@@ -12,6 +12,7 @@
 #include "domain.hpp"
 #include "executor_argument.hpp"
 #include "solve_options.hpp"
+#include "triangulation_option.hpp"
 
 namespace plexway::cli {
 
@@ -28,6 +29,8 @@ class Solver {
   [[nodiscard]] virtual std::size_t components() const = 0;
   /// Of the complex: a cloud has triangles only there.
   [[nodiscard]] virtual std::size_t simplices() const = 0;
+  /// Which triangles a surface is solved on.
+  [[nodiscard]] virtual TriangulationReport triangulation() const { return {}; }
   /// One propagation, read-out to vertices included. Throws as plexway::propagate.
   virtual void solve(const Executor& executor, std::span<const PointSource> sources,
                      const PropagateOptions& options) = 0;
@@ -46,7 +49,8 @@ class Solver {
   [[nodiscard]] virtual std::size_t bytes() const = 0;
 };
 
-/// Builds the complex. Throws InputError "FILE: cause".
-std::unique_ptr<Solver> make_solver(const Domain& domain, Precision precision);
+/// Builds the complex. Throws InputError "FILE: cause", and UsageError as check_triangulation.
+std::unique_ptr<Solver> make_solver(const Domain& domain, Precision precision,
+                                    Triangulation triangulation = Triangulation::input);
 
 }  // namespace plexway::cli

@@ -95,7 +95,7 @@ std::vector<Point3> normals_of(Points normals, const DistinctPoints& distinct) {
 }
 
 // A cloud of one place, or of places that are all alone: the mesh still needs a triangle.
-void add_stub(Places& places, SheetWedges& sheet) {
+void add_placeholder(Places& places, SheetWedges& sheet) {
   const Index n = static_cast<Index>(places.at.size());
   for (int i = 0; i < 2; ++i) {
     places.at.push_back(Point3(places.at[0]));
@@ -170,7 +170,7 @@ Sheet make_sheet(Points points, const Neighbours& neighbours, const CloudOptions
   trim_boundary(options.widest_boundary_circle, sheet);
   widen_boundary_saddles(places, frames, sheet);
   const CloudParts parts = bridge_parts(rule, frames, places, sheet);
-  if (sheet.triangles().empty()) add_stub(places, sheet);
+  if (sheet.triangles().empty()) add_placeholder(places, sheet);
   if (options.progress && !options.progress(0.7))
     throw Cancelled("stopped by the progress callback");
 

@@ -200,6 +200,17 @@ TriangleMesh<Real>::TriangleMesh(std::size_t vertices, std::span<const std::arra
 }
 
 template <class Real>
+TriangleMesh<Real>::TriangleMesh(std::size_t vertices, std::span<const std::array<Index, 3>> faces,
+                                 std::span<const TriangleShape> shapes,
+                                 std::vector<std::array<Index, 3>> across,
+                                 const SurfaceHints& hints) {
+  check_faces(vertices, faces);
+  std::vector<Index> order =
+      hints.order.empty() ? breadth_first(GluingView(across)) : copy_of(hints.order);
+  assemble(vertices, faces, shapes, std::move(order), std::move(across), hints.samples);
+}
+
+template <class Real>
 void TriangleMesh<Real>::assemble(std::size_t vertices, std::span<const std::array<Index, 3>> faces,
                                   std::span<const TriangleShape> shapes,
                                   std::vector<Index> face_order,

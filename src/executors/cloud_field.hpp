@@ -12,12 +12,11 @@
 
 namespace plexway {
 
-/// Solves on a cloud what `solve(surface, sources)` solves on its surface, for any executor:
-/// sources move to the first point at their place, and the field has the points, twins with one
-/// distance.
+/// Calls solve(surface, sources) with the sources of a cloud moved to the first point at their
+/// place. Throws UsageError for a source that is not a point of the cloud.
 template <class Real, class Solve>
-void solve_on_cloud(const PointCloud<Real>& cloud, std::span<const PointSource> sources,
-                    DistanceField<Real>& field, Solve solve) {
+void solve_on_surface_of(const PointCloud<Real>& cloud, std::span<const PointSource> sources,
+                         Solve solve) {
   for (const PointSource& s : sources) {
     if (s.vertex == none)
       throw UsageError("a source on a cloud is a point by number, not a place in a triangle");
@@ -27,12 +26,20 @@ void solve_on_cloud(const PointCloud<Real>& cloud, std::span<const PointSource> 
   }
   if (cloud.twins().empty()) {
     solve(cloud.surface(), sources);
-  } else {
-    thread_local std::vector<PointSource> moved;  // so that a second solve allocates nothing
-    moved.assign(sources.begin(), sources.end());
-    for (PointSource& s : moved) s.vertex = cloud.of_point(s.vertex);
-    solve(cloud.surface(), std::span<const PointSource>(moved));
+    return;
   }
+  thread_local std::vector<PointSource> moved;  // so that a second solve allocates nothing
+  moved.assign(sources.begin(), sources.end());
+  for (PointSource& s : moved) s.vertex = cloud.of_point(s.vertex);
+  solve(cloud.surface(), std::span<const PointSource>(moved));
+}
+
+/// Solves on a cloud what `solve` solves on its surface, for any executor: the field has the
+/// points, twins with one distance.
+template <class Real, class Solve>
+void solve_on_cloud(const PointCloud<Real>& cloud, std::span<const PointSource> sources,
+                    DistanceField<Real>& field, Solve solve) {
+  solve_on_surface_of(cloud, sources, solve);
   field.distance.resize(cloud.point_count());
   if (!field.label.empty()) field.label.resize(cloud.point_count());
   for (const auto& [twin, first] : cloud.twins()) {

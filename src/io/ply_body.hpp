@@ -12,7 +12,7 @@
 
 #include <plexway/error.hpp>
 
-#include "bytes.hpp"
+#include "binary_numbers.hpp"
 #include "ply_header.hpp"
 #include "surface_checks.hpp"
 #include "text_scanner.hpp"
@@ -57,9 +57,9 @@ class PlyText {
     return static_cast<std::int64_t>(value);
   }
 
-  void skip(PlyType, std::uint64_t values) {
+  void skip(PlyType, std::uint64_t values, std::string_view what) {
     for (; values != 0; --values)
-      if (scanner_.field().empty()) scanner_.fail("the line ends before the last property");
+      if (scanner_.field().empty()) scanner_.fail("the line ends before " + std::string(what));
   }
 
   void finish() {
@@ -72,13 +72,13 @@ class PlyText {
 };
 
 /// The body as bytes.
-class PlyBytes {
+class PlyBytes : public BinaryNumbers<PlyBytes> {
  public:
   PlyBytes(std::string_view bytes, std::string_view name, const PlyHeader& header)
-      : bytes_(bytes),
-        name_(name),
-        at_(header.size),
-        order_(header.format == PlyFormat::big_endian ? std::endian::big : std::endian::little) {}
+      : BinaryNumbers(
+            bytes, header.format == PlyFormat::big_endian ? std::endian::big : std::endian::little,
+            header.size),
+        name_(name) {}
 
   [[noreturn]] void fail(const std::string& cause) const {
     std::string where = "byte " + std::to_string(at_);
@@ -86,7 +86,6 @@ class PlyBytes {
       where = quote(element_->name) + " element " + std::to_string(instance_) + ", " + where;
     throw InputError(std::string(name_) + ": " + where + ": " + cause);
   }
-  std::uint64_t bytes_left() const { return bytes_.size() - at_; }
 
   std::uint64_t most_instances(const PlyElement& element) const {
     std::uint64_t least = 0;  // bytes of an instance whose lists are empty
@@ -100,51 +99,6 @@ class PlyBytes {
   }
   void end(const PlyElement&) { element_ = nullptr; }
 
-  double real(PlyType type, std::string_view what) {
-    double value = 0;
-    switch (type) {
-      case PlyType::f32:
-        value = static_cast<double>(take<float>(what));
-        break;
-      case PlyType::f64:
-        value = take<double>(what);
-        break;
-      default:
-        return static_cast<double>(whole(type, what));
-    }
-    if (!std::isfinite(value)) fail(std::string(what) + " is not finite");
-    return value;
-  }
-
-  std::int64_t whole(PlyType type, std::string_view what) {
-    switch (type) {
-      case PlyType::i8:
-        return take<std::int8_t>(what);
-      case PlyType::u8:
-        return take<std::uint8_t>(what);
-      case PlyType::i16:
-        return take<std::int16_t>(what);
-      case PlyType::u16:
-        return take<std::uint16_t>(what);
-      case PlyType::i32:
-        return take<std::int32_t>(what);
-      case PlyType::u32:
-        return take<std::uint32_t>(what);
-      case PlyType::f32:
-      case PlyType::f64:
-        break;
-    }
-    const double value = real(type, what);
-    if (value != std::floor(value) || std::abs(value) > 9e15)
-      fail(std::string(what) + " is not a whole number");
-    return static_cast<std::int64_t>(value);
-  }
-
-  void skip(PlyType type, std::uint64_t values) {
-    if (values > bytes_left() / size_of(type)) fail("the file ends before the last property");
-    at_ += values * size_of(type);
-  }
-
   void finish() {
     for (std::size_t i = at_; i < bytes_.size(); ++i)
       if (const char c = bytes_[i]; c != '\n' && c != '\r' && c != ' ' && c != '\0')
@@ -152,18 +106,7 @@ class PlyBytes {
   }
 
  private:
-  template <class T>
-  T take(std::string_view what) {
-    if (bytes_left() < sizeof(T)) fail("the file ends before " + std::string(what));
-    const T value = load<T>(bytes_.data() + at_, order_);
-    at_ += sizeof(T);
-    return value;
-  }
-
-  std::string_view bytes_;
   std::string_view name_;
-  std::size_t at_;
-  std::endian order_;
   const PlyElement* element_ = nullptr;
   std::uint64_t instance_ = 0;
 };
@@ -214,12 +157,14 @@ struct PlyVertex {
   }
 };
 
+inline constexpr std::string_view last_property = "the last property";
+
 template <class Source>
 void skip_property(Source& source, const PlyProperty& property) {
-  if (!property.is_list) return source.skip(property.type, 1);
+  if (!property.is_list) return source.skip(property.type, 1, last_property);
   const std::int64_t length = source.whole(property.count_type, "a list's length");
   if (length < 0) source.fail("a list's length is negative: " + std::to_string(length));
-  source.skip(property.type, static_cast<std::uint64_t>(length));
+  source.skip(property.type, static_cast<std::uint64_t>(length), last_property);
 }
 
 /// Walks over all elements. `begin(element)` is told of each whose count its bytes can hold, and

@@ -77,24 +77,6 @@ PlyProperty read_property(TextScanner& scanner, const PlyElement& element) {
 
 }  // namespace
 
-std::size_t size_of(PlyType type) {
-  switch (type) {
-    case PlyType::i8:
-    case PlyType::u8:
-      return 1;
-    case PlyType::i16:
-    case PlyType::u16:
-      return 2;
-    case PlyType::i32:
-    case PlyType::u32:
-    case PlyType::f32:
-      return 4;
-    case PlyType::f64:
-      break;
-  }
-  return 8;
-}
-
 PlyHeader parse_ply_header(std::string_view bytes, std::string_view name) {
   TextScanner scanner(bytes, name);
   PlyHeader header;

@@ -5,14 +5,12 @@
 #include <string_view>
 #include <vector>
 
+#include "number_type.hpp"
+
 namespace plexway::io {
 
 enum class PlyFormat { ascii, little_endian, big_endian };
-enum class PlyType { i8, u8, i16, u16, i32, u32, f32, f64 };
-
-/// Bytes of one value of that type.
-std::size_t size_of(PlyType type);
-inline bool is_float(PlyType type) { return type == PlyType::f32 || type == PlyType::f64; }
+using PlyType = NumberType;  // all but the 64-bit whole numbers
 
 struct PlyProperty {
   std::string_view name;

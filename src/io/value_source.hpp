@@ -5,14 +5,13 @@
 
 #include <bit>
 #include <charconv>
-#include <cmath>
 #include <cstdint>
 #include <string>
 #include <string_view>
 
 #include <plexway/error.hpp>
 
-#include "bytes.hpp"
+#include "binary_numbers.hpp"
 #include "number_type.hpp"
 #include "text_scanner.hpp"
 
@@ -97,18 +96,17 @@ class TextValues {
   TextScanner scanner_;
 };
 
-class ByteValues {
+class ByteValues : public BinaryNumbers<ByteValues> {
  public:
   static constexpr bool is_text = false;
 
   /// Starts at byte `at` of `bytes`; messages start with `name`.
   ByteValues(std::string_view bytes, std::string_view name, std::endian order, std::size_t at = 0)
-      : bytes_(bytes), name_(name), order_(order), at_(at) {}
+      : BinaryNumbers(bytes, order, at), name_(name) {}
 
   [[noreturn]] void fail(const std::string& cause) const {
     throw InputError(std::string(name_) + ": byte " + std::to_string(at_) + ": " + cause);
   }
-  std::uint64_t bytes_left() const { return bytes_.size() - at_; }
   std::uint64_t most(NumberType type) const { return bytes_left() / size_of(type); }
 
   std::string_view word() {
@@ -116,48 +114,6 @@ class ByteValues {
     const std::size_t from = at_;
     while (at_ != bytes_.size() && !is_space(bytes_[at_])) ++at_;
     return bytes_.substr(from, at_ - from);
-  }
-
-  double real(NumberType type, std::string_view what) {
-    if (!is_float(type)) return static_cast<double>(whole(type, what));
-    const std::size_t from = at_;
-    const double value =
-        type == NumberType::f32 ? static_cast<double>(take<float>(what)) : take<double>(what);
-    if (!std::isfinite(value)) {
-      at_ = from;
-      fail(std::string(what) + " is not finite");
-    }
-    return value;
-  }
-
-  std::int64_t whole(NumberType type, std::string_view what) {
-    switch (type) {
-      case NumberType::i8:
-        return take<std::int8_t>(what);
-      case NumberType::u8:
-        return take<std::uint8_t>(what);
-      case NumberType::i16:
-        return take<std::int16_t>(what);
-      case NumberType::u16:
-        return take<std::uint16_t>(what);
-      case NumberType::i32:
-        return take<std::int32_t>(what);
-      case NumberType::u32:
-        return take<std::uint32_t>(what);
-      case NumberType::i64:
-        return take<std::int64_t>(what);
-      case NumberType::u64: {
-        const auto value = take<std::uint64_t>(what);
-        if (value > most_whole) fail(std::string(what) + " is too large");
-        return static_cast<std::int64_t>(value);
-      }
-      default:
-        break;
-    }
-    const double value = real(type, what);
-    if (value != std::floor(value) || std::abs(value) > 9e15)
-      fail(std::string(what) + " is not a whole number");
-    return static_cast<std::int64_t>(value);
   }
 
   std::int64_t text_whole(std::string_view what) {
@@ -168,11 +124,6 @@ class ByteValues {
     if (error != std::errc{} || stop != digits.data() + digits.size())
       fail(std::string(what) + " is not a whole number: " + quote(digits));
     return value;
-  }
-
-  void skip(NumberType type, std::uint64_t values, std::string_view what) {
-    if (values > most(type)) fail("the file ends before " + std::string(what));
-    at_ += values * size_of(type);
   }
 
   bool end_line() {
@@ -204,22 +155,9 @@ class ByteValues {
   }
 
  private:
-  static constexpr std::uint64_t most_whole = 0x7FFFFFFFFFFFFFFFU;
-
   static bool is_space(char c) { return c == ' ' || (c >= '\t' && c <= '\r'); }
 
-  template <class T>
-  T take(std::string_view what) {
-    if (bytes_left() < sizeof(T)) fail("the file ends before " + std::string(what));
-    const T value = load<T>(bytes_.data() + at_, order_);
-    at_ += sizeof(T);
-    return value;
-  }
-
-  std::string_view bytes_;
   std::string_view name_;
-  std::endian order_;
-  std::size_t at_;
 };
 
 /// A count that the file states of things made of `values` numbers of `type` each, as far as the

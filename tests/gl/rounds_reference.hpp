@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <bit>
 #include <limits>
+#include <map>
+#include <utility>
 #include <vector>
 
 #include <plexway/complex/triangle_mesh.hpp>
@@ -13,7 +15,8 @@
 namespace plexway::testing {
 
 /// What the shaders do with a surface, one entry after another on the processor: the same rounds,
-/// the same arithmetic, in plain C++. (Only where nothing is pinched and nothing must be revived.)
+/// the same arithmetic, in plain C++, whatever the size of a front. (Only where nothing is pinched
+/// and nothing must be revived.)
 class RoundsReference {
  public:
   using Kernel = kernel::SaddleKernel<float>;
@@ -22,6 +25,7 @@ class RoundsReference {
       : mesh_(mesh),
         triangles_(mesh.triangles()),
         best_(mesh.face_count(), infinity),
+        known_(mesh.face_count(), infinity),
         labels_(mesh.face_count()) {
     Workspace<float> workspace;
     gl::SurfaceSeeds seeds;
@@ -32,28 +36,29 @@ class RoundsReference {
       Entry e;
       e.triangle = seeds.waiting[n].cell;
       e.edge = s.via & 3;
+      e.source = s.via >> 2;
       e.distance = std::bit_cast<float>(seeds.waiting[n].distance);
       e.label.source = Kernel::saddle_point(s.x[0], s.h);
       e.label.limit[0] = Kernel::saddle_point(s.x[0] + s.x[2], s.h + s.limit_h[0]);
       e.label.limit[1] = Kernel::saddle_point(s.x[0] + s.x[3], s.h + s.limit_h[1]);
       e.label.sigma = s.x[1];
-      best_[e.triangle] = e.distance;
+      best_[e.triangle] = std::min(best_[e.triangle], e.distance);
       current.push_back(e);
     }
     limit_ = step;
-    while (!current.empty()) {
-      // All of a round start together: what it lowers makes none of its own entries stale.
-      std::erase_if(current, [&](const Entry& e) { return best_[e.triangle] != e.distance; });
-      known_ = best_;
-      for (const Entry& e : current) expand(e);
+    for (bool was_far = true; !current.empty();) {
+      float nearest = infinity;
+      const std::vector<Entry> settled = settle(current, nearest);
+      for (const Entry& e : settled) expand(e);
       current.clear();
       if (!near_.empty()) {
         std::swap(current, near_);
+        was_far = false;
       } else if (!far_.empty()) {
-        float nearest = infinity;
-        for (const Entry& e : far_) nearest = std::min(nearest, e.distance);
+        const bool stuck = was_far && settled.empty() && nearest < infinity;
+        limit_ = (stuck ? nearest : limit_) + step;
         std::swap(current, far_);
-        limit_ = std::max(limit_, nearest) + step;
+        was_far = true;
       }
     }
     read_out(seeds);
@@ -73,6 +78,7 @@ class RoundsReference {
     Index triangle = 0;
     std::size_t edge = 0;
     float distance = 0;
+    Index source = 0;
     Kernel::PosedSaddles label;
   };
 
@@ -84,12 +90,31 @@ class RoundsReference {
     }
   }
 
-  void expand(const Entry& e) {
-    if (e.distance >= limit_) {
-      far_.push_back(e);
-      return;
+  // Of the least offers to a triangle that of the first source, then hinge, becomes its label.
+  std::vector<Entry> settle(const std::vector<Entry>& waiting, float& nearest) {
+    std::map<Index, Entry> won;
+    for (const Entry& e : waiting) {
+      if (best_[e.triangle] != e.distance) continue;
+      if (e.distance >= limit_) {
+        nearest = std::min(nearest, e.distance);
+        far_.push_back(e);
+        continue;
+      }
+      const auto [place, first] = won.try_emplace(e.triangle, e);
+      const Entry& other = place->second;
+      if (!first && std::pair(e.source, e.edge) < std::pair(other.source, other.edge))
+        place->second = e;
     }
-    labels_[e.triangle] = e;
+    std::vector<Entry> all;
+    for (const auto& [triangle, e] : won) {
+      labels_[triangle] = e;
+      known_[triangle] = e.distance;
+      all.push_back(e);
+    }
+    return all;
+  }
+
+  void expand(const Entry& e) {
     const TriangleRecord<float>& t = triangles_[e.triangle];
     for (const bool left : {true, false}) {
       const std::size_t out = left ? edge_before(e.edge) : edge_after(e.edge);
@@ -102,7 +127,7 @@ class RoundsReference {
         const Index g = across >> Across::face_shift;
         const std::size_t k = across & Across::edge_mask;
         if (g == mesh_.face_count() || (g == e.triangle && k == out)) break;
-        offer(here, left ? 0 : 1, mirrored, g, k);
+        offer(e, here, left ? 0 : 1, mirrored, g, k);
         if ((across & Across::fan) == 0) break;
         across = triangles_[g].across[k];
         mirrored = mirrored == ((across & Across::flip) != 0);
@@ -110,7 +135,8 @@ class RoundsReference {
     }
   }
 
-  void offer(Kernel::PosedSaddles label, int pivot, bool mirrored, Index g, std::size_t k) {
+  void offer(const Entry& from, Kernel::PosedSaddles label, int pivot, bool mirrored, Index g,
+             std::size_t k) {
     const TriangleRecord<float>& t = triangles_[g];
     if (mirrored) label = Kernel::mirror_label(label, t.length[k]);
     Kernel::SaddleHinge hinge;
@@ -122,9 +148,9 @@ class RoundsReference {
     const auto crossed = Kernel::cross_hinge(label, hinge, false);
     const float gain = 1 - 16 * std::numeric_limits<float>::epsilon();
     // A gain must be more than rounding; of several offers in one round the least is taken.
-    if (!(crossed.distance < known_[g] * gain && crossed.distance < best_[g])) return;
+    if (!(crossed.distance < known_[g] * gain && crossed.distance <= best_[g])) return;
     best_[g] = crossed.distance;
-    Entry e{g, k, crossed.distance, crossed.label};
+    Entry e{g, k, crossed.distance, from.source, crossed.label};
     rest(e.label);
     (e.distance < limit_ ? near_ : far_).push_back(e);
   }

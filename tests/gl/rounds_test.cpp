@@ -72,25 +72,25 @@ TEST_CASE("queues grow where labels are put in between rounds", "[gl]") {
   CHECK(difference(serial.distance, field.distance).max < 1e-5);
 }
 
-TEST_CASE("two hundred repeats on a device stay together", "[gl]") {
+TEST_CASE("two hundred repeats on a device are the same to the last bit", "[gl]") {
   if (!device()) return;
-  const Surface s = hills(24);
+  const Surface s = hills(60);  // fronts of several work groups
   const auto mesh = s.mesh<float>();
   const auto sources = some_sources(s.positions.size(), 3);
   GLWorkspace workspace;
   DistanceField<float> first, field;
   propagate(GL{}, mesh, sources, {}, workspace, first);
-  Difference worst;
+  int same = 0;
   for (int n = 0; n < 200; ++n) {
-    propagate(GL{}, mesh, sources, {}, workspace, field);
-    const Difference found = difference(first.distance, field.distance);
-    worst = {std::max(worst.mean, found.mean), std::max(worst.max, found.max),
-             worst.fits && found.fits};
+    GL executor;
+    GLWorkspace narrow;
+    executor.queue = n % 20 == 19 ? 64 : 0;  // queues that overflow make no difference
+    propagate(executor, mesh, sources, {}, n % 20 == 19 ? narrow : workspace, field);
+    CHECK((narrow.growths() > 0) == (n % 20 == 19));
+    same += field.distance == first.distance && field.label == first.label &&
+            field.statistics.expansions == first.statistics.expansions;
   }
-  CAPTURE(worst.mean, worst.max);
-  CHECK(worst.fits);
-  CHECK(worst.mean < 1e-3);
-  CHECK(worst.max < 4e-2);
+  CHECK(same == 200);
 }
 
 TEST_CASE("within the radius a device finds what it finds without, beyond nothing", "[gl]") {

@@ -13,6 +13,7 @@
 #include <iterator>
 
 #include <plexway/executors/gl.hpp>
+#include <plexway/executors/openmp.hpp>
 #include <plexway/executors/serial.hpp>
 #include <plexway/io/triangles.hpp>
 
@@ -191,15 +192,13 @@ TEST_CASE("surfaces of many kinds on a device agree with the serial executor", "
 TEST_CASE("shaders do what the same rounds in C++ do", "[gl]") {
   const auto context = device();
   if (!context) return;
-  // All of a front start together here; on a device only those of one work group surely do, so
-  // fronts must be small. Equal offers to one triangle are a race, so that a few may differ.
-  const Surface small[] = {
+  const Surface some[] = {
       grid(9, 6),      slit_square(8), random_polygon(7, 40, 100, 5),
       prism(9, 12, 4), moebius(30, 4), subdivide(tetrahedron()),
-      sheets(5, 3),    hills(7, 0.2),  renamed(hills(6, 0.3), 3, true).surface};
+      sheets(5, 3),    hills(60, 0.2), renamed(hills(40, 0.3), 3, true).surface};
   int solves = 0, same = 0, close = 0;
   double mean = 0;
-  for (const Surface& surface : small) {
+  for (const Surface& surface : some) {
     const auto mesh = surface.mesh<float>();
     std::mt19937 random(8);
     GLWorkspace workspace;
@@ -222,7 +221,7 @@ TEST_CASE("shaders do what the same rounds in C++ do", "[gl]") {
   CAPTURE(solves, same, close, mean / solves);
   CHECK(close > 0.9 * solves);
   CHECK(mean < 1e-4 * solves);
-  if (exact(*context)) CHECK(same > 0.95 * solves);
+  if (exact(*context)) CHECK(same == solves);
 }
 
 TEST_CASE("several sources on a device: distances and labels", "[gl]") {
@@ -256,10 +255,12 @@ TEST_CASE("real surfaces on a device are as near to the truth as the serial exec
     const char* name;
     Index vertex;
   };
-  const Source sources[] = {{"surfaces/spot", 1357},      {"surfaces/spot", 2367},
-                            {"surfaces/fandisk", 2095},   {"surfaces/fandisk", 3045},
-                            {"surfaces/camelhead", 5506}, {"surfaces/rocker-arm", 4092},
-                            {"awkward/cow", 141},         {"awkward/moebius", 33}};
+  const Source sources[] = {
+      {"surfaces/spot", 1357},       {"surfaces/spot", 2367},       {"surfaces/spot", 2822},
+      {"surfaces/fandisk", 2095},    {"surfaces/fandisk", 2415},    {"surfaces/fandisk", 3045},
+      {"surfaces/camelhead", 5506},  {"surfaces/camelhead", 6695},  {"surfaces/camelhead", 6697},
+      {"surfaces/rocker-arm", 4092}, {"surfaces/rocker-arm", 9152}, {"surfaces/rocker-arm", 9166},
+      {"awkward/cow", 141},          {"awkward/moebius", 33}};
   double serial = 0, found = 0;
   for (const Source& s : sources) {
     const auto t = io::read_triangles(root / (std::string(s.name) + ".obj"));
@@ -268,12 +269,27 @@ TEST_CASE("real surfaces on a device are as near to the truth as the serial exec
     const TriangleMesh<float> mesh(t.positions, t.triangles);
     REQUIRE(exact.size() == mesh.vertex_count());
     const PointSource source = PointSource::at(s.vertex);
-    const auto other = propagate(Serial{}, mesh, source).distance;
-    const Errors by_serial = testing::compare(other, exact);
+    const std::span<const PointSource> one(&source, 1);
     const Errors by_device = testing::compare(propagate(GL{}, mesh, source).distance, exact);
-    CAPTURE(s.name, s.vertex, by_serial.mean, by_device.mean);
+    // Any order is as good: the serial executor's, and that of a team, whose rounds these are.
+    Errors by_serial;
+    PropagateOptions options;
+    options.vectorised = false;
+    double poorest =
+        openmp_built()
+            ? testing::compare(propagate(OpenMP{.threads = 1}, mesh, one, options).distance, exact)
+                  .mean
+            : 0;
+    options.vectorised = true;
+    for (const double step : {1., 0.25, 0.5, 2.}) {
+      options.step = step;
+      const Errors e = testing::compare(propagate(Serial{}, mesh, one, options).distance, exact);
+      if (step == 1) by_serial = e;
+      poorest = std::max(poorest, e.mean);
+    }
+    CAPTURE(s.name, s.vertex, by_serial.mean, poorest, by_device.mean);
     CHECK(by_device.fits);
-    CHECK(by_device.mean <= 1.5 * by_serial.mean + 1e-4);
+    CHECK(by_device.mean <= 1.5 * poorest + 1e-4);
     serial += by_serial.mean, found += by_device.mean;
   }
   CAPTURE(serial, found);

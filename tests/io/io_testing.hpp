@@ -1,9 +1,6 @@
 #pragma once
 
-#include <unistd.h>
-
 #include <array>
-#include <atomic>
 #include <bit>
 #include <catch2/catch.hpp>
 #include <cstdint>
@@ -18,38 +15,11 @@
 #include <plexway/error.hpp>
 #include <plexway/io/triangles.hpp>
 
+#include "folder.hpp"
+
 namespace io_testing {
 
-/// A folder of its own, removed at the end.
-class Folder {
- public:
-  Folder() {
-    static std::atomic<int> made = 0;
-    path_ = std::filesystem::temp_directory_path() /
-            ("plexway-io-" + std::to_string(::getpid()) + "-" + std::to_string(made++));
-    std::filesystem::create_directories(path_);
-  }
-  ~Folder() {
-    std::error_code ignored;
-    std::filesystem::remove_all(path_, ignored);
-  }
-  Folder(const Folder&) = delete;
-  Folder& operator=(const Folder&) = delete;
-
-  const std::filesystem::path& path() const { return path_; }
-
-  std::filesystem::path write(const std::string& name, std::string_view bytes) const {
-    std::ofstream(path_ / name, std::ios::binary) << bytes;
-    return path_ / name;
-  }
-
-  std::size_t files() const {
-    return static_cast<std::size_t>(std::distance(std::filesystem::directory_iterator(path_), {}));
-  }
-
- private:
-  std::filesystem::path path_;
-};
+using testing::Folder;
 
 inline std::string bytes_of(const std::filesystem::path& file) {
   std::ifstream in(file, std::ios::binary);

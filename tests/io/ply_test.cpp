@@ -169,7 +169,7 @@ TEST_CASE("ply: bad binary bodies are named by element and byte") {
               ": face 0 names vertex 3, but the file has 3 vertices");
     CHECK_THAT(ply_complaint(simple_binary(big, 0xFFFFFFFFU)), Contains("names vertex -1"));
     CHECK(ply_complaint(simple_binary(big, 2, std::numeric_limits<float>::infinity())) ==
-          "mesh: 'vertex' element 2, byte " + std::to_string(start + 36) +
+          "mesh: 'vertex' element 2, byte " + std::to_string(start + 32) +
               ": coordinate z is not finite");
   }
 }

@@ -1,50 +1,20 @@
 #pragma once
 
-#include <unistd.h>
-
 #include <array>
-#include <atomic>
 #include <cmath>
 #include <cstring>
-#include <filesystem>
-#include <fstream>
 #include <random>
 #include <string>
-#include <string_view>
 #include <vector>
+
+#include "folder.hpp"
 
 namespace pcl_testing {
 
+using testing::Folder;
+
 using Row = std::array<double, 3>;
 using Rows = std::vector<Row>;
-
-/// A folder of its own, removed at the end.
-class Folder {
- public:
-  Folder() {
-    static std::atomic<int> made = 0;
-    path_ = std::filesystem::temp_directory_path() /
-            ("plexway-pcl-" + std::to_string(::getpid()) + "-" + std::to_string(made++));
-    std::filesystem::create_directories(path_);
-  }
-  ~Folder() {
-    std::error_code ignored;
-    std::filesystem::remove_all(path_, ignored);
-  }
-  Folder(const Folder&) = delete;
-  Folder& operator=(const Folder&) = delete;
-
-  std::filesystem::path at(const std::string& name) const { return path_ / name; }
-  const std::filesystem::path& path() const { return path_; }
-
-  std::filesystem::path write(const std::string& name, std::string_view bytes) const {
-    std::ofstream(path_ / name, std::ios::binary) << bytes;
-    return path_ / name;
-  }
-
- private:
-  std::filesystem::path path_;
-};
 
 /// The header of a .pcd of three floats, unless said otherwise.
 struct Header {

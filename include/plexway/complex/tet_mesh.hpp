@@ -2,10 +2,12 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <span>
 #include <utility>
 #include <vector>
 
+#include <plexway/complex/identity.hpp>
 #include <plexway/complex/ids.hpp>
 #include <plexway/complex/tet_record.hpp>
 
@@ -101,6 +103,8 @@ class TetMesh {
   [[nodiscard]] std::span<const Index> pinched() const { return pinched_; }
   [[nodiscard]] std::span<const PinchedEdge> pinched_edges() const { return pinched_edges_; }
   [[nodiscard]] std::span<const Index> pinched_edge_tets() const { return pinched_edge_tets_; }
+  /// Of the content: a copy has the same, everything else another (Identity).
+  [[nodiscard]] std::uint64_t identity() const { return identity_.value(); }
 
  private:
   void assemble(std::size_t vertices, std::span<const std::array<Index, 4>> tets,
@@ -110,6 +114,7 @@ class TetMesh {
                 const std::vector<char>& turn);
 
   SolidSummary summary_;
+  Identity identity_;
   std::vector<TetRecord<Real>> tets_;
   std::vector<Vector3<Real>> points_;
   std::vector<std::array<Real, 6>> lengths_;

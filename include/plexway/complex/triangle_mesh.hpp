@@ -2,10 +2,12 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <span>
 #include <utility>
 #include <vector>
 
+#include <plexway/complex/identity.hpp>
 #include <plexway/complex/ids.hpp>
 #include <plexway/complex/triangle_record.hpp>
 
@@ -73,6 +75,12 @@ class TriangleMesh {
                std::span<const std::array<double, 3>> lengths,
                std::span<const std::array<Index, 3>> across, const SurfaceHints& hints = {});
 
+  /// From triangles whose angles are known as well as their lengths, and a gluing: for makers
+  /// inside the library, which answer for both. Throws only where there are no faces.
+  TriangleMesh(std::size_t vertices, std::span<const std::array<Index, 3>> faces,
+               std::span<const TriangleShape> shapes, std::vector<std::array<Index, 3>> across,
+               const SurfaceHints& hints);
+
   [[nodiscard]] std::size_t vertex_count() const { return vertex_to_inside_.size(); }
   [[nodiscard]] std::size_t face_count() const { return triangles_.size() - 1; }
   [[nodiscard]] const SurfaceSummary& summary() const { return summary_; }
@@ -100,6 +108,8 @@ class TriangleMesh {
   /// Vertices (inside) where several fans meet, ascending.
   [[nodiscard]] std::span<const Index> pinched() const { return pinched_; }
   [[nodiscard]] double unit() const { return summary_.mean_edge; }
+  /// Of the content: a copy has the same, everything else another (Identity).
+  [[nodiscard]] std::uint64_t identity() const { return identity_.value(); }
 
  private:
   void assemble(std::size_t vertices, std::span<const std::array<Index, 3>> faces,
@@ -107,6 +117,7 @@ class TriangleMesh {
                 std::vector<std::array<Index, 3>> across, bool samples);
 
   SurfaceSummary summary_;
+  Identity identity_;
   std::vector<TriangleRecord<Real>> triangles_;
   std::vector<Index> vertex_to_inside_;
   std::vector<Index> face_to_inside_;

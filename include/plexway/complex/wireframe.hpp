@@ -2,9 +2,11 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <span>
 #include <vector>
 
+#include <plexway/complex/identity.hpp>
 #include <plexway/complex/ids.hpp>
 
 namespace plexway {
@@ -79,12 +81,15 @@ class Wireframe {
   };
   /// Cost: logarithmic.
   [[nodiscard]] Ends inside_edge(Index edge) const;
+  /// Of the content: a copy has the same, everything else another (Identity).
+  [[nodiscard]] std::uint64_t identity() const { return identity_.value(); }
 
  private:
   void assemble(std::span<const std::array<Index, 2>> edges, std::span<const double> lengths);
   void count_components();
 
   WireframeSummary summary_;
+  Identity identity_;
   double unit_ = 1, typical_edge_ = 1;
   std::vector<Index> begin_;
   std::vector<WireArc<Real>> arcs_;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <concepts>
 #include <cstddef>
 #include <memory>
 #include <span>
@@ -75,14 +76,21 @@ class GLWorkspace {
   std::unique_ptr<Implementation> implementation_;
 };
 
+/// What the GL executor takes; everything else it refuses to compile.
+template <class Domain>
+concept GLDomain =
+    std::same_as<Domain, TriangleMesh<float>> || std::same_as<Domain, TetMesh<float>> ||
+    std::same_as<Domain, Wireframe<float>> || std::same_as<Domain, PointCloud<float>>;
+
 /// The distance of every vertex from the nearest of `sources`, as by Serial (executors/serial.hpp)
-/// with these differences. Many labels are expanded at once, near before far and else in no order.
-/// Distances differ from Serial's as those of two schedules of Serial do, 2e-4 to 1e-3 in the mean
-/// and 1e-2 at worst, and where fronts are wide a little from run to run; they are as near to the
-/// exact ones (docs/DESIGN.md, "Graphics processors"). On wireframes they are those of Serial to
-/// the bit. Numbers are single precision. Only Visibility::saddles, and no Schedule::priority:
-/// UsageError, as for 2^30 sources or more. Progress is reported every few rounds. The statistics
-/// count what was done, which varies. A bounded search costs memory and time for the whole domain.
+/// with these differences. Many labels are expanded at once, in the rounds of OpenMP
+/// (executors/openmp.hpp): the same bits each time, and where the device rounds as the processor
+/// does those of OpenMP, up to the order of additions in the vectorised step. They differ from
+/// Serial's as those of two schedules of Serial do, 2e-4 to 1e-3 in the mean and 1e-2 at worst, and
+/// are as near to the exact ones (docs/DESIGN.md, "Several threads"). On wireframes they are those
+/// of Serial to the bit. Numbers are single precision. Only Visibility::saddles, and no
+/// Schedule::priority: UsageError, as for more than 2^27 sources. Progress is reported every few
+/// rounds. A bounded search costs memory and time for the whole domain.
 /// Source: Trettner, Bommes, Kobbelt: Geodesic Distance Computation via Virtual Source
 /// Propagation, SGP 2021, section 5.
 void propagate(GL, const TriangleMesh<float>& mesh, std::span<const PointSource> sources,
@@ -120,9 +128,12 @@ bool propagate_each(GL, const Wireframe<float>& wireframe, std::span<const Point
 bool propagate_each(GL, const TetMesh<float>& mesh, std::span<const PointSource> sources,
                     const PropagateOptions& options, GLWorkspace& workspace,
                     std::span<float> distance);
+bool propagate_each(GL, const PointCloud<float>& cloud, std::span<const PointSource> sources,
+                    const PropagateOptions& options, GLWorkspace& workspace,
+                    std::span<float> distance);
 
 /// The same with a workspace of its own.
-template <class Domain>
+template <GLDomain Domain>
 [[nodiscard]] DistanceField<float> propagate(GL executor, const Domain& domain,
                                              std::span<const PointSource> sources,
                                              const PropagateOptions& options = {}) {
@@ -133,12 +144,18 @@ template <class Domain>
 }
 
 /// From a single source.
-template <class Domain>
+template <GLDomain Domain>
 [[nodiscard]] DistanceField<float> propagate(GL executor, const Domain& domain,
                                              const PointSource& source,
                                              const PropagateOptions& options = {}) {
   return propagate(executor, domain, std::span<const PointSource>(&source, 1), options);
 }
+
+/// Not on the device: double precision, mixed domains, simplices by dimension, vertex pairs.
+template <class Domain, class... Rest>
+requires(!GLDomain<Domain>) void propagate(const GL&, const Domain&, Rest&&...) = delete;
+template <class Domain, class... Rest>
+requires(!GLDomain<Domain>) void fields(const GL&, const Domain&, Rest&&...) = delete;
 
 /// What needs order needs one thread.
 template <class Domain, class Sources>
@@ -149,11 +166,11 @@ void propagate(const GL&, const Domain&, std::span<const PointSource>, const Nea
 
 /// K fields: row k has the distance of every vertex from source k *alone*, all in as few launches
 /// as GL::batch_bytes allows (`propagate_each`).
-template <class Domain>
+template <GLDomain Domain>
 [[nodiscard]] Fields<float> fields(const GL& executor, const Domain& domain,
                                    std::span<const PointSource> sources,
                                    const PropagateOptions& options = {}) {
-  Fields<float> fields(sources.size(), domain.vertex_count());
+  Fields<float> fields(sources.size(), detail::field_size(domain));
   GLWorkspace workspace;
   fields.complete = propagate_each(executor, domain, sources, options, workspace, fields.values());
   return fields;

@@ -82,6 +82,12 @@ class Buffer {
     session.gl.BufferSubData(GL_SHADER_STORAGE_BUFFER, static_cast<GLintptr>(first * sizeof(T)),
                              static_cast<GLsizeiptr>(values.size_bytes()), values.data());
   }
+  /// Room for all of them, and they are written.
+  template <class T>
+  void upload(const Session& session, std::span<const T> values) {
+    reserve(session, values.size_bytes());
+    write(session, values);
+  }
   template <class T>
   void read(const Session& session, std::span<T> values, std::size_t first = 0) const {
     if (values.empty()) return;

@@ -1,6 +1,10 @@
+#include <algorithm>
+#include <vector>
+
 #include <plexway/executors/gl.hpp>
 
 #include "executors/cloud_field.hpp"
+#include "executors/gl/run.hpp"
 
 namespace plexway {
 
@@ -11,6 +15,29 @@ void propagate(GL executor, const PointCloud<float>& cloud, std::span<const Poin
                  [&](const TriangleMesh<float>& surface, std::span<const PointSource> moved) {
                    propagate(executor, surface, moved, options, workspace, field);
                  });
+}
+
+bool propagate_each(GL executor, const PointCloud<float>& cloud,
+                    std::span<const PointSource> sources, const PropagateOptions& options,
+                    GLWorkspace& workspace, std::span<float> distance) {
+  const std::size_t points = cloud.point_count(), vertices = cloud.surface().vertex_count();
+  gl::check_size(distance, sources.size(), points);
+  bool complete = true;
+  solve_on_surface_of(
+      cloud, sources, [&](const TriangleMesh<float>& surface, std::span<const PointSource> moved) {
+        if (vertices == points) {
+          complete = propagate_each(executor, surface, moved, options, workspace, distance);
+          return;
+        }
+        std::vector<float> rows(sources.size() * vertices);
+        complete = propagate_each(executor, surface, moved, options, workspace, rows);
+        for (std::size_t k = 0; k < sources.size(); ++k)
+          std::copy_n(&rows[k * vertices], vertices, &distance[k * points]);
+      });
+  for (std::size_t k = 0; k < sources.size(); ++k)
+    for (const auto& [twin, first] : cloud.twins())
+      distance[k * points + twin] = distance[k * points + first];
+  return complete;
 }
 
 }  // namespace plexway

@@ -1,7 +1,8 @@
 #include "executors/gl/front.hpp"
 
 #include <algorithm>
-#include <bit>
+#include <cstddef>
+#include <limits>
 
 #include "executors/gl/readback.hpp"
 #include "executors/gl/uniforms.hpp"
@@ -30,17 +31,17 @@ void dispatch(const Session& session, std::size_t invocations) {
 
 Front::Front()
     : control_("control"),
-      best_("distances"),
+      cells_("distances"),
       labels_("labels"),
       waiting_("waiting labels"),
       waiting_labels_("waiting labels") {}
 
 void Front::release(const Session& session) {
-  for (Buffer* b : {&control_, &best_, &labels_, &waiting_, &waiting_labels_}) b->release(session);
+  for (Buffer* b : {&control_, &cells_, &labels_, &waiting_, &waiting_labels_}) b->release(session);
 }
 
 std::size_t Front::bytes() const {
-  return control_.bytes() + best_.bytes() + labels_.bytes() + waiting_.bytes() +
+  return control_.bytes() + cells_.bytes() + labels_.bytes() + waiting_.bytes() +
          waiting_labels_.bytes();
 }
 
@@ -53,7 +54,7 @@ void Front::start(const Session& session, std::size_t cells, std::size_t label_b
   growths_ = 0;
   control_.reserve(session, sizeof(FrontControl));
   labels_.check(session, cells * label_bytes);  // before anything large is allocated
-  best_.reserve(session, cells * sizeof(GLuint));
+  cells_.reserve(session, cells * sizeof(Cell));
   labels_.reserve(session, cells * label_bytes);
   state_ = FrontControl();
   state_.limit = state_.step = static_cast<float>(step);
@@ -64,7 +65,7 @@ void Front::start(const Session& session, std::size_t cells, std::size_t label_b
                                      waiting_labels_.bytes() / (3 * label_bytes));
   state_.capacity = static_cast<GLuint>(std::min(there, cells + 1));
   make_room(session, std::min(room, most_entries(session)));
-  best_.fill(session, FrontControl::unreached, cells);
+  cells_.fill(session, FrontControl::unreached, cells * (sizeof(Cell) / sizeof(GLuint)));
 }
 
 void Front::make_room(const Session& session, std::size_t entries) {
@@ -90,51 +91,52 @@ void Front::accept(const Session& session, std::size_t first, std::size_t count)
   dispatch(session, count);
 }
 
-bool Front::add(const Session& session, const std::function<void()>& add) {
+std::size_t Front::add(const Session& session, const std::function<void()>& add) {
   for (;;) {
     state_.state = FrontControl::running;
     state_.begin = state_.total;
     state_.count = 0;
     state_.waiting_in = {};
+    state_.was_far = state_.live = state_.accepted = 0;
     state_.nearest_far = FrontControl::unreached;
     state_.spare = 0;
     write_state(session);
     bind(session);
     add();
     read_state(session);
-    const std::size_t near = state_.waiting_in[state_.near], far = state_.waiting_in[state_.far];
-    if (near <= state_.capacity && far <= state_.capacity) {
-      const std::size_t before = FrontControl::wide(state_.updates);
-      for (const GLuint queue : {state_.near, state_.far})
-        accept(session, std::size_t{queue} * state_.capacity, state_.waiting_in[queue]);
+    const std::size_t found = state_.waiting_in[state_.far];
+    if (found <= state_.capacity) {
+      accept(session, std::size_t{state_.far} * state_.capacity, found);
       read_state(session);
-      return FrontControl::wide(state_.updates) != before;
+      return state_.accepted;
     }
     grow(session);
   }
 }
 
 bool Front::spread(const Session& session, GLuint rule, std::size_t share,
-                   const std::string& keep_defines,
-                   const std::function<void(const FrontControl&)>& report, GLuint settle) {
-  const Functions& gl = session.gl;
-  bind(session);
-  gl.BindBuffer(GL_DISPATCH_INDIRECT_BUFFER, control_.name());
-  const GLuint advance_program = session.program("advance.comp");
+                   const std::string& label_defines,
+                   const std::function<void(const FrontControl&)>& report) {
+  constexpr std::size_t offers = offsetof(FrontControl, dispatch);
+  constexpr std::size_t settling = offsetof(FrontControl, settle_dispatch);
+  const GLuint contest = session.program("contest.comp", label_defines);
+  const GLuint twins = session.program("twins.comp", label_defines);
+  const GLuint settle = session.program("settle.comp", label_defines);
+  const auto bind_all = [&] {
+    bind(session);
+    session.gl.BindBuffer(GL_DISPATCH_INDIRECT_BUFFER, control_.name());
+  };
+  bind_all();
   advance(session, share);
   Readback readback(session, control_.name(), sizeof(FrontControl));
   std::size_t rounds = 8;
   for (;;) {
     for (std::size_t n = 0; n < rounds; ++n) {
-      for (const GLuint program : {settle, rule}) {
-        if (program == 0) continue;
-        gl.UseProgram(program);
-        gl.DispatchComputeIndirect(0);
-        gl.MemoryBarrier(all_that_follows);
-      }
-      gl.UseProgram(advance_program);
-      gl.DispatchCompute(1, 1, 1);
-      gl.MemoryBarrier(all_that_follows);
+      launch(session, contest, settling);
+      launch(session, twins, offsetof(FrontControl, twin_dispatch));
+      launch(session, settle, settling);
+      launch(session, rule, offers);
+      advance(session, share);
     }
     rounds = std::min<std::size_t>(2 * rounds, 64);
     // What it was some rounds ago, while those just launched are under way: once it rests, they
@@ -146,35 +148,53 @@ bool Front::spread(const Session& session, GLuint rule, std::size_t share,
     read_state(session);
     if (state_.state != FrontControl::overflowed) break;
     grow(session);
+    // What the round settled makes its offers again.
     state_.state = FrontControl::running;
-    state_.count = 0;  // so the same part of the queue is expanded again
     write_state(session);
-    bind(session);
-    gl.BindBuffer(GL_DISPATCH_INDIRECT_BUFFER, control_.name());
+    bind_all();
+    session.gl.UseProgram(rule);
+    dispatch(session, session.context().group() / share * state_.count);
     advance(session, share);
     rounds = 8;
   }
   if (state_.state == FrontControl::done) return true;
-  keep(session, keep_defines);
+  settle_all(session, label_defines);
   return false;
+}
+
+void Front::launch(const Session& session, GLuint program, std::size_t indirect) const {
+  session.gl.UseProgram(program);
+  session.gl.DispatchComputeIndirect(static_cast<GLintptr>(indirect));
+  session.gl.MemoryBarrier(all_that_follows);
 }
 
 void Front::advance(const Session& session, std::size_t share) {
   const Uniforms program(session, session.program("advance.comp"));
   program.set("share", share);
+  program.set("group", std::size_t{session.context().group()});
   program.set("most_groups", std::min<std::size_t>(session.limits().groups, 65535));
   session.gl.DispatchCompute(1, 1, 1);
   session.gl.MemoryBarrier(all_that_follows);
 }
 
-void Front::keep(const Session& session, const std::string& defines) {
+void Front::settle_all(const Session& session, const std::string& label_defines) {
+  const FrontControl before = state_;
   bind(session);
-  for (GLuint queue = 0; queue < 3; ++queue) {
-    const Uniforms program(session, session.program("keep.comp", defines));
-    program.set("first", std::size_t{queue} * state_.capacity);
-    program.set("count", std::size_t{state_.waiting_in[queue]});
-    dispatch(session, state_.waiting_in[queue]);
-  }
+  for (const char* const pass : {"contest.comp", "twins.comp", "settle.comp"})
+    for (GLuint queue = 0; queue < 3; ++queue) {
+      read_state(session);
+      state_.current = queue;
+      state_.limit = std::numeric_limits<float>::infinity();
+      state_.twin_dispatch[0] = 1;
+      state_.begin = queue == before.current ? before.begin : 0;
+      state_.count =
+          (queue == before.current ? before.total : before.waiting_in[queue]) - state_.begin;
+      write_state(session);
+      session.gl.UseProgram(session.program(pass, label_defines));
+      dispatch(session, state_.count);
+    }
+  read_state(session);
+  state_.expansions = before.expansions;
 }
 
 std::size_t Front::most_entries(const Session& session) const {
@@ -201,7 +221,7 @@ void Front::grow(const Session& session) {
 
 void Front::bind(const Session& session) const {
   control_.bind(session, 0);
-  best_.bind(session, 1);
+  cells_.bind(session, 1);
   labels_.bind(session, 2);
   waiting_.bind(session, 3);
   waiting_labels_.bind(session, 4);

@@ -17,13 +17,15 @@ namespace plexway::gl {
 /// shaders/front_control.glsl says what these mean.
 struct FrontControl {
   enum State : GLuint { running, done, overflowed, out_of_budget };
-  std::array<GLuint, 4> dispatch{0, 1, 1, 0};
+  std::array<GLuint, 4> dispatch{0, 1, 1, 0}, settle_dispatch{0, 1, 1, 0},
+      twin_dispatch{0, 1, 1, 0};
   GLuint state = running;
   GLuint current = 0, near = 1, far = 2;
   GLuint begin = 0, count = 0, total = 0, capacity = 0;
-  std::array<GLuint, 4> waiting_in{};
+  std::array<GLuint, 3> waiting_in{};
+  GLuint near_before = 0, far_before = 0, live = 0, was_far = 1;
   float limit = 0, step = 0;
-  GLuint nearest_far = unreached, reached = 0;
+  GLuint nearest_far = unreached, reached = 0, accepted = 0;
   std::array<GLuint, 2> expansions{}, updates{}, budget{};
   GLuint rounds = 0, spare = 0;
 
@@ -33,13 +35,19 @@ struct FrontControl {
   }
 };
 
-/// A waiting label.
+/// A waiting label: the same.
 struct Waiting {
-  GLuint cell, distance;  // bits
+  GLuint cell, distance, round = 0;
+};
+
+/// shaders/front.glsl says what is in it.
+struct Cell {
+  GLuint least, rank, age, known;
 };
 
 /// The labels of a propagation and the queues in which they wait, on the device: who may write
-/// where, and round after round until none waits. The rule is a shader of the owner's.
+/// where, and round after round until none waits. The rounds are those of executors/rounds.hpp, so
+/// that the result is a matter of what is offered. The rule is a shader of the owner's.
 class Front {
  public:
   Front();
@@ -51,7 +59,7 @@ class Front {
   void start(const Session& session, std::size_t cells, std::size_t label_bytes, std::size_t room,
              double step, std::size_t max_expansions);
 
-  /// Puts labels into the first queue; each is accepted if it is the best of its cell.
+  /// Puts labels into the first queue; of those for one cell the best is accepted.
   template <class Label>
   void seed(const Session& session, std::span<const Waiting> entries,
             std::span<const Label> labels) {
@@ -61,26 +69,25 @@ class Front {
     begin_with(session, entries.size());
   }
 
-  /// Calls `add`, a dispatch that puts labels into the near and the far queue, again with more room
-  /// if it found too little; then accepts them. True if there are any.
-  bool add(const Session& session, const std::function<void()>& add);
+  /// Calls `add`, a dispatch that puts labels into the far queue, again with more room if it found
+  /// too little; then accepts them. How many.
+  std::size_t add(const Session& session, const std::function<void()>& add);
 
   /// Rounds of the program `rule`, a work group of which expands `share` labels, until nothing
-  /// waits. `report` gets the state every few rounds. False if the budget is spent: then the labels
-  /// that still wait have been stored, by keep.comp with `keep_defines`. If there is a program
-  /// `settle`, it is run before the rule in each round, with as many work groups.
+  /// waits. `label_defines` says to front_label.glsl what labels are. `report` gets the state every
+  /// few rounds. False if the budget is spent: then the labels that still wait have been settled.
   bool spread(const Session& session, GLuint rule, std::size_t share,
-              const std::string& keep_defines,
-              const std::function<void(const FrontControl&)>& report, GLuint settle = 0);
+              const std::string& label_defines,
+              const std::function<void(const FrontControl&)>& report);
 
   /// Makes the labels of all cells zeros: for rules that look at those of neighbours.
   void clear_labels(const Session& session, std::size_t cells) {
     labels_.fill(session, 0, cells * (label_bytes_ / sizeof(GLuint)));
   }
 
-  /// Bindings 0 to 4: control, best, labels, waiting, waiting labels.
+  /// Bindings 0 to 4: control, cells, labels, waiting, waiting labels.
   void bind(const Session& session) const;
-  [[nodiscard]] const Buffer& best() const { return best_; }
+  [[nodiscard]] const Buffer& cells() const { return cells_; }
   [[nodiscard]] const Buffer& labels() const { return labels_; }
   [[nodiscard]] const FrontControl& state() const { return state_; }  ///< when it was last read
   [[nodiscard]] std::size_t growths() const { return growths_; }
@@ -90,13 +97,14 @@ class Front {
   void make_room(const Session& session, std::size_t entries);
   void begin_with(const Session& session, std::size_t entries);
   void accept(const Session& session, std::size_t first, std::size_t count);
-  void keep(const Session& session, const std::string& defines);
+  void launch(const Session& session, GLuint program, std::size_t indirect) const;
+  void settle_all(const Session& session, const std::string& label_defines);
   void grow(const Session& session);
   void write_state(const Session& session);
   void read_state(const Session& session);
   void advance(const Session& session, std::size_t share);
 
-  Buffer control_, best_, labels_, waiting_, waiting_labels_;
+  Buffer control_, cells_, labels_, waiting_, waiting_labels_;
   FrontControl state_;
   std::size_t label_bytes_ = 0, growths_ = 0;
 };

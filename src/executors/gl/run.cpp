@@ -14,13 +14,19 @@ void check_options(const PropagateOptions& options, std::size_t sources) {
     throw UsageError(
         "Schedule::priority needs an order among labels, which the gl executor does not keep: use "
         "Serial, or another schedule");
-  if (sources >= std::size_t{1} << 30)
-    throw UsageError("the gl executor takes at most 2^30 - 1 sources");
+  if (sources > std::size_t{1} << 27)
+    throw UsageError("the gl executor takes at most 2^27 sources");
 }
 
-std::size_t room_for(const GL& executor, std::size_t cells) {
-  if (executor.queue > 0) return executor.queue;
-  return std::clamp(cells / 8, std::size_t{4096}, std::size_t{1} << 20);
+void Job::start(std::size_t cells, std::size_t label_bytes, std::size_t fields, double step) const {
+  const std::size_t room = executor.queue > 0
+                               ? executor.queue
+                               : std::clamp(cells / 8, std::size_t{4096}, std::size_t{1} << 20);
+  constexpr std::size_t most = std::numeric_limits<std::size_t>::max();
+  const std::size_t budget =
+      options.max_expansions < most / fields ? options.max_expansions * fields : most;
+  if (options.schedule == Schedule::fifo) step = std::numeric_limits<double>::infinity();
+  workspace.front.start(session, cells, label_bytes, room, step, budget);
 }
 
 std::function<void(const FrontControl&)> reporter(const PropagateOptions& options,
@@ -35,16 +41,12 @@ std::function<void(const FrontControl&)> reporter(const PropagateOptions& option
 
 std::size_t fields_at_once(const Session& session, const GL& executor, std::size_t sources,
                            std::size_t simplices, std::size_t label_bytes, std::size_t vertices) {
-  const std::size_t bytes = simplices * (label_bytes + sizeof(GLuint)) + vertices * 8;
+  const std::size_t bytes = simplices * (label_bytes + sizeof(Cell)) + vertices * 8;
   const std::size_t by_memory = executor.batch_bytes / bytes;
-  const std::size_t by_block = session.limits().block / (simplices * label_bytes);
+  const std::size_t by_block =
+      session.limits().block / (simplices * std::max(label_bytes, sizeof(Cell)));
   const std::size_t by_number = (none - 1) / std::max(simplices, vertices);
   return std::clamp(std::min({by_memory, by_block, by_number}), std::size_t{1}, sources);
-}
-
-std::size_t budget_of(const PropagateOptions& options, std::size_t fields) {
-  constexpr std::size_t most = std::numeric_limits<std::size_t>::max();
-  return options.max_expansions < most / fields ? options.max_expansions * fields : most;
 }
 
 void check_size(std::span<const float> distance, std::size_t sources, std::size_t vertices) {
@@ -54,8 +56,9 @@ void check_size(std::span<const float> distance, std::size_t sources, std::size_
                      " vertices need " + std::to_string(sources * vertices));
 }
 
-void finish(const Session& session, GLWorkspace::Implementation& workspace, const Finish& what,
-            std::span<float> distance, std::span<Index> label) {
+void finish(const Job& job, const Finish& what, std::span<float> distance, std::span<Index> label) {
+  const Session& session = job.session;
+  GLWorkspace::Implementation& workspace = job.workspace;
   const std::size_t total = what.vertices * what.fields;
   workspace.distances.reserve(session, total * sizeof(GLuint));
   if (!label.empty()) workspace.sources.reserve(session, total * sizeof(GLuint));
@@ -63,8 +66,9 @@ void finish(const Session& session, GLWorkspace::Implementation& workspace, cons
       session, session.program("finish.comp", label.empty() ? "" : "#define PLEXWAY_LABELS\n"));
   program.set("vertex_count", what.vertices);
   program.set("total", total);
+  program.set("stride", what.stride);
   program.set("unit", static_cast<float>(what.unit));
-  program.set("radius", static_cast<float>(what.radius));
+  program.set("radius", static_cast<float>(job.options.radius));
   what.inside.bind(session, 5);
   what.vertex_best.bind(session, 6);
   workspace.distances.bind(session, 3);
@@ -75,6 +79,37 @@ void finish(const Session& session, GLWorkspace::Implementation& workspace, cons
   dispatch(session, total);
   workspace.distances.read(session, distance);
   if (!label.empty()) workspace.sources.read(session, label);
+}
+
+void start_read_out(const Job& job, std::size_t vertices, std::size_t offers, bool labels) {
+  GLWorkspace::Implementation& there = job.workspace;
+  there.vertex_best.reserve(job.session, vertices * sizeof(GLuint));
+  there.vertex_best.fill(job.session, FrontControl::unreached, vertices);
+  there.small.reserve(job.session, 16 + offers * sizeof(VertexOffer));
+  if (!labels) return;
+  there.vertex_source.reserve(job.session, vertices * sizeof(GLuint));
+  there.vertex_source.fill(job.session, none, vertices);
+}
+
+void offer_vertices(const Job& job, const std::vector<VertexOffer>& offers, bool who, bool labels) {
+  const Uniforms program(job.session, job.session.program("claim.comp"));
+  program.set("count", offers.size());
+  program.set("who", std::size_t{who});
+  job.workspace.small.write(job.session, std::span<const VertexOffer>(offers));
+  job.workspace.small.bind(job.session, 3);
+  job.workspace.vertex_best.bind(job.session, 6);
+  if (labels) job.workspace.vertex_source.bind(job.session, 7);
+  dispatch(job.session, offers.size());
+}
+
+bool changes(const Job& job, const std::function<void()>& ask) {
+  Buffer& small = job.workspace.small;
+  small.fill(job.session, 0, 1);
+  small.bind(job.session, 4);
+  ask();
+  GLuint count = 0;
+  small.read(job.session, std::span<GLuint>(&count, 1));
+  return count != 0;
 }
 
 void set_offsets(std::span<const PointSource> sources, const PropagateOptions& options,

@@ -5,6 +5,7 @@
 
 #include <plexway/propagate/distance_field.hpp>
 
+#include "executors/gl/seeds.hpp"
 #include "executors/gl/uniforms.hpp"
 #include "executors/gl/workspace.hpp"
 
@@ -13,8 +14,17 @@ namespace plexway::gl {
 /// Throws UsageError for options that need an order among labels, or another rule.
 void check_options(const PropagateOptions& options, std::size_t sources);
 
-/// Room for waiting labels at first.
-std::size_t room_for(const GL& executor, std::size_t cells);
+/// What a solve was asked to do, and where.
+struct Job {
+  const GL& executor;
+  const PropagateOptions& options;
+  GLWorkspace::Implementation& workspace;
+  const Session& session;
+
+  /// All `cells` of so many fields unreached, labels of so many bytes; `step` is the dual queue's,
+  /// in the unit inside.
+  void start(std::size_t cells, std::size_t label_bytes, std::size_t fields, double step) const;
+};
 
 /// Calls the caller's progress function with what the device has done. Throws Cancelled.
 std::function<void(const FrontControl&)> reporter(const PropagateOptions& options,
@@ -24,14 +34,21 @@ std::function<void(const FrontControl&)> reporter(const PropagateOptions& option
 /// unit inside) in `vertex_best`, and their sources if `labels` is not empty, to the caller's
 /// arrays of fields times vertices.
 struct Finish {
-  const Buffer& inside;  ///< the number inside of each vertex
-  const Buffer& vertex_best;
+  const Buffer& inside;       ///< the number inside of each vertex
+  const Buffer& vertex_best;  ///< the last of `stride` numbers a vertex
+  std::size_t stride;
   const Buffer& vertex_source;
   std::size_t vertices, fields;
-  double unit, radius;
+  double unit;
 };
-void finish(const Session& session, GLWorkspace::Implementation& workspace, const Finish& what,
-            std::span<float> distance, std::span<Index> label);
+void finish(const Job& job, const Finish& what, std::span<float> distance, std::span<Index> label);
+
+/// The steps before, where labels are not those of vertices: so many vertices unreached, then what
+/// sources offer to them, or, of those that came out so near, whose they are.
+void start_read_out(const Job& job, std::size_t vertices, std::size_t offers, bool labels);
+void offer_vertices(const Job& job, const std::vector<VertexOffer>& offers, bool who, bool labels);
+/// `ask`, a dispatch that counts what it changed at binding 4. True if there is anything.
+bool changes(const Job& job, const std::function<void()>& ask);
 
 /// A source's own offset survives scaling exactly.
 void set_offsets(std::span<const PointSource> sources, const PropagateOptions& options,
@@ -40,9 +57,6 @@ void set_offsets(std::span<const PointSource> sources, const PropagateOptions& o
 /// Of `sources` fields over so many simplices and vertices, how many one launch should hold.
 std::size_t fields_at_once(const Session& session, const GL& executor, std::size_t sources,
                            std::size_t simplices, std::size_t label_bytes, std::size_t vertices);
-
-/// Expansions that all fields of a launch may have together.
-std::size_t budget_of(const PropagateOptions& options, std::size_t fields);
 
 /// Throws UsageError unless `distance` has the size of that many fields.
 void check_size(std::span<const float> distance, std::size_t sources, std::size_t vertices);

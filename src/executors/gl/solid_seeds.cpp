@@ -83,12 +83,6 @@ PropagateOptions without_limits(const PropagateOptions& options) {
 
 }  // namespace
 
-void SolidSeeds::clear() {
-  waiting.clear();
-  labels.clear();
-  offers.clear();
-}
-
 void SolidSeeds::add(const TetMesh<float>& mesh, std::span<const PointSource> sources,
                      std::size_t field, Workspace<float>& workspace) {
   const PropagateOptions options;
@@ -107,13 +101,14 @@ void SolidSeeds::add(const TetMesh<float>& mesh, std::span<const PointSource> so
 }
 
 void SolidSeeds::add_pinches(const TetMesh<float>& mesh, const PropagateOptions& options,
-                             std::size_t field, std::span<const GLuint> best,
+                             std::size_t field, std::span<const Cell> best,
                              std::span<const SolidCell> known, Workspace<float>& workspace) {
   const std::size_t tets = mesh.tet_count(), first = field * tets;
   const PropagateOptions all = without_limits(options);
   HostFront host(mesh, all, workspace);
   for (Index t = 0; t < tets; ++t)
-    if (best[first + t] != FrontControl::unreached) host.know(t, best[first + t], known[first + t]);
+    if (best[first + t].known != FrontControl::unreached)
+      host.know(t, best[first + t].known, known[first + t]);
   host.drain([](Index, GLuint, const SolidCell&) {});
   if (!host.propagation.pass_pinches()) return;
   host.drain([&](Index t, GLuint distance, const SolidCell& cell) {

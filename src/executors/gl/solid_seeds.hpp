@@ -2,14 +2,13 @@
 
 #include <array>
 #include <span>
-#include <vector>
 
 #include <plexway/complex/tet_mesh.hpp>
 #include <plexway/propagate/solid_label.hpp>
+#include <plexway/propagate/workspace.hpp>
 #include <plexway/source/point_source.hpp>
 
-#include "executors/gl/vertex_offer.hpp"
-#include "executors/gl/workspace.hpp"
+#include "executors/gl/seeds.hpp"
 
 namespace plexway::gl {
 
@@ -22,21 +21,15 @@ struct SolidCell {
   GLuint path, source;
 };
 
-/// Labels that the serial rule has computed and that wait on the device, and distances of the
-/// vertices next to sources. Field by field.
-struct SolidSeeds {
-  std::vector<Waiting> waiting;
-  std::vector<SolidCell> labels;
-  std::vector<VertexOffer> offers;
-
-  void clear();
+/// As the serial rule computes them.
+struct SolidSeeds : SeedsOf<SolidCell> {
   /// Sources of one field.
   void add(const TetMesh<float>& mesh, std::span<const PointSource> sources, std::size_t field,
            Workspace<float>& workspace);
   /// What passes the vertices and edges of one field where tetrahedra only touch, given what is
-  /// known of all tetrahedra: bits of distances, and labels.
+  /// known of all tetrahedra: distances, and labels.
   void add_pinches(const TetMesh<float>& mesh, const PropagateOptions& options, std::size_t field,
-                   std::span<const GLuint> best, std::span<const SolidCell> known,
+                   std::span<const Cell> best, std::span<const SolidCell> known,
                    Workspace<float>& workspace);
 };
 

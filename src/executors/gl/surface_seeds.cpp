@@ -10,12 +10,6 @@
 
 namespace plexway::gl {
 
-void SurfaceSeeds::clear() {
-  waiting.clear();
-  labels.clear();
-  offers.clear();
-}
-
 void SurfaceSeeds::add(const TriangleMesh<float>& mesh, std::span<const PointSource> sources,
                        std::size_t field, Workspace<float>& workspace) {
   const std::size_t faces = mesh.face_count(), first_cell = field * faces;

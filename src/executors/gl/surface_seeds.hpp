@@ -2,13 +2,12 @@
 
 #include <array>
 #include <span>
-#include <vector>
 
 #include <plexway/complex/triangle_mesh.hpp>
+#include <plexway/propagate/workspace.hpp>
 #include <plexway/source/point_source.hpp>
 
-#include "executors/gl/vertex_offer.hpp"
-#include "executors/gl/workspace.hpp"
+#include "executors/gl/seeds.hpp"
 
 namespace plexway::gl {
 
@@ -20,14 +19,8 @@ struct SurfaceLabel {
   std::array<float, 2> limit_h;
 };
 
-/// What propagations start from, computed by the serial rule: labels of cells, and distances of the
-/// vertices next to sources. Field by field.
-struct SurfaceSeeds {
-  std::vector<Waiting> waiting;
-  std::vector<SurfaceLabel> labels;
-  std::vector<VertexOffer> offers;
-
-  void clear();
+/// As the serial rule computes them.
+struct SurfaceSeeds : SeedsOf<SurfaceLabel> {
   /// Sources of one field.
   void add(const TriangleMesh<float>& mesh, std::span<const PointSource> sources, std::size_t field,
            Workspace<float>& workspace);

@@ -29,14 +29,21 @@ void GLWorkspace::Implementation::use(const std::shared_ptr<gl::Context>& wanted
 
 void GLWorkspace::Implementation::release(const gl::Session& session) {
   front.release(session);
-  if (domain) domain->release(session);
-  domain.reset();
+  release_domain(session);
   for (gl::Buffer* b : {&vertex_best, &vertex_source, &distances, &sources, &small})
     b->release(session);
 }
 
-std::size_t GLWorkspace::Implementation::bytes() const {
-  std::size_t sum = front.bytes() + (domain ? domain->bytes() : 0);
+void GLWorkspace::Implementation::release_domain(const gl::Session& session) {
+  if (domain)
+    for (gl::Buffer* b : domain->all()) b->release(session);
+  domain.reset();
+}
+
+std::size_t GLWorkspace::Implementation::bytes() {
+  std::size_t sum = front.bytes();
+  if (domain)
+    for (const gl::Buffer* b : domain->all()) sum += b->bytes();
   for (const gl::Buffer* b : {&vertex_best, &vertex_source, &distances, &sources, &small})
     sum += b->bytes();
   return sum;

@@ -1,0 +1,149 @@
+#include "complex/patch_history.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <utility>
+
+namespace plexway {
+namespace {
+
+using Patch = PatchHistory::Patch;
+using Corners = std::array<std::uint8_t, 3>;
+
+struct Form {
+  std::size_t before_count, after_count;
+  std::array<Corners, 2> before;
+  std::array<Corners, 3> after;
+};
+
+constexpr std::uint8_t a = 0, b = 1, c = 2, d = 3, p = 4;
+constexpr std::array<Form, 3> forms = {{
+    {2, 2, {{{a, b, c}, {b, a, d}}}, {{{a, d, c}, {b, c, d}}}},
+    {1, 3, {{{a, b, c}}}, {{{a, b, p}, {b, c, p}, {c, a, p}}}},
+    {1, 2, {{{a, b, c}}}, {{{a, p, c}, {p, b, c}}}},
+}};
+
+const Form& form_of(const Patch& patch) { return forms[static_cast<std::size_t>(patch.kind)]; }
+
+std::array<Planar, 3> points_of(const Patch& patch, const Corners& corners) {
+  return {patch.point[corners[0]], patch.point[corners[1]], patch.point[corners[2]]};
+}
+
+Planar place(const std::array<Planar, 3>& corner, const std::array<double, 3>& at) {
+  return at[0] * corner[0] + at[1] * corner[1] + at[2] * corner[2];
+}
+
+std::size_t place_of(const Patch& patch, Index slot) {
+  return static_cast<std::size_t>(std::find(patch.slot.begin(), patch.slot.end(), slot) -
+                                  patch.slot.begin());
+}
+
+// From the patch's order of corners to that of the slot.
+std::array<double, 3> in_slot(const CornerOrder& order, const std::array<double, 3>& at) {
+  std::array<double, 3> result{};
+  for (std::size_t k = 0; k < 3; ++k) result[order(k)] = at[k];
+  return result;
+}
+std::array<double, 3> in_patch(const CornerOrder& order, const std::array<double, 3>& at) {
+  return {at[order(0)], at[order(1)], at[order(2)]};
+}
+
+// The triangle before the patch that the point is in: the one above the x axis, or the one below.
+std::size_t side_of(const Form& form, double y) { return form.before_count == 2 && y < 0 ? 1 : 0; }
+
+}  // namespace
+
+void PatchHistory::add(Patch patch) {
+  const Form& form = form_of(patch);
+  const Index number = static_cast<Index>(patches_.size());
+  for (std::size_t k = 0; k < form.after_count; ++k) {
+    const Index slot = patch.slot[k];
+    if (slot >= first_.size()) {
+      first_.resize(slot + 1, none);
+      last_.resize(slot + 1, none);
+    }
+    Index& last = last_[slot];
+    if (k < form.before_count) {
+      patch.earlier[k] = last;
+      if (last == none)
+        first_[slot] = number;
+      else
+        patches_[last].later[place_of(patches_[last], slot)] = number;
+    }
+    last = number;
+  }
+  patches_.push_back(patch);
+}
+
+SlotPoint PatchHistory::forward(SlotPoint point) const {
+  for (Index number = first_[point.slot]; number != none;) {
+    const Patch& patch = patches_[number];
+    const Form& form = form_of(patch);
+    const std::size_t k = place_of(patch, point.slot);
+    const Planar at = place(points_of(patch, form.before[k]), in_patch(patch.order[k], point.at));
+    std::size_t best = 0;
+    double most = -std::numeric_limits<double>::infinity();
+    std::array<double, 3> best_at{};
+    for (std::size_t i = 0; i < form.after_count; ++i) {
+      const auto share = barycentric(points_of(patch, form.after[i]), at);
+      const double least = std::min({share[0], share[1], share[2]});
+      if (least > most) most = least, best = i, best_at = share;
+    }
+    point = {patch.slot[best], clamped(best_at)};
+    number = patch.later[best];
+  }
+  return point;
+}
+
+SlotPoint PatchHistory::back(SlotPoint point) const {
+  for (Index number = last_[point.slot]; number != none;) {
+    const Patch& patch = patches_[number];
+    const Form& form = form_of(patch);
+    const Planar at = place(points_of(patch, form.after[place_of(patch, point.slot)]), point.at);
+    const std::size_t k = side_of(form, at.y);
+    point = {patch.slot[k],
+             in_slot(patch.order[k], clamped(barycentric(points_of(patch, form.before[k]), at)))};
+    number = patch.earlier[k];
+  }
+  return point;
+}
+
+void PatchHistory::back(const Piece& line, std::vector<Piece>& pieces) const {
+  struct Open {
+    Piece piece;
+    Index patch;
+  };
+  std::vector<Open> open = {{line, last_[line.slot]}};
+  while (!open.empty()) {
+    const Open now = open.back();
+    open.pop_back();
+    if (now.patch == none) {
+      pieces.push_back(now.piece);
+      continue;
+    }
+    const Patch& patch = patches_[now.patch];
+    const Form& form = form_of(patch);
+    const auto corners = points_of(patch, form.after[place_of(patch, now.piece.slot)]);
+    const Planar from = place(corners, now.piece.from), to = place(corners, now.piece.to);
+    const auto add = [&](std::size_t k, Planar start, Planar end) {
+      const auto before = points_of(patch, form.before[k]);
+      open.push_back({{patch.slot[k], in_slot(patch.order[k], clamped(barycentric(before, start))),
+                       in_slot(patch.order[k], clamped(barycentric(before, end)))},
+                      patch.earlier[k]});
+    };
+    // A line along the x axis may lie on either side.
+    const bool crosses =
+        form.before_count == 2 && from.y != 0 && to.y != 0 && (from.y < 0) != (to.y < 0);
+    if (!crosses) {
+      add(side_of(form, from.y != 0 ? from.y : to.y), from, to);
+      continue;
+    }
+    const double t = from.y / (from.y - to.y);
+    Planar middle = from + t * (to - from);
+    middle.y = 0;
+    add(side_of(form, to.y), middle, to);  // the stack turns them round
+    add(side_of(form, from.y), from, middle);
+  }
+}
+
+}  // namespace plexway

@@ -1,0 +1,89 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include <plexway/complex/ids.hpp>
+
+#include "complex/planar.hpp"
+
+namespace plexway {
+
+/// A point of a triangle in a slot.
+struct SlotPoint {
+  Index slot = none;
+  std::array<double, 3> at = {0, 0, 0};  ///< barycentric
+};
+
+/// Which of a triangle's corners stand where in a patch: corner (first +- k) mod 3 is the patch's
+/// k-th, minus where the triangle is turned over.
+struct CornerOrder {
+  std::uint8_t first = 0;
+  bool mirrored = false;
+  [[nodiscard]] std::size_t operator()(std::size_t k) const {
+    return (mirrored ? first + 3u - k : first + k) % 3;
+  }
+};
+
+/// Remembers every change of a triangulation, so that points find their way from the first to the
+/// last and back.
+///
+/// A change is a planar *patch*, a few triangles before and a few after it over the same points; a
+/// slot's patches are a list in both directions. A point goes through the patches of the slots it
+/// is in, each one look at which triangle of the patch it falls into: the directed graph by which
+/// Guibas, Knuth and Sharir (Randomized incremental construction of Delaunay and Voronoi diagrams,
+/// 1992) locate points. Nothing is traced across triangles, so nothing can miss: signposts (Sharp,
+/// Soliman, Crane: Navigating intrinsic triangulations, 2019) accumulate angles along a path, and
+/// normal coordinates (Gillespie, Sharp, Crane: Integer coordinates for intrinsic geometry
+/// processing, 2021) are there to make that robust. Here each step is off by a rounding error of
+/// the patch at most, thin triangles included.
+class PatchHistory {
+ public:
+  /// What a patch's triangles are over its points a, b, c, d, p. a is the origin, b on the x axis.
+  enum class Kind : std::uint8_t {
+    flip,         ///< abc, bad become adc, bcd
+    split,        ///< abc becomes abp, bcp, cap
+    split_border  ///< abc becomes apc, pbc
+  };
+  struct Patch {
+    std::array<Planar, 5> point;
+    std::array<Index, 3> slot = {none, none, none};  ///< before and after, first to last
+    std::array<Index, 2> earlier = {none, none};
+    std::array<Index, 3> later = {none, none, none};
+    std::array<CornerOrder, 2> order;  ///< of the triangles before; those after are as listed
+    Kind kind = Kind::flip;
+  };
+
+  explicit PatchHistory(std::size_t slots = 0) : first_(slots, none), last_(slots, none) {}
+
+  /// Links of the patch are made here. Slots beyond those known are new.
+  void add(Patch patch);
+
+  /// From the first triangulation to the last.
+  [[nodiscard]] SlotPoint forward(SlotPoint point) const;
+  /// And back.
+  [[nodiscard]] SlotPoint back(SlotPoint point) const;
+
+  /// A straight line in a triangle of the last triangulation, from `from` to `to`, in pieces that
+  /// each lie in one triangle of the first.
+  struct Piece {
+    Index slot;
+    std::array<double, 3> from, to;
+  };
+  void back(const Piece& line, std::vector<Piece>& pieces) const;
+
+  [[nodiscard]] std::size_t size() const { return patches_.size(); }
+  [[nodiscard]] std::size_t bytes() const {
+    return patches_.capacity() * sizeof(Patch) +
+           (first_.capacity() + last_.capacity()) * sizeof(Index);
+  }
+
+ private:
+  std::vector<Patch> patches_;
+  std::vector<Index> first_, last_;  // patches of each slot
+};
+
+}  // namespace plexway

@@ -1,0 +1,110 @@
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <string>
+
+#include <plexway/complex/intrinsic_delaunay.hpp>
+#include <plexway/executors/serial.hpp>
+#include <plexway/io/triangles.hpp>
+
+#include "complex/triangulation_testing.hpp"
+
+using namespace plexway;
+using namespace plexway::testing;
+
+namespace {
+
+template <class Real>
+double worst_in_plane(const Surface& s, const TriangleMesh<Real>& mesh, const PointSource& source,
+                      const Position& at) {
+  const auto field = propagate(Serial{}, mesh, source);
+  double worst = 0;
+  for (std::size_t v = 0; v < s.positions.size(); ++v) {
+    const double exact = std::hypot(s.positions[v][0] - at[0], s.positions[v][1] - at[1]);
+    if (exact > 0)
+      worst = std::max(worst, std::abs(static_cast<double>(field.distance[v]) - exact) / exact);
+  }
+  return worst;
+}
+
+// Absolute relative errors over all sources with exact answers beside the mesh, ascending.
+struct Measured {
+  double mean = 0, below = 0;
+};
+Measured measure(const std::string& name, bool flip) {
+  namespace fs = std::filesystem;
+  const fs::path folder = fs::path(PLEXWAY_TRUTH_DIR) / "surfaces";
+  const io::Triangles s = io::read_triangles((folder / (name + ".obj")).string());
+  TriangleMesh<float> mesh(s.positions, s.triangles);
+  if (flip) mesh = IntrinsicDelaunay(TriangleMesh<double>(s.positions, s.triangles)).mesh<float>();
+  Measured result;
+  std::size_t count = 0;
+  for (const auto& entry : fs::directory_iterator(folder)) {
+    const std::string file = entry.path().filename().string();
+    if (file.rfind(name + ".v", 0) != 0) continue;
+    const Index source = static_cast<Index>(std::stoul(file.substr(name.size() + 2)));
+    const auto field = propagate(Serial{}, mesh, PointSource::at(source));
+    std::ifstream in(entry.path());
+    std::string line;
+    for (std::size_t v = 0; std::getline(in, line); ++v) {
+      const double exact = std::stod(line);
+      if (!(exact > 0) || !std::isfinite(exact)) continue;
+      const double error = (static_cast<double>(field.distance[v]) - exact) / exact;
+      result.mean += std::abs(error);
+      result.below = std::min(result.below, error);
+      ++count;
+    }
+  }
+  result.mean /= static_cast<double>(count);
+  return result;
+}
+
+}  // namespace
+
+TEST_CASE("distances in a plane are exact on the intrinsic Delaunay triangulation") {
+  for (unsigned seed = 1; seed <= 4; ++seed) {
+    const Surface s = random_polygon(6, 150, 3000, seed);
+    const IntrinsicDelaunay delaunay(s.mesh<double>());
+    const auto mesh = delaunay.mesh<double>();
+    CHECK(worst_in_plane(s, mesh, PointSource::at(9), s.positions[9]) < 1e-12);
+    const Face& f = s.faces[40];
+    Position at{};
+    for (std::size_t k = 0; k < 3; ++k)
+      at[k] = 0.2 * s.positions[f[0]][k] + 0.3 * s.positions[f[1]][k] + 0.5 * s.positions[f[2]][k];
+    const PointSource source = delaunay.to_intrinsic(PointSource::in(40, {0.2, 0.3, 0.5}));
+    CHECK(worst_in_plane(s, mesh, source, at) < 1e-12);
+    CHECK(worst_in_plane(s, delaunay.mesh<float>(), source, at) < 1e-5);
+  }
+}
+
+TEST_CASE("a flat grid of 20 to 1 right triangles is exact either way") {
+  const Surface s = grid(60, 60, 1200, 60);
+  const IntrinsicDelaunay delaunay(s.mesh<double>());
+  for (const Index v : {0u, 1800u, 930u}) {
+    CHECK(worst_in_plane(s, s.mesh<double>(), PointSource::at(v), s.positions[v]) < 1e-12);
+    CHECK(worst_in_plane(s, delaunay.mesh<double>(), PointSource::at(v), s.positions[v]) < 1e-12);
+  }
+}
+
+TEST_CASE("distances on two copies of a triangle glued along their edges") {
+  // Symmetric in its two sides: the way from corner to corner is the edge.
+  const IntrinsicDelaunay delaunay(double_cover(std::sqrt(3.0), 1, 1));
+  const auto mesh = delaunay.mesh<double>();
+  const auto from_tip = propagate(Serial{}, mesh, PointSource::at(0));
+  CHECK(from_tip.distance[1] == Approx(std::sqrt(3.0)).epsilon(1e-12));
+  CHECK(from_tip.distance[2] == Approx(1).epsilon(1e-12));
+  const auto from_top = propagate(Serial{}, mesh, PointSource::at(2));
+  CHECK(from_top.distance[0] == Approx(1).epsilon(1e-12));
+  CHECK(from_top.distance[1] == Approx(1).epsilon(1e-12));
+}
+
+TEST_CASE("thin triangles and regular grids are accurate after flips") {
+  if (std::string(PLEXWAY_TRUTH_DIR).empty()) return;
+  CHECK(measure("t79741", true).mean <= 5e-3);
+  CHECK(measure("t908460", true).mean <= 5e-3);
+  const Measured wavy = measure("wavy_grid200", true);
+  CHECK(wavy.mean <= 1.5e-3);
+  CHECK(wavy.below >= -0.01);
+}
