@@ -85,9 +85,9 @@ class PathField<Domain<Real>> {
   /// virtual sources that Visibility::saddles left, with Serial and OpenMP.
   ///
   /// Across an edge `neighbours` and `star` are continuous where the labels on both sides are all
-  /// that is asked; what jumps is far below the error (docs/sources.md). Throws UsageError for a
+  /// that is asked; docs/apps/read_out.md has what jumps. Throws UsageError for a
   /// point that is not in the domain, before a solve, without such labels, and for other domains.
-  /// Any number of threads may ask at once. Cost: 20 ns, 50 ns, 0.3 us, 2 us.
+  /// Any number of threads may ask at once. Cost: 1, 1, 4 and at most 31 labels looked at.
   [[nodiscard]] double at(const PointSource& point, ReadOut level = ReadOut::neighbours) const;
   /// By a simplex and one coordinate a corner.
   template <std::size_t N>
