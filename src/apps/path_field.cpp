@@ -7,6 +7,7 @@
 
 #include "apps/solid_trace.hpp"
 #include "apps/solved.hpp"
+#include "apps/surface_read_out.hpp"
 #include "apps/surface_trace.hpp"
 #include "apps/wire_trace.hpp"
 #include "executors/checks.hpp"
@@ -90,6 +91,101 @@ Path PathField<Domain<Real>>::trace(const PointSource& point, const TraceOptions
                                outer_,     outer_simplices_, visibility_, labels_};
   check(options);
   return trace_in(*domain_, solved, at, options);
+}
+
+template <template <class> class Domain, class Real>
+void PathField<Domain<Real>>::check_labels() const {
+  if (!solved_) throw UsageError("there is nothing to read before a solve");
+  if constexpr (!std::is_same_v<Domain<Real>, TriangleMesh<Real>>)
+    throw UsageError("distances inside simplices are read out on surfaces only");
+  if (!labels_ || visibility_ != Visibility::saddles)
+    throw UsageError(
+        "distances inside simplices need the labels of the policy saddles, by Serial or OpenMP");
+}
+
+template <template <class> class Domain, class Real>
+double PathField<Domain<Real>>::at(const PointSource& point, ReadOut level) const {
+  return at(std::span<const PointSource>(&point, 1), level)[0];
+}
+
+template <template <class> class Domain, class Real>
+std::vector<double> PathField<Domain<Real>>::at(std::span<const PointSource> points,
+                                                ReadOut level) const {
+  check_labels();
+  std::vector<double> distance;
+  if constexpr (std::is_same_v<Domain<Real>, TriangleMesh<Real>>) {
+    const Solved<Real> solved = {workspace_, field_,           sources_,    positions_,
+                                 outer_,     outer_simplices_, visibility_, labels_};
+    const SurfaceReadOut<Real> read_out(*domain_, solved);
+    distance.reserve(points.size());
+    for (PointSource at : points) {
+      at.offset = 0;
+      check_source(at, described(*domain_));
+      if (at.vertex != none) {
+        distance.push_back(static_cast<double>(field_.distance[at.vertex]));
+        continue;
+      }
+      const auto [f, turned] = domain_->inside_face(at.simplex);
+      std::array<double, 3> weight = {at.barycentric[0], at.barycentric[1], at.barycentric[2]};
+      if (turned) std::swap(weight[1], weight[2]);
+      distance.push_back(read_out.at(f, weight, level) * domain_->unit());
+    }
+  }
+  return distance;
+}
+
+template <template <class> class Domain, class Real>
+std::vector<std::array<double, 3>> PathField<Domain<Real>>::gradient() const {
+  check_labels();
+  if (positions_.empty()) throw UsageError("directions in space need positions");
+  std::vector<std::array<double, 3>> directions;
+  if constexpr (std::is_same_v<Domain<Real>, TriangleMesh<Real>>) {
+    const Solved<Real> solved = {workspace_, field_,           sources_,    positions_,
+                                 outer_,     outer_simplices_, visibility_, labels_};
+    const SurfaceReadOut<Real> read_out(*domain_, solved);
+    directions.assign(domain_->face_count(), {0, 0, 0});
+    for (Index face = 0; face < domain_->face_count(); ++face) {
+      const Index f = domain_->inside_face(face).first;
+      if (!workspace_.marks.reached(f)) continue;
+      const std::array<double, 2> along = read_out.gradient(f);
+      Vector3<double> corner[3];
+      for (std::size_t i = 0; i < 3; ++i) {
+        const auto& p = positions_[outer_[domain_->triangles()[f].corner[i]]];
+        corner[i] = {p[0], p[1], p[2]};
+      }
+      const Vector3<double> edge = corner[1] - corner[0];
+      const double length = norm(edge);
+      if (!(length > 0)) continue;
+      const Vector3<double> u = (1 / length) * edge, side = corner[2] - corner[0];
+      const Vector3<double> off = side - dot(side, u) * u;
+      const double height = norm(off);
+      const Vector3<double> w = height > 0 ? (1 / height) * off : Vector3<double>{0, 0, 0};
+      const Vector3<double> d = along[0] * u + along[1] * w;
+      directions[face] = {d.x, d.y, d.z};
+    }
+  }
+  return directions;
+}
+
+template <template <class> class Domain, class Real>
+std::vector<Index> PathField<Domain<Real>>::simplex_labels() const {
+  if (!solved_) throw UsageError("there is nothing to read before a solve");
+  if (!labels_) throw UsageError("the executor left no labels: use Serial or OpenMP");
+  std::vector<Index> labels;
+  const auto take = [&](Index inside) {
+    const bool many = sources_.size() > 1;
+    labels.push_back(!workspace_.marks.reached(inside) ? none
+                     : many                            ? workspace_.source[inside]
+                                                       : 0);
+  };
+  if constexpr (std::is_same_v<Domain<Real>, TriangleMesh<Real>>) {
+    for (Index f = 0; f < domain_->face_count(); ++f) take(domain_->inside_face(f).first);
+  } else if constexpr (std::is_same_v<Domain<Real>, TetMesh<Real>>) {
+    for (Index t = 0; t < domain_->tet_count(); ++t) take(domain_->inside_tet(t).first);
+  } else {
+    throw UsageError("along wireframes vertices have labels, and edges none");
+  }
+  return labels;
 }
 
 template <template <class> class Domain, class Real>

@@ -15,12 +15,14 @@
 #include "distance_output.hpp"
 #include "domain.hpp"
 #include "exit_codes.hpp"
+#include "isoline_options.hpp"
 #include "picture_options.hpp"
 #include "progress.hpp"
 #include "report.hpp"
 #include "solve_options.hpp"
 #include "solver.hpp"
-#include "source_argument.hpp"
+#include "source_marks.hpp"
+#include "source_set.hpp"
 
 namespace plexway::cli {
 namespace {
@@ -30,6 +32,7 @@ struct DistanceCommand {
   std::string as;
   std::vector<std::string> sources;
   std::string out;
+  IsolineOptions isolines;
   FillOptions fill;
   CloudArguments cloud;
   SolveOptions solve;
@@ -55,7 +58,7 @@ std::string executor_text(const Executor& executor) {
          (threads > 1 ? " with " + counted(threads, "threads") : "");
 }
 
-Outcome survey(const std::vector<double>& distance, const std::vector<PointSource>& sources) {
+Outcome survey(const std::vector<double>& distance, const std::vector<Source>& sources) {
   Outcome outcome;
   outcome.max_distance = -std::numeric_limits<double>::infinity();
   for (std::size_t v = 0; v < distance.size(); ++v) {
@@ -66,8 +69,13 @@ Outcome survey(const std::vector<double>& distance, const std::vector<PointSourc
     outcome.farthest = v;
   }
   std::set<Index> at;
-  for (const PointSource& source : sources) {
-    if (source.vertex != none && std::isfinite(distance[source.vertex])) at.insert(source.vertex);
+  const auto take = [&](Index v) {
+    if (v != none && std::isfinite(distance[v])) at.insert(v);
+  };
+  for (const Source& source : sources) {
+    if (const auto* point = std::get_if<PointSource>(&source)) take(point->vertex);
+    if (const auto* set = std::get_if<VertexSource>(&source))
+      for (const Index v : set->vertices) take(v);
   }
   outcome.beside_source = outcome.reached - at.size();
   return outcome;
@@ -104,8 +112,8 @@ Json to_json(const DistanceCommand& command, const Domain& domain, const Solver&
 }
 
 std::string to_text(const DistanceCommand& command, const Domain& domain, const Solver& solver,
-                    const std::vector<SourceArgument>& arguments,
-                    const std::vector<PointSource>& sources, const Outcome& outcome) {
+                    const std::vector<SetArgument>& arguments, const std::vector<Source>& sources,
+                    const Outcome& outcome) {
   Table table;
   table.add("input", command.input);
   table.add(std::string(domain.kind()), counted(domain.vertices(), "vertices") + ", " +
@@ -116,7 +124,7 @@ std::string to_text(const DistanceCommand& command, const Domain& domain, const 
     table.add("kept", kept_points(*domain.cloud()));
   for (std::size_t i = 0; i < sources.size(); ++i) {
     const std::string label = sources.size() == 1 ? "source" : "source " + std::to_string(i);
-    table.add(label, describe_source(domain, arguments[i], sources[i]));
+    table.add(label, describe_source_set(domain, arguments[i], sources[i]));
   }
   if (solver.triangulation().done != Retriangulation::keep)
     table.add("triangles", describe(solver.triangulation()));
@@ -188,22 +196,35 @@ std::vector<std::int32_t> labels_of(const Solver& solver, const std::vector<doub
   return label;
 }
 
-void run_distance(const DistanceCommand& command) {
+void run_distance(DistanceCommand command) {
   const PropagateOptions wanted = propagate_options(command.solve);
-  const Precision precision = precision_of(command.solve);
-  const Triangulation triangulation = triangulation_of(command.triangulation);
-  const std::vector<SourceArgument> arguments = parse_sources(command.sources);
+  Precision precision = precision_of(command.solve);
+  Triangulation triangulation = triangulation_of(command.triangulation);
+  const std::vector<SetArgument> arguments = parse_source_sets(command.sources);
   if (command.out != "-" && !is_vdb(command.out))
     check_output_name(command.out, command.input, cloud_field_extensions());
-
   check_picture(command.picture, command.input);
+  check_isolines(command.isolines, command.input);
 
   ProgressLine progress(command.quiet);
   const Domain domain =
       Domain::load(command.input, command.as, command.fill, command.cloud, progress);
   if (domain.cloud() == nullptr && command.out != "-")
     check_output_name(command.out, command.input, domain.field_extensions());
-  const std::vector<PointSource> sources = locate_sources(domain, arguments);
+  check_isolines(command.isolines, domain);
+  const std::vector<Source> sources = locate_source_sets(domain, arguments);
+  const std::vector<PointSource> points = as_points(sources);
+  if (needs_double(domain, sources)) {
+    if (command.solve.executor.name == "auto") command.solve.executor.name = "serial";
+    if (command.solve.executor.name != "serial")
+      throw UsageError("--executor '" + command.solve.executor.name +
+                       "': lines and triangles of surfaces start a field on one thread only; "
+                       "choose serial");
+    if (precision == Precision::single) command.solve.precision = "double, which lines need";
+    precision = Precision::twice;
+    // Lines lie in the triangles of the file.
+    if (triangulation == Triangulation::automatic) triangulation = Triangulation::input;
+  }
 
   progress.phase("building");
   const Stopwatch building;
@@ -216,7 +237,10 @@ void run_distance(const DistanceCommand& command) {
   const Stopwatch solving;
   const Executor executor =
       choose_executor(command.solve.executor, options, domain.simplices(), sources.size());
-  solver->solve(executor, sources, options);
+  if (points.empty())
+    solver->solve_from(executor, sources, options);
+  else
+    solver->solve(executor, points, options);
   const double solve = solving.seconds();
 
   const std::vector<double> distance = solver->distance();
@@ -236,6 +260,10 @@ void run_distance(const DistanceCommand& command) {
       domain.write_field(command.out, distance, label);
     }
   }
+  if (!command.isolines.out.empty()) {
+    progress.phase("writing " + command.isolines.out);
+    write_isolines(command.isolines, domain, distance);
+  }
   if (command.picture.wanted()) {
     progress.phase("drawing " + command.picture.file);
     PictureContent content;
@@ -244,8 +272,7 @@ void run_distance(const DistanceCommand& command) {
     const std::vector<std::int32_t> label =
         cells ? labels_of(*solver, distance) : std::vector<std::int32_t>();
     content.label = label;
-    if (!domain.positions().empty())
-      for (const PointSource& source : sources) content.sources.push_back(domain.position(source));
+    for (const Source& source : sources) add_source_mark(domain, source, content);
     write_picture(command.picture, domain, content);
   }
   progress.clear();
@@ -277,9 +304,7 @@ void add_distance_command(CLI::App& tool, Action& action) {
   CLI::App& app = *tool.add_subcommand(
       "distance", "Geodesic distance of every vertex from one or more sources");
   app.add_option("INPUT", command->input, input_help)->type_name("FILE")->required();
-  app.add_option("--source,-s", command->sources,
-                 "vertex:ID (0-based, file order) or point:X,Y,Z (closest point of the\n"
-                 "domain); repeat it for several sources, each vertex then gets the nearest")
+  app.add_option("--source,-s", command->sources, source_set_help)
       ->required()
       ->type_name("WHERE")
       ->allow_extra_args(false);
@@ -292,6 +317,7 @@ void add_distance_command(CLI::App& tool, Action& action) {
   app.add_option("--as", command->as, as_help)->type_name("KIND");
   app.add_flag("--json", command->json, "print the summary as one JSON object");
   app.add_flag("--quiet,-q", command->quiet, "no summary, notes or progress; errors stay");
+  add_isoline_options(app, command->isolines);
   add_solve_options(app, command->solve, true);
   add_triangulation_option(app, command->triangulation);
   add_fill_options(app, command->fill);
@@ -302,6 +328,9 @@ void add_distance_command(CLI::App& tool, Action& action) {
       "  plexway distance knot.ply --source vertex:0 --out distance.ply\n"
       "  plexway distance knot.ply --source point:1,0,0.5 --radius 2 --json\n"
       "  plexway distance knot.ply --source vertex:0 --source vertex:99 --out nearest.csv\n"
+      "  plexway distance hills.off --source boundary --source vertex:900+0.5 -o rim.vtu\n"
+      "  plexway distance knot.ply --source segment:1,0,0,0,1,0 --source circle:0,0,1,0.2\n"
+      "  plexway distance knot.ply --source vertex:0 --isolines 0.1 --isolines-out lines.obj\n"
       "  plexway distance organ.off --as solid --max-volume 1e-3 --source point:0,0,0 -o d.vtu\n"
       "  plexway distance fluid.vdb --source point:0,0,0 --out field.vdb\n"
       "  plexway distance broken.stl --repair --as solid --source vertex:0 --out d.glb\n"

@@ -10,6 +10,7 @@
 #include <plexway/executors/serial_pairs.hpp>
 #include <plexway/executors/serial_solid.hpp>
 #include <plexway/executors/serial_wireframe.hpp>
+#include <plexway/executors/source_sets.hpp>
 
 #include "make_complex.hpp"
 
@@ -70,6 +71,26 @@ class ShapeSolver final : public Solver {
     std::visit([&](const auto& chosen) { solve_on(chosen, there, options); }, executor);
   }
 
+  void solve_from(const Executor& executor, std::span<const Source> sources,
+                  const PropagateOptions& options) override {
+    std::vector<Source> moved(sources.begin(), sources.end());
+    if (delaunay_) {
+      for (Source& source : moved) {
+        if (auto* point = std::get_if<PointSource>(&source)) {
+          *point = delaunay_->to_intrinsic(*point);
+        } else if (auto* ball = std::get_if<BallSource>(&source)) {
+          ball->centre = delaunay_->to_intrinsic(ball->centre);
+        } else if (!std::holds_alternative<VertexSource>(source)) {
+          throw UsageError(
+              "--triangulation delaunay: lines and triangles lie in the triangles of the file; "
+              "choose input");
+        }
+      }
+    }
+    const std::span<const Source> there = moved;
+    std::visit([&](const auto& chosen) { solve_on(chosen, there, options); }, executor);
+  }
+
   std::vector<double> distance() const override {
     return {field_.distance.begin(), field_.distance.end() - inserted()};
   }
@@ -102,16 +123,16 @@ class ShapeSolver final : public Solver {
     return static_cast<std::ptrdiff_t>(triangulation_.inserted_vertices);
   }
 
-  template <class OnThisMachine>
-  void solve_on(const OnThisMachine& executor, std::span<const PointSource> sources,
+  template <class OnThisMachine, class Sources>
+  void solve_on(const OnThisMachine& executor, const Sources& sources,
                 const PropagateOptions& options) {
     if constexpr (kSerialOnly && !std::is_same_v<OnThisMachine, Serial>)
       throw UsageError("--form pairs is for --executor serial");
     else
       propagate(executor, complex_, sources, options, workspace_, field_);
   }
-  void solve_on([[maybe_unused]] const GL& executor,
-                [[maybe_unused]] std::span<const PointSource> sources,
+  template <class Sources>
+  void solve_on([[maybe_unused]] const GL& executor, [[maybe_unused]] const Sources& sources,
                 [[maybe_unused]] const PropagateOptions& options) {
 #ifdef PLEXWAY_HAS_GL
     if constexpr (!std::is_same_v<Real, float>)

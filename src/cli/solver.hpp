@@ -7,7 +7,7 @@
 
 #include <plexway/propagate/distance_field.hpp>
 #include <plexway/propagate/options.hpp>
-#include <plexway/source/point_source.hpp>
+#include <plexway/source/source.hpp>
 
 #include "domain.hpp"
 #include "executor_argument.hpp"
@@ -34,6 +34,9 @@ class Solver {
   /// One propagation, read-out to vertices included. Throws as plexway::propagate.
   virtual void solve(const Executor& executor, std::span<const PointSource> sources,
                      const PropagateOptions& options) = 0;
+  /// The same from sources of any kind.
+  virtual void solve_from(const Executor& executor, std::span<const Source> sources,
+                          const PropagateOptions& options) = 0;
 
   // Of the last solve.
   [[nodiscard]] virtual std::vector<double> distance() const = 0;

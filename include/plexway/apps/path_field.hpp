@@ -6,6 +6,7 @@
 #include <vector>
 
 #include <plexway/apps/path.hpp>
+#include <plexway/apps/read_out.hpp>
 #include <plexway/complex/tet_mesh.hpp>
 #include <plexway/complex/triangle_mesh.hpp>
 #include <plexway/complex/wireframe.hpp>
@@ -82,6 +83,34 @@ class PathField<Domain<Real>> {
     return trace(PointSource::at(vertex), options);
   }
 
+  /// The distance of any point of a surface, in the domain's unit; its offset does not count. +inf
+  /// where no path leads. `linear` needs the vertices' distances only; the other levels ask the
+  /// virtual sources that Visibility::saddles left, with Serial and OpenMP.
+  ///
+  /// Across an edge `neighbours` and `star` are continuous where the labels on both sides are all
+  /// that is asked; docs/apps/read_out.md has what jumps. Throws UsageError for a
+  /// point that is not in the domain, before a solve, without such labels, and for other domains.
+  /// Any number of threads may ask at once. Cost: 1, 1, 4 and at most 31 labels looked at.
+  [[nodiscard]] double at(const PointSource& point, ReadOut level = ReadOut::neighbours) const;
+  /// By a simplex and one coordinate a corner.
+  template <std::size_t N>
+  [[nodiscard]] double at(Index simplex, const double (&barycentric)[N],
+                          ReadOut level = ReadOut::neighbours) const {
+    return at(PointSource::in(simplex, barycentric), level);
+  }
+  /// Of many points.
+  [[nodiscard]] std::vector<double> at(std::span<const PointSource> points,
+                                       ReadOut level = ReadOut::neighbours) const;
+  /// The direction away from the source at the centre of each triangle, caller's order: of length
+  /// 1, in its plane; 0 where no path leads, or the source is there. Needs labels as `at`, and
+  /// positions.
+  [[nodiscard]] std::vector<std::array<double, 3>> gradient() const;
+
+  /// The source that the label of each simplex leads to, caller's order: the nearest to its centre,
+  /// by its place in the list; none where no path leads. Surfaces and solids; throws as `at`, but
+  /// any policy will do.
+  [[nodiscard]] std::vector<Index> simplex_labels() const;
+
   /// Bytes held, without those of the domain and the positions.
   [[nodiscard]] std::size_t bytes() const;
 
@@ -90,6 +119,7 @@ class PathField<Domain<Real>> {
   [[nodiscard]] const Domain<Real>& domain() const { return *domain_; }
 
  private:
+  void check_labels() const;
   void took(std::span<const PointSource> sources, Visibility visibility, bool labels);
 
   const Domain<Real>* domain_;

@@ -257,6 +257,12 @@ class SaddleRule {
     return front_.updates() != before;
   }
 
+  /// The same for a label with limits.
+  void enter_posed(Index f, std::size_t k, const Posed& label, Index source) {
+    enter(f, k, label, false, -1, true, source);
+  }
+  [[nodiscard]] const TriangleRecord<Real>& triangle(Index f) const { return triangles_[f]; }
+
   /// A source lies at height h over (x, y) of f, y over its edge 0: the neighbours see it over
   /// the edges; f itself gets the way by its best corner.
   bool enter_from_above(Index f, Real x, Real y, Real h, Real sigma, Index source) {

@@ -1,0 +1,200 @@
+#include "apps/surface_read_out.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <tuple>
+#include <utility>
+
+#include "apps/surface_labels.hpp"
+
+namespace plexway {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+using Kernel = kernel::SaddleKernel<double>;
+
+}  // namespace
+
+template <class Real>
+bool SurfaceReadOut<Real>::step_over(Index f, std::size_t edge, Step& step) const {
+  const Index across = triangles_[f].across[edge];
+  step = {f, edge, across & Across::edge_mask, across >> Across::face_shift,
+          (across & Across::flip) != 0};
+  // Of more than two triangles on an edge any two are flat together, so one of them will do.
+  return step.to != mesh_.face_count() && step.to != f;
+}
+
+template <class Real>
+auto SurfaceReadOut<Real>::label_of(Index f) const -> Posed {
+  const SaddleLabel<Real>& label = solved_.workspace.saddles.labels[f];
+  const auto number = [](Real x) { return static_cast<double>(x); };
+  Posed p;
+  p.source = {{number(label.x[0])}, number(label.h[0])};
+  for (int side = 0; side < 2; ++side)
+    p.limit[side] = {{p.source.x[0] + number(label.x[2 + side])},
+                     p.source.h + number(label.h[2 + side])};
+  p.sigma = number(label.sigma());
+  return p;
+}
+
+template <class Real>
+auto SurfaceReadOut<Real>::point_over(Index f, std::size_t edge,
+                                      const std::array<double, 3>& weight) const -> Point {
+  const TriangleRecord<Real>& t = triangles_[f];
+  const double v = weight[edge_after(edge)], w = weight[edge_before(edge)];
+  return {{v * static_cast<double>(t.length[edge]) + w * static_cast<double>(t.apex_x(edge))},
+          w * static_cast<double>(t.apex_h(edge))};
+}
+
+// From one edge of f to another, as the neighbour beyond sees it.
+template <class Real>
+auto SurfaceReadOut<Real>::turned(Index f, const Posed& label, std::size_t from, std::size_t to,
+                                  int& pivot) const -> Posed {
+  const TriangleRecord<Real>& t = triangles_[f];
+  const bool left = to == edge_before(from);
+  pivot = left ? 0 : 1;
+  const std::size_t corner = left ? from : to;
+  return Kernel::turn_label(
+      label, left, static_cast<double>(t.length[from]), static_cast<double>(t.length[to]),
+      static_cast<double>(t.cosine[corner]), static_cast<double>(t.sine(corner)));
+}
+
+template <class Real>
+double SurfaceReadOut<Real>::own(Index f, const std::array<double, 3>& weight) const {
+  const std::size_t in = solved_.workspace.marks.hinge(f);
+  const Posed label = label_of(f);
+  const Point q = point_over(f, in, weight);
+  if (label.source.h < 0)  // the source is in f
+    return label.sigma + std::hypot(q.x[0] - label.source.x[0], q.h + label.source.h);
+  return path_length<double>(label, static_cast<double>(triangles_[f].length[in]), q);
+}
+
+// The triangle beyond was reached from here, maybe by a label that is no longer ours: its source
+// is on this side.
+template <class Real>
+double SurfaceReadOut<Real>::from_where_it_came(const Step& step, const Point& q) const {
+  const Posed label = label_of(step.to);
+  const double length = static_cast<double>(triangles_[step.to].length[step.in]);
+  const Point here = {{step.flip ? q.x[0] : length - q.x[0]}, -q.h};
+  const auto gap = [](const Point& a, const Point& b) {
+    return std::hypot(a.x[0] - b.x[0], a.h - b.h);
+  };
+  const Point there = {{here.x[0]}, q.h};  // on the source's side
+  const double straight = gap(label.source, there);
+  for (int side = 0; side < 2; ++side) {
+    const Point& limit = label.limit[side];
+    const double turn = detail::left_of<double>(label.source, limit, here);
+    const double to_limit = gap(label.source, limit);
+    if ((side == 0 ? turn > 0 : turn < 0) && to_limit < straight)
+      return label.sigma + to_limit + gap(limit, there);
+  }
+  return label.sigma + straight;
+}
+
+// The label at the end of a way of triangles, carried back to its beginning and to q there, which
+// is posed on the first edge.
+template <class Real>
+double SurfaceReadOut<Real>::offered(const Step* steps, int count, const Point& q) const {
+  const Step& last = steps[count - 1];
+  if (!solved_.workspace.marks.reached(last.to)) return infinity;
+  Posed p = label_of(last.to);
+  std::size_t in = solved_.workspace.marks.hinge(last.to);
+  const bool inside = p.source.h < 0;
+  if (in == last.in && !inside) return count == 1 ? from_where_it_came(last, q) : infinity;
+  for (int n = count - 1; n >= 0; --n) {
+    const Step& step = steps[n];
+    const double length = static_cast<double>(triangles_[step.to].length[step.in]);
+    int pivot = -1;
+    if (in == step.in) {  // only from a source inside
+      p.source = {{length - p.source.x[0]}, -p.source.h};
+    } else {
+      p = turned(step.to, p, in, step.in, pivot);
+    }
+    if (n == count - 1 && inside) {
+      p.source.h = std::max(p.source.h, 0.);
+      p.limit[0] = p.limit[1] = p.source;
+      pivot = -1;
+    }
+    if (step.flip) {
+      p = Kernel::mirror_label(p, length);
+      if (pivot >= 0) pivot = 1 - pivot;
+    }
+    const TriangleRecord<Real>& t = triangles_[step.from];
+    SaddleHinge<double> hinge;
+    hinge.extent = static_cast<double>(t.length[step.out]);
+    hinge.apex = {{static_cast<double>(t.apex_x(step.out))},
+                  static_cast<double>(t.apex_h(step.out))};
+    hinge.saddle[0] = t.saddle(step.out);
+    hinge.saddle[1] = t.saddle(edge_after(step.out));
+    hinge.pivot = pivot;
+    if (!(cross_hinge<double>(p, hinge, false) < infinity)) return infinity;
+    in = step.out;
+  }
+  return path_length<double>(p, static_cast<double>(triangles_[steps[0].from].length[in]), q);
+}
+
+template <class Real>
+double SurfaceReadOut<Real>::at(Index f, const std::array<double, 3>& weight, ReadOut level) const {
+  const TriangleRecord<Real>& t = triangles_[f];
+  if (level == ReadOut::linear) {
+    double sum = 0;
+    for (std::size_t i = 0; i < 3; ++i)
+      if (weight[i] > 0)
+        sum += weight[i] * static_cast<double>(solved_.workspace.vertex[t.corner[i]]);
+    return sum;
+  }
+  double best = solved_.workspace.marks.reached(f) ? own(f, weight) : infinity;
+  if (level == ReadOut::simplex) return best;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Point p = point_over(f, i, weight);
+    best = std::min(
+        best, static_cast<double>(solved_.workspace.vertex[t.corner[i]]) + std::hypot(p.x[0], p.h));
+  }
+  constexpr int most = 5;  // triangles to either side of a corner
+  for (std::size_t edge = 0; edge < 3; ++edge) {
+    const Point q = point_over(f, edge, weight);
+    for (const bool about_first : {true, false}) {
+      Step steps[most];
+      Index from = f;
+      std::size_t out = edge;
+      bool first = about_first;
+      for (int n = 0; n < (level == ReadOut::star ? most : 1); ++n) {
+        if (!step_over(from, out, steps[n])) break;
+        best = std::min(best, offered(steps, n + 1, q));
+        const std::size_t k = steps[n].in;
+        out = first == steps[n].flip ? edge_before(k) : edge_after(k);
+        first = first != steps[n].flip;
+        from = steps[n].to;
+        if (from == f) break;
+      }
+      if (level != ReadOut::star) break;
+    }
+  }
+  return best;
+}
+
+template <class Real>
+std::array<double, 2> SurfaceReadOut<Real>::gradient(Index f) const {
+  const TriangleRecord<Real>& t = triangles_[f];
+  const std::size_t in = solved_.workspace.marks.hinge(f);
+  const Point centre = point_over(f, in, {1. / 3, 1. / 3, 1. / 3});
+  const Vector2 q = {centre.x[0], centre.h};
+  const Vector2 away = q - SurfaceLabels<Real>(mesh_, solved_).sight(f, q).bend;
+  const double length = norm(away);
+  if (!(length > 0)) return {0, 0};
+  // From edge `in` to edge 0: turned by the angles between them.
+  double x = away.x / length, y = away.y / length;
+  const auto turn = [&](double c, double s) {
+    std::tie(x, y) = std::pair(x * c - y * s, x * s + y * c);
+  };
+  // Edge i + 1 runs at pi less the angle at corner i + 1 from edge i.
+  for (std::size_t i = in; i != 0; i = edge_before(i))
+    turn(-static_cast<double>(t.cosine[i]), static_cast<double>(t.sine(i)));
+  return {x, y};
+}
+
+template class SurfaceReadOut<float>;
+template class SurfaceReadOut<double>;
+
+}  // namespace plexway

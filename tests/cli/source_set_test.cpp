@@ -1,0 +1,126 @@
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <functional>
+
+#include <plexway/io/edges.hpp>
+
+#include "cli/tool.hpp"
+#include "io/io_testing.hpp"
+
+using namespace cli_testing;
+using io_testing::Folder;
+
+namespace {
+
+// Distances on a square of n x n vertices, row by row, against a closed form.
+double mean_error(const std::string& csv, int n,
+                  const std::function<double(double, double)>& rule) {
+  const auto found = csv_column(csv, "distance");
+  REQUIRE(found.size() == static_cast<std::size_t>(n * n));
+  double sum = 0;
+  for (std::size_t v = 0; v < found.size(); ++v) {
+    const double x = static_cast<double>(v % static_cast<std::size_t>(n)) / (n - 1);
+    const double y = static_cast<double>(v / static_cast<std::size_t>(n)) / (n - 1);
+    sum += std::abs(found[v] - rule(x, y)) / static_cast<double>(found.size());
+  }
+  return sum;
+}
+
+}  // namespace
+
+TEST_CASE("the tool starts fields from lines, triangles, circles and sets") {
+  const Folder folder;
+  const int n = 21;
+  const std::string square = folder.write("square.off", square_off(n)).string();
+  const std::string line =
+      folder.write("line.txt", "0.2 0.5 0\n0.5 0.5 0 # on\n0.8,0.5,0\n").string();
+  const std::string some = folder.write("some.txt", "# corners\n0\n20 0.25\n").string();
+  const auto to_line = [](double x, double y) {
+    return std::hypot(std::max({0.2 - x, x - 0.8, 0.0}), y - 0.5);
+  };
+  struct {
+    std::string source;
+    std::function<double(double, double)> rule;
+  } const cases[] = {
+      {"segment:0.2,0.5,0,0.8,0.5,0", to_line},
+      {"segment:0.2,0.5,0,0.8,0.5,0+1.5", [&](double x, double y) { return to_line(x, y) + 1.5; }},
+      {"polyline:" + line, to_line},
+      {"boundary",
+       [](double x, double y) {
+         return std::min({x, y, 1 - x, 1 - y});
+       }},
+      {"circle:0.5,0.5,0,0.25",
+       [](double x, double y) { return std::abs(std::hypot(x - 0.5, y - 0.5) - 0.25); }},
+      {"vertices:" + some,
+       [](double x, double y) { return std::min(std::hypot(x, y), std::hypot(x - 1, y) + 0.25); }},
+      {"vertex:0+1e-1", [](double x, double y) { return std::hypot(x, y) + 0.1; }},
+  };
+  for (const auto& [source, rule] : cases) {
+    const auto run = run_tool({"distance", square, "--source", source, "--out", "-", "--quiet"});
+    INFO(source << ": " << run.err);
+    REQUIRE(run.code == 0);
+    CHECK(mean_error(run.out, n, rule) < 1e-4);
+  }
+  const auto both = run_tool({"distance", square, "--source", "boundary+0.3", "--source",
+                              "vertex:220", "--out", "-", "--executor", "auto", "--quiet"});
+  REQUIRE(both.code == 0);
+  const auto label = csv_column(both.out, "label");
+  CHECK(label[220] == 1);
+  CHECK(label[0] == 0);
+}
+
+TEST_CASE("sources that are none or not there are told by name") {
+  const Folder folder;
+  const std::string square = folder.write("square.off", square_off(5)).string();
+  const std::string bad = folder.write("bad.txt", "0\nx\n").string();
+  const std::string far = folder.write("far.txt", "25\n").string();
+  const struct {
+    std::vector<std::string> arguments;
+    int code;
+    const char* why;
+  } cases[] = {
+      {{square, "--source", "segment:1,2"}, 2, "segment:X,Y,Z,X,Y,Z"},
+      {{square, "--source", "circle:0,0,0,-1"}, 2, "radius"},
+      {{square, "--source", "line:1"}, 2, "write vertex:ID"},
+      {{square, "--source", "triangle:32"}, 3, "triangles are 0 to 31"},
+      {{square, "--source", "vertices:" + bad}, 3, "bad.txt:2: not a number"},
+      {{square, "--source", "vertices:" + far}, 3, "out of range"},
+      {{square, "--source", "polyline:" + far}, 3, "far.txt:1: write a point"},
+      {{square, "--source", "boundary", "--executor", "openmp"}, 2, "serial"},
+      {{sample("knot.ply"), "--source", "boundary"}, 3, "has none"},
+      {{sample("elbow.mesh"), "--source", "triangle:0"}, 2, "surfaces and wireframes"},
+      {{sample("two_parts.obj"), "--source", "segment:-9,0,0,9,0,0"}, 3, "no path leads"},
+  };
+  for (const auto& [arguments, code, why] : cases) {
+    std::vector<std::string> all = {"distance"};
+    all.insert(all.end(), arguments.begin(), arguments.end());
+    const auto run = run_tool(all);
+    INFO(arguments.back() << ": " << run.err);
+    CHECK(run.code == code);
+    CHECK(run.err.find(why) != std::string::npos);
+    CHECK(run.complaints() == 1);
+  }
+}
+
+TEST_CASE("isolines of a field go into files") {
+  const Folder folder;
+  const std::string square = folder.write("square.off", square_off(11)).string();
+  const std::string out = (folder.path() / "lines.obj").string();
+  const auto run = run_tool({"distance", square, "--source", "segment:0,0,0,0,1,0", "--isolines",
+                             "0.3", "--isolines-out", out, "--quiet"});
+  INFO(run.err);
+  REQUIRE(run.code == 0);
+  const auto lines = plexway::io::read_edges(out);
+  double length = 0;
+  for (const auto& [a, b] : lines.edges)
+    length += std::hypot(lines.positions[a][0] - lines.positions[b][0],
+                         lines.positions[a][1] - lines.positions[b][1]);
+  CHECK(length == Approx(3).epsilon(1e-6));  // at 0.3, 0.6 and 0.9, each 1 long
+  CHECK(run_tool({"distance", square, "-s", "vertex:0", "--isolines", "1"}).code == 2);
+  CHECK(run_tool({"distance", square, "-s", "vertex:0", "--isolines", "-1", "--isolines-out", out})
+            .code == 2);
+  CHECK(run_tool({"distance", sample("elbow.mesh"), "-s", "vertex:0", "--isolines", "1",
+                  "--isolines-out", out})
+            .code == 2);
+}

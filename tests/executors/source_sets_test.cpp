@@ -1,0 +1,326 @@
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <random>
+#include <vector>
+
+#include <plexway/error.hpp>
+#include <plexway/executors/openmp.hpp>
+#include <plexway/executors/serial_solid.hpp>
+#include <plexway/executors/serial_wireframe.hpp>
+#include <plexway/executors/source_sets.hpp>
+
+#include "complex/cube_distance.hpp"
+#include "complex/flat_curves.hpp"
+#include "complex/test_meshes.hpp"
+#include "complex/test_solids.hpp"
+
+using namespace plexway;
+using namespace plexway::testing;
+
+namespace {
+
+using Rule = std::function<double(const Position&)>;
+
+// Of a field against closed forms, relative to the distance or, close to the source, to the size of
+// the mesh's triangles.
+struct Errors {
+  double mean = 0, max = 0, low = 0;
+};
+
+template <class Values>
+Errors errors(const Surface& s, const Values& found, const Rule& exact, double least) {
+  Errors e;
+  for (std::size_t v = 0; v < s.positions.size(); ++v) {
+    const double d = exact(s.positions[v]);
+    const double off = (static_cast<double>(found[v]) - d) / std::max(d, least);
+    e.mean += std::abs(off) / static_cast<double>(s.positions.size());
+    e.max = std::max(e.max, std::abs(off));
+    e.low = std::min(e.low, off);
+  }
+  return e;
+}
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+}  // namespace
+
+TEST_CASE("a segment in the plane is exact in the mean and never too near") {
+  const std::pair<Position, Position> segments[] = {{{0.31, 0.42, 0}, {0.64, 0.57, 0}},
+                                                    {{0.25, 0.5, 0}, {0.75, 0.5, 0}},
+                                                    {{0.1, 0.2, 0}, {0.15, 0.9, 0}}};
+  Surface jittered = grid(60, 60);
+  std::mt19937 random(3);
+  for (Position& p : jittered.positions)
+    for (std::size_t i = 0; i < 2; ++i)
+      if (p[0] > 0 && p[0] < 1 && p[1] > 0 && p[1] < 1) p[i] += (uniform(random) - .5) / 90;
+  for (const Surface& s : {grid(60, 60), jittered}) {
+    const auto mesh = s.mesh<double>();
+    for (const auto& [a, b] : segments) {
+      const FlatCurve curve = flat_curve(s, a, b);
+      const auto field = propagate(Serial{}, mesh, Source(curve.source()));
+      const Rule rule = [&, a = a, b = b](const Position& p) {
+        return distance_to_segment(p, a, b);
+      };
+      const Errors e = errors(s, field.distance, rule, 1. / 60);
+      CHECK(e.mean < 1e-4);
+      CHECK(e.max < 4e-2);
+      CHECK(e.low > -1e-9);
+      // Two hundred points on it are too far, and more so.
+      const auto sampled =
+          propagate(Serial{}, mesh, std::span<const PointSource>(curve.points(200)));
+      CHECK(errors(s, sampled.distance, rule, 1. / 60).mean > 10 * e.mean);
+    }
+  }
+}
+
+TEST_CASE("a segment along edges lights all of its strip exactly") {
+  const Surface s = grid(40, 40);
+  const auto mesh = s.mesh<double>();
+  const Position a = {0.25, 0.5, 0}, b = {0.75, 0.5, 0};
+  const auto field = propagate(Serial{}, mesh, Source(flat_curve(s, a, b).source()));
+  const Errors e = errors(
+      s, field.distance, [&](const Position& p) { return distance_to_segment(p, a, b); }, 1e-3);
+  CHECK(e.max < 1e-9);
+}
+
+TEST_CASE("a segment on a cylinder") {
+  const Index n = 24;
+  const double height = 12;
+  const Surface flat = grid(n, 24, n, height), round = prism(n, 24, height);
+  const Position a = {6.3, 3.1, 0}, b = {13.2, 8.3, 0};
+  const auto field =
+      propagate(Serial{}, round.mesh<double>(), Source(flat_curve(flat, a, b).source()));
+  Errors e;
+  for (std::size_t v = 0; v < round.positions.size(); ++v) {
+    const double x = static_cast<double>(v % n), y = round.positions[v][2];
+    double d = infinity;
+    for (const double turn : {-1., 0., 1.})
+      d = std::min(d, distance_to_segment({x + turn * n, y, 0}, a, b));
+    const double off = (field.distance[v] - d) / std::max(d, 0.5);
+    e.mean += std::abs(off) / static_cast<double>(round.positions.size());
+    e.low = std::min(e.low, off);
+  }
+  CHECK(e.mean < 1e-4);
+  CHECK(e.low > -1e-9);
+}
+
+TEST_CASE("a segment over an edge of a cube") {
+  const Surface s = cube(16);
+  // From the top over the edge y = 0 down that side: straight once unfolded.
+  const Position a = {0.4, 0.3, 1}, bend = {0.52, 0, 1}, b = {0.6, 0, 0.8};
+  const auto on = [&](std::size_t axis, double place) {
+    return [&s, axis, place](Index f) {
+      for (const Index v : s.faces[f])
+        if (std::abs(s.positions[v][axis] - place) > 1e-9) return false;
+      return true;
+    };
+  };
+  CurveSource curve = flat_curve(s, a, bend, on(2, 1)).source();
+  Surface turned = s;  // that side in the xy plane
+  for (Position& p : turned.positions) p = {p[0], p[2], p[1]};
+  const CurveSource rest = flat_curve(turned, {bend[0], 1, 0}, {b[0], b[2], 0}, on(1, 0)).source();
+  curve.points.insert(curve.points.end(), rest.points.begin() + 1, rest.points.end());
+
+  const Rule rule = [&](const Position& p) {
+    const auto at = [&](double t) {  // t < 0.6: on the top
+      const double u = t < 0.6 ? t / 0.6 : (t - 0.6) / 0.4;
+      const Position &from = t < 0.6 ? a : bend, &to = t < 0.6 ? bend : b;
+      Position q;
+      for (std::size_t i = 0; i < 3; ++i) q[i] = from[i] + u * (to[i] - from[i]);
+      if (t < 0.6)
+        q[2] = 1;
+      else
+        q[1] = 0;
+      return cube_distance(q, p);
+    };
+    double best = infinity, where = 0;
+    for (int i = 0; i <= 40; ++i)
+      if (const double d = at(i / 40.); d < best) best = d, where = i / 40.;
+    double low = std::max(where - 1. / 40, 0.), high = std::min(where + 1. / 40, 1.);
+    for (int i = 0; i < 30; ++i) {
+      const double p1 = low + (high - low) / 3, p2 = high - (high - low) / 3;
+      const double d1 = at(p1), d2 = at(p2);
+      best = std::min({best, d1, d2});
+      (d1 < d2 ? high : low) = d1 < d2 ? p2 : p1;
+    }
+    return best;
+  };
+  const auto field = propagate(Serial{}, s.mesh<double>(), Source(curve));
+  const Errors e = errors(s, field.distance, rule, 1. / 16);
+  CHECK(e.mean < 1e-4);
+  CHECK(e.max < 2e-2);
+  CHECK(e.low > -1e-6);
+}
+
+TEST_CASE("a triangle is its own nearest point and sends light over its edges") {
+  const Surface fine = grid(30, 30);
+  const auto field =
+      propagate(Serial{}, fine.mesh<double>(), Source(SimplexSource{.simplex = 899}));
+  const Rule rule = [&](const Position& p) {
+    double d = infinity;
+    for (std::size_t i = 0; i < 3; ++i)
+      d = std::min(d, distance_to_segment(p, fine.positions[fine.faces[899][i]],
+                                          fine.positions[fine.faces[899][(i + 1) % 3]]));
+    return d;
+  };
+  CHECK(errors(fine, field.distance, rule, 1. / 30).mean < 1e-4);
+}
+
+TEST_CASE("a circle is as far inside as outside") {
+  const Surface s = grid(50, 50);
+  const Index centre = s.nearest(0.5, 0.5);
+  const BallSource circle = {.centre = PointSource::at(centre), .radius = 0.3, .offset = 0.1};
+  const Rule rule = [&](const Position& p) {
+    return std::abs(std::hypot(p[0] - 0.5, p[1] - 0.5) - 0.3) + 0.1;
+  };
+  CHECK(errors(s, propagate(Serial{}, s.mesh<double>(), Source(circle)).distance, rule, 0.1).max <
+        1e-4);
+  CHECK(errors(s, propagate(Serial{}, s.mesh<float>(), Source(circle)).distance, rule, 0.1).max <
+        1e-4);
+  CHECK(errors(s, propagate(OpenMP{2}, s.mesh<float>(), Source(circle)).distance, rule, 0.1).max <
+        1e-4);
+  // Within a radius of 0.15: only beside the rim.
+  const auto bounded = propagate(Serial{}, s.mesh<double>(), Source(circle), {.radius = 0.15});
+  for (std::size_t v = 0; v < s.positions.size(); ++v)
+    CHECK(std::isinf(bounded.distance[v]) == (rule(s.positions[v]) > 0.15 + 1e-9));
+}
+
+TEST_CASE("several sources of all kinds give the least and say whose it is") {
+  const Surface s = grid(40, 40);
+  const auto mesh = s.mesh<double>();
+  const Position a = {0.1, 0.8, 0}, b = {0.6, 0.9, 0};
+  const std::vector<Source> sources = {
+      flat_curve(s, a, b).source(),
+      BallSource{.centre = PointSource::at(s.nearest(0.75, 0.5)), .radius = 0.2},
+      PointSource::at(s.nearest(0.75, 0.5)),
+      VertexSource{.vertices = {0, 40}, .offsets = {0.1, 0}, .offset = 0.05}};
+  const auto field = propagate(Serial{}, mesh, sources);
+  const Position c = {0.75, 0.5, 0};
+  const auto to = [&](std::size_t n, const Position& p) {
+    const double d = std::hypot(p[0] - c[0], p[1] - c[1]);
+    if (n == 0) return distance_to_segment(p, a, b);
+    if (n == 1) return std::abs(d - 0.2);
+    if (n == 2) return d;
+    return std::min(std::hypot(p[0], p[1]) + 0.15, std::hypot(p[0] - 1, p[1]) + 0.05);
+  };
+  REQUIRE(field.label.size() == s.positions.size());
+  double worst = 0;
+  std::size_t wrong = 0;
+  for (std::size_t v = 0; v < s.positions.size(); ++v) {
+    const Position& p = s.positions[v];
+    double best = infinity;
+    for (std::size_t n = 0; n < 4; ++n) best = std::min(best, to(n, p));
+    worst = std::max(worst, std::abs(field.distance[v] - best));
+    wrong += to(field.label[v], p) > best + 1e-3;
+  }
+  CHECK(worst < 2e-3);
+  CHECK(wrong == 0);
+}
+
+TEST_CASE("a field goes on from the values of another") {
+  const Surface s = grid(30, 30);
+  const auto mesh = s.mesh<double>();
+  const auto whole = propagate(Serial{}, mesh, PointSource::at(0));
+  VertexSource front;  // what the field knows at 0.5
+  for (Index v = 0; v < s.positions.size(); ++v)
+    if (std::abs(s.positions[v][0] - 0.5) < 1e-9) {
+      front.vertices.push_back(v);
+      front.offsets.push_back(whole.distance[v]);
+    }
+  const auto rest = propagate(Serial{}, mesh, Source(front));
+  const Rule rule = [&](const Position& p) {
+    double best = infinity;
+    for (std::size_t i = 0; i < front.vertices.size(); ++i) {
+      const Position& q = s.positions[front.vertices[i]];
+      best = std::min(best, front.offsets[i] + std::hypot(p[0] - q[0], p[1] - q[1]));
+    }
+    return best;
+  };
+  const Errors e = errors(s, rest.distance, rule, 0.1);
+  CHECK(e.mean < 1e-3);
+  CHECK(e.low > -1e-9);
+  for (const Index v : front.vertices) CHECK(rest.distance[v] == whole.distance[v]);
+}
+
+TEST_CASE("sources on solids, wireframes and grids of any dimension") {
+  const auto mesh = solid_cube(3).mesh<double>();
+  const Source corners = VertexSource{.vertices = {0, 5}};
+  const auto field = propagate(Serial{}, mesh, corners);
+  const PointSource both[] = {PointSource::at(0), PointSource::at(5)};
+  CHECK(field.distance == propagate(Serial{}, mesh, both).distance);
+  const Source ball = BallSource{.centre = PointSource::at(0), .radius = 0.5};
+  const auto alone = propagate(Serial{}, mesh, PointSource::at(0));
+  const auto rim = propagate(Serial{}, mesh, ball);
+  for (std::size_t v = 0; v < rim.distance.size(); ++v)
+    CHECK(rim.distance[v] == Approx(std::abs(alone.distance[v] - 0.5)));
+  CHECK_THROWS_WITH(propagate(Serial{}, mesh, Source(SimplexSource{.simplex = 0})),
+                    Catch::Contains("surfaces and wireframes"));
+
+  // A path of five edges, one long.
+  const std::array<Index, 2> edges[] = {{0, 1}, {1, 2}, {2, 3}, {3, 4}};
+  const double lengths[] = {1, 2, 3, 4};
+  const Wireframe<double> wire(5, edges, lengths);
+  CHECK(propagate(Serial{}, wire, Source(SimplexSource{.simplex = 1})).distance ==
+        std::vector<double>{1, 0, 0, 3, 7});
+  const CurveSource curve = {
+      .points = {PointSource::at(1), PointSource::at(2), PointSource::in(2, {0.5, 0.5})}};
+  CHECK(propagate(Serial{}, wire, Source(curve)).distance ==
+        std::vector<double>{1, 0, 0, 1.5, 5.5});
+}
+
+TEST_CASE("unreachable is infinite and several sources are minima, whatever the kind") {
+  const Surface two = [&] {
+    Surface t = grid(6, 6);
+    const Index first = static_cast<Index>(t.positions.size());
+    const Surface more = grid(6, 6);
+    for (const Position& p : more.positions) t.add(p[0] + 5, p[1]);
+    for (const Face& f : more.faces) t.triangle(f[0] + first, f[1] + first, f[2] + first);
+    return t;
+  }();
+  const auto mesh = two.mesh<double>();
+  const std::vector<Source> kinds = {
+      PointSource::at(3), VertexSource{.vertices = {0, 8}}, SimplexSource{.simplex = 2},
+      BallSource{.centre = PointSource::at(24), .radius = 0.2},
+      CurveSource{.points = {PointSource::at(0), PointSource::at(1)}, .offset = 0.3}};
+  std::vector<double> least(two.positions.size(), infinity);
+  for (const Source& source : kinds) {
+    const auto field = propagate(Serial{}, mesh, source);
+    for (std::size_t v = 0; v < two.positions.size(); ++v) {
+      CHECK(std::isinf(field.distance[v]) == (v >= 49));
+      CHECK(field.distance[v] >= 0);
+      least[v] = std::min(least[v], field.distance[v]);
+    }
+  }
+  const auto all = propagate(Serial{}, mesh, kinds);
+  for (std::size_t v = 0; v < 49; ++v) {
+    CHECK(all.distance[v] == Approx(least[v]).margin(2e-2));
+    CHECK(all.label[v] < kinds.size());
+  }
+  for (std::size_t v = 49; v < 98; ++v) {
+    CHECK(std::isinf(all.distance[v]));
+    CHECK(all.label[v] == none);
+  }
+}
+
+TEST_CASE("sources that are none are refused by name") {
+  const Surface s = grid(4, 4);
+  const auto mesh = s.mesh<double>();
+  const auto refused = [&](const Source& source, const char* why) {
+    CHECK_THROWS_WITH(propagate(Serial{}, mesh, source), Catch::Contains(why));
+  };
+  refused(VertexSource{}, "no vertices");
+  refused(VertexSource{.vertices = {1, 2}, .offsets = {1}}, "1 offsets for 2");
+  refused(VertexSource{.vertices = {1}, .offset = -1}, "offset");
+  refused(VertexSource{.vertices = {1000}}, "out of range");
+  refused(BallSource{.centre = PointSource::at(0), .radius = -1}, "radius");
+  refused(CurveSource{}, "no points");
+  refused(CurveSource{.points = {PointSource::at(0), PointSource::at(24)}}, "share no face");
+  refused(SimplexSource{.simplex = 1000}, "out of range");
+  const Source segment = CurveSource{.points = {PointSource::at(0), PointSource::at(1)}};
+  CHECK_THROWS_WITH(propagate(Serial{}, s.mesh<float>(), segment), Catch::Contains("double"));
+  CHECK_THROWS_WITH(propagate(OpenMP{}, mesh, segment), Catch::Contains("Serial"));
+  CHECK_THROWS_WITH(propagate(Serial{}, mesh, segment, {.visibility = Visibility::centroid}),
+                    Catch::Contains("saddles"));
+}
