@@ -82,13 +82,18 @@ void PathField<Domain<Real>>::took(std::span<const PointSource> sources, Visibil
 }
 
 template <template <class> class Domain, class Real>
+Solved<Real> PathField<Domain<Real>>::solved() const {
+  return {workspace_, field_,           sources_,    positions_, {},
+          outer_,     outer_simplices_, visibility_, labels_};
+}
+
+template <template <class> class Domain, class Real>
 Path PathField<Domain<Real>>::trace(const PointSource& point, const TraceOptions& options) const {
   if (!solved_) throw UsageError("there is nothing to trace before a solve");
   PointSource at = point;
   at.offset = 0;
   check_source(at, described(*domain_));
-  const Solved<Real> solved = {workspace_, field_,           sources_,    positions_, {},
-                               outer_,     outer_simplices_, visibility_, labels_};
+  const Solved<Real> solved = this->solved();
   check(options);
   return trace_in(*domain_, solved, at, options);
 }
@@ -114,8 +119,7 @@ std::vector<double> PathField<Domain<Real>>::at(std::span<const PointSource> poi
   check_labels();
   std::vector<double> distance;
   if constexpr (std::is_same_v<Domain<Real>, TriangleMesh<Real>>) {
-    const Solved<Real> solved = {workspace_, field_,           sources_,    positions_,
-                                 outer_,     outer_simplices_, visibility_, labels_};
+    const Solved<Real> solved = this->solved();
     const SurfaceReadOut<Real> read_out(*domain_, solved);
     distance.reserve(points.size());
     for (PointSource at : points) {
@@ -140,8 +144,7 @@ std::vector<std::array<double, 3>> PathField<Domain<Real>>::gradient() const {
   if (positions_.empty()) throw UsageError("directions in space need positions");
   std::vector<std::array<double, 3>> directions;
   if constexpr (std::is_same_v<Domain<Real>, TriangleMesh<Real>>) {
-    const Solved<Real> solved = {workspace_, field_,           sources_,    positions_,
-                                 outer_,     outer_simplices_, visibility_, labels_};
+    const Solved<Real> solved = this->solved();
     const SurfaceReadOut<Real> read_out(*domain_, solved);
     directions.assign(domain_->face_count(), {0, 0, 0});
     for (Index face = 0; face < domain_->face_count(); ++face) {

@@ -17,6 +17,9 @@
 
 namespace plexway {
 
+template <class Real>
+struct Solved;
+
 /// A distance field that can tell the way: what a solve learned, and the domain it holds on.
 ///
 ///   PathField field(mesh, positions);
@@ -121,6 +124,7 @@ class PathField<Domain<Real>> {
  private:
   void check_labels() const;
   void took(std::span<const PointSource> sources, Visibility visibility, bool labels);
+  [[nodiscard]] Solved<Real> solved() const;
 
   const Domain<Real>* domain_;
   std::span<const std::array<double, 3>> positions_;
