@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <limits>
 #include <map>
 #include <numbers>
 
@@ -175,6 +176,10 @@ Json Anatomy::json() const {
 }
 
 std::string Anatomy::text() const {
+  // JSON has no infinity and no NaN.
+  const auto number = [](const Json& value) {
+    return value.is_number() ? value.get<double>() : std::numeric_limits<double>::quiet_NaN();
+  };
   std::string text;
   char line[160];
   std::snprintf(line, sizeof line, "%-10s %-29s %10s %9s %9s %9s %7s\n", "split", "class",
@@ -183,9 +188,8 @@ std::string Anatomy::text() const {
   for (const Json& row : json()) {
     std::snprintf(line, sizeof line, "%-10s %-29s %10zu %9.2e %9.2e %9.2e %5.1f %%\n",
                   row["split"].get<std::string>().c_str(), row["class"].get<std::string>().c_str(),
-                  row["vertices"].get<std::size_t>(), row["mean"].get<double>(),
-                  row["above"].get<double>(), row["below"].get<double>(),
-                  100 * row["share"].get<double>());
+                  row["vertices"].get<std::size_t>(), number(row["mean"]), number(row["above"]),
+                  number(row["below"]), 100 * number(row["share"]));
     text += line;
   }
   return text;

@@ -67,15 +67,30 @@ class Conversion {
 
   void cloud() {
     progress_.phase("reading " + command_.input);
-    const CloudFile cloud = read_cloud(command_.input);
+    const VolumeOptions& volume = command_.fill.volume;
+    if (command_.fill.given() || volume.repair || volume.voxel || !volume.grid.empty())
+      throw UsageError(command_.input +
+                       ": points are copied as they are: --repair, --voxel, --grid and what TetGen "
+                       "is told mean nothing here");
     if (!among(io::point_extensions(), extension_) || extension_ == ".pcd") cannot("cloud");
-    io::write_points(command_.out, cloud.points);
+    io::Points points;
+    if (is_cloud_file(command_.input) || io::is_ply_cloud(command_.input)) {
+      CloudFile cloud = read_cloud(command_.input);
+      points = std::move(cloud.points);
+    } else {
+      const Domain domain = Domain::load(command_.input, "", {}, {}, progress_);
+      points.positions.assign(domain.positions().begin(), domain.positions().end());
+    }
+    io::write_points(command_.out, points);
     kind = "cloud";
-    vertices = cloud.points.positions.size();
+    vertices = points.positions.size();
   }
 
   void mesh() {
     FillOptions fill = command_.fill;
+    if (extension_ == ".vdb" && is_vdb(command_.input) && !fill.volume.voxel)
+      throw UsageError(command_.input +
+                       ": is a level set already; to sample it anew say how finely: --voxel SIZE");
     if (extension_ == ".vdb" && !fill.volume.repair && !is_vdb(command_.input))
       fill.volume.voxel.reset();  // that of the output
     const Domain domain = Domain::load(command_.input, kind_for(command_), fill, {}, progress_);
@@ -142,7 +157,7 @@ class Conversion {
 };
 
 void run_convert(const ConvertCommand& command) {
-  check_output_name(command.out, command.input, output_extensions());
+  check_output_name(command.out, command.input, output_extensions(), "output");
   check(command.fill);
   ProgressLine progress(command.quiet);
   const Stopwatch clock;

@@ -78,8 +78,9 @@ void run_cvt(const CvtCommand& command) {
   if (command.centre != "centroid" && command.centre != "border")
     throw UsageError("--centre '" + command.centre + "': choose one of centroid, border");
   check_output_name(command.out, command.input, point_file_extensions());
-  check_output_name(command.cells, command.input, io::field_extensions());
-  check_output_name(command.dual, command.input, surface_file_extensions());
+  check_output_name(command.cells, command.input, io::field_extensions(), "--cells");
+  check_output_name(command.dual, command.input, surface_file_extensions(), "--dual");
+  check_outputs_differ({command.out, command.cells, command.dual, command.picture.file});
   check_picture(command.picture, command.input);
 
   ProgressLine progress(command.quiet);
@@ -156,6 +157,7 @@ void add_cvt_command(CLI::App& tool, Action& action) {
   CLI::App& app = *tool.add_subcommand(
       "cvt", "Points in the middle of their Voronoi cells (centroidal Voronoi tessellation)");
   add_sampling_options(app, *command, "write the seeds: .csv .npy .obj .ply by extension");
+  add_picture_options(app, command->picture);
   app.add_option("--count,-n", command->count, "so many seeds")
       ->required()
       ->check(CLI::NonNegativeNumber)

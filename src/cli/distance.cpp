@@ -77,7 +77,8 @@ Outcome survey(const std::vector<double>& distance, const std::vector<Source>& s
     if (const auto* set = std::get_if<VertexSource>(&source))
       for (const Index v : set->vertices) take(v);
   }
-  outcome.beside_source = outcome.reached - at.size();
+  // Where sources leave nothing to reach, nothing failed.
+  outcome.beside_source = at.size() == distance.size() ? at.size() : outcome.reached - at.size();
   return outcome;
 }
 
@@ -205,7 +206,9 @@ void run_distance(DistanceCommand command) {
     check_output_name(command.out, command.input, cloud_field_extensions());
   check_picture(command.picture, command.input);
   check_isolines(command.isolines, command.input);
+  check_outputs_differ({command.out, command.isolines.out, command.picture.file});
 
+  command.fill.volume.writes_volume = is_vdb(command.out);
   ProgressLine progress(command.quiet);
   const Domain domain =
       Domain::load(command.input, command.as, command.fill, command.cloud, progress);
@@ -220,6 +223,8 @@ void run_distance(DistanceCommand command) {
       throw UsageError("--executor '" + command.solve.executor.name +
                        "': lines and triangles of surfaces start a field on one thread only; "
                        "choose serial");
+    if (precision == Precision::single && command.solve.precision_given)
+      throw UsageError("--precision float: lines and triangles of surfaces need double");
     if (precision == Precision::single) command.solve.precision = "double, which lines need";
     precision = Precision::twice;
     // Lines lie in the triangles of the file.
@@ -330,7 +335,7 @@ void add_distance_command(CLI::App& tool, Action& action) {
       "  plexway distance knot.ply --source vertex:0 --source vertex:99 --out nearest.csv\n"
       "  plexway distance hills.off --source boundary --source vertex:900+0.5 -o rim.vtu\n"
       "  plexway distance knot.ply --source segment:1,0,0,0,1,0 --source circle:0,0,1,0.2\n"
-      "  plexway distance knot.ply --source vertex:0 --isolines 0.1 --isolines-out lines.obj\n"
+      "  plexway distance knot.ply --source vertex:0 --isoline-step 0.1 --isolines-out lines.obj\n"
       "  plexway distance organ.off --as solid --max-volume 1e-3 --source point:0,0,0 -o d.vtu\n"
       "  plexway distance fluid.vdb --source point:0,0,0 --out field.vdb\n"
       "  plexway distance broken.stl --repair --as solid --source vertex:0 --out d.glb\n"

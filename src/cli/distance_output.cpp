@@ -59,6 +59,15 @@ void check_output_name(const std::string& out, const std::string& input,
     throw Error("cannot write " + out + ": there is no folder " + folder.string());
 }
 
+void check_outputs_differ(std::initializer_list<std::string> names) {
+  std::error_code error;
+  for (auto a = names.begin(); a != names.end(); ++a)
+    for (auto b = names.begin(); b != a; ++b)
+      if (!a->empty() && (fs::path(*a).lexically_normal() == fs::path(*b).lexically_normal() ||
+                          fs::equivalent(*a, *b, error)))
+        throw UsageError(*a + ": two results would go into this one file");
+}
+
 void write_distance_csv(std::span<const double> distance, std::span<const std::int32_t> label) {
   std::string text = label.empty() ? "vertex,distance\n" : "vertex,distance,label\n";
   for (std::size_t v = 0; v < distance.size(); ++v) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <initializer_list>
 #include <span>
 #include <string>
 #include <string_view>
@@ -11,6 +12,9 @@ namespace plexway::cli {
 /// `known` or is the input itself, and Error where its folder does not exist. Empty is fine.
 void check_output_name(const std::string& out, const std::string& input,
                        std::span<const std::string_view> known, const char* option = "--out");
+
+/// Throws UsageError where two of them, not empty, are the same.
+void check_outputs_differ(std::initializer_list<std::string> names);
 
 /// CSV on standard output: `vertex,distance` and `,label` where there are labels.
 /// Throws as write_output.

@@ -134,11 +134,14 @@ Domain Domain::load(const std::string& file, const std::string& as, const FillOp
     throw UsageError(
         "--max-volume, --quality, --keep-surface, --max-seconds and --hole need a surface to fill: "
         "give one with --as solid");
-  if (fill.volume.voxel && !cut && !fill.volume.repair &&
-      (wanted == Kind::surface || wanted == Kind::wireframe))
+  if (fill.volume.voxel && !cut && !fill.volume.repair && !fill.volume.writes_volume &&
+      wanted != Kind::cloud)
     throw UsageError("--voxel needs a cloud, --repair, or a .vdb to read or to write");
   if (cut || fill.volume.repair)
-    domain.load_level_set(file, wanted == Kind::surface || fills, fill.volume, progress);
+    domain.load_level_set(
+        file,
+        fills || wanted == Kind::surface || (natural == Kind::surface && wanted != Kind::solid),
+        fill.volume, progress);
   if (fills) {
     require_tetgen(as.empty() ? file : "--as " + as);
     progress.phase("filling " + file + " with tetrahedra");
@@ -172,10 +175,15 @@ void Domain::load_level_set(const std::string& file, bool surface, const VolumeO
   if (is_vdb(file)) {
     const OpenvdbFunctions& openvdb = openvdb_functions(file);
     progress.phase("cutting " + file);
-    if (surface)
-      shape_ = openvdb.surface_of_file(file, volume.grid, voxel, level_set_note_);
-    else
-      shape_ = openvdb.solid_of_file(file, volume.grid, voxel, level_set_note_);
+    try {
+      if (surface)
+        shape_ = openvdb.surface_of_file(file, volume.grid, voxel, level_set_note_);
+      else
+        shape_ = openvdb.solid_of_file(file, volume.grid, voxel, level_set_note_);
+    } catch (const InputError& error) {
+      const std::string cause = error.what();
+      throw InputError(cause.starts_with(file) ? cause : file + ": " + cause);
+    }
   } else {
     const OpenvdbFunctions& openvdb = openvdb_functions("--repair");
     progress.phase("repairing " + file);
@@ -261,7 +269,9 @@ void Domain::write_field(const std::filesystem::path& out, std::span<const doubl
     const auto* solid = std::get_if<io::Tets>(&shape_);
     if (solid == nullptr)
       throw UsageError(out.string() + ": only the field of a solid fits a .vdb");
-    openvdb_functions(out.string()).write_field(out, *solid, distance, label, voxel_);
+    if (openvdb_functions(out.string()).write_field(out, *solid, distance, label, voxel_) == 0)
+      throw UsageError(out.string() +
+                       ": no voxel has its centre in the solid: choose a smaller --voxel");
     return;
   }
   using io::write_field;  // and the one of clouds

@@ -15,7 +15,7 @@ namespace plexway::cli {
 
 void add_isoline_options(CLI::App& command, IsolineOptions& options) {
   command
-      .add_option("--isolines", options.step,
+      .add_option("--isoline-step", options.step,
                   "surfaces: lines at each multiple of this distance, for --isolines-out")
       ->type_name("STEP");
   command.add_option("--isolines-out", options.out, "where to: .obj (lines), .ply, .vtp or .json")
@@ -24,15 +24,15 @@ void add_isoline_options(CLI::App& command, IsolineOptions& options) {
 
 void check_isolines(const IsolineOptions& options, const std::string& input) {
   if (options.out.empty() != !options.step)
-    throw UsageError("--isolines STEP and --isolines-out FILE go together");
+    throw UsageError("--isoline-step STEP and --isolines-out FILE go together");
   if (options.step && !(*options.step > 0 && std::isfinite(*options.step)))
-    throw UsageError("--isolines: the step must be > 0");
-  check_output_name(options.out, input, io::path_extensions());
+    throw UsageError("--isoline-step: the step must be > 0");
+  check_output_name(options.out, input, io::path_extensions(), "--isolines-out");
 }
 
 void check_isolines(const IsolineOptions& options, const Domain& domain) {
   if (!options.out.empty() && domain.kind() != "surface")
-    throw UsageError("--isolines: for surfaces, not a " + std::string(domain.kind()));
+    throw UsageError("--isoline-step: for surfaces, not a " + std::string(domain.kind()));
 }
 
 void write_isolines(const IsolineOptions& options, const Domain& domain,
@@ -41,7 +41,7 @@ void write_isolines(const IsolineOptions& options, const Domain& domain,
   for (const double d : distance)
     if (std::isfinite(d)) most = std::max(most, d);
   if (most / *options.step > 10000)
-    throw UsageError("--isolines: that would be more than 10000 values; take a larger step");
+    throw UsageError("--isoline-step: that would be more than 10000 values; take a larger step");
   std::vector<double> values;
   for (int n = 1; n * *options.step < most; ++n) values.push_back(n * *options.step);
   const auto& surface = std::get<io::Triangles>(domain.shape());

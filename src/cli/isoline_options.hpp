@@ -12,7 +12,7 @@ class App;
 
 namespace plexway::cli {
 
-/// --isolines and --isolines-out, as typed.
+/// --isoline-step and --isolines-out, as typed.
 struct IsolineOptions {
   std::string out;
   std::optional<double> step;

@@ -197,6 +197,8 @@ void write_picture(const PictureArguments& arguments, const Domain& domain,
                    const PictureContent& content) {
   if (!arguments.wanted()) return;
   const render::PictureOptions options = options_of(arguments);
+  if (!options.isosurfaces.empty() && domain.kind() != "solid")
+    throw UsageError("--isosurfaces: for solids, not a " + std::string(domain.kind()));
   render::Part part;
   part.positions = domain.positions();
   if (part.positions.empty())

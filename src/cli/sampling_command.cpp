@@ -15,7 +15,6 @@ void add_sampling_options(CLI::App& app, SamplingCommand& command, const char* o
   app.add_flag("--quiet,-q", command.quiet, "no summary or progress; errors stay");
   add_fill_options(app, command.fill);
   add_cloud_options(app, command.cloud);
-  add_picture_options(app, command.picture);
 }
 
 Precision precision_of(const SamplingCommand& command) {

@@ -52,6 +52,7 @@ void add_solve_options(CLI::App& command, SolveOptions& options, bool bounded) {
         ->group(group);
   }
   command.add_option("--precision", options.precision, "float (default) or double")
+      ->each([&options](const std::string&) { options.precision_given = true; })
       ->type_name("NAME")
       ->group(group);
   add_executor_options(command, options.executor, group);

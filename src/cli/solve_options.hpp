@@ -23,6 +23,7 @@ struct SolveOptions {
   std::optional<double> radius;
   std::optional<std::size_t> max_expansions;
   std::string precision = "float";
+  bool precision_given = false;
   ExecutorArgument executor;
 };
 

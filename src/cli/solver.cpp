@@ -82,7 +82,7 @@ class ShapeSolver final : public Solver {
           ball->centre = delaunay_->to_intrinsic(ball->centre);
         } else if (!std::holds_alternative<VertexSource>(source)) {
           throw UsageError(
-              "--triangulation delaunay: lines and triangles lie in the triangles of the file; "
+              "--triangulation: lines and triangles lie in the triangles of the file; "
               "choose input");
         }
       }

@@ -15,9 +15,8 @@ namespace plexway::cli {
 namespace {
 
 template <class Complex, class Positions>
-std::vector<PointSource> join(const Domain& domain, const Complex& complex,
-                              const Positions& positions, std::span<const PointSource> points,
-                              const std::string& text) {
+std::vector<PointSource> join(const Complex& complex, const Positions& positions,
+                              std::span<const PointSource> points, const std::string& text) {
   PathField field(complex, positions);
   std::vector<PointSource> curve = {points[0]};
   for (std::size_t n = 1; n < points.size(); ++n) {
@@ -25,8 +24,8 @@ std::vector<PointSource> join(const Domain& domain, const Complex& complex,
     field.solve(Serial{}, points[n]);
     const Path path = field.trace(points[n - 1]);
     if (path.points.empty())
-      throw InputError(domain.file().string() + ": source " + text + ": no path leads from point " +
-                       std::to_string(n - 1) + " to the next");
+      throw InputError("source " + text + ": no path leads from point " + std::to_string(n - 1) +
+                       " to the next");
     for (std::size_t i = 1; i + 1 < path.points.size(); ++i) {
       const PathPoint& at = path.points[i];
       curve.push_back({.simplex = at.simplex, .barycentric = at.barycentric});
@@ -84,12 +83,12 @@ std::vector<PointSource> joined(const Domain& domain, std::span<const PointSourc
   if (const auto* surface = std::get_if<io::Triangles>(&domain.shape()))
     return with_file_name(domain, [&] {
       const TriangleMesh<double> mesh(surface->positions, surface->triangles);
-      return join(domain, mesh, surface->positions, points, text);
+      return join(mesh, surface->positions, points, text);
     });
   if (const auto* wires = std::get_if<io::Edges>(&domain.shape()))
     return with_file_name(domain, [&] {
       const Wireframe<double> wireframe(wires->positions, wires->edges);
-      return join(domain, wireframe, wires->positions, points, text);
+      return join(wireframe, wires->positions, points, text);
     });
   throw UsageError("--source '" + text + "': for surfaces and wireframes, not a " +
                    std::string(domain.kind()));

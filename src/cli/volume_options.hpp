@@ -14,6 +14,7 @@ struct VolumeOptions {
   bool repair = false;
   std::string grid;
   std::optional<double> voxel;  ///< of a cloud, too: there it thins
+  bool writes_volume = false;   ///< a .vdb is written, with that voxel
 };
 
 /// Adds the options to a command, in a group of their own.

@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <cmath>
 #include <cstddef>
 #include <cstring>
+#include <limits>
 
 namespace plexway::io {
 
@@ -15,6 +17,11 @@ T load(const char* from, std::endian stored) {
   std::memcpy(bytes.data(), from, sizeof(T));
   if (stored != std::endian::native) std::reverse(bytes.begin(), bytes.end());
   return std::bit_cast<T>(bytes);
+}
+
+/// Whether it stays finite in single precision.
+inline bool fits_float(double value) {
+  return std::abs(value) <= static_cast<double>(std::numeric_limits<float>::max());
 }
 
 /// The bytes of `value` in little endian order.

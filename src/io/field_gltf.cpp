@@ -10,6 +10,7 @@
 
 #include <plexway/error.hpp>
 
+#include "bytes.hpp"
 #include "colour_map.hpp"
 #include "field_formats.hpp"
 
@@ -171,6 +172,9 @@ class Document {
     if (away > 100 * extent)
       for (std::size_t k = 0; k < 3; ++k) shift_[k] = 0.5 * (low[k] + high[k]);
     std::array<float, 3> least, most;
+    for (std::size_t k = 0; k < 3; ++k)
+      if (!fits_float(low[k] - shift_[k]) || !fits_float(high[k] - shift_[k]))
+        throw UsageError("a coordinate is too large for glTF, which has single precision only");
     for (std::size_t k = 0; k < 3; ++k) {
       least[k] = static_cast<float>(low[k] - shift_[k]);
       most[k] = static_cast<float>(high[k] - shift_[k]);
@@ -188,6 +192,8 @@ class Document {
     double largest = 0;
     for (const double d : field_.distance)
       if (std::isfinite(d) && d > largest) largest = d;
+    if (!fits_float(largest))
+      throw UsageError("a distance is too large for glTF, which has single precision only");
     const ColourMap colour;
     const std::size_t from = bytes.size();
     for (const std::size_t v : kept_) {

@@ -9,6 +9,7 @@
 #include <plexway/io/edges.hpp>
 #include <plexway/io/triangles.hpp>
 
+#include "bytes.hpp"
 #include "extension.hpp"
 #include "field_formats.hpp"
 
@@ -141,6 +142,10 @@ void write_triangles(const std::filesystem::path& file, const Triangles& surface
   require_sound("write_triangles", surface.positions, surface.triangles);
   const std::string extension = lower_extension(file);
   OutputFile out(file);
+  if (extension == ".stl")
+    for (const Position& p : surface.positions)
+      if (!fits_float(p[0]) || !fits_float(p[1]) || !fits_float(p[2]))
+        throw UsageError("a coordinate is too large for .stl, which has single precision only");
   if (extension == ".obj") {
     write_obj(out, surface.positions, surface.triangles, "f ");
   } else if (extension == ".off") {

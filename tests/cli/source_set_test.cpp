@@ -107,8 +107,8 @@ TEST_CASE("isolines of a field go into files") {
   const Folder folder;
   const std::string square = folder.write("square.off", square_off(11)).string();
   const std::string out = (folder.path() / "lines.obj").string();
-  const auto run = run_tool({"distance", square, "--source", "segment:0,0,0,0,1,0", "--isolines",
-                             "0.3", "--isolines-out", out, "--quiet"});
+  const auto run = run_tool({"distance", square, "--source", "segment:0,0,0,0,1,0",
+                             "--isoline-step", "0.3", "--isolines-out", out, "--quiet"});
   INFO(run.err);
   REQUIRE(run.code == 0);
   const auto lines = plexway::io::read_edges(out);
@@ -117,10 +117,11 @@ TEST_CASE("isolines of a field go into files") {
     length += std::hypot(lines.positions[a][0] - lines.positions[b][0],
                          lines.positions[a][1] - lines.positions[b][1]);
   CHECK(length == Approx(3).epsilon(1e-6));  // at 0.3, 0.6 and 0.9, each 1 long
-  CHECK(run_tool({"distance", square, "-s", "vertex:0", "--isolines", "1"}).code == 2);
-  CHECK(run_tool({"distance", square, "-s", "vertex:0", "--isolines", "-1", "--isolines-out", out})
+  CHECK(run_tool({"distance", square, "-s", "vertex:0", "--isoline-step", "1"}).code == 2);
+  CHECK(run_tool(
+            {"distance", square, "-s", "vertex:0", "--isoline-step", "-1", "--isolines-out", out})
             .code == 2);
-  CHECK(run_tool({"distance", sample("elbow.mesh"), "-s", "vertex:0", "--isolines", "1",
+  CHECK(run_tool({"distance", sample("elbow.mesh"), "-s", "vertex:0", "--isoline-step", "1",
                   "--isolines-out", out})
             .code == 2);
 }

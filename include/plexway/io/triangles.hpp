@@ -28,12 +28,13 @@ Triangles read_triangles(const std::filesystem::path& file);
 /// The extensions `read_triangles` knows, with the dot, in lower case.
 std::span<const std::string_view> triangle_extensions();
 
-/// Writes the surface; the extension (any case) picks the format. It reads back the same, to the
-/// last bit, but for .stl, .glb and .gltf, which hold single precision. The file appears whole or
-/// not at all.
+/// Writes the surface; the extension (any case) picks the format. Nothing is rounded but in
+/// .stl, .glb and .gltf, which hold single precision; .vtu, .vtk, .glb and .gltf are for other
+/// programs: `read_triangles` does not take them. The file appears whole or not at all.
 ///
-/// Throws UsageError for an unknown extension, a coordinate that is not finite or an index out of
-/// range, and Error "cannot write FILE: reason" when the system refuses.
+/// Throws UsageError for an unknown extension, a coordinate that is not finite or, in single
+/// precision, too large, an index out of range, and Error "cannot write FILE: reason" when the
+/// system refuses.
 void write_triangles(const std::filesystem::path& file, const Triangles& surface);
 
 /// The extensions `write_triangles` knows, with the dot, in lower case.

@@ -32,7 +32,7 @@ bool propagate_each(GL executor, const PointCloud<float>& cloud,
         std::vector<float> rows(sources.size() * vertices);
         complete = propagate_each(executor, surface, moved, options, workspace, rows);
         for (std::size_t k = 0; k < sources.size(); ++k)
-          std::copy_n(&rows[k * vertices], vertices, &distance[k * points]);
+          std::copy_n(&rows[k * vertices], points, &distance[k * points]);
       });
   for (std::size_t k = 0; k < sources.size(); ++k)
     for (const auto& [twin, first] : cloud.twins())
