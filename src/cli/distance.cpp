@@ -77,8 +77,9 @@ Outcome survey(const std::vector<double>& distance, const std::vector<Source>& s
     if (const auto* set = std::get_if<VertexSource>(&source))
       for (const Index v : set->vertices) take(v);
   }
-  // Where sources leave nothing to reach, nothing failed.
-  outcome.beside_source = at.size() == distance.size() ? at.size() : outcome.reached - at.size();
+  // Where sets leave nothing to reach, nothing failed.
+  const bool covered = at.size() == distance.size() && as_points(sources).empty();
+  outcome.beside_source = covered ? at.size() : outcome.reached - at.size();
   return outcome;
 }
 

@@ -101,7 +101,7 @@ TEST_CASE("NumPy reads the matrix of pairs") {
 }
 
 #ifdef PLEXWAY_HAS_OPENVDB
-TEST_CASE("a level set goes out, comes in and is solved in; its field is a volume") {
+TEST_CASE("a level set goes out, comes in and is solved in, and its field is a volume") {
   const Folder folder;
   const auto out = [&](const char* name) { return (folder.path() / name).string(); };
   auto run = run_tool({"convert", sample("elbow.off"), out("e.vdb"), "--voxel", "0.05", "--json"});
