@@ -215,7 +215,7 @@ void run_distance(const DistanceCommand& command) {
   options.progress = progress.callback();
   const Stopwatch solving;
   const Executor executor =
-      choose_executor(command.solve.executor, options, domain.simplices(), sources.size());
+      choose_executor(command.solve.executor, options, *solver, sources.size());
   solver->solve(executor, sources, options);
   const double solve = solving.seconds();
 

@@ -14,6 +14,7 @@
 #include <plexway/propagate/distance_field.hpp>
 #include <plexway/propagate/options.hpp>
 
+#include "executors/narrowing.hpp"
 #include "executors/team.hpp"
 #include "executors/team_front.hpp"
 
@@ -143,8 +144,6 @@ class Rounds {
 
  private:
   enum class Phase { contest, settle, narrow, expand, done };
-  // So often what simplices hear of their neighbours is passed on before they are expanded.
-  static constexpr int sweeps = 3;
   // So many labels, with what their expansion reads, are in a core's cache from round to round.
   static constexpr std::size_t short_front = 8192;
   static constexpr std::uint64_t no_rank = ~std::uint64_t{0};
@@ -277,7 +276,7 @@ class Rounds {
     } else if (phase_ == Phase::narrow) {
       bool any = false;
       for (Hand& hand : hands_) any |= hand.front.put_narrowed();
-      if (!any || ++sweep_ == sweeps) phase_ = Phase::expand;
+      if (!any || ++sweep_ == narrowing_sweeps) phase_ = Phase::expand;
     } else if (phase_ == Phase::expand) {
       done_.expansions += expanding_;
       ++round_;
