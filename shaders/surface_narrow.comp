@@ -53,9 +53,8 @@ SurfaceLabel hear(SurfaceLabel label, uint f, uint field, float distance, out bo
   SurfaceLabel other = labels[field + g];
   uint other_edge = other.h.y & 3u;
   float apart = abs(uintBitsToFloat(other.x.y) - uintBitsToFloat(label.x.y));
-  if (other_edge == edge || other.h.y >> 2 != label.h.y >> 2 || !(apart <= SAME_SOURCE * distance) ||
-      !tighter(label, other))
-    return label;
+  if (other_edge == edge || other.h.y >> 2 != label.h.y >> 2) return label;
+  if (!(apart <= SAME_SOURCE * distance) || !tighter(label, other)) return label;
 
   bool turns_left = edge == edge_before(other_edge);
   uint around = turns_left ? other_edge : edge;
