@@ -21,7 +21,6 @@ void rest(uint why) {
   control.settle_dispatch[1] = 1u;
   control.settle_dispatch[2] = 1u;
   control.twin_dispatch[0] = 0u;
-  control.narrow_dispatch[0] = 0u;
 }
 
 // The dual queue's limit goes up by a step; where that brought nothing, to where something is.
@@ -100,9 +99,6 @@ void main() {
   control.twin_dispatch[0] = 0u;
   control.twin_dispatch[1] = control.settle_dispatch[1];
   control.twin_dispatch[2] = 1u;
-  control.narrow_dispatch[0] = 0u;
-  control.narrow_dispatch[1] = control.settle_dispatch[1];
-  control.narrow_dispatch[2] = 1u;
   control.near_before = control.waiting_in[control.near];
   control.far_before = control.waiting_in[control.far];
   ++control.rounds;

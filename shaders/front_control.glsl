@@ -23,7 +23,6 @@ layout(std430, binding = 0) coherent buffer Control {
   uint dispatch[4];         // of the next offers, for an indirect dispatch
   uint settle_dispatch[4];  // of the passes before them
   uint twin_dispatch[4];    // the same, or none if there are no twins
-  uint narrow_dispatch[4];  // the same, or none if no label heard of limits
   uint state;
   uint current, near, far;  // which queue has which role
   uint begin, count;        // of the current queue, what this round is about

@@ -3,8 +3,8 @@
 // its source sees before it, and takes over limits of that one's which are tighter
 // (SaddleRule::hears_of_limits says when). One invocation an entry.
 //
-// What it heard stays with its entry until all have looked; a pass of its own, PLEXWAY_KEEP, then
-// makes it the triangle's label. So nobody reads what somebody writes.
+// What it heard stays with its entry until all have looked: the pass that makes the offers also makes
+// it the triangle's label. So nobody reads what somebody writes.
 
 #define Real float
 const int K = 1;
@@ -17,7 +17,7 @@ const int K = 1;
 //@include surface.glsl
 //@include front.glsl
 
-layout(std430, binding = 2) buffer Labels { SurfaceLabel labels[]; };
+layout(std430, binding = 2) readonly buffer Labels { SurfaceLabel labels[]; };
 layout(std430, binding = 4) buffer WaitingLabels { SurfaceLabel waiting_labels[]; };
 
 // Two labels are of one source if it is at the same place, within this share of its distance.
@@ -81,14 +81,10 @@ void main() {
   Entry entry = waiting[place];
   float distance = uintBitsToFloat(entry.distance);
   if (entry.cell == NO_CELL || distance >= limit) return;
-#ifdef PLEXWAY_KEEP
-  labels[entry.cell] = waiting_labels[place];
-#else
   uint f = entry.cell % triangle_count;
   bool heard;
   SurfaceLabel label = hear(waiting_labels[place], f, entry.cell - f, distance, heard);
   if (!heard) return;
   waiting_labels[place] = label;
-  control.narrow_dispatch[0] = control.settle_dispatch[0];
-#endif
+  waiting[place].round = HEARD;
 }

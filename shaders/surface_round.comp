@@ -49,8 +49,8 @@ void main() {
   bool later = alive && uintBitsToFloat(bits) >= limit;
   waits_on = later && side == 0u;
   alive = alive && !later;
-  // What it heard last of limits, which no label here is read for.
-  if (alive && side == 0u && control.narrow_dispatch[0] != 0u) labels[cell] = label;
+  // What it heard of limits: this pass reads no labels.
+  if (alive && side == 0u && made == HEARD) labels[cell] = label;
 #endif
 
   uint f = cell % triangle_count, field = cell - f;

@@ -14,7 +14,6 @@
 #include <plexway/propagate/distance_field.hpp>
 #include <plexway/propagate/options.hpp>
 
-#include "executors/narrowing.hpp"
 #include "executors/team.hpp"
 #include "executors/team_front.hpp"
 
@@ -274,9 +273,8 @@ class Rounds {
     } else if (phase_ == Phase::settle) {
       end_settling();
     } else if (phase_ == Phase::narrow) {
-      bool any = false;
-      for (Hand& hand : hands_) any |= hand.front.put_narrowed();
-      if (!any || ++sweep_ == narrowing_sweeps) phase_ = Phase::expand;
+      for (Hand& hand : hands_) hand.front.put_narrowed();
+      phase_ = Phase::expand;
     } else if (phase_ == Phase::expand) {
       done_.expansions += expanding_;
       ++round_;
@@ -318,7 +316,6 @@ class Rounds {
     const std::size_t spent = before_.expansions + done_.expansions;
     expanding_ = std::min(live, options_.max_expansions - std::min(options_.max_expansions, spent));
     phase_ = narrows_ ? Phase::narrow : Phase::expand;
-    sweep_ = 0;
   }
 
   void next_queue() {
@@ -372,7 +369,6 @@ class Rounds {
   std::uint64_t limit_ = 0, nearest_ = Key::unreached;
   std::size_t expanding_ = 0, patience_ = 0, reported_ = 0;
   std::uint32_t round_ = 0;
-  int sweep_ = 0;
   bool narrows_ = false, stuck_ = false, ended_early_ = false, out_of_budget_ = false;
   PropagateStatistics before_, done_;
 

@@ -117,12 +117,10 @@ class RoundsReference {
     return all;
   }
 
-  // Limits heard from neighbours: three times all hear, and then all change.
+  // Limits heard from neighbours: all hear, and then all change.
   void narrow(std::vector<Entry>& settled) {
-    for (int sweep = 0; sweep < 3; ++sweep) {
-      for (Entry& e : settled) hear(e);
-      for (const Entry& e : settled) labels_[e.triangle] = e;
-    }
+    for (Entry& e : settled) hear(e);
+    for (const Entry& e : settled) labels_[e.triangle] = e;
   }
   void hear(Entry& e) const {
     const TriangleRecord<float>& t = triangles_[e.triangle];

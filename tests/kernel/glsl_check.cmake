@@ -42,7 +42,7 @@ foreach(shader IN LISTS shaders)
     endforeach()
   else()
     check_shader("${shader}" "${text}" "" "${name}")
-    check_shader("${shader}" "${text}" "#define PLEXWAY_LABELS\n#define PLEXWAY_KEEP\n#define PLEXWAY_REVIVE\n#define PLEXWAY_SOLIDS\n"
+    check_shader("${shader}" "${text}" "#define PLEXWAY_LABELS\n#define PLEXWAY_REVIVE\n#define PLEXWAY_SOLIDS\n"
       "${name}_variant")
   endif()
 endforeach()

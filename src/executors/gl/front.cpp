@@ -6,7 +6,6 @@
 
 #include "executors/gl/readback.hpp"
 #include "executors/gl/uniforms.hpp"
-#include "executors/narrowing.hpp"
 
 namespace plexway::gl {
 namespace {
@@ -117,8 +116,7 @@ std::size_t Front::add(const Session& session, const std::function<void()>& add)
 
 bool Front::spread(const Session& session, GLuint rule, std::size_t share,
                    const std::string& label_defines,
-                   const std::function<void(const FrontControl&)>& report,
-                   const Narrowing& narrowing) {
+                   const std::function<void(const FrontControl&)>& report, GLuint narrow) {
   constexpr std::size_t offers = offsetof(FrontControl, dispatch);
   constexpr std::size_t settling = offsetof(FrontControl, settle_dispatch);
   const GLuint contest = session.program("contest.comp", label_defines);
@@ -137,7 +135,7 @@ bool Front::spread(const Session& session, GLuint rule, std::size_t share,
       launch(session, contest, settling);
       launch(session, twins, offsetof(FrontControl, twin_dispatch));
       launch(session, settle, settling);
-      if (narrowing.hear != 0) narrow(session, narrowing);
+      if (narrow != 0) launch(session, narrow, settling);
       launch(session, rule, offers);
       advance(session, share);
     }
@@ -169,16 +167,6 @@ void Front::launch(const Session& session, GLuint program, std::size_t indirect)
   session.gl.UseProgram(program);
   session.gl.DispatchComputeIndirect(static_cast<GLintptr>(indirect));
   session.gl.MemoryBarrier(all_that_follows);
-}
-
-// The first look is at all that was settled; the rest has nothing to do if that brought nothing.
-void Front::narrow(const Session& session, const Narrowing& by) const {
-  constexpr std::size_t further = offsetof(FrontControl, narrow_dispatch);
-  launch(session, by.hear, offsetof(FrontControl, settle_dispatch));
-  for (int sweep = 1; sweep < narrowing_sweeps; ++sweep) {
-    launch(session, by.keep, further);
-    launch(session, by.hear, further);
-  }
 }
 
 void Front::advance(const Session& session, std::size_t share) {

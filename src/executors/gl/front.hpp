@@ -18,7 +18,7 @@ namespace plexway::gl {
 struct FrontControl {
   enum State : GLuint { running, done, overflowed, out_of_budget };
   std::array<GLuint, 4> dispatch{0, 1, 1, 0}, settle_dispatch{0, 1, 1, 0},
-      twin_dispatch{0, 1, 1, 0}, narrow_dispatch{0, 1, 1, 0};
+      twin_dispatch{0, 1, 1, 0};
   GLuint state = running;
   GLuint current = 0, near = 1, far = 2;
   GLuint begin = 0, count = 0, total = 0, capacity = 0;
@@ -43,13 +43,6 @@ struct Waiting {
 /// shaders/front.glsl says what is in it.
 struct Cell {
   GLuint least, rank, age, known;
-};
-
-/// Programs by which the labels that a round settled hear of their neighbours' before they are
-/// offered: the first looks, the second changes labels. None: they hear of nothing. What the last
-/// looks found is for the rule to keep.
-struct Narrowing {
-  GLuint hear = 0, keep = 0;
 };
 
 /// The labels of a propagation and the queues in which they wait, on the device: who may write
@@ -82,11 +75,12 @@ class Front {
 
   /// Rounds of the program `rule`, a work group of which expands `share` labels, until nothing
   /// waits. `label_defines` says to front_label.glsl what labels are. `report` gets the state every
-  /// few rounds. False if the budget is spent: then the labels that still wait have been settled.
+  /// few rounds. By `narrow`, if any, the labels that a round settled hear from those of neighbours
+  /// before `rule` offers them and keeps what they heard. False if the budget is spent: then the
+  /// labels that still wait have been settled.
   bool spread(const Session& session, GLuint rule, std::size_t share,
               const std::string& label_defines,
-              const std::function<void(const FrontControl&)>& report,
-              const Narrowing& narrowing = {});
+              const std::function<void(const FrontControl&)>& report, GLuint narrow = 0);
 
   /// Makes the labels of all cells zeros: for rules that look at those of neighbours.
   void clear_labels(const Session& session, std::size_t cells) {
@@ -106,7 +100,6 @@ class Front {
   void begin_with(const Session& session, std::size_t entries);
   void accept(const Session& session, std::size_t first, std::size_t count);
   void launch(const Session& session, GLuint program, std::size_t indirect) const;
-  void narrow(const Session& session, const Narrowing& by) const;
   void settle_all(const Session& session, const std::string& label_defines);
   void grow(const Session& session);
   void write_state(const Session& session);
