@@ -8,7 +8,7 @@
 // no longer the least of its cell, settle.comp makes the least the labels of their cells, and the
 // domain's own shader makes the offers of those labels. Each pass reads what the one before wrote
 // and nobody else writes, so a round's result does not depend on who was faster. Between the first
-// two, twins.comp has work to do now and then.
+// two, twins.comp has work to do now and then; between the last two, surface_narrow.comp on surfaces.
 
 const uint RUNNING = 0u;
 const uint DONE = 1u;

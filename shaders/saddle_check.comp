@@ -18,10 +18,27 @@ struct Input {
   float sigma, width, hinge, cosine, sine, apex_x, apex_h;
   uint flags;  // 1 left, 2 mirror, 4 and 8 saddles, 16 last resort
 };
-struct Output { float x[3], h[3]; float sigma, distance, corner; };
+struct Output {
+  float x[3], h[3];
+  float sigma, distance, corner;
+  float limit_x[2], limit_h[2];
+  uint narrower;
+};
 
 layout(std430, binding = 0) readonly buffer Inputs { Input inputs[]; };
 layout(std430, binding = 1) writeonly buffer Outputs { Output outputs[]; };
+
+/// A label turned onto an edge, as a neighbour there would have posed it if it knew the same source
+/// and limits halfway to it.
+PosedSaddles seen_across(PosedSaddles turned, float hinge) {
+  PosedSaddles other;
+  other.sigma = turned.sigma;
+  other.source = saddle_point(hinge - turned.source.x[0], -turned.source.h);
+  for (int n = 0; n < 2; ++n)
+    other.limit[n] = saddle_point(0.5 * (other.source.x[0] + (n == 0 ? 0.25 : 0.75) * hinge),
+                                  0.5 * other.source.h);
+  return other;
+}
 
 void main() {
   uint i = gl_GlobalInvocationID.x;
@@ -32,9 +49,11 @@ void main() {
   label.limit[1] = saddle_point(inputs[i].x[2], inputs[i].h[2]);
   label.sigma = inputs[i].sigma;
   uint flags = inputs[i].flags;
+  PosedSaddles arriving = label;
   bool left = (flags & 1u) != 0u;
   float hinge = inputs[i].hinge;
   label = turn_label(label, left, inputs[i].width, hinge, inputs[i].cosine, inputs[i].sine);
+  PosedSaddles other = seen_across(label, hinge);
   SaddleHinge beyond;
   beyond.extent = hinge;
   beyond.apex = saddle_point(inputs[i].apex_x, inputs[i].apex_h);
@@ -55,4 +74,15 @@ void main() {
   outputs[i].sigma = crossed.label.sigma;
   outputs[i].distance = crossed.distance;
   outputs[i].corner = path_length(crossed.label, hinge, beyond.apex);
+  HingePoint apex =
+      left ? saddle_point(hinge * inputs[i].cosine, hinge * inputs[i].sine)
+           : saddle_point(inputs[i].width - hinge * inputs[i].cosine, hinge * inputs[i].sine);
+  NarrowedLimits found =
+      narrow_limits(arriving, other, left, inputs[i].width, hinge, inputs[i].cosine,
+                    inputs[i].sine, apex, 0.01 * inputs[i].width);
+  for (int n = 0; n < 2; ++n) {
+    outputs[i].limit_x[n] = found.limit[n].x[0];
+    outputs[i].limit_h[n] = found.limit[n].h;
+  }
+  outputs[i].narrower = (found.narrower[0] ? 1u : 0u) | (found.narrower[1] ? 2u : 0u);
 }

@@ -33,6 +33,10 @@ struct SurfaceLabel {
   uvec4 x, h;
 };
 
+/// Instead of the round in which an entry was offered: since it was settled, its label has heard of
+/// limits from a neighbour (surface_narrow.comp).
+const uint HEARD = 0xffffffffu;
+
 PosedSaddles unpack(SurfaceLabel label) {
   PosedSaddles p;
   vec4 x = uintBitsToFloat(label.x);

@@ -17,7 +17,7 @@ const int K = 1;
 //@include surface.glsl
 //@include front.glsl
 
-layout(std430, binding = 2) readonly buffer Labels { SurfaceLabel labels[]; };
+layout(std430, binding = 2) buffer Labels { SurfaceLabel labels[]; };
 layout(std430, binding = 4) buffer WaitingLabels { SurfaceLabel waiting_labels[]; };
 
 uniform float radius;       // triangles wholly beyond it are not expanded
@@ -49,6 +49,8 @@ void main() {
   bool later = alive && uintBitsToFloat(bits) >= limit;
   waits_on = later && side == 0u;
   alive = alive && !later;
+  // What it heard of limits: this pass reads no labels.
+  if (alive && side == 0u && made == HEARD) labels[cell] = label;
 #endif
 
   uint f = cell % triangle_count, field = cell - f;

@@ -196,7 +196,7 @@ void run_bench(const BenchCommand& command) {
   result.dijkstra_build = building_graph.seconds();
   result.has_dijkstra = dijkstra != nullptr;
 
-  result.executor = choose_executor(command.solve.executor, options, domain.simplices(), 1);
+  result.executor = choose_executor(command.solve.executor, options, *solver, 1);
   // Not timed; it also brings workspace and field to their size.
   progress.phase("comparing with the truth");
   std::vector<double> distance_from_first;

@@ -242,7 +242,7 @@ void run_distance(DistanceCommand command) {
   options.progress = progress.callback();
   const Stopwatch solving;
   const Executor executor =
-      choose_executor(command.solve.executor, options, domain.simplices(), sources.size());
+      choose_executor(command.solve.executor, options, *solver, sources.size());
   if (points.empty())
     solver->solve_from(executor, sources, options);
   else

@@ -7,6 +7,8 @@
 #include <plexway/error.hpp>
 #include <plexway/executors/field.hpp>
 
+#include "solver.hpp"
+
 namespace plexway::cli {
 namespace {
 
@@ -70,16 +72,17 @@ void check_executor(const ExecutorArgument& argument, const PropagateOptions& op
 }
 
 Executor choose_executor(const ExecutorArgument& argument, const PropagateOptions& options,
-                         std::size_t simplices, std::size_t sources) {
+                         const Solver& solver, std::size_t sources) {
   const OpenMP team{.threads = argument.threads.value_or(0)};
   if (argument.name == "openmp") return team;
   if (argument.name == "gl") return GL{.device = argument.device.value_or(-1)};
-  if (argument.name != "auto" || !openmp_built() || options.schedule == Schedule::priority)
+  if (argument.name != "auto" || !openmp_built() || options.schedule == Schedule::priority ||
+      solver.serial_only())
     return Serial{};
   const bool bounded =
       options.radius < PropagateOptions{}.radius ||
       options.max_expansions < PropagateOptions{}.max_expansions;  // fronts may stay short
-  if (simplices < auto_simplices || sources < auto_sources || bounded ||
+  if (solver.simplices() < auto_simplices || sources < auto_sources || bounded ||
       detail::team_size(team) < 2)
     return Serial{};
   return team;

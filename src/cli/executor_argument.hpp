@@ -18,6 +18,8 @@ class App;
 
 namespace plexway::cli {
 
+class Solver;
+
 /// --executor, --threads and --device, as typed.
 struct ExecutorArgument {
   std::string name = "serial";
@@ -45,9 +47,9 @@ void check_executor(const ExecutorArgument& argument, const PropagateOptions& op
 /// times.
 inline constexpr std::size_t auto_simplices = 100'000, auto_sources = 64;
 
-/// Who solves: `auto` chooses by size (docs/CLI.md). `sources` start one field.
+/// Who solves: `auto` chooses by size, of those who can (docs/CLI.md). `sources` start one field.
 [[nodiscard]] Executor choose_executor(const ExecutorArgument& argument,
-                                       const PropagateOptions& options, std::size_t simplices,
+                                       const PropagateOptions& options, const Solver& solver,
                                        std::size_t sources);
 
 }  // namespace plexway::cli

@@ -58,6 +58,7 @@ class ShapeSolver final : public Solver {
 
   std::size_t components() const override { return complex_.summary().components; }
   std::size_t simplices() const override { return simplices_; }
+  bool serial_only() const override { return kSerialOnly; }
   TriangulationReport triangulation() const override { return triangulation_; }
 
   void solve(const Executor& executor, std::span<const PointSource> sources,

@@ -143,8 +143,6 @@ class Rounds {
 
  private:
   enum class Phase { contest, settle, narrow, expand, done };
-  // So often what simplices hear of their neighbours is passed on before they are expanded.
-  static constexpr int sweeps = 3;
   // So many labels, with what their expansion reads, are in a core's cache from round to round.
   static constexpr std::size_t short_front = 8192;
   static constexpr std::uint64_t no_rank = ~std::uint64_t{0};
@@ -275,9 +273,8 @@ class Rounds {
     } else if (phase_ == Phase::settle) {
       end_settling();
     } else if (phase_ == Phase::narrow) {
-      bool any = false;
-      for (Hand& hand : hands_) any |= hand.front.put_narrowed();
-      if (!any || ++sweep_ == sweeps) phase_ = Phase::expand;
+      for (Hand& hand : hands_) hand.front.put_narrowed();
+      phase_ = Phase::expand;
     } else if (phase_ == Phase::expand) {
       done_.expansions += expanding_;
       ++round_;
@@ -319,7 +316,6 @@ class Rounds {
     const std::size_t spent = before_.expansions + done_.expansions;
     expanding_ = std::min(live, options_.max_expansions - std::min(options_.max_expansions, spent));
     phase_ = narrows_ ? Phase::narrow : Phase::expand;
-    sweep_ = 0;
   }
 
   void next_queue() {
@@ -373,7 +369,6 @@ class Rounds {
   std::uint64_t limit_ = 0, nearest_ = Key::unreached;
   std::size_t expanding_ = 0, patience_ = 0, reported_ = 0;
   std::uint32_t round_ = 0;
-  int sweep_ = 0;
   bool narrows_ = false, stuck_ = false, ended_early_ = false, out_of_budget_ = false;
   PropagateStatistics before_, done_;
 

@@ -79,14 +79,12 @@ class TeamFront : public Store {
         narrowed_(narrowed) {}
 
   void narrow_later(Index s, const Label& label) { narrowed_.add({s, label}); }
-  /// By one thread while no other is at it. Was there any?
-  bool put_narrowed() {
-    const bool any = narrowed_.count() > 0;
+  /// By one thread while no other is at it.
+  void put_narrowed() {
     if constexpr (requires(const Label& label) { this->put(Index(), label); })
       for (std::size_t i = 0; i < narrowed_.count(); ++i)
         this->put(narrowed_.data()[i].simplex, narrowed_.data()[i].label);
     narrowed_.clear();
-    return any;
   }
 
   [[gnu::always_inline]] void accept(Index s, std::size_t hinge, const Label& label, Real distance,

@@ -1,9 +1,11 @@
 #include <catch2/catch.hpp>
 
+#include <sstream>
 #include <string>
 #include <vector>
 
 #include "cli/tool.hpp"
+#include "io/io_testing.hpp"
 
 using namespace cli_testing;
 
@@ -42,6 +44,28 @@ TEST_CASE("auto takes one thread for what is small") {
   REQUIRE(run.code == 0);
   CHECK(run.json()["executor"] == "serial");
   CHECK(distance({"--executor", "auto", "--schedule", "priority"}).code == 0);
+}
+
+TEST_CASE("auto takes several threads only where they can do it") {
+  const io_testing::Folder folder;
+  std::ostringstream points;
+  for (int i = 0; i < 240; ++i)
+    for (int j = 0; j < 240; ++j) points << i << ' ' << j + 0.5 * (i % 2) << " 0\n";
+  const std::string cloud = folder.write("sheet.xyz", points.str());
+  const auto executor = [&](const std::string& form) {
+    std::vector<std::string> command = {"distance", cloud,       "--form", form,    "--executor",
+                                        "auto",     "--threads", "2",      "--json"};
+    for (int n = 0; n < 64; ++n) {
+      command.push_back("-s");
+      command.push_back("vertex:" + std::to_string(900 * n));
+    }
+    const auto run = run_tool(command);
+    INFO(run.err);
+    REQUIRE(run.code == 0);
+    return run.json()["executor"].get<std::string>();
+  };
+  CHECK(executor("pairs") == "serial");
+  CHECK(executor("umbrellas") == (has_openmp() ? "openmp" : "serial"));
 }
 
 TEST_CASE("executors and options that do not go together are usage errors") {

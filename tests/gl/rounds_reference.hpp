@@ -39,16 +39,17 @@ class RoundsReference {
       e.source = s.via >> 2;
       e.distance = std::bit_cast<float>(seeds.waiting[n].distance);
       e.label.source = Kernel::saddle_point(s.x[0], s.h);
-      e.label.limit[0] = Kernel::saddle_point(s.x[0] + s.x[2], s.h + s.limit_h[0]);
-      e.label.limit[1] = Kernel::saddle_point(s.x[0] + s.x[3], s.h + s.limit_h[1]);
       e.label.sigma = s.x[1];
+      for (std::size_t i = 0; i < 2; ++i)
+        e.limit(i, Kernel::saddle_point(s.x[2 + i], s.limit_h[i]));
       best_[e.triangle] = std::min(best_[e.triangle], e.distance);
       current.push_back(e);
     }
     limit_ = step;
     for (bool was_far = true; !current.empty();) {
       float nearest = infinity;
-      const std::vector<Entry> settled = settle(current, nearest);
+      std::vector<Entry> settled = settle(current, nearest);
+      narrow(settled);
       for (const Entry& e : settled) expand(e);
       current.clear();
       if (!near_.empty()) {
@@ -80,15 +81,17 @@ class RoundsReference {
     float distance = 0;
     Index source = 0;
     Kernel::PosedSaddles label;
-  };
+    Kernel::HingePoint offset[2];  // of the limits
 
-  // A label at rest keeps its limits as offsets, which rounds.
-  static void rest(Kernel::PosedSaddles& p) {
-    for (auto& limit : p.limit) {
-      limit.x[0] = p.source.x[0] + (limit.x[0] - p.source.x[0]);
-      limit.h = p.source.h + (limit.h - p.source.h);
+    // A label at rest keeps its limits as offsets, which rounds.
+    void limit(std::size_t i, Kernel::HingePoint by) {
+      offset[i] = by;
+      label.limit[i] = Kernel::saddle_point(label.source.x[0] + by.x[0], label.source.h + by.h);
     }
-  }
+    void limit_at(std::size_t i, Kernel::HingePoint p) {
+      limit(i, Kernel::saddle_point(p.x[0] - label.source.x[0], p.h - label.source.h));
+    }
+  };
 
   // Of the least offers to a triangle that of the first source, then hinge, becomes its label.
   std::vector<Entry> settle(const std::vector<Entry>& waiting, float& nearest) {
@@ -112,6 +115,50 @@ class RoundsReference {
       all.push_back(e);
     }
     return all;
+  }
+
+  // Limits heard from neighbours: all hear, and then all change.
+  void narrow(std::vector<Entry>& settled) {
+    for (Entry& e : settled) hear(e);
+    for (const Entry& e : settled) labels_[e.triangle] = e;
+  }
+  void hear(Entry& e) const {
+    const TriangleRecord<float>& t = triangles_[e.triangle];
+    const std::size_t before = edge_before(e.edge), after = edge_after(e.edge);
+    const float x = e.label.source.x[0], h = e.label.source.h, width = t.length[e.edge];
+    const float to_left = x * t.sine(e.edge) + h * t.cosine[e.edge];
+    const float to_right = (width - x) * t.sine(after) + h * t.cosine[after];
+    const float noise =
+        64 * std::numeric_limits<float>::epsilon() * (std::abs(x) + std::abs(h) + width);
+    // Only where the source lies beyond an edge that the label did not come by.
+    if (h < 0 || std::min(to_left, to_right) >= -noise) return;
+    const bool left = to_left < to_right;
+    const std::size_t over = left ? before : after, corner = left ? e.edge : over;
+    const Index g = t.across[over] >> Across::face_shift;
+    const std::size_t k = t.across[over] & Across::edge_mask;
+    if ((t.across[over] & Across::special) != 0 || g == mesh_.face_count()) return;
+    const Entry& other = labels_[g];
+    if (known_[g] == infinity || other.edge == k || other.source != e.source) return;
+    const float close = e.distance / 128;
+    if (std::abs(other.label.sigma - e.label.sigma) > close) return;
+    bool another = false;  // is one of its limits at another distance?
+    for (std::size_t i = 0; i < 2; ++i) {
+      const auto length2 = [&](const Entry& of) {
+        return of.offset[i].x[0] * of.offset[i].x[0] + of.offset[i].h * of.offset[i].h;
+      };
+      another |= std::abs(length2(other) - length2(e)) > 0.01F * length2(other);
+    }
+    if (!another) return;
+    const TriangleRecord<float>& u = triangles_[g];
+    const bool turns_left = k == edge_before(other.edge);
+    const std::size_t around = turns_left ? other.edge : k;
+    const auto there = Kernel::turn_label(other.label, turns_left, u.length[other.edge],
+                                          u.length[k], u.cosine[around], u.sine(around));
+    const auto found = Kernel::narrow_limits(
+        e.label, there, left, width, t.length[over], t.cosine[corner], t.sine(corner),
+        Kernel::saddle_point(t.apex_x(e.edge), t.apex_h(e.edge)), close);
+    for (std::size_t i = 0; i < 2; ++i)
+      if (found.narrower[i]) e.limit_at(i, found.limit[i]);
   }
 
   void expand(const Entry& e) {
@@ -150,8 +197,8 @@ class RoundsReference {
     // A gain must be more than rounding; of several offers in one round the least is taken.
     if (!(crossed.distance < known_[g] * gain && crossed.distance <= best_[g])) return;
     best_[g] = crossed.distance;
-    Entry e{g, k, crossed.distance, from.source, crossed.label};
-    rest(e.label);
+    Entry e{g, k, crossed.distance, from.source, crossed.label, {}};
+    for (std::size_t i = 0; i < 2; ++i) e.limit_at(i, crossed.label.limit[i]);
     (e.distance < limit_ ? near_ : far_).push_back(e);
   }
 

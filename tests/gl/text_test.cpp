@@ -121,7 +121,8 @@ TEST_CASE("the saddle step gives in a shader what it gives in C++", "[gl]") {
     std::uint32_t flags;
   };
   struct Output {
-    float x[3], h[3], sigma, distance, corner;
+    float x[3], h[3], sigma, distance, corner, limit_x[2], limit_h[2];
+    std::uint32_t narrower;
   };
   std::mt19937 engine(51);
   std::uniform_real_distribution<float> uniform(0, 1);
@@ -149,7 +150,7 @@ TEST_CASE("the saddle step gives in a shader what it gives in C++", "[gl]") {
     input.flags = static_cast<std::uint32_t>(engine() & 15u) | (engine() % 8 == 0 ? 16u : 0u);
   }
   const auto found = run<Output>(session, "saddle_check.comp", "", inputs);
-  std::size_t different = 0, far = 0, dropped = 0, bent = 0;
+  std::size_t different = 0, far = 0, dropped = 0, bent = 0, narrower = 0, otherwise = 0;
   double worst = 0;
   for (std::size_t i = 0; i < count; ++i) {
     const Input& in = inputs[i];
@@ -158,8 +159,28 @@ TEST_CASE("the saddle step gives in a shader what it gives in C++", "[gl]") {
     for (int side = 0; side < 2; ++side)
       label.limit[side] = Kernel::saddle_point(in.x[1 + side], in.h[1 + side]);
     label.sigma = in.sigma;
+    const auto arriving = label;
     const bool left = (in.flags & 1) != 0;
     label = Kernel::turn_label(label, left, in.width, in.hinge, in.cosine, in.sine);
+    // What a neighbour there would have posed, if it knew the same source.
+    Kernel::PosedSaddles other;
+    other.sigma = label.sigma;
+    other.source = Kernel::saddle_point(in.hinge - label.source.x[0], -label.source.h);
+    for (int n = 0; n < 2; ++n)
+      other.limit[n] = Kernel::saddle_point(
+          0.5F * (other.source.x[0] + (n == 0 ? 0.25F : 0.75F) * in.hinge), 0.5F * other.source.h);
+    const auto heard = Kernel::narrow_limits(
+        arriving, other, left, in.width, in.hinge, in.cosine, in.sine,
+        Kernel::saddle_point(left ? in.hinge * in.cosine : in.width - in.hinge * in.cosine,
+                             in.hinge * in.sine),
+        0.01F * in.width);
+    const std::uint32_t says = (heard.narrower[0] ? 1u : 0u) | (heard.narrower[1] ? 2u : 0u);
+    narrower += says != 0;
+    bool same = says == found[i].narrower;
+    for (int n = 0; n < 2; ++n)
+      same &= apart(found[i].limit_x[n], heard.limit[n].x[0]) <= 1e-4 &&
+              apart(found[i].limit_h[n], heard.limit[n].h) <= 1e-4;
+    otherwise += !same;
     Kernel::SaddleHinge hinge;
     hinge.extent = in.hinge;
     hinge.apex = Kernel::saddle_point(in.apex_x, in.apex_h);
@@ -191,7 +212,9 @@ TEST_CASE("the saddle step gives in a shader what it gives in C++", "[gl]") {
     far += error > 1e-4;  // took another branch
     if (error <= 1e-4) worst = std::max(worst, error);
   }
-  CAPTURE(different, far, worst, dropped, bent);
+  CAPTURE(different, far, worst, dropped, bent, narrower, otherwise);
+  CHECK(narrower > count / 100);
+  CHECK(otherwise <= (plexway::testing::exact(*device) ? 0 : count / 1000));
   CHECK(dropped > count / 1000);
   CHECK(bent > count / 20);
   CHECK(far <= (plexway::testing::exact(*device) ? 0 : count / 1000));

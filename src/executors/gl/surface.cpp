@@ -48,6 +48,8 @@ class SurfaceRun {
     job_.start(cells(), sizeof(SurfaceLabel), fields, job_.options.step);
     front.seed<SurfaceLabel>(session_, seeds.waiting, seeds.labels);
     const GLuint rule = session_.program("surface_round.comp");
+    const GLuint narrow = session_.program("surface_narrow.comp");
+    Uniforms(session_, narrow).set("triangle_count", mesh_.face_count());
     const auto report = reporter(job_.options, cells(), mesh_.unit());
     bool complete = true;
     int revivals = 0;
@@ -55,7 +57,7 @@ class SurfaceRun {
       set_rule_uniforms(rule, revivals > 8);
       buffers_.triangles.bind(session_, 5);
       const std::size_t share = session_.context().group() / 2;  // two invocations a label
-      complete = front.spread(session_, rule, share, "", report);
+      complete = front.spread(session_, rule, share, "", report, narrow);
       ++revivals;
     } while (complete && (pass_pinches() || revive()));
     workspace_.rounds = front.state().rounds;
