@@ -1,5 +1,7 @@
 // Paths whose ends lie where rounding could decide: on edges, and at sources.
 
+#include <numbers>
+
 #include "apps/path_testing.hpp"
 
 using namespace plexway;
@@ -94,4 +96,36 @@ TEST_CASE("a path from a source with an offset may stay there") {
       }
     }
   CHECK(stayed > 0);
+}
+
+TEST_CASE("paths through sharp tips that touch are straight on both sides") {
+  // Two pyramids whose tips meet: closed fans, less than a full turn in all.
+  Surface s;
+  const Index n = 5, tip = s.add(0, 0, 0);
+  const double height = 2, radius = 0.3;
+  for (const double up : {1., -1.})
+    for (Index i = 0; i < n; ++i) {
+      const double a = 2 * std::numbers::pi * i / n;
+      s.add(radius * std::cos(a), radius * std::sin(a), up * height);
+    }
+  for (Index k = 0; k < 2; ++k)
+    for (Index i = 0; i < n; ++i) s.triangle(tip, 1 + k * n + i, 1 + k * n + (i + 1) % n);
+  const auto mesh = s.mesh<double>();
+  REQUIRE(mesh.summary().pinched_vertices == 1);
+  PathField field(mesh, s.positions);
+  std::mt19937 random(2);
+  for (int k = 0; k < 20; ++k) {
+    PointSource source = anywhere(s.faces, random), target = anywhere(s.faces, random);
+    source.simplex %= n, target.simplex = target.simplex % n + n;
+    // And another on the target's own side, which is farther by its offset but not by much.
+    PointSource other = anywhere(s.faces, random);
+    other.simplex = other.simplex % n + n;
+    const double whole =
+        apart(position(s, source), s.positions[tip]) + apart(position(s, target), s.positions[tip]);
+    other.offset = whole * 1.0001;
+    field.solve(Serial{}, std::vector<PointSource>{source, other});
+    const Path path = field.trace(target);
+    CHECK(path.source == 0);
+    CHECK(path.length == Approx(whole).epsilon(1e-12));
+  }
 }
