@@ -22,7 +22,8 @@ void take_parts(const Refinement<N>& fine, CutDomain<Complex>& domain) {
 }  // namespace
 
 template <class Real>
-CutDomain<TriangleMesh<Real>> cut(const TriangleMesh<Real>& mesh, std::vector<double> limits) {
+CutDomain<TriangleMesh<Real>> cut(const TriangleMesh<Real>& mesh, std::vector<double> limits,
+                                  std::size_t most) {
   CutDomain<TriangleMesh<Real>> domain;
   domain.complex = &mesh;
   const auto triangles = mesh.triangles();
@@ -69,7 +70,7 @@ CutDomain<TriangleMesh<Real>> cut(const TriangleMesh<Real>& mesh, std::vector<do
     domain.limits = std::move(limits);
     return domain;
   }
-  const Refinement<2> fine(simplices, sides, std::move(edges), std::move(limits));
+  const Refinement<2> fine(simplices, sides, std::move(edges), std::move(limits), most);
   take_parts(fine, domain);
   const auto& cut = fine.simplices();
   std::vector<std::array<Index, 3>> faces_cut(cut.size()), across(cut.size());
@@ -97,7 +98,8 @@ CutDomain<TriangleMesh<Real>> cut(const TriangleMesh<Real>& mesh, std::vector<do
 }
 
 template <class Real>
-CutDomain<TetMesh<Real>> cut(const TetMesh<Real>& mesh, std::vector<double> limits) {
+CutDomain<TetMesh<Real>> cut(const TetMesh<Real>& mesh, std::vector<double> limits,
+                             std::size_t most) {
   CutDomain<TetMesh<Real>> domain;
   domain.complex = &mesh;
   const auto tets = mesh.tets();
@@ -140,7 +142,7 @@ CutDomain<TetMesh<Real>> cut(const TetMesh<Real>& mesh, std::vector<double> limi
       edges.push_back({{s.v, s.w}, length(s.v, s.w)});
     sides[s.at / 6][s.at % 6] = static_cast<Index>(edges.size() - 1);
   }
-  const Refinement<3> fine(simplices, sides, std::move(edges), std::move(limits));
+  const Refinement<3> fine(simplices, sides, std::move(edges), std::move(limits), most);
   take_parts(fine, domain);
   std::vector<std::array<double, 3>> positions;
   positions.reserve(domain.limits.size());
@@ -159,9 +161,11 @@ CutDomain<TetMesh<Real>> cut(const TetMesh<Real>& mesh, std::vector<double> limi
   return domain;
 }
 
-template CutDomain<TriangleMesh<float>> cut(const TriangleMesh<float>&, std::vector<double>);
-template CutDomain<TriangleMesh<double>> cut(const TriangleMesh<double>&, std::vector<double>);
-template CutDomain<TetMesh<float>> cut(const TetMesh<float>&, std::vector<double>);
-template CutDomain<TetMesh<double>> cut(const TetMesh<double>&, std::vector<double>);
+template CutDomain<TriangleMesh<float>> cut(const TriangleMesh<float>&, std::vector<double>,
+                                            std::size_t);
+template CutDomain<TriangleMesh<double>> cut(const TriangleMesh<double>&, std::vector<double>,
+                                             std::size_t);
+template CutDomain<TetMesh<float>> cut(const TetMesh<float>&, std::vector<double>, std::size_t);
+template CutDomain<TetMesh<double>> cut(const TetMesh<double>&, std::vector<double>, std::size_t);
 
 }  // namespace plexway

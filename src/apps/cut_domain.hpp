@@ -28,10 +28,13 @@ struct CutDomain {
   std::vector<Part> parts;  ///< by the numbers that the caller of `copy` knows
 };
 
-/// `limits`: the longest edge wanted at each vertex, in the unit inside.
+/// `limits`: the longest edge wanted at each vertex, in the unit inside. Throws TooManyParts where
+/// that makes more than `most` simplices.
 template <class Real>
-CutDomain<TriangleMesh<Real>> cut(const TriangleMesh<Real>& mesh, std::vector<double> limits);
+CutDomain<TriangleMesh<Real>> cut(const TriangleMesh<Real>& mesh, std::vector<double> limits,
+                                  std::size_t most = most_parts);
 template <class Real>
-CutDomain<TetMesh<Real>> cut(const TetMesh<Real>& mesh, std::vector<double> limits);
+CutDomain<TetMesh<Real>> cut(const TetMesh<Real>& mesh, std::vector<double> limits,
+                             std::size_t most = most_parts);
 
 }  // namespace plexway

@@ -34,14 +34,15 @@ void check(const PoissonOptions& options, std::size_t vertices) {
 template <class Complex>
 PoissonDisks sample(const Complex& domain, const SimplexNumbers<Complex>& numbers,
                     std::span<const Index> candidates, const PoissonOptions& options, double radius,
-                    std::size_t most, Workspace<typename Growth<Complex>::Number>& kept) {
+                    std::size_t most, Workspace<typename Growth<Complex>::Number>& kept,
+                    std::size_t parts = most_parts) {
   using Real = typename Growth<Complex>::Number;
   // In radii. Simplices on the way between two darts then belong to one of them, not to others.
   constexpr double longest_edge = 0.4;
   std::vector<double> limits(domain.vertex_count(), radius / domain.unit() * longest_edge);
   for (std::size_t v = 0; v < options.spacing.size(); ++v)
     limits[domain.inside_vertex(static_cast<Index>(v))] *= options.spacing[v];
-  const CutDomain<Complex> fine = cut(domain, std::move(limits));
+  const CutDomain<Complex> fine = cut(domain, std::move(limits), parts);
   const Complex& complex = *fine.complex;
 
   // The copy has other numbers inside, and another unit.
@@ -103,16 +104,36 @@ PoissonDisks poisson(const Complex& domain, std::span<const Index> candidates,
   // adsorption: disks of radius r / 2 cover 0.547 of the plane, balls 0.384 of space).
   constexpr double dimension = Growth<Complex>::corners - 1;
   double content = 0;
+  std::size_t simplices = 0;
   {
     const Growth<Complex> field(domain, workspace);
-    for (Index s = 0; s < field.simplices(); ++s) content += static_cast<double>(field.measure(s));
+    simplices = field.simplices();
+    for (Index s = 0; s < simplices; ++s) content += static_cast<double>(field.measure(s));
   }
   const double wanted = static_cast<double>(options.count);
   double radius = domain.unit() * std::pow(0.7 * content / wanted, 1 / dimension);
+  if (!(radius > 0)) radius = domain.unit();  // flat triangles only
+  // Some vertices may be so near to each other that darts at both would take a radius for which all
+  // the rest is cut to dust.
+  const std::size_t parts = options.at_vertices
+                                ? (std::size_t{1} << 20) + 128 * std::max(options.count, simplices)
+                                : most_parts;
+  std::size_t most_found = 0;
+  int too_fine = 0;
   double too_small = 0, too_large = std::numeric_limits<double>::infinity();
   PoissonDisks best;
   for (int round = 0; round < 16; ++round) {
-    PoissonDisks found = sample(domain, numbers, candidates, options, radius, unlimited, workspace);
+    PoissonDisks found;
+    try {
+      found = sample(domain, numbers, candidates, options, radius, unlimited, workspace, parts);
+    } catch (const TooManyParts&) {
+      if (++too_fine > 4) break;
+      too_small = radius;
+      radius = too_large < std::numeric_limits<double>::infinity() ? (too_small + too_large) / 2
+                                                                   : 8 * radius;
+      continue;
+    }
+    most_found = std::max(most_found, found.darts.size());
     const double count = static_cast<double>(found.darts.size());
     (count >= wanted ? too_small : too_large) = radius;
     if (count >= wanted && (best.darts.empty() || found.darts.size() < best.darts.size()))
@@ -126,8 +147,9 @@ PoissonDisks poisson(const Complex& domain, std::span<const Index> candidates,
     if (too_large - too_small < 1e-6 * too_small) break;
   }
   if (best.darts.empty())
-    throw UsageError("no radius leaves room for " + std::to_string(options.count) +
-                     " darts: the domain holds fewer");
+    throw UsageError("found no radius that leaves room for " + std::to_string(options.count) +
+                     " darts, " + std::to_string(most_found) +
+                     " at most: the domain holds fewer, or its points are too uneven");
   if (best.darts.size() > options.count) {
     best.darts.resize(options.count);
     best.maximal = false;

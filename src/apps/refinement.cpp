@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <queue>
+#include <string>
 #include <utility>
 
 #include <plexway/error.hpp>
@@ -12,8 +13,11 @@ namespace plexway {
 template <int N>
 Refinement<N>::Refinement(std::span<const std::array<Index, corners>> simplices,
                           std::span<const std::array<Index, sides>> edges,
-                          std::vector<Edge> lengths, std::vector<double> limits)
-    : edges_(std::move(lengths)), around_(edges_.size()), limits_(std::move(limits)) {
+                          std::vector<Edge> lengths, std::vector<double> limits, std::size_t most)
+    : most_(std::min(most, most_parts)),
+      edges_(std::move(lengths)),
+      around_(edges_.size()),
+      limits_(std::move(limits)) {
   simplices_.reserve(simplices.size());
   for (std::size_t s = 0; s < simplices.size(); ++s) {
     Simplex simplex = {simplices[s], edges[s], static_cast<Index>(s), {}};
@@ -44,10 +48,11 @@ double Refinement<N>::excess(Index edge) const {
 
 template <int N>
 void Refinement<N>::bisect(Index edge) {
-  if (edges_.size() > none / 4 || simplices_.size() > (none >> 4))
-    throw InputError(
+  if (edges_.size() > none / 4 || simplices_.size() > most_)
+    throw TooManyParts(
         "the radius is too small for this domain: its simplices would have to be cut "
-        "into more than 2^28 parts");
+        "into more than " +
+        std::to_string(most_) + " parts");
   const Edge old = edges_[edge];
   const Index middle = static_cast<Index>(limits_.size());
   limits_.push_back((limits_[old.vertex[0]] + limits_[old.vertex[1]]) / 2);

@@ -7,8 +7,16 @@
 #include <vector>
 
 #include <plexway/complex/ids.hpp>
+#include <plexway/error.hpp>
 
 namespace plexway {
+
+inline constexpr std::size_t most_parts = none >> 4;
+
+class TooManyParts : public InputError {
+ public:
+  using InputError::InputError;
+};
 
 /// A complex of N-simplices whose long edges are bisected, the longest first, each in all its
 /// simplices at once, so that it stays conforming. It needs lengths only (the median of a triangle
@@ -38,9 +46,10 @@ class Refinement {
 
   /// `edges[s]` numbers the sides of simplex s; `limits` has one value a vertex: an edge longer
   /// than that of either end is bisected. A vertex in the middle of an edge takes the mean.
+  /// Throws TooManyParts where that makes more than `most` simplices.
   Refinement(std::span<const std::array<Index, corners>> simplices,
              std::span<const std::array<Index, sides>> edges, std::vector<Edge> lengths,
-             std::vector<double> limits);
+             std::vector<double> limits, std::size_t most = most_parts);
 
   [[nodiscard]] const std::vector<Simplex>& simplices() const { return simplices_; }
   [[nodiscard]] const std::vector<Edge>& edges() const { return edges_; }
@@ -53,6 +62,7 @@ class Refinement {
   [[nodiscard]] double excess(Index edge) const;
   void bisect(Index edge);
 
+  std::size_t most_;
   std::vector<Simplex> simplices_;
   std::vector<Edge> edges_;
   std::vector<std::vector<Index>> around_;  // simplices at an edge

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <deque>
+#include <optional>
 
 namespace plexway {
 namespace {
@@ -63,6 +64,19 @@ struct Peg {
   bool left;
 };
 
+/// A point on the edge that is crossed, in the triangle beyond; nothing if it is not on the edge.
+/// What is less than rounding off it is on it: pulled, the point and the ends of the edge would
+/// turn either way.
+std::optional<std::array<double, 3>> beyond(const Crossing& c, const std::array<double, 3>& b) {
+  constexpr double rounding = 1e-14;
+  if (b[edge_before(c.from)] > rounding) return std::nullopt;
+  const double first = b[c.from], second = b[edge_after(c.from)];
+  std::array<double, 3> there = {};
+  there[carried(c, c.from)] = first / (first + second);
+  there[carried(c, edge_after(c.from))] = second / (first + second);
+  return there;
+}
+
 /// Where the segment passes a portal, 0 at its left end.
 double passing(const Portal& portal, const Vector2& a, const Vector2& b) {
   const Vector2 d = b - a;
@@ -96,21 +110,18 @@ void trim(Strip& strip) {
     kept.push_back({c.face, in.from, c.edge, in.flip == c.flip});
   }
   all.swap(kept);
-  // Around the vertex it starts at, and the one it ends at.
+  // Over edges that it starts or ends on, and so around the vertex if it starts or ends at one.
   std::size_t begin = 0, end = all.size();
-  for (std::size_t c = corner_of(strip.start); c < 3 && begin < end; ++begin) {
-    const std::size_t next = carried(all[begin], c);
-    if (next == 3) break;
-    c = next;
+  for (; begin < end; ++begin) {
+    const auto start = beyond(all[begin], strip.start);
+    if (!start) break;
     strip.first = all[begin].face;
-    strip.start = at_corner(c);
+    strip.start = *start;
   }
-  for (std::size_t c = corner_of(strip.end); c < 3 && end > begin; --end) {
-    const Crossing back = reverse(all[end - 1], none);
-    const std::size_t next = carried(back, c);
-    if (next == 3) break;
-    c = next;
-    strip.end = at_corner(c);
+  for (; end > begin; --end) {
+    const auto back = beyond(reverse(all[end - 1], none), strip.end);
+    if (!back) break;
+    strip.end = *back;
   }
   all.erase(all.begin() + static_cast<std::ptrdiff_t>(end), all.end());
   all.erase(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(begin));

@@ -87,8 +87,8 @@ struct PulledStrip {
   std::vector<double> along;  ///< where it passes each crossing's `edge`, 0 to 1
 };
 
-/// Leaves out what a strip need not visit: triangles around a vertex it starts or ends at, and
-/// ways in and out over one edge.
+/// Leaves out what a strip need not visit: triangles around a vertex it starts or ends at,
+/// crossings of an edge that it starts or ends on, and ways in and out over one edge.
 void trim(Strip& strip);
 
 /// Unfolds the strip into the plane and pulls the way tight, as Lee and Preparata do (Euclidean

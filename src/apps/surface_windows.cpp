@@ -83,6 +83,12 @@ void SurfaceTrace<Real>::search_windows(Index f, const std::array<double, 3>& b,
     auto found = search.find(f, b, known * shorter, margin, options.max_windows - best.windows);
     const std::size_t windows = best.windows + found.windows;
     if (found.goal != none) {
+      if (found.strips.empty()) {  // the point is that source
+        Strip stay;
+        stay.first = f;
+        stay.start = stay.end = b;
+        found.strips.push_back(std::move(stay));
+      }
       Traced traced = straighten(joined(std::move(found.strips), found.goal));
       if (traced.length + solved_.sources[found.goal].offset < known) best = std::move(traced);
     }

@@ -76,6 +76,8 @@ const typename WindowSearch<Real>::Face& WindowSearch<Real>::face(Index f) {
 
 template <class Real>
 bool WindowSearch<Real>::may_bend(Index v) {
+  const auto pinched = mesh_.pinched();
+  if (std::binary_search(pinched.begin(), pinched.end(), v)) return true;
   mesh_.corners_at(v, corners_);
   double angle = 0;
   std::size_t rims = 0;

@@ -24,6 +24,14 @@ std::array<Planar, 3> laid_out(const IntrinsicTriangle& t) {
   return {Planar{0, 0}, Planar{t.length[0], 0}, c};
 }
 
+// Each vertex takes up to two triangles more, and their numbers end somewhere.
+std::size_t room_for(const IntrinsicTriangulation& triangulation, double share) {
+  constexpr std::size_t most = std::numeric_limits<Index>::max() >> Across::face_shift;
+  const std::size_t left = most - std::min(most, triangulation.triangles().size() + 1);
+  const double wanted = share * static_cast<double>(triangulation.vertices());
+  return static_cast<std::size_t>(std::min(wanted, static_cast<double>(left / 2)));
+}
+
 class Refiner {
  public:
   Refiner(IntrinsicTriangulation& triangulation, DelaunayFlips& flips, const Refinement& wanted)
@@ -31,8 +39,7 @@ class Refiner {
         flips_(flips),
         largest_cosine_(std::cos(wanted.smallest_angle * std::numbers::pi / 180)),
         shortest_(wanted.shortest_edge),
-        room_(static_cast<std::size_t>(wanted.most_vertices *
-                                       static_cast<double>(triangulation.vertices()))) {}
+        room_(room_for(triangulation, wanted.most_vertices)) {}
 
   void run() {
     for (Index s = 0; s < triangulation_.triangles().size(); ++s) look_at(s);
@@ -82,6 +89,19 @@ class Refiner {
     if (const double radius = badness(slot); radius > 0) queue_.push({radius, slot});
   }
 
+  // On an edge that is never flipped, as circumcentres of right triangles are, a vertex inside
+  // would leave a flat triangle there for good: split the edge, or nothing.
+  [[nodiscard]] Goal goal_in(Index slot, const std::array<double, 3>& to) const {
+    constexpr double on_edge = 1e-5;  // of the height: float lengths are no better
+    for (std::size_t i = 0; i < 3; ++i) {
+      const std::size_t edge = edge_after(i);
+      if (to[i] > on_edge || !is_fixed(slot, edge)) continue;
+      if (at(slot).across[edge] != none) return {};
+      return {{}, slot << Across::face_shift | static_cast<Index>(edge), true};
+    }
+    return {{slot, clamped(to)}, none, true};
+  }
+
   // Straight from the middle of the triangle.
   [[nodiscard]] Goal way_to_circumcentre(Index slot) const {
     const IntrinsicTriangle& t = at(slot);
@@ -102,7 +122,7 @@ class Refiner {
         const double when = std::fmax(from[i], 0) / (std::fmax(from[i], 0) - to[i]);
         if (when < soonest) soonest = when, out = edge_after(i);
       }
-      if (out == 3) return {{slot, clamped(to)}, none, true};
+      if (out == 3) return goal_in(slot, to);
       const Index o = at(slot).across[out];
       if (o == none) return {{}, slot << Across::face_shift | static_cast<Index>(out), true};
       if ((o & Across::fan) != 0) return {};

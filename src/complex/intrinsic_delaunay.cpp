@@ -24,6 +24,15 @@ void check_face(Index face, std::size_t faces) {
                      std::to_string(faces));
 }
 
+void check(const Refinement& wanted) {
+  if (!(wanted.smallest_angle >= 0 && wanted.smallest_angle < 60))
+    throw UsageError("smallest_angle of a refinement must be 0 degrees or more, and less than 60");
+  if (!(wanted.most_vertices >= 0 && std::isfinite(wanted.most_vertices)))
+    throw UsageError("most_vertices of a refinement must be 0 or more, and finite");
+  if (!(wanted.shortest_edge >= 0))
+    throw UsageError("shortest_edge of a refinement must be 0 or more");
+}
+
 }  // namespace
 
 struct IntrinsicDelaunay::State {
@@ -60,7 +69,7 @@ struct IntrinsicDelaunay::State {
 
 template <class Real>
 IntrinsicDelaunay::IntrinsicDelaunay(const TriangleMesh<Real>& input, const Refinement& refinement)
-    : state_(std::make_unique<State>(input)) {
+    : state_((check(refinement), std::make_unique<State>(input))) {
   IntrinsicTriangulation& triangulation = state_->triangulation;
   DelaunayFlips flips(triangulation, tolerance_of<Real>);
   flips.all();

@@ -48,6 +48,18 @@ std::array<double, 3> in_patch(const CornerOrder& order, const std::array<double
   return {at[order(0)], at[order(1)], at[order(2)]};
 }
 
+// How far a point is within a triangle: the least distance to an edge if it is inside, and if not,
+// minus how far the coordinates that it would get are off. A length, so that triangles compare, and
+// a flat one counts for the points on its line only.
+double depth(const std::array<Planar, 3>& corner, const std::array<double, 3>& at, Planar point) {
+  if (!(std::min({at[0], at[1], at[2]}) > 0)) return -norm(place(corner, clamped(at)) - point);
+  const double area = cross(corner[1] - corner[0], corner[2] - corner[0]);
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < 3; ++i)
+    least = std::min(least, at[i] * area / norm(corner[(i + 2) % 3] - corner[(i + 1) % 3]));
+  return least;
+}
+
 // The triangle before the patch that the point is in: the one above the x axis, or the one below.
 std::size_t side_of(const Form& form, double y) { return form.before_count == 2 && y < 0 ? 1 : 0; }
 
@@ -85,9 +97,10 @@ SlotPoint PatchHistory::forward(SlotPoint point) const {
     double most = -std::numeric_limits<double>::infinity();
     std::array<double, 3> best_at{};
     for (std::size_t i = 0; i < form.after_count; ++i) {
-      const auto share = barycentric(points_of(patch, form.after[i]), at);
-      const double least = std::min({share[0], share[1], share[2]});
-      if (least > most) most = least, best = i, best_at = share;
+      const auto corners = points_of(patch, form.after[i]);
+      const auto share = barycentric(corners, at);
+      const double inside = depth(corners, share, at);
+      if (inside > most) most = inside, best = i, best_at = share;
     }
     point = {patch.slot[best], clamped(best_at)};
     number = patch.later[best];

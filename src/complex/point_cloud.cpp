@@ -237,7 +237,8 @@ template <class Real>
 PointCloud<Real>::PointCloud(Points points, const Neighbours& neighbours,
                              const CloudOptions& options)
     : surface_((check_input(points, neighbours, options),
-                mesh_of<Real>(points, make_sheet(points, neighbours, options, summary_, twins_, more_)))) {
+                mesh_of<Real>(points,
+                              make_sheet(points, neighbours, options, summary_, twins_, more_)))) {
   if (options.progress) options.progress(1);
 }
 

@@ -48,9 +48,9 @@ void walk_fan(std::span<const TriangleRecord<Real>> triangles, Index start, Visi
   }
 }
 
-/// Do sheets at a vertex, given by its corners, lie like the pages of a book that is open wide or less
-/// on a spine, so that any two together are flat or convex there? Then no path bends at it, though
-/// there is more than 2 pi around.
+/// Do sheets at a vertex, given by its corners, lie like the pages of a book that is open wide or
+/// less on a spine, so that any two together are flat or convex there? Then no path bends at it,
+/// though there is more than 2 pi around.
 template <class Real>
 bool is_open_book(std::span<const TriangleRecord<Real>> triangles, std::span<const Index> corners);
 

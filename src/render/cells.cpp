@@ -31,8 +31,9 @@ double across_line(const Point& a, const Point& b, const Point& v, double d0, do
   const double h = std::sqrt(std::max(0.0, d0 * d0 - x * x));
   const double xv = (to_a * to_a - to_b * to_b + edge * edge) / (2 * edge);
   const double hv = std::sqrt(std::max(0.0, to_a * to_a - xv * xv));
-  return std::clamp(std::hypot(xv - x, hv + h), std::max(d0 - to_a, d1 - to_b),
-                    std::min(d0 + to_a, d1 + to_b));
+  // Values that are no distances may leave no room in between.
+  const double least = std::max(d0 - to_a, d1 - to_b), most = std::min(d0 + to_a, d1 + to_b);
+  return std::clamp(std::hypot(xv - x, hv + h), least, std::max(least, most));
 }
 
 // The same across the triangle a, b, c.
@@ -73,36 +74,42 @@ Cells::Cells(const Part& part) : part_(part) {
   choose_colours();
 }
 
+// A vertex that is not reached is in no cell, whatever its label.
+std::int32_t Cells::label(std::uint32_t vertex) const {
+  return part_.value.empty() || std::isfinite(part_.value[vertex]) ? part_.label[vertex] : -1;
+}
+
 void Cells::look_beyond(std::span<const std::uint32_t> corners) {
   for (const std::uint32_t v : corners)
     for (std::size_t k = 0; k < corners.size(); ++k) {
-      const std::int32_t label = part_.label[corners[k]];
-      if (label < 0 || label == part_.label[v]) continue;
+      const std::int32_t label = this->label(corners[k]);
+      if (label < 0 || label == this->label(v)) continue;
       std::array<std::uint32_t, 3> own{};
       std::size_t known = 0;
       bool first = true;
       for (std::size_t j = 0; j < corners.size(); ++j) {
-        if (part_.label[corners[j]] != label) continue;
+        if (this->label(corners[j]) != label) continue;
         if (j < k) first = false;
         own[known++] = corners[j];
       }
       if (!first) continue;  // this label was looked at
-      if (part_.label[v] >= 0) neighbours_.push_back({part_.label[v], label});
+      if (this->label(v) >= 0) neighbours_.push_back({this->label(v), label});
       const auto at = [&](std::size_t j) -> const Point& { return part_.positions[own[j]]; };
       const auto far = [&](std::size_t j) {
         return part_.value.empty() ? 0.0 : part_.value[own[j]];
       };
       const Point& p = part_.positions[v];
-      const double value = known == 1 ? far(0) + length(at(0), p)
-                           : known == 2
-                               ? across_line(at(0), at(1), p, far(0), far(1))
-                               : across_triangle(at(0), at(1), at(2), p, far(0), far(1), far(2));
+      double value = known == 1   ? far(0) + length(at(0), p)
+                     : known == 2 ? across_line(at(0), at(1), p, far(0), far(1))
+                                  : across_triangle(at(0), at(1), at(2), p, far(0), far(1), far(2));
+      // Squares of huge values overflow.
+      if (!std::isfinite(value)) value = far(0) + length(at(0), p);
       beyond_.push_back({v, label, known, value});
     }
 }
 
 double Cells::value(std::uint32_t vertex, std::int32_t label) const {
-  if (part_.label[vertex] == label) return part_.value.empty() ? 0 : part_.value[vertex];
+  if (this->label(vertex) == label) return part_.value.empty() ? 0 : part_.value[vertex];
   const auto found = std::lower_bound(
       beyond_.begin(), beyond_.end(), std::tie(vertex, label),
       [](const Beyond& b, const auto& key) { return std::tie(b.vertex, b.label) < key; });
@@ -112,7 +119,7 @@ double Cells::value(std::uint32_t vertex, std::int32_t label) const {
 bool Cells::paint(std::span<const std::uint32_t> corners, std::span<Vertex> vertices) const {
   std::vector<std::pair<double, std::int32_t>> here;  // the least value of each cell, the cell
   for (const std::uint32_t v : corners) {
-    const std::int32_t label = part_.label[v];
+    const std::int32_t label = this->label(v);
     const auto known = std::find_if(here.begin(), here.end(),
                                     [&](const auto& cell) { return cell.second == label; });
     if (label < 0 || known != here.end()) continue;

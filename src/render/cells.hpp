@@ -29,6 +29,7 @@ class Cells {
     std::size_t known;  ///< by how many corners of a simplex: more are better
     double value;
   };
+  [[nodiscard]] std::int32_t label(std::uint32_t vertex) const;
   void look_beyond(std::span<const std::uint32_t> corners);
   [[nodiscard]] double value(std::uint32_t vertex, std::int32_t label) const;
   void choose_colours();

@@ -5,6 +5,8 @@
 #include <limits>
 #include <numeric>
 
+#include "spacings.hpp"
+
 namespace plexway::render {
 namespace {
 
@@ -54,63 +56,6 @@ Vertex vertex_of(const Part& part, const Cells* cells, std::uint32_t v, const Ma
   else if (part.value.empty())
     vertex.paint = plain(part.colour.value_or(Colour{120, 130, 145}));
   return vertex;
-}
-
-// How far each point's fourth nearest is, at most twice and at least half of what is usual.
-std::vector<double> spacings(std::span<const Point> points) {
-  Point low = points[0], high = points[0];
-  for (const Point& p : points)
-    for (std::size_t k = 0; k < 3; ++k) {
-      low[k] = std::min(low[k], p[k]);
-      high[k] = std::max(high[k], p[k]);
-    }
-  const Point size = minus(high, low);
-  const double widest = std::max({size[0], size[1], size[2]});
-  if (!(widest > 0)) return std::vector<double>(points.size(), 0.1);
-  // Some four points in each cell that a surface passes.
-  const double cell = widest / std::max(1.0, std::sqrt(static_cast<double>(points.size()) / 6));
-  std::array<std::size_t, 3> cells{};
-  for (std::size_t k = 0; k < 3; ++k) cells[k] = static_cast<std::size_t>(size[k] / cell) + 1;
-  const auto cell_of = [&](const Point& p, std::size_t k) {
-    return std::min(static_cast<std::size_t>((p[k] - low[k]) / cell), cells[k] - 1);
-  };
-  const auto key = [&](std::size_t x, std::size_t y, std::size_t z) {
-    return (z * cells[1] + y) * cells[0] + x;
-  };
-  std::vector<std::pair<std::size_t, std::uint32_t>> sorted;
-  for (std::size_t i = 0; i < points.size(); ++i)
-    sorted.emplace_back(key(cell_of(points[i], 0), cell_of(points[i], 1), cell_of(points[i], 2)),
-                        static_cast<std::uint32_t>(i));
-  std::sort(sorted.begin(), sorted.end());
-  std::vector<double> found;
-  for (const Point& p : points) {
-    std::array<double, 4> nearest{};
-    nearest.fill(cell * cell);
-    const auto around = [&](std::size_t k) {
-      const std::size_t c = cell_of(p, k);
-      return std::pair{c > 0 ? c - 1 : 0, std::min(c + 2, cells[k])};
-    };
-    const auto [x0, x1] = around(0);
-    const auto [y0, y1] = around(1);
-    const auto [z0, z1] = around(2);
-    for (std::size_t z = z0; z < z1; ++z)
-      for (std::size_t y = y0; y < y1; ++y)
-        for (auto at = std::lower_bound(sorted.begin(), sorted.end(),
-                                        std::pair{key(x0, y, z), std::uint32_t{0}});
-             at != sorted.end() && at->first < key(x1 - 1, y, z) + 1; ++at) {
-          const Point d = minus(points[at->second], p);
-          const double square = dot(d, d);
-          if (!(square > 0) || square >= nearest[3]) continue;
-          nearest[3] = square;
-          std::sort(nearest.begin(), nearest.end());
-        }
-    found.push_back(std::sqrt(nearest[3]));
-  }
-  std::vector<double> copy = found;
-  const auto middle = copy.begin() + static_cast<std::ptrdiff_t>(copy.size() / 2);
-  std::nth_element(copy.begin(), middle, copy.end());
-  for (double& f : found) f = std::clamp(f, *middle / 2, *middle * 2);
-  return found;
 }
 
 }  // namespace

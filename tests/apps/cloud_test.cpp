@@ -235,3 +235,24 @@ TEST_CASE("seeds on a flat cloud end at points in the middle of their cells") {
   }
   CHECK(off <= 0.12 * cell);
 }
+
+TEST_CASE("as many darts as a cloud has points, or a reason why not") {
+  // Two points in 40 are very near to each other: a radius that parts them is tiny.
+  std::mt19937 random(5);
+  std::vector<Position> points;
+  for (int i = 0; i < 39; ++i)
+    points.push_back({uniform(random), uniform(random), 0.01 * uniform(random)});
+  points.push_back(points[20]);
+  points[39][0] += 1e-9;
+  const auto cloud = cloud_of<double>(points);
+  for (const std::size_t count : {std::size_t{20}, std::size_t{39}, std::size_t{40}}) {
+    try {
+      const PoissonDisks disks = poisson_disks(Serial{}, cloud, {.count = count});
+      CHECK(disks.darts.size() == count);
+      CHECK(count < 40);
+    } catch (const UsageError& error) {
+      CHECK(count > 20);
+      CHECK(std::string(error.what()).find("found no radius") != std::string::npos);
+    }
+  }
+}

@@ -53,12 +53,13 @@ struct DelaunaySummary {
 
 /// How far to refine: vertices are put in until no angle is smaller, or there are enough.
 struct Refinement {
-  /// Degrees; 0: not at all. Up to 28 it mostly ends by itself; vertices close to a boundary may
-  /// keep it going down to `shortest_edge`.
+  /// Degrees, less than 60; 0: not at all. Up to 28 it mostly ends by itself; vertices close to a
+  /// boundary may keep it going down to `shortest_edge`.
   double smallest_angle = 0;
-  /// So many new vertices at most, as a share of those there are. The largest triangles come first.
+  /// So many new vertices at most, as a share of those there are; 0 or more, and finite. The
+  /// largest triangles come first.
   double most_vertices = 0.25;
-  /// Edges shorter than this, in mean edges, are left alone.
+  /// Edges shorter than this, in mean edges, are left alone; 0 or more.
   double shortest_edge = 1e-3;
 
   /// What pays where refinement pays at all: a quarter more vertices where triangles are worst.
