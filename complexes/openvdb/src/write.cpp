@@ -2,47 +2,50 @@
 #include <openvdb/tools/Prune.h>
 
 #include <algorithm>
-#include <cerrno>
 #include <cmath>
+#include <ios>
 #include <limits>
+#include <ostream>
 #include <string>
-#include <system_error>
 
 #include <plexway/error.hpp>
 #include <plexway/openvdb/field.hpp>
 #include <plexway/openvdb/level_set.hpp>
 
 #include "bricks.hpp"
+#include "output_file.hpp"
 
 namespace plexway::openvdb {
 namespace {
 
 namespace fs = std::filesystem;
 
-// Written beside its place and renamed.
-void write(const fs::path& file, const ::openvdb::GridCPtrVec& grids) {
-  const auto refused = [&](const std::string& reason) {
-    return Error("cannot write " + file.string() + ": " + reason);
-  };
-  if (fs::is_directory(file)) throw refused("is a directory");
-  fs::path part = file;
-  part += ".part" + std::to_string(std::hash<std::string>{}(file.string()) % 1000);
-  std::error_code ignored;
-  try {
-    ::openvdb::io::File out(part.string());
+// OpenVDB's own writer of files leaves a short one on a full disk, and says nothing.
+class Archive : public ::openvdb::io::Archive {
+ public:
+  void write_to(OutputFile& file, const ::openvdb::GridCPtrVec& grids) const {
+    std::ostream out(&file);
+    out.exceptions(std::ios::badbit | std::ios::failbit);
     ::openvdb::MetaMap metadata;
     metadata.insertMeta("creator", ::openvdb::StringMetadata("plexway"));
-    out.write(grids, metadata);
-    out.close();
-  } catch (const ::openvdb::Exception& error) {
-    fs::remove(part, ignored);
-    throw refused(error.what());
+    write(out, grids, file.seekable(), metadata);
+    out.flush();
   }
-  std::error_code error;
-  fs::rename(part, file, error);
-  if (!error) return;
-  fs::remove(part, ignored);
-  throw refused(error.message());
+
+ private:
+  using ::openvdb::io::Archive::write;
+};
+
+void write(const fs::path& file, const ::openvdb::GridCPtrVec& grids) {
+  OutputFile out(file);
+  try {
+    Archive().write_to(out, grids);
+  } catch (const ::openvdb::Exception& error) {
+    out.refused(error.what());
+  } catch (const std::ios_base::failure& error) {
+    out.refused(error.what());
+  }
+  out.commit();
 }
 
 ::openvdb::math::Transform::Ptr transform_of(const Frame& frame) {
