@@ -8,6 +8,7 @@
 #include <cstdlib>
 #include <memory>
 #include <new>
+#include <vector>
 
 #include <plexway/openvdb/level_set.hpp>
 
@@ -68,8 +69,10 @@ TEST_CASE("a child without memory ends, and never goes on in the caller's code")
   const int code = status_of_child([&] {
     const pid_t self = ::getpid();
     const rlimit tight = {1 << 20, 1 << 20};
-    std::string said(400, '\0');
+    std::vector<void*> all(100000);  // never freed
     ::setrlimit(RLIMIT_DATA, &tight);
+    for (std::size_t i = 0; i < all.size(); ++i)
+      if ((all[i] = std::malloc(std::size_t{1} << 15)) == nullptr) break;
     int seen = 0;
     try {
       (void)read_level_set(file);
