@@ -60,7 +60,7 @@ TEST_CASE("a field reads back in place: values, transform, name, class, outside"
     CHECK(sample.wsSample({p[0], p[1], p[2]}) == -1.0f);
 }
 
-TEST_CASE("labels are a second grid; what is not reached is outside") {
+TEST_CASE("labels are a second grid, and what is not reached is outside") {
   auto solid = cube();
   for (const Point& p : cube().positions) solid.positions.push_back(p + Point{10, 0, 0});
   for (auto tet : cube().tets) {
