@@ -3,6 +3,7 @@
 #include <openvdb/openvdb.h>
 #include <openvdb/tools/Interpolation.h>
 
+#include <chrono>
 #include <limits>
 
 #include <plexway/openvdb/field.hpp>
@@ -102,5 +103,86 @@ TEST_CASE("a voxel is chosen where none is given, and what makes no sense is ref
   CHECK_THROWS_AS(write(std::span(distance).first(5), 0), plexway::UsageError);
   CHECK_THROWS_AS(write(distance, -1), plexway::UsageError);
   CHECK_THROWS_AS(write(distance, 1e-5), plexway::UsageError);
+  for (const double side : {1e300, 4.0})
+    CHECK_THAT(message_of<plexway::UsageError>([&] { write(distance, side); }),
+               Catch::Contains("is larger than the whole solid"));
   CHECK(folder.files() == 1);
+}
+
+namespace {
+
+/// Voxels whose centre lies in a tetrahedron, by looking at each of its box.
+std::size_t voxels_inside(const std::array<Point, 4>& corners, double voxel) {
+  Point low = corners[0], high = corners[0];
+  for (const Point& c : corners)
+    for (std::size_t k = 0; k < 3; ++k) {
+      low[k] = std::min(low[k], c[k]);
+      high[k] = std::max(high[k], c[k]);
+    }
+  const auto six = [](const Point& a, const Point& b, const Point& c, const Point& d) {
+    return dot(cross(b - a, c - a), d - a);
+  };
+  const double all = six(corners[0], corners[1], corners[2], corners[3]);
+  std::size_t count = 0;
+  for (double x = std::floor(low[0] / voxel); x <= high[0] / voxel + 1; ++x)
+    for (double y = std::floor(low[1] / voxel); y <= high[1] / voxel + 1; ++y)
+      for (double z = std::floor(low[2] / voxel); z <= high[2] / voxel + 1; ++z) {
+        bool inside = true;
+        for (std::size_t i = 0; i < 4; ++i) {
+          auto c = corners;
+          c[i] = {voxel * x, voxel * y, voxel * z};
+          inside = inside && six(c[0], c[1], c[2], c[3]) / all >= -1e-9;
+        }
+        count += inside;
+      }
+  return count;
+}
+
+}  // namespace
+
+TEST_CASE("the voxels of a tetrahedron are those whose centre it holds") {
+  const Folder folder;
+  const auto file = folder.path() / "one.vdb";
+  std::mt19937 random(11);
+  std::uniform_real_distribution<double> anywhere(-1, 1);
+  for (int i = 0; i < 60; ++i) {
+    std::array<Point, 4> corners;
+    for (Point& c : corners)
+      for (double& x : c) x = anywhere(random) + 3;
+    // Needles and blades as well, and sides along the lattice but for rounding.
+    if (i % 4 == 1)
+      for (std::size_t c = 1; c < 4; ++c)
+        corners[c] = corners[0] + 0.04 * (corners[c] - corners[0]);
+    if (i % 4 == 1) corners[3] = corners[0] + Point{1.1, 1.2, -0.9};
+    if (i % 4 == 2) corners[3] = (1.0 / 3) * (corners[0] + corners[1] + 1.02 * corners[2]);
+    if (i % 4 == 3)
+      corners = {Point{2.1, 2.1, 2.1}, {2.1 + 4e-16, 3.7, 2.1}, {2.1, 2.1, 3.5}, {3.3, 2.1, 2.1}};
+    if (i % 8 == 7)
+      for (Point& c : corners) c = {c[1], c[2], c[0]};
+    const std::size_t expected = voxels_inside(corners, 0.05);
+    INFO(i << ": " << expected);
+    const std::vector<Point> positions(corners.begin(), corners.end());
+    const std::vector<std::array<Index, 4>> tets = {{0, 1, 2, 3}};
+    const std::vector<double> distance(4, 1.0);
+    CHECK(plexway::openvdb::write_field(file, positions, tets, distance, {}, {.voxel = 0.05}) ==
+          expected);
+  }
+}
+
+TEST_CASE("a needle along a diagonal costs its voxels and not its box") {
+  const Folder folder;
+  // Its box has 8 10^12 voxels, which would be hours.
+  const double length = 20000;
+  const std::vector<Point> positions = {
+      {0, 0, 0}, {length, length, length}, {1, 0, 0.5}, {0, 1.5, 0}};
+  const std::vector<std::array<Index, 4>> tets = {{0, 1, 2, 3}};
+  const std::vector<double> distance = {0, 1, 0, 0};
+  const auto start = std::chrono::steady_clock::now();
+  const std::size_t active = plexway::openvdb::write_field(folder.path() / "needle.vdb", positions,
+                                                           tets, distance, {}, {.voxel = 1});
+  const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start;
+  // On the diagonal itself, and beside it where it is wide enough.
+  CHECK(active > 20000);
+  CHECK(active < 60000);
+  CHECK(took.count() < 20);
 }

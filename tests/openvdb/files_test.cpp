@@ -3,6 +3,8 @@
 #include <openvdb/openvdb.h>
 #include <openvdb/tools/LevelSetSphere.h>
 
+#include <limits>
+
 #include <plexway/openvdb/level_set.hpp>
 
 #include "volumes.hpp"
@@ -123,6 +125,43 @@ TEST_CASE("what is no level set, or not the only one, is named") {
   CHECK_THAT(complaint_of(folder.write("text.vdb", "no volume at all")),
              Contains("no OpenVDB file"));
   CHECK_THAT(complaint_of(folder.write("nothing.vdb", "")), Contains("no OpenVDB file"));
+}
+
+TEST_CASE("infinite values count as the background, and so does the shape") {
+  const Folder folder;
+  constexpr float far = std::numeric_limits<float>::infinity();
+  // Of a ball of radius 6.4 voxels: distances within two voxels of it, and beyond none.
+  const auto grid = FloatGrid::create(2);
+  const auto whole = FloatGrid::create(2);
+  for (int x = -9; x <= 9; ++x)
+    for (int y = -9; y <= 9; ++y)
+      for (int z = -9; z <= 9; ++z) {
+        const double d = std::sqrt(x * x + y * y + z * z) - 6.4;
+        const float cut = static_cast<float>(std::clamp(d, -2.0, 2.0));
+        whole->tree().setValue({x, y, z}, cut);
+        grid->tree().setValue({x, y, z}, d > 2 ? far : d < -2 ? -far : cut);
+      }
+  grid->setGridClass(::openvdb::GRID_LEVEL_SET);
+  whole->setGridClass(::openvdb::GRID_LEVEL_SET);
+  const auto with = read_level_set(save(folder, "infinite.vdb", {grid}));
+  const auto without = read_level_set(save(folder, "finite.vdb", {whole}));
+  CHECK(with({0, 0, 0}) == -2);
+  CHECK(with({9, 9, 9}) == 2);
+  CHECK(with({8.6, 0.2, 0}) == without({8.6, 0.2, 0}));
+  CHECK(std::isfinite(with({8.3, 0.4, 0})));
+  const auto solid = plexway::openvdb::fill(with);
+  CHECK(volume(solid) == Approx(4 * pi / 3 * 6.4 * 6.4 * 6.4).epsilon(0.02));
+  CHECK(solid.positions == plexway::openvdb::fill(without).positions);
+
+  // Next to the surface too.
+  grid->tree().setValue({7, 0, 0}, far);
+  const auto near = plexway::openvdb::fill(read_level_set(save(folder, "near.vdb", {grid})));
+  for (const Point& p : near.positions) CHECK(std::isfinite(p[0] + p[1] + p[2]));
+
+  // A whole tile that is not a number.
+  const auto tile = sphere_grid("tile", 1, 0.1f);
+  tile->tree().addTile(1, {80, 0, 0}, std::nanf(""), false);
+  CHECK_THAT(complaint_of(save(folder, "tile.vdb", {tile})), Contains("not a number"));
 }
 
 TEST_CASE("truncated and damaged files end in one line, never in a crash") {

@@ -96,6 +96,23 @@ TEST_CASE("a level set of a function: values, voxels, and what makes no sense") 
   CHECK_THROWS_AS(level_set_of(outside, {0, 0, 0}, {1, 1, -9}, 0.1), plexway::UsageError);
   CHECK_THROWS_AS(level_set_of(outside, {0, 0, 0}, {1, 1, 1}, 1e-9), plexway::UsageError);
   CHECK_THROWS_AS(fill(it, -1), plexway::UsageError);
-  CHECK_THROWS_AS(fill(it, 1e-6), plexway::InputError);
-  CHECK_THROWS_AS(fill(it, 50), plexway::InputError);
+  CHECK_THROWS_AS(fill(it, 1e-6), plexway::UsageError);
+  CHECK_THROWS_AS(fill(it, 50), plexway::UsageError);
+}
+
+TEST_CASE("a spacing that cannot be is refused in the unit of positions") {
+  const LevelSet it = ball(1, 0.1);
+  const auto said = [&](double spacing) {
+    return message_of<plexway::UsageError>(
+        [&] { (void)plexway::openvdb::surface_of(it, spacing); });
+  };
+  using Catch::Contains;
+  CHECK_THAT(said(2.5e-5), Contains("the spacing 2.5e-05 is too small: more than 2^31 lattice"));
+  CHECK_THAT(said(1e-12), Contains("the spacing 1e-12 is too small"));
+  CHECK_THAT(said(1e300), Contains("the spacing 1e+300 is wider"));
+  CHECK_THAT(said(-1), Contains("the spacing must be 0"));
+  // A ball between the lattice's points, which are far apart.
+  const LevelSet between = ball(0.5, 0.1, {3, 4, 5});
+  CHECK_THAT(message_of<plexway::UsageError>([&] { (void)plexway::openvdb::fill(between, 100); }),
+             Contains("as wide as the spacing 100; choose a smaller one"));
 }

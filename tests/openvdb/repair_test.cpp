@@ -158,6 +158,48 @@ TEST_CASE("surfaces that TetGen refuses become closed ones") {
   }
 }
 
+TEST_CASE("triangles without area are counted, and neither holes nor sheets") {
+  Shape box;
+  for (int i = 0; i < 8; ++i) box.add({1.0 + (i & 1), 2.0 + (i >> 1 & 1), 3.0 + (i >> 2)});
+  box.faces = {{0, 2, 3}, {0, 3, 1}, {4, 5, 7}, {4, 7, 6}, {0, 1, 5}, {0, 5, 4},
+               {2, 6, 7}, {2, 7, 3}, {0, 4, 6}, {0, 6, 2}, {1, 3, 7}, {1, 7, 5}};
+  struct Case {
+    const char* name;
+    std::vector<std::array<Index, 3>> more;
+    bool split;  ///< the edge 0 1 on one of its sides, at its middle, vertex 8
+    std::size_t degenerate, holes;
+  };
+  const std::vector<Case> cases = {
+      {"none", {}, false, 0, 0},
+      {"a vertex twice", {{0, 1, 1}}, false, 1, 0},
+      {"across an edge", {{0, 1, 8}}, false, 1, 0},
+      {"across edges that meet", {{0, 1, 8}, {0, 9, 4}}, false, 2, 0},
+      {"off by itself", {{10, 11, 12}}, false, 1, 0},
+      {"a stitch", {{0, 1, 8}}, true, 1, 0},
+      {"no stitch where one is needed", {}, true, 0, 1},
+  };
+  for (const Case& one : cases) {
+    INFO(one.name);
+    Shape shape = box;
+    shape.add({1.5, 2, 3});
+    shape.add({1, 2, 3.5});
+    for (const double x : {1.1, 1.2, 1.3}) shape.add({x, x + 1, x + 2});
+    if (one.split) {
+      shape.faces[1] = {0, 3, 8};
+      shape.faces.push_back({8, 3, 1});
+    }
+    shape.faces.insert(shape.faces.end(), one.more.begin(), one.more.end());
+    Repair report;
+    const auto level_set = plexway::openvdb::level_set_of(shape.points, shape.faces,
+                                                          {.voxel = 0.04, .report = &report});
+    CHECK(report.degenerate == one.degenerate);
+    CHECK(report.holes == one.holes);
+    CHECK(report.open_edges == 3 * one.holes);
+    CHECK(report.sheets == 0);
+    CHECK(enclosed(plexway::openvdb::surface_of(level_set)) == Approx(1).epsilon(0.02));
+  }
+}
+
 TEST_CASE("a hollow is filled, as the documentation says") {
   const Shape shell = together(geodesic_sphere(12), geodesic_sphere(12), {0, 0, 0}, 0.6);
   const auto level_set = plexway::openvdb::level_set_of(shell.points, shell.faces, {.voxel = 0.07});
@@ -192,6 +234,20 @@ TEST_CASE("what encloses nothing is refused, and it says why") {
                   plexway::UsageError);
   CHECK_THROWS_AS(plexway::openvdb::level_set_of(sphere.points, sphere.faces, {.voxel = 1e-6}),
                   plexway::UsageError);
+  const auto voxel = [&](double side) {
+    return message_of<plexway::UsageError>([&] {
+      (void)plexway::openvdb::level_set_of(sphere.points, sphere.faces, {.voxel = side});
+    });
+  };
+  CHECK_THAT(voxel(1e300), Contains("the voxel 1e+300 is larger than the whole surface"));
+  CHECK_THAT(voxel(5), Contains("the voxel 5 is larger than the whole surface"));
+  CHECK_THAT(voxel(1e-9), Contains("the voxel 1e-09 is too small"));
+  CHECK_THAT(voxel(1e-300), Contains("the voxel 1e-300 is too small"));
+  for (const double scale : {1e200, 1e-45}) {
+    Shape beyond = geodesic_sphere(4);
+    for (Point& p : beyond.points) p = scale * p;
+    CHECK_THAT(refused(beyond, 0), Contains("beyond what a level set can hold"));
+  }
 }
 
 TEST_CASE("the voxel that is chosen follows the surface's size and edges") {

@@ -19,7 +19,15 @@ class BrickNumbers {
   static constexpr std::uint32_t none = ~std::uint32_t{0};
   /// Corners lie in (-far, far).
   static constexpr std::int32_t far = 1 << 20;
+  /// Bricks inside as a whole that a level set may have: 2^31 voxels.
+  static constexpr std::size_t most_inside = std::size_t{1} << 22;
 
+  /// Whether a corner lies in range, and those around it do.
+  [[nodiscard]] static bool in_range(const Cell& corner) {
+    for (const std::int32_t c : corner)
+      if (c <= -far + 2 || c >= far - 2) return false;
+    return true;
+  }
   [[nodiscard]] std::uint32_t find(const Cell& corner) const {
     const auto at = numbers_.find(key(corner));
     return at == numbers_.end() ? none : at->second;

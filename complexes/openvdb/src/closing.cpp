@@ -5,7 +5,9 @@
 #include <cstdio>
 #include <limits>
 #include <numeric>
+#include <set>
 #include <string>
+#include <utility>
 
 #include <plexway/error.hpp>
 
@@ -26,6 +28,17 @@ double area(const Point& a, const Point& b, const Point& c) {
   }
   return 0.5 * std::hypot(u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2],
                           u[0] * v[1] - u[1] * v[0]);
+}
+
+// Corners on a line, as far as coordinates can tell.
+bool is_collinear(const Point& a, const Point& b, const Point& c) {
+  double reach = 0, longest = 0;
+  for (std::size_t k = 0; k < 3; ++k)
+    reach = std::max({reach, std::abs(a[k]), std::abs(b[k]), std::abs(c[k])});
+  for (const auto& [p, q] : {std::pair{&a, &b}, {&b, &c}, {&c, &a}})
+    longest =
+        std::max(longest, std::hypot((*p)[0] - (*q)[0], (*p)[1] - (*q)[1], (*p)[2] - (*q)[2]));
+  return area(a, b, c) <= 8 * std::numeric_limits<double>::epsilon() * reach * longest;
 }
 
 class Parts {
@@ -118,6 +131,30 @@ std::vector<Edge> odd_edges(const std::vector<Triangle>& triangles) {
   return odd;
 }
 
+// Triangles without area may be stitches, where a vertex of one side lies on an edge of the other,
+// or lie on a surface that is closed without them. Takes those away that leave fewer open edges.
+void drop_surplus(std::vector<Triangle>& triangles, const std::vector<char>& collinear,
+                  const std::vector<Edge>& odd) {
+  std::set<Edge> open(odd.begin(), odd.end());
+  std::size_t kept = 0;
+  for (std::size_t t = 0; t < triangles.size(); ++t) {
+    if (collinear[t] != 0) {
+      std::array<Edge, 3> sides;
+      for (std::size_t i = 0; i < 3; ++i)
+        sides[i] = {std::min(triangles[t][i], triangles[t][(i + 1) % 3]),
+                    std::max(triangles[t][i], triangles[t][(i + 1) % 3])};
+      const auto is_open = [&](const Edge& e) { return open.count(e) > 0; };
+      if (std::count_if(sides.begin(), sides.end(), is_open) >= 2) {
+        for (const Edge& e : sides)
+          if (!open.erase(e)) open.insert(e);
+        continue;
+      }
+    }
+    triangles[kept++] = triangles[t];
+  }
+  triangles.resize(kept);
+}
+
 // Edges that hang together, their middle and how far they reach.
 struct Rim {
   Point middle = {0, 0, 0};
@@ -176,7 +213,15 @@ Rims rims_of(const std::vector<Edge>& odd, std::span<const Point> positions, Par
 ClosedSurface close_surface(std::span<const Point> positions, std::span<const Triangle> triangles,
                             Repair& report) {
   require_sound(positions, triangles);
-  const std::vector<Triangle> kept = distinct(positions, triangles, report);
+  std::vector<Triangle> kept = distinct(positions, triangles, report);
+  const auto is_flat = [&](const Triangle& t) {
+    return is_collinear(positions[t[0]], positions[t[1]], positions[t[2]]);
+  };
+  std::vector<char> collinear(kept.size());
+  std::transform(kept.begin(), kept.end(), collinear.begin(), is_flat);
+  const auto stitches = std::count(collinear.begin(), collinear.end(), 1);
+  report.degenerate += static_cast<std::size_t>(stitches);
+  if (stitches > 0) drop_surplus(kept, collinear, odd_edges(kept));
   Parts parts(positions.size());
   for (const Triangle& t : kept) {
     parts.join(t[0], t[1]);
@@ -197,6 +242,7 @@ ClosedSurface close_surface(std::span<const Point> positions, std::span<const Tr
   std::vector<char> counted(positions.size(), 0);
   for (const Triangle& t : kept) {
     const Index part = parts.of(t[0]);
+    if (stitches > 0 && is_flat(t)) continue;  // its neighbours have its edges
     if (!is_sheet(part)) {
       closed.triangles.push_back(t);
       continue;

@@ -7,6 +7,7 @@
 #include <plexway/openvdb/solid.hpp>
 
 #include "lattice.hpp"
+#include "number_text.hpp"
 #include "stencil.hpp"
 
 namespace plexway::openvdb {
@@ -18,6 +19,7 @@ class Cutter {
  public:
   Cutter(const Bricks& bricks, double spacing)
       : frame_(bricks.frame),
+        spacing_(spacing),
         lattice_(bricks, spacing),
         number_(lattice_.points(), Lattice::none) {}
 
@@ -28,7 +30,7 @@ class Cutter {
       if (shell && lattice_.deep(around)) continue;
       for (std::uint32_t local = 512; local < 1024; ++local) cut_around(around, local, shell);
     }
-    if (solid.tets.empty()) throw InputError("nothing of the level set is as wide as the lattice");
+    if (solid.tets.empty()) nothing_as_wide();
   }
 
   /// Of the last run: whether the vertex is on the surface.
@@ -37,6 +39,15 @@ class Cutter {
   Solid solid;
 
  private:
+  // The spacing's fault where it is wider than the level set's own.
+  [[noreturn]] void nothing_as_wide() const {
+    const double side = std::cbrt(std::abs(frame_.determinant()));
+    const std::string what =
+        "nothing of the level set is as wide as the spacing " + text_of(spacing_ * side);
+    if (spacing_ > 1) throw UsageError(what + "; choose a smaller one");
+    throw InputError(what);
+  }
+
   // Twelve tetrahedra a cell: its centre, the next one along an axis, and a side of the square
   // between them.
   void cut_around(const Lattice::Around& around, std::uint32_t local, bool shell) {
@@ -122,6 +133,7 @@ class Cutter {
   }
 
   const Frame& frame_;
+  double spacing_;
   Lattice lattice_;
   std::vector<Index> number_;
   std::vector<char> on_surface_;
@@ -132,7 +144,11 @@ double voxels_apart(const LevelSet& level_set, double spacing) {
   if (spacing == 0) return 1;
   if (!(spacing > 0) || !std::isfinite(spacing))
     throw UsageError("the spacing must be 0, for the voxels' own, or a number above 0");
-  return spacing / level_set.voxel();
+  const double voxels = spacing / level_set.voxel();
+  if (!(voxels < 16.0 * BrickNumbers::far))
+    throw UsageError("the spacing " + text_of(spacing) +
+                     " is wider than any level set of such voxels; choose a smaller one");
+  return voxels;
 }
 
 }  // namespace

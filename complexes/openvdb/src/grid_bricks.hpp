@@ -33,9 +33,8 @@ template <class Tree>
 void hand_out(const Tree& tree, const BrickTaker& take) {
   const auto corner_of = [](const ::openvdb::Coord& c) {
     const Cell corner = {c.x() >> 3, c.y() >> 3, c.z() >> 3};
-    for (const std::int32_t x : corner)
-      if (x <= -BrickNumbers::far + 2 || x >= BrickNumbers::far - 2)
-        throw InputError("it lies too far from the origin of its grid");
+    if (!BrickNumbers::in_range(corner))
+      throw InputError("it lies too far from the origin of its grid");
     return corner;
   };
   std::array<float, 512> values;
@@ -53,6 +52,7 @@ void hand_out(const Tree& tree, const BrickTaker& take) {
   auto tile = tree.cbeginValueAll();
   tile.setMaxDepth(Tree::ValueAllCIter::LEAF_DEPTH - 1);
   for (; tile; ++tile) {
+    if (std::isnan(*tile)) throw InputError("a value is not a number");
     if (!(*tile < 0)) continue;
     ::openvdb::CoordBBox box;
     tile.getBoundingBox(box);
@@ -60,7 +60,7 @@ void hand_out(const Tree& tree, const BrickTaker& take) {
     bricks += static_cast<std::size_t>(last[0] - first[0] + 1) *
               static_cast<std::size_t>(last[1] - first[1] + 1) *
               static_cast<std::size_t>(last[2] - first[2] + 1);
-    if (bricks > (std::size_t{1} << 22)) throw InputError("more than 2^31 voxels lie inside");
+    if (bricks > BrickNumbers::most_inside) throw InputError("more than 2^31 voxels lie inside");
     for (Cell c = first; c[0] <= last[0]; ++c[0])
       for (c[1] = first[1]; c[1] <= last[1]; ++c[1])
         for (c[2] = first[2]; c[2] <= last[2]; ++c[2]) take(c, nullptr);

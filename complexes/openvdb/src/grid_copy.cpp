@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "grid_bricks.hpp"
+#include "number_text.hpp"
 
 namespace plexway::openvdb {
 namespace {
@@ -61,7 +62,7 @@ void copy(const Grid& grid, const std::function<void(const GridHead&)>& head,
   it.frame = frame_of(grid.constTransform());
   it.background = static_cast<float>(grid.background());
   if (!(it.background > 0) || !std::isfinite(it.background))
-    throw InputError("its background is " + std::to_string(it.background) +
+    throw InputError("its background is " + text_of(it.background) +
                      ", which must be above 0 in a level set");
   it.name = grid.getName();
   it.active = grid.activeVoxelCount();

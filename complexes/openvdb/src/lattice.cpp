@@ -6,6 +6,8 @@
 
 #include <plexway/error.hpp>
 
+#include "number_text.hpp"
+
 namespace plexway::openvdb {
 namespace {
 
@@ -37,6 +39,11 @@ Lattice::Lattice(const Bricks& bricks, double spacing) : level_set_(bricks), spa
 // voxel where it is.
 void Lattice::choose_bricks(const Bricks& bricks) {
   constexpr std::size_t most = std::size_t{1} << 22;  // Point counts so many
+  const double side = std::cbrt(std::abs(bricks.frame.determinant()));
+  const auto too_many = [&] {
+    throw UsageError("the spacing " + text_of(spacing_ * side) +
+                     " is too small: more than 2^31 lattice cells; choose a larger one");
+  };
   BrickNumbers found;
   for (std::size_t b = 0; b < bricks.numbers.size(); ++b) {
     Cell low = {8, 8, 8}, high = {-1, -1, -1};
@@ -61,16 +68,18 @@ void Lattice::choose_bricks(const Bricks& bricks) {
       const double from = std::floor(((corner + low[k] - 1) / spacing_ - 1) / 8);
       const double to = std::floor(((corner + high[k] + 1) / spacing_ + 1) / 8);
       if (std::max(std::abs(from), std::abs(to)) >= BrickNumbers::far - 1)
-        throw InputError("the lattice lies too far from the origin for so small a spacing");
+        throw UsageError("the spacing " + text_of(spacing_ * side) +
+                         " is too small for a level set so far from the origin of its grid");
       first[k] = static_cast<std::int32_t>(from);
       last[k] = static_cast<std::int32_t>(to);
     }
+    double count = 1;
+    for (std::size_t k = 0; k < 3; ++k) count *= 1.0 + last[k] - first[k];
+    if (count > static_cast<double>(most)) too_many();
     for (std::int32_t x = first[0]; x <= last[0]; ++x)
       for (std::int32_t y = first[1]; y <= last[1]; ++y)
         for (std::int32_t z = first[2]; z <= last[2]; ++z)
-          if (found.add({x, y, z}).first >= most)
-            throw InputError("more than 2^31 lattice cells; choose a larger spacing than " +
-                             std::to_string(spacing_) + " voxels");
+          if (found.add({x, y, z}).first >= most) too_many();
   }
   // In an order that does not depend on how the tree was built.
   std::vector<Cell> sorted = found.corners();

@@ -86,8 +86,9 @@ std::size_t LevelSet::bytes() const {
 LevelSet level_set_of(const std::function<double(const std::array<double, 3>&)>& function,
                       const std::array<double, 3>& low, const std::array<double, 3>& high,
                       double voxel) {
-  if (!(voxel > 0) || !std::isfinite(voxel))
-    throw UsageError("level_set_of: the voxel must be a number above 0");
+  // Values are floats, and a voxel's volume a double.
+  if (!(voxel > 1e-36 && voxel < 1e36))
+    throw UsageError("level_set_of: the voxel must be a number above 0, from 1e-36 to 1e36");
   Cell first, last;
   for (std::size_t k = 0; k < 3; ++k) {
     const double from = std::floor(low[k] / voxel / 8), to = std::floor(high[k] / voxel / 8);

@@ -11,10 +11,13 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <cmath>
 #include <csignal>
+#include <cstdlib>
 #include <cstring>
 #include <exception>
 #include <new>
+#include <optional>
 #include <system_error>
 
 #include <plexway/error.hpp>
@@ -100,33 +103,70 @@ class Reader {
 };
 
 // What a whole file of that size can need, by far; a damaged one may ask for anything.
+std::uint64_t bytes_needed(std::uintmax_t file_bytes) {
+  return (std::uint64_t{2} << 30) + 400 * static_cast<std::uint64_t>(file_bytes);
+}
+
+// Of data that this process has already: the caller's, in a child. Nothing where nobody tells.
+[[maybe_unused]] std::optional<std::uint64_t> bytes_inherited() {
+  const int from = ::open("/proc/self/statm", O_RDONLY | O_CLOEXEC);
+  if (from < 0) return std::nullopt;
+  std::array<char, 256> text{};
+  const ssize_t got = ::read(from, text.data(), text.size() - 1);
+  ::close(from);
+  if (got <= 0) return std::nullopt;
+  // The sixth number: pages of data and stack.
+  char* at = text.data();
+  unsigned long long pages = 0;
+  for (int field = 0; field < 6; ++field) {
+    char* const before = at;
+    pages = std::strtoull(before, &at, 10);
+    if (at == before) return std::nullopt;
+  }
+  return pages * static_cast<std::uint64_t>(::sysconf(_SC_PAGESIZE));
+}
+
+// Not above what the caller is held to.
+template <class Resource>
+void set_limit(Resource resource, rlim_t soft, rlim_t hard) {
+  rlimit limit{};
+  if (::getrlimit(resource, &limit) != 0) return;
+  limit.rlim_max = std::min(limit.rlim_max, hard);
+  limit.rlim_cur = std::min(limit.rlim_max, soft);
+  ::setrlimit(resource, &limit);
+}
+
 void limit_resources(std::uintmax_t file_bytes) {
-  const rlimit no_core = {0, 0};
-  ::setrlimit(RLIMIT_CORE, &no_core);
+  set_limit(RLIMIT_CORE, 0, 0);
   const rlim_t seconds = 20 + file_bytes / (1 << 20);
-  const rlimit time = {seconds, seconds + 1};
-  ::setrlimit(RLIMIT_CPU, &time);
+  set_limit(RLIMIT_CPU, seconds, seconds + 1);
 #if defined(RLIMIT_DATA) && !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
   // (Sanitizers map terabytes of their own.)
-  const rlim_t bytes = (rlim_t{2} << 30) + 400 * file_bytes;
-  const rlimit memory = {bytes, bytes};
-  ::setrlimit(RLIMIT_DATA, &memory);
+  if (const auto inherited = bytes_inherited()) {
+    const rlim_t bytes = *inherited + bytes_needed(file_bytes);
+    set_limit(RLIMIT_DATA, bytes, bytes);
+  }
 #endif
 }
 
-[[noreturn]] void child(const std::string& file, const std::string& grid, int answer) {
+// Writes the answer; what goes wrong with OpenVDB is part of it.
+void tell(const std::string& file, const std::string& grid, int answer) {
   for (const int signal : {SIGABRT, SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGPIPE})
     std::signal(signal, SIG_DFL);
 #ifdef __linux__
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);
 #endif
-  std::error_code ignored;
-  limit_resources(std::filesystem::file_size(file, ignored));
   const int nowhere = ::open("/dev/null", O_WRONLY);
   ::dup2(nowhere, STDOUT_FILENO);
   ::dup2(nowhere, STDERR_FILENO);
+  // What the answer takes is there before memory may run out.
+  constexpr std::size_t longest = 1000;
   Writer out(answer);
   std::string complaint;
+  complaint.reserve(longest);
+  std::error_code unknown;
+  const std::uintmax_t size = std::filesystem::file_size(file, unknown);
+  limit_resources(unknown ? 0 : size);
   try {
     copy_grid(
         file, grid,
@@ -145,54 +185,117 @@ void limit_resources(std::uintmax_t file_bytes) {
   } catch (const std::bad_alloc&) {
     complaint = "OpenVDB runs out of memory on it, so it is damaged, or too large";
   } catch (const std::exception& error) {
-    complaint = error.what();
+    complaint = std::string_view(error.what()).substr(0, longest);
+    if (complaint.empty()) complaint = "OpenVDB cannot read it";
   } catch (...) {
     complaint = "OpenVDB cannot read it";
   }
   out.put(complaint.empty() ? Word::end : Word::complaint);
-  if (!complaint.empty()) out.put(complaint.substr(0, 1000));
+  if (!complaint.empty()) out.put(complaint);
   out.flush();
+}
+
+// Nothing may leave it: there would be two processes in the caller's code.
+[[noreturn]] void child(const std::string& file, const std::string& grid, int answer) noexcept {
+  try {
+    tell(file, grid, answer);
+  } catch (...) {
+    ::_exit(1);
+  }
   ::_exit(0);
 }
 
-std::shared_ptr<Bricks> listen_to(int answer, std::string& complaint) {
-  complaint = "OpenVDB crashes on it: the file is damaged";
-  Reader in(answer);
-  auto bricks = std::make_shared<Bricks>();
-  std::vector<float> values(512);
-  for (Word word{}; in.get(word);) {
-    if (word == Word::end) {
-      complaint.clear();
-      return bricks;
+// What the child says, piece by piece. It may say anything: a damaged file may have it write
+// anywhere.
+class Listener {
+ public:
+  Listener(int answer, std::uint64_t bytes) : in_(answer), most_bricks_(bytes / sizeof(Values)) {}
+
+  /// Null with a complaint.
+  std::shared_ptr<Bricks> listen(std::string& complaint) {
+    complaint = "OpenVDB crashes on it: the file is damaged";
+    for (Word word{}; in_.get(word);) {
+      if (word == Word::complaint) {
+        std::string said;
+        if (in_.get(said)) complaint = said;
+        return nullptr;
+      }
+      if (word == Word::end) {
+        if (!has_head_) return nullptr;
+        complaint.clear();
+        return bricks_;
+      }
+      const bool good = word == Word::head     ? !has_head_ && take_head()
+                        : word == Word::brick  ? has_head_ && take_brick()
+                        : word == Word::inside ? has_head_ && take_inside()
+                                               : false;
+      if (!good) return nullptr;
     }
-    if (word == Word::complaint) {
-      std::string said;
-      if (in.get(said)) complaint = said;
-      return nullptr;
-    }
-    Cell corner{};
-    std::uint64_t active = 0;
-    bool good = false;
-    if (word == Word::head) {
-      good = in.get(bricks->frame) && in.get(bricks->background) && in.get(active) &&
-             in.get(bricks->name);
-      bricks->active = active;
-    } else if (word == Word::inside || word == Word::brick) {
-      good = in.get(corner) && (word == Word::inside || in.get(values.data(), 512 * sizeof(float)));
-      if (good && word == Word::brick) bricks->add(corner, values.data());
-      if (good && word == Word::inside) bricks->add_inside(corner);
-    }
-    if (!good) return nullptr;
+    return nullptr;
   }
-  return nullptr;
-}
+
+ private:
+  using Values = std::array<float, 512>;
+
+  bool take_head() {
+    std::uint64_t active = 0;
+    if (!in_.get(bricks_->frame) || !in_.get(bricks_->background) || !in_.get(active) ||
+        !in_.get(bricks_->name))
+      return false;
+    bricks_->active = active;
+    has_head_ = true;
+    const double volume = std::abs(bricks_->frame.determinant());
+    bool finite = std::isfinite(bricks_->background) && std::isfinite(volume);
+    for (const double x : bricks_->frame.origin) finite = finite && std::isfinite(x);
+    return finite && bricks_->background > 0 && volume > 0;
+  }
+
+  bool take_brick() {
+    Cell corner{};
+    if (!in_.get(corner) || !in_.get(values_) || !BrickNumbers::in_range(corner)) return false;
+    if (++dense_ > most_bricks_) return false;
+    for (float& value : values_) {
+      if (std::isnan(value)) return false;
+      // Some programs write infinity where others write the background.
+      if (std::isinf(value)) value = std::copysign(bricks_->background, value);
+    }
+    bricks_->add(corner, values_.data());
+    return true;
+  }
+
+  bool take_inside() {
+    Cell corner{};
+    if (!in_.get(corner) || !BrickNumbers::in_range(corner)) return false;
+    if (++inside_ > BrickNumbers::most_inside) return false;
+    bricks_->add_inside(corner);
+    return true;
+  }
+
+  Reader in_;
+  std::uint64_t most_bricks_;
+  std::uint64_t dense_ = 0, inside_ = 0;
+  bool has_head_ = false;
+  Values values_{};
+  std::shared_ptr<Bricks> bricks_ = std::make_shared<Bricks>();
+};
 
 struct Descriptor {
   int number = -1;
+  explicit Descriptor(int open) : number(open) {}
+  Descriptor(const Descriptor&) = delete;
+  Descriptor& operator=(const Descriptor&) = delete;
   ~Descriptor() { close(); }
   void close() {
     if (number >= 0) ::close(number);
     number = -1;
+  }
+  /// Away from the standard ones: a caller may have closed those, and the child puts others there.
+  void move_up() {
+    if (number > STDERR_FILENO) return;
+    const int up = ::fcntl(number, F_DUPFD_CLOEXEC, STDERR_FILENO + 1);
+    if (up < 0) throw Error("cannot run OpenVDB: " + std::generic_category().message(errno));
+    close();
+    number = up;
   }
 };
 
@@ -219,16 +322,21 @@ LevelSet read_level_set(const std::filesystem::path& file, std::string_view grid
   if (::pipe2(ends.data(), O_CLOEXEC) != 0)
     throw Error("cannot run OpenVDB: " + std::generic_category().message(errno));
   Descriptor answer{ends[0]}, speech{ends[1]};
+  answer.move_up();
+  speech.move_up();
+  const std::string name = file.string(), wanted(grid);
   const pid_t pid = ::fork();
   if (pid < 0) throw Error("cannot run OpenVDB: " + std::generic_category().message(errno));
-  if (pid == 0) child(file.string(), std::string(grid), speech.number);
+  if (pid == 0) child(name, wanted, speech.number);
   speech.close();
 
   std::string complaint;
   std::shared_ptr<Bricks> bricks;
   std::exception_ptr failure;
   try {
-    bricks = listen_to(answer.number, complaint);
+    std::error_code unknown;
+    const std::uintmax_t size = std::filesystem::file_size(file, unknown);
+    bricks = Listener(answer.number, bytes_needed(unknown ? 0 : size)).listen(complaint);
   } catch (...) {
     failure = std::current_exception();
   }

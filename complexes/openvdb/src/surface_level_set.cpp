@@ -11,6 +11,7 @@
 
 #include "closing.hpp"
 #include "grid_bricks.hpp"
+#include "number_text.hpp"
 
 namespace plexway::openvdb {
 namespace {
@@ -71,11 +72,20 @@ double choose_voxel(const Extent& extent, double asked) {
   const double voxel =
       asked > 0 ? asked
                 : std::clamp(extent.mean_edge / 2, extent.diagonal / 128, extent.diagonal / 32);
+  if (voxel > extent.diagonal)
+    throw UsageError("the voxel " + text_of(voxel) + " is larger than the whole surface, " +
+                     text_of(extent.diagonal) + " across; choose a smaller one");
   // Six voxels across the surface, and a few numbers for each.
   if (6 * extent.area / (voxel * voxel) > 1e9)
-    throw UsageError("the voxel is too small: more than 10^9 voxels near the surface");
+    throw UsageError("the voxel " + text_of(voxel) +
+                     " is too small: more than 10^9 voxels near the surface");
   if (extent.farthest / voxel > 8.0 * (BrickNumbers::far - 4))
-    throw UsageError("the voxel is too small for a surface so far from the origin");
+    throw UsageError("the voxel " + text_of(voxel) +
+                     " is too small for a surface so far from the origin");
+  // Values are floats, and a voxel's volume a double.
+  if (!(voxel > 1e-36 && voxel < 1e36))
+    throw InputError("a surface that is " + text_of(extent.diagonal) +
+                     " across is beyond what a level set can hold; scale it");
   return voxel;
 }
 
@@ -108,7 +118,7 @@ LevelSet level_set_of(std::span<const std::array<double, 3>> positions,
   }
   LevelSet level_set(bricks);
   if (level_set.inside_voxels() == 0)
-    throw InputError("it encloses nothing as wide as a voxel (" + std::to_string(voxel) +
+    throw InputError("it encloses nothing as wide as a voxel (" + text_of(voxel) +
                      "): all can be reached from outside, or a smaller voxel is needed");
   return level_set;
 }

@@ -2,47 +2,52 @@
 #include <openvdb/tools/Prune.h>
 
 #include <algorithm>
-#include <cerrno>
 #include <cmath>
+#include <ios>
 #include <limits>
+#include <ostream>
 #include <string>
-#include <system_error>
+#include <utility>
 
 #include <plexway/error.hpp>
 #include <plexway/openvdb/field.hpp>
 #include <plexway/openvdb/level_set.hpp>
 
 #include "bricks.hpp"
+#include "number_text.hpp"
+#include "output_file.hpp"
 
 namespace plexway::openvdb {
 namespace {
 
 namespace fs = std::filesystem;
 
-// Written beside its place and renamed.
-void write(const fs::path& file, const ::openvdb::GridCPtrVec& grids) {
-  const auto refused = [&](const std::string& reason) {
-    return Error("cannot write " + file.string() + ": " + reason);
-  };
-  if (fs::is_directory(file)) throw refused("is a directory");
-  fs::path part = file;
-  part += ".part" + std::to_string(std::hash<std::string>{}(file.string()) % 1000);
-  std::error_code ignored;
-  try {
-    ::openvdb::io::File out(part.string());
+// OpenVDB's own writer of files leaves a short one on a full disk, and says nothing.
+class Archive : public ::openvdb::io::Archive {
+ public:
+  void write_to(OutputFile& file, const ::openvdb::GridCPtrVec& grids) const {
+    std::ostream out(&file);
+    out.exceptions(std::ios::badbit | std::ios::failbit);
     ::openvdb::MetaMap metadata;
     metadata.insertMeta("creator", ::openvdb::StringMetadata("plexway"));
-    out.write(grids, metadata);
-    out.close();
-  } catch (const ::openvdb::Exception& error) {
-    fs::remove(part, ignored);
-    throw refused(error.what());
+    write(out, grids, file.seekable(), metadata);
+    out.flush();
   }
-  std::error_code error;
-  fs::rename(part, file, error);
-  if (!error) return;
-  fs::remove(part, ignored);
-  throw refused(error.message());
+
+ private:
+  using ::openvdb::io::Archive::write;
+};
+
+void write(const fs::path& file, const ::openvdb::GridCPtrVec& grids) {
+  OutputFile out(file);
+  try {
+    Archive().write_to(out, grids);
+  } catch (const ::openvdb::Exception& error) {
+    out.refused(error.what());
+  } catch (const std::ios_base::failure& error) {
+    out.refused(error.what());
+  }
+  out.commit();
 }
 
 ::openvdb::math::Transform::Ptr transform_of(const Frame& frame) {
@@ -57,7 +62,7 @@ void write(const fs::path& file, const ::openvdb::GridCPtrVec& grids) {
 // The voxels whose centre lies in a tetrahedron, with their weights of the corners.
 class Raster {
  public:
-  Raster(const std::array<Vector, 4>& corners) : low_{}, high_{} {
+  explicit Raster(const std::array<Vector, 4>& corners) : corners_(corners), low_{}, high_{} {
     for (std::size_t k = 0; k < 3; ++k) {
       double least = corners[0][k], most = corners[0][k];
       for (const Vector& c : corners) {
@@ -66,6 +71,7 @@ class Raster {
       }
       low_[k] = static_cast<std::int32_t>(std::ceil(least - slack));
       high_[k] = static_cast<std::int32_t>(std::floor(most + slack));
+      slab_ += 16 * slack * (most - least);
     }
     // Barycentric coordinates are affine: their gradients are the rows of the inverse.
     Frame frame;
@@ -81,32 +87,92 @@ class Raster {
       const Vector there = frame.to_index(step);
       for (std::size_t a = 0; a < 3; ++a) gradient_[a][k] = there[a] - at_zero_[a];
     }
+    for (std::size_t a = 0; a < 3; ++a) {
+      slope_[a + 1] = gradient_[a][2];
+      slope_[0] -= gradient_[a][2];
+    }
   }
 
   template <class Take>
   void run(Take take) const {
     if (flat_) return;
-    for (std::int32_t x = low_[0]; x <= high_[0]; ++x)
-      for (std::int32_t y = low_[1]; y <= high_[1]; ++y)
-        for (std::int32_t z = low_[2]; z <= high_[2]; ++z) {
-          std::array<double, 4> weight{};
-          weight[0] = 1;
-          for (std::size_t a = 0; a < 3; ++a) {
-            weight[a + 1] =
-                at_zero_[a] + gradient_[a][0] * x + gradient_[a][1] * y + gradient_[a][2] * z;
-            weight[0] -= weight[a + 1];
-          }
+    for (std::int32_t x = low_[0]; x <= high_[0]; ++x) {
+      const auto [first, last] = rows(x);
+      for (std::int32_t y = first; y <= last; ++y) {
+        const std::array<double, 4> at = constant(x, y);
+        const auto [from, to] = row(at);
+        for (std::int32_t z = from; z <= to; ++z) {
+          std::array<double, 4> weight = at;
+          for (std::size_t i = 0; i < 4; ++i) weight[i] += slope_[i] * z;
           if (*std::min_element(weight.begin(), weight.end()) >= -slack)
             take(::openvdb::Coord(x, y, z), weight);
         }
+      }
+    }
   }
 
  private:
   static constexpr double slack = 1e-9;
+  using Range = std::pair<std::int32_t, std::int32_t>;
+
+  // A voxel more at each end than was computed, but none beyond the box.
+  [[nodiscard]] Range within_box(std::size_t k, double least, double most) const {
+    if (!(least <= most)) return {0, -1};
+    const double low = low_[k], high = high_[k];
+    return {static_cast<std::int32_t>(std::clamp(std::floor(least) - 1, low, high + 1)),
+            static_cast<std::int32_t>(std::clamp(std::ceil(most) + 1, low - 1, high))};
+  }
+
+  // The rows that the slice at x may have: those of edges in a slab, since a face along the slice
+  // may lie beside it by rounding, and counts by the slack.
+  [[nodiscard]] Range rows(std::int32_t x) const {
+    double least = std::numeric_limits<double>::infinity(), most = -least;
+    for (std::size_t i = 0; i < 4; ++i)
+      for (std::size_t j = 0; j < 4; ++j) {
+        const Vector &a = corners_[i], &b = corners_[j];
+        if (i == j || a[0] > b[0] || x < a[0] - slab_ || x > b[0] + slab_) continue;
+        for (const double end : {x - slab_, x + slab_}) {
+          const double share = std::clamp((end - a[0]) / (b[0] - a[0]), 0.0, 1.0);
+          // Both ends of an edge along the slice are met, as (a, b) and as (b, a).
+          const double y = b[0] > a[0] ? a[1] + share * (b[1] - a[1]) : a[1];
+          least = std::min(least, y - slab_);
+          most = std::max(most, y + slab_);
+        }
+      }
+    return within_box(1, least, most);
+  }
+
+  // The voxels that the row may have: none of the weights is negative.
+  [[nodiscard]] Range row(const std::array<double, 4>& at) const {
+    double least = low_[2], most = high_[2];
+    for (std::size_t i = 0; i < 4; ++i) {
+      const double end = (-2 * slack - at[i]) / slope_[i];
+      if (slope_[i] > 0) least = std::max(least, end);
+      if (slope_[i] < 0) most = std::min(most, end);
+      if (slope_[i] == 0 && at[i] < -2 * slack) return {0, -1};
+    }
+    // Where they are nearly constant along the row, ends are far off either way.
+    return least - 2 > most ? Range{0, -1} : within_box(2, std::min(least, most), most);
+  }
+
+  // Weights at z = 0.
+  [[nodiscard]] std::array<double, 4> constant(std::int32_t x, std::int32_t y) const {
+    std::array<double, 4> weight{};
+    weight[0] = 1;
+    for (std::size_t a = 0; a < 3; ++a) {
+      weight[a + 1] = at_zero_[a] + gradient_[a][0] * x + gradient_[a][1] * y;
+      weight[0] -= weight[a + 1];
+    }
+    return weight;
+  }
+
+  std::array<Vector, 4> corners_;
+  double slab_ = 1e-6;
   Cell low_, high_;
   bool flat_ = false;
   Vector at_zero_{};
   std::array<Vector, 3> gradient_{};
+  std::array<double, 4> slope_{};  // of each weight along z
 };
 
 double mean_edge(std::span<const std::array<double, 3>> positions,
@@ -133,20 +199,32 @@ double check(std::span<const std::array<double, 3>> positions,
   if (voxel != 0 && (!(voxel > 0) || !std::isfinite(voxel)))
     throw UsageError("the voxel must be 0, to have it chosen, or a number above 0");
   if (voxel == 0) voxel = mean_edge(positions, tets) / 2;
+  constexpr double infinite = std::numeric_limits<double>::infinity();
+  Vector low = {infinite, infinite, infinite}, high = {-infinite, -infinite, -infinite};
   double volume = 0, farthest = 0;
   for (const auto& tet : tets) {
+    for (const Index v : tet)
+      for (std::size_t k = 0; k < 3; ++k) {
+        low[k] = std::min(low[k], positions[v][k]);
+        high[k] = std::max(high[k], positions[v][k]);
+        farthest = std::max(farthest, std::abs(positions[v][k]));
+      }
     Frame frame;
     for (std::size_t a = 0; a < 3; ++a)
-      for (std::size_t k = 0; k < 3; ++k) {
+      for (std::size_t k = 0; k < 3; ++k)
         frame.axes[a][k] = positions[tet[a + 1]][k] - positions[tet[0]][k];
-        farthest = std::max(farthest, std::abs(positions[tet[a]][k]));
-      }
     volume += std::abs(frame.determinant()) / 6;
   }
   if (volume / (voxel * voxel * voxel) > 2e9)
-    throw UsageError("the voxel is too small: the solid would have more than 2 10^9 of them");
+    throw UsageError("the voxel " + text_of(voxel) +
+                     " is too small: the solid would have more than 2 10^9 of them");
   if (!(voxel > 0) || farthest / voxel > 1e9)
-    throw UsageError("the voxel is too small for a solid so far from the origin");
+    throw UsageError("the voxel " + text_of(voxel) +
+                     " is too small for a solid so far from the origin");
+  const double across = std::hypot(high[0] - low[0], high[1] - low[1], high[2] - low[2]);
+  if (voxel > across)
+    throw UsageError("the voxel " + text_of(voxel) + " is larger than the whole solid, " +
+                     text_of(across) + " across; choose a smaller one");
   return voxel;
 }
 

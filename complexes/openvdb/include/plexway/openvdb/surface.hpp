@@ -13,7 +13,7 @@ namespace plexway::openvdb {
 /// What was wrong with a surface, and what was done about it. Lengths in the input's unit.
 struct Repair {
   double voxel = 0;            ///< side, as given or chosen
-  std::size_t degenerate = 0;  ///< triangles without area, left out
+  std::size_t degenerate = 0;  ///< triangles without area, on a line or a point, left out
   std::size_t doubled = 0;     ///< triangles there before, left out
   std::size_t open_edges = 0;  ///< of an odd number of triangles
   std::size_t holes = 0;       ///< rims of such edges, each closed by a fan
