@@ -2,6 +2,7 @@
 // ask for all memory there is. The child hands bricks over through a pipe, and they are checked.
 
 #include <fcntl.h>
+#include <poll.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -13,6 +14,7 @@
 #include <cerrno>
 #include <cmath>
 #include <csignal>
+#include <cstdio>
 #include <cstdlib>
 #include <cstring>
 #include <exception>
@@ -60,10 +62,28 @@ class Writer {
   std::string buffer_;
 };
 
+// Whether a process sleeps, and how long it has worked. False where nobody tells.
+bool sleeps(pid_t process, unsigned long long& worked) {
+  const std::string name = "/proc/" + std::to_string(process) + "/stat";
+  const int from = ::open(name.c_str(), O_RDONLY | O_CLOEXEC);
+  if (from < 0) return false;
+  std::array<char, 1024> text{};
+  const ssize_t got = ::read(from, text.data(), text.size() - 1);
+  ::close(from);
+  const char* at = got > 0 ? std::strrchr(text.data(), ')') : nullptr;
+  char state = 0;
+  unsigned long long user = 0, system = 0;
+  if (at == nullptr || std::sscanf(at, ") %c %*d %*d %*d %*d %*d %*u %*u %*u %*u %*u %llu %llu",
+                                   &state, &user, &system) != 3)
+    return false;
+  worked = user + system;
+  return state == 'S';
+}
+
 /// False once the child has gone silent.
 class Reader {
  public:
-  explicit Reader(int from) : from_(from), buffer_(1 << 16, '\0') {}
+  Reader(int from, pid_t writer) : from_(from), writer_(writer), buffer_(1 << 16, '\0') {}
   template <class Plain>
   bool get(Plain& value) {
     return get(&value, sizeof value);
@@ -87,8 +107,32 @@ class Reader {
     return true;
   }
 
+  /// Whether reading ended because the writer sleeps for good.
+  [[nodiscard]] bool stuck() const { return stuck_; }
+
  private:
+  // A child of a process with threads may inherit a lock that none of its own will open.
+  bool may_come() {
+    int idle = 0;
+    unsigned long long before = 0;
+    for (pollfd waiting{from_, POLLIN, 0}; ::poll(&waiting, 1, 500) == 0;) {
+      unsigned long long now = 0;
+      if (!sleeps(writer_, now)) {
+        idle = 0;
+      } else {
+        idle = now == before ? idle + 1 : 0;
+      }
+      before = now;
+      if (idle >= 4) {
+        stuck_ = true;
+        return false;
+      }
+    }
+    return true;
+  }
+
   bool refill() {
+    if (!may_come()) return false;
     ssize_t got = 0;
     do got = ::read(from_, buffer_.data(), buffer_.size());
     while (got < 0 && errno == EINTR);
@@ -98,6 +142,8 @@ class Reader {
   }
 
   int from_;
+  pid_t writer_;
+  bool stuck_ = false;
   std::string buffer_;
   std::size_t at_ = 0, end_ = 0;
 };
@@ -209,7 +255,9 @@ void tell(const std::string& file, const std::string& grid, int answer) {
 // anywhere.
 class Listener {
  public:
-  Listener(int answer, std::uint64_t bytes) : in_(answer), most_bricks_(bytes / sizeof(Values)) {}
+  Listener(int answer, pid_t child, std::uint64_t bytes)
+      : in_(answer, child), most_bricks_(bytes / sizeof(Values)) {}
+  [[nodiscard]] bool stuck() const { return in_.stuck(); }
 
   /// Null with a complaint.
   std::shared_ptr<Bricks> listen(std::string& complaint) {
@@ -314,10 +362,9 @@ void require_file(const std::filesystem::path& file) {
     throw InputError(file.string() + ": is no OpenVDB file: it does not begin as one");
 }
 
-}  // namespace
-
-LevelSet read_level_set(const std::filesystem::path& file, std::string_view grid) {
-  require_file(file);
+// One try: null with a complaint, or stuck.
+std::shared_ptr<Bricks> try_to_read(const std::filesystem::path& file, std::string_view grid,
+                                    std::string& complaint, bool& stuck) {
   std::array<int, 2> ends = {-1, -1};
   if (::pipe2(ends.data(), O_CLOEXEC) != 0)
     throw Error("cannot run OpenVDB: " + std::generic_category().message(errno));
@@ -330,13 +377,14 @@ LevelSet read_level_set(const std::filesystem::path& file, std::string_view grid
   if (pid == 0) child(name, wanted, speech.number);
   speech.close();
 
-  std::string complaint;
   std::shared_ptr<Bricks> bricks;
   std::exception_ptr failure;
   try {
     std::error_code unknown;
     const std::uintmax_t size = std::filesystem::file_size(file, unknown);
-    bricks = Listener(answer.number, bytes_needed(unknown ? 0 : size)).listen(complaint);
+    Listener listener(answer.number, pid, bytes_needed(unknown ? 0 : size));
+    bricks = listener.listen(complaint);
+    stuck = listener.stuck();
   } catch (...) {
     failure = std::current_exception();
   }
@@ -344,6 +392,22 @@ LevelSet read_level_set(const std::filesystem::path& file, std::string_view grid
   while (::waitpid(pid, nullptr, 0) < 0 && errno == EINTR) {
   }
   if (failure) std::rethrow_exception(failure);
+  return bricks;
+}
+
+}  // namespace
+
+LevelSet read_level_set(const std::filesystem::path& file, std::string_view grid) {
+  require_file(file);
+  std::string complaint;
+  std::shared_ptr<Bricks> bricks;
+  // What a child inherits from threads that were at work is luck: another one has another.
+  for (int tries = 0; !bricks && tries < 5; ++tries) {
+    bool stuck = false;
+    bricks = try_to_read(file, grid, complaint, stuck);
+    if (!stuck) break;
+    complaint = "OpenVDB stands still over it: try again while no other thread works";
+  }
   if (!bricks) {
     std::replace(complaint.begin(), complaint.end(), '\n', ' ');
     throw InputError(file.string() + ": " + complaint);
