@@ -61,7 +61,9 @@ void read_out_curves(const CurveSeeds& curves, Workspace<Real>& workspace) {
 
 /// Is it a rule whose labels have limits, as the light of a curve has?
 template <class Rule>
-constexpr bool has_limits = requires(const Rule& rule) { rule.triangle(0); };
+constexpr bool has_limits = requires(const Rule& rule) {
+  rule.triangle(0);
+};
 
 template <class Real, bool kLabels, class Rule, class Front, class Crew>
 void solve(const TriangleMesh<Real>& mesh, std::span<const PointSource> sources,
@@ -105,8 +107,7 @@ void solve(const TriangleMesh<Real>& mesh, std::span<const PointSource> sources,
 template <class Real, bool kLabels, class Queue, class Crew>
 void solve_with(const TriangleMesh<Real>& mesh, std::span<const PointSource> sources,
                 const PropagateOptions& options, Workspace<Real>& workspace, Queue queue,
-                const Crew& crew, DistanceField<Real>& field,
-                const CurveSeeds* curves = nullptr) {
+                const Crew& crew, DistanceField<Real>& field, const CurveSeeds* curves = nullptr) {
   workspace.start(mesh.face_count(), kLabels);
   const std::size_t records = mesh.face_count() + 1;
   const auto front = [&](auto* labels) {

@@ -90,8 +90,7 @@ void add_shapes(const TriangleMesh<double>& mesh, std::span<const Source> source
         const auto& b = at.barycentric;
         const bool corner = at.vertex != none || b[0] == 1 || b[1] == 1 || b[2] == 1;
         const bool end = i == 0 || i + 1 == curve->points.size() ||
-                         names_nothing(curve->points[i - 1]) ||
-                         names_nothing(curve->points[i + 1]);
+                         names_nothing(curve->points[i - 1]) || names_nothing(curve->points[i + 1]);
         if (corner || end) take.point(at, curve->offset);
       }
     } else {

@@ -22,11 +22,11 @@ struct Surface {
 
 /// Cuts the inside of a level set into tetrahedra whose boundary lies on its zero surface.
 ///
-/// A body-centred cubic lattice of cubes of side `spacing` (in the unit of positions; 0: the voxel's
-/// own) is cut where the function changes sign. A lattice point too near to a cut is moved onto it
-/// first, so that no sliver arises, whatever the surface: the paper proves dihedral angles of 10.7 to
-/// 164.8 degrees; we measured 10.5 to 159 on noise and 18 to 145 on smooth surfaces, where voxels
-/// are cubes. Inside they are 60 and 90. What is thinner than `spacing` may be lost.
+/// A body-centred cubic lattice of cubes of side `spacing` (in the unit of positions; 0: the
+/// voxel's own) is cut where the function changes sign. A lattice point too near to a cut is moved
+/// onto it first, so that no sliver arises, whatever the surface: the paper proves dihedral angles
+/// of 10.7 to 164.8 degrees; we measured 10.5 to 159 on noise and 18 to 145 on smooth surfaces,
+/// where voxels are cubes. Inside they are 60 and 90. What is thinner than `spacing` may be lost.
 ///
 /// Throws UsageError for a spacing out of range and InputError where nothing is inside. Cost:
 /// linear in the lattice cells inside, 12 tetrahedra each; about 0.2 us and 24 bytes a tetrahedron.
