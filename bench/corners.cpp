@@ -71,16 +71,11 @@ int main(int argc, char** argv) {
                       {"expansions", "expansions/face", "%.3f"}});
   plexway::PropagateOptions options;
   options.vectorised = !scalar;
-  try {
+  return report.write(table, [&] {
     for (const samples::CornerDomain& domain : samples::corner_domains())
       for (const bench::Index n : {50u, 100u, 200u, 400u})
         if (n <= most)
           table.add(double_precision ? measure<double>(domain, n, seeds, options)
                                      : measure<float>(domain, n, seeds, options));
-    report.write(table);
-  } catch (const std::exception& error) {
-    std::cerr << error.what() << '\n';
-    return 1;
-  }
-  return 0;
+  });
 }
