@@ -8,6 +8,7 @@
 #include <plexway/error.hpp>
 #include <plexway/io/field.hpp>
 
+#include "io/extension.hpp"
 #include "pcl_functions.hpp"
 #include "report.hpp"
 
@@ -17,13 +18,6 @@
 
 namespace plexway::cli {
 namespace {
-
-std::string lower_extension(const std::filesystem::path& file) {
-  std::string extension = file.extension().string();
-  for (char& c : extension)
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-  return extension;
-}
 
 // Before anything is read: without neighbours there is nothing to be done.
 void require_flann(const std::string& what) {
@@ -108,13 +102,13 @@ bool all_point_to_one_side(const Cloud& cloud) {
 }  // namespace
 
 bool is_cloud_file(const std::string& file) {
-  const std::string extension = lower_extension(file);
+  const std::string extension = io::lower_extension(file);
   return extension == ".xyz" || extension == ".pcd";
 }
 
 CloudFile read_cloud(const std::string& file) {
   require_flann(file);
-  if (lower_extension(file) != ".pcd") return {io::read_points(file), 0};
+  if (io::lower_extension(file) != ".pcd") return {io::read_points(file), 0};
   CloudFile read;
   read.points = pcl_functions(file).read_points(file, read.not_finite);
   return read;
@@ -181,7 +175,7 @@ Index nearest_point(const Cloud& cloud, const std::array<double, 3>& point) {
 
 void write_field(const std::filesystem::path& out, const Cloud& cloud,
                  std::span<const double> distance, std::span<const std::int32_t> label) {
-  if (lower_extension(out) == ".pcd")
+  if (io::lower_extension(out) == ".pcd")
     pcl_functions("--out " + out.string()).write_field(out, cloud.points.positions, distance);
   else
     io::write_field(out, cloud.points, distance, label);

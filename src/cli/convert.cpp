@@ -14,6 +14,7 @@
 #include "console.hpp"
 #include "distance_output.hpp"
 #include "domain.hpp"
+#include "io/extension.hpp"
 #include "openvdb_functions.hpp"
 #include "progress.hpp"
 #include "report.hpp"
@@ -27,13 +28,6 @@ struct ConvertCommand {
   FillOptions fill;
   bool json = false, quiet = false;
 };
-
-std::string extension_of(const std::string& file) {
-  std::string extension = std::filesystem::path(file).extension().string();
-  for (char& c : extension)
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-  return extension;
-}
 
 bool among(std::span<const std::string_view> known, const std::string& extension) {
   return std::find(known.begin(), known.end(), extension) != known.end();
@@ -52,7 +46,7 @@ std::vector<std::string_view> output_extensions() {
 // What the input is taken as: what the extension of the output can hold.
 std::string kind_for(const ConvertCommand& command) {
   if (!command.as.empty()) return command.as;
-  const std::string extension = extension_of(command.out);
+  const std::string extension = io::lower_extension(command.out);
   const bool surfaces = among(io::triangle_output_extensions(), extension);
   const bool solids = among(io::tet_extensions(), extension);
   if (solids && !surfaces) return "solid";
@@ -63,7 +57,7 @@ std::string kind_for(const ConvertCommand& command) {
 class Conversion {
  public:
   Conversion(const ConvertCommand& command, ProgressLine& progress)
-      : command_(command), extension_(extension_of(command.out)), progress_(progress) {}
+      : command_(command), extension_(io::lower_extension(command.out)), progress_(progress) {}
 
   void cloud() {
     progress_.phase("reading " + command_.input);
@@ -162,7 +156,7 @@ void run_convert(const ConvertCommand& command) {
   ProgressLine progress(command.quiet);
   const Stopwatch clock;
   Conversion conversion(command, progress);
-  const std::string extension = extension_of(command.input);
+  const std::string extension = io::lower_extension(command.input);
   const bool is_cloud = command.as.empty() && !command.fill.volume.repair &&
                         (is_cloud_file(command.input) || io::is_ply_cloud(command.input));
   if (is_cloud || command.as == "cloud")

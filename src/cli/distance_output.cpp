@@ -9,6 +9,7 @@
 #include <plexway/error.hpp>
 
 #include "console.hpp"
+#include "io/extension.hpp"
 
 namespace plexway::cli {
 namespace {
@@ -28,10 +29,7 @@ void check_output_name(const std::string& out, const std::string& input,
                        std::span<const std::string_view> known, const char* option) {
   if (out.empty()) return;
   const fs::path file = out;
-  std::string extension = file.extension().string();
-  for (char& c : extension) {
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-  }
+  const std::string extension = io::lower_extension(file);
   if (std::find(known.begin(), known.end(), extension) == known.end()) {
     std::string names;
     for (const std::string_view name : known) names.append(" ").append(name);

@@ -10,6 +10,7 @@
 #include <plexway/io/field.hpp>
 
 #include "closest_point.hpp"
+#include "io/extension.hpp"
 #include "openvdb_functions.hpp"
 #include "simplex_edges.hpp"
 
@@ -29,9 +30,7 @@ std::optional<Kind> asked_for(const std::string& as) {
 }
 
 bool has_extension(const std::filesystem::path& file, std::span<const std::string_view> known) {
-  std::string extension = file.extension().string();
-  for (char& c : extension)
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  const std::string extension = io::lower_extension(file);
   return std::find(known.begin(), known.end(), extension) != known.end();
 }
 

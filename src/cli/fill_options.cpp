@@ -7,6 +7,7 @@
 
 #include <plexway/error.hpp>
 
+#include "io/extension.hpp"
 #include "source_argument.hpp"
 
 #ifdef PLEXWAY_HAS_TETGEN
@@ -117,9 +118,7 @@ void require_tetgen(const std::string& what) {
 }
 
 bool is_poly(const std::string& file) {
-  std::string extension = std::filesystem::path(file).extension().string();
-  for (char& c : extension)
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  const std::string extension = io::lower_extension(file);
   return extension == ".poly" || extension == ".smesh";
 }
 

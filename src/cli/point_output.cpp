@@ -5,19 +5,13 @@
 
 #include <plexway/error.hpp>
 
+#include "io/extension.hpp"
 #include "io/output_file.hpp"
 
 namespace plexway::cli {
 namespace {
 
 using io::OutputFile;
-
-std::string extension_of(const std::filesystem::path& file) {
-  std::string extension = file.extension().string();
-  for (char& c : extension)
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-  return extension;
-}
 
 [[noreturn]] void unknown(const std::filesystem::path& out,
                           std::span<const std::string_view> known) {
@@ -71,7 +65,7 @@ std::span<const std::string_view> surface_file_extensions() {
 void write_points(const std::filesystem::path& out, const Domain& domain,
                   std::span<const PointSource> points, std::string_view value_name,
                   std::span<const double> value) {
-  const std::string extension = extension_of(out);
+  const std::string extension = io::lower_extension(out);
   OutputFile file(out);
   if (extension == ".csv") {
     file.write("x,y,z,vertex,simplex,b0,b1,b2,b3");
@@ -118,7 +112,7 @@ void write_points(const std::filesystem::path& out, const Domain& domain,
 }
 
 void write_matrix(const std::filesystem::path& out, std::size_t n, std::span<const double> values) {
-  const std::string extension = extension_of(out);
+  const std::string extension = io::lower_extension(out);
   OutputFile file(out);
   if (extension == ".npy") {
     start_npy(file, std::to_string(n) + ", " + std::to_string(n));
@@ -136,7 +130,7 @@ void write_matrix(const std::filesystem::path& out, std::size_t n, std::span<con
 
 void write_surface(const std::filesystem::path& out, std::span<const std::array<double, 3>> points,
                    std::span<const std::array<std::uint32_t, 3>> triangles) {
-  const std::string extension = extension_of(out);
+  const std::string extension = io::lower_extension(out);
   OutputFile file(out);
   if (extension == ".off") {
     file.write("OFF\n");

@@ -6,6 +6,8 @@
 
 #include <plexway/error.hpp>
 
+#include "io/extension.hpp"
+
 namespace plexway::cli {
 
 void add_volume_options(CLI::App& command, VolumeOptions& options) {
@@ -33,9 +35,7 @@ void check(const VolumeOptions& options) {
 }
 
 bool is_vdb(const std::string& file) {
-  std::string extension = std::filesystem::path(file).extension().string();
-  for (char& c : extension)
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  const std::string extension = io::lower_extension(file);
   return extension == ".vdb";
 }
 
