@@ -90,7 +90,8 @@ Path PathField<PointCloud<Real>>::trace(const PointSource& point,
                                places_,    outer_,
                                {},         visibility_,
                                labels_};
-  return SurfaceTrace<Real>(cloud_->surface(), solved).trace(at, options);
+  return or_no_way_at_all(SurfaceTrace<Real>(cloud_->surface(), solved).trace(at, options), solved,
+                          at);
 }
 
 template <class Real>

@@ -95,7 +95,7 @@ Path PathField<Domain<Real>>::trace(const PointSource& point, const TraceOptions
   check_source(at, described(*domain_));
   const Solved<Real> solved = this->solved();
   check(options);
-  return trace_in(*domain_, solved, at, options);
+  return or_no_way_at_all(trace_in(*domain_, solved, at, options), solved, at);
 }
 
 template <template <class> class Domain, class Real>

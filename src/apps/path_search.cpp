@@ -273,7 +273,8 @@ SearchResult PathSearch<Real>::find(Serial, std::span<const PointSource> sources
   const SurfaceTrace<Real> trace(mesh, solved);
   for (std::size_t n = 0; n < targets.size(); ++n) {
     result.distance.push_back(s.best_of(s.targets[n]) * mesh.unit());
-    result.paths.push_back(trace.trace(targets[n], options.trace));
+    result.paths.push_back(
+        or_no_way_at_all(trace.trace(targets[n], options.trace), solved, targets[n]));
   }
   s.labels = nullptr;
   s.heuristic = nullptr;

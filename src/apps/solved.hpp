@@ -33,6 +33,20 @@ struct Solved {
   }
 };
 
+/// The way from a vertex that is a source itself, though no simplex has it; else `found`.
+template <class Real>
+Path or_no_way_at_all(Path found, const Solved<Real>& solved, const PointSource& from) {
+  if (found.source != none || from.vertex == none) return found;
+  for (Index k = 0; k < solved.sources.size(); ++k) {
+    const PointSource& source = solved.sources[k];
+    if (source.vertex != from.vertex) continue;
+    if (found.source != none && !(source.offset < solved.sources[found.source].offset)) continue;
+    found.source = k;
+    found.length = 0;
+  }
+  return found;
+}
+
 /// Throws UsageError for a margin out of range.
 inline void check(const TraceOptions& options) {
   if (!(options.margin >= 0 && options.margin < 1))

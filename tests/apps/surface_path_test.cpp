@@ -201,6 +201,16 @@ TEST_CASE("a path where none leads is empty") {
   }
   CHECK_THROWS_AS(field.trace(Index{999}), UsageError);
   CHECK_THROWS_AS(PathField(mesh, other.positions), UsageError);
+
+  // From a source that no triangle has to itself there is no way to go.
+  const Index alone = static_cast<Index>(s.positions.size() - 1);
+  const PointSource both[] = {PointSource::at(0), PointSource::at(alone)};
+  field.solve(Serial{}, both);
+  CHECK(field.distances().distance[alone] == 0);
+  const Path none_needed = field.trace(alone);
+  CHECK(none_needed.points.empty());
+  CHECK(none_needed.length == 0);
+  CHECK(none_needed.source == 1);
 }
 
 TEST_CASE("each solve has its own paths, to the nearest of several sources") {

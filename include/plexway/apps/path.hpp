@@ -27,7 +27,8 @@ struct TraceOptions {
 /// A way through a domain, from the point asked for back to the source.
 ///
 /// The straight line from each point to the next lies in the simplex of the first of the two, so
-/// the path never leaves the domain. It is empty, and its length +inf, where no path leads.
+/// the path never leaves the domain. It is empty, and its length +inf, where no path leads; from a
+/// source that no simplex has to itself it is empty and 0 long.
 struct Path {
   std::vector<PathPoint> points;
   /// Where the points are; empty where the domain has no coordinates.
