@@ -42,32 +42,54 @@ HINGE_METHOD Real way_to(HINGE_IN(Label) label, HINGE_IN(Point) q) HINGE_READS {
   return reach(label, q).extent;
 }
 
-/// The same with bends at one limit, or at two in a row: relaxed once, which is exact for a single
-/// bend after a point and never too short.
+/// The same with a bend at one limit: exact after a point.
 Reach reach_by(HINGE_IN(Label) label, HINGE_IN(Point) eye, int limit,
                HINGE_IN(Point) q) HINGE_READS {
   Point b = bend_point(reflex_edge(label.limit[limit]), eye, q);
   Reach there = {b, way_to(label, b) + norm(q - b), limit};
   return there;
 }
-Reach reach_by(HINGE_IN(Label) label, HINGE_IN(Point) eye, int first, int second,
-               HINGE_IN(Point) q) HINGE_READS {
-  HINGE_IN(Edge) one = reflex_edge(label.limit[first]);
-  HINGE_IN(Edge) two = reflex_edge(label.limit[second]);
-  Point b = eye;
-  Point c = q;
-  for (int n = 0; n < HINGE_ROLLED(2); ++n) {
-    b = bend_point(one, eye, c);
-    c = bend_point(two, b, q);
-  }
-  Reach there = {c, way_to(label, b) + norm(c - b) + norm(q - c), first};
-  return there;
-}
-
 HINGE_METHOD bool hides(Index edge, HINGE_IN(Point) eye, HINGE_IN(Point) q) HINGE_READS {
   HINGE_IN(Edge) e = reflex_edge(edge);
   Crossing unused;
   return hides_point(e, see_edge(e, eye), eye, q, slack, unused);
+}
+
+/// Bends at limits in a row, `at` from the eye before them to the point behind them.
+struct String {
+  int bends;
+  int limit[label_limits];
+  Point at[label_limits + 2];
+};
+
+/// Puts limit j in where it hides a part of the string, if that makes the path longer than
+/// `extent`: a bend that is missing makes it too short.
+bool pull(HINGE_IN(Label) label, HINGE_INOUT(String) string, int j,
+          HINGE_INOUT(Real) extent) HINGE_READS {
+  for (int i = 0; i < string.bends; ++i)
+    if (string.limit[i] == j) return false;
+  for (int i = 0; i <= HINGE_ROLLED(string.bends); ++i) {
+    if (!hides(label.limit[j], string.at[i], string.at[i + 1])) continue;
+    String longer = string;
+    for (int n = string.bends; n > i; --n) longer.limit[n] = string.limit[n - 1];
+    for (int n = string.bends + 1; n > i; --n) longer.at[n + 1] = string.at[n];
+    longer.limit[i] = j;
+    longer.at[i + 1] = longer.at[i];
+    ++longer.bends;
+    for (int n = 0; n < HINGE_ROLLED(2) * longer.bends; ++n) {
+      int k = n % longer.bends;
+      longer.at[k + 1] =
+          bend_point(reflex_edge(label.limit[longer.limit[k]]), longer.at[k], longer.at[k + 2]);
+    }
+    Real pulled = way_to(label, longer.at[1]);
+    for (int n = 1; n <= HINGE_ROLLED(longer.bends); ++n)
+      pulled += norm(longer.at[n + 1] - longer.at[n]);
+    if (!(pulled > extent)) continue;
+    string = longer;
+    extent = pulled;
+    return true;
+  }
+  return false;
 }
 
 /// The path with what hides q. At `known` or more it need not be exact: it is longer yet.
@@ -94,20 +116,18 @@ Reach measure(HINGE_IN(Label) label, HINGE_IN(Point) q, HINGE_IN(Reach) straight
     }
     if (!(way < known)) return bent;
   }
-  int k = bent.bend;
-  // The way to the bend may be hidden itself, or the way on.
-  Reach one = bent;
+  // What hides a part of that way is another bend, before or behind: a string pulled taut.
+  String string;
+  string.bends = 1;
+  string.at[0] = straight.eye;
+  string.limit[0] = bent.bend;
+  string.at[1] = bent.eye;
+  string.at[2] = q;
   for (int j = 0; j < HINGE_ROLLED(label_limits) && label.limit[j] != none; ++j) {
-    if (j == k) continue;
-    int first = j;
-    int second = k;
-    if (!hides(label.limit[j], straight.eye, one.eye)) {
-      if (!hides(label.limit[j], one.eye, q)) continue;
-      first = k;
-      second = j;
-    }
-    Reach both = reach_by(label, straight.eye, first, second, q);
-    if (both.extent > bent.extent) bent = both;
+    if (!pull(label, string, j, bent.extent)) continue;
+    bent.eye = string.at[string.bends];
+    bent.bend = string.limit[0];
+    j = -1;  // the others again
   }
   return bent;
 }
