@@ -9,6 +9,7 @@ import sys
 
 WIDTH, HEIGHT, LEFT, TOP, GAP, PANEL_W, PANEL_H = 960, 440, 70, 46, 90, 380, 320
 COLOURS = ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#56789a", "#a6761d"]
+LEAST = 1e-9  # smaller errors are drawn as this: what is exact is rounding
 MARKS = ["circle", "square", "diamond", "triangle"]
 
 
@@ -43,7 +44,7 @@ class Panel:
         self.left, self.title, self.first = left, title, first_colour
         self.series = {}
         for row in rows:
-            self.series.setdefault(row["series"], []).append((row["edge"], max(row["mean"], 1e-17)))
+            self.series.setdefault(row["series"], []).append((row["edge"], max(row["mean"], LEAST)))
         points = [p for s in self.series.values() for p in s]
         edges = [math.log10(x) for x, _ in points]
         self.x = min(edges) - 0.12, max(edges) + 0.12
@@ -55,6 +56,10 @@ class Panel:
         fx = (math.log10(edge) - self.x[0]) / (self.x[1] - self.x[0])
         fy = (math.log10(error) - self.y[0]) / (self.y[1] - self.y[0])
         return self.left + fx * PANEL_W, TOP + (1 - fy) * PANEL_H
+
+    @staticmethod
+    def label(exponent):
+        return ("&#8804; " if 10.0**exponent <= LEAST else "") + power(exponent)
 
     def guide(self, order, out):
         """A dashed line of this slope through the panel's upper right part."""
@@ -74,7 +79,7 @@ class Panel:
             _, y = self.at(1, 10**exponent)
             out.append(f'<line x1="{self.left}" y1="{y:.1f}" x2="{self.left + PANEL_W}" '
                        f'y2="{y:.1f}" stroke="#ddd"/>')
-            out.append(text(self.left - 8, y + 4, power(exponent), "end"))
+            out.append(text(self.left - 8, y + 4, self.label(exponent), "end"))
         for exponent in range(math.floor(self.x[0]), math.ceil(self.x[1]) + 1):
             for digit in (1, 2, 5):
                 edge = digit * 10.0**exponent
