@@ -114,8 +114,6 @@ class SolidPropagation {
     bool last_resort;
 
     void operator()(Index t) const { propagation.expand(rule, t, last_resort); }
-    void narrow(Index t) const requires requires(const Rule& any) { any.hear(t); }
-    { rule.hear(t); }
     void far_ahead(Index t) const { rule.prefetch(t); }
     void ahead(Index t) const { rule.prefetch_around(t); }
   };

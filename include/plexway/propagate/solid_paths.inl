@@ -55,43 +55,6 @@ HINGE_METHOD bool hides(Index edge, HINGE_IN(Point) eye, HINGE_IN(Point) q) HING
   return hides_point(e, see_edge(e, eye), eye, q, slack, unused);
 }
 
-/// Bends at limits in a row, `at` from the eye before them to the point behind them.
-struct String {
-  int bends;
-  int limit[label_limits];
-  Point at[label_limits + 2];
-};
-
-/// Puts limit j in where it hides a part of the string, if that makes the path longer than
-/// `extent`: a bend that is missing makes it too short.
-bool pull(HINGE_IN(Label) label, HINGE_INOUT(String) string, int j,
-          HINGE_INOUT(Real) extent) HINGE_READS {
-  for (int i = 0; i < string.bends; ++i)
-    if (string.limit[i] == j) return false;
-  for (int i = 0; i <= HINGE_ROLLED(string.bends); ++i) {
-    if (!hides(label.limit[j], string.at[i], string.at[i + 1])) continue;
-    String longer = string;
-    for (int n = string.bends; n > i; --n) longer.limit[n] = string.limit[n - 1];
-    for (int n = string.bends + 1; n > i; --n) longer.at[n + 1] = string.at[n];
-    longer.limit[i] = j;
-    longer.at[i + 1] = longer.at[i];
-    ++longer.bends;
-    for (int n = 0; n < HINGE_ROLLED(2) * longer.bends; ++n) {
-      int k = n % longer.bends;
-      longer.at[k + 1] =
-          bend_point(reflex_edge(label.limit[longer.limit[k]]), longer.at[k], longer.at[k + 2]);
-    }
-    Real pulled = way_to(label, longer.at[1]);
-    for (int n = 1; n <= HINGE_ROLLED(longer.bends); ++n)
-      pulled += norm(longer.at[n + 1] - longer.at[n]);
-    if (!(pulled > extent)) continue;
-    string = longer;
-    extent = pulled;
-    return true;
-  }
-  return false;
-}
-
 /// The path with what hides q. At `known` or more it need not be exact: it is longer yet.
 Reach measure(HINGE_IN(Label) label, HINGE_IN(Point) q, HINGE_IN(Reach) straight,
               Real known) HINGE_READS {
@@ -116,19 +79,57 @@ Reach measure(HINGE_IN(Label) label, HINGE_IN(Point) q, HINGE_IN(Reach) straight
     }
     if (!(way < known)) return bent;
   }
-  // What hides a part of that way is another bend, before or behind: a string pulled taut.
-  String string;
-  string.bends = 1;
-  string.at[0] = straight.eye;
-  string.limit[0] = bent.bend;
-  string.at[1] = bent.eye;
-  string.at[2] = q;
-  for (int j = 0; j < HINGE_ROLLED(label_limits) && label.limit[j] != none; ++j) {
-    if (!pull(label, string, j, bent.extent)) continue;
-    bent.eye = string.at[string.bends];
-    bent.bend = string.limit[0];
-    j = -1;  // the others again
+  // What hides a part of that way is another bend, before or behind, if it makes the way longer: a
+  // string pulled taut. `at` are its bends, from the eye before them to q behind them.
+  int chain[label_limits];
+  Point at[label_limits + 2];
+  Point trial[label_limits + 2];
+  int bends = 1;
+  chain[0] = bent.bend;
+  at[0] = straight.eye;
+  at[1] = bent.eye;
+  at[2] = q;
+  int misses = 0;  // since the last one that was put in
+  int j = 0;
+  while (misses < HINGE_ROLLED(label_limits) && bends < label_limits) {
+    if (j == label_limits || label.limit[j] == none) {
+      misses += label_limits - j;
+      j = 0;
+      continue;
+    }
+    int place = -1;
+    for (int i = 0; i < HINGE_ROLLED(bends); ++i)
+      if (chain[i] == j) place = -2;
+    for (int i = 0; i <= HINGE_ROLLED(bends); ++i)
+      if (place == -1 && hides(label.limit[j], at[i], at[i + 1])) place = i;
+    Real way = Real(0);
+    if (place >= 0) {
+      for (int n = 0; n <= HINGE_ROLLED(bends) + 1; ++n) trial[n <= place ? n : n + 1] = at[n];
+      trial[place + 1] = at[place];
+      for (int n = 0; n < HINGE_ROLLED(2) * (bends + 1); ++n) {
+        int k = n <= bends ? n : n - bends - 1;
+        int bend = k < place ? chain[k] : j;
+        if (k > place) bend = chain[k - 1];
+        trial[k + 1] = bend_point(reflex_edge(label.limit[bend]), trial[k], trial[k + 2]);
+      }
+      way = way_to(label, trial[1]);
+      for (int n = 1; n <= HINGE_ROLLED(bends) + 1; ++n) way += norm(trial[n + 1] - trial[n]);
+    }
+    if (way > bent.extent) {
+      for (int n = bends; n > place; --n) chain[n] = chain[n - 1];
+      chain[place] = j;
+      ++bends;
+      for (int n = 0; n <= HINGE_ROLLED(bends) + 1; ++n) at[n] = trial[n];
+      bent.extent = way;
+      misses = 0;
+      j = 0;
+    } else {
+      ++misses;
+      ++j;
+    }
   }
+  bent.eye = at[bends];
+  bent.bend = chain[0];
   return bent;
 }
 

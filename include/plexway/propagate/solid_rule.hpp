@@ -89,6 +89,7 @@ class SolidRule : public SolidPaths<Real> {
   /// Offers the label of t over all faces but the one it came by.
   [[gnu::always_inline]] void expand(Index t, bool last_resort) const {
     const Index in = static_cast<Index>(front_->hinge(t));
+    // Not in a team: others may read its label now.
     if constexpr (requires(const Label& label) { front_->narrow(t, label); }) {
       Label own = front_->label(t);
       if (hears(t, own)) [[unlikely]]
@@ -96,12 +97,6 @@ class SolidRule : public SolidPaths<Real> {
     }
     for (Index i = 0; i < 4; ++i)
       if (i != in) cross(t, i, last_resort);
-  }
-
-  /// For fronts that want all tetrahedra of a round to have heard before any is expanded.
-  void hear(Index t) const {
-    Label own = front_->label(t);
-    if (hears(t, own)) front_->narrow_later(t, own);
   }
 
   /// Over one face.

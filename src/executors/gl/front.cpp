@@ -116,8 +116,7 @@ std::size_t Front::add(const Session& session, const std::function<void()>& add)
 
 bool Front::spread(const Session& session, GLuint rule, std::size_t share,
                    const std::string& label_defines,
-                   const std::function<void(const FrontControl&)>& report,
-                   std::initializer_list<GLuint> narrow) {
+                   const std::function<void(const FrontControl&)>& report, GLuint narrow) {
   constexpr std::size_t offers = offsetof(FrontControl, dispatch);
   constexpr std::size_t settling = offsetof(FrontControl, settle_dispatch);
   const GLuint contest = session.program("contest.comp", label_defines);
@@ -136,7 +135,7 @@ bool Front::spread(const Session& session, GLuint rule, std::size_t share,
       launch(session, contest, settling);
       launch(session, twins, offsetof(FrontControl, twin_dispatch));
       launch(session, settle, settling);
-      for (const GLuint program : narrow) launch(session, program, settling);
+      if (narrow != 0) launch(session, narrow, settling);
       launch(session, rule, offers);
       advance(session, share);
     }

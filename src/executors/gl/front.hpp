@@ -4,7 +4,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
-#include <initializer_list>
 #include <span>
 #include <vector>
 
@@ -77,12 +76,11 @@ class Front {
   /// Rounds of the program `rule`, a work group of which expands `share` labels, until nothing
   /// waits. `label_defines` says to front_label.glsl what labels are. `report` gets the state every
   /// few rounds. By `narrow`, if any, the labels that a round settled hear from those of neighbours
-  /// before `rule` offers them; the last of these programs, or `rule`, keeps what they heard. False
-  /// if the budget is spent: then the labels that still wait have been settled.
+  /// before `rule` offers them and keeps what they heard. False if the budget is spent: then the
+  /// labels that still wait have been settled.
   bool spread(const Session& session, GLuint rule, std::size_t share,
               const std::string& label_defines,
-              const std::function<void(const FrontControl&)>& report,
-              std::initializer_list<GLuint> narrow = {});
+              const std::function<void(const FrontControl&)>& report, GLuint narrow = 0);
 
   /// Makes the labels of all cells zeros: for rules that look at those of neighbours.
   void clear_labels(const Session& session, std::size_t cells) {

@@ -61,9 +61,6 @@ class SolidRun {
     front.clear_labels(session_, cells());
     front.seed<SolidCell>(session_, seeds.waiting, seeds.labels);
     const GLuint rule = session_.program("solid_round.comp");
-    const GLuint narrow = session_.program("solid_narrow.comp");
-    const GLuint adopt = session_.program("solid_narrow.comp", "#define PLEXWAY_ADOPT\n");
-    set_solid_uniforms(Uniforms(session_, narrow));
     const auto report = reporter(job_.options, cells(), mesh_.unit());
     bool complete = true;
     std::size_t repairs = 0;
@@ -71,8 +68,7 @@ class SolidRun {
       set_rule_uniforms(rule, repairs > 8, 0);
       bind_solid();
       const std::size_t share = session_.context().group() / 4;  // four invocations a label
-      complete =
-          front.spread(session_, rule, share, "#define PLEXWAY_SOLIDS\n", report, {narrow, adopt});
+      complete = front.spread(session_, rule, share, "#define PLEXWAY_SOLIDS\n", report);
     } while (complete && (pass_pinches() || (++repairs < 64 && repair(repairs))));
     workspace_.rounds = front.state().rounds;
     return complete;

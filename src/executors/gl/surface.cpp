@@ -57,7 +57,7 @@ class SurfaceRun {
       set_rule_uniforms(rule, revivals > 8);
       buffers_.triangles.bind(session_, 5);
       const std::size_t share = session_.context().group() / 2;  // two invocations a label
-      complete = front.spread(session_, rule, share, "", report, {narrow});
+      complete = front.spread(session_, rule, share, "", report, narrow);
       ++revivals;
     } while (complete && (pass_pinches() || revive()));
     workspace_.rounds = front.state().rounds;
