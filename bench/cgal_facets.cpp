@@ -12,6 +12,7 @@
 #include <CGAL/Surface_mesh_shortest_path.h>
 #include <CGAL/convex_hull_3.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdio>
