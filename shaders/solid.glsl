@@ -1,7 +1,7 @@
 // A solid on the device, and what the texts of its step are about: TetRecord<float> and
 // ReflexEdge<float> (complex/tet_record.hpp), SolidLabel (propagate/solid_label.hpp).
 //
-// A shader that includes this has declared `labels` before, three uvec4 a cell, see `unpack`.
+// A shader that includes this has declared `labels` before, four uvec4 a cell, see `unpack`.
 
 #define Real float
 #define Index uint
@@ -59,7 +59,7 @@ uniform uint tet_count;  // also the number of the sentinel: "no tetrahedron"
 uniform uint reflex_count;
 
 const uint REFLEX_SIZE = 21u;
-const int label_limits = 4;
+const int label_limits = 6;
 
 struct ReflexEdge {
   vec3 solid, direction, end[2];
@@ -76,8 +76,8 @@ struct SolidLabel {
 uint cell_base = 0u;  // number of tetrahedron 0 of this field
 
 /// A label at rest is a: S, sigma; b: the face it came in by, ring, two limits; c: two limits, the
-/// path's name or 0 for no label, the source's number.
-SolidLabel unpack(uvec4 a, uvec4 b, uvec4 c) {
+/// path's name or 0 for no label, the source's number; d: two limits.
+SolidLabel unpack(uvec4 a, uvec4 b, uvec4 c, uvec4 d) {
   SolidLabel label;
   label.source = uintBitsToFloat(a.xyz);
   label.sigma = uintBitsToFloat(a.w);
@@ -87,6 +87,8 @@ SolidLabel unpack(uvec4 a, uvec4 b, uvec4 c) {
   label.limit[1] = b.w;
   label.limit[2] = c.x;
   label.limit[3] = c.y;
+  label.limit[4] = d.x;
+  label.limit[5] = d.y;
   label.path = c.z;
   return label;
 }
@@ -133,10 +135,10 @@ uint entry_edge(uint entry) { return entry >> 4; }
 bool entry_is_last(uint entry) { return (entry & 1u) != 0u; }
 bool any_reflex() { return reflex_count != 0u; }
 uint own_rings() { return reflex_count; }
-bool reached(uint t) { return labels[3u * (cell_base + t) + 2u].z != 0u; }
+bool reached(uint t) { return labels[4u * (cell_base + t) + 2u].z != 0u; }
 SolidLabel label_of(uint t) {
-  uint at = 3u * (cell_base + t);
-  return unpack(labels[at], labels[at + 1u], labels[at + 2u]);
+  uint at = 4u * (cell_base + t);
+  return unpack(labels[at], labels[at + 1u], labels[at + 2u], labels[at + 3u]);
 }
 bool same_limits(SolidLabel a, SolidLabel b) {
   return a.limit[0] == b.limit[0] && a.limit[1] == b.limit[1] && a.limit[2] == b.limit[2] &&

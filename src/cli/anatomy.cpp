@@ -35,10 +35,11 @@ double aspect(std::span<const Vector> p) {
   return longest * base / std::abs(dot(side, minus(p[3], p[0])));
 }
 
-constexpr std::array<const char*, 5> split_names = {"sign", "place", "cut locus", "shape",
-                                                    "curvature"};
+constexpr std::array<const char*, 6> split_names = {"sign",  "place",     "cut locus",
+                                                    "shape", "curvature", "sight"};
 constexpr std::array<double, 3> aspects = {4, 10, 50};
-constexpr double slight = 0.01, strong = 0.3;  // radians
+constexpr double slight = 0.01, strong = 0.3;                     // radians
+constexpr std::array<double, 4> detours = {1e-9, .003, .02, .1};  // beyond the straight line
 constexpr double rounding = 1e-6;
 constexpr double near_edges = 5;     // "near the source": so many mean edges
 constexpr double least_slope = 0.9;  // fronts meet where the exact distance rises less
@@ -122,7 +123,9 @@ void Anatomy::count(std::size_t split, std::size_t part, double error) {
   (error > 0 ? sum.above : sum.below) += error;
 }
 
-void Anatomy::add(std::span<const double> distance, std::span<const double> truth) {
+void Anatomy::add(std::span<const double> distance, std::span<const double> truth,
+                  const Vector& source) {
+  const auto points = domain_.positions();
   std::fill(ridge_.begin(), ridge_.end(), static_cast<unsigned char>(0));
   for (std::size_t s = 0; s < domain_.simplices(); ++s) {
     const auto c = domain_.corners(s);
@@ -139,6 +142,11 @@ void Anatomy::add(std::span<const double> distance, std::span<const double> trut
     count(2, ridge_[v] != 0 ? 0 : 1, error);
     count(3, shape_[v], error);
     count(4, curvature_[v], error);
+    if (!solid_) continue;
+    const double detour = truth[v] / norm(minus(points[v], source)) - 1;
+    std::size_t part = 0;
+    while (part < detours.size() && !(detour < detours[part])) ++part;
+    count(5, part, error);
   }
 }
 
@@ -149,7 +157,8 @@ std::string Anatomy::class_name(std::size_t split, std::size_t part) const {
        {"where fronts meet", "elsewhere", "", "", "", ""},
        {"aspect below 4", "4 to 10", "10 to 50", "50 and more", "", ""},
        {"saddle, over 0.3", "saddle, 0.01 to 0.3", "flat", "bowl, 0.01 to 0.3", "bowl, over 0.3",
-        "on the boundary"}}};
+        "on the boundary"},
+       {"in sight", "detour below 0.3 %", "0.3 to 2 %", "2 to 10 %", "10 % and more", ""}}};
   if (solid_ && split == 4 && part == 2) return "inside";
   return names[split][part];
 }

@@ -18,7 +18,10 @@ class Anatomy {
   explicit Anatomy(const Domain& domain);
 
   /// One field and its truth, a number a vertex; what is not finite or 0 in truth does not count.
-  void add(std::span<const double> distance, std::span<const double> truth);
+  /// `source` is where distances are from: in solids, errors are also split by how much longer than
+  /// a straight line the exact path is.
+  void add(std::span<const double> distance, std::span<const double> truth,
+           const std::array<double, 3>& source);
 
   /// An array of {split, class, vertices, mean, above, below, share}: errors as shares of the exact
   /// distance, `above` and `below` their parts of either sign, `share` that of the class in the
@@ -28,7 +31,7 @@ class Anatomy {
   [[nodiscard]] std::string text() const;
 
  private:
-  static constexpr std::size_t splits = 5, most_classes = 6;
+  static constexpr std::size_t splits = 6, most_classes = 6;
   struct Sum {
     std::size_t vertices = 0;
     double above = 0, below = 0;

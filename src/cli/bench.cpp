@@ -1,5 +1,6 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <memory>
 #include <optional>
@@ -67,6 +68,16 @@ Index vertex_near(const Domain& domain, const PointSource& source) {
   const auto& weight = source.barycentric;
   const auto corner = std::max_element(weight.begin(), weight.end()) - weight.begin();
   return domain.corners(source.simplex)[static_cast<std::size_t>(corner)];
+}
+
+std::array<double, 3> place_of(const Domain& domain, const PointSource& source) {
+  const auto points = domain.positions();
+  if (source.vertex != none) return points[source.vertex];
+  const auto corners = domain.corners(source.simplex);
+  std::array<double, 3> place{};
+  for (std::size_t i = 0; i < corners.size(); ++i)
+    for (std::size_t k = 0; k < 3; ++k) place[k] += source.barycentric[i] * points[corners[i]][k];
+  return place;
 }
 
 // `count` vertices that a path from the first source leads to: times of empty fields mean nothing.
@@ -204,7 +215,8 @@ void run_bench(const BenchCommand& command) {
     solver->solve(result.executor, {&sources[i], 1}, options);
     const std::vector<double> distance = solver->distance();
     if (i < truths.size()) result.errors.add(distance, truths[i]);
-    if (i < truths.size() && anatomy) anatomy->add(distance, truths[i]);
+    if (i < truths.size() && anatomy)
+      anatomy->add(distance, truths[i], place_of(domain, sources[i]));
     if (i == 0) distance_from_first = distance;
   }
   add_random_sources(sources, command.random_sources, distance_from_first);
@@ -251,7 +263,8 @@ void add_bench_command(CLI::App& tool, Action& action) {
   app.add_option("--as", command->as, as_help)->type_name("KIND");
   app.add_flag("--anatomy", command->anatomy,
                "split the errors: above and below exact, near the source, where\n"
-               "fronts meet, by the shape of simplices, by curvature; needs --truth");
+               "fronts meet, by the shape of simplices, by curvature, in solids by how\n"
+               "far the path is from straight; needs --truth");
   app.add_flag("--json", command->json, "print one JSON object");
   app.add_flag("--quiet,-q", command->quiet, "no notes, no progress");
   add_solve_options(app, command->solve, false);
@@ -264,7 +277,7 @@ void add_bench_command(CLI::App& tool, Action& action) {
       "  plexway bench bunny.obj --source vertex:3160 --random-sources 10 --json\n"
       "  plexway bench part.obj --source vertex:0 --truth part.v0.txt --triangulation input\n"
       "  plexway bench bunny.obj --source vertex:3160 --truth bunny.v3160.txt --anatomy\n"
-      "  plexway bench cavity.ele --source vertex:170 --truth cavity.v170.txt\n"
+      "  plexway bench cavity.ele --source vertex:170 --truth cavity.v170.txt --anatomy\n"
       "  plexway bench vessels.obj --source vertex:0 --random-sources 10\n"
       "  plexway bench swiss.xyz --source vertex:0 --truth swiss.v0.txt --k 16");
   app.callback([command, &action] { action = [command] { run_bench(*command); }; });

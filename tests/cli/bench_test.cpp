@@ -90,7 +90,7 @@ TEST_CASE("bench splits errors by where they come from") {
     if (split == "shape") CHECK(row["class"] == "aspect below 4");
     if (split == "cut locus") CHECK(row["class"] == "elsewhere");
   }
-  REQUIRE(share.size() == 5);
+  REQUIRE(share.size() == 5);  // solids have one more
   for (const auto& [split, sum] : share) CHECK(sum == Approx(1));
   for (const auto& [split, sum] : vertices) CHECK(sum == n * n - 2);
   const auto text = bench(square, truth, {"--anatomy"});

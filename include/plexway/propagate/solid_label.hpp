@@ -16,7 +16,7 @@ struct SolidLabel {
   Real sigma;            ///< walked from the source to S
   Real centre;           ///< distance of the tetrahedron's centre
   Index ring;            ///< reflex edge at which the path from S bends, or none
-  static constexpr int limits = 4;
+  static constexpr int limits = 6;
   Index limit[limits];  ///< reflex edges that may hide S, the most pressing first, or none
   Index path;           ///< says which source and which bends led here (see SolidPath)
 };

@@ -42,28 +42,13 @@ HINGE_METHOD Real way_to(HINGE_IN(Label) label, HINGE_IN(Point) q) HINGE_READS {
   return reach(label, q).extent;
 }
 
-/// The same with bends at one limit, or at two in a row: relaxed once, which is exact for a single
-/// bend after a point and never too short.
+/// The same with a bend at one limit: exact after a point.
 Reach reach_by(HINGE_IN(Label) label, HINGE_IN(Point) eye, int limit,
                HINGE_IN(Point) q) HINGE_READS {
   Point b = bend_point(reflex_edge(label.limit[limit]), eye, q);
   Reach there = {b, way_to(label, b) + norm(q - b), limit};
   return there;
 }
-Reach reach_by(HINGE_IN(Label) label, HINGE_IN(Point) eye, int first, int second,
-               HINGE_IN(Point) q) HINGE_READS {
-  HINGE_IN(Edge) one = reflex_edge(label.limit[first]);
-  HINGE_IN(Edge) two = reflex_edge(label.limit[second]);
-  Point b = eye;
-  Point c = q;
-  for (int n = 0; n < HINGE_ROLLED(2); ++n) {
-    b = bend_point(one, eye, c);
-    c = bend_point(two, b, q);
-  }
-  Reach there = {c, way_to(label, b) + norm(c - b) + norm(q - c), first};
-  return there;
-}
-
 HINGE_METHOD bool hides(Index edge, HINGE_IN(Point) eye, HINGE_IN(Point) q) HINGE_READS {
   HINGE_IN(Edge) e = reflex_edge(edge);
   Crossing unused;
@@ -94,21 +79,57 @@ Reach measure(HINGE_IN(Label) label, HINGE_IN(Point) q, HINGE_IN(Reach) straight
     }
     if (!(way < known)) return bent;
   }
-  int k = bent.bend;
-  // The way to the bend may be hidden itself, or the way on.
-  Reach one = bent;
-  for (int j = 0; j < HINGE_ROLLED(label_limits) && label.limit[j] != none; ++j) {
-    if (j == k) continue;
-    int first = j;
-    int second = k;
-    if (!hides(label.limit[j], straight.eye, one.eye)) {
-      if (!hides(label.limit[j], one.eye, q)) continue;
-      first = k;
-      second = j;
+  // What hides a part of that way is another bend, before or behind, if it makes the way longer: a
+  // string pulled taut. `at` are its bends, from the eye before them to q behind them.
+  int chain[label_limits];
+  Point at[label_limits + 2];
+  Point trial[label_limits + 2];
+  int bends = 1;
+  chain[0] = bent.bend;
+  at[0] = straight.eye;
+  at[1] = bent.eye;
+  at[2] = q;
+  int misses = 0;  // since the last one that was put in
+  int j = 0;
+  while (misses < HINGE_ROLLED(label_limits) && bends < label_limits) {
+    if (j == label_limits || label.limit[j] == none) {
+      misses += label_limits - j;
+      j = 0;
+      continue;
     }
-    Reach both = reach_by(label, straight.eye, first, second, q);
-    if (both.extent > bent.extent) bent = both;
+    int place = -1;
+    for (int i = 0; i < HINGE_ROLLED(bends); ++i)
+      if (chain[i] == j) place = -2;
+    for (int i = 0; i <= HINGE_ROLLED(bends); ++i)
+      if (place == -1 && hides(label.limit[j], at[i], at[i + 1])) place = i;
+    Real way = Real(0);
+    if (place >= 0) {
+      for (int n = 0; n <= HINGE_ROLLED(bends) + 1; ++n) trial[n <= place ? n : n + 1] = at[n];
+      trial[place + 1] = at[place];
+      for (int n = 0; n < HINGE_ROLLED(2) * (bends + 1); ++n) {
+        int k = n <= bends ? n : n - bends - 1;
+        int bend = k < place ? chain[k] : j;
+        if (k > place) bend = chain[k - 1];
+        trial[k + 1] = bend_point(reflex_edge(label.limit[bend]), trial[k], trial[k + 2]);
+      }
+      way = way_to(label, trial[1]);
+      for (int n = 1; n <= HINGE_ROLLED(bends) + 1; ++n) way += norm(trial[n + 1] - trial[n]);
+    }
+    if (way > bent.extent) {
+      for (int n = bends; n > place; --n) chain[n] = chain[n - 1];
+      chain[place] = j;
+      ++bends;
+      for (int n = 0; n <= HINGE_ROLLED(bends) + 1; ++n) at[n] = trial[n];
+      bent.extent = way;
+      misses = 0;
+      j = 0;
+    } else {
+      ++misses;
+      ++j;
+    }
   }
+  bent.eye = at[bends];
+  bent.bend = chain[0];
   return bent;
 }
 

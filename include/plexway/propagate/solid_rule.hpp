@@ -20,7 +20,7 @@ namespace plexway {
 inline constexpr Index tet_face_corners[4][3] = {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}};
 
 /// Visibility::saddles on solids in space: a virtual source is a point, or a ring about a reflex
-/// edge; paths bend at reflex edges only, and each label remembers four that may hide its source.
+/// edge; paths bend at reflex edges only, and each label remembers six that may hide its source.
 template <class Real, class Front>
 class SolidRule : public SolidPaths<Real> {
   using Paths = SolidPaths<Real>;
@@ -89,6 +89,12 @@ class SolidRule : public SolidPaths<Real> {
   /// Offers the label of t over all faces but the one it came by.
   [[gnu::always_inline]] void expand(Index t, bool last_resort) const {
     const Index in = static_cast<Index>(front_->hinge(t));
+    // Not in a team: others may read its label now.
+    if constexpr (requires(const Label& label) { front_->narrow(t, label); }) {
+      Label own = front_->label(t);
+      if (hears(t, own)) [[unlikely]]
+        front_->narrow(t, own);
+    }
     for (Index i = 0; i < 4; ++i)
       if (i != in) cross(t, i, last_resort);
   }

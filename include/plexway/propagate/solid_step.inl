@@ -69,7 +69,7 @@ bool may_bend(HINGE_IN(Label) from, Index t, HINGE_IN(Point) eye, HINGE_IN(Point
   return own_hides(from, t, eye, q);
 }
 
-HINGE_CONST int most_candidates = 24;
+HINGE_CONST int most_candidates = 32;
 struct Candidates {
   Index edge[most_candidates];
   int count;
@@ -175,6 +175,16 @@ void gather(Index t, Index u, HINGE_INOUT(Label) label, HINGE_IN(Point) q,
       label.limit[place] = edge;
     }
   }
+}
+
+/// When its turn comes, a label with room asks the neighbours again: some were reached since. Its
+/// distance stays, even if its centre turns out to lie in shadow. True if it heard of anything.
+bool hears(Index t, HINGE_INOUT(Label) label) HINGE_READS {
+  if (!any_reflex() || label.limit[label_limits - 1] != none) return false;
+  Label before = label;
+  Reach path = reach(label, centre_of(t));
+  gather(t, t, label, centre_of(t), path);
+  return before.ring != label.ring || !same_limits(before, label);
 }
 
 /// No straight line: over the best point of the face's edges.

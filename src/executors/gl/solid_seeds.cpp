@@ -30,7 +30,8 @@ class HostFront {
     label.sigma = cell.sigma;
     label.centre = std::bit_cast<float>(distance);
     label.ring = cell.ring;
-    for (std::size_t k = 0; k < cell.limit.size(); ++k) label.limit[k] = cell.limit[k];
+    for (std::size_t k = 0; k < std::size(label.limit); ++k)
+      label.limit[k] = k < 4 ? cell.limit[k] : cell.further[k - 4];
     label.path = cell.path;
     front_.accept(t, cell.hinge, label, label.centre, cell.source);
   }
@@ -51,7 +52,8 @@ class HostFront {
                        label.ring,
                        {label.limit[0], label.limit[1], label.limit[2], label.limit[3]},
                        label.path,
-                       front_.source(t)});
+                       front_.source(t),
+                       {label.limit[4], label.limit[5], 0, 0}});
       }
     } while (front_.take_stock(0));
   }
