@@ -11,6 +11,7 @@
 
 #include <plexway/complex/triangle_record.hpp>
 #include <plexway/propagate/saddle_label.hpp>
+#include <plexway/propagate/saddle_refraction.hpp>
 #include <plexway/propagate/saddle_step.hpp>
 #include <plexway/propagate/saddle_step_lanes.hpp>
 
@@ -151,8 +152,13 @@ class SaddleRule {
 
   void cross_posed(Index f, std::size_t edge, const Posed& here, int pivot, bool last_resort,
                    Index source) {
+    const Real width = triangles_[f].length[edge];
     around(f, edge, [&](Index g, std::size_t k, bool flip) {
-      enter(g, k, here, flip, pivot, last_resort, source);
+      const Real there = triangles_[g].length[k];
+      if (std::abs(there - width) > refracting * width && there > 0 && width > 0) [[unlikely]]
+        enter_refracted(g, k, here, flip, pivot, width, source);
+      else
+        enter(g, k, here, flip, pivot, last_resort, source);
     });
   }
 
@@ -372,16 +378,35 @@ class SaddleRule {
     front_.accept(g, k, entered, entered.distance(), source);
   }
 
-  /// The full rule for one triangle beyond.
-  [[gnu::noinline]] static Label resolve(Posed label, const TriangleRecord<Real>& t, std::size_t k,
-                                         int pivot, bool last_resort) {
+  /// Over an edge that is `width` long on the side the label comes from.
+  [[gnu::noinline]] void enter_refracted(Index g, std::size_t k, Posed label, bool flip, int pivot,
+                                         Real width, Index source) {
+    if (flip) {
+      label = kernel::SaddleKernel<Real>::mirror_label(label, width);
+      if (pivot >= 0) pivot = 1 - pivot;
+    }
+    const Real d = refract<Real>(label, hinge_of(triangles_[g], k, pivot), width);
+    if (d < to_beat(g)) front_.accept(g, k, packed(label, d), d, source);
+  }
+
+  static SaddleHinge<Real> hinge_of(const TriangleRecord<Real>& t, std::size_t k, int pivot) {
     SaddleHinge<Real> hinge;
     hinge.extent = t.length[k];
     hinge.apex = {{t.apex_x(k)}, t.apex_h(k)};
     hinge.saddle[0] = t.saddle(k);
     hinge.saddle[1] = t.saddle(k == 2 ? 0 : k + 1);
     hinge.pivot = pivot;
-    const Real d = cross_hinge<Real>(label, hinge, last_resort);
+    return hinge;
+  }
+
+  /// The full rule for one triangle beyond.
+  [[gnu::noinline]] static Label resolve(Posed label, const TriangleRecord<Real>& t, std::size_t k,
+                                         int pivot, bool last_resort) {
+    const Real d = cross_hinge<Real>(label, hinge_of(t, k, pivot), last_resort);
+    return packed(label, d);
+  }
+
+  static Label packed(const Posed& label, Real d) {
     const Point &S = label.source, &l = label.limit[0], &r = label.limit[1];
     return {kernel::Lanes<Real>(S.x[0], label.sigma, l.x[0] - S.x[0], r.x[0] - S.x[0]),
             kernel::Lanes<Real>(S.h, d, l.h - S.h, r.h - S.h)};
@@ -400,6 +425,8 @@ class SaddleRule {
   /// Two labels are of one source if it is at the same place, within this share of its distance:
   /// what curvature between two strips of triangles may turn it by.
   static constexpr Real same_source = Real(1. / 128);
+  /// An edge refracts where its two lengths differ by more than rounding does.
+  static constexpr Real refracting = sizeof(Real) == 4 ? Real(1e-6) : Real(1e-10);
 
   const TriangleRecord<Real>* triangles_;
   Index sentinel_;
