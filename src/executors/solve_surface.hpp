@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
@@ -86,6 +87,8 @@ void solve(const TriangleMesh<Real>& mesh, std::span<const PointSource> sources,
     read_out_triangles<Real, kLabels>(crew.team(), mesh.triangles(), rule, front, workspace);
   else
     read_out_triangles<Real, kLabels>(mesh.triangles(), rule, front, workspace);
+  if (mesh.summary().refracting_edges > 0)  // where lengths are no metric, light may gain on itself
+    for (Real& d : workspace.vertex) d = std::max(d, Real(0));
   read_out_sources<Real, kLabels>(mesh, sources, workspace);
   if (curves != nullptr) read_out_curves<Real, kLabels>(*curves, workspace);
   if (options.visibility == Visibility::saddles)

@@ -72,10 +72,9 @@ std::uint64_t key(Index a, Index b) { return std::uint64_t{std::min(a, b)} << 32
 
 // One length for all simplices that share an edge. Simplices that measure it alike keep their bits.
 template <std::size_t Corners>
-void agree(std::span<const std::array<Index, Corners>> simplices, Sides sides,
+void agree(std::span<const std::array<Index, Corners>> simplices, const Agreement& agreement,
            Rows<Corners>& rows) {
   if constexpr (Corners > 2) {
-    if (sides == Sides::own) return;
     struct Side {
       std::uint64_t edge;
       double* length;
@@ -97,8 +96,10 @@ void agree(std::span<const std::array<Index, Corners>> simplices, Sides sides,
         most = std::max(most, *all[end].length);
         sum += *all[end].length;
       }
-      const double mean = sum / static_cast<double>(end - begin);
-      const double agreed = least == most || sides == Sides::least ? least : mean;
+      if (least == most) continue;
+      if (agreement.sides == Sides::own && most - least > agreement.jump * most) continue;
+      const double agreed =
+          agreement.sides == Sides::least ? least : sum / static_cast<double>(end - begin);
       for (std::size_t i = begin; i < end; ++i) *all[i].length = agreed;
     }
   }
@@ -127,7 +128,7 @@ class Measure {
       return length(metric.tensor[s], step(positions_[a], positions_[b]), Ends<Corners>::simplex,
                     s);
     });
-    agree<Corners>(simplices_, metric.sides, rows_);
+    agree<Corners>(simplices_, metric.agreement, rows_);
   }
 
   void operator()(const SimplexSpeeds& metric) {
@@ -140,7 +141,7 @@ class Measure {
       const Point d = step(positions_[a], positions_[b]);
       return std::hypot(d[0], d[1], d[2]) / metric.speed[s];
     });
-    agree<Corners>(simplices_, metric.sides, rows_);
+    agree<Corners>(simplices_, metric.agreement, rows_);
   }
 
   void operator()(const VertexTensors& metric) {

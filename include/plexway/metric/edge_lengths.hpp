@@ -16,21 +16,27 @@ namespace plexway::metric {
 
 /// The length of an edge that several simplices share and each measures in its own way.
 enum class Sides {
-  own,    ///< each keeps its own: for TriangleMesh with SurfaceHints::refracts, and nothing else
+  own,    ///< each keeps its own where they differ by more than Agreement::jump, else their mean:
+          ///< for TriangleMesh with SurfaceHints::refracts, and nothing else
   mean,   ///< right to second order where the simplices are samples of a smooth metric
   least,  ///< of the fastest: never longer than a path along the edge
+};
+
+struct Agreement {
+  Sides sides = Sides::mean;
+  double jump = 0.15;  ///< as a share of the longer
 };
 
 /// One tensor a simplex, in its order.
 struct SimplexTensors {
   std::vector<Tensor> tensor;
-  Sides sides = Sides::mean;
+  Agreement agreement = {};
 };
 
 /// One speed a simplex: a path of length L in it costs L / speed.
 struct SimplexSpeeds {
   std::vector<double> speed;
-  Sides sides = Sides::mean;
+  Agreement agreement = {};
 };
 
 /// One tensor a vertex, linear along edges: the length is the integral, in closed form.
@@ -66,8 +72,8 @@ using Metric = std::variant<SimplexTensors, SimplexSpeeds, VertexTensors, Tensor
 /// Throws InputError naming the simplex or edge: for a count that does not fit, a vertex out of
 /// range, a speed that is not positive, a tensor that gives an edge no positive length, a length
 /// that is negative, not finite or missing. `positions` are not looked at for GivenLengths, which
-/// only need as many as there are vertices. Cost: linear, but for Sides and GivenLengths, which
-/// sort the edges.
+/// only need as many as there are vertices. Cost: linear, but for
+/// tensors and speeds a simplex and GivenLengths, which sort the edges.
 [[nodiscard]] std::vector<std::array<double, 3>> triangle_lengths(
     std::span<const Point> positions, std::span<const std::array<Index, 3>> triangles,
     const Metric& metric);

@@ -125,14 +125,34 @@ Real refract(PosedSaddles<Real>& label, const SaddleHinge<Real>& hinge, Real wid
     label.source = label.limit[0] = label.limit[1] = {{s <= 0 ? Real(0) : hinge.extent}, Real(0)};
     return distance;
   }
+  // The beam: what is lit, what is not farther along the edge than S, and what enters: beyond the
+  // critical angle paths run along the edge.
+  const Real reach = before / 2;
+  if (scale < 1) {
+    const Real critical = S.h * scale / std::sqrt(1 - scale * scale);
+    low = std::max(low, S.x[0] - critical);
+    high = std::min(high, S.x[0] + critical);
+  }
+  low = std::min(std::max(low, s - reach), s);
+  high = std::max(std::min(high, s + reach), s);
+
   // Where light enters along the edge, fronts beyond are straight: S' is far away, but no farther
-  // than rounding allows.
-  const Real farthest = hinge.extent * (sizeof(Real) == 4 ? Real(300) : Real(1e5));
+  // than rounding allows. And so near that no point of the beam is nearer to S' than to S, for
+  // then nothing ever comes out shorter than a path.
+  const Real ux = after > 0 ? (centre.x[0] - scale * s) / after : Real(0);
   const Real out = after > 0 ? centre.h / after : Real(1);
   const Real in2 = before > 0 ? (S.h / before) * (S.h / before) : Real(1);
+  const Real farthest = hinge.extent * (sizeof(Real) == 4 ? Real(300) : Real(1e5));
   const Real wanted = scale * scale * out * out * before;
-  const Real radius = wanted < in2 * farthest ? wanted / in2 : farthest;
-  const Real ux = after > 0 ? (centre.x[0] - scale * s) / after : Real(0);
+  Real radius = wanted < in2 * farthest ? wanted / in2 : farthest;
+  const Real rounding = Kernel::rounding(S, width);
+  for (const Real end : {low, high}) {
+    const Real along = scale * (end - s);
+    const Real longer = std::hypot(S.x[0] - end, S.h) - before;
+    const Real bow = longer - along * ux;
+    if (bow > rounding)
+      radius = std::min(radius, std::max((along * along - longer * longer) / (2 * bow), Real(0)));
+  }
   label.sigma += before - radius;
   label.source = {{scale * s - radius * ux}, radius * out};
   label.limit[0] = {{scale * low}, Real(0)};

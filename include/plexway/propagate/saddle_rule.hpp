@@ -37,8 +37,13 @@ class SaddleRule {
   /// The same rule on another front: of another executor, or one that a loop can keep in registers.
   template <class Other>
   [[nodiscard]] SaddleRule<Real, Other> on(Other& front) const {
-    return SaddleRule<Real, Other>(triangles_, sentinel_, front, vectorised_);
+    SaddleRule<Real, Other> rule(triangles_, sentinel_, front, vectorised_);
+    rule.patience_ = patience_;
+    return rule;
   }
+
+  /// Below 1, a refracted path must be shorter by that factor to count.
+  void set_patience(Real patience) { patience_ = patience; }
 
   [[nodiscard]] Real distance(Index f) const { return front_.label(f).distance(); }
   /// What a label for f must be below. Around a bend all paths are equally long from both sides, so
@@ -152,11 +157,9 @@ class SaddleRule {
 
   void cross_posed(Index f, std::size_t edge, const Posed& here, int pivot, bool last_resort,
                    Index source) {
-    const Real width = triangles_[f].length[edge];
     around(f, edge, [&](Index g, std::size_t k, bool flip) {
-      const Real there = triangles_[g].length[k];
-      if (std::abs(there - width) > refracting * width && there > 0 && width > 0) [[unlikely]]
-        enter_refracted(g, k, here, flip, pivot, width, source);
+      if (refracts(f, edge, g, k)) [[unlikely]]
+        enter_refracted(g, k, here, flip, pivot, triangles_[f].length[edge], source);
       else
         enter(g, k, here, flip, pivot, last_resort, source);
     });
@@ -170,6 +173,15 @@ class SaddleRule {
     if (!(d < to_beat(f))) return false;
     front_.accept(f, i, {kernel::Lanes<Real>(0, sigma, 0, 0), kernel::Lanes<Real>(0, d, 0, 0)}, d,
                   source);
+    // Light that runs along edge i to leave it into a slower triangle: expansion would not take it.
+    if (t.across[i] & Across::fan) [[unlikely]] {
+      Posed here;
+      here.source = here.limit[0] = here.limit[1] = {{t.length[i]}, Real(0)};
+      here.sigma = sigma;
+      around(f, i, [&](Index g, std::size_t k, bool flip) {
+        if (refracts(f, i, g, k)) enter_refracted(g, k, here, flip, -1, t.length[i], source);
+      });
+    }
     return true;
   }
 
@@ -378,6 +390,13 @@ class SaddleRule {
     front_.accept(g, k, entered, entered.distance(), source);
   }
 
+  /// Do f and g measure the edge between them differently, by more than rounding?
+  [[nodiscard]] bool refracts(Index f, std::size_t edge, Index g, std::size_t k) const {
+    constexpr Real rounding = sizeof(Real) == 4 ? Real(1e-6) : Real(1e-10);
+    const Real here = triangles_[f].length[edge], there = triangles_[g].length[k];
+    return std::abs(there - here) > rounding * here && there > 0 && here > 0;
+  }
+
   /// Over an edge that is `width` long on the side the label comes from.
   [[gnu::noinline]] void enter_refracted(Index g, std::size_t k, Posed label, bool flip, int pivot,
                                          Real width, Index source) {
@@ -386,7 +405,7 @@ class SaddleRule {
       if (pivot >= 0) pivot = 1 - pivot;
     }
     const Real d = refract<Real>(label, hinge_of(triangles_[g], k, pivot), width);
-    if (d < to_beat(g)) front_.accept(g, k, packed(label, d), d, source);
+    if (d >= 0 && d < to_beat(g) * patience_) front_.accept(g, k, packed(label, d), d, source);
   }
 
   static SaddleHinge<Real> hinge_of(const TriangleRecord<Real>& t, std::size_t k, int pivot) {
@@ -425,13 +444,12 @@ class SaddleRule {
   /// Two labels are of one source if it is at the same place, within this share of its distance:
   /// what curvature between two strips of triangles may turn it by.
   static constexpr Real same_source = Real(1. / 128);
-  /// An edge refracts where its two lengths differ by more than rounding does.
-  static constexpr Real refracting = sizeof(Real) == 4 ? Real(1e-6) : Real(1e-10);
 
   const TriangleRecord<Real>* triangles_;
   Index sentinel_;
   Front& front_;
   bool vectorised_;
+  Real patience_ = 1;
 };
 
 }  // namespace plexway
