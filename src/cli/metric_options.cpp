@@ -38,9 +38,9 @@ Parsed parse(const MetricArgument& argument) {
 
 void check_rows(const std::string& file, std::size_t rows, std::size_t needed,
                 std::string_view what) {
-  if (rows != needed)
+  if (rows != needed && rows != 1)
     throw InputError(file + ": " + std::to_string(rows) + " rows for " + counted(needed, what) +
-                     ": write one each, in the order of the input");
+                     ": write one each, in the order of the input, or one for all");
 }
 
 [[noreturn]] void fail(const std::string& file, const NumberRow& row, const std::string& cause) {
@@ -66,6 +66,7 @@ std::vector<metric::Tensor> read_tensors(const std::string& file, std::size_t ne
     else
       fail(file, row, n.size() == 1 ? "a speed must be above 0" : "write " + row_text);
   }
+  tensors.resize(needed, tensors[0]);
   return tensors;
 }
 
@@ -79,6 +80,7 @@ std::vector<double> read_speeds(const std::string& file, std::size_t needed,
     if (!(row.numbers[0] > 0)) fail(file, row, "a speed must be above 0");
     speeds.push_back(row.numbers[0]);
   }
+  speeds.resize(needed, speeds[0]);
   return speeds;
 }
 
