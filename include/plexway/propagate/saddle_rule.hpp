@@ -404,8 +404,9 @@ class SaddleRule {
       label = kernel::SaddleKernel<Real>::mirror_label(label, width);
       if (pivot >= 0) pivot = 1 - pivot;
     }
-    const Real d = refract<Real>(label, hinge_of(triangles_[g], k, pivot), width);
-    if (d >= 0 && d < to_beat(g) * patience_) front_.accept(g, k, packed(label, d), d, source);
+    const Real d =
+        std::max(Real(0), refract<Real>(label, hinge_of(triangles_[g], k, pivot), width));
+    if (d < to_beat(g) * patience_) front_.accept(g, k, packed(label, d), d, source);
   }
 
   static SaddleHinge<Real> hinge_of(const TriangleRecord<Real>& t, std::size_t k, int pivot) {
