@@ -52,7 +52,6 @@ std::vector<metric::Tensor> read_tensors(const std::string& file, std::size_t ne
   const std::string row_text =
       "xx xy xz yy yz zz a line, or xx xy yy in the plane, or a single number, the speed";
   const auto rows = read_number_rows(file, 1, 6, row_text);
-  check_rows(file, rows.size(), needed, what);
   std::vector<metric::Tensor> tensors;
   tensors.reserve(rows.size());
   for (const NumberRow& row : rows) {
@@ -66,6 +65,7 @@ std::vector<metric::Tensor> read_tensors(const std::string& file, std::size_t ne
     else
       fail(file, row, n.size() == 1 ? "a speed must be above 0" : "write " + row_text);
   }
+  check_rows(file, rows.size(), needed, what);
   tensors.resize(needed, tensors[0]);
   return tensors;
 }
@@ -73,13 +73,13 @@ std::vector<metric::Tensor> read_tensors(const std::string& file, std::size_t ne
 std::vector<double> read_speeds(const std::string& file, std::size_t needed,
                                 std::string_view what) {
   const auto rows = read_number_rows(file, 1, 1, "one speed a line, above 0");
-  check_rows(file, rows.size(), needed, what);
   std::vector<double> speeds;
   speeds.reserve(rows.size());
   for (const NumberRow& row : rows) {
     if (!(row.numbers[0] > 0)) fail(file, row, "a speed must be above 0");
     speeds.push_back(row.numbers[0]);
   }
+  check_rows(file, rows.size(), needed, what);
   speeds.resize(needed, speeds[0]);
   return speeds;
 }

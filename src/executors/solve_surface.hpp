@@ -113,7 +113,6 @@ void solve_with(const TriangleMesh<Real>& mesh, std::span<const PointSource> sou
                 const Crew& crew, DistanceField<Real>& field, const CurveSeeds* curves = nullptr) {
   if (options.visibility != Visibility::saddles)
     refuse_refraction(mesh.summary(), "a visibility other than saddles");
-  if (curves != nullptr) refuse_refraction(mesh.summary(), "curves as sources");
   workspace.start(mesh.face_count(), kLabels);
   const std::size_t records = mesh.face_count() + 1;
   const auto front = [&](auto* labels) {

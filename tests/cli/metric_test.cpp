@@ -49,7 +49,7 @@ TEST_CASE("a constant tensor measures a plane") {
   std::string each;
   for (int v = 0; v < n * n; ++v) each += "4 1.5 0 9 0 1\n";
   const std::string vertices = folder.write("vertices.csv", each);
-  for (const std::string metric : {"tensor:" + one, "vertex-tensor:" + vertices}) {
+  for (const std::string& metric : {"tensor:" + one, "vertex-tensor:" + vertices}) {
     const auto found = distances({"--metric", metric, "--triangulation", "delaunay"}, mesh);
     REQUIRE(found.size() == n * n);
     for (int v = 0; v < n * n; ++v) {

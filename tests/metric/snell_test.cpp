@@ -9,6 +9,7 @@
 #include <plexway/error.hpp>
 #include <plexway/executors/openmp.hpp>
 #include <plexway/executors/serial.hpp>
+#include <plexway/executors/source_sets.hpp>
 #include <plexway/metric/edge_lengths.hpp>
 
 #include "data/two_speeds.hpp"
@@ -162,6 +163,20 @@ TEST_CASE("where two tensors meet the least sum of two norms decides") {
   }
   CHECK(mean / count < 1e-3);
   CHECK(worst < 1e-2);
+}
+
+TEST_CASE("the light of a line is refracted as a straight front") {
+  const HalvedSquare square(20, 0);
+  const auto mesh = two_speeds<double>(square, {1, 2});
+  CurveSource row;  // at y = 1/4, parallel to where the speed jumps
+  for (Index i = 0; i <= 20; ++i) row.points.push_back(PointSource::at(15 * 21 + i));
+  const std::vector<Source> sources = {row};
+  const auto field = propagate(Serial{}, mesh, sources);
+  for (std::size_t v = 0; v < square.points.size(); ++v) {
+    const double y = square.points[v][1];
+    CHECK(field.distance[v] ==
+          Approx(y < 0 ? 0.125 - y : std::abs(y - 0.25) / 2).epsilon(1e-7).margin(1e-9));
+  }
 }
 
 TEST_CASE("travel times are nearly the same there and back") {
