@@ -25,6 +25,7 @@ if [ "${QUICK:-0}" = 1 ]; then
   scale="--sizes 5000,20000 $effort"
   triangulation="--sizes 20000"
   corners="--most 100 --seeds 1"
+  metrics="--cells 20,50"
   solid_sizes="--sizes 8 --sources 2 --repeats 1 --budget 1"
   gl="--sizes 10000 --batch 8 --repeats 1"
   wires="--size 0.1 --sources 2 --repeats 1 --budget 1"
@@ -35,6 +36,7 @@ else
   scale=""
   triangulation=""
   corners=
+  metrics=
   solid_sizes="--sizes 12,26,70"
   wires=""
   teams=""
@@ -82,6 +84,7 @@ peers=$bin/bench_cgal
   run triangulation "$bin/bench_triangulation" "$@" $triangulation $effort
   [ -z "$data" ] || run parity "$bin/bench_parity" "$@"
   run corners "$bin/bench_corners" $corners
+  run metrics "$bin/bench_metrics" $metrics
   # Two good scans, cut into four until they have a million vertices; otherwise the sphere alone.
   set --
   for scan in bunny armadillo; do

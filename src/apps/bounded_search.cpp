@@ -19,6 +19,7 @@ namespace plexway {
 
 template <class Real>
 BoundedSearch<Real>::BoundedSearch(const TriangleMesh<Real>& mesh) : mesh_(&mesh) {
+  refuse_refraction(mesh.summary(), "a bounded search");
   const std::size_t vertices = mesh.vertex_count();
   workspace_.start(mesh.face_count(), true);
   workspace_.front.reserve(mesh.face_count());

@@ -174,7 +174,9 @@ struct PathSearch<Real>::State {
 
 template <class Real>
 PathSearch<Real>::PathSearch(const TriangleMesh<Real>& mesh)
-    : state_(std::make_unique<State>(mesh)) {}
+    : state_(std::make_unique<State>(mesh)) {
+  refuse_refraction(mesh.summary(), "a search for paths");
+}
 
 template <class Real>
 PathSearch<Real>::PathSearch(const TriangleMesh<Real>& mesh,

@@ -16,6 +16,7 @@
 #include "domain.hpp"
 #include "exit_codes.hpp"
 #include "isoline_options.hpp"
+#include "metric_options.hpp"
 #include "picture_options.hpp"
 #include "progress.hpp"
 #include "report.hpp"
@@ -37,6 +38,7 @@ struct DistanceCommand {
   CloudArguments cloud;
   SolveOptions solve;
   PictureArguments picture;
+  MetricArgument metric;
   TriangulationArgument triangulation;
   bool json = false;
   bool quiet = false;
@@ -84,7 +86,7 @@ Outcome survey(const std::vector<double>& distance, const std::vector<Source>& s
 }
 
 Json to_json(const DistanceCommand& command, const Domain& domain, const Solver& solver,
-             const Outcome& outcome) {
+             const MeasuredLengths* lengths, const Outcome& outcome) {
   Json json;
   json["input"] = command.input;
   json["kind"] = domain.kind();
@@ -104,6 +106,7 @@ Json to_json(const DistanceCommand& command, const Domain& domain, const Solver&
   json["executor"] = executor_name(outcome.executor);
   json["threads"] = executor_threads(outcome.executor);
   if (domain.kind() == "surface") json["triangulation"] = name_of(solver.triangulation());
+  add_metric(command.metric, lengths, solver.refracting_edges(), json);
   if (!domain.level_set_note().empty()) json["voxels"] = domain.level_set_note();
   if (const Cloud* cloud = domain.cloud()) {
     json["points_in_file"] = cloud->points_in_file;
@@ -114,14 +117,15 @@ Json to_json(const DistanceCommand& command, const Domain& domain, const Solver&
 }
 
 std::string to_text(const DistanceCommand& command, const Domain& domain, const Solver& solver,
-                    const std::vector<SetArgument>& arguments, const std::vector<Source>& sources,
-                    const Outcome& outcome) {
+                    const MeasuredLengths* lengths, const std::vector<SetArgument>& arguments,
+                    const std::vector<Source>& sources, const Outcome& outcome) {
   Table table;
   table.add("input", command.input);
   table.add(std::string(domain.kind()), counted(domain.vertices(), "vertices") + ", " +
                                             counted(solver.simplices(), domain.simplex_name()) +
                                             ", " + counted(solver.components(), "components"));
   if (!domain.level_set_note().empty()) table.add("voxels", domain.level_set_note());
+  add_metric(command.metric, lengths, solver.refracting_edges(), table);
   if (domain.cloud() != nullptr && !kept_points(*domain.cloud()).empty())
     table.add("kept", kept_points(*domain.cloud()));
   for (std::size_t i = 0; i < sources.size(); ++i) {
@@ -207,6 +211,7 @@ void run_distance(DistanceCommand command) {
     check_output_name(command.out, command.input, cloud_field_extensions());
   check_picture(command.picture, command.input);
   check_isolines(command.isolines, command.input);
+  check_metric(command.metric);
   check_outputs_differ({command.out, command.isolines.out, command.picture.file});
 
   command.fill.volume.writes_volume = is_vdb(command.out);
@@ -232,9 +237,11 @@ void run_distance(DistanceCommand command) {
     if (triangulation == Triangulation::automatic) triangulation = Triangulation::input;
   }
 
+  if (!command.metric.text.empty()) progress.phase("reading the metric");
+  const auto lengths = measure(command.metric, domain, Jumps::refract);
   progress.phase("building");
   const Stopwatch building;
-  const auto solver = make_solver(domain, precision, triangulation);
+  const auto solver = make_solver(domain, precision, triangulation, lengths.get());
   const double build = building.seconds();
 
   progress.phase("solving");
@@ -285,9 +292,9 @@ void run_distance(DistanceCommand command) {
 
   std::string report;
   if (command.json)
-    report = json_text(to_json(command, domain, *solver, outcome));
+    report = json_text(to_json(command, domain, *solver, lengths.get(), outcome));
   else if (!command.quiet)
-    report = to_text(command, domain, *solver, arguments, sources, outcome);
+    report = to_text(command, domain, *solver, lengths.get(), arguments, sources, outcome);
   if (to_stdout)
     write_diagnostics(report);
   else
@@ -300,6 +307,7 @@ void run_distance(DistanceCommand command) {
                          "a finite distance");
   }
   const bool bounded = command.solve.radius || command.solve.max_expansions;
+  if (!command.quiet) say_violations(domain, lengths.get());
   if (!command.quiet) say_notes(domain, *solver, outcome, bounded);
 }
 
@@ -326,6 +334,7 @@ void add_distance_command(CLI::App& tool, Action& action) {
   add_isoline_options(app, command->isolines);
   add_solve_options(app, command->solve, true);
   add_triangulation_option(app, command->triangulation);
+  add_metric_option(app, command->metric);
   add_fill_options(app, command->fill);
   add_cloud_options(app, command->cloud);
   add_picture_options(app, command->picture, true);
@@ -341,6 +350,7 @@ void add_distance_command(CLI::App& tool, Action& action) {
       "  plexway distance fluid.vdb --source point:0,0,0 --out field.vdb\n"
       "  plexway distance broken.stl --repair --as solid --source vertex:0 --out d.glb\n"
       "  plexway distance part.stl --source vertex:0 --triangulation delaunay -o d.vtu\n"
+      "  plexway distance ground.off --source vertex:0 --metric speed:speeds.txt -o times.vtu\n"
       "  plexway distance vessels.obj --source vertex:0 --out distance.vtk\n"
       "  plexway distance knot.ply --source vertex:0 --picture knot.png --view iso\n"
       "  plexway distance scan.pcd --voxel 0.01 --denoise --source point:0,0,0 --out d.ply\n"

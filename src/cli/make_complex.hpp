@@ -1,5 +1,7 @@
 #pragma once
 
+#include <type_traits>
+
 #include <plexway/complex/point_cloud.hpp>
 #include <plexway/complex/tet_mesh.hpp>
 #include <plexway/complex/triangle_mesh.hpp>
@@ -9,6 +11,7 @@
 #include <plexway/io/triangles.hpp>
 
 #include "cloud.hpp"
+#include "metric_options.hpp"
 
 namespace plexway::cli {
 
@@ -30,6 +33,24 @@ Wireframe<Real> make_complex(const io::Edges& wireframe) {
 template <class Real>
 PointCloud<Real> make_complex(const Cloud& cloud) {
   return {cloud.measured(), cloud.neighbours, cloud_options(cloud)};
+}
+
+// The same measured by a metric, where `lengths` is not null.
+template <class Real, class Shape>
+auto make_complex(const Shape& shape, [[maybe_unused]] const MeasuredLengths* lengths)
+    -> decltype(make_complex<Real>(shape)) {
+  if (lengths == nullptr) return make_complex<Real>(shape);
+  if constexpr (std::is_same_v<Shape, io::Triangles>) {
+    SurfaceHints hints;
+    hints.refracts = lengths->refracts;
+    return {shape.positions.size(), shape.triangles, lengths->triangles, hints};
+  } else if constexpr (std::is_same_v<Shape, io::Tets>) {
+    return {shape.positions.size(), shape.tets, lengths->tets};
+  } else if constexpr (std::is_same_v<Shape, io::Edges>) {
+    return {shape.vertices, shape.edges, lengths->edges};
+  } else {
+    return make_complex<Real>(shape);
+  }
 }
 
 }  // namespace plexway::cli

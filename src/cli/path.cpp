@@ -23,6 +23,7 @@
 #include "domain.hpp"
 #include "exit_codes.hpp"
 #include "make_complex.hpp"
+#include "metric_options.hpp"
 #include "picture_options.hpp"
 #include "progress.hpp"
 #include "report.hpp"
@@ -42,6 +43,7 @@ struct PathCommand {
   SolveOptions solve;
   TraceOptions trace;
   PictureArguments picture;
+  MetricArgument metric;
   bool astar = false;
   bool json = false;
   bool quiet = false;
@@ -66,18 +68,20 @@ std::span<const std::array<double, 3>> positions_of(const Shape& shape) {
 }
 
 template <class Real, class Shape>
-Outcome find_paths(const Shape& shape, const PathCommand& command,
+Outcome find_paths(const Shape& shape, const MeasuredLengths* lengths, const PathCommand& command,
                    const std::vector<PointSource>& sources, const std::vector<PointSource>& targets,
                    const PropagateOptions& options, ProgressLine& progress) {
   Outcome outcome;
   progress.phase("building");
   const Stopwatch building;
-  const auto complex = make_complex<Real>(shape);
+  const auto complex = make_complex<Real>(shape, lengths);
   outcome.build = building.seconds();
   const Stopwatch solving;
   if constexpr (std::is_same_v<Shape, io::Triangles>) {
     if (command.astar) {
-      PathSearch<Real> search(complex, shape.positions);
+      // Under a metric a straight line in space is no lower bound.
+      PathSearch<Real> search = lengths == nullptr ? PathSearch<Real>(complex, shape.positions)
+                                                   : PathSearch<Real>(complex);
       progress.phase("searching");
       SearchOptions search_options;
       search_options.progress = progress.callback();
@@ -90,7 +94,9 @@ Outcome find_paths(const Shape& shape, const PathCommand& command,
     }
   }
   progress.phase("solving");
-  PathField field(complex, positions_of(shape));
+  auto positions = positions_of(shape);
+  if (lengths != nullptr) positions = positions.first(0);
+  PathField field(complex, positions);
   PropagateOptions with_progress = options;
   with_progress.progress = progress.callback();
   field.solve(Serial{}, std::span<const PointSource>(sources), with_progress);
@@ -103,6 +109,17 @@ Outcome find_paths(const Shape& shape, const PathCommand& command,
     outcome.paths.push_back(field.trace(target, command.trace));
   outcome.trace = tracing.seconds();
   return outcome;
+}
+
+// Gives paths that know simplices only their positions.
+void place(const Domain& domain, std::vector<Path>& paths) {
+  if (domain.positions().empty()) return;
+  for (Path& path : paths) {
+    path.positions.clear();
+    for (const PathPoint& point : path.points)
+      path.positions.push_back(
+          domain.position({.simplex = point.simplex, .barycentric = point.barycentric}));
+  }
 }
 
 Json to_json(const PathCommand& command, const Domain& domain, const Outcome& outcome) {
@@ -122,6 +139,7 @@ Json to_json(const PathCommand& command, const Domain& domain, const Outcome& ou
     one["windows"] = path.windows;
     json["paths"].push_back(one);
   }
+  if (!command.metric.text.empty()) json["metric"] = command.metric.text;
   json["seconds"]["load"] = domain.load_seconds();
   if (domain.mesh_seconds()) json["seconds"]["mesh"] = *domain.mesh_seconds();
   json["seconds"]["build"] = outcome.build;
@@ -136,6 +154,7 @@ Json to_json(const PathCommand& command, const Domain& domain, const Outcome& ou
 std::string to_text(const PathCommand& command, const Domain& domain, const Outcome& outcome) {
   Table table;
   table.add("input", command.input);
+  if (!command.metric.text.empty()) table.add("metric", command.metric.text);
   table.add(std::string(domain.kind()), counted(domain.vertices(), "vertices") + ", " +
                                             counted(domain.simplices(), domain.simplex_name()));
   for (std::size_t k = 0; k < outcome.paths.size(); ++k) {
@@ -169,6 +188,7 @@ void run_path(const PathCommand& command) {
     throw UsageError("--astar knows the default visibility only");
 
   check_picture(command.picture, command.input);
+  check_metric(command.metric);
 
   ProgressLine progress(command.quiet);
   const Domain domain =
@@ -180,16 +200,22 @@ void run_path(const PathCommand& command) {
                      " is solved as a whole; A* is for surfaces");
   const std::vector<PointSource> sources = locate_sources(domain, from);
   const std::vector<PointSource> targets = locate_sources(domain, to);
-  const Outcome outcome = with_file_name(domain, [&] {
+  if (!command.metric.text.empty()) progress.phase("reading the metric");
+  // Paths go straight over an edge: it has one length.
+  const auto lengths = measure(command.metric, domain, Jumps::smooth);
+  Outcome outcome = with_file_name(domain, [&] {
     return std::visit(
         [&](const auto& shape) {
           if (precision == Precision::single)
-            return find_paths<float>(shape, command, sources, targets, options, progress);
+            return find_paths<float>(shape, lengths.get(), command, sources, targets, options,
+                                     progress);
           else
-            return find_paths<double>(shape, command, sources, targets, options, progress);
+            return find_paths<double>(shape, lengths.get(), command, sources, targets, options,
+                                      progress);
         },
         domain.shape());
   });
+  if (lengths != nullptr) place(domain, outcome.paths);
   if (!command.out.empty()) {
     progress.phase("writing " + command.out);
     io::write_paths(command.out, outcome.paths);
@@ -217,6 +243,7 @@ void run_path(const PathCommand& command) {
   for (const Path& path : outcome.paths) unreached += path.source == none;
   if (unreached == outcome.paths.size())
     throw NothingReached(command.input + ": nothing reached: no path leads to any target");
+  if (!command.quiet) say_violations(domain, lengths.get());
   if (unreached > 0 && !command.quiet)
     say_note(counted(unreached, "targets") + " not reached: no path leads there");
 }
@@ -252,6 +279,7 @@ void add_path_command(CLI::App& tool, Action& action) {
   app.add_flag("--json", command->json, "print the summary as one JSON object");
   app.add_flag("--quiet,-q", command->quiet, "no summary, notes or progress; errors stay");
   add_solve_options(app, command->solve, false);
+  add_metric_option(app, command->metric);
   add_fill_options(app, command->fill);
   add_cloud_options(app, command->cloud);
   add_picture_options(app, command->picture);

@@ -24,7 +24,7 @@ struct PairsOf {
   const Cloud& cloud;
 };
 template <class Real>
-PointPairs<Real> make_complex(const PairsOf& pairs) {
+PointPairs<Real> make_complex(const PairsOf& pairs, const MeasuredLengths* = nullptr) {
   return {pairs.cloud.measured(), pairs.cloud.neighbours, pair_options(pairs.cloud)};
 }
 
@@ -50,16 +50,21 @@ std::size_t simplex_count(const Complex& complex) {
 template <class Real, class Shape>
 class ShapeSolver final : public Solver {
  public:
-  explicit ShapeSolver(const Shape& shape, [[maybe_unused]] Triangulation triangulation)
-      : complex_(make_complex<Real>(shape)), simplices_(simplex_count(complex_)) {
+  ShapeSolver(const Shape& shape, [[maybe_unused]] Triangulation triangulation,
+              const MeasuredLengths* lengths)
+      : complex_(make_complex<Real>(shape, lengths)), simplices_(simplex_count(complex_)) {
     if constexpr (std::is_same_v<Shape, io::Triangles>)
-      delaunay_ = retriangulate(triangulation, shape, complex_, triangulation_);
+      delaunay_ = retriangulate(triangulation, shape, lengths, complex_, triangulation_);
   }
 
   std::size_t components() const override { return complex_.summary().components; }
   std::size_t simplices() const override { return simplices_; }
   bool serial_only() const override { return kSerialOnly; }
   TriangulationReport triangulation() const override { return triangulation_; }
+  std::size_t refracting_edges() const override {
+    if constexpr (std::is_same_v<Shape, io::Triangles>) return complex_.summary().refracting_edges;
+    return 0;
+  }
 
   void solve(const Executor& executor, std::span<const PointSource> sources,
              const PropagateOptions& options) override {
@@ -162,22 +167,23 @@ class ShapeSolver final : public Solver {
 
 template <class Shape>
 std::unique_ptr<Solver> solver_of(const Shape& shape, Precision precision,
-                                  Triangulation triangulation) {
+                                  Triangulation triangulation, const MeasuredLengths* lengths) {
   if (precision == Precision::single)
-    return std::make_unique<ShapeSolver<float, Shape>>(shape, triangulation);
-  return std::make_unique<ShapeSolver<double, Shape>>(shape, triangulation);
+    return std::make_unique<ShapeSolver<float, Shape>>(shape, triangulation, lengths);
+  return std::make_unique<ShapeSolver<double, Shape>>(shape, triangulation, lengths);
 }
 
 }  // namespace
 
 std::unique_ptr<Solver> make_solver(const Domain& domain, Precision precision,
-                                    Triangulation triangulation) {
+                                    Triangulation triangulation, const MeasuredLengths* lengths) {
   check_triangulation(triangulation, domain);
   return with_file_name(domain, [&] {
     if (domain.cloud() != nullptr && domain.cloud()->form == CloudForm::pairs)
-      return solver_of(PairsOf{*domain.cloud()}, precision, triangulation);
-    return std::visit([&](const auto& shape) { return solver_of(shape, precision, triangulation); },
-                      domain.shape());
+      return solver_of(PairsOf{*domain.cloud()}, precision, triangulation, nullptr);
+    return std::visit(
+        [&](const auto& shape) { return solver_of(shape, precision, triangulation, lengths); },
+        domain.shape());
   });
 }
 

@@ -11,6 +11,7 @@
 
 #include "domain.hpp"
 #include "executor_argument.hpp"
+#include "metric_options.hpp"
 #include "solve_options.hpp"
 #include "triangulation_option.hpp"
 
@@ -33,6 +34,8 @@ class Solver {
   [[nodiscard]] virtual bool serial_only() const { return false; }
   /// Which triangles a surface is solved on.
   [[nodiscard]] virtual TriangulationReport triangulation() const { return {}; }
+  /// Edges where paths are refracted.
+  [[nodiscard]] virtual std::size_t refracting_edges() const { return 0; }
   /// One propagation, read-out to vertices included. Throws as plexway::propagate.
   virtual void solve(const Executor& executor, std::span<const PointSource> sources,
                      const PropagateOptions& options) = 0;
@@ -51,8 +54,10 @@ class Solver {
   [[nodiscard]] virtual std::size_t bytes() const = 0;
 };
 
-/// Builds the complex. Throws InputError "FILE: cause", and UsageError as check_triangulation.
+/// Builds the complex, by the lengths of a metric where there is one. Throws InputError
+/// "FILE: cause", and UsageError as check_triangulation.
 std::unique_ptr<Solver> make_solver(const Domain& domain, Precision precision,
-                                    Triangulation triangulation = Triangulation::input);
+                                    Triangulation triangulation = Triangulation::input,
+                                    const MeasuredLengths* lengths = nullptr);
 
 }  // namespace plexway::cli

@@ -1,16 +1,14 @@
 #include "source_set.hpp"
 
-#include <cerrno>
 #include <charconv>
 #include <cmath>
-#include <filesystem>
-#include <fstream>
 #include <optional>
 #include <string_view>
 #include <system_error>
 
 #include <plexway/error.hpp>
 
+#include "number_rows.hpp"
 #include "report.hpp"
 #include "source_argument.hpp"
 #include "source_curves.hpp"
@@ -115,49 +113,11 @@ SetArgument parse_one(const std::string& text) {
   return set;
 }
 
-// Lines of numbers, each with at least `least` and at most `most`; empty lines and # are skipped.
-std::vector<std::vector<double>> read_rows(const std::string& file, std::size_t least,
-                                           std::size_t most, const char* what) {
-  std::error_code ignored;
-  if (std::filesystem::is_directory(file, ignored))
-    throw InputError(file + ": is a directory, not a file");
-  errno = 0;
-  std::ifstream in(file);
-  if (!in)
-    throw InputError(
-        file + ": cannot be read: " + std::generic_category().message(errno != 0 ? errno : EIO));
-  std::vector<std::vector<double>> rows;
-  std::size_t line = 0;
-  for (std::string text; std::getline(in, text);) {
-    ++line;
-    std::vector<double> row;
-    std::string_view left = std::string_view(text).substr(0, text.find('#'));
-    for (;;) {
-      const std::size_t begin = left.find_first_not_of(" \t\r,");
-      if (begin == left.npos) break;
-      left.remove_prefix(begin);
-      const std::string_view word = left.substr(0, left.find_first_of(" \t\r,"));
-      const auto value = number_of(word);
-      if (!value)
-        throw InputError(file + ":" + std::to_string(line) + ": not a number: '" +
-                         std::string(word.substr(0, 32)) + "'");
-      row.push_back(*value);
-      left.remove_prefix(word.size());
-    }
-    if (row.empty()) continue;
-    if (row.size() < least || row.size() > most)
-      throw InputError(file + ":" + std::to_string(line) + ": write " + what);
-    rows.push_back(std::move(row));
-  }
-  if (rows.empty()) throw InputError(file + ": nothing in it: write " + what);
-  return rows;
-}
-
 VertexSource read_vertices(const Domain& domain, const SetArgument& set) {
   VertexSource source;
   source.offset = set.offset;
-  for (const auto& row :
-       read_rows(set.file, 1, 2, "a vertex (0-based) a line, and its offset if wanted")) {
+  for (const auto& [row, line] :
+       read_number_rows(set.file, 1, 2, "a vertex (0-based) a line, and its offset if wanted")) {
     const double offset = row.size() == 2 ? row[1] : 0;
     if (row[0] < 0 || row[0] != std::floor(row[0]) ||
         row[0] >= static_cast<double>(domain.vertices()))
@@ -213,7 +173,7 @@ Source locate(const Domain& domain, const SetArgument& set) {
           points.push_back(
               closest(domain, set, {set.numbers[i], set.numbers[i + 1], set.numbers[i + 2]}));
       } else {
-        for (const auto& row : read_rows(set.file, 3, 3, "a point X Y Z a line"))
+        for (const auto& [row, line] : read_number_rows(set.file, 3, 3, "a point X Y Z a line"))
           points.push_back(closest(domain, set, {row[0], row[1], row[2]}));
       }
       return CurveSource{.points = joined(domain, points, set.text), .offset = set.offset};

@@ -40,6 +40,7 @@ void check_triangulation(Triangulation wanted, const Domain& domain) {
 
 template <class Real>
 std::optional<IntrinsicDelaunay> retriangulate(Triangulation wanted, const io::Triangles& surface,
+                                               const MeasuredLengths* lengths,
                                                TriangleMesh<Real>& mesh,
                                                TriangulationReport& report) {
   report = {};
@@ -55,7 +56,7 @@ std::optional<IntrinsicDelaunay> retriangulate(Triangulation wanted, const io::T
     if constexpr (sizeof(Real) == sizeof(double))
       delaunay.emplace(mesh, refinement);
     else
-      delaunay.emplace(make_complex<double>(surface), refinement);
+      delaunay.emplace(make_complex<double>(surface, lengths), refinement);
     report.flips = delaunay->summary().flips;
     report.inserted_vertices = delaunay->summary().inserted_vertices;
     if (report.flips + report.inserted_vertices > 0) mesh = delaunay->mesh<Real>();
@@ -64,8 +65,10 @@ std::optional<IntrinsicDelaunay> retriangulate(Triangulation wanted, const io::T
   return delaunay;
 }
 template std::optional<IntrinsicDelaunay> retriangulate(Triangulation, const io::Triangles&,
+                                                        const MeasuredLengths*,
                                                         TriangleMesh<float>&, TriangulationReport&);
 template std::optional<IntrinsicDelaunay> retriangulate(Triangulation, const io::Triangles&,
+                                                        const MeasuredLengths*,
                                                         TriangleMesh<double>&,
                                                         TriangulationReport&);
 

@@ -15,6 +15,8 @@ class App;
 
 namespace plexway::cli {
 
+struct MeasuredLengths;
+
 /// Which triangles a surface is solved on.
 enum class Triangulation { input, delaunay, refined, automatic };
 
@@ -41,9 +43,11 @@ struct TriangulationReport {
 };
 
 /// Replaces the mesh of a surface by its intrinsic Delaunay triangulation if that is wanted, or if
-/// it is left open and pays; what is returned then translates sources.
+/// it is left open and pays; what is returned then translates sources. `lengths` are those of a
+/// metric, or null.
 template <class Real>
 std::optional<IntrinsicDelaunay> retriangulate(Triangulation wanted, const io::Triangles& surface,
+                                               const MeasuredLengths* lengths,
                                                TriangleMesh<Real>& mesh,
                                                TriangulationReport& report);
 

@@ -40,6 +40,7 @@ struct IntrinsicDelaunay::State {
   std::vector<Index> face_of_slot;  // the caller's
   std::vector<Index> slot_of_face;
   std::size_t faces = 0;  // of the input
+  bool refracts = false;
   double unit = 1;
   DelaunaySummary summary;
 
@@ -49,6 +50,7 @@ struct IntrinsicDelaunay::State {
         face_of_slot(input.face_count()),
         slot_of_face(input.face_count()),
         faces(input.face_count()),
+        refracts(input.summary().refracting_edges > 0),
         unit(input.unit()) {
     for (Index s = 0; s < face_of_slot.size(); ++s) {
       face_of_slot[s] = input.triangles()[s].face & ~reversed;
@@ -119,7 +121,9 @@ TriangleMesh<Real> IntrinsicDelaunay::mesh() const {
           o == none ? none : 3 * face_of(o >> Across::face_shift) + (o & Across::edge_mask);
     }
   }
-  SurfaceHints hints;  // new triangles lie behind all others: they need a new order
+  SurfaceHints hints;
+  hints.refracts = state_->refracts;
+  // New triangles lie behind all others: they need a new order.
   if (state_->summary.inserted_vertices == 0) hints.order = state_->face_of_slot;
   return TriangleMesh<Real>(state_->triangulation.vertices(), faces, shapes, std::move(across),
                             hints);

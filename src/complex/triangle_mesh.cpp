@@ -162,7 +162,21 @@ void shorten_to_triangles(Lengths& lengths, GluingView across) {
   }
 }
 
+// The same where triangles do not share lengths.
+void shorten_each(Lengths& lengths) {
+  for (auto& l : lengths)
+    if (const double excess = longest_excess(l); excess > 0)
+      *std::max_element(l.begin(), l.end()) -= excess;
+}
+
 }  // namespace
+
+void refuse_refraction(const SurfaceSummary& summary, const char* what) {
+  if (summary.refracting_edges > 0)
+    throw UsageError(std::string(what) + ": not on a surface with " +
+                     std::to_string(summary.refracting_edges) +
+                     " refracting edges; build it with one length an edge");
+}
 
 template <class Real>
 TriangleMesh<Real>::TriangleMesh(std::span<const std::array<double, 3>> positions,
@@ -180,15 +194,16 @@ TriangleMesh<Real>::TriangleMesh(std::span<const std::array<double, 3>> position
         {&positions[faces[f][0]], &positions[faces[f][1]], &positions[faces[f][2]]});
   assemble(positions.size(), faces, shapes,
            hints.order.empty() ? along_curve(positions, faces) : copy_of(hints.order),
-           glue_by_vertices(positions.size(), faces), hints.samples);
+           glue_by_vertices(positions.size(), faces), hints);
 }
 
 template <class Real>
 TriangleMesh<Real>::TriangleMesh(std::size_t vertices, std::span<const std::array<Index, 3>> faces,
-                                 std::span<const std::array<double, 3>> lengths) {
+                                 std::span<const std::array<double, 3>> lengths,
+                                 const SurfaceHints& hints) {
   check_faces(vertices, faces);
   check_corners(faces);
-  *this = TriangleMesh(vertices, faces, lengths, glue_by_vertices(vertices, faces));
+  *this = TriangleMesh(vertices, faces, lengths, glue_by_vertices(vertices, faces), hints);
 }
 
 template <class Real>
@@ -208,11 +223,14 @@ TriangleMesh<Real>::TriangleMesh(std::size_t vertices, std::span<const std::arra
                          ": an edge length is negative or not finite");
   check_gluing(faces, across);
   std::vector<std::array<double, 3>> agreed(lengths.begin(), lengths.end());
-  agree_on_edges(agreed, across);
+  if (!hints.refracts) agree_on_edges(agreed, across);
   std::vector<TriangleShape> shapes(faces.size());
   std::vector<char> violated(faces.size(), 0);
   for (std::size_t f = 0; f < faces.size(); ++f) violated[f] = longest_excess(agreed[f]) > 0;
-  shorten_to_triangles(agreed, across);
+  if (hints.refracts)
+    shorten_each(agreed);
+  else
+    shorten_to_triangles(agreed, across);
   for (std::size_t f = 0; f < faces.size(); ++f) {
     shapes[f] = shape_from_lengths(agreed[f]);
     shapes[f].violated = violated[f] != 0;
@@ -220,7 +238,7 @@ TriangleMesh<Real>::TriangleMesh(std::size_t vertices, std::span<const std::arra
   std::vector<std::array<Index, 3>> gluing(across.begin(), across.end());
   assemble(vertices, faces, shapes,
            hints.order.empty() ? breadth_first(across) : copy_of(hints.order), std::move(gluing),
-           hints.samples);
+           hints);
 }
 
 template <class Real>
@@ -231,14 +249,16 @@ TriangleMesh<Real>::TriangleMesh(std::size_t vertices, std::span<const std::arra
   check_faces(vertices, faces);
   std::vector<Index> order =
       hints.order.empty() ? breadth_first(GluingView(across)) : copy_of(hints.order);
-  assemble(vertices, faces, shapes, std::move(order), std::move(across), hints.samples);
+  assemble(vertices, faces, shapes, std::move(order), std::move(across), hints);
 }
 
 template <class Real>
 void TriangleMesh<Real>::assemble(std::size_t vertices, std::span<const std::array<Index, 3>> faces,
                                   std::span<const TriangleShape> shapes,
                                   std::vector<Index> face_order,
-                                  std::vector<std::array<Index, 3>> across, bool samples) {
+                                  std::vector<std::array<Index, 3>> across,
+                                  const SurfaceHints& hints) {
+  const bool samples = hints.samples;
   const std::size_t m = faces.size();
   const Orientation orientation = orient(faces, across);
   summary_.vertices = vertices;
@@ -297,8 +317,12 @@ void TriangleMesh<Real>::assemble(std::size_t vertices, std::span<const std::arr
       const bool loop = faces[f][i] == faces[f][next(i)];
       const bool same_way = !loop && faces[f][i] == faces[g][j];
       const bool flip = same_way != (turned(f) != turned(g));
+      const bool refracts =
+          hints.refracts && std::abs(shape.length[i] - shapes[g].length[j]) >
+                                1e-9 * std::max(shape.length[i], shapes[g].length[j]);
+      summary_.refracting_edges += refracts && (fan || 3 * f + i < h);
       t.across[e] = face_to_inside_[g] << Across::face_shift | edge_inside(g, j) |
-                    (flip ? Across::flip : 0) | (fan ? Across::fan : 0);
+                    (flip ? Across::flip : 0) | (fan || refracts ? Across::fan : 0);
       if (!fan) {
         summary_.edges += 3 * f + i < h;
       } else {

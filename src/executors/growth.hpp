@@ -205,6 +205,7 @@ class Growth<TriangleMesh<Real>>
 
   Growth(const TriangleMesh<Real>& mesh, Workspace<Real>& workspace)
       : Base(mesh, mesh.face_count(), workspace, workspace.saddles.reserve(mesh.face_count() + 1)) {
+    refuse_refraction(mesh.summary(), "a field that grows");
     this->clear();
   }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
@@ -86,6 +87,8 @@ void solve(const TriangleMesh<Real>& mesh, std::span<const PointSource> sources,
     read_out_triangles<Real, kLabels>(crew.team(), mesh.triangles(), rule, front, workspace);
   else
     read_out_triangles<Real, kLabels>(mesh.triangles(), rule, front, workspace);
+  if (mesh.summary().refracting_edges > 0)  // where lengths are no metric, light may gain on itself
+    for (Real& d : workspace.vertex) d = std::max(d, Real(0));
   read_out_sources<Real, kLabels>(mesh, sources, workspace);
   if (curves != nullptr) read_out_curves<Real, kLabels>(*curves, workspace);
   if (options.visibility == Visibility::saddles)
@@ -108,6 +111,8 @@ template <class Real, bool kLabels, class Queue, class Crew>
 void solve_with(const TriangleMesh<Real>& mesh, std::span<const PointSource> sources,
                 const PropagateOptions& options, Workspace<Real>& workspace, Queue queue,
                 const Crew& crew, DistanceField<Real>& field, const CurveSeeds* curves = nullptr) {
+  if (options.visibility != Visibility::saddles)
+    refuse_refraction(mesh.summary(), "a visibility other than saddles");
   workspace.start(mesh.face_count(), kLabels);
   const std::size_t records = mesh.face_count() + 1;
   const auto front = [&](auto* labels) {

@@ -26,7 +26,9 @@ class TrianglePropagation {
         workspace_(workspace),
         rule_(rule),
         front_(front),
-        radius_(static_cast<Real>(options.radius / mesh.unit())) {}
+        radius_(static_cast<Real>(options.radius / mesh.unit())),
+        faces_(mesh.face_count()),
+        refracts_(mesh.summary().refracting_edges > 0) {}
 
   void seed(const PointSource& source, Index number) {
     const Real sigma = static_cast<Real>(source.offset / mesh_.unit());
@@ -75,20 +77,23 @@ class TrianglePropagation {
 
   /// Expands triangles for the front of a thread. The rounds that it is part of do not matter.
   template <class Other, class Rounds>
-  [[nodiscard]] auto expander(Other& front, bool last_resort, const Rounds&) const {
-    return Expander<Other>{*this, front, rule_.on(front), last_resort};
+  [[nodiscard]] auto expander(Other& front, bool last_resort, const Rounds& rounds) const {
+    return Expander<Other, Rounds>{*this, front, rule_.on(front), rounds, last_resort};
   }
   [[nodiscard]] const Rule& rule() const { return rule_; }
 
  private:
-  template <class Other>
+  template <class Other, class Rounds>
   struct Expander {
     const TrianglePropagation& propagation;
     Other& front;
     decltype(std::declval<const Rule&>().on(std::declval<Other&>())) rule;
+    const Rounds& rounds;
     bool last_resort;
 
     void operator()(Index f) {
+      if (propagation.refracts_) [[unlikely]]
+        propagation.limit(rule, rounds.updates());
       propagation.expand(rule, front, f, last_resort,
                          [this](Index g, std::size_t edge) { rule.cross(g, edge, last_resort); });
     }
@@ -101,11 +106,23 @@ class TrianglePropagation {
  public:  // the parts of run, for those who must not look at the whole surface
   void spread(bool last_resort) {
     Index f = 0;
-    while (!spread_share(last_resort, f))
+    while (!spread_share(last_resort, f)) {
       if (!front_.take_stock(rule_.distance(f))) return;
+      if (refracts_) limit(rule_, front_.updates());
+    }
   }
 
  private:
+  /// Two updates a triangle are usual. Where lengths are no metric at all, refracted paths might
+  /// get shorter each time around, without end: from 64 on they must gain more and more.
+  template <class AnyRule>
+  void limit(AnyRule& rule, std::size_t updates) const {
+    if constexpr (requires { rule.set_patience(Real(1)); }) {
+      const double more = static_cast<double>(updates) / (64 * static_cast<double>(faces_));
+      if (more > 1) rule.set_patience(std::max(static_cast<Real>(2 - more), Real(1e-20)));
+    }
+  }
+
   /// The hot loop, until no triangle waits (true) or the share of the budget is spent. It works on
   /// a copy of the front that nothing points to, which the compiler can keep in registers; the
   /// rare full rule gets the original.
@@ -196,6 +213,8 @@ class TrianglePropagation {
   Rule rule_;
   Front& front_;
   Real radius_;
+  std::size_t faces_;
+  bool refracts_;
 };
 
 }  // namespace plexway

@@ -26,7 +26,8 @@ struct SurfaceSummary {
   std::size_t unreferenced_vertices = 0;  ///< in no triangle: no path leads to them
   std::size_t degenerate_faces = 0;       ///< no area, in the input's precision
   std::size_t violated_faces = 0;  ///< lengths broke the triangle inequality (see the constructor)
-  std::size_t components = 0;      ///< of triangles joined by edges or pinched vertices
+  std::size_t refracting_edges = 0;  ///< with another length on either side (SurfaceHints)
+  std::size_t components = 0;        ///< of triangles joined by edges or pinched vertices
   bool orientable = true;
   double mean_edge = 0;  ///< in the input's unit; the library works in this unit inside
 };
@@ -38,6 +39,9 @@ struct SurfaceHints {
   /// The vertices are samples of something smooth, and how the triangles bend at one of them is
   /// half chance: paths bend at an inner vertex only where its neighbourhood is a saddle, too.
   bool samples = false;
+  /// Each triangle keeps the lengths given for it, also where a neighbour measures the edge between
+  /// differently, as where a speed jumps: paths are refracted there.
+  bool refracts = false;
 };
 
 /// A triangle surface as a metric space: triangles with edge lengths, glued along edges.
@@ -64,9 +68,11 @@ class TriangleMesh {
   /// next, and must be the same from both sides (up to rounding; the mean is taken). Triangles are
   /// glued where two corners share both vertices. An edge longer than the way around by the other
   /// two is shortened to it, and so on (SurfaceSummary::violated_faces counts). Throws as above,
-  /// and for a length that is negative or not finite.
+  /// and for a length that is negative or not finite. With SurfaceHints::refracts each triangle
+  /// keeps its own lengths (and is shortened alone), edges with two are
+  /// SurfaceSummary::refracting_edges.
   TriangleMesh(std::size_t vertices, std::span<const std::array<Index, 3>> faces,
-               std::span<const std::array<double, 3>> lengths);
+               std::span<const std::array<double, 3>> lengths, const SurfaceHints& hints = {});
 
   /// From lengths and an explicit gluing, as intrinsic triangulations need: across[f][i] is the
   /// halfedge 3 g + j that edge i of face f is glued to, or `none`. More than two triangles on an
@@ -114,7 +120,7 @@ class TriangleMesh {
  private:
   void assemble(std::size_t vertices, std::span<const std::array<Index, 3>> faces,
                 std::span<const TriangleShape> shapes, std::vector<Index> face_order,
-                std::vector<std::array<Index, 3>> across, bool samples);
+                std::vector<std::array<Index, 3>> across, const SurfaceHints& hints);
 
   SurfaceSummary summary_;
   Identity identity_;
@@ -126,6 +132,9 @@ class TriangleMesh {
   std::vector<Index> irregular_, irregular_begin_, irregular_corners_;
   std::vector<Index> pinched_;
 };
+
+/// Throws UsageError where a surface has refracting edges: `what` unfolds triangles over edges.
+void refuse_refraction(const SurfaceSummary& summary, const char* what);
 
 extern template class TriangleMesh<float>;
 extern template class TriangleMesh<double>;

@@ -11,6 +11,7 @@
 
 #include <plexway/complex/triangle_record.hpp>
 #include <plexway/propagate/saddle_label.hpp>
+#include <plexway/propagate/saddle_refraction.hpp>
 #include <plexway/propagate/saddle_step.hpp>
 #include <plexway/propagate/saddle_step_lanes.hpp>
 
@@ -36,8 +37,13 @@ class SaddleRule {
   /// The same rule on another front: of another executor, or one that a loop can keep in registers.
   template <class Other>
   [[nodiscard]] SaddleRule<Real, Other> on(Other& front) const {
-    return SaddleRule<Real, Other>(triangles_, sentinel_, front, vectorised_);
+    SaddleRule<Real, Other> rule(triangles_, sentinel_, front, vectorised_);
+    rule.patience_ = patience_;
+    return rule;
   }
+
+  /// Below 1, a refracted path must be shorter by that factor to count.
+  void set_patience(Real patience) { patience_ = patience; }
 
   [[nodiscard]] Real distance(Index f) const { return front_.label(f).distance(); }
   /// What a label for f must be below. Around a bend all paths are equally long from both sides, so
@@ -152,7 +158,10 @@ class SaddleRule {
   void cross_posed(Index f, std::size_t edge, const Posed& here, int pivot, bool last_resort,
                    Index source) {
     around(f, edge, [&](Index g, std::size_t k, bool flip) {
-      enter(g, k, here, flip, pivot, last_resort, source);
+      if (refracts(f, edge, g, k)) [[unlikely]]
+        enter_refracted(g, k, here, flip, pivot, triangles_[f].length[edge], source);
+      else
+        enter(g, k, here, flip, pivot, last_resort, source);
     });
   }
 
@@ -164,6 +173,15 @@ class SaddleRule {
     if (!(d < to_beat(f))) return false;
     front_.accept(f, i, {kernel::Lanes<Real>(0, sigma, 0, 0), kernel::Lanes<Real>(0, d, 0, 0)}, d,
                   source);
+    // Light that runs along edge i to leave it into a slower triangle: expansion would not take it.
+    if (t.across[i] & Across::fan) [[unlikely]] {
+      Posed here;
+      here.source = here.limit[0] = here.limit[1] = {{t.length[i]}, Real(0)};
+      here.sigma = sigma;
+      around(f, i, [&](Index g, std::size_t k, bool flip) {
+        if (refracts(f, i, g, k)) enter_refracted(g, k, here, flip, -1, t.length[i], source);
+      });
+    }
     return true;
   }
 
@@ -372,16 +390,43 @@ class SaddleRule {
     front_.accept(g, k, entered, entered.distance(), source);
   }
 
-  /// The full rule for one triangle beyond.
-  [[gnu::noinline]] static Label resolve(Posed label, const TriangleRecord<Real>& t, std::size_t k,
-                                         int pivot, bool last_resort) {
+  /// Do f and g measure the edge between them differently, by more than rounding?
+  [[nodiscard]] bool refracts(Index f, std::size_t edge, Index g, std::size_t k) const {
+    constexpr Real rounding = sizeof(Real) == 4 ? Real(1e-6) : Real(1e-10);
+    const Real here = triangles_[f].length[edge], there = triangles_[g].length[k];
+    return std::abs(there - here) > rounding * here && there > 0 && here > 0;
+  }
+
+  /// Over an edge that is `width` long on the side the label comes from.
+  [[gnu::noinline]] void enter_refracted(Index g, std::size_t k, Posed label, bool flip, int pivot,
+                                         Real width, Index source) {
+    if (flip) {
+      label = kernel::SaddleKernel<Real>::mirror_label(label, width);
+      if (pivot >= 0) pivot = 1 - pivot;
+    }
+    const Real d =
+        std::max(Real(0), refract<Real>(label, hinge_of(triangles_[g], k, pivot), width));
+    if (d < to_beat(g) * patience_) front_.accept(g, k, packed(label, d), d, source);
+  }
+
+  static SaddleHinge<Real> hinge_of(const TriangleRecord<Real>& t, std::size_t k, int pivot) {
     SaddleHinge<Real> hinge;
     hinge.extent = t.length[k];
     hinge.apex = {{t.apex_x(k)}, t.apex_h(k)};
     hinge.saddle[0] = t.saddle(k);
     hinge.saddle[1] = t.saddle(k == 2 ? 0 : k + 1);
     hinge.pivot = pivot;
-    const Real d = cross_hinge<Real>(label, hinge, last_resort);
+    return hinge;
+  }
+
+  /// The full rule for one triangle beyond.
+  [[gnu::noinline]] static Label resolve(Posed label, const TriangleRecord<Real>& t, std::size_t k,
+                                         int pivot, bool last_resort) {
+    const Real d = cross_hinge<Real>(label, hinge_of(t, k, pivot), last_resort);
+    return packed(label, d);
+  }
+
+  static Label packed(const Posed& label, Real d) {
     const Point &S = label.source, &l = label.limit[0], &r = label.limit[1];
     return {kernel::Lanes<Real>(S.x[0], label.sigma, l.x[0] - S.x[0], r.x[0] - S.x[0]),
             kernel::Lanes<Real>(S.h, d, l.h - S.h, r.h - S.h)};
@@ -405,6 +450,7 @@ class SaddleRule {
   Index sentinel_;
   Front& front_;
   bool vectorised_;
+  Real patience_ = 1;
 };
 
 }  // namespace plexway

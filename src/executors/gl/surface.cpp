@@ -29,6 +29,7 @@ class SurfaceRun {
                     const PropagateOptions& options) {
     plexway::check(sources, options, {mesh.vertex_count(), mesh.face_count(), "face", 3});
     check_options(options, sources.size());
+    refuse_refraction(mesh.summary(), "the executor GL");
   }
   static std::size_t cells(const Domain& mesh) { return mesh.face_count(); }
 

@@ -1,0 +1,149 @@
+// What metrics cost in accuracy, against closed forms: two speeds and Snell's law, by edges that
+// refract and by one length an edge; a speed that rises evenly; a constant tensor.
+
+#include <CLI/CLI.hpp>
+#include <cmath>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include <plexway/complex/intrinsic_delaunay.hpp>
+#include <plexway/executors/serial.hpp>
+#include <plexway/metric/edge_lengths.hpp>
+
+#include "../data/two_speeds.hpp"
+#include "harness.hpp"
+#include "table.hpp"
+
+namespace {
+
+namespace metric = plexway::metric;
+using metric::Point;
+using metric::Tensor;
+
+struct Case {
+  std::string law, sides;
+  metric::Metric metric;
+  bool refracts = false, delaunay = false;
+  std::function<double(const Point&, const Point&)> exact;
+};
+
+template <class Real>
+nlohmann::ordered_json measure(const samples::HalvedSquare& square, const Case& one, double y) {
+  const auto lengths = metric::triangle_lengths(square.points, square.faces, one.metric);
+  plexway::SurfaceHints hints;
+  hints.refracts = one.refracts;
+  plexway::TriangleMesh<Real> mesh(square.points.size(), square.faces, lengths, hints);
+  if (one.delaunay) {
+    const plexway::TriangleMesh<double> input(square.points.size(), square.faces, lengths, hints);
+    mesh = plexway::IntrinsicDelaunay(input).mesh<Real>();
+  }
+  const bench::Index source = square.nearest(0.3, y);
+  const auto at = plexway::PointSource::at(source);
+  plexway::Workspace<Real> workspace;
+  plexway::DistanceField<Real> field;
+  std::vector<double> ns, exact;
+  for (int repeat = 0; repeat < 5; ++repeat)
+    ns.push_back(1e9 * bench::seconds([&] {
+                   plexway::propagate(plexway::Serial{}, mesh, std::span(&at, 1),
+                                      plexway::PropagateOptions{}, workspace, field);
+                 }) /
+                 static_cast<double>(square.points.size()));
+  for (const Point& p : square.points) exact.push_back(one.exact(square.points[source], p));
+  bench::Errors errors;
+  errors.add({source, exact}, std::vector<double>(field.distance.begin(), field.distance.end()));
+  const auto found = errors.summary();
+  return {
+      {"law", one.law},
+      {"sides", one.sides},
+      {"vertices", square.points.size()},
+      {"y", y},
+      {"violated", metric::find_violations(std::span<const std::array<double, 3>>(lengths)).count},
+      {"mean", found->mean},
+      {"max", found->max},
+      {"below", found->most_below},
+      {"ns", bench::median(ns)}};
+}
+
+std::vector<Case> cases(const samples::HalvedSquare& square) {
+  std::vector<Case> all;
+  const auto named = [](metric::Sides sides) {
+    return sides == metric::Sides::own ? "own" : sides == metric::Sides::mean ? "mean" : "least";
+  };
+  for (const double ratio : {1.2, 2.0, 5.0})
+    for (const auto sides : {metric::Sides::own, metric::Sides::mean, metric::Sides::least}) {
+      const samples::TwoSpeeds law{1, ratio};
+      metric::SimplexSpeeds speeds;
+      speeds.agreement.sides = sides;
+      for (std::size_t f = 0; f < square.faces.size(); ++f)
+        speeds.speed.push_back(square.is_above(f) ? law.above : law.below);
+      all.push_back({"1 and " + std::to_string(ratio).substr(0, 3), named(sides), speeds,
+                     sides == metric::Sides::own, false,
+                     [law](const Point& a, const Point& b) { return law.time(a, b); }});
+    }
+  // v = 1 + y is a hyperbolic plane.
+  const auto rising = [](const Point& a, const Point& b) {
+    const double squared = std::pow(a[0] - b[0], 2) + std::pow(a[1] - b[1], 2);
+    return std::acosh(1 + squared / (2 * (1 + a[1]) * (1 + b[1])));
+  };
+  for (const auto sides : {metric::Sides::own, metric::Sides::mean, metric::Sides::least}) {
+    metric::SimplexSpeeds speeds;
+    speeds.agreement = {sides, 1e-6};
+    for (const auto& f : square.faces)
+      speeds.speed.push_back(
+          1 + (square.points[f[0]][1] + square.points[f[1]][1] + square.points[f[2]][1]) / 3);
+    all.push_back({"rising", named(sides), speeds, sides == metric::Sides::own, false, rising});
+  }
+  metric::VertexTensors at_vertices;
+  for (const Point& p : square.points) at_vertices.tensor.push_back(Tensor::of_speed(1 + p[1]));
+  all.push_back({"rising", "vertices", at_vertices, false, false, rising});
+  for (const double ratio : {2.0, 5.0, 10.0}) {
+    const double c = std::cos(0.5), s = std::sin(0.5), across = ratio * ratio;
+    const Tensor tensor =
+        Tensor::planar(c * c + across * s * s, (1 - across) * c * s, s * s + across * c * c);
+    for (const bool delaunay : {false, true})
+      all.push_back({"tensor 1 to " + std::to_string(static_cast<int>(ratio)),
+                     delaunay ? "delaunay" : "input",
+                     metric::SimplexTensors{std::vector<Tensor>(square.faces.size(), tensor)},
+                     false, delaunay, [tensor](const Point& a, const Point& b) {
+                       return std::sqrt(tensor.squared({b[0] - a[0], b[1] - a[1], 0}));
+                     }});
+  }
+  return all;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  std::vector<std::uint32_t> cells = {20, 50, 100, 200};
+  double shake = 0.35;
+  bool double_precision = false;
+  bench::Report report;
+  CLI::App app("Metrics on a square, against closed forms");
+  app.add_option("--cells", cells, "Cells a side, even numbers")
+      ->delimiter(',')
+      ->capture_default_str();
+  app.add_option("--shake", shake, "Vertices are moved by so many cells")->capture_default_str();
+  app.add_flag("--double", double_precision, "Double instead of float");
+  report.add_options(app);
+  CLI11_PARSE(app, argc, argv);
+
+  bench::Table table({{"law", "metric"},
+                      {"sides", "shared edges"},
+                      {"vertices", "vertices"},
+                      {"y", "source at y"},
+                      {"violated", "violated"},
+                      {"mean", "error mean", "%.1e"},
+                      {"max", "max", "%.1e"},
+                      {"below", "most below", "%.1e"},
+                      {"ns", "ns/V", "%.0f"}});
+  return report.write(table, [&] {
+    for (const std::uint32_t n : cells) {
+      const samples::HalvedSquare square(n, shake);
+      for (const Case& one : cases(square))
+        for (const double y : {0.25, -0.25})
+          table.add(double_precision ? measure<double>(square, one, y)
+                                     : measure<float>(square, one, y));
+    }
+  });
+}

@@ -1,0 +1,104 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <functional>
+#include <span>
+#include <variant>
+#include <vector>
+
+#include <plexway/complex/ids.hpp>
+#include <plexway/metric/tensor.hpp>
+
+/// How a metric becomes the edge lengths that complexes are built from. Plain data in, plain data
+/// out; nothing here knows a complex. docs/metrics.md says what is accurate and what is not.
+namespace plexway::metric {
+
+/// The length of an edge that several simplices share and each measures in its own way.
+enum class Sides {
+  own,    ///< each keeps its own where they differ by more than Agreement::jump, else their mean:
+          ///< for TriangleMesh with SurfaceHints::refracts, and nothing else
+  mean,   ///< right to second order where the simplices are samples of a smooth metric
+  least,  ///< of the fastest: never longer than a path along the edge
+};
+
+struct Agreement {
+  Sides sides = Sides::mean;
+  double jump = 0.15;  ///< as a share of the longer
+};
+
+/// One tensor a simplex, in its order.
+struct SimplexTensors {
+  std::vector<Tensor> tensor;
+  Agreement agreement = {};
+};
+
+/// One speed a simplex: a path of length L in it costs L / speed.
+struct SimplexSpeeds {
+  std::vector<double> speed;
+  Agreement agreement = {};
+};
+
+/// One tensor a vertex, linear along edges: the length is the integral, in closed form.
+struct VertexTensors {
+  std::vector<Tensor> tensor;
+};
+
+/// A tensor at any point, integrated along each edge by three points (Gauss).
+struct TensorFunction {
+  std::function<Tensor(const Point&)> at;
+};
+
+/// The length from one end of an edge to the other, the lower vertex first. Called once an edge of
+/// each simplex.
+struct LengthFunction {
+  std::function<double(const Point&, const Point&)> between;
+};
+
+/// A length for every edge, in any order and direction. Given twice, the last one counts.
+struct GivenLengths {
+  struct Edge {
+    Index from, to;
+    double length;
+  };
+  std::vector<Edge> edges;
+};
+
+using Metric = std::variant<SimplexTensors, SimplexSpeeds, VertexTensors, TensorFunction,
+                            LengthFunction, GivenLengths>;
+
+/// Lengths of the edges (0,1) (1,2) (2,0) of each triangle, as TriangleMesh takes them.
+///
+/// Throws InputError naming the simplex or edge: for a count that does not fit, a vertex out of
+/// range, a speed that is not positive, a tensor that gives an edge no positive length, a length
+/// that is negative, not finite or missing. `positions` are not looked at for GivenLengths, which
+/// only need as many as there are vertices. Cost: linear, but for
+/// tensors and speeds a simplex and GivenLengths, which sort the edges.
+[[nodiscard]] std::vector<std::array<double, 3>> triangle_lengths(
+    std::span<const Point> positions, std::span<const std::array<Index, 3>> triangles,
+    const Metric& metric);
+
+/// Lengths of the edges (0,1) (0,2) (1,2) (0,3) (1,3) (2,3) of each tetrahedron, as TetMesh takes
+/// them. Throws as above.
+[[nodiscard]] std::vector<std::array<double, 6>> tet_lengths(
+    std::span<const Point> positions, std::span<const std::array<Index, 4>> tets,
+    const Metric& metric);
+
+/// Lengths of edges, as Wireframe takes them. An edge is a simplex of its own here: two between the
+/// same vertices may have two tensors or speeds. Throws as above.
+[[nodiscard]] std::vector<double> edge_lengths(std::span<const Point> positions,
+                                               std::span<const std::array<Index, 2>> edges,
+                                               const Metric& metric);
+
+/// Simplices whose lengths no flat simplex has.
+struct Violations {
+  std::size_t count = 0;
+  Index first = none;  ///< the lowest of them
+};
+
+/// Triangles with an edge longer than the way around by the other two, beyond rounding.
+[[nodiscard]] Violations find_violations(std::span<const std::array<double, 3>> lengths);
+/// Tetrahedra with such a face, or whose faces do not close in space.
+[[nodiscard]] Violations find_violations(std::span<const std::array<double, 6>> lengths);
+
+}  // namespace plexway::metric

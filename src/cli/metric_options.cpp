@@ -1,0 +1,213 @@
+#include "metric_options.hpp"
+
+#include <CLI/CLI.hpp>
+#include <cmath>
+#include <optional>
+#include <type_traits>
+#include <utility>
+#include <variant>
+
+#include <plexway/error.hpp>
+
+#include "console.hpp"
+#include "number_rows.hpp"
+
+namespace plexway::cli {
+namespace {
+
+enum class Kind { tensor, vertex_tensor, speed, lengths };
+
+struct Parsed {
+  Kind kind;
+  std::string file;
+};
+
+Parsed parse(const MetricArgument& argument) {
+  const std::size_t colon = argument.text.find(':');
+  const std::string kind = argument.text.substr(0, colon);
+  const std::string file = colon == argument.text.npos ? "" : argument.text.substr(colon + 1);
+  if (!file.empty()) {
+    if (kind == "tensor") return {Kind::tensor, file};
+    if (kind == "vertex-tensor") return {Kind::vertex_tensor, file};
+    if (kind == "speed") return {Kind::speed, file};
+    if (kind == "lengths") return {Kind::lengths, file};
+  }
+  throw UsageError("--metric '" + argument.text +
+                   "': write tensor:FILE, vertex-tensor:FILE, speed:FILE or lengths:FILE");
+}
+
+void check_rows(const std::string& file, std::size_t rows, std::size_t needed,
+                std::string_view what) {
+  if (rows != needed && rows != 1)
+    throw InputError(file + ": " + std::to_string(rows) + " rows for " + counted(needed, what) +
+                     ": write one each, in the order of the input, or one for all");
+}
+
+[[noreturn]] void fail(const std::string& file, const NumberRow& row, const std::string& cause) {
+  throw InputError(file + ":" + std::to_string(row.line) + ": " + cause);
+}
+
+std::vector<metric::Tensor> read_tensors(const std::string& file, std::size_t needed,
+                                         std::string_view what) {
+  const std::string row_text =
+      "xx xy xz yy yz zz a line, or xx xy yy in the plane, or a single number, the speed";
+  const auto rows = read_number_rows(file, 1, 6, row_text);
+  std::vector<metric::Tensor> tensors;
+  tensors.reserve(rows.size());
+  for (const NumberRow& row : rows) {
+    const auto& n = row.numbers;
+    if (n.size() == 6)
+      tensors.push_back({n[0], n[1], n[2], n[3], n[4], n[5]});
+    else if (n.size() == 3)
+      tensors.push_back(metric::Tensor::planar(n[0], n[1], n[2]));
+    else if (n.size() == 1 && n[0] > 0)
+      tensors.push_back(metric::Tensor::of_speed(n[0]));
+    else
+      fail(file, row, n.size() == 1 ? "a speed must be above 0" : "write " + row_text);
+  }
+  check_rows(file, rows.size(), needed, what);
+  tensors.resize(needed, tensors[0]);
+  return tensors;
+}
+
+std::vector<double> read_speeds(const std::string& file, std::size_t needed,
+                                std::string_view what) {
+  const auto rows = read_number_rows(file, 1, 1, "one speed a line, above 0");
+  std::vector<double> speeds;
+  speeds.reserve(rows.size());
+  for (const NumberRow& row : rows) {
+    if (!(row.numbers[0] > 0)) fail(file, row, "a speed must be above 0");
+    speeds.push_back(row.numbers[0]);
+  }
+  check_rows(file, rows.size(), needed, what);
+  speeds.resize(needed, speeds[0]);
+  return speeds;
+}
+
+metric::GivenLengths read_lengths(const std::string& file, std::size_t vertices) {
+  metric::GivenLengths given;
+  for (const NumberRow& row : read_number_rows(file, 3, 3, "vertex vertex length a line")) {
+    Index ends[2];
+    for (std::size_t i = 0; i < 2; ++i) {
+      const double v = row.numbers[i];
+      if (!(v >= 0 && v == std::floor(v) && v < static_cast<double>(vertices)))
+        fail(file, row,
+             "vertex " + short_number(v) + " is out of range: the vertices are 0 to " +
+                 std::to_string(vertices - 1));
+      ends[i] = static_cast<Index>(v);
+    }
+    if (row.numbers[2] < 0) fail(file, row, "a length below 0");
+    given.edges.push_back({ends[0], ends[1], row.numbers[2]});
+  }
+  return given;
+}
+
+metric::Metric read_metric(const Parsed& asked, const Domain& domain, const metric::Agreement& by) {
+  switch (asked.kind) {
+    case Kind::tensor:
+      return metric::SimplexTensors{
+          read_tensors(asked.file, domain.simplices(), domain.simplex_name()), by};
+    case Kind::vertex_tensor:
+      return metric::VertexTensors{read_tensors(asked.file, domain.vertices(), "vertices")};
+    case Kind::speed:
+      return metric::SimplexSpeeds{
+          read_speeds(asked.file, domain.simplices(), domain.simplex_name()), by};
+    case Kind::lengths:
+      break;
+  }
+  return read_lengths(asked.file, domain.vertices());
+}
+
+// A wireframe whose file has lengths and no positions: what is left is to go through them slower.
+std::vector<double> measure_lengths(const Parsed& asked, const io::Edges& wireframe,
+                                    const metric::Metric& metric) {
+  if (asked.kind != Kind::speed && asked.kind != Kind::lengths)
+    throw UsageError("--metric: tensors measure directions, and this wireframe has no positions");
+  if (const auto* given = std::get_if<metric::GivenLengths>(&metric)) {
+    const std::vector<metric::Point> anywhere(wireframe.vertices);
+    return metric::edge_lengths(anywhere, wireframe.edges, *given);
+  }
+  std::vector<double> lengths = wireframe.lengths;
+  const auto& speed = std::get<metric::SimplexSpeeds>(metric).speed;
+  for (std::size_t e = 0; e < lengths.size(); ++e) lengths[e] /= speed[e];
+  return lengths;
+}
+
+std::string name_of_metric(const MetricArgument& argument, std::size_t refracting_edges) {
+  return argument.text +
+         (refracting_edges > 0 ? "; refracts at " + counted(refracting_edges, "edges") : "");
+}
+
+}  // namespace
+
+void add_metric_option(CLI::App& command, MetricArgument& argument) {
+  command
+      .add_option("--metric", argument.text,
+                  "what a step costs: speed:FILE (a number a simplex), tensor:FILE (xx xy xz yy\n"
+                  "yz zz a simplex; xx xy yy in the plane), vertex-tensor:FILE (a vertex) or\n"
+                  "lengths:FILE (vertex vertex length an edge); default: lengths in space")
+      ->type_name("KIND:FILE")
+      ->group("How to solve");
+}
+
+void check_metric(const MetricArgument& argument) {
+  if (!argument.text.empty()) (void)parse(argument);
+}
+
+std::unique_ptr<const MeasuredLengths> measure(const MetricArgument& argument, const Domain& domain,
+                                               Jumps jumps) {
+  if (argument.text.empty()) return nullptr;
+  const Parsed asked = parse(argument);
+  if (domain.cloud() != nullptr)
+    throw UsageError("--metric: a cloud has no simplices of its own to measure; give a surface");
+  const bool refracts = domain.kind() == "surface" && jumps == Jumps::refract &&
+                        (asked.kind == Kind::speed || asked.kind == Kind::tensor);
+  const metric::Metric metric =
+      read_metric(asked, domain, {refracts ? metric::Sides::own : metric::Sides::mean});
+  auto lengths = std::make_unique<MeasuredLengths>();
+  lengths->refracts = refracts;
+  lengths->simplices = domain.simplices();
+  try {
+    if (const auto* surface = std::get_if<io::Triangles>(&domain.shape())) {
+      lengths->triangles = metric::triangle_lengths(surface->positions, surface->triangles, metric);
+      lengths->violations =
+          metric::find_violations(std::span<const std::array<double, 3>>(lengths->triangles));
+    } else if (const auto* solid = std::get_if<io::Tets>(&domain.shape())) {
+      lengths->tets = metric::tet_lengths(solid->positions, solid->tets, metric);
+      lengths->violations =
+          metric::find_violations(std::span<const std::array<double, 6>>(lengths->tets));
+    } else {
+      const auto& wireframe = std::get<io::Edges>(domain.shape());
+      lengths->edges = wireframe.lengths.empty()
+                           ? metric::edge_lengths(wireframe.positions, wireframe.edges, metric)
+                           : measure_lengths(asked, wireframe, metric);
+    }
+  } catch (const InputError& error) {
+    throw InputError(asked.file + ": " + error.what());
+  }
+  return lengths;
+}
+
+void add_metric(const MetricArgument& argument, const MeasuredLengths* lengths,
+                std::size_t refracting_edges, Json& json) {
+  if (lengths == nullptr) return;
+  json["metric"] = argument.text;
+  json["refracting_edges"] = refracting_edges;
+  json["violated"] = lengths->violations.count;
+}
+
+void add_metric(const MetricArgument& argument, const MeasuredLengths* lengths,
+                std::size_t refracting_edges, Table& table) {
+  if (lengths != nullptr) table.add("metric", name_of_metric(argument, refracting_edges));
+}
+
+void say_violations(const Domain& domain, const MeasuredLengths* lengths) {
+  if (lengths == nullptr || lengths->violations.count == 0) return;
+  const std::string_view what = domain.simplex_name();
+  say_note("the metric breaks the triangle inequality in " +
+           counted(lengths->violations.count, what) + " of " + std::to_string(lengths->simplices) +
+           ", such as " + singular(what) + " " + std::to_string(lengths->violations.first) +
+           ": their lengths were taken as those of the nearest flat ones");
+}
+
+}  // namespace plexway::cli
