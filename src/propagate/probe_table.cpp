@@ -1,0 +1,7 @@
+#include <plexway/propagate/probe_table.hpp>
+
+namespace plexway {
+
+ProbeTable ProbeTable::learned() { return published(); }
+
+}  // namespace plexway
