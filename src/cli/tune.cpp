@@ -1,4 +1,5 @@
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <limits>
@@ -27,6 +28,7 @@ struct TuneCommand {
   std::string what = "table";
   std::string from = "random";
   std::string step_rule = "fifth";
+  std::string fitness = "mean";
   std::string triangulation = "input";
   EvolutionOptions evolution;
   std::size_t threads = 0;
@@ -51,15 +53,31 @@ std::vector<double> rounded(std::vector<double> values) {
 // What is tuned: how its numbers make a mean error, and a file.
 class Subject {
  public:
-  Subject(bool table, TuningSet& set) : table_(table), set_(set) {
+  Subject(bool table, bool relative, TuningSet& set) : table_(table), set_(set) {
+    if (relative) {
+      PropagateOptions reference;
+      if (table) reference.visibility = Visibility::centroid;
+      reference_ = set.errors(reference);
+    }
     if (table) options_.visibility = Visibility::tuned;
   }
 
+  // What evolution makes small: the mean error, or the geometric mean of each field's beside what
+  // it was at first: then surfaces where all policies are good count as much as those where none
+  // is.
+  double score(const std::vector<double>& values) {
+    if (reference_.empty()) return error(values);
+    take(values);
+    const std::vector<double> errors = set_.errors(options_);
+    constexpr double rounding = 1e-6;  // less is not worth anything
+    double sum = 0;
+    for (std::size_t i = 0; i < errors.size(); ++i)
+      sum += std::log(std::max(errors[i], rounding) / std::max(reference_[i], rounding));
+    return std::exp(sum / static_cast<double>(errors.size()));
+  }
+
   double error(const std::vector<double>& values) {
-    if (table_)
-      options_.probe = probe_table_of(values);
-    else
-      set_.rebuild(saddle_thresholds_of(values));
+    take(values);
     return set_.mean_error(options_);
   }
   [[nodiscard]] Json json(const std::vector<double>& values) const {
@@ -84,8 +102,16 @@ class Subject {
   }
 
  private:
+  void take(const std::vector<double>& values) {
+    if (table_)
+      options_.probe = probe_table_of(values);
+    else
+      set_.rebuild(saddle_thresholds_of(values));
+  }
+
   bool table_;
   TuningSet& set_;
+  std::vector<double> reference_;
   PropagateOptions options_;
 };
 
@@ -96,6 +122,7 @@ void check(const TuneCommand& command) {
       throw UsageError(std::string(option) + " '" + typed + "': choose one of " + a + ", " + b);
   };
   choose("--what", command.what, "table", "saddles");
+  choose("--fitness", command.fitness, "mean", "relative");
   choose("--step-rule", command.step_rule, "fifth", "constant");
   choose("--triangulation", command.triangulation, "input", "auto");
   if (command.resume && command.checkpoint.empty())
@@ -133,6 +160,7 @@ Json settings_of(const TuneCommand& command, const TuningSet& set) {
           {"start", command.evolution.start},
           {"mutation", command.evolution.step},
           {"step-rule", command.step_rule},
+          {"fitness", command.fitness},
           {"triangulation", command.triangulation},
           {"surfaces", command.inputs.size()},
           {"fields", set.fields()},
@@ -151,20 +179,20 @@ void evolve(const TuneCommand& command, const Json& settings, Subject& subject,
     since_saved = Stopwatch();
   };
   const auto describe = [&] {
-    return "start " + std::to_string(evolution.state().restart + 1) + ", mean error " +
+    return "start " + std::to_string(evolution.state().restart + 1) + ", best " +
            short_number(-evolution.best_fitness());
   };
   progress.phase("tuning");
   for (std::size_t i = 0; i < command.stop_after && !evolution.done(); ++i) {
     const std::size_t start = evolution.state().restart;
-    if (evolution.tell(-subject.error(rounded(evolution.propose()))))
+    if (evolution.tell(-subject.score(rounded(evolution.propose()))))
       progress.phase("tuning: " + describe());
     progress.done(static_cast<double>(evolution.evaluations()) / all);
     if (since_saved.seconds() > 2) save();
     if (evolution.state().restart > start)
       progress.note("start " + std::to_string(start + 1) + " of " +
-                    std::to_string(command.evolution.restarts) +
-                    ": the best mean error so far is " + short_number(-evolution.best_fitness()));
+                    std::to_string(command.evolution.restarts) + ": the best so far is " +
+                    short_number(-evolution.best_fitness()));
   }
   save();
 }
@@ -174,8 +202,8 @@ std::string comment(const TuneCommand& command, const Json& settings, double err
                      " --from " + command.from + " --seed " +
                      std::to_string(command.evolution.seed) + " --evaluations " +
                      std::to_string(command.evolution.evaluations) + " --restarts " +
-                     std::to_string(command.evolution.restarts) + " --triangulation " +
-                     command.triangulation + "\n";
+                     std::to_string(command.evolution.restarts) + " --fitness " + command.fitness +
+                     " --triangulation " + command.triangulation + "\n";
   return text + "// on " + counted(command.inputs.size(), "surfaces") + ", " +
          settings["fields"].dump() + " fields, digest " + settings["digest"].get<std::string>() +
          "; mean error " + short_number(error) + "\n";
@@ -206,14 +234,14 @@ void run_tune(TuneCommand command) {
                        ": is a damaged checkpoint; start again without --resume");
     }
   }();
-  Subject subject(table, set);
+  Subject subject(table, command.fitness == "relative", set);
   const Json baselines = subject.baselines();
   const Stopwatch tuning;
   evolve(command, settings, subject, evolution, progress);
   progress.clear();
 
   const std::vector<double> best = rounded(evolution.best());
-  const double error = -evolution.best_fitness();
+  const double error = subject.error(best);
   Json found = subject.json(best);
   found["provenance"] = settings;
   found["provenance"]["plexway"] = version_string;
@@ -289,6 +317,11 @@ void add_tune_command(CLI::App& tool, Action& action) {
   app.add_option("--mutation", command->evolution.step,
                  "first standard deviation, as a share of each range (default 0.2)")
       ->type_name("X");
+  app.add_option("--fitness", command->fitness,
+                 "what is made small: mean (default), the mean error of all fields; or\n"
+                 "relative: the geometric mean of each beside what centroid (standard)\n"
+                 "has there")
+      ->type_name("NAME");
   app.add_option("--step-rule", command->step_rule,
                  "fifth (default): the deviation follows the one-fifth rule; or constant")
       ->type_name("NAME");
