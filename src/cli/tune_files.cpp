@@ -4,6 +4,7 @@
 #include <charconv>
 #include <limits>
 #include <system_error>
+#include <utility>
 
 #include <plexway/error.hpp>
 #include <plexway/io/triangles.hpp>
@@ -48,20 +49,21 @@ std::vector<TuningSurface> read_tuning_surfaces(const std::vector<std::string>& 
     fs::path folder = truth_folder.empty() ? file.parent_path() : truth_folder;
     if (folder.empty()) folder = ".";
     std::error_code error;
+    std::vector<std::pair<Index, std::string>> truths;
     for (const auto& entry : fs::directory_iterator(folder, error)) {
       const Index id = source_of(entry.path().filename().string(), surface.name);
-      if (id == none) continue;
-      const std::string truth = entry.path().string();
+      if (id != none) truths.emplace_back(id, entry.path().string());
+    }
+    if (error) throw InputError(folder.string() + ": cannot be read: " + error.message());
+    if (truths.empty())
+      throw InputError(file.string() + ": no exact distances " + surface.name + ".vID.txt in " +
+                       folder.string());
+    std::sort(truths.begin(), truths.end());
+    for (const auto& [id, truth] : truths) {
       if (id >= surface.positions.size())
         throw InputError(truth + ": " + file.string() + " has no vertex " + std::to_string(id));
       surface.truths.push_back({id, read_truth(truth, surface.positions.size())});
     }
-    if (error) throw InputError(folder.string() + ": cannot be read: " + error.message());
-    if (surface.truths.empty())
-      throw InputError(file.string() + ": no exact distances " + surface.name + ".vID.txt in " +
-                       folder.string());
-    std::sort(surface.truths.begin(), surface.truths.end(),
-              [](const auto& a, const auto& b) { return a.source < b.source; });
     surfaces.push_back(std::move(surface));
   }
   return surfaces;

@@ -165,6 +165,7 @@ TEST_CASE("tune refuses bad input with one line") {
   refused({}, 3, "no exact distances ell.vID.txt");
   folder.write("ell.v24.txt", "1\n2\n");
   refused({}, 3, "ends after 2 values");
+  std::filesystem::remove(folder.path() / "ell.v24.txt");
   folder.write("ell.v9999.txt", "1\n");
   refused({}, 3, "has no vertex 9999");
 }
