@@ -19,14 +19,16 @@ out=$2
 scans=${3:-}
 here=$(dirname "$0")
 
+mkdir -p "$out"
 for set in training validation; do
   [ ! -d "$out/$set" ] || continue
-  "$bin/bench_tuning_set" $set "$out/$set" > "$out.log" || { cat "$out.log" >&2; exit 1; }
-  rm "$out.log"
+  rm -rf "$out/$set.part"
+  "$bin/bench_tuning_set" $set "$out/$set.part" > "$out/$set.txt"
   if [ $set = training ] && [ -e "$here/../data/fetched/bunny.obj" ]; then
-    cp "$here/../data/fetched/bunny.obj" "$out/training/"
+    cp "$here/../data/fetched/bunny.obj" "$out/$set.part/"
   fi
-  "$bin/bench_cgal_truth" "$out/$set"/*.obj
+  "$bin/bench_cgal_truth" "$out/$set.part"/*.obj
+  mv "$out/$set.part" "$out/$set"
 done
 
 if [ "${QUICK:-0}" = 1 ]; then
