@@ -42,7 +42,7 @@ else
 fi
 # shellcheck disable=SC2086
 if [ "${SETS_ONLY:-0}" != 1 ]; then
-  "$bin/plexway" tune "$out"/training/*.obj --seed 3 $table \
+  "$bin/plexway" tune "$out"/training/*.obj --seed 2 $table \
     --out "$out/table.json" --cpp "$out/table.inc" --checkpoint "$out/table.checkpoint"
   "$bin/plexway" tune "$out"/training/*.obj --what saddles --from standard --triangulation auto \
     --seed 1 $saddles --out "$out/saddles.json" --cpp "$out/saddles.inc"
