@@ -10,6 +10,8 @@ namespace plexway {
 class Random {
  public:
   explicit Random(std::uint64_t seed) : state_(seed) {}
+  /// Another one made from it goes on with the same numbers.
+  [[nodiscard]] std::uint64_t state() const { return state_; }
 
   std::uint64_t bits() {
     std::uint64_t z = state_ += 0x9E3779B97F4A7C15ULL;

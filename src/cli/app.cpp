@@ -92,6 +92,7 @@ int parse_and_run(int argc, const char* const* argv) {
   add_cvt_command(tool, action);
   add_farthest_command(tool, action);
   add_pairs_command(tool, action);
+  add_tune_command(tool, action);
 
   try {
     tool.parse(argc, argv);

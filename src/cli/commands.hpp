@@ -21,5 +21,6 @@ void add_poisson_command(CLI::App& tool, Action& action);
 void add_cvt_command(CLI::App& tool, Action& action);
 void add_farthest_command(CLI::App& tool, Action& action);
 void add_pairs_command(CLI::App& tool, Action& action);
+void add_tune_command(CLI::App& tool, Action& action);
 
 }  // namespace plexway::cli

@@ -8,6 +8,8 @@
 
 #include <plexway/error.hpp>
 
+#include "table_file.hpp"
+
 namespace plexway::cli {
 namespace {
 
@@ -31,6 +33,11 @@ void add_solve_options(CLI::App& command, SolveOptions& options, bool bounded) {
                   "when a line of sight counts: saddles (default), tuned, centroid, or\n"
                   "upper_bound (never below exact)")
       ->type_name("NAME")
+      ->group(group);
+  command
+      .add_option("--table", options.table,
+                  "the table of --visibility tuned, as 'plexway tune --out' writes it")
+      ->type_name("FILE")
       ->group(group);
   command
       .add_option("--schedule", options.schedule,
@@ -65,6 +72,11 @@ PropagateOptions propagate_options(const SolveOptions& options) {
                                         {"tuned", Visibility::tuned},
                                         {"centroid", Visibility::centroid},
                                         {"upper_bound", Visibility::upper_bound}});
+  if (!options.table.empty()) {
+    if (made.visibility != Visibility::tuned)
+      throw UsageError("--table goes with --visibility tuned");
+    made.probe = read_probe_table(options.table);
+  }
   made.schedule = choose<Schedule>("--schedule", options.schedule,
                                    {{"dual_queue", Schedule::dual_queue},
                                     {"fifo", Schedule::fifo},

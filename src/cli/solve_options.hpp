@@ -18,6 +18,7 @@ enum class Precision { single, twice };
 /// The options that say how to solve, as typed.
 struct SolveOptions {
   std::string visibility = "saddles";
+  std::string table;
   std::string schedule = "dual_queue";
   double step = PropagateOptions{}.step;
   std::optional<double> radius;
@@ -31,7 +32,7 @@ struct SolveOptions {
 void add_solve_options(CLI::App& command, SolveOptions& options, bool bounded);
 
 /// Throw UsageError for a value that does not exist or is out of range; the first also as
-/// check_executor.
+/// check_executor and read_probe_table.
 PropagateOptions propagate_options(const SolveOptions& options);
 Precision precision_of(const SolveOptions& options);
 

@@ -99,7 +99,7 @@ std::size_t IntrinsicDelaunay::bytes() const {
 }
 
 template <class Real>
-TriangleMesh<Real> IntrinsicDelaunay::mesh() const {
+TriangleMesh<Real> IntrinsicDelaunay::mesh(const SaddleThresholds& saddles) const {
   const auto triangles = state_->triangulation.triangles();
   const std::size_t m = triangles.size();
   std::vector<std::array<Index, 3>> faces(m), across(m);
@@ -123,13 +123,14 @@ TriangleMesh<Real> IntrinsicDelaunay::mesh() const {
   }
   SurfaceHints hints;
   hints.refracts = state_->refracts;
+  hints.saddles = saddles;
   // New triangles lie behind all others: they need a new order.
   if (state_->summary.inserted_vertices == 0) hints.order = state_->face_of_slot;
   return TriangleMesh<Real>(state_->triangulation.vertices(), faces, shapes, std::move(across),
                             hints);
 }
-template TriangleMesh<float> IntrinsicDelaunay::mesh() const;
-template TriangleMesh<double> IntrinsicDelaunay::mesh() const;
+template TriangleMesh<float> IntrinsicDelaunay::mesh(const SaddleThresholds&) const;
+template TriangleMesh<double> IntrinsicDelaunay::mesh(const SaddleThresholds&) const;
 
 PointSource IntrinsicDelaunay::to_intrinsic(const PointSource& point) const {
   if (point.vertex != none) return point;

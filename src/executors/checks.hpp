@@ -44,12 +44,23 @@ inline void check_source(const PointSource& s, const SourceDomain& domain) {
     throw UsageError("a source's offset must be a number >= 0");
 }
 
+/// Throws UsageError for a table that aims elsewhere than it may.
+inline void check(const ProbeTable& table) {
+  for (const double threshold : {table.slender, table.uneven, table.low})
+    if (!std::isfinite(threshold))
+      throw UsageError("a threshold of the table of probes must be finite");
+  for (const double share : table.share)
+    if (!(share >= 0 && share <= 1.5))
+      throw UsageError("a share in the table of probes must be from 0 to 1.5");
+}
+
 /// Throws UsageError for no source, or options out of range.
 inline void check(std::span<const PointSource> sources, const PropagateOptions& options) {
   if (sources.empty()) throw UsageError("there is no source: name at least one");
   if (sources.size() >= none) throw UsageError("too many sources");
   if (!(options.step > 0)) throw UsageError("the step must be > 0");
   if (!(options.radius >= 0)) throw UsageError("the radius must be >= 0");
+  check(options.probe);
 }
 
 inline void check(std::span<const PointSource> sources, const PropagateOptions& options,

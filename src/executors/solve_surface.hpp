@@ -126,7 +126,8 @@ void solve_with(const TriangleMesh<Real>& mesh, std::span<const PointSource> sou
     solve<Real, kLabels>(mesh, sources, options, workspace, rule, wave, crew, field, curves);
   } else {
     auto wave = front(workspace.plain.reserve(records));
-    const PlainRule<Real, decltype(wave)> rule(mesh.triangles(), wave, options.visibility);
+    const PlainRule<Real, decltype(wave)> rule(mesh.triangles(), wave, options.visibility,
+                                               options.probe);
     solve<Real, kLabels>(mesh, sources, options, workspace, rule, wave, crew, field);
   }
 }

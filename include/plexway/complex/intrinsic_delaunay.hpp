@@ -105,7 +105,8 @@ class IntrinsicDelaunay {
 
   /// The triangulation, in the input's unit.
   template <class Real>
-  [[nodiscard]] TriangleMesh<Real> mesh() const;
+  [[nodiscard]] TriangleMesh<Real> mesh(
+      const SaddleThresholds& saddles = SaddleThresholds::standard()) const;
   [[nodiscard]] const DelaunaySummary& summary() const;
   [[nodiscard]] std::size_t bytes() const;
 

@@ -32,6 +32,24 @@ struct SurfaceSummary {
   double mean_edge = 0;  ///< in the input's unit; the library works in this unit inside
 };
 
+/// Which vertices paths may bend at: where the angle around exceeds 2 pi, or on a boundary pi, by
+/// more than rounding and chance. In radians.
+struct SaddleThresholds {
+  double interior;  ///< less than this more than 2 pi is rounding
+  double boundary;  ///< and than pi. A smooth arc is made of many vertices that each count a little
+  /// A smooth surface is cut into triangles with chance: every other vertex has a little more than
+  /// 2 pi around. So a vertex counts by what it has more than this share of what its neighbours
+  /// lack, on average,
+  double noise_share;
+  double most_noise;  ///< but no neighbours make nothing of what is much by itself,
+  /// and a vertex counts whatever its neighbours lack where it and they have more than this in sum:
+  /// there the surface is a saddle.
+  double neighbourhood;
+
+  /// docs/TUNING.md says how they were found.
+  static SaddleThresholds standard();
+};
+
 /// What the maker of a surface knows better than the constructor.
 struct SurfaceHints {
   /// All faces, as they should lie in memory; empty: the constructor looks for an order.
@@ -42,6 +60,7 @@ struct SurfaceHints {
   /// Each triangle keeps the lengths given for it, also where a neighbour measures the edge between
   /// differently, as where a speed jumps: paths are refracted there.
   bool refracts = false;
+  SaddleThresholds saddles = SaddleThresholds::standard();
 };
 
 /// A triangle surface as a metric space: triangles with edge lengths, glued along edges.

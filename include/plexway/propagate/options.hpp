@@ -4,6 +4,8 @@
 #include <functional>
 #include <limits>
 
+#include <plexway/propagate/probe_table.hpp>
+
 namespace plexway {
 
 /// When does a simplex see the virtual source through a hinge, and where does the path bend if not?
@@ -11,7 +13,7 @@ enum class Visibility {
   /// Default: each label remembers the saddle nearest to its line of sight on either side, and
   /// bends there; elsewhere it keeps its source until a whole hinge lies in shadow.
   saddles,
-  /// Probe between centroid and apex by the published table (GSP 2021, section 4).
+  /// Probe between centroid and apex by a table (GSP 2021, section 4): PropagateOptions::probe.
   tuned,
   /// Probe the centroid.
   centroid,
@@ -48,6 +50,8 @@ struct PropagateOptions {
   /// false: the full rule for every hinge, instead of the vectorised step where that is enough. The
   /// same rule; rounding may choose between equal paths. For tests and benchmarks.
   bool vectorised = true;
+  /// The table of Visibility::tuned. Shares from 0 to 1.5, thresholds finite.
+  ProbeTable probe = ProbeTable::learned();
 };
 
 /// Options whose order is known when a program is compiled. Executors without order do not take

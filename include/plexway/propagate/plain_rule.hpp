@@ -22,11 +22,15 @@ class PlainRule {
   using Kernel = kernel::HingeKernel<Real, 1>;
   using Point = typename Kernel::HingePoint;
 
-  PlainRule(std::span<const TriangleRecord<Real>> triangles, Front& front, Visibility policy)
+  PlainRule(std::span<const TriangleRecord<Real>> triangles, Front& front, Visibility policy,
+            const ProbeTable& table = ProbeTable::learned())
+      : PlainRule(triangles, front, ProbeAim<Real>(policy, table)) {}
+  PlainRule(std::span<const TriangleRecord<Real>> triangles, Front& front,
+            const ProbeAim<Real>& aim)
       : triangles_(triangles.data()),
         sentinel_(static_cast<Index>(triangles.size() - 1)),
         front_(front),
-        policy_(policy) {}
+        aim_(aim) {}
 
   [[nodiscard]] Real distance(Index f) const { return front_.label(f).centre; }
   [[nodiscard]] Real distance_or_inf(Index f) const {
@@ -43,7 +47,7 @@ class PlainRule {
   /// The same rule on the front of another executor.
   template <class Other>
   [[nodiscard]] PlainRule<Real, Other> on(Other& front) const {
-    return PlainRule<Real, Other>({triangles_, sentinel_ + std::size_t{1}}, front, policy_);
+    return PlainRule<Real, Other>({triangles_, sentinel_ + std::size_t{1}}, front, aim_);
   }
 
   void prefetch(Index) const {}
@@ -129,8 +133,7 @@ class PlainRule {
     const bool behind =
         f != inside_ && Kernel::behind(pose, S, u, from.distance2[(edge + 2) % 3]) > 0;
 
-    const Real share =
-        probe_share(policy_, T.length[k], T.length[next], T.length[last], apex.h) / 3;
+    const Real share = aim_.share(T.length[k], T.length[next], T.length[last], apex.h) / 3;
     Point probe = apex;  // on the way from the apex to the centroid
     probe.x[0] += share * (1 - 2 * apex.x[0]);
     probe.h -= share * 2 * apex.h;
@@ -149,7 +152,7 @@ class PlainRule {
   const TriangleRecord<Real>* triangles_;
   Index sentinel_;
   Front& front_;
-  Visibility policy_;
+  ProbeAim<Real> aim_;
   Index inside_ = none;  // the triangle a source lies in, while its own edges are crossed
   bool flip_ = false;
 };
