@@ -209,7 +209,8 @@ TEST_CASE("bench splits the errors of solids by how far paths are from straight"
   REQUIRE(run.code == 0);
   double share = 0;
   std::size_t vertices = 0;
-  for (const auto& row : run.json()["anatomy"]) {
+  const auto json = run.json();
+  for (const auto& row : json["anatomy"]) {
     if (row["split"] != "sight") continue;
     vertices += row["vertices"].get<std::size_t>();
     share += row["share"].get<double>();
