@@ -21,12 +21,13 @@ struct IsolineOptions {
 void add_isoline_options(CLI::App& command, IsolineOptions& options);
 
 /// Before any work: throws UsageError for one without the other, a step that is not > 0, or as
-/// check_output_name. Then, for a domain that is no surface.
+/// check_output_name. Then, for a domain that is neither surface nor solid, or an extension that is
+/// not for it.
 void check_isolines(const IsolineOptions& options, const std::string& input);
 void check_isolines(const IsolineOptions& options, const Domain& domain);
 
-/// Lines at each multiple of the step, but 0. Throws as io::write_paths, and UsageError for more
-/// than 10000 values.
+/// Lines at each multiple of the step, but 0; in a solid triangles. Throws as io::write_paths and
+/// io::write_triangles, and UsageError for more than 10000 values.
 void write_isolines(const IsolineOptions& options, const Domain& domain,
                     std::span<const double> distance);
 

@@ -4,6 +4,8 @@
 #include <functional>
 
 #include <plexway/io/edges.hpp>
+#include <plexway/io/tets.hpp>
+#include <plexway/io/triangles.hpp>
 
 #include "cli/tool.hpp"
 #include "io/io_testing.hpp"
@@ -121,7 +123,30 @@ TEST_CASE("isolines of a field go into files") {
   CHECK(run_tool(
             {"distance", square, "-s", "vertex:0", "--isoline-step", "-1", "--isolines-out", out})
             .code == 2);
-  CHECK(run_tool({"distance", sample("elbow.mesh"), "-s", "vertex:0", "--isoline-step", "1",
+  CHECK(run_tool({"distance", sample("roll.xyz"), "-s", "vertex:0", "--isoline-step", "1",
                   "--isolines-out", out})
-            .code == 2);
+            .code != 0);
+}
+
+TEST_CASE("isosurfaces of a solid go into files") {
+  const Folder folder;
+  const std::string elbow = sample("elbow.mesh");
+  const std::string out = (folder.path() / "shells.ply").string();
+  const auto run = run_tool({"distance", elbow, "-s", "vertex:0", "--isoline-step", "0.4",
+                             "--isolines-out", out, "--quiet"});
+  INFO(run.err);
+  REQUIRE(run.code == 0);
+  const auto shells = plexway::io::read_triangles(out);
+  REQUIRE(!shells.triangles.empty());
+  // The first of them is a piece of a sphere.
+  const auto source = plexway::io::read_tets(elbow).positions[0];
+  double nearest = 1e9;
+  for (const auto& p : shells.positions)
+    nearest = std::min(nearest, std::hypot(p[0] - source[0], p[1] - source[1], p[2] - source[2]));
+  CHECK(nearest == Approx(0.4).epsilon(0.1));
+  const std::string lines = (folder.path() / "lines.json").string();
+  const auto refused = run_tool(
+      {"distance", elbow, "-s", "vertex:0", "--isoline-step", "0.4", "--isolines-out", lines});
+  CHECK(refused.code == 2);
+  CHECK(refused.complaints() == 1);
 }
