@@ -218,7 +218,7 @@ template TriangulationShape measure_triangulation(const TriangleMesh<double>&);
 
 Retriangulation what_pays(const TriangulationShape& shape) {
   if (shape.needle_share > 0.1) return Retriangulation::refined;
-  return shape.non_delaunay_share() > 0.05 ? Retriangulation::flips : Retriangulation::keep;
+  return shape.non_delaunay_share() > 0.04 ? Retriangulation::flips : Retriangulation::keep;
 }
 
 }  // namespace plexway

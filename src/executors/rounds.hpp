@@ -185,7 +185,7 @@ class Rounds {
           break;
         case Phase::narrow:
           if constexpr (requires { expand.narrow(Index()); })
-            for (std::size_t i = begin; i < end; ++i) expand.narrow(live_[i]);
+            fetching(expand, begin, end, [&](Index s) { expand.narrow(s); });
           break;
         case Phase::expand:
           expand_chunk(hand, expand, begin, end);
@@ -198,7 +198,13 @@ class Rounds {
 
   /// Of equal offers in double the one with the least rank wins.
   void contest(std::size_t begin, std::size_t end) {
+    constexpr std::size_t ahead = 16;
     for (std::size_t i = begin; i < end; ++i) {
+      if (i + ahead < end) {
+        const Index next = (*queue_)[i + ahead].simplex;
+        __builtin_prefetch(&key_[next]);
+        __builtin_prefetch(&tie_[next], 1);
+      }
       const Waiting& offer = (*queue_)[i];
       if (key_[offer.simplex] != offer.key || offer.key >= limit_) continue;
       const std::atomic_ref<std::uint64_t> tie(tie_[offer.simplex]);
@@ -250,18 +256,24 @@ class Rounds {
 
   template <class Expand>
   void expand_chunk(Hand& hand, Expand& expand, std::size_t begin, std::size_t end) {
-    constexpr std::size_t ahead = 4, far_ahead = 8;
     hand.front.start(round_, limit_, expanding_ < short_front);
+    fetching(expand, begin, end, [&](Index s) { expand(s); });
+    near_.take(hand.front.near());
+    far_.take(hand.front.far());
+  }
+
+  /// `visit(simplex)` for some of those that live, what it needs fetched on the way there.
+  template <class Expand, class Visit>
+  void fetching(Expand& expand, std::size_t begin, std::size_t end, const Visit& visit) {
+    constexpr std::size_t ahead = 4, far_ahead = 8;
     for (std::size_t i = begin; i < std::min(begin + far_ahead, end); ++i)
       expand.far_ahead(live_[i]);
     for (std::size_t i = begin; i < std::min(begin + ahead, end); ++i) expand.ahead(live_[i]);
     for (std::size_t i = begin; i < end; ++i) {
       if (i + far_ahead < end) expand.far_ahead(live_[i + far_ahead]);
       if (i + ahead < end) expand.ahead(live_[i + ahead]);
-      expand(live_[i]);
+      visit(live_[i]);
     }
-    near_.take(hand.front.near());
-    far_.take(hand.front.far());
   }
 
   // ---- Alone, between the halves of a round ----

@@ -39,7 +39,7 @@ enum class Retriangulation {
   refined  ///< that, with more vertices
 };
 
-/// What pays, by measured shape: flips if more than one inner edge in twenty is not Delaunay,
+/// What pays, by measured shape: flips if more than 4 % of the inner edges are not Delaunay,
 /// refinement as well if more than one triangle in ten has an angle below 5 degrees
 /// (docs/DESIGN.md has the measurements).
 [[nodiscard]] Retriangulation what_pays(const TriangulationShape& shape);
