@@ -1,14 +1,10 @@
 // Paths, searches for a target and bounded searches.
-//
-//   bench_paths --truth FOLDER   lengths of paths against exact distances, FOLDER/NAME.obj with
-//                                NAME.vID.txt as they are in data/surfaces
-//   bench_paths MESH...   A* and paths on each; then bounded searches on a surface of a million
-//                         triangles (none of them with MESH alone: --bounded for those only)
+
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <cstdio>
-#include <cstring>
 #include <ctime>
 #include <filesystem>
 #include <fstream>
@@ -195,13 +191,25 @@ void bounded() {
 }  // namespace
 
 int main(int argc, char** argv) {
+  std::string truth;
+  std::vector<std::string> meshes;
+  bool only_bounded = false;
+  CLI::App app("Paths, searches for a target and bounded searches");
+  app.add_option("MESH", meshes,
+                 "Surfaces (.obj .off .ply .stl) for A* and paths, before bounded searches");
+  app.add_option("--truth", truth,
+                 "Only this: lengths of paths against the exact distances in a folder of NAME.obj\n"
+                 "and NAME.vID.txt");
+  app.add_flag("--bounded", only_bounded,
+               "Only this: bounded searches on a surface of a million triangles");
+  CLI11_PARSE(app, argc, argv);
   try {
-    if (argc == 3 && std::strcmp(argv[1], "--truth") == 0) {
-      lengths(argv[2]);
+    if (!truth.empty()) {
+      lengths(truth);
       return 0;
     }
-    for (int i = 1; i < argc; ++i)
-      if (std::strcmp(argv[i], "--bounded") != 0) searches(argv[i]);
+    if (!only_bounded)
+      for (const std::string& mesh : meshes) searches(mesh);
     bounded();
     return 0;
   } catch (const Error& error) {

@@ -1,18 +1,20 @@
 // What sampling costs, in propagations from a single source on the same surface; and how good it
 // is.
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <cstdlib>
 #include <ctime>
 #include <limits>
 #include <string>
+#include <vector>
 
 #include <plexway/apps/centroidal_voronoi.hpp>
 #include <plexway/apps/distance_matrix.hpp>
 #include <plexway/apps/farthest_points.hpp>
 #include <plexway/apps/poisson_disk.hpp>
+#include <plexway/error.hpp>
 
 #include "../data/shapes.hpp"
 #include "harness.hpp"
@@ -101,15 +103,25 @@ void measure(const std::string& name, const std::vector<std::array<double, 3>>& 
 }  // namespace
 
 int main(int argc, char** argv) {
-  const std::size_t count = argc > 1 ? std::strtoul(argv[1], nullptr, 10) : 1000;
-  if (argc > 2) {
-    for (int i = 2; i < argc; ++i) {
-      const bench::Surface s = bench::read_surface(argv[i]);
+  std::size_t count = 1000;
+  std::vector<std::string> meshes;
+  CLI::App app("What sampling costs, in solves from one source on the same surface");
+  app.add_option("MESH", meshes,
+                 "Surfaces (.obj .off .ply .stl); none: two of 200 thousand triangles");
+  app.add_option("--count", count, "Points")->capture_default_str()->check(CLI::PositiveNumber);
+  CLI11_PARSE(app, argc, argv);
+  try {
+    for (const std::string& mesh : meshes) {
+      const bench::Surface s = bench::read_surface(mesh);
       measure(s.name, s.positions, s.faces, count);
     }
+    if (!meshes.empty()) return 0;
+    const samples::Shape sphere = samples::geodesic_sphere(100), bumpy = samples::bumpy(100);
+    measure("sphere", sphere.points, sphere.faces, count);
+    measure("bumpy", bumpy.points, bumpy.faces, count);
     return 0;
+  } catch (const Error& error) {
+    std::fprintf(stderr, "bench_sampling: %s\n", error.what());
+    return 1;
   }
-  const samples::Shape sphere = samples::geodesic_sphere(100), bumpy = samples::bumpy(100);
-  measure("sphere", sphere.points, sphere.faces, count);
-  measure("bumpy", bumpy.points, bumpy.faces, count);
 }
