@@ -6,7 +6,9 @@
 #include <string>
 #include <utility>
 
+#include <plexway/apps/path_field.hpp>
 #include <plexway/error.hpp>
+#include <plexway/executors/serial.hpp>
 #include <plexway/propagate/saddle_rule.hpp>
 #include <plexway/propagate/wavefront.hpp>
 
@@ -273,15 +275,29 @@ SearchResult PathSearch<Real>::find(Serial, std::span<const PointSource> sources
 
   SearchResult result;
   const SurfaceTrace<Real> trace(mesh, solved);
+  std::vector<std::size_t> lost;
   for (std::size_t n = 0; n < targets.size(); ++n) {
     result.distance.push_back(s.best_of(s.targets[n]) * mesh.unit());
     result.paths.push_back(
         or_no_way_at_all(trace.trace(targets[n], options.trace), solved, targets[n]));
+    if (result.paths[n].source == none && result.distance[n] < infinity) lost.push_back(n);
   }
   s.labels = nullptr;
   s.heuristic = nullptr;
   result.complete = !front.out_of_budget();
   result.statistics = {front.expansions(), front.updates(), front.reached_count()};
+  if (lost.empty() || !result.complete) return result;
+  // Labels overtaken meanwhile lead back in circles, once in a thousand on needles. Distances at
+  // all vertices lead out of them.
+  PathField field(mesh, s.positions);
+  field.solve(Serial{}, sources);
+  for (const std::size_t n : lost) {
+    PointSource target = targets[n];
+    target.offset = 0;
+    result.paths[n] = field.trace(target, options.trace);
+  }
+  result.statistics.expansions += field.distances().statistics.expansions;
+  result.statistics.updates += field.distances().statistics.updates;
   return result;
 }
 

@@ -223,3 +223,16 @@ TEST_CASE("a bounded search says what it does not do") {
   CHECK_THROWS_AS(search.find(Serial{}, PointSource::at(77), 1), UsageError);
   CHECK(search.bytes() > 0);
 }
+
+TEST_CASE("a search that finds a distance finds a path on needles too") {
+  const auto file = std::filesystem::path(PLEXWAY_TRUTH_DIR) / "surfaces" / "t79741.obj";
+  if (!std::filesystem::exists(file)) return;
+  const auto surface = io::read_triangles(file);
+  const TriangleMesh<float> mesh(surface.positions, surface.triangles);
+  PathSearch<float> search(mesh, surface.positions);
+  // Its labels lead back in a circle.
+  const SearchResult found = search.find(Serial{}, PointSource::at(2013), PointSource::at(3995));
+  REQUIRE(found.paths.size() == 1);
+  CHECK(found.paths[0].length == Approx(16.7304).epsilon(1e-4));
+  CHECK(found.paths[0].source == 0);
+}
