@@ -9,15 +9,18 @@
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Surface_mesh.h>
 #include <CGAL/Surface_mesh_shortest_path.h>
+#include <CLI/CLI.hpp>
 
 #include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <functional>
+#include <string>
 #include <vector>
 
 #include <plexway/apps/path_field.hpp>
+#include <plexway/error.hpp>
 #include <plexway/executors/serial.hpp>
 #include <plexway/executors/source_sets.hpp>
 #include <plexway/io/triangles.hpp>
@@ -161,5 +164,15 @@ void compare(const char* file) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  for (int i = 1; i < argc; ++i) compare(argv[i]);
+  std::vector<std::string> meshes;
+  CLI::App app("A curve as source against exact distances to many points of it, by CGAL");
+  app.add_option("MESH", meshes, "Surfaces (.obj .off .ply .stl)")->required();
+  CLI11_PARSE(app, argc, argv);
+  try {
+    for (const std::string& mesh : meshes) compare(mesh.c_str());
+    return 0;
+  } catch (const plexway::Error& error) {
+    std::fprintf(stderr, "bench_cgal_curves: %s\n", error.what());
+    return 1;
+  }
 }
