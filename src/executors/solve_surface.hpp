@@ -11,7 +11,6 @@
 #include <plexway/propagate/plain_rule.hpp>
 #include <plexway/propagate/saddle_rule.hpp>
 
-#include "propagate/curve_seeds.hpp"
 #include "propagate/finish.hpp"
 #include "propagate/read_out.hpp"
 #include "propagate/triangle_propagation.hpp"
@@ -48,35 +47,24 @@ void read_out_sources(const TriangleMesh<Real>& mesh, std::span<const PointSourc
   }
 }
 
-/// The corners of triangles that curves pass, exactly; no light is nearer than its source.
-template <class Real, bool kLabels>
-void read_out_curves(const CurveSeeds& curves, Workspace<Real>& workspace) {
-  for (Real& d : workspace.vertex) d = std::max(d, Real(0));
-  curves.offer_corners([&](Index v, double distance, Index number) {
-    const Real d = static_cast<Real>(distance);
-    if (!(d < workspace.vertex[v])) return;
-    workspace.vertex[v] = d;
-    if constexpr (kLabels) workspace.vertex_source[v] = number;
-  });
-}
-
-/// Is it a rule whose labels have limits, as the light of a curve has?
-template <class Rule>
-constexpr bool has_limits = requires(const Rule& rule) {
-  rule.triangle(0);
+/// Nothing but points.
+struct NoShapes {
+  template <class Rule, class Front>
+  void seed(const Rule&, Front&) const {}
+  template <class Front>
+  void read_out(const Front&) const {}
 };
 
-template <class Real, bool kLabels, class Rule, class Front, class Crew>
+/// `shapes` seeds the labels with what is no point, and reads it out after the triangles.
+template <class Real, bool kLabels, class Rule, class Front, class Crew, class Shapes = NoShapes>
 void solve(const TriangleMesh<Real>& mesh, std::span<const PointSource> sources,
            const PropagateOptions& options, Workspace<Real>& workspace, const Rule& rule,
-           Front& front, const Crew& crew, DistanceField<Real>& field,
-           const CurveSeeds* curves = nullptr) {
+           Front& front, const Crew& crew, DistanceField<Real>& field, const Shapes& shapes = {}) {
   TrianglePropagation<Real, Rule, Front, kLabels> propagation(mesh, workspace, rule, front,
                                                               options);
   for (std::size_t n = 0; n < sources.size(); ++n)
     propagation.seed(sources[n], static_cast<Index>(n));
-  if constexpr (has_limits<Rule>)
-    if (curves != nullptr) curves->seed(rule, front);
+  shapes.seed(rule, front);
   crew.run(propagation, front, mesh.face_count());
 
   constexpr Real infinity = std::numeric_limits<Real>::infinity();
@@ -90,7 +78,7 @@ void solve(const TriangleMesh<Real>& mesh, std::span<const PointSource> sources,
   if (mesh.summary().refracting_edges > 0)  // where lengths are no metric, light may gain on itself
     for (Real& d : workspace.vertex) d = std::max(d, Real(0));
   read_out_sources<Real, kLabels>(mesh, sources, workspace);
-  if (curves != nullptr) read_out_curves<Real, kLabels>(*curves, workspace);
+  shapes.read_out(front);
   if (options.visibility == Visibility::saddles)
     read_out_edges<Real, kLabels>(mesh, workspace, [&](const auto& wrong, const auto& look) {
       crew.search(mesh.face_count(), wrong, look);
@@ -110,7 +98,7 @@ void solve(const TriangleMesh<Real>& mesh, std::span<const PointSource> sources,
 template <class Real, bool kLabels, class Queue, class Crew>
 void solve_with(const TriangleMesh<Real>& mesh, std::span<const PointSource> sources,
                 const PropagateOptions& options, Workspace<Real>& workspace, Queue queue,
-                const Crew& crew, DistanceField<Real>& field, const CurveSeeds* curves = nullptr) {
+                const Crew& crew, DistanceField<Real>& field) {
   if (options.visibility != Visibility::saddles)
     refuse_refraction(mesh.summary(), "a visibility other than saddles");
   workspace.start(mesh.face_count(), kLabels);
@@ -123,7 +111,7 @@ void solve_with(const TriangleMesh<Real>& mesh, std::span<const PointSource> sou
   if (options.visibility == Visibility::saddles) {
     auto wave = front(workspace.saddles.reserve(records));
     const SaddleRule<Real, decltype(wave)> rule(mesh.triangles(), wave, options.vectorised);
-    solve<Real, kLabels>(mesh, sources, options, workspace, rule, wave, crew, field, curves);
+    solve<Real, kLabels>(mesh, sources, options, workspace, rule, wave, crew, field);
   } else {
     auto wave = front(workspace.plain.reserve(records));
     const PlainRule<Real, decltype(wave)> rule(mesh.triangles(), wave, options.visibility,

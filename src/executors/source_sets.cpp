@@ -1,5 +1,6 @@
 #include <plexway/executors/source_sets.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <string>
@@ -10,6 +11,7 @@
 #include "executors/alone.hpp"
 #include "executors/checks.hpp"
 #include "executors/solve_surface.hpp"
+#include "propagate/border_light.hpp"
 #include "propagate/curve_seeds.hpp"
 
 namespace plexway::detail {
@@ -118,18 +120,48 @@ void add_shapes(const TriangleMesh<double>& mesh, std::span<const Source> source
 template <class Wave>
 class SidedFront : public Wave {
  public:
-  SidedFront(const Wave& wave, const std::uint8_t* crossed) : Wave(wave), crossed_(crossed) {}
+  SidedFront(const Wave& wave, const CurveSeeds& curves) : Wave(wave), curves_(&curves) {}
 
   [[gnu::always_inline]] void accept(Index f, std::size_t hinge, const SaddleLabel<double>& label,
                                      double distance, Index source) {
     // Only light starts at less than 0.
-    if (label.sigma() < 0 && crossed_[f]) [[unlikely]]
+    if (label.sigma() < 0 && curves_->crosses(source, f)) [[unlikely]]
       return;
     Wave::accept(f, hinge, label, distance, source);
   }
 
  private:
-  const std::uint8_t* crossed_;
+  const CurveSeeds* curves_;
+};
+
+// Curves as a solve takes them.
+class Curves {
+ public:
+  Curves(const TriangleMesh<double>& mesh, const CurveSeeds& seeds, Workspace<double>& workspace)
+      : mesh_(mesh), seeds_(seeds), workspace_(workspace) {}
+
+  template <class Rule, class Front>
+  void seed(const Rule& rule, Front& front) const {
+    seeds_.seed(rule, front);
+  }
+  // Light in triangles that keep another label, then the corners of triangles that curves pass,
+  // exactly; no light is nearer than its source.
+  template <class Front>
+  void read_out(const Front& front) const {
+    const auto offer = [&](Index v, double d, Index number) {
+      if (!(d < workspace_.vertex[v])) return;
+      workspace_.vertex[v] = d;
+      workspace_.vertex_source[v] = number;
+    };
+    BorderLight<Front>(mesh_, seeds_, front).offer_corners(offer);
+    for (double& d : workspace_.vertex) d = std::max(d, 0.);
+    seeds_.offer_corners(offer);
+  }
+
+ private:
+  const TriangleMesh<double>& mesh_;
+  const CurveSeeds& seeds_;
+  Workspace<double>& workspace_;
 };
 
 void check_policy(const PropagateOptions& options) {
@@ -142,6 +174,7 @@ void prepare(const TriangleMesh<double>& mesh, std::span<const Source> sources, 
              const PropagateOptions& options, CurveSeeds& seeds) {
   check_policy(options);
   add_shapes(mesh, sources, parts, seeds);
+  seeds.sort(mesh.face_count());
   check(parts.points, options, {mesh.vertex_count(), mesh.face_count(), "face", 3});
 }
 
@@ -173,7 +206,6 @@ void propagate_shapes(const Serial&, const TriangleMesh<double>& mesh,
                       DistanceField<double>& field) {
   CurveSeeds seeds;
   prepare(mesh, sources, parts, options, seeds);
-  const std::vector<std::uint8_t> crossed = seeds.crossed(mesh.face_count());
   workspace.front.reserve(mesh.face_count());
   workspace.start(mesh.face_count(), true);
   with_queue<double>(options, workspace.front, [&](auto queue) {
@@ -181,10 +213,10 @@ void propagate_shapes(const Serial&, const TriangleMesh<double>& mesh,
     SidedFront<Wave> front(
         Wave(workspace.marks, workspace.saddles.reserve(mesh.face_count() + 1), queue,
              workspace.source.data(), mesh.face_count(), mesh.unit(), options),
-        crossed.data());
+        seeds);
     const SaddleRule<double, SidedFront<Wave>> rule(mesh.triangles(), front, options.vectorised);
     surface::solve<double, true>(mesh, parts.points, options, workspace, rule, front, Alone{},
-                                 field, &seeds);
+                                 field, Curves(mesh, seeds, workspace));
   });
 }
 

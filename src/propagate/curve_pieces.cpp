@@ -23,8 +23,7 @@ struct Spot {
   Weights3 weight;
 };
 
-template <class Real>
-void spots_at_vertex(const TriangleMesh<Real>& mesh, Index vertex, std::vector<Spot>& spots) {
+void spots_at_vertex(const TriangleMesh<double>& mesh, Index vertex, std::vector<Spot>& spots) {
   std::vector<Index> corners;
   mesh.corners_at(vertex, corners);
   for (const Index c : corners) {
@@ -34,8 +33,7 @@ void spots_at_vertex(const TriangleMesh<Real>& mesh, Index vertex, std::vector<S
   }
 }
 
-template <class Real>
-std::vector<Spot> spots_of(const TriangleMesh<Real>& mesh, const PointSource& point) {
+std::vector<Spot> spots_of(const TriangleMesh<double>& mesh, const PointSource& point) {
   std::vector<Spot> spots;
   if (point.vertex != none) {
     spots_at_vertex(mesh, mesh.inside_vertex(point.vertex), spots);
@@ -73,27 +71,23 @@ std::vector<Spot> spots_of(const TriangleMesh<Real>& mesh, const PointSource& po
   return spots;
 }
 
-template <class Real>
-double size_of(const TriangleRecord<Real>& t) {
-  return static_cast<double>(std::max({t.length[0], t.length[1], t.length[2]}));
+double size_of(const TriangleRecord<double>& t) {
+  return std::max({t.length[0], t.length[1], t.length[2]});
 }
 
-template <class Real>
-double angle_at(const TriangleRecord<Real>& t, std::size_t corner) {
-  return std::atan2(static_cast<double>(t.sine(corner)), static_cast<double>(t.cosine[corner]));
+double angle_at(const TriangleRecord<double>& t, std::size_t corner) {
+  return std::atan2(t.sine(corner), t.cosine[corner]);
 }
 
 // From edge `corner` at that corner, counterclockwise, to a direction within the triangle.
-template <class Real>
-double angle_of(const TriangleRecord<Real>& t, std::size_t corner, const Plane& direction) {
+double angle_of(const TriangleRecord<double>& t, std::size_t corner, const Plane& direction) {
   const auto at = corners_of(t);
   const Plane edge = at[edge_after(corner)] - at[corner];
   return std::clamp(std::arg(direction * std::conj(edge)), 0., angle_at(t, corner));
 }
 
 // The angle of `next`'s beginning at a corner of a triangle, if it begins there.
-template <class Real>
-std::optional<double> begins_at(const TriangleRecord<Real>& t, Index f, std::size_t corner,
+std::optional<double> begins_at(const TriangleRecord<double>& t, Index f, std::size_t corner,
                                 const CurvePiece& next) {
   if (next.face != f || place_of(t, next.from) != corner) return std::nullopt;
   return angle_of(t, corner, next.to - next.from);
@@ -101,13 +95,12 @@ std::optional<double> begins_at(const TriangleRecord<Real>& t, Index f, std::siz
 
 // The angle between two pieces around the vertex between them, on one side; none where the surface
 // ends or turns over before.
-template <class Real>
-std::optional<double> angle_between(const TriangleMesh<Real>& mesh, const CurvePiece& piece,
+std::optional<double> angle_between(const TriangleMesh<double>& mesh, const CurvePiece& piece,
                                     const CurvePiece& next, std::size_t corner, int side) {
   Index f = piece.face;
   double sum = 0, at = angle_of(mesh.triangles()[f], corner, piece.from - piece.to);
   for (int steps = 0; steps < 4096; ++steps) {
-    const TriangleRecord<Real>& t = mesh.triangles()[f];
+    const TriangleRecord<double>& t = mesh.triangles()[f];
     if (const auto begin = begins_at(t, f, corner, next)) {
       const double turn = side == 0 ? at - *begin : *begin - at;
       if (steps > 0 || turn >= 0) return sum + turn;
@@ -125,8 +118,7 @@ std::optional<double> angle_between(const TriangleMesh<Real>& mesh, const CurveP
 
 }  // namespace
 
-template <class Real>
-std::size_t place_of(const TriangleRecord<Real>& t, const Plane& p) {
+std::size_t place_of(const TriangleRecord<double>& t, const Plane& p) {
   const auto at = corners_of(t);
   const double near = 1e-8 * size_of(t);
   for (std::size_t i = 0; i < 3; ++i)
@@ -138,8 +130,7 @@ std::size_t place_of(const TriangleRecord<Real>& t, const Plane& p) {
   return 6;
 }
 
-template <class Real>
-std::vector<CurvePiece> cut_curve(const TriangleMesh<Real>& mesh,
+std::vector<CurvePiece> cut_curve(const TriangleMesh<double>& mesh,
                                   std::span<const PointSource> points) {
   std::vector<CurvePiece> pieces;
   std::vector<Spot> here, there;
@@ -174,11 +165,10 @@ std::vector<CurvePiece> cut_curve(const TriangleMesh<Real>& mesh,
   return pieces;
 }
 
-template <class Real>
-bool runs_straight(const TriangleMesh<Real>& mesh, const CurvePiece& piece, const CurvePiece& next,
-                   int side) {
+bool runs_straight(const TriangleMesh<double>& mesh, const CurvePiece& piece,
+                   const CurvePiece& next, int side) {
   constexpr double straight = 1e-6;
-  const TriangleRecord<Real>& t = mesh.triangles()[piece.face];
+  const TriangleRecord<double>& t = mesh.triangles()[piece.face];
   const std::size_t place = place_of(t, piece.to);
   if (place < 3) {
     const auto angle = angle_between(mesh, piece, next, place, side);
@@ -200,10 +190,5 @@ bool runs_straight(const TriangleMesh<Real>& mesh, const CurvePiece& piece, cons
   return std::abs(piece.direction() * std::conj(here) / std::abs(here) -
                   next.direction() * std::conj(there) / std::abs(there)) < straight;
 }
-
-template std::vector<CurvePiece> cut_curve(const TriangleMesh<double>&,
-                                           std::span<const PointSource>);
-template bool runs_straight(const TriangleMesh<double>&, const CurvePiece&, const CurvePiece&, int);
-template std::size_t place_of(const TriangleRecord<double>&, const Plane&);
 
 }  // namespace plexway

@@ -2,8 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <numeric>
 
 #include "propagate/curve_pieces.hpp"
 
@@ -57,8 +55,7 @@ class Lighting {
   Lighting(std::vector<CurveSeeds::Light>& lights, double sigma, Index number)
       : lights_(lights), sigma_(sigma), number_(number) {}
 
-  template <class Real>
-  void light(const TriangleMesh<Real>& mesh, std::span<const CurvePiece> pieces, int side) {
+  void light(const TriangleMesh<double>& mesh, std::span<const CurvePiece> pieces, int side) {
     for (std::size_t begin = 0; begin < pieces.size();) {
       std::size_t end = begin + 1;
       while (end < pieces.size() && runs_straight(mesh, pieces[end - 1], pieces[end], side)) ++end;
@@ -72,8 +69,7 @@ class Lighting {
 
  private:
   // One straight line through several triangles.
-  template <class Real>
-  void light_run(const TriangleMesh<Real>& mesh, std::span<const CurvePiece> run, int side) {
+  void light_run(const TriangleMesh<double>& mesh, std::span<const CurvePiece> run, int side) {
     start_.assign(run.size() + 1, 0);
     for (std::size_t k = 0; k < run.size(); ++k) start_[k + 1] = start_[k] + run[k].length();
     const double length = start_.back();
@@ -82,7 +78,7 @@ class Lighting {
     first_.assign(run.size(), {0, 0});
     last_.assign(run.size(), {length, 0});
     const auto saddle = [&](std::size_t k, LinePoint& p) {
-      const TriangleRecord<Real>& t = mesh.triangles()[run[k].face];
+      const TriangleRecord<double>& t = mesh.triangles()[run[k].face];
       const std::size_t place = place_of(t, run[k].to);
       if (place < 3 || place > 5) return false;
       const auto at = corners_of(t);
@@ -117,10 +113,9 @@ class Lighting {
     return {run[k].from - start_[k] * along, along, up, start_.back(), {}, {}};
   }
 
-  template <class Real>
-  void light_piece(const TriangleMesh<Real>& mesh, const CurvePiece& piece, const LitLine& line,
+  void light_piece(const TriangleMesh<double>& mesh, const CurvePiece& piece, const LitLine& line,
                    int side) {
-    const TriangleRecord<Real>& t = mesh.triangles()[piece.face];
+    const TriangleRecord<double>& t = mesh.triangles()[piece.face];
     const auto at = corners_of(t);
     if (piece.edge < 3) {
       // The triangle lies to the left of its own edges.
@@ -128,7 +123,7 @@ class Lighting {
       add(piece.face, piece.edge, forward == (side == 0), line, side);
       return;
     }
-    const double size = static_cast<double>(std::max({t.length[0], t.length[1], t.length[2]}));
+    const double size = std::max({t.length[0], t.length[1], t.length[2]});
     for (std::size_t e = 0; e < 3; ++e)
       if (leaves_over(line, at[e], at[edge_after(e)], size)) add(piece.face, e, false, line, side);
   }
@@ -152,8 +147,7 @@ class Lighting {
 
 }  // namespace
 
-template <class Real>
-void CurveSeeds::add_curve(const TriangleMesh<Real>& mesh, std::span<const PointSource> points,
+void CurveSeeds::add_curve(const TriangleMesh<double>& mesh, std::span<const PointSource> points,
                            double offset, Index number) {
   const double sigma = offset / mesh.unit();
   const std::vector<CurvePiece> pieces = cut_curve(mesh, points);
@@ -162,7 +156,7 @@ void CurveSeeds::add_curve(const TriangleMesh<Real>& mesh, std::span<const Point
   // A foot yields to the light: it stands in for it in the one triangle that has both sides.
   const double shade = 2 * yields * std::max(lighting.longest(), 1.);
   for (const CurvePiece& piece : pieces) {
-    const TriangleRecord<Real>& t = mesh.triangles()[piece.face];
+    const TriangleRecord<double>& t = mesh.triangles()[piece.face];
     const auto at = corners_of(t);
     if (piece.edge == 3) {
       const Plane centre = (at[0] + at[1] + at[2]) / 3.;
@@ -177,10 +171,10 @@ void CurveSeeds::add_curve(const TriangleMesh<Real>& mesh, std::span<const Point
   }
 }
 
-template <class Real>
-void CurveSeeds::add_face(const TriangleMesh<Real>& mesh, Index face, double offset, Index number) {
+void CurveSeeds::add_face(const TriangleMesh<double>& mesh, Index face, double offset,
+                          Index number) {
   const auto [f, turned] = mesh.inside_face(face);
-  const TriangleRecord<Real>& t = mesh.triangles()[f];
+  const TriangleRecord<double>& t = mesh.triangles()[f];
   const double sigma = offset / mesh.unit();
   const auto at = corners_of(t);
   feet_.push_back({f, (at[0] + at[1] + at[2]) / 3., sigma, sigma, number});
@@ -191,9 +185,5 @@ void CurveSeeds::add_face(const TriangleMesh<Real>& mesh, Index face, double off
       Lighting(lights_, sigma, number).light(mesh, std::span(&piece, 1), 1);
   }
 }
-
-template void CurveSeeds::add_curve(const TriangleMesh<double>&, std::span<const PointSource>,
-                                    double, Index);
-template void CurveSeeds::add_face(const TriangleMesh<double>&, Index, double, Index);
 
 }  // namespace plexway

@@ -1,14 +1,16 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <complex>
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include <plexway/complex/triangle_mesh.hpp>
-#include <plexway/propagate/saddle_label.hpp>
+#include <plexway/kernel/lanes.hpp>
 #include <plexway/source/point_source.hpp>
 
 namespace plexway {
@@ -16,6 +18,10 @@ namespace plexway {
 /// A point of the plane of a triangle: corner 0 at the origin, edge 0 on the real axis, the rest
 /// above it.
 using Plane = std::complex<double>;
+
+inline std::array<Plane, 3> corners_of(const TriangleRecord<double>& t) {
+  return {0, t.length[0], Plane{t.apex_x(0), t.apex_h(0)}};
+}
 
 /// What curves and triangles on a surface seed it with. Numbers and unit inside.
 ///
@@ -50,26 +56,20 @@ class CurveSeeds {
 
   /// A curve as propagation number `number`; sigma and the mesh's unit are of the caller. Throws
   /// UsageError where a point shares no triangle with the next. Points are checked already.
-  template <class Real>
-  void add_curve(const TriangleMesh<Real>& mesh, std::span<const PointSource> points, double offset,
-                 Index number);
+  void add_curve(const TriangleMesh<double>& mesh, std::span<const PointSource> points,
+                 double offset, Index number);
   /// All of one triangle.
-  template <class Real>
-  void add_face(const TriangleMesh<Real>& mesh, Index face, double offset, Index number);
+  void add_face(const TriangleMesh<double>& mesh, Index face, double offset, Index number);
 
-  /// To the labels, by a rule with limits.
+  /// To the labels.
   template <class Rule, class Front>
   void seed(Rule rule, Front& front) const {
-    using Label = typename Rule::Label;
     for (const Foot& foot : feet_) {
-      using Real = decltype(Label{}.sigma());
-      const Real d = static_cast<Real>(foot.distance);
-      if (!(d < rule.to_beat(foot.face))) continue;
-      const Real x = static_cast<Real>(foot.at.real()), y = static_cast<Real>(foot.at.imag());
+      if (!(foot.distance < rule.to_beat(foot.face))) continue;
       front.accept(foot.face, 0,
-                   Label{kernel::Lanes<Real>(x, static_cast<Real>(foot.sigma), 0, 0),
-                         kernel::Lanes<Real>(-y, d, 0, 0)},
-                   d, foot.number);
+                   {kernel::Lanes<double>(foot.at.real(), foot.sigma, 0, 0),
+                    kernel::Lanes<double>(-foot.at.imag(), foot.distance, 0, 0)},
+                   foot.distance, foot.number);
     }
     for (const Light& light : lights_) seed_light(rule, light);
   }
@@ -80,40 +80,39 @@ class CurveSeeds {
     for (const Corner& corner : corners_) offer(corner.vertex, corner.distance, corner.number);
   }
 
-  /// Which triangles a curve crosses, 1 or 0 for each of `faces`.
-  [[nodiscard]] std::vector<std::uint8_t> crossed(std::size_t faces) const {
-    std::vector<std::uint8_t> crossed(faces + 1, 0);
-    for (const Foot& foot : feet_) crossed[foot.face] = 1;
-    return crossed;
+  /// Does the curve with this number run through the triangle's inside? To be asked after `sort`.
+  [[nodiscard]] bool crosses(Index number, Index face) const {
+    return is_crossed_[face] &&
+           std::binary_search(crossed_.begin(), crossed_.end(), std::pair(face, number));
   }
-
-  [[nodiscard]] bool empty() const { return feet_.empty() && lights_.empty(); }
+  /// After the last curve.
+  void sort(std::size_t faces) {
+    is_crossed_.assign(faces + 1, 0);
+    for (const Foot& foot : feet_) {
+      is_crossed_[foot.face] = 1;
+      crossed_.emplace_back(foot.face, foot.number);
+    }
+    std::sort(crossed_.begin(), crossed_.end());
+  }
 
  private:
   template <class Rule>
   static void seed_light(Rule& rule, const Light& light) {
-    const auto& t = rule.triangle(light.face);
-    const Plane corner[3] = {0,
-                             static_cast<double>(t.length[0]),
-                             {static_cast<double>(t.apex_x(0)), static_cast<double>(t.apex_h(0))}};
+    const auto corner = corners_of(rule.triangle(light.face));
     const std::size_t e = light.edge;
     const double length = std::abs(corner[edge_after(e)] - corner[e]);
     if (!(length > 0)) return;
     const Plane along = (corner[edge_after(e)] - corner[e]) / length;
-    using Posed = typename Rule::Posed;
-    using Point = typename Rule::Point;
     const auto posed = [&](const Plane& p) {
       const Plane q = std::conj(along) * (p - corner[e]);
-      using Number = std::remove_cvref_t<decltype(Point{}.h)>;
-      const double x = light.into ? q.real() : length - q.real();
-      const double h = light.into ? -q.imag() : q.imag();
-      return Point{{static_cast<Number>(x)}, static_cast<Number>(h)};
+      return typename Rule::Point{{light.into ? q.real() : length - q.real()},
+                                  light.into ? -q.imag() : q.imag()};
     };
-    Posed p;
+    typename Rule::Posed p;
     p.source = posed(light.source);
     p.limit[0] = posed(light.left);
     p.limit[1] = posed(light.right);
-    p.sigma = static_cast<decltype(p.sigma)>(light.sigma);
+    p.sigma = light.sigma;
     if (light.into)
       rule.enter_posed(light.face, e, p, light.number);
     else
@@ -123,6 +122,8 @@ class CurveSeeds {
   std::vector<Light> lights_;
   std::vector<Foot> feet_;
   std::vector<Corner> corners_;
+  std::vector<std::uint8_t> is_crossed_;
+  std::vector<std::pair<Index, Index>> crossed_;  ///< triangle, number
 };
 
 }  // namespace plexway
