@@ -80,9 +80,12 @@ class CurveSeeds {
     for (const Corner& corner : corners_) offer(corner.vertex, corner.distance, corner.number);
   }
 
-  /// Does the curve with this number run through the triangle's inside? To be asked after `sort`.
+  /// Does the curve with this number run through the triangle's inside? To be asked after `sort`;
+  /// any number will do where there is one curve.
   [[nodiscard]] bool crosses(Index number, Index face) const {
-    return is_crossed_[face] &&
+    if (!is_crossed_[face]) [[likely]]
+      return false;
+    return one_curve_ ||
            std::binary_search(crossed_.begin(), crossed_.end(), std::pair(face, number));
   }
   /// After the last curve.
@@ -93,6 +96,8 @@ class CurveSeeds {
       crossed_.emplace_back(foot.face, foot.number);
     }
     std::sort(crossed_.begin(), crossed_.end());
+    one_curve_ = std::all_of(feet_.begin(), feet_.end(),
+                             [&](const Foot& foot) { return foot.number == feet_.front().number; });
   }
 
  private:
@@ -122,6 +127,7 @@ class CurveSeeds {
   std::vector<Light> lights_;
   std::vector<Foot> feet_;
   std::vector<Corner> corners_;
+  bool one_curve_ = false;
   std::vector<std::uint8_t> is_crossed_;
   std::vector<std::pair<Index, Index>> crossed_;  ///< triangle, number
 };

@@ -1,0 +1,150 @@
+#include <algorithm>
+#include <span>
+
+#include <plexway/error.hpp>
+#include <plexway/executors/source_sets.hpp>
+
+#include "executors/alone.hpp"
+#include "executors/checks.hpp"
+#include "executors/solve_surface.hpp"
+#include "propagate/border_light.hpp"
+#include "propagate/curve_seeds.hpp"
+
+/// Fields from curves and triangles on a surface.
+namespace plexway::detail {
+namespace {
+
+void add_shapes(const TriangleMesh<double>& mesh, std::span<const Source> sources,
+                SourceParts& parts, CurveSeeds& seeds) {
+  const SourceDomain domain = {mesh.vertex_count(), mesh.face_count(), "face", 3};
+  // Points first: they have the first numbers.
+  for (const Index n : parts.shapes) {
+    const auto take = [&, n](PointSource at, double offset) {
+      at.offset = offset;
+      parts.points.push_back(at);
+      parts.owner.push_back(n);
+    };
+    if (const auto* curve = std::get_if<CurveSource>(&sources[n])) {
+      for (std::size_t i = 0; i < curve->points.size(); ++i) {
+        PointSource at = curve->points[i];
+        if (names_nothing(at)) continue;
+        at.offset = 0;
+        check_source(at, domain);
+        const auto& b = at.barycentric;
+        const bool corner = at.vertex != none || b[0] == 1 || b[1] == 1 || b[2] == 1;
+        const bool end = i == 0 || i + 1 == curve->points.size() ||
+                         names_nothing(curve->points[i - 1]) || names_nothing(curve->points[i + 1]);
+        if (corner || end) take(at, curve->offset);
+      }
+    } else {
+      const auto& face = std::get<SimplexSource>(sources[n]);
+      check_source(PointSource::in(face.simplex, {1., 0., 0.}), domain);
+      for (std::size_t i = 0; i < 3; ++i) {
+        PointSource at{.simplex = face.simplex};
+        at.barycentric[i] = 1;
+        take(at, face.offset);
+      }
+    }
+  }
+  for (const Index n : parts.shapes) {
+    const Index number = static_cast<Index>(parts.owner.size());
+    parts.owner.push_back(n);
+    if (const auto* curve = std::get_if<CurveSource>(&sources[n]))
+      seeds.add_curve(mesh, curve->points, curve->offset, number);
+    else if (const auto* face = std::get_if<SimplexSource>(&sources[n]))
+      seeds.add_face(mesh, face->simplex, face->offset, number);
+  }
+}
+
+// A front that keeps light out of triangles that a curve crosses: there it would count heights from
+// the one side as less than nothing on the other. These have the feet of their centres.
+template <class Wave>
+class SidedFront : public Wave {
+ public:
+  SidedFront(const Wave& wave, const CurveSeeds& curves) : Wave(wave), curves_(&curves) {}
+
+  [[gnu::always_inline]] void accept(Index f, std::size_t hinge, const SaddleLabel<double>& label,
+                                     double distance, Index source) {
+    // Only light starts at less than 0.
+    if (label.sigma() < 0 && curves_->crosses(source, f)) [[unlikely]]
+      return;
+    Wave::accept(f, hinge, label, distance, source);
+  }
+
+ private:
+  const CurveSeeds* curves_;
+};
+
+// Curves as a solve takes them.
+template <bool kLabels>
+class Curves {
+ public:
+  Curves(const TriangleMesh<double>& mesh, const CurveSeeds& seeds, Workspace<double>& workspace)
+      : mesh_(mesh), seeds_(seeds), workspace_(workspace) {}
+
+  template <class Rule, class Front>
+  void seed(const Rule& rule, Front& front) const {
+    seeds_.seed(rule, front);
+  }
+  // Light in triangles that keep another label, then the corners of triangles that curves pass,
+  // exactly; no light is nearer than its source.
+  template <class Front>
+  void read_out(const Front& front) const {
+    const auto offer = [&](Index v, double d, Index number) {
+      if (!(d < workspace_.vertex[v])) return;
+      workspace_.vertex[v] = d;
+      if constexpr (kLabels) workspace_.vertex_source[v] = number;
+    };
+    BorderLight<Front>(mesh_, seeds_, front).offer_corners(offer);
+    for (double& d : workspace_.vertex) d = std::max(d, 0.);
+    seeds_.offer_corners(offer);
+  }
+
+ private:
+  const TriangleMesh<double>& mesh_;
+  const CurveSeeds& seeds_;
+  Workspace<double>& workspace_;
+};
+
+void check_policy(const PropagateOptions& options) {
+  if (options.visibility != Visibility::saddles)
+    throw UsageError(
+        "curves and triangles as sources need labels with limits: use the policy saddles");
+}
+
+template <bool kLabels>
+void solve(const TriangleMesh<double>& mesh, const SourceParts& parts, const CurveSeeds& seeds,
+           const PropagateOptions& options, Workspace<double>& workspace,
+           DistanceField<double>& field) {
+  workspace.front.reserve(mesh.face_count());
+  workspace.start(mesh.face_count(), kLabels);
+  with_queue<double>(options, workspace.front, [&](auto queue) {
+    using Wave = Wavefront<double, SaddleLabel<double>, decltype(queue), kLabels>;
+    SidedFront<Wave> front(
+        Wave(workspace.marks, workspace.saddles.reserve(mesh.face_count() + 1), queue,
+             workspace.source.data(), mesh.face_count(), mesh.unit(), options),
+        seeds);
+    const SaddleRule<double, SidedFront<Wave>> rule(mesh.triangles(), front, options.vectorised);
+    surface::solve<double, kLabels>(mesh, parts.points, options, workspace, rule, front, Alone{},
+                                    field, Curves<kLabels>(mesh, seeds, workspace));
+  });
+}
+
+}  // namespace
+
+void propagate_shapes(const Serial&, const TriangleMesh<double>& mesh,
+                      std::span<const Source> sources, SourceParts& parts,
+                      const PropagateOptions& options, Workspace<double>& workspace,
+                      DistanceField<double>& field) {
+  check_policy(options);
+  CurveSeeds seeds;
+  add_shapes(mesh, sources, parts, seeds);
+  seeds.sort(mesh.face_count());
+  check(parts.points, options, {mesh.vertex_count(), mesh.face_count(), "face", 3});
+  if (sources.size() > 1)
+    solve<true>(mesh, parts, seeds, options, workspace, field);
+  else
+    solve<false>(mesh, parts, seeds, options, workspace, field);
+}
+
+}  // namespace plexway::detail
