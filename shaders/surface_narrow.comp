@@ -1,7 +1,7 @@
 #version 430
 // Between settling and offers: every triangle that this round settled hears from the neighbour that
 // its source sees before it, and takes over limits of that one's which are tighter
-// (SaddleRule::hears_of_limits says when). One invocation an entry.
+// (SaddleRule::may_hear_of_limits says when). One invocation an entry.
 //
 // What it heard stays with its entry until all have looked: the pass that makes the offers also makes
 // it the triangle's label. So nobody reads what somebody writes.

@@ -63,8 +63,8 @@ class SaddleRule {
     const Index over_left = t.across[left], over_right = t.across[right];
     Label own = front_.label(f);
     if constexpr (requires { front_.narrow(f, own); })
-      if (hears_of_limits(t, f, in, own)) [[unlikely]]
-        front_.narrow(f, own);
+      if (may_hear_of_limits(t, in, own)) [[unlikely]]
+        own = hear_of_limits(f, own, [&](const Label& narrower) { front_.narrow(f, narrower); });
     if (((over_left | over_right) & Across::special) || !vectorised_) [[unlikely]] {
       full(f, left);
       full(f, right);
@@ -109,23 +109,17 @@ class SaddleRule {
 
   /// For fronts that want all triangles of a round to have heard before any is expanded.
   void hear(Index f) const {
-    Label own = front_.label(f);
-    if (hears_of_limits(triangles_[f], f, front_.hinge(f), own)) front_.narrow_later(f, own);
+    const Label& own = front_.label(f);
+    if (may_hear_of_limits(triangles_[f], front_.hinge(f), own))
+      hear_of_limits(f, own, [&](const Label& narrower) { front_.narrow_later(f, narrower); });
   }
 
-  /// Takes tighter limits over from the neighbour that the source sees before f, if it holds the
-  /// same source (see narrow_limits). `label` is that of f.
-  [[gnu::always_inline]] bool hears_of_limits(const TriangleRecord<Real>& t, Index f,
-                                              std::size_t in, Label& label) const {
-    // Without branches but the last: each would be a coin toss.
-    const Real x = label.x[0], h = label.h[0], width = t.length[in];
-    const std::size_t before = edge_before(in), after = edge_after(in);
-    const Real to_left = x * t.sine(in) + h * t.cosine[in];
-    const Real to_right = (width - x) * t.sine(after) + h * t.cosine[after];
-    const bool left = to_left < to_right;
-    const Index across = t.across[left ? before : after];
-    const Index g = across >> Across::face_shift;
-    const Label& other = front_.label(g);
+  /// May triangle t, come in by edge `in`, take tighter limits over (see narrow_limits)? The common
+  /// no, without branches: each would be a coin toss.
+  [[gnu::always_inline]] bool may_hear_of_limits(const TriangleRecord<Real>& t, std::size_t in,
+                                                 const Label& label) const {
+    const Seen seen(t, in, label);
+    const Label& other = front_.label(seen.across >> Across::face_shift);
     using L = kernel::Lanes<Real>;
     const L theirs = other.x * other.x + other.h * other.h;
     const L ours = label.x * label.x + label.h * label.h;
@@ -133,13 +127,29 @@ class SaddleRule {
     const auto tighter = abs(theirs - ours) > L(Real(0.01)) * theirs;
     const int limits = kernel::lane_bits(tighter) >> 2;
     const bool same = std::abs(other.x[1] - label.x[1]) <= same_source * label.h[1];
-    const Real behind =
-        Real(-64) * std::numeric_limits<Real>::epsilon() * (std::abs(x) + std::abs(h) + width);
-    if (((limits != 0) & same & (std::min(to_left, to_right) < behind)) == 0) [[likely]]
-      return false;
-    return !(across & Across::special) && h >= 0 && front_.reached(g) &&
-           front_.hinge(g) != (across & Across::edge_mask) &&
-           front_.source(g) == front_.source(f) && narrow(t, in, left, across, label);
+    const Real size = std::abs(label.x[0]) + std::abs(label.h[0]) + t.length[in];
+    const Real rounding = Real(64) * std::numeric_limits<Real>::epsilon() * size;
+    // Centres in the dark keep what they have.
+    const Real qx = (t.length[in] + t.apex_x(in)) * Real(1. / 3) - label.x[0];
+    const Real qh = t.apex_h(in) * Real(1. / 3) + label.h[0];
+    const auto dark = label.x * L(0, 0, qh, -qh) + label.h * L(0, 0, qx, -qx) > L(rounding * size);
+    const bool lit = kernel::lane_bits(dark) == 0;
+    return (limits != 0) & same & lit & (seen.height < -rounding);
+  }
+
+  /// Takes tighter limits over from the neighbour that the source sees before f, if it holds the
+  /// same source: take(label). Returns the label that f has then.
+  template <class Take>
+  [[gnu::noinline]] Label hear_of_limits(Index f, Label label, const Take& take) const {
+    const TriangleRecord<Real>& t = triangles_[f];
+    const std::size_t in = front_.hinge(f);
+    const Seen seen(t, in, label);
+    const Index g = seen.across >> Across::face_shift;
+    if (!(seen.across & Across::special) && label.h[0] >= 0 && front_.reached(g) &&
+        front_.hinge(g) != (seen.across & Across::edge_mask) &&
+        front_.source(g) == front_.source(f) && narrow(t, in, seen.left, seen.across, label))
+      take(label);
+    return label;
   }
 
   /// Fetches what the expansion of f will need, in two steps: f itself, then its neighbours.
@@ -313,6 +323,23 @@ class SaddleRule {
   template <class, class>
   friend class SaddleRule;
 
+  /// Which neighbour the source of a label sees before its triangle, and at what height over the
+  /// edge to it: negative if so.
+  struct Seen {
+    [[gnu::always_inline]] Seen(const TriangleRecord<Real>& t, std::size_t in, const Label& label) {
+      const Real x = label.x[0], h = label.h[0];
+      const std::size_t before = edge_before(in), after = edge_after(in);
+      const Real to_left = x * t.sine(in) + h * t.cosine[in];
+      const Real to_right = (t.length[in] - x) * t.sine(after) + h * t.cosine[after];
+      left = to_left < to_right;
+      height = std::min(to_left, to_right);
+      across = t.across[left ? before : after];
+    }
+    Real height;
+    bool left;
+    Index across;
+  };
+
  protected:
   SaddleRule(const TriangleRecord<Real>* triangles, Index sentinel, Front& front, bool vectorised)
       : triangles_(triangles), sentinel_(sentinel), front_(front), vectorised_(vectorised) {}
@@ -361,8 +388,8 @@ class SaddleRule {
                                                   t.cosine[corner], t.sine(corner));
   }
 
-  [[gnu::noinline]] bool narrow(const TriangleRecord<Real>& t, std::size_t in, bool left,
-                                Index across, Label& label) const {
+  bool narrow(const TriangleRecord<Real>& t, std::size_t in, bool left, Index across,
+              Label& label) const {
     const Index g = across >> Across::face_shift;
     const std::size_t edge = left ? edge_before(in) : edge_after(in), corner = left ? in : edge;
     int pivot = -1;

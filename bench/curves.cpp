@@ -1,0 +1,261 @@
+// Sources that are not points, against closed forms: a segment, a circle and a triangle, each as
+// one source and as 200 points of it, in turns. Errors are relative to the distance, but where that
+// is less than an edge, to the edge.
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include <plexway/apps/path_field.hpp>
+#include <plexway/executors/serial.hpp>
+#include <plexway/executors/source_sets.hpp>
+
+#include "../data/shapes.hpp"
+#include "harness.hpp"
+#include "table.hpp"
+
+namespace {
+
+using plexway::Index;
+using plexway::PointSource;
+using samples::Point;
+using samples::operator*;
+using samples::operator+;
+using samples::operator-;
+
+// A surface that unrolls onto the plane: where its vertices are there, and after what x it is
+// around.
+struct Unrolled {
+  std::string name;
+  samples::Shape shape;
+  std::vector<Point> flat;
+  double edge, around;
+
+  [[nodiscard]] Index nearest(double x, double y) const {
+    Index best = 0;
+    for (Index v = 0; v < flat.size(); ++v)
+      if (std::hypot(flat[v][0] - x, flat[v][1] - y) <
+          std::hypot(flat[best][0] - x, flat[best][1] - y))
+        best = v;
+    return best;
+  }
+};
+
+Unrolled square(Index n) {
+  Unrolled s{"square",
+             samples::jittered_square(n, 1, 0.25, 5, [](Index, Index) { return false; }),
+             {},
+             1. / n,
+             1e9};
+  samples::add_square_faces(s.shape, n, [](Index, Index) { return true; });
+  s.flat = s.shape.points;
+  return s;
+}
+
+// A prism with n sides, as high as it is around; its vertices are moved along its edges.
+Unrolled prism(Index n) {
+  Unrolled s{"prism", {}, {}, 1. / n, 1};
+  samples::Noise noise(6);
+  const double radius = 0.5 / n / std::sin(samples::pi / n);
+  for (Index i = 0; i <= n; ++i)
+    for (Index k = 0; k < n; ++k) {
+      const double turn = 2 * samples::pi * k / n;
+      const double y = (i + (i > 0 && i < n ? 0.3 * noise() : 0)) / n;
+      s.shape.add({radius * std::cos(turn), radius * std::sin(turn), y});
+      s.flat.push_back({static_cast<double>(k) / n, y, 0});
+    }
+  for (Index i = 0; i < n; ++i)
+    for (Index k = 0; k < n; ++k) {
+      const Index a = i * n + k, b = i * n + (k + 1) % n;
+      samples::add_quad(s.shape, a, b, b + n, a + n);
+    }
+  return s;
+}
+
+struct Case {
+  std::string name;
+  plexway::Source source;
+  std::vector<PointSource> points;
+  std::function<double(const Point&)> exact;
+};
+
+double to_segment(const Point& p, const Point& a, const Point& b) {
+  const Point ab = b - a;
+  const double t = std::clamp(samples::dot(p - a, ab) / samples::dot(ab, ab), 0., 1.);
+  const Point off = p - a - t * ab;
+  return std::sqrt(samples::dot(off, off));
+}
+
+constexpr std::size_t count = 200;
+
+Case segment(const Unrolled& s, const plexway::TriangleMesh<double>& mesh) {
+  const Index from = s.nearest(0.22, 0.31), to = s.nearest(0.57, 0.42);
+  plexway::PathField field(mesh, s.shape.points);
+  field.solve(plexway::Serial{}, PointSource::at(from));
+  const plexway::Path path = field.trace(to);
+  Case one{"segment", {}, {}, [&s, a = s.flat[from], b = s.flat[to]](const Point& p) {
+             double d = 1e300;
+             for (const double turn : {-s.around, 0., s.around})
+               d = std::min(d, to_segment({p[0] + turn, p[1], 0}, a, b));
+             return d;
+           }};
+  plexway::CurveSource curve;
+  const auto at = [&](std::size_t i) {
+    if (i == 0) return PointSource::at(to);
+    if (i + 1 == path.points.size()) return PointSource::at(from);
+    return PointSource::in(path.points[i].simplex, path.points[i].barycentric);
+  };
+  for (std::size_t i = 0; i < path.points.size(); ++i) curve.points.push_back(at(i));
+  one.source = curve;
+  // Points at equal steps. The piece after a point is in the simplex that the path names there.
+  double walked = 0;
+  for (std::size_t i = 0; i + 1 < path.points.size(); ++i) {
+    const Point p = path.positions[i], step = path.positions[i + 1] - p;
+    const double length = std::sqrt(samples::dot(step, step));
+    for (; one.points.size() < count;) {
+      const double t =
+          (path.length * (static_cast<double>(one.points.size()) + 0.5) / count - walked) / length;
+      if (t > 1) break;
+      const auto& f = s.shape.faces[path.points[i].simplex];
+      const auto area = [&](const Point& x, const Point& y, const Point& z) {
+        const Point n = samples::cross(y - x, z - x);
+        return std::sqrt(samples::dot(n, n));
+      };
+      const Point x = p + t * step, &a = s.shape.points[f[0]], &b = s.shape.points[f[1]],
+                  &c = s.shape.points[f[2]];
+      const double u = area(x, b, c), v = area(a, x, c), w = area(a, b, x), sum = u + v + w;
+      one.points.push_back(PointSource::in(path.points[i].simplex, {u / sum, v / sum, w / sum}));
+    }
+    walked += length;
+  }
+  return one;
+}
+
+Case circle(const Unrolled& s) {
+  const Index centre = s.nearest(0.5, 0.5);
+  const double radius = 0.3;
+  Case one{"circle",
+           plexway::BallSource{.centre = PointSource::at(centre), .radius = radius},
+           {},
+           [c = s.flat[centre], radius](const Point& p) {
+             return std::abs(std::hypot(p[0] - c[0], p[1] - c[1]) - radius);
+           }};
+  for (std::size_t i = 0; i < count; ++i) {
+    const double turn = 2 * samples::pi * static_cast<double>(i) / count;
+    const Point x = s.flat[centre] + radius * Point{std::cos(turn), std::sin(turn), 0};
+    for (Index f = 0; f < s.shape.faces.size(); ++f) {
+      const auto& [i0, i1, i2] = s.shape.faces[f];
+      const Point &a = s.flat[i0], &b = s.flat[i1], &c = s.flat[i2];
+      const double all = samples::cross(b - a, c - a)[2];
+      const double u = samples::cross(b - x, c - x)[2] / all;
+      const double v = samples::cross(c - x, a - x)[2] / all;
+      if (u < 0 || v < 0 || u + v > 1) continue;
+      one.points.push_back(PointSource::in(f, {u, v, 1 - u - v}));
+      break;
+    }
+  }
+  return one;
+}
+
+Case triangle(const Unrolled& s) {
+  const Index f = static_cast<Index>(s.shape.faces.size() / 2 + 9);
+  Case one{"triangle", plexway::SimplexSource{.simplex = f}, {}, [&s, f](const Point& p) {
+             double d = 1e300, least = 1e300;
+             for (std::size_t i = 0; i < 3; ++i) {
+               const Point &a = s.flat[s.shape.faces[f][i]],
+                           &b = s.flat[s.shape.faces[f][(i + 1) % 3]];
+               d = std::min(d, to_segment(p, a, b));
+               least = std::min(least, samples::cross(b - a, p - a)[2]);
+             }
+             return least > 0 ? 0 : d;
+           }};
+  for (std::size_t i = 0; i < count; ++i) {
+    const double at = 3 * static_cast<double>(i) / count;
+    const std::size_t k = static_cast<std::size_t>(at);
+    std::array<double, 3> b = {0, 0, 0};
+    b[k] = 1 - (at - static_cast<double>(k));
+    b[(k + 1) % 3] = 1 - b[k];
+    one.points.push_back(PointSource::in(f, b));
+  }
+  return one;
+}
+
+nlohmann::ordered_json measure(const Unrolled& s, const plexway::TriangleMesh<double>& mesh,
+                               const Case& one, std::size_t turns) {
+  plexway::Workspace<double> workspace;
+  plexway::DistanceField<double> whole, sampled;
+  const plexway::PropagateOptions options{};
+  std::vector<double> first, ratio;
+  for (std::size_t i = 0; i <= turns; ++i) {
+    const double a = bench::seconds([&] {
+      propagate(plexway::Serial{}, mesh, std::span(&one.source, 1), options, workspace, whole);
+    });
+    const double b = bench::seconds([&] {
+      propagate(plexway::Serial{}, mesh, std::span<const PointSource>(one.points), options,
+                workspace, sampled);
+    });
+    if (i == 0) continue;
+    first.push_back(1e9 * a / static_cast<double>(s.flat.size()));
+    ratio.push_back(a / b);
+  }
+  struct Errors {
+    double mean = 0, max = 0;
+  };
+  const auto errors = [&](const plexway::DistanceField<double>& field) {
+    Errors e;
+    for (std::size_t v = 0; v < s.flat.size(); ++v) {
+      const double d = one.exact(s.flat[v]);
+      const double off = std::abs(field.distance[v] - d) / std::max(d, s.edge);
+      e.mean += off / static_cast<double>(s.flat.size());
+      e.max = std::max(e.max, off);
+    }
+    return e;
+  };
+  const Errors e = errors(whole), points = errors(sampled);
+  return {{"surface", s.name},
+          {"vertices", s.flat.size()},
+          {"source", one.name},
+          {"mean", e.mean},
+          {"max", e.max},
+          {"points_mean", points.mean},
+          {"points_max", points.max},
+          {"ns", bench::median(first)},
+          {"ratio", bench::median(ratio)}};
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  std::vector<Index> cells = {60, 200, 600};
+  std::size_t turns = 15;
+  bench::Report report;
+  CLI::App app("Segments, circles and triangles as sources against 200 points of them");
+  app.add_option("--cells", cells, "Cells a side")->delimiter(',')->capture_default_str();
+  app.add_option("--turns", turns, "Solves of each")->capture_default_str();
+  report.add_options(app);
+  CLI11_PARSE(app, argc, argv);
+
+  bench::Table table({{"surface", "surface"},
+                      {"vertices", "vertices"},
+                      {"source", "source"},
+                      {"mean", "error mean", "%.1e"},
+                      {"max", "max", "%.1e"},
+                      {"points_mean", "200 points: mean", "%.1e"},
+                      {"points_max", "max", "%.1e"},
+                      {"ns", "ns/V", "%.0f"},
+                      {"ratio", "time / 200 points", "%.2f"}});
+  return report.write(table, [&] {
+    for (const Index n : cells) {
+      for (const Unrolled& s : {square(n), prism(n)}) {
+        const plexway::TriangleMesh<double> mesh(s.shape.points, s.shape.faces);
+        table.add(measure(s, mesh, segment(s, mesh), turns));
+        if (s.name != "square") continue;
+        table.add(measure(s, mesh, circle(s), turns));
+        table.add(measure(s, mesh, triangle(s), turns));
+      }
+    }
+  });
+}
