@@ -141,8 +141,9 @@ SolidLabel label_of(uint t) {
   return unpack(labels[at], labels[at + 1u], labels[at + 2u], labels[at + 3u]);
 }
 bool same_limits(SolidLabel a, SolidLabel b) {
-  return a.limit[0] == b.limit[0] && a.limit[1] == b.limit[1] && a.limit[2] == b.limit[2] &&
-         a.limit[3] == b.limit[3];
+  for (int k = 0; k < label_limits; ++k)
+    if (a.limit[k] != b.limit[k]) return false;
+  return true;
 }
 
 //@include plexway/propagate/solid_sight.inl
