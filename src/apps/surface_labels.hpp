@@ -123,7 +123,9 @@ class SurfaceLabels {
       return question(SaddleRule<Real, decltype(left)>(mesh_.triangles(), left, false));
     }
     LeftLabels<Real, PlainLabel<Real>> left(w.marks, w.plain.labels.get());
-    return question(PlainRule<Real, decltype(left)>(mesh_.triangles(), left, solved_.visibility));
+    // Any table will do: it makes no offers, and so aims at nothing.
+    return question(PlainRule<Real, decltype(left)>(mesh_.triangles(), left, solved_.visibility,
+                                                    ProbeTable::learned()));
   }
 
   const TriangleMesh<Real>& mesh_;
