@@ -44,9 +44,7 @@ Prepared prepare(const TuningSurface& surface, bool automatic) {
   const TriangleMesh<double> input(surface.positions, surface.faces);
   const Retriangulation pays = what_pays(measure_triangulation(input));
   if (pays == Retriangulation::keep) return made;
-  Refinement refinement;
-  if (pays == Retriangulation::refined) refinement = Refinement::moderate();
-  made.delaunay.emplace(input, refinement);
+  made.delaunay.emplace(input, refinement_for(pays));
   if (made.delaunay->summary().flips + made.delaunay->summary().inserted_vertices == 0)
     made.delaunay.reset();
   return made;
