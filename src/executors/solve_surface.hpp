@@ -48,10 +48,9 @@ void read_out_sources(const TriangleMesh<Real>& mesh, std::span<const PointSourc
   }
 }
 
-/// The corners of triangles that curves pass, exactly; no light is nearer than its source.
+/// The corners of triangles that curves pass, exactly.
 template <class Real, bool kLabels>
 void read_out_curves(const CurveSeeds& curves, Workspace<Real>& workspace) {
-  for (Real& d : workspace.vertex) d = std::max(d, Real(0));
   curves.offer_corners([&](Index v, double distance, Index number) {
     const Real d = static_cast<Real>(distance);
     if (!(d < workspace.vertex[v])) return;
@@ -87,7 +86,9 @@ void solve(const TriangleMesh<Real>& mesh, std::span<const PointSource> sources,
     read_out_triangles<Real, kLabels>(crew.team(), mesh.triangles(), rule, front, workspace);
   else
     read_out_triangles<Real, kLabels>(mesh.triangles(), rule, front, workspace);
-  if (mesh.summary().refracting_edges > 0)  // where lengths are no metric, light may gain on itself
+  // No light is nearer than its source, which may be a curve; where lengths are no metric, it may
+  // gain on itself.
+  if (curves != nullptr || mesh.summary().refracting_edges > 0)
     for (Real& d : workspace.vertex) d = std::max(d, Real(0));
   read_out_sources<Real, kLabels>(mesh, sources, workspace);
   if (curves != nullptr) read_out_curves<Real, kLabels>(*curves, workspace);
