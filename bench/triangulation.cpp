@@ -29,8 +29,7 @@ nlohmann::ordered_json measure(const bench::Surface& surface, Retriangulation ki
   double flipping = 0;
   if (kind != Retriangulation::keep) {
     const plexway::TriangleMesh<double> exact(surface.positions, surface.faces);
-    plexway::Refinement refinement;
-    if (kind == Retriangulation::refined) refinement = plexway::Refinement::moderate();
+    const plexway::Refinement refinement = plexway::refinement_for(kind);
     std::unique_ptr<plexway::IntrinsicDelaunay> delaunay;
     flipping = bench::seconds(
         [&] { delaunay = std::make_unique<plexway::IntrinsicDelaunay>(exact, refinement); });

@@ -5,33 +5,24 @@
 // The exact answers beside them are bench_cgal_truth's work; bench/tune.sh does all.
 
 #include <cstdio>
+#include <cstdlib>
 #include <exception>
 #include <filesystem>
-#include <fstream>
 #include <span>
-#include <stdexcept>
 #include <string>
 #include <string_view>
+
+#include <plexway/io/triangles.hpp>
 
 #include "../data/tuning_shapes.hpp"
 
 namespace {
 
-void write(const std::filesystem::path& file, const samples::Shape& shape) {
-  std::string out;
-  char line[128];
-  for (const auto& [x, y, z] : shape.points) {
-    std::snprintf(line, sizeof line, "v %.9g %.9g %.9g\n", x, y, z);
-    out += line;
-  }
-  for (const auto& [a, b, c] : shape.faces) {
-    std::snprintf(line, sizeof line, "f %u %u %u\n", a + 1, b + 1, c + 1);
-    out += line;
-  }
-  std::ofstream stream(file, std::ios::binary);
-  stream << out;
-  stream.close();
-  if (!stream) throw std::runtime_error("cannot write " + file.string());
+// Nine digits, as the surfaces had that the tables were learned from: their digest goes by bits.
+double rounded(double x) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.9g", x);
+  return std::strtod(text, nullptr);
 }
 
 }  // namespace
@@ -49,8 +40,11 @@ int main(int argc, char** argv) {
         set == "training" ? std::span<const samples::TuningShape>(samples::tuning::training)
                           : std::span<const samples::TuningShape>(samples::tuning::validation);
     for (const samples::TuningShape& shape : shapes) {
-      const samples::Shape made = shape.make();
-      write(folder / (std::string(shape.name) + ".obj"), made);
+      samples::Shape made = shape.make();
+      for (samples::Point& p : made.points)
+        for (double& x : p) x = rounded(x);
+      plexway::io::write_triangles(folder / (std::string(shape.name) + ".obj"),
+                                   {made.points, made.faces});
       std::printf("%s: %zu vertices, %zu triangles: %s\n", std::string(shape.name).c_str(),
                   made.points.size(), made.faces.size(), std::string(shape.about).c_str());
     }

@@ -71,9 +71,7 @@ std::optional<Mesh> other_triangles(const bench::Surface& surface,
   const plexway::TriangleMesh<double> input(surface.positions, surface.faces);
   const auto pays = plexway::what_pays(plexway::measure_triangulation(input));
   if (pays == plexway::Retriangulation::keep) return std::nullopt;
-  plexway::Refinement refinement;
-  if (pays == plexway::Retriangulation::refined) refinement = plexway::Refinement::moderate();
-  return plexway::IntrinsicDelaunay(input, refinement).mesh<float>(saddles);
+  return plexway::IntrinsicDelaunay(input, plexway::refinement_for(pays)).mesh<float>(saddles);
 }
 
 // What is asked of the default, summed up over meshes.

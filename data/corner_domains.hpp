@@ -122,16 +122,7 @@ struct CornerDomain {
           const Index v = b * (n + 1) + a;
           return other[v] != nowhere && a == i ? other[v] : number[v];
         };
-        const Index a = corner(i, j), b = corner(i + 1, j), c = corner(i + 1, j + 1),
-                    d = corner(i, j + 1);
-        const Point p = shape.points[c] - shape.points[a], q = shape.points[d] - shape.points[b];
-        if (dot(p, p) < dot(q, q)) {
-          shape.faces.push_back({a, b, c});
-          shape.faces.push_back({a, c, d});
-        } else {
-          shape.faces.push_back({a, b, d});
-          shape.faces.push_back({b, c, d});
-        }
+        add_quad(shape, corner(i, j), corner(i + 1, j), corner(i + 1, j + 1), corner(i, j + 1));
       }
     return shape;
   }

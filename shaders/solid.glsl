@@ -75,21 +75,18 @@ struct SolidLabel {
 
 uint cell_base = 0u;  // number of tetrahedron 0 of this field
 
-/// A label at rest is a: S, sigma; b: the face it came in by, ring, two limits; c: two limits, the
-/// path's name or 0 for no label, the source's number; d: two limits.
+/// A label at rest is a: S, sigma; b: the face it came in by, ring, the path's name or 0 for no label,
+/// the source's number; c and d: limits.
 SolidLabel unpack(uvec4 a, uvec4 b, uvec4 c, uvec4 d) {
   SolidLabel label;
   label.source = uintBitsToFloat(a.xyz);
   label.sigma = uintBitsToFloat(a.w);
   label.centre = 0.0;
   label.ring = b.y;
-  label.limit[0] = b.z;
-  label.limit[1] = b.w;
-  label.limit[2] = c.x;
-  label.limit[3] = c.y;
+  for (int k = 0; k < 4; ++k) label.limit[k] = c[k];
   label.limit[4] = d.x;
   label.limit[5] = d.y;
-  label.path = c.z;
+  label.path = b.z;
   return label;
 }
 
@@ -135,14 +132,15 @@ uint entry_edge(uint entry) { return entry >> 4; }
 bool entry_is_last(uint entry) { return (entry & 1u) != 0u; }
 bool any_reflex() { return reflex_count != 0u; }
 uint own_rings() { return reflex_count; }
-bool reached(uint t) { return labels[4u * (cell_base + t) + 2u].z != 0u; }
+bool reached(uint t) { return labels[4u * (cell_base + t) + 1u].z != 0u; }
 SolidLabel label_of(uint t) {
   uint at = 4u * (cell_base + t);
   return unpack(labels[at], labels[at + 1u], labels[at + 2u], labels[at + 3u]);
 }
 bool same_limits(SolidLabel a, SolidLabel b) {
-  return a.limit[0] == b.limit[0] && a.limit[1] == b.limit[1] && a.limit[2] == b.limit[2] &&
-         a.limit[3] == b.limit[3];
+  for (int k = 0; k < label_limits; ++k)
+    if (a.limit[k] != b.limit[k]) return false;
+  return true;
 }
 
 //@include plexway/propagate/solid_sight.inl

@@ -36,7 +36,7 @@ void main() {
     if (!(d < least)) continue;
     least = d;
     path = label.path;
-    source = labels[4u * (cell_base + t) + 2u].w;
+    source = labels[4u * (cell_base + t) + 1u].w;
   }
   if (path == 0u) return;
   vertex_best[at] = floatBitsToUint(least);

@@ -96,8 +96,8 @@ void main() {
     near = distance < limit && repair == 0u;
     wanted = repair > 0u || floatBitsToUint(distance) <= cells[target].least;
     a = floatBitsToUint(vec4(label.source, label.sigma));
-    b = uvec4(across & 3u, label.ring, label.limit[0], label.limit[1]);
-    c = uvec4(label.limit[2], label.limit[3], label.path, c.w);
+    b = uvec4(across & 3u, label.ring, label.path, b.w);
+    c = uvec4(label.limit[0], label.limit[1], label.limit[2], label.limit[3]);
     d = uvec4(label.limit[4], label.limit[5], 0u, 0u);
   }
   if (waits_on) {  // goes on as it is

@@ -9,7 +9,7 @@ namespace plexway {
 namespace {
 
 template <class Complex, int N>
-void take_parts(const Refinement<N>& fine, CutDomain<Complex>& domain) {
+void take_parts(const Bisection<N>& fine, CutDomain<Complex>& domain) {
   domain.limits = fine.limits();
   domain.parts.reserve(fine.simplices().size());
   for (const auto& simplex : fine.simplices()) {
@@ -40,8 +40,8 @@ CutDomain<TriangleMesh<Real>> cut(const TriangleMesh<Real>& mesh, std::vector<do
     }
   }
   std::vector<std::array<Index, 3>> simplices(fits ? 0 : faces), sides(simplices.size());
-  std::vector<typename Refinement<2>::Edge> edges;
-  constexpr auto side_of = [](std::size_t i) { return Refinement<2>::side(i, edge_after(i)); };
+  std::vector<typename Bisection<2>::Edge> edges;
+  constexpr auto side_of = [](std::size_t i) { return Bisection<2>::side(i, edge_after(i)); };
   for (auto& s : sides) s.fill(none);
   for (Index f = 0; f < simplices.size(); ++f) {
     const TriangleRecord<Real>& t = triangles[f];
@@ -70,7 +70,7 @@ CutDomain<TriangleMesh<Real>> cut(const TriangleMesh<Real>& mesh, std::vector<do
     domain.limits = std::move(limits);
     return domain;
   }
-  const Refinement<2> fine(simplices, sides, std::move(edges), std::move(limits), most);
+  const Bisection<2> fine(simplices, sides, std::move(edges), std::move(limits), most);
   take_parts(fine, domain);
   const auto& cut = fine.simplices();
   std::vector<std::array<Index, 3>> faces_cut(cut.size()), across(cut.size());
@@ -135,14 +135,14 @@ CutDomain<TetMesh<Real>> cut(const TetMesh<Real>& mesh, std::vector<double> limi
     return std::tie(a.v, a.w, a.at) < std::tie(b.v, b.w, b.at);
   });
   std::vector<std::array<Index, 6>> sides(count);
-  std::vector<typename Refinement<3>::Edge> edges;
+  std::vector<typename Bisection<3>::Edge> edges;
   for (std::size_t n = 0; n < all.size(); ++n) {
     const Side& s = all[n];
     if (n == 0 || s.v != all[n - 1].v || s.w != all[n - 1].w)
       edges.push_back({{s.v, s.w}, length(s.v, s.w)});
     sides[s.at / 6][s.at % 6] = static_cast<Index>(edges.size() - 1);
   }
-  const Refinement<3> fine(simplices, sides, std::move(edges), std::move(limits), most);
+  const Bisection<3> fine(simplices, sides, std::move(edges), std::move(limits), most);
   take_parts(fine, domain);
   std::vector<std::array<double, 3>> positions;
   positions.reserve(domain.limits.size());

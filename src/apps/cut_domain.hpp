@@ -9,7 +9,7 @@
 #include <plexway/complex/tet_mesh.hpp>
 #include <plexway/complex/triangle_mesh.hpp>
 
-#include "apps/refinement.hpp"
+#include "apps/bisection.hpp"
 
 namespace plexway {
 

@@ -34,6 +34,9 @@ class LeftLabels {
 template <class Real>
 class SurfaceLabels {
  public:
+  using Posed = PosedSaddles<double>;
+  using Point = Posed::Point;
+
   SurfaceLabels(const TriangleMesh<Real>& mesh, const Solved<Real>& solved)
       : mesh_(mesh), solved_(solved), saddles_(solved.visibility == Visibility::saddles) {}
 
@@ -67,6 +70,23 @@ class SurfaceLabels {
     const double x = length > 0 ? (d0 - d1 + length * length) / (2 * length) : 0;
     return {x, -std::sqrt(std::max(d0 - x * x, 0.))};
   }
+  /// The whole label, with saddles.
+  [[nodiscard]] Posed posed(Index f) const {
+    const SaddleLabel<Real>& label = solved_.workspace.saddles.labels[f];
+    const auto number = [](Real x) { return static_cast<double>(x); };
+    Posed p;
+    p.source = {{number(label.x[0])}, number(label.h[0])};
+    for (int side = 0; side < 2; ++side)  // kept as offsets
+      p.limit[side] = {{p.source.x[0] + number(label.x[2 + side])},
+                       p.source.h + number(label.h[2 + side])};
+    p.sigma = number(label.sigma());
+    return p;
+  }
+  /// Edge k of f, for a label that comes in by it.
+  [[nodiscard]] SaddleHinge<double> hinge_of(Index f, std::size_t k, int pivot) const {
+    using Rule = SaddleRule<Real, LeftLabels<Real, SaddleLabel<Real>>>;
+    return Rule::template hinge_of<double>(mesh_.triangles()[f], k, pivot);
+  }
   /// The way to the virtual source, with saddles.
   [[nodiscard]] double sigma(Index f) const {
     return static_cast<double>(solved_.workspace.saddles.labels[f].x[1]);
@@ -74,14 +94,9 @@ class SurfaceLabels {
   [[nodiscard]] Sight sight(Index f, const Vector2& q) const {
     const Vector2 source = virtual_source(f);
     if (!saddles_) return {source, source};
-    const auto& label = solved_.workspace.saddles.labels[f];
-    using Point = PosedSaddles<double>::Point;
-    Point from = {{source.x}, -source.y};
-    const Point limit[2] = {
-        // kept as offsets
-        {{source.x + static_cast<double>(label.x[2])}, -source.y + static_cast<double>(label.h[2])},
-        {{source.x + static_cast<double>(label.x[3])},
-         -source.y + static_cast<double>(label.h[3])}};
+    const Posed label = posed(f);
+    Point from = label.source;
+    const Point(&limit)[2] = label.limit;
     const Point to = {{q.x}, q.y};
     const TriangleRecord<Real>& t = mesh_.triangles()[f];
     const double length = static_cast<double>(t.length[hinge(f)]);
@@ -123,7 +138,9 @@ class SurfaceLabels {
       return question(SaddleRule<Real, decltype(left)>(mesh_.triangles(), left, false));
     }
     LeftLabels<Real, PlainLabel<Real>> left(w.marks, w.plain.labels.get());
-    return question(PlainRule<Real, decltype(left)>(mesh_.triangles(), left, solved_.visibility));
+    // Any table will do: it makes no offers, and so aims at nothing.
+    return question(PlainRule<Real, decltype(left)>(mesh_.triangles(), left, solved_.visibility,
+                                                    ProbeTable::learned()));
   }
 
   const TriangleMesh<Real>& mesh_;

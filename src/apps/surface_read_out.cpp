@@ -6,8 +6,6 @@
 #include <tuple>
 #include <utility>
 
-#include "apps/surface_labels.hpp"
-
 namespace plexway {
 namespace {
 
@@ -23,19 +21,6 @@ bool SurfaceReadOut<Real>::step_over(Index f, std::size_t edge, Step& step) cons
           (across & Across::flip) != 0};
   // Of more than two triangles on an edge any two are flat together, so one of them will do.
   return step.to != mesh_.face_count() && step.to != f;
-}
-
-template <class Real>
-auto SurfaceReadOut<Real>::label_of(Index f) const -> Posed {
-  const SaddleLabel<Real>& label = solved_.workspace.saddles.labels[f];
-  const auto number = [](Real x) { return static_cast<double>(x); };
-  Posed p;
-  p.source = {{number(label.x[0])}, number(label.h[0])};
-  for (int side = 0; side < 2; ++side)
-    p.limit[side] = {{p.source.x[0] + number(label.x[2 + side])},
-                     p.source.h + number(label.h[2 + side])};
-  p.sigma = number(label.sigma());
-  return p;
 }
 
 template <class Real>
@@ -62,8 +47,8 @@ auto SurfaceReadOut<Real>::turned(Index f, const Posed& label, std::size_t from,
 
 template <class Real>
 double SurfaceReadOut<Real>::own(Index f, const std::array<double, 3>& weight) const {
-  const std::size_t in = solved_.workspace.marks.hinge(f);
-  const Posed label = label_of(f);
+  const std::size_t in = labels_.hinge(f);
+  const Posed label = labels_.posed(f);
   const Point q = point_over(f, in, weight);
   if (label.source.h < 0)  // the source is in f
     return label.sigma + std::hypot(q.x[0] - label.source.x[0], q.h + label.source.h);
@@ -74,7 +59,7 @@ double SurfaceReadOut<Real>::own(Index f, const std::array<double, 3>& weight) c
 // is on this side.
 template <class Real>
 double SurfaceReadOut<Real>::from_where_it_came(const Step& step, const Point& q) const {
-  const Posed label = label_of(step.to);
+  const Posed label = labels_.posed(step.to);
   const double length = static_cast<double>(triangles_[step.to].length[step.in]);
   const Point here = {{step.flip ? q.x[0] : length - q.x[0]}, -q.h};
   const auto gap = [](const Point& a, const Point& b) {
@@ -97,9 +82,9 @@ double SurfaceReadOut<Real>::from_where_it_came(const Step& step, const Point& q
 template <class Real>
 double SurfaceReadOut<Real>::offered(const Step* steps, int count, const Point& q) const {
   const Step& last = steps[count - 1];
-  if (!solved_.workspace.marks.reached(last.to)) return infinity;
-  Posed p = label_of(last.to);
-  std::size_t in = solved_.workspace.marks.hinge(last.to);
+  if (!labels_.reached(last.to)) return infinity;
+  Posed p = labels_.posed(last.to);
+  std::size_t in = labels_.hinge(last.to);
   const bool inside = p.source.h < 0;
   if (in == last.in && !inside) return count == 1 ? from_where_it_came(last, q) : infinity;
   for (int n = count - 1; n >= 0; --n) {
@@ -120,14 +105,7 @@ double SurfaceReadOut<Real>::offered(const Step* steps, int count, const Point& 
       p = Kernel::mirror_label(p, length);
       if (pivot >= 0) pivot = 1 - pivot;
     }
-    const TriangleRecord<Real>& t = triangles_[step.from];
-    SaddleHinge<double> hinge;
-    hinge.extent = static_cast<double>(t.length[step.out]);
-    hinge.apex = {{static_cast<double>(t.apex_x(step.out))},
-                  static_cast<double>(t.apex_h(step.out))};
-    hinge.saddle[0] = t.saddle(step.out);
-    hinge.saddle[1] = t.saddle(edge_after(step.out));
-    hinge.pivot = pivot;
+    const SaddleHinge<double> hinge = labels_.hinge_of(step.from, step.out, pivot);
     if (!(cross_hinge<double>(p, hinge, false) < infinity)) return infinity;
     in = step.out;
   }
@@ -144,7 +122,7 @@ double SurfaceReadOut<Real>::at(Index f, const std::array<double, 3>& weight, Re
         sum += weight[i] * static_cast<double>(solved_.workspace.vertex[t.corner[i]]);
     return sum;
   }
-  double best = solved_.workspace.marks.reached(f) ? own(f, weight) : infinity;
+  double best = labels_.reached(f) ? own(f, weight) : infinity;
   if (level == ReadOut::simplex) return best;
   for (std::size_t i = 0; i < 3; ++i) {
     const Point p = point_over(f, i, weight);
@@ -177,10 +155,10 @@ double SurfaceReadOut<Real>::at(Index f, const std::array<double, 3>& weight, Re
 template <class Real>
 std::array<double, 2> SurfaceReadOut<Real>::gradient(Index f) const {
   const TriangleRecord<Real>& t = triangles_[f];
-  const std::size_t in = solved_.workspace.marks.hinge(f);
+  const std::size_t in = labels_.hinge(f);
   const Point centre = point_over(f, in, {1. / 3, 1. / 3, 1. / 3});
   const Vector2 q = {centre.x[0], centre.h};
-  const Vector2 away = q - SurfaceLabels<Real>(mesh_, solved_).sight(f, q).bend;
+  const Vector2 away = q - labels_.sight(f, q).bend;
   const double length = norm(away);
   if (!(length > 0)) return {0, 0};
   // From edge `in` to edge 0: turned by the angles between them.

@@ -4,9 +4,9 @@
 
 #include <plexway/apps/read_out.hpp>
 #include <plexway/complex/triangle_mesh.hpp>
-#include <plexway/propagate/saddle_step.hpp>
 
 #include "apps/solved.hpp"
+#include "apps/surface_labels.hpp"
 
 namespace plexway {
 
@@ -15,11 +15,11 @@ namespace plexway {
 template <class Real>
 class SurfaceReadOut {
  public:
-  using Posed = PosedSaddles<double>;
-  using Point = Posed::Point;
+  using Posed = typename SurfaceLabels<Real>::Posed;
+  using Point = typename Posed::Point;
 
   SurfaceReadOut(const TriangleMesh<Real>& mesh, const Solved<Real>& solved)
-      : mesh_(mesh), triangles_(mesh.triangles()), solved_(solved) {}
+      : mesh_(mesh), triangles_(mesh.triangles()), solved_(solved), labels_(mesh, solved) {}
 
   [[nodiscard]] double at(Index f, const std::array<double, 3>& weight, ReadOut level) const;
   /// Unit direction away from the source at the centre of a reached triangle: along its edge 0 and
@@ -34,7 +34,6 @@ class SurfaceReadOut {
     bool flip;
   };
   [[nodiscard]] bool step_over(Index f, std::size_t edge, Step& step) const;
-  [[nodiscard]] Posed label_of(Index f) const;
   [[nodiscard]] Point point_over(Index f, std::size_t edge,
                                  const std::array<double, 3>& weight) const;
   [[nodiscard]] Posed turned(Index f, const Posed& label, std::size_t from, std::size_t to,
@@ -46,6 +45,7 @@ class SurfaceReadOut {
   const TriangleMesh<Real>& mesh_;
   std::span<const TriangleRecord<Real>> triangles_;
   const Solved<Real>& solved_;
+  SurfaceLabels<Real> labels_;
 };
 
 extern template class SurfaceReadOut<float>;

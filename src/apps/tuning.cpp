@@ -1,15 +1,12 @@
 #include <plexway/apps/tuning.hpp>
 
 #include <algorithm>
-#include <atomic>
 #include <bit>
 #include <cmath>
-#include <exception>
-#include <mutex>
 #include <optional>
-#include <thread>
 #include <utility>
 
+#include <plexway/complex/blocks.hpp>
 #include <plexway/complex/intrinsic_delaunay.hpp>
 #include <plexway/error.hpp>
 #include <plexway/executors/serial.hpp>
@@ -17,28 +14,11 @@
 namespace plexway {
 namespace {
 
-// Calls work(i) for each i below `count` at once, and throws the first exception, by number.
+// Calls work(i) for each i below `count`, several at once.
 template <class Work>
 void at_once(std::size_t count, std::size_t threads, const Work& work) {
-  std::atomic<std::size_t> next{0};
-  std::mutex mutex;
-  std::exception_ptr failure;
-  std::size_t failed = count;
-  const auto run = [&] {
-    for (std::size_t i; (i = next++) < count;) {
-      try {
-        work(i);
-      } catch (...) {
-        const std::scoped_lock lock(mutex);
-        if (i < failed) failed = i, failure = std::current_exception();
-      }
-    }
-  };
-  std::vector<std::thread> others;
-  for (std::size_t t = 1; t < std::min(threads, count); ++t) others.emplace_back(run);
-  run();
-  for (std::thread& thread : others) thread.join();
-  if (failure) std::rethrow_exception(failure);
+  for_blocks(count, 1, static_cast<int>(std::min(threads, count)), {},
+             [&](std::size_t first, std::size_t) { work(first); });
 }
 
 // Fowler, Noll and Vo's hash, by whole numbers.
@@ -64,9 +44,7 @@ Prepared prepare(const TuningSurface& surface, bool automatic) {
   const TriangleMesh<double> input(surface.positions, surface.faces);
   const Retriangulation pays = what_pays(measure_triangulation(input));
   if (pays == Retriangulation::keep) return made;
-  Refinement refinement;
-  if (pays == Retriangulation::refined) refinement = Refinement::moderate();
-  made.delaunay.emplace(input, refinement);
+  made.delaunay.emplace(input, refinement_for(pays));
   if (made.delaunay->summary().flips + made.delaunay->summary().inserted_vertices == 0)
     made.delaunay.reset();
   return made;
@@ -114,7 +92,7 @@ void check(const TuningSurface& surface) {
 struct TuningSet::State {
   std::vector<TuningSurface> surfaces;
   bool automatic = false;
-  std::size_t threads = 1;
+  std::size_t threads = 0;  // 0: all cores
   std::vector<Prepared> prepared;
   std::vector<std::pair<std::size_t, std::size_t>> fields;  // surface, truth
 };
@@ -125,7 +103,7 @@ TuningSet::TuningSet(std::vector<TuningSurface> surfaces, bool automatic, std::s
   State& s = *state_;
   s.surfaces = std::move(surfaces);
   s.automatic = automatic;
-  s.threads = threads > 0 ? threads : std::max(1U, std::thread::hardware_concurrency());
+  s.threads = threads;
   for (std::size_t i = 0; i < s.surfaces.size(); ++i) {
     check(s.surfaces[i]);
     for (std::size_t t = 0; t < s.surfaces[i].truths.size(); ++t) s.fields.emplace_back(i, t);

@@ -51,8 +51,7 @@ std::optional<IntrinsicDelaunay> retriangulate(Triangulation wanted, const io::T
                                                    : what_pays(measure_triangulation(mesh));
   std::optional<IntrinsicDelaunay> delaunay;
   if (report.done != Retriangulation::keep) {
-    Refinement refinement;
-    if (report.done == Retriangulation::refined) refinement = Refinement::moderate();
+    const Refinement refinement = refinement_for(report.done);
     if constexpr (sizeof(Real) == sizeof(double))
       delaunay.emplace(mesh, refinement);
     else

@@ -17,26 +17,30 @@ void for_blocks(std::size_t count, std::size_t block, int threads,
   std::atomic<std::size_t> next = 0, done = 0;
   std::atomic<bool> stop = false;
   std::exception_ptr error;
+  std::size_t failed = 0;  // where, once there is one
   std::mutex error_mutex;
-  const auto keep_error = [&] {
+  const auto keep_error = [&](std::size_t at) {
     const std::lock_guard lock(error_mutex);
-    if (!error) error = std::current_exception();
+    if (!error || at < failed) error = std::current_exception(), failed = at;
     stop = true;
   };
   const auto work_on = [&](bool callers) noexcept {
+    std::size_t first = count;
     try {
       while (!stop) {
-        const std::size_t first = next.fetch_add(block);
+        // A block that was taken is worked on: those before the first that fails are done.
+        first = next.fetch_add(block);
         if (first >= count) return;
         const std::size_t last = std::min(first + block, count);
         work(first, last);
         done += last - first;
+        first = count;
         if (callers && progress &&
             !progress(static_cast<double>(done) / static_cast<double>(count)))
           throw Cancelled("stopped by the progress callback");
       }
     } catch (...) {
-      keep_error();
+      keep_error(first);
     }
   };
   const std::size_t blocks = count / block + (count % block != 0);

@@ -221,4 +221,8 @@ Retriangulation what_pays(const TriangulationShape& shape) {
   return shape.non_delaunay_share() > 0.04 ? Retriangulation::flips : Retriangulation::keep;
 }
 
+Refinement refinement_for(Retriangulation wanted) {
+  return wanted == Retriangulation::refined ? Refinement::moderate() : Refinement();
+}
+
 }  // namespace plexway

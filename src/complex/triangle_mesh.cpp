@@ -87,11 +87,13 @@ std::vector<double> excess_around(std::span<const TriangleRecord<Real>> triangle
   return around;
 }
 
-// Takes off what chance gives (SaddleThresholds), but not where the neighbourhood is a saddle:
-// without that, distances on tubes that wind came out up to 24 % too short.
+// `around` is what `excess_around` says. Takes off what chance gives (SaddleThresholds), but not
+// where the neighbourhood is a saddle: without that, distances on tubes that wind came out up to 24
+// % too short.
 template <class Real>
 void leave_noise(std::span<const TriangleRecord<Real>> triangles, std::span<const char> boundary,
-                 const SaddleThresholds& saddles, std::vector<double>& excess) {
+                 const SaddleThresholds& saddles, std::span<const double> around,
+                 std::vector<double>& excess) {
   std::vector<double> lack(excess.size(), 0);
   std::vector<int> neighbours(excess.size(), 0);
   for (const TriangleRecord<Real>& t : triangles.first(triangles.size() - 1))
@@ -103,7 +105,6 @@ void leave_noise(std::span<const TriangleRecord<Real>> triangles, std::span<cons
         ++neighbours[of];
       }
     }
-  const std::vector<double> around = excess_around<Real>(triangles, excess, boundary);
   for (std::size_t v = 0; v < excess.size(); ++v)
     if (!boundary[v] && excess[v] > 0 && neighbours[v] > 0 && around[v] <= saddles.neighbourhood)
       excess[v] -= std::min(saddles.most_noise, saddles.noise_share * lack[v] / neighbours[v]);
@@ -369,21 +370,19 @@ void TriangleMesh<Real>::assemble(std::size_t vertices, std::span<const std::arr
   for (std::size_t v = 0; v < vertices; ++v)  // from here on what is more than flat
     angle[v] -= fans.on_boundary[v] ? std::numbers::pi + saddles.boundary
                                     : 2 * std::numbers::pi + saddles.interior;
-  if (!hints.samples) leave_noise<Real>(triangles_, fans.on_boundary, saddles, angle);
-  std::vector<double> around;
-  if (hints.samples) around = excess_around<Real>(triangles_, angle, fans.on_boundary);
+  std::vector<double> around = excess_around<Real>(triangles_, angle, fans.on_boundary);
+  if (!hints.samples) leave_noise<Real>(triangles_, fans.on_boundary, saddles, around, angle);
   for (std::size_t r = 0; r < irregular_.size(); ++r) {
     const auto corners =
         std::span<const Index>(irregular_corners_)
             .subspan(irregular_begin_[r], irregular_begin_[r + 1] - irregular_begin_[r]);
     const double bends = is_open_book<Real>(triangles_, corners) ? -1 : 1;
-    angle[irregular_[r]] = bends;
-    if (!around.empty()) around[irregular_[r]] = bends;
+    angle[irregular_[r]] = around[irregular_[r]] = bends;
   }
   for (std::size_t inside = 0; inside < m; ++inside)
     for (Index i = 0; i < 3; ++i) {
       const Index v = triangles_[inside].corner[i];
-      const bool saddle = angle[v] > 0 && (around.empty() || fans.on_boundary[v] || around[v] > 0);
+      const bool saddle = angle[v] > 0 && (!hints.samples || fans.on_boundary[v] || around[v] > 0);
       if (saddle)
         triangles_[inside].signed_sine[i] =
             std::copysign(triangles_[inside].signed_sine[i], Real(-1));

@@ -27,7 +27,6 @@ class TrianglePropagation {
         rule_(rule),
         front_(front),
         radius_(static_cast<Real>(options.radius / mesh.unit())),
-        faces_(mesh.face_count()),
         refracts_(mesh.summary().refracting_edges > 0) {}
 
   void seed(const PointSource& source, Index number) {
@@ -75,7 +74,7 @@ class TrianglePropagation {
     } while (pass_pinches(mesh_.pinched()) || revive());
   }
 
-  /// Expands triangles for the front of a thread. The rounds that it is part of do not matter.
+  /// Expands triangles for the front of a thread. `rounds.updates()` says how much was done so far.
   template <class Other, class Rounds>
   [[nodiscard]] auto expander(Other& front, bool last_resort, const Rounds& rounds) const {
     return Expander<Other, Rounds>{*this, front, rule_.on(front), rounds, last_resort};
@@ -118,7 +117,8 @@ class TrianglePropagation {
   template <class AnyRule>
   void limit(AnyRule& rule, std::size_t updates) const {
     if constexpr (requires { rule.set_patience(Real(1)); }) {
-      const double more = static_cast<double>(updates) / (64 * static_cast<double>(faces_));
+      const double more =
+          static_cast<double>(updates) / (64 * static_cast<double>(mesh_.face_count()));
       if (more > 1) rule.set_patience(std::max(static_cast<Real>(2 - more), Real(1e-20)));
     }
   }
@@ -213,7 +213,6 @@ class TrianglePropagation {
   Rule rule_;
   Front& front_;
   Real radius_;
-  std::size_t faces_;
   bool refracts_;
 };
 

@@ -2,7 +2,10 @@
 
 #include <atomic>
 #include <catch2/catch.hpp>
+#include <chrono>
 #include <stdexcept>
+#include <string>
+#include <thread>
 #include <vector>
 
 #include <plexway/error.hpp>
@@ -39,4 +42,18 @@ TEST_CASE("blocks hand on what work throws, and stop when progress says so") {
             1000000, 10, threads, [](double) { return false; }, [](std::size_t, std::size_t) {}),
         plexway::Cancelled);
   }
+}
+
+TEST_CASE("of several blocks that fail the first one counts") {
+  for (const int threads : {1, 3, 8})
+    for (int turn = 0; turn < 50; ++turn)
+      CHECK_THROWS_WITH(
+          plexway::for_blocks(1000, 1, threads, {},
+                              [](std::size_t first, std::size_t) {
+                                if (first < 40) return;
+                                if (first == 40)
+                                  std::this_thread::sleep_for(std::chrono::microseconds(200));
+                                throw std::out_of_range(std::to_string(first));
+                              }),
+          "40");
 }

@@ -120,6 +120,42 @@ inline Solid vertex_touch(Index n) {
   });
 }
 
+/// A prism of height 1 between regular polygons of radius 1/2 and 1: `sides` reflex edges in a row.
+/// Layers of `across` rings, cut as `cubes` are; vertices inside are moved.
+inline Solid pipe(Index sides, Index across, Index layers, double jitter = 0.15) {
+  Solid s;
+  std::mt19937 random(5);
+  const auto vertex = [&](Index side, Index ring, Index layer) {
+    return (layer * (across + 1) + ring) * sides + side % sides;
+  };
+  for (Index layer = 0; layer <= layers; ++layer)
+    for (Index ring = 0; ring <= across; ++ring)
+      for (Index side = 0; side < sides; ++side) {
+        const bool inside = ring > 0 && ring < across && layer > 0 && layer < layers;
+        const auto moved = [&](Index i) {
+          return i + (inside ? (2 * uniform(random) - 1) * jitter : 0);
+        };
+        const double angle = 2 * std::acos(-1.0) / sides * moved(side);
+        const double radius = 0.5 + 0.5 * moved(ring) / across, z = moved(layer) / layers;
+        s.positions.push_back({radius * std::cos(angle), radius * std::sin(angle), z});
+      }
+  for (Index layer = 0; layer < layers; ++layer)
+    for (Index ring = 0; ring < across; ++ring)
+      for (Index side = 0; side < sides; ++side) {
+        std::array<Index, 3> axis = {0, 1, 2};
+        do {
+          std::array<Index, 3> at = {side, ring, layer};
+          Tet tet = {vertex(side, ring, layer)};
+          for (std::size_t n = 0; n < 3; ++n) {
+            ++at[axis[n]];
+            tet[n + 1] = vertex(at[0], at[1], at[2]);
+          }
+          s.tets.push_back(tet);
+        } while (std::next_permutation(axis.begin(), axis.end()));
+      }
+  return s;
+}
+
 /// Rotated about a skew axis, scaled, moved.
 inline Solid moved(Solid s, double scale, const Position& by, double angle = 0.7) {
   const double c = std::cos(angle), n = std::sin(angle), u = 1 / std::sqrt(3.0);

@@ -99,7 +99,7 @@ TEST_CASE("a provider does not include another provider") {
     for (const house::Include& include : house::includes_of(file)) {
       const auto target = target_of(file, include);
       const auto other = target ? after(*target, "complexes/") : std::nullopt;
-      if (!other) continue;
+      if (!other || other->find('/') == other->npos) continue;  // complexes/*.hpp is for all
       INFO(file << ':' << include.line << ": " << include.name);
       CHECK(first_part(*other) == first_part(*own));
     }

@@ -4,16 +4,11 @@
 #include <fcntl.h>
 #include <poll.h>
 #include <sys/resource.h>
-#include <sys/wait.h>
 #include <unistd.h>
-#ifdef __linux__
-#include <sys/prctl.h>
-#endif
 
 #include <algorithm>
 #include <cerrno>
 #include <cmath>
-#include <csignal>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
@@ -25,10 +20,13 @@
 #include <plexway/error.hpp>
 #include <plexway/openvdb/level_set.hpp>
 
+#include "../../child_process.hpp"
 #include "grid_copy.hpp"
 
 namespace plexway::openvdb {
 namespace {
+
+using isolated::Descriptor;
 
 enum class Word : std::uint32_t { head = 1, brick, inside, end, complaint };
 
@@ -48,12 +46,7 @@ class Writer {
     if (buffer_.size() > (1 << 15)) flush();
   }
   void flush() {
-    for (std::size_t sent = 0; sent < buffer_.size();) {
-      const ssize_t now = ::write(to_, buffer_.data() + sent, buffer_.size() - sent);
-      if (now < 0 && errno == EINTR) continue;
-      if (now <= 0) ::_exit(1);
-      sent += static_cast<std::size_t>(now);
-    }
+    isolated::send(to_, buffer_.data(), buffer_.size());
     buffer_.clear();
   }
 
@@ -183,7 +176,6 @@ void set_limit(Resource resource, rlim_t soft, rlim_t hard) {
 }
 
 void limit_resources(std::uintmax_t file_bytes) {
-  set_limit(RLIMIT_CORE, 0, 0);
   const rlim_t seconds = 20 + file_bytes / (1 << 20);
   set_limit(RLIMIT_CPU, seconds, seconds + 1);
 #if defined(RLIMIT_DATA) && !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
@@ -197,14 +189,7 @@ void limit_resources(std::uintmax_t file_bytes) {
 
 // Writes the answer; what goes wrong with OpenVDB is part of it.
 void tell(const std::string& file, const std::string& grid, int answer) {
-  for (const int signal : {SIGABRT, SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGPIPE})
-    std::signal(signal, SIG_DFL);
-#ifdef __linux__
-  ::prctl(PR_SET_PDEATHSIG, SIGKILL);
-#endif
-  const int nowhere = ::open("/dev/null", O_WRONLY);
-  ::dup2(nowhere, STDOUT_FILENO);
-  ::dup2(nowhere, STDERR_FILENO);
+  isolated::speak_into(::open("/dev/null", O_WRONLY));
   // What the answer takes is there before memory may run out.
   constexpr std::size_t longest = 1000;
   Writer out(answer);
@@ -239,16 +224,6 @@ void tell(const std::string& file, const std::string& grid, int answer) {
   out.put(complaint.empty() ? Word::end : Word::complaint);
   if (!complaint.empty()) out.put(complaint);
   out.flush();
-}
-
-// Nothing may leave it: there would be two processes in the caller's code.
-[[noreturn]] void child(const std::string& file, const std::string& grid, int answer) noexcept {
-  try {
-    tell(file, grid, answer);
-  } catch (...) {
-    ::_exit(1);
-  }
-  ::_exit(0);
 }
 
 // What the child says, piece by piece. It may say anything: a damaged file may have it write
@@ -327,26 +302,6 @@ class Listener {
   std::shared_ptr<Bricks> bricks_ = std::make_shared<Bricks>();
 };
 
-struct Descriptor {
-  int number = -1;
-  explicit Descriptor(int open) : number(open) {}
-  Descriptor(const Descriptor&) = delete;
-  Descriptor& operator=(const Descriptor&) = delete;
-  ~Descriptor() { close(); }
-  void close() {
-    if (number >= 0) ::close(number);
-    number = -1;
-  }
-  /// Away from the standard ones: a caller may have closed those, and the child puts others there.
-  void move_up() {
-    if (number > STDERR_FILENO) return;
-    const int up = ::fcntl(number, F_DUPFD_CLOEXEC, STDERR_FILENO + 1);
-    if (up < 0) throw Error("cannot run OpenVDB: " + std::generic_category().message(errno));
-    close();
-    number = up;
-  }
-};
-
 void require_file(const std::filesystem::path& file) {
   std::error_code error;
   const auto status = std::filesystem::status(file, error);
@@ -365,33 +320,15 @@ void require_file(const std::filesystem::path& file) {
 // One try: null with a complaint, or stuck.
 std::shared_ptr<Bricks> try_to_read(const std::filesystem::path& file, std::string_view grid,
                                     std::string& complaint, bool& stuck) {
-  std::array<int, 2> ends = {-1, -1};
-  if (::pipe2(ends.data(), O_CLOEXEC) != 0)
-    throw Error("cannot run OpenVDB: " + std::generic_category().message(errno));
-  Descriptor answer{ends[0]}, speech{ends[1]};
-  answer.move_up();
-  speech.move_up();
+  isolated::Pipe answer("OpenVDB");
   const std::string name = file.string(), wanted(grid);
-  const pid_t pid = ::fork();
-  if (pid < 0) throw Error("cannot run OpenVDB: " + std::generic_category().message(errno));
-  if (pid == 0) child(name, wanted, speech.number);
-  speech.close();
-
-  std::shared_ptr<Bricks> bricks;
-  std::exception_ptr failure;
-  try {
-    std::error_code unknown;
-    const std::uintmax_t size = std::filesystem::file_size(file, unknown);
-    Listener listener(answer.number, pid, bytes_needed(unknown ? 0 : size));
-    bricks = listener.listen(complaint);
-    stuck = listener.stuck();
-  } catch (...) {
-    failure = std::current_exception();
-  }
-  ::kill(pid, SIGKILL);
-  while (::waitpid(pid, nullptr, 0) < 0 && errno == EINTR) {
-  }
-  if (failure) std::rethrow_exception(failure);
+  const isolated::Child child("OpenVDB", [&] { tell(name, wanted, answer.write.number); });
+  answer.write.close();
+  std::error_code unknown;
+  const std::uintmax_t size = std::filesystem::file_size(file, unknown);
+  Listener listener(answer.read.number, child.pid(), bytes_needed(unknown ? 0 : size));
+  std::shared_ptr<Bricks> bricks = listener.listen(complaint);
+  stuck = listener.stuck();
   return bricks;
 }
 

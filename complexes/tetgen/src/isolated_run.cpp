@@ -4,32 +4,27 @@
 
 #include "isolated_run.hpp"
 
-#include <fcntl.h>
 #include <poll.h>
-#include <sys/resource.h>
-#include <sys/wait.h>
 #include <unistd.h>
-#ifdef __linux__
-#include <sys/prctl.h>
-#endif
 
 #include <algorithm>
 #include <array>
 #include <cerrno>
 #include <chrono>
-#include <csignal>
 #include <cstdint>
 #include <cstdio>
 #include <cstring>
 #include <new>
-#include <system_error>
 
 #include <plexway/error.hpp>
 
+#include "../../child_process.hpp"
 #include "tetgen_arrays.hpp"
 
 namespace plexway::tetgen {
 namespace {
+
+using isolated::Pipe, isolated::send;
 
 constexpr std::size_t most_said = std::size_t{1} << 18;
 // Behind it begins what TetGen says; before it may stand what the caller had not flushed yet.
@@ -40,56 +35,14 @@ struct Header {
   std::uint64_t points = 0, tets = 0, attributes = 0;
 };
 
-class Pipe {
- public:
-  Pipe() {
-    std::array<int, 2> ends = {-1, -1};
-    if (::pipe2(ends.data(), O_CLOEXEC) != 0)
-      throw Error("cannot run TetGen: " + std::generic_category().message(errno));
-    read = ends[0];
-    write = ends[1];
-  }
-  ~Pipe() {
-    close(read);
-    close(write);
-  }
-  Pipe(const Pipe&) = delete;
-  Pipe& operator=(const Pipe&) = delete;
-  static void close(int& end) {
-    if (end >= 0) ::close(end);
-    end = -1;
-  }
-
-  int read = -1, write = -1;
-};
-
-void send(int to, const void* bytes, std::size_t size) {
-  const char* at = static_cast<const char*>(bytes);
-  while (size > 0) {
-    const ssize_t sent = ::write(to, at, size);
-    if (sent < 0 && errno == EINTR) continue;
-    if (sent <= 0) ::_exit(1);
-    at += sent;
-    size -= static_cast<std::size_t>(sent);
-  }
-}
-
 template <class Number>
 void send_array(int to, const Number* numbers, std::uint64_t count) {
   send(to, numbers, count * sizeof(Number));
 }
 
-[[noreturn]] void child(const PiecewiseLinearComplex& complex, const std::string& switches,
-                        int speech, int answer) {
-  for (const int signal : {SIGABRT, SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGPIPE})
-    std::signal(signal, SIG_DFL);
-#ifdef __linux__
-  ::prctl(PR_SET_PDEATHSIG, SIGKILL);  // nobody would read the answer
-#endif
-  const rlimit no_core = {0, 0};
-  ::setrlimit(RLIMIT_CORE, &no_core);
-  ::dup2(speech, STDOUT_FILENO);
-  ::dup2(speech, STDERR_FILENO);
+void fill(const PiecewiseLinearComplex& complex, const std::string& switches, int speech,
+          int answer) {
+  isolated::speak_into(speech);
   std::fwrite(start_of_speech.data(), 1, start_of_speech.size(), stdout);
   std::fflush(stdout);
   std::setvbuf(stdout, nullptr, _IOLBF, 1 << 12);  // abort() does not flush
@@ -120,7 +73,6 @@ void send_array(int to, const Number* numbers, std::uint64_t count) {
   send_array(answer, out->pointlist, 3 * header.points);
   send_array(answer, out->tetrahedronlist, 4 * header.tets);
   send_array(answer, out->tetrahedronattributelist, header.attributes);
-  ::_exit(0);
 }
 
 // Seconds since it was made, against what a caller is ready to wait.
@@ -161,8 +113,9 @@ Ending listen_to(Pipe& speech, Pipe& answer, const Patience& patience, std::stri
                  std::string& bytes) {
   Clock clock(patience);
   std::vector<char> buffer(std::size_t{1} << 16);
-  while (speech.read >= 0 || answer.read >= 0) {
-    std::array<pollfd, 2> wait = {{{speech.read, POLLIN, 0}, {answer.read, POLLIN, 0}}};
+  while (speech.read.number >= 0 || answer.read.number >= 0) {
+    std::array<pollfd, 2> wait = {
+        {{speech.read.number, POLLIN, 0}, {answer.read.number, POLLIN, 0}}};
     if (::poll(wait.data(), wait.size(), clock.wait()) < 0 && errno != EINTR) return Ending::killed;
     if (const Ending ending = clock.look(); ending != Ending::done) return ending;
     for (std::size_t i = 0; i < 2; ++i) {
@@ -170,7 +123,7 @@ Ending listen_to(Pipe& speech, Pipe& answer, const Patience& patience, std::stri
       const ssize_t got = ::read(wait[i].fd, buffer.data(), buffer.size());
       if (got < 0 && errno == EINTR) continue;
       if (got <= 0) {
-        Pipe::close(i == 0 ? speech.read : answer.read);
+        (i == 0 ? speech.read : answer.read).close();
         continue;
       }
       const auto size = static_cast<std::size_t>(got);
@@ -186,22 +139,6 @@ Ending listen_to(Pipe& speech, Pipe& answer, const Patience& patience, std::stri
   return Ending::done;
 }
 
-// The process that TetGen runs in; does not outlive this object.
-class Child {
- public:
-  explicit Child(pid_t pid) : pid_(pid) {}
-  ~Child() {
-    ::kill(pid_, SIGKILL);
-    while (::waitpid(pid_, nullptr, 0) < 0 && errno == EINTR) {
-    }
-  }
-  Child(const Child&) = delete;
-  Child& operator=(const Child&) = delete;
-
- private:
-  pid_t pid_;
-};
-
 template <class Row>
 bool take(std::string_view& bytes, std::vector<Row>& rows, std::uint64_t count) {
   if (bytes.size() < count * sizeof(Row)) return false;
@@ -215,14 +152,11 @@ bool take(std::string_view& bytes, std::vector<Row>& rows, std::uint64_t count) 
 
 Run run_isolated(const PiecewiseLinearComplex& complex, const std::string& switches,
                  const Patience& patience) {
-  Pipe speech, answer;
-  const pid_t pid = ::fork();
-  if (pid < 0) throw Error("cannot run TetGen: " + std::generic_category().message(errno));
-  if (pid == 0) child(complex, switches, speech.write, answer.write);
-  Pipe::close(speech.write);
-  Pipe::close(answer.write);
-
-  const Child running(pid);
+  Pipe speech("TetGen"), answer("TetGen");
+  const isolated::Child running(
+      "TetGen", [&] { fill(complex, switches, speech.write.number, answer.write.number); });
+  speech.write.close();
+  answer.write.close();
 
   Run run;
   std::string bytes;

@@ -66,6 +66,9 @@ struct Refinement {
   static Refinement moderate() { return {.smallest_angle = 20}; }
 };
 
+/// That for `refined`, none for the others.
+[[nodiscard]] Refinement refinement_for(Retriangulation wanted);
+
 /// The intrinsic Delaunay triangulation of a surface: other triangles over the same vertices in
 /// the same metric, such that the two angles opposite to an inner edge never exceed 180 degrees.
 ///

@@ -23,7 +23,7 @@ class PlainRule {
   using Point = typename Kernel::HingePoint;
 
   PlainRule(std::span<const TriangleRecord<Real>> triangles, Front& front, Visibility policy,
-            const ProbeTable& table = ProbeTable::learned())
+            const ProbeTable& table)
       : PlainRule(triangles, front, ProbeAim<Real>(policy, table)) {}
   PlainRule(std::span<const TriangleRecord<Real>> triangles, Front& front,
             const ProbeAim<Real>& aim)

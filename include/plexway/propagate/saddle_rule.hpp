@@ -232,6 +232,19 @@ class SaddleRule {
 
   [[nodiscard]] const Label& label(Index f) const { return front_.label(f); }
 
+  /// Edge k of a triangle, as those who come in by it see it.
+  template <class Number = Real>
+  [[nodiscard]] static SaddleHinge<Number> hinge_of(const TriangleRecord<Real>& t, std::size_t k,
+                                                    int pivot) {
+    SaddleHinge<Number> hinge;
+    hinge.extent = static_cast<Number>(t.length[k]);
+    hinge.apex = {{static_cast<Number>(t.apex_x(k))}, static_cast<Number>(t.apex_h(k))};
+    hinge.saddle[0] = t.saddle(k);
+    hinge.saddle[1] = t.saddle(k == 2 ? 0 : k + 1);
+    hinge.pivot = pivot;
+    return hinge;
+  }
+
   // What follows is for simplices of other complexes that share an edge or all of a triangle.
 
   /// The source of f as seen from one of its edges, x from the edge's first corner: behind the bend
@@ -434,16 +447,6 @@ class SaddleRule {
     const Real d =
         std::max(Real(0), refract<Real>(label, hinge_of(triangles_[g], k, pivot), width));
     if (d < to_beat(g) * patience_) front_.accept(g, k, packed(label, d), d, source);
-  }
-
-  static SaddleHinge<Real> hinge_of(const TriangleRecord<Real>& t, std::size_t k, int pivot) {
-    SaddleHinge<Real> hinge;
-    hinge.extent = t.length[k];
-    hinge.apex = {{t.apex_x(k)}, t.apex_h(k)};
-    hinge.saddle[0] = t.saddle(k);
-    hinge.saddle[1] = t.saddle(k == 2 ? 0 : k + 1);
-    hinge.pivot = pivot;
-    return hinge;
   }
 
   /// The full rule for one triangle beyond.

@@ -116,7 +116,8 @@ Reach measure(HINGE_IN(Label) label, HINGE_IN(Point) q, HINGE_IN(Reach) straight
       for (int n = 1; n <= HINGE_ROLLED(bends) + 1; ++n) way += norm(trial[n + 1] - trial[n]);
     }
     if (way > bent.extent) {
-      for (int n = bends; n > place; --n) chain[n] = chain[n - 1];
+      // Counting up: of a loop with n from bends down, Mesa 22.3 loses what it stores.
+      for (int n = 0; n < HINGE_ROLLED(bends) - place; ++n) chain[bends - n] = chain[bends - n - 1];
       chain[place] = j;
       ++bends;
       for (int n = 0; n <= HINGE_ROLLED(bends) + 1; ++n) at[n] = trial[n];

@@ -1,6 +1,8 @@
 #include "executors/gl/solid_seeds.hpp"
 
+#include <algorithm>
 #include <bit>
+#include <iterator>
 #include <limits>
 
 #include <plexway/propagate/solid_rule.hpp>
@@ -30,8 +32,7 @@ class HostFront {
     label.sigma = cell.sigma;
     label.centre = std::bit_cast<float>(distance);
     label.ring = cell.ring;
-    for (std::size_t k = 0; k < std::size(label.limit); ++k)
-      label.limit[k] = k < 4 ? cell.limit[k] : cell.further[k - 4];
+    std::copy(cell.limit.begin(), cell.limit.end(), label.limit);
     label.path = cell.path;
     front_.accept(t, cell.hinge, label, label.centre, cell.source);
   }
@@ -45,15 +46,16 @@ class HostFront {
       while (front_.next(t, distance_of)) {
         const SolidLabel<float>& label = front_.label(t);
         const Vector3<float>& s = label.source;
-        take(t, std::bit_cast<GLuint>(label.centre),
-             SolidCell{{s.x, s.y, s.z},
-                       label.sigma,
-                       static_cast<GLuint>(front_.hinge(t)),
-                       label.ring,
-                       {label.limit[0], label.limit[1], label.limit[2], label.limit[3]},
-                       label.path,
-                       front_.source(t),
-                       {label.limit[4], label.limit[5], 0, 0}});
+        SolidCell cell = {{s.x, s.y, s.z},
+                          label.sigma,
+                          static_cast<GLuint>(front_.hinge(t)),
+                          label.ring,
+                          label.path,
+                          front_.source(t),
+                          {},
+                          {}};
+        std::copy(std::begin(label.limit), std::end(label.limit), cell.limit.begin());
+        take(t, std::bit_cast<GLuint>(label.centre), cell);
       }
     } while (front_.take_stock(0));
   }

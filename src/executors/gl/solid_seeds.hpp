@@ -16,11 +16,9 @@ namespace plexway::gl {
 struct SolidCell {
   std::array<float, 3> place;
   float sigma;
-  GLuint hinge, ring;
-  std::array<GLuint, 4> limit;
-  GLuint path, source;
-  std::array<GLuint, 4> further;  // limits
-  static_assert(SolidLabel<float>::limits == 6);
+  GLuint hinge, ring, path, source;
+  std::array<GLuint, SolidLabel<float>::limits> limit;
+  std::array<GLuint, 2> spare;
 };
 
 /// As the serial rule computes them.

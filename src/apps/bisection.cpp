@@ -1,4 +1,4 @@
-#include "apps/refinement.hpp"
+#include "apps/bisection.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -11,9 +11,9 @@
 namespace plexway {
 
 template <int N>
-Refinement<N>::Refinement(std::span<const std::array<Index, corners>> simplices,
-                          std::span<const std::array<Index, sides>> edges,
-                          std::vector<Edge> lengths, std::vector<double> limits, std::size_t most)
+Bisection<N>::Bisection(std::span<const std::array<Index, corners>> simplices,
+                        std::span<const std::array<Index, sides>> edges, std::vector<Edge> lengths,
+                        std::vector<double> limits, std::size_t most)
     : most_(std::min(most, most_parts)),
       edges_(std::move(lengths)),
       around_(edges_.size()),
@@ -41,13 +41,13 @@ Refinement<N>::Refinement(std::span<const std::array<Index, corners>> simplices,
 }
 
 template <int N>
-double Refinement<N>::excess(Index edge) const {
+double Bisection<N>::excess(Index edge) const {
   const Edge& e = edges_[edge];
   return e.length / std::min(limits_[e.vertex[0]], limits_[e.vertex[1]]);
 }
 
 template <int N>
-void Refinement<N>::bisect(Index edge) {
+void Bisection<N>::bisect(Index edge) {
   if (edges_.size() > none / 4 || simplices_.size() > most_)
     throw TooManyParts(
         "the radius is too small for this domain: its simplices would have to be cut "
@@ -114,7 +114,7 @@ void Refinement<N>::bisect(Index edge) {
   }
 }
 
-template class Refinement<2>;
-template class Refinement<3>;
+template class Bisection<2>;
+template class Bisection<3>;
 
 }  // namespace plexway

@@ -25,7 +25,7 @@ class TooManyParts : public InputError {
 /// Edges are numbered, not found by their vertices: two vertices may share several. But no edge may
 /// be two sides of one simplex, nor begin and end at the same vertex.
 template <int N>
-class Refinement {
+class Bisection {
  public:
   static constexpr std::size_t corners = N + 1, sides = N * (N + 1) / 2;
   /// Side j (j - 1) / 2 + i joins corners i < j.
@@ -47,9 +47,9 @@ class Refinement {
   /// `edges[s]` numbers the sides of simplex s; `limits` has one value a vertex: an edge longer
   /// than that of either end is bisected. A vertex in the middle of an edge takes the mean.
   /// Throws TooManyParts where that makes more than `most` simplices.
-  Refinement(std::span<const std::array<Index, corners>> simplices,
-             std::span<const std::array<Index, sides>> edges, std::vector<Edge> lengths,
-             std::vector<double> limits, std::size_t most = most_parts);
+  Bisection(std::span<const std::array<Index, corners>> simplices,
+            std::span<const std::array<Index, sides>> edges, std::vector<Edge> lengths,
+            std::vector<double> limits, std::size_t most = most_parts);
 
   [[nodiscard]] const std::vector<Simplex>& simplices() const { return simplices_; }
   [[nodiscard]] const std::vector<Edge>& edges() const { return edges_; }
@@ -70,7 +70,7 @@ class Refinement {
   std::vector<std::pair<Index, Index>> halved_;
 };
 
-extern template class Refinement<2>;
-extern template class Refinement<3>;
+extern template class Bisection<2>;
+extern template class Bisection<3>;
 
 }  // namespace plexway
