@@ -1,6 +1,5 @@
 #include <CLI/CLI.hpp>
 #include <cmath>
-#include <fstream>
 #include <memory>
 #include <optional>
 #include <string>
@@ -11,6 +10,7 @@
 
 #include "commands.hpp"
 #include "distance_output.hpp"
+#include "number_rows.hpp"
 #include "point_output.hpp"
 #include "progress.hpp"
 #include "sampling_command.hpp"
@@ -27,20 +27,15 @@ struct PoissonCommand : SamplingCommand {
 };
 
 // One number a line.
-std::vector<double> read_numbers(const std::string& file) {
-  std::ifstream in(file);
-  if (!in) throw InputError(file + ": cannot be read");
-  std::vector<double> numbers;
-  std::string line;
-  for (std::size_t at = 1; std::getline(in, line); ++at) {
-    if (line.find_first_not_of(" \t\r") == line.npos) continue;
-    char* end = nullptr;
-    const double number = std::strtod(line.c_str(), &end);
-    if (end == line.c_str() || !(number > 0) || !std::isfinite(number))
-      throw InputError(file + ":" + std::to_string(at) + ": expected a number > 0");
-    numbers.push_back(number);
+std::vector<double> read_spacing(const std::string& file) {
+  std::vector<double> spacing;
+  for (const NumberRow& row :
+       read_number_rows(file, 1, 1, "a number > 0 a line, for each vertex")) {
+    if (!(row.numbers[0] > 0))
+      throw InputError(file + ":" + std::to_string(row.line) + ": expected a number > 0");
+    spacing.push_back(row.numbers[0]);
   }
-  return numbers;
+  return spacing;
 }
 
 void run_poisson(const PoissonCommand& command) {
@@ -54,8 +49,9 @@ void run_poisson(const PoissonCommand& command) {
     throw UsageError("--order '" + command.order + "': choose one of uniform, simplices");
   check_output_name(command.out, command.input, point_file_extensions());
   check_picture(command.picture, command.input);
+  check_output_place(command.out, {&command.spacing, 1}, "--out");
   const std::vector<double> spacing =
-      command.spacing.empty() ? std::vector<double>{} : read_numbers(command.spacing);
+      command.spacing.empty() ? std::vector<double>{} : read_spacing(command.spacing);
 
   ProgressLine progress(command.quiet);
   const Domain domain =
@@ -109,7 +105,7 @@ void run_poisson(const PoissonCommand& command) {
   table.add("work", counted(disks.thrown, "darts") + " thrown, " +
                         counted(disks.statistics.expansions, "expansions"));
   table.add("time", short_time(seconds));
-  if (!command.out.empty()) table.add("written", command.out);
+  add_written(table, {command.out, command.picture.file});
   print_summary(command, json, table);
 }
 
