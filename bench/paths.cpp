@@ -81,7 +81,7 @@ void searches(const std::string& file) {
 }
 
 // Paths against exact distances from one vertex: 200 a source.
-void lengths(const std::filesystem::path& folder) {
+void lengths(const std::filesystem::path& folder, const TraceOptions& trace) {
   std::set<std::string> names;  // of NAME.vID.txt
   for (const auto& entry : std::filesystem::directory_iterator(folder)) {
     const std::filesystem::path stem = entry.path().stem();
@@ -106,7 +106,7 @@ void lengths(const std::filesystem::path& folder) {
         if (!(exact[v] > 0) || std::isinf(exact[v])) continue;
         ++k;
         const std::clock_t traced = std::clock();  // others on the machine do not count
-        const Path path = field.trace(v);
+        const Path path = field.trace(v, trace);
         times.push_back(static_cast<double>(std::clock() - traced) / CLOCKS_PER_SEC * 1e6);
         errors.push_back(path.length / exact[v] - 1);
         below = std::min(below, errors.back());
@@ -186,12 +186,15 @@ int main(int argc, char** argv) {
   app.add_option("--truth", truth,
                  "Only this: lengths of paths against the exact distances in a folder of NAME.obj\n"
                  "and NAME.vID.txt");
+  TraceOptions trace;
+  app.add_option("--margin", trace.margin, "With --truth: as of plexway path")
+      ->capture_default_str();
   app.add_flag("--bounded", only_bounded,
                "Only this: bounded searches on a surface of a million triangles");
   CLI11_PARSE(app, argc, argv);
   try {
     if (!truth.empty()) {
-      lengths(truth);
+      lengths(truth, trace);
       return 0;
     }
     if (!only_bounded)
