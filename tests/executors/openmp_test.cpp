@@ -122,7 +122,7 @@ TEST_CASE("queues grow when every vertex is a source", "[threads]") {
   for (PointSource& s : sources) s.offset = 100 * uniform(random);
   sources[7].offset = 0;
   const auto field = propagate(team(8), mesh, sources);
-  CHECK(parity(propagate(Serial{}, mesh, sources), field).worst < 1e-5);
+  CHECK(parity(propagate(Serial{}, mesh, sources), field).worst < 1.5e-6);
 }
 
 TEST_CASE("a team keeps radius, offsets and sources inside triangles", "[threads]") {
