@@ -87,6 +87,10 @@ std::vector<double> isoline_values(const IsolineOptions& options,
     throw UsageError("--isoline-step: that would be more than 10000 values; take a larger step");
   std::vector<double> values;
   for (int n = 1; n * *options.step < most; ++n) values.push_back(n * *options.step);
+  const std::string extension = io::lower_extension(options.out);
+  if (values.empty() && (extension == ".glb" || extension == ".gltf"))
+    throw UsageError("--isolines-out " + options.out + ": would hold nothing, which a " +
+                     extension + " cannot: no distance is as large as the step");
   return values;
 }
 

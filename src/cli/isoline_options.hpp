@@ -28,7 +28,7 @@ void check_isolines(const IsolineOptions& options, const std::string& input);
 void check_isolines(const IsolineOptions& options, const Domain& domain);
 
 /// Each multiple of the step below the largest distance, but 0; none where none are asked for.
-/// Throws UsageError for more than 10000.
+/// Throws UsageError for more than 10000, and for none where the file cannot be empty.
 std::vector<double> isoline_values(const IsolineOptions& options, std::span<const double> distance);
 
 /// Lines at these values; in a solid triangles. Throws as io::write_paths and io::write_triangles.

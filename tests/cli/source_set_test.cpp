@@ -196,6 +196,10 @@ TEST_CASE("isosurfaces of a solid go into files") {
     nearest = std::min(nearest, std::hypot(p[0] - source[0], p[1] - source[1], p[2] - source[2]));
   CHECK(nearest > 0.37);  // linear between corners, so a chord
   CHECK(nearest < 0.4);
+  const auto none = run_tool({"distance", elbow, "-s", "vertex:0", "--isoline-step", "9",
+                              "--isolines-out", folder.at("none.glb")});
+  CHECK(none.code == 2);
+  CHECK(none.err.find("no distance is as large as the step") != std::string::npos);
   const std::string lines = (folder.path() / "lines.json").string();
   const auto refused = run_tool(
       {"distance", elbow, "-s", "vertex:0", "--isoline-step", "0.4", "--isolines-out", lines});
