@@ -105,6 +105,7 @@ Json to_json(const DistanceCommand& command, const Domain& domain, const Solver&
   json["updates"] = solver.statistics().updates;
   json["executor"] = executor_name(outcome.executor);
   json["threads"] = executor_threads(outcome.executor);
+  json["precision"] = command.solve.precision == "float" ? "float" : "double";
   if (domain.kind() == "surface") json["triangulation"] = name_of(solver.triangulation());
   add_metric(command.metric, lengths, solver.refracting_edges(), json);
   if (!domain.level_set_note().empty()) json["voxels"] = domain.level_set_note();

@@ -78,6 +78,10 @@ TEST_CASE("the tool starts fields from lines, triangles, circles and sets") {
     REQUIRE(run.code == 0);
     CHECK(largest_error(run.out, n, rule) < bound);
   }
+  for (const auto& [source, precision] :
+       {std::pair{"boundary", "double"}, std::pair{"vertex:0", "float"}})
+    CHECK(run_tool({"distance", square, "--source", source, "--json"}).json()["precision"] ==
+          precision);
   const auto both = run_tool({"distance", square, "--source", "boundary+0.3", "--source",
                               "vertex:220", "--out", "-", "--executor", "auto", "--quiet"});
   REQUIRE(both.code == 0);
