@@ -95,11 +95,12 @@ void lengths(const std::filesystem::path& folder, const TraceOptions& trace) {
     const TriangleMesh<float> mesh(surface.positions, surface.faces);
     PathField field(mesh, surface.positions);
     std::vector<double> errors, times, solves;
-    for (const auto& [source, exact] : bench::read_truths(folder, surface)) {
+    for (const bench::Truth& truth : bench::read_truths(folder, surface)) {
+      const std::vector<double>& exact = truth.distance;
       if (std::none_of(exact.begin(), exact.end(), [](double d) { return d > 0 && d < 1e300; }))
         continue;
-      solves.push_back(1e3 *
-                       bench::seconds([&] { field.solve(Serial{}, PointSource::at(source)); }));
+      solves.push_back(
+          1e3 * bench::seconds([&] { field.solve(Serial{}, PointSource::at(truth.source)); }));
       std::mt19937 random(1);
       for (int k = 0; k < 200;) {
         const Index v = static_cast<Index>(random() % exact.size());
