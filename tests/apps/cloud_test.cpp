@@ -115,7 +115,7 @@ TEST_CASE("paths over points at one place and points in a row") {
   const auto faces = faces_of(cloud, field);
   std::vector<Position> places = row;
   places.insert(places.end(), cloud.more_places().begin(), cloud.more_places().end());
-  for (const Index target : {0, 7, 11}) {
+  for (const Index target : {0u, 7u, 11u}) {
     const Path path = field.trace(target);
     CAPTURE(target);
     check_path(path, places, faces);

@@ -121,7 +121,7 @@ TEST_CASE("a search for several targets, some of them out of reach") {
     REQUIRE(found.paths.size() == 4);
     CHECK(found.paths[1].points.empty());
     CHECK(std::isinf(found.paths[1].length));
-    for (const std::size_t k : {0, 2, 3}) {
+    for (const std::size_t k : {0u, 2u, 3u}) {
       const Position at = targets[k].vertex != none
                               ? s.positions[targets[k].vertex]
                               : place(s.positions, s.faces[333], targets[k].barycentric);

@@ -78,7 +78,7 @@ TEST_CASE("distances on clouds of curved surfaces") {
 TEST_CASE("paths on a cloud bend round a wall") {
   // How well depends on where points happen to lie at the corners.
   double mean = 0;
-  for (const std::uint64_t seed : {1, 2, 3, 4, 5, 6}) {
+  for (const std::uint64_t seed : {1u, 2u, 3u, 4u, 5u, 6u}) {
     const Errors errors = solve<double>(samples::wall_cloud(3000, seed));
     CHECK(errors.unreached == 0);
     mean += errors.mean / 6;

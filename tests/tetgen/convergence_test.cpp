@@ -24,7 +24,7 @@ TEST_CASE("exact distances around a prism are those around a round pipe in the l
   const std::vector<samples::Point> points = {{.9, .1, .7}, {.3, .8, .2},   {0, .5, 0},
                                               {.5, 0, 1},   {-.4, -.7, .5}, {-.9, 0, .4}};
   const samples::Point source = {-.8, .1, .2};
-  for (const samples::Index sides : {100, 400}) {
+  for (const samples::Index sides : {100u, 400u}) {
     const auto found = samples::PipePrism{sides}.distances(points, source);
     for (std::size_t i = 0; i < points.size(); ++i) {
       const samples::Point& p = points[i];
