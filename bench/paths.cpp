@@ -2,13 +2,13 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <ctime>
 #include <filesystem>
-#include <fstream>
+#include <limits>
 #include <random>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -20,19 +20,13 @@
 #include <plexway/executors/serial.hpp>
 #include <plexway/io/triangles.hpp>
 
+#include "harness.hpp"
+
 using namespace plexway;
+using bench::median;
+using bench::seconds;
 
 namespace {
-
-double now() {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-}
-
-double median(std::vector<double> values) {
-  if (values.empty()) return 0;
-  std::sort(values.begin(), values.end());
-  return values[values.size() / 2];
-}
 
 // A* against the full solve, for random pairs at half the diameter (as far as one vertex sees) or
 // nearer.
@@ -47,9 +41,7 @@ void searches(const std::string& file) {
   int apart = 0;
   for (int k = 0; k < 10; ++k) {
     const Index source = static_cast<Index>(random() % surface.positions.size());
-    const double begin = now();
-    field.solve(Serial{}, PointSource::at(source));
-    solve_ms.push_back((now() - begin) * 1e3);
+    solve_ms.push_back(1e3 * seconds([&] { field.solve(Serial{}, PointSource::at(source)); }));
     double farthest = 0;
     for (const float d : field.distances().distance)
       if (d < std::numeric_limits<float>::infinity()) farthest = std::max(farthest, double(d));
@@ -59,12 +51,13 @@ void searches(const std::string& file) {
       const double d = static_cast<double>(field.distances().distance[target]);
       if (!(d > 0) || !(d <= farthest / 2)) continue;
       ++i;
-      const double traced = now();
-      const Path path = field.trace(target);
-      trace_us.push_back((now() - traced) * 1e6);
-      const double searched = now();
-      const auto found = search.find(Serial{}, PointSource::at(source), PointSource::at(target));
-      search_ms.push_back((now() - searched) * 1e3);
+      Path path;
+      trace_us.push_back(1e6 * seconds([&] { path = field.trace(target); }));
+      SearchResult found;
+      search_ms.push_back(1e3 * seconds([&] {
+                            found = search.find(Serial{}, PointSource::at(source),
+                                                PointSource::at(target));
+                          }));
       const auto plain =
           nearest_first.find(Serial{}, PointSource::at(source), PointSource::at(target));
       shares.push_back(static_cast<double>(found.statistics.expansions) / all);
@@ -88,57 +81,51 @@ void searches(const std::string& file) {
 }
 
 // Paths against exact distances from one vertex: 200 a source.
-void lengths(const std::filesystem::path& folder) {
-  std::vector<std::filesystem::path> files;
-  for (const auto& entry : std::filesystem::directory_iterator(folder))
-    if (entry.path().extension() == ".txt" && entry.path().stem().extension().string()[1] == 'v')
-      files.push_back(entry.path());
-  std::sort(files.begin(), files.end());
-  std::string last;
-  std::vector<double> errors, times;
-  double below = 0, solve = 0, all = 0;
+void lengths(const std::filesystem::path& folder, const TraceOptions& trace) {
+  std::set<std::string> names;  // of NAME.vID.txt
+  for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+    const std::filesystem::path stem = entry.path().stem();
+    if (entry.path().extension() == ".txt" && stem.extension().string().starts_with(".v"))
+      names.insert(stem.stem().string());
+  }
+  double below = 0, all = 0;
   std::size_t count = 0;
-  const auto tell = [&] {
-    if (errors.empty()) return;
-    double sum = 0, most = 0;
-    for (const double e : errors) sum += e, most = std::max(most, e);
-    all += sum, count += errors.size();
-    double time = 0;
+  for (const std::string& name : names) {
+    const bench::Surface surface = bench::read_surface(folder / (name + ".obj"));
+    const TriangleMesh<float> mesh(surface.positions, surface.faces);
+    PathField field(mesh, surface.positions);
+    std::vector<double> errors, times, solves;
+    for (const bench::Truth& truth : bench::read_truths(folder, surface)) {
+      const std::vector<double>& exact = truth.distance;
+      if (std::none_of(exact.begin(), exact.end(), [](double d) { return d > 0 && d < 1e300; }))
+        continue;
+      solves.push_back(
+          1e3 * bench::seconds([&] { field.solve(Serial{}, PointSource::at(truth.source)); }));
+      std::mt19937 random(1);
+      for (int k = 0; k < 200;) {
+        const Index v = static_cast<Index>(random() % exact.size());
+        if (!(exact[v] > 0) || std::isinf(exact[v])) continue;
+        ++k;
+        const std::clock_t traced = std::clock();  // others on the machine do not count
+        const Path path = field.trace(v, trace);
+        times.push_back(static_cast<double>(std::clock() - traced) / CLOCKS_PER_SEC * 1e6);
+        errors.push_back(path.length / exact[v] - 1);
+        below = std::min(below, errors.back());
+      }
+    }
+    if (errors.empty()) continue;
+    double sum = 0, time = 0;
+    for (const double e : errors) sum += e;
     for (const double t : times) time += t / static_cast<double>(times.size());
+    all += sum, count += errors.size();
     std::printf(
         "%-14s paths over exact: mean %.1e most %.1e  %.0f us a path (most %.0f)  solve "
         "%.2f ms\n",
-        last.c_str(), sum / static_cast<double>(errors.size()), most, time,
-        *std::max_element(times.begin(), times.end()), solve * 1e3);
-    errors.clear(), times.clear();
-  };
-  for (const auto& file : files) {
-    const std::string name = file.stem().stem().string();
-    if (name != last) tell();
-    last = name;
-    const io::Triangles t = io::read_triangles(folder / (name + ".obj"));
-    std::vector<double> exact;
-    std::ifstream in(file);
-    for (std::string value; in >> value;) exact.push_back(std::stod(value));
-    const TriangleMesh<float> mesh(t.positions, t.triangles);
-    PathField field(mesh, t.positions);
-    const double begin = now();
-    field.solve(Serial{}, PointSource::at(static_cast<Index>(
-                              std::stoul(file.stem().extension().string().substr(2)))));
-    solve = now() - begin;
-    std::mt19937 random(1);
-    for (int k = 0; k < 200;) {
-      const Index v = static_cast<Index>(random() % exact.size());
-      if (!(exact[v] > 0) || std::isinf(exact[v])) continue;
-      ++k;
-      const std::clock_t traced = std::clock();  // others on the machine do not count
-      const Path path = field.trace(v);
-      times.push_back(static_cast<double>(std::clock() - traced) / CLOCKS_PER_SEC * 1e6);
-      errors.push_back(path.length / exact[v] - 1);
-      below = std::min(below, errors.back());
-    }
+        surface.name.c_str(), sum / static_cast<double>(errors.size()),
+        *std::max_element(errors.begin(), errors.end()), time,
+        *std::max_element(times.begin(), times.end()), bench::median(solves));
   }
-  tell();
+  if (count == 0) throw InputError(folder.string() + ": no NAME.obj with NAME.vID.txt in it");
   std::printf("all: mean %.2e, lowest %.1e\n", all / static_cast<double>(count), below);
 }
 
@@ -167,19 +154,19 @@ void bounded() {
   double triangles = 0;
   for (int round = 0; round < 5; ++round) {
     const PointSource source = PointSource::at(static_cast<Index>(random() % positions.size()));
-    double begin = now();
-    propagate(Serial{}, mesh, std::span<const PointSource>(&source, 1), PropagateOptions{},
-              workspace, field);
-    solves.push_back(now() - begin);
-    begin = now();
+    solves.push_back(seconds([&] {
+      propagate(Serial{}, mesh, std::span<const PointSource>(&source, 1), PropagateOptions{},
+                workspace, field);
+    }));
     triangles = 0;
-    for (int k = 0; k < 1000; ++k)
-      triangles += static_cast<double>(
-          search
-              .find(Serial{}, PointSource::at(static_cast<Index>(random() % positions.size())),
-                    radius)
-              .statistics.reached_simplices);
-    rounds.push_back(now() - begin);
+    rounds.push_back(seconds([&] {
+      for (int k = 0; k < 1000; ++k)
+        triangles += static_cast<double>(
+            search
+                .find(Serial{}, PointSource::at(static_cast<Index>(random() % positions.size())),
+                      radius)
+                .statistics.reached_simplices);
+    }));
   }
   std::printf(
       "%zu triangles: a full solve %.1f ms; 1000 bounded searches of %.0f triangles %.1f ms = %.2f "
@@ -200,19 +187,22 @@ int main(int argc, char** argv) {
   app.add_option("--truth", truth,
                  "Only this: lengths of paths against the exact distances in a folder of NAME.obj\n"
                  "and NAME.vID.txt");
+  TraceOptions trace;
+  app.add_option("--margin", trace.margin, "With --truth: as of plexway path")
+      ->capture_default_str();
   app.add_flag("--bounded", only_bounded,
                "Only this: bounded searches on a surface of a million triangles");
   CLI11_PARSE(app, argc, argv);
   try {
     if (!truth.empty()) {
-      lengths(truth);
+      lengths(truth, trace);
       return 0;
     }
     if (!only_bounded)
       for (const std::string& mesh : meshes) searches(mesh);
     bounded();
     return 0;
-  } catch (const Error& error) {
+  } catch (const std::exception& error) {
     std::fprintf(stderr, "bench_paths: %s\n", error.what());
     return 1;
   }

@@ -121,7 +121,7 @@ int fail(ExitCode code, const char* message) noexcept {
 }  // namespace
 
 int run(int argc, const char* const* argv) noexcept {
-  ignore_closed_pipes();
+  ignore_signals_of_writing();
   try {
     return parse_and_run(argc, argv);
   } catch (const OutputClosed&) {

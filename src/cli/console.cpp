@@ -39,9 +39,12 @@ void say(std::string_view kind, std::string_view message) noexcept {
   std::fputc('\n', stderr);
 }
 
-void ignore_closed_pipes() {
+void ignore_signals_of_writing() {
 #ifdef SIGPIPE
   std::signal(SIGPIPE, SIG_IGN);
+#endif
+#ifdef SIGXFSZ
+  std::signal(SIGXFSZ, SIG_IGN);
 #endif
 }
 

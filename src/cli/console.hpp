@@ -23,7 +23,8 @@ void say(std::string_view kind, std::string_view message) noexcept;
 inline void say_note(std::string_view message) noexcept { say("note", message); }
 inline void say_error(std::string_view message) noexcept { say("error", message); }
 
-/// Makes a write into a closed pipe an error that we can handle, instead of a signal.
-void ignore_closed_pipes();
+/// Makes a write into a closed pipe, and one beyond the limit of file sizes, errors that we can
+/// handle, instead of signals.
+void ignore_signals_of_writing();
 
 }  // namespace plexway::cli

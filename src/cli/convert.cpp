@@ -66,7 +66,8 @@ class Conversion {
       throw UsageError(command_.input +
                        ": points are copied as they are: --repair, --voxel, --grid and what TetGen "
                        "is told mean nothing here");
-    if (!among(io::point_extensions(), extension_) || extension_ == ".pcd") cannot("cloud");
+    if (!among(io::point_extensions(), extension_) || extension_ == ".pcd")
+      cannot("cloud", io::point_extensions());
     io::Points points;
     if (is_cloud_file(command_.input) || io::is_ply_cloud(command_.input)) {
       CloudFile cloud = read_cloud(command_.input);
@@ -99,8 +100,16 @@ class Conversion {
   std::size_t vertices = 0, simplices = 0;
 
  private:
-  [[noreturn]] void cannot(const char* what) const {
-    throw UsageError(command_.out + ": a " + what + " does not go into a " + extension_);
+  [[noreturn]] void cannot(const char* what, std::span<const std::string_view> known) const {
+    std::string names;
+    for (const std::string_view one : known)
+      if (one != ".pcd") names.append(" ").append(one);
+    const bool has_edges = std::string_view(what) == "surface";
+    throw UsageError(command_.out + ": a " + what + " does not go into a " + extension_ +
+                     ", but into" + names +
+                     (has_edges && among(io::edge_output_extensions(), extension_)
+                          ? "; its edges do: --as wireframe"
+                          : ""));
   }
 
   void count(std::size_t v, std::size_t s) {
@@ -123,7 +132,8 @@ class Conversion {
       return;
     }
     if (extension_ == ".xyz") return io::write_points(command_.out, {surface.positions, {}});
-    if (!among(io::triangle_output_extensions(), extension_)) cannot("surface");
+    if (!among(io::triangle_output_extensions(), extension_))
+      cannot("surface", io::triangle_output_extensions());
     io::write_triangles(command_.out, surface);
   }
 
@@ -138,12 +148,13 @@ class Conversion {
   }
 
   void write(const io::Edges& wireframe) {
-    if (!among(io::edge_output_extensions(), extension_)) cannot("wireframe");
+    if (!among(io::edge_output_extensions(), extension_))
+      cannot("wireframe", io::edge_output_extensions());
     count(wireframe.vertices, wireframe.edges.size());
     io::write_edges(command_.out, wireframe);
   }
 
-  void write(const Cloud&) { cannot("cloud"); }
+  void write(const Cloud&) { cannot("cloud", io::point_extensions()); }
 
   const ConvertCommand& command_;
   std::string extension_;

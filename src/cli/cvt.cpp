@@ -145,8 +145,7 @@ void run_cvt(const CvtCommand& command) {
             (dual.manifold ? "" : "; no manifold at " + counted(dual.irregular.size(), "seeds")));
   }
   table.add("time", short_time(result.seconds));
-  for (const std::string* file : {&command.out, &command.cells, &command.dual})
-    if (!file->empty()) table.add("written", *file);
+  add_written(table, {command.out, command.cells, command.dual, command.picture.file});
   print_summary(command, json, table);
 }
 

@@ -105,6 +105,7 @@ Json to_json(const DistanceCommand& command, const Domain& domain, const Solver&
   json["updates"] = solver.statistics().updates;
   json["executor"] = executor_name(outcome.executor);
   json["threads"] = executor_threads(outcome.executor);
+  json["precision"] = command.solve.precision == "float" ? "float" : "double";
   if (domain.kind() == "surface") json["triangulation"] = name_of(solver.triangulation());
   add_metric(command.metric, lengths, solver.refracting_edges(), json);
   if (!domain.level_set_note().empty()) json["voxels"] = domain.level_set_note();
@@ -148,7 +149,8 @@ std::string to_text(const DistanceCommand& command, const Domain& domain, const 
   table.add("time", "load " + short_time(domain.load_seconds()) + mesh + ", build " +
                         short_time(outcome.build) + ", solve " + short_time(outcome.solve) + " (" +
                         executor_text(outcome.executor) + ", " + command.solve.precision + ")");
-  if (!command.out.empty() && command.out != "-") table.add("written", command.out);
+  add_written(table,
+              {command.out == "-" ? "" : command.out, command.isolines.out, command.picture.file});
   return table.text();
 }
 
@@ -211,7 +213,10 @@ void run_distance(DistanceCommand command) {
     check_output_name(command.out, command.input, cloud_field_extensions());
   check_picture(command.picture, command.input);
   check_isolines(command.isolines, command.input);
-  check_metric(command.metric);
+  std::vector<std::string> read = {metric_file(command.metric), command.solve.table};
+  for (const SetArgument& argument : arguments) read.push_back(argument.file);
+  if (command.out != "-") check_output_place(command.out, read, "--out");
+  check_output_place(command.isolines.out, read, "--isolines-out");
   check_outputs_differ({command.out, command.isolines.out, command.picture.file});
 
   command.fill.volume.writes_volume = is_vdb(command.out);
@@ -263,6 +268,7 @@ void run_distance(DistanceCommand command) {
   outcome.executor = executor;
 
   const bool to_stdout = command.out == "-";
+  const std::vector<double> isovalues = isoline_values(command.isolines, distance);
   if (!command.out.empty()) {
     progress.phase("writing " + (to_stdout ? "the distances" : command.out));
     const std::vector<std::int32_t> label = solver->label();
@@ -275,7 +281,7 @@ void run_distance(DistanceCommand command) {
   }
   if (!command.isolines.out.empty()) {
     progress.phase("writing " + command.isolines.out);
-    write_isolines(command.isolines, domain, distance);
+    write_isolines(command.isolines, domain, distance, isovalues);
   }
   if (command.picture.wanted()) {
     progress.phase("drawing " + command.picture.file);
@@ -308,6 +314,8 @@ void run_distance(DistanceCommand command) {
   }
   const bool bounded = command.solve.radius || command.solve.max_expansions;
   if (!command.quiet) say_violations(domain, lengths.get());
+  if (!command.quiet && !command.isolines.out.empty() && isovalues.empty())
+    say_note("--isolines-out holds nothing: no distance is as large as the step");
   if (!command.quiet) say_notes(domain, *solver, outcome, bounded);
 }
 

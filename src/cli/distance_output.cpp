@@ -23,7 +23,35 @@ void append(std::string& text, Number value) {
   text.append(digits, result.ptr);
 }
 
+// TetGen's files come in pairs: writing one writes the other, and reading a .poly may read both.
+std::vector<fs::path> files_of(const fs::path& name) {
+  std::vector<fs::path> files = {name};
+  const std::string own = name.extension().string();
+  const bool pair = own == ".node" || own == ".ele";
+  if (pair) files.push_back(fs::path(name).replace_extension(".ele"));
+  if (pair || own == ".poly" || own == ".smesh")
+    files.push_back(fs::path(name).replace_extension(".node"));
+  return files;
+}
+
 }  // namespace
+
+void check_output_place(const std::string& out, std::span<const std::string> inputs,
+                        const char* option) {
+  if (out.empty()) return;
+  std::error_code error;
+  for (const fs::path& written : files_of(out))
+    for (const std::string& input : inputs)
+      for (const fs::path& read : files_of(input))
+        if (fs::equivalent(written, read, error))
+          throw UsageError(std::string(option) + " " + out + ": would overwrite " + read.string() +
+                           ", which the input needs");
+  const fs::path folder =
+      fs::path(out).has_parent_path() ? fs::path(out).parent_path() : fs::path(".");
+  if (!fs::is_directory(folder, error))
+    throw Error("cannot write " + out + ": there is no folder " + folder.string());
+  if (fs::is_directory(out, error)) throw Error("cannot write " + out + ": it is a directory");
+}
 
 void check_output_name(const std::string& out, const std::string& input,
                        std::span<const std::string_view> known, const char* option) {
@@ -36,25 +64,7 @@ void check_output_name(const std::string& out, const std::string& input,
     throw UsageError(std::string(option) + " " + out + ": unknown extension; those written are" +
                      names);
   }
-  // TetGen's files come in pairs: writing one writes the other, and reading a .poly may read both.
-  const auto files_of = [](const fs::path& name) {
-    std::vector<fs::path> files = {name};
-    const std::string own = name.extension().string();
-    const bool pair = own == ".node" || own == ".ele";
-    if (pair) files.push_back(fs::path(name).replace_extension(".ele"));
-    if (pair || own == ".poly" || own == ".smesh")
-      files.push_back(fs::path(name).replace_extension(".node"));
-    return files;
-  };
-  std::error_code error;
-  for (const fs::path& written : files_of(file))
-    for (const fs::path& read : files_of(input))
-      if (fs::equivalent(written, read, error))
-        throw UsageError(std::string(option) + " " + out + ": would overwrite " + read.string() +
-                         ", which the input needs");
-  const fs::path folder = file.has_parent_path() ? file.parent_path() : fs::path(".");
-  if (!fs::is_directory(folder, error))
-    throw Error("cannot write " + out + ": there is no folder " + folder.string());
+  check_output_place(out, {&input, 1}, option);
 }
 
 void check_outputs_differ(std::initializer_list<std::string> names) {

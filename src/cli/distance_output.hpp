@@ -8,8 +8,12 @@
 
 namespace plexway::cli {
 
-/// Before any work: throws UsageError where `out`, given by `option`, has an extension that is not
-/// `known` or is the input itself, and Error where its folder does not exist. Empty is fine.
+/// Before any work: throws UsageError where `out`, given by `option`, is one of the files that are
+/// read, and Error where its folder does not exist or it is one. Empty is fine.
+void check_output_place(const std::string& out, std::span<const std::string> inputs,
+                        const char* option);
+
+/// The same for one input, and UsageError for an extension that is not `known`.
 void check_output_name(const std::string& out, const std::string& input,
                        std::span<const std::string_view> known, const char* option = "--out");
 

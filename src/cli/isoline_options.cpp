@@ -77,8 +77,9 @@ void check_isolines(const IsolineOptions& options, const Domain& domain) {
                     "--isolines-out");
 }
 
-void write_isolines(const IsolineOptions& options, const Domain& domain,
-                    std::span<const double> distance) {
+std::vector<double> isoline_values(const IsolineOptions& options,
+                                   std::span<const double> distance) {
+  if (options.out.empty()) return {};
   double most = 0;
   for (const double d : distance)
     if (std::isfinite(d)) most = std::max(most, d);
@@ -86,6 +87,15 @@ void write_isolines(const IsolineOptions& options, const Domain& domain,
     throw UsageError("--isoline-step: that would be more than 10000 values; take a larger step");
   std::vector<double> values;
   for (int n = 1; n * *options.step < most; ++n) values.push_back(n * *options.step);
+  const std::string extension = io::lower_extension(options.out);
+  if (values.empty() && (extension == ".glb" || extension == ".gltf"))
+    throw UsageError("--isolines-out " + options.out + ": would hold nothing, which a " +
+                     extension + " cannot: no distance is as large as the step");
+  return values;
+}
+
+void write_isolines(const IsolineOptions& options, const Domain& domain,
+                    std::span<const double> distance, std::span<const double> values) {
   if (const auto* solid = std::get_if<io::Tets>(&domain.shape()))
     return write_isosurfaces(options.out, *solid, distance, values);
   const auto& surface = std::get<io::Triangles>(domain.shape());

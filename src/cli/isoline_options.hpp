@@ -3,6 +3,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "domain.hpp"
 
@@ -26,9 +27,12 @@ void add_isoline_options(CLI::App& command, IsolineOptions& options);
 void check_isolines(const IsolineOptions& options, const std::string& input);
 void check_isolines(const IsolineOptions& options, const Domain& domain);
 
-/// Lines at each multiple of the step, but 0; in a solid triangles. Throws as io::write_paths and
-/// io::write_triangles, and UsageError for more than 10000 values.
+/// Each multiple of the step below the largest distance, but 0; none where none are asked for.
+/// Throws UsageError for more than 10000, and for none where the file cannot be empty.
+std::vector<double> isoline_values(const IsolineOptions& options, std::span<const double> distance);
+
+/// Lines at these values; in a solid triangles. Throws as io::write_paths and io::write_triangles.
 void write_isolines(const IsolineOptions& options, const Domain& domain,
-                    std::span<const double> distance);
+                    std::span<const double> distance, std::span<const double> values);
 
 }  // namespace plexway::cli

@@ -1,7 +1,8 @@
 #include "metric_options.hpp"
 
 #include <CLI/CLI.hpp>
-#include <cmath>
+#include <algorithm>
+#include <map>
 #include <optional>
 #include <type_traits>
 #include <utility>
@@ -43,10 +44,6 @@ void check_rows(const std::string& file, std::size_t rows, std::size_t needed,
                      ": write one each, in the order of the input, or one for all");
 }
 
-[[noreturn]] void fail(const std::string& file, const NumberRow& row, const std::string& cause) {
-  throw InputError(file + ":" + std::to_string(row.line) + ": " + cause);
-}
-
 std::vector<metric::Tensor> read_tensors(const std::string& file, std::size_t needed,
                                          std::string_view what) {
   const std::string row_text =
@@ -63,7 +60,7 @@ std::vector<metric::Tensor> read_tensors(const std::string& file, std::size_t ne
     else if (n.size() == 1 && n[0] > 0)
       tensors.push_back(metric::Tensor::of_speed(n[0]));
     else
-      fail(file, row, n.size() == 1 ? "a speed must be above 0" : "write " + row_text);
+      fail_at(file, row, n.size() == 1 ? "a speed must be above 0" : "write " + row_text);
   }
   check_rows(file, rows.size(), needed, what);
   tensors.resize(needed, tensors[0]);
@@ -76,7 +73,7 @@ std::vector<double> read_speeds(const std::string& file, std::size_t needed,
   std::vector<double> speeds;
   speeds.reserve(rows.size());
   for (const NumberRow& row : rows) {
-    if (!(row.numbers[0] > 0)) fail(file, row, "a speed must be above 0");
+    if (!(row.numbers[0] > 0)) fail_at(file, row, "a speed must be above 0");
     speeds.push_back(row.numbers[0]);
   }
   check_rows(file, rows.size(), needed, what);
@@ -86,18 +83,17 @@ std::vector<double> read_speeds(const std::string& file, std::size_t needed,
 
 metric::GivenLengths read_lengths(const std::string& file, std::size_t vertices) {
   metric::GivenLengths given;
-  for (const NumberRow& row : read_number_rows(file, 3, 3, "vertex vertex length a line")) {
-    Index ends[2];
-    for (std::size_t i = 0; i < 2; ++i) {
-      const double v = row.numbers[i];
-      if (!(v >= 0 && v == std::floor(v) && v < static_cast<double>(vertices)))
-        fail(file, row,
-             "vertex " + short_number(v) + " is out of range: the vertices are 0 to " +
-                 std::to_string(vertices - 1));
-      ends[i] = static_cast<Index>(v);
-    }
-    if (row.numbers[2] < 0) fail(file, row, "a length below 0");
-    given.edges.push_back({ends[0], ends[1], row.numbers[2]});
+  std::map<std::pair<Index, Index>, const NumberRow*> first;
+  const auto rows = read_number_rows(file, 3, 3, "vertex vertex length a line");
+  for (const NumberRow& row : rows) {
+    const Index a = vertex_in(file, row, 0, vertices), b = vertex_in(file, row, 1, vertices);
+    const double length = row.numbers[2];
+    if (length < 0) fail_at(file, row, "a length below 0");
+    given.edges.push_back({a, b, length});
+    const auto [known, is_new] = first.try_emplace(std::minmax(a, b), &row);
+    if (!is_new && known->second->numbers[2] != length)
+      fail_at(file, row,
+              "the edge has another length than in line " + std::to_string(known->second->line));
   }
   return given;
 }
@@ -150,8 +146,8 @@ void add_metric_option(CLI::App& command, MetricArgument& argument) {
       ->group("How to solve");
 }
 
-void check_metric(const MetricArgument& argument) {
-  if (!argument.text.empty()) (void)parse(argument);
+std::string metric_file(const MetricArgument& argument) {
+  return argument.text.empty() ? "" : parse(argument).file;
 }
 
 std::unique_ptr<const MeasuredLengths> measure(const MetricArgument& argument, const Domain& domain,

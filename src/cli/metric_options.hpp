@@ -38,8 +38,8 @@ struct MeasuredLengths {
 /// May an edge have two lengths?
 enum class Jumps { refract, smooth };
 
-/// Throws UsageError for what is not KIND:FILE.
-void check_metric(const MetricArgument& argument);
+/// The FILE of KIND:FILE, or nothing. Throws UsageError for what is not KIND:FILE.
+std::string metric_file(const MetricArgument& argument);
 
 /// Reads the metric's file and measures the domain; null where none is asked for. Throws InputError
 /// "FILE: cause", UsageError for a cloud, and for a domain that this kind of metric cannot measure.

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -17,5 +18,13 @@ struct NumberRow {
 /// "FILE:LINE: cause"; `what` says what a line should be.
 std::vector<NumberRow> read_number_rows(const std::string& file, std::size_t least,
                                         std::size_t most, const std::string& what);
+
+/// Throws InputError "FILE:LINE: cause".
+[[noreturn]] void fail_at(const std::string& file, const NumberRow& row, const std::string& cause);
+
+/// The number in this column as one of `vertices` vertices. Throws InputError as above if it is
+/// none.
+std::uint32_t vertex_in(const std::string& file, const NumberRow& row, std::size_t column,
+                        std::size_t vertices);
 
 }  // namespace plexway::cli

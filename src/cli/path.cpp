@@ -45,6 +45,7 @@ struct PathCommand {
   PictureArguments picture;
   MetricArgument metric;
   bool astar = false;
+  bool margin_given = false;
   bool json = false;
   bool quiet = false;
 };
@@ -169,7 +170,7 @@ std::string to_text(const PathCommand& command, const Domain& domain, const Outc
   table.add("time", "load " + short_time(domain.load_seconds()) + ", build " +
                         short_time(outcome.build) + ", solve " + short_time(outcome.solve) +
                         ", trace " + short_time(outcome.trace));
-  if (!command.out.empty()) table.add("written", command.out);
+  add_written(table, {command.out, command.picture.file});
   return table.text();
 }
 
@@ -187,8 +188,12 @@ void run_path(const PathCommand& command) {
   if (command.astar && options.visibility != Visibility::saddles)
     throw UsageError("--astar knows the default visibility only");
 
+  if (command.astar && (command.solve.schedule_given || command.solve.step_given))
+    throw UsageError(
+        "--astar takes simplices in an order of its own: leave out --schedule and --step");
   check_picture(command.picture, command.input);
-  check_metric(command.metric);
+  const std::array read = {metric_file(command.metric), command.solve.table};
+  check_output_place(command.out, read, "--out");
 
   ProgressLine progress(command.quiet);
   const Domain domain =
@@ -198,6 +203,8 @@ void run_path(const PathCommand& command) {
   if (command.astar && domain.kind() != "surface")
     throw UsageError("--astar: a " + std::string(domain.kind()) +
                      " is solved as a whole; A* is for surfaces");
+  if (command.margin_given && domain.kind() != "surface" && domain.cloud() == nullptr)
+    throw UsageError("--margin: for surfaces and clouds, not a " + std::string(domain.kind()));
   const std::vector<PointSource> sources = locate_sources(domain, from);
   const std::vector<PointSource> targets = locate_sources(domain, to);
   if (!command.metric.text.empty()) progress.phase("reading the metric");
@@ -275,6 +282,7 @@ void add_path_command(CLI::App& tool, Action& action) {
          "--margin", command->trace.margin,
          "surfaces and clouds: the path is the shortest of all where distances are too long\n"
          "by no more than this share (default 0.003); 0 is quicker, and locally shortest")
+      ->each([command](const std::string&) { command->margin_given = true; })
       ->type_name("X");
   app.add_flag("--json", command->json, "print the summary as one JSON object");
   app.add_flag("--quiet,-q", command->quiet, "no summary, notes or progress; errors stay");

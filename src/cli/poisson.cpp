@@ -1,6 +1,7 @@
 #include <CLI/CLI.hpp>
+#include <algorithm>
+#include <array>
 #include <cmath>
-#include <fstream>
 #include <memory>
 #include <optional>
 #include <string>
@@ -11,6 +12,7 @@
 
 #include "commands.hpp"
 #include "distance_output.hpp"
+#include "number_rows.hpp"
 #include "point_output.hpp"
 #include "progress.hpp"
 #include "sampling_command.hpp"
@@ -27,20 +29,49 @@ struct PoissonCommand : SamplingCommand {
 };
 
 // One number a line.
-std::vector<double> read_numbers(const std::string& file) {
-  std::ifstream in(file);
-  if (!in) throw InputError(file + ": cannot be read");
-  std::vector<double> numbers;
-  std::string line;
-  for (std::size_t at = 1; std::getline(in, line); ++at) {
-    if (line.find_first_not_of(" \t\r") == line.npos) continue;
-    char* end = nullptr;
-    const double number = std::strtod(line.c_str(), &end);
-    if (end == line.c_str() || !(number > 0) || !std::isfinite(number))
-      throw InputError(file + ":" + std::to_string(at) + ": expected a number > 0");
-    numbers.push_back(number);
+std::vector<double> read_spacing(const std::string& file) {
+  std::vector<double> spacing;
+  for (const NumberRow& row :
+       read_number_rows(file, 1, 1, "a number > 0 a line, for each vertex")) {
+    if (!(row.numbers[0] > 0))
+      throw InputError(file + ":" + std::to_string(row.line) + ": expected a number > 0");
+    spacing.push_back(row.numbers[0]);
   }
-  return numbers;
+  return spacing;
+}
+
+// Area of a surface, volume of a solid.
+double content_of(const Domain& domain) {
+  const auto points = domain.positions();
+  double content = 0;
+  for (std::size_t s = 0; s < domain.simplices(); ++s) {
+    const auto corners = domain.corners(s);
+    std::array<std::array<double, 3>, 3> side{};
+    for (std::size_t i = 1; i < corners.size(); ++i)
+      for (std::size_t k = 0; k < 3; ++k)
+        side[i - 1][k] = points[corners[i]][k] - points[corners[0]][k];
+    const auto& [a, b, c] = side;
+    const std::array<double, 3> normal = {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2],
+                                          a[0] * b[1] - a[1] * b[0]};
+    content += corners.size() == 3
+                   ? std::hypot(normal[0], normal[1], normal[2]) / 2
+                   : std::abs(normal[0] * c[0] + normal[1] * c[1] + normal[2] * c[2]) / 6;
+  }
+  return content;
+}
+
+// A radius in the wrong unit would fill all memory with points: some 0.7 to each square or cube of
+// its side.
+void check_radius(const Domain& domain, double radius) {
+  constexpr double most = 1e9;
+  if (domain.cloud() != nullptr) return;  // no more than its points
+  const int dimension = domain.kind() == "solid" ? 3 : 2;
+  const double content = 0.7 * content_of(domain);
+  if (content / most > std::pow(radius, dimension))
+    throw UsageError("--radius " + short_number(radius) +
+                     ": that would be more than 10^9 points; " + "choose " +
+                     short_number(std::pow(content / most, 1. / dimension)) +
+                     " or more, in the unit of " + domain.file().string());
 }
 
 void run_poisson(const PoissonCommand& command) {
@@ -54,8 +85,9 @@ void run_poisson(const PoissonCommand& command) {
     throw UsageError("--order '" + command.order + "': choose one of uniform, simplices");
   check_output_name(command.out, command.input, point_file_extensions());
   check_picture(command.picture, command.input);
+  check_output_place(command.out, {&command.spacing, 1}, "--out");
   const std::vector<double> spacing =
-      command.spacing.empty() ? std::vector<double>{} : read_numbers(command.spacing);
+      command.spacing.empty() ? std::vector<double>{} : read_spacing(command.spacing);
 
   ProgressLine progress(command.quiet);
   const Domain domain =
@@ -63,6 +95,10 @@ void run_poisson(const PoissonCommand& command) {
   if (!spacing.empty() && spacing.size() != domain.vertices())
     throw InputError(command.spacing + ": " + counted(spacing.size(), "numbers") + " for " +
                      counted(domain.vertices(), "vertices"));
+  if (command.radius && !command.vertices) {
+    const double widest = spacing.empty() ? 1 : *std::max_element(spacing.begin(), spacing.end());
+    check_radius(domain, *command.radius * widest);
+  }
   PoissonOptions options;
   options.radius = command.radius.value_or(0);
   options.count = command.count.value_or(0);
@@ -109,7 +145,7 @@ void run_poisson(const PoissonCommand& command) {
   table.add("work", counted(disks.thrown, "darts") + " thrown, " +
                         counted(disks.statistics.expansions, "expansions"));
   table.add("time", short_time(seconds));
-  if (!command.out.empty()) table.add("written", command.out);
+  add_written(table, {command.out, command.picture.file});
   print_summary(command, json, table);
 }
 

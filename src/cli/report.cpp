@@ -51,6 +51,11 @@ std::string Table::text() const {
   return text;
 }
 
+void add_written(Table& table, std::initializer_list<std::string> files) {
+  for (const std::string& file : files)
+    if (!file.empty()) table.add("written", file);
+}
+
 std::string json_text(const Json& object) {
   return object.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }

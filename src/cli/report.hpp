@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <initializer_list>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <string_view>
@@ -32,6 +33,9 @@ class Table {
  private:
   std::vector<std::pair<std::string, std::string>> lines_;
 };
+
+/// A line "written" for each file, but those without a name.
+void add_written(Table& table, std::initializer_list<std::string> files);
 
 /// The object as the tool prints it: indented, with a line end. Bytes that are not UTF-8, as a file
 /// name may hold, are replaced.

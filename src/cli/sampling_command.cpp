@@ -38,7 +38,7 @@ void PointSummary::finish(const SamplingCommand& command, const PropagateStatist
   json["seconds"] = seconds;
   table.add("work", counted(work.expansions, "expansions"));
   table.add("time", short_time(seconds));
-  if (!command.out.empty()) table.add("written", command.out);
+  add_written(table, {command.out, command.picture.file});
   print_summary(command, json, table);
 }
 

@@ -42,9 +42,11 @@ void add_solve_options(CLI::App& command, SolveOptions& options, bool bounded) {
   command
       .add_option("--schedule", options.schedule,
                   "what propagates next: dual_queue (default), fifo or priority")
+      ->each([&options](const std::string&) { options.schedule_given = true; })
       ->type_name("NAME")
       ->group(group);
   command.add_option("--step", options.step, "width of the dual queue in mean edges (default 1)")
+      ->each([&options](const std::string&) { options.step_given = true; })
       ->type_name("X")
       ->group(group);
   if (bounded) {
@@ -83,6 +85,8 @@ PropagateOptions propagate_options(const SolveOptions& options) {
                                     {"priority", Schedule::priority}});
   if (!(options.step > 0) || std::isinf(options.step))
     throw UsageError("--step must be a number greater than 0");
+  if (options.step_given && made.schedule != Schedule::dual_queue)
+    throw UsageError("--step goes with --schedule dual_queue");
   made.step = options.step;
   if (options.radius) {
     if (!(*options.radius >= 0)) throw UsageError("--radius must not be negative");

@@ -24,7 +24,7 @@ struct SolveOptions {
   std::optional<double> radius;
   std::optional<std::size_t> max_expansions;
   std::string precision = "float";
-  bool precision_given = false;
+  bool schedule_given = false, step_given = false, precision_given = false;
   ExecutorArgument executor;
 };
 

@@ -106,7 +106,11 @@ SetArgument parse_one(const std::string& text) {
     set.kind = Kind::simplex;
     set.simplex = static_cast<Index>(*number);
   } else if (name == "vertex" || name == "point") {
-    (void)parse_source(set.place);
+    try {
+      (void)parse_source(set.place);
+    } catch (const UsageError&) {
+      malformed(text);
+    }
   } else {
     malformed(text);
   }
@@ -116,16 +120,11 @@ SetArgument parse_one(const std::string& text) {
 VertexSource read_vertices(const Domain& domain, const SetArgument& set) {
   VertexSource source;
   source.offset = set.offset;
-  for (const auto& [row, line] :
+  for (const NumberRow& row :
        read_number_rows(set.file, 1, 2, "a vertex (0-based) a line, and its offset if wanted")) {
-    const double offset = row.size() == 2 ? row[1] : 0;
-    if (row[0] < 0 || row[0] != std::floor(row[0]) ||
-        row[0] >= static_cast<double>(domain.vertices()))
-      throw InputError(set.file + ": vertex " + short_number(row[0]) +
-                       " is out of range: the vertices are 0 to " +
-                       std::to_string(domain.vertices() - 1));
-    if (offset < 0) throw InputError(set.file + ": an offset below 0: " + short_number(offset));
-    source.vertices.push_back(static_cast<Index>(row[0]));
+    const double offset = row.numbers.size() == 2 ? row.numbers[1] : 0;
+    source.vertices.push_back(vertex_in(set.file, row, 0, domain.vertices()));
+    if (offset < 0) fail_at(set.file, row, "an offset below 0: " + short_number(offset));
     source.offsets.push_back(offset);
   }
   return source;
@@ -218,6 +217,9 @@ std::string describe_source_set(const Domain& domain, const SetArgument& argumen
   std::string text;
   if (const auto* point = std::get_if<PointSource>(&source)) {
     text = describe_source(domain, parse_source(argument.place), *point);
+  } else if (const auto* ball = std::get_if<BallSource>(&source)) {
+    const auto& n = argument.numbers;
+    text = describe_source(domain, {argument.place, std::array{n[0], n[1], n[2]}}, ball->centre);
   } else {
     text = argument.place;
     if (const auto* set = std::get_if<VertexSource>(&source))

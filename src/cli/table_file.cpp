@@ -1,15 +1,13 @@
 #include "table_file.hpp"
 
 #include <algorithm>
-#include <cerrno>
 #include <cmath>
 #include <cstdio>
-#include <filesystem>
-#include <fstream>
-#include <iterator>
-#include <system_error>
+#include <string_view>
 
 #include <plexway/error.hpp>
+
+#include "io/file_bytes.hpp"
 
 namespace plexway::cli {
 namespace {
@@ -53,16 +51,8 @@ double member(const std::string& file, const Json& json, const char* name, doubl
 }  // namespace
 
 Json read_json(const std::string& file) {
-  std::error_code ignored;
-  if (std::filesystem::is_directory(file, ignored))
-    throw InputError(file + ": is a directory, not a file");
-  errno = 0;
-  std::ifstream in(file, std::ios::binary);
-  if (!in) {
-    throw InputError(
-        file + ": cannot be read: " + std::generic_category().message(errno != 0 ? errno : EIO));
-  }
-  const std::string text{std::istreambuf_iterator<char>(in), {}};
+  const io::FileBytes bytes(file);
+  const std::string_view text = bytes.view();
   try {
     return Json::parse(text);
   } catch (const Json::parse_error& error) {

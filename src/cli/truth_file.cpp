@@ -1,16 +1,16 @@
 #include "truth_file.hpp"
 
 #include <algorithm>
-#include <cerrno>
 #include <charconv>
 #include <cmath>
-#include <filesystem>
-#include <fstream>
 #include <limits>
 #include <string_view>
 #include <system_error>
 
 #include <plexway/error.hpp>
+
+#include "io/file_bytes.hpp"
+#include "io/quote.hpp"
 
 namespace plexway::cli {
 namespace {
@@ -31,30 +31,23 @@ double parse_line(const std::string& file, std::size_t line, std::string_view te
   double value = 0;
   const char* const end = text.data() + text.size();
   const auto [rest, error] = std::from_chars(text.data(), end, value);
-  if (error != std::errc{} || rest != end)
-    bad(file, line, "not a number: '" + std::string(text.substr(0, 32)) + "'");
-  if (value < 0) bad(file, line, "a distance below 0: " + std::string(text.substr(0, 32)));
+  if (error != std::errc{} || rest != end) bad(file, line, "not a number: " + io::quote(text));
+  if (value < 0) bad(file, line, "a distance below 0: " + io::quote(text));
   return value;
 }
 
 }  // namespace
 
 std::vector<double> read_truth(const std::string& file, std::size_t vertices) {
-  std::error_code ignored;
-  if (std::filesystem::is_directory(file, ignored))
-    throw InputError(file + ": is a directory, not a file");
-  errno = 0;
-  std::ifstream in(file);
-  if (!in) {
-    throw InputError(
-        file + ": cannot be read: " + std::generic_category().message(errno != 0 ? errno : EIO));
-  }
+  const io::FileBytes bytes(file);
   std::vector<double> truth;
   std::size_t line = 0;
   std::size_t empty = 0;  // the first empty line, which must have nothing behind it
-  for (std::string text; std::getline(in, text);) {
+  for (std::string_view text = bytes.view(); !text.empty();) {
+    const std::string_view whole = text.substr(0, text.find('\n'));
+    text.remove_prefix(std::min(whole.size() + 1, text.size()));
     ++line;
-    const std::string_view value = trimmed(text);
+    const std::string_view value = trimmed(whole);
     if (value.empty()) {
       if (empty == 0) empty = line;
       continue;

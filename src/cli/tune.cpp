@@ -6,6 +6,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <plexway/apps/tuning.hpp>
@@ -14,6 +15,7 @@
 
 #include "commands.hpp"
 #include "console.hpp"
+#include "distance_output.hpp"
 #include "progress.hpp"
 #include "report.hpp"
 #include "table_file.hpp"
@@ -127,6 +129,7 @@ void check(const TuneCommand& command) {
   choose("--triangulation", command.triangulation, "input", "auto");
   if (command.resume && command.checkpoint.empty())
     throw UsageError("--resume goes with --checkpoint FILE");
+  check_outputs_differ({command.out, command.cpp, command.checkpoint});
 }
 
 std::vector<double> start_of(const TuneCommand& command) {
@@ -205,8 +208,8 @@ std::string comment(const TuneCommand& command, const Json& settings, double err
                      std::to_string(command.evolution.restarts) + " --fitness " + command.fitness +
                      " --triangulation " + command.triangulation + "\n";
   return text + "// on " + counted(command.inputs.size(), "surfaces") + ", " +
-         settings["fields"].dump() + " fields, digest " + settings["digest"].get<std::string>() +
-         "; mean error " + short_number(error) + "\n";
+         counted(settings["fields"].get<std::size_t>(), "fields") + ", digest " +
+         settings["digest"].get<std::string>() + "; mean error " + short_number(error) + "\n";
 }
 
 void run_tune(TuneCommand command) {
@@ -218,8 +221,12 @@ void run_tune(TuneCommand command) {
   ProgressLine progress(command.quiet);
   progress.phase("reading " + counted(command.inputs.size(), "surfaces"));
   const Stopwatch loading;
-  TuningSet set(read_tuning_surfaces(command.inputs, command.truth_folder),
-                command.triangulation == "auto", command.threads);
+  TuningInput input = read_tuning_surfaces(command.inputs, command.truth_folder);
+  // Hours lie between here and the result: what cannot be written is told now.
+  check_output_place(command.out, input.files, "--out");
+  check_output_place(command.cpp, input.files, "--cpp");
+  check_output_place(command.checkpoint, input.files, "--checkpoint");
+  TuningSet set(std::move(input.surfaces), command.triangulation == "auto", command.threads);
   const double load = loading.seconds();
 
   const Json settings = settings_of(command, set);
@@ -272,12 +279,13 @@ void run_tune(TuneCommand command) {
     for (const auto& [name, value] : baselines.items())
       text.add(name, "mean error " + short_number(value.get<double>()));
     text.add("found", "mean error " + short_number(error) + ", " +
-                          short_number(100 * (1 - error / reference)) + " % less than " +
+                          short_number(100 * std::abs(1 - error / reference)) + " % " +
+                          (error > reference ? "more" : "less") + " than " +
                           (table ? "centroid" : "standard"));
     for (std::size_t i = 0; i < best.size(); ++i)
       text.add(parameters[i].name, short_number(best[i]));
     text.add("time", short_time(tuning.seconds()));
-    if (!command.out.empty()) text.add("written", command.out);
+    add_written(text, {command.out, command.cpp, command.checkpoint});
     write_output(text.text());
   }
   flush_output();

@@ -37,9 +37,10 @@ double or_worst(const Json& number) {
 
 }  // namespace
 
-std::vector<TuningSurface> read_tuning_surfaces(const std::vector<std::string>& files,
-                                                const fs::path& truth_folder) {
-  std::vector<TuningSurface> surfaces;
+TuningInput read_tuning_surfaces(const std::vector<std::string>& files,
+                                 const fs::path& truth_folder) {
+  TuningInput input;
+  input.files = files;
   for (const fs::path file : files) {
     io::Triangles read = io::read_triangles(file);
     TuningSurface surface;
@@ -63,10 +64,11 @@ std::vector<TuningSurface> read_tuning_surfaces(const std::vector<std::string>& 
       if (id >= surface.positions.size())
         throw InputError(truth + ": " + file.string() + " has no vertex " + std::to_string(id));
       surface.truths.push_back({id, read_truth(truth, surface.positions.size())});
+      input.files.push_back(truth);
     }
-    surfaces.push_back(std::move(surface));
+    input.surfaces.push_back(std::move(surface));
   }
-  return surfaces;
+  return input;
 }
 
 void write_whole(const std::string& file, const std::string& text) {

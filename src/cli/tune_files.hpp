@@ -10,11 +10,17 @@
 
 namespace plexway::cli {
 
+/// Surfaces with exact answers, and all files that were read for them.
+struct TuningInput {
+  std::vector<TuningSurface> surfaces;
+  std::vector<std::string> files;
+};
+
 /// Reads surfaces and the exact answers NAME.vID.txt beside them, or in `truth_folder` if that is
 /// not empty, in the order of ID. Throws InputError "FILE: cause" as the readers do, and for a
 /// surface without answers.
-std::vector<TuningSurface> read_tuning_surfaces(const std::vector<std::string>& files,
-                                                const std::filesystem::path& truth_folder);
+TuningInput read_tuning_surfaces(const std::vector<std::string>& files,
+                                 const std::filesystem::path& truth_folder);
 
 /// Writes where an evolution is, with the `settings` that it depends on. The file appears whole or
 /// not at all. Throws Error when the system refuses.

@@ -40,7 +40,7 @@ EvolutionOptions options(std::uint64_t seed, std::size_t evaluations, std::size_
 }  // namespace
 
 TEST_CASE("an evolution finds the deepest place of a bowl") {
-  for (const std::uint64_t seed : {1, 2, 3, 4, 5}) {
+  for (const std::uint64_t seed : {1u, 2u, 3u, 4u, 5u}) {
     Evolution evolution(plane, options(seed, 400));
     run(evolution);
     INFO(seed);
@@ -63,7 +63,7 @@ TEST_CASE("the same seed makes the same trials, another one others") {
 TEST_CASE("an evolution that goes on from a state does as if nothing had happened") {
   Evolution whole(plane, options(3, 40, 3));
   const Trials all = run(whole);
-  for (const std::size_t stop : {0, 1, 17, 39, 40, 41, 80, 119, 120}) {
+  for (const std::size_t stop : {0u, 1u, 17u, 39u, 40u, 41u, 80u, 119u, 120u}) {
     Evolution begun(plane, options(3, 40, 3));
     Trials trials = run(begun, stop);
     Evolution resumed(plane, options(3, 40, 3), begun.state());

@@ -127,7 +127,7 @@ TEST_CASE("a seed makes the same darts again and another seed other ones") {
 TEST_CASE("as many darts as asked for") {
   const samples::Shape shape = square(40);
   const TriangleMesh<float> mesh(shape.points, shape.faces);
-  for (const std::size_t count : {1, 7, 100, 500}) {
+  for (const std::size_t count : {1u, 7u, 100u, 500u}) {
     const PoissonDisks disks = poisson_disks(Serial{}, mesh, {.count = count});
     CHECK(disks.darts.size() == count);
     const auto darts = positions(disks.darts, shape.points, shape.faces);

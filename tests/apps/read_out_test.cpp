@@ -63,9 +63,11 @@ TEST_CASE("between the vertices of a cube, level by level") {
       }
     }
   }
-  CHECK(mean[2] <= mean[0] / 3);
-  CHECK(mean[3] <= mean[2]);
-  CHECK(mean[2] <= mean[1]);
+  // Measured: 1.4e-3, 4.9e-4, 2.0e-5, 7.5e-8.
+  CHECK(mean[0] <= 3e-3);
+  CHECK(mean[1] <= 1e-3);
+  CHECK(mean[2] <= 4e-5);
+  CHECK(mean[3] <= 2e-7);
 }
 
 TEST_CASE("across the edges of a cube") {
@@ -93,9 +95,10 @@ TEST_CASE("across the edges of a cube") {
     }
   for (double& j : jump) j /= static_cast<double>(edges);
   CHECK(jump[0] < 1e-12);
-  CHECK(jump[2] <= jump[1]);
-  CHECK(jump[2] < 1e-4);
-  CHECK(jump[3] < 1e-4);
+  // Measured: 1.1e-3, 3.0e-5, 1.3e-6.
+  CHECK(jump[1] < 2.5e-3);
+  CHECK(jump[2] < 6e-5);
+  CHECK(jump[3] < 3e-6);
 }
 
 TEST_CASE("directions away from the source") {

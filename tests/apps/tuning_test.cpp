@@ -75,12 +75,12 @@ PropagateOptions with(const ProbeTable& table) {
 TEST_CASE("a set sums up errors that are known") {
   TuningSet set({square()}, false, 2);
   CHECK(set.fields() == 1);
-  CHECK(set.mean_error({}) < 1e-6);  // flat: exact
+  CHECK(set.mean_error({}) < 3e-7);  // flat: exact
   TuningSurface longer = square(), half = square(), unreached = square();
   for (double& d : longer.truths[0].distance) d *= 2;
   CHECK(TuningSet({longer}, false).mean_error({}) == Approx(0.5).epsilon(1e-5));
   for (std::size_t v = 0; v < 100; ++v) half.truths[0].distance[v] = std::nan("");
-  CHECK(TuningSet({half}, false).mean_error({}) < 1e-6);
+  CHECK(TuningSet({half}, false).mean_error({}) < 4e-7);
   for (double& d : unreached.truths[0].distance) d = std::numeric_limits<double>::infinity();
   CHECK(TuningSet({unreached}, false).mean_error({}) == 1);
   const std::vector<double> errors = TuningSet({longer, square()}, false).errors({});
@@ -103,14 +103,14 @@ TEST_CASE("an evolution makes a table better") {
   TuningSet set({stretched_ell()}, false, 2);
   PropagateOptions centroid;
   centroid.visibility = Visibility::centroid;
-  CHECK(set.mean_error({}) < 1e-5);  // the default is exact here: so is the truth
+  CHECK(set.mean_error({}) < 2e-7);  // the default is exact here: so is the truth
   const double before = set.mean_error(centroid);
   EvolutionOptions options;
   options.evaluations = 120;
   Evolution evolution(probe_parameters(), options);
   while (!evolution.done())
     evolution.tell(-set.mean_error(with(probe_table_of(evolution.propose()))));
-  CHECK(-evolution.best_fitness() <= 0.85 * before);
+  CHECK(-evolution.best_fitness() <= 0.1 * before);
 }
 
 TEST_CASE("thresholds of saddles are data of a mesh") {

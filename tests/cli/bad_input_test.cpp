@@ -1,4 +1,5 @@
 #include <catch2/catch.hpp>
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -127,6 +128,34 @@ TEST_CASE("option values that make no sense are usage errors") {
     command.insert(command.end(), option.begin(), option.end());
     check_refused(run_tool(command), 2, option.front());
   }
+}
+
+TEST_CASE("options that would be ignored are usage errors") {
+  const std::string knot = sample("knot.ply"), elbow = sample("elbow.mesh");
+  const auto refused = [](std::vector<std::string> command, const std::vector<std::string>& more) {
+    command.insert(command.end(), more.begin(), more.end());
+    check_refused(run_tool(command), 2, more.front());
+  };
+  const std::vector<std::string> distance = {"distance", knot, "-s", "vertex:0"};
+  refused(distance, {"--step", "2", "--schedule", "fifo"});
+  refused(distance, {"--table", "t.json"});
+  refused(distance, {"--view", "iso"});
+  const std::vector<std::string> path = {"path", knot, "--from", "vertex:0", "--to", "vertex:9"};
+  refused(path, {"--astar", "--schedule", "fifo"});
+  refused(path, {"--astar", "--step", "2"});
+  refused({"path", elbow, "--from", "vertex:0", "--to", "vertex:9"}, {"--margin", "0.1"});
+}
+
+TEST_CASE("results go where they can") {
+  const Folder folder;
+  const std::string knot = sample("knot.ply");
+  const std::string out = folder.at("there.ply");
+  std::filesystem::create_directory(out);
+  check_refused(run_tool({"distance", knot, "-s", "vertex:0", "--out", out}), 1,
+                "cannot write " + out);
+  const std::string set = folder.write("set.csv", "0\n");
+  check_refused(run_tool({"distance", knot, "-s", "vertices:" + set, "--out", set}), 2,
+                "--out " + set + ": would overwrite");
 }
 
 TEST_CASE("what this build lacks has its own exit code") {

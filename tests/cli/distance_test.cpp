@@ -81,7 +81,7 @@ TEST_CASE("the JSON of distance has its keys, in order") {
   CHECK(keys == std::vector<std::string>{"input", "kind", "vertices", "simplices", "components",
                                          "seconds", "reached", "unreached", "max_distance",
                                          "expansions", "updates", "executor", "threads",
-                                         "triangulation"});
+                                         "precision", "triangulation"});
   CHECK(json["input"] == sample("knot.ply"));
   CHECK(json["kind"] == "surface");
   CHECK(json["vertices"] == 5120);
@@ -94,6 +94,7 @@ TEST_CASE("the JSON of distance has its keys, in order") {
   CHECK(json["updates"].get<std::size_t>() > 10000);
   CHECK(json["executor"] == "serial");
   CHECK(json["threads"] == 1);
+  CHECK(json["precision"] == "float");
   for (const char* phase : {"load", "build", "solve"}) {
     CHECK(json["seconds"][phase].get<double>() >= 0);
   }

@@ -55,7 +55,7 @@ TEST_CASE("a constant tensor measures a plane") {
     for (int v = 0; v < n * n; ++v) {
       const double x = v % n / (n - 1.0), y = v / n / (n - 1.0);
       CHECK(found[static_cast<std::size_t>(v)] ==
-            Approx(std::sqrt(4 * x * x + 3 * x * y + 9 * y * y)).epsilon(1e-6).margin(1e-12));
+            Approx(std::sqrt(4 * x * x + 3 * x * y + 9 * y * y)).epsilon(1e-12).margin(1e-12));
     }
   }
 }
@@ -79,9 +79,10 @@ TEST_CASE("two speeds refract, are told of, and a path goes the quicker way") {
     best = std::min(best, std::hypot(0.5, y) + std::hypot(0.5, 1 - y) / 3);
   }
   const auto found = distances({"--metric", "speed:" + speeds}, mesh);
-  CHECK(found.back() == Approx(best).epsilon(1e-2));
+  CHECK(found.back() == Approx(best).epsilon(1e-7));
   CHECK(distances({"--metric", "speed:" + speeds, "--executor", "openmp"}, mesh).back() ==
-        Approx(best).epsilon(1e-2));
+        Approx(best).epsilon(1e-7));
+  // Of one length an edge, the mean of two: up to 0.23 % less.
   for (const bool astar : {false, true}) {
     std::vector<std::string> arguments = {"path",
                                           mesh,
@@ -98,17 +99,25 @@ TEST_CASE("two speeds refract, are told of, and a path goes the quicker way") {
     const auto path = run_tool(arguments);
     INFO(path.err);
     REQUIRE(path.code == 0);
-    CHECK(path.json()["paths"][0]["length"].get<double>() == Approx(best).epsilon(3e-2));
+    CHECK(path.json()["paths"][0]["length"].get<double>() == Approx(best).epsilon(5e-3));
   }
 }
 
 TEST_CASE("solids and wireframes are measured as well") {
   const Folder folder;
   const std::string one = folder.write("speed.txt", "0.5\n");
-  const auto solid = [&](const std::vector<std::string>& extra) {
-    return distances(extra, sample("elbow.mesh")).back();
-  };
-  CHECK(solid({"--metric", "speed:" + one}) == Approx(2 * solid({})).epsilon(0.1));
+  // By lengths alone paths bend at every edge: too long by 1.6e-3 in the mean, 2.6e-2 at most.
+  const auto slow = distances({"--metric", "speed:" + one}, sample("elbow.mesh"));
+  const auto plain = distances({}, sample("elbow.mesh"));
+  REQUIRE(slow.size() == plain.size());
+  double sum = 0;
+  for (std::size_t v = 1; v < slow.size(); ++v) {
+    const double error = slow[v] / (2 * plain[v]) - 1;
+    CHECK(error > -1e-9);
+    CHECK(error < 4e-2);
+    sum += error;
+  }
+  CHECK(sum / static_cast<double>(slow.size()) < 3e-3);
   const std::string edges = folder.write("streets.edges", "0 1 3\n1 2 4\n2 0 9\n");
   CHECK(distances({}, edges) == std::vector<double>{0, 3, 7});
   const std::string speeds = folder.write("limits.txt", "1\n1\n2\n");
@@ -153,7 +162,7 @@ TEST_CASE("a metric that makes no sense is refused in one line") {
   };
   refused("speed", 2, "write tensor:FILE");
   refused("colour:file", 2, "write tensor:FILE");
-  refused("speed:" + folder.at("none.txt").string(), 3, "cannot be read");
+  refused("speed:" + folder.at("none.txt").string(), 3, "none.txt: no such file");
   refused("speed:" + file("a.txt", "1\n\n-2\n"), 3, "a.txt:3: a speed must be above 0");
   refused("speed:" + file("b.txt", "1\n2\n3\n"), 3, "3 rows for 8 triangles");
   refused("speed:" + file("c.txt", "1\nx\n"), 3, "c.txt:2: not a number");
@@ -161,6 +170,10 @@ TEST_CASE("a metric that makes no sense is refused in one line") {
   refused("tensor:" + file("e.txt", "1 0 -1\n"), 3, "tensors must be positive definite");
   refused("lengths:" + file("f.txt", "0 1 1\n"), 3, "no length is given for the edge");
   refused("lengths:" + file("g.txt", "0 99 1\n"), 3, "g.txt:1: vertex 99 is out of range");
+  refused("lengths:" + file("i.txt", "0 1 1\n1 2 1\n1 0 2\n"), 3,
+          "i.txt:3: the edge has another length than in line 1");
+  refused("speed:" + file("j.csv", "1\n"), 2, "would overwrite",
+          {"--out", folder.at("j.csv").string()});
   std::string jump = "1\n";
   for (int i = 1; i < 8; ++i) jump += "5\n";
   const std::string speeds = folder.write("h.txt", jump);

@@ -1,3 +1,5 @@
+#include <sys/resource.h>
+
 #include <catch2/catch.hpp>
 #include <cstring>
 #include <filesystem>
@@ -49,6 +51,26 @@ TEST_CASE("with CSV on standard output the summary goes to standard error") {
   CHECK(run.out.rfind("vertex,distance\n0,0\n1,", 0) == 0);
   CHECK(csv_column(run.out, "distance").size() == 1152);
   CHECK(nlohmann::json::parse(run.err)["reached"] == 1152);
+}
+
+TEST_CASE("a file larger than the limit leaves the one that was there, and says so") {
+  const Folder folder;
+  rlimit before{};
+  REQUIRE(getrlimit(RLIMIT_FSIZE, &before) == 0);
+  for (const char* name : {"d.csv", "d.ply", "d.vtu", "d.glb"}) {
+    const std::string file = folder.write(name, "old");
+    rlimit low = before;
+    low.rlim_cur = 8192;
+    REQUIRE(setrlimit(RLIMIT_FSIZE, &low) == 0);
+    const Outcome run = write_two_sources(file);
+    setrlimit(RLIMIT_FSIZE, &before);
+    INFO(run.err);
+    CHECK(run.code == 1);
+    CHECK(run.complaints() == 1);
+    CHECK(run.err.find("cannot write " + file) != std::string::npos);
+    CHECK(bytes_of(file) == "old");
+  }
+  CHECK(folder.files() == 4);
 }
 
 TEST_CASE("a reader that goes away is no failure") {

@@ -131,7 +131,18 @@ TEST_CASE("commands that choose points say what is wrong with what they are give
   fails({"poisson", torus, "--radius", "1", "--out", (folder.path() / "darts.xyzzy").string()}, 2);
   fails({"poisson", torus, "--radius", "1", "--spacing", (folder.path() / "missing.txt").string()},
         3);
+  const auto spacing = [&](const std::string& text) {
+    return std::vector<std::string>{
+        "poisson", torus, "--radius", "1", "--spacing", folder.write("spacing.txt", text).string()};
+  };
+  fails(spacing(""), 3);
+  fails(spacing("1 2\n"), 3);
+  fails(spacing("1\n0\n"), 3);
+  fails(spacing("1\n2\n"), 3);
+  fails({"poisson", torus, "--radius", "1", "--spacing", folder.path()}, 3);
   fails({"poisson", sample("vessels.obj"), "--radius", "1"}, 3);
+  fails({"poisson", torus, "--radius", "1e-6"}, 2);  // would fill all memory
+  fails({"poisson", sample("elbow.mesh"), "--radius", "1e-4"}, 2);
   fails({"cvt", torus, "--count", "0"}, 2);
   fails({"cvt", torus, "--count", "5", "--centre", "left"}, 2);
   fails({"cvt", sample("elbow.mesh"), "--count", "5", "--dual", (folder.path() / "d.obj").string()},

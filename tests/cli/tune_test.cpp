@@ -129,6 +129,27 @@ TEST_CASE("tune fits the thresholds of saddles") {
   CHECK(nlohmann::json::parse(contents(out))["kind"] == "plexway saddle thresholds");
 }
 
+TEST_CASE("tune says before it begins what it will not write") {
+  const Folder folder;
+  const std::string mesh = write_ell(folder), truth = folder.at("ell.v24.txt");
+  const std::string before = contents(mesh), exact = contents(truth);
+  const auto refused = [&](const std::vector<std::string>& more, int code, const char* cause) {
+    const auto run = tune(mesh, more);
+    INFO(run.err);
+    CHECK(run.code == code);
+    CHECK(run.complaints() == 1);
+    CHECK(run.err.find(cause) != std::string::npos);
+  };
+  refused({"--out", mesh}, 2, "would overwrite");
+  refused({"--cpp", truth}, 2, "would overwrite");
+  refused({"--checkpoint", truth}, 2, "would overwrite");
+  refused({"--out", folder.at("a.json"), "--checkpoint", folder.at("a.json")}, 2, "two results");
+  refused({"--out", folder.at("none/a.json")}, 1, "there is no folder");
+  refused({"--cpp", folder.path()}, 1, "is a directory");
+  CHECK(contents(mesh) == before);
+  CHECK(contents(truth) == exact);
+}
+
 TEST_CASE("tune refuses bad input with one line") {
   const Folder folder;
   const std::string mesh = write_ell(folder), file = (folder.path() / "bad.json").string();
@@ -145,7 +166,7 @@ TEST_CASE("tune refuses bad input with one line") {
   refused({"--resume"}, 2, "--checkpoint");
   refused({"--mutation", "0"}, 2, "step");
   refused({"--truth-dir", (folder.path() / "missing").string()}, 3, "missing");
-  refused({"--checkpoint", file, "--resume"}, 3, "bad.json: cannot be read");
+  refused({"--checkpoint", file, "--resume"}, 3, "bad.json: no such file");
   folder.write("bad.json", "{\n\"kind\": 7,\n?");
   refused({"--from", file}, 3, "bad.json:3: is not JSON");
   folder.write("bad.json", "{\"kind\": 7}");

@@ -21,6 +21,7 @@ using io_testing::Folder;
 
 namespace {
 
+#ifdef PLEXWAY_HAS_OPENVDB
 /// Two spheres that cross, and lack a cap each.
 std::string broken(const Folder& folder) {
   const samples::Shape sphere = samples::geodesic_sphere(8);
@@ -36,6 +37,7 @@ std::string broken(const Folder& folder) {
   plexway::io::write_triangles(file, surface);
   return file.string();
 }
+#endif
 
 }  // namespace
 

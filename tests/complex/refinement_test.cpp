@@ -103,7 +103,8 @@ TEST_CASE("refinement leaves no flat triangles at a boundary") {
 
 TEST_CASE("refinement that makes no sense is refused") {
   const auto mesh = grid(2, 2, 10, 1).mesh<double>();
-  constexpr double infinity = std::numeric_limits<double>::infinity(), nan = std::nan("");
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  constexpr double nan = std::numeric_limits<double>::quiet_NaN();
   const auto tried = [&](const Refinement& wanted) { IntrinsicDelaunay(mesh, wanted); };
   for (const double angle : {-1., 60., 180., infinity, nan})
     CHECK_THROWS_AS(tried({.smallest_angle = angle}), UsageError);

@@ -75,7 +75,7 @@ TEST_CASE("distances in a plane are exact on the intrinsic Delaunay triangulatio
       at[k] = 0.2 * s.positions[f[0]][k] + 0.3 * s.positions[f[1]][k] + 0.5 * s.positions[f[2]][k];
     const PointSource source = delaunay.to_intrinsic(PointSource::in(40, {0.2, 0.3, 0.5}));
     CHECK(worst_in_plane(s, mesh, source, at) < 1e-12);
-    CHECK(worst_in_plane(s, delaunay.mesh<float>(), source, at) < 1e-5);
+    CHECK(worst_in_plane(s, delaunay.mesh<float>(), source, at) < 1.5e-6);
   }
 }
 

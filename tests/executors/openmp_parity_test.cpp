@@ -43,7 +43,7 @@ TEMPLATE_TEST_CASE("a team agrees with one thread where the step is exact", "", 
       }
     }
   };
-  for (const std::size_t count : {1, 7}) {
+  for (const std::size_t count : {1u, 7u}) {
     for (const Surface& s : {grid(30, 30), grid(40, 12, 3, 1), slit_square(16), cube(12),
                              prism(24, 12, 2), bow_tie(12), soup(60, 120, 3), soup(80, 90, 4)})
       check(s.mesh<TestType>(), count);

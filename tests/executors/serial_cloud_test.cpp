@@ -58,14 +58,14 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 TEST_CASE("distances on a flat cloud are exact but at its rim") {
   const Errors errors = solve<double>(samples::plane_cloud(3000));
   CHECK(errors.unreached == 0);
-  CHECK(errors.mean < 1e-5);
-  CHECK(errors.beyond < 0.02);
+  CHECK(errors.mean < 4e-6);
+  CHECK(errors.beyond < 0.01);
 }
 
 TEST_CASE("distances on clouds of curved surfaces") {
   const Errors sphere = solve<double>(samples::sphere_cloud(3000));
   CHECK(sphere.mean < 1e-3);
-  CHECK(sphere.beyond < 0.01);
+  CHECK(sphere.beyond < 0.006);
   const Errors cylinder = solve<double>(samples::cylinder_cloud(3000));
   CHECK(cylinder.mean < 1e-3);
   CHECK(cylinder.beyond < 0.05);
@@ -78,7 +78,7 @@ TEST_CASE("distances on clouds of curved surfaces") {
 TEST_CASE("paths on a cloud bend round a wall") {
   // How well depends on where points happen to lie at the corners.
   double mean = 0;
-  for (const std::uint64_t seed : {1, 2, 3, 4, 5, 6}) {
+  for (const std::uint64_t seed : {1u, 2u, 3u, 4u, 5u, 6u}) {
     const Errors errors = solve<double>(samples::wall_cloud(3000, seed));
     CHECK(errors.unreached == 0);
     mean += errors.mean / 6;

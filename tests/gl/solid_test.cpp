@@ -133,7 +133,7 @@ TEST_CASE("around a reflex edge and over a wall on a device", "[gl]") {
 
 TEST_CASE("solids on a device agree with the serial executor", "[gl]") {
   if (!device()) return;
-  for (const std::size_t count : {1, 6}) {
+  for (const std::size_t count : {1u, 6u}) {
     CAPTURE(count);
     compare_with_serial(solid_cube(6), count, 3);
     compare_with_serial(l_shape(8), count, 3);

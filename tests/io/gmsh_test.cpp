@@ -63,13 +63,13 @@ std::string binary4(bool big) {
     for (const double c : two_positions[i]) p.put(c);
   const std::string nodes = p.bytes();
   Packer q(big);
-  for (const std::uint64_t n : {3, 3, 1, 3}) q.put(n);
+  for (const std::uint64_t n : {3u, 3u, 1u, 3u}) q.put(n);
   for (const std::int32_t n : {2, 1, 2}) q.put(n);
-  for (const std::uint64_t n : {1, 1, 17, 3, 5}) q.put(n);
+  for (const std::uint64_t n : {1u, 1u, 17u, 3u, 5u}) q.put(n);
   for (const std::int32_t n : {3, 1, 4}) q.put(n);
-  for (const std::uint64_t n : {1, 2, 17, 3, 900000000, 5}) q.put(n);
+  for (const std::uint64_t n : {1u, 2u, 17u, 3u, 900000000u, 5u}) q.put(n);
   for (const std::int32_t n : {3, 2, 11}) q.put(n);
-  for (const std::uint64_t n : {1, 3, 3, 17, 900000000, 1, 4, 4, 4, 4, 4, 4}) q.put(n);
+  for (const std::uint64_t n : {1u, 3u, 3u, 17u, 900000000u, 1u, 4u, 4u, 4u, 4u, 4u, 4u}) q.put(n);
   return "$MeshFormat\n4.1 1 8\n" + Packer(big).put(std::int32_t{1}).bytes() +
          "\n$EndMeshFormat\n$Entities\n" + Packer(big).put(std::uint64_t{0}).bytes() +
          "\n$EndEntities\n$Nodes\n" + nodes + "\n$EndNodes\n$Elements\n" + q.bytes() +

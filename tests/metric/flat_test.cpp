@@ -72,7 +72,7 @@ double worst_error(const Executor& executor, const Named& flat, const Tensor& te
 
 }  // namespace
 
-// The bound of the issue is 1e-4.
+// 1e-4 was asked for.
 TEST_CASE("a constant metric on a plane is exact on its intrinsic Delaunay triangulation") {
   for (const Named& flat : flat_meshes())
     for (const double ratio : {2.0, 5.0, 10.0})
@@ -80,8 +80,8 @@ TEST_CASE("a constant metric on a plane is exact on its intrinsic Delaunay trian
         INFO(flat.name << ", 1 to " << ratio << ", " << degrees << " degrees");
         const Tensor tensor = stretched(ratio, degrees);
         CHECK(worst_error<double>(Serial{}, flat, tensor) < 1e-9);
-        CHECK(worst_error<float>(Serial{}, flat, tensor) < 1e-4);
-        CHECK(worst_error<float>(OpenMP{2}, flat, tensor) < 1e-4);
+        CHECK(worst_error<float>(Serial{}, flat, tensor) < 2e-6);
+        CHECK(worst_error<float>(OpenMP{2}, flat, tensor) < 2e-6);
       }
 }
 
@@ -117,7 +117,7 @@ TEST_CASE("a constant metric fills a box as straight lines do") {
       mean += std::abs(error) / static_cast<double>(points.size());
     }
     INFO("worst " << worst << ", mean " << mean);
-    CHECK(mean < 1e-2);
+    CHECK(mean < 3.5e-3);
     CHECK(worst < 4e-2);
   }
 }

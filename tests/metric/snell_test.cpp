@@ -93,13 +93,13 @@ TEST_CASE("light bends between two speeds as Snell says, head waves included") {
           const double worst = n == 20 ? 2e-2 : 1e-2;
           INFO(n << " cells, " << shake << ", 1 to " << ratio << ", from y = " << y);
           const Errors exact = errors_of<double>(Serial{}, mesh, square, law, y);
-          CHECK(exact.mean < 1e-3);
+          CHECK(exact.mean < 7e-4);
           CHECK(exact.worst < worst);
           const Errors rounded = errors_of<float>(Serial{}, single, square, law, y);
-          CHECK(rounded.mean < 1e-3);
+          CHECK(rounded.mean < 7e-4);
           CHECK(rounded.worst < worst);
           const Errors team = errors_of<float>(OpenMP{2}, single, square, law, y);
-          CHECK(team.mean < 1e-3);
+          CHECK(team.mean < 7e-4);
           CHECK(team.worst < worst);
         }
       }
@@ -113,7 +113,7 @@ TEST_CASE("one length an edge smears the bend over a layer of triangles") {
                                   lengths_by(square, law, metric::Sides::mean));
   CHECK(mesh.summary().refracting_edges == 0);
   for (const double y : {0.25, -0.25})
-    CHECK(errors_of<double>(Serial{}, mesh, square, law, y).mean < 1e-2);
+    CHECK(errors_of<double>(Serial{}, mesh, square, law, y).mean < 4e-3);
 }
 
 TEST_CASE("where two tensors meet the least sum of two norms decides") {
@@ -161,8 +161,8 @@ TEST_CASE("where two tensors meet the least sum of two norms decides") {
     worst = std::max(worst, e);
     ++count;
   }
-  CHECK(mean / count < 1e-3);
-  CHECK(worst < 1e-2);
+  CHECK(mean / count < 3.5e-4);
+  CHECK(worst < 5.5e-3);
 }
 
 TEST_CASE("the light of a line is refracted as a straight front") {

@@ -208,11 +208,11 @@ TEST_CASE("vertex pairs: clouds with exact answers") {
 #ifdef PLEXWAY_SANITIZED
   return;
 #endif
-  const std::map<std::string, double> bounds = {{"plane_20k", 6e-4},
+  const std::map<std::string, double> bounds = {{"plane_20k", 2e-4},
                                                 {"sphere_20k", 1.2e-3},
                                                 {"swiss_20k", 1.2e-3},
-                                                {"wall2d_20k", 2.5e-3},
-                                                {"sphn002_20k", 6.5e-3}};
+                                                {"wall2d_20k", 1.8e-3},
+                                                {"sphn002_20k", 1.3e-3}};
   for (const auto& [what, bound] : bounds) {
     std::vector<Position> points;
     std::ifstream in(folder / (what + ".xyz"));

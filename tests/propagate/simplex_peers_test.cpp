@@ -54,7 +54,7 @@ std::vector<double> dijkstra(const Graph& g, Index source) {
 
 TEMPLATE_TEST_CASE("one dimension is Dijkstra's", "", float, double) {
   for (const unsigned seed : {1u, 2u, 3u})
-    for (const std::size_t edges : {250, 400, 2000}) {
+    for (const std::size_t edges : {250u, 400u, 2000u}) {
       const Graph g = random_graph(300, edges, seed);
       const SimplicialComplex<TestType, 1> domain(g.vertices, g.edges, g.lengths);
       for (const Schedule schedule : schedules)

@@ -50,7 +50,7 @@ TEST_CASE("a convex solid is exact from inside a tetrahedron, by any schedule") 
 }
 
 TEST_CASE("around one reflex edge") {
-  for (const Index n : {6, 12}) {
+  for (const Index n : {6u, 12u}) {
     const Solid s = l_shape(n);
     for (const Position& from : {Position{1, 0, 0}, {1, .5, .5}, {.9, .3, .4}, {0, 0, 1}}) {
       const Index source = s.nearest(from[0], from[1], from[2]);

@@ -36,11 +36,11 @@ double mean_error(const std::string& name, Index source, double worst_allowed = 
 TEST_CASE("solids with exact answers, double") {
   if (!solids_available()) return;
   CHECK(mean_error<double>("cube_10k", 8) <= 1e-12);
-  CHECK(mean_error<double>("maze_10k", 32) <= 1e-10);
+  CHECK(mean_error<double>("maze_10k", 32) <= 5e-12);
   const double notch = mean_error<double>("notch_10k", 14);
   const double finer_notch = mean_error<double>("notch_100k", 14);
-  CHECK(notch <= 1e-10);
-  CHECK(finer_notch <= 1e-10);
+  CHECK(notch <= 5e-12);
+  CHECK(finer_notch <= 5e-12);
   const double cavity = mean_error<double>("cavity_10k", 170);
   const double finer_cavity = mean_error<double>("cavity_100k", 650);
   CHECK(cavity <= 1.3e-3);
@@ -50,9 +50,9 @@ TEST_CASE("solids with exact answers, double") {
 
 TEST_CASE("solids with exact answers, float") {
   if (!solids_available()) return;
-  CHECK(mean_error<float>("cube_10k", 8) <= 1e-6);
-  CHECK(mean_error<float>("maze_10k", 32) <= 1.2e-3);
-  CHECK(mean_error<float>("notch_10k", 14) <= 3.7e-4);
+  CHECK(mean_error<float>("cube_10k", 8) <= 1e-7);
+  CHECK(mean_error<float>("maze_10k", 32) <= 1.5e-7);
+  CHECK(mean_error<float>("notch_10k", 14) <= 1.5e-7);
   CHECK(mean_error<float>("cavity_10k", 170) <= 1.3e-3);
 }
 

@@ -24,7 +24,7 @@ TEST_CASE("exact distances around a prism are those around a round pipe in the l
   const std::vector<samples::Point> points = {{.9, .1, .7}, {.3, .8, .2},   {0, .5, 0},
                                               {.5, 0, 1},   {-.4, -.7, .5}, {-.9, 0, .4}};
   const samples::Point source = {-.8, .1, .2};
-  for (const samples::Index sides : {100, 400}) {
+  for (const samples::Index sides : {100u, 400u}) {
     const auto found = samples::PipePrism{sides}.distances(points, source);
     for (std::size_t i = 0; i < points.size(); ++i) {
       const samples::Point& p = points[i];
@@ -43,8 +43,8 @@ TEST_CASE("exact distances around a prism are those around a round pipe in the l
 
 TEST_CASE("around a pipe errors stay far below those of its facets") {
   // 54 sides would be 6e-4 off the round pipe; a rule that forgets one edge in 50, 1e-4.
-  CHECK(mean_error(bench::pipe_domain(10e3)) < 6e-5);
-  CHECK(mean_error(bench::pipe_domain(40e3)) < 2e-5);
+  CHECK(mean_error(bench::pipe_domain(10e3)) < 3.5e-5);
+  CHECK(mean_error(bench::pipe_domain(40e3)) < 1e-6);
 }
 
 TEST_CASE("around a ball errors fall with the size of tetrahedra") {
@@ -52,5 +52,5 @@ TEST_CASE("around a ball errors fall with the size of tetrahedra") {
   const double fine = mean_error(bench::cavity_domain(40e3));
   CAPTURE(coarse, fine);
   CHECK(coarse < 2e-3);
-  CHECK(fine < coarse / 1.5);
+  CHECK(fine < coarse / 2.5);
 }
