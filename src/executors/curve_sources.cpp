@@ -1,5 +1,7 @@
 #include <algorithm>
+#include <cstdint>
 #include <span>
+#include <vector>
 
 #include <plexway/error.hpp>
 #include <plexway/executors/source_sets.hpp>
@@ -61,18 +63,24 @@ void add_shapes(const TriangleMesh<double>& mesh, std::span<const Source> source
 template <class Wave>
 class SidedFront : public Wave {
  public:
-  SidedFront(const Wave& wave, const CurveSeeds& curves) : Wave(wave), curves_(&curves) {}
+  /// `keeps_light` has room for all triangles, 0 each.
+  SidedFront(const Wave& wave, const CurveSeeds& curves, std::uint8_t* keeps_light)
+      : Wave(wave), curves_(&curves), keeps_light_(keeps_light) {}
+
+  [[nodiscard]] bool keeps_light(Index f) const { return keeps_light_[f] != 0; }
 
   [[gnu::always_inline]] void accept(Index f, std::size_t hinge, const SaddleLabel<double>& label,
                                      double distance, Index source) {
-    // Only light starts at less than 0.
-    if (label.sigma() < 0 && curves_->crosses(source, f)) [[unlikely]]
+    const bool light = label.sigma() < 0;  // only light starts at less than 0
+    if (light && curves_->crosses(source, f)) [[unlikely]]
       return;
+    keeps_light_[f] = light;
     Wave::accept(f, hinge, label, distance, source);
   }
 
  private:
   const CurveSeeds* curves_;
+  std::uint8_t* keeps_light_;
 };
 
 // Curves as a solve takes them.
@@ -118,12 +126,13 @@ void solve(const TriangleMesh<double>& mesh, const SourceParts& parts, const Cur
            DistanceField<double>& field) {
   workspace.front.reserve(mesh.face_count());
   workspace.start(mesh.face_count(), kLabels);
+  std::vector<std::uint8_t> keeps_light(mesh.face_count() + 1, 0);
   with_queue<double>(options, workspace.front, [&](auto queue) {
     using Wave = Wavefront<double, SaddleLabel<double>, decltype(queue), kLabels>;
     SidedFront<Wave> front(
         Wave(workspace.marks, workspace.saddles.reserve(mesh.face_count() + 1), queue,
              workspace.source.data(), mesh.face_count(), mesh.unit(), options),
-        seeds);
+        seeds, keeps_light.data());
     const SaddleRule<double, SidedFront<Wave>> rule(mesh.triangles(), front, options.vectorised);
     surface::solve<double, kLabels>(mesh, parts.points, options, workspace, rule, front, Alone{},
                                     field, Curves<kLabels>(mesh, seeds, workspace));

@@ -39,11 +39,11 @@ class BorderLight {
     const Index faces = static_cast<Index>(triangles_.size() - 1);
     const auto cross = [&](Index f, std::size_t edge) { rule.cross(f, edge, false); };
     for (Index f = 0; f < faces; ++f) {
-      if (!keeps_light(f)) continue;
+      if (!known_.keeps_light(f)) continue;
       for (std::size_t e = 0; e < 3; ++e) {
         const Index across = triangles_[f].across[e];
-        if (e != known_.hinge(f) &&
-            (!keeps_light(across >> Across::face_shift) || (across & Across::special)))
+        if ((!known_.keeps_light(across >> Across::face_shift) || (across & Across::special)) &&
+            e != known_.hinge(f))
           cross(f, e);
       }
     }
@@ -79,7 +79,7 @@ class BorderLight {
     if (!is_light(label) || !known_.reached(f) || curves_.crosses(source, f)) return;
     const TriangleRecord<Real>& t = triangles_[f];
     const Real size = std::max({t.length[0], t.length[1], t.length[2]});
-    const Real slack = is_light(known_.label(f)) ? Real(0) : size / 2;
+    const Real slack = known_.keeps_light(f) ? Real(0) : size / 2;
     if (!(distance < known_.label(f).distance() + slack)) return;
     Entry& e = entry(f);
     const bool waits = e.waits;
@@ -97,9 +97,6 @@ class BorderLight {
 
   // Only light starts at less than 0: bent, it is what the points of its line see as well.
   static bool is_light(const Label& label) { return label.sigma() < 0; }
-  [[nodiscard]] bool keeps_light(Index f) const {
-    return known_.reached(f) && is_light(known_.label(f));
-  }
   Entry& entry(Index f) {
     if (slot_[f] == none) {
       slot_[f] = static_cast<Index>(entries_.size());
