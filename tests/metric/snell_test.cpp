@@ -42,17 +42,12 @@ struct Errors {
   double mean = 0, worst = 0;
 };
 
-// Beyond a distance. A triangle keeps one label; about a source on the line, whose light comes by
-// the one side and by the other, some corner of the first triangles needs two.
 template <class Distance, class Exact>
-Errors compare(const std::vector<Point>& points, Index source, double beyond,
-               const Distance& distance, const Exact& exact) {
+Errors compare(const std::vector<Point>& points, Index source, const Distance& distance,
+               const Exact& exact) {
   Errors errors;
   for (std::size_t v = 0; v < points.size(); ++v) {
     if (v == source) continue;
-    const double off =
-        std::hypot(points[v][0] - points[source][0], points[v][1] - points[source][1]);
-    if (off < beyond) continue;
     const double e = std::abs(static_cast<double>(distance[v]) / exact(points[v]) - 1);
     errors.mean += e / static_cast<double>(points.size());
     errors.worst = std::max(errors.worst, e);
@@ -66,8 +61,7 @@ Errors errors_of(const Executor& executor, const TriangleMesh<Real>& mesh,
   const Index source = square.nearest(0.3, y);
   const auto at = PointSource::at(source);
   const auto field = propagate(executor, mesh, std::span(&at, 1), PropagateOptions{});
-  const double cell = 1 / std::sqrt(static_cast<double>(square.faces.size()) / 2);
-  return compare(square.points, source, y == 0 ? 16 * cell : 0, field.distance,
+  return compare(square.points, source, field.distance,
                  [&](const Point& p) { return law.time(square.points[source], p); });
 }
 
@@ -89,18 +83,17 @@ TEST_CASE("light bends between two speeds as Snell says, head waves included") {
         for (const double y : {0.25, -0.25, 0.0}) {
           // From the line itself light comes to the slow side by both: near the source single
           // vertices need more than the one label that a triangle has.
-          if (y == 0 && n == 20) continue;
-          const double worst = n == 20 ? 2e-2 : 1e-2;
+          const double mean = y == 0 ? 1e-3 : 4e-4, worst = y == 0 ? 3.5e-2 : 1e-2;
           INFO(n << " cells, " << shake << ", 1 to " << ratio << ", from y = " << y);
           const Errors exact = errors_of<double>(Serial{}, mesh, square, law, y);
-          CHECK(exact.mean < 7e-4);
+          CHECK(exact.mean < mean);
           CHECK(exact.worst < worst);
           const Errors rounded = errors_of<float>(Serial{}, single, square, law, y);
-          CHECK(rounded.mean < 7e-4);
+          CHECK(rounded.mean < mean);
           CHECK(rounded.worst < worst);
           const Errors team = errors_of<float>(OpenMP{2}, single, square, law, y);
-          CHECK(team.mean < 7e-4);
-          CHECK(team.worst < worst);
+          CHECK(team.mean < mean);
+          CHECK(team.worst < (n == 20 ? 1.5 * worst : worst));  // in rounds: 1.18e-2
         }
       }
     }

@@ -11,6 +11,7 @@
 
 #include <plexway/complex/triangle_record.hpp>
 #include <plexway/propagate/saddle_label.hpp>
+#include <plexway/propagate/saddle_poses.hpp>
 #include <plexway/propagate/saddle_refraction.hpp>
 #include <plexway/propagate/saddle_step.hpp>
 #include <plexway/propagate/saddle_step_lanes.hpp>
@@ -19,11 +20,17 @@ namespace plexway {
 
 /// Visibility::saddles on triangles: how labels get from one to the next.
 template <class Real, class Front>
-class SaddleRule {
+class SaddleRule : public SaddlePoses<Real> {
  public:
-  using Label = SaddleLabel<Real>;
-  using Posed = PosedSaddles<Real>;
-  using Point = typename Posed::Point;
+  using Poses = SaddlePoses<Real>;
+  using Poses::at_corner;
+  using Poses::hinge_of;
+  using Poses::packed;
+  using Poses::posed;
+  using Poses::turned;
+  using typename Poses::Label;
+  using typename Poses::Point;
+  using typename Poses::Posed;
 
   SaddleRule(std::span<const TriangleRecord<Real>> triangles, Front& front, bool vectorised)
       : triangles_(triangles.data()),
@@ -168,10 +175,12 @@ class SaddleRule {
   void cross_posed(Index f, std::size_t edge, const Posed& here, int pivot, bool last_resort,
                    Index source) {
     around(f, edge, [&](Index g, std::size_t k, bool flip) {
-      if (refracts(f, edge, g, k)) [[unlikely]]
-        enter_refracted(g, k, here, flip, pivot, triangles_[f].length[edge], source);
-      else
+      if (refracts(f, edge, g, k)) [[unlikely]] {
+        Posed there = here;
+        enter_refracted(g, k, there, flip, pivot, triangles_[f].length[edge], source);
+      } else {
         enter(g, k, here, flip, pivot, last_resort, source);
+      }
     });
   }
 
@@ -180,19 +189,33 @@ class SaddleRule {
     const TriangleRecord<Real>& t = triangles_[f];
     const Real x = (t.length[i] + t.apex_x(i)) / 3, h = t.apex_h(i) / 3;
     const Real d = sigma + std::sqrt(x * x + h * h);
-    if (!(d < to_beat(f))) return false;
-    front_.accept(f, i, {kernel::Lanes<Real>(0, sigma, 0, 0), kernel::Lanes<Real>(0, d, 0, 0)}, d,
-                  source);
-    // Light that runs along edge i to leave it into a slower triangle: expansion would not take it.
-    if (t.across[i] & Across::fan) [[unlikely]] {
+    const bool better = d < to_beat(f);
+    if (!((t.across[i] | t.across[edge_before(i)]) & Across::fan)) [[likely]] {
+      if (better) accept_corner(f, i, sigma, d, source);
+      return better;
+    }
+    // Where an edge at the corner refracts the two triangles beside it see two lights, from the
+    // corner and from along the edge. One is kept; what the other is the best for lies beyond.
+    const std::size_t before = front_.updates();
+    if (better)
+      accept_corner(f, i, sigma, d, source);
+    else
+      pass_on(f, i, at_corner(sigma), source);
+    for (const std::size_t e : {i, edge_before(i)}) {
       Posed here;
-      here.source = here.limit[0] = here.limit[1] = {{t.length[i]}, Real(0)};
+      here.source = {{e == i ? t.length[e] : Real(0)}, Real(0)};
+      here.limit[0] = here.limit[1] = here.source;
       here.sigma = sigma;
-      around(f, i, [&](Index g, std::size_t k, bool flip) {
-        if (refracts(f, i, g, k)) enter_refracted(g, k, here, flip, -1, t.length[i], source);
+      around(f, e, [&](Index g, std::size_t k, bool flip) {
+        if (!refracts(f, e, g, k)) return;
+        if (front_.reached(g))
+          pass_on(g, front_.hinge(g), posed(front_.label(g)), front_.source(g));
+        Posed along = here;
+        if (!enter_refracted(g, k, along, flip, -1, t.length[e], source))
+          pass_on(g, k, along, source);
       });
     }
-    return true;
+    return front_.updates() != before;
   }
 
   /// A path of length sigma ends inside triangle f, at (x, y) over its edge 0.
@@ -231,19 +254,6 @@ class SaddleRule {
   }
 
   [[nodiscard]] const Label& label(Index f) const { return front_.label(f); }
-
-  /// Edge k of a triangle, as those who come in by it see it.
-  template <class Number = Real>
-  [[nodiscard]] static SaddleHinge<Number> hinge_of(const TriangleRecord<Real>& t, std::size_t k,
-                                                    int pivot) {
-    SaddleHinge<Number> hinge;
-    hinge.extent = static_cast<Number>(t.length[k]);
-    hinge.apex = {{static_cast<Number>(t.apex_x(k))}, static_cast<Number>(t.apex_h(k))};
-    hinge.saddle[0] = t.saddle(k);
-    hinge.saddle[1] = t.saddle(k == 2 ? 0 : k + 1);
-    hinge.pivot = pivot;
-    return hinge;
-  }
 
   // What follows is for simplices of other complexes that share an edge or all of a triangle.
 
@@ -357,15 +367,6 @@ class SaddleRule {
   SaddleRule(const TriangleRecord<Real>* triangles, Index sentinel, Front& front, bool vectorised)
       : triangles_(triangles), sentinel_(sentinel), front_(front), vectorised_(vectorised) {}
 
-  static Posed posed(const Label& label) {
-    Posed p;
-    p.source = {{label.x[0]}, label.h[0]};
-    p.limit[0] = {{label.x[0] + label.x[2]}, label.h[0] + label.h[2]};
-    p.limit[1] = {{label.x[0] + label.x[3]}, label.h[0] + label.h[3]};
-    p.sigma = label.sigma();
-    return p;
-  }
-
   /// `visit(g, k, flip)` for each triangle beyond an edge, and whether it runs the same way there.
   template <class Visit>
   void around(Index f, std::size_t edge, Visit visit) const {
@@ -386,21 +387,6 @@ class SaddleRule {
   Posed leave(Index f, std::size_t in, std::size_t edge, int& pivot) const {
     return turned(triangles_[f], posed(front_.label(f)), in, edge, pivot);
   }
-  static Posed turned(const TriangleRecord<Real>& t, Posed p, std::size_t in, std::size_t edge,
-                      int& pivot) {
-    if (edge == in) {  // only from a source inside
-      p.source = {{t.length[in] - p.source.x[0]}, -p.source.h};
-      p.limit[0] = p.limit[1] = p.source;
-      pivot = -1;
-      return p;
-    }
-    const bool left = edge == (in == 0 ? 2 : in - 1);
-    pivot = left ? 0 : 1;
-    const std::size_t corner = left ? in : edge;
-    return kernel::SaddleKernel<Real>::turn_label(p, left, t.length[in], t.length[edge],
-                                                  t.cosine[corner], t.sine(corner));
-  }
-
   bool narrow(const TriangleRecord<Real>& t, std::size_t in, bool left, Index across,
               Label& label) const {
     const Index g = across >> Across::face_shift;
@@ -438,7 +424,8 @@ class SaddleRule {
   }
 
   /// Over an edge that is `width` long on the side the label comes from.
-  [[gnu::noinline]] void enter_refracted(Index g, std::size_t k, Posed label, bool flip, int pivot,
+  /// True if it is the best there; `label` is what it is beyond.
+  [[gnu::noinline]] bool enter_refracted(Index g, std::size_t k, Posed& label, bool flip, int pivot,
                                          Real width, Index source) {
     if (flip) {
       label = kernel::SaddleKernel<Real>::mirror_label(label, width);
@@ -446,7 +433,23 @@ class SaddleRule {
     }
     const Real d =
         std::max(Real(0), refract<Real>(label, hinge_of(triangles_[g], k, pivot), width));
-    if (d < to_beat(g) * patience_) front_.accept(g, k, packed(label, d), d, source);
+    const bool better = d < to_beat(g) * patience_;
+    if (better) front_.accept(g, k, packed(label, d), d, source);
+    return better;
+  }
+
+  void accept_corner(Index f, std::size_t i, Real sigma, Real d, Index source) {
+    front_.accept(f, i, {kernel::Lanes<Real>(0, sigma, 0, 0), kernel::Lanes<Real>(0, d, 0, 0)}, d,
+                  source);
+  }
+
+  /// Takes a label, posed on edge `in` of f, over the two other edges, whatever f keeps.
+  void pass_on(Index f, std::size_t in, const Posed& label, Index source) {
+    for (const std::size_t e : {edge_before(in), edge_after(in)}) {
+      int pivot = -1;
+      const Posed here = turned(triangles_[f], label, in, e, pivot);
+      cross_posed(f, e, here, pivot, true, source);
+    }
   }
 
   /// The full rule for one triangle beyond.
@@ -454,12 +457,6 @@ class SaddleRule {
                                          int pivot, bool last_resort) {
     const Real d = cross_hinge<Real>(label, hinge_of(t, k, pivot), last_resort);
     return packed(label, d);
-  }
-
-  static Label packed(const Posed& label, Real d) {
-    const Point &S = label.source, &l = label.limit[0], &r = label.limit[1];
-    return {kernel::Lanes<Real>(S.x[0], label.sigma, l.x[0] - S.x[0], r.x[0] - S.x[0]),
-            kernel::Lanes<Real>(S.h, d, l.h - S.h, r.h - S.h)};
   }
 
   // What the neighbours of a triangle come in by edge k will need when its turn comes.
