@@ -52,8 +52,11 @@ void with_complex(const Domain& domain, Precision precision, Use use) {
             using Real = decltype(real);
             if constexpr (std::is_same_v<Shape, io::Edges>)
               throw InputError("is a wireframe: points are chosen on surfaces, solids and clouds");
-            else
-              use(make_complex<Real>(shape));
+            else {
+              auto complex = make_complex<Real>(shape);
+              check_precision<Real>(complex);
+              use(complex);
+            }
           };
           precision == Precision::single ? build(float{}) : build(double{});
         },

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <limits>
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -32,7 +32,7 @@ class BorderLight {
     slot_.assign(triangles_.size(), none);
   }
 
-  /// offer(vertex, distance, triangle, source) for the corners of all triangles it got to.
+  /// offer(vertex, distance, source) for the corners of all triangles it got to.
   template <class Offer>
   void offer_corners(const Offer& offer) {
     SaddleRule<Real, BorderLight> rule(triangles_, *this, false);

@@ -72,6 +72,20 @@ TEST_CASE("files that are not there, or no domain, are bad input") {
   check_refused(run_tool({"distance", dir, "-s", "vertex:0"}), 3, dir + ": ");
 }
 
+TEST_CASE("what single precision cannot hold is bad input, and double takes it") {
+  const Folder folder;
+  for (const std::string size : {"1e39", "1e-50"}) {
+    const std::string file =
+        folder.write("far.obj", "v 0 0 0\nv " + size + " 0 0\nv 0 " + size + " 0\nf 1 2 3\n");
+    check_refused(run_tool({"distance", file, "-s", "vertex:0"}), 3, file + ": edges of ");
+    check_refused(run_tool({"path", file, "--from", "vertex:0", "--to", "vertex:1"}), 3,
+                  file + ": edges of ");
+    const Outcome run = run_tool({"distance", file, "-s", "vertex:0", "--precision", "double"});
+    CHECK(run.code == 0);
+    CHECK_THAT(run.out + run.err, Catch::Contains("3 of 3 vertices"));
+  }
+}
+
 TEST_CASE("a source out of range is bad input") {
   const std::string knot = sample("knot.ply");
   for (const char* source :
