@@ -1,10 +1,15 @@
 #include <plexway/apps/path_field.hpp>
 
+#include <algorithm>
+#include <array>
+#include <cmath>
 #include <string>
 #include <type_traits>
+#include <utility>
 
 #include <plexway/error.hpp>
 
+#include "apps/solid_read_out.hpp"
 #include "apps/solid_trace.hpp"
 #include "apps/solved.hpp"
 #include "apps/surface_read_out.hpp"
@@ -42,6 +47,63 @@ template <class Real>
 Path trace_in(const Wireframe<Real>& wireframe, const Solved<Real>& solved,
               const PointSource& point, const TraceOptions&) {
   return trace_wire(wireframe, solved, point);
+}
+
+// Along an edge of a wireframe paths come by its ends, or from a source on it.
+template <class Real>
+struct WireReadOut {
+  WireReadOut(const Wireframe<Real>&, const Solved<Real>& what) : solved(what) {}
+  const Solved<Real>& solved;
+};
+
+template <class Domain>
+struct ReadOutFor;
+template <class Real>
+struct ReadOutFor<TriangleMesh<Real>> {
+  using Type = SurfaceReadOut<Real>;
+};
+template <class Real>
+struct ReadOutFor<TetMesh<Real>> {
+  using Type = SolidReadOut<Real>;
+};
+template <class Real>
+struct ReadOutFor<Wireframe<Real>> {
+  using Type = WireReadOut<Real>;
+};
+template <class Domain>
+using ReadOutOf = typename ReadOutFor<Domain>::Type;
+
+template <class Real>
+double distance_in(const TriangleMesh<Real>& mesh, const SurfaceReadOut<Real>& read_out,
+                   const PointSource& at, ReadOut level) {
+  const auto [f, turned] = mesh.inside_face(at.simplex);
+  std::array<double, 3> weight = {at.barycentric[0], at.barycentric[1], at.barycentric[2]};
+  if (turned) std::swap(weight[1], weight[2]);
+  return read_out.at(f, weight, level) * mesh.unit();
+}
+template <class Real>
+double distance_in(const TetMesh<Real>& mesh, const SolidReadOut<Real>& read_out,
+                   const PointSource& at, ReadOut level) {
+  const auto [t, turned] = mesh.inside_tet(at.simplex);
+  std::array<double, 4> weight = at.barycentric;
+  if (turned) std::swap(weight[2], weight[3]);
+  return read_out.at(t, weight, level) * mesh.unit();
+}
+template <class Real>
+double distance_in(const Wireframe<Real>& wireframe, const WireReadOut<Real>& read_out,
+                   const PointSource& at, ReadOut level) {
+  const Solved<Real>& solved = read_out.solved;
+  const auto [from, to, inside] = wireframe.inside_edge(at.simplex);
+  const double length = static_cast<double>(inside) * wireframe.unit();
+  const double a = static_cast<double>(solved.field.distance[solved.outer[from]]);
+  const double b = static_cast<double>(solved.field.distance[solved.outer[to]]);
+  const double s = at.barycentric[1], rest = at.barycentric[0];
+  if (level == ReadOut::linear) return (rest > 0 ? rest * a : 0) + (s > 0 ? s * b : 0);
+  double best = std::min(a + s * length, b + rest * length);
+  for (const PointSource& source : solved.sources)
+    if (source.vertex == none && source.simplex == at.simplex)
+      best = std::min(best, source.offset + std::abs(source.barycentric[1] - s) * length);
+  return best;
 }
 
 }  // namespace
@@ -101,13 +163,16 @@ Path PathField<Domain<Real>>::trace(const PointSource& point, const TraceOptions
 }
 
 template <template <class> class Domain, class Real>
-void PathField<Domain<Real>>::check_labels() const {
+void PathField<Domain<Real>>::check_labels(ReadOut level) const {
   if (!solved_) throw UsageError("there is nothing to read before a solve");
-  if constexpr (!std::is_same_v<Domain<Real>, TriangleMesh<Real>>)
-    throw UsageError("distances inside simplices are read out on surfaces only");
+  if (level == ReadOut::linear || std::is_same_v<Domain<Real>, Wireframe<Real>>) return;
   if (!labels_ || visibility_ != Visibility::saddles)
     throw UsageError(
         "distances inside simplices need the labels of the policy saddles, by Serial or OpenMP");
+  if constexpr (std::is_same_v<Domain<Real>, TetMesh<Real>>)
+    if (!domain_->embedded())
+      throw UsageError(
+          "distances inside tetrahedra need their coordinates: without them only linear");
 }
 
 template <template <class> class Domain, class Real>
@@ -118,34 +183,37 @@ double PathField<Domain<Real>>::at(const PointSource& point, ReadOut level) cons
 template <template <class> class Domain, class Real>
 std::vector<double> PathField<Domain<Real>>::at(std::span<const PointSource> points,
                                                 ReadOut level) const {
-  check_labels();
+  check_labels(level);
+  const Solved<Real> solved = this->solved();
+  const ReadOutOf<Domain<Real>> read_out(*domain_, solved);
   std::vector<double> distance;
-  if constexpr (std::is_same_v<Domain<Real>, TriangleMesh<Real>>) {
-    const Solved<Real> solved = this->solved();
-    const SurfaceReadOut<Real> read_out(*domain_, solved);
-    distance.reserve(points.size());
-    for (PointSource at : points) {
-      at.offset = 0;
-      check_source(at, described(*domain_));
-      if (at.vertex != none) {
-        distance.push_back(static_cast<double>(field_.distance[at.vertex]));
-        continue;
-      }
-      const auto [f, turned] = domain_->inside_face(at.simplex);
-      std::array<double, 3> weight = {at.barycentric[0], at.barycentric[1], at.barycentric[2]};
-      if (turned) std::swap(weight[1], weight[2]);
-      distance.push_back(read_out.at(f, weight, level) * domain_->unit());
-    }
+  distance.reserve(points.size());
+  for (PointSource at : points) {
+    at.offset = 0;
+    check_source(at, described(*domain_));
+    distance.push_back(at.vertex != none ? static_cast<double>(field_.distance[at.vertex])
+                                         : distance_in(*domain_, read_out, at, level));
   }
   return distance;
 }
 
 template <template <class> class Domain, class Real>
 std::vector<std::array<double, 3>> PathField<Domain<Real>>::gradient() const {
-  check_labels();
-  if (positions_.empty()) throw UsageError("directions in space need positions");
+  check_labels(ReadOut::simplex);
   std::vector<std::array<double, 3>> directions;
+  if constexpr (std::is_same_v<Domain<Real>, Wireframe<Real>>)
+    throw UsageError("directions are for surfaces and solids");
+  if constexpr (std::is_same_v<Domain<Real>, TetMesh<Real>>) {
+    const Solved<Real> solved = this->solved();
+    const SolidReadOut<Real> read_out(*domain_, solved);
+    directions.assign(domain_->tet_count(), {0, 0, 0});
+    for (Index tet = 0; tet < domain_->tet_count(); ++tet) {
+      const Index t = domain_->inside_tet(tet).first;
+      if (workspace_.marks.reached(t)) directions[tet] = read_out.gradient(t);
+    }
+  }
   if constexpr (std::is_same_v<Domain<Real>, TriangleMesh<Real>>) {
+    if (positions_.empty()) throw UsageError("directions in space need positions");
     const Solved<Real> solved = this->solved();
     const SurfaceReadOut<Real> read_out(*domain_, solved);
     directions.assign(domain_->face_count(), {0, 0, 0});

@@ -86,14 +86,17 @@ class PathField<Domain<Real>> {
     return trace(PointSource::at(vertex), options);
   }
 
-  /// The distance of any point of a surface, in the domain's unit; its offset does not count. +inf
-  /// where no path leads. `linear` needs the vertices' distances only; the other levels ask the
-  /// virtual sources that Visibility::saddles left, with Serial and OpenMP.
+  /// The distance of any point of the domain, in its unit; its offset does not count. +inf where no
+  /// path leads. `linear` needs the vertices' distances only; the other levels ask the virtual
+  /// sources that Visibility::saddles left, with Serial and OpenMP. In solids `star` asks what
+  /// `neighbours` asks, and tetrahedra need their coordinates; along the edges of wireframes all
+  /// levels but `linear` are exact.
   ///
   /// Across an edge `neighbours` and `star` are continuous where the labels on both sides are all
   /// that is asked; docs/apps/read_out.md has what jumps. Throws UsageError for a
-  /// point that is not in the domain, before a solve, without such labels, and for other domains.
-  /// Any number of threads may ask at once. Cost: 1, 1, 4 and at most 31 labels looked at.
+  /// point that is not in the domain, before a solve, and without such labels.
+  /// Any number of threads may ask at once. Cost: on surfaces 1, 1, 4 and at most 31 labels looked
+  /// at, in solids 1, 1 and 5.
   [[nodiscard]] double at(const PointSource& point, ReadOut level = ReadOut::neighbours) const;
   /// By a simplex and one coordinate a corner.
   template <std::size_t N>
@@ -104,9 +107,9 @@ class PathField<Domain<Real>> {
   /// Of many points.
   [[nodiscard]] std::vector<double> at(std::span<const PointSource> points,
                                        ReadOut level = ReadOut::neighbours) const;
-  /// The direction away from the source at the centre of each triangle, caller's order: of length
-  /// 1, in its plane; 0 where no path leads, or the source is there. Needs labels as `at`, and
-  /// positions.
+  /// The direction away from the source at the centre of each triangle or tetrahedron, caller's
+  /// order: of length 1, in the triangle's plane; 0 where no path leads, or the source is there.
+  /// Needs labels as `at`, and on surfaces positions. UsageError for wireframes.
   [[nodiscard]] std::vector<std::array<double, 3>> gradient() const;
 
   /// The source that the label of each simplex leads to, caller's order: the nearest to its centre,
@@ -122,7 +125,7 @@ class PathField<Domain<Real>> {
   [[nodiscard]] const Domain<Real>& domain() const { return *domain_; }
 
  private:
-  void check_labels() const;
+  void check_labels(ReadOut level) const;
   void took(std::span<const PointSource> sources, Visibility visibility, bool labels);
   [[nodiscard]] Solved<Real> solved() const;
 

@@ -152,6 +152,14 @@ class SolidRule : public SolidPaths<Real> {
     return this->reach_at(front_->label(t), t, q, known);
   }
 
+  /// Length of the path from the source of u, through a face of it, to q beyond; +inf if it does
+  /// not pass there.
+  [[nodiscard]] Real offered_over(Index u, Index face, const Point& q) const {
+    const Sight sight = seen_from(u, q);
+    if (!passes_face(sight.eye, q, u, face)) return std::numeric_limits<Real>::infinity();
+    return sight.sigma + norm(q - sight.eye);
+  }
+
   /// Length of the path from the source of t through a face to that of the neighbour; +inf if none
   /// passes there.
   [[nodiscard]] Real meeting_over(Index t, Index face) const {
