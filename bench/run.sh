@@ -26,6 +26,7 @@ if [ "${QUICK:-0}" = 1 ]; then
   triangulation="--sizes 20000"
   corners="--most 100 --seeds 1"
   metrics="--cells 20,50"
+  curves="--cells 30 --turns 1"
   solid_sizes="--sizes 8 --sources 2 --repeats 1 --budget 1"
   gl="--sizes 10000 --batch 8 --repeats 1"
   wires="--size 0.1 --sources 2 --repeats 1 --budget 1"
@@ -37,6 +38,7 @@ else
   triangulation=""
   corners=
   metrics=
+  curves=
   solid_sizes="--sizes 12,26,70"
   wires=""
   teams=""
@@ -85,6 +87,7 @@ peers=$bin/bench_cgal
   [ -z "$data" ] || run parity "$bin/bench_parity" "$@"
   run corners "$bin/bench_corners" $corners
   run metrics "$bin/bench_metrics" $metrics
+  run curves "$bin/bench_curves" $curves
   # Two good scans, cut into four until they have a million vertices; otherwise the sphere alone.
   set --
   for scan in bunny armadillo; do
