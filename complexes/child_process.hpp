@@ -48,7 +48,8 @@ struct Descriptor {
   }
 };
 
-/// No other program inherits it. Throws Error, which names the library.
+/// No other program inherits it, but a child that another thread forks meanwhile does: the end of
+/// what is sent then shows only when that one ends. Throws Error, which names the library.
 struct Pipe {
   Descriptor read{-1}, write{-1};
 
@@ -74,10 +75,9 @@ inline void send(int to, const void* bytes, std::size_t size) {
   }
 }
 
-/// By a child: what the library says goes there.
+/// By a child: what the library says goes there, or the child ends.
 inline void speak_into(int to) {
-  ::dup2(to, STDOUT_FILENO);
-  ::dup2(to, STDERR_FILENO);
+  if (::dup2(to, STDOUT_FILENO) < 0 || ::dup2(to, STDERR_FILENO) < 0) ::_exit(1);
 }
 
 /// A copy of this process that calls work() and ends; it does not outlive this object. Of threads

@@ -13,8 +13,10 @@ double SolidReadOut<Real>::at(Index t, const std::array<double, 4>& weight, Read
   if (level == ReadOut::linear) {
     double sum = 0;
     for (std::size_t i = 0; i < 4; ++i)
-      if (weight[i] > 0) sum += weight[i] * vertex(i);  // other corners may be at infinity
-    return sum;
+      if (weight[i] > 0)  // other corners may be at infinity
+        sum += weight[i] *
+               static_cast<double>(solved_.field.distance[solved_.outer[record.corner[i]]]);
+    return sum / mesh_.unit();
   }
   Point q = {0, 0, 0};
   for (std::size_t i = 0; i < 4; ++i)

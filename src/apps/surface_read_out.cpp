@@ -119,8 +119,8 @@ double SurfaceReadOut<Real>::at(Index f, const std::array<double, 3>& weight, Re
     double sum = 0;
     for (std::size_t i = 0; i < 3; ++i)
       if (weight[i] > 0)
-        sum += weight[i] * static_cast<double>(solved_.workspace.vertex[t.corner[i]]);
-    return sum;
+        sum += weight[i] * static_cast<double>(solved_.field.distance[solved_.outer[t.corner[i]]]);
+    return sum / mesh_.unit();
   }
   double best = labels_.reached(f) ? own(f, weight) : infinity;
   if (level == ReadOut::simplex) return best;

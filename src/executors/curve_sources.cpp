@@ -10,6 +10,7 @@
 #include "executors/checks.hpp"
 #include "executors/solve_surface.hpp"
 #include "propagate/border_light.hpp"
+#include "propagate/curve_pieces.hpp"
 #include "propagate/curve_seeds.hpp"
 
 /// Fields from curves and triangles on a surface.
@@ -27,17 +28,12 @@ void add_shapes(const TriangleMesh<double>& mesh, std::span<const Source> source
       parts.owner.push_back(n);
     };
     if (const auto* curve = std::get_if<CurveSource>(&sources[n])) {
-      for (std::size_t i = 0; i < curve->points.size(); ++i) {
-        PointSource at = curve->points[i];
-        if (names_nothing(at)) continue;
-        at.offset = 0;
-        check_source(at, domain);
-        const auto& b = at.barycentric;
-        const bool corner = at.vertex != none || b[0] == 1 || b[1] == 1 || b[2] == 1;
-        const bool end = i == 0 || i + 1 == curve->points.size() ||
-                         names_nothing(curve->points[i - 1]) || names_nothing(curve->points[i + 1]);
-        if (corner || end) take(at, curve->offset);
-      }
+      for (const PointSource& at : curve->points)
+        if (!names_nothing(at))
+          check_source(PointSource{at.vertex, at.simplex, at.barycentric}, domain);
+      const std::vector<bool> shows = shows_as_point(mesh, curve->points);
+      for (std::size_t i = 0; i < shows.size(); ++i)
+        if (shows[i]) take(curve->points[i], curve->offset);
     } else {
       const auto& face = std::get<SimplexSource>(sources[n]);
       check_source(PointSource::in(face.simplex, {1., 0., 0.}), domain);
@@ -103,7 +99,7 @@ class Curves {
       workspace_.vertex[v] = d;
       if constexpr (kLabels) workspace_.vertex_source[v] = number;
     };
-    BorderLight<Front>(mesh_, seeds_, front).offer_corners(offer);
+    if (!front.out_of_budget()) BorderLight<Front>(mesh_, seeds_, front).offer_corners(offer);
     for (double& d : workspace_.vertex) d = std::max(d, 0.);
     seeds_.offer_corners(offer);
   }
@@ -148,7 +144,7 @@ void propagate_shapes(const Serial&, const TriangleMesh<double>& mesh,
   check_policy(options);
   CurveSeeds seeds;
   add_shapes(mesh, sources, parts, seeds);
-  seeds.sort(mesh.face_count());
+  seeds.sort(mesh.face_count(), sources.size() == 1);
   check(parts.points, options, {mesh.vertex_count(), mesh.face_count(), "face", 3});
   if (sources.size() > 1)
     solve<true>(mesh, parts, seeds, options, workspace, field);

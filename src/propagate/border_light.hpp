@@ -39,15 +39,16 @@ class BorderLight {
     const Index faces = static_cast<Index>(triangles_.size() - 1);
     const auto cross = [&](Index f, std::size_t edge) { rule.cross(f, edge, false); };
     for (Index f = 0; f < faces; ++f) {
-      if (!known_.keeps_light(f)) continue;
-      for (std::size_t e = 0; e < 3; ++e) {
+      for (std::size_t e = 0; e < 3 && known_.keeps_light(f) && !reached(f); ++e) {
         const Index across = triangles_[f].across[e];
         if ((!known_.keeps_light(across >> Across::face_shift) || (across & Across::special)) &&
             e != known_.hinge(f))
           cross(f, e);
       }
     }
-    for (std::size_t next = 0; next < waiting_.size(); ++next) {
+    // Where lengths are no metric, refracted light may gain on itself without end.
+    const std::size_t most = 64 * triangles_.size();
+    for (std::size_t next = 0; next < waiting_.size() && next < most; ++next) {
       Entry& entry = entries_[slot_[waiting_[next]]];
       entry.waits = false;
       rule.expand(waiting_[next], cross);

@@ -191,4 +191,23 @@ bool runs_straight(const TriangleMesh<double>& mesh, const CurvePiece& piece,
                   next.direction() * std::conj(there) / std::abs(there)) < straight;
 }
 
+std::vector<bool> shows_as_point(const TriangleMesh<double>& mesh,
+                                 std::span<const PointSource> points) {
+  (void)cut_curve(mesh, points);  // so that what it throws names points of the whole curve
+  std::vector<bool> shows(points.size());
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (names_nothing(points[i])) continue;
+    const auto& b = points[i].barycentric;
+    const bool corner = points[i].vertex != none || b[0] == 1 || b[1] == 1 || b[2] == 1;
+    const bool end = i == 0 || i + 1 == points.size() || names_nothing(points[i - 1]) ||
+                     names_nothing(points[i + 1]);
+    shows[i] = corner || end;
+    if (shows[i]) continue;
+    const std::vector<CurvePiece> around = cut_curve(mesh, points.subspan(i - 1, 3));
+    shows[i] = around.size() != 2 || !runs_straight(mesh, around[0], around[1], 0) ||
+               !runs_straight(mesh, around[0], around[1], 1);
+  }
+  return shows;
+}
+
 }  // namespace plexway

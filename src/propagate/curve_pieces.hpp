@@ -29,6 +29,12 @@ inline double dot(const Plane& a, const Plane& b) { return (std::conj(a) * b).re
 std::vector<CurvePiece> cut_curve(const TriangleMesh<double>& mesh,
                                   std::span<const PointSource> points);
 
+/// Which points of a curve, beside its light, count as sources of their own: its ends, those at
+/// vertices, and those where it bends, for beyond a bend neither piece lights anything. Throws as
+/// `cut_curve`.
+std::vector<bool> shows_as_point(const TriangleMesh<double>& mesh,
+                                 std::span<const PointSource> points);
+
 /// Does the curve run straight on from one piece to the next, as seen from its left (side 0) or
 /// right (side 1)? That is: has it pi of surface there.
 bool runs_straight(const TriangleMesh<double>& mesh, const CurvePiece& piece,

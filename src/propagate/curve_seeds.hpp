@@ -81,23 +81,21 @@ class CurveSeeds {
   }
 
   /// Does the curve with this number run through the triangle's inside? To be asked after `sort`;
-  /// any number will do where there is one curve.
+  /// any number will do where there is a single source.
   [[nodiscard]] bool crosses(Index number, Index face) const {
     if (!is_crossed_[face]) [[likely]]
       return false;
-    return one_curve_ ||
-           std::binary_search(crossed_.begin(), crossed_.end(), std::pair(face, number));
+    return single_ || std::binary_search(crossed_.begin(), crossed_.end(), std::pair(face, number));
   }
-  /// After the last curve.
-  void sort(std::size_t faces) {
+  /// After the last curve. `single`: there is one source only.
+  void sort(std::size_t faces, bool single) {
     is_crossed_.assign(faces + 1, 0);
     for (const Foot& foot : feet_) {
       is_crossed_[foot.face] = 1;
       crossed_.emplace_back(foot.face, foot.number);
     }
     std::sort(crossed_.begin(), crossed_.end());
-    one_curve_ = std::all_of(feet_.begin(), feet_.end(),
-                             [&](const Foot& foot) { return foot.number == feet_.front().number; });
+    single_ = single;
   }
 
  private:
@@ -127,7 +125,7 @@ class CurveSeeds {
   std::vector<Light> lights_;
   std::vector<Foot> feet_;
   std::vector<Corner> corners_;
-  bool one_curve_ = false;
+  bool single_ = false;
   std::vector<std::uint8_t> is_crossed_;
   std::vector<std::pair<Index, Index>> crossed_;  ///< triangle, number
 };

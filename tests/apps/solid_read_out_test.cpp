@@ -109,6 +109,19 @@ TEST_CASE("along the edges of a wireframe distances are exact") {
   CHECK_THROWS_WITH(field.gradient(), Catch::Contains("surfaces and solids"));
 }
 
+TEST_CASE("linear distances need no labels, and are those of the last solve") {
+  const Solid s = solid_cube(3);
+  const auto mesh = s.mesh<float>();
+  PathField field(mesh);
+  field.solve(Serial{}, PointSource::at(40));
+  field.solve(Serial{}, PointSource::at(0), {.visibility = Visibility::upper_bound});
+  const double middle[] = {0.25, 0.25, 0.25, 0.25};
+  double mean = 0;
+  for (const Index v : s.tets[5]) mean += double(field.distances().distance[v]) / 4;
+  CHECK(field.at(5, middle, ReadOut::linear) == Approx(mean));
+  CHECK_THROWS_WITH(field.at(5, middle), Catch::Contains("saddles"));
+}
+
 TEST_CASE("a solid of lengths is read out linearly") {
   const Solid s = solid_cube(3);
   const TetMesh<double> mesh(s.positions.size(), s.tets, s.lengths());

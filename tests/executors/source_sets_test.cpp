@@ -114,6 +114,43 @@ TEST_CASE("a curve of several lines is the least of them, and light passes other
   }
 }
 
+TEST_CASE("a line along edges shines through what another curve crosses") {
+  const Surface s = grid(12, 12);
+  const auto mesh = s.mesh<double>();
+  const Position a = {0.25, 0.25, 0}, b = {0.75, 0.25, 0}, c = {0.31, 0.52, 0}, d = {0.66, 0.61, 0};
+  CurveSource far = flat_curve(s, c, d).source();
+  far.offset = 10;
+  const std::vector<Source> both = {flat_curve(s, a, b).source(), far};
+  const auto field = propagate(Serial{}, mesh, both);
+  const Rule rule = [&](const Position& p) { return distance_to_segment(p, a, b); };
+  CHECK(errors(s, field.distance, rule, 1. / 12).max < 1e-5);
+  const std::vector<Source> triangle = {both[0], SimplexSource{.simplex = 150, .offset = 10}};
+  CHECK(errors(s, propagate(Serial{}, mesh, triangle).distance, rule, 1. / 12).max < 1e-5);
+}
+
+TEST_CASE("a curve that bends inside a triangle is near at its bend as well") {
+  // Its corners in any order; below it another triangle, whose apex is (2, -1).
+  const Position corner[] = {{0, 0, 0}, {4, 0, 0}, {2, 4, 0}};
+  for (std::size_t first = 0; first < 3; ++first) {
+    Surface s;
+    for (const Position& p : corner) s.add(p[0], p[1]);
+    s.add(2, -1);
+    const auto turned = [&](std::size_t i) { return static_cast<Index>((first + i) % 3); };
+    s.triangle(turned(0), turned(1), turned(2));
+    s.triangle(0, 3, 1);
+    CurveSource narrow;
+    for (const auto& [x, y] : {std::pair{1.8, 2.}, {2., 0.3}, {2.2, 2.}}) {
+      const double top = y / 4, right = (x - 2 * top) / 4;
+      const double weight[] = {1 - right - top, right, top};
+      PointSource at{.simplex = 0};
+      for (std::size_t i = 0; i < 3; ++i) at.barycentric[i] = weight[turned(i)];
+      narrow.points.push_back(at);
+    }
+    const auto field = propagate(Serial{}, s.mesh<double>(), Source(narrow));
+    CHECK(field.distance[3] == Approx(1.3).epsilon(1e-6));
+  }
+}
+
 TEST_CASE("a segment along edges lights all of its strip exactly") {
   const Surface s = grid(40, 40);
   const auto mesh = s.mesh<double>();

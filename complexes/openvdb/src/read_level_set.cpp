@@ -55,7 +55,7 @@ class Writer {
   std::string buffer_;
 };
 
-// Whether a process sleeps, and how long it has worked. False where nobody tells.
+// Whether a process sleeps or is gone, and how long it has worked. False where nobody tells.
 bool sleeps(pid_t process, unsigned long long& worked) {
   const std::string name = "/proc/" + std::to_string(process) + "/stat";
   const int from = ::open(name.c_str(), O_RDONLY | O_CLOEXEC);
@@ -70,7 +70,7 @@ bool sleeps(pid_t process, unsigned long long& worked) {
                                    &state, &user, &system) != 3)
     return false;
   worked = user + system;
-  return state == 'S';
+  return state == 'S' || state == 'Z' || state == 'X';
 }
 
 /// False once the child has gone silent.

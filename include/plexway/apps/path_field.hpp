@@ -90,7 +90,8 @@ class PathField<Domain<Real>> {
   /// path leads. `linear` needs the vertices' distances only; the other levels ask the virtual
   /// sources that Visibility::saddles left, with Serial and OpenMP. In solids `star` asks what
   /// `neighbours` asks, and tetrahedra need their coordinates; along the edges of wireframes all
-  /// levels but `linear` are exact.
+  /// levels but `linear` are exact. A solve's radius bounds the distances of vertices, so `linear`;
+  /// the labels that other levels ask go on by about a simplex.
   ///
   /// Across an edge `neighbours` and `star` are continuous where the labels on both sides are all
   /// that is asked; docs/apps/read_out.md has what jumps. Throws UsageError for a
