@@ -3,10 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <string>
 #include <utility>
 
-#include <plexway/error.hpp>
+#include "apps/level_sets.hpp"
 
 namespace plexway {
 namespace {
@@ -119,16 +118,9 @@ class Cut {
 std::vector<Path> isolines(std::span<const std::array<double, 3>> positions,
                            std::span<const std::array<Index, 3>> faces,
                            std::span<const double> distance, std::span<const double> values) {
-  if (distance.size() != positions.size())
-    throw UsageError(std::to_string(distance.size()) + " distances for " +
-                     std::to_string(positions.size()) + " positions: give one a vertex");
-  for (const auto& face : faces)
-    for (const Index v : face)
-      if (v >= positions.size())
-        throw UsageError("vertex " + std::to_string(v) + " of a face is not there");
+  check_level_sets(positions.size(), faces, distance, values, "face", "isoline");
   std::vector<Path> lines;
   for (std::size_t n = 0; n < values.size(); ++n) {
-    if (!std::isfinite(values[n])) throw UsageError("the value of an isoline must be a number");
     Cut(positions, faces, distance, values[n]).lines(static_cast<Index>(n), lines);
   }
   return lines;

@@ -3,10 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <string>
 #include <unordered_map>
 
-#include <plexway/error.hpp>
+#include "apps/level_sets.hpp"
 
 namespace plexway {
 namespace {
@@ -93,16 +92,9 @@ class Cut {
 Isosurfaces isosurfaces(std::span<const Position> positions,
                         std::span<const std::array<Index, 4>> tets,
                         std::span<const double> distance, std::span<const double> values) {
-  if (distance.size() != positions.size())
-    throw UsageError(std::to_string(distance.size()) + " distances for " +
-                     std::to_string(positions.size()) + " positions: give one a vertex");
-  for (const auto& tet : tets)
-    for (const Index v : tet)
-      if (v >= positions.size())
-        throw UsageError("vertex " + std::to_string(v) + " of a tetrahedron is not there");
+  check_level_sets(positions.size(), tets, distance, values, "tetrahedron", "isosurface");
   Isosurfaces found;
   for (std::size_t n = 0; n < values.size(); ++n) {
-    if (!std::isfinite(values[n])) throw UsageError("the value of an isosurface must be a number");
     Cut cut(positions, distance, values[n], static_cast<Index>(n), found);
     for (const auto& tet : tets) cut.tet(tet);
   }

@@ -20,6 +20,7 @@ namespace {
 void add_shapes(const TriangleMesh<double>& mesh, std::span<const Source> sources,
                 SourceParts& parts, CurveSeeds& seeds) {
   const SourceDomain domain = {mesh.vertex_count(), mesh.face_count(), "face", 3};
+  std::vector<std::vector<CurvePiece>> pieces;
   // Points first: they have the first numbers.
   for (const Index n : parts.shapes) {
     const auto take = [&, n](PointSource at, double offset) {
@@ -31,7 +32,8 @@ void add_shapes(const TriangleMesh<double>& mesh, std::span<const Source> source
       for (const PointSource& at : curve->points)
         if (!names_nothing(at))
           check_source(PointSource{at.vertex, at.simplex, at.barycentric}, domain);
-      const std::vector<bool> shows = shows_as_point(mesh, curve->points);
+      pieces.push_back(cut_curve(mesh, curve->points));
+      const std::vector<bool> shows = shows_as_point(mesh, curve->points, pieces.back());
       for (std::size_t i = 0; i < shows.size(); ++i)
         if (shows[i]) take(curve->points[i], curve->offset);
     } else {
@@ -44,11 +46,12 @@ void add_shapes(const TriangleMesh<double>& mesh, std::span<const Source> source
       }
     }
   }
+  auto next = pieces.begin();
   for (const Index n : parts.shapes) {
     const Index number = static_cast<Index>(parts.owner.size());
     parts.owner.push_back(n);
     if (const auto* curve = std::get_if<CurveSource>(&sources[n]))
-      seeds.add_curve(mesh, curve->points, curve->offset, number);
+      seeds.add_curve(mesh, *next++, curve->offset, number);
     else if (const auto* face = std::get_if<SimplexSource>(&sources[n]))
       seeds.add_face(mesh, face->simplex, face->offset, number);
   }

@@ -154,7 +154,7 @@ std::vector<CurvePiece> cut_curve(const TriangleMesh<double>& mesh,
                        " of a curve share no face: give points where it passes edges");
     }
     const auto at = corners_of(mesh.triangles()[from->face]);
-    CurvePiece piece{from->face, 3, 0, 0};
+    CurvePiece piece{from->face, 3, 0, 0, n};
     for (std::size_t i = 0; i < 3; ++i) {
       piece.from += from->weight[i] * at[i];
       piece.to += to->weight[i] * at[i];
@@ -192,20 +192,16 @@ bool runs_straight(const TriangleMesh<double>& mesh, const CurvePiece& piece,
 }
 
 std::vector<bool> shows_as_point(const TriangleMesh<double>& mesh,
-                                 std::span<const PointSource> points) {
-  (void)cut_curve(mesh, points);  // so that what it throws names points of the whole curve
+                                 std::span<const PointSource> points,
+                                 std::span<const CurvePiece> pieces) {
   std::vector<bool> shows(points.size());
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    if (names_nothing(points[i])) continue;
-    const auto& b = points[i].barycentric;
-    const bool corner = points[i].vertex != none || b[0] == 1 || b[1] == 1 || b[2] == 1;
-    const bool end = i == 0 || i + 1 == points.size() || names_nothing(points[i - 1]) ||
-                     names_nothing(points[i + 1]);
-    shows[i] = corner || end;
-    if (shows[i]) continue;
-    const std::vector<CurvePiece> around = cut_curve(mesh, points.subspan(i - 1, 3));
-    shows[i] = around.size() != 2 || !runs_straight(mesh, around[0], around[1], 0) ||
-               !runs_straight(mesh, around[0], around[1], 1);
+  for (std::size_t i = 0; i < points.size(); ++i) shows[i] = !names_nothing(points[i]);
+  // All but those that a curve runs through straight, inside a triangle or over an edge.
+  for (std::size_t k = 1; k < pieces.size(); ++k) {
+    const CurvePiece &piece = pieces[k - 1], &next = pieces[k];
+    if (next.end == piece.end + 1 && place_of(mesh.triangles()[piece.face], piece.to) >= 3 &&
+        runs_straight(mesh, piece, next, 0) && runs_straight(mesh, piece, next, 1))
+      shows[piece.end] = false;
   }
   return shows;
 }

@@ -17,6 +17,7 @@ struct CurvePiece {
   Index face;
   std::size_t edge;  ///< along this edge, or 3
   Plane from, to;    ///< in the triangle's plane
+  std::size_t end;   ///< the point of the curve that `to` is
 
   [[nodiscard]] double length() const { return std::abs(to - from); }
   [[nodiscard]] Plane direction() const { return (to - from) / length(); }
@@ -30,10 +31,10 @@ std::vector<CurvePiece> cut_curve(const TriangleMesh<double>& mesh,
                                   std::span<const PointSource> points);
 
 /// Which points of a curve, beside its light, count as sources of their own: its ends, those at
-/// vertices, and those where it bends, for beyond a bend neither piece lights anything. Throws as
-/// `cut_curve`.
+/// vertices, and those where it bends, for beyond a bend neither piece lights anything.
 std::vector<bool> shows_as_point(const TriangleMesh<double>& mesh,
-                                 std::span<const PointSource> points);
+                                 std::span<const PointSource> points,
+                                 std::span<const CurvePiece> pieces);
 
 /// Does the curve run straight on from one piece to the next, as seen from its left (side 0) or
 /// right (side 1)? That is: has it pi of surface there.

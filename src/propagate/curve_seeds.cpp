@@ -147,10 +147,9 @@ class Lighting {
 
 }  // namespace
 
-void CurveSeeds::add_curve(const TriangleMesh<double>& mesh, std::span<const PointSource> points,
+void CurveSeeds::add_curve(const TriangleMesh<double>& mesh, std::span<const CurvePiece> pieces,
                            double offset, Index number) {
   const double sigma = offset / mesh.unit();
-  const std::vector<CurvePiece> pieces = cut_curve(mesh, points);
   Lighting lighting(lights_, sigma, number);
   for (int side = 0; side < 2; ++side) lighting.light(mesh, pieces, side);
   // A foot yields to the light: it stands in for it in the one triangle that has both sides.
@@ -179,7 +178,7 @@ void CurveSeeds::add_face(const TriangleMesh<double>& mesh, Index face, double o
   const auto at = corners_of(t);
   feet_.push_back({f, (at[0] + at[1] + at[2]) / 3., sigma, sigma, number});
   for (std::size_t e = 0; e < 3; ++e) {
-    const CurvePiece piece{f, e, at[e], at[edge_after(e)]};
+    const CurvePiece piece{f, e, at[e], at[edge_after(e)], 0};
     corners_.push_back({t.corner[e], sigma, number});
     if (piece.length() > 1e-12)
       Lighting(lights_, sigma, number).light(mesh, std::span(&piece, 1), 1);

@@ -11,7 +11,6 @@
 
 #include <plexway/complex/triangle_mesh.hpp>
 #include <plexway/kernel/lanes.hpp>
-#include <plexway/source/point_source.hpp>
 
 namespace plexway {
 
@@ -22,6 +21,8 @@ using Plane = std::complex<double>;
 inline std::array<Plane, 3> corners_of(const TriangleRecord<double>& t) {
   return {0, t.length[0], Plane{t.apex_x(0), t.apex_h(0)}};
 }
+
+struct CurvePiece;
 
 /// What curves and triangles on a surface seed it with. Numbers and unit inside.
 ///
@@ -54,9 +55,9 @@ class CurveSeeds {
     Index number;
   };
 
-  /// A curve as propagation number `number`; sigma and the mesh's unit are of the caller. Throws
-  /// UsageError where a point shares no triangle with the next. Points are checked already.
-  void add_curve(const TriangleMesh<double>& mesh, std::span<const PointSource> points,
+  /// A curve (curve_pieces.hpp) as propagation number `number`; sigma and the mesh's unit are of
+  /// the caller.
+  void add_curve(const TriangleMesh<double>& mesh, std::span<const CurvePiece> pieces,
                  double offset, Index number);
   /// All of one triangle.
   void add_face(const TriangleMesh<double>& mesh, Index face, double offset, Index number);

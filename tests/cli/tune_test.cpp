@@ -58,6 +58,15 @@ nlohmann::json without_times(const Outcome& run) {
   return json;
 }
 
+void check_tune_refused(const std::string& mesh, const std::vector<std::string>& more, int code,
+                        const char* cause) {
+  const auto run = tune(mesh, more);
+  INFO(run.err);
+  CHECK(run.code == code);
+  CHECK(run.complaints() == 1);
+  CHECK(run.err.find(cause) != std::string::npos);
+}
+
 }  // namespace
 
 TEST_CASE("tune makes a table better, and the tool takes it") {
@@ -134,11 +143,7 @@ TEST_CASE("tune says before it begins what it will not write") {
   const std::string mesh = write_ell(folder), truth = folder.at("ell.v24.txt");
   const std::string before = contents(mesh), exact = contents(truth);
   const auto refused = [&](const std::vector<std::string>& more, int code, const char* cause) {
-    const auto run = tune(mesh, more);
-    INFO(run.err);
-    CHECK(run.code == code);
-    CHECK(run.complaints() == 1);
-    CHECK(run.err.find(cause) != std::string::npos);
+    check_tune_refused(mesh, more, code, cause);
   };
   refused({"--out", mesh}, 2, "would overwrite");
   refused({"--cpp", truth}, 2, "would overwrite");
@@ -154,11 +159,7 @@ TEST_CASE("tune refuses bad input with one line") {
   const Folder folder;
   const std::string mesh = write_ell(folder), file = (folder.path() / "bad.json").string();
   const auto refused = [&](const std::vector<std::string>& more, int code, const char* cause) {
-    const auto run = tune(mesh, more);
-    INFO(run.err);
-    CHECK(run.code == code);
-    CHECK(run.complaints() == 1);
-    CHECK(run.err.find(cause) != std::string::npos);
+    check_tune_refused(mesh, more, code, cause);
   };
   refused({"--what", "colours"}, 2, "choose one of table, saddles");
   refused({"--fitness", "best"}, 2, "choose one of mean, relative");

@@ -47,6 +47,22 @@ struct Solid {
   }
 };
 
+/// The six tetrahedra of a cell of a grid (Kuhn), from corner `first` along the axes in any order.
+template <class Vertex>
+void add_kuhn(Solid& s, const std::array<Index, 3>& first, const Vertex& vertex) {
+  std::array<std::size_t, 3> axis = {0, 1, 2};
+  do {
+    std::array<Index, 3> at = first;
+    Tet tet;
+    tet[0] = vertex(at[0], at[1], at[2]);
+    for (std::size_t n = 0; n < 3; ++n) {
+      ++at[axis[n]];
+      tet[n + 1] = vertex(at[0], at[1], at[2]);
+    }
+    s.tets.push_back(tet);
+  } while (std::next_permutation(axis.begin(), axis.end()));
+}
+
 /// The cubes (i, j, k) of side 1 / n with `has`, six tetrahedra each (Kuhn), inner vertices moved
 /// by up to `jitter` cubes.
 template <class Has>
@@ -78,17 +94,7 @@ Solid cubes(Index nx, Index ny, Index nz, double side, double jitter, Has has) {
     for (Index j = 0; j < ny; ++j)
       for (Index i = 0; i < nx; ++i) {
         if (!has(i, j, k)) continue;
-        std::array<Index, 3> axis = {0, 1, 2};
-        do {
-          std::array<Index, 3> at = {i, j, k};
-          Tet tet;
-          tet[0] = vertex(at[0], at[1], at[2]);
-          for (std::size_t n = 0; n < 3; ++n) {
-            ++at[axis[n]];
-            tet[n + 1] = vertex(at[0], at[1], at[2]);
-          }
-          s.tets.push_back(tet);
-        } while (std::next_permutation(axis.begin(), axis.end()));
+        add_kuhn(s, {i, j, k}, vertex);
       }
   return s;
 }
@@ -142,16 +148,7 @@ inline Solid pipe(Index sides, Index across, Index layers, double jitter = 0.15)
   for (Index layer = 0; layer < layers; ++layer)
     for (Index ring = 0; ring < across; ++ring)
       for (Index side = 0; side < sides; ++side) {
-        std::array<Index, 3> axis = {0, 1, 2};
-        do {
-          std::array<Index, 3> at = {side, ring, layer};
-          Tet tet = {vertex(side, ring, layer)};
-          for (std::size_t n = 0; n < 3; ++n) {
-            ++at[axis[n]];
-            tet[n + 1] = vertex(at[0], at[1], at[2]);
-          }
-          s.tets.push_back(tet);
-        } while (std::next_permutation(axis.begin(), axis.end()));
+        add_kuhn(s, {side, ring, layer}, vertex);
       }
   return s;
 }
