@@ -20,7 +20,7 @@ namespace {
 // The same bits whatever the number of threads, the chunk, and what the workspace did before.
 template <class Domain>
 void check_same_bits(const Domain& domain, const PropagateOptions& options, unsigned seed) {
-  WorkspaceOf<Domain> workspace;
+  WorkspaceOf<Serial, Domain> workspace;
   DistanceField<RealOf<Domain>> first, field;
   for (const std::size_t count : {1u, 6u}) {
     const auto sources = random_sources(domain, count, seed);
