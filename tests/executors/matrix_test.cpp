@@ -20,14 +20,14 @@ using namespace plexway::testing;
 
 namespace {
 
-#define PLEXWAY_IS_A_DOMAIN(...) static_assert(Domain<__VA_ARGS__>);
+#define PLEXWAY_IS_A_DOMAIN(...) static_assert(DomainType<__VA_ARGS__>);
 PLEXWAY_DOMAINS(PLEXWAY_IS_A_DOMAIN)
-#define PLEXWAY_IS_OF_SIMPLICES(...) static_assert(SimplexDomain<__VA_ARGS__>);
+#define PLEXWAY_IS_OF_SIMPLICES(...) static_assert(SimplexDomainType<__VA_ARGS__>);
 PLEXWAY_SURFACES(PLEXWAY_IS_OF_SIMPLICES)
 PLEXWAY_SOLIDS(PLEXWAY_IS_OF_SIMPLICES)
 PLEXWAY_WIREFRAMES(PLEXWAY_IS_OF_SIMPLICES)
 PLEXWAY_SIMPLICES(PLEXWAY_IS_OF_SIMPLICES)
-static_assert(Executor<Serial> && Executor<OpenMP>);
+static_assert(ExecutorType<Serial> && ExecutorType<OpenMP>);
 
 constexpr Visibility visibilities[] = {Visibility::saddles, Visibility::tuned, Visibility::centroid,
                                        Visibility::upper_bound};
