@@ -14,12 +14,15 @@ using namespace plexway;
 using namespace plexway::testing;
 
 // An executor that leaves nothing but distances.
-struct Forgetful {};
-template <class Real>
-DistanceField<Real> propagate(Forgetful, const TriangleMesh<Real>& mesh,
-                              std::span<const PointSource> sources,
-                              const PropagateOptions& options) {
-  return plexway::propagate(Serial{}, mesh, sources, options);
+struct Forgetful {
+  static constexpr ExecutorKind kind = ExecutorKind::serial;
+  struct Workspace {};
+};
+template <>
+void plexway::detail::run(const Forgetful&, const TriangleMesh<double>& mesh,
+                          const SourceList& sources, const PropagateOptions& options,
+                          Forgetful::Workspace&, DistanceField<double>& field) {
+  field = solve(Serial{}, mesh, sources, options);
 }
 
 namespace {
