@@ -1,0 +1,80 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+#include "propagate/windows/entered_triangle.hpp"
+
+namespace plexway::windows {
+
+/// The light of one source on a part of an edge: 32 bytes in float.
+template <class Real>
+struct Window {
+  Beam<Real> beam;
+  Real sigma;              ///< where windows were merged it may be below 0
+  Real at_begin, at_end;   ///< distances at both ends
+  Real error;              ///< what merging may have cost so far, estimated
+
+  [[nodiscard]] Real at(Real b) const {
+    const Real u = b - beam.x;
+    return sigma + std::sqrt(u * u + beam.h * beam.h);
+  }
+  /// The nearest distance of all its points.
+  [[nodiscard]] Real nearest() const {
+    return beam.begin < beam.x && beam.x < beam.end ? sigma + beam.h
+                                                    : std::min(at_begin, at_end);
+  }
+  [[nodiscard]] Window mirrored(Real length) const {
+    return {beam.mirrored(length), sigma, at_end, at_begin, error};
+  }
+  void begin_at(Real b) { beam.begin = b, at_begin = at(b); }
+  void end_at(Real b) { beam.end = b, at_end = at(b); }
+};
+
+/// No source of merged windows lies farther away, in mean edges: single precision would lose it.
+inline constexpr int farthest_merged = 300;
+
+/// Makes one window of two neighbours: the source that gives the same distances at both far ends
+/// and where the two meet. False where they do not fit: where a ridge lies between, or where the
+/// middles of the two would come to be off by more than `limit`.
+///
+/// With r the distance of the new source from the point between, those three conditions are linear
+/// in r. Half of what remains, taken as parabolas, is taken off sigma, so that errors have no sign.
+template <class Real>
+[[nodiscard]] inline bool merge(const Window<Real>& u, const Window<Real>& w, Real limit,
+                                Window<Real>& merged) {
+  const Real b = (u.beam.end + w.beam.begin) / 2;
+  const Real p = b - u.beam.begin, q = w.beam.end - b;
+  const Real by_u = u.at(b), by_w = w.at(b), middle = (by_u + by_w) / 2;
+  const Real jump = std::abs(by_u - by_w) / 2;
+  if (!(jump <= limit)) return false;
+  const Real rise = u.at_begin - middle, fall = w.at_end - middle;
+  const Real bend = p * fall + q * rise;  // > 0: no ridge
+  const Real most = farthest_merged;
+  const Real area = p * q * (p + q) - p * fall * fall - q * rise * rise;
+  if (!(area > 0) || !(bend > 0)) return false;
+  Real r = area / (2 * bend), x;
+  if (r < most) {
+    x = (2 * r * rise + rise * rise - p * p) / (2 * p);
+  } else {
+    r = most;
+    x = ((2 * r + rise) * rise - p * p - (2 * r + fall) * fall + q * q) / (2 * (p + q));
+  }
+  const Real h2 = r * r - x * x;
+  if (!(h2 > 0)) return false;
+  merged.beam = {b + x, std::sqrt(h2), u.beam.begin, w.beam.end};
+  merged.sigma = middle - r;
+  const Real in_u = b - p / 2, in_w = b + q / 2;
+  const Real miss_u = merged.at(in_u) - u.at(in_u), miss_w = merged.at(in_w) - w.at(in_w);
+  const Real miss = std::max({std::abs(miss_u), std::abs(miss_w), jump});
+  if (!(miss <= limit)) return false;
+  const Real mean = (miss_u * p + miss_w * q) / (p + q) * Real(2. / 3);
+  merged.sigma -= mean;
+  merged.at_begin = u.at_begin - mean;
+  merged.at_end = w.at_end - mean;
+  const Real before = std::max(u.error, w.error);
+  merged.error = std::sqrt(before * before + miss * miss);
+  return true;
+}
+
+}  // namespace plexway::windows
