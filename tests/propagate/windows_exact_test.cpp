@@ -18,7 +18,7 @@ void check_exact(const TriangleMesh<double>& mesh, const std::vector<PointSource
                  const std::vector<double>& exact, double within = 1e-11) {
   WindowSolver<double> solver(mesh);
   DistanceField<double> first, field;
-  solver.solve(sources, Accuracy::exact, {}, first);
+  solver.solve(sources, Accuracy::exact(), {}, first);
   const Errors e = compare(first.distance, exact);
   CAPTURE(e.mean, e.max, e.below);
   CHECK(e.fits);
@@ -26,7 +26,7 @@ void check_exact(const TriangleMesh<double>& mesh, const std::vector<PointSource
   for (const Schedule schedule : schedules) {
     PropagateOptions options;
     options.schedule = schedule;
-    solver.solve(sources, Accuracy::exact, options, field);
+    solver.solve(sources, Accuracy::exact(), options, field);
     CHECK(field.distance == first.distance);
   }
 }
@@ -212,21 +212,22 @@ TEST_CASE("exact windows: gluings that no positions have") {
     const std::vector<std::array<double, 3>> lengths = {{1, 1, diagonal}, {diagonal, 1, 1}};
     const std::vector<Face> across = {{4, 5, 3}, {2, 0, 1}};
     const TriangleMesh<double> torus(1, faces, lengths, across);
-    CHECK(solve_windows(torus, {PointSource::at(0)}, Accuracy::exact)[0] == 0);
-    CHECK(solve_windows(torus, {PointSource::in(0, {third, third, third})}, Accuracy::exact)[0] ==
+    CHECK(solve_windows(torus, {PointSource::at(0)}, Accuracy::exact())[0] == 0);
+    CHECK(solve_windows(torus, {PointSource::in(0, {third, third, third})}, Accuracy::exact())[0] ==
           Approx(std::hypot(third, third)).epsilon(1e-14));
   }
   {
     const std::vector<Face> faces = {{0, 1, 1}}, across = {{2, none, 0}};
     const std::vector<std::array<double, 3>> lengths = {{2, 1, 2}};
     const TriangleMesh<double> cone(2, faces, lengths, across);
-    CHECK(solve_windows(cone, {PointSource::at(1)}, Accuracy::exact) == std::vector<double>{2, 0});
+    CHECK(solve_windows(cone, {PointSource::at(1)}, Accuracy::exact()) ==
+          std::vector<double>{2, 0});
   }
   {
     const double slope = std::sqrt(10.);
     const std::vector<Face> faces = {{0, 0, 1}, {0, 1, 1}}, across = {{none, 5, 3}, {2, none, 1}};
     const std::vector<std::array<double, 3>> lengths = {{1, 3, slope}, {slope, 1, 3}};
     const TriangleMesh<double> ring(2, faces, lengths, across);
-    CHECK(solve_windows(ring, {PointSource::at(0)}, Accuracy::exact)[1] == Approx(3));
+    CHECK(solve_windows(ring, {PointSource::at(0)}, Accuracy::exact())[1] == Approx(3));
   }
 }

@@ -105,6 +105,7 @@ TEMPLATE_TEST_CASE("windows: radius, labels, offsets, budget, progress", "", flo
   const auto from_corner = straight(s, s.positions[0]);
   for (const Accuracy accuracy : window_accuracies) {
     CAPTURE(name(accuracy));
+    const double off = accuracy == Accuracy::exact() ? 1e-6 : 1e-3;
     PropagateOptions options;
     options.radius = .5;
     solver.solve({&corner, 1}, accuracy, options, field);
@@ -112,9 +113,9 @@ TEMPLATE_TEST_CASE("windows: radius, labels, offsets, budget, progress", "", flo
     CHECK(field.complete);
     bool right = true;
     for (std::size_t v = 0; v < from_corner.size(); ++v)
-      right &= from_corner[v] > .5 + 1e-6 ? std::isinf(field.distance[v])
-                                          : from_corner[v] > .5 - 1e-6 ||
-                                                std::abs(field.distance[v] - from_corner[v]) < 1e-5;
+      right &= from_corner[v] > .5 + off ? std::isinf(field.distance[v])
+                                         : from_corner[v] > .5 - off ||
+                                               std::abs(field.distance[v] - from_corner[v]) < off;
     CHECK(right);
 
     PointSource far = PointSource::at(s.nearest(1, 1));
@@ -125,8 +126,8 @@ TEMPLATE_TEST_CASE("windows: radius, labels, offsets, budget, progress", "", flo
     right = field.label.size() == from_far.size();
     for (std::size_t v = 0; v < from_far.size() && right; ++v) {
       const double a = from_corner[v], b = from_far[v] + far.offset;
-      right &= std::abs(static_cast<double>(field.distance[v]) - std::min(a, b)) < 1e-5;
-      right &= std::abs(a - b) < 1e-5 || field.label[v] == (a < b ? 0u : 1u);
+      right &= std::abs(static_cast<double>(field.distance[v]) - std::min(a, b)) < off;
+      right &= std::abs(a - b) < off || field.label[v] == (a < b ? 0u : 1u);
     }
     CHECK(right);
     CHECK(field.distance[far.vertex] == static_cast<TestType>(.1234567));
@@ -145,11 +146,11 @@ TEMPLATE_TEST_CASE("windows: radius, labels, offsets, budget, progress", "", flo
     const PointSource outside = PointSource::at(1000);
     CHECK_THROWS_AS(solver.solve({&outside, 1}, accuracy, {}, field), UsageError);
   }
-  CHECK_THROWS_AS(solver.solve({&corner, 1}, Accuracy::fast, {}, field), UsageError);
+  CHECK_THROWS_AS(solver.solve({&corner, 1}, Accuracy::fast(), {}, field), UsageError);
 }
 
 TEMPLATE_TEST_CASE("windows: a callback sees them go and may stop them", "", float, double) {
-  const Surface s = grid(100, 100);
+  const Surface s = grid(160, 160);
   const auto mesh = s.mesh<TestType>();
   WindowSolver<TestType> solver(mesh);
   DistanceField<TestType> field;
@@ -170,6 +171,6 @@ TEMPLATE_TEST_CASE("windows: a callback sees them go and may stop them", "", flo
     options.progress = [](const Progress&) { return false; };
     CHECK_THROWS_AS(solver.solve({&corner, 1}, accuracy, options, field), Cancelled);
     solver.solve({&corner, 1}, accuracy, {}, field);
-    CHECK(field.distance.back() == Approx(std::sqrt(2.)));
+    CHECK(field.distance.back() == Approx(std::sqrt(2.)).epsilon(1e-3));
   }
 }

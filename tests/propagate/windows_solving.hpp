@@ -9,11 +9,10 @@
 
 namespace plexway::testing {
 
-inline constexpr Accuracy window_accuracies[] = {Accuracy::exact};
+inline constexpr Accuracy window_accuracies[] = {Accuracy::exact(), Accuracy::accurate()};
 
 inline std::string name(Accuracy accuracy) {
-  static const char* const names[] = {"fast", "accurate", "exact"};
-  return names[static_cast<int>(accuracy)];
+  return accuracy == Accuracy::exact() ? "exact" : std::to_string(accuracy.error());
 }
 
 template <class Real>

@@ -36,6 +36,9 @@ class BucketRing {
   /// About how far the front is.
   [[nodiscard]] double distance() const { return static_cast<double>(at_) * width_; }
 
+  /// What comes next if nothing nearer is added, or none.
+  [[nodiscard]] Index peek() const { return head_[at_ % buckets]; }
+
   template <class Next>
   void push(Index node, double near, const Next& next) {
     const double place = near * per_width_;

@@ -18,6 +18,12 @@ struct Beam {
   }
 };
 
+/// A direction in a corner: along the edge that starts there, and off it. Of any length.
+template <class Real>
+struct Towards {
+  Real along, off;
+};
+
 /// A triangle as light sees it that comes in over edge AB; P is its apex. Light leaves over the
 /// left edge AP or the right edge BP. Left is measured from A and right from B, so that each is the
 /// mirror image of the other.
@@ -53,6 +59,12 @@ struct EnteredTriangle {
   /// Where the ray from S to P crosses AB.
   [[nodiscard, gnu::always_inline]] Real foot(Real x, Real h) const {
     return x + (apex_x - x) * (h / (h + apex_h));
+  }
+
+  /// From P back to (x, -h).
+  [[nodiscard, gnu::always_inline]] Towards<Real> towards(Real x, Real h) const {
+    const Real dx = apex_x - x, dy = apex_h + h;
+    return {apex_h * dy + apex_x * dx, apex_x * dy - apex_h * dx};
   }
 
   /// S as the left edge sees it, measured from A; the right edge's is that of `width - x` and B.

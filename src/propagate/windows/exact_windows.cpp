@@ -29,6 +29,8 @@ struct Rounding<float> {
 /// No source lies nearer to a line of sight's edge than this, in mean edges: one on the edge itself
 /// then lights both of its sides.
 constexpr double least_height = 1e-14;
+/// Shadows are so much wider than they are, in radians.
+constexpr double shadow_slack = 1e-9;
 /// So many windows a triangle, and ties are no longer broken in favour of both: where lengths are
 /// no metric, or nothing has any length, light could go around for ever.
 constexpr std::size_t patience = 1000;
@@ -273,28 +275,29 @@ void ExactWindows<Real>::shine(Order& order, Index vertex) {
   const Index source = source_[vertex];
   const Arrival<double> arrival = arrival_[vertex];
   const VertexAngles::Kind kind = angles_.kind[vertex];
-  corners_.clear();
-  if (arrival.corner == none || kind == VertexAngles::irregular) mesh_.corners_at(vertex, corners_);
-  pseudo_source_.shine(
-      arrival, kind, angles_.total[vertex], corners_, std::numbers::pi,
-      [&](const Lit& lit) {
-        const TriangleRecord<Real>& t = triangles_[lit.face];
-        const Beam<double> beam = {static_cast<double>(t.apex_x(lit.edge)),
-                                   static_cast<double>(t.apex_h(lit.edge)), lit.begin, lit.end};
-        leave(order, lit.face, lit.edge, beam.mirrored(static_cast<double>(t.length[lit.edge])),
-              sigma, source);
-      },
-      [&](const FanWalk& walk) {
-        const TriangleRecord<Real>& t = triangles_[walk.face];
-        const Index e = walk.leaving_edge();
-        // The far end, and the way back there: along the edge, in the corner that it starts or
-        // ends.
-        const Index far = static_cast<Index>(walk.by_start ? edge_after(e) : e);
-        const double cosine = static_cast<double>(t.cosine[far]);
-        const double sine = static_cast<double>(t.sine(far));
-        offer(order, t.corner[far], sigma + static_cast<double>(t.length[e]),
-              {3 * walk.face + far, walk.by_start ? cosine : 1, walk.by_start ? sine : 0}, source);
-      });
+  const auto lit = [&](const Lit& part) {
+    const TriangleRecord<Real>& t = triangles_[part.face];
+    const Beam<double> beam = {static_cast<double>(t.apex_x(part.edge)),
+                               static_cast<double>(t.apex_h(part.edge)), part.begin, part.end};
+    leave(order, part.face, part.edge, beam.mirrored(static_cast<double>(t.length[part.edge])),
+          sigma, source);
+  };
+  const auto along = [&](const FanWalk& walk) {
+    const TriangleRecord<Real>& t = triangles_[walk.face];
+    const Index e = walk.leaving_edge();
+    // The far end, and the way back there: along the edge, in the corner that it starts or ends.
+    const Index far = static_cast<Index>(walk.by_start ? edge_after(e) : e);
+    const double cosine = static_cast<double>(t.cosine[far]);
+    const double sine = static_cast<double>(t.sine(far));
+    offer(order, t.corner[far], sigma + static_cast<double>(t.length[e]),
+          {3 * walk.face + far, walk.by_start ? cosine : 1, walk.by_start ? sine : 0}, source);
+  };
+  if (arrival.corner == none || kind == VertexAngles::irregular) {
+    mesh_.corners_at(vertex, corners_);
+    pseudo_source_.shine_all(corners_, lit, along);
+  } else {
+    pseudo_source_.shine(arrival, kind == VertexAngles::boundary, {1, shadow_slack}, lit, along);
+  }
 }
 
 template <class Real>

@@ -39,9 +39,9 @@ class ExactWindows {
   void solve(std::span<const PointSource> sources, const PropagateOptions& options);
 
   /// Afterwards, by the numbers inside, in mean edges; +inf where unreached.
-  [[nodiscard]] std::span<const double> distance() const { return distance_; }
-  /// The nearest source of each reached vertex.
-  [[nodiscard]] std::span<const Index> source() const { return source_; }
+  [[nodiscard]] double distance(Index vertex) const { return distance_[vertex]; }
+  /// The nearest source of a reached vertex.
+  [[nodiscard]] Index source(Index vertex) const { return source_[vertex]; }
   [[nodiscard]] bool complete() const { return complete_; }
   [[nodiscard]] const PropagateStatistics& statistics() const { return statistics_; }
   [[nodiscard]] std::size_t bytes() const;

@@ -11,9 +11,9 @@ namespace plexway::windows {
 template <class Real>
 struct Window {
   Beam<Real> beam;
-  Real sigma;              ///< where windows were merged it may be below 0
-  Real at_begin, at_end;   ///< distances at both ends
-  Real error;              ///< what merging may have cost so far, estimated
+  Real sigma;             ///< where windows were merged it may be below 0
+  Real at_begin, at_end;  ///< distances at both ends
+  Real error;             ///< what merging may have cost so far, estimated
 
   [[nodiscard]] Real at(Real b) const {
     const Real u = b - beam.x;
@@ -21,8 +21,7 @@ struct Window {
   }
   /// The nearest distance of all its points.
   [[nodiscard]] Real nearest() const {
-    return beam.begin < beam.x && beam.x < beam.end ? sigma + beam.h
-                                                    : std::min(at_begin, at_end);
+    return beam.begin < beam.x && beam.x < beam.end ? sigma + beam.h : std::min(at_begin, at_end);
   }
   [[nodiscard]] Window mirrored(Real length) const {
     return {beam.mirrored(length), sigma, at_end, at_begin, error};
@@ -35,11 +34,12 @@ struct Window {
 inline constexpr int farthest_merged = 300;
 
 /// Makes one window of two neighbours: the source that gives the same distances at both far ends
-/// and where the two meet. False where they do not fit: where a ridge lies between, or where the
+/// and where the two meet. False where they do not fit: where the
 /// middles of the two would come to be off by more than `limit`.
 ///
 /// With r the distance of the new source from the point between, those three conditions are linear
-/// in r. Half of what remains, taken as parabolas, is taken off sigma, so that errors have no sign.
+/// in r. What then remains in the mean (Simpson's rule) is taken off sigma, so that errors have no
+/// sign. A front that is straight or hollow gets the farthest source, and misses the far ends, too.
 template <class Real>
 [[nodiscard]] inline bool merge(const Window<Real>& u, const Window<Real>& w, Real limit,
                                 Window<Real>& merged) {
@@ -49,29 +49,32 @@ template <class Real>
   const Real jump = std::abs(by_u - by_w) / 2;
   if (!(jump <= limit)) return false;
   const Real rise = u.at_begin - middle, fall = w.at_end - middle;
-  const Real bend = p * fall + q * rise;  // > 0: no ridge
+  const Real bend = p * fall + q * rise;
   const Real most = farthest_merged;
   const Real area = p * q * (p + q) - p * fall * fall - q * rise * rise;
-  if (!(area > 0) || !(bend > 0)) return false;
-  Real r = area / (2 * bend), x;
-  if (r < most) {
+  const bool fits = area < 2 * most * bend;
+  Real r = most, x;
+  if (fits) {
+    r = area / (2 * bend);
     x = (2 * r * rise + rise * rise - p * p) / (2 * p);
   } else {
-    r = most;
     x = ((2 * r + rise) * rise - p * p - (2 * r + fall) * fall + q * q) / (2 * (p + q));
   }
   const Real h2 = r * r - x * x;
-  if (!(h2 > 0)) return false;
+  if (!(area > 0) || !(h2 > 0)) return false;
   merged.beam = {b + x, std::sqrt(h2), u.beam.begin, w.beam.end};
   merged.sigma = middle - r;
   const Real in_u = b - p / 2, in_w = b + q / 2;
   const Real miss_u = merged.at(in_u) - u.at(in_u), miss_w = merged.at(in_w) - w.at(in_w);
-  const Real miss = std::max({std::abs(miss_u), std::abs(miss_w), jump});
+  const Real miss_a = fits ? 0 : merged.at(u.beam.begin) - u.at_begin;
+  const Real miss_c = fits ? 0 : merged.at(w.beam.end) - w.at_end;
+  const Real miss =
+      std::max({std::abs(miss_u), std::abs(miss_w), jump, std::abs(miss_a), std::abs(miss_c)});
   if (!(miss <= limit)) return false;
-  const Real mean = (miss_u * p + miss_w * q) / (p + q) * Real(2. / 3);
+  const Real mean = ((4 * miss_u + miss_a) * p + (4 * miss_w + miss_c) * q) / (6 * (p + q));
   merged.sigma -= mean;
-  merged.at_begin = u.at_begin - mean;
-  merged.at_end = w.at_end - mean;
+  merged.at_begin = u.at_begin + miss_a - mean;
+  merged.at_end = w.at_end + miss_c - mean;
   const Real before = std::max(u.error, w.error);
   merged.error = std::sqrt(before * before + miss * miss);
   return true;

@@ -19,30 +19,34 @@ constexpr double bucket_width = 0.5;
 /// Vertices have their turn so much later than their distance, in mean edges: after the light that
 /// may reach them straight.
 constexpr double late = 0.5;
-/// So many turns a halfedge, and ties count as losses: nothing goes around for ever.
-constexpr std::size_t patience = 24;
+/// Each time a halfedge had so many turns in the mean, what goes on must gain more: nothing goes
+/// around for ever.
+constexpr std::size_t patience = 6;
 /// Neighbours are joined over gaps up to this share of the edge.
-constexpr double joint = 1e-2;
+constexpr double joint = 3e-2;
 
 }  // namespace
 
 template <class Real>
 MergedWindows<Real>::MergedWindows(const TriangleMesh<Real>& mesh, const VertexAngles& angles)
-    : triangles_(mesh.triangles()), mesh_(mesh), angles_(angles), pseudo_source_(triangles_) {}
+    : triangles_(mesh.triangles()), mesh_(mesh), angles_(angles), pseudo_source_(triangles_) {
+  excess_.resize(mesh.vertex_count());
+  for (Index v = 0; v < mesh.vertex_count(); ++v) excess_[v] = static_cast<Real>(angles.excess(v));
+}
 
 template <class Real>
 void MergedWindows<Real>::solve(std::span<const PointSource> sources,
                                 const PropagateOptions& options, const MergeLimit& limit) {
   limit_ = limit;
   labels_ = sources.size() > 1;
-  vertices_.assign(mesh_.vertex_count(), {infinity<Real>, none, 0, 0});
+  vertices_.assign(mesh_.vertex_count(), {infinity<Real>, none, {0, 0}});
   error_.resize(mesh_.vertex_count());
   if (labels_) source_.resize(mesh_.vertex_count());
-  pending_.assign(4 * mesh_.face_count(), none);
+  if (pending_.empty() || !complete_) pending_.assign(4 * mesh_.face_count(), none);
   blocks_.clear();
   entries_.clear();
   free_block_ = free_entry_ = none;
-  complete_ = true;
+  complete_ = false;
   statistics_ = {};
   slack_ = 1;
   radius_ = static_cast<Real>(options.radius / mesh_.unit());
@@ -50,7 +54,7 @@ void MergedWindows<Real>::solve(std::span<const PointSource> sources,
   const auto solve_in = [&](auto& order) {
     order.start(bucket_width);
     seed(order, sources);
-    do run(order, options);
+    do complete_ = run(order, options);
     while (complete_ && fill_holes(order));
   };
   switch (options.schedule) {
@@ -96,23 +100,33 @@ void MergedWindows<Real>::push(Order& order, Index what, Real near) {
   order.push(n, static_cast<double>(near), [this](Index i) -> Index& { return entries_[i].next; });
 }
 
+/// What the next turn will look up.
+template <class Real>
+void MergedWindows<Real>::fetch(Index what) const {
+  if (what & bent) return;
+  const TriangleRecord<Real>& t = triangles_[what >> 2];
+  const std::size_t in = what & 3, before = edge_before(in), after = edge_after(in);
+  __builtin_prefetch(&pending_[what]);
+  __builtin_prefetch(&vertices_[t.corner[before]]);
+  __builtin_prefetch(&pending_[t.across[before] >> Across::face_shift << 2]);
+  __builtin_prefetch(&pending_[t.across[after] >> Across::face_shift << 2]);
+}
+
 template <class Real>
 template <class Order>
-void MergedWindows<Real>::run(Order& order, const PropagateOptions& options) {
+bool MergedWindows<Real>::run(Order& order, const PropagateOptions& options) {
   const auto next = [this](Index n) -> Index& { return entries_[n].next; };
   const auto near_of = [this](Index n) { return static_cast<double>(near(entries_[n].what)); };
   constexpr std::size_t share = 65536;
   double before = -1;
   for (;;) {
-    if (statistics_.expansions >= options.max_expansions) {
-      complete_ = order.pop(next, near_of) == none;
-      return;
-    }
+    if (statistics_.expansions >= options.max_expansions) return order.pop(next, near_of) == none;
     const Index n = order.pop(next, near_of);
-    if (n == none) return;
+    if (n == none) return true;
     const Index what = entries_[n].what;
     entries_[n].next = std::exchange(free_entry_, n);
     if (!(what & bent) && pending_[what] == none) continue;
+    if (const Index after = order.peek(); after != none) fetch(entries_[after].what);
     if (order.distance() != before) set_scale(before = order.distance());
     ++statistics_.expansions;
     if (statistics_.expansions % share == 0) {
@@ -120,7 +134,9 @@ void MergedWindows<Real>::run(Order& order, const PropagateOptions& options) {
           !options.progress({statistics_.expansions, statistics_.reached_simplices,
                              mesh_.face_count(), order.distance() * mesh_.unit()}))
         throw Cancelled("cancelled by the progress callback");
-      if (statistics_.expansions / patience > 3 * mesh_.face_count()) slack_ = -1;
+      const std::size_t rounds =
+          statistics_.expansions / (patience * 3 * mesh_.face_count() + share);
+      if (rounds > 0) slack_ = 1 - 8 * static_cast<Real>(rounds);
     }
     if (what & bent)
       shine(order, what & ~bent);
@@ -131,16 +147,16 @@ void MergedWindows<Real>::run(Order& order, const PropagateOptions& options) {
 
 template <class Real>
 template <class Order>
-void MergedWindows<Real>::offer(Order& order, Index vertex, Real distance, Index corner, Real along,
-                                Real off, Index source, Real error) {
+void MergedWindows<Real>::offer(Order& order, Index vertex, Real distance, Index corner,
+                                Towards<Real> from, Index source, Real error) {
   Vertex& v = vertices_[vertex];
   if (!(distance < v.distance)) return;
-  v = {distance, corner, along, off};
+  if (slack_ < 0 && !(distance < v.distance + slack_ * scale_)) return;
+  v = {distance, corner, from};
   error_[vertex] = error;
   if (labels_) source_[vertex] = source;
   ++statistics_.updates;
-  if (corner == none || (corner & bent) ||
-      angles_.excess(vertex) > 4 * static_cast<double>(scale_))
+  if (corner == none || (corner & bent) || excess_[vertex] > 4 * scale_)
     push(order, vertex | bent, distance + static_cast<Real>(late));
 }
 
@@ -153,13 +169,8 @@ bool MergedWindows<Real>::joined(const Labelled<Real>& u, const Labelled<Real>& 
 
 /// What waits on a halfedge of that length, into list_.
 template <class Real>
-void MergedWindows<Real>::gather(Block& block, Real length) {
+void MergedWindows<Real>::gather(const Block& block, Real length) {
   const std::size_t count = block.count;
-  list_.clear();
-  if (count == 1) {
-    list_.append({block.window[0], block.source[0]});
-    return;
-  }
   std::array<unsigned, room> rank;
   for (unsigned i = 0; i < count; ++i) {
     unsigned at = i;
@@ -167,20 +178,52 @@ void MergedWindows<Real>::gather(Block& block, Real length) {
       rank[at] = rank[at - 1];
     rank[at] = i;
   }
-  for (std::size_t i = 0; i < count; ++i)
-    list_.insert({block.window[rank[i]], block.source[rank[i]]});
-  std::size_t kept = 0;
-  for (std::size_t i = 1; i < list_.size(); ++i) {
-    Labelled<Real>& u = list_[kept];
-    const Labelled<Real>& w = list_[i];
+  list_.clear();
+  list_.append({block.window[rank[0]], block.source[rank[0]]});
+  for (std::size_t i = 1; i < count; ++i)
+    take({block.window[rank[i]], block.source[rank[i]]}, length);
+}
+
+/// One more that begins no sooner than the others: merged with the last, or beside it.
+template <class Real>
+void MergedWindows<Real>::take(Labelled<Real> added, Real length) {
+  Labelled<Real>& last = list_.back();
+  Window<Real>&u = last.window, &w = added.window;
+  const auto fit = [&] {
     Window<Real> merged;
-    if (u.source == w.source && joined(u, w, length) &&
-        merge(u.window, w.window, scale_ * (w.window.beam.end - u.window.beam.begin), merged))
-      u.window = merged;
-    else
-      list_[++kept] = w;
+    if (last.source != added.source || !joined(last, added, length) ||
+        !merge(u, w, scale_ * (w.beam.end - u.beam.begin), merged))
+      return false;
+    u = merged;
+    return true;
+  };
+  const Real overlap = u.beam.end - w.beam.begin;
+  const bool nested = w.beam.end <= u.beam.end;
+  if (overlap < static_cast<Real>(joint) * length && !nested && fit()) return;
+  if (overlap > 0) {
+    const Real end = nested ? w.beam.end : u.beam.end;
+    const bool u_first = u.at(w.beam.begin) <= w.at_begin;
+    const bool u_last = (nested ? u.at(end) : u.at_end) <= (nested ? w.at_end : w.at(end));
+    if (u_first && u_last) {
+      if (nested) return;
+      w.begin_at(end);
+    } else if (nested || u_last) {
+      list_.insert(added);
+      return;
+    } else if (u_first) {
+      const Real x = crossing(u, w, w.beam.begin, end);
+      u.end_at(x);
+      w.begin_at(x);
+    } else {
+      u.end_at(w.beam.begin);
+    }
+    if (!(u.beam.begin < u.beam.end)) {
+      last = added;
+      return;
+    }
+    if (!(w.beam.begin < w.beam.end) || fit()) return;
   }
-  list_.resize(kept + 1);
+  list_.append(added);
 }
 
 template <class Real>
@@ -227,6 +270,7 @@ void MergedWindows<Real>::enter(Order& order, Index across, const Window<Real>& 
       free_block_ = blocks_[b].count;
     }
     pending_[halfedge] = b;
+    __builtin_prefetch(&triangles_[halfedge >> 2]);
     blocks_[b].count = 1;
     blocks_[b].window[0] = window;
     blocks_[b].source[0] = source;
@@ -276,108 +320,120 @@ void MergedWindows<Real>::leave(Order& order, Index f, std::size_t edge, const W
 template <class Real>
 template <class Order>
 void MergedWindows<Real>::expand(Order& order, Index halfedge) {
-  const Index f = halfedge >> 2;
+  const Index f = halfedge >> 2, b = std::exchange(pending_[halfedge], none);
+  Block& block = blocks_[b];
   const EnteredTriangle<Real> t(triangles_[f], halfedge & 3);
-  {
-    const Index b = std::exchange(pending_[halfedge], none);
-    if (blocks_[b].nearest <= radius_) gather(blocks_[b], t.width);
-    else list_.clear();
-    blocks_[b].count = std::exchange(free_block_, b);
+  if (block.nearest > radius_) {
+    block.count = std::exchange(free_block_, b);
+    return;
   }
-  const std::size_t count = list_.size();
-  if (count == 0) return;
+  if (block.count == 1) {
+    const Window<Real> window = block.window[0];
+    const Index source = block.source[0];
+    block.count = std::exchange(free_block_, b);
+    expand(order, f, t, window, source);
+    return;
+  }
+  gather(block, t.width);
+  block.count = std::exchange(free_block_, b);
+  if (list_.size() == 1)
+    expand(order, f, t, list_[0].window, list_[0].source);
+  else
+    expand_list(order, f, t);
+}
 
-  // Where the rays to the apex cross the edge; who sees the apex.
-  std::array<Real, Overlay<Real>::most> foot;
-  std::array<bool, Overlay<Real>::most> reaches_left{}, reaches_right{}, joins{};
-  Real best = infinity<Real>, best_x = 0, best_h = 0;
-  std::size_t best_window = 0;
-  const auto straight = [&](std::size_t i) {
-    const Beam<Real>& beam = list_[i].window.beam;
-    const Real dx = t.apex_x - beam.x, dy = t.apex_h + beam.h;
-    const Real d = list_[i].window.sigma + std::sqrt(dx * dx + dy * dy);
-    if (d < best) best = d, best_x = beam.x, best_h = beam.h, best_window = i;
-  };
+/// One window alone.
+template <class Real>
+template <class Order>
+void MergedWindows<Real>::expand(Order& order, Index f, const EnteredTriangle<Real>& t,
+                                 const Window<Real>& w, Index source) {
+  const Spread<Real> s(t, w);
+  const Index corner = static_cast<Index>(3 * f + t.before);
+  Real to_p = vertices_[t.p].distance;
+  if (s.left_reaches() && s.right_reaches()) {
+    if (s.distance[1] < to_p) {
+      to_p = s.distance[1];
+      offer(order, t.p, to_p, corner, t.towards(w.beam.x, w.beam.h), source, w.error);
+    }
+  } else {
+    const bool to_left = s.right_reaches();
+    to_p = std::min(to_p, offer_around(order, t, corner, to_left ? w.beam.end : w.beam.begin,
+                                       to_left ? w.at_end : w.at_begin, source, w.error));
+  }
+  const int wanted =
+      s.wanted(vertices_[t.a].distance, vertices_[t.b].distance, to_p, slack_ * scale_);
+  if (wanted & 1) leave(order, f, t.before, s.left(w), source);
+  if (wanted & 2) leave(order, f, t.after, s.right(w), source);
+}
+
+/// The apex lies in shadow as far as this edge knows: by the nearest end of what is lit.
+template <class Real>
+template <class Order>
+Real MergedWindows<Real>::offer_around(Order& order, const EnteredTriangle<Real>& t, Index corner,
+                                       Real end, Real at_end, Index source, Real error) {
+  const Real dx = t.apex_x - end, d = at_end + std::sqrt(dx * dx + t.apex_h * t.apex_h);
+  offer(order, t.p, d, corner | bent, t.towards(end, 0), source, error);
+  return d;
+}
+
+/// All that list_ holds.
+template <class Real>
+template <class Order>
+void MergedWindows<Real>::expand_list(Order& order, Index f, const EnteredTriangle<Real>& t) {
+  const std::size_t count = list_.size();
+  std::array<Spread<Real>, Overlay<Real>::most> spread;
+  Real best = infinity<Real>;
+  std::size_t nearest = 0;
   for (std::size_t i = 0; i < count; ++i) {
-    const Beam<Real>& beam = list_[i].window.beam;
-    foot[i] = t.foot(beam.x, beam.h);
-    reaches_left[i] = foot[i] <= beam.end && beam.begin < foot[i];
-    reaches_right[i] = beam.begin <= foot[i] && foot[i] < beam.end;
-    if (beam.begin <= foot[i] && foot[i] <= beam.end) straight(i);
-    joins[i] = i > 0 && joined(list_[i - 1], list_[i], t.width);
-    if (joins[i] && foot[i - 1] > list_[i - 1].window.beam.end && foot[i] < beam.begin) {
-      straight(i - 1);
-      straight(i);
-      reaches_left[i - 1] = reaches_right[i] = true;
+    Spread<Real>& s = spread[i] = Spread<Real>(t, list_[i].window);
+    if (s.left_reaches() && s.right_reaches() && s.distance[1] < best)
+      best = s.distance[1], nearest = i;
+    if (i == 0 || !joined(list_[i - 1], list_[i], t.width)) continue;
+    // No gap opens between joined neighbours: both reach the apex if it lies there and they agree
+    // on it, else they meet at the middle.
+    Spread<Real>& before = spread[i - 1];
+    if (!before.left_reaches() && !s.right_reaches()) {
+      const Spread<Real> dark_before = before, dark = s;
+      before.at.v[1] = t.left;
+      s.at.v[3] = t.right;
+      before.measure(list_[i - 1].window.sigma);
+      s.measure(list_[i].window.sigma);
+      const Real from_left = before.distance[1], from_right = s.distance[3];
+      if (!(std::abs(from_left - from_right) <= 4 * scale_ * t.width)) {
+        before = dark_before;
+        s = dark;
+      } else if (std::max(from_left, from_right) < best) {
+        best = std::max(from_left, from_right);
+        nearest = from_left < from_right ? i : i - 1;
+      }
+    } else if (before.at[1] < s.at[0]) {
+      before.at.v[1] = s.at.v[0] = (before.at[1] + s.at[0]) / 2;
+      before.measure(list_[i - 1].window.sigma);
+      s.measure(list_[i].window.sigma);
+    } else if (s.at[3] < before.at[2]) {
+      before.at.v[2] = s.at.v[3] = (before.at[2] + s.at[3]) / 2;
+      before.measure(list_[i - 1].window.sigma);
+      s.measure(list_[i].window.sigma);
     }
   }
   const Index corner = static_cast<Index>(3 * f + t.before);
   if (best < infinity<Real>) {
-    const Real dx = t.apex_x - best_x, dy = t.apex_h + best_h;
-    offer(order, t.p, best, corner, t.apex_h * dy + t.apex_x * dx, t.apex_x * dy - t.apex_h * dx,
-          list_[best_window].source, list_[best_window].window.error);
+    const Window<Real>& w = list_[nearest].window;
+    offer(order, t.p, best, corner, t.towards(w.beam.x, w.beam.h), list_[nearest].source, w.error);
   } else {
-    // In shadow as far as this edge knows: by the nearest end of what is lit.
-    Real end = 0;
-    const auto around = [&](std::size_t i, Real b, Real at) {
-      const Real dx = t.apex_x - b, d = at + std::sqrt(dx * dx + t.apex_h * t.apex_h);
-      if (d < best) best = d, end = b, best_window = i;
-    };
     for (std::size_t i = 0; i < count; ++i) {
       const Window<Real>& w = list_[i].window;
-      if (foot[i] > w.beam.end) around(i, w.beam.end, w.at_end);
-      else around(i, w.beam.begin, w.at_begin);
+      const bool to_left = spread[i].right_reaches();
+      offer_around(order, t, corner, to_left ? w.beam.end : w.beam.begin,
+                   to_left ? w.at_end : w.at_begin, list_[i].source, w.error);
     }
-    const Real dx = t.apex_x - end, dy = t.apex_h;
-    offer(order, t.p, best, corner | bent, t.apex_h * dy + t.apex_x * dx,
-          t.apex_x * dy - t.apex_h * dx, list_[best_window].source,
-          list_[best_window].window.error);
-  }
-
-  struct Child {
-    Real near, far;
-    bool exists;
-  };
-  std::array<Child, Overlay<Real>::most> left, right;
-  for (std::size_t i = 0; i < count; ++i) {
-    const Beam<Real>& beam = list_[i].window.beam;
-    left[i].exists = beam.begin < foot[i];
-    if (left[i].exists)
-      left[i].near = t.onto_left(beam.x, beam.h, beam.begin),
-      left[i].far = reaches_left[i] ? t.left : t.onto_left(beam.x, beam.h, beam.end);
-    right[i].exists = beam.end > foot[i];
-    if (right[i].exists)
-      right[i].near = t.onto_right(beam.x, beam.h, beam.end),
-      right[i].far = reaches_right[i] ? t.right : t.onto_right(beam.x, beam.h, beam.begin);
-    if (!joins[i]) continue;
-    if (left[i - 1].exists && left[i].exists && left[i - 1].far < left[i].near)
-      left[i - 1].far = left[i].near = (left[i - 1].far + left[i].near) / 2;
-    if (right[i - 1].exists && right[i].exists && right[i].far < right[i - 1].near)
-      right[i].far = right[i - 1].near = (right[i].far + right[i - 1].near) / 2;
   }
   const Real to_a = vertices_[t.a].distance, to_b = vertices_[t.b].distance;
   const Real to_p = vertices_[t.p].distance;
-  const Real slack = slack_ * scale_;
   for (std::size_t i = 0; i < count; ++i) {
-    const Window<Real>& w = list_[i].window;
-    const Index source = list_[i].source;
-    const auto go = [&](const Child& child, const Beam<Real>& seen, Real to_pivot, Real length,
-                        bool is_left) {
-      if (!child.exists || !(child.near < child.far)) return;
-      Window<Real> c = {{seen.x, std::max(seen.h, Real(0)), child.near, child.far}, w.sigma, 0, 0,
-                        w.error};
-      c.at_begin = c.at(child.near);
-      c.at_end = c.at(child.far);
-      const Real give = slack * length;
-      if (to_pivot + child.far < c.at_end - give) return;
-      if (to_p + (length - child.near) < c.at_begin - give) return;
-      if (is_left)
-        leave(order, f, t.before, c, source);
-      else
-        leave(order, f, t.after, c.mirrored(length), source);
-    };
-    go(left[i], t.seen_left(w.beam.x, w.beam.h), to_a, t.left, true);
-    go(right[i], t.seen_right(w.beam.x, w.beam.h), to_b, t.right, false);
+    const int wanted = spread[i].wanted(to_a, to_b, to_p, slack_ * scale_);
+    if (wanted & 1) leave(order, f, t.before, spread[i].left(list_[i].window), list_[i].source);
+    if (wanted & 2) leave(order, f, t.after, spread[i].right(list_[i].window), list_[i].source);
   }
 }
 
@@ -387,38 +443,40 @@ void MergedWindows<Real>::shine(Order& order, Index vertex) {
   const Vertex v = vertices_[vertex];
   const Real sigma = v.distance;
   if (sigma > radius_) return;
+  const bool anywhere = v.corner == none, is_bent = !anywhere && (v.corner & bent);
+  // What is bent looks around both corners of what is lit; else only strong saddles shine.
+  const Real shadow = excess_[vertex] + (is_bent ? std::numbers::pi_v<Real> : -4 * scale_);
+  if (!anywhere && !(shadow > 0)) return;
   const Index source = labels_ ? source_[vertex] : 0;
   const Real error = error_[vertex];
-  const bool is_bent = v.corner != none && (v.corner & bent);
-  const bool anywhere = v.corner == none;
-  if (!is_bent && !anywhere && !(angles_.excess(vertex) > 4 * static_cast<double>(scale_))) return;
-  const Arrival<double> arrival = {anywhere ? none : v.corner & ~bent,
-                                   static_cast<double>(v.along), static_cast<double>(v.off)};
   const VertexAngles::Kind kind = angles_.kind[vertex];
-  corners_.clear();
-  if (anywhere || kind == VertexAngles::irregular) mesh_.corners_at(vertex, corners_);
-  const double straight = is_bent ? std::numbers::pi / 2 : std::numbers::pi - static_cast<double>(scale_);
-  pseudo_source_.shine(
-      arrival, kind, angles_.total[vertex], corners_, straight,
-      [&](const Lit& lit) {
-        const TriangleRecord<Real>& t = triangles_[lit.face];
-        const Real length = t.length[lit.edge];
-        const Beam<Real> beam = {t.apex_x(lit.edge), t.apex_h(lit.edge),
-                                 static_cast<Real>(lit.begin), static_cast<Real>(lit.end)};
-        Window<Real> window = {beam.mirrored(length), sigma, 0, 0, error};
-        if (!(window.beam.begin < window.beam.end)) return;
-        window.begin_at(window.beam.begin);
-        window.end_at(window.beam.end);
-        leave(order, lit.face, lit.edge, window, source);
-      },
-      [&](const FanWalk& walk) {
-        const TriangleRecord<Real>& t = triangles_[walk.face];
-        const Index e = walk.leaving_edge();
-        const Index far = static_cast<Index>(walk.by_start ? edge_after(e) : e);
-        offer(order, t.corner[far], sigma + t.length[e], 3 * walk.face + far,
-              walk.by_start ? t.cosine[far] : Real(1), walk.by_start ? t.sine(far) : Real(0),
-              source, error);
-      });
+  const auto lit = [&](const Lit& part) {
+    const TriangleRecord<Real>& t = triangles_[part.face];
+    const Beam<Real> beam = {t.apex_x(part.edge), t.apex_h(part.edge),
+                             static_cast<Real>(part.begin), static_cast<Real>(part.end)};
+    Window<Real> window = {beam.mirrored(t.length[part.edge]), sigma, 0, 0, error};
+    window.begin_at(window.beam.begin);
+    window.end_at(window.beam.end);
+    leave(order, part.face, part.edge, window, source);
+  };
+  const auto along = [&](const FanWalk& walk) {
+    const TriangleRecord<Real>& t = triangles_[walk.face];
+    const Index e = walk.leaving_edge();
+    const Index far = static_cast<Index>(walk.by_start ? edge_after(e) : e);
+    offer(order, t.corner[far], sigma + t.length[e], 3 * walk.face + far,
+          walk.by_start ? Towards<Real>{t.cosine[far], t.sine(far)} : Towards<Real>{1, 0}, source,
+          error);
+  };
+  if (anywhere || kind == VertexAngles::irregular) {
+    mesh_.corners_at(vertex, corners_);
+    pseudo_source_.shine_all(corners_, lit, along);
+  } else {
+    const Arrival<double> arrival = {v.corner & ~bent, static_cast<double>(v.from.along),
+                                     static_cast<double>(v.from.off)};
+    const Towards<double> wider =
+        is_bent ? Towards<double>{0, 1} : Towards<double>{1, static_cast<double>(scale_)};
+    pseudo_source_.shine(arrival, kind == VertexAngles::boundary, wider, lit, along);
+  }
 }
 
 template <class Real>
@@ -429,7 +487,7 @@ void MergedWindows<Real>::seed(Order& order, std::span<const PointSource> source
     const Index number = static_cast<Index>(n);
     const Real sigma = static_cast<Real>(s.offset / mesh_.unit());
     if (s.vertex != none) {
-      offer(order, mesh_.inside_vertex(s.vertex), sigma, none, 0, 0, number, 0);
+      offer(order, mesh_.inside_vertex(s.vertex), sigma, none, {0, 0}, number, 0);
       continue;
     }
     const auto [f, turned] = mesh_.inside_face(s.simplex);
@@ -438,7 +496,7 @@ void MergedWindows<Real>::seed(Order& order, std::span<const PointSource> source
     if (turned) std::swap(b[1], b[2]);
     const auto corner = std::find(b.begin(), b.begin() + 3, 1.);
     if (corner != b.begin() + 3) {
-      offer(order, t.corner[corner - b.begin()], sigma, none, 0, 0, number, 0);
+      offer(order, t.corner[corner - b.begin()], sigma, none, {0, 0}, number, 0);
       continue;
     }
     for (std::size_t e = 0; e < 3; ++e) {
@@ -447,13 +505,13 @@ void MergedWindows<Real>::seed(Order& order, std::span<const PointSource> source
       const double x = b[i] * length + b[p] * static_cast<double>(t.apex_x(e));
       const double h = b[p] * static_cast<double>(t.apex_h(e));
       const Beam<double> beam = Beam<double>{x, h, 0, length}.mirrored(length);
-      Window<Real> window = {{static_cast<Real>(beam.x), static_cast<Real>(beam.h), 0, t.length[e]},
-                             sigma, 0, 0, 0};
+      Window<Real> window = {
+          {static_cast<Real>(beam.x), static_cast<Real>(beam.h), 0, t.length[e]}, sigma, 0, 0, 0};
       window.begin_at(0);
       window.end_at(t.length[e]);
       leave(order, f, e, window, number);
       offer(order, t.corner[e], sigma + static_cast<Real>(std::sqrt(x * x + h * h)),
-            static_cast<Index>(3 * f + e), static_cast<Real>(x), static_cast<Real>(h), number, 0);
+            static_cast<Index>(3 * f + e), {static_cast<Real>(x), static_cast<Real>(h)}, number, 0);
     }
   }
 }
@@ -470,8 +528,8 @@ bool MergedWindows<Real>::fill_holes(Order& order) {
         const Index v = t.corner[from], w = t.corner[to];
         if (vertices_[w].distance < infinity<Real> || !(vertices_[v].distance < infinity<Real>))
           continue;
-        offer(order, w, vertices_[v].distance + t.length[e], none, 0, 0,
-              labels_ ? source_[v] : 0, error_[v]);
+        offer(order, w, vertices_[v].distance + t.length[e], none, {0, 0}, labels_ ? source_[v] : 0,
+              error_[v]);
         any = true;
       }
   }
@@ -481,8 +539,8 @@ bool MergedWindows<Real>::fill_holes(Order& order) {
 template <class Real>
 std::size_t MergedWindows<Real>::bytes() const {
   const auto of = [](const auto& v) { return v.capacity() * sizeof(v[0]); };
-  return sizeof(*this) + of(vertices_) + of(source_) + of(error_) + of(pending_) + of(blocks_) +
-         of(entries_) + of(corners_);
+  return sizeof(*this) + of(excess_) + of(vertices_) + of(source_) + of(error_) + of(pending_) +
+         of(blocks_) + of(entries_) + of(corners_);
 }
 
 template class MergedWindows<float>;

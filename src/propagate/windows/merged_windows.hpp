@@ -15,6 +15,7 @@
 #include "propagate/windows/node_orders.hpp"
 #include "propagate/windows/overlay.hpp"
 #include "propagate/windows/pseudo_source.hpp"
+#include "propagate/windows/spread.hpp"
 #include "propagate/windows/vertex_angles.hpp"
 
 namespace plexway::windows {
@@ -28,8 +29,12 @@ struct MergeLimit {
   double reach = 20;
 };
 
-/// Distances by windows of which neighbours that nearly agree become one, so that an edge has one or
-/// two at a time.
+/// The limit that gives this mean relative error, as measured on scans and CAD parts from 2e-5 to
+/// 3e-4.
+constexpr MergeLimit merge_limit(double error) { return {43 * error, 20}; }
+
+/// Distances by windows of which neighbours that nearly agree become one, so that an edge has one
+/// or two at a time.
 template <class Real>
 class MergedWindows {
  public:
@@ -54,18 +59,18 @@ class MergedWindows {
   /// 16 bytes in float.
   struct Vertex {
     Real distance;
-    Index corner;  ///< where the path comes from: Arrival, and whether it is bent
-    Real along, off;
+    Index corner;  ///< where the path comes from, as Arrival has it; `bent` may be added
+    Towards<Real> from;
   };
   static constexpr Index bent = Index{1} << 31;
 
   /// The windows that wait on one halfedge.
   static constexpr std::size_t room = 8;
   struct Block {
-    std::array<Window<Real>, room> window;
-    std::array<Index, room> source;
     Real nearest;
     Index count;  ///< or, of a free block, the next free one
+    std::array<Window<Real>, room> window;
+    std::array<Index, room> source;
   };
   /// What waits in the queue: a halfedge 4 f + i, or a vertex with `bent` set.
   struct Entry {
@@ -74,7 +79,7 @@ class MergedWindows {
   };
 
   template <class Order>
-  void run(Order& order, const PropagateOptions& options);
+  bool run(Order& order, const PropagateOptions& options);
   template <class Order>
   void seed(Order& order, std::span<const PointSource> sources);
   template <class Order>
@@ -88,14 +93,24 @@ class MergedWindows {
   template <class Order>
   void enter(Order& order, Index across, const Window<Real>& window, Index source);
   template <class Order>
-  void offer(Order& order, Index vertex, Real distance, Index corner, Real along, Real off,
+  void offer(Order& order, Index vertex, Real distance, Index corner, Towards<Real> from,
              Index source, Real error);
+  template <class Order>
+  Real offer_around(Order& order, const EnteredTriangle<Real>& t, Index corner, Real end,
+                    Real at_end, Index source, Real error);
   template <class Order>
   void push(Order& order, Index what, Real near);
 
-  void gather(Block& block, Real length);
+  template <class Order>
+  void expand(Order& order, Index f, const EnteredTriangle<Real>& t, const Window<Real>& window,
+              Index source);
+  template <class Order>
+  void expand_list(Order& order, Index f, const EnteredTriangle<Real>& t);
+  void gather(const Block& block, Real length);
+  void take(Labelled<Real> added, Real length);
   void make_room(Block& block, Real length);
   [[nodiscard]] bool joined(const Labelled<Real>& u, const Labelled<Real>& w, Real length) const;
+  void fetch(Index what) const;
   void set_scale(double distance);
   [[nodiscard]] Real near(Index what) const;
 
@@ -108,10 +123,11 @@ class MergedWindows {
   Real scale_ = 0;  ///< the limit for an edge of length 1, at the distance in turn
   Real radius_ = 0, slack_ = 0;
 
+  std::vector<Real> excess_;  ///< of each vertex, as VertexAngles has it
   std::vector<Vertex> vertices_;
   std::vector<Index> source_;
   std::vector<Real> error_;
-  std::vector<Index> pending_;  ///< a block for each halfedge 4 f + i, or none
+  std::vector<Index> pending_;  ///< a block for each halfedge 4 f + i, or none; none after a solve
   std::vector<Block> blocks_;
   std::vector<Entry> entries_;
   std::vector<Index> corners_;

@@ -13,6 +13,7 @@ namespace plexway::windows {
 class FirstIn {
  public:
   void start(double) { first_ = last_ = none; }
+  [[nodiscard]] Index peek() const { return first_; }
   [[nodiscard]] double distance() const { return distance_; }
 
   template <class Next>
@@ -42,6 +43,7 @@ class FirstIn {
 class NearestOfAll {
  public:
   void start(double) { heap_.clear(); }
+  [[nodiscard]] Index peek() const { return heap_.empty() ? none : heap_.front().second; }
   [[nodiscard]] double distance() const { return distance_; }
 
   template <class Next>

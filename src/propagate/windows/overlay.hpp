@@ -16,6 +16,23 @@ struct Labelled {
   Index source;
 };
 
+/// Where two windows give the same distance; which one is nearer differs between `low` and `high`.
+template <class Real>
+[[nodiscard]] Real crossing(const Window<Real>& u, const Window<Real>& w, Real low, Real high) {
+  Real f_low = u.at(low) - w.at(low), f_high = u.at(high) - w.at(high);
+  Real x = low;
+  for (int i = 0; i < 3; ++i) {
+    const Real t = f_low / (f_low - f_high);
+    x = low + (high - low) * (t >= 0 && t <= 1 ? t : Real(0.5));
+    const Real f = u.at(x) - w.at(x);
+    if ((f < 0) == (f_low < 0))
+      low = x, f_low = f, f_high /= 2;
+    else
+      high = x, f_high = f, f_low /= 2;
+  }
+  return x;
+}
+
 /// The windows on one edge that serve each of its points best: in order, none over another.
 template <class Real>
 class Overlay {
@@ -78,22 +95,6 @@ class Overlay {
   }
 
  private:
-  /// Where two windows give the same distance; they give the other order at `low` and at `high`.
-  static Real crossing(const Window<Real>& u, const Window<Real>& w, Real low, Real high) {
-    Real f_low = u.at(low) - w.at(low), f_high = u.at(high) - w.at(high);
-    Real x = low;
-    for (int i = 0; i < 4; ++i) {
-      const Real t = f_low / (f_low - f_high);
-      x = low + (high - low) * (t >= 0 && t <= 1 ? t : Real(0.5));
-      const Real f = u.at(x) - w.at(x);
-      if ((f < 0) == (f_low < 0))
-        low = x, f_low = f, f_high /= 2;
-      else
-        high = x, f_high = f, f_low /= 2;
-    }
-    return x;
-  }
-
   void add(const Labelled<Real>& owner, Real begin, Real end) {
     if (!(begin < end)) return;
     if (owner_ != &owner) {
