@@ -74,14 +74,15 @@ void WindowSolver<Real>::solve(std::span<const PointSource> sources, Accuracy ac
   if (!(accuracy.error() >= 0 && accuracy.error() < 1))
     throw UsageError("the accuracy must be a relative error from 0 to below 1");
   if (error) error->assign(mesh.vertex_count(), 0);
-  if (accuracy.kind() == Accuracy::Kind::exact) {
+  const bool merge = accuracy.kind() == Accuracy::Kind::merged;
+  if (merge && !state_->merged) state_->merged.emplace(mesh, state_->angles);
+  if (!merge ||
+      !state_->merged->solve(sources, options, windows::merge_limit(accuracy.error()))) {
     if (!state_->exact) state_->exact.emplace(mesh, state_->angles);
     state_->exact->solve(sources, options);
     state_->read_out(*state_->exact, sources, options, field);
     return;
   }
-  if (!state_->merged) state_->merged.emplace(mesh, state_->angles);
-  state_->merged->solve(sources, options, windows::merge_limit(accuracy.error()));
   state_->read_out(*state_->merged, sources, options, field);
   if (!error) return;
   const auto inside = mesh.vertices_inside();

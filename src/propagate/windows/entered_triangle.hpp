@@ -35,6 +35,7 @@ struct EnteredTriangle {
   Real cos_a, sin_a, cos_b, sin_b;
   Real apex_x, apex_h;  ///< P from A, along AB and off it
 
+  EnteredTriangle() = default;
   template <class Stored>
   [[gnu::always_inline]] EnteredTriangle(const TriangleRecord<Stored>& t, std::size_t edge)
       : in(edge),

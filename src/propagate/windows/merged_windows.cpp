@@ -19,11 +19,8 @@ constexpr double bucket_width = 0.5;
 /// Vertices have their turn so much later than their distance, in mean edges: after the light that
 /// may reach them straight.
 constexpr double late = 0.5;
-/// Each time a halfedge had so many turns in the mean, what goes on must gain more: nothing goes
-/// around for ever.
-constexpr std::size_t patience = 6;
-/// Neighbours are joined over gaps up to this share of the edge.
-constexpr double joint = 3e-2;
+/// So many turns a halfedge in the mean are too many: one to four are usual.
+constexpr std::size_t patience = 12;
 
 }  // namespace
 
@@ -35,7 +32,7 @@ MergedWindows<Real>::MergedWindows(const TriangleMesh<Real>& mesh, const VertexA
 }
 
 template <class Real>
-void MergedWindows<Real>::solve(std::span<const PointSource> sources,
+bool MergedWindows<Real>::solve(std::span<const PointSource> sources,
                                 const PropagateOptions& options, const MergeLimit& limit) {
   limit_ = limit;
   labels_ = sources.size() > 1;
@@ -46,31 +43,30 @@ void MergedWindows<Real>::solve(std::span<const PointSource> sources,
   blocks_.clear();
   entries_.clear();
   free_block_ = free_entry_ = none;
-  complete_ = false;
+  complete_ = false;  // until all is done: a callback may throw
   statistics_ = {};
-  slack_ = 1;
   radius_ = static_cast<Real>(options.radius / mesh_.unit());
   set_scale(0);
   const auto solve_in = [&](auto& order) {
     order.start(bucket_width);
     seed(order, sources);
-    do complete_ = run(order, options);
-    while (complete_ && fill_holes(order));
+    Outcome outcome;
+    do outcome = run(order, options);
+    while (outcome == Outcome::done && fill_holes(order));
+    complete_ = outcome == Outcome::done;
+    return outcome != Outcome::too_much;
   };
   switch (options.schedule) {
-    case Schedule::dual_queue: {
-      BucketRing ring;
-      solve_in(ring);
-      break;
-    }
     case Schedule::fifo: {
       FirstIn line;
-      solve_in(line);
-      break;
+      return solve_in(line);
     }
     case Schedule::priority:
-      solve_in(nearest_);
-      break;
+      return solve_in(nearest_);
+    default: {
+      BucketRing ring;
+      return solve_in(ring);
+    }
   }
 }
 
@@ -114,35 +110,50 @@ void MergedWindows<Real>::fetch(Index what) const {
 
 template <class Real>
 template <class Order>
-bool MergedWindows<Real>::run(Order& order, const PropagateOptions& options) {
+typename MergedWindows<Real>::Outcome MergedWindows<Real>::run(Order& order,
+                                                               const PropagateOptions& options) {
   const auto next = [this](Index n) -> Index& { return entries_[n].next; };
   const auto near_of = [this](Index n) { return static_cast<double>(near(entries_[n].what)); };
   constexpr std::size_t share = 65536;
+  std::size_t report = statistics_.expansions / share * share + share;
   double before = -1;
-  for (;;) {
-    if (statistics_.expansions >= options.max_expansions) return order.pop(next, near_of) == none;
-    const Index n = order.pop(next, near_of);
-    if (n == none) return true;
-    const Index what = entries_[n].what;
-    entries_[n].next = std::exchange(free_entry_, n);
-    if (!(what & bent) && pending_[what] == none) continue;
-    if (const Index after = order.peek(); after != none) fetch(entries_[after].what);
+  Index n = order.pop(next, near_of);
+  while (n != none) {
     if (order.distance() != before) set_scale(before = order.distance());
-    ++statistics_.expansions;
-    if (statistics_.expansions % share == 0) {
+    std::size_t count = 0;
+    for (;;) {
+      const Index what = entries_[n].what;
+      const bool vertex = (what & bent) != 0;
+      if (vertex && count > 0) break;  // it has its turn after those
+      if (vertex || pending_[what] != none) {
+        if (statistics_.expansions == options.max_expansions) return Outcome::stopped;
+        ++statistics_.expansions;
+      }
+      entries_[n].next = std::exchange(free_entry_, n);
+      if (vertex)
+        shine(order, what & ~bent);
+      else if (pending_[what] != none)
+        prepare(turns_[count++], what);
+      if (order.peek() == none || count == together) {
+        n = none;
+        break;
+      }
+      n = order.pop(next, near_of);
+      if (const Index after = order.peek(); after != none) fetch(entries_[after].what);
+    }
+    for (std::size_t i = 0; i < count; ++i) commit(order, turns_[i]);
+    if (statistics_.expansions >= report) {
+      report += share;
       if (options.progress &&
           !options.progress({statistics_.expansions, statistics_.reached_simplices,
                              mesh_.face_count(), order.distance() * mesh_.unit()}))
         throw Cancelled("cancelled by the progress callback");
-      const std::size_t rounds =
-          statistics_.expansions / (patience * 3 * mesh_.face_count() + share);
-      if (rounds > 0) slack_ = 1 - 8 * static_cast<Real>(rounds);
+      if (statistics_.expansions > patience * 3 * mesh_.face_count() + share)
+        return Outcome::too_much;
     }
-    if (what & bent)
-      shine(order, what & ~bent);
-    else
-      expand(order, what);
+    if (n == none) n = order.pop(next, near_of);
   }
+  return Outcome::done;
 }
 
 template <class Real>
@@ -151,7 +162,6 @@ void MergedWindows<Real>::offer(Order& order, Index vertex, Real distance, Index
                                 Towards<Real> from, Index source, Real error) {
   Vertex& v = vertices_[vertex];
   if (!(distance < v.distance)) return;
-  if (slack_ < 0 && !(distance < v.distance + slack_ * scale_)) return;
   v = {distance, corner, from};
   error_[vertex] = error;
   if (labels_) source_[vertex] = source;
@@ -160,16 +170,9 @@ void MergedWindows<Real>::offer(Order& order, Index vertex, Real distance, Index
     push(order, vertex | bent, distance + static_cast<Real>(late));
 }
 
+/// What waits on a halfedge of that length.
 template <class Real>
-bool MergedWindows<Real>::joined(const Labelled<Real>& u, const Labelled<Real>& w,
-                                 Real length) const {
-  return w.window.beam.begin - u.window.beam.end <= static_cast<Real>(joint) * length &&
-         std::abs(w.window.at_begin - u.window.at_end) <= 4 * scale_ * length;
-}
-
-/// What waits on a halfedge of that length, into list_.
-template <class Real>
-void MergedWindows<Real>::gather(const Block& block, Real length) {
+void MergedWindows<Real>::gather(Gathered<Real>& windows, const Block& block, Real length) const {
   const std::size_t count = block.count;
   std::array<unsigned, room> rank;
   for (unsigned i = 0; i < count; ++i) {
@@ -178,79 +181,19 @@ void MergedWindows<Real>::gather(const Block& block, Real length) {
       rank[at] = rank[at - 1];
     rank[at] = i;
   }
-  list_.clear();
-  list_.append({block.window[rank[0]], block.source[rank[0]]});
-  for (std::size_t i = 1; i < count; ++i)
-    take({block.window[rank[i]], block.source[rank[i]]}, length);
-}
-
-/// One more that begins no sooner than the others: merged with the last, or beside it.
-template <class Real>
-void MergedWindows<Real>::take(Labelled<Real> added, Real length) {
-  Labelled<Real>& last = list_.back();
-  Window<Real>&u = last.window, &w = added.window;
-  const auto fit = [&] {
-    Window<Real> merged;
-    if (last.source != added.source || !joined(last, added, length) ||
-        !merge(u, w, scale_ * (w.beam.end - u.beam.begin), merged))
-      return false;
-    u = merged;
-    return true;
-  };
-  const Real overlap = u.beam.end - w.beam.begin;
-  const bool nested = w.beam.end <= u.beam.end;
-  if (overlap < static_cast<Real>(joint) * length && !nested && fit()) return;
-  if (overlap > 0) {
-    const Real end = nested ? w.beam.end : u.beam.end;
-    const bool u_first = u.at(w.beam.begin) <= w.at_begin;
-    const bool u_last = (nested ? u.at(end) : u.at_end) <= (nested ? w.at_end : w.at(end));
-    if (u_first && u_last) {
-      if (nested) return;
-      w.begin_at(end);
-    } else if (nested || u_last) {
-      list_.insert(added);
-      return;
-    } else if (u_first) {
-      const Real x = crossing(u, w, w.beam.begin, end);
-      u.end_at(x);
-      w.begin_at(x);
-    } else {
-      u.end_at(w.beam.begin);
-    }
-    if (!(u.beam.begin < u.beam.end)) {
-      last = added;
-      return;
-    }
-    if (!(w.beam.begin < w.beam.end) || fit()) return;
-  }
-  list_.append(added);
+  windows.start(length, scale_);
+  for (std::size_t i = 0; i < count; ++i)
+    windows.take({block.window[rank[i]], block.source[rank[i]]});
 }
 
 template <class Real>
 void MergedWindows<Real>::make_room(Block& block, Real length) {
-  gather(block, length);
-  while (list_.size() >= room) {
-    // The shortest goes, into its neighbour if they fit at all.
-    std::size_t shortest = 0;
-    const auto extent = [&](std::size_t i) {
-      return list_[i].window.beam.end - list_[i].window.beam.begin;
-    };
-    for (std::size_t i = 1; i < list_.size(); ++i)
-      if (extent(i) < extent(shortest)) shortest = i;
-    const std::size_t u = shortest == 0 ? 0 : shortest - 1;
-    Window<Real> merged;
-    if (list_[u].source == list_[u + 1].source &&
-        merge(list_[u].window, list_[u + 1].window, infinity<Real>, merged)) {
-      list_[u].window = merged;
-      shortest = u + 1;
-    }
-    for (std::size_t i = shortest; i + 1 < list_.size(); ++i) list_[i] = list_[i + 1];
-    list_.resize(list_.size() - 1);
-  }
-  block.count = static_cast<Index>(list_.size());
-  for (std::size_t i = 0; i < list_.size(); ++i) {
-    block.window[i] = list_[i].window;
-    block.source[i] = list_[i].source;
+  gather(crowd_, block, length);
+  while (crowd_.size() >= room) crowd_.shorten();
+  block.count = static_cast<Index>(crowd_.size());
+  for (std::size_t i = 0; i < crowd_.size(); ++i) {
+    block.window[i] = crowd_[i].window;
+    block.source[i] = crowd_[i].source;
   }
 }
 
@@ -279,11 +222,7 @@ void MergedWindows<Real>::enter(Order& order, Index across, const Window<Real>& 
     return;
   }
   Block& block = blocks_[b];
-  if (block.count == room) {
-    const Overlay<Real> saved = list_;
-    make_room(block, triangles_[halfedge >> 2].length[halfedge & 3]);
-    list_ = saved;
-  }
+  if (block.count == room) make_room(block, triangles_[halfedge >> 2].length[halfedge & 3]);
   block.window[block.count] = window;
   block.source[block.count++] = source;
   if (near < block.nearest) {
@@ -292,17 +231,27 @@ void MergedWindows<Real>::enter(Order& order, Index across, const Window<Real>& 
   }
 }
 
+/// A window over edge `edge` of f, measured from the edge's second corner, enters all triangles on
+/// the other side.
 template <class Real>
 template <class Order>
-void MergedWindows<Real>::leave(Order& order, Index f, std::size_t edge, const Window<Real>& window,
-                                Index source) {
-  Index across = triangles_[f].across[edge];
+inline void MergedWindows<Real>::leave(Order& order, Index f, std::size_t edge,
+                                       const Window<Real>& window, Index source) {
+  const Index across = triangles_[f].across[edge];
   if (across >> Across::face_shift == mesh_.face_count()) return;
-  if (!(across & Across::special)) [[likely]] {
+  if (across & Across::special) [[unlikely]]
+    leave_special(order, f, edge, window, source);
+  else
     enter(order, across, window, source);
-    return;
-  }
+}
+
+template <class Real>
+template <class Order>
+[[gnu::noinline]] void MergedWindows<Real>::leave_special(Order& order, Index f, std::size_t edge,
+                                                          const Window<Real>& window,
+                                                          Index source) {
   const Window<Real> turned = window.mirrored(triangles_[f].length[edge]);
+  Index across = triangles_[f].across[edge];
   bool flip = (across & Across::flip) != 0;
   if (!(across & Across::fan)) {
     enter(order, across, turned, source);
@@ -318,122 +267,83 @@ void MergedWindows<Real>::leave(Order& order, Index f, std::size_t edge, const W
 }
 
 template <class Real>
-template <class Order>
-void MergedWindows<Real>::expand(Order& order, Index halfedge) {
-  const Index f = halfedge >> 2, b = std::exchange(pending_[halfedge], none);
+void MergedWindows<Real>::prepare(Turn& turn, Index halfedge) {
+  const Index b = std::exchange(pending_[halfedge], none);
   Block& block = blocks_[b];
-  const EnteredTriangle<Real> t(triangles_[f], halfedge & 3);
-  if (block.nearest > radius_) {
-    block.count = std::exchange(free_block_, b);
-    return;
-  }
-  if (block.count == 1) {
-    const Window<Real> window = block.window[0];
-    const Index source = block.source[0];
-    block.count = std::exchange(free_block_, b);
-    expand(order, f, t, window, source);
-    return;
-  }
-  gather(block, t.width);
-  block.count = std::exchange(free_block_, b);
-  if (list_.size() == 1)
-    expand(order, f, t, list_[0].window, list_[0].source);
+  turn.face = halfedge >> 2;
+  const EnteredTriangle<Real>& t = turn.triangle =
+      EnteredTriangle<Real>(triangles_[turn.face], halfedge & 3);
+  Gathered<Real>& windows = turn.windows;
+  if (block.nearest > radius_)
+    windows.clear();
   else
-    expand_list(order, f, t);
-}
+    gather(windows, block, t.width);
+  block.count = std::exchange(free_block_, b);
 
-/// One window alone.
-template <class Real>
-template <class Order>
-void MergedWindows<Real>::expand(Order& order, Index f, const EnteredTriangle<Real>& t,
-                                 const Window<Real>& w, Index source) {
-  const Spread<Real> s(t, w);
-  const Index corner = static_cast<Index>(3 * f + t.before);
-  Real to_p = vertices_[t.p].distance;
-  if (s.left_reaches() && s.right_reaches()) {
-    if (s.distance[1] < to_p) {
-      to_p = s.distance[1];
-      offer(order, t.p, to_p, corner, t.towards(w.beam.x, w.beam.h), source, w.error);
-    }
-  } else {
-    const bool to_left = s.right_reaches();
-    to_p = std::min(to_p, offer_around(order, t, corner, to_left ? w.beam.end : w.beam.begin,
-                                       to_left ? w.at_end : w.at_begin, source, w.error));
-  }
-  const int wanted =
-      s.wanted(vertices_[t.a].distance, vertices_[t.b].distance, to_p, slack_ * scale_);
-  if (wanted & 1) leave(order, f, t.before, s.left(w), source);
-  if (wanted & 2) leave(order, f, t.after, s.right(w), source);
-}
-
-/// The apex lies in shadow as far as this edge knows: by the nearest end of what is lit.
-template <class Real>
-template <class Order>
-Real MergedWindows<Real>::offer_around(Order& order, const EnteredTriangle<Real>& t, Index corner,
-                                       Real end, Real at_end, Index source, Real error) {
-  const Real dx = t.apex_x - end, d = at_end + std::sqrt(dx * dx + t.apex_h * t.apex_h);
-  offer(order, t.p, d, corner | bent, t.towards(end, 0), source, error);
-  return d;
-}
-
-/// All that list_ holds.
-template <class Real>
-template <class Order>
-void MergedWindows<Real>::expand_list(Order& order, Index f, const EnteredTriangle<Real>& t) {
-  const std::size_t count = list_.size();
-  std::array<Spread<Real>, Overlay<Real>::most> spread;
-  Real best = infinity<Real>;
-  std::size_t nearest = 0;
-  for (std::size_t i = 0; i < count; ++i) {
-    Spread<Real>& s = spread[i] = Spread<Real>(t, list_[i].window);
-    if (s.left_reaches() && s.right_reaches() && s.distance[1] < best)
-      best = s.distance[1], nearest = i;
-    if (i == 0 || !joined(list_[i - 1], list_[i], t.width)) continue;
+  turn.to_apex = infinity<Real>;
+  turn.seen = 0;
+  const auto sees = [&](std::size_t i, Real distance) {
+    if (distance < turn.to_apex) turn.to_apex = distance, turn.seen = i;
+  };
+  for (std::size_t i = 0; i < windows.size(); ++i) {
+    Spread<Real>& s = turn.spread[i] = Spread<Real>(t, windows[i].window);
+    if (s.left_reaches() && s.right_reaches()) sees(i, s.distance[1]);
+    if (i == 0 || !windows.joined(windows[i - 1], windows[i])) continue;
     // No gap opens between joined neighbours: both reach the apex if it lies there and they agree
     // on it, else they meet at the middle.
-    Spread<Real>& before = spread[i - 1];
+    Spread<Real>& before = turn.spread[i - 1];
+    const Real sigma_before = windows[i - 1].window.sigma, sigma = windows[i].window.sigma;
     if (!before.left_reaches() && !s.right_reaches()) {
       const Spread<Real> dark_before = before, dark = s;
       before.at.v[1] = t.left;
       s.at.v[3] = t.right;
-      before.measure(list_[i - 1].window.sigma);
-      s.measure(list_[i].window.sigma);
+      before.measure(sigma_before);
+      s.measure(sigma);
       const Real from_left = before.distance[1], from_right = s.distance[3];
-      if (!(std::abs(from_left - from_right) <= 4 * scale_ * t.width)) {
-        before = dark_before;
-        s = dark;
-      } else if (std::max(from_left, from_right) < best) {
-        best = std::max(from_left, from_right);
-        nearest = from_left < from_right ? i : i - 1;
-      }
+      if (std::abs(from_left - from_right) <= 4 * scale_ * t.width)
+        sees(from_left < from_right ? i : i - 1, std::max(from_left, from_right));
+      else
+        before = dark_before, s = dark;
     } else if (before.at[1] < s.at[0]) {
       before.at.v[1] = s.at.v[0] = (before.at[1] + s.at[0]) / 2;
-      before.measure(list_[i - 1].window.sigma);
-      s.measure(list_[i].window.sigma);
+      before.measure(sigma_before);
+      s.measure(sigma);
     } else if (s.at[3] < before.at[2]) {
       before.at.v[2] = s.at.v[3] = (before.at[2] + s.at[3]) / 2;
-      before.measure(list_[i - 1].window.sigma);
-      s.measure(list_[i].window.sigma);
+      before.measure(sigma_before);
+      s.measure(sigma);
     }
   }
-  const Index corner = static_cast<Index>(3 * f + t.before);
-  if (best < infinity<Real>) {
-    const Window<Real>& w = list_[nearest].window;
-    offer(order, t.p, best, corner, t.towards(w.beam.x, w.beam.h), list_[nearest].source, w.error);
+}
+
+template <class Real>
+template <class Order>
+void MergedWindows<Real>::commit(Order& order, const Turn& turn) {
+  const EnteredTriangle<Real>& t = turn.triangle;
+  const Gathered<Real>& windows = turn.windows;
+  const Index corner = static_cast<Index>(3 * turn.face + t.before);
+  if (turn.to_apex < infinity<Real>) {
+    const Labelled<Real>& seen = windows[turn.seen];
+    offer(order, t.p, turn.to_apex, corner, t.towards(seen.window.beam.x, seen.window.beam.h),
+          seen.source, seen.window.error);
   } else {
-    for (std::size_t i = 0; i < count; ++i) {
-      const Window<Real>& w = list_[i].window;
-      const bool to_left = spread[i].right_reaches();
-      offer_around(order, t, corner, to_left ? w.beam.end : w.beam.begin,
-                   to_left ? w.at_end : w.at_begin, list_[i].source, w.error);
+    // Around the nearest end of what is lit.
+    for (std::size_t i = 0; i < windows.size(); ++i) {
+      const Window<Real>& w = windows[i].window;
+      const bool to_left = turn.spread[i].right_reaches();
+      const Real end = to_left ? w.beam.end : w.beam.begin, dx = t.apex_x - end;
+      offer(order, t.p,
+            (to_left ? w.at_end : w.at_begin) + std::sqrt(dx * dx + t.apex_h * t.apex_h),
+            corner | bent, t.towards(end, 0), windows[i].source, w.error);
     }
   }
   const Real to_a = vertices_[t.a].distance, to_b = vertices_[t.b].distance;
   const Real to_p = vertices_[t.p].distance;
-  for (std::size_t i = 0; i < count; ++i) {
-    const int wanted = spread[i].wanted(to_a, to_b, to_p, slack_ * scale_);
-    if (wanted & 1) leave(order, f, t.before, spread[i].left(list_[i].window), list_[i].source);
-    if (wanted & 2) leave(order, f, t.after, spread[i].right(list_[i].window), list_[i].source);
+  for (std::size_t i = 0; i < windows.size(); ++i) {
+    const Labelled<Real>& w = windows[i];
+    const int wanted = turn.spread[i].wanted(to_a, to_b, to_p, scale_);
+    if (wanted & 1) leave(order, turn.face, t.before, turn.spread[i].left(w.window), w.source);
+    if (wanted & 2) leave(order, turn.face, t.after, turn.spread[i].right(w.window), w.source);
   }
 }
 

@@ -13,7 +13,7 @@
 #include "propagate/windows/bucket_ring.hpp"
 #include "propagate/windows/entered_triangle.hpp"
 #include "propagate/windows/node_orders.hpp"
-#include "propagate/windows/overlay.hpp"
+#include "propagate/windows/gather.hpp"
 #include "propagate/windows/pseudo_source.hpp"
 #include "propagate/windows/spread.hpp"
 #include "propagate/windows/vertex_angles.hpp"
@@ -41,8 +41,10 @@ class MergedWindows {
   /// `mesh` and `angles` must outlive this.
   MergedWindows(const TriangleMesh<Real>& mesh, const VertexAngles& angles);
 
-  /// The sources must be checked. Throws Cancelled as the progress callback says.
-  void solve(std::span<const PointSource> sources, const PropagateOptions& options,
+  /// The sources must be checked. Throws Cancelled as the progress callback says. False, and no
+  /// result, where merging does not pay: among needles windows do not become fewer, and what comes
+  /// out is no good.
+  [[nodiscard]] bool solve(std::span<const PointSource> sources, const PropagateOptions& options,
              const MergeLimit& limit);
 
   /// Afterwards, by the numbers inside, in mean edges; +inf where unreached.
@@ -78,38 +80,46 @@ class MergedWindows {
     Index next;
   };
 
+  /// One halfedge's turn: what its windows come to on the triangle's other edges, worked out before
+  /// vertices are looked at.
+  struct Turn {
+    Index face;
+    EnteredTriangle<Real> triangle;
+    Gathered<Real> windows;
+    std::array<Spread<Real>, Overlay<Real>::most> spread;
+    Real to_apex;      ///< straight; +inf where the apex lies in shadow as far as these windows know
+    std::size_t seen;  ///< from this window
+  };
+  /// So many are worked out together: each waits for its roots while the others go on.
+  static constexpr std::size_t together = 4;
+  enum class Outcome { done, stopped, too_much };
+
   template <class Order>
-  bool run(Order& order, const PropagateOptions& options);
+  Outcome run(Order& order, const PropagateOptions& options);
   template <class Order>
   void seed(Order& order, std::span<const PointSource> sources);
   template <class Order>
   bool fill_holes(Order& order);
+  void prepare(Turn& turn, Index halfedge);
   template <class Order>
-  void expand(Order& order, Index halfedge);
+  void commit(Order& order, const Turn& turn);
   template <class Order>
   void shine(Order& order, Index vertex);
   template <class Order>
   void leave(Order& order, Index f, std::size_t edge, const Window<Real>& window, Index source);
+  template <class Order>
+  void leave_special(Order& order, Index f, std::size_t edge, const Window<Real>& window,
+                     Index source);
   template <class Order>
   void enter(Order& order, Index across, const Window<Real>& window, Index source);
   template <class Order>
   void offer(Order& order, Index vertex, Real distance, Index corner, Towards<Real> from,
              Index source, Real error);
   template <class Order>
-  Real offer_around(Order& order, const EnteredTriangle<Real>& t, Index corner, Real end,
-                    Real at_end, Index source, Real error);
-  template <class Order>
   void push(Order& order, Index what, Real near);
 
-  template <class Order>
-  void expand(Order& order, Index f, const EnteredTriangle<Real>& t, const Window<Real>& window,
-              Index source);
-  template <class Order>
-  void expand_list(Order& order, Index f, const EnteredTriangle<Real>& t);
-  void gather(const Block& block, Real length);
-  void take(Labelled<Real> added, Real length);
+  void gather(Gathered<Real>& windows, const Block& block, Real length) const;
   void make_room(Block& block, Real length);
-  [[nodiscard]] bool joined(const Labelled<Real>& u, const Labelled<Real>& w, Real length) const;
   void fetch(Index what) const;
   void set_scale(double distance);
   [[nodiscard]] Real near(Index what) const;
@@ -121,7 +131,7 @@ class MergedWindows {
   MergeLimit limit_;
   bool labels_ = false;
   Real scale_ = 0;  ///< the limit for an edge of length 1, at the distance in turn
-  Real radius_ = 0, slack_ = 0;
+  Real radius_ = 0;
 
   std::vector<Real> excess_;  ///< of each vertex, as VertexAngles has it
   std::vector<Vertex> vertices_;
@@ -132,7 +142,8 @@ class MergedWindows {
   std::vector<Entry> entries_;
   std::vector<Index> corners_;
   Index free_block_ = none, free_entry_ = none;
-  Overlay<Real> list_;
+  Gathered<Real> crowd_;  ///< of a block that is full
+  std::array<Turn, together> turns_;
   bool complete_ = true;
   PropagateStatistics statistics_;
   NearestOfAll nearest_;
