@@ -37,20 +37,25 @@ struct EnteredTriangle {
 
   EnteredTriangle() = default;
   template <class Stored>
-  [[gnu::always_inline]] EnteredTriangle(const TriangleRecord<Stored>& t, std::size_t edge)
-      : in(edge),
-        before(edge_before(edge)),
-        after(edge_after(edge)),
-        a(t.corner[in]),
-        b(t.corner[after]),
-        p(t.corner[before]),
-        width(t.length[in]),
-        left(t.length[before]),
-        right(t.length[after]),
-        cos_a(t.cosine[in]),
-        sin_a(t.sine(in)),
-        cos_b(t.cosine[after]),
-        sin_b(t.sine(after)) {
+  EnteredTriangle(const TriangleRecord<Stored>& t, std::size_t edge) {
+    enter(t, edge);
+  }
+
+  template <class Stored>
+  [[gnu::always_inline]] void enter(const TriangleRecord<Stored>& t, std::size_t edge) {
+    in = edge;
+    before = edge_before(edge);
+    after = edge_after(edge);
+    a = t.corner[in];
+    b = t.corner[after];
+    p = t.corner[before];
+    width = t.length[in];
+    left = t.length[before];
+    right = t.length[after];
+    cos_a = t.cosine[in];
+    sin_a = t.sine(in);
+    cos_b = t.cosine[after];
+    sin_b = t.sine(after);
     // From the nearer end: thin triangles keep their short edge that way.
     const bool from_a = left <= right;
     apex_x = from_a ? left * cos_a : width - right * cos_b;

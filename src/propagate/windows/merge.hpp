@@ -33,21 +33,19 @@ struct Window {
 /// No source of merged windows lies farther away, in mean edges: single precision would lose it.
 inline constexpr int farthest_merged = 300;
 
-/// Makes one window of two neighbours: the source that gives the same distances at both far ends
-/// and where the two meet. False where they do not fit: where the
-/// middles of the two would come to be off by more than `limit`.
+/// Makes one window of two neighbours, in place of the first: its source gives the same distances
+/// at both far ends and where the two meet. False, and nothing done, where they do not fit: where
+/// the new one would be off by more than `limit` at one of the places looked at.
 ///
 /// With r the distance of the new source from the point between, those three conditions are linear
 /// in r. What then remains in the mean (Simpson's rule) is taken off sigma, so that errors have no
 /// sign. A front that is straight or hollow gets the farthest source, and misses the far ends, too.
 template <class Real>
-[[nodiscard]] inline bool merge(const Window<Real>& u, const Window<Real>& w, Real limit,
-                                Window<Real>& merged) {
-  const Real b = (u.beam.end + w.beam.begin) / 2;
-  const Real p = b - u.beam.begin, q = w.beam.end - b;
+[[nodiscard]] inline bool merge(Window<Real>& u, const Window<Real>& w, Real limit) {
+  const Real a = u.beam.begin, b = (u.beam.end + w.beam.begin) / 2, c = w.beam.end;
+  const Real p = b - a, q = c - b;
   const Real by_u = u.at(b), by_w = w.at(b), middle = (by_u + by_w) / 2;
   const Real jump = std::abs(by_u - by_w) / 2;
-  if (!(jump <= limit)) return false;
   const Real rise = u.at_begin - middle, fall = w.at_end - middle;
   const Real bend = p * fall + q * rise;
   const Real most = farthest_merged;
@@ -62,21 +60,25 @@ template <class Real>
   }
   const Real h2 = r * r - x * x;
   if (!(area > 0) || !(h2 > 0)) return false;
-  merged.beam = {b + x, std::sqrt(h2), u.beam.begin, w.beam.end};
-  merged.sigma = middle - r;
-  const Real in_u = b - p / 2, in_w = b + q / 2;
-  const Real miss_u = merged.at(in_u) - u.at(in_u), miss_w = merged.at(in_w) - w.at(in_w);
-  const Real miss_a = fits ? 0 : merged.at(u.beam.begin) - u.at_begin;
-  const Real miss_c = fits ? 0 : merged.at(w.beam.end) - w.at_end;
+  const Real sigma = middle - r;
+  const auto at = [&](Real from_b) {
+    const Real along = from_b - x;
+    return sigma + std::sqrt(along * along + h2);
+  };
+  const Real miss_u = at(-p / 2) - u.at(b - p / 2), miss_w = at(q / 2) - w.at(b + q / 2);
+  const Real miss_a = fits ? 0 : at(-p) - u.at_begin, miss_c = fits ? 0 : at(q) - w.at_end;
   const Real miss =
       std::max({std::abs(miss_u), std::abs(miss_w), jump, std::abs(miss_a), std::abs(miss_c)});
   if (!(miss <= limit)) return false;
   const Real mean = ((4 * miss_u + miss_a) * p + (4 * miss_w + miss_c) * q) / (6 * (p + q));
-  merged.sigma -= mean;
-  merged.at_begin = u.at_begin + miss_a - mean;
-  merged.at_end = w.at_end + miss_c - mean;
   const Real before = std::max(u.error, w.error);
-  merged.error = std::sqrt(before * before + miss * miss);
+  u.beam.x = b + x;
+  u.beam.h = std::sqrt(h2);
+  u.beam.end = c;
+  u.sigma = sigma - mean;
+  u.at_begin += miss_a - mean;
+  u.at_end = w.at_end + miss_c - mean;
+  u.error = std::sqrt(before * before + miss * miss);
   return true;
 }
 

@@ -84,7 +84,7 @@ Real MergedWindows<Real>::near(Index what) const {
 
 template <class Real>
 template <class Order>
-void MergedWindows<Real>::push(Order& order, Index what, Real near) {
+[[gnu::always_inline]] inline void MergedWindows<Real>::push(Order& order, Index what, Real near) {
   Index n = free_entry_;
   if (n == none) {
     n = static_cast<Index>(entries_.size());
@@ -117,41 +117,32 @@ typename MergedWindows<Real>::Outcome MergedWindows<Real>::run(Order& order,
   constexpr std::size_t share = 65536;
   std::size_t report = statistics_.expansions / share * share + share;
   double before = -1;
-  Index n = order.pop(next, near_of);
-  while (n != none) {
-    if (order.distance() != before) set_scale(before = order.distance());
-    std::size_t count = 0;
-    for (;;) {
-      const Index what = entries_[n].what;
-      const bool vertex = (what & bent) != 0;
-      if (vertex && count > 0) break;  // it has its turn after those
-      if (vertex || pending_[what] != none) {
-        if (statistics_.expansions == options.max_expansions) return Outcome::stopped;
-        ++statistics_.expansions;
-      }
+  for (Index n; (n = order.pop(next, near_of)) != none;) {
+    const Index what = entries_[n].what;
+    const bool vertex = (what & bent) != 0;
+    if (!vertex && pending_[what] == none) {  // it had its turn when something nearer came
       entries_[n].next = std::exchange(free_entry_, n);
-      if (vertex)
-        shine(order, what & ~bent);
-      else if (pending_[what] != none)
-        prepare(turns_[count++], what);
-      if (order.peek() == none || count == together) {
-        n = none;
-        break;
-      }
-      n = order.pop(next, near_of);
-      if (const Index after = order.peek(); after != none) fetch(entries_[after].what);
+      continue;
     }
-    for (std::size_t i = 0; i < count; ++i) commit(order, turns_[i]);
-    if (statistics_.expansions >= report) {
-      report += share;
-      if (options.progress &&
-          !options.progress({statistics_.expansions, statistics_.reached_simplices,
-                             mesh_.face_count(), order.distance() * mesh_.unit()}))
-        throw Cancelled("cancelled by the progress callback");
-      if (statistics_.expansions > patience * 3 * mesh_.face_count() + share)
-        return Outcome::too_much;
+    if (statistics_.expansions == options.max_expansions) return Outcome::stopped;
+    ++statistics_.expansions;
+    entries_[n].next = std::exchange(free_entry_, n);
+    if (const Index after = order.peek(); after != none) fetch(entries_[after].what);
+    if (order.distance() != before) set_scale(before = order.distance());
+    if (vertex) {
+      shine(order, what & ~bent);
+    } else {
+      prepare(turn_, what);
+      commit(order, turn_);
     }
-    if (n == none) n = order.pop(next, near_of);
+    if (statistics_.expansions < report) continue;
+    report += share;
+    if (options.progress &&
+        !options.progress({statistics_.expansions, statistics_.reached_simplices,
+                           mesh_.face_count(), order.distance() * mesh_.unit()}))
+      throw Cancelled("cancelled by the progress callback");
+    if (statistics_.expansions > patience * 3 * mesh_.face_count() + share)
+      return Outcome::too_much;
   }
   return Outcome::done;
 }
@@ -170,9 +161,9 @@ void MergedWindows<Real>::offer(Order& order, Index vertex, Real distance, Index
     push(order, vertex | bent, distance + static_cast<Real>(late));
 }
 
-/// What waits on a halfedge of that length.
+/// All that waits in a block.
 template <class Real>
-void MergedWindows<Real>::gather(Gathered<Real>& windows, const Block& block, Real length) const {
+void MergedWindows<Real>::gather(Gathered<Real>& windows, const Block& block) {
   const std::size_t count = block.count;
   std::array<unsigned, room> rank;
   for (unsigned i = 0; i < count; ++i) {
@@ -181,14 +172,14 @@ void MergedWindows<Real>::gather(Gathered<Real>& windows, const Block& block, Re
       rank[at] = rank[at - 1];
     rank[at] = i;
   }
-  windows.start(length, scale_);
   for (std::size_t i = 0; i < count; ++i)
     windows.take({block.window[rank[i]], block.source[rank[i]]});
 }
 
 template <class Real>
 void MergedWindows<Real>::make_room(Block& block, Real length) {
-  gather(crowd_, block, length);
+  crowd_.start(length, scale_);
+  gather(crowd_, block);
   while (crowd_.size() >= room) crowd_.shorten();
   block.count = static_cast<Index>(crowd_.size());
   for (std::size_t i = 0; i < crowd_.size(); ++i) {
@@ -199,8 +190,9 @@ void MergedWindows<Real>::make_room(Block& block, Real length) {
 
 template <class Real>
 template <class Order>
-void MergedWindows<Real>::enter(Order& order, Index across, const Window<Real>& window,
-                                Index source) {
+[[gnu::always_inline]] inline void MergedWindows<Real>::enter(Order& order, Index across,
+                                                              const Window<Real>& window,
+                                                              Index source) {
   const Index halfedge = across >> Across::face_shift << 2 | (across & Across::edge_mask);
   const Real near = window.nearest();
   Index b = pending_[halfedge];
@@ -235,8 +227,10 @@ void MergedWindows<Real>::enter(Order& order, Index across, const Window<Real>& 
 /// the other side.
 template <class Real>
 template <class Order>
-inline void MergedWindows<Real>::leave(Order& order, Index f, std::size_t edge,
-                                       const Window<Real>& window, Index source) {
+[[gnu::always_inline]] inline void MergedWindows<Real>::leave(Order& order, Index f,
+                                                              std::size_t edge,
+                                                              const Window<Real>& window,
+                                                              Index source) {
   const Index across = triangles_[f].across[edge];
   if (across >> Across::face_shift == mesh_.face_count()) return;
   if (across & Across::special) [[unlikely]]
@@ -267,17 +261,20 @@ template <class Order>
 }
 
 template <class Real>
-void MergedWindows<Real>::prepare(Turn& turn, Index halfedge) {
+[[gnu::always_inline]] inline void MergedWindows<Real>::prepare(Turn& turn, Index halfedge) {
   const Index b = std::exchange(pending_[halfedge], none);
   Block& block = blocks_[b];
   turn.face = halfedge >> 2;
-  const EnteredTriangle<Real>& t = turn.triangle =
-      EnteredTriangle<Real>(triangles_[turn.face], halfedge & 3);
+  const EnteredTriangle<Real>& t = turn.triangle;
+  turn.triangle.enter(triangles_[turn.face], halfedge & 3);
   Gathered<Real>& windows = turn.windows;
-  if (block.nearest > radius_)
-    windows.clear();
+  windows.start(t.width, scale_);
+  if (block.count == 1)
+    windows.append({block.window[0], block.source[0]});
   else
-    gather(windows, block, t.width);
+    gather(windows, block);
+  if (block.nearest > radius_) [[unlikely]]
+    windows.clear();
   block.count = std::exchange(free_block_, b);
 
   turn.to_apex = infinity<Real>;
@@ -286,7 +283,8 @@ void MergedWindows<Real>::prepare(Turn& turn, Index halfedge) {
     if (distance < turn.to_apex) turn.to_apex = distance, turn.seen = i;
   };
   for (std::size_t i = 0; i < windows.size(); ++i) {
-    Spread<Real>& s = turn.spread[i] = Spread<Real>(t, windows[i].window);
+    Spread<Real>& s = turn.spread[i];
+    s.go(t, windows[i].window);
     if (s.left_reaches() && s.right_reaches()) sees(i, s.distance[1]);
     if (i == 0 || !windows.joined(windows[i - 1], windows[i])) continue;
     // No gap opens between joined neighbours: both reach the apex if it lies there and they agree
@@ -324,8 +322,9 @@ void MergedWindows<Real>::commit(Order& order, const Turn& turn) {
   const Index corner = static_cast<Index>(3 * turn.face + t.before);
   if (turn.to_apex < infinity<Real>) {
     const Labelled<Real>& seen = windows[turn.seen];
-    offer(order, t.p, turn.to_apex, corner, t.towards(seen.window.beam.x, seen.window.beam.h),
-          seen.source, seen.window.error);
+    if (turn.to_apex < vertices_[t.p].distance)
+      offer(order, t.p, turn.to_apex, corner, t.towards(seen.window.beam.x, seen.window.beam.h),
+            seen.source, seen.window.error);
   } else {
     // Around the nearest end of what is lit.
     for (std::size_t i = 0; i < windows.size(); ++i) {
@@ -429,7 +428,10 @@ void MergedWindows<Real>::seed(Order& order, std::span<const PointSource> source
 template <class Real>
 template <class Order>
 bool MergedWindows<Real>::fill_holes(Order& order) {
-  if (radius_ < infinity<Real>) return false;
+  if (radius_ < infinity<Real> ||
+      std::all_of(vertices_.begin(), vertices_.end(),
+                  [](const Vertex& v) { return v.distance < infinity<Real>; }))
+    return false;
   bool any = false;
   for (Index f = 0; f < mesh_.face_count(); ++f) {
     const TriangleRecord<Real>& t = triangles_[f];

@@ -12,8 +12,8 @@
 
 #include "propagate/windows/bucket_ring.hpp"
 #include "propagate/windows/entered_triangle.hpp"
-#include "propagate/windows/node_orders.hpp"
 #include "propagate/windows/gather.hpp"
+#include "propagate/windows/node_orders.hpp"
 #include "propagate/windows/pseudo_source.hpp"
 #include "propagate/windows/spread.hpp"
 #include "propagate/windows/vertex_angles.hpp"
@@ -45,7 +45,7 @@ class MergedWindows {
   /// result, where merging does not pay: among needles windows do not become fewer, and what comes
   /// out is no good.
   [[nodiscard]] bool solve(std::span<const PointSource> sources, const PropagateOptions& options,
-             const MergeLimit& limit);
+                           const MergeLimit& limit);
 
   /// Afterwards, by the numbers inside, in mean edges; +inf where unreached.
   [[nodiscard]] Real distance(Index vertex) const { return vertices_[vertex].distance; }
@@ -80,18 +80,16 @@ class MergedWindows {
     Index next;
   };
 
-  /// One halfedge's turn: what its windows come to on the triangle's other edges, worked out before
-  /// vertices are looked at.
+  /// One halfedge's turn: what its windows come to on the triangle's other edges, before vertices
+  /// are looked at.
   struct Turn {
     Index face;
     EnteredTriangle<Real> triangle;
     Gathered<Real> windows;
     std::array<Spread<Real>, Overlay<Real>::most> spread;
-    Real to_apex;      ///< straight; +inf where the apex lies in shadow as far as these windows know
+    Real to_apex;  ///< straight; +inf where the apex lies in shadow as far as these windows know
     std::size_t seen;  ///< from this window
   };
-  /// So many are worked out together: each waits for its roots while the others go on.
-  static constexpr std::size_t together = 4;
   enum class Outcome { done, stopped, too_much };
 
   template <class Order>
@@ -118,7 +116,7 @@ class MergedWindows {
   template <class Order>
   void push(Order& order, Index what, Real near);
 
-  void gather(Gathered<Real>& windows, const Block& block, Real length) const;
+  static void gather(Gathered<Real>& windows, const Block& block);
   void make_room(Block& block, Real length);
   void fetch(Index what) const;
   void set_scale(double distance);
@@ -143,7 +141,7 @@ class MergedWindows {
   std::vector<Index> corners_;
   Index free_block_ = none, free_entry_ = none;
   Gathered<Real> crowd_;  ///< of a block that is full
-  std::array<Turn, together> turns_;
+  Turn turn_;
   bool complete_ = true;
   PropagateStatistics statistics_;
   NearestOfAll nearest_;

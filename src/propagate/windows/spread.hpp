@@ -24,8 +24,7 @@ struct Spread {
   L at;      ///< where the light ends on it; `length` also for rays that leave by the other edge
   L distance;
 
-  Spread() = default;
-  [[gnu::always_inline]] Spread(const EnteredTriangle<Real>& t, const Window<Real>& w) {
+  [[gnu::always_inline]] void go(const EnteredTriangle<Real>& t, const Window<Real>& w) {
     const Beam<Real>& beam = w.beam;
     const Real a = t.width - beam.x;
     const L cosine(t.cos_a, t.cos_a, t.cos_b, t.cos_b), sine(t.sin_a, t.sin_a, t.sin_b, t.sin_b);
