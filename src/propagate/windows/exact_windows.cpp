@@ -37,6 +37,13 @@ constexpr std::size_t patience = 1000;
 /// In mean edges.
 constexpr double bucket_width = 0.5;
 
+Window<double> measured(const Beam<double>& beam, double sigma) {
+  Window<double> window = {beam, sigma, 0, 0, 0};
+  window.begin_at(beam.begin);
+  window.end_at(beam.end);
+  return window;
+}
+
 }  // namespace
 
 template <class Real>
@@ -48,9 +55,11 @@ void ExactWindows<Real>::solve(std::span<const PointSource> sources,
                                const PropagateOptions& options) {
   distance_.assign(mesh_.vertex_count(), infinity);
   arrival_.resize(mesh_.vertex_count());
-  source_.assign(mesh_.vertex_count(), none);
+  labels_ = sources.size() > 1;
+  if (labels_) source_.resize(mesh_.vertex_count());
   split_.assign(3 * mesh_.face_count(), {infinity, 0});
   nodes_.clear();
+  node_source_.clear();
   free_ = none;
   complete_ = true;
   statistics_ = {};
@@ -88,7 +97,7 @@ template <class Real>
 template <class Order>
 void ExactWindows<Real>::run(Order& order, const PropagateOptions& options) {
   const auto next = [this](Index n) -> Index& { return nodes_[n].next; };
-  const auto near = [this](Index n) { return nodes_[n].near; };
+  const auto near = [this](Index n) { return nearest(nodes_[n]); };
   constexpr std::size_t share = 65536;
   for (;;) {
     if (statistics_.expansions >= options.max_expansions) {
@@ -106,32 +115,54 @@ void ExactWindows<Real>::run(Order& order, const PropagateOptions& options) {
     if (n == none) return;
     ++statistics_.expansions;
     const Node node = nodes_[n];
-    nodes_[n].next = free_;
-    free_ = n;
-    if (node.edge == none)
-      shine(order, node.source);
+    nodes_[n].next = std::exchange(free_, n);
+    if (node.edge & vertex_bit)
+      shine(order, node.edge & ~vertex_bit);
     else
-      expand(order, node);
+      expand(order, node, labels_ ? node_source_[n] : 0);
   }
 }
 
 template <class Real>
-Index ExactWindows<Real>::allot() {
-  if (free_ == none) {
-    nodes_.emplace_back();
-    return static_cast<Index>(nodes_.size() - 1);
-  }
-  return std::exchange(free_, nodes_[free_].next);
+double ExactWindows<Real>::nearest(const Node& node) {
+  const Beam<double>& beam = node.beam;
+  const bool across = !(node.edge & vertex_bit) && beam.begin < beam.x && beam.x < beam.end;
+  return across ? node.sigma + beam.h : std::min(node.at_begin, node.at_end);
 }
 
 template <class Real>
-bool ExactWindows<Real>::trim(Beam<double>& beam, double length, double to_first, double to_second,
-                              double sigma) const {
-  const double way = rounding(sigma + std::abs(beam.x) + beam.h);
-  const double low = served_from_end(beam.x, beam.h, to_first + way - sigma);
-  const double high = length - served_from_end(length - beam.x, beam.h, to_second + way - sigma);
-  if (low > beam.begin) beam.begin = low;
-  if (high < beam.end) beam.end = high;
+template <class Order>
+void ExactWindows<Real>::push(Order& order, const Node& node, double near, Index source) {
+  Index n = free_;
+  if (n == none) {
+    n = static_cast<Index>(nodes_.size());
+    nodes_.push_back(node);
+    if (labels_) node_source_.push_back(source);
+  } else {
+    free_ = nodes_[n].next;
+    nodes_[n] = node;
+    if (labels_) node_source_[n] = source;
+  }
+  order.push(n, near, [this](Index i) -> Index& { return nodes_[i].next; });
+}
+
+template <class Real>
+bool ExactWindows<Real>::trim(Window<double>& w, double length, double to_first,
+                              double to_second) const {
+  Beam<double>& beam = w.beam;
+  const double way = rounding(w.at_end);
+  to_first += way;
+  to_second += way;
+  if (to_first + beam.end <= w.at_end || to_second + (length - beam.begin) <= w.at_begin)
+    return false;
+  if (to_first + beam.begin < w.at_begin) {
+    const double low = served_from_end(beam.x, beam.h, to_first - w.sigma);
+    if (low > beam.begin) beam.begin = low;
+  }
+  if (to_second + (length - beam.end) < w.at_end) {
+    const double high = length - served_from_end(length - beam.x, beam.h, to_second - w.sigma);
+    if (high < beam.end) beam.end = high;
+  }
   return beam.begin < beam.end;
 }
 
@@ -141,49 +172,42 @@ void ExactWindows<Real>::offer(Order& order, Index vertex, double distance,
                                const Arrival<double>& arrival, Index source) {
   if (!(distance < distance_[vertex])) return;
   distance_[vertex] = distance;
-  source_[vertex] = source;
+  if (labels_) source_[vertex] = source;
   arrival_[vertex] = arrival;
   ++statistics_.updates;
   if (arrival.corner != none && !(angles_.excess(vertex) > Rounding<Real>::excess)) return;
-  const Index n = allot();
-  nodes_[n] = {{}, 0, distance, none, vertex, none};
-  order.push(n, distance, [this](Index i) -> Index& { return nodes_[i].next; });
+  push(order, {{}, 0, distance, distance, vertex | vertex_bit, none}, distance, source);
 }
 
 template <class Real>
 template <class Order>
-void ExactWindows<Real>::enter(Order& order, Index across, const Beam<double>& beam, double sigma,
+void ExactWindows<Real>::enter(Order& order, Index across, const Window<double>& w, Index source) {
+  const Index edge = across >> Across::face_shift << 2 | (across & Across::edge_mask);
+  __builtin_prefetch(&triangles_[edge >> 2]);
+  push(order, {w.beam, w.sigma, w.at_begin, w.at_end, edge, none}, w.nearest(), source);
+}
+
+template <class Real>
+template <class Order>
+void ExactWindows<Real>::leave(Order& order, Index f, std::size_t edge, const Window<double>& w,
                                Index source) {
-  const double foot = std::clamp(beam.x, beam.begin, beam.end) - beam.x;
-  const double near = sigma + std::sqrt(foot * foot + beam.h * beam.h);
-  const Index n = allot();
-  nodes_[n] = {beam,   sigma,
-               near,   across >> Across::face_shift << 2 | (across & Across::edge_mask),
-               source, none};
-  order.push(n, near, [this](Index i) -> Index& { return nodes_[i].next; });
-}
-
-template <class Real>
-template <class Order>
-void ExactWindows<Real>::leave(Order& order, Index f, std::size_t edge, const Beam<double>& beam,
-                               double sigma, Index source) {
   Index across = triangles_[f].across[edge];
   if (across >> Across::face_shift == mesh_.face_count()) return;
   if (!(across & Across::special)) [[likely]] {
-    enter(order, across, beam, sigma, source);
+    enter(order, across, w, source);
     return;
   }
-  const Beam<double> turned = beam.mirrored(static_cast<double>(triangles_[f].length[edge]));
+  const Window<double> turned = w.mirrored(static_cast<double>(triangles_[f].length[edge]));
   bool flip = (across & Across::flip) != 0;
   if (!(across & Across::fan)) {
-    enter(order, across, turned, sigma, source);
+    enter(order, across, turned, source);
     return;
   }
   // All the way around the edge; each turn is told from the one before.
   for (;;) {
     const Index g = across >> Across::face_shift, k = across & Across::edge_mask;
     if (g == f && k == edge) return;
-    enter(order, across, flip ? turned : beam, sigma, source);
+    enter(order, across, flip ? turned : w, source);
     across = triangles_[g].across[k];
     flip ^= !(across & Across::flip);
   }
@@ -191,79 +215,80 @@ void ExactWindows<Real>::leave(Order& order, Index f, std::size_t edge, const Be
 
 template <class Real>
 template <class Order>
-void ExactWindows<Real>::expand(Order& order, const Node& node) {
+void ExactWindows<Real>::expand(Order& order, const Node& node, Index source) {
   const Index f = node.edge >> 2;
   const EnteredTriangle<double> t(triangles_[f], node.edge & 3);
-  Beam<double> beam = node.beam;
-  const double x = beam.x, h = std::max(beam.h, least_height), sigma = node.sigma;
-  double to_a = distance_[t.a], to_b = distance_[t.b];
-  if (node.near > radius_ || !trim(beam, t.width, to_a, to_b, sigma)) return;
+  Window<double> w = {node.beam, node.sigma, node.at_begin, node.at_end, 0};
+  w.beam.h = std::max(w.beam.h, least_height);
+  const double to_a = distance_[t.a], to_b = distance_[t.b];
+  if (nearest(node) > radius_ || !trim(w, t.width, to_a, to_b)) return;
 
-  // The apex.
-  const double foot = t.foot(x, h), slack = Rounding<Real>::cover * t.width;
-  const double dx = t.apex_x - x, dy = t.apex_h + h;
-  bool go_left = beam.begin<foot, go_right = beam.end> foot;
-  double left_limit = foot, right_limit = foot;  // how far in from the foot
-  if (foot >= beam.begin - slack && foot <= beam.end + slack) {
-    const double way = sigma + std::sqrt(dx * dx + dy * dy);
-    if (way < distance_[t.p])
-      offer(order, t.p, way,
-            {static_cast<Index>(3 * f + t.before), t.apex_h * dy + t.apex_x * dx,
-             t.apex_x * dy - t.apex_h * dx},
-            node.source);
+  // Where the ray to the apex crosses the edge: `across` / `down` from below the source.
+  const double x = w.beam.x, h = w.beam.h;
+  const double across = (t.apex_x - x) * h, down = t.apex_h + h;
+  const double from = (w.beam.begin - x) * down, until = (w.beam.end - x) * down;
+  const double slack = Rounding<Real>::cover * t.width * down;
+  bool go_left = across > from, go_right = across < until;
+  // Up to where light goes left, and from where on right.
+  double left_end = w.beam.end, right_begin = w.beam.begin;
+  double way = infinity;
+  if (across <= until + slack && across >= from - slack) {
+    const double dx = t.apex_x - x;
+    way = w.sigma + std::sqrt(dx * dx + down * down);
+    if (way < distance_[t.p]) {
+      const Towards<double> back = t.towards(x, h);
+      offer(order, t.p, way, {static_cast<Index>(3 * f + t.before), back.along, back.off}, source);
+    }
     // One angle, one split: of two windows that see the apex the one that is farther from it has
     // nothing to say beyond the other's ray.
     Split& best = split_[3 * f + t.in];
+    const double foot = x + across / down;
     if (way < best.distance) best = {way, foot};
     if (way > best.distance + rounding(way)) {
       // What starts between the two rays and crosses the nearer one's is needless. What starts
       // beyond that ray would have crossed it before, or met its source.
       if (foot < best.foot) {
-        if (splits_whole_)
-          go_right = false;
-        else
-          right_limit = best.foot;
+        if (splits_whole_) go_right = false;
+        right_begin = std::max(right_begin, best.foot);
       } else if (foot > best.foot) {
-        if (splits_whole_)
-          go_left = false;
-        else
-          left_limit = best.foot;
+        if (splits_whole_) go_left = false;
+        left_end = std::min(left_end, best.foot);
       }
     }
   }
-  const double to_p = distance_[t.p];
-  const double least = rounding(sigma + std::abs(x) + h);
 
-  // A window ends exactly at the apex where it holds it. Light that enters over AB and meets AP at
-  // some point has crossed the line from B to the first such point: if B reaches that one sooner,
-  // all of it is needless.
-  if (go_left && beam.begin < left_limit) {
-    Beam<double> seen = t.seen_left(x, h);
-    seen.begin = t.onto_left(x, h, beam.begin);
-    if (left_limit < beam.end && left_limit < foot)
-      seen.end = t.onto_left(x, h, left_limit);
-    else if (beam.end < foot)
-      seen.end = t.onto_left(x, h, beam.end);
-    const double u = seen.begin - seen.x;
-    const double px = t.cos_a * t.width - seen.begin, ph = t.sin_a * t.width;
-    const double in = sigma + std::sqrt(u * u + seen.h * seen.h) - to_b - least;
-    const bool behind = in > 0 && px * px + ph * ph < in * in;
-    if (!behind && trim(seen, t.left, to_a, to_p, sigma))
-      leave(order, f, t.before, seen, sigma, node.source);
+  const double to_p = distance_[t.p], least = rounding(w.at_end);
+  // One side, measured from its pivot: from the ray through a point of AB to that through another,
+  // or to the apex. `to_other`: the vertex that lies behind.
+  const auto go = [&](const Beam<double>& seen, double near, double far, bool to_apex,
+                      double to_pivot, double to_other, double cosine, double sine,
+                      Window<double>& child) {
+    child = {{seen.x, std::max(seen.h, 0.), near, to_apex ? seen.end : far}, w.sigma, 0, 0, 0};
+    Beam<double>& beam = child.beam;
+    if (!(beam.begin < beam.end)) return false;
+    child.at_end = to_apex && way < infinity ? way : child.at(beam.end);
+    if (to_pivot + beam.end + least < child.at_end) return false;
+    child.at_begin = child.at(beam.begin);
+    if (to_p + (seen.end - beam.begin) + least < child.at_begin) return false;
+    // Light that enters over AB and meets this edge at some point has crossed the line from the
+    // other vertex to the first such point: if that vertex reaches it sooner, all is needless.
+    const double along = cosine * t.width - near, off = sine * t.width;
+    const double in = child.at_begin - to_other - least;
+    return !(in > 0 && along * along + off * off < in * in);
+  };
+  Window<double> child;
+  if (go_left && w.beam.begin < left_end) {
+    const bool to_apex = across <= (left_end - x) * down;
+    if (go(t.seen_left(x, h), t.onto_left(x, h, w.beam.begin),
+           to_apex ? 0 : t.onto_left(x, h, left_end), to_apex, to_a, to_b, t.cos_a, t.sin_a, child))
+      leave(order, f, t.before, child, source);
   }
-  if (go_right && beam.end > right_limit) {
-    Beam<double> seen = t.seen_right(x, h);
-    seen.begin = t.onto_right(x, h, beam.end);
-    if (right_limit > beam.begin && right_limit > foot)
-      seen.end = t.onto_right(x, h, right_limit);
-    else if (beam.begin > foot)
-      seen.end = t.onto_right(x, h, beam.begin);
-    const double u = seen.begin - seen.x;
-    const double px = t.cos_b * t.width - seen.begin, ph = t.sin_b * t.width;
-    const double in = sigma + std::sqrt(u * u + seen.h * seen.h) - to_a - least;
-    const bool behind = in > 0 && px * px + ph * ph < in * in;
-    if (!behind && trim(seen, t.right, to_b, to_p, sigma))
-      leave(order, f, t.after, seen.mirrored(t.right), sigma, node.source);
+  if (go_right && right_begin < w.beam.end) {
+    const bool to_apex = across >= (right_begin - x) * down;
+    if (go(t.seen_right(x, h), t.onto_right(x, h, w.beam.end),
+           to_apex ? 0 : t.onto_right(x, h, right_begin), to_apex, to_b, to_a, t.cos_b, t.sin_b,
+           child))
+      leave(order, f, t.after, child.mirrored(t.right), source);
   }
 }
 
@@ -272,15 +297,15 @@ template <class Order>
 void ExactWindows<Real>::shine(Order& order, Index vertex) {
   const double sigma = distance_[vertex];
   if (sigma > radius_) return;
-  const Index source = source_[vertex];
+  const Index source = this->source(vertex);
   const Arrival<double> arrival = arrival_[vertex];
   const VertexAngles::Kind kind = angles_.kind[vertex];
   const auto lit = [&](const Lit& part) {
     const TriangleRecord<Real>& t = triangles_[part.face];
     const Beam<double> beam = {static_cast<double>(t.apex_x(part.edge)),
                                static_cast<double>(t.apex_h(part.edge)), part.begin, part.end};
-    leave(order, part.face, part.edge, beam.mirrored(static_cast<double>(t.length[part.edge])),
-          sigma, source);
+    leave(order, part.face, part.edge,
+          measured(beam.mirrored(static_cast<double>(t.length[part.edge])), sigma), source);
   };
   const auto along = [&](const FanWalk& walk) {
     const TriangleRecord<Real>& t = triangles_[walk.face];
@@ -325,7 +350,7 @@ void ExactWindows<Real>::seed(Order& order, std::span<const PointSource> sources
       const double length = static_cast<double>(t.length[e]);
       const double x = b[i] * length + b[p] * static_cast<double>(t.apex_x(e));
       const double h = b[p] * static_cast<double>(t.apex_h(e));
-      leave(order, f, e, Beam<double>{x, h, 0, length}.mirrored(length), sigma, number);
+      leave(order, f, e, measured(Beam<double>{x, h, 0, length}.mirrored(length), sigma), number);
       // The corner at the edge's start; the source in the frame of that edge.
       const double back = std::sqrt(x * x + h * h);
       offer(order, t.corner[e], sigma + back, {static_cast<Index>(3 * f + e), x, h}, number);
@@ -346,7 +371,7 @@ bool ExactWindows<Real>::fill_holes(Order& order) {
       for (const auto& [from, to] : {std::pair(e, edge_after(e)), std::pair(edge_after(e), e)}) {
         const Index v = t.corner[from], w = t.corner[to];
         if (distance_[w] < infinity || !(distance_[v] < infinity)) continue;
-        offer(order, w, distance_[v] + static_cast<double>(t.length[e]), {}, source_[v]);
+        offer(order, w, distance_[v] + static_cast<double>(t.length[e]), {}, source(v));
         any = true;
       }
   }
@@ -357,7 +382,7 @@ template <class Real>
 std::size_t ExactWindows<Real>::bytes() const {
   const auto of = [](const auto& v) { return v.capacity() * sizeof(v[0]); };
   return sizeof(*this) + of(distance_) + of(arrival_) + of(source_) + of(split_) + of(nodes_) +
-         of(corners_);
+         of(node_source_) + of(corners_);
 }
 
 template class ExactWindows<float>;

@@ -338,9 +338,10 @@ void MergedWindows<Real>::commit(Order& order, const Turn& turn) {
   }
   const Real to_a = vertices_[t.a].distance, to_b = vertices_[t.b].distance;
   const Real to_p = vertices_[t.p].distance;
+  using L = typename Spread<Real>::L;
   for (std::size_t i = 0; i < windows.size(); ++i) {
     const Labelled<Real>& w = windows[i];
-    const int wanted = turn.spread[i].wanted(to_a, to_b, to_p, scale_);
+    const int wanted = turn.spread[i].wanted(to_a, to_b, to_p, L(scale_) * turn.spread[i].length);
     if (wanted & 1) leave(order, turn.face, t.before, turn.spread[i].left(w.window), w.source);
     if (wanted & 2) leave(order, turn.face, t.after, turn.spread[i].right(w.window), w.source);
   }

@@ -52,13 +52,12 @@ struct Spread {
   [[nodiscard]] bool right_reaches() const { return !(at[3] < length[3]); }
 
   /// Which sides have light that no vertex makes needless: bits 0 left, 1 right. A side's light is
-  /// needless where its pivot serves the far end as well, or the apex the near end, up to `give`
-  /// for an edge of length 1.
-  [[nodiscard, gnu::always_inline]] int wanted(Real to_a, Real to_b, Real to_p, Real give) const {
+  /// needless where its pivot serves the far end as well by more than `give`, or the apex the near
+  /// end.
+  [[nodiscard, gnu::always_inline]] int wanted(Real to_a, Real to_b, Real to_p, L give) const {
     const L from(to_p + length[0], to_a, to_p + length[2], to_b), way(-1, 1, -1, 1);
     const L other = __builtin_shufflevector(at.v, at.v, 1, 0, 3, 2);
-    const int needless =
-        kernel::lane_bits((from + way * at < distance - L(give) * length) | (at.v == other.v));
+    const int needless = kernel::lane_bits((from + way * at < distance - give) | (at.v == other.v));
     return ((needless & 3) == 0 ? 1 : 0) | ((needless & 12) == 0 ? 2 : 0);
   }
 
