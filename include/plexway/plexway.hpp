@@ -1,0 +1,40 @@
+#pragma once
+
+/// All of the library, but for what the optional providers under complexes/ bring: solve on any
+/// domain, what to do with distances, files and pictures. Link the components that you use.
+#include <plexway/apps/bounded_search.hpp>
+#include <plexway/apps/centroidal_voronoi.hpp>
+#include <plexway/apps/cloud_path_field.hpp>
+#include <plexway/apps/distance_matrix.hpp>
+#include <plexway/apps/evolution.hpp>
+#include <plexway/apps/farthest_points.hpp>
+#include <plexway/apps/isolines.hpp>
+#include <plexway/apps/isosurfaces.hpp>
+#include <plexway/apps/path.hpp>
+#include <plexway/apps/path_field.hpp>
+#include <plexway/apps/path_search.hpp>
+#include <plexway/apps/poisson_disk.hpp>
+#include <plexway/apps/read_out.hpp>
+#include <plexway/apps/tuning.hpp>
+#include <plexway/complex/blocks.hpp>
+#include <plexway/complex/distinct_points.hpp>
+#include <plexway/complex/intrinsic_delaunay.hpp>
+#include <plexway/complex/kuhn_grid.hpp>
+#include <plexway/complex/neighbours.hpp>
+#include <plexway/complex/normals.hpp>
+#include <plexway/complex/smoothing.hpp>
+#include <plexway/error.hpp>
+#include <plexway/executors/gl.hpp>
+#include <plexway/io/edges.hpp>
+#include <plexway/io/field.hpp>
+#include <plexway/io/paths.hpp>
+#include <plexway/io/points.hpp>
+#include <plexway/io/tets.hpp>
+#include <plexway/io/triangles.hpp>
+#include <plexway/metric/edge_lengths.hpp>
+#include <plexway/metric/tensor.hpp>
+#include <plexway/render/image.hpp>
+#include <plexway/render/picture.hpp>
+#include <plexway/render/scene.hpp>
+#include <plexway/solve.hpp>
+#include <plexway/version.hpp>
