@@ -66,6 +66,7 @@ TEST_CASE("the top level is the one agreed on") {
                                         "data",
                                         "docs",
                                         "README.md",
+                                        "CHANGELOG.md",
                                         "cmake",
                                         "bench",
                                         "LICENSE",
