@@ -84,6 +84,7 @@ peers=$bin/bench_cgal
   run peers "$peers" "$@" $effort $exact
   run policy "$bin/bench_policy" "$@" $effort
   run triangulation "$bin/bench_triangulation" "$@" $triangulation $effort
+  run windows "$bin/bench_windows" "$@" $effort
   [ -z "$data" ] || run parity "$bin/bench_parity" "$@"
   run corners "$bin/bench_corners" $corners
   run metrics "$bin/bench_metrics" $metrics

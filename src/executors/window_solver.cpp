@@ -76,8 +76,7 @@ void WindowSolver<Real>::solve(std::span<const PointSource> sources, Accuracy ac
   if (error) error->assign(mesh.vertex_count(), 0);
   const bool merge = accuracy.kind() == Accuracy::Kind::merged;
   if (merge && !state_->merged) state_->merged.emplace(mesh, state_->angles);
-  if (!merge ||
-      !state_->merged->solve(sources, options, windows::merge_limit(accuracy.error()))) {
+  if (!merge || !state_->merged->solve(sources, options, windows::merge_limit(accuracy.error()))) {
     if (!state_->exact) state_->exact.emplace(mesh, state_->angles);
     state_->exact->solve(sources, options);
     state_->read_out(*state_->exact, sources, options, field);

@@ -19,18 +19,17 @@ template <class Real>
 struct Rounding {
   static constexpr double tie = 1e-12;     ///< paths that differ by less are equal, relative
   static constexpr double cover = 1e-9;    ///< by this share of an edge light may miss a vertex
-  static constexpr double excess = 1e-12;  ///< what may be the sum of angles of a flat fan, radians
+  static constexpr double excess = 1e-12;  ///< what the angles of a flat fan may be off, radians
+  static constexpr double shadow = 1e-9;   ///< shadows are made so much wider, radians
 };
 template <>
 struct Rounding<float> {
-  static constexpr double tie = 1e-6, cover = 1e-5, excess = 2e-6;
+  static constexpr double tie = 1e-6, cover = 1e-5, excess = 2e-6, shadow = 1e-5;
 };
 
 /// No source lies nearer to a line of sight's edge than this, in mean edges: one on the edge itself
 /// then lights both of its sides.
 constexpr double least_height = 1e-14;
-/// Shadows are so much wider than they are, in radians.
-constexpr double shadow_slack = 1e-9;
 /// So many windows a triangle, and ties are no longer broken in favour of both: where lengths are
 /// no metric, or nothing has any length, light could go around for ever.
 constexpr std::size_t patience = 1000;
@@ -239,8 +238,10 @@ void ExactWindows<Real>::expand(Order& order, const Node& node, Index source) {
       const Towards<double> back = t.towards(x, h);
       offer(order, t.p, way, {static_cast<Index>(3 * f + t.before), back.along, back.off}, source);
     }
-    // One angle, one split: of two windows that see the apex the one that is farther from it has
-    // nothing to say beyond the other's ray.
+  }
+  // One angle, one split: of two windows that see the apex the one that is farther from it has
+  // nothing to say beyond the other's ray. Not so one that only just misses it.
+  if (across <= until && across >= from) {
     Split& best = split_[3 * f + t.in];
     const double foot = x + across / down;
     if (way < best.distance) best = {way, foot};
@@ -321,7 +322,8 @@ void ExactWindows<Real>::shine(Order& order, Index vertex) {
     mesh_.corners_at(vertex, corners_);
     pseudo_source_.shine_all(corners_, lit, along);
   } else {
-    pseudo_source_.shine(arrival, kind == VertexAngles::boundary, {1, shadow_slack}, lit, along);
+    pseudo_source_.shine(arrival, kind == VertexAngles::boundary, {1, Rounding<Real>::shadow}, lit,
+                         along);
   }
 }
 
@@ -358,22 +360,26 @@ void ExactWindows<Real>::seed(Order& order, std::span<const PointSource> sources
   }
 }
 
-/// Light that rounding lost, or that fell on nothing with an area: triangles that have a reached
-/// corner and another that is not. False if there is none.
+/// Light that rounding lost, or that fell on nothing with an area: vertices that are farther than
+/// along an edge from a neighbour. False if there is none.
 template <class Real>
 template <class Order>
 bool ExactWindows<Real>::fill_holes(Order& order) {
   if (radius_ < infinity) return false;
   bool any = false;
+  const auto look = [&](Index v, Index w, double length) {
+    const double way = distance_[v] + length;
+    if (!(way + std::abs(rounding(way)) < distance_[w])) return;
+    offer(order, w, way, {}, source(v));
+    any = true;
+  };
   for (Index f = 0; f < mesh_.face_count(); ++f) {
     const TriangleRecord<Real>& t = triangles_[f];
-    for (std::size_t e = 0; e < 3; ++e)
-      for (const auto& [from, to] : {std::pair(e, edge_after(e)), std::pair(edge_after(e), e)}) {
-        const Index v = t.corner[from], w = t.corner[to];
-        if (distance_[w] < infinity || !(distance_[v] < infinity)) continue;
-        offer(order, w, distance_[v] + static_cast<double>(t.length[e]), {}, source(v));
-        any = true;
-      }
+    for (std::size_t e = 0; e < 3; ++e) {
+      const Index v = t.corner[e], w = t.corner[edge_after(e)];
+      look(v, w, static_cast<double>(t.length[e]));
+      look(w, v, static_cast<double>(t.length[e]));
+    }
   }
   return any;
 }
