@@ -14,25 +14,6 @@
 
 namespace plexway {
 
-/// Squared distances, in the unit inside, of a point from the corners of a record, by its
-/// barycentric coordinates there: sum b_j l_ij^2 - sum b_j b_k l_jk^2.
-template <class Real, int N>
-std::array<double, N + 1> corner_distances2(const SimplexRecord<Real, N>& record,
-                                            std::span<const double, N + 1> b) {
-  using Layout = SimplexLayout<N>;
-  std::array<double, N + 1> distance2{};
-  double inner = 0;
-  for (std::size_t j = 0; j <= N; ++j)
-    for (std::size_t k = 0; k < j; ++k) {
-      const double l2 = static_cast<double>(record.length2[Layout::edge(k, j)]);
-      inner += b[j] * b[k] * l2;
-      distance2[j] += b[k] * l2;
-      distance2[k] += b[j] * l2;
-    }
-  for (double& d : distance2) d = std::max(d - inner, 0.);
-  return distance2;
-}
-
 /// A source that is no vertex, N < 4: its coordinates by the corners of the record.
 template <class Real, int N>
 std::array<double, N + 1> inside_coordinates(const SimplicialComplex<Real, N>& domain, Index inside,
@@ -78,8 +59,7 @@ class SimplexPropagation {
         if (holds) b_there[static_cast<std::size_t>(at - std::begin(there))] = b[i];
       }
       if (!holds) continue;
-      const auto distance2 = corner_distances2<Real, N>(domain_.records()[c / sides], b_there);
-      rule_.seed_inside(c / sides, distance2, sigma, number);
+      rule_.seed_inside(c / sides, b_there, sigma, number);
     }
   }
 

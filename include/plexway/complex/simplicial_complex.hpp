@@ -2,10 +2,12 @@
 
 #include <array>
 #include <cstddef>
+#include <memory>
 #include <span>
 #include <vector>
 
 #include <plexway/complex/ids.hpp>
+#include <plexway/complex/simplex_flat.hpp>
 #include <plexway/complex/simplex_record.hpp>
 
 namespace plexway {
@@ -22,6 +24,8 @@ struct SimplicialSummary {
   std::size_t degenerate_simplices = 0;   ///< no volume
   std::size_t violated_simplices = 0;     ///< no flat simplex has these lengths
   std::size_t components = 0;             ///< of simplices joined by vertices
+  bool flat = false;               ///< lies in R^N, N its dimension, and does not overlap itself
+  std::size_t bending_faces = 0;   ///< if so: where paths around obstacles bend
   double mean_edge = 0;  ///< in the input's unit; the library works in this unit inside
 };
 
@@ -85,11 +89,14 @@ class SimplicialComplex {
   }
   /// Vertices (inside) where parts only touch, ascending.
   [[nodiscard]] std::span<const Index> pinched() const { return pinched_; }
+  /// Points and bending faces, if the complex is flat; else nullptr.
+  [[nodiscard]] const FlatDomain<N>* flat() const { return flat_.get(); }
 
  private:
   void assemble(std::size_t vertices, std::span<const Corners> simplices,
                 std::vector<Lengths> lengths);
   void find_stars(std::size_t vertices);
+  void lay_flat(std::span<const double> positions);
 
   SimplicialSummary summary_;
   std::vector<Record> records_;
@@ -97,6 +104,7 @@ class SimplicialComplex {
   std::vector<Index> star_begin_, corners_;
   std::vector<unsigned char> places_;  // N < 4: where the caller's corners went, two bits each
   std::vector<Index> pinched_;
+  std::shared_ptr<const FlatDomain<N>> flat_;
 };
 
 }  // namespace plexway

@@ -1,0 +1,295 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+
+#include <plexway/complex/simplex_flat.hpp>
+#include <plexway/propagate/simplex_taut.hpp>
+
+namespace plexway {
+
+/// A path in a flat domain as a string from a source over bends to an end, changed in such a way
+/// that it never leaves the domain.
+///
+/// All changes are one: two legs A-B-C are exchanged for a way from A to C within their triangle.
+/// What is not domain can come into a triangle with two free sides only over the third, so either
+/// that side is free, or the triangle holds points of bending faces, and the shortest way is along
+/// their convex hull with A and C. A bend is dropped so, moved along its face (two triangles), and
+/// the end of the string goes from one place to another. So every string that comes out is a path:
+/// no simplex is walked through, and a search among the faces takes the place of that.
+///
+/// Bends are held a little off their faces (FlatDomain::clearance), so that what lies beside a
+/// string and what it has passed can be told apart by the signs of areas; lengths are those of the
+/// string on the faces themselves.
+template <int N>
+class SimplexString {
+ public:
+  using Point = std::array<double, N>;
+  using Along = typename BendingFace<N>::Along;
+
+  struct Node {
+    Index face;   ///< none: the source, the end, or a point on the way
+    bool placed;  ///< on its face; not so where a bend was just found
+    Along along;
+    Point at;     ///< where the string is held
+    Point sharp;  ///< where it is measured
+  };
+
+  enum class Pulled {
+    taut,
+    longer,  ///< than the limit
+    stuck,   ///< it needs more bends or changes than there is room for
+  };
+
+  explicit SimplexString(const FlatDomain<N>& domain) : domain_(domain) {}
+
+  void start(const Point& at, const Point& sharp) {
+    node_[0] = {none, true, {}, at, sharp};
+    count_ = 1;
+  }
+  void add_bend(Index face, const Along& along) {
+    const BendingFace<N>& f = domain_.faces[face];
+    node_[count_++] = {face, true, along, domain_.held(f, along), f.at(along)};
+  }
+  void add_point(const Point& at, const Point& sharp) {
+    node_[count_++] = {none, true, {}, at, sharp};
+  }
+  [[nodiscard]] std::size_t count() const { return count_; }
+  [[nodiscard]] std::size_t bends() const { return count_ - 2; }
+  [[nodiscard]] const Node& operator[](std::size_t i) const { return node_[i]; }
+
+  [[nodiscard]] double length() const {
+    double sum = 0;
+    for (std::size_t i = 1; i < count_; ++i) sum += distance_of(node_[i - 1].sharp, node_[i].sharp);
+    return sum;
+  }
+
+  /// Takes out the point before the end, which must be one that is no bend, and pulls the string
+  /// taut.
+  Pulled pull(double limit) {
+    if (!cut(count_ - 2)) return Pulled::stuck;
+    for (int changes = 0; changes < most_changes; ++changes) {
+      if (!drop_slack()) return Pulled::stuck;
+      if (bends() > 0) {
+        Taut<N> taut(domain_);
+        taut.start(node_[0].sharp, node_[count_ - 1].sharp);
+        for (std::size_t i = 1; i + 1 < count_; ++i) taut.add(node_[i].face, node_[i].along);
+        if (taut.solve() > limit) return Pulled::longer;
+        if (!place(taut)) return Pulled::stuck;
+        if (!settled()) continue;
+      }
+      return length() > limit ? Pulled::longer : Pulled::taut;
+    }
+    return Pulled::stuck;
+  }
+  /// Nothing but a search: does the triangle hold no point of a bending face?
+  [[nodiscard]] bool is_clear(const Point& a, const Point& b, const Point& c) {
+    find(a, b, c);
+    return found_ == 0;
+  }
+
+ private:
+  static constexpr std::size_t room = 16, most_found = 48;
+  static constexpr int most_changes = 24;
+
+  struct Found {
+    double x, y;  // in the triangle: shares of C and of B
+    Index face;
+  };
+
+  /// Moves the bends to their places, one after another.
+  bool place(const Taut<N>& taut) {
+    std::size_t i = 1;
+    for (std::size_t k = 0, bends = count_ - 2; k < bends; ++k) {
+      const BendingFace<N>& face = domain_.faces[node_[i].face];
+      const Along& along = taut.along(k);
+      const std::size_t behind = count_ - (i + 1);  // others may come in on both sides
+      if (!move(i, domain_.held(face, along))) return false;
+      node_[i].along = along;
+      node_[i].sharp = face.at(along);
+      node_[i].placed = true;
+      i = count_ - behind;
+    }
+    return true;
+  }
+
+  [[nodiscard]] bool settled() {
+    for (std::size_t i = 1; i + 1 < count_; ++i)
+      if (!node_[i].placed || !turns(i)) return false;
+    return true;
+  }
+  /// Is the string around the face, so that it would be shorter through what is no domain?
+  [[nodiscard]] bool turns(std::size_t i) const {
+    Found found;
+    return pierces(node_[i].face, node_[i - 1].at, node_[i].at, node_[i + 1].at, found);
+  }
+  bool drop_slack() {
+    for (std::size_t i = 1, tries = 0; i + 1 < count_;) {
+      if (turns(i)) {
+        ++i;
+        continue;
+      }
+      if (++tries > 2 * room || !cut(i)) return false;
+      i = i > 1 ? i - 1 : 1;
+    }
+    return true;
+  }
+
+  /// Without node i.
+  bool cut(std::size_t i) {
+    find(node_[i - 1].at, node_[i].at, node_[i + 1].at);
+    return replace(i, i + 1);
+  }
+  /// Node i to another place that it reaches straight; i is then where the node is.
+  bool move(std::size_t& i, const Point& to) {
+    const Point old = node_[i].at;
+    if (distance_of(old, to) <= domain_.rounding) {
+      node_[i].at = to;
+      return true;
+    }
+    // From A-B-C over A-B-to-C, whose last leg is made good in the end.
+    if (count_ == room) return false;
+    std::copy_backward(node_ + i, node_ + count_, node_ + count_ + 1);
+    ++count_;
+    node_[i + 1].at = to;
+    const std::size_t from_end = count_ - (i + 1);
+    if (!cut(i)) return false;
+    i = count_ - from_end;
+    find(to, old, node_[i + 1].at);
+    return replace(i + 1, i + 1);
+  }
+
+  /// Puts the hull of what was found in the place of nodes [begin, end).
+  bool replace(std::size_t begin, std::size_t end) {
+    if (found_ > most_found) return false;
+    const std::size_t kept = found_ == 0 ? 0 : hull();
+    if (count_ + kept > room + (end - begin)) return false;
+    if (kept != end - begin) {
+      if (kept > end - begin)
+        std::copy_backward(node_ + end, node_ + count_, node_ + count_ + kept - (end - begin));
+      else
+        std::copy(node_ + end, node_ + count_, node_ + begin + kept);
+      count_ = count_ + kept - (end - begin);
+    }
+    for (std::size_t k = 0; k < kept; ++k) {
+      const Found& f = candidate_[k];
+      const BendingFace<N>& face = domain_.faces[f.face];
+      Node& node = node_[begin + k];
+      node.face = f.face;
+      node.placed = false;
+      Point p;
+      for (std::size_t d = 0; d < N; ++d)
+        p[d] = a_[d] + f.y * (b_[d] - a_[d]) + f.x * (c_[d] - a_[d]);
+      node.along = face.along_of(p);
+      node.sharp = p;
+      // A little towards B: there the triangle is free.
+      const double way = distance_of(p, b_);
+      const double by = way > 0 ? std::min(domain_.clearance / way, .5) : 0;
+      node.at = plus(p, by, minus(b_, p));
+    }
+    return true;
+  }
+
+  /// The upper hull of what was found, from A to C.
+  std::size_t hull() {
+    std::sort(candidate_, candidate_ + found_, [](const Found& l, const Found& r) {
+      if (l.x != r.x) return l.x < r.x;
+      return l.y != r.y ? l.y < r.y : l.face < r.face;
+    });
+    const Found a = {0, 0, none}, c = {1, 0, none};
+    const auto below = [](const Found& o, const Found& p, const Found& q) {
+      return (p.x - o.x) * (q.y - o.y) - (p.y - o.y) * (q.x - o.x) >= 0;
+    };
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i <= found_; ++i) {
+      const Found next = i < found_ ? candidate_[i] : c;
+      while (kept > 0 && below(kept > 1 ? candidate_[kept - 2] : a, candidate_[kept - 1], next))
+        --kept;
+      if (i < found_) candidate_[kept++] = next;
+    }
+    return kept;
+  }
+
+  /// Points of bending faces in the triangle.
+  void find(const Point& a, const Point& b, const Point& c) {
+    a_ = a, b_ = b, c_ = c;
+    found_ = 0;
+    // The triangle is within the line from a corner to the middle of the side across, widened by
+    // half that side: best with the shortest side.
+    const double ab = square(a, b), bc = square(b, c), ca = square(c, a);
+    const Point& apex = bc <= ab && bc <= ca ? a : ca <= ab ? b : c;
+    const Point& l = &apex == &a ? b : a;
+    const Point& r = &apex == &c ? b : c;
+    Point way, half;
+    for (std::size_t d = 0; d < N; ++d) {
+      way[d] = (l[d] + r[d]) / 2 - apex[d];
+      half[d] = std::abs(l[d] - r[d]) / 2;
+    }
+    const auto meets = [&](const Box<N>& box) {
+      double from = 0, to = 1;
+      for (std::size_t d = 0; d < N; ++d) {
+        const double low = box.low[d] - half[d] - apex[d], high = box.high[d] + half[d] - apex[d];
+        if (std::abs(way[d]) < 1e-300) {
+          if (low > 0 || high < 0) return false;
+          continue;
+        }
+        const double s = low / way[d], t = high / way[d];
+        from = std::max(from, std::min(s, t));
+        to = std::min(to, std::max(s, t));
+      }
+      return from <= to;
+    };
+    domain_.tree.search(meets, [&](Index f) {
+      Found found;
+      if (!pierces(f, a, b, c, found)) return;
+      if (found_ < most_found) candidate_[found_] = found;
+      ++found_;
+    });
+  }
+  static double square(const Point& a, const Point& b) {
+    const Point d = minus(a, b);
+    return inner(d, d);
+  }
+
+  /// Does the triangle meet the face, in one point? Up to rounding, on the side of yes.
+  bool pierces(Index f, const Point& a, const Point& b, const Point& c, Found& found) const {
+    const BendingFace<N>& face = domain_.faces[f];
+    const double slack = domain_.rounding;
+    const double sa = inner(a, face.side) - face.origin_side;
+    const double sb = inner(b, face.side) - face.origin_side;
+    const double sc = inner(c, face.side) - face.origin_side;
+    if (std::min({sa, sb, sc}) > slack || std::max({sa, sb, sc}) < -slack) return false;
+    const double ia = inner(a, face.into) - face.origin_into;
+    const double ib = inner(b, face.into) - face.origin_into;
+    const double ic = inner(c, face.into) - face.origin_into;
+    if (std::min({ia, ib, ic}) > slack || std::max({ia, ib, ic}) < -slack) return false;
+    double at_a = sb * ic - ib * sc, at_b = sc * ia - ic * sa, at_c = sa * ib - ia * sb;
+    const double all = at_a + at_b + at_c;
+    const double sign = all < 0 ? -1 : 1;
+    const auto over = [&](double area, double su, double iu, double sv, double iv) {
+      return area * sign < -slack * (std::abs(su - sv) + std::abs(iu - iv));
+    };
+    if (over(at_a, sb, ib, sc, ic) || over(at_b, sc, ic, sa, ia) || over(at_c, sa, ia, sb, ib))
+      return false;
+    if (std::abs(all) < 1e-30) return false;
+    found = {at_c / all, at_b / all, f};
+    if constexpr (N > 2) {
+      Point p;
+      for (std::size_t d = 0; d < N; ++d)
+        p[d] = a[d] + found.y * (b[d] - a[d]) + found.x * (c[d] - a[d]);
+      if (!domain_.holds(face, face.along_of(p), 16 * slack)) return false;
+    }
+    return true;
+  }
+
+  const FlatDomain<N>& domain_;
+  Node node_[room];
+  std::size_t count_ = 0;
+  Point a_, b_, c_;  // the triangle last searched
+  Found candidate_[most_found];
+  std::size_t found_ = 0;
+};
+
+}  // namespace plexway
