@@ -95,7 +95,7 @@ class SimplexStringRule {
   }
 
   /// The least that the simplices at a vertex have for it, and from which source. Of those whose
-  /// paths came the same way one is asked.
+  /// paths came the same way one is asked, if its path goes on to the vertex over the same faces.
   void read_vertex(Index vertex, Real& distance, Index& source) const {
     double best = infinity;
     constexpr std::size_t most = 12;
@@ -112,8 +112,9 @@ class SimplexStringRule {
                    same_way(front_->label(other), label);
           }))
         continue;
-      const double d = reach(s, c % (N + 1), best);
-      if (count < most) asked[count++] = s;
+      bool bent = false;
+      const double d = reach(s, c % (N + 1), best, &bent);
+      if (!bent && count < most) asked[count++] = s;
       if (d < best) {
         best = d;
         source = front_->source(s);
@@ -243,8 +244,8 @@ class SimplexStringRule {
     return label.centre < known;
   }
 
-  /// Length of the path to corner i, as far as it is below `limit`.
-  [[nodiscard]] double reach(Index s, std::size_t i, double limit) const {
+  /// Length of the path to corner i, as far as it is below `limit`. Has it other bends there?
+  double reach(Index s, std::size_t i, double limit, bool* bent = nullptr) const {
     using Pulled = typename SimplexString<N>::Pulled;
     const Label& label = front_->label(s);
     const Point& at = flat_->positions[records_[s].corner[i]];
@@ -255,12 +256,18 @@ class SimplexStringRule {
     string.add_point(plus(at, flat_->clearance, towards(at, centre(s))), at);
     switch (string.pull(limit - label.sigma)) {
       case Pulled::taut:
+        if (bent) {
+          *bent = string.bends() != label.bends;
+          for (std::size_t k = 0; k < label.bends && !*bent; ++k)
+            *bent = string[k + 1].face != label.face[k];
+        }
         return label.sigma + string.length();
       case Pulled::longer:
         return infinity;
       case Pulled::stuck:
         break;
     }
+    if (bent) *bent = true;
     return label.centre + distance_of(centre(s), at);
   }
 

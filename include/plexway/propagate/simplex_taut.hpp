@@ -219,7 +219,7 @@ class Taut {
   Point from_, to_;
   const Face* face_[most];
   Along along_[most];
-  Point point_[most];
+  Point point_[most] = {};
   bool free_[most];
   std::size_t count_ = 0;
 };
