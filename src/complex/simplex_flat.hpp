@@ -272,6 +272,10 @@ class FlatDomainBuilder {
       boxes.push_back(box);
     }
     domain_->tree = BoxTree<N>(boxes);
+    std::vector<Index>& corners = domain_->corners;
+    for (const Wedge& w : wedges_) corners.insert(corners.end(), w.corner.begin(), w.corner.end());
+    std::sort(corners.begin(), corners.end());
+    corners.erase(std::unique(corners.begin(), corners.end()), corners.end());
   }
 
   /// Keeps the corners of the convex hull, in order, and gives its measure.

@@ -42,20 +42,13 @@ struct Obstacles {
     std::vector<double> positions;
     for (Index v = 0; v < grid.vertex_count(); ++v)
       for (const double x : mapped(grid.position(v))) positions.push_back(x);
-    const auto simplices = grid.simplices([&](const auto& cell) {
-      return std::any_of(blocks.begin(), blocks.end(), [&](const Block& b) {
-        for (std::size_t d = 0; d < N; ++d)
-          if (cell[d] < b.from[d] || cell[d] >= b.to[d]) return false;
-        return true;
-      });
-    });
+    const auto simplices = grid.simplices([&](const auto& cell) { return is_absent(cell); });
     return {positions, N, simplices};
   }
-  /// Is a point inside of a block?
-  [[nodiscard]] bool covers(const Point& p) const {
+  [[nodiscard]] bool is_absent(const std::array<std::size_t, N>& cell) const {
     return std::any_of(blocks.begin(), blocks.end(), [&](const Block& b) {
       for (std::size_t d = 0; d < N; ++d)
-        if (p[d] <= beyond_low(b, d) + 1e-9 || p[d] >= beyond_high(b, d) - 1e-9) return false;
+        if (cell[d] < b.from[d] || cell[d] >= b.to[d]) return false;
       return true;
     });
   }
@@ -63,27 +56,41 @@ struct Obstacles {
     return grid.planes(d)[b.from[d]];
   }
   [[nodiscard]] double high(const Block& b, std::size_t d) const { return grid.planes(d)[b.to[d]]; }
-  // There is nothing to pass between a block and the border of the domain that it stands on.
-  [[nodiscard]] double beyond_low(const Block& b, std::size_t d) const {
-    return low(b, d) - (b.from[d] == 0 ? 1 : 0);
-  }
-  [[nodiscard]] double beyond_high(const Block& b, std::size_t d) const {
-    return high(b, d) + (b.to[d] == grid.cells(d) ? 1 : 0);
+  /// Are all cells at a point absent? (Not between two blocks that touch in a point or an edge.)
+  [[nodiscard]] bool covers(const Point& p) const {
+    constexpr double close = 1e-9;
+    std::array<std::size_t, N> first, last;
+    for (std::size_t d = 0; d < N; ++d) {
+      const std::vector<double>& planes = grid.planes(d);
+      const auto below = std::lower_bound(planes.begin(), planes.end(), p[d] - close);
+      const auto above = std::upper_bound(planes.begin(), planes.end(), p[d] + close);
+      first[d] = static_cast<std::size_t>(std::max(below - planes.begin(), std::ptrdiff_t{1}) - 1);
+      last[d] = static_cast<std::size_t>(
+          std::min(above - planes.begin(), static_cast<std::ptrdiff_t>(planes.size()) - 1));
+    }
+    for (auto cell = first;;) {
+      if (!is_absent(cell)) return false;
+      std::size_t d = 0;
+      while (d < N && ++cell[d] >= last[d]) cell[d] = first[d], ++d;
+      if (d == N) return true;
+    }
   }
   [[nodiscard]] bool sees(const Point& p, const Point& q) const {
-    for (const Block& b : blocks) {
-      double from = 0, to = 1;
-      for (std::size_t d = 0; d < N; ++d) {
-        const double l = beyond_low(b, d) + 1e-9, h = beyond_high(b, d) - 1e-9;
-        const double way = q[d] - p[d];
-        if (std::abs(way) < 1e-14) {
-          if (p[d] <= l || p[d] >= h) from = 2;
-          continue;
-        }
-        from = std::max(from, std::min((l - p[d]) / way, (h - p[d]) / way));
-        to = std::min(to, std::max((l - p[d]) / way, (h - p[d]) / way));
+    std::vector<double> stops = {0, 1};
+    for (std::size_t d = 0; d < N; ++d) {
+      if (std::abs(q[d] - p[d]) < 1e-12) continue;
+      for (const double x : grid.planes(d)) {
+        const double t = (x - p[d]) / (q[d] - p[d]);
+        if (t > 0 && t < 1) stops.push_back(t);
       }
-      if (from < to - 1e-12) return false;
+    }
+    std::sort(stops.begin(), stops.end());
+    for (std::size_t i = 1; i < stops.size(); ++i) {
+      if (stops[i] - stops[i - 1] < 1e-8) continue;
+      Point m;
+      for (std::size_t d = 0; d < N; ++d)
+        m[d] = p[d] + (stops[i] + stops[i - 1]) / 2 * (q[d] - p[d]);
+      if (covers(m)) return false;
     }
     return true;
   }
@@ -141,7 +148,7 @@ class ShortestWays {
     if (obstacles_.sees(source_, target)) return obstacles_.length(source_, target);
     std::vector<std::pair<double, std::size_t>> last;
     for (std::size_t i = 0; i < stop_.size(); ++i)
-      if (obstacles_.sees(stop_[i].at, target))
+      if (distance_[i] < infinity && obstacles_.sees(stop_[i].at, target))
         last.emplace_back(distance_[i] + obstacles_.length(stop_[i].at, target), i);
     std::sort(last.begin(), last.end());
     double best = infinity;

@@ -88,7 +88,8 @@ struct FlatDomain {
   std::vector<Point> centres;    ///< of simplices
   std::vector<BendingFace<N>> faces;
   std::vector<BendingRim<N>> rims;
-  BoxTree<N> tree;   ///< over faces
+  BoxTree<N> tree;             ///< over faces
+  std::vector<Index> corners;  ///< vertices on faces, ascending
   double rounding;   ///< coordinates and what is derived from them are good to this
   double clearance;  ///< bends are held so far off their face, which `rounding` cannot undo
 
@@ -111,9 +112,33 @@ struct FlatDomain {
     }
     return plus(face.at(a), -clearance, face.into);
   }
+  /// From one point to another near a vertex, past the obstacles that meet in the vertex?
+  [[nodiscard]] bool passes_by(const Point& vertex, const Point& from, const Point& to) const {
+    bool free = true;
+    const auto meets = [&](const Box<N>& box) {
+      for (std::size_t d = 0; d < N; ++d)
+        if (vertex[d] < box.low[d] || vertex[d] > box.high[d]) return false;
+      return true;
+    };
+    tree.search(meets, [&](Index f) {
+      const BendingFace<N>& face = faces[f];
+      const auto side = [&](const Point& p) { return inner(p, face.side) - face.origin_side; };
+      const auto into = [&](const Point& p) { return inner(p, face.into) - face.origin_into; };
+      if (std::abs(side(vertex)) > clearance || std::abs(into(vertex)) > clearance ||
+          !holds(face, face.along_of(vertex), clearance))
+        return;
+      const double s = side(from), t = side(to);
+      if ((s > rounding && t > rounding) || (s < -rounding && t < -rounding)) return;
+      const double at = s == t ? std::max(into(from), into(to))
+                               : (into(from) * t - into(to) * s) / (t - s);
+      free = free && at < -rounding;
+    });
+    return free;
+  }
   [[nodiscard]] std::size_t bytes() const {
     const auto of = [](const auto& v) { return v.capacity() * sizeof(v[0]); };
-    return sizeof(*this) + of(positions) + of(centres) + of(faces) + of(rims) + tree.bytes();
+    return sizeof(*this) + of(positions) + of(centres) + of(faces) + of(rims) + of(corners) +
+           tree.bytes();
   }
 };
 

@@ -86,7 +86,7 @@ class SimplexString {
   }
   /// Nothing but a search: does the triangle hold no point of a bending face?
   [[nodiscard]] bool is_clear(const Point& a, const Point& b, const Point& c) {
-    find(a, b, c);
+    find(a, b, c, none, none);
     return found_ == 0;
   }
 
@@ -123,7 +123,8 @@ class SimplexString {
   /// Is the string around the face, so that it would be shorter through what is no domain?
   [[nodiscard]] bool turns(std::size_t i) const {
     Found found;
-    return pierces(node_[i].face, node_[i - 1].at, node_[i].at, node_[i + 1].at, found);
+    return pierces(node_[i].face, node_[i - 1].at, node_[i].at, node_[i + 1].at,
+                   is_near(node_[i].face, i - 1, i + 1), found);
   }
   bool drop_slack() {
     for (std::size_t i = 1, tries = 0; i + 1 < count_;) {
@@ -137,9 +138,14 @@ class SimplexString {
     return true;
   }
 
+  /// A leg keeps its distance from faces but those on which it ends.
+  [[nodiscard]] bool is_near(Index face, std::size_t i, std::size_t j) const {
+    return face != node_[i].face && face != node_[j].face;
+  }
+
   /// Without node i.
   bool cut(std::size_t i) {
-    find(node_[i - 1].at, node_[i].at, node_[i + 1].at);
+    find(node_[i - 1].at, node_[i].at, node_[i + 1].at, node_[i - 1].face, node_[i + 1].face);
     return replace(i, i + 1);
   }
   /// Node i to another place that it reaches straight; i is then where the node is.
@@ -157,7 +163,7 @@ class SimplexString {
     const std::size_t from_end = count_ - (i + 1);
     if (!cut(i)) return false;
     i = count_ - from_end;
-    find(to, old, node_[i + 1].at);
+    find(to, old, node_[i + 1].at, node_[i].face, node_[i + 1].face);
     return replace(i + 1, i + 1);
   }
 
@@ -179,20 +185,29 @@ class SimplexString {
       Node& node = node_[begin + k];
       node.face = f.face;
       node.placed = false;
-      Point p;
-      for (std::size_t d = 0; d < N; ++d)
-        p[d] = a_[d] + f.y * (b_[d] - a_[d]) + f.x * (c_[d] - a_[d]);
+      const Point p = at(a_, b_, c_, f);
       node.along = face.along_of(p);
       node.sharp = p;
-      // A little towards B: there the triangle is free.
-      const double way = distance_of(p, b_);
-      const double by = way > 0 ? std::min(domain_.clearance / way, .5) : 0;
-      node.at = plus(p, by, minus(b_, p));
+      node.at = aside(p, f);
     }
     return true;
   }
 
-  /// The upper hull of what was found, from A to C.
+  /// From a point of the hull away from A-C, where the triangle is free: by a clearance, or half as
+  /// far as the triangle goes.
+  Point aside(const Point& p, const Found& f) const {
+    const Point base = minus(c_, a_);
+    const double share = inner(minus(b_, a_), base) / inner(base, base);
+    const Point up = minus(minus(b_, a_), plus(Point{}, share, base));
+    const double height = std::sqrt(inner(up, up));
+    if (!(height > 0)) return p;
+    double most = domain_.clearance / height;  // of `up`
+    if (share > 0) most = std::min(most, f.x / share / 2);
+    if (share < 1) most = std::min(most, (1 - f.x - f.y) / (1 - share) / 2);
+    return plus(p, std::max(most, 0.), up);
+  }
+
+  /// The upper hull of what was found, from A to C, and what lies on it.
   std::size_t hull() {
     std::sort(candidate_, candidate_ + found_, [](const Found& l, const Found& r) {
       if (l.x != r.x) return l.x < r.x;
@@ -200,7 +215,7 @@ class SimplexString {
     });
     const Found a = {0, 0, none}, c = {1, 0, none};
     const auto below = [](const Found& o, const Found& p, const Found& q) {
-      return (p.x - o.x) * (q.y - o.y) - (p.y - o.y) * (q.x - o.x) >= 0;
+      return (p.x - o.x) * (q.y - o.y) - (p.y - o.y) * (q.x - o.x) > 1e-14;
     };
     std::size_t kept = 0;
     for (std::size_t i = 0; i <= found_; ++i) {
@@ -213,7 +228,7 @@ class SimplexString {
   }
 
   /// Points of bending faces in the triangle.
-  void find(const Point& a, const Point& b, const Point& c) {
+  void find(const Point& a, const Point& b, const Point& c, Index face_a, Index face_c) {
     a_ = a, b_ = b, c_ = c;
     found_ = 0;
     // The triangle is within the line from a corner to the middle of the side across, widened by
@@ -243,7 +258,7 @@ class SimplexString {
     };
     domain_.tree.search(meets, [&](Index f) {
       Found found;
-      if (!pierces(f, a, b, c, found)) return;
+      if (!pierces(f, a, b, c, f != face_a && f != face_c, found)) return;
       if (found_ < most_found) candidate_[found_] = found;
       ++found_;
     });
@@ -253,35 +268,48 @@ class SimplexString {
     return inner(d, d);
   }
 
-  /// Does the triangle meet the face, in one point? Up to rounding, on the side of yes.
-  bool pierces(Index f, const Point& a, const Point& b, const Point& c, Found& found) const {
+  /// Does the triangle A-B-C meet the face, or the way A-C come closer to it than bends are held
+  /// (`near`)? Of two ways out of rounding it takes yes.
+  bool pierces(Index f, const Point& a, const Point& b, const Point& c, bool near,
+               Found& found) const {
     const BendingFace<N>& face = domain_.faces[f];
-    const double slack = domain_.rounding;
+    const double slack = domain_.rounding, margin = near ? domain_.clearance / 4 : slack;
     const double sa = inner(a, face.side) - face.origin_side;
     const double sb = inner(b, face.side) - face.origin_side;
     const double sc = inner(c, face.side) - face.origin_side;
-    if (std::min({sa, sb, sc}) > slack || std::max({sa, sb, sc}) < -slack) return false;
+    if (std::min({sa, sb, sc}) > margin || std::max({sa, sb, sc}) < -margin) return false;
     const double ia = inner(a, face.into) - face.origin_into;
     const double ib = inner(b, face.into) - face.origin_into;
     const double ic = inner(c, face.into) - face.origin_into;
-    if (std::min({ia, ib, ic}) > slack || std::max({ia, ib, ic}) < -slack) return false;
-    double at_a = sb * ic - ib * sc, at_b = sc * ia - ic * sa, at_c = sa * ib - ia * sb;
+    if (std::min({ia, ib, ic}) > margin || std::max({ia, ib, ic}) < -margin) return false;
+    const double at_a = sb * ic - ib * sc, at_b = sc * ia - ic * sa, at_c = sa * ib - ia * sb;
     const double all = at_a + at_b + at_c;
     const double sign = all < 0 ? -1 : 1;
-    const auto over = [&](double area, double su, double iu, double sv, double iv) {
-      return area * sign < -slack * (std::abs(su - sv) + std::abs(iu - iv));
+    const auto over = [&](double area, double su, double iu, double sv, double iv, double by) {
+      return area * sign < -by * (std::abs(su - sv) + std::abs(iu - iv));
     };
-    if (over(at_a, sb, ib, sc, ic) || over(at_b, sc, ic, sa, ia) || over(at_c, sa, ia, sb, ib))
+    if (over(at_a, sb, ib, sc, ic, slack) || over(at_b, sc, ic, sa, ia, margin) ||
+        over(at_c, sa, ia, sb, ib, slack))
       return false;
-    if (std::abs(all) < 1e-30) return false;
-    found = {at_c / all, at_b / all, f};
-    if constexpr (N > 2) {
-      Point p;
-      for (std::size_t d = 0; d < N; ++d)
-        p[d] = a[d] + found.y * (b[d] - a[d]) + found.x * (c[d] - a[d]);
-      if (!domain_.holds(face, face.along_of(p), 16 * slack)) return false;
+    // On the way A-C, or so near that areas do not tell where.
+    const double way_s = sc - sa, way_i = ic - ia, way2 = way_s * way_s + way_i * way_i;
+    if (!(way2 > 0)) return false;
+    if (at_b * sign <= slack * std::sqrt(way2)) {
+      const double x = -(sa * way_s + ia * way_i) / way2;
+      if (x < 0 || x > 1) return false;
+      found = {x, 0, f};
+    } else {
+      found = {at_c / all, at_b / all, f};
     }
+    if constexpr (N > 2)
+      if (!domain_.holds(face, face.along_of(at(a, b, c, found)), 16 * slack)) return false;
     return true;
+  }
+  static Point at(const Point& a, const Point& b, const Point& c, const Found& found) {
+    Point p;
+    for (std::size_t d = 0; d < N; ++d)
+      p[d] = a[d] + found.y * (b[d] - a[d]) + found.x * (c[d] - a[d]);
+    return p;
   }
 
   const FlatDomain<N>& domain_;

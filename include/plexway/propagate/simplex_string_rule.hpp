@@ -64,21 +64,28 @@ class SimplexStringRule {
   }
 
   bool seed_corner(Index s, std::size_t i, Real sigma, Index source) {
-    const Point& at = flat_->positions[records_[s].corner[i]];
+    const Index vertex = records_[s].corner[i];
+    const Point &at = flat_->positions[vertex], &to = centre(s);
     Label label = point_label(at, static_cast<double>(sigma));
+    label.centre = label.sigma + distance_of(at, to);
+    if (!(label.centre < to_beat(s))) return false;
     if (any_faces_) {
-      const Point both[] = {open_direction(records_[s].corner[i]), towards(at, centre(s))};
-      for (const Point& nudge : both) {
-        for (std::size_t d = 0; d < N; ++d) label.nudge[d] = static_cast<float>(nudge[d]);
+      // Held off where the vertex is most open, so that all around see it; else towards s.
+      const Point own = towards(at, to), start = plus(at, flat_->clearance, own);
+      const Point open = open_direction(vertex);
+      const Point source_at = plus(at, flat_->clearance, open);
+      hold(label, own);
+      if (inner(open, open) > 0 && flat_->passes_by(at, source_at, start)) {
+        Label held = label;
+        hold(held, open);
         SimplexString<N> string(*flat_);
-        draw(label, string);
-        string.add_point(at, at);
-        string.add_point(centre(s), centre(s));
-        if (string.pull(infinity) != SimplexString<N>::Pulled::taut) continue;
-        return accept(s, no_facet, label_of(string, label.sigma), source);
+        draw(held, string);
+        string.add_point(start, at);
+        string.add_point(to, to);
+        if (string.pull(infinity) == SimplexString<N>::Pulled::taut)
+          label = label_of(string, label.sigma);
       }
     }
-    label.centre = label.sigma + distance_of(at, centre(s));
     return accept(s, no_facet, label, source);
   }
 
@@ -88,11 +95,13 @@ class SimplexStringRule {
     for (std::size_t k = 0; k <= N; ++k)
       at = plus(at, barycentric[k], flat_->positions[records_[s].corner[k]]);
     Label label = point_label(at, static_cast<double>(sigma));
-    const Point nudge = towards(at, centre(s));
-    for (std::size_t d = 0; d < N; ++d) label.nudge[d] = static_cast<float>(nudge[d]);
+    hold(label, towards(at, centre(s)));
     label.centre = label.sigma + distance_of(at, centre(s));
     return accept(s, no_facet, label, source);
   }
+
+  /// Vertices at which paths bend.
+  [[nodiscard]] std::span<const Index> corners() const { return flat_->corners; }
 
   /// The least that the simplices at a vertex have for it, and from which source. Of those whose
   /// paths came the same way one is asked, if its path goes on to the vertex over the same faces.
@@ -140,6 +149,9 @@ class SimplexStringRule {
     label.bends = 0;
     std::fill(std::begin(label.nudge), std::end(label.nudge), 0.F);
     return label;
+  }
+  static void hold(Label& label, const Point& direction) {
+    for (std::size_t d = 0; d < N; ++d) label.nudge[d] = static_cast<float>(direction[d]);
   }
   static bool same_way(const Label& a, const Label& b) {
     return a.bends == b.bends && a.sigma == b.sigma && a.source == b.source &&
@@ -276,8 +288,10 @@ class SimplexStringRule {
     const double length = std::sqrt(inner(way, way));
     return length > 0 ? plus(Point{}, 1 / length, way) : Point{};
   }
-  /// From a vertex to where its simplices are; nowhere, if none is there.
+  /// From a vertex to where its simplices are; nowhere, if none is there or only parts touch.
   [[nodiscard]] Point open_direction(Index vertex) const {
+    const auto pinched = domain_->pinched();
+    if (std::binary_search(pinched.begin(), pinched.end(), vertex)) return Point{};
     Point sum{};
     const Point& at = flat_->positions[vertex];
     for (const Index c : domain_->corners_at(vertex))
