@@ -90,7 +90,7 @@ struct FlatDomain {
   std::vector<BendingRim<N>> rims;
   BoxTree<N> tree;             ///< over faces
   std::vector<Index> corners;  ///< vertices on faces, ascending
-  double rounding;   ///< coordinates and what is derived from them are good to this
+  double rounding;             ///< coordinates and what is derived from them are good to this
   double clearance;  ///< bends are held so far off their face, which `rounding` cannot undo
 
   [[nodiscard]] std::span<const BendingRim<N>> rims_of(const BendingFace<N>& face) const {
@@ -129,8 +129,8 @@ struct FlatDomain {
         return;
       const double s = side(from), t = side(to);
       if ((s > rounding && t > rounding) || (s < -rounding && t < -rounding)) return;
-      const double at = s == t ? std::max(into(from), into(to))
-                               : (into(from) * t - into(to) * s) / (t - s);
+      const double at =
+          s == t ? std::max(into(from), into(to)) : (into(from) * t - into(to) * s) / (t - s);
       free = free && at < -rounding;
     });
     return free;

@@ -24,9 +24,9 @@ struct SimplicialSummary {
   std::size_t degenerate_simplices = 0;   ///< no volume
   std::size_t violated_simplices = 0;     ///< no flat simplex has these lengths
   std::size_t components = 0;             ///< of simplices joined by vertices
-  bool flat = false;               ///< lies in R^N, N its dimension, and does not overlap itself
-  std::size_t bending_faces = 0;   ///< if so: where paths around obstacles bend
-  double mean_edge = 0;  ///< in the input's unit; the library works in this unit inside
+  bool flat = false;              ///< lies in R^N, N its dimension, and does not overlap itself
+  std::size_t bending_faces = 0;  ///< if so: where paths around obstacles bend
+  double mean_edge = 0;           ///< in the input's unit; the library works in this unit inside
 };
 
 /// A domain of dimension N = 1 to 4 as a metric space: N-simplices with edge lengths, glued where
@@ -38,11 +38,14 @@ struct SimplicialSummary {
 /// simplices without volume are all allowed. Lengths that no flat simplex has are counted and
 /// lived with: distances are then finite, and only as good as such lengths. Immutable once built.
 ///
+/// A complex of dimension N with N coordinates a vertex is looked at as a flat domain: if it is
+/// one (summary().flat), solves know the faces on which paths bend around obstacles.
+///
 /// Vertices and simplices have the caller's numbers in this interface; inside they are in
 /// breadth-first order. Memory, float: 33, 53, 77 and 104 bytes a simplex for N = 1 to 4, and 8 a
-/// vertex. A facet with n simplices takes n steps each time one of them gets nearer: mind the hubs
-/// of graphs. Where surfaces and solids have classes of their own (TriangleMesh, TetMesh), those
-/// are faster and more accurate around obstacles; this one is the plain step in every dimension.
+/// vertex; a flat domain has 8 N bytes more of each. A facet with n simplices takes n steps each time
+/// one of them gets nearer: mind the hubs of graphs. Where surfaces and solids have classes of their
+/// own (TriangleMesh, TetMesh), those can do more.
 template <class Real, int N>
 class SimplicialComplex {
  public:
@@ -60,7 +63,8 @@ class SimplicialComplex {
                     std::span<const Lengths> lengths);
 
   /// From coordinates: `dimension` numbers a vertex, dimension >= N. Throws as above, naming the
-  /// vertex for a coordinate that is not finite.
+  /// vertex for a coordinate that is not finite. Where dimension = N it is found out whether the
+  /// complex lies flat, at half the cost again.
   SimplicialComplex(std::span<const double> positions, std::size_t dimension,
                     std::span<const Corners> simplices);
 

@@ -7,16 +7,22 @@
 
 namespace plexway {
 
-/// The distance of every vertex of a domain of dimension N = 1 to 4 from the nearest of `sources`,
-/// by the plain step: exact where no obstacle is in the way (and for N = 1), else within the
-/// resolution of the complex.
+/// The distance of every vertex of a domain of dimension N = 1 to 4 from the nearest of `sources`.
 ///
-/// Visibility::upper_bound aims at apexes: every distance is the length of a path that exists, up
-/// to rounding. Every other policy aims at centroids, which is more accurate. A source is a vertex
-/// or, for N < 4, a point of a simplex. Workspace, results and errors are as for surfaces
-/// (executors/serial.hpp); UsageError also for a source inside a simplex with N = 4.
+/// Where the complex lies flat in R^N (SimplicialSummary::flat) and the policy is
+/// Visibility::saddles, the default, paths are strings that are pulled around obstacles
+/// (SimplexStringRule): no distance is below the exact one by more than rounding, straight lines
+/// and single bends are exact, and what is longer than need be is so by less than a cell.
+///
+/// Else the plain step: exact where no obstacle is in the way (and for N = 1), else within the
+/// resolution of the complex. Visibility::upper_bound aims at apexes: every distance is the length
+/// of a path that exists, up to rounding. Every other policy aims at centroids, which is more
+/// accurate. A source is a vertex or, for N < 4, a point of a simplex. Workspace, results and errors
+/// are as for surfaces (executors/serial.hpp); UsageError also for a source inside a simplex with
+/// N = 4.
 /// Source: Trettner, Bommes, Kobbelt: Geodesic Distance Computation via Virtual Source
-/// Propagation, SGP 2021, sections 3 and 5, there for triangles.
+/// Propagation, SGP 2021, sections 3 and 5, there for triangles
+/// (the plain step).
 template <class Real, int N>
 void propagate(Serial, const SimplicialComplex<Real, N>& domain,
                std::span<const PointSource> sources, const PropagateOptions& options,

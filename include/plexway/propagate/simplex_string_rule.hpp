@@ -177,8 +177,8 @@ class SimplexStringRule {
       label.sigma += distance_of(string[i].sharp, string[i + 1].sharp);
     label.source = string[first].sharp;
     for (std::size_t d = 0; d < N; ++d)
-      label.nudge[d] = static_cast<float>((string[first].at[d] - string[first].sharp[d]) /
-                                          flat_->clearance);
+      label.nudge[d] =
+          static_cast<float>((string[first].at[d] - string[first].sharp[d]) / flat_->clearance);
     label.bends = static_cast<Index>(bends - first);
     label.centre = label.sigma;
     for (std::size_t i = 0; i < label.bends; ++i) {

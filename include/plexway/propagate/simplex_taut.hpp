@@ -122,8 +122,7 @@ class Taut {
         t = wp + wq > 0 ? std::clamp((tp * wq + tq * wp) / (wp + wq) / length, 0., 1.) : 0;
       }
       const Along a = plus(rim.from, t, way);
-      const double sum =
-          std::hypot(distance_of(ap, a), op) + std::hypot(distance_of(a, aq), oq);
+      const double sum = std::hypot(distance_of(ap, a), op) + std::hypot(distance_of(a, aq), oq);
       if (sum < least) least = sum, best = a;
     }
     return best;
