@@ -269,7 +269,8 @@ class SimplexString {
   }
 
   /// Does the triangle A-B-C meet the face, or the way A-C come closer to it than bends are held
-  /// (`near`)? Of two ways out of rounding it takes yes.
+  /// (`near`)? Of two ways out of rounding it takes yes, but for a face on which A or C is held:
+  /// legs leave it along its walls.
   bool pierces(Index f, const Point& a, const Point& b, const Point& c, bool near,
                Found& found) const {
     const BendingFace<N>& face = domain_.faces[f];
@@ -298,6 +299,10 @@ class SimplexString {
       const double x = -(sa * way_s + ia * way_i) / way2;
       if (x < 0 || x > 1) return false;
       found = {x, 0, f};
+      if (!near) {  // where it is held, and no other place of the face?
+        const Point p = at(a, b, c, found);
+        if (std::min(distance_of(p, a), distance_of(p, c)) < 16 * domain_.clearance) return false;
+      }
     } else {
       found = {at_c / all, at_b / all, f};
     }
