@@ -237,24 +237,23 @@ class SimplexString {
     const Point& apex = bc <= ab && bc <= ca ? a : ca <= ab ? b : c;
     const Point& l = &apex == &a ? b : a;
     const Point& r = &apex == &c ? b : c;
-    Point way, half;
+    Point way_over, low, high;  // boxes are met where the line from the apex is in all slabs
     for (std::size_t d = 0; d < N; ++d) {
-      way[d] = (l[d] + r[d]) / 2 - apex[d];
-      half[d] = std::abs(l[d] - r[d]) / 2;
+      const double way = (l[d] + r[d]) / 2 - apex[d], half = std::abs(l[d] - r[d]) / 2;
+      way_over[d] = std::abs(way) > 1e-200 ? 1 / way : 1e200;
+      low[d] = -half - apex[d];
+      high[d] = half - apex[d];
     }
     const auto meets = [&](const Box<N>& box) {
       double from = 0, to = 1;
       for (std::size_t d = 0; d < N; ++d) {
-        const double low = box.low[d] - half[d] - apex[d], high = box.high[d] + half[d] - apex[d];
-        if (std::abs(way[d]) < 1e-300) {
-          if (low > 0 || high < 0) return false;
-          continue;
-        }
-        const double s = low / way[d], t = high / way[d];
+        const double s = (box.low[d] + low[d]) * way_over[d];
+        const double t = (box.high[d] + high[d]) * way_over[d];
         from = std::max(from, std::min(s, t));
         to = std::min(to, std::max(s, t));
+        if (from > to) return false;
       }
-      return from <= to;
+      return true;
     };
     domain_.tree.search(meets, [&](Index f) {
       Found found;
