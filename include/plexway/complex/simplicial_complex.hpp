@@ -9,6 +9,7 @@
 #include <plexway/complex/ids.hpp>
 #include <plexway/complex/simplex_flat.hpp>
 #include <plexway/complex/simplex_record.hpp>
+#include <plexway/domain/concept.hpp>
 
 namespace plexway {
 
@@ -43,12 +44,15 @@ struct SimplicialSummary {
 ///
 /// Vertices and simplices have the caller's numbers in this interface; inside they are in
 /// breadth-first order. Memory, float: 33, 53, 77 and 104 bytes a simplex for N = 1 to 4, and 8 a
-/// vertex; a flat domain has 8 N bytes more of each. A facet with n simplices takes n steps each time
-/// one of them gets nearer: mind the hubs of graphs. Where surfaces and solids have classes of their
-/// own (TriangleMesh, TetMesh), those can do more.
+/// vertex; a flat domain has 8 N bytes more of each. A facet with n simplices takes n steps each
+/// time one of them gets nearer: mind the hubs of graphs. Where surfaces and solids have classes of
+/// their own (TriangleMesh, TetMesh), those can do more.
 template <class Real, int N>
 class SimplicialComplex {
  public:
+  using Number = Real;
+  static constexpr DomainKind kind = DomainKind::simplices;
+  static constexpr int dimension = N;
   using Layout = SimplexLayout<N>;
   using Record = SimplexRecord<Real, N>;
   using Corners = std::array<Index, N + 1>;
@@ -62,14 +66,15 @@ class SimplicialComplex {
   SimplicialComplex(std::size_t vertices, std::span<const Corners> simplices,
                     std::span<const Lengths> lengths);
 
-  /// From coordinates: `dimension` numbers a vertex, dimension >= N. Throws as above, naming the
-  /// vertex for a coordinate that is not finite. Where dimension = N it is found out whether the
+  /// From coordinates: `axes` numbers a vertex, axes >= N. Throws as above, naming the
+  /// vertex for a coordinate that is not finite. Where axes = N it is found out whether the
   /// complex lies flat, at half the cost again.
-  SimplicialComplex(std::span<const double> positions, std::size_t dimension,
+  SimplicialComplex(std::span<const double> positions, std::size_t axes,
                     std::span<const Corners> simplices);
 
   [[nodiscard]] std::size_t vertex_count() const { return vertex_to_inside_.size(); }
   [[nodiscard]] std::size_t simplex_count() const { return records_.size(); }
+  [[nodiscard]] MetricKind metric() const { return MetricKind::intrinsic; }
   [[nodiscard]] const SimplicialSummary& summary() const { return summary_; }
   [[nodiscard]] double unit() const { return summary_.mean_edge; }
   /// Bytes this complex holds.

@@ -1,0 +1,103 @@
+#include <algorithm>
+#include <limits>
+#include <string>
+
+#include <plexway/error.hpp>
+
+#include "executors/checks.hpp"
+#include "executors/run.hpp"
+#include "propagate/mixed_propagation.hpp"
+
+namespace plexway {
+namespace {
+
+// The piece that a source lies in, and the source in that piece's numbers.
+template <class Real>
+std::pair<Index, PointSource> find_piece(const MixedComplex<Real>& domain,
+                                         const PointSource& source) {
+  const bool at_vertex = source.vertex != none;
+  const Index number = at_vertex ? source.vertex : source.simplex;
+  for (const auto& piece : domain.pieces()) {
+    const Index first = at_vertex ? piece.first_vertex : piece.first_simplex;
+    const Index count = at_vertex ? piece.vertices : piece.simplices;
+    if (number < first || number - first >= count) continue;
+    PointSource own = source;
+    (at_vertex ? own.vertex : own.simplex) = number - first;
+    return {piece.number, own};
+  }
+  throw UsageError(std::string("source ") + (at_vertex ? "vertex " : "simplex ") +
+                   std::to_string(number) + " is out of range, there are " +
+                   std::to_string(at_vertex ? domain.vertex_count() : domain.simplex_count()));
+}
+
+template <class Real>
+std::size_t corners_of(const typename MixedComplex<Real>::Complex& complex) {
+  if (std::holds_alternative<Wireframe<Real>>(complex)) return 2;
+  return std::holds_alternative<TriangleMesh<Real>>(complex) ? 3 : 4;
+}
+
+}  // namespace
+
+template <class Real>
+void solve_points(const Serial&, const MixedComplex<Real>& domain,
+                  std::span<const PointSource> sources, const PropagateOptions& options,
+                  MixedWorkspace<Real>& workspace, DistanceField<Real>& field) {
+  check(sources, options);
+  for (const PointSource& source : sources) {
+    const auto [number, own] = find_piece(domain, source);
+    const auto& piece = domain.pieces()[number];
+    check_source(
+        own, {piece.vertices, piece.simplices, "simplex", corners_of<Real>(domain.complex(piece))});
+  }
+
+  workspace.pieces.resize(domain.pieces().size());
+  MixedPropagation<Real> propagation(domain, workspace.pieces, workspace.offered, options);
+  for (std::size_t n = 0; n < sources.size(); ++n) {
+    const auto [piece, source] = find_piece(domain, sources[n]);
+    propagation.seed(piece, source, static_cast<Index>(n));
+  }
+  propagation.run();
+  propagation.read_out(workspace.distance, workspace.label, field);
+
+  const auto offer = [&](std::size_t v, Real d, Index label) {
+    if (!(d < field.distance[v])) return false;
+    field.distance[v] = d;
+    field.label[v] = label;
+    return true;
+  };
+  for (std::size_t n = 0; n < sources.size(); ++n)
+    if (sources[n].vertex != none)
+      offer(sources[n].vertex, static_cast<Real>(sources[n].offset), static_cast<Index>(n));
+  // Welded vertices are one. A chain of welds may need several rounds.
+  const auto weld = [&] {
+    bool any = false, again = true;
+    while (again) {
+      again = false;
+      for (const auto& [v, w] : domain.outer_welds())
+        again |= offer(v, field.distance[w], field.label[w]) ||
+                 offer(w, field.distance[v], field.label[v]);
+      any |= again;
+    }
+    return any;
+  };
+  weld();
+  while (propagation.relax(field) && weld()) {
+  }
+  const Real infinity = std::numeric_limits<Real>::infinity();
+  for (std::size_t v = 0; v < field.distance.size(); ++v)
+    if (!(static_cast<double>(field.distance[v]) <= options.radius))
+      field.distance[v] = infinity, field.label[v] = none;
+    else if (!(field.distance[v] < infinity))
+      field.label[v] = none;
+  if (sources.size() == 1) field.label.clear();
+}
+
+namespace detail {
+#define PLEXWAY_COMPILE_MIXED(...)     \
+  PLEXWAY_COMPILE(Serial, __VA_ARGS__) \
+  PLEXWAY_EACH_OF(OpenMP, __VA_ARGS__)
+PLEXWAY_MIXED(PLEXWAY_COMPILE_MIXED)
+#undef PLEXWAY_COMPILE_MIXED
+}  // namespace detail
+
+}  // namespace plexway
