@@ -40,7 +40,10 @@ struct SimplicialSummary {
 /// lived with: distances are then finite, and only as good as such lengths. Immutable once built.
 ///
 /// A complex of dimension N with N coordinates a vertex is looked at as a flat domain: if it is
-/// one (summary().flat), solves know the faces on which paths bend around obstacles.
+/// one (summary().flat), solves know the faces on which paths bend around obstacles: under
+/// Visibility::saddles, the default, distances are then lengths of paths, never short by more than
+/// rounding, exact in a straight line and around single bends. Every other policy, and a complex
+/// that is not flat, takes the plain step: exact where nothing is in the way.
 ///
 /// Vertices and simplices have the caller's numbers in this interface; inside they are in
 /// breadth-first order. Memory, float: 33, 53, 77 and 104 bytes a simplex for N = 1 to 4, and 8 a
