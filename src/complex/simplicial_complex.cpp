@@ -10,6 +10,7 @@
 
 #include <plexway/error.hpp>
 
+#include "complex/simplex_flat.hpp"
 #include "complex/simplex_gluing.hpp"
 #include "complex/simplex_shape.hpp"
 
@@ -144,6 +145,21 @@ SimplicialComplex<Real, N>::SimplicialComplex(std::span<const double> positions,
           throw InputError(named(s) + ": an edge is too long for a number");
       }
   assemble(positions.size() / axes, simplices, std::move(lengths));
+  if constexpr (N > 1)
+    if (axes == N && summary_.fan_facets == 0) lay_flat(positions);
+}
+
+template <class Real, int N>
+void SimplicialComplex<Real, N>::lay_flat(std::span<const double> positions) {
+  if constexpr (N > 1) {
+    std::vector<std::array<double, N>> points(vertex_count());
+    for (std::size_t v = 0; v < points.size(); ++v)
+      for (std::size_t d = 0; d < N; ++d)
+        points[vertex_to_inside_[v]][d] = positions[N * v + d] / unit();
+    flat_ = FlatDomainBuilder<Real, N>(records_, std::move(points)).build();
+    summary_.flat = flat_ != nullptr;
+    summary_.bending_faces = summary_.flat ? flat_->faces.size() : 0;
+  }
 }
 
 template <class Real, int N>
@@ -265,9 +281,14 @@ void SimplicialComplex<Real, N>::find_stars(std::size_t vertices) {
 
 template <class Real, int N>
 std::size_t SimplicialComplex<Real, N>::bytes() const {
+  const auto flat_bytes = [&]() -> std::size_t {
+    if constexpr (N > 1)
+      if (flat_) return flat_->bytes();
+    return 0;
+  };
   const auto of = [](const auto& v) { return v.capacity() * sizeof(v[0]); };
   return sizeof(*this) + of(records_) + of(vertex_to_inside_) + of(star_begin_) + of(corners_) +
-         of(places_) + of(pinched_);
+         of(places_) + of(pinched_) + flat_bytes();
 }
 
 template <class Real, int N>

@@ -5,9 +5,11 @@
 #include <cmath>
 #include <limits>
 #include <span>
+#include <type_traits>
 
 #include <plexway/error.hpp>
 #include <plexway/propagate/simplex_rule.hpp>
+#include <plexway/propagate/simplex_string_rule.hpp>
 #include <plexway/propagate/wavefront.hpp>
 
 #include "executors/checks.hpp"
@@ -29,7 +31,12 @@ void read_out(const SimplicialComplex<Real, N>& domain, std::span<const PointSou
     workspace.vertex[v] = d;
     workspace.vertex_source[v] = number;
   };
-  if constexpr (requires { crew.team(); }) {
+  if constexpr (requires(Real d, Index n) { rule.read_vertex(0, d, n); }) {
+    crew.over(domain.vertex_count(), [&](std::size_t begin, std::size_t end) {
+      for (std::size_t v = begin; v < end; ++v)
+        rule.read_vertex(static_cast<Index>(v), workspace.vertex[v], workspace.vertex_source[v]);
+    });
+  } else if constexpr (requires { crew.team(); }) {
     crew.over(domain.vertex_count(), [&](std::size_t begin, std::size_t end) {
       for (std::size_t v = begin; v < end; ++v)
         for (const Index c : domain.corners_at(static_cast<Index>(v)))
@@ -58,6 +65,24 @@ void read_out(const SimplicialComplex<Real, N>& domain, std::span<const PointSou
   }
 }
 
+/// Which rule a domain is solved by: one place decides. Where the domain lies flat (FlatDomain) and
+/// the policy is `saddles`, the default, strings that know their bends; else the plain step.
+template <class Real, int N, class Queue, class Solve>
+void with_rule(const SimplicialComplex<Real, N>& domain, const PropagateOptions& options,
+               const Solve& solve) {
+  if constexpr (N > 1)
+    if (options.visibility == Visibility::saddles && domain.flat()) {
+      using Front = Wavefront<Real, SimplexStringLabel<N>, Queue, true>;
+      solve.template operator()<Front>(
+          [&](Front& front) { return SimplexStringRule<Real, N, Front>(domain, front); });
+      return;
+    }
+  using Front = Wavefront<Real, SimplexLabel<Real, N>, Queue, true>;
+  solve.template operator()<Front>([&](Front& front) {
+    return PlainSimplexRule<Real, N, Front>(domain.records().data(), front, options.visibility);
+  });
+}
+
 /// One solve with a queue of its own.
 template <class Real, int N, class Queue, class Crew>
 void solve(const SimplicialComplex<Real, N>& domain, std::span<const PointSource> sources,
@@ -65,21 +90,23 @@ void solve(const SimplicialComplex<Real, N>& domain, std::span<const PointSource
            const Crew& crew, DistanceField<Real>& field) {
   const std::size_t simplices = domain.simplex_count();
   workspace.start(simplices, true);
-  using Front = Wavefront<Real, SimplexLabel<Real, N>, Queue, true>;
-  using Rule = PlainSimplexRule<Real, N, Front>;
-  Front front(workspace.marks, workspace.simplex.template reserve<N>(simplices), queue,
-              workspace.source.data(), simplices, domain.unit(), options);
-  const Rule rule(domain.records().data(), front, options.visibility);
-  SimplexPropagation<Real, N, Rule, Front> propagation(domain, rule, front, options);
-  for (std::size_t n = 0; n < sources.size(); ++n)
-    propagation.seed(sources[n], static_cast<Index>(n));
-  crew.run(propagation, front, simplices);
-  read_out(domain, sources, rule, front, crew, workspace);
+  with_rule<Real, N, Queue>(domain, options, [&]<class Front>(const auto& make_rule) {
+    using Label = typename Front::Label;
+    Front front(workspace.marks, workspace.simplex.template reserve<Label>(simplices), queue,
+                workspace.source.data(), simplices, domain.unit(), options);
+    const auto rule = make_rule(front);
+    SimplexPropagation<Real, N, std::decay_t<decltype(rule)>, Front> propagation(domain, rule,
+                                                                                 front, options);
+    for (std::size_t n = 0; n < sources.size(); ++n)
+      propagation.seed(sources[n], static_cast<Index>(n));
+    crew.run(propagation, front, simplices);
+    read_out(domain, sources, rule, front, crew, workspace);
 
-  if (sources.size() > 1)
-    finish<Real, true>(domain, sources, options, front, workspace, crew, field);
-  else
-    finish<Real, false>(domain, sources, options, front, workspace, crew, field);
+    if (sources.size() > 1)
+      finish<Real, true>(domain, sources, options, front, workspace, crew, field);
+    else
+      finish<Real, false>(domain, sources, options, front, workspace, crew, field);
+  });
 }
 
 }  // namespace plexway::simplicial

@@ -14,25 +14,6 @@
 
 namespace plexway {
 
-/// Squared distances, in the unit inside, of a point from the corners of a record, by its
-/// barycentric coordinates there: sum b_j l_ij^2 - sum b_j b_k l_jk^2.
-template <class Real, int N>
-std::array<double, N + 1> corner_distances2(const SimplexRecord<Real, N>& record,
-                                            std::span<const double, N + 1> b) {
-  using Layout = SimplexLayout<N>;
-  std::array<double, N + 1> distance2{};
-  double inner = 0;
-  for (std::size_t j = 0; j <= N; ++j)
-    for (std::size_t k = 0; k < j; ++k) {
-      const double l2 = static_cast<double>(record.length2[Layout::edge(k, j)]);
-      inner += b[j] * b[k] * l2;
-      distance2[j] += b[k] * l2;
-      distance2[k] += b[j] * l2;
-    }
-  for (double& d : distance2) d = std::max(d - inner, 0.);
-  return distance2;
-}
-
 /// A source that is no vertex, N < 4: its coordinates by the corners of the record.
 template <class Real, int N>
 std::array<double, N + 1> inside_coordinates(const SimplicialComplex<Real, N>& domain, Index inside,
@@ -78,8 +59,7 @@ class SimplexPropagation {
         if (holds) b_there[static_cast<std::size_t>(at - std::begin(there))] = b[i];
       }
       if (!holds) continue;
-      const auto distance2 = corner_distances2<Real, N>(domain_.records()[c / sides], b_there);
-      rule_.seed_inside(c / sides, distance2, sigma, number);
+      rule_.seed_inside(c / sides, b_there, sigma, number);
     }
   }
 
@@ -91,7 +71,7 @@ class SimplexPropagation {
   void run(const Spread& spread_all) {
     do {
       spread_all(false);
-    } while (!front_.out_of_budget() && pass_pinches());
+    } while (!front_.out_of_budget() && pass_vertices());
   }
 
   /// Expands simplices for the front of a thread, in `rounds` that know how many updates were made.
@@ -158,26 +138,37 @@ class SimplexPropagation {
     return std::sqrt(*std::max_element(std::begin(l), std::end(l)));
   }
 
-  /// A path may pass a vertex where parts only touch: it bends there (a hinge of dimension 0).
-  /// True if some simplex got a better label.
-  bool pass_pinches() {
+  /// A path may pass a vertex where parts only touch: it bends there (a hinge of dimension 0). And
+  /// a path around a corner may be lost just before it, where another one leads to the centres:
+  /// the corner knows it. True if some simplex got a better label.
+  bool pass_vertices() {
     bool any = false;
-    for (const Index v : domain_.pinched()) {
-      Real best = std::numeric_limits<Real>::infinity();
-      Index number = none;
+    for (const Index v : domain_.pinched()) any |= pass(v);
+    if constexpr (requires { rule_.corners(); })
+      for (const Index v : rule_.corners()) any |= pass(v);
+    return any;
+  }
+  bool pass(Index v) {
+    Real best = std::numeric_limits<Real>::infinity();
+    Index number = none;
+    if constexpr (requires { rule_.read_vertex(v, best, number); }) {
+      rule_.read_vertex(v, best, number);
+    } else {
       for (const Index c : domain_.corners_at(v)) {
         if (!front_.reached(c / sides)) continue;
         const Real d = rule_.corner_distance(c / sides, c % sides);
         if (d < best) best = d, number = front_.source(c / sides);
       }
-      if (!(best < std::numeric_limits<Real>::infinity()) || best > radius_) continue;
-      for (const Index c : domain_.corners_at(v)) {
-        // Within rounding of its own path it stays with that one; else this would not end.
-        const Real enough = best * (1 + 64 * std::numeric_limits<Real>::epsilon());
+    }
+    if (!(best < std::numeric_limits<Real>::infinity()) || best > radius_) return false;
+    bool any = false;
+    for (const Index c : domain_.corners_at(v)) {
+      // Within rounding of its own path it stays with that one; else this would not end.
+      const Real enough = best * (1 + 64 * std::numeric_limits<Real>::epsilon());
+      if constexpr (!requires { rule_.corners(); })
         if (front_.reached(c / sides) && rule_.corner_distance(c / sides, c % sides) <= enough)
           continue;
-        any |= rule_.seed_corner(c / sides, c % sides, best, number);
-      }
+      any |= rule_.seed_corner(c / sides, c % sides, best, number);
     }
     return any;
   }

@@ -1,8 +1,10 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <tuple>
 
+#include <plexway/complex/simplex_flat.hpp>
 #include <plexway/propagate/label_storage.hpp>
 
 namespace plexway {
@@ -16,13 +18,28 @@ struct SimplexLabel {
   Real centre;  ///< distance of the centre
 };
 
-/// Labels for whichever dimension a domain has; only that one takes room.
+/// What an N-simplex of a flat domain remembers: the path to its centre from where it is settled,
+/// over at most four faces. Points and lengths in the unit inside.
+template <int N>
+struct SimplexStringLabel {
+  static constexpr std::size_t most = 4;
+
+  std::array<double, N> source;  ///< of the string: the domain's source, or a bend long past
+  double sigma;                  ///< walked up to there
+  double centre;                 ///< distance of the centre
+  std::array<double, N - 2> along[most];  ///< where it bends on the faces
+  Index face[most];
+  Index bends;
+  float nudge[N];  ///< by so many clearances (FlatDomain) the string is held off its source
+};
+
+/// Labels for whichever dimension a domain has and whichever rule is asked; only these take room.
 template <class Real>
 class SimplexLabels {
  public:
-  template <int N>
-  SimplexLabel<Real, N>* reserve(std::size_t simplices) {
-    return std::get<N - 1>(storage_).reserve(simplices);
+  template <class Label>
+  Label* reserve(std::size_t simplices) {
+    return std::get<LabelStorage<Label>>(storage_).reserve(simplices);
   }
   [[nodiscard]] std::size_t bytes() const {
     return std::apply([](const auto&... s) { return (s.bytes() + ...); }, storage_);
@@ -30,8 +47,10 @@ class SimplexLabels {
 
  private:
   template <int N>
-  using Storage = LabelStorage<SimplexLabel<Real, N>>;
-  std::tuple<Storage<1>, Storage<2>, Storage<3>, Storage<4>> storage_;
+  using Plain = LabelStorage<SimplexLabel<Real, N>>;
+  template <int N>
+  using String = LabelStorage<SimplexStringLabel<N>>;
+  std::tuple<Plain<1>, Plain<2>, Plain<3>, Plain<4>, String<2>, String<3>, String<4>> storage_;
 };
 
 }  // namespace plexway

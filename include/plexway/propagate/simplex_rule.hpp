@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <limits>
@@ -12,6 +13,25 @@
 #include <plexway/propagate/simplex_label.hpp>
 
 namespace plexway {
+
+/// Squared distances, in the unit inside, of a point from the corners of a record, by its
+/// barycentric coordinates there: sum b_j l_ij^2 - sum b_j b_k l_jk^2.
+template <class Real, int N>
+std::array<double, N + 1> corner_distances2(const SimplexRecord<Real, N>& record,
+                                            std::span<const double, N + 1> b) {
+  using Layout = SimplexLayout<N>;
+  std::array<double, N + 1> distance2{};
+  double inner = 0;
+  for (std::size_t j = 0; j <= N; ++j)
+    for (std::size_t k = 0; k < j; ++k) {
+      const double l2 = static_cast<double>(record.length2[Layout::edge(k, j)]);
+      inner += b[j] * b[k] * l2;
+      distance2[j] += b[k] * l2;
+      distance2[k] += b[j] * l2;
+    }
+  for (double& d : distance2) d = std::max(d - inner, 0.);
+  return distance2;
+}
 
 /// The plain step on N-simplices glued over facets: the hinge kernel with K = N - 1, word for word,
 /// on labels that hold nothing but squared lengths. Policies: upper_bound aims at the apex, every
@@ -87,8 +107,9 @@ class PlainSimplexRule {
     return offer(s, no_facet, label, source);
   }
 
-  /// A point of a simplex, by its squared distances to the corners.
-  bool seed_inside(Index s, std::span<const double, N + 1> distance2, Real sigma, Index source) {
+  /// A point of a simplex, by its barycentric coordinates.
+  bool seed_inside(Index s, std::span<const double, N + 1> barycentric, Real sigma, Index source) {
+    const auto distance2 = corner_distances2<Real, N>(records_[s], barycentric);
     Label label;
     for (std::size_t k = 0; k <= N; ++k) label.distance2[k] = static_cast<Real>(distance2[k]);
     label.sigma = sigma;
