@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <cstdint>
 #include <limits>
 #include <memory>
 #include <vector>
@@ -9,6 +11,7 @@
 #include <plexway/complex/mixed_complex.hpp>
 
 #include "propagate/hinge_chains.hpp"
+#include "propagate/hinge_neighbours.hpp"
 #include "propagate/mixed_piece.hpp"
 #include "propagate/mixed_solid.hpp"
 #include "propagate/mixed_surface.hpp"
@@ -30,7 +33,8 @@ class MixedPropagation {
         options_(options),
         offered_(offered),
         posed_(domain.members().size()),
-        chains_(domain) {
+        chains_(domain),
+        neighbours_(domain) {
     const Real step =
         options.schedule == Schedule::fifo ? infinity : static_cast<Real>(options.step);
     // What pieces count and report is summed up here.
@@ -48,11 +52,13 @@ class MixedPropagation {
                                                             workspace, mine, step));
     }
     waits_.assign(pieces_.size(), 0);
+    find_bends();
     offered_.assign(domain.members().size() + 2 * domain.welds().size(), infinity);
   }
 
   /// A source in the piece's own numbers. A welded vertex is one in its other pieces too.
   void seed(Index piece, const PointSource& source, Index number) {
+    sources_ = std::max(sources_, number + 1);
     pieces_[piece]->seed(source, number);
     waits_[piece] = 1;
     if (source.vertex == none) return;
@@ -62,7 +68,8 @@ class MixedPropagation {
       for (const std::size_t side : {0, 1})
         if (weld.piece[side] == piece && weld.vertex[side] == vertex)
           if (pieces_[weld.piece[1 - side]]->enter_vertex(weld.vertex[1 - side],
-                                                          static_cast<Real>(source.offset), number))
+                                                          static_cast<Real>(source.offset), number,
+                                                          false))
             waits_[weld.piece[1 - side]] = 1;
   }
 
@@ -80,7 +87,8 @@ class MixedPropagation {
         pieces_[p]->run(left > most - own ? most : own + left);
         if (pieces_[p]->out_of_budget()) complete_ = false;
       }
-    } while (complete_ && cross());
+      // Bends at vertices last: they serve what nothing else reaches.
+    } while (complete_ && (cross() || bend()));
   }
 
   /// One a vertex of the domain; `distance` and `label` are room for a piece.
@@ -92,6 +100,8 @@ class MixedPropagation {
       distance.resize(piece.vertices);
       label.resize(piece.vertices);
       pieces_[piece.number]->read_out(distance, label);
+      straighten(piece.number, distance, label);
+      for (Index& l : label) l = root(l);
       std::copy(distance.begin(), distance.end(), field.distance.begin() + piece.first_vertex);
       std::copy(label.begin(), label.end(), field.label.begin() + piece.first_vertex);
     }
@@ -135,6 +145,50 @@ class MixedPropagation {
     return options_.progress(all);
   }
 
+  // Labels that start on a hinge have numbers of their own behind the caller's sources.
+  struct Crossing {
+    Index source, hinge;
+    std::uint8_t side;  // that the front came from
+    Vector3<Real> start;
+  };
+  [[nodiscard]] Index root(Index number) const {
+    return number == none || number < sources_ ? number : crossings_[number - sources_].source;
+  }
+
+  // Which hinges the two pieces measure alike; at which welded vertices paths may bend: where they
+  // do not, and where a straight line of shared edges ends.
+  void find_bends() {
+    constexpr Real alike = Real(1e-6);
+    std::vector<std::array<Index, 5>> at;  // pieces, vertices, weld
+    for (Index w = 0; w < domain_.welds().size(); ++w) {
+      const auto& weld = domain_.welds()[w];
+      at.push_back({weld.piece[0], weld.piece[1], weld.vertex[0], weld.vertex[1], w});
+    }
+    std::sort(at.begin(), at.end());
+    bends_.assign(domain_.welds().size(), 0);
+    isometric_.assign(domain_.hinges().size(), 0);
+    for (Index n = 0; n < domain_.hinges().size(); ++n) {
+      const auto& hinge = domain_.hinges()[n];
+      const Member* member[2];
+      for (const std::size_t side : {0, 1}) member[side] = &domain_.members()[hinge.begin[side]];
+      isometric_[n] =
+          pieces_[hinge.piece[0]]
+              ->shape(*member[0], hinge.dimension)
+              .agrees(pieces_[hinge.piece[1]]->shape(*member[1], hinge.dimension), hinge.dimension,
+                      alike);
+      for (std::size_t i = 0; i <= hinge.dimension; ++i) {
+        if (isometric_[n] && (hinge.dimension == 2 || !chains_.ends(n, i))) continue;
+        const std::array<Index, 5> key = {
+            hinge.piece[0], hinge.piece[1],
+            pieces_[hinge.piece[0]]->vertex_of(member[0]->simplex, member[0]->corner[i]),
+            pieces_[hinge.piece[1]]->vertex_of(member[1]->simplex, member[1]->corner[i]), 0};
+        const auto found = std::lower_bound(at.begin(), at.end(), key);
+        if (found != at.end() && std::equal(key.begin(), key.begin() + 4, found->begin()))
+          bends_[(*found)[4]] = 1;
+      }
+    }
+  }
+
   // Over all hinges what has got better since. True if something was accepted.
   bool cross() {
     bool any = false;
@@ -151,8 +205,8 @@ class MixedPropagation {
         offered = found.distance;
         if (static_cast<double>(found.distance) > options_.radius) continue;
         const Index to = weld.piece[1 - side];
-        accepted(to,
-                 pieces_[to]->enter_vertex(weld.vertex[1 - side], found.distance, found.source));
+        accepted(to, pieces_[to]->enter_vertex(weld.vertex[1 - side], found.distance,
+                                               root(found.source), false));
       }
     // First what has got better, then all of that goes over.
     changed_.clear();
@@ -162,11 +216,14 @@ class MixedPropagation {
         for (Index m = hinge.begin[side]; m < hinge.end[side]; ++m) {
           const Member& member = domain_.members()[m];
           Real& offered = offered_[2 * domain_.welds().size() + m];
-          const Real distance = pieces_[hinge.piece[side]]->distance(member.simplex);
+          const auto& piece = *pieces_[hinge.piece[side]];
+          const Real distance = piece.distance(member.simplex);
           if (!(distance < offered)) continue;
           offered = distance;
-          posed_[m] = pieces_[hinge.piece[side]]->leave(member, hinge.dimension);
-          changed_.push_back({n, static_cast<Index>(side), m});
+          HingeFront<Real> front(piece, member, hinge.dimension, none, none);
+          const bool one = front.is_one_source(posed_[m]);
+          posed_[m].source = root(posed_[m].source);
+          changed_.push_back({n, static_cast<Index>(side), m, one && isometric_[n]});
         }
     }
     // Over edges first: of equal paths, one with a ring serves more points than one that bends at
@@ -174,21 +231,135 @@ class MixedPropagation {
     std::stable_partition(changed_.begin(), changed_.end(), [&](const Change& change) {
       return domain_.hinges()[change.hinge].dimension == 1;
     });
-    for (const auto& [n, side, m] : changed_) {
+    for (const auto& [n, side, m, as_it_is] : changed_) {
       const auto& hinge = domain_.hinges()[n];
       const Index to = hinge.piece[1 - side];
-      Index ring = none;
-      if (chains_.at_solid(n, 1 - side)) {
-        const auto [low, high] = chains_.visible(n, side, posed_, m);
-        ring = pieces_[to]->open_ring(domain_.members()[hinge.begin[1 - side]], low, high);
+      if (as_it_is) {
+        Index ring = none;
+        if (chains_.at_solid(n, 1 - side)) {
+          const auto [low, high] = chains_.visible(n, side, posed_, m);
+          ring = pieces_[to]->open_ring(domain_.members()[hinge.begin[1 - side]], low, high);
+        }
+        bool entered = false;
+        for (Index k = hinge.begin[1 - side]; k < hinge.end[1 - side]; ++k) {
+          PosedSource<Real> posed = posed_[m];
+          posed.sigma += gain_over(n, side, m, k);
+          entered |= pieces_[to]->enter(domain_.members()[k], hinge.dimension, posed, ring);
+        }
+        accepted(to, entered);
+        if (ring != none && !entered) pieces_[to]->close_ring();
+        continue;
       }
-      bool entered = false;
-      for (Index k = hinge.begin[1 - side]; k < hinge.end[1 - side]; ++k)
-        entered |= pieces_[to]->enter(domain_.members()[k], hinge.dimension, posed_[m], ring);
-      accepted(to, entered);
-      if (ring != none && !entered) pieces_[to]->close_ring();
+      for (Index k = hinge.begin[1 - side]; k < hinge.end[1 - side]; ++k) {
+        const HingeFront<Real> front(*pieces_[hinge.piece[side]], domain_.members()[m],
+                                     hinge.dimension, posed_[m].source,
+                                     sources_ + static_cast<Index>(crossings_.size()));
+        Vector3<Real> start = {0, 0, 0};
+        if (!pieces_[to]->enter_front(domain_.members()[k], front, start)) continue;
+        accepted(to, true);
+        crossings_.push_back({posed_[m].source, n, static_cast<std::uint8_t>(side), start});
+      }
     }
     return any;
+  }
+
+  // A source that is handed on must not be nearer to a point of the hinge than it was before, else
+  // labels would gain on themselves going to and fro: what two measures of one hinge differ by.
+  [[nodiscard]] Real gain_over(Index n, std::size_t side, Index m, Index k) const {
+    const auto& hinge = domain_.hinges()[n];
+    const auto before =
+        pieces_[hinge.piece[side]]->shape(domain_.members()[m], hinge.dimension);
+    const auto after =
+        pieces_[hinge.piece[1 - side]]->shape(domain_.members()[k], hinge.dimension);
+    const PosedSource<Real>& eye = posed_[m];
+    const auto way = [&](const HingeShape<Real>& shape, const HingePlace<Real>& b) {
+      const auto p = shape.place(b);
+      return std::sqrt((p[0] - eye.x) * (p[0] - eye.x) + (p[1] - eye.y) * (p[1] - eye.y) +
+                       eye.h * eye.h);
+    };
+    Real most = 0;
+    for (int i = 0; i <= hinge.dimension; ++i) {
+      const HingePlace<Real> b = {i == 1 ? Real(1) : Real(0), i == 2 ? Real(1) : Real(0)};
+      most = std::max(most, way(before, b) - way(after, b));
+    }
+    return most;
+  }
+
+  // Over the vertices where paths may bend. True if something was accepted.
+  bool bend() {
+    bool any = false;
+    for (std::size_t w = 0; w < domain_.welds().size(); ++w) {
+      if (!bends_[w]) continue;
+      const auto& weld = domain_.welds()[w];
+      for (const std::size_t side : {0, 1}) {
+        Real& offered = offered_[2 * w + side];
+        const auto found = pieces_[weld.piece[side]]->at_vertex(weld.vertex[side]);
+        if (!(found.distance < offered)) continue;
+        offered = found.distance;
+        if (static_cast<double>(found.distance) > options_.radius) continue;
+        const Index to = weld.piece[1 - side];
+        if (!pieces_[to]->enter_vertex(weld.vertex[1 - side], found.distance, root(found.source),
+                                       true))
+          continue;
+        waits_[to] = 1;
+        any = true;
+      }
+    }
+    return any;
+  }
+
+  // A label that starts on a hinge starts where it is best for one tetrahedron there. What is
+  // behind may do better to cross a little farther on: each vertex looks for its own crossing.
+  void straighten(Index piece, std::vector<Real>& distance, std::vector<Index>& label) const {
+    if (crossings_.empty()) return;
+    const auto& own = *pieces_[piece];
+    const auto starts = [&](Index number) -> const Vector3<Real>* {
+      if (number == none || number < sources_) return nullptr;
+      return &crossings_[number - sources_].start;
+    };
+    std::vector<Index> seen;
+    const auto& complex = domain_.complex(domain_.pieces()[piece]);
+    for (std::size_t v = 0; v < distance.size(); ++v) {
+      const Index inside = std::visit(
+          [&](const auto& c) { return c.inside_vertex(static_cast<Index>(v)); }, complex);
+      own.crossings_seen(inside, starts, seen);
+      for (const Index number : seen) {
+        const Crossing& crossing = crossings_[number - sources_];
+        const Real d = least_over(crossing.hinge, crossing.side, inside);
+        if (d < distance[v]) distance[v] = d, label[v] = crossing.source;
+      }
+    }
+  }
+
+  // The least way over a hinge, from there over its neighbours as long as that is shorter.
+  [[nodiscard]] Real least_over(Index n, std::size_t side, Index vertex) const {
+    Real least = way_over(n, side, vertex);
+    for (int steps = 0; steps < 64; ++steps) {
+      Index better = none;
+      for (const Index other : neighbours_.of(n)) {
+        const Real d = way_over(other, side, vertex);
+        if (d < least) least = d, better = other;
+      }
+      if (better == none) break;
+      n = better;
+    }
+    return least;
+  }
+  [[nodiscard]] Real way_over(Index n, std::size_t side, Index vertex) const {
+    const auto& hinge = domain_.hinges()[n];
+    const Index to = hinge.piece[1 - side];
+    const Member& beyond = domain_.members()[hinge.begin[1 - side]];
+    const HingeShape<Real> shape = pieces_[to]->shape(beyond, hinge.dimension);
+    const HingeEnd<Real> target = pieces_[to]->pose(beyond, hinge.dimension, vertex);
+    Real least = infinity;
+    for (Index m = hinge.begin[side]; m < hinge.end[side]; ++m) {
+      const Member& member = domain_.members()[m];
+      if (!(pieces_[hinge.piece[side]]->distance(member.simplex) < infinity)) continue;
+      const HingeFront<Real> front(*pieces_[hinge.piece[side]], member, hinge.dimension, none,
+                                   none);
+      least = std::min(least, front.shortest(shape, target).extent);
+    }
+    return least;
   }
 
   const Domain& domain_;
@@ -197,10 +368,15 @@ class MixedPropagation {
   std::vector<std::unique_ptr<MixedPiece<Real>>> pieces_;
   struct Change {
     Index hinge, side, member;
+    bool as_it_is;
   };
   std::vector<Change> changed_;
   std::vector<PosedSource<Real>> posed_;  // by member: what it offered last
   HingeChains<Real> chains_;
+  HingeNeighbours<Real> neighbours_;
+  Index sources_ = 0;
+  std::vector<Crossing> crossings_;
+  std::vector<char> isometric_, bends_;  // by hinge, by weld
   std::vector<char> waits_;
   std::size_t running_ = 0;
   bool complete_ = true;
