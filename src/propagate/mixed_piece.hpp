@@ -44,8 +44,9 @@ class MixedPiece {
 
   /// The caller's numbers in the piece.
   virtual void seed(const PointSource& source, Index number) = 0;
-  /// Until no label waits or `budget` expansions are spent. Throws Cancelled.
-  virtual void run(std::size_t budget) = 0;
+  /// Until no label waits or `budget` expansions are spent. Sources from `first_front` on are labels
+  /// that start on a hinge. Throws Cancelled.
+  virtual void run(std::size_t budget, Index first_front) = 0;
 
   /// K = 0: the best path to a vertex, and its source; and such a path from another piece. False
   /// if nothing got better by it. A path that `bends` may be of use to some simplices at the vertex
@@ -81,6 +82,7 @@ class MixedPiece {
   /// A vertex posed on a hinge, and the numbers of the fronts whose crossing the tetrahedra around
   /// it see straight: `starts(number)` tells where that is.
   virtual HingeEnd<Real> pose(const Member&, int, Index) const { return {}; }
+  virtual Point place(Index) const { return {}; }
   virtual void crossings_seen(Index, const std::function<const Point*(Index)>&,
                               std::vector<Index>&) const {}
 

@@ -84,7 +84,7 @@ class MixedPropagation {
             options_.max_expansions > spent ? options_.max_expansions - spent : 0;
         const std::size_t own = pieces_[p]->statistics().expansions;
         constexpr std::size_t most = std::numeric_limits<std::size_t>::max();
-        pieces_[p]->run(left > most - own ? most : own + left);
+        pieces_[p]->run(left > most - own ? most : own + left, sources_);
         if (pieces_[p]->out_of_budget()) complete_ = false;
       }
       // Bends at vertices last: they serve what nothing else reaches.
@@ -165,7 +165,7 @@ class MixedPropagation {
       at.push_back({weld.piece[0], weld.piece[1], weld.vertex[0], weld.vertex[1], w});
     }
     std::sort(at.begin(), at.end());
-    bends_.assign(domain_.welds().size(), 0);
+    bends_.assign(domain_.welds().size(), none);
     isometric_.assign(domain_.hinges().size(), 0);
     for (Index n = 0; n < domain_.hinges().size(); ++n) {
       const auto& hinge = domain_.hinges()[n];
@@ -184,7 +184,7 @@ class MixedPropagation {
             pieces_[hinge.piece[1]]->vertex_of(member[1]->simplex, member[1]->corner[i]), 0};
         const auto found = std::lower_bound(at.begin(), at.end(), key);
         if (found != at.end() && std::equal(key.begin(), key.begin() + 4, found->begin()))
-          bends_[(*found)[4]] = 1;
+          bends_[(*found)[4]] = n;
       }
     }
   }
@@ -289,7 +289,7 @@ class MixedPropagation {
   bool bend() {
     bool any = false;
     for (std::size_t w = 0; w < domain_.welds().size(); ++w) {
-      if (!bends_[w]) continue;
+      if (bends_[w] == none) continue;
       const auto& weld = domain_.welds()[w];
       for (const std::size_t side : {0, 1}) {
         Real& offered = offered_[2 * w + side];
@@ -298,9 +298,11 @@ class MixedPropagation {
         offered = found.distance;
         if (static_cast<double>(found.distance) > options_.radius) continue;
         const Index to = weld.piece[1 - side];
-        if (!pieces_[to]->enter_vertex(weld.vertex[1 - side], found.distance, root(found.source),
-                                       true))
+        if (!pieces_[to]->enter_vertex(weld.vertex[1 - side], found.distance,
+                                       sources_ + static_cast<Index>(crossings_.size()), true))
           continue;
+        crossings_.push_back({root(found.source), bends_[w], static_cast<std::uint8_t>(side),
+                              pieces_[to]->place(weld.vertex[1 - side])});
         waits_[to] = 1;
         any = true;
       }
@@ -376,7 +378,8 @@ class MixedPropagation {
   HingeNeighbours<Real> neighbours_;
   Index sources_ = 0;
   std::vector<Crossing> crossings_;
-  std::vector<char> isometric_, bends_;  // by hinge, by weld
+  std::vector<char> isometric_;  // by hinge
+  std::vector<Index> bends_;     // by weld: a hinge at which a path may bend there, or none
   std::vector<char> waits_;
   std::size_t running_ = 0;
   bool complete_ = true;

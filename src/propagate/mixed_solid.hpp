@@ -39,9 +39,17 @@ class MixedSolid final : public MixedPiece<Real> {
         rule_(propagation_.rule()) {}
 
   void seed(const PointSource& source, Index number) override { propagation_.seed(source, number); }
-  void run(std::size_t budget) override {
+  void run(std::size_t budget, Index first_front) override {
     options_.max_expansions = budget;
-    propagation_.run();
+    for (std::size_t before = 0;;) {
+      propagation_.run();
+      before = wave_.updates();
+      if (wave_.out_of_budget()) return;
+      for (Index t = 0; t < mesh_.tet_count(); ++t)
+        if (wave_.reached(t) && wave_.source(t) >= first_front)
+          rule_.offer_around(t, this->crossing_gain);
+      if (wave_.updates() == before) return;
+    }
   }
 
   Found at_vertex(Index vertex) override {
@@ -108,6 +116,8 @@ class MixedSolid final : public MixedPiece<Real> {
   HingeEnd<Real> pose(const Member& m, int dimension, Index vertex) const override {
     return Frame(*this, m, dimension).pose(mesh_.points()[vertex], unit_);
   }
+
+  Point place(Index vertex) const override { return mesh_.points()[vertex]; }
 
   void crossings_seen(Index vertex, const std::function<const Point*(Index)>& starts,
                       std::vector<Index>& seen) const override {

@@ -35,7 +35,7 @@ class MixedSurface final : public MixedPiece<Real> {
         propagation_(mesh, workspace, rule_, wave_, options_) {}
 
   void seed(const PointSource& source, Index number) override { propagation_.seed(source, number); }
-  void run(std::size_t budget) override {
+  void run(std::size_t budget, Index) override {
     options_.max_expansions = budget;
     propagation_.run();
   }

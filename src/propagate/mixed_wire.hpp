@@ -31,7 +31,7 @@ class MixedWire final : public MixedPiece<Real> {
     propagation_.seed(source, number, front_);
   }
 
-  void run(std::size_t budget) override {
+  void run(std::size_t budget, Index) override {
     options_.max_expansions = budget;
     if (!propagation_.spread(front_, 8 * wireframe_.arcs().size())) {
       PriorityQueue<Real> nearest_first(workspace_.front);
