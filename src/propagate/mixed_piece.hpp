@@ -37,6 +37,13 @@ class MixedPiece {
   using Member = typename MixedComplex<Real>::Member;
   using Point = Vector3<Real>;
 
+  /// What a path over a hinge that pieces measure differently must gain, of its length: a path that
+  /// goes to and fro is then corrected a few times only.
+  static constexpr Real crossing_gain = sizeof(Real) == 4 ? Real(1e-5) : Real(1e-7);
+  /// So much longer is a path that bends at a vertex of a weld: of two of one length the straight
+  /// one wins.
+  static constexpr Real bend_loss = sizeof(Real) == 4 ? Real(4e-6) : Real(1e-10);
+
   MixedPiece() = default;
   MixedPiece(const MixedPiece&) = delete;
   MixedPiece& operator=(const MixedPiece&) = delete;
@@ -83,6 +90,9 @@ class MixedPiece {
   /// it see straight: `starts(number)` tells where that is.
   virtual HingeEnd<Real> pose(const Member&, int, Index) const { return {}; }
   virtual Point place(Index) const { return {}; }
+  /// Does every point see every other?
+  [[nodiscard]] virtual bool sees_all() const { return false; }
+  virtual void vertices_around(Index, std::vector<Index>&) const {}
   virtual void crossings_seen(Index, const std::function<const Point*(Index)>&,
                               std::vector<Index>&) const {}
 
@@ -98,13 +108,6 @@ class MixedPiece {
   static bool gains(Real known, Real offer) {
     return offer < known * (1 - 64 * std::numeric_limits<Real>::epsilon());
   }
-
-  /// What a path over a hinge that pieces measure differently must gain, of its length: a path that
-  /// goes to and fro is then corrected a few times only.
-  static constexpr Real crossing_gain = sizeof(Real) == 4 ? Real(1e-5) : Real(1e-7);
-  /// So much longer is a path that bends at a vertex of a weld: of two of one length the straight
-  /// one wins.
-  static constexpr Real bend_loss = sizeof(Real) == 4 ? Real(4e-6) : Real(1e-10);
 
   // Between the domain's unit in the caller's order and what is read out inside.
   template <class Complex>

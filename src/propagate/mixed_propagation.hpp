@@ -127,6 +127,7 @@ class MixedPropagation {
 
  private:
   static constexpr Real infinity = std::numeric_limits<Real>::infinity();
+  static constexpr Real bend_loss = MixedPiece<Real>::bend_loss;
 
   std::size_t expansions() const {
     std::size_t sum = 0;
@@ -319,33 +320,60 @@ class MixedPropagation {
       if (number == none || number < sources_) return nullptr;
       return &crossings_[number - sources_].start;
     };
-    std::vector<Index> seen;
+    std::vector<Index> seen, around;
     const auto& complex = domain_.complex(domain_.pieces()[piece]);
-    for (std::size_t v = 0; v < distance.size(); ++v) {
-      const Index inside = std::visit(
-          [&](const auto& c) { return c.inside_vertex(static_cast<Index>(v)); }, complex);
-      own.crossings_seen(inside, starts, seen);
+    const auto inside = [&](Index v) {
+      return std::visit([&](const auto& c) { return c.inside_vertex(v); }, complex);
+    };
+    std::vector<Index> outside(distance.size());
+    for (Index v = 0; v < distance.size(); ++v) outside[inside(v)] = v;
+    std::vector<Via> via(distance.size());
+    std::vector<Index> front;
+    for (Index v = 0; v < distance.size(); ++v) {
+      own.crossings_seen(inside(v), starts, seen);
       for (const Index number : seen) {
-        const Crossing& crossing = crossings_[number - sources_];
-        const Real d = least_over(crossing.hinge, crossing.side, inside);
-        if (d < distance[v]) distance[v] = d, label[v] = crossing.source;
+        const Crossing& c = crossings_[number - sources_];
+        const Via there = least_over({c.hinge, c.source, c.side, 0}, inside(v));
+        if (there.distance < distance[v] || via[v].hinge == none) via[v] = there;
+        if (there.distance < distance[v]) distance[v] = there.distance, label[v] = c.source;
+      }
+      if (via[v].hinge != none) front.push_back(v);
+    }
+    // A vertex none of whose simplices came over the hinge may itself be nearer that way.
+    if (!own.sees_all()) return;
+    for (std::size_t i = 0; i < front.size(); ++i) {
+      const Via from = via[front[i]];
+      own.vertices_around(inside(front[i]), around);
+      for (const Index inner : around) {
+        const Index w = outside[inner];
+        const auto gains = [&](Real d) { return d < distance[w] * (1 - bend_loss); };
+        if (!gains(way_over(from.hinge, from.side, inner))) continue;
+        via[w] = least_over(from, inner);
+        distance[w] = via[w].distance;
+        label[w] = from.source;
+        front.push_back(w);
       }
     }
   }
 
   // The least way over a hinge, from there over its neighbours as long as that is shorter.
-  [[nodiscard]] Real least_over(Index n, std::size_t side, Index vertex) const {
-    Real least = way_over(n, side, vertex);
+  struct Via {
+    Index hinge = none, source = none;
+    std::uint8_t side = 0;
+    Real distance = 0;
+  };
+  [[nodiscard]] Via least_over(Via via, Index vertex) const {
+    via.distance = way_over(via.hinge, via.side, vertex);
     for (int steps = 0; steps < 64; ++steps) {
       Index better = none;
-      for (const Index other : neighbours_.of(n)) {
-        const Real d = way_over(other, side, vertex);
-        if (d < least) least = d, better = other;
+      for (const Index other : neighbours_.of(via.hinge)) {
+        const Real d = way_over(other, via.side, vertex);
+        if (d < via.distance) via.distance = d, better = other;
       }
       if (better == none) break;
-      n = better;
+      via.hinge = better;
     }
-    return least;
+    return via;
   }
   [[nodiscard]] Real way_over(Index n, std::size_t side, Index vertex) const {
     const auto& hinge = domain_.hinges()[n];

@@ -119,6 +119,16 @@ class MixedSolid final : public MixedPiece<Real> {
 
   Point place(Index vertex) const override { return mesh_.points()[vertex]; }
 
+  bool sees_all() const override { return !rule_.drops() && mesh_.summary().components == 1; }
+  void vertices_around(Index vertex, std::vector<Index>& around) const override {
+    around.clear();
+    for (const Index c : mesh_.corners_at(vertex))
+      for (const Index v : mesh_.tets()[c / 4].corner)
+        if (v != vertex) around.push_back(v);
+    std::sort(around.begin(), around.end());
+    around.erase(std::unique(around.begin(), around.end()), around.end());
+  }
+
   void crossings_seen(Index vertex, const std::function<const Point*(Index)>& starts,
                       std::vector<Index>& seen) const override {
     const Point& q = mesh_.points()[vertex];

@@ -128,6 +128,7 @@ class MixedSurface final : public MixedPiece<Real> {
         const Index g = across >> Across::face_shift;
         const std::size_t k = across & Across::edge_mask;
         if (g == mesh_.face_count() || (g == m.simplex && k == edge)) break;
+        any |= enter_from_inside(m, front, edge, turned, g, k, turned == flip);
         any |= enter_beam(g, k, turned == flip, front, {corner[i][0], corner[i][1]},
                           {corner[j][0], corner[j][1]});
         if (!(across & Across::fan)) break;
@@ -260,6 +261,61 @@ class MixedSurface final : public MixedPiece<Real> {
     }
     const std::size_t updates = wave_.updates();
     rule_.enter_posed(f, k, label, front.source);
+    return wave_.updates() != updates;
+  }
+
+  // From a crossing inside the hinge, a triangle of this surface, over its edge into g: the front
+  // beyond is that of a point to second order, as above, now by what the ends of the beam get over
+  // all of the hinge.
+  bool enter_from_inside(const Member& m, const HingeFront<Real>& front, std::size_t edge,
+                         bool turned, Index g, std::size_t k, bool turned_there) {
+    const TriangleRecord<Real>& t = mesh_.triangles()[g];
+    const Real extent = t.length[k];
+    const Real own = mesh_.triangles()[m.simplex].length[edge];
+    if (!(std::abs(extent - own) <= this->crossing_gain * own) || !(extent > 0)) return false;
+    const HingeShape<Real> shape = this->shape(m, 2);
+    const Frame frame(mesh_.triangles()[m.simplex], edge, m);
+    // A point beside edge k of g, (along, beyond), in the hinge's frame.
+    const auto place = [&](Real along, Real beyond) -> HingeEnd<Real> {
+      // Edge `edge` of the member runs as k does, or against it.
+      const Real x = turned_there == turned ? along : own - along;
+      const Real dx = x - frame.x0, dy = -beyond - frame.y0;
+      return {(dx * frame.ux + dy * frame.uy) * unit_, (dx * frame.wx + dy * frame.wy) * unit_, 0};
+    };
+    const typename Rule::Point centre = {{(extent + t.apex_x(k)) / 3}, t.apex_h(k) / 3};
+    const auto path = front.shortest(shape, place(centre.x[0], centre.h));
+    if (wave_.reached(g) &&
+        !(path.extent < distance(g) * (1 - this->crossing_gain)))
+      return false;
+    // The crossing, posed on k.
+    const auto b = shape.place(path.crossing);
+    const Real bx = (b[0] * frame.ux + b[1] * frame.wx) / unit_ + frame.x0;
+    const Real by = (b[0] * frame.uy + b[1] * frame.wy) / unit_ + frame.y0;
+    const Real along = turned_there == turned ? bx : own - bx;
+    if (!(by > Real(1e-3) * extent)) return false;  // as good as on the edge
+    const Real before = path.before / unit_, after = std::hypot(centre.x[0] - along, centre.h + by);
+    const Real rx = (centre.x[0] - along) / after, ry = (centre.h + by) / after;
+    const Real s = along + rx / ry * by;
+    if (!(s > 0 && s < extent)) return false;
+    const Real low = std::max(Real(0), s - extent / 2), high = std::min(extent, s + extent / 2);
+    Real radius = extent * (sizeof(Real) == 4 ? Real(300) : Real(1e5));
+    const Real rounding =
+        64 * std::numeric_limits<Real>::epsilon() * (before + extent);
+    for (const Real end : {low, high}) {
+      const Real longer = front.shortest(shape, place(end, 0)).extent / unit_ - before;
+      const Real dx = (end - along) * rx + by * ry, dy = (end - along) * ry - by * rx;
+      const Real bow = longer - dx;
+      if (bow > rounding)
+        radius = std::min(radius,
+                          std::max((dx * dx + dy * dy - longer * longer) / (2 * bow), Real(0)));
+    }
+    typename Rule::Posed label;
+    label.sigma = before - radius;
+    label.source = {{along - radius * rx}, by + radius * ry};
+    label.limit[0] = {{low}, Real(0)};
+    label.limit[1] = {{high}, Real(0)};
+    const std::size_t updates = wave_.updates();
+    rule_.enter_posed(g, k, label, front.source);
     return wave_.updates() != updates;
   }
 
