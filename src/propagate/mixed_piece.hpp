@@ -51,8 +51,8 @@ class MixedPiece {
 
   /// The caller's numbers in the piece.
   virtual void seed(const PointSource& source, Index number) = 0;
-  /// Until no label waits or `budget` expansions are spent. Sources from `first_front` on are labels
-  /// that start on a hinge. Throws Cancelled.
+  /// Until no label waits or `budget` expansions are spent. Sources from `first_front` on are
+  /// labels that start on a hinge. Throws Cancelled.
   virtual void run(std::size_t budget, Index first_front) = 0;
 
   /// K = 0: the best path to a vertex, and its source; and such a path from another piece. False
@@ -169,9 +169,8 @@ class HingeFront {
   [[nodiscard]] Real distance(const HingePlace<Real>& b) const {
     const PosedSource<Real> eye = seen_from(b);
     const auto p = shape.place(b);
-    return eye.sigma +
-           std::sqrt((p[0] - eye.x) * (p[0] - eye.x) + (p[1] - eye.y) * (p[1] - eye.y) +
-                     eye.h * eye.h);
+    return eye.sigma + std::sqrt((p[0] - eye.x) * (p[0] - eye.x) + (p[1] - eye.y) * (p[1] - eye.y) +
+                                 eye.h * eye.h);
   }
 
   /// The shortest path to a point beyond, posed as a piece with the hinge's shape `to` has it.
@@ -207,7 +206,7 @@ class HingeFront {
   [[nodiscard]] bool is_one_source(PosedSource<Real>& eye) const {
     constexpr Real close = sizeof(Real) == 4 ? Real(1e-5) : Real(1e-10);
     eye = seen_from(dimension == 1 ? HingePlace<Real>{Real(0.5), 0}
-                                      : HingePlace<Real>{Real(1) / 3, Real(1) / 3});
+                                   : HingePlace<Real>{Real(1) / 3, Real(1) / 3});
     const Real size =
         close * (std::abs(eye.x) + std::abs(eye.y) + eye.h + eye.sigma + shape.length);
     for (int corner = 0; corner <= dimension; ++corner) {

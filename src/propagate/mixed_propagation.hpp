@@ -67,9 +67,8 @@ class MixedPropagation {
     for (const auto& weld : domain_.welds())
       for (const std::size_t side : {0, 1})
         if (weld.piece[side] == piece && weld.vertex[side] == vertex)
-          if (pieces_[weld.piece[1 - side]]->enter_vertex(weld.vertex[1 - side],
-                                                          static_cast<Real>(source.offset), number,
-                                                          false))
+          if (pieces_[weld.piece[1 - side]]->enter_vertex(
+                  weld.vertex[1 - side], static_cast<Real>(source.offset), number, false))
             waits_[weld.piece[1 - side]] = 1;
   }
 
@@ -156,6 +155,10 @@ class MixedPropagation {
     return number == none || number < sources_ ? number : crossings_[number - sources_].source;
   }
 
+  [[nodiscard]] bool is_solid(Index piece) const {
+    return std::holds_alternative<TetMesh<Real>>(domain_.complex(domain_.pieces()[piece]));
+  }
+
   // Which hinges the two pieces measure alike; at which welded vertices paths may bend: where they
   // do not, and where a straight line of shared edges ends.
   void find_bends() {
@@ -172,11 +175,14 @@ class MixedPropagation {
       const auto& hinge = domain_.hinges()[n];
       const Member* member[2];
       for (const std::size_t side : {0, 1}) member[side] = &domain_.members()[hinge.begin[side]];
+      // Solids that could not be joined bend paths at edges of the face between them.
+      const bool window =
+          hinge.dimension == 2 && is_solid(hinge.piece[0]) && is_solid(hinge.piece[1]);
       isometric_[n] =
-          pieces_[hinge.piece[0]]
-              ->shape(*member[0], hinge.dimension)
-              .agrees(pieces_[hinge.piece[1]]->shape(*member[1], hinge.dimension), hinge.dimension,
-                      alike);
+          !window && pieces_[hinge.piece[0]]
+                         ->shape(*member[0], hinge.dimension)
+                         .agrees(pieces_[hinge.piece[1]]->shape(*member[1], hinge.dimension),
+                                 hinge.dimension, alike);
       for (std::size_t i = 0; i <= hinge.dimension; ++i) {
         if (isometric_[n] && (hinge.dimension == 2 || !chains_.ends(n, i))) continue;
         const std::array<Index, 5> key = {
@@ -268,10 +274,8 @@ class MixedPropagation {
   // labels would gain on themselves going to and fro: what two measures of one hinge differ by.
   [[nodiscard]] Real gain_over(Index n, std::size_t side, Index m, Index k) const {
     const auto& hinge = domain_.hinges()[n];
-    const auto before =
-        pieces_[hinge.piece[side]]->shape(domain_.members()[m], hinge.dimension);
-    const auto after =
-        pieces_[hinge.piece[1 - side]]->shape(domain_.members()[k], hinge.dimension);
+    const auto before = pieces_[hinge.piece[side]]->shape(domain_.members()[m], hinge.dimension);
+    const auto after = pieces_[hinge.piece[1 - side]]->shape(domain_.members()[k], hinge.dimension);
     const PosedSource<Real>& eye = posed_[m];
     const auto way = [&](const HingeShape<Real>& shape, const HingePlace<Real>& b) {
       const auto p = shape.place(b);

@@ -100,8 +100,7 @@ class MixedSolid final : public MixedPiece<Real> {
   bool enter_front(const Member& m, const HingeFront<Real>& front, Point& started) override {
     const Frame frame(*this, m, front.dimension);
     const TetRecord<Real>& t = mesh_.tets()[m.simplex];
-    const auto path =
-        front.shortest(shape(m, front.dimension), frame.pose(t.centre, unit_));
+    const auto path = front.shortest(shape(m, front.dimension), frame.pose(t.centre, unit_));
     if (!(path.extent < distance(m.simplex) * (1 - this->crossing_gain))) return false;
     std::array<double, 4> weight = {0, 0, 0, 0};
     weight[m.corner[1]] = path.crossing[0];

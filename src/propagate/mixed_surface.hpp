@@ -196,8 +196,7 @@ class MixedSurface final : public MixedPiece<Real> {
           {first[0] + b * (second[0] - first[0]), first[1] + b * (second[1] - first[1])});
       const Real dx = eye.x - p[0], dy = eye.y - p[1], off = dx * uy - dy * ux;
       Pose posed;
-      posed.source = {{(dx * ux + dy * uy) / unit_},
-                      std::sqrt(off * off + eye.h * eye.h) / unit_};
+      posed.source = {{(dx * ux + dy * uy) / unit_}, std::sqrt(off * off + eye.h * eye.h) / unit_};
       posed.sigma = eye.sigma / unit_;
       return posed;
     };
@@ -208,8 +207,7 @@ class MixedSurface final : public MixedPiece<Real> {
       const Real next = detail::fermat_crossing<Real>(eye.source, centre, width, scale);
       const Pose there = seen(next);
       const Real reach = std::hypot(there.source.x[0] - next, there.source.h);
-      const Real way =
-          there.sigma + reach + std::hypot(centre.x[0] - scale * next, centre.h);
+      const Real way = there.sigma + reach + std::hypot(centre.x[0] - scale * next, centre.h);
       if (!(way < distance)) break;
       distance = way, s = next, before = reach;
       const bool same = there.source.x[0] == eye.source.x[0] && there.source.h == eye.source.h;
@@ -243,12 +241,12 @@ class MixedSurface final : public MixedPiece<Real> {
       const Real in2 = before > 0 ? (S.h / before) * (S.h / before) : Real(1);
       const Real wanted = scale * scale * out * out * before;
       Real radius = wanted < in2 * farthest ? wanted / in2 : farthest;
-      const Real rounding = 64 * std::numeric_limits<Real>::epsilon() *
-                            (std::abs(S.x[0]) + std::abs(S.h) + width);
+      const Real rounding =
+          64 * std::numeric_limits<Real>::epsilon() * (std::abs(S.x[0]) + std::abs(S.h) + width);
       for (const Real end : {low, high}) {
         const Pose there = seen(end);
-        const Real longer = there.sigma + std::hypot(there.source.x[0] - end, there.source.h) -
-                            eye.sigma - before;
+        const Real longer =
+            there.sigma + std::hypot(there.source.x[0] - end, there.source.h) - eye.sigma - before;
         const Real along = scale * (end - s), bow = longer - along * along_ray;
         if (bow > rounding)
           radius =
@@ -284,9 +282,7 @@ class MixedSurface final : public MixedPiece<Real> {
     };
     const typename Rule::Point centre = {{(extent + t.apex_x(k)) / 3}, t.apex_h(k) / 3};
     const auto path = front.shortest(shape, place(centre.x[0], centre.h));
-    if (wave_.reached(g) &&
-        !(path.extent < distance(g) * (1 - this->crossing_gain)))
-      return false;
+    if (wave_.reached(g) && !(path.extent < distance(g) * (1 - this->crossing_gain))) return false;
     // The crossing, posed on k.
     const auto b = shape.place(path.crossing);
     const Real bx = (b[0] * frame.ux + b[1] * frame.wx) / unit_ + frame.x0;
@@ -299,15 +295,14 @@ class MixedSurface final : public MixedPiece<Real> {
     if (!(s > 0 && s < extent)) return false;
     const Real low = std::max(Real(0), s - extent / 2), high = std::min(extent, s + extent / 2);
     Real radius = extent * (sizeof(Real) == 4 ? Real(300) : Real(1e5));
-    const Real rounding =
-        64 * std::numeric_limits<Real>::epsilon() * (before + extent);
+    const Real rounding = 64 * std::numeric_limits<Real>::epsilon() * (before + extent);
     for (const Real end : {low, high}) {
       const Real longer = front.shortest(shape, place(end, 0)).extent / unit_ - before;
       const Real dx = (end - along) * rx + by * ry, dy = (end - along) * ry - by * rx;
       const Real bow = longer - dx;
       if (bow > rounding)
-        radius = std::min(radius,
-                          std::max((dx * dx + dy * dy - longer * longer) / (2 * bow), Real(0)));
+        radius =
+            std::min(radius, std::max((dx * dx + dy * dy - longer * longer) / (2 * bow), Real(0)));
     }
     typename Rule::Posed label;
     label.sigma = before - radius;

@@ -52,9 +52,7 @@ class MixedWire final : public MixedPiece<Real> {
   Real distance(Index) const override { return std::numeric_limits<Real>::infinity(); }
   Index vertex_of(Index, std::size_t) const override { return none; }
   HingeShape<Real> shape(const Member&, int) const override { return {}; }
-  PosedSource<Real> leave(const Member&, int, const HingePlace<Real>&) const override {
-    return {};
-  }
+  PosedSource<Real> leave(const Member&, int, const HingePlace<Real>&) const override { return {}; }
   bool enter(const Member&, int, const PosedSource<Real>&, Index) override { return false; }
   bool enter_front(const Member&, const HingeFront<Real>&, Vector3<Real>&) override {
     return false;

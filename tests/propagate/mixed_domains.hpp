@@ -59,7 +59,7 @@ struct Sheet {
 
 /// The parallelogram at `origin` spanned by u and v, in n by m cells, diagonals from low to high.
 inline Sheet sheet(const Position& origin, const Position& u, const Position& v, std::size_t n,
-            std::size_t m) {
+                   std::size_t m) {
   Sheet s;
   for (std::size_t i = 0; i <= n; ++i)
     for (std::size_t j = 0; j <= m; ++j) {

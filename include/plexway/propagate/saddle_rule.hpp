@@ -269,8 +269,8 @@ class SaddleRule : public SaddlePoses<Real> {
     const bool right = detail::left_of<Real>(p.source, p.limit[1], q) < 0;
     if (left || right) detail::give_up_source<Real>(p, Point(p.limit[left ? 0 : 1]));
     const auto c = Posed::Kernel::crossing(p.source, q);
-    if (p.source.h >= 0 && ((c.x[0] < 0 && t.saddle(in)) ||
-                            (c.x[0] > length * c.w && t.saddle(edge_after(in)))))
+    if (p.source.h >= 0 &&
+        ((c.x[0] < 0 && t.saddle(in)) || (c.x[0] > length * c.w && t.saddle(edge_after(in)))))
       detail::give_up_source<Real>(p, {{c.x[0] < 0 ? Real(0) : length}, Real(0)});
     return p;
   }
