@@ -58,7 +58,7 @@ class HingeFermat {
   [[nodiscard]] HingePlace<Real> crossing(const HingeEnd<Real>& from,
                                           const HingeEnd<Real>& to) const {
     if (dimension_ == 1) return on_edge(from, to, {0, 0}, {1, 0});
-    // Inside by Newton's steps; if they lead out, the least is on an edge.
+    // Inside by Newton's steps; if they lead out, the least is on an edge that they cross.
     HingePlace<Real> b = {Real(1) / 3, Real(1) / 3};
     if (inside(from, to, b)) {
       // A kink at an end that lies in the hinge's plane: the path may start or end right there.
@@ -74,7 +74,10 @@ class HingeFermat {
     static constexpr Real corner[3][2] = {{0, 0}, {1, 0}, {0, 1}};
     HingePlace<Real> best = {0, 0};
     Real least = std::numeric_limits<Real>::infinity();
+    const bool beyond[3] = {b[1]<0, b[0] + b[1]> 1, b[0] < 0};
+    const bool unknown = !beyond[0] && !beyond[1] && !beyond[2];
     for (std::size_t i = 0; i < 3; ++i) {
+      if (!beyond[i] && !unknown) continue;
       const std::size_t j = i == 2 ? 0 : i + 1;
       const HingePlace<Real> c =
           on_edge(from, to, {corner[i][0], corner[i][1]}, {corner[j][0], corner[j][1]});
@@ -128,6 +131,8 @@ class HingeFermat {
     const auto at = [&](Real s) -> HingePlace<Real> {
       return {start[0] + s * step[0], start[1] + s * step[1]};
     };
+    if (along(from, to, start, step).first >= 0) return start;
+    if (along(from, to, end, step).first <= 0) return end;
     Real low = 0, high = 1, s = Real(0.5);
     for (int i = 0; i < 48; ++i) {
       const Slope slope = along(from, to, at(s), step);
@@ -138,11 +143,7 @@ class HingeFermat {
       s = next;
       if (moved <= 4 * std::numeric_limits<Real>::epsilon()) break;
     }
-    HingePlace<Real> best = at(s);
-    Real least = way(from, to, best);
-    for (const HingePlace<Real>& b : {start, end})
-      if (const Real d = way(from, to, b); d <= least) least = d, best = b;
-    return best;
+    return at(s);
   }
 
   // False if the least is not inside the triangle.

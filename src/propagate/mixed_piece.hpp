@@ -86,9 +86,12 @@ class MixedPiece {
   /// Nothing was accepted with the ring opened last.
   virtual void close_ring() {}
 
-  /// A vertex posed on a hinge, and the numbers of the fronts whose crossing the tetrahedra around
-  /// it see straight: `starts(number)` tells where that is.
+  /// A vertex posed on a hinge; and of the fronts whose crossing simplices around it see straight,
+  /// the nearest: `starts(number)` tells where that is.
   virtual HingeEnd<Real> pose(const Member&, int, Index) const { return {}; }
+  virtual Index crossing_seen(Index, const std::function<const Point*(Index)>&) const {
+    return none;
+  }
   virtual Point place(Index) const { return {}; }
   /// Does every point see every other?
   [[nodiscard]] virtual bool sees_all() const { return false; }

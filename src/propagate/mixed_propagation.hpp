@@ -324,7 +324,7 @@ class MixedPropagation {
       if (number == none || number < sources_) return nullptr;
       return &crossings_[number - sources_].start;
     };
-    std::vector<Index> seen, around;
+    std::vector<Index> around;
     const auto& complex = domain_.complex(domain_.pieces()[piece]);
     const auto inside = [&](Index v) {
       return std::visit([&](const auto& c) { return c.inside_vertex(v); }, complex);
@@ -334,14 +334,12 @@ class MixedPropagation {
     std::vector<Via> via(distance.size());
     std::vector<Index> front;
     for (Index v = 0; v < distance.size(); ++v) {
-      own.crossings_seen(inside(v), starts, seen);
-      for (const Index number : seen) {
-        const Crossing& c = crossings_[number - sources_];
-        const Via there = least_over({c.hinge, c.source, c.side, 0}, inside(v));
-        if (there.distance < distance[v] || via[v].hinge == none) via[v] = there;
-        if (there.distance < distance[v]) distance[v] = there.distance, label[v] = c.source;
-      }
-      if (via[v].hinge != none) front.push_back(v);
+      const Index number = own.crossing_seen(inside(v), starts);
+      if (number == none) continue;
+      const Crossing& c = crossings_[number - sources_];
+      via[v] = least_over({c.hinge, c.source, c.side, 0}, inside(v));
+      if (via[v].distance < distance[v]) distance[v] = via[v].distance, label[v] = c.source;
+      front.push_back(v);
     }
     // A vertex none of whose simplices came over the hinge may itself be nearer that way.
     if (!own.sees_all()) return;
@@ -350,9 +348,10 @@ class MixedPropagation {
       own.vertices_around(inside(front[i]), around);
       for (const Index inner : around) {
         const Index w = outside[inner];
-        const auto gains = [&](Real d) { return d < distance[w] * (1 - bend_loss); };
-        if (!gains(way_over(from.hinge, from.side, inner))) continue;
-        via[w] = least_over(from, inner);
+        if (via[w].hinge != none) continue;
+        const Via there = least_over(from, inner);
+        if (!(there.distance < distance[w] * (1 - bend_loss))) continue;
+        via[w] = there;
         distance[w] = via[w].distance;
         label[w] = from.source;
         front.push_back(w);
@@ -367,31 +366,41 @@ class MixedPropagation {
     Real distance = 0;
   };
   [[nodiscard]] Via least_over(Via via, Index vertex) const {
-    via.distance = way_over(via.hinge, via.side, vertex);
-    for (int steps = 0; steps < 64; ++steps) {
+    Over best = way_over(via.hinge, via.side, vertex);
+    for (int steps = 0; steps < 64 && best.rims > 0; ++steps) {
       Index better = none;
-      for (const Index other : neighbours_.of(via.hinge)) {
-        const Real d = way_over(other, via.side, vertex);
-        if (d < via.distance) via.distance = d, better = other;
-      }
+      // At an end of the hinge: another one there may be better that shares no edge with it.
+      for (const Index other :
+           best.rims > 1 ? neighbours_.over_vertices(via.hinge) : neighbours_.over_edges(via.hinge))
+        if (const Over there = way_over(other, via.side, vertex); there.distance < best.distance)
+          best = there, better = other;
       if (better == none) break;
       via.hinge = better;
     }
+    via.distance = best.distance;
     return via;
   }
-  [[nodiscard]] Real way_over(Index n, std::size_t side, Index vertex) const {
+  struct Over {
+    Real distance;
+    int rims;  // of the hinge that the crossing lies on: a neighbour may be better
+  };
+  [[nodiscard]] Over way_over(Index n, std::size_t side, Index vertex) const {
     const auto& hinge = domain_.hinges()[n];
     const Index to = hinge.piece[1 - side];
     const Member& beyond = domain_.members()[hinge.begin[1 - side]];
     const HingeShape<Real> shape = pieces_[to]->shape(beyond, hinge.dimension);
     const HingeEnd<Real> target = pieces_[to]->pose(beyond, hinge.dimension, vertex);
-    Real least = infinity;
+    Over least = {infinity, 0};
     for (Index m = hinge.begin[side]; m < hinge.end[side]; ++m) {
       const Member& member = domain_.members()[m];
       if (!(pieces_[hinge.piece[side]]->distance(member.simplex) < infinity)) continue;
       const HingeFront<Real> front(*pieces_[hinge.piece[side]], member, hinge.dimension, none,
                                    none);
-      least = std::min(least, front.shortest(shape, target).extent);
+      const auto path = front.shortest(shape, target);
+      if (!(path.extent < least.distance)) continue;
+      const HingePlace<Real>& b = path.crossing;
+      constexpr Real rim = 16 * std::numeric_limits<Real>::epsilon();
+      least = {path.extent, (b[0] <= rim) + (b[1] <= rim) + (1 - b[0] - b[1] <= rim)};
     }
     return least;
   }

@@ -128,18 +128,22 @@ class MixedSolid final : public MixedPiece<Real> {
     around.erase(std::unique(around.begin(), around.end()), around.end());
   }
 
-  void crossings_seen(Index vertex, const std::function<const Point*(Index)>& starts,
-                      std::vector<Index>& seen) const override {
+  Index crossing_seen(Index vertex,
+                      const std::function<const Point*(Index)>& starts) const override {
     const Point& q = mesh_.points()[vertex];
-    seen.clear();
+    Index nearest = none;
+    Real least = infinity;
     for (const Index c : mesh_.corners_at(vertex)) {
       if (!wave_.reached(c / 4)) continue;
       const Index number = wave_.source(c / 4);
       const Point* start = starts(number);
-      if (!start || std::find(seen.begin(), seen.end(), number) != seen.end()) continue;
-      const Point off = rule_.seen_from(c / 4, q).eye - *start;
-      if (norm(off) <= Real(1e-4)) seen.push_back(number);
+      if (!start) continue;
+      const Real d = wave_.label(c / 4).sigma + norm(q - *start);
+      if (!(d < least) || !(norm(rule_.seen_from(c / 4, q).eye - *start) <= Real(1e-4))) continue;
+      least = d;
+      nearest = number;
     }
+    return nearest;
   }
 
   bool enter(const Member& m, int dimension, const PosedSource<Real>& from, Index ring) override {
