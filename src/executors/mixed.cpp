@@ -1,5 +1,3 @@
-#include <plexway/executors/serial_mixed.hpp>
-
 #include <algorithm>
 #include <limits>
 #include <string>
@@ -8,6 +6,7 @@
 
 #include "complex/joined_pieces.hpp"
 #include "executors/checks.hpp"
+#include "executors/run.hpp"
 #include "propagate/mixed_propagation.hpp"
 
 namespace plexway {
@@ -40,9 +39,9 @@ std::size_t corners_of(const typename MixedComplex<Real>::Complex& complex) {
 
 // On a domain whose pieces are joined.
 template <class Real>
-void solve(const MixedComplex<Real>& domain, std::span<const PointSource> sources,
-           const PropagateOptions& options, MixedWorkspace<Real>& workspace,
-           DistanceField<Real>& field) {
+void solve_joined(const MixedComplex<Real>& domain, std::span<const PointSource> sources,
+                  const PropagateOptions& options, MixedWorkspace<Real>& workspace,
+                  DistanceField<Real>& field) {
   workspace.pieces.resize(domain.pieces().size());
   MixedPropagation<Real> propagation(domain, workspace.pieces, workspace.offered, options);
   for (std::size_t n = 0; n < sources.size(); ++n) {
@@ -84,24 +83,17 @@ void solve(const MixedComplex<Real>& domain, std::span<const PointSource> source
       field.label[v] = none;
 }
 
-}  // namespace
-
 template <class Real>
-void propagate(Serial, const MixedComplex<Real>& domain, std::span<const PointSource> sources,
-               const PropagateOptions& options, MixedWorkspace<Real>& workspace,
-               DistanceField<Real>& field) {
+void solve_points(const Serial&, const MixedComplex<Real>& domain,
+                  std::span<const PointSource> sources, const PropagateOptions& options,
+                  MixedWorkspace<Real>& workspace, DistanceField<Real>& field) {
   check(sources, options);
-  if (options.visibility != Visibility::saddles)
-    throw UsageError("mixed domains know the default visibility only");
-  if (options.schedule == Schedule::priority)
-    throw UsageError("mixed domains are not propagated nearest first: use the dual queue");
   for (const PointSource& source : sources) {
     const auto [number, own] = find_piece(domain, source);
     const auto& piece = domain.pieces()[number];
     check_source(
         own, {piece.vertices, piece.simplices, "simplex", corners_of<Real>(domain.complex(piece))});
   }
-
   if (const auto joined = domain.joined()) {
     std::vector<PointSource> own(sources.begin(), sources.end());
     for (PointSource& source : own)
@@ -110,7 +102,7 @@ void propagate(Serial, const MixedComplex<Real>& domain, std::span<const PointSo
       else
         source.simplex = joined->simplex[source.simplex];
     DistanceField<Real> all;
-    solve(joined->domain, std::span<const PointSource>(own), options, workspace, all);
+    solve_joined(joined->domain, std::span<const PointSource>(own), options, workspace, all);
     field.complete = all.complete;
     field.statistics = all.statistics;
     field.distance.resize(domain.vertex_count());
@@ -120,28 +112,19 @@ void propagate(Serial, const MixedComplex<Real>& domain, std::span<const PointSo
       field.label[v] = all.label[joined->vertex[v]];
     }
   } else {
-    solve(domain, sources, options, workspace, field);
+    solve_joined(domain, sources, options, workspace, field);
   }
   if (sources.size() == 1) field.label.clear();
 }
 
-template <class Real>
-DistanceField<Real> propagate(Serial executor, const MixedComplex<Real>& domain,
-                              std::span<const PointSource> sources,
-                              const PropagateOptions& options) {
-  MixedWorkspace<Real> workspace;
-  DistanceField<Real> field;
-  propagate(executor, domain, sources, options, workspace, field);
-  return field;
-}
+}  // namespace
 
-template void propagate(Serial, const MixedComplex<float>&, std::span<const PointSource>,
-                        const PropagateOptions&, MixedWorkspace<float>&, DistanceField<float>&);
-template void propagate(Serial, const MixedComplex<double>&, std::span<const PointSource>,
-                        const PropagateOptions&, MixedWorkspace<double>&, DistanceField<double>&);
-template DistanceField<float> propagate(Serial, const MixedComplex<float>&,
-                                        std::span<const PointSource>, const PropagateOptions&);
-template DistanceField<double> propagate(Serial, const MixedComplex<double>&,
-                                         std::span<const PointSource>, const PropagateOptions&);
+namespace detail {
+#define PLEXWAY_COMPILE_MIXED(...)     \
+  PLEXWAY_COMPILE(Serial, __VA_ARGS__) \
+  PLEXWAY_EACH_OF(OpenMP, __VA_ARGS__)
+PLEXWAY_MIXED(PLEXWAY_COMPILE_MIXED)
+#undef PLEXWAY_COMPILE_MIXED
+}  // namespace detail
 
 }  // namespace plexway
