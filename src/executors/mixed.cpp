@@ -83,6 +83,8 @@ void solve_joined(const MixedComplex<Real>& domain, std::span<const PointSource>
       field.label[v] = none;
 }
 
+}  // namespace
+
 template <class Real>
 void solve_points(const Serial&, const MixedComplex<Real>& domain,
                   std::span<const PointSource> sources, const PropagateOptions& options,
@@ -116,8 +118,6 @@ void solve_points(const Serial&, const MixedComplex<Real>& domain,
   }
   if (sources.size() == 1) field.label.clear();
 }
-
-}  // namespace
 
 namespace detail {
 #define PLEXWAY_COMPILE_MIXED(...)     \

@@ -111,8 +111,8 @@ inline Motion motion(unsigned seed) {
 }
 
 /// A domain under construction, with the positions that the answers are computed from.
-struct Domain {
-  explicit Domain(unsigned seed) : move(motion(seed)) {}
+struct Welded {
+  explicit Welded(unsigned seed) : move(motion(seed)) {}
 
   Motion move;
   MixedComplex<double> complex;

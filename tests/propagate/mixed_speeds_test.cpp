@@ -36,7 +36,7 @@ double refracted(double h, double d, double x, double v, double w) {
 struct Errors {
   double mean = 0, worst = 0, low = 0;
 };
-Errors errors(const Domain& domain, Index source, const std::function<double(Index)>& exact) {
+Errors errors(const Welded& domain, Index source, const std::function<double(Index)>& exact) {
   const auto field = propagate(Serial{}, domain.complex, PointSource::at(source));
   Errors e;
   for (Index v = 0; v < domain.positions.size(); ++v) {
@@ -65,7 +65,7 @@ TEST_CASE("a skin of another speed on a block") {
   for (const double c : speeds)
     for (const Position& from :
          {Position{0, 0, 1}, Position{.25, .25, 10. / 12}, Position{.25, .5, .5}}) {
-      Domain domain(1);
+      Welded domain(1);
       const auto skin = domain.add(sheet({0, 0, 1}, {1, 0, 0}, {0, 1, 0}, n, n), c);
       const auto solid = domain.add(block({0, 0, 0}, {1, 1, 1}, n));
       domain.weld(skin, solid);
@@ -84,7 +84,7 @@ TEST_CASE("a skin of another speed on a block") {
 TEST_CASE("a skin of another speed: finer is better") {
   double coarse = 0;
   for (const std::size_t n : {6, 12}) {
-    Domain domain(0);
+    Welded domain(0);
     const auto skin = domain.add(sheet({0, 0, 1}, {1, 0, 0}, {0, 1, 0}, n, n), 2);
     const auto solid = domain.add(block({0, 0, 0}, {1, 1, 1}, n));
     domain.weld(skin, solid);
@@ -104,7 +104,7 @@ TEST_CASE("two blocks of different speeds on a face") {
   constexpr std::size_t n = 8;
   for (const double c : {.5, 1.1, 2.})
     for (const Position& from : {Position{.25, .5, .5}, Position{1, .5, .5}, Position{0, 0, 0}}) {
-      Domain domain(0);
+      Welded domain(0);
       const auto one = domain.add(block({0, 0, 0}, {1, 1, 1}, n));
       const auto other = domain.add(block({1, 0, 0}, {2, 1, 1}, n), c);
       domain.weld(one, other);
@@ -113,7 +113,7 @@ TEST_CASE("two blocks of different speeds on a face") {
                    [&](Index v) {
                      const Position& p = domain.positions[v];
                      const double x = std::hypot(p[1] - from[1], p[2] - from[2]);
-                     if (Domain::of(one, v))
+                     if (Welded::of(one, v))
                        return along_fast(1 - from[0], 1 - p[0], x, c, distance(from, p));
                      return refracted(1 - from[0], p[0] - 1, x, 1, c);
                    }),
@@ -125,7 +125,7 @@ TEST_CASE("a sheet of another speed stands on a block") {
   constexpr std::size_t n = 12;
   for (const double c : {.5, 1., 2., 3.})
     for (const Position& from : {Position{.5, 0, 1.5}, Position{.25, 0, .5}, Position{.5, 0, 1}}) {
-      Domain domain(2);
+      Welded domain(2);
       const auto plate = domain.add(sheet({.5, 0, 1}, {0, 1, 0}, {0, 0, 1}, n, n), c);
       const auto solid = domain.add(block({0, 0, 0}, {1, 1, 1}, n));
       domain.weld(plate, solid);
@@ -138,7 +138,7 @@ TEST_CASE("a sheet of another speed stands on a block") {
                    [&](Index v) {
                      const Position& p = domain.positions[v];
                      const double x = std::abs(p[1] - from[1]), r = foot(from), rho = foot(p);
-                     const bool above = p[2] > 1 || (p[2] == 1 && Domain::of(plate, v));
+                     const bool above = p[2] > 1 || (p[2] == 1 && Welded::of(plate, v));
                      if (!above && from[2] <= 1) return along_fast(r, rho, x, c, distance(from, p));
                      if (above && from[2] > 1) {
                        const double direct = distance(from, p) / c;
@@ -219,7 +219,7 @@ TEST_CASE("a skin of another speed on a ball") {
   const Sheet s = skin_of(b);
   for (const double c : {.3, 1., 1.5, 3.})
     for (const double r : {1., .5}) {
-      Domain domain(0);
+      Welded domain(0);
       const auto solid = domain.add(b);
       const auto skin = domain.add(s, c);
       domain.weld(solid, skin);
@@ -241,7 +241,7 @@ TEST_CASE("a skin of another speed on a ball") {
 TEST_CASE("pieces of any speeds never gain on themselves") {
   // A stack of skins and blocks; whatever a distance is, it is no less than at the greatest speed.
   for (const double c : {.1, .9, 1.5, 20.}) {
-    Domain domain(3);
+    Welded domain(3);
     const auto one = domain.add(block({0, 0, 0}, {1, 1, 1}, 4), c);
     const auto skin = domain.add(sheet({0, 0, 1}, {1, 0, 0}, {0, 1, 0}, 4, 4), 2);
     const auto other = domain.add(block({0, 0, 1}, {1, 1, 2}, 4), .5);

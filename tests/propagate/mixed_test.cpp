@@ -21,7 +21,7 @@ double around(double y0, double h0, double y1, double h1) { return std::hypot(y0
 
 TEST_CASE("a rod on a sheet on the edge of a block") {
   for (unsigned seed = 0; seed < motions; ++seed) {
-    Domain domain(seed);
+    Welded domain(seed);
     const auto wire = domain.add(rod({{-2, .5, 1}, {-1.5, .5, 1}, {-1, .5, 1}}));
     const auto plate = domain.add(sheet({-1, 0, 1}, {1, 0, 0}, {0, 1, 0}, 4, 4));
     const auto solid = domain.add(block({0, 0, 0}, {1, 1, 1}, 4));
@@ -33,8 +33,8 @@ TEST_CASE("a rod on a sheet on the edge of a block") {
     CAPTURE(seed);
     // From the rod's far end.
     CHECK(domain.worst(wire.vertex(0), [&](Index v) {
-      if (Domain::of(wire, v)) return place(v)[0] + 2;
-      if (Domain::of(plate, v)) return 1 + std::hypot(place(v)[0] + 1, place(v)[1] - .5);
+      if (Welded::of(wire, v)) return place(v)[0] + 2;
+      if (Welded::of(plate, v)) return 1 + std::hypot(place(v)[0] + 1, place(v)[1] - .5);
       return 1 + around(.5, 1, place(v)[1], off_edge(v));
     }) < 1e-9);
     // From a corner and from the inside of the block.
@@ -42,8 +42,8 @@ TEST_CASE("a rod on a sheet on the edge of a block") {
       const Index source = domain.nearest(solid, from);
       const double h = off_edge(source);
       CHECK(domain.worst(source, [&](Index v) {
-        if (Domain::of(solid, v)) return distance(from, place(v));
-        if (Domain::of(plate, v)) return around(from[1], h, place(v)[1], -place(v)[0]);
+        if (Welded::of(solid, v)) return distance(from, place(v));
+        if (Welded::of(plate, v)) return around(from[1], h, place(v)[1], -place(v)[0]);
         return around(from[1], h, .5, 1) - 1 - place(v)[0];
       }) < 1e-9);
     }
@@ -52,7 +52,7 @@ TEST_CASE("a rod on a sheet on the edge of a block") {
 
 TEST_CASE("a sheet glued on the face of a block and beyond it") {
   for (unsigned seed = 0; seed < motions; ++seed) {
-    Domain domain(seed);
+    Welded domain(seed);
     const auto plate = domain.add(sheet({-1, 0, 1}, {2, 0, 0}, {0, 1, 0}, 8, 4));
     const auto solid = domain.add(block({0, 0, 0}, {1, 1, 1}, 4));
     CHECK(domain.weld(plate, solid) == 25);
@@ -79,19 +79,19 @@ TEST_CASE("a sheet glued on the face of a block and beyond it") {
 
 TEST_CASE("a rod through a sheet") {
   for (unsigned seed = 0; seed < motions; ++seed) {
-    Domain domain(seed);
+    Welded domain(seed);
     const auto plate = domain.add(sheet({-1, -1, 0}, {2, 0, 0}, {0, 2, 0}, 6, 6));
     const auto wire = domain.add(rod({{0, 0, -1}, {0, 0, 0}, {0, 0, 1}, {0, 0, 2}}));
     CHECK(domain.weld(plate, wire) == 1);
     const auto place = [&](Index v) -> const Position& { return domain.positions[v]; };
     CAPTURE(seed);
     CHECK(domain.worst(wire.vertex(3), [&](Index v) {
-      if (Domain::of(wire, v)) return 2 - place(v)[2];
+      if (Welded::of(wire, v)) return 2 - place(v)[2];
       return 2 + std::hypot(place(v)[0], place(v)[1]);
     }) < 1e-9);
     const Index source = domain.nearest(plate, {-1, 1. / 3, 0});
     CHECK(domain.worst(source, [&](Index v) {
-      if (Domain::of(plate, v)) return distance(place(source), place(v));
+      if (Welded::of(plate, v)) return distance(place(source), place(v));
       return std::hypot(1, 1. / 3) + std::abs(place(v)[2]);
     }) < 1e-9);
   }
@@ -99,7 +99,7 @@ TEST_CASE("a rod through a sheet") {
 
 TEST_CASE("two blocks joined by a wire") {
   for (unsigned seed = 0; seed < motions; ++seed) {
-    Domain domain(seed);
+    Welded domain(seed);
     const auto one = domain.add(block({0, 0, 0}, {1, 1, 1}, 3));
     const auto other = domain.add(block({3, 0, 0}, {4, 1, 1}, 3));
     const auto wire = domain.add(rod({{1, 1, 1}, {2, 2, 1}, {2, 0, 0}, {3, 0, 0}}));
@@ -112,13 +112,13 @@ TEST_CASE("two blocks joined by a wire") {
     const Index source = domain.nearest(one, {0, 0, 1. / 3});
     const double exit = distance(place(source), {1, 1, 1});
     CHECK(domain.worst(source, [&](Index v) {
-      if (Domain::of(one, v)) return distance(place(source), place(v));
-      if (Domain::of(wire, v)) return exit + along[v - wire.first_vertex];
+      if (Welded::of(one, v)) return distance(place(source), place(v));
+      if (Welded::of(wire, v)) return exit + along[v - wire.first_vertex];
       return exit + along[3] + distance({3, 0, 0}, place(v));
     }) < 1e-9);
     CHECK(domain.worst(wire.vertex(1), [&](Index v) {
-      if (Domain::of(one, v)) return legs[0] + distance({1, 1, 1}, place(v));
-      if (Domain::of(wire, v)) return std::abs(along[v - wire.first_vertex] - along[1]);
+      if (Welded::of(one, v)) return legs[0] + distance({1, 1, 1}, place(v));
+      if (Welded::of(wire, v)) return std::abs(along[v - wire.first_vertex] - along[1]);
       return along[3] - along[1] + distance({3, 0, 0}, place(v));
     }) < 1e-9);
   }
@@ -126,8 +126,8 @@ TEST_CASE("two blocks joined by a wire") {
 
 TEST_CASE("a fan of three sheets on one edge") {
   for (unsigned seed = 0; seed < motions; ++seed) {
-    Domain domain(seed);
-    std::vector<Domain::Piece> blades;
+    Welded domain(seed);
+    std::vector<Welded::Piece> blades;
     for (int k = 0; k < 3; ++k) {
       const double a = 2.1 * k + .3;
       blades.push_back(
@@ -143,7 +143,7 @@ TEST_CASE("a fan of three sheets on one edge") {
       for (const Index own : {Index(20), Index(15), Index(0), Index(2)}) {
         const Index source = blade.vertex(own);
         CHECK(domain.worst(source, [&](Index v) {
-          if (Domain::of(blade, v)) return distance(place(source), place(v));
+          if (Welded::of(blade, v)) return distance(place(source), place(v));
           return around(place(source)[1], off_edge(source), place(v)[1], off_edge(v));
         }) < 1e-9);
       }
@@ -152,7 +152,7 @@ TEST_CASE("a fan of three sheets on one edge") {
 
 TEST_CASE("two blocks glued on a face are one") {
   for (unsigned seed = 0; seed < motions; ++seed) {
-    Domain domain(seed);
+    Welded domain(seed);
     const auto one = domain.add(block({0, 0, 0}, {1, 1, 1}, 3));
     const auto other = domain.add(block({1, 0, 0}, {2, 1, 1}, 3));
     CHECK(domain.weld(one, other) == 16);
@@ -165,7 +165,7 @@ TEST_CASE("two blocks glued on a face are one") {
 }
 
 TEST_CASE("blocks that share an edge are joined by it whichever comes first") {
-  Domain domain(0);
+  Welded domain(0);
   const auto one = domain.add(block({0, 0, 0}, {1, 1, 1}, 3));
   const auto other = domain.add(block({1, 0, 1}, {2, 1, 2}, 3));
   CHECK(domain.weld(one, other) == 4);
@@ -176,7 +176,7 @@ TEST_CASE("blocks that share an edge are joined by it whichever comes first") {
   };
   for (const Index source : {one.vertex(0), one.vertex(22), other.vertex(63), other.vertex(40)})
     CHECK(domain.worst(source, [&](Index v) {
-      const bool same = Domain::of(one, v) == Domain::of(one, source);
+      const bool same = Welded::of(one, v) == Welded::of(one, source);
       const Position &p = domain.positions[source], &q = domain.positions[v];
       return same ? distance(p, q) : around(p[1], off_edge(source), q[1], off_edge(v));
     }) < 1e-9);
@@ -188,14 +188,14 @@ TEST_CASE("welding by nearness is the same from both sides, and refuses too much
   for (const auto& f : big.faces) twice.faces.push_back({f[0] + 4, f[1] + 4, f[2] + 4});
   twice.positions.insert(twice.positions.end(), big.positions.begin(), big.positions.end());
   for (const bool turned : {false, true}) {
-    Domain domain(0);
+    Welded domain(0);
     const auto a = domain.add(turned ? twice : big), b = domain.add(turned ? big : twice);
     CHECK(domain.weld(a, b) == 8);
     CHECK(domain.worst(a.vertex(0), [&](Index v) {
       return distance(domain.positions[v], {0, 0, 0});
     }) < 1e-9);
   }
-  Domain domain(0);
+  Welded domain(0);
   const auto fine = domain.add(sheet({0, 0, 0}, {1, 0, 0}, {0, 1, 0}, 12, 12));
   const auto coarse = domain.add(big);
   CHECK_THROWS_AS(domain.complex.weld(fine, coarse, {.tolerance = .6}), UsageError);
@@ -203,7 +203,7 @@ TEST_CASE("welding by nearness is the same from both sides, and refuses too much
 }
 
 TEST_CASE("parts that are not welded are not reached") {
-  Domain domain(0);
+  Welded domain(0);
   const auto plate = domain.add(sheet({0, 0, 0}, {1, 0, 0}, {0, 1, 0}, 2, 2));
   const auto solid = domain.add(block({0, 0, 1}, {1, 1, 2}, 2));
   const auto wire = domain.add(rod({{0, 0, 0}, {0, 0, -1}}));
@@ -211,13 +211,13 @@ TEST_CASE("parts that are not welded are not reached") {
   CHECK(domain.weld(plate, wire) == 1);
   CHECK(domain.worst(wire.vertex(1), [&](Index v) {
     const Position& p = domain.positions[v];
-    if (Domain::of(solid, v)) return infinity;
-    return Domain::of(wire, v) ? p[2] + 1 : 1 + std::hypot(p[0], p[1]);
+    if (Welded::of(solid, v)) return infinity;
+    return Welded::of(wire, v) ? p[2] + 1 : 1 + std::hypot(p[0], p[1]);
   }) < 1e-12);
 }
 
 TEST_CASE("several sources, offsets, radius and points of simplices in a mixed domain") {
-  Domain domain(0);
+  Welded domain(0);
   const auto plate = domain.add(sheet({0, 0, 0}, {1, 0, 0}, {0, 1, 0}, 2, 2));
   const auto wire = domain.add(rod({{1, 1, 0}, {2, 1, 0}, {4, 1, 0}}));
   domain.weld(plate, wire);
@@ -227,7 +227,7 @@ TEST_CASE("several sources, offsets, radius and points of simplices in a mixed d
   REQUIRE(field.label.size() == field.distance.size());
   for (Index v = 0; v < domain.positions.size(); ++v) {
     const Position& p = domain.positions[v];
-    const bool on_wire = Domain::of(wire, v);
+    const bool on_wire = Welded::of(wire, v);
     const double first = on_wire ? std::abs(p[0] - 3) : 2 + std::hypot(p[0] - 1, p[1] - 1);
     const double second = .25 + (on_wire ? std::sqrt(2.) + p[0] - 1 : std::hypot(p[0], p[1]));
     CHECK(field.distance[v] == Approx(std::min(first, second)));
@@ -243,7 +243,7 @@ TEST_CASE("several sources, offsets, radius and points of simplices in a mixed d
 }
 
 TEST_CASE("solving a mixed domain again gives the same bits") {
-  Domain domain(3);
+  Welded domain(3);
   const auto plate = domain.add(sheet({-1, 0, 1}, {1, 0, 0}, {0, 1, 0}, 4, 4));
   const auto solid = domain.add(block({0, 0, 0}, {1, 1, 1}, 4));
   domain.weld(plate, solid);
@@ -262,7 +262,7 @@ TEST_CASE("solving a mixed domain again gives the same bits") {
 
 TEST_CASE("lower hinges by request give the same or shorter paths") {
   for (const bool lower : {false, true}) {
-    Domain domain(1);
+    Welded domain(1);
     const auto plate = domain.add(sheet({-1, 0, 1}, {2, 0, 0}, {0, 1, 0}, 8, 4));
     const auto solid = domain.add(block({0, 0, 0}, {1, 1, 1}, 4));
     WeldOptions options;

@@ -57,7 +57,7 @@ struct Rooms {
 };
 
 /// Welds vertices of two pieces that lie together and satisfy a condition.
-void weld_where(Domain& domain, const Domain::Piece& a, const Domain::Piece& b,
+void weld_where(Welded& domain, const Welded::Piece& a, const Welded::Piece& b,
                 const std::function<bool(const Position&)>& open) {
   std::vector<std::array<Index, 2>> pairs;
   for (Index v = 0; v < a.vertices; ++v)
@@ -89,7 +89,7 @@ double through(const Position& p, const Position& q, double x, const std::array<
 struct Errors {
   double mean = 0, worst = 0, low = 0;
 };
-Errors errors(const Domain& domain, Index source, const std::function<double(Index)>& exact) {
+Errors errors(const Welded& domain, Index source, const std::function<double(Index)>& exact) {
   const auto field = propagate(Serial{}, domain.complex, PointSource::at(source));
   Errors e;
   for (Index v = 0; v < domain.positions.size(); ++v) {
@@ -107,7 +107,7 @@ Errors errors(const Domain& domain, Index source, const std::function<double(Ind
 
 TEST_CASE("two rectangles welded to an L") {
   for (unsigned seed = 0; seed < 3; ++seed) {
-    Domain domain(seed);
+    Welded domain(seed);
     const auto one = domain.add(sheet({0, 0, 0}, {2, 0, 0}, {0, 1, 0}, 12, 6));
     const auto other = domain.add(sheet({0, 1, 0}, {1, 0, 0}, {0, 1, 0}, 6, 6));
     CHECK(domain.weld(one, other) == 7);
@@ -118,7 +118,7 @@ TEST_CASE("two rectangles welded to an L") {
     };
     for (const Index source : {one.vertex(84), one.vertex(90), other.vertex(45), other.vertex(6)})
       CHECK(domain.worst(source, [&](Index v) {
-        return rooms.way(Domain::of(other, source), turned(source), Domain::of(other, v),
+        return rooms.way(Welded::of(other, source), turned(source), Welded::of(other, v),
                          turned(v));
       }) < 1e-9);
   }
@@ -126,7 +126,7 @@ TEST_CASE("two rectangles welded to an L") {
 
 TEST_CASE("rooms joined by a door, and a slit that ends at a weld") {
   for (const auto& door : {std::array<double, 2>{.375, .625}, {0, .5}, {.25, 1}}) {
-    Domain domain(1);
+    Welded domain(1);
     const auto one = domain.add(sheet({0, 0, 0}, {1, 0, 0}, {0, 1, 0}, 8, 8));
     const auto other = domain.add(sheet({1, 0, 0}, {1, 0, 0}, {0, 1, 0}, 8, 8));
     weld_where(domain, one, other,
@@ -137,14 +137,14 @@ TEST_CASE("rooms joined by a door, and a slit that ends at a weld") {
     };
     for (const Index source : {one.vertex(0), one.vertex(44), one.vertex(76), other.vertex(80)})
       CHECK(domain.worst(source, [&](Index v) {
-        return rooms.way(Domain::of(other, source), at(source), Domain::of(other, v), at(v));
+        return rooms.way(Welded::of(other, source), at(source), Welded::of(other, v), at(v));
       }) < 1e-9);
   }
 }
 
 TEST_CASE("a fin on a sheet, and a page on part of a line") {
   for (const auto& foot : {std::array<double, 2>{0, 1}, {.25, .75}, {0, .5}}) {
-    Domain domain(2);
+    Welded domain(2);
     const auto ground = domain.add(sheet({-1, 0, 0}, {2, 0, 0}, {0, 1, 0}, 16, 8));
     const auto fin = domain.add(sheet({0, 0, 0}, {0, 0, 1}, {0, 1, 0}, 8, 8));
     weld_where(domain, ground, fin,
@@ -153,14 +153,14 @@ TEST_CASE("a fin on a sheet, and a page on part of a line") {
     // Which of the two half planes of the ground does not matter: all about the line.
     const auto at = [&](Index v) -> Plane {
       const Position& p = domain.positions[v];
-      return {Domain::of(fin, v) ? p[2] : -std::abs(p[0]), p[1]};
+      return {Welded::of(fin, v) ? p[2] : -std::abs(p[0]), p[1]};
     };
     for (const Index source :
          {ground.vertex(0), ground.vertex(40), ground.vertex(150), fin.vertex(80), fin.vertex(9)}) {
       const Errors e = errors(domain, source, [&](Index v) {
-        if (Domain::of(fin, source) == Domain::of(fin, v))
+        if (Welded::of(fin, source) == Welded::of(fin, v))
           return distance(domain.positions[source], domain.positions[v]);
-        const bool up = Domain::of(fin, v);
+        const bool up = Welded::of(fin, v);
         return rooms.way(0, at(up ? source : v), 1, at(up ? v : source));
       });
       CAPTURE(foot[0], foot[1], source, e.mean, e.worst, e.low);
@@ -172,7 +172,7 @@ TEST_CASE("a fin on a sheet, and a page on part of a line") {
 }
 
 TEST_CASE("solids joined by a window") {
-  Domain domain(0);
+  Welded domain(0);
   const auto one = domain.add(block({0, 0, 0}, {1, 1, 1}, 8));
   const auto other = domain.add(block({1, 0, 0}, {2, 1, 1}, 8));
   const std::array<double, 4> window = {.25, .75, .25, .75};
@@ -183,7 +183,7 @@ TEST_CASE("solids joined by a window") {
     const Index source = domain.nearest(one, from);
     const Errors e = errors(domain, source, [&](Index v) {
       const Position& p = domain.positions[v];
-      return Domain::of(one, v) ? distance(from, p) : through(from, p, 1, window);
+      return Welded::of(one, v) ? distance(from, p) : through(from, p, 1, window);
     });
     CAPTURE(from[0], from[1], from[2], e.mean, e.worst, e.low);
     CHECK(e.mean < 1e-3);
@@ -210,7 +210,7 @@ TEST_CASE("a sheet behind an obstacle in a solid") {
   };
   for (const double speed : {1., .5, 2.})
     for (const Position& from : {Position{.25, .25, 1}, Position{0, 1, .75}}) {
-      Domain domain(0);
+      Welded domain(0);
       const auto solid = domain.add(notched);
       const auto fin = domain.add(sheet({2, .5, 0}, {1, 0, 0}, {0, 0, 1}, 8, 8), speed);
       domain.weld(solid, fin);
@@ -251,10 +251,10 @@ TEST_CASE("random rooms in a row, folded in space, are never too near") {
   constexpr int domains = 700;
   int below = 0;
   for (int trial = 0; trial < domains; ++trial) {
-    Domain domain(unsigned(trial) + 1);
+    Welded domain(unsigned(trial) + 1);
     const int count = integer(2, 4), rows = integer(6, 12);
     Rooms rooms = {{0}, {}};
-    std::vector<Domain::Piece> pieces;
+    std::vector<Welded::Piece> pieces;
     std::vector<Plane> flat;  // unfolded
     Position corner = {0, 0, 0};
     for (int r = 0; r < count; ++r) {
@@ -278,7 +278,7 @@ TEST_CASE("random rooms in a row, folded in space, are never too near") {
     }
     const auto room = [&](Index v) {
       std::size_t r = 0;
-      while (!Domain::of(pieces[r], v)) ++r;
+      while (!Welded::of(pieces[r], v)) ++r;
       return r;
     };
     const Index source = Index(integer(0, int(flat.size()) - 1));
@@ -301,7 +301,7 @@ TEST_CASE("random boxes in a row, joined by windows, are never too near") {
   Errors all;
   constexpr int domains = 300;
   for (int trial = 0; trial < domains; ++trial) {
-    Domain domain(unsigned(trial) + 1);
+    Welded domain(unsigned(trial) + 1);
     const int n = integer(2, 4);
     const double speed = trial % 2 == 0 ? 1 : std::array<double, 4>{.4, .8, 1.3, 3}[trial / 2 % 4];
     const auto one = domain.add(block({0, 0, 0}, {1, 1, 1}, std::size_t(n)));
@@ -320,9 +320,9 @@ TEST_CASE("random boxes in a row, joined by windows, are never too near") {
     for (Index v = 0; v < domain.positions.size(); ++v) {
       const Position& p = domain.positions[v];
       // In a block with a faster one beside it paths may go there and back: no closed form.
-      if (Domain::of(one, v) && speed > 1) continue;
+      if (Welded::of(one, v) && speed > 1) continue;
       const double truth =
-          Domain::of(one, v) ? distance(from, p) : through(from, p, 1, window, 1, speed);
+          Welded::of(one, v) ? distance(from, p) : through(from, p, 1, window, 1, speed);
       if (truth < 1e-5) continue;
       const double off = (field.distance[v] / domain.move.scale - truth) / truth;
       CAPTURE(trial, speed, p[0], p[1], p[2], field.distance[v] / domain.move.scale, truth);
