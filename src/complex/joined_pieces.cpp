@@ -244,9 +244,9 @@ class Joiner {
     return {std::move(points), std::move(tets)};
   }
 
-  // Not where faces contradict each other; and not where an edge of the weld would bend paths, as at
-  // a window: which such edge a tetrahedron knows is a matter of luck, where fronts over the faces
-  // between pieces (HingeFront) are exact.
+  // Not where faces contradict each other; and not where an edge of the weld would bend paths, as
+  // at a window: which such edge a tetrahedron knows is a matter of luck, where fronts over the
+  // faces between pieces (HingeFront) are exact.
   [[nodiscard]] bool can_be_built(const std::vector<Index>& pieces) const {
     const Vertices vertices = vertices_of(pieces);
     const auto [points, tets] = solid_of(pieces, vertices);

@@ -90,8 +90,8 @@ class MixedComplex {
   // What follows serves the floors above and uses the numbers inside the pieces.
 
   /// This domain with surfaces that share edges joined to one, and solids that share faces and
-  /// measure them alike, where that makes no corner; null where there are none. Made when first asked for, after the last
-  /// change; may be asked for by several threads.
+  /// measure them alike, where that makes no corner; null where there are none. Made when first
+  /// asked for, after the last change; may be asked for by several threads.
   [[nodiscard]] std::shared_ptr<const JoinedPieces<Real>> joined() const;
 
   /// A simplex at a hinge: its number, and which of its corners are the hinge's vertices 0 .. K.
