@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <mutex>
 #include <string>
 
 #include <plexway/error.hpp>
 
+#include "complex/joined_pieces.hpp"
 #include "complex/nearby.hpp"
 #include "complex/shared_faces.hpp"
 
@@ -70,6 +72,7 @@ typename MixedComplex<Real>::Piece MixedComplex<Real>::add(
                      std::to_string(positions.size()) + " positions");
   if (summary_.vertices + vertices >= none || summary_.simplices + simplices >= none)
     throw UsageError("a mixed domain holds at most 2^32 - 2 vertices and simplices");
+  is_joined_ = false;
   pieces_.push_back({static_cast<Index>(pieces_.size()), static_cast<Index>(summary_.vertices),
                      static_cast<Index>(vertices), static_cast<Index>(summary_.simplices),
                      static_cast<Index>(simplices)});
@@ -147,9 +150,22 @@ std::size_t MixedComplex<Real>::weld(const Piece& a, const Piece& b,
     welds_.push_back({{a.number, b.number}, {inside[i][0], inside[i][1]}, hinge});
     summary_.hinges[0] += hinge;
   }
+  is_joined_ = false;
+  requests_.push_back({{a.number, b.number}, options});
   for (const auto& [v, w] : pairs) outer_welds_.push_back({a.first_vertex + v, b.first_vertex + w});
   summary_.welded_vertices += inside.size();
   return inside.size();
+}
+
+template <class Real>
+std::shared_ptr<const JoinedPieces<Real>> MixedComplex<Real>::joined() const {
+  static std::mutex one_at_a_time;
+  const std::scoped_lock lock(one_at_a_time);
+  if (!is_joined_) {
+    joined_ = JoinedPieces<Real>::of(*this);
+    is_joined_ = true;
+  }
+  return joined_;
 }
 
 template <class Real>
@@ -160,6 +176,7 @@ std::size_t MixedComplex<Real>::bytes() const {
   for (const Complex& c : complexes_)
     sum += std::visit([](const auto& complex) { return complex.bytes(); }, c);
   for (const auto& p : positions_) sum += p.capacity() * sizeof(p[0]);
+  if (is_joined_ && joined_) sum += joined_->bytes();
   return sum;
 }
 

@@ -4,6 +4,7 @@
 
 #include <plexway/error.hpp>
 
+#include "complex/joined_pieces.hpp"
 #include "executors/checks.hpp"
 #include "executors/run.hpp"
 #include "propagate/mixed_propagation.hpp"
@@ -36,20 +37,11 @@ std::size_t corners_of(const typename MixedComplex<Real>::Complex& complex) {
   return std::holds_alternative<TriangleMesh<Real>>(complex) ? 3 : 4;
 }
 
-}  // namespace
-
+// On a domain whose pieces are joined.
 template <class Real>
-void solve_points(const Serial&, const MixedComplex<Real>& domain,
-                  std::span<const PointSource> sources, const PropagateOptions& options,
-                  MixedWorkspace<Real>& workspace, DistanceField<Real>& field) {
-  check(sources, options);
-  for (const PointSource& source : sources) {
-    const auto [number, own] = find_piece(domain, source);
-    const auto& piece = domain.pieces()[number];
-    check_source(
-        own, {piece.vertices, piece.simplices, "simplex", corners_of<Real>(domain.complex(piece))});
-  }
-
+void solve_joined(const MixedComplex<Real>& domain, std::span<const PointSource> sources,
+                  const PropagateOptions& options, MixedWorkspace<Real>& workspace,
+                  DistanceField<Real>& field) {
   workspace.pieces.resize(domain.pieces().size());
   MixedPropagation<Real> propagation(domain, workspace.pieces, workspace.offered, options);
   for (std::size_t n = 0; n < sources.size(); ++n) {
@@ -89,6 +81,41 @@ void solve_points(const Serial&, const MixedComplex<Real>& domain,
       field.distance[v] = infinity, field.label[v] = none;
     else if (!(field.distance[v] < infinity))
       field.label[v] = none;
+}
+
+}  // namespace
+
+template <class Real>
+void solve_points(const Serial&, const MixedComplex<Real>& domain,
+                  std::span<const PointSource> sources, const PropagateOptions& options,
+                  MixedWorkspace<Real>& workspace, DistanceField<Real>& field) {
+  check(sources, options);
+  for (const PointSource& source : sources) {
+    const auto [number, own] = find_piece(domain, source);
+    const auto& piece = domain.pieces()[number];
+    check_source(
+        own, {piece.vertices, piece.simplices, "simplex", corners_of<Real>(domain.complex(piece))});
+  }
+  if (const auto joined = domain.joined()) {
+    std::vector<PointSource> own(sources.begin(), sources.end());
+    for (PointSource& source : own)
+      if (source.vertex != none)
+        source.vertex = joined->vertex[source.vertex];
+      else
+        source.simplex = joined->simplex[source.simplex];
+    DistanceField<Real> all;
+    solve_joined(joined->domain, std::span<const PointSource>(own), options, workspace, all);
+    field.complete = all.complete;
+    field.statistics = all.statistics;
+    field.distance.resize(domain.vertex_count());
+    field.label.resize(domain.vertex_count());
+    for (std::size_t v = 0; v < field.distance.size(); ++v) {
+      field.distance[v] = all.distance[joined->vertex[v]];
+      field.label[v] = all.label[joined->vertex[v]];
+    }
+  } else {
+    solve_joined(domain, sources, options, workspace, field);
+  }
   if (sources.size() == 1) field.label.clear();
 }
 

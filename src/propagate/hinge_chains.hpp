@@ -44,6 +44,11 @@ class HingeChains {
     return hinge.dimension == 1 && solid_at(hinge.piece[side]) != nullptr;
   }
 
+  /// Does a straight line of edges into a solid end here, or turn?
+  [[nodiscard]] bool ends(Index n, std::size_t end) const {
+    return solid_[n] != 2 && links_[n][end].hinge == none;
+  }
+
   /// From x = low to high along hinge n, in its frame, the same source is seen as by member m.
   [[nodiscard]] std::pair<Real, Real> visible(Index n, std::size_t side,
                                               const std::vector<PosedSource<Real>>& posed,

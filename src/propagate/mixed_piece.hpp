@@ -1,14 +1,19 @@
 #pragma once
 
+#include <cmath>
 #include <cstddef>
+#include <functional>
 #include <limits>
 #include <span>
+#include <vector>
 
 #include <plexway/complex/mixed_complex.hpp>
 #include <plexway/propagate/distance_field.hpp>
 #include <plexway/propagate/options.hpp>
 #include <plexway/propagate/workspace.hpp>
 #include <plexway/source/point_source.hpp>
+
+#include "propagate/hinge_fermat.hpp"
 
 namespace plexway {
 
@@ -21,12 +26,23 @@ struct PosedSource {
   Index source;
 };
 
+template <class Real>
+class HingeFront;
+
 /// One piece of a mixed domain while it is propagated on: what the pieces must know of each other.
 /// Numbers are those inside the piece, distances are in the domain's unit.
 template <class Real>
 class MixedPiece {
  public:
   using Member = typename MixedComplex<Real>::Member;
+  using Point = Vector3<Real>;
+
+  /// What a path over a hinge that pieces measure differently must gain, of its length: a path that
+  /// goes to and fro is then corrected a few times only.
+  static constexpr Real crossing_gain = sizeof(Real) == 4 ? Real(1e-5) : Real(1e-7);
+  /// So much longer is a path that bends at a vertex of a weld: of two of one length the straight
+  /// one wins.
+  static constexpr Real bend_loss = sizeof(Real) == 4 ? Real(4e-6) : Real(1e-10);
 
   MixedPiece() = default;
   MixedPiece(const MixedPiece&) = delete;
@@ -35,28 +51,53 @@ class MixedPiece {
 
   /// The caller's numbers in the piece.
   virtual void seed(const PointSource& source, Index number) = 0;
-  /// Until no label waits or `budget` expansions are spent. Throws Cancelled.
-  virtual void run(std::size_t budget) = 0;
+  /// Until no label waits or `budget` expansions are spent. Sources from `first_front` on are
+  /// labels that start on a hinge. Throws Cancelled.
+  virtual void run(std::size_t budget, Index first_front) = 0;
 
   /// K = 0: the best path to a vertex, and its source; and such a path from another piece. False
-  /// if nothing got better by it.
+  /// if nothing got better by it. A path that `bends` may be of use to some simplices at the vertex
+  /// even where the vertex itself gains nothing.
   struct Found {
     Real distance;
     Index source;
   };
   virtual Found at_vertex(Index vertex) = 0;
-  virtual bool enter_vertex(Index vertex, Real distance, Index source) = 0;
+  virtual bool enter_vertex(Index vertex, Real distance, Index source, bool bends) = 0;
 
   /// K = 1, 2. `distance` is that of a simplex's centre, +inf where unreached. `ring` is the
   /// hinge's place among those of dimension 1 of this piece.
   virtual Real distance(Index) const = 0;
-  virtual PosedSource<Real> leave(const Member&, int dimension) const = 0;
+  /// The vertex at a simplex's corner.
+  virtual Index vertex_of(Index simplex, std::size_t corner) const = 0;
+  /// How this piece measures the hinge.
+  virtual HingeShape<Real> shape(const Member&, int dimension) const = 0;
+  /// The source as a point of the hinge sees it: behind the last bend on the way.
+  virtual PosedSource<Real> leave(const Member&, int dimension, const HingePlace<Real>&) const = 0;
+  /// A source that is handed on as it is: both pieces measure the hinge alike, and all of the hinge
+  /// sees it.
   virtual bool enter(const Member&, int dimension, const PosedSource<Real>&, Index ring) = 0;
+  /// Any other front: a path crosses where it is shortest. A label that starts at the crossing
+  /// gets the front's number as its source, and is told to `started`.
+  virtual bool enter_front(const Member&, const HingeFront<Real>&, Point& started) = 0;
   /// K = 1 into a solid: paths from one source may pass the hinge's line from x = low to high.
   /// Gives the `ring` to enter with.
   virtual Index open_ring(const Member&, Real, Real) { return none; }
   /// Nothing was accepted with the ring opened last.
   virtual void close_ring() {}
+
+  /// A vertex posed on a hinge; and of the fronts whose crossing simplices around it see straight,
+  /// the nearest: `starts(number)` tells where that is.
+  virtual HingeEnd<Real> pose(const Member&, int, Index) const { return {}; }
+  virtual Index crossing_seen(Index, const std::function<const Point*(Index)>&) const {
+    return none;
+  }
+  virtual Point place(Index) const { return {}; }
+  /// Does every point see every other?
+  [[nodiscard]] virtual bool sees_all() const { return false; }
+  virtual void vertices_around(Index, std::vector<Index>&) const {}
+  virtual void crossings_seen(Index, const std::function<const Point*(Index)>&,
+                              std::vector<Index>&) const {}
 
   /// One a vertex, in the caller's order.
   virtual void read_out(std::span<Real> distance, std::span<Index> label) = 0;
@@ -102,6 +143,88 @@ class MixedPiece {
     }
     return any;
   }
+};
+
+/// What a label of one piece offers over a hinge: a distance for each point of it.
+template <class Real>
+class HingeFront {
+ public:
+  using Piece = MixedPiece<Real>;
+  using Member = typename Piece::Member;
+
+  HingeFront(const Piece& from, const Member& member, int of_dimension, Index of_source,
+             Index of_front)
+      : dimension(of_dimension),
+        source(of_source),
+        number(of_front),
+        shape(from.shape(member, of_dimension)),
+        from_(from),
+        member_(member) {}
+
+  const int dimension;
+  const Index source;  ///< the caller's
+  const Index number;  ///< of this front: the source of labels that start on the hinge
+  const HingeShape<Real> shape;
+
+  [[nodiscard]] PosedSource<Real> seen_from(const HingePlace<Real>& b) const {
+    return from_.leave(member_, dimension, b);
+  }
+  [[nodiscard]] Real distance(const HingePlace<Real>& b) const {
+    const PosedSource<Real> eye = seen_from(b);
+    const auto p = shape.place(b);
+    return eye.sigma + std::sqrt((p[0] - eye.x) * (p[0] - eye.x) + (p[1] - eye.y) * (p[1] - eye.y) +
+                                 eye.h * eye.h);
+  }
+
+  /// The shortest path to a point beyond, posed as a piece with the hinge's shape `to` has it.
+  struct Path {
+    HingePlace<Real> crossing;
+    Real before, extent;  ///< to the crossing, and all of it
+  };
+  [[nodiscard]] Path shortest(const HingeShape<Real>& to, const HingeEnd<Real>& target) const {
+    const HingeFermat<Real> fermat(shape, to, dimension);
+    const HingePlace<Real> middle = dimension == 1 ? HingePlace<Real>{Real(0.5), 0}
+                                                   : HingePlace<Real>{Real(1) / 3, Real(1) / 3};
+    Path best = {middle, 0, std::numeric_limits<Real>::infinity()};
+    PosedSource<Real> eye = seen_from(middle);
+    // Where the path bends before the hinge the eye depends on the crossing. Whatever is taken is
+    // a path.
+    for (int i = 0; i < 4; ++i) {
+      const HingePlace<Real> b = fermat.crossing({eye.x, eye.y, eye.h}, target);
+      const PosedSource<Real> seen = seen_from(b);
+      const Real extent = seen.sigma + fermat.way({seen.x, seen.y, seen.h}, target, b);
+      if (!(extent < best.extent)) break;
+      const auto p = shape.place(b);
+      best = {b,
+              seen.sigma + std::sqrt((p[0] - seen.x) * (p[0] - seen.x) +
+                                     (p[1] - seen.y) * (p[1] - seen.y) + seen.h * seen.h),
+              extent};
+      if (seen.x == eye.x && seen.y == eye.y && seen.h == eye.h) break;
+      eye = seen;
+    }
+    return best;
+  }
+
+  /// If all of the hinge sees one source: that.
+  [[nodiscard]] bool is_one_source(PosedSource<Real>& eye) const {
+    constexpr Real close = sizeof(Real) == 4 ? Real(1e-5) : Real(1e-10);
+    eye = seen_from(dimension == 1 ? HingePlace<Real>{Real(0.5), 0}
+                                   : HingePlace<Real>{Real(1) / 3, Real(1) / 3});
+    const Real size =
+        close * (std::abs(eye.x) + std::abs(eye.y) + eye.h + eye.sigma + shape.length);
+    for (int corner = 0; corner <= dimension; ++corner) {
+      const PosedSource<Real> seen =
+          seen_from({corner == 1 ? Real(1) : Real(0), corner == 2 ? Real(1) : Real(0)});
+      if (!(std::abs(seen.x - eye.x) <= size && std::abs(seen.y - eye.y) <= size &&
+            std::abs(seen.h - eye.h) <= size && std::abs(seen.sigma - eye.sigma) <= size))
+        return false;
+    }
+    return true;
+  }
+
+ private:
+  const Piece& from_;
+  const Member& member_;
 };
 
 }  // namespace plexway

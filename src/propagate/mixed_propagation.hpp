@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <cstdint>
 #include <limits>
 #include <memory>
 #include <vector>
@@ -9,6 +11,7 @@
 #include <plexway/complex/mixed_complex.hpp>
 
 #include "propagate/hinge_chains.hpp"
+#include "propagate/hinge_neighbours.hpp"
 #include "propagate/mixed_piece.hpp"
 #include "propagate/mixed_solid.hpp"
 #include "propagate/mixed_surface.hpp"
@@ -30,7 +33,8 @@ class MixedPropagation {
         options_(options),
         offered_(offered),
         posed_(domain.members().size()),
-        chains_(domain) {
+        chains_(domain),
+        neighbours_(domain) {
     const Real step =
         options.schedule == Schedule::fifo ? infinity : static_cast<Real>(options.step);
     // What pieces count and report is summed up here.
@@ -48,11 +52,13 @@ class MixedPropagation {
                                                             workspace, mine, step));
     }
     waits_.assign(pieces_.size(), 0);
+    find_bends();
     offered_.assign(domain.members().size() + 2 * domain.welds().size(), infinity);
   }
 
   /// A source in the piece's own numbers. A welded vertex is one in its other pieces too.
   void seed(Index piece, const PointSource& source, Index number) {
+    sources_ = std::max(sources_, number + 1);
     pieces_[piece]->seed(source, number);
     waits_[piece] = 1;
     if (source.vertex == none) return;
@@ -61,8 +67,8 @@ class MixedPropagation {
     for (const auto& weld : domain_.welds())
       for (const std::size_t side : {0, 1})
         if (weld.piece[side] == piece && weld.vertex[side] == vertex)
-          if (pieces_[weld.piece[1 - side]]->enter_vertex(weld.vertex[1 - side],
-                                                          static_cast<Real>(source.offset), number))
+          if (pieces_[weld.piece[1 - side]]->enter_vertex(
+                  weld.vertex[1 - side], static_cast<Real>(source.offset), number, false))
             waits_[weld.piece[1 - side]] = 1;
   }
 
@@ -77,10 +83,11 @@ class MixedPropagation {
             options_.max_expansions > spent ? options_.max_expansions - spent : 0;
         const std::size_t own = pieces_[p]->statistics().expansions;
         constexpr std::size_t most = std::numeric_limits<std::size_t>::max();
-        pieces_[p]->run(left > most - own ? most : own + left);
+        pieces_[p]->run(left > most - own ? most : own + left, sources_);
         if (pieces_[p]->out_of_budget()) complete_ = false;
       }
-    } while (complete_ && cross());
+      // Bends at vertices last: they serve what nothing else reaches.
+    } while (complete_ && (cross() || bend()));
   }
 
   /// One a vertex of the domain; `distance` and `label` are room for a piece.
@@ -92,6 +99,8 @@ class MixedPropagation {
       distance.resize(piece.vertices);
       label.resize(piece.vertices);
       pieces_[piece.number]->read_out(distance, label);
+      straighten(piece.number, distance, label);
+      for (Index& l : label) l = root(l);
       std::copy(distance.begin(), distance.end(), field.distance.begin() + piece.first_vertex);
       std::copy(label.begin(), label.end(), field.label.begin() + piece.first_vertex);
     }
@@ -117,6 +126,7 @@ class MixedPropagation {
 
  private:
   static constexpr Real infinity = std::numeric_limits<Real>::infinity();
+  static constexpr Real bend_loss = MixedPiece<Real>::bend_loss;
 
   std::size_t expansions() const {
     std::size_t sum = 0;
@@ -135,6 +145,57 @@ class MixedPropagation {
     return options_.progress(all);
   }
 
+  // Labels that start on a hinge have numbers of their own behind the caller's sources.
+  struct Crossing {
+    Index source, hinge;
+    std::uint8_t side;  // that the front came from
+    Vector3<Real> start;
+  };
+  [[nodiscard]] Index root(Index number) const {
+    return number == none || number < sources_ ? number : crossings_[number - sources_].source;
+  }
+
+  [[nodiscard]] bool is_solid(Index piece) const {
+    return std::holds_alternative<TetMesh<Real>>(domain_.complex(domain_.pieces()[piece]));
+  }
+
+  // Which hinges the two pieces measure alike; at which welded vertices paths may bend: where they
+  // do not, and where a straight line of shared edges ends.
+  void find_bends() {
+    constexpr Real alike = Real(1e-6);
+    std::vector<std::array<Index, 5>> at;  // pieces, vertices, weld
+    for (Index w = 0; w < domain_.welds().size(); ++w) {
+      const auto& weld = domain_.welds()[w];
+      at.push_back({weld.piece[0], weld.piece[1], weld.vertex[0], weld.vertex[1], w});
+    }
+    std::sort(at.begin(), at.end());
+    bends_.assign(domain_.welds().size(), none);
+    isometric_.assign(domain_.hinges().size(), 0);
+    for (Index n = 0; n < domain_.hinges().size(); ++n) {
+      const auto& hinge = domain_.hinges()[n];
+      const Member* member[2];
+      for (const std::size_t side : {0, 1}) member[side] = &domain_.members()[hinge.begin[side]];
+      // Solids that could not be joined bend paths at edges of the face between them.
+      const bool window =
+          hinge.dimension == 2 && is_solid(hinge.piece[0]) && is_solid(hinge.piece[1]);
+      isometric_[n] =
+          !window && pieces_[hinge.piece[0]]
+                         ->shape(*member[0], hinge.dimension)
+                         .agrees(pieces_[hinge.piece[1]]->shape(*member[1], hinge.dimension),
+                                 hinge.dimension, alike);
+      for (std::size_t i = 0; i <= hinge.dimension; ++i) {
+        if (isometric_[n] && (hinge.dimension == 2 || !chains_.ends(n, i))) continue;
+        const std::array<Index, 5> key = {
+            hinge.piece[0], hinge.piece[1],
+            pieces_[hinge.piece[0]]->vertex_of(member[0]->simplex, member[0]->corner[i]),
+            pieces_[hinge.piece[1]]->vertex_of(member[1]->simplex, member[1]->corner[i]), 0};
+        const auto found = std::lower_bound(at.begin(), at.end(), key);
+        if (found != at.end() && std::equal(key.begin(), key.begin() + 4, found->begin()))
+          bends_[(*found)[4]] = n;
+      }
+    }
+  }
+
   // Over all hinges what has got better since. True if something was accepted.
   bool cross() {
     bool any = false;
@@ -151,8 +212,8 @@ class MixedPropagation {
         offered = found.distance;
         if (static_cast<double>(found.distance) > options_.radius) continue;
         const Index to = weld.piece[1 - side];
-        accepted(to,
-                 pieces_[to]->enter_vertex(weld.vertex[1 - side], found.distance, found.source));
+        accepted(to, pieces_[to]->enter_vertex(weld.vertex[1 - side], found.distance,
+                                               root(found.source), false));
       }
     // First what has got better, then all of that goes over.
     changed_.clear();
@@ -162,11 +223,14 @@ class MixedPropagation {
         for (Index m = hinge.begin[side]; m < hinge.end[side]; ++m) {
           const Member& member = domain_.members()[m];
           Real& offered = offered_[2 * domain_.welds().size() + m];
-          const Real distance = pieces_[hinge.piece[side]]->distance(member.simplex);
+          const auto& piece = *pieces_[hinge.piece[side]];
+          const Real distance = piece.distance(member.simplex);
           if (!(distance < offered)) continue;
           offered = distance;
-          posed_[m] = pieces_[hinge.piece[side]]->leave(member, hinge.dimension);
-          changed_.push_back({n, static_cast<Index>(side), m});
+          HingeFront<Real> front(piece, member, hinge.dimension, none, none);
+          const bool one = front.is_one_source(posed_[m]);
+          posed_[m].source = root(posed_[m].source);
+          changed_.push_back({n, static_cast<Index>(side), m, one && isometric_[n]});
         }
     }
     // Over edges first: of equal paths, one with a ring serves more points than one that bends at
@@ -174,21 +238,171 @@ class MixedPropagation {
     std::stable_partition(changed_.begin(), changed_.end(), [&](const Change& change) {
       return domain_.hinges()[change.hinge].dimension == 1;
     });
-    for (const auto& [n, side, m] : changed_) {
+    for (const auto& [n, side, m, as_it_is] : changed_) {
       const auto& hinge = domain_.hinges()[n];
       const Index to = hinge.piece[1 - side];
-      Index ring = none;
-      if (chains_.at_solid(n, 1 - side)) {
-        const auto [low, high] = chains_.visible(n, side, posed_, m);
-        ring = pieces_[to]->open_ring(domain_.members()[hinge.begin[1 - side]], low, high);
+      if (as_it_is) {
+        Index ring = none;
+        if (chains_.at_solid(n, 1 - side)) {
+          const auto [low, high] = chains_.visible(n, side, posed_, m);
+          ring = pieces_[to]->open_ring(domain_.members()[hinge.begin[1 - side]], low, high);
+        }
+        bool entered = false;
+        for (Index k = hinge.begin[1 - side]; k < hinge.end[1 - side]; ++k) {
+          PosedSource<Real> posed = posed_[m];
+          posed.sigma += gain_over(n, side, m, k);
+          entered |= pieces_[to]->enter(domain_.members()[k], hinge.dimension, posed, ring);
+        }
+        accepted(to, entered);
+        if (ring != none && !entered) pieces_[to]->close_ring();
+        continue;
       }
-      bool entered = false;
-      for (Index k = hinge.begin[1 - side]; k < hinge.end[1 - side]; ++k)
-        entered |= pieces_[to]->enter(domain_.members()[k], hinge.dimension, posed_[m], ring);
-      accepted(to, entered);
-      if (ring != none && !entered) pieces_[to]->close_ring();
+      for (Index k = hinge.begin[1 - side]; k < hinge.end[1 - side]; ++k) {
+        const HingeFront<Real> front(*pieces_[hinge.piece[side]], domain_.members()[m],
+                                     hinge.dimension, posed_[m].source,
+                                     sources_ + static_cast<Index>(crossings_.size()));
+        Vector3<Real> start = {0, 0, 0};
+        if (!pieces_[to]->enter_front(domain_.members()[k], front, start)) continue;
+        accepted(to, true);
+        crossings_.push_back({posed_[m].source, n, static_cast<std::uint8_t>(side), start});
+      }
     }
     return any;
+  }
+
+  // A source that is handed on must not be nearer to a point of the hinge than it was before, else
+  // labels would gain on themselves going to and fro: what two measures of one hinge differ by.
+  [[nodiscard]] Real gain_over(Index n, std::size_t side, Index m, Index k) const {
+    const auto& hinge = domain_.hinges()[n];
+    const auto before = pieces_[hinge.piece[side]]->shape(domain_.members()[m], hinge.dimension);
+    const auto after = pieces_[hinge.piece[1 - side]]->shape(domain_.members()[k], hinge.dimension);
+    const PosedSource<Real>& eye = posed_[m];
+    const auto way = [&](const HingeShape<Real>& shape, const HingePlace<Real>& b) {
+      const auto p = shape.place(b);
+      return std::sqrt((p[0] - eye.x) * (p[0] - eye.x) + (p[1] - eye.y) * (p[1] - eye.y) +
+                       eye.h * eye.h);
+    };
+    Real most = 0;
+    for (int i = 0; i <= hinge.dimension; ++i) {
+      const HingePlace<Real> b = {i == 1 ? Real(1) : Real(0), i == 2 ? Real(1) : Real(0)};
+      most = std::max(most, way(before, b) - way(after, b));
+    }
+    return most;
+  }
+
+  // Over the vertices where paths may bend. True if something was accepted.
+  bool bend() {
+    bool any = false;
+    for (std::size_t w = 0; w < domain_.welds().size(); ++w) {
+      if (bends_[w] == none) continue;
+      const auto& weld = domain_.welds()[w];
+      for (const std::size_t side : {0, 1}) {
+        Real& offered = offered_[2 * w + side];
+        const auto found = pieces_[weld.piece[side]]->at_vertex(weld.vertex[side]);
+        if (!(found.distance < offered)) continue;
+        offered = found.distance;
+        if (static_cast<double>(found.distance) > options_.radius) continue;
+        const Index to = weld.piece[1 - side];
+        if (!pieces_[to]->enter_vertex(weld.vertex[1 - side], found.distance,
+                                       sources_ + static_cast<Index>(crossings_.size()), true))
+          continue;
+        crossings_.push_back({root(found.source), bends_[w], static_cast<std::uint8_t>(side),
+                              pieces_[to]->place(weld.vertex[1 - side])});
+        waits_[to] = 1;
+        any = true;
+      }
+    }
+    return any;
+  }
+
+  // A label that starts on a hinge starts where it is best for one tetrahedron there. What is
+  // behind may do better to cross a little farther on: each vertex looks for its own crossing.
+  void straighten(Index piece, std::vector<Real>& distance, std::vector<Index>& label) const {
+    if (crossings_.empty()) return;
+    const auto& own = *pieces_[piece];
+    const auto starts = [&](Index number) -> const Vector3<Real>* {
+      if (number == none || number < sources_) return nullptr;
+      return &crossings_[number - sources_].start;
+    };
+    std::vector<Index> around;
+    const auto& complex = domain_.complex(domain_.pieces()[piece]);
+    const auto inside = [&](Index v) {
+      return std::visit([&](const auto& c) { return c.inside_vertex(v); }, complex);
+    };
+    std::vector<Index> outside(distance.size());
+    for (Index v = 0; v < distance.size(); ++v) outside[inside(v)] = v;
+    std::vector<Via> via(distance.size());
+    std::vector<Index> front;
+    for (Index v = 0; v < distance.size(); ++v) {
+      const Index number = own.crossing_seen(inside(v), starts);
+      if (number == none) continue;
+      const Crossing& c = crossings_[number - sources_];
+      via[v] = least_over({c.hinge, c.source, c.side, 0}, inside(v));
+      if (via[v].distance < distance[v]) distance[v] = via[v].distance, label[v] = c.source;
+      front.push_back(v);
+    }
+    // A vertex none of whose simplices came over the hinge may itself be nearer that way.
+    if (!own.sees_all()) return;
+    for (std::size_t i = 0; i < front.size(); ++i) {
+      const Via from = via[front[i]];
+      own.vertices_around(inside(front[i]), around);
+      for (const Index inner : around) {
+        const Index w = outside[inner];
+        if (via[w].hinge != none) continue;
+        const Via there = least_over(from, inner);
+        if (!(there.distance < distance[w] * (1 - bend_loss))) continue;
+        via[w] = there;
+        distance[w] = via[w].distance;
+        label[w] = from.source;
+        front.push_back(w);
+      }
+    }
+  }
+
+  // The least way over a hinge, from there over its neighbours as long as that is shorter.
+  struct Via {
+    Index hinge = none, source = none;
+    std::uint8_t side = 0;
+    Real distance = 0;
+  };
+  [[nodiscard]] Via least_over(Via via, Index vertex) const {
+    Over best = way_over(via.hinge, via.side, vertex);
+    for (int steps = 0; steps < 64 && best.rims > 0; ++steps) {
+      Index better = none;
+      // At an end of the hinge: another one there may be better that shares no edge with it.
+      for (const Index other :
+           best.rims > 1 ? neighbours_.over_vertices(via.hinge) : neighbours_.over_edges(via.hinge))
+        if (const Over there = way_over(other, via.side, vertex); there.distance < best.distance)
+          best = there, better = other;
+      if (better == none) break;
+      via.hinge = better;
+    }
+    via.distance = best.distance;
+    return via;
+  }
+  struct Over {
+    Real distance;
+    int rims;  // of the hinge that the crossing lies on: a neighbour may be better
+  };
+  [[nodiscard]] Over way_over(Index n, std::size_t side, Index vertex) const {
+    const auto& hinge = domain_.hinges()[n];
+    const Index to = hinge.piece[1 - side];
+    const Member& beyond = domain_.members()[hinge.begin[1 - side]];
+    const HingeShape<Real> shape = pieces_[to]->shape(beyond, hinge.dimension);
+    const HingeEnd<Real> target = pieces_[to]->pose(beyond, hinge.dimension, vertex);
+    Over least = {infinity, 0};
+    for (Index m = hinge.begin[side]; m < hinge.end[side]; ++m) {
+      const Member& member = domain_.members()[m];
+      if (!(pieces_[hinge.piece[side]]->distance(member.simplex) < infinity)) continue;
+      const HingeFront<Real> front(*pieces_[hinge.piece[side]], member, hinge.dimension, none,
+                                   none);
+      const auto path = front.shortest(shape, target);
+      if (!(path.extent < least.distance)) continue;
+      const HingePlace<Real>& b = path.crossing;
+      constexpr Real rim = 16 * std::numeric_limits<Real>::epsilon();
+      least = {path.extent, (b[0] <= rim) + (b[1] <= rim) + (1 - b[0] - b[1] <= rim)};
+    }
+    return least;
   }
 
   const Domain& domain_;
@@ -197,10 +411,16 @@ class MixedPropagation {
   std::vector<std::unique_ptr<MixedPiece<Real>>> pieces_;
   struct Change {
     Index hinge, side, member;
+    bool as_it_is;
   };
   std::vector<Change> changed_;
   std::vector<PosedSource<Real>> posed_;  // by member: what it offered last
   HingeChains<Real> chains_;
+  HingeNeighbours<Real> neighbours_;
+  Index sources_ = 0;
+  std::vector<Crossing> crossings_;
+  std::vector<char> isometric_;  // by hinge
+  std::vector<Index> bends_;     // by weld: a hinge at which a path may bend there, or none
   std::vector<char> waits_;
   std::size_t running_ = 0;
   bool complete_ = true;

@@ -1,6 +1,9 @@
 #pragma once
 
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <vector>
 
@@ -36,9 +39,17 @@ class MixedSolid final : public MixedPiece<Real> {
         rule_(propagation_.rule()) {}
 
   void seed(const PointSource& source, Index number) override { propagation_.seed(source, number); }
-  void run(std::size_t budget) override {
+  void run(std::size_t budget, Index first_front) override {
     options_.max_expansions = budget;
-    propagation_.run();
+    for (std::size_t before = 0;;) {
+      propagation_.run();
+      before = wave_.updates();
+      if (wave_.out_of_budget()) return;
+      for (Index t = 0; t < mesh_.tet_count(); ++t)
+        if (wave_.reached(t) && wave_.source(t) >= first_front)
+          rule_.offer_around(t, this->crossing_gain);
+      if (wave_.updates() == before) return;
+    }
   }
 
   Found at_vertex(Index vertex) override {
@@ -51,8 +62,11 @@ class MixedSolid final : public MixedPiece<Real> {
     return best;
   }
 
-  bool enter_vertex(Index vertex, Real distance, Index source) override {
-    if (!this->gains(at_vertex(vertex).distance, distance)) return false;
+  bool enter_vertex(Index vertex, Real distance, Index source, bool bends) override {
+    if (bends)
+      distance *= 1 + this->bend_loss;
+    else if (!this->gains(at_vertex(vertex).distance, distance))
+      return false;
     bool any = false;
     for (const Index c : mesh_.corners_at(vertex))
       any |= rule_.seed_corner(c / 4, c % 4, distance / unit_, source);
@@ -63,14 +77,73 @@ class MixedSolid final : public MixedPiece<Real> {
     return wave_.reached(t) ? rule_.distance(t) * unit_ : infinity;
   }
 
-  PosedSource<Real> leave(const Member& m, int dimension) const override {
+  Index vertex_of(Index simplex, std::size_t corner) const override {
+    return mesh_.tets()[simplex].corner[corner];
+  }
+  HingeShape<Real> shape(const Member& m, int dimension) const override {
     const Frame frame(*this, m, dimension);
-    const auto sight = rule_.seen_from(m.simplex, frame.middle);
-    const Point d = sight.eye - frame.origin;
-    const Real x = dot(d, frame.u), y = dimension == 2 ? dot(d, frame.w) : Real(0);
-    const Point off = d - x * frame.u - y * frame.w;
-    const Real h = dimension == 2 ? std::abs(dot(d, frame.out)) : norm(off);
-    return {x * unit_, y * unit_, h * unit_, sight.sigma * unit_, wave_.source(m.simplex)};
+    if (dimension == 1) return {dot(frame.to[0], frame.u) * unit_};
+    return {dot(frame.to[0], frame.u) * unit_, dot(frame.to[1], frame.u) * unit_,
+            dot(frame.to[1], frame.w) * unit_};
+  }
+
+  PosedSource<Real> leave(const Member& m, int dimension,
+                          const HingePlace<Real>& b) const override {
+    const Frame frame(*this, m, dimension);
+    const auto sight =
+        rule_.seen_from(m.simplex, frame.origin + b[0] * frame.to[0] + b[1] * frame.to[1]);
+    const HingeEnd<Real> end = frame.pose(sight.eye, unit_);
+    return {end.x, end.y, end.h, sight.sigma * unit_, wave_.source(m.simplex)};
+  }
+
+  // The label starts at the crossing that is the best for the centre.
+  bool enter_front(const Member& m, const HingeFront<Real>& front, Point& started) override {
+    const Frame frame(*this, m, front.dimension);
+    const TetRecord<Real>& t = mesh_.tets()[m.simplex];
+    const auto path = front.shortest(shape(m, front.dimension), frame.pose(t.centre, unit_));
+    if (!(path.extent < distance(m.simplex) * (1 - this->crossing_gain))) return false;
+    std::array<double, 4> weight = {0, 0, 0, 0};
+    weight[m.corner[1]] = path.crossing[0];
+    if (front.dimension == 2) weight[m.corner[2]] = path.crossing[1];
+    weight[m.corner[0]] = 1 - weight[m.corner[1]] - path.crossing[1];
+    const std::size_t before = wave_.updates();
+    rule_.seed_inside(m.simplex, weight, path.before / unit_, front.number);
+    started = wave_.label(m.simplex).source;
+    return wave_.updates() != before;
+  }
+
+  HingeEnd<Real> pose(const Member& m, int dimension, Index vertex) const override {
+    return Frame(*this, m, dimension).pose(mesh_.points()[vertex], unit_);
+  }
+
+  Point place(Index vertex) const override { return mesh_.points()[vertex]; }
+
+  bool sees_all() const override { return !rule_.drops() && mesh_.summary().components == 1; }
+  void vertices_around(Index vertex, std::vector<Index>& around) const override {
+    around.clear();
+    for (const Index c : mesh_.corners_at(vertex))
+      for (const Index v : mesh_.tets()[c / 4].corner)
+        if (v != vertex) around.push_back(v);
+    std::sort(around.begin(), around.end());
+    around.erase(std::unique(around.begin(), around.end()), around.end());
+  }
+
+  Index crossing_seen(Index vertex,
+                      const std::function<const Point*(Index)>& starts) const override {
+    const Point& q = mesh_.points()[vertex];
+    Index nearest = none;
+    Real least = infinity;
+    for (const Index c : mesh_.corners_at(vertex)) {
+      if (!wave_.reached(c / 4)) continue;
+      const Index number = wave_.source(c / 4);
+      const Point* start = starts(number);
+      if (!start) continue;
+      const Real d = wave_.label(c / 4).sigma + norm(q - *start);
+      if (!(d < least) || !(norm(rule_.seen_from(c / 4, q).eye - *start) <= Real(1e-4))) continue;
+      least = d;
+      nearest = number;
+    }
+    return nearest;
   }
 
   bool enter(const Member& m, int dimension, const PosedSource<Real>& from, Index ring) override {
@@ -135,7 +208,13 @@ class MixedSolid final : public MixedPiece<Real> {
 
   // The hinge's frame in space; `out` points away from the tetrahedron.
   struct Frame {
-    Point origin, middle, u = {0, 0, 0}, w = {0, 0, 0}, out = {0, 0, 0};
+    Point origin, to[2] = {{0, 0, 0}, {0, 0, 0}};  // and from there to vertices 1 and 2
+    Point u = {0, 0, 0}, w = {0, 0, 0}, out = {0, 0, 0};
+    [[nodiscard]] HingeEnd<Real> pose(const Point& p, Real unit) const {
+      const Point d = p - origin;
+      const Real x = dot(d, u), y = dot(d, w);
+      return {x * unit, y * unit, norm(d - x * u - y * w) * unit};
+    }
     Frame(const MixedSolid& solid, const Member& m, int dimension) {
       const TetRecord<Real>& t = solid.mesh_.tets()[m.simplex];
       const auto points = solid.mesh_.points();
@@ -145,16 +224,15 @@ class MixedSolid final : public MixedPiece<Real> {
         return length > 0 ? 1 / length * p : p;
       };
       origin = at(0);
-      u = unit(at(1) - origin);
+      to[0] = at(1) - origin;
+      u = unit(to[0]);
       const Point in = t.centre - origin;
       if (dimension == 2) {
-        middle = Real(1) / 3 * (at(0) + at(1) + at(2));
-        const Point s = at(2) - origin;
-        w = unit(s - dot(s, u) * u);
+        to[1] = at(2) - origin;
+        w = unit(to[1] - dot(to[1], u) * u);
         out = cross(u, w);
         if (dot(out, in) > 0) out = Real(-1) * out;
       } else {
-        middle = Real(0.5) * (at(0) + at(1));
         out = Real(-1) * unit(in - dot(in, u) * u);
       }
     }

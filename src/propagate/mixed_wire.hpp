@@ -31,7 +31,7 @@ class MixedWire final : public MixedPiece<Real> {
     propagation_.seed(source, number, front_);
   }
 
-  void run(std::size_t budget) override {
+  void run(std::size_t budget, Index) override {
     options_.max_expansions = budget;
     if (!propagation_.spread(front_, 8 * wireframe_.arcs().size())) {
       PriorityQueue<Real> nearest_first(workspace_.front);
@@ -44,14 +44,19 @@ class MixedWire final : public MixedPiece<Real> {
   Found at_vertex(Index v) override {
     return {std::abs(workspace_.vertex[v]) * unit_, workspace_.vertex_source[v]};
   }
-  bool enter_vertex(Index v, Real distance, Index source) override {
+  bool enter_vertex(Index v, Real distance, Index source, bool) override {
     if (!this->gains(at_vertex(v).distance, distance)) return false;
     return propagation_.seed_vertex(v, static_cast<double>(distance / unit_), source, front_);
   }
 
   Real distance(Index) const override { return std::numeric_limits<Real>::infinity(); }
-  PosedSource<Real> leave(const Member&, int) const override { return {}; }
+  Index vertex_of(Index, std::size_t) const override { return none; }
+  HingeShape<Real> shape(const Member&, int) const override { return {}; }
+  PosedSource<Real> leave(const Member&, int, const HingePlace<Real>&) const override { return {}; }
   bool enter(const Member&, int, const PosedSource<Real>&, Index) override { return false; }
+  bool enter_front(const Member&, const HingeFront<Real>&, Vector3<Real>&) override {
+    return false;
+  }
 
   void read_out(std::span<Real> distance, std::span<Index> label) override {
     for (std::size_t v = 0; v < distance.size(); ++v) {

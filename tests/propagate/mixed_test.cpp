@@ -1,168 +1,16 @@
 #include <array>
 #include <catch2/catch.hpp>
 #include <cmath>
-#include <functional>
-#include <limits>
-#include <random>
 #include <vector>
 
 #include <plexway/error.hpp>
 #include <plexway/executors/serial_mixed.hpp>
 
+#include "mixed_domains.hpp"
+
 namespace {
 
-using namespace plexway;
-using Position = std::array<double, 3>;
-constexpr double infinity = std::numeric_limits<double>::infinity();
-
-double distance(const Position& a, const Position& b) {
-  return std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]);
-}
-
-struct Block {
-  std::vector<Position> positions;
-  std::vector<std::array<Index, 4>> tets;
-};
-
-/// The box from `low` to `high` in n cells a side, each cut into six tetrahedra about a diagonal.
-Block block(const Position& low, const Position& high, std::size_t n) {
-  Block b;
-  const std::size_t m = n + 1;
-  for (std::size_t i = 0; i < m; ++i)
-    for (std::size_t j = 0; j < m; ++j)
-      for (std::size_t k = 0; k < m; ++k) {
-        const auto at = [&](std::size_t axis, std::size_t step) {
-          return low[axis] + (high[axis] - low[axis]) * double(step) / double(n);
-        };
-        b.positions.push_back({at(0, i), at(1, j), at(2, k)});
-      }
-  const std::size_t stride[3] = {m * m, m, 1};
-  constexpr int orders[6][3] = {{0, 1, 2}, {0, 2, 1}, {1, 0, 2}, {1, 2, 0}, {2, 0, 1}, {2, 1, 0}};
-  for (std::size_t i = 0; i < n; ++i)
-    for (std::size_t j = 0; j < n; ++j)
-      for (std::size_t k = 0; k < n; ++k)
-        for (const auto& order : orders) {
-          std::size_t v = i * stride[0] + j * stride[1] + k;
-          std::array<Index, 4> tet = {Index(v), 0, 0, 0};
-          for (std::size_t c = 0; c < 3; ++c) tet[c + 1] = Index(v += stride[order[c]]);
-          b.tets.push_back(tet);
-        }
-  return b;
-}
-
-struct Sheet {
-  std::vector<Position> positions;
-  std::vector<std::array<Index, 3>> faces;
-};
-
-/// The parallelogram at `origin` spanned by u and v, in n by m cells, diagonals from low to high.
-Sheet sheet(const Position& origin, const Position& u, const Position& v, std::size_t n,
-            std::size_t m) {
-  Sheet s;
-  for (std::size_t i = 0; i <= n; ++i)
-    for (std::size_t j = 0; j <= m; ++j) {
-      Position p;
-      for (std::size_t k = 0; k < 3; ++k)
-        p[k] = origin[k] + u[k] * double(i) / double(n) + v[k] * double(j) / double(m);
-      s.positions.push_back(p);
-    }
-  for (std::size_t i = 0; i < n; ++i)
-    for (std::size_t j = 0; j < m; ++j) {
-      const Index a = Index(i * (m + 1) + j), b = Index(a + m + 1);
-      s.faces.push_back({a, b, b + 1});
-      s.faces.push_back({a, b + 1, a + 1});
-    }
-  return s;
-}
-
-struct Rod {
-  std::vector<Position> positions;
-  std::vector<std::array<Index, 2>> edges;
-};
-Rod rod(const std::vector<Position>& corners) {
-  Rod r{corners, {}};
-  for (Index i = 0; i + 1 < corners.size(); ++i) r.edges.push_back({i, i + 1});
-  return r;
-}
-
-/// A turn and a scale for all coordinates.
-struct Motion {
-  double turn[3][3], scale;
-  Position operator()(const Position& p) const {
-    Position q = {0, 0, 0};
-    for (std::size_t i = 0; i < 3; ++i)
-      for (std::size_t k = 0; k < 3; ++k) q[i] += scale * turn[i][k] * p[k];
-    return q;
-  }
-};
-Motion motion(unsigned seed) {
-  std::mt19937 random(seed);
-  std::normal_distribution<double> normal;
-  double q[4], sum = 0;
-  for (double& x : q) x = seed == 0 ? (&x == q) : normal(random), sum += x * x;
-  for (double& x : q) x /= std::sqrt(sum);
-  const double w = q[0], x = q[1], y = q[2], z = q[3];
-  return {{{1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)},
-           {2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w)},
-           {2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)}},
-          seed == 0 ? 1. : std::pow(10., std::uniform_real_distribution<double>(-5, 5)(random))};
-}
-
-/// A domain under construction, with the positions that the answers are computed from.
-struct Domain {
-  explicit Domain(unsigned seed) : move(motion(seed)) {}
-
-  Motion move;
-  MixedComplex<double> complex;
-  std::vector<Position> positions;
-  using Piece = MixedComplex<double>::Piece;
-
-  template <class Shape>
-  Piece add(const Shape& shape) {
-    std::vector<Position> moved;
-    for (const Position& p : shape.positions) moved.push_back(move(p));
-    positions.insert(positions.end(), shape.positions.begin(), shape.positions.end());
-    if constexpr (requires { shape.tets; })
-      return complex.add(TetMesh<double>(moved, shape.tets), moved);
-    else if constexpr (requires { shape.faces; })
-      return complex.add(TriangleMesh<double>(moved, shape.faces), moved);
-    else
-      return complex.add(Wireframe<double>(moved, shape.edges), moved);
-  }
-  std::size_t weld(const Piece& a, const Piece& b, WeldOptions options = {}) {
-    options.tolerance = 1e-6 * move.scale;
-    return complex.weld(a, b, options);
-  }
-  Index nearest(const Piece& piece, const Position& p) const {
-    Index best = piece.first_vertex;
-    for (Index v = piece.first_vertex; v < piece.first_vertex + piece.vertices; ++v)
-      if (distance(positions[v], p) < distance(positions[best], p)) best = v;
-    REQUIRE(distance(positions[best], p) < 1e-12);
-    return best;
-  }
-  /// Greatest error over all vertices, relative to the exact distance or to 1.
-  double worst(Index source, const std::function<double(Index)>& exact,
-               const PropagateOptions& options = {}) const {
-    const auto field = propagate(Serial{}, complex, PointSource::at(source), options);
-    REQUIRE(field.distance.size() == positions.size());
-    double worst = 0;
-    for (Index v = 0; v < positions.size(); ++v) {
-      const double d = field.distance[v] / move.scale, e = exact(v);
-      CAPTURE(v, positions[v][0], positions[v][1], positions[v][2], d, e);
-      if (e == infinity || d == infinity) {
-        CHECK(d == e);
-        continue;
-      }
-      const double error = std::abs(d - e) / std::max(e, 1.);
-      if (error > 1e-3) CHECK(d == Approx(e));
-      worst = std::max(worst, error);
-    }
-    return worst;
-  }
-  static bool of(const Piece& piece, Index v) {
-    return v >= piece.first_vertex && v - piece.first_vertex < piece.vertices;
-  }
-};
+using namespace mixed_domains;
 
 constexpr unsigned motions = 4;
 
@@ -173,7 +21,7 @@ double around(double y0, double h0, double y1, double h1) { return std::hypot(y0
 
 TEST_CASE("a rod on a sheet on the edge of a block") {
   for (unsigned seed = 0; seed < motions; ++seed) {
-    Domain domain(seed);
+    Welded domain(seed);
     const auto wire = domain.add(rod({{-2, .5, 1}, {-1.5, .5, 1}, {-1, .5, 1}}));
     const auto plate = domain.add(sheet({-1, 0, 1}, {1, 0, 0}, {0, 1, 0}, 4, 4));
     const auto solid = domain.add(block({0, 0, 0}, {1, 1, 1}, 4));
@@ -185,8 +33,8 @@ TEST_CASE("a rod on a sheet on the edge of a block") {
     CAPTURE(seed);
     // From the rod's far end.
     CHECK(domain.worst(wire.vertex(0), [&](Index v) {
-      if (Domain::of(wire, v)) return place(v)[0] + 2;
-      if (Domain::of(plate, v)) return 1 + std::hypot(place(v)[0] + 1, place(v)[1] - .5);
+      if (Welded::of(wire, v)) return place(v)[0] + 2;
+      if (Welded::of(plate, v)) return 1 + std::hypot(place(v)[0] + 1, place(v)[1] - .5);
       return 1 + around(.5, 1, place(v)[1], off_edge(v));
     }) < 1e-9);
     // From a corner and from the inside of the block.
@@ -194,8 +42,8 @@ TEST_CASE("a rod on a sheet on the edge of a block") {
       const Index source = domain.nearest(solid, from);
       const double h = off_edge(source);
       CHECK(domain.worst(source, [&](Index v) {
-        if (Domain::of(solid, v)) return distance(from, place(v));
-        if (Domain::of(plate, v)) return around(from[1], h, place(v)[1], -place(v)[0]);
+        if (Welded::of(solid, v)) return distance(from, place(v));
+        if (Welded::of(plate, v)) return around(from[1], h, place(v)[1], -place(v)[0]);
         return around(from[1], h, .5, 1) - 1 - place(v)[0];
       }) < 1e-9);
     }
@@ -204,7 +52,7 @@ TEST_CASE("a rod on a sheet on the edge of a block") {
 
 TEST_CASE("a sheet glued on the face of a block and beyond it") {
   for (unsigned seed = 0; seed < motions; ++seed) {
-    Domain domain(seed);
+    Welded domain(seed);
     const auto plate = domain.add(sheet({-1, 0, 1}, {2, 0, 0}, {0, 1, 0}, 8, 4));
     const auto solid = domain.add(block({0, 0, 0}, {1, 1, 1}, 4));
     CHECK(domain.weld(plate, solid) == 25);
@@ -231,19 +79,19 @@ TEST_CASE("a sheet glued on the face of a block and beyond it") {
 
 TEST_CASE("a rod through a sheet") {
   for (unsigned seed = 0; seed < motions; ++seed) {
-    Domain domain(seed);
+    Welded domain(seed);
     const auto plate = domain.add(sheet({-1, -1, 0}, {2, 0, 0}, {0, 2, 0}, 6, 6));
     const auto wire = domain.add(rod({{0, 0, -1}, {0, 0, 0}, {0, 0, 1}, {0, 0, 2}}));
     CHECK(domain.weld(plate, wire) == 1);
     const auto place = [&](Index v) -> const Position& { return domain.positions[v]; };
     CAPTURE(seed);
     CHECK(domain.worst(wire.vertex(3), [&](Index v) {
-      if (Domain::of(wire, v)) return 2 - place(v)[2];
+      if (Welded::of(wire, v)) return 2 - place(v)[2];
       return 2 + std::hypot(place(v)[0], place(v)[1]);
     }) < 1e-9);
     const Index source = domain.nearest(plate, {-1, 1. / 3, 0});
     CHECK(domain.worst(source, [&](Index v) {
-      if (Domain::of(plate, v)) return distance(place(source), place(v));
+      if (Welded::of(plate, v)) return distance(place(source), place(v));
       return std::hypot(1, 1. / 3) + std::abs(place(v)[2]);
     }) < 1e-9);
   }
@@ -251,7 +99,7 @@ TEST_CASE("a rod through a sheet") {
 
 TEST_CASE("two blocks joined by a wire") {
   for (unsigned seed = 0; seed < motions; ++seed) {
-    Domain domain(seed);
+    Welded domain(seed);
     const auto one = domain.add(block({0, 0, 0}, {1, 1, 1}, 3));
     const auto other = domain.add(block({3, 0, 0}, {4, 1, 1}, 3));
     const auto wire = domain.add(rod({{1, 1, 1}, {2, 2, 1}, {2, 0, 0}, {3, 0, 0}}));
@@ -264,13 +112,13 @@ TEST_CASE("two blocks joined by a wire") {
     const Index source = domain.nearest(one, {0, 0, 1. / 3});
     const double exit = distance(place(source), {1, 1, 1});
     CHECK(domain.worst(source, [&](Index v) {
-      if (Domain::of(one, v)) return distance(place(source), place(v));
-      if (Domain::of(wire, v)) return exit + along[v - wire.first_vertex];
+      if (Welded::of(one, v)) return distance(place(source), place(v));
+      if (Welded::of(wire, v)) return exit + along[v - wire.first_vertex];
       return exit + along[3] + distance({3, 0, 0}, place(v));
     }) < 1e-9);
     CHECK(domain.worst(wire.vertex(1), [&](Index v) {
-      if (Domain::of(one, v)) return legs[0] + distance({1, 1, 1}, place(v));
-      if (Domain::of(wire, v)) return std::abs(along[v - wire.first_vertex] - along[1]);
+      if (Welded::of(one, v)) return legs[0] + distance({1, 1, 1}, place(v));
+      if (Welded::of(wire, v)) return std::abs(along[v - wire.first_vertex] - along[1]);
       return along[3] - along[1] + distance({3, 0, 0}, place(v));
     }) < 1e-9);
   }
@@ -278,8 +126,8 @@ TEST_CASE("two blocks joined by a wire") {
 
 TEST_CASE("a fan of three sheets on one edge") {
   for (unsigned seed = 0; seed < motions; ++seed) {
-    Domain domain(seed);
-    std::vector<Domain::Piece> blades;
+    Welded domain(seed);
+    std::vector<Welded::Piece> blades;
     for (int k = 0; k < 3; ++k) {
       const double a = 2.1 * k + .3;
       blades.push_back(
@@ -295,7 +143,7 @@ TEST_CASE("a fan of three sheets on one edge") {
       for (const Index own : {Index(20), Index(15), Index(0), Index(2)}) {
         const Index source = blade.vertex(own);
         CHECK(domain.worst(source, [&](Index v) {
-          if (Domain::of(blade, v)) return distance(place(source), place(v));
+          if (Welded::of(blade, v)) return distance(place(source), place(v));
           return around(place(source)[1], off_edge(source), place(v)[1], off_edge(v));
         }) < 1e-9);
       }
@@ -304,7 +152,7 @@ TEST_CASE("a fan of three sheets on one edge") {
 
 TEST_CASE("two blocks glued on a face are one") {
   for (unsigned seed = 0; seed < motions; ++seed) {
-    Domain domain(seed);
+    Welded domain(seed);
     const auto one = domain.add(block({0, 0, 0}, {1, 1, 1}, 3));
     const auto other = domain.add(block({1, 0, 0}, {2, 1, 1}, 3));
     CHECK(domain.weld(one, other) == 16);
@@ -317,7 +165,7 @@ TEST_CASE("two blocks glued on a face are one") {
 }
 
 TEST_CASE("blocks that share an edge are joined by it whichever comes first") {
-  Domain domain(0);
+  Welded domain(0);
   const auto one = domain.add(block({0, 0, 0}, {1, 1, 1}, 3));
   const auto other = domain.add(block({1, 0, 1}, {2, 1, 2}, 3));
   CHECK(domain.weld(one, other) == 4);
@@ -328,7 +176,7 @@ TEST_CASE("blocks that share an edge are joined by it whichever comes first") {
   };
   for (const Index source : {one.vertex(0), one.vertex(22), other.vertex(63), other.vertex(40)})
     CHECK(domain.worst(source, [&](Index v) {
-      const bool same = Domain::of(one, v) == Domain::of(one, source);
+      const bool same = Welded::of(one, v) == Welded::of(one, source);
       const Position &p = domain.positions[source], &q = domain.positions[v];
       return same ? distance(p, q) : around(p[1], off_edge(source), q[1], off_edge(v));
     }) < 1e-9);
@@ -340,14 +188,14 @@ TEST_CASE("welding by nearness is the same from both sides, and refuses too much
   for (const auto& f : big.faces) twice.faces.push_back({f[0] + 4, f[1] + 4, f[2] + 4});
   twice.positions.insert(twice.positions.end(), big.positions.begin(), big.positions.end());
   for (const bool turned : {false, true}) {
-    Domain domain(0);
+    Welded domain(0);
     const auto a = domain.add(turned ? twice : big), b = domain.add(turned ? big : twice);
     CHECK(domain.weld(a, b) == 8);
     CHECK(domain.worst(a.vertex(0), [&](Index v) {
       return distance(domain.positions[v], {0, 0, 0});
     }) < 1e-9);
   }
-  Domain domain(0);
+  Welded domain(0);
   const auto fine = domain.add(sheet({0, 0, 0}, {1, 0, 0}, {0, 1, 0}, 12, 12));
   const auto coarse = domain.add(big);
   CHECK_THROWS_AS(domain.complex.weld(fine, coarse, {.tolerance = .6}), UsageError);
@@ -355,7 +203,7 @@ TEST_CASE("welding by nearness is the same from both sides, and refuses too much
 }
 
 TEST_CASE("parts that are not welded are not reached") {
-  Domain domain(0);
+  Welded domain(0);
   const auto plate = domain.add(sheet({0, 0, 0}, {1, 0, 0}, {0, 1, 0}, 2, 2));
   const auto solid = domain.add(block({0, 0, 1}, {1, 1, 2}, 2));
   const auto wire = domain.add(rod({{0, 0, 0}, {0, 0, -1}}));
@@ -363,13 +211,13 @@ TEST_CASE("parts that are not welded are not reached") {
   CHECK(domain.weld(plate, wire) == 1);
   CHECK(domain.worst(wire.vertex(1), [&](Index v) {
     const Position& p = domain.positions[v];
-    if (Domain::of(solid, v)) return infinity;
-    return Domain::of(wire, v) ? p[2] + 1 : 1 + std::hypot(p[0], p[1]);
+    if (Welded::of(solid, v)) return infinity;
+    return Welded::of(wire, v) ? p[2] + 1 : 1 + std::hypot(p[0], p[1]);
   }) < 1e-12);
 }
 
 TEST_CASE("several sources, offsets, radius and points of simplices in a mixed domain") {
-  Domain domain(0);
+  Welded domain(0);
   const auto plate = domain.add(sheet({0, 0, 0}, {1, 0, 0}, {0, 1, 0}, 2, 2));
   const auto wire = domain.add(rod({{1, 1, 0}, {2, 1, 0}, {4, 1, 0}}));
   domain.weld(plate, wire);
@@ -379,7 +227,7 @@ TEST_CASE("several sources, offsets, radius and points of simplices in a mixed d
   REQUIRE(field.label.size() == field.distance.size());
   for (Index v = 0; v < domain.positions.size(); ++v) {
     const Position& p = domain.positions[v];
-    const bool on_wire = Domain::of(wire, v);
+    const bool on_wire = Welded::of(wire, v);
     const double first = on_wire ? std::abs(p[0] - 3) : 2 + std::hypot(p[0] - 1, p[1] - 1);
     const double second = .25 + (on_wire ? std::sqrt(2.) + p[0] - 1 : std::hypot(p[0], p[1]));
     CHECK(field.distance[v] == Approx(std::min(first, second)));
@@ -395,7 +243,7 @@ TEST_CASE("several sources, offsets, radius and points of simplices in a mixed d
 }
 
 TEST_CASE("solving a mixed domain again gives the same bits") {
-  Domain domain(3);
+  Welded domain(3);
   const auto plate = domain.add(sheet({-1, 0, 1}, {1, 0, 0}, {0, 1, 0}, 4, 4));
   const auto solid = domain.add(block({0, 0, 0}, {1, 1, 1}, 4));
   domain.weld(plate, solid);
@@ -414,7 +262,7 @@ TEST_CASE("solving a mixed domain again gives the same bits") {
 
 TEST_CASE("lower hinges by request give the same or shorter paths") {
   for (const bool lower : {false, true}) {
-    Domain domain(1);
+    Welded domain(1);
     const auto plate = domain.add(sheet({-1, 0, 1}, {2, 0, 0}, {0, 1, 0}, 8, 4));
     const auto solid = domain.add(block({0, 0, 0}, {1, 1, 1}, 4));
     WeldOptions options;

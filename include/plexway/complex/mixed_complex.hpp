@@ -3,6 +3,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <variant>
 #include <vector>
@@ -14,6 +15,9 @@
 #include <plexway/domain/concept.hpp>
 
 namespace plexway {
+
+template <class Real>
+struct JoinedPieces;
 
 /// Which intersections of simplices of two welded pieces become hinges.
 struct WeldOptions {
@@ -36,9 +40,10 @@ struct MixedSummary {
 /// Complexes of different dimension in one domain, welded at vertices.
 ///
 /// Pieces keep their own complex, so that inside each the best rule for its dimension applies.
-/// Vertices and simplices are numbered through, piece after piece; nothing is merged: a welded
-/// vertex keeps a number in each of its pieces, with equal distances. Built once, then read by any
-/// number of threads.
+/// Vertices and simplices are numbered through, piece after piece: a welded vertex keeps a number
+/// in each of its pieces, with equal distances. Executors work on fewer pieces (`joined`), since a
+/// corner that exists only once pieces are welded must bend paths as any other. Built once, then
+/// read by any number of threads.
 template <class Real>
 class MixedComplex {
  public:
@@ -84,6 +89,11 @@ class MixedComplex {
 
   // What follows serves the floors above and uses the numbers inside the pieces.
 
+  /// This domain with surfaces that share edges joined to one, and solids that share faces and
+  /// measure them alike, where that makes no corner; null where there are none. Made when first
+  /// asked for, after the last change; may be asked for by several threads.
+  [[nodiscard]] std::shared_ptr<const JoinedPieces<Real>> joined() const;
+
   /// A simplex at a hinge: its number, and which of its corners are the hinge's vertices 0 .. K.
   struct Member {
     Index simplex;
@@ -108,6 +118,7 @@ class MixedComplex {
   [[nodiscard]] std::span<const std::array<Index, 2>> outer_welds() const { return outer_welds_; }
 
  private:
+  friend struct JoinedPieces<Real>;
   void check(const Piece& a, const Piece& b, const WeldOptions& options) const;
 
   MixedSummary summary_;
@@ -118,6 +129,14 @@ class MixedComplex {
   std::vector<Member> members_;
   std::vector<Weld> welds_;
   std::vector<std::array<Index, 2>> outer_welds_;
+  /// What was asked for, a call of `weld` each.
+  struct Request {
+    Index piece[2];
+    WeldOptions options;
+  };
+  std::vector<Request> requests_;
+  mutable std::shared_ptr<const JoinedPieces<Real>> joined_;
+  mutable bool is_joined_ = false;  // or found to need none
 };
 
 extern template class MixedComplex<float>;

@@ -257,42 +257,20 @@ class SaddleRule : public SaddlePoses<Real> {
 
   // What follows is for simplices of other complexes that share an edge or all of a triangle.
 
-  /// The source of f as seen from one of its edges, x from the edge's first corner: behind the bend
-  /// where the middle of the edge is in shadow. Limits are dropped.
-  [[nodiscard]] Posed seen_from(Index f, std::size_t edge) const {
-    const TriangleRecord<Real>& t = triangles_[f];
-    const std::size_t in = front_.hinge(f);
-    int pivot = -1;
-    Posed p = posed(front_.label(f));
-    const bool from_inside = edge != in || p.source.h < 0;
-    if (from_inside) p = leave(f, in, edge, pivot);
-    SaddleHinge<Real> middle;  // a triangle without area: its apex is the edge's middle
-    middle.extent = t.length[edge];
-    middle.apex = {{t.length[edge] / 2}, Real(0)};
-    middle.saddle[0] = middle.saddle[1] = false;
-    middle.pivot = pivot;
-    cross_hinge<Real>(p, middle, true);
-    const bool left = detail::left_of<Real>(p.source, p.limit[0], middle.apex) > 0;
-    const bool right = detail::left_of<Real>(p.source, p.limit[1], middle.apex) < 0;
-    if (left || right) detail::give_up_source<Real>(p, Point(p.limit[left ? 0 : 1]));
-    p.source.h = std::max(p.source.h, Real(0));
-    if (from_inside) p.source.x[0] = t.length[edge] - p.source.x[0];
-    p.limit[0] = p.limit[1] = p.source;
-    return p;
-  }
-
-  /// The source of f as its centre sees it, posed on the edge that f's label came in by.
-  [[nodiscard]] Posed seen_from_centre(Index f) const {
+  /// The source of f as a point of it sees it, behind the last bend on the way: both posed on the
+  /// edge that f's label came in by. A line that misses that edge bends at its end only if that is
+  /// a saddle: else another strip brings a path as short.
+  [[nodiscard]] Posed seen_from(Index f, const Point& q) const {
     const TriangleRecord<Real>& t = triangles_[f];
     const std::size_t in = front_.hinge(f);
     const Real length = t.length[in];
     Posed p = posed(front_.label(f));
-    const Point q = {{(length + t.apex_x(in)) / 3}, t.apex_h(in) / 3};
     const bool left = detail::left_of<Real>(p.source, p.limit[0], q) > 0;
     const bool right = detail::left_of<Real>(p.source, p.limit[1], q) < 0;
     if (left || right) detail::give_up_source<Real>(p, Point(p.limit[left ? 0 : 1]));
     const auto c = Posed::Kernel::crossing(p.source, q);
-    if (p.source.h >= 0 && (c.x[0] < 0 || c.x[0] > length * c.w))
+    if (p.source.h >= 0 &&
+        ((c.x[0] < 0 && t.saddle(in)) || (c.x[0] > length * c.w && t.saddle(edge_after(in)))))
       detail::give_up_source<Real>(p, {{c.x[0] < 0 ? Real(0) : length}, Real(0)});
     return p;
   }

@@ -1,0 +1,307 @@
+#include <algorithm>
+#include <array>
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <map>
+#include <vector>
+
+#include <plexway/executors/serial_mixed.hpp>
+
+#include "mixed_domains.hpp"
+
+// Pieces on which paths run at different speeds: Snell's law and head waves.
+
+namespace {
+
+using namespace mixed_domains;
+
+/// Times where slowness is 1 and a line or plane has speed c: r and rho are the distances of the
+/// two ends from it, x that of their feet. `direct`: without it.
+double along_fast(double r, double rho, double x, double c, double direct) {
+  if (c <= 1 || x < (r + rho) / std::sqrt(c * c - 1)) return direct;
+  return std::min(direct, x / c + (r + rho) * std::sqrt(1 - 1 / (c * c)));
+}
+
+/// From height h over a line at speed v to depth d under it at speed w.
+double refracted(double h, double d, double x, double v, double w) {
+  double low = 0, high = x;
+  const auto way = [&](double s) { return std::hypot(s, h) / v + std::hypot(x - s, d) / w; };
+  for (int i = 0; i < 100; ++i) {
+    const double a = low + (high - low) / 3, b = high - (high - low) / 3;
+    (way(a) < way(b) ? high : low) = way(a) < way(b) ? b : a;
+  }
+  return way((low + high) / 2);
+}
+
+struct Errors {
+  double mean = 0, worst = 0, low = 0;
+};
+Errors errors(const Welded& domain, Index source, const std::function<double(Index)>& exact) {
+  const auto field = propagate(Serial{}, domain.complex, PointSource::at(source));
+  Errors e;
+  for (Index v = 0; v < domain.positions.size(); ++v) {
+    const double truth = exact(v);
+    if (truth < 1e-12) continue;
+    const double off = (field.distance[v] / domain.move.scale - truth) / truth;
+    e.mean += std::abs(off) / double(domain.positions.size());
+    e.worst = std::max(e.worst, std::abs(off));
+    e.low = std::min(e.low, off);
+  }
+  return e;
+}
+void check(const Errors& e, double mean, double worst) {
+  CAPTURE(e.mean, e.worst, e.low);
+  CHECK(e.mean < mean);
+  CHECK(e.worst < worst);
+  CHECK(e.low > -1e-9);
+}
+
+constexpr double speeds[] = {.3, .5, 1, 1.1, 2, 3};
+
+}  // namespace
+
+TEST_CASE("a skin of another speed on a block") {
+  constexpr std::size_t n = 12;
+  for (const double c : speeds)
+    for (const Position& from :
+         {Position{0, 0, 1}, Position{.25, .25, 10. / 12}, Position{.25, .5, .5}}) {
+      Welded domain(1);
+      const auto skin = domain.add(sheet({0, 0, 1}, {1, 0, 0}, {0, 1, 0}, n, n), c);
+      const auto solid = domain.add(block({0, 0, 0}, {1, 1, 1}, n));
+      domain.weld(skin, solid);
+      CAPTURE(c, from[0], from[1], from[2]);
+      check(errors(domain, domain.nearest(solid, from),
+                   [&](Index v) {
+                     const Position& p = domain.positions[v];
+                     return along_fast(1 - from[2], 1 - p[2],
+                                       std::hypot(p[0] - from[0], p[1] - from[1]), c,
+                                       distance(from, p));
+                   }),
+            2e-4, 1e-2);
+    }
+}
+
+TEST_CASE("a skin of another speed: finer is better") {
+  double coarse = 0;
+  for (const std::size_t n : {6, 12}) {
+    Welded domain(0);
+    const auto skin = domain.add(sheet({0, 0, 1}, {1, 0, 0}, {0, 1, 0}, n, n), 2);
+    const auto solid = domain.add(block({0, 0, 0}, {1, 1, 1}, n));
+    domain.weld(skin, solid);
+    const Position from = {.5, .5, .5};
+    const Errors e = errors(domain, domain.nearest(solid, from), [&](Index v) {
+      const Position& p = domain.positions[v];
+      return along_fast(.5, 1 - p[2], std::hypot(p[0] - .5, p[1] - .5), 2, distance(from, p));
+    });
+    if (n == 6)
+      coarse = e.mean;
+    else
+      CHECK(e.mean < coarse / 2);
+  }
+}
+
+TEST_CASE("two blocks of different speeds on a face") {
+  constexpr std::size_t n = 8;
+  for (const double c : {.5, 1.1, 2.})
+    for (const Position& from : {Position{.25, .5, .5}, Position{1, .5, .5}, Position{0, 0, 0}}) {
+      Welded domain(0);
+      const auto one = domain.add(block({0, 0, 0}, {1, 1, 1}, n));
+      const auto other = domain.add(block({1, 0, 0}, {2, 1, 1}, n), c);
+      domain.weld(one, other);
+      CAPTURE(c, from[0], from[1], from[2]);
+      check(errors(domain, domain.nearest(one, from),
+                   [&](Index v) {
+                     const Position& p = domain.positions[v];
+                     const double x = std::hypot(p[1] - from[1], p[2] - from[2]);
+                     if (Welded::of(one, v))
+                       return along_fast(1 - from[0], 1 - p[0], x, c, distance(from, p));
+                     return refracted(1 - from[0], p[0] - 1, x, 1, c);
+                   }),
+            1e-4, 1e-2);
+    }
+}
+
+TEST_CASE("a sheet of another speed stands on a block") {
+  constexpr std::size_t n = 12;
+  for (const double c : {.5, 1., 2., 3.})
+    for (const Position& from : {Position{.5, 0, 1.5}, Position{.25, 0, .5}, Position{.5, 0, 1}}) {
+      Welded domain(2);
+      const auto plate = domain.add(sheet({.5, 0, 1}, {0, 1, 0}, {0, 0, 1}, n, n), c);
+      const auto solid = domain.add(block({0, 0, 0}, {1, 1, 1}, n));
+      domain.weld(plate, solid);
+      const auto& foot = [](const Position& p) {
+        return p[2] > 1 ? p[2] - 1 : std::hypot(p[0] - .5, 1 - p[2]);
+      };
+      const Index source = domain.nearest(from[2] > 1 ? plate : solid, from);
+      CAPTURE(c, from[0], from[1], from[2]);
+      check(errors(domain, source,
+                   [&](Index v) {
+                     const Position& p = domain.positions[v];
+                     const double x = std::abs(p[1] - from[1]), r = foot(from), rho = foot(p);
+                     const bool above = p[2] > 1 || (p[2] == 1 && Welded::of(plate, v));
+                     if (!above && from[2] <= 1) return along_fast(r, rho, x, c, distance(from, p));
+                     if (above && from[2] > 1) {
+                       const double direct = distance(from, p) / c;
+                       return c >= 1 ? direct : along_fast(r / c, rho / c, x / c, 1 / c, direct);
+                     }
+                     return above ? refracted(rho, r, x, c, 1) : refracted(r, rho, x, c, 1);
+                   }),
+            1e-4, 1e-2);
+    }
+}
+
+namespace {
+
+/// The unit ball, a block blown up, and its surface.
+Block ball(std::size_t n) {
+  Block b = block({-1, -1, -1}, {1, 1, 1}, n);
+  for (Position& p : b.positions) {
+    const double cube = std::max({std::abs(p[0]), std::abs(p[1]), std::abs(p[2])});
+    const double r = std::hypot(p[0], p[1], p[2]);
+    for (double& x : p) x *= r > 0 ? cube / r : 1;
+  }
+  return b;
+}
+Sheet skin_of(const Block& b) {
+  std::map<std::array<Index, 3>, int> faces;
+  for (const auto& tet : b.tets)
+    for (std::size_t i = 0; i < 4; ++i) {
+      std::array<Index, 3> face = {tet[(i + 1) % 4], tet[(i + 2) % 4], tet[(i + 3) % 4]};
+      std::sort(face.begin(), face.end());
+      ++faces[face];
+    }
+  Sheet s;
+  std::map<Index, Index> number;
+  for (const auto& [face, tets] : faces) {
+    if (tets > 1) continue;
+    std::array<Index, 3> own;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const auto [it, is_new] = number.insert({face[i], static_cast<Index>(s.positions.size())});
+      if (is_new) s.positions.push_back(b.positions[face[i]]);
+      own[i] = it->second;
+    }
+    s.faces.push_back(own);
+  }
+  return s;
+}
+
+/// In the plane of the two places and the middle: onto the circle, along it, and off it.
+double by_the_skin(const Position& p, const Position& q, double c) {
+  const double direct = distance(p, q);
+  if (c <= 1) return direct;
+  const double r = distance(p, {0, 0, 0}), s = distance(q, {0, 0, 0});
+  const double cosine = r * s > 0 ? (p[0] * q[0] + p[1] * q[1] + p[2] * q[2]) / (r * s) : 1;
+  const double angle = std::acos(std::clamp(cosine, -1., 1.));
+  const auto way = [&](double on, double off) {
+    return std::sqrt(std::max(0., 1 + r * r - 2 * r * std::cos(on))) + (off - on) / c +
+           std::sqrt(std::max(0., 1 + s * s - 2 * s * std::cos(angle - off)));
+  };
+  double best = infinity, on = 0, off = angle, step = angle / 24;
+  for (int i = 0; i <= 24; ++i)
+    for (int j = i; j <= 24; ++j)
+      if (const double d = way(i * angle / 24, j * angle / 24); d < best)
+        best = d, on = i * angle / 24, off = j * angle / 24;
+  for (int round = 0; round < 200 && step > 1e-9; ++round) {
+    const double a = on, b = off;
+    for (const double x : {a - step, a, a + step})
+      for (const double y : {b - step, b, b + step})
+        if (x >= 0 && x <= y && y <= angle && way(x, y) < best) best = way(x, y), on = x, off = y;
+    if (on == a && off == b) step /= 2;
+  }
+  return std::min(direct, best);
+}
+
+}  // namespace
+
+TEST_CASE("a skin of another speed on a ball") {
+  // The ball is a polyhedron: its facets alone make distances 1e-3 short at 16 cells across.
+  const Block b = ball(16);
+  const Sheet s = skin_of(b);
+  for (const double c : {.3, 1., 1.5, 3.})
+    for (const double r : {1., .5}) {
+      Welded domain(0);
+      const auto solid = domain.add(b);
+      const auto skin = domain.add(s, c);
+      domain.weld(solid, skin);
+      Index source = 0;
+      const auto off = [&](Index v) {
+        return distance(domain.positions[v], {.3 * r, .5 * r, .81 * r});
+      };
+      for (Index v = 0; v < solid.vertices; ++v)
+        if (off(v) < off(source)) source = v;
+      const Errors e = errors(domain, source, [&](Index v) {
+        return by_the_skin(domain.positions[source], domain.positions[v], c);
+      });
+      CAPTURE(c, r, e.mean, e.worst, e.low);
+      CHECK(e.mean < 2.5e-3);
+      CHECK(e.worst < 1.5e-2);
+    }
+}
+
+TEST_CASE("pieces of any speeds never gain on themselves") {
+  // A stack of skins and blocks; whatever a distance is, it is no less than at the greatest speed.
+  for (const double c : {.1, .9, 1.5, 20.}) {
+    Welded domain(3);
+    const auto one = domain.add(block({0, 0, 0}, {1, 1, 1}, 4), c);
+    const auto skin = domain.add(sheet({0, 0, 1}, {1, 0, 0}, {0, 1, 0}, 4, 4), 2);
+    const auto other = domain.add(block({0, 0, 1}, {1, 1, 2}, 4), .5);
+    const auto fin = domain.add(sheet({-1, 0, 1}, {1, 0, 0}, {0, 1, 0}, 4, 4), 7);
+    domain.weld(one, skin);
+    domain.weld(other, skin);
+    domain.weld(one, other);
+    domain.weld(fin, skin);
+    domain.weld(fin, one);
+    const double fastest = std::max(7., c);
+    for (const Index source : {one.vertex(3), skin.vertex(7), fin.vertex(0), other.vertex(60)}) {
+      const auto field = propagate(Serial{}, domain.complex, PointSource::at(source));
+      for (Index v = 0; v < domain.positions.size(); ++v) {
+        const double least = distance(domain.positions[source], domain.positions[v]) / fastest;
+        CHECK(field.distance[v] / domain.move.scale >= least * (1 - 1e-9));
+        CHECK(field.distance[v] < infinity);
+      }
+    }
+  }
+}
+
+TEST_CASE("in single precision welds make corners and speeds refract as well") {
+  // Two rooms with a door, the second one floor up a block with a fast skin.
+  for (const float c : {1.F, 2.F}) {
+    Block b = block({0, 0, 0}, {1, 1, 1}, 10);
+    Sheet s = sheet({0, 0, 1}, {1, 0, 0}, {0, 1, 0}, 10, 10);
+    const Sheet beyond = sheet({1, 0, 1}, {1, 0, 0}, {0, .5, 0}, 10, 5);
+    const auto timed = [&](const Sheet& sheet, double speed) {
+      std::vector<Position> at = sheet.positions;
+      for (Position& p : at)
+        for (double& x : p) x /= speed;
+      return TriangleMesh<float>(at, sheet.faces);
+    };
+    MixedComplex<float> domain;
+    const auto solid = domain.add(TetMesh<float>(b.positions, b.tets), b.positions);
+    const auto skin = domain.add(timed(s, c), s.positions);
+    const auto out = domain.add(timed(beyond, c), beyond.positions);
+    CHECK(domain.weld(solid, skin, {.tolerance = 1e-6}) == 121);
+    CHECK(domain.weld(skin, out, {.tolerance = 1e-6}) == 6);
+    const Position from = {.5, .9, 1};
+    Index source = none;
+    for (Index v = 0; v < s.positions.size(); ++v)
+      if (distance(s.positions[v], from) < 1e-6) source = skin.vertex(v);
+    REQUIRE(source != none);
+    const auto field = propagate(Serial{}, domain, PointSource::at(source));
+    const auto check = [&](double d, double truth) {
+      CAPTURE(c, d, truth);
+      CHECK(d == Approx(truth).epsilon(c == 1 ? 1e-5 : 1e-2).margin(1e-6));
+    };
+    for (Index v = 0; v < b.positions.size(); ++v) {
+      const Position& p = b.positions[v];
+      check(field.distance[solid.vertex(v)],
+            along_fast(0, 1 - p[2], std::hypot(p[0] - from[0], p[1] - from[1]), c,
+                       distance(from, p)));
+    }
+    for (Index v = 0; v < beyond.positions.size(); ++v) {
+      const Position &p = beyond.positions[v], corner = {1, .5, 1};
+      const double y = from[1] + (p[1] - from[1]) * (1 - from[0]) / (p[0] - from[0]);
+      const double way = y <= .5 ? distance(from, p) : distance(from, corner) + distance(corner, p);
+      check(field.distance[out.vertex(v)], way / c);
+    }
+  }
+}
