@@ -9,7 +9,7 @@
 
 #include "complex/delaunay_flips.hpp"
 #include "complex/intrinsic_triangulation.hpp"
-#include "complex/triangle_shape.hpp"
+#include "complex/shape_blocks.hpp"
 
 namespace plexway {
 namespace {
@@ -32,6 +32,41 @@ void check(const Refinement& wanted) {
   if (!(wanted.shortest_edge >= 0))
     throw UsageError("shortest_edge of a refinement must be 0 or more");
 }
+
+// What a triangulation's triangles are to a mesh.
+class ShapesOfSlots final : public TriangleShapes {
+ public:
+  ShapesOfSlots(std::span<const IntrinsicTriangle> triangles, std::span<const Index> slot_of_face,
+                double unit)
+      : triangles_(triangles), slot_of_face_(slot_of_face), unit_(unit) {}
+
+  void lengths(std::span<const Index> faces,
+               std::span<std::array<double, 3>> rows) const override {
+    for (std::size_t k = 0; k < faces.size(); ++k)
+      for (std::size_t i = 0; i < 3; ++i) rows[k][i] = of(faces[k]).length[i] * unit_;
+  }
+  void angles(std::span<const Index> faces, ShapeBlock& block) const override {
+    for (std::size_t k = 0; k < faces.size(); ++k) {
+      const IntrinsicTriangle& t = of(faces[k]);
+      bool degenerate = false;
+      for (std::size_t i = 0; i < 3; ++i) {
+        block.cosine[i][k] = t.angle[i].c;
+        block.sine[i][k] = t.angle[i].s;
+        degenerate |= t.length[i] == 0 || t.angle[i].s < 1e-14;
+      }
+      block.degenerate[k] = degenerate;
+      block.violated[k] = false;
+    }
+  }
+
+ private:
+  [[nodiscard]] const IntrinsicTriangle& of(Index face) const {
+    return triangles_[slot_of_face_[face]];
+  }
+  std::span<const IntrinsicTriangle> triangles_;
+  std::span<const Index> slot_of_face_;
+  double unit_;
+};
 
 }  // namespace
 
@@ -103,19 +138,12 @@ TriangleMesh<Real> IntrinsicDelaunay::mesh(const SaddleThresholds& saddles) cons
   const auto triangles = state_->triangulation.triangles();
   const std::size_t m = triangles.size();
   std::vector<std::array<Index, 3>> faces(m), across(m);
-  std::vector<TriangleShape> shapes(m);
   const auto face_of = [&](Index slot) { return state_->face_of_slot[slot]; };
   for (Index s = 0; s < m; ++s) {
     const IntrinsicTriangle& t = triangles[s];
     const Index f = face_of(s);
     faces[f] = t.corner;
-    TriangleShape& shape = shapes[f];
-    shape.violated = false;
     for (std::size_t i = 0; i < 3; ++i) {
-      shape.length[i] = t.length[i] * state_->unit;
-      shape.cosine[i] = t.angle[i].c;
-      shape.sine[i] = t.angle[i].s;
-      shape.degenerate |= t.length[i] == 0 || t.angle[i].s < 1e-14;
       const Index o = t.across[i];
       across[f][i] =
           o == none ? none : 3 * face_of(o >> Across::face_shift) + (o & Across::edge_mask);
@@ -126,8 +154,9 @@ TriangleMesh<Real> IntrinsicDelaunay::mesh(const SaddleThresholds& saddles) cons
   hints.saddles = saddles;
   // New triangles lie behind all others: they need a new order.
   if (state_->summary.inserted_vertices == 0) hints.order = state_->face_of_slot;
-  return TriangleMesh<Real>(state_->triangulation.vertices(), faces, shapes, std::move(across),
-                            hints);
+  return TriangleMesh<Real>(
+      state_->triangulation.vertices(), faces,
+      ShapesOfSlots{triangles, state_->slot_of_face, state_->unit}, across, hints);
 }
 template TriangleMesh<float> IntrinsicDelaunay::mesh(const SaddleThresholds&) const;
 template TriangleMesh<double> IntrinsicDelaunay::mesh(const SaddleThresholds&) const;

@@ -13,7 +13,8 @@
 
 namespace plexway {
 
-struct TriangleShape;
+class FaceLayout;
+class TriangleShapes;
 
 /// What a surface is made of, counted while it is built.
 struct SurfaceSummary {
@@ -103,7 +104,7 @@ class TriangleMesh {
   /// From triangles whose angles are known as well as their lengths, and a gluing: for makers
   /// inside the library, which answer for both. Throws only where there are no faces.
   TriangleMesh(std::size_t vertices, std::span<const std::array<Index, 3>> faces,
-               std::span<const TriangleShape> shapes, std::vector<std::array<Index, 3>> across,
+               const TriangleShapes& shapes, std::span<const std::array<Index, 3>> across,
                const SurfaceHints& hints);
 
   [[nodiscard]] std::size_t vertex_count() const { return vertex_to_inside_.size(); }
@@ -137,9 +138,10 @@ class TriangleMesh {
   [[nodiscard]] std::uint64_t identity() const { return identity_.value(); }
 
  private:
-  void assemble(std::size_t vertices, std::span<const std::array<Index, 3>> faces,
-                std::span<const TriangleShape> shapes, std::vector<Index> face_order,
-                std::vector<std::array<Index, 3>> across, const SurfaceHints& hints);
+  void assemble(FaceLayout layout, const TriangleShapes& shapes, const SurfaceHints& hints);
+  std::vector<double> take_shapes(const TriangleShapes& shapes);
+  void mark_saddles(std::vector<double> angle, std::span<const char> on_boundary,
+                    const SurfaceHints& hints);
 
   SurfaceSummary summary_;
   Identity identity_;

@@ -1,0 +1,184 @@
+#include "complex/face_layout.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include <plexway/complex/triangle_record.hpp>
+
+#include "complex/edge_matching.hpp"
+
+namespace plexway {
+namespace {
+
+Index next(Index i) { return i == 2 ? 0 : i + 1; }
+Index pack(Index face, Index edge) { return face << Across::face_shift | edge; }
+
+}  // namespace
+
+FaceLayout::FaceLayout(std::size_t vertices, Faces faces, std::vector<Index> order)
+    : face(std::move(order)) {
+  name_vertices(vertices, faces);
+  across.resize(faces.size());
+  const auto number = [&](const EdgeSide& s) {  // the caller's: cycles are in its order
+    return std::pair(face[s.halfedge >> Across::face_shift], s.halfedge & Across::edge_mask);
+  };
+  struct Glue {
+    FaceLayout& layout;
+    Index sentinel;
+    bool turns = false;
+    void set(Index from, Index to) const {
+      layout.across[from >> Across::face_shift][from & Across::edge_mask] = to;
+    }
+    // Both run up or both run down: the same way.
+    static Index flip(Index a, Index b) { return ~(a ^ b) & Across::flip; }
+    void single(Index, const EdgeSide& s) {
+      set(s.halfedge, sentinel);
+      ++layout.boundary_edges;
+    }
+    void pair(const EdgeSide& a, const EdgeSide& b) {
+      const Index same = flip(a.halfedge, b.halfedge);
+      turns |= same != 0;
+      set(a.halfedge, (b.halfedge & ~Across::flip) | same);
+      set(b.halfedge, (a.halfedge & ~Across::flip) | same);
+      ++layout.edges;
+    }
+    void cycle(Index, std::span<const EdgeSide> sides) {
+      ++layout.non_manifold_edges;
+      for (std::size_t k = 0; k < sides.size(); ++k) {
+        const Index h = sides[k].halfedge, o = sides[k + 1 == sides.size() ? 0 : k + 1].halfedge;
+        set(h, (o & ~Across::flip) | flip(h, o) | Across::fan);
+        layout.flips |= flip(h, o) != 0;
+      }
+    }
+  };
+  Glue glue{*this, pack(static_cast<Index>(faces.size()), 0)};
+  match_edges(
+      named, corner, [&](const EdgeSide& a, const EdgeSide& b) { return number(a) < number(b); },
+      glue);
+  edges += boundary_edges + non_manifold_edges;
+  if (glue.turns) orient();
+}
+
+FaceLayout::FaceLayout(std::size_t vertices, Faces faces, std::vector<Index> order,
+                       std::span<const std::array<Index, 3>> gluing)
+    : face(std::move(order)) {
+  name_vertices(vertices, faces);
+  across.resize(faces.size());
+  bool turns = false;
+  std::size_t in_pairs = 0;
+  for (Index inside = 0; inside < face.size(); ++inside) {
+    const Index f = face[inside];
+    for (Index i = 0; i < 3; ++i) {
+      const Index h = gluing[f][i];
+      if (h == none) {
+        across[inside][i] = pack(static_cast<Index>(faces.size()), 0);
+        ++boundary_edges;
+        continue;
+      }
+      const Index g = h / 3, j = h % 3, own = 3 * f + i;
+      const bool fan = gluing[g][j] != own;
+      // Opposite unless the vertices say otherwise. In a loop (both ends one vertex) they do not
+      // tell directions apart.
+      const bool loop = faces[f][i] == faces[f][next(i)];
+      const bool same_way = !loop && faces[f][i] == faces[g][j];
+      across[inside][i] = pack(face_to_inside[g], j) | (same_way ? Across::flip : 0) |
+                          (fan ? Across::fan : 0);
+      if (!fan) {
+        turns |= same_way;
+        ++in_pairs;
+        continue;
+      }
+      flips |= same_way;
+      bool lowest = true;
+      for (Index k = h; k != own; k = gluing[k / 3][k % 3]) lowest &= own < k;
+      non_manifold_edges += lowest;
+    }
+  }
+  edges = in_pairs / 2 + boundary_edges + non_manifold_edges;
+  if (turns) orient();
+}
+
+void FaceLayout::name_vertices(std::size_t vertices, Faces faces) {
+  const std::size_t m = faces.size();
+  face_to_inside.resize(m);
+  vertex_to_inside.assign(vertices, none);
+  corner.resize(m);
+  Index fresh = 0;
+  constexpr std::size_t ahead = 16;
+  for (std::size_t inside = 0; inside < m; ++inside) {
+    if (inside + ahead < m) __builtin_prefetch(&faces[face[inside + ahead]]);
+    const Index f = face[inside];
+    face_to_inside[f] = static_cast<Index>(inside);
+    for (std::size_t i = 0; i < 3; ++i) {
+      Index& name = vertex_to_inside[faces[f][i]];
+      if (name == none) name = fresh++;
+      corner[inside][i] = name;
+    }
+  }
+  named = fresh;
+  if (named < vertices)
+    for (Index& name : vertex_to_inside)
+      if (name == none) name = fresh++;
+}
+
+// Edges with more than two triangles do not count.
+void FaceLayout::orient() {
+  const Index sentinel = static_cast<Index>(face.size());
+  constexpr char unseen = 2;
+  turned.assign(face.size(), unseen);
+  std::vector<Index> queue;
+  for (const Index seed : face_to_inside) {
+    if (turned[seed] != unseen) continue;
+    turned[seed] = 0;
+    queue.assign(1, seed);
+    for (std::size_t head = 0; head < queue.size(); ++head) {
+      const Index f = queue[head];
+      for (const Index o : across[f]) {
+        const Index g = o >> Across::face_shift;
+        if (g == sentinel || (o & Across::fan) != 0) continue;
+        const char wanted = turned[f] ^ static_cast<char>((o & Across::flip) != 0);
+        if (turned[g] == unseen) {
+          turned[g] = wanted;
+          queue.push_back(g);
+        } else if (turned[g] != wanted) {
+          orientable = false;
+        }
+      }
+    }
+  }
+  // Corner and edge numbers of a turned face: corners 0 2 1, edges 2 1 0.
+  flips = false;
+  for (Index f = 0; f < face.size(); ++f) {
+    for (Index& o : across[f]) {
+      const Index g = o >> Across::face_shift;
+      if (g == sentinel) continue;
+      if (turned[g]) o = pack(g, 2 - (o & Across::edge_mask)) | (o & Across::special);
+      if (turned[g] != turned[f]) o ^= Across::flip;
+      flips |= (o & Across::flip) != 0;
+    }
+    if (!turned[f]) continue;
+    std::swap(across[f][0], across[f][2]);
+    std::swap(corner[f][1], corner[f][2]);
+  }
+}
+
+std::size_t FaceLayout::mark_refraction(std::span<const std::array<double, 3>> lengths) {
+  const auto length = [&](Index f, Index edge) {
+    return lengths[f][is_turned(f) ? 2 - edge : edge];
+  };
+  std::size_t count = 0;
+  for (Index f = 0; f < face.size(); ++f)
+    for (Index i = 0; i < 3; ++i) {
+      Index& o = across[f][i];
+      const Index g = o >> Across::face_shift, j = o & Across::edge_mask;
+      if (g == face.size()) continue;
+      const double own = length(f, i), other = length(g, j);
+      if (!(std::abs(own - other) > 1e-9 * std::max(own, other))) continue;
+      count += (o & Across::fan) != 0 || pack(f, i) < pack(g, j);
+      o |= Across::fan;
+    }
+  return count;
+}
+
+}  // namespace plexway

@@ -1,0 +1,53 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include <plexway/complex/ids.hpp>
+
+#include "complex/gluing.hpp"
+
+namespace plexway {
+
+/// The faces of a surface as they lie in memory: numbered inside, vertices named by their first
+/// use, glued, and turned so that neighbours run opposite ways wherever that is possible. What a
+/// TriangleMesh's records say but for their shapes, in 28 bytes a face.
+class FaceLayout {
+ public:
+  FaceLayout() = default;
+  /// `order` lists all faces. Glued where two corners share both vertices, which in each face are
+  /// three.
+  FaceLayout(std::size_t vertices, Faces faces, std::vector<Index> order);
+  /// Glued as `across` says.
+  FaceLayout(std::size_t vertices, Faces faces, std::vector<Index> order,
+             std::span<const std::array<Index, 3>> across);
+
+  std::vector<Index> face;                   ///< the caller's, of each inside
+  std::vector<std::array<Index, 3>> corner;  ///< vertices inside
+  std::vector<std::array<Index, 3>> across;  ///< packed as Across; face_count() on a boundary
+  std::vector<char> turned;                  ///< empty if none is
+  std::vector<Index> vertex_to_inside;
+  std::vector<Index> face_to_inside;
+  std::size_t named = 0;  ///< vertices of faces; the others are behind them
+  std::size_t edges = 0, boundary_edges = 0, non_manifold_edges = 0;
+  bool orientable = true;
+  bool flips = false;  ///< is Across::flip set anywhere?
+
+  /// Edges that their triangles measure differently become like those with more than two: neither
+  /// is unfolded over. Lengths are the faces', edges as the caller numbers them. Returns how many.
+  std::size_t mark_refraction(std::span<const std::array<double, 3>> lengths);
+
+  [[nodiscard]] std::size_t face_count() const { return face.size(); }
+  [[nodiscard]] std::size_t vertex_count() const { return vertex_to_inside.size(); }
+  [[nodiscard]] bool is_turned(std::size_t inside) const {
+    return !turned.empty() && turned[inside] != 0;
+  }
+
+ private:
+  void name_vertices(std::size_t vertices, Faces faces);
+  void orient();
+};
+
+}  // namespace plexway
