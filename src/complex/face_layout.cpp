@@ -7,6 +7,7 @@
 #include <plexway/complex/triangle_record.hpp>
 
 #include "complex/edge_matching.hpp"
+#include "complex/shape_blocks.hpp"
 
 namespace plexway {
 namespace {
@@ -163,7 +164,15 @@ void FaceLayout::orient() {
   }
 }
 
-std::size_t FaceLayout::mark_refraction(std::span<const std::array<double, 3>> lengths) {
+std::size_t FaceLayout::mark_refraction(const TriangleShapes& shapes) {
+  std::vector<std::array<double, 3>> lengths(face.size());  // edges as the caller numbers them
+  ShapeBlock block{};
+  for (std::size_t first = 0; first < face.size(); first += ShapeBlock::size) {
+    const std::size_t count = std::min(ShapeBlock::size, face.size() - first);
+    shapes.look_up(std::span(face).subspan(first, count), block);
+    for (std::size_t k = 0; k < count; ++k)
+      for (std::size_t i = 0; i < 3; ++i) lengths[first + k][i] = block.length[i][k];
+  }
   const auto length = [&](Index f, Index edge) {
     return lengths[f][is_turned(f) ? 2 - edge : edge];
   };

@@ -11,6 +11,8 @@
 
 namespace plexway {
 
+class TriangleShapes;
+
 /// The faces of a surface as they lie in memory: numbered inside, vertices named by their first
 /// use, glued, and turned so that neighbours run opposite ways wherever that is possible. What a
 /// TriangleMesh's records say but for their shapes, in 28 bytes a face.
@@ -36,8 +38,8 @@ class FaceLayout {
   bool flips = false;  ///< is Across::flip set anywhere?
 
   /// Edges that their triangles measure differently become like those with more than two: neither
-  /// is unfolded over. Lengths are the faces', edges as the caller numbers them. Returns how many.
-  std::size_t mark_refraction(std::span<const std::array<double, 3>> lengths);
+  /// is unfolded over. Returns how many.
+  std::size_t mark_refraction(const TriangleShapes& shapes);
 
   [[nodiscard]] std::size_t face_count() const { return face.size(); }
   [[nodiscard]] std::size_t vertex_count() const { return vertex_to_inside.size(); }

@@ -40,16 +40,12 @@ class ShapesOfSlots final : public TriangleShapes {
                 double unit)
       : triangles_(triangles), slot_of_face_(slot_of_face), unit_(unit) {}
 
-  void lengths(std::span<const Index> faces,
-               std::span<std::array<double, 3>> rows) const override {
-    for (std::size_t k = 0; k < faces.size(); ++k)
-      for (std::size_t i = 0; i < 3; ++i) rows[k][i] = of(faces[k]).length[i] * unit_;
-  }
-  void angles(std::span<const Index> faces, ShapeBlock& block) const override {
+  void look_up(std::span<const Index> faces, ShapeBlock& block) const override {
     for (std::size_t k = 0; k < faces.size(); ++k) {
-      const IntrinsicTriangle& t = of(faces[k]);
+      const IntrinsicTriangle& t = triangles_[slot_of_face_[faces[k]]];
       bool degenerate = false;
       for (std::size_t i = 0; i < 3; ++i) {
+        block.length[i][k] = t.length[i] * unit_;
         block.cosine[i][k] = t.angle[i].c;
         block.sine[i][k] = t.angle[i].s;
         degenerate |= t.length[i] == 0 || t.angle[i].s < 1e-14;
@@ -60,9 +56,6 @@ class ShapesOfSlots final : public TriangleShapes {
   }
 
  private:
-  [[nodiscard]] const IntrinsicTriangle& of(Index face) const {
-    return triangles_[slot_of_face_[face]];
-  }
   std::span<const IntrinsicTriangle> triangles_;
   std::span<const Index> slot_of_face_;
   double unit_;

@@ -1,7 +1,9 @@
 #include "complex/shape_blocks.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <numbers>
 
@@ -18,15 +20,22 @@ using Vectors = std::array<Row, 3>;  // x, y and z
 void gather(std::span<const std::array<double, 3>> positions,
             std::span<const std::array<Index, 3>> faces, std::span<const Index> listed,
             std::array<Vectors, 3>& edge) {
-  for (std::size_t k = 0; k < size; ++k) {
-    const auto& f = faces[listed[std::min(k, listed.size() - 1)]];
-    const auto &a = positions[f[0]], &b = positions[f[1]], &c = positions[f[2]];
-    for (std::size_t d = 0; d < 3; ++d) {
-      edge[0][d][k] = b[d] - a[d];
-      edge[1][d][k] = c[d] - b[d];
-      edge[2][d][k] = a[d] - c[d];
+  std::array<Vectors, 3> corner;
+  for (std::size_t k = 0; k < listed.size(); ++k) {
+    const auto& f = faces[listed[k]];
+    for (std::size_t i = 0; i < 3; ++i) {
+      const auto& p = positions[f[i]];
+      for (std::size_t d = 0; d < 3; ++d) corner[i][d][k] = p[d];
     }
   }
+  for (std::size_t i = 0; i < 3; ++i)
+    for (std::size_t d = 0; d < 3; ++d)
+      for (std::size_t k = listed.size(); k < size; ++k)
+        corner[i][d][k] = corner[i][d][listed.size() - 1];
+  for (std::size_t i = 0; i < 3; ++i)
+    for (std::size_t d = 0; d < 3; ++d)
+      for (std::size_t k = 0; k < size; ++k)
+        edge[i][d][k] = corner[(i + 1) % 3][d][k] - corner[i][d][k];
 }
 
 double larger(double a, double b) { return a < b ? b : a; }
@@ -53,23 +62,10 @@ void put(const TriangleShape& shape, std::size_t k, ShapeBlock& block) {
 
 }  // namespace
 
-void ShapesInSpace::lengths(std::span<const Index> faces,
-                            std::span<std::array<double, 3>> rows) const {
-  std::array<Vectors, 3> edge;
-  Row length;
-  for (std::size_t first = 0; first < faces.size(); first += size) {
-    const std::size_t count = std::min(size, faces.size() - first);
-    gather(positions_, faces_, faces.subspan(first, count), edge);
-    for (std::size_t i = 0; i < 3; ++i) {
-      norms(edge[i], length);
-      for (std::size_t k = 0; k < count; ++k) rows[first + k][i] = length[k];
-    }
-  }
-}
-
-void ShapesInSpace::angles(std::span<const Index> faces, ShapeBlock& block) const {
+void ShapesInSpace::look_up(std::span<const Index> faces, ShapeBlock& block) const {
   std::array<Vectors, 3> edge;
   gather(positions_, faces_, faces, edge);
+  for (std::size_t i = 0; i < 3; ++i) norms(edge[i], block.length[i]);
   // One cross product serves all corners, unless the triangle is thin, long or short: then each
   // corner has its own (TriangleShape).
   constexpr double thin = 1e-4, longest = 1e70, shortest = 1e-70;
@@ -103,14 +99,11 @@ void ShapesInSpace::angles(std::span<const Index> faces, ShapeBlock& block) cons
   }
 }
 
-void ShapesOfLengths::lengths(std::span<const Index> faces,
-                              std::span<std::array<double, 3>> rows) const {
-  for (std::size_t k = 0; k < faces.size(); ++k) rows[k] = lengths_[faces[k]];
-}
-
-void ShapesOfLengths::angles(std::span<const Index> faces, ShapeBlock& block) const {
+void ShapesOfLengths::look_up(std::span<const Index> faces, ShapeBlock& block) const {
   for (std::size_t k = 0; k < faces.size(); ++k) {
-    put(shape_from_lengths(lengths_[faces[k]]), k, block);
+    const auto& lengths = lengths_[faces[k]];
+    for (std::size_t i = 0; i < 3; ++i) block.length[i][k] = lengths[i];
+    put(shape_from_lengths(lengths), k, block);
     block.violated[k] = violated_[faces[k]] != 0;
   }
 }
@@ -139,44 +132,66 @@ void angles_of(const ShapeBlock& block, std::array<Row, 3>& angle) {
 
 template <class Real>
 void round_angles(const ShapeBlock& block, RoundedAngles<Real>& rounded) {
-  // Of the neighbours of both, in units of their last places, the pair that misses least; those
-  // themselves where that is a matter of chance.
+  // Of the numbers next to both, the pair that misses least, or they themselves. Which of the pairs
+  // on the other side make it worse is known: those are left out, and six remain. A pair's number
+  // takes the last bits of its miss, so that a minimum finds both. Of equal ones, as at 45 degrees,
+  // the least cosine counts, then the least sine.
   constexpr Real step = std::numeric_limits<Real>::epsilon() * Real(0.75);
+  enum : std::uint64_t { neither = 0, other_both = 8, sine_only, both_other, cosine_only, both };
+  constexpr std::uint64_t code_mask = 15, sign = std::uint64_t{1} << 63;
+  // By code, and by its complement, which it is where the right way is down: 0 the number itself, 1
+  // the next the right way, 2 the other way.
+  constexpr std::array<std::uint8_t, 16> which_cosine = {0, 0, 0, 1, 1, 1, 0, 2,
+                                                         2, 0, 1, 1, 1, 0, 0, 0};
+  constexpr std::array<std::uint8_t, 16> which_sine = {0, 0, 0, 1, 0, 2, 1, 1,
+                                                       1, 1, 2, 0, 1, 0, 0, 0};
   using Numbers = std::array<Real, size>;
   std::array<Numbers, 3> cosine, sine;
-  std::array<Row, 3> over, under;  // cos^2 - 1, sin^2
-  Row best_cosine, best_sine;
+  std::array<std::uint64_t, size> codes;
+  Numbers way;
+  const auto over = [](double c) { return (c - 1) * (c + 1); };  // cos^2 - 1
   for (std::size_t i = 0; i < 3; ++i) {
     for (std::size_t k = 0; k < size; ++k) {
-      const Real c = static_cast<Real>(block.cosine[i][k]), s = static_cast<Real>(block.sine[i][k]);
-      const Real dc = std::abs(c) * step, ds = std::abs(s) * step;
-      cosine[0][k] = c - dc, cosine[1][k] = c, cosine[2][k] = c + dc;
-      sine[0][k] = s - ds, sine[1][k] = s, sine[2][k] = s + ds;
+      cosine[0][k] = static_cast<Real>(block.cosine[i][k]);
+      sine[0][k] = static_cast<Real>(block.sine[i][k]);
     }
-    for (std::size_t n = 0; n < 3; ++n)
-      for (std::size_t k = 0; k < size; ++k) {
-        const double c = static_cast<double>(cosine[n][k]), s = static_cast<double>(sine[n][k]);
-        over[n][k] = (c - 1) * (c + 1);
-        under[n][k] = s * s;
-      }
-    // The pairs in their order, cosines first: of equal ones the first.
     for (std::size_t k = 0; k < size; ++k) {
-      double best = std::numeric_limits<double>::infinity(), best_c = 0, best_s = 0;
-      const auto look = [&](std::size_t n, std::size_t j, double against) {
-        const double miss = std::abs(over[n][k] + under[j][k]) + against;
-        const double c = static_cast<double>(cosine[n][k]), s = static_cast<double>(sine[j][k]);
-        best_c = miss < best ? c : best_c;
-        best_s = miss < best ? s : best_s;
-        best = miss < best ? miss : best;
+      const double c = static_cast<double>(cosine[0][k]), s = static_cast<double>(sine[0][k]);
+      const bool down = over(c) + s * s > 0;
+      way[k] = down ? -step : step;
+      codes[k] = down ? code_mask : 0;
+    }
+    for (std::size_t k = 0; k < size; ++k) {
+      const Real dc = cosine[0][k] * way[k], ds = sine[0][k] * way[k];
+      cosine[1][k] = cosine[0][k] + dc, cosine[2][k] = cosine[0][k] - dc;
+      sine[1][k] = sine[0][k] + ds, sine[2][k] = sine[0][k] - ds;
+    }
+    for (std::size_t k = 0; k < size; ++k) {
+      const double c0 = static_cast<double>(cosine[0][k]), s0 = static_cast<double>(sine[0][k]);
+      const double c1 = static_cast<double>(cosine[1][k]), s1 = static_cast<double>(sine[1][k]);
+      const double c2 = static_cast<double>(cosine[2][k]), s2 = static_cast<double>(sine[2][k]);
+      const double a0 = over(c0), a1 = over(c1), a2 = over(c2);
+      const double b0 = s0 * s0, b1 = s1 * s1, b2 = s2 * s2;
+      const std::uint64_t complement = codes[k];
+      const auto miss = [&](double a, double b, std::uint64_t code) {
+        return std::bit_cast<double>((std::bit_cast<std::uint64_t>(a + b) & ~(sign | code_mask)) |
+                                     (code ^ complement));
       };
-      look(0, 0, 1e-17), look(0, 1, 1e-17), look(0, 2, 1e-17);
-      look(1, 0, 1e-17), look(1, 1, 0), look(1, 2, 1e-17);
-      look(2, 0, 1e-17), look(2, 1, 1e-17), look(2, 2, 1e-17);
-      best_cosine[k] = best_c, best_sine[k] = best_s;
+      const auto least = [](double a, double b) { return a < b ? a : b; };
+      // They themselves count a little better, so that what is a matter of chance stays.
+      const double own = std::abs(a0 + b0) - 1e-17;
+      const double first = own > 0 ? std::bit_cast<double>(std::bit_cast<std::uint64_t>(own) &
+                                                           ~code_mask)
+                                   : 0.0;
+      const double best =
+          least(least(least(first, miss(a0, b1, sine_only)),
+                      least(miss(a1, b0, cosine_only), miss(a1, b1, both))),
+                least(miss(a1, b2, both_other), miss(a2, b1, other_both)));
+      codes[k] = std::bit_cast<std::uint64_t>(best) & code_mask;
     }
     for (std::size_t k = 0; k < size; ++k) {
-      rounded.cosine[i][k] = static_cast<Real>(best_cosine[k]);
-      rounded.sine[i][k] = static_cast<Real>(best_sine[k]);
+      rounded.cosine[i][k] = cosine[which_cosine[codes[k]]][k];
+      rounded.sine[i][k] = sine[which_sine[codes[k]]][k];
     }
   }
 }

@@ -23,10 +23,8 @@ struct ShapeBlock {
 class TriangleShapes {
  public:
   virtual ~TriangleShapes() = default;
-  /// Of the faces listed, as many as there are rows.
-  virtual void lengths(std::span<const Index> faces, std::span<std::array<double, 3>> rows) const = 0;
-  /// All but the lengths, which are there. At most ShapeBlock::size faces.
-  virtual void angles(std::span<const Index> faces, ShapeBlock& block) const = 0;
+  /// Of the faces listed, at most ShapeBlock::size and at least one.
+  virtual void look_up(std::span<const Index> faces, ShapeBlock& block) const = 0;
 
  protected:
   TriangleShapes() = default;
@@ -40,8 +38,7 @@ class ShapesInSpace final : public TriangleShapes {
   ShapesInSpace(std::span<const std::array<double, 3>> positions,
                 std::span<const std::array<Index, 3>> faces)
       : positions_(positions), faces_(faces) {}
-  void lengths(std::span<const Index> faces, std::span<std::array<double, 3>> rows) const override;
-  void angles(std::span<const Index> faces, ShapeBlock& block) const override;
+  void look_up(std::span<const Index> faces, ShapeBlock& block) const override;
 
  private:
   std::span<const std::array<double, 3>> positions_;
@@ -53,8 +50,7 @@ class ShapesOfLengths final : public TriangleShapes {
  public:
   ShapesOfLengths(std::span<const std::array<double, 3>> lengths, std::span<const char> violated)
       : lengths_(lengths), violated_(violated) {}
-  void lengths(std::span<const Index> faces, std::span<std::array<double, 3>> rows) const override;
-  void angles(std::span<const Index> faces, ShapeBlock& block) const override;
+  void look_up(std::span<const Index> faces, ShapeBlock& block) const override;
 
  private:
   std::span<const std::array<double, 3>> lengths_;

@@ -22,11 +22,33 @@ constexpr std::uint64_t every_third_bit(std::uint64_t q) {
   return (q | q << 2) & 0x1249249249249249;
 }
 
-/// The numbers below `count` by ascending key of 63 bits, of equal ones the lower number first.
-/// key_of(number) may be asked for again. Cost: linear as long as most keys differ in their upper
-/// 36 bits (32 beyond 2^28 numbers), n log n else.
-template <class KeyOf>
-std::vector<Index> sorted_by_key(std::size_t count, KeyOf key_of) {
+/// 12 bits spread to every third place.
+constexpr std::uint64_t every_third_bit_of_12(std::uint64_t q) {
+  q = (q | q << 16) & 0xf0000ff;
+  q = (q | q << 8) & 0xf00f00f;
+  q = (q | q << 4) & 0x0c30c30c3;
+  return (q | q << 2) & 0x249249249;
+}
+
+/// A cell of the space-filling curve: three numbers of 21 bits.
+using CurveCell = std::array<std::int64_t, 3>;
+constexpr std::uint64_t curve_key(const CurveCell& cell) {
+  return every_third_bit(static_cast<std::uint64_t>(cell[0])) |
+         every_third_bit(static_cast<std::uint64_t>(cell[1])) << 1 |
+         every_third_bit(static_cast<std::uint64_t>(cell[2])) << 2;
+}
+/// Its upper 36 bits.
+constexpr std::uint64_t coarse_curve_key(const CurveCell& cell) {
+  return every_third_bit_of_12(static_cast<std::uint64_t>(cell[0] >> 9)) |
+         every_third_bit_of_12(static_cast<std::uint64_t>(cell[1] >> 9)) << 1 |
+         every_third_bit_of_12(static_cast<std::uint64_t>(cell[2] >> 9)) << 2;
+}
+
+/// The numbers below `count` along the curve by the cells they are in, of those in one the lower
+/// number first. cell_of(number) may be asked for again. Cost: linear as long as most differ in the
+/// upper 36 bits of their keys (32 beyond 2^28 numbers), n log n else.
+template <class CellOf>
+std::vector<Index> sorted_along_curve(std::size_t count, CellOf cell_of) {
   // The upper bits of the key and the number in one word, sorted in four passes by 9 bits.
   constexpr int digit = 9, passes = 4;
   const int key_bits = count <= std::size_t{1} << 28 ? 36 : 32;
@@ -38,7 +60,7 @@ std::vector<Index> sorted_by_key(std::size_t count, KeyOf key_of) {
   };
   std::vector<std::uint64_t> words(count), other(count);
   for (std::size_t i = 0; i < count; ++i) {
-    words[i] = key_of(i) >> (63 - key_bits) << shift | i;
+    words[i] = coarse_curve_key(cell_of(i)) >> (36 - key_bits) << shift | i;
     for (int pass = 0; pass < passes; ++pass)
       ++begin[static_cast<std::size_t>(pass)][place(words[i], pass)];
   }
@@ -62,7 +84,7 @@ std::vector<Index> sorted_by_key(std::size_t count, KeyOf key_of) {
     run.clear();  // by the rest of the key
     for (std::size_t k = i; k < end; ++k) {
       const Index at = static_cast<Index>(words[k] & number);
-      run.emplace_back(key_of(at), at);
+      run.emplace_back(curve_key(cell_of(at)), at);
     }
     std::sort(run.begin(), run.end());
     for (std::size_t k = i; k < end; ++k) order[k] = run[k - i].second;
@@ -71,7 +93,7 @@ std::vector<Index> sorted_by_key(std::size_t count, KeyOf key_of) {
 }
 
 /// Simplices (points, if N is 1) along a space-filling (Morton) curve through their centroids.
-/// Positions are finite; those of no simplex do not matter. Cost: that of sorted_by_key.
+/// Positions are finite; those of no simplex do not matter. Cost: that of sorted_along_curve.
 template <std::size_t N>
 std::vector<Index> along_curve(std::span<const std::array<double, 3>> positions,
                                std::span<const std::array<Index, N>> simplices) {
@@ -99,17 +121,15 @@ std::vector<Index> along_curve(std::span<const std::array<double, 3>> positions,
   std::vector<std::array<double, 3>> parts(positions.size());  // of a centroid, in cells
   for (std::size_t v = 0; v < positions.size(); ++v)
     for (std::size_t d = 0; d < 3; ++d) parts[v][d] = (positions[v][d] / share - low[d]) * scale;
-  return sorted_by_key(simplices.size(), [&](std::size_t s) {
-    std::uint64_t key = 0;
+  return sorted_along_curve(simplices.size(), [&](std::size_t s) {
+    CurveCell cell;
     for (std::size_t d = 0; d < 3; ++d) {
       double centre = 0;
       for (const Index v : simplices[s]) centre += parts[v][d];
       centre = centre < cells ? centre : cells;
-      key |= every_third_bit(static_cast<std::uint64_t>(
-                 static_cast<std::int64_t>(centre > 0 ? centre : 0.0)))
-             << d;
+      cell[d] = static_cast<std::int64_t>(centre > 0 ? centre : 0.0);
     }
-    return key;
+    return cell;
   });
 }
 

@@ -246,9 +246,7 @@ void TriangleMesh<Real>::assemble(FaceLayout layout, const TriangleShapes& shape
   summary_.boundary_edges = layout.boundary_edges;
   summary_.non_manifold_edges = layout.non_manifold_edges;
   if (hints.refracts) {
-    Lengths lengths(m);
-    shapes.lengths(layout.face, lengths);
-    summary_.refracting_edges = layout.mark_refraction(lengths);
+    summary_.refracting_edges = layout.mark_refraction(shapes);
   }
 
   VertexFans fans = find_vertex_fans(layout);
@@ -287,66 +285,55 @@ template <class Real>
 std::vector<double> TriangleMesh<Real>::take_shapes(const TriangleShapes& shapes) {
   const std::size_t m = face_count();
   constexpr std::size_t size = ShapeBlock::size;
-  const auto in_blocks = [&](auto work) {
-    for (std::size_t first = 0; first < m; first += size) work(first, std::min(size, m - first));
-  };
-  const auto faces_of = [&](std::size_t first, std::size_t count, std::array<Index, size>& faces) {
-    for (std::size_t k = 0; k < count; ++k) faces[k] = triangles_[first + k].face & ~reversed;
-    return std::span<const Index>(faces.data(), count);
-  };
-  std::array<Index, size> list;
   Lengths lengths(m);  // of faces inside, edges as the caller numbers them
   double longest = 0;
-  in_blocks([&](std::size_t first, std::size_t count) {
-    const auto faces = faces_of(first, count, list);
-    const auto rows = std::span(lengths).subspan(first, count);
-    shapes.lengths(faces, rows);
-    double sum = 0;
-    for (const auto& [a, b, c] : rows) {
-      sum += a + b + c;
-      longest = std::max({longest, a, b, c});
-    }
-    if (std::isfinite(sum)) return;
-    for (std::size_t k = 0; k < count; ++k)
-      for (const double l : rows[k])
-        if (!std::isfinite(l))
-          throw InputError("face " + std::to_string(faces[k]) + ": too long for a number");
-  });
-  double sum = 0;
-  if (longest > 0)
-    for (const auto& row : lengths) {
-      const std::array<double, 3> share = {row[0] / longest, row[1] / longest, row[2] / longest};
-      for (const double l : share) sum += l;
-    }
-  const double unit = longest > 0 ? longest * (sum / (3 * static_cast<double>(m))) : 1;
-  summary_.mean_edge = unit;
-
   std::vector<double> around(vertex_count(), 0);
+  std::array<Index, size> faces;
   ShapeBlock block{};
   RoundedAngles<Real> rounded;
-  std::array<std::array<double, size>, 3> angle;
-  in_blocks([&](std::size_t first, std::size_t count) {
-    for (std::size_t k = 0; k < count; ++k)
-      for (std::size_t i = 0; i < 3; ++i) block.length[i][k] = lengths[first + k][i];
-    shapes.angles(faces_of(first, count, list), block);
+  std::array<ShapeBlock::Row, 3> angle;
+  for (std::size_t first = 0; first < m; first += size) {
+    const std::size_t count = std::min(size, m - first);
+    for (std::size_t k = 0; k < count; ++k) faces[k] = triangles_[first + k].face & ~reversed;
+    shapes.look_up(std::span(faces).first(count), block);
     round_angles(block, rounded);
     angles_of(block, angle);
-    for (auto& row : block.length)
-      for (double& l : row) l /= unit;
     for (std::size_t k = 0; k < count; ++k) {
       TriangleRecord<Real>& t = triangles_[first + k];
       summary_.degenerate_faces += block.degenerate[k];
       summary_.violated_faces += block.violated[k];
       const bool turned = (t.face & reversed) != 0;
+      double together = 0;
       for (std::size_t i = 0; i < 3; ++i) {
-        const std::size_t edge = turned ? 2 - i : i, corner = turned && i != 0 ? 3 - i : i;
-        t.length[i] = static_cast<Real>(block.length[edge][k]);
+        const std::size_t corner = turned && i != 0 ? 3 - i : i;
+        const double length = lengths[first + k][i] = block.length[i][k];
+        longest = length > longest ? length : longest;
+        together += length;
         t.cosine[i] = rounded.cosine[corner][k];
         t.signed_sine[i] = rounded.sine[corner][k];
         around[t.corner[i]] += angle[corner][k];
       }
+      if (!std::isfinite(together) && !std::all_of(lengths[first + k].begin(),
+                                                   lengths[first + k].end(),
+                                                   [](double l) { return std::isfinite(l); }))
+        throw InputError("face " + std::to_string(faces[k]) + ": too long for a number");
     }
-  });
+  }
+
+  // In units of the mean edge. Shares of the longest: no sum overflows.
+  double sum = 0;
+  if (longest > 0)
+    for (const auto& [a, b, c] : lengths) {
+      const double p = a / longest, q = b / longest, r = c / longest;
+      sum = sum + p + q + r;
+    }
+  const double unit = longest > 0 ? longest * (sum / (3 * static_cast<double>(m))) : 1;
+  summary_.mean_edge = unit;
+  for (std::size_t f = 0; f < m; ++f) {
+    TriangleRecord<Real>& t = triangles_[f];
+    for (std::size_t i = 0; i < 3; ++i) t.length[i] = static_cast<Real>(lengths[f][i] / unit);
+    if ((t.face & reversed) != 0) std::swap(t.length[0], t.length[2]);
+  }
   return around;
 }
 

@@ -58,7 +58,8 @@ inline TriangleShape shape_from_lengths(const std::array<double, 3>& length) {
   TriangleShape shape{};
   shape.length = length;
   const double longest = std::fmax(std::fmax(length[0], length[1]), length[2]);
-  if (longest > 0 && !(longest > 1e-70 && longest < 1e70)) {  // whose fourth powers are no numbers
+  // Fourth powers of these are no numbers.
+  if (longest > 0 && !(longest > 1e-70 && longest < 1e70) && std::isfinite(longest)) {
     const int by = std::ilogb(longest);
     std::array<double, 3> near_one = length;
     for (double& l : near_one) l = std::scalbn(l, -by);
