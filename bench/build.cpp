@@ -138,22 +138,6 @@ nlohmann::ordered_json cells(const Cost& cost) {
   return row;
 }
 
-struct ByDelaunay {
-  plexway::IntrinsicDelaunay delaunay;
-  plexway::TriangleMesh<float> mesh;
-};
-
-// As a solver does that has to look whether Delaunay triangles pay.
-ByDelaunay by_delaunay(const bench::Surface& s) {
-  plexway::TriangleMesh<float> mesh(s.positions, s.faces);
-  volatile bool pays = plexway::what_pays(plexway::measure_triangulation(mesh)) !=
-                       plexway::Retriangulation::keep;
-  static_cast<void>(pays);
-  plexway::IntrinsicDelaunay delaunay(plexway::TriangleMesh<double>(s.positions, s.faces));
-  mesh = delaunay.mesh<float>();
-  return {std::move(delaunay), std::move(mesh)};
-}
-
 bool is_solid(const std::filesystem::path& file) {
   return file.extension() == ".node" || file.extension() == ".ele" || file.extension() == ".mesh";
 }
@@ -194,7 +178,11 @@ int main(int argc, char** argv) {
         [&] { return plexway::TriangleMesh<float>(s.positions, s.faces); });
     add(s.name, "surface, double", n,
         [&] { return plexway::TriangleMesh<double>(s.positions, s.faces); });
-    add(s.name, "by Delaunay, float", n, [&] { return by_delaunay(s); });
+    add(s.name, "surface or what pays, float", n,
+        [&] { return plexway::triangulate<float>(s.positions, s.faces); });
+    add(s.name, "by Delaunay, float", n, [&] {
+      return plexway::triangulate<float>(s.positions, s.faces, plexway::Retriangulation::flips);
+    });
   };
   return report.write(table, [&] {
     for (const std::filesystem::path mesh : meshes) {

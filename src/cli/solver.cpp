@@ -50,12 +50,9 @@ std::size_t simplex_count(const Complex& complex) {
 template <class Real, class Shape>
 class ShapeSolver final : public Solver {
  public:
-  ShapeSolver(const Shape& shape, [[maybe_unused]] Triangulation triangulation,
-              const MeasuredLengths* lengths)
-      : complex_(make_complex<Real>(shape, lengths)), simplices_(simplex_count(complex_)) {
+  ShapeSolver(const Shape& shape, Triangulation triangulation, const MeasuredLengths* lengths)
+      : complex_(build(shape, triangulation, lengths)), simplices_(simplices_of(shape)) {
     check_precision<Real>(complex_);
-    if constexpr (std::is_same_v<Shape, io::Triangles>)
-      delaunay_ = retriangulate(triangulation, shape, lengths, complex_, triangulation_);
   }
 
   std::size_t components() const override { return complex_.summary().components; }
@@ -154,10 +151,29 @@ class ShapeSolver final : public Solver {
   using Complex = decltype(make_complex<Real>(std::declval<Shape>()));
   static constexpr bool kSerialOnly = std::is_same_v<Complex, PointPairs<Real>>;
 
-  Complex complex_;
-  std::size_t simplices_;  // before any were added
+  // Sets what comes before the complex.
+  [[nodiscard]] Complex build(const Shape& shape, [[maybe_unused]] Triangulation triangulation,
+                              const MeasuredLengths* lengths) {
+    if constexpr (std::is_same_v<Shape, io::Triangles>) {
+      auto made = make_surface<Real>(triangulation, shape, lengths, triangulation_);
+      delaunay_ = std::move(made.delaunay);
+      return std::move(made.mesh);
+    } else {
+      return make_complex<Real>(shape, lengths);
+    }
+  }
+  // Before any were added.
+  [[nodiscard]] std::size_t simplices_of([[maybe_unused]] const Shape& shape) const {
+    if constexpr (std::is_same_v<Shape, io::Triangles>)
+      return shape.triangles.size();
+    else
+      return simplex_count(complex_);
+  }
+
   std::optional<IntrinsicDelaunay> delaunay_;
   TriangulationReport triangulation_;
+  Complex complex_;
+  std::size_t simplices_;
   std::vector<PointSource> moved_;
   Workspace<Real> workspace_;
 #ifdef PLEXWAY_HAS_GL

@@ -12,14 +12,28 @@
 namespace plexway {
 namespace {
 
-Index next(Index i) { return i == 2 ? 0 : i + 1; }
 Index pack(Index face, Index edge) { return face << Across::face_shift | edge; }
+
+// Which lie anywhere in memory: asked for some faces ahead.
+void take_corners(std::span<const Index> order, Faces faces,
+                  std::vector<std::array<Index, 3>>& corners) {
+  constexpr std::size_t ahead = 16;
+  corners.reserve(order.size());
+  for (std::size_t k = 0; k < order.size(); ++k) {
+#ifdef __GNUC__
+    if (k + ahead < order.size()) __builtin_prefetch(&faces[order[k + ahead]]);
+#endif
+    corners.push_back(faces[order[k]]);
+  }
+}
 
 }  // namespace
 
 FaceLayout::FaceLayout(std::size_t vertices, Faces faces, std::vector<Index> order)
     : face(std::move(order)) {
-  name_vertices(vertices, faces);
+  number_faces();
+  take_corners(face, faces, corner);
+  name_vertices(vertices);
   across.resize(faces.size());
   const auto number = [&](const EdgeSide& s) {  // the caller's: cycles are in its order
     return std::pair(face[s.halfedge >> Across::face_shift], s.halfedge & Across::edge_mask);
@@ -64,63 +78,90 @@ FaceLayout::FaceLayout(std::size_t vertices, Faces faces, std::vector<Index> ord
 FaceLayout::FaceLayout(std::size_t vertices, Faces faces, std::vector<Index> order,
                        std::span<const std::array<Index, 3>> gluing)
     : face(std::move(order)) {
-  name_vertices(vertices, faces);
-  across.resize(faces.size());
+  number_faces();
+  take_corners(face, faces, corner);
+  across.resize(face.size());
+  for (std::size_t inside = 0; inside < face.size(); ++inside)
+    for (std::size_t i = 0; i < 3; ++i) {
+      const Index h = gluing[face[inside]][i];
+      across[inside][i] = h == none ? none : pack(face_to_inside[h / 3], h % 3);
+    }
+  take_gluing(vertices);
+}
+
+FaceLayout::FaceLayout(std::size_t vertices, std::vector<Index> order,
+                       std::vector<std::array<Index, 3>> corners,
+                       std::vector<std::array<Index, 3>> gluing)
+    : face(std::move(order)), corner(std::move(corners)), across(std::move(gluing)) {
+  number_faces();
+  take_gluing(vertices);
+}
+
+// Marks the gluing and counts its edges.
+void FaceLayout::take_gluing(std::size_t vertices) {
+  name_vertices(vertices);
+  const Index sentinel = pack(static_cast<Index>(face.size()), 0);
+  const auto over = [&](Index h) {
+    return across[h >> Across::face_shift][h & Across::edge_mask] & ~Across::special;
+  };
   bool turns = false;
   std::size_t in_pairs = 0;
-  for (Index inside = 0; inside < face.size(); ++inside) {
-    const Index f = face[inside];
+  for (Index f = 0; f < face.size(); ++f)
     for (Index i = 0; i < 3; ++i) {
-      const Index h = gluing[f][i];
-      if (h == none) {
-        across[inside][i] = pack(static_cast<Index>(faces.size()), 0);
+      const Index o = across[f][i], own = pack(f, i);
+      if (o == none) {
+        across[f][i] = sentinel;
         ++boundary_edges;
         continue;
       }
-      const Index g = h / 3, j = h % 3, own = 3 * f + i;
-      const bool fan = gluing[g][j] != own;
       // Opposite unless the vertices say otherwise. In a loop (both ends one vertex) they do not
       // tell directions apart.
-      const bool loop = faces[f][i] == faces[f][next(i)];
-      const bool same_way = !loop && faces[f][i] == faces[g][j];
-      across[inside][i] = pack(face_to_inside[g], j) | (same_way ? Across::flip : 0) |
-                          (fan ? Across::fan : 0);
-      if (!fan) {
+      const Index v = corner[f][i];
+      const bool loop = v == corner[f][edge_after(i)];
+      const bool same_way =
+          !loop && v == corner[o >> Across::face_shift][o & Across::edge_mask];
+      if (same_way) across[f][i] |= Across::flip;
+      if (over(o) == own) {
         turns |= same_way;
         ++in_pairs;
         continue;
       }
+      across[f][i] |= Across::fan;
       flips |= same_way;
       bool lowest = true;
-      for (Index k = h; k != own; k = gluing[k / 3][k % 3]) lowest &= own < k;
+      for (Index k = o; k != own; k = over(k)) lowest &= own < k;
       non_manifold_edges += lowest;
     }
-  }
   edges = in_pairs / 2 + boundary_edges + non_manifold_edges;
   if (turns) orient();
 }
 
-void FaceLayout::name_vertices(std::size_t vertices, Faces faces) {
-  const std::size_t m = faces.size();
-  face_to_inside.resize(m);
+void FaceLayout::number_faces() {
+  face_to_inside.resize(face.size());
+  for (std::size_t inside = 0; inside < face.size(); ++inside)
+    face_to_inside[face[inside]] = static_cast<Index>(inside);
+}
+
+// Replaces the caller's vertices at the corners.
+void FaceLayout::name_vertices(std::size_t vertices) {
   vertex_to_inside.assign(vertices, none);
-  corner.resize(m);
   Index fresh = 0;
-  constexpr std::size_t ahead = 16;
-  for (std::size_t inside = 0; inside < m; ++inside) {
-    if (inside + ahead < m) __builtin_prefetch(&faces[face[inside + ahead]]);
-    const Index f = face[inside];
-    face_to_inside[f] = static_cast<Index>(inside);
-    for (std::size_t i = 0; i < 3; ++i) {
-      Index& name = vertex_to_inside[faces[f][i]];
+  for (auto& corners : corner)
+    for (Index& v : corners) {
+      Index& name = vertex_to_inside[v];
       if (name == none) name = fresh++;
-      corner[inside][i] = name;
+      v = name;
     }
-  }
   named = fresh;
   if (named < vertices)
     for (Index& name : vertex_to_inside)
       if (name == none) name = fresh++;
+}
+
+std::vector<Index> FaceLayout::vertices_outside() const {
+  std::vector<Index> outside(vertex_to_inside.size());
+  for (Index v = 0; v < outside.size(); ++v) outside[vertex_to_inside[v]] = v;
+  return outside;
 }
 
 // Edges with more than two triangles do not count.

@@ -25,6 +25,10 @@ class FaceLayout {
   /// Glued as `across` says.
   FaceLayout(std::size_t vertices, Faces faces, std::vector<Index> order,
              std::span<const std::array<Index, 3>> across);
+  /// The same with all in this order already: corners by the caller's vertices, halfedges packed as
+  /// Across without its marks, or none.
+  FaceLayout(std::size_t vertices, std::vector<Index> order,
+             std::vector<std::array<Index, 3>> corners, std::vector<std::array<Index, 3>> gluing);
 
   std::vector<Index> face;                   ///< the caller's, of each inside
   std::vector<std::array<Index, 3>> corner;  ///< vertices inside
@@ -43,13 +47,22 @@ class FaceLayout {
 
   [[nodiscard]] std::size_t face_count() const { return face.size(); }
   [[nodiscard]] std::size_t vertex_count() const { return vertex_to_inside.size(); }
+  /// The caller's vertices, by their numbers inside.
+  [[nodiscard]] std::vector<Index> vertices_outside() const;
   [[nodiscard]] bool is_turned(std::size_t inside) const {
     return !turned.empty() && turned[inside] != 0;
   }
 
  private:
-  void name_vertices(std::size_t vertices, Faces faces);
+  void number_faces();
+  void take_gluing(std::size_t vertices);
+  void name_vertices(std::size_t vertices);
   void orient();
 };
+
+/// The layout of a surface given by coordinates, in `order` or, where that is empty, along a curve.
+/// Throws InputError as TriangleMesh's constructor says.
+FaceLayout lay_out(std::span<const std::array<double, 3>> positions, Faces faces,
+                   std::span<const Index> order = {});
 
 }  // namespace plexway

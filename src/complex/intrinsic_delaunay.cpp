@@ -8,8 +8,10 @@
 #include <plexway/error.hpp>
 
 #include "complex/delaunay_flips.hpp"
+#include "complex/face_layout.hpp"
 #include "complex/intrinsic_triangulation.hpp"
 #include "complex/shape_blocks.hpp"
+#include "complex/simplex_order.hpp"
 
 namespace plexway {
 namespace {
@@ -64,25 +66,45 @@ class ShapesOfSlots final : public TriangleShapes {
 }  // namespace
 
 struct IntrinsicDelaunay::State {
+  double unit = 1;
   IntrinsicTriangulation triangulation;
   std::vector<Index> face_of_slot;  // the caller's
   std::vector<Index> slot_of_face;
   std::size_t faces = 0;  // of the input
   bool refracts = false;
-  double unit = 1;
+  bool released = false;  // are the triangles gone?
   DelaunaySummary summary;
 
   template <class Real>
   explicit State(const TriangleMesh<Real>& input)
-      : triangulation(input),
+      : unit(input.unit()),
+        triangulation(input),
         face_of_slot(input.face_count()),
         slot_of_face(input.face_count()),
         faces(input.face_count()),
-        refracts(input.summary().refracting_edges > 0),
-        unit(input.unit()) {
+        refracts(input.summary().refracting_edges > 0) {
     for (Index s = 0; s < face_of_slot.size(); ++s) {
       face_of_slot[s] = input.triangles()[s].face & ~reversed;
       slot_of_face[face_of_slot[s]] = s;
+    }
+  }
+
+  State(FaceLayout&& layout, const TriangleShapes& shapes)
+      : triangulation(layout, shapes, unit),
+        face_of_slot(std::move(layout.face)),
+        slot_of_face(std::move(layout.face_to_inside)),
+        faces(face_of_slot.size()) {}
+
+  template <class Real>
+  void flip(const Refinement& refinement) {
+    DelaunayFlips flips(triangulation, tolerance_of<Real>);
+    flips.all();
+    if (refinement.smallest_angle > 0) refine(triangulation, flips, refinement);
+    summary = {flips.count(), flips.stuck(), triangulation.inserted().size()};
+    triangulation.release_counts();
+    for (Index s = static_cast<Index>(faces); s < triangulation.triangles().size(); ++s) {
+      face_of_slot.push_back(s);
+      slot_of_face.push_back(s);
     }
   }
 
@@ -100,17 +122,7 @@ struct IntrinsicDelaunay::State {
 template <class Real>
 IntrinsicDelaunay::IntrinsicDelaunay(const TriangleMesh<Real>& input, const Refinement& refinement)
     : state_((check(refinement), std::make_unique<State>(input))) {
-  IntrinsicTriangulation& triangulation = state_->triangulation;
-  DelaunayFlips flips(triangulation, tolerance_of<Real>);
-  flips.all();
-  if (refinement.smallest_angle > 0) refine(triangulation, flips, refinement);
-  state_->summary = {flips.count(), flips.stuck(), triangulation.inserted().size()};
-  triangulation.release_counts();
-  for (Index s = static_cast<Index>(input.face_count()); s < triangulation.triangles().size();
-       ++s) {
-    state_->face_of_slot.push_back(s);
-    state_->slot_of_face.push_back(s);
-  }
+  state_->flip<Real>(refinement);
 }
 template IntrinsicDelaunay::IntrinsicDelaunay(const TriangleMesh<float>&, const Refinement&);
 template IntrinsicDelaunay::IntrinsicDelaunay(const TriangleMesh<double>&, const Refinement&);
@@ -118,6 +130,13 @@ template IntrinsicDelaunay::IntrinsicDelaunay(const TriangleMesh<double>&, const
 IntrinsicDelaunay::IntrinsicDelaunay(IntrinsicDelaunay&&) noexcept = default;
 IntrinsicDelaunay& IntrinsicDelaunay::operator=(IntrinsicDelaunay&&) noexcept = default;
 IntrinsicDelaunay::~IntrinsicDelaunay() = default;
+
+IntrinsicDelaunay::IntrinsicDelaunay() = default;
+
+void IntrinsicDelaunay::release_triangles() {
+  state_->triangulation.release_triangles();
+  state_->released = true;
+}
 
 const DelaunaySummary& IntrinsicDelaunay::summary() const { return state_->summary; }
 
@@ -128,9 +147,27 @@ std::size_t IntrinsicDelaunay::bytes() const {
 
 template <class Real>
 TriangleMesh<Real> IntrinsicDelaunay::mesh(const SaddleThresholds& saddles) const {
+  if (state_->released)
+    throw UsageError("the triangles of this Delaunay triangulation were released");
   const auto triangles = state_->triangulation.triangles();
-  const std::size_t m = triangles.size();
+  const std::size_t m = triangles.size(), vertices = state_->triangulation.vertices();
+  SurfaceHints hints;
+  hints.refracts = state_->refracts;
+  hints.saddles = saddles;
+  const ShapesOfSlots shapes(triangles, state_->slot_of_face, state_->unit);
   std::vector<std::array<Index, 3>> faces(m), across(m);
+  if (state_->summary.inserted_vertices == 0) {
+    for (Index s = 0; s < m; ++s) {
+      faces[s] = triangles[s].corner;
+      for (std::size_t i = 0; i < 3; ++i) {
+        const Index o = triangles[s].across[i];
+        across[s][i] = o == none ? none : o & ~Across::special;
+      }
+    }
+    return {FaceLayout(vertices, state_->face_of_slot, std::move(faces), std::move(across)), shapes,
+            hints};
+  }
+  // New triangles lie behind all others: they need a new order.
   const auto face_of = [&](Index slot) { return state_->face_of_slot[slot]; };
   for (Index s = 0; s < m; ++s) {
     const IntrinsicTriangle& t = triangles[s];
@@ -142,14 +179,7 @@ TriangleMesh<Real> IntrinsicDelaunay::mesh(const SaddleThresholds& saddles) cons
           o == none ? none : 3 * face_of(o >> Across::face_shift) + (o & Across::edge_mask);
     }
   }
-  SurfaceHints hints;
-  hints.refracts = state_->refracts;
-  hints.saddles = saddles;
-  // New triangles lie behind all others: they need a new order.
-  if (state_->summary.inserted_vertices == 0) hints.order = state_->face_of_slot;
-  return TriangleMesh<Real>(
-      state_->triangulation.vertices(), faces,
-      ShapesOfSlots{triangles, state_->slot_of_face, state_->unit}, across, hints);
+  return {FaceLayout(vertices, faces, breadth_first<3>(across), across), shapes, hints};
 }
 template TriangleMesh<float> IntrinsicDelaunay::mesh(const SaddleThresholds&) const;
 template TriangleMesh<double> IntrinsicDelaunay::mesh(const SaddleThresholds&) const;
@@ -196,33 +226,36 @@ std::vector<IntrinsicDelaunay::Piece> IntrinsicDelaunay::line_to_input(
   return result;
 }
 
-template <class Real>
-TriangulationShape measure_triangulation(const TriangleMesh<Real>& mesh) {
+namespace {
+
+// corner(f, i): cosine and sine of the angle there; across(f, i): packed as Across.
+template <class Real, class Corner, class AcrossOf>
+TriangulationShape measure(Index faces, Corner corner, AcrossOf across) {
   TriangulationShape shape;
-  const auto triangles = mesh.triangles();
-  const Index sentinel = static_cast<Index>(triangles.size() - 1);
   constexpr double degree = std::numbers::pi / 180;
   const Real blunt = static_cast<Real>(std::cos(150 * degree));
   const Real sharp = static_cast<Real>(std::cos(5 * degree));
+  constexpr Real blur = sizeof(Real) == 4 ? Real(1e-4) : Real(1e-9);
   Real least = 1, most = -1;
   std::size_t blunt_ones = 0, needles = 0;
-  for (Index f = 0; f < sentinel; ++f) {
-    const TriangleRecord<Real>& t = triangles[f];
-    const Real low = std::min({t.cosine[0], t.cosine[1], t.cosine[2]});
-    const Real high = std::max({t.cosine[0], t.cosine[1], t.cosine[2]});
+  for (Index f = 0; f < faces; ++f) {
+    std::array<Real, 3> cosine;
+    for (std::size_t i = 0; i < 3; ++i) cosine[i] = corner(f, i)[0];
+    const Real low = std::min({cosine[0], cosine[1], cosine[2]});
+    const Real high = std::max({cosine[0], cosine[1], cosine[2]});
     least = std::min(least, low);
     most = std::max(most, high);
     blunt_ones += low < blunt;
     needles += high > sharp;
     for (std::size_t i = 0; i < 3; ++i) {
-      const Index o = t.across[i], g = o >> Across::face_shift;
-      if (g == sentinel || (o & Across::fan) != 0 || g < f) continue;
+      const Index o = across(f, i), g = o >> Across::face_shift;
+      if (g == faces || (o & Across::fan) != 0 || g < f) continue;
       const std::size_t j = o & Across::edge_mask;
       if (g == f && j < i) continue;
       ++shape.inner_edges;
-      const Real ca = t.cosine[edge_before(i)], cb = triangles[g].cosine[edge_before(j)];
-      const Real sine = t.sine(edge_before(i)) * cb + ca * triangles[g].sine(edge_before(j));
-      constexpr Real blur = sizeof(Real) == 4 ? Real(1e-4) : Real(1e-9);
+      const auto [ca, sa] = corner(f, edge_before(i));
+      const auto [cb, sb] = corner(g, edge_before(j));
+      const Real sine = sa * cb + ca * sb;
       if (g != f && (sine < -blur || (ca < -blur && cb < -blur))) ++shape.non_delaunay_edges;
     }
   }
@@ -231,9 +264,44 @@ TriangulationShape measure_triangulation(const TriangleMesh<Real>& mesh) {
   };
   shape.largest_angle = degrees(least);
   shape.smallest_angle = degrees(most);
-  shape.blunt_share = static_cast<double>(blunt_ones) / static_cast<double>(sentinel);
-  shape.needle_share = static_cast<double>(needles) / static_cast<double>(sentinel);
+  shape.blunt_share = static_cast<double>(blunt_ones) / static_cast<double>(faces);
+  shape.needle_share = static_cast<double>(needles) / static_cast<double>(faces);
   return shape;
+}
+
+// Before there is a mesh.
+template <class Real>
+TriangulationShape measure(const FaceLayout& layout, const TriangleShapes& shapes) {
+  const std::size_t m = layout.face_count();
+  std::vector<std::array<std::array<Real, 2>, 3>> corner(m);
+  ShapeBlock block{};
+  for (std::size_t first = 0; first < m; first += ShapeBlock::size) {
+    const std::size_t count = std::min(ShapeBlock::size, m - first);
+    shapes.look_up(std::span(layout.face).subspan(first, count), block);
+    for (std::size_t k = 0; k < count; ++k)
+      for (std::size_t i = 0; i < 3; ++i) {
+        const std::size_t own = layout.is_turned(first + k) && i != 0 ? 3 - i : i;
+        corner[first + k][i] = {static_cast<Real>(block.cosine[own][k]),
+                                static_cast<Real>(block.sine[own][k])};
+      }
+  }
+  return measure<Real>(
+      static_cast<Index>(m),
+      [&](std::size_t f, std::size_t i) -> const auto& { return corner[f][i]; },
+      [&](std::size_t f, std::size_t i) { return layout.across[f][i]; });
+}
+
+}  // namespace
+
+template <class Real>
+TriangulationShape measure_triangulation(const TriangleMesh<Real>& mesh) {
+  const auto triangles = mesh.triangles();
+  return measure<Real>(
+      static_cast<Index>(mesh.face_count()),
+      [&](std::size_t f, std::size_t i) {
+        return std::array{triangles[f].cosine[i], triangles[f].sine(i)};
+      },
+      [&](std::size_t f, std::size_t i) { return triangles[f].across[i]; });
 }
 template TriangulationShape measure_triangulation(const TriangleMesh<float>&);
 template TriangulationShape measure_triangulation(const TriangleMesh<double>&);
@@ -246,5 +314,31 @@ Retriangulation what_pays(const TriangulationShape& shape) {
 Refinement refinement_for(Retriangulation wanted) {
   return wanted == Retriangulation::refined ? Refinement::moderate() : Refinement();
 }
+
+template <class Real>
+TriangulatedSurface<Real> triangulate(std::span<const std::array<double, 3>> positions,
+                                      std::span<const std::array<Index, 3>> faces,
+                                      std::optional<Retriangulation> wanted) {
+  FaceLayout layout = lay_out(positions, faces);
+  const ShapesInSpace shapes(positions, faces);
+  const Retriangulation done = wanted ? *wanted : what_pays(measure<Real>(layout, shapes));
+  if (done == Retriangulation::keep)
+    return {TriangleMesh<Real>(std::move(layout), shapes, {}), std::nullopt, done};
+  IntrinsicDelaunay delaunay;
+  delaunay.state_ = std::make_unique<IntrinsicDelaunay::State>(std::move(layout), shapes);
+  delaunay.state_->template flip<double>(refinement_for(done));
+  const DelaunaySummary& summary = delaunay.summary();
+  if (summary.flips + summary.inserted_vertices == 0)
+    return {TriangleMesh<Real>(positions, faces), std::move(delaunay), done};
+  TriangleMesh<Real> mesh = delaunay.mesh<Real>();
+  delaunay.release_triangles();
+  return {std::move(mesh), std::move(delaunay), done};
+}
+template TriangulatedSurface<float> triangulate(std::span<const std::array<double, 3>>,
+                                                std::span<const std::array<Index, 3>>,
+                                                std::optional<Retriangulation>);
+template TriangulatedSurface<double> triangulate(std::span<const std::array<double, 3>>,
+                                                 std::span<const std::array<Index, 3>>,
+                                                 std::optional<Retriangulation>);
 
 }  // namespace plexway

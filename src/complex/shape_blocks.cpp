@@ -6,6 +6,9 @@
 #include <cstdint>
 #include <limits>
 #include <numbers>
+#include <string>
+
+#include <plexway/error.hpp>
 
 #include "complex/triangle_shape.hpp"
 
@@ -106,6 +109,13 @@ void ShapesOfLengths::look_up(std::span<const Index> faces, ShapeBlock& block) c
     put(shape_from_lengths(lengths), k, block);
     block.violated[k] = violated_[faces[k]] != 0;
   }
+}
+
+void check_length(Index face, const std::array<double, 3>& lengths) {
+  const auto& [a, b, c] = lengths;
+  if (std::isfinite(a + b + c) || (std::isfinite(a) && std::isfinite(b) && std::isfinite(c)))
+    return;
+  throw InputError("face " + std::to_string(face) + ": too long for a number");
 }
 
 void angles_of(const ShapeBlock& block, std::array<Row, 3>& angle) {

@@ -57,6 +57,23 @@ class ShapesOfLengths final : public TriangleShapes {
   std::span<const char> violated_;
 };
 
+/// The mean edge of `faces` triangles, whose longest is `longest`, from row(0), row(1), ...: three
+/// lengths each. In shares of the longest, so that no sum overflows. 1 where all have no length.
+template <class Row>
+double mean_edge(std::size_t faces, double longest, Row row) {
+  if (!(longest > 0)) return 1;
+  double sum = 0;
+  for (std::size_t f = 0; f < faces; ++f) {
+    const auto& [a, b, c] = row(f);
+    const double p = a / longest, q = b / longest, r = c / longest;
+    sum = sum + p + q + r;
+  }
+  return longest * (sum / (3 * static_cast<double>(faces)));
+}
+
+/// Throws InputError where a length is not finite.
+void check_length(Index face, const std::array<double, 3>& lengths);
+
 /// The angle at each corner, in radians.
 void angles_of(const ShapeBlock& block, std::array<ShapeBlock::Row, 3>& angle);
 

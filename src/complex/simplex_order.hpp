@@ -72,7 +72,7 @@ std::vector<Index> sorted_along_curve(std::size_t count, CellOf cell_of) {
     for (const std::uint64_t word : words) other[at[place(word, pass)]++] = word;
     words.swap(other);
   }
-  other = {};
+  std::vector<std::uint64_t>().swap(other);
   std::vector<Index> order(count);
   std::vector<std::pair<std::uint64_t, Index>> run;
   for (std::size_t i = 0, end = 0; i < count; i = end) {
@@ -110,7 +110,7 @@ std::vector<Index> along_curve(std::span<const std::array<double, 3>> positions,
       high[d] = std::max(high[d], positions[v][d]);
     }
   }
-  used = {};
+  std::vector<char>().swap(used);
   // Divided first, and halves: no overflow near 1e308.
   constexpr double cells = 2097151;  // 21 bits
   constexpr double share = N > 1 ? N : 2;

@@ -158,6 +158,14 @@ void shorten_each(Lengths& lengths) {
 
 }  // namespace
 
+FaceLayout lay_out(std::span<const std::array<double, 3>> positions, Faces faces,
+                   std::span<const Index> order) {
+  check_faces(positions.size(), faces);
+  check_corners(faces);
+  check_positions(positions);
+  return {positions.size(), faces, order.empty() ? along_curve(positions, faces) : copy_of(order)};
+}
+
 void refuse_refraction(const SurfaceSummary& summary, const char* what) {
   if (summary.refracting_edges > 0)
     throw UsageError(std::string(what) + ": not on a surface with " +
@@ -177,12 +185,7 @@ template <class Real>
 TriangleMesh<Real>::TriangleMesh(std::span<const std::array<double, 3>> positions,
                                  std::span<const std::array<Index, 3>> faces,
                                  const SurfaceHints& hints) {
-  check_faces(positions.size(), faces);
-  check_corners(faces);
-  check_positions(positions);
-  assemble({positions.size(), faces,
-            hints.order.empty() ? along_curve(positions, faces) : copy_of(hints.order)},
-           ShapesInSpace(positions, faces), hints);
+  assemble(lay_out(positions, faces, hints.order), ShapesInSpace(positions, faces), hints);
 }
 
 template <class Real>
@@ -224,14 +227,9 @@ TriangleMesh<Real>::TriangleMesh(std::size_t vertices, std::span<const std::arra
 }
 
 template <class Real>
-TriangleMesh<Real>::TriangleMesh(std::size_t vertices, std::span<const std::array<Index, 3>> faces,
-                                 const TriangleShapes& shapes,
-                                 std::span<const std::array<Index, 3>> across,
+TriangleMesh<Real>::TriangleMesh(FaceLayout&& layout, const TriangleShapes& shapes,
                                  const SurfaceHints& hints) {
-  check_faces(vertices, faces);
-  assemble({vertices, faces, hints.order.empty() ? breadth_first(across) : copy_of(hints.order),
-            across},
-           shapes, hints);
+  assemble(std::move(layout), shapes, hints);
 }
 
 template <class Real>
@@ -303,31 +301,20 @@ std::vector<double> TriangleMesh<Real>::take_shapes(const TriangleShapes& shapes
       summary_.degenerate_faces += block.degenerate[k];
       summary_.violated_faces += block.violated[k];
       const bool turned = (t.face & reversed) != 0;
-      double together = 0;
       for (std::size_t i = 0; i < 3; ++i) {
         const std::size_t corner = turned && i != 0 ? 3 - i : i;
         const double length = lengths[first + k][i] = block.length[i][k];
         longest = length > longest ? length : longest;
-        together += length;
         t.cosine[i] = rounded.cosine[corner][k];
         t.signed_sine[i] = rounded.sine[corner][k];
         around[t.corner[i]] += angle[corner][k];
       }
-      if (!std::isfinite(together) && !std::all_of(lengths[first + k].begin(),
-                                                   lengths[first + k].end(),
-                                                   [](double l) { return std::isfinite(l); }))
-        throw InputError("face " + std::to_string(faces[k]) + ": too long for a number");
+      check_length(faces[k], lengths[first + k]);
     }
   }
 
-  // In units of the mean edge. Shares of the longest: no sum overflows.
-  double sum = 0;
-  if (longest > 0)
-    for (const auto& [a, b, c] : lengths) {
-      const double p = a / longest, q = b / longest, r = c / longest;
-      sum = sum + p + q + r;
-    }
-  const double unit = longest > 0 ? longest * (sum / (3 * static_cast<double>(m))) : 1;
+  const double unit =
+      mean_edge(m, longest, [&](std::size_t f) -> const auto& { return lengths[f]; });
   summary_.mean_edge = unit;
   for (std::size_t f = 0; f < m; ++f) {
     TriangleRecord<Real>& t = triangles_[f];

@@ -101,11 +101,9 @@ class TriangleMesh {
                std::span<const std::array<double, 3>> lengths,
                std::span<const std::array<Index, 3>> across, const SurfaceHints& hints = {});
 
-  /// From triangles whose angles are known as well as their lengths, and a gluing: for makers
-  /// inside the library, which answer for both. Throws only where there are no faces.
-  TriangleMesh(std::size_t vertices, std::span<const std::array<Index, 3>> faces,
-               const TriangleShapes& shapes, std::span<const std::array<Index, 3>> across,
-               const SurfaceHints& hints);
+  /// From triangles whose angles are known as well as their lengths, laid out and glued: for makers
+  /// inside the library, which answer for all of it. Throws only for a length that is not finite.
+  TriangleMesh(FaceLayout&& layout, const TriangleShapes& shapes, const SurfaceHints& hints);
 
   [[nodiscard]] std::size_t vertex_count() const { return vertex_to_inside_.size(); }
   [[nodiscard]] std::size_t face_count() const { return triangles_.size() - 1; }
