@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <tuple>
 #include <utility>
 
 #include "complex/simplex_gluing.hpp"
@@ -84,95 +85,136 @@ class Finder {
 
   // In ascending order of their ends. Where all is in one frame paths bend at the boundary only.
   void look_around_edges() {
+    std::vector<Index> degree(vertices_, 0);  // tetrahedra around the edge to each vertex
     std::vector<Index> ends;
+    std::vector<Start> starts;
     for (Index v = 0; v < vertices_; ++v) {
       if (embedded_ && !on_boundary_[v]) continue;
+      starts.clear();
       ends.clear();
       for (const Index c : corners_at(v)) {
-        const auto& corner = corner_[c / 4];
-        for (std::size_t k = 0; k < 4; ++k) {
-          if (embedded_ && (k == c % 4 || across_[c / 4][k] != none)) continue;
-          for (std::size_t i = 0; i < 4; ++i)
-            if (i != k && corner[i] > v) ends.push_back(corner[i]);
+        const Index t = c / 4, own = c % 4;
+        for (Index i = 0; i < 4; ++i) {
+          const Index w = corner_[t][i];
+          if (w <= v) continue;
+          if (degree[w]++ == 0) ends.push_back(w);
+          for (Index k = 0; k < 4; ++k)
+            if (k != i && k != own && across_[t][k] == none)
+              starts.push_back({w, t, k, 6 - i - own - k});
         }
       }
-      std::sort(ends.begin(), ends.end());
-      ends.erase(std::unique(ends.begin(), ends.end()), ends.end());
-      for (const Index w : ends) {
-        around_.clear();
-        for (const Index c : corners_at(v))
-          if (const Index j = corner_of(corner_[c / 4], w); j < 4)
-            around_.push_back(6 * std::size_t{c / 4} + tet_edge(c % 4, j));
-        around_edge(v, w);
-      }
+      std::sort(starts.begin(), starts.end(), [](const Start& a, const Start& b) {
+        return std::tie(a.end, a.tet, a.enter) < std::tie(b.end, b.tet, b.enter);
+      });
+      if (!embedded_) std::sort(ends.begin(), ends.end());
+      auto first = starts.begin();
+      const auto look_at = [&](Index w) {
+        auto last = first;
+        while (last != starts.end() && last->end == w) ++last;
+        around_edge(v, w, {first, last}, degree[w]);
+        first = last;
+      };
+      if (embedded_)
+        while (first != starts.end()) look_at(first->end);
+      else
+        for (const Index w : ends) look_at(w);
+      for (const Index w : ends) degree[w] = 0;
     }
   }
 
+  // A fan of tetrahedra around an edge to `end` starts at a boundary face of one of them and leaves
+  // that by another.
+  struct Start {
+    Index end, tet, enter, leave;
+  };
+
   // The fans of tetrahedra around one edge, each from boundary to boundary or closed.
-  void around_edge(Index a, Index b) {
-    bool any_boundary = false;
-    for (const std::size_t s : around_) {
-      const std::size_t t = s / 6;
-      const Index i = tet_edge_ends[s % 6][0], j = tet_edge_ends[s % 6][1];
-      for (Index k = 0; k < 4; ++k) any_boundary |= k != i && k != j && across_[t][k] == none;
-    }
-    if (!any_boundary && embedded_) return;
+  void around_edge(Index a, Index b, std::span<const Start> starts, std::size_t tets) {
     std::size_t fans = 0, seen = 0;
-    if (any_boundary)
-      for (const std::size_t s : around_) {
-        const Index t = static_cast<Index>(s / 6);
-        const Index i = tet_edge_ends[s % 6][0], j = tet_edge_ends[s % 6][1];
-        Index k = 0;
-        while (k == i || k == j) ++k;
-        const Index l = 6 - i - j - k;
-        // From each boundary face; a fan is seen from both its ends and counts from the lower.
-        if (across_[t][k] == none) seen += walk(t, k, l, a, b, fans);
-        if (across_[t][l] == none) seen += walk(t, l, k, a, b, fans);
-      }
-    if (seen < around_.size()) {
+    fan_ends_.clear();
+    for (const Start& s : starts) {  // a fan is seen from both its ends and counts from the first
+      if (std::find(fan_ends_.begin(), fan_ends_.end(), 4 * s.tet + s.enter) != fan_ends_.end())
+        continue;
+      seen += walk(s.tet, s.enter, s.leave, a, b);
+      ++fans;
+    }
+    if (seen == tets && fans == 1) return;
+    const auto around = tets_around(a, b);
+    if (seen < tets) {
       fans += 1;  // what is left is closed; more than one such fan only under a strange metric
-      if (!embedded_) closed(a, b);
+      if (!embedded_) closed(a, b, around);
     }
     if (fans > 1) {
       const Index begin = static_cast<Index>(found_.pinched_edge_tets.size());
-      for (const std::size_t s : around_)
-        found_.pinched_edge_tets.push_back(static_cast<Index>(s / 6));
+      found_.pinched_edge_tets.insert(found_.pinched_edge_tets.end(), around.begin(), around.end());
       found_.pinched_edges.push_back(
           {{a, b}, begin, static_cast<Index>(found_.pinched_edge_tets.size())});
     }
   }
 
+  [[nodiscard]] std::vector<Index> tets_around(Index a, Index b) const {
+    std::vector<Index> around;
+    for (const Index c : corners_at(a))
+      if (corner_of(corner_[c / 4], b) < 4) around.push_back(c / 4);
+    return around;
+  }
+
   // Starts at boundary face k of tetrahedron t and leaves by face l.
-  std::size_t walk(Index t, Index k, Index l, Index a, Index b, std::size_t& fans) {
-    const Index first_tet = t, first_face = k;
-    double angle = 0;
+  std::size_t walk(Index t, Index k, Index l, Index a, Index b) {
+    const Index first_tet = t, first_face = k, first_apex = corner_[t][l];
     fan_.clear();
+    apexes_.clear();
     for (;;) {
       const Index i = corner_of(corner_[t], a), j = corner_of(corner_[t], b);
-      angle += dihedral(points(t), i, j, k, l);
       fan_.push_back({t, tet_edge(i, j)});
-      const Index o = across_[t][l];
+      const Index o = across_[t][l], shared = corner_[t][k];
+      apexes_.push_back(shared);
       if (o == none) break;
-      const Index shared = corner_[t][k];
       t = o / 4;
       k = o % 4;
       l = corner_of(corner_[t], shared);
     }
-    // A single tetrahedron is met from both faces too: told apart by the face.
-    if (std::pair(t, l) < std::pair(first_tet, first_face)) return 0;
-    ++fans;
-    if (angle > std::numbers::pi + excess) add_reflex(a, b, first_tet, first_face, t, l);
+    fan_ends_.push_back(4 * t + l);
+    if (is_reflex(a, b, first_apex)) add_reflex(a, b, first_tet, first_face, t, l);
     return fan_.size();
   }
 
-  void closed(Index a, Index b) {
-    double angle = 0;
-    for (const std::size_t s : around_) {
-      const Index i = tet_edge_ends[s % 6][0], j = tet_edge_ends[s % 6][1];
-      Index k = 0;
-      while (k == i || k == j) ++k;
-      angle += dihedral(points(s / 6), i, j, k, 6 - i - j - k);
+  // Does the fan just walked span more than pi? In one frame mostly a look at each of its faces
+  // tells, on which side of the first they are: only of what is nearly straight angles are summed.
+  [[nodiscard]] bool is_reflex(Index a, Index b, Index first_apex) const {
+    constexpr double clear = 1e-3;  // of a sine
+    if (embedded_) {
+      const Vector3<double> origin = places_.vertex[a];
+      const Vector3<double> normal =
+          cross(places_.vertex[b] - origin, places_.vertex[first_apex] - origin);
+      const double least = clear * clear * dot(normal, normal);
+      double side = 0;
+      bool doubtful = false;
+      for (const Index v : apexes_) {
+        const Vector3<double> y = places_.vertex[v] - origin;
+        const double height = dot(normal, y);
+        doubtful = doubtful || !(height * height > least * dot(y, y));
+        if (doubtful) break;
+        if (side == 0) side = height;
+        if ((height < 0) != (side < 0)) return true;
+      }
+      if (!doubtful) return false;
     }
+    double angle = 0;
+    for (const auto& [t, edge] : fan_) angle += dihedral_at(t, a, b);
+    return angle > std::numbers::pi + excess;
+  }
+
+  [[nodiscard]] double dihedral_at(Index t, Index a, Index b) const {
+    const Index i = corner_of(corner_[t], a), j = corner_of(corner_[t], b);
+    Index k = 0;
+    while (k == i || k == j) ++k;
+    return dihedral(points(t), i, j, k, 6 - i - j - k);
+  }
+
+  void closed(Index a, Index b, std::span<const Index> around) {
+    double angle = 0;
+    for (const Index t : around) angle += dihedral_at(t, a, b);
     if (angle > 2 * std::numbers::pi + excess) {
       on_reflex_[a] = on_reflex_[b] = 1;
       found_.reflex.emplace_back();
@@ -256,20 +298,7 @@ class Finder {
 
   // Tetrahedra at a vertex that are joined neither by faces nor by edges there touch in it only.
   void find_vertices() {
-    // Of the corners on the boundary alone: the others' fans are whole.
-    std::vector<Index> number(vertices_, none);
-    Index count = 0;
-    for (Index v = 0; v < vertices_; ++v) {
-      if (!on_boundary_[v]) continue;
-      number[v] = count;
-      count += corners_.begin[v + 1] - corners_.begin[v];
-    }
-    DisjointSets fans(count), solids(corner_.size());
-    const auto fan = [&](Index v, Index corner) {
-      const auto row = corners_at(v);
-      return number[v] +
-             static_cast<Index>(std::lower_bound(row.begin(), row.end(), corner) - row.begin());
-    };
+    DisjointSets fans(corner_.size() * 4), solids(corner_.size());
     for (Index t = 0; t < corner_.size(); ++t) {
       const auto& corner = corner_[t];
       const bool touches = (on_boundary_[corner[0]] | on_boundary_[corner[1]] |
@@ -281,7 +310,7 @@ class Finder {
         if (!touches) continue;
         for (Index i = 0; i < 4; ++i)
           if (const Index v = corner[i]; i != k && on_boundary_[v])
-            fans.unite(fan(v, 4 * t + i), fan(v, o - o % 4 + corner_of(corner_[o / 4], v)));
+            fans.unite(4 * t + i, o - o % 4 + corner_of(corner_[o / 4], v));
       }
     }
     for (const auto& edge : found_.pinched_edges)
@@ -289,17 +318,16 @@ class Finder {
         const Index t = found_.pinched_edge_tets[n - 1], u = found_.pinched_edge_tets[n];
         solids.unite(t, u);
         for (const Index v : edge.vertex)
-          fans.unite(fan(v, 4 * t + corner_of(corner_[t], v)),
-                     fan(v, 4 * u + corner_of(corner_[u], v)));
+          fans.unite(4 * t + corner_of(corner_[t], v), 4 * u + corner_of(corner_[u], v));
       }
     for (Index v = 0; v < vertices_; ++v) {
       bool pinched = false;
       if (on_boundary_[v]) {
         const auto row = corners_at(v);
-        for (Index n = 1; n < row.size(); ++n) {
-          if (fans.find(number[v] + n) == fans.find(number[v])) continue;
+        for (const Index c : row) {
+          if (fans.find(c) == fans.find(row[0])) continue;
           pinched = true;
-          solids.unite(row[n] / 4, row[0] / 4);
+          solids.unite(c / 4, row[0] / 4);
         }
       }
       if (pinched) found_.pinched_vertices.push_back(v);
@@ -314,7 +342,8 @@ class Finder {
   const TetPlaces& places_;
   bool embedded_;
   std::vector<char> on_reflex_, on_boundary_;
-  std::vector<std::size_t> around_;
+  std::vector<Index> fan_ends_;  // of the fans around an edge, boundary faces 4 t + k
+  std::vector<Index> apexes_;    // vertices around the edge, of the fan being walked
   std::vector<std::pair<Index, Index>> fan_, entries_;
   TetTopology found_;
 };

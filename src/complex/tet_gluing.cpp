@@ -33,12 +33,10 @@ unsigned even_faces(const std::array<Index, 4>& tet) {
   return (bc ^ cd ^ bd) | (ad ^ cd ^ 1 ^ ac) << 1 | (ab ^ bd ^ ad) << 2 | (ac ^ bc ^ 1 ^ ab) << 3;
 }
 
-// A face by its vertices but for the lowest.
+// A face by its vertices but for the lowest: the middle one in the upper half.
 struct FaceSide {
-  Index middle, high, corner;
-  friend bool operator==(const FaceSide& a, const FaceSide& b) {
-    return a.middle == b.middle && a.high == b.high;
-  }
+  std::uint64_t others;
+  Index corner;
 };
 
 // The vertices in ascending order, each with the corner that it is in its last two bits.
@@ -56,15 +54,15 @@ std::array<std::uint64_t, 4> ascending(const std::array<Index, 4>& tet) {
 
 [[noreturn]] void refuse_third(Index lowest, std::span<FaceSide> sides) {
   std::sort(sides.begin(), sides.end(), [](const FaceSide& a, const FaceSide& b) {
-    return std::tie(a.middle, a.high, a.corner) < std::tie(b.middle, b.high, b.corner);
+    return std::tie(a.others, a.corner) < std::tie(b.others, b.corner);
   });
   auto run = sides.begin(), end = run;
   while (end - run < 3)
-    for (run = end; end != sides.end() && *end == *run;) ++end;
+    for (run = end; end != sides.end() && end->others == run->others;) ++end;
   std::string list;
   for (auto k = run; k != end; ++k)
     list += (k == run ? "" : k + 1 == end ? " and " : ", ") + std::to_string(k->corner / 4);
-  throw InputError("tets " + list + " share " + name({lowest, run->middle, run->high}) +
+  throw InputError("tets " + list + " share " + name({lowest, static_cast<Index>(run->others >> 32), static_cast<Index>(run->others)}) +
                    ": at most two can");
 }
 
@@ -102,8 +100,7 @@ TetGluing glue_tets(std::size_t vertices, Tets tets) {
   for (std::size_t t = 0; t < tets.size(); ++t) {
     const auto v = ascending(tets[t]);
     const auto add = [&](std::size_t low, std::size_t middle, std::size_t high, std::size_t rest) {
-      sides[end[v[low] >> 2]++] = {static_cast<Index>(v[middle] >> 2),
-                                   static_cast<Index>(v[high] >> 2),
+      sides[end[v[low] >> 2]++] = {v[middle] >> 2 << 32 | v[high] >> 2,
                                    static_cast<Index>(4 * t + (v[rest] & 3))};
     };
     add(0, 1, 2, 3), add(0, 1, 3, 2), add(0, 2, 3, 1), add(1, 2, 3, 0);
@@ -114,27 +111,31 @@ TetGluing glue_tets(std::size_t vertices, Tets tets) {
   for (Index v = 0; v < vertices; ++v) {
     FaceSide* const next = sides.data() + end[v];
     FaceSide* last = next;
-    const bool sorted = last - first > few;
-    if (sorted)
-      std::sort(first, last, [](const FaceSide& a, const FaceSide& b) {
-        return std::tie(a.middle, a.high) < std::tie(b.middle, b.high);
-      });
+    const auto glue = [&](const FaceSide& a, const FaceSide& b) {
+      across[a.corner / 4][a.corner % 4] = b.corner;
+      across[b.corner / 4][b.corner % 4] = a.corner;
+    };
+    if (last - first > few) {
+      std::sort(first, last,
+                [](const FaceSide& a, const FaceSide& b) { return a.others < b.others; });
+      for (FaceSide* stop = first; first != last; first = stop) {
+        while (stop != last && stop->others == first->others) ++stop;
+        if (stop - first > 2) refuse_third(v, {first, last});
+        if (stop - first == 2) glue(first[0], first[1]);
+      }
+    }
     for (; first < last; ++first) {
-      const FaceSide side = *first;
+      const std::uint64_t others = first->others;
       const auto after = [&](FaceSide* s) {
         do ++s;
-        while (s < last && !(*s == side) && !sorted);
-        return s < last && *s == side ? s : last;
+        while (s < last && s->others != others);
+        return s;
       };
       FaceSide* const second = after(first);
-      if (second == last) continue;
-      if (after(second) != last) refuse_third(v, {first, last});
-      across[side.corner / 4][side.corner % 4] = second->corner;
-      across[second->corner / 4][second->corner % 4] = side.corner;
-      if (sorted)
-        ++first;
-      else
-        *second = *--last;
+      if (second >= last) continue;
+      if (after(second) < last) refuse_third(v, {first, last});
+      glue(*first, *second);
+      *second = *--last;
     }
     first = next;
   }
