@@ -118,10 +118,18 @@ void add(Writer& out, const TriangleMesh<Real>& mesh) {
   const auto pinched = mesh.pinched();
   out.integers("pinched", pinched.size(), [&](std::size_t i) { return pinched[i]; });
   const SurfaceSummary& s = mesh.summary();
-  const std::array<std::size_t, 12> counts = {
-      s.vertices,        s.faces,            s.edges,      s.boundary_edges, s.non_manifold_edges,
-      s.pinched_vertices, s.unreferenced_vertices, s.degenerate_faces, s.violated_faces,
-      s.refracting_edges, s.components,      s.orientable};
+  const std::array<std::size_t, 12> counts = {s.vertices,
+                                              s.faces,
+                                              s.edges,
+                                              s.boundary_edges,
+                                              s.non_manifold_edges,
+                                              s.pinched_vertices,
+                                              s.unreferenced_vertices,
+                                              s.degenerate_faces,
+                                              s.violated_faces,
+                                              s.refracting_edges,
+                                              s.components,
+                                              s.orientable};
   out.integers("summary", counts.size(), [&](std::size_t i) { return counts[i]; });
   out.template numbers<double>("unit", 1, [&](std::size_t) { return mesh.unit(); });
 }
@@ -179,13 +187,22 @@ void add(Writer& out, const TetMesh<Real>& mesh) {
   const auto tets = mesh.pinched_edge_tets();
   out.integers("pinched_edge_tets", tets.size(), [&](std::size_t i) { return tets[i]; });
   const SolidSummary& s = mesh.summary();
-  const std::array<std::size_t, 16> counts = {
-      s.vertices,         s.tets,          s.edges,
-      s.faces,            s.boundary_faces, s.reflex_edges,
-      s.reflex_vertices,  s.pinched_vertices, s.pinched_edges,
-      s.unreferenced_vertices, s.degenerate_tets, s.inverted_tets,
-      s.first_degenerate, s.first_inverted, s.components,
-      s.embedded};
+  const std::array<std::size_t, 16> counts = {s.vertices,
+                                              s.tets,
+                                              s.edges,
+                                              s.faces,
+                                              s.boundary_faces,
+                                              s.reflex_edges,
+                                              s.reflex_vertices,
+                                              s.pinched_vertices,
+                                              s.pinched_edges,
+                                              s.unreferenced_vertices,
+                                              s.degenerate_tets,
+                                              s.inverted_tets,
+                                              s.first_degenerate,
+                                              s.first_inverted,
+                                              s.components,
+                                              s.embedded};
   out.integers("summary", counts.size(), [&](std::size_t i) { return counts[i]; });
   out.template numbers<double>("unit", 1, [&](std::size_t) { return mesh.unit(); });
 }
@@ -465,7 +482,9 @@ int compare(const std::string& old_file, const std::string& new_file) {
     // Refinement takes the largest triangle next: a rounding error leads to other vertices.
     const std::string kind = (x.name.find(" refined ") != x.name.npos ? "refined: " : "") +
                              x.name.substr(x.name.rfind(' ') + 1) +
-                             (x.bytes_each == 4 ? " float" : x.bytes_each == 8 ? " double" : "");
+                             (x.bytes_each == 4   ? " float"
+                              : x.bytes_each == 8 ? " double"
+                                                  : "");
     Sum& sum = by_kind[kind];
     ++sum.arrays;
     sum.items += x.bits.size();
@@ -495,8 +514,8 @@ int compare(const std::string& old_file, const std::string& new_file) {
     std::printf("%-26s %6zu arrays %10zu items %8zu differ", kind.c_str(), sum.arrays, sum.items,
                 sum.differ);
     if (sum.most > 0)
-      std::printf(", by %llu units at most (%s), %.1e",
-                  static_cast<unsigned long long>(sum.most), sum.where.c_str(), sum.largest);
+      std::printf(", by %llu units at most (%s), %.1e", static_cast<unsigned long long>(sum.most),
+                  sum.where.c_str(), sum.largest);
     std::printf("\n");
     same = same && sum.differ == 0;
   }

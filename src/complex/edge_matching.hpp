@@ -37,8 +37,8 @@ void match_edges(std::size_t vertices, std::span<const std::array<Index, 3>> fac
   for (Index f = 0; f < faces.size(); ++f) {
     const auto add = [&](Index a, Index b, Index edge) {
       const bool down = b < a;
-      sides[end[down ? b : a]++] = {
-          down ? a : b, f << Across::face_shift | edge | (down ? Across::flip : 0)};
+      sides[end[down ? b : a]++] = {down ? a : b,
+                                    f << Across::face_shift | edge | (down ? Across::flip : 0)};
     };
     add(faces[f][0], faces[f][1], 0);
     add(faces[f][1], faces[f][2], 1);

@@ -118,8 +118,7 @@ void FaceLayout::take_gluing(std::size_t vertices) {
       // tell directions apart.
       const Index v = corner[f][i];
       const bool loop = v == corner[f][edge_after(i)];
-      const bool same_way =
-          !loop && v == corner[o >> Across::face_shift][o & Across::edge_mask];
+      const bool same_way = !loop && v == corner[o >> Across::face_shift][o & Across::edge_mask];
       if (same_way) across[f][i] |= Across::flip;
       if (over(o) == own) {
         turns |= same_way;

@@ -36,8 +36,7 @@ Gluing glue_by_vertices(std::size_t vertices, Faces faces) {
     }
   };
   match_edges(
-      vertices, faces,
-      [&](const EdgeSide& a, const EdgeSide& b) { return number(a) < number(b); },
+      vertices, faces, [&](const EdgeSide& a, const EdgeSide& b) { return number(a) < number(b); },
       Glue{across, number});
   return across;
 }

@@ -84,8 +84,7 @@ void ShapesInSpace::look_up(std::span<const Index> faces, ShapeBlock& block) con
     const Row &l = block.length[i], &m = block.length[(i + 2) % 3];
     for (std::size_t k = 0; k < size; ++k) {
       const double product = l[k] * m[k];
-      block.cosine[i][k] =
-          -(u[0][k] * w[0][k] + u[1][k] * w[1][k] + u[2][k] * w[2][k]) / product;
+      block.cosine[i][k] = -(u[0][k] * w[0][k] + u[1][k] * w[1][k] + u[2][k] * w[2][k]) / product;
       block.sine[i][k] = area[k] / product;
     }
   }
@@ -123,8 +122,8 @@ void angles_of(const ShapeBlock& block, std::array<Row, 3>& angle) {
   // 8 less where that is more. The odd polynomial is off by less than a rounding error.
   constexpr double eighth = 0.41421356237309503;  // tan(pi / 8)
   constexpr std::array<double, 10> series = {
-      -0.3333333333333325,  0.19999999999898407, -0.14285714266096602, 0.11111109636533431,
-      -0.09090852557145968, 0.07691055157849669, -0.06649613689550408, 0.05736332130703195,
+      -0.3333333333333325,   0.19999999999898407, -0.14285714266096602, 0.11111109636533431,
+      -0.09090852557145968,  0.07691055157849669, -0.06649613689550408, 0.05736332130703195,
       -0.044833345062807464, 0.022750525406052224};
   for (std::size_t i = 0; i < 3; ++i)
     for (std::size_t k = 0; k < size; ++k) {
@@ -190,13 +189,11 @@ void round_angles(const ShapeBlock& block, RoundedAngles<Real>& rounded) {
       const auto least = [](double a, double b) { return a < b ? a : b; };
       // They themselves count a little better, so that what is a matter of chance stays.
       const double own = std::abs(a0 + b0) - 1e-17;
-      const double first = own > 0 ? std::bit_cast<double>(std::bit_cast<std::uint64_t>(own) &
-                                                           ~code_mask)
-                                   : 0.0;
-      const double best =
-          least(least(least(first, miss(a0, b1, sine_only)),
-                      least(miss(a1, b0, cosine_only), miss(a1, b1, both))),
-                least(miss(a1, b2, both_other), miss(a2, b1, other_both)));
+      const double first =
+          own > 0 ? std::bit_cast<double>(std::bit_cast<std::uint64_t>(own) & ~code_mask) : 0.0;
+      const double best = least(least(least(first, miss(a0, b1, sine_only)),
+                                      least(miss(a1, b0, cosine_only), miss(a1, b1, both))),
+                                least(miss(a1, b2, both_other), miss(a2, b1, other_both)));
       codes[k] = std::bit_cast<std::uint64_t>(best) & code_mask;
     }
     for (std::size_t k = 0; k < size; ++k) {

@@ -13,9 +13,9 @@ namespace plexway {
 struct ShapeBlock {
   static constexpr std::size_t size = 64;
   using Row = std::array<double, size>;
-  std::array<Row, 3> length;  ///< edge i from corner i to the next
-  std::array<Row, 3> cosine;  ///< of the angle at corner i
-  std::array<Row, 3> sine;    ///< >= 0
+  std::array<Row, 3> length;                    ///< edge i from corner i to the next
+  std::array<Row, 3> cosine;                    ///< of the angle at corner i
+  std::array<Row, 3> sine;                      ///< >= 0
   std::array<bool, size> degenerate, violated;  ///< as in TriangleShape
 };
 

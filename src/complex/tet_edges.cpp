@@ -60,8 +60,8 @@ class Finder {
  private:
   [[nodiscard]] TetPoints points(std::size_t t) const { return places_.of(t, corner_[t]); }
   [[nodiscard]] std::span<const Index> corners_at(Index v) const {
-    return std::span(corners_.corner).subspan(corners_.begin[v],
-                                              corners_.begin[v + 1] - corners_.begin[v]);
+    return std::span(corners_.corner)
+        .subspan(corners_.begin[v], corners_.begin[v + 1] - corners_.begin[v]);
   }
 
   void mark_boundary() {
@@ -179,29 +179,33 @@ class Finder {
     return fan_.size();
   }
 
-  // Does the fan just walked span more than pi? In one frame mostly a look at each of its faces
-  // tells, on which side of the first they are: only of what is nearly straight angles are summed.
+  // Does the fan just walked span more than pi? In one frame a look at each of its faces mostly
+  // tells, on which side of the first they are; only what is neither clear nor nearly straight is
+  // summed.
   [[nodiscard]] bool is_reflex(Index a, Index b, Index first_apex) const {
     constexpr double clear = 1e-3;  // of a sine
     if (embedded_) {
-      const Vector3<double> origin = places_.vertex[a];
-      const Vector3<double> normal =
-          cross(places_.vertex[b] - origin, places_.vertex[first_apex] - origin);
+      const Vector3<double> origin = places_.vertex[a], edge = places_.vertex[b] - origin;
+      const Vector3<double> normal = cross(edge, places_.vertex[first_apex] - origin);
       const double least = clear * clear * dot(normal, normal);
-      double side = 0;
-      bool doubtful = false;
-      for (const Index v : apexes_) {
-        const Vector3<double> y = places_.vertex[v] - origin;
+      double side = 0;  // of the first face after it
+      for (std::size_t n = 0;; ++n) {
+        if (n == apexes_.size()) return false;
+        const Vector3<double> y = places_.vertex[apexes_[n]] - origin;
         const double height = dot(normal, y);
-        doubtful = doubtful || !(height * height > least * dot(y, y));
-        if (doubtful) break;
-        if (side == 0) side = height;
-        if ((height < 0) != (side < 0)) return true;
+        if (height * height > least * dot(y, y)) {
+          if (side == 0) side = height;
+          if ((height < 0) != (side < 0)) return true;
+          continue;
+        }
+        const Vector3<double> other = cross(edge, y);
+        if (side == 0 || n + 1 < apexes_.size() || !(dot(normal, other) < 0)) break;
+        const double beyond = (side < 0 ? height : -height) * norm(edge);
+        return beyond > excess * norm(normal) * norm(other);
       }
-      if (!doubtful) return false;
     }
     double angle = 0;
-    for (const auto& [t, edge] : fan_) angle += dihedral_at(t, a, b);
+    for (const auto& [t, slot] : fan_) angle += dihedral_at(t, a, b);
     return angle > std::numbers::pi + excess;
   }
 

@@ -62,8 +62,10 @@ std::array<std::uint64_t, 4> ascending(const std::array<Index, 4>& tet) {
   std::string list;
   for (auto k = run; k != end; ++k)
     list += (k == run ? "" : k + 1 == end ? " and " : ", ") + std::to_string(k->corner / 4);
-  throw InputError("tets " + list + " share " + name({lowest, static_cast<Index>(run->others >> 32), static_cast<Index>(run->others)}) +
-                   ": at most two can");
+  throw InputError(
+      "tets " + list + " share " +
+      name({lowest, static_cast<Index>(run->others >> 32), static_cast<Index>(run->others)}) +
+      ": at most two can");
 }
 
 }  // namespace

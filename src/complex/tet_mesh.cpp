@@ -218,8 +218,7 @@ void TetMesh<Real>::assemble(std::size_t vertices, std::span<const std::array<In
                      rounded(centre),
                      summary_.embedded ? topology.first_reflex[t] : none});
   }
-  tets_.push_back(
-      {{sentinel, sentinel, sentinel, sentinel}, {0, 0, 0, 0}, {0, 0, 0}, none});
+  tets_.push_back({{sentinel, sentinel, sentinel, sentinel}, {0, 0, 0, 0}, {0, 0, 0}, none});
 
   if (summary_.embedded) {
     points_.reserve(vertices);

@@ -221,9 +221,9 @@ TriangleMesh<Real>::TriangleMesh(std::size_t vertices, std::span<const std::arra
     shorten_each(agreed);
   else
     shorten_to_triangles(agreed, across);
-  assemble({vertices, faces, hints.order.empty() ? breadth_first(across) : copy_of(hints.order),
-            across},
-           ShapesOfLengths(agreed, violated), hints);
+  assemble(
+      {vertices, faces, hints.order.empty() ? breadth_first(across) : copy_of(hints.order), across},
+      ShapesOfLengths(agreed, violated), hints);
 }
 
 template <class Real>
@@ -313,8 +313,8 @@ std::vector<double> TriangleMesh<Real>::take_shapes(const TriangleShapes& shapes
     }
   }
 
-  const double unit =
-      mean_edge(m, longest, [&](std::size_t f) -> const auto& { return lengths[f]; });
+  const double unit = mean_edge(
+      m, longest, [&](std::size_t f) -> const auto& { return lengths[f]; });
   summary_.mean_edge = unit;
   for (std::size_t f = 0; f < m; ++f) {
     TriangleRecord<Real>& t = triangles_[f];

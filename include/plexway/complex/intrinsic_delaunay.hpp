@@ -74,8 +74,8 @@ struct Refinement {
 template <class Real>
 struct TriangulatedSurface;
 
-/// Builds a surface from coordinates on the triangles that pay (what_pays), or those wanted, without
-/// a mesh of the others: the same as
+/// Builds a surface from coordinates on the triangles that pay (what_pays), or those wanted,
+/// without a mesh of the others: the same as
 ///
 ///   TriangleMesh<Real> mesh(positions, faces);
 ///   IntrinsicDelaunay delaunay(TriangleMesh<double>(positions, faces), refinement_for(...));
