@@ -328,10 +328,10 @@ TriangulatedSurface<Real> triangulate(std::span<const std::array<double, 3>> pos
   delaunay.state_ = std::make_unique<IntrinsicDelaunay::State>(std::move(layout), shapes);
   delaunay.state_->template flip<double>(refinement_for(done));
   const DelaunaySummary& summary = delaunay.summary();
-  if (summary.flips + summary.inserted_vertices == 0)
-    return {TriangleMesh<Real>(positions, faces), std::move(delaunay), done};
-  TriangleMesh<Real> mesh = delaunay.mesh<Real>();
-  delaunay.release_triangles();
+  const bool same = summary.flips + summary.inserted_vertices == 0;
+  if (same) delaunay.release_triangles();
+  TriangleMesh<Real> mesh = same ? TriangleMesh<Real>(positions, faces) : delaunay.mesh<Real>();
+  if (!same) delaunay.release_triangles();
   return {std::move(mesh), std::move(delaunay), done};
 }
 template TriangulatedSurface<float> triangulate(std::span<const std::array<double, 3>>,

@@ -69,23 +69,20 @@ void ShapesInSpace::look_up(std::span<const Index> faces, ShapeBlock& block) con
   std::array<Vectors, 3> edge;
   gather(positions_, faces_, faces, edge);
   for (std::size_t i = 0; i < 3; ++i) norms(edge[i], block.length[i]);
-  // One cross product serves all corners, unless the triangle is thin, long or short: then each
-  // corner has its own (TriangleShape).
-  constexpr double thin = 1e-4, longest = 1e70, shortest = 1e-70;
-  Row area, least, most;
-  for (std::size_t k = 0; k < size; ++k) {
-    const double x = edge[0][1][k] * edge[1][2][k] - edge[0][2][k] * edge[1][1][k];
-    const double y = edge[0][2][k] * edge[1][0][k] - edge[0][0][k] * edge[1][2][k];
-    const double z = edge[0][0][k] * edge[1][1][k] - edge[0][1][k] * edge[1][0][k];
-    area[k] = std::sqrt(x * x + y * y + z * z);
-  }
+  // Each corner by its own cross product: one for all would be off by rounding over the sharpest
+  // sine. Nothing is scaled but the lengths: what is flat, long or short goes one by one.
+  constexpr double flat = 1e-13, longest = 1e70, shortest = 1e-70;
+  Row least, most;
   for (std::size_t i = 0; i < 3; ++i) {
     const Vectors &u = edge[i], &w = edge[(i + 2) % 3];
     const Row &l = block.length[i], &m = block.length[(i + 2) % 3];
     for (std::size_t k = 0; k < size; ++k) {
       const double product = l[k] * m[k];
+      const double x = u[1][k] * w[2][k] - u[2][k] * w[1][k];
+      const double y = u[2][k] * w[0][k] - u[0][k] * w[2][k];
+      const double z = u[0][k] * w[1][k] - u[1][k] * w[0][k];
       block.cosine[i][k] = -(u[0][k] * w[0][k] + u[1][k] * w[1][k] + u[2][k] * w[2][k]) / product;
-      block.sine[i][k] = area[k] / product;
+      block.sine[i][k] = std::sqrt(x * x + y * y + z * z) / product;
     }
   }
   const auto smaller = [](double a, double b) { return b < a ? b : a; };
@@ -95,7 +92,7 @@ void ShapesInSpace::look_up(std::span<const Index> faces, ShapeBlock& block) con
   }
   for (std::size_t k = 0; k < faces.size(); ++k) {
     block.degenerate[k] = block.violated[k] = false;
-    if (least[k] > thin && most[k] < longest && most[k] > shortest) continue;
+    if (least[k] > flat && most[k] < longest && most[k] > shortest) continue;
     const auto& f = faces_[faces[k]];
     put(shape_from_positions({&positions_[f[0]], &positions_[f[1]], &positions_[f[2]]}), k, block);
   }
