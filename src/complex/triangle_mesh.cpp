@@ -8,6 +8,7 @@
 #include <plexway/error.hpp>
 
 #include "complex/gluing.hpp"
+#include "complex/saddle_vertices.hpp"
 #include "complex/simplex_order.hpp"
 #include "complex/triangle_shape.hpp"
 #include "complex/vertex_fans.hpp"
@@ -72,44 +73,6 @@ void around_edge(GluingView across, Index h, Visit visit) {
   for (Index o = across[h / 3][h % 3]; o != none && o != h; o = across[o / 3][o % 3]) visit(o);
 }
 
-// The excess of a vertex and its neighbours together; those on the boundary do not count.
-template <class Real>
-std::vector<double> excess_around(std::span<const TriangleRecord<Real>> triangles,
-                                  std::span<const double> excess, std::span<const char> boundary) {
-  std::vector<double> around(excess.begin(), excess.end());
-  for (const TriangleRecord<Real>& t : triangles.first(triangles.size() - 1))
-    for (std::size_t i = 0; i < 3; ++i) {
-      // An edge inside counts from both its triangles. Of one on the boundary both ends are there.
-      const Index v = t.corner[i], w = t.corner[edge_after(i)];
-      if (!boundary[w]) around[v] += excess[w] / 2;
-      if (!boundary[v]) around[w] += excess[v] / 2;
-    }
-  return around;
-}
-
-// `around` is what `excess_around` says. Takes off what chance gives (SaddleThresholds), but not
-// where the neighbourhood is a saddle: without that, distances on tubes that wind came out up to 24
-// % too short.
-template <class Real>
-void leave_noise(std::span<const TriangleRecord<Real>> triangles, std::span<const char> boundary,
-                 const SaddleThresholds& saddles, std::span<const double> around,
-                 std::vector<double>& excess) {
-  std::vector<double> lack(excess.size(), 0);
-  std::vector<int> neighbours(excess.size(), 0);
-  for (const TriangleRecord<Real>& t : triangles.first(triangles.size() - 1))
-    for (std::size_t i = 0; i < 3; ++i) {
-      const Index v = t.corner[i], w = t.corner[edge_after(i)];
-      for (const auto& [of, by] : {std::pair{v, w}, std::pair{w, v}}) {
-        if (boundary[by]) continue;
-        lack[of] += std::max(0.0, -excess[by]);
-        ++neighbours[of];
-      }
-    }
-  for (std::size_t v = 0; v < excess.size(); ++v)
-    if (!boundary[v] && excess[v] > 0 && neighbours[v] > 0 && around[v] <= saddles.neighbourhood)
-      excess[v] -= std::min(saddles.most_noise, saddles.noise_share * lack[v] / neighbours[v]);
-}
-
 // Both sides of an edge must agree to the last bit: the mean of what they say.
 void agree_on_edges(Lengths& lengths, GluingView across) {
   for (Index h = 0; h < lengths.size() * 3; ++h) {
@@ -172,11 +135,8 @@ void refuse_refraction(const SurfaceSummary& summary, const char* what) {
 }
 
 SaddleThresholds SaddleThresholds::standard() {
-  return {.interior = 1e-5,
-          .boundary = 1e-6,
-          .noise_share = 1,
-          .most_noise = 0.02,
-          .neighbourhood = 0.01};
+  return {
+      .interior = 1e-5, .boundary = 1e-6, .noise_share = 1, .most_noise = 0.02, .agreement = 0.7};
 }
 
 template <class Real>
@@ -259,7 +219,6 @@ void TriangleMesh<Real>::assemble(std::size_t vertices, std::span<const std::arr
                                   std::vector<Index> face_order,
                                   std::vector<std::array<Index, 3>> across,
                                   const SurfaceHints& hints) {
-  const SaddleThresholds& saddles = hints.saddles;
   const std::size_t m = faces.size();
   const Orientation orientation = orient(faces, across);
   summary_.vertices = vertices;
@@ -350,15 +309,6 @@ void TriangleMesh<Real>::assemble(std::size_t vertices, std::span<const std::arr
   sentinel.face = none;
 
   VertexFans fans = find_vertex_fans<Real>(triangles_, vertices);
-  corner_of_vertex_ = std::move(fans.corner);
-  irregular_ = std::move(fans.irregular);
-  irregular_begin_ = std::move(fans.irregular_begin);
-  irregular_corners_ = std::move(fans.irregular_corners);
-  pinched_ = std::move(fans.pinched);
-  summary_.pinched_vertices = pinched_.size();
-  summary_.components = fans.components;
-
-  // Saddles: vertices with so much angle around them that shortest paths bend there.
   std::vector<double> angle(vertices, 0);
   for (std::size_t inside = 0; inside < m; ++inside) {
     const Index f = face_order[inside];
@@ -368,25 +318,16 @@ void TriangleMesh<Real>::assemble(std::size_t vertices, std::span<const std::arr
     }
   }
   for (std::size_t v = 0; v < vertices; ++v)  // from here on what is more than flat
-    angle[v] -= fans.on_boundary[v] ? std::numbers::pi + saddles.boundary
-                                    : 2 * std::numbers::pi + saddles.interior;
-  std::vector<double> around = excess_around<Real>(triangles_, angle, fans.on_boundary);
-  if (!hints.samples) leave_noise<Real>(triangles_, fans.on_boundary, saddles, around, angle);
-  for (std::size_t r = 0; r < irregular_.size(); ++r) {
-    const auto corners =
-        std::span<const Index>(irregular_corners_)
-            .subspan(irregular_begin_[r], irregular_begin_[r + 1] - irregular_begin_[r]);
-    const double bends = is_open_book<Real>(triangles_, corners) ? -1 : 1;
-    angle[irregular_[r]] = around[irregular_[r]] = bends;
-  }
-  for (std::size_t inside = 0; inside < m; ++inside)
-    for (Index i = 0; i < 3; ++i) {
-      const Index v = triangles_[inside].corner[i];
-      const bool saddle = angle[v] > 0 && (!hints.samples || fans.on_boundary[v] || around[v] > 0);
-      if (saddle)
-        triangles_[inside].signed_sine[i] =
-            std::copysign(triangles_[inside].signed_sine[i], Real(-1));
-    }
+    angle[v] -= (fans.on_boundary[v] ? 1 : 2) * std::numbers::pi;
+  mark_saddles<Real>(triangles_, fans, std::move(angle), hints);
+
+  corner_of_vertex_ = std::move(fans.corner);
+  irregular_ = std::move(fans.irregular);
+  irregular_begin_ = std::move(fans.irregular_begin);
+  irregular_corners_ = std::move(fans.irregular_corners);
+  pinched_ = std::move(fans.pinched);
+  summary_.pinched_vertices = pinched_.size();
+  summary_.components = fans.components;
 }
 
 template <class Real>

@@ -35,16 +35,18 @@ struct SurfaceSummary {
 /// Which vertices paths may bend at: where the angle around exceeds 2 pi, or on a boundary pi, by
 /// more than rounding and chance. In radians.
 struct SaddleThresholds {
-  double interior;  ///< less than this more than 2 pi is rounding
-  double boundary;  ///< and than pi. A smooth arc is made of many vertices that each count a little
+  /// Less than this more than 2 pi may be rounding of the coordinates: it counts only where the
+  /// neighbours agree. However finely a smooth surface is cut, they do
+  double interior;
+  double boundary;  ///< less more than pi. A smooth arc is made of many that each count a little
   /// A smooth surface is cut into triangles with chance: every other vertex has a little more than
-  /// 2 pi around. So a vertex counts by what it has more than this share of what its neighbours
-  /// lack, on average,
+  /// 2 pi around. So a vertex counts if it and its neighbours have more than flat in sum, or by
+  /// what it has more than this share of what its neighbours lack, on average,
   double noise_share;
-  double most_noise;  ///< but no neighbours make nothing of what is much by itself,
-  /// and a vertex counts whatever its neighbours lack where it and they have more than this in sum:
-  /// there the surface is a saddle.
-  double neighbourhood;
+  double most_noise;  ///< but no neighbours make nothing of what is much by itself
+  /// Neighbours agree where the sum of their excess, each counted up to the vertex's own, is more
+  /// than this share of what it would be if all had one sign.
+  double agreement;
 
   /// docs/TUNING.md says how they were found.
   static SaddleThresholds standard();
