@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 #include <string>
+#include <tuple>
 
 #include <plexway/error.hpp>
 
@@ -33,6 +34,61 @@ void check(const Refinement& wanted) {
     throw UsageError("shortest_edge of a refinement must be 0 or more");
 }
 
+// Edges of the input that are none any more: straight lines still. Slots that nothing happened to
+// have theirs.
+template <class Real>
+std::vector<SurfaceChord> lost_edges(const TriangleMesh<Real>& input,
+                                     const IntrinsicTriangulation& now) {
+  std::vector<Index> outer(input.vertex_count());
+  for (Index v = 0; v < outer.size(); ++v) outer[input.inside_vertex(v)] = v;
+  std::vector<SurfaceChord> then, there;
+  const auto add = [](std::vector<SurfaceChord>& to, Index v, Index w, double length) {
+    if (v != w) to.push_back({std::min(v, w), std::max(v, w), length});
+  };
+  for (Index v = 0; input.has_chords() && v < outer.size(); ++v)
+    for (const auto& chord : input.chords_at(v))
+      if (v < chord.vertex)
+        add(then, outer[v], outer[chord.vertex], static_cast<double>(chord.length));
+  for (Index s = 0; s < now.triangles().size(); ++s) {
+    const IntrinsicTriangle& t = now.triangles()[s];
+    bool same = s < input.face_count();
+    if (same) {
+      const TriangleRecord<Real>& before = input.triangles()[s];
+      for (std::size_t i = 0; i < 3; ++i)
+        same &= outer[before.corner[i]] == t.corner[i] &&
+                static_cast<double>(before.length[i]) == t.length[i];
+      for (std::size_t i = 0; i < 3 && !same; ++i)
+        add(then, outer[before.corner[i]], outer[before.corner[edge_after(i)]],
+            static_cast<double>(before.length[i]));
+    }
+    for (std::size_t i = 0; i < 3 && !same; ++i)
+      add(there, t.corner[i], t.corner[edge_after(i)], t.length[i]);
+  }
+  const auto less = [](const SurfaceChord& a, const SurfaceChord& b) {
+    return std::tie(a.from, a.to, a.length) < std::tie(b.from, b.to, b.length);
+  };
+  // Of several between the same ends the shortest counts.
+  const auto shortest = [&](std::vector<SurfaceChord>& all) {
+    std::sort(all.begin(), all.end(), less);
+    all.erase(std::unique(all.begin(), all.end(),
+                          [](const SurfaceChord& a, const SurfaceChord& b) {
+                            return a.from == b.from && a.to == b.to;
+                          }),
+              all.end());
+  };
+  shortest(then);
+  shortest(there);
+  auto known = there.begin();
+  std::erase_if(then, [&](const SurfaceChord& chord) {
+    while (known != there.end() &&
+           std::tie(known->from, known->to) < std::tie(chord.from, chord.to))
+      ++known;
+    return known != there.end() && known->from == chord.from && known->to == chord.to &&
+           known->length <= chord.length * (1 + 1e-12);
+  });
+  return then;
+}
+
 }  // namespace
 
 struct IntrinsicDelaunay::State {
@@ -42,6 +98,8 @@ struct IntrinsicDelaunay::State {
   std::size_t faces = 0;  // of the input
   bool refracts = false;
   double unit = 1;
+  std::vector<std::array<double, 3>> positions;  // of the input's vertices, where known
+  std::vector<SurfaceChord> chords;
   DelaunaySummary summary;
 
   template <class Real>
@@ -55,6 +113,26 @@ struct IntrinsicDelaunay::State {
     for (Index s = 0; s < face_of_slot.size(); ++s) {
       face_of_slot[s] = input.triangles()[s].face & ~reversed;
       slot_of_face[face_of_slot[s]] = s;
+    }
+    if (input.positions().empty()) return;
+    positions.resize(input.vertex_count());
+    for (Index v = 0; v < positions.size(); ++v)
+      for (std::size_t i = 0; i < 3; ++i)
+        positions[v][i] = input.positions()[input.inside_vertex(v)][i] * unit;
+  }
+
+  /// Vertices that were put in lie in space as well, where the input's triangles do.
+  template <class Real>
+  void place_inserted(const TriangleMesh<Real>& input) {
+    if (!input.faces_are_in_space()) return;
+    for (const SlotPoint& point : triangulation.inserted()) {
+      const TriangleRecord<Real>& t = input.triangles()[point.slot];
+      // A slot that was turned over for good has its corners the other way round.
+      const bool over = ((t.face & reversed) != 0) != triangulation.turned(point.slot);
+      std::array<double, 3>& at = positions.emplace_back();
+      for (std::size_t i = 0; i < 3; ++i)
+        for (std::size_t k = 0; k < 3; ++k)
+          at[k] += point.at[over && i > 0 ? 3 - i : i] * input.positions()[t.corner[i]][k] * unit;
     }
   }
 
@@ -78,6 +156,9 @@ IntrinsicDelaunay::IntrinsicDelaunay(const TriangleMesh<Real>& input, const Refi
   if (refinement.smallest_angle > 0) refine(triangulation, flips, refinement);
   state_->summary = {flips.count(), flips.stuck(), triangulation.inserted().size()};
   triangulation.release_counts();
+  state_->place_inserted(input);
+  state_->chords = lost_edges(input, triangulation);
+  for (SurfaceChord& chord : state_->chords) chord.length *= state_->unit;
   for (Index s = static_cast<Index>(input.face_count()); s < triangulation.triangles().size();
        ++s) {
     state_->face_of_slot.push_back(s);
@@ -95,7 +176,9 @@ const DelaunaySummary& IntrinsicDelaunay::summary() const { return state_->summa
 
 std::size_t IntrinsicDelaunay::bytes() const {
   return sizeof(State) + state_->triangulation.bytes() +
-         (state_->face_of_slot.capacity() + state_->slot_of_face.capacity()) * sizeof(Index);
+         (state_->face_of_slot.capacity() + state_->slot_of_face.capacity()) * sizeof(Index) +
+         state_->positions.capacity() * sizeof(state_->positions[0]) +
+         state_->chords.capacity() * sizeof(SurfaceChord);
 }
 
 template <class Real>
@@ -123,6 +206,8 @@ TriangleMesh<Real> IntrinsicDelaunay::mesh(const SaddleThresholds& saddles) cons
   }
   SurfaceHints hints;
   hints.refracts = state_->refracts;
+  hints.positions = state_->positions;
+  hints.chords = state_->chords;
   hints.saddles = saddles;
   // New triangles lie behind all others: they need a new order.
   if (state_->summary.inserted_vertices == 0) hints.order = state_->face_of_slot;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <string>
 
@@ -156,6 +157,8 @@ TriangleMesh<Real>::TriangleMesh(std::span<const std::array<double, 3>> position
   assemble(positions.size(), faces, shapes,
            hints.order.empty() ? along_curve(positions, faces) : copy_of(hints.order),
            glue_by_vertices(positions.size(), faces), hints);
+  place(positions);
+  in_space_ = true;
 }
 
 template <class Real>
@@ -328,6 +331,36 @@ void TriangleMesh<Real>::assemble(std::size_t vertices, std::span<const std::arr
   pinched_ = std::move(fans.pinched);
   summary_.pinched_vertices = pinched_.size();
   summary_.components = fans.components;
+  place(hints.positions);
+  take_chords(hints.chords);
+}
+
+// In double: next to a source, single precision would say nothing on a large surface.
+template <class Real>
+void TriangleMesh<Real>::place(std::span<const std::array<double, 3>> positions) {
+  if (positions.empty()) return;
+  constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+  positions_.assign(vertex_count(), {unknown, unknown, unknown});
+  for (std::size_t v = 0; v < positions.size(); ++v)
+    for (std::size_t i = 0; i < 3; ++i)
+      positions_[vertex_to_inside_[v]][i] = (positions[v][i] - positions[0][i]) / unit();
+}
+
+template <class Real>
+void TriangleMesh<Real>::take_chords(std::span<const SurfaceChord> chords) {
+  if (chords.empty()) return;
+  chord_begin_.assign(vertex_count() + 1, 0);
+  for (const SurfaceChord& chord : chords)
+    for (const Index v : {chord.from, chord.to}) ++chord_begin_[vertex_to_inside_[v] + 1];
+  for (std::size_t v = 0; v < vertex_count(); ++v) chord_begin_[v + 1] += chord_begin_[v];
+  chords_.resize(2 * chords.size());
+  std::vector<Index> end(chord_begin_.begin(), chord_begin_.end() - 1);
+  for (const SurfaceChord& chord : chords) {
+    const Index v = vertex_to_inside_[chord.from], w = vertex_to_inside_[chord.to];
+    const Real length = static_cast<Real>(chord.length / unit());
+    chords_[end[v]++] = {w, length};
+    chords_[end[w]++] = {v, length};
+  }
 }
 
 template <class Real>
@@ -335,7 +368,7 @@ std::size_t TriangleMesh<Real>::bytes() const {
   const auto of = [](const auto& v) { return v.capacity() * sizeof(v[0]); };
   return sizeof(*this) + of(triangles_) + of(vertex_to_inside_) + of(face_to_inside_) +
          of(corner_of_vertex_) + of(irregular_) + of(irregular_begin_) + of(irregular_corners_) +
-         of(pinched_);
+         of(pinched_) + of(positions_) + of(chord_begin_) + of(chords_);
 }
 
 template <class Real>

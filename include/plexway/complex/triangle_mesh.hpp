@@ -52,6 +52,13 @@ struct SaddleThresholds {
   static SaddleThresholds standard();
 };
 
+/// A straight line on a surface between two vertices, which need not be an edge: an edge of other
+/// triangles over the same surface.
+struct SurfaceChord {
+  Index from, to;
+  double length;
+};
+
 /// What the maker of a surface knows better than the constructor.
 struct SurfaceHints {
   /// All faces, as they should lie in memory; empty: the constructor looks for an order.
@@ -62,6 +69,11 @@ struct SurfaceHints {
   /// Each triangle keeps the lengths given for it, also where a neighbour measures the edge between
   /// differently, as where a speed jumps: paths are refracted there.
   bool refracts = false;
+  /// Where the first vertices lie in space, if lengths are given and are such that no path is
+  /// shorter than the straight line. (Coordinates given as such need not be repeated.)
+  std::span<const std::array<double, 3>> positions = {};
+  /// Lines known besides edges: no vertex will be farther than the other end and the line between.
+  std::span<const SurfaceChord> chords = {};
   SaddleThresholds saddles = SaddleThresholds::standard();
 };
 
@@ -74,7 +86,7 @@ struct SurfaceHints {
 /// it.
 ///
 /// Vertices and faces have the caller's numbers in this interface. Inside they are reordered for
-/// locality. Memory: 68 bytes a triangle and 8 a vertex in float.
+/// locality. Memory: 68 bytes a triangle and 8 a vertex in float, 32 a vertex with coordinates.
 template <class Real>
 class TriangleMesh {
  public:
@@ -135,6 +147,22 @@ class TriangleMesh {
   /// Vertices (inside) where several fans meet, ascending.
   [[nodiscard]] std::span<const Index> pinched() const { return pinched_; }
   [[nodiscard]] double unit() const { return summary_.mean_edge; }
+  /// Where vertices (inside) lie in space, in units of the mean edge and about some origin; NaN
+  /// where that is not known. Empty where it is of none: lengths alone, or a metric.
+  [[nodiscard]] std::span<const std::array<double, 3>> positions() const { return positions_; }
+  /// Are triangles flat in space, with their corners where `positions` says?
+  [[nodiscard]] bool faces_are_in_space() const { return in_space_; }
+  /// Ends of the chords at a vertex, all inside.
+  struct ChordEnd {
+    Index vertex;
+    Real length;
+  };
+  [[nodiscard]] std::span<const ChordEnd> chords_at(Index inside_vertex) const {
+    if (chords_.empty()) return {};
+    return std::span(chords_).subspan(
+        chord_begin_[inside_vertex], chord_begin_[inside_vertex + 1] - chord_begin_[inside_vertex]);
+  }
+  [[nodiscard]] bool has_chords() const { return !chords_.empty(); }
   /// Of the content: a copy has the same, everything else another (Identity).
   [[nodiscard]] std::uint64_t identity() const { return identity_.value(); }
 
@@ -142,6 +170,8 @@ class TriangleMesh {
   void assemble(std::size_t vertices, std::span<const std::array<Index, 3>> faces,
                 std::span<const TriangleShape> shapes, std::vector<Index> face_order,
                 std::vector<std::array<Index, 3>> across, const SurfaceHints& hints);
+  void place(std::span<const std::array<double, 3>> positions);
+  void take_chords(std::span<const SurfaceChord> chords);
 
   SurfaceSummary summary_;
   Identity identity_;
@@ -152,6 +182,10 @@ class TriangleMesh {
   // Vertices whose corners one walk around cannot find: pinched, or on a non-manifold edge.
   std::vector<Index> irregular_, irregular_begin_, irregular_corners_;
   std::vector<Index> pinched_;
+  std::vector<std::array<double, 3>> positions_;
+  bool in_space_ = false;
+  std::vector<Index> chord_begin_;  // a row a vertex, each chord in two of them
+  std::vector<ChordEnd> chords_;
 };
 
 /// Throws UsageError where a surface has refracting edges: `what` unfolds triangles over edges.
