@@ -84,9 +84,10 @@ void solve(const TriangleMesh<Real>& mesh, std::span<const PointSource> sources,
   if (options.visibility == Visibility::saddles) {
     if constexpr (std::is_same_v<Shapes, NoShapes>)
       raised = StraightLines<Real>(mesh, sources).template raise<kLabels>(workspace, crew);
-    lowered = read_out_edges<Real, kLabels>(
-        mesh, workspace,
-        [&](const auto& wrong, const auto& look) { crew.search(mesh.face_count(), wrong, look); });
+    lowered =
+        read_out_edges<Real, kLabels>(mesh, workspace, [&](const auto& wrong, const auto& look) {
+          crew.search(mesh.face_count(), wrong, look);
+        }).much;
   }
 
   // Without a radius, whole fans are reached or not; so one of its corners tells of a vertex,

@@ -119,15 +119,21 @@ void read_out_triangles(std::span<const TriangleRecord<Real>> triangles, const R
     offer_corners(triangles, rule, front, 0, faces, offer);
 }
 
+/// What `read_out_edges` did.
+struct Lowered {
+  bool any = false;
+  std::size_t much = 0;  ///< how often a vertex got nearer by more than 1e-4
+};
+
 /// No vertex is farther than a neighbour and the edge between, or the chord. A triangle keeps one
 /// label, the best for its centre, and now and then, at a corner on a ragged boundary, that one is
-/// poor. Returns how many vertices got nearer. Cost: one pass, and n log n for the n vertices near
+/// poor. Cost: one pass, and n log n for the n vertices near
 /// what it changes (Dijkstra's order: each gets its last distance once).
 ///
 /// search(wrong, look) calls look(f) at least for all triangles that wrong(f) names.
 template <class Real, bool kLabels, class Search>
-std::size_t read_out_edges(const TriangleMesh<Real>& mesh, Workspace<Real>& workspace,
-                           const Search& search) {
+Lowered read_out_edges(const TriangleMesh<Real>& mesh, Workspace<Real>& workspace,
+                       const Search& search) {
   const std::span<const TriangleRecord<Real>> triangles = mesh.triangles();
   Real* d = workspace.vertex.data();
   const auto wrong = [&](std::size_t f) {
@@ -137,8 +143,11 @@ std::size_t read_out_edges(const TriangleMesh<Real>& mesh, Workspace<Real>& work
     return !(std::abs(a - b) <= x && std::abs(b - c) <= y && std::abs(c - a) <= z);
   };
   PriorityQueue<Real> nearer(workspace.front);
+  Lowered lowered;
   const auto relax = [&](Index from, Index to, Real length) {
     if (!(d[from] + length < d[to]) || !(d[to] < std::numeric_limits<Real>::infinity())) return;
+    lowered.any = true;
+    lowered.much += d[from] + length < d[to] * Real(1 - 1e-4);
     d[to] = d[from] + length;
     if constexpr (kLabels) workspace.vertex_source[to] = workspace.vertex_source[from];
     nearer.push(to, d[to]);
@@ -156,8 +165,7 @@ std::size_t read_out_edges(const TriangleMesh<Real>& mesh, Workspace<Real>& work
   if (mesh.has_chords())
     for (Index v = 0; v < mesh.vertex_count(); ++v)
       for (const auto& chord : mesh.chords_at(v)) relax(v, chord.vertex, chord.length);
-  std::size_t lowered = 0;
-  for (Index v = 0; nearer.pop(v, [&](Index w) { return d[w]; }); ++lowered) {
+  for (Index v = 0; nearer.pop(v, [&](Index w) { return d[w]; });) {
     mesh.corners_at(v, workspace.corners);
     for (const Index corner : workspace.corners) {
       const TriangleRecord<Real>& t = triangles[corner / 3];
@@ -171,7 +179,7 @@ std::size_t read_out_edges(const TriangleMesh<Real>& mesh, Workspace<Real>& work
 }
 
 template <class Real, bool kLabels>
-std::size_t read_out_edges(const TriangleMesh<Real>& mesh, Workspace<Real>& workspace) {
+Lowered read_out_edges(const TriangleMesh<Real>& mesh, Workspace<Real>& workspace) {
   return read_out_edges<Real, kLabels>(mesh, workspace, [&](const auto&, const auto& look) {
     for (std::size_t f = 0; f < mesh.face_count(); ++f) look(f);
   });
