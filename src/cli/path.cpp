@@ -153,6 +153,25 @@ Outcome find_paths(const Shape& shape, const MeasuredLengths* lengths, const Pat
       if (target.vertex == none) promised = field.at(target, ReadOut::linear);
     outcome.promised.push_back(promised);
   }
+  if constexpr (std::is_same_v<Shape, io::Triangles>) {
+    std::vector<std::size_t> doubtful;
+    for (std::size_t k = 0; k < targets.size(); ++k) {
+      const Path& path = outcome.paths[k];
+      if (path.source != none &&
+          (path.capped || path.length + sources[path.source].offset > 1.001 * outcome.promised[k]))
+        doubtful.push_back(k);
+    }
+    // Labels on the triangles of the path lead closer to it than distances of vertices do.
+    if (elsewhere && !doubtful.empty()) {
+      field.solve(Serial{}, std::span<const PointSource>(sources), with_progress);
+      for (const std::size_t k : doubtful) {
+        Path path = field.trace(targets[k], command.trace);
+        const auto length = [&](const Path& p) { return p.length + sources[p.source].offset; };
+        if (path.source != none && length(path) < length(outcome.paths[k]))
+          outcome.paths[k] = std::move(path);
+      }
+    }
+  }
   outcome.trace = tracing.seconds();
   return outcome;
 }
@@ -239,8 +258,7 @@ void say_notes(const PathCommand& command, const Outcome& outcome,
   }
   if (capped > 0)
     say_note(counted(capped, "paths") +
-             ": the search for a shorter one ended early, so there may be one; a --margin below " +
-             short_number(command.trace.margin) + " looks less far and further in");
+             ": the search for a shorter one ended early, so there may be one");
   if (apart > 0)
     say_note(counted(apart, "paths") + ": the length differs from the distance by up to " +
              short_number(100 * most) + " %; the length is the more exact");
