@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 #include <string>
+#include <tuple>
 
 #include <plexway/error.hpp>
 
@@ -63,6 +64,46 @@ class ShapesOfSlots final : public TriangleShapes {
   double unit_;
 };
 
+void add_chord(std::vector<SurfaceChord>& to, Index v, Index w, double length) {
+  if (v != w) to.push_back({std::min(v, w), std::max(v, w), length});
+}
+
+// Edges of the input that are none any more: straight lines still. `then` has those of slots that
+// something happened to, and lines that the input knew.
+std::vector<SurfaceChord> lost_edges(std::vector<SurfaceChord> then,
+                                     const IntrinsicTriangulation& now, std::size_t input_faces) {
+  std::vector<SurfaceChord> there;
+  for (Index s = 0; s < now.triangles().size(); ++s) {
+    if (s < input_faces && !now.history().changed(s)) continue;
+    const IntrinsicTriangle& t = now.triangles()[s];
+    for (std::size_t i = 0; i < 3; ++i)
+      add_chord(there, t.corner[i], t.corner[edge_after(i)], t.length[i]);
+  }
+  const auto less = [](const SurfaceChord& a, const SurfaceChord& b) {
+    return std::tie(a.from, a.to, a.length) < std::tie(b.from, b.to, b.length);
+  };
+  // Of several between the same ends the shortest counts.
+  const auto shortest = [&](std::vector<SurfaceChord>& all) {
+    std::sort(all.begin(), all.end(), less);
+    all.erase(std::unique(all.begin(), all.end(),
+                          [](const SurfaceChord& a, const SurfaceChord& b) {
+                            return a.from == b.from && a.to == b.to;
+                          }),
+              all.end());
+  };
+  shortest(then);
+  shortest(there);
+  auto known = there.begin();
+  std::erase_if(then, [&](const SurfaceChord& chord) {
+    while (known != there.end() &&
+           std::tie(known->from, known->to) < std::tie(chord.from, chord.to))
+      ++known;
+    return known != there.end() && known->from == chord.from && known->to == chord.to &&
+           known->length <= chord.length * (1 + 1e-12);
+  });
+  return then;
+}
+
 }  // namespace
 
 struct IntrinsicDelaunay::State {
@@ -72,7 +113,9 @@ struct IntrinsicDelaunay::State {
   std::vector<Index> slot_of_face;
   std::size_t faces = 0;  // of the input
   bool refracts = false;
-  bool released = false;  // are the triangles gone?
+  bool released = false;                         // are the triangles gone?
+  std::vector<std::array<double, 3>> positions;  // of the input's vertices, where known
+  std::vector<SurfaceChord> chords;
   DelaunaySummary summary;
 
   template <class Real>
@@ -87,6 +130,84 @@ struct IntrinsicDelaunay::State {
       face_of_slot[s] = input.triangles()[s].face & ~reversed;
       slot_of_face[face_of_slot[s]] = s;
     }
+    if (input.positions().empty()) return;
+    positions.resize(input.vertex_count());
+    for (Index v = 0; v < positions.size(); ++v)
+      for (std::size_t i = 0; i < 3; ++i)
+        positions[v][i] = input.positions()[input.inside_vertex(v)][i] * unit;
+  }
+
+  // From what was before the flips: corners(slot) are a slot's, by the caller's vertices, and
+  // whether they ran the other way; `lines` see lost_edges.
+  template <class CornersOf>
+  void take_from_input(bool in_space, std::vector<SurfaceChord> lines, CornersOf corners) {
+    if (in_space)  // vertices that were put in lie in space as well
+      for (const SlotPoint& point : triangulation.inserted()) {
+        const auto [corner, turned] = corners(point.slot);
+        // A slot that was turned over for good has its corners the other way round.
+        const bool over = turned != triangulation.turned(point.slot);
+        std::array<double, 3> at{};
+        for (std::size_t i = 0; i < 3; ++i)
+          for (std::size_t k = 0; k < 3; ++k)
+            at[k] += point.at[over && i > 0 ? 3 - i : i] * positions[corner[i]][k];
+        positions.push_back(at);
+      }
+    chords = lost_edges(std::move(lines), triangulation, faces);
+    for (SurfaceChord& chord : chords) chord.length *= unit;
+  }
+
+  template <class Real>
+  void take_from_input(const TriangleMesh<Real>& input) {
+    std::vector<Index> outer(input.vertex_count());
+    for (Index v = 0; v < outer.size(); ++v) outer[input.inside_vertex(v)] = v;
+    const auto corners = [&](Index slot) {
+      const TriangleRecord<Real>& t = input.triangles()[slot];
+      return std::pair(std::array{outer[t.corner[0]], outer[t.corner[1]], outer[t.corner[2]]},
+                       (t.face & reversed) != 0);
+    };
+    std::vector<SurfaceChord> lines;
+    for (Index v = 0; input.has_chords() && v < outer.size(); ++v)
+      for (const auto& chord : input.chords_at(v))
+        if (v < chord.vertex)
+          add_chord(lines, outer[v], outer[chord.vertex], static_cast<double>(chord.length));
+    for (Index s = 0; s < faces; ++s) {
+      if (!triangulation.history().changed(s)) continue;
+      const auto corner = corners(s).first;
+      for (std::size_t i = 0; i < 3; ++i)
+        add_chord(lines, corner[i], corner[edge_after(i)],
+                  static_cast<double>(input.triangles()[s].length[i]));
+    }
+    take_from_input(input.faces_are_in_space(), std::move(lines), corners);
+  }
+
+  /// `layout` without what the constructor took of it.
+  void take_from_input(const FaceLayout& layout, const TriangleShapes& shapes) {
+    const std::vector<Index> outer = layout.vertices_outside();
+    const auto corners = [&](Index slot) {
+      const auto& c = layout.corner[slot];
+      return std::pair(std::array{outer[c[0]], outer[c[1]], outer[c[2]]}, layout.is_turned(slot));
+    };
+    std::vector<SurfaceChord> lines;
+    std::array<Index, ShapeBlock::size> slots, listed;
+    ShapeBlock block{};
+    for (Index s = 0; s < faces;) {
+      std::size_t count = 0;
+      for (; s < faces && count < slots.size(); ++s)
+        if (triangulation.history().changed(s)) {
+          slots[count] = s;
+          listed[count++] = face_of_slot[s];
+        }
+      if (count == 0) break;
+      shapes.look_up(std::span(listed).first(count), block);
+      for (std::size_t k = 0; k < count; ++k) {
+        const auto [corner, turned] = corners(slots[k]);
+        for (std::size_t i = 0; i < 3; ++i)
+          add_chord(lines, corner[i], corner[edge_after(i)],
+                    block.length[turned ? 2 - i : i][k] / unit);
+      }
+    }
+    positions.assign(shapes.positions().begin(), shapes.positions().end());
+    take_from_input(!positions.empty(), std::move(lines), corners);
   }
 
   State(FaceLayout&& layout, const TriangleShapes& shapes)
@@ -123,6 +244,7 @@ template <class Real>
 IntrinsicDelaunay::IntrinsicDelaunay(const TriangleMesh<Real>& input, const Refinement& refinement)
     : state_((check(refinement), std::make_unique<State>(input))) {
   state_->flip<Real>(refinement);
+  state_->take_from_input(input);
 }
 template IntrinsicDelaunay::IntrinsicDelaunay(const TriangleMesh<float>&, const Refinement&);
 template IntrinsicDelaunay::IntrinsicDelaunay(const TriangleMesh<double>&, const Refinement&);
@@ -135,6 +257,8 @@ IntrinsicDelaunay::IntrinsicDelaunay() = default;
 
 void IntrinsicDelaunay::release_triangles() {
   state_->triangulation.release_triangles();
+  std::vector<std::array<double, 3>>().swap(state_->positions);
+  std::vector<SurfaceChord>().swap(state_->chords);
   state_->released = true;
 }
 
@@ -142,7 +266,9 @@ const DelaunaySummary& IntrinsicDelaunay::summary() const { return state_->summa
 
 std::size_t IntrinsicDelaunay::bytes() const {
   return sizeof(State) + state_->triangulation.bytes() +
-         (state_->face_of_slot.capacity() + state_->slot_of_face.capacity()) * sizeof(Index);
+         (state_->face_of_slot.capacity() + state_->slot_of_face.capacity()) * sizeof(Index) +
+         state_->positions.capacity() * sizeof(state_->positions[0]) +
+         state_->chords.capacity() * sizeof(SurfaceChord);
 }
 
 template <class Real>
@@ -153,6 +279,8 @@ TriangleMesh<Real> IntrinsicDelaunay::mesh(const SaddleThresholds& saddles) cons
   const std::size_t m = triangles.size(), vertices = state_->triangulation.vertices();
   SurfaceHints hints;
   hints.refracts = state_->refracts;
+  hints.positions = state_->positions;
+  hints.chords = state_->chords;
   hints.saddles = saddles;
   const ShapesOfSlots shapes(triangles, state_->slot_of_face, state_->unit);
   std::vector<std::array<Index, 3>> faces(m), across(m);
@@ -327,6 +455,8 @@ TriangulatedSurface<Real> triangulate(std::span<const std::array<double, 3>> pos
   IntrinsicDelaunay delaunay;
   delaunay.state_ = std::make_unique<IntrinsicDelaunay::State>(std::move(layout), shapes);
   delaunay.state_->template flip<double>(refinement_for(done));
+  delaunay.state_->take_from_input(layout, shapes);
+  layout = {};
   const DelaunaySummary& summary = delaunay.summary();
   const bool same = summary.flips + summary.inserted_vertices == 0;
   if (same) delaunay.release_triangles();

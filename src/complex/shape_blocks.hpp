@@ -25,6 +25,8 @@ class TriangleShapes {
   virtual ~TriangleShapes() = default;
   /// Of the faces listed, at most ShapeBlock::size and at least one.
   virtual void look_up(std::span<const Index> faces, ShapeBlock& block) const = 0;
+  /// Where the vertices lie in space, if the triangles do.
+  [[nodiscard]] virtual std::span<const std::array<double, 3>> positions() const { return {}; }
 
  protected:
   TriangleShapes() = default;
@@ -39,6 +41,9 @@ class ShapesInSpace final : public TriangleShapes {
                 std::span<const std::array<Index, 3>> faces)
       : positions_(positions), faces_(faces) {}
   void look_up(std::span<const Index> faces, ShapeBlock& block) const override;
+  [[nodiscard]] std::span<const std::array<double, 3>> positions() const override {
+    return positions_;
+  }
 
  private:
   std::span<const std::array<double, 3>> positions_;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <string>
 
@@ -9,6 +10,7 @@
 
 #include "complex/face_layout.hpp"
 #include "complex/gluing.hpp"
+#include "complex/saddle_vertices.hpp"
 #include "complex/shape_blocks.hpp"
 #include "complex/simplex_order.hpp"
 #include "complex/vertex_fans.hpp"
@@ -64,44 +66,6 @@ template <class Visit>
 void around_edge(GluingView across, Index h, Visit visit) {
   visit(h);
   for (Index o = across[h / 3][h % 3]; o != none && o != h; o = across[o / 3][o % 3]) visit(o);
-}
-
-// The excess of a vertex and its neighbours together; those on the boundary do not count.
-template <class Real>
-std::vector<double> excess_around(std::span<const TriangleRecord<Real>> triangles,
-                                  std::span<const double> excess, std::span<const char> boundary) {
-  std::vector<double> around(excess.begin(), excess.end());
-  for (const TriangleRecord<Real>& t : triangles.first(triangles.size() - 1))
-    for (std::size_t i = 0; i < 3; ++i) {
-      // An edge inside counts from both its triangles. Of one on the boundary both ends are there.
-      const Index v = t.corner[i], w = t.corner[edge_after(i)];
-      if (!boundary[w]) around[v] += excess[w] / 2;
-      if (!boundary[v]) around[w] += excess[v] / 2;
-    }
-  return around;
-}
-
-// `around` is what `excess_around` says. Takes off what chance gives (SaddleThresholds), but not
-// where the neighbourhood is a saddle: without that, distances on tubes that wind came out up to 24
-// % too short.
-template <class Real>
-void leave_noise(std::span<const TriangleRecord<Real>> triangles, std::span<const char> boundary,
-                 const SaddleThresholds& saddles, std::span<const double> around,
-                 std::vector<double>& excess) {
-  std::vector<double> lack(excess.size(), 0);
-  std::vector<int> neighbours(excess.size(), 0);
-  for (const TriangleRecord<Real>& t : triangles.first(triangles.size() - 1))
-    for (std::size_t i = 0; i < 3; ++i) {
-      const Index v = t.corner[i], w = t.corner[edge_after(i)];
-      for (const auto& [of, by] : {std::pair{v, w}, std::pair{w, v}}) {
-        if (boundary[by]) continue;
-        lack[of] += std::max(0.0, -excess[by]);
-        ++neighbours[of];
-      }
-    }
-  for (std::size_t v = 0; v < excess.size(); ++v)
-    if (!boundary[v] && excess[v] > 0 && neighbours[v] > 0 && around[v] <= saddles.neighbourhood)
-      excess[v] -= std::min(saddles.most_noise, saddles.noise_share * lack[v] / neighbours[v]);
 }
 
 // Both sides of an edge must agree to the last bit: the mean of what they say.
@@ -174,11 +138,8 @@ void refuse_refraction(const SurfaceSummary& summary, const char* what) {
 }
 
 SaddleThresholds SaddleThresholds::standard() {
-  return {.interior = 1e-5,
-          .boundary = 1e-6,
-          .noise_share = 1,
-          .most_noise = 0.02,
-          .neighbourhood = 0.01};
+  return {
+      .interior = 1e-5, .boundary = 1e-6, .noise_share = 1, .most_noise = 0.02, .agreement = 0.7};
 }
 
 template <class Real>
@@ -243,18 +204,9 @@ void TriangleMesh<Real>::assemble(FaceLayout layout, const TriangleShapes& shape
   summary_.edges = layout.edges;
   summary_.boundary_edges = layout.boundary_edges;
   summary_.non_manifold_edges = layout.non_manifold_edges;
-  if (hints.refracts) {
-    summary_.refracting_edges = layout.mark_refraction(shapes);
-  }
+  if (hints.refracts) summary_.refracting_edges = layout.mark_refraction(shapes);
 
   VertexFans fans = find_vertex_fans(layout);
-  corner_of_vertex_ = std::move(fans.corner);
-  irregular_ = std::move(fans.irregular);
-  irregular_begin_ = std::move(fans.irregular_begin);
-  irregular_corners_ = std::move(fans.irregular_corners);
-  pinched_ = std::move(fans.pinched);
-  summary_.pinched_vertices = pinched_.size();
-  summary_.components = fans.components;
 
   // What the layout says goes into the records, so that it need not be held while they are filled.
   triangles_.reserve(m + 1);
@@ -275,7 +227,21 @@ void TriangleMesh<Real>::assemble(FaceLayout layout, const TriangleShapes& shape
   layout = {};
 
   std::vector<double> angle = take_shapes(shapes);
-  mark_saddles(std::move(angle), fans.on_boundary, hints);
+  for (std::size_t v = 0; v < angle.size(); ++v)  // from here on what is more than flat
+    angle[v] -= (fans.on_boundary[v] ? 1 : 2) * std::numbers::pi;
+  mark_saddles<Real>(triangles_, fans, std::move(angle), hints);
+
+  corner_of_vertex_ = std::move(fans.corner);
+  irregular_ = std::move(fans.irregular);
+  irregular_begin_ = std::move(fans.irregular_begin);
+  irregular_corners_ = std::move(fans.irregular_corners);
+  pinched_ = std::move(fans.pinched);
+  summary_.pinched_vertices = pinched_.size();
+  summary_.components = fans.components;
+  const auto own = shapes.positions();
+  place(own.empty() ? hints.positions : own);
+  in_space_ = !own.empty();
+  take_chords(hints.chords);
 }
 
 // Fills in lengths, cosines and sines. Returns the angle around each vertex.
@@ -324,31 +290,31 @@ std::vector<double> TriangleMesh<Real>::take_shapes(const TriangleShapes& shapes
   return around;
 }
 
+// In double: next to a source, single precision would say nothing on a large surface.
 template <class Real>
-void TriangleMesh<Real>::mark_saddles(std::vector<double> angle, std::span<const char> on_boundary,
-                                      const SurfaceHints& hints) {
-  // Saddles: vertices with so much angle around them that shortest paths bend there.
-  const SaddleThresholds& saddles = hints.saddles;
-  const std::size_t vertices = vertex_count();
-  for (std::size_t v = 0; v < vertices; ++v)  // from here on what is more than flat
-    angle[v] -= on_boundary[v] ? std::numbers::pi + saddles.boundary
-                               : 2 * std::numbers::pi + saddles.interior;
-  std::vector<double> around = excess_around<Real>(triangles_, angle, on_boundary);
-  if (!hints.samples) leave_noise<Real>(triangles_, on_boundary, saddles, around, angle);
-  for (std::size_t r = 0; r < irregular_.size(); ++r) {
-    const auto corners =
-        std::span<const Index>(irregular_corners_)
-            .subspan(irregular_begin_[r], irregular_begin_[r + 1] - irregular_begin_[r]);
-    const double bends = is_open_book<Real>(triangles_, corners) ? -1 : 1;
-    angle[irregular_[r]] = around[irregular_[r]] = bends;
-  }
-  std::vector<char> bends(vertices);
-  for (std::size_t v = 0; v < vertices; ++v)
-    bends[v] = angle[v] > 0 && (!hints.samples || on_boundary[v] || around[v] > 0);
-  for (std::size_t f = 0; f < face_count(); ++f) {
-    TriangleRecord<Real>& t = triangles_[f];
+void TriangleMesh<Real>::place(std::span<const std::array<double, 3>> positions) {
+  if (positions.empty()) return;
+  constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+  positions_.assign(vertex_count(), {unknown, unknown, unknown});
+  for (std::size_t v = 0; v < positions.size(); ++v)
     for (std::size_t i = 0; i < 3; ++i)
-      if (bends[t.corner[i]]) t.signed_sine[i] = std::copysign(t.signed_sine[i], Real(-1));
+      positions_[vertex_to_inside_[v]][i] = (positions[v][i] - positions[0][i]) / unit();
+}
+
+template <class Real>
+void TriangleMesh<Real>::take_chords(std::span<const SurfaceChord> chords) {
+  if (chords.empty()) return;
+  chord_begin_.assign(vertex_count() + 1, 0);
+  for (const SurfaceChord& chord : chords)
+    for (const Index v : {chord.from, chord.to}) ++chord_begin_[vertex_to_inside_[v] + 1];
+  for (std::size_t v = 0; v < vertex_count(); ++v) chord_begin_[v + 1] += chord_begin_[v];
+  chords_.resize(2 * chords.size());
+  std::vector<Index> end(chord_begin_.begin(), chord_begin_.end() - 1);
+  for (const SurfaceChord& chord : chords) {
+    const Index v = vertex_to_inside_[chord.from], w = vertex_to_inside_[chord.to];
+    const Real length = static_cast<Real>(chord.length / unit());
+    chords_[end[v]++] = {w, length};
+    chords_[end[w]++] = {v, length};
   }
 }
 
@@ -357,7 +323,7 @@ std::size_t TriangleMesh<Real>::bytes() const {
   const auto of = [](const auto& v) { return v.capacity() * sizeof(v[0]); };
   return sizeof(*this) + of(triangles_) + of(vertex_to_inside_) + of(face_to_inside_) +
          of(corner_of_vertex_) + of(irregular_) + of(irregular_begin_) + of(irregular_corners_) +
-         of(pinched_);
+         of(pinched_) + of(positions_) + of(chord_begin_) + of(chords_);
 }
 
 template <class Real>

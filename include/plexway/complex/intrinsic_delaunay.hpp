@@ -128,7 +128,7 @@ class IntrinsicDelaunay {
   template <class Real>
   [[nodiscard]] TriangleMesh<Real> mesh(
       const SaddleThresholds& saddles = SaddleThresholds::standard()) const;
-  /// Once the meshes wanted are made: frees what they were made from, 96 bytes a triangle. mesh()
+  /// Once the meshes wanted are made: frees what they were made from, 96 bytes a triangle and more. mesh()
   /// then throws UsageError; points are mapped as before.
   void release_triangles();
   [[nodiscard]] const DelaunaySummary& summary() const;
