@@ -65,8 +65,21 @@ void check_same(const TriangleMesh<Real>& a, const TriangleMesh<Real>& b) {
   CHECK(a.summary().components == b.summary().components);
   CHECK(a.summary().boundary_edges == b.summary().boundary_edges);
   CHECK(a.unit() == Approx(b.unit()).epsilon(1e-14));
+  CHECK(a.faces_are_in_space() == b.faces_are_in_space());
+  CHECK(a.has_chords() == b.has_chords());
+  REQUIRE(a.positions().size() == b.positions().size());
   std::size_t others = 0;
   double farthest = 0;
+  for (Index v = 0; v < a.vertex_count(); ++v) {
+    const auto c = a.chords_at(v), d = b.chords_at(v);
+    REQUIRE(c.size() == d.size());
+    for (std::size_t k = 0; k < c.size(); ++k) {
+      others += c[k].vertex != d[k].vertex;
+      farthest = std::max(farthest, std::abs(static_cast<double>(c[k].length - d[k].length)));
+    }
+    for (std::size_t i = 0; i < 3 && !a.positions().empty(); ++i)
+      CHECK(a.positions()[v][i] == Approx(b.positions()[v][i]).margin(1e-12));
+  }
   for (Index f = 0; f <= a.face_count(); ++f) {
     const auto &t = a.triangles()[f], &u = b.triangles()[f];
     others += t.face != u.face;
