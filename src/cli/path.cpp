@@ -75,23 +75,17 @@ std::span<const std::array<double, 3>> positions_of(const Shape& shape) {
     return shape.positions;
 }
 
-// Solves on other triangles over the same surface: an executor to PathField.
+// The distances of the input's vertices, on other triangles over the same surface.
 template <class Real>
-struct OnTriangles {
-  const TriangleMesh<Real>* mesh;
-  const IntrinsicDelaunay* delaunay;
-};
-
-template <class Real>
-DistanceField<Real> propagate(const OnTriangles<Real>& other, const TriangleMesh<Real>& input,
-                              std::span<const PointSource> sources,
-                              const PropagateOptions& options) {
+DistanceField<Real> solve_on(const TriangleMesh<Real>& other, const IntrinsicDelaunay& delaunay,
+                             std::size_t vertices, std::span<const PointSource> sources,
+                             const PropagateOptions& options) {
   std::vector<PointSource> there;
-  for (const PointSource& source : sources) there.push_back(other.delaunay->to_intrinsic(source));
+  for (const PointSource& source : sources) there.push_back(delaunay.to_intrinsic(source));
   DistanceField<Real> field =
-      plexway::propagate(Serial{}, *other.mesh, std::span<const PointSource>(there), options);
-  field.distance.resize(input.vertex_count());
-  field.label.resize(std::min(field.label.size(), input.vertex_count()));
+      propagate(Serial{}, other, std::span<const PointSource>(there), options);
+  field.distance.resize(vertices);
+  field.label.resize(std::min(field.label.size(), vertices));
   return field;
 }
 
@@ -137,8 +131,8 @@ Outcome find_paths(const Shape& shape, const MeasuredLengths* lengths, const Pat
                                         other, outcome.triangulation);
     elsewhere = outcome.triangulation.flips + outcome.triangulation.inserted_vertices > 0;
     if (elsewhere)
-      field.solve(OnTriangles<Real>{&other, &*delaunay}, std::span<const PointSource>(sources),
-                  with_progress);
+      field.adopt(solve_on(other, *delaunay, complex.vertex_count(), sources, with_progress),
+                  sources);
   }
   if (!elsewhere) field.solve(Serial{}, std::span<const PointSource>(sources), with_progress);
   outcome.solve = solving.seconds();
@@ -242,8 +236,7 @@ std::string to_text(const PathCommand& command, const Domain& domain, const Outc
 }
 
 // Things the user should know about paths that were found.
-void say_notes(const PathCommand& command, const Outcome& outcome,
-               const std::vector<PointSource>& sources) {
+void say_notes(const Outcome& outcome, const std::vector<PointSource>& sources) {
   std::size_t capped = 0, apart = 0;
   double most = 0;
   for (std::size_t k = 0; k < outcome.paths.size(); ++k) {
@@ -344,7 +337,7 @@ void run_path(const PathCommand& command) {
   if (unreached == outcome.paths.size())
     throw NothingReached(command.input + ": nothing reached: no path leads to any target");
   if (!command.quiet) say_violations(domain, lengths.get());
-  if (!command.quiet) say_notes(command, outcome, sources);
+  if (!command.quiet) say_notes(outcome, sources);
   if (unreached > 0 && !command.quiet)
     say_note(counted(unreached, "targets") + " not reached: no path leads there");
 }
