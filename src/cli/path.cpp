@@ -126,13 +126,13 @@ Outcome find_paths(const Shape& shape, const MeasuredLengths* lengths, const Pat
   bool elsewhere = false;
   if constexpr (std::is_same_v<Shape, io::Triangles>) {
     // On the triangles that `distance` takes, so that both say the same.
-    TriangleMesh<Real> other(complex);
-    const auto delaunay = retriangulate(triangulation_of(command.triangulation), shape, lengths,
-                                        other, outcome.triangulation);
+    const auto made = make_surface<Real>(triangulation_of(command.triangulation), shape, lengths,
+                                         outcome.triangulation);
     elsewhere = outcome.triangulation.flips + outcome.triangulation.inserted_vertices > 0;
     if (elsewhere)
-      field.adopt(solve_on(other, *delaunay, complex.vertex_count(), sources, with_progress),
-                  sources);
+      field.adopt(
+          solve_on(made.mesh, *made.delaunay, complex.vertex_count(), sources, with_progress),
+          sources);
   }
   if (!elsewhere) field.solve(Serial{}, std::span<const PointSource>(sources), with_progress);
   outcome.solve = solving.seconds();
