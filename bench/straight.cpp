@@ -39,7 +39,7 @@ nlohmann::ordered_json measure(const bench::Surface& surface, Retriangulation ki
             .template mesh<Real>();
   plexway::Workspace<Real> workspace;
   plexway::DistanceField<Real> field;
-  std::size_t below = 0, fields = 0, long_edges = 0, repaired = 0;
+  std::size_t below = 0, fields = 0, long_edges = 0;
   double most_below = 0, most_long = 0;
   bench::Index where = 0, from = 0;
   for (const bench::Index source : bench::rotating_sources(surface, sources)) {

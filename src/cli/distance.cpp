@@ -206,10 +206,10 @@ void say_notes(const Domain& domain, const Solver& solver, const Outcome& outcom
              " came out farther than a neighbour and the edge between, and were given that way: "
              "distances here are less accurate");
   // Rounding turns a line of sight a little at each edge.
-  constexpr double too_many = 2e5;
+  constexpr double too_many = 5e4;
   if (single && outcome.max_distance > too_many * solver.mean_edge() && solver.mean_edge() > 0)
     say_note("distances of up to " + short_number(outcome.max_distance / solver.mean_edge()) +
-             " edges are more than single precision holds to 1e-4: use --precision double");
+             " edges: single precision may be off by more than 1e-4; use --precision double");
   const std::size_t unreached = domain.vertices() - outcome.reached;
   if (unreached == 0) return;
   const std::string why = why_unreached(domain, solver, bounded);
