@@ -24,6 +24,7 @@ if [ "${QUICK:-0}" = 1 ]; then
   exact="--exact-limit 2000"
   scale="--sizes 5000,20000 $effort"
   triangulation="--sizes 20000"
+  build="--sizes 20000 --repeats 1"
   corners="--most 100 --seeds 1"
   metrics="--cells 20,50"
   curves="--cells 30 --turns 1"
@@ -36,6 +37,7 @@ else
   exact=""
   scale=""
   triangulation=""
+  build=""
   corners=
   metrics=
   curves=
@@ -85,6 +87,7 @@ peers=$bin/bench_cgal
   run policy "$bin/bench_policy" "$@" $effort
   run triangulation "$bin/bench_triangulation" "$@" $triangulation $effort
   run windows "$bin/bench_windows" "$@" $effort
+  run build "$bin/bench_build" "$@" $build
   [ -z "$data" ] || run parity "$bin/bench_parity" "$@"
   run corners "$bin/bench_corners" $corners
   run metrics "$bin/bench_metrics" $metrics

@@ -63,7 +63,7 @@ plexway::SaddleThresholds thresholds(const std::string& file) {
   if (file.empty()) return plexway::SaddleThresholds::standard();
   const auto json = read_json(file);
   return {json.at("interior"), json.at("boundary"), json.at("noise_share"), json.at("most_noise"),
-          json.at("neighbourhood")};
+          json.at("agreement")};
 }
 
 std::optional<Mesh> other_triangles(const bench::Surface& surface,

@@ -22,6 +22,9 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
+// Labels and the path they lead to differ by less, or the labels are poor there.
+constexpr double doubt = 1e-2;
+
 // What single precision may have done to lengths.
 constexpr double rounding = 1e-5;
 
@@ -280,21 +283,34 @@ SearchResult PathSearch<Real>::find(Serial, std::span<const PointSource> sources
     result.distance.push_back(s.best_of(s.targets[n]) * mesh.unit());
     result.paths.push_back(
         or_no_way_at_all(trace.trace(targets[n], options.trace), solved, targets[n]));
-    if (result.paths[n].source == none && result.distance[n] < infinity) lost.push_back(n);
+    const Path& path = result.paths[n];
+    const double length =
+        path.source == none ? path.length : path.length + sources[path.source].offset;
+    const bool doubtful = options.trace.margin > 0 && path.source != none &&
+                          (path.capped || std::abs(length - result.distance[n]) > doubt * length);
+    if (doubtful || (path.source == none && result.distance[n] < infinity)) lost.push_back(n);
   }
   s.labels = nullptr;
   s.heuristic = nullptr;
   result.complete = !front.out_of_budget();
   result.statistics = {front.expansions(), front.updates(), front.reached_count()};
   if (lost.empty() || !result.complete) return result;
-  // Labels overtaken meanwhile lead back in circles, once in a thousand on needles. Distances at
-  // all vertices lead out of them.
+  // Labels overtaken meanwhile lead back in circles, once in a thousand on needles, or say too
+  // little of what is left to go for the shortest path to be found near it. Distances at all
+  // vertices lead out of that.
   PathField field(mesh, s.positions);
   field.solve(Serial{}, sources);
   for (const std::size_t n : lost) {
     PointSource target = targets[n];
     target.offset = 0;
-    result.paths[n] = field.trace(target, options.trace);
+    Path path = field.trace(target, options.trace);
+    const auto length = [&](const Path& p) {
+      return p.source == none ? infinity : p.length + sources[p.source].offset;
+    };
+    if (!(length(result.paths[n]) <= length(path))) result.paths[n] = std::move(path);
+    // What the whole field has looked through is looked through.
+    else
+      result.paths[n].capped = path.capped;
   }
   result.statistics.expansions += field.distances().statistics.expansions;
   result.statistics.updates += field.distances().statistics.updates;

@@ -277,6 +277,7 @@ Path SurfaceTrace<Real>::to_path(const Traced& traced) const {
   Path path;
   path.source = traced.source;
   path.windows = traced.windows;
+  path.capped = traced.capped;
   path.length = 0;
   const auto push = [&](Index f, const std::array<double, 3>& b) {
     const Index number = mesh_.triangles()[f].face;

@@ -83,6 +83,7 @@ class SurfaceTrace {
     double length = 0;
     Index source = none;
     std::size_t windows = 0;  // looked at
+    bool capped = false;      // and there were more
   };
   [[nodiscard]] Traced straighten(Way way) const;
   [[nodiscard]] Path to_path(const Traced& traced) const;

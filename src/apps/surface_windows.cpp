@@ -77,11 +77,11 @@ void SurfaceTrace<Real>::search_windows(Index f, const std::array<double, 3>& b,
   for (std::size_t i = 0; i < 3; ++i)
     promise = std::min(promise,
                        left(mesh_.triangles()[f].corner[i]) + shape_.distance(f, at_corner(i), b));
-  double margin = options.margin;
-  while (margin > 0 && best.windows < options.max_windows) {
+  // Looks for something shorter within a margin. False if windows ran out before all was seen.
+  const auto look = [&](double margin, std::size_t most) {
     const double known = length();
-    auto found = search.find(f, b, known * shorter, margin, options.max_windows - best.windows);
-    const std::size_t windows = best.windows + found.windows;
+    auto found = search.find(f, b, known * shorter, margin, most);
+    std::size_t windows = best.windows + found.windows;
     if (found.goal != none) {
       if (found.strips.empty()) {  // the point is that source
         Strip stay;
@@ -93,11 +93,31 @@ void SurfaceTrace<Real>::search_windows(Index f, const std::array<double, 3>& b,
       if (traced.length + solved_.sources[found.goal].offset < known) best = std::move(traced);
     }
     best.windows = windows;
+    return found.complete;
+  };
+  // What is far from the known way uses up windows that are wanted near it. So margins beyond the
+  // usual are reached in steps, each with the length that the last found; and where windows run
+  // out, narrower ones are tried. A larger margin is then never worse.
+  bool seen = true;
+  std::size_t used = 0;
+  const auto widen = [&](double margin) {
+    const std::size_t before = best.windows;
+    seen = look(margin, options.max_windows - used);
+    used += best.windows - before;
+    double narrower = margin;
+    for (int i = 0; i < 4 && !seen; ++i) look(narrower /= 2, options.max_windows);
+  };
+  double margin = std::min(options.margin, TraceOptions().margin);
+  while (margin > 0 && seen && used < options.max_windows) {
+    const double known = length();
+    widen(margin);
     const double gain = 1 - length() / known;
     const double off = promise > 0 && promise < infinity ? std::abs(length() / promise - 1) : 0;
     const double next = std::min(4 * std::max(gain, off), widest);
-    margin = next > margin ? std::max(next, 2 * margin) : 0;
+    const double wanted = margin < options.margin ? std::min(2 * margin, options.margin) : 0;
+    margin = next > margin ? std::max(next, 2 * margin) : wanted;
   }
+  best.capped = !seen || margin > 0;
 }
 
 template void SurfaceTrace<float>::search_windows(Index, const std::array<double, 3>&,

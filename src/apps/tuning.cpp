@@ -192,11 +192,11 @@ std::vector<EvolvedParameter> saddle_parameters() {
           {"boundary", 1e-7, 1e-2, true},
           {"noise_share", 0, 2},
           {"most_noise", 1e-4, 0.2, true},
-          {"neighbourhood", 1e-3, 1, true}};
+          {"agreement", 0, 1}};
 }
 
 std::vector<double> values_of(const SaddleThresholds& t) {
-  return {t.interior, t.boundary, t.noise_share, t.most_noise, t.neighbourhood};
+  return {t.interior, t.boundary, t.noise_share, t.most_noise, t.agreement};
 }
 
 SaddleThresholds saddle_thresholds_of(std::span<const double> values) {

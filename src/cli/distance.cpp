@@ -103,6 +103,10 @@ Json to_json(const DistanceCommand& command, const Domain& domain, const Solver&
   json["max_distance"] = json_number(outcome.max_distance);
   json["expansions"] = solver.statistics().expansions;
   json["updates"] = solver.statistics().updates;
+  if (domain.kind() == "surface") {
+    json["lowered_vertices"] = solver.statistics().lowered_vertices;
+    json["raised_vertices"] = solver.statistics().raised_vertices;
+  }
   json["executor"] = executor_name(outcome.executor);
   json["threads"] = executor_threads(outcome.executor);
   json["precision"] = command.solve.precision == "float" ? "float" : "double";
@@ -182,7 +186,8 @@ std::string why_unreached(const Domain& domain, const Solver& solver, bool bound
 }
 
 // Things the user should know, though nothing failed.
-void say_notes(const Domain& domain, const Solver& solver, const Outcome& outcome, bool bounded) {
+void say_notes(const Domain& domain, const Solver& solver, const Outcome& outcome, bool bounded,
+               bool single) {
   if (domain.cloud() != nullptr && domain.cloud()->not_finite > 0)
     say_note(counted(domain.cloud()->not_finite, "points") +
              " not finite, and dropped: vertices count those that are left");
@@ -190,6 +195,21 @@ void say_notes(const Domain& domain, const Solver& solver, const Outcome& outcom
     say_note("stopped after " + counted(solver.statistics().expansions, "expansions") +
              ": distances may still be too long");
   }
+  const std::size_t raised = solver.statistics().raised_vertices;
+  if (100 * raised > domain.vertices())
+    say_note(counted(raised, "vertices") +
+             " came out nearer than the straight line through space, and were given its length: "
+             "distances here are poor; another --triangulation may do better");
+  const std::size_t lowered = solver.statistics().lowered_vertices;
+  if (20 * lowered > domain.vertices())
+    say_note(counted(lowered, "vertices") +
+             " came out farther than a neighbour and the edge between, and were given that way: "
+             "distances here are less accurate");
+  // Rounding turns a line of sight a little at each edge.
+  constexpr double too_many = 5e4;
+  if (single && outcome.max_distance > too_many * solver.mean_edge() && solver.mean_edge() > 0)
+    say_note("distances of up to " + short_number(outcome.max_distance / solver.mean_edge()) +
+             " edges: single precision may be off by more than 1e-4; use --precision double");
   const std::size_t unreached = domain.vertices() - outcome.reached;
   if (unreached == 0) return;
   const std::string why = why_unreached(domain, solver, bounded);
@@ -316,7 +336,7 @@ void run_distance(DistanceCommand command) {
   if (!command.quiet) say_violations(domain, lengths.get());
   if (!command.quiet && !command.isolines.out.empty() && isovalues.empty())
     say_note("--isolines-out holds nothing: no distance is as large as the step");
-  if (!command.quiet) say_notes(domain, *solver, outcome, bounded);
+  if (!command.quiet) say_notes(domain, *solver, outcome, bounded, precision == Precision::single);
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include <plexway/error.hpp>
 
 #include "commands.hpp"
+#include "console.hpp"
 #include "distance_output.hpp"
 #include "point_output.hpp"
 #include "progress.hpp"
@@ -47,6 +48,10 @@ void run_pairs(const PairsCommand& command) {
   summary.table.add("two ways",
                     "differ by " + short_number(matrix.asymmetry) + " of the shorter at most");
   summary.finish(command, matrix.statistics, seconds);
+  if (matrix.asymmetry > 0.01 && !command.quiet)
+    say_note("the two ways between some points, there and back, differ by " +
+             short_number(100 * matrix.asymmetry) +
+             " %, so one of them is off by half of that or more: 'plexway path' is more exact");
 }
 
 }  // namespace

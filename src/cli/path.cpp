@@ -1,5 +1,7 @@
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <memory>
 #include <span>
 #include <string>
@@ -11,6 +13,7 @@
 #include <plexway/apps/cloud_path_field.hpp>
 #include <plexway/apps/path_field.hpp>
 #include <plexway/apps/path_search.hpp>
+#include <plexway/complex/intrinsic_delaunay.hpp>
 #include <plexway/error.hpp>
 #include <plexway/executors/serial.hpp>
 #include <plexway/executors/serial_solid.hpp>
@@ -29,6 +32,7 @@
 #include "report.hpp"
 #include "solve_options.hpp"
 #include "source_argument.hpp"
+#include "triangulation_option.hpp"
 
 namespace plexway::cli {
 namespace {
@@ -44,6 +48,7 @@ struct PathCommand {
   TraceOptions trace;
   PictureArguments picture;
   MetricArgument metric;
+  TriangulationArgument triangulation;
   bool astar = false;
   bool margin_given = false;
   bool json = false;
@@ -53,6 +58,8 @@ struct PathCommand {
 struct Outcome {
   std::vector<Path> paths;
   std::vector<double> distance;  // none where only a part was searched
+  std::vector<double> promised;  // of each target, as the field has it
+  TriangulationReport triangulation;
   PropagateStatistics statistics;
   double build = 0, solve = 0, trace = 0;
 };
@@ -66,6 +73,20 @@ std::span<const std::array<double, 3>> positions_of(const Shape& shape) {
     return shape.measured();
   else
     return shape.positions;
+}
+
+// The distances of the input's vertices, on other triangles over the same surface.
+template <class Real>
+DistanceField<Real> solve_on(const TriangleMesh<Real>& other, const IntrinsicDelaunay& delaunay,
+                             std::size_t vertices, std::span<const PointSource> sources,
+                             const PropagateOptions& options) {
+  std::vector<PointSource> there;
+  for (const PointSource& source : sources) there.push_back(delaunay.to_intrinsic(source));
+  DistanceField<Real> field =
+      propagate(Serial{}, other, std::span<const PointSource>(there), options);
+  field.distance.resize(vertices);
+  field.label.resize(std::min(field.label.size(), vertices));
+  return field;
 }
 
 template <class Real, class Shape>
@@ -90,6 +111,7 @@ Outcome find_paths(const Shape& shape, const MeasuredLengths* lengths, const Pat
       search_options.trace = command.trace;
       SearchResult found = search.find(Serial{}, sources, targets, search_options);
       outcome.paths = std::move(found.paths);
+      outcome.promised = std::move(found.distance);
       outcome.statistics = found.statistics;
       outcome.solve = solving.seconds();
       return outcome;
@@ -101,14 +123,49 @@ Outcome find_paths(const Shape& shape, const MeasuredLengths* lengths, const Pat
   PathField field(complex, positions);
   PropagateOptions with_progress = options;
   with_progress.progress = progress.callback();
-  field.solve(Serial{}, std::span<const PointSource>(sources), with_progress);
+  bool elsewhere = false;
+  if constexpr (std::is_same_v<Shape, io::Triangles>) {
+    // On the triangles that `distance` takes, so that both say the same.
+    const auto made = make_surface<Real>(triangulation_of(command.triangulation), shape, lengths,
+                                         outcome.triangulation);
+    elsewhere = outcome.triangulation.flips + outcome.triangulation.inserted_vertices > 0;
+    if (elsewhere)
+      field.adopt(
+          solve_on(made.mesh, *made.delaunay, complex.vertex_count(), sources, with_progress),
+          sources);
+  }
+  if (!elsewhere) field.solve(Serial{}, std::span<const PointSource>(sources), with_progress);
   outcome.solve = solving.seconds();
   outcome.statistics = field.distances().statistics;
   outcome.distance.assign(field.distances().distance.begin(), field.distances().distance.end());
   progress.phase("tracing");
   const Stopwatch tracing;
-  for (const PointSource& target : targets)
+  for (const PointSource& target : targets) {
     outcome.paths.push_back(field.trace(target, command.trace));
+    double promised = target.vertex == none ? 0 : outcome.distance[target.vertex];
+    if constexpr (requires { field.at(target, ReadOut::linear); })
+      if (target.vertex == none) promised = field.at(target, ReadOut::linear);
+    outcome.promised.push_back(promised);
+  }
+  if constexpr (std::is_same_v<Shape, io::Triangles>) {
+    std::vector<std::size_t> doubtful;
+    for (std::size_t k = 0; k < targets.size(); ++k) {
+      const Path& path = outcome.paths[k];
+      if (path.source != none &&
+          (path.capped || path.length + sources[path.source].offset > 1.001 * outcome.promised[k]))
+        doubtful.push_back(k);
+    }
+    // Labels on the triangles of the path lead closer to it than distances of vertices do.
+    if (elsewhere && !doubtful.empty()) {
+      field.solve(Serial{}, std::span<const PointSource>(sources), with_progress);
+      for (const std::size_t k : doubtful) {
+        Path path = field.trace(targets[k], command.trace);
+        const auto length = [&](const Path& p) { return p.length + sources[p.source].offset; };
+        if (path.source != none && length(path) < length(outcome.paths[k]))
+          outcome.paths[k] = std::move(path);
+      }
+    }
+  }
   outcome.trace = tracing.seconds();
   return outcome;
 }
@@ -137,8 +194,10 @@ Json to_json(const PathCommand& command, const Domain& domain, const Outcome& ou
     one["to"] = command.to[k];
     one["from"] = path.source == none ? Json() : Json(command.from[path.source]);
     one["length"] = json_number(path.length);
+    one["distance"] = json_number(outcome.promised[k]);
     one["points"] = path.points.size();
     one["windows"] = path.windows;
+    one["capped"] = path.capped;
     json["paths"].push_back(one);
   }
   if (!command.metric.text.empty()) json["metric"] = command.metric.text;
@@ -150,6 +209,7 @@ Json to_json(const PathCommand& command, const Domain& domain, const Outcome& ou
   json["expansions"] = outcome.statistics.expansions;
   json["updates"] = outcome.statistics.updates;
   json["executor"] = "serial";
+  if (domain.kind() == "surface") json["triangulation"] = name_of(outcome.triangulation);
   return json;
 }
 
@@ -175,6 +235,28 @@ std::string to_text(const PathCommand& command, const Domain& domain, const Outc
   return table.text();
 }
 
+// Things the user should know about paths that were found.
+void say_notes(const Outcome& outcome, const std::vector<PointSource>& sources) {
+  std::size_t capped = 0, apart = 0;
+  double most = 0;
+  for (std::size_t k = 0; k < outcome.paths.size(); ++k) {
+    const Path& path = outcome.paths[k];
+    if (path.source == none) continue;
+    capped += path.capped;
+    const double length = path.length + sources[path.source].offset;
+    const double gap = length > 0 ? std::abs(outcome.promised[k] / length - 1) : 0;
+    if (!(gap > 0.01) || !std::isfinite(gap)) continue;
+    ++apart;
+    most = std::max(most, gap);
+  }
+  if (capped > 0)
+    say_note(counted(capped, "paths") +
+             ": the search for a shorter one ended early, so there may be one");
+  if (apart > 0)
+    say_note(counted(apart, "paths") + ": the length differs from the distance by up to " +
+             short_number(100 * most) + " %; the length is the more exact");
+}
+
 void run_path(const PathCommand& command) {
   const PropagateOptions options = propagate_options(command.solve);
   const Precision precision = precision_of(command.solve);
@@ -192,6 +274,10 @@ void run_path(const PathCommand& command) {
   if (command.astar && (command.solve.schedule_given || command.solve.step_given))
     throw UsageError(
         "--astar takes simplices in an order of its own: leave out --schedule and --step");
+  const Triangulation triangulation = triangulation_of(command.triangulation);
+  if (command.astar && triangulation != Triangulation::automatic &&
+      triangulation != Triangulation::input)
+    throw UsageError("--astar searches the triangles of the file: leave out --triangulation");
   check_picture(command.picture, command.input);
   const std::array read = {metric_file(command.metric), command.solve.table};
   check_output_place(command.out, read, "--out");
@@ -202,6 +288,7 @@ void run_path(const PathCommand& command) {
   if (command.astar && domain.kind() != "surface")
     throw UsageError("--astar: a " + std::string(domain.kind()) +
                      " is solved as a whole; A* is for surfaces");
+  check_triangulation(triangulation, domain);
   if (command.margin_given && domain.kind() != "surface" && domain.cloud() == nullptr)
     throw UsageError("--margin: for surfaces and clouds, not a " + std::string(domain.kind()));
   const std::vector<PointSource> sources = locate_sources(domain, from);
@@ -250,6 +337,7 @@ void run_path(const PathCommand& command) {
   if (unreached == outcome.paths.size())
     throw NothingReached(command.input + ": nothing reached: no path leads to any target");
   if (!command.quiet) say_violations(domain, lengths.get());
+  if (!command.quiet) say_notes(outcome, sources);
   if (unreached > 0 && !command.quiet)
     say_note(counted(unreached, "targets") + " not reached: no path leads there");
 }
@@ -286,6 +374,7 @@ void add_path_command(CLI::App& tool, Action& action) {
   app.add_flag("--json", command->json, "print the summary as one JSON object");
   app.add_flag("--quiet,-q", command->quiet, "no summary, notes or progress; errors stay");
   add_solve_options(app, command->solve, false);
+  add_triangulation_option(app, command->triangulation);
   add_metric_option(app, command->metric);
   add_fill_options(app, command->fill);
   add_cloud_options(app, command->cloud);

@@ -34,17 +34,24 @@ std::size_t simplex_count(const Complex& complex) {
 template <class Real, class Shape>
 class ShapeSolver final : public Solver {
  public:
-  ShapeSolver(const Shape& shape, [[maybe_unused]] Triangulation triangulation,
-              const MeasuredLengths* lengths)
-      : complex_(make_complex<Real>(shape, lengths)), simplices_(simplex_count(complex_)) {
+  ShapeSolver(const Shape& shape, Triangulation triangulation, const MeasuredLengths* lengths)
+      : complex_(build(shape, triangulation, lengths)),
+        simplices_(simplices_of(shape)),
+        shape_(shape),
+        lengths_(lengths),
+        left_open_(triangulation == Triangulation::automatic) {
     check_precision<Real>(complex_);
-    if constexpr (std::is_same_v<Shape, io::Triangles>)
-      delaunay_ = retriangulate(triangulation, shape, lengths, complex_, triangulation_);
   }
 
   std::size_t components() const override { return complex_.summary().components; }
   std::size_t simplices() const override { return simplices_; }
-  TriangulationReport triangulation() const override { return triangulation_; }
+  TriangulationReport triangulation() const override {
+    return on_input_ ? TriangulationReport() : triangulation_;
+  }
+  double mean_edge() const override {
+    if constexpr (std::is_same_v<Shape, io::Triangles>) return complex_.unit();
+    return 0;
+  }
   std::size_t refracting_edges() const override {
     if constexpr (std::is_same_v<Shape, io::Triangles>) return complex_.summary().refracting_edges;
     return 0;
@@ -59,6 +66,23 @@ class ShapeSolver final : public Solver {
       there = moved_;
     }
     std::visit([&](const auto& chosen) { solve_on(chosen, there, options); }, executor);
+    on_input_ = false;
+    if constexpr (std::is_same_v<Shape, io::Triangles>)
+      if (delaunay_ && left_open_ && 50 * repairs(field_) > field_.distance.size()) {
+        // Which triangles are better was only guessed.
+        if (!input_) input_.emplace(make_complex<Real>(shape_, lengths_));
+        DistanceField<Real> other;
+        std::visit(
+            [&](const auto& chosen) {
+              if constexpr (!std::is_same_v<std::decay_t<decltype(chosen)>, GL>)
+                propagate(chosen, *input_, sources, options, workspace_, other);
+            },
+            executor);
+        if (!other.distance.empty() && repairs(other) < repairs(field_)) {
+          field_ = std::move(other);
+          on_input_ = true;
+        }
+      }
   }
 
   void solve_from(const Executor& executor, std::span<const Source> sources,
@@ -110,7 +134,12 @@ class ShapeSolver final : public Solver {
  private:
   // Vertices at the end that are not the input's.
   [[nodiscard]] std::ptrdiff_t inserted() const {
-    return static_cast<std::ptrdiff_t>(triangulation_.inserted_vertices);
+    return on_input_ ? 0 : static_cast<std::ptrdiff_t>(triangulation_.inserted_vertices);
+  }
+
+  // Vertices whose distances had to be mended.
+  static std::size_t repairs(const DistanceField<Real>& field) {
+    return field.statistics.raised_vertices + field.statistics.lowered_vertices;
   }
 
   using Complex = decltype(make_complex<Real>(std::declval<Shape>()));
@@ -133,10 +162,33 @@ class ShapeSolver final : public Solver {
 #endif
   }
 
-  Complex complex_;
-  std::size_t simplices_;  // before any were added
+  // Sets what comes before the complex.
+  [[nodiscard]] Complex build(const Shape& shape, [[maybe_unused]] Triangulation triangulation,
+                              const MeasuredLengths* lengths) {
+    if constexpr (std::is_same_v<Shape, io::Triangles>) {
+      auto made = make_surface<Real>(triangulation, shape, lengths, triangulation_);
+      delaunay_ = std::move(made.delaunay);
+      return std::move(made.mesh);
+    } else {
+      return make_complex<Real>(shape, lengths);
+    }
+  }
+  // Before any were added.
+  [[nodiscard]] std::size_t simplices_of([[maybe_unused]] const Shape& shape) const {
+    if constexpr (std::is_same_v<Shape, io::Triangles>)
+      return shape.triangles.size();
+    else
+      return simplex_count(complex_);
+  }
+
   std::optional<IntrinsicDelaunay> delaunay_;
   TriangulationReport triangulation_;
+  Complex complex_;
+  std::size_t simplices_;
+  const Shape& shape_;
+  const MeasuredLengths* lengths_;
+  bool left_open_, on_input_ = false;
+  std::optional<Complex> input_;  // where its triangles turned out to be better
   std::vector<PointSource> moved_;
   Workspace<Real> workspace_;
 #ifdef PLEXWAY_HAS_GL

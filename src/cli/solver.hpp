@@ -30,8 +30,11 @@ class Solver {
   [[nodiscard]] virtual std::size_t components() const = 0;
   /// Of the complex: a cloud has triangles only there. Without those of a refinement.
   [[nodiscard]] virtual std::size_t simplices() const = 0;
-  /// Which triangles a surface is solved on.
+  /// Which triangles a surface was solved on: where it was left open and the solve on others left
+  /// much to repair, those of the input after all.
   [[nodiscard]] virtual TriangulationReport triangulation() const { return {}; }
+  /// Mean length of the edges of a surface; else 0.
+  [[nodiscard]] virtual double mean_edge() const { return 0; }
   /// Edges where paths are refracted.
   [[nodiscard]] virtual std::size_t refracting_edges() const { return 0; }
   /// One propagation, read-out to vertices included. Throws as plexway::propagate.
@@ -52,8 +55,8 @@ class Solver {
   [[nodiscard]] virtual std::size_t bytes() const = 0;
 };
 
-/// Builds the complex, by the lengths of a metric where there is one. Throws InputError
-/// "FILE: cause", and UsageError as check_triangulation.
+/// Builds the complex, by the lengths of a metric where there is one, and refers to both. Throws
+/// InputError "FILE: cause", and UsageError as check_triangulation.
 std::unique_ptr<Solver> make_solver(const Domain& domain, Precision precision,
                                     Triangulation triangulation = Triangulation::input,
                                     const MeasuredLengths* lengths = nullptr);

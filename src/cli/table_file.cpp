@@ -71,9 +71,8 @@ Json to_json(const ProbeTable& table) {
 }
 
 Json to_json(const SaddleThresholds& t) {
-  return {{"kind", saddle_kind},        {"interior", t.interior},
-          {"boundary", t.boundary},     {"noise_share", t.noise_share},
-          {"most_noise", t.most_noise}, {"neighbourhood", t.neighbourhood}};
+  return {{"kind", saddle_kind},          {"interior", t.interior},     {"boundary", t.boundary},
+          {"noise_share", t.noise_share}, {"most_noise", t.most_noise}, {"agreement", t.agreement}};
 }
 
 std::string to_cpp(const ProbeTable& table) {
@@ -87,8 +86,8 @@ std::string to_cpp(const ProbeTable& table) {
 std::string to_cpp(const SaddleThresholds& t) {
   return "constexpr plexway::SaddleThresholds thresholds = {.interior = " + digits(t.interior) +
          ", .boundary = " + digits(t.boundary) + ", .noise_share = " + digits(t.noise_share) +
-         ", .most_noise = " + digits(t.most_noise) +
-         ", .neighbourhood = " + digits(t.neighbourhood) + "};\n";
+         ", .most_noise = " + digits(t.most_noise) + ", .agreement = " + digits(t.agreement) +
+         "};\n";
 }
 
 ProbeTable read_probe_table(const std::string& file) {
@@ -108,7 +107,7 @@ SaddleThresholds read_saddle_thresholds(const std::string& file) {
   const Json json = read_kind(file, saddle_kind);
   return {member(file, json, "interior", 10), member(file, json, "boundary", 10),
           member(file, json, "noise_share", 100), member(file, json, "most_noise", 10),
-          member(file, json, "neighbourhood", 100)};
+          member(file, json, "agreement", 1)};
 }
 
 }  // namespace plexway::cli

@@ -39,37 +39,40 @@ void check_triangulation(Triangulation wanted, const Domain& domain) {
 }
 
 template <class Real>
-std::optional<IntrinsicDelaunay> retriangulate(Triangulation wanted, const io::Triangles& surface,
-                                               const MeasuredLengths* lengths,
-                                               TriangleMesh<Real>& mesh,
-                                               TriangulationReport& report) {
+TriangulatedSurface<Real> make_surface(Triangulation wanted, const io::Triangles& surface,
+                                       const MeasuredLengths* lengths,
+                                       TriangulationReport& report) {
   report = {};
-  if (wanted == Triangulation::input) return std::nullopt;
   const Stopwatch working;
-  report.done = wanted == Triangulation::delaunay  ? Retriangulation::flips
-                : wanted == Triangulation::refined ? Retriangulation::refined
-                                                   : what_pays(measure_triangulation(mesh));
-  std::optional<IntrinsicDelaunay> delaunay;
-  if (report.done != Retriangulation::keep) {
-    const Refinement refinement = refinement_for(report.done);
-    if constexpr (sizeof(Real) == sizeof(double))
-      delaunay.emplace(mesh, refinement);
-    else
-      delaunay.emplace(make_complex<double>(surface, lengths), refinement);
-    report.flips = delaunay->summary().flips;
-    report.inserted_vertices = delaunay->summary().inserted_vertices;
-    if (report.flips + report.inserted_vertices > 0) mesh = delaunay->mesh<Real>();
+  const auto named = [](Triangulation asked) -> std::optional<Retriangulation> {
+    if (asked == Triangulation::automatic) return std::nullopt;
+    return asked == Triangulation::input      ? Retriangulation::keep
+           : asked == Triangulation::delaunay ? Retriangulation::flips
+                                              : Retriangulation::refined;
+  }(wanted);
+  auto made = [&]() -> TriangulatedSurface<Real> {
+    if (lengths == nullptr) return triangulate<Real>(surface.positions, surface.triangles, named);
+    TriangleMesh<Real> mesh = make_complex<Real>(surface, lengths);
+    const Retriangulation done = named ? *named : what_pays(measure_triangulation(mesh));
+    if (done == Retriangulation::keep) return {std::move(mesh), std::nullopt, done};
+    IntrinsicDelaunay delaunay(make_complex<double>(surface, lengths), refinement_for(done));
+    if (delaunay.summary().flips + delaunay.summary().inserted_vertices > 0)
+      mesh = delaunay.mesh<Real>();
+    delaunay.release_triangles();
+    return {std::move(mesh), std::move(delaunay), done};
+  }();
+  report.done = made.done;
+  if (made.delaunay) {
+    report.flips = made.delaunay->summary().flips;
+    report.inserted_vertices = made.delaunay->summary().inserted_vertices;
+    report.seconds = working.seconds();
   }
-  report.seconds = working.seconds();
-  return delaunay;
+  return made;
 }
-template std::optional<IntrinsicDelaunay> retriangulate(Triangulation, const io::Triangles&,
-                                                        const MeasuredLengths*,
-                                                        TriangleMesh<float>&, TriangulationReport&);
-template std::optional<IntrinsicDelaunay> retriangulate(Triangulation, const io::Triangles&,
-                                                        const MeasuredLengths*,
-                                                        TriangleMesh<double>&,
-                                                        TriangulationReport&);
+template TriangulatedSurface<float> make_surface(Triangulation, const io::Triangles&,
+                                                 const MeasuredLengths*, TriangulationReport&);
+template TriangulatedSurface<double> make_surface(Triangulation, const io::Triangles&,
+                                                  const MeasuredLengths*, TriangulationReport&);
 
 namespace {
 

@@ -39,17 +39,14 @@ struct TriangulationReport {
   Retriangulation done = Retriangulation::keep;
   std::size_t flips = 0;
   std::size_t inserted_vertices = 0;  ///< numbered after the input's
-  double seconds = 0;                 ///< for looking, and for flipping where that was done
+  double seconds = 0;                 ///< for building on other triangles, where that was done
 };
 
-/// Replaces the mesh of a surface by its intrinsic Delaunay triangulation if that is wanted, or if
-/// it is left open and pays; what is returned then translates sources. `lengths` are those of a
-/// metric, or null.
+/// Builds a surface on the triangles wanted, or if that is left open on those that pay; what comes
+/// with it translates sources. `lengths` are those of a metric, or null.
 template <class Real>
-std::optional<IntrinsicDelaunay> retriangulate(Triangulation wanted, const io::Triangles& surface,
-                                               const MeasuredLengths* lengths,
-                                               TriangleMesh<Real>& mesh,
-                                               TriangulationReport& report);
+TriangulatedSurface<Real> make_surface(Triangulation wanted, const io::Triangles& surface,
+                                       const MeasuredLengths* lengths, TriangulationReport& report);
 
 /// What a report says of it: "input", "delaunay" or "refined"; and a sentence for people.
 [[nodiscard]] std::string_view name_of(const TriangulationReport& report);

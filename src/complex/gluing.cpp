@@ -1,11 +1,11 @@
 #include "complex/gluing.hpp"
 
 #include <algorithm>
-#include <cstdint>
-#include <limits>
 #include <string>
 
 #include <plexway/error.hpp>
+
+#include "complex/edge_matching.hpp"
 
 namespace plexway {
 namespace {
@@ -15,39 +15,29 @@ Index next(Index corner) { return corner == 2 ? 0 : corner + 1; }
 }  // namespace
 
 Gluing glue_by_vertices(std::size_t vertices, Faces faces) {
-  // Halfedges in buckets by their lower vertex, then matched by the upper one: linear, no hashing.
-  std::vector<Index> begin(vertices + 1, 0);
-  const auto lower = [&](std::size_t f, Index i) {
-    return std::min(faces[f][i], faces[f][next(i)]);
+  Gluing across(faces.size());
+  const auto number = [](const EdgeSide& s) {
+    return 3 * (s.halfedge >> Across::face_shift) + (s.halfedge & Across::edge_mask);
   };
-  const auto upper = [&](Index halfedge) {
-    const auto& face = faces[halfedge / 3];
-    return std::max(face[halfedge % 3], face[next(halfedge % 3)]);
-  };
-  for (std::size_t f = 0; f < faces.size(); ++f)
-    for (Index i = 0; i < 3; ++i) ++begin[lower(f, i) + 1];
-  for (std::size_t v = 0; v < vertices; ++v) begin[v + 1] += begin[v];
-  std::vector<Index> bucket(faces.size() * 3);
-  {
-    std::vector<Index> cursor(begin.begin(), begin.end() - 1);
-    for (std::size_t f = 0; f < faces.size(); ++f)
-      for (Index i = 0; i < 3; ++i) bucket[cursor[lower(f, i)]++] = static_cast<Index>(3 * f + i);
-  }
-  Gluing across(faces.size(), {none, none, none});
-  for (std::size_t v = 0; v < vertices; ++v) {
-    const auto first = bucket.begin() + begin[v], last = bucket.begin() + begin[v + 1];
-    std::sort(first, last, [&](Index a, Index b) {
-      const Index ua = upper(a), ub = upper(b);
-      return ua != ub ? ua < ub : a < b;
-    });
-    for (auto run = first; run != last;) {
-      auto end = run + 1;
-      while (end != last && upper(*end) == upper(*run)) ++end;
-      if (end - run > 1)
-        for (auto h = run; h != end; ++h) across[*h / 3][*h % 3] = h + 1 == end ? *run : *(h + 1);
-      run = end;
+  struct Glue {
+    Gluing& across;
+    decltype(number)& name;
+    void set(const EdgeSide& from, Index to) const {
+      across[from.halfedge >> Across::face_shift][from.halfedge & Across::edge_mask] = to;
     }
-  }
+    void single(Index, const EdgeSide& s) const { set(s, none); }
+    void pair(const EdgeSide& a, const EdgeSide& b) const {
+      set(a, name(b));
+      set(b, name(a));
+    }
+    void cycle(Index, std::span<const EdgeSide> sides) const {
+      for (std::size_t k = 0; k < sides.size(); ++k)
+        set(sides[k], name(sides[k + 1 == sides.size() ? 0 : k + 1]));
+    }
+  };
+  match_edges(
+      vertices, faces, [&](const EdgeSide& a, const EdgeSide& b) { return number(a) < number(b); },
+      Glue{across, number});
   return across;
 }
 
@@ -71,48 +61,6 @@ void check_gluing(Faces faces, std::span<const std::array<Index, 3>> across) {
     if ((across[h / 3][h % 3] != none) != (entered[h] != 0))
       throw InputError("face " + std::to_string(h / 3) + ", edge " + std::to_string(h % 3) +
                        ": glued from one side only");
-}
-
-Orientation orient(Faces faces, const Gluing& across) {
-  const auto pair_of = [&](Index h) -> Index {  // none for boundaries and fans
-    const Index o = across[h / 3][h % 3];
-    return o != none && across[o / 3][o % 3] == h ? o : none;
-  };
-  // In a loop (both ends one vertex) vertices do not tell directions apart: taken as opposite.
-  const auto same_way = [&](Index h, Index o) {
-    const Index a = faces[h / 3][h % 3], b = faces[h / 3][next(h % 3)];
-    return a != b && a == faces[o / 3][o % 3];
-  };
-  Orientation result;
-  bool consistent = true;
-  for (Index h = 0; consistent && h < faces.size() * 3; ++h) {
-    const Index o = pair_of(h);
-    consistent = o == none || !same_way(h, o);
-  }
-  if (consistent) return result;
-  constexpr char unseen = 2;
-  result.turned.assign(faces.size(), unseen);
-  std::vector<Index> queue;
-  for (Index seed = 0; seed < faces.size(); ++seed) {
-    if (result.turned[seed] != unseen) continue;
-    result.turned[seed] = 0;
-    queue.assign(1, seed);
-    for (std::size_t head = 0; head < queue.size(); ++head) {
-      const Index f = queue[head];
-      for (Index i = 0; i < 3; ++i) {
-        const Index o = pair_of(3 * f + i);
-        if (o == none) continue;
-        const char wanted = result.turned[f] ^ static_cast<char>(same_way(3 * f + i, o));
-        if (result.turned[o / 3] == unseen) {
-          result.turned[o / 3] = wanted;
-          queue.push_back(o / 3);
-        } else if (result.turned[o / 3] != wanted) {
-          result.orientable = false;
-        }
-      }
-    }
-  }
-  return result;
 }
 
 }  // namespace plexway

@@ -19,12 +19,4 @@ Gluing glue_by_vertices(std::size_t vertices, Faces faces);
 /// Throws InputError where `across` is not made of cycles over the same pair of vertices.
 void check_gluing(Faces faces, std::span<const std::array<Index, 3>> across);
 
-/// Which faces to turn over so that neighbours run opposite ways wherever that is possible (edges
-/// with more than two triangles do not count). Empty if all do already.
-struct Orientation {
-  std::vector<char> turned;
-  bool orientable = true;
-};
-Orientation orient(Faces faces, const Gluing& across);
-
 }  // namespace plexway

@@ -4,12 +4,15 @@
 #include <cmath>
 #include <numbers>
 #include <string>
+#include <tuple>
 
 #include <plexway/error.hpp>
 
 #include "complex/delaunay_flips.hpp"
+#include "complex/face_layout.hpp"
 #include "complex/intrinsic_triangulation.hpp"
-#include "complex/triangle_shape.hpp"
+#include "complex/shape_blocks.hpp"
+#include "complex/simplex_order.hpp"
 
 namespace plexway {
 namespace {
@@ -33,28 +36,196 @@ void check(const Refinement& wanted) {
     throw UsageError("shortest_edge of a refinement must be 0 or more");
 }
 
+// What a triangulation's triangles are to a mesh.
+class ShapesOfSlots final : public TriangleShapes {
+ public:
+  ShapesOfSlots(std::span<const IntrinsicTriangle> triangles, std::span<const Index> slot_of_face,
+                double unit)
+      : triangles_(triangles), slot_of_face_(slot_of_face), unit_(unit) {}
+
+  void look_up(std::span<const Index> faces, ShapeBlock& block) const override {
+    for (std::size_t k = 0; k < faces.size(); ++k) {
+      const IntrinsicTriangle& t = triangles_[slot_of_face_[faces[k]]];
+      bool degenerate = false;
+      for (std::size_t i = 0; i < 3; ++i) {
+        block.length[i][k] = t.length[i] * unit_;
+        block.cosine[i][k] = t.angle[i].c;
+        block.sine[i][k] = t.angle[i].s;
+        degenerate |= t.length[i] == 0 || t.angle[i].s < 1e-14;
+      }
+      block.degenerate[k] = degenerate;
+      block.violated[k] = false;
+    }
+  }
+
+ private:
+  std::span<const IntrinsicTriangle> triangles_;
+  std::span<const Index> slot_of_face_;
+  double unit_;
+};
+
+void add_chord(std::vector<SurfaceChord>& to, Index v, Index w, double length) {
+  if (v != w) to.push_back({std::min(v, w), std::max(v, w), length});
+}
+
+// Edges of the input that are none any more: straight lines still. `then` has those of slots that
+// something happened to, and lines that the input knew.
+std::vector<SurfaceChord> lost_edges(std::vector<SurfaceChord> then,
+                                     const IntrinsicTriangulation& now, std::size_t input_faces) {
+  std::vector<SurfaceChord> there;
+  for (Index s = 0; s < now.triangles().size(); ++s) {
+    if (s < input_faces && !now.history().changed(s)) continue;
+    const IntrinsicTriangle& t = now.triangles()[s];
+    for (std::size_t i = 0; i < 3; ++i)
+      add_chord(there, t.corner[i], t.corner[edge_after(i)], t.length[i]);
+  }
+  const auto less = [](const SurfaceChord& a, const SurfaceChord& b) {
+    return std::tie(a.from, a.to, a.length) < std::tie(b.from, b.to, b.length);
+  };
+  // Of several between the same ends the shortest counts.
+  const auto shortest = [&](std::vector<SurfaceChord>& all) {
+    std::sort(all.begin(), all.end(), less);
+    all.erase(std::unique(all.begin(), all.end(),
+                          [](const SurfaceChord& a, const SurfaceChord& b) {
+                            return a.from == b.from && a.to == b.to;
+                          }),
+              all.end());
+  };
+  shortest(then);
+  shortest(there);
+  auto known = there.begin();
+  std::erase_if(then, [&](const SurfaceChord& chord) {
+    while (known != there.end() &&
+           std::tie(known->from, known->to) < std::tie(chord.from, chord.to))
+      ++known;
+    return known != there.end() && known->from == chord.from && known->to == chord.to &&
+           known->length <= chord.length * (1 + 1e-12);
+  });
+  return then;
+}
+
 }  // namespace
 
 struct IntrinsicDelaunay::State {
+  double unit = 1;
   IntrinsicTriangulation triangulation;
   std::vector<Index> face_of_slot;  // the caller's
   std::vector<Index> slot_of_face;
   std::size_t faces = 0;  // of the input
   bool refracts = false;
-  double unit = 1;
+  bool released = false;                         // are the triangles gone?
+  std::vector<std::array<double, 3>> positions;  // of the input's vertices, where known
+  std::vector<SurfaceChord> chords;
   DelaunaySummary summary;
 
   template <class Real>
   explicit State(const TriangleMesh<Real>& input)
-      : triangulation(input),
+      : unit(input.unit()),
+        triangulation(input),
         face_of_slot(input.face_count()),
         slot_of_face(input.face_count()),
         faces(input.face_count()),
-        refracts(input.summary().refracting_edges > 0),
-        unit(input.unit()) {
+        refracts(input.summary().refracting_edges > 0) {
     for (Index s = 0; s < face_of_slot.size(); ++s) {
       face_of_slot[s] = input.triangles()[s].face & ~reversed;
       slot_of_face[face_of_slot[s]] = s;
+    }
+    if (input.positions().empty()) return;
+    positions.resize(input.vertex_count());
+    for (Index v = 0; v < positions.size(); ++v)
+      for (std::size_t i = 0; i < 3; ++i)
+        positions[v][i] = input.positions()[input.inside_vertex(v)][i] * unit;
+  }
+
+  // From what was before the flips: corners(slot) are a slot's, by the caller's vertices, and
+  // whether they ran the other way; `lines` see lost_edges.
+  template <class CornersOf>
+  void take_from_input(bool in_space, std::vector<SurfaceChord> lines, CornersOf corners) {
+    if (in_space)  // vertices that were put in lie in space as well
+      for (const SlotPoint& point : triangulation.inserted()) {
+        const auto [corner, turned] = corners(point.slot);
+        // A slot that was turned over for good has its corners the other way round.
+        const bool over = turned != triangulation.turned(point.slot);
+        std::array<double, 3> at{};
+        for (std::size_t i = 0; i < 3; ++i)
+          for (std::size_t k = 0; k < 3; ++k)
+            at[k] += point.at[over && i > 0 ? 3 - i : i] * positions[corner[i]][k];
+        positions.push_back(at);
+      }
+    chords = lost_edges(std::move(lines), triangulation, faces);
+    for (SurfaceChord& chord : chords) chord.length *= unit;
+  }
+
+  template <class Real>
+  void take_from_input(const TriangleMesh<Real>& input) {
+    std::vector<Index> outer(input.vertex_count());
+    for (Index v = 0; v < outer.size(); ++v) outer[input.inside_vertex(v)] = v;
+    const auto corners = [&](Index slot) {
+      const TriangleRecord<Real>& t = input.triangles()[slot];
+      return std::pair(std::array{outer[t.corner[0]], outer[t.corner[1]], outer[t.corner[2]]},
+                       (t.face & reversed) != 0);
+    };
+    std::vector<SurfaceChord> lines;
+    for (Index v = 0; input.has_chords() && v < outer.size(); ++v)
+      for (const auto& chord : input.chords_at(v))
+        if (v < chord.vertex)
+          add_chord(lines, outer[v], outer[chord.vertex], static_cast<double>(chord.length));
+    for (Index s = 0; s < faces; ++s) {
+      if (!triangulation.history().changed(s)) continue;
+      const auto corner = corners(s).first;
+      for (std::size_t i = 0; i < 3; ++i)
+        add_chord(lines, corner[i], corner[edge_after(i)],
+                  static_cast<double>(input.triangles()[s].length[i]));
+    }
+    take_from_input(input.faces_are_in_space(), std::move(lines), corners);
+  }
+
+  /// `layout` without what the constructor took of it.
+  void take_from_input(const FaceLayout& layout, const TriangleShapes& shapes) {
+    const std::vector<Index> outer = layout.vertices_outside();
+    const auto corners = [&](Index slot) {
+      const auto& c = layout.corner[slot];
+      return std::pair(std::array{outer[c[0]], outer[c[1]], outer[c[2]]}, layout.is_turned(slot));
+    };
+    std::vector<SurfaceChord> lines;
+    std::array<Index, ShapeBlock::size> slots, listed;
+    ShapeBlock block{};
+    for (Index s = 0; s < faces;) {
+      std::size_t count = 0;
+      for (; s < faces && count < slots.size(); ++s)
+        if (triangulation.history().changed(s)) {
+          slots[count] = s;
+          listed[count++] = face_of_slot[s];
+        }
+      if (count == 0) break;
+      shapes.look_up(std::span(listed).first(count), block);
+      for (std::size_t k = 0; k < count; ++k) {
+        const auto [corner, turned] = corners(slots[k]);
+        for (std::size_t i = 0; i < 3; ++i)
+          add_chord(lines, corner[i], corner[edge_after(i)],
+                    block.length[turned ? 2 - i : i][k] / unit);
+      }
+    }
+    positions.assign(shapes.positions().begin(), shapes.positions().end());
+    take_from_input(!positions.empty(), std::move(lines), corners);
+  }
+
+  State(FaceLayout&& layout, const TriangleShapes& shapes)
+      : triangulation(layout, shapes, unit),
+        face_of_slot(std::move(layout.face)),
+        slot_of_face(std::move(layout.face_to_inside)),
+        faces(face_of_slot.size()) {}
+
+  template <class Real>
+  void flip(const Refinement& refinement) {
+    DelaunayFlips flips(triangulation, tolerance_of<Real>);
+    flips.all();
+    if (refinement.smallest_angle > 0) refine(triangulation, flips, refinement);
+    summary = {flips.count(), flips.stuck(), triangulation.inserted().size()};
+    triangulation.release_counts();
+    for (Index s = static_cast<Index>(faces); s < triangulation.triangles().size(); ++s) {
+      face_of_slot.push_back(s);
+      slot_of_face.push_back(s);
     }
   }
 
@@ -72,17 +243,8 @@ struct IntrinsicDelaunay::State {
 template <class Real>
 IntrinsicDelaunay::IntrinsicDelaunay(const TriangleMesh<Real>& input, const Refinement& refinement)
     : state_((check(refinement), std::make_unique<State>(input))) {
-  IntrinsicTriangulation& triangulation = state_->triangulation;
-  DelaunayFlips flips(triangulation, tolerance_of<Real>);
-  flips.all();
-  if (refinement.smallest_angle > 0) refine(triangulation, flips, refinement);
-  state_->summary = {flips.count(), flips.stuck(), triangulation.inserted().size()};
-  triangulation.release_counts();
-  for (Index s = static_cast<Index>(input.face_count()); s < triangulation.triangles().size();
-       ++s) {
-    state_->face_of_slot.push_back(s);
-    state_->slot_of_face.push_back(s);
-  }
+  state_->flip<Real>(refinement);
+  state_->take_from_input(input);
 }
 template IntrinsicDelaunay::IntrinsicDelaunay(const TriangleMesh<float>&, const Refinement&);
 template IntrinsicDelaunay::IntrinsicDelaunay(const TriangleMesh<double>&, const Refinement&);
@@ -91,43 +253,61 @@ IntrinsicDelaunay::IntrinsicDelaunay(IntrinsicDelaunay&&) noexcept = default;
 IntrinsicDelaunay& IntrinsicDelaunay::operator=(IntrinsicDelaunay&&) noexcept = default;
 IntrinsicDelaunay::~IntrinsicDelaunay() = default;
 
+IntrinsicDelaunay::IntrinsicDelaunay() = default;
+
+void IntrinsicDelaunay::release_triangles() {
+  state_->triangulation.release_triangles();
+  std::vector<std::array<double, 3>>().swap(state_->positions);
+  std::vector<SurfaceChord>().swap(state_->chords);
+  state_->released = true;
+}
+
 const DelaunaySummary& IntrinsicDelaunay::summary() const { return state_->summary; }
 
 std::size_t IntrinsicDelaunay::bytes() const {
   return sizeof(State) + state_->triangulation.bytes() +
-         (state_->face_of_slot.capacity() + state_->slot_of_face.capacity()) * sizeof(Index);
+         (state_->face_of_slot.capacity() + state_->slot_of_face.capacity()) * sizeof(Index) +
+         state_->positions.capacity() * sizeof(state_->positions[0]) +
+         state_->chords.capacity() * sizeof(SurfaceChord);
 }
 
 template <class Real>
 TriangleMesh<Real> IntrinsicDelaunay::mesh(const SaddleThresholds& saddles) const {
+  if (state_->released)
+    throw UsageError("the triangles of this Delaunay triangulation were released");
   const auto triangles = state_->triangulation.triangles();
-  const std::size_t m = triangles.size();
+  const std::size_t m = triangles.size(), vertices = state_->triangulation.vertices();
+  SurfaceHints hints;
+  hints.refracts = state_->refracts;
+  hints.positions = state_->positions;
+  hints.chords = state_->chords;
+  hints.saddles = saddles;
+  const ShapesOfSlots shapes(triangles, state_->slot_of_face, state_->unit);
   std::vector<std::array<Index, 3>> faces(m), across(m);
-  std::vector<TriangleShape> shapes(m);
+  if (state_->summary.inserted_vertices == 0) {
+    for (Index s = 0; s < m; ++s) {
+      faces[s] = triangles[s].corner;
+      for (std::size_t i = 0; i < 3; ++i) {
+        const Index o = triangles[s].across[i];
+        across[s][i] = o == none ? none : o & ~Across::special;
+      }
+    }
+    return {FaceLayout(vertices, state_->face_of_slot, std::move(faces), std::move(across)), shapes,
+            hints};
+  }
+  // New triangles lie behind all others: they need a new order.
   const auto face_of = [&](Index slot) { return state_->face_of_slot[slot]; };
   for (Index s = 0; s < m; ++s) {
     const IntrinsicTriangle& t = triangles[s];
     const Index f = face_of(s);
     faces[f] = t.corner;
-    TriangleShape& shape = shapes[f];
-    shape.violated = false;
     for (std::size_t i = 0; i < 3; ++i) {
-      shape.length[i] = t.length[i] * state_->unit;
-      shape.cosine[i] = t.angle[i].c;
-      shape.sine[i] = t.angle[i].s;
-      shape.degenerate |= t.length[i] == 0 || t.angle[i].s < 1e-14;
       const Index o = t.across[i];
       across[f][i] =
           o == none ? none : 3 * face_of(o >> Across::face_shift) + (o & Across::edge_mask);
     }
   }
-  SurfaceHints hints;
-  hints.refracts = state_->refracts;
-  hints.saddles = saddles;
-  // New triangles lie behind all others: they need a new order.
-  if (state_->summary.inserted_vertices == 0) hints.order = state_->face_of_slot;
-  return TriangleMesh<Real>(state_->triangulation.vertices(), faces, shapes, std::move(across),
-                            hints);
+  return {FaceLayout(vertices, faces, breadth_first<3>(across), across), shapes, hints};
 }
 template TriangleMesh<float> IntrinsicDelaunay::mesh(const SaddleThresholds&) const;
 template TriangleMesh<double> IntrinsicDelaunay::mesh(const SaddleThresholds&) const;
@@ -174,33 +354,36 @@ std::vector<IntrinsicDelaunay::Piece> IntrinsicDelaunay::line_to_input(
   return result;
 }
 
-template <class Real>
-TriangulationShape measure_triangulation(const TriangleMesh<Real>& mesh) {
+namespace {
+
+// corner(f, i): cosine and sine of the angle there; across(f, i): packed as Across.
+template <class Real, class Corner, class AcrossOf>
+TriangulationShape measure(Index faces, Corner corner, AcrossOf across) {
   TriangulationShape shape;
-  const auto triangles = mesh.triangles();
-  const Index sentinel = static_cast<Index>(triangles.size() - 1);
   constexpr double degree = std::numbers::pi / 180;
   const Real blunt = static_cast<Real>(std::cos(150 * degree));
   const Real sharp = static_cast<Real>(std::cos(5 * degree));
+  constexpr Real blur = sizeof(Real) == 4 ? Real(1e-4) : Real(1e-9);
   Real least = 1, most = -1;
   std::size_t blunt_ones = 0, needles = 0;
-  for (Index f = 0; f < sentinel; ++f) {
-    const TriangleRecord<Real>& t = triangles[f];
-    const Real low = std::min({t.cosine[0], t.cosine[1], t.cosine[2]});
-    const Real high = std::max({t.cosine[0], t.cosine[1], t.cosine[2]});
+  for (Index f = 0; f < faces; ++f) {
+    std::array<Real, 3> cosine;
+    for (std::size_t i = 0; i < 3; ++i) cosine[i] = corner(f, i)[0];
+    const Real low = std::min({cosine[0], cosine[1], cosine[2]});
+    const Real high = std::max({cosine[0], cosine[1], cosine[2]});
     least = std::min(least, low);
     most = std::max(most, high);
     blunt_ones += low < blunt;
     needles += high > sharp;
     for (std::size_t i = 0; i < 3; ++i) {
-      const Index o = t.across[i], g = o >> Across::face_shift;
-      if (g == sentinel || (o & Across::fan) != 0 || g < f) continue;
+      const Index o = across(f, i), g = o >> Across::face_shift;
+      if (g == faces || (o & Across::fan) != 0 || g < f) continue;
       const std::size_t j = o & Across::edge_mask;
       if (g == f && j < i) continue;
       ++shape.inner_edges;
-      const Real ca = t.cosine[edge_before(i)], cb = triangles[g].cosine[edge_before(j)];
-      const Real sine = t.sine(edge_before(i)) * cb + ca * triangles[g].sine(edge_before(j));
-      constexpr Real blur = sizeof(Real) == 4 ? Real(1e-4) : Real(1e-9);
+      const auto [ca, sa] = corner(f, edge_before(i));
+      const auto [cb, sb] = corner(g, edge_before(j));
+      const Real sine = sa * cb + ca * sb;
       if (g != f && (sine < -blur || (ca < -blur && cb < -blur))) ++shape.non_delaunay_edges;
     }
   }
@@ -209,9 +392,44 @@ TriangulationShape measure_triangulation(const TriangleMesh<Real>& mesh) {
   };
   shape.largest_angle = degrees(least);
   shape.smallest_angle = degrees(most);
-  shape.blunt_share = static_cast<double>(blunt_ones) / static_cast<double>(sentinel);
-  shape.needle_share = static_cast<double>(needles) / static_cast<double>(sentinel);
+  shape.blunt_share = static_cast<double>(blunt_ones) / static_cast<double>(faces);
+  shape.needle_share = static_cast<double>(needles) / static_cast<double>(faces);
   return shape;
+}
+
+// Before there is a mesh.
+template <class Real>
+TriangulationShape measure(const FaceLayout& layout, const TriangleShapes& shapes) {
+  const std::size_t m = layout.face_count();
+  std::vector<std::array<std::array<Real, 2>, 3>> corner(m);
+  ShapeBlock block{};
+  for (std::size_t first = 0; first < m; first += ShapeBlock::size) {
+    const std::size_t count = std::min(ShapeBlock::size, m - first);
+    shapes.look_up(std::span(layout.face).subspan(first, count), block);
+    for (std::size_t k = 0; k < count; ++k)
+      for (std::size_t i = 0; i < 3; ++i) {
+        const std::size_t own = layout.is_turned(first + k) && i != 0 ? 3 - i : i;
+        corner[first + k][i] = {static_cast<Real>(block.cosine[own][k]),
+                                static_cast<Real>(block.sine[own][k])};
+      }
+  }
+  return measure<Real>(
+      static_cast<Index>(m),
+      [&](std::size_t f, std::size_t i) -> const auto& { return corner[f][i]; },
+      [&](std::size_t f, std::size_t i) { return layout.across[f][i]; });
+}
+
+}  // namespace
+
+template <class Real>
+TriangulationShape measure_triangulation(const TriangleMesh<Real>& mesh) {
+  const auto triangles = mesh.triangles();
+  return measure<Real>(
+      static_cast<Index>(mesh.face_count()),
+      [&](std::size_t f, std::size_t i) {
+        return std::array{triangles[f].cosine[i], triangles[f].sine(i)};
+      },
+      [&](std::size_t f, std::size_t i) { return triangles[f].across[i]; });
 }
 template TriangulationShape measure_triangulation(const TriangleMesh<float>&);
 template TriangulationShape measure_triangulation(const TriangleMesh<double>&);
@@ -224,5 +442,33 @@ Retriangulation what_pays(const TriangulationShape& shape) {
 Refinement refinement_for(Retriangulation wanted) {
   return wanted == Retriangulation::refined ? Refinement::moderate() : Refinement();
 }
+
+template <class Real>
+TriangulatedSurface<Real> triangulate(std::span<const std::array<double, 3>> positions,
+                                      std::span<const std::array<Index, 3>> faces,
+                                      std::optional<Retriangulation> wanted) {
+  FaceLayout layout = lay_out(positions, faces);
+  const ShapesInSpace shapes(positions, faces);
+  const Retriangulation done = wanted ? *wanted : what_pays(measure<Real>(layout, shapes));
+  if (done == Retriangulation::keep)
+    return {TriangleMesh<Real>(std::move(layout), shapes, {}), std::nullopt, done};
+  IntrinsicDelaunay delaunay;
+  delaunay.state_ = std::make_unique<IntrinsicDelaunay::State>(std::move(layout), shapes);
+  delaunay.state_->template flip<double>(refinement_for(done));
+  delaunay.state_->take_from_input(layout, shapes);
+  layout = {};
+  const DelaunaySummary& summary = delaunay.summary();
+  const bool same = summary.flips + summary.inserted_vertices == 0;
+  if (same) delaunay.release_triangles();
+  TriangleMesh<Real> mesh = same ? TriangleMesh<Real>(positions, faces) : delaunay.mesh<Real>();
+  if (!same) delaunay.release_triangles();
+  return {std::move(mesh), std::move(delaunay), done};
+}
+template TriangulatedSurface<float> triangulate(std::span<const std::array<double, 3>>,
+                                                std::span<const std::array<Index, 3>>,
+                                                std::optional<Retriangulation>);
+template TriangulatedSurface<double> triangulate(std::span<const std::array<double, 3>>,
+                                                 std::span<const std::array<Index, 3>>,
+                                                 std::optional<Retriangulation>);
 
 }  // namespace plexway

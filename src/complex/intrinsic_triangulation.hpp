@@ -40,6 +40,8 @@ class IntrinsicTriangulation {
   /// vertices.
   template <class Real>
   explicit IntrinsicTriangulation(const TriangleMesh<Real>& mesh);
+  /// The same from what a mesh is made of, in units of its mean edge, which `unit` takes.
+  IntrinsicTriangulation(const FaceLayout& layout, const TriangleShapes& shapes, double& unit);
 
   [[nodiscard]] std::span<const IntrinsicTriangle> triangles() const { return triangles_; }
   /// Whether the slot had its corners the other way round in the input as the caller gave it.
@@ -47,7 +49,9 @@ class IntrinsicTriangulation {
   [[nodiscard]] std::size_t vertices() const { return vertices_; }
   [[nodiscard]] const PatchHistory& history() const { return history_; }
   [[nodiscard]] std::size_t bytes() const;
-  void release_counts() { flips_ = {}; }
+  void release_counts() { std::vector<std::uint16_t>().swap(flips_); }
+  /// What is left maps points.
+  void release_triangles() { std::vector<IntrinsicTriangle>().swap(triangles_); }
 
   /// By how much the angles opposite to an edge exceed pi, as a sine; negative where the edge is
   /// Delaunay or cannot be flipped.
@@ -71,6 +75,7 @@ class IntrinsicTriangulation {
   [[nodiscard]] Index across(Halfedge h) const {
     return triangles_[h >> Across::face_shift].across[h & Across::edge_mask];
   }
+  void take_callers_turns();
   [[nodiscard]] Halfedge before(Halfedge h) const;
   void rename(std::span<const Halfedge> from, std::span<const Halfedge> to, bool mirrored = false);
   void turn_over(Index slot);

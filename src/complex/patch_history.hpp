@@ -76,6 +76,8 @@ class PatchHistory {
   void back(const Piece& line, std::vector<Piece>& pieces) const;
 
   [[nodiscard]] std::size_t size() const { return patches_.size(); }
+  /// Has anything happened to a slot of the first triangulation?
+  [[nodiscard]] bool changed(Index slot) const { return first_[slot] != none; }
   [[nodiscard]] std::size_t bytes() const {
     return patches_.capacity() * sizeof(Patch) +
            (first_.capacity() + last_.capacity()) * sizeof(Index);

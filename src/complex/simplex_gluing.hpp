@@ -64,6 +64,7 @@ class DisjointSets {
     return i;
   }
   void unite(Index i, Index j) {
+    if (parent_[i] == parent_[j]) return;
     i = find(i);
     j = find(j);
     if (i != j) parent_[std::max(i, j)] = std::min(i, j);

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <limits>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include <plexway/complex/ids.hpp>
@@ -21,47 +22,115 @@ constexpr std::uint64_t every_third_bit(std::uint64_t q) {
   return (q | q << 2) & 0x1249249249249249;
 }
 
+/// 12 bits spread to every third place.
+constexpr std::uint64_t every_third_bit_of_12(std::uint64_t q) {
+  q = (q | q << 16) & 0xf0000ff;
+  q = (q | q << 8) & 0xf00f00f;
+  q = (q | q << 4) & 0x0c30c30c3;
+  return (q | q << 2) & 0x249249249;
+}
+
+/// A cell of the space-filling curve: three numbers of 21 bits.
+using CurveCell = std::array<std::int64_t, 3>;
+constexpr std::uint64_t curve_key(const CurveCell& cell) {
+  return every_third_bit(static_cast<std::uint64_t>(cell[0])) |
+         every_third_bit(static_cast<std::uint64_t>(cell[1])) << 1 |
+         every_third_bit(static_cast<std::uint64_t>(cell[2])) << 2;
+}
+/// Its upper 36 bits.
+constexpr std::uint64_t coarse_curve_key(const CurveCell& cell) {
+  return every_third_bit_of_12(static_cast<std::uint64_t>(cell[0] >> 9)) |
+         every_third_bit_of_12(static_cast<std::uint64_t>(cell[1] >> 9)) << 1 |
+         every_third_bit_of_12(static_cast<std::uint64_t>(cell[2] >> 9)) << 2;
+}
+
+/// The numbers below `count` along the curve by the cells they are in, of those in one the lower
+/// number first. cell_of(number) may be asked for again. Cost: linear as long as most differ in the
+/// upper 36 bits of their keys (32 beyond 2^28 numbers), n log n else.
+template <class CellOf>
+std::vector<Index> sorted_along_curve(std::size_t count, CellOf cell_of) {
+  // The upper bits of the key and the number in one word, sorted in four passes by 9 bits.
+  constexpr int digit = 9, passes = 4;
+  const int key_bits = count <= std::size_t{1} << 28 ? 36 : 32;
+  const int shift = 64 - key_bits;
+  const std::uint64_t number = (std::uint64_t{1} << shift) - 1;
+  std::array<std::array<Index, 1 << digit>, passes> begin{};
+  const auto place = [&](std::uint64_t word, int pass) {
+    return (word >> shift >> (digit * pass)) & ((1 << digit) - 1);
+  };
+  std::vector<std::uint64_t> words(count), other(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    words[i] = coarse_curve_key(cell_of(i)) >> (36 - key_bits) << shift | i;
+    for (int pass = 0; pass < passes; ++pass)
+      ++begin[static_cast<std::size_t>(pass)][place(words[i], pass)];
+  }
+  for (int pass = 0; pass < passes; ++pass) {
+    auto& at = begin[static_cast<std::size_t>(pass)];
+    if (std::find(at.begin(), at.end(), count) != at.end()) continue;  // all alike
+    Index sum = 0;
+    for (Index& entry : at) sum += std::exchange(entry, sum);
+    for (const std::uint64_t word : words) other[at[place(word, pass)]++] = word;
+    words.swap(other);
+  }
+  std::vector<std::uint64_t>().swap(other);
+  std::vector<Index> order(count);
+  std::vector<std::pair<std::uint64_t, Index>> run;
+  for (std::size_t i = 0, end = 0; i < count; i = end) {
+    for (end = i + 1; end < count && words[end] >> shift == words[i] >> shift;) ++end;
+    if (end == i + 1) {
+      order[i] = static_cast<Index>(words[i] & number);
+      continue;
+    }
+    run.clear();  // by the rest of the key
+    for (std::size_t k = i; k < end; ++k) {
+      const Index at = static_cast<Index>(words[k] & number);
+      run.emplace_back(curve_key(cell_of(at)), at);
+    }
+    std::sort(run.begin(), run.end());
+    for (std::size_t k = i; k < end; ++k) order[k] = run[k - i].second;
+  }
+  return order;
+}
+
 /// Simplices (points, if N is 1) along a space-filling (Morton) curve through their centroids.
-/// Positions are finite; those of no simplex do not matter. Cost: n log n.
+/// Positions are finite; those of no simplex do not matter. Cost: that of sorted_along_curve.
 template <std::size_t N>
 std::vector<Index> along_curve(std::span<const std::array<double, 3>> positions,
                                std::span<const std::array<Index, N>> simplices) {
+  std::vector<char> used(positions.size(), 0);
+  for (const auto& simplex : simplices)
+    for (const Index v : simplex) used[v] = 1;
   std::array<double, 3> low{}, high{};
   low.fill(std::numeric_limits<double>::infinity());
   high.fill(-std::numeric_limits<double>::infinity());
-  for (const auto& simplex : simplices)
-    for (const Index v : simplex)
-      for (std::size_t d = 0; d < 3; ++d) {
-        low[d] = std::min(low[d], positions[v][d]);
-        high[d] = std::max(high[d], positions[v][d]);
-      }
+  for (std::size_t v = 0; v < positions.size(); ++v) {
+    if (used[v] == 0) continue;
+    for (std::size_t d = 0; d < 3; ++d) {
+      low[d] = std::min(low[d], positions[v][d]);
+      high[d] = std::max(high[d], positions[v][d]);
+    }
+  }
+  std::vector<char>().swap(used);
   // Divided first, and halves: no overflow near 1e308.
   constexpr double cells = 2097151;  // 21 bits
   constexpr double share = N > 1 ? N : 2;
   double width = 0;
   for (std::size_t d = 0; d < 3; ++d) width = std::max(width, high[d] / 2 - low[d] / 2);
   const double scale = width > 0 ? share / N * 0.5 * cells / width : 0;
-  struct Keyed {
-    std::uint64_t key;
-    Index simplex;
-  };
-  std::vector<Keyed> keyed(simplices.size());
-  for (std::size_t s = 0; s < simplices.size(); ++s) {
-    std::uint64_t key = 0;
+  for (double& x : low) x /= share;
+  std::vector<std::array<double, 3>> parts(positions.size());  // of a centroid, in cells
+  for (std::size_t v = 0; v < positions.size(); ++v)
+    for (std::size_t d = 0; d < 3; ++d) parts[v][d] = (positions[v][d] / share - low[d]) * scale;
+  return sorted_along_curve(simplices.size(), [&](std::size_t s) {
+    CurveCell cell;
     for (std::size_t d = 0; d < 3; ++d) {
       double centre = 0;
-      for (const Index v : simplices[s])
-        centre += (positions[v][d] / share - low[d] / share) * scale;
-      key |= every_third_bit(static_cast<std::uint64_t>(std::clamp(centre, 0.0, cells))) << d;
+      for (const Index v : simplices[s]) centre += parts[v][d];
+      centre = centre < cells ? centre : cells;
+      cell[d] = static_cast<std::int64_t>(centre > 0 ? centre : 0.0);
     }
-    keyed[s] = {key, static_cast<Index>(s)};
-  }
-  std::sort(keyed.begin(), keyed.end(), [](const Keyed& a, const Keyed& b) {
-    return a.key != b.key ? a.key < b.key : a.simplex < b.simplex;
+    return cell;
   });
-  std::vector<Index> order(simplices.size());
-  for (std::size_t i = 0; i < order.size(); ++i) order[i] = keyed[i].simplex;
-  return order;
 }
 
 /// Simplices by component and, in each, breadth first. across[s][i] is N t + j, side j of the

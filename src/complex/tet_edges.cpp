@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <numeric>
+#include <tuple>
 #include <utility>
+
+#include "complex/simplex_gluing.hpp"
 
 namespace plexway {
 namespace {
@@ -14,25 +16,6 @@ namespace {
 constexpr double excess = 1e-5;
 
 using Corners = std::span<const std::array<Index, 4>>;
-
-class DisjointSets {
- public:
-  explicit DisjointSets(std::size_t count) : parent_(count) {
-    std::iota(parent_.begin(), parent_.end(), Index{0});
-  }
-  Index root(Index i) {
-    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
-    return i;
-  }
-  void join(Index a, Index b) {
-    a = root(a);
-    b = root(b);
-    parent_[std::max(a, b)] = std::min(a, b);
-  }
-
- private:
-  std::vector<Index> parent_;
-};
 
 Index corner_of(const std::array<Index, 4>& corner, Index vertex) {
   return static_cast<Index>(std::find(corner.begin(), corner.end(), vertex) - corner.begin());
@@ -54,17 +37,19 @@ Vector3<double> inward_normal(const TetPoints& p, Index face) {
 
 class Finder {
  public:
-  Finder(std::size_t vertices, Corners corner, Corners across, std::span<const TetPoints> points,
-         bool embedded)
-      : vertices_(vertices),
+  Finder(Corners corner, Corners across, const TetCorners& corners, const TetPlaces& places)
+      : vertices_(corners.begin.size() - 1),
         corner_(corner),
         across_(across),
-        points_(points),
-        embedded_(embedded),
-        on_reflex_(vertices, 0) {}
+        corners_(corners),
+        places_(places),
+        embedded_(places.embedded()),
+        on_reflex_(vertices_, 0) {}
 
   TetTopology find() {
-    find_edges();
+    mark_boundary();
+    count_edges();
+    look_around_edges();
     found_.reflex_edges = found_.reflex.size();
     if (embedded_) merge_straight();
     list_by_tet();
@@ -73,104 +58,167 @@ class Finder {
   }
 
  private:
-  void find_edges() {
-    std::vector<std::size_t> begin(vertices_ + 1, 0);
+  [[nodiscard]] TetPoints points(std::size_t t) const { return places_.of(t, corner_[t]); }
+  [[nodiscard]] std::span<const Index> corners_at(Index v) const {
+    return std::span(corners_.corner)
+        .subspan(corners_.begin[v], corners_.begin[v + 1] - corners_.begin[v]);
+  }
+
+  void mark_boundary() {
+    on_boundary_.assign(vertices_, 0);
     for (std::size_t t = 0; t < corner_.size(); ++t)
-      for (Index e = 0; e < 6; ++e) {
-        const Index a = corner_[t][tet_edge_ends[e][0]], b = corner_[t][tet_edge_ends[e][1]];
-        ++begin[std::min(a, b) + 1];
-      }
-    for (std::size_t v = 0; v < vertices_; ++v) begin[v + 1] += begin[v];
-    std::vector<std::pair<Index, std::size_t>> slots(corner_.size() * 6);
-    {
-      std::vector<std::size_t> cursor(begin.begin(), begin.end() - 1);
-      for (std::size_t t = 0; t < corner_.size(); ++t)
-        for (Index e = 0; e < 6; ++e) {
-          const Index a = corner_[t][tet_edge_ends[e][0]], b = corner_[t][tet_edge_ends[e][1]];
-          slots[cursor[std::min(a, b)]++] = {std::max(a, b), 6 * t + e};
+      for (std::size_t k = 0; k < 4; ++k)
+        if (across_[t][k] == none)
+          for (std::size_t i = 0; i < 4; ++i)
+            if (i != k) on_boundary_[corner_[t][i]] = 1;
+  }
+
+  void count_edges() {
+    std::vector<Index> seen(vertices_, none);  // the last lower vertex that it shared an edge with
+    for (Index v = 0; v < vertices_; ++v)
+      for (const Index c : corners_at(v))
+        for (const Index w : corner_[c / 4]) {
+          found_.edges += w > v && seen[w] != v;
+          if (w > v) seen[w] = v;
         }
-    }
-    for (std::size_t v = 0; v < vertices_; ++v) {
-      const auto first = slots.begin() + static_cast<std::ptrdiff_t>(begin[v]);
-      const auto last = slots.begin() + static_cast<std::ptrdiff_t>(begin[v + 1]);
-      std::sort(first, last);
-      for (auto run = first; run != last;) {
-        auto end = run + 1;
-        while (end != last && end->first == run->first) ++end;
-        around_.clear();
-        for (auto s = run; s != end; ++s) around_.push_back(s->second);
-        around_edge(static_cast<Index>(v), run->first);
-        ++found_.edges;
-        run = end;
+  }
+
+  // In ascending order of their ends. Where all is in one frame paths bend at the boundary only.
+  void look_around_edges() {
+    std::vector<Index> degree(vertices_, 0);  // tetrahedra around the edge to each vertex
+    std::vector<Index> ends;
+    std::vector<Start> starts;
+    for (Index v = 0; v < vertices_; ++v) {
+      if (embedded_ && !on_boundary_[v]) continue;
+      starts.clear();
+      ends.clear();
+      for (const Index c : corners_at(v)) {
+        const Index t = c / 4, own = c % 4;
+        for (Index i = 0; i < 4; ++i) {
+          const Index w = corner_[t][i];
+          if (w <= v) continue;
+          if (degree[w]++ == 0) ends.push_back(w);
+          for (Index k = 0; k < 4; ++k)
+            if (k != i && k != own && across_[t][k] == none)
+              starts.push_back({w, t, k, 6 - i - own - k});
+        }
       }
+      std::sort(starts.begin(), starts.end(), [](const Start& a, const Start& b) {
+        return std::tie(a.end, a.tet, a.enter) < std::tie(b.end, b.tet, b.enter);
+      });
+      if (!embedded_) std::sort(ends.begin(), ends.end());
+      auto first = starts.begin();
+      const auto look_at = [&](Index w) {
+        auto last = first;
+        while (last != starts.end() && last->end == w) ++last;
+        around_edge(v, w, {first, last}, degree[w]);
+        first = last;
+      };
+      if (embedded_)
+        while (first != starts.end()) look_at(first->end);
+      else
+        for (const Index w : ends) look_at(w);
+      for (const Index w : ends) degree[w] = 0;
     }
   }
 
+  // A fan of tetrahedra around an edge to `end` starts at a boundary face of one of them and leaves
+  // that by another.
+  struct Start {
+    Index end, tet, enter, leave;
+  };
+
   // The fans of tetrahedra around one edge, each from boundary to boundary or closed.
-  void around_edge(Index a, Index b) {
-    bool any_boundary = false;
-    for (const std::size_t s : around_) {
-      const std::size_t t = s / 6;
-      const Index i = tet_edge_ends[s % 6][0], j = tet_edge_ends[s % 6][1];
-      for (Index k = 0; k < 4; ++k) any_boundary |= k != i && k != j && across_[t][k] == none;
-    }
-    if (!any_boundary && embedded_) return;
+  void around_edge(Index a, Index b, std::span<const Start> starts, std::size_t tets) {
     std::size_t fans = 0, seen = 0;
-    if (any_boundary)
-      for (const std::size_t s : around_) {
-        const Index t = static_cast<Index>(s / 6);
-        const Index i = tet_edge_ends[s % 6][0], j = tet_edge_ends[s % 6][1];
-        Index k = 0;
-        while (k == i || k == j) ++k;
-        const Index l = 6 - i - j - k;
-        // From each boundary face; a fan is seen from both its ends and counts from the lower.
-        if (across_[t][k] == none) seen += walk(t, k, l, a, b, fans);
-        if (across_[t][l] == none) seen += walk(t, l, k, a, b, fans);
-      }
-    if (seen < around_.size()) {
+    fan_ends_.clear();
+    for (const Start& s : starts) {  // a fan is seen from both its ends and counts from the first
+      if (std::find(fan_ends_.begin(), fan_ends_.end(), 4 * s.tet + s.enter) != fan_ends_.end())
+        continue;
+      seen += walk(s.tet, s.enter, s.leave, a, b);
+      ++fans;
+    }
+    if (seen == tets && fans == 1) return;
+    const auto around = tets_around(a, b);
+    if (seen < tets) {
       fans += 1;  // what is left is closed; more than one such fan only under a strange metric
-      if (!embedded_) closed(a, b);
+      if (!embedded_) closed(a, b, around);
     }
     if (fans > 1) {
       const Index begin = static_cast<Index>(found_.pinched_edge_tets.size());
-      for (const std::size_t s : around_)
-        found_.pinched_edge_tets.push_back(static_cast<Index>(s / 6));
+      found_.pinched_edge_tets.insert(found_.pinched_edge_tets.end(), around.begin(), around.end());
       found_.pinched_edges.push_back(
           {{a, b}, begin, static_cast<Index>(found_.pinched_edge_tets.size())});
     }
   }
 
+  [[nodiscard]] std::vector<Index> tets_around(Index a, Index b) const {
+    std::vector<Index> around;
+    for (const Index c : corners_at(a))
+      if (corner_of(corner_[c / 4], b) < 4) around.push_back(c / 4);
+    return around;
+  }
+
   // Starts at boundary face k of tetrahedron t and leaves by face l.
-  std::size_t walk(Index t, Index k, Index l, Index a, Index b, std::size_t& fans) {
-    const Index first_tet = t, first_face = k;
-    double angle = 0;
+  std::size_t walk(Index t, Index k, Index l, Index a, Index b) {
+    const Index first_tet = t, first_face = k, first_apex = corner_[t][l];
     fan_.clear();
+    apexes_.clear();
     for (;;) {
       const Index i = corner_of(corner_[t], a), j = corner_of(corner_[t], b);
-      angle += dihedral(points_[t], i, j, k, l);
       fan_.push_back({t, tet_edge(i, j)});
-      const Index o = across_[t][l];
+      const Index o = across_[t][l], shared = corner_[t][k];
+      apexes_.push_back(shared);
       if (o == none) break;
-      const Index shared = corner_[t][k];
       t = o / 4;
       k = o % 4;
       l = corner_of(corner_[t], shared);
     }
-    // A single tetrahedron is met from both faces too: told apart by the face.
-    if (std::pair(t, l) < std::pair(first_tet, first_face)) return 0;
-    ++fans;
-    if (angle > std::numbers::pi + excess) add_reflex(a, b, first_tet, first_face, t, l);
+    fan_ends_.push_back(4 * t + l);
+    if (is_reflex(a, b, first_apex)) add_reflex(a, b, first_tet, first_face, t, l);
     return fan_.size();
   }
 
-  void closed(Index a, Index b) {
-    double angle = 0;
-    for (const std::size_t s : around_) {
-      const Index i = tet_edge_ends[s % 6][0], j = tet_edge_ends[s % 6][1];
-      Index k = 0;
-      while (k == i || k == j) ++k;
-      angle += dihedral(points_[s / 6], i, j, k, 6 - i - j - k);
+  // Does the fan just walked span more than pi? In one frame a look at each of its faces mostly
+  // tells, on which side of the first they are; only what is neither clear nor nearly straight is
+  // summed.
+  [[nodiscard]] bool is_reflex(Index a, Index b, Index first_apex) const {
+    constexpr double clear = 1e-3;  // of a sine
+    if (embedded_) {
+      const Vector3<double> origin = places_.vertex[a], edge = places_.vertex[b] - origin;
+      const Vector3<double> normal = cross(edge, places_.vertex[first_apex] - origin);
+      const double least = clear * clear * dot(normal, normal);
+      double side = 0;  // of the first face after it
+      for (std::size_t n = 0;; ++n) {
+        if (n == apexes_.size()) return false;
+        const Vector3<double> y = places_.vertex[apexes_[n]] - origin;
+        const double height = dot(normal, y);
+        if (height * height > least * dot(y, y)) {
+          if (side == 0) side = height;
+          if ((height < 0) != (side < 0)) return true;
+          continue;
+        }
+        const Vector3<double> other = cross(edge, y);
+        if (side == 0 || n + 1 < apexes_.size() || !(dot(normal, other) < 0)) break;
+        const double beyond = (side < 0 ? height : -height) * norm(edge);
+        return beyond > excess * norm(normal) * norm(other);
+      }
     }
+    double angle = 0;
+    for (const auto& [t, slot] : fan_) angle += dihedral_at(t, a, b);
+    return angle > std::numbers::pi + excess;
+  }
+
+  [[nodiscard]] double dihedral_at(Index t, Index a, Index b) const {
+    const Index i = corner_of(corner_[t], a), j = corner_of(corner_[t], b);
+    Index k = 0;
+    while (k == i || k == j) ++k;
+    return dihedral(points(t), i, j, k, 6 - i - j - k);
+  }
+
+  void closed(Index a, Index b, std::span<const Index> around) {
+    double angle = 0;
+    for (const Index t : around) angle += dihedral_at(t, a, b);
     if (angle > 2 * std::numbers::pi + excess) {
       on_reflex_[a] = on_reflex_[b] = 1;
       found_.reflex.emplace_back();
@@ -179,9 +227,9 @@ class Finder {
 
   void add_reflex(Index a, Index b, Index t, Index k, Index u, Index l) {
     const Index edge = static_cast<Index>(found_.reflex.size());
-    const TetPoints& p = points_[t];
+    const TetPoints p = points(t);
     found_.reflex.push_back({{p[corner_of(corner_[t], a)], p[corner_of(corner_[t], b)]},
-                             {inward_normal(p, k), inward_normal(points_[u], l)},
+                             {inward_normal(p, k), inward_normal(points(u), l)},
                              {a, b}});
     on_reflex_[a] = on_reflex_[b] = 1;
     for (const auto& [tet, slot] : fan_)
@@ -202,17 +250,17 @@ class Finder {
         continue;
       const TetTopology::Reflex &a = found_.reflex[ends[i].second],
                                 &b = found_.reflex[ends[i + 1].second];
-      if (in_a_row(a, b, v)) rows.join(ends[i].second, ends[i + 1].second);
+      if (in_a_row(a, b, v)) rows.unite(ends[i].second, ends[i + 1].second);
     }
     std::vector<Index> merged(found_.reflex.size());
     std::vector<TetTopology::Reflex> kept;
     for (Index e = 0; e < found_.reflex.size(); ++e) {
-      if (rows.root(e) == e) {  // roots are the lowest of their row
+      if (rows.find(e) == e) {  // roots are the lowest of their row
         merged[e] = static_cast<Index>(kept.size());
         kept.push_back(found_.reflex[e]);
         continue;
       }
-      merged[e] = merged[rows.root(e)];
+      merged[e] = merged[rows.find(e)];
       TetTopology::Reflex& row = kept[merged[e]];
       const TetTopology::Reflex& edge = found_.reflex[e];
       const auto u = row.end[1] - row.end[0];
@@ -254,64 +302,75 @@ class Finder {
 
   // Tetrahedra at a vertex that are joined neither by faces nor by edges there touch in it only.
   void find_vertices() {
-    std::vector<char> on_boundary(vertices_, 0);
-    for (std::size_t t = 0; t < corner_.size(); ++t)
-      for (Index k = 0; k < 4; ++k)
-        if (across_[t][k] == none)
-          for (Index i = 0; i < 4; ++i)
-            if (i != k) on_boundary[corner_[t][i]] = 1;
     DisjointSets fans(corner_.size() * 4), solids(corner_.size());
-    for (Index t = 0; t < corner_.size(); ++t)
+    for (Index t = 0; t < corner_.size(); ++t) {
+      const auto& corner = corner_[t];
+      const bool touches = (on_boundary_[corner[0]] | on_boundary_[corner[1]] |
+                            on_boundary_[corner[2]] | on_boundary_[corner[3]]) != 0;
       for (Index k = 0; k < 4; ++k) {
         const Index o = across_[t][k];
         if (o == none || o / 4 < t) continue;
-        solids.join(t, o / 4);
+        solids.unite(t, o / 4);
+        if (!touches) continue;
         for (Index i = 0; i < 4; ++i)
-          if (i != k && on_boundary[corner_[t][i]])
-            fans.join(4 * t + i, o - o % 4 + corner_of(corner_[o / 4], corner_[t][i]));
+          if (const Index v = corner[i]; i != k && on_boundary_[v])
+            fans.unite(4 * t + i, o - o % 4 + corner_of(corner_[o / 4], v));
       }
+    }
     for (const auto& edge : found_.pinched_edges)
       for (Index n = edge.begin + 1; n < edge.end; ++n) {
         const Index t = found_.pinched_edge_tets[n - 1], u = found_.pinched_edge_tets[n];
-        solids.join(t, u);
+        solids.unite(t, u);
         for (const Index v : edge.vertex)
-          fans.join(4 * t + corner_of(corner_[t], v), 4 * u + corner_of(corner_[u], v));
-      }
-    std::vector<Index> first(vertices_, none);
-    std::vector<char> pinched(vertices_, 0);
-    for (Index t = 0; t < corner_.size(); ++t)
-      for (Index i = 0; i < 4; ++i) {
-        const Index v = corner_[t][i];
-        if (!on_boundary[v]) continue;
-        if (first[v] == none) first[v] = 4 * t + i;
-        if (fans.root(4 * t + i) != fans.root(first[v])) {
-          pinched[v] = 1;
-          solids.join(t, first[v] / 4);
-        }
+          fans.unite(4 * t + corner_of(corner_[t], v), 4 * u + corner_of(corner_[u], v));
       }
     for (Index v = 0; v < vertices_; ++v) {
-      if (pinched[v]) found_.pinched_vertices.push_back(v);
-      found_.reflex_vertices += on_reflex_[v] || pinched[v];
+      bool pinched = false;
+      if (on_boundary_[v]) {
+        const auto row = corners_at(v);
+        for (const Index c : row) {
+          if (fans.find(c) == fans.find(row[0])) continue;
+          pinched = true;
+          solids.unite(c / 4, row[0] / 4);
+        }
+      }
+      if (pinched) found_.pinched_vertices.push_back(v);
+      found_.reflex_vertices += on_reflex_[v] || pinched;
     }
-    for (Index t = 0; t < corner_.size(); ++t) found_.components += solids.root(t) == t;
+    for (Index t = 0; t < corner_.size(); ++t) found_.components += solids.find(t) == t;
   }
 
   std::size_t vertices_;
   Corners corner_, across_;
-  std::span<const TetPoints> points_;
+  const TetCorners& corners_;
+  const TetPlaces& places_;
   bool embedded_;
-  std::vector<char> on_reflex_;
-  std::vector<std::size_t> around_;
+  std::vector<char> on_reflex_, on_boundary_;
+  std::vector<Index> fan_ends_;  // of the fans around an edge, boundary faces 4 t + k
+  std::vector<Index> apexes_;    // vertices around the edge, of the fan being walked
   std::vector<std::pair<Index, Index>> fan_, entries_;
   TetTopology found_;
 };
 
 }  // namespace
 
-TetTopology find_tet_topology(std::size_t vertices, std::span<const std::array<Index, 4>> corner,
-                              std::span<const std::array<Index, 4>> across,
-                              std::span<const TetPoints> points, bool embedded) {
-  return Finder(vertices, corner, across, points, embedded).find();
+TetCorners corners_of_vertices(std::size_t vertices, Corners corner) {
+  TetCorners rows;
+  rows.begin.assign(vertices + 1, 0);
+  for (const auto& tet : corner)
+    for (const Index v : tet) ++rows.begin[v + 1];
+  for (std::size_t v = 0; v < vertices; ++v) rows.begin[v + 1] += rows.begin[v];
+  rows.corner.resize(4 * corner.size());
+  std::vector<Index> cursor(rows.begin.begin(), rows.begin.end() - 1);
+  for (std::size_t t = 0; t < corner.size(); ++t)
+    for (std::size_t i = 0; i < 4; ++i)
+      rows.corner[cursor[corner[t][i]]++] = static_cast<Index>(4 * t + i);
+  return rows;
+}
+
+TetTopology find_tet_topology(Corners corner, Corners across, const TetCorners& corners,
+                              const TetPlaces& places) {
+  return Finder(corner, across, corners, places).find();
 }
 
 }  // namespace plexway

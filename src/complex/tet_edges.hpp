@@ -35,10 +35,28 @@ struct TetTopology {
   std::size_t components = 0;
 };
 
-/// From corners and across (4 u + j, or none) of each tetrahedron. points: of each tetrahedron, in
-/// units of about an edge; all in one frame if `embedded`, else each in its own.
-TetTopology find_tet_topology(std::size_t vertices, std::span<const std::array<Index, 4>> corner,
+/// Where the corners of tetrahedra are, in units of about an edge: all in one frame by their
+/// vertices, or each tetrahedron in its own.
+struct TetPlaces {
+  std::span<const Vector3<double>> vertex;
+  std::span<const TetPoints> posed;  ///< empty if in one frame
+
+  [[nodiscard]] bool embedded() const { return posed.empty(); }
+  [[nodiscard]] TetPoints of(std::size_t tet, const std::array<Index, 4>& corner) const {
+    if (!embedded()) return posed[tet];
+    return {vertex[corner[0]], vertex[corner[1]], vertex[corner[2]], vertex[corner[3]]};
+  }
+};
+
+/// The tetrahedra at each vertex: corners 4 t + i, row by row, ascending.
+struct TetCorners {
+  std::vector<Index> begin, corner;
+};
+TetCorners corners_of_vertices(std::size_t vertices, std::span<const std::array<Index, 4>> corner);
+
+/// From corners and across (4 u + j, or none) of each tetrahedron.
+TetTopology find_tet_topology(std::span<const std::array<Index, 4>> corner,
                               std::span<const std::array<Index, 4>> across,
-                              std::span<const TetPoints> points, bool embedded);
+                              const TetCorners& corners, const TetPlaces& places);
 
 }  // namespace plexway

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <limits>
 #include <string>
 #include <tuple>
 
@@ -26,12 +25,47 @@ std::string name(const Face& f) {
   return "face " + std::to_string(f[0]) + " " + std::to_string(f[1]) + " " + std::to_string(f[2]);
 }
 
-// Whether the face's ascending order is an even permutation of its order as seen from inside.
-bool is_even(const std::array<Index, 4>& tet, Index i) {
-  // Corners of face i such that they turn the same way for every i.
-  constexpr Index order[4][3] = {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}};
-  const Index a = tet[order[i][0]], b = tet[order[i][1]], c = tet[order[i][2]];
-  return ((a < b) + (b < c) + (a < c)) % 2 != 0;
+// Bit i: whether the ascending order of face i is an even permutation of its order as seen from
+// inside, which is 1 2 3, 0 3 2, 0 1 3, 0 2 1.
+unsigned even_faces(const std::array<Index, 4>& tet) {
+  const auto& [a, b, c, d] = tet;
+  const unsigned ab = a < b, ac = a < c, ad = a < d, bc = b < c, bd = b < d, cd = c < d;
+  return (bc ^ cd ^ bd) | (ad ^ cd ^ 1 ^ ac) << 1 | (ab ^ bd ^ ad) << 2 | (ac ^ bc ^ 1 ^ ab) << 3;
+}
+
+// A face by its vertices but for the lowest: the middle one in the upper half.
+struct FaceSide {
+  std::uint64_t others;
+  Index corner;
+};
+
+// The vertices in ascending order, each with the corner that it is in its last two bits.
+std::array<std::uint64_t, 4> ascending(const std::array<Index, 4>& tet) {
+  std::array<std::uint64_t, 4> v;
+  for (std::size_t i = 0; i < 4; ++i) v[i] = std::uint64_t{tet[i]} << 2 | i;
+  const auto order = [&](std::size_t i, std::size_t j) {
+    const std::uint64_t low = std::min(v[i], v[j]);
+    v[j] = std::max(v[i], v[j]);
+    v[i] = low;
+  };
+  order(0, 1), order(2, 3), order(0, 2), order(1, 3), order(1, 2);
+  return v;
+}
+
+[[noreturn]] void refuse_third(Index lowest, std::span<FaceSide> sides) {
+  std::sort(sides.begin(), sides.end(), [](const FaceSide& a, const FaceSide& b) {
+    return std::tie(a.others, a.corner) < std::tie(b.others, b.corner);
+  });
+  auto run = sides.begin(), end = run;
+  while (end - run < 3)
+    for (run = end; end != sides.end() && end->others == run->others;) ++end;
+  std::string list;
+  for (auto k = run; k != end; ++k)
+    list += (k == run ? "" : k + 1 == end ? " and " : ", ") + std::to_string(k->corner / 4);
+  throw InputError(
+      "tets " + list + " share " +
+      name({lowest, static_cast<Index>(run->others >> 32), static_cast<Index>(run->others)}) +
+      ": at most two can");
 }
 
 }  // namespace
@@ -55,48 +89,57 @@ void check_tets(std::size_t vertices, Tets tets) {
 }
 
 TetGluing glue_tets(std::size_t vertices, Tets tets) {
-  // Faces in buckets by their lowest vertex, then sorted by the other two.
-  struct Keyed {
-    Index middle, high, corner;
-  };
-  std::vector<std::size_t> begin(vertices + 1, 0);
-  for (const auto& tet : tets)
-    for (Index i = 0; i < 4; ++i) ++begin[sorted_face(tet, i)[0] + 1];
-  for (std::size_t v = 0; v < vertices; ++v) begin[v + 1] += begin[v];
-  std::vector<Keyed> faces(tets.size() * 4);
-  {
-    std::vector<std::size_t> cursor(begin.begin(), begin.end() - 1);
-    for (std::size_t t = 0; t < tets.size(); ++t)
-      for (Index i = 0; i < 4; ++i) {
-        const Face f = sorted_face(tets[t], i);
-        faces[cursor[f[0]]++] = {f[1], f[2], static_cast<Index>(4 * t + i)};
-      }
+  // Faces in buckets by their lowest vertex, some twenty each: those are scanned for the other two.
+  // Only where many meet are they sorted.
+  std::vector<Index> end(vertices + 1, 0);
+  for (const auto& tet : tets) {
+    const auto v = ascending(tet);
+    end[(v[0] >> 2) + 1] += 3;
+    ++end[(v[1] >> 2) + 1];
+  }
+  for (std::size_t v = 0; v < vertices; ++v) end[v + 1] += end[v];
+  std::vector<FaceSide> sides(tets.size() * 4);
+  for (std::size_t t = 0; t < tets.size(); ++t) {
+    const auto v = ascending(tets[t]);
+    const auto add = [&](std::size_t low, std::size_t middle, std::size_t high, std::size_t rest) {
+      sides[end[v[low] >> 2]++] = {v[middle] >> 2 << 32 | v[high] >> 2,
+                                   static_cast<Index>(4 * t + (v[rest] & 3))};
+    };
+    add(0, 1, 2, 3), add(0, 1, 3, 2), add(0, 2, 3, 1), add(1, 2, 3, 0);
   }
   TetGluing across(tets.size(), {none, none, none, none});
-  for (std::size_t v = 0; v < vertices; ++v) {
-    const auto first = faces.begin() + static_cast<std::ptrdiff_t>(begin[v]);
-    const auto last = faces.begin() + static_cast<std::ptrdiff_t>(begin[v + 1]);
-    std::sort(first, last, [](const Keyed& a, const Keyed& b) {
-      return std::tie(a.middle, a.high, a.corner) < std::tie(b.middle, b.high, b.corner);
-    });
-    for (auto run = first; run != last;) {
-      auto end = run + 1;
-      while (end != last && end->middle == run->middle && end->high == run->high) ++end;
-      if (end - run > 2) {
-        std::string list;
-        for (auto k = run; k != end; ++k)
-          list += (k == run ? "" : k + 1 == end ? " and " : ", ") + std::to_string(k->corner / 4);
-        throw InputError("tets " + list + " share " +
-                         name({static_cast<Index>(v), run->middle, run->high}) +
-                         ": at most two can");
+  constexpr std::ptrdiff_t few = 96;
+  FaceSide* first = sides.data();
+  for (Index v = 0; v < vertices; ++v) {
+    FaceSide* const next = sides.data() + end[v];
+    FaceSide* last = next;
+    const auto glue = [&](const FaceSide& a, const FaceSide& b) {
+      across[a.corner / 4][a.corner % 4] = b.corner;
+      across[b.corner / 4][b.corner % 4] = a.corner;
+    };
+    if (last - first > few) {
+      std::sort(first, last,
+                [](const FaceSide& a, const FaceSide& b) { return a.others < b.others; });
+      for (FaceSide* stop = first; first != last; first = stop) {
+        while (stop != last && stop->others == first->others) ++stop;
+        if (stop - first > 2) refuse_third(v, {first, last});
+        if (stop - first == 2) glue(first[0], first[1]);
       }
-      if (end - run == 2) {
-        const Index a = run->corner, b = (run + 1)->corner;
-        across[a / 4][a % 4] = b;
-        across[b / 4][b % 4] = a;
-      }
-      run = end;
     }
+    for (; first < last; ++first) {
+      const std::uint64_t others = first->others;
+      const auto after = [&](FaceSide* s) {
+        do ++s;
+        while (s < last && s->others != others);
+        return s;
+      };
+      FaceSide* const second = after(first);
+      if (second >= last) continue;
+      if (after(second) < last) refuse_third(v, {first, last});
+      glue(*first, *second);
+      *second = *--last;
+    }
+    first = next;
   }
   return across;
 }
@@ -105,15 +148,25 @@ std::vector<char> orient_tets(Tets tets, const TetGluing& across,
                               std::span<const signed char> volume) {
   std::vector<char> turn(tets.size(), 0);
   std::vector<char> known(tets.size(), 0);
-  std::vector<Index> queue;
-  for (std::size_t t = 0; t < tets.size(); ++t)
-    if (volume[t] != 0) {
-      turn[t] = volume[t] < 0;
-      known[t] = 1;
-    }
+  std::vector<unsigned char> even(tets.size());  // turning over makes all faces the other
+  bool all_known = true;
+  for (std::size_t t = 0; t < tets.size(); ++t) {
+    turn[t] = volume[t] < 0;
+    known[t] = volume[t] != 0;
+    all_known = all_known && volume[t] != 0;
+    even[t] = static_cast<unsigned char>(even_faces(tets[t]));
+  }
   const auto fits = [&](std::size_t t, Index i, std::size_t u, Index j) {
-    return (is_even(tets[t], i) != (turn[t] != 0)) != (is_even(tets[u], j) != (turn[u] != 0));
+    return ((even[t] >> i ^ turn[t]) & 1) != ((even[u] >> j ^ turn[u]) & 1);
   };
+  const auto fits_all = [&] {
+    for (std::size_t t = 0; t < tets.size(); ++t)
+      for (Index i = 0; i < 4; ++i)
+        if (const Index o = across[t][i]; o != none && !fits(t, i, o / 4, o % 4)) return false;
+    return true;
+  };
+  if (all_known && fits_all()) return turn;
+  std::vector<Index> queue;
   const auto is_thin = [&](std::size_t t) { return volume[t] == 1 || volume[t] == -1; };
   for (std::size_t t = 0; t < tets.size(); ++t)
     for (Index i = 0; i < 4; ++i) {

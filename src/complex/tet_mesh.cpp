@@ -71,12 +71,12 @@ TetPoints pose(const std::array<double, 6>& length) {
 double determinant(const TetPoints& p) { return dot(cross(p[1] - p[0], p[2] - p[0]), p[3] - p[0]); }
 
 // Its volume beside that of three edges at right angles.
-double thickness(const TetPoints& p) {
+double thickness(const TetPoints& p, double six_volumes) {
   double product = 1;
   for (std::size_t i = 1; i < 4; ++i) product *= norm(p[i] - p[0]);
-  return product > 0 ? std::abs(determinant(p)) / product : 0;
+  return product > 0 ? std::abs(six_volumes) / product : 0;
 }
-bool has_volume(const TetPoints& p) { return thickness(p) > flat; }
+bool has_volume(const TetPoints& p) { return thickness(p, determinant(p)) > flat; }
 
 }  // namespace
 
@@ -93,9 +93,9 @@ TetMesh<Real>::TetMesh(std::span<const std::array<double, 3>> positions,
     TetPoints p;
     for (std::size_t i = 0; i < 4; ++i) p[i] = vector(scaled[tets[t][i]]);
     for (const auto& [i, j] : tet_edge_ends) sum += norm(p[j] - p[i]);
-    const double thick = thickness(p);
+    const double six_volumes = determinant(p), thick = thickness(p, six_volumes);
     volume[t] = static_cast<signed char>(thick <= flat ? 0 : thick < thin ? 1 : 2);
-    if (determinant(p) < 0) volume[t] = static_cast<signed char>(-volume[t]);
+    if (six_volumes < 0) volume[t] = static_cast<signed char>(-volume[t]);
     if (volume[t] == 0 && summary_.degenerate_tets++ == 0)
       summary_.first_degenerate = static_cast<Index>(t);
     if (volume[t] < 0 && summary_.inverted_tets++ == 0)
@@ -162,18 +162,11 @@ void TetMesh<Real>::assemble(std::size_t vertices, std::span<const std::array<In
   // A turned tetrahedron has its last two corners, and so faces, exchanged.
   const auto corner_inside = [&](Index t, Index i) { return turn[t] && i >= 2 ? 5 - i : i; };
   std::vector<std::array<Index, 4>> corner(m), over(m);
-  std::vector<TetPoints> points(m);
   for (std::size_t inside = 0; inside < m; ++inside) {
     const Index t = order[inside];
-    TetPoints posed;
-    if (summary_.embedded)
-      for (std::size_t i = 0; i < 4; ++i) posed[i] = vector(scaled[tets[t][i]]);
-    else
-      posed = pose(lengths[t]);
     for (Index i = 0; i < 4; ++i) {
       const Index k = corner_inside(t, i), o = across[t][i];
       corner[inside][k] = vertex_to_inside_[tets[t][i]];
-      points[inside][k] = posed[i];
       over[inside][k] =
           o == none ? none : 4 * (tet_to_inside_[o / 4] & ~turned) + corner_inside(o / 4, o % 4);
       summary_.boundary_faces += o == none;
@@ -181,7 +174,23 @@ void TetMesh<Real>::assemble(std::size_t vertices, std::span<const std::array<In
   }
   summary_.faces = (4 * m + summary_.boundary_faces) / 2;
 
-  TetTopology topology = find_tet_topology(vertices, corner, over, points, summary_.embedded);
+  std::vector<Vector3<double>> at;
+  std::vector<TetPoints> points;
+  if (summary_.embedded) {
+    at.resize(vertices);
+    for (std::size_t v = 0; v < vertices; ++v) at[vertex_to_inside_[v]] = vector(scaled[v]);
+  } else {
+    points.resize(m);
+    for (std::size_t inside = 0; inside < m; ++inside) {
+      const Index t = order[inside];
+      const TetPoints posed = pose(lengths[t]);
+      for (Index i = 0; i < 4; ++i) points[inside][corner_inside(t, i)] = posed[i];
+    }
+  }
+  TetCorners rows = corners_of_vertices(vertices, corner);
+  TetTopology topology = find_tet_topology(corner, over, rows, {at, points});
+  corners_begin_ = std::move(rows.begin);
+  corners_ = std::move(rows.corner);
   summary_.edges = topology.edges;
   summary_.reflex_edges = topology.reflex_edges;
   summary_.reflex_vertices = topology.reflex_vertices;
@@ -196,31 +205,24 @@ void TetMesh<Real>::assemble(std::size_t vertices, std::span<const std::array<In
   const auto rounded = [](const Vector3<double>& p) {
     return Vector3<Real>{static_cast<Real>(p.x), static_cast<Real>(p.y), static_cast<Real>(p.z)};
   };
-  tets_.resize(m + 1);
+  constexpr auto packed = [](Index tet, Index face) { return tet << TetAcross::tet_shift | face; };
+  const Index sentinel = packed(static_cast<Index>(m), 0);
+  tets_.reserve(m + 1);
   for (std::size_t t = 0; t < m; ++t) {
-    TetRecord<Real>& record = tets_[t];
     Vector3<double> centre = {0, 0, 0};
-    for (std::size_t i = 0; i < 4; ++i) {
-      const Index o = over[t][i];
-      record.across[i] = o == none ? static_cast<Index>(m) << TetAcross::tet_shift
-                                   : (o / 4) << TetAcross::tet_shift | o % 4;
-      record.corner[i] = corner[t][i];
-      centre = centre + 0.25 * points[t][i];
-    }
-    record.centre = summary_.embedded ? rounded(centre) : Vector3<Real>{0, 0, 0};
-    record.reflex = summary_.embedded ? topology.first_reflex[t] : none;
+    if (summary_.embedded)
+      for (const Index v : corner[t]) centre = centre + 0.25 * at[v];
+    const auto side = [&](std::size_t i) { return over[t][i] == none ? sentinel : over[t][i]; };
+    tets_.push_back({{side(0), side(1), side(2), side(3)},
+                     {corner[t][0], corner[t][1], corner[t][2], corner[t][3]},
+                     rounded(centre),
+                     summary_.embedded ? topology.first_reflex[t] : none});
   }
-  for (std::size_t i = 0; i < 4; ++i) {
-    tets_[m].across[i] = static_cast<Index>(m) << TetAcross::tet_shift;
-    tets_[m].corner[i] = 0;
-  }
-  tets_[m].centre = {0, 0, 0};
-  tets_[m].reflex = none;
+  tets_.push_back({{sentinel, sentinel, sentinel, sentinel}, {0, 0, 0, 0}, {0, 0, 0}, none});
 
   if (summary_.embedded) {
-    points_.resize(vertices);
-    for (std::size_t v = 0; v < vertices; ++v)
-      points_[vertex_to_inside_[v]] = rounded(vector(scaled[v]));
+    points_.reserve(vertices);
+    for (const Vector3<double>& p : at) points_.push_back(rounded(p));
     reflex_list_ = std::move(topology.reflex_list);
     for (const auto& e : topology.reflex) {
       const auto along = e.end[1] - e.end[0];
@@ -246,16 +248,6 @@ void TetMesh<Real>::assemble(std::size_t vertices, std::span<const std::array<In
       }
     }
   }
-
-  corners_begin_.assign(vertices + 1, 0);
-  for (const auto& tet : corner)
-    for (const Index v : tet) ++corners_begin_[v + 1];
-  for (std::size_t v = 0; v < vertices; ++v) corners_begin_[v + 1] += corners_begin_[v];
-  corners_.resize(4 * m);
-  std::vector<Index> cursor(corners_begin_.begin(), corners_begin_.end() - 1);
-  for (std::size_t t = 0; t < m; ++t)
-    for (std::size_t i = 0; i < 4; ++i)
-      corners_[cursor[corner[t][i]]++] = static_cast<Index>(4 * t + i);
 }
 
 template <class Real>

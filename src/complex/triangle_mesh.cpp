@@ -2,14 +2,17 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <string>
 
 #include <plexway/error.hpp>
 
+#include "complex/face_layout.hpp"
 #include "complex/gluing.hpp"
+#include "complex/saddle_vertices.hpp"
+#include "complex/shape_blocks.hpp"
 #include "complex/simplex_order.hpp"
-#include "complex/triangle_shape.hpp"
 #include "complex/vertex_fans.hpp"
 
 namespace plexway {
@@ -23,6 +26,9 @@ void check_faces(std::size_t vertices, Faces faces) {
   if (faces.size() > Across::limit - 2)
     throw InputError(std::to_string(faces.size()) + " faces: at most " +
                      std::to_string(Across::limit - 2) + " fit the index");
+  Index largest = 0;
+  for (const auto& [a, b, c] : faces) largest = std::max({largest, a, b, c});
+  if (largest < vertices) return;
   for (std::size_t f = 0; f < faces.size(); ++f)
     for (const Index v : faces[f])
       if (v >= vertices)
@@ -32,32 +38,22 @@ void check_faces(std::size_t vertices, Faces faces) {
 
 // In a surface given by vertices alone a repeated corner leaves nothing to glue by.
 void check_corners(Faces faces) {
-  for (std::size_t f = 0; f < faces.size(); ++f)
+  for (std::size_t f = 0; f < faces.size(); ++f) {
+    const auto& [a, b, c] = faces[f];
+    if (a != b && b != c && c != a) continue;
     for (Index i = 0; i < 3; ++i)
       if (faces[f][i] == faces[f][next(i)])
         throw InputError("face " + std::to_string(f) + ": vertex " + std::to_string(faces[f][i]) +
                          " occurs twice");
+  }
 }
 
-// Rounds an angle's cosine and sine so that turning by it keeps lengths: cos^2 + sin^2 = 1. Errors
-// there would add up hinge by hinge, on regular grids all with one sign.
-template <class Real>
-void round_angle(double cosine, double sine, Real& c, Real& s) {
-  const Real c0 = static_cast<Real>(cosine), s0 = static_cast<Real>(sine);
-  c = c0;
-  s = s0;
-  double best = std::numeric_limits<double>::infinity();
-  for (int i = -1; i <= 1; ++i)
-    for (int j = -1; j <= 1; ++j) {
-      const auto shifted = [](Real value, int by) {  // by one unit in the last place
-        return value + static_cast<Real>(by) * std::abs(value) *
-                           std::numeric_limits<Real>::epsilon() * Real(0.75);
-      };
-      const Real ci = shifted(c0, i), sj = shifted(s0, j);
-      const double cd = static_cast<double>(ci), sd = static_cast<double>(sj);
-      const double error = std::abs((cd - 1) * (cd + 1) + sd * sd) + (i || j ? 1e-17 : 0);
-      if (error < best) best = error, c = ci, s = sj;
-    }
+void check_positions(std::span<const std::array<double, 3>> positions) {
+  for (std::size_t v = 0; v < positions.size(); ++v) {
+    const auto& [x, y, z] = positions[v];
+    if (!(std::isfinite(x) && std::isfinite(y) && std::isfinite(z)))
+      throw InputError("vertex " + std::to_string(v) + ": a coordinate is not finite");
+  }
 }
 
 std::vector<Index> copy_of(std::span<const Index> order) { return {order.begin(), order.end()}; }
@@ -70,44 +66,6 @@ template <class Visit>
 void around_edge(GluingView across, Index h, Visit visit) {
   visit(h);
   for (Index o = across[h / 3][h % 3]; o != none && o != h; o = across[o / 3][o % 3]) visit(o);
-}
-
-// The excess of a vertex and its neighbours together; those on the boundary do not count.
-template <class Real>
-std::vector<double> excess_around(std::span<const TriangleRecord<Real>> triangles,
-                                  std::span<const double> excess, std::span<const char> boundary) {
-  std::vector<double> around(excess.begin(), excess.end());
-  for (const TriangleRecord<Real>& t : triangles.first(triangles.size() - 1))
-    for (std::size_t i = 0; i < 3; ++i) {
-      // An edge inside counts from both its triangles. Of one on the boundary both ends are there.
-      const Index v = t.corner[i], w = t.corner[edge_after(i)];
-      if (!boundary[w]) around[v] += excess[w] / 2;
-      if (!boundary[v]) around[w] += excess[v] / 2;
-    }
-  return around;
-}
-
-// `around` is what `excess_around` says. Takes off what chance gives (SaddleThresholds), but not
-// where the neighbourhood is a saddle: without that, distances on tubes that wind came out up to 24
-// % too short.
-template <class Real>
-void leave_noise(std::span<const TriangleRecord<Real>> triangles, std::span<const char> boundary,
-                 const SaddleThresholds& saddles, std::span<const double> around,
-                 std::vector<double>& excess) {
-  std::vector<double> lack(excess.size(), 0);
-  std::vector<int> neighbours(excess.size(), 0);
-  for (const TriangleRecord<Real>& t : triangles.first(triangles.size() - 1))
-    for (std::size_t i = 0; i < 3; ++i) {
-      const Index v = t.corner[i], w = t.corner[edge_after(i)];
-      for (const auto& [of, by] : {std::pair{v, w}, std::pair{w, v}}) {
-        if (boundary[by]) continue;
-        lack[of] += std::max(0.0, -excess[by]);
-        ++neighbours[of];
-      }
-    }
-  for (std::size_t v = 0; v < excess.size(); ++v)
-    if (!boundary[v] && excess[v] > 0 && neighbours[v] > 0 && around[v] <= saddles.neighbourhood)
-      excess[v] -= std::min(saddles.most_noise, saddles.noise_share * lack[v] / neighbours[v]);
 }
 
 // Both sides of an edge must agree to the last bit: the mean of what they say.
@@ -164,6 +122,14 @@ void shorten_each(Lengths& lengths) {
 
 }  // namespace
 
+FaceLayout lay_out(std::span<const std::array<double, 3>> positions, Faces faces,
+                   std::span<const Index> order) {
+  check_faces(positions.size(), faces);
+  check_corners(faces);
+  check_positions(positions);
+  return {positions.size(), faces, order.empty() ? along_curve(positions, faces) : copy_of(order)};
+}
+
 void refuse_refraction(const SurfaceSummary& summary, const char* what) {
   if (summary.refracting_edges > 0)
     throw UsageError(std::string(what) + ": not on a surface with " +
@@ -172,30 +138,15 @@ void refuse_refraction(const SurfaceSummary& summary, const char* what) {
 }
 
 SaddleThresholds SaddleThresholds::standard() {
-  return {.interior = 1e-5,
-          .boundary = 1e-6,
-          .noise_share = 1,
-          .most_noise = 0.02,
-          .neighbourhood = 0.01};
+  return {
+      .interior = 1e-5, .boundary = 1e-6, .noise_share = 1, .most_noise = 0.02, .agreement = 0.7};
 }
 
 template <class Real>
 TriangleMesh<Real>::TriangleMesh(std::span<const std::array<double, 3>> positions,
                                  std::span<const std::array<Index, 3>> faces,
                                  const SurfaceHints& hints) {
-  check_faces(positions.size(), faces);
-  check_corners(faces);
-  for (std::size_t v = 0; v < positions.size(); ++v)
-    for (const double x : positions[v])
-      if (!std::isfinite(x))
-        throw InputError("vertex " + std::to_string(v) + ": a coordinate is not finite");
-  std::vector<TriangleShape> shapes(faces.size());
-  for (std::size_t f = 0; f < faces.size(); ++f)
-    shapes[f] = shape_from_positions(
-        {&positions[faces[f][0]], &positions[faces[f][1]], &positions[faces[f][2]]});
-  assemble(positions.size(), faces, shapes,
-           hints.order.empty() ? along_curve(positions, faces) : copy_of(hints.order),
-           glue_by_vertices(positions.size(), faces), hints);
+  assemble(lay_out(positions, faces, hints.order), ShapesInSpace(positions, faces), hints);
 }
 
 template <class Real>
@@ -225,131 +176,61 @@ TriangleMesh<Real>::TriangleMesh(std::size_t vertices, std::span<const std::arra
   check_gluing(faces, across);
   std::vector<std::array<double, 3>> agreed(lengths.begin(), lengths.end());
   if (!hints.refracts) agree_on_edges(agreed, across);
-  std::vector<TriangleShape> shapes(faces.size());
   std::vector<char> violated(faces.size(), 0);
   for (std::size_t f = 0; f < faces.size(); ++f) violated[f] = longest_excess(agreed[f]) > 0;
   if (hints.refracts)
     shorten_each(agreed);
   else
     shorten_to_triangles(agreed, across);
-  for (std::size_t f = 0; f < faces.size(); ++f) {
-    shapes[f] = shape_from_lengths(agreed[f]);
-    shapes[f].violated = violated[f] != 0;
-  }
-  std::vector<std::array<Index, 3>> gluing(across.begin(), across.end());
-  assemble(vertices, faces, shapes,
-           hints.order.empty() ? breadth_first(across) : copy_of(hints.order), std::move(gluing),
-           hints);
+  assemble(
+      {vertices, faces, hints.order.empty() ? breadth_first(across) : copy_of(hints.order), across},
+      ShapesOfLengths(agreed, violated), hints);
 }
 
 template <class Real>
-TriangleMesh<Real>::TriangleMesh(std::size_t vertices, std::span<const std::array<Index, 3>> faces,
-                                 std::span<const TriangleShape> shapes,
-                                 std::vector<std::array<Index, 3>> across,
+TriangleMesh<Real>::TriangleMesh(FaceLayout&& layout, const TriangleShapes& shapes,
                                  const SurfaceHints& hints) {
-  check_faces(vertices, faces);
-  std::vector<Index> order =
-      hints.order.empty() ? breadth_first(GluingView(across)) : copy_of(hints.order);
-  assemble(vertices, faces, shapes, std::move(order), std::move(across), hints);
+  assemble(std::move(layout), shapes, hints);
 }
 
 template <class Real>
-void TriangleMesh<Real>::assemble(std::size_t vertices, std::span<const std::array<Index, 3>> faces,
-                                  std::span<const TriangleShape> shapes,
-                                  std::vector<Index> face_order,
-                                  std::vector<std::array<Index, 3>> across,
+void TriangleMesh<Real>::assemble(FaceLayout layout, const TriangleShapes& shapes,
                                   const SurfaceHints& hints) {
-  const SaddleThresholds& saddles = hints.saddles;
-  const std::size_t m = faces.size();
-  const Orientation orientation = orient(faces, across);
-  summary_.vertices = vertices;
+  const std::size_t m = layout.face_count();
+  summary_.vertices = layout.vertex_count();
   summary_.faces = m;
-  summary_.orientable = orientation.orientable;
+  summary_.orientable = layout.orientable;
+  summary_.unreferenced_vertices = layout.vertex_count() - layout.named;
+  summary_.edges = layout.edges;
+  summary_.boundary_edges = layout.boundary_edges;
+  summary_.non_manifold_edges = layout.non_manifold_edges;
+  if (hints.refracts) summary_.refracting_edges = layout.mark_refraction(shapes);
 
-  double sum = 0, longest = 0;
-  for (const Index f : face_order)
-    for (const double l : shapes[f].length) {
-      if (!std::isfinite(l))
-        throw InputError("face " + std::to_string(f) + ": too long for a number");
-      longest = std::max(longest, l);
-    }
-  for (const Index f : face_order)
-    for (const double l : shapes[f].length) sum += longest > 0 ? l / longest : 0;
-  const double unit = longest > 0 ? longest * (sum / (3 * static_cast<double>(m))) : 1;
-  summary_.mean_edge = unit;
+  VertexFans fans = find_vertex_fans(layout);
 
-  face_to_inside_.resize(m);
-  for (std::size_t i = 0; i < m; ++i) face_to_inside_[face_order[i]] = static_cast<Index>(i);
-  vertex_to_inside_.assign(vertices, none);
-  Index named = 0;
-  for (const Index f : face_order)
-    for (const Index v : faces[f])
-      if (vertex_to_inside_[v] == none) vertex_to_inside_[v] = named++;
-  summary_.unreferenced_vertices = vertices - named;
-  for (Index& v : vertex_to_inside_)
-    if (v == none) v = named++;
-
-  // Corner and edge numbers of a turned face: corners 0 2 1, edges 2 1 0.
-  const auto turned = [&](Index f) { return !orientation.turned.empty() && orientation.turned[f]; };
-  const auto edge_inside = [&](Index f, Index i) { return turned(f) ? 2 - i : i; };
-  const auto corner_outside = [&](Index f, Index i) { return turned(f) && i != 0 ? 3 - i : i; };
-
-  triangles_.resize(m + 1);
-  for (std::size_t inside = 0; inside < m; ++inside) {
-    const Index f = face_order[inside];
-    TriangleRecord<Real>& t = triangles_[inside];
-    const TriangleShape& shape = shapes[f];
-    t.face = f | (turned(f) ? reversed : 0);
-    summary_.degenerate_faces += shape.degenerate;
-    summary_.violated_faces += shape.violated;
-    for (Index i = 0; i < 3; ++i) {
-      const Index e = edge_inside(f, i);
-      t.length[e] = static_cast<Real>(shape.length[i] / unit);
-      const Index h = across[f][i];
-      if (h == none) {
-        t.across[e] = static_cast<Index>(m) << Across::face_shift;
-        ++summary_.boundary_edges;
-        ++summary_.edges;
-        continue;
-      }
-      const Index g = h / 3, j = h % 3;
-      const bool fan = across[g][j] != 3 * f + i;
-      // Opposite unless the vertices say otherwise, each seen through its own turn.
-      const bool loop = faces[f][i] == faces[f][next(i)];
-      const bool same_way = !loop && faces[f][i] == faces[g][j];
-      const bool flip = same_way != (turned(f) != turned(g));
-      const bool refracts =
-          hints.refracts && std::abs(shape.length[i] - shapes[g].length[j]) >
-                                1e-9 * std::max(shape.length[i], shapes[g].length[j]);
-      summary_.refracting_edges += refracts && (fan || 3 * f + i < h);
-      t.across[e] = face_to_inside_[g] << Across::face_shift | edge_inside(g, j) |
-                    (flip ? Across::flip : 0) | (fan || refracts ? Across::fan : 0);
-      if (!fan) {
-        summary_.edges += 3 * f + i < h;
-      } else {
-        bool lowest = true;
-        for (Index k = h; k != 3 * f + i; k = across[k / 3][k % 3]) lowest &= 3 * f + i < k;
-        summary_.edges += lowest;
-        summary_.non_manifold_edges += lowest;
-      }
-    }
-    for (Index i = 0; i < 3; ++i) {
-      const Index c = corner_outside(f, i);
-      t.corner[i] = vertex_to_inside_[faces[f][c]];
-      round_angle(shape.cosine[c], shape.sine[c], t.cosine[i], t.signed_sine[i]);
-    }
+  // What the layout says goes into the records, so that it need not be held while they are filled.
+  triangles_.reserve(m + 1);
+  for (std::size_t f = 0; f < m; ++f) {
+    const auto &o = layout.across[f], &v = layout.corner[f];
+    triangles_.push_back({{o[0], o[1], o[2]},
+                          {},
+                          {},
+                          {},
+                          {v[0], v[1], v[2]},
+                          layout.face[f] | (layout.is_turned(f) ? reversed : 0)});
   }
-  TriangleRecord<Real>& sentinel = triangles_[m];
-  for (Index i = 0; i < 3; ++i) {
-    sentinel.across[i] = static_cast<Index>(m) << Across::face_shift;
-    sentinel.length[i] = 1;
-    sentinel.cosine[i] = 0;
-    sentinel.signed_sine[i] = 1;
-    sentinel.corner[i] = 0;
-  }
-  sentinel.face = none;
+  const Index sentinel = static_cast<Index>(m) << Across::face_shift;
+  triangles_.push_back(
+      {{sentinel, sentinel, sentinel}, {1, 1, 1}, {0, 0, 0}, {1, 1, 1}, {0, 0, 0}, none});
+  vertex_to_inside_ = std::move(layout.vertex_to_inside);
+  face_to_inside_ = std::move(layout.face_to_inside);
+  layout = {};
 
-  VertexFans fans = find_vertex_fans<Real>(triangles_, vertices);
+  std::vector<double> angle = take_shapes(shapes);
+  for (std::size_t v = 0; v < angle.size(); ++v)  // from here on what is more than flat
+    angle[v] -= (fans.on_boundary[v] ? 1 : 2) * std::numbers::pi;
+  mark_saddles<Real>(triangles_, fans, std::move(angle), hints);
+
   corner_of_vertex_ = std::move(fans.corner);
   irregular_ = std::move(fans.irregular);
   irregular_begin_ = std::move(fans.irregular_begin);
@@ -357,36 +238,84 @@ void TriangleMesh<Real>::assemble(std::size_t vertices, std::span<const std::arr
   pinched_ = std::move(fans.pinched);
   summary_.pinched_vertices = pinched_.size();
   summary_.components = fans.components;
+  const auto own = shapes.positions();
+  place(own.empty() ? hints.positions : own);
+  in_space_ = !own.empty();
+  take_chords(hints.chords);
+}
 
-  // Saddles: vertices with so much angle around them that shortest paths bend there.
-  std::vector<double> angle(vertices, 0);
-  for (std::size_t inside = 0; inside < m; ++inside) {
-    const Index f = face_order[inside];
-    for (Index i = 0; i < 3; ++i) {
-      const Index c = corner_outside(f, i);
-      angle[triangles_[inside].corner[i]] += std::atan2(shapes[f].sine[c], shapes[f].cosine[c]);
+// Fills in lengths, cosines and sines. Returns the angle around each vertex.
+template <class Real>
+std::vector<double> TriangleMesh<Real>::take_shapes(const TriangleShapes& shapes) {
+  const std::size_t m = face_count();
+  constexpr std::size_t size = ShapeBlock::size;
+  Lengths lengths(m);  // of faces inside, edges as the caller numbers them
+  double longest = 0;
+  std::vector<double> around(vertex_count(), 0);
+  std::array<Index, size> faces;
+  ShapeBlock block{};
+  RoundedAngles<Real> rounded;
+  std::array<ShapeBlock::Row, 3> angle;
+  for (std::size_t first = 0; first < m; first += size) {
+    const std::size_t count = std::min(size, m - first);
+    for (std::size_t k = 0; k < count; ++k) faces[k] = triangles_[first + k].face & ~reversed;
+    shapes.look_up(std::span(faces).first(count), block);
+    round_angles(block, rounded);
+    angles_of(block, angle);
+    for (std::size_t k = 0; k < count; ++k) {
+      TriangleRecord<Real>& t = triangles_[first + k];
+      summary_.degenerate_faces += block.degenerate[k];
+      summary_.violated_faces += block.violated[k];
+      const bool turned = (t.face & reversed) != 0;
+      for (std::size_t i = 0; i < 3; ++i) {
+        const std::size_t corner = turned && i != 0 ? 3 - i : i;
+        const double length = lengths[first + k][i] = block.length[i][k];
+        longest = length > longest ? length : longest;
+        t.cosine[i] = rounded.cosine[corner][k];
+        t.signed_sine[i] = rounded.sine[corner][k];
+        around[t.corner[i]] += angle[corner][k];
+      }
+      check_length(faces[k], lengths[first + k]);
     }
   }
-  for (std::size_t v = 0; v < vertices; ++v)  // from here on what is more than flat
-    angle[v] -= fans.on_boundary[v] ? std::numbers::pi + saddles.boundary
-                                    : 2 * std::numbers::pi + saddles.interior;
-  std::vector<double> around = excess_around<Real>(triangles_, angle, fans.on_boundary);
-  if (!hints.samples) leave_noise<Real>(triangles_, fans.on_boundary, saddles, around, angle);
-  for (std::size_t r = 0; r < irregular_.size(); ++r) {
-    const auto corners =
-        std::span<const Index>(irregular_corners_)
-            .subspan(irregular_begin_[r], irregular_begin_[r + 1] - irregular_begin_[r]);
-    const double bends = is_open_book<Real>(triangles_, corners) ? -1 : 1;
-    angle[irregular_[r]] = around[irregular_[r]] = bends;
+
+  const double unit = mean_edge(
+      m, longest, [&](std::size_t f) -> const auto& { return lengths[f]; });
+  summary_.mean_edge = unit;
+  for (std::size_t f = 0; f < m; ++f) {
+    TriangleRecord<Real>& t = triangles_[f];
+    for (std::size_t i = 0; i < 3; ++i) t.length[i] = static_cast<Real>(lengths[f][i] / unit);
+    if ((t.face & reversed) != 0) std::swap(t.length[0], t.length[2]);
   }
-  for (std::size_t inside = 0; inside < m; ++inside)
-    for (Index i = 0; i < 3; ++i) {
-      const Index v = triangles_[inside].corner[i];
-      const bool saddle = angle[v] > 0 && (!hints.samples || fans.on_boundary[v] || around[v] > 0);
-      if (saddle)
-        triangles_[inside].signed_sine[i] =
-            std::copysign(triangles_[inside].signed_sine[i], Real(-1));
-    }
+  return around;
+}
+
+// In double: next to a source, single precision would say nothing on a large surface.
+template <class Real>
+void TriangleMesh<Real>::place(std::span<const std::array<double, 3>> positions) {
+  if (positions.empty()) return;
+  constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+  positions_.assign(vertex_count(), {unknown, unknown, unknown});
+  for (std::size_t v = 0; v < positions.size(); ++v)
+    for (std::size_t i = 0; i < 3; ++i)
+      positions_[vertex_to_inside_[v]][i] = (positions[v][i] - positions[0][i]) / unit();
+}
+
+template <class Real>
+void TriangleMesh<Real>::take_chords(std::span<const SurfaceChord> chords) {
+  if (chords.empty()) return;
+  chord_begin_.assign(vertex_count() + 1, 0);
+  for (const SurfaceChord& chord : chords)
+    for (const Index v : {chord.from, chord.to}) ++chord_begin_[vertex_to_inside_[v] + 1];
+  for (std::size_t v = 0; v < vertex_count(); ++v) chord_begin_[v + 1] += chord_begin_[v];
+  chords_.resize(2 * chords.size());
+  std::vector<Index> end(chord_begin_.begin(), chord_begin_.end() - 1);
+  for (const SurfaceChord& chord : chords) {
+    const Index v = vertex_to_inside_[chord.from], w = vertex_to_inside_[chord.to];
+    const Real length = static_cast<Real>(chord.length / unit());
+    chords_[end[v]++] = {w, length};
+    chords_[end[w]++] = {v, length};
+  }
 }
 
 template <class Real>
@@ -394,7 +323,7 @@ std::size_t TriangleMesh<Real>::bytes() const {
   const auto of = [](const auto& v) { return v.capacity() * sizeof(v[0]); };
   return sizeof(*this) + of(triangles_) + of(vertex_to_inside_) + of(face_to_inside_) +
          of(corner_of_vertex_) + of(irregular_) + of(irregular_begin_) + of(irregular_corners_) +
-         of(pinched_);
+         of(pinched_) + of(positions_) + of(chord_begin_) + of(chords_);
 }
 
 template <class Real>

@@ -57,6 +57,16 @@ inline TriangleShape shape_from_positions(const std::array<const std::array<doub
 inline TriangleShape shape_from_lengths(const std::array<double, 3>& length) {
   TriangleShape shape{};
   shape.length = length;
+  const double longest = std::fmax(std::fmax(length[0], length[1]), length[2]);
+  // Fourth powers of these are no numbers.
+  if (longest > 0 && !(longest > 1e-70 && longest < 1e70) && std::isfinite(longest)) {
+    const int by = std::ilogb(longest);
+    std::array<double, 3> near_one = length;
+    for (double& l : near_one) l = std::scalbn(l, -by);
+    shape = shape_from_lengths(near_one);
+    shape.length = length;
+    return shape;
+  }
   for (int i = 0; i < 3; ++i) {
     const double b = length[i], c = length[(i + 2) % 3], a = length[(i + 1) % 3];
     if (b == 0 || c == 0) {
@@ -64,15 +74,18 @@ inline TriangleShape shape_from_lengths(const std::array<double, 3>& length) {
       shape.degenerate = true;
       continue;
     }
-    const double large = std::fmax(b, c), small = std::fmin(b, c);
+    const double large = b < c ? c : b, small = b < c ? b : c;
     const double excess = small >= a ? a - (large - small) : small - (large - a);
     const double rest = (large - small) + a;  // the two factors of (a^2 - (b - c)^2)
-    const double inner = excess * rest, outer = (large + (small + a)) * ((large - a) + small);
+    // Squares of sine and cosine of half the angle, but for a common factor.
+    double inner = excess * rest, outer = (large + (small + a)) * ((large - a) + small);
     if (excess < 0 || outer < 0) shape.violated = true;
-    const double half = std::atan2(std::sqrt(std::fmax(inner, 0)), std::sqrt(std::fmax(outer, 0)));
-    shape.cosine[i] = std::cos(2 * half);
-    shape.sine[i] = std::fmax(std::sin(2 * half), 0);
     if (inner <= 0 || outer <= 0) shape.degenerate = true;
+    inner = inner > 0 ? inner : 0;
+    outer = outer > 0 ? outer : 0;
+    const double whole = inner + outer;
+    shape.cosine[i] = whole > 0 ? (outer - inner) / whole : 1;
+    shape.sine[i] = whole > 0 ? 2 * std::sqrt(inner * outer) / whole : 0;
   }
   return shape;
 }

@@ -3,73 +3,96 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <numeric>
+
+#include "complex/face_layout.hpp"
+#include "complex/simplex_gluing.hpp"
 
 namespace plexway {
 namespace {
 
-class Sets {
- public:
-  explicit Sets(std::size_t count) : parent_(count) {
-    std::iota(parent_.begin(), parent_.end(), 0);
+// How many corners a walk from one of them meets. Where no sheet turns over it is a loop of four
+// lookups a corner.
+Index fan_size(const FaceLayout& layout, Index start) {
+  Index found = 0;
+  if (layout.flips) {
+    walk_fan(
+        static_cast<Index>(layout.face_count()),
+        [&](Index f, Index edge) { return layout.across[f][edge]; }, start,
+        [&](Index) { ++found; });
+    return found;
   }
-  Index find(Index a) {
-    while (parent_[a] != a) a = parent_[a] = parent_[parent_[a]];
-    return a;
+  const Index end = static_cast<Index>(layout.face_count()) << Across::face_shift;
+  const Index first_face = start / 3, first_edge = start % 3;
+  const Index first = first_face << Across::face_shift | first_edge;
+  const auto over = [&](Index face, std::size_t edge) { return layout.across[face][edge]; };
+  const auto crosses = [&](Index o) { return o < end && (o & Across::fan) == 0; };
+  found = 1;
+  Index o = over(first_face, first_edge);
+  while (crosses(o)) {  // its end is the vertex: on by the edge after
+    const std::size_t edge = edge_after(o & Across::edge_mask);
+    const Index face = o >> Across::face_shift;
+    if ((face << Across::face_shift | edge) == first) return found;
+    ++found;
+    o = over(face, edge);
   }
-  void join(Index a, Index b) { parent_[find(a)] = find(b); }
-  std::size_t count() {
-    std::size_t roots = 0;
-    for (Index a = 0; a < parent_.size(); ++a) roots += find(a) == a;
-    return roots;
+  o = over(first_face, edge_before(first_edge));
+  while (crosses(o)) {  // its start is the vertex: on by the edge before
+    if ((o & ~Across::special) == first) return found;
+    ++found;
+    o = over(o >> Across::face_shift, edge_before(o & Across::edge_mask));
   }
+  return found;
+}
 
- private:
-  std::vector<Index> parent_;
-};
+// The corners of a regular vertex are joined by edges, those of the others belong together: so
+// faces belong together if they share a vertex.
+std::size_t count_components(const FaceLayout& layout) {
+  DisjointSets sets(layout.named);
+  for (const auto& [a, b, c] : layout.corner) {
+    sets.unite(a, b);
+    sets.unite(a, c);
+  }
+  std::size_t count = 0;
+  for (Index v = 0; v < layout.named; ++v) count += sets.find(v) == v;
+  return count;
+}
 
 }  // namespace
 
-template <class Real>
-VertexFans find_vertex_fans(std::span<const TriangleRecord<Real>> triangles, std::size_t vertices) {
-  const std::size_t faces = triangles.size() - 1;
+VertexFans find_vertex_fans(const FaceLayout& layout) {
+  const std::size_t faces = layout.face_count(), vertices = layout.vertex_count();
+  const Index end = static_cast<Index>(faces) << Across::face_shift;
   VertexFans fans;
   fans.corner.assign(vertices, none);
   fans.on_boundary.assign(vertices, 0);
   std::vector<Index> corners(vertices, 0);
   for (std::size_t f = faces; f-- > 0;)
-    for (Index i = 0; i < 3; ++i) {
-      const Index v = triangles[f].corner[i];
+    for (std::size_t i = 0; i < 3; ++i) {
+      const Index v = layout.corner[f][i];
       fans.corner[v] = static_cast<Index>(3 * f + i);
       ++corners[v];
-      if (triangles[f].across[i] >> Across::face_shift == faces)
-        fans.on_boundary[v] = fans.on_boundary[triangles[f].corner[i == 2 ? 0 : i + 1]] = 1;
+      if (layout.across[f][i] >= end)
+        fans.on_boundary[v] = fans.on_boundary[layout.corner[f][edge_after(i)]] = 1;
     }
-  std::vector<Index> row(vertices, none);
-  for (Index v = 0; v < vertices; ++v) {
-    if (fans.corner[v] == none) continue;
-    Index found = 0;
-    walk_fan<Real>(triangles, fans.corner[v], [&](Index) { ++found; });
-    if (found == corners[v]) continue;
+  std::vector<Index> row;
+  for (Index v = 0; v < layout.named; ++v) {
+    if (fan_size(layout, fans.corner[v]) == corners[v]) continue;
+    if (row.empty()) row.assign(vertices, none);
     row[v] = static_cast<Index>(fans.irregular.size());
     fans.irregular.push_back(v);
   }
-
-  Sets components(faces);
-  for (Index f = 0; f < faces; ++f)
-    for (const Index across : triangles[f].across)
-      if (across >> Across::face_shift != faces) components.join(f, across >> Across::face_shift);
+  fans.components = count_components(layout);
 
   fans.irregular_begin.assign(fans.irregular.size() + 1, 0);
   for (std::size_t r = 0; r < fans.irregular.size(); ++r)
     fans.irregular_begin[r + 1] = fans.irregular_begin[r] + corners[fans.irregular[r]];
+  if (fans.irregular.empty()) return fans;
   fans.irregular_corners.resize(fans.irregular_begin.back());
   std::vector<Index> cursor(fans.irregular_begin.begin(), fans.irregular_begin.end() - 1);
-  if (!fans.irregular.empty())
-    for (Index f = 0; f < faces; ++f)
-      for (Index i = 0; i < 3; ++i)
-        if (const Index r = row[triangles[f].corner[i]]; r != none)
-          fans.irregular_corners[cursor[r]++] = 3 * f + i;
+  for (Index f = 0; f < faces; ++f)
+    for (Index i = 0; i < 3; ++i)
+      if (const Index r = row[layout.corner[f][i]]; r != none)
+        fans.irregular_corners[cursor[r]++] = 3 * f + i;
 
   // Pinched: the corners fall into several sets when joined over all edges at the vertex, fans too.
   for (std::size_t r = 0; r < fans.irregular.size(); ++r) {
@@ -78,21 +101,22 @@ VertexFans find_vertex_fans(std::span<const TriangleRecord<Real>> triangles, std
     const auto place = [&](Index corner) {
       return static_cast<Index>(std::lower_bound(first, last, corner) - first);
     };
-    Sets sheets(static_cast<std::size_t>(last - first));
+    DisjointSets sheets(static_cast<std::size_t>(last - first));
+    Index count = static_cast<Index>(last - first);
     for (auto c = first; c != last; ++c) {
       const Index f = *c / 3, i = *c % 3;
       for (const bool by_start : {true, false}) {
-        const Index across = triangles[f].across[by_start ? i : (i == 0 ? 2 : i - 1)];
+        const Index across = layout.across[f][by_start ? i : (i == 0 ? 2 : i - 1)];
         const Index g = across >> Across::face_shift, j = across & Across::edge_mask;
         if (g == faces) continue;
         const bool at_start = by_start == ((across & Across::flip) != 0);
-        sheets.join(place(*c), place(3 * g + (at_start ? j : (j == 2 ? 0 : j + 1))));
+        const Index here = place(*c), there = place(3 * g + (at_start ? j : (j == 2 ? 0 : j + 1)));
+        count -= sheets.find(here) != sheets.find(there);
+        sheets.unite(here, there);
       }
     }
-    if (sheets.count() > 1) fans.pinched.push_back(fans.irregular[r]);
-    for (auto c = first; c != last; ++c) components.join(*first / 3, *c / 3);
+    if (count > 1) fans.pinched.push_back(fans.irregular[r]);
   }
-  fans.components = components.count();
   return fans;
 }
 
@@ -142,7 +166,5 @@ bool is_open_book(std::span<const TriangleRecord<Real>> triangles, std::span<con
 
 template bool is_open_book(std::span<const TriangleRecord<float>>, std::span<const Index>);
 template bool is_open_book(std::span<const TriangleRecord<double>>, std::span<const Index>);
-template VertexFans find_vertex_fans<float>(std::span<const TriangleRecord<float>>, std::size_t);
-template VertexFans find_vertex_fans<double>(std::span<const TriangleRecord<double>>, std::size_t);
 
 }  // namespace plexway

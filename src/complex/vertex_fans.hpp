@@ -9,6 +9,8 @@
 
 namespace plexway {
 
+class FaceLayout;
+
 /// Which corners meet at each vertex, and how.
 struct VertexFans {
   std::vector<Index> corner;      ///< one corner 3 f + i a vertex, none where unreferenced
@@ -19,22 +21,19 @@ struct VertexFans {
   std::size_t components = 0;  ///< joined by edges or pinched vertices
 };
 
-template <class Real>
-VertexFans find_vertex_fans(std::span<const TriangleRecord<Real>> triangles, std::size_t vertices);
+VertexFans find_vertex_fans(const FaceLayout& layout);
 
 /// Calls visit(corner) for the corners 3 f + i reached from `start` by crossing edges with two
-/// triangles, first one way around, then the other.
-template <class Real, class Visit>
-void walk_fan(std::span<const TriangleRecord<Real>> triangles, Index start, Visit visit) {
-  const Index sentinel = static_cast<Index>(triangles.size() - 1);
+/// triangles, first one way around, then the other. across_of(face, edge) is packed as Across.
+template <class AcrossOf, class Visit>
+void walk_fan(Index sentinel, AcrossOf across_of, Index start, Visit visit) {
   visit(start);
   for (int way = 0; way < 2; ++way) {
     Index f = start / 3, corner = start % 3;
     // Leave over edge `corner` (which starts here) or over the one before (which ends here).
     bool by_start = way == 0;
     for (;;) {
-      const Index edge = by_start ? corner : (corner == 0 ? 2 : corner - 1);
-      const Index across = triangles[f].across[edge];
+      const Index across = across_of(f, by_start ? corner : (corner == 0 ? 2 : corner - 1));
       const Index g = across >> Across::face_shift, j = across & Across::edge_mask;
       if (g == sentinel || (across & Across::fan)) break;
       // Opposite directions: the start of one side is the end of the other.
@@ -46,6 +45,14 @@ void walk_fan(std::span<const TriangleRecord<Real>> triangles, Index start, Visi
       visit(3 * f + corner);
     }
   }
+}
+
+/// The same in records, the last of which is the sentinel.
+template <class Real, class Visit>
+void walk_fan(std::span<const TriangleRecord<Real>> triangles, Index start, Visit visit) {
+  walk_fan(
+      static_cast<Index>(triangles.size() - 1),
+      [&](Index f, Index edge) { return triangles[f].across[edge]; }, start, visit);
 }
 
 /// Do sheets at a vertex, given by its corners, lie like the pages of a book that is open wide or

@@ -13,6 +13,7 @@
 
 #include "propagate/finish.hpp"
 #include "propagate/read_out.hpp"
+#include "propagate/straight_lines.hpp"
 #include "propagate/triangle_propagation.hpp"
 
 /// A solve on a surface, for any crew.
@@ -79,10 +80,15 @@ void solve(const TriangleMesh<Real>& mesh, std::span<const PointSource> sources,
     for (Real& d : workspace.vertex) d = std::max(d, Real(0));
   read_out_sources<Real, kLabels>(mesh, sources, workspace);
   shapes.read_out(front);
-  if (options.visibility == Visibility::saddles)
-    read_out_edges<Real, kLabels>(mesh, workspace, [&](const auto& wrong, const auto& look) {
-      crew.search(mesh.face_count(), wrong, look);
-    });
+  std::size_t raised = 0, lowered = 0;
+  if (options.visibility == Visibility::saddles) {
+    if constexpr (std::is_same_v<Shapes, NoShapes>)
+      raised = StraightLines<Real>(mesh, sources).template raise<kLabels>(workspace, crew);
+    lowered =
+        read_out_edges<Real, kLabels>(mesh, workspace, [&](const auto& wrong, const auto& look) {
+          crew.search(mesh.face_count(), wrong, look);
+        }).much;
+  }
 
   // Without a radius, whole fans are reached or not; so one of its corners tells of a vertex,
   // unless fans only touch there.
@@ -92,6 +98,8 @@ void solve(const TriangleMesh<Real>& mesh, std::span<const PointSource> sources,
         (bounded || !mesh.pinched().empty() || front.reached(mesh.corner_at(v) / 3))) [[unlikely]]
       read_out_around<Real, kLabels>(mesh, rule, front, v, workspace);
   finish<Real, kLabels>(mesh, sources, options, front, workspace, crew, field);
+  field.statistics.lowered_vertices = lowered;
+  field.statistics.raised_vertices = raised;
 }
 
 /// One solve with a queue of its own: rule and labels by the policy, the rest by the crew.

@@ -152,7 +152,7 @@ class MixedSurface final : public MixedPiece<Real> {
 
   bool relax(std::span<Real> distance, std::span<Index> label) override {
     return this->relax_with(mesh_, workspace_, distance, label,
-                            [&] { return read_out_edges<Real, true>(mesh_, workspace_); });
+                            [&] { return read_out_edges<Real, true>(mesh_, workspace_).any; });
   }
 
   PropagateStatistics statistics() const override {

@@ -354,6 +354,20 @@ TEST_CASE("a wider margin never makes a path longer, and a flat path cannot be s
     }
   }
   CHECK(windows > 0);
+  // Where windows run out it says so, and more margin still does no harm.
+  std::size_t capped = 0;
+  for (const Index target : {960u, 30u, 930u, 500u}) {
+    double before = field.trace(target, {.margin = 0}).length;
+    for (const double margin : {3e-3, 6e-3, 1.2e-2, 4.8e-2, 0.3}) {
+      const Path path = field.trace(target, {.margin = margin, .max_windows = 60});
+      CAPTURE(target, margin);
+      CHECK(path.length <= before * (1 + 1e-12));
+      before = path.length;
+      capped += path.capped;
+    }
+    CHECK_FALSE(field.trace(target).capped);
+  }
+  CHECK(capped > 0);
   CHECK_THROWS_AS(field.trace(0, {.margin = 1}), UsageError);
   CHECK_THROWS_AS(field.trace(0, {.margin = -1}), UsageError);
 }

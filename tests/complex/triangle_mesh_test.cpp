@@ -318,10 +318,10 @@ TEST_CASE("bytes count the records") {
   const auto twice = sphere(4).mesh<double>();
   const double faces = static_cast<double>(single.face_count());
   const double vertices = static_cast<double>(single.vertex_count());
-  CHECK(double(single.bytes()) >= 64 * faces + 8 * vertices);
-  CHECK(double(single.bytes()) <= 68 * (faces + 1) + 8 * vertices + 1024);
-  CHECK(double(twice.bytes()) >= 96 * faces + 8 * vertices);
-  CHECK(double(twice.bytes()) <= 108 * (faces + 1) + 8 * vertices + 1024);
+  CHECK(double(single.bytes()) >= 64 * faces + 32 * vertices);
+  CHECK(double(single.bytes()) <= 68 * (faces + 1) + 32 * vertices + 1024);
+  CHECK(double(twice.bytes()) >= 96 * faces + 32 * vertices);
+  CHECK(double(twice.bytes()) <= 108 * (faces + 1) + 32 * vertices + 1024);
 }
 
 TEST_CASE("coordinates near the ends of the range") {

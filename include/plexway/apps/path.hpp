@@ -21,7 +21,9 @@ struct TraceOptions {
   /// this share: what could be shorter is searched for, exactly. 0: not at all, which is some ten
   /// times faster; then the path is locally shortest.
   double margin = 3e-3;
-  std::size_t max_windows = 50000;  ///< parts of edges looked at for that at most, 0.2 us each
+  /// Parts of edges looked at for that at most, 0.2 us each. Where they run out (Path::capped),
+  /// half the margin is tried with as many, and so on.
+  std::size_t max_windows = 50000;
 };
 
 /// A way through a domain, from the point asked for back to the source.
@@ -38,6 +40,7 @@ struct Path {
   double length = std::numeric_limits<double>::infinity();
   Index source = none;      ///< where it ends: a place in the list of sources
   std::size_t windows = 0;  ///< looked at (TraceOptions)
+  bool capped = false;      ///< they ran out: there may be a shorter path
 };
 
 }  // namespace plexway

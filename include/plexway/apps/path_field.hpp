@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <span>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 #include <plexway/apps/path.hpp>
@@ -68,6 +69,14 @@ class PathField<Domain<Real>> {
   const DistanceField<Real>& solve(Executor executor, const PointSource& source,
                                    const PropagateOptions& options = {}) {
     return solve(executor, std::span<const PointSource>(&source, 1), options);
+  }
+
+  /// Distances from the same sources found elsewhere, as on other triangles over the same surface;
+  /// one a vertex. Paths are then traced by the vertices' distances alone.
+  void adopt(DistanceField<Real> found, std::span<const PointSource> sources) {
+    solved_ = false;
+    field_ = std::move(found);
+    took(sources, Visibility::saddles, false);
   }
 
   /// What the last solve found.

@@ -54,7 +54,7 @@ class TetMesh {
   /// either orientation. Throws InputError naming the vertex, tetrahedron or face for a coordinate
   /// that is not finite, an index out of range, the same vertex twice in a tetrahedron, no
   /// tetrahedron, more than two tetrahedra on a face, two on the same side of one, or more than
-  /// 2^30 - 2 tetrahedra. Cost: about 2 us a tetrahedron.
+  /// 2^30 - 2 tetrahedra. Cost: about 0.3 us a tetrahedron.
   TetMesh(std::span<const std::array<double, 3>> positions,
           std::span<const std::array<Index, 4>> tets);
 

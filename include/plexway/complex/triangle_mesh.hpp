@@ -14,7 +14,8 @@
 
 namespace plexway {
 
-struct TriangleShape;
+class FaceLayout;
+class TriangleShapes;
 
 /// What a surface is made of, counted while it is built.
 struct SurfaceSummary {
@@ -36,19 +37,28 @@ struct SurfaceSummary {
 /// Which vertices paths may bend at: where the angle around exceeds 2 pi, or on a boundary pi, by
 /// more than rounding and chance. In radians.
 struct SaddleThresholds {
-  double interior;  ///< less than this more than 2 pi is rounding
-  double boundary;  ///< and than pi. A smooth arc is made of many vertices that each count a little
+  /// Less than this more than 2 pi may be rounding of the coordinates: it counts only where the
+  /// neighbours agree. However finely a smooth surface is cut, they do
+  double interior;
+  double boundary;  ///< less more than pi. A smooth arc is made of many that each count a little
   /// A smooth surface is cut into triangles with chance: every other vertex has a little more than
-  /// 2 pi around. So a vertex counts by what it has more than this share of what its neighbours
-  /// lack, on average,
+  /// 2 pi around. So a vertex counts if it and its neighbours have more than flat in sum, or by
+  /// what it has more than this share of what its neighbours lack, on average,
   double noise_share;
-  double most_noise;  ///< but no neighbours make nothing of what is much by itself,
-  /// and a vertex counts whatever its neighbours lack where it and they have more than this in sum:
-  /// there the surface is a saddle.
-  double neighbourhood;
+  double most_noise;  ///< but no neighbours make nothing of what is much by itself
+  /// Neighbours agree where the sum of their excess, each counted up to the vertex's own, is more
+  /// than this share of what it would be if all had one sign.
+  double agreement;
 
   /// docs/TUNING.md says how they were found.
   static SaddleThresholds standard();
+};
+
+/// A straight line on a surface between two vertices, which need not be an edge: an edge of other
+/// triangles over the same surface.
+struct SurfaceChord {
+  Index from, to;
+  double length;
 };
 
 /// What the maker of a surface knows better than the constructor.
@@ -61,6 +71,11 @@ struct SurfaceHints {
   /// Each triangle keeps the lengths given for it, also where a neighbour measures the edge between
   /// differently, as where a speed jumps: paths are refracted there.
   bool refracts = false;
+  /// Where the first vertices lie in space, if lengths are given and are such that no path is
+  /// shorter than the straight line. (Coordinates given as such need not be repeated.)
+  std::span<const std::array<double, 3>> positions = {};
+  /// Lines known besides edges: no vertex will be farther than the other end and the line between.
+  std::span<const SurfaceChord> chords = {};
   SaddleThresholds saddles = SaddleThresholds::standard();
 };
 
@@ -73,7 +88,7 @@ struct SurfaceHints {
 /// it.
 ///
 /// Vertices and faces have the caller's numbers in this interface. Inside they are reordered for
-/// locality. Memory: 68 bytes a triangle and 8 a vertex in float.
+/// locality. Memory: 68 bytes a triangle and 8 a vertex in float, 32 a vertex with coordinates.
 template <class Real>
 class TriangleMesh {
  public:
@@ -84,7 +99,7 @@ class TriangleMesh {
   /// From coordinates. Shapes: n positions in any unit, m triangles of vertex indices < n.
   /// Throws InputError naming the vertex or face for a coordinate that is not finite, an index out
   /// of range, the same vertex twice in a face, no face, or more than 2^28 - 2 faces.
-  /// Cost: linear, about 0.5 us a face.
+  /// Cost: linear, about 0.2 us a face.
   TriangleMesh(std::span<const std::array<double, 3>> positions,
                std::span<const std::array<Index, 3>> faces, const SurfaceHints& hints = {});
 
@@ -105,11 +120,9 @@ class TriangleMesh {
                std::span<const std::array<double, 3>> lengths,
                std::span<const std::array<Index, 3>> across, const SurfaceHints& hints = {});
 
-  /// From triangles whose angles are known as well as their lengths, and a gluing: for makers
-  /// inside the library, which answer for both. Throws only where there are no faces.
-  TriangleMesh(std::size_t vertices, std::span<const std::array<Index, 3>> faces,
-               std::span<const TriangleShape> shapes, std::vector<std::array<Index, 3>> across,
-               const SurfaceHints& hints);
+  /// From triangles whose angles are known as well as their lengths, laid out and glued: for makers
+  /// inside the library, which answer for all of it. Throws only for a length that is not finite.
+  TriangleMesh(FaceLayout&& layout, const TriangleShapes& shapes, const SurfaceHints& hints);
 
   [[nodiscard]] std::size_t vertex_count() const { return vertex_to_inside_.size(); }
   [[nodiscard]] std::size_t face_count() const { return triangles_.size() - 1; }
@@ -143,13 +156,30 @@ class TriangleMesh {
   /// Vertices (inside) where several fans meet, ascending.
   [[nodiscard]] std::span<const Index> pinched() const { return pinched_; }
   [[nodiscard]] double unit() const { return summary_.mean_edge; }
+  /// Where vertices (inside) lie in space, in units of the mean edge and about some origin; NaN
+  /// where that is not known. Empty where it is of none: lengths alone, or a metric.
+  [[nodiscard]] std::span<const std::array<double, 3>> positions() const { return positions_; }
+  /// Are triangles flat in space, with their corners where `positions` says?
+  [[nodiscard]] bool faces_are_in_space() const { return in_space_; }
+  /// Ends of the chords at a vertex, all inside.
+  struct ChordEnd {
+    Index vertex;
+    Real length;
+  };
+  [[nodiscard]] std::span<const ChordEnd> chords_at(Index inside_vertex) const {
+    if (chords_.empty()) return {};
+    return std::span(chords_).subspan(
+        chord_begin_[inside_vertex], chord_begin_[inside_vertex + 1] - chord_begin_[inside_vertex]);
+  }
+  [[nodiscard]] bool has_chords() const { return !chords_.empty(); }
   /// Of the content: a copy has the same, everything else another (Identity).
   [[nodiscard]] std::uint64_t identity() const { return identity_.value(); }
 
  private:
-  void assemble(std::size_t vertices, std::span<const std::array<Index, 3>> faces,
-                std::span<const TriangleShape> shapes, std::vector<Index> face_order,
-                std::vector<std::array<Index, 3>> across, const SurfaceHints& hints);
+  void assemble(FaceLayout layout, const TriangleShapes& shapes, const SurfaceHints& hints);
+  std::vector<double> take_shapes(const TriangleShapes& shapes);
+  void place(std::span<const std::array<double, 3>> positions);
+  void take_chords(std::span<const SurfaceChord> chords);
 
   SurfaceSummary summary_;
   Identity identity_;
@@ -160,6 +190,10 @@ class TriangleMesh {
   // Vertices whose corners one walk around cannot find: pinched, or on a non-manifold edge.
   std::vector<Index> irregular_, irregular_begin_, irregular_corners_;
   std::vector<Index> pinched_;
+  std::vector<std::array<double, 3>> positions_;
+  bool in_space_ = false;
+  std::vector<Index> chord_begin_;  // a row a vertex, each chord in two of them
+  std::vector<ChordEnd> chords_;
 };
 
 /// Throws UsageError where a surface has refracting edges: `what` unfolds triangles over edges.

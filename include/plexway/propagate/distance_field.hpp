@@ -12,6 +12,12 @@ struct PropagateStatistics {
   std::size_t expansions = 0;  ///< simplices taken from the queue
   std::size_t updates = 0;     ///< labels accepted
   std::size_t reached_simplices = 0;
+  /// Surfaces, Visibility::saddles: vertices that labels put farther than a neighbour and the edge
+  /// between, and that got the way by that neighbour. Many: the field is less accurate there.
+  std::size_t lowered_vertices = 0;
+  /// Likewise vertices that labels put nearer than the straight line through space by more than
+  /// 1e-4 of it. They got its length, a bound that is mostly still too short.
+  std::size_t raised_vertices = 0;
 };
 
 /// Distances at the vertices, in the caller's order and the domain's unit.

@@ -1,0 +1,199 @@
+// What building costs before the first solve: surfaces, the same by way of Delaunay triangles, and
+// solids. Times are medians; instructions are those of the processor's own counter, which other
+// programs do not disturb (Linux; blank where it is not to be had); memory is what is allocated
+// beyond the input, at the peak and held.
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cstdint>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <new>
+#include <string>
+#include <vector>
+
+#ifdef __linux__
+#include <linux/perf_event.h>
+#include <malloc.h>
+#include <sys/ioctl.h>
+#include <sys/syscall.h>
+#include <unistd.h>
+#endif
+
+#include <plexway/complex/intrinsic_delaunay.hpp>
+#include <plexway/complex/tet_mesh.hpp>
+#include <plexway/complex/triangle_mesh.hpp>
+#include <plexway/io/tets.hpp>
+
+#include "compare.hpp"
+
+namespace {
+
+std::size_t held = 0, peak = 0;
+
+void* counted(std::size_t size) {
+  void* p = std::malloc(size > 0 ? size : 1);
+  if (p == nullptr) throw std::bad_alloc();
+#ifdef __linux__
+  held += malloc_usable_size(p);
+#endif
+  peak = std::max(peak, held);
+  return p;
+}
+void release(void* p) {
+#ifdef __linux__
+  if (p != nullptr) held -= malloc_usable_size(p);
+#endif
+  std::free(p);
+}
+void* counted(std::size_t size, std::align_val_t align) {
+  const std::size_t a = static_cast<std::size_t>(align);
+  void* p = std::aligned_alloc(a, (size + a - 1) / a * a);
+  if (p == nullptr) throw std::bad_alloc();
+#ifdef __linux__
+  held += malloc_usable_size(p);
+#endif
+  peak = std::max(peak, held);
+  return p;
+}
+
+}  // namespace
+
+// One thread allocates here.
+void* operator new(std::size_t size) { return counted(size); }
+void* operator new(std::size_t size, std::align_val_t align) { return counted(size, align); }
+void operator delete(void* p) noexcept { release(p); }
+void operator delete(void* p, std::size_t) noexcept { release(p); }
+void operator delete(void* p, std::align_val_t) noexcept { release(p); }
+void operator delete(void* p, std::size_t, std::align_val_t) noexcept { release(p); }
+
+namespace {
+
+/// Instructions of this thread outside the kernel.
+class Instructions {
+ public:
+  Instructions() {
+#ifdef __linux__
+    perf_event_attr wanted{};
+    wanted.type = PERF_TYPE_HARDWARE;
+    wanted.size = sizeof wanted;
+    wanted.config = PERF_COUNT_HW_INSTRUCTIONS;
+    wanted.exclude_kernel = 1;
+    file_ = static_cast<int>(syscall(SYS_perf_event_open, &wanted, 0, -1, -1, 0));
+#endif
+  }
+  Instructions(const Instructions&) = delete;
+  Instructions& operator=(const Instructions&) = delete;
+  ~Instructions() {
+#ifdef __linux__
+    if (file_ >= 0) close(file_);
+#endif
+  }
+  [[nodiscard]] std::uint64_t now() const {
+    std::uint64_t count = 0;
+#ifdef __linux__
+    if (file_ >= 0 && read(file_, &count, sizeof count) != sizeof count) count = 0;
+#endif
+    return count;
+  }
+
+ private:
+  int file_ = -1;
+};
+
+struct Cost {
+  double ns = 0, instructions = 0, peak = 0, held = 0;  // a unit
+};
+
+/// `make` returns what is built, so that what it holds can be told.
+template <class Make>
+Cost measure(std::size_t units, int repeats, const Make& make) {
+  const Instructions counter;
+  std::vector<double> times, counts;
+  Cost cost;
+  const double n = static_cast<double>(units);
+  for (int i = 0; i < repeats; ++i) {
+    const std::size_t before = held;
+    peak = held;
+    const std::uint64_t start = counter.now();
+    std::uint64_t end = start;
+    times.push_back(1e9 / n * bench::seconds([&] {
+                      const auto made = make();
+                      end = counter.now();
+                      cost.held = static_cast<double>(held - before) / n;
+                    }));
+    counts.push_back(static_cast<double>(end - start) / n);
+    cost.peak = static_cast<double>(peak - before) / n;
+  }
+  cost.ns = bench::median(times);
+  cost.instructions = bench::median(counts);
+  return cost;
+}
+
+nlohmann::ordered_json cells(const Cost& cost) {
+  nlohmann::ordered_json row = {
+      {"ns", cost.ns}, {"peak_bytes", cost.peak}, {"held_bytes", cost.held}};
+  if (cost.instructions > 0) row["instructions"] = cost.instructions;
+  return row;
+}
+
+bool is_solid(const std::filesystem::path& file) {
+  return file.extension() == ".node" || file.extension() == ".ele" || file.extension() == ".mesh";
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  std::vector<std::string> meshes;
+  std::vector<std::size_t> sizes = {400000};
+  int repeats = 5;
+  double limit = 600;
+  bench::Report report;
+  CLI::App app("What building costs: a vertex of a surface, a tetrahedron of a solid");
+  app.add_option("MESH", meshes, "Surfaces (.obj .off .ply .stl), solids (.node .ele .mesh)");
+  app.add_option("--sizes", sizes, "Vertices of generated surfaces besides")->delimiter(',');
+  app.add_option("--repeats", repeats, "Of each")->capture_default_str();
+  app.add_option("--limit", limit, "Seconds after which a row is given up")->capture_default_str();
+  report.add_options(app);
+  CLI11_PARSE(app, argc, argv);
+
+  bench::Table table({{"input", "input"},
+                      {"built", "built"},
+                      {"units", "vertices or tets", "%.0f"},
+                      {"ns", "ns each", "%.0f"},
+                      {"instructions", "instructions each", "%.0f"},
+                      {"peak_bytes", "peak bytes each", "%.0f"},
+                      {"held_bytes", "held bytes each", "%.0f"},
+                      {"note", "note"}});
+  const auto add = [&](const std::string& input, const char* built, std::size_t units,
+                       const auto& make) {
+    nlohmann::ordered_json row = {{"input", input}, {"built", built}, {"units", units}};
+    row.update(bench::isolated(limit, [&] { return cells(measure(units, repeats, make)); }));
+    table.add(std::move(row));
+  };
+  const auto add_surface = [&](const bench::Surface& s) {
+    const std::size_t n = s.positions.size();
+    add(s.name, "surface, float", n,
+        [&] { return plexway::TriangleMesh<float>(s.positions, s.faces); });
+    add(s.name, "surface, double", n,
+        [&] { return plexway::TriangleMesh<double>(s.positions, s.faces); });
+    add(s.name, "surface or what pays, float", n,
+        [&] { return plexway::triangulate<float>(s.positions, s.faces); });
+    add(s.name, "by Delaunay, float", n, [&] {
+      return plexway::triangulate<float>(s.positions, s.faces, plexway::Retriangulation::flips);
+    });
+  };
+  return report.write(table, [&] {
+    for (const std::filesystem::path mesh : meshes) {
+      if (!is_solid(mesh)) {
+        add_surface(bench::read_surface(mesh));
+        continue;
+      }
+      const auto read = plexway::io::read_tets(mesh);
+      add(mesh.stem().string(), "solid, float", read.tets.size(),
+          [&] { return plexway::TetMesh<float>(read.positions, read.tets); });
+    }
+    for (const std::size_t size : sizes) add_surface(bench::bumpy_surface(size));
+  });
+}

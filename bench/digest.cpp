@@ -1,0 +1,408 @@
+// What building makes, as an oracle for changes to it: every array of surfaces, their Delaunay
+// triangulations and solids, of shapes made on the spot and of files, in both precisions.
+//
+//   bench_digest --save NEW [FILE...]    (the same built before the change: --save OLD)
+//   bench_digest --compare OLD NEW
+//
+// Comparing counts what differs, and how far apart numbers lie in units in the last place.
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <cstdio>
+#include <cstring>
+#include <exception>
+#include <filesystem>
+#include <random>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <plexway/complex/intrinsic_delaunay.hpp>
+#include <plexway/complex/tet_mesh.hpp>
+#include <plexway/complex/triangle_mesh.hpp>
+#include <plexway/io/tets.hpp>
+#include <plexway/io/triangles.hpp>
+
+#include "digest_arrays.hpp"
+
+#include "complex/test_meshes.hpp"
+#include "complex/test_solids.hpp"
+
+namespace {
+
+using namespace plexway;
+using digest::Writer;
+using testing::Solid;
+using testing::Surface;
+
+template <class Real>
+void add(Writer& out, const TriangleMesh<Real>& mesh) {
+  const auto t = mesh.triangles();
+  const auto of = [&](auto member) {
+    return [&t, member](std::size_t i) { return (t[i / 3].*member)[i % 3]; };
+  };
+  using Record = TriangleRecord<Real>;
+  out.integers("across", 3 * t.size(), of(&Record::across));
+  out.integers("corner", 3 * t.size(), of(&Record::corner));
+  out.integers("face", t.size(), [&](std::size_t f) { return t[f].face; });
+  out.integers("saddle", 3 * t.size(), [&](std::size_t i) { return t[i / 3].saddle(i % 3); });
+  out.template numbers<Real>("length", 3 * t.size(), of(&Record::length));
+  out.template numbers<Real>("cosine", 3 * t.size(), of(&Record::cosine));
+  out.template numbers<Real>("sine", 3 * t.size(),
+                             [&](std::size_t i) { return t[i / 3].sine(i % 3); });
+  const auto names = mesh.vertices_inside();
+  out.integers("vertices", names.size(), [&](std::size_t v) { return names[v]; });
+  out.integers("faces", mesh.face_count(), [&](std::size_t f) {
+    const auto [inside, turned] = mesh.inside_face(static_cast<Index>(f));
+    return 2ull * inside + turned;
+  });
+  out.integers("corner_at", names.size(),
+               [&](std::size_t v) { return mesh.corner_at(static_cast<Index>(v)); });
+  std::vector<Index> all, corners;
+  for (Index v = 0; v < names.size(); ++v) {
+    mesh.corners_at(v, corners);
+    all.push_back(static_cast<Index>(corners.size()));
+    all.insert(all.end(), corners.begin(), corners.end());
+  }
+  out.integers("corners_at", all.size(), [&](std::size_t i) { return all[i]; });
+  const auto pinched = mesh.pinched();
+  out.integers("pinched", pinched.size(), [&](std::size_t i) { return pinched[i]; });
+  const SurfaceSummary& s = mesh.summary();
+  const std::array<std::size_t, 12> counts = {s.vertices,
+                                              s.faces,
+                                              s.edges,
+                                              s.boundary_edges,
+                                              s.non_manifold_edges,
+                                              s.pinched_vertices,
+                                              s.unreferenced_vertices,
+                                              s.degenerate_faces,
+                                              s.violated_faces,
+                                              s.refracting_edges,
+                                              s.components,
+                                              s.orientable};
+  out.integers("summary", counts.size(), [&](std::size_t i) { return counts[i]; });
+  out.template numbers<double>("unit", 1, [&](std::size_t) { return mesh.unit(); });
+}
+
+template <class Real>
+void add(Writer& out, const TetMesh<Real>& mesh) {
+  const auto t = mesh.tets();
+  using Record = TetRecord<Real>;
+  const auto of = [&](auto member) {
+    return [&t, member](std::size_t i) { return (t[i / 4].*member)[i % 4]; };
+  };
+  out.integers("across", 4 * t.size(), of(&Record::across));
+  out.integers("corner", 4 * t.size(), of(&Record::corner));
+  out.integers("first_reflex", t.size(), [&](std::size_t i) { return t[i].reflex; });
+  const auto vector = [&](const char* name, std::size_t n, auto make) {
+    out.template numbers<Real>(name, 3 * n, [&](std::size_t i) {
+      const Vector3<Real> v = make(i / 3);
+      return i % 3 == 0 ? v.x : i % 3 == 1 ? v.y : v.z;
+    });
+  };
+  vector("centre", t.size(), [&](std::size_t i) { return t[i].centre; });
+  vector("points", mesh.points().size(), [&](std::size_t i) { return mesh.points()[i]; });
+  const auto lengths = mesh.squared_lengths();
+  out.template numbers<Real>("lengths", 6 * lengths.size(),
+                             [&](std::size_t i) { return lengths[i / 6][i % 6]; });
+  const auto reflex = mesh.reflex_edges();
+  const auto* words = reinterpret_cast<const Real*>(reflex.data());
+  constexpr std::size_t width = sizeof(ReflexEdge<Real>) / sizeof(Real);
+  out.template numbers<Real>("reflex", width * reflex.size(), [&](std::size_t i) {
+    Real value;
+    std::memcpy(&value, words + i, sizeof value);
+    return value;
+  });
+  const auto list = mesh.reflex_list();
+  out.integers("reflex_list", list.size(), [&](std::size_t i) { return list[i]; });
+  const auto names = mesh.vertices_inside();
+  out.integers("vertices", names.size(), [&](std::size_t v) { return names[v]; });
+  out.integers("tets", mesh.tet_count(), [&](std::size_t i) {
+    const auto [inside, turned] = mesh.inside_tet(static_cast<Index>(i));
+    return 2ull * inside + turned;
+  });
+  std::vector<Index> all;
+  for (Index v = 0; v < names.size(); ++v) {
+    const auto corners = mesh.corners_at(v);
+    all.push_back(static_cast<Index>(corners.size()));
+    all.insert(all.end(), corners.begin(), corners.end());
+  }
+  out.integers("corners_at", all.size(), [&](std::size_t i) { return all[i]; });
+  const auto pinched = mesh.pinched();
+  out.integers("pinched", pinched.size(), [&](std::size_t i) { return pinched[i]; });
+  std::vector<Index> edges;
+  for (const auto& e : mesh.pinched_edges())
+    edges.insert(edges.end(), {e.vertex[0], e.vertex[1], e.begin, e.end});
+  out.integers("pinched_edges", edges.size(), [&](std::size_t i) { return edges[i]; });
+  const auto tets = mesh.pinched_edge_tets();
+  out.integers("pinched_edge_tets", tets.size(), [&](std::size_t i) { return tets[i]; });
+  const SolidSummary& s = mesh.summary();
+  const std::array<std::size_t, 16> counts = {s.vertices,
+                                              s.tets,
+                                              s.edges,
+                                              s.faces,
+                                              s.boundary_faces,
+                                              s.reflex_edges,
+                                              s.reflex_vertices,
+                                              s.pinched_vertices,
+                                              s.pinched_edges,
+                                              s.unreferenced_vertices,
+                                              s.degenerate_tets,
+                                              s.inverted_tets,
+                                              s.first_degenerate,
+                                              s.first_inverted,
+                                              s.components,
+                                              s.embedded};
+  out.integers("summary", counts.size(), [&](std::size_t i) { return counts[i]; });
+  out.template numbers<double>("unit", 1, [&](std::size_t) { return mesh.unit(); });
+}
+
+// What is refused is refused with the same words.
+template <class Work>
+void attempt(Writer& out, const std::string& name, Work work) {
+  out.enter(name);
+  try {
+    work();
+  } catch (const std::exception& error) {
+    out.text(error.what());
+  }
+}
+
+template <class Real>
+void surfaces(Writer& out, const std::string& name, const Surface& s) {
+  const std::string real = sizeof(Real) == 4 ? " float" : " double";
+  attempt(out, name + real, [&] { add(out, TriangleMesh<Real>(s.positions, s.faces)); });
+  attempt(out, name + " samples" + real, [&] {
+    SurfaceHints hints;
+    hints.samples = true;
+    add(out, TriangleMesh<Real>(s.positions, s.faces, hints));
+  });
+  std::vector<std::array<double, 3>> lengths;
+  bool sound = true;
+  for (const auto& f : s.faces)
+    for (const Index v : f) sound = sound && v < s.positions.size();
+  if (!sound) return;
+  lengths = testing::lengths_of(s);
+  attempt(out, name + " lengths" + real,
+          [&] { add(out, TriangleMesh<Real>(s.positions.size(), s.faces, lengths)); });
+  std::mt19937 random(3);
+  auto uneven = lengths;  // which breaks the triangle inequality here and there
+  for (auto& row : uneven)
+    for (double& l : row) l *= 1 + 1.2 * testing::uniform(random);
+  attempt(out, name + " uneven" + real,
+          [&] { add(out, TriangleMesh<Real>(s.positions.size(), s.faces, uneven)); });
+  attempt(out, name + " refracting" + real, [&] {
+    SurfaceHints hints;
+    hints.refracts = true;
+    add(out, TriangleMesh<Real>(s.positions.size(), s.faces, uneven, hints));
+  });
+  attempt(out, name + " delaunay" + real, [&] {
+    const TriangleMesh<double> input(s.positions, s.faces);
+    const IntrinsicDelaunay delaunay(input);
+    add(out, delaunay.mesh<Real>());
+    const std::array<std::size_t, 2> counts = {delaunay.summary().flips,
+                                               delaunay.summary().stuck_edges};
+    out.integers("flips", 2, [&](std::size_t i) { return counts[i]; });
+    std::vector<double> mapped;
+    for (Index f = 0; f < s.faces.size(); f += 1 + static_cast<Index>(s.faces.size() / 999)) {
+      const PointSource p = delaunay.to_intrinsic(PointSource::in(f, {0.2, 0.5, 0.3}));
+      mapped.insert(mapped.end(), {double(p.simplex), p.barycentric[0], p.barycentric[1]});
+      const PointSource q = delaunay.to_input(PointSource::in(f, {0.2, 0.5, 0.3}));
+      mapped.insert(mapped.end(), {double(q.simplex), q.barycentric[0], q.barycentric[1]});
+    }
+    out.numbers<double>("mapped", mapped.size(), [&](std::size_t i) { return mapped[i]; });
+  });
+  attempt(out, name + " refined" + real, [&] {
+    const TriangleMesh<Real> input(s.positions, s.faces);
+    add(out, IntrinsicDelaunay(input, Refinement::moderate()).template mesh<Real>());
+  });
+}
+
+template <class Real>
+void solids(Writer& out, const std::string& name, const Solid& s) {
+  const std::string real = sizeof(Real) == 4 ? " float" : " double";
+  attempt(out, name + real, [&] { add(out, TetMesh<Real>(s.positions, s.tets)); });
+  for (const auto& t : s.tets)
+    for (const Index v : t)
+      if (v >= s.positions.size()) return;
+  const auto lengths = s.lengths();
+  attempt(out, name + " lengths" + real,
+          [&] { add(out, TetMesh<Real>(s.positions.size(), s.tets, lengths)); });
+  std::mt19937 random(5);
+  auto uneven = lengths;
+  for (auto& row : uneven)
+    for (double& l : row) l *= 1 + 0.2 * testing::uniform(random);
+  attempt(out, name + " uneven" + real,
+          [&] { add(out, TetMesh<Real>(s.positions.size(), s.tets, uneven)); });
+}
+
+void surface(Writer& out, const std::string& name, const Surface& s) {
+  surfaces<float>(out, name, s);
+  surfaces<double>(out, name, s);
+}
+void solid(Writer& out, const std::string& name, const Solid& s) {
+  solids<float>(out, name, s);
+  solids<double>(out, name, s);
+}
+
+std::string exponent(double x) { return std::to_string(std::lround(std::log10(x))); }
+
+Surface scaled(Surface s, double by) {
+  for (auto& p : s.positions)
+    for (double& x : p) x *= by;
+  return s;
+}
+Solid scaled(Solid s, double by) {
+  for (auto& p : s.positions)
+    for (double& x : p) x *= by;
+  return s;
+}
+
+void made_surfaces(Writer& out) {
+  namespace t = testing;
+  surface(out, "grid", t::grid(13, 9));
+  surface(out, "slit", t::slit_square(8));
+  surface(out, "polygon", t::random_polygon(7, 200, 500, 1));
+  surface(out, "cube", t::cube(5));
+  surface(out, "tetrahedron", t::tetrahedron());
+  surface(out, "sphere", t::sphere(4));
+  surface(out, "prism", t::prism(7, 5, 2));
+  surface(out, "moebius", t::moebius(31, 3));
+  for (Index n : {1u, 2u, 3u, 5u}) surface(out, "sheets" + std::to_string(n), t::sheets(n, 4));
+  surface(out, "bow_tie", t::bow_tie(4));
+  for (unsigned seed : {1u, 2u, 3u, 4u, 5u, 6u, 7u, 8u})
+    surface(out, "soup" + std::to_string(seed),
+            t::soup(8 + 12 * seed, seed % 2 ? 15 * seed : 60 * seed, seed));
+  surface(out, "renamed", t::renamed(t::sphere(3), 4, true, true).surface);
+  surface(out, "renamed moebius", t::renamed(t::moebius(20, 2), 5, true, true).surface);
+  surface(out, "renamed sheets", t::renamed(t::sheets(4, 5), 6, true, true).surface);
+  surface(out, "renamed tie", t::renamed(t::bow_tie(5), 7, true, true).surface);
+  for (double by : {1e-300, 1e-160, 1e-30, 1e30, 1e150, 1e300, 1e308})
+    surface(out, "scaled " + exponent(by), scaled(t::sphere(2), by));
+  // No area, no length, next to none.
+  Surface thin = t::grid(6, 6);
+  for (auto& p : thin.positions) p[1] *= 1e-9;
+  surface(out, "thin", thin);
+  for (auto& p : thin.positions) p[1] = 0;
+  surface(out, "flat", thin);
+  for (auto& p : thin.positions) p = {1, 2, 3};
+  surface(out, "point", thin);
+  Surface uneven = t::grid(9, 9);
+  std::mt19937 random(9);
+  for (auto& p : uneven.positions)
+    for (double& x : p) x += std::pow(10, -12 * t::uniform(random)) * (t::uniform(random) - 0.5);
+  for (std::size_t v = 0; v + 7 < uneven.positions.size(); v += 7)
+    uneven.positions[v] = uneven.positions[v + 1];
+  surface(out, "uneven", uneven);
+  Surface spare = t::grid(3, 3);
+  spare.positions.insert(spare.positions.begin(), {5, 5, 5});
+  for (auto& f : spare.faces)
+    for (Index& v : f) ++v;
+  spare.add(7, 7);
+  spare.faces.push_back(spare.faces[3]);  // twice the same
+  spare.faces.push_back({spare.faces[4][0], spare.faces[4][2], spare.faces[4][1]});
+  surface(out, "spare", spare);
+  Surface dense = t::sphere(3);  // many faces in one cell of the curve
+  for (std::size_t f = 0; f < dense.positions.size(); f += 2)
+    for (double& x : dense.positions[f]) x *= 1e-6;
+  surface(out, "dense", dense);
+  Surface bad = t::grid(2, 2);
+  bad.faces[3][1] = 99;
+  surface(out, "out of range", bad);
+  bad = t::grid(2, 2);
+  bad.faces[3][1] = bad.faces[3][2];
+  surface(out, "twice", bad);
+  bad = t::grid(2, 2);
+  bad.positions[4][2] = std::numeric_limits<double>::quiet_NaN();
+  surface(out, "nan", bad);
+  bad.faces.clear();
+  surface(out, "none", bad);
+}
+
+void made_solids(Writer& out) {
+  namespace t = testing;
+  solid(out, "cube", t::solid_cube(5));
+  solid(out, "straight cube", t::solid_cube(4, 0));
+  solid(out, "l", t::l_shape(3));
+  solid(out, "straight l", t::l_shape(4, 0));
+  solid(out, "walled", t::walled(4));
+  solid(out, "straight walled", t::walled(4, 0));
+  solid(out, "edge", t::edge_touch(3));
+  solid(out, "vertex", t::vertex_touch(3));
+  solid(out, "pipe", t::pipe(7, 2, 4));
+  for (double by : {1e-300, 1e-30, 1e30, 1e300, 1e308})
+    solid(out, "scaled " + exponent(by), scaled(t::l_shape(2), by));
+  Solid turned = t::walled(3);
+  std::mt19937 random(2);
+  for (auto& tet : turned.tets) {
+    std::shuffle(tet.begin(), tet.end(), random);
+  }
+  std::shuffle(turned.tets.begin(), turned.tets.end(), random);
+  solid(out, "turned", turned);
+  Solid flat = t::l_shape(3);
+  for (auto& p : flat.positions) p[2] *= 1e-9;
+  solid(out, "thin", flat);
+  for (auto& p : flat.positions) p[2] = 0;
+  solid(out, "flat", flat);
+  Solid some = t::solid_cube(4, 0);
+  for (std::size_t v = 0; v < some.positions.size(); v += 5)
+    some.positions[v] = some.positions[(v + 1) % some.positions.size()];
+  solid(out, "collapsed", some);
+  // Tetrahedra taken out at random: edges and vertices where others only touch.
+  for (unsigned seed : {1u, 2u, 3u, 4u, 5u, 6u}) {
+    Solid holes = t::solid_cube(4);
+    std::mt19937 chance(seed);
+    std::erase_if(holes.tets, [&](const auto&) { return t::uniform(chance) < 0.15 * seed; });
+    solid(out, "holes" + std::to_string(seed), holes);
+  }
+  Solid bad = t::solid_cube(2);
+  bad.tets.push_back(bad.tets[3]);
+  solid(out, "twice", bad);
+  bad = t::solid_cube(2);
+  bad.tets[3][1] = 999;
+  solid(out, "out of range", bad);
+  bad = t::solid_cube(2);
+  bad.tets[3][1] = bad.tets[3][2];
+  solid(out, "corner twice", bad);
+  bad = t::solid_cube(2);
+  bad.positions.push_back({0.5, 0.5, 9});
+  bad.tets.push_back({bad.tets[0][0], bad.tets[0][1], bad.tets[0][2],
+                      static_cast<Index>(bad.positions.size() - 1)});
+  solid(out, "same side", bad);
+}
+
+void file(Writer& out, const std::string& path) {
+  const std::string name = std::filesystem::path(path).filename().string();
+  const std::string extension = std::filesystem::path(path).extension().string();
+  if (extension == ".node" || extension == ".ele" || extension == ".mesh") {
+    const auto read = io::read_tets(path);
+    solid(out, name, {read.positions, read.tets});
+  } else {
+    const auto read = io::read_triangles(path);
+    surface(out, name, {read.positions, read.triangles});
+  }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) try {
+  const std::vector<std::string> arguments(argv + 1, argv + argc);
+  if (arguments.size() == 3 && arguments[0] == "--compare")
+    return digest::compare(arguments[1], arguments[2]);
+  if (arguments.size() < 2 || arguments[0] != "--save") {
+    std::fputs("usage: bench_digest --save OUT [MESH...]\n       bench_digest --compare OLD NEW\n",
+               stderr);
+    return 2;
+  }
+  Writer out(arguments[1]);
+  made_surfaces(out);
+  made_solids(out);
+  for (std::size_t i = 2; i < arguments.size(); ++i) file(out, arguments[i]);
+  return 0;
+} catch (const std::exception& error) {
+  std::fprintf(stderr, "bench_digest: %s\n", error.what());
+  return 1;
+}

@@ -1,0 +1,233 @@
+#include "complex/face_layout.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include <plexway/complex/triangle_record.hpp>
+
+#include "complex/edge_matching.hpp"
+#include "complex/shape_blocks.hpp"
+
+namespace plexway {
+namespace {
+
+Index pack(Index face, Index edge) { return face << Across::face_shift | edge; }
+
+// Which lie anywhere in memory: asked for some faces ahead.
+void take_corners(std::span<const Index> order, Faces faces,
+                  std::vector<std::array<Index, 3>>& corners) {
+  constexpr std::size_t ahead = 16;
+  corners.reserve(order.size());
+  for (std::size_t k = 0; k < order.size(); ++k) {
+#ifdef __GNUC__
+    if (k + ahead < order.size()) __builtin_prefetch(&faces[order[k + ahead]]);
+#endif
+    corners.push_back(faces[order[k]]);
+  }
+}
+
+}  // namespace
+
+FaceLayout::FaceLayout(std::size_t vertices, Faces faces, std::vector<Index> order)
+    : face(std::move(order)) {
+  number_faces();
+  take_corners(face, faces, corner);
+  name_vertices(vertices);
+  across.resize(faces.size());
+  const auto number = [&](const EdgeSide& s) {  // the caller's: cycles are in its order
+    return std::pair(face[s.halfedge >> Across::face_shift], s.halfedge & Across::edge_mask);
+  };
+  struct Glue {
+    FaceLayout& layout;
+    Index sentinel;
+    bool turns = false;
+    void set(Index from, Index to) const {
+      layout.across[from >> Across::face_shift][from & Across::edge_mask] = to;
+    }
+    // Both run up or both run down: the same way.
+    static Index flip(Index a, Index b) { return ~(a ^ b) & Across::flip; }
+    void single(Index, const EdgeSide& s) {
+      set(s.halfedge, sentinel);
+      ++layout.boundary_edges;
+    }
+    void pair(const EdgeSide& a, const EdgeSide& b) {
+      const Index same = flip(a.halfedge, b.halfedge);
+      turns |= same != 0;
+      set(a.halfedge, (b.halfedge & ~Across::flip) | same);
+      set(b.halfedge, (a.halfedge & ~Across::flip) | same);
+      ++layout.edges;
+    }
+    void cycle(Index, std::span<const EdgeSide> sides) {
+      ++layout.non_manifold_edges;
+      for (std::size_t k = 0; k < sides.size(); ++k) {
+        const Index h = sides[k].halfedge, o = sides[k + 1 == sides.size() ? 0 : k + 1].halfedge;
+        set(h, (o & ~Across::flip) | flip(h, o) | Across::fan);
+        layout.flips |= flip(h, o) != 0;
+      }
+    }
+  };
+  Glue glue{*this, pack(static_cast<Index>(faces.size()), 0)};
+  match_edges(
+      named, corner, [&](const EdgeSide& a, const EdgeSide& b) { return number(a) < number(b); },
+      glue);
+  edges += boundary_edges + non_manifold_edges;
+  if (glue.turns) orient();
+}
+
+FaceLayout::FaceLayout(std::size_t vertices, Faces faces, std::vector<Index> order,
+                       std::span<const std::array<Index, 3>> gluing)
+    : face(std::move(order)) {
+  number_faces();
+  take_corners(face, faces, corner);
+  across.resize(face.size());
+  for (std::size_t inside = 0; inside < face.size(); ++inside)
+    for (std::size_t i = 0; i < 3; ++i) {
+      const Index h = gluing[face[inside]][i];
+      across[inside][i] = h == none ? none : pack(face_to_inside[h / 3], h % 3);
+    }
+  take_gluing(vertices);
+}
+
+FaceLayout::FaceLayout(std::size_t vertices, std::vector<Index> order,
+                       std::vector<std::array<Index, 3>> corners,
+                       std::vector<std::array<Index, 3>> gluing)
+    : face(std::move(order)), corner(std::move(corners)), across(std::move(gluing)) {
+  number_faces();
+  take_gluing(vertices);
+}
+
+// Marks the gluing and counts its edges.
+void FaceLayout::take_gluing(std::size_t vertices) {
+  name_vertices(vertices);
+  const Index sentinel = pack(static_cast<Index>(face.size()), 0);
+  const auto over = [&](Index h) {
+    return across[h >> Across::face_shift][h & Across::edge_mask] & ~Across::special;
+  };
+  bool turns = false;
+  std::size_t in_pairs = 0;
+  for (Index f = 0; f < face.size(); ++f)
+    for (Index i = 0; i < 3; ++i) {
+      const Index o = across[f][i], own = pack(f, i);
+      if (o == none) {
+        across[f][i] = sentinel;
+        ++boundary_edges;
+        continue;
+      }
+      // Opposite unless the vertices say otherwise. In a loop (both ends one vertex) they do not
+      // tell directions apart.
+      const Index v = corner[f][i];
+      const bool loop = v == corner[f][edge_after(i)];
+      const bool same_way = !loop && v == corner[o >> Across::face_shift][o & Across::edge_mask];
+      if (same_way) across[f][i] |= Across::flip;
+      if (over(o) == own) {
+        turns |= same_way;
+        ++in_pairs;
+        continue;
+      }
+      across[f][i] |= Across::fan;
+      flips |= same_way;
+      bool lowest = true;
+      for (Index k = o; k != own; k = over(k)) lowest &= own < k;
+      non_manifold_edges += lowest;
+    }
+  edges = in_pairs / 2 + boundary_edges + non_manifold_edges;
+  if (turns) orient();
+}
+
+void FaceLayout::number_faces() {
+  face_to_inside.resize(face.size());
+  for (std::size_t inside = 0; inside < face.size(); ++inside)
+    face_to_inside[face[inside]] = static_cast<Index>(inside);
+}
+
+// Replaces the caller's vertices at the corners.
+void FaceLayout::name_vertices(std::size_t vertices) {
+  vertex_to_inside.assign(vertices, none);
+  Index fresh = 0;
+  for (auto& corners : corner)
+    for (Index& v : corners) {
+      Index& name = vertex_to_inside[v];
+      if (name == none) name = fresh++;
+      v = name;
+    }
+  named = fresh;
+  if (named < vertices)
+    for (Index& name : vertex_to_inside)
+      if (name == none) name = fresh++;
+}
+
+std::vector<Index> FaceLayout::vertices_outside() const {
+  std::vector<Index> outside(vertex_to_inside.size());
+  for (Index v = 0; v < outside.size(); ++v) outside[vertex_to_inside[v]] = v;
+  return outside;
+}
+
+// Edges with more than two triangles do not count.
+void FaceLayout::orient() {
+  const Index sentinel = static_cast<Index>(face.size());
+  constexpr char unseen = 2;
+  turned.assign(face.size(), unseen);
+  std::vector<Index> queue;
+  for (const Index seed : face_to_inside) {
+    if (turned[seed] != unseen) continue;
+    turned[seed] = 0;
+    queue.assign(1, seed);
+    for (std::size_t head = 0; head < queue.size(); ++head) {
+      const Index f = queue[head];
+      for (const Index o : across[f]) {
+        const Index g = o >> Across::face_shift;
+        if (g == sentinel || (o & Across::fan) != 0) continue;
+        const char wanted = turned[f] ^ static_cast<char>((o & Across::flip) != 0);
+        if (turned[g] == unseen) {
+          turned[g] = wanted;
+          queue.push_back(g);
+        } else if (turned[g] != wanted) {
+          orientable = false;
+        }
+      }
+    }
+  }
+  // Corner and edge numbers of a turned face: corners 0 2 1, edges 2 1 0.
+  flips = false;
+  for (Index f = 0; f < face.size(); ++f) {
+    for (Index& o : across[f]) {
+      const Index g = o >> Across::face_shift;
+      if (g == sentinel) continue;
+      if (turned[g]) o = pack(g, 2 - (o & Across::edge_mask)) | (o & Across::special);
+      if (turned[g] != turned[f]) o ^= Across::flip;
+      flips |= (o & Across::flip) != 0;
+    }
+    if (!turned[f]) continue;
+    std::swap(across[f][0], across[f][2]);
+    std::swap(corner[f][1], corner[f][2]);
+  }
+}
+
+std::size_t FaceLayout::mark_refraction(const TriangleShapes& shapes) {
+  std::vector<std::array<double, 3>> lengths(face.size());  // edges as the caller numbers them
+  ShapeBlock block{};
+  for (std::size_t first = 0; first < face.size(); first += ShapeBlock::size) {
+    const std::size_t count = std::min(ShapeBlock::size, face.size() - first);
+    shapes.look_up(std::span(face).subspan(first, count), block);
+    for (std::size_t k = 0; k < count; ++k)
+      for (std::size_t i = 0; i < 3; ++i) lengths[first + k][i] = block.length[i][k];
+  }
+  const auto length = [&](Index f, Index edge) {
+    return lengths[f][is_turned(f) ? 2 - edge : edge];
+  };
+  std::size_t count = 0;
+  for (Index f = 0; f < face.size(); ++f)
+    for (Index i = 0; i < 3; ++i) {
+      Index& o = across[f][i];
+      const Index g = o >> Across::face_shift, j = o & Across::edge_mask;
+      if (g == face.size()) continue;
+      const double own = length(f, i), other = length(g, j);
+      if (!(std::abs(own - other) > 1e-9 * std::max(own, other))) continue;
+      count += (o & Across::fan) != 0 || pack(f, i) < pack(g, j);
+      o |= Across::fan;
+    }
+  return count;
+}
+
+}  // namespace plexway

@@ -1,0 +1,97 @@
+#include "complex/saddle_vertices.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace plexway {
+namespace {
+
+// What a vertex and its inner neighbours say about it.
+struct Neighbourhood {
+  double sum = 0;        // of the excess, its own included
+  double lack = 0;       // by how much neighbours are below flat
+  double agreement = 0;  // the sum again, where none counts more than the vertex itself,
+  double most = 0;       // and what that would be if all had one sign
+  double count = 0;      // of neighbours
+};
+
+template <class Real>
+std::vector<Neighbourhood> look_around(std::span<const TriangleRecord<Real>> triangles,
+                                       std::span<const double> excess,
+                                       std::span<const char> boundary) {
+  std::vector<Neighbourhood> around(excess.size());
+  const auto hear = [&](Index of, Index from) {
+    if (boundary[from]) return;
+    const double mine = std::abs(excess[of]), theirs = excess[from];
+    Neighbourhood& n = around[of];
+    // An edge inside is met from both its triangles. Of one on the boundary both ends are there.
+    n.sum += theirs / 2;
+    n.lack += std::max(0.0, -theirs) / 2;
+    n.agreement += std::clamp(theirs, -mine, mine) / 2;
+    n.most += std::min(mine, std::abs(theirs)) / 2;
+    n.count += 0.5;
+  };
+  for (const TriangleRecord<Real>& t : triangles)
+    for (std::size_t i = 0; i < 3; ++i) {
+      const Index v = t.corner[i], w = t.corner[edge_after(i)];
+      hear(v, w);
+      hear(w, v);
+    }
+  for (std::size_t v = 0; v < excess.size(); ++v) {
+    around[v].sum += excess[v];
+    around[v].agreement += excess[v];
+    around[v].most += std::abs(excess[v]);
+  }
+  return around;
+}
+
+// May paths bend at this inner vertex? See docs/DESIGN.md, "Which vertices are saddles".
+bool is_inner_saddle(double excess, const Neighbourhood& n, double least,
+                     const SaddleThresholds& saddles) {
+  if (!(excess > 0)) return false;
+  if (n.count == 0) return excess > saddles.interior;
+  if (excess <= saddles.interior) return excess > least && n.agreement > saddles.agreement * n.most;
+  return n.sum > 0 || excess > std::min(saddles.most_noise, saddles.noise_share * n.lack / n.count);
+}
+
+}  // namespace
+
+template <class Real>
+void mark_saddles(std::span<TriangleRecord<Real>> triangles, const VertexFans& fans,
+                  std::vector<double> excess, const SurfaceHints& hints) {
+  const std::size_t vertices = excess.size();
+  const std::span<const TriangleRecord<Real>> all = triangles;
+  // What is below this is below a thousandth of a sphere's curvature, all vertices together.
+  const double least = 4e-3 * std::numbers::pi / static_cast<double>(vertices);
+  // Samples count by what they and their neighbourhood have beyond rounding.
+  const double rounding = hints.samples ? hints.saddles.interior : 0;
+  for (std::size_t v = 0; v < vertices; ++v)
+    if (!fans.on_boundary[v]) excess[v] -= rounding;
+
+  std::vector<char> saddle(vertices);
+  {
+    const std::vector<Neighbourhood> around =
+        look_around<Real>(all.first(all.size() - 1), excess, fans.on_boundary);
+    for (std::size_t v = 0; v < vertices; ++v)
+      saddle[v] = fans.on_boundary[v] ? excess[v] > hints.saddles.boundary
+                  : hints.samples     ? excess[v] > 0 && around[v].sum > 0
+                                      : is_inner_saddle(excess[v], around[v], least, hints.saddles);
+  }
+  for (std::size_t r = 0; r < fans.irregular.size(); ++r) {
+    const auto corners = std::span<const Index>(fans.irregular_corners)
+                             .subspan(fans.irregular_begin[r],
+                                      fans.irregular_begin[r + 1] - fans.irregular_begin[r]);
+    saddle[fans.irregular[r]] = !is_open_book<Real>(all, corners);
+  }
+  for (TriangleRecord<Real>& t : triangles.first(triangles.size() - 1))
+    for (std::size_t i = 0; i < 3; ++i)
+      if (saddle[t.corner[i]]) t.signed_sine[i] = std::copysign(t.signed_sine[i], Real(-1));
+}
+
+template void mark_saddles(std::span<TriangleRecord<float>>, const VertexFans&, std::vector<double>,
+                           const SurfaceHints&);
+template void mark_saddles(std::span<TriangleRecord<double>>, const VertexFans&,
+                           std::vector<double>, const SurfaceHints&);
+
+}  // namespace plexway

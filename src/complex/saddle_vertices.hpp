@@ -1,0 +1,20 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include <plexway/complex/triangle_mesh.hpp>
+
+#include "complex/vertex_fans.hpp"
+
+namespace plexway {
+
+/// Decides at which vertices shortest paths may bend, and sets the sign bits of their sines.
+///
+/// `excess`, one number a vertex: the angle around it beyond 2 pi, or on a boundary beyond pi.
+/// `hints` has the thresholds and whether the vertices are samples. Cost: linear, two passes.
+template <class Real>
+void mark_saddles(std::span<TriangleRecord<Real>> triangles, const VertexFans& fans,
+                  std::vector<double> excess, const SurfaceHints& hints);
+
+}  // namespace plexway

@@ -1,0 +1,125 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <span>
+#include <utility>
+
+#include <plexway/complex/triangle_mesh.hpp>
+#include <plexway/propagate/workspace.hpp>
+#include <plexway/source/point_source.hpp>
+
+namespace plexway {
+
+/// No path on a surface in space is shorter than the straight line: a distance that is can only be
+/// wrong, and gets the line's length, which is nearer to the truth. Where coordinates are not known
+/// nothing is checked.
+template <class Real>
+class StraightLines {
+ public:
+  StraightLines(const TriangleMesh<Real>& mesh, std::span<const PointSource> sources)
+      : mesh_(mesh), positions_(mesh.positions()), sources_(sources) {}
+
+  /// Raises what is below, by more than rounding. Returns how many were by more than 1e-4. Cost: 24
+  /// bytes read a vertex, and all sources for a vertex that is below the line to its own.
+  template <bool kLabels, class Crew>
+  std::size_t raise(Workspace<Real>& workspace, const Crew& crew) const {
+    if (positions_.empty() || sources_.empty()) return 0;
+    std::atomic<std::size_t> raised{0};
+    crew.over(workspace.vertex.size(), [&](std::size_t begin, std::size_t end) {
+      std::size_t some = 0;
+      Line line(*this, 0);
+      for (std::size_t v = begin; v < end; ++v) {
+        Real& d = workspace.vertex[v];
+        if constexpr (kLabels) {
+          if (workspace.vertex_source[v] >= sources_.size()) continue;
+          if (workspace.vertex_source[v] != line.source)
+            line = Line(*this, workspace.vertex_source[v]);
+        }
+        if (!line.longer_than(d, positions_[v])) [[likely]]
+          continue;
+        double least = line.length(positions_[v]);
+        if constexpr (kLabels)
+          for (std::size_t n = 0; n < sources_.size(); ++n)
+            least = std::min(least, Line(*this, static_cast<Index>(n)).length(positions_[v]));
+        some += static_cast<double>(d) < least * (1 - 1e-4);
+        d = std::max(d, static_cast<Real>(least));
+      }
+      raised += some;
+    });
+    return raised;
+  }
+
+ private:
+  static constexpr double infinity = std::numeric_limits<double>::infinity();
+
+  // From one source to any vertex.
+  struct Line {
+    Line(const StraightLines& lines, Index number) : source(number) {
+      const PointSource& s = lines.sources_[number];
+      sigma = s.offset / lines.mesh_.unit();
+      if (s.vertex != none) {
+        at[0] = lines.positions_[lines.mesh_.inside_vertex(s.vertex)];
+        return;
+      }
+      const auto [f, turned] = lines.mesh_.inside_face(s.simplex);
+      const TriangleRecord<Real>& t = lines.mesh_.triangles()[f];
+      std::array<double, 4> b = s.barycentric;
+      if (turned) std::swap(b[1], b[2]);
+      if (lines.mesh_.faces_are_in_space()) {
+        at[0] = {0, 0, 0};
+        for (std::size_t i = 0; i < 3; ++i)
+          for (std::size_t k = 0; k < 3; ++k) at[0][k] += b[i] * lines.positions_[t.corner[i]][k];
+        return;
+      }
+      // The triangle lies in space somehow, but its corners are known, and the ways to them.
+      const double px[3] = {0, static_cast<double>(t.length[0]), static_cast<double>(t.apex_x(0))};
+      const double py[3] = {0, 0, static_cast<double>(t.apex_h(0))};
+      const double x = b[1] * px[1] + b[2] * px[2], y = b[2] * py[2];
+      for (std::size_t i = 0; i < 3; ++i) {
+        at[i] = lines.positions_[t.corner[i]];
+        back[i] = std::hypot(px[i] - x, py[i] - y);
+      }
+      ends = 3;
+    }
+
+    static double squared(const std::array<double, 3>& p, const std::array<double, 3>& q) {
+      const double x = p[0] - q[0], y = p[1] - q[1], z = p[2] - q[2];
+      return x * x + y * y + z * z;
+    }
+    [[nodiscard]] double length(const std::array<double, 3>& p) const {
+      double most = 0;  // NaN: not known, so nothing is
+      for (std::size_t i = 0; i < ends; ++i)
+        most = std::max(most, std::sqrt(squared(p, at[i])) - back[i]);
+      return sigma + most;
+    }
+    /// By more than rounding.
+    [[nodiscard, gnu::always_inline]] bool longer_than(Real d,
+                                                       const std::array<double, 3>& p) const {
+      constexpr double slack = 1 + (sizeof(Real) == 4 ? 4 : 64) *
+                                       static_cast<double>(std::numeric_limits<Real>::epsilon());
+      double most = -infinity;
+      for (std::size_t i = 0; i < ends; ++i) {
+        const double way = std::max(0.0, static_cast<double>(d) * slack - sigma + back[i]);
+        most = std::max(most, squared(p, at[i]) - way * way);
+      }
+      return most > 0;
+    }
+
+    Index source;
+    double sigma = 0;
+    std::size_t ends = 1;
+    std::array<std::array<double, 3>, 3> at{};
+    std::array<double, 3> back{};
+  };
+
+  const TriangleMesh<Real>& mesh_;
+  std::span<const std::array<double, 3>> positions_;
+  std::span<const PointSource> sources_;
+};
+
+}  // namespace plexway
