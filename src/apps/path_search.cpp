@@ -22,7 +22,7 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-// Labels and the path they lead to differ by less, or the labels are poor there.
+// A path longer by more than what labels say means that they are poor there.
 constexpr double doubt = 1e-2;
 
 // What single precision may have done to lengths.
@@ -287,7 +287,7 @@ SearchResult PathSearch<Real>::find(Serial, std::span<const PointSource> sources
     const double length =
         path.source == none ? path.length : path.length + sources[path.source].offset;
     const bool doubtful = options.trace.margin > 0 && path.source != none &&
-                          (path.capped || std::abs(length - result.distance[n]) > doubt * length);
+                          (path.capped || length > (1 + doubt) * result.distance[n]);
     if (doubtful || (path.source == none && result.distance[n] < infinity)) lost.push_back(n);
   }
   s.labels = nullptr;
