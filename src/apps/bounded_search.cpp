@@ -13,6 +13,7 @@
 #include "apps/logged_queue.hpp"
 #include "executors/checks.hpp"
 #include "propagate/finish.hpp"
+#include "propagate/straight_lines.hpp"
 #include "propagate/triangle_propagation.hpp"
 
 namespace plexway {
@@ -127,6 +128,8 @@ void BoundedSearch<Real>::find_with(Queue queue, std::span<const PointSource> so
             static_cast<Real>(b[i] == 1 ? sigma : sigma + std::hypot(px[i] - x, py[i] - y)), number,
             true);
   }
+  const StraightLines<Real> lines(mesh, sources);
+  for (const Index v : touched_) d[v] = lines.raised(v, d[v], label[v]);
   // Each pass lowers some distance to that of a path along edges; there are only so many.
   for (bool any = true; any;) {
     any = false;

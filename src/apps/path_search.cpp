@@ -22,9 +22,6 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-// Labels and the path they lead to differ by less, or the labels are poor there.
-constexpr double doubt = 1e-2;
-
 // What single precision may have done to lengths.
 constexpr double rounding = 1e-5;
 
@@ -284,11 +281,7 @@ SearchResult PathSearch<Real>::find(Serial, std::span<const PointSource> sources
     result.paths.push_back(
         or_no_way_at_all(trace.trace(targets[n], options.trace), solved, targets[n]));
     const Path& path = result.paths[n];
-    const double length =
-        path.source == none ? path.length : path.length + sources[path.source].offset;
-    const bool doubtful = options.trace.margin > 0 && path.source != none &&
-                          (path.capped || std::abs(length - result.distance[n]) > doubt * length);
-    if (doubtful || (path.source == none && result.distance[n] < infinity)) lost.push_back(n);
+    if (path.capped || (path.source == none && result.distance[n] < infinity)) lost.push_back(n);
   }
   s.labels = nullptr;
   s.heuristic = nullptr;

@@ -42,10 +42,7 @@ class StraightLines {
         }
         if (!line.longer_than(d, positions_[v])) [[likely]]
           continue;
-        double least = line.length(positions_[v]);
-        if constexpr (kLabels)
-          for (std::size_t n = 0; n < sources_.size(); ++n)
-            least = std::min(least, Line(*this, static_cast<Index>(n)).length(positions_[v]));
+        const double least = least_line(v);
         some += static_cast<double>(d) < least * (1 - 1e-4);
         d = std::max(d, static_cast<Real>(least));
       }
@@ -54,8 +51,22 @@ class StraightLines {
     return raised;
   }
 
+  /// One vertex, by its number inside, at distance d from a source.
+  [[nodiscard]] Real raised(std::size_t v, Real d, Index source) const {
+    if (positions_.empty() || source >= sources_.size()) return d;
+    if (!Line(*this, source).longer_than(d, positions_[v])) return d;
+    return std::max(d, static_cast<Real>(least_line(v)));
+  }
+
  private:
   static constexpr double infinity = std::numeric_limits<double>::infinity();
+
+  [[nodiscard]] double least_line(std::size_t v) const {
+    double least = infinity;
+    for (std::size_t n = 0; n < sources_.size(); ++n)
+      least = std::min(least, Line(*this, static_cast<Index>(n)).length(positions_[v]));
+    return least;
+  }
 
   // From one source to any vertex.
   struct Line {
