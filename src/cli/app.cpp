@@ -134,6 +134,8 @@ int run(int argc, const char* const* argv) noexcept {
     return fail(exit_not_built, error.what());
   } catch (const NothingReached& error) {
     return fail(exit_nothing_reached, error.what());
+  } catch (const EndlessError& error) {
+    return fail(exit_endless, error.what());
   } catch (const std::bad_alloc&) {
     return fail(exit_failure,
                 "out of memory: the input does not fit into what this process may use");

@@ -53,7 +53,6 @@ class ShapeSolver final : public Solver {
   ShapeSolver(const Shape& shape, [[maybe_unused]] Triangulation triangulation,
               const MeasuredLengths* lengths)
       : complex_(make_complex<Real>(shape, lengths)), simplices_(simplex_count(complex_)) {
-    check_precision<Real>(complex_);
     if constexpr (std::is_same_v<Shape, io::Triangles>)
       delaunay_ = retriangulate(triangulation, shape, lengths, complex_, triangulation_);
   }

@@ -11,6 +11,7 @@
 
 #include "complex/boundary_saddles.hpp"
 #include "complex/cloud_bridges.hpp"
+#include "complex/crease.hpp"
 #include "complex/gluing.hpp"
 #include "complex/tangent_lengths.hpp"
 #include "complex/umbrella.hpp"
@@ -140,6 +141,16 @@ void count_pairs(const Places& places, std::span<const TangentFrame> frames, con
   summary.mean_spacing = spacing / static_cast<double>(places.near.point_count());
 }
 
+// Does an edge of the sheet go over a crease?
+bool any_creases(const Places& places, std::span<const TangentFrame> frames, const SheetRule& rule,
+                 std::span<const Triangle> faces) {
+  return std::any_of(faces.begin(), faces.end(), [&](const Triangle& t) {
+    for (std::size_t i = 0; i < 3; ++i)
+      if (crease_between(places, frames, rule, t[i], t[(i + 1) % 3])) return true;
+    return false;
+  });
+}
+
 Sheet make_sheet(Points points, const Neighbours& neighbours, const CloudOptions& options,
                  CloudSummary& summary, std::vector<std::array<Index, 2>>& twins,
                  std::vector<Point3>& more) {
@@ -162,7 +173,7 @@ Sheet make_sheet(Points points, const Neighbours& neighbours, const CloudOptions
   std::vector<TangentFrame> frames = tangent_frames(places, normals_of(options.normals, distinct),
                                                     rule, options.threads, share(0.1));
   done = 0.1;
-  SheetWedges sheet(places, frames);
+  SheetWedges sheet(places, frames, rule);
   add_umbrellas(
       local_umbrellas(places, frames, rule, options.widest_circle, options.threads, share(0.5)),
       options.threads, sheet);
@@ -199,8 +210,11 @@ Sheet make_sheet(Points points, const Neighbours& neighbours, const CloudOptions
   const double flat = options.lengths == EdgeLengths::in_space     ? 0
                       : options.lengths == EdgeLengths::tangential ? 1
                                                                    : noise.share;
-  if (flat > 0) {
+  if (flat > 0 || any_creases(places, frames, rule, result.faces)) {
     const auto length = [&](Index a, Index b) {
+      if (a > b) std::swap(a, b);  // the same bits from both sides
+      if (const auto crease = crease_between(places, frames, rule, a, b))
+        return length_over(*crease, places, frames, a, b) / scale;
       return tangent_length(places, frames, a, b, flat) / scale;
     };
     result.lengths.reserve(result.faces.size());

@@ -2,6 +2,8 @@
 
 #include <numbers>
 
+#include "complex/crease.hpp"
+
 namespace plexway {
 namespace {
 
@@ -77,7 +79,7 @@ SheetWedges::Axes SheetWedges::axes(Index place) const {
 }
 
 SheetWedges::Plane SheetWedges::flat(const Axes& axes, Index place, Index other) const {
-  const Point3 q = minus(places_.at[other], places_.at[place]);
+  const Point3 q = unfolded(places_, frames_, rule_, place, other);
   return {dot(axes.x, q), dot(axes.y, q)};
 }
 

@@ -23,8 +23,8 @@ class SheetWedges {
     Index a, b, next, triangle;
   };
 
-  SheetWedges(const Places& places, std::span<const TangentFrame> frames)
-      : places_(places), frames_(frames), head_(places.at.size(), none) {}
+  SheetWedges(const Places& places, std::span<const TangentFrame> frames, const SheetRule& rule)
+      : places_(places), frames_(frames), rule_(rule), head_(places.at.size(), none) {}
 
   [[nodiscard]] std::span<const Triangle> triangles() const { return triangles_; }
   void reserve(std::size_t triangles);
@@ -72,6 +72,7 @@ class SheetWedges {
 
   const Places& places_;
   std::span<const TangentFrame> frames_;
+  SheetRule rule_;
   std::vector<Triangle> triangles_;
   std::vector<Index> head_;
   std::vector<Wedge> wedges_;

@@ -10,6 +10,7 @@
 
 #include <plexway/error.hpp>
 
+#include "complex/number_range.hpp"
 #include "complex/simplex_gluing.hpp"
 #include "complex/simplex_shape.hpp"
 
@@ -180,6 +181,7 @@ void SimplicialComplex<Real, N>::assemble(std::size_t vertices, std::span<const 
   const double edges = static_cast<double>(count * Layout::edges);
   const double unit = longest > 0 ? longest * (sum / edges) : 1;
   summary_.mean_edge = unit;
+  if (longest > 0) NumberRange<Real>::check_unit(unit);
 
   // Where corners go when they are sorted by the numbers inside.
   const auto rank = [&](const Corners& corners, std::size_t k) {
@@ -193,6 +195,8 @@ void SimplicialComplex<Real, N>::assemble(std::size_t vertices, std::span<const 
     const Index s = order[r];
     Record& record = records_[r];
     record.number = s;
+    NumberRange<Real>::check_simplex(
+        "simplex", s, *std::max_element(lengths[s].begin(), lengths[s].end()) / unit);
     for (std::size_t k = 0; k < sides; ++k) {
       const std::size_t place = rank(simplices[s], k);
       record.corner[place] = vertex_to_inside_[simplices[s][k]];

@@ -7,6 +7,7 @@
 
 #include <plexway/error.hpp>
 
+#include "complex/number_range.hpp"
 #include "complex/simplex_order.hpp"
 #include "complex/tet_edges.hpp"
 #include "complex/tet_gluing.hpp"
@@ -92,7 +93,13 @@ TetMesh<Real>::TetMesh(std::span<const std::array<double, 3>> positions,
   for (std::size_t t = 0; t < tets.size(); ++t) {
     TetPoints p;
     for (std::size_t i = 0; i < 4; ++i) p[i] = vector(scaled[tets[t][i]]);
-    for (const auto& [i, j] : tet_edge_ends) sum += norm(p[j] - p[i]);
+    double longest = 0;
+    for (const auto& [i, j] : tet_edge_ends) {
+      const double length = norm(p[j] - p[i]);
+      sum += length;
+      longest = std::max(longest, length);
+    }
+    NumberRange<Real>::check_coordinates("tet", t, longest, 1);
     const double thick = thickness(p);
     volume[t] = static_cast<signed char>(thick <= flat ? 0 : thick < thin ? 1 : 2);
     if (determinant(p) < 0) volume[t] = static_cast<signed char>(-volume[t]);
@@ -107,6 +114,7 @@ TetMesh<Real>::TetMesh(std::span<const std::array<double, 3>> positions,
     for (double& x : p) x /= mean;
   summary_.embedded = true;
   summary_.mean_edge = mean * extent;
+  NumberRange<Real>::check_unit(summary_.mean_edge);
   assemble(positions.size(), tets, scaled, {}, across, along_curve<4>(scaled, tets), turn);
 }
 
@@ -131,6 +139,9 @@ TetMesh<Real>::TetMesh(std::size_t vertices, std::span<const std::array<Index, 4
   std::vector<std::array<double, 6>> scaled(lengths.begin(), lengths.end());
   for (auto& tet : scaled)
     for (double& l : tet) l /= unit;
+  if (longest > 0) NumberRange<Real>::check_unit(unit);
+  for (std::size_t t = 0; t < tets.size(); ++t)
+    NumberRange<Real>::check_simplex("tet", t, *std::max_element(scaled[t].begin(), scaled[t].end()));
   const auto across = glue_tets(vertices, tets);
   const std::vector<signed char> unknown(tets.size(), 0);
   const auto turn = orient_tets(tets, across, unknown);

@@ -8,6 +8,7 @@
 #include <plexway/error.hpp>
 
 #include "complex/gluing.hpp"
+#include "complex/number_range.hpp"
 #include "complex/simplex_order.hpp"
 #include "complex/triangle_shape.hpp"
 #include "complex/vertex_fans.hpp"
@@ -277,6 +278,7 @@ void TriangleMesh<Real>::assemble(std::size_t vertices, std::span<const std::arr
     for (const double l : shapes[f].length) sum += longest > 0 ? l / longest : 0;
   const double unit = longest > 0 ? longest * (sum / (3 * static_cast<double>(m))) : 1;
   summary_.mean_edge = unit;
+  if (longest > 0) NumberRange<Real>::check_unit(unit);
 
   face_to_inside_.resize(m);
   for (std::size_t i = 0; i < m; ++i) face_to_inside_[face_order[i]] = static_cast<Index>(i);
@@ -300,6 +302,8 @@ void TriangleMesh<Real>::assemble(std::size_t vertices, std::span<const std::arr
     TriangleRecord<Real>& t = triangles_[inside];
     const TriangleShape& shape = shapes[f];
     t.face = f | (turned(f) ? reversed : 0);
+    const auto& l = shape.length;
+    NumberRange<Real>::check_simplex("face", f, std::max({l[0], l[1], l[2]}) / unit);
     summary_.degenerate_faces += shape.degenerate;
     summary_.violated_faces += shape.violated;
     for (Index i = 0; i < 3; ++i) {
@@ -321,6 +325,8 @@ void TriangleMesh<Real>::assemble(std::size_t vertices, std::span<const std::arr
       const bool refracts =
           hints.refracts && std::abs(shape.length[i] - shapes[g].length[j]) >
                                 1e-9 * std::max(shape.length[i], shapes[g].length[j]);
+      if (refracts)
+        NumberRange<Real>::check_refraction(f, g, shape.length[i], shapes[g].length[j]);
       summary_.refracting_edges += refracts && (fan || 3 * f + i < h);
       t.across[e] = face_to_inside_[g] << Across::face_shift | edge_inside(g, j) |
                     (flip ? Across::flip : 0) | (fan || refracts ? Across::fan : 0);

@@ -5,6 +5,8 @@
 
 #include <plexway/complex/blocks.hpp>
 
+#include "complex/crease.hpp"
+
 namespace plexway {
 namespace {
 
@@ -49,7 +51,7 @@ class Umbrella {
   }
 
   bool project(Index place, Index j, Spoke& spoke) const {
-    const Point3 q = minus(places_.at[j], places_.at[place]);
+    const Point3 q = unfolded(places_, frames_, rule_, place, j);
     const double x = dot(ex_, q), y = dot(ey_, q), r = x * x + y * y;
     spoke = {x, y, x / r, y / r, j};
     return r > 0;

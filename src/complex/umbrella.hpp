@@ -32,7 +32,7 @@ struct SheetRule {
   bool oriented;        ///< normals tell inside from outside
 };
 
-/// Are two neighbours on the same sheet, by the tangent planes of both?
+/// Are two neighbours on the same sheet, by the tangent planes of both, or beside the same crease?
 bool same_sheet(const Places& places, std::span<const TangentFrame> frames, const SheetRule& rule,
                 Index i, Index j);
 

@@ -4,6 +4,7 @@
 #include <limits>
 
 #include <plexway/error.hpp>
+#include <plexway/propagate/endless.hpp>
 
 namespace plexway::gl {
 
@@ -26,7 +27,8 @@ void Job::start(std::size_t cells, std::size_t label_bytes, std::size_t fields, 
   const std::size_t budget =
       options.max_expansions < most / fields ? options.max_expansions * fields : most;
   if (options.schedule == Schedule::fifo) step = std::numeric_limits<double>::infinity();
-  workspace.front.start(session, cells, label_bytes, room, step, budget);
+  workspace.front.start(session, cells, label_bytes, room, step,
+                        std::min(budget, endless_after(cells) + 1));
 }
 
 std::function<void(const FrontControl&)> reporter(const PropagateOptions& options,

@@ -1,0 +1,82 @@
+#pragma once
+
+#include <cmath>
+#include <cstddef>
+#include <cstdio>
+#include <limits>
+#include <string>
+
+#include <plexway/error.hpp>
+
+namespace plexway {
+
+/// What a Real can hold of a domain whose lengths are stored in units of their mean: asked where
+/// the records are made. Each throws PrecisionError with the place. Ratios within these ranges are
+/// harmless however large: arithmetic is relative to what is near.
+template <class Real>
+class NumberRange {
+ public:
+  /// Distances, in the caller's unit, may be a million mean edges or a millionth of one.
+  static void check_unit(double unit) {
+    constexpr double most_edges = sizeof(Real) < sizeof(double) ? 1e6 : 1;
+    if (unit * most_edges <= std::numeric_limits<Real>::max() &&
+        unit / most_edges >= std::numeric_limits<Real>::min())
+      return;
+    refuse("edges of " + text(unit) + " are", "scale the input");
+  }
+
+  /// The longest edge of a simplex, in units. Where it is tiny, products of four lengths vanish.
+  static void check_simplex(const char* simplex, std::size_t number, double longest) {
+    static const double least = 8 * std::sqrt(std::sqrt(double{std::numeric_limits<Real>::min()}));
+    if (longest == 0 || longest >= least) return;
+    refuse(named(simplex, number) + "its longest edge, " + text(longest) + " of the mean, is",
+           "scale it up or leave it out");
+  }
+
+  /// An edge that is only ever added up, in units.
+  static void check_edge(std::size_t number, double length) {
+    if (length == 0 || length >= double{std::numeric_limits<Real>::min()}) return;
+    refuse(named("edge", number) + "its length, " + text(length) + " of the mean, is",
+           "scale it up or leave it out");
+  }
+
+  /// The longest edge of a simplex kept by coordinates, and how far these reach from the middle.
+  static void check_coordinates(const char* simplex, std::size_t number, double longest,
+                                double extent) {
+    constexpr double least = 256 * double{std::numeric_limits<Real>::epsilon()};
+    if (longest == 0 || longest >= least * extent) return;
+    refuse(named(simplex, number) + "its longest edge, " + text(longest / extent) +
+               " of the extent of all, is",
+           "look for a vertex far off");
+  }
+
+  /// Two simplices measure the edge between them as `a` and `b`. Fermat's point is a matter of
+  /// squares of their ratio, which must leave more than rounding beside 1.
+  static void check_refraction(std::size_t simplex, std::size_t other, double a, double b) {
+    static const double most = 0.5 / std::sqrt(double{std::numeric_limits<Real>::epsilon()});
+    const double ratio = std::fmax(a, b) / std::fmin(a, b);
+    if (ratio <= most) return;
+    refuse("faces " + std::to_string(simplex) + " and " + std::to_string(other) +
+               " measure the edge between them as " + text(a) + " and " + text(b) +
+               ": lengths so different are",
+           "keep them within 1 : " + text(most));
+  }
+
+ private:
+  static constexpr bool single = sizeof(Real) < sizeof(double);
+
+  [[noreturn]] static void refuse(const std::string& what, const std::string& hint) {
+    throw PrecisionError(what + " beyond " + (single ? "single" : "double") + " precision: " +
+                         (single ? "use double" : hint));
+  }
+  static std::string named(const char* simplex, std::size_t number) {
+    return std::string(simplex) + " " + std::to_string(number) + ": ";
+  }
+  static std::string text(double value) {
+    char buffer[32];
+    std::snprintf(buffer, sizeof buffer, "%.3g", value);
+    return buffer;
+  }
+};
+
+}  // namespace plexway
