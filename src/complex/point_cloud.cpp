@@ -166,7 +166,8 @@ Sheet make_sheet(Points points, const Neighbours& neighbours, const CloudOptions
       return !options.progress || options.progress(from + part * s);
     };
   };
-  const DistinctPoints distinct = distinct_points(points);
+  const DistinctPoints equal = distinct_points(points);
+  const DistinctPoints distinct = without_near_twins(points, neighbours, equal);
   const double scale = scale_of(points);
   Places places = places_of(points, scale, neighbours, distinct);
   const std::size_t n = places.at.size();
@@ -174,9 +175,12 @@ Sheet make_sheet(Points points, const Neighbours& neighbours, const CloudOptions
                                                     rule, options.threads, share(0.1));
   done = 0.1;
   SheetWedges sheet(places, frames, rule);
-  add_umbrellas(
-      local_umbrellas(places, frames, rule, options.widest_circle, options.threads, share(0.5)),
-      options.threads, sheet);
+  {
+    const Umbrellas umbrellas =
+        local_umbrellas(places, frames, rule, options.widest_circle, options.threads, share(0.5));
+    set_reach(places, umbrellas, options.threads, frames);
+    add_umbrellas(umbrellas, options.threads, sheet);
+  }
   done = 0.6;
   fill_holes(options.widest_circle, sheet);
   trim_boundary(options.widest_boundary_circle, sheet);
@@ -189,6 +193,7 @@ Sheet make_sheet(Points points, const Neighbours& neighbours, const CloudOptions
   summary.points = points.size();
   summary.distinct = n;
   summary.duplicates = points.size() - n;
+  summary.near_duplicates = equal.order.size() - n;
   count_pairs(places, frames, rule, summary);
   count_parts(parts, distinct, summary);
   summary.mean_spacing /= scale;

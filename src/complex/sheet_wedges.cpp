@@ -125,8 +125,8 @@ double SheetWedges::circle(const Triangle& t) const {
   const Point3 b = minus(places_.at[t[2]], places_.at[t[0]]);
   const Point3 c = minus(b, a), n = cross(a, b);
   const double sides = std::sqrt(dot(a, a)) * std::sqrt(dot(b, b)) * std::sqrt(dot(c, c));
-  const float spacing = (frames_[t[0]].spacing + frames_[t[1]].spacing + frames_[t[2]].spacing) / 3;
-  return sides / (2 * std::sqrt(dot(n, n)) * static_cast<double>(spacing));
+  const float reach = (frames_[t[0]].reach + frames_[t[1]].reach + frames_[t[2]].reach) / 3;
+  return sides / (2 * std::sqrt(dot(n, n)) * static_cast<double>(reach));
 }
 
 }  // namespace plexway

@@ -54,7 +54,7 @@ class SheetWedges {
   [[nodiscard]] bool has_room(const Triangle& t) const;
   /// From neighbour u away from w to the next neighbour of a place, in its tangent plane.
   [[nodiscard]] Index next_around(Index place, Index u, Index w) const;
-  /// Radius of the circumcircle, in the mean spacing of the corners.
+  /// Radius of the circumcircle, in the mean reach of the corners.
   [[nodiscard]] double circle(const Triangle& t) const;
 
  private:
