@@ -113,6 +113,8 @@ Json to_json(const DistanceCommand& command, const Domain& domain, const Solver&
     json["points_in_file"] = cloud->points_in_file;
     json["not_finite"] = cloud->not_finite;
     json["outliers"] = cloud->outliers;
+    const auto dropped = dropped_points(*cloud);
+    json["dropped"] = dropped ? Json(*dropped) : Json(nullptr);
   }
   return json;
 }
@@ -185,7 +187,8 @@ std::string why_unreached(const Domain& domain, const Solver& solver, bool bound
 void say_notes(const Domain& domain, const Solver& solver, const Outcome& outcome, bool bounded) {
   if (domain.cloud() != nullptr && domain.cloud()->not_finite > 0)
     say_note(counted(domain.cloud()->not_finite, "points") +
-             " not finite, and dropped: vertices count those that are left");
+             " not finite, and dropped: vertices count those that are left; the column original "
+             "has their numbers in the file");
   if (!solver.complete()) {
     say_note("stopped after " + counted(solver.statistics().expansions, "expansions") +
              ": distances may still be too long");
@@ -274,7 +277,10 @@ void run_distance(DistanceCommand command) {
     const std::vector<std::int32_t> label = solver->label();
     if (to_stdout) {
       progress.clear();
-      write_distance_csv(distance, label);
+      write_distance_csv(distance, label,
+                         domain.cloud() != nullptr
+                             ? std::span<const std::uint32_t>(domain.cloud()->points.original)
+                             : std::span<const std::uint32_t>());
     } else {
       domain.write_field(command.out, distance, label);
     }
