@@ -136,7 +136,6 @@ Cloud make_cloud(const std::string& file, CloudFile read, const CloudArguments& 
   }
   cloud.k = arguments.k.value_or(arguments.neighbour_radius ? 0 : 16);
   cloud.max_normal_angle = arguments.max_normal_angle;
-  cloud.form = form_of(arguments);
   progress.phase("looking for neighbours");
   cloud.neighbours = find_neighbours(cloud, arguments, progress);
   cloud.progress = share_shown(progress);
@@ -154,13 +153,6 @@ CloudOptions cloud_options(const Cloud& cloud) {
   CloudOptions options;
   if (cloud.max_normal_angle) options.max_normal_angle = *cloud.max_normal_angle;
   options.normals = cloud.normals();
-  options.progress = cloud.progress;
-  return options;
-}
-
-PairOptions pair_options(const Cloud& cloud) {
-  PairOptions options;
-  options.least_noise = std::numeric_limits<double>::infinity();  // --smooth says so
   options.progress = cloud.progress;
   return options;
 }

@@ -13,7 +13,6 @@
 #include <plexway/complex/ids.hpp>
 #include <plexway/complex/neighbours.hpp>
 #include <plexway/complex/point_cloud.hpp>
-#include <plexway/complex/point_pairs.hpp>
 #include <plexway/io/points.hpp>
 
 #include "cloud_options.hpp"
@@ -30,7 +29,6 @@ struct Cloud {
   Neighbours neighbours;
   std::size_t k = 0;  ///< as asked for; 0: all within a radius
   std::optional<double> max_normal_angle;
-  CloudForm form = CloudForm::umbrellas;
 
   std::size_t points_in_file = 0;
   std::size_t not_finite = 0;  ///< dropped when read
@@ -69,7 +67,6 @@ Cloud make_cloud(const std::string& file, CloudFile read, const CloudArguments& 
 
 /// What a cloud says of how its complex is made. The options refer to it.
 CloudOptions cloud_options(const Cloud& cloud);
-PairOptions pair_options(const Cloud& cloud);
 
 /// The point nearest to `point`; the first of several. Cost: linear.
 Index nearest_point(const Cloud& cloud, const std::array<double, 3>& point);

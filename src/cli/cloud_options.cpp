@@ -8,8 +8,7 @@
 namespace plexway::cli {
 
 bool CloudArguments::given() const {
-  return k || neighbour_radius || max_normal_angle || form != CloudArguments{}.form || voxel ||
-         denoise || deviations || smooth;
+  return k || neighbour_radius || max_normal_angle || voxel || denoise || deviations || smooth;
 }
 
 void add_cloud_options(CLI::App& command, CloudArguments& options) {
@@ -31,12 +30,6 @@ void add_cloud_options(CLI::App& command, CloudArguments& options) {
                   "refuse neighbours whose normals differ by more degrees (default 60), such as\n"
                   "those across a thin gap")
       ->type_name("DEGREES")
-      ->group(group);
-  command
-      .add_option("--form", options.form,
-                  "umbrellas (default: triangles around each point) or pairs (of near points,\n"
-                  "without triangles)")
-      ->type_name("NAME")
       ->group(group);
   command
       .add_flag("--denoise", options.denoise,
@@ -67,14 +60,6 @@ void check(const CloudArguments& options) {
   if (options.max_normal_angle && *options.max_normal_angle > 180)
     throw UsageError("--max-normal-angle must be at most 180 degrees");
   if (options.deviations && !options.denoise) throw UsageError("--deviations goes with --denoise");
-  if (form_of(options) == CloudForm::pairs && options.max_normal_angle)
-    throw UsageError("--max-normal-angle goes with --form umbrellas: pairs have no normals");
-}
-
-CloudForm form_of(const CloudArguments& options) {
-  if (options.form == "umbrellas") return CloudForm::umbrellas;
-  if (options.form == "pairs") return CloudForm::pairs;
-  throw UsageError("--form '" + options.form + "': choose one of umbrellas, pairs");
 }
 
 }  // namespace plexway::cli

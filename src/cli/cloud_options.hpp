@@ -11,14 +11,11 @@ class App;
 
 namespace plexway::cli {
 
-enum class CloudForm { umbrellas, pairs };
-
 /// How to make a complex of points, as typed.
 struct CloudArguments {
   std::optional<std::size_t> k;
   std::optional<double> neighbour_radius;
   std::optional<double> max_normal_angle;
-  std::string form = "umbrellas";
   std::optional<double> voxel;  ///< typed as one of VolumeOptions
   bool denoise = false;
   std::optional<double> deviations;
@@ -31,8 +28,7 @@ struct CloudArguments {
 /// Adds the options to a command, in a group of their own.
 void add_cloud_options(CLI::App& command, CloudArguments& options);
 
-/// Throws UsageError for a value out of range or a form that does not exist.
+/// Throws UsageError for a value out of range.
 void check(const CloudArguments& options);
-CloudForm form_of(const CloudArguments& options);
 
 }  // namespace plexway::cli

@@ -122,7 +122,7 @@ Domain Domain::load(const std::string& file, const std::string& as, const FillOp
     throw UsageError("--repair needs a surface, and takes it as a surface or as a solid");
   if (cloud.given() && wanted != Kind::cloud)
     throw UsageError(
-        "--k, --neighbour-radius, --max-normal-angle, --form, --voxel, --denoise and --smooth need "
+        "--k, --neighbour-radius, --max-normal-angle, --voxel, --denoise and --smooth need "
         "a cloud: a file of points, or a surface with --as cloud");
 
   const bool wants_solid = natural == Kind::surface && wanted == Kind::solid;
@@ -202,7 +202,6 @@ void Domain::load_level_set(const std::string& file, bool surface, const VolumeO
 std::string_view Domain::kind() const { return kind_names[shape_.index()]; }
 
 std::string_view Domain::simplex_name() const {
-  if (cloud() != nullptr && cloud()->form == CloudForm::pairs) return "neighbour pairs";
   constexpr std::array<std::string_view, 4> names = {"triangles", "tetrahedra", "edges",
                                                      "triangles"};
   return names[shape_.index()];

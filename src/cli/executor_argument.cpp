@@ -76,8 +76,7 @@ Executor choose_executor(const ExecutorArgument& argument, const PropagateOption
   const OpenMP team{.threads = argument.threads.value_or(0)};
   if (argument.name == "openmp") return team;
   if (argument.name == "gl") return GL{.device = argument.device.value_or(-1)};
-  if (argument.name != "auto" || !openmp_built() || options.schedule == Schedule::priority ||
-      solver.serial_only())
+  if (argument.name != "auto" || !openmp_built() || options.schedule == Schedule::priority)
     return Serial{};
   const bool bounded =
       options.radius < PropagateOptions{}.radius ||

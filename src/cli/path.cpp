@@ -198,8 +198,6 @@ void run_path(const PathCommand& command) {
   ProgressLine progress(command.quiet);
   const Domain domain =
       Domain::load(command.input, command.as, command.fill, command.cloud, progress);
-  if (domain.cloud() != nullptr && domain.cloud()->form == CloudForm::pairs)
-    throw UsageError("--form pairs has no triangles to go over: choose umbrellas");
   if (command.astar && domain.kind() != "surface")
     throw UsageError("--astar: a " + std::string(domain.kind()) +
                      " is solved as a whole; A* is for surfaces");

@@ -39,11 +39,9 @@ void add_sampling_options(CLI::App& app, SamplingCommand& command, const char* o
 Precision precision_of(const SamplingCommand& command);
 
 /// Calls `use(complex)` with the surface, the solid or the cloud; throws InputError for another
-/// kind, and for a cloud in the form of pairs.
+/// kind.
 template <class Use>
 void with_complex(const Domain& domain, Precision precision, Use use) {
-  if (domain.cloud() != nullptr && domain.cloud()->form == CloudForm::pairs)
-    throw UsageError("--form pairs has no triangles to go over: choose umbrellas");
   with_file_name(domain, [&] {
     std::visit(
         [&](const auto& shape) {

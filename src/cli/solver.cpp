@@ -7,7 +7,6 @@
 
 #include <plexway/executors/serial.hpp>
 #include <plexway/executors/serial_cloud.hpp>
-#include <plexway/executors/serial_pairs.hpp>
 #include <plexway/executors/serial_solid.hpp>
 #include <plexway/executors/serial_wireframe.hpp>
 #include <plexway/executors/source_sets.hpp>
@@ -18,15 +17,6 @@ namespace plexway::cli {
 namespace {
 
 using cli::make_complex;
-
-// A cloud in its other form.
-struct PairsOf {
-  const Cloud& cloud;
-};
-template <class Real>
-PointPairs<Real> make_complex(const PairsOf& pairs, const MeasuredLengths* = nullptr) {
-  return {pairs.cloud.measured(), pairs.cloud.neighbours, pair_options(pairs.cloud)};
-}
 
 // How many simplices a complex has, by the name that its summary gives them.
 template <class Complex>
@@ -41,8 +31,6 @@ std::size_t simplex_count(const Complex& complex) {
     return summary.tets;
   else if constexpr (requires { summary.triangles; })
     return summary.triangles;
-  else if constexpr (requires { summary.neighbour_pairs; })
-    return summary.neighbour_pairs;
   else
     return summary.edges;
 }
@@ -59,7 +47,6 @@ class ShapeSolver final : public Solver {
 
   std::size_t components() const override { return complex_.summary().components; }
   std::size_t simplices() const override { return simplices_; }
-  bool serial_only() const override { return kSerialOnly; }
   TriangulationReport triangulation() const override { return triangulation_; }
   std::size_t refracting_edges() const override {
     if constexpr (std::is_same_v<Shape, io::Triangles>) return complex_.summary().refracting_edges;
@@ -132,10 +119,7 @@ class ShapeSolver final : public Solver {
   template <class OnThisMachine, class Sources>
   void solve_on(const OnThisMachine& executor, const Sources& sources,
                 const PropagateOptions& options) {
-    if constexpr (kSerialOnly && !std::is_same_v<OnThisMachine, Serial>)
-      throw UsageError("--form pairs is for --executor serial");
-    else
-      propagate(executor, complex_, sources, options, workspace_, field_);
+    propagate(executor, complex_, sources, options, workspace_, field_);
   }
   template <class Sources>
   void solve_on([[maybe_unused]] const GL& executor, [[maybe_unused]] const Sources& sources,
@@ -143,15 +127,12 @@ class ShapeSolver final : public Solver {
 #ifdef PLEXWAY_HAS_GL
     if constexpr (!std::is_same_v<Real, float>)
       throw UsageError("--executor gl computes in single precision: use --precision float");
-    else if constexpr (kSerialOnly)
-      throw UsageError("--form pairs is for --executor serial");
     else
       propagate(executor, complex_, sources, options, gl_workspace_, field_);
 #endif
   }
 
   using Complex = decltype(make_complex<Real>(std::declval<Shape>()));
-  static constexpr bool kSerialOnly = std::is_same_v<Complex, PointPairs<Real>>;
 
   Complex complex_;
   std::size_t simplices_;  // before any were added
@@ -179,8 +160,6 @@ std::unique_ptr<Solver> make_solver(const Domain& domain, Precision precision,
                                     Triangulation triangulation, const MeasuredLengths* lengths) {
   check_triangulation(triangulation, domain);
   return with_file_name(domain, [&] {
-    if (domain.cloud() != nullptr && domain.cloud()->form == CloudForm::pairs)
-      return solver_of(PairsOf{*domain.cloud()}, precision, triangulation, nullptr);
     return std::visit(
         [&](const auto& shape) { return solver_of(shape, precision, triangulation, lengths); },
         domain.shape());

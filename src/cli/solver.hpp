@@ -30,8 +30,6 @@ class Solver {
   [[nodiscard]] virtual std::size_t components() const = 0;
   /// Of the complex: a cloud has triangles only there. Without those of a refinement.
   [[nodiscard]] virtual std::size_t simplices() const = 0;
-  /// Is it of a kind that other executors refuse?
-  [[nodiscard]] virtual bool serial_only() const { return false; }
   /// Which triangles a surface is solved on.
   [[nodiscard]] virtual TriangulationReport triangulation() const { return {}; }
   /// Edges where paths are refracted.

@@ -26,19 +26,9 @@ void propagate(const OpenMP& executor, const MixedComplex<Real>&, std::span<cons
   refuse(executor, "mixed domains");
 }
 
-template <class Real>
-void propagate(const OpenMP& executor, const PointPairs<Real>&, std::span<const PointSource>,
-               const PropagateOptions&, Workspace<Real>&, DistanceField<Real>&) {
-  refuse(executor, "vertex pairs");
-}
-
 template void propagate(const OpenMP&, const MixedComplex<float>&, std::span<const PointSource>,
                         const PropagateOptions&, MixedWorkspace<float>&, DistanceField<float>&);
 template void propagate(const OpenMP&, const MixedComplex<double>&, std::span<const PointSource>,
                         const PropagateOptions&, MixedWorkspace<double>&, DistanceField<double>&);
-template void propagate(const OpenMP&, const PointPairs<float>&, std::span<const PointSource>,
-                        const PropagateOptions&, Workspace<float>&, DistanceField<float>&);
-template void propagate(const OpenMP&, const PointPairs<double>&, std::span<const PointSource>,
-                        const PropagateOptions&, Workspace<double>&, DistanceField<double>&);
 
 }  // namespace plexway

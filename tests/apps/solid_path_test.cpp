@@ -8,6 +8,7 @@
 #include "apps/path_testing.hpp"
 #include "complex/test_solids.hpp"
 #include "complex/test_wires.hpp"
+#include "exact_data.hpp"
 
 using namespace plexway;
 using namespace plexway::testing;
@@ -163,20 +164,22 @@ TEST_CASE("paths in a solid of lengths alone go along edges") {
 }
 
 TEST_CASE("path lengths against exact distances in real solids") {
-  const std::filesystem::path folder = std::filesystem::path(PLEXWAY_TRUTH_DIR) / "solids";
-  if (std::string(PLEXWAY_TRUTH_DIR).empty() || !std::filesystem::exists(folder)) return;
   struct Case {
     const char* name;
     Index source;
   };
   for (const auto& [name, source] : {Case{"cube_10k", 8}, {"notch_10k", 14}, {"maze_10k", 32}}) {
-    const io::Tets t = io::read_tets(folder / (std::string(name) + ".node"));
+    const std::filesystem::path file = exact_file("solids", std::string(name) + ".node");
+    if (file.empty()) {
+      WARN("not measured: no " << name);
+      continue;
+    }
+    const io::Tets t = io::read_tets(file);
     const TetMesh<float> mesh(t.positions, t.tets);
     PathField field(mesh, t.positions);
     field.solve(Serial{}, PointSource::at(source));
-    std::vector<double> exact;
-    std::ifstream in(folder / (std::string(name) + ".v" + std::to_string(source) + ".txt"));
-    for (std::string value; in >> value;) exact.push_back(std::stod(value));
+    const std::vector<double> exact =
+        exact_values(exact_file("solids", name + (".v" + std::to_string(source)) + ".txt"));
     REQUIRE(exact.size() == t.positions.size());
     std::mt19937 random(1);
     double sum = 0, below_exact = 0;

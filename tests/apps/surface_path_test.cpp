@@ -7,6 +7,7 @@
 #include <plexway/io/triangles.hpp>
 
 #include "apps/path_testing.hpp"
+#include "exact_data.hpp"
 #include "propagate/solving.hpp"
 
 using namespace plexway;
@@ -278,18 +279,14 @@ TEST_CASE("paths on awkward surfaces stay there and end") {
 }
 
 TEST_CASE("path lengths against exact distances on real surfaces") {
-  const std::filesystem::path folder = std::filesystem::path(PLEXWAY_TRUTH_DIR) / "surfaces";
-  if (std::string(PLEXWAY_TRUTH_DIR).empty() || !std::filesystem::exists(folder)) return;
   double sum = 0, below_exact = 0;
   std::size_t count = 0;
-  for (const auto& entry : std::filesystem::directory_iterator(folder)) {
-    const std::string file = entry.path().filename().string();
+  for (const std::filesystem::path& answer : exact_files("surfaces", ".txt")) {
+    const std::string file = answer.filename().string();
     const std::size_t dot = file.find(".v");
-    if (entry.path().extension() != ".txt" || dot == file.npos) continue;
-    const io::Triangles t = io::read_triangles(folder / (file.substr(0, dot) + ".obj"));
-    std::vector<double> exact;
-    std::ifstream in(entry.path());
-    for (std::string value; in >> value;) exact.push_back(std::stod(value));
+    const io::Triangles t =
+        io::read_triangles(exact_file("surfaces", file.substr(0, dot) + ".obj"));
+    const std::vector<double> exact = exact_values(answer);
     const TriangleMesh<float> mesh(t.positions, t.triangles);
     PathField field(mesh, t.positions);
     const Index source = static_cast<Index>(std::stoul(file.substr(dot + 2)));
@@ -319,6 +316,7 @@ TEST_CASE("path lengths against exact distances on real surfaces") {
     sum += own;
     count += paths;
   }
+  REQUIRE(count > 0);
   CAPTURE(sum / static_cast<double>(count), below_exact);
   CHECK(sum <= 5e-4 * static_cast<double>(count));
   CHECK(below_exact >= -1e-6);

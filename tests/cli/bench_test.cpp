@@ -6,6 +6,7 @@
 #include <string>
 
 #include "cli/tool.hpp"
+#include "exact_data.hpp"
 #include "io/io_testing.hpp"
 
 using namespace cli_testing;
@@ -151,13 +152,11 @@ TEST_CASE("bad truth files are bad input, with file and line") {
 }
 
 TEST_CASE("bench meets the exact answers of a scan") {
-  const std::string folder = PLEXWAY_TRUTH_DIR;
-  const std::string mesh = folder + "/surfaces/spot.obj";
-  if (folder.empty() || !std::filesystem::exists(mesh)) return;
-  const auto run =
-      run_tool({"bench", mesh, "--source", "vertex:1357", "--truth",
-                folder + "/surfaces/spot.v1357.txt", "--source", "vertex:2367", "--truth",
-                folder + "/surfaces/spot.v2367.txt", "--json", "--repeats", "4"});
+  using plexway::testing::exact_file;
+  const auto run = run_tool(
+      {"bench", exact_file("surfaces", "spot.obj").string(), "--source", "vertex:1357", "--truth",
+       exact_file("surfaces", "spot.v1357.txt").string(), "--source", "vertex:2367", "--truth",
+       exact_file("surfaces", "spot.v2367.txt").string(), "--json", "--repeats", "4"});
   INFO(run.err);
   REQUIRE(run.code == 0);
   CHECK(run.json()["mean"].get<double>() < 3.3e-3);

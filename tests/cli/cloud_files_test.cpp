@@ -94,13 +94,10 @@ TEST_CASE("options of clouds: values that cannot be, and domains that are none")
                                                      {"--voxel", "-1"},
                                                      {"--max-normal-angle", "200"},
                                                      {"--deviations", "3"},
-                                                     {"--form", "mesh"},
                                                      {"--max-normal-angle", "0"},
                                                      {"--neighbour-radius", "inf"}};
   for (const auto& option : bad) check_refused(distance(xyz, option), 2, option[0]);
   check_refused(distance(xyz, {"--denoise", "--deviations", "0"}), 2, "--deviations");
-  check_refused(distance(xyz, {"--form", "pairs", "--max-normal-angle", "60"}), 2,
-                "--max-normal-angle");
   check_refused(distance(sample("knot.ply"), {"--k", "8"}), 2, "--as cloud");
   check_refused(distance(sample("knot.ply"), {"--smooth"}), 2, "--as cloud");
   check_refused(distance(sample("knot.ply"), {"--out", folder.path() / "d.pcd"}), 2, "d.pcd");

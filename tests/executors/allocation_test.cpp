@@ -4,7 +4,6 @@
 #include <cstdlib>
 #include <new>
 
-#include <plexway/executors/serial_pairs.hpp>
 #include <plexway/executors/serial_wireframe.hpp>
 
 #include "complex/sampled_clouds.hpp"
@@ -137,31 +136,5 @@ TEMPLATE_TEST_CASE("solids: a second solve allocates nothing", "", float, double
       const std::size_t spent = allocations - before;
       CHECK(spent == 0);
     }
-  }
-}
-
-TEMPLATE_TEST_CASE("a second solve of vertex pairs allocates nothing, with the same bits", "",
-                   float, double) {
-  const SampledCloud cloud = cylinder_cloud(2000);
-  const PointPairs<TestType> pairs(cloud.points, all_pairs_neighbours(cloud.points));
-  const PointSource one[] = {PointSource::at(7)};
-  const PointSource several[] = {PointSource::at(3), PointSource::at(60), PointSource::at(9)};
-  for (const Schedule schedule : schedules) {
-    PropagateOptions options;
-    options.schedule = schedule;
-    Workspace<TestType> workspace;
-    DistanceField<TestType> field;
-    propagate(Serial{}, pairs, several, options, workspace, field);
-    const auto before_distance = field.distance;
-    const auto before_label = field.label;
-    const std::size_t before = allocations;
-    if (schedule != Schedule::priority)  // its heap may grow with the source
-      propagate(Serial{}, pairs, one, options, workspace, field);
-    propagate(Serial{}, pairs, several, options, workspace, field);
-    const std::size_t spent = allocations - before;
-    CAPTURE(name(options));
-    CHECK(spent == 0);
-    CHECK(field.distance == before_distance);
-    CHECK(field.label == before_label);
   }
 }

@@ -59,7 +59,6 @@ void visit_domains(const Visit& visit) {
   cloud.points.push_back(cloud.points[7]);  // a twin
   const auto near = test_clouds::near_pairs(cloud.points);
   visit("cloud", PointCloud<Real>(cloud.points, near));
-  visit("vertex pairs", PointPairs<Real>(cloud.points, near));
   MixedComplex<Real> mixed;
   const auto a = mixed.add(grid(6, 6).mesh<Real>());
   const auto b = mixed.add(grid(4, 4).mesh<Real>());
@@ -68,8 +67,6 @@ void visit_domains(const Visit& visit) {
   visit("mixed", mixed);
 }
 
-template <class Domain>
-constexpr bool is_pairs = std::is_same_v<Domain, PointPairs<RealOf<Domain>>>;
 template <class Domain>
 constexpr bool is_mixed = std::is_same_v<Domain, MixedComplex<RealOf<Domain>>>;
 
@@ -113,7 +110,7 @@ TEMPLATE_TEST_CASE("every domain by one thread and by a team: solved or refused"
     static_assert(Propagates<OpenMP, Domain> && Batches<OpenMP, Domain>);
     check_all(Serial{}, domain, 0);
     if (!openmp_built()) return;
-    if constexpr (is_pairs<Domain> || is_mixed<Domain>) {
+    if constexpr (is_mixed<Domain>) {
       const std::vector<PointSource> sources = {PointSource::at(3), PointSource::at(5)};
       CHECK_THROWS_AS(propagate(team(2), domain, Sources(sources)), UsageError);
       CHECK_THROWS_WITH(field(team(2), domain, Sources(sources)),
@@ -139,7 +136,7 @@ template <class Domain>
 constexpr bool refused = !Propagates<GL, Domain> && !Batches<GL, Domain>;
 static_assert(refused<TriangleMesh<double>> && refused<TetMesh<double>>);
 static_assert(refused<Wireframe<double>> && refused<PointCloud<double>>);
-static_assert(refused<MixedComplex<float>> && refused<PointPairs<float>>);
+static_assert(refused<MixedComplex<float>>);
 static_assert(refused<SimplicialComplex<float, 1>> && refused<SimplicialComplex<float, 2>>);
 static_assert(refused<SimplicialComplex<float, 3>> && refused<SimplicialComplex<float, 4>>);
 

@@ -13,6 +13,7 @@
 #include "complex/test_meshes.hpp"
 #include "complex/test_solids.hpp"
 #include "complex/test_wires.hpp"
+#include "exact_data.hpp"
 #include "gl/device.hpp"
 
 using namespace plexway;
@@ -81,13 +82,13 @@ TEST_CASE("a device and a team do the same rounds on surfaces", "[gl]") {
 
 TEST_CASE("a device and a team do the same rounds on real surfaces", "[gl]") {
   const auto context = device();
-  const std::filesystem::path root = PLEXWAY_TRUTH_DIR;
-  if (!context || !openmp_built() || root.empty() || !std::filesystem::exists(root / "surfaces"))
-    return;
+  if (!context || !openmp_built()) return;
   for (const char* const name :
        {"spot", "fandisk", "rocker-arm", "camelhead", "beetle_car", "bunny"}) {
     CAPTURE(name);
-    const auto t = io::read_triangles(root / "surfaces" / (std::string(name) + ".obj"));
+    const auto file = exact_file("surfaces", std::string(name) + ".obj");
+    if (file.empty()) continue;
+    const auto t = io::read_triangles(file);
     const TriangleMesh<float> mesh(t.positions, t.triangles);
     for (const std::size_t count : {1u, 20u})
       Together(mesh, some_sources(mesh.vertex_count(), count, 9)).check(*context, 1e-7, 1e-4);

@@ -17,6 +17,7 @@
 #include <plexway/executors/serial.hpp>
 #include <plexway/io/triangles.hpp>
 
+#include "exact_data.hpp"
 #include "gl/device.hpp"
 #include "gl/rounds_reference.hpp"
 #include "propagate/solving.hpp"
@@ -249,23 +250,26 @@ TEST_CASE("flat surfaces on a device: the straight distance", "[gl]") {
 }
 
 TEST_CASE("real surfaces on a device are as near to the truth as the serial executor", "[gl]") {
-  const std::filesystem::path root = PLEXWAY_TRUTH_DIR;
-  if (!device() || root.empty() || !std::filesystem::exists(root / "surfaces")) return;
+  if (!device()) return;
   struct Source {
+    const char* kind;
     const char* name;
     Index vertex;
   };
-  const Source sources[] = {
-      {"surfaces/spot", 1357},       {"surfaces/spot", 2367},       {"surfaces/spot", 2822},
-      {"surfaces/fandisk", 2095},    {"surfaces/fandisk", 2415},    {"surfaces/fandisk", 3045},
-      {"surfaces/camelhead", 5506},  {"surfaces/camelhead", 6695},  {"surfaces/camelhead", 6697},
-      {"surfaces/rocker-arm", 4092}, {"surfaces/rocker-arm", 9152}, {"surfaces/rocker-arm", 9166},
-      {"awkward/cow", 141},          {"awkward/moebius", 33}};
+  const Source sources[] = {{"surfaces", "spot", 1357},       {"surfaces", "spot", 2367},
+                            {"surfaces", "spot", 2822},       {"surfaces", "fandisk", 2095},
+                            {"surfaces", "fandisk", 2415},    {"surfaces", "fandisk", 3045},
+                            {"surfaces", "camelhead", 5506},  {"surfaces", "camelhead", 6695},
+                            {"surfaces", "camelhead", 6697},  {"surfaces", "rocker-arm", 4092},
+                            {"surfaces", "rocker-arm", 9152}, {"surfaces", "rocker-arm", 9166},
+                            {"awkward", "cow", 141},          {"awkward", "moebius", 33}};
   double serial = 0, found = 0;
   for (const Source& s : sources) {
-    const auto t = io::read_triangles(root / (std::string(s.name) + ".obj"));
-    std::ifstream in(root / (std::string(s.name) + ".v" + std::to_string(s.vertex) + ".txt"));
-    const std::vector<double> exact{std::istream_iterator<double>(in), {}};
+    const auto file = exact_file(s.kind, std::string(s.name) + ".obj");
+    if (file.empty()) continue;
+    const auto t = io::read_triangles(file);
+    const std::vector<double> exact =
+        exact_values(exact_file(s.kind, s.name + (".v" + std::to_string(s.vertex)) + ".txt"));
     const TriangleMesh<float> mesh(t.positions, t.triangles);
     REQUIRE(exact.size() == mesh.vertex_count());
     const PointSource source = PointSource::at(s.vertex);

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "exact_data.hpp"
 #include "tets_testing.hpp"
 
 using namespace io_testing;
@@ -133,8 +134,6 @@ TEST_CASE("tets: what cannot be written") {
 }
 
 TEST_CASE("tets: the solids with known answers") {
-  const std::filesystem::path truth = PLEXWAY_TRUTH_DIR;
-  if (truth.empty()) return;
   struct Known {
     const char* name;
     std::size_t vertices;
@@ -146,7 +145,9 @@ TEST_CASE("tets: the solids with known answers") {
         Known{"notch_10k", 3193, 12726, 0.97}, Known{"notch_100k", 18591, 91892, 0.97},
         Known{"cavity_10k", 3681, 14963, 0}, Known{"cavity_100k", 21157, 103023, 0}}) {
     INFO(known.name);
-    const Tets solid = read_tets(truth / "solids" / (std::string(known.name) + ".ele"));
+    const auto file = plexway::testing::exact_file("solids", std::string(known.name) + ".ele");
+    if (file.empty()) continue;
+    const Tets solid = read_tets(file);
     CHECK(solid.positions.size() == known.vertices);
     CHECK(solid.tets.size() == known.tets);
     double volume = 0;

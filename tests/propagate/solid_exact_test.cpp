@@ -143,3 +143,20 @@ TEST_CASE("upper bounds are bounds, and lengths alone give the plain step") {
     CHECK(plain.mean < 1e-2);
   }
 }
+
+TEMPLATE_TEST_CASE("grids given by lengths alone are exact", "", float, double) {
+  for (const Index n : {6u, 12u})
+    for (const Position& stretch : {Position{1, 1, 1}, {3, 1, 1}, {1, 1, 3}}) {
+      Solid s = solid_cube(n, 0);
+      for (Position& p : s.positions)
+        for (std::size_t i = 0; i < 3; ++i) p[i] *= stretch[i];
+      const TetMesh<TestType> mesh(s.positions.size(), s.tets, s.lengths());
+      for (const Index source : {Index{0}, static_cast<Index>(s.positions.size() / 2), n}) {
+        const Errors e = compare(solve(mesh, PointSource::at(source)),
+                                 straight(s, s.positions[source]));
+        CAPTURE(n, source, stretch[0], e.mean, e.max, e.below);
+        CHECK(e.fits);
+        CHECK(e.max < (sizeof(TestType) == 4 ? 5e-6 : 1e-14));
+      }
+    }
+}

@@ -3,12 +3,14 @@
 #include <catch2/catch.hpp>
 #include <filesystem>
 #include <fstream>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "complex/test_solids.hpp"
+#include "exact_data.hpp"
 
-/// Solids of the truth folder, with exact distances.
+/// Solids with exact distances.
 namespace plexway::testing {
 
 struct SolidTruth {
@@ -16,9 +18,13 @@ struct SolidTruth {
   std::vector<double> exact;
 };
 
-// TetGen's files as they are in the truth folder: 0-based, no attributes.
-inline SolidTruth read_solid_truth(const std::string& name, Index source) {
-  const std::filesystem::path folder = std::filesystem::path(PLEXWAY_TRUTH_DIR) / "solids";
+// TetGen's files, 0-based, without attributes; nothing, and a warning, where they are missing.
+inline std::optional<SolidTruth> read_solid_truth(const std::string& name, Index source) {
+  const std::filesystem::path folder = exact_file("solids", name + ".node").parent_path();
+  if (folder.empty()) {
+    WARN("not measured: no " << name);
+    return {};
+  }
   SolidTruth truth;
   std::size_t count = 0, skip = 0;
   std::ifstream nodes(folder / (name + ".node"));
@@ -29,17 +35,11 @@ inline SolidTruth read_solid_truth(const std::string& name, Index source) {
   tets >> count >> skip >> skip;
   truth.solid.tets.resize(count);
   for (Tet& t : truth.solid.tets) tets >> skip >> t[0] >> t[1] >> t[2] >> t[3];
-  std::ifstream exact(folder / (name + ".v" + std::to_string(source) + ".txt"));
-  truth.exact.resize(truth.solid.positions.size());
-  for (double& d : truth.exact) exact >> d;
+  truth.exact = exact_values(folder / (name + ".v" + std::to_string(source) + ".txt"));
   REQUIRE(nodes);
   REQUIRE(tets);
-  REQUIRE(exact);
+  REQUIRE(truth.exact.size() == truth.solid.positions.size());
   return truth;
-}
-
-inline bool solids_available() {
-  return std::filesystem::exists(std::filesystem::path(PLEXWAY_TRUTH_DIR) / "solids");
 }
 
 }  // namespace plexway::testing

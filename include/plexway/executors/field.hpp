@@ -13,7 +13,6 @@
 #include <plexway/executors/serial.hpp>
 #include <plexway/executors/serial_cloud.hpp>
 #include <plexway/executors/serial_mixed.hpp>
-#include <plexway/executors/serial_pairs.hpp>
 #include <plexway/executors/serial_simplicial.hpp>
 #include <plexway/executors/serial_solid.hpp>
 #include <plexway/executors/serial_wireframe.hpp>

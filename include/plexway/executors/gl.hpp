@@ -151,7 +151,7 @@ template <GLDomain Domain>
   return propagate(executor, domain, std::span<const PointSource>(&source, 1), options);
 }
 
-/// Not on the device: double precision, mixed domains, simplices by dimension, vertex pairs.
+/// Not on the device: double precision, mixed domains, simplices by dimension.
 template <class Domain, class... Rest>
 requires(!GLDomain<Domain>) void propagate(const GL&, const Domain&, Rest&&...) = delete;
 template <class Domain, class... Rest>

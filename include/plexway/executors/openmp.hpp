@@ -6,7 +6,6 @@
 
 #include <plexway/complex/mixed_complex.hpp>
 #include <plexway/complex/point_cloud.hpp>
-#include <plexway/complex/point_pairs.hpp>
 #include <plexway/complex/simplicial_complex.hpp>
 #include <plexway/complex/tet_mesh.hpp>
 #include <plexway/complex/triangle_mesh.hpp>
@@ -77,12 +76,6 @@ template <class Real>
 void propagate(const OpenMP& executor, const MixedComplex<Real>& domain,
                std::span<const PointSource> sources, const PropagateOptions& options,
                MixedWorkspace<Real>& workspace, DistanceField<Real>& field);
-
-/// Vertex pairs: the same; UsageError, and `fields` works.
-template <class Real>
-void propagate(const OpenMP& executor, const PointPairs<Real>& pairs,
-               std::span<const PointSource> sources, const PropagateOptions& options,
-               Workspace<Real>& workspace, DistanceField<Real>& field);
 
 /// The same with a workspace of its own; from a single source.
 template <class Domain>

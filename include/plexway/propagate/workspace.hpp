@@ -6,7 +6,6 @@
 #include <plexway/complex/ids.hpp>
 #include <plexway/propagate/front.hpp>
 #include <plexway/propagate/label_storage.hpp>
-#include <plexway/propagate/pair_label.hpp>
 #include <plexway/propagate/plain_label.hpp>
 #include <plexway/propagate/plain_solid_label.hpp>
 #include <plexway/propagate/room.hpp>
@@ -27,7 +26,6 @@ struct Workspace {
   LabelStorage<SolidLabel<Real>> solids;             ///< in solids: Visibility::saddles
   LabelStorage<PlainSolidLabel<Real>> plain_solids;  ///< in solids: the other policies
   SimplexLabels<Real> simplex;                       ///< SimplicialComplex
-  LabelStorage<PairLabel<Real>> pairs;               ///< PointPairs
   std::vector<Index> source;  ///< nearest source a simplex; empty for one source
   FrontStorage front;
   TeamRooms team;                    ///< for executors with several threads
@@ -49,8 +47,8 @@ struct Workspace {
     const auto of = [](const auto& v) { return v.capacity() * sizeof(v[0]); };
     return sizeof(*this) + marks.bytes() + saddles.count * sizeof(SaddleLabel<Real>) +
            plain.count * sizeof(PlainLabel<Real>) + solids.count * sizeof(SolidLabel<Real>) +
-           plain_solids.count * sizeof(PlainSolidLabel<Real>) + simplex.bytes() + pairs.bytes() +
-           of(source) + of(vertex) + of(vertex_source) + of(vertex_path) + of(corners) +
+           plain_solids.count * sizeof(PlainSolidLabel<Real>) + simplex.bytes() + of(source) +
+           of(vertex) + of(vertex_source) + of(vertex_path) + of(corners) +
            front.capacity * 2 * sizeof(Index) + of(front.heap) + team.bytes();
   }
 };

@@ -1,5 +1,5 @@
-// Point clouds: the forms of a cloud against each other and against Dijkstra on the neighbour
-// graph, on files with exact answers and on clouds made here, clean and noisy.
+// Point clouds, as they are and smoothed, beside Dijkstra on the neighbour graph, on files with
+// exact answers and on clouds made here, clean and noisy.
 
 #include <CLI/CLI.hpp>
 #include <filesystem>
@@ -13,7 +13,6 @@
 #include <plexway/complex/normals.hpp>
 #include <plexway/complex/smoothing.hpp>
 #include <plexway/executors/serial_cloud.hpp>
-#include <plexway/executors/serial_pairs.hpp>
 #include <plexway/executors/serial_wireframe.hpp>
 
 #include "../data/sampled_clouds.hpp"
@@ -49,7 +48,7 @@ Cloud read_cloud(const std::filesystem::path& file) {
 
 struct Form {
   std::string name;
-  bool smooth, umbrellas;
+  bool smooth;
 };
 
 /// Mean relative error, also with its sign, and the largest beyond three spacings.
@@ -119,35 +118,21 @@ nlohmann::ordered_json measure(const Cloud& cloud, const Form& form, std::size_t
   row["search_us"] = 1e6 / n * bench::seconds([&] {
                        neighbours = plexway::flann::neighbours(cloud.points, search);
                      });
-  plexway::PairOptions options;
-  options.threads = 1;
-  if (!form.smooth) options.least_noise = std::numeric_limits<double>::infinity();
-  std::unique_ptr<plexway::PointPairs<float>> pairs;
+  row["noise"] = plexway::noise_level(cloud.points, neighbours, 1);
+  Positions points = cloud.points;
+  std::unique_ptr<plexway::PointCloud<float>> umbrellas;
   row["build_us"] =
       1e6 / n * bench::seconds([&] {
-        pairs = std::make_unique<plexway::PointPairs<float>>(cloud.points, neighbours, options);
+        if (form.smooth) {
+          plexway::SmoothOptions smoothing;
+          smoothing.threads = 1;
+          points = plexway::smooth(cloud.points, neighbours, smoothing);
+        }
+        plexway::CloudOptions one_thread;
+        one_thread.threads = 1;
+        umbrellas = std::make_unique<plexway::PointCloud<float>>(points, neighbours, one_thread);
       });
-  row["noise"] = pairs->summary().noise;
-  // Neighbours' mean distance is about 1.5 times the side of a point's square.
-  const double spacing = pairs->unit() / 1.5;
-  if (form.umbrellas) {
-    Positions points = cloud.points;
-    std::unique_ptr<plexway::PointCloud<float>> umbrellas;
-    row["build_us"] =
-        1e6 / n * bench::seconds([&] {
-          if (form.smooth) {
-            plexway::SmoothOptions smoothing;
-            smoothing.threads = 1;
-            points = plexway::smooth(cloud.points, neighbours, smoothing);
-          }
-          plexway::CloudOptions one_thread;
-          one_thread.threads = 1;
-          umbrellas = std::make_unique<plexway::PointCloud<float>>(points, neighbours, one_thread);
-        });
-    solve_and_compare(*umbrellas, cloud, neighbours, spacing, effort, row);
-    return row;
-  }
-  solve_and_compare(*pairs, cloud, neighbours, spacing, effort, row);
+  solve_and_compare(*umbrellas, cloud, neighbours, umbrellas->summary().mean_spacing, effort, row);
   return row;
 }
 
@@ -178,7 +163,7 @@ int main(int argc, char** argv) {
   bench::Effort effort{8, 2, 20};
   double limit = 600;
   bench::Report report;
-  CLI::App app("The forms of a point cloud side by side: one table");
+  CLI::App app("Point clouds, as they are and smoothed: one table");
   app.add_option("CLOUD", files, "Clouds (.xyz), with NAME.v0.txt beside them");
   app.add_option("--make", made, "Also plane, sphere, cylinder or swiss, sampled at random");
   app.add_option("--size", sizes, "With so many points")->capture_default_str();
@@ -224,10 +209,7 @@ int main(int argc, char** argv) {
                       {"bytes_per_point", "bytes/P", "%.0f"},
                       {"note", "note"}});
 #if defined(PLEXWAY_HAS_FLANN) && defined(PLEXWAY_HAS_BOOST_GRAPH)
-  const std::vector<Form> forms = {{"pairs, as they are", false, false},
-                                   {"pairs", true, false},
-                                   {"umbrellas, as they are", false, true},
-                                   {"umbrellas, smoothed", true, true}};
+  const std::vector<Form> forms = {{"as they are", false}, {"smoothed", true}};
   return report.write(table, [&] {
     for (const Cloud& cloud : clouds) {
       std::cerr << cloud.name << std::endl;
