@@ -81,7 +81,8 @@ int parse_and_run(int argc, const char* const* argv) {
       "  plexway tetrahedralize organ.off --out organ.vtu --max-volume 1e-3\n"
       "  plexway convert broken.stl clean.ply --repair\n"
       "  plexway bench bunny.obj --source vertex:3160 --truth bunny.v3160.txt\n\n"
-      "Exit codes: 0 ok, 1 failure, 2 usage, 3 bad input, 4 not built in, 5 nothing reached.");
+      "Exit codes: 0 ok, 1 failure, 2 usage, 3 bad input, 4 not built in, 5 nothing reached, "
+      "6 without end.");
   add_distance_command(tool, action);
   add_info_command(tool, action);
   add_bench_command(tool, action);

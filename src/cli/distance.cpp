@@ -189,6 +189,16 @@ void say_notes(const Domain& domain, const Solver& solver, const Outcome& outcom
     say_note(counted(domain.cloud()->not_finite, "points") +
              " not finite, and dropped: vertices count those that are left; the column original "
              "has their numbers in the file");
+  if (const CloudSummary* cloud = solver.cloud()) {
+    if (cloud->near_duplicates > 0)
+      say_note(counted(cloud->near_duplicates, "points") +
+               " much nearer to an earlier one than all others are: they count as that one");
+    if (100 * cloud->bridges > cloud->distinct)
+      say_note(counted(cloud->bridges, "points") +
+               " hang together by single edges: no surface was found there, and ways go from point "
+               "to point; more neighbours may help (--k " +
+               std::to_string(4 * std::max<std::size_t>(domain.cloud()->k, 16)) + ")");
+  }
   if (!solver.complete()) {
     say_note("stopped after " + counted(solver.statistics().expansions, "expansions") +
              ": distances may still be too long");

@@ -48,6 +48,10 @@ class ShapeSolver final : public Solver {
   std::size_t components() const override { return complex_.summary().components; }
   std::size_t simplices() const override { return simplices_; }
   TriangulationReport triangulation() const override { return triangulation_; }
+  const CloudSummary* cloud() const override {
+    if constexpr (std::is_same_v<Shape, Cloud>) return &complex_.summary();
+    return nullptr;
+  }
   std::size_t refracting_edges() const override {
     if constexpr (std::is_same_v<Shape, io::Triangles>) return complex_.summary().refracting_edges;
     return 0;

@@ -32,6 +32,8 @@ class Solver {
   [[nodiscard]] virtual std::size_t simplices() const = 0;
   /// Which triangles a surface is solved on.
   [[nodiscard]] virtual TriangulationReport triangulation() const { return {}; }
+  /// What a cloud was made into, or null.
+  [[nodiscard]] virtual const CloudSummary* cloud() const { return nullptr; }
   /// Edges where paths are refracted.
   [[nodiscard]] virtual std::size_t refracting_edges() const { return 0; }
   /// One propagation, read-out to vertices included. Throws as plexway::propagate.

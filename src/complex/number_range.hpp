@@ -11,16 +11,20 @@
 namespace plexway {
 
 /// What a Real can hold of a domain whose lengths are stored in units of their mean: asked where
-/// the records are made. Each throws PrecisionError with the place. Ratios within these ranges are
+/// the records are made, and where distances are. Each throws PrecisionError with the place. Ratios within these ranges are
 /// harmless however large: arithmetic is relative to what is near.
 template <class Real>
 class NumberRange {
+  static constexpr bool single = sizeof(Real) < sizeof(double);
+
  public:
-  /// Distances, in the caller's unit, may be a million mean edges or a millionth of one.
+  /// Distances, in the caller's unit, may be a million mean edges or a millionth of one. A domain
+  /// knows its unit in double and can be without; a field of it cannot.
   static void check_unit(double unit) {
-    constexpr double most_edges = sizeof(Real) < sizeof(double) ? 1e6 : 1;
-    if (unit * most_edges <= std::numeric_limits<Real>::max() &&
-        unit / most_edges >= std::numeric_limits<Real>::min())
+    constexpr double most_edges = single ? 1e6 : 1;
+    constexpr double least =
+        single ? std::numeric_limits<Real>::min() : std::numeric_limits<Real>::denorm_min();
+    if (unit * most_edges <= double{std::numeric_limits<Real>::max()} && unit / most_edges >= least)
       return;
     refuse("edges of " + text(unit) + " are", "scale the input");
   }
@@ -53,7 +57,7 @@ class NumberRange {
   /// Two simplices measure the edge between them as `a` and `b`. Fermat's point is a matter of
   /// squares of their ratio, which must leave more than rounding beside 1.
   static void check_refraction(std::size_t simplex, std::size_t other, double a, double b) {
-    static const double most = 0.5 / std::sqrt(double{std::numeric_limits<Real>::epsilon()});
+    static const double most = 0.25 / std::sqrt(double{std::numeric_limits<Real>::epsilon()});
     const double ratio = std::fmax(a, b) / std::fmin(a, b);
     if (ratio <= most) return;
     refuse("faces " + std::to_string(simplex) + " and " + std::to_string(other) +
@@ -63,8 +67,6 @@ class NumberRange {
   }
 
  private:
-  static constexpr bool single = sizeof(Real) < sizeof(double);
-
   [[noreturn]] static void refuse(const std::string& what, const std::string& hint) {
     throw PrecisionError(what + " beyond " + (single ? "single" : "double") + " precision: " +
                          (single ? "use double" : hint));

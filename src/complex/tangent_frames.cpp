@@ -142,9 +142,12 @@ class Frames {
 
   std::vector<TangentFrame> make(const std::function<bool(double)>& progress) {
     for_all(progress, [&](Index i, Room& room) { fit(i, room.around); });
-    std::vector<char> thick(frames_.size(), 0);
-    for_all({}, [&](Index i, Room& room) { thick[i] = is_thick(i, room.number); });
-    thick_ = std::move(thick);
+    thinnest_ = share_;
+    for_all({}, [&](Index i, Room&) {
+      for (const Index j : places_.near.around(i))
+        thinnest_[i] = std::min(thinnest_[i], share_[j]);
+    });
+    for_all({}, [&](Index i, Room&) { thick_[i] = is_thick(i); });
     if (std::find(thick_.begin(), thick_.end(), 1) != thick_.end()) {
       for_all({}, [&](Index i, Room& room) {
         if (thick_[i] != 0) refit(i, room.around);
@@ -197,25 +200,21 @@ class Frames {
     const double count = std::max<double>(static_cast<double>(around.size()), 1);
     const double spacing = std::sqrt(2 * std::numbers::pi * sum / (count * (count + 1)));
     frames_[i].spacing = static_cast<float>(spacing);
-    if (is_given(i)) return set_normal(i, unit(given_[i]));
     const Symmetric spread = all.about_mean();
-    const Point3 normal = least_direction(spread);
+    const Point3 normal = is_given(i) ? unit(given_[i]) : least_direction(spread);
     set_normal(i, normal);
     share_[i] = static_cast<float>(share_along(spread, normal));
   }
 
   // Noise, an edge of a solid, or another sheet. Where that is just within reach the plane follows
-  // it without getting thick; but neighbours farther away from it are thinner by far.
-  [[nodiscard]] bool is_thick(Index i, std::vector<double>& shares) const {
-    constexpr float sure = 0.02f, least = 3e-4f, by_far = 5;
-    if (!(share_[i] > least)) return false;
+  // it without getting thick; but some place two rings around is thinner by far.
+  [[nodiscard]] bool is_thick(Index i) const {
+    constexpr float sure = 0.02f, least = 3e-4f, by_far = 10;
+    if (!(share_[i] > least) || is_given(i)) return false;
     if (share_[i] > sure) return true;
-    const auto row = places_.near.around(i);
-    shares.clear();
-    for (const Index j : row) shares.push_back(static_cast<double>(share_[j]));
-    const auto low = shares.begin() + static_cast<std::ptrdiff_t>(0);
-    std::nth_element(shares.begin(), low, shares.end());
-    return share_[i] > by_far * static_cast<float>(*low);
+    float thinnest = thinnest_[i];
+    for (const Index j : places_.near.around(i)) thinnest = std::min(thinnest, thinnest_[j]);
+    return share_[i] > by_far * thinnest;
   }
 
   void refit(Index i, std::vector<Point3>& around) {
@@ -274,7 +273,8 @@ class Frames {
   SheetRule rule_;
   int threads_;
   std::vector<TangentFrame> frames_;
-  std::vector<float> share_;  // of the neighbours' spread along the normal
+  std::vector<float> share_;     // of the neighbours' spread along the normal
+  std::vector<float> thinnest_;  // the least of a place and its neighbours
   std::vector<char> thick_;
 };
 

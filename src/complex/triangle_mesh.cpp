@@ -278,7 +278,6 @@ void TriangleMesh<Real>::assemble(std::size_t vertices, std::span<const std::arr
     for (const double l : shapes[f].length) sum += longest > 0 ? l / longest : 0;
   const double unit = longest > 0 ? longest * (sum / (3 * static_cast<double>(m))) : 1;
   summary_.mean_edge = unit;
-  if (longest > 0) NumberRange<Real>::check_unit(unit);
 
   face_to_inside_.resize(m);
   for (std::size_t i = 0; i < m; ++i) face_to_inside_[face_order[i]] = static_cast<Index>(i);

@@ -200,12 +200,10 @@ Neighbours neighbours(Points points, const NeighbourOptions& options) {
 Neighbours surface_neighbours(Points points, const NeighbourOptions& options) {
   check_options(options);
   DistinctPoints places = distinct_points(points);
-  Neighbours found =
-      neighbours_of(Search(points, places), points.size(), options, options.symmetric);
+  Neighbours found = neighbours_of(Search(points, places), points.size(), options, true);
   DistinctPoints merged = without_near_twins(points, found, places);
   if (merged.order.size() == places.order.size()) return found;
-  return neighbours_of(Search(points, std::move(merged)), points.size(), options,
-                       options.symmetric);
+  return neighbours_of(Search(points, std::move(merged)), points.size(), options, true);
 }
 
 std::optional<std::size_t> connecting_k(Points points, std::size_t most,

@@ -6,6 +6,8 @@
 #include <plexway/error.hpp>
 #include <plexway/propagate/endless.hpp>
 
+#include "complex/number_range.hpp"
+
 namespace plexway::gl {
 
 void check_options(const PropagateOptions& options, std::size_t sources) {
@@ -59,6 +61,7 @@ void check_size(std::span<const float> distance, std::size_t sources, std::size_
 }
 
 void finish(const Job& job, const Finish& what, std::span<float> distance, std::span<Index> label) {
+  NumberRange<float>::check_unit(what.unit);
   const Session& session = job.session;
   GLWorkspace::Implementation& workspace = job.workspace;
   const std::size_t total = what.vertices * what.fields;
