@@ -67,9 +67,9 @@ void write_points(const std::filesystem::path& out, const Domain& domain,
                   std::span<const double> value) {
   const std::string extension = io::lower_extension(out);
   // Of the points of a cloud of which some were left out.
-  const std::span<const std::uint32_t> original =
-      domain.cloud() != nullptr ? std::span(domain.cloud()->points.original)
-                                : std::span<const std::uint32_t>();
+  const std::span<const std::uint32_t> original = domain.cloud() != nullptr
+                                                      ? std::span(domain.cloud()->points.original)
+                                                      : std::span<const std::uint32_t>();
   OutputFile file(out);
   if (extension == ".csv") {
     file.write("x,y,z,vertex,simplex,b0,b1,b2,b3");

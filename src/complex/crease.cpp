@@ -53,7 +53,7 @@ std::optional<Crease> crease_between(const Places& places, std::span<const Tange
                                      const SheetRule& rule, Index i, Index j) {
   // Planes that are nearly parallel meet anywhere. The two sides of a thin plate are no crease.
   constexpr double least_sine = 0.5, farthest = 4, sure = 0.2;  // the latter in spacings
-  if (i >= frames.size() || j >= frames.size()) return {};  // a place that is no point
+  if (i >= frames.size() || j >= frames.size()) return {};      // a place that is no point
   const double cosine = dot(frames[i].normal, frames[j].normal);
   if ((rule.oriented ? cosine : std::abs(cosine)) >= rule.least_cosine) return {};
   const Point3 m = normal_of(frames[i]), n = normal_of(frames[j]);

@@ -11,8 +11,8 @@
 namespace plexway {
 
 /// What a Real can hold of a domain whose lengths are stored in units of their mean: asked where
-/// the records are made, and where distances are. Each throws PrecisionError with the place. Ratios within these ranges are
-/// harmless however large: arithmetic is relative to what is near.
+/// the records are made, and where distances are. Each throws PrecisionError with the place. Ratios
+/// within these ranges are harmless however large: arithmetic is relative to what is near.
 template <class Real>
 class NumberRange {
   static constexpr bool single = sizeof(Real) < sizeof(double);
@@ -68,8 +68,8 @@ class NumberRange {
 
  private:
   [[noreturn]] static void refuse(const std::string& what, const std::string& hint) {
-    throw PrecisionError(what + " beyond " + (single ? "single" : "double") + " precision: " +
-                         (single ? "use double" : hint));
+    throw PrecisionError(what + " beyond " + (single ? "single" : "double") +
+                         " precision: " + (single ? "use double" : hint));
   }
   static std::string named(const char* simplex, std::size_t number) {
     return std::string(simplex) + " " + std::to_string(number) + ": ";

@@ -23,6 +23,8 @@ namespace {
 using Points = std::span<const Point3>;
 using Triangle = std::array<Index, 3>;
 
+constexpr double deepest_notch = 0.35;  // spacings
+
 void check_input(Points points, const Neighbours& neighbours, const CloudOptions& options) {
   if (points.empty()) throw InputError("the cloud has no points");
   if (neighbours.point_count() != points.size())
@@ -184,6 +186,7 @@ Sheet make_sheet(Points points, const Neighbours& neighbours, const CloudOptions
   done = 0.6;
   fill_holes(options.widest_circle, sheet);
   trim_boundary(options.widest_boundary_circle, sheet);
+  fill_notches(deepest_notch, sheet);
   widen_boundary_saddles(places, frames, sheet);
   const CloudParts parts = bridge_parts(rule, frames, places, sheet);
   if (sheet.triangles().empty()) add_placeholder(places, sheet);

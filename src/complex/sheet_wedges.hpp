@@ -54,6 +54,9 @@ class SheetWedges {
   [[nodiscard]] bool has_room(const Triangle& t) const;
   /// From neighbour u away from w to the next neighbour of a place, in its tangent plane.
   [[nodiscard]] Index next_around(Index place, Index u, Index w) const;
+  /// At a place on the boundary where more than half a turn is taken: the triangle that would close
+  /// what is left, and how deep it is, in the place's reach. Else a depth of infinity.
+  [[nodiscard]] double notch(Index place, Triangle& t) const;
   /// Radius of the circumcircle, in the mean reach of the corners.
   [[nodiscard]] double circle(const Triangle& t) const;
 

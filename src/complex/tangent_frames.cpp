@@ -144,8 +144,7 @@ class Frames {
     for_all(progress, [&](Index i, Room& room) { fit(i, room.around); });
     thinnest_ = share_;
     for_all({}, [&](Index i, Room&) {
-      for (const Index j : places_.near.around(i))
-        thinnest_[i] = std::min(thinnest_[i], share_[j]);
+      for (const Index j : places_.near.around(i)) thinnest_[i] = std::min(thinnest_[i], share_[j]);
     });
     for_all({}, [&](Index i, Room&) { thick_[i] = is_thick(i); });
     if (std::find(thick_.begin(), thick_.end(), 1) != thick_.end()) {
@@ -170,11 +169,10 @@ class Frames {
   };
   template <class Visit>
   void for_all(const std::function<bool(double)>& progress, const Visit& visit) const {
-    for_blocks(frames_.size(), block, threads_, progress,
-               [&](std::size_t first, std::size_t last) {
-                 Room room;
-                 for (std::size_t i = first; i < last; ++i) visit(static_cast<Index>(i), room);
-               });
+    for_blocks(frames_.size(), block, threads_, progress, [&](std::size_t first, std::size_t last) {
+      Room room;
+      for (std::size_t i = first; i < last; ++i) visit(static_cast<Index>(i), room);
+    });
   }
 
   [[nodiscard]] bool is_given(Index i) const {
@@ -220,8 +218,9 @@ class Frames {
   void refit(Index i, std::vector<Point3>& around) {
     gather(i, around);
     const auto& n = frames_[i].normal;
-    set_normal(i, plane_of_layer(around, rule_.most_offset * static_cast<double>(frames_[i].spacing),
-                                 {n[0], n[1], n[2]}));
+    set_normal(i,
+               plane_of_layer(around, rule_.most_offset * static_cast<double>(frames_[i].spacing),
+                              {n[0], n[1], n[2]}));
   }
 
   // Of the normals around a place the one that the others agree with most: near ones above all, and

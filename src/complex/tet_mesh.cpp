@@ -142,7 +142,8 @@ TetMesh<Real>::TetMesh(std::size_t vertices, std::span<const std::array<Index, 4
   for (auto& tet : scaled)
     for (double& l : tet) l /= unit;
   for (std::size_t t = 0; t < tets.size(); ++t)
-    NumberRange<Real>::check_simplex("tet", t, *std::max_element(scaled[t].begin(), scaled[t].end()));
+    NumberRange<Real>::check_simplex("tet", t,
+                                     *std::max_element(scaled[t].begin(), scaled[t].end()));
   const auto across = glue_tets(vertices, tets);
   const std::vector<signed char> unknown(tets.size(), 0);
   const auto turn = orient_tets(tets, across, unknown);

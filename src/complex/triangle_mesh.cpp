@@ -324,8 +324,7 @@ void TriangleMesh<Real>::assemble(std::size_t vertices, std::span<const std::arr
       const bool refracts =
           hints.refracts && std::abs(shape.length[i] - shapes[g].length[j]) >
                                 1e-9 * std::max(shape.length[i], shapes[g].length[j]);
-      if (refracts)
-        NumberRange<Real>::check_refraction(f, g, shape.length[i], shapes[g].length[j]);
+      if (refracts) NumberRange<Real>::check_refraction(f, g, shape.length[i], shapes[g].length[j]);
       summary_.refracting_edges += refracts && (fan || 3 * f + i < h);
       t.across[e] = face_to_inside_[g] << Across::face_shift | edge_inside(g, j) |
                     (flip ? Across::flip : 0) | (fan || refracts ? Across::fan : 0);

@@ -74,12 +74,9 @@ void write_field(const std::filesystem::path& file, const Points& cloud,
   std::vector<std::uint32_t> own(cloud.positions.size());
   std::iota(own.begin(), own.end(), 0u);
   const Cells cells = {1, 1, own};
-  write_field_of(file, {cloud.positions.size(),
-                        cloud.positions,
-                        {&cells, 1},
-                        distance,
-                        label,
-                        cloud.original});
+  write_field_of(
+      file,
+      {cloud.positions.size(), cloud.positions, {&cells, 1}, distance, label, cloud.original});
 }
 
 void write_field(const std::filesystem::path& file, std::span<const MixedPart> parts,

@@ -11,10 +11,9 @@ void write_npy(OutputFile& out, const Field& field) {
   using namespace std::string_view_literals;
   constexpr auto magic = "\x93NUMPY\x01\x00"sv;
   const bool records = !field.original.empty();
-  std::string header = "{'descr': " +
-                       std::string(records ? "[('distance', '<f8'), ('original', '<u4')]" : "'<f8'") +
-                       ", 'fortran_order': False, 'shape': (" +
-                       std::to_string(field.distance.size()) + ",), }";
+  std::string header =
+      "{'descr': " + std::string(records ? "[('distance', '<f8'), ('original', '<u4')]" : "'<f8'") +
+      ", 'fortran_order': False, 'shape': (" + std::to_string(field.distance.size()) + ",), }";
   const std::size_t before = magic.size() + sizeof(std::uint16_t);
   while ((before + header.size() + 1) % 64 != 0) header += ' ';
   header += '\n';

@@ -45,8 +45,8 @@ void write_vtk(OutputFile& out, const Field& field) {
     for (const std::int32_t l : field.label) out.write_big_endian(l);
   }
   if (!field.original.empty()) {
-    out.write(std::string(field.label.empty() ? "" : "\n") + "original 1 " +
-              count(field.vertices) + " unsigned_int\n");
+    out.write(std::string(field.label.empty() ? "" : "\n") + "original 1 " + count(field.vertices) +
+              " unsigned_int\n");
     for (const std::uint32_t i : field.original) out.write_big_endian(i);
   }
   out.write("\n");

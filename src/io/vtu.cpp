@@ -20,7 +20,8 @@ namespace {
 
 class VtuReader {
  public:
-  VtuReader(std::string_view bytes, std::string_view name) : bytes_(bytes), name_(name), room_(least_room + most_packed * bytes.size()) {}
+  VtuReader(std::string_view bytes, std::string_view name)
+      : bytes_(bytes), name_(name), room_(least_room + most_packed * bytes.size()) {}
 
   Tets read() {
     load();
@@ -187,8 +188,7 @@ class VtuReader {
       if (offset > appended_.size())
         throw InputError(where + " starts at byte " + std::to_string(offset) + " of " +
                          std::to_string(appended_.size()) + " that are appended");
-      bytes =
-          decode_vtu_array(appended_.substr(offset), appended_base64_, encoding_, where, room_);
+      bytes = decode_vtu_array(appended_.substr(offset), appended_base64_, encoding_, where, room_);
     } else {
       fail(array, "the format is " + quote(format) + "; known are ascii, binary and appended");
     }

@@ -91,8 +91,8 @@ TEST_CASE("a metric that no precision holds is refused with the place") {
   const std::string square =
       folder.write("square.off", "OFF\n4 2 0\n0 0 0\n1 0 0\n1 1 .3\n0 1 0\n3 0 1 2\n3 0 2 3\n");
   const auto run = [&](const char* large, const std::string& precision) {
-    const std::string tensors = folder.write(
-        "tensors.txt", "2 .1 " + std::string(large) + " 1 0 1\n2 .1 0 1 0 1\n");
+    const std::string tensors =
+        folder.write("tensors.txt", "2 .1 " + std::string(large) + " 1 0 1\n2 .1 0 1 0 1\n");
     return run_tool({"distance", square, "-s", "vertex:0", "--metric", "tensor:" + tensors,
                      "--precision", precision});
   };

@@ -171,8 +171,7 @@ TEST_CASE("points that were left out keep their numbers in every output") {
   std::memcpy(&last, npy.data() + npy.size() - 4, 4);
   CHECK(last == kept.back());
   // Whoever loses nothing gets no column.
-  CHECK_THAT(distance(sample("roll.xyz"), {"--quiet", "--out", "-"}).out,
-             !Contains("original"));
+  CHECK_THAT(distance(sample("roll.xyz"), {"--quiet", "--out", "-"}).out, !Contains("original"));
 }
 
 TEST_CASE("thinned and denoised through PCL, distances back as a PCD") {

@@ -239,7 +239,8 @@ TEST_CASE("vtu: without tetrahedra it says what there is") {
         "mesh: has no tetrahedra; it has 1 triangles, 1 quadrilaterals, 1 cells of type 25");
 }
 
-TEST_CASE("bad vtu: what the arrays of a file unpack to is in proportion to it, shared ones included") {
+TEST_CASE(
+    "bad vtu: what the arrays of a file unpack to is in proportion to it, shared ones included") {
   using plexway::io::decode_vtu_array;
   plexway::io::VtuEncoding encoding;
   std::string plain = {8, 0, 0, 0, 1, 2, 3, 4, 5, 6, 7, 8};
@@ -260,6 +261,5 @@ TEST_CASE("bad vtu: what the arrays of a file unpack to is in proportion to it, 
   room = std::uint64_t{1} << 40;
   Packer endless(false);
   for (const std::uint32_t n : {3u, 4294967295u, 4294967295u, 1u, 1u, 1u}) endless.put(n);
-  CHECK_THROWS_AS(decode_vtu_array(endless.bytes(), false, encoding, "a", room),
-                  plexway::Error);
+  CHECK_THROWS_AS(decode_vtu_array(endless.bytes(), false, encoding, "a", room), plexway::Error);
 }

@@ -96,7 +96,8 @@ TEST_CASE("triangles that measure an edge too differently are refused, with both
         const auto wanted =
             propagate(Serial{}, refracting<double>(s, slow, 100, two_edges), from(source)).distance;
         const auto twice =
-            propagate(Serial{}, refracting<double>(s, slow, 1.4e7, two_edges), from(source)).distance;
+            propagate(Serial{}, refracting<double>(s, slow, 1.4e7, two_edges), from(source))
+                .distance;
         const auto once =
             propagate(Serial{}, refracting<float>(s, slow, 600, two_edges), from(source)).distance;
         double worst = 0;

@@ -301,8 +301,7 @@ void write_points(const fs::path& file, std::span<const Row> positions,
 }
 
 void write_field(const fs::path& file, std::span<const Row> positions,
-                 std::span<const double> distance, PcdForm form,
-                 std::span<const Index> original) {
+                 std::span<const double> distance, PcdForm form, std::span<const Index> original) {
   check_writing("write_field", file, positions.size());
   require_length("write_field", "distances", distance.size(), positions.size());
   if (!original.empty())

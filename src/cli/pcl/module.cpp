@@ -21,8 +21,7 @@ plexway::io::Points read_points(const fs::path& file, std::size_t& dropped) {
 
 void write_field(const fs::path& file, std::span<const Row> positions,
                  std::span<const double> distance, std::span<const plexway::Index> original) {
-  plexway::pcl::write_field(file, positions, distance, plexway::pcl::PcdForm::compressed,
-                            original);
+  plexway::pcl::write_field(file, positions, distance, plexway::pcl::PcdForm::compressed, original);
 }
 
 std::vector<plexway::Index> without_outliers(std::span<const Row> points, double deviations) {

@@ -60,8 +60,7 @@ bool solve_each(const GL& executor, const typename Run::Domain& domain,
     for (std::size_t k = 0; k < some.size(); ++k)
       seeds.add(domain, some.subspan(k, 1), k, there.host);
     complete &= run.run(seeds, some.size());
-    check_end(FrontControl::wide(there.front.state().expansions),
-              Run::cells(domain) * some.size());
+    check_end(FrontControl::wide(there.front.state().expansions), Run::cells(domain) * some.size());
     run.read_out(seeds, distance.subspan(first * vertices, some.size() * vertices), {});
   }
   for (std::size_t k = 0; k < sources.size(); ++k)
