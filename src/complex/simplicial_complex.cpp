@@ -119,34 +119,32 @@ SimplicialComplex<Real, N>::SimplicialComplex(std::size_t vertices,
 }
 
 template <class Real, int N>
-SimplicialComplex<Real, N>::SimplicialComplex(std::span<const double> positions,
-                                              std::size_t dimension,
+SimplicialComplex<Real, N>::SimplicialComplex(std::span<const double> positions, std::size_t axes,
                                               std::span<const Corners> simplices) {
-  if (dimension < static_cast<std::size_t>(N) || positions.size() % dimension != 0)
+  if (axes < static_cast<std::size_t>(N) || positions.size() % axes != 0)
     throw InputError(std::to_string(positions.size()) + " coordinates are no points of dimension " +
-                     std::to_string(dimension) + ", which must be at least " + std::to_string(N));
-  check_simplices(positions.size() / dimension, simplices);
+                     std::to_string(axes) + ", which must be at least " + std::to_string(N));
+  check_simplices(positions.size() / axes, simplices);
   for (std::size_t i = 0; i < positions.size(); ++i)
     if (!std::isfinite(positions[i]))
-      throw InputError("vertex " + std::to_string(i / dimension) + ": a coordinate is not finite");
+      throw InputError("vertex " + std::to_string(i / axes) + ": a coordinate is not finite");
   std::vector<Lengths> lengths(simplices.size());
   for (std::size_t s = 0; s < simplices.size(); ++s)
     for (std::size_t b = 1; b <= N; ++b)
       for (std::size_t a = 0; a < b; ++a) {
-        const auto p = positions.subspan(simplices[s][a] * dimension, dimension);
-        const auto q = positions.subspan(simplices[s][b] * dimension, dimension);
+        const auto p = positions.subspan(simplices[s][a] * axes, axes);
+        const auto q = positions.subspan(simplices[s][b] * axes, axes);
         double widest = 0, sum = 0;
-        for (std::size_t d = 0; d < dimension; ++d)
-          widest = std::fmax(widest, std::abs(p[d] - q[d]));
+        for (std::size_t d = 0; d < axes; ++d) widest = std::fmax(widest, std::abs(p[d] - q[d]));
         if (widest > 0)
-          for (std::size_t d = 0; d < dimension; ++d)
+          for (std::size_t d = 0; d < axes; ++d)
             sum += (p[d] - q[d]) / widest * ((p[d] - q[d]) / widest);
         double& length = lengths[s][Layout::edge(a, b)];
         length = widest * std::sqrt(sum);
         if (!std::isfinite(length))
           throw InputError(named(s) + ": an edge is too long for a number");
       }
-  assemble(positions.size() / dimension, simplices, std::move(lengths));
+  assemble(positions.size() / axes, simplices, std::move(lengths));
 }
 
 template <class Real, int N>

@@ -5,6 +5,7 @@
 #include <span>
 #include <string>
 
+#include <plexway/domain/concept.hpp>
 #include <plexway/error.hpp>
 #include <plexway/propagate/options.hpp>
 #include <plexway/source/point_source.hpp>
@@ -17,6 +18,14 @@ struct SourceDomain {
   const char* simplex;  ///< what one is called
   std::size_t corners;  ///< of one
 };
+
+template <SimplexDomain D>
+SourceDomain source_domain(const D& domain) {
+  constexpr const char* names[] = {"face", "tet", "edge"};
+  constexpr auto kind = static_cast<std::size_t>(D::kind);
+  return {domain.vertex_count(), domain.simplex_count(), kind < 3 ? names[kind] : "simplex",
+          static_cast<std::size_t>(D::dimension) + 1};
+}
 
 /// Throws UsageError for a vertex or a point that `domain` does not have, or an offset below 0.
 inline void check_source(const PointSource& s, const SourceDomain& domain) {
@@ -67,6 +76,11 @@ inline void check(std::span<const PointSource> sources, const PropagateOptions& 
                   const SourceDomain& domain) {
   check(sources, options);
   for (const PointSource& s : sources) check_source(s, domain);
+}
+
+template <SimplexDomain D>
+void check(std::span<const PointSource> sources, const PropagateOptions& options, const D& domain) {
+  check(sources, options, source_domain(domain));
 }
 
 }  // namespace plexway

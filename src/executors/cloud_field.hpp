@@ -13,13 +13,11 @@
 namespace plexway {
 
 /// Calls solve(surface, sources) with the sources of a cloud moved to the first point at their
-/// place. Throws UsageError for a source that is not a point of the cloud.
+/// place. Throws UsageError for a number that is not a point's.
 template <class Real, class Solve>
 void solve_on_surface_of(const PointCloud<Real>& cloud, std::span<const PointSource> sources,
                          Solve solve) {
   for (const PointSource& s : sources) {
-    if (s.vertex == none)
-      throw UsageError("a source on a cloud is a point by number, not a place in a triangle");
     if (s.vertex >= cloud.point_count())
       throw UsageError("source point " + std::to_string(s.vertex) + " is out of range, there are " +
                        std::to_string(cloud.point_count()));

@@ -4,10 +4,10 @@
 #include <vector>
 
 #include <plexway/error.hpp>
-#include <plexway/executors/source_sets.hpp>
 
 #include "executors/alone.hpp"
 #include "executors/checks.hpp"
+#include "executors/curve_sources.hpp"
 #include "executors/solve_surface.hpp"
 #include "propagate/border_light.hpp"
 #include "propagate/curve_pieces.hpp"
@@ -19,7 +19,7 @@ namespace {
 
 void add_shapes(const TriangleMesh<double>& mesh, std::span<const Source> sources,
                 SourceParts& parts, CurveSeeds& seeds) {
-  const SourceDomain domain = {mesh.vertex_count(), mesh.face_count(), "face", 3};
+  const SourceDomain domain = source_domain(mesh);
   std::vector<std::vector<CurvePiece>> pieces;
   // Points first: they have the first numbers.
   for (const Index n : parts.shapes) {
@@ -113,12 +113,6 @@ class Curves {
   Workspace<double>& workspace_;
 };
 
-void check_policy(const PropagateOptions& options) {
-  if (options.visibility != Visibility::saddles)
-    throw UsageError(
-        "curves and triangles as sources need labels with limits: use the policy saddles");
-}
-
 template <bool kLabels>
 void solve(const TriangleMesh<double>& mesh, const SourceParts& parts, const CurveSeeds& seeds,
            const PropagateOptions& options, Workspace<double>& workspace,
@@ -140,15 +134,13 @@ void solve(const TriangleMesh<double>& mesh, const SourceParts& parts, const Cur
 
 }  // namespace
 
-void propagate_shapes(const Serial&, const TriangleMesh<double>& mesh,
-                      std::span<const Source> sources, SourceParts& parts,
-                      const PropagateOptions& options, Workspace<double>& workspace,
-                      DistanceField<double>& field) {
-  check_policy(options);
+void solve_shapes(const Serial&, const TriangleMesh<double>& mesh, std::span<const Source> sources,
+                  SourceParts& parts, const PropagateOptions& options, Workspace<double>& workspace,
+                  DistanceField<double>& field) {
   CurveSeeds seeds;
   add_shapes(mesh, sources, parts, seeds);
   seeds.sort(mesh.face_count(), sources.size() == 1);
-  check(parts.points, options, {mesh.vertex_count(), mesh.face_count(), "face", 3});
+  check(parts.points, options, mesh);
   if (sources.size() > 1)
     solve<true>(mesh, parts, seeds, options, workspace, field);
   else

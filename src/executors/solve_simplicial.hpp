@@ -17,19 +17,6 @@
 /// A solve on a complex of any dimension, for any crew.
 namespace plexway::simplicial {
 
-/// Throws UsageError as `check`, and for a source that cannot be told in four dimensions.
-template <class Real, int N>
-void check_sources(const SimplicialComplex<Real, N>& domain, std::span<const PointSource> sources,
-                   const PropagateOptions& options) {
-  if (N == 4)
-    for (const PointSource& s : sources)
-      if (s.vertex == none && s.simplex < domain.simplex_count())
-        throw UsageError(
-            "a source in four dimensions must be a vertex: a point of a 4-simplex has "
-            "five coordinates");
-  check(sources, options, {domain.vertex_count(), domain.simplex_count(), "simplex", N + 1});
-}
-
 /// The least that the simplices at a vertex offer; then the sources and the corners of simplices
 /// they lie in, exactly.
 template <class Real, int N, class Rule, class Front, class Crew>

@@ -15,14 +15,6 @@
 /// A solve in a solid, for any crew.
 namespace plexway::solid {
 
-/// Throws UsageError for a policy that solids do not have.
-inline void check_policy(const PropagateOptions& options) {
-  if (options.visibility == Visibility::tuned)
-    throw UsageError(
-        "the tuned policy is a table for triangles: use saddles, centroid or upper_bound in "
-        "solids");
-}
-
 /// The sources themselves, exactly, and the corners of tetrahedra they lie in.
 template <class Real, bool kLabels>
 void read_out_sources(const TetMesh<Real>& mesh, std::span<const PointSource> sources,

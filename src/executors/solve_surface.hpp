@@ -99,8 +99,6 @@ template <class Real, bool kLabels, class Queue, class Crew>
 void solve_with(const TriangleMesh<Real>& mesh, std::span<const PointSource> sources,
                 const PropagateOptions& options, Workspace<Real>& workspace, Queue queue,
                 const Crew& crew, DistanceField<Real>& field) {
-  if (options.visibility != Visibility::saddles)
-    refuse_refraction(mesh.summary(), "a visibility other than saddles");
   workspace.start(mesh.face_count(), kLabels);
   const std::size_t records = mesh.face_count() + 1;
   const auto front = [&](auto* labels) {

@@ -3,7 +3,8 @@
 #include <string>
 
 #include <plexway/error.hpp>
-#include <plexway/executors/field.hpp>
+
+#include "executors/share_out.hpp"
 
 namespace plexway {
 
@@ -31,11 +32,11 @@ Team::Team(const OpenMP& executor) : size_(executor.threads), chunk_(executor.ch
 #endif
 }
 
-namespace detail {
-
 std::size_t team_size(const OpenMP& executor) {
   return static_cast<std::size_t>(Team(executor).size());
 }
+
+namespace detail {
 
 void share_out(const OpenMP& executor, std::size_t count,
                const std::function<void(std::size_t, std::size_t)>& work) {

@@ -8,7 +8,7 @@
 #include <thread>
 #include <vector>
 
-#include <plexway/executors/openmp.hpp>
+#include <plexway/executors.hpp>
 
 #if defined(PLEXWAY_CORE_OPENMP) && !defined(PLEXWAY_TEAM_OF_THREADS)
 #include <omp.h>

@@ -11,12 +11,8 @@
 
 namespace plexway {
 
-/// Throws UsageError for what an executor without order cannot do.
-inline void check_unordered(std::span<const PointSource> sources, const PropagateOptions& options) {
-  if (options.schedule == Schedule::priority)
-    throw UsageError(
-        "the schedule priority needs one thread that takes the nearest label: use the executor "
-        "Serial, or the schedules dual_queue or fifo");
+/// Throws UsageError for more sources than a team tells apart.
+inline void check_ties(std::span<const PointSource> sources) {
   if (sources.size() >= OfferTie::limit) throw UsageError("too many sources");
 }
 

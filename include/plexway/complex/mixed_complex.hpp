@@ -11,6 +11,7 @@
 #include <plexway/complex/tet_mesh.hpp>
 #include <plexway/complex/triangle_mesh.hpp>
 #include <plexway/complex/wireframe.hpp>
+#include <plexway/domain/concept.hpp>
 
 namespace plexway {
 
@@ -41,6 +42,10 @@ struct MixedSummary {
 template <class Real>
 class MixedComplex {
  public:
+  using Number = Real;
+  static constexpr DomainKind kind = DomainKind::mixed;
+  static constexpr int dimension = 3;
+
   using Complex = std::variant<TriangleMesh<Real>, TetMesh<Real>, Wireframe<Real>>;
 
   /// A piece's place in the numbering of the whole.
@@ -68,6 +73,7 @@ class MixedComplex {
 
   [[nodiscard]] std::size_t vertex_count() const { return summary_.vertices; }
   [[nodiscard]] std::size_t simplex_count() const { return summary_.simplices; }
+  [[nodiscard]] MetricKind metric() const { return MetricKind::intrinsic; }
   [[nodiscard]] const MixedSummary& summary() const { return summary_; }
   [[nodiscard]] std::span<const Piece> pieces() const { return pieces_; }
   [[nodiscard]] const Complex& complex(const Piece& piece) const {

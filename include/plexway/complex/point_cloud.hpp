@@ -10,6 +10,7 @@
 #include <plexway/complex/ids.hpp>
 #include <plexway/complex/neighbours.hpp>
 #include <plexway/complex/triangle_mesh.hpp>
+#include <plexway/domain/concept.hpp>
 
 namespace plexway {
 
@@ -69,6 +70,10 @@ struct CloudSummary {
 template <class Real>
 class PointCloud {
  public:
+  using Number = Real;
+  static constexpr DomainKind kind = DomainKind::cloud;
+  static constexpr int dimension = 2;
+
   /// From n points in any unit and their neighbours (about 16 each; `symmetric_closure` first).
   /// Throws InputError naming the point for a coordinate that is not finite or a neighbour >= n,
   /// for no points, and if there is not one row or normal a point; UsageError for options out of
@@ -78,6 +83,11 @@ class PointCloud {
              const CloudOptions& options = {});
 
   [[nodiscard]] std::size_t point_count() const { return summary_.points; }
+  /// The points: fields have one distance each.
+  [[nodiscard]] std::size_t vertex_count() const { return summary_.points; }
+  /// Triangles of the sheet.
+  [[nodiscard]] std::size_t simplex_count() const { return surface_.face_count(); }
+  [[nodiscard]] MetricKind metric() const { return MetricKind::intrinsic; }
   [[nodiscard]] const CloudSummary& summary() const { return summary_; }
   /// Bytes this complex holds.
   [[nodiscard]] std::size_t bytes() const;

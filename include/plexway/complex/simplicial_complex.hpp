@@ -7,6 +7,7 @@
 
 #include <plexway/complex/ids.hpp>
 #include <plexway/complex/simplex_record.hpp>
+#include <plexway/domain/concept.hpp>
 
 namespace plexway {
 
@@ -42,6 +43,9 @@ struct SimplicialSummary {
 template <class Real, int N>
 class SimplicialComplex {
  public:
+  using Number = Real;
+  static constexpr DomainKind kind = DomainKind::simplices;
+  static constexpr int dimension = N;
   using Layout = SimplexLayout<N>;
   using Record = SimplexRecord<Real, N>;
   using Corners = std::array<Index, N + 1>;
@@ -55,13 +59,14 @@ class SimplicialComplex {
   SimplicialComplex(std::size_t vertices, std::span<const Corners> simplices,
                     std::span<const Lengths> lengths);
 
-  /// From coordinates: `dimension` numbers a vertex, dimension >= N. Throws as above, naming the
+  /// From coordinates: `axes` numbers a vertex, axes >= N. Throws as above, naming the
   /// vertex for a coordinate that is not finite.
-  SimplicialComplex(std::span<const double> positions, std::size_t dimension,
+  SimplicialComplex(std::span<const double> positions, std::size_t axes,
                     std::span<const Corners> simplices);
 
   [[nodiscard]] std::size_t vertex_count() const { return vertex_to_inside_.size(); }
   [[nodiscard]] std::size_t simplex_count() const { return records_.size(); }
+  [[nodiscard]] MetricKind metric() const { return MetricKind::intrinsic; }
   [[nodiscard]] const SimplicialSummary& summary() const { return summary_; }
   [[nodiscard]] double unit() const { return summary_.mean_edge; }
   /// Bytes this complex holds.

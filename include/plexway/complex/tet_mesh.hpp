@@ -10,6 +10,7 @@
 #include <plexway/complex/identity.hpp>
 #include <plexway/complex/ids.hpp>
 #include <plexway/complex/tet_record.hpp>
+#include <plexway/domain/concept.hpp>
 
 namespace plexway {
 
@@ -45,6 +46,10 @@ struct SolidSummary {
 template <class Real>
 class TetMesh {
  public:
+  using Number = Real;
+  static constexpr DomainKind kind = DomainKind::solid;
+  static constexpr int dimension = 3;
+
   /// From coordinates. Shapes: n positions in any unit, m tetrahedra of vertex indices < n, in
   /// either orientation. Throws InputError naming the vertex, tetrahedron or face for a coordinate
   /// that is not finite, an index out of range, the same vertex twice in a tetrahedron, no
@@ -63,6 +68,10 @@ class TetMesh {
 
   [[nodiscard]] std::size_t vertex_count() const { return vertex_to_inside_.size(); }
   [[nodiscard]] std::size_t tet_count() const { return tet_to_inside_.size(); }
+  [[nodiscard]] std::size_t simplex_count() const { return tet_count(); }
+  [[nodiscard]] MetricKind metric() const {
+    return summary_.embedded ? MetricKind::embedded : MetricKind::intrinsic;
+  }
   [[nodiscard]] const SolidSummary& summary() const { return summary_; }
   [[nodiscard]] bool embedded() const { return summary_.embedded; }
   /// The mean edge, in the input's unit.

@@ -10,6 +10,7 @@
 #include <plexway/complex/identity.hpp>
 #include <plexway/complex/ids.hpp>
 #include <plexway/complex/triangle_record.hpp>
+#include <plexway/domain/concept.hpp>
 
 namespace plexway {
 
@@ -76,6 +77,10 @@ struct SurfaceHints {
 template <class Real>
 class TriangleMesh {
  public:
+  using Number = Real;
+  static constexpr DomainKind kind = DomainKind::surface;
+  static constexpr int dimension = 2;
+
   /// From coordinates. Shapes: n positions in any unit, m triangles of vertex indices < n.
   /// Throws InputError naming the vertex or face for a coordinate that is not finite, an index out
   /// of range, the same vertex twice in a face, no face, or more than 2^28 - 2 faces.
@@ -108,6 +113,11 @@ class TriangleMesh {
 
   [[nodiscard]] std::size_t vertex_count() const { return vertex_to_inside_.size(); }
   [[nodiscard]] std::size_t face_count() const { return triangles_.size() - 1; }
+  [[nodiscard]] std::size_t simplex_count() const { return face_count(); }
+  /// Refracting where an edge has another length on either side.
+  [[nodiscard]] MetricKind metric() const {
+    return summary_.refracting_edges > 0 ? MetricKind::refracting : MetricKind::intrinsic;
+  }
   [[nodiscard]] const SurfaceSummary& summary() const { return summary_; }
   /// Bytes this complex holds.
   [[nodiscard]] std::size_t bytes() const;

@@ -8,6 +8,7 @@
 
 #include <plexway/complex/identity.hpp>
 #include <plexway/complex/ids.hpp>
+#include <plexway/domain/concept.hpp>
 
 namespace plexway {
 
@@ -41,6 +42,10 @@ struct WireArc {
 template <class Real>
 class Wireframe {
  public:
+  using Number = Real;
+  static constexpr DomainKind kind = DomainKind::wireframe;
+  static constexpr int dimension = 1;
+
   /// From n positions in any unit and m edges of vertex indices < n. Throws InputError naming the
   /// edge for an index out of range or a length too large for a double, the vertex for a coordinate
   /// that is not finite, and for no edge or more than 2^31 - 1. Cost: n log n, about 0.2 us a
@@ -54,6 +59,8 @@ class Wireframe {
 
   [[nodiscard]] std::size_t vertex_count() const { return vertex_to_inside_.size(); }
   [[nodiscard]] std::size_t edge_count() const { return arc_of_edge_.size(); }
+  [[nodiscard]] std::size_t simplex_count() const { return edge_count(); }
+  [[nodiscard]] MetricKind metric() const { return MetricKind::intrinsic; }
   [[nodiscard]] const WireframeSummary& summary() const { return summary_; }
   /// Bytes this complex holds.
   [[nodiscard]] std::size_t bytes() const;

@@ -4,33 +4,37 @@
 #include <plexway/executors/gl.hpp>
 
 #include "executors/cloud_field.hpp"
-#include "executors/gl/run.hpp"
+#include "executors/run.hpp"
 
 namespace plexway {
 
-void propagate(GL executor, const PointCloud<float>& cloud, std::span<const PointSource> sources,
-               const PropagateOptions& options, GLWorkspace& workspace,
-               DistanceField<float>& field) {
+namespace detail {
+PLEXWAY_ELSEWHERE(GL, TriangleMesh<float>)
+}
+
+void solve_points(const GL& executor, const PointCloud<float>& cloud,
+                  std::span<const PointSource> sources, const PropagateOptions& options,
+                  GLWorkspace& workspace, DistanceField<float>& field) {
   solve_on_cloud(cloud, sources, field,
                  [&](const TriangleMesh<float>& surface, std::span<const PointSource> moved) {
-                   propagate(executor, surface, moved, options, workspace, field);
+                   detail::run(executor, surface, moved, options, workspace, field);
                  });
 }
 
-bool propagate_each(GL executor, const PointCloud<float>& cloud,
-                    std::span<const PointSource> sources, const PropagateOptions& options,
-                    GLWorkspace& workspace, std::span<float> distance) {
+bool each_point(const GL& executor, const PointCloud<float>& cloud,
+                std::span<const PointSource> sources, const PropagateOptions& options,
+                GLWorkspace& workspace, std::span<float> distance) {
   const std::size_t points = cloud.point_count(), vertices = cloud.surface().vertex_count();
-  gl::check_size(distance, sources.size(), points);
   bool complete = true;
   solve_on_surface_of(
       cloud, sources, [&](const TriangleMesh<float>& surface, std::span<const PointSource> moved) {
         if (vertices == points) {
-          complete = propagate_each(executor, surface, moved, options, workspace, distance);
+          complete = detail::run_each(executor, surface, moved, options, workspace, distance);
           return;
         }
         std::vector<float> rows(sources.size() * vertices);
-        complete = propagate_each(executor, surface, moved, options, workspace, rows);
+        complete =
+            detail::run_each(executor, surface, moved, options, workspace, std::span<float>(rows));
         for (std::size_t k = 0; k < sources.size(); ++k)
           std::copy_n(&rows[k * vertices], points, &distance[k * points]);
       });
@@ -38,6 +42,10 @@ bool propagate_each(GL executor, const PointCloud<float>& cloud,
     for (const auto& [twin, first] : cloud.twins())
       distance[k * points + twin] = distance[k * points + first];
   return complete;
+}
+
+namespace detail {
+PLEXWAY_COMPILE(GL, PointCloud<float>)
 }
 
 }  // namespace plexway

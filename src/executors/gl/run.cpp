@@ -10,13 +10,7 @@
 
 namespace plexway::gl {
 
-void check_options(const PropagateOptions& options, std::size_t sources) {
-  if (options.visibility != Visibility::saddles)
-    throw UsageError("the gl executor knows Visibility::saddles only: use another executor");
-  if (options.schedule == Schedule::priority)
-    throw UsageError(
-        "Schedule::priority needs an order among labels, which the gl executor does not keep: use "
-        "Serial, or another schedule");
+void check_number(std::size_t sources) {
   if (sources > std::size_t{1} << 27)
     throw UsageError("the gl executor takes at most 2^27 sources");
 }
@@ -51,13 +45,6 @@ std::size_t fields_at_once(const Session& session, const GL& executor, std::size
       session.limits().block / (simplices * std::max(label_bytes, sizeof(Cell)));
   const std::size_t by_number = (none - 1) / std::max(simplices, vertices);
   return std::clamp(std::min({by_memory, by_block, by_number}), std::size_t{1}, sources);
-}
-
-void check_size(std::span<const float> distance, std::size_t sources, std::size_t vertices) {
-  if (distance.size() != sources * vertices)
-    throw UsageError("room for " + std::to_string(distance.size()) + " distances, but " +
-                     std::to_string(sources) + " fields of " + std::to_string(vertices) +
-                     " vertices need " + std::to_string(sources * vertices));
 }
 
 void finish(const Job& job, const Finish& what, std::span<float> distance, std::span<Index> label) {

@@ -11,8 +11,8 @@
 
 namespace plexway::gl {
 
-/// Throws UsageError for options that need an order among labels, or another rule.
-void check_options(const PropagateOptions& options, std::size_t sources);
+/// Throws UsageError for more sources than the device tells apart.
+void check_number(std::size_t sources);
 
 /// What a solve was asked to do, and where.
 struct Job {
@@ -57,8 +57,5 @@ void set_offsets(std::span<const PointSource> sources, const PropagateOptions& o
 /// Of `sources` fields over so many simplices and vertices, how many one launch should hold.
 std::size_t fields_at_once(const Session& session, const GL& executor, std::size_t sources,
                            std::size_t simplices, std::size_t label_bytes, std::size_t vertices);
-
-/// Throws UsageError unless `distance` has the size of that many fields.
-void check_size(std::span<const float> distance, std::size_t sources, std::size_t vertices);
 
 }  // namespace plexway::gl

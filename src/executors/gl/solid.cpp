@@ -6,6 +6,7 @@
 #include "executors/checks.hpp"
 #include "executors/gl/solid_seeds.hpp"
 #include "executors/gl/solve.hpp"
+#include "executors/run.hpp"
 
 namespace plexway {
 namespace {
@@ -34,11 +35,8 @@ class SolidRun {
 
   static void check(const Domain& mesh, std::span<const PointSource> sources,
                     const PropagateOptions& options) {
-    plexway::check(sources, options, {mesh.vertex_count(), mesh.tet_count(), "tet", 4});
-    check_options(options, sources.size());
-    if (!mesh.embedded())
-      throw UsageError(
-          "the gl executor needs coordinates of a solid, not lengths alone: use Serial");
+    plexway::check(sources, options, mesh);
+    check_number(sources.size());
   }
   static std::size_t cells(const Domain& mesh) { return mesh.tet_count(); }
 
@@ -218,16 +216,20 @@ class SolidRun {
 
 }  // namespace
 
-void propagate(GL executor, const TetMesh<float>& mesh, std::span<const PointSource> sources,
-               const PropagateOptions& options, GLWorkspace& workspace,
-               DistanceField<float>& field) {
-  gl::solve_nearest<SolidRun>(executor, mesh, sources, options, workspace, field);
+void solve_points(const GL& executor, const TetMesh<float>& domain,
+                  std::span<const PointSource> sources, const PropagateOptions& options,
+                  GLWorkspace& workspace, DistanceField<float>& field) {
+  gl::solve_nearest<SolidRun>(executor, domain, sources, options, workspace, field);
 }
 
-bool propagate_each(GL executor, const TetMesh<float>& mesh, std::span<const PointSource> sources,
-                    const PropagateOptions& options, GLWorkspace& workspace,
-                    std::span<float> distance) {
-  return gl::solve_each<SolidRun>(executor, mesh, sources, options, workspace, distance);
+bool each_point(const GL& executor, const TetMesh<float>& domain,
+                std::span<const PointSource> sources, const PropagateOptions& options,
+                GLWorkspace& workspace, std::span<float> distance) {
+  return gl::solve_each<SolidRun>(executor, domain, sources, options, workspace, distance);
+}
+
+namespace detail {
+PLEXWAY_COMPILE(GL, TetMesh<float>)
 }
 
 }  // namespace plexway

@@ -45,7 +45,6 @@ bool solve_each(const GL& executor, const typename Run::Domain& domain,
                 GLWorkspace& workspace, std::span<float> distance) {
   const std::size_t vertices = domain.vertex_count();
   Run::check(domain, sources, options);
-  check_size(distance, sources.size(), vertices);
   GLWorkspace::Implementation& there = workspace.implementation();
   there.use(Context::of(executor.device));
   const Session session(*there.context);

@@ -6,6 +6,7 @@
 #include "executors/checks.hpp"
 #include "executors/gl/solve.hpp"
 #include "executors/gl/surface_seeds.hpp"
+#include "executors/run.hpp"
 
 namespace plexway {
 namespace {
@@ -27,9 +28,8 @@ class SurfaceRun {
 
   static void check(const Domain& mesh, std::span<const PointSource> sources,
                     const PropagateOptions& options) {
-    plexway::check(sources, options, {mesh.vertex_count(), mesh.face_count(), "face", 3});
-    check_options(options, sources.size());
-    refuse_refraction(mesh.summary(), "the executor GL");
+    plexway::check(sources, options, mesh);
+    check_number(sources.size());
   }
   static std::size_t cells(const Domain& mesh) { return mesh.face_count(); }
 
@@ -173,16 +173,20 @@ class SurfaceRun {
 
 }  // namespace
 
-void propagate(GL executor, const TriangleMesh<float>& mesh, std::span<const PointSource> sources,
-               const PropagateOptions& options, GLWorkspace& workspace,
-               DistanceField<float>& field) {
-  gl::solve_nearest<SurfaceRun>(executor, mesh, sources, options, workspace, field);
+void solve_points(const GL& executor, const TriangleMesh<float>& domain,
+                  std::span<const PointSource> sources, const PropagateOptions& options,
+                  GLWorkspace& workspace, DistanceField<float>& field) {
+  gl::solve_nearest<SurfaceRun>(executor, domain, sources, options, workspace, field);
 }
 
-bool propagate_each(GL executor, const TriangleMesh<float>& mesh,
-                    std::span<const PointSource> sources, const PropagateOptions& options,
-                    GLWorkspace& workspace, std::span<float> distance) {
-  return gl::solve_each<SurfaceRun>(executor, mesh, sources, options, workspace, distance);
+bool each_point(const GL& executor, const TriangleMesh<float>& domain,
+                std::span<const PointSource> sources, const PropagateOptions& options,
+                GLWorkspace& workspace, std::span<float> distance) {
+  return gl::solve_each<SurfaceRun>(executor, domain, sources, options, workspace, distance);
+}
+
+namespace detail {
+PLEXWAY_COMPILE(GL, TriangleMesh<float>)
 }
 
 }  // namespace plexway

@@ -6,6 +6,7 @@
 
 #include "executors/checks.hpp"
 #include "executors/gl/solve.hpp"
+#include "executors/run.hpp"
 
 namespace plexway {
 namespace {
@@ -51,8 +52,8 @@ class WireRun {
 
   static void check(const Domain& wireframe, std::span<const PointSource> sources,
                     const PropagateOptions& options) {
-    plexway::check(sources, options, {wireframe.vertex_count(), wireframe.edge_count(), "edge", 2});
-    check_options(options, sources.size());
+    plexway::check(sources, options, wireframe);
+    check_number(sources.size());
   }
   static std::size_t cells(const Domain& wireframe) { return wireframe.vertex_count(); }
 
@@ -105,16 +106,20 @@ class WireRun {
 
 }  // namespace
 
-void propagate(GL executor, const Wireframe<float>& wireframe, std::span<const PointSource> sources,
-               const PropagateOptions& options, GLWorkspace& workspace,
-               DistanceField<float>& field) {
-  gl::solve_nearest<WireRun>(executor, wireframe, sources, options, workspace, field);
+void solve_points(const GL& executor, const Wireframe<float>& domain,
+                  std::span<const PointSource> sources, const PropagateOptions& options,
+                  GLWorkspace& workspace, DistanceField<float>& field) {
+  gl::solve_nearest<WireRun>(executor, domain, sources, options, workspace, field);
 }
 
-bool propagate_each(GL executor, const Wireframe<float>& wireframe,
-                    std::span<const PointSource> sources, const PropagateOptions& options,
-                    GLWorkspace& workspace, std::span<float> distance) {
-  return gl::solve_each<WireRun>(executor, wireframe, sources, options, workspace, distance);
+bool each_point(const GL& executor, const Wireframe<float>& domain,
+                std::span<const PointSource> sources, const PropagateOptions& options,
+                GLWorkspace& workspace, std::span<float> distance) {
+  return gl::solve_each<WireRun>(executor, domain, sources, options, workspace, distance);
+}
+
+namespace detail {
+PLEXWAY_COMPILE(GL, Wireframe<float>)
 }
 
 }  // namespace plexway

@@ -1,5 +1,3 @@
-#include <plexway/executors/serial_wireframe.hpp>
-
 #include <limits>
 #include <type_traits>
 
@@ -7,6 +5,7 @@
 
 #include "executors/alone.hpp"
 #include "executors/checks.hpp"
+#include "executors/run.hpp"
 #include "propagate/wire_propagation.hpp"
 
 namespace plexway {
@@ -47,10 +46,10 @@ void solve(const Wireframe<Real>& wireframe, std::span<const PointSource> source
 }  // namespace
 
 template <class Real>
-void propagate(Serial, const Wireframe<Real>& wireframe, std::span<const PointSource> sources,
-               const PropagateOptions& options, Workspace<Real>& workspace,
-               DistanceField<Real>& field) {
-  check(sources, options, {wireframe.vertex_count(), wireframe.edge_count(), "edge", 2});
+void solve_points(const Serial&, const Wireframe<Real>& wireframe,
+                  std::span<const PointSource> sources, const PropagateOptions& options,
+                  Workspace<Real>& workspace, DistanceField<Real>& field) {
+  check(sources, options, wireframe);
   const auto with_step = [&](auto labels, auto step) {
     solve<Real, decltype(step), decltype(labels)::value>(wireframe, sources, options, workspace,
                                                          field);
@@ -62,23 +61,10 @@ void propagate(Serial, const Wireframe<Real>& wireframe, std::span<const PointSo
   sources.size() > 1 ? with_labels(std::true_type{}) : with_labels(std::false_type{});
 }
 
-template <class Real>
-DistanceField<Real> propagate(Serial executor, const Wireframe<Real>& wireframe,
-                              std::span<const PointSource> sources,
-                              const PropagateOptions& options) {
-  Workspace<Real> workspace;
-  DistanceField<Real> field;
-  propagate(executor, wireframe, sources, options, workspace, field);
-  return field;
-}
-
-template void propagate(Serial, const Wireframe<float>&, std::span<const PointSource>,
-                        const PropagateOptions&, Workspace<float>&, DistanceField<float>&);
-template void propagate(Serial, const Wireframe<double>&, std::span<const PointSource>,
-                        const PropagateOptions&, Workspace<double>&, DistanceField<double>&);
-template DistanceField<float> propagate(Serial, const Wireframe<float>&,
-                                        std::span<const PointSource>, const PropagateOptions&);
-template DistanceField<double> propagate(Serial, const Wireframe<double>&,
-                                         std::span<const PointSource>, const PropagateOptions&);
+namespace detail {
+#define PLEXWAY_COMPILE_WIRES(...) PLEXWAY_COMPILE(Serial, __VA_ARGS__)
+PLEXWAY_WIREFRAMES(PLEXWAY_COMPILE_WIRES)
+#undef PLEXWAY_COMPILE_WIRES
+}  // namespace detail
 
 }  // namespace plexway

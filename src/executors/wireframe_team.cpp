@@ -1,5 +1,3 @@
-#include <plexway/executors/openmp.hpp>
-
 #include <cmath>
 #include <limits>
 #include <type_traits>
@@ -9,6 +7,7 @@
 
 #include "executors/checks.hpp"
 #include "executors/crew.hpp"
+#include "executors/run.hpp"
 #include "executors/unordered.hpp"
 #include "propagate/wire_propagation.hpp"
 
@@ -121,12 +120,12 @@ void solve(const Team& team, const Wireframe<Real>& wireframe, std::span<const P
 }  // namespace
 
 template <class Real>
-void propagate(const OpenMP& executor, const Wireframe<Real>& wireframe,
-               std::span<const PointSource> sources, const PropagateOptions& options,
-               Workspace<Real>& workspace, DistanceField<Real>& field) {
+void solve_points(const OpenMP& executor, const Wireframe<Real>& wireframe,
+                  std::span<const PointSource> sources, const PropagateOptions& options,
+                  Workspace<Real>& workspace, DistanceField<Real>& field) {
   const Team team(executor);
-  check(sources, options, {wireframe.vertex_count(), wireframe.edge_count(), "edge", 2});
-  check_unordered(sources, options);
+  check(sources, options, wireframe);
+  check_ties(sources);
   const auto with_step = [&](auto labels, auto step) {
     solve<Real, decltype(step), decltype(labels)::value>(team, wireframe, sources, options,
                                                          workspace, field);
@@ -138,9 +137,12 @@ void propagate(const OpenMP& executor, const Wireframe<Real>& wireframe,
   sources.size() > 1 ? with_labels(std::true_type{}) : with_labels(std::false_type{});
 }
 
-template void propagate(const OpenMP&, const Wireframe<float>&, std::span<const PointSource>,
-                        const PropagateOptions&, Workspace<float>&, DistanceField<float>&);
-template void propagate(const OpenMP&, const Wireframe<double>&, std::span<const PointSource>,
-                        const PropagateOptions&, Workspace<double>&, DistanceField<double>&);
+namespace detail {
+#define PLEXWAY_COMPILE_WIRES(...)       \
+  PLEXWAY_ELSEWHERE(Serial, __VA_ARGS__) \
+  PLEXWAY_COMPILE(OpenMP, __VA_ARGS__)
+PLEXWAY_WIREFRAMES(PLEXWAY_COMPILE_WIRES)
+#undef PLEXWAY_COMPILE_WIRES
+}  // namespace detail
 
 }  // namespace plexway

@@ -1,4 +1,4 @@
-#include <plexway/executors/source_sets.hpp>
+#include "executors/source_parts.hpp"
 
 #include <cmath>
 #include <cstdint>
@@ -6,8 +6,6 @@
 #include <vector>
 
 #include <plexway/error.hpp>
-
-#include "executors/checks.hpp"
 
 namespace plexway::detail {
 namespace {
@@ -81,17 +79,6 @@ SourceParts take_apart(std::span<const Source> sources, bool edges_only) {
   for (std::size_t n = 0; n < sources.size(); ++n)
     std::visit(Taker{parts, static_cast<Index>(n), edges_only}, sources[n]);
   return parts;
-}
-
-void refuse_shapes(bool surface, bool single_precision) {
-  if (surface && single_precision)
-    throw UsageError(
-        "curves and triangles as sources need double precision: their virtual sources are far "
-        "away");
-  if (surface) throw UsageError("curves and triangles as sources are for the executor Serial");
-  throw UsageError(
-      "curves and simplices as sources are for surfaces and wireframes: name points or vertices "
-      "here");
 }
 
 }  // namespace plexway::detail

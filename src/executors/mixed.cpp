@@ -1,5 +1,3 @@
-#include <plexway/executors/serial_mixed.hpp>
-
 #include <algorithm>
 #include <limits>
 #include <string>
@@ -7,6 +5,7 @@
 #include <plexway/error.hpp>
 
 #include "executors/checks.hpp"
+#include "executors/run.hpp"
 #include "propagate/mixed_propagation.hpp"
 
 namespace plexway {
@@ -40,14 +39,10 @@ std::size_t corners_of(const typename MixedComplex<Real>::Complex& complex) {
 }  // namespace
 
 template <class Real>
-void propagate(Serial, const MixedComplex<Real>& domain, std::span<const PointSource> sources,
-               const PropagateOptions& options, MixedWorkspace<Real>& workspace,
-               DistanceField<Real>& field) {
+void solve_points(const Serial&, const MixedComplex<Real>& domain,
+                  std::span<const PointSource> sources, const PropagateOptions& options,
+                  MixedWorkspace<Real>& workspace, DistanceField<Real>& field) {
   check(sources, options);
-  if (options.visibility != Visibility::saddles)
-    throw UsageError("mixed domains know the default visibility only");
-  if (options.schedule == Schedule::priority)
-    throw UsageError("mixed domains are not propagated nearest first: use the dual queue");
   for (const PointSource& source : sources) {
     const auto [number, own] = find_piece(domain, source);
     const auto& piece = domain.pieces()[number];
@@ -97,23 +92,12 @@ void propagate(Serial, const MixedComplex<Real>& domain, std::span<const PointSo
   if (sources.size() == 1) field.label.clear();
 }
 
-template <class Real>
-DistanceField<Real> propagate(Serial executor, const MixedComplex<Real>& domain,
-                              std::span<const PointSource> sources,
-                              const PropagateOptions& options) {
-  MixedWorkspace<Real> workspace;
-  DistanceField<Real> field;
-  propagate(executor, domain, sources, options, workspace, field);
-  return field;
-}
-
-template void propagate(Serial, const MixedComplex<float>&, std::span<const PointSource>,
-                        const PropagateOptions&, MixedWorkspace<float>&, DistanceField<float>&);
-template void propagate(Serial, const MixedComplex<double>&, std::span<const PointSource>,
-                        const PropagateOptions&, MixedWorkspace<double>&, DistanceField<double>&);
-template DistanceField<float> propagate(Serial, const MixedComplex<float>&,
-                                        std::span<const PointSource>, const PropagateOptions&);
-template DistanceField<double> propagate(Serial, const MixedComplex<double>&,
-                                         std::span<const PointSource>, const PropagateOptions&);
+namespace detail {
+#define PLEXWAY_COMPILE_MIXED(...)     \
+  PLEXWAY_COMPILE(Serial, __VA_ARGS__) \
+  PLEXWAY_EACH_OF(OpenMP, __VA_ARGS__)
+PLEXWAY_MIXED(PLEXWAY_COMPILE_MIXED)
+#undef PLEXWAY_COMPILE_MIXED
+}  // namespace detail
 
 }  // namespace plexway

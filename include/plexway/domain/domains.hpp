@@ -1,0 +1,30 @@
+#pragma once
+
+#include <plexway/complex/mixed_complex.hpp>
+#include <plexway/complex/point_cloud.hpp>
+#include <plexway/complex/simplicial_complex.hpp>
+#include <plexway/complex/tet_mesh.hpp>
+#include <plexway/complex/triangle_mesh.hpp>
+#include <plexway/complex/wireframe.hpp>
+#include <plexway/domain/concept.hpp>
+
+// The domains of the library, each in both precisions: the one list that executors are compiled for
+// and that tests go through. `X(...)` is called with one type, which may have a comma in it.
+#define PLEXWAY_SURFACES(X) X(TriangleMesh<float>) X(TriangleMesh<double>)
+#define PLEXWAY_SOLIDS(X) X(TetMesh<float>) X(TetMesh<double>)
+#define PLEXWAY_WIREFRAMES(X) X(Wireframe<float>) X(Wireframe<double>)
+#define PLEXWAY_SIMPLICES(X)      \
+  X(SimplicialComplex<float, 1>)  \
+  X(SimplicialComplex<float, 2>)  \
+  X(SimplicialComplex<float, 3>)  \
+  X(SimplicialComplex<float, 4>)  \
+  X(SimplicialComplex<double, 1>) \
+  X(SimplicialComplex<double, 2>) \
+  X(SimplicialComplex<double, 3>) \
+  X(SimplicialComplex<double, 4>)
+#define PLEXWAY_CLOUDS(X) X(PointCloud<float>) X(PointCloud<double>)
+#define PLEXWAY_MIXED(X) X(MixedComplex<float>) X(MixedComplex<double>)
+#define PLEXWAY_DOMAINS(X) \
+  PLEXWAY_SURFACES(X)      \
+  PLEXWAY_SOLIDS(X)        \
+  PLEXWAY_WIREFRAMES(X) PLEXWAY_SIMPLICES(X) PLEXWAY_CLOUDS(X) PLEXWAY_MIXED(X)

@@ -1,0 +1,144 @@
+#pragma once
+
+#include <concepts>
+#include <cstddef>
+#include <span>
+
+#include <plexway/domain/domains.hpp>
+#include <plexway/executors.hpp>
+#include <plexway/executors/fields.hpp>
+#include <plexway/propagate/distance_field.hpp>
+#include <plexway/propagate/mixed_workspace.hpp>
+#include <plexway/propagate/options.hpp>
+#include <plexway/propagate/workspace.hpp>
+#include <plexway/source/source_list.hpp>
+#include <plexway/support.hpp>
+
+// One field or many? Take care which of the two you mean:
+//
+//   solve(executor, domain, sources)       ONE distance a vertex: to the *nearest* of the sources
+//   solve_each(executor, domain, sources)  K distances a vertex: one *to each* of the K sources
+namespace plexway {
+
+namespace detail {
+
+// An executor may bring a workspace of its own.
+template <class E>
+concept OwnWorkspace = requires {
+  typename E::Workspace;
+};
+template <class E, class D>
+struct WorkspaceFor {
+  using type = Workspace<RealOf<D>>;
+};
+template <class E, class Real>
+requires(!OwnWorkspace<E>) struct WorkspaceFor<E, MixedComplex<Real>> {
+  using type = MixedWorkspace<Real>;
+};
+template <OwnWorkspace E, class D>
+struct WorkspaceFor<E, D> {
+  using type = typename E::Workspace;
+};
+
+// Compiled in the library for every executor and every domain that go together.
+template <class E, class D>
+void run(const E& executor, const D& domain, const SourceList& sources,
+         const PropagateOptions& options, WorkspaceOf<E, D>& workspace,
+         DistanceField<RealOf<D>>& field);
+template <class E, class D>
+bool run_each(const E& executor, const D& domain, const SourceList& sources,
+              const PropagateOptions& options, WorkspaceOf<E, D>& workspace,
+              std::span<RealOf<D>> distance);
+
+/// An error of the compiler, in one sentence, where the types alone say that it cannot be.
+template <Refusal refusal>
+constexpr void check() {
+#define PLEXWAY_ASSERT(name, sentence) static_assert(refusal != Refusal::name, sentence);
+  PLEXWAY_REFUSALS(PLEXWAY_ASSERT)
+#undef PLEXWAY_ASSERT
+}
+/// What each of many solves runs on: by OpenMP each is one thread's.
+template <Executor E, Domain D>
+inline constexpr Refusal refusal_of_each =
+    support(combination<E, D>()).refusal() == Refusal::mixed_threads
+        ? Refusal::nothing
+        : support(combination<E, D>()).refusal();
+
+}  // namespace detail
+
+/// ONE field: the distance of every vertex from the *nearest* of `sources`, and which one that is,
+/// by its place in the list.
+///
+/// Any executor, domain and sources that go together (support.hpp). What the types rule out does
+/// not compile, what only values tell throws UsageError, both with the same sentence. `workspace`
+/// is reused from call to call and belongs to one domain and one thread at a time.
+///
+/// Sources are points, sets of vertices, balls, curves and simplices (source/source.hpp); each ball
+/// takes a solve of its own, since inside and outside are not one field. In a wireframe curves and
+/// edges are as near as their points.
+///
+/// Throws UsageError for no source, one that is not in the domain, options out of range or what
+/// does not go together, and Cancelled when the progress callback says so. Cost: see the executors.
+/// Source: Trettner, Bommes, Kobbelt: Geodesic Distance Computation via Virtual Source Propagation,
+/// SGP 2021.
+template <Executor E, Domain D>
+void solve(const E& executor, const D& domain, const SourceList& sources,
+           const PropagateOptions& options, WorkspaceOf<E, D>& workspace,
+           DistanceField<RealOf<D>>& field) {
+  detail::check<support(combination<E, D>()).refusal()>();
+  detail::run(executor, domain, sources, options, workspace, field);
+}
+
+/// The same with a workspace of its own.
+template <Executor E, Domain D>
+[[nodiscard]] DistanceField<RealOf<D>> solve(const E& executor, const D& domain,
+                                             const SourceList& sources,
+                                             const PropagateOptions& options = {}) {
+  WorkspaceOf<E, D> workspace;
+  DistanceField<RealOf<D>> field;
+  solve(executor, domain, sources, options, workspace, field);
+  return field;
+}
+
+/// K fields: row k of `distance`, K times as many numbers as the domain has vertices, are the
+/// distances of every vertex from source k *alone*. False if max_expansions ended one early.
+///
+/// By Serial one source after the other. By OpenMP one thread a source, as many at once as the
+/// executor has, each doing what Serial does: the best use of many cores, with Serial's bits,
+/// options and domains. By GL as many points in one launch as GL::batch_bytes holds, where
+/// `max_expansions` counts a field on average; sources of other kinds one after the other.
+///
+/// Memory of OpenMP: a workspace and a field a thread (in float about 100 bytes a triangle, 160 a
+/// tetrahedron, and 12 a vertex). Its progress is that of the source which the calling thread is
+/// at; Cancelled ends all. Throws as `solve`, and UsageError for a `distance` of another size.
+template <Executor E, Domain D>
+bool solve_each(const E& executor, const D& domain, const SourceList& sources,
+                const PropagateOptions& options, WorkspaceOf<E, D>& workspace,
+                std::span<RealOf<D>> distance) {
+  detail::check<detail::refusal_of_each<E, D>>();
+  return detail::run_each(executor, domain, sources, options, workspace, distance);
+}
+
+/// The same with a workspace and rows of its own.
+template <Executor E, Domain D>
+[[nodiscard]] Fields<RealOf<D>> solve_each(const E& executor, const D& domain,
+                                           const SourceList& sources,
+                                           const PropagateOptions& options = {}) {
+  WorkspaceOf<E, D> workspace;
+  Fields<RealOf<D>> fields(sources.size(), domain.vertex_count());
+  fields.complete = solve_each(executor, domain, sources, options, workspace, fields.values());
+  return fields;
+}
+
+/// Options whose order is known when a program is compiled: an error of the compiler for executors
+/// without order, where PropagateOptions would give one at run time.
+template <Executor E, Domain D, std::derived_from<NearestFirst> Options, class... Rest>
+auto solve(const E& executor, const D& domain, const SourceList& sources, const Options& options,
+           Rest&... rest) {
+  detail::check<support(
+                    combination<E, D>(SourceKind::vertex, Visibility::saddles, Schedule::priority))
+                    .refusal()>();
+  return solve(executor, domain, sources, static_cast<const PropagateOptions&>(options), rest...);
+}
+
+}  // namespace plexway

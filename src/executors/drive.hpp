@@ -1,0 +1,47 @@
+#pragma once
+
+#include <cstddef>
+#include <limits>
+#include <span>
+#include <type_traits>
+
+#include <plexway/executors.hpp>
+
+#include "executors/alone.hpp"
+#include "executors/crew.hpp"
+#include "executors/unordered.hpp"
+#include "propagate/finish.hpp"
+
+/// What an executor brings to a solve: a queue for the serial parts, and a crew. All that differs
+/// between Serial and OpenMP where labels sit in simplices.
+namespace plexway {
+
+template <bool kLabels, class D, class Real, class Solve>
+void drive(const Serial&, const D& domain, std::span<const PointSource>,
+           const PropagateOptions& options, Workspace<Real>& workspace, const Solve& solve) {
+  workspace.front.reserve(domain.simplex_count());
+  with_queue<Real>(options, workspace.front, [&](auto queue) { solve(queue, Alone{}); });
+}
+
+template <bool kLabels, class D, class Real, class Solve>
+void drive(const OpenMP& executor, const D& domain, std::span<const PointSource> sources,
+           const PropagateOptions& options, Workspace<Real>& workspace, const Solve& solve) {
+  const Team team(executor);
+  check_ties(sources);
+  workspace.front.reserve(domain.simplex_count());
+  const DualQueue<Real> queue(workspace.front, std::numeric_limits<Real>::infinity());
+  const TeamCrew<Real, kLabels> crew(team, workspace, step_of<Real>(options), domain.unit(),
+                                     options);
+  solve(queue, crew);
+}
+
+/// Calls `solve` with std::true_type where vertices have labels: from more than one source.
+template <class Solve>
+void with_labels(std::span<const PointSource> sources, const Solve& solve) {
+  if (sources.size() > 1)
+    solve(std::true_type{});
+  else
+    solve(std::false_type{});
+}
+
+}  // namespace plexway

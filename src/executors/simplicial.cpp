@@ -1,0 +1,22 @@
+#include "executors/checks.hpp"
+#include "executors/drive.hpp"
+#include "executors/run.hpp"
+#include "executors/solve_simplicial.hpp"
+
+namespace plexway {
+
+template <class E, class Real, int N>
+void solve_points(const E& executor, const SimplicialComplex<Real, N>& domain,
+                  std::span<const PointSource> sources, const PropagateOptions& options,
+                  Workspace<Real>& workspace, DistanceField<Real>& field) {
+  check(sources, options, domain);
+  drive<true>(executor, domain, sources, options, workspace, [&](auto queue, const auto& crew) {
+    simplicial::solve(domain, sources, options, workspace, queue, crew, field);
+  });
+}
+
+namespace detail {
+PLEXWAY_SIMPLICES(PLEXWAY_COMPILE_HERE)
+}
+
+}  // namespace plexway

@@ -1,0 +1,27 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include <plexway/source/source.hpp>
+
+namespace plexway::detail {
+
+/// What sources come down to.
+struct SourceParts {
+  std::vector<PointSource> points;
+  std::vector<Index> owner;  ///< of each point: a place in the list of sources
+  struct Ball {
+    PointSource centre;
+    double radius, offset;
+    Index owner;
+  };
+  std::vector<Ball> balls;
+  std::vector<Index> shapes;  ///< curves and simplices
+};
+
+/// Throws UsageError for no source, an empty one, and an offset or radius below 0. `edges_only`: in
+/// a wireframe curves and edges are as near as their points.
+[[nodiscard]] SourceParts take_apart(std::span<const Source> sources, bool edges_only);
+
+}  // namespace plexway::detail

@@ -1,0 +1,54 @@
+#include "executors/supported.hpp"
+
+#include <string>
+#include <variant>
+
+#include <plexway/error.hpp>
+
+namespace plexway {
+
+void Support::require() const {
+  if (!*this) throw UsageError(sentence());
+}
+
+namespace detail {
+namespace {
+
+SourceKind kind_of(const PointSource& source) {
+  return source.vertex != none ? SourceKind::vertex : SourceKind::point;
+}
+SourceKind kind_of(const VertexSource&) { return SourceKind::vertex; }
+SourceKind kind_of(const BallSource& source) { return kind_of(source.centre); }
+SourceKind kind_of(const CurveSource& source) {
+  if (source.points.size() > 1) return SourceKind::curve;
+  return source.points.empty() ? SourceKind::vertex : kind_of(source.points.front());
+}
+SourceKind kind_of(const SimplexSource&) { return SourceKind::simplex; }
+
+}  // namespace
+
+void require_support(Combination what, MetricKind metric, const SourceList& sources,
+                     const PropagateOptions& options) {
+  what.metric = metric;
+  what.visibility = options.visibility;
+  what.schedule = options.schedule;
+  support(what).require();
+  const auto require = [&](SourceKind kind) {
+    what.source = kind;
+    support(what).require();
+  };
+  for (const PointSource& source : sources.points())
+    if (source.vertex == none) require(SourceKind::point);
+  for (const Source& source : sources.sources())
+    std::visit([&](const auto& one) { require(kind_of(one)); }, source);
+}
+
+void check_rows(std::size_t room, std::size_t sources, std::size_t vertices) {
+  if (room != sources * vertices)
+    throw UsageError("room for " + std::to_string(room) + " distances, but " +
+                     std::to_string(sources) + " fields of " + std::to_string(vertices) +
+                     " vertices need " + std::to_string(sources * vertices));
+}
+
+}  // namespace detail
+}  // namespace plexway

@@ -1,0 +1,26 @@
+#include "executors/checks.hpp"
+#include "executors/curve_sources.hpp"
+#include "executors/drive.hpp"
+#include "executors/run.hpp"
+#include "executors/solve_surface.hpp"
+
+namespace plexway {
+
+template <class E, class Real>
+void solve_points(const E& executor, const TriangleMesh<Real>& mesh,
+                  std::span<const PointSource> sources, const PropagateOptions& options,
+                  Workspace<Real>& workspace, DistanceField<Real>& field) {
+  check(sources, options, mesh);
+  with_labels(sources, [&](auto labels) {
+    constexpr bool kLabels = decltype(labels)::value;
+    drive<kLabels>(executor, mesh, sources, options, workspace, [&](auto queue, const auto& crew) {
+      surface::solve_with<Real, kLabels>(mesh, sources, options, workspace, queue, crew, field);
+    });
+  });
+}
+
+namespace detail {
+PLEXWAY_SURFACES(PLEXWAY_COMPILE_HERE)
+}
+
+}  // namespace plexway
