@@ -67,11 +67,11 @@ void check_radii(std::size_t simplices, std::vector<double>& radii) {
   constexpr double most = 2e-4 / double{std::numeric_limits<Real>::epsilon()};
   if (*largest > most * *least && *least < widest) {
     char text[160];
-    std::snprintf(
-        text, sizeof text,
-        "radii from %.3g to %.3g of the mean edge are beyond %s: keep them within 1 : %.1g", *least,
-        *largest,
-        sizeof(Real) < sizeof(double) ? "single precision: use double" : "double precision", most);
+    std::snprintf(text, sizeof text,
+                  "radii from %.3g to %.3g of the mean edge are beyond %s precision: %skeep them "
+                  "within 1 : %.1g",
+                  *least, *largest, sizeof(Real) < sizeof(double) ? "single" : "double",
+                  sizeof(Real) < sizeof(double) ? "use double, or " : "", most);
     throw PrecisionError(text);
   }
   for (double& radius : radii) radius = std::min(radius, widest);

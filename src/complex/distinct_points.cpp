@@ -86,6 +86,7 @@ DistinctPoints distinct_points(Points points) {
 DistinctPoints without_near_twins(Points points, const Neighbours& neighbours,
                                   const DistinctPoints& places) {
   constexpr double gap = 1e-4;
+  constexpr std::size_t most = 3;  // one in so many neighbours
   std::vector<Index> parent(points.size());
   std::iota(parent.begin(), parent.end(), Index{0});
   const auto root = [&](Index i) {
@@ -102,8 +103,9 @@ DistinctPoints without_near_twins(Points points, const Neighbours& neighbours,
       row.emplace_back(std::hypot(q[0] - p[0], q[1] - p[1], q[2] - p[2]), places.first[j]);
     }
     std::sort(row.begin(), row.end());
+    // One far from all is nobody's reason: most neighbours are beyond the gap.
     std::size_t near = 0;
-    for (std::size_t k = 1; k < row.size(); ++k)
+    for (std::size_t k = 1; k <= row.size() / most; ++k)
       if (row[k - 1].first < gap * row[k].first) near = k;
     for (std::size_t k = 0; k < near; ++k) {
       const Index a = root(i), b = root(row[k].second);

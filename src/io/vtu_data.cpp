@@ -106,9 +106,9 @@ class Stream {
 
 void take_room(const Stream& in, std::uint64_t bytes, std::uint64_t& room) {
   if (bytes > room)
-    in.fail("would be " + std::to_string(bytes) +
-            " bytes: with the arrays before it out of proportion to the file; if it is what it "
-            "says, save it without compression");
+    in.fail("would unpack to more than the " + std::to_string(room) +
+            " bytes left to it: out of proportion to the file; if it is what it says, save it "
+            "without compression");
   room -= bytes;
 }
 

@@ -134,6 +134,19 @@ TEST_CASE("sheets that meet nowhere stay apart, whatever the angle between them"
   CHECK(cloud.summary().components == 2);
 }
 
+TEST_CASE("one point far from all others takes nothing from them") {
+  Points points;
+  for (int i = 0; i <= 14; ++i)
+    for (int j = 0; j <= 14; ++j) points.push_back({double(i), double(j), 0});
+  points.push_back({1e9, 0, 0});
+  const PointCloud<double> cloud(points, test_clouds::near_pairs(points));
+  CHECK(cloud.summary().near_duplicates == 0);
+  const auto found = plexway::propagate(Serial{}, cloud, PointSource::at(0)).distance;
+  for (std::size_t v = 0; v + 1 < points.size(); ++v)
+    CHECK(found[v] == Approx(samples::between(points[0], points[v])).margin(1e-6));
+  CHECK(found.back() == Approx(1e9));
+}
+
 TEST_CASE("points that are nearly at one place count as one") {
   for (const double apart : {1e-7, 1e-9, 1e-13}) {
     Points points = samples::plane_cloud(2000, 5).points;

@@ -217,7 +217,7 @@ TEST_CASE("points nearly at one place do not hide the others from a search") {
   Points points = samples::plane_cloud(400).points;
   samples::Uniform u(8);
   for (Index i = 0; i < 400; ++i)
-    for (int more = 0; more < 5; ++more)
+    for (int more = 0; more < 4; ++more)
       points.push_back({points[i][0] + u(-1e-9, 1e-9), points[i][1] + u(-1e-9, 1e-9), 0});
   const Neighbours near = surface_neighbours(points, {.symmetric = false});
   for (Index i = 0; i < 400; ++i) {

@@ -25,8 +25,8 @@ struct DistinctPoints {
 
 /// The same places, but for points much nearer to each other than to all others, which become one
 /// place: where some of a point's neighbours, nearest first, are less than a ten-thousandth as far
-/// away as the next. Coordinates that were written and read again differ by that little. There must
-/// be fewer of them together than the point has neighbours. Cost: linear.
+/// away as the next, and no more than a third of them. Coordinates that were written and read again
+/// differ by that little. Cost: linear.
 [[nodiscard]] DistinctPoints without_near_twins(std::span<const std::array<double, 3>> points,
                                                 const Neighbours& neighbours,
                                                 const DistinctPoints& places);
