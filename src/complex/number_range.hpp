@@ -54,16 +54,20 @@ class NumberRange {
            "look for a vertex far off");
   }
 
-  /// Two simplices measure the edge between them as `a` and `b`. Fermat's point is a matter of
-  /// squares of their ratio, which must leave more than rounding beside 1.
-  static void check_refraction(std::size_t simplex, std::size_t other, double a, double b) {
-    static const double most = 0.25 / std::sqrt(double{std::numeric_limits<Real>::epsilon()});
+  /// Two triangles measure the edge between them as `a` and `b`; `aspect` is the ratio of the
+  /// longest to the shortest edge of the more slender one. A triangle that is slower or faster all
+  /// over is held nearly as far as numbers go. One that is so in one direction is a needle in its
+  /// own metric, and Fermat's point then a matter of differences of squares.
+  static void check_refraction(std::size_t face, std::size_t other, double a, double b,
+                               double aspect) {
+    constexpr double epsilon = double{std::numeric_limits<Real>::epsilon()};
+    static const double most = std::pow(epsilon, -0.75), most_slender = std::sqrt(most);
     const double ratio = std::fmax(a, b) / std::fmin(a, b);
-    if (ratio <= most) return;
-    refuse("faces " + std::to_string(simplex) + " and " + std::to_string(other) +
+    if (ratio <= most && std::fmin(ratio, aspect) <= most_slender) return;
+    refuse("faces " + std::to_string(face) + " and " + std::to_string(other) +
                " measure the edge between them as " + text(a) + " and " + text(b) +
                ": lengths so different are",
-           "keep them within 1 : " + text(most));
+           "keep them within 1 : " + text(ratio > most ? most : most_slender));
   }
 
  private:

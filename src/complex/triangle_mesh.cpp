@@ -61,6 +61,11 @@ void round_angle(double cosine, double sine, Real& c, Real& s) {
     }
 }
 
+double aspect(const TriangleShape& shape) {
+  const auto [least, most] = std::minmax_element(shape.length.begin(), shape.length.end());
+  return *most / *least;
+}
+
 std::vector<Index> copy_of(std::span<const Index> order) { return {order.begin(), order.end()}; }
 
 using Lengths = std::vector<std::array<double, 3>>;
@@ -324,7 +329,9 @@ void TriangleMesh<Real>::assemble(std::size_t vertices, std::span<const std::arr
       const bool refracts =
           hints.refracts && std::abs(shape.length[i] - shapes[g].length[j]) >
                                 1e-9 * std::max(shape.length[i], shapes[g].length[j]);
-      if (refracts) NumberRange<Real>::check_refraction(f, g, shape.length[i], shapes[g].length[j]);
+      if (refracts)
+        NumberRange<Real>::check_refraction(f, g, shape.length[i], shapes[g].length[j],
+                                            std::max(aspect(shape), aspect(shapes[g])));
       summary_.refracting_edges += refracts && (fan || 3 * f + i < h);
       t.across[e] = face_to_inside_[g] << Across::face_shift | edge_inside(g, j) |
                     (flip ? Across::flip : 0) | (fan || refracts ? Across::fan : 0);
