@@ -182,10 +182,16 @@ class Frames {
   void set_normal(Index i, const Point3& normal) {
     for (std::size_t d = 0; d < 3; ++d) frames_[i].normal[d] = static_cast<float>(normal[d]);
   }
+  // Nearest first. One that is far from all has these as its neighbours, too: it says nothing of
+  // the surface here.
   void gather(Index i, std::vector<Point3>& around) const {
+    constexpr double too_far = 100 * 100;  // of the middle one's distance, squared
     around.clear();
     for (const Index j : places_.near.around(i))
       around.push_back(minus(places_.at[j], places_.at[i]));
+    if (around.empty()) return;
+    const double middle = dot(around[around.size() / 2], around[around.size() / 2]);
+    while (dot(around.back(), around.back()) > too_far * middle) around.pop_back();
   }
 
   // By all neighbours.
