@@ -268,10 +268,12 @@ void run_distance(DistanceCommand command) {
   const Stopwatch solving;
   const Executor executor =
       choose_executor(command.solve.executor, options, *solver, sources.size());
-  if (points.empty())
-    solver->solve_from(executor, sources, options);
-  else
-    solver->solve(executor, points, options);
+  with_file_name(domain, [&] {
+    if (points.empty())
+      solver->solve_from(executor, sources, options);
+    else
+      solver->solve(executor, points, options);
+  });
   const double solve = solving.seconds();
 
   const std::vector<double> distance = solver->distance();
