@@ -14,7 +14,7 @@ enum class ExecutorKind {
 
 /// The first argument of every operation.
 template <class E>
-concept Executor = requires {
+concept ExecutorType = requires {
   { E::kind } -> std::convertible_to<ExecutorKind>;
 };
 

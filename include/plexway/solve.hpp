@@ -58,7 +58,7 @@ constexpr void check() {
 #undef PLEXWAY_ASSERT
 }
 /// What each of many solves runs on: by OpenMP each is one thread's.
-template <Executor E, Domain D>
+template <ExecutorType E, DomainType D>
 inline constexpr Refusal refusal_of_each =
     support(combination<E, D>()).refusal() == Refusal::mixed_threads
         ? Refusal::nothing
@@ -81,7 +81,7 @@ inline constexpr Refusal refusal_of_each =
 /// does not go together, and Cancelled when the progress callback says so. Cost: see the executors.
 /// Source: Trettner, Bommes, Kobbelt: Geodesic Distance Computation via Virtual Source Propagation,
 /// SGP 2021.
-template <Executor E, Domain D>
+template <ExecutorType E, DomainType D>
 void solve(const E& executor, const D& domain, const SourceList& sources,
            const PropagateOptions& options, WorkspaceOf<E, D>& workspace,
            DistanceField<RealOf<D>>& field) {
@@ -90,7 +90,7 @@ void solve(const E& executor, const D& domain, const SourceList& sources,
 }
 
 /// The same with a workspace of its own.
-template <Executor E, Domain D>
+template <ExecutorType E, DomainType D>
 [[nodiscard]] DistanceField<RealOf<D>> solve(const E& executor, const D& domain,
                                              const SourceList& sources,
                                              const PropagateOptions& options = {}) {
@@ -111,7 +111,7 @@ template <Executor E, Domain D>
 /// Memory of OpenMP: a workspace and a field a thread (in float about 100 bytes a triangle, 160 a
 /// tetrahedron, and 12 a vertex). Its progress is that of the source which the calling thread is
 /// at; Cancelled ends all. Throws as `solve`, and UsageError for a `distance` of another size.
-template <Executor E, Domain D>
+template <ExecutorType E, DomainType D>
 bool solve_each(const E& executor, const D& domain, const SourceList& sources,
                 const PropagateOptions& options, WorkspaceOf<E, D>& workspace,
                 std::span<RealOf<D>> distance) {
@@ -120,7 +120,7 @@ bool solve_each(const E& executor, const D& domain, const SourceList& sources,
 }
 
 /// The same with a workspace and rows of its own.
-template <Executor E, Domain D>
+template <ExecutorType E, DomainType D>
 [[nodiscard]] Fields<RealOf<D>> solve_each(const E& executor, const D& domain,
                                            const SourceList& sources,
                                            const PropagateOptions& options = {}) {
@@ -132,7 +132,7 @@ template <Executor E, Domain D>
 
 /// Options whose order is known when a program is compiled: an error of the compiler for executors
 /// without order, where PropagateOptions would give one at run time.
-template <Executor E, Domain D, std::derived_from<NearestFirst> Options, class... Rest>
+template <ExecutorType E, DomainType D, std::derived_from<NearestFirst> Options, class... Rest>
 auto solve(const E& executor, const D& domain, const SourceList& sources, const Options& options,
            Rest&... rest) {
   detail::check<support(

@@ -143,7 +143,7 @@ constexpr Support support(const Combination& c) {
 
 /// The cell of an executor and a domain as types, for the kinds of sources and options that may be
 /// given. (What only an object knows, such as a solid of lengths alone, counts as it is best.)
-template <Executor E, Domain D>
+template <ExecutorType E, DomainType D>
 [[nodiscard]] constexpr Combination combination(SourceKind source = SourceKind::vertex,
                                                 Visibility visibility = Visibility::saddles,
                                                 Schedule schedule = Schedule::dual_queue,

@@ -5,7 +5,7 @@
 #include <array>
 
 #include <plexway/error.hpp>
-#include <plexway/executors/field.hpp>
+#include <plexway/support.hpp>
 
 #include "solver.hpp"
 
@@ -25,7 +25,7 @@ std::string_view executor_name(const Executor& executor) { return names[executor
 
 std::size_t executor_threads(const Executor& executor) {
   const OpenMP* const team = std::get_if<OpenMP>(&executor);
-  return team == nullptr ? 1 : detail::team_size(*team);
+  return team == nullptr ? 1 : team_size(*team);
 }
 
 std::vector<std::string_view> built_executors() {
@@ -64,10 +64,20 @@ void check_executor(const ExecutorArgument& argument, const PropagateOptions& op
   if (argument.threads && name != "openmp" && name != "auto")
     throw UsageError("--threads needs --executor openmp or auto");
   if (argument.device && name != "gl") throw UsageError("--device needs --executor gl");
-  if ((name == "openmp" || name == "gl") && options.schedule == Schedule::priority)
+  if (name != "openmp" && name != "gl") return;
+  // What any domain would refuse, in the words of the command line.
+  const Refusal refusal =
+      support({.executor = name == "gl" ? ExecutorKind::gl : ExecutorKind::openmp,
+               .domain = DomainKind::surface,
+               .dimension = 2,
+               .single_precision = true,
+               .visibility = options.visibility,
+               .schedule = options.schedule})
+          .refusal();
+  if (refusal == Refusal::order)
     throw UsageError("--schedule priority needs --executor serial: " + name +
                      " does not take labels in order");
-  if (name == "gl" && options.visibility != Visibility::saddles)
+  if (refusal == Refusal::gl_visibility)
     throw UsageError("--executor gl knows --visibility saddles only");
 }
 
@@ -82,7 +92,7 @@ Executor choose_executor(const ExecutorArgument& argument, const PropagateOption
       options.radius < PropagateOptions{}.radius ||
       options.max_expansions < PropagateOptions{}.max_expansions;  // fronts may stay short
   if (solver.simplices() < auto_simplices || sources < auto_sources || bounded ||
-      detail::team_size(team) < 2)
+      team_size(team) < 2)
     return Serial{};
   return team;
 }

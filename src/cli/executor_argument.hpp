@@ -7,9 +7,8 @@
 #include <variant>
 #include <vector>
 
+#include <plexway/executors.hpp>
 #include <plexway/executors/gl.hpp>
-#include <plexway/executors/openmp.hpp>
-#include <plexway/executors/serial.hpp>
 #include <plexway/propagate/options.hpp>
 
 namespace CLI {

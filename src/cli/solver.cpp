@@ -5,11 +5,7 @@
 #include <utility>
 #include <variant>
 
-#include <plexway/executors/serial.hpp>
-#include <plexway/executors/serial_cloud.hpp>
-#include <plexway/executors/serial_solid.hpp>
-#include <plexway/executors/serial_wireframe.hpp>
-#include <plexway/executors/source_sets.hpp>
+#include <plexway/solve.hpp>
 
 #include "make_complex.hpp"
 
@@ -120,23 +116,25 @@ class ShapeSolver final : public Solver {
     return static_cast<std::ptrdiff_t>(triangulation_.inserted_vertices);
   }
 
+  using Complex = decltype(make_complex<Real>(std::declval<Shape>()));
+
   template <class OnThisMachine, class Sources>
   void solve_on(const OnThisMachine& executor, const Sources& sources,
                 const PropagateOptions& options) {
-    propagate(executor, complex_, sources, options, workspace_, field_);
+    plexway::solve(executor, complex_, sources, options, workspace_, field_);
   }
   template <class Sources>
   void solve_on([[maybe_unused]] const GL& executor, [[maybe_unused]] const Sources& sources,
                 [[maybe_unused]] const PropagateOptions& options) {
 #ifdef PLEXWAY_HAS_GL
-    if constexpr (!std::is_same_v<Real, float>)
+    if constexpr (supports<GL, Complex>) {
+      plexway::solve(executor, complex_, sources, options, gl_workspace_, field_);
+    } else {
+      static_assert(support(combination<GL, Complex>()).refusal() == Refusal::gl_double);
       throw UsageError("--executor gl computes in single precision: use --precision float");
-    else
-      propagate(executor, complex_, sources, options, gl_workspace_, field_);
+    }
 #endif
   }
-
-  using Complex = decltype(make_complex<Real>(std::declval<Shape>()));
 
   Complex complex_;
   std::size_t simplices_;  // before any were added

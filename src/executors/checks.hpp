@@ -19,7 +19,7 @@ struct SourceDomain {
   std::size_t corners;  ///< of one
 };
 
-template <SimplexDomain D>
+template <SimplexDomainType D>
 SourceDomain source_domain(const D& domain) {
   constexpr const char* names[] = {"face", "tet", "edge"};
   constexpr auto kind = static_cast<std::size_t>(D::kind);
@@ -78,7 +78,7 @@ inline void check(std::span<const PointSource> sources, const PropagateOptions& 
   for (const PointSource& s : sources) check_source(s, domain);
 }
 
-template <SimplexDomain D>
+template <SimplexDomainType D>
 void check(std::span<const PointSource> sources, const PropagateOptions& options, const D& domain) {
   check(sources, options, source_domain(domain));
 }

@@ -20,7 +20,7 @@ namespace {
 // The same bits whatever the number of threads, the chunk, and what the workspace did before.
 template <class Domain>
 void check_same_bits(const Domain& domain, const PropagateOptions& options, unsigned seed) {
-  WorkspaceOf<Domain> workspace;
+  WorkspaceOf<Serial, Domain> workspace;
   DistanceField<RealOf<Domain>> first, field;
   for (const std::size_t count : {1u, 6u}) {
     const auto sources = random_sources(domain, count, seed);
@@ -215,23 +215,7 @@ TEST_CASE("a team refuses what needs order, and settings that make no sense", "[
   refused({}, solid_cube(1).mesh<float>(), options);
   CHECK_THROWS_AS(propagate(OpenMP{}, mesh, PointSource::at(99)), UsageError);
   CHECK_THROWS_AS(propagate(OpenMP{}, mesh, std::span<const PointSource>{}), UsageError);
-
-  MixedComplex<float> mixed;
-  mixed.add(grid(3, 3).mesh<float>());
-  mixed.add(grid(2, 2).mesh<float>());
-  refused({}, mixed);
 }
-
-// What needs order is refused by the compiler where the type says so.
-template <class Executor, class Options>
-concept Propagates = requires(const TriangleMesh<float>& mesh, Workspace<float>& workspace,
-                              DistanceField<float>& field, std::span<const PointSource> sources,
-                              Executor executor, Options options) {
-  propagate(executor, mesh, sources, options, workspace, field);
-  propagate(executor, mesh, sources, options);
-};
-static_assert(Propagates<Serial, PropagateOptions> && Propagates<Serial, NearestFirst>);
-static_assert(Propagates<OpenMP, PropagateOptions> && !Propagates<OpenMP, NearestFirst>);
 
 TEST_CASE("nearest first is a schedule", "[threads]") {
   CHECK(NearestFirst{}.schedule == Schedule::priority);

@@ -300,14 +300,6 @@ TEST_CASE("real surfaces on a device are as near to the truth as the serial exec
   CHECK(found <= 1.1 * serial);
 }
 
-// What needs order does not compile.
-template <class Executor, class Options>
-concept Takes = requires(const TriangleMesh<float>& mesh, PointSource source, Options options) {
-  propagate(Executor{}, mesh, source, options);
-};
-static_assert(Takes<GL, PropagateOptions> && !Takes<GL, NearestFirst>);
-static_assert(Takes<Serial, NearestFirst>);
-
 TEST_CASE("one field a source on a device", "[gl]") {
   if (!device()) return;
   const Surface s = hills(16, 0.3);

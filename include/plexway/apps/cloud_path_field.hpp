@@ -7,7 +7,7 @@
 
 #include <plexway/apps/path_field.hpp>
 #include <plexway/complex/point_cloud.hpp>
-#include <plexway/executors/serial_cloud.hpp>
+#include <plexway/solve.hpp>
 
 namespace plexway {
 
@@ -37,13 +37,12 @@ class PathField<PointCloud<Real>> {
   const DistanceField<Real>& solve(Executor executor, std::span<const PointSource> sources,
                                    const PropagateOptions& options = {}) {
     solved_ = false;
-    constexpr bool keeps_labels = requires {
-      propagate(executor, *cloud_, sources, options, workspace_, field_);
-    };
+    constexpr bool keeps_labels =
+        std::is_same_v<WorkspaceOf<Executor, PointCloud<Real>>, Workspace<Real>>;
     if constexpr (keeps_labels)
-      propagate(executor, *cloud_, sources, options, workspace_, field_);
+      plexway::solve(executor, *cloud_, sources, options, workspace_, field_);
     else
-      field_ = propagate(executor, *cloud_, sources, options);
+      field_ = plexway::solve(executor, *cloud_, sources, options);
     took(sources, options.visibility, keeps_labels);
     return field_;
   }

@@ -3,6 +3,7 @@
 #include <array>
 #include <cstddef>
 #include <span>
+#include <type_traits>
 #include <vector>
 
 #include <plexway/apps/path.hpp>
@@ -13,6 +14,7 @@
 #include <plexway/propagate/distance_field.hpp>
 #include <plexway/propagate/options.hpp>
 #include <plexway/propagate/workspace.hpp>
+#include <plexway/solve.hpp>
 #include <plexway/source/point_source.hpp>
 
 namespace plexway {
@@ -33,6 +35,11 @@ class PathField;
 
 template <template <class> class Domain, class Real>
 class PathField<Domain<Real>> {
+  static_assert(Domain<Real>::kind == DomainKind::surface ||
+                    Domain<Real>::kind == DomainKind::solid ||
+                    Domain<Real>::kind == DomainKind::wireframe,
+                "paths are traced on surfaces, solids, wireframes and clouds");
+
  public:
   /// `positions`, one a vertex in the caller's order and unit, are those the domain was made from.
   /// With them paths have coordinates, and all lengths are taken from them in double. Throws
@@ -41,20 +48,19 @@ class PathField<Domain<Real>> {
   explicit PathField(const Domain<Real>& domain,
                      std::span<const std::array<double, 3>> positions = {});
 
-  /// The distance of every vertex from the nearest of `sources`. Throws and costs as `propagate`,
-  /// whose header for this executor must be included. Paths can be traced after an executor that
-  /// leaves no labels as well, by the vertices' distances alone.
+  /// The distance of every vertex from the nearest of `sources`. Throws and costs as
+  /// plexway::solve. Paths can be traced after an executor that leaves no labels as well, by the
+  /// vertices' distances alone.
   template <class Executor>
   const DistanceField<Real>& solve(Executor executor, std::span<const PointSource> sources,
                                    const PropagateOptions& options = {}) {
     solved_ = false;
-    constexpr bool keeps_labels = requires {
-      propagate(executor, *domain_, sources, options, workspace_, field_);
-    };
+    constexpr bool keeps_labels =
+        std::is_same_v<WorkspaceOf<Executor, Domain<Real>>, Workspace<Real>>;
     if constexpr (keeps_labels)
-      propagate(executor, *domain_, sources, options, workspace_, field_);
+      plexway::solve(executor, *domain_, sources, options, workspace_, field_);
     else
-      field_ = propagate(executor, *domain_, sources, options);
+      field_ = plexway::solve(executor, *domain_, sources, options);
     took(sources, options.visibility, keeps_labels);
     return field_;
   }

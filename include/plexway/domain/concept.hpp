@@ -31,7 +31,7 @@ enum class MetricKind {
 /// vertex, a source is a vertex or a point of a simplex. Solvers, file formats and tools need no
 /// more than this; how simplices hang together is between a domain and its rule.
 template <class D>
-concept Domain = std::floating_point<typename D::Number> && requires(const D& domain) {
+concept DomainType = std::floating_point<typename D::Number> && requires(const D& domain) {
   { D::kind } -> std::convertible_to<DomainKind>;
   /// Of its simplices; of a mixed domain, the greatest that there may be.
   { D::dimension } -> std::convertible_to<int>;
@@ -44,7 +44,7 @@ concept Domain = std::floating_point<typename D::Number> && requires(const D& do
 
 /// A domain of simplices of one dimension, renumbered inside for locality.
 template <class D>
-concept SimplexDomain = Domain<D> && requires(const D& domain, Index number) {
+concept SimplexDomainType = DomainType<D> && requires(const D& domain, Index number) {
   /// One unit inside, in the caller's unit: about the mean edge.
   { domain.unit() } -> std::same_as<double>;
   { domain.inside_vertex(number) } -> std::same_as<Index>;

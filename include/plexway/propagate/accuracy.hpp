@@ -1,0 +1,37 @@
+#pragma once
+
+namespace plexway {
+
+/// How accurate distances on a surface shall be: an error, or one of the names.
+///
+/// A number is the mean relative error to expect at vertices, away from thin triangles: windows are
+/// merged as long as that stays so. It is no bound; single vertices may be off by a hundred times
+/// as much. Below 1e-5 merging saves nothing any more, and that is `exact`.
+class Accuracy {
+ public:
+  enum class Kind { fast, merged, exact };
+
+  /// One label a triangle (Visibility::saddles): mean errors of 3e-4 to 2e-3, single vertices more.
+  static constexpr Accuracy fast() { return Accuracy(Kind::fast, 1e-3); }
+  /// Merged windows.
+  static constexpr Accuracy accurate() { return Accuracy(7e-5); }
+  /// All windows, in double: nothing but rounding. Ask a TriangleMesh<double>: the other one's
+  /// lengths are themselves rounded to 6e-8.
+  static constexpr Accuracy exact() { return Accuracy(Kind::exact, 0); }
+
+  /// This mean relative error, from 0 (exact) to below 1 (what uses it checks).
+  explicit constexpr Accuracy(double error)
+      : kind_(error < 1e-5 ? Kind::exact : Kind::merged), error_(error) {}
+
+  [[nodiscard]] constexpr Kind kind() const { return kind_; }
+  [[nodiscard]] constexpr double error() const { return error_; }
+  friend constexpr bool operator==(const Accuracy&, const Accuracy&) = default;
+
+ private:
+  constexpr Accuracy(Kind kind, double error) : kind_(kind), error_(error) {}
+
+  Kind kind_;
+  double error_;
+};
+
+}  // namespace plexway

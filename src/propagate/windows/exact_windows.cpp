@@ -1,0 +1,391 @@
+#include "propagate/windows/exact_windows.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include <plexway/error.hpp>
+
+#include "propagate/windows/bucket_ring.hpp"
+#include "propagate/windows/trim.hpp"
+
+namespace plexway::windows {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+/// What the triangles' own numbers are worth.
+template <class Real>
+struct Rounding {
+  static constexpr double tie = 1e-12;     ///< paths that differ by less are equal, relative
+  static constexpr double cover = 1e-9;    ///< by this share of an edge light may miss a vertex
+  static constexpr double excess = 1e-12;  ///< what may be the sum of angles of a flat fan, radians
+};
+template <>
+struct Rounding<float> {
+  static constexpr double tie = 1e-6, cover = 1e-5, excess = 2e-6;
+};
+
+/// No source lies nearer to a line of sight's edge than this, in mean edges: one on the edge itself
+/// then lights both of its sides.
+constexpr double least_height = 1e-14;
+/// Shadows are so much wider than they are, in radians.
+constexpr double shadow_slack = 1e-9;
+/// So many windows a triangle, and ties are no longer broken in favour of both: where lengths are
+/// no metric, or nothing has any length, light could go around for ever.
+constexpr std::size_t patience = 1000;
+/// In mean edges.
+constexpr double bucket_width = 0.5;
+
+Window<double> measured(const Beam<double>& beam, double sigma) {
+  Window<double> window = {beam, sigma, 0, 0, 0};
+  window.begin_at(beam.begin);
+  window.end_at(beam.end);
+  return window;
+}
+
+}  // namespace
+
+template <class Real>
+ExactWindows<Real>::ExactWindows(const TriangleMesh<Real>& mesh, const VertexAngles& angles)
+    : triangles_(mesh.triangles()), mesh_(mesh), angles_(angles), pseudo_source_(triangles_) {}
+
+template <class Real>
+void ExactWindows<Real>::solve(std::span<const PointSource> sources,
+                               const PropagateOptions& options) {
+  distance_.assign(mesh_.vertex_count(), infinity);
+  arrival_.resize(mesh_.vertex_count());
+  labels_ = sources.size() > 1;
+  if (labels_) source_.resize(mesh_.vertex_count());
+  split_.assign(3 * mesh_.face_count(), {infinity, 0});
+  nodes_.clear();
+  node_source_.clear();
+  free_ = none;
+  complete_ = true;
+  statistics_ = {};
+  tie_ = Rounding<Real>::tie;
+  radius_ = options.radius / mesh_.unit();
+  // A source inside a triangle may lie in another's light, and over an edge with several triangles
+  // light comes from several sheets.
+  splits_whole_ = mesh_.summary().non_manifold_edges == 0 &&
+                  std::all_of(sources.begin(), sources.end(),
+                              [](const PointSource& s) { return s.vertex != none; });
+  const auto solve_in = [&](auto& order) {
+    order.start(bucket_width);
+    seed(order, sources);
+    do run(order, options);
+    while (complete_ && fill_holes(order));
+  };
+  switch (options.schedule) {
+    case Schedule::dual_queue: {
+      BucketRing ring;
+      solve_in(ring);
+      break;
+    }
+    case Schedule::fifo: {
+      FirstIn line;
+      solve_in(line);
+      break;
+    }
+    case Schedule::priority:
+      solve_in(nearest_);
+      break;
+  }
+}
+
+template <class Real>
+template <class Order>
+void ExactWindows<Real>::run(Order& order, const PropagateOptions& options) {
+  const auto next = [this](Index n) -> Index& { return nodes_[n].next; };
+  const auto near = [this](Index n) { return nearest(nodes_[n]); };
+  constexpr std::size_t share = 65536;
+  for (;;) {
+    if (statistics_.expansions >= options.max_expansions) {
+      complete_ = order.pop(next, near) == none;
+      return;
+    }
+    if (statistics_.expansions % share == 0 && statistics_.expansions > 0) {
+      if (options.progress &&
+          !options.progress({statistics_.expansions, statistics_.reached_simplices,
+                             mesh_.face_count(), order.distance() * mesh_.unit()}))
+        throw Cancelled("cancelled by the progress callback");
+      if (statistics_.expansions / patience > mesh_.face_count()) tie_ = -Rounding<Real>::tie;
+    }
+    const Index n = order.pop(next, near);
+    if (n == none) return;
+    ++statistics_.expansions;
+    const Node node = nodes_[n];
+    nodes_[n].next = std::exchange(free_, n);
+    if (node.edge & vertex_bit)
+      shine(order, node.edge & ~vertex_bit);
+    else
+      expand(order, node, labels_ ? node_source_[n] : 0);
+  }
+}
+
+template <class Real>
+double ExactWindows<Real>::nearest(const Node& node) {
+  const Beam<double>& beam = node.beam;
+  const bool across = !(node.edge & vertex_bit) && beam.begin < beam.x && beam.x < beam.end;
+  return across ? node.sigma + beam.h : std::min(node.at_begin, node.at_end);
+}
+
+template <class Real>
+template <class Order>
+void ExactWindows<Real>::push(Order& order, const Node& node, double near, Index source) {
+  Index n = free_;
+  if (n == none) {
+    n = static_cast<Index>(nodes_.size());
+    nodes_.push_back(node);
+    if (labels_) node_source_.push_back(source);
+  } else {
+    free_ = nodes_[n].next;
+    nodes_[n] = node;
+    if (labels_) node_source_[n] = source;
+  }
+  order.push(n, near, [this](Index i) -> Index& { return nodes_[i].next; });
+}
+
+template <class Real>
+bool ExactWindows<Real>::trim(Window<double>& w, double length, double to_first,
+                              double to_second) const {
+  Beam<double>& beam = w.beam;
+  const double way = rounding(w.at_end);
+  to_first += way;
+  to_second += way;
+  if (to_first + beam.end <= w.at_end || to_second + (length - beam.begin) <= w.at_begin)
+    return false;
+  if (to_first + beam.begin < w.at_begin) {
+    const double low = served_from_end(beam.x, beam.h, to_first - w.sigma);
+    if (low > beam.begin) beam.begin = low;
+  }
+  if (to_second + (length - beam.end) < w.at_end) {
+    const double high = length - served_from_end(length - beam.x, beam.h, to_second - w.sigma);
+    if (high < beam.end) beam.end = high;
+  }
+  return beam.begin < beam.end;
+}
+
+template <class Real>
+template <class Order>
+void ExactWindows<Real>::offer(Order& order, Index vertex, double distance,
+                               const Arrival<double>& arrival, Index source) {
+  if (!(distance < distance_[vertex])) return;
+  distance_[vertex] = distance;
+  if (labels_) source_[vertex] = source;
+  arrival_[vertex] = arrival;
+  ++statistics_.updates;
+  if (arrival.corner != none && !(angles_.excess(vertex) > Rounding<Real>::excess)) return;
+  push(order, {{}, 0, distance, distance, vertex | vertex_bit, none}, distance, source);
+}
+
+template <class Real>
+template <class Order>
+void ExactWindows<Real>::enter(Order& order, Index across, const Window<double>& w, Index source) {
+  const Index edge = across >> Across::face_shift << 2 | (across & Across::edge_mask);
+  __builtin_prefetch(&triangles_[edge >> 2]);
+  push(order, {w.beam, w.sigma, w.at_begin, w.at_end, edge, none}, w.nearest(), source);
+}
+
+template <class Real>
+template <class Order>
+void ExactWindows<Real>::leave(Order& order, Index f, std::size_t edge, const Window<double>& w,
+                               Index source) {
+  Index across = triangles_[f].across[edge];
+  if (across >> Across::face_shift == mesh_.face_count()) return;
+  if (!(across & Across::special)) [[likely]] {
+    enter(order, across, w, source);
+    return;
+  }
+  const Window<double> turned = w.mirrored(static_cast<double>(triangles_[f].length[edge]));
+  bool flip = (across & Across::flip) != 0;
+  if (!(across & Across::fan)) {
+    enter(order, across, turned, source);
+    return;
+  }
+  // All the way around the edge; each turn is told from the one before.
+  for (;;) {
+    const Index g = across >> Across::face_shift, k = across & Across::edge_mask;
+    if (g == f && k == edge) return;
+    enter(order, across, flip ? turned : w, source);
+    across = triangles_[g].across[k];
+    flip ^= !(across & Across::flip);
+  }
+}
+
+template <class Real>
+template <class Order>
+void ExactWindows<Real>::expand(Order& order, const Node& node, Index source) {
+  const Index f = node.edge >> 2;
+  const EnteredTriangle<double> t(triangles_[f], node.edge & 3);
+  Window<double> w = {node.beam, node.sigma, node.at_begin, node.at_end, 0};
+  w.beam.h = std::max(w.beam.h, least_height);
+  const double to_a = distance_[t.a], to_b = distance_[t.b];
+  if (nearest(node) > radius_ || !trim(w, t.width, to_a, to_b)) return;
+
+  // Where the ray to the apex crosses the edge: `across` / `down` from below the source.
+  const double x = w.beam.x, h = w.beam.h;
+  const double across = (t.apex_x - x) * h, down = t.apex_h + h;
+  const double from = (w.beam.begin - x) * down, until = (w.beam.end - x) * down;
+  const double slack = Rounding<Real>::cover * t.width * down;
+  bool go_left = across > from, go_right = across < until;
+  // Up to where light goes left, and from where on right.
+  double left_end = w.beam.end, right_begin = w.beam.begin;
+  double way = infinity;
+  if (across <= until + slack && across >= from - slack) {
+    const double dx = t.apex_x - x;
+    way = w.sigma + std::sqrt(dx * dx + down * down);
+    if (way < distance_[t.p]) {
+      const Towards<double> back = t.towards(x, h);
+      offer(order, t.p, way, {static_cast<Index>(3 * f + t.before), back.along, back.off}, source);
+    }
+    // One angle, one split: of two windows that see the apex the one that is farther from it has
+    // nothing to say beyond the other's ray.
+    Split& best = split_[3 * f + t.in];
+    const double foot = x + across / down;
+    if (way < best.distance) best = {way, foot};
+    if (way > best.distance + rounding(way)) {
+      // What starts between the two rays and crosses the nearer one's is needless. What starts
+      // beyond that ray would have crossed it before, or met its source.
+      if (foot < best.foot) {
+        if (splits_whole_) go_right = false;
+        right_begin = std::max(right_begin, best.foot);
+      } else if (foot > best.foot) {
+        if (splits_whole_) go_left = false;
+        left_end = std::min(left_end, best.foot);
+      }
+    }
+  }
+
+  const double to_p = distance_[t.p], least = rounding(w.at_end);
+  // One side, measured from its pivot: from the ray through a point of AB to that through another,
+  // or to the apex. `to_other`: the vertex that lies behind.
+  const auto go = [&](const Beam<double>& seen, double near, double far, bool to_apex,
+                      double to_pivot, double to_other, double cosine, double sine,
+                      Window<double>& child) {
+    child = {{seen.x, std::max(seen.h, 0.), near, to_apex ? seen.end : far}, w.sigma, 0, 0, 0};
+    Beam<double>& beam = child.beam;
+    if (!(beam.begin < beam.end)) return false;
+    child.at_end = to_apex && way < infinity ? way : child.at(beam.end);
+    if (to_pivot + beam.end + least < child.at_end) return false;
+    child.at_begin = child.at(beam.begin);
+    if (to_p + (seen.end - beam.begin) + least < child.at_begin) return false;
+    // Light that enters over AB and meets this edge at some point has crossed the line from the
+    // other vertex to the first such point: if that vertex reaches it sooner, all is needless.
+    const double along = cosine * t.width - near, off = sine * t.width;
+    const double in = child.at_begin - to_other - least;
+    return !(in > 0 && along * along + off * off < in * in);
+  };
+  Window<double> child;
+  if (go_left && w.beam.begin < left_end) {
+    const bool to_apex = across <= (left_end - x) * down;
+    if (go(t.seen_left(x, h), t.onto_left(x, h, w.beam.begin),
+           to_apex ? 0 : t.onto_left(x, h, left_end), to_apex, to_a, to_b, t.cos_a, t.sin_a, child))
+      leave(order, f, t.before, child, source);
+  }
+  if (go_right && right_begin < w.beam.end) {
+    const bool to_apex = across >= (right_begin - x) * down;
+    if (go(t.seen_right(x, h), t.onto_right(x, h, w.beam.end),
+           to_apex ? 0 : t.onto_right(x, h, right_begin), to_apex, to_b, to_a, t.cos_b, t.sin_b,
+           child))
+      leave(order, f, t.after, child.mirrored(t.right), source);
+  }
+}
+
+template <class Real>
+template <class Order>
+void ExactWindows<Real>::shine(Order& order, Index vertex) {
+  const double sigma = distance_[vertex];
+  if (sigma > radius_) return;
+  const Index source = this->source(vertex);
+  const Arrival<double> arrival = arrival_[vertex];
+  const VertexAngles::Kind kind = angles_.kind[vertex];
+  const auto lit = [&](const Lit& part) {
+    const TriangleRecord<Real>& t = triangles_[part.face];
+    const Beam<double> beam = {static_cast<double>(t.apex_x(part.edge)),
+                               static_cast<double>(t.apex_h(part.edge)), part.begin, part.end};
+    leave(order, part.face, part.edge,
+          measured(beam.mirrored(static_cast<double>(t.length[part.edge])), sigma), source);
+  };
+  const auto along = [&](const FanWalk& walk) {
+    const TriangleRecord<Real>& t = triangles_[walk.face];
+    const Index e = walk.leaving_edge();
+    // The far end, and the way back there: along the edge, in the corner that it starts or ends.
+    const Index far = static_cast<Index>(walk.by_start ? edge_after(e) : e);
+    const double cosine = static_cast<double>(t.cosine[far]);
+    const double sine = static_cast<double>(t.sine(far));
+    offer(order, t.corner[far], sigma + static_cast<double>(t.length[e]),
+          {3 * walk.face + far, walk.by_start ? cosine : 1, walk.by_start ? sine : 0}, source);
+  };
+  if (arrival.corner == none || kind == VertexAngles::irregular) {
+    mesh_.corners_at(vertex, corners_);
+    pseudo_source_.shine_all(corners_, lit, along);
+  } else {
+    pseudo_source_.shine(arrival, kind == VertexAngles::boundary, {1, shadow_slack}, lit, along);
+  }
+}
+
+template <class Real>
+template <class Order>
+void ExactWindows<Real>::seed(Order& order, std::span<const PointSource> sources) {
+  for (std::size_t n = 0; n < sources.size(); ++n) {
+    const PointSource& s = sources[n];
+    const Index number = static_cast<Index>(n);
+    const double sigma = s.offset / mesh_.unit();
+    if (s.vertex != none) {
+      offer(order, mesh_.inside_vertex(s.vertex), sigma, {}, number);
+      continue;
+    }
+    const auto [f, turned] = mesh_.inside_face(s.simplex);
+    const TriangleRecord<Real>& t = triangles_[f];
+    std::array<double, 4> b = s.barycentric;
+    if (turned) std::swap(b[1], b[2]);
+    const auto corner = std::find(b.begin(), b.begin() + 3, 1.);
+    if (corner != b.begin() + 3) {
+      offer(order, t.corner[corner - b.begin()], sigma, {}, number);
+      continue;
+    }
+    for (std::size_t e = 0; e < 3; ++e) {
+      const std::size_t i = edge_after(e), p = edge_before(e);
+      const double length = static_cast<double>(t.length[e]);
+      const double x = b[i] * length + b[p] * static_cast<double>(t.apex_x(e));
+      const double h = b[p] * static_cast<double>(t.apex_h(e));
+      leave(order, f, e, measured(Beam<double>{x, h, 0, length}.mirrored(length), sigma), number);
+      // The corner at the edge's start; the source in the frame of that edge.
+      const double back = std::sqrt(x * x + h * h);
+      offer(order, t.corner[e], sigma + back, {static_cast<Index>(3 * f + e), x, h}, number);
+    }
+  }
+}
+
+/// Light that rounding lost, or that fell on nothing with an area: triangles that have a reached
+/// corner and another that is not. False if there is none.
+template <class Real>
+template <class Order>
+bool ExactWindows<Real>::fill_holes(Order& order) {
+  if (radius_ < infinity) return false;
+  bool any = false;
+  for (Index f = 0; f < mesh_.face_count(); ++f) {
+    const TriangleRecord<Real>& t = triangles_[f];
+    for (std::size_t e = 0; e < 3; ++e)
+      for (const auto& [from, to] : {std::pair(e, edge_after(e)), std::pair(edge_after(e), e)}) {
+        const Index v = t.corner[from], w = t.corner[to];
+        if (distance_[w] < infinity || !(distance_[v] < infinity)) continue;
+        offer(order, w, distance_[v] + static_cast<double>(t.length[e]), {}, source(v));
+        any = true;
+      }
+  }
+  return any;
+}
+
+template <class Real>
+std::size_t ExactWindows<Real>::bytes() const {
+  const auto of = [](const auto& v) { return v.capacity() * sizeof(v[0]); };
+  return sizeof(*this) + of(distance_) + of(arrival_) + of(source_) + of(split_) + of(nodes_) +
+         of(node_source_) + of(corners_);
+}
+
+template class ExactWindows<float>;
+template class ExactWindows<double>;
+
+}  // namespace plexway::windows

@@ -1,0 +1,117 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <limits>
+#include <span>
+#include <vector>
+
+#include <plexway/complex/triangle_mesh.hpp>
+#include <plexway/propagate/distance_field.hpp>
+#include <plexway/propagate/options.hpp>
+#include <plexway/source/point_source.hpp>
+
+#include "propagate/windows/merge.hpp"
+#include "propagate/windows/node_orders.hpp"
+#include "propagate/windows/pseudo_source.hpp"
+#include "propagate/windows/vertex_angles.hpp"
+
+namespace plexway::windows {
+
+/// Exact distances: every window that may hold a shortest path is propagated, in double.
+///
+/// A window is the light of one source on one edge, an interval. It goes on through a triangle to
+/// one or two edges, until vertices or other windows serve all of its interval as well. Vertices
+/// with more than 2 pi around (pi on a boundary) are sources themselves, into their shadow. What
+/// decides that a window is needless: its edge's ends and the vertex behind (Xin and Wang,
+/// Improving Chen and Han's algorithm, TOG 2009), and one angle, one split (Chen and Han, SoCG
+/// 1990).
+///
+/// All of these only drop what is longer by more than rounding, so the order of work does not
+/// matter: it gives the same bits, sooner or later. What is kept from solve to solve is memory.
+template <class Real>
+class ExactWindows {
+ public:
+  /// `mesh` and `angles` must outlive this.
+  ExactWindows(const TriangleMesh<Real>& mesh, const VertexAngles& angles);
+
+  /// The sources must be checked. Throws Cancelled as the progress callback says.
+  void solve(std::span<const PointSource> sources, const PropagateOptions& options);
+
+  /// Afterwards, by the numbers inside, in mean edges; +inf where unreached.
+  [[nodiscard]] double distance(Index vertex) const { return distance_[vertex]; }
+  /// The nearest source of a reached vertex.
+  [[nodiscard]] Index source(Index vertex) const { return labels_ ? source_[vertex] : 0; }
+  [[nodiscard]] bool complete() const { return complete_; }
+  [[nodiscard]] const PropagateStatistics& statistics() const { return statistics_; }
+  [[nodiscard]] std::size_t bytes() const;
+
+ private:
+  /// A window, one cache line; or a vertex that is to shine, `at_begin` away.
+  struct Node {
+    Beam<double> beam;
+    double sigma, at_begin, at_end;
+    Index edge;  ///< the halfedge it enters by, 4 f + i; or a vertex and vertex_bit
+    Index next;
+  };
+  static constexpr Index vertex_bit = Index{1} << 31;
+  /// The window that sees an edge's apex best.
+  struct Split {
+    double distance, foot;
+  };
+
+  template <class Order>
+  void run(Order& order, const PropagateOptions& options);
+  template <class Order>
+  void seed(Order& order, std::span<const PointSource> sources);
+  template <class Order>
+  void expand(Order& order, const Node& window, Index source);
+  template <class Order>
+  void shine(Order& order, Index vertex);
+  template <class Order>
+  bool fill_holes(Order& order);
+
+  /// A window over edge `edge` of f enters all triangles on the other side. It is measured from the
+  /// edge's second corner, where a triangle that does not turn over has its first.
+  template <class Order>
+  void leave(Order& order, Index f, std::size_t edge, const Window<double>& window, Index source);
+  template <class Order>
+  void enter(Order& order, Index across, const Window<double>& window, Index source);
+  template <class Order>
+  void offer(Order& order, Index vertex, double distance, const Arrival<double>& arrival,
+             Index source);
+
+  /// What two ways must differ by, to differ: more than rounding.
+  [[nodiscard]] double rounding(double way) const { return tie_ * (1 + way); }
+  /// Cuts off what the ends of its edge serve as well. False if nothing is left.
+  [[nodiscard]] bool trim(Window<double>& window, double length, double to_first,
+                          double to_second) const;
+  template <class Order>
+  void push(Order& order, const Node& node, double near, Index source);
+  [[nodiscard]] static double nearest(const Node& node);
+
+  std::span<const TriangleRecord<Real>> triangles_;
+  const TriangleMesh<Real>& mesh_;
+  const VertexAngles& angles_;
+  PseudoSource<Real> pseudo_source_;
+  bool labels_ = false;
+  bool splits_whole_ = true;  ///< may a window lose all of a side (see expand)?
+  double tie_ = 0, radius_ = 0;
+
+  std::vector<double> distance_;
+  std::vector<Arrival<double>> arrival_;
+  std::vector<Index> source_;
+  std::vector<Split> split_;  ///< a halfedge
+  std::vector<Node> nodes_;
+  std::vector<Index> node_source_;  ///< where there are several
+  std::vector<Index> corners_;
+  Index free_ = none;
+  bool complete_ = true;
+  PropagateStatistics statistics_;
+  NearestOfAll nearest_;
+};
+
+extern template class ExactWindows<float>;
+extern template class ExactWindows<double>;
+
+}  // namespace plexway::windows

@@ -1,0 +1,94 @@
+#pragma once
+
+#include <cmath>
+
+#include "propagate/windows/overlay.hpp"
+
+namespace plexway::windows {
+
+/// The windows of one edge, made as few as the limit allows.
+template <class Real>
+class Gathered : public Overlay<Real> {
+ public:
+  /// Neighbours are joined over gaps up to this share of the edge.
+  static constexpr Real joint = Real(3e-2);
+
+  /// Of windows on an edge of that length; `scale`: by so much may a merged one be off on an edge
+  /// of length 1.
+  void start(Real length, Real scale) {
+    this->clear();
+    length_ = length;
+    scale_ = scale;
+  }
+
+  /// Are they neighbours between which distances go on? Then what lies in the gap is in no shadow
+  /// worth a window.
+  [[nodiscard]] bool joined(const Labelled<Real>& u, const Labelled<Real>& w) const {
+    return w.window.beam.begin - u.window.beam.end <= joint * length_ &&
+           std::abs(w.window.at_begin - u.window.at_end) <= 4 * scale_ * length_;
+  }
+
+  /// One more that begins no sooner than the others: merged with the last, or beside it.
+  void take(Labelled<Real> added) {
+    if (this->size() == 0) {
+      this->append(added);
+      return;
+    }
+    Labelled<Real>& last = this->back();
+    Window<Real>&u = last.window, &w = added.window;
+    const Real overlap = u.beam.end - w.beam.begin;
+    const bool nested = w.beam.end <= u.beam.end;
+    if (overlap < joint * length_ && !nested && fits(last, added)) return;
+    if (overlap > 0) {
+      const Real end = nested ? w.beam.end : u.beam.end;
+      const bool u_first = u.at(w.beam.begin) <= w.at_begin;
+      const bool u_last = (nested ? u.at(end) : u.at_end) <= (nested ? w.at_end : w.at(end));
+      if (u_first && u_last) {
+        if (nested) return;
+        w.begin_at(end);
+      } else if (nested || u_last) {
+        this->insert(added);
+        return;
+      } else if (u_first) {
+        const Real x = crossing(u, w, w.beam.begin, end);
+        u.end_at(x);
+        w.begin_at(x);
+      } else {
+        u.end_at(w.beam.begin);
+      }
+      if (!(u.beam.begin < u.beam.end)) {
+        last = added;
+        return;
+      }
+      if (!(w.beam.begin < w.beam.end) || fits(last, added)) return;
+    }
+    if (this->size() < this->most) this->append(added);
+  }
+
+  /// One fewer: the shortest goes, into a neighbour if they come to one window at all.
+  void shorten() {
+    const auto extent = [&](std::size_t i) {
+      return (*this)[i].window.beam.end - (*this)[i].window.beam.begin;
+    };
+    std::size_t shortest = 0;
+    for (std::size_t i = 1; i < this->size(); ++i)
+      if (extent(i) < extent(shortest)) shortest = i;
+    const std::size_t u = shortest == 0 ? 0 : shortest - 1;
+    if ((*this)[u].source == (*this)[u + 1].source &&
+        merge((*this)[u].window, (*this)[u + 1].window, std::numeric_limits<Real>::infinity()))
+      shortest = u + 1;
+    for (std::size_t i = shortest; i + 1 < this->size(); ++i) (*this)[i] = (*this)[i + 1];
+    this->resize(this->size() - 1);
+  }
+
+ private:
+  /// Makes one of two if it may.
+  bool fits(Labelled<Real>& u, const Labelled<Real>& w) const {
+    return u.source == w.source && joined(u, w) &&
+           merge(u.window, w.window, scale_ * (w.window.beam.end - u.window.beam.begin));
+  }
+
+  Real length_ = 0, scale_ = 0;
+};
+
+}  // namespace plexway::windows

@@ -1,0 +1,121 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <utility>
+
+#include "propagate/windows/merge.hpp"
+
+namespace plexway::windows {
+
+/// A window and the number of the source that it began at.
+template <class Real>
+struct Labelled {
+  Window<Real> window;
+  Index source;
+};
+
+/// Where two windows give the same distance; which one is nearer differs between `low` and `high`.
+template <class Real>
+[[nodiscard]] Real crossing(const Window<Real>& u, const Window<Real>& w, Real low, Real high) {
+  Real f_low = u.at(low) - w.at(low), f_high = u.at(high) - w.at(high);
+  Real x = low;
+  for (int i = 0; i < 3; ++i) {
+    const Real t = f_low / (f_low - f_high);
+    x = low + (high - low) * (t >= 0 && t <= 1 ? t : Real(0.5));
+    const Real f = u.at(x) - w.at(x);
+    if ((f < 0) == (f_low < 0))
+      low = x, f_low = f, f_high /= 2;
+    else
+      high = x, f_high = f, f_low /= 2;
+  }
+  return x;
+}
+
+/// The windows on one edge that serve each of its points best: in order, none over another.
+template <class Real>
+class Overlay {
+ public:
+  static constexpr std::size_t most = 32;
+
+  void clear() { count_ = 0; }
+  [[nodiscard]] std::size_t size() const { return count_; }
+  [[nodiscard]] Labelled<Real>& operator[](std::size_t i) { return pieces_[i]; }
+  [[nodiscard]] const Labelled<Real>& operator[](std::size_t i) const { return pieces_[i]; }
+  [[nodiscard]] Labelled<Real>& back() { return pieces_[count_ - 1]; }
+  void append(const Labelled<Real>& piece) { pieces_[count_++] = piece; }
+  void resize(std::size_t count) { count_ = count; }
+
+  /// Puts a window among those that are there; where two hold a point the nearer one keeps it.
+  void insert(const Labelled<Real>& added) {
+    if (count_ == 0 || !(added.window.beam.begin < back().window.beam.end)) {
+      if (count_ < most) append(added);
+      return;
+    }
+    const std::array<Labelled<Real>, most> old = pieces_;
+    const std::size_t old_count = std::exchange(count_, 0);
+    owner_ = nullptr;
+    Real from = added.window.beam.begin;
+    const Real until = added.window.beam.end;
+    bool left = true;  // is any of the new one still to be placed?
+    for (std::size_t i = 0; i < old_count; ++i) {
+      const Labelled<Real>& v = old[i];
+      const Beam<Real>& beam = v.window.beam;
+      if (!left || beam.end <= from) {
+        add(v, beam.begin, beam.end);
+        continue;
+      }
+      if (until <= beam.begin) {
+        add(added, from, until);
+        left = false;
+        add(v, beam.begin, beam.end);
+        continue;
+      }
+      if (from < beam.begin)
+        add(added, from, beam.begin);
+      else
+        add(v, beam.begin, from);
+      const Real low = std::max(from, beam.begin), high = std::min(until, beam.end);
+      const bool low_new = added.window.at(low) < v.window.at(low);
+      const bool high_new = added.window.at(high) < v.window.at(high);
+      if (low_new == high_new) {
+        add(low_new ? added : v, low, high);
+      } else {
+        const Real x = crossing(v.window, added.window, low, high);
+        add(low_new ? added : v, low, x);
+        add(low_new ? v : added, x, high);
+      }
+      if (high < beam.end) add(v, high, beam.end);
+      from = high;
+      left = high < until;
+    }
+    if (left) add(added, from, until);
+    flush();
+  }
+
+ private:
+  void add(const Labelled<Real>& owner, Real begin, Real end) {
+    if (!(begin < end)) return;
+    if (owner_ != &owner) {
+      flush();
+      owner_ = &owner;
+      begin_ = begin;
+    }
+    end_ = end;
+  }
+  void flush() {
+    if (!owner_ || count_ == most) return;
+    Labelled<Real> piece = *owner_;
+    if (begin_ > piece.window.beam.begin) piece.window.begin_at(begin_);
+    if (end_ < piece.window.beam.end) piece.window.end_at(end_);
+    append(piece);
+  }
+
+  std::array<Labelled<Real>, most> pieces_;
+  std::size_t count_ = 0;
+  const Labelled<Real>* owner_ = nullptr;
+  Real begin_ = 0, end_ = 0;
+};
+
+}  // namespace plexway::windows

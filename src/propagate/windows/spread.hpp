@@ -1,0 +1,76 @@
+#pragma once
+
+#include <algorithm>
+
+#include <plexway/kernel/lanes.hpp>
+
+#include "propagate/windows/entered_triangle.hpp"
+#include "propagate/windows/merge.hpp"
+
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wpsabi"  // as in kernel/lanes.hpp
+
+namespace plexway::windows {
+
+/// A window's light through a triangle, onto both edges it may leave by, at once: lanes left near,
+/// left far, right near, right far. Each edge is measured from its pivot, A or B, so that left and
+/// right, near and far are one formula; near is the end on the pivot's side.
+template <class Real>
+struct Spread {
+  using L = kernel::Lanes<Real>;
+
+  L x, h;    ///< the source as the edge sees it
+  L length;  ///< of the edge
+  L at;      ///< where the light ends on it; `length` also for rays that leave by the other edge
+  L distance;
+
+  [[gnu::always_inline]] void go(const EnteredTriangle<Real>& t, const Window<Real>& w) {
+    const Beam<Real>& beam = w.beam;
+    const Real a = t.width - beam.x;
+    const L cosine(t.cos_a, t.cos_a, t.cos_b, t.cos_b), sine(t.sin_a, t.sin_a, t.sin_b, t.sin_b);
+    const L source(beam.x, beam.x, a, a), off(beam.h);
+    const L point(beam.begin, beam.end, t.width - beam.end, t.width - beam.begin);
+    length = L(t.left, t.left, t.right, t.right);
+    x = cosine * source - sine * off;
+    const L below = sine * source + cosine * off;
+    h = max(below, L(Real(0)));
+    // Where the ray through `point` goes; it never comes down to the edge where `slope` <= 0.
+    const L slope = below - sine * point;
+    const L reached = point * off / slope;
+    at = select((slope.v > 0) & (reached.v < length.v), reached, length);
+    measure(w.sigma);
+  }
+
+  /// The distances where the light ends.
+  [[gnu::always_inline]] void measure(Real sigma) {
+    const L along = at - x;
+    distance = sqrt(along * along + h * h) + L(sigma);
+  }
+
+  /// Does light on this side reach the apex?
+  [[nodiscard]] bool left_reaches() const { return !(at[1] < length[1]); }
+  [[nodiscard]] bool right_reaches() const { return !(at[3] < length[3]); }
+
+  /// Which sides have light that no vertex makes needless: bits 0 left, 1 right. A side's light is
+  /// needless where its pivot serves the far end as well by more than `give`, or the apex the near
+  /// end.
+  [[nodiscard, gnu::always_inline]] int wanted(Real to_a, Real to_b, Real to_p, L give) const {
+    const L from(to_p + length[0], to_a, to_p + length[2], to_b), way(-1, 1, -1, 1);
+    const L other = __builtin_shufflevector(at.v, at.v, 1, 0, 3, 2);
+    const int needless = kernel::lane_bits((from + way * at < distance - give) | (at.v == other.v));
+    return ((needless & 3) == 0 ? 1 : 0) | ((needless & 12) == 0 ? 2 : 0);
+  }
+
+  /// The window on the left edge from A, on the right edge from P: as triangles across see them.
+  [[nodiscard]] Window<Real> left(const Window<Real>& w) const {
+    return {{x[0], h[0], at[0], at[1]}, w.sigma, distance[0], distance[1], w.error};
+  }
+  [[nodiscard]] Window<Real> right(const Window<Real>& w) const {
+    const Real l = length[2];
+    return {{l - x[2], h[2], l - at[3], l - at[2]}, w.sigma, distance[3], distance[2], w.error};
+  }
+};
+
+}  // namespace plexway::windows
+
+#pragma GCC diagnostic pop

@@ -1,0 +1,174 @@
+#include <catch2/catch.hpp>
+
+#include <filesystem>
+#include <numbers>
+
+#include <plexway/error.hpp>
+
+#include "data/corner_domains.hpp"
+#include "propagate/windows_solving.hpp"
+
+using namespace plexway;
+using namespace plexway::testing;
+
+namespace {
+
+/// Errors in any order of work.
+template <class Real>
+void check_merged(const TriangleMesh<Real>& mesh, const std::vector<PointSource>& sources,
+                  const std::vector<double>& exact, double mean, double max) {
+  for (const Schedule schedule : schedules) {
+    PropagateOptions options;
+    options.schedule = schedule;
+    const Errors e = compare(solve_windows(mesh, sources, Accuracy::accurate(), options), exact);
+    CAPTURE(static_cast<int>(schedule), e.mean, e.max, e.below);
+    CHECK(e.fits);
+    CHECK(e.mean <= mean);
+    CHECK(e.max <= max);
+  }
+}
+
+/// A torus whose vertices are moved on it at random: 2 n by n cells, radii 2 and 0.8.
+Surface jittered_torus(Index n) {
+  std::mt19937 random(n);
+  Surface s;
+  const Index m = 2 * n;
+  for (Index i = 0; i < m; ++i)
+    for (Index j = 0; j < n; ++j) {
+      const double a = 2 * std::numbers::pi * (i + .3 * (uniform(random) - .5)) / m;
+      const double b = 2 * std::numbers::pi * (j + .3 * (uniform(random) - .5)) / n;
+      const double r = 2 + .8 * std::cos(b);
+      s.add(r * std::cos(a), r * std::sin(a), .8 * std::sin(b));
+    }
+  for (Index i = 0; i < m; ++i)
+    for (Index j = 0; j < n; ++j) {
+      const Index a = i * n + j, b = (i + 1) % m * n + j;
+      const Index c = i * n + (j + 1) % n, d = (i + 1) % m * n + (j + 1) % n;
+      if (random() % 2)
+        s.quad(a, b, d, c);
+      else
+        s.quad(c, a, b, d);
+    }
+  return s;
+}
+
+}  // namespace
+
+TEMPLATE_TEST_CASE("merged windows: flat domains with corners, any triangles", "", float, double) {
+  for (const samples::CornerDomain& domain : samples::corner_domains()) {
+    const samples::Shape grid = domain.grid(50);
+    CAPTURE(domain.name);
+    check_merged(TriangleMesh<TestType>(grid.points, grid.faces), {PointSource::at(0)},
+                 domain.distances(grid.points), 5e-5, 2e-3);
+  }
+  for (unsigned seed = 1; seed <= 4; ++seed) {
+    const Surface s = random_polygon(3 + seed, 100, 80 * (seed - 1), seed);
+    CAPTURE(seed);
+    check_merged(s.mesh<TestType>(), {PointSource::at(20)}, straight(s, s.positions[20]), 5e-5,
+                 2e-3);
+  }
+}
+
+TEMPLATE_TEST_CASE("merged windows: a cube from one of its corners", "", float, double) {
+  const Surface s = cube(12);
+  const std::vector<double> exact = by_rule(s, [](Position p) {
+    std::sort(p.begin(), p.end());
+    if (p[0] == 0) return std::hypot(p[1], p[2]);
+    return std::min(std::hypot(1 + p[0], p[1]), std::hypot(1 + p[1], p[0]));
+  });
+  check_merged(s.mesh<TestType>(), {PointSource::at(s.nearest(0, 0, 0))}, exact, 5e-5, 2e-3);
+}
+
+TEMPLATE_TEST_CASE("merged windows: sheets on an edge, a pinch, a strip that turns over", "", float,
+                   double) {
+  const Index n = 8;
+  const Surface three = sheets(3, n);
+  const auto sheet = [&](Index v) { return v <= n ? none : (v - n - 1) / (n * (n + 1)); };
+  for (const Index source : {2u, n + 1 + 30, n + 1 + n * (n + 1) + 50}) {
+    const Position& a = three.positions[source];
+    std::vector<double> exact;
+    for (Index v = 0; v < three.positions.size(); ++v) {
+      const Position& p = three.positions[v];
+      const double across = std::hypot(p[0], p[1]) * (sheet(v) == sheet(source) ? -1 : 1);
+      exact.push_back(std::hypot(std::hypot(a[0], a[1]) + across, p[2] - a[2]));
+    }
+    exact[source] = 0;
+    check_merged(three.mesh<TestType>(), {PointSource::at(source)}, exact, 5e-5, 2e-3);
+  }
+  const Surface tie = bow_tie(8);
+  const Position& a = tie.positions[13];
+  check_merged(tie.mesh<TestType>(), {PointSource::at(13)},
+               by_rule(tie,
+                       [&](const Position& p) {
+                         const double there = std::hypot(1 - a[0], 1 - a[1]);
+                         return p[0] > 1 || p[1] > 1 ? there + std::hypot(p[0] - 1, p[1] - 1)
+                                                     : std::hypot(p[0] - a[0], p[1] - a[1]);
+                       }),
+               5e-5, 2e-3);
+  const Surface strip = moebius(60, 6);
+  const auto mesh = strip.mesh<double>();
+  const auto exact = solve_windows(mesh, {PointSource::at(100)}, Accuracy::exact());
+  check_merged(strip.mesh<TestType>(), {PointSource::at(100)}, exact, 3e-4, 5e-3);
+}
+
+TEMPLATE_TEST_CASE("merged windows: several sources, in faces and on edges", "", float, double) {
+  const Surface s = jittered_torus(20);
+  std::vector<PointSource> sources = {PointSource::in(17, {.2, .5, .3}),
+                                      PointSource::in(400, {.4, .6, 0.}), PointSource::at(333)};
+  sources[1].offset = .25;
+  const auto exact = solve_windows(s.mesh<double>(), sources, Accuracy::exact());
+  check_merged(s.mesh<TestType>(), sources, exact, 2e-4, 5e-3);
+}
+
+TEST_CASE("merged windows: errors fall with the triangles' size") {
+  double before = 1;
+  for (const Index n : {40u, 80u, 160u}) {
+#ifdef PLEXWAY_SANITIZED
+    if (n > 80) continue;
+#endif
+    const Surface s = jittered_torus(n);
+    const auto exact = solve_windows(s.mesh<double>(), {PointSource::at(0)}, Accuracy::exact());
+    const Errors e =
+        compare(solve_windows(s.mesh<float>(), {PointSource::at(0)}, Accuracy::accurate()), exact);
+    CAPTURE(n, e.mean, e.max);
+    CHECK(e.mean < before / 2);
+    CHECK(e.max < 5e-3);
+    before = e.mean;
+  }
+  CHECK(before < 2e-5);
+}
+
+TEST_CASE("merged windows: a smaller error takes more work and is smaller; it is told") {
+  const Surface s = jittered_torus(30);
+  const auto mesh = s.mesh<double>();
+  const PointSource source = PointSource::at(7);
+  const auto exact = solve_windows(mesh, {source}, Accuracy::exact());
+  WindowSolver<double> solver(mesh);
+  DistanceField<double> field;
+  std::vector<double> error;
+  double before = 1;
+  std::size_t work = 0;
+  for (const double asked : {1e-3, 2e-4, 4e-5}) {
+    solver.solve({&source, 1}, Accuracy(asked), {}, field, &error);
+    const Errors e = compare(field.distance, exact);
+    CAPTURE(asked, e.mean, e.max);
+    CHECK(e.mean < before / 1.5);
+    CHECK(e.mean < 1.2 * asked);
+    CHECK(field.statistics.expansions > work * 9 / 10);
+    before = e.mean;
+    work = field.statistics.expansions;
+    std::size_t held = 0;
+    double least = 1;
+    for (std::size_t v = 0; v < exact.size(); ++v) {
+      held += std::abs(field.distance[v] - exact[v]) <= error[v] + 1e-9;
+      least = std::min(least, error[v]);
+    }
+    CHECK(least >= 0);
+    CHECK(static_cast<double>(held) >= .97 * static_cast<double>(exact.size()));
+  }
+  solver.solve({&source, 1}, Accuracy(0), {}, field, &error);
+  CHECK(compare(field.distance, exact).max == 0);
+  CHECK(std::all_of(error.begin(), error.end(), [](double e) { return e == 0; }));
+  for (const double no : {-1., 1., std::nan("")})
+    CHECK_THROWS_AS(solver.solve({&source, 1}, Accuracy(no), {}, field), UsageError);
+}
