@@ -102,8 +102,8 @@ nlohmann::ordered_json measure(const Measured& cloud, const Options& options) {
   double search = 0, build = 0;
   for (int i = 0; i < (n < 200000 ? 3 : 1); ++i) {  // the best of three
     const double s = bench::seconds([&] {
-      neighbours =
-          plexway::flann::neighbours(cloud.points, {.k = options.k, .threads = options.threads});
+      neighbours = plexway::flann::surface_neighbours(cloud.points,
+                                                      {.k = options.k, .threads = options.threads});
     });
     const double b = bench::seconds([&] {
       domain = std::make_unique<plexway::PointCloud<Real>>(cloud.points, neighbours, options.cloud);

@@ -17,7 +17,7 @@ int main(int argc, char** argv) try {
   const auto scan = plexway::pcl::read_points(argv[1]);
   const auto points =
       argc > 3 ? plexway::pcl::voxel_grid(scan.positions, std::atof(argv[3])) : scan.positions;
-  const plexway::PointCloud<double> cloud(points, plexway::flann::neighbours(points));
+  const plexway::PointCloud<double> cloud(points, plexway::flann::surface_neighbours(points));
 
   const auto nearer = [](const auto& a, const auto& b) { return a[2] > b[2]; };  // z is up
   const auto nearest = std::min_element(points.begin(), points.end(), nearer) - points.begin();

@@ -17,6 +17,20 @@ class InputError : public Error {
   using Error::Error;
 };
 
+/// Sizes that the numbers of a domain cannot hold beside each other. In single precision: build it
+/// in double. The place is in the message.
+class PrecisionError : public InputError {
+ public:
+  using InputError::InputError;
+};
+
+/// A propagation that went on improving labels long past any use, and was stopped (the tool exits
+/// with 6): its lengths are no metric, or rounding is as large as what it would gain.
+class EndlessError : public Error {
+ public:
+  using Error::Error;
+};
+
 /// A call or a command line asks for something that makes no sense (the tool exits with 2).
 class UsageError : public Error {
  public:

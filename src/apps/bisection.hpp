@@ -11,11 +11,12 @@
 
 namespace plexway {
 
-inline constexpr std::size_t most_parts = none >> 4;
+/// Of 600 bytes each.
+inline constexpr std::size_t most_parts = none >> 6;
 
-class TooManyParts : public InputError {
+class TooManyParts : public UsageError {
  public:
-  using InputError::InputError;
+  using UsageError::UsageError;
 };
 
 /// A complex of N-simplices whose long edges are bisected, the longest first, each in all its

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <limits>
 #include <numeric>
 #include <string>
@@ -30,6 +31,52 @@ void check(const PoissonOptions& options, std::size_t vertices) {
     if (!(s > 0) || !std::isfinite(s)) throw UsageError("the spacing must be > 0 everywhere");
 }
 
+/// Before any is cut: at least so many parts have edges within `limits`, one a vertex, in the unit
+/// inside. Throws TooManyParts.
+template <class Complex>
+void check_parts(const Growth<Complex>& field, std::span<const double> limits, double radius,
+                 std::size_t most) {
+  constexpr std::size_t corners = Growth<Complex>::corners;
+  // Of all triangles and tetrahedra with edges up to 1 the regular ones have most content.
+  constexpr double content = corners == 3 ? 0.4330127018922193 : 0.1178511301977579;
+  double parts = 0;
+  for (Index s = 0; s < field.simplices(); ++s) {
+    double limit = 0;
+    for (std::size_t i = 0; i < corners; ++i)
+      limit = std::max(limit, limits[field.corners_of(s)[i]]);
+    parts += std::max(1., static_cast<double>(field.measure(s)) /
+                              (content * std::pow(limit, double{corners - 1})));
+  }
+  const double too_many = parts / static_cast<double>(std::min(most, most_parts));
+  if (too_many <= 1) return;
+  char text[160];
+  std::snprintf(text, sizeof text,
+                "the radius %.3g is too small for this domain, which would be cut into more than "
+                "%.1g parts; choose %.2g or more",
+                radius, parts, radius * std::pow(too_many, 1 / double{corners - 1}));
+  throw TooManyParts(text);
+}
+
+/// Radii in units: what is larger than the domain covers all of it, like the domain. A dart of
+/// radius rho starts at the largest radius less rho, which must leave it some digits.
+template <class Real>
+void check_radii(std::size_t simplices, std::vector<double>& radii) {
+  // No way through the domain is longer than all edges, 3 or 6 a simplex, together.
+  const double widest = 6 * static_cast<double>(simplices);
+  const auto [least, largest] = std::minmax_element(radii.begin(), radii.end());
+  constexpr double most = 2e-4 / double{std::numeric_limits<Real>::epsilon()};
+  if (*largest > most * *least && *least < widest) {
+    char text[160];
+    std::snprintf(text, sizeof text,
+                  "radii from %.3g to %.3g of the mean edge are beyond %s precision: %skeep them "
+                  "within 1 : %.1g",
+                  *least, *largest, sizeof(Real) < sizeof(double) ? "single" : "double",
+                  sizeof(Real) < sizeof(double) ? "use double, or " : "", most);
+    throw PrecisionError(text);
+  }
+  for (double& radius : radii) radius = std::min(radius, widest);
+}
+
 /// A sample with one radius, `most` darts at most. `candidates`: the vertices that darts may hit.
 template <class Complex>
 PoissonDisks sample(const Complex& domain, const SimplexNumbers<Complex>& numbers,
@@ -42,6 +89,7 @@ PoissonDisks sample(const Complex& domain, const SimplexNumbers<Complex>& number
   std::vector<double> limits(domain.vertex_count(), radius / domain.unit() * longest_edge);
   for (std::size_t v = 0; v < options.spacing.size(); ++v)
     limits[domain.inside_vertex(static_cast<Index>(v))] *= options.spacing[v];
+  check_parts(Growth<Complex>(domain, kept), limits, radius, parts);
   const CutDomain<Complex> fine = cut(domain, std::move(limits), parts);
   const Complex& complex = *fine.complex;
 
@@ -56,6 +104,7 @@ PoissonDisks sample(const Complex& domain, const SimplexNumbers<Complex>& number
 
   Workspace<Real> own_workspace;
   Growth<Complex> field(complex, fine.copy ? own_workspace : kept);
+  check_radii<Real>(field.simplices(), radii);
   const DartThrower<Complex> thrower(field, radii, vertices, options, most, [&](double share) {
     if (options.progress && !options.progress(std::clamp(share, 0., 1.)))
       throw Cancelled("cancelled by the progress callback");

@@ -81,7 +81,8 @@ int parse_and_run(int argc, const char* const* argv) {
       "  plexway tetrahedralize organ.off --out organ.vtu --max-volume 1e-3\n"
       "  plexway convert broken.stl clean.ply --repair\n"
       "  plexway bench bunny.obj --source vertex:3160 --truth bunny.v3160.txt\n\n"
-      "Exit codes: 0 ok, 1 failure, 2 usage, 3 bad input, 4 not built in, 5 nothing reached.");
+      "Exit codes: 0 ok, 1 failure, 2 usage, 3 bad input, 4 not built in, 5 nothing reached, "
+      "6 without end.");
   add_distance_command(tool, action);
   add_info_command(tool, action);
   add_bench_command(tool, action);
@@ -134,6 +135,8 @@ int run(int argc, const char* const* argv) noexcept {
     return fail(exit_not_built, error.what());
   } catch (const NothingReached& error) {
     return fail(exit_nothing_reached, error.what());
+  } catch (const EndlessError& error) {
+    return fail(exit_endless, error.what());
   } catch (const std::bad_alloc&) {
     return fail(exit_failure,
                 "out of memory: the input does not fit into what this process may use");

@@ -52,6 +52,10 @@ void denoise(Cloud& cloud, const CloudArguments& arguments) {
                         .without_outliers(cloud.points.positions, arguments.deviations.value_or(3));
   keep(cloud.points.positions, kept);
   keep(cloud.points.normals, kept);
+  if (!cloud.points.original.empty())
+    keep(cloud.points.original, kept);
+  else if (kept.size() < before)
+    cloud.points.original = kept;
   cloud.outliers = before - kept.size();
 }
 
@@ -63,6 +67,7 @@ void thin(Cloud& cloud, double size) {
     throw UsageError("--voxel" + std::string(why.substr(std::min(why.find(':'), why.size()))));
   }
   cloud.points.normals.clear();  // the points are means now, and have none of their own
+  cloud.points.original.clear();
   cloud.thinned = true;
 }
 
@@ -73,7 +78,7 @@ Neighbours find_neighbours(const Cloud& cloud, const CloudArguments& arguments,
   options.k = cloud.k;
   if (arguments.neighbour_radius) options.radius = *arguments.neighbour_radius;
   options.progress = share_shown(progress);
-  return flann::neighbours(cloud.points.positions, options);
+  return flann::surface_neighbours(cloud.points.positions, options);
 #else
   (void)cloud;
   (void)arguments;
@@ -168,7 +173,8 @@ Index nearest_point(const Cloud& cloud, const std::array<double, 3>& point) {
 void write_field(const std::filesystem::path& out, const Cloud& cloud,
                  std::span<const double> distance, std::span<const std::int32_t> label) {
   if (io::lower_extension(out) == ".pcd")
-    pcl_functions("--out " + out.string()).write_field(out, cloud.points.positions, distance);
+    pcl_functions("--out " + out.string())
+        .write_field(out, cloud.points.positions, distance, cloud.points.original);
   else
     io::write_field(out, cloud.points, distance, label);
 }
@@ -181,6 +187,19 @@ std::span<const std::string_view> cloud_field_extensions() {
     return extensions;
   }();
   return all;
+}
+
+std::optional<std::vector<Index>> dropped_points(const Cloud& cloud) {
+  if (cloud.thinned) return std::nullopt;
+  std::vector<Index> dropped;
+  Index next = 0;
+  const auto pass = [&](Index number) {
+    for (; next < number; ++next) dropped.push_back(next);
+    ++next;
+  };
+  for (const Index number : cloud.points.original) pass(number);
+  if (!cloud.points.original.empty()) pass(static_cast<Index>(cloud.points_in_file));
+  return dropped;
 }
 
 std::string kept_points(const Cloud& cloud) {

@@ -20,7 +20,8 @@
 
 namespace plexway::cli {
 
-/// Points with their neighbours. Thinned and denoised points are gone: numbers count those kept.
+/// Points with their neighbours. Thinned and denoised points are gone: numbers count those kept,
+/// and `points.original` has those in the file.
 struct Cloud {
   io::Points points;
   /// Where paths are measured, one a point; empty: at the points.
@@ -77,6 +78,10 @@ void write_field(const std::filesystem::path& out, const Cloud& cloud,
 
 /// The extensions that the fields of clouds may have: those of io::write_field and .pcd.
 std::span<const std::string_view> cloud_field_extensions();
+
+/// The numbers that points left out have in the file, ascending; nothing where the points are
+/// means.
+std::optional<std::vector<Index>> dropped_points(const Cloud& cloud);
 
 /// How the points kept came from those in the file, for people: "5120 of 20000 points: 3 not
 /// finite, 17 outliers"; empty where all were kept.

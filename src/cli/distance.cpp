@@ -117,6 +117,8 @@ Json to_json(const DistanceCommand& command, const Domain& domain, const Solver&
     json["points_in_file"] = cloud->points_in_file;
     json["not_finite"] = cloud->not_finite;
     json["outliers"] = cloud->outliers;
+    const auto dropped = dropped_points(*cloud);
+    json["dropped"] = dropped ? Json(*dropped) : Json(nullptr);
   }
   return json;
 }
@@ -190,7 +192,18 @@ void say_notes(const Domain& domain, const Solver& solver, const Outcome& outcom
                bool single) {
   if (domain.cloud() != nullptr && domain.cloud()->not_finite > 0)
     say_note(counted(domain.cloud()->not_finite, "points") +
-             " not finite, and dropped: vertices count those that are left");
+             " not finite, and dropped: vertices count those that are left; the column original "
+             "has their numbers in the file");
+  if (const CloudSummary* cloud = solver.cloud()) {
+    if (cloud->near_duplicates > 0)
+      say_note(counted(cloud->near_duplicates, "points") +
+               " much nearer to an earlier one than all others are: they count as that one");
+    if (100 * cloud->bridges > cloud->distinct)
+      say_note(counted(cloud->bridges, "points") +
+               " hang together by single edges: no surface was found there, and ways go from point "
+               "to point; more neighbours may help (--k " +
+               std::to_string(4 * std::max<std::size_t>(domain.cloud()->k, 16)) + ")");
+  }
   if (!solver.complete()) {
     say_note("stopped after " + counted(solver.statistics().expansions, "expansions") +
              ": distances may still be too long");
@@ -275,10 +288,12 @@ void run_distance(DistanceCommand command) {
   const Stopwatch solving;
   const Executor executor =
       choose_executor(command.solve.executor, options, *solver, sources.size());
-  if (points.empty())
-    solver->solve_from(executor, sources, options);
-  else
-    solver->solve(executor, points, options);
+  with_file_name(domain, [&] {
+    if (points.empty())
+      solver->solve_from(executor, sources, options);
+    else
+      solver->solve(executor, points, options);
+  });
   const double solve = solving.seconds();
 
   const std::vector<double> distance = solver->distance();
@@ -294,7 +309,10 @@ void run_distance(DistanceCommand command) {
     const std::vector<std::int32_t> label = solver->label();
     if (to_stdout) {
       progress.clear();
-      write_distance_csv(distance, label);
+      write_distance_csv(distance, label,
+                         domain.cloud() != nullptr
+                             ? std::span<const std::uint32_t>(domain.cloud()->points.original)
+                             : std::span<const std::uint32_t>());
     } else {
       domain.write_field(command.out, distance, label);
     }

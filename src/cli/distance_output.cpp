@@ -76,8 +76,12 @@ void check_outputs_differ(std::initializer_list<std::string> names) {
         throw UsageError(*a + ": two results would go into this one file");
 }
 
-void write_distance_csv(std::span<const double> distance, std::span<const std::int32_t> label) {
-  std::string text = label.empty() ? "vertex,distance\n" : "vertex,distance,label\n";
+void write_distance_csv(std::span<const double> distance, std::span<const std::int32_t> label,
+                        std::span<const std::uint32_t> original) {
+  std::string text = "vertex,distance";
+  if (!label.empty()) text += ",label";
+  if (!original.empty()) text += ",original";
+  text += '\n';
   for (std::size_t v = 0; v < distance.size(); ++v) {
     append(text, v);
     text += ',';
@@ -85,6 +89,10 @@ void write_distance_csv(std::span<const double> distance, std::span<const std::i
     if (!label.empty()) {
       text += ',';
       append(text, label[v]);
+    }
+    if (!original.empty()) {
+      text += ',';
+      append(text, original[v]);
     }
     text += '\n';
     if (text.size() < (std::size_t{1} << 16)) continue;

@@ -12,6 +12,7 @@ enum ExitCode : int {
   exit_bad_input = 3,        ///< InputError: a file or a source in it is not what it must be
   exit_not_built = 4,        ///< NotBuiltError: exists, but not in this build
   exit_nothing_reached = 5,  ///< NothingReached
+  exit_endless = 6,          ///< EndlessError: a solve that would not end
 };
 
 /// No vertex but the sources themselves has a finite distance.

@@ -16,7 +16,10 @@ std::vector<std::string> warnings_of(const Cloud& cloud, const CloudSummary& sum
   if (summary.components > 1) warnings.push_back(why_disconnected(cloud, summary.components));
   warn(summary.isolated_points, "points", " connected to no other: no path leads there");
   warn(cloud.not_finite, "points", " not finite, and dropped: vertices count those that are left");
-  warn(summary.duplicates, "points", " exactly where an earlier one lies: they count as that one");
+  warn(summary.duplicates - summary.near_duplicates, "points",
+       " exactly where an earlier one lies: they count as that one");
+  warn(summary.near_duplicates, "points",
+       " much nearer to an earlier one than all others are: they count as that one");
   if (!cloud.points.normals.empty() && cloud.normals().empty())
     warnings.push_back(
         "normals that do not all point to one side, or are 0: they are estimated instead");
@@ -57,6 +60,7 @@ InfoReport info_of(const Domain& domain, const Cloud& cloud) {
   json["not_finite"] = cloud.not_finite;
   json["outliers"] = cloud.outliers;
   json["coincident_vertices"] = summary.duplicates;
+  json["nearly_coincident_vertices"] = summary.near_duplicates;
   json["isolated_vertices"] = summary.isolated_points;
   json["refused_pairs"] = summary.refused_pairs;
   json["bridges"] = summary.bridges;

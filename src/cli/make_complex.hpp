@@ -1,20 +1,17 @@
 #pragma once
 
-#include <limits>
 #include <type_traits>
 
 #include <plexway/complex/point_cloud.hpp>
 #include <plexway/complex/tet_mesh.hpp>
 #include <plexway/complex/triangle_mesh.hpp>
 #include <plexway/complex/wireframe.hpp>
-#include <plexway/error.hpp>
 #include <plexway/io/edges.hpp>
 #include <plexway/io/tets.hpp>
 #include <plexway/io/triangles.hpp>
 
 #include "cloud.hpp"
 #include "metric_options.hpp"
-#include "report.hpp"
 
 namespace plexway::cli {
 
@@ -53,20 +50,6 @@ auto make_complex(const Shape& shape, [[maybe_unused]] const MeasuredLengths* le
     return {shape.vertices, shape.edges, lengths->edges};
   } else {
     return make_complex<Real>(shape);
-  }
-}
-
-// Throws InputError where distances, which are as many edges as a path is long, would be infinite
-// or 0 in single precision.
-template <class Real, class Complex>
-void check_precision(const Complex& complex) {
-  if constexpr (sizeof(Real) < sizeof(double)) {
-    constexpr double most_edges = 1e6;
-    if (complex.unit() * most_edges < std::numeric_limits<Real>::max() &&
-        complex.unit() / most_edges > std::numeric_limits<Real>::min())
-      return;
-    throw InputError("edges of " + short_number(complex.unit()) +
-                     " are beyond single precision: use --precision double");
   }
 }
 

@@ -21,7 +21,7 @@ struct PclFunctions {
   io::Points (*read_points)(const std::filesystem::path& file, std::size_t& dropped);
   void (*write_field)(const std::filesystem::path& file,
                       std::span<const std::array<double, 3>> positions,
-                      std::span<const double> distance);
+                      std::span<const double> distance, std::span<const Index> original);
   std::vector<std::array<double, 3>> (*voxel_grid)(std::span<const std::array<double, 3>> points,
                                                    double size);
   std::vector<Index> (*without_outliers)(std::span<const std::array<double, 3>> points,

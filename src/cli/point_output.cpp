@@ -66,10 +66,15 @@ void write_points(const std::filesystem::path& out, const Domain& domain,
                   std::span<const PointSource> points, std::string_view value_name,
                   std::span<const double> value) {
   const std::string extension = io::lower_extension(out);
+  // Of the points of a cloud of which some were left out.
+  const std::span<const std::uint32_t> original = domain.cloud() != nullptr
+                                                      ? std::span(domain.cloud()->points.original)
+                                                      : std::span<const std::uint32_t>();
   OutputFile file(out);
   if (extension == ".csv") {
     file.write("x,y,z,vertex,simplex,b0,b1,b2,b3");
     if (!value.empty()) file.write(","), file.write(value_name);
+    if (!original.empty()) file.write(",original");
     file.write("\n");
   } else if (extension == ".npy") {
     start_npy(file, std::to_string(points.size()) + ", 3");
@@ -80,6 +85,7 @@ void write_points(const std::filesystem::path& out, const Domain& domain,
       file.write(value_name);
       file.write("\n");
     }
+    if (!original.empty()) file.write("property uint original\n");
     file.write("end_header\n");
   } else if (extension != ".obj") {
     unknown(out, point_file_extensions());
@@ -105,6 +111,10 @@ void write_points(const std::filesystem::path& out, const Domain& domain,
     if (!value.empty() && extension != ".obj") {
       file.write(extension == ".csv" ? "," : " ");
       file.write_text(value[n]);
+    }
+    if (!original.empty() && extension != ".obj") {
+      file.write(extension == ".csv" ? "," : " ");
+      file.write_text(original[point.vertex]);
     }
     file.write("\n");
   }

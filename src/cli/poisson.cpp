@@ -40,40 +40,6 @@ std::vector<double> read_spacing(const std::string& file) {
   return spacing;
 }
 
-// Area of a surface, volume of a solid.
-double content_of(const Domain& domain) {
-  const auto points = domain.positions();
-  double content = 0;
-  for (std::size_t s = 0; s < domain.simplices(); ++s) {
-    const auto corners = domain.corners(s);
-    std::array<std::array<double, 3>, 3> side{};
-    for (std::size_t i = 1; i < corners.size(); ++i)
-      for (std::size_t k = 0; k < 3; ++k)
-        side[i - 1][k] = points[corners[i]][k] - points[corners[0]][k];
-    const auto& [a, b, c] = side;
-    const std::array<double, 3> normal = {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2],
-                                          a[0] * b[1] - a[1] * b[0]};
-    content += corners.size() == 3
-                   ? std::hypot(normal[0], normal[1], normal[2]) / 2
-                   : std::abs(normal[0] * c[0] + normal[1] * c[1] + normal[2] * c[2]) / 6;
-  }
-  return content;
-}
-
-// A radius in the wrong unit would fill all memory with points: some 0.7 to each square or cube of
-// its side.
-void check_radius(const Domain& domain, double radius) {
-  constexpr double most = 1e9;
-  if (domain.cloud() != nullptr) return;  // no more than its points
-  const int dimension = domain.kind() == "solid" ? 3 : 2;
-  const double content = 0.7 * content_of(domain);
-  if (content / most > std::pow(radius, dimension))
-    throw UsageError("--radius " + short_number(radius) +
-                     ": that would be more than 10^9 points; " + "choose " +
-                     short_number(std::pow(content / most, 1. / dimension)) +
-                     " or more, in the unit of " + domain.file().string());
-}
-
 void run_poisson(const PoissonCommand& command) {
   const Precision precision = precision_of(command);
   if (command.radius.has_value() == command.count.has_value())
@@ -95,10 +61,6 @@ void run_poisson(const PoissonCommand& command) {
   if (!spacing.empty() && spacing.size() != domain.vertices())
     throw InputError(command.spacing + ": " + counted(spacing.size(), "numbers") + " for " +
                      counted(domain.vertices(), "vertices"));
-  if (command.radius && !command.vertices) {
-    const double widest = spacing.empty() ? 1 : *std::max_element(spacing.begin(), spacing.end());
-    check_radius(domain, *command.radius * widest);
-  }
   PoissonOptions options;
   options.radius = command.radius.value_or(0);
   options.count = command.count.value_or(0);

@@ -51,9 +51,7 @@ void with_complex(const Domain& domain, Precision precision, Use use) {
             if constexpr (std::is_same_v<Shape, io::Edges>)
               throw InputError("is a wireframe: points are chosen on surfaces, solids and clouds");
             else {
-              auto complex = make_complex<Real>(shape);
-              check_precision<Real>(complex);
-              use(complex);
+              use(make_complex<Real>(shape));
             }
           };
           precision == Precision::single ? build(float{}) : build(double{});

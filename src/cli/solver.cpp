@@ -39,9 +39,7 @@ class ShapeSolver final : public Solver {
         simplices_(simplices_of(shape)),
         shape_(shape),
         lengths_(lengths),
-        left_open_(triangulation == Triangulation::automatic) {
-    check_precision<Real>(complex_);
-  }
+        left_open_(triangulation == Triangulation::automatic) {}
 
   std::size_t components() const override { return complex_.summary().components; }
   std::size_t simplices() const override { return simplices_; }
@@ -51,6 +49,10 @@ class ShapeSolver final : public Solver {
   double mean_edge() const override {
     if constexpr (std::is_same_v<Shape, io::Triangles>) return complex_.unit();
     return 0;
+  }
+  const CloudSummary* cloud() const override {
+    if constexpr (std::is_same_v<Shape, Cloud>) return &complex_.summary();
+    return nullptr;
   }
   std::size_t refracting_edges() const override {
     if constexpr (std::is_same_v<Shape, io::Triangles>) return complex_.summary().refracting_edges;

@@ -35,6 +35,8 @@ class Solver {
   [[nodiscard]] virtual TriangulationReport triangulation() const { return {}; }
   /// Mean length of the edges of a surface; else 0.
   [[nodiscard]] virtual double mean_edge() const { return 0; }
+  /// What a cloud was made into, or null.
+  [[nodiscard]] virtual const CloudSummary* cloud() const { return nullptr; }
   /// Edges where paths are refracted.
   [[nodiscard]] virtual std::size_t refracting_edges() const { return 0; }
   /// One propagation, read-out to vertices included. Throws as plexway::propagate.

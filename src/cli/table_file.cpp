@@ -55,6 +55,8 @@ Json read_json(const std::string& file) {
   const std::string_view text = bytes.view();
   try {
     return Json::parse(text);
+  } catch (const Json::out_of_range&) {
+    throw InputError(file + ": has a number that is too large");
   } catch (const Json::parse_error& error) {
     const std::size_t end = std::min(error.byte, text.size());
     const auto line = 1 + std::count(text.begin(), text.begin() + static_cast<long>(end), '\n');

@@ -4,7 +4,9 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <numeric>
 #include <string>
+#include <utility>
 
 #include <plexway/error.hpp>
 
@@ -79,6 +81,46 @@ DistinctPoints distinct_points(Points points) {
     }
   }
   return result;
+}
+
+DistinctPoints without_near_twins(Points points, const Neighbours& neighbours,
+                                  const DistinctPoints& places) {
+  constexpr double gap = 1e-4;
+  constexpr std::size_t most = 3;  // one in so many neighbours
+  std::vector<Index> parent(points.size());
+  std::iota(parent.begin(), parent.end(), Index{0});
+  const auto root = [&](Index i) {
+    while (parent[i] != i) i = parent[i] = parent[parent[i]];
+    return i;
+  };
+  std::vector<std::pair<double, Index>> row;
+  bool any = false;
+  for (const Index i : places.order) {
+    row.clear();
+    for (const Index j : neighbours.around(i)) {
+      if (places.first[j] == i) continue;
+      const auto &p = points[i], &q = points[j];
+      row.emplace_back(std::hypot(q[0] - p[0], q[1] - p[1], q[2] - p[2]), places.first[j]);
+    }
+    std::sort(row.begin(), row.end());
+    // One far from all is nobody's reason: most neighbours are beyond the gap.
+    std::size_t near = 0;
+    for (std::size_t k = 1; k <= row.size() / most; ++k)
+      if (row[k - 1].first < gap * row[k].first) near = k;
+    for (std::size_t k = 0; k < near; ++k) {
+      const Index a = root(i), b = root(row[k].second);
+      if (a == b) continue;
+      parent[std::max(a, b)] = std::min(a, b);
+      any = true;
+    }
+  }
+  if (!any) return places;
+  DistinctPoints merged;
+  merged.first.resize(points.size());
+  for (Index i = 0; i < points.size(); ++i) merged.first[i] = root(places.first[i]);
+  for (const Index i : places.order)
+    if (merged.first[i] == i) merged.order.push_back(i);
+  return merged;
 }
 
 }  // namespace plexway

@@ -204,7 +204,7 @@ void FaceLayout::orient() {
   }
 }
 
-std::size_t FaceLayout::mark_refraction(const TriangleShapes& shapes) {
+std::size_t FaceLayout::mark_refraction(const TriangleShapes& shapes, RefractionCheck check) {
   std::vector<std::array<double, 3>> lengths(face.size());  // edges as the caller numbers them
   ShapeBlock block{};
   for (std::size_t first = 0; first < face.size(); first += ShapeBlock::size) {
@@ -216,6 +216,10 @@ std::size_t FaceLayout::mark_refraction(const TriangleShapes& shapes) {
   const auto length = [&](Index f, Index edge) {
     return lengths[f][is_turned(f) ? 2 - edge : edge];
   };
+  const auto aspect = [&](Index f) {
+    const auto [least, most] = std::minmax_element(lengths[f].begin(), lengths[f].end());
+    return *most / *least;
+  };
   std::size_t count = 0;
   for (Index f = 0; f < face.size(); ++f)
     for (Index i = 0; i < 3; ++i) {
@@ -224,6 +228,7 @@ std::size_t FaceLayout::mark_refraction(const TriangleShapes& shapes) {
       if (g == face.size()) continue;
       const double own = length(f, i), other = length(g, j);
       if (!(std::abs(own - other) > 1e-9 * std::max(own, other))) continue;
+      check(face[f], face[g], own, other, std::max(aspect(f), aspect(g)));
       count += (o & Across::fan) != 0 || pack(f, i) < pack(g, j);
       o |= Across::fan;
     }

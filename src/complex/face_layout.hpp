@@ -42,8 +42,12 @@ class FaceLayout {
   bool flips = false;  ///< is Across::flip set anywhere?
 
   /// Edges that their triangles measure differently become like those with more than two: neither
-  /// is unfolded over. Returns how many.
-  std::size_t mark_refraction(const TriangleShapes& shapes);
+  /// is unfolded over. Returns how many. `check` may refuse two faces, by the caller's numbers,
+  /// with the lengths they give an edge, and the ratio of the longest to the shortest edge of the
+  /// more slender one.
+  using RefractionCheck = void (*)(std::size_t face, std::size_t other, double length,
+                                   double other_length, double aspect);
+  std::size_t mark_refraction(const TriangleShapes& shapes, RefractionCheck check);
 
   [[nodiscard]] std::size_t face_count() const { return face.size(); }
   [[nodiscard]] std::size_t vertex_count() const { return vertex_to_inside.size(); }

@@ -11,6 +11,7 @@
 
 #include "complex/boundary_saddles.hpp"
 #include "complex/cloud_bridges.hpp"
+#include "complex/crease.hpp"
 #include "complex/gluing.hpp"
 #include "complex/tangent_lengths.hpp"
 #include "complex/umbrella.hpp"
@@ -21,6 +22,8 @@ namespace {
 
 using Points = std::span<const Point3>;
 using Triangle = std::array<Index, 3>;
+
+constexpr double deepest_notch = 0.35;  // spacings
 
 void check_input(Points points, const Neighbours& neighbours, const CloudOptions& options) {
   if (points.empty()) throw InputError("the cloud has no points");
@@ -140,6 +143,16 @@ void count_pairs(const Places& places, std::span<const TangentFrame> frames, con
   summary.mean_spacing = spacing / static_cast<double>(places.near.point_count());
 }
 
+// Does an edge of the sheet go over a crease?
+bool any_creases(const Places& places, std::span<const TangentFrame> frames, const SheetRule& rule,
+                 std::span<const Triangle> faces) {
+  return std::any_of(faces.begin(), faces.end(), [&](const Triangle& t) {
+    for (std::size_t i = 0; i < 3; ++i)
+      if (crease_between(places, frames, rule, t[i], t[(i + 1) % 3])) return true;
+    return false;
+  });
+}
+
 Sheet make_sheet(Points points, const Neighbours& neighbours, const CloudOptions& options,
                  CloudSummary& summary, std::vector<std::array<Index, 2>>& twins,
                  std::vector<Point3>& more) {
@@ -155,20 +168,25 @@ Sheet make_sheet(Points points, const Neighbours& neighbours, const CloudOptions
       return !options.progress || options.progress(from + part * s);
     };
   };
-  const DistinctPoints distinct = distinct_points(points);
+  const DistinctPoints equal = distinct_points(points);
+  const DistinctPoints distinct = without_near_twins(points, neighbours, equal);
   const double scale = scale_of(points);
   Places places = places_of(points, scale, neighbours, distinct);
   const std::size_t n = places.at.size();
   std::vector<TangentFrame> frames = tangent_frames(places, normals_of(options.normals, distinct),
                                                     rule, options.threads, share(0.1));
   done = 0.1;
-  SheetWedges sheet(places, frames);
-  add_umbrellas(
-      local_umbrellas(places, frames, rule, options.widest_circle, options.threads, share(0.5)),
-      options.threads, sheet);
+  SheetWedges sheet(places, frames, rule);
+  {
+    const Umbrellas umbrellas =
+        local_umbrellas(places, frames, rule, options.widest_circle, options.threads, share(0.5));
+    set_reach(places, umbrellas, options.threads, frames);
+    add_umbrellas(umbrellas, options.threads, sheet);
+  }
   done = 0.6;
   fill_holes(options.widest_circle, sheet);
   trim_boundary(options.widest_boundary_circle, sheet);
+  fill_notches(deepest_notch, sheet);
   widen_boundary_saddles(places, frames, sheet);
   const CloudParts parts = bridge_parts(rule, frames, places, sheet);
   if (sheet.triangles().empty()) add_placeholder(places, sheet);
@@ -178,6 +196,7 @@ Sheet make_sheet(Points points, const Neighbours& neighbours, const CloudOptions
   summary.points = points.size();
   summary.distinct = n;
   summary.duplicates = points.size() - n;
+  summary.near_duplicates = equal.order.size() - n;
   count_pairs(places, frames, rule, summary);
   count_parts(parts, distinct, summary);
   summary.mean_spacing /= scale;
@@ -199,8 +218,11 @@ Sheet make_sheet(Points points, const Neighbours& neighbours, const CloudOptions
   const double flat = options.lengths == EdgeLengths::in_space     ? 0
                       : options.lengths == EdgeLengths::tangential ? 1
                                                                    : noise.share;
-  if (flat > 0) {
+  if (flat > 0 || any_creases(places, frames, rule, result.faces)) {
     const auto length = [&](Index a, Index b) {
+      if (a > b) std::swap(a, b);  // the same bits from both sides
+      if (const auto crease = crease_between(places, frames, rule, a, b))
+        return length_over(*crease, places, frames, a, b) / scale;
       return tangent_length(places, frames, a, b, flat) / scale;
     };
     result.lengths.reserve(result.faces.size());

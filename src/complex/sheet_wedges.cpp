@@ -1,6 +1,10 @@
 #include "complex/sheet_wedges.hpp"
 
+#include <algorithm>
+#include <limits>
 #include <numbers>
+
+#include "complex/crease.hpp"
 
 namespace plexway {
 namespace {
@@ -77,7 +81,7 @@ SheetWedges::Axes SheetWedges::axes(Index place) const {
 }
 
 SheetWedges::Plane SheetWedges::flat(const Axes& axes, Index place, Index other) const {
-  const Point3 q = minus(places_.at[other], places_.at[place]);
+  const Point3 q = unfolded(places_, frames_, rule_, place, other);
   return {dot(axes.x, q), dot(axes.y, q)};
 }
 
@@ -118,13 +122,35 @@ Index SheetWedges::next_around(Index place, Index u, Index w) const {
   return next;
 }
 
+double SheetWedges::notch(Index place, Triangle& t) const {
+  constexpr double none_there = std::numeric_limits<double>::infinity();
+  constexpr double least = std::numbers::pi + 0.02;  // a straight rim has none, curved or not
+  if (!open(place)) return none_there;
+  const Axes plane = axes(place);
+  double taken = 0;
+  std::vector<Index> ends;
+  around(place, [&](const Wedge& w) {
+    const Plane p = flat(plane, place, w.a), q = flat(plane, place, w.b);
+    taken += std::abs(std::atan2(turn(p, q), p[0] * q[0] + p[1] * q[1]));
+    for (const Index end : {w.a, w.b})
+      if (only_triangle(place, end) != none) ends.push_back(end);
+  });
+  if (ends.size() != 2 || !(taken > least) || !(taken < 2 * std::numbers::pi)) return none_there;
+  t = {place, ends[0], ends[1]};
+  std::sort(t.begin(), t.end());
+  const Plane a = flat(plane, place, ends[0]), b = flat(plane, place, ends[1]);
+  if (a[0] * b[0] + a[1] * b[1] > 0) return none_there;  // the end of a slit
+  return std::abs(turn(a, b)) / std::hypot(b[0] - a[0], b[1] - a[1]) /
+         static_cast<double>(frames_[place].reach);
+}
+
 double SheetWedges::circle(const Triangle& t) const {
   const Point3 a = minus(places_.at[t[1]], places_.at[t[0]]);
   const Point3 b = minus(places_.at[t[2]], places_.at[t[0]]);
   const Point3 c = minus(b, a), n = cross(a, b);
   const double sides = std::sqrt(dot(a, a)) * std::sqrt(dot(b, b)) * std::sqrt(dot(c, c));
-  const float spacing = (frames_[t[0]].spacing + frames_[t[1]].spacing + frames_[t[2]].spacing) / 3;
-  return sides / (2 * std::sqrt(dot(n, n)) * static_cast<double>(spacing));
+  const float reach = (frames_[t[0]].reach + frames_[t[1]].reach + frames_[t[2]].reach) / 3;
+  return sides / (2 * std::sqrt(dot(n, n)) * static_cast<double>(reach));
 }
 
 }  // namespace plexway

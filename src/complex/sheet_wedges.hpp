@@ -23,8 +23,8 @@ class SheetWedges {
     Index a, b, next, triangle;
   };
 
-  SheetWedges(const Places& places, std::span<const TangentFrame> frames)
-      : places_(places), frames_(frames), head_(places.at.size(), none) {}
+  SheetWedges(const Places& places, std::span<const TangentFrame> frames, const SheetRule& rule)
+      : places_(places), frames_(frames), rule_(rule), head_(places.at.size(), none) {}
 
   [[nodiscard]] std::span<const Triangle> triangles() const { return triangles_; }
   void reserve(std::size_t triangles);
@@ -54,7 +54,10 @@ class SheetWedges {
   [[nodiscard]] bool has_room(const Triangle& t) const;
   /// From neighbour u away from w to the next neighbour of a place, in its tangent plane.
   [[nodiscard]] Index next_around(Index place, Index u, Index w) const;
-  /// Radius of the circumcircle, in the mean spacing of the corners.
+  /// At a place on the boundary where more than half a turn is taken: the triangle that would close
+  /// what is left, and how deep it is, in the place's reach. Else a depth of infinity.
+  [[nodiscard]] double notch(Index place, Triangle& t) const;
+  /// Radius of the circumcircle, in the mean reach of the corners.
   [[nodiscard]] double circle(const Triangle& t) const;
 
  private:
@@ -72,6 +75,7 @@ class SheetWedges {
 
   const Places& places_;
   std::span<const TangentFrame> frames_;
+  SheetRule rule_;
   std::vector<Triangle> triangles_;
   std::vector<Index> head_;
   std::vector<Wedge> wedges_;

@@ -10,6 +10,7 @@
 
 #include <plexway/error.hpp>
 
+#include "complex/number_range.hpp"
 #include "complex/simplex_flat.hpp"
 #include "complex/simplex_gluing.hpp"
 #include "complex/simplex_shape.hpp"
@@ -207,6 +208,8 @@ void SimplicialComplex<Real, N>::assemble(std::size_t vertices, std::span<const 
     const Index s = order[r];
     Record& record = records_[r];
     record.number = s;
+    NumberRange<Real>::check_simplex(
+        "simplex", s, *std::max_element(lengths[s].begin(), lengths[s].end()) / unit);
     for (std::size_t k = 0; k < sides; ++k) {
       const std::size_t place = rank(simplices[s], k);
       record.corner[place] = vertex_to_inside_[simplices[s][k]];

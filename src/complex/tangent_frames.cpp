@@ -6,6 +6,8 @@
 
 #include <plexway/complex/blocks.hpp>
 
+#include "complex/crease.hpp"
+
 namespace plexway {
 namespace {
 
@@ -74,6 +76,17 @@ Moments near_plane(std::span<const Point3> around, const Point3& n, double slab)
   return moments;
 }
 
+// The median distance from the plane of those within `slab` of it.
+double median_offset(std::span<const Point3> around, const Point3& n, double slab) {
+  std::vector<double> offsets;
+  for (const Point3& q : around)
+    if (const double off = std::abs(dot(n, q)); off <= slab) offsets.push_back(off);
+  if (offsets.empty()) return 0;
+  const auto middle = offsets.begin() + static_cast<std::ptrdiff_t>(offsets.size() / 2);
+  std::nth_element(offsets.begin(), middle, offsets.end());
+  return *middle;
+}
+
 // How well a plane through the place explains its neighbours: the nearer to it the better, and near
 // neighbours count more.
 double support(std::span<const Point3> around, const Point3& n, double slab) {
@@ -101,103 +114,189 @@ Point3 supported_plane(std::span<const Point3> around, double slab, Point3 best)
   return best;
 }
 
-// A place's normal, and whether its neighbours are too thick a layer to be sure.
-Point3 fit_normal(std::span<const Point3> around, double slab, char& thick) {
-  Moments all;
-  for (const Point3& q : around) all.add(q);
-  const Symmetric spread = all.about_mean();
-  Point3 n = least_direction(spread);
-  thick = share_along(spread, n) > 0.02;  // noise, an edge of a solid, or another sheet
-  if (thick == 0) return n;
-  n = supported_plane(around, slab, n);
-  for (int i = 0; i < 2; ++i) {
+// Where neighbours are too thick a layer to be sure of the plane by their spread alone.
+Point3 plane_of_layer(std::span<const Point3> around, double slab, const Point3& spread_least) {
+  Point3 n = supported_plane(around, slab, spread_least);
+  // What is far off for most of those near the plane is beside it: at the edge of a solid the plane
+  // tilts less and less towards the other side. Noise is far off for none.
+  for (int i = 0; i < 8; ++i) {
     const Moments own = near_plane(around, n, slab);
     if (own.count < 5) break;
     n = least_direction(own.about_mean());
+    slab = std::min(slab, 3 * median_offset(around, n, slab));
   }
   return n;
 }
 
-// Of the normals around a place the one that the others agree with most, near ones above all.
-std::array<float, 3> agreed_normal(const Places& places, std::span<const TangentFrame> frames,
-                                   Index place, std::vector<double>& weight) {
-  const auto row = places.near.around(place);
-  const double spacing = static_cast<double>(frames[place].spacing);
-  weight.clear();
-  for (const Index j : row) {
-    const Point3 q = minus(places.at[j], places.at[place]);
-    weight.push_back(1 / (spacing * spacing + dot(q, q)));
-  }
-  std::array<float, 3> best = frames[place].normal;
-  double most = -1;
-  const auto look = [&](const std::array<float, 3>& n) {
-    double sum = 0;
-    for (std::size_t k = 0; k < row.size(); ++k) {
-      const double cosine = dot(n, frames[row[k]].normal);
-      sum += weight[k] * cosine * cosine;
+// The frames of all places, and how sure they are.
+class Frames {
+ public:
+  Frames(const Places& places, std::span<const Point3> given, const SheetRule& rule, int threads)
+      : places_(places),
+        given_(given),
+        rule_(rule),
+        threads_(threads),
+        frames_(places.at.size()),
+        share_(frames_.size(), 0),
+        thick_(frames_.size(), 0) {}
+
+  std::vector<TangentFrame> make(const std::function<bool(double)>& progress) {
+    for_all(progress, [&](Index i, Room& room) { fit(i, room.around); });
+    thinnest_ = share_;
+    for_all({}, [&](Index i, Room&) {
+      for (const Index j : places_.near.around(i)) thinnest_[i] = std::min(thinnest_[i], share_[j]);
+    });
+    for_all({}, [&](Index i, Room&) { thick_[i] = is_thick(i); });
+    if (std::find(thick_.begin(), thick_.end(), 1) != thick_.end()) {
+      for_all({}, [&](Index i, Room& room) {
+        if (thick_[i] != 0) refit(i, room.around);
+      });
+      for (int round = 0; round < 5; ++round) {
+        const std::vector<TangentFrame> before = frames_;
+        for_all({}, [&](Index i, Room& room) {
+          if (thick_[i] != 0) frames_[i].normal = agreed_normal(before, i, room.number);
+        });
+      }
     }
-    if (sum > most) most = sum, best = n;
+    turn_as_given();
+    return std::move(frames_);
+  }
+
+ private:
+  struct Room {
+    std::vector<Point3> around;
+    std::vector<double> number;
   };
-  look(frames[place].normal);
-  for (const Index j : row) look(frames[j].normal);
-  return best;
-}
+  template <class Visit>
+  void for_all(const std::function<bool(double)>& progress, const Visit& visit) const {
+    for_blocks(frames_.size(), block, threads_, progress, [&](std::size_t first, std::size_t last) {
+      Room room;
+      for (std::size_t i = first; i < last; ++i) visit(static_cast<Index>(i), room);
+    });
+  }
+
+  [[nodiscard]] bool is_given(Index i) const {
+    const double square = given_.empty() ? 0 : dot(given_[i], given_[i]);
+    return square > 0 && std::isfinite(square);
+  }
+  void set_normal(Index i, const Point3& normal) {
+    for (std::size_t d = 0; d < 3; ++d) frames_[i].normal[d] = static_cast<float>(normal[d]);
+  }
+  // Nearest first. One that is far from all has these as its neighbours, too: it says nothing of
+  // the surface here.
+  void gather(Index i, std::vector<Point3>& around) const {
+    constexpr double too_far = 100 * 100;  // of the middle one's distance, squared
+    around.clear();
+    for (const Index j : places_.near.around(i))
+      around.push_back(minus(places_.at[j], places_.at[i]));
+    if (around.empty()) return;
+    const double middle = dot(around[around.size() / 2], around[around.size() / 2]);
+    while (dot(around.back(), around.back()) > too_far * middle) around.pop_back();
+  }
+
+  // By all neighbours.
+  void fit(Index i, std::vector<Point3>& around) {
+    gather(i, around);
+    Moments all;
+    double sum = 0;
+    for (const Point3& q : around) all.add(q), sum += dot(q, q);
+    // In a plane the mean square distance of the nearest goes with their number.
+    const double count = std::max<double>(static_cast<double>(around.size()), 1);
+    const double spacing = std::sqrt(2 * std::numbers::pi * sum / (count * (count + 1)));
+    frames_[i].spacing = static_cast<float>(spacing);
+    const Symmetric spread = all.about_mean();
+    const Point3 normal = is_given(i) ? unit(given_[i]) : least_direction(spread);
+    set_normal(i, normal);
+    share_[i] = static_cast<float>(share_along(spread, normal));
+  }
+
+  // Noise, an edge of a solid, or another sheet. Where that is just within reach the plane follows
+  // it without getting thick; but some place two rings around is thinner by far.
+  [[nodiscard]] bool is_thick(Index i) const {
+    constexpr float sure = 0.02f, least = 3e-4f, by_far = 10;
+    if (!(share_[i] > least) || is_given(i)) return false;
+    if (share_[i] > sure) return true;
+    float thinnest = thinnest_[i];
+    for (const Index j : places_.near.around(i)) thinnest = std::min(thinnest, thinnest_[j]);
+    return share_[i] > by_far * thinnest;
+  }
+
+  void refit(Index i, std::vector<Point3>& around) {
+    gather(i, around);
+    const auto& n = frames_[i].normal;
+    set_normal(i,
+               plane_of_layer(around, rule_.most_offset * static_cast<double>(frames_[i].spacing),
+                              {n[0], n[1], n[2]}));
+  }
+
+  // Of the normals around a place the one that the others agree with most: near ones above all, and
+  // those that are sure. None agrees with what differs by more than 30 degrees, else what lies
+  // between the two sides of an edge would be best.
+  std::array<float, 3> agreed_normal(std::span<const TangentFrame> frames, Index place,
+                                     std::vector<double>& weight) const {
+    const auto row = places_.near.around(place);
+    const double spacing = static_cast<double>(frames[place].spacing);
+    weight.clear();
+    for (const Index j : row) {
+      const Point3 q = minus(places_.at[j], places_.at[place]);
+      const double sure = 1 / (1e-3 + static_cast<double>(share_[j]));
+      weight.push_back(sure / (spacing * spacing + dot(q, q)));
+    }
+    std::array<float, 3> best = frames[place].normal;
+    double most = -1;
+    const double near = 0.01 * spacing;
+    const auto look = [&](const std::array<float, 3>& n) {
+      double sum = 0;
+      for (std::size_t k = 0; k < row.size(); ++k) {
+        const auto& m = frames[row[k]].normal;
+        const Point3 q = minus(places_.at[row[k]], places_.at[place]);
+        const double cosine = dot(n, m), ours = dot(n, q) / near, theirs = dot(m, q) / near;
+        sum += weight[k] * std::max(0.0, 4 * cosine * cosine - 3) /
+               (1 + ours * ours + theirs * theirs);
+      }
+      if (sum > most) most = sum, best = n;
+    };
+    look(frames[place].normal);
+    for (const Index j : row) look(frames[j].normal);
+    return best;
+  }
+
+  // Normals that are not given point to the side that those around them do.
+  void turn_as_given() {
+    for (Index i = 0; i < frames_.size() && !given_.empty(); ++i) {
+      if (is_given(i)) continue;
+      double outward = 0;
+      for (const Index j : places_.near.around(i))
+        if (is_given(j)) outward += dot(frames_[i].normal, frames_[j].normal);
+      if (outward < 0)
+        for (float& x : frames_[i].normal) x = -x;
+    }
+  }
+
+  const Places& places_;
+  std::span<const Point3> given_;
+  SheetRule rule_;
+  int threads_;
+  std::vector<TangentFrame> frames_;
+  std::vector<float> share_;     // of the neighbours' spread along the normal
+  std::vector<float> thinnest_;  // the least of a place and its neighbours
+  std::vector<char> thick_;
+};
 
 }  // namespace
 
 std::vector<TangentFrame> tangent_frames(const Places& places, std::span<const Point3> given,
                                          const SheetRule& rule, int threads,
                                          const std::function<bool(double)>& progress) {
-  const std::size_t n = places.at.size();
-  std::vector<TangentFrame> frames(n);
-  std::vector<char> thick(n, 0);
-  const auto is_given = [&](Index i) {
-    const double square = given.empty() ? 0 : dot(given[i], given[i]);
-    return square > 0 && std::isfinite(square);
-  };
-  for_blocks(n, block, threads, progress, [&](std::size_t first, std::size_t last) {
-    std::vector<Point3> around;
-    for (Index i = static_cast<Index>(first); i < last; ++i) {
-      around.clear();
-      double sum = 0;
-      for (const Index j : places.near.around(i)) {
-        around.push_back(minus(places.at[j], places.at[i]));
-        sum += dot(around.back(), around.back());
-      }
-      // In a plane the mean square distance of the nearest goes with their number.
-      const double count = std::max<double>(static_cast<double>(around.size()), 1);
-      const double spacing = std::sqrt(2 * std::numbers::pi * sum / (count * (count + 1)));
-      frames[i].spacing = static_cast<float>(spacing);
-      const Point3 normal =
-          is_given(i) ? unit(given[i]) : fit_normal(around, rule.most_offset * spacing, thick[i]);
-      for (std::size_t d = 0; d < 3; ++d) frames[i].normal[d] = static_cast<float>(normal[d]);
-    }
-  });
-  const bool any = std::find(thick.begin(), thick.end(), 1) != thick.end();
-  for (int round = 0; any && round < 5; ++round) {
-    const std::vector<TangentFrame> before = frames;
-    for_blocks(n, block, threads, {}, [&](std::size_t first, std::size_t last) {
-      std::vector<double> weight;
-      for (Index i = static_cast<Index>(first); i < last; ++i)
-        if (thick[i] != 0) frames[i].normal = agreed_normal(places, before, i, weight);
-    });
-  }
-  for (Index i = 0; i < n && !given.empty(); ++i) {
-    if (is_given(i)) continue;
-    double outward = 0;  // as the given ones around it
-    for (const Index j : places.near.around(i))
-      if (is_given(j)) outward += dot(frames[i].normal, frames[j].normal);
-    if (outward < 0)
-      for (float& x : frames[i].normal) x = -x;
-  }
-  return frames;
+  return Frames(places, given, rule, threads).make(progress);
 }
 
 bool same_sheet(const Places& places, std::span<const TangentFrame> frames, const SheetRule& rule,
                 Index i, Index j) {
   const TangentFrame &a = frames[i], &b = frames[j];
   const double cosine = dot(a.normal, b.normal);
-  if ((rule.oriented ? cosine : std::abs(cosine)) < rule.least_cosine) return false;
+  if ((rule.oriented ? cosine : std::abs(cosine)) < rule.least_cosine)
+    return crease_between(places, frames, rule, i, j).has_value();
   const Point3 q = minus(places.at[j], places.at[i]);
   const auto fits = [&](const TangentFrame& f) {
     return std::abs(dot(f.normal, q)) <= rule.most_offset * static_cast<double>(f.spacing);

@@ -7,6 +7,7 @@
 
 #include <plexway/error.hpp>
 
+#include "complex/number_range.hpp"
 #include "complex/simplex_order.hpp"
 #include "complex/tet_edges.hpp"
 #include "complex/tet_gluing.hpp"
@@ -92,7 +93,16 @@ TetMesh<Real>::TetMesh(std::span<const std::array<double, 3>> positions,
   for (std::size_t t = 0; t < tets.size(); ++t) {
     TetPoints p;
     for (std::size_t i = 0; i < 4; ++i) p[i] = vector(scaled[tets[t][i]]);
-    for (const auto& [i, j] : tet_edge_ends) sum += norm(p[j] - p[i]);
+    double longest = 0;
+    for (const auto& [i, j] : tet_edge_ends) {
+      const double length = norm(p[j] - p[i]);
+      sum += length;
+      // Not as centred: what an extent leaves no digits for is not without length.
+      const auto &a = positions[tets[t][i]], &b = positions[tets[t][j]];
+      for (std::size_t d = 0; d < 3; ++d)
+        longest = std::max(longest, std::abs(b[d] / extent - a[d] / extent));
+    }
+    NumberRange<Real>::check_coordinates("tet", t, longest, 1);
     const double six_volumes = determinant(p), thick = thickness(p, six_volumes);
     volume[t] = static_cast<signed char>(thick <= flat ? 0 : thick < thin ? 1 : 2);
     if (six_volumes < 0) volume[t] = static_cast<signed char>(-volume[t]);
@@ -131,6 +141,9 @@ TetMesh<Real>::TetMesh(std::size_t vertices, std::span<const std::array<Index, 4
   std::vector<std::array<double, 6>> scaled(lengths.begin(), lengths.end());
   for (auto& tet : scaled)
     for (double& l : tet) l /= unit;
+  for (std::size_t t = 0; t < tets.size(); ++t)
+    NumberRange<Real>::check_simplex("tet", t,
+                                     *std::max_element(scaled[t].begin(), scaled[t].end()));
   const auto across = glue_tets(vertices, tets);
   const std::vector<signed char> unknown(tets.size(), 0);
   const auto turn = orient_tets(tets, across, unknown);

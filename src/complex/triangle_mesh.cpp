@@ -10,6 +10,7 @@
 
 #include "complex/face_layout.hpp"
 #include "complex/gluing.hpp"
+#include "complex/number_range.hpp"
 #include "complex/saddle_vertices.hpp"
 #include "complex/shape_blocks.hpp"
 #include "complex/simplex_order.hpp"
@@ -204,7 +205,9 @@ void TriangleMesh<Real>::assemble(FaceLayout layout, const TriangleShapes& shape
   summary_.edges = layout.edges;
   summary_.boundary_edges = layout.boundary_edges;
   summary_.non_manifold_edges = layout.non_manifold_edges;
-  if (hints.refracts) summary_.refracting_edges = layout.mark_refraction(shapes);
+  if (hints.refracts)
+    summary_.refracting_edges =
+        layout.mark_refraction(shapes, &NumberRange<Real>::check_refraction);
 
   VertexFans fans = find_vertex_fans(layout);
 
@@ -284,6 +287,8 @@ std::vector<double> TriangleMesh<Real>::take_shapes(const TriangleShapes& shapes
   summary_.mean_edge = unit;
   for (std::size_t f = 0; f < m; ++f) {
     TriangleRecord<Real>& t = triangles_[f];
+    const auto& [a, b, c] = lengths[f];
+    NumberRange<Real>::check_simplex("face", t.face & ~reversed, std::max({a, b, c}) / unit);
     for (std::size_t i = 0; i < 3; ++i) t.length[i] = static_cast<Real>(lengths[f][i] / unit);
     if ((t.face & reversed) != 0) std::swap(t.length[0], t.length[2]);
   }

@@ -5,6 +5,8 @@
 
 #include <plexway/complex/blocks.hpp>
 
+#include "complex/crease.hpp"
+
 namespace plexway {
 namespace {
 
@@ -49,7 +51,7 @@ class Umbrella {
   }
 
   bool project(Index place, Index j, Spoke& spoke) const {
-    const Point3 q = minus(places_.at[j], places_.at[place]);
+    const Point3 q = unfolded(places_, frames_, rule_, place, j);
     const double x = dot(ex_, q), y = dot(ey_, q), r = x * x + y * y;
     spoke = {x, y, x / r, y / r, j};
     return r > 0;
@@ -213,6 +215,52 @@ Umbrellas local_umbrellas(const Places& places, std::span<const TangentFrame> fr
     rings = {};
   }
   return umbrellas;
+}
+
+namespace {
+
+double circle_radius(const Point3& a, const Point3& b) {
+  const Point3 c = minus(b, a), n = cross(a, b);
+  return std::sqrt(dot(a, a)) * std::sqrt(dot(b, b)) * std::sqrt(dot(c, c)) /
+         (2 * std::sqrt(dot(n, n)));
+}
+
+double median(std::vector<double>& values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+}  // namespace
+
+void set_reach(const Places& places, const Umbrellas& umbrellas, int threads,
+               std::span<TangentFrame> frames) {
+  constexpr double wide = 1.1, more = 1.3;
+  std::vector<double> usual(frames.size(), 0);
+  for_blocks(frames.size(), block, threads, {}, [&](std::size_t first, std::size_t last) {
+    std::vector<double> circles;
+    for (Index p = static_cast<Index>(first); p < last; ++p) {
+      const auto ring = umbrellas.around(p);
+      circles.clear();
+      for (std::size_t i = 0; i < ring.size(); ++i) {
+        if (ring[i] & Umbrellas::gap) continue;
+        const Index next = ring[i + 1 == ring.size() ? 0 : i + 1] & ~Umbrellas::gap;
+        circles.push_back(circle_radius(minus(places.at[ring[i]], places.at[p]),
+                                        minus(places.at[next], places.at[p])));
+      }
+      if (!circles.empty()) usual[p] = median(circles);
+    }
+  });
+  for_blocks(frames.size(), block, threads, {}, [&](std::size_t first, std::size_t last) {
+    std::vector<double> around;
+    for (Index p = static_cast<Index>(first); p < last; ++p) {
+      around.assign(1, usual[p]);
+      for (const Index q : umbrellas.around(p)) around.push_back(usual[q & ~Umbrellas::gap]);
+      const double circle = median(around), spacing = static_cast<double>(frames[p].spacing);
+      frames[p].reach =
+          circle > wide * spacing ? static_cast<float>(more * circle) : frames[p].spacing;
+    }
+  });
 }
 
 }  // namespace plexway

@@ -23,6 +23,7 @@ struct Places {
 struct TangentFrame {
   std::array<float, 3> normal;  ///< unit
   float spacing = 0;            ///< 1 / sqrt(points per area), about
+  float reach = 0;              ///< what the circles of triangles are measured in: see set_reach
 };
 
 /// Which neighbours are on the same sheet.
@@ -32,7 +33,7 @@ struct SheetRule {
   bool oriented;        ///< normals tell inside from outside
 };
 
-/// Are two neighbours on the same sheet, by the tangent planes of both?
+/// Are two neighbours on the same sheet, by the tangent planes of both, or beside the same crease?
 bool same_sheet(const Places& places, std::span<const TangentFrame> frames, const SheetRule& rule,
                 Index i, Index j);
 
@@ -59,5 +60,11 @@ std::vector<TangentFrame> tangent_frames(const Places& places, std::span<const P
 Umbrellas local_umbrellas(const Places& places, std::span<const TangentFrame> frames,
                           const SheetRule& rule, double widest, int threads,
                           const std::function<bool(double)>& progress);
+
+/// The circles of triangles are about 0.7 spacings wide where points lie by chance, but in rows
+/// far apart half the distance of two rows, many spacings. Where the usual circle about a place
+/// is wider than a spacing, its reach is that much more; else it is the spacing.
+void set_reach(const Places& places, const Umbrellas& umbrellas, int threads,
+               std::span<TangentFrame> frames);
 
 }  // namespace plexway

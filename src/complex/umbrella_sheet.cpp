@@ -181,4 +181,13 @@ void trim_boundary(double widest, SheetWedges& sheet) {
   }
 }
 
+void fill_notches(double deepest, SheetWedges& sheet) {
+  constexpr int rounds = 3;  // what fills one may leave another beside it
+  for (int round = 0; round < rounds; ++round)
+    for (Index place = 0; place < sheet.place_count(); ++place) {
+      Triangle t;
+      if (sheet.notch(place, t) <= deepest && sheet.has_room(t)) sheet.add(t);
+    }
+}
+
 }  // namespace plexway

@@ -21,4 +21,8 @@ void fill_holes(double widest, SheetWedges& sheet);
 /// stand for places where the cloud has no points. Inside they close what chance left open.
 void trim_boundary(double widest, SheetWedges& sheet);
 
+/// Fills notches of the boundary that are at most `deepest` spacings deep: chance leaves them, and
+/// a way along the rim would go in and out of each.
+void fill_notches(double deepest, SheetWedges& sheet);
+
 }  // namespace plexway

@@ -6,6 +6,7 @@
 
 #include <plexway/error.hpp>
 
+#include "complex/number_range.hpp"
 #include "complex/vertex_order.hpp"
 
 namespace plexway {
@@ -116,6 +117,7 @@ void Wireframe<Real>::assemble(std::span<const std::array<Index, 2>> edges,
   std::vector<Index> end(begin_.begin(), begin_.end() - 1);  // of the row as filled so far
   for (std::size_t e = 0; e < edges.size(); ++e) {
     const Index a = vertex_to_inside_[edges[e][0]], b = vertex_to_inside_[edges[e][1]];
+    NumberRange<Real>::check_edge(e, lengths[e] / unit_);
     const Real length = static_cast<Real>(lengths[e] / unit_);
     summary_.zero_length_edges += lengths[e] == 0;
     summary_.loops += a == b;

@@ -8,6 +8,7 @@
 #include <limits>
 #include <span>
 
+#include <plexway/propagate/endless.hpp>
 #include <plexway/propagate/options.hpp>
 #include <plexway/propagate/workspace.hpp>
 
@@ -40,9 +41,12 @@ class TeamCrew {
                    front.source(s));
         ++added;
       });
+      const std::size_t before = front.expansions(), most = endless_after(simplices);
       const bool complete =
           rounds.run([&](auto& hand) { return propagation.expander(hand, last_resort, rounds); },
-                     front.statistics());
+                     front.statistics(), most - std::min(before, most));
+      if (!complete && !rounds.out_of_budget())
+        check_end(before + rounds.done().expansions, simplices);
       if (!complete) rounds.hand_over([](Index) {});
       PropagateStatistics done = rounds.done();
       done.updates -= std::min(added, done.updates);

@@ -33,6 +33,8 @@ std::span<const std::string_view> field_extensions() { return extensions; }
 void write_field_of(const std::filesystem::path& file, const Field& field) {
   require_length("distances", field.distance.size(), field.vertices);
   if (!field.label.empty()) require_length("labels", field.label.size(), field.vertices);
+  if (!field.original.empty())
+    require_length("original numbers", field.original.size(), field.vertices);
   const std::string extension = lower_extension(file);
   for (std::size_t i = 0; i < extensions.size(); ++i) {
     if (extension != extensions[i]) continue;
@@ -72,7 +74,9 @@ void write_field(const std::filesystem::path& file, const Points& cloud,
   std::vector<std::uint32_t> own(cloud.positions.size());
   std::iota(own.begin(), own.end(), 0u);
   const Cells cells = {1, 1, own};
-  write_field_of(file, {cloud.positions.size(), cloud.positions, {&cells, 1}, distance, label});
+  write_field_of(
+      file,
+      {cloud.positions.size(), cloud.positions, {&cells, 1}, distance, label, cloud.original});
 }
 
 void write_field(const std::filesystem::path& file, std::span<const MixedPart> parts,

@@ -4,7 +4,8 @@ namespace plexway::io {
 
 void write_csv(OutputFile& out, const Field& field) {
   out.write(field.positions.empty() ? "vertex,distance" : "vertex,x,y,z,distance");
-  out.write(field.label.empty() ? "\n" : ",label\n");
+  if (!field.label.empty()) out.write(",label");
+  out.write(field.original.empty() ? "\n" : ",original\n");
   for (std::size_t i = 0; i < field.distance.size(); ++i) {
     out.write_text(i);
     if (!field.positions.empty()) {
@@ -18,6 +19,10 @@ void write_csv(OutputFile& out, const Field& field) {
     if (!field.label.empty()) {
       out.write(",");
       out.write_text(field.label[i]);
+    }
+    if (!field.original.empty()) {
+      out.write(",");
+      out.write_text(field.original[i]);
     }
     out.write("\n");
   }

@@ -34,6 +34,8 @@ struct Field {
   std::span<const Cells> cells;
   std::span<const double> distance;     ///< one a vertex; empty (.vtu .vtk .glb): the mesh alone
   std::span<const std::int32_t> label;  ///< one a vertex, or empty
+  /// The number that each vertex had in the input, or empty: the same.
+  std::span<const std::uint32_t> original = {};
 
   std::size_t cell_count() const {
     std::size_t count = 0;

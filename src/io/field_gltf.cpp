@@ -80,6 +80,9 @@ class Document {
     if (!field.distance.empty()) write_distances();
     if (!field.label.empty())
       write_scalars("_LABEL", [&](std::size_t v) { return static_cast<float>(field.label[v]); });
+    if (!field.original.empty())
+      write_scalars("_ORIGINAL",
+                    [&](std::size_t v) { return static_cast<float>(field.original[v]); });
     write_indices();
     if (bytes.size() > std::numeric_limits<std::uint32_t>::max() - (1u << 20))
       throw Error("a .glb or .gltf holds 4 GB at most, which is too little here; write a .vtu");

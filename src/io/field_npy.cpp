@@ -10,15 +10,20 @@ namespace plexway::io {
 void write_npy(OutputFile& out, const Field& field) {
   using namespace std::string_view_literals;
   constexpr auto magic = "\x93NUMPY\x01\x00"sv;
-  std::string header = "{'descr': '<f8', 'fortran_order': False, 'shape': (" +
-                       std::to_string(field.distance.size()) + ",), }";
+  const bool records = !field.original.empty();
+  std::string header =
+      "{'descr': " + std::string(records ? "[('distance', '<f8'), ('original', '<u4')]" : "'<f8'") +
+      ", 'fortran_order': False, 'shape': (" + std::to_string(field.distance.size()) + ",), }";
   const std::size_t before = magic.size() + sizeof(std::uint16_t);
   while ((before + header.size() + 1) % 64 != 0) header += ' ';
   header += '\n';
   out.write(magic);
   out.write_binary(static_cast<std::uint16_t>(header.size()));
   out.write(header);
-  for (const double d : field.distance) out.write_binary(d);
+  for (std::size_t i = 0; i < field.distance.size(); ++i) {
+    out.write_binary(field.distance[i]);
+    if (records) out.write_binary(field.original[i]);
+  }
 }
 
 }  // namespace plexway::io

@@ -37,10 +37,17 @@ void write_vtk(OutputFile& out, const Field& field) {
               "\nSCALARS distance double 1\nLOOKUP_TABLE default\n");
     for (const double d : field.distance) out.write_big_endian(d);
   }
+  // Of several SCALARS many readers take the first alone.
+  const int more = !field.label.empty() + !field.original.empty();
+  if (more > 0) out.write("\nFIELD FieldData " + std::to_string(more) + "\n");
   if (!field.label.empty()) {
-    // Of several SCALARS many readers take the first alone.
-    out.write("\nFIELD FieldData 1\nlabel 1 " + count(field.vertices) + " int\n");
+    out.write("label 1 " + count(field.vertices) + " int\n");
     for (const std::int32_t l : field.label) out.write_big_endian(l);
+  }
+  if (!field.original.empty()) {
+    out.write(std::string(field.label.empty() ? "" : "\n") + "original 1 " + count(field.vertices) +
+              " unsigned_int\n");
+    for (const std::uint32_t i : field.original) out.write_big_endian(i);
   }
   out.write("\n");
 }

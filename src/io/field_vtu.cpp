@@ -34,6 +34,7 @@ void write_vtu(OutputFile& out, const Field& field) {
   const std::uint64_t corners = field.corner_count();
   const bool distances = !field.distance.empty();
   const bool labels = !field.label.empty();
+  const bool originals = distances && !field.original.empty();
 
   Blocks blocks;
   std::string xml =
@@ -47,6 +48,7 @@ void write_vtu(OutputFile& out, const Field& field) {
     xml += "      <PointData Scalars=\"distance\">\n";
     xml += blocks.array("Float64", "distance", 1, 8 * vertices);
     if (labels) xml += blocks.array("Int32", "label", 1, 4 * vertices);
+    if (originals) xml += blocks.array("UInt32", "original", 1, 4 * vertices);
     xml += "      </PointData>\n";
   }
   xml += "      <Points>\n";
@@ -66,6 +68,10 @@ void write_vtu(OutputFile& out, const Field& field) {
   if (labels) {
     out.write_binary(4 * vertices);
     for (const std::int32_t l : field.label) out.write_binary(l);
+  }
+  if (originals) {
+    out.write_binary(4 * vertices);
+    for (const std::uint32_t i : field.original) out.write_binary(i);
   }
   out.write_binary(24 * vertices);
   for (const auto& position : field.positions)

@@ -20,7 +20,8 @@ namespace {
 
 class VtuReader {
  public:
-  VtuReader(std::string_view bytes, std::string_view name) : bytes_(bytes), name_(name) {}
+  VtuReader(std::string_view bytes, std::string_view name)
+      : bytes_(bytes), name_(name), room_(least_room + most_packed * bytes.size()) {}
 
   Tets read() {
     load();
@@ -181,13 +182,13 @@ class VtuReader {
                       " are not read; save the file with zlib or without compression");
     std::string bytes;
     if (format == "binary") {
-      bytes = decode_vtu_array(text_of(array).value(), true, encoding_, where);
+      bytes = decode_vtu_array(text_of(array).value(), true, encoding_, where, room_);
     } else if (format == "appended") {
       const std::uint64_t offset = number(array, "offset");
       if (offset > appended_.size())
         throw InputError(where + " starts at byte " + std::to_string(offset) + " of " +
                          std::to_string(appended_.size()) + " that are appended");
-      bytes = decode_vtu_array(appended_.substr(offset), appended_base64_, encoding_, where);
+      bytes = decode_vtu_array(appended_.substr(offset), appended_base64_, encoding_, where, room_);
     } else {
       fail(array, "the format is " + quote(format) + "; known are ascii, binary and appended");
     }
@@ -204,8 +205,12 @@ class VtuReader {
     return {};
   }
 
+  // Meshes pack to a fifth or a tenth; what packs to a hundredth is no mesh.
+  static constexpr std::uint64_t least_room = std::uint64_t{1} << 26, most_packed = 100;
+
   std::string_view bytes_;
   std::string_view name_;
+  std::uint64_t room_;
   mutable std::size_t counted_ = 0;
   mutable std::size_t counted_line_ = 1;
   pugi::xml_document document_;

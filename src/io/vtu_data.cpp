@@ -104,18 +104,27 @@ class Stream {
   std::size_t waiting_ = 0;  ///< of these, not yet taken
 };
 
-std::string decode_plain(Stream& in, const VtuEncoding& encoding) {
+void take_room(const Stream& in, std::uint64_t bytes, std::uint64_t& room) {
+  if (bytes > room)
+    in.fail("would unpack to more than the " + std::to_string(room) +
+            " bytes left to it: out of proportion to the file; if it is what it says, save it "
+            "without compression");
+  room -= bytes;
+}
+
+std::string decode_plain(Stream& in, const VtuEncoding& encoding, std::uint64_t& room) {
   const std::uint64_t bytes = in.take_length(encoding);
   if (bytes > in.most())
     in.fail("should have " + std::to_string(bytes) + " bytes, but only " +
             std::to_string(in.most()) + " can follow");
+  take_room(in, bytes, room);
   std::string out(bytes, '\0');
   in.take(out.data(), out.size());
   return out;
 }
 
 #if PLEXWAY_IO_ZLIB
-std::string decode_compressed(Stream& in, const VtuEncoding& encoding) {
+std::string decode_compressed(Stream& in, const VtuEncoding& encoding, std::uint64_t& room) {
   const std::uint64_t blocks = in.take_length(encoding);
   const std::uint64_t block = in.take_length(encoding);
   const std::uint64_t last = in.take_length(encoding);
@@ -125,6 +134,11 @@ std::string decode_compressed(Stream& in, const VtuEncoding& encoding) {
   std::vector<std::uint64_t> sizes(blocks);
   for (std::uint64_t& size : sizes) size = in.take_length(encoding);
 
+  if (blocks > 0) {
+    const std::uint64_t full = last != 0 ? blocks - 1 : blocks;
+    const bool fits = block == 0 || full <= room / block;
+    take_room(in, fits ? full * block + last : room + 1, room);
+  }
   std::string out;
   std::string packed;
   for (std::uint64_t b = 0; b < blocks; ++b) {
@@ -149,7 +163,7 @@ std::string decode_compressed(Stream& in, const VtuEncoding& encoding) {
   return out;
 }
 #else
-std::string decode_compressed(Stream&, const VtuEncoding&) {
+std::string decode_compressed(Stream&, const VtuEncoding&, std::uint64_t&) {
   throw NotBuiltError(
       "this plexway reads no compressed .vtu: install zlib1g-dev and build it again, or save the "
       "file without compression");
@@ -159,9 +173,10 @@ std::string decode_compressed(Stream&, const VtuEncoding&) {
 }  // namespace
 
 std::string decode_vtu_array(std::string_view data, bool base64, const VtuEncoding& encoding,
-                             const std::string& where) {
+                             const std::string& where, std::uint64_t& room) {
   Stream in(data, base64, where);
-  return encoding.compressed ? decode_compressed(in, encoding) : decode_plain(in, encoding);
+  return encoding.compressed ? decode_compressed(in, encoding, room)
+                             : decode_plain(in, encoding, room);
 }
 
 }  // namespace plexway::io

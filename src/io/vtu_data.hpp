@@ -22,7 +22,11 @@ struct VtuEncoding {
 /// `base64` tells how `data` is written; otherwise it is raw. `where` starts the messages. Memory
 /// is asked for only as far as `data` can fill it. Throws InputError, or NotBuiltError if it takes
 /// a zlib that is not there.
+///
+/// `room` is how many bytes the arrays of the file may still come to: it gets less by this one, and
+/// an array that needs more is refused before it is unpacked. Pieces may share an array, and each
+/// counts.
 std::string decode_vtu_array(std::string_view data, bool base64, const VtuEncoding& encoding,
-                             const std::string& where);
+                             const std::string& where, std::uint64_t& room);
 
 }  // namespace plexway::io

@@ -11,6 +11,8 @@
 #include <plexway/propagate/workspace.hpp>
 #include <plexway/source/point_source.hpp>
 
+#include "complex/number_range.hpp"
+
 namespace plexway {
 
 /// Calls `solve` with the front that the options ask for.
@@ -30,6 +32,7 @@ template <class Real, bool kLabels, class Complex, class Front, class Crew>
 void finish(const Complex& complex, std::span<const PointSource> sources,
             const PropagateOptions& options, const Front& front, const Workspace<Real>& workspace,
             const Crew& crew, DistanceField<Real>& field) {
+  NumberRange<Real>::check_unit(complex.unit());
   constexpr Real infinity = std::numeric_limits<Real>::infinity();
   const std::span<const Index> inside = complex.vertices_inside();
   const Real unit = static_cast<Real>(complex.unit()), radius = static_cast<Real>(options.radius);

@@ -14,6 +14,8 @@
 #include <plexway/propagate/workspace.hpp>
 #include <plexway/source/point_source.hpp>
 
+#include "complex/number_range.hpp"
+
 namespace plexway {
 
 /// How often the dual queue may look at each edge before nearest first takes over. Up to here it is
@@ -146,6 +148,7 @@ class WirePropagation {
   template <class Crew>
   void read_out(std::span<const PointSource> sources, const Crew& crew,
                 DistanceField<Real>& field) const {
+    NumberRange<Real>::check_unit(wireframe_.unit());
     const std::size_t n = wireframe_.vertex_count();
     field.distance.resize(n);
     field.label.resize(kLabels ? n : 0);

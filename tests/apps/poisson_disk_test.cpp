@@ -219,3 +219,42 @@ TEST_CASE("darts are refused where options make no sense") {
   CHECK_THROWS_AS(poisson_disks(Serial{}, TetMesh<float>(4, tet, lengths), {.radius = 1}),
                   UsageError);
 }
+
+TEST_CASE("radii beyond the domain end with one dart, however large") {
+  samples::Shape shape = square(4);
+  const auto first = static_cast<std::uint32_t>(shape.points.size());
+  for (const Point& p : square(3).points) shape.add({p[0] + 5, p[1], p[2]});
+  for (auto face : square(3).faces) {
+    for (auto& v : face) v += first;
+    shape.faces.push_back(face);
+  }
+  for (const double radius : {20., 1e12, 1e40, 1e300}) {
+    INFO(radius);
+    CHECK(throw_on(shape, {.radius = radius}).size() == 2);  // one in each part
+    CHECK(throw_on<double>(shape, {.radius = radius}).size() == 2);
+  }
+}
+
+TEST_CASE("radii too small for memory, or too different for the numbers, are refused at once") {
+  const samples::Shape shape = square(8);
+  const TriangleMesh<float> mesh(shape.points, shape.faces);
+  CHECK_THROWS_WITH(poisson_disks(Serial{}, mesh, {.radius = 1e-7}),
+                    Catch::Contains("is too small for this domain") && Catch::Contains("choose"));
+  CHECK_THROWS_AS(poisson_disks(Serial{}, mesh, {.radius = 1e-7}), UsageError);
+  CHECK_THROWS_AS(poisson_disks(Serial{}, mesh, {.radius = 1e-200}), UsageError);
+  samples::Shape box = samples::elbow_solid();
+  const TetMesh<float> solid(box.points, box.tets);
+  CHECK_THROWS_AS(poisson_disks(Serial{}, solid, {.radius = 1e-6}), UsageError);
+
+  std::vector<double> spacing(shape.points.size(), 1);
+  spacing[40] = 1e308;
+  CHECK_THROWS_AS(poisson_disks(Serial{}, mesh, {.radius = 0.2, .spacing = spacing}),
+                  PrecisionError);
+  const TriangleMesh<double> twice(shape.points, shape.faces);
+  CHECK_THROWS_AS(poisson_disks(Serial{}, twice, {.radius = 0.2, .spacing = spacing}),
+                  PrecisionError);
+  spacing[40] = 1e5;
+  CHECK_THROWS_WITH(poisson_disks(Serial{}, mesh, {.radius = 0.2, .spacing = spacing}),
+                    Catch::Contains("use double"));
+  CHECK(poisson_disks(Serial{}, twice, {.radius = 0.2, .spacing = spacing}).darts.size() > 0);
+}

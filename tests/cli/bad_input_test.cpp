@@ -86,6 +86,36 @@ TEST_CASE("what single precision cannot hold is bad input, and double takes it")
   }
 }
 
+TEST_CASE("a metric that no precision holds is refused with the place") {
+  const Folder folder;
+  const std::string square =
+      folder.write("square.off", "OFF\n4 2 0\n0 0 0\n0 1 0\n1 1 .3\n1 0 0\n3 0 1 2\n3 0 2 3\n");
+  const auto run = [&](const char* large, const std::string& precision) {
+    const std::string tensors =
+        folder.write("tensors.txt", "2 .1 " + std::string(large) + " 1 0 1\n2 .1 0 1 0 1\n");
+    return run_tool({"distance", square, "-s", "vertex:0", "--metric", "tensor:" + tensors,
+                     "--precision", precision});
+  };
+  check_refused(run("1e12", "float"), 3, square + ": faces 0 and 1 measure the edge between them");
+  CHECK(run("1e12", "double").code == 0);
+  check_refused(run("9e18", "double"), 3, square + ": faces 0 and 1 measure");
+  const std::string speeds = folder.write("speeds.txt", "1\n1e-30\n");
+  for (const char* precision : {"float", "double"})
+    check_refused(run_tool({"distance", square, "-s", "vertex:0", "--metric", "speed:" + speeds,
+                            "--precision", precision}),
+                  3, square + ": face");
+}
+
+TEST_CASE("a table with a number that is none is bad input") {
+  const Folder folder;
+  const std::string table = folder.write(
+      "table.json",
+      R"({"kind":"plexway probe table","slender":0.3,"uneven":1e99999999999999,"low":0.2})");
+  check_refused(run_tool({"distance", sample("knot.ply"), "-s", "vertex:0", "--visibility", "tuned",
+                          "--table", table}),
+                3, table + ": has a number that is too large");
+}
+
 TEST_CASE("a source out of range is bad input") {
   const std::string knot = sample("knot.ply");
   for (const char* source :

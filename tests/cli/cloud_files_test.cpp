@@ -1,4 +1,6 @@
 #include <catch2/catch.hpp>
+#include <cstdint>
+#include <cstring>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -122,6 +124,54 @@ TEST_CASE("a scan in PCD: points that are not finite are dropped, counted and to
   CHECK_THAT(run.err, Contains("not finite, and dropped"));
   CHECK(run.complaints() == 1);
   CHECK_THAT(distance(scan).out, Contains("kept"));
+}
+
+TEST_CASE("points that were left out keep their numbers in every output") {
+  const Folder folder;
+  std::string pcd =
+      "VERSION 0.7\nFIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nCOUNT 1 1 1\nWIDTH 120\nHEIGHT 1\n"
+      "VIEWPOINT 0 0 0 1 0 0 0\nPOINTS 120\nDATA ascii\n";
+  std::vector<double> kept, x;
+  for (int i = 0; i < 120; ++i) {
+    if (i % 7 == 3) {
+      pcd += "nan nan nan\n";
+      continue;
+    }
+    pcd += std::to_string(i % 12) + " " + std::to_string(i / 12) + " 0\n";
+    kept.push_back(i);
+    x.push_back(i % 12);
+  }
+  const std::string file = folder.write("holes.pcd", pcd);
+  const auto shown = distance(file, {"--quiet", "--out", "-"});
+  REQUIRE(shown.code == 0);
+  CHECK(csv_column(shown.out, "original") == kept);
+  const std::string csv = folder.path() / "d.csv";
+  const auto run = distance(file, {"--json", "--out", csv});
+  REQUIRE(run.code == 0);
+  CHECK(csv_column(bytes_of(csv), "original") == kept);
+  CHECK(csv_column(bytes_of(csv), "x") == x);
+  CHECK(run.json()["dropped"][0] == 3);
+  CHECK(run.json()["dropped"].size() == 120 - kept.size());
+  CHECK_THAT(run.err, Contains("the column original"));
+  const std::size_t n = kept.size();
+  for (const auto& [name, part] : std::vector<std::pair<std::string, std::string>>{
+           {"d.ply", "property int original\n"},
+           {"d.vtu", "Name=\"original\""},
+           {"d.vtk", "original 1 " + std::to_string(n) + " unsigned_int"},
+           {"d.npy", "[('distance', '<f8'), ('original', '<u4')]"},
+           {"d.gltf", "_ORIGINAL"},
+           {"d.pcd", "original"}}) {
+    const std::string out = folder.path() / name;
+    REQUIRE(distance(file, {"--quiet", "--out", out}).code == 0);
+    CHECK_THAT(bytes_of(out), Contains(part));
+  }
+  const std::string npy = bytes_of(folder.path() / "d.npy");
+  REQUIRE(npy.size() >= 12 * n);
+  std::uint32_t last = 0;
+  std::memcpy(&last, npy.data() + npy.size() - 4, 4);
+  CHECK(last == kept.back());
+  // Whoever loses nothing gets no column.
+  CHECK_THAT(distance(sample("roll.xyz"), {"--quiet", "--out", "-"}).out, !Contains("original"));
 }
 
 TEST_CASE("thinned and denoised through PCL, distances back as a PCD") {

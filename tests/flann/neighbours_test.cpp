@@ -163,3 +163,66 @@ TEST_CASE("the smallest k that connects a cloud") {
   CHECK(plexway::flann::connecting_k(Points(9, {1, 1, 1})) == 0u);
   CHECK(plexway::flann::connecting_k(Points{{0, 0, 0}, {1, 0, 0}}) == 1u);
 }
+
+TEST_CASE("neighbours on a surface reach the rows beside a row that is far from them") {
+  using plexway::flann::surface_neighbours;
+  samples::Uniform u(4);
+  const double step = 0.01;
+  for (const double apart : {8., 12., 25.}) {
+    Points points;
+    std::vector<int> row_of;
+    for (int row = 0; row < 6; ++row)
+      for (int i = 0; i < 120; ++i) {
+        points.push_back({(i + u(-0.2, 0.2)) * step, (row * apart + u(-0.2, 0.2)) * step, 0});
+        row_of.push_back(row);
+      }
+    const Neighbours near = surface_neighbours(points, {.symmetric = false});
+    std::size_t left_out = 0;
+    for (Index i = 0; i < points.size(); ++i) {
+      bool below = row_of[i] == 0, above = row_of[i] == 5;
+      for (const Index j : near.around(i)) {
+        below |= row_of[j] == row_of[i] - 1;
+        above |= row_of[j] == row_of[i] + 1;
+      }
+      left_out += !below || !above;
+    }
+    INFO(apart);
+    CHECK(left_out <= 5);  // at the ends of rows
+  }
+}
+
+TEST_CASE("where points lie by chance, neighbours on a surface are the k nearest but for a few") {
+  using plexway::flann::surface_neighbours;
+  for (const auto& cloud : {samples::plane_cloud(3000), samples::sphere_cloud(3000),
+                            samples::swiss_cloud(3000), samples::wall_cloud(3000)}) {
+    const Neighbours exact = plexway::flann::neighbours(cloud.points, {.symmetric = false});
+    const Neighbours near = surface_neighbours(cloud.points, {.symmetric = false});
+    std::size_t longer = 0;
+    for (Index i = 0; i < cloud.points.size(); ++i) {
+      const auto wanted = exact.around(i), found = near.around(i);
+      REQUIRE(found.size() >= wanted.size());
+      CHECK(std::equal(wanted.begin(), wanted.end(), found.begin()));
+      longer += found.size() > wanted.size();
+    }
+    CHECK(longer <= 15);
+  }
+  // A curve has no rows beside it.
+  Points line;
+  for (int i = 0; i < 300; ++i) line.push_back({0.1 * i, 0, 0});
+  CHECK(same(surface_neighbours(line), plexway::flann::neighbours(line)));
+}
+
+TEST_CASE("points nearly at one place do not hide the others from a search") {
+  using plexway::flann::surface_neighbours;
+  Points points = samples::plane_cloud(400).points;
+  samples::Uniform u(8);
+  for (Index i = 0; i < 400; ++i)
+    for (int more = 0; more < 4; ++more)
+      points.push_back({points[i][0] + u(-1e-9, 1e-9), points[i][1] + u(-1e-9, 1e-9), 0});
+  const Neighbours near = surface_neighbours(points, {.symmetric = false});
+  for (Index i = 0; i < 400; ++i) {
+    std::size_t others = 0;
+    for (const Index j : near.around(i)) others += samples::between(points[i], points[j]) > 1e-6;
+    CHECK(others == 16);
+  }
+}

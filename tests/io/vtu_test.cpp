@@ -1,5 +1,6 @@
 #include <sstream>
 
+#include "io/vtu_data.hpp"
 #include "tets_testing.hpp"
 
 using namespace io_testing;
@@ -236,4 +237,29 @@ TEST_CASE("vtu: without tetrahedra it says what there is") {
   std::string text = replaced(Writer({}).file(), "5 10 \n", "5 9 \n");
   CHECK(vtu_complaint(replaced(text, "24 \n", "25 \n")) ==
         "mesh: has no tetrahedra; it has 1 triangles, 1 quadrilaterals, 1 cells of type 25");
+}
+
+TEST_CASE(
+    "bad vtu: what the arrays of a file unpack to is in proportion to it, shared ones included") {
+  using plexway::io::decode_vtu_array;
+  plexway::io::VtuEncoding encoding;
+  std::string plain = {8, 0, 0, 0, 1, 2, 3, 4, 5, 6, 7, 8};
+  std::uint64_t room = 20;
+  CHECK(decode_vtu_array(plain, false, encoding, "a", room).size() == 8);
+  CHECK(room == 12);
+  CHECK(decode_vtu_array(plain, false, encoding, "a", room).size() == 8);
+  CHECK_THROWS_WITH(decode_vtu_array(plain, false, encoding, "a", room),
+                    Contains("a: would unpack to more than the 4 bytes") && Contains("out of proportion"));
+  // Thirty blocks of 64 kB in a few bytes, refused before any is unpacked.
+  encoding.compressed = true;
+  Packer header(false);
+  for (const std::uint32_t n : {30u, 65536u, 0u}) header.put(n);
+  for (int b = 0; b < 30; ++b) header.put(80u);
+  room = 1 << 20;
+  CHECK_THROWS_WITH(decode_vtu_array(header.bytes(), false, encoding, "a", room),
+                    Contains("a: would unpack") || Contains("zlib1g-dev"));
+  room = std::uint64_t{1} << 40;
+  Packer endless(false);
+  for (const std::uint32_t n : {3u, 4294967295u, 4294967295u, 1u, 1u, 1u}) endless.put(n);
+  CHECK_THROWS_AS(decode_vtu_array(endless.bytes(), false, encoding, "a", room), plexway::Error);
 }

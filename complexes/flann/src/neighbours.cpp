@@ -8,6 +8,7 @@
 #include <plexway/complex/blocks.hpp>
 #include <plexway/error.hpp>
 
+#include "rows.hpp"
 #include "search.hpp"
 
 namespace plexway::flann {
@@ -32,17 +33,46 @@ struct Rows {
   }
 };
 
-Rows search_all(const Search& search, std::size_t k, const NeighbourOptions& options) {
+// Where the k nearest of a place lie in one row of a scan, all up to the rows beside it.
+void reach_beside(const Search& search, std::size_t i, std::size_t k, double radius,
+                  std::vector<Found>& row, std::vector<std::array<double, 3>>& offsets) {
+  constexpr std::size_t most = 16;  // times k: rows 8 k times as far apart as the points in a row
+  const auto look = [&] {
+    offsets.clear();
+    for (const Found& f : row) offsets.push_back(search.offset(i, f.place));
+  };
+  look();
+  const RowOfPoints along(offsets);
+  if (!along.found()) return;
+  const std::vector<Found> own = row;
+  std::size_t needed = 0;
+  for (std::size_t more = 2 * k; more <= most * k; more *= 2) {
+    search.around(i, more, radius, row);
+    look();
+    needed = along.needed(offsets, false);
+    if ((needed > 0 && needed < row.size()) || row.size() < more) break;
+  }
+  if (needed == 0) needed = along.needed(offsets, true);  // the last row has one side only
+  if (needed == 0)
+    row = own;
+  else
+    row.resize(std::max(needed, own.size()));
+}
+
+Rows search_all(const Search& search, std::size_t k, const NeighbourOptions& options,
+                bool surface) {
   const std::size_t n = search.places().order.size();
   Rows rows;
   rows.begin.assign(n + 1, 0);
   std::vector<std::vector<Index>> found((n + block - 1) / block);
   for_blocks(n, block, options.threads, options.progress, [&](std::size_t first, std::size_t last) {
     std::vector<Found> row;
+    std::vector<std::array<double, 3>> offsets;
     std::vector<Index>& some = found[first / block];
     some.reserve((last - first) * k);
     for (std::size_t i = first; i < last; ++i) {
       search.around(i, k, options.radius, row);
+      if (surface && k > 0) reach_beside(search, i, k, options.radius, row, offsets);
       rows.begin[i + 1] = row.size();
       for (const Found& f : row) some.push_back(f.place);
     }
@@ -149,18 +179,31 @@ class Sets {
   std::size_t left_;
 };
 
-}  // namespace
-
-Neighbours neighbours(Points points, const NeighbourOptions& options) {
-  check_options(options);
-  const Search search(points);
+Neighbours neighbours_of(const Search& search, std::size_t points, const NeighbourOptions& options,
+                         bool surface) {
   const std::size_t places = search.places().order.size();
   const std::size_t most = places > 0 ? places - 1 : 0;
   // Without a number, or with all the others, every pair is found from both ends.
   const bool all = options.k == 0 || options.k >= most;
-  Rows rows = search_all(search, all ? 0 : options.k, options);
+  Rows rows = search_all(search, all ? 0 : options.k, options, surface);
   if (options.symmetric && !all) rows = close(search, rows);
-  return of_all_points(search, rows, points.size(), options.symmetric);
+  return of_all_points(search, rows, points, options.symmetric);
+}
+
+}  // namespace
+
+Neighbours neighbours(Points points, const NeighbourOptions& options) {
+  check_options(options);
+  return neighbours_of(Search(points), points.size(), options, false);
+}
+
+Neighbours surface_neighbours(Points points, const NeighbourOptions& options) {
+  check_options(options);
+  DistinctPoints places = distinct_points(points);
+  Neighbours found = neighbours_of(Search(points, places), points.size(), options, true);
+  DistinctPoints merged = without_near_twins(points, found, places);
+  if (merged.order.size() == places.order.size()) return found;
+  return neighbours_of(Search(points, std::move(merged)), points.size(), options, true);
 }
 
 std::optional<std::size_t> connecting_k(Points points, std::size_t most,

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace plexway::flann {
 namespace {
@@ -62,7 +63,8 @@ struct Search::Tree {
   ::flann::KDTreeSingleIndex<Distance> index;
 };
 
-Search::Search(std::span<const std::array<double, 3>> points) : places_(distinct_points(points)) {
+Search::Search(std::span<const std::array<double, 3>> points, DistinctPoints places)
+    : places_(std::move(places)) {
   // By a power of two to about 1, so that no square leaves the range of a double.
   double largest = 0;
   for (const auto& p : points)

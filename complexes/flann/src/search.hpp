@@ -21,7 +21,9 @@ struct Found {
 /// The points' distinct places in FLANN's k-d tree.
 class Search {
  public:
-  explicit Search(std::span<const std::array<double, 3>> points);
+  explicit Search(std::span<const std::array<double, 3>> points)
+      : Search(points, distinct_points(points)) {}
+  Search(std::span<const std::array<double, 3>> points, DistinctPoints places);
   ~Search();
 
   [[nodiscard]] const DistinctPoints& places() const { return places_; }
@@ -31,6 +33,12 @@ class Search {
     for (std::size_t d = 0; d < 3; ++d)
       squared += (scaled_[i][d] - scaled_[j][d]) * (scaled_[i][d] - scaled_[j][d]);
     return {squared, places_.order[j], j};
+  }
+  /// From place i to place j, in the search's own unit.
+  [[nodiscard]] std::array<double, 3> offset(std::size_t i, Index j) const {
+    std::array<double, 3> offset;
+    for (std::size_t d = 0; d < 3; ++d) offset[d] = scaled_[j][d] - scaled_[i][d];
+    return offset;
   }
   /// The nearest others of place places().order[i]: at most k (0: any number) and not beyond the
   /// radius, nearest first. Any number of threads may search at once.

@@ -149,11 +149,13 @@ FilePoints points_of(const PCLPointCloud2& cloud, const std::string& name) {
     const Row position = row_at(cloud, i, *axes);
     if (!finite(position)) continue;
     points.positions.push_back(position);
+    points.original.push_back(static_cast<Index>(i));
     if (!normal_axes) continue;
     const Row normal = row_at(cloud, i, *normal_axes);
     points.normals.push_back(finite(normal) ? normal : Row{0, 0, 0});
   }
   points.dropped = count - points.positions.size();
+  if (points.dropped == 0) points.original = {};
   if (points.positions.empty())
     throw InputError(name + ": none of its " + std::to_string(count) + " points is finite");
   return points;
@@ -162,11 +164,11 @@ FilePoints points_of(const PCLPointCloud2& cloud, const std::string& name) {
 /// Single precision, as PCL's point types have it: fields in double are not read into them.
 class CloudMaker {
  public:
-  void add(const std::string& name) {
+  void add(const std::string& name, std::uint8_t type = PCLPointField::FLOAT32) {
     PCLPointField field;
     field.name = name;
     field.offset = cloud_.point_step;
-    field.datatype = PCLPointField::FLOAT32;
+    field.datatype = type;
     field.count = 1;
     cloud_.fields.push_back(field);
     cloud_.point_step += static_cast<std::uint32_t>(sizeof(float));
@@ -180,15 +182,19 @@ class CloudMaker {
     cloud_.data.reserve(points * cloud_.point_step);
   }
 
-  void put(double value) {
-    const auto single = static_cast<float>(value);
-    const auto* const bytes = reinterpret_cast<const std::uint8_t*>(&single);
-    cloud_.data.insert(cloud_.data.end(), bytes, bytes + sizeof single);
-  }
+  void put(double value) { put_bytes(static_cast<float>(value)); }
+  void put_number(std::uint32_t value) { put_bytes(value); }
 
   const PCLPointCloud2& cloud() const { return cloud_; }
 
  private:
+  template <class Number>
+  void put_bytes(Number value) {
+    static_assert(sizeof value == sizeof(float));
+    const auto* const bytes = reinterpret_cast<const std::uint8_t*>(&value);
+    cloud_.data.insert(cloud_.data.end(), bytes, bytes + sizeof value);
+  }
+
   PCLPointCloud2 cloud_;
 };
 
@@ -295,15 +301,19 @@ void write_points(const fs::path& file, std::span<const Row> positions,
 }
 
 void write_field(const fs::path& file, std::span<const Row> positions,
-                 std::span<const double> distance, PcdForm form) {
+                 std::span<const double> distance, PcdForm form, std::span<const Index> original) {
   check_writing("write_field", file, positions.size());
   require_length("write_field", "distances", distance.size(), positions.size());
+  if (!original.empty())
+    require_length("write_field", "original numbers", original.size(), positions.size());
   CloudMaker maker;
   for (const char* name : {"x", "y", "z", "intensity"}) maker.add(name);
+  if (!original.empty()) maker.add("original", PCLPointField::UINT32);
   maker.start(positions.size());
   for (std::size_t i = 0; i < positions.size(); ++i) {
     for (const double c : positions[i]) maker.put(c);
     maker.put(distance[i]);
+    if (!original.empty()) maker.put_number(original[i]);
   }
   write_cloud(file, maker.cloud(), form);
 }

@@ -60,7 +60,8 @@ struct PoissonDisks {
 /// as the field is exact: where the fronts of a new dart and an earlier one meet, the length of the
 /// path between is measured again.
 ///
-/// Throws UsageError for options out of range, InputError for a radius too small for the domain.
+/// Throws UsageError for options out of range and for a radius so small that the parts would not
+/// fit, PrecisionError for radii too different for the domain's numbers.
 /// Cost: 2.2 to 2.5 propagations from a single source, and more where edges must be cut; with
 /// `count`, three to ten times that.
 /// Source: Trettner, Bommes, Kobbelt: Geodesic Distance Computation via Virtual Source Propagation,

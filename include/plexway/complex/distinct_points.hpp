@@ -6,6 +6,7 @@
 #include <vector>
 
 #include <plexway/complex/ids.hpp>
+#include <plexway/complex/neighbours.hpp>
 
 namespace plexway {
 
@@ -21,5 +22,13 @@ struct DistinctPoints {
 /// 2^32 - 2 points. Only coordinates that are equal to the last bit (or 0 and -0) are the same
 /// place. Cost: n log n, 0.1 to 0.2 us a point.
 [[nodiscard]] DistinctPoints distinct_points(std::span<const std::array<double, 3>> points);
+
+/// The same places, but for points much nearer to each other than to all others, which become one
+/// place: where some of a point's neighbours, nearest first, are less than a ten-thousandth as far
+/// away as the next, and no more than a third of them. Coordinates that were written and read again
+/// differ by that little. Cost: linear.
+[[nodiscard]] DistinctPoints without_near_twins(std::span<const std::array<double, 3>> points,
+                                                const Neighbours& neighbours,
+                                                const DistinctPoints& places);
 
 }  // namespace plexway

@@ -45,6 +45,7 @@ struct CloudSummary {
   std::size_t points = 0;
   std::size_t distinct = 0;         ///< places
   std::size_t duplicates = 0;       ///< points - distinct
+  std::size_t near_duplicates = 0;  ///< of these, at another place, but `without_near_twins`
   std::size_t neighbour_pairs = 0;  ///< of places
   std::size_t refused_pairs = 0;    ///< of these, not on one sheet
   std::size_t triangles = 0;

@@ -34,7 +34,9 @@ void write_field(const std::filesystem::path& file, const Tets& solid,
 void write_field(const std::filesystem::path& file, const Edges& wireframe,
                  std::span<const double> distance, std::span<const std::int32_t> label = {});
 
-/// The same for a cloud. In .vtk and .vtu each point is a cell of its own.
+/// The same for a cloud. In .vtk and .vtu each point is a cell of its own. Where points were left
+/// out, `cloud.original` is a column `original` (glTF: `_ORIGINAL`, a float); an .npy then has
+/// records of `distance` (f8) and `original` (u4).
 void write_field(const std::filesystem::path& file, const Points& cloud,
                  std::span<const double> distance, std::span<const std::int32_t> label = {});
 

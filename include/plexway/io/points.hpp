@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <filesystem>
 #include <span>
 #include <string_view>
@@ -14,6 +15,9 @@ struct Points {
   /// One a point, finite, as long as the file has them (usually 1; 0 0 0 where none is known);
   /// empty if the file has none.
   std::vector<std::array<double, 3>> normals;
+  /// Of what is left of a file's points: the number that each had there, ascending. Empty: all are
+  /// there. Fields are written with it as a column, so that they join with the file.
+  std::vector<std::uint32_t> original = {};
 };
 
 /// Reads the points in `file`; the extension (any case) picks the format. Of a .ply the vertices

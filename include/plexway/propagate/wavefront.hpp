@@ -5,6 +5,7 @@
 
 #include <plexway/error.hpp>
 #include <plexway/propagate/distance_field.hpp>
+#include <plexway/propagate/endless.hpp>
 #include <plexway/propagate/front.hpp>
 #include <plexway/propagate/options.hpp>
 #include <plexway/propagate/visit_marks.hpp>
@@ -124,13 +125,14 @@ class Wavefront {
   [[nodiscard]] bool out_of_budget() const { return out_of_budget_; }
 
   /// Grants the next share of the budget and reports progress. `distance` is where the front is.
-  /// False if the budget is spent. Throws Cancelled.
+  /// False if the budget is spent. Throws Cancelled, and EndlessError.
   bool take_stock(Real distance) {
     if (countdown_ != 0) return false;
     if (options_->progress && granted_ > 0 &&
         !options_->progress(
             {granted_, reached_, simplices_, static_cast<double>(distance) * unit_}))
       throw Cancelled("cancelled by the progress callback");
+    check_end(granted_, simplices_);
     constexpr std::size_t share = 65536;
     const std::size_t most = options_->max_expansions;
     countdown_ = granted_ < most ? std::min(share, most - granted_) : 0;

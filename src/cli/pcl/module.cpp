@@ -16,12 +16,12 @@ using Row = std::array<double, 3>;
 plexway::io::Points read_points(const fs::path& file, std::size_t& dropped) {
   plexway::pcl::FilePoints read = plexway::pcl::read_points(file);
   dropped = read.dropped;
-  return {std::move(read.positions), std::move(read.normals)};
+  return {std::move(read.positions), std::move(read.normals), std::move(read.original)};
 }
 
 void write_field(const fs::path& file, std::span<const Row> positions,
-                 std::span<const double> distance) {
-  plexway::pcl::write_field(file, positions, distance);
+                 std::span<const double> distance, std::span<const plexway::Index> original) {
+  plexway::pcl::write_field(file, positions, distance, plexway::pcl::PcdForm::compressed, original);
 }
 
 std::vector<plexway::Index> without_outliers(std::span<const Row> points, double deviations) {

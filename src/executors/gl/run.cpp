@@ -4,6 +4,9 @@
 #include <limits>
 
 #include <plexway/error.hpp>
+#include <plexway/propagate/endless.hpp>
+
+#include "complex/number_range.hpp"
 
 namespace plexway::gl {
 
@@ -20,7 +23,8 @@ void Job::start(std::size_t cells, std::size_t label_bytes, std::size_t fields, 
   const std::size_t budget =
       options.max_expansions < most / fields ? options.max_expansions * fields : most;
   if (options.schedule == Schedule::fifo) step = std::numeric_limits<double>::infinity();
-  workspace.front.start(session, cells, label_bytes, room, step, budget);
+  workspace.front.start(session, cells, label_bytes, room, step,
+                        std::min(budget, endless_after(cells) + 1));
 }
 
 std::function<void(const FrontControl&)> reporter(const PropagateOptions& options,
@@ -44,6 +48,7 @@ std::size_t fields_at_once(const Session& session, const GL& executor, std::size
 }
 
 void finish(const Job& job, const Finish& what, std::span<float> distance, std::span<Index> label) {
+  NumberRange<float>::check_unit(what.unit);
   const Session& session = job.session;
   GLWorkspace::Implementation& workspace = job.workspace;
   const std::size_t total = what.vertices * what.fields;

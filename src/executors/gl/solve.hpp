@@ -5,6 +5,7 @@
 #include <span>
 
 #include <plexway/executors/gl.hpp>
+#include <plexway/propagate/endless.hpp>
 
 #include "executors/gl/run.hpp"
 
@@ -27,6 +28,7 @@ void solve_nearest(const GL& executor, const typename Run::Domain& domain,
   const Session session(*there.context);
   Run run(domain, {executor, options, there, session});
   field.complete = run.run(seeds, 1);
+  check_end(FrontControl::wide(there.front.state().expansions), Run::cells(domain));
   field.distance.resize(domain.vertex_count());
   field.label.resize(sources.size() > 1 ? domain.vertex_count() : 0);
   run.read_out(seeds, field.distance, field.label);
@@ -57,6 +59,7 @@ bool solve_each(const GL& executor, const typename Run::Domain& domain,
     for (std::size_t k = 0; k < some.size(); ++k)
       seeds.add(domain, some.subspan(k, 1), k, there.host);
     complete &= run.run(seeds, some.size());
+    check_end(FrontControl::wide(there.front.state().expansions), Run::cells(domain) * some.size());
     run.read_out(seeds, distance.subspan(first * vertices, some.size() * vertices), {});
   }
   for (std::size_t k = 0; k < sources.size(); ++k)

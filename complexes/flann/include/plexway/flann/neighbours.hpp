@@ -36,6 +36,18 @@ struct NeighbourOptions {
 [[nodiscard]] Neighbours neighbours(std::span<const std::array<double, 3>> points,
                                     const NeighbourOptions& options = {});
 
+/// Neighbours to make a PointCloud of. As above, but for two things that k nearest points do not
+/// tell of a surface:
+///
+/// Where the k nearest lie in one row of a scan, the list goes on until it has neighbours on both
+/// sides of the row, as long as that takes no more than 16 k. Points that are nearer to each other
+/// than a ten-thousandth of the distance to the next count as one (`without_near_twins`), so that
+/// they do not hide the rest.
+///
+/// Cost: 1.1 times as much; where rows are far apart, as for the k that it takes.
+[[nodiscard]] Neighbours surface_neighbours(std::span<const std::array<double, 3>> points,
+                                            const NeighbourOptions& options = {});
+
 /// The smallest k with which all points are connected over neighbours, or nothing if it is above
 /// `most`. Radius and symmetry of `options` do not count. Throws as above. Cost: as for a search
 /// with twice the k that is found, and all smaller powers of two.

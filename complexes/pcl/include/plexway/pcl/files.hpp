@@ -7,6 +7,8 @@
 #include <string_view>
 #include <vector>
 
+#include <plexway/complex/ids.hpp>
+
 namespace plexway::pcl {
 
 /// A cloud of points as a file has it, but for points that are not finite: organised clouds have
@@ -16,6 +18,8 @@ struct FilePoints {
   /// One a point, 0 0 0 where none is known; empty if the file has none.
   std::vector<std::array<double, 3>> normals;
   std::size_t dropped = 0;  ///< points that were not finite
+  /// Where some were: the number that each point left has in the file, ascending; else empty.
+  std::vector<Index> original;
 };
 
 /// Reads .pcd (ascii, binary, binary_compressed; coordinates of any type) or .ply through PCL.
@@ -39,10 +43,11 @@ void write_points(const std::filesystem::path& file,
                   PcdForm form = PcdForm::compressed);
 
 /// The same with one distance a point as the field `intensity`, to be read into a
-/// `pcl::PointCloud<pcl::PointXYZI>`. Unreached points carry +inf.
+/// `pcl::PointCloud<pcl::PointXYZI>`. Unreached points carry +inf. `original`, if not empty, is one
+/// number a point, for a field of that name of 32-bit numbers.
 void write_field(const std::filesystem::path& file,
                  std::span<const std::array<double, 3>> positions, std::span<const double> distance,
-                 PcdForm form = PcdForm::compressed);
+                 PcdForm form = PcdForm::compressed, std::span<const Index> original = {});
 
 /// .pcd and .ply.
 std::span<const std::string_view> file_extensions();

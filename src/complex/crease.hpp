@@ -1,0 +1,36 @@
+#pragma once
+
+#include <optional>
+
+#include "complex/umbrella.hpp"
+
+namespace plexway {
+
+/// Where a sharp edge runs between two places whose normals differ: along the line in which their
+/// tangent planes meet.
+struct Crease {
+  Point3 along;   ///< the line's direction, unit
+  Point3 across;  ///< in the tangent plane of the first place, unit, towards the line
+  double here;    ///< from the first place to the line, >= 0
+  double there;   ///< from the line to the second place, >= 0
+};
+
+/// The crease between two neighbours, if their normals say that there is one and both are near it.
+///
+/// Around a crease the surface is unfolded: then a tangent plane goes on in the one beyond, and
+/// what is flat on both sides is flat. Orthogonal projection lays all that is beyond a right angle
+/// on one line.
+std::optional<Crease> crease_between(const Places& places, std::span<const TangentFrame> frames,
+                                     const SheetRule& rule, Index i, Index j);
+
+/// How long the way from i to j is, by their places in space and, as far as the crease between them
+/// is sharp, over it. Sharp is what lies between planes: where the surface is only bent more than
+/// its points can tell, the way over the line in which tangent planes meet is too long.
+double length_over(const Crease& crease, const Places& places, std::span<const TangentFrame> frames,
+                   Index i, Index j);
+
+/// Neighbour j as i sees it: the offset in space, or the one unfolded about the crease between.
+Point3 unfolded(const Places& places, std::span<const TangentFrame> frames, const SheetRule& rule,
+                Index i, Index j);
+
+}  // namespace plexway
