@@ -111,7 +111,7 @@ class StraightLines {
     /// By more than rounding.
     [[nodiscard, gnu::always_inline]] bool longer_than(Real d,
                                                        const std::array<double, 3>& p) const {
-      constexpr double slack = 1 + (sizeof(Real) == 4 ? 4 : 64) *
+      constexpr double slack = 1 + (sizeof(Real) == 4 ? 1 : 64) *
                                        static_cast<double>(std::numeric_limits<Real>::epsilon());
       double most = -infinity;
       for (std::size_t i = 0; i < ends; ++i) {
