@@ -6,7 +6,10 @@
 #include <utility>
 #include <vector>
 
+#include "complex/face_layout.hpp"
+#include "complex/shape_blocks.hpp"
 #include "complex/simplex_gluing.hpp"
+#include "complex/simplex_order.hpp"
 #include "complex/triangle_shape.hpp"
 
 namespace plexway {
@@ -19,6 +22,27 @@ Index edge_given(bool turned, std::size_t inside) {
 Index corner_given(bool turned, std::size_t inside) {
   return static_cast<Index>(turned && inside != 0 ? 3 - inside : inside);
 }
+
+// Shapes as the parts have them.
+class ShapesOfParts final : public TriangleShapes {
+ public:
+  explicit ShapesOfParts(std::span<const TriangleShape> shapes) : shapes_(shapes) {}
+  void look_up(std::span<const Index> faces, ShapeBlock& block) const override {
+    for (std::size_t k = 0; k < faces.size(); ++k) {
+      const TriangleShape& shape = shapes_[faces[k]];
+      for (std::size_t i = 0; i < 3; ++i) {
+        block.length[i][k] = shape.length[i];
+        block.cosine[i][k] = shape.cosine[i];
+        block.sine[i][k] = shape.sine[i];
+      }
+      block.degenerate[k] = shape.degenerate;
+      block.violated[k] = shape.violated;
+    }
+  }
+
+ private:
+  std::span<const TriangleShape> shapes_;
+};
 
 // What edges of one surface and its faces are called in the whole.
 template <class Real>
@@ -135,7 +159,8 @@ TriangleMesh<Real> join_surfaces(std::size_t vertices, std::span<const SurfacePa
   hints.refracts = agree<Real>(shapes, after);
   std::vector<std::array<Index, 3>> across(faces.size());
   for (Index h = 0; h < after.size(); ++h) across[h / 3][h % 3] = after[h] == h ? none : after[h];
-  return TriangleMesh<Real>(vertices, faces, shapes, std::move(across), hints);
+  const std::span<const std::array<Index, 3>> gluing = across;
+  return {FaceLayout(vertices, faces, breadth_first(gluing), gluing), ShapesOfParts(shapes), hints};
 }
 
 template TriangleMesh<float> join_surfaces(std::size_t, std::span<const SurfacePart<float>>,
