@@ -21,9 +21,8 @@
 
 #include <plexway/apps/path_field.hpp>
 #include <plexway/error.hpp>
-#include <plexway/executors/serial.hpp>
-#include <plexway/executors/source_sets.hpp>
 #include <plexway/io/triangles.hpp>
+#include <plexway/solve.hpp>
 
 namespace {
 
@@ -146,17 +145,17 @@ void compare(const char* file) {
   for (const std::size_t i : {0, 1}) {
     const auto one = plexway::PointSource::at(i == 0 ? from : to);
     time_point = seconds([&] {
-      propagate(plexway::Serial{}, mesh, {&one, 1}, {}, workspace, found);
+      plexway::solve(plexway::Serial{}, mesh, {&one, 1}, {}, workspace, found);
     });
     error_ends[i] = mean_error(found.distance, exact_ends[i], near);
   }
   const double time_many =
-      seconds([&] { propagate(plexway::Serial{}, mesh, some, {}, workspace, found); });
+      seconds([&] { plexway::solve(plexway::Serial{}, mesh, some, {}, workspace, found); });
   const double error_many = mean_error(found.distance, exact_curve, near);
   const plexway::Source source = curve;
   const double time_curve = seconds([&] {
-    propagate(plexway::Serial{}, mesh, std::span<const plexway::Source>(&source, 1), {}, workspace,
-              found);
+    plexway::solve(plexway::Serial{}, mesh, std::span<const plexway::Source>(&source, 1), {},
+                   workspace, found);
   });
   const double error_curve = mean_error(found.distance, exact_curve, near);
   const double face = 1e9 / static_cast<double>(surface.triangles.size());

@@ -12,8 +12,7 @@
 
 #include <plexway/complex/normals.hpp>
 #include <plexway/complex/smoothing.hpp>
-#include <plexway/executors/serial_cloud.hpp>
-#include <plexway/executors/serial_wireframe.hpp>
+#include <plexway/solve.hpp>
 
 #include "../data/sampled_clouds.hpp"
 #include "compare.hpp"
@@ -84,7 +83,7 @@ void solve_and_compare(const Complex& complex, const Cloud& cloud,
   plexway::DistanceField<float> field;
   const auto solve = [&](Index i) {
     const auto source = plexway::PointSource::at(i);
-    plexway::propagate(plexway::Serial{}, complex, std::span(&source, 1), {}, workspace, field);
+    plexway::solve(plexway::Serial{}, complex, std::span(&source, 1), {}, workspace, field);
   };
   std::vector<std::array<Index, 2>> edges;
   for (Index i = 0; i < cloud.points.size(); ++i)
@@ -146,7 +145,7 @@ nlohmann::ordered_json measure_graph(const Cloud& cloud, std::size_t k) {
       if (i < j) edges.push_back({i, j});
   const plexway::Wireframe<float> graph(cloud.points, edges);
   length = graph.summary().mean_edge;
-  const auto field = plexway::propagate(plexway::Serial{}, graph, plexway::PointSource::at(0));
+  const auto field = plexway::solve(plexway::Serial{}, graph, plexway::PointSource::at(0));
   add_errors(cloud, field.distance, length / 1.5, row);
   return row;
 }

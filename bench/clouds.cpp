@@ -19,8 +19,8 @@
 
 #include <plexway/boost_graph/dijkstra.hpp>
 #include <plexway/boost_graph/edge_graph.hpp>
-#include <plexway/executors/serial_cloud.hpp>
 #include <plexway/flann/neighbours.hpp>
+#include <plexway/solve.hpp>
 
 #include "../data/cloud_shapes.hpp"
 #include "compare.hpp"
@@ -120,7 +120,7 @@ nlohmann::ordered_json measure(const Measured& cloud, const Options& options) {
   plexway::DistanceField<Real> field;
   const auto solve = [&](Index v) {
     const auto source = plexway::PointSource::at(v);
-    plexway::propagate(plexway::Serial{}, *domain, std::span(&source, 1), {}, workspace, field);
+    plexway::solve(plexway::Serial{}, *domain, std::span(&source, 1), {}, workspace, field);
   };
   plexway::boost_graph::EdgeDijkstra<Real> dijkstra(graph_of(cloud, neighbours));
   const auto sources = bench::spread_numbers(options.effort.sources, cloud.points.size());

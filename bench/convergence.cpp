@@ -10,8 +10,7 @@
 #include <string>
 #include <vector>
 
-#include <plexway/executors/serial.hpp>
-#include <plexway/executors/serial_solid.hpp>
+#include <plexway/solve.hpp>
 
 #include "../data/shapes.hpp"
 #include "harness.hpp"
@@ -35,7 +34,7 @@ struct Sample {
 
 template <class Mesh>
 std::vector<double> solve(const Mesh& mesh, Index source) {
-  return plexway::propagate(plexway::Serial{}, mesh, plexway::PointSource::at(source)).distance;
+  return plexway::solve(plexway::Serial{}, mesh, plexway::PointSource::at(source)).distance;
 }
 
 Sample measure(const Shape& shape, Index source, const std::vector<double>& exact) {

@@ -10,8 +10,7 @@
 #include <vector>
 
 #include <plexway/apps/path_field.hpp>
-#include <plexway/executors/serial.hpp>
-#include <plexway/executors/source_sets.hpp>
+#include <plexway/solve.hpp>
 
 #include "../data/shapes.hpp"
 #include "harness.hpp"
@@ -191,11 +190,11 @@ nlohmann::ordered_json measure(const Unrolled& s, const plexway::TriangleMesh<do
   std::vector<double> first, ratio;
   for (std::size_t i = 0; i <= turns; ++i) {
     const double a = bench::seconds([&] {
-      propagate(plexway::Serial{}, mesh, std::span(&one.source, 1), options, workspace, whole);
+      plexway::solve(plexway::Serial{}, mesh, std::span(&one.source, 1), options, workspace, whole);
     });
     const double b = bench::seconds([&] {
-      propagate(plexway::Serial{}, mesh, std::span<const PointSource>(one.points), options,
-                workspace, sampled);
+      plexway::solve(plexway::Serial{}, mesh, std::span<const PointSource>(one.points), options,
+                     workspace, sampled);
     });
     if (i == 0) continue;
     first.push_back(1e9 * a / static_cast<double>(s.flat.size()));

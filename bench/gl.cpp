@@ -12,7 +12,7 @@
 
 #ifdef PLEXWAY_HAS_GL
 #include <plexway/executors/gl.hpp>
-#include <plexway/executors/serial.hpp>
+#include <plexway/solve.hpp>
 
 namespace {
 
@@ -62,16 +62,16 @@ nlohmann::ordered_json measure(const Surface& surface, const Work& work, plexway
       static_cast<double>(work.batch ? sources.size() : 1) / static_cast<double>(few);
   const auto serial = [&] {
     for (std::size_t k = 0; k < few; ++k)
-      propagate(Serial{}, mesh,
-                work.batch ? std::span<const PointSource>(&sources[k], 1)
-                           : std::span<const PointSource>(sources),
-                {}, workspace, field);
+      solve(Serial{}, mesh,
+            work.batch ? std::span<const PointSource>(&sources[k], 1)
+                       : std::span<const PointSource>(sources),
+            {}, workspace, field);
   };
   const auto device = [&] {
     if (work.batch)
-      propagate_each(executor, mesh, sources, {}, there, all);
+      solve_each(executor, mesh, sources, {}, there, all);
     else
-      propagate(executor, mesh, sources, {}, there, one);
+      solve(executor, mesh, sources, {}, there, one);
   };
   serial();
   const double first = bench::seconds(device);  // the surface goes to the device, shaders compile

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include <plexway/complex/intrinsic_delaunay.hpp>
-#include <plexway/executors/serial.hpp>
 #include <plexway/metric/edge_lengths.hpp>
+#include <plexway/solve.hpp>
 
 #include "../data/two_speeds.hpp"
 #include "harness.hpp"
@@ -45,8 +45,8 @@ nlohmann::ordered_json measure(const samples::HalvedSquare& square, const Case& 
   std::vector<double> ns, exact;
   for (int repeat = 0; repeat < 5; ++repeat)
     ns.push_back(1e9 * bench::seconds([&] {
-                   plexway::propagate(plexway::Serial{}, mesh, std::span(&at, 1),
-                                      plexway::PropagateOptions{}, workspace, field);
+                   plexway::solve(plexway::Serial{}, mesh, std::span(&at, 1),
+                                  plexway::PropagateOptions{}, workspace, field);
                  }) /
                  static_cast<double>(square.points.size()));
   for (const Point& p : square.points) exact.push_back(one.exact(square.points[source], p));

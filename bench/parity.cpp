@@ -10,8 +10,7 @@
 #include <vector>
 
 #include <plexway/error.hpp>
-#include <plexway/executors/openmp.hpp>
-#include <plexway/executors/serial.hpp>
+#include <plexway/solve.hpp>
 
 #include "compare.hpp"
 
@@ -32,7 +31,7 @@ struct Kind {
 
 Kind serial(const std::string& name, const PropagateOptions& options) {
   return {name, [options](const Mesh& mesh, const PointSource& source) {
-            return propagate(Serial{}, mesh, std::span<const PointSource>(&source, 1), options)
+            return plexway::solve(Serial{}, mesh, std::span<const PointSource>(&source, 1), options)
                 .distance;
           }};
 }
@@ -55,8 +54,8 @@ std::vector<Kind> all_kinds() {
       return [threads, vectorised](const Mesh& mesh, const PointSource& source) {
         PropagateOptions some;
         some.vectorised = vectorised;
-        return propagate(OpenMP{.threads = threads}, mesh, std::span<const PointSource>(&source, 1),
-                         some)
+        return plexway::solve(OpenMP{.threads = threads}, mesh,
+                              std::span<const PointSource>(&source, 1), some)
             .distance;
       };
     };
@@ -68,7 +67,7 @@ std::vector<Kind> all_kinds() {
   try {
     (void)gl_device(GL{});
     kinds.push_back({"GL", [](const Mesh& mesh, const PointSource& source) {
-                       return propagate(GL{}, mesh, source).distance;
+                       return plexway::solve(GL{}, mesh, source).distance;
                      }});
   } catch (const Error& error) {
     std::cerr << "GL left out: " << error.what() << '\n';

@@ -17,8 +17,8 @@
 #include <plexway/apps/path_search.hpp>
 #include <plexway/complex/triangle_mesh.hpp>
 #include <plexway/error.hpp>
-#include <plexway/executors/serial.hpp>
 #include <plexway/io/triangles.hpp>
+#include <plexway/solve.hpp>
 
 #include "harness.hpp"
 
@@ -155,8 +155,8 @@ void bounded() {
   for (int round = 0; round < 5; ++round) {
     const PointSource source = PointSource::at(static_cast<Index>(random() % positions.size()));
     solves.push_back(seconds([&] {
-      propagate(Serial{}, mesh, std::span<const PointSource>(&source, 1), PropagateOptions{},
-                workspace, field);
+      plexway::solve(Serial{}, mesh, std::span<const PointSource>(&source, 1), PropagateOptions{},
+                     workspace, field);
     }));
     triangles = 0;
     rounds.push_back(seconds([&] {

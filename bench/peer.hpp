@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include <plexway/executors/serial.hpp>
+#include <plexway/solve.hpp>
 #ifdef PLEXWAY_HAS_BOOST_GRAPH
 #include <plexway/boost_graph/dijkstra.hpp>
 #endif
@@ -50,7 +50,7 @@ class PlexwayPeer final : public Peer {
   /// The same complex and workspace with other options.
   void solve(Index source, const plexway::PropagateOptions& options) {
     const auto at = plexway::PointSource::at(source);
-    plexway::propagate(plexway::Serial{}, mesh_, std::span(&at, 1), options, workspace_, field_);
+    plexway::solve(plexway::Serial{}, mesh_, std::span(&at, 1), options, workspace_, field_);
   }
   [[nodiscard]] std::vector<double> distance() const override {
     return {field_.distance.begin(), field_.distance.end()};

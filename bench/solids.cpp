@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-#include <plexway/executors/serial_solid.hpp>
+#include <plexway/solve.hpp>
 #ifdef PLEXWAY_HAS_GL
 #include <plexway/executors/gl.hpp>
 #endif
@@ -149,13 +149,12 @@ void measure_gl(const plexway::TetMesh<float>& mesh, const std::vector<Index>& s
   std::size_t count = 0;
   for (const Index source : sources) {
     const auto at = plexway::PointSource::at(source);
-    plexway::propagate(plexway::Serial{}, mesh, std::span(&at, 1), {}, here, serial);
+    plexway::solve(plexway::Serial{}, mesh, std::span(&at, 1), {}, here, serial);
     double least = 1e9;
     for (std::size_t n = 0; n <= effort.repeats; ++n)
-      least =
-          std::min(least, bench::seconds([&] {
-                     plexway::propagate(plexway::GL{}, mesh, std::span(&at, 1), {}, there, field);
-                   }));
+      least = std::min(least, bench::seconds([&] {
+                         plexway::solve(plexway::GL{}, mesh, std::span(&at, 1), {}, there, field);
+                       }));
     time += least;
     for (std::size_t v = 0; v < serial.distance.size(); ++v) {
       if (!(serial.distance[v] > 0) || std::isinf(serial.distance[v])) continue;
@@ -186,7 +185,7 @@ nlohmann::ordered_json measure(const Solid& solid, const bench::Effort& effort,
   plexway::DistanceField<Real> field;
   const auto solve = [&](Index source) {
     const auto at = plexway::PointSource::at(source);
-    plexway::propagate(plexway::Serial{}, *mesh, std::span(&at, 1), options, workspace, field);
+    plexway::solve(plexway::Serial{}, *mesh, std::span(&at, 1), options, workspace, field);
   };
   std::vector<Index> sources;
   for (std::size_t i = 0; i < effort.sources; ++i)

@@ -13,7 +13,7 @@
 #include <vector>
 
 #include <plexway/complex/intrinsic_delaunay.hpp>
-#include <plexway/executors/serial.hpp>
+#include <plexway/solve.hpp>
 
 #include "harness.hpp"
 #include "table.hpp"
@@ -44,7 +44,7 @@ nlohmann::ordered_json measure(const bench::Surface& surface, Retriangulation ki
   bench::Index where = 0, from = 0;
   for (const bench::Index source : bench::rotating_sources(surface, sources)) {
     const auto point = plexway::PointSource::at(source);
-    propagate(plexway::Serial{}, mesh, {&point, 1}, {}, workspace, field);
+    solve(plexway::Serial{}, mesh, {&point, 1}, {}, workspace, field);
     bool any = false;
     for (bench::Index v = 0; v < surface.positions.size(); ++v) {
       const double line = straight(surface, source, v);

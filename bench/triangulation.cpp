@@ -8,7 +8,7 @@
 #include <vector>
 
 #include <plexway/complex/intrinsic_delaunay.hpp>
-#include <plexway/executors/serial.hpp>
+#include <plexway/solve.hpp>
 
 #include "compare.hpp"
 
@@ -43,11 +43,11 @@ nlohmann::ordered_json measure(const bench::Surface& surface, Retriangulation ki
   const auto sources = bench::rotating_sources(surface, effort.sources);
   const auto solve = [&](bench::Index v) {
     const auto source = plexway::PointSource::at(v);
-    propagate(plexway::Serial{}, mesh, {&source, 1}, {}, workspace, field);
+    plexway::solve(plexway::Serial{}, mesh, {&source, 1}, {}, workspace, field);
   };
   const auto on_input = [&](bench::Index v) {
     const auto source = plexway::PointSource::at(v);
-    propagate(plexway::Serial{}, input, {&source, 1}, {}, input_workspace, input_field);
+    plexway::solve(plexway::Serial{}, input, {&source, 1}, {}, input_workspace, input_field);
   };
   const auto times = bench::take_turns(sources, effort, on_input, solve);
   row["ns_per_vertex"] = 1e9 * times.second / vertices;

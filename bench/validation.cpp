@@ -13,7 +13,7 @@
 #include <vector>
 
 #include <plexway/complex/intrinsic_delaunay.hpp>
-#include <plexway/executors/serial.hpp>
+#include <plexway/solve.hpp>
 
 #include "compare.hpp"
 
@@ -104,7 +104,7 @@ void measure(const bench::Surface& surface, const std::filesystem::path& folder,
     return [&policy, &work, &result,
             mesh = policy.automatic && other ? &*other : &input](bench::Index v) {
       const auto source = plexway::PointSource::at(v);
-      propagate(plexway::Serial{}, *mesh, {&source, 1}, policy.options, work, result);
+      plexway::solve(plexway::Serial{}, *mesh, {&source, 1}, policy.options, work, result);
     };
   };
   for (const Policy& policy : all) {

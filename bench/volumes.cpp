@@ -12,7 +12,7 @@
 #include <map>
 #include <string>
 
-#include <plexway/executors/serial_solid.hpp>
+#include <plexway/solve.hpp>
 #ifdef PLEXWAY_HAS_OPENVDB
 #include <plexway/openvdb/level_set.hpp>
 #include <plexway/openvdb/solid.hpp>
@@ -104,8 +104,8 @@ void compare(const char* name, const LevelSet& level_set, double share) {
                          surface.positions.begin());
   using plexway::PointSource;
   const auto mine =
-      plexway::propagate(plexway::Serial{}, own, PointSource::at(at[surface.positions[from]]));
-  const auto theirs = plexway::propagate(plexway::Serial{}, peer, PointSource::at(from));
+      plexway::solve(plexway::Serial{}, own, PointSource::at(at[surface.positions[from]]));
+  const auto theirs = plexway::solve(plexway::Serial{}, peer, PointSource::at(from));
   double sum = 0, most = 0;
   std::size_t count = 0;
   for (Index v = 0; v < surface.positions.size(); ++v) {

@@ -13,7 +13,7 @@
 #include <vector>
 
 #include <plexway/boost_graph/dijkstra.hpp>
-#include <plexway/executors/serial_wireframe.hpp>
+#include <plexway/solve.hpp>
 
 #include "../data/shapes.hpp"
 #include "compare.hpp"
@@ -99,7 +99,7 @@ nlohmann::ordered_json measure(const Wires& wires, const bench::Effort& effort) 
   const auto sources = bench::spread_numbers(effort.sources, wires.positions.size());
   const auto solve = [&](Index v) {
     const auto source = plexway::PointSource::at(v);
-    plexway::propagate(plexway::Serial{}, *wireframe, std::span(&source, 1), {}, workspace, field);
+    plexway::solve(plexway::Serial{}, *wireframe, std::span(&source, 1), {}, workspace, field);
   };
   const auto documented = bench::take_turns(
       sources, effort, [&](Index v) { dijkstra.run(v); }, solve);

@@ -5,7 +5,7 @@
 #include <string_view>
 
 #include <plexway/complex/kuhn_grid.hpp>
-#include <plexway/executors/serial_solid.hpp>
+#include <plexway/solve.hpp>
 
 // A character is half a metre; rows run along y. # is wall, S where the ceiling is open.
 constexpr std::string_view floors[2][18] = {
@@ -34,7 +34,7 @@ int main() {
   for (plexway::Index v = 0; v < grid.vertex_count(); ++v) points.push_back(grid.position(v));
   const plexway::TetMesh<double> air(points, grid.simplices(built));
   const auto field =
-      propagate(plexway::Serial{}, air, plexway::PointSource::at(grid.nearest({1, 1, 0})));
+      solve(plexway::Serial{}, air, plexway::PointSource::at(grid.nearest({1, 1, 0})));
 
   struct Goal {
     const char* name;

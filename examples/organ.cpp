@@ -8,8 +8,8 @@
 #include <string_view>
 
 #include <plexway/complex/kuhn_grid.hpp>
-#include <plexway/executors/serial_mixed.hpp>
 #include <plexway/io/field.hpp>
+#include <plexway/solve.hpp>
 
 #ifdef PLEXWAY_HAS_RENDER
 #include <plexway/render/picture.hpp>
@@ -64,8 +64,7 @@ int main(int argc, char** argv) {
   const auto vessels = body.add(
       plexway::Wireframe<double>(tree.points.size(), tree.edges, tree.seconds), tree.points);
   const std::size_t outlets = body.weld(vessels, organ, {.tolerance = .06});
-  const auto field =
-      propagate(plexway::Serial{}, body, plexway::PointSource::at(vessels.vertex(0)));
+  const auto field = solve(plexway::Serial{}, body, plexway::PointSource::at(vessels.vertex(0)));
 
   double last = 0;
   for (plexway::Index v = 0; v < tissue.size(); ++v)

@@ -9,8 +9,8 @@
 #include <plexway/apps/path_search.hpp>
 #include <plexway/complex/triangle_mesh.hpp>
 #include <plexway/error.hpp>
-#include <plexway/executors/serial.hpp>
 #include <plexway/io/paths.hpp>
+#include <plexway/solve.hpp>
 
 using namespace plexway;
 

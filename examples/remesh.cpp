@@ -30,8 +30,8 @@ int main(int argc, char** argv) {
   const auto darts = plexway::poisson_disks(plexway::Serial{}, torus, {.count = seeds});
   const auto cells =
       plexway::centroidal_voronoi(plexway::Serial{}, torus, darts.darts, {.max_iterations = 30});
-  const auto field = plexway::propagate(plexway::Serial{}, torus,
-                                        std::span<const plexway::PointSource>(cells.seeds));
+  const auto field =
+      plexway::solve(plexway::Serial{}, torus, std::span<const plexway::PointSource>(cells.seeds));
   const auto dual = plexway::dual_triangulation(faces, field.label, seeds);
 
   std::printf("%zu triangles became %zu; energy %.4f, then %.4f after %zu iterations\n",

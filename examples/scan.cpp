@@ -7,10 +7,10 @@
 #include <cstdlib>
 
 #include <plexway/error.hpp>
-#include <plexway/executors/serial_cloud.hpp>
 #include <plexway/flann/neighbours.hpp>
 #include <plexway/pcl/files.hpp>
 #include <plexway/pcl/filters.hpp>
+#include <plexway/solve.hpp>
 
 int main(int argc, char** argv) try {
   if (argc < 3) return std::puts("usage: scan IN.pcd OUT.pcd [VOXEL]"), 2;
@@ -21,8 +21,8 @@ int main(int argc, char** argv) try {
 
   const auto nearer = [](const auto& a, const auto& b) { return a[2] > b[2]; };  // z is up
   const auto nearest = std::min_element(points.begin(), points.end(), nearer) - points.begin();
-  const auto field = propagate(plexway::Serial{}, cloud,
-                               plexway::PointSource::at(static_cast<plexway::Index>(nearest)));
+  const auto field = solve(plexway::Serial{}, cloud,
+                           plexway::PointSource::at(static_cast<plexway::Index>(nearest)));
 
   double farthest = 0;
   for (const double d : field.distance)

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include <plexway/complex/kuhn_grid.hpp>
-#include <plexway/executors/serial_simplicial.hpp>
+#include <plexway/solve.hpp>
 
 // A wall across x from 1.75 to 2.25 m; the gate in it covers y < speed * t, over all z.
 constexpr double wall_from = 1.75, wall_to = 2.25, speed = 0.5;
@@ -45,7 +45,7 @@ int main() {
   const plexway::SimplicialComplex<double, 4> domain(events, 4, grid.simplices(in_gate));
   const auto at = [&](Event e) { return grid.nearest({e[0], e[1] - speed * e[3], e[2], e[3]}); };
   const Event start = {.25, .25, 0, 0};
-  const auto field = propagate(plexway::Serial{}, domain, plexway::PointSource::at(at(start)));
+  const auto field = plexway::solve(plexway::Serial{}, domain, plexway::PointSource::at(at(start)));
   std::printf("%zu 4-simplices, one solve.\n", domain.simplex_count());
   std::printf("arrival   if the gate were open   around the gate   exact\n");
   bool fits = true;

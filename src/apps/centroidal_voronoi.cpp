@@ -7,7 +7,7 @@
 #include <utility>
 
 #include <plexway/error.hpp>
-#include <plexway/executors/serial_cloud.hpp>
+#include <plexway/solve.hpp>
 
 #include "apps/cell_moments.hpp"
 #include "apps/cloud_points.hpp"
@@ -273,7 +273,7 @@ CentroidalVoronoi centroidal_voronoi(Serial executor, const PointCloud<Real>& cl
       centroidal_voronoi(executor, sheet, std::span<const PointSource>(result.seeds), stay);
   result.energy = there.energy;
   result.cell_content = there.cell_content;
-  const auto field = propagate(executor, cloud, std::span<const PointSource>(result.seeds));
+  const auto field = solve(executor, cloud, std::span<const PointSource>(result.seeds));
   result.label = field.label;
   if (result.label.empty())  // a single seed
     for (const Real d : field.distance)

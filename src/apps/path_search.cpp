@@ -8,9 +8,9 @@
 
 #include <plexway/apps/path_field.hpp>
 #include <plexway/error.hpp>
-#include <plexway/executors/serial.hpp>
 #include <plexway/propagate/saddle_rule.hpp>
 #include <plexway/propagate/wavefront.hpp>
+#include <plexway/solve.hpp>
 
 #include "apps/guided_queue.hpp"
 #include "apps/surface_trace.hpp"

@@ -9,7 +9,7 @@
 #include <plexway/complex/blocks.hpp>
 #include <plexway/complex/intrinsic_delaunay.hpp>
 #include <plexway/error.hpp>
-#include <plexway/executors/serial.hpp>
+#include <plexway/solve.hpp>
 
 namespace plexway {
 namespace {
@@ -156,7 +156,7 @@ std::vector<double> TuningSet::errors(const PropagateOptions& options) const {
     const TuningSurface::Truth& truth = s.surfaces[number].truths[t];
     // A source at a vertex needs no translation: vertices keep their numbers.
     const auto field =
-        propagate(Serial{}, *s.prepared[number].mesh, PointSource::at(truth.source), options);
+        solve(Serial{}, *s.prepared[number].mesh, PointSource::at(truth.source), options);
     errors[i] = field_error(truth.distance, field.distance);
   });
   return errors;

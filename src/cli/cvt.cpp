@@ -8,9 +8,8 @@
 #include <plexway/apps/centroidal_voronoi.hpp>
 #include <plexway/apps/poisson_disk.hpp>
 #include <plexway/error.hpp>
-#include <plexway/executors/serial_cloud.hpp>
-#include <plexway/executors/serial_solid.hpp>
 #include <plexway/io/field.hpp>
+#include <plexway/solve.hpp>
 
 #include "commands.hpp"
 #include "distance_output.hpp"
@@ -61,8 +60,7 @@ Result compute(const Complex& complex, const CvtCommand& command, ProgressLine& 
   result.voronoi = centroidal_voronoi(Serial{}, complex, start.darts, options);
   result.seconds = moving.seconds();
   if (command.cells.empty() && command.dual.empty() && !command.picture.wanted()) return result;
-  const auto field =
-      propagate(Serial{}, complex, std::span<const PointSource>(result.voronoi.seeds));
+  const auto field = solve(Serial{}, complex, std::span<const PointSource>(result.voronoi.seeds));
   result.distance.assign(field.distance.begin(), field.distance.end());
   result.label = field.label;
   if (result.label.empty()) {

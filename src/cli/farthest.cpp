@@ -53,7 +53,7 @@ void run_farthest(const FarthestCommand& command) {
     found = farthest_points(Serial{}, complex, start, options);
     seconds = searching.seconds();
     if (!command.picture.wanted()) return;
-    const auto field = propagate(Serial{}, complex, std::span<const PointSource>(found.points));
+    const auto field = solve(Serial{}, complex, std::span<const PointSource>(found.points));
     nearest.assign(field.distance.begin(), field.distance.end());
   });
   if (!command.out.empty())

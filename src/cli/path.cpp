@@ -15,10 +15,8 @@
 #include <plexway/apps/path_search.hpp>
 #include <plexway/complex/intrinsic_delaunay.hpp>
 #include <plexway/error.hpp>
-#include <plexway/executors/serial.hpp>
-#include <plexway/executors/serial_solid.hpp>
-#include <plexway/executors/serial_wireframe.hpp>
 #include <plexway/io/paths.hpp>
+#include <plexway/solve.hpp>
 
 #include "commands.hpp"
 #include "console.hpp"
@@ -83,7 +81,7 @@ DistanceField<Real> solve_on(const TriangleMesh<Real>& other, const IntrinsicDel
   std::vector<PointSource> there;
   for (const PointSource& source : sources) there.push_back(delaunay.to_intrinsic(source));
   DistanceField<Real> field =
-      propagate(Serial{}, other, std::span<const PointSource>(there), options);
+      plexway::solve(Serial{}, other, std::span<const PointSource>(there), options);
   field.distance.resize(vertices);
   field.label.resize(std::min(field.label.size(), vertices));
   return field;

@@ -77,7 +77,7 @@ class ShapeSolver final : public Solver {
         std::visit(
             [&](const auto& chosen) {
               if constexpr (!std::is_same_v<std::decay_t<decltype(chosen)>, GL>)
-                propagate(chosen, *input_, sources, options, workspace_, other);
+                plexway::solve(chosen, *input_, sources, options, workspace_, other);
             },
             executor);
         if (!other.distance.empty() && repairs(other) < repairs(field_)) {

@@ -39,7 +39,7 @@ class Solver {
   [[nodiscard]] virtual const CloudSummary* cloud() const { return nullptr; }
   /// Edges where paths are refracted.
   [[nodiscard]] virtual std::size_t refracting_edges() const { return 0; }
-  /// One propagation, read-out to vertices included. Throws as plexway::propagate.
+  /// One propagation, read-out to vertices included. Throws as plexway::solve.
   virtual void solve(const Executor& executor, std::span<const PointSource> sources,
                      const PropagateOptions& options) = 0;
   /// The same from sources of any kind.

@@ -8,8 +8,7 @@
 #include <variant>
 
 #include <plexway/apps/path_field.hpp>
-#include <plexway/executors/serial.hpp>
-#include <plexway/executors/serial_wireframe.hpp>
+#include <plexway/solve.hpp>
 
 namespace plexway::cli {
 namespace {

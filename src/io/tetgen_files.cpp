@@ -41,7 +41,7 @@ void to_item(TextScanner& scanner, std::string_view items, std::uint64_t i, std:
                  std::string(items));
 }
 
-/// Refuses a count that the bytes left cannot hold; an item of `fields` fields takes two bytes
+/// Refuses a count that the bytes left cannot hold; an item of `solve_each` fields takes two bytes
 /// for each, but for the last line's end.
 void require_room(TextScanner& scanner, std::string_view items, std::uint64_t count,
                   std::uint64_t fields) {

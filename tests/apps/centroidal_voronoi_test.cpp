@@ -117,7 +117,7 @@ TEST_CASE("the dual of cells on a sphere is a sphere of triangles") {
   const TriangleMesh<float> mesh(sphere.points, sphere.faces);
   const PoissonDisks start = poisson_disks(Serial{}, mesh, {.count = 100});
   const auto cells = centroidal_voronoi(Serial{}, mesh, start.darts, {.max_iterations = 10});
-  const auto field = propagate(Serial{}, mesh, std::span<const PointSource>(cells.seeds));
+  const auto field = solve(Serial{}, mesh, std::span<const PointSource>(cells.seeds));
   const DualTriangulation dual = dual_triangulation(sphere.faces, field.label, 100);
   CHECK(dual.manifold);
   CHECK(dual.triangles.size() == 2 * 100 - 4);  // Euler
@@ -134,7 +134,7 @@ TEST_CASE("where cells are too few the dual says so") {
   const samples::Shape sphere = samples::geodesic_sphere(10);
   const TriangleMesh<float> mesh(sphere.points, sphere.faces);
   const std::vector<PointSource> seeds = {PointSource::at(0), PointSource::at(7)};
-  const auto field = propagate(Serial{}, mesh, std::span<const PointSource>(seeds));
+  const auto field = solve(Serial{}, mesh, std::span<const PointSource>(seeds));
   const DualTriangulation dual = dual_triangulation(sphere.faces, field.label, 2);
   CHECK_FALSE(dual.manifold);
   CHECK(dual.irregular == std::vector<Index>{0, 1});

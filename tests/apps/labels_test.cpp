@@ -9,9 +9,8 @@
 #include <vector>
 
 #include <plexway/apps/path_field.hpp>
-#include <plexway/executors/field.hpp>
-#include <plexway/executors/serial.hpp>
 #include <plexway/io/triangles.hpp>
+#include <plexway/solve.hpp>
 
 #include "complex/test_meshes.hpp"
 #include "exact_data.hpp"
@@ -65,7 +64,7 @@ void check_labels(const std::string& name, const std::vector<Position>& position
     const auto sources = some_vertices(count, positions.size(), static_cast<unsigned>(count));
     PathField field(mesh);
     const auto& found = field.solve(Serial{}, sources);
-    const auto each = fields(Serial{}, mesh, sources);
+    const auto each = solve_each(Serial{}, mesh, sources);
     std::size_t same = 0, far = 0;
     for (std::size_t v = 0; v < positions.size(); ++v) {
       std::size_t best = 0;

@@ -9,9 +9,7 @@
 #include <vector>
 
 #include <plexway/apps/path_field.hpp>
-#include <plexway/executors/serial.hpp>
-#include <plexway/executors/serial_solid.hpp>
-#include <plexway/executors/serial_wireframe.hpp>
+#include <plexway/solve.hpp>
 
 #include "complex/test_meshes.hpp"
 

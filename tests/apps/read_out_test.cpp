@@ -6,8 +6,7 @@
 #include <vector>
 
 #include <plexway/apps/path_field.hpp>
-#include <plexway/executors/openmp.hpp>
-#include <plexway/executors/serial.hpp>
+#include <plexway/solve.hpp>
 
 #include "complex/cube_distance.hpp"
 #include "complex/test_meshes.hpp"

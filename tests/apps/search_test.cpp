@@ -181,8 +181,9 @@ TEMPLATE_TEST_CASE("a bounded search is the full solve, cut off", "", float, dou
       sources[0].offset = round % 3 ? 0 : 0.05;
       PropagateOptions options;
       options.radius = 0.1 + 0.3 * uniform(random);
-      const auto cut = propagate(Serial{}, mesh, std::span<const PointSource>(sources), options);
-      const auto full = propagate(Serial{}, mesh, std::span<const PointSource>(sources));
+      const auto cut =
+          plexway::solve(Serial{}, mesh, std::span<const PointSource>(sources), options);
+      const auto full = plexway::solve(Serial{}, mesh, std::span<const PointSource>(sources));
       const auto& found = search.find(Serial{}, sources, options, true);
       CAPTURE(k, round);
       CHECK(found.complete);

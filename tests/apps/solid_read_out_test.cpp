@@ -4,9 +4,7 @@
 #include <vector>
 
 #include <plexway/apps/path_field.hpp>
-#include <plexway/executors/openmp.hpp>
-#include <plexway/executors/serial_solid.hpp>
-#include <plexway/executors/serial_wireframe.hpp>
+#include <plexway/solve.hpp>
 
 #include "complex/test_solids.hpp"
 #include "complex/test_wires.hpp"

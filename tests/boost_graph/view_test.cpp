@@ -11,7 +11,7 @@
 #include <plexway/boost_graph/graph.hpp>
 #include <plexway/boost_graph/wireframe.hpp>
 #include <plexway/error.hpp>
-#include <plexway/executors/serial_wireframe.hpp>
+#include <plexway/solve.hpp>
 
 #include "complex/test_wires.hpp"
 
@@ -240,6 +240,6 @@ TEST_CASE("an edge graph refuses what is none, and a view is a graph to make a w
   const EdgeGraph graph(wires.vertices, wires.edges, wires.lengths);
   const auto back = boost_graph::make_wireframe<double>(GraphView(graph),
                                                         get(boost::edge_weight, GraphView(graph)));
-  const auto field = propagate(Serial{}, back, PointSource::at(0));
+  const auto field = solve(Serial{}, back, PointSource::at(0));
   check_close(field.distance, edge_distances(wires, 0), 1e-14);
 }

@@ -7,7 +7,7 @@
 #include <catch2/catch.hpp>
 
 #include <plexway/error.hpp>
-#include <plexway/executors/serial_wireframe.hpp>
+#include <plexway/solve.hpp>
 
 #include "complex/test_wires.hpp"
 
@@ -52,7 +52,7 @@ TEMPLATE_TEST_CASE("wireframes of fifty graphs: the distances of Boost's Dijkstr
     const auto w = make_wireframe<TestType>(graph, get(boost::edge_weight, graph));
     const Index source = 7 * seed % Index(wires.vertices);
     const auto exact = dijkstra(graph, source);
-    const auto field = propagate(Serial{}, w, PointSource::at(source));
+    const auto field = solve(Serial{}, w, PointSource::at(source));
     CAPTURE(seed);
     // More than asked: both take the least over paths of the same rounded sums.
     REQUIRE(field.distance == exact);
@@ -71,7 +71,7 @@ TEST_CASE("a directed graph's edges are taken both ways") {
   STATIC_REQUIRE(std::is_same_v<decltype(w), const Wireframe<float>>);
   CHECK(w.edge_count() == 4);
   CHECK(w.summary().components == 1);
-  const auto field = propagate(Serial{}, w, PointSource::at(0));
+  const auto field = solve(Serial{}, w, PointSource::at(0));
   const float inf = std::numeric_limits<float>::infinity();
   CHECK(field.distance == std::vector<float>{0, 4, 6, 7, inf});
 }
@@ -90,7 +90,7 @@ TEST_CASE("any vertices, with an index map, and lengths from a function") {
   };
   const auto w = make_wireframe<double>(graph, length, index);
   const double inf = std::numeric_limits<double>::infinity();
-  CHECK(propagate(Serial{}, w, PointSource::at(3)).distance == std::vector<double>{inf, 80, 50, 0});
+  CHECK(solve(Serial{}, w, PointSource::at(3)).distance == std::vector<double>{inf, 80, 50, 0});
 }
 
 TEST_CASE("a graph that is no wireframe is refused, and the edge is named") {

@@ -5,7 +5,7 @@
 #include <string>
 
 #include <plexway/error.hpp>
-#include <plexway/executors/serial_solid.hpp>
+#include <plexway/solve.hpp>
 
 #include "complex/test_solids.hpp"
 
@@ -108,7 +108,7 @@ TEST_CASE("a sliver that rounding has folded over refuses no solid") {
     s.tets = {{0, 1, 2, 4}, {1, 3, 2, 4}, {0, 1, 2, 3}, {0, 1, 3, 5}, {0, 3, 2, 5}};
     const auto mesh = s.mesh<double>();
     CHECK(mesh.summary().boundary_faces == 8);
-    const auto field = propagate(Serial{}, mesh, PointSource::at(4));
+    const auto field = solve(Serial{}, mesh, PointSource::at(4));
     CHECK(field.distance[5] == Approx(2));
   }
 }

@@ -4,7 +4,7 @@
 #include <cstdlib>
 #include <new>
 
-#include <plexway/executors/serial_wireframe.hpp>
+#include <plexway/solve.hpp>
 
 #include "complex/sampled_clouds.hpp"
 #include "complex/test_wires.hpp"
@@ -57,18 +57,18 @@ TEMPLATE_TEST_CASE("a second solve allocates nothing", "", float, double) {
         options.schedule = schedule;
         Workspace<TestType> workspace;
         DistanceField<TestType> field;
-        propagate(Serial{}, mesh, first, options, workspace, field);
+        plexway::solve(Serial{}, mesh, first, options, workspace, field);
         std::size_t before = allocations;
-        propagate(Serial{}, mesh, first, options, workspace, field);
+        plexway::solve(Serial{}, mesh, first, options, workspace, field);
         std::size_t spent = allocations - before;
         CAPTURE(name(options));
         CHECK(spent == 0);
-        propagate(Serial{}, mesh, several, options, workspace, field);
+        plexway::solve(Serial{}, mesh, several, options, workspace, field);
         if (schedule == Schedule::priority) continue;  // its heap may grow with the source
         before = allocations;
-        propagate(Serial{}, mesh, several, options, workspace, field);
-        propagate(Serial{}, mesh, second, options, workspace, field);
-        propagate(Serial{}, mesh, several, options, workspace, field);
+        plexway::solve(Serial{}, mesh, several, options, workspace, field);
+        plexway::solve(Serial{}, mesh, second, options, workspace, field);
+        plexway::solve(Serial{}, mesh, several, options, workspace, field);
         spent = allocations - before;
         // The list of labels comes back after a single source had none.
         CHECK(spent == 0);
@@ -86,17 +86,17 @@ TEMPLATE_TEST_CASE("a second solve of a wireframe allocates nothing", "", float,
     options.schedule = schedule;
     Workspace<TestType> workspace;
     DistanceField<TestType> field;
-    propagate(Serial{}, w, several, options, workspace, field);
+    plexway::solve(Serial{}, w, several, options, workspace, field);
     std::size_t before = allocations;
-    propagate(Serial{}, w, several, options, workspace, field);
+    plexway::solve(Serial{}, w, several, options, workspace, field);
     std::size_t spent = allocations - before;
     CAPTURE(name(options));
     CHECK(spent == 0);
     if (schedule == Schedule::priority) continue;  // its heap may grow with the source
     before = allocations;
-    propagate(Serial{}, w, first, options, workspace, field);
-    propagate(Serial{}, w, second, options, workspace, field);
-    propagate(Serial{}, w, several, options, workspace, field);
+    plexway::solve(Serial{}, w, first, options, workspace, field);
+    plexway::solve(Serial{}, w, second, options, workspace, field);
+    plexway::solve(Serial{}, w, several, options, workspace, field);
     spent = allocations - before;
     CHECK(spent == 0);
   }
@@ -111,9 +111,9 @@ TEMPLATE_TEST_CASE("a second solve of a simplicial domain allocates nothing", ""
   const PointSource several[] = {PointSource::at(3), PointSource::at(60), PointSource::at(624)};
   for (int round = 0; round < 2; ++round) {
     const std::size_t before = allocations;
-    propagate(Serial{}, domain, several, {}, workspace, field);
-    propagate(Serial{}, domain, one, {}, workspace, field);
-    propagate(Serial{}, domain, several, {}, workspace, field);
+    plexway::solve(Serial{}, domain, several, {}, workspace, field);
+    plexway::solve(Serial{}, domain, one, {}, workspace, field);
+    plexway::solve(Serial{}, domain, several, {}, workspace, field);
     const std::size_t spent = allocations - before;
     if (round == 1) CHECK(spent == 0);
   }
@@ -129,10 +129,10 @@ TEMPLATE_TEST_CASE("solids: a second solve allocates nothing", "", float, double
       options.visibility = visibility;
       Workspace<TestType> workspace;
       DistanceField<TestType> field;
-      propagate(Serial{}, mesh, first, options, workspace, field);
+      plexway::solve(Serial{}, mesh, first, options, workspace, field);
       const std::size_t before = allocations;
-      propagate(Serial{}, mesh, second, options, workspace, field);
-      propagate(Serial{}, mesh, first, options, workspace, field);
+      plexway::solve(Serial{}, mesh, second, options, workspace, field);
+      plexway::solve(Serial{}, mesh, first, options, workspace, field);
       const std::size_t spent = allocations - before;
       CHECK(spent == 0);
     }

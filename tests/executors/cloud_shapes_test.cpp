@@ -7,7 +7,7 @@
 #include <vector>
 
 #include <plexway/complex/point_cloud.hpp>
-#include <plexway/executors/serial_cloud.hpp>
+#include <plexway/solve.hpp>
 
 #include "complex/cube_distance.hpp"
 #include "complex/test_clouds.hpp"
@@ -30,7 +30,7 @@ Errors errors_of(const PointCloud<double>& cloud, std::size_t points, const Dist
                  std::initializer_list<Index> sources) {
   Errors errors;
   for (const Index source : sources) {
-    const auto found = plexway::propagate(Serial{}, cloud, PointSource::at(source)).distance;
+    const auto found = plexway::solve(Serial{}, cloud, PointSource::at(source)).distance;
     for (std::size_t v = 0; v < points; ++v) {
       const double wanted = exact(source, v);
       errors.unreached += !std::isfinite(found[v]);
@@ -141,7 +141,7 @@ TEST_CASE("one point far from all others takes nothing from them") {
   points.push_back({1e9, 0, 0});
   const PointCloud<double> cloud(points, test_clouds::near_pairs(points));
   CHECK(cloud.summary().near_duplicates == 0);
-  const auto found = plexway::propagate(Serial{}, cloud, PointSource::at(0)).distance;
+  const auto found = plexway::solve(Serial{}, cloud, PointSource::at(0)).distance;
   for (std::size_t v = 0; v + 1 < points.size(); ++v)
     CHECK(found[v] == Approx(samples::between(points[0], points[v])).epsilon(1e-6));
   CHECK(found.back() == Approx(1e9));

@@ -6,8 +6,8 @@
 #include <string>
 
 #include <plexway/complex/intrinsic_delaunay.hpp>
-#include <plexway/executors/serial.hpp>
 #include <plexway/io/triangles.hpp>
+#include <plexway/solve.hpp>
 
 #include "complex/triangulation_testing.hpp"
 #include "exact_data.hpp"
@@ -20,7 +20,7 @@ namespace {
 template <class Real>
 double worst_in_plane(const Surface& s, const TriangleMesh<Real>& mesh, const PointSource& source,
                       const Position& at) {
-  const auto field = propagate(Serial{}, mesh, source);
+  const auto field = solve(Serial{}, mesh, source);
   double worst = 0;
   for (std::size_t v = 0; v < s.positions.size(); ++v) {
     const double exact = std::hypot(s.positions[v][0] - at[0], s.positions[v][1] - at[1]);
@@ -42,8 +42,7 @@ Measured measure(const std::string& name, bool flip) {
   Measured result;
   std::size_t count = 0;
   for (const ExactAnswer& answer : exact_answers(path)) {
-    const auto field =
-        propagate(Serial{}, mesh, PointSource::at(static_cast<Index>(answer.source)));
+    const auto field = solve(Serial{}, mesh, PointSource::at(static_cast<Index>(answer.source)));
     for (std::size_t v = 0; v < answer.distance.size(); ++v) {
       const double exact = answer.distance[v];
       if (!(exact > 0) || !std::isfinite(exact)) continue;
@@ -88,10 +87,10 @@ TEST_CASE("distances on two copies of a triangle glued along their edges") {
   // Symmetric in its two sides: the way from corner to corner is the edge.
   const IntrinsicDelaunay delaunay(double_cover(std::sqrt(3.0), 1, 1));
   const auto mesh = delaunay.mesh<double>();
-  const auto from_tip = propagate(Serial{}, mesh, PointSource::at(0));
+  const auto from_tip = solve(Serial{}, mesh, PointSource::at(0));
   CHECK(from_tip.distance[1] == Approx(std::sqrt(3.0)).epsilon(1e-12));
   CHECK(from_tip.distance[2] == Approx(1).epsilon(1e-12));
-  const auto from_top = propagate(Serial{}, mesh, PointSource::at(2));
+  const auto from_top = solve(Serial{}, mesh, PointSource::at(2));
   CHECK(from_top.distance[0] == Approx(1).epsilon(1e-12));
   CHECK(from_top.distance[1] == Approx(1).epsilon(1e-12));
 }

@@ -3,7 +3,7 @@
 #include <cstring>
 
 #include <plexway/error.hpp>
-#include <plexway/executors/field.hpp>
+#include <plexway/solve.hpp>
 
 #include "complex/test_wires.hpp"
 #include "executors/parity.hpp"
@@ -15,13 +15,14 @@ using namespace plexway::testing;
 
 namespace {
 
-// Row k is what `propagate` finds from source k, by one thread or by several.
+// Row k is what `solve` finds from source k, by one thread or by several.
 template <class Domain>
 void check_rows(const Domain& domain, std::size_t count) {
   using Real = RealOf<Domain>;
   const auto sources = random_sources(domain, count, 11);
-  const auto alone = fields(Serial{}, domain, std::span<const PointSource>(sources));
-  const auto shared = fields(OpenMP{.threads = 3}, domain, std::span<const PointSource>(sources));
+  const auto alone = solve_each(Serial{}, domain, std::span<const PointSource>(sources));
+  const auto shared =
+      solve_each(OpenMP{.threads = 3}, domain, std::span<const PointSource>(sources));
   REQUIRE(alone.rows() == count);
   REQUIRE(alone.columns() == domain.vertex_count());
   REQUIRE(alone.values().size() == shared.values().size());
@@ -30,7 +31,7 @@ void check_rows(const Domain& domain, std::size_t count) {
   CHECK(alone.complete);
   CHECK(shared.complete);
   for (std::size_t k = 0; k < count; ++k) {
-    const DistanceField<Real> one = propagate(Serial{}, domain, sources[k]);
+    const DistanceField<Real> one = solve(Serial{}, domain, sources[k]);
     CHECK(std::equal(one.distance.begin(), one.distance.end(), shared.row(k).begin()));
     CHECK(shared.row(k).data() == shared.values().data() + k * shared.columns());
   }
@@ -58,9 +59,9 @@ TEST_CASE("field is the distance from the nearest source, fields those from each
   const auto compare_with_least = [](const auto& domain, double tolerance) {
     const auto sources = random_sources(domain, 6, 5);
     const std::span<const PointSource> all(sources);
-    const auto rows = fields(OpenMP{.threads = 2}, domain, all);
+    const auto rows = solve_each(OpenMP{.threads = 2}, domain, all);
     for (const auto& nearest :
-         {field(Serial{}, domain, all), field(team(2), domain, all), field(team(8), domain, all)}) {
+         {solve(Serial{}, domain, all), solve(team(2), domain, all), solve(team(8), domain, all)}) {
       double worst = 0;
       bool labels = true;
       for (std::size_t v = 0; v < nearest.distance.size(); ++v) {
@@ -90,13 +91,13 @@ TEST_CASE("fields takes every option that Serial takes", "[threads]") {
   PropagateOptions options;
   options.schedule = Schedule::priority;
   options.radius = 0.4;
-  const auto rows = fields(OpenMP{.threads = 2}, mesh, all, options);
-  const auto one = propagate(Serial{}, mesh, sources[4], options);
+  const auto rows = solve_each(OpenMP{.threads = 2}, mesh, all, options);
+  const auto one = solve(Serial{}, mesh, sources[4], options);
   CHECK(std::equal(one.distance.begin(), one.distance.end(), rows.row(4).begin()));
   options.max_expansions = 10;
-  CHECK(!fields(OpenMP{.threads = 2}, mesh, all, options).complete);
-  CHECK(!fields(Serial{}, mesh, all, options).complete);
-  CHECK(fields(OpenMP{}, mesh, std::span<const PointSource>{}).rows() == 0);
+  CHECK(!solve_each(OpenMP{.threads = 2}, mesh, all, options).complete);
+  CHECK(!solve_each(Serial{}, mesh, all, options).complete);
+  CHECK(solve_each(OpenMP{}, mesh, std::span<const PointSource>{}).rows() == 0);
 }
 
 TEST_CASE("fields passes exceptions on", "[threads]") {
@@ -105,10 +106,10 @@ TEST_CASE("fields passes exceptions on", "[threads]") {
   PropagateOptions options;
   options.progress = [](const Progress&) { return false; };
   CHECK_THROWS_AS(
-      fields(OpenMP{.threads = 1}, mesh, std::span<const PointSource>(sources), options),
+      solve_each(OpenMP{.threads = 1}, mesh, std::span<const PointSource>(sources), options),
       Cancelled);
   sources[5] = PointSource::at(1u << 30);
-  CHECK_THROWS_AS(fields(OpenMP{.threads = 4}, mesh, std::span<const PointSource>(sources)),
+  CHECK_THROWS_AS(solve_each(OpenMP{.threads = 4}, mesh, std::span<const PointSource>(sources)),
                   UsageError);
-  CHECK_THROWS_AS(fields(Serial{}, mesh, std::span<const PointSource>(sources)), UsageError);
+  CHECK_THROWS_AS(solve_each(Serial{}, mesh, std::span<const PointSource>(sources)), UsageError);
 }

@@ -26,16 +26,16 @@ TEMPLATE_TEST_CASE("a team agrees with one thread where the step is exact", "", 
   unsigned seed = 0;
   const auto check = [&](const auto& domain, std::size_t count) {
     const auto sources = random_sources(domain, count, ++seed);
-    const auto alone = propagate(Serial{}, domain, sources);
+    const auto alone = solve(Serial{}, domain, sources);
     for (const int threads : {1, 2, 8}) {
-      const auto field = propagate(team(threads), domain, sources);
+      const auto field = solve(team(threads), domain, sources);
       const Parity p = parity(alone, field);
       INFO("domain " << seed << ", " << threads << " threads");
       CHECK(p.worst < tolerance);
       CHECK(p.reached_by_one == 0);
       if (p.other_label == 0) continue;
       // Labels differ at ties only: both sources are as near.
-      const auto rows = fields(Serial{}, domain, std::span<const PointSource>(sources));
+      const auto rows = solve_each(Serial{}, domain, std::span<const PointSource>(sources));
       for (std::size_t v = 0; v < field.label.size(); ++v) {
         if (field.label[v] == alone.label[v]) continue;
         const double a = static_cast<double>(rows.row(field.label[v])[v]);
@@ -71,13 +71,12 @@ struct Tally {
   template <class Domain>
   void add(const Domain& domain, const std::vector<PointSource>& sources) {
     PropagateOptions options;
-    const auto alone = propagate(Serial{}, domain, sources, options);
-    team += parity(alone, propagate(testing::team(2), domain, sources, options)).mean;
+    const auto alone = solve(Serial{}, domain, sources, options);
+    team += parity(alone, solve(testing::team(2), domain, sources, options)).mean;
     double largest = 0;
     for (const Schedule schedule : {Schedule::priority, Schedule::fifo}) {
       options.schedule = schedule;
-      largest =
-          std::max(largest, parity(alone, propagate(Serial{}, domain, sources, options)).mean);
+      largest = std::max(largest, parity(alone, solve(Serial{}, domain, sources, options)).mean);
     }
     schedules += largest;
     ++count;
@@ -113,8 +112,8 @@ TEST_CASE("a team is as accurate as one thread on a sphere") {
     return 2 *
            std::asin(std::min(std::hypot(p[0] - from[0], p[1] - from[1], p[2] - from[2]) / 2, 1.));
   });
-  const Errors alone = compare(propagate(Serial{}, mesh, PointSource::at(0)).distance, exact);
-  const Errors several = compare(propagate(team(8), mesh, PointSource::at(0)).distance, exact);
+  const Errors alone = compare(solve(Serial{}, mesh, PointSource::at(0)).distance, exact);
+  const Errors several = compare(solve(team(8), mesh, PointSource::at(0)).distance, exact);
   CHECK(several.fits);
   CHECK(several.mean < 1.1 * alone.mean);
   CHECK(several.max < 1.25 * alone.max);
@@ -134,15 +133,15 @@ TEST_CASE("a team is as accurate as one thread on real surfaces") {
         exact_values(exact_file("surfaces", name + (".v" + std::to_string(source)) + ".txt"));
     const TriangleMesh<float> mesh(read.positions, read.triangles);
     const auto from = PointSource::at(static_cast<Index>(source));
-    const Errors alone = compare(propagate(Serial{}, mesh, from).distance, exact);
-    const Errors several = compare(propagate(OpenMP{.threads = 2}, mesh, from).distance, exact);
+    const Errors alone = compare(solve(Serial{}, mesh, from).distance, exact);
+    const Errors several = compare(solve(OpenMP{.threads = 2}, mesh, from).distance, exact);
     // On one mesh any order of one thread's is as good: those of beetle_car give .7 to 2.1e-3.
     double poorest = alone.mean;
     PropagateOptions options;
     for (const double step : {0.25, 0.5, 2.}) {
       options.step = step;
       poorest =
-          std::max(poorest, compare(propagate(Serial{}, mesh, from, options).distance, exact).mean);
+          std::max(poorest, compare(solve(Serial{}, mesh, from, options).distance, exact).mean);
     }
     INFO(name << " " << source << ": " << alone.mean << " to " << poorest << ", team "
               << several.mean);

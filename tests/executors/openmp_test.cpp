@@ -4,7 +4,7 @@
 #include <type_traits>
 
 #include <plexway/error.hpp>
-#include <plexway/executors/openmp.hpp>
+#include <plexway/solve.hpp>
 
 #include "complex/test_wires.hpp"
 #include "executors/parity.hpp"
@@ -24,13 +24,13 @@ void check_same_bits(const Domain& domain, const PropagateOptions& options, unsi
   DistanceField<RealOf<Domain>> first, field;
   for (const std::size_t count : {1u, 6u}) {
     const auto sources = random_sources(domain, count, seed);
-    propagate(team(1), domain, sources, options, workspace, first);
+    solve(team(1), domain, sources, options, workspace, first);
     for (const OpenMP& executor : {team(2), team(8), OpenMP{2, 1}, OpenMP{3, 1000}}) {
-      propagate(executor, domain, sources, options, workspace, field);
+      solve(executor, domain, sources, options, workspace, field);
       CHECK(same_bits(first, field));
     }
-    propagate(Serial{}, domain, sources, options, workspace, field);
-    propagate(team(2), domain, sources, options, workspace, field);
+    solve(Serial{}, domain, sources, options, workspace, field);
+    solve(team(2), domain, sources, options, workspace, field);
     CHECK(same_bits(first, field));
   }
 }
@@ -97,10 +97,10 @@ TEST_CASE("200 solves on eight threads are one", "[threads]") {
   const auto sources = random_sources(mesh, 5, 1);
   Workspace<float> workspace;
   DistanceField<float> first, field;
-  propagate(team(8), mesh, sources, {}, workspace, first);
+  solve(team(8), mesh, sources, {}, workspace, first);
   std::size_t others = 0;
   for (int i = 0; i < 200; ++i) {
-    propagate(team(8), mesh, sources, {}, workspace, field);
+    solve(team(8), mesh, sources, {}, workspace, field);
     others += !same_bits(first, field);
   }
   CHECK(others == 0);
@@ -111,7 +111,7 @@ TEST_CASE("queues grow when every vertex is a source", "[threads]") {
   std::vector<PointSource> sources;
   for (Index v = 0; v < mesh.vertex_count(); ++v) sources.push_back(PointSource::at(v));
   for (const int threads : {1, 8}) {
-    const auto field = propagate(team(threads), mesh, sources);
+    const auto field = solve(team(threads), mesh, sources);
     bool own = true;
     for (Index v = 0; v < mesh.vertex_count(); ++v)
       own = own && field.distance[v] == 0 && field.label[v] == v;
@@ -121,8 +121,8 @@ TEST_CASE("queues grow when every vertex is a source", "[threads]") {
   std::mt19937 random(3);
   for (PointSource& s : sources) s.offset = 100 * uniform(random);
   sources[7].offset = 0;
-  const auto field = propagate(team(8), mesh, sources);
-  CHECK(parity(propagate(Serial{}, mesh, sources), field).worst < 1.5e-6);
+  const auto field = solve(team(8), mesh, sources);
+  CHECK(parity(solve(Serial{}, mesh, sources), field).worst < 1.5e-6);
 }
 
 TEST_CASE("a team keeps radius, offsets and sources inside triangles", "[threads]") {
@@ -132,8 +132,8 @@ TEST_CASE("a team keeps radius, offsets and sources inside triangles", "[threads
   options.radius = 0.3;
   const PointSource sources[] = {
       {.vertex = 100, .offset = 0.05}, PointSource::in(700, {.2, .3, .5}), PointSource::at(900)};
-  const auto alone = propagate(Serial{}, mesh, sources, options);
-  const auto field = propagate(team(4), mesh, sources, options);
+  const auto alone = solve(Serial{}, mesh, sources, options);
+  const auto field = solve(team(4), mesh, sources, options);
   CHECK(field.distance[100] == 0.05);
   const Parity p = parity(alone, field);
   CHECK(p.reached_by_one == 0);
@@ -148,11 +148,11 @@ TEST_CASE("a team keeps radius, offsets and sources inside triangles", "[threads
 TEST_CASE("a team stops where it is told", "[threads]") {
   const auto mesh = grid(60, 60).mesh<float>();
   PropagateOptions options;
-  const auto whole = propagate(team(4), mesh, PointSource::at(0), options);
+  const auto whole = solve(team(4), mesh, PointSource::at(0), options);
   CHECK(whole.complete);
   for (const std::size_t most : {0u, 1u, 100u, 3000u}) {
     options.max_expansions = most;
-    const auto field = propagate(team(4), mesh, PointSource::at(0), options);
+    const auto field = solve(team(4), mesh, PointSource::at(0), options);
     CHECK(!field.complete);
     CHECK(field.statistics.expansions == most);
     CHECK(field.distance[0] == 0);
@@ -162,7 +162,7 @@ TEST_CASE("a team stops where it is told", "[threads]") {
     CHECK(no_less);
   }
   options.max_expansions = whole.statistics.expansions;
-  CHECK(same_bits(whole, propagate(team(4), mesh, PointSource::at(0), options)));
+  CHECK(same_bits(whole, solve(team(4), mesh, PointSource::at(0), options)));
 }
 
 TEST_CASE("a team reports to the calling thread and can be cancelled", "[threads]") {
@@ -178,7 +178,7 @@ TEST_CASE("a team reports to the calling thread and can be cancelled", "[threads
     last = p.expansions;
     return true;
   };
-  const auto whole = propagate(team(4), mesh, PointSource::at(0), options);
+  const auto whole = solve(team(4), mesh, PointSource::at(0), options);
   CHECK(calls >= 1);
   CHECK(in_order);
 
@@ -186,12 +186,12 @@ TEST_CASE("a team reports to the calling thread and can be cancelled", "[threads
   DistanceField<float> field;
   const PointSource source[] = {PointSource::at(0)};
   options.progress = [](const Progress&) { return false; };
-  CHECK_THROWS_AS(propagate(team(4), mesh, source, options, workspace, field), Cancelled);
+  CHECK_THROWS_AS(solve(team(4), mesh, source, options, workspace, field), Cancelled);
   struct Own {};
   options.progress = [](const Progress&) -> bool { throw Own{}; };
-  CHECK_THROWS_AS(propagate(team(4), mesh, source, options, workspace, field), Own);
+  CHECK_THROWS_AS(solve(team(4), mesh, source, options, workspace, field), Own);
   options.progress = nullptr;
-  propagate(team(4), mesh, source, options, workspace, field);
+  solve(team(4), mesh, source, options, workspace, field);
   CHECK(same_bits(whole, field));
 }
 
@@ -201,7 +201,7 @@ TEST_CASE("a team refuses what needs order, and settings that make no sense", "[
   options.schedule = Schedule::priority;
   const auto refused = [&](const OpenMP& executor, const auto& domain,
                            const PropagateOptions& with = {}) {
-    CHECK_THROWS_AS(propagate(executor, domain, PointSource::at(0), with), UsageError);
+    CHECK_THROWS_AS(solve(executor, domain, PointSource::at(0), with), UsageError);
   };
   refused({}, mesh, options);
   refused({}, solid_cube(1).mesh<float>(), options);
@@ -213,8 +213,8 @@ TEST_CASE("a team refuses what needs order, and settings that make no sense", "[
   options = {};
   options.visibility = Visibility::tuned;
   refused({}, solid_cube(1).mesh<float>(), options);
-  CHECK_THROWS_AS(propagate(OpenMP{}, mesh, PointSource::at(99)), UsageError);
-  CHECK_THROWS_AS(propagate(OpenMP{}, mesh, std::span<const PointSource>{}), UsageError);
+  CHECK_THROWS_AS(solve(OpenMP{}, mesh, PointSource::at(99)), UsageError);
+  CHECK_THROWS_AS(solve(OpenMP{}, mesh, std::span<const PointSource>{}), UsageError);
 }
 
 TEST_CASE("nearest first is a schedule", "[threads]") {

@@ -7,7 +7,7 @@
 #include <random>
 #include <vector>
 
-#include <plexway/executors/field.hpp>
+#include <plexway/solve.hpp>
 
 #include "complex/test_meshes.hpp"
 

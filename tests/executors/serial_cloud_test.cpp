@@ -1,4 +1,4 @@
-#include <plexway/executors/serial_cloud.hpp>
+#include <plexway/solve.hpp>
 
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -42,13 +42,13 @@ Errors errors_of(const samples::Cloud& cloud, const std::vector<Real>& found, st
 template <class Real>
 Errors solve(const samples::Cloud& cloud, const CloudOptions& options = {}) {
   const PointCloud<Real> domain(cloud.points, test_clouds::near_pairs(cloud.points), options);
-  return errors_of(cloud, plexway::propagate(Serial{}, domain, PointSource::at(0)).distance, 0);
+  return errors_of(cloud, plexway::solve(Serial{}, domain, PointSource::at(0)).distance, 0);
 }
 
 template <class Real = double>
 std::vector<Real> distances(const Points& points, std::size_t k = 16, Index source = 0) {
   const PointCloud<Real> cloud(points, test_clouds::near_pairs(points, k));
-  return plexway::propagate(Serial{}, cloud, PointSource::at(source)).distance;
+  return plexway::solve(Serial{}, cloud, PointSource::at(source)).distance;
 }
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -115,7 +115,7 @@ TEST_CASE("a folded cloud is walked along, not across") {
         CHECK(hairpin.distance(a, b) <
               1.5 * samples::between(hairpin.points[a], hairpin.points[b]));
       }
-    const auto d = plexway::propagate(Serial{}, domain, PointSource::at(0)).distance;
+    const auto d = plexway::solve(Serial{}, domain, PointSource::at(0)).distance;
     const Errors errors = errors_of(hairpin, d, 0);
     CHECK(errors.unreached == 0);
     for (std::size_t i = 0; i < d.size(); ++i) CHECK(d[i] > 0.9 * hairpin.distance(0, i) - 1e-9);
@@ -138,8 +138,8 @@ TEST_CASE("duplicates get one distance, as sources too") {
   Points points = cloud.points;
   for (std::size_t i = 0; i < 100; ++i) points.push_back(points[i]);
   const PointCloud<double> domain(points, test_clouds::near_pairs(points));
-  const auto from_first = plexway::propagate(Serial{}, domain, PointSource::at(5));
-  const auto from_twin = plexway::propagate(Serial{}, domain, PointSource::at(805));
+  const auto from_first = plexway::solve(Serial{}, domain, PointSource::at(5));
+  const auto from_twin = plexway::solve(Serial{}, domain, PointSource::at(805));
   REQUIRE(from_first.distance.size() == 900);
   CHECK(from_first.distance == from_twin.distance);
   CHECK(from_first.distance[805] == 0);
@@ -147,7 +147,7 @@ TEST_CASE("duplicates get one distance, as sources too") {
     CHECK(from_first.distance[800 + i] == from_first.distance[i]);
 
   const std::vector<PointSource> sources = {PointSource::at(807), PointSource::at(400)};
-  const auto both = plexway::propagate(Serial{}, domain, sources);
+  const auto both = plexway::solve(Serial{}, domain, sources);
   REQUIRE(both.label.size() == 900);
   CHECK(both.label[7] == 0);
   CHECK(both.label[807] == 0);
@@ -205,7 +205,7 @@ TEST_CASE("a cloud that fills space still gives finite distances no shorter than
   Points points(700);
   for (auto& p : points) p = {u(), u(), u()};
   const PointCloud<double> cloud(points, test_clouds::near_pairs(points));
-  const auto d = plexway::propagate(Serial{}, cloud, PointSource::at(0)).distance;
+  const auto d = plexway::solve(Serial{}, cloud, PointSource::at(0)).distance;
   std::size_t reached = 0;
   for (std::size_t i = 0; i < d.size(); ++i) {
     CHECK(!std::isnan(d[i]));
@@ -224,7 +224,7 @@ TEST_CASE("every point of a connected cloud is reached") {
   }
   const PointCloud<double> cloud(points, test_clouds::near_pairs(points));
   CHECK(cloud.summary().components == 1);
-  const auto d = plexway::propagate(Serial{}, cloud, PointSource::at(0)).distance;
+  const auto d = plexway::solve(Serial{}, cloud, PointSource::at(0)).distance;
   for (std::size_t i = 0; i < d.size(); ++i) {
     CHECK(std::isfinite(d[i]));
     CHECK(d[i] >= samples::between(points[0], points[i]) * (1 - 2e-2));
@@ -252,7 +252,7 @@ TEST_CASE("clouds joined by a single pair are reached over it") {
   const PointCloud<double> cloud(points, joined);
   CHECK(cloud.summary().components == 1);
   CHECK(cloud.summary().bridges == 1);
-  const auto d = plexway::propagate(Serial{}, cloud, PointSource::at(0)).distance;
+  const auto d = plexway::solve(Serial{}, cloud, PointSource::at(0)).distance;
   for (std::size_t i = 300; i < 600; ++i) {
     const double exact =
         samples::between(points[0], points[1]) + 1 + samples::between(points[301], points[i]);
@@ -311,11 +311,11 @@ TEST_CASE("a second solve on a cloud gives the same bits, and float agrees with 
   plexway::Workspace<float> workspace;
   plexway::DistanceField<float> field;
   const PointSource source = PointSource::at(77);
-  plexway::propagate(Serial{}, domain, std::span(&source, 1), {}, workspace, field);
+  plexway::solve(Serial{}, domain, std::span(&source, 1), {}, workspace, field);
   const auto first = field.distance;
-  plexway::propagate(Serial{}, domain, std::span(&source, 1), {}, workspace, field);
+  plexway::solve(Serial{}, domain, std::span(&source, 1), {}, workspace, field);
   CHECK(field.distance == first);
-  const auto exact = plexway::propagate(Serial{}, PointCloud<double>(cloud.points, near), source);
+  const auto exact = plexway::solve(Serial{}, PointCloud<double>(cloud.points, near), source);
   for (std::size_t i = 0; i < first.size(); ++i)
     CHECK(double(first[i]) == Approx(exact.distance[i]).epsilon(2e-3));
 }
@@ -323,13 +323,13 @@ TEST_CASE("a second solve on a cloud gives the same bits, and float agrees with 
 TEST_CASE("radius and sources on clouds are as on surfaces") {
   const auto cloud = samples::plane_cloud(1500);
   const PointCloud<double> domain(cloud.points, test_clouds::near_pairs(cloud.points));
-  const auto near = plexway::propagate(Serial{}, domain, PointSource::at(0), {.radius = 0.2});
+  const auto near = plexway::solve(Serial{}, domain, PointSource::at(0), {.radius = 0.2});
   for (std::size_t i = 0; i < cloud.points.size(); ++i) {
     const double exact = cloud.distance(0, i);
     if (exact < 0.19) CHECK(near.distance[i] == Approx(exact).epsilon(0.02));
     if (exact > 0.4) CHECK(near.distance[i] == infinity);
   }
-  CHECK_THROWS_AS(plexway::propagate(Serial{}, domain, PointSource::at(1500)), plexway::UsageError);
-  CHECK_THROWS_AS(plexway::propagate(Serial{}, domain, PointSource::in(0, {1.0, 0.0, 0.0})),
+  CHECK_THROWS_AS(plexway::solve(Serial{}, domain, PointSource::at(1500)), plexway::UsageError);
+  CHECK_THROWS_AS(plexway::solve(Serial{}, domain, PointSource::in(0, {1.0, 0.0, 0.0})),
                   plexway::UsageError);
 }

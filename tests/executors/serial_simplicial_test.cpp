@@ -12,7 +12,7 @@ namespace {
 template <class Domain>
 void refused(const Domain& domain, const PointSource& source,
              const PropagateOptions& options = {}) {
-  CHECK_THROWS_AS(propagate(Serial{}, domain, source, options), UsageError);
+  CHECK_THROWS_AS(plexway::solve(Serial{}, domain, source, options), UsageError);
 }
 
 /// Simplices thrown together, with lengths that mostly fit no flat simplex.
@@ -42,7 +42,7 @@ void check_end(unsigned seed) {
   for (const Schedule schedule : schedules) {
     PropagateOptions options;
     options.schedule = schedule;
-    const auto field = propagate(Serial{}, domain, PointSource::at(0), options);
+    const auto field = plexway::solve(Serial{}, domain, PointSource::at(0), options);
     CAPTURE(N, seed, name(options), field.statistics.updates);
     CHECK(field.complete);
     CHECK(field.statistics.updates < 400000);
@@ -60,7 +60,7 @@ TEMPLATE_TEST_CASE("simplicial sources and options that make no sense are refuse
   const auto flat = cube_grid<2>(2).complex<TestType>();
   const auto four = cube_grid<4>(1).complex<TestType>();
   const double nothing = std::numeric_limits<double>::quiet_NaN();
-  CHECK_THROWS_AS(propagate(Serial{}, solid, std::span<const PointSource>{}), UsageError);
+  CHECK_THROWS_AS(plexway::solve(Serial{}, solid, std::span<const PointSource>{}), UsageError);
   refused(solid, {});
   refused(solid, PointSource::at(27));
   refused(solid, PointSource::in(48, {.25, .25, .25, .25}));
@@ -69,7 +69,7 @@ TEMPLATE_TEST_CASE("simplicial sources and options that make no sense are refuse
   refused(solid, PointSource::in(0, {nothing, .5, .5, 0.}));
   refused(flat, PointSource::in(0, {.25, .25, .25, .25}));
   refused(four, PointSource::in(0, {.25, .25, .25, .25}));
-  CHECK_THROWS_WITH(propagate(Serial{}, four, PointSource::in(0, {1., 0., 0., 0.})),
+  CHECK_THROWS_WITH(plexway::solve(Serial{}, four, PointSource::in(0, {1., 0., 0., 0.})),
                     Catch::Matchers::Contains("vertex"));
   for (const double offset : {-1e-9, nothing}) refused(solid, {.vertex = 0, .offset = offset});
   refused(solid, PointSource::at(0), {.step = 0});
@@ -81,7 +81,7 @@ TEMPLATE_TEST_CASE("a 4-cube within a radius", "", float, double) {
   const auto domain = grid.complex<TestType>();
   const auto exact = straight(grid, 0);
   for (const double radius : {0., .3, .8, 3.}) {
-    const auto field = propagate(Serial{}, domain, PointSource::at(0), {.radius = radius});
+    const auto field = plexway::solve(Serial{}, domain, PointSource::at(0), {.radius = radius});
     bool right = field.distance[0] == 0;
     for (std::size_t v = 0; v < exact.size(); ++v) {
       if (exact[v] < .999 * radius) right &= std::abs(field.distance[v] - exact[v]) < 1e-5;
@@ -96,7 +96,7 @@ TEMPLATE_TEST_CASE("a 4-cube within a radius", "", float, double) {
 TEST_CASE("a simplicial propagation can be bounded, watched and cancelled") {
   const auto grid = cube_grid<4>(8);
   const auto domain = grid.complex<float>();
-  const auto part = propagate(Serial{}, domain, PointSource::at(0), {.max_expansions = 1000});
+  const auto part = plexway::solve(Serial{}, domain, PointSource::at(0), {.max_expansions = 1000});
   CHECK_FALSE(part.complete);
   CHECK(part.statistics.expansions == 1000);
   CHECK(std::isinf(part.distance.back()));
@@ -106,10 +106,10 @@ TEST_CASE("a simplicial propagation can be bounded, watched and cancelled") {
     ++calls;
     return p.simplices == domain.simplex_count() && p.distance <= 2;
   };
-  CHECK(propagate(Serial{}, domain, PointSource::at(0), options).complete);
+  CHECK(plexway::solve(Serial{}, domain, PointSource::at(0), options).complete);
   CHECK(calls > 0);
   options.progress = [](const Progress&) { return false; };
-  CHECK_THROWS_AS(propagate(Serial{}, domain, PointSource::at(0), options), Cancelled);
+  CHECK_THROWS_AS(plexway::solve(Serial{}, domain, PointSource::at(0), options), Cancelled);
 }
 
 TEMPLATE_TEST_CASE("solving a simplicial domain again gives the same bits", "", float, double) {
@@ -119,14 +119,14 @@ TEMPLATE_TEST_CASE("solving a simplicial domain again gives the same bits", "", 
   DistanceField<TestType> field;
   const PointSource one[] = {PointSource::at(0)};
   const PointSource two[] = {PointSource::at(1295), PointSource::at(7)};
-  propagate(Serial{}, domain, one, {}, workspace, field);
+  plexway::solve(Serial{}, domain, one, {}, workspace, field);
   const auto first = field.distance;
-  propagate(Serial{}, domain, two, {}, workspace, field);
+  plexway::solve(Serial{}, domain, two, {}, workspace, field);
   CHECK(field.label.size() == cube.grid.vertex_count());
-  propagate(Serial{}, domain, one, {}, workspace, field);
+  plexway::solve(Serial{}, domain, one, {}, workspace, field);
   CHECK(field.distance == first);
   CHECK(field.label.empty());
-  CHECK(propagate(Serial{}, domain, one[0]).distance == first);
+  CHECK(plexway::solve(Serial{}, domain, one[0]).distance == first);
   CHECK(workspace.bytes() > domain.simplex_count() * 7 * sizeof(TestType));
 }
 
@@ -160,7 +160,7 @@ TEST_CASE("impossible lengths end and reach everything") {
     CHECK(domain.summary().violated_simplices > 0);
     for (const Visibility visibility : {Visibility::centroid, Visibility::upper_bound}) {
       const auto field =
-          propagate(Serial{}, domain, PointSource::at(0), {.visibility = visibility});
+          plexway::solve(Serial{}, domain, PointSource::at(0), {.visibility = visibility});
       CAPTURE(wild, field.statistics.updates);
       CHECK(field.complete);
       CHECK(field.statistics.reached_simplices == domain.simplex_count());

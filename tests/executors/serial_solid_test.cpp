@@ -16,7 +16,7 @@ const double infinity = std::numeric_limits<double>::infinity();
 template <class Real>
 DistanceField<Real> several(const TetMesh<Real>& mesh, const std::vector<PointSource>& sources,
                             const PropagateOptions& options = {}) {
-  return propagate(Serial{}, mesh, std::span<const PointSource>(sources), options);
+  return plexway::solve(Serial{}, mesh, std::span<const PointSource>(sources), options);
 }
 }  // namespace
 
@@ -31,12 +31,12 @@ TEMPLATE_TEST_CASE("solids: a workspace is reused, bit for bit", "", float, doub
       PropagateOptions options;
       options.visibility = visibility;
       options.schedule = schedule;
-      propagate(Serial{}, mesh, one, options, workspace, field);
+      plexway::solve(Serial{}, mesh, one, options, workspace, field);
       const auto first = field.distance;
-      propagate(Serial{}, mesh, other, options, workspace, field);
-      propagate(Serial{}, mesh, one, options, workspace, field);
+      plexway::solve(Serial{}, mesh, other, options, workspace, field);
+      plexway::solve(Serial{}, mesh, one, options, workspace, field);
       CHECK(first == field.distance);
-      CHECK(first == propagate(Serial{}, mesh, one[0], options).distance);
+      CHECK(first == plexway::solve(Serial{}, mesh, one[0], options).distance);
     }
 }
 
@@ -83,29 +83,29 @@ TEST_CASE("solids: the nearest of several sources, with offsets") {
 TEST_CASE("solids: radius, budget, progress") {
   const Solid s = solid_cube(8);
   const auto mesh = s.mesh<double>();
-  const auto all = propagate(Serial{}, mesh, PointSource::at(0));
+  const auto all = plexway::solve(Serial{}, mesh, PointSource::at(0));
   PropagateOptions options;
   options.radius = 0.4;
-  const auto near = propagate(Serial{}, mesh, PointSource::at(0), options);
+  const auto near = plexway::solve(Serial{}, mesh, PointSource::at(0), options);
   for (std::size_t v = 0; v < all.distance.size(); ++v)
     CHECK(near.distance[v] == (all.distance[v] <= 0.4 ? all.distance[v] : infinity));
   CHECK(near.statistics.expansions < all.statistics.expansions / 4);
   options = {};
   options.max_expansions = 100;
-  const auto some = propagate(Serial{}, mesh, PointSource::at(0), options);
+  const auto some = plexway::solve(Serial{}, mesh, PointSource::at(0), options);
   CHECK(!some.complete);
   CHECK(some.statistics.expansions == 100);
   CHECK(all.complete);
   options = {};
   options.progress = [](const Progress&) { return false; };
   const auto big = solid_cube(24).mesh<float>();
-  CHECK_THROWS_AS(propagate(Serial{}, big, PointSource::at(0), options), Cancelled);
+  CHECK_THROWS_AS(plexway::solve(Serial{}, big, PointSource::at(0), options), Cancelled);
 }
 
 TEST_CASE("solids: calls that make no sense are refused") {
   const auto mesh = solid_cube(2).mesh<double>();
   const auto refuse = [&](const PointSource& source, const PropagateOptions& options = {}) {
-    CHECK_THROWS_AS(propagate(Serial{}, mesh, source, options), UsageError);
+    CHECK_THROWS_AS(plexway::solve(Serial{}, mesh, source, options), UsageError);
   };
   CHECK_THROWS_AS(several(mesh, {}), UsageError);
   refuse(PointSource::at(27));

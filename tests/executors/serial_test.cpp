@@ -19,10 +19,10 @@ Surface large() { return grid(200, 200); }
 TEMPLATE_TEST_CASE("options and sources that make no sense are refused", "", float, double) {
   const auto mesh = grid(3, 3).mesh<TestType>();
   const auto refused = [&](const PointSource& source, const PropagateOptions& options = {}) {
-    CHECK_THROWS_AS(propagate(Serial{}, mesh, source, options), UsageError);
+    CHECK_THROWS_AS(plexway::solve(Serial{}, mesh, source, options), UsageError);
   };
   const double nothing = std::numeric_limits<double>::quiet_NaN();
-  CHECK_THROWS_AS(propagate(Serial{}, mesh, std::span<const PointSource>{}), UsageError);
+  CHECK_THROWS_AS(plexway::solve(Serial{}, mesh, std::span<const PointSource>{}), UsageError);
   refused({});
   refused(PointSource::at(16));
   refused(PointSource::in(18, {1, 0, 0}));
@@ -44,7 +44,7 @@ TEMPLATE_TEST_CASE("options and sources that make no sense are refused", "", flo
     options.radius = radius;
     refused(PointSource::at(0), options);
   }
-  CHECK_THROWS_WITH(propagate(Serial{}, mesh, PointSource::at(16)),
+  CHECK_THROWS_WITH(plexway::solve(Serial{}, mesh, PointSource::at(16)),
                     Catch::Matchers::Contains("16"));
 }
 
@@ -64,16 +64,16 @@ TEMPLATE_TEST_CASE("any step gives the same answers up to rounding", "", float, 
 TEMPLATE_TEST_CASE("within the radius nothing changes, beyond is out of reach", "", float, double) {
   const Surface s = sphere(4);
   const auto mesh = s.mesh<TestType>();
-  const auto whole = propagate(Serial{}, mesh, PointSource::at(3));
+  const auto whole = plexway::solve(Serial{}, mesh, PointSource::at(3));
   for (const Visibility visibility : visibilities)
     for (const Schedule schedule : schedules)
       for (const double radius : {0., .3, 1., 2.5, 10.}) {
         PropagateOptions options;
         options.visibility = visibility;
         options.schedule = schedule;
-        const auto all = propagate(Serial{}, mesh, PointSource::at(3), options);
+        const auto all = plexway::solve(Serial{}, mesh, PointSource::at(3), options);
         options.radius = radius;
-        const auto part = propagate(Serial{}, mesh, PointSource::at(3), options);
+        const auto part = plexway::solve(Serial{}, mesh, PointSource::at(3), options);
         CAPTURE(name(options), radius);
         double worst = 0;
         bool outside = true;
@@ -94,14 +94,14 @@ TEMPLATE_TEST_CASE("within the radius nothing changes, beyond is out of reach", 
 
 TEMPLATE_TEST_CASE("an expansion budget ends a propagation early", "", float, double) {
   const auto mesh = large().mesh<TestType>();
-  const auto whole = propagate(Serial{}, mesh, PointSource::at(0));
+  const auto whole = plexway::solve(Serial{}, mesh, PointSource::at(0));
   CHECK(whole.complete);
   CHECK(whole.statistics.reached_simplices == mesh.face_count());
   CHECK(whole.statistics.updates >= mesh.face_count());
   for (const std::size_t budget : {0ul, 1ul, 1000ul, 70000ul}) {
     PropagateOptions options;
     options.max_expansions = budget;
-    const auto part = propagate(Serial{}, mesh, PointSource::at(0), options);
+    const auto part = plexway::solve(Serial{}, mesh, PointSource::at(0), options);
     CAPTURE(budget);
     CHECK_FALSE(part.complete);
     CHECK(part.statistics.expansions <= budget);
@@ -114,7 +114,7 @@ TEMPLATE_TEST_CASE("an expansion budget ends a propagation early", "", float, do
   }
   PropagateOptions ample;
   ample.max_expansions = whole.statistics.expansions + 1;
-  CHECK(propagate(Serial{}, mesh, PointSource::at(0), ample).complete);
+  CHECK(plexway::solve(Serial{}, mesh, PointSource::at(0), ample).complete);
 }
 
 TEMPLATE_TEST_CASE("progress is told and may cancel", "", float, double) {
@@ -128,7 +128,7 @@ TEMPLATE_TEST_CASE("progress is told and may cancel", "", float, double) {
     calls.push_back(p);
     return true;
   };
-  propagate(Serial{}, mesh, source, options, workspace, field);
+  plexway::solve(Serial{}, mesh, source, options, workspace, field);
   const auto expected = field.distance;
   REQUIRE(calls.size() >= 1);
   for (std::size_t i = 0; i < calls.size(); ++i) {
@@ -139,9 +139,9 @@ TEMPLATE_TEST_CASE("progress is told and may cancel", "", float, double) {
     if (i > 0) CHECK(calls[i].expansions > calls[i - 1].expansions);
   }
   options.progress = [](const Progress&) { return false; };
-  CHECK_THROWS_AS(propagate(Serial{}, mesh, source, options, workspace, field), Cancelled);
+  CHECK_THROWS_AS(plexway::solve(Serial{}, mesh, source, options, workspace, field), Cancelled);
   options.progress = nullptr;
-  propagate(Serial{}, mesh, source, options, workspace, field);
+  plexway::solve(Serial{}, mesh, source, options, workspace, field);
   CHECK(field.distance == expected);
 }
 
@@ -152,8 +152,8 @@ TEST_CASE("a callback may throw") {
   const PointSource source[] = {PointSource::at(0)};
   PropagateOptions options;
   options.progress = [](const Progress&) -> bool { throw 5; };
-  CHECK_THROWS_AS(propagate(Serial{}, mesh, source, options, workspace, field), int);
-  propagate(Serial{}, mesh, source, {}, workspace, field);
+  CHECK_THROWS_AS(plexway::solve(Serial{}, mesh, source, options, workspace, field), int);
+  plexway::solve(Serial{}, mesh, source, {}, workspace, field);
   CHECK(field.complete);
 }
 
@@ -163,7 +163,7 @@ TEST_CASE("the workspace tells its size") {
   DistanceField<float> field;
   const PointSource source[] = {PointSource::at(0)};
   const std::size_t empty = workspace.bytes();
-  propagate(Serial{}, mesh, source, {}, workspace, field);
+  plexway::solve(Serial{}, mesh, source, {}, workspace, field);
   const double faces = static_cast<double>(mesh.face_count());
   CHECK(empty < 1000);
   CHECK(double(workspace.bytes()) > 32 * faces);

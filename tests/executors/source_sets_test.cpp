@@ -6,10 +6,7 @@
 #include <vector>
 
 #include <plexway/error.hpp>
-#include <plexway/executors/openmp.hpp>
-#include <plexway/executors/serial_solid.hpp>
-#include <plexway/executors/serial_wireframe.hpp>
-#include <plexway/executors/source_sets.hpp>
+#include <plexway/solve.hpp>
 
 #include "complex/cube_distance.hpp"
 #include "complex/flat_curves.hpp"
@@ -64,7 +61,7 @@ TEST_CASE("a segment in the plane is exact and never too near") {
     const auto mesh = s.mesh<double>();
     for (const auto& [a, b] : segments) {
       const FlatCurve curve = flat_curve(s, a, b);
-      const auto field = propagate(Serial{}, mesh, Source(curve.source()));
+      const auto field = solve(Serial{}, mesh, Source(curve.source()));
       const Rule rule = [&, a = a, b = b](const Position& p) {
         return distance_to_segment(p, a, b);
       };
@@ -72,8 +69,7 @@ TEST_CASE("a segment in the plane is exact and never too near") {
       CHECK(e.max < 1e-5);
       CHECK(e.low > -1e-9);
       // Two hundred points on it are too far, and more so.
-      const auto sampled =
-          propagate(Serial{}, mesh, std::span<const PointSource>(curve.points(200)));
+      const auto sampled = solve(Serial{}, mesh, std::span<const PointSource>(curve.points(200)));
       CHECK(errors(s, sampled.distance, rule, 1. / 60).mean > 10 * e.mean);
     }
   }
@@ -95,7 +91,7 @@ TEST_CASE("a curve of several lines is the least of them, and light passes other
         d = std::min(d, distance_to_segment(p, line[i], line[i + 1]));
       return d;
     };
-    const Errors e = errors(s, propagate(Serial{}, mesh, Source(bent)).distance, rule, 1. / 60);
+    const Errors e = errors(s, solve(Serial{}, mesh, Source(bent)).distance, rule, 1. / 60);
     CHECK(e.max < 1e-5);
     CHECK(e.low > -1e-9);
 
@@ -104,7 +100,7 @@ TEST_CASE("a curve of several lines is the least of them, and light passes other
     CurveSource late = flat_curve(s, a, b).source();
     late.offset = 0.3;
     const std::vector<Source> both = {bent, late};
-    const auto field = propagate(Serial{}, mesh, both);
+    const auto field = solve(Serial{}, mesh, both);
     const Rule least = [&](const Position& p) {
       return std::min(rule(p), distance_to_segment(p, a, b) + 0.3);
     };
@@ -121,11 +117,11 @@ TEST_CASE("a line along edges shines through what another curve crosses") {
   CurveSource far = flat_curve(s, c, d).source();
   far.offset = 10;
   const std::vector<Source> both = {flat_curve(s, a, b).source(), far};
-  const auto field = propagate(Serial{}, mesh, both);
+  const auto field = solve(Serial{}, mesh, both);
   const Rule rule = [&](const Position& p) { return distance_to_segment(p, a, b); };
   CHECK(errors(s, field.distance, rule, 1. / 12).max < 1e-5);
   const std::vector<Source> triangle = {both[0], SimplexSource{.simplex = 150, .offset = 10}};
-  CHECK(errors(s, propagate(Serial{}, mesh, triangle).distance, rule, 1. / 12).max < 1e-5);
+  CHECK(errors(s, solve(Serial{}, mesh, triangle).distance, rule, 1. / 12).max < 1e-5);
 }
 
 TEST_CASE("a curve that bends inside a triangle is near at its bend as well") {
@@ -146,7 +142,7 @@ TEST_CASE("a curve that bends inside a triangle is near at its bend as well") {
       for (std::size_t i = 0; i < 3; ++i) at.barycentric[i] = weight[turned(i)];
       narrow.points.push_back(at);
     }
-    const auto field = propagate(Serial{}, s.mesh<double>(), Source(narrow));
+    const auto field = solve(Serial{}, s.mesh<double>(), Source(narrow));
     CHECK(field.distance[3] == Approx(1.3).epsilon(1e-6));
   }
 }
@@ -155,7 +151,7 @@ TEST_CASE("a segment along edges lights all of its strip exactly") {
   const Surface s = grid(40, 40);
   const auto mesh = s.mesh<double>();
   const Position a = {0.25, 0.5, 0}, b = {0.75, 0.5, 0};
-  const auto field = propagate(Serial{}, mesh, Source(flat_curve(s, a, b).source()));
+  const auto field = solve(Serial{}, mesh, Source(flat_curve(s, a, b).source()));
   const Errors e = errors(
       s, field.distance, [&](const Position& p) { return distance_to_segment(p, a, b); }, 1e-3);
   CHECK(e.max < 1e-9);
@@ -166,8 +162,7 @@ TEST_CASE("a segment on a cylinder") {
   const double height = 12;
   const Surface flat = grid(n, 24, n, height), round = prism(n, 24, height);
   const Position a = {6.3, 3.1, 0}, b = {13.2, 8.3, 0};
-  const auto field =
-      propagate(Serial{}, round.mesh<double>(), Source(flat_curve(flat, a, b).source()));
+  const auto field = solve(Serial{}, round.mesh<double>(), Source(flat_curve(flat, a, b).source()));
   Errors e;
   for (std::size_t v = 0; v < round.positions.size(); ++v) {
     const double x = static_cast<double>(v % n), y = round.positions[v][2];
@@ -223,7 +218,7 @@ TEST_CASE("a segment over an edge of a cube") {
     }
     return best;
   };
-  const auto field = propagate(Serial{}, s.mesh<double>(), Source(curve));
+  const auto field = solve(Serial{}, s.mesh<double>(), Source(curve));
   const Errors e = errors(s, field.distance, rule, 1. / 16);
   CHECK(e.max < 1e-5);
   CHECK(e.low > -1e-9);
@@ -233,7 +228,7 @@ TEST_CASE("a triangle is its own nearest point and sends light over its edges") 
   const Surface s = grid(30, 30);
   const auto mesh = s.mesh<double>();
   for (const Index f : {899u, 0u, 1u, 58u, 59u, 1740u, 1799u}) {  // inside, and in the corners
-    const auto field = propagate(Serial{}, mesh, Source(SimplexSource{.simplex = f}));
+    const auto field = solve(Serial{}, mesh, Source(SimplexSource{.simplex = f}));
     const Rule rule = [&](const Position& p) {
       double d = infinity;
       for (std::size_t i = 0; i < 3; ++i)
@@ -252,14 +247,13 @@ TEST_CASE("a circle is as far inside as outside") {
   const Rule rule = [&](const Position& p) {
     return std::abs(std::hypot(p[0] - 0.5, p[1] - 0.5) - 0.3) + 0.1;
   };
-  CHECK(errors(s, propagate(Serial{}, s.mesh<double>(), Source(circle)).distance, rule, 0.1).max <
+  CHECK(errors(s, solve(Serial{}, s.mesh<double>(), Source(circle)).distance, rule, 0.1).max <
         1e-12);
-  CHECK(errors(s, propagate(Serial{}, s.mesh<float>(), Source(circle)).distance, rule, 0.1).max <
-        4e-6);
-  CHECK(errors(s, propagate(OpenMP{2}, s.mesh<float>(), Source(circle)).distance, rule, 0.1).max <
+  CHECK(errors(s, solve(Serial{}, s.mesh<float>(), Source(circle)).distance, rule, 0.1).max < 4e-6);
+  CHECK(errors(s, solve(OpenMP{2}, s.mesh<float>(), Source(circle)).distance, rule, 0.1).max <
         4e-6);
   // Within a radius of 0.15: only beside the rim.
-  const auto bounded = propagate(Serial{}, s.mesh<double>(), Source(circle), {.radius = 0.15});
+  const auto bounded = solve(Serial{}, s.mesh<double>(), Source(circle), {.radius = 0.15});
   for (std::size_t v = 0; v < s.positions.size(); ++v)
     CHECK(std::isinf(bounded.distance[v]) == (rule(s.positions[v]) > 0.15 + 1e-9));
 }
@@ -273,7 +267,7 @@ TEST_CASE("several sources of all kinds give the least and say whose it is") {
       BallSource{.centre = PointSource::at(s.nearest(0.75, 0.5)), .radius = 0.2},
       PointSource::at(s.nearest(0.75, 0.5)),
       VertexSource{.vertices = {0, 40}, .offsets = {0.1, 0}, .offset = 0.05}};
-  const auto field = propagate(Serial{}, mesh, sources);
+  const auto field = solve(Serial{}, mesh, sources);
   const Position c = {0.75, 0.5, 0};
   const auto to = [&](std::size_t n, const Position& p) {
     const double d = std::hypot(p[0] - c[0], p[1] - c[1]);
@@ -299,14 +293,14 @@ TEST_CASE("several sources of all kinds give the least and say whose it is") {
 TEST_CASE("a field goes on from the values of another") {
   const Surface s = grid(30, 30);
   const auto mesh = s.mesh<double>();
-  const auto whole = propagate(Serial{}, mesh, PointSource::at(0));
+  const auto whole = solve(Serial{}, mesh, PointSource::at(0));
   VertexSource front;  // what the field knows at 0.5
   for (Index v = 0; v < s.positions.size(); ++v)
     if (std::abs(s.positions[v][0] - 0.5) < 1e-9) {
       front.vertices.push_back(v);
       front.offsets.push_back(whole.distance[v]);
     }
-  const auto rest = propagate(Serial{}, mesh, Source(front));
+  const auto rest = solve(Serial{}, mesh, Source(front));
   const Rule rule = [&](const Position& p) {
     double best = infinity;
     for (std::size_t i = 0; i < front.vertices.size(); ++i) {
@@ -324,27 +318,26 @@ TEST_CASE("a field goes on from the values of another") {
 TEST_CASE("sources on solids, wireframes and grids of any dimension") {
   const auto mesh = solid_cube(3).mesh<double>();
   const Source corners = VertexSource{.vertices = {0, 5}};
-  const auto field = propagate(Serial{}, mesh, corners);
+  const auto field = solve(Serial{}, mesh, corners);
   const PointSource both[] = {PointSource::at(0), PointSource::at(5)};
-  CHECK(field.distance == propagate(Serial{}, mesh, both).distance);
+  CHECK(field.distance == solve(Serial{}, mesh, both).distance);
   const Source ball = BallSource{.centre = PointSource::at(0), .radius = 0.5};
-  const auto alone = propagate(Serial{}, mesh, PointSource::at(0));
-  const auto rim = propagate(Serial{}, mesh, ball);
+  const auto alone = solve(Serial{}, mesh, PointSource::at(0));
+  const auto rim = solve(Serial{}, mesh, ball);
   for (std::size_t v = 0; v < rim.distance.size(); ++v)
     CHECK(rim.distance[v] == Approx(std::abs(alone.distance[v] - 0.5)));
-  CHECK_THROWS_WITH(propagate(Serial{}, mesh, Source(SimplexSource{.simplex = 0})),
+  CHECK_THROWS_WITH(solve(Serial{}, mesh, Source(SimplexSource{.simplex = 0})),
                     Catch::Contains("surfaces and wireframes"));
 
   // A path of five edges, one long.
   const std::array<Index, 2> edges[] = {{0, 1}, {1, 2}, {2, 3}, {3, 4}};
   const double lengths[] = {1, 2, 3, 4};
   const Wireframe<double> wire(5, edges, lengths);
-  CHECK(propagate(Serial{}, wire, Source(SimplexSource{.simplex = 1})).distance ==
+  CHECK(solve(Serial{}, wire, Source(SimplexSource{.simplex = 1})).distance ==
         std::vector<double>{1, 0, 0, 3, 7});
   const CurveSource curve = {
       .points = {PointSource::at(1), PointSource::at(2), PointSource::in(2, {0.5, 0.5})}};
-  CHECK(propagate(Serial{}, wire, Source(curve)).distance ==
-        std::vector<double>{1, 0, 0, 1.5, 5.5});
+  CHECK(solve(Serial{}, wire, Source(curve)).distance == std::vector<double>{1, 0, 0, 1.5, 5.5});
 }
 
 TEST_CASE("unreachable is infinite and several sources are minima, whatever the kind") {
@@ -363,14 +356,14 @@ TEST_CASE("unreachable is infinite and several sources are minima, whatever the 
       CurveSource{.points = {PointSource::at(0), PointSource::at(1)}, .offset = 0.3}};
   std::vector<double> least(two.positions.size(), infinity);
   for (const Source& source : kinds) {
-    const auto field = propagate(Serial{}, mesh, source);
+    const auto field = solve(Serial{}, mesh, source);
     for (std::size_t v = 0; v < two.positions.size(); ++v) {
       CHECK(std::isinf(field.distance[v]) == (v >= 49));
       CHECK(field.distance[v] >= 0);
       least[v] = std::min(least[v], field.distance[v]);
     }
   }
-  const auto all = propagate(Serial{}, mesh, kinds);
+  const auto all = solve(Serial{}, mesh, kinds);
   for (std::size_t v = 0; v < 49; ++v) {
     CHECK(all.distance[v] == Approx(least[v]).margin(2e-2));
     CHECK(all.label[v] < kinds.size());
@@ -385,7 +378,7 @@ TEST_CASE("sources that are none are refused by name") {
   const Surface s = grid(4, 4);
   const auto mesh = s.mesh<double>();
   const auto refused = [&](const Source& source, const char* why) {
-    CHECK_THROWS_WITH(propagate(Serial{}, mesh, source), Catch::Contains(why));
+    CHECK_THROWS_WITH(solve(Serial{}, mesh, source), Catch::Contains(why));
   };
   refused(VertexSource{}, "no vertices");
   refused(VertexSource{.vertices = {1, 2}, .offsets = {1}}, "1 offsets for 2");
@@ -396,8 +389,8 @@ TEST_CASE("sources that are none are refused by name") {
   refused(CurveSource{.points = {PointSource::at(0), PointSource::at(24)}}, "share no face");
   refused(SimplexSource{.simplex = 1000}, "out of range");
   const Source segment = CurveSource{.points = {PointSource::at(0), PointSource::at(1)}};
-  CHECK_THROWS_WITH(propagate(Serial{}, s.mesh<float>(), segment), Catch::Contains("double"));
-  CHECK_THROWS_WITH(propagate(OpenMP{}, mesh, segment), Catch::Contains("Serial"));
-  CHECK_THROWS_WITH(propagate(Serial{}, mesh, segment, {.visibility = Visibility::centroid}),
+  CHECK_THROWS_WITH(solve(Serial{}, s.mesh<float>(), segment), Catch::Contains("double"));
+  CHECK_THROWS_WITH(solve(OpenMP{}, mesh, segment), Catch::Contains("Serial"));
+  CHECK_THROWS_WITH(solve(Serial{}, mesh, segment, {.visibility = Visibility::centroid}),
                     Catch::Contains("saddles"));
 }

@@ -7,8 +7,8 @@
 #include <map>
 #include <string>
 
-#include <plexway/executors/serial_cloud.hpp>
 #include <plexway/flann/neighbours.hpp>
+#include <plexway/solve.hpp>
 
 #include "complex/test_clouds.hpp"
 #include "exact_data.hpp"
@@ -26,7 +26,7 @@ struct Errors {
 
 Errors solve(const std::vector<std::array<double, 3>>& points, const std::vector<double>& exact) {
   const PointCloud<float> cloud(points, plexway::flann::surface_neighbours(points));
-  const auto found = plexway::propagate(Serial{}, cloud, PointSource::at(0)).distance;
+  const auto found = plexway::solve(Serial{}, cloud, PointSource::at(0)).distance;
   Errors errors;
   for (std::size_t i = 0; i < points.size(); ++i) {
     errors.unreached += !std::isfinite(found[i]);
@@ -81,7 +81,7 @@ TEST_CASE("errors on clouds fall as points are added") {
 TEST_CASE("hostile clouds get a defined result") {
   const auto finite = [](const std::vector<std::array<double, 3>>& points) {
     const PointCloud<float> cloud(points, plexway::flann::surface_neighbours(points));
-    const auto d = plexway::propagate(Serial{}, cloud, PointSource::at(0)).distance;
+    const auto d = plexway::solve(Serial{}, cloud, PointSource::at(0)).distance;
     std::size_t reached = 0;
     for (const float x : d) {
       CHECK(!std::isnan(x));

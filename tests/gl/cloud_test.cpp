@@ -5,8 +5,7 @@
 #include <cmath>
 
 #include <plexway/executors/gl.hpp>
-#include <plexway/executors/openmp.hpp>
-#include <plexway/executors/serial_cloud.hpp>
+#include <plexway/solve.hpp>
 
 #include "complex/test_clouds.hpp"
 #include "gl/device.hpp"
@@ -27,9 +26,9 @@ TEST_CASE("points of a sphere, two of them twins, on several threads and on a GL
     CHECK(field.distance[twin] == field.distance[17]);
     CHECK(field.distance[0] == 0);
   };
-  check(propagate(Serial{}, domain, PointSource::at(0)));
-  if (openmp_built()) check(propagate(OpenMP{2}, domain, PointSource::at(0)));
-  if (testing::device()) check(propagate(GL{}, domain, PointSource::at(0)));
-  const auto from_twin = propagate(Serial{}, domain, PointSource::at(static_cast<Index>(twin)));
+  check(solve(Serial{}, domain, PointSource::at(0)));
+  if (openmp_built()) check(solve(OpenMP{2}, domain, PointSource::at(0)));
+  if (testing::device()) check(solve(GL{}, domain, PointSource::at(0)));
+  const auto from_twin = solve(Serial{}, domain, PointSource::at(static_cast<Index>(twin)));
   CHECK(from_twin.distance[17] == 0);
 }

@@ -6,7 +6,7 @@
 #include <EGL/egl.h>
 
 #include <plexway/executors/gl.hpp>
-#include <plexway/executors/serial.hpp>
+#include <plexway/solve.hpp>
 
 #include "complex/test_meshes.hpp"
 #include "executors/gl/buffer.hpp"
@@ -147,7 +147,7 @@ TEST_CASE("a surface too large for the device is refused with the limit", "[gl]"
   const auto mesh = grid(side, side).mesh<float>();
   std::string message;
   try {
-    (void)propagate(GL{}, mesh, PointSource::at(0));
+    (void)solve(GL{}, mesh, PointSource::at(0));
   } catch (const NotBuiltError& error) {
     message = error.what();
   }
@@ -160,13 +160,13 @@ TEST_CASE("what context was current stays so, and threads take turns", "[gl]") {
   if (!device()) return;
   const auto mesh = grid(12, 12).mesh<float>();
   const PointSource source = PointSource::at(3);
-  const auto expected = propagate(Serial{}, mesh, source).distance;
+  const auto expected = solve(Serial{}, mesh, source).distance;
   CHECK(eglGetCurrentContext() == EGL_NO_CONTEXT);
   std::vector<std::thread> threads;
   std::vector<DistanceField<float>> fields(4);
   for (auto& field : fields)
     threads.emplace_back([&] {
-      for (int n = 0; n < 5; ++n) field = propagate(GL{}, mesh, source);
+      for (int n = 0; n < 5; ++n) field = solve(GL{}, mesh, source);
     });
   for (std::thread& t : threads) t.join();
   for (const auto& field : fields) CHECK(difference(expected, field.distance).max < 1e-5);
@@ -176,6 +176,6 @@ TEST_CASE("what context was current stays so, and threads take turns", "[gl]") {
   const gl::MakeCurrent current(own);
   const EGLContext before = eglGetCurrentContext();
   CHECK(before != EGL_NO_CONTEXT);
-  CHECK(difference(expected, propagate(GL{}, mesh, source).distance).max < 1e-5);
+  CHECK(difference(expected, solve(GL{}, mesh, source).distance).max < 1e-5);
   CHECK(eglGetCurrentContext() == before);
 }

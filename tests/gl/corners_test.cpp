@@ -18,7 +18,7 @@ TEST_CASE("a device knows of corners as one thread does", "[gl]") {
     for (const Index n : {50u, 100u}) {
       const samples::Shape grid = domain.grid(n);
       const TriangleMesh<float> mesh(grid.points, grid.faces);
-      const auto field = propagate(GL{}, mesh, PointSource::at(0));
+      const auto field = solve(GL{}, mesh, PointSource::at(0));
       const Errors errors = compare(field.distance, domain.distances(grid.points));
       CAPTURE(domain.name, n, errors.mean, errors.max, errors.below);
       CHECK(errors.fits);

@@ -7,9 +7,7 @@
 #include <vector>
 
 #include <plexway/executors/gl.hpp>
-#include <plexway/executors/serial.hpp>
-#include <plexway/executors/serial_solid.hpp>
-#include <plexway/executors/serial_wireframe.hpp>
+#include <plexway/solve.hpp>
 
 #include "complex/test_meshes.hpp"
 #include "complex/test_solids.hpp"
@@ -27,7 +25,7 @@ std::vector<float> on_device(const Domain& domain, Index source, GLWorkspace& wo
   DistanceField<float> field;
   PropagateOptions options;
   options.radius = radius;
-  propagate(GL{}, domain, std::span<const PointSource>(&at, 1), options, workspace, field);
+  solve(GL{}, domain, std::span<const PointSource>(&at, 1), options, workspace, field);
   return field.distance;
 }
 

@@ -7,8 +7,8 @@
 #include <filesystem>
 
 #include <plexway/executors/gl.hpp>
-#include <plexway/executors/openmp.hpp>
 #include <plexway/io/triangles.hpp>
+#include <plexway/solve.hpp>
 
 #include "complex/test_meshes.hpp"
 #include "complex/test_solids.hpp"
@@ -28,8 +28,8 @@ struct Together {
   Together(const Domain& domain, std::span<const PointSource> sources) {
     PropagateOptions options;
     options.vectorised = false;
-    team = propagate(OpenMP{.threads = 2}, domain, sources, options);
-    device = propagate(GL{}, domain, sources, options);
+    team = solve(OpenMP{.threads = 2}, domain, sources, options);
+    device = solve(GL{}, domain, sources, options);
   }
   /// Relative differences at most these, where the arithmetic is the same.
   void check(const gl::Context& context, double mean, double worst) const {

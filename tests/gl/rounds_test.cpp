@@ -4,7 +4,7 @@
 #include <catch2/catch.hpp>
 
 #include <plexway/executors/gl.hpp>
-#include <plexway/executors/serial.hpp>
+#include <plexway/solve.hpp>
 
 #include "complex/test_meshes.hpp"
 #include "gl/device.hpp"
@@ -36,20 +36,20 @@ TEST_CASE("queues on a device that are too short grow and nothing is lost", "[gl
   const auto mesh = s.mesh<float>();
   for (const std::size_t count : {1u, 30u}) {
     const auto sources = some_sources(s.positions.size(), count);
-    const auto serial = propagate(Serial{}, mesh, sources);
+    const auto serial = plexway::solve(Serial{}, mesh, sources);
     for (const std::size_t queue : {1u, 2u, 17u, 100u}) {
       GL executor;
       executor.queue = queue;
       GLWorkspace workspace;
       DistanceField<float> field;
-      propagate(executor, mesh, sources, {}, workspace, field);
+      plexway::solve(executor, mesh, sources, {}, workspace, field);
       const Difference found = difference(serial.distance, field.distance);
       CAPTURE(count, queue, workspace.growths(), found.mean, found.max);
       CHECK((workspace.growths() > 0) == (queue < 100 || count > 1));
       CHECK(found.fits);
       CHECK(found.max < 1e-5);
       CHECK(field.statistics.reached_simplices == mesh.face_count());
-      propagate(executor, mesh, sources, {}, workspace, field);  // what grew stays
+      plexway::solve(executor, mesh, sources, {}, workspace, field);  // what grew stays
       CHECK(workspace.growths() == 0);
       CHECK(difference(serial.distance, field.distance).max < 1e-5);
     }
@@ -61,12 +61,12 @@ TEST_CASE("queues grow where labels are put in between rounds", "[gl]") {
   const Surface s = bow_tie(8);  // the other half is entered through its pinch
   const auto mesh = s.mesh<float>();
   const PointSource source = PointSource::at(3);
-  const auto serial = propagate(Serial{}, mesh, source);
+  const auto serial = plexway::solve(Serial{}, mesh, source);
   GL executor;
   executor.queue = 1;
   GLWorkspace workspace;
   DistanceField<float> field;
-  propagate(executor, mesh, std::span<const PointSource>(&source, 1), {}, workspace, field);
+  plexway::solve(executor, mesh, std::span<const PointSource>(&source, 1), {}, workspace, field);
   CHECK(workspace.growths() > 0);
   CHECK(difference(serial.distance, field.distance).fits);
   CHECK(difference(serial.distance, field.distance).max < 1e-5);
@@ -79,13 +79,13 @@ TEST_CASE("two hundred repeats on a device are the same to the last bit", "[gl]"
   const auto sources = some_sources(s.positions.size(), 3);
   GLWorkspace workspace;
   DistanceField<float> first, field;
-  propagate(GL{}, mesh, sources, {}, workspace, first);
+  plexway::solve(GL{}, mesh, sources, {}, workspace, first);
   int same = 0;
   for (int n = 0; n < 200; ++n) {
     GL executor;
     GLWorkspace narrow;
     executor.queue = n % 20 == 19 ? 64 : 0;  // queues that overflow make no difference
-    propagate(executor, mesh, sources, {}, n % 20 == 19 ? narrow : workspace, field);
+    plexway::solve(executor, mesh, sources, {}, n % 20 == 19 ? narrow : workspace, field);
     CHECK((narrow.growths() > 0) == (n % 20 == 19));
     same += field.distance == first.distance && field.label == first.label &&
             field.statistics.expansions == first.statistics.expansions;
@@ -100,8 +100,8 @@ TEST_CASE("within the radius a device finds what it finds without, beyond nothin
   PropagateOptions options;
   options.radius = 0.4;
   const PointSource source = PointSource::at(200);
-  const auto all = propagate(GL{}, mesh, source);
-  const auto some = propagate(GL{}, mesh, source, options);
+  const auto all = plexway::solve(GL{}, mesh, source);
+  const auto some = plexway::solve(GL{}, mesh, source, options);
   CHECK(some.complete);
   CHECK(some.statistics.reached_simplices < mesh.face_count());
   for (std::size_t v = 0; v < all.distance.size(); ++v) {
@@ -115,12 +115,12 @@ TEST_CASE("an expansion budget ends a propagation on a device early", "[gl]") {
   const Surface s = grid(20, 20);
   const auto mesh = s.mesh<float>();
   const PointSource source = PointSource::at(210);
-  const auto all = propagate(GL{}, mesh, source);
+  const auto all = plexway::solve(GL{}, mesh, source);
   CHECK(all.complete);
   PropagateOptions options;
   for (const std::size_t budget : {0u, 1u, 40u, 333u}) {
     options.max_expansions = budget;
-    const auto some = propagate(GL{}, mesh, source, options);
+    const auto some = plexway::solve(GL{}, mesh, source, options);
     CAPTURE(budget);
     CHECK_FALSE(some.complete);
     CHECK(some.statistics.expansions <= budget);
@@ -152,12 +152,12 @@ TEST_CASE("progress on a device is told and may cancel", "[gl]") {
   GLWorkspace workspace;
   DistanceField<float> field;
   const std::span<const PointSource> sources(&source, 1);
-  propagate(GL{}, mesh, sources, options, workspace, field);
+  plexway::solve(GL{}, mesh, sources, options, workspace, field);
   CHECK(calls > 1);
   const auto before = field.distance;
   options.progress = [](const Progress&) { return false; };
-  CHECK_THROWS_AS(propagate(GL{}, mesh, sources, options, workspace, field), Cancelled);
-  propagate(GL{}, mesh, sources, {}, workspace, field);  // and the workspace is as good as new
+  CHECK_THROWS_AS(plexway::solve(GL{}, mesh, sources, options, workspace, field), Cancelled);
+  plexway::solve(GL{}, mesh, sources, {}, workspace, field);  // and the workspace is as good as new
   CHECK(difference(before, field.distance).max < 1e-5);
 }
 
@@ -169,9 +169,9 @@ TEST_CASE("a workspace on a device may meet another domain", "[gl]") {
   const std::span<const PointSource> sources(&source, 1);
   for (const Index n : {5u, 20u, 9u}) {
     const auto mesh = grid(n, n).mesh<float>();
-    propagate(GL{}, mesh, sources, {}, workspace, field);
+    plexway::solve(GL{}, mesh, sources, {}, workspace, field);
     CHECK(field.distance.size() == (n + 1) * (n + 1));
-    CHECK(difference(propagate(Serial{}, mesh, source).distance, field.distance).max < 1e-5);
+    CHECK(difference(plexway::solve(Serial{}, mesh, source).distance, field.distance).max < 1e-5);
   }
   CHECK(workspace.bytes() > 0);
 }
@@ -181,7 +181,7 @@ TEST_CASE("the gl executor refuses what it cannot do", "[gl]") {
   const auto mesh = grid(3, 3).mesh<float>();
   const PointSource source = PointSource::at(0);
   const auto solve = [&](const PropagateOptions& options) {
-    return propagate(GL{}, mesh, source, options);
+    return plexway::solve(GL{}, mesh, source, options);
   };
   PropagateOptions options;
   options.schedule = Schedule::priority;
@@ -192,9 +192,9 @@ TEST_CASE("the gl executor refuses what it cannot do", "[gl]") {
   options = {};
   options.step = 0;
   CHECK_THROWS_AS(solve(options), UsageError);
-  CHECK_THROWS_AS(propagate(GL{}, mesh, PointSource::at(99)), UsageError);
-  CHECK_THROWS_AS(propagate(GL{}, mesh, std::span<const PointSource>()), UsageError);
+  CHECK_THROWS_AS(plexway::solve(GL{}, mesh, PointSource::at(99)), UsageError);
+  CHECK_THROWS_AS(plexway::solve(GL{}, mesh, std::span<const PointSource>()), UsageError);
   GL nowhere;
   nowhere.device = 77;
-  CHECK_THROWS_AS(propagate(nowhere, mesh, source), UsageError);
+  CHECK_THROWS_AS(plexway::solve(nowhere, mesh, source), UsageError);
 }

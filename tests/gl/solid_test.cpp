@@ -10,8 +10,7 @@
 #include <random>
 
 #include <plexway/executors/gl.hpp>
-#include <plexway/executors/openmp.hpp>
-#include <plexway/executors/serial_solid.hpp>
+#include <plexway/solve.hpp>
 
 #include "gl/device.hpp"
 #include "propagate/solid_closed_forms.hpp"
@@ -26,7 +25,7 @@ using Sources = std::span<const PointSource>;
 
 std::vector<float> serial(const TetMesh<float>& mesh, Sources sources,
                           const PropagateOptions& options = {}) {
-  return propagate(Serial{}, mesh, sources, options).distance;
+  return solve(Serial{}, mesh, sources, options).distance;
 }
 
 /// How far the serial executor's distances move with the order of updates.
@@ -72,8 +71,8 @@ void compare_with_serial(const Solid& s, std::size_t count, unsigned turns) {
   DistanceField<float> field;
   for (unsigned turn = 0; turn < turns; ++turn) {
     const auto sources = some_sources(s, count, turn);
-    const auto known = propagate(Serial{}, mesh, Sources(sources));
-    propagate(GL{}, mesh, sources, {}, workspace, field);
+    const auto known = solve(Serial{}, mesh, Sources(sources));
+    solve(GL{}, mesh, sources, {}, workspace, field);
     check_close(difference(known.distance, field.distance),
                 spread_of(mesh, sources, known.distance));
     CHECK(field.complete);
@@ -91,14 +90,14 @@ void compare_with_serial(const Solid& s, std::size_t count, unsigned turns) {
 double check_errors(const Solid& s, Index source, const std::vector<double>& exact, double worst) {
   const auto mesh = s.mesh<float>();
   const PointSource at = PointSource::at(source);
-  const Errors e = compare(propagate(GL{}, mesh, at).distance, exact);
+  const Errors e = compare(solve(GL{}, mesh, at).distance, exact);
   PropagateOptions options;
   for (const double step : {0.25, 0.5, 1., 2., 3.}) {
     options.step = step;
     worst = std::max(worst, compare(serial(mesh, Sources(&at, 1), options), exact).max);
   }
   if (openmp_built())
-    worst = std::max(worst, compare(propagate(OpenMP{.threads = 1}, mesh, at).distance, exact).max);
+    worst = std::max(worst, compare(solve(OpenMP{.threads = 1}, mesh, at).distance, exact).max);
   CAPTURE(source, e.mean, e.max, worst);
   CHECK(e.fits);
   CHECK(e.max <= worst * (1 + 1e-5));
@@ -156,7 +155,7 @@ TEST_CASE("solids with exact answers on a device", "[gl]") {
     const auto mesh = truth->solid.mesh<float>();
     const PointSource source = PointSource::at(s.vertex);
     const auto known = serial(mesh, Sources(&source, 1));
-    const auto found = propagate(GL{}, mesh, source).distance;
+    const auto found = solve(GL{}, mesh, source).distance;
     const Errors by_serial = compare(known, truth->exact), by_device = compare(found, truth->exact);
     CAPTURE(s.name, by_serial.mean, by_device.mean);
     CHECK(by_device.fits);
@@ -177,10 +176,10 @@ TEST_CASE("solids on a device: again and again, with little room at first", "[gl
   GLWorkspace workspace, small;
   DistanceField<float> field;
   for (int n = 0; n < 30; ++n) {
-    propagate(GL{}, mesh, sources, {}, workspace, field);
+    solve(GL{}, mesh, sources, {}, workspace, field);
     check_close(difference(known, field.distance), spread);
   }
-  propagate(narrow, mesh, sources, {}, small, field);
+  solve(narrow, mesh, sources, {}, small, field);
   CHECK(small.growths() > 0);
   check_close(difference(known, field.distance), spread);
 }
@@ -193,7 +192,7 @@ TEST_CASE("solids on a device: radius, budget, what is refused", "[gl]") {
   const auto all = straight(s, s.positions[0]);
   PropagateOptions options;
   options.radius = 0.4;
-  const auto near = propagate(GL{}, mesh, source, options);
+  const auto near = solve(GL{}, mesh, source, options);
   for (std::size_t v = 0; v < all.size(); ++v) {
     if (std::abs(all[v] - 0.4) < 1e-5) continue;
     CHECK(std::isinf(near.distance[v]) == (all[v] > 0.4));
@@ -202,15 +201,15 @@ TEST_CASE("solids on a device: radius, budget, what is refused", "[gl]") {
   CHECK(near.statistics.expansions < mesh.tet_count() / 4);
   options = {};
   options.max_expansions = 200;
-  const auto some = propagate(GL{}, mesh, source, options);
+  const auto some = solve(GL{}, mesh, source, options);
   CHECK(!some.complete);
   CHECK(some.statistics.expansions <= 200);
   CHECK(std::isinf(some.distance[s.nearest(1, 1, 1)]));
   options = {};
   options.visibility = Visibility::centroid;
-  CHECK_THROWS_AS(propagate(GL{}, mesh, source, options), UsageError);
+  CHECK_THROWS_AS(solve(GL{}, mesh, source, options), UsageError);
   const TetMesh<float> metric(s.positions.size(), s.tets, s.lengths());
-  CHECK_THROWS_WITH(propagate(GL{}, metric, source), Catch::Contains("needs coordinates"));
+  CHECK_THROWS_WITH(solve(GL{}, metric, source), Catch::Contains("needs coordinates"));
 }
 
 TEST_CASE("one field a source in a solid on a device", "[gl]") {
@@ -224,7 +223,7 @@ TEST_CASE("one field a source in a solid on a device", "[gl]") {
     executor.batch_bytes = bytes;  // all at once, or a few at a time
     GLWorkspace workspace;
     std::vector<float> each(sources.size() * vertices);
-    CHECK(propagate_each(executor, mesh, sources, {}, workspace, each));
+    CHECK(solve_each(executor, mesh, sources, {}, workspace, each));
     for (std::size_t k = 0; k < sources.size(); ++k) {
       const Sources one(&sources[k], 1);
       const auto known = serial(mesh, one);

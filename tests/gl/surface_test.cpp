@@ -13,9 +13,8 @@
 #include <iterator>
 
 #include <plexway/executors/gl.hpp>
-#include <plexway/executors/openmp.hpp>
-#include <plexway/executors/serial.hpp>
 #include <plexway/io/triangles.hpp>
+#include <plexway/solve.hpp>
 
 #include "exact_data.hpp"
 #include "gl/device.hpp"
@@ -37,8 +36,7 @@ Difference spread_of(const Surface& surface, std::span<const PointSource> source
                      const std::vector<float>& distance) {
   Difference spread;
   const auto add = [&](const TriangleMesh<float>& mesh, const PropagateOptions& options) {
-    spread =
-        most(spread, difference(distance, propagate(Serial{}, mesh, sources, options).distance));
+    spread = most(spread, difference(distance, solve(Serial{}, mesh, sources, options).distance));
   };
   const auto mesh = surface.mesh<float>();
   PropagateOptions options;
@@ -92,7 +90,7 @@ void check_labels(const TriangleMesh<float>& mesh, std::span<const PointSource> 
                   double close) {
   REQUIRE(field.label.size() == field.distance.size());
   std::vector<std::vector<float>> alone;
-  for (const PointSource& s : sources) alone.push_back(propagate(Serial{}, mesh, s).distance);
+  for (const PointSource& s : sources) alone.push_back(solve(Serial{}, mesh, s).distance);
   std::size_t others = 0;
   for (std::size_t v = 0; v < field.label.size(); ++v) {
     const Index label = field.label[v];
@@ -124,10 +122,10 @@ Totals compare(const Surface& surface, std::size_t count = 1) {
                  : PointSource::at(surface.faces[below(random, surface.faces.size())][0]));
       if (turn == 1) sources.back().offset = 0.3 * mesh.unit() * uniform(random);
     }
-    const auto serial = propagate(Serial{}, mesh, sources);
+    const auto serial = solve(Serial{}, mesh, sources);
     const Difference spread = spread_of(surface, sources, serial.distance);
     DistanceField<float> field;
-    propagate(GL{}, mesh, sources, {}, workspace, field);
+    solve(GL{}, mesh, sources, {}, workspace, field);
     totals.add(difference(serial.distance, field.distance), spread);
     CHECK(field.complete);
     CHECK(field.statistics.reached_simplices == serial.statistics.reached_simplices);
@@ -209,7 +207,7 @@ TEST_CASE("shaders do what the same rounds in C++ do", "[gl]") {
                                                : PointSource::in(face, {0.2, 0.5, 0.3});
       const std::span<const PointSource> sources(&source, 1);
       DistanceField<float> field;
-      propagate(GL{}, mesh, sources, {}, workspace, field);
+      solve(GL{}, mesh, sources, {}, workspace, field);
       const auto rounds = RoundsReference(mesh, sources, 1).distance();
       const Difference found = difference(rounds, field.distance);
       CHECK(found.fits);
@@ -241,7 +239,7 @@ TEST_CASE("flat surfaces on a device: the straight distance", "[gl]") {
     std::mt19937 random(3);
     for (int turn = 0; turn < 4; ++turn) {
       const Index v = below(random, s.positions.size());
-      const auto field = propagate(GL{}, mesh, PointSource::at(v));
+      const auto field = solve(GL{}, mesh, PointSource::at(v));
       const Errors errors = testing::compare(field.distance, straight(s, s.positions[v]));
       CHECK(errors.fits);
       CHECK(errors.max < 1e-4);
@@ -274,20 +272,19 @@ TEST_CASE("real surfaces on a device are as near to the truth as the serial exec
     REQUIRE(exact.size() == mesh.vertex_count());
     const PointSource source = PointSource::at(s.vertex);
     const std::span<const PointSource> one(&source, 1);
-    const Errors by_device = testing::compare(propagate(GL{}, mesh, source).distance, exact);
+    const Errors by_device = testing::compare(solve(GL{}, mesh, source).distance, exact);
     // Any order is as good: the serial executor's, and that of a team, whose rounds these are.
     Errors by_serial;
     PropagateOptions options;
     options.vectorised = false;
     double poorest =
         openmp_built()
-            ? testing::compare(propagate(OpenMP{.threads = 1}, mesh, one, options).distance, exact)
-                  .mean
+            ? testing::compare(solve(OpenMP{.threads = 1}, mesh, one, options).distance, exact).mean
             : 0;
     options.vectorised = true;
     for (const double step : {1., 0.25, 0.5, 2.}) {
       options.step = step;
-      const Errors e = testing::compare(propagate(Serial{}, mesh, one, options).distance, exact);
+      const Errors e = testing::compare(solve(Serial{}, mesh, one, options).distance, exact);
       if (step == 1) by_serial = e;
       poorest = std::max(poorest, e.mean);
     }
@@ -314,25 +311,25 @@ TEST_CASE("one field a source on a device", "[gl]") {
     executor.batch_bytes = bytes;  // all at once, or a few at a time
     GLWorkspace workspace;
     std::vector<float> all(sources.size() * vertices);
-    CHECK(propagate_each(executor, mesh, sources, {}, workspace, all));
+    CHECK(solve_each(executor, mesh, sources, {}, workspace, all));
     Totals totals;
     for (std::size_t k = 0; k < sources.size(); ++k) {
-      const auto one = propagate(Serial{}, mesh, sources[k]).distance;
+      const auto one = solve(Serial{}, mesh, sources[k]).distance;
       const std::span<const float> row(all.data() + k * vertices, vertices);
       totals.add(difference(one, row),
                  spread_of(s, std::span<const PointSource>(&sources[k], 1), one));
     }
     totals.check();
   }
-  const auto named = fields(GL{}, mesh, sources);
+  const auto named = solve_each(GL{}, mesh, sources);
   CHECK(named.rows() == sources.size());
   CHECK(named.complete);
   CHECK(named.row(4)[sources[4].vertex] == 0);
   CHECK(named.row(5)[sources[4].vertex] > 0);
-  const auto nearest = field(GL{}, mesh, sources);
+  const auto nearest = solve(GL{}, mesh, sources);
   CHECK(nearest.distance[sources[4].vertex] == 0);
   CHECK(nearest.distance[sources[5].vertex] == 0);
   std::vector<float> short_of(5);
   GLWorkspace workspace;
-  CHECK_THROWS_AS(propagate_each(GL{}, mesh, sources, {}, workspace, short_of), UsageError);
+  CHECK_THROWS_AS(solve_each(GL{}, mesh, sources, {}, workspace, short_of), UsageError);
 }

@@ -4,7 +4,7 @@
 #include <catch2/catch.hpp>
 
 #include <plexway/executors/gl.hpp>
-#include <plexway/executors/serial_wireframe.hpp>
+#include <plexway/solve.hpp>
 
 #include "complex/test_wires.hpp"
 #include "gl/device.hpp"
@@ -59,11 +59,11 @@ TEST_CASE("wireframes of many kinds on a device", "[gl]") {
     for (int turn = 0; turn < 4; ++turn) {
       const PointSource source = PointSource::at(one.wires.edges[below(random, 100)][0]);
       const std::span<const PointSource> sources(&source, 1);
-      propagate(GL{}, wireframe, sources, {}, workspace, field);
+      solve(GL{}, wireframe, sources, {}, workspace, field);
       const Difference exact = difference(edge_distances(one.wires, source.vertex), field.distance);
       CHECK(exact.fits);
       CHECK(exact.max < 1e-5);
-      const auto serial = propagate(Serial{}, wireframe, source);
+      const auto serial = solve(Serial{}, wireframe, source);
       CHECK(field.distance == serial.distance);  // the least of the same sums
       CHECK(field.statistics.reached_simplices == serial.statistics.reached_simplices);
       CHECK(field.complete);
@@ -89,11 +89,11 @@ TEST_CASE("wireframes on a device: several sources, inside edges, with offsets",
       executor.queue = queue;
       GLWorkspace workspace;
       DistanceField<float> field;
-      propagate(executor, wireframe, sources, {}, workspace, field);
-      const auto serial = propagate(Serial{}, wireframe, sources);
+      solve(executor, wireframe, sources, {}, workspace, field);
+      const auto serial = solve(Serial{}, wireframe, sources);
       CHECK(field.distance == serial.distance);
       std::vector<DistanceField<float>> alone;
-      for (const PointSource& s : sources) alone.push_back(propagate(Serial{}, wireframe, s));
+      for (const PointSource& s : sources) alone.push_back(solve(Serial{}, wireframe, s));
       for (std::size_t v = 0; v < field.label.size(); ++v) {
         INFO("vertex " << v);
         if (std::isinf(field.distance[v])) {
@@ -114,11 +114,11 @@ TEST_CASE("wireframes on a device: radius, budget, one field a source", "[gl]") 
   const PointSource source = PointSource::at(77);
   PropagateOptions options;
   options.radius = 3;
-  CHECK(propagate(GL{}, wireframe, source, options).distance ==
-        propagate(Serial{}, wireframe, source, options).distance);
+  CHECK(solve(GL{}, wireframe, source, options).distance ==
+        solve(Serial{}, wireframe, source, options).distance);
   options = {};
   options.max_expansions = 100;
-  const auto early = propagate(GL{}, wireframe, source, options);
+  const auto early = solve(GL{}, wireframe, source, options);
   CHECK_FALSE(early.complete);
   CHECK(early.statistics.expansions <= 100);
   std::vector<PointSource> sources;
@@ -129,11 +129,11 @@ TEST_CASE("wireframes on a device: radius, budget, one field a source", "[gl]") 
     GL executor;
     executor.batch_bytes = bytes;
     GLWorkspace workspace;
-    CHECK(propagate_each(executor, wireframe, sources, {}, workspace, all));
+    CHECK(solve_each(executor, wireframe, sources, {}, workspace, all));
     for (std::size_t k = 0; k < sources.size(); ++k) {
       const std::vector<float> row(all.begin() + static_cast<std::ptrdiff_t>(k * vertices),
                                    all.begin() + static_cast<std::ptrdiff_t>((k + 1) * vertices));
-      CHECK(row == propagate(Serial{}, wireframe, sources[k]).distance);
+      CHECK(row == solve(Serial{}, wireframe, sources[k]).distance);
     }
   }
 }

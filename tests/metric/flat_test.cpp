@@ -7,11 +7,8 @@
 #include <plexway/complex/intrinsic_delaunay.hpp>
 #include <plexway/complex/tet_mesh.hpp>
 #include <plexway/complex/wireframe.hpp>
-#include <plexway/executors/openmp.hpp>
-#include <plexway/executors/serial.hpp>
-#include <plexway/executors/serial_solid.hpp>
-#include <plexway/executors/serial_wireframe.hpp>
 #include <plexway/metric/edge_lengths.hpp>
+#include <plexway/solve.hpp>
 
 #include "complex/test_meshes.hpp"
 #include "data/two_speeds.hpp"
@@ -60,7 +57,7 @@ double worst_error(const Executor& executor, const Named& flat, const Tensor& te
   double worst = 0;
   for (const Index source : {Index{0}, static_cast<Index>(flat.points.size() / 2)}) {
     const auto at = PointSource::at(source);
-    const auto field = propagate(executor, mesh, std::span(&at, 1), PropagateOptions{});
+    const auto field = solve(executor, mesh, std::span(&at, 1), PropagateOptions{});
     for (std::size_t v = 0; v < flat.points.size(); ++v) {
       const double exact = length(tensor, flat.points[source], flat.points[v]);
       if (v != source)
@@ -109,7 +106,7 @@ TEST_CASE("a constant metric fills a box as straight lines do") {
         points, tets, metric::SimplexTensors{std::vector<Tensor>(tets.size(), tensor)});
     CHECK(metric::find_violations(std::span<const std::array<double, 6>>(lengths)).count == 0);
     const TetMesh<double> mesh(points.size(), tets, lengths);
-    const auto field = propagate(Serial{}, mesh, PointSource::at(0));
+    const auto field = solve(Serial{}, mesh, PointSource::at(0));
     double worst = 0, mean = 0;
     for (std::size_t v = 1; v < points.size(); ++v) {
       const double error = field.distance[v] / length(tensor, points[0], points[v]) - 1;
@@ -129,7 +126,7 @@ TEST_CASE("a speed on each edge of a wireframe adds up to travel time") {
       metric::edge_lengths(points, edges, metric::SimplexSpeeds{{10, 10, 10, 1, 1}});
   const Wireframe<double> wireframe(points.size(), edges, lengths);
   const auto at = PointSource::at(0);
-  const auto field = propagate(Serial{}, wireframe, std::span(&at, 1), PropagateOptions{});
+  const auto field = solve(Serial{}, wireframe, std::span(&at, 1), PropagateOptions{});
   CHECK(field.distance[2] == Approx(0.2));
   CHECK(field.distance[3] == Approx(0.3));
 }

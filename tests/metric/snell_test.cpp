@@ -8,10 +8,8 @@
 #include <plexway/apps/path_search.hpp>
 #include <plexway/complex/intrinsic_delaunay.hpp>
 #include <plexway/error.hpp>
-#include <plexway/executors/openmp.hpp>
-#include <plexway/executors/serial.hpp>
-#include <plexway/executors/source_sets.hpp>
 #include <plexway/metric/edge_lengths.hpp>
+#include <plexway/solve.hpp>
 
 #include "data/two_speeds.hpp"
 
@@ -61,7 +59,7 @@ Errors errors_of(const Executor& executor, const TriangleMesh<Real>& mesh,
                  const HalvedSquare& square, const TwoSpeeds& law, double y) {
   const Index source = square.nearest(0.3, y);
   const auto at = PointSource::at(source);
-  const auto field = propagate(executor, mesh, std::span(&at, 1), PropagateOptions{});
+  const auto field = solve(executor, mesh, std::span(&at, 1), PropagateOptions{});
   return compare(square.points, source, field.distance,
                  [&](const Point& p) { return law.time(square.points[source], p); });
 }
@@ -128,7 +126,7 @@ TEST_CASE("where two tensors meet the least sum of two norms decides") {
   const Index source = square.nearest(0.4, 0.3);
   const Point& a = square.points[source];
   const auto at = PointSource::at(source);
-  const auto field = propagate(Serial{}, mesh, std::span(&at, 1), PropagateOptions{});
+  const auto field = solve(Serial{}, mesh, std::span(&at, 1), PropagateOptions{});
   const auto norm = [](const Tensor& m, double x, double y) {
     return std::sqrt(m.xx * x * x + 2 * m.xy * x * y + m.yy * y * y);
   };
@@ -165,7 +163,7 @@ TEST_CASE("the light of a line is refracted as a straight front") {
   CurveSource row;  // at y = 1/4, parallel to where the speed jumps
   for (Index i = 0; i <= 20; ++i) row.points.push_back(PointSource::at(15 * 21 + i));
   const std::vector<Source> sources = {row};
-  const auto field = propagate(Serial{}, mesh, sources);
+  const auto field = solve(Serial{}, mesh, sources);
   for (std::size_t v = 0; v < square.points.size(); ++v) {
     const double y = square.points[v][1];
     CHECK(field.distance[v] ==
@@ -177,8 +175,8 @@ TEST_CASE("travel times are nearly the same there and back") {
   const HalvedSquare square(40, 0.3);
   const auto mesh = two_speeds<double>(square, {1, 3});
   const Index a = square.nearest(0.2, 0.4), b = square.nearest(0.9, -0.3);
-  const auto from_a = propagate(Serial{}, mesh, PointSource::at(a));
-  const auto from_b = propagate(Serial{}, mesh, PointSource::at(b));
+  const auto from_a = solve(Serial{}, mesh, PointSource::at(a));
+  const auto from_b = solve(Serial{}, mesh, PointSource::at(b));
   CHECK(from_a.distance[b] == Approx(from_b.distance[a]).epsilon(1e-3));
 }
 
@@ -206,7 +204,7 @@ TEST_CASE("lengths that no triangle has are counted and survived") {
       hints.refracts = refracts;
       const TriangleMesh<float> mesh(square.points.size(), square.faces, lengths, hints);
       CHECK(mesh.summary().violated_faces == violations.count);
-      const auto field = propagate(Serial{}, mesh, PointSource::at(3));
+      const auto field = solve(Serial{}, mesh, PointSource::at(3));
       for (const float d : field.distance) {
         CHECK(std::isfinite(d));
         CHECK(d >= 0);
@@ -222,6 +220,6 @@ TEST_CASE("what unfolds over edges is refused where they refract") {
   CHECK_THROWS_AS(PathSearch<float>(mesh), UsageError);
   PropagateOptions options;
   options.visibility = Visibility::centroid;
-  CHECK_THROWS_WITH(propagate(Serial{}, mesh, PointSource::at(0), options),
+  CHECK_THROWS_WITH(solve(Serial{}, mesh, PointSource::at(0), options),
                     Catch::Contains("6 refracting edges"));
 }

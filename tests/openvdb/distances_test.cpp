@@ -1,7 +1,7 @@
 // Distances inside a cut level set, against exact ones and against those in TetGen's solid of the
 // same surface with edges as long.
 
-#include <plexway/executors/serial_solid.hpp>
+#include <plexway/solve.hpp>
 
 #include "volumes.hpp"
 
@@ -21,7 +21,7 @@ double mean_edge(const plexway::TetMesh<double>& mesh) { return mesh.summary().m
 TEST_CASE("distances in a ball cut from a level set are straight") {
   const auto solid = plexway::openvdb::fill(ball(1, 0.1));
   const plexway::TetMesh<double> mesh(solid.positions, solid.tets);
-  const auto field = plexway::propagate(plexway::Serial{}, mesh, PointSource::at(0));
+  const auto field = plexway::solve(plexway::Serial{}, mesh, PointSource::at(0));
   double sum = 0;
   for (std::size_t v = 1; v < solid.positions.size(); ++v) {
     const Point way = solid.positions[v] - solid.positions[0];
@@ -59,8 +59,8 @@ TEST_CASE("distances agree with those in the solid that TetGen makes of the same
                            surface.positions.begin());
     REQUIRE(at.count(surface.positions[from]) == 1);
     const auto mine =
-        plexway::propagate(plexway::Serial{}, own, PointSource::at(at[surface.positions[from]]));
-    const auto theirs = plexway::propagate(plexway::Serial{}, peer, PointSource::at(from));
+        plexway::solve(plexway::Serial{}, own, PointSource::at(at[surface.positions[from]]));
+    const auto theirs = plexway::solve(plexway::Serial{}, peer, PointSource::at(from));
     double sum = 0, most = 0;
     std::size_t compared = 0;
     for (Index v = 0; v < surface.positions.size(); ++v) {

@@ -7,9 +7,9 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include <plexway/executors/serial_cloud.hpp>
 #include <plexway/flann/neighbours.hpp>
 #include <plexway/pcl/cloud.hpp>
+#include <plexway/solve.hpp>
 
 #include "pcl/pcl_testing.hpp"
 
@@ -24,7 +24,7 @@ TEST_CASE("a program with a cloud of PCL: distances on a scanned ball are angles
   const plexway::PointCloud<float> cloud(points.positions,
                                          plexway::flann::neighbours(points.positions));
   const plexway::Index source = 700;
-  const auto field = propagate(plexway::Serial{}, cloud, plexway::PointSource::at(source));
+  const auto field = solve(plexway::Serial{}, cloud, plexway::PointSource::at(source));
   pcl::PointCloud<pcl::PointXYZI> coloured;
   pcl::copyPointCloud(scan, coloured);
   plexway::pcl::set_intensity(coloured, points, field.distance);

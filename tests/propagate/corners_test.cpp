@@ -2,7 +2,7 @@
 
 #include <span>
 
-#include <plexway/executors/openmp.hpp>
+#include <plexway/solve.hpp>
 
 #include "data/corner_domains.hpp"
 #include "propagate/solving.hpp"
@@ -25,7 +25,7 @@ Solved solve_grid(const Executor& executor, const samples::CornerDomain& domain,
                   const PropagateOptions& options = {}) {
   const samples::Shape grid = domain.grid(n);
   const TriangleMesh<Real> mesh(grid.points, grid.faces);
-  const auto field = propagate(executor, mesh, PointSource::at(0), options);
+  const auto field = solve(executor, mesh, PointSource::at(0), options);
   return {compare(field.distance, domain.distances(grid.points)),
           static_cast<double>(field.statistics.updates) / static_cast<double>(grid.faces.size())};
 }

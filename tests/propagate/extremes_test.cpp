@@ -7,13 +7,9 @@
 
 #include <plexway/complex/simplicial_complex.hpp>
 #include <plexway/error.hpp>
-#include <plexway/executors/openmp.hpp>
-#include <plexway/executors/serial.hpp>
-#include <plexway/executors/serial_simplicial.hpp>
-#include <plexway/executors/serial_solid.hpp>
-#include <plexway/executors/serial_wireframe.hpp>
 #include <plexway/propagate/front.hpp>
 #include <plexway/propagate/wavefront.hpp>
+#include <plexway/solve.hpp>
 
 #include "complex/test_meshes.hpp"
 #include "complex/test_solids.hpp"
@@ -37,7 +33,7 @@ Surface with_far_corner(double away) {
 
 template <class Real>
 double largest_error(const Surface& s) {
-  const auto d = propagate(Serial{}, s.mesh<Real>(), from(17)).distance;
+  const auto d = plexway::solve(Serial{}, s.mesh<Real>(), from(17)).distance;
   double worst = 0;
   for (std::size_t v = 0; v + 1 < s.positions.size(); ++v) {
     const auto &p = s.positions[v], &q = s.positions[17];
@@ -94,14 +90,15 @@ TEST_CASE("triangles that measure an edge too differently are refused, with both
       for (const int corner : {-1, 0, 1, 2}) {
         const Index source = corner < 0 ? 7 : s.faces[slow][static_cast<std::size_t>(corner)];
         const auto wanted =
-            propagate(Serial{}, refracting<double>(s, slow, 100, two_edges), from(source)).distance;
+            plexway::solve(Serial{}, refracting<double>(s, slow, 100, two_edges), from(source))
+                .distance;
         const auto twice =
-            propagate(Serial{}, refracting<double>(s, slow, two_edges ? 6e5 : 1e11, two_edges),
-                      from(source))
+            plexway::solve(Serial{}, refracting<double>(s, slow, two_edges ? 6e5 : 1e11, two_edges),
+                           from(source))
                 .distance;
         const auto once =
-            propagate(Serial{}, refracting<float>(s, slow, two_edges ? 300 : 1e5, two_edges),
-                      from(source))
+            plexway::solve(Serial{}, refracting<float>(s, slow, two_edges ? 300 : 1e5, two_edges),
+                           from(source))
                 .distance;
         double worst = 0;
         for (std::size_t v = 0; v < wanted.size(); ++v) {
@@ -124,7 +121,7 @@ TEST_CASE("a vertex far away is right or refused in solids") {
     const std::size_t far = cube.positions.size() - 1;
     cube.positions[far] = {away, away, away};
     const TetMesh<decltype(real)> mesh(cube.positions, cube.tets);
-    const auto d = propagate(Serial{}, mesh, from(0)).distance;
+    const auto d = plexway::solve(Serial{}, mesh, from(0)).distance;
     double worst = 0;
     for (std::size_t v = 1; v < far; ++v) {
       const auto &p = cube.positions[v], &q = cube.positions[0];
@@ -150,7 +147,7 @@ TEST_CASE("lengths far apart are right or refused without coordinates") {
   };
   const auto check = [&](auto make) {
     for (const double large : {1., 1e5}) {
-      const auto d = propagate(Serial{}, make(large), from(0)).distance;
+      const auto d = plexway::solve(Serial{}, make(large), from(0)).distance;
       for (Index v = 1; v < 4; ++v) CHECK(static_cast<double>(d[v]) == Approx(1));
     }
     CHECK_THROWS_AS(make(1e20), PrecisionError);
@@ -158,7 +155,7 @@ TEST_CASE("lengths far apart are right or refused without coordinates") {
   check([&](double large) { return TetMesh<float>(8, tets, lengths(large)); });
   check([&](double large) { return SimplicialComplex<float, 3>(8, tets, lengths(large)); });
   const TetMesh<double> twice(8, tets, lengths(1e20));
-  CHECK(propagate(Serial{}, twice, from(0)).distance[3] == Approx(1));
+  CHECK(plexway::solve(Serial{}, twice, from(0)).distance[3] == Approx(1));
 }
 
 TEST_CASE("edges of a wireframe that single precision does not hold are refused by number") {
@@ -166,7 +163,8 @@ TEST_CASE("edges of a wireframe that single precision does not hold are refused 
   const std::vector<double> lengths = {1, 1e-30, 1e12};
   CHECK_THROWS_WITH(Wireframe<float>(4, edges, lengths), Contains("edge 1: its length"));
   const Wireframe<double> wires(4, edges, lengths);
-  CHECK(propagate(Serial{}, wires, from(1)).distance == std::vector<double>{1, 0, 1e-30, 1e12});
+  CHECK(plexway::solve(Serial{}, wires, from(1)).distance ==
+        std::vector<double>{1, 0, 1e-30, 1e12});
 }
 
 TEST_CASE("distances that are no numbers of a precision are refused, not infinite") {
@@ -174,12 +172,12 @@ TEST_CASE("distances that are no numbers of a precision are refused, not infinit
   for (auto& p : s.positions)
     for (double& c : p) c *= 1e60;
   const auto mesh = s.mesh<float>();  // knows its unit in double
-  CHECK_THROWS_AS(propagate(Serial{}, mesh, from(0)), PrecisionError);
-  CHECK_THROWS_AS(propagate(OpenMP{.threads = 2}, mesh, from(0)), PrecisionError);
-  CHECK(propagate(Serial{}, s.mesh<double>(), from(0)).distance[3] == Approx(1e60));
+  CHECK_THROWS_AS(plexway::solve(Serial{}, mesh, from(0)), PrecisionError);
+  CHECK_THROWS_AS(plexway::solve(OpenMP{.threads = 2}, mesh, from(0)), PrecisionError);
+  CHECK(plexway::solve(Serial{}, s.mesh<double>(), from(0)).distance[3] == Approx(1e60));
   const Wireframe<float> wires(2, std::vector<std::array<Index, 2>>{{0, 1}},
                                std::vector<double>{1e60});
-  CHECK_THROWS_AS(propagate(Serial{}, wires, from(0)), PrecisionError);
+  CHECK_THROWS_AS(plexway::solve(Serial{}, wires, from(0)), PrecisionError);
 }
 
 namespace {

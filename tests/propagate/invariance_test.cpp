@@ -127,14 +127,14 @@ TEMPLATE_TEST_CASE("solving again gives the same bits", "", float, double) {
       PropagateOptions options;
       options.visibility = visibility;
       options.schedule = schedule;
-      propagate(Serial{}, mesh, here, options, workspace, first);
-      propagate(Serial{}, mesh, there, {}, workspace, other);
-      propagate(Serial{}, mesh, here, options, workspace, again);
+      plexway::solve(Serial{}, mesh, here, options, workspace, first);
+      plexway::solve(Serial{}, mesh, there, {}, workspace, other);
+      plexway::solve(Serial{}, mesh, here, options, workspace, again);
       CAPTURE(name(options));
       CHECK(first.distance == again.distance);
       CHECK(first.statistics.expansions == again.statistics.expansions);
       CHECK(first.statistics.updates == again.statistics.updates);
-      CHECK(first.distance == propagate(Serial{}, mesh, here, options).distance);
+      CHECK(first.distance == plexway::solve(Serial{}, mesh, here, options).distance);
     }
 }
 
@@ -145,13 +145,13 @@ TEST_CASE("thousands of solves on one workspace") {
   DistanceField<float> field;
   std::vector<std::vector<float>> expected;
   for (Index v = 0; v < 17; ++v)
-    expected.push_back(propagate(Serial{}, mesh, PointSource::at(v)).distance);
+    expected.push_back(plexway::solve(Serial{}, mesh, PointSource::at(v)).distance);
   bool same = true;
   for (Index n = 0; n < 20000; ++n) {
     const PointSource source[] = {PointSource::at(n * 7 % 17)};
     PropagateOptions options;
     if (n % 3) options.radius = .3;  // leaves old marks about
-    propagate(Serial{}, mesh, source, options, workspace, field);
+    plexway::solve(Serial{}, mesh, source, options, workspace, field);
     if (n % 3 == 0) same &= field.distance == expected[source[0].vertex];
   }
   CHECK(same);
@@ -166,8 +166,8 @@ TEMPLATE_TEST_CASE("one workspace serves meshes of different size", "", float, d
       PropagateOptions options;
       options.schedule = schedule;
       const PointSource source[] = {PointSource::at(n)};
-      propagate(Serial{}, mesh, source, options, workspace, field);
-      CHECK(field.distance == propagate(Serial{}, mesh, source, options).distance);
+      plexway::solve(Serial{}, mesh, source, options, workspace, field);
+      CHECK(field.distance == plexway::solve(Serial{}, mesh, source, options).distance);
     }
   }
 }

@@ -8,7 +8,7 @@
 #include <random>
 #include <vector>
 
-#include <plexway/executors/serial_mixed.hpp>
+#include <plexway/solve.hpp>
 
 /// Pieces of mixed domains, and domains made of them whose distances are known.
 namespace mixed_domains {
@@ -150,7 +150,7 @@ struct Welded {
   /// Greatest error over all vertices, relative to the exact distance or to 1.
   double worst(Index source, const std::function<double(Index)>& exact,
                const PropagateOptions& options = {}) const {
-    const auto field = propagate(Serial{}, complex, PointSource::at(source), options);
+    const auto field = solve(Serial{}, complex, PointSource::at(source), options);
     REQUIRE(field.distance.size() == positions.size());
     double worst = 0;
     for (Index v = 0; v < positions.size(); ++v) {

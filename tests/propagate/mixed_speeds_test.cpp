@@ -5,7 +5,7 @@
 #include <map>
 #include <vector>
 
-#include <plexway/executors/serial_mixed.hpp>
+#include <plexway/solve.hpp>
 
 #include "mixed_domains.hpp"
 
@@ -37,7 +37,7 @@ struct Errors {
   double mean = 0, worst = 0, low = 0;
 };
 Errors errors(const Welded& domain, Index source, const std::function<double(Index)>& exact) {
-  const auto field = propagate(Serial{}, domain.complex, PointSource::at(source));
+  const auto field = solve(Serial{}, domain.complex, PointSource::at(source));
   Errors e;
   for (Index v = 0; v < domain.positions.size(); ++v) {
     const double truth = exact(v);
@@ -253,7 +253,7 @@ TEST_CASE("pieces of any speeds never gain on themselves") {
     domain.weld(fin, one);
     const double fastest = std::max(7., c);
     for (const Index source : {one.vertex(3), skin.vertex(7), fin.vertex(0), other.vertex(60)}) {
-      const auto field = propagate(Serial{}, domain.complex, PointSource::at(source));
+      const auto field = solve(Serial{}, domain.complex, PointSource::at(source));
       for (Index v = 0; v < domain.positions.size(); ++v) {
         const double least = distance(domain.positions[source], domain.positions[v]) / fastest;
         CHECK(field.distance[v] / domain.move.scale >= least * (1 - 1e-9));
@@ -286,7 +286,7 @@ TEST_CASE("in single precision welds make corners and speeds refract as well") {
     for (Index v = 0; v < s.positions.size(); ++v)
       if (distance(s.positions[v], from) < 1e-6) source = skin.vertex(v);
     REQUIRE(source != none);
-    const auto field = propagate(Serial{}, domain, PointSource::at(source));
+    const auto field = solve(Serial{}, domain, PointSource::at(source));
     const auto check = [&](double d, double truth) {
       CAPTURE(c, d, truth);
       CHECK(d == Approx(truth).epsilon(c == 1 ? 1e-5 : 1e-2).margin(1e-6));

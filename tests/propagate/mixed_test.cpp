@@ -4,7 +4,7 @@
 #include <vector>
 
 #include <plexway/error.hpp>
-#include <plexway/executors/serial_mixed.hpp>
+#include <plexway/solve.hpp>
 
 #include "mixed_domains.hpp"
 
@@ -223,7 +223,7 @@ TEST_CASE("several sources, offsets, radius and points of simplices in a mixed d
   domain.weld(plate, wire);
   const PointSource sources[] = {PointSource::in(wire.simplex(1), {.5, .5}),
                                  {.vertex = plate.vertex(0), .offset = .25}};
-  const auto field = propagate(Serial{}, domain.complex, sources, {});
+  const auto field = plexway::solve(Serial{}, domain.complex, sources, {});
   REQUIRE(field.label.size() == field.distance.size());
   for (Index v = 0; v < domain.positions.size(); ++v) {
     const Position& p = domain.positions[v];
@@ -235,7 +235,7 @@ TEST_CASE("several sources, offsets, radius and points of simplices in a mixed d
   }
   PropagateOptions near;
   near.radius = 1.5;
-  const auto part = propagate(Serial{}, domain.complex, PointSource::at(wire.vertex(1)), near);
+  const auto part = plexway::solve(Serial{}, domain.complex, PointSource::at(wire.vertex(1)), near);
   CHECK(part.distance[wire.vertex(0)] == Approx(1));
   CHECK(part.distance[plate.vertex(7)] == Approx(1.5));
   CHECK(part.distance[plate.vertex(0)] == infinity);
@@ -251,7 +251,7 @@ TEST_CASE("solving a mixed domain again gives the same bits") {
   DistanceField<double> first, again;
   const PointSource source = PointSource::at(plate.vertex(1)), other = PointSource::at(0);
   const auto solve = [&](const PointSource& s, DistanceField<double>& field) {
-    propagate(Serial{}, domain.complex, std::span(&s, 1), {}, workspace, field);
+    plexway::solve(Serial{}, domain.complex, std::span(&s, 1), {}, workspace, field);
   };
   solve(source, first);
   solve(other, again);
@@ -298,15 +298,15 @@ TEST_CASE("what a mixed domain refuses") {
   CHECK_THROWS_AS(domain.weld(a, b, wrong), UsageError);
   CHECK_THROWS_AS(a.vertex(4), UsageError);
   CHECK_THROWS_AS(a.simplex(2), UsageError);
-  CHECK_THROWS_AS(propagate(Serial{}, domain, PointSource::at(8)), UsageError);
-  CHECK_THROWS_AS(propagate(Serial{}, domain, PointSource::in(0, {.5, .6, 0})), UsageError);
+  CHECK_THROWS_AS(plexway::solve(Serial{}, domain, PointSource::at(8)), UsageError);
+  CHECK_THROWS_AS(plexway::solve(Serial{}, domain, PointSource::in(0, {.5, .6, 0})), UsageError);
   PropagateOptions options;
   options.schedule = Schedule::priority;
-  CHECK_THROWS_AS(propagate(Serial{}, domain, PointSource::at(0), options), UsageError);
+  CHECK_THROWS_AS(plexway::solve(Serial{}, domain, PointSource::at(0), options), UsageError);
   const std::array<std::array<Index, 4>, 1> tet = {{{0, 1, 2, 3}}};
   const std::array<std::array<double, 6>, 1> lengths = {{{1, 1, 1, 1, 1, 1}}};
   CHECK_THROWS_AS(domain.add(TetMesh<double>(4, tet, lengths)), UsageError);
   const std::array<Index, 2> right[] = {{0, 0}, {3, 3}};
   CHECK(domain.weld(a, b, right) == 2);
-  CHECK(propagate(Serial{}, domain, PointSource::at(0)).distance[7] == Approx(std::sqrt(2.)));
+  CHECK(plexway::solve(Serial{}, domain, PointSource::at(0)).distance[7] == Approx(std::sqrt(2.)));
 }

@@ -5,7 +5,7 @@
 #include <random>
 #include <vector>
 
-#include <plexway/executors/serial_mixed.hpp>
+#include <plexway/solve.hpp>
 
 #include "mixed_domains.hpp"
 
@@ -90,7 +90,7 @@ struct Errors {
   double mean = 0, worst = 0, low = 0;
 };
 Errors errors(const Welded& domain, Index source, const std::function<double(Index)>& exact) {
-  const auto field = propagate(Serial{}, domain.complex, PointSource::at(source));
+  const auto field = solve(Serial{}, domain.complex, PointSource::at(source));
   Errors e;
   for (Index v = 0; v < domain.positions.size(); ++v) {
     const double truth = exact(v);
@@ -226,7 +226,7 @@ TEST_CASE("a sheet behind an obstacle in a solid") {
         return std::min(best, length(p, a) + length(a, b) + length(b, q));
       };
       const auto field =
-          propagate(Serial{}, domain.complex, PointSource::at(domain.nearest(solid, from)));
+          solve(Serial{}, domain.complex, PointSource::at(domain.nearest(solid, from)));
       for (Index v = fin.first_vertex; v < domain.positions.size(); ++v) {
         const Position& p = domain.positions[v];
         const double truth = least(0, 1, [&](double z) {
@@ -316,7 +316,7 @@ TEST_CASE("random boxes in a row, joined by windows, are never too near") {
     });
     const Index source = one.vertex(Index(integer(0, int(one.vertices) - 1)));
     const Position& from = domain.positions[source];
-    const auto field = propagate(Serial{}, domain.complex, PointSource::at(source));
+    const auto field = solve(Serial{}, domain.complex, PointSource::at(source));
     for (Index v = 0; v < domain.positions.size(); ++v) {
       const Position& p = domain.positions[v];
       // In a block with a faster one beside it paths may go there and back: no closed form.

@@ -4,7 +4,7 @@
 #include <string>
 
 #include <plexway/complex/intrinsic_delaunay.hpp>
-#include <plexway/executors/openmp.hpp>
+#include <plexway/solve.hpp>
 
 #include "propagate/solving.hpp"
 
@@ -79,8 +79,8 @@ void check_surface(const Surface& s, const std::vector<Index>& from) {
     const auto check = [&](const DistanceField<Real>& field) {
       check_field(s, {field.distance.begin(), field.distance.end()}, from, slack);
     };
-    check(propagate(Serial{}, mesh, all));
-    check(propagate(OpenMP{2}, mesh, all));
+    check(plexway::solve(Serial{}, mesh, all));
+    check(plexway::solve(OpenMP{2}, mesh, all));
   }
 }
 
@@ -95,7 +95,8 @@ TEMPLATE_TEST_CASE("no distance is below the straight line around a spike", "", 
       for (const Index source : {0u, 33u, 63u, 80u}) {
         check_surface<TestType>(s, {source});
         const auto flipped = IntrinsicDelaunay(s.mesh<double>()).mesh<TestType>();
-        raised += propagate(Serial{}, flipped, PointSource::at(source)).statistics.raised_vertices;
+        raised +=
+            plexway::solve(Serial{}, flipped, PointSource::at(source)).statistics.raised_vertices;
       }
       check_surface<TestType>(s, {7, 33, 78});
     }
@@ -113,7 +114,7 @@ TEMPLATE_TEST_CASE("in fans of thin triangles no vertex is farther than a neighb
     check_surface<TestType>(s, {0, 75});
     const auto flipped = IntrinsicDelaunay(s.mesh<double>()).mesh<TestType>();
     CHECK(flipped.has_chords());
-    lowered += propagate(Serial{}, flipped, PointSource::at(1)).statistics.lowered_vertices;
+    lowered += plexway::solve(Serial{}, flipped, PointSource::at(1)).statistics.lowered_vertices;
   }
   CHECK(lowered > 0);
 }
@@ -145,9 +146,9 @@ TEST_CASE("lengths alone know no straight line, and good fields need no repair")
   const Surface s = spike(100, 1);
   const TriangleMesh<float> mesh(s.positions.size(), s.faces, lengths_of(s));
   CHECK(mesh.positions().empty());
-  CHECK(propagate(Serial{}, mesh, PointSource::at(0)).statistics.raised_vertices == 0);
+  CHECK(plexway::solve(Serial{}, mesh, PointSource::at(0)).statistics.raised_vertices == 0);
   const Surface flat = grid(30, 30);
-  const auto field = propagate(Serial{}, flat.mesh<float>(), PointSource::at(7));
+  const auto field = plexway::solve(Serial{}, flat.mesh<float>(), PointSource::at(7));
   CHECK(field.statistics.raised_vertices == 0);
   CHECK(field.statistics.lowered_vertices == 0);
 }

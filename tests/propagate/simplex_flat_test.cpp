@@ -25,7 +25,7 @@ void check_cube(std::size_t n) {
       for (const Schedule schedule : schedules) {
         PropagateOptions options;
         options.schedule = schedule;
-        const auto field = propagate(Serial{}, domain, PointSource::at(source), options);
+        const auto field = plexway::solve(Serial{}, domain, PointSource::at(source), options);
         const Errors e = compare(field.distance, straight(grid, source));
         CAPTURE(N, n, seed, source, name(options), e.max);
         CHECK(e.fits);
@@ -125,7 +125,7 @@ TEMPLATE_TEST_CASE("several sources share the 4-cube by nearness", "", float, do
   std::vector<PointSource> sources = {PointSource::at(0), PointSource::at(333),
                                       PointSource::at(600)};
   sources[2].offset = .125;
-  const auto field = propagate(Serial{}, domain, sources);
+  const auto field = plexway::solve(Serial{}, domain, sources);
   REQUIRE(field.label.size() == grid.vertex_count());
   double worst = 0, mean = 0;
   bool labels = true;

@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include <plexway/executors/openmp.hpp>
+#include <plexway/solve.hpp>
 
 #include "propagate/simplex_obstacles.hpp"
 
@@ -271,9 +271,9 @@ TEST_CASE("a team pulls the same strings") {
   const auto check_team = [](const auto& obstacles) {
     const auto domain = obstacles.template complex<double>();
     const PointSource source = PointSource::at(3);
-    const auto alone = propagate(Serial{}, domain, source).distance;
+    const auto alone = plexway::solve(Serial{}, domain, source).distance;
     for (const int threads : {1, 2}) {
-      const auto field = propagate(OpenMP{threads}, domain, source);
+      const auto field = plexway::solve(OpenMP{threads}, domain, source);
       const Errors e = compare(field.distance, alone);
       CAPTURE(threads, e.mean, e.max);
       CHECK(e.fits);

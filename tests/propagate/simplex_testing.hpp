@@ -9,7 +9,7 @@
 #include <vector>
 
 #include <plexway/complex/kuhn_grid.hpp>
-#include <plexway/executors/serial_simplicial.hpp>
+#include <plexway/solve.hpp>
 
 #include "propagate/solving.hpp"
 
@@ -116,7 +116,7 @@ struct HoledCube {
 template <class Real, int N>
 std::vector<double> solve(const SimplicialComplex<Real, N>& domain, const PointSource& source,
                           const PropagateOptions& options = {}) {
-  const auto field = propagate(Serial{}, domain, source, options);
+  const auto field = plexway::solve(Serial{}, domain, source, options);
   return {field.distance.begin(), field.distance.end()};
 }
 

@@ -13,7 +13,7 @@ TEST_CASE("a convex solid is exact") {
   for (const double jitter : {0.0, 0.2}) {
     const Solid s = moved(solid_cube(9, jitter), 3.7, {5, -2, 1});
     for (const Index source : {Index(0), s.nearest(5, 0, 2), Index(999)}) {
-      const auto field = propagate(Serial{}, s.mesh<double>(), PointSource::at(source));
+      const auto field = plexway::solve(Serial{}, s.mesh<double>(), PointSource::at(source));
       const Errors e = compare(field.distance, straight(s, s.positions[source]));
       CAPTURE(jitter, source, e.max);
       CHECK(e.fits);
@@ -152,8 +152,8 @@ TEMPLATE_TEST_CASE("grids given by lengths alone are exact", "", float, double) 
         for (std::size_t i = 0; i < 3; ++i) p[i] *= stretch[i];
       const TetMesh<TestType> mesh(s.positions.size(), s.tets, s.lengths());
       for (const Index source : {Index{0}, static_cast<Index>(s.positions.size() / 2), n}) {
-        const Errors e = compare(solve(mesh, PointSource::at(source)),
-                                 straight(s, s.positions[source]));
+        const Errors e =
+            compare(solve(mesh, PointSource::at(source)), straight(s, s.positions[source]));
         CAPTURE(n, source, stretch[0], e.mean, e.max, e.below);
         CHECK(e.fits);
         CHECK(e.max < (sizeof(TestType) == 4 ? 5e-6 : 1e-14));

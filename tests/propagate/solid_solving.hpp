@@ -3,7 +3,7 @@
 #include <cmath>
 #include <vector>
 
-#include <plexway/executors/serial_solid.hpp>
+#include <plexway/solve.hpp>
 
 #include "complex/test_solids.hpp"
 #include "propagate/solving.hpp"
@@ -16,7 +16,7 @@ inline constexpr Visibility solid_visibilities[] = {Visibility::saddles, Visibil
 template <class Real>
 std::vector<double> solve(const TetMesh<Real>& mesh, const PointSource& source,
                           const PropagateOptions& options = {}) {
-  const auto field = propagate(Serial{}, mesh, source, options);
+  const auto field = plexway::solve(Serial{}, mesh, source, options);
   return {field.distance.begin(), field.distance.end()};
 }
 

@@ -4,7 +4,7 @@
 #include <limits>
 #include <vector>
 
-#include <plexway/executors/serial_solid.hpp>
+#include <plexway/solve.hpp>
 
 using namespace plexway;
 
@@ -27,7 +27,7 @@ TEMPLATE_TEST_CASE("two sources in one tetrahedron both count", "", float, doubl
   const std::vector<PointSource> sources = {PointSource::in(0, {.7, .1, .1, .1}),
                                             PointSource::in(0, {.1, .7, .1, .1})};
   const std::array<Position, 2> at = {{{.1, .1, .1}, {.7, .1, .1}}};
-  const auto field = propagate(Serial{}, mesh, sources, {});
+  const auto field = solve(Serial{}, mesh, sources, {});
   for (Index v = 0; v < 5; ++v) {  // all of these are in sight of both
     const double first = distance(positions[v], at[0]), second = distance(positions[v], at[1]);
     CHECK(field.distance[v] == Approx(std::min(first, second)));
@@ -49,7 +49,7 @@ TEST_CASE("a long row of blocks that touch at vertices is reached to its end") {
     tets.push_back({first + 4, first + 1, first + 2, first + 3});
   }
   const TetMesh<double> mesh(positions, tets);
-  const auto field = propagate(Serial{}, mesh, PointSource::at(0));
+  const auto field = solve(Serial{}, mesh, PointSource::at(0));
   CHECK(field.complete);
   for (Index k = 1; k <= blocks; ++k)
     CHECK(field.distance[4 * k] == Approx(k * std::sqrt(3.)).epsilon(1e-9));
@@ -61,7 +61,7 @@ TEMPLATE_TEST_CASE("a stray vertex costs the others no digits", "", float, doubl
       {5e6, 5e6, 5e6}, {5e6 + 1, 5e6, 5e6}, {5e6, 5e6 + 1, 5e6}, {5e6, 5e6, 5e6 + 1}, {0, 0, 0}};
   const std::vector<Corners> tets = {{0, 1, 2, 3}};
   const TetMesh<TestType> mesh(positions, tets);
-  const auto field = propagate(Serial{}, mesh, PointSource::at(1));
+  const auto field = solve(Serial{}, mesh, PointSource::at(1));
   CHECK(field.distance[0] == Approx(1).epsilon(1e-6));
   CHECK(field.distance[2] == Approx(std::sqrt(2.)).epsilon(1e-6));
   CHECK(field.distance[4] == std::numeric_limits<TestType>::infinity());

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include <plexway/executors/serial.hpp>
+#include <plexway/solve.hpp>
 
 #include "complex/test_meshes.hpp"
 
@@ -27,7 +27,7 @@ inline std::string name(const PropagateOptions& options) {
 template <class Real>
 std::vector<double> solve(const TriangleMesh<Real>& mesh, const PointSource& source,
                           const PropagateOptions& options = {}) {
-  const auto field = propagate(Serial{}, mesh, source, options);
+  const auto field = plexway::solve(Serial{}, mesh, source, options);
   return {field.distance.begin(), field.distance.end()};
 }
 

@@ -1,7 +1,7 @@
 #include <catch2/catch.hpp>
 
 #include <plexway/error.hpp>
-#include <plexway/executors/serial_wireframe.hpp>
+#include <plexway/solve.hpp>
 
 #include "complex/test_wires.hpp"
 #include "propagate/solving.hpp"
@@ -45,8 +45,7 @@ Wires lattice(Index n) {
 
 TEMPLATE_TEST_CASE("wireframe: lattices and circles have closed forms", "", float, double) {
   const Index n = 40;
-  const auto taxi =
-      propagate(Serial{}, lattice(n).wireframe<TestType>(), PointSource::at(7 * n + 9));
+  const auto taxi = solve(Serial{}, lattice(n).wireframe<TestType>(), PointSource::at(7 * n + 9));
   for (int i = 0; i < int(n); ++i)
     for (int j = 0; j < int(n); ++j)
       REQUIRE(double(taxi.distance[std::size_t(i * int(n) + j)]) ==
@@ -60,7 +59,7 @@ TEMPLATE_TEST_CASE("wireframe: lattices and circles have closed forms", "", floa
     corners.push_back({std::cos(angle), std::sin(angle), 0.5});
     edges.push_back({i, (i + 1) % m});
   }
-  const auto round = propagate(Serial{}, Wireframe<TestType>(corners, edges), PointSource::at(10));
+  const auto round = solve(Serial{}, Wireframe<TestType>(corners, edges), PointSource::at(10));
   for (Index i = 0; i < m; ++i) {
     const double steps = std::min((i + m - 10) % m, (10 + m - i) % m);
     CHECK(double(round.distance[i]) == Approx(steps * 2 * std::sin(std::numbers::pi / m)));
@@ -82,7 +81,7 @@ TEMPLATE_TEST_CASE("wireframe: any graph, any schedule, any size of lengths", ""
           options.vectorised = vectorised;
           options.step = step;
           CAPTURE(seed, name(options), step);
-          REQUIRE(agrees(propagate(Serial{}, w, PointSource::at(source), options), exact));
+          REQUIRE(agrees(solve(Serial{}, w, PointSource::at(source), options), exact));
         }
   }
 }
@@ -92,8 +91,8 @@ TEMPLATE_TEST_CASE("wireframe: the literal hinge kernel gives the same bits", ""
     const auto w = random_wires(seed, 500, 900).wireframe<TestType>();
     PropagateOptions literal;
     literal.vectorised = false;
-    const auto kernel = propagate(Serial{}, w, PointSource::at(1), literal);
-    const auto fast = propagate(Serial{}, w, PointSource::at(1));
+    const auto kernel = solve(Serial{}, w, PointSource::at(1), literal);
+    const auto fast = solve(Serial{}, w, PointSource::at(1));
     CHECK(kernel.distance == fast.distance);
     CHECK(kernel.statistics.updates == fast.statistics.updates);
   }
@@ -111,12 +110,12 @@ TEMPLATE_TEST_CASE("wireframe: a source anywhere on an edge", "", float, double)
       PointSource source = PointSource::in(e, {1 - t, t});
       source.offset = 2;
       CAPTURE(e, t);
-      REQUIRE(agrees(propagate(Serial{}, w, source), edge_distances(wires, start)));
+      REQUIRE(agrees(solve(Serial{}, w, source), edge_distances(wires, start)));
     }
   // On a loop both ways lead to the same vertex.
   const Wireframe<TestType> loop(2, std::vector<std::array<Index, 2>>{{1, 1}, {0, 1}},
                                  std::vector<double>{4, 1});
-  CHECK(propagate(Serial{}, loop, PointSource::in(0, {.25, .75})).distance ==
+  CHECK(solve(Serial{}, loop, PointSource::in(0, {.25, .75})).distance ==
         std::vector<TestType>{2, 1});
 }
 
@@ -145,7 +144,7 @@ TEMPLATE_TEST_CASE("wireframe: several sources, offsets and labels", "", float, 
     for (const Schedule schedule : schedules) {
       PropagateOptions options;
       options.schedule = schedule;
-      const auto field = propagate(Serial{}, w, sources, options);
+      const auto field = solve(Serial{}, w, sources, options);
       REQUIRE(agrees(field, exact));
       REQUIRE(field.label.size() == wires.vertices);
       CHECK(field.label[5] == 0);
@@ -167,7 +166,7 @@ TEMPLATE_TEST_CASE("wireframe: radius, budget, progress and cancelling", "", flo
   const auto w = wires.wireframe<TestType>();
   PropagateOptions options;
   options.radius = 100;
-  const auto near = propagate(Serial{}, w, PointSource::at(1000), options);
+  const auto near = solve(Serial{}, w, PointSource::at(1000), options);
   for (Index v = 0; v < wires.vertices; ++v) {
     const double d = .5 * std::abs(double(v) - 1000);
     REQUIRE(double(near.distance[v]) == (d <= 100 ? d : inf));
@@ -177,20 +176,20 @@ TEMPLATE_TEST_CASE("wireframe: radius, budget, progress and cancelling", "", flo
 
   options = {};
   options.max_expansions = 50;
-  const auto part = propagate(Serial{}, w, PointSource::at(1000), options);
+  const auto part = solve(Serial{}, w, PointSource::at(1000), options);
   CHECK_FALSE(part.complete);
   CHECK(part.statistics.expansions == 50);
   CHECK(part.distance[1010] == 5);
   CHECK(std::isinf(part.distance[1100]));
   options.max_expansions = wires.vertices;  // just enough
-  CHECK(propagate(Serial{}, w, PointSource::at(0), options).complete);
+  CHECK(solve(Serial{}, w, PointSource::at(0), options).complete);
   options.max_expansions = 0;
-  CHECK_FALSE(propagate(Serial{}, w, PointSource::at(0), options).complete);
+  CHECK_FALSE(solve(Serial{}, w, PointSource::at(0), options).complete);
 
   options = {};
   std::vector<Progress> calls;
   options.progress = [&](const Progress& p) { return calls.push_back(p), true; };
-  const auto whole = propagate(Serial{}, w, PointSource::at(0), options);
+  const auto whole = solve(Serial{}, w, PointSource::at(0), options);
   REQUIRE(calls.size() == 1);
   CHECK(calls[0].expansions == 65536);
   CHECK(calls[0].reached == 65537);
@@ -200,7 +199,7 @@ TEMPLATE_TEST_CASE("wireframe: radius, budget, progress and cancelling", "", flo
   CHECK(whole.statistics.updates == wires.vertices);
   CHECK(whole.statistics.reached_simplices == wires.vertices);
   options.progress = [](const Progress&) { return false; };
-  CHECK_THROWS_AS(propagate(Serial{}, w, PointSource::at(0), options), Cancelled);
+  CHECK_THROWS_AS(solve(Serial{}, w, PointSource::at(0), options), Cancelled);
 }
 
 TEMPLATE_TEST_CASE("wireframe: no input makes it quadratic", "", float, double) {
@@ -214,16 +213,16 @@ TEMPLATE_TEST_CASE("wireframe: no input makes it quadratic", "", float, double) 
   };
   PropagateOptions as_they_come;
   as_they_come.schedule = Schedule::fifo;
-  const auto slow = propagate(Serial{}, hub_and_chain(1000), PointSource::at(0), as_they_come);
+  const auto slow = solve(Serial{}, hub_and_chain(1000), PointSource::at(0), as_they_come);
   CHECK(slow.statistics.expansions > 200 * 1000);
 
   const Index n = 20000;
   const auto w = hub_and_chain(n);
-  const auto field = propagate(Serial{}, w, PointSource::at(0));
+  const auto field = solve(Serial{}, w, PointSource::at(0));
   CHECK(field.statistics.expansions < 20 * n);
   PropagateOptions options;
   options.schedule = Schedule::priority;
-  const auto settled = propagate(Serial{}, w, PointSource::at(0), options);
+  const auto settled = solve(Serial{}, w, PointSource::at(0), options);
   CHECK(settled.statistics.expansions == n + 1);
   CHECK(field.distance == settled.distance);
   for (Index i = 1; i <= n; i += 499)
@@ -235,8 +234,8 @@ TEMPLATE_TEST_CASE("wireframe: lengths of very different size", "", float, doubl
   const auto w = wires.wireframe<TestType>();
   PropagateOptions options;
   options.schedule = Schedule::priority;
-  const auto settled = propagate(Serial{}, w, PointSource::at(2), options);
-  const auto field = propagate(Serial{}, w, PointSource::at(2));
+  const auto settled = solve(Serial{}, w, PointSource::at(2), options);
+  const auto field = solve(Serial{}, w, PointSource::at(2));
   CHECK(field.distance == settled.distance);
   CHECK(field.statistics.expansions < 12 * wires.vertices);
 }
@@ -252,12 +251,12 @@ TEMPLATE_TEST_CASE("wireframe: a workspace is used again, also for something els
   for (const unsigned seed : {1u, 2u, 3u}) {
     const Wires wires = random_wires(seed, 50 * seed, 80 * seed);
     const auto w = wires.wireframe<TestType>();
-    propagate(Serial{}, w, two, {}, workspace, field);
+    solve(Serial{}, w, two, {}, workspace, field);
     CHECK(field.label.size() == wires.vertices);
-    propagate(Serial{}, w, one, {}, workspace, field);
+    solve(Serial{}, w, one, {}, workspace, field);
     CHECK(field.label.empty());
     CHECK(agrees(field, edge_distances(wires, 3)));
-    propagate(Serial{}, mesh, one, {}, workspace, field);
+    solve(Serial{}, mesh, one, {}, workspace, field);
     CHECK(field.distance[0] == Approx(.6));
   }
 }
@@ -265,13 +264,12 @@ TEMPLATE_TEST_CASE("wireframe: a workspace is used again, also for something els
 TEMPLATE_TEST_CASE("wireframe: the distance at a source is its offset, and scale is free", "",
                    float, double) {
   Wires wires = random_wires(9, 100, 150);
-  const auto plain = propagate(Serial{}, wires.wireframe<TestType>(), PointSource::at(7));
+  const auto plain = solve(Serial{}, wires.wireframe<TestType>(), PointSource::at(7));
   for (const double offset : {0., 1e-20, .1, 3., 1e9})
-    CHECK(
-        propagate(Serial{}, wires.wireframe<TestType>(), PointSource{.vertex = 7, .offset = offset})
-            .distance[7] == static_cast<TestType>(offset));
+    CHECK(solve(Serial{}, wires.wireframe<TestType>(), PointSource{.vertex = 7, .offset = offset})
+              .distance[7] == static_cast<TestType>(offset));
   for (double& l : wires.lengths) l *= 0x1p40;
-  const auto scaled = propagate(Serial{}, wires.wireframe<TestType>(), PointSource::at(7));
+  const auto scaled = solve(Serial{}, wires.wireframe<TestType>(), PointSource::at(7));
   for (std::size_t v = 0; v < wires.vertices; ++v)
     REQUIRE(scaled.distance[v] == plain.distance[v] * TestType(0x1p40));
 }
@@ -279,7 +277,7 @@ TEMPLATE_TEST_CASE("wireframe: the distance at a source is its offset, and scale
 TEST_CASE("wireframe: sources and options that make no sense") {
   const auto w = line(4, 1).wireframe<float>();
   const auto refused = [&](const PointSource& source, const PropagateOptions& options = {}) {
-    CHECK_THROWS_AS(propagate(Serial{}, w, source, options), UsageError);
+    CHECK_THROWS_AS(solve(Serial{}, w, source, options), UsageError);
   };
   refused(PointSource::at(5));
   refused(PointSource::in(4, {.5, .5}));
@@ -294,5 +292,5 @@ TEST_CASE("wireframe: sources and options that make no sense") {
   refused(PointSource::at(0), no_step);
   no_radius.radius = -1;
   refused(PointSource::at(0), no_radius);
-  CHECK_THROWS_AS(propagate(Serial{}, w, std::span<const PointSource>()), UsageError);
+  CHECK_THROWS_AS(solve(Serial{}, w, std::span<const PointSource>()), UsageError);
 }

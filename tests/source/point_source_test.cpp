@@ -90,9 +90,9 @@ TEMPLATE_TEST_CASE("sources in a face under the other policies", "", float, doub
 TEMPLATE_TEST_CASE("the distance at a source is its offset, exactly", "", float, double) {
   const auto mesh = sphere(3).mesh<TestType>();
   for (const double offset : {0., 1e-20, .1, 3., 1e4}) {
-    const auto field = propagate(Serial{}, mesh, PointSource{.vertex = 20, .offset = offset});
+    const auto field = plexway::solve(Serial{}, mesh, PointSource{.vertex = 20, .offset = offset});
     CHECK(field.distance[20] == static_cast<TestType>(offset));
-    const auto plain = propagate(Serial{}, mesh, PointSource::at(20));
+    const auto plain = plexway::solve(Serial{}, mesh, PointSource::at(20));
     double worst = 0;
     for (std::size_t v = 0; v < field.distance.size(); ++v)
       worst =
@@ -105,7 +105,7 @@ TEMPLATE_TEST_CASE("an offset so large that an edge hardly counts beside it", ""
   const Surface s = sphere(2);
   for (const double offset : {1e9, 1e18}) {
     const auto field =
-        propagate(Serial{}, s.mesh<TestType>(), PointSource{.vertex = 20, .offset = offset});
+        plexway::solve(Serial{}, s.mesh<TestType>(), PointSource{.vertex = 20, .offset = offset});
     bool near = true;
     for (const TestType d : field.distance) near &= std::abs(double(d) / offset - 1) < 1e-6;
     CHECK(near);
@@ -146,7 +146,7 @@ TEMPLATE_TEST_CASE("an unreferenced vertex as source reaches itself only", "", f
     CHECK(d[lone] == 0);
     CHECK(std::count_if(d.begin(), d.end(), [](double x) { return std::isinf(x); }) == 16);
     const PointSource both[] = {PointSource::at(lone), PointSource::at(5)};
-    const auto field = propagate(Serial{}, mesh, both, options);
+    const auto field = plexway::solve(Serial{}, mesh, both, options);
     CHECK(field.label[lone] == 0);
     CHECK(field.label[0] == 1);
     CHECK(field.distance[lone] == 0);
@@ -171,7 +171,7 @@ TEMPLATE_TEST_CASE("several sources: the nearest one counts, and its label", "",
     for (const Schedule schedule : schedules) {
       PropagateOptions options;
       options.schedule = schedule;
-      const auto field = propagate(Serial{}, mesh, sources, options);
+      const auto field = plexway::solve(Serial{}, mesh, sources, options);
       REQUIRE(field.label.size() == s.positions.size());
       // Exact within a cell; where cells meet, a triangle's centre speaks for its corners.
       double worst = 0, label_gap = 0;
@@ -204,7 +204,7 @@ TEMPLATE_TEST_CASE("several sources agree with each alone", "", float, double) {
   for (const Visibility visibility : visibilities) {
     PropagateOptions options;
     options.visibility = visibility;
-    const auto field = propagate(Serial{}, mesh, sources, options);
+    const auto field = plexway::solve(Serial{}, mesh, sources, options);
     std::vector<std::vector<double>> alone;
     for (const PointSource& source : sources) alone.push_back(solve(mesh, source, options));
     double worst = 0, sum = 0;
@@ -226,8 +226,8 @@ TEMPLATE_TEST_CASE("several sources agree with each alone", "", float, double) {
 TEST_CASE("the same source twice: the first is named") {
   const auto mesh = grid(4, 4).mesh<float>();
   const PointSource twice[] = {PointSource::at(7), PointSource::at(7)};
-  const auto field = propagate(Serial{}, mesh, twice);
+  const auto field = plexway::solve(Serial{}, mesh, twice);
   CHECK(field.distance[7] == 0);
   CHECK(field.label[7] == 0);
-  CHECK(propagate(Serial{}, mesh, PointSource::at(7)).label.empty());
+  CHECK(plexway::solve(Serial{}, mesh, PointSource::at(7)).label.empty());
 }

@@ -1,7 +1,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include <plexway/executors/serial_solid.hpp>
+#include <plexway/solve.hpp>
 
 #include "bench/solid_domains.hpp"
 
@@ -10,7 +10,7 @@ namespace {
 double mean_error(const bench::SolidDomain& domain) {
   const plexway::TetMesh<double> mesh(domain.positions, domain.tets);
   const auto field =
-      plexway::propagate(plexway::Serial{}, mesh, plexway::PointSource::at(domain.truth.source));
+      plexway::solve(plexway::Serial{}, mesh, plexway::PointSource::at(domain.truth.source));
   bench::Errors errors;
   errors.add(domain.truth, field.distance);
   REQUIRE(errors.summary()->wrong == 0);

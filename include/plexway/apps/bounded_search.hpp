@@ -5,10 +5,10 @@
 #include <vector>
 
 #include <plexway/complex/triangle_mesh.hpp>
-#include <plexway/executors/serial.hpp>
 #include <plexway/propagate/distance_field.hpp>
 #include <plexway/propagate/options.hpp>
 #include <plexway/propagate/workspace.hpp>
+#include <plexway/solve.hpp>
 #include <plexway/source/point_source.hpp>
 
 namespace plexway {
@@ -27,7 +27,7 @@ struct Surroundings {
   PropagateStatistics statistics;
 };
 
-/// Distances near sources on a surface: the same as `propagate` with a radius, but what it costs
+/// Distances near sources on a surface: the same as `solve` with a radius, but what it costs
 /// follows what it finds and not the size of the surface. Nothing is cleared and nothing is looked
 /// at but the triangles that are reached. For many searches on one surface.
 ///
@@ -39,7 +39,7 @@ class BoundedSearch {
   explicit BoundedSearch(const TriangleMesh<Real>& mesh);
 
   /// Vertices within options.radius of the nearest of `sources`. The result stays until the next
-  /// search; with `simplices`, triangles are listed too. Throws as `propagate`, and UsageError
+  /// search; with `simplices`, triangles are listed too. Throws as `solve`, and UsageError
   /// unless options.visibility is the default. Cost: about 0.2 us a triangle that is reached.
   const Surroundings<Real>& find(Serial, std::span<const PointSource> sources,
                                  const PropagateOptions& options, bool simplices = false);

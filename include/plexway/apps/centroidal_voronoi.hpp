@@ -9,8 +9,8 @@
 #include <plexway/complex/point_cloud.hpp>
 #include <plexway/complex/tet_mesh.hpp>
 #include <plexway/complex/triangle_mesh.hpp>
-#include <plexway/executors/serial.hpp>
 #include <plexway/propagate/distance_field.hpp>
+#include <plexway/solve.hpp>
 #include <plexway/source/point_source.hpp>
 
 namespace plexway {
@@ -89,7 +89,7 @@ struct DualTriangulation {
   std::vector<Index> irregular;  ///< seeds where it is not, ascending
 };
 
-/// From the nearest seed of each vertex, as `propagate` from several sources gives it.
+/// From the nearest seed of each vertex, as `solve` from several sources gives it.
 [[nodiscard]] DualTriangulation dual_triangulation(std::span<const std::array<Index, 3>> faces,
                                                    std::span<const Index> vertex_label,
                                                    std::size_t seeds);

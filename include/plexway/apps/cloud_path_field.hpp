@@ -32,7 +32,7 @@ class PathField<PointCloud<Real>> {
   explicit PathField(const PointCloud<Real>& cloud,
                      std::span<const std::array<double, 3>> points = {});
 
-  /// The distance of every point from the nearest of `sources`. Throws and costs as `propagate`.
+  /// The distance of every point from the nearest of `sources`. Throws and costs as `solve`.
   template <class Executor>
   const DistanceField<Real>& solve(Executor executor, std::span<const PointSource> sources,
                                    const PropagateOptions& options = {}) {

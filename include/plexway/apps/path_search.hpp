@@ -9,9 +9,9 @@
 
 #include <plexway/apps/path.hpp>
 #include <plexway/complex/triangle_mesh.hpp>
-#include <plexway/executors/serial.hpp>
 #include <plexway/propagate/distance_field.hpp>
 #include <plexway/propagate/options.hpp>
+#include <plexway/solve.hpp>
 #include <plexway/source/point_source.hpp>
 
 namespace plexway {
@@ -66,7 +66,7 @@ class PathSearch {
   PathSearch& operator=(PathSearch&&) noexcept;
 
   /// Paths from the targets back to the nearest of `sources`. Throws UsageError for no target or
-  /// one that is not in the surface, else as `propagate`. Cost: about 0.3 us an expansion, and what
+  /// one that is not in the surface, else as `solve`. Cost: about 0.3 us an expansion, and what
   /// the paths cost.
   [[nodiscard]] SearchResult find(Serial, std::span<const PointSource> sources,
                                   std::span<const PointSource> targets,

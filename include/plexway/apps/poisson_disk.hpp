@@ -9,9 +9,9 @@
 #include <plexway/complex/point_cloud.hpp>
 #include <plexway/complex/tet_mesh.hpp>
 #include <plexway/complex/triangle_mesh.hpp>
-#include <plexway/executors/serial.hpp>
 #include <plexway/propagate/distance_field.hpp>
 #include <plexway/propagate/workspace.hpp>
+#include <plexway/solve.hpp>
 #include <plexway/source/point_source.hpp>
 
 namespace plexway {

@@ -93,7 +93,7 @@ template <class Real>
 ///   TriangleMesh<double> input(positions, faces);
 ///   IntrinsicDelaunay delaunay(input);
 ///   auto mesh = delaunay.mesh<float>();
-///   auto field = propagate(Serial{}, mesh, delaunay.to_intrinsic(PointSource::in(17, b)));
+///   auto field = solve(Serial{}, mesh, delaunay.to_intrinsic(PointSource::in(17, b)));
 ///
 /// Vertices keep their numbers, so distances at vertices need no translation. Triangles do not:
 /// those that no flip touched have the number they had, each other has that of some triangle. Two
@@ -128,8 +128,8 @@ class IntrinsicDelaunay {
   template <class Real>
   [[nodiscard]] TriangleMesh<Real> mesh(
       const SaddleThresholds& saddles = SaddleThresholds::standard()) const;
-  /// Once the meshes wanted are made: frees what they were made from, 96 bytes a triangle and more. mesh()
-  /// then throws UsageError; points are mapped as before.
+  /// Once the meshes wanted are made: frees what they were made from, 96 bytes a triangle and more.
+  /// mesh() then throws UsageError; points are mapped as before.
   void release_triangles();
   [[nodiscard]] const DelaunaySummary& summary() const;
   [[nodiscard]] std::size_t bytes() const;

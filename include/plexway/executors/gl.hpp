@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include <plexway/executors/forward.hpp>
+#include <plexway/solve.hpp>
 
 /// The component `gl`: link plexway::gl.
 namespace plexway {

@@ -25,7 +25,7 @@ class WindowSolver {
   WindowSolver(WindowSolver&&) noexcept;
   WindowSolver& operator=(WindowSolver&&) noexcept;
 
-  /// The distance of every vertex from the nearest of `sources`, as `propagate` gives it: in the
+  /// The distance of every vertex from the nearest of `sources`, as `solve` gives it: in the
   /// caller's order and unit, +inf where no path leads or beyond the radius. Of the options count
   /// schedule, radius, max_expansions (of windows) and progress.
   ///
@@ -34,7 +34,7 @@ class WindowSolver {
   /// small, no bound. 0 where unreached or exact.
   ///
   /// Accuracy::exact(): the same bits whatever the schedule. A second solve has the same bits.
-  /// Throws UsageError as `propagate` does, for an accuracy out of range, and for
+  /// Throws UsageError as `solve` does, for an accuracy out of range, and for
   /// Accuracy::fast(), which is no matter of windows; and Cancelled. Cost: exact 1 to 5 us a
   /// vertex, growing with the root of their number; merged 0.2 to 0.5 us. Sources: Mitchell, Mount,
   /// Papadimitriou (SIAM J. Comput. 1987); Chen, Han (SoCG 1990); Xin, Wang (TOG 2009).

@@ -1,3 +1,0 @@
-#pragma once
-
-#include <plexway/executors/forward.hpp>
