@@ -80,14 +80,18 @@ void solve(const TriangleMesh<Real>& mesh, std::span<const PointSource> sources,
     for (Real& d : workspace.vertex) d = std::max(d, Real(0));
   read_out_sources<Real, kLabels>(mesh, sources, workspace);
   shapes.read_out(front);
-  std::size_t raised = 0, lowered = 0;
+  std::size_t raised = 0;
+  Lowered lowered;
   if (options.visibility == Visibility::saddles) {
-    if constexpr (std::is_same_v<Shapes, NoShapes>)
-      raised = StraightLines<Real>(mesh, sources).template raise<kLabels>(workspace, crew);
-    lowered =
-        read_out_edges<Real, kLabels>(mesh, workspace, [&](const auto& wrong, const auto& look) {
-          crew.search(mesh.face_count(), wrong, look);
-        }).much;
+    const StraightLines<Real> lines(mesh, sources);
+    constexpr bool points = std::is_same_v<Shapes, NoShapes>;
+    if constexpr (points) raised = lines.template raise<kLabels>(workspace, crew);
+    lowered = read_out_edges<Real, kLabels>(
+        mesh, workspace,
+        [&](const auto& wrong, const auto& look) { crew.search(mesh.face_count(), wrong, look); });
+    // What sums of many edges lost by rounding.
+    if constexpr (points)
+      if (lowered.any) lines.template raise<kLabels>(workspace, crew);
   }
 
   // Without a radius, whole fans are reached or not; so one of its corners tells of a vertex,
@@ -98,7 +102,7 @@ void solve(const TriangleMesh<Real>& mesh, std::span<const PointSource> sources,
         (bounded || !mesh.pinched().empty() || front.reached(mesh.corner_at(v) / 3))) [[unlikely]]
       read_out_around<Real, kLabels>(mesh, rule, front, v, workspace);
   finish<Real, kLabels>(mesh, sources, options, front, workspace, crew, field);
-  field.statistics.lowered_vertices = lowered;
+  field.statistics.lowered_vertices = lowered.much;
   field.statistics.raised_vertices = raised;
 }
 
