@@ -46,7 +46,7 @@ std::vector<Neighbourhood> look_around(std::span<const TriangleRecord<Real>> tri
   return around;
 }
 
-// May paths bend at this inner vertex? See docs/DESIGN.md, "Which vertices are saddles".
+// May paths bend at this inner vertex? See docs/methods/surfaces.md, "Which vertices are saddles".
 bool is_inner_saddle(double excess, const Neighbourhood& n, double least,
                      const SaddleThresholds& saddles) {
   if (!(excess > 0)) return false;

@@ -136,6 +136,7 @@ double SheetWedges::notch(Index place, Triangle& t) const {
       if (only_triangle(place, end) != none) ends.push_back(end);
   });
   if (ends.size() != 2 || !(taken > least) || !(taken < 2 * std::numbers::pi)) return none_there;
+  if (!same_sheet(places_, frames_, rule_, ends[0], ends[1])) return none_there;
   t = {place, ends[0], ends[1]};
   std::sort(t.begin(), t.end());
   const Plane a = flat(plane, place, ends[0]), b = flat(plane, place, ends[1]);

@@ -229,9 +229,8 @@ class Frames {
                               {n[0], n[1], n[2]}));
   }
 
-  // Of the normals around a place the one that the others agree with most: near ones above all, and
-  // those that are sure. None agrees with what differs by more than 30 degrees, else what lies
-  // between the two sides of an edge would be best.
+  // Of the normals around a place the one that the others agree with most: near ones above all,
+  // those that are sure, and those of places that lie in one plane with it.
   std::array<float, 3> agreed_normal(std::span<const TangentFrame> frames, Index place,
                                      std::vector<double>& weight) const {
     const auto row = places_.near.around(place);
@@ -251,8 +250,7 @@ class Frames {
         const auto& m = frames[row[k]].normal;
         const Point3 q = minus(places_.at[row[k]], places_.at[place]);
         const double cosine = dot(n, m), ours = dot(n, q) / near, theirs = dot(m, q) / near;
-        sum += weight[k] * std::max(0.0, 4 * cosine * cosine - 3) /
-               (1 + ours * ours + theirs * theirs);
+        sum += weight[k] * cosine * cosine / (1 + ours * ours + theirs * theirs);
       }
       if (sum > most) most = sum, best = n;
     };

@@ -11,9 +11,9 @@
 #include <plexway/propagate/plain_rule.hpp>
 #include <plexway/propagate/saddle_rule.hpp>
 
+#include "executors/mend_surface.hpp"
 #include "propagate/finish.hpp"
 #include "propagate/read_out.hpp"
-#include "propagate/straight_lines.hpp"
 #include "propagate/triangle_propagation.hpp"
 
 /// A solve on a surface, for any crew.
@@ -80,18 +80,11 @@ void solve(const TriangleMesh<Real>& mesh, std::span<const PointSource> sources,
     for (Real& d : workspace.vertex) d = std::max(d, Real(0));
   read_out_sources<Real, kLabels>(mesh, sources, workspace);
   shapes.read_out(front);
-  std::size_t raised = 0;
-  Lowered lowered;
+  Mended mended;
   if (options.visibility == Visibility::saddles) {
-    const StraightLines<Real> lines(mesh, sources);
     constexpr bool points = std::is_same_v<Shapes, NoShapes>;
-    if constexpr (points) raised = lines.template raise<kLabels>(workspace, crew);
-    lowered = read_out_edges<Real, kLabels>(
-        mesh, workspace,
-        [&](const auto& wrong, const auto& look) { crew.search(mesh.face_count(), wrong, look); });
-    // What sums of many edges lost by rounding.
-    if constexpr (points)
-      if (lowered.any) lines.template raise<kLabels>(workspace, crew);
+    mended = mend<Real, kLabels>(mesh, points ? sources : std::span<const PointSource>(), workspace,
+                                 crew);
   }
 
   // Without a radius, whole fans are reached or not; so one of its corners tells of a vertex,
@@ -102,8 +95,8 @@ void solve(const TriangleMesh<Real>& mesh, std::span<const PointSource> sources,
         (bounded || !mesh.pinched().empty() || front.reached(mesh.corner_at(v) / 3))) [[unlikely]]
       read_out_around<Real, kLabels>(mesh, rule, front, v, workspace);
   finish<Real, kLabels>(mesh, sources, options, front, workspace, crew, field);
-  field.statistics.lowered_vertices = lowered.much;
-  field.statistics.raised_vertices = raised;
+  field.statistics.lowered_vertices = mended.lowered;
+  field.statistics.raised_vertices = mended.raised;
 }
 
 /// One solve with a queue of its own: rule and labels by the policy, the rest by the crew.

@@ -177,7 +177,7 @@ TEST_CASE("a metric that makes no sense is refused in one line") {
   std::string jump = "1\n";
   for (int i = 1; i < 8; ++i) jump += "5\n";
   const std::string speeds = folder.write("h.txt", jump);
-  refused("speed:" + speeds, 2, "refracting edges", {"--visibility", "centroid"});
+  refused("speed:" + speeds, 2, "paths are refracted under", {"--visibility", "centroid"});
   const auto cloud = run_tool(
       {"distance", mesh, "--as", "cloud", "--source", "vertex:0", "--metric", "speed:" + speeds});
   CHECK((cloud.code == 2 || cloud.code == 4));  // 4 without FLANN

@@ -37,9 +37,11 @@ struct Together {
     CAPTURE(found.mean, found.max);
     CHECK(found.fits);
     CHECK(device.statistics.reached_simplices == team.statistics.reached_simplices);
-    // Elsewhere rounding decides now and then which of two paths a simplex keeps.
-    CHECK(found.mean <= (exact(context) ? mean : 1e-3));
-    CHECK(found.max <= (exact(context) ? worst : 4e-2));
+    // Elsewhere rounding decides now and then which of two paths a simplex keeps. And what lies
+    // below the straight line in space a team raises, a device does not.
+    const bool alike = exact(context) && team.statistics.raised_vertices == 0;
+    CHECK(found.mean <= (alike ? mean : 1e-3));
+    CHECK(found.max <= (alike ? worst : 4e-2));
     if (!exact(context)) return;
     CHECK(device.statistics.expansions == team.statistics.expansions);
     std::size_t others = 0;

@@ -202,14 +202,23 @@ TEST_CASE("lengths that no triangle has are counted and survived") {
       CHECK(violations.count > square.faces.size() / 5);
       SurfaceHints hints;
       hints.refracts = refracts;
-      const TriangleMesh<float> mesh(square.points.size(), square.faces, lengths, hints);
-      CHECK(mesh.summary().violated_faces == violations.count);
-      const auto field = solve(Serial{}, mesh, PointSource::at(3));
-      for (const float d : field.distance) {
-        CHECK(std::isfinite(d));
-        CHECK(d >= 0);
-      }
-      CHECK(field.statistics.expansions < 100 * square.faces.size());
+      const auto survives = [&](auto real) {
+        const TriangleMesh<decltype(real)> mesh(square.points.size(), square.faces, lengths, hints);
+        CHECK(mesh.summary().violated_faces == violations.count);
+        const auto field = solve(Serial{}, mesh, PointSource::at(3));
+        for (const auto d : field.distance) {
+          CHECK(std::isfinite(d));
+          CHECK(d >= 0);
+        }
+        CHECK(field.statistics.expansions < 100 * square.faces.size());
+      };
+      CAPTURE(refracts, decades);
+      // Beyond what single precision holds where two triangles measure an edge.
+      if (refracts && decades > 3)
+        CHECK_THROWS_AS(survives(0.F), PrecisionError);
+      else
+        survives(0.F);
+      survives(0.0);
     }
 }
 
@@ -221,5 +230,5 @@ TEST_CASE("what unfolds over edges is refused where they refract") {
   PropagateOptions options;
   options.visibility = Visibility::centroid;
   CHECK_THROWS_WITH(solve(Serial{}, mesh, PointSource::at(0), options),
-                    Catch::Contains("6 refracting edges"));
+                    Catch::Contains("paths are refracted under Visibility::saddles only"));
 }
