@@ -262,6 +262,7 @@ TEST_CASE("as many darts as a cloud has points, or a reason why not") {
       CHECK(count < 40);
     } catch (const UsageError& error) {
       CHECK(count > 20);
+      CAPTURE(count, error.what());
       CHECK(std::string(error.what()).find("only 39 points at different places") !=
             std::string::npos);
     }

@@ -248,8 +248,9 @@ TEST_CASE(
   CHECK(decode_vtu_array(plain, false, encoding, "a", room).size() == 8);
   CHECK(room == 12);
   CHECK(decode_vtu_array(plain, false, encoding, "a", room).size() == 8);
-  CHECK_THROWS_WITH(decode_vtu_array(plain, false, encoding, "a", room),
-                    Contains("a: would unpack to more than the 4 bytes") && Contains("out of proportion"));
+  CHECK_THROWS_WITH(
+      decode_vtu_array(plain, false, encoding, "a", room),
+      Contains("a: would unpack to more than the 4 bytes") && Contains("out of proportion"));
   // Thirty blocks of 64 kB in a few bytes, refused before any is unpacked.
   encoding.compressed = true;
   Packer header(false);

@@ -138,7 +138,7 @@ TEST_CASE("merged windows: errors fall with the triangles' size") {
   CHECK(before < 2e-5);
 }
 
-TEST_CASE("merged windows: a smaller error takes more work and is smaller; it is told") {
+TEST_CASE("merged windows: a smaller error takes more work, is smaller, and is told") {
   const Surface s = jittered_torus(30);
   const auto mesh = s.mesh<double>();
   const PointSource source = PointSource::at(7);
