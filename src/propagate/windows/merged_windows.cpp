@@ -104,8 +104,9 @@ void MergedWindows<Real>::fetch(Index what) const {
   const std::size_t in = what & 3, before = edge_before(in), after = edge_after(in);
   __builtin_prefetch(&pending_[what]);
   __builtin_prefetch(&vertices_[t.corner[before]]);
-  __builtin_prefetch(&pending_[t.across[before] >> Across::face_shift << 2]);
-  __builtin_prefetch(&pending_[t.across[after] >> Across::face_shift << 2]);
+  const Index* const pending = pending_.data();  // a boundary leads to its end
+  __builtin_prefetch(pending + (t.across[before] >> Across::face_shift << 2));
+  __builtin_prefetch(pending + (t.across[after] >> Across::face_shift << 2));
 }
 
 template <class Real>
