@@ -1,11 +1,11 @@
-#include "closest_point.hpp"
+#include "any/closest_point.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <vector>
 
-namespace plexway::cli {
+namespace plexway {
 namespace {
 
 using Vector = std::array<double, 3>;
@@ -92,7 +92,7 @@ Candidate<4> closest(const std::array<Vector, 4>& corners) {
 }
 
 // Makes the numbers above neither overflow nor underflow, whatever the unit.
-double largest_offset(const std::vector<Vector>& positions, const Vector& point) {
+double largest_offset(std::span<const Vector> positions, const Vector& point) {
   double largest = 0;
   for (const Vector& position : positions) {
     for (std::size_t k = 0; k < 3; ++k)
@@ -102,12 +102,11 @@ double largest_offset(const std::vector<Vector>& positions, const Vector& point)
 }
 
 template <std::size_t N>
-SimplexPoint closest_of_all(const std::vector<Vector>& positions,
-                            const std::vector<std::array<std::uint32_t, N>>& simplices,
+SimplexPoint closest_of_all(std::span<const Vector> positions,
+                            std::span<const std::array<std::uint32_t, N>> simplices,
                             const Vector& point) {
   const double scale = largest_offset(positions, point);
   SimplexPoint best;
-  double best_distance = std::numeric_limits<double>::infinity();
   for (std::size_t simplex = 0; simplex < simplices.size(); ++simplex) {
     std::array<Vector, N> corners;
     for (std::size_t i = 0; i < N; ++i) {
@@ -115,9 +114,8 @@ SimplexPoint closest_of_all(const std::vector<Vector>& positions,
       for (std::size_t k = 0; k < 3; ++k) corners[i][k] = (position[k] / 2 - point[k] / 2) / scale;
     }
     const Candidate<N> found = closest(corners);
-    if (found.squared_distance < best_distance) {
-      best_distance = found.squared_distance;
-      best = {simplex, {}};
+    if (found.squared_distance < best.squared_distance) {
+      best = {simplex, {}, found.squared_distance};
       std::copy(found.barycentric.begin(), found.barycentric.end(), best.barycentric.begin());
     }
   }
@@ -126,16 +124,22 @@ SimplexPoint closest_of_all(const std::vector<Vector>& positions,
 
 }  // namespace
 
-SimplexPoint closest_point(const io::Triangles& surface, const Vector& point) {
-  return closest_of_all(surface.positions, surface.triangles, point);
+using Positions = std::span<const Vector>;
+
+SimplexPoint closest_point(Positions positions, std::span<const std::array<std::uint32_t, 2>> edges,
+                           const Vector& point) {
+  return closest_of_all(positions, edges, point);
 }
 
-SimplexPoint closest_point(const io::Tets& solid, const Vector& point) {
-  return closest_of_all(solid.positions, solid.tets, point);
+SimplexPoint closest_point(Positions positions,
+                           std::span<const std::array<std::uint32_t, 3>> triangles,
+                           const Vector& point) {
+  return closest_of_all(positions, triangles, point);
 }
 
-SimplexPoint closest_point(const io::Edges& wireframe, const Vector& point) {
-  return closest_of_all(wireframe.positions, wireframe.edges, point);
+SimplexPoint closest_point(Positions positions, std::span<const std::array<std::uint32_t, 4>> tets,
+                           const Vector& point) {
+  return closest_of_all(positions, tets, point);
 }
 
-}  // namespace plexway::cli
+}  // namespace plexway

@@ -1,4 +1,4 @@
-#include "cloud.hpp"
+#include <plexway/any/cloud_shape.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -6,17 +6,15 @@
 
 #include <plexway/complex/smoothing.hpp>
 #include <plexway/error.hpp>
-#include <plexway/io/field.hpp>
 
+#include "any/pcl_functions.hpp"
 #include "io/extension.hpp"
-#include "pcl_functions.hpp"
-#include "report.hpp"
 
 #ifdef PLEXWAY_HAS_FLANN
 #include <plexway/flann/neighbours.hpp>
 #endif
 
-namespace plexway::cli {
+namespace plexway {
 namespace {
 
 // Before anything is read: without neighbours there is nothing to be done.
@@ -30,11 +28,9 @@ void require_flann(const std::string& what) {
 #endif
 }
 
-auto share_shown(ProgressLine& progress) {
-  return [&progress](double share) {
-    progress.done(share);
-    return true;
-  };
+// A stage of the work.
+void begin(const ReadOptions& options, const std::string& what) {
+  if (options.progress.stage) options.progress.stage(what);
 }
 
 template <class Row>
@@ -46,10 +42,11 @@ void keep(std::vector<Row>& rows, const std::vector<Index>& numbers) {
   rows = std::move(kept);
 }
 
-void denoise(Cloud& cloud, const CloudArguments& arguments) {
+void denoise(CloudShape& cloud, const ReadOptions& options) {
   const std::size_t before = cloud.points.positions.size();
-  const auto kept = pcl_functions("--denoise")
-                        .without_outliers(cloud.points.positions, arguments.deviations.value_or(3));
+  const auto kept =
+      pcl_functions(spelled(options.spelling, "denoise"))
+          .without_outliers(cloud.points.positions, options.cloud.deviations.value_or(3));
   keep(cloud.points.positions, kept);
   keep(cloud.points.normals, kept);
   if (!cloud.points.original.empty())
@@ -59,37 +56,36 @@ void denoise(Cloud& cloud, const CloudArguments& arguments) {
   cloud.outliers = before - kept.size();
 }
 
-void thin(Cloud& cloud, double size) {
+void thin(CloudShape& cloud, const ReadOptions& options) {
+  const std::string name = spelled(options.spelling, "voxel");
   try {
-    cloud.points.positions = pcl_functions("--voxel").voxel_grid(cloud.points.positions, size);
+    cloud.points.positions =
+        pcl_functions(name).voxel_grid(cloud.points.positions, *options.volume.voxel);
   } catch (const UsageError& error) {
     const std::string_view why = error.what();  // "voxel_grid: ..."
-    throw UsageError("--voxel" + std::string(why.substr(std::min(why.find(':'), why.size()))));
+    throw UsageError(name + std::string(why.substr(std::min(why.find(':'), why.size()))));
   }
   cloud.points.normals.clear();  // the points are means now, and have none of their own
   cloud.points.original.clear();
   cloud.thinned = true;
 }
 
-Neighbours find_neighbours(const Cloud& cloud, const CloudArguments& arguments,
-                           ProgressLine& progress) {
+Neighbours find_neighbours([[maybe_unused]] const CloudShape& cloud,
+                           [[maybe_unused]] const ReadOptions& options) {
 #ifdef PLEXWAY_HAS_FLANN
-  flann::NeighbourOptions options;
-  options.k = cloud.k;
-  if (arguments.neighbour_radius) options.radius = *arguments.neighbour_radius;
-  options.progress = share_shown(progress);
-  return flann::surface_neighbours(cloud.points.positions, options);
+  flann::NeighbourOptions search;
+  search.k = cloud.k;
+  if (options.cloud.neighbour_radius) search.radius = *options.cloud.neighbour_radius;
+  search.progress = options.progress.share;
+  return flann::surface_neighbours(cloud.points.positions, search);
 #else
-  (void)cloud;
-  (void)arguments;
-  (void)progress;
   return {};
 #endif
 }
 
 // Normals that only fit a plane have arbitrary signs, half of them the wrong one; those of a
 // scanner or a mesh agree with the nearest point's all but across a gap.
-bool all_point_to_one_side(const Cloud& cloud) {
+bool all_point_to_one_side(const CloudShape& cloud) {
   const auto& normals = cloud.points.normals;
   std::size_t compared = 0, against = 0;
   for (Index i = 0; i < normals.size(); ++i) {
@@ -119,77 +115,35 @@ CloudFile read_cloud(const std::string& file) {
   return read;
 }
 
-Cloud make_cloud(const std::string& file, CloudFile read, const CloudArguments& arguments,
-                 ProgressLine& progress) {
-  require_flann(file);
-  Cloud cloud;
+CloudShape make_cloud(const std::string& name, CloudFile read, const ReadOptions& options) {
+  require_flann(name);
+  CloudShape cloud;
   cloud.points = std::move(read.points);
   cloud.not_finite = read.not_finite;
   cloud.points_in_file = cloud.points.positions.size() + cloud.not_finite;
-  if (arguments.denoise) {
-    progress.phase("looking for outliers in " + file);
-    denoise(cloud, arguments);
+  if (options.cloud.denoise) {
+    begin(options, "looking for outliers in " + name);
+    denoise(cloud, options);
   }
-  if (arguments.voxel) {
-    progress.phase("thinning " + file);
-    thin(cloud, *arguments.voxel);
+  if (options.volume.voxel) {
+    begin(options, "thinning " + name);
+    thin(cloud, options);
   }
-  cloud.k = arguments.k.value_or(arguments.neighbour_radius ? 0 : 16);
-  cloud.max_normal_angle = arguments.max_normal_angle;
-  progress.phase("looking for neighbours");
-  cloud.neighbours = find_neighbours(cloud, arguments, progress);
-  cloud.progress = share_shown(progress);
+  cloud.k = options.cloud.k.value_or(options.cloud.neighbour_radius ? 0 : 16);
+  cloud.max_normal_angle = options.cloud.max_normal_angle;
+  begin(options, "looking for neighbours");
+  cloud.neighbours = find_neighbours(cloud, options);
   cloud.normals_agree = all_point_to_one_side(cloud);
-  if (arguments.smooth) {
-    progress.phase("smoothing");
-    SmoothOptions options;
-    options.progress = share_shown(progress);
-    cloud.smoothed = smooth(cloud.points.positions, cloud.neighbours, options);
+  if (options.cloud.smooth) {
+    begin(options, "smoothing");
+    SmoothOptions smoothing;
+    smoothing.progress = options.progress.share;
+    cloud.smoothed = smooth(cloud.points.positions, cloud.neighbours, smoothing);
   }
   return cloud;
 }
 
-CloudOptions cloud_options(const Cloud& cloud) {
-  CloudOptions options;
-  if (cloud.max_normal_angle) options.max_normal_angle = *cloud.max_normal_angle;
-  options.normals = cloud.normals();
-  options.progress = cloud.progress;
-  return options;
-}
-
-Index nearest_point(const Cloud& cloud, const std::array<double, 3>& point) {
-  Index best = 0;
-  double least = std::numeric_limits<double>::infinity();
-  for (std::size_t i = 0; i < cloud.points.positions.size(); ++i) {
-    const auto& p = cloud.points.positions[i];
-    const double away = std::hypot(p[0] - point[0], p[1] - point[1], p[2] - point[2]);
-    if (!(away < least)) continue;
-    least = away;
-    best = static_cast<Index>(i);
-  }
-  return best;
-}
-
-void write_field(const std::filesystem::path& out, const Cloud& cloud,
-                 std::span<const double> distance, std::span<const std::int32_t> label) {
-  if (io::lower_extension(out) == ".pcd")
-    pcl_functions("--out " + out.string())
-        .write_field(out, cloud.points.positions, distance, cloud.points.original);
-  else
-    io::write_field(out, cloud.points, distance, label);
-}
-
-std::span<const std::string_view> cloud_field_extensions() {
-  static const std::vector<std::string_view> all = [] {
-    const auto known = io::field_extensions();
-    std::vector<std::string_view> extensions(known.begin(), known.end());
-    extensions.push_back(".pcd");
-    return extensions;
-  }();
-  return all;
-}
-
-std::optional<std::vector<Index>> dropped_points(const Cloud& cloud) {
+std::optional<std::vector<Index>> dropped_points(const CloudShape& cloud) {
   if (cloud.thinned) return std::nullopt;
   std::vector<Index> dropped;
   Index next = 0;
@@ -202,34 +156,7 @@ std::optional<std::vector<Index>> dropped_points(const Cloud& cloud) {
   return dropped;
 }
 
-std::string kept_points(const Cloud& cloud) {
-  const std::size_t kept = cloud.points.positions.size();
-  std::string why;
-  const auto add = [&](const std::string& what) {
-    why.append(why.empty() ? "" : ", ").append(what);
-  };
-  if (cloud.not_finite > 0) add(std::to_string(cloud.not_finite) + " not finite");
-  if (cloud.outliers > 0) add(counted(cloud.outliers, "outliers"));
-  if (cloud.thinned) add("thinned to one point a cube");
-  if (why.empty()) return why;
-  return std::to_string(kept) + " of " + counted(cloud.points_in_file, "points") + ": " + why;
-}
-
-std::string why_disconnected(const Cloud& cloud, std::size_t components) {
-  std::string text = "the cloud has " + counted(components, "components");
-  const auto k = connecting_k(cloud);
-  if (!k)
-    text += ", which even 256 neighbours do not connect";
-  else if (cloud.k != 0 && *k > cloud.k)
-    text += "; --k " + std::to_string(*k) + " is the least that connects its points";
-  else
-    text += ", though " + std::to_string(*k) +
-            " neighbours connect its points: --neighbour-radius or --max-normal-angle keeps them "
-            "apart, or the points are no surface there";
-  return text;
-}
-
-std::optional<std::size_t> connecting_k(const Cloud& cloud) {
+std::optional<std::size_t> connecting_k(const CloudShape& cloud) {
 #ifdef PLEXWAY_HAS_FLANN
   return flann::connecting_k(cloud.points.positions);
 #else
@@ -238,4 +165,4 @@ std::optional<std::size_t> connecting_k(const Cloud& cloud) {
 #endif
 }
 
-}  // namespace plexway::cli
+}  // namespace plexway

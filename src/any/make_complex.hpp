@@ -1,56 +1,55 @@
 #pragma once
 
-#include <type_traits>
+#include <functional>
+#include <optional>
 
-#include <plexway/complex/point_cloud.hpp>
-#include <plexway/complex/tet_mesh.hpp>
-#include <plexway/complex/triangle_mesh.hpp>
-#include <plexway/complex/wireframe.hpp>
-#include <plexway/io/edges.hpp>
-#include <plexway/io/tets.hpp>
-#include <plexway/io/triangles.hpp>
+#include <plexway/any/field.hpp>
+#include <plexway/any/shape.hpp>
+#include <plexway/complex/intrinsic_delaunay.hpp>
+#include <plexway/domain/domains.hpp>
 
-#include "cloud.hpp"
-#include "metric_options.hpp"
+namespace plexway {
 
-namespace plexway::cli {
+/// What a complex is made of.
+struct Making {
+  const AnyShape& shape;
+  const MeasuredLengths* lengths = nullptr;  ///< by a metric, or those alone; null: in space
+  std::function<bool(double)> progress = {};
+};
 
-// The complex of each kind of shape that a Domain holds. Each is built in place: complexes are not
-// to be copied.
+// The complex of each kind of shape. Each is built in place: complexes are not to be copied.
 template <class Real>
-TriangleMesh<Real> make_complex(const io::Triangles& surface) {
-  return {surface.positions, surface.triangles};
+TriangleMesh<Real> make_complex(const io::Triangles& surface, const Making& making) {
+  if (making.lengths == nullptr) return {surface.positions, surface.triangles};
+  SurfaceHints hints;
+  hints.refracts = making.lengths->refracts;
+  return {making.shape.vertices(), surface.triangles, making.lengths->triangles, hints};
 }
 template <class Real>
-TetMesh<Real> make_complex(const io::Tets& solid) {
-  return {solid.positions, solid.tets};
+TetMesh<Real> make_complex(const io::Tets& solid, const Making& making) {
+  if (making.lengths == nullptr) return {solid.positions, solid.tets};
+  return {making.shape.vertices(), solid.tets, making.lengths->tets};
 }
 template <class Real>
-Wireframe<Real> make_complex(const io::Edges& wireframe) {
+Wireframe<Real> make_complex(const io::Edges& wireframe, const Making& making) {
+  if (making.lengths != nullptr)
+    return {wireframe.vertices, wireframe.edges, making.lengths->edges};
   if (wireframe.lengths.empty()) return {wireframe.positions, wireframe.edges};
   return {wireframe.vertices, wireframe.edges, wireframe.lengths};
 }
 template <class Real>
-PointCloud<Real> make_complex(const Cloud& cloud) {
-  return {cloud.measured(), cloud.neighbours, cloud_options(cloud)};
+PointCloud<Real> make_complex(const CloudShape& cloud, const Making& making) {
+  CloudOptions options;
+  if (cloud.max_normal_angle) options.max_normal_angle = *cloud.max_normal_angle;
+  options.normals = cloud.normals();
+  options.progress = making.progress;
+  return {cloud.measured(), cloud.neighbours, options};
 }
 
-// The same measured by a metric, where `lengths` is not null.
-template <class Real, class Shape>
-auto make_complex(const Shape& shape, [[maybe_unused]] const MeasuredLengths* lengths)
-    -> decltype(make_complex<Real>(shape)) {
-  if (lengths == nullptr) return make_complex<Real>(shape);
-  if constexpr (std::is_same_v<Shape, io::Triangles>) {
-    SurfaceHints hints;
-    hints.refracts = lengths->refracts;
-    return {shape.positions.size(), shape.triangles, lengths->triangles, hints};
-  } else if constexpr (std::is_same_v<Shape, io::Tets>) {
-    return {shape.positions.size(), shape.tets, lengths->tets};
-  } else if constexpr (std::is_same_v<Shape, io::Edges>) {
-    return {shape.vertices, shape.edges, lengths->edges};
-  } else {
-    return make_complex<Real>(shape);
-  }
-}
+/// A surface on the triangles wanted, or if that is left open on those that pay; what comes with it
+/// translates points.
+template <class Real>
+TriangulatedSurface<Real> make_surface(Triangulation wanted, const Making& making,
+                                       TriangulationReport& report);
 
-}  // namespace plexway::cli
+}  // namespace plexway

@@ -2,12 +2,16 @@
 
 #include <string>
 
-namespace plexway::cli {
+namespace plexway {
 
-/// Loads one of the tool's modules and looks up its function: what it takes is behind them, so that
-/// the tool starts without other people's large libraries. `what` starts the message, `library` is
-/// what the module is for. Throws Error where the module was not installed beside the tool.
-void* tool_module_function(const std::string& what, const char* library, const char* file,
-                           const char* function);
+/// Loads a module and looks up its function. Some providers' libraries take longer to load than all
+/// that is done with most files, so they are behind modules that are loaded when they are needed.
+/// They lie in LIBDIR/plexway beside the program or the library that has this code, or where the
+/// program's RUNPATH says.
+///
+/// `what` starts the message, `library` is what the module is for. Throws Error where the module
+/// was not installed.
+void* module_function(const std::string& what, const char* library, const char* file,
+                      const char* function);
 
-}  // namespace plexway::cli
+}  // namespace plexway

@@ -1,17 +1,17 @@
-#include "openvdb_functions.hpp"
+#include "any/openvdb_functions.hpp"
 
 #include <plexway/error.hpp>
 
-#include "tool_module.hpp"
+#include "any/module.hpp"
 
-namespace plexway::cli {
+namespace plexway {
 
 #ifdef PLEXWAY_OPENVDB_MODULE
 const OpenvdbFunctions& openvdb_functions(const std::string& what) {
   static const OpenvdbFunctions* const functions = [&] {
     using Entry = const OpenvdbFunctions* (*)();
-    return reinterpret_cast<Entry>(tool_module_function(what, "OpenVDB", PLEXWAY_OPENVDB_MODULE,
-                                                        "plexway_openvdb_functions"))();
+    return reinterpret_cast<Entry>(
+        module_function(what, "OpenVDB", PLEXWAY_OPENVDB_MODULE, "plexway_openvdb_functions"))();
   }();
   return *functions;
 }
@@ -22,4 +22,4 @@ const OpenvdbFunctions& openvdb_functions(const std::string& what) {
 }
 #endif
 
-}  // namespace plexway::cli
+}  // namespace plexway

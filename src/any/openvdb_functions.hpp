@@ -9,9 +9,9 @@
 #include <plexway/io/tets.hpp>
 #include <plexway/io/triangles.hpp>
 
-namespace plexway::cli {
+namespace plexway {
 
-/// What the tool takes from OpenVDB, behind a module since its libraries take 30 ms to load.
+/// What is taken from OpenVDB, behind a module since its libraries take 30 ms to load.
 ///
 /// `voxel` is 0 where it is to be chosen; `note` is told what came of it, for people: the voxel,
 /// and what was repaired.
@@ -36,4 +36,4 @@ struct OpenvdbFunctions {
 /// OpenVDB; Error where the module was not installed beside the tool.
 const OpenvdbFunctions& openvdb_functions(const std::string& what);
 
-}  // namespace plexway::cli
+}  // namespace plexway

@@ -1,17 +1,17 @@
-#include "pcl_functions.hpp"
+#include "any/pcl_functions.hpp"
 
 #include <plexway/error.hpp>
 
-#include "tool_module.hpp"
+#include "any/module.hpp"
 
-namespace plexway::cli {
+namespace plexway {
 
 #ifdef PLEXWAY_PCL_MODULE
 const PclFunctions& pcl_functions(const std::string& what) {
   static const PclFunctions* const functions = [&] {
     using Entry = const PclFunctions* (*)();
     return reinterpret_cast<Entry>(
-        tool_module_function(what, "PCL", PLEXWAY_PCL_MODULE, "plexway_pcl_functions"))();
+        module_function(what, "PCL", PLEXWAY_PCL_MODULE, "plexway_pcl_functions"))();
   }();
   return *functions;
 }
@@ -22,4 +22,4 @@ const PclFunctions& pcl_functions(const std::string& what) {
 }
 #endif
 
-}  // namespace plexway::cli
+}  // namespace plexway

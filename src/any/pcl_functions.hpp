@@ -10,9 +10,9 @@
 #include <plexway/complex/ids.hpp>
 #include <plexway/io/points.hpp>
 
-namespace plexway::cli {
+namespace plexway {
 
-/// What the tool takes from PCL.
+/// What is taken from PCL.
 ///
 /// PCL's libraries bring VTK along: to load them takes 50 ms and 50 MB, twenty times what the tool
 /// takes without. So they are behind a module that is loaded when one of these is needed.
@@ -32,4 +32,4 @@ struct PclFunctions {
 /// PCL; Error where the module was not installed beside the tool.
 const PclFunctions& pcl_functions(const std::string& what);
 
-}  // namespace plexway::cli
+}  // namespace plexway

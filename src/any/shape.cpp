@@ -1,247 +1,384 @@
-#include "domain.hpp"
+#include <plexway/any/shape.hpp>
 
 #include <algorithm>
-#include <array>
-#include <fstream>
-#include <optional>
-#include <system_error>
+#include <cmath>
+#include <limits>
 #include <utility>
 
+#include <plexway/apps/isolines.hpp>
+#include <plexway/error.hpp>
 #include <plexway/io/field.hpp>
 
-#include "closest_point.hpp"
+#include "any/closest_point.hpp"
+#include "any/fill.hpp"
+#include "any/openvdb_functions.hpp"
+#include "any/pcl_functions.hpp"
+#include "any/shape_state.hpp"
+#include "any/words.hpp"
 #include "io/extension.hpp"
-#include "openvdb_functions.hpp"
-#include "simplex_edges.hpp"
 
-namespace plexway::cli {
+namespace plexway {
 namespace {
 
-enum class Kind { surface, solid, wireframe, cloud };  // in the order of Domain::Shape
-constexpr std::array<const char*, 4> kind_names = {"surface", "solid", "wireframe", "cloud"};
-
-std::optional<Kind> asked_for(const std::string& as) {
-  if (as.empty()) return std::nullopt;
-  if (as == "surface") return Kind::surface;
-  if (as == "solid") return Kind::solid;
-  if (as == "wireframe") return Kind::wireframe;
-  if (as == "cloud") return Kind::cloud;
-  throw UsageError("--as " + as + ": no such kind; the kinds are surface, solid, cloud, wireframe");
+constexpr DomainKind kind_of(const AnyShape::Data& data) {
+  return static_cast<DomainKind>(data.index());
 }
 
-bool has_extension(const std::filesystem::path& file, std::span<const std::string_view> known) {
-  const std::string extension = io::lower_extension(file);
-  return std::find(known.begin(), known.end(), extension) != known.end();
+[[noreturn]] void out_of_range(std::string_view simplices, std::size_t simplex, Index vertex,
+                               std::size_t vertices) {
+  throw InputError(singular(simplices) + " " + std::to_string(simplex) + " has vertex " +
+                   std::to_string(vertex) + ", but there are " + counted(vertices, "vertices"));
 }
 
-// Whether an .obj has a statement that starts with this letter.
-bool has_statement(const std::string& file, char letter) {
-  std::ifstream in(file);
-  for (std::string line; std::getline(in, line);) {
-    const std::size_t at = line.find_first_not_of(" \t");
-    if (at != line.npos && line[at] == letter && at + 1 < line.size() &&
-        (line[at + 1] == ' ' || line[at + 1] == '\t'))
-      return true;
+template <std::size_t N>
+void check_corners(std::span<const std::array<Index, N>> simplices, std::size_t vertices,
+                   std::string_view name) {
+  for (std::size_t s = 0; s < simplices.size(); ++s)
+    for (const Index v : simplices[s])
+      if (v >= vertices) out_of_range(name, s, v, vertices);
+}
+
+void check_count(std::size_t rows, std::size_t simplices, std::string_view what) {
+  if (rows != simplices)
+    throw InputError(std::to_string(rows) + " rows of lengths for " + counted(simplices, what));
+}
+
+template <std::size_t N>
+std::vector<std::array<Index, N>> rows_of(const SimplexShape& shape) {
+  std::vector<std::array<Index, N>> rows(shape.corners.size() / N);
+  for (std::size_t s = 0; s < rows.size(); ++s)
+    std::copy_n(shape.corners.begin() + static_cast<std::ptrdiff_t>(N * s), N, rows[s].begin());
+  return rows;
+}
+
+// The better of the best so far and another of `first` on.
+void take(SimplexPoint& best, SimplexPoint other, std::size_t first) {
+  if (!(other.squared_distance < best.squared_distance)) return;
+  best = other;
+  best.simplex += first;
+}
+
+SimplexPoint closest_of(const AnyShape& shape, const std::array<double, 3>& point) {
+  const auto at = shape.positions();
+  return std::visit(
+      [&](const auto& data) {
+        using Kind = std::decay_t<decltype(data)>;
+        if constexpr (std::is_same_v<Kind, io::Triangles>) {
+          return closest_point(at, std::span(data.triangles), point);
+        } else if constexpr (std::is_same_v<Kind, io::Tets>) {
+          return closest_point(at, std::span(data.tets), point);
+        } else if constexpr (std::is_same_v<Kind, io::Edges>) {
+          return closest_point(at, std::span(data.edges), point);
+        } else if constexpr (std::is_same_v<Kind, MixedShape>) {
+          SimplexPoint best;
+          std::size_t first = 0;
+          for (const MixedShape::Part& part : data.parts) {
+            take(best, closest_point(at, std::span(part.edges), point), first);
+            first += part.edges.size();
+            take(best, closest_point(at, std::span(part.triangles), point), first);
+            first += part.triangles.size();
+            take(best, closest_point(at, std::span(part.tets), point), first);
+            first += part.tets.size();
+          }
+          return best;
+        } else if constexpr (std::is_same_v<Kind, SimplexShape>) {
+          const auto in = [&](const auto& rows) {
+            return closest_point(at, std::span(rows), point);
+          };
+          return data.dimension == 1   ? in(rows_of<2>(data))
+                 : data.dimension == 2 ? in(rows_of<3>(data))
+                                       : in(rows_of<4>(data));
+        } else {
+          return SimplexPoint{};
+        }
+      },
+      shape.data());
+}
+
+PointSource nearest_of_points(std::span<const std::array<double, 3>> points,
+                              const std::array<double, 3>& point) {
+  Index best = 0;
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const auto& p = points[i];
+    const double away = std::hypot(p[0] - point[0], p[1] - point[1], p[2] - point[2]);
+    if (!(away < least)) continue;
+    least = away;
+    best = static_cast<Index>(i);
   }
-  return false;
+  return PointSource::at(best);
 }
 
-// An .obj may be either of two. Only one that cannot be read as a surface is looked at again.
-Domain::Shape read_obj(const std::string& file, std::optional<Kind> asked) {
-  if (asked == Kind::wireframe && has_statement(file, 'l')) return io::read_edges(file);
-  try {
-    return io::read_triangles(file);
-  } catch (const InputError&) {
-    if (asked == Kind::surface || has_statement(file, 'f') || !has_statement(file, 'l')) throw;
+void require_positions(const AnyShape& shape) {
+  if (shape.positions().empty())
+    throw UsageError("the vertices have no positions in space: name one by its number");
+}
+
+// Parts of a mixed domain as the writer wants them, in numbers of their own.
+void write_mixed(const std::filesystem::path& out, const MixedShape& shape,
+                 std::span<const double> distance, std::span<const std::int32_t> label) {
+  std::vector<MixedShape::Part> own = shape.parts;
+  std::vector<io::MixedPart> parts;
+  for (MixedShape::Part& part : own) {
+    const auto move = [&](auto& rows) {
+      for (auto& row : rows)
+        for (Index& v : row) v -= static_cast<Index>(part.first_vertex);
+    };
+    move(part.edges), move(part.triangles), move(part.tets);
+    parts.push_back(
+        {.positions = std::span(shape.positions).subspan(part.first_vertex, part.vertices),
+         .edges = part.edges,
+         .triangles = part.triangles,
+         .tets = part.tets});
   }
-  return io::read_edges(file);
-}
-
-Domain::Shape read(const std::string& file, std::optional<Kind> asked) {
-  const bool triangles = has_extension(file, io::triangle_extensions());
-  const bool lines = has_extension(file, io::edge_extensions());
-  if (triangles && lines) return read_obj(file, asked);
-  if (triangles) return io::read_triangles(file);
-  if (lines) return io::read_edges(file);
-  if (has_extension(file, io::tet_extensions())) return io::read_tets(file);
-  std::error_code ignored;
-  if (std::filesystem::is_directory(file, ignored))
-    throw InputError(file + ": is a directory, not a file");
-  const std::string extension = std::filesystem::path(file).extension().string();
-  throw InputError(
-      file + ": " + (extension.empty() ? "no extension" : "unknown extension '" + extension + "'") +
-      "; known are .obj .off .ply .stl for surfaces, .node .ele .mesh .msh .vtu .vtk "
-      ".poly .smesh .vdb for solids, .edges .obj for wireframes, .xyz .pcd .ply for clouds");
-}
-
-// A .ply is a cloud where it is asked to be one, or where it cannot be a surface.
-bool is_read_as_cloud(const std::string& file, std::optional<Kind> asked) {
-  if (is_cloud_file(file)) return true;
-  if (asked == Kind::cloud) return has_extension(file, io::point_extensions());
-  return !asked && io::is_ply_cloud(file);
-}
-
-bool can_be(Kind natural, Kind wanted) {
-  if (natural == wanted || natural == Kind::surface) return true;
-  return natural == Kind::solid && wanted == Kind::wireframe;
-}
-
-[[noreturn]] void cannot_be(const std::string& file, Kind natural, Kind wanted) {
-  throw InputError(file + ": is a " + kind_names[static_cast<std::size_t>(natural)] +
-                   ", which cannot be taken as a " + kind_names[static_cast<std::size_t>(wanted)]);
+  io::write_field(out, parts, distance, label);
 }
 
 }  // namespace
 
-Domain Domain::load(const std::string& file, const std::string& as, const FillOptions& fill,
-                    const CloudArguments& cloud, ProgressLine& progress) {
-  const std::optional<Kind> asked = asked_for(as);
-  check(fill);
-  check(cloud);
-  Domain domain;
-  domain.file_ = file;
-  domain.voxel_ = fill.volume.voxel.value_or(0);
-  if (!fill.volume.grid.empty() && !is_vdb(file))
-    throw UsageError("--grid needs a .vdb: other files have no grids");
-  progress.phase("reading " + file);
-  const Stopwatch loading;
-  const bool is_cloud = is_read_as_cloud(file, asked);
-  CloudFile points;
-  if (is_cloud)
-    points = read_cloud(file);
-  else if (!is_poly(file) && !is_vdb(file))
-    domain.shape_ = read(file, asked);
-  domain.load_seconds_ = loading.seconds();
-  const Kind natural = is_cloud                        ? Kind::cloud
-                       : is_poly(file) || is_vdb(file) ? Kind::solid
-                                                       : static_cast<Kind>(domain.shape_.index());
-  const Kind wanted = asked.value_or(natural);
-  const bool surface_of_vdb = is_vdb(file) && wanted == Kind::surface;
-  if (!can_be(natural, wanted) && !surface_of_vdb) cannot_be(file, natural, wanted);
-  if (fill.volume.repair && (natural != Kind::surface || wanted == Kind::cloud))
-    throw UsageError("--repair needs a surface, and takes it as a surface or as a solid");
-  if (cloud.given() && wanted != Kind::cloud)
-    throw UsageError(
-        "--k, --neighbour-radius, --max-normal-angle, --voxel, --denoise and --smooth need "
-        "a cloud: a file of points, or a surface with --as cloud");
+namespace {
 
-  const bool wants_solid = natural == Kind::surface && wanted == Kind::solid;
-  // Without a word about how TetGen should do it, a repaired solid is cut from its level set.
-  const bool cut = is_vdb(file) || (fill.volume.repair && !(wants_solid && fill.given()));
-  const bool fills = is_poly(file) || (wants_solid && !cut);
-  if (fill.given() && !fills)
-    throw UsageError(
-        "--max-volume, --quality, --keep-surface, --max-seconds and --hole need a surface to fill: "
-        "give one with --as solid");
-  if (fill.volume.voxel && !cut && !fill.volume.repair && !fill.volume.writes_volume &&
-      wanted != Kind::cloud)
-    throw UsageError("--voxel needs a cloud, --repair, or a .vdb to read or to write");
-  if (cut || fill.volume.repair)
-    domain.load_level_set(
-        file,
-        fills || wanted == Kind::surface || (natural == Kind::surface && wanted != Kind::solid),
-        fill.volume, progress);
-  if (fills) {
-    require_tetgen(as.empty() ? file : "--as " + as);
-    progress.phase("filling " + file + " with tetrahedra");
-    const Stopwatch meshing;
-    domain.shape_ =
-        is_poly(file) ? fill_poly(file, fill, progress)
-                      : fill_surface(file, std::get<io::Triangles>(domain.shape_), fill, progress);
-    domain.mesh_seconds_ = meshing.seconds();
+AnyShape::State of_data(AnyShape::Data data, std::size_t vertices) {
+  AnyShape::State state;
+  state.data = std::move(data);
+  state.vertices = vertices;
+  return state;
+}
+
+}  // namespace
+
+AnyShape AnyShape::surface(Points positions, std::vector<std::array<Index, 3>> triangles) {
+  const std::size_t n = positions.size();
+  check_corners<3>(triangles, n, "triangles");
+  return AnyShape(std::make_shared<State>(
+      of_data(io::Triangles{std::move(positions), std::move(triangles)}, n)));
+}
+
+AnyShape AnyShape::solid(Points positions, std::vector<std::array<Index, 4>> tets) {
+  const std::size_t n = positions.size();
+  check_corners<4>(tets, n, "tetrahedra");
+  return AnyShape(
+      std::make_shared<State>(of_data(io::Tets{std::move(positions), std::move(tets)}, n)));
+}
+
+AnyShape AnyShape::wireframe(Points positions, std::vector<std::array<Index, 2>> edges) {
+  const std::size_t n = positions.size();
+  check_corners<2>(edges, n, "edges");
+  return AnyShape(std::make_shared<State>(
+      of_data(io::Edges{std::move(positions), std::move(edges), {}, n}, n)));
+}
+
+AnyShape AnyShape::surface(std::size_t vertices, std::vector<std::array<Index, 3>> triangles,
+                           std::vector<std::array<double, 3>> lengths) {
+  check_corners<3>(triangles, vertices, "triangles");
+  check_count(lengths.size(), triangles.size(), "triangles");
+  State state = of_data(io::Triangles{{}, std::move(triangles)}, vertices);
+  state.lengths.emplace();
+  state.lengths->violations =
+      metric::find_violations(std::span<const std::array<double, 3>>(lengths));
+  state.lengths->triangles = std::move(lengths);
+  return AnyShape(std::make_shared<State>(std::move(state)));
+}
+
+AnyShape AnyShape::solid(std::size_t vertices, std::vector<std::array<Index, 4>> tets,
+                         std::vector<std::array<double, 6>> lengths) {
+  check_corners<4>(tets, vertices, "tetrahedra");
+  check_count(lengths.size(), tets.size(), "tetrahedra");
+  State state = of_data(io::Tets{{}, std::move(tets)}, vertices);
+  state.lengths.emplace();
+  state.lengths->violations =
+      metric::find_violations(std::span<const std::array<double, 6>>(lengths));
+  state.lengths->tets = std::move(lengths);
+  return AnyShape(std::make_shared<State>(std::move(state)));
+}
+
+AnyShape AnyShape::wireframe(std::size_t vertices, std::vector<std::array<Index, 2>> edges,
+                             std::vector<double> lengths) {
+  check_corners<2>(edges, vertices, "edges");
+  check_count(lengths.size(), edges.size(), "edges");
+  return AnyShape(std::make_shared<State>(
+      of_data(io::Edges{{}, std::move(edges), std::move(lengths), vertices}, vertices)));
+}
+
+AnyShape AnyShape::cloud(io::Points points, const ReadOptions& options) {
+  check(options);
+  const Watch looking;
+  CloudShape cloud = make_cloud("a cloud", {std::move(points), 0}, options);
+  const std::size_t n = cloud.points.positions.size();
+  State state = of_data(std::move(cloud), n);
+  state.neighbour_seconds = looking.seconds();
+  return AnyShape(std::make_shared<State>(std::move(state)));
+}
+
+AnyShape AnyShape::simplices(SimplexShape shape) {
+  if (shape.dimension < 1 || shape.dimension > 4)
+    throw InputError("simplices of dimension " + std::to_string(shape.dimension) +
+                     ": 1 to 4 are taken");
+  const auto corners = static_cast<std::size_t>(shape.dimension) + 1;
+  if (shape.corners.size() % corners != 0)
+    throw InputError("corners of simplices of dimension " + std::to_string(shape.dimension) +
+                     " come in rows of " + std::to_string(corners) + ", not " +
+                     std::to_string(shape.corners.size()) + " in all");
+  const std::size_t count = shape.corners.size() / corners;
+  for (std::size_t i = 0; i < shape.corners.size(); ++i)
+    if (shape.corners[i] >= shape.vertices)
+      out_of_range("simplices", i / corners, shape.corners[i], shape.vertices);
+  if (shape.axes > 0 && shape.positions.size() != shape.vertices * shape.axes)
+    throw InputError(counted(shape.positions.size(), "coordinates") + " for " +
+                     counted(shape.vertices, "vertices") + " of " + std::to_string(shape.axes));
+  if (shape.axes > 0 && shape.axes < corners - 1)
+    throw InputError("simplices of dimension " + std::to_string(shape.dimension) +
+                     " need at least " + std::to_string(corners - 1) +
+                     " coordinates a vertex, not " + std::to_string(shape.axes));
+  if (shape.axes == 0)
+    check_count(shape.lengths.size(), count * corners * (corners - 1) / 2, "edges");
+  State state;
+  state.vertices = shape.vertices;
+  if (shape.axes > 0 && shape.axes <= 3) {
+    state.places.assign(shape.vertices, {0, 0, 0});
+    for (std::size_t v = 0; v < shape.vertices; ++v)
+      for (std::size_t k = 0; k < shape.axes; ++k)
+        state.places[v][k] = shape.positions[v * shape.axes + k];
   }
-  if (wanted == Kind::wireframe) {
-    if (const auto* surface = std::get_if<io::Triangles>(&domain.shape_))
-      domain.shape_ = edges_of(*surface);
-    else if (const auto* solid = std::get_if<io::Tets>(&domain.shape_))
-      domain.shape_ = edges_of(*solid);
+  state.data = std::move(shape);
+  return AnyShape(std::make_shared<State>(std::move(state)));
+}
+
+AnyShape AnyShape::mixed(MixedShape shape) {
+  if (!(shape.tolerance >= 0)) throw UsageError("tolerance must be >= 0");
+  std::size_t first = 0;
+  for (const MixedShape::Part& part : shape.parts) {
+    if (part.first_vertex != first)
+      throw InputError("the parts of a mixed domain do not number their vertices through");
+    first += part.vertices;
+    const auto check_rows = [&](const auto& rows, std::string_view name) {
+      for (std::size_t s = 0; s < rows.size(); ++s)
+        for (const Index v : rows[s])
+          if (v < part.first_vertex || v >= first) out_of_range(name, s, v, shape.positions.size());
+    };
+    check_rows(part.edges, "edges");
+    check_rows(part.triangles, "triangles");
+    check_rows(part.tets, "tetrahedra");
   }
-  if (wanted == Kind::cloud) {
-    if (!is_cloud) points.points.positions = std::get<io::Triangles>(domain.shape_).positions;
-    const Stopwatch looking;
-    CloudArguments arguments = cloud;
-    arguments.voxel = fill.volume.voxel;
-    domain.shape_ = make_cloud(file, std::move(points), arguments, progress);
-    domain.neighbour_seconds_ = looking.seconds();
+  if (first != shape.positions.size())
+    throw InputError(counted(shape.positions.size(), "positions") + " for parts of " +
+                     counted(first, "vertices"));
+  return AnyShape(std::make_shared<State>(of_data(std::move(shape), first)));
+}
+
+const std::filesystem::path& AnyShape::file() const { return state_->file; }
+const AnyShape::Data& AnyShape::data() const { return state_->data; }
+DomainKind AnyShape::kind() const { return kind_of(state_->data); }
+std::size_t AnyShape::vertices() const { return state_->vertices; }
+const MeasuredLengths* AnyShape::lengths() const {
+  return state_->lengths ? &*state_->lengths : nullptr;
+}
+const std::string& AnyShape::level_set_note() const { return state_->level_set_note; }
+double AnyShape::load_seconds() const { return state_->load_seconds; }
+std::optional<double> AnyShape::mesh_seconds() const { return state_->mesh_seconds; }
+std::optional<double> AnyShape::neighbour_seconds() const { return state_->neighbour_seconds; }
+
+int AnyShape::dimension() const {
+  switch (kind()) {
+    case DomainKind::surface:
+    case DomainKind::cloud:
+      return 2;
+    case DomainKind::solid:
+      return 3;
+    case DomainKind::wireframe:
+      return 1;
+    case DomainKind::simplices:
+      return std::get<SimplexShape>(data()).dimension;
+    case DomainKind::mixed:
+      break;
   }
-  return domain;
+  int dimension = 0;
+  for (const MixedShape::Part& part : std::get<MixedShape>(data()).parts)
+    dimension = std::max(dimension, !part.tets.empty()        ? 3
+                                    : !part.triangles.empty() ? 2
+                                    : !part.edges.empty()     ? 1
+                                                              : 0);
+  return dimension;
 }
 
-void Domain::load_level_set(const std::string& file, bool surface, const VolumeOptions& volume,
-                            ProgressLine& progress) {
-  const double voxel = volume.voxel.value_or(0);
-  const Stopwatch meshing;
-  if (is_vdb(file)) {
-    const OpenvdbFunctions& openvdb = openvdb_functions(file);
-    progress.phase("cutting " + file);
-    try {
-      if (surface)
-        shape_ = openvdb.surface_of_file(file, volume.grid, voxel, level_set_note_);
-      else
-        shape_ = openvdb.solid_of_file(file, volume.grid, voxel, level_set_note_);
-    } catch (const InputError& error) {
-      const std::string cause = error.what();
-      throw InputError(cause.starts_with(file) ? cause : file + ": " + cause);
-    }
-  } else {
-    const OpenvdbFunctions& openvdb = openvdb_functions("--repair");
-    progress.phase("repairing " + file);
-    const auto broken = std::get<io::Triangles>(std::move(shape_));
-    try {
-      if (surface)
-        shape_ = openvdb.repaired(broken, voxel, level_set_note_);
-      else
-        shape_ = openvdb.solid_inside(broken, voxel, level_set_note_);
-    } catch (const InputError& error) {
-      throw InputError(file + ": cannot be repaired: " + error.what());
-    }
-  }
-  if (!surface) mesh_seconds_ = meshing.seconds();
+std::string_view AnyShape::simplex_name() const {
+  constexpr std::array<std::string_view, 6> names = {"triangles", "tetrahedra", "edges",
+                                                     "simplices", "triangles",  "simplices"};
+  return names[data().index()];
 }
 
-std::string_view Domain::kind() const { return kind_names[shape_.index()]; }
-
-std::string_view Domain::simplex_name() const {
-  constexpr std::array<std::string_view, 4> names = {"triangles", "tetrahedra", "edges",
-                                                     "triangles"};
-  return names[shape_.index()];
-}
-
-std::size_t Domain::vertices() const {
-  if (const auto* wireframe = std::get_if<io::Edges>(&shape_)) return wireframe->vertices;
-  return positions().size();
-}
-
-std::size_t Domain::simplices() const {
-  if (const auto* surface = std::get_if<io::Triangles>(&shape_)) return surface->triangles.size();
-  if (const auto* solid = std::get_if<io::Tets>(&shape_)) return solid->tets.size();
-  if (const auto* wireframe = std::get_if<io::Edges>(&shape_)) return wireframe->edges.size();
-  return 0;
-}
-
-std::span<const std::uint32_t> Domain::corners(std::size_t simplex) const {
-  if (const auto* surface = std::get_if<io::Triangles>(&shape_)) return surface->triangles[simplex];
-  if (const auto* solid = std::get_if<io::Tets>(&shape_)) return solid->tets[simplex];
-  return std::get<io::Edges>(shape_).edges[simplex];
-}
-
-std::span<const std::array<double, 3>> Domain::positions() const {
-  if (cloud() != nullptr) return cloud()->points.positions;
-  if (const auto* surface = std::get_if<io::Triangles>(&shape_)) return surface->positions;
-  if (const auto* solid = std::get_if<io::Tets>(&shape_)) return solid->positions;
-  return std::get<io::Edges>(shape_).positions;
-}
-
-PointSource Domain::closest(const std::array<double, 3>& point) const {
-  if (cloud() != nullptr) return PointSource::at(nearest_point(*cloud(), point));
-  const SimplexPoint found = std::visit(
-      [&](const auto& shape) -> SimplexPoint {
-        if constexpr (std::is_same_v<std::decay_t<decltype(shape)>, Cloud>)
-          return {};
-        else
-          return closest_point(shape, point);
+std::size_t AnyShape::simplices() const {
+  return std::visit(
+      [](const auto& data) -> std::size_t {
+        using Kind = std::decay_t<decltype(data)>;
+        if constexpr (std::is_same_v<Kind, io::Triangles>) {
+          return data.triangles.size();
+        } else if constexpr (std::is_same_v<Kind, io::Tets>) {
+          return data.tets.size();
+        } else if constexpr (std::is_same_v<Kind, io::Edges>) {
+          return data.edges.size();
+        } else if constexpr (std::is_same_v<Kind, SimplexShape>) {
+          return data.corners.size() / (static_cast<std::size_t>(data.dimension) + 1);
+        } else if constexpr (std::is_same_v<Kind, MixedShape>) {
+          std::size_t count = 0;
+          for (const MixedShape::Part& part : data.parts)
+            count += part.edges.size() + part.triangles.size() + part.tets.size();
+          return count;
+        } else {
+          return 0;
+        }
       },
-      shape_);
+      data());
+}
+
+std::span<const Index> AnyShape::corners(std::size_t simplex) const {
+  return std::visit(
+      [&](const auto& data) -> std::span<const Index> {
+        using Kind = std::decay_t<decltype(data)>;
+        if constexpr (std::is_same_v<Kind, io::Triangles>) {
+          return data.triangles[simplex];
+        } else if constexpr (std::is_same_v<Kind, io::Tets>) {
+          return data.tets[simplex];
+        } else if constexpr (std::is_same_v<Kind, io::Edges>) {
+          return data.edges[simplex];
+        } else if constexpr (std::is_same_v<Kind, SimplexShape>) {
+          const auto n = static_cast<std::size_t>(data.dimension) + 1;
+          return std::span(data.corners).subspan(n * simplex, n);
+        } else if constexpr (std::is_same_v<Kind, MixedShape>) {
+          for (const MixedShape::Part& part : data.parts) {
+            if (simplex < part.edges.size()) return part.edges[simplex];
+            simplex -= part.edges.size();
+            if (simplex < part.triangles.size()) return part.triangles[simplex];
+            simplex -= part.triangles.size();
+            if (simplex < part.tets.size()) return part.tets[simplex];
+            simplex -= part.tets.size();
+          }
+          return {};
+        } else {
+          return {};
+        }
+      },
+      data());
+}
+
+std::span<const std::array<double, 3>> AnyShape::positions() const {
+  return std::visit(
+      [&](const auto& data) -> std::span<const std::array<double, 3>> {
+        using Kind = std::decay_t<decltype(data)>;
+        if constexpr (std::is_same_v<Kind, CloudShape>)
+          return data.points.positions;
+        else if constexpr (std::is_same_v<Kind, SimplexShape>)
+          return state_->places;
+        else
+          return data.positions;
+      },
+      data());
+}
+
+PointSource AnyShape::closest(const std::array<double, 3>& point) const {
+  require_positions(*this);
+  if (cloud() != nullptr) return nearest_of_points(positions(), point);
+  const SimplexPoint found = closest_of(*this, point);
   const auto at = corners(found.simplex);
   for (std::size_t i = 0; i < at.size(); ++i) {
     // Nearer to the corner than a rounding error of the coordinates.
@@ -250,9 +387,14 @@ PointSource Domain::closest(const std::array<double, 3>& point) const {
   return PointSource::in(static_cast<Index>(found.simplex), found.barycentric);
 }
 
-std::array<double, 3> Domain::position(const PointSource& source) const {
+std::array<double, 3> AnyShape::position(const PointSource& source) const {
+  require_positions(*this);
   const auto place = positions();
-  if (source.vertex != none) return place[source.vertex];
+  if (source.vertex != none) {
+    if (source.vertex >= place.size()) throw UsageError("there is no such vertex");
+    return place[source.vertex];
+  }
+  if (source.simplex >= simplices()) throw UsageError("there is no such simplex");
   std::array<double, 3> at = {0, 0, 0};
   const auto ends = corners(source.simplex);
   for (std::size_t i = 0; i < ends.size(); ++i) {
@@ -261,30 +403,62 @@ std::array<double, 3> Domain::position(const PointSource& source) const {
   return at;
 }
 
-void Domain::write_field(const std::filesystem::path& out, std::span<const double> distance,
-                         std::span<const std::int32_t> label) const {
+std::vector<Path> AnyShape::isolines(std::span<const double> distance,
+                                     std::span<const double> values) const {
+  const auto* surface = std::get_if<io::Triangles>(&data());
+  if (surface == nullptr)
+    throw UsageError("isolines are drawn on surfaces, not on a " + std::string(kind_name()));
+  require_positions(*this);
+  return plexway::isolines(surface->positions, surface->triangles, distance, values);
+}
+
+void AnyShape::write_field(const std::filesystem::path& out, std::span<const double> distance,
+                           std::span<const std::int32_t> label) const {
   if (is_vdb(out.string())) {
-    const auto* solid = std::get_if<io::Tets>(&shape_);
+    const auto* solid = std::get_if<io::Tets>(&data());
     if (solid == nullptr)
       throw UsageError(out.string() + ": only the field of a solid fits a .vdb");
-    if (openvdb_functions(out.string()).write_field(out, *solid, distance, label, voxel_) == 0)
+    if (openvdb_functions(out.string()).write_field(out, *solid, distance, label, state_->voxel) ==
+        0)
       throw UsageError(out.string() +
-                       ": no voxel has its centre in the solid: choose a smaller --voxel");
+                       ": no voxel has its centre in the solid: choose a smaller voxel");
     return;
   }
-  using io::write_field;  // and the one of clouds
-  std::visit([&](const auto& shape) { write_field(out, shape, distance, label); }, shape_);
+  if (positions().empty() || kind() == DomainKind::simplices) {
+    // The vertices alone: as a wireframe without edges.
+    io::Edges vertices;
+    vertices.positions.assign(positions().begin(), positions().end());
+    vertices.vertices = this->vertices();
+    return io::write_field(out, vertices, distance, label);
+  }
+  std::visit(
+      [&](const auto& data) {
+        using Kind = std::decay_t<decltype(data)>;
+        if constexpr (std::is_same_v<Kind, CloudShape>) {
+          if (io::lower_extension(out) == ".pcd")
+            pcl_functions(out.string())
+                .write_field(out, data.points.positions, distance, data.points.original);
+          else
+            io::write_field(out, data.points, distance, label);
+        } else if constexpr (std::is_same_v<Kind, MixedShape>) {
+          write_mixed(out, data, distance, label);
+        } else if constexpr (!std::is_same_v<Kind, SimplexShape>) {
+          io::write_field(out, data, distance, label);
+        }
+      },
+      data());
 }
 
-std::span<const std::string_view> Domain::field_extensions() const {
-  static const std::vector<std::string_view> of_solids = [] {
+std::span<const std::string_view> AnyShape::field_extensions(DomainKind kind) {
+  static const auto with = [](std::string_view more) {
     const auto known = io::field_extensions();
     std::vector<std::string_view> all(known.begin(), known.end());
-    all.push_back(".vdb");
+    all.push_back(more);
     return all;
-  }();
-  if (cloud() != nullptr) return cloud_field_extensions();
-  return std::holds_alternative<io::Tets>(shape_) ? of_solids : io::field_extensions();
+  };
+  static const std::vector<std::string_view> of_clouds = with(".pcd"), of_solids = with(".vdb");
+  if (kind == DomainKind::cloud) return of_clouds;
+  return kind == DomainKind::solid ? of_solids : io::field_extensions();
 }
 
-}  // namespace plexway::cli
+}  // namespace plexway

@@ -1,4 +1,4 @@
-#include "solid_boundary.hpp"
+#include "any/solid_boundary.hpp"
 
 #include <algorithm>
 #include <array>
@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-namespace plexway::cli {
+namespace plexway {
 namespace {
 
 using Point = std::array<double, 3>;
@@ -62,4 +62,4 @@ io::Triangles boundary_of(const io::Tets& solid) {
   return surface;
 }
 
-}  // namespace plexway::cli
+}  // namespace plexway

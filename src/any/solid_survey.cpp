@@ -1,12 +1,12 @@
-#include "solid_survey.hpp"
+#include "any/solid_survey.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-#include "report.hpp"
-#include "simplex_edges.hpp"
+#include "any/simplex_edges.hpp"
+#include "any/words.hpp"
 
-namespace plexway::cli {
+namespace plexway {
 namespace {
 
 using Vector = std::array<double, 3>;
@@ -98,4 +98,4 @@ std::vector<std::string> solid_warnings(const SolidSummary& summary, const Solid
   return warnings;
 }
 
-}  // namespace plexway::cli
+}  // namespace plexway

@@ -7,13 +7,13 @@
 #include <plexway/complex/tet_mesh.hpp>
 #include <plexway/io/tets.hpp>
 
-#include "survey.hpp"
+#include "any/survey.hpp"
 
-namespace plexway::cli {
+namespace plexway {
 
 /// What is measured on a solid beside SolidSummary, in the file's unit.
 struct SolidSurvey {
-  Box box;
+  Bounds box;
   Spread edge;                            ///< over all edges, each once
   double volume = 0, largest_volume = 0;  ///< of all tetrahedra, and of one
   /// Share of tetrahedra whose longest edge is more than 10 times sqrt(3/2) their lowest height.
@@ -27,4 +27,4 @@ SolidSurvey survey_solid(const io::Tets& solid);
 /// What may surprise the user of this solid, a sentence each.
 std::vector<std::string> solid_warnings(const SolidSummary& summary, const SolidSurvey& survey);
 
-}  // namespace plexway::cli
+}  // namespace plexway

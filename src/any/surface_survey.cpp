@@ -1,13 +1,13 @@
-#include "surface_survey.hpp"
+#include "any/surface_survey.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
-#include "report.hpp"
-#include "survey.hpp"
+#include "any/survey.hpp"
+#include "any/words.hpp"
 
-namespace plexway::cli {
+namespace plexway {
 namespace {
 
 using Vector = std::array<double, 3>;
@@ -34,7 +34,7 @@ bool is_slender(const std::array<double, 3>& side) {
 
 SurfaceSurvey survey_surface(const io::Triangles& surface) {
   SurfaceSurvey survey;
-  const Box box = bounding_box(surface.positions);
+  const Bounds box = bounding_box(surface.positions);
   survey.low = box.low;
   survey.high = box.high;
   survey.shortest_edge = std::numeric_limits<double>::infinity();
@@ -84,4 +84,4 @@ std::vector<std::string> surface_warnings(const SurfaceSummary& summary,
   return warnings;
 }
 
-}  // namespace plexway::cli
+}  // namespace plexway

@@ -8,7 +8,7 @@
 #include <plexway/complex/triangle_mesh.hpp>
 #include <plexway/io/triangles.hpp>
 
-namespace plexway::cli {
+namespace plexway {
 
 /// What `info` measures on a surface beside SurfaceSummary. Lengths in the file's unit.
 struct SurfaceSurvey {
@@ -27,4 +27,4 @@ SurfaceSurvey survey_surface(const io::Triangles& surface);
 std::vector<std::string> surface_warnings(const SurfaceSummary& summary,
                                           const SurfaceSurvey& survey);
 
-}  // namespace plexway::cli
+}  // namespace plexway

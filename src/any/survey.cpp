@@ -1,19 +1,19 @@
-#include "survey.hpp"
+#include "any/survey.hpp"
 
 #include <functional>
 #include <numeric>
 #include <variant>
 
-#include "simplex_edges.hpp"
+#include "any/simplex_edges.hpp"
 
 #ifdef PLEXWAY_HAS_BOOST_GRAPH
 #include <plexway/boost_graph/graph.hpp>
 #endif
 
-namespace plexway::cli {
+namespace plexway {
 
-Box bounding_box(std::span<const std::array<double, 3>> positions) {
-  Box box;
+Bounds bounding_box(std::span<const std::array<double, 3>> positions) {
+  Bounds box;
   if (!positions.empty()) box.low = box.high = positions.front();
   for (const auto& position : positions) {
     for (std::size_t k = 0; k < 3; ++k) {
@@ -36,20 +36,21 @@ Spread spread_of(std::span<const double> lengths) {
 }
 
 #ifdef PLEXWAY_HAS_BOOST_GRAPH
-std::optional<std::vector<std::size_t>> component_sizes(const Domain& domain) {
+std::optional<std::vector<std::size_t>> component_sizes(const AnyShape& domain) {
+  const auto of = [&](const auto& simplices) {
+    return boost_graph::connected_components(domain.vertices(), simplices);
+  };
   const auto found = std::visit(
-      [&](const auto& shape) {
-        using Shape = std::decay_t<decltype(shape)>;
-        if constexpr (std::is_same_v<Shape, io::Triangles>)
-          return boost_graph::connected_components(domain.vertices(), shape.triangles);
-        else if constexpr (std::is_same_v<Shape, io::Tets>)
-          return boost_graph::connected_components(domain.vertices(), shape.tets);
-        else if constexpr (std::is_same_v<Shape, Cloud>)
-          return boost_graph::connected_components(domain.vertices(), edges_of(shape).edges);
+      [&](const auto& data) {
+        using Data = std::decay_t<decltype(data)>;
+        if constexpr (std::is_same_v<Data, io::Triangles>)
+          return of(data.triangles);
+        else if constexpr (std::is_same_v<Data, io::Tets>)
+          return of(data.tets);
         else
-          return boost_graph::connected_components(domain.vertices(), shape.edges);
+          return of(edges_of(domain).edges);
       },
-      domain.shape());
+      domain.data());
   std::vector<std::size_t> sizes(found.count, 0);
   for (const Index component : found.of_vertex) ++sizes[component];
   // A vertex in no simplex is a component to Boost, but not to paths.
@@ -64,7 +65,7 @@ std::optional<std::vector<std::size_t>> component_sizes(const Domain& domain) {
   return kept;
 }
 #else
-std::optional<std::vector<std::size_t>> component_sizes(const Domain&) { return std::nullopt; }
+std::optional<std::vector<std::size_t>> component_sizes(const AnyShape&) { return std::nullopt; }
 #endif
 
 std::string components_warning(std::size_t components) {
@@ -72,4 +73,4 @@ std::string components_warning(std::size_t components) {
          " components: a source reaches only its own, the others get inf";
 }
 
-}  // namespace plexway::cli
+}  // namespace plexway

@@ -9,15 +9,15 @@
 #include <string>
 #include <vector>
 
-#include "domain.hpp"
+#include <plexway/any/shape.hpp>
 
-namespace plexway::cli {
+namespace plexway {
 
 /// Bounding box of all vertices; both corners at 0 where there are none.
-struct Box {
+struct Bounds {
   std::array<double, 3> low = {0, 0, 0}, high = {0, 0, 0};
 };
-Box bounding_box(std::span<const std::array<double, 3>> positions);
+Bounds bounding_box(std::span<const std::array<double, 3>> positions);
 
 /// Smallest, mean and largest of some lengths.
 struct Spread {
@@ -49,9 +49,9 @@ std::size_t count_coincident(const std::vector<std::array<double, 3>>& at,
 
 /// Vertices in each component that has simplices, most first, as Boost.Graph counts them; nothing
 /// where this build has no Boost.Graph.
-std::optional<std::vector<std::size_t>> component_sizes(const Domain& domain);
+std::optional<std::vector<std::size_t>> component_sizes(const AnyShape& domain);
 
 /// "3 components: a source reaches only its own ..."
 std::string components_warning(std::size_t components);
 
-}  // namespace plexway::cli
+}  // namespace plexway

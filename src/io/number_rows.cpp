@@ -13,7 +13,7 @@
 #include "io/file_bytes.hpp"
 #include "io/quote.hpp"
 
-namespace plexway::cli {
+namespace plexway::io {
 
 std::vector<NumberRow> read_number_rows(const std::string& file, std::size_t least,
                                         std::size_t most, const std::string& what) {
@@ -68,4 +68,4 @@ std::uint32_t vertex_in(const std::string& file, const NumberRow& row, std::size
               std::to_string(vertices - 1));
 }
 
-}  // namespace plexway::cli
+}  // namespace plexway::io

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-namespace plexway::cli {
+namespace plexway::io {
 
 /// A line of numbers.
 struct NumberRow {
@@ -27,4 +27,4 @@ std::vector<NumberRow> read_number_rows(const std::string& file, std::size_t lea
 std::uint32_t vertex_in(const std::string& file, const NumberRow& row, std::size_t column,
                         std::size_t vertices);
 
-}  // namespace plexway::cli
+}  // namespace plexway::io

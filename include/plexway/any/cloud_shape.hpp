@@ -2,27 +2,22 @@
 
 #include <array>
 #include <cstddef>
-#include <filesystem>
 #include <functional>
-#include <limits>
 #include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
+#include <plexway/any/read_options.hpp>
 #include <plexway/complex/ids.hpp>
 #include <plexway/complex/neighbours.hpp>
-#include <plexway/complex/point_cloud.hpp>
 #include <plexway/io/points.hpp>
 
-#include "cloud_options.hpp"
-#include "progress.hpp"
-
-namespace plexway::cli {
+namespace plexway {
 
 /// Points with their neighbours. Thinned and denoised points are gone: numbers count those kept,
 /// and `points.original` has those in the file.
-struct Cloud {
+struct CloudShape {
   io::Points points;
   /// Where paths are measured, one a point; empty: at the points.
   std::vector<std::array<double, 3>> smoothed;
@@ -32,10 +27,9 @@ struct Cloud {
 
   std::size_t points_in_file = 0;
   std::size_t not_finite = 0;  ///< dropped when read
-  std::size_t outliers = 0;    ///< dropped by --denoise
+  std::size_t outliers = 0;    ///< dropped by denoising
   bool thinned = false;
   bool normals_agree = false;
-  std::function<bool(double)> progress;  ///< of what is made of it
 
   [[nodiscard]] const std::vector<std::array<double, 3>>& measured() const {
     return smoothed.empty() ? points.positions : smoothed;
@@ -47,7 +41,7 @@ struct Cloud {
 };
 
 /// Whether the extension is one of clouds alone, .xyz and .pcd.
-bool is_cloud_file(const std::string& file);
+[[nodiscard]] bool is_cloud_file(const std::string& file);
 
 /// The points of a file, before anything is done to them.
 struct CloudFile {
@@ -57,41 +51,20 @@ struct CloudFile {
 
 /// Reads the points of `file`, a cloud or any .ply. Throws as io::read_points, and NotBuiltError
 /// for a .pcd without PCL, or for any without FLANN.
-CloudFile read_cloud(const std::string& file);
+[[nodiscard]] CloudFile read_cloud(const std::string& file);
 
-/// Thins and denoises the points as `arguments` say, looks for neighbours and smooths. `file` is
+/// Thins and denoises the points as the options say, looks for neighbours and smooths. `name` is
 /// for messages. Throws NotBuiltError for what this build lacks, and UsageError for a voxel that is
 /// too small.
-Cloud make_cloud(const std::string& file, CloudFile read, const CloudArguments& arguments,
-                 ProgressLine& progress);
-
-/// What a cloud says of how its complex is made. The options refer to it.
-CloudOptions cloud_options(const Cloud& cloud);
-
-/// The point nearest to `point`; the first of several. Cost: linear.
-Index nearest_point(const Cloud& cloud, const std::array<double, 3>& point);
-
-/// Writes one distance a point; the extension of `out` picks the format. Throws as io::write_field
-/// and, for .pcd, as pcl::write_field.
-void write_field(const std::filesystem::path& out, const Cloud& cloud,
-                 std::span<const double> distance, std::span<const std::int32_t> label);
-
-/// The extensions that the fields of clouds may have: those of io::write_field and .pcd.
-std::span<const std::string_view> cloud_field_extensions();
+[[nodiscard]] CloudShape make_cloud(const std::string& name, CloudFile read,
+                                    const ReadOptions& options);
 
 /// The numbers that points left out have in the file, ascending; nothing where the points are
 /// means.
-std::optional<std::vector<Index>> dropped_points(const Cloud& cloud);
+[[nodiscard]] std::optional<std::vector<Index>> dropped_points(const CloudShape& cloud);
 
-/// How the points kept came from those in the file, for people: "5120 of 20000 points: 3 not
-/// finite, 17 outliers"; empty where all were kept.
-std::string kept_points(const Cloud& cloud);
+/// The smallest number of neighbours that connects all points, if it is not above 256; nothing
+/// without FLANN.
+[[nodiscard]] std::optional<std::size_t> connecting_k(const CloudShape& cloud);
 
-/// Why some points are not reached, and what would help, for people. `components` are those of the
-/// complex. Cost: several times that of finding the neighbours.
-std::string why_disconnected(const Cloud& cloud, std::size_t components);
-
-/// The smallest number of neighbours that connects all points, if it is not above 256.
-std::optional<std::size_t> connecting_k(const Cloud& cloud);
-
-}  // namespace plexway::cli
+}  // namespace plexway

@@ -1,4 +1,4 @@
-// The tool's module for OpenVDB: see cli/openvdb_functions.hpp.
+// The tool's module for OpenVDB: see any/openvdb_functions.hpp.
 
 #include <cstdio>
 #include <utility>
@@ -8,13 +8,13 @@
 #include <plexway/openvdb/solid.hpp>
 #include <plexway/openvdb/surface.hpp>
 
-#include "cli/openvdb_functions.hpp"
+#include "any/openvdb_functions.hpp"
 
 namespace {
 
 namespace fs = std::filesystem;
 namespace vdb = plexway::openvdb;
-using plexway::cli::OpenvdbFunctions;
+using plexway::OpenvdbFunctions;
 using plexway::io::Tets;
 using plexway::io::Triangles;
 

@@ -1,16 +1,16 @@
-// The tool's module for PCL: see cli/pcl_functions.hpp.
+// The tool's module for PCL: see any/pcl_functions.hpp.
 
 #include <utility>
 
 #include <plexway/pcl/files.hpp>
 #include <plexway/pcl/filters.hpp>
 
-#include "cli/pcl_functions.hpp"
+#include "any/pcl_functions.hpp"
 
 namespace {
 
 namespace fs = std::filesystem;
-using plexway::cli::PclFunctions;
+using plexway::PclFunctions;
 using Row = std::array<double, 3>;
 
 plexway::io::Points read_points(const fs::path& file, std::size_t& dropped) {

@@ -1,6 +1,5 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <memory>
 #include <optional>
@@ -8,19 +7,20 @@
 #include <string>
 #include <vector>
 
+#include <plexway/any_domain.hpp>
 #include <plexway/error.hpp>
 
-#include "anatomy.hpp"
-#include "commands.hpp"
-#include "console.hpp"
-#include "dijkstra_peer.hpp"
-#include "domain.hpp"
-#include "progress.hpp"
-#include "report.hpp"
-#include "solve_options.hpp"
-#include "solver.hpp"
-#include "source_argument.hpp"
-#include "truth_file.hpp"
+#include "cli/commands/commands.hpp"
+#include "cli/options/input.hpp"
+#include "cli/options/solve_options.hpp"
+#include "cli/options/source_argument.hpp"
+#include "cli/options/triangulation_option.hpp"
+#include "cli/report/anatomy.hpp"
+#include "cli/report/console.hpp"
+#include "cli/report/dijkstra_peer.hpp"
+#include "cli/report/progress.hpp"
+#include "cli/report/report.hpp"
+#include "cli/report/truth_file.hpp"
 
 namespace plexway::cli {
 namespace {
@@ -32,8 +32,8 @@ struct BenchCommand {
   std::vector<std::string> truths;
   std::size_t repeats = 20;
   std::size_t random_sources = 0;
-  FillOptions fill;
-  CloudArguments cloud;
+  FillArguments fill;
+  CloudPreparation cloud;
   SolveOptions solve;
   TriangulationArgument triangulation;
   bool anatomy = false;
@@ -70,16 +70,6 @@ Index vertex_near(const Domain& domain, const PointSource& source) {
   return domain.corners(source.simplex)[static_cast<std::size_t>(corner)];
 }
 
-std::array<double, 3> place_of(const Domain& domain, const PointSource& source) {
-  const auto points = domain.positions();
-  if (source.vertex != none) return points[source.vertex];
-  const auto corners = domain.corners(source.simplex);
-  std::array<double, 3> place{};
-  for (std::size_t i = 0; i < corners.size(); ++i)
-    for (std::size_t k = 0; k < 3; ++k) place[k] += source.barycentric[i] * points[corners[i]][k];
-  return place;
-}
-
 // `count` vertices that a path from the first source leads to: times of empty fields mean nothing.
 void add_random_sources(std::vector<PointSource>& sources, std::size_t count,
                         const std::vector<double>& distance_from_first) {
@@ -100,11 +90,20 @@ std::vector<std::vector<double>> read_truths(const BenchCommand& command, const 
   return truths;
 }
 
+std::size_t field_bytes(const AnyField& field) {
+  return std::visit(
+      [](const auto& f) {
+        return f.distance.capacity() * sizeof(f.distance[0]) + f.label.capacity() * sizeof(Index);
+      },
+      field.data);
+}
+
 // Every source in turn, the two solvers in turn: one source again and again would train the branch
 // predictor, and blocks of one solver would see another clock than blocks of the other.
-Times measure(const BenchCommand& command, const Domain& domain, Solver& solver,
+Times measure(const BenchCommand& command, const AnyDomain& solver, AnyField& field,
               DijkstraPeer* dijkstra, const std::vector<PointSource>& sources,
               const PropagateOptions& options, const Executor& executor, ProgressLine& progress) {
+  const Domain& domain = solver.shape();
   Times times;
   const double to_ns_a_vertex = 1e9 / static_cast<double>(domain.vertices());
   for (std::size_t repeat = 0; repeat < command.repeats; ++repeat) {
@@ -116,29 +115,30 @@ Times measure(const BenchCommand& command, const Domain& domain, Solver& solver,
       times.dijkstra.push_back(running.seconds() * to_ns_a_vertex);
     }
     const Stopwatch solving;
-    solver.solve(executor, {&source, 1}, options);
+    solver.solve(executor, source, options, field);
     times.plexway.push_back(solving.seconds() * to_ns_a_vertex);
     progress.done(static_cast<double>(repeat + 1) / static_cast<double>(command.repeats));
   }
   return times;
 }
 
-Json to_json(const BenchCommand& command, const Domain& domain, const Solver& solver,
+Json to_json(const BenchCommand& command, const AnyDomain& solver, const AnyField& field,
              const Result& result) {
+  const Domain& domain = solver.shape();
   const double ns = median(result.times.plexway);
   const double dijkstra_ns = median(result.times.dijkstra);
   Json json;
   json["input"] = command.input;
-  json["kind"] = domain.kind();
+  json["kind"] = domain.kind_name();
   json["vertices"] = domain.vertices();
   json["simplices"] = solver.simplices();
   json["precision"] = command.solve.precision;
   json["executor"] = executor_name(result.executor);
   json["threads"] = executor_threads(result.executor);
   json["visibility"] = command.solve.visibility;
-  if (domain.kind() == "surface") {
-    json["triangulation"] = name_of(solver.triangulation());
-    json["flips"] = solver.triangulation().flips;
+  if (domain.kind() == DomainKind::surface) {
+    json["triangulation"] = name_of(field.triangulation);
+    json["flips"] = field.triangulation.flips;
   }
   json["sources"] = result.sources;
   json["repeats"] = command.repeats;
@@ -146,11 +146,12 @@ Json to_json(const BenchCommand& command, const Domain& domain, const Solver& so
   if (domain.mesh_seconds()) json["seconds"]["mesh"] = *domain.mesh_seconds();
   if (domain.neighbour_seconds()) json["seconds"]["neighbours"] = *domain.neighbour_seconds();
   json["seconds"]["build"] = result.build;
-  if (domain.kind() == "surface") json["seconds"]["triangulation"] = solver.triangulation().seconds;
+  if (domain.kind() == DomainKind::surface)
+    json["seconds"]["triangulation"] = field.triangulation.seconds;
   json["seconds"]["dijkstra_build"] =
       result.has_dijkstra ? Json(result.dijkstra_build) : Json(nullptr);
-  json["bytes_per_vertex"] =
-      static_cast<double>(solver.bytes()) / static_cast<double>(domain.vertices());
+  json["bytes_per_vertex"] = static_cast<double>(solver.bytes() + field_bytes(field)) /
+                             static_cast<double>(domain.vertices());
   json["ns_per_vertex"] = json_number(ns);
   json["dijkstra_ns_per_vertex"] = json_number(dijkstra_ns);
   json["ratio"] = json_number(ns / dijkstra_ns);
@@ -190,7 +191,7 @@ void run_bench(const BenchCommand& command) {
   Result result;
   ProgressLine progress(command.quiet);
   const Domain domain =
-      Domain::load(command.input, command.as, command.fill, command.cloud, progress);
+      load_domain(command.input, command.as, command.fill, command.cloud, progress);
   std::vector<PointSource> sources = locate_sources(domain, arguments);
   const auto truths = read_truths(command, domain);
   if (command.anatomy && truths.empty())
@@ -199,35 +200,36 @@ void run_bench(const BenchCommand& command) {
   if (command.anatomy) anatomy.emplace(domain);
 
   progress.phase("building");
-  const Stopwatch building;
-  const auto solver = make_solver(domain, precision, triangulation);
-  result.build = building.seconds();
+  check_triangulation(triangulation, domain);
+  const AnyDomain solver(domain, {.precision = precision, .triangulation = triangulation});
+  AnyField field;
+  result.build = solver.build_seconds();
   const Stopwatch building_graph;
   const auto dijkstra = make_dijkstra_peer(domain, precision);
   result.dijkstra_build = building_graph.seconds();
   result.has_dijkstra = dijkstra != nullptr;
 
-  result.executor = choose_executor(command.solve.executor, options, *solver, 1);
+  result.executor = choose_executor(command.solve.executor, options, solver, 1);
   // Not timed; it also brings workspace and field to their size.
   progress.phase("comparing with the truth");
   std::vector<double> distance_from_first;
   for (std::size_t i = 0; i < sources.size(); ++i) {
-    solver->solve(result.executor, {&sources[i], 1}, options);
-    const std::vector<double> distance = solver->distance();
+    solver.solve(result.executor, sources[i], options, field);
+    const std::vector<double> distance = field.doubles();
     if (i < truths.size()) result.errors.add(distance, truths[i]);
     if (i < truths.size() && anatomy)
-      anatomy->add(distance, truths[i], place_of(domain, sources[i]));
+      anatomy->add(distance, truths[i], domain.position(sources[i]));
     if (i == 0) distance_from_first = distance;
   }
   add_random_sources(sources, command.random_sources, distance_from_first);
   result.sources = sources.size();
 
   progress.phase("measuring");
-  result.times = measure(command, domain, *solver, dijkstra.get(), sources, options,
-                         result.executor, progress);
+  result.times =
+      measure(command, solver, field, dijkstra.get(), sources, options, result.executor, progress);
   progress.clear();
 
-  Json json = to_json(command, domain, *solver, result);
+  Json json = to_json(command, solver, field, result);
   const std::string text = to_text(json) + (anatomy ? "\n" + anatomy->text() : "");
   if (anatomy) json["anatomy"] = anatomy->json();
   write_output(command.json ? json_text(json) : text);

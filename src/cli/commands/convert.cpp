@@ -10,22 +10,23 @@
 #include <plexway/io/tets.hpp>
 #include <plexway/io/triangles.hpp>
 
-#include "commands.hpp"
-#include "console.hpp"
-#include "distance_output.hpp"
-#include "domain.hpp"
+#include "any/fill.hpp"
+#include "any/openvdb_functions.hpp"
+#include "any/solid_boundary.hpp"
+#include "cli/commands/commands.hpp"
+#include "cli/options/input.hpp"
+#include "cli/report/console.hpp"
+#include "cli/report/distance_output.hpp"
+#include "cli/report/progress.hpp"
+#include "cli/report/report.hpp"
 #include "io/extension.hpp"
-#include "openvdb_functions.hpp"
-#include "progress.hpp"
-#include "report.hpp"
-#include "solid_boundary.hpp"
 
 namespace plexway::cli {
 namespace {
 
 struct ConvertCommand {
   std::string input, out, as;
-  FillOptions fill;
+  FillArguments fill;
   bool json = false, quiet = false;
 };
 
@@ -73,7 +74,7 @@ class Conversion {
       CloudFile cloud = read_cloud(command_.input);
       points = std::move(cloud.points);
     } else {
-      const Domain domain = Domain::load(command_.input, "", {}, {}, progress_);
+      const Domain domain = load_domain(command_.input, "", {}, {}, progress_);
       points.positions.assign(domain.positions().begin(), domain.positions().end());
     }
     io::write_points(command_.out, points);
@@ -82,18 +83,18 @@ class Conversion {
   }
 
   void mesh() {
-    FillOptions fill = command_.fill;
+    FillArguments fill = command_.fill;
     if (extension_ == ".vdb" && is_vdb(command_.input) && !fill.volume.voxel)
       throw UsageError(command_.input +
                        ": is a level set already; to sample it anew say how finely: --voxel SIZE");
     if (extension_ == ".vdb" && !fill.volume.repair && !is_vdb(command_.input))
       fill.volume.voxel.reset();  // that of the output
-    const Domain domain = Domain::load(command_.input, kind_for(command_), fill, {}, progress_);
-    kind = domain.kind();
+    const Domain domain = load_domain(command_.input, kind_for(command_), fill, {}, progress_);
+    kind = domain.kind_name();
     simplex_name = domain.simplex_name();
     note = domain.level_set_note();
     progress_.phase("writing " + command_.out);
-    std::visit([&](const auto& shape) { write(shape); }, domain.shape());
+    std::visit([&](const auto& shape) { write(shape); }, domain.data());
   }
 
   std::string kind, simplex_name, note;
@@ -154,7 +155,9 @@ class Conversion {
     io::write_edges(command_.out, wireframe);
   }
 
-  void write(const Cloud&) { cannot("cloud", io::point_extensions()); }
+  void write(const CloudShape&) { cannot("cloud", io::point_extensions()); }
+  void write(const SimplexShape&) { cannot("complex of simplices", {}); }
+  void write(const MixedShape&) { cannot("mixed domain", {}); }
 
   const ConvertCommand& command_;
   std::string extension_;
@@ -163,7 +166,7 @@ class Conversion {
 
 void run_convert(const ConvertCommand& command) {
   check_output_name(command.out, command.input, output_extensions(), "output");
-  check(command.fill);
+  (void)filling(command.fill);
   ProgressLine progress(command.quiet);
   const Stopwatch clock;
   Conversion conversion(command, progress);

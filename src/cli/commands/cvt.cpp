@@ -11,11 +11,11 @@
 #include <plexway/io/field.hpp>
 #include <plexway/solve.hpp>
 
-#include "commands.hpp"
-#include "distance_output.hpp"
-#include "point_output.hpp"
-#include "progress.hpp"
-#include "sampling_command.hpp"
+#include "cli/commands/commands.hpp"
+#include "cli/commands/sampling_command.hpp"
+#include "cli/report/distance_output.hpp"
+#include "cli/report/point_output.hpp"
+#include "cli/report/progress.hpp"
 
 namespace plexway::cli {
 namespace {
@@ -83,12 +83,12 @@ void run_cvt(const CvtCommand& command) {
 
   ProgressLine progress(command.quiet);
   const Domain domain =
-      Domain::load(command.input, command.as, command.fill, command.cloud, progress);
-  const auto* surface = std::get_if<io::Triangles>(&domain.shape());
+      load_domain(command.input, command.as, command.fill, command.cloud, progress);
+  const auto* surface = std::get_if<io::Triangles>(&domain.data());
   if (!command.dual.empty() && surface == nullptr)
     throw UsageError("--dual: only a surface has a dual triangulation here");
   Result result;
-  with_complex(domain, precision,
+  with_sampled(domain, precision,
                [&](const auto& complex) { result = compute(complex, command, progress); });
   const CentroidalVoronoi& voronoi = result.voronoi;
   if (!command.out.empty())
@@ -117,7 +117,7 @@ void run_cvt(const CvtCommand& command) {
 
   Json json;
   json["input"] = command.input;
-  json["kind"] = domain.kind();
+  json["kind"] = domain.kind_name();
   json["seeds"] = voronoi.seeds.size();
   json["converged"] = voronoi.converged;
   json["energy"] = voronoi.energy;

@@ -7,23 +7,27 @@
 #include <string>
 #include <vector>
 
+#include <plexway/any_domain.hpp>
+#include <plexway/complex/point_cloud.hpp>
 #include <plexway/error.hpp>
 #include <plexway/io/field.hpp>
 
-#include "commands.hpp"
-#include "console.hpp"
-#include "distance_output.hpp"
-#include "domain.hpp"
-#include "exit_codes.hpp"
-#include "isoline_options.hpp"
-#include "metric_options.hpp"
-#include "picture_options.hpp"
-#include "progress.hpp"
-#include "report.hpp"
-#include "solve_options.hpp"
-#include "solver.hpp"
-#include "source_marks.hpp"
-#include "source_set.hpp"
+#include "any/fill.hpp"
+#include "cli/commands/commands.hpp"
+#include "cli/exit_codes.hpp"
+#include "cli/options/input.hpp"
+#include "cli/options/isoline_options.hpp"
+#include "cli/options/metric_options.hpp"
+#include "cli/options/picture_options.hpp"
+#include "cli/options/solve_options.hpp"
+#include "cli/options/source_set.hpp"
+#include "cli/options/triangulation_option.hpp"
+#include "cli/report/cloud_words.hpp"
+#include "cli/report/console.hpp"
+#include "cli/report/distance_output.hpp"
+#include "cli/report/progress.hpp"
+#include "cli/report/report.hpp"
+#include "cli/report/source_marks.hpp"
 
 namespace plexway::cli {
 namespace {
@@ -34,8 +38,8 @@ struct DistanceCommand {
   std::vector<std::string> sources;
   std::string out;
   IsolineOptions isolines;
-  FillOptions fill;
-  CloudArguments cloud;
+  FillArguments fill;
+  CloudPreparation cloud;
   SolveOptions solve;
   PictureArguments picture;
   MetricArgument metric;
@@ -85,11 +89,12 @@ Outcome survey(const std::vector<double>& distance, const std::vector<Source>& s
   return outcome;
 }
 
-Json to_json(const DistanceCommand& command, const Domain& domain, const Solver& solver,
+Json to_json(const DistanceCommand& command, const AnyDomain& solver, const AnyField& field,
              const MeasuredLengths* lengths, const Outcome& outcome) {
+  const Domain& domain = solver.shape();
   Json json;
   json["input"] = command.input;
-  json["kind"] = domain.kind();
+  json["kind"] = domain.kind_name();
   json["vertices"] = domain.vertices();
   json["simplices"] = solver.simplices();
   json["components"] = solver.components();
@@ -101,19 +106,19 @@ Json to_json(const DistanceCommand& command, const Domain& domain, const Solver&
   json["reached"] = outcome.reached;
   json["unreached"] = domain.vertices() - outcome.reached;
   json["max_distance"] = json_number(outcome.max_distance);
-  json["expansions"] = solver.statistics().expansions;
-  json["updates"] = solver.statistics().updates;
-  if (domain.kind() == "surface") {
-    json["lowered_vertices"] = solver.statistics().lowered_vertices;
-    json["raised_vertices"] = solver.statistics().raised_vertices;
+  json["expansions"] = field.statistics().expansions;
+  json["updates"] = field.statistics().updates;
+  if (domain.kind() == DomainKind::surface) {
+    json["lowered_vertices"] = field.statistics().lowered_vertices;
+    json["raised_vertices"] = field.statistics().raised_vertices;
   }
   json["executor"] = executor_name(outcome.executor);
   json["threads"] = executor_threads(outcome.executor);
   json["precision"] = command.solve.precision == "float" ? "float" : "double";
-  if (domain.kind() == "surface") json["triangulation"] = name_of(solver.triangulation());
+  if (domain.kind() == DomainKind::surface) json["triangulation"] = name_of(field.triangulation);
   add_metric(command.metric, lengths, solver.refracting_edges(), json);
   if (!domain.level_set_note().empty()) json["voxels"] = domain.level_set_note();
-  if (const Cloud* cloud = domain.cloud()) {
+  if (const CloudShape* cloud = domain.cloud()) {
     json["points_in_file"] = cloud->points_in_file;
     json["not_finite"] = cloud->not_finite;
     json["outliers"] = cloud->outliers;
@@ -123,14 +128,16 @@ Json to_json(const DistanceCommand& command, const Domain& domain, const Solver&
   return json;
 }
 
-std::string to_text(const DistanceCommand& command, const Domain& domain, const Solver& solver,
+std::string to_text(const DistanceCommand& command, const AnyDomain& solver, const AnyField& field,
                     const MeasuredLengths* lengths, const std::vector<SetArgument>& arguments,
                     const std::vector<Source>& sources, const Outcome& outcome) {
+  const Domain& domain = solver.shape();
   Table table;
   table.add("input", command.input);
-  table.add(std::string(domain.kind()), counted(domain.vertices(), "vertices") + ", " +
-                                            counted(solver.simplices(), domain.simplex_name()) +
-                                            ", " + counted(solver.components(), "components"));
+  table.add(std::string(domain.kind_name()),
+            counted(domain.vertices(), "vertices") + ", " +
+                counted(solver.simplices(), domain.simplex_name()) + ", " +
+                counted(solver.components(), "components"));
   if (!domain.level_set_note().empty()) table.add("voxels", domain.level_set_note());
   add_metric(command.metric, lengths, solver.refracting_edges(), table);
   if (domain.cloud() != nullptr && !kept_points(*domain.cloud()).empty())
@@ -139,8 +146,8 @@ std::string to_text(const DistanceCommand& command, const Domain& domain, const 
     const std::string label = sources.size() == 1 ? "source" : "source " + std::to_string(i);
     table.add(label, describe_source_set(domain, arguments[i], sources[i]));
   }
-  if (solver.triangulation().done != Retriangulation::keep)
-    table.add("triangles", describe(solver.triangulation()));
+  if (field.triangulation.done != Triangulation::input)
+    table.add("triangles", describe(field.triangulation));
   std::string reached =
       std::to_string(outcome.reached) + " of " + counted(domain.vertices(), "vertices");
   if (outcome.reached > 0) {
@@ -148,8 +155,8 @@ std::string to_text(const DistanceCommand& command, const Domain& domain, const 
                short_number(outcome.max_distance);
   }
   table.add("reached", reached);
-  table.add("work", counted(solver.statistics().expansions, "expansions") + ", " +
-                        counted(solver.statistics().updates, "updates"));
+  table.add("work", counted(field.statistics().expansions, "expansions") + ", " +
+                        counted(field.statistics().updates, "updates"));
   std::string mesh = domain.mesh_seconds() ? ", mesh " + short_time(*domain.mesh_seconds()) : "";
   if (domain.neighbour_seconds()) mesh = ", neighbours " + short_time(*domain.neighbour_seconds());
   table.add("time", "load " + short_time(domain.load_seconds()) + mesh + ", build " +
@@ -169,13 +176,14 @@ std::size_t count_apart(const Domain& domain) {
 }
 
 // Why not all was reached.
-std::string why_unreached(const Domain& domain, const Solver& solver, bool bounded) {
+std::string why_unreached(const AnyDomain& solver, bool bounded) {
+  const Domain& domain = solver.shape();
   std::string why;
   if (domain.cloud() != nullptr) {
     if (solver.components() > 1) why = why_disconnected(*domain.cloud(), solver.components());
   } else {
-    why =
-        "the " + std::string(domain.kind()) + " has " + counted(solver.components(), "components");
+    why = "the " + std::string(domain.kind_name()) + " has " +
+          counted(solver.components(), "components");
     if (const std::size_t apart = count_apart(domain); apart > 0) {
       why.append(", ").append(counted(apart, "vertices")).append(apart == 1 ? " is" : " are");
       why.append(" in none of its ").append(domain.simplex_name());
@@ -188,8 +196,9 @@ std::string why_unreached(const Domain& domain, const Solver& solver, bool bound
 }
 
 // Things the user should know, though nothing failed.
-void say_notes(const Domain& domain, const Solver& solver, const Outcome& outcome, bool bounded,
+void say_notes(const AnyDomain& solver, const AnyField& field, const Outcome& outcome, bool bounded,
                bool single) {
+  const Domain& domain = solver.shape();
   if (domain.cloud() != nullptr && domain.cloud()->not_finite > 0)
     say_note(counted(domain.cloud()->not_finite, "points") +
              " not finite, and dropped: vertices count those that are left; the column original "
@@ -204,16 +213,16 @@ void say_notes(const Domain& domain, const Solver& solver, const Outcome& outcom
                "to point; more neighbours may help (--k " +
                std::to_string(4 * std::max<std::size_t>(domain.cloud()->k, 16)) + ")");
   }
-  if (!solver.complete()) {
-    say_note("stopped after " + counted(solver.statistics().expansions, "expansions") +
+  if (!field.complete()) {
+    say_note("stopped after " + counted(field.statistics().expansions, "expansions") +
              ": distances may still be too long");
   }
-  const std::size_t raised = solver.statistics().raised_vertices;
+  const std::size_t raised = field.statistics().raised_vertices;
   if (100 * raised > domain.vertices())
     say_note(counted(raised, "vertices") +
              " came out nearer than the straight line through space, and were given its length: "
              "distances here are poor; another --triangulation may do better");
-  const std::size_t lowered = solver.statistics().lowered_vertices;
+  const std::size_t lowered = field.statistics().lowered_vertices;
   if (20 * lowered > domain.vertices())
     say_note(counted(lowered, "vertices") +
              " came out farther than a neighbour and the edge between, and were given that way: "
@@ -225,13 +234,13 @@ void say_notes(const Domain& domain, const Solver& solver, const Outcome& outcom
              " edges: single precision may be off by more than 1e-4; use --precision double");
   const std::size_t unreached = domain.vertices() - outcome.reached;
   if (unreached == 0) return;
-  const std::string why = why_unreached(domain, solver, bounded);
+  const std::string why = why_unreached(solver, bounded);
   say_note(counted(unreached, "vertices") + " not reached (inf)" + (why.empty() ? "" : ": " + why));
 }
 
 // Also where there is one source only.
-std::vector<std::int32_t> labels_of(const Solver& solver, const std::vector<double>& distance) {
-  std::vector<std::int32_t> label = solver.label();
+std::vector<std::int32_t> labels_of(const AnyField& field, const std::vector<double>& distance) {
+  std::vector<std::int32_t> label = field.file_label();
   if (label.empty())
     for (const double d : distance) label.push_back(std::isfinite(d) ? 0 : -1);
   return label;
@@ -243,7 +252,7 @@ void run_distance(DistanceCommand command) {
   Triangulation triangulation = triangulation_of(command.triangulation);
   const std::vector<SetArgument> arguments = parse_source_sets(command.sources);
   if (command.out != "-" && !is_vdb(command.out))
-    check_output_name(command.out, command.input, cloud_field_extensions());
+    check_output_name(command.out, command.input, AnyShape::field_extensions(DomainKind::cloud));
   check_picture(command.picture, command.input);
   check_isolines(command.isolines, command.input);
   std::vector<std::string> read = {metric_file(command.metric), command.solve.table};
@@ -255,9 +264,9 @@ void run_distance(DistanceCommand command) {
   command.fill.volume.writes_volume = is_vdb(command.out);
   ProgressLine progress(command.quiet);
   const Domain domain =
-      Domain::load(command.input, command.as, command.fill, command.cloud, progress);
+      load_domain(command.input, command.as, command.fill, command.cloud, progress);
   if (domain.cloud() == nullptr && command.out != "-")
-    check_output_name(command.out, command.input, domain.field_extensions());
+    check_output_name(command.out, command.input, AnyShape::field_extensions(domain.kind()));
   check_isolines(command.isolines, domain);
   const std::vector<Source> sources = locate_source_sets(domain, arguments);
   const std::vector<PointSource> points = as_points(sources);
@@ -277,28 +286,26 @@ void run_distance(DistanceCommand command) {
 
   if (!command.metric.text.empty()) progress.phase("reading the metric");
   const auto lengths = measure(command.metric, domain, Jumps::refract);
+  check_triangulation(triangulation, domain);
   progress.phase("building");
-  const Stopwatch building;
-  const auto solver = make_solver(domain, precision, triangulation, lengths.get());
-  const double build = building.seconds();
+  const AnyDomain solver(domain, {.precision = precision,
+                                  .triangulation = triangulation,
+                                  .lengths = lengths,
+                                  .progress = progress.share_callback()});
 
   progress.phase("solving");
   PropagateOptions options = wanted;
   options.progress = progress.callback();
   const Stopwatch solving;
   const Executor executor =
-      choose_executor(command.solve.executor, options, *solver, sources.size());
-  with_file_name(domain, [&] {
-    if (points.empty())
-      solver->solve_from(executor, sources, options);
-    else
-      solver->solve(executor, points, options);
-  });
+      choose_executor(command.solve.executor, options, solver, sources.size());
+  const AnyField field =
+      solver.solve(executor, points.empty() ? SourceList(sources) : SourceList(points), options);
   const double solve = solving.seconds();
 
-  const std::vector<double> distance = solver->distance();
+  const std::vector<double> distance = field.doubles();
   Outcome outcome = survey(distance, sources);
-  outcome.build = build;
+  outcome.build = solver.build_seconds();
   outcome.solve = solve;
   outcome.executor = executor;
 
@@ -306,7 +313,7 @@ void run_distance(DistanceCommand command) {
   const std::vector<double> isovalues = isoline_values(command.isolines, distance);
   if (!command.out.empty()) {
     progress.phase("writing " + (to_stdout ? "the distances" : command.out));
-    const std::vector<std::int32_t> label = solver->label();
+    const std::vector<std::int32_t> label = field.file_label();
     if (to_stdout) {
       progress.clear();
       write_distance_csv(distance, label,
@@ -327,7 +334,7 @@ void run_distance(DistanceCommand command) {
     content.distance = distance;
     const bool cells = command.picture.colour == "cells";
     const std::vector<std::int32_t> label =
-        cells ? labels_of(*solver, distance) : std::vector<std::int32_t>();
+        cells ? labels_of(field, distance) : std::vector<std::int32_t>();
     content.label = label;
     for (const Source& source : sources) add_source_mark(domain, source, content);
     write_picture(command.picture, domain, content);
@@ -336,9 +343,9 @@ void run_distance(DistanceCommand command) {
 
   std::string report;
   if (command.json)
-    report = json_text(to_json(command, domain, *solver, lengths.get(), outcome));
+    report = json_text(to_json(command, solver, field, lengths.get(), outcome));
   else if (!command.quiet)
-    report = to_text(command, domain, *solver, lengths.get(), arguments, sources, outcome);
+    report = to_text(command, solver, field, lengths.get(), arguments, sources, outcome);
   if (to_stdout)
     write_diagnostics(report);
   else
@@ -354,7 +361,7 @@ void run_distance(DistanceCommand command) {
   if (!command.quiet) say_violations(domain, lengths.get());
   if (!command.quiet && !command.isolines.out.empty() && isovalues.empty())
     say_note("--isolines-out holds nothing: no distance is as large as the step");
-  if (!command.quiet) say_notes(domain, *solver, outcome, bounded, precision == Precision::single);
+  if (!command.quiet) say_notes(solver, field, outcome, bounded, precision == Precision::single);
 }
 
 }  // namespace

@@ -8,12 +8,12 @@
 #include <plexway/apps/farthest_points.hpp>
 #include <plexway/error.hpp>
 
-#include "commands.hpp"
-#include "distance_output.hpp"
-#include "point_output.hpp"
-#include "progress.hpp"
-#include "sampling_command.hpp"
-#include "source_argument.hpp"
+#include "cli/commands/commands.hpp"
+#include "cli/commands/sampling_command.hpp"
+#include "cli/options/source_argument.hpp"
+#include "cli/report/distance_output.hpp"
+#include "cli/report/point_output.hpp"
+#include "cli/report/progress.hpp"
 
 namespace plexway::cli {
 namespace {
@@ -35,7 +35,7 @@ void run_farthest(const FarthestCommand& command) {
       command.sources.empty() ? std::vector<std::string>{"vertex:0"} : command.sources);
   ProgressLine progress(command.quiet);
   const Domain domain =
-      Domain::load(command.input, command.as, command.fill, command.cloud, progress);
+      load_domain(command.input, command.as, command.fill, command.cloud, progress);
   const auto start = locate_sources(domain, arguments);
   FarthestOptions options;
   options.count = command.count == 0 ? std::numeric_limits<std::size_t>::max() : command.count;
@@ -48,7 +48,7 @@ void run_farthest(const FarthestCommand& command) {
   FarthestPoints found;
   double seconds = 0;
   std::vector<double> nearest;  // to the points found, where a picture shows it
-  with_complex(domain, precision, [&](const auto& complex) {
+  with_sampled(domain, precision, [&](const auto& complex) {
     const Stopwatch searching;
     found = farthest_points(Serial{}, complex, start, options);
     seconds = searching.seconds();

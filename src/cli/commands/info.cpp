@@ -5,12 +5,12 @@
 
 #include <plexway/error.hpp>
 
-#include "commands.hpp"
-#include "console.hpp"
-#include "domain.hpp"
-#include "info_report.hpp"
-#include "progress.hpp"
-#include "report.hpp"
+#include "cli/commands/commands.hpp"
+#include "cli/options/input.hpp"
+#include "cli/report/console.hpp"
+#include "cli/report/info_report.hpp"
+#include "cli/report/progress.hpp"
+#include "cli/report/report.hpp"
 
 namespace plexway::cli {
 namespace {
@@ -18,8 +18,8 @@ namespace {
 struct InfoCommand {
   std::string input;
   std::string as;
-  FillOptions fill;
-  CloudArguments cloud;
+  FillArguments fill;
+  CloudPreparation cloud;
   bool devices = false;
   bool json = false;
   bool quiet = false;
@@ -36,12 +36,12 @@ void run_info(const InfoCommand& command) {
   if (command.input.empty()) throw UsageError("INPUT is required; try 'plexway info --help'");
   ProgressLine progress(command.quiet);
   const Domain domain =
-      Domain::load(command.input, command.as, command.fill, command.cloud, progress);
+      load_domain(command.input, command.as, command.fill, command.cloud, progress);
   progress.phase("measuring");
   const InfoReport report =
-      std::visit([&](const auto& shape) { return info_of(domain, shape); }, domain.shape());
+      std::visit([&](const auto& shape) { return info_of(domain, shape); }, domain.data());
   progress.clear();
-  Json json = {{"input", command.input}, {"kind", domain.kind()}};
+  Json json = {{"input", command.input}, {"kind", domain.kind_name()}};
   json.update(report.json);
   Table table;
   table.add("input", command.input);

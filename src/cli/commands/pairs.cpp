@@ -6,13 +6,13 @@
 #include <plexway/apps/distance_matrix.hpp>
 #include <plexway/error.hpp>
 
-#include "commands.hpp"
-#include "console.hpp"
-#include "distance_output.hpp"
-#include "point_output.hpp"
-#include "progress.hpp"
-#include "sampling_command.hpp"
-#include "source_argument.hpp"
+#include "cli/commands/commands.hpp"
+#include "cli/commands/sampling_command.hpp"
+#include "cli/options/source_argument.hpp"
+#include "cli/report/console.hpp"
+#include "cli/report/distance_output.hpp"
+#include "cli/report/point_output.hpp"
+#include "cli/report/progress.hpp"
 
 namespace plexway::cli {
 namespace {
@@ -27,12 +27,12 @@ void run_pairs(const PairsCommand& command) {
   const auto arguments = parse_sources(command.sources);
   ProgressLine progress(command.quiet);
   const Domain domain =
-      Domain::load(command.input, command.as, command.fill, command.cloud, progress);
+      load_domain(command.input, command.as, command.fill, command.cloud, progress);
   const auto points = locate_sources(domain, arguments);
   progress.phase("solving");
   DistanceMatrix matrix;
   double seconds = 0;
-  with_complex(domain, precision, [&](const auto& complex) {
+  with_sampled(domain, precision, [&](const auto& complex) {
     const Stopwatch solving;
     matrix = distance_matrix(Serial{}, complex, points, [&](double share) {
       progress.done(share);

@@ -7,30 +7,26 @@
 #include <string>
 #include <type_traits>
 #include <utility>
-#include <variant>
 #include <vector>
 
-#include <plexway/apps/cloud_path_field.hpp>
-#include <plexway/apps/path_field.hpp>
+#include <plexway/any/complex.hpp>
+#include <plexway/any_domain.hpp>
 #include <plexway/apps/path_search.hpp>
-#include <plexway/complex/intrinsic_delaunay.hpp>
 #include <plexway/error.hpp>
 #include <plexway/io/paths.hpp>
-#include <plexway/solve.hpp>
 
-#include "commands.hpp"
-#include "console.hpp"
-#include "distance_output.hpp"
-#include "domain.hpp"
-#include "exit_codes.hpp"
-#include "make_complex.hpp"
-#include "metric_options.hpp"
-#include "picture_options.hpp"
-#include "progress.hpp"
-#include "report.hpp"
-#include "solve_options.hpp"
-#include "source_argument.hpp"
-#include "triangulation_option.hpp"
+#include "cli/commands/commands.hpp"
+#include "cli/exit_codes.hpp"
+#include "cli/options/input.hpp"
+#include "cli/options/metric_options.hpp"
+#include "cli/options/picture_options.hpp"
+#include "cli/options/solve_options.hpp"
+#include "cli/options/source_argument.hpp"
+#include "cli/options/triangulation_option.hpp"
+#include "cli/report/console.hpp"
+#include "cli/report/distance_output.hpp"
+#include "cli/report/progress.hpp"
+#include "cli/report/report.hpp"
 
 namespace plexway::cli {
 namespace {
@@ -40,8 +36,8 @@ struct PathCommand {
   std::string as;
   std::vector<std::string> from, to;
   std::string out;
-  FillOptions fill;
-  CloudArguments cloud;
+  FillArguments fill;
+  CloudPreparation cloud;
   SolveOptions solve;
   TraceOptions trace;
   PictureArguments picture;
@@ -62,126 +58,68 @@ struct Outcome {
   double build = 0, solve = 0, trace = 0;
 };
 
-// Where paths are drawn; lengths of their own are not those between positions.
-template <class Shape>
-std::span<const std::array<double, 3>> positions_of(const Shape& shape) {
-  if constexpr (std::is_same_v<Shape, io::Edges>)
-    return shape.lengths.empty() ? std::span(shape.positions) : std::span(shape.positions).first(0);
-  else if constexpr (std::is_same_v<Shape, Cloud>)
-    return shape.measured();
-  else
-    return shape.positions;
-}
-
-// The distances of the input's vertices, on other triangles over the same surface.
+// Without looking at all of the surface.
 template <class Real>
-DistanceField<Real> solve_on(const TriangleMesh<Real>& other, const IntrinsicDelaunay& delaunay,
-                             std::size_t vertices, std::span<const PointSource> sources,
-                             const PropagateOptions& options) {
-  std::vector<PointSource> there;
-  for (const PointSource& source : sources) there.push_back(delaunay.to_intrinsic(source));
-  DistanceField<Real> field =
-      plexway::solve(Serial{}, other, std::span<const PointSource>(there), options);
-  field.distance.resize(vertices);
-  field.label.resize(std::min(field.label.size(), vertices));
-  return field;
+void search(const TriangleMesh<Real>& mesh, const Domain& domain, const PathCommand& command,
+            const std::vector<PointSource>& sources, const std::vector<PointSource>& targets,
+            ProgressLine& progress, Outcome& outcome) {
+  // Under a metric a straight line in space is no lower bound.
+  PathSearch<Real> search = command.metric.text.empty() ? PathSearch<Real>(mesh, domain.positions())
+                                                        : PathSearch<Real>(mesh);
+  progress.phase("searching");
+  SearchOptions options;
+  options.progress = progress.callback();
+  options.trace = command.trace;
+  SearchResult found = search.find(Serial{}, sources, targets, options);
+  outcome.paths = std::move(found.paths);
+  outcome.promised = std::move(found.distance);
+  outcome.statistics = found.statistics;
+  for (Path& path : outcome.paths) {
+    if (command.metric.text.empty()) break;
+    for (const PathPoint& at : path.points)
+      path.positions.push_back(
+          domain.position({.simplex = at.simplex, .barycentric = at.barycentric}));
+  }
 }
 
-template <class Real, class Shape>
-Outcome find_paths(const Shape& shape, const MeasuredLengths* lengths, const PathCommand& command,
+Outcome find_paths(const Domain& domain, const BuildOptions& building, const PathCommand& command,
                    const std::vector<PointSource>& sources, const std::vector<PointSource>& targets,
-                   const PropagateOptions& options, ProgressLine& progress) {
+                   PropagateOptions options, ProgressLine& progress) {
   Outcome outcome;
   progress.phase("building");
-  const Stopwatch building;
-  const auto complex = make_complex<Real>(shape, lengths);
-  outcome.build = building.seconds();
+  const AnyDomain built(domain, building);
+  outcome.build = built.build_seconds();
   const Stopwatch solving;
-  if constexpr (std::is_same_v<Shape, io::Triangles>) {
-    if (command.astar) {
-      // Under a metric a straight line in space is no lower bound.
-      PathSearch<Real> search = lengths == nullptr ? PathSearch<Real>(complex, shape.positions)
-                                                   : PathSearch<Real>(complex);
-      progress.phase("searching");
-      SearchOptions search_options;
-      search_options.progress = progress.callback();
-      search_options.trace = command.trace;
-      SearchResult found = search.find(Serial{}, sources, targets, search_options);
-      outcome.paths = std::move(found.paths);
-      outcome.promised = std::move(found.distance);
-      outcome.statistics = found.statistics;
-      outcome.solve = solving.seconds();
-      return outcome;
-    }
+  if (command.astar) {
+    with_complex(built, [&](const auto& complex) {
+      if constexpr (std::decay_t<decltype(complex)>::kind == DomainKind::surface)
+        search(complex, domain, command, sources, targets, progress, outcome);
+    });
+    outcome.solve = solving.seconds();
+    return outcome;
   }
   progress.phase("solving");
-  auto positions = positions_of(shape);
-  if (lengths != nullptr) positions = positions.first(0);
-  PathField field(complex, positions);
-  PropagateOptions with_progress = options;
-  with_progress.progress = progress.callback();
-  bool elsewhere = false;
-  if constexpr (std::is_same_v<Shape, io::Triangles>) {
-    // On the triangles that `distance` takes, so that both say the same.
-    const auto made = make_surface<Real>(triangulation_of(command.triangulation), shape, lengths,
-                                         outcome.triangulation);
-    elsewhere = outcome.triangulation.flips + outcome.triangulation.inserted_vertices > 0;
-    if (elsewhere)
-      field.adopt(
-          solve_on(made.mesh, *made.delaunay, complex.vertex_count(), sources, with_progress),
-          sources);
-  }
-  if (!elsewhere) field.solve(Serial{}, std::span<const PointSource>(sources), with_progress);
+  options.progress = progress.callback();
+  const AnyPathField field = built.path_field(Serial{}, sources, options);
   outcome.solve = solving.seconds();
-  outcome.statistics = field.distances().statistics;
-  outcome.distance.assign(field.distances().distance.begin(), field.distances().distance.end());
+  outcome.statistics = field.field().statistics();
+  outcome.triangulation = field.field().triangulation;
+  outcome.distance = field.field().doubles();
   progress.phase("tracing");
   const Stopwatch tracing;
   for (const PointSource& target : targets) {
     outcome.paths.push_back(field.trace(target, command.trace));
-    double promised = target.vertex == none ? 0 : outcome.distance[target.vertex];
-    if constexpr (requires { field.at(target, ReadOut::linear); })
-      if (target.vertex == none) promised = field.at(target, ReadOut::linear);
-    outcome.promised.push_back(promised);
-  }
-  if constexpr (std::is_same_v<Shape, io::Triangles>) {
-    std::vector<std::size_t> doubtful;
-    for (std::size_t k = 0; k < targets.size(); ++k) {
-      const Path& path = outcome.paths[k];
-      if (path.source != none &&
-          (path.capped || path.length + sources[path.source].offset > 1.001 * outcome.promised[k]))
-        doubtful.push_back(k);
-    }
-    // Labels on the triangles of the path lead closer to it than distances of vertices do.
-    if (elsewhere && !doubtful.empty()) {
-      field.solve(Serial{}, std::span<const PointSource>(sources), with_progress);
-      for (const std::size_t k : doubtful) {
-        Path path = field.trace(targets[k], command.trace);
-        const auto length = [&](const Path& p) { return p.length + sources[p.source].offset; };
-        if (path.source != none && length(path) < length(outcome.paths[k]))
-          outcome.paths[k] = std::move(path);
-      }
-    }
+    outcome.promised.push_back(target.vertex == none ? field.at(target, ReadOut::linear)
+                                                     : outcome.distance[target.vertex]);
   }
   outcome.trace = tracing.seconds();
   return outcome;
 }
 
-// Gives paths that know simplices only their positions.
-void place(const Domain& domain, std::vector<Path>& paths) {
-  if (domain.positions().empty()) return;
-  for (Path& path : paths) {
-    path.positions.clear();
-    for (const PathPoint& point : path.points)
-      path.positions.push_back(
-          domain.position({.simplex = point.simplex, .barycentric = point.barycentric}));
-  }
-}
-
 Json to_json(const PathCommand& command, const Domain& domain, const Outcome& outcome) {
   Json json;
   json["input"] = command.input;
-  json["kind"] = domain.kind();
+  json["kind"] = domain.kind_name();
   json["vertices"] = domain.vertices();
   json["simplices"] = domain.simplices();
   json["paths"] = Json::array();
@@ -206,7 +144,7 @@ Json to_json(const PathCommand& command, const Domain& domain, const Outcome& ou
   json["expansions"] = outcome.statistics.expansions;
   json["updates"] = outcome.statistics.updates;
   json["executor"] = "serial";
-  if (domain.kind() == "surface") json["triangulation"] = name_of(outcome.triangulation);
+  if (domain.kind() == DomainKind::surface) json["triangulation"] = name_of(outcome.triangulation);
   return json;
 }
 
@@ -214,8 +152,9 @@ std::string to_text(const PathCommand& command, const Domain& domain, const Outc
   Table table;
   table.add("input", command.input);
   if (!command.metric.text.empty()) table.add("metric", command.metric.text);
-  table.add(std::string(domain.kind()), counted(domain.vertices(), "vertices") + ", " +
-                                            counted(domain.simplices(), domain.simplex_name()));
+  table.add(std::string(domain.kind_name()),
+            counted(domain.vertices(), "vertices") + ", " +
+                counted(domain.simplices(), domain.simplex_name()));
   for (std::size_t k = 0; k < outcome.paths.size(); ++k) {
     const Path& path = outcome.paths[k];
     table.add(outcome.paths.size() == 1 ? "path" : "path " + std::to_string(k),
@@ -281,31 +220,25 @@ void run_path(const PathCommand& command) {
 
   ProgressLine progress(command.quiet);
   const Domain domain =
-      Domain::load(command.input, command.as, command.fill, command.cloud, progress);
-  if (command.astar && domain.kind() != "surface")
-    throw UsageError("--astar: a " + std::string(domain.kind()) +
+      load_domain(command.input, command.as, command.fill, command.cloud, progress);
+  if (command.astar && domain.kind() != DomainKind::surface)
+    throw UsageError("--astar: a " + std::string(domain.kind_name()) +
                      " is solved as a whole; A* is for surfaces");
   check_triangulation(triangulation, domain);
-  if (command.margin_given && domain.kind() != "surface" && domain.cloud() == nullptr)
-    throw UsageError("--margin: for surfaces and clouds, not a " + std::string(domain.kind()));
+  if (command.margin_given && domain.kind() != DomainKind::surface && domain.cloud() == nullptr)
+    throw UsageError("--margin: for surfaces and clouds, not a " + std::string(domain.kind_name()));
   const std::vector<PointSource> sources = locate_sources(domain, from);
   const std::vector<PointSource> targets = locate_sources(domain, to);
   if (!command.metric.text.empty()) progress.phase("reading the metric");
   // Paths go straight over an edge: it has one length.
   const auto lengths = measure(command.metric, domain, Jumps::smooth);
-  Outcome outcome = with_file_name(domain, [&] {
-    return std::visit(
-        [&](const auto& shape) {
-          if (precision == Precision::single)
-            return find_paths<float>(shape, lengths.get(), command, sources, targets, options,
-                                     progress);
-          else
-            return find_paths<double>(shape, lengths.get(), command, sources, targets, options,
-                                      progress);
-        },
-        domain.shape());
-  });
-  if (lengths != nullptr) place(domain, outcome.paths);
+  Outcome outcome =
+      find_paths(domain,
+                 {.precision = precision,
+                  .triangulation = command.astar ? Triangulation::input : triangulation,
+                  .lengths = lengths,
+                  .progress = progress.share_callback()},
+                 command, sources, targets, options, progress);
   if (!command.out.empty()) {
     progress.phase("writing " + command.out);
     io::write_paths(command.out, outcome.paths);

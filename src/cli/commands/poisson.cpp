@@ -10,12 +10,12 @@
 #include <plexway/apps/poisson_disk.hpp>
 #include <plexway/error.hpp>
 
-#include "commands.hpp"
-#include "distance_output.hpp"
-#include "number_rows.hpp"
-#include "point_output.hpp"
-#include "progress.hpp"
-#include "sampling_command.hpp"
+#include "cli/commands/commands.hpp"
+#include "cli/commands/sampling_command.hpp"
+#include "cli/report/distance_output.hpp"
+#include "cli/report/point_output.hpp"
+#include "cli/report/progress.hpp"
+#include "io/number_rows.hpp"
 
 namespace plexway::cli {
 namespace {
@@ -31,8 +31,8 @@ struct PoissonCommand : SamplingCommand {
 // One number a line.
 std::vector<double> read_spacing(const std::string& file) {
   std::vector<double> spacing;
-  for (const NumberRow& row :
-       read_number_rows(file, 1, 1, "a number > 0 a line, for each vertex")) {
+  for (const io::NumberRow& row :
+       io::read_number_rows(file, 1, 1, "a number > 0 a line, for each vertex")) {
     if (!(row.numbers[0] > 0))
       throw InputError(file + ":" + std::to_string(row.line) + ": expected a number > 0");
     spacing.push_back(row.numbers[0]);
@@ -57,7 +57,7 @@ void run_poisson(const PoissonCommand& command) {
 
   ProgressLine progress(command.quiet);
   const Domain domain =
-      Domain::load(command.input, command.as, command.fill, command.cloud, progress);
+      load_domain(command.input, command.as, command.fill, command.cloud, progress);
   if (!spacing.empty() && spacing.size() != domain.vertices())
     throw InputError(command.spacing + ": " + counted(spacing.size(), "numbers") + " for " +
                      counted(domain.vertices(), "vertices"));
@@ -75,7 +75,7 @@ void run_poisson(const PoissonCommand& command) {
   progress.phase("throwing darts");
   PoissonDisks disks;
   double seconds = 0;
-  with_complex(domain, precision, [&](const auto& complex) {
+  with_sampled(domain, precision, [&](const auto& complex) {
     const Stopwatch throwing;
     disks = poisson_disks(Serial{}, complex, options);
     seconds = throwing.seconds();
@@ -91,7 +91,7 @@ void run_poisson(const PoissonCommand& command) {
 
   Json json;
   json["input"] = command.input;
-  json["kind"] = domain.kind();
+  json["kind"] = domain.kind_name();
   json["darts"] = disks.darts.size();
   json["radius"] = disks.radius;
   json["maximal"] = disks.maximal;

@@ -1,4 +1,4 @@
-#include "sampling_command.hpp"
+#include "cli/commands/sampling_command.hpp"
 
 #include <CLI/CLI.hpp>
 
@@ -26,7 +26,7 @@ Precision precision_of(const SamplingCommand& command) {
 PointSummary::PointSummary(const SamplingCommand& command, const Domain& domain,
                            std::size_t points) {
   json["input"] = command.input;
-  json["kind"] = domain.kind();
+  json["kind"] = domain.kind_name();
   json["points"] = points;
   table.add("input", command.input);
   table.add("points", counted(points, "points"));

@@ -1,20 +1,18 @@
 #pragma once
 
-#include <memory>
 #include <string>
 #include <type_traits>
-#include <variant>
 
 #include <plexway/error.hpp>
 #include <plexway/propagate/distance_field.hpp>
 
-#include "console.hpp"
-#include "domain.hpp"
-#include "fill_options.hpp"
-#include "make_complex.hpp"
-#include "picture_options.hpp"
-#include "report.hpp"
-#include "solve_options.hpp"
+#include <plexway/any/complex.hpp>
+#include "cli/options/fill_options.hpp"
+#include "cli/options/input.hpp"
+#include "cli/options/picture_options.hpp"
+#include "cli/options/solve_options.hpp"
+#include "cli/report/console.hpp"
+#include "cli/report/report.hpp"
 
 namespace CLI {
 class App;
@@ -26,8 +24,8 @@ namespace plexway::cli {
 struct SamplingCommand {
   std::string input, as, out;
   std::string precision = "float";
-  FillOptions fill;
-  CloudArguments cloud;
+  FillArguments fill;
+  CloudPreparation cloud;
   PictureArguments picture;
   bool json = false, quiet = false;
 };
@@ -41,22 +39,19 @@ Precision precision_of(const SamplingCommand& command);
 /// Calls `use(complex)` with the surface, the solid or the cloud; throws InputError for another
 /// kind.
 template <class Use>
-void with_complex(const Domain& domain, Precision precision, Use use) {
-  with_file_name(domain, [&] {
-    std::visit(
-        [&](const auto& shape) {
-          using Shape = std::decay_t<decltype(shape)>;
-          const auto build = [&](auto real) {
-            using Real = decltype(real);
-            if constexpr (std::is_same_v<Shape, io::Edges>)
-              throw InputError("is a wireframe: points are chosen on surfaces, solids and clouds");
-            else {
-              use(make_complex<Real>(shape));
-            }
-          };
-          precision == Precision::single ? build(float{}) : build(double{});
-        },
-        domain.shape());
+void with_sampled(const Domain& domain, Precision precision, Use use) {
+  if (domain.kind() == DomainKind::wireframe)
+    throw InputError(domain.file().string() +
+                     ": is a wireframe: points are chosen on surfaces, solids and clouds");
+  const AnyDomain built(domain, {.precision = precision, .triangulation = Triangulation::input});
+  with_complex(built, [&](const auto& complex) {
+    constexpr DomainKind kind = std::decay_t<decltype(complex)>::kind;
+    if constexpr (kind == DomainKind::surface || kind == DomainKind::solid ||
+                  kind == DomainKind::cloud)
+      use(complex);
+    else
+      throw InputError(domain.file().string() +
+                       ": points are chosen on surfaces, solids and clouds");
   });
 }
 

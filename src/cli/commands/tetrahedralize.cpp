@@ -10,13 +10,14 @@
 #include <plexway/error.hpp>
 #include <plexway/io/tets.hpp>
 
-#include "commands.hpp"
-#include "console.hpp"
-#include "distance_output.hpp"
-#include "domain.hpp"
-#include "progress.hpp"
-#include "report.hpp"
-#include "solid_survey.hpp"
+#include "any/fill.hpp"
+#include "any/solid_survey.hpp"
+#include "cli/commands/commands.hpp"
+#include "cli/options/input.hpp"
+#include "cli/report/console.hpp"
+#include "cli/report/distance_output.hpp"
+#include "cli/report/progress.hpp"
+#include "cli/report/report.hpp"
 
 namespace plexway::cli {
 namespace {
@@ -24,7 +25,7 @@ namespace {
 struct TetrahedralizeCommand {
   std::string input;
   std::string out;
-  FillOptions fill;
+  FillArguments fill;
   bool json = false;
   bool quiet = false;
 };
@@ -34,7 +35,7 @@ Json to_json(const TetrahedralizeCommand& command, const Domain& domain,
   Json json;
   json["input"] = command.input;
   json["out"] = command.out;
-  json["kind"] = domain.kind();
+  json["kind"] = domain.kind_name();
   json["vertices"] = domain.vertices();
   json["simplices"] = domain.simplices();
   if (!domain.level_set_note().empty()) json["voxels"] = domain.level_set_note();
@@ -61,14 +62,14 @@ std::string to_text(const TetrahedralizeCommand& command, const Domain& domain,
 
 void run_tetrahedralize(const TetrahedralizeCommand& command) {
   check_output_name(command.out, command.input, io::tet_extensions());
-  check(command.fill);
+  (void)filling(command.fill);
   if (!is_vdb(command.input) && !(command.fill.volume.repair && !command.fill.given()))
     require_tetgen("tetrahedralize");
   ProgressLine progress(command.quiet);
-  const Domain domain = Domain::load(command.input, "solid", command.fill, {}, progress);
+  const Domain domain = load_domain(command.input, "solid", command.fill, {}, progress);
   if (!domain.mesh_seconds())
     throw InputError(command.input + ": is a solid already; give a surface, .poly or .smesh");
-  const auto& solid = std::get<io::Tets>(domain.shape());
+  const auto& solid = std::get<io::Tets>(domain.data());
   progress.phase("writing " + command.out);
   io::write_tets(command.out, solid);
   progress.clear();

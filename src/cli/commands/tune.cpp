@@ -13,13 +13,13 @@
 #include <plexway/error.hpp>
 #include <plexway/version.hpp>
 
-#include "commands.hpp"
-#include "console.hpp"
-#include "distance_output.hpp"
-#include "progress.hpp"
-#include "report.hpp"
-#include "table_file.hpp"
-#include "tune_files.hpp"
+#include "cli/commands/commands.hpp"
+#include "cli/report/console.hpp"
+#include "cli/report/distance_output.hpp"
+#include "cli/report/progress.hpp"
+#include "cli/report/report.hpp"
+#include "cli/report/table_file.hpp"
+#include "cli/report/tune_files.hpp"
 
 namespace plexway::cli {
 namespace {

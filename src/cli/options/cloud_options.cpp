@@ -1,17 +1,10 @@
-#include "cloud_options.hpp"
+#include "cli/options/cloud_options.hpp"
 
 #include <CLI/CLI.hpp>
-#include <cmath>
-
-#include <plexway/error.hpp>
 
 namespace plexway::cli {
 
-bool CloudArguments::given() const {
-  return k || neighbour_radius || max_normal_angle || voxel || denoise || deviations || smooth;
-}
-
-void add_cloud_options(CLI::App& command, CloudArguments& options) {
+void add_cloud_options(CLI::App& command, CloudPreparation& options) {
   const std::string group = "How to make a complex of points";
   command
       .add_option("--k", options.k,
@@ -46,20 +39,6 @@ void add_cloud_options(CLI::App& command, CloudArguments& options) {
       .add_flag("--smooth", options.smooth,
                 "measure along a smooth surface near the points: noise makes paths longer")
       ->group(group);
-}
-
-void check(const CloudArguments& options) {
-  const auto positive = [](const std::optional<double>& value, const char* name) {
-    if (value && (!(*value > 0) || std::isinf(*value)))
-      throw UsageError(std::string(name) + " must be a number greater than 0");
-  };
-  positive(options.neighbour_radius, "--neighbour-radius");
-  positive(options.voxel, "--voxel");
-  positive(options.deviations, "--deviations");
-  positive(options.max_normal_angle, "--max-normal-angle");
-  if (options.max_normal_angle && *options.max_normal_angle > 180)
-    throw UsageError("--max-normal-angle must be at most 180 degrees");
-  if (options.deviations && !options.denoise) throw UsageError("--deviations goes with --denoise");
 }
 
 }  // namespace plexway::cli

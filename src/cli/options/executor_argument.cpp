@@ -1,4 +1,4 @@
-#include "executor_argument.hpp"
+#include "cli/options/executor_argument.hpp"
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -7,7 +7,7 @@
 #include <plexway/error.hpp>
 #include <plexway/support.hpp>
 
-#include "solver.hpp"
+#include <plexway/any_domain.hpp>
 
 namespace plexway::cli {
 namespace {
@@ -82,16 +82,20 @@ void check_executor(const ExecutorArgument& argument, const PropagateOptions& op
 }
 
 Executor choose_executor(const ExecutorArgument& argument, const PropagateOptions& options,
-                         const Solver& solver, std::size_t sources) {
+                         const AnyDomain& domain, std::size_t sources) {
   const OpenMP team{.threads = argument.threads.value_or(0)};
   if (argument.name == "openmp") return team;
-  if (argument.name == "gl") return GL{.device = argument.device.value_or(-1)};
+  if (argument.name == "gl") {
+    if (domain.precision() == Precision::twice)
+      throw UsageError("--executor gl computes in single precision: use --precision float");
+    return GL{.device = argument.device.value_or(-1)};
+  }
   if (argument.name != "auto" || !openmp_built() || options.schedule == Schedule::priority)
     return Serial{};
   const bool bounded =
       options.radius < PropagateOptions{}.radius ||
       options.max_expansions < PropagateOptions{}.max_expansions;  // fronts may stay short
-  if (solver.simplices() < auto_simplices || sources < auto_sources || bounded ||
+  if (domain.simplices() < auto_simplices || sources < auto_sources || bounded ||
       team_size(team) < 2)
     return Serial{};
   return team;

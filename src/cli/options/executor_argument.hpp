@@ -7,8 +7,8 @@
 #include <variant>
 #include <vector>
 
+#include <plexway/any_domain.hpp>
 #include <plexway/executors.hpp>
-#include <plexway/executors/gl.hpp>
 #include <plexway/propagate/options.hpp>
 
 namespace CLI {
@@ -16,8 +16,6 @@ class App;
 }
 
 namespace plexway::cli {
-
-class Solver;
 
 /// --executor, --threads and --device, as typed.
 struct ExecutorArgument {
@@ -27,7 +25,7 @@ struct ExecutorArgument {
 };
 
 /// What runs a propagation.
-using Executor = std::variant<Serial, OpenMP, GL>;
+using Executor = AnyExecutor;
 /// Its name on the command line, and the number of its threads.
 [[nodiscard]] std::string_view executor_name(const Executor& executor);
 [[nodiscard]] std::size_t executor_threads(const Executor& executor);
@@ -48,7 +46,7 @@ inline constexpr std::size_t auto_simplices = 100'000, auto_sources = 64;
 
 /// Who solves: `auto` chooses by size, of those who can (docs/CLI.md). `sources` start one field.
 [[nodiscard]] Executor choose_executor(const ExecutorArgument& argument,
-                                       const PropagateOptions& options, const Solver& solver,
+                                       const PropagateOptions& options, const AnyDomain& domain,
                                        std::size_t sources);
 
 }  // namespace plexway::cli

@@ -1,4 +1,4 @@
-#include "isoline_options.hpp"
+#include "cli/options/isoline_options.hpp"
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -6,12 +6,12 @@
 #include <variant>
 #include <vector>
 
-#include <plexway/apps/isolines.hpp>
 #include <plexway/apps/isosurfaces.hpp>
+#include <plexway/error.hpp>
 #include <plexway/io/field.hpp>
 #include <plexway/io/paths.hpp>
 
-#include "distance_output.hpp"
+#include "cli/report/distance_output.hpp"
 #include "io/extension.hpp"
 
 namespace plexway::cli {
@@ -68,10 +68,10 @@ void check_isolines(const IsolineOptions& options, const std::string& input) {
 
 void check_isolines(const IsolineOptions& options, const Domain& domain) {
   if (options.out.empty()) return;
-  const bool solid = domain.kind() == "solid";
-  if (!solid && domain.kind() != "surface")
+  const bool solid = domain.kind() == DomainKind::solid;
+  if (!solid && domain.kind() != DomainKind::surface)
     throw UsageError("--isoline-step: for surfaces and solids, not a " +
-                     std::string(domain.kind()));
+                     std::string(domain.kind_name()));
   check_output_name(options.out, domain.file().string(),
                     solid ? io::triangle_output_extensions() : io::path_extensions(),
                     "--isolines-out");
@@ -96,10 +96,9 @@ std::vector<double> isoline_values(const IsolineOptions& options,
 
 void write_isolines(const IsolineOptions& options, const Domain& domain,
                     std::span<const double> distance, std::span<const double> values) {
-  if (const auto* solid = std::get_if<io::Tets>(&domain.shape()))
+  if (const auto* solid = std::get_if<io::Tets>(&domain.data()))
     return write_isosurfaces(options.out, *solid, distance, values);
-  const auto& surface = std::get<io::Triangles>(domain.shape());
-  io::write_paths(options.out, isolines(surface.positions, surface.triangles, distance, values));
+  io::write_paths(options.out, domain.isolines(distance, values));
 }
 
 }  // namespace plexway::cli

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "domain.hpp"
+#include "cli/options/input.hpp"
 
 namespace CLI {
 class App;

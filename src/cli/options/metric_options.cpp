@@ -1,4 +1,4 @@
-#include "metric_options.hpp"
+#include "cli/options/metric_options.hpp"
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -10,8 +10,8 @@
 
 #include <plexway/error.hpp>
 
-#include "console.hpp"
-#include "number_rows.hpp"
+#include "cli/report/console.hpp"
+#include "io/number_rows.hpp"
 
 namespace plexway::cli {
 namespace {
@@ -48,10 +48,10 @@ std::vector<metric::Tensor> read_tensors(const std::string& file, std::size_t ne
                                          std::string_view what) {
   const std::string row_text =
       "xx xy xz yy yz zz a line, or xx xy yy in the plane, or a single number, the speed";
-  const auto rows = read_number_rows(file, 1, 6, row_text);
+  const auto rows = io::read_number_rows(file, 1, 6, row_text);
   std::vector<metric::Tensor> tensors;
   tensors.reserve(rows.size());
-  for (const NumberRow& row : rows) {
+  for (const io::NumberRow& row : rows) {
     const auto& n = row.numbers;
     if (n.size() == 6)
       tensors.push_back({n[0], n[1], n[2], n[3], n[4], n[5]});
@@ -69,10 +69,10 @@ std::vector<metric::Tensor> read_tensors(const std::string& file, std::size_t ne
 
 std::vector<double> read_speeds(const std::string& file, std::size_t needed,
                                 std::string_view what) {
-  const auto rows = read_number_rows(file, 1, 1, "one speed a line, above 0");
+  const auto rows = io::read_number_rows(file, 1, 1, "one speed a line, above 0");
   std::vector<double> speeds;
   speeds.reserve(rows.size());
-  for (const NumberRow& row : rows) {
+  for (const io::NumberRow& row : rows) {
     if (!(row.numbers[0] > 0)) fail_at(file, row, "a speed must be above 0");
     speeds.push_back(row.numbers[0]);
   }
@@ -83,9 +83,9 @@ std::vector<double> read_speeds(const std::string& file, std::size_t needed,
 
 metric::GivenLengths read_lengths(const std::string& file, std::size_t vertices) {
   metric::GivenLengths given;
-  std::map<std::pair<Index, Index>, const NumberRow*> first;
-  const auto rows = read_number_rows(file, 3, 3, "vertex vertex length a line");
-  for (const NumberRow& row : rows) {
+  std::map<std::pair<Index, Index>, const io::NumberRow*> first;
+  const auto rows = io::read_number_rows(file, 3, 3, "vertex vertex length a line");
+  for (const io::NumberRow& row : rows) {
     const Index a = vertex_in(file, row, 0, vertices), b = vertex_in(file, row, 1, vertices);
     const double length = row.numbers[2];
     if (length < 0) fail_at(file, row, "a length below 0");
@@ -114,21 +114,6 @@ metric::Metric read_metric(const Parsed& asked, const Domain& domain, const metr
   return read_lengths(asked.file, domain.vertices());
 }
 
-// A wireframe whose file has lengths and no positions: what is left is to go through them slower.
-std::vector<double> measure_lengths(const Parsed& asked, const io::Edges& wireframe,
-                                    const metric::Metric& metric) {
-  if (asked.kind != Kind::speed && asked.kind != Kind::lengths)
-    throw UsageError("--metric: tensors measure directions, and this wireframe has no positions");
-  if (const auto* given = std::get_if<metric::GivenLengths>(&metric)) {
-    const std::vector<metric::Point> anywhere(wireframe.vertices);
-    return metric::edge_lengths(anywhere, wireframe.edges, *given);
-  }
-  std::vector<double> lengths = wireframe.lengths;
-  const auto& speed = std::get<metric::SimplexSpeeds>(metric).speed;
-  for (std::size_t e = 0; e < lengths.size(); ++e) lengths[e] /= speed[e];
-  return lengths;
-}
-
 std::string name_of_metric(const MetricArgument& argument, std::size_t refracting_edges) {
   return argument.text +
          (refracting_edges > 0 ? "; refracts at " + counted(refracting_edges, "edges") : "");
@@ -150,38 +135,23 @@ std::string metric_file(const MetricArgument& argument) {
   return argument.text.empty() ? "" : parse(argument).file;
 }
 
-std::unique_ptr<const MeasuredLengths> measure(const MetricArgument& argument, const Domain& domain,
+std::shared_ptr<const MeasuredLengths> measure(const MetricArgument& argument, const Domain& domain,
                                                Jumps jumps) {
   if (argument.text.empty()) return nullptr;
   const Parsed asked = parse(argument);
   if (domain.cloud() != nullptr)
     throw UsageError("--metric: a cloud has no simplices of its own to measure; give a surface");
-  const bool refracts = domain.kind() == "surface" && jumps == Jumps::refract &&
+  const bool refracts = domain.kind() == DomainKind::surface && jumps == Jumps::refract &&
                         (asked.kind == Kind::speed || asked.kind == Kind::tensor);
   const metric::Metric metric =
       read_metric(asked, domain, {refracts ? metric::Sides::own : metric::Sides::mean});
-  auto lengths = std::make_unique<MeasuredLengths>();
-  lengths->refracts = refracts;
-  lengths->simplices = domain.simplices();
   try {
-    if (const auto* surface = std::get_if<io::Triangles>(&domain.shape())) {
-      lengths->triangles = metric::triangle_lengths(surface->positions, surface->triangles, metric);
-      lengths->violations =
-          metric::find_violations(std::span<const std::array<double, 3>>(lengths->triangles));
-    } else if (const auto* solid = std::get_if<io::Tets>(&domain.shape())) {
-      lengths->tets = metric::tet_lengths(solid->positions, solid->tets, metric);
-      lengths->violations =
-          metric::find_violations(std::span<const std::array<double, 6>>(lengths->tets));
-    } else {
-      const auto& wireframe = std::get<io::Edges>(domain.shape());
-      lengths->edges = wireframe.lengths.empty()
-                           ? metric::edge_lengths(wireframe.positions, wireframe.edges, metric)
-                           : measure_lengths(asked, wireframe, metric);
-    }
+    return std::make_shared<const MeasuredLengths>(domain.measure(metric));
   } catch (const InputError& error) {
     throw InputError(asked.file + ": " + error.what());
+  } catch (const UsageError& error) {
+    throw UsageError(std::string("--metric: ") + error.what());
   }
-  return lengths;
 }
 
 void add_metric(const MetricArgument& argument, const MeasuredLengths* lengths,
@@ -201,7 +171,7 @@ void say_violations(const Domain& domain, const MeasuredLengths* lengths) {
   if (lengths == nullptr || lengths->violations.count == 0) return;
   const std::string_view what = domain.simplex_name();
   say_note("the metric breaks the triangle inequality in " +
-           counted(lengths->violations.count, what) + " of " + std::to_string(lengths->simplices) +
+           counted(lengths->violations.count, what) + " of " + std::to_string(domain.simplices()) +
            ", such as " + singular(what) + " " + std::to_string(lengths->violations.first) +
            ": their lengths were taken as those of the nearest flat ones");
 }

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <memory>
 #include <string>
@@ -8,8 +7,8 @@
 
 #include <plexway/metric/edge_lengths.hpp>
 
-#include "domain.hpp"
-#include "report.hpp"
+#include "cli/options/input.hpp"
+#include "cli/report/report.hpp"
 
 namespace CLI {
 class App;
@@ -25,16 +24,6 @@ struct MetricArgument {
 /// Adds --metric to a command.
 void add_metric_option(CLI::App& command, MetricArgument& argument);
 
-/// What a metric makes of a domain: the lengths of its edges, those of its kind.
-struct MeasuredLengths {
-  std::vector<std::array<double, 3>> triangles;
-  std::vector<std::array<double, 6>> tets;
-  std::vector<double> edges;
-  bool refracts = false;  ///< triangles may measure an edge they share in two ways
-  metric::Violations violations;
-  std::size_t simplices = 0;
-};
-
 /// May an edge have two lengths?
 enum class Jumps { refract, smooth };
 
@@ -43,7 +32,7 @@ std::string metric_file(const MetricArgument& argument);
 
 /// Reads the metric's file and measures the domain; null where none is asked for. Throws InputError
 /// "FILE: cause", UsageError for a cloud, and for a domain that this kind of metric cannot measure.
-std::unique_ptr<const MeasuredLengths> measure(const MetricArgument& argument, const Domain& domain,
+std::shared_ptr<const MeasuredLengths> measure(const MetricArgument& argument, const Domain& domain,
                                                Jumps jumps);
 
 /// What a summary says: the metric, edges that refract, simplices whose lengths no triangle or

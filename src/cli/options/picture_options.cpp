@@ -1,4 +1,4 @@
-#include "picture_options.hpp"
+#include "cli/options/picture_options.hpp"
 
 #include <CLI/CLI.hpp>
 #include <cmath>
@@ -11,7 +11,7 @@
 #include <plexway/render/picture.hpp>
 #endif
 
-#include "distance_output.hpp"
+#include "cli/report/distance_output.hpp"
 #include "io/colour_map.hpp"
 
 namespace plexway::cli {
@@ -197,8 +197,8 @@ void write_picture(const PictureArguments& arguments, const Domain& domain,
                    const PictureContent& content) {
   if (!arguments.wanted()) return;
   const render::PictureOptions options = options_of(arguments);
-  if (!options.isosurfaces.empty() && domain.kind() != "solid")
-    throw UsageError("--isosurfaces: for solids, not a " + std::string(domain.kind()));
+  if (!options.isosurfaces.empty() && domain.kind() != DomainKind::solid)
+    throw UsageError("--isosurfaces: for solids, not a " + std::string(domain.kind_name()));
   render::Part part;
   part.positions = domain.positions();
   if (part.positions.empty())
@@ -206,20 +206,30 @@ void write_picture(const PictureArguments& arguments, const Domain& domain,
   part.value = content.distance;
   part.label = content.label;
   std::vector<std::array<double, 3>> normals;
-  if (const auto* surface = std::get_if<io::Triangles>(&domain.shape())) {
+  std::vector<render::Part> parts;
+  if (const auto* surface = std::get_if<io::Triangles>(&domain.data())) {
     part.triangles = surface->triangles;
-  } else if (const auto* solid = std::get_if<io::Tets>(&domain.shape())) {
+  } else if (const auto* solid = std::get_if<io::Tets>(&domain.data())) {
     part.tets = solid->tets;
     part.ghost = content.look_inside && !options.clip;
-  } else if (const auto* wires = std::get_if<io::Edges>(&domain.shape())) {
+  } else if (const auto* wires = std::get_if<io::Edges>(&domain.data())) {
     part.edges = wires->edges;
-  } else if (const Cloud* cloud = domain.cloud()) {
+  } else if (const auto* mixed = std::get_if<MixedShape>(&domain.data())) {
+    for (const MixedShape::Part& of : mixed->parts) {
+      part.edges = of.edges;
+      part.triangles = of.triangles;
+      part.tets = of.tets;
+      part.ghost = content.look_inside && !options.clip;
+      parts.push_back(part);
+    }
+  } else if (const CloudShape* cloud = domain.cloud()) {
     normals = cloud->points.normals.empty() ? estimate_normals(cloud->measured(), cloud->neighbours)
                                             : cloud->points.normals;
     part.normals = normals;
   }
   render::Scene scene;
-  scene.parts = {part};
+  if (parts.empty()) parts = {part};
+  scene.parts = parts;
   scene.sources = content.sources;
   scene.targets = content.targets;
   scene.paths = content.paths;

@@ -1,4 +1,4 @@
-#include "solve_options.hpp"
+#include "cli/options/solve_options.hpp"
 
 #include <CLI/CLI.hpp>
 #include <cmath>
@@ -8,7 +8,7 @@
 
 #include <plexway/error.hpp>
 
-#include "table_file.hpp"
+#include "cli/report/table_file.hpp"
 
 namespace plexway::cli {
 namespace {

@@ -3,17 +3,16 @@
 #include <optional>
 #include <string>
 
+#include <plexway/any/field.hpp>
 #include <plexway/propagate/options.hpp>
 
-#include "executor_argument.hpp"
+#include "cli/options/executor_argument.hpp"
 
 namespace CLI {
 class App;
 }
 
 namespace plexway::cli {
-
-enum class Precision { single, twice };
 
 /// The options that say how to solve, as typed.
 struct SolveOptions {

@@ -1,4 +1,4 @@
-#include "source_argument.hpp"
+#include "cli/options/source_argument.hpp"
 
 #include <charconv>
 #include <cmath>
@@ -7,7 +7,7 @@
 
 #include <plexway/error.hpp>
 
-#include "report.hpp"
+#include "cli/report/report.hpp"
 
 namespace plexway::cli {
 namespace {

@@ -9,7 +9,7 @@
 
 #include <plexway/source/point_source.hpp>
 
-#include "domain.hpp"
+#include "cli/options/input.hpp"
 
 namespace plexway::cli {
 

@@ -1,4 +1,4 @@
-#include "source_set.hpp"
+#include "cli/options/source_set.hpp"
 
 #include <charconv>
 #include <cmath>
@@ -8,10 +8,10 @@
 
 #include <plexway/error.hpp>
 
-#include "number_rows.hpp"
-#include "report.hpp"
-#include "source_argument.hpp"
-#include "source_curves.hpp"
+#include "any/shape_state.hpp"
+#include "cli/options/source_argument.hpp"
+#include "cli/report/report.hpp"
+#include "io/number_rows.hpp"
 
 namespace plexway::cli {
 
@@ -120,11 +120,11 @@ SetArgument parse_one(const std::string& text) {
 VertexSource read_vertices(const Domain& domain, const SetArgument& set) {
   VertexSource source;
   source.offset = set.offset;
-  for (const NumberRow& row :
-       read_number_rows(set.file, 1, 2, "a vertex (0-based) a line, and its offset if wanted")) {
+  for (const io::NumberRow& row : io::read_number_rows(
+           set.file, 1, 2, "a vertex (0-based) a line, and its offset if wanted")) {
     const double offset = row.numbers.size() == 2 ? row.numbers[1] : 0;
-    source.vertices.push_back(vertex_in(set.file, row, 0, domain.vertices()));
-    if (offset < 0) fail_at(set.file, row, "an offset below 0: " + short_number(offset));
+    source.vertices.push_back(io::vertex_in(set.file, row, 0, domain.vertices()));
+    if (offset < 0) io::fail_at(set.file, row, "an offset below 0: " + short_number(offset));
     source.offsets.push_back(offset);
   }
   return source;
@@ -138,6 +138,16 @@ PointSource closest(const Domain& domain, const SetArgument& set,
   return domain.closest(point);
 }
 
+// Messages say which option it was about.
+template <class Ask>
+auto at_option(const std::string& text, const Ask& ask) {
+  try {
+    return ask();
+  } catch (const UsageError& error) {
+    throw UsageError("--source " + text + ": " + error.what());
+  }
+}
+
 Source locate(const Domain& domain, const SetArgument& set) {
   using Kind = SetArgument::Kind;
   switch (set.kind) {
@@ -149,16 +159,18 @@ Source locate(const Domain& domain, const SetArgument& set) {
     case Kind::vertices:
       return read_vertices(domain, set);
     case Kind::boundary:
-      return boundary_of(domain, set.offset);
+      return with_file_name(domain, [&] {
+        return at_option("boundary", [&] { return domain.boundary(set.offset); });
+      });
     case Kind::circle:
       return BallSource{
           .centre = closest(domain, set, {set.numbers[0], set.numbers[1], set.numbers[2]}),
           .radius = set.numbers[3],
           .offset = set.offset};
     case Kind::simplex:
-      if (domain.kind() != "surface" && domain.kind() != "wireframe")
+      if (domain.kind() != DomainKind::surface && domain.kind() != DomainKind::wireframe)
         throw UsageError("--source '" + set.text + "': for surfaces and wireframes, not a " +
-                         std::string(domain.kind()));
+                         std::string(domain.kind_name()));
       if (set.simplex >= domain.simplices())
         throw InputError(domain.file().string() + ": source " + set.text +
                          " is out of range: the " + std::string(domain.simplex_name()) +
@@ -172,10 +184,12 @@ Source locate(const Domain& domain, const SetArgument& set) {
           points.push_back(
               closest(domain, set, {set.numbers[i], set.numbers[i + 1], set.numbers[i + 2]}));
       } else {
-        for (const auto& [row, line] : read_number_rows(set.file, 3, 3, "a point X Y Z a line"))
+        for (const auto& [row, line] : io::read_number_rows(set.file, 3, 3, "a point X Y Z a line"))
           points.push_back(closest(domain, set, {row[0], row[1], row[2]}));
       }
-      return CurveSource{.points = joined(domain, points, set.text), .offset = set.offset};
+      CurveSource curve = at_option("'" + set.text + "'", [&] { return domain.joined(points); });
+      curve.offset = set.offset;
+      return curve;
     }
   }
   return PointSource{};
@@ -204,7 +218,7 @@ std::vector<PointSource> as_points(std::span<const Source> sources) {
 }
 
 bool needs_double(const Domain& domain, std::span<const Source> sources) {
-  if (domain.kind() != "surface") return false;
+  if (domain.kind() != DomainKind::surface) return false;
   for (const Source& source : sources)
     if (std::holds_alternative<CurveSource>(source) ||
         std::holds_alternative<SimplexSource>(source))

@@ -7,7 +7,7 @@
 
 #include <plexway/source/source.hpp>
 
-#include "domain.hpp"
+#include "cli/options/input.hpp"
 
 namespace plexway::cli {
 

@@ -1,11 +1,8 @@
-#include "triangulation_option.hpp"
+#include "cli/options/triangulation_option.hpp"
 
 #include <CLI/CLI.hpp>
 
 #include <plexway/error.hpp>
-
-#include "make_complex.hpp"
-#include "progress.hpp"
 
 namespace plexway::cli {
 
@@ -31,55 +28,25 @@ Triangulation triangulation_of(const TriangulationArgument& argument) {
 
 void check_triangulation(Triangulation wanted, const Domain& domain) {
   const bool asked = wanted == Triangulation::delaunay || wanted == Triangulation::refined;
-  if (asked && domain.kind() != "surface")
+  if (asked && domain.kind() != DomainKind::surface)
     throw UsageError(std::string("--triangulation ") +
                      (wanted == Triangulation::delaunay ? "delaunay" : "refined") + ": a " +
-                     std::string(domain.kind()) +
+                     std::string(domain.kind_name()) +
                      " has no triangles to flip; leave the option out");
 }
 
-template <class Real>
-TriangulatedSurface<Real> make_surface(Triangulation wanted, const io::Triangles& surface,
-                                       const MeasuredLengths* lengths,
-                                       TriangulationReport& report) {
-  report = {};
-  const Stopwatch working;
-  const auto named = [](Triangulation asked) -> std::optional<Retriangulation> {
-    if (asked == Triangulation::automatic) return std::nullopt;
-    return asked == Triangulation::input      ? Retriangulation::keep
-           : asked == Triangulation::delaunay ? Retriangulation::flips
-                                              : Retriangulation::refined;
-  }(wanted);
-  auto made = [&]() -> TriangulatedSurface<Real> {
-    if (lengths == nullptr) return triangulate<Real>(surface.positions, surface.triangles, named);
-    TriangleMesh<Real> mesh = make_complex<Real>(surface, lengths);
-    const Retriangulation done = named ? *named : what_pays(measure_triangulation(mesh));
-    if (done == Retriangulation::keep) return {std::move(mesh), std::nullopt, done};
-    IntrinsicDelaunay delaunay(make_complex<double>(surface, lengths), refinement_for(done));
-    if (delaunay.summary().flips + delaunay.summary().inserted_vertices > 0)
-      mesh = delaunay.mesh<Real>();
-    delaunay.release_triangles();
-    return {std::move(mesh), std::move(delaunay), done};
-  }();
-  report.done = made.done;
-  if (made.delaunay) {
-    report.flips = made.delaunay->summary().flips;
-    report.inserted_vertices = made.delaunay->summary().inserted_vertices;
-    report.seconds = working.seconds();
-  }
-  return made;
-}
-template TriangulatedSurface<float> make_surface(Triangulation, const io::Triangles&,
-                                                 const MeasuredLengths*, TriangulationReport&);
-template TriangulatedSurface<double> make_surface(Triangulation, const io::Triangles&,
-                                                  const MeasuredLengths*, TriangulationReport&);
-
 namespace {
 
+std::string_view name_of(Triangulation done) {
+  return done == Triangulation::input      ? "input"
+         : done == Triangulation::delaunay ? "delaunay"
+                                           : "refined";
+}
+
 std::string_view name_of(Retriangulation done) {
-  return done == Retriangulation::keep    ? "input"
-         : done == Retriangulation::flips ? "delaunay"
-                                          : "refined";
+  return name_of(done == Retriangulation::keep    ? Triangulation::input
+                 : done == Retriangulation::flips ? Triangulation::delaunay
+                                                  : Triangulation::refined);
 }
 
 }  // namespace
@@ -88,10 +55,10 @@ std::string_view name_of(const TriangulationReport& report) { return name_of(rep
 
 std::string describe(const TriangulationReport& report) {
   std::string text =
-      report.done == Retriangulation::keep ? "as in the input" : "intrinsic Delaunay, ";
-  if (report.done == Retriangulation::keep) return text;
+      report.done == Triangulation::input ? "as in the input" : "intrinsic Delaunay, ";
+  if (report.done == Triangulation::input) return text;
   text += counted(report.flips, "flips");
-  if (report.done == Retriangulation::refined)
+  if (report.done == Triangulation::refined)
     text += " and " + counted(report.inserted_vertices, "vertices") + " put in";
   return text + ", " + short_time(report.seconds);
 }

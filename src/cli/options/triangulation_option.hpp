@@ -1,24 +1,19 @@
 #pragma once
 
-#include <optional>
 #include <string>
 #include <string_view>
 
+#include <plexway/any/field.hpp>
 #include <plexway/complex/intrinsic_delaunay.hpp>
 
-#include "domain.hpp"
-#include "report.hpp"
+#include "cli/options/input.hpp"
+#include "cli/report/report.hpp"
 
 namespace CLI {
 class App;
 }
 
 namespace plexway::cli {
-
-struct MeasuredLengths;
-
-/// Which triangles a surface is solved on.
-enum class Triangulation { input, delaunay, refined, automatic };
 
 /// As typed.
 struct TriangulationArgument {
@@ -33,20 +28,6 @@ Triangulation triangulation_of(const TriangulationArgument& argument);
 
 /// Throws UsageError where `delaunay` or `refined` is asked of what is no surface.
 void check_triangulation(Triangulation wanted, const Domain& domain);
-
-/// Which one it became.
-struct TriangulationReport {
-  Retriangulation done = Retriangulation::keep;
-  std::size_t flips = 0;
-  std::size_t inserted_vertices = 0;  ///< numbered after the input's
-  double seconds = 0;                 ///< for building on other triangles, where that was done
-};
-
-/// Builds a surface on the triangles wanted, or if that is left open on those that pay; what comes
-/// with it translates sources. `lengths` are those of a metric, or null.
-template <class Real>
-TriangulatedSurface<Real> make_surface(Triangulation wanted, const io::Triangles& surface,
-                                       const MeasuredLengths* lengths, TriangulationReport& report);
 
 /// What a report says of it: "input", "delaunay" or "refined"; and a sentence for people.
 [[nodiscard]] std::string_view name_of(const TriangulationReport& report);

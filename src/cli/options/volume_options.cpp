@@ -1,12 +1,6 @@
-#include "volume_options.hpp"
+#include "cli/options/volume_options.hpp"
 
 #include <CLI/CLI.hpp>
-#include <cmath>
-#include <filesystem>
-
-#include <plexway/error.hpp>
-
-#include "io/extension.hpp"
 
 namespace plexway::cli {
 
@@ -27,16 +21,6 @@ void add_volume_options(CLI::App& command, VolumeOptions& options) {
   command.add_option("--grid", options.grid, "which level set of a .vdb (default: the only one)")
       ->type_name("NAME")
       ->group(group);
-}
-
-void check(const VolumeOptions& options) {
-  if (options.voxel && (!(*options.voxel > 0) || std::isinf(*options.voxel)))
-    throw UsageError("--voxel must be a number greater than 0");
-}
-
-bool is_vdb(const std::string& file) {
-  const std::string extension = io::lower_extension(file);
-  return extension == ".vdb";
 }
 
 }  // namespace plexway::cli

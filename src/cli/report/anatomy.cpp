@@ -1,4 +1,4 @@
-#include "anatomy.hpp"
+#include "cli/report/anatomy.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -46,10 +46,11 @@ constexpr double least_slope = 0.9;  // fronts meet where the exact distance ris
 
 }  // namespace
 
-Anatomy::Anatomy(const Domain& domain) : domain_(domain), solid_(domain.kind() == "solid") {
-  if (!solid_ && domain.kind() != "surface")
+Anatomy::Anatomy(const Domain& domain)
+    : domain_(domain), solid_(domain.kind() == DomainKind::solid) {
+  if (!solid_ && domain.kind() != DomainKind::surface)
     throw UsageError("--anatomy splits the errors of surfaces and solids, not those of a " +
-                     std::string(domain.kind()));
+                     std::string(domain.kind_name()));
   const auto points = domain.positions();
   const std::size_t vertices = domain.vertices(), corners = solid_ ? 4 : 3;
   shape_.assign(vertices, 0);

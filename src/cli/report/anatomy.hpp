@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "domain.hpp"
-#include "report.hpp"
+#include "cli/options/input.hpp"
+#include "cli/report/report.hpp"
 
 namespace plexway::cli {
 

@@ -1,4 +1,4 @@
-#include "console.hpp"
+#include "cli/report/console.hpp"
 
 #include <cerrno>
 #include <csignal>

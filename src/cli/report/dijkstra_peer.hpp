@@ -4,8 +4,8 @@
 
 #include <plexway/complex/ids.hpp>
 
-#include "domain.hpp"
-#include "solve_options.hpp"
+#include "cli/options/input.hpp"
+#include "cli/options/solve_options.hpp"
 
 namespace plexway::cli {
 

@@ -1,4 +1,4 @@
-#include "distance_output.hpp"
+#include "cli/report/distance_output.hpp"
 
 #include <algorithm>
 #include <charconv>
@@ -8,7 +8,7 @@
 
 #include <plexway/error.hpp>
 
-#include "console.hpp"
+#include "cli/report/console.hpp"
 #include "io/extension.hpp"
 
 namespace plexway::cli {

@@ -1,13 +1,14 @@
 #include <plexway/complex/point_cloud.hpp>
 #include <plexway/complex/smoothing.hpp>
 
-#include "info_report.hpp"
-#include "simplex_edges.hpp"
+#include "any/simplex_edges.hpp"
+#include "cli/report/cloud_words.hpp"
+#include "cli/report/info_report.hpp"
 
 namespace plexway::cli {
 namespace {
 
-std::vector<std::string> warnings_of(const Cloud& cloud, const CloudSummary& summary,
+std::vector<std::string> warnings_of(const CloudShape& cloud, const CloudSummary& summary,
                                      double noise) {
   std::vector<std::string> warnings;
   const auto warn = [&](std::size_t count, std::string_view plural, const char* meaning) {
@@ -32,14 +33,13 @@ std::vector<std::string> warnings_of(const Cloud& cloud, const CloudSummary& sum
 
 }  // namespace
 
-InfoReport info_of(const Domain& domain, const Cloud& cloud) {
-  const CloudSummary summary = with_file_name(domain, [&] {
-    return PointCloud<double>(cloud.measured(), cloud.neighbours, cloud_options(cloud)).summary();
-  });
+InfoReport info_of(const Domain& domain, const CloudShape& cloud) {
+  const AnyDomain built = measured_domain(domain);
+  const CloudSummary& summary = *built.cloud();
   const std::vector<double> lengths = lengths_of(edges_of(cloud));
   const auto& positions = cloud.points.positions;
   const Spread spread = spread_of(lengths);
-  const Box box = bounding_box(positions);
+  const Bounds box = bounding_box(positions);
   const std::optional<std::vector<std::size_t>> sizes = summary.component_sizes;
   const auto connecting = connecting_k(cloud);
   const double noise = noise_level(cloud.measured(), cloud.neighbours);

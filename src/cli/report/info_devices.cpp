@@ -5,8 +5,8 @@
 
 #include <plexway/error.hpp>
 
-#include "executor_argument.hpp"
-#include "info_report.hpp"
+#include "cli/options/executor_argument.hpp"
+#include "cli/report/info_report.hpp"
 
 namespace plexway::cli {
 namespace {

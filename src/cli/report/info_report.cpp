@@ -1,4 +1,4 @@
-#include "info_report.hpp"
+#include "cli/report/info_report.hpp"
 
 #include <algorithm>
 
@@ -13,7 +13,7 @@ std::string point_text(const std::array<double, 3>& point) {
 
 }  // namespace
 
-Json to_json(const Box& box) { return {{"min", box.low}, {"max", box.high}}; }
+Json to_json(const Bounds& box) { return {{"min", box.low}, {"max", box.high}}; }
 
 Json to_json(const Spread& spread) {
   return {{"min", json_number(spread.min)},
@@ -21,7 +21,9 @@ Json to_json(const Spread& spread) {
           {"max", json_number(spread.max)}};
 }
 
-std::string to_text(const Box& box) { return point_text(box.low) + " to " + point_text(box.high); }
+std::string to_text(const Bounds& box) {
+  return point_text(box.low) + " to " + point_text(box.high);
+}
 
 std::string to_text(const Spread& spread) {
   return "min " + short_number(spread.min) + ", mean " + short_number(spread.mean) + ", max " +

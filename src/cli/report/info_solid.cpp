@@ -1,14 +1,14 @@
 #include <plexway/complex/tet_mesh.hpp>
 
-#include "info_report.hpp"
-#include "make_complex.hpp"
-#include "solid_survey.hpp"
+#include <plexway/any/complex.hpp>
+#include "any/solid_survey.hpp"
+#include "cli/report/info_report.hpp"
 
 namespace plexway::cli {
 
 InfoReport info_of(const Domain& domain, const io::Tets& solid) {
-  const SolidSummary summary =
-      with_file_name(domain, [&] { return make_complex<double>(solid).summary(); });
+  const AnyDomain built = measured_domain(domain);
+  const SolidSummary& summary = complex_as<TetMesh<double>>(built).summary();
   const SolidSurvey survey = survey_solid(solid);
   const auto sizes = component_sizes(domain);
   const auto warnings = solid_warnings(summary, survey);

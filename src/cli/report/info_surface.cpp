@@ -1,19 +1,19 @@
 #include <plexway/complex/triangle_mesh.hpp>
 
-#include "info_report.hpp"
-#include "make_complex.hpp"
-#include "surface_survey.hpp"
-#include "triangulation_option.hpp"
+#include <plexway/any/complex.hpp>
+#include "any/surface_survey.hpp"
+#include "cli/options/triangulation_option.hpp"
+#include "cli/report/info_report.hpp"
 
 namespace plexway::cli {
 
 InfoReport info_of(const Domain& domain, const io::Triangles& surface) {
-  const TriangleMesh<double> mesh =
-      with_file_name(domain, [&] { return make_complex<double>(surface); });
+  const AnyDomain built = measured_domain(domain);
+  const auto& mesh = complex_as<TriangleMesh<double>>(built);
   const SurfaceSummary& summary = mesh.summary();
   const TriangulationShape shape = measure_triangulation(mesh);
   const SurfaceSurvey survey = survey_surface(surface);
-  const Box box{survey.low, survey.high};
+  const Bounds box{survey.low, survey.high};
   const Spread edge{survey.shortest_edge, survey.mean_edge, survey.longest_edge};
   const auto sizes = component_sizes(domain);
   const auto warnings = surface_warnings(summary, survey);
@@ -38,10 +38,10 @@ InfoReport info_of(const Domain& domain, const io::Triangles& surface) {
   json["warnings"] = warnings;
 
   Table& table = report.table;
-  table.add(std::string(domain.kind()), counted(summary.vertices, "vertices") + ", " +
-                                            counted(summary.edges, "edges") + ", " +
-                                            counted(summary.faces, domain.simplex_name()) + ", " +
-                                            counted(summary.components, "components"));
+  table.add(std::string(domain.kind_name()), counted(summary.vertices, "vertices") + ", " +
+                                                 counted(summary.edges, "edges") + ", " +
+                                                 counted(summary.faces, domain.simplex_name()) +
+                                                 ", " + counted(summary.components, "components"));
   add_sizes(table, sizes);
   table.add("bounding box", to_text(box));
   table.add("edge length", to_text(edge));

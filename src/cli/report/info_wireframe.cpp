@@ -1,15 +1,11 @@
 #include <numeric>
 
-#include "info_report.hpp"
-#include "make_complex.hpp"
-#include "simplex_edges.hpp"
+#include <plexway/any/complex.hpp>
+#include "any/simplex_edges.hpp"
+#include "cli/report/info_report.hpp"
 
 namespace plexway::cli {
 namespace {
-
-WireframeSummary summary_of(const Domain& domain, const io::Edges& wireframe) {
-  return with_file_name(domain, [&] { return make_complex<double>(wireframe).summary(); });
-}
 
 std::vector<std::string> warnings_of(const WireframeSummary& summary, std::size_t coincident) {
   std::vector<std::string> warnings;
@@ -49,7 +45,8 @@ Degrees degrees_of(const io::Edges& wireframe) {
 }  // namespace
 
 InfoReport info_of(const Domain& domain, const io::Edges& wireframe) {
-  const WireframeSummary summary = summary_of(domain, wireframe);
+  const AnyDomain built = measured_domain(domain);
+  const WireframeSummary& summary = complex_as<Wireframe<double>>(built).summary();
   const std::vector<double> lengths = lengths_of(wireframe);
   const Spread spread = spread_of(lengths);
   const double total = std::accumulate(lengths.begin(), lengths.end(), 0.0);
@@ -57,7 +54,7 @@ InfoReport info_of(const Domain& domain, const io::Edges& wireframe) {
   const bool placed = !wireframe.positions.empty();
   const std::size_t coincident =
       placed ? count_coincident(wireframe.positions, wireframe.edges) : 0;
-  const Box box = bounding_box(wireframe.positions);
+  const Bounds box = bounding_box(wireframe.positions);
   const auto sizes = component_sizes(domain);
   const auto warnings = warnings_of(summary, coincident);
 

@@ -1,4 +1,4 @@
-#include "point_output.hpp"
+#include "cli/report/point_output.hpp"
 
 #include <array>
 #include <string>

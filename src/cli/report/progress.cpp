@@ -1,11 +1,11 @@
-#include "progress.hpp"
+#include "cli/report/progress.hpp"
 
 #include <unistd.h>
 
 #include <algorithm>
 #include <cstdio>
 
-#include "console.hpp"
+#include "cli/report/console.hpp"
 
 namespace plexway::cli {
 

@@ -31,6 +31,13 @@ class ProgressLine {
 
   /// For PropagateOptions::progress; empty where nothing would be shown.
   [[nodiscard]] std::function<bool(const Progress&)> callback();
+  /// The same for work that tells its share.
+  [[nodiscard]] std::function<bool(double)> share_callback() {
+    return [this](double share) {
+      done(share);
+      return true;
+    };
+  }
 
  private:
   using Clock = std::chrono::steady_clock;

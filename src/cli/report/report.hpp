@@ -8,19 +8,12 @@
 #include <utility>
 #include <vector>
 
+#include "any/words.hpp"
+
 namespace plexway::cli {
 
 /// Keeps its keys in the order they were put in.
 using Json = nlohmann::ordered_json;
-
-/// "triangle" for "triangles"; knows "vertices" and "tetrahedra" too.
-std::string singular(std::string_view plural);
-/// "1 triangle", "2 triangles"; the plural is given.
-std::string counted(std::size_t count, std::string_view plural);
-/// Four significant digits, for people: "0.01234", "1.235e-07", "inf".
-std::string short_number(double value);
-/// "1.23 s", "4.5 ms".
-std::string short_time(double seconds);
 
 /// Lines of a label and what it stands for, labels aligned.
 class Table {

@@ -1,4 +1,4 @@
-#include "source_marks.hpp"
+#include "cli/report/source_marks.hpp"
 
 #include <utility>
 #include <variant>

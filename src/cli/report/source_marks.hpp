@@ -2,7 +2,7 @@
 
 #include <plexway/source/source.hpp>
 
-#include "picture_options.hpp"
+#include "cli/options/picture_options.hpp"
 
 namespace plexway::cli {
 

@@ -1,4 +1,4 @@
-#include "table_file.hpp"
+#include "cli/report/table_file.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -5,7 +5,7 @@
 #include <plexway/complex/triangle_mesh.hpp>
 #include <plexway/propagate/probe_table.hpp>
 
-#include "report.hpp"
+#include "cli/report/report.hpp"
 
 namespace plexway::cli {
 

@@ -1,4 +1,4 @@
-#include "truth_file.hpp"
+#include "cli/report/truth_file.hpp"
 
 #include <algorithm>
 #include <charconv>

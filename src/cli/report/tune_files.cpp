@@ -1,4 +1,4 @@
-#include "tune_files.hpp"
+#include "cli/report/tune_files.hpp"
 
 #include <algorithm>
 #include <charconv>
@@ -9,9 +9,9 @@
 #include <plexway/error.hpp>
 #include <plexway/io/triangles.hpp>
 
+#include "cli/report/table_file.hpp"
+#include "cli/report/truth_file.hpp"
 #include "io/output_file.hpp"
-#include "table_file.hpp"
-#include "truth_file.hpp"
 
 namespace plexway::cli {
 namespace {

@@ -6,7 +6,7 @@
 
 #include <plexway/apps/tuning.hpp>
 
-#include "report.hpp"
+#include "cli/report/report.hpp"
 
 namespace plexway::cli {
 

@@ -1,5 +1,3 @@
-#include "source_curves.hpp"
-
 #include <algorithm>
 #include <array>
 #include <map>
@@ -10,12 +8,14 @@
 #include <plexway/apps/path_field.hpp>
 #include <plexway/solve.hpp>
 
-namespace plexway::cli {
+#include "any/shape_state.hpp"
+
+namespace plexway {
 namespace {
 
 template <class Complex, class Positions>
 std::vector<PointSource> join(const Complex& complex, const Positions& positions,
-                              std::span<const PointSource> points, const std::string& text) {
+                              std::span<const PointSource> points) {
   PathField field(complex, positions);
   std::vector<PointSource> curve = {points[0]};
   for (std::size_t n = 1; n < points.size(); ++n) {
@@ -23,8 +23,7 @@ std::vector<PointSource> join(const Complex& complex, const Positions& positions
     field.solve(Serial{}, points[n]);
     const Path path = field.trace(points[n - 1]);
     if (path.points.empty())
-      throw InputError("source " + text + ": no path leads from point " + std::to_string(n - 1) +
-                       " to the next");
+      throw InputError("no path leads from point " + std::to_string(n - 1) + " to the next");
     for (std::size_t i = 1; i + 1 < path.points.size(); ++i) {
       const PathPoint& at = path.points[i];
       curve.push_back({.simplex = at.simplex, .barycentric = at.barycentric});
@@ -77,41 +76,43 @@ std::vector<PointSource> rim_lines(const io::Triangles& surface) {
 
 }  // namespace
 
-std::vector<PointSource> joined(const Domain& domain, std::span<const PointSource> points,
-                                const std::string& text) {
-  if (const auto* surface = std::get_if<io::Triangles>(&domain.shape()))
-    return with_file_name(domain, [&] {
+CurveSource AnyShape::joined(std::span<const PointSource> points) const {
+  const bool shown = !positions().empty() && !points.empty();
+  const auto* surface = std::get_if<io::Triangles>(&data());
+  const auto* wires = std::get_if<io::Edges>(&data());
+  if (!shown || (surface == nullptr && wires == nullptr))
+    throw UsageError("lines go along surfaces and wireframes with positions, not a " +
+                     std::string(kind_name()));
+  return with_file_name(*this, [&]() -> CurveSource {
+    if (surface != nullptr) {
       const TriangleMesh<double> mesh(surface->positions, surface->triangles);
-      return join(mesh, surface->positions, points, text);
-    });
-  if (const auto* wires = std::get_if<io::Edges>(&domain.shape()))
-    return with_file_name(domain, [&] {
-      const Wireframe<double> wireframe(wires->positions, wires->edges);
-      return join(wireframe, wires->positions, points, text);
-    });
-  throw UsageError("--source '" + text + "': for surfaces and wireframes, not a " +
-                   std::string(domain.kind()));
+      return {.points = join(mesh, surface->positions, points)};
+    }
+    const Wireframe<double> wireframe(wires->positions, wires->edges);
+    return {.points = join(wireframe, wires->positions, points)};
+  });
 }
 
-Source boundary_of(const Domain& domain, double offset) {
+Source AnyShape::boundary(double offset) const {
   const auto nothing = [&]() -> InputError {
-    return InputError(domain.file().string() + ": source boundary: the " +
-                      std::string(domain.kind()) + " has none");
+    return InputError("source boundary: the " + std::string(kind_name()) + " has none");
   };
-  if (const auto* surface = std::get_if<io::Triangles>(&domain.shape())) {
+  if (const auto* surface = std::get_if<io::Triangles>(&data())) {
     CurveSource curve{.points = rim_lines(*surface), .offset = offset};
     if (curve.points.empty()) throw nothing();
     return curve;
   }
   VertexSource source{.vertices = {}, .offset = offset};
-  if (const auto* solid = std::get_if<io::Tets>(&domain.shape()))
+  if (const auto* solid = std::get_if<io::Tets>(&data()))
     source.vertices = rim(solid->tets);
-  if (const auto* wires = std::get_if<io::Edges>(&domain.shape()))
+  else if (const auto* wires = std::get_if<io::Edges>(&data()))
     source.vertices = rim(wires->edges);
-  if (domain.cloud() != nullptr)
-    throw UsageError("--source boundary: a cloud of points has no faces to tell it by");
+  else if (cloud() != nullptr)
+    throw UsageError("a cloud of points has no faces to tell its boundary by");
+  else
+    throw UsageError("boundaries are those of surfaces, solids and wireframes");
   if (source.vertices.empty()) throw nothing();
   return source;
 }
 
-}  // namespace plexway::cli
+}  // namespace plexway
