@@ -67,7 +67,8 @@ enum class Spelling {
 /// How to read a domain from a file.
 struct ReadOptions {
   /// What to take it as; nothing: what the file says. A surface may be taken as a solid (it is
-  /// filled), its edges as a wireframe, its vertices as a cloud.
+  /// filled), its edges as a wireframe, its vertices as a cloud; a .msh, .vtu or .vtk as mixed: with
+  /// its lines and triangles beside its tetrahedra.
   std::optional<DomainKind> as = {};
   FillOptions fill = {};
   VolumeOptions volume = {};
@@ -81,6 +82,8 @@ void check(const ReadOptions& options);
 
 /// "surface", "solid", "wireframe", "simplices", "cloud" or "mixed".
 [[nodiscard]] std::string_view kind_name(DomainKind kind);
+/// In a sentence: "surface", but "mixed domain" and "complex of simplices".
+[[nodiscard]] std::string_view kind_noun(DomainKind kind);
 /// The kind of that name, if there is one.
 [[nodiscard]] std::optional<DomainKind> kind_named(std::string_view name);
 

@@ -16,6 +16,7 @@
 #include <plexway/any/read_options.hpp>
 #include <plexway/apps/path.hpp>
 #include <plexway/io/edges.hpp>
+#include <plexway/io/simplices.hpp>
 #include <plexway/io/tets.hpp>
 #include <plexway/io/triangles.hpp>
 #include <plexway/metric/edge_lengths.hpp>
@@ -23,17 +24,7 @@
 
 namespace plexway {
 
-/// Simplices of one dimension, 1 to 4, with any number of coordinates or with lengths alone.
-struct SimplexShape {
-  int dimension = 4;
-  std::size_t vertices = 0;
-  std::size_t axes = 0;                ///< coordinates a vertex; 0: none
-  std::vector<double> positions = {};  ///< vertices x axes
-  std::vector<Index> corners = {};     ///< dimension + 1 a simplex
-  /// If there are no positions: dimension (dimension + 1) / 2 a simplex, ordered as
-  /// SimplicialComplex has them.
-  std::vector<double> lengths = {};
-};
+using SimplexShape = io::Simplices;
 
 /// Edges, triangles and tetrahedra over shared vertices. Vertices are numbered through, part after
 /// part; simplices likewise, and in each part edges come first, then triangles, then tetrahedra.
@@ -74,6 +65,13 @@ class AnyShape {
   /// and NotBuiltError for what this build lacks.
   [[nodiscard]] static AnyShape read(const std::filesystem::path& file,
                                      const ReadOptions& options = {});
+
+  /// Reads several files, each a surface, a solid or a wireframe with positions, or a .msh, .vtu or
+  /// .vtk with cells of several dimensions: parts of one mixed domain, whose vertices are one where
+  /// they are closer than `tolerance` in file units, >= 0. Throws as above; UsageError for options
+  /// that say how to fill, repair or connect points.
+  [[nodiscard]] static AnyShape read(std::span<const std::filesystem::path> files,
+                                     double tolerance, const ReadOptions& options = {});
 
   // From arrays: positions in any unit, simplices by vertices counted from 0. All throw InputError
   // that names the simplex for a vertex out of range.

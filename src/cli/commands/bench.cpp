@@ -34,6 +34,7 @@ struct BenchCommand {
   std::size_t random_sources = 0;
   FillArguments fill;
   CloudPreparation cloud;
+  PieceArguments pieces;
   SolveOptions solve;
   TriangulationArgument triangulation;
   bool anatomy = false;
@@ -191,7 +192,7 @@ void run_bench(const BenchCommand& command) {
   Result result;
   ProgressLine progress(command.quiet);
   const Domain domain =
-      load_domain(command.input, command.as, command.fill, command.cloud, progress);
+      load_domain(command.input, command.as, command.fill, command.cloud, progress, command.pieces);
   std::vector<PointSource> sources = locate_sources(domain, arguments);
   const auto truths = read_truths(command, domain);
   if (command.anatomy && truths.empty())
@@ -245,6 +246,7 @@ void add_bench_command(CLI::App& tool, Action& action) {
   CLI::App& app = *tool.add_subcommand(
       "bench", "Speed against Boost.Graph's Dijkstra, and error against truth");
   app.add_option("INPUT", command->input, input_help)->type_name("FILE")->required();
+  add_piece_options(app, command->pieces);
   app.add_option("--source,-s", command->sources,
                  "vertex:ID or point:X,Y,Z; repeat it to take turns between sources")
       ->required()

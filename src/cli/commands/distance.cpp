@@ -40,6 +40,7 @@ struct DistanceCommand {
   IsolineOptions isolines;
   FillArguments fill;
   CloudPreparation cloud;
+  PieceArguments pieces;
   SolveOptions solve;
   PictureArguments picture;
   MetricArgument metric;
@@ -182,7 +183,7 @@ std::string why_unreached(const AnyDomain& solver, bool bounded) {
   if (domain.cloud() != nullptr) {
     if (solver.components() > 1) why = why_disconnected(*domain.cloud(), solver.components());
   } else {
-    why = "the " + std::string(domain.kind_name()) + " has " +
+    why = "the " + std::string(kind_noun(domain.kind())) + " has " +
           counted(solver.components(), "components");
     if (const std::size_t apart = count_apart(domain); apart > 0) {
       why.append(", ").append(counted(apart, "vertices")).append(apart == 1 ? " is" : " are");
@@ -257,6 +258,7 @@ void run_distance(DistanceCommand command) {
   check_isolines(command.isolines, command.input);
   std::vector<std::string> read = {metric_file(command.metric), command.solve.table};
   for (const SetArgument& argument : arguments) read.push_back(argument.file);
+  read.insert(read.end(), command.pieces.more.begin(), command.pieces.more.end());
   if (command.out != "-") check_output_place(command.out, read, "--out");
   check_output_place(command.isolines.out, read, "--isolines-out");
   check_outputs_differ({command.out, command.isolines.out, command.picture.file});
@@ -264,7 +266,7 @@ void run_distance(DistanceCommand command) {
   command.fill.volume.writes_volume = is_vdb(command.out);
   ProgressLine progress(command.quiet);
   const Domain domain =
-      load_domain(command.input, command.as, command.fill, command.cloud, progress);
+      load_domain(command.input, command.as, command.fill, command.cloud, progress, command.pieces);
   if (domain.cloud() == nullptr && command.out != "-")
     check_output_name(command.out, command.input, AnyShape::field_extensions(domain.kind()));
   check_isolines(command.isolines, domain);
@@ -371,6 +373,7 @@ void add_distance_command(CLI::App& tool, Action& action) {
   CLI::App& app = *tool.add_subcommand(
       "distance", "Geodesic distance of every vertex from one or more sources");
   app.add_option("INPUT", command->input, input_help)->type_name("FILE")->required();
+  add_piece_options(app, command->pieces);
   app.add_option("--source,-s", command->sources, source_set_help)
       ->required()
       ->type_name("WHERE")
