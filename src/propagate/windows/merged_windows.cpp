@@ -14,13 +14,17 @@ namespace {
 template <class Real>
 constexpr Real infinity = std::numeric_limits<Real>::infinity();
 
-/// In mean edges.
-constexpr double bucket_width = 0.5;
+/// In mean edges. Wider ones take more turns, since halfedges have theirs before all is there.
+constexpr double bucket_width = 0.125;
+/// Where between its nearest and its farthest distance a window has its turn.
+constexpr double turn_at = 0.3;
 /// Vertices have their turn so much later than their distance, in mean edges: after the light that
 /// may reach them straight.
-constexpr double late = 0.5;
-/// So many turns a halfedge in the mean are too many: one to four are usual.
-constexpr std::size_t patience = 12;
+constexpr double late = 0.25;
+/// So many turns a halfedge in the mean are too many: below one is usual.
+constexpr std::size_t patience = 4;
+/// Boundaries that turn by more than rounding bend paths, radians.
+constexpr double least_bend = 2e-6;
 
 }  // namespace
 
@@ -28,7 +32,11 @@ template <class Real>
 MergedWindows<Real>::MergedWindows(const TriangleMesh<Real>& mesh, const VertexAngles& angles)
     : triangles_(mesh.triangles()), mesh_(mesh), angles_(angles), pseudo_source_(triangles_) {
   excess_.resize(mesh.vertex_count());
-  for (Index v = 0; v < mesh.vertex_count(); ++v) excess_[v] = static_cast<Real>(angles.excess(v));
+  for (Index v = 0; v < mesh.vertex_count(); ++v) {
+    const double excess = angles.excess(v);
+    const bool ear = angles.kind[v] == VertexAngles::boundary && excess > least_bend;
+    excess_[v] = ear ? infinity<Real> : static_cast<Real>(excess);
+  }
 }
 
 template <class Real>
@@ -195,7 +203,10 @@ template <class Order>
                                                               const Window<Real>& window,
                                                               Index source) {
   const Index halfedge = across >> Across::face_shift << 2 | (across & Across::edge_mask);
-  const Real near = window.nearest();
+  const Real nearest = window.nearest();
+  if (nearest > radius_) return;
+  const Real near =
+      nearest + static_cast<Real>(turn_at) * (std::max(window.at_begin, window.at_end) - nearest);
   Index b = pending_[halfedge];
   if (b == none) {
     b = free_block_;
@@ -274,8 +285,6 @@ template <class Real>
     windows.append({block.window[0], block.source[0]});
   else
     gather(windows, block);
-  if (block.nearest > radius_) [[unlikely]]
-    windows.clear();
   block.count = std::exchange(free_block_, b);
 
   turn.to_apex = infinity<Real>;
@@ -321,20 +330,26 @@ void MergedWindows<Real>::commit(Order& order, const Turn& turn) {
   const EnteredTriangle<Real>& t = turn.triangle;
   const Gathered<Real>& windows = turn.windows;
   const Index corner = static_cast<Index>(3 * turn.face + t.before);
-  if (turn.to_apex < infinity<Real>) {
+  Real bound = vertices_[t.p].distance;
+  const bool is_lit = turn.to_apex < infinity<Real>;
+  if (turn.to_apex < bound) {
     const Labelled<Real>& seen = windows[turn.seen];
-    if (turn.to_apex < vertices_[t.p].distance)
-      offer(order, t.p, turn.to_apex, corner, t.towards(seen.window.beam.x, seen.window.beam.h),
-            seen.source, seen.window.error);
-  } else {
-    // Around the nearest end of what is lit.
+    offer(order, t.p, turn.to_apex, corner, t.towards(seen.window.beam.x, seen.window.beam.h),
+          seen.source, seen.window.error);
+    bound = turn.to_apex;
+  }
+  if (!is_lit || windows.size() > 1) {
+    // Around the end of what is lit beside it; where another window sees it, if that is shorter by
+    // more than merging may be off.
+    if (is_lit) bound -= 4 * scale_ * t.width;
     for (std::size_t i = 0; i < windows.size(); ++i) {
       const Window<Real>& w = windows[i].window;
       const bool to_left = turn.spread[i].right_reaches();
+      if (to_left && turn.spread[i].left_reaches()) continue;
       const Real end = to_left ? w.beam.end : w.beam.begin, dx = t.apex_x - end;
-      offer(order, t.p,
-            (to_left ? w.at_end : w.at_begin) + std::sqrt(dx * dx + t.apex_h * t.apex_h),
-            corner | bent, t.towards(end, 0), windows[i].source, w.error);
+      const Real way = (to_left ? w.at_end : w.at_begin) + std::sqrt(dx * dx + t.apex_h * t.apex_h);
+      if (way < bound)
+        offer(order, t.p, way, corner | bent, t.towards(end, 0), windows[i].source, w.error);
     }
   }
   const Real to_a = vertices_[t.a].distance, to_b = vertices_[t.b].distance;
