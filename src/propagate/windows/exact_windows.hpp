@@ -48,7 +48,7 @@ class ExactWindows {
 
  private:
   /// A window, one cache line; or a vertex that is to shine, `at_begin` away.
-  struct Node {
+  struct alignas(64) Node {
     Beam<double> beam;
     double sigma, at_begin, at_end;
     Index edge;  ///< the halfedge it enters by, 4 f + i; or a vertex and vertex_bit
@@ -65,7 +65,9 @@ class ExactWindows {
   template <class Order>
   void seed(Order& order, std::span<const PointSource> sources);
   template <class Order>
-  void expand(Order& order, const Node& window, Index source);
+  void expand(Order& order, Index n);
+  template <class Order>
+  void expand_wide(Order& order, Window<double> window, Index halfedge, Index source);
   template <class Order>
   void shine(Order& order, Index vertex);
   template <class Order>
@@ -94,6 +96,7 @@ class ExactWindows {
   const TriangleMesh<Real>& mesh_;
   const VertexAngles& angles_;
   PseudoSource<Real> pseudo_source_;
+  Index sentinel_;  ///< beyond a boundary
   bool labels_ = false;
   bool splits_whole_ = true;  ///< may a window lose all of a side (see expand)?
   double tie_ = 0, radius_ = 0;

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "propagate/windows/overlay.hpp"
 
@@ -13,8 +15,8 @@ class Gathered : public Overlay<Real> {
   /// Neighbours are joined over gaps up to this share of the edge.
   static constexpr Real joint = Real(3e-2);
 
-  /// Of windows on an edge of that length; `scale`: by so much may a merged one be off on an edge
-  /// of length 1.
+  /// Of windows on an edge of that length; `scale`: by so much may a merged one be off for each
+  /// mean edge that it serves, up to one: errors at random add up to most where edges are long.
   void start(Real length, Real scale) {
     this->clear();
     length_ = length;
@@ -84,8 +86,9 @@ class Gathered : public Overlay<Real> {
  private:
   /// Makes one of two if it may.
   bool fits(Labelled<Real>& u, const Labelled<Real>& w) const {
+    const Real length = w.window.beam.end - u.window.beam.begin;
     return u.source == w.source && joined(u, w) &&
-           merge(u.window, w.window, scale_ * (w.window.beam.end - u.window.beam.begin));
+           merge(u.window, w.window, scale_ * std::min(length, Real(1)));
   }
 
   Real length_ = 0, scale_ = 0;

@@ -53,8 +53,9 @@ class Overlay {
       if (count_ < most) append(added);
       return;
     }
-    const std::array<Labelled<Real>, most> old = pieces_;
     const std::size_t old_count = std::exchange(count_, 0);
+    std::array<Labelled<Real>, most> old;
+    std::copy_n(pieces_.begin(), old_count, old.begin());
     owner_ = nullptr;
     Real from = added.window.beam.begin;
     const Real until = added.window.beam.end;
