@@ -28,7 +28,7 @@ std::string version_text() {
   std::string licence = "MIT";
 #ifdef PLEXWAY_HAS_TETGEN
   providers += " tetgen";
-  licence += "; TetGen 1.5 (AGPL) is built in, so the AGPL holds for this program as a whole";
+  licence += "; the program plexway-tetgen, which fills surfaces, links TetGen 1.5 (AGPL)";
 #endif
 #ifdef PLEXWAY_HAS_FLANN
   providers += " flann";
