@@ -14,6 +14,7 @@
 #include "console.hpp"
 #include "executor_argument.hpp"
 #include "exit_codes.hpp"
+#include "io/file_bytes.hpp"
 
 namespace plexway::cli {
 namespace {
@@ -123,6 +124,8 @@ int fail(ExitCode code, const char* message) noexcept {
 
 int run(int argc, const char* const* argv) noexcept {
   ignore_signals_of_writing();
+  leave_nothing_behind();
+  io::FileBytes::keep_streams();
   try {
     return parse_and_run(argc, argv);
   } catch (const OutputClosed&) {

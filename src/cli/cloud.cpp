@@ -9,6 +9,7 @@
 #include <plexway/io/field.hpp>
 
 #include "io/extension.hpp"
+#include "io/input_name.hpp"
 #include "pcl_functions.hpp"
 #include "report.hpp"
 
@@ -107,8 +108,7 @@ bool all_point_to_one_side(const Cloud& cloud) {
 }  // namespace
 
 bool is_cloud_file(const std::string& file) {
-  const std::string extension = io::lower_extension(file);
-  return extension == ".xyz" || extension == ".pcd";
+  return io::InputName(file).extension == ".xyz" || io::lower_extension(file) == ".pcd";
 }
 
 CloudFile read_cloud(const std::string& file) {

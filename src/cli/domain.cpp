@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <fstream>
 #include <optional>
 #include <system_error>
 #include <utility>
@@ -10,7 +9,8 @@
 #include <plexway/io/field.hpp>
 
 #include "closest_point.hpp"
-#include "io/extension.hpp"
+#include "io/file_bytes.hpp"
+#include "io/input_name.hpp"
 #include "openvdb_functions.hpp"
 #include "simplex_edges.hpp"
 
@@ -30,14 +30,16 @@ std::optional<Kind> asked_for(const std::string& as) {
 }
 
 bool has_extension(const std::filesystem::path& file, std::span<const std::string_view> known) {
-  const std::string extension = io::lower_extension(file);
+  const std::string extension = io::InputName(file).extension;
   return std::find(known.begin(), known.end(), extension) != known.end();
 }
 
 // Whether an .obj has a statement that starts with this letter.
 bool has_statement(const std::string& file, char letter) {
-  std::ifstream in(file);
-  for (std::string line; std::getline(in, line);) {
+  const io::FileBytes bytes(file);
+  for (std::string_view rest = bytes.view(); !rest.empty();) {
+    const std::string_view line = rest.substr(0, rest.find('\n'));
+    rest.remove_prefix(std::min(line.size() + 1, rest.size()));
     const std::size_t at = line.find_first_not_of(" \t");
     if (at != line.npos && line[at] == letter && at + 1 < line.size() &&
         (line[at + 1] == ' ' || line[at + 1] == '\t'))
@@ -45,6 +47,9 @@ bool has_statement(const std::string& file, char letter) {
   }
   return false;
 }
+
+// Those whose readers go back and forth, or look for a second file beside it.
+constexpr std::array<std::string_view, 4> tied_to_names = {".poly", ".smesh", ".vdb", ".pcd"};
 
 // An .obj may be either of two. Only one that cannot be read as a surface is looked at again.
 Domain::Shape read_obj(const std::string& file, std::optional<Kind> asked) {
@@ -67,7 +72,13 @@ Domain::Shape read(const std::string& file, std::optional<Kind> asked) {
   std::error_code ignored;
   if (std::filesystem::is_directory(file, ignored))
     throw InputError(file + ": is a directory, not a file");
-  const std::string extension = std::filesystem::path(file).extension().string();
+  const std::string extension = io::InputName(file).extension;
+  if (has_extension(file, tied_to_names))
+    throw InputError(file + ": a " + extension +
+                     " must be a file with that extension: it is not read from end to end, or not "
+                     "alone");
+  if (extension.empty() && io::InputName(file).standard_input)
+    throw InputError(file + ": standard input has no extension: say what it is, as in ply:-");
   throw InputError(
       file + ": " + (extension.empty() ? "no extension" : "unknown extension '" + extension + "'") +
       "; known are .obj .off .ply .stl for surfaces, .node .ele .mesh .msh .vtu .vtk "
