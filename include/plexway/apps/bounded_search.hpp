@@ -24,6 +24,9 @@ struct Surroundings {
   std::vector<Vertex> vertices;  ///< no farther than the radius, each once
   std::vector<Index> simplices;  ///< those that were reached, each once; may reach beyond
   bool complete = true;          ///< false if max_expansions ended the search early
+  /// Longest edge of the triangles that were reached. A triangle whose centre is beyond the radius
+  /// is not passed, so within the radius less this every distance is that of an endless search.
+  double longest_edge = 0;
   PropagateStatistics statistics;
 };
 
