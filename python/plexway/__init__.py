@@ -37,18 +37,9 @@ from ._plexway import (
     UsageError,
     __version__,
 )
-from ._domains import (
-    Cloud,
-    Domain,
-    Mixed,
-    Simplicial,
-    Solid,
-    Surface,
-    Wireframe,
-    distance,
-    domain,
-    read,
-)
+from ._domain import Domain
+from ._kinds import Cloud, Mixed, Simplicial, Solid, Surface, Wireframe
+from ._make import distance, domain, read
 from ._metrics import EdgeLengths, SimplexSpeeds, SimplexTensors, VertexTensors
 from ._results import Cells, Disks, FarthestPoints, Field, Isosurfaces, Path, Picture, Points
 from ._sources import (

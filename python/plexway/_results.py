@@ -15,7 +15,7 @@ from ._sources import Point, Vertex, located, place
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike
 
-    from ._domains import Domain
+    from ._domain import Domain
     from ._sources import Place
 
 
