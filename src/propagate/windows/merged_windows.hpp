@@ -83,12 +83,14 @@ class MergedWindows {
   /// are looked at.
   struct Turn {
     Index face;
+    Real scale;
     EnteredTriangle<Real> triangle;
     Gathered<Real> windows;
     std::array<Spread<Real>, Overlay<Real>::most> spread;
     Real to_apex;  ///< straight; +inf where the apex lies in shadow as far as these windows know
     std::size_t seen;  ///< from this window
   };
+  static constexpr std::size_t batch = 4;  ///< turns at a time
   enum class Outcome { done, stopped, too_much };
 
   template <class Order>
@@ -97,8 +99,12 @@ class MergedWindows {
   void seed(Order& order, std::span<const PointSource> sources);
   template <class Order>
   bool fill_holes(Order& order);
+  Block& start(Turn& turn, Index block);
+  void fetch(Index node) const;
   template <class Order>
-  void pass(Order& order, Index block);
+  void commit_any(Order& order, const Turn& turn);
+  template <class Order>
+  void commit_one(Order& order, const Turn& turn);
   void prepare(Turn& turn);
   template <class Order>
   void commit(Order& order, const Turn& turn);
@@ -116,9 +122,7 @@ class MergedWindows {
              Index source, Real error);
 
   void gather(Gathered<Real>& windows, const Block& block) const;
-  void make_room(Block& block);
-  void fetch(Index node) const;
-  void set_scale(double distance);
+  [[nodiscard]] Real scale_at(double distance) const;
   [[nodiscard]] Real near(Index node) const;
   [[nodiscard]] Index& next(Index node);
 
@@ -141,8 +145,7 @@ class MergedWindows {
   std::vector<Index> vertex_next_;
   std::vector<Index> corners_;
   Index free_block_ = none;
-  Gathered<Real> crowd_;  ///< of a block that is full
-  Turn turn_;
+  std::array<Turn, batch> turns_;
   bool complete_ = true;
   PropagateStatistics statistics_;
   NearestOfAll nearest_;
