@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <fstream>
 #include <system_error>
 #include <utility>
 
@@ -12,20 +11,23 @@
 #include "any/openvdb_functions.hpp"
 #include "any/shape_state.hpp"
 #include "any/simplex_edges.hpp"
-#include "io/extension.hpp"
+#include "io/file_bytes.hpp"
+#include "io/input_name.hpp"
 
 namespace plexway {
 namespace {
 
 bool has_extension(const std::filesystem::path& file, std::span<const std::string_view> known) {
-  const std::string extension = io::lower_extension(file);
+  const std::string extension = io::InputName(file).extension;
   return std::find(known.begin(), known.end(), extension) != known.end();
 }
 
 // Whether an .obj has a statement that starts with this letter.
 bool has_statement(const std::string& file, char letter) {
-  std::ifstream in(file);
-  for (std::string line; std::getline(in, line);) {
+  const io::FileBytes bytes(file);
+  for (std::string_view rest = bytes.view(); !rest.empty();) {
+    const std::string_view line = rest.substr(0, rest.find('\n'));
+    rest.remove_prefix(std::min(line.size() + 1, rest.size()));
     const std::size_t at = line.find_first_not_of(" \t");
     if (at != line.npos && line[at] == letter && at + 1 < line.size() &&
         (line[at + 1] == ' ' || line[at + 1] == '\t'))
@@ -35,6 +37,9 @@ bool has_statement(const std::string& file, char letter) {
 }
 
 using Data = AnyShape::Data;
+
+// Those whose readers go back and forth, or look for a second file beside it.
+constexpr std::array<std::string_view, 4> tied_to_names = {".poly", ".smesh", ".vdb", ".pcd"};
 
 // An .obj may be either of two. Only one that cannot be read as a surface is looked at again.
 Data read_obj(const std::string& file, std::optional<DomainKind> asked) {
@@ -68,11 +73,17 @@ Data read_mesh(const std::string& file, std::optional<DomainKind> asked) {
   if (asked == DomainKind::mixed && has_extension(file, io::mixed_extensions()))
     return mixed_of(io::read_mixed(file));
   if (has_extension(file, io::tet_extensions())) return io::read_tets(file);
-  if (io::lower_extension(file) == ".simplices") return io::read_simplices(file);
+  if (io::InputName(file).extension == ".simplices") return io::read_simplices(file);
   std::error_code ignored;
   if (std::filesystem::is_directory(file, ignored))
     throw InputError(file + ": is a directory, not a file");
-  const std::string extension = std::filesystem::path(file).extension().string();
+  const std::string extension = io::InputName(file).extension;
+  if (has_extension(file, tied_to_names))
+    throw InputError(file + ": a " + extension +
+                     " must be a file with that extension: it is not read from end to end, or not "
+                     "alone");
+  if (extension.empty() && io::InputName(file).standard_input)
+    throw InputError(file + ": standard input has no extension: say what it is, as in ply:-");
   throw InputError(
       file + ": " + (extension.empty() ? "no extension" : "unknown extension '" + extension + "'") +
       "; known are .obj .off .ply .stl for surfaces, .node .ele .mesh .msh .vtu .vtk "

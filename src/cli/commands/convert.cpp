@@ -170,7 +170,6 @@ void run_convert(const ConvertCommand& command) {
   ProgressLine progress(command.quiet);
   const Stopwatch clock;
   Conversion conversion(command, progress);
-  const std::string extension = io::lower_extension(command.input);
   const bool is_cloud = command.as.empty() && !command.fill.volume.repair &&
                         (is_cloud_file(command.input) || io::is_ply_cloud(command.input));
   if (is_cloud || command.as == "cloud")

@@ -217,6 +217,7 @@ void run_path(const PathCommand& command) {
   check_picture(command.picture, command.input);
   const std::array read = {metric_file(command.metric), command.solve.table};
   check_output_place(command.out, read, "--out");
+  check_outputs_differ({command.out, command.picture.file});
 
   ProgressLine progress(command.quiet);
   const Domain domain =
