@@ -132,10 +132,12 @@ Json to_json(const BenchCommand& command, const Domain& domain, const Solver& so
   json["kind"] = domain.kind();
   json["vertices"] = domain.vertices();
   json["simplices"] = solver.simplices();
-  json["precision"] = command.solve.precision;
+  json["precision"] = precision_of(command.solve) == Precision::single ? "float" : "double";
   json["executor"] = executor_name(result.executor);
   json["threads"] = executor_threads(result.executor);
   json["visibility"] = command.solve.visibility;
+  if (domain.kind() == "surface" || domain.cloud() != nullptr)
+    json["accuracy"] = json_of(solver.accuracy());
   if (domain.kind() == "surface") {
     json["triangulation"] = name_of(solver.triangulation());
     json["flips"] = solver.triangulation().flips;

@@ -171,12 +171,13 @@ Index nearest_point(const Cloud& cloud, const std::array<double, 3>& point) {
 }
 
 void write_field(const std::filesystem::path& out, const Cloud& cloud,
-                 std::span<const double> distance, std::span<const std::int32_t> label) {
+                 std::span<const double> distance, std::span<const std::int32_t> label,
+                 std::span<const double> error) {
   if (io::lower_extension(out) == ".pcd")
     pcl_functions("--out " + out.string())
         .write_field(out, cloud.points.positions, distance, cloud.points.original);
   else
-    io::write_field(out, cloud.points, distance, label);
+    io::write_field(out, cloud.points, distance, label, error);
 }
 
 std::span<const std::string_view> cloud_field_extensions() {

@@ -74,7 +74,8 @@ Index nearest_point(const Cloud& cloud, const std::array<double, 3>& point);
 /// Writes one distance a point; the extension of `out` picks the format. Throws as io::write_field
 /// and, for .pcd, as pcl::write_field.
 void write_field(const std::filesystem::path& out, const Cloud& cloud,
-                 std::span<const double> distance, std::span<const std::int32_t> label);
+                 std::span<const double> distance, std::span<const std::int32_t> label,
+                 std::span<const double> error = {});
 
 /// The extensions that the fields of clouds may have: those of io::write_field and .pcd.
 std::span<const std::string_view> cloud_field_extensions();

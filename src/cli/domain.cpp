@@ -262,7 +262,7 @@ std::array<double, 3> Domain::position(const PointSource& source) const {
 }
 
 void Domain::write_field(const std::filesystem::path& out, std::span<const double> distance,
-                         std::span<const std::int32_t> label) const {
+                         std::span<const std::int32_t> label, std::span<const double> error) const {
   if (is_vdb(out.string())) {
     const auto* solid = std::get_if<io::Tets>(&shape_);
     if (solid == nullptr)
@@ -273,7 +273,14 @@ void Domain::write_field(const std::filesystem::path& out, std::span<const doubl
     return;
   }
   using io::write_field;  // and the one of clouds
-  std::visit([&](const auto& shape) { write_field(out, shape, distance, label); }, shape_);
+  std::visit(
+      [&](const auto& shape) {
+        if constexpr (requires { write_field(out, shape, distance, label, error); })
+          write_field(out, shape, distance, label, error);
+        else
+          write_field(out, shape, distance, label);
+      },
+      shape_);
 }
 
 std::span<const std::string_view> Domain::field_extensions() const {

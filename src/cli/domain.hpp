@@ -73,7 +73,7 @@ class Domain {
   /// Writes one distance a vertex; the extension of `out` picks the format. Throws as
   /// io::write_field; a cloud fits a .pcd as well, a solid a .vdb.
   void write_field(const std::filesystem::path& out, std::span<const double> distance,
-                   std::span<const std::int32_t> label) const;
+                   std::span<const std::int32_t> label, std::span<const double> error = {}) const;
   /// The extensions that its fields may have.
   [[nodiscard]] std::span<const std::string_view> field_extensions() const;
 

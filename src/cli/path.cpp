@@ -59,6 +59,7 @@ struct Outcome {
   std::vector<double> promised;  // of each target, as the field has it
   TriangulationReport triangulation;
   PropagateStatistics statistics;
+  Accuracy accuracy = Accuracy::fast();
   double build = 0, solve = 0, trace = 0;
 };
 
@@ -73,17 +74,24 @@ std::span<const std::array<double, 3>> positions_of(const Shape& shape) {
     return shape.positions;
 }
 
-// The distances of the input's vertices, on other triangles over the same surface.
+// On other triangles over the same surface: the distances of the input's vertices, and by windows
+// those of the targets.
 template <class Real>
 DistanceField<Real> solve_on(const TriangleMesh<Real>& other, const IntrinsicDelaunay& delaunay,
                              std::size_t vertices, std::span<const PointSource> sources,
-                             const PropagateOptions& options) {
-  std::vector<PointSource> there;
-  for (const PointSource& source : sources) there.push_back(delaunay.to_intrinsic(source));
-  DistanceField<Real> field =
-      plexway::solve(Serial{}, other, std::span<const PointSource>(there), options);
+                             std::span<const PointSource> targets, const PropagateOptions& options,
+                             std::vector<double>& promised) {
+  const auto moved = [&](std::span<const PointSource> points) {
+    std::vector<PointSource> there;
+    for (const PointSource& point : points) there.push_back(delaunay.to_intrinsic(point));
+    return there;
+  };
+  PathField solver(other);
+  DistanceField<Real> field = solver.solve(Serial{}, moved(sources), options);
+  if (field.accuracy != Accuracy::fast()) promised = solver.at(moved(targets));
   field.distance.resize(vertices);
   field.label.resize(std::min(field.label.size(), vertices));
+  field.error.resize(std::min(field.error.size(), vertices));
   return field;
 }
 
@@ -127,21 +135,25 @@ Outcome find_paths(const Shape& shape, const MeasuredLengths* lengths, const Pat
                                          outcome.triangulation);
     elsewhere = outcome.triangulation.flips + outcome.triangulation.inserted_vertices > 0;
     if (elsewhere)
-      field.adopt(
-          solve_on(made.mesh, *made.delaunay, complex.vertex_count(), sources, with_progress),
-          sources);
+      field.adopt(solve_on(made.mesh, *made.delaunay, complex.vertex_count(), sources, targets,
+                           with_progress, outcome.promised),
+                  sources);
   }
   if (!elsewhere) field.solve(Serial{}, std::span<const PointSource>(sources), with_progress);
   outcome.solve = solving.seconds();
   outcome.statistics = field.distances().statistics;
+  outcome.accuracy = field.distances().accuracy;
   outcome.distance.assign(field.distances().distance.begin(), field.distances().distance.end());
   progress.phase("tracing");
   const Stopwatch tracing;
   for (const PointSource& target : targets) {
     outcome.paths.push_back(field.trace(target, command.trace));
+    if (outcome.promised.size() == targets.size()) continue;
     double promised = target.vertex == none ? 0 : outcome.distance[target.vertex];
     if constexpr (requires { field.at(target, ReadOut::linear); })
-      if (target.vertex == none) promised = field.at(target, ReadOut::linear);
+      if (target.vertex == none)
+        promised = field.at(
+            target, outcome.accuracy == Accuracy::fast() ? ReadOut::linear : ReadOut::neighbours);
     outcome.promised.push_back(promised);
   }
   if constexpr (std::is_same_v<Shape, io::Triangles>) {
@@ -153,7 +165,7 @@ Outcome find_paths(const Shape& shape, const MeasuredLengths* lengths, const Pat
         doubtful.push_back(k);
     }
     // Labels on the triangles of the path lead closer to it than distances of vertices do.
-    if (elsewhere && !doubtful.empty()) {
+    if (elsewhere && !doubtful.empty() && outcome.accuracy == Accuracy::fast()) {
       field.solve(Serial{}, std::span<const PointSource>(sources), with_progress);
       for (const std::size_t k : doubtful) {
         Path path = field.trace(targets[k], command.trace);
@@ -197,6 +209,8 @@ Json to_json(const PathCommand& command, const Domain& domain, const Outcome& ou
     one["capped"] = path.capped;
     json["paths"].push_back(one);
   }
+  if (domain.kind() == "surface" || domain.cloud() != nullptr)
+    json["accuracy"] = json_of(outcome.accuracy);
   if (!command.metric.text.empty()) json["metric"] = command.metric.text;
   json["seconds"]["load"] = domain.load_seconds();
   if (domain.mesh_seconds()) json["seconds"]["mesh"] = *domain.mesh_seconds();
@@ -267,6 +281,9 @@ void run_path(const PathCommand& command) {
     throw UsageError("--margin must be >= 0 and < 1");
   if (command.astar && options.visibility != Visibility::saddles)
     throw UsageError("--astar knows the default visibility only");
+  if (command.astar && options.accuracy != Accuracy::usual() &&
+      options.accuracy != Accuracy::fast())
+    throw UsageError("--astar searches with one label a triangle: it knows --accuracy fast only");
 
   if (command.astar && (command.solve.schedule_given || command.solve.step_given))
     throw UsageError(

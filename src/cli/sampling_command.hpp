@@ -26,6 +26,8 @@ namespace plexway::cli {
 struct SamplingCommand {
   std::string input, as, out;
   std::string precision = "float";
+  bool precision_given = false;
+  std::string accuracy;  ///< where the command has the option
   FillOptions fill;
   CloudArguments cloud;
   PictureArguments picture;

@@ -120,6 +120,12 @@ class ShapeSolver final : public Solver {
     return labels;
   }
 
+  std::vector<double> error() const override {
+    if (field_.error.empty()) return {};
+    return {field_.error.begin(), field_.error.end() - inserted()};
+  }
+  Accuracy accuracy() const override { return field_.accuracy; }
+
   const PropagateStatistics& statistics() const override { return field_.statistics; }
   bool complete() const override { return field_.complete; }
 

@@ -50,6 +50,9 @@ class Solver {
   [[nodiscard]] virtual std::vector<double> distance() const = 0;
   /// Nearest source of each vertex, -1 where unreached; empty for a single source.
   [[nodiscard]] virtual std::vector<std::int32_t> label() const = 0;
+  /// Estimates of each distance's error; empty for Accuracy::fast().
+  [[nodiscard]] virtual std::vector<double> error() const = 0;
+  [[nodiscard]] virtual Accuracy accuracy() const = 0;
   [[nodiscard]] virtual const PropagateStatistics& statistics() const = 0;
   [[nodiscard]] virtual bool complete() const = 0;
 
