@@ -51,7 +51,8 @@ ExactWindows<Real>::ExactWindows(const TriangleMesh<Real>& mesh, const VertexAng
 
 template <class Real>
 void ExactWindows<Real>::solve(std::span<const PointSource> sources,
-                               const PropagateOptions& options) {
+                               const PropagateOptions& options, KeptWindows<Real>* kept) {
+  kept_ = kept;
   distance_.assign(mesh_.vertex_count(), infinity);
   arrival_.resize(mesh_.vertex_count());
   labels_ = sources.size() > 1;
@@ -115,10 +116,17 @@ void ExactWindows<Real>::run(Order& order, const PropagateOptions& options) {
     ++statistics_.expansions;
     const Node node = nodes_[n];
     nodes_[n].next = std::exchange(free_, n);
-    if (node.edge & vertex_bit)
+    if (node.edge & vertex_bit) {
       shine(order, node.edge & ~vertex_bit);
-    else
-      expand(order, node, labels_ ? node_source_[n] : 0);
+      continue;
+    }
+    const Index source = labels_ ? node_source_[n] : 0;
+    const auto real = [](double x) { return static_cast<Real>(x); };
+    const Beam<double>& b = node.beam;
+    if (kept_) [[unlikely]]
+      kept_->take(node.edge, {real(b.x), real(b.h), real(b.begin), real(b.end)}, real(node.sigma),
+                  source);
+    expand(order, node, source);
   }
 }
 

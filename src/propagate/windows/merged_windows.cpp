@@ -19,6 +19,8 @@ constexpr double bucket_width = 0.5;
 /// Vertices have their turn so much later than their distance, in mean edges: after the light that
 /// may reach them straight.
 constexpr double late = 0.5;
+/// A boundary that turns by less is straight: rounding, in radians.
+constexpr double turned = 1e-5;
 /// So many turns a halfedge in the mean are too many: one to four are usual.
 constexpr std::size_t patience = 12;
 
@@ -28,13 +30,20 @@ template <class Real>
 MergedWindows<Real>::MergedWindows(const TriangleMesh<Real>& mesh, const VertexAngles& angles)
     : triangles_(mesh.triangles()), mesh_(mesh), angles_(angles), pseudo_source_(triangles_) {
   excess_.resize(mesh.vertex_count());
-  for (Index v = 0; v < mesh.vertex_count(); ++v) excess_[v] = static_cast<Real>(angles.excess(v));
+  for (Index v = 0; v < mesh.vertex_count(); ++v) {
+    const double excess = angles.excess(v);
+    // At a boundary no light comes from the other side to close the gap behind a weak saddle.
+    const bool strong = angles.kind[v] == VertexAngles::boundary && excess > turned;
+    excess_[v] = strong ? infinity<Real> : static_cast<Real>(excess);
+  }
 }
 
 template <class Real>
 bool MergedWindows<Real>::solve(std::span<const PointSource> sources,
-                                const PropagateOptions& options, const MergeLimit& limit) {
+                                const PropagateOptions& options, const MergeLimit& limit,
+                                KeptWindows<Real>* kept) {
   limit_ = limit;
+  kept_ = kept;
   labels_ = sources.size() > 1;
   vertices_.assign(mesh_.vertex_count(), {infinity<Real>, none, {0, 0}});
   error_.resize(mesh_.vertex_count());
@@ -277,6 +286,9 @@ template <class Real>
   if (block.nearest > radius_) [[unlikely]]
     windows.clear();
   block.count = std::exchange(free_block_, b);
+  if (kept_) [[unlikely]]
+    for (std::size_t i = 0; i < windows.size(); ++i)
+      kept_->take(halfedge, windows[i].window.beam, windows[i].window.sigma, windows[i].source);
 
   turn.to_apex = infinity<Real>;
   turn.seen = 0;
