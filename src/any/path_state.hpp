@@ -47,7 +47,7 @@ class PathsOf final : public AnyPathField::State {
   void solve(const AnyExecutor& executor, std::span<const PointSource> sources,
              const PropagateOptions& options) {
     remember(executor, sources, options);
-    solve_in(paths_, sources_);
+    solve_in(paths_, sources_, options);
     field.data = paths_.distances();
   }
 
@@ -103,8 +103,9 @@ class PathsOf final : public AnyPathField::State {
       throw UsageError("a cloud has distances at its points only");
   }
 
-  std::size_t bytes() const override { return paths_.bytes() + (labels_ ? labels_->bytes() : 0) +
-           (windows_ ? windows_->bytes() : 0); }
+  std::size_t bytes() const override {
+    return paths_.bytes() + (labels_ ? labels_->bytes() : 0) + (windows_ ? windows_->bytes() : 0);
+  }
 
  private:
   void remember(const AnyExecutor& executor, std::span<const PointSource> sources,
@@ -112,16 +113,18 @@ class PathsOf final : public AnyPathField::State {
     executor_ = executor;
     sources_.assign(sources.begin(), sources.end());
     options_ = options;
+    options_.progress = {};  // who asks later is not in this call any more
   }
 
-  void solve_in(PathField<Complex>& paths, std::span<const PointSource> sources) const {
+  void solve_in(PathField<Complex>& paths, std::span<const PointSource> sources,
+                const PropagateOptions& options) const {
     std::visit(
         [&](const auto& chosen) {
           using E = std::decay_t<decltype(chosen)>;
           if constexpr (!supports<E, Complex>)
             support(combination<E, Complex>()).require();
           else if constexpr (E::kind != ExecutorKind::gl)
-            paths.solve(chosen, sources, options_);
+            paths.solve(chosen, sources, options);
           else
             throw UsageError("paths are traced on what the executors Serial and OpenMP leave");
         },
@@ -133,7 +136,7 @@ class PathsOf final : public AnyPathField::State {
     if (!adopted_) return paths_;
     std::call_once(labels_once_, [&] {
       labels_.emplace(complex_, path_places(shape_, measured_));
-      solve_in(*labels_, sources_);
+      solve_in(*labels_, sources_, options_);
     });
     return *labels_;
   }
@@ -144,7 +147,7 @@ class PathsOf final : public AnyPathField::State {
       std::vector<PointSource> there;
       for (const PointSource& source : sources_) there.push_back(elsewhere_.place(source));
       windows_.emplace(*elsewhere_.complex);
-      solve_in(*windows_, there);
+      solve_in(*windows_, there, options_);
     });
     return *windows_;
   }

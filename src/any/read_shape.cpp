@@ -302,8 +302,9 @@ AnyShape AnyShape::read(std::span<const std::filesystem::path> files, double tol
   if (options.as.value_or(DomainKind::mixed) != DomainKind::mixed || options.fill.given() ||
       options.cloud.given() || options.volume.repair || options.volume.voxel ||
       !options.volume.grid.empty())
-    throw UsageError("several files are parts of a mixed domain, each as its file has it: " +
-                     name("as") + " and what is made of surfaces, level sets and points go with one");
+    throw UsageError(
+        "several files are parts of a mixed domain, each as its file has it: " + name("as") +
+        " and what is made of surfaces, level sets and points go with one");
   State state;
   MixedShape shape;
   shape.tolerance = tolerance;

@@ -70,8 +70,8 @@ class AnyShape {
   /// .vtk with cells of several dimensions: parts of one mixed domain, whose vertices are one where
   /// they are closer than `tolerance` in file units, >= 0. Throws as above; UsageError for options
   /// that say how to fill, repair or connect points.
-  [[nodiscard]] static AnyShape read(std::span<const std::filesystem::path> files,
-                                     double tolerance, const ReadOptions& options = {});
+  [[nodiscard]] static AnyShape read(std::span<const std::filesystem::path> files, double tolerance,
+                                     const ReadOptions& options = {});
 
   // From arrays: positions in any unit, simplices by vertices counted from 0. All throw InputError
   // that names the simplex for a vertex out of range.

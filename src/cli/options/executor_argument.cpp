@@ -95,8 +95,7 @@ Executor choose_executor(const ExecutorArgument& argument, const PropagateOption
   }
   if (argument.name != "auto" || !openmp_built() || options.schedule == Schedule::priority)
     return Serial{};
-  const bool triangles =
-      domain.kind() == DomainKind::surface || domain.kind() == DomainKind::cloud;
+  const bool triangles = domain.kind() == DomainKind::surface || domain.kind() == DomainKind::cloud;
   if (triangles &&
       resolved(options.accuracy, {.executor = ExecutorKind::serial,
                                   .domain = DomainKind::surface,
