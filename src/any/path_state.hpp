@@ -46,7 +46,7 @@ class PathsOf final : public AnyPathField::State {
   void solve(const AnyExecutor& executor, std::span<const PointSource> sources,
              const PropagateOptions& options) {
     remember(executor, sources, options);
-    solve_in(paths_);
+    solve_in(paths_, options);
     field.data = paths_.distances();
   }
 
@@ -99,16 +99,17 @@ class PathsOf final : public AnyPathField::State {
     executor_ = executor;
     sources_.assign(sources.begin(), sources.end());
     options_ = options;
+    options_.progress = {};  // who asks later is not in this call any more
   }
 
-  void solve_in(PathField<Complex>& paths) const {
+  void solve_in(PathField<Complex>& paths, const PropagateOptions& options) const {
     std::visit(
         [&](const auto& chosen) {
           using E = std::decay_t<decltype(chosen)>;
           if constexpr (!supports<E, Complex>)
             support(combination<E, Complex>()).require();
           else if constexpr (E::kind != ExecutorKind::gl)
-            paths.solve(chosen, std::span<const PointSource>(sources_), options_);
+            paths.solve(chosen, std::span<const PointSource>(sources_), options);
           else
             throw UsageError("paths are traced on what the executors Serial and OpenMP leave");
         },
@@ -120,7 +121,7 @@ class PathsOf final : public AnyPathField::State {
     if (!adopted_) return paths_;
     std::call_once(labels_once_, [&] {
       labels_.emplace(complex_, path_places(shape_, measured_));
-      solve_in(*labels_);
+      solve_in(*labels_, options_);
     });
     return *labels_;
   }

@@ -378,6 +378,7 @@ std::span<const std::array<double, 3>> AnyShape::positions() const {
 PointSource AnyShape::closest(const std::array<double, 3>& point) const {
   require_positions(*this);
   if (cloud() != nullptr) return nearest_of_points(positions(), point);
+  if (simplices() == 0) throw UsageError("there is no simplex to be close to");
   const SimplexPoint found = closest_of(*this, point);
   const auto at = corners(found.simplex);
   for (std::size_t i = 0; i < at.size(); ++i) {
