@@ -47,7 +47,6 @@ void solve(const TetMesh<Real>& mesh, std::span<const PointSource> sources,
                                      static_cast<Index>(end), workspace);
     });
   } else {
-    workspace.vertex_path.assign(vertices, 0);
     read_out_tets<Real, kLabels>(mesh, rule, front, workspace);
   }
   read_out_sources<Real, kLabels>(mesh, sources, workspace);

@@ -182,7 +182,6 @@ class MixedSolid final : public MixedPiece<Real> {
     const std::size_t vertices = mesh_.vertex_count();
     workspace_.vertex.assign(vertices, infinity);
     workspace_.vertex_source.assign(vertices, none);
-    workspace_.vertex_path.assign(vertices, 0);
     read_out_tets<Real, true>(mesh_, rule_, wave_, workspace_);
     this->take_out(mesh_, workspace_, distance, label);
   }

@@ -23,14 +23,11 @@ void read_out_tets(const TetMesh<Real>& mesh, const Rule& rule, const Front& fro
   const std::span<const TetRecord<Real>> tets = mesh.tets();
   for (Index t = 0; t + 1 < tets.size(); ++t) {
     if (!front.reached(t)) continue;
-    const Index path = rule.path(t);
     for (Index i = 0; i < 4; ++i) {
       const Index v = tets[t].corner[i];
-      if (workspace.vertex_path[v] == path && path != 0) continue;
       const Real d = rule.corner_distance(t, i, workspace.vertex[v]);
       if (!(d < workspace.vertex[v])) continue;
       workspace.vertex[v] = d;
-      workspace.vertex_path[v] = path;
       if constexpr (kLabels) workspace.vertex_source[v] = front.source(t);
     }
   }
@@ -76,16 +73,13 @@ void read_out_around(const TetMesh<Real>& mesh, const Rule& rule, const Front& f
                      Index end, Workspace<Real>& workspace) {
   for (Index v = begin; v < end; ++v) {
     Real best = std::numeric_limits<Real>::infinity();
-    Index best_path = 0, source = none;
+    Index source = none;
     for (const Index c : mesh.corners_at(v)) {
       const Index t = c / 4;
       if (!front.reached(t)) continue;
-      const Index path = rule.path(t);
-      if (best_path == path && path != 0) continue;
       const Real d = rule.corner_distance(t, c % 4, best);
       if (!(d < best)) continue;
       best = d;
-      best_path = path;
       source = front.source(t);
     }
     workspace.vertex[v] = best;

@@ -40,7 +40,6 @@ class PlainSolidRule {
   }
 
   [[nodiscard]] Real distance(Index t) const { return front_->label(t).centre; }
-  [[nodiscard]] Index path(Index) const { return 0; }  // not known
   [[nodiscard]] Real distance_or_inf(Index t) const {
     return front_->reached(t) ? distance(t) : std::numeric_limits<Real>::infinity();
   }
