@@ -17,7 +17,14 @@ struct SolidLabel {
   Index door;         ///< how the way begins: none, if S is a point of the solid, or SolidDoor's
 };
 
-/// What else is known of S.
+/// Do both have the same S and bends? Then they look at the same scene.
+template <class Real>
+[[nodiscard]] bool same_way(const SolidLabel<Real>& a, const SolidLabel<Real>& b) {
+  return a.sigma == b.sigma && a.source.x == b.source.x && a.source.y == b.source.y &&
+         a.source.z == b.source.z && a.bend[0] == b.bend[0] && a.bend[1] == b.bend[1];
+}
+
+/// Where S is not a point that strings can be walked to.
 struct SolidDoor {
   /// S was turned about an edge that is parallel to bend[0].
   static constexpr Index unfolded = none - 1;

@@ -45,15 +45,15 @@ void settle(HINGE_INOUT(Taut) s, Real sigma) HINGE_READS {
     // Rows of the Hessian, eliminated as they come: diagonal, to the next, right side.
     Real upper[most_bends];
     Real right[most_bends];
-    Point in = s.at[1] - s.at[0];
-    Real way_in = max(norm(in), Real(1e-9));
-    in = Real(1) / way_in * in;
+    Point come = s.at[1] - s.at[0];
+    Real way_in = max(norm(come), Real(1e-9));
+    come = Real(1) / way_in * come;
     for (int i = 0; i < HINGE_ROLLED(k); ++i) {
       HINGE_IN(Edge) e = reflex_edge(s.edge[i]);
       Point on = s.at[i + 2] - s.at[i + 1];
       Real way_on = max(norm(on), Real(1e-9));
       on = Real(1) / way_on * on;
-      Real a = dot(e.direction, in);
+      Real a = dot(e.direction, come);
       Real b = dot(e.direction, on);
       Real slope = a - b;
       Real x = dot(s.at[i + 1] - e.end[0], e.direction);
@@ -66,7 +66,7 @@ void settle(HINGE_INOUT(Taut) s, Real sigma) HINGE_READS {
       }
       if (i > 0) {
         HINGE_IN(Edge) f = reflex_edge(s.edge[i - 1]);
-        before = (a * dot(f.direction, in) - dot(e.direction, f.direction)) / way_in;
+        before = (a * dot(f.direction, come) - dot(e.direction, f.direction)) / way_in;
       }
       // At an end, and pulled beyond it: stays.
       bool stays = (x <= Real(0) && slope > Real(0)) || (x >= e.extent && slope < Real(0)) ||
@@ -85,7 +85,7 @@ void settle(HINGE_INOUT(Taut) s, Real sigma) HINGE_READS {
         upper[i] = next / pivot;
         right[i] = rest / pivot;
       }
-      in = on;
+      come = on;
       way_in = way_on;
     }
     Point moved[most_bends];
@@ -126,10 +126,10 @@ void leave_out(HINGE_INOUT(Taut) s, int i) HINGE_READS {
   s.at[s.bends + 1] = end;
 }
 
-/// The first bend that a string lifts off, or -1. `fixed`: so many of the first must stay.
+/// The first bend that a string lifts off, or -1. `kept`: so many of the first must stay.
 /// `strict`: also one at its edge's end: the string may get past there.
-int lifted(HINGE_IN(Taut) s, int fixed, bool strict) HINGE_READS {
-  for (int i = fixed; i < HINGE_ROLLED(s.bends); ++i) {
+int lifted(HINGE_IN(Taut) s, int kept, bool strict) HINGE_READS {
+  for (int i = kept; i < HINGE_ROLLED(s.bends); ++i) {
     HINGE_IN(Edge) e = reflex_edge(s.edge[i]);
     if (!presses(e, s.at[i], s.at[i + 2]) || (strict && at_an_end(e, s.at[i + 1]))) return i;
   }
@@ -137,13 +137,13 @@ int lifted(HINGE_IN(Taut) s, int fixed, bool strict) HINGE_READS {
 }
 
 /// Pulls a string taut: edges that it lifts off are left out.
-void pull(HINGE_INOUT(Taut) s, Real sigma, int fixed, bool strict) HINGE_READS {
+void pull(HINGE_INOUT(Taut) s, Real sigma, int kept, bool strict) HINGE_READS {
   for (;;) {
     slide(s);
-    int off = lifted(s, fixed, strict);
+    int off = lifted(s, kept, strict);
     if (off < 0 && s.bends > 1) {
       settle(s, sigma);
-      off = lifted(s, fixed, strict);
+      off = lifted(s, kept, strict);
     } else if (off < 0) {
       measure(s, sigma);
     }

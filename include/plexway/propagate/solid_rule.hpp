@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstring>
 #include <limits>
 #include <utility>
 
@@ -57,8 +56,9 @@ class SolidRule : public SolidPaths<Real> {
     return SolidRule<Real, Other>(*this, front);
   }
 
-#include <plexway/propagate/solid_step.inl>
 #include <plexway/propagate/solid_walk.inl>
+
+#include <plexway/propagate/solid_step.inl>
 
   [[nodiscard]] Real distance(Index t) const { return front_->label(t).centre; }
   /// What a label for t must be below: by more than rounding.
@@ -327,10 +327,6 @@ class SolidRule : public SolidPaths<Real> {
   bool any_reflex() const { return any_reflex_; }
   [[gnu::always_inline]] bool reached(Index t) const { return front_->reached(t); }
   [[gnu::always_inline]] const Label& label_of(Index t) const { return front_->label(t); }
-  [[gnu::always_inline]] static bool same_way(const Label& a, const Label& b) {
-    return a.sigma == b.sigma && a.source.x == b.source.x && a.source.y == b.source.y &&
-           a.source.z == b.source.z && std::memcmp(a.bend, b.bend, sizeof a.bend) == 0;
-  }
   /// A line that left the solid in t on its way to the label's source: did it leave by the door?
   [[nodiscard]] bool comes_in(const Label& label, Index t) const {
     if (label.door == none || label.door == unfolded_door) return false;

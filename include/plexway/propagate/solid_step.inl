@@ -152,7 +152,7 @@ bool find_taut(HINGE_IN(Label) label, Index t, HINGE_IN(Point) middle, Index u, 
   if (!(s.extent < known)) return false;
   Hit hit;
   if (is_free(s, label, u, end, hit)) return true;
-  int fixed = fixed_bends(label);
+  int kept = fixed_bends(label);
   Taut all = edges_of(label, q);
   for (int tries = 0; tries < HINGE_ROLLED(most_tries); ++tries) {
     if (s.bends == most_bends) return false;
@@ -170,7 +170,7 @@ bool find_taut(HINGE_IN(Label) label, Index t, HINGE_IN(Point) middle, Index u, 
         Index from = here ? t : u;
         Taut other = all;
         other.at[other.bends + 1] = m;
-        pull(other, label.sigma, fixed, true);
+        pull(other, label.sigma, kept, true);
         if (is_free(other, label, from, m, hit)) {
           low = at;
         } else {
@@ -182,7 +182,7 @@ bool find_taut(HINGE_IN(Label) label, Index t, HINGE_IN(Point) middle, Index u, 
       if (edge == none) {
         // Around the end of an edge, then.
         Taut loose = all;
-        pull(loose, label.sigma, fixed, false);
+        pull(loose, label.sigma, kept, false);
         if (loose.extent < known && is_free(loose, label, u, end, hit)) {
           s = loose;
           return true;
@@ -195,7 +195,7 @@ bool find_taut(HINGE_IN(Label) label, Index t, HINGE_IN(Point) middle, Index u, 
     put_behind(all, before, edge);
     put_behind(s, before, edge);
     Taut full = s;
-    pull(s, label.sigma, fixed, false);
+    pull(s, label.sigma, kept, false);
     // Lifted off by the bends around it: then one of those is not needed.
     if (!bends_at(s, edge)) {
       s = full;
@@ -204,9 +204,9 @@ bool find_taut(HINGE_IN(Label) label, Index t, HINGE_IN(Point) middle, Index u, 
         if (s.edge[i] == edge) place = i;
       if (place + 1 < s.bends)
         leave_out(s, place + 1);
-      else if (place > fixed)
+      else if (place > kept)
         leave_out(s, place - 1);
-      pull(s, label.sigma, fixed, false);
+      pull(s, label.sigma, kept, false);
     }
     if (!(s.extent < known)) return false;
     if (is_free(s, label, u, end, hit)) return true;
