@@ -230,7 +230,7 @@ class SolidRule : public SolidPaths<Real> {
     for (Index i = 0; i < 4; ++i) {
       const Index across = tets_[t].across[i], u = across >> TetAcross::tet_shift;
       Label label = front_->label(t);
-      label.centre = reach(label, tets_[u].centre).extent;
+      label.centre = taut_to(label, tets_[u].centre).extent;
       if (!(label.centre < to_beat(u) * (1 - gain))) continue;
       if (any_reflex_)
         cross(t, i, true);
