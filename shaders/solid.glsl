@@ -118,6 +118,7 @@ vec3 face_corner(uint t, uint face, uint k) {
 }
 uint vertex_of(uint t, uint i) { return tets[t].corner[i]; }
 uint face_corner_number(uint face, uint k) { return FACE_CORNERS[face] >> (2u * k) & 3u; }
+float component(vec3 p, uint i) { return p[i]; }
 uint neighbour(uint t, uint i) { return tets[t].across[i] >> 2; }
 uint face_beyond(uint t, uint i) { return tets[t].across[i] & 3u; }
 uint no_tet() { return tet_count; }

@@ -109,7 +109,7 @@ void settle(HINGE_INOUT(Taut) s, Real sigma) HINGE_READS {
     if (!(extent < s.extent)) break;
     s.extent = extent;
     for (int i = 0; i < HINGE_ROLLED(k); ++i) s.at[i + 1] = moved[i];
-    if (farthest < Real(1e-4)) break;  // it converges quadratically
+    if (farthest < Real(1e-3)) break;  // it converges quadratically
   }
 }
 

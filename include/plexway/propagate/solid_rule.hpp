@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <span>
 #include <utility>
 
 #include <plexway/complex/tet_mesh.hpp>
@@ -28,8 +29,8 @@ class SolidRule : public SolidPaths<Real> {
   using Paths::abs, Paths::clamp, Paths::max, Paths::min, Paths::sqrt;
   using Paths::at_an_end, Paths::clear_bends, Paths::edges_of, Paths::fixed_bends, Paths::keep,
       Paths::label_bends, Paths::leave_out, Paths::measure, Paths::most_bends, Paths::own_edges,
-      Paths::own_edges_, Paths::pull, Paths::reflex_, Paths::reflex_edge, Paths::taut_end,
-      Paths::taut_to, Paths::unfolded_door;
+      Paths::own_edges_, Paths::pull, Paths::reflex_, Paths::reflex_edge, Paths::slide,
+      Paths::taut_end, Paths::taut_to, Paths::unfolded_door;
   using typename Paths::Edge, typename Paths::Taut;
   using View::bend_point, View::normal_to, View::passes, View::presses;
 
@@ -137,6 +138,44 @@ class SolidRule : public SolidPaths<Real> {
   [[nodiscard]] Real corner_distance(Index t, Index i,
                                      Real known = std::numeric_limits<Real>::infinity()) const {
     return corner_reach(front_->label(t), t, i, known);
+  }
+  /// Do paths bend at edges?
+  [[nodiscard]] bool bends() const { return any_reflex_; }
+  /// The least distance that tetrahedra offer a vertex, which is corner c % 4 of c / 4 for each c
+  /// of `around`: offer(tetrahedron, distance), unless none is reached. First by their own strings,
+  /// one of those that came the same way; then around what hides some of them.
+  template <class Offer>
+  void ask_around(std::span<const Index> around, const Offer& offer) const {
+    Real best = std::numeric_limits<Real>::infinity();
+    Index by = none;
+    const auto take = [&](Index t, Real d) {
+      if (!(d < best)) return;
+      best = d;
+      by = t;
+    };
+    Hidden hidden[most_hidden];
+    std::size_t count = 0;
+    for (const Index c : around) {
+      const Index t = c / 4;
+      if (!front_->reached(t)) continue;
+      const Label& label = front_->label(t);
+      if (by != none && same_way(label, front_->label(by))) continue;
+      bool hides = false;
+      const Real d = corner_sight(label, t, c % 4, best, hides);
+      if (!hides)
+        take(t, d);
+      else if (count < most_hidden)
+        hidden[count++] = {d, c};
+      else
+        take(t, corner_distance(t, c % 4, best));
+    }
+    std::sort(hidden, hidden + count, [](const Hidden& a, const Hidden& b) {
+      return a.distance < b.distance || (a.distance == b.distance && a.corner < b.corner);
+    });
+
+    for (std::size_t n = 0; n < count && hidden[n].distance < best; ++n)
+      take(hidden[n].corner / 4, corner_distance(hidden[n].corner / 4, hidden[n].corner % 4, best));
+    if (by != none) offer(by, best);
   }
   /// The same to any point of u: t, or one that touches it.
   [[nodiscard]] Real distance_at(Index t, Index u, const Point& q,
@@ -271,6 +310,13 @@ class SolidRule : public SolidPaths<Real> {
         any_reflex_(rule.any_reflex_),
         front_(&front) {}
 
+  /// A corner whose string is hidden, and its length.
+  struct Hidden {
+    Real distance;
+    Index corner;
+  };
+  static constexpr std::size_t most_hidden = 32;
+
   bool enter(Index t, std::size_t face, const Label& label, Index source) const {
     if (!(label.centre < to_beat(t))) return false;
     front_->accept(t, face, label, label.centre, source);
@@ -312,6 +358,10 @@ class SolidRule : public SolidPaths<Real> {
     return corner_of(t, tet_face_corners[face][k]);
   }
   [[gnu::always_inline]] Index vertex_of(Index t, Index i) const { return tets_[t].corner[i]; }
+  [[gnu::always_inline]] static Real component(const Point& p, Index i) {
+    constexpr Real Point::*axis[3] = {&Point::x, &Point::y, &Point::z};
+    return p.*axis[i];
+  }
   static Index face_corner_number(Index face, Index k) { return tet_face_corners[face][k]; }
   [[gnu::always_inline]] Index neighbour(Index t, Index i) const {
     return tets_[t].across[i] >> TetAcross::tet_shift;

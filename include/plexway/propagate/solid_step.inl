@@ -75,8 +75,13 @@ bool is_free(HINGE_IN(Taut) s, HINGE_IN(Label) label, Index u, HINGE_IN(Point) e
   return true;
 }
 
+/// Lines are walked a little beside strings, so edges that strings only touch may be in the way:
+/// those around which the detour is no longer than this.
+HINGE_CONST Real touch = Real(1e-3) * nudge;
+
 /// Which reflex edge at the place where a leg left the solid is in its way: the one around which
-/// the detour is least. none: none there. `inside`: not where the way bends at the edge's end.
+/// the detour is least; where none is, one that the leg only touches. none: none there. `inside`:
+/// not where the way bends at the edge's end.
 Index edge_in_the_way(HINGE_IN(Taut) s, HINGE_IN(Hit) hit, bool inside) HINGE_READS {
   Index e = first_reflex(hit.tet);
   if (e == none) return none;
@@ -84,6 +89,8 @@ Index edge_in_the_way(HINGE_IN(Taut) s, HINGE_IN(Hit) hit, bool inside) HINGE_RE
   Point q = s.at[hit.leg + 1];
   Index found = none;
   Real least = HINGE_INFINITY;
+  bool any_presses = false;
+  Real touches = norm(q - p) + touch;
   for (;; ++e) {
     Index entry = reflex_entry(e);
     Index edge = entry_edge(entry);
@@ -91,17 +98,19 @@ Index edge_in_the_way(HINGE_IN(Taut) s, HINGE_IN(Hit) hit, bool inside) HINGE_RE
                  (hit.leg < s.bends && s.edge[hit.leg] == edge);
     if (!there) {
       HINGE_IN(Edge) reflex = reflex_edge(edge);
-      if (presses(reflex, p, q)) {
-        Point b = bend_point(reflex, p, q);
-        Real before = norm(b - p);
-        Real behind = norm(q - b);
-        Real detour = before + behind;
-        // An edge that begins at p or q is not in the way.
-        if (min(before, behind) > Real(1e-2) * nudge && detour < least &&
-            !(inside && at_an_end(reflex, b))) {
-          least = detour;
-          found = edge;
-        }
+      Point b = bend_point(reflex, p, q);
+      Real before = norm(b - p);
+      Real behind = norm(q - b);
+      Real detour = before + behind;
+      bool in_the_way = presses(reflex, p, q);
+      bool better = detour < least;
+      if (in_the_way != any_presses) better = in_the_way;
+      // An edge that begins at p or q is not in the way.
+      if (better && (in_the_way || detour < touches) && min(before, behind) > Real(1e-2) * nudge &&
+          !(inside && at_an_end(reflex, b))) {
+        any_presses = in_the_way;
+        least = detour;
+        found = edge;
       }
     }
     if (entry_is_last(entry)) break;
@@ -138,7 +147,7 @@ HINGE_METHOD Index edge_before(HINGE_IN(Taut) s, int leg) HINGE_READS {
   return s.edge[leg - 1];
 }
 
-HINGE_CONST int most_halvings = 14;
+HINGE_CONST int most_halvings = 8;
 HINGE_CONST int most_tries = 4;
 
 /// The string of a label of t to a point of u, which is t or its neighbour over a face; `end` is
@@ -196,9 +205,14 @@ bool find_taut(HINGE_IN(Label) label, Index t, HINGE_IN(Point) middle, Index u, 
     put_behind(s, before, edge);
     Taut full = s;
     pull(s, label.sigma, kept, false);
-    // Lifted off by the bends around it: then one of those is not needed.
     if (!bends_at(s, edge)) {
+      // Only touched.
+      Real pulled = s.extent;
       s = full;
+      slide(s);
+      measure(s, label.sigma);
+      if (s.extent < min(known, pulled + touch) && is_free(s, label, u, end, hit)) return true;
+      // Lifted off by the bends around it: then one of those is not needed.
       int place = 0;
       for (int i = 0; i < HINGE_ROLLED(s.bends); ++i)
         if (s.edge[i] == edge) place = i;
@@ -246,6 +260,11 @@ HINGE_FAST bool offer_bent(HINGE_IN(Label) from, Index t, Index face, Index u, R
   return label.centre < known;
 }
 
+/// A point q of u's boundary as strings are walked from it.
+HINGE_METHOD Point within(Index u, HINGE_IN(Point) q) HINGE_READS {
+  return q + nudge * (centre_of(u) - q);
+}
+
 /// Length of the path to a point of u, which is the reached tetrahedron t or beside it, as far as
 /// it is below `known`; else no less than that.
 HINGE_FAST Real reach_at(HINGE_IN(Label) from, Index t, Index u, HINGE_IN(Point) q,
@@ -253,14 +272,24 @@ HINGE_FAST Real reach_at(HINGE_IN(Label) from, Index t, Index u, HINGE_IN(Point)
   Real straight = from.sigma + norm(q - from.source);
   if (!any_reflex() || !(straight < known)) return straight;
   Taut s;
-  Point end = q + nudge * (centre_of(u) - q);
-  if (find_taut(from, t, centre_of(t), u, end, q, known, s)) return s.extent;
+  if (find_taut(from, t, centre_of(t), u, within(u, q), q, known, s)) return s.extent;
   if (t != u) return HINGE_INFINITY;
-  s = edges_of(from, centre_of(t));
-  pull(s, from.sigma, fixed_bends(from), false);
-  return s.extent + norm(q - centre_of(t));
+  return from.centre + norm(q - centre_of(t));
 }
 /// To its corner i.
 HINGE_FAST Real corner_reach(HINGE_IN(Label) from, Index t, Index i, Real known) HINGE_READS {
   return reach_at(from, t, t, corner_of(t, i), known);
+}
+/// The same by the label's own string alone; `hidden`: that is below `known`, but not free.
+HINGE_FAST Real corner_sight(HINGE_IN(Label) from, Index t, Index i, Real known,
+                             HINGE_INOUT(bool) hidden) HINGE_READS {
+  Point q = corner_of(t, i);
+  hidden = false;
+  Real straight = from.sigma + norm(q - from.source);
+  if (!any_reflex() || !(straight < known)) return straight;
+  Taut s = taut_to(from, q);
+  Hit hit;
+  if (!(s.extent < known) || is_free(s, from, t, within(t, q), hit)) return s.extent;
+  hidden = true;
+  return s.extent;
 }
