@@ -60,7 +60,7 @@ uniform uint reflex_count;
 
 const uint REFLEX_SIZE = 21u;
 const int label_bends = 2;
-const uint unfolded_door = none - 1u;
+const uint unfolded_door = 0x80000000u;
 
 struct ReflexEdge {
   vec3 solid, direction, end[2];
@@ -78,8 +78,8 @@ uint cell_base = 0u;  // number of tetrahedron 0 of this field
 
 const uint UNFOLDED = 4u, KNOWN = 8u;
 
-/// A label at rest is a: S, sigma; b: the face it came in by, with the two flags, its bends, the
-/// source's number.
+/// A label at rest is a: S, sigma; b: the face it came in by, with the two flags and the edge that
+/// S was turned about, its bends, the source's number.
 SolidLabel unpack(uvec4 a, uvec4 b) {
   SolidLabel label;
   label.source = uintBitsToFloat(a.xyz);
@@ -87,7 +87,7 @@ SolidLabel unpack(uvec4 a, uvec4 b) {
   label.centre = 0.0;
   label.bend[0] = b.y;
   label.bend[1] = b.z;
-  label.door = (b.x & UNFOLDED) != 0u ? unfolded_door : none;
+  label.door = (b.x & UNFOLDED) != 0u ? unfolded_door + (b.x >> 4) : none;
   return label;
 }
 

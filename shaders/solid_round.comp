@@ -94,7 +94,7 @@ void main() {
     wanted = repair > 0u || floatBitsToUint(distance) <= cells[target].least;
     a = floatBitsToUint(vec4(label.source, label.sigma));
     uint state = (across & 3u) | KNOWN;
-    if (label.door == unfolded_door) state |= UNFOLDED;
+    if (is_unfolded(label)) state |= UNFOLDED | (label.door - unfolded_door) << 4;
     b = uvec4(state, label.bend[0], label.bend[1], b.w);
   }
   if (waits_on) {  // goes on as it is

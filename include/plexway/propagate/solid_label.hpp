@@ -26,10 +26,11 @@ template <class Real>
 
 /// Where S is not a point that strings can be walked to.
 struct SolidDoor {
-  /// S was turned about an edge that is parallel to bend[0].
-  static constexpr Index unfolded = none - 1;
   /// S is outside: the path comes in over a face of a tetrahedron.
   static constexpr Index face(Index tet, Index face) { return 4 * tet + face; }
+  /// S was turned about a reflex edge, which is parallel to bend[0]: `unfolded` + edge. More than
+  /// 4 x 2^29 faces would take 30 GB at least.
+  static constexpr Index unfolded = Index{1} << 31;
 };
 
 }  // namespace plexway

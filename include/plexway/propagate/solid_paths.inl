@@ -3,6 +3,7 @@
 // solid_paths.hpp) and GLSL, after solid_sight.inl. Before it stand also
 //   Label               a SolidLabel (propagate/solid_label.hpp), and `label_bends`, how many
 //   none                no edge
+//   unfolded_door       with an edge added: the door of a label whose S was turned about it
 //   reflex_edge(Index)  an Edge
 //   own_edges()         edges from there on are further ones, which only bend paths
 
@@ -152,10 +153,14 @@ void pull(HINGE_INOUT(Taut) s, Real sigma, int kept, bool strict) HINGE_READS {
   }
 }
 
+HINGE_METHOD bool is_unfolded(HINGE_IN(Label) label) HINGE_READS {
+  return label.door != none && label.door >= unfolded_door;
+}
+
 /// Edges of a label that belong to its S.
 HINGE_METHOD int fixed_bends(HINGE_IN(Label) label) HINGE_READS {
   if (label.bend[0] == none) return 0;
-  return label.bend[0] >= own_edges() || label.door == unfolded_door ? 1 : 0;
+  return label.bend[0] >= own_edges() || is_unfolded(label) ? 1 : 0;
 }
 
 /// The label's string to q, not pulled yet.
@@ -185,6 +190,19 @@ HINGE_DO void clear_bends(HINGE_INOUT(Label) label) {
   for (int k = 0; k < label_bends; ++k) label.bend[k] = none;
 }
 
+HINGE_METHOD bool is_beside(HINGE_IN(Edge) e, HINGE_IN(Point) p) HINGE_READS {
+  Real x = dot(p - e.end[0], e.direction);
+  return x >= Real(-1e-6) * e.extent && x <= Real(1 + 1e-6) * e.extent;
+}
+/// May S turn about an edge? Of a label that was turned before only if all paths over this edge
+/// pass the edge before within its ends.
+bool may_turn(HINGE_IN(Label) label, HINGE_IN(Edge) e) HINGE_READS {
+  if (!is_unfolded(label)) return true;
+  HINGE_IN(Edge) before = reflex_edge(label.door - unfolded_door);
+  return is_beside(before, label.source) && is_beside(before, e.end[0]) &&
+         is_beside(before, e.end[1]);
+}
+
 /// Makes a label of a string. What is too long loses its first bends: about an edge parallel to the
 /// next one S turns, which is exact; else the bend becomes S.
 void keep(HINGE_IN(Taut) s, HINGE_INOUT(Label) label) HINGE_READS {
@@ -195,9 +213,10 @@ void keep(HINGE_IN(Taut) s, HINGE_INOUT(Label) label) HINGE_READS {
     Point c = s.at[first + 2];
     Real walked = norm(b - label.source);
     Real on = norm(c - b);
-    if (on > Real(0) && parallel(e, reflex_edge(s.edge[first + 1])) && !at_an_end(e, b)) {
+    if (on > Real(0) && parallel(e, reflex_edge(s.edge[first + 1])) && !at_an_end(e, b) &&
+        may_turn(label, e)) {
       label.source = b + walked / on * (b - c);
-      label.door = unfolded_door;
+      label.door = unfolded_door + s.edge[first];
     } else {
       label.source = b;
       label.sigma += walked;

@@ -32,7 +32,9 @@ class SolidRule : public SolidPaths<Real> {
       Paths::own_edges_, Paths::pull, Paths::reflex_, Paths::reflex_edge, Paths::slide,
       Paths::taut_end, Paths::taut_to, Paths::unfolded_door;
   using typename Paths::Edge, typename Paths::Taut;
+  using typename View::FromEdge;
   using View::bend_point, View::normal_to, View::passes, View::presses;
+  using View::crossing_along, View::from_edge, View::point_on, Paths::is_unfolded;
 
  public:
   using Label = SolidLabel<Real>;
@@ -379,7 +381,7 @@ class SolidRule : public SolidPaths<Real> {
   [[gnu::always_inline]] const Label& label_of(Index t) const { return front_->label(t); }
   /// A line that left the solid in t on its way to the label's source: did it leave by the door?
   [[nodiscard]] bool comes_in(const Label& label, Index t) const {
-    if (label.door == none || label.door == unfolded_door) return false;
+    if (label.door == none || is_unfolded(label)) return false;
     const Index door = label.door / 4, face = label.door % 4;
     const Point &a = face_corner(door, face, 0), &b = face_corner(door, face, 1),
                 &c = face_corner(door, face, 2);

@@ -61,7 +61,15 @@ bool is_free(HINGE_IN(Taut) s, HINGE_IN(Label) label, Index u, HINGE_IN(Point) e
   for (int leg = s.bends; leg >= 0; --leg) {
     hit.leg = leg;
     if (leg == 0) {
-      if (label.door == unfolded_door) return true;
+      // What is before the edge that S was turned about was walked when it was.
+      if (is_unfolded(label)) {
+        HINGE_IN(Edge) e = reflex_edge(label.door - unfolded_door);
+        FromEdge source = from_edge(e, s.at[0]);
+        FromEdge bend = from_edge(e, s.at[1]);
+        Real along = crossing_along(source, bend);
+        if (!(along >= Real(0) && along <= e.extent)) return false;
+        return go(hit.tet, from, beside(e, point_on(e, along)));
+      }
       return go(hit.tet, from, s.at[0]) || comes_in(label, hit.tet);
     }
     // What lies before a further edge is not of this solid.

@@ -32,7 +32,9 @@ class HostFront {
     label.sigma = cell.sigma;
     label.centre = std::bit_cast<float>(distance);
     std::copy(cell.bend.begin(), cell.bend.end(), label.bend);
-    label.door = (cell.state & SolidCell::unfolded) != 0 ? SolidDoor::unfolded : none;
+    label.door = (cell.state & SolidCell::unfolded) != 0
+                     ? SolidDoor::unfolded + (cell.state >> SolidCell::edge_shift)
+                     : none;
     front_.accept(t, cell.state & SolidCell::face_mask, label, label.centre, cell.source);
   }
 
@@ -50,7 +52,9 @@ class HostFront {
                           static_cast<GLuint>(front_.hinge(t)) | SolidCell::known,
                           {},
                           front_.source(t)};
-        if (label.door == SolidDoor::unfolded) cell.state |= SolidCell::unfolded;
+        if (label.door != none)
+          cell.state |= SolidCell::unfolded | (label.door - SolidDoor::unfolded)
+                                                  << SolidCell::edge_shift;
         std::copy(std::begin(label.bend), std::end(label.bend), cell.bend.begin());
         take(t, std::bit_cast<GLuint>(label.centre), cell);
       }
