@@ -33,7 +33,6 @@ struct Workspace {
   TeamRooms team;                    ///< for executors with several threads
   std::vector<Real> vertex;          ///< read-out, in the numbers inside
   std::vector<Index> vertex_source;  ///< its labels
-  std::vector<Index> vertex_path;    ///< in solids: how the path came
   std::vector<Index> corners;        ///< around one vertex
 
   /// Room for a front and marks over so many simplices and a sentinel behind them; all unreached
@@ -50,7 +49,7 @@ struct Workspace {
     return sizeof(*this) + marks.bytes() + saddles.count * sizeof(SaddleLabel<Real>) +
            plain.count * sizeof(PlainLabel<Real>) + solids.count * sizeof(SolidLabel<Real>) +
            plain_solids.count * sizeof(PlainSolidLabel<Real>) + simplex.bytes() + of(source) +
-           windows.bytes() + of(vertex) + of(vertex_source) + of(vertex_path) + of(corners) +
+           windows.bytes() + of(vertex) + of(vertex_source) + of(corners) +
            front.capacity * 2 * sizeof(Index) + of(front.heap) + team.bytes();
   }
 };
