@@ -29,8 +29,11 @@ struct VoronoiStep {
   double movement = 0;  ///< of the seeds after that, root mean square
 };
 
+/// How seeds move, and how long.
 struct VoronoiOptions {
+  /// Where to.
   CellCentre centre = CellCentre::centroid;
+  /// Done after so many, converged or not.
   std::size_t max_iterations = 100;
   /// Done when the movement is below this share of a cell's size (content / seeds)^(1 / dimension).
   double tolerance = 1e-3;
@@ -38,11 +41,14 @@ struct VoronoiOptions {
   std::function<bool(const VoronoiStep&)> progress = {};
 };
 
+/// Seeds in the middle of their cells.
 struct CentroidalVoronoi {
+  /// As many as there were, in their order.
   std::vector<PointSource> seeds;
   /// Nearest seed of each simplex's centre, on clouds of each point; none if unreached.
   std::vector<Index> label;
   std::vector<double> cell_content;  ///< area or volume of each seed's cell
+  /// One an iteration.
   std::vector<VoronoiStep> steps;
   double energy = 0;               ///< at the end
   bool converged = false;          ///< the movement fell below the tolerance

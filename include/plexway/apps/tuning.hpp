@@ -16,13 +16,18 @@ namespace plexway {
 
 /// A surface with exact answers.
 struct TuningSurface {
+  /// For messages.
   std::string name;
+  /// n, in any unit.
   std::vector<std::array<double, 3>> positions;
+  /// Triangles of vertices < n.
   std::vector<std::array<Index, 3>> faces;
+  /// The exact field of one source.
   struct Truth {
     Index source;                  ///< a vertex
     std::vector<double> distance;  ///< one a vertex; NaN where not known, +inf where no path leads
   };
+  /// At least one.
   std::vector<Truth> truths;
 };
 
@@ -35,7 +40,9 @@ class TuningSet {
   /// `threads`: 0 for all cores. Throws UsageError for no surface, one without truth, or a truth
   /// that does not fit; InputError "NAME: cause" as TriangleMesh.
   TuningSet(std::vector<TuningSurface> surfaces, bool automatic, std::size_t threads = 0);
+  /// Moves what it holds; what is left may be assigned to or destroyed, no more.
   TuningSet(TuningSet&&) noexcept;
+  /// Likewise.
   TuningSet& operator=(TuningSet&&) noexcept;
   ~TuningSet();
 
@@ -59,12 +66,16 @@ class TuningSet {
 
 /// The numbers of a ProbeTable, as an evolution takes them: three thresholds, six shares.
 [[nodiscard]] std::vector<EvolvedParameter> probe_parameters();
+/// A table as those nine numbers.
 [[nodiscard]] std::vector<double> values_of(const ProbeTable& table);
+/// And back. Throws UsageError unless there are nine.
 [[nodiscard]] ProbeTable probe_table_of(std::span<const double> values);
 
 /// Those of the thresholds that say which vertices are saddles.
 [[nodiscard]] std::vector<EvolvedParameter> saddle_parameters();
+/// Thresholds as those five numbers.
 [[nodiscard]] std::vector<double> values_of(const SaddleThresholds& thresholds);
+/// And back. Throws UsageError unless there are five.
 [[nodiscard]] SaddleThresholds saddle_thresholds_of(std::span<const double> values);
 
 }  // namespace plexway

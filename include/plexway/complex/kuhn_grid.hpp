@@ -22,8 +22,11 @@ class KuhnGrid {
 
  public:
   using Place = std::array<std::size_t, N>;  ///< of a vertex or a cell, along the axes
+  /// A point of space.
   using Point = std::array<double, N>;
+  /// Vertices of a simplex, from the lowest corner of its cell to the highest.
   using Simplex = std::array<Index, N + 1>;
+  /// Is a cell absent?
   using Absent = std::function<bool(const Place& cell)>;
 
   /// So many cells along each axis, all of one size.
@@ -32,12 +35,18 @@ class KuhnGrid {
   /// By the coordinates of the planes across each axis, strictly ascending, at least two.
   explicit KuhnGrid(std::array<std::vector<double>, N> planes);
 
+  /// Of all cells, absent ones included.
   [[nodiscard]] std::size_t vertex_count() const { return vertex_count_; }
+  /// Along an axis.
   [[nodiscard]] std::size_t cells(std::size_t axis) const { return planes_[axis].size() - 1; }
+  /// Coordinates of the planes across an axis, ascending, one more than cells.
   [[nodiscard]] const std::vector<double>& planes(std::size_t axis) const { return planes_[axis]; }
 
+  /// The vertex at a place, which must be in the grid (not checked).
   [[nodiscard]] Index vertex(const Place& at) const;
+  /// And back.
   [[nodiscard]] Place place(Index vertex) const;
+  /// Where a vertex is in space.
   [[nodiscard]] Point position(Index vertex) const;
   /// The vertex nearest to a point of space.
   [[nodiscard]] Index nearest(const Point& point) const;
