@@ -74,9 +74,10 @@ set(DOXYGEN_OUTPUT_DIRECTORY "${PROJECT_BINARY_DIR}")
 set(DOXYGEN_HTML_OUTPUT reference)
 set(DOXYGEN_FILE_PATTERNS "*.hpp")
 set(DOXYGEN_EXCLUDE ${implementation})
-# Members of an implementation, and types that headers only declare.
+# What implements, types that headers only declare, macros that headers take back.
 set(DOXYGEN_EXCLUDE_SYMBOLS "plexway::detail" "plexway::*::detail" "boost"
-  "plexway::JoinedPieces" "plexway::Solved" "plexway::openvdb::Bricks")
+  "plexway::JoinedPieces" "plexway::Solved" "plexway::openvdb::Bricks"
+  PLEXWAY_NAME PLEXWAY_CASE)
 set(DOXYGEN_STRIP_FROM_PATH
   "${PROJECT_SOURCE_DIR}/include" "${PROJECT_BINARY_DIR}/include" ${provider_headers})
 set(DOXYGEN_STRIP_FROM_INC_PATH ${DOXYGEN_STRIP_FROM_PATH})

@@ -16,12 +16,15 @@ namespace plexway {
 
 /// Distances between chosen points.
 struct DistanceMatrix {
+  /// So many points.
   std::size_t size = 0;
   std::vector<double> distance;  ///< row by row, symmetric, 0 on the diagonal; +inf where no path
   /// The largest difference between the two ways, in the length of the way: an error estimate.
   double asymmetry = 0;
+  /// Of all propagations.
   PropagateStatistics statistics;
 
+  /// From point i to point j, both < size.
   [[nodiscard]] double operator()(std::size_t i, std::size_t j) const {
     return distance[i * size + j];
   }

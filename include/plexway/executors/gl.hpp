@@ -7,6 +7,7 @@
 
 #include <plexway/solve.hpp>
 
+/// @file
 /// The component `gl`: link plexway::gl.
 namespace plexway {
 
@@ -33,7 +34,9 @@ class GLWorkspace;
 /// fields `solve_each` is what a graphics processor does best. Source: Trettner, Bommes, Kobbelt:
 /// Geodesic Distance Computation via Virtual Source Propagation, SGP 2021, section 5.
 struct GL {
+  /// Its rows in the table of support.hpp.
   static constexpr ExecutorKind kind = ExecutorKind::gl;
+  /// What it keeps from call to call.
   using Workspace = GLWorkspace;
 
   /// Its number in gl_devices(); -1: the first that is not software, or the first.
@@ -46,8 +49,12 @@ struct GL {
 
 /// What EGL offers on this machine.
 struct GLDevice {
+  /// For GL::device.
   int number = 0;
+  ///@{
+  /// As OpenGL's driver says.
   std::string vendor, renderer, version;
+  ///@}
   bool software = false;           ///< computes on the processor
   std::size_t largest_buffer = 0;  ///< bytes a shader can see of one buffer
   std::size_t group_size = 0;      ///< invocations in a work group
@@ -67,7 +74,9 @@ class GLWorkspace {
  public:
   GLWorkspace();
   ~GLWorkspace();
+  /// Moves what it holds; what is left may be assigned to or destroyed, no more.
   GLWorkspace(GLWorkspace&&) noexcept;
+  /// Likewise.
   GLWorkspace& operator=(GLWorkspace&&) noexcept;
 
   /// Bytes on the device.
@@ -78,6 +87,7 @@ class GLWorkspace {
   [[nodiscard]] std::size_t rounds() const;
 
   struct Implementation;
+  /// For the library's own use.
   [[nodiscard]] Implementation& implementation() { return *implementation_; }
 
  private:

@@ -9,6 +9,7 @@ namespace plexway {
 /// as much. Below 1e-5 merging saves nothing any more, and that is `exact`.
 class Accuracy {
  public:
+  /// By which rule.
   enum class Kind { fast, merged, exact };
 
   /// One label a triangle (Visibility::saddles): mean errors of 3e-4 to 2e-3, single vertices more.
@@ -23,8 +24,11 @@ class Accuracy {
   explicit constexpr Accuracy(double error)
       : kind_(error < 1e-5 ? Kind::exact : Kind::merged), error_(error) {}
 
+  /// By which rule it is reached.
   [[nodiscard]] constexpr Kind kind() const { return kind_; }
+  /// The mean relative error to expect.
   [[nodiscard]] constexpr double error() const { return error_; }
+  /// Are both the same?
   friend constexpr bool operator==(const Accuracy&, const Accuracy&) = default;
 
  private:

@@ -11,6 +11,7 @@ namespace plexway {
 struct PropagateStatistics {
   std::size_t expansions = 0;  ///< simplices taken from the queue
   std::size_t updates = 0;     ///< labels accepted
+  /// Simplices that a label came to.
   std::size_t reached_simplices = 0;
   /// Surfaces, Visibility::saddles: vertices that labels put farther than a neighbour and the edge
   /// between, and that got the way by that neighbour. Many: the field is less accurate there.
@@ -30,6 +31,7 @@ struct DistanceField {
   std::vector<Index> label;    ///< nearest source of each vertex, by its place in the list of
                                ///< sources; none where unreached. Empty for a single source.
   bool complete = true;        ///< false if max_expansions ended the propagation early
+  /// What it cost.
   PropagateStatistics statistics;
 };
 

@@ -36,8 +36,11 @@ struct Progress {
   double distance;         ///< the front is about here, in the domain's unit
 };
 
+/// How far a propagation goes, and by which rule.
 struct PropagateOptions {
+  /// When a simplex sees a virtual source.
   Visibility visibility = Visibility::saddles;
+  /// Which label propagates next.
   Schedule schedule = Schedule::dual_queue;
   /// Width of the dual queue's limit, in mean edge lengths, > 0.
   double step = 1;
