@@ -47,6 +47,9 @@ set(implementation
   propagate/wavefront.hpp
   propagate/wire_step.hpp)
 
+if(NOT PROJECT_IS_TOP_LEVEL)
+  set(PLEXWAY_WITH_REFERENCE OFF CACHE STRING "Make the API reference: AUTO, ON or OFF")
+endif()
 plexway_provider_wanted(reference wanted)
 if(NOT wanted)
   return()
