@@ -22,7 +22,9 @@ class WindowSolver {
   /// one arc tangent a corner.
   explicit WindowSolver(const TriangleMesh<Real>& mesh);
   ~WindowSolver();
+  /// Moves what it holds; what is left may be assigned to or destroyed, no more.
   WindowSolver(WindowSolver&&) noexcept;
+  /// Likewise.
   WindowSolver& operator=(WindowSolver&&) noexcept;
 
   /// The distance of every vertex from the nearest of `sources`, as `solve` gives it: in the
