@@ -57,13 +57,10 @@ enum class SourceKind {
   X(shapes_visibility,                                                                             \
     "curves and triangles as sources need labels with limits: use the policy saddles")
 
-/// The reasons of PLEXWAY_REFUSALS by name; `nothing` is none.
-enum class Refusal {
-  nothing,
 #define PLEXWAY_NAME(name, sentence) name,
-  PLEXWAY_REFUSALS(PLEXWAY_NAME)
+/// The reasons of PLEXWAY_REFUSALS by name; `nothing` is none.
+enum class Refusal { nothing, PLEXWAY_REFUSALS(PLEXWAY_NAME) };
 #undef PLEXWAY_NAME
-};
 
 /// Yes, or the reason why not.
 class Support {

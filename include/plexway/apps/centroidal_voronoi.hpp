@@ -96,6 +96,9 @@ struct DualTriangulation {
 };
 
 /// From the nearest seed of each vertex, as `solve` from several sources gives it.
+///
+/// Shapes: m faces of vertices < n, n labels, each < `seeds` or none; not checked. Cost: linear,
+/// but for sorting the edges between cells.
 [[nodiscard]] DualTriangulation dual_triangulation(std::span<const std::array<Index, 3>> faces,
                                                    std::span<const Index> vertex_label,
                                                    std::size_t seeds);

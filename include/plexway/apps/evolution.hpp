@@ -73,6 +73,7 @@ class Evolution {
   /// The next trial, one value a parameter. To be followed by `tell`.
   [[nodiscard]] std::vector<double> propose();
   /// How good the trial was; more is better. NaN counts as worst. True if it is the best so far.
+  /// Needs a trial that was proposed and not told yet (not checked).
   bool tell(double fitness);
 
   /// Between `tell` and `propose`.

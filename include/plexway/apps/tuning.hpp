@@ -52,11 +52,14 @@ class TuningSet {
   [[nodiscard]] std::uint64_t digest() const;
 
   /// Makes the surfaces anew, with other thresholds.
+  /// Cost: that of building all surfaces, on all threads.
   void rebuild(const SaddleThresholds& saddles);
   /// The mean absolute relative error of each field. A vertex that is reached and should not be, or
   /// the other way round, counts as an error of 1; vertices with truth 0 do not count.
+  /// Throws as `solve`. Cost: a solve by Serial each, on all threads.
   [[nodiscard]] std::vector<double> errors(const PropagateOptions& options) const;
   /// The mean over all fields, so that a small surface counts as much as a large one.
+  /// Throws and costs as `errors`.
   [[nodiscard]] double mean_error(const PropagateOptions& options) const;
 
  private:

@@ -123,7 +123,7 @@ class IntrinsicDelaunay {
   /// With a refinement, circumcentres of bad triangles become vertices, numbered after the input's,
   /// or middles of boundary edges that are in between (Chew: Guaranteed-quality mesh generation for
   /// curved surfaces, 1993; on intrinsic triangulations Sharp, Soliman, Crane: Navigating intrinsic
-  /// triangulations, 2019, section 4.2).
+  /// triangulations, 2019, section 4.2). Throws UsageError for one that is out of range.
   template <class Real>
   explicit IntrinsicDelaunay(const TriangleMesh<Real>& input, const Refinement& refinement = {});
   /// Moves the triangulation; what is left may be assigned to or destroyed, no more.
@@ -150,6 +150,7 @@ class IntrinsicDelaunay {
   [[nodiscard]] PointSource to_intrinsic(const PointSource& point) const;
   /// And back: the place of a point of the triangulation, or of a vertex that was put in, in the
   /// input's triangles.
+  /// Throws UsageError for a triangle that does not exist. Cost: as there.
   [[nodiscard]] PointSource to_input(const PointSource& point) const;
 
   /// A straight line in one triangle of the triangulation, as straight lines in triangles of the
@@ -162,6 +163,7 @@ class IntrinsicDelaunay {
     ///@}
   };
   /// Between two points of a triangle, in barycentric coordinates; the pieces come in order.
+  /// Throws UsageError for a triangle that does not exist. Cost: as there, for each piece.
   [[nodiscard]] std::vector<Piece> line_to_input(Index face, const std::array<double, 3>& from,
                                                  const std::array<double, 3>& to) const;
 

@@ -33,6 +33,7 @@ class KuhnGrid {
   /// Throws InputError for no cell, a spacing that is not > 0, or more than 2^32 - 2 vertices.
   KuhnGrid(const Place& cells, const Point& spacing, const Point& origin = {});
   /// By the coordinates of the planes across each axis, strictly ascending, at least two.
+  /// Throws InputError unless they are, and for more than 2^32 - 2 vertices.
   explicit KuhnGrid(std::array<std::vector<double>, N> planes);
 
   /// Of all cells, absent ones included.
@@ -49,6 +50,7 @@ class KuhnGrid {
   /// Where a vertex is in space.
   [[nodiscard]] Point position(Index vertex) const;
   /// The vertex nearest to a point of space.
+  /// Among all, also of absent cells. Cost: N binary searches.
   [[nodiscard]] Index nearest(const Point& point) const;
   /// The middle of a cell, as a predicate of obstacles wants it.
   [[nodiscard]] Point centre(const Place& cell) const;
@@ -56,6 +58,7 @@ class KuhnGrid {
   /// N coordinates a vertex, as SimplicialComplex takes them.
   [[nodiscard]] std::vector<double> positions() const;
   /// The simplices of all cells that are not absent, N! a cell, cells with axis 0 fastest.
+  /// `absent` is asked once a cell.
   [[nodiscard]] std::vector<Simplex> simplices(const Absent& absent = {}) const;
   /// All of it as a domain. Throws InputError if every cell is absent.
   template <class Real>

@@ -110,6 +110,7 @@ class PointCloud {
   /// triangle.
   [[nodiscard]] const TriangleMesh<Real>& surface() const { return surface_; }
   /// The vertex of a point: itself, or its first twin.
+  /// Cost: a binary search among twins.
   [[nodiscard]] Index of_point(Index point) const;
   /// Points that are not the first at their place, ascending, and who is.
   [[nodiscard]] std::span<const std::array<Index, 2>> twins() const { return twins_; }

@@ -114,8 +114,10 @@ struct Violations {
 };
 
 /// Triangles with an edge longer than the way around by the other two, beyond rounding.
+/// Three lengths a triangle, as triangle_lengths has them. Cost: linear.
 [[nodiscard]] Violations find_violations(std::span<const std::array<double, 3>> lengths);
 /// Tetrahedra with such a face, or whose faces do not close in space.
+/// Six lengths a tetrahedron, as tet_lengths has them. Cost: linear.
 [[nodiscard]] Violations find_violations(std::span<const std::array<double, 6>> lengths);
 
 }  // namespace plexway::metric

@@ -26,6 +26,7 @@ class EdgeGraph {
   /// Of a complex, with the caller's vertices. Edges of a wireframe have the caller's numbers,
   /// those of a surface or a solid an order of its own, each once whatever the number of simplices
   /// on it.
+  /// Cost: linear, but for sorting the edges of a surface or a solid.
   template <class Real>
   explicit EdgeGraph(const Wireframe<Real>& wireframe);
   /// Of a surface: the sides of its triangles.

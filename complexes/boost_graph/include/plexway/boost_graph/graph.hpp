@@ -33,6 +33,7 @@ struct Components {
 
 /// Of a complex, in the caller's order. Simplices that only touch in a vertex are joined by it, as
 /// paths may pass there.
+/// Cost: about linear.
 template <class Real>
 [[nodiscard]] Components connected_components(const Wireframe<Real>& wireframe);
 /// The same of a surface.
