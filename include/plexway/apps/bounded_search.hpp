@@ -40,7 +40,7 @@ struct Surroundings {
 template <class Real>
 class BoundedSearch {
  public:
-  /// Refers to the surface. Cost: linear in its vertices.
+  /// Refers to the surface. Throws UsageError for one with refracting edges. Cost: linear.
   explicit BoundedSearch(const TriangleMesh<Real>& mesh);
 
   /// Vertices within options.radius of the nearest of `sources`. The result stays until the next

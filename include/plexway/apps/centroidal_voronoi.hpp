@@ -63,6 +63,7 @@ struct CentroidalVoronoi {
 /// for.
 ///
 /// Throws UsageError for no seeds, a seed that is not in the domain, options out of range.
+/// UsageError for a surface with refracting edges, too.
 /// Cost: about 1.6 propagations from a single source an iteration, 3.1 with farthest_from_border.
 /// Source: Trettner, Bommes, Kobbelt: Geodesic Distance Computation via Virtual Source Propagation,
 /// SGP 2021, section 6, for farthest_from_border; Lloyd: Least Squares Quantization in PCM, 1982.

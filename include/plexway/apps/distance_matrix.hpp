@@ -36,6 +36,7 @@ struct DistanceMatrix {
 ///
 /// Throws UsageError for no points or a point that is not in the domain, and Cancelled when
 /// `progress`, called with the share that is done, returns false.
+/// UsageError for a surface with refracting edges, too.
 template <class Real>
 [[nodiscard]] DistanceMatrix distance_matrix(
     Serial, const TriangleMesh<Real>& mesh, std::span<const PointSource> points,

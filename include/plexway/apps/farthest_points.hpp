@@ -40,6 +40,7 @@ struct FarthestPoints {
 /// are left out.
 ///
 /// Throws UsageError for no start, a start that is not in the domain or options out of range.
+/// UsageError for a surface with refracting edges, too.
 template <class Real>
 [[nodiscard]] FarthestPoints farthest_points(Serial, const TriangleMesh<Real>& mesh,
                                              std::span<const PointSource> start,

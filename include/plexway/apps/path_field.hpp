@@ -49,6 +49,7 @@ class PathField<Domain<Real>> {
   /// With them paths have coordinates, and all lengths are taken from them in double. Throws
   /// UsageError for another count. Cost: linear; 4 bytes a vertex, and a
   /// tetrahedron, and 8 an edge of a wireframe.
+  /// UsageError for a surface with refracting edges, too.
   explicit PathField(const Domain<Real>& domain,
                      std::span<const std::array<double, 3>> positions = {});
 

@@ -59,6 +59,7 @@ template <class Real>
 class PathSearch {
  public:
   /// Nearest first, unless a search brings a heuristic. Refers to the surface.
+  /// Throws UsageError for a surface with refracting edges.
   explicit PathSearch(const TriangleMesh<Real>& mesh);
   /// A* by the straight line in space, times `scale`. Throws UsageError, naming the triangle and
   /// the greatest scale that would do, where a way on the surface may be shorter than that:

@@ -65,6 +65,7 @@ struct PoissonDisks {
 ///
 /// Throws UsageError for options out of range and for a radius so small that the parts would not
 /// fit, PrecisionError for radii too different for the domain's numbers.
+/// UsageError for a surface with refracting edges, too.
 /// Cost: 2.2 to 2.5 propagations from a single source, and more where edges must be cut; with
 /// `count`, three to ten times that.
 /// Source: Trettner, Bommes, Kobbelt: Geodesic Distance Computation via Virtual Source Propagation,
