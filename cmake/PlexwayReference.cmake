@@ -27,6 +27,7 @@ set(implementation
   propagate/simplex_label.hpp
   propagate/solid_label.hpp
   propagate/visit_marks.hpp
+  propagate/window_memory.hpp
   # The rules, step by step.
   propagate/endless.hpp
   propagate/plain_rule.hpp

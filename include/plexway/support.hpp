@@ -125,6 +125,7 @@ struct Combination {
   Visibility visibility = Visibility::saddles;
   /// As in PropagateOptions.
   Schedule schedule = Schedule::dual_queue;
+  /// By which rule.
   Accuracy::Kind accuracy = Accuracy::Kind::usual;
 };
 

@@ -62,6 +62,7 @@ enum class Spelling {
   fields,  ///< max_volume
   flags,   ///< --max-volume
 };
+/// A field's name in that spelling.
 [[nodiscard]] std::string spelled(Spelling spelling, std::string_view field);
 
 /// How to read a domain from a file.
@@ -70,10 +71,15 @@ struct ReadOptions {
   /// filled), its edges as a wireframe, its vertices as a cloud; a .msh, .vtu or .vtk as mixed:
   /// with its lines and triangles beside its tetrahedra.
   std::optional<DomainKind> as = {};
+  /// How a surface is filled.
   FillOptions fill = {};
+  /// How level sets are made and read.
   VolumeOptions volume = {};
+  /// How points are made a domain.
   CloudPreparation cloud = {};
+  /// How messages name these options.
   Spelling spelling = Spelling::fields;
+  /// What is told meanwhile.
   ReadProgress progress = {};
 };
 

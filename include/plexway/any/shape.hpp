@@ -24,29 +24,43 @@
 
 namespace plexway {
 
+/// Simplices of one dimension, 1 to 4.
 using SimplexShape = io::Simplices;
 
 /// Edges, triangles and tetrahedra over shared vertices. Vertices are numbered through, part after
 /// part; simplices likewise, and in each part edges come first, then triangles, then tetrahedra.
 struct MixedShape {
+  /// One of the parts: vertices that follow each other, and simplices of them.
   struct Part {
+    ///@{
+    /// Its first vertex, and how many it has.
     std::size_t first_vertex = 0, vertices = 0;
+    ///@}
     // By numbers of the whole.
+    /// Edges, by numbers of the whole, as all simplices.
     std::vector<std::array<Index, 2>> edges = {};
+    /// Triangles.
     std::vector<std::array<Index, 3>> triangles = {};
+    /// Tetrahedra.
     std::vector<std::array<Index, 4>> tets = {};
   };
+  /// Of all parts, part after part, in one unit.
   std::vector<std::array<double, 3>> positions;
+  /// At least one.
   std::vector<Part> parts;
   double tolerance = 0;  ///< vertices of two parts are one if they are this close
 };
 
 /// Lengths of edges by a metric, those of the kind of domain that was measured.
 struct MeasuredLengths {
+  /// Of a surface, as TriangleMesh takes them; else empty.
   std::vector<std::array<double, 3>> triangles;
+  /// Of a solid, as TetMesh takes them; else empty.
   std::vector<std::array<double, 6>> tets;
+  /// Of a wireframe, one an edge; else empty.
   std::vector<double> edges;
   bool refracts = false;  ///< triangles may measure an edge they share in two ways
+  /// Simplices whose lengths no flat simplex has.
   metric::Violations violations;
 };
 
@@ -57,6 +71,7 @@ class AnyShape {
   /// In the order of DomainKind.
   using Data =
       std::variant<io::Triangles, io::Tets, io::Edges, SimplexShape, CloudShape, MixedShape>;
+  /// Three coordinates a point.
   using Points = std::vector<std::array<double, 3>>;
 
   /// Reads `file`, and fills or unravels it where `options.as` asks for that; else the extension
@@ -75,17 +90,22 @@ class AnyShape {
 
   // From arrays: positions in any unit, simplices by vertices counted from 0. All throw InputError
   // that names the simplex for a vertex out of range.
+  /// Triangles.
   [[nodiscard]] static AnyShape surface(Points positions,
                                         std::vector<std::array<Index, 3>> triangles);
+  /// Tetrahedra.
   [[nodiscard]] static AnyShape solid(Points positions, std::vector<std::array<Index, 4>> tets);
+  /// Edges.
   [[nodiscard]] static AnyShape wireframe(Points positions,
                                           std::vector<std::array<Index, 2>> edges);
   /// By lengths alone, one row a simplex, in the order of TriangleMesh, TetMesh and Wireframe.
   [[nodiscard]] static AnyShape surface(std::size_t vertices,
                                         std::vector<std::array<Index, 3>> triangles,
                                         std::vector<std::array<double, 3>> lengths);
+  /// Likewise.
   [[nodiscard]] static AnyShape solid(std::size_t vertices, std::vector<std::array<Index, 4>> tets,
                                       std::vector<std::array<double, 6>> lengths);
+  /// Likewise.
   [[nodiscard]] static AnyShape wireframe(std::size_t vertices,
                                           std::vector<std::array<Index, 2>> edges,
                                           std::vector<double> lengths);
@@ -94,12 +114,17 @@ class AnyShape {
   [[nodiscard]] static AnyShape cloud(io::Points points, const ReadOptions& options = {});
   /// Of dimension 1 to 4. Throws InputError for counts that do not fit.
   [[nodiscard]] static AnyShape simplices(SimplexShape shape);
+  /// Of parts that are there already. Throws InputError for numbers that do not fit, UsageError for
+  /// a tolerance that is not >= 0.
   [[nodiscard]] static AnyShape mixed(MixedShape shape);
 
   /// The file, or empty.
   [[nodiscard]] const std::filesystem::path& file() const;
+  /// What it holds.
   [[nodiscard]] const Data& data() const;
+  /// Its kind.
   [[nodiscard]] DomainKind kind() const;
+  /// The name of its kind: see plexway::kind_name.
   [[nodiscard]] std::string_view kind_name() const { return plexway::kind_name(kind()); }
   /// The cloud if it is one, else null.
   [[nodiscard]] const CloudShape* cloud() const { return std::get_if<CloudShape>(&data()); }
@@ -107,6 +132,7 @@ class AnyShape {
   [[nodiscard]] int dimension() const;
   /// What its simplices are called, in the plural.
   [[nodiscard]] std::string_view simplex_name() const;
+  /// Points, of a cloud.
   [[nodiscard]] std::size_t vertices() const;
   /// As given: a cloud has none.
   [[nodiscard]] std::size_t simplices() const;
@@ -122,7 +148,9 @@ class AnyShape {
   /// Seconds that reading took, and those that filling a surface and finding the neighbours of a
   /// cloud took, if that was done.
   [[nodiscard]] double load_seconds() const;
+  /// For filling, if that was done.
   [[nodiscard]] std::optional<double> mesh_seconds() const;
+  /// For neighbours, if that was done.
   [[nodiscard]] std::optional<double> neighbour_seconds() const;
 
   /// The point of the domain closest to `point`; a vertex where it is that vertex. Among several,
@@ -157,6 +185,7 @@ class AnyShape {
   /// The extensions that fields of a kind may have, with the dot, in lower case.
   [[nodiscard]] static std::span<const std::string_view> field_extensions(DomainKind kind);
 
+  /// For the library's own use.
   struct State;
 
  private:

@@ -22,6 +22,7 @@ namespace plexway {
 /// How far along a matrix is.
 struct PairsProgress {
   std::size_t rows_done;  ///< of those that were wanted
+  /// Wanted.
   std::size_t rows;
   double seconds;          ///< since it began
   double rows_per_second;  ///< 0 until a row is done
@@ -47,9 +48,11 @@ struct PairsRequest {
   [[nodiscard]] std::size_t row_count(std::size_t vertices) const {
     return rows ? rows->size() : vertices;
   }
+  /// Columns of it.
   [[nodiscard]] std::size_t column_count(std::size_t vertices) const {
     return columns.empty() ? vertices : columns.size();
   }
+  /// Blocks of rows, wanted or not.
   [[nodiscard]] std::size_t block_count(std::size_t vertices) const {
     return (row_count(vertices) + block - 1) / block;
   }
@@ -73,6 +76,7 @@ using DenseRow = std::span<const Real>;
 template <class Real>
 struct NearEntry {
   Index column;  ///< its place among the columns
+  /// In the domain's unit.
   Real distance;
 };
 /// Ascending by column, each column once at most.

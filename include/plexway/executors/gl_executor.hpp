@@ -31,7 +31,9 @@ class GLWorkspace;
 /// fields `solve_each` is what a graphics processor does best. Source: Trettner, Bommes, Kobbelt:
 /// Geodesic Distance Computation via Virtual Source Propagation, SGP 2021, section 5.
 struct GL {
+  /// Its rows in the table of support.hpp.
   static constexpr ExecutorKind kind = ExecutorKind::gl;
+  /// What it keeps from call to call.
   using Workspace = GLWorkspace;
 
   /// Its number in gl_devices(); -1: the first that is not software, or the first.
@@ -44,8 +46,12 @@ struct GL {
 
 /// What EGL offers on this machine.
 struct GLDevice {
+  /// For GL::device.
   int number = 0;
+  ///@{
+  /// As OpenGL's driver says.
   std::string vendor, renderer, version;
+  ///@}
   bool software = false;           ///< computes on the processor
   std::size_t largest_buffer = 0;  ///< bytes a shader can see of one buffer
   std::size_t group_size = 0;      ///< invocations in a work group

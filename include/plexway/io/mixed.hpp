@@ -30,7 +30,9 @@ std::span<const std::string_view> mixed_extensions();
 
 /// See read_mixed.
 Mixed parse_gmsh_mixed(std::string_view bytes, std::string_view name);
+/// See read_mixed.
 Mixed parse_vtu_mixed(std::string_view bytes, std::string_view name);
+/// See read_mixed.
 Mixed parse_vtk_mixed(std::string_view bytes, std::string_view name);
 
 }  // namespace plexway::io

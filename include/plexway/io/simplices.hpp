@@ -10,7 +10,9 @@ namespace plexway::io {
 
 /// Simplices of one dimension, 1 to 4, with coordinates of any number or with lengths alone.
 struct Simplices {
+  /// 1 to 4.
   int dimension = 4;
+  /// In a simplex or not.
   std::size_t vertices = 0;
   std::size_t axes = 0;                     ///< coordinates a vertex; 0: none
   std::vector<double> positions = {};       ///< vertices x axes
@@ -29,6 +31,7 @@ struct Simplices {
 ///
 /// Throws InputError "FILE:LINE: cause".
 Simplices read_simplices(const std::filesystem::path& file);
+/// The same of the bytes of a file; `name` stands for it in messages. Throws InputError.
 Simplices parse_simplices(std::string_view text, std::string_view name);
 
 }  // namespace plexway::io

@@ -11,7 +11,7 @@ namespace plexway {
 /// What goes with what is in support.hpp. docs/accuracy.md has the errors and times to expect.
 class Accuracy {
  public:
-  /// By which rule.
+  /// By which rule: `usual` chooses one, `fast` is labels, `merged` and `exact` are windows.
   enum class Kind { usual, fast, merged, exact };
 
   /// For who does not choose: `accurate` where that goes together with executor, domain, sources
