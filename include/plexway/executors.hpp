@@ -21,8 +21,8 @@ concept ExecutorType = requires {
 /// One thread.
 ///
 /// Solving again with the same workspace gives bit-identical results and, once field and workspace
-/// have their size, allocates nothing. Cost: surfaces 50 to 80 ns a face; solids 160 to 400 ns a
-/// tetrahedron; wireframes 25 to 60 ns a vertex on lattices of a million, never more than
+/// have their size, allocates nothing. Cost: surfaces 50 to 80 ns a face; solids 160 ns (convex)
+/// to 4 us a tetrahedron; wireframes 25 to 60 ns a vertex on lattices of a million, never more than
 /// O((n + m) log n) but for Schedule::fifo; clouds 100 to 160 ns a point.
 struct Serial {
   /// Its rows in the table of support.hpp.

@@ -58,26 +58,27 @@ bool is_free(HINGE_IN(Taut) s, HINGE_IN(Label) label, Index u, HINGE_IN(Point) e
              HINGE_INOUT(Hit) hit) HINGE_READS {
   Point from = end;
   hit.tet = u;
-  for (int leg = s.bends; leg >= 0; --leg) {
-    hit.leg = leg;
-    if (leg == 0) {
+  hit.leg = s.bends;
+  for (int n = 0; n <= HINGE_ROLLED(s.bends); ++n) {
+    hit.leg = s.bends - n;
+    Point to = s.at[hit.leg];
+    bool last = hit.leg == 0;
+    if (hit.leg > 0) {
+      // What lies before a further edge is not of this solid.
+      Index edge = s.edge[max(hit.leg, 1) - 1];
+      last = edge >= own_edges();
+      if (!last) to = beside(reflex_edge(edge), to);
+    } else if (is_unfolded(label)) {
       // What is before the edge that S was turned about was walked when it was.
-      if (is_unfolded(label)) {
-        HINGE_IN(Edge) e = reflex_edge(label.door - unfolded_door);
-        FromEdge source = from_edge(e, s.at[0]);
-        FromEdge bend = from_edge(e, s.at[1]);
-        Real along = crossing_along(source, bend);
-        if (!(along >= Real(0) && along <= e.extent)) return false;
-        return go(hit.tet, from, beside(e, point_on(e, along)));
-      }
-      return go(hit.tet, from, s.at[0]) || comes_in(label, hit.tet);
+      HINGE_IN(Edge) e = reflex_edge(label.door - unfolded_door);
+      FromEdge source = from_edge(e, s.at[0]);
+      FromEdge bend = from_edge(e, s.at[1]);
+      Real along = crossing_along(source, bend);
+      if (!(along >= Real(0) && along <= e.extent)) return false;
+      to = beside(e, point_on(e, along));
     }
-    // What lies before a further edge is not of this solid.
-    bool further = s.edge[leg - 1] >= own_edges();
-    Point to = s.at[leg];
-    if (!further) to = beside(reflex_edge(s.edge[leg - 1]), to);
-    if (!go(hit.tet, from, to)) return false;
-    if (further) return true;
+    if (!go(hit.tet, from, to)) return hit.leg == 0 && comes_in(label, hit.tet);
+    if (last) break;
     from = to;
   }
   return true;
@@ -157,70 +158,61 @@ HINGE_METHOD Index edge_before(HINGE_IN(Taut) s, int leg) HINGE_READS {
 
 HINGE_CONST int most_halvings = 8;
 HINGE_CONST int most_tries = 4;
+// What find_taut tries: the label's own string, one to a point on the way, one that passes the ends
+// of edges, one with a further edge, the same not pulled, and without a neighbour of that edge.
+HINGE_CONST int own_string = 0;
+HINGE_CONST int halved = 1;
+HINGE_CONST int loose = 2;
+HINGE_CONST int further = 3;
+HINGE_CONST int touching = 4;
+HINGE_CONST int thinned = 5;
 
 /// The string of a label of t to a point of u, which is t or its neighbour over a face; `end` is
 /// where it is walked from. False where it is not below `known`, or where what is in its way is not
 /// found. A string that is free is a path; what it must still go around is found where it leaves
 /// the solid, or, by halving, where it would do so first on the way from the centre of t, which it
 /// reaches, over `middle`.
+///
+/// One loop that pulls and walks a string in one place each: shader compilers copy every call.
 bool find_taut(HINGE_IN(Label) label, Index t, HINGE_IN(Point) middle, Index u, HINGE_IN(Point) end,
                HINGE_IN(Point) q, Real known, HINGE_INOUT(Taut) s) HINGE_READS {
-  s = taut_to(label, q);
-  if (!(s.extent < known)) return false;
-  Hit hit;
-  if (is_free(s, label, u, end, hit)) return true;
   int kept = fixed_bends(label);
-  Taut all = edges_of(label, q);
-  for (int tries = 0; tries < HINGE_ROLLED(most_tries); ++tries) {
-    if (s.bends == most_bends) return false;
-    Index before = edge_before(s, hit.leg);
-    Index edge = edge_in_the_way(s, hit, true);
-    if (edge == none) {
-      Hit last = hit;
-      Real low = Real(0);
-      Real high = Real(2);
-      for (int n = 0; n < HINGE_ROLLED(most_halvings) && edge == none; ++n) {
-        Real at = Real(0.5) * (low + high);
-        bool here = at < Real(1);
-        Point m = here ? centre_of(t) + at * (middle - centre_of(t))
-                       : middle + (at - Real(1)) * (end - middle);
-        Index from = here ? t : u;
-        Taut other = all;
-        other.at[other.bends + 1] = m;
-        pull(other, label.sigma, kept, true);
-        if (is_free(other, label, from, m, hit)) {
-          low = at;
-        } else {
-          high = at;
-          before = edge_before(other, hit.leg);
-          edge = edge_in_the_way(other, hit, true);
-        }
-      }
-      if (edge == none) {
-        // Around the end of an edge, then.
-        Taut loose = all;
-        pull(loose, label.sigma, kept, false);
-        if (loose.extent < known && is_free(loose, label, u, end, hit)) {
-          s = loose;
-          return true;
-        }
-        before = edge_before(s, last.leg);
-        edge = edge_in_the_way(s, last, false);
-        if (edge == none) return false;
-      }
-    }
-    put_behind(all, before, edge);
-    put_behind(s, before, edge);
-    Taut full = s;
-    pull(s, label.sigma, kept, false);
-    if (!bends_at(s, edge)) {
-      // Only touched.
-      Real pulled = s.extent;
-      s = full;
+  s = edges_of(label, q);
+  Taut all;   // the label's edges and the further ones, not pulled
+  Taut base;  // the last string that was pulled and is not free
+  Hit hit;
+  Hit base_hit;
+  int trying = own_string;
+  int tries = 0;
+  int halvings = 0;
+  Index edge = none;
+  Index from = u;
+  Point start = end;
+  Real low = Real(0);
+  Real high = Real(2);
+  Real bound = known;
+  for (int turn = 0; turn < HINGE_ROLLED(most_tries * (most_halvings + 5)); ++turn) {
+    if (trying == touching) {
       slide(s);
       measure(s, label.sigma);
-      if (s.extent < min(known, pulled + touch) && is_free(s, label, u, end, hit)) return true;
-      // Lifted off by the bends around it: then one of those is not needed.
+    } else {
+      pull(s, label.sigma, kept, trying <= halved);
+    }
+    if (trying == further && !bends_at(s, edge)) {
+      // Only touched, or lifted off by the bends around it.
+      bound = min(known, s.extent + touch);
+      s = base;
+      trying = touching;
+      continue;
+    }
+    bool below = trying == halved || s.extent < bound;
+    if (below && is_free(s, label, from, start, hit)) {
+      if (trying != halved) return true;
+      low = Real(0.5) * (low + high);
+    } else if (trying == touching) {
+      // One of the bends around the edge is not needed.
+      bound = known;
+      s = base;
       int place = 0;
       for (int i = 0; i < HINGE_ROLLED(s.bends); ++i)
         if (s.edge[i] == edge) place = i;
@@ -228,10 +220,55 @@ bool find_taut(HINGE_IN(Label) label, Index t, HINGE_IN(Point) middle, Index u, 
         leave_out(s, place + 1);
       else if (place > kept)
         leave_out(s, place - 1);
-      pull(s, label.sigma, kept, false);
+      trying = thinned;
+      continue;
+    } else {
+      bool inside = trying != loose;
+      if (trying == halved) {
+        high = Real(0.5) * (low + high);
+      } else if (trying == loose) {
+        s = base;
+        hit = base_hit;
+      } else {
+        if (!below || tries == most_tries || s.bends == most_bends) return false;
+        if (trying == own_string) all = edges_of(label, q);
+        ++tries;
+        base = s;
+        base_hit = hit;
+        low = Real(0);
+        high = Real(2);
+        halvings = 0;
+      }
+      Index before = edge_before(s, hit.leg);
+      edge = edge_in_the_way(s, hit, inside);
+      if (edge != none) {
+        put_behind(all, before, edge);
+        put_behind(base, before, edge);
+        s = base;
+        from = u;
+        start = end;
+        trying = further;
+        continue;
+      }
+      if (trying == loose) return false;
     }
-    if (!(s.extent < known)) return false;
-    if (is_free(s, label, u, end, hit)) return true;
+    // On the way there, then; or around the end of an edge.
+    s = all;
+    from = u;
+    start = end;
+    trying = halvings < most_halvings ? halved : loose;
+    if (trying == halved) {
+      ++halvings;
+      Real at = Real(0.5) * (low + high);
+      bool here = at < Real(1);
+      if (here) {
+        from = t;
+        start = centre_of(t) + at * (middle - centre_of(t));
+      } else {
+        start = middle + (at - Real(1)) * (end - middle);
+      }
+      s.at[s.bends + 1] = start;
+    }
   }
   return false;
 }
@@ -253,17 +290,26 @@ HINGE_FAST bool offer_bent(HINGE_IN(Label) from, Index t, Index face, Index u, R
   Point q = centre_of(u);
   // It has come the same way?
   if (!last_resort && reached(u) && same_way(from, label_of(u))) return false;
+  Point over = face_middle(t, face);
+  Point end = q;
+  Index in_tet = u;
+  // No other way: through the middle of the face.
+  Point middle = over;
+  Real sigma = from.centre + norm(middle - centre_of(t));
   Taut s;
   label = from;
-  if (find_taut(from, t, face_middle(t, face), u, q, q, known, s)) {
-    keep(s, label);
-    return true;
+  for (int n = 0; n < HINGE_ROLLED(2); ++n) {
+    bool found = find_taut(from, t, over, in_tet, end, end, n == 0 ? known : sigma, s);
+    if (found && n == 0) {
+      keep(s, label);
+      return true;
+    }
+    if (!last_resort) return false;
+    if (found) sigma = s.extent;
+    over = centre_of(t);
+    end = middle;
+    in_tet = t;
   }
-  if (!last_resort) return false;
-  // No other way: through the middle of the face.
-  Point middle = face_middle(t, face);
-  Real sigma = from.centre + norm(middle - centre_of(t));
-  if (find_taut(from, t, centre_of(t), t, middle, middle, sigma, s)) sigma = s.extent;
   start_at(label, middle, sigma, q);
   return label.centre < known;
 }

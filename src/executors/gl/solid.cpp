@@ -186,6 +186,7 @@ class SolidRun {
     bind_vertices();
     workspace_.front.labels().bind(session_, 2);
     buffers_.corners.bind(session_, 3);
+    workspace_.front.cells().bind(session_, 4);
     bind_solid();
     dispatch(session_, vertices);
   }
