@@ -47,8 +47,10 @@ MergedWindows<Real>::MergedWindows(const TriangleMesh<Real>& mesh, const VertexA
 
 template <class Real>
 bool MergedWindows<Real>::solve(std::span<const PointSource> sources,
-                                const PropagateOptions& options, const MergeLimit& limit) {
+                                const PropagateOptions& options, const MergeLimit& limit,
+                                KeptWindows<Real>* kept) {
   limit_ = limit;
+  kept_ = kept;
   labels_ = sources.size() > 1;
   vertices_.assign(mesh_.vertex_count(), {infinity<Real>, none, {0, 0}});
   error_.resize(mesh_.vertex_count());
@@ -160,6 +162,12 @@ typename MergedWindows<Real>::Outcome MergedWindows<Real>::run(Order& order,
           turn.spread[0].go(turn.triangle, turn.windows[0].window);
         else
           prepare(turn);
+      }
+      if (kept_) [[unlikely]] {
+        for (std::size_t i = 0; i < turn.windows.size(); ++i) {
+          const auto& [window, source] = turn.windows[i];
+          kept_->take(block.halfedge, window.beam, window.sigma, source);
+        }
       }
       current ^= 1;
       if (waits) commit_any(order, turns_[current]);

@@ -13,6 +13,7 @@
 #include "propagate/windows/bucket_ring.hpp"
 #include "propagate/windows/entered_triangle.hpp"
 #include "propagate/windows/gather.hpp"
+#include "propagate/windows/kept_windows.hpp"
 #include "propagate/windows/node_orders.hpp"
 #include "propagate/windows/pseudo_source.hpp"
 #include "propagate/windows/spread.hpp"
@@ -41,11 +42,11 @@ class MergedWindows {
   /// `mesh` and `angles` must outlive this.
   MergedWindows(const TriangleMesh<Real>& mesh, const VertexAngles& angles);
 
-  /// The sources must be checked. Throws Cancelled as the progress callback says. False, and no
-  /// result, where merging does not pay: among needles windows do not become fewer, and what comes
-  /// out is no good.
+  /// The sources must be checked. Windows are put into `kept` as well, unless it is null. Throws
+  /// Cancelled as the progress callback says. False, and no result, where merging does not pay:
+  /// among needles windows do not become fewer, and what comes out is no good.
   [[nodiscard]] bool solve(std::span<const PointSource> sources, const PropagateOptions& options,
-                           const MergeLimit& limit);
+                           const MergeLimit& limit, KeptWindows<Real>* kept = nullptr);
 
   /// Afterwards, by the numbers inside, in mean edges; +inf where unreached.
   [[nodiscard]] Real distance(Index vertex) const { return vertices_[vertex].distance; }
@@ -132,6 +133,7 @@ class MergedWindows {
   PseudoSource<Real> pseudo_source_;
   Index sentinel_;  ///< beyond a boundary
   MergeLimit limit_;
+  KeptWindows<Real>* kept_ = nullptr;
   bool labels_ = false;
   Real scale_ = 0;  ///< the limit for an edge of length 1, at the distance in turn
   Real radius_ = 0;
