@@ -7,6 +7,7 @@
 #include <plexway/error.hpp>
 
 #include "propagate/windows/bucket_ring.hpp"
+#include "propagate/windows/cross_edge.hpp"
 #include "propagate/windows/trim.hpp"
 
 namespace plexway::windows {
@@ -38,16 +39,6 @@ constexpr double bucket_width = 0.5;
 
 /// Two numbers at once: for a ray through a window's begin and one through its end.
 typedef double Pair __attribute__((vector_size(16)));
-/// Bits of the lanes where a comparison of pairs holds.
-template <class Mask>
-[[gnu::always_inline]] inline int lanes_set(Mask mask) {
-#if defined(__SSE2__)
-  return __builtin_ia32_movmskpd((Pair)mask);
-#else
-  return (mask[0] ? 1 : 0) | (mask[1] ? 2 : 0);
-#endif
-}
-
 /// A point of an edge is `shift` times its length plus `factor` times the way from the pivot.
 struct FromPivot {
   double factor, shift;
@@ -234,26 +225,15 @@ template <class Real>
 template <class Order>
 void ExactWindows<Real>::leave(Order& order, Index f, std::size_t edge, const Window<double>& w,
                                Index source) {
-  Index across = triangles_[f].across[edge];
+  const Index across = triangles_[f].across[edge];
   if (across >> Across::face_shift == sentinel_) return;
   if (!(across & Across::special)) [[likely]] {
     enter(order, across, w, source);
     return;
   }
-  const Window<double> turned = w.mirrored(static_cast<double>(triangles_[f].length[edge]));
-  bool flip = (across & Across::flip) != 0;
-  if (!(across & Across::fan)) {
-    enter(order, across, turned, source);
-    return;
-  }
-  // All the way around the edge; each turn is told from the one before.
-  for (;;) {
-    const Index g = across >> Across::face_shift, k = across & Across::edge_mask;
-    if (g == f && k == edge) return;
-    enter(order, across, flip ? turned : w, source);
-    across = triangles_[g].across[k];
-    flip ^= !(across & Across::flip);
-  }
+  const Window<double> mirrored = w.mirrored(static_cast<double>(triangles_[f].length[edge]));
+  cross_edge(triangles_, f, edge,
+             [&](Index over, bool turned) { enter(order, over, turned ? mirrored : w, source); });
 }
 
 /// Most windows are narrow: all of their light leaves by one edge, and reaches no vertex. Which
@@ -314,22 +294,14 @@ template <class Order>
   const double child_origin = from.shift * length;
   const Pair child_ends = child_origin + mirror * at;
   const double child_begin = child_ends[0], child_end = child_ends[1];
-  // Light that enters over AB and meets this edge at some point has crossed the line from the
-  // other vertex to the first such point: if that vertex reaches it sooner, all is needless.
-  const double to_other = distance_[t.corner[to_right ? in : after]];
-  const double aside = sine * width;
-  const Pair ahead = cosine * width - at, squared = ahead * ahead + aside * aside;
-  const Pair sooner = distances - (to_other + least);
-  const int behind = lanes_set(squared < sooner * sooner) & lanes_set(sooner > 0);
-  if (behind >> to_right & 1 || !(child_begin < child_end)) [[unlikely]] {
+  if (!(child_begin < child_end)) [[unlikely]] {
     node.next = std::exchange(free_, n);
     return;
   }
   const Index over = t.across[out];
   node.beam = {child_origin + mirror * child_x, child_h, child_begin, child_end};
   node.at_begin = distances[0], node.at_end = distances[1];
-  const double near = nearest(node);
-  if ((over & Across::special) || over >> Across::face_shift == sentinel_ || !(near <= radius_))
+  if ((over & Across::special) || over >> Across::face_shift == sentinel_ || radius_ < infinity)
       [[unlikely]] {
     const Window<double> child = {node.beam, sigma, node.at_begin, node.at_end, 0};
     const Index f = node.edge >> 2, source = labels_ ? node_source_[n] : 0;
@@ -338,7 +310,8 @@ template <class Order>
     return;
   }
   node.edge = over >> Across::face_shift << 2 | (over & Across::edge_mask);
-  order.push(n, near, [this](Index i) -> Index& { return nodes_[i].next; });
+  order.push(n, std::min(distances[0], distances[1]),
+             [this](Index i) -> Index& { return nodes_[i].next; });
 }
 
 template <class Real>

@@ -24,9 +24,9 @@ namespace plexway::windows {
 /// A window is the light of one source on one edge, an interval. It goes on through a triangle to
 /// one or two edges, until vertices or other windows serve all of its interval as well. Vertices
 /// with more than 2 pi around (pi on a boundary) are sources themselves, into their shadow. What
-/// decides that a window is needless: its edge's ends and the vertex behind (Xin and Wang,
-/// Improving Chen and Han's algorithm, TOG 2009), and one angle, one split (Chen and Han, SoCG
-/// 1990).
+/// decides that a window is needless: its edge's ends and, for wide ones, the vertex behind (Xin
+/// and Wang, Improving Chen and Han's algorithm, TOG 2009), and one angle, one split (Chen and Han,
+/// SoCG 1990).
 ///
 /// All of these only drop what is longer by more than rounding, so the order of work does not
 /// matter: it gives the same bits, sooner or later. What is kept from solve to solve is memory.

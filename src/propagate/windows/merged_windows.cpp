@@ -8,6 +8,8 @@
 
 #include <plexway/error.hpp>
 
+#include "propagate/windows/cross_edge.hpp"
+
 namespace plexway::windows {
 namespace {
 
@@ -220,10 +222,10 @@ template <class Order>
                                                               const Window<Real>& window,
                                                               Index source) {
   const Index halfedge = across >> Across::face_shift << 2 | (across & Across::edge_mask);
-  const Real nearest = window.nearest();
-  if (nearest > radius_) return;
-  const Real near =
-      nearest + static_cast<Real>(turn_at) * (std::max(window.at_begin, window.at_end) - nearest);
+  if (radius_ < infinity<Real> && window.nearest() > radius_) [[unlikely]]
+    return;
+  const Real near = std::min(window.at_begin, window.at_end) * static_cast<Real>(1 - turn_at) +
+                    std::max(window.at_begin, window.at_end) * static_cast<Real>(turn_at);
   const Index waiting = pending_[halfedge];
   if (waiting != none && blocks_[waiting].count < room) {
     Block& block = blocks_[waiting];
@@ -274,20 +276,10 @@ template <class Order>
 [[gnu::noinline]] void MergedWindows<Real>::leave_special(Order& order, Index f, std::size_t edge,
                                                           const Window<Real>& window,
                                                           Index source) {
-  const Window<Real> turned = window.mirrored(triangles_[f].length[edge]);
-  Index across = triangles_[f].across[edge];
-  bool flip = (across & Across::flip) != 0;
-  if (!(across & Across::fan)) {
-    enter(order, across, turned, source);
-    return;
-  }
-  for (;;) {
-    const Index g = across >> Across::face_shift, k = across & Across::edge_mask;
-    if (g == f && k == edge) return;
-    enter(order, across, flip ? turned : window, source);
-    across = triangles_[g].across[k];
-    flip ^= !(across & Across::flip);
-  }
+  const Window<Real> mirrored = window.mirrored(triangles_[f].length[edge]);
+  cross_edge(triangles_, f, edge, [&](Index across, bool turned) {
+    enter(order, across, turned ? mirrored : window, source);
+  });
 }
 
 /// A block has its turn.
