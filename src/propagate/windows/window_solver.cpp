@@ -79,7 +79,14 @@ void WindowSolver<Real>::solve(std::span<const PointSource> sources, Accuracy ac
     kept_->start(4 * mesh_.face_count());
     return &*kept_;
   };
-  if (!merge || !merged_->solve(sources, options, merge_limit(accuracy.error()), keep())) {
+  // Merged light has no least distance: where lengths are no metric it may gain on itself.
+  const auto is_sound = [&] {
+    for (Index v = 0; v < mesh_.vertex_count(); ++v)
+      if (merged_->distance(v) < 0) return false;
+    return true;
+  };
+  if (!merge || !merged_->solve(sources, options, merge_limit(accuracy.error()), keep()) ||
+      !is_sound()) {
     if (!exact_) exact_.emplace(mesh_, angles_);
     exact_->solve(sources, options, keep());
     take(*exact_);
