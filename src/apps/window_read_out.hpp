@@ -4,11 +4,11 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
-#include <tuple>
 
 #include <plexway/complex/triangle_mesh.hpp>
 
 #include "apps/solved.hpp"
+#include "apps/strip.hpp"
 #include "propagate/windows/window_solver.hpp"
 
 namespace plexway {
@@ -21,41 +21,45 @@ class WindowReadOut {
   WindowReadOut(const TriangleMesh<Real>& mesh, const Solved<Real>& solved)
       : mesh_(mesh), solved_(solved) {}
 
-  /// The last straight piece of a path: from `from`, along edge 0 of the triangle and off it.
+  /// The last straight piece of a path in a triangle: from a place on its rim, or from a source.
   struct Sight {
+    enum class Over { nothing, corner, edge, source };
     double distance = std::numeric_limits<double>::infinity();
-    std::array<double, 2> at = {}, from = {};
+    Over over = Over::nothing;
+    std::size_t edge = 3;
+    std::array<double, 3> place = {};  ///< barycentric
     Index source = none;
   };
-  [[nodiscard]] Sight look(Index f, const std::array<double, 3>& weight) const {
+  /// From where a point of triangle f is seen: one at a corner from elsewhere than that corner and
+  /// over the edge across, one on edge `entered` not over that.
+  [[nodiscard]] Sight look(Index f, const std::array<double, 3>& weight,
+                           std::size_t entered = 3) const {
     const TriangleRecord<Real>& t = mesh_.triangles()[f];
-    const std::array<double, 2> corner[3] = {
-        {0, 0},
-        {static_cast<double>(t.length[0]), 0},
-        {static_cast<double>(t.apex_x(0)), static_cast<double>(t.apex_h(0))}};
+    const std::size_t own = corner_of(weight);
     Sight best;
-    best.at = place(corner, weight);
-    const auto straight = [&](const std::array<double, 2>& from, double distance, Index source) {
-      const double d = distance + std::hypot(best.at[0] - from[0], best.at[1] - from[1]);
-      if (d < best.distance) best.distance = d, best.from = from, best.source = source;
+    const auto offer = [&](double d, typename Sight::Over over, std::size_t edge,
+                           const std::array<double, 3>& place, Index source) {
+      if (d < best.distance) best = {d, over, edge, place, source};
     };
     const double unit = mesh_.unit();
     for (std::size_t i = 0; i < 3; ++i) {
       const Index v = solved_.outer[t.corner[i]];
       const double d = static_cast<double>(solved_.field.distance[v]);
-      if (d < std::numeric_limits<double>::infinity())
-        straight(corner[i], d / unit, solved_.field.label.empty() ? 0 : solved_.field.label[v]);
+      if (i == own || !(d < std::numeric_limits<double>::infinity())) continue;
+      offer(d / unit + apart(t, weight, at_corner(i)), Sight::Over::corner, 3, at_corner(i),
+            solved_.field.label.empty() ? 0 : solved_.field.label[v]);
     }
     for (Index n = 0; n < solved_.sources.size(); ++n) {
       const PointSource& s = solved_.sources[n];
       if (s.vertex != none) continue;
       const auto [face, turned] = mesh_.inside_face(s.simplex);
       if (face != f) continue;
-      straight(place(corner, {s.barycentric[0], s.barycentric[turned ? 2 : 1],
-                              s.barycentric[turned ? 1 : 2]}),
-               s.offset / unit, n);
+      const std::array<double, 3> place = {s.barycentric[0], s.barycentric[turned ? 2 : 1],
+                                           s.barycentric[turned ? 1 : 2]};
+      offer(s.offset / unit + apart(t, weight, place), Sight::Over::source, 3, place, n);
     }
     for (std::size_t e = 0; e < 3; ++e) {
+      if (e == entered || (own < 3 && e != edge_after(own))) continue;
       const double length = static_cast<double>(t.length[e]);
       const double x = weight[edge_after(e)] * length +
                        weight[edge_before(e)] * static_cast<double>(t.apex_x(e));
@@ -63,36 +67,45 @@ class WindowReadOut {
       const auto seen = solved_.windows->nearest(static_cast<Index>(4 * f + e), x, h);
       if (!(seen.distance < best.distance)) continue;
       const double share = length > 0 ? seen.foot / length : 0;
-      std::array<double, 3> on_edge = {};
-      on_edge[e] = 1 - share;
-      on_edge[edge_after(e)] = share;
-      best.distance = seen.distance;
-      best.from = place(corner, on_edge);
-      best.source = seen.source;
+      std::array<double, 3> place = {};
+      place[e] = 1 - share;
+      place[edge_after(e)] = share;
+      offer(seen.distance, Sight::Over::edge, e, place, seen.source);
     }
     return best;
   }
 
   [[nodiscard]] double at(Index f, const std::array<double, 3>& weight) const {
-    return look(f, weight).distance;
+    const std::size_t own = corner_of(weight);
+    if (own == 3) return look(f, weight).distance;
+    const Index v = solved_.outer[mesh_.triangles()[f].corner[own]];
+    return static_cast<double>(solved_.field.distance[v]) / mesh_.unit();
   }
   /// Unit direction away from the source at the centre: along edge 0 and off it. 0 where the source
   /// is there, or nothing leads there.
   [[nodiscard]] std::array<double, 2> gradient(Index f) const {
-    const Sight sight = look(f, {1. / 3, 1. / 3, 1. / 3});
-    const double x = sight.at[0] - sight.from[0], y = sight.at[1] - sight.from[1];
+    constexpr std::array<double, 3> centre = {1. / 3, 1. / 3, 1. / 3};
+    const Sight sight = look(f, centre);
+    if (sight.over == Sight::Over::nothing) return {0, 0};
+    const auto [x, y] = difference(mesh_.triangles()[f], centre, sight.place);
     const double length = std::hypot(x, y);
-    if (sight.source == none || !(length > 0)) return {0, 0};
+    if (!(length > 0)) return {0, 0};
     return {x / length, y / length};
   }
 
  private:
-  [[nodiscard]] static std::array<double, 2> place(const std::array<double, 2> (&corner)[3],
-                                                   const std::array<double, 3>& weight) {
-    std::array<double, 2> p = {};
-    for (std::size_t i = 0; i < 3; ++i)
-      for (std::size_t k = 0; k < 2; ++k) p[k] += weight[i] * corner[i][k];
-    return p;
+  /// From q to p, along edge 0 and off it.
+  [[nodiscard]] static std::array<double, 2> difference(const TriangleRecord<Real>& t,
+                                                        const std::array<double, 3>& p,
+                                                        const std::array<double, 3>& q) {
+    const double b = p[1] - q[1], c = p[2] - q[2];
+    return {b * static_cast<double>(t.length[0]) + c * static_cast<double>(t.apex_x(0)),
+            c * static_cast<double>(t.apex_h(0))};
+  }
+  [[nodiscard]] static double apart(const TriangleRecord<Real>& t, const std::array<double, 3>& p,
+                                    const std::array<double, 3>& q) {
+    const auto [x, y] = difference(t, p, q);
+    return std::hypot(x, y);
   }
 
   const TriangleMesh<Real>& mesh_;

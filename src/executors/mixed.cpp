@@ -54,7 +54,8 @@ void solve_by_windows(const TriangleMesh<Real>& mesh, std::span<const PointSourc
                       DistanceField<Real>& field) {
   const Accuracy accuracy = std::is_same_v<Real, double> ? Accuracy::exact() : Accuracy::accurate();
   workspace.pieces.resize(1);
-  workspace.pieces[0].windows.on(mesh).solve(sources, accuracy, options, field);
+  Workspace<Real>& own = workspace.pieces[0];
+  own.windows.on(mesh).solve(sources, accuracy, options, own, field);
   field.accuracy = accuracy;
   if (!field.label.empty()) return;
   for (const Real d : field.distance)

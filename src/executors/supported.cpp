@@ -13,7 +13,7 @@ void Support::require() const {
 
 Accuracy resolved(Accuracy accuracy, const Combination& c) {
   if (accuracy.kind() != Accuracy::Kind::usual) return accuracy;
-  constexpr bool windows_are_usual = false;
+  constexpr bool windows_are_usual = false;  // at several times the work
   return windows_are_usual && support_of_windows(c) ? Accuracy::accurate() : Accuracy::fast();
 }
 

@@ -16,7 +16,7 @@ void solve_points(const E& executor, const TriangleMesh<Real>& mesh,
       options.accuracy, combination<E, TriangleMesh<Real>>(SourceKind::point, options.visibility,
                                                            options.schedule, mesh.metric()));
   if (accuracy.kind() != Accuracy::Kind::fast) {
-    workspace.windows.on(mesh).solve(sources, accuracy, options, field);
+    workspace.windows.on(mesh).solve(sources, accuracy, options, workspace, field);
     field.accuracy = accuracy;
     return;
   }

@@ -114,7 +114,31 @@ TEST_CASE("several threads take one source each with the bits of one thread", "[
   CHECK_THROWS_AS(solve(OpenMP{}, mesh, sources[0], at(Accuracy::accurate())), UsageError);
 }
 
-// Raising to the straight line and edges belong to `fast`: windows need neither.
+TEMPLATE_TEST_CASE("on a line distances are along it, whatever the accuracy", "", float, double) {
+  std::mt19937 random(8);
+  for (const bool jitter : {false, true}) {
+    Surface s = grid(8, 3);
+    for (Position& p : s.positions) p = {p[0] + jitter * .1 * uniform(random), 0, 0};
+    std::vector<Accuracy> all = {Accuracy::fast(), Accuracy::accurate(), Accuracy(1e-2)};
+    if (std::is_same_v<TestType, double>) all.push_back(Accuracy::exact());
+    for (const Accuracy accuracy : all)
+      for (const Index source : {0u, 13u}) {
+        CAPTURE(jitter, accuracy.error(), source);
+        const auto d = solve(s.mesh<TestType>(), PointSource::at(source), at(accuracy));
+        const auto line = straight(s, s.positions[source]), edges = along_edges(s, source);
+        bool between = true;  // a way over a fold may be shorter than all along edges
+        for (std::size_t v = 0; v < d.size(); ++v)
+          between &= d[v] >= line[v] - 1e-5 && d[v] <= edges[v] + 1e-5;
+        CHECK(between);
+        if (jitter) continue;
+        const Errors e = compare(d, line);
+        CHECK(e.fits);
+        CHECK(e.max < 1e-5);
+      }
+  }
+}
+
+// Raising to the straight line belongs to `fast`: windows do not need it.
 TEST_CASE("windows are nowhere below the straight line, nor beyond a neighbour's edge") {
   for (const char* const what : {"spot", "fandisk", "beetle_car", "rocker-arm", "t908460"}) {
     const auto file = exact_file("surfaces", std::string(what) + ".obj");

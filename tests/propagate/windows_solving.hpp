@@ -23,7 +23,7 @@ void solve_windows(const TriangleMesh<Real>& mesh, std::span<const PointSource> 
                    Accuracy accuracy, PropagateOptions options, Workspace<Real>& workspace,
                    DistanceField<Real>& field) {
   if (std::is_same_v<Real, float> && accuracy == Accuracy::exact()) {
-    workspace.windows.on(mesh).solve(sources, accuracy, options, field);
+    workspace.windows.on(mesh).solve(sources, accuracy, options, workspace, field);
     return;
   }
   options.accuracy = accuracy;

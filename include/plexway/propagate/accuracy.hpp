@@ -14,8 +14,8 @@ class Accuracy {
   /// By which rule: `usual` chooses one, `fast` is labels, `merged` and `exact` are windows.
   enum class Kind { usual, fast, merged, exact };
 
-  /// For who does not choose: `accurate` where that goes together with executor, domain, sources
-  /// and options, else `fast`.
+  /// For who does not choose: `fast`; but sheets of a mixed domain that join to one surface are
+  /// solved by windows, in double exactly.
   static constexpr Accuracy usual() { return Accuracy(Kind::usual, 7e-5); }
   /// One label a simplex: on surfaces mean errors of 3e-4 to 2e-3, single vertices more.
   static constexpr Accuracy fast() { return Accuracy(Kind::fast, 1e-3); }

@@ -1,10 +1,12 @@
 #include "propagate/windows/window_solver.hpp"
 
 #include <limits>
+#include <type_traits>
 
 #include <plexway/propagate/window_memory.hpp>
 
 #include "complex/number_range.hpp"
+#include "propagate/read_out.hpp"
 
 namespace plexway {
 namespace windows {
@@ -25,28 +27,36 @@ bool WindowSolver<Real>::is_for(const TriangleMesh<Real>& mesh) const {
 /// From the numbers and the unit inside to the caller's: nothing beyond the radius, an offset to
 /// the last bit.
 template <class Real>
-template <class Windows>
+template <bool kLabels, class Windows>
 void WindowSolver<Real>::read_out(const Windows& windows, std::span<const PointSource> sources,
-                                  const PropagateOptions& options,
+                                  const PropagateOptions& options, Workspace<Real>& workspace,
                                   DistanceField<Real>& field) const {
   NumberRange<Real>::check_unit(mesh_.unit());
   constexpr Real infinity = std::numeric_limits<Real>::infinity();
   const auto inside = mesh_.vertices_inside();
-  const bool labels = sources.size() > 1;
+  workspace.vertex.resize(inside.size());
+  if constexpr (kLabels) workspace.vertex_source.resize(inside.size());
+  for (Index v = 0; v < inside.size(); ++v) {
+    workspace.vertex[v] = static_cast<Real>(windows.distance(v));
+    if constexpr (kLabels) workspace.vertex_source[v] = windows.source(v);
+  }
+  field.statistics = windows.statistics();
+  if constexpr (std::is_same_v<Windows, MergedWindows<Real>>)
+    field.statistics.lowered_vertices = read_out_edges<Real, kLabels>(mesh_, workspace).much;
   field.distance.resize(inside.size());
-  field.label.resize(labels ? inside.size() : 0);
+  field.label.resize(kLabels ? inside.size() : 0);
   for (std::size_t v = 0; v < inside.size(); ++v) {
-    const double d = static_cast<double>(windows.distance(inside[v])) * mesh_.unit();
+    const double d = static_cast<double>(workspace.vertex[inside[v]]) * mesh_.unit();
     const bool in = d <= options.radius;
     field.distance[v] = in ? static_cast<Real>(d) : infinity;
-    if (labels) field.label[v] = in && d < infinity ? windows.source(inside[v]) : none;
+    if constexpr (kLabels)
+      field.label[v] = in && d < infinity ? workspace.vertex_source[inside[v]] : none;
   }
   for (std::size_t n = 0; n < sources.size(); ++n)
     if (const Index v = sources[n].vertex; v != none && windows.source(mesh_.inside_vertex(v)) == n)
       if (sources[n].offset <= options.radius)
         field.distance[v] = static_cast<Real>(sources[n].offset);
   field.complete = windows.complete();
-  field.statistics = windows.statistics();
   const auto triangles = mesh_.triangles();
   for (std::size_t f = 0; f < mesh_.face_count(); ++f)
     field.statistics.reached_simplices += windows.distance(triangles[f].corner[0]) < infinity;
@@ -54,7 +64,14 @@ void WindowSolver<Real>::read_out(const Windows& windows, std::span<const PointS
 
 template <class Real>
 void WindowSolver<Real>::solve(std::span<const PointSource> sources, Accuracy accuracy,
-                               const PropagateOptions& options, DistanceField<Real>& field) {
+                               const PropagateOptions& options, Workspace<Real>& workspace,
+                               DistanceField<Real>& field) {
+  const auto take = [&](const auto& windows) {
+    if (sources.size() > 1)
+      read_out<true>(windows, sources, options, workspace, field);
+    else
+      read_out<false>(windows, sources, options, workspace, field);
+  };
   const bool merge = accuracy.kind() != Accuracy::Kind::exact;
   if (merge && !merged_) merged_.emplace(mesh_, angles_);
   const auto keep = [&]() -> KeptWindows<Real>* {
@@ -62,14 +79,21 @@ void WindowSolver<Real>::solve(std::span<const PointSource> sources, Accuracy ac
     kept_->start(4 * mesh_.face_count());
     return &*kept_;
   };
-  if (!merge || !merged_->solve(sources, options, merge_limit(accuracy.error()), keep())) {
+  // Merged light has no least distance: where lengths are no metric it may gain on itself.
+  const auto is_sound = [&] {
+    for (Index v = 0; v < mesh_.vertex_count(); ++v)
+      if (merged_->distance(v) < 0) return false;
+    return true;
+  };
+  if (!merge || !merged_->solve(sources, options, merge_limit(accuracy.error()), keep()) ||
+      !is_sound()) {
     if (!exact_) exact_.emplace(mesh_, angles_);
     exact_->solve(sources, options, keep());
-    read_out(*exact_, sources, options, field);
+    take(*exact_);
     field.error.assign(mesh_.vertex_count(), 0);
     return;
   }
-  read_out(*merged_, sources, options, field);
+  take(*merged_);
   const auto inside = mesh_.vertices_inside();
   field.error.resize(inside.size());
   for (std::size_t v = 0; v < inside.size(); ++v)

@@ -9,6 +9,7 @@
 #include <plexway/propagate/accuracy.hpp>
 #include <plexway/propagate/distance_field.hpp>
 #include <plexway/propagate/options.hpp>
+#include <plexway/propagate/workspace.hpp>
 #include <plexway/source/point_source.hpp>
 
 #include "propagate/windows/exact_windows.hpp"
@@ -36,8 +37,12 @@ class WindowSolver {
   /// and the accuracy be a merged one or exact. Exact: the same bits whatever the schedule. Throws
   /// Cancelled. Sources: Mitchell, Mount, Papadimitriou (SIAM J. Comput. 1987);
   /// Chen, Han (SoCG 1990); Xin, Wang (TOG 2009).
+  ///
+  /// What was merged is read out as labels are: no vertex is left farther than a neighbour and the
+  /// edge between, where triangles without an area hide it. `workspace` is for that.
   void solve(std::span<const PointSource> sources, Accuracy accuracy,
-             const PropagateOptions& options, DistanceField<Real>& field);
+             const PropagateOptions& options, Workspace<Real>& workspace,
+             DistanceField<Real>& field);
 
   /// Shall solves keep their windows?
   void keep_windows(bool keep);
@@ -48,9 +53,10 @@ class WindowSolver {
   [[nodiscard]] std::size_t bytes() const;
 
  private:
-  template <class Windows>
+  template <bool kLabels, class Windows>
   void read_out(const Windows& windows, std::span<const PointSource> sources,
-                const PropagateOptions& options, DistanceField<Real>& field) const;
+                const PropagateOptions& options, Workspace<Real>& workspace,
+                DistanceField<Real>& field) const;
 
   const TriangleMesh<Real>& mesh_;
   std::uint64_t identity_;
