@@ -15,6 +15,7 @@
 #include "any/path_state.hpp"
 #include "any/shape_state.hpp"
 #include "any/workspaces.hpp"
+#include "executors/checks.hpp"
 #include "executors/supported.hpp"
 
 #ifdef PLEXWAY_HAS_GL
@@ -257,19 +258,24 @@ class PreparedSurface final : public PreparedKind<TriangleMesh<Real>> {
     });
   }
 
+  // Where a point of the input is in the other triangles, which would take what lies outside of its
+  // triangle to the nearest place.
+  PointSource moved(const PointSource& point) const {
+    check_source(point, {this->shape_.vertices(), this->shape_.simplices(), "face", 3});
+    return made_.delaunay->to_intrinsic(point);
+  }
+
   SourceList moved(const SourceList& sources, Room<TriangleMesh<Real>>& room) const {
-    const IntrinsicDelaunay& delaunay = *made_.delaunay;
     if (sources.only_points()) {
       room.points.clear();
       for (const PointSource& point : sources.points())
-        room.points.push_back(delaunay.to_intrinsic(point));
+        room.points.push_back(moved(point));
       return SourceList(std::span<const PointSource>(room.points));
     }
     room.sources.assign(sources.sources().begin(), sources.sources().end());
     for (Source& source : room.sources) {
-      if (auto* point = std::get_if<PointSource>(&source)) *point = delaunay.to_intrinsic(*point);
-      if (auto* ball = std::get_if<BallSource>(&source))
-        ball->centre = delaunay.to_intrinsic(ball->centre);
+      if (auto* point = std::get_if<PointSource>(&source)) *point = moved(*point);
+      if (auto* ball = std::get_if<BallSource>(&source)) ball->centre = moved(ball->centre);
     }
     return SourceList(std::span<const Source>(room.sources));
   }

@@ -51,7 +51,7 @@ class ExactWindows {
 
  private:
   /// A window, one cache line; or a vertex that is to shine, `at_begin` away.
-  struct Node {
+  struct alignas(64) Node {
     Beam<double> beam;
     double sigma, at_begin, at_end;
     Index edge;  ///< the halfedge it enters by, 4 f + i; or a vertex and vertex_bit
@@ -68,7 +68,9 @@ class ExactWindows {
   template <class Order>
   void seed(Order& order, std::span<const PointSource> sources);
   template <class Order>
-  void expand(Order& order, const Node& window, Index source);
+  void expand(Order& order, Index n);
+  template <class Order>
+  void expand_wide(Order& order, Window<double> window, Index halfedge, Index source);
   template <class Order>
   void shine(Order& order, Index vertex);
   template <class Order>
@@ -92,11 +94,13 @@ class ExactWindows {
   template <class Order>
   void push(Order& order, const Node& node, double near, Index source);
   [[nodiscard]] static double nearest(const Node& node);
+  void keep(const Node& node, Index source);
 
   std::span<const TriangleRecord<Real>> triangles_;
   const TriangleMesh<Real>& mesh_;
   const VertexAngles& angles_;
   PseudoSource<Real> pseudo_source_;
+  Index sentinel_;  ///< beyond a boundary
   KeptWindows<Real>* kept_ = nullptr;
   bool labels_ = false;
   bool splits_whole_ = true;  ///< may a window lose all of a side (see expand)?
