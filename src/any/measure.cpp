@@ -79,7 +79,7 @@ MeasuredLengths AnyShape::measure(const metric::Metric& metric) const {
     lengths.speeds = speeds_of(*this, metric);
   } else {
     throw UsageError("surfaces, solids, wireframes and mixed domains are measured, not a " +
-                     std::string(kind_name()));
+                     std::string(kind_noun(kind())));
   }
   return lengths;
 }

@@ -268,8 +268,7 @@ class PreparedSurface final : public PreparedKind<TriangleMesh<Real>> {
   SourceList moved(const SourceList& sources, Room<TriangleMesh<Real>>& room) const {
     if (sources.only_points()) {
       room.points.clear();
-      for (const PointSource& point : sources.points())
-        room.points.push_back(moved(point));
+      for (const PointSource& point : sources.points()) room.points.push_back(moved(point));
       return SourceList(std::span<const PointSource>(room.points));
     }
     room.sources.assign(sources.sources().begin(), sources.sources().end());
@@ -445,14 +444,14 @@ std::shared_ptr<const Prepared> prepare(const AnyShape& shape, const BuildOption
   const bool asked = options.triangulation == Triangulation::delaunay ||
                      options.triangulation == Triangulation::refined;
   if (asked && shape.kind() != DomainKind::surface)
-    throw UsageError("a " + std::string(shape.kind_name()) +
+    throw UsageError("a " + std::string(kind_noun(shape.kind())) +
                      " has no triangles to flip: leave its triangulation as it is");
   const bool measurable =
       shape.kind() == DomainKind::surface || shape.kind() == DomainKind::solid ||
       shape.kind() == DomainKind::wireframe || shape.kind() == DomainKind::mixed;
   if (options.lengths && !measurable)
     throw UsageError("a metric is for surfaces, solids, wireframes and mixed domains, not a " +
-                     std::string(shape.kind_name()));
+                     std::string(kind_noun(shape.kind())));
   return options.precision == Precision::single ? prepare_as<float>(shape, options)
                                                 : prepare_as<double>(shape, options);
 }
