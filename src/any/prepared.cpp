@@ -268,8 +268,7 @@ class PreparedSurface final : public PreparedKind<TriangleMesh<Real>> {
   SourceList moved(const SourceList& sources, Room<TriangleMesh<Real>>& room) const {
     if (sources.only_points()) {
       room.points.clear();
-      for (const PointSource& point : sources.points())
-        room.points.push_back(moved(point));
+      for (const PointSource& point : sources.points()) room.points.push_back(moved(point));
       return SourceList(std::span<const PointSource>(room.points));
     }
     room.sources.assign(sources.sources().begin(), sources.sources().end());
@@ -295,8 +294,10 @@ class PreparedMixed final : public PreparedKind<MixedComplex<Real>> {
   using Base = PreparedKind<MixedComplex<Real>>;
 
  public:
-  explicit PreparedMixed(const AnyShape& shape)
-      : Base(shape, false), pieces_(std::get<MixedShape>(shape.data())) {
+  PreparedMixed(const AnyShape& shape, const MeasuredLengths* lengths)
+      : Base(shape, lengths != nullptr),
+        pieces_(std::get<MixedShape>(shape.data()),
+                lengths == nullptr ? std::span<const double>() : lengths->speeds) {
     count_components();
   }
 
@@ -416,7 +417,7 @@ std::shared_ptr<const Prepared> prepare_as(const AnyShape& shape, const BuildOpt
         if constexpr (std::is_same_v<Data, io::Triangles>) {
           return std::make_shared<PreparedSurface<Real>>(shape, options, lengths);
         } else if constexpr (std::is_same_v<Data, MixedShape>) {
-          return std::make_shared<PreparedMixed<Real>>(shape);
+          return std::make_shared<PreparedMixed<Real>>(shape, lengths);
         } else if constexpr (std::is_same_v<Data, SimplexShape>) {
           switch (data.dimension) {
             case 1:
@@ -443,14 +444,14 @@ std::shared_ptr<const Prepared> prepare(const AnyShape& shape, const BuildOption
   const bool asked = options.triangulation == Triangulation::delaunay ||
                      options.triangulation == Triangulation::refined;
   if (asked && shape.kind() != DomainKind::surface)
-    throw UsageError("a " + std::string(shape.kind_name()) +
+    throw UsageError("a " + std::string(kind_noun(shape.kind())) +
                      " has no triangles to flip: leave its triangulation as it is");
-  const bool measurable = shape.kind() == DomainKind::surface ||
-                          shape.kind() == DomainKind::solid ||
-                          shape.kind() == DomainKind::wireframe;
+  const bool measurable =
+      shape.kind() == DomainKind::surface || shape.kind() == DomainKind::solid ||
+      shape.kind() == DomainKind::wireframe || shape.kind() == DomainKind::mixed;
   if (options.lengths && !measurable)
-    throw UsageError("lengths by a metric are for surfaces, solids and wireframes, not a " +
-                     std::string(shape.kind_name()));
+    throw UsageError("a metric is for surfaces, solids, wireframes and mixed domains, not a " +
+                     std::string(kind_noun(shape.kind())));
   return options.precision == Precision::single ? prepare_as<float>(shape, options)
                                                 : prepare_as<double>(shape, options);
 }

@@ -408,7 +408,7 @@ std::vector<Path> AnyShape::isolines(std::span<const double> distance,
                                      std::span<const double> values) const {
   const auto* surface = std::get_if<io::Triangles>(&data());
   if (surface == nullptr)
-    throw UsageError("isolines are drawn on surfaces, not on a " + std::string(kind_name()));
+    throw UsageError("isolines are drawn on surfaces, not on a " + std::string(kind_noun(kind())));
   require_positions(*this);
   return plexway::isolines(surface->positions, surface->triangles, distance, values);
 }

@@ -147,6 +147,17 @@ TEST_CASE("simplices of four dimensions come from a file") {
   CHECK(info.json()["kind"] == "simplices");
   CHECK(info.json()["dimension"] == 4);
   CHECK(info.json()["flat"] == true);
+  for (const std::string& one : {file, path}) {
+    const auto bench = run_tool({"bench", one, "-s", "vertex:0", "--repeats", "2", "--json"});
+    INFO(bench.err);
+    REQUIRE(bench.code == 0);
+    CHECK(bench.json()["kind"] == "simplices");
+  }
+  CHECK_THAT(run_tool({"distance", file, "-s", "vertex:1"}).out,
+             Contains("1 simplex, 1 component"));
+  const auto written = run_tool({"convert", file, folder.write("x.obj", "")});
+  CHECK(written.code == 2);
+  CHECK_THAT(written.err, Contains("nothing else"));
   const auto point = run_tool({"distance", file, "-s", "point:0,0,0"});
   CHECK(point.code == 3);
   CHECK_THAT(point.err, Contains("no positions"));

@@ -59,7 +59,8 @@ struct MeasuredLengths {
   std::vector<std::array<double, 6>> tets;
   /// Of a wireframe, one an edge; else empty.
   std::vector<double> edges;
-  bool refracts = false;  ///< triangles may measure an edge they share in two ways
+  std::vector<double> speeds;  ///< of a mixed domain's simplices, all kinds in order
+  bool refracts = false;       ///< triangles may measure an edge they share in two ways
   /// Simplices whose lengths no flat simplex has.
   metric::Violations violations;
 };
@@ -168,8 +169,10 @@ class AnyShape {
   /// other kinds.
   [[nodiscard]] Source boundary(double offset = 0) const;
 
-  /// Lengths by a metric; `refract`: triangles may measure an edge they share in two ways. Throws
-  /// InputError as metric::triangle_lengths, and UsageError for kinds that cannot be measured.
+  /// Lengths by a metric. Triangles may measure an edge they share in two ways where the metric
+  /// says Sides::own. Mixed domains take a speed a simplex, of at most 64 different ones: paths are
+  /// refracted where it changes. Throws InputError as metric::triangle_lengths, and UsageError for
+  /// what cannot be measured.
   [[nodiscard]] MeasuredLengths measure(const metric::Metric& metric) const;
 
   /// Lines on a surface where a field has the values. UsageError for other kinds; see isolines.hpp.

@@ -130,7 +130,7 @@ Json to_json(const BenchCommand& command, const AnyDomain& solver, const AnyFiel
   const double ns = median(result.times.plexway);
   const double dijkstra_ns = median(result.times.dijkstra);
   Json json;
-  json["input"] = command.input;
+  json["input"] = domain.file().string();
   json["kind"] = domain.kind_name();
   json["vertices"] = domain.vertices();
   json["simplices"] = solver.simplices();

@@ -113,6 +113,11 @@ class Conversion {
                           : ""));
   }
 
+  [[noreturn]] void not_written() const {
+    throw UsageError(command_.input +
+                     ": surfaces, solids, wireframes and clouds are converted, nothing else");
+  }
+
   void count(std::size_t v, std::size_t s) {
     vertices = v;
     simplices = s;
@@ -156,8 +161,8 @@ class Conversion {
   }
 
   void write(const CloudShape&) { cannot("cloud", io::point_extensions()); }
-  void write(const SimplexShape&) { cannot("complex of simplices", {}); }
-  void write(const MixedShape&) { cannot("mixed domain", {}); }
+  void write(const SimplexShape&) { not_written(); }
+  void write(const MixedShape&) { not_written(); }
 
   const ConvertCommand& command_;
   std::string extension_;

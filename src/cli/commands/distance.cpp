@@ -94,7 +94,7 @@ Json to_json(const DistanceCommand& command, const AnyDomain& solver, const AnyF
              const MeasuredLengths* lengths, const Outcome& outcome) {
   const Domain& domain = solver.shape();
   Json json;
-  json["input"] = command.input;
+  json["input"] = domain.file().string();
   json["kind"] = domain.kind_name();
   json["vertices"] = domain.vertices();
   json["simplices"] = solver.simplices();
@@ -136,7 +136,7 @@ std::string to_text(const DistanceCommand& command, const AnyDomain& solver, con
                     const std::vector<Source>& sources, const Outcome& outcome) {
   const Domain& domain = solver.shape();
   Table table;
-  table.add("input", command.input);
+  table.add("input", domain.file().string());
   table.add(std::string(domain.kind_name()),
             counted(domain.vertices(), "vertices") + ", " +
                 counted(solver.simplices(), domain.simplex_name()) + ", " +

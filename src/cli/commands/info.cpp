@@ -42,10 +42,10 @@ void run_info(const InfoCommand& command) {
   const InfoReport report =
       std::visit([&](const auto& shape) { return info_of(domain, shape); }, domain.data());
   progress.clear();
-  Json json = {{"input", command.input}, {"kind", domain.kind_name()}};
+  Json json = {{"input", domain.file().string()}, {"kind", domain.kind_name()}};
   json.update(report.json);
   Table table;
-  table.add("input", command.input);
+  table.add("input", domain.file().string());
   table.add(report.table);
   write_output(command.json ? json_text(json) : table.text());
   flush_output();

@@ -232,11 +232,12 @@ void run_path(const PathCommand& command) {
   const Domain domain =
       load_domain(command.input, command.as, command.fill, command.cloud, progress);
   if (command.astar && domain.kind() != DomainKind::surface)
-    throw UsageError("--astar: a " + std::string(domain.kind_name()) +
+    throw UsageError("--astar: a " + std::string(kind_noun(domain.kind())) +
                      " is solved as a whole; A* is for surfaces");
   check_triangulation(triangulation, domain);
   if (command.margin_given && domain.kind() != DomainKind::surface && domain.cloud() == nullptr)
-    throw UsageError("--margin: for surfaces and clouds, not a " + std::string(domain.kind_name()));
+    throw UsageError("--margin: for surfaces and clouds, not a " +
+                     std::string(kind_noun(domain.kind())));
   const std::vector<PointSource> sources = locate_sources(domain, from);
   const std::vector<PointSource> targets = locate_sources(domain, to);
   if (!command.metric.text.empty()) progress.phase("reading the metric");
