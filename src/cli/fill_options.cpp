@@ -56,6 +56,8 @@ io::Tets filled(const std::string& file, Fill fill) {
     throw InputError(file + ": cannot be filled: " + error.what());
   } catch (const UsageError&) {
     throw;
+  } catch (const NotBuiltError&) {
+    throw;
   } catch (const Error& error) {
     throw Error(file + ": cannot be filled: " + error.what());
   }
