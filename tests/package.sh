@@ -4,7 +4,7 @@
 # Everything must be built. FOLDER is made anew.
 set -eu
 build="$1"
-folder="$2"
+folder="$(realpath -m "$2")"
 source="$(cd "$(dirname "$0")/.." && pwd)"
 rm -rf "$folder"
 mkdir -p "$folder/root"
