@@ -86,8 +86,8 @@ inline std::filesystem::path find_helper(const std::string& name, const char* li
   folders.emplace_back(PLEXWAY_HELPER_FOLDER);
   for (const fs::path& folder : folders)
     if (fs::exists(folder / name, none)) return folder / name;
-  throw NotBuiltError(std::string(library) + " needs the program " + name +
-                      ", which is not installed: it belongs into " PLEXWAY_HELPER_FOLDER
+  throw NotBuiltError("the program " + name + ", which runs " + library +
+                      ", is not installed: it belongs into " PLEXWAY_HELPER_FOLDER
                       ", or the folder that PLEXWAY_HELPERS names");
 }
 

@@ -14,7 +14,7 @@ folder="${2:-build/fuzz}"
   -DPLEXWAY_BUILD_TOOL=OFF -DPLEXWAY_BUILD_BENCH=OFF -DPLEXWAY_BUILD_EXAMPLES=OFF \
   -DPLEXWAY_WITH_OPENVDB=OFF -DPLEXWAY_WITH_PCL=OFF -DPLEXWAY_WITH_GL=OFF \
   -DPLEXWAY_WITH_FLANN=OFF -DPLEXWAY_WITH_BOOST_GRAPH=OFF >/dev/null
-cmake --build "$folder" --parallel "$(nproc)"
+cmake --build "$folder" --parallel "$(nproc)" --target plexway_fuzzers
 failed=0
 for program in "$folder"/bin/fuzz_*; do
   format="${program##*/fuzz_}"

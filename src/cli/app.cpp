@@ -14,6 +14,7 @@
 #include "cli/exit_codes.hpp"
 #include "cli/options/executor_argument.hpp"
 #include "cli/report/console.hpp"
+#include "cli/report/help_pages.hpp"
 #include "io/file_bytes.hpp"
 
 namespace plexway::cli {
@@ -72,6 +73,10 @@ int parse_and_run(int argc, const char* const* argv) {
   CLI::App tool("Geodesic distance by virtual source propagation", "plexway");
   bool version = false;
   tool.add_flag("--version", version, "version, precisions, executors, providers and licence");
+  std::string page;
+  tool.add_option("--help-page", page,
+                  "the manual page (man), or completions for bash, zsh or fish")
+      ->type_name("KIND");
   tool.require_subcommand(0, 1);
   tool.footer(
       "'plexway COMMAND --help' tells more about a command.\n\n"
@@ -104,6 +109,11 @@ int parse_and_run(int argc, const char* const* argv) {
     return exit_ok;
   } catch (const CLI::ParseError& error) {
     throw UsageError(usage_complaint(tool, error));
+  }
+  if (!page.empty()) {
+    write_output(help_page(tool, page));
+    flush_output();
+    return exit_ok;
   }
   if (version) {
     write_output(version_text());
