@@ -24,8 +24,8 @@ class Domain {
   [[nodiscard]] const AnyDomain& any() const { return any_; }
   [[nodiscard]] const AnyShape& shape() const { return any_.shape(); }
   [[nodiscard]] const BuildOptions& options() const { return options_; }
-  /// The domain that takes these sources and options: where they need double precision, and this has single,
-  /// another one, built when it is first needed and then kept.
+  /// The domain that takes these sources and options: where they need double precision, and this
+  /// has single, another one, built when it is first needed and then kept.
   [[nodiscard]] const AnyDomain& for_sources(const AnyExecutor& executor, const SourceList& sources,
                                              const PropagateOptions& options) const;
   [[nodiscard]] std::size_t bytes() const;

@@ -65,7 +65,10 @@ std::optional<Accuracy> accuracy_of(const py::object& accuracy) {
     if (name == "accurate") return Accuracy::accurate();
     if (name == "exact") return Accuracy::exact();
   } else if (py::isinstance<py::float_>(accuracy) || py::isinstance<py::int_>(accuracy)) {
-    return Accuracy(accuracy.cast<double>());
+    const auto error = accuracy.cast<double>();
+    if (!(error >= 0 && error < 1))
+      throw py::value_error("accuracy: a mean relative error is at least 0 and below 1");
+    return Accuracy(error);
   }
   throw py::value_error(
       "accuracy: choose one of 'fast', 'accurate', 'exact', or a mean relative error");

@@ -71,6 +71,10 @@ def test_a_point_and_a_segment_on_a_surface():
     V, F = meshes.grid(30, jitter=0.2)
     at = [0.237, 0.581, 0]
     assert np.abs(px.distance(V, F, at) - straight(V, at)).max() < 3e-6
+    for points in ([[0, 0, 0], [1, 1, 0]], np.array([[0, 0], [1, 1]]), ([0.0, 0, 0], (1, 1, 0))):
+        truth = np.minimum(straight(V, [0, 0, 0]), straight(V, [1, 1, 0]))
+        assert np.abs(px.distance(V, F, points) - truth).max() < 3e-6
+        assert px.Surface(V, F).field(0).at(points) == pytest.approx([0, np.sqrt(2)], abs=1e-6)
     a, b = np.array([0.21, 0.33, 0]), np.array([0.74, 0.52, 0])
     d = px.distance(V, F, px.Segment(a, b))
     along = np.clip((V - a) @ (b - a) / ((b - a) @ (b - a)), 0, 1)
