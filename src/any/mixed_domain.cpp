@@ -2,7 +2,13 @@
 
 #include <array>
 #include <span>
+#include <string>
 #include <utility>
+
+#include <plexway/error.hpp>
+
+#include "any/words.hpp"
+#include "complex/nearby.hpp"
 
 namespace plexway {
 namespace {
@@ -65,7 +71,8 @@ class Adding {
     for (std::size_t p = 0; p < pieces_.size(); ++p) {
       const Added& other = pieces_[p];
       if (other.part != piece.part) {
-        made_.complex.weld(known[p], known.back(), {.tolerance = shape_.tolerance});
+        const auto near = near_pairs(other, piece);
+        made_.complex.weld(known[p], known.back(), std::span<const std::array<Index, 2>>(near));
         continue;
       }
       std::vector<std::array<Index, 2>> pairs;
@@ -77,6 +84,31 @@ class Adding {
       }
       made_.complex.weld(known[p], known.back(), std::span<const std::array<Index, 2>>(pairs));
     }
+  }
+
+  // Vertices of two parts that are one. None may be one with two that lie apart: that would shrink
+  // what is between them to a point.
+  std::vector<std::array<Index, 2>> near_pairs(const Added& a, const Added& b) const {
+    const auto places = [&](const Added& of) {
+      std::vector<std::array<double, 3>> at;
+      for (const Index v : of.outer) at.push_back(shape_.positions[v]);
+      return at;
+    };
+    const auto pairs = nearby_pairs(places(a), places(b), shape_.tolerance);
+    const std::array<const Added*, 2> sides = {&a, &b};
+    for (const std::size_t side : {0, 1}) {
+      std::vector<Index> partner(sides[side]->outer.size(), none);
+      for (const auto& pair : pairs) {
+        const Index v = pair[side], other = sides[1 - side]->outer[pair[1 - side]];
+        if (partner[v] == none) partner[v] = other;
+        if (shape_.positions[partner[v]] != shape_.positions[other])
+          throw UsageError("a tolerance of " + short_number(shape_.tolerance) +
+                           " is too large: vertex " + std::to_string(sides[side]->outer[v]) +
+                           " would be one with vertices " + std::to_string(partner[v]) + " and " +
+                           std::to_string(other) + ", which lie apart");
+      }
+    }
+    return pairs;
   }
 
   const MixedShape& shape_;

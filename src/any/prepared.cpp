@@ -29,6 +29,7 @@ template <class Real>
 void cut(DistanceField<Real>& field, std::size_t vertices) {
   field.distance.resize(vertices);
   if (!field.label.empty()) field.label.resize(vertices);
+  if (!field.error.empty()) field.error.resize(vertices);
 }
 
 // A field of the right precision, with the memory that it had.
@@ -223,7 +224,10 @@ class PreparedSurface final : public PreparedKind<TriangleMesh<Real>> {
     if (field.triangulation.done == Triangulation::input)
       state->solve(executor, sources, options);
     else
-      state->adopt(executor, std::move(field), sources, options);
+      state->adopt(executor, std::move(field), sources, options,
+                   {&made_.mesh, [this](const PointSource& point) {
+                      return made_.delaunay->to_intrinsic(point);
+                    }});
     return state;
   }
 
@@ -314,6 +318,8 @@ class PreparedMixed final : public PreparedKind<MixedComplex<Real>> {
     };
     pick(room.other.distance, found.distance, std::numeric_limits<Real>::infinity());
     pick(room.other.label, found.label, none);
+    pick(room.other.error, found.error, Real(0));
+    found.accuracy = room.other.accuracy;
     found.complete = room.other.complete;
     found.statistics = room.other.statistics;
     field.triangulation = {};

@@ -41,6 +41,9 @@ constexpr std::array<std::string_view, 4> tied_to_names = {".poly", ".smesh", ".
 
 using Data = AnyShape::Data;
 
+// Those whose readers go back and forth, or look for a second file beside it.
+constexpr std::array<std::string_view, 4> tied_to_names = {".poly", ".smesh", ".vdb", ".pcd"};
+
 // An .obj may be either of two. Only one that cannot be read as a surface is looked at again.
 Data read_obj(const std::string& file, std::optional<DomainKind> asked) {
   if (asked == DomainKind::wireframe && has_statement(file, 'l')) return io::read_edges(file);

@@ -201,9 +201,11 @@ class GmshReader {
   void element(const GmshElement& element, std::int64_t number, NumberType type) {
     const bool mixed = take_ == Take::mixed;
     if (element.kind == gmsh_tetrahedra) {
-      solid_.tets.push_back(corners<4>(element, "tetrahedron", "a node of the tetrahedron", number, type));
+      solid_.tets.push_back(
+          corners<4>(element, "tetrahedron", "a node of the tetrahedron", number, type));
     } else if (mixed && element.kind == gmsh_triangles) {
-      solid_.triangles.push_back(corners<3>(element, "triangle", "a node of the triangle", number, type));
+      solid_.triangles.push_back(
+          corners<3>(element, "triangle", "a node of the triangle", number, type));
     } else if (mixed && element.kind == gmsh_lines) {
       solid_.edges.push_back(corners<2>(element, "line", "a node of the line", number, type));
     } else {

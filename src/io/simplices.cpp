@@ -28,11 +28,9 @@ class SimplicesReader {
 
  private:
   void heading(std::string_view word) {
-    if (!in_.to_content())
-      in_.fail("the file ends before \"" + std::string(word) + "\"");
+    if (!in_.to_content()) in_.fail("the file ends before \"" + std::string(word) + "\"");
     const std::string_view found = in_.field();
-    if (found != word)
-      in_.fail("expected \"" + std::string(word) + "\", found " + quote(found));
+    if (found != word) in_.fail("expected \"" + std::string(word) + "\", found " + quote(found));
   }
 
   void end_line(std::string_view what) {

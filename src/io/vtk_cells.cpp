@@ -81,7 +81,8 @@ bool VtkTets::add_other(const VtkCells& cells, std::size_t cell, std::int64_t ty
     return true;
   }
   if (type == polyline && nodes >= 2) {
-    for (std::uint64_t i = 0; i + 1 < nodes; ++i) solid_.edges.push_back({corner[i], corner[i + 1]});
+    for (std::uint64_t i = 0; i + 1 < nodes; ++i)
+      solid_.edges.push_back({corner[i], corner[i + 1]});
     return true;
   }
   if ((type == triangle && nodes == 3) || (type == triangle2 && nodes == 6)) {

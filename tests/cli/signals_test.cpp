@@ -77,6 +77,14 @@ std::string off_of(const samples::Shape& shape) {
   return text;
 }
 
+// A .vdb has a number of its own in its head, 36 characters, that no other file has.
+std::string without_own_number(std::string bytes) {
+  constexpr std::size_t at = 8 + 4 + 4 + 4 + 1, length = 36;
+  if (bytes.starts_with(std::string(" BDV", 4)) && bytes.size() > at + length)
+    bytes.erase(at, length);
+  return bytes;
+}
+
 struct Case {
   std::string out;
   std::vector<std::string> arguments;  // in front of `out`
@@ -112,7 +120,7 @@ TEST_CASE("kills at random moments leave the old file or the new one, and no oth
     INFO(it.out);
     REQUIRE(code == 0);
     const auto whole_time = Clock::now() - began;
-    const std::string whole = bytes_of(out);
+    const std::string whole = without_own_number(bytes_of(out));
     for (int n = 0; n < kills; ++n) {
       const bool replaces = n % 2 == 0;
       if (replaces)
@@ -129,7 +137,7 @@ TEST_CASE("kills at random moments leave the old file or the new one, and no oth
       CHECK((got == 128 + signal || got == 0));
       ++(got == 0 ? finished : ended);
       CHECK_FALSE(helper_left(child));
-      const std::string left = fs::exists(out) ? bytes_of(out) : "";
+      const std::string left = fs::exists(out) ? without_own_number(bytes_of(out)) : "";
       CHECK((left == whole || (got != 0 && left == (replaces ? "old" : ""))));
       std::vector<std::string> others;
       for (const auto& entry : fs::directory_iterator(folder.path()))

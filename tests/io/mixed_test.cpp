@@ -23,8 +23,7 @@ void check_cells(const io::Mixed& cells) {
   CHECK(cells.positions[4] == std::array<double, 3>{1, 1, 0});
   CHECK(cells.tets == std::vector<std::array<std::uint32_t, 4>>{{0, 1, 2, 3}});
   CHECK(cells.triangles == std::vector<std::array<std::uint32_t, 3>>{{1, 4, 2}, {0, 1, 3}});
-  CHECK(cells.edges ==
-        std::vector<std::array<std::uint32_t, 2>>{{4, 5}, {4, 5}, {5, 6}});
+  CHECK(cells.edges == std::vector<std::array<std::uint32_t, 2>>{{4, 5}, {4, 5}, {5, 6}});
 }
 
 std::string vtk(const std::string& cells, const std::string& types) {
@@ -46,8 +45,8 @@ std::string gmsh(const std::string& elements) {
 }  // namespace
 
 TEST_CASE("lines, triangles and tetrahedra come from one .vtk") {
-  const std::string file = vtk(
-      "CELLS 6 22\n3 1 4 2\n4 0 1 2 3\n2 4 5\n3 4 5 6\n3 0 1 3\n1 6\n", "CELL_TYPES 6\n5 10 3 4 5 1\n");
+  const std::string file = vtk("CELLS 6 22\n3 1 4 2\n4 0 1 2 3\n2 4 5\n3 4 5 6\n3 0 1 3\n1 6\n",
+                               "CELL_TYPES 6\n5 10 3 4 5 1\n");
   check_cells(io::parse_vtk_mixed(file, "f"));
   // As a solid, as before.
   CHECK(io::parse_vtk(file, "f").tets.size() == 1);
@@ -80,9 +79,9 @@ TEST_CASE("lines, triangles and tetrahedra come from one .msh") {
 }
 
 TEST_CASE("cells that a mixed domain cannot have are refused, as it would have holes") {
-  CHECK_THROWS_WITH(io::parse_vtk_mixed(vtk("CELLS 2 8\n2 4 5\n4 0 1 4 2\n", "CELL_TYPES 2\n3 9\n"),
-                                        "f.vtk"),
-                    Contains("f.vtk: has 1 quadrilaterals"));
+  CHECK_THROWS_WITH(
+      io::parse_vtk_mixed(vtk("CELLS 2 8\n2 4 5\n4 0 1 4 2\n", "CELL_TYPES 2\n3 9\n"), "f.vtk"),
+      Contains("f.vtk: has 1 quadrilaterals"));
   CHECK_THROWS_WITH(io::parse_gmsh_mixed(gmsh("1\n1 3 0 10 11 14 12\n"), "f.msh"),
                     Contains("quadrilaterals"));
   CHECK_THROWS_AS(io::parse_vtk_mixed(vtk("CELLS 1 2\n1 4\n", "CELL_TYPES 1\n1\n"), "f"),
@@ -98,8 +97,8 @@ TEST_CASE("simplices of any dimension come from a text") {
   CHECK(flat.axes == 2);
   CHECK(flat.positions == std::vector<double>{0, 0, 1, 0, 0, 1, 1, 1});
   CHECK(flat.corners == std::vector<std::uint32_t>{0, 1, 2, 1, 3, 2});
-  const auto lengths = io::parse_simplices(
-      "dimension 1\nvertices 3\nsimplices 2\n0 1 2.5\n1 2 1\n", "f");
+  const auto lengths =
+      io::parse_simplices("dimension 1\nvertices 3\nsimplices 2\n0 1 2.5\n1 2 1\n", "f");
   CHECK(lengths.axes == 0);
   CHECK(lengths.lengths == std::vector<double>{2.5, 1});
   const auto fails = [](const std::string& text, const std::string& why) {

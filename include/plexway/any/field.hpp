@@ -76,6 +76,16 @@ class AnyField {
   [[nodiscard]] bool complete() const {
     return std::visit([](const auto& f) { return f.complete; }, data);
   }
+  /// How far off each distance may be, an estimate (DistanceField::error); empty for
+  /// Accuracy::fast().
+  [[nodiscard]] std::vector<double> error() const {
+    return std::visit(
+        [](const auto& f) { return std::vector<double>(f.error.begin(), f.error.end()); }, data);
+  }
+  /// By which it was solved.
+  [[nodiscard]] Accuracy accuracy() const {
+    return std::visit([](const auto& f) { return f.accuracy; }, data);
+  }
   [[nodiscard]] const PropagateStatistics& statistics() const {
     return std::visit([](const auto& f) -> const PropagateStatistics& { return f.statistics; },
                       data);

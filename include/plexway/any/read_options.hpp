@@ -67,8 +67,8 @@ enum class Spelling {
 /// How to read a domain from a file.
 struct ReadOptions {
   /// What to take it as; nothing: what the file says. A surface may be taken as a solid (it is
-  /// filled), its edges as a wireframe, its vertices as a cloud; a .msh, .vtu or .vtk as mixed: with
-  /// its lines and triangles beside its tetrahedra.
+  /// filled), its edges as a wireframe, its vertices as a cloud; a .msh, .vtu or .vtk as mixed:
+  /// with its lines and triangles beside its tetrahedra.
   std::optional<DomainKind> as = {};
   FillOptions fill = {};
   VolumeOptions volume = {};

@@ -70,8 +70,8 @@ class AnyShape {
   /// .vtk with cells of several dimensions: parts of one mixed domain, whose vertices are one where
   /// they are closer than `tolerance` in file units, >= 0. Throws as above; UsageError for options
   /// that say how to fill, repair or connect points.
-  [[nodiscard]] static AnyShape read(std::span<const std::filesystem::path> files,
-                                     double tolerance, const ReadOptions& options = {});
+  [[nodiscard]] static AnyShape read(std::span<const std::filesystem::path> files, double tolerance,
+                                     const ReadOptions& options = {});
 
   // From arrays: positions in any unit, simplices by vertices counted from 0. All throw InputError
   // that names the simplex for a vertex out of range.
@@ -148,10 +148,12 @@ class AnyShape {
   [[nodiscard]] std::vector<Path> isolines(std::span<const double> distance,
                                            std::span<const double> values) const;
 
-  /// Writes one distance a vertex; the extension of `out` picks the format. Throws as
+  /// Writes one distance a vertex, and of surfaces and clouds its `error` where there is one; the
+  /// extension of `out` picks the format. Throws as
   /// io::write_field; a cloud fits a .pcd as well, a solid a .vdb.
   void write_field(const std::filesystem::path& out, std::span<const double> distance,
-                   std::span<const std::int32_t> label = {}) const;
+                   std::span<const std::int32_t> label = {},
+                   std::span<const double> error = {}) const;
   /// The extensions that fields of a kind may have, with the dot, in lower case.
   [[nodiscard]] static std::span<const std::string_view> field_extensions(DomainKind kind);
 

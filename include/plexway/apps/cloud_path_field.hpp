@@ -43,7 +43,7 @@ class PathField<PointCloud<Real>> {
       plexway::solve(executor, *cloud_, sources, options, workspace_, field_);
     else
       field_ = plexway::solve(executor, *cloud_, sources, options);
-    took(sources, options.visibility, keeps_labels);
+    took(sources, options.visibility, keeps_labels && field_.accuracy == Accuracy::fast());
     return field_;
   }
   template <class Executor>

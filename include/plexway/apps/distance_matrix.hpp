@@ -20,6 +20,7 @@ struct DistanceMatrix {
   std::vector<double> distance;  ///< row by row, symmetric, 0 on the diagonal; +inf where no path
   /// The largest difference between the two ways, in the length of the way: an error estimate.
   double asymmetry = 0;
+  Accuracy accuracy = Accuracy::fast();  ///< by which it was solved
   PropagateStatistics statistics;
 
   [[nodiscard]] double operator()(std::size_t i, std::size_t j) const {
@@ -32,11 +33,13 @@ struct DistanceMatrix {
 /// counts. Offsets are not asked for (UsageError).
 ///
 /// Throws UsageError for no points or a point that is not in the domain, and Cancelled when
-/// `progress`, called with the share that is done, returns false.
+/// `progress`, called with the share that is done, returns false. On surfaces and clouds the
+/// accuracy is that of `solve`.
 template <class Real>
-[[nodiscard]] DistanceMatrix distance_matrix(
-    Serial, const TriangleMesh<Real>& mesh, std::span<const PointSource> points,
-    const std::function<bool(double share)>& progress = {});
+[[nodiscard]] DistanceMatrix distance_matrix(Serial, const TriangleMesh<Real>& mesh,
+                                             std::span<const PointSource> points,
+                                             const std::function<bool(double share)>& progress = {},
+                                             Accuracy accuracy = Accuracy::usual());
 /// In a solid, which must have coordinates (UsageError).
 template <class Real>
 [[nodiscard]] DistanceMatrix distance_matrix(
@@ -44,8 +47,9 @@ template <class Real>
     const std::function<bool(double share)>& progress = {});
 /// Among points of a cloud, by number.
 template <class Real>
-[[nodiscard]] DistanceMatrix distance_matrix(
-    Serial, const PointCloud<Real>& cloud, std::span<const PointSource> points,
-    const std::function<bool(double share)>& progress = {});
+[[nodiscard]] DistanceMatrix distance_matrix(Serial, const PointCloud<Real>& cloud,
+                                             std::span<const PointSource> points,
+                                             const std::function<bool(double share)>& progress = {},
+                                             Accuracy accuracy = Accuracy::usual());
 
 }  // namespace plexway

@@ -56,13 +56,15 @@ class PathField<Domain<Real>> {
   const DistanceField<Real>& solve(Executor executor, std::span<const PointSource> sources,
                                    const PropagateOptions& options = {}) {
     solved_ = false;
-    constexpr bool keeps_labels =
-        std::is_same_v<WorkspaceOf<Executor, Domain<Real>>, Workspace<Real>>;
-    if constexpr (keeps_labels)
+    constexpr bool keeps = std::is_same_v<WorkspaceOf<Executor, Domain<Real>>, Workspace<Real>>;
+    if constexpr (keeps) {
+      workspace_.windows.keep_windows(true);
       plexway::solve(executor, *domain_, sources, options, workspace_, field_);
-    else
+    } else {
       field_ = plexway::solve(executor, *domain_, sources, options);
-    took(sources, options.visibility, keeps_labels);
+    }
+    const bool fast = field_.accuracy == Accuracy::fast();
+    took(sources, options.visibility, !keeps ? Kept::nothing : fast ? Kept::labels : Kept::windows);
     return field_;
   }
   template <class Executor>
@@ -76,7 +78,7 @@ class PathField<Domain<Real>> {
   void adopt(DistanceField<Real> found, std::span<const PointSource> sources) {
     solved_ = false;
     field_ = std::move(found);
-    took(sources, Visibility::saddles, false);
+    took(sources, Visibility::saddles, Kept::nothing);
   }
 
   /// What the last solve found.
@@ -103,10 +105,12 @@ class PathField<Domain<Real>> {
 
   /// The distance of any point of the domain, in its unit; its offset does not count. +inf where no
   /// path leads. `linear` needs the vertices' distances only; the other levels ask the virtual
-  /// sources that Visibility::saddles left, with Serial and OpenMP. In solids `star` asks what
-  /// `neighbours` asks, and tetrahedra need their coordinates; along the edges of wireframes all
-  /// levels but `linear` are exact. A solve's radius bounds the distances of vertices, so `linear`;
-  /// the labels that other levels ask go on by about a simplex.
+  /// sources that Visibility::saddles or windows left, with Serial and OpenMP. In solids `star`
+  /// asks what `neighbours` asks, and tetrahedra need their coordinates; along the edges of
+  /// wireframes all levels but `linear` are exact. A solve's radius bounds the distances of
+  /// vertices, so `linear`; the labels that other levels ask go on by about a simplex. After
+  /// windows (Accuracy) all levels but `linear` ask those, and are as accurate as they are: exact
+  /// after Accuracy::exact().
   ///
   /// Across an edge `neighbours` and `star` are continuous where the labels on both sides are all
   /// that is asked; docs/apps/read_out.md has what jumps. Throws UsageError for a
@@ -142,7 +146,9 @@ class PathField<Domain<Real>> {
 
  private:
   void check_labels(ReadOut level) const;
-  void took(std::span<const PointSource> sources, Visibility visibility, bool labels);
+  /// What the workspace has of the field.
+  enum class Kept { nothing, labels, windows };
+  void took(std::span<const PointSource> sources, Visibility visibility, Kept kept);
   [[nodiscard]] Solved<Real> solved() const;
 
   const Domain<Real>* domain_;
@@ -153,7 +159,8 @@ class PathField<Domain<Real>> {
   DistanceField<Real> field_;
   std::vector<PointSource> sources_;
   Visibility visibility_ = Visibility::saddles;
-  bool solved_ = false, labels_ = false;
+  bool solved_ = false;
+  Kept kept_ = Kept::nothing;
 };
 
 template <template <class> class Domain, class Real>

@@ -12,8 +12,8 @@ namespace plexway::io {
 struct Simplices {
   int dimension = 4;
   std::size_t vertices = 0;
-  std::size_t axes = 0;                 ///< coordinates a vertex; 0: none
-  std::vector<double> positions = {};   ///< vertices x axes
+  std::size_t axes = 0;                     ///< coordinates a vertex; 0: none
+  std::vector<double> positions = {};       ///< vertices x axes
   std::vector<std::uint32_t> corners = {};  ///< dimension + 1 a simplex, each < vertices
   /// If there are no coordinates: dimension (dimension + 1) / 2 a simplex, ordered as
   /// SimplicialComplex has them.

@@ -4,6 +4,7 @@
 #include <functional>
 #include <limits>
 
+#include <plexway/propagate/accuracy.hpp>
 #include <plexway/propagate/probe_table.hpp>
 
 namespace plexway {
@@ -37,6 +38,8 @@ struct Progress {
 };
 
 struct PropagateOptions {
+  /// Of windows count below schedule, radius, max_expansions and progress.
+  Accuracy accuracy = Accuracy::usual();
   Visibility visibility = Visibility::saddles;
   Schedule schedule = Schedule::dual_queue;
   /// Width of the dual queue's limit, in mean edge lengths, > 0.

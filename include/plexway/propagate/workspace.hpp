@@ -13,6 +13,7 @@
 #include <plexway/propagate/simplex_label.hpp>
 #include <plexway/propagate/solid_label.hpp>
 #include <plexway/propagate/visit_marks.hpp>
+#include <plexway/propagate/window_memory.hpp>
 
 namespace plexway {
 
@@ -26,12 +27,12 @@ struct Workspace {
   LabelStorage<SolidLabel<Real>> solids;             ///< in solids: Visibility::saddles
   LabelStorage<PlainSolidLabel<Real>> plain_solids;  ///< in solids: the other policies
   SimplexLabels<Real> simplex;                       ///< SimplicialComplex
-  std::vector<Index> source;  ///< nearest source a simplex; empty for one source
+  std::vector<Index> source;   ///< nearest source a simplex; empty for one source
+  WindowMemory<Real> windows;  ///< on surfaces: accuracies but `fast`
   FrontStorage front;
   TeamRooms team;                    ///< for executors with several threads
   std::vector<Real> vertex;          ///< read-out, in the numbers inside
   std::vector<Index> vertex_source;  ///< its labels
-  std::vector<Index> vertex_path;    ///< in solids: how the path came
   std::vector<Index> corners;        ///< around one vertex
 
   /// Room for a front and marks over so many simplices and a sentinel behind them; all unreached
@@ -48,7 +49,7 @@ struct Workspace {
     return sizeof(*this) + marks.bytes() + saddles.count * sizeof(SaddleLabel<Real>) +
            plain.count * sizeof(PlainLabel<Real>) + solids.count * sizeof(SolidLabel<Real>) +
            plain_solids.count * sizeof(PlainSolidLabel<Real>) + simplex.bytes() + of(source) +
-           of(vertex) + of(vertex_source) + of(vertex_path) + of(corners) +
+           windows.bytes() + of(vertex) + of(vertex_source) + of(corners) +
            front.capacity * 2 * sizeof(Index) + of(front.heap) + team.bytes();
   }
 };

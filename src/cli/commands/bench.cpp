@@ -94,7 +94,8 @@ std::vector<std::vector<double>> read_truths(const BenchCommand& command, const 
 std::size_t field_bytes(const AnyField& field) {
   return std::visit(
       [](const auto& f) {
-        return f.distance.capacity() * sizeof(f.distance[0]) + f.label.capacity() * sizeof(Index);
+        return f.distance.capacity() * sizeof(f.distance[0]) + f.label.capacity() * sizeof(Index) +
+               f.error.capacity() * sizeof(f.error[0]);
       },
       field.data);
 }
@@ -133,10 +134,12 @@ Json to_json(const BenchCommand& command, const AnyDomain& solver, const AnyFiel
   json["kind"] = domain.kind_name();
   json["vertices"] = domain.vertices();
   json["simplices"] = solver.simplices();
-  json["precision"] = command.solve.precision;
+  json["precision"] = precision_of(command.solve) == Precision::single ? "float" : "double";
   json["executor"] = executor_name(result.executor);
   json["threads"] = executor_threads(result.executor);
   json["visibility"] = command.solve.visibility;
+  if (domain.kind() == DomainKind::surface || domain.cloud() != nullptr)
+    json["accuracy"] = json_of(field.accuracy());
   if (domain.kind() == DomainKind::surface) {
     json["triangulation"] = name_of(field.triangulation);
     json["flips"] = field.triangulation.flips;

@@ -116,6 +116,8 @@ Json to_json(const DistanceCommand& command, const AnyDomain& solver, const AnyF
   json["executor"] = executor_name(outcome.executor);
   json["threads"] = executor_threads(outcome.executor);
   json["precision"] = command.solve.precision == "float" ? "float" : "double";
+  if (domain.kind() == DomainKind::surface || domain.cloud() != nullptr)
+    json["accuracy"] = json_of(field.accuracy());
   if (domain.kind() == DomainKind::surface) json["triangulation"] = name_of(field.triangulation);
   add_metric(command.metric, lengths, solver.refracting_edges(), json);
   if (!domain.level_set_note().empty()) json["voxels"] = domain.level_set_note();
@@ -162,7 +164,11 @@ std::string to_text(const DistanceCommand& command, const AnyDomain& solver, con
   if (domain.neighbour_seconds()) mesh = ", neighbours " + short_time(*domain.neighbour_seconds());
   table.add("time", "load " + short_time(domain.load_seconds()) + mesh + ", build " +
                         short_time(outcome.build) + ", solve " + short_time(outcome.solve) + " (" +
-                        executor_text(outcome.executor) + ", " + command.solve.precision + ")");
+                        executor_text(outcome.executor) + ", " +
+                        (domain.kind() == DomainKind::surface || domain.cloud() != nullptr
+                             ? name_of(field.accuracy()) + ", "
+                             : std::string()) +
+                        command.solve.precision + ")");
   add_written(table,
               {command.out == "-" ? "" : command.out, command.isolines.out, command.picture.file});
   return table.text();
@@ -250,6 +256,8 @@ std::vector<std::int32_t> labels_of(const AnyField& field, const std::vector<dou
 void run_distance(DistanceCommand command) {
   const PropagateOptions wanted = propagate_options(command.solve);
   Precision precision = precision_of(command.solve);
+  if (precision == Precision::twice && command.solve.precision == "float")
+    command.solve.precision = "double, which exact distances need";
   Triangulation triangulation = triangulation_of(command.triangulation);
   const std::vector<SetArgument> arguments = parse_source_sets(command.sources);
   if (command.out != "-" && !is_vdb(command.out))
@@ -321,9 +329,10 @@ void run_distance(DistanceCommand command) {
       write_distance_csv(distance, label,
                          domain.cloud() != nullptr
                              ? std::span<const std::uint32_t>(domain.cloud()->points.original)
-                             : std::span<const std::uint32_t>());
+                             : std::span<const std::uint32_t>(),
+                         field.error());
     } else {
-      domain.write_field(command.out, distance, label);
+      domain.write_field(command.out, distance, label, field.error());
     }
   }
   if (!command.isolines.out.empty()) {

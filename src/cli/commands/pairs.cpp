@@ -1,6 +1,7 @@
 #include <CLI/CLI.hpp>
 #include <memory>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 #include <plexway/apps/distance_matrix.hpp>
@@ -23,6 +24,7 @@ struct PairsCommand : SamplingCommand {
 
 void run_pairs(const PairsCommand& command) {
   const Precision precision = precision_of(command);
+  const Accuracy accuracy = accuracy_of(command.accuracy);
   check_output_name(command.out, command.input, matrix_file_extensions());
   const auto arguments = parse_sources(command.sources);
   ProgressLine progress(command.quiet);
@@ -34,16 +36,27 @@ void run_pairs(const PairsCommand& command) {
   double seconds = 0;
   with_sampled(domain, precision, [&](const auto& complex) {
     const Stopwatch solving;
-    matrix = distance_matrix(Serial{}, complex, points, [&](double share) {
+    const auto tell = [&](double share) {
       progress.done(share);
       return true;
-    });
+    };
+    using Complex = std::decay_t<decltype(complex)>;
+    if constexpr (requires { distance_matrix(Serial{}, complex, points, tell, accuracy); }) {
+      matrix = distance_matrix(Serial{}, complex, points, tell, accuracy);
+    } else {
+      Combination cell = combination<Serial, Complex>();
+      cell.accuracy = accuracy.kind();
+      support(cell).require();
+      matrix = distance_matrix(Serial{}, complex, points, tell);
+    }
     seconds = solving.seconds();
   });
   if (!command.out.empty()) write_matrix(command.out, matrix.size, matrix.distance);
   progress.clear();
 
   PointSummary summary(command, domain, points.size());
+  if (domain.kind() == DomainKind::surface || domain.cloud() != nullptr)
+    summary.json["accuracy"] = json_of(matrix.accuracy);
   summary.json["asymmetry"] = matrix.asymmetry;
   summary.table.add("two ways",
                     "differ by " + short_number(matrix.asymmetry) + " of the shorter at most");
@@ -61,6 +74,7 @@ void add_pairs_command(CLI::App& tool, Action& action) {
   CLI::App& app =
       *tool.add_subcommand("pairs", "The matrix of distances between chosen points, symmetric");
   add_sampling_options(app, *command, "write the matrix: .csv or .npy");
+  add_accuracy_option(app, command->accuracy, "");
   app.add_option("--source,-s", command->sources, "a point: vertex:ID or point:X,Y,Z; repeat it")
       ->required()
       ->type_name("WHERE")

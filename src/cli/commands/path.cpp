@@ -55,6 +55,7 @@ struct Outcome {
   std::vector<double> promised;  // of each target, as the field has it
   TriangulationReport triangulation;
   PropagateStatistics statistics;
+  Accuracy accuracy = Accuracy::fast();
   double build = 0, solve = 0, trace = 0;
 };
 
@@ -103,13 +104,16 @@ Outcome find_paths(const Domain& domain, const BuildOptions& building, const Pat
   const AnyPathField field = built.path_field(Serial{}, sources, options);
   outcome.solve = solving.seconds();
   outcome.statistics = field.field().statistics();
+  outcome.accuracy = field.field().accuracy();
   outcome.triangulation = field.field().triangulation;
   outcome.distance = field.field().doubles();
   progress.phase("tracing");
   const Stopwatch tracing;
   for (const PointSource& target : targets) {
     outcome.paths.push_back(field.trace(target, command.trace));
-    outcome.promised.push_back(target.vertex == none ? field.at(target, ReadOut::linear)
+    const ReadOut level =
+        outcome.accuracy == Accuracy::fast() ? ReadOut::linear : ReadOut::neighbours;
+    outcome.promised.push_back(target.vertex == none ? field.at(target, level)
                                                      : outcome.distance[target.vertex]);
   }
   outcome.trace = tracing.seconds();
@@ -135,6 +139,8 @@ Json to_json(const PathCommand& command, const Domain& domain, const Outcome& ou
     one["capped"] = path.capped;
     json["paths"].push_back(one);
   }
+  if (domain.kind() == DomainKind::surface || domain.cloud() != nullptr)
+    json["accuracy"] = json_of(outcome.accuracy);
   if (!command.metric.text.empty()) json["metric"] = command.metric.text;
   json["seconds"]["load"] = domain.load_seconds();
   if (domain.mesh_seconds()) json["seconds"]["mesh"] = *domain.mesh_seconds();
@@ -206,6 +212,9 @@ void run_path(const PathCommand& command) {
     throw UsageError("--margin must be >= 0 and < 1");
   if (command.astar && options.visibility != Visibility::saddles)
     throw UsageError("--astar knows the default visibility only");
+  if (command.astar && options.accuracy != Accuracy::usual() &&
+      options.accuracy != Accuracy::fast())
+    throw UsageError("--astar searches with one label a triangle: it knows --accuracy fast only");
 
   if (command.astar && (command.solve.schedule_given || command.solve.step_given))
     throw UsageError(

@@ -40,7 +40,9 @@ Domain load_domain(const std::string& file, const std::string& as, const FillArg
   if (pieces.more.empty() && !pieces.weld) return Domain::read(file, options);
   if (pieces.more.empty()) throw UsageError("--weld needs several files");
   if (!pieces.weld)
-    throw UsageError("several files need --weld TOLERANCE: which of their vertices are one");
+    throw UsageError(pieces.more.front() +
+                     ": a second INPUT needs --weld TOLERANCE, which of their vertices are one; "
+                     "try 'plexway distance --help'");
   std::vector<std::filesystem::path> files = {file};
   files.insert(files.end(), pieces.more.begin(), pieces.more.end());
   return Domain::read(files, *pieces.weld, options);

@@ -102,10 +102,11 @@ void check_outputs_differ(std::initializer_list<std::string> names) {
 }
 
 void write_distance_csv(std::span<const double> distance, std::span<const std::int32_t> label,
-                        std::span<const std::uint32_t> original) {
+                        std::span<const std::uint32_t> original, std::span<const double> error) {
   std::string text = "vertex,distance";
   if (!label.empty()) text += ",label";
   if (!original.empty()) text += ",original";
+  if (!error.empty()) text += ",error";
   text += '\n';
   for (std::size_t v = 0; v < distance.size(); ++v) {
     append(text, v);
@@ -118,6 +119,10 @@ void write_distance_csv(std::span<const double> distance, std::span<const std::i
     if (!original.empty()) {
       text += ',';
       append(text, original[v]);
+    }
+    if (!error.empty()) {
+      text += ',';
+      append(text, error[v]);
     }
     text += '\n';
     if (text.size() < (std::size_t{1} << 16)) continue;

@@ -73,7 +73,8 @@ ExactWindows<Real>::ExactWindows(const TriangleMesh<Real>& mesh, const VertexAng
 
 template <class Real>
 void ExactWindows<Real>::solve(std::span<const PointSource> sources,
-                               const PropagateOptions& options) {
+                               const PropagateOptions& options, KeptWindows<Real>* kept) {
+  kept_ = kept;
   distance_.assign(mesh_.vertex_count(), infinity);
   arrival_.resize(mesh_.vertex_count());
   labels_ = sources.size() > 1;
@@ -149,9 +150,19 @@ void ExactWindows<Real>::run(Order& order, const PropagateOptions& options) {
       nodes_[n].next = std::exchange(free_, n);
       shine(order, vertex);
     } else {
+      if (kept_) [[unlikely]]
+        keep(nodes_[n], labels_ ? node_source_[n] : 0);
       expand(order, n);
     }
   }
+}
+
+template <class Real>
+void ExactWindows<Real>::keep(const Node& node, Index source) {
+  const auto real = [](double x) { return static_cast<Real>(x); };
+  const Beam<double>& b = node.beam;
+  kept_->take(node.edge, {real(b.x), real(b.h), real(b.begin), real(b.end)}, real(node.sigma),
+              source);
 }
 
 template <class Real>

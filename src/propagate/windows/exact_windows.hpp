@@ -11,6 +11,7 @@
 #include <plexway/propagate/options.hpp>
 #include <plexway/source/point_source.hpp>
 
+#include "propagate/windows/kept_windows.hpp"
 #include "propagate/windows/merge.hpp"
 #include "propagate/windows/node_orders.hpp"
 #include "propagate/windows/pseudo_source.hpp"
@@ -35,8 +36,10 @@ class ExactWindows {
   /// `mesh` and `angles` must outlive this.
   ExactWindows(const TriangleMesh<Real>& mesh, const VertexAngles& angles);
 
-  /// The sources must be checked. Throws Cancelled as the progress callback says.
-  void solve(std::span<const PointSource> sources, const PropagateOptions& options);
+  /// The sources must be checked. Windows are put into `kept` as well, unless it is null. Throws
+  /// Cancelled as the progress callback says.
+  void solve(std::span<const PointSource> sources, const PropagateOptions& options,
+             KeptWindows<Real>* kept = nullptr);
 
   /// Afterwards, by the numbers inside, in mean edges; +inf where unreached.
   [[nodiscard]] double distance(Index vertex) const { return distance_[vertex]; }
@@ -91,12 +94,14 @@ class ExactWindows {
   template <class Order>
   void push(Order& order, const Node& node, double near, Index source);
   [[nodiscard]] static double nearest(const Node& node);
+  void keep(const Node& node, Index source);
 
   std::span<const TriangleRecord<Real>> triangles_;
   const TriangleMesh<Real>& mesh_;
   const VertexAngles& angles_;
   PseudoSource<Real> pseudo_source_;
   Index sentinel_;  ///< beyond a boundary
+  KeptWindows<Real>* kept_ = nullptr;
   bool labels_ = false;
   bool splits_whole_ = true;  ///< may a window lose all of a side (see expand)?
   double tie_ = 0, radius_ = 0;

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "propagate/windows/overlay.hpp"
 
@@ -65,22 +64,6 @@ class Gathered : public Overlay<Real> {
       if (!(w.beam.begin < w.beam.end) || fits(last, added)) return;
     }
     if (this->size() < this->most) this->append(added);
-  }
-
-  /// One fewer: the shortest goes, into a neighbour if they come to one window at all.
-  void shorten() {
-    const auto extent = [&](std::size_t i) {
-      return (*this)[i].window.beam.end - (*this)[i].window.beam.begin;
-    };
-    std::size_t shortest = 0;
-    for (std::size_t i = 1; i < this->size(); ++i)
-      if (extent(i) < extent(shortest)) shortest = i;
-    const std::size_t u = shortest == 0 ? 0 : shortest - 1;
-    if ((*this)[u].source == (*this)[u + 1].source &&
-        merge((*this)[u].window, (*this)[u + 1].window, std::numeric_limits<Real>::infinity()))
-      shortest = u + 1;
-    for (std::size_t i = shortest; i + 1 < this->size(); ++i) (*this)[i] = (*this)[i + 1];
-    this->resize(this->size() - 1);
   }
 
  private:

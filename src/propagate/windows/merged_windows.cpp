@@ -30,7 +30,11 @@ constexpr double least_bend = 2e-6;
 
 template <class Real>
 MergedWindows<Real>::MergedWindows(const TriangleMesh<Real>& mesh, const VertexAngles& angles)
-    : triangles_(mesh.triangles()), mesh_(mesh), angles_(angles), pseudo_source_(triangles_), sentinel_(static_cast<Index>(mesh.face_count())) {
+    : triangles_(mesh.triangles()),
+      mesh_(mesh),
+      angles_(angles),
+      pseudo_source_(triangles_),
+      sentinel_(static_cast<Index>(mesh.face_count())) {
   excess_.resize(mesh.vertex_count());
   for (Index v = 0; v < mesh.vertex_count(); ++v) {
     const double excess = angles.excess(v);
@@ -41,8 +45,10 @@ MergedWindows<Real>::MergedWindows(const TriangleMesh<Real>& mesh, const VertexA
 
 template <class Real>
 bool MergedWindows<Real>::solve(std::span<const PointSource> sources,
-                                const PropagateOptions& options, const MergeLimit& limit) {
+                                const PropagateOptions& options, const MergeLimit& limit,
+                                KeptWindows<Real>* kept) {
   limit_ = limit;
+  kept_ = kept;
   labels_ = sources.size() > 1;
   vertices_.assign(mesh_.vertex_count(), {infinity<Real>, none, {0, 0}});
   error_.resize(mesh_.vertex_count());
@@ -54,7 +60,7 @@ bool MergedWindows<Real>::solve(std::span<const PointSource> sources,
   complete_ = false;  // until all is done: a callback may throw
   statistics_ = {};
   radius_ = static_cast<Real>(options.radius / mesh_.unit());
-  set_scale(0);
+  scale_ = scale_at(0);
   const auto solve_in = [&](auto& order) {
     order.start(bucket_width);
     seed(order, sources);
@@ -79,8 +85,8 @@ bool MergedWindows<Real>::solve(std::span<const PointSource> sources,
 }
 
 template <class Real>
-void MergedWindows<Real>::set_scale(double distance) {
-  scale_ = static_cast<Real>(
+Real MergedWindows<Real>::scale_at(double distance) const {
+  return static_cast<Real>(
       limit_.limit * (limit_.reach < infinity<double> ? std::sqrt(distance / limit_.reach) : 1));
 }
 
@@ -99,13 +105,17 @@ template <class Real>
 template <class Real>
 [[gnu::always_inline]] inline void MergedWindows<Real>::fetch(Index node) const {
   if (node & bent) return;
-  const Index halfedge = blocks_[node].halfedge;
-  const TriangleRecord<Real>& t = triangles_[halfedge >> 2];
-  const std::size_t in = halfedge & 3, before = edge_before(in), after = edge_after(in);
-  __builtin_prefetch(&vertices_[t.corner[before]]);
-  const Index* const pending = pending_.data();  // a boundary leads to its end
-  __builtin_prefetch(pending + (t.across[before] >> Across::face_shift << 2));
-  __builtin_prefetch(pending + (t.across[after] >> Across::face_shift << 2));
+  __builtin_prefetch(&triangles_[blocks_[node].halfedge >> 2]);
+}
+
+template <class Real>
+template <class Order>
+[[gnu::always_inline]] inline void MergedWindows<Real>::commit_any(Order& order, const Turn& turn) {
+  scale_ = turn.scale;
+  if (turn.windows.size() == 1)
+    commit_one(order, turn);
+  else
+    commit(order, turn);
 }
 
 template <class Real>
@@ -117,19 +127,49 @@ typename MergedWindows<Real>::Outcome MergedWindows<Real>::run(Order& order,
   constexpr std::size_t share = 65536;
   std::size_t report = statistics_.expansions / share * share + share;
   double before = -1;
+  Real scale = 0;
+  // One turn is prepared before the one ahead of it is committed: what a wrong guess there undoes
+  // is then not the arithmetic.
+  std::size_t current = 0;
+  bool waits = false;
   for (;;) {
-    if (statistics_.expansions == options.max_expansions)
-      return order.pop(next_of, near_of) == none ? Outcome::done : Outcome::stopped;
     const Index n = order.pop(next_of, near_of);
-    if (n == none) return Outcome::done;
+    if (n == none) {
+      if (!waits) return Outcome::done;
+      waits = false;
+      commit_any(order, turns_[current ^ 1]);
+      continue;
+    }
+    if (statistics_.expansions == options.max_expansions) return Outcome::stopped;
     ++statistics_.expansions;
     if (const Index after = order.peek(); after != none) fetch(after);
-    if (order.distance() != before) set_scale(before = order.distance());
+    if (order.distance() != before) scale = scale_at(before = order.distance());
+    scale_ = scale;
     if (n & bent) {
       vertex_next_[n & ~bent] = idle;
       shine(order, n & ~bent);
     } else {
-      pass(order, n);
+      Turn& turn = turns_[current];
+      const Block& block = start(turn, n);
+      if (block.count == 1) {
+        turn.windows.append({block.window[0], labels_ ? block.source[0] : 0});
+        turn.spread[0].go(turn.triangle, turn.windows[0].window);
+      } else {
+        gather(turn.windows, block);
+        if (turn.windows.size() == 1)
+          turn.spread[0].go(turn.triangle, turn.windows[0].window);
+        else
+          prepare(turn);
+      }
+      if (kept_) [[unlikely]] {
+        for (std::size_t i = 0; i < turn.windows.size(); ++i) {
+          const auto& [window, source] = turn.windows[i];
+          kept_->take(block.halfedge, window.beam, window.sigma, source);
+        }
+      }
+      current ^= 1;
+      if (waits) commit_any(order, turns_[current]);
+      waits = true;
     }
     if (statistics_.expansions < report) continue;
     report += share;
@@ -155,7 +195,7 @@ void MergedWindows<Real>::offer(Order& order, Index vertex, Real distance, Index
   if ((corner == none || (corner & bent) || excess_[vertex] > 4 * scale_) &&
       vertex_next_[vertex] == idle)
     order.push(vertex | bent, static_cast<double>(distance + static_cast<Real>(late)),
-               [this, vertex](Index) -> Index& { return vertex_next_[vertex]; });
+               [this](Index i) -> Index& { return next(i); });
 }
 
 /// All that waits in a block.
@@ -175,18 +215,6 @@ void MergedWindows<Real>::gather(Gathered<Real>& windows, const Block& block) co
 }
 
 template <class Real>
-void MergedWindows<Real>::make_room(Block& block) {
-  crowd_.start(triangles_[block.halfedge >> 2].length[block.halfedge & 3], scale_);
-  gather(crowd_, block);
-  while (crowd_.size() >= room) crowd_.shorten();
-  block.count = static_cast<Index>(crowd_.size());
-  for (std::size_t i = 0; i < crowd_.size(); ++i) {
-    block.window[i] = crowd_[i].window;
-    block.source[i] = crowd_[i].source;
-  }
-}
-
-template <class Real>
 template <class Order>
 [[gnu::always_inline]] inline void MergedWindows<Real>::enter(Order& order, Index across,
                                                               const Window<Real>& window,
@@ -196,32 +224,33 @@ template <class Order>
   if (nearest > radius_) return;
   const Real near =
       nearest + static_cast<Real>(turn_at) * (std::max(window.at_begin, window.at_end) - nearest);
-  Index b = pending_[halfedge];
-  if (b == none) {
-    b = free_block_;
-    if (b == none) [[unlikely]] {
-      b = static_cast<Index>(blocks_.size());
-      blocks_.emplace_back();
-    } else {
-      free_block_ = blocks_[b].next;
-    }
-    pending_[halfedge] = b;
-    __builtin_prefetch(&triangles_[halfedge >> 2]);
-    Block& block = blocks_[b];
-    block.near = near;
-    block.halfedge = halfedge;
-    block.count = 1;
-    block.window[0] = window;
-    if (labels_) block.source[0] = source;
-    order.push(b, static_cast<double>(near), [&](Index) -> Index& { return block.next; });
+  const Index waiting = pending_[halfedge];
+  if (waiting != none && blocks_[waiting].count < room) {
+    Block& block = blocks_[waiting];
+    block.window[block.count] = window;
+    if (labels_) block.source[block.count] = source;
+    ++block.count;
+    block.near = std::min(block.near, near);
     return;
   }
+  // The first, or one more than there is room for: that begins another turn.
+  Index b = free_block_;
+  if (b == none) [[unlikely]] {
+    b = static_cast<Index>(blocks_.size());
+    blocks_.emplace_back();
+  } else {
+    free_block_ = blocks_[b].next;
+  }
+  pending_[halfedge] = b;
+  __builtin_prefetch(&triangles_[halfedge >> 2]);
   Block& block = blocks_[b];
-  if (block.count == room) [[unlikely]]
-    make_room(block);
-  block.window[block.count] = window;
-  if (labels_) block.source[block.count] = source;
-  ++block.count;
+  block.near = near;
+  block.halfedge = halfedge;
+  block.count = 1;
+  block.window[0] = window;
+  if (labels_) block.source[0] = source;
+  order.push(b, static_cast<double>(near),
+             [&](Index i) -> Index& { return i == b ? block.next : next(i); });
 }
 
 /// A window over edge `edge` of f, measured from the edge's second corner, enters all triangles on
@@ -261,56 +290,51 @@ template <class Order>
   }
 }
 
-/// What waits in a block goes through its triangle.
+/// A block has its turn.
+template <class Real>
+[[gnu::always_inline]] inline auto MergedWindows<Real>::start(Turn& turn, Index b) -> Block& {
+  Block& block = blocks_[b];
+  block.next = std::exchange(free_block_, b);
+  const Index halfedge = block.halfedge;
+  if (pending_[halfedge] == b) pending_[halfedge] = none;
+  turn.face = halfedge >> 2;
+  turn.scale = scale_;
+  const TriangleRecord<Real>& record = triangles_[turn.face];
+  turn.triangle.enter(record, halfedge & 3);
+  const EnteredTriangle<Real>& t = turn.triangle;
+  __builtin_prefetch(&vertices_[t.p]);
+  const Index* const pending = pending_.data();  // a boundary leads to its end
+  __builtin_prefetch(pending + (record.across[t.before] >> Across::face_shift << 2));
+  __builtin_prefetch(pending + (record.across[t.after] >> Across::face_shift << 2));
+  turn.windows.start(t.width, scale_);
+  return block;
+}
+
+/// One window goes on: straight to the apex, or around the end that is nearer to it.
 template <class Real>
 template <class Order>
-void MergedWindows<Real>::pass(Order& order, Index b) {
-  Block& block = blocks_[b];
-  const Index halfedge = block.halfedge, face = halfedge >> 2;
-  pending_[halfedge] = none;
-  const EnteredTriangle<Real> t(triangles_[face], halfedge & 3);
-  Window<Real> w;
-  Index source = 0;
-  if (block.count == 1) {
-    w = block.window[0];
-    if (labels_) source = block.source[0];
-    block.next = std::exchange(free_block_, b);
-  } else {
-    turn_.windows.start(t.width, scale_);
-    gather(turn_.windows, block);
-    block.next = std::exchange(free_block_, b);
-    if (turn_.windows.size() > 1) {
-      turn_.face = face;
-      turn_.triangle = t;
-      prepare(turn_);
-      commit(order, turn_);
-      return;
-    }
-    w = turn_.windows[0].window;
-    source = turn_.windows[0].source;
-  }
-
-  // Most turns are those of one window: straight to the apex, or around the end that is nearer.
-  Spread<Real> s;
-  s.go(t, w);
+[[gnu::always_inline]] inline void MergedWindows<Real>::commit_one(Order& order, const Turn& turn) {
+  const EnteredTriangle<Real>& t = turn.triangle;
+  const Spread<Real>& s = turn.spread[0];
+  const auto& [w, source] = turn.windows[0];
   const bool right = s.right_reaches(), seen = s.left_reaches() & right;
   const Real ends[2] = {w.beam.begin, w.beam.end}, to_ends[2] = {w.at_begin, w.at_end};
   const Real dx = t.apex_x - ends[right];
   const Real ways[2] = {to_ends[right] + std::sqrt(dx * dx + t.apex_h * t.apex_h), s.distance[1]};
   if (ways[seen] < vertices_[t.p].distance) {
-    const Index corner = static_cast<Index>(3 * face + t.before);
+    const Index corner = static_cast<Index>(3 * turn.face + t.before);
     offer(order, t.p, ways[seen], seen ? corner : corner | bent,
           seen ? t.towards(w.beam.x, w.beam.h) : t.towards(ends[right], 0), source, w.error);
   }
   const int wanted = s.wanted(vertices_[t.a].distance, vertices_[t.b].distance,
                               vertices_[t.p].distance, scale_ * s.length);
-  if (wanted & 1) leave(order, face, t.before, s.left(w), source);
-  if (wanted & 2) leave(order, face, t.after, s.right(w), source);
+  if (wanted & 1) leave(order, turn.face, t.before, s.left(w), source);
+  if (wanted & 2) leave(order, turn.face, t.after, s.right(w), source);
 }
 
 /// Several windows, before vertices are looked at.
 template <class Real>
-void MergedWindows<Real>::prepare(Turn& turn) {
+[[gnu::always_inline]] inline void MergedWindows<Real>::prepare(Turn& turn) {
   const EnteredTriangle<Real>& t = turn.triangle;
   const Gathered<Real>& windows = turn.windows;
   turn.to_apex = infinity<Real>;

@@ -13,6 +13,7 @@
 #include "propagate/windows/bucket_ring.hpp"
 #include "propagate/windows/entered_triangle.hpp"
 #include "propagate/windows/gather.hpp"
+#include "propagate/windows/kept_windows.hpp"
 #include "propagate/windows/node_orders.hpp"
 #include "propagate/windows/pseudo_source.hpp"
 #include "propagate/windows/spread.hpp"
@@ -41,11 +42,11 @@ class MergedWindows {
   /// `mesh` and `angles` must outlive this.
   MergedWindows(const TriangleMesh<Real>& mesh, const VertexAngles& angles);
 
-  /// The sources must be checked. Throws Cancelled as the progress callback says. False, and no
-  /// result, where merging does not pay: among needles windows do not become fewer, and what comes
-  /// out is no good.
+  /// The sources must be checked. Windows are put into `kept` as well, unless it is null. Throws
+  /// Cancelled as the progress callback says. False, and no result, where merging does not pay:
+  /// among needles windows do not become fewer, and what comes out is no good.
   [[nodiscard]] bool solve(std::span<const PointSource> sources, const PropagateOptions& options,
-                           const MergeLimit& limit);
+                           const MergeLimit& limit, KeptWindows<Real>* kept = nullptr);
 
   /// Afterwards, by the numbers inside, in mean edges; +inf where unreached.
   [[nodiscard]] Real distance(Index vertex) const { return vertices_[vertex].distance; }
@@ -83,12 +84,14 @@ class MergedWindows {
   /// are looked at.
   struct Turn {
     Index face;
+    Real scale;
     EnteredTriangle<Real> triangle;
     Gathered<Real> windows;
     std::array<Spread<Real>, Overlay<Real>::most> spread;
     Real to_apex;  ///< straight; +inf where the apex lies in shadow as far as these windows know
     std::size_t seen;  ///< from this window
   };
+  static constexpr std::size_t batch = 4;  ///< turns at a time
   enum class Outcome { done, stopped, too_much };
 
   template <class Order>
@@ -97,8 +100,12 @@ class MergedWindows {
   void seed(Order& order, std::span<const PointSource> sources);
   template <class Order>
   bool fill_holes(Order& order);
+  Block& start(Turn& turn, Index block);
+  void fetch(Index node) const;
   template <class Order>
-  void pass(Order& order, Index block);
+  void commit_any(Order& order, const Turn& turn);
+  template <class Order>
+  void commit_one(Order& order, const Turn& turn);
   void prepare(Turn& turn);
   template <class Order>
   void commit(Order& order, const Turn& turn);
@@ -116,9 +123,7 @@ class MergedWindows {
              Index source, Real error);
 
   void gather(Gathered<Real>& windows, const Block& block) const;
-  void make_room(Block& block);
-  void fetch(Index node) const;
-  void set_scale(double distance);
+  [[nodiscard]] Real scale_at(double distance) const;
   [[nodiscard]] Real near(Index node) const;
   [[nodiscard]] Index& next(Index node);
 
@@ -128,6 +133,7 @@ class MergedWindows {
   PseudoSource<Real> pseudo_source_;
   Index sentinel_;  ///< beyond a boundary
   MergeLimit limit_;
+  KeptWindows<Real>* kept_ = nullptr;
   bool labels_ = false;
   Real scale_ = 0;  ///< the limit for an edge of length 1, at the distance in turn
   Real radius_ = 0;
@@ -141,8 +147,7 @@ class MergedWindows {
   std::vector<Index> vertex_next_;
   std::vector<Index> corners_;
   Index free_block_ = none;
-  Gathered<Real> crowd_;  ///< of a block that is full
-  Turn turn_;
+  std::array<Turn, batch> turns_;
   bool complete_ = true;
   PropagateStatistics statistics_;
   NearestOfAll nearest_;

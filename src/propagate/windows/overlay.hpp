@@ -45,7 +45,6 @@ class Overlay {
   [[nodiscard]] const Labelled<Real>& operator[](std::size_t i) const { return pieces_[i]; }
   [[nodiscard]] Labelled<Real>& back() { return pieces_[count_ - 1]; }
   void append(const Labelled<Real>& piece) { pieces_[count_++] = piece; }
-  void resize(std::size_t count) { count_ = count; }
 
   /// Puts a window among those that are there; where two hold a point the nearer one keeps it.
   void insert(const Labelled<Real>& added) {
