@@ -22,13 +22,9 @@ path = knot.path(0, farthest)
 print(f"the way there: {path.length:.3f} through {len(path)} points")
 assert abs(path.length / distance[farthest] - 1) < 1e-2
 
-# %% How sure is that? (Not in a build of one accuracy.)
-try:
-    distance, error = knot.estimate(0)
-except plexway.NotBuilt as missing:
-    print(missing)
-else:
-    print(f"estimated error: {np.median(error):.1e} in the middle, {error.max():.1e} at worst")
+# %% How sure is that?
+distance, error = knot.estimate(0)
+print(f"estimated error: {np.median(error):.1e} in the middle, {error.max():.1e} at worst")
 
 # %% Points of even density, and cells around them.
 disks = knot.poisson(count=60)

@@ -222,8 +222,8 @@ std::shared_ptr<Domain> from_parts(const py::list& parts, double tolerance,
   return build(AnyShape::mixed(std::move(shape)), arguments_of(given));
 }
 
-std::shared_ptr<Domain> read(const std::filesystem::path& file, const py::object& as,
-                             const py::kwargs& given) {
+std::shared_ptr<Domain> read(const std::vector<std::filesystem::path>& files, double tolerance,
+                             const py::object& as, const py::kwargs& given) {
   Watch watch(given["progress"]);
   ReadOptions reading;
   if (!as.is_none()) {
@@ -240,7 +240,10 @@ std::shared_ptr<Domain> read(const std::filesystem::path& file, const py::object
   if (given.contains("max_volume")) reading.fill.max_volume = given["max_volume"].cast<double>();
   reading.progress.share = watch.of_share();
   reading.progress.seconds = [&watch](double) { return watch.tick(0); };
-  AnyShape shape = watch.run([&] { return AnyShape::read(file, reading); });
+  AnyShape shape = watch.run([&] {
+    return files.size() == 1 ? AnyShape::read(files.front(), reading)
+                             : AnyShape::read(files, tolerance, reading);
+  });
   return build(std::move(shape), arguments_of(given));
 }
 

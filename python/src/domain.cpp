@@ -13,17 +13,6 @@
 
 namespace plexway::python {
 
-namespace {
-
-template <class Reason>
-bool needs_double(Reason refusal) {
-  if constexpr (requires { Reason::windows_float; })
-    if (refusal == Reason::windows_float) return true;
-  return refusal == Reason::shapes_float;
-}
-
-}  // namespace
-
 Domain::Domain(AnyShape shape, BuildOptions options)
     : any_(std::move(shape), options), options_(std::move(options)) {
   options_.progress = {};  // it was the caller's while building
@@ -31,7 +20,8 @@ Domain::Domain(AnyShape shape, BuildOptions options)
 
 const AnyDomain& Domain::for_sources(const AnyExecutor& executor, const SourceList& sources,
                                      const PropagateOptions& options) const {
-  if (!needs_double(any_.support(executor, sources, options).refusal())) return any_;
+  const Refusal refusal = any_.support(executor, sources, options).refusal();
+  if (refusal != Refusal::shapes_float && refusal != Refusal::windows_float) return any_;
   const std::scoped_lock lock(mutex_);
   if (!twice_) {
     BuildOptions twice = options_;

@@ -4,13 +4,11 @@
 
 #include <memory>
 #include <mutex>
-#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include <plexway/any_domain.hpp>
-#include <plexway/propagate/accuracy.hpp>
 
 #include "watch.hpp"
 
@@ -43,7 +41,7 @@ struct SolveArguments {
   int threads = 0;
   double radius = std::numeric_limits<double>::infinity();
   std::string visibility = "saddles";
-  std::optional<Accuracy> accuracy = {};  ///< nothing: the library's default
+  Accuracy accuracy = Accuracy::usual();
 };
 [[nodiscard]] AnyExecutor executor_of(const SolveArguments& arguments);
 [[nodiscard]] PropagateOptions options_of(const SolveArguments& arguments, Watch& watch);
