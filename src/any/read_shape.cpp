@@ -36,9 +36,6 @@ bool has_statement(const std::string& file, char letter) {
   return false;
 }
 
-// Those whose readers go back and forth, or look for a second file beside it.
-constexpr std::array<std::string_view, 4> tied_to_names = {".poly", ".smesh", ".vdb", ".pcd"};
-
 using Data = AnyShape::Data;
 
 // Those whose readers go back and forth, or look for a second file beside it.
