@@ -50,8 +50,16 @@ class CMakeBuild(build_ext):
         subprocess.run(["cmake", "--install", folder, "--component", "python"], check=True)
 
 
+# All that is made on the way goes into one folder of the build tree.
+SCRATCH = ROOT / "build" / "pip"
+SCRATCH.mkdir(parents=True, exist_ok=True)
+
 setup(
     version=version(),
+    options={"build": {"build_base": str(SCRATCH)}, "egg_info": {"egg_base": str(SCRATCH)}},
+    packages=["plexway"],
+    package_dir={"plexway": "python/plexway"},
+    package_data={"plexway": ["py.typed", "*.pyi"]},
     ext_modules=[Extension("plexway._plexway", sources=[])],
     cmdclass={"build_ext": CMakeBuild},
 )

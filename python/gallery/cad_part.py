@@ -1,11 +1,11 @@
 """A CAD part: thin triangles, a measure that differs, lines as sources."""
 
-# %% A plate of needles: 3 rows of triangles, 200 to a row.
+# %% A plate of thin triangles: 12 rows of 60.
 import numpy as np
 
 import plexway
 
-n, rows = 200, 3
+n, rows = 60, 12
 x, y = np.meshgrid(np.linspace(0, 1, n + 1), np.linspace(0, 1, rows + 1), indexing="ij")
 V = np.stack([x.ravel(), y.ravel(), np.zeros(x.size)], axis=1)
 a = np.arange(V.shape[0]).reshape(n + 1, rows + 1)

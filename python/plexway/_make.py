@@ -38,9 +38,9 @@ _BY_KIND: Dict[str, Type[Domain]] = {
 
 
 def read(
-    file: Union[str, os.PathLike[str]],
-    *,
+    *files: Union[str, os.PathLike[str]],
     kind: Optional[str] = None,
+    tolerance: float = 0.0,
     precision: str = "single",
     triangulation: str = "auto",
     metric: Any = None,
@@ -51,11 +51,13 @@ def read(
 
     Parameters
     ----------
-    file : path
+    *files : path
         .obj, .ply, .off, .stl, .mesh, .msh, .vtk, .vtu, .node, .edges, .xyz, .pcd, .vdb and others;
-        the extension tells the kind.
+        the extension tells the kind. Several make a `Mixed`.
     kind : {'surface', 'solid', 'wireframe', 'simplices', 'cloud', 'mixed'}, optional
         What to take it as: a surface may be filled, unravelled to its edges, or taken as a cloud.
+    tolerance : float
+        Of several files: vertices are one where they are this close.
     precision, triangulation, metric, progress
         As in `Surface`.
     **options
@@ -75,12 +77,15 @@ def read(
         For a format that this build has no library for.
     """
     known = "k neighbour_radius max_normal_angle smooth denoise deviations voxel grid repair"
+    if not files:
+        raise TypeError("read: no file was given")
     for name in options:
         if name not in (*known.split(), "max_volume"):
             raise TypeError(f"read: unknown option {name!r}")
     with Progress(progress, "reading") as report:
         native = _plexway.read(
-            os.fspath(file),
+            [os.fspath(file) for file in files],
+            float(tolerance),
             kind,
             **options,
             **_options_of(precision, triangulation, metric, report),

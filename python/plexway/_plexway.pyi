@@ -1,6 +1,5 @@
 """The native module; use the package."""
 
-from os import PathLike
 from typing import Any, Callable, Dict, List, Optional, Sequence, Tuple, Union
 
 from ._arrays import Array
@@ -126,7 +125,9 @@ def from_simplices(
 ) -> Domain: ...
 def from_points(positions: Any, normals: Any, original: Any, **options: Any) -> Domain: ...
 def from_parts(parts: Sequence[Any], tolerance: float, **options: Any) -> Domain: ...
-def read(file: Union[str, PathLike[str]], kind: Optional[str], **options: Any) -> Domain: ...
+def read(
+    files: Sequence[str], tolerance: float, kind: Optional[str], **options: Any
+) -> Domain: ...
 def solve(
     domain: Domain,
     sources: Sequence[_Source],

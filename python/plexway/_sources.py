@@ -185,38 +185,34 @@ def place(domain: Any, at: Any) -> Any:
 def located(domain: Any, source: Any) -> List[Any]:
     """A source, or several, as the library has them: one each.
 
-    An array of integers is so many vertices; of truth values, one a vertex, those that are true; of
-    floats, shape (3,) or (k, 3), points in space.
+    Integers in one row are so many vertices; truth values, one a vertex, those that are true; three
+    floats are a point in space, and rows of three numbers of any type are points.
     """
     if type(source) is int:
         return [_plexway.Point(index(source, domain.vertex_count, "vertex"), 0.0)]
     if isinstance(source, Source):
         return [_one(domain, source)]
-    if isinstance(source, (list, tuple)) and any(
-        isinstance(s, (Source, list, tuple, np.ndarray)) for s in source
-    ):
+    if isinstance(source, (list, tuple)) and any(isinstance(s, Source) for s in source):
         return [one for s in source for one in located(domain, s)]
-    array = np.asarray(source)
+    try:
+        array = np.asarray(source)
+    except ValueError:
+        array = np.empty((), object)
     if array.dtype.kind == "b":
         if array.shape != (domain.vertex_count,):
             raise ValueError(
                 f"sources by truth values: expected shape ({domain.vertex_count},), got {array.shape}"
             )
         array = np.flatnonzero(array)
-    if array.dtype.kind in "iu":
-        if array.ndim > 1:
-            raise ValueError(f"vertices: expected a number or shape (k,), got {array.shape}")
-        vertices = array.ravel().tolist()
-        if not vertices:
-            raise _plexway.UsageError("no source: the list is empty")
+    if array.dtype.kind in "fiu" and array.ndim == 2 and array.shape[1] in (2, 3) and len(array):
+        return [place(domain, row) for row in array]
+    if array.dtype.kind in "iu" and array.ndim <= 1 and array.size:
         count = domain.vertex_count
-        return [_plexway.Point(index(v, count, "vertex"), 0.0) for v in vertices]
+        return [
+            _plexway.Point(index(v, count, "vertex"), 0.0) for v in array.ravel().tolist()
+        ]
     if array.dtype.kind == "f" and array.shape in ((3,), (2,)):
         return [place(domain, array)]
-    if array.dtype.kind == "f" and array.ndim == 2 and array.shape[1] in (2, 3):
-        if not len(array):
-            raise _plexway.UsageError("no source: the list is empty")
-        return [place(domain, row) for row in array]
     if array.size == 0:
         raise _plexway.UsageError("no source: the list is empty")
     raise ValueError(

@@ -1,6 +1,6 @@
 #include "arrays.hpp"
 
-#include <cmath>
+#include <algorithm>
 #include <cstdint>
 #include <cstring>
 
@@ -40,23 +40,62 @@ void with_numbers(const py::array& array, const Use& use) {
     use(py::array_t<double, py::array::forcecast>(array));
 }
 
-template <class Typed>
-void take_indices(const Typed& typed, py::ssize_t columns, const char* name,
-                  std::vector<Index>& indices) {
-  const auto take = [&](auto value, py::ssize_t row) {
-    if (value < 0 || static_cast<std::uint64_t>(value) >= none)
-      throw py::value_error(std::string(name) + ": row " + std::to_string(row) + " has " +
-                            std::to_string(value) + ", which is no number of a vertex");
-    indices.push_back(static_cast<Index>(value));
-  };
-  if (typed.ndim() == 1) {
-    const auto values = typed.template unchecked<1>();
-    for (py::ssize_t i = 0; i < typed.shape(0); ++i) take(values(i), i);
-    return;
-  }
-  const auto values = typed.template unchecked<2>();
-  for (py::ssize_t i = 0; i < typed.shape(0); ++i)
-    for (py::ssize_t j = 0; j < columns; ++j) take(values(i, j), i);
+// Calls use(typed) with an array of integers as it lies where it is of a usual type, else
+// converted.
+template <class Use>
+void with_integers(const py::array& array, const Use& use) {
+  if (py::isinstance<py::array_t<std::int64_t>>(array))
+    use(py::reinterpret_borrow<py::array_t<std::int64_t>>(array));
+  else if (py::isinstance<py::array_t<std::int32_t>>(array))
+    use(py::reinterpret_borrow<py::array_t<std::int32_t>>(array));
+  else if (py::isinstance<py::array_t<std::uint32_t>>(array))
+    use(py::reinterpret_borrow<py::array_t<std::uint32_t>>(array));
+  else if (array.dtype().kind() == 'u')
+    use(py::array_t<std::uint64_t, py::array::forcecast>(array));
+  else
+    use(py::array_t<std::int64_t, py::array::forcecast>(array));
+}
+
+// Rows of integers, checked by type and shape; `columns` 0: a single row.
+py::array as_integers(const py::handle& object, const char* name, std::size_t columns) {
+  py::array array = as_array(object, name);
+  if (array.size() == 0 && array.ndim() == (columns == 0 ? 1 : 2)) return array;
+  const char kind = array.dtype().kind();
+  if (kind != 'i' && kind != 'u')
+    throw py::value_error(std::string(name) + ": expected integers, got dtype " +
+                          py::str(array.dtype()).cast<std::string>());
+  const auto wanted = static_cast<py::ssize_t>(columns);
+  if (columns == 0 ? array.ndim() != 1 : array.ndim() != 2 || array.shape(1) != wanted)
+    throw py::value_error(std::string(name) + ": expected a shape " +
+                          (columns == 0 ? "(n,)" : "(n, " + std::to_string(columns) + ")") +
+                          ", got " + shape_text(array));
+  return array;
+}
+
+// All of the array, row after row, into `to`.
+void take_indices(const py::array& array, py::ssize_t columns, const char* name, Index* to) {
+  with_integers(array, [&](const auto& typed) {
+    const py::ssize_t count = typed.size();
+    const auto take = [&](const auto& at) {
+      bool good = true;
+      for (py::ssize_t i = 0; i < count; ++i) {
+        const auto value = at(i);
+        good &= value >= 0 && static_cast<std::uint64_t>(value) < none;
+        to[i] = static_cast<Index>(value);
+      }
+      for (py::ssize_t i = 0; !good && i < count; ++i)
+        if (at(i) < 0 || static_cast<std::uint64_t>(at(i)) >= none)
+          throw py::value_error(std::string(name) + ": row " + std::to_string(i / columns) +
+                                " has " + std::to_string(at(i)) +
+                                ", which is no number of a vertex");
+    };
+    if ((typed.flags() & py::array::c_style) != 0)
+      take([data = typed.data()](py::ssize_t i) { return data[i]; });
+    else if (typed.ndim() == 1)
+      take([&](py::ssize_t i) { return typed.at(i); });
+    else
+      take([&](py::ssize_t i) { return typed.at(i / columns, i % columns); });
+  });
 }
 
 }  // namespace
@@ -69,6 +108,11 @@ std::vector<std::array<double, 3>> points_of(const py::handle& object, const cha
   std::vector<std::array<double, 3>> points(static_cast<std::size_t>(array.shape(0)));
   const bool flat = array.shape(1) == 2;
   with_numbers(array, [&](const auto& typed) {
+    const bool rows = (typed.flags() & py::array::c_style) != 0;
+    if (rows && !flat && typed.itemsize() == sizeof(double)) {
+      std::memcpy(points.data(), typed.data(), points.size() * sizeof points[0]);
+      return;
+    }
     const auto values = typed.template unchecked<2>();
     for (std::size_t i = 0; i < points.size(); ++i) {
       const auto row = static_cast<py::ssize_t>(i);
@@ -86,33 +130,19 @@ std::vector<double> numbers_of(const py::handle& object, const char* name) {
 }
 
 std::vector<Index> indices_of(const py::handle& object, const char* name, std::size_t columns) {
-  const py::array array = as_array(object, name);
-  std::vector<Index> indices;
-  if (array.size() == 0 && array.ndim() == (columns == 0 ? 1 : 2)) return indices;
-  const char kind = array.dtype().kind();
-  if (kind != 'i' && kind != 'u')
-    throw py::value_error(std::string(name) + ": expected integers, got dtype " +
-                          py::str(array.dtype()).cast<std::string>());
-  const auto wanted = static_cast<py::ssize_t>(columns);
-  if (columns == 0 ? array.ndim() != 1 : array.ndim() != 2 || array.shape(1) != wanted)
-    throw py::value_error(std::string(name) + ": expected a shape " +
-                          (columns == 0 ? "(n,)" : "(n, " + std::to_string(columns) + ")") +
-                          ", got " + shape_text(array));
-  indices.reserve(static_cast<std::size_t>(array.size()));
-  if (py::isinstance<py::array_t<std::int32_t>>(array))
-    take_indices(py::reinterpret_borrow<py::array_t<std::int32_t>>(array), wanted, name, indices);
-  else if (kind == 'u')
-    take_indices(py::array_t<std::uint64_t, py::array::forcecast>(array), wanted, name, indices);
-  else
-    take_indices(py::array_t<std::int64_t, py::array::forcecast>(array), wanted, name, indices);
+  const py::array array = as_integers(object, name, columns);
+  std::vector<Index> indices(static_cast<std::size_t>(array.size()));
+  if (!indices.empty())
+    take_indices(array, static_cast<py::ssize_t>(std::max<std::size_t>(columns, 1)), name,
+                 indices.data());
   return indices;
 }
 
 template <std::size_t N>
-std::vector<std::array<Index, N>> index_rows_of(const py::handle& array, const char* name) {
-  const std::vector<Index> indices = indices_of(array, name, N);
-  std::vector<std::array<Index, N>> rows(indices.size() / N);
-  if (!rows.empty()) std::memcpy(rows.data(), indices.data(), indices.size() * sizeof(Index));
+std::vector<std::array<Index, N>> index_rows_of(const py::handle& object, const char* name) {
+  const py::array array = as_integers(object, name, N);
+  std::vector<std::array<Index, N>> rows(static_cast<std::size_t>(array.size()) / N);
+  if (!rows.empty()) take_indices(array, static_cast<py::ssize_t>(N), name, rows.front().data());
   return rows;
 }
 

@@ -39,7 +39,8 @@ metric::Tensor tensor_of(const double* m) {
 std::vector<metric::Tensor> tensors_of(const py::handle& array) {
   const std::vector<double> numbers = numbers_of(array, "metric");
   std::vector<metric::Tensor> tensors;
-  for (std::size_t i = 0; i + 9 <= numbers.size(); i += 9) tensors.push_back(tensor_of(&numbers[i]));
+  for (std::size_t i = 0; i + 9 <= numbers.size(); i += 9)
+    tensors.push_back(tensor_of(&numbers[i]));
   return tensors;
 }
 
@@ -49,10 +50,8 @@ metric::Metric metric_of(const py::tuple& described, bool surface) {
   metric::Agreement agreement;
   if (surface && described.size() == 3 && kind != "lengths" && described[2].cast<bool>())
     agreement.sides = metric::Sides::own;
-  if (kind == "speeds")
-    return metric::SimplexSpeeds{numbers_of(described[1], "metric"), agreement};
-  if (kind == "simplex tensors")
-    return metric::SimplexTensors{tensors_of(described[1]), agreement};
+  if (kind == "speeds") return metric::SimplexSpeeds{numbers_of(described[1], "metric"), agreement};
+  if (kind == "simplex tensors") return metric::SimplexTensors{tensors_of(described[1]), agreement};
   if (kind == "vertex tensors") return metric::VertexTensors{tensors_of(described[1])};
   if (kind == "lengths") {
     const auto edges = index_rows_of<2>(described[1], "edges");
@@ -98,8 +97,9 @@ struct BuildArguments {
 
 std::shared_ptr<Domain> build(AnyShape shape, const BuildArguments& arguments) {
   BuildOptions options;
-  options.precision = named<Precision>("precision", arguments.precision,
-                                       {{"single", Precision::single}, {"double", Precision::twice}});
+  options.precision =
+      named<Precision>("precision", arguments.precision,
+                       {{"single", Precision::single}, {"double", Precision::twice}});
   options.triangulation = named<Triangulation>("triangulation", arguments.triangulation,
                                                {{"auto", Triangulation::automatic},
                                                 {"input", Triangulation::input},
@@ -143,8 +143,7 @@ std::shared_ptr<Domain> from_arrays(const std::string& kind, const py::object& p
   const auto make = [&]() -> AnyShape {
     if (kind == "surface") {
       auto rows = index_rows_of<3>(simplices, "F");
-      if (lengths.is_none())
-        return AnyShape::surface(points_of(positions, "V"), std::move(rows));
+      if (lengths.is_none()) return AnyShape::surface(points_of(positions, "V"), std::move(rows));
       return AnyShape::surface(vertices, std::move(rows), number_rows_of<3>(lengths, "lengths"));
     }
     if (kind == "solid") {
@@ -160,9 +159,8 @@ std::shared_ptr<Domain> from_arrays(const std::string& kind, const py::object& p
 }
 
 std::shared_ptr<Domain> from_simplices(const py::object& positions, std::size_t vertices,
-                                       const py::object& simplices, int dimension,
-                                       std::size_t axes, const py::object& lengths,
-                                       const py::kwargs& given) {
+                                       const py::object& simplices, int dimension, std::size_t axes,
+                                       const py::object& lengths, const py::kwargs& given) {
   SimplexShape shape;
   shape.dimension = dimension;
   shape.vertices = vertices;
@@ -224,8 +222,8 @@ std::shared_ptr<Domain> from_parts(const py::list& parts, double tolerance,
   return build(AnyShape::mixed(std::move(shape)), arguments_of(given));
 }
 
-std::shared_ptr<Domain> read(const std::filesystem::path& file, const py::object& as,
-                             const py::kwargs& given) {
+std::shared_ptr<Domain> read(const std::vector<std::filesystem::path>& files, double tolerance,
+                             const py::object& as, const py::kwargs& given) {
   Watch watch(given["progress"]);
   ReadOptions reading;
   if (!as.is_none()) {
@@ -242,7 +240,10 @@ std::shared_ptr<Domain> read(const std::filesystem::path& file, const py::object
   if (given.contains("max_volume")) reading.fill.max_volume = given["max_volume"].cast<double>();
   reading.progress.share = watch.of_share();
   reading.progress.seconds = [&watch](double) { return watch.tick(0); };
-  AnyShape shape = watch.run([&] { return AnyShape::read(file, reading); });
+  AnyShape shape = watch.run([&] {
+    return files.size() == 1 ? AnyShape::read(files.front(), reading)
+                             : AnyShape::read(files, tolerance, reading);
+  });
   return build(std::move(shape), arguments_of(given));
 }
 

@@ -13,17 +13,6 @@
 
 namespace plexway::python {
 
-namespace {
-
-template <class Reason>
-bool needs_double(Reason refusal) {
-  if constexpr (requires { Reason::windows_float; })
-    if (refusal == Reason::windows_float) return true;
-  return refusal == Reason::shapes_float;
-}
-
-}  // namespace
-
 Domain::Domain(AnyShape shape, BuildOptions options)
     : any_(std::move(shape), options), options_(std::move(options)) {
   options_.progress = {};  // it was the caller's while building
@@ -31,7 +20,8 @@ Domain::Domain(AnyShape shape, BuildOptions options)
 
 const AnyDomain& Domain::for_sources(const AnyExecutor& executor, const SourceList& sources,
                                      const PropagateOptions& options) const {
-  if (!needs_double(any_.support(executor, sources, options).refusal())) return any_;
+  const Refusal refusal = any_.support(executor, sources, options).refusal();
+  if (refusal != Refusal::shapes_float && refusal != Refusal::windows_float) return any_;
   const std::scoped_lock lock(mutex_);
   if (!twice_) {
     BuildOptions twice = options_;
@@ -162,39 +152,40 @@ const char* name_of(Triangulation triangulation) {
 
 void bind_domain(py::module_& module) {
   py::class_<Domain, std::shared_ptr<Domain>>(module, "Domain")
-      .def_property_readonly("kind", [](const Domain& d) { return std::string(d.shape().kind_name()); })
+      .def_property_readonly("kind",
+                             [](const Domain& d) { return std::string(d.shape().kind_name()); })
       .def_property_readonly("dimension", [](const Domain& d) { return d.shape().dimension(); })
-      .def_property_readonly(
-          "simplex_name", [](const Domain& d) { return std::string(d.shape().simplex_name()); })
+      .def_property_readonly("simplex_name",
+                             [](const Domain& d) { return std::string(d.shape().simplex_name()); })
       .def_property_readonly("vertex_count", [](const Domain& d) { return d.any().vertices(); })
       .def_property_readonly("simplex_count", [](const Domain& d) { return d.any().simplices(); })
-      .def_property_readonly("given_simplices", [](const Domain& d) { return d.shape().simplices(); })
+      .def_property_readonly("given_simplices",
+                             [](const Domain& d) { return d.shape().simplices(); })
       .def_property_readonly("components", [](const Domain& d) { return d.any().components(); })
       .def_property_readonly("mean_edge", [](const Domain& d) { return d.any().mean_edge(); })
       .def_property_readonly("bytes", &Domain::bytes)
-      .def_property_readonly("build_seconds", [](const Domain& d) { return d.any().build_seconds(); })
+      .def_property_readonly("build_seconds",
+                             [](const Domain& d) { return d.any().build_seconds(); })
       .def_property_readonly("refracting_edges",
                              [](const Domain& d) { return d.any().refracting_edges(); })
-      .def_property_readonly("double",
-                             [](const Domain& d) { return d.any().precision() == Precision::twice; })
-      .def_property_readonly("file", [](const Domain& d) { return d.shape().file().string(); })
       .def_property_readonly(
-          "triangulation",
-          [](const Domain& d) {
-            const TriangulationReport& report = d.any().triangulation();
-            py::dict told;
-            told["done"] = name_of(report.done);
-            told["flips"] = report.flips;
-            told["inserted_vertices"] = report.inserted_vertices;
-            return told;
-          })
+          "double", [](const Domain& d) { return d.any().precision() == Precision::twice; })
+      .def_property_readonly("file", [](const Domain& d) { return d.shape().file().string(); })
+      .def_property_readonly("triangulation",
+                             [](const Domain& d) {
+                               const TriangulationReport& report = d.any().triangulation();
+                               py::dict told;
+                               told["done"] = name_of(report.done);
+                               told["flips"] = report.flips;
+                               told["inserted_vertices"] = report.inserted_vertices;
+                               return told;
+                             })
       .def_property_readonly("wanted_triangulation",
                              [](const Domain& d) { return name_of(d.options().triangulation); })
-      .def_property_readonly(
-          "measured",
-          [](const std::shared_ptr<Domain>& d) {
-            return lengths_of(d->options().lengths.get(), py::cast(d));
-          })
+      .def_property_readonly("measured",
+                             [](const std::shared_ptr<Domain>& d) {
+                               return lengths_of(d->options().lengths.get(), py::cast(d));
+                             })
       .def_property_readonly(
           "refracts",
           [](const Domain& d) { return d.options().lengths && d.options().lengths->refracts; })

@@ -4,13 +4,11 @@
 
 #include <memory>
 #include <mutex>
-#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include <plexway/any_domain.hpp>
-#include <plexway/propagate/accuracy.hpp>
 
 #include "watch.hpp"
 
@@ -24,8 +22,8 @@ class Domain {
   [[nodiscard]] const AnyDomain& any() const { return any_; }
   [[nodiscard]] const AnyShape& shape() const { return any_.shape(); }
   [[nodiscard]] const BuildOptions& options() const { return options_; }
-  /// The domain that takes these sources and options: where they need double precision, and this has single,
-  /// another one, built when it is first needed and then kept.
+  /// The domain that takes these sources and options: where they need double precision, and this
+  /// has single, another one, built when it is first needed and then kept.
   [[nodiscard]] const AnyDomain& for_sources(const AnyExecutor& executor, const SourceList& sources,
                                              const PropagateOptions& options) const;
   [[nodiscard]] std::size_t bytes() const;
@@ -43,7 +41,7 @@ struct SolveArguments {
   int threads = 0;
   double radius = std::numeric_limits<double>::infinity();
   std::string visibility = "saddles";
-  std::optional<Accuracy> accuracy = {};  ///< nothing: the library's default
+  Accuracy accuracy = Accuracy::usual();
 };
 [[nodiscard]] AnyExecutor executor_of(const SolveArguments& arguments);
 [[nodiscard]] PropagateOptions options_of(const SolveArguments& arguments, Watch& watch);

@@ -41,7 +41,8 @@ void add_parts(const AnyShape& shape, render::Part common, std::vector<render::P
           }
           return;
         } else {
-          throw UsageError("pictures are of surfaces, solids, wireframes, clouds and mixed domains");
+          throw UsageError(
+              "pictures are of surfaces, solids, wireframes, clouds and mixed domains");
         }
         parts.push_back(common);
       },

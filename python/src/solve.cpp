@@ -11,27 +11,6 @@
 
 namespace plexway::python {
 
-namespace {
-
-// Libraries of before 0.2 have one accuracy.
-template <class Options>
-void set_accuracy(Options& options, const std::optional<Accuracy>& accuracy) {
-  if constexpr (requires { options.accuracy = *accuracy; }) {
-    if (accuracy) options.accuracy = *accuracy;
-  } else if (accuracy && *accuracy != Accuracy::fast()) {
-    throw NotBuiltError("accuracies other than 'fast' are not in this build");
-  }
-}
-template <class Of>
-std::vector<double> errors_of(const Of& field) {
-  if constexpr (requires { field.error(); })
-    return field.error();
-  else
-    return {};
-}
-
-}  // namespace
-
 AnyExecutor executor_of(const SolveArguments& arguments) {
   if (arguments.executor == "serial") return Serial{};
   if (arguments.executor == "openmp") return OpenMP{.threads = arguments.threads};
@@ -43,7 +22,7 @@ AnyExecutor executor_of(const SolveArguments& arguments) {
 PropagateOptions options_of(const SolveArguments& arguments, Watch& watch) {
   PropagateOptions options;
   options.radius = arguments.radius;
-  set_accuracy(options, arguments.accuracy);
+  options.accuracy = arguments.accuracy;
   if (arguments.visibility == "centroid")
     options.visibility = Visibility::centroid;
   else if (arguments.visibility == "upper_bound")
@@ -57,15 +36,18 @@ PropagateOptions options_of(const SolveArguments& arguments, Watch& watch) {
 
 namespace {
 
-std::optional<Accuracy> accuracy_of(const py::object& accuracy) {
-  if (accuracy.is_none()) return std::nullopt;
+Accuracy accuracy_of(const py::object& accuracy) {
+  if (accuracy.is_none()) return Accuracy::usual();
   if (py::isinstance<py::str>(accuracy)) {
     const auto name = accuracy.cast<std::string>();
     if (name == "fast") return Accuracy::fast();
     if (name == "accurate") return Accuracy::accurate();
     if (name == "exact") return Accuracy::exact();
   } else if (py::isinstance<py::float_>(accuracy) || py::isinstance<py::int_>(accuracy)) {
-    return Accuracy(accuracy.cast<double>());
+    const auto error = accuracy.cast<double>();
+    if (!(error >= 0 && error < 1))
+      throw py::value_error("accuracy: a mean relative error is at least 0 and below 1");
+    return Accuracy(error);
   }
   throw py::value_error(
       "accuracy: choose one of 'fast', 'accurate', 'exact', or a mean relative error");
@@ -95,7 +77,7 @@ py::tuple solve(const Domain& domain, std::vector<Source> given, const SolveArgu
     label = owned(std::move(numbers));
   }
   py::object error = py::none();
-  if (errors) error = owned(errors_of(field));
+  if (errors) error = owned(field.error());
   py::array distance = taken(field);
   return py::make_tuple(std::move(distance), std::move(label), std::move(error));
 }

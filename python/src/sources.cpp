@@ -69,8 +69,7 @@ void bind_sources(py::module_& module) {
            }),
            py::arg("centre"), py::arg("radius"), py::arg("offset"));
   py::class_<CurveSource>(module, "Curve")
-      .def_property_readonly("points",
-                             [](const CurveSource& curve) { return curve.points; });
+      .def_property_readonly("points", [](const CurveSource& curve) { return curve.points; });
   py::class_<SimplexSource>(module, "WholeSimplex")
       .def(py::init([](Index simplex, double offset) {
              return SimplexSource{.simplex = simplex, .offset = offset};

@@ -101,6 +101,8 @@ def test_memory_map(sheet, tmp_path):
         (lambda V, F: px.distance(V, F, [0.0, np.inf, 0.0]), px.UsageError, "finite"),
         (lambda V, F: px.distance(V, F, np.ones(4)), ValueError, "source"),
         (lambda V, F: px.distance(V, F, np.ones(4, bool)), ValueError, "truth"),
+        (lambda V, F: px.distance(V, F, [[0, 1], [2]]), ValueError, "source"),
+        (lambda V, F: px.distance(V, F, [[0, 1, 2, 3]]), ValueError, "source"),
         (lambda V, F: px.distance(V, F, "zero"), ValueError, "source"),
         (lambda V, F: px.distance(V, F, px.Vertices([0], [-1.0])), ValueError, ""),
         (lambda V, F: px.distance(V, F, px.Vertices([0], [1.0, 2])), ValueError, "offsets"),
@@ -220,7 +222,7 @@ def test_control_c(threads):
         many = np.arange(3000)
         late = interrupted(lambda: ball.distances(many, threads=threads), 0.3)
         assert late < 0.1 * threads
-        late = interrupted(lambda: ball.poisson(0.05), 0.3)
+        late = interrupted(lambda: ball.poisson(count=3000), 0.1)
         assert late < 0.1
         V, E = np.random.default_rng(0).uniform(size=(20000, 3)), np.arange(20000)
         chain = px.Wireframe(V, np.stack([E[:-1], E[1:]], 1))

@@ -64,3 +64,21 @@ def test_files(tmp_path):
         assert np.array_equal(d, domain.distance(0)), file
     if DATA.is_dir():
         assert found > 0
+
+
+def test_several_files(tmp_path):
+    X, T = meshes.kuhn(2, 3)
+    solid = tmp_path / "block.mesh"
+    rows = [" ".join(map(repr, x)) + " 0" for x in X.tolist()]
+    cells = [" ".join(str(v + 1) for v in t) + " 0" for t in T.tolist()]
+    solid.write_text(
+        "MeshVersionFormatted 2\nDimension 3\n"
+        f"Vertices {len(rows)}\n" + "\n".join(rows) + "\n"
+        f"Tetrahedra {len(cells)}\n" + "\n".join(cells) + "\nEnd\n"
+    )
+    wire = tmp_path / "wire.obj"
+    wire.write_text("v 0 0 0\nv -1 0 0\nv -2 0 0\nl 1 2 3\n")
+    both = px.read(solid, wire, precision="double")
+    assert isinstance(both, px.Mixed)
+    d = both.distance(len(X) + 2)
+    assert np.abs(d[: len(X)] - (2 + np.linalg.norm(X, axis=1))).max() < 1e-9
