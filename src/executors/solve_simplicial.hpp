@@ -132,7 +132,8 @@ void solve(const SimplicialComplex<Real, N>& domain, std::span<const PointSource
       propagation.seed(sources[n], static_cast<Index>(n));
     crew.run(propagation, front, simplices);
     read_out(domain, sources, rule, front, crew, workspace);
-    relax_edges(domain, workspace);
+    // The policies that study the step itself show it as it is, on surfaces too.
+    if (options.visibility == Visibility::saddles) relax_edges(domain, workspace);
 
     if (sources.size() > 1)
       finish<Real, true>(domain, sources, options, front, workspace, crew, field);
