@@ -1,5 +1,6 @@
 #pragma once
 
+/// @file
 /// All of the library, but for what the optional providers under complexes/ bring: solve on any
 /// domain, what to do with distances, files and pictures. Link the components that you use.
 #include <plexway/any/complex.hpp>

@@ -6,6 +6,8 @@
 #include <plexway/executors.hpp>
 #include <plexway/propagate/options.hpp>
 
+/// @file
+/// The table of what goes together, and the sentence that says why something does not.
 // What goes with what. Everything that can be solved, and everything that is refused and why, is
 // decided here and nowhere else.
 namespace plexway {
@@ -71,19 +73,20 @@ enum class SourceKind {
   X(windows_float,                                                                                 \
     "exact distances need double precision: make the domain of double, or ask for accurate")
 
-enum class Refusal {
-  nothing,
 #define PLEXWAY_NAME(name, sentence) name,
-  PLEXWAY_REFUSALS(PLEXWAY_NAME)
+/// The reasons of PLEXWAY_REFUSALS by name; `nothing` is none.
+enum class Refusal { nothing, PLEXWAY_REFUSALS(PLEXWAY_NAME) };
 #undef PLEXWAY_NAME
-};
 
 /// Yes, or the reason why not.
 class Support {
  public:
+  /// Yes, unless there is a reason.
   constexpr Support(Refusal refusal = Refusal::nothing) : refusal_(refusal) {}
 
+  /// Does it go together?
   [[nodiscard]] constexpr explicit operator bool() const { return refusal_ == Refusal::nothing; }
+  /// The reason by name.
   [[nodiscard]] constexpr Refusal refusal() const { return refusal_; }
   /// One sentence; empty for yes.
   [[nodiscard]] constexpr const char* sentence() const {
@@ -107,13 +110,20 @@ class Support {
 
 /// A cell of the table: what a field is to be solved on, by what, from what and how.
 struct Combination {
+  /// What runs the solve.
   ExecutorKind executor;
+  /// What it runs on.
   DomainKind domain;
   int dimension;  ///< of its simplices
+  /// Is the domain one of float?
   bool single_precision;
+  /// Where the domain's lengths come from.
   MetricKind metric = MetricKind::intrinsic;
+  /// What the field starts from.
   SourceKind source = SourceKind::vertex;
+  /// As in PropagateOptions.
   Visibility visibility = Visibility::saddles;
+  /// As in PropagateOptions.
   Schedule schedule = Schedule::dual_queue;
   Accuracy::Kind accuracy = Accuracy::Kind::usual;
 };

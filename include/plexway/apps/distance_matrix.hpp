@@ -16,13 +16,16 @@ namespace plexway {
 
 /// Distances between chosen points.
 struct DistanceMatrix {
+  /// So many points.
   std::size_t size = 0;
   std::vector<double> distance;  ///< row by row, symmetric, 0 on the diagonal; +inf where no path
   /// The largest difference between the two ways, in the length of the way: an error estimate.
   double asymmetry = 0;
   Accuracy accuracy = Accuracy::fast();  ///< by which it was solved
+  /// Of all propagations.
   PropagateStatistics statistics;
 
+  /// From point i to point j, both < size.
   [[nodiscard]] double operator()(std::size_t i, std::size_t j) const {
     return distance[i * size + j];
   }
@@ -35,6 +38,7 @@ struct DistanceMatrix {
 /// Throws UsageError for no points or a point that is not in the domain, and Cancelled when
 /// `progress`, called with the share that is done, returns false. On surfaces and clouds the
 /// accuracy is that of `solve`.
+/// UsageError for a surface with refracting edges, too.
 template <class Real>
 [[nodiscard]] DistanceMatrix distance_matrix(Serial, const TriangleMesh<Real>& mesh,
                                              std::span<const PointSource> points,

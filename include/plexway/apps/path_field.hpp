@@ -25,15 +25,18 @@ struct Solved;
 
 /// A distance field that can tell the way: what a solve learned, and the domain it holds on.
 ///
+/// @code
 ///   PathField field(mesh, positions);
 ///   field.solve(Serial{}, sources);
 ///   Path path = field.trace(PointSource::at(17));
 ///
+/// @endcode
 /// Domain: TriangleMesh, TetMesh or Wireframe. The domain and the positions are referred to and
 /// must outlive it.
 template <class Domain>
 class PathField;
 
+/// On a surface, a solid or a wireframe.
 template <template <class> class Domain, class Real>
 class PathField<Domain<Real>> {
   static_assert(Domain<Real>::kind == DomainKind::surface ||
@@ -46,6 +49,7 @@ class PathField<Domain<Real>> {
   /// With them paths have coordinates, and all lengths are taken from them in double. Throws
   /// UsageError for another count. Cost: linear; 4 bytes a vertex, and a
   /// tetrahedron, and 8 an edge of a wireframe.
+  /// UsageError for a surface with refracting edges, too.
   explicit PathField(const Domain<Real>& domain,
                      std::span<const std::array<double, 3>> positions = {});
 
@@ -67,6 +71,7 @@ class PathField<Domain<Real>> {
     took(sources, options.visibility, !keeps ? Kept::nothing : fast ? Kept::labels : Kept::windows);
     return field_;
   }
+  /// From one source.
   template <class Executor>
   const DistanceField<Real>& solve(Executor executor, const PointSource& source,
                                    const PropagateOptions& options = {}) {
@@ -141,7 +146,9 @@ class PathField<Domain<Real>> {
   [[nodiscard]] std::size_t bytes() const;
 
   // For the floors above and for further propagation.
+  /// What the last solve left, and the next one takes.
   [[nodiscard]] Workspace<Real>& workspace() { return workspace_; }
+  /// The domain that it refers to.
   [[nodiscard]] const Domain<Real>& domain() const { return *domain_; }
 
  private:
@@ -163,8 +170,10 @@ class PathField<Domain<Real>> {
   Kept kept_ = Kept::nothing;
 };
 
+/// The domain says which it is.
 template <template <class> class Domain, class Real>
 PathField(const Domain<Real>&) -> PathField<Domain<Real>>;
+/// Likewise, with positions.
 template <template <class> class Domain, class Real, class Positions>
 PathField(const Domain<Real>&, const Positions&) -> PathField<Domain<Real>>;
 

@@ -46,9 +46,13 @@ void write_field(const std::filesystem::path& file, const Points& cloud,
 
 /// A part of a mixed domain; empty lists are left out. The parts' vertices follow one another.
 struct MixedPart {
+  /// n, one a vertex.
   std::span<const std::array<double, 3>> positions;
+  /// Of vertices < n, counted from the part's first.
   std::span<const std::array<std::uint32_t, 2>> edges = {};
+  /// Likewise.
   std::span<const std::array<std::uint32_t, 3>> triangles = {};
+  /// Likewise.
   std::span<const std::array<std::uint32_t, 4>> tets = {};
 };
 

@@ -11,6 +11,7 @@ namespace plexway {
 /// What goes with what is in support.hpp. docs/accuracy.md has the errors and times to expect.
 class Accuracy {
  public:
+  /// By which rule.
   enum class Kind { usual, fast, merged, exact };
 
   /// For who does not choose: `accurate` where that goes together with executor, domain, sources
@@ -28,8 +29,11 @@ class Accuracy {
   explicit constexpr Accuracy(double error)
       : kind_(error < 1e-5 ? Kind::exact : Kind::merged), error_(error) {}
 
+  /// By which rule it is reached.
   [[nodiscard]] constexpr Kind kind() const { return kind_; }
+  /// The mean relative error to expect.
   [[nodiscard]] constexpr double error() const { return error_; }
+  /// Are both the same?
   friend constexpr bool operator==(const Accuracy&, const Accuracy&) = default;
 
  private:

@@ -12,6 +12,7 @@ namespace plexway {
 struct PropagateStatistics {
   std::size_t expansions = 0;  ///< simplices taken from the queue
   std::size_t updates = 0;     ///< labels accepted
+  /// Simplices that a label came to.
   std::size_t reached_simplices = 0;
   /// Surfaces, Accuracy::fast: vertices that labels put farther than a neighbour and the edge
   /// between, and that got the way by that neighbour. Many: the field is less accurate there.
@@ -35,6 +36,7 @@ struct DistanceField {
   std::vector<Real> error;
   Accuracy accuracy = Accuracy::fast();  ///< by which it was solved, never `usual`
   bool complete = true;                  ///< false if max_expansions ended the propagation early
+  /// What it cost.
   PropagateStatistics statistics;
 };
 

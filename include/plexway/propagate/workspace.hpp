@@ -21,6 +21,7 @@ namespace plexway {
 /// time; grows on first use and is then reused without allocating or clearing.
 template <class Real>
 struct Workspace {
+  /// Which simplices have a label.
   VisitMarks marks;
   LabelStorage<SaddleLabel<Real>> saddles;           ///< Visibility::saddles
   LabelStorage<PlainLabel<Real>> plain;              ///< the other policies
@@ -29,6 +30,7 @@ struct Workspace {
   SimplexLabels<Real> simplex;                       ///< SimplicialComplex
   std::vector<Index> source;   ///< nearest source a simplex; empty for one source
   WindowMemory<Real> windows;  ///< on surfaces: accuracies but `fast`
+  /// The queues.
   FrontStorage front;
   TeamRooms team;                    ///< for executors with several threads
   std::vector<Real> vertex;          ///< read-out, in the numbers inside
@@ -44,6 +46,7 @@ struct Workspace {
     if (labels) source.resize(simplices + 1);
   }
 
+  /// Bytes held.
   [[nodiscard]] std::size_t bytes() const {
     const auto of = [](const auto& v) { return v.capacity() * sizeof(v[0]); };
     return sizeof(*this) + marks.bytes() + saddles.count * sizeof(SaddleLabel<Real>) +
