@@ -19,11 +19,12 @@ def version():
 
 
 class CMakeBuild(build_ext):
-    """Configures and builds in a folder of its own; PLEXWAY_CMAKE_ARGS adds options."""
+    """Configures and builds in a folder of its own, or in the one that PLEXWAY_BUILD names and that
+    is then kept for the next time; PLEXWAY_CMAKE_ARGS adds options."""
 
     def build_extension(self, extension):
         package = Path(self.get_ext_fullpath(extension.name)).resolve().parent
-        folder = Path(self.build_temp).resolve()
+        folder = Path(os.environ.get("PLEXWAY_BUILD", self.build_temp)).resolve()
         options = [
             "-DCMAKE_BUILD_TYPE=Release",
             "-DPLEXWAY_WITH_PYTHON=ON",

@@ -82,3 +82,17 @@ def test_several_files(tmp_path):
     assert isinstance(both, px.Mixed)
     d = both.distance(len(X) + 2)
     assert np.abs(d[: len(X)] - (2 + np.linalg.norm(X, axis=1))).max() < 1e-9
+
+
+def test_a_surface_is_filled(tmp_path):
+    # By TetGen, in a program of its own, which must be found from an interpreter, too.
+    off = DATA / "elbow.off"
+    if not off.exists():
+        pytest.skip("no data here")
+    try:
+        solid = px.read(off, kind="solid")
+    except px.NotBuilt as missing:
+        assert "program" not in str(missing)
+        pytest.skip(str(missing))
+    d = told(off, tmp_path / "d.npy", "--as", "solid", "--source", "vertex:0")
+    assert isinstance(solid, px.Solid) and np.array_equal(d, solid.distance(0))
