@@ -70,7 +70,7 @@ Domain::Shape read(const std::string& file, std::optional<Kind> asked) {
   const std::string extension = std::filesystem::path(file).extension().string();
   throw InputError(
       file + ": " + (extension.empty() ? "no extension" : "unknown extension '" + extension + "'") +
-      "; known are .obj .off .ply .stl for surfaces, .node .ele .mesh .msh .vtu .vtk "
+      "; known are .obj .off .ply .stl .gii for surfaces, .node .ele .mesh .msh .vtu .vtk "
       ".poly .smesh .vdb for solids, .edges .obj for wireframes, .xyz .pcd .ply for clouds");
 }
 

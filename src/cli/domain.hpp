@@ -94,7 +94,8 @@ class Domain {
 
 /// What INPUT may be, for the help of the commands.
 inline constexpr const char* input_help =
-    "a surface: .obj .off .ply .stl; a solid: .node .ele .mesh .msh .vtu .vtk,\n"
+    "a surface: .obj .off .ply .stl, GIfTI .gii, FreeSurfer's .white .pial and so on;\n"
+    "a solid: .node .ele .mesh .msh .vtu .vtk,\n"
     ".poly .smesh through TetGen, and a level set .vdb through OpenVDB; a wireframe: .edges, or "
     ".obj with lines only;\n"
     "a cloud of points: .xyz, .ply without faces, and .pcd through PCL";

@@ -92,6 +92,7 @@ void add_pairs_command(CLI::App& tool, Action& action) {
   app.add_option("--as", command->as, as_help)->type_name("KIND");
   app.add_flag("--json", command->json, "print the summary as one JSON object");
   app.add_flag("--quiet,-q", command->quiet, "no summary, notes or progress; errors stay");
+  add_mask_option(app, command->mask);
   add_matrix_options(app, *command);
   add_solve_options(app, command->solve, false);
   add_triangulation_option(app, command->triangulation);

@@ -53,6 +53,7 @@ struct Job {
   bool sparse = false;
   MatrixNumber number = MatrixNumber::float32;
   PropagateOptions options;
+  std::optional<Mask> mask = {};
   std::optional<ParcelLabels> parcels = {};
   BlockJournal::Description description = {};
   std::size_t block = 32;
@@ -119,8 +120,12 @@ void check_names(const MatrixCommand& command) {
   check_output_name(command.stats, command.input, tables, "--stats");
   check_output_name(command.histogram, command.input, tables, "--histogram");
   check_outputs_differ({command.out, command.stats, command.histogram});
-  const std::array read = {command.sources, command.targets, command.labels,
-                           metric_file(command.metric), command.solve.table};
+  const std::array read = {command.sources,
+                           command.targets,
+                           command.labels,
+                           mask_file(command.mask),
+                           metric_file(command.metric),
+                           command.solve.table};
   for (const auto& [name, option] :
        {std::pair(&command.out, "--out"), std::pair(&command.stats, "--stats"),
         std::pair(&command.histogram, "--histogram")})
@@ -189,6 +194,12 @@ void describe(Job& job, const MeasuredLengths* lengths) {
     metric.add_numbers(lengths->tets);
     metric.add_numbers(lengths->edges);
     add("metric", metric.text());
+  }
+  if (job.mask) {
+    Fingerprint mask;
+    mask.add_numbers(job.mask->closed_vertices());
+    mask.add_numbers(job.mask->closed_simplices());
+    add("mask", mask.text());
   }
   if (command.radius) add("radius", number(*command.radius));
   if (command.nearest) add("nearest", std::to_string(*command.nearest));
@@ -393,9 +404,17 @@ class MatrixRun {
 };
 
 template <class Real, class Shape>
-Outcome run_on(const Shape& shape, const MeasuredLengths* lengths, const Job& job,
+Outcome run_on(const Shape& whole, const MeasuredLengths* all_lengths, const Job& job,
                ProgressLine& progress) {
   progress.phase("building");
+  std::optional<Shape> open;
+  std::optional<MeasuredLengths> open_lengths;
+  if (job.mask) {
+    if (all_lengths != nullptr) open_lengths = *all_lengths;
+    open = open_shape(*job.mask, whole, open_lengths ? &*open_lengths : nullptr);
+  }
+  const Shape& shape = open ? *open : whole;
+  const MeasuredLengths* lengths = open_lengths ? &*open_lengths : all_lengths;
   const auto with = [&](const auto& complex, const std::vector<PointSource>& rows) {
     const std::string& name = job.command.solve.executor.name;
     if (name == "serial" || !openmp_built())
@@ -490,8 +509,8 @@ void add_matrix_options(CLI::App& app, MatrixCommand& command) {
                "of the two ways between two vertices the shorter counts for both")
       ->group(group);
   app.add_option("--labels", command.labels,
-                 "a label a vertex, a line each (below 0: none): --out is then the mean\n"
-                 "distance between parcels, .npy or .csv")
+                 "a label a vertex, a line each (below 0: none) or .label.gii: --out is then\n"
+                 "the mean distance between parcels, .npy or .csv")
       ->type_name("FILE")
       ->group(group);
   app.add_option("--stats", command.stats,
@@ -522,6 +541,7 @@ std::string only_for_matrices(const MatrixCommand& command) {
   if (!command.stats.empty()) return "--stats";
   if (!command.histogram.empty()) return "--histogram";
   if (!command.metric.text.empty()) return "--metric";
+  if (!command.mask.text.empty()) return "--mask";
   if (command.solve.executor.threads) return "--threads";
   if (command.solve.visibility != "saddles") return "--visibility";
   if (command.solve.schedule_given) return "--schedule";
@@ -558,6 +578,8 @@ void run_matrix(const MatrixCommand& command) {
   } else {
     job.rows = read_point_list(command.sources, domain);
   }
+  job.mask = read_mask(command.mask, domain);
+  if (job.mask && command.sources != "all") move_sources(*job.mask, domain, job.rows);
   if (!command.labels.empty()) {
     job.parcels = read_parcels(command.labels, domain.vertices());
     job.parcels->take(job.rows, job.columns, command.labels);

@@ -6,6 +6,7 @@
 
 #include "cloud_options.hpp"
 #include "fill_options.hpp"
+#include "mask_option.hpp"
 #include "metric_options.hpp"
 #include "solve_options.hpp"
 #include "triangulation_option.hpp"
@@ -31,6 +32,7 @@ struct MatrixCommand {
   FillOptions fill;
   CloudArguments cloud;
   SolveOptions solve;
+  MaskArgument mask;
   MetricArgument metric;
   TriangulationArgument triangulation;
 };

@@ -9,6 +9,7 @@
 #include <limits>
 #include <random>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "cli/tool.hpp"
@@ -160,6 +161,45 @@ TEST_CASE("statistics and histograms and parcels are those of the matrix") {
       CHECK((to_lower ? to7 : to3)[lower ? 1 : 0] == Approx(sum / pairs).epsilon(1e-5));
     }
   CHECK(folder.files() == 6);
+}
+
+TEST_CASE("pairs go around what is masked") {
+  // Vertices (4, 0) to (4, 5) of 9 x 9 are closed, and with them the triangles about each, which
+  // reach up to (3, 6) and (4, 6), and to (5, 5) on the other side.
+  const testing::Folder folder;
+  const std::string input = folder.write("square.off", square_off(9));
+  std::string closed;
+  for (int y = 0; y < 6; ++y) closed += std::to_string(9 * y + 4) + "\n";
+  const std::string mask = folder.write("mask.txt", closed), out = folder.at("d.npy");
+  const std::string ends = folder.write("ends.txt", "0\n8\n"),
+                    inside = folder.write("in.txt", "4\n");
+  REQUIRE(run_tool({"pairs", input, "--sources", ends, "--targets", ends, "--mask",
+                    "vertices:" + mask, "--precision", "double", "--type", "float64", "--out", out})
+              .code == 0);
+  const double around = (std::sqrt(45.) + 1 + std::sqrt(2.) + std::sqrt(34.)) / 8;
+  const auto d = matrix(out);
+  REQUIRE(d.size() == 4);
+  CHECK(d[0] == 0);
+  CHECK(d[1] == Approx(around).epsilon(1e-9));
+  CHECK(d[2] == Approx(around).epsilon(1e-9));
+  // Within a radius that leads through the mask, but not around it, nothing but the ends.
+  const std::string near = folder.at("near.mtx");
+  REQUIRE(run_tool({"pairs", input, "--sources", ends, "--targets", ends, "--mask",
+                    "vertices:" + mask, "--radius", "1.5", "--out", near})
+              .code == 0);
+  CHECK(content(near).find("\n2 2 2\n1 1 0\n2 2 0\n") != std::string::npos);
+
+  for (const auto& [kind, text] :
+       {std::pair<std::string, std::string>{"vertices:" + mask, "is masked"},
+        {"vertices:" + folder.write("b.txt", "81\n").string(), "b.txt:1: vertex 81"},
+        {"simplices:" + folder.write("c.txt", "128\n").string(), "c.txt:1: no such simplex"},
+        {"edges:" + mask, "vertices:FILE"}}) {
+    const Outcome run =
+        run_tool({"pairs", input, "--sources", inside, "--mask", kind, "--out", out});
+    CHECK((run.code == 2 || run.code == 3));
+    CHECK(run.complaints() == 1);
+    CHECK(run.err.find(text) != std::string::npos);
+  }
 }
 
 TEST_CASE("a matrix killed twenty times is bit for bit one that was not") {
