@@ -98,7 +98,6 @@ class MatrixRun {
       run_sparse(journal);
     else
       run_dense(journal);
-    journal.remove();
     return outcome_;
   }
 
@@ -159,15 +158,16 @@ class MatrixRun {
     outcome_.solving = watch.seconds();
     progress_.phase("writing " + job_.command.out);
     outcome_.entries = file.commit(journal);
+    // The journal goes first: one without its part could not be gone on with.
+    journal.remove();
     file.remove();
   }
 
   void run_dense(BlockJournal& journal) {
     const MatrixCommand& command = job_.command;
     const std::size_t rows = job_.rows.size();
-    if (journal.is_complete() && job_.wants_matrix() &&
-        !fs::exists(io::PartFile::path_of(command.out))) {
-      finish_statistics(nullptr);  // ended between renaming and telling
+    if (journal.is_complete() && !fs::exists(io::PartFile::path_of(command.out))) {
+      journal.remove();  // ended when all was in its place
       return;
     }
     std::optional<MatrixFile> matrix, parcels, statistics;
@@ -193,32 +193,28 @@ class MatrixRun {
     outcome_.report = io::write_pairs(executor_, complex_, request_,
                                       std::span<const io::RowOutput<Real>>(outputs), journal);
     outcome_.solving = watch.seconds();
-    if (matrix) finish_matrix(*matrix, journal);
-    if (parcels) {
-      write_parcels(command.out, *parcels, *job_.parcels);
-      parcels->remove();
+    if (matrix && job_.square) compare_ways(*matrix, journal);
+    if (parcels) write_parcels(command.out, *parcels, *job_.parcels);
+    if (statistics)
+      outcome_.statistics =
+          write_statistics(command.stats, command.histogram, command.bin_width.value_or(1),
+                           *statistics, job_.rows, job_.columns);
+    // Ended before this line all is done again from the parts, and behind it nothing.
+    if (matrix) {
+      journal.complete([&] { matrix->sync(); });
+      matrix->commit();
     }
-    finish_statistics(statistics ? &*statistics : nullptr);
+    journal.remove();
+    if (parcels) parcels->remove();
+    if (statistics) statistics->remove();
   }
 
-  void finish_matrix(MatrixFile& matrix, BlockJournal& journal) {
-    if (job_.square) {
-      progress_.phase("comparing the two ways");
-      // Told once: by then some may have been made symmetric.
-      if (journal.noted().empty()) journal.note(asymmetry_text(asymmetry_of(matrix)));
-      outcome_.asymmetry = journal.noted();
-      if (job_.command.symmetric) make_symmetric(matrix);
-    }
-    journal.complete([&] { matrix.sync(); });
-    matrix.commit();
-  }
-
-  void finish_statistics(MatrixFile* statistics) {
-    if (statistics == nullptr) return;
-    outcome_.statistics =
-        write_statistics(job_.command.stats, job_.command.histogram,
-                         job_.command.bin_width.value_or(1), *statistics, job_.rows, job_.columns);
-    statistics->remove();
+  void compare_ways(MatrixFile& matrix, BlockJournal& journal) {
+    progress_.phase("comparing the two ways");
+    // Told once: by then some may have been made symmetric.
+    if (journal.noted().empty()) journal.note(asymmetry_text(asymmetry_of(matrix)));
+    outcome_.asymmetry = journal.noted();
+    if (job_.command.symmetric) make_symmetric(matrix);
   }
 
   const Job& job_;

@@ -139,7 +139,6 @@ void BlockJournal::read(const std::string& header) {
                   "'; give what was given then, or remove " + path_.string() + " to begin anew");
     }
   }
-  resumed_ = true;
   text.remove_prefix(rest);
   std::size_t whole = rest;
   while (!text.empty()) {
@@ -172,6 +171,8 @@ void BlockJournal::read(const std::string& header) {
     place_[number[0]] = place;
   }
   if (::ftruncate(file_, static_cast<off_t>(whole)) != 0) refused(errno);
+  // A run that was ended before its first block may not have come as far as to make its files.
+  resumed_ = complete_ || finished() > 0;
 }
 
 std::size_t BlockJournal::finished() const {

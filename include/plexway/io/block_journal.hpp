@@ -53,7 +53,7 @@ class BlockJournal {
   BlockJournal(const BlockJournal&) = delete;
   BlockJournal& operator=(const BlockJournal&) = delete;
 
-  /// Was there one to go on from?
+  /// Was there one with something finished, to go on from?
   [[nodiscard]] bool resumed() const { return resumed_; }
   [[nodiscard]] bool has(std::size_t block) const { return finished_[block] != 0; }
   [[nodiscard]] std::size_t blocks() const { return finished_.size(); }
