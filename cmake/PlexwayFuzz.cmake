@@ -14,6 +14,14 @@ foreach(source IN LISTS fuzzers)
     add_test(NAME "fuzz/corpus ${format}" COMMAND ${target} "${fuzz_dir}/corpus/${format}")
     set_tests_properties("fuzz/corpus ${format}" PROPERTIES LABELS fuzz TIMEOUT 600)
   endif()
+  if(format STREQUAL "rows")  # the tool's own readers
+    find_package(nlohmann_json QUIET)
+    file(GLOB_RECURSE readers CONFIGURE_DEPENDS
+      "${PROJECT_SOURCE_DIR}/src/cli/number_rows.cpp" "${PROJECT_SOURCE_DIR}/src/cli/table_file.cpp"
+      "${PROJECT_SOURCE_DIR}/src/cli/truth_file.cpp" "${PROJECT_SOURCE_DIR}/src/cli/report.cpp")
+    target_sources(${target} PRIVATE ${readers})
+    target_link_libraries(${target} PRIVATE nlohmann_json::nlohmann_json)
+  endif()
   plexway_compile_options(${target})
   target_include_directories(${target} PRIVATE "${fuzz_dir}" "${PROJECT_SOURCE_DIR}/src")
   plexway_link_all(${target})

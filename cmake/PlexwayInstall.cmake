@@ -31,6 +31,11 @@ foreach(module plexway_pcl_module plexway_openvdb_module)
     install(TARGETS ${module} LIBRARY DESTINATION "${CMAKE_INSTALL_LIBDIR}/plexway")
   endif()
 endforeach()
+foreach(helper plexway_tetgen_helper plexway_openvdb_helper)
+  if(TARGET ${helper})
+    install(TARGETS ${helper} RUNTIME DESTINATION "${CMAKE_INSTALL_LIBDIR}/plexway")
+  endif()
+endforeach()
 
 configure_package_config_file("${PROJECT_SOURCE_DIR}/cmake/plexwayConfig.cmake.in"
   "${PROJECT_BINARY_DIR}/plexwayConfig.cmake" INSTALL_DESTINATION "${package_dir}")

@@ -86,8 +86,9 @@ class NearWorker {
   void solve(const apps::RowSource& source, std::size_t row, const PropagateOptions& options) {
     const TriangleMesh<Real>* sheet = sheet_of(domain_);
     if (source.point() != nullptr && sheet != nullptr &&
-        (D::kind == DomainKind::surface || source.point()->vertex != none) && sheet->summary().refracting_edges == 0 &&
-        options.visibility == Visibility::saddles)
+        (D::kind == DomainKind::surface || source.point()->vertex != none) &&
+        sheet->summary().refracting_edges == 0 && options.visibility == Visibility::saddles &&
+        (options.accuracy == Accuracy::usual() || options.accuracy == Accuracy::fast()))
       search(*sheet, *source.point(), options);
     else
       solve_all(source.list(), options);

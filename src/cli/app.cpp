@@ -1,4 +1,4 @@
-#include "app.hpp"
+#include "cli/app.hpp"
 
 #include <CLI/CLI.hpp>
 #include <exception>
@@ -10,10 +10,11 @@
 #include <plexway/error.hpp>
 #include <plexway/version.hpp>
 
-#include "commands.hpp"
-#include "console.hpp"
-#include "executor_argument.hpp"
-#include "exit_codes.hpp"
+#include "cli/commands/commands.hpp"
+#include "cli/exit_codes.hpp"
+#include "cli/options/executor_argument.hpp"
+#include "cli/report/console.hpp"
+#include "io/file_bytes.hpp"
 
 namespace plexway::cli {
 namespace {
@@ -28,7 +29,7 @@ std::string version_text() {
   std::string licence = "MIT";
 #ifdef PLEXWAY_HAS_TETGEN
   providers += " tetgen";
-  licence += "; TetGen 1.5 (AGPL) is built in, so the AGPL holds for this program as a whole";
+  licence += "; the program plexway-tetgen, which fills surfaces, links TetGen 1.5 (AGPL)";
 #endif
 #ifdef PLEXWAY_HAS_FLANN
   providers += " flann";
@@ -123,6 +124,8 @@ int fail(ExitCode code, const char* message) noexcept {
 
 int run(int argc, const char* const* argv) noexcept {
   ignore_signals_of_writing();
+  leave_nothing_behind();
+  io::FileBytes::keep_streams();
   try {
     return parse_and_run(argc, argv);
   } catch (const OutputClosed&) {

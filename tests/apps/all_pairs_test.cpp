@@ -59,12 +59,13 @@ void check_domain() {
     CAPTURE(scene.name);
     const D& domain = scene.domain;
     const std::size_t n = domain.vertex_count();
-    Rows<Real> expected;
-    for (Index v = 0; v < n; ++v)
-      expected.push_back(solve(Serial{}, domain, PointSource::at(v)).distance);
-
     PairsRequest all;
     all.block = 7;
+    all.solve.accuracy = Accuracy::fast();
+    Rows<Real> expected;
+    for (Index v = 0; v < n; ++v)
+      expected.push_back(solve(Serial{}, domain, PointSource::at(v), all.solve).distance);
+
     CHECK(dense(Serial{}, domain, all) == expected);
     for (const int threads : {1, 2, 3})
       CHECK(dense(OpenMP{.threads = threads}, domain, all) == expected);
@@ -75,6 +76,7 @@ void check_domain() {
     const std::vector<Index> columns = {5, 1, 5, static_cast<Index>(n - 1)};
     PairsRequest some;
     some.rows = SourceList(rows);
+    some.solve = all.solve;
     some.columns = columns;
     const auto chosen = dense(OpenMP{.threads = 2}, domain, some);
     for (std::size_t i = 0; i < rows.size(); ++i)
@@ -245,10 +247,11 @@ TEST_CASE("rows of a matrix may start from sets, balls and curves") {
       CurveSource{.points = {PointSource::at(0), PointSource::at(1)}}};
   PairsRequest request;
   request.rows = SourceList(sources);
+  request.solve.accuracy = Accuracy::fast();
   const auto rows = dense(OpenMP{.threads = 2}, mesh, request);
   const auto few = near(Serial{}, mesh, request, {.radius = 0.4});
   for (std::size_t k = 0; k < sources.size(); ++k) {
-    CHECK(rows[k] == solve(Serial{}, mesh, sources[k]).distance);
+    CHECK(rows[k] == solve(Serial{}, mesh, sources[k], request.solve).distance);
     for (const auto& [column, distance] : few[k]) CHECK(distance == rows[k][column]);
     CHECK(few[k].size() == static_cast<std::size_t>(std::count_if(
                                rows[k].begin(), rows[k].end(), [](double d) { return d <= 0.4; })));
