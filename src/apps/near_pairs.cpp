@@ -85,8 +85,10 @@ class NearWorker {
 
   void solve(const apps::RowSource& source, std::size_t row, const PropagateOptions& options) {
     const TriangleMesh<Real>* sheet = sheet_of(domain_);
-    if (source.point() != nullptr && sheet != nullptr && sheet->summary().refracting_edges == 0 &&
-        options.visibility == Visibility::saddles)
+    if (source.point() != nullptr && sheet != nullptr &&
+        (D::kind == DomainKind::surface || source.point()->vertex != none) &&
+        sheet->summary().refracting_edges == 0 && options.visibility == Visibility::saddles &&
+        (options.accuracy == Accuracy::usual() || options.accuracy == Accuracy::fast()))
       search(*sheet, *source.point(), options);
     else
       solve_all(source.list(), options);
@@ -149,7 +151,8 @@ class NearWorker {
     }
   }
 
-  // All entries no farther than `radius`, each as an endless search has it; how much was reached.
+  // All entries no farther than `radius`, searched an edge farther, so that each is as an endless
+  // search has it; how much was reached.
   std::size_t look_within(double radius, const PointSource& source, double unit,
                           PropagateOptions& options) {
     for (double margin = 2.5 * unit;;) {

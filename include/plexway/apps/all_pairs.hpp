@@ -118,7 +118,7 @@ struct NearLimits {
 /// The same, of entries that are near: within a radius, the k nearest, or both. The row's own
 /// vertex counts, with distance 0. `request.solve.radius` is not asked for.
 ///
-/// Each is what `all_pairs` says, up to rounding.
+/// Each is what `all_pairs` says, up to rounding, but that the usual accuracy is `fast` here.
 ///
 /// Cost, on surfaces and clouds from points by the default rule: what a row reaches, and nothing
 /// that grows with the surface (BoundedSearch, whose memory is a thread's); the k nearest are

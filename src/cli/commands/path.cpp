@@ -5,6 +5,7 @@
 #include <memory>
 #include <span>
 #include <string>
+#include <string_view>
 #include <type_traits>
 #include <utility>
 #include <vector>
@@ -27,6 +28,7 @@
 #include "cli/report/distance_output.hpp"
 #include "cli/report/progress.hpp"
 #include "cli/report/report.hpp"
+#include "io/number_rows.hpp"
 
 namespace plexway::cli {
 namespace {
@@ -199,7 +201,25 @@ void say_notes(const Outcome& outcome, const std::vector<PointSource>& sources) 
              short_number(100 * most) + " %; the length is the more exact");
 }
 
-void run_path(const PathCommand& command) {
+// Each of vertices:FILE as the vertex that it is.
+std::vector<std::string> one_by_one(const std::vector<std::string>& places) {
+  constexpr std::string_view list = "vertices:";
+  std::vector<std::string> single;
+  for (const std::string& place : places) {
+    if (place.substr(0, list.size()) != list) {
+      single.push_back(place);
+      continue;
+    }
+    const std::string file = place.substr(list.size());
+    for (const io::NumberRow& row : io::read_number_rows(file, 1, 1, "a vertex (0-based) a line"))
+      single.push_back("vertex:" + std::to_string(io::vertex_in(file, row, 0, none)));
+  }
+  return single;
+}
+
+void run_path(const PathCommand& typed) {
+  PathCommand command = typed;
+  command.to = one_by_one(typed.to);
   const PropagateOptions options = propagate_options(command.solve);
   const Precision precision = precision_of(command.solve);
   if (command.solve.executor.name != "serial" && command.solve.executor.name != "auto")
@@ -295,7 +315,9 @@ void add_path_command(CLI::App& tool, Action& action) {
       ->required()
       ->type_name("WHERE")
       ->allow_extra_args(false);
-  app.add_option("--to,-t", command->to, "the same; repeat it for several targets, a path each")
+  app.add_option("--to,-t", command->to,
+                 "the same, or vertices:FILE with one a line; repeat it for several targets, a\n"
+                 "path each")
       ->required()
       ->type_name("WHERE")
       ->allow_extra_args(false);
