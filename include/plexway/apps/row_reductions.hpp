@@ -13,12 +13,15 @@ namespace plexway {
 
 /// Of one row; over what is reached.
 struct RowStatistics {
+  /// Columns whose distance is finite.
   std::size_t reached = 0;
+  /// Of the distances; 0 where nothing is reached.
   double mean = 0;
   double largest = 0;     ///< eccentricity, where columns are all vertices
   Index farthest = none;  ///< the first column that is so far; none where nothing is reached
 };
 
+/// Looks at one row. Cost: linear.
 template <class Real>
 [[nodiscard]] RowStatistics row_statistics(std::span<const Real> distance);
 
@@ -31,7 +34,9 @@ template <class Real>
 /// Parts of a domain: one label an element, each of the labels' values from 0 to `count` - 1, or
 /// `none` for elements of no part.
 struct Parcels {
+  /// The label of each element.
   std::vector<Index> of;
+  /// How many labels there are.
   std::size_t count = 0;
 };
 

@@ -12,23 +12,29 @@ namespace plexway {
 /// Where no path may go: simplices that are closed, and vertices, which close all simplices about
 /// them. A domain is built of what is open, with the vertices that it had:
 ///
+/// @code
 ///   Mask mask(positions.size(), faces.size());
 ///   mask.close_vertex(17);
 ///   TriangleMesh<float> mesh(positions, mask.open(faces));
 ///
+/// @endcode
 /// Its edge is boundary like any other: paths run along it and bend at its corners. Vertices keep
 /// their numbers, and those that are in no open simplex are reached from nowhere; simplices are
 /// numbered without the closed ones, see `number`.
 class Mask {
  public:
+  /// All open.
   Mask(std::size_t vertices, std::size_t simplices)
       : vertex_(vertices, 0), simplex_(simplices, 0) {}
 
   /// Throw UsageError for a number that is out of range.
   void close_vertex(Index vertex);
+  /// Likewise.
   void close_simplex(Index simplex);
 
+  /// One a vertex: not 0 where it is closed itself.
   [[nodiscard]] std::span<const char> closed_vertices() const { return vertex_; }
+  /// One a simplex: not 0 where it is closed itself, not by a vertex.
   [[nodiscard]] std::span<const char> closed_simplices() const { return simplex_; }
 
   /// The simplices that are open, in their order. Throws UsageError if there is not one row a
@@ -36,6 +42,7 @@ class Mask {
   template <std::size_t N>
   [[nodiscard]] std::vector<std::array<Index, N>> open(
       std::span<const std::array<Index, N>> simplices) const;
+  /// Likewise.
   template <std::size_t N>
   [[nodiscard]] std::vector<std::array<Index, N>> open(
       const std::vector<std::array<Index, N>>& simplices) const {

@@ -15,13 +15,17 @@ namespace plexway::io {
 /// Tells contents apart: 64 bits of all that was added (FNV-1a). No safeguard against malice.
 class Fingerprint {
  public:
+  /// Bytes, in order.
   void add(std::string_view bytes);
+  /// The bytes of a row of numbers.
   template <class Numbers>
   void add_numbers(const Numbers& numbers) {
     add({reinterpret_cast<const char*>(std::data(numbers)),
          std::size(numbers) * sizeof(*std::data(numbers))});
   }
+  /// Of all that was added so far.
   [[nodiscard]] std::uint64_t value() const { return value_; }
+  /// The same in hexadecimal digits.
   [[nodiscard]] std::string text() const;
 
  private:
@@ -41,7 +45,10 @@ class BlockJournal {
   using Description = std::vector<std::pair<std::string, std::string>>;
   /// Where in a file of parts a block stands; nothing for files with a place for each.
   struct Place {
+    ///@{
+    /// From where on, and how long.
     std::uint64_t offset = 0, bytes = 0;
+    ///@}
   };
 
   /// Goes on from the journal of `out`, or begins one. Throws Error if another run holds it, if it
@@ -55,9 +62,13 @@ class BlockJournal {
 
   /// Was there one with something finished, to go on from?
   [[nodiscard]] bool resumed() const { return resumed_; }
+  /// Is it finished? block < blocks().
   [[nodiscard]] bool has(std::size_t block) const { return finished_[block] != 0; }
+  /// All of them.
   [[nodiscard]] std::size_t blocks() const { return finished_.size(); }
+  /// How many are finished.
   [[nodiscard]] std::size_t finished() const;
+  /// Where a finished one stands.
   [[nodiscard]] Place place(std::size_t block) const { return place_[block]; }
   /// Behind all places.
   [[nodiscard]] std::uint64_t end() const;
@@ -71,14 +82,17 @@ class BlockJournal {
 
   /// A line to find again; the last one counts.
   void note(const std::string& text);
+  /// The last note, also of an earlier run; empty if there is none.
   [[nodiscard]] const std::string& noted() const { return note_; }
 
   /// All is written, and about to be put in its place: a run that finds this has nothing to solve.
   void complete(const std::function<void()>& sync);
+  /// Is all written?
   [[nodiscard]] bool is_complete() const { return complete_; }
   /// The output is in its place: the journal goes.
   void remove();
 
+  /// What the journal of an output is called.
   [[nodiscard]] static std::filesystem::path path_of(const std::filesystem::path& out);
 
  private:

@@ -15,7 +15,9 @@ namespace plexway::io {
 enum class MatrixNumber { float16, float32, float64 };
 /// Throws UsageError for a name that does not exist.
 [[nodiscard]] MatrixNumber matrix_number_of(std::string_view name);
+/// "float16", "float32" or "float64".
 [[nodiscard]] std::string_view name_of(MatrixNumber number);
+/// Bytes of one: 2, 4 or 8.
 [[nodiscard]] std::size_t size_of(MatrixNumber number);
 
 /// A dense matrix on disk, written row by row in any order into its place: NumPy's .npy. Memory: a
@@ -26,7 +28,9 @@ class MatrixFile {
   MatrixFile(const std::filesystem::path& out, std::size_t rows, std::size_t columns,
              MatrixNumber number, bool resume);
 
+  /// As it was made with.
   [[nodiscard]] std::size_t rows() const { return rows_; }
+  /// As it was made with.
   [[nodiscard]] std::size_t columns() const { return columns_; }
   /// Throws as PartFile, and UsageError for a finite number that gets infinite.
   template <class Real>
@@ -36,9 +40,13 @@ class MatrixFile {
   /// Values of a row from a column on.
   template <class Real>
   void write(std::size_t row, std::size_t column, std::span<const Real> values);
+  /// Values of a row from a column on, as they were rounded.
   void read(std::size_t row, std::size_t column, std::span<double> values) const;
+  /// To the disk.
   void sync() { file_.sync(); }
+  /// To the disk, and in its place.
   void commit() { file_.commit(); }
+  /// The part is not needed any more.
   void remove() { file_.remove(); }
 
   /// Of the whole file.

@@ -21,6 +21,7 @@ class PartFile {
   PartFile(const PartFile&) = delete;
   PartFile& operator=(const PartFile&) = delete;
 
+  /// Bytes from a place on.
   void write(std::uint64_t offset, std::string_view bytes);
   /// All of them, or Error.
   void read(std::uint64_t offset, std::span<char> bytes) const;
@@ -31,6 +32,7 @@ class PartFile {
   /// The part is not needed any more.
   void remove();
 
+  /// What the part of a file is called.
   [[nodiscard]] static std::filesystem::path path_of(const std::filesystem::path& out);
 
  private:

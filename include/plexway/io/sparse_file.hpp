@@ -18,7 +18,9 @@ namespace plexway::io {
 
 /// An entry of a row: its column, and a number.
 struct SparseEntry {
+  /// Counted from 0.
   std::uint32_t column;
+  /// Rounded as the file's numbers are.
   double value;
 };
 
@@ -37,12 +39,15 @@ class SparseFile {
   void write_row(std::size_t row, std::span<const SparseEntry> entries);
   /// All rows of a block were written. One call at a time. Where it stands is for the journal.
   BlockJournal::Place finish_block(std::size_t block);
+  /// What was written so far, to the disk.
   void sync() { file_.sync(); }
   /// Makes the matrix of all blocks, which the journal must have, and puts it in its place. The
   /// part stays. Returns the number of entries.
   std::uint64_t commit(const BlockJournal& journal);
+  /// The part is not needed any more.
   void remove() { file_.remove(); }
 
+  /// The extensions it knows, with the dot, in lower case.
   [[nodiscard]] static std::span<const std::string_view> extensions();
 
  private:

@@ -49,6 +49,7 @@ PairsReport run_with_journal(PairsRequest request, BlockJournal& journal,
 /// What is made of a row of distances, and into which file it goes.
 template <class Real>
 struct RowOutput {
+  /// With a row for each of the request's.
   MatrixFile& file;
   /// Of all columns of the request, to those of the file; empty: the row as it is. Any thread.
   std::function<std::vector<double>(DenseRow<Real>)> made = {};
@@ -76,6 +77,7 @@ PairsReport write_pairs(const E& executor, const D& domain, const PairsRequest& 
   });
 }
 
+/// Into one file.
 template <RowExecutor E, DomainType D>
 PairsReport write_pairs(const E& executor, const D& domain, const PairsRequest& request,
                         MatrixFile& file, BlockJournal& journal) {
