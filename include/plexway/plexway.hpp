@@ -1,7 +1,10 @@
 #pragma once
 
+/// @file
 /// All of the library, but for what the optional providers under complexes/ bring: solve on any
 /// domain, what to do with distances, files and pictures. Link the components that you use.
+#include <plexway/any/complex.hpp>
+#include <plexway/any_domain.hpp>
 #include <plexway/apps/bounded_search.hpp>
 #include <plexway/apps/centroidal_voronoi.hpp>
 #include <plexway/apps/cloud_path_field.hpp>
@@ -27,8 +30,10 @@
 #include <plexway/executors/gl.hpp>
 #include <plexway/io/edges.hpp>
 #include <plexway/io/field.hpp>
+#include <plexway/io/mixed.hpp>
 #include <plexway/io/paths.hpp>
 #include <plexway/io/points.hpp>
+#include <plexway/io/simplices.hpp>
 #include <plexway/io/tets.hpp>
 #include <plexway/io/triangles.hpp>
 #include <plexway/metric/edge_lengths.hpp>

@@ -1,4 +1,4 @@
-#include "app.hpp"
+#include "cli/app.hpp"
 
 #include <CLI/CLI.hpp>
 #include <exception>
@@ -10,11 +10,11 @@
 #include <plexway/error.hpp>
 #include <plexway/version.hpp>
 
-#include "commands.hpp"
-#include "console.hpp"
-#include "executor_argument.hpp"
-#include "exit_codes.hpp"
-#include "help_pages.hpp"
+#include "cli/commands/commands.hpp"
+#include "cli/exit_codes.hpp"
+#include "cli/help_pages.hpp"
+#include "cli/options/executor_argument.hpp"
+#include "cli/report/console.hpp"
 #include "io/file_bytes.hpp"
 
 namespace plexway::cli {

@@ -1,4 +1,4 @@
-#include "help_pages.hpp"
+#include "cli/help_pages.hpp"
 
 #include <CLI/CLI.hpp>
 #include <algorithm>

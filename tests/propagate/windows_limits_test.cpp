@@ -99,7 +99,7 @@ TEMPLATE_TEST_CASE("windows end where lengths are those of no triangle", "", flo
 TEMPLATE_TEST_CASE("windows: radius, labels, offsets, budget, progress", "", float, double) {
   const Surface s = grid(20, 20);
   const auto mesh = s.mesh<TestType>();
-  WindowSolver<TestType> solver(mesh);
+  Workspace<TestType> workspace;
   DistanceField<TestType> field, other;
   const PointSource corner = PointSource::at(0);
   const auto from_corner = straight(s, s.positions[0]);
@@ -108,7 +108,7 @@ TEMPLATE_TEST_CASE("windows: radius, labels, offsets, budget, progress", "", flo
     const double off = accuracy == Accuracy::exact() ? 1e-6 : 1e-3;
     PropagateOptions options;
     options.radius = .5;
-    solver.solve({&corner, 1}, accuracy, options, field);
+    solve_windows(mesh, {&corner, 1}, accuracy, options, workspace, field);
     CHECK(field.label.empty());
     CHECK(field.complete);
     bool right = true;
@@ -122,7 +122,7 @@ TEMPLATE_TEST_CASE("windows: radius, labels, offsets, budget, progress", "", flo
     far.offset = .1234567;
     const auto from_far = straight(s, {1, 1, 0});
     const std::vector<PointSource> both = {corner, far};
-    solver.solve(both, accuracy, {}, field);
+    solve_windows(mesh, both, accuracy, {}, workspace, field);
     right = field.label.size() == from_far.size();
     for (std::size_t v = 0; v < from_far.size() && right; ++v) {
       const double a = from_corner[v], b = from_far[v] + far.offset;
@@ -131,28 +131,23 @@ TEMPLATE_TEST_CASE("windows: radius, labels, offsets, budget, progress", "", flo
     }
     CHECK(right);
     CHECK(field.distance[far.vertex] == static_cast<TestType>(.1234567));
-    solver.solve(both, accuracy, {}, other);
+    solve_windows(mesh, both, accuracy, {}, workspace, other);
     CHECK(other.distance == field.distance);
 
     options = {};
     options.max_expansions = 40;
-    solver.solve({&corner, 1}, accuracy, options, field);
+    solve_windows(mesh, {&corner, 1}, accuracy, options, workspace, field);
     CHECK_FALSE(field.complete);
     CHECK(field.statistics.expansions == 40);
     CHECK(field.distance[0] == 0);
     CHECK(std::isinf(field.distance.back()));
-
-    CHECK_THROWS_AS(solver.solve({}, accuracy, {}, field), UsageError);
-    const PointSource outside = PointSource::at(1000);
-    CHECK_THROWS_AS(solver.solve({&outside, 1}, accuracy, {}, field), UsageError);
   }
-  CHECK_THROWS_AS(solver.solve({&corner, 1}, Accuracy::fast(), {}, field), UsageError);
 }
 
 TEMPLATE_TEST_CASE("windows: a callback sees them go and may stop them", "", float, double) {
   const Surface s = grid(160, 160);
   const auto mesh = s.mesh<TestType>();
-  WindowSolver<TestType> solver(mesh);
+  Workspace<TestType> workspace;
   DistanceField<TestType> field;
   const PointSource corner = PointSource::at(0);
   for (const Accuracy accuracy : window_accuracies) {
@@ -165,12 +160,13 @@ TEMPLATE_TEST_CASE("windows: a callback sees them go and may stop them", "", flo
       before = p.distance;
       return ++calls < 100;
     };
-    solver.solve({&corner, 1}, accuracy, options, field);
+    solve_windows(mesh, {&corner, 1}, accuracy, options, workspace, field);
     CHECK(calls > 0);
     CHECK(forward);
     options.progress = [](const Progress&) { return false; };
-    CHECK_THROWS_AS(solver.solve({&corner, 1}, accuracy, options, field), Cancelled);
-    solver.solve({&corner, 1}, accuracy, {}, field);
+    CHECK_THROWS_AS(solve_windows(mesh, {&corner, 1}, accuracy, options, workspace, field),
+                    Cancelled);
+    solve_windows(mesh, {&corner, 1}, accuracy, {}, workspace, field);
     CHECK(field.distance.back() == Approx(std::sqrt(2.)).epsilon(1e-3));
   }
 }

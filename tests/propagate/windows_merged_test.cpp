@@ -143,13 +143,13 @@ TEST_CASE("merged windows: a smaller error takes more work, is smaller, and is t
   const auto mesh = s.mesh<double>();
   const PointSource source = PointSource::at(7);
   const auto exact = solve_windows(mesh, {source}, Accuracy::exact());
-  WindowSolver<double> solver(mesh);
+  Workspace<double> workspace;
   DistanceField<double> field;
-  std::vector<double> error;
+  const std::vector<double>& error = field.error;
   double before = 1;
   std::size_t work = 0;
   for (const double asked : {1e-3, 2e-4, 4e-5}) {
-    solver.solve({&source, 1}, Accuracy(asked), {}, field, &error);
+    solve_windows(mesh, {&source, 1}, Accuracy(asked), {}, workspace, field);
     const Errors e = compare(field.distance, exact);
     CAPTURE(asked, e.mean, e.max);
     CHECK(e.mean < before / 1.5);
@@ -166,9 +166,10 @@ TEST_CASE("merged windows: a smaller error takes more work, is smaller, and is t
     CHECK(least >= 0);
     CHECK(static_cast<double>(held) >= .97 * static_cast<double>(exact.size()));
   }
-  solver.solve({&source, 1}, Accuracy(0), {}, field, &error);
+  solve_windows(mesh, {&source, 1}, Accuracy(0), {}, workspace, field);
   CHECK(compare(field.distance, exact).max == 0);
   CHECK(std::all_of(error.begin(), error.end(), [](double e) { return e == 0; }));
   for (const double no : {-1., 1., std::nan("")})
-    CHECK_THROWS_AS(solver.solve({&source, 1}, Accuracy(no), {}, field), UsageError);
+    CHECK_THROWS_AS(solve_windows(mesh, {&source, 1}, Accuracy(no), {}, workspace, field),
+                    UsageError);
 }

@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+/// The component `io`, link plexway::io: files in and out, as plain arrays.
 namespace plexway::io {
 
 /// A triangle surface as a file has it: nothing merged, reordered or dropped.
