@@ -16,9 +16,9 @@ foreach(source IN LISTS fuzzers)
   endif()
   if(format STREQUAL "rows")  # the tool's own readers
     find_package(nlohmann_json QUIET)
-    file(GLOB_RECURSE readers CONFIGURE_DEPENDS
-      "${PROJECT_SOURCE_DIR}/src/cli/number_rows.cpp" "${PROJECT_SOURCE_DIR}/src/cli/table_file.cpp"
-      "${PROJECT_SOURCE_DIR}/src/cli/truth_file.cpp" "${PROJECT_SOURCE_DIR}/src/cli/report.cpp")
+    set(readers "${PROJECT_SOURCE_DIR}/src/cli/report/table_file.cpp"
+      "${PROJECT_SOURCE_DIR}/src/cli/report/truth_file.cpp"
+      "${PROJECT_SOURCE_DIR}/src/any/words.cpp")
     target_sources(${target} PRIVATE ${readers})
     target_link_libraries(${target} PRIVATE nlohmann_json::nlohmann_json)
   endif()

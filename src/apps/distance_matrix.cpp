@@ -90,7 +90,7 @@ DistanceMatrix matrix(const Complex& domain, std::span<const PointSource> points
             });
           } else {
             const auto [s, weights] = numbers.inside(points[j]);
-            field.each_label(s, [&](Index, const auto& distance) {
+            field.each_label(s, [&, &weights = weights](Index, const auto& distance) {
               found = std::min(found, distance(weights));
               return false;
             });

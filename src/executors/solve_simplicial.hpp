@@ -80,6 +80,8 @@ void relax_edges(const SimplicialComplex<Real, N>& domain, Workspace<Real>& work
     if (rise < 0) std::swap(v, w);
     const Real by = workspace.vertex[v] + std::sqrt(length2);
     if (!(by < workspace.vertex[w])) return;  // nor where neither is reached
+    // A search that ends early does not go on here.
+    if (workspace.vertex[w] == std::numeric_limits<Real>::infinity()) return;
     workspace.vertex[w] = by;
     workspace.vertex_source[w] = workspace.vertex_source[v];
     changed.push(w);

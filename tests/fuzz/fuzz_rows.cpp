@@ -6,10 +6,10 @@
 
 #include <string>
 
-#include "cli/number_rows.hpp"
-#include "cli/table_file.hpp"
-#include "cli/truth_file.hpp"
+#include "cli/report/table_file.hpp"
+#include "cli/report/truth_file.hpp"
 #include "fuzz_reader.hpp"
+#include "io/number_rows.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   if (size == 0) return 0;
@@ -22,7 +22,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   try {
     switch (kind % 4) {
       case 0:
-        for (const auto& row : plexway::cli::read_number_rows(name, 1, 6, "numbers"))
+        for (const auto& row : plexway::io::read_number_rows(name, 1, 6, "numbers"))
           for (const double x : row.numbers) fuzz::require(!std::isnan(x), "no NaN in a row");
         break;
       case 1:
