@@ -9,7 +9,6 @@
 #include <plexway/complex/triangle_mesh.hpp>
 #include <plexway/complex/wireframe.hpp>
 #include <plexway/error.hpp>
-#include <plexway/executors/window_solver.hpp>
 #include <plexway/solve.hpp>
 
 #include "complex/test_meshes.hpp"
@@ -68,13 +67,13 @@ TEST_CASE("a wall with a door in a plane sends paths through the door") {
     return best;
   };
   double worst = 0, worst_of_labels = 0;
-  WindowSolver<double> windows(mesh);
-  DistanceField<double> field;
+  PropagateOptions exactly;
+  exactly.accuracy = Accuracy::exact();
   for (Index source = 0; source < s.positions.size(); source += 13) {
     const Position& a = s.positions[source];
     if (a[0] > 0.35) continue;
     const PointSource from = PointSource::at(source);
-    windows.solve({&from, 1}, Accuracy::exact(), {}, field);
+    const auto field = solve(Serial{}, mesh, from, exactly);
     const auto labels = solve(Serial{}, mesh, from);
     for (std::size_t v = 0; v < s.positions.size(); ++v) {
       if (s.positions[v][0] < 0.65) continue;
@@ -86,9 +85,9 @@ TEST_CASE("a wall with a door in a plane sends paths through the door") {
   CHECK(worst < 1e-14);
   CHECK(worst_of_labels < 2e-3);
   // Inside the wall nobody comes.
-  field = solve(Serial{}, mesh, PointSource::at(0));
-  CHECK(std::isinf(field.distance[10]));  // (0.5, 0)
-  CHECK(std::isfinite(field.distance[8]));
+  const auto outside = solve(Serial{}, mesh, PointSource::at(0));
+  CHECK(std::isinf(outside.distance[10]));  // (0.5, 0)
+  CHECK(std::isfinite(outside.distance[8]));
   const auto stuck = solve(Serial{}, mesh, PointSource::at(10));
   CHECK(stuck.distance[10] == 0);
   CHECK(std::count_if(stuck.distance.begin(), stuck.distance.end(),
@@ -144,9 +143,9 @@ TEST_CASE("a sphere without its cap sends paths along the cap's rim") {
   };
   const Index source = at(rings * 3 / 8, 0);
   const PointSource from = PointSource::at(source);
-  WindowSolver<double> windows(mesh);
-  DistanceField<double> field;
-  windows.solve({&from, 1}, Accuracy::exact(), {}, field);
+  PropagateOptions exactly;
+  exactly.accuracy = Accuracy::exact();
+  const auto field = solve(Serial{}, mesh, from, exactly);
   double worst = 0, sum = 0;
   std::size_t count = 0, behind = 0;
   for (Index v = 0; v < s.positions.size(); ++v) {

@@ -1,7 +1,7 @@
 // Soups of triangles: many on an edge, flat ones, vertices that coincide, parts that hang apart.
 
 #include <plexway/complex/triangle_mesh.hpp>
-#include <plexway/executors/window_solver.hpp>
+#include <plexway/solve.hpp>
 
 #include "fuzz_solve.hpp"
 
@@ -40,14 +40,12 @@ void check(const Soup& soup, Index source, const plexway::PropagateOptions& opti
 void check_exact(const Soup& soup, Index a, Index b) {
   const plexway::TriangleMesh<double> mesh(soup.places, soup.faces);
   const Graph graph = Graph::of(soup.faces, soup.places);
-  plexway::WindowSolver<double> solver(mesh);
-  plexway::DistanceField<double> from_a, from_b;
-  const PointSource at_a[] = {PointSource::at(a)}, at_b[] = {PointSource::at(b)};
   // On soups of many triangles an edge there may be more windows than anyone can wait for.
   plexway::PropagateOptions bounded;
   bounded.max_expansions = 20000;
-  solver.solve(at_a, plexway::Accuracy::exact(), bounded, from_a);
-  solver.solve(at_b, plexway::Accuracy::exact(), bounded, from_b);
+  bounded.accuracy = plexway::Accuracy::exact();
+  const auto from_a = plexway::solve(plexway::Serial{}, mesh, PointSource::at(a), bounded);
+  const auto from_b = plexway::solve(plexway::Serial{}, mesh, PointSource::at(b), bounded);
   if (!from_a.complete || !from_b.complete) return;
   check_field(from_a.distance, graph, a, 1e-7);
   check_straight(from_a.distance, soup.places, a, 1e-7);
