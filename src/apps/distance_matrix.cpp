@@ -60,9 +60,9 @@ DistanceMatrix matrix(const Complex& domain, std::span<const PointSource> points
             found = std::min(found, field.corner_distance(c / corners, c % corners));
         });
       } else {
-        const auto [s, weights] = numbers.inside(points[j]);
-        field.each_label(s, [&](Index, const auto& distance) {
-          found = std::min(found, distance(weights));
+        const auto place = numbers.inside(points[j]);
+        field.each_label(place.first, [&](Index, const auto& distance) {
+          found = std::min(found, distance(place.second));
           return false;
         });
       }
