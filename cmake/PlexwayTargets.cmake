@@ -78,7 +78,8 @@ function(plexway_add_tool)
   if(NOT PLEXWAY_BUILD_TOOL)
     return()
   endif()
-  file(GLOB sources CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/src/cli/*.cpp")
+  file(GLOB sources CONFIGURE_DEPENDS
+    "${PROJECT_SOURCE_DIR}/src/cli/*.cpp" "${PROJECT_SOURCE_DIR}/src/cli/*/*.cpp")
   plexway_require(CLI11 PACKAGE libcli11-dev FOR PLEXWAY_BUILD_TOOL)
   plexway_require(nlohmann_json PACKAGE nlohmann-json3-dev FOR PLEXWAY_BUILD_TOOL)
   add_executable(plexway_tool ${sources})
@@ -87,34 +88,56 @@ function(plexway_add_tool)
   target_include_directories(plexway_tool PRIVATE "${PROJECT_SOURCE_DIR}/src")
   target_link_libraries(plexway_tool PRIVATE CLI11::CLI11 nlohmann_json::nlohmann_json)
   plexway_link_all(plexway_tool EXCEPT pcl openvdb)
+  foreach(module plexway_pcl_module plexway_openvdb_module)
+    if(TARGET ${module})
+      add_dependencies(plexway_tool ${module})
+    endif()
+  endforeach()
+  set_target_properties(plexway_tool PROPERTIES
+    BUILD_RPATH "${PROJECT_BINARY_DIR}/${CMAKE_INSTALL_LIBDIR}/plexway"
+    INSTALL_RPATH "$ORIGIN/../${CMAKE_INSTALL_LIBDIR}/plexway")
+endfunction()
+
+# The component of domains of any kind. It takes every provider that this build has, but for those
+# whose libraries take longer to load than all that is done with most files: what needs them is in
+# modules, src/any/NAME/, that are loaded when they are needed.
+function(plexway_add_any)
+  set(depends core io apps)
+  foreach(provider gl flann tetgen boost_graph)
+    if(TARGET plexway_${provider})
+      list(APPEND depends ${provider})
+    endif()
+  endforeach()
+  file(GLOB sources CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/src/any/*.cpp")
+  plexway_add_component(any SOURCES ${sources} DEPENDS ${depends})
+  target_include_directories(plexway_any PRIVATE "${PROJECT_SOURCE_DIR}/src")
+  foreach(provider IN LISTS depends)
+    string(TOUPPER ${provider} upper)
+    target_compile_definitions(plexway_any PRIVATE PLEXWAY_HAS_${upper}=1)
+  endforeach()
   if(UNIX)
-    plexway_add_tool_module(pcl)
-    plexway_add_tool_module(openvdb)
+    plexway_add_module(pcl)
+    plexway_add_module(openvdb)
   endif()
 endfunction()
 
-# The libraries of some providers take longer to load than the tool takes for all it does with most
-# files: so it loads what needs them, src/cli/NAME/, when it does.
-function(plexway_add_tool_module name)
+function(plexway_add_module name)
   if(NOT TARGET plexway_${name})
     return()
   endif()
   string(TOUPPER ${name} upper)
   set(module plexway_${name}_module)
   set(folder "${CMAKE_INSTALL_LIBDIR}/plexway")
-  add_library(${module} MODULE "${PROJECT_SOURCE_DIR}/src/cli/${name}/module.cpp")
+  add_library(${module} MODULE "${PROJECT_SOURCE_DIR}/src/any/${name}/module.cpp")
   plexway_compile_options(${module})
   set_target_properties(${module} PROPERTIES PREFIX "" OUTPUT_NAME plexway_${name}
     LIBRARY_OUTPUT_DIRECTORY "${PROJECT_BINARY_DIR}/${folder}")
   target_include_directories(${module} PRIVATE "${PROJECT_SOURCE_DIR}/src")
   target_link_libraries(${module} PRIVATE plexway::${name} plexway::io)
-  add_dependencies(plexway_tool ${module})
-  target_compile_definitions(plexway_tool PRIVATE PLEXWAY_HAS_${upper}=1
+  target_compile_definitions(plexway_any PRIVATE PLEXWAY_HAS_${upper}=1
     PLEXWAY_${upper}_MODULE="$<TARGET_FILE_NAME:${module}>"
-    PLEXWAY_MODULE_FOLDER="../${folder}")
-  target_link_libraries(plexway_tool PRIVATE ${CMAKE_DL_LIBS})
-  set_target_properties(plexway_tool PROPERTIES
-    BUILD_RPATH "${PROJECT_BINARY_DIR}/${folder}" INSTALL_RPATH "$ORIGIN/../${folder}")
+    PLEXWAY_MODULE_FOLDER="${folder}")
+  target_link_libraries(plexway_any PRIVATE ${CMAKE_DL_LIBS})
 endfunction()
 
 # Links every component that this build has, but those named behind EXCEPT; PLEXWAY_HAS_<COMPONENT>

@@ -1,4 +1,4 @@
-#include "app.hpp"
+#include "cli/app.hpp"
 
 #include <CLI/CLI.hpp>
 #include <exception>
@@ -10,10 +10,10 @@
 #include <plexway/error.hpp>
 #include <plexway/version.hpp>
 
-#include "commands.hpp"
-#include "console.hpp"
-#include "executor_argument.hpp"
-#include "exit_codes.hpp"
+#include "cli/commands/commands.hpp"
+#include "cli/exit_codes.hpp"
+#include "cli/options/executor_argument.hpp"
+#include "cli/report/console.hpp"
 
 namespace plexway::cli {
 namespace {

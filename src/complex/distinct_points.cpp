@@ -97,10 +97,21 @@ DistinctPoints without_near_twins(Points points, const Neighbours& neighbours,
   bool any = false;
   for (const Index i : places.order) {
     row.clear();
+    double nearest = std::numeric_limits<double>::infinity(), farthest = 0;
     for (const Index j : neighbours.around(i)) {
       if (places.first[j] == i) continue;
       const auto &p = points[i], &q = points[j];
-      row.emplace_back(std::hypot(q[0] - p[0], q[1] - p[1], q[2] - p[2]), places.first[j]);
+      const double away =
+          std::max({std::abs(q[0] - p[0]), std::abs(q[1] - p[1]), std::abs(q[2] - p[2])});
+      nearest = std::min(nearest, away);
+      farthest = std::max(farthest, away);
+      row.emplace_back(away, places.first[j]);
+    }
+    // By the largest coordinate the gap is at most so much wider than by length.
+    if (!(nearest < 2 * gap * farthest)) continue;
+    for (auto& [away, j] : row) {
+      const auto &p = points[i], &q = points[j];
+      away = std::hypot(q[0] - p[0], q[1] - p[1], q[2] - p[2]);
     }
     std::sort(row.begin(), row.end());
     // One far from all is nobody's reason: most neighbours are beyond the gap.

@@ -19,6 +19,9 @@ struct Spoke {
   Index place;
 };
 
+// By a root: std::hypot costs ten times as much, and images are inverse squares as it is.
+double length(double x, double y) { return std::sqrt(x * x + y * y); }
+
 class Umbrella {
  public:
   Umbrella(const Places& places, std::span<const TangentFrame> frames, const SheetRule& rule,
@@ -36,7 +39,7 @@ class Umbrella {
       // Half the inverse of the circle's radius is how far the hull's edge is from the place.
       const double turn = a.u * b.v - a.v * b.u;
       const bool wedge = hull_.size() > 2 || (hull_.size() == 2 && turn > 0);
-      const bool triangle = wedge && turn > least(place, a, b) * std::hypot(b.u - a.u, b.v - a.v);
+      const bool triangle = wedge && turn > least(place, a, b) * length(b.u - a.u, b.v - a.v);
       ring.push_back(a.place | (triangle ? 0 : Umbrellas::gap));
     }
     drop_lonely(ring, start);
@@ -68,7 +71,7 @@ class Umbrella {
         spokes_.push_back(spoke);
     // All neighbours within this are known; a list made symmetric is longer than it is complete.
     const std::size_t known = spokes_.size() * 2 / 3;
-    known_ = spokes_.empty() ? 0 : std::hypot(spokes_[known].x, spokes_[known].y);
+    known_ = spokes_.empty() ? 0 : length(spokes_[known].x, spokes_[known].y);
   }
 
   // Circles that reach beyond what is known of the neighbours are looked through for neighbours
@@ -78,7 +81,7 @@ class Umbrella {
     for (std::size_t i = 0; i < hull_.size(); ++i) {
       const std::size_t j = i + 1 == hull_.size() ? 0 : i + 1;
       const Spoke a = spokes_[hull_[i]], b = spokes_[hull_[j]];
-      const double eu = b.u - a.u, ev = b.v - a.v, e = std::hypot(eu, ev);
+      const double eu = b.u - a.u, ev = b.v - a.v, e = length(eu, ev);
       const double turn = a.u * b.v - a.v * b.u;  // e by the inverse of the circle's width
       if (turn * known_ > e) continue;
       for (const Index end : {a.place, b.place})
@@ -86,7 +89,7 @@ class Umbrella {
           Spoke spoke;
           if (c == place || c == a.place || c == b.place || !project(place, c, spoke)) continue;
           const double u = spoke.u - a.u, v = spoke.v - a.v;
-          if (!(eu * v - ev * u < -1e-9 * e * std::hypot(u, v))) continue;
+          if (!(eu * v - ev * u < -1e-9 * e * length(u, v))) continue;
           if (std::any_of(spokes_.begin(), spokes_.end(),
                           [&](const Spoke& s) { return s.place == c; }))
             continue;
@@ -156,7 +159,7 @@ class Umbrella {
     if (place < others) {
       const Spoke& a = spokes_[at];  // all of them: the nearest image is next
       const auto far = [&](std::size_t i) {
-        return std::hypot(spokes_[i].u - a.u, spokes_[i].v - a.v);
+        return length(spokes_[i].u - a.u, spokes_[i].v - a.v);
       };
       std::size_t nearest = best;
       for (const std::size_t i : ties_)

@@ -27,20 +27,27 @@ SourceKind kind_of(const SimplexSource&) { return SourceKind::simplex; }
 
 }  // namespace
 
-void require_support(Combination what, MetricKind metric, const SourceList& sources,
-                     const PropagateOptions& options) {
+Support support_of(Combination what, MetricKind metric, const SourceList& sources,
+                   const PropagateOptions& options) {
   what.metric = metric;
   what.visibility = options.visibility;
   what.schedule = options.schedule;
-  support(what).require();
-  const auto require = [&](SourceKind kind) {
+  Support found = support(what);
+  const auto look = [&](SourceKind kind) {
+    if (!found) return;
     what.source = kind;
-    support(what).require();
+    found = support(what);
   };
   for (const PointSource& source : sources.points())
-    if (source.vertex == none) require(SourceKind::point);
+    if (source.vertex == none) look(SourceKind::point);
   for (const Source& source : sources.sources())
-    std::visit([&](const auto& one) { require(kind_of(one)); }, source);
+    std::visit([&](const auto& one) { look(kind_of(one)); }, source);
+  return found;
+}
+
+void require_support(const Combination& what, MetricKind metric, const SourceList& sources,
+                     const PropagateOptions& options) {
+  support_of(what, metric, sources, options).require();
 }
 
 void check_rows(std::size_t room, std::size_t sources, std::size_t vertices) {

@@ -7,9 +7,12 @@
 
 namespace plexway::detail {
 
-/// Throws UsageError where a domain's metric, the options or one of the sources do not go together
-/// with an executor and a domain.
-void require_support(Combination what, MetricKind metric, const SourceList& sources,
+/// Do a domain's metric, the options and all sources go together with an executor and a domain?
+[[nodiscard]] Support support_of(Combination what, MetricKind metric, const SourceList& sources,
+                                 const PropagateOptions& options);
+
+/// Throws UsageError where they do not.
+void require_support(const Combination& what, MetricKind metric, const SourceList& sources,
                      const PropagateOptions& options);
 
 /// Throws UsageError unless there is room for that many fields.

@@ -1,6 +1,8 @@
 // STL, ascii and binary. The format has no vertices, only corners, so identical coordinates
 // become one vertex. No tolerance: what differs in the last bit stays apart.
 
+#include <algorithm>
+#include <array>
 #include <bit>
 #include <string>
 
@@ -17,50 +19,86 @@ namespace {
 /// linear probing, never more than half full.
 class VertexMerger {
  public:
-  explicit VertexMerger(std::vector<std::array<double, 3>>& positions)
-      : positions_(positions), slots_(1024, empty) {}
+  using Position = std::array<double, 3>;
 
-  std::uint32_t number_of(std::array<double, 3> position) {
-    for (double& c : position) c += 0.0;  // -0 becomes 0, which it equals
-    if (positions_.size() * 2 >= slots_.size()) grow();
-    std::size_t slot = hash(position) & (slots_.size() - 1);
-    while (slots_[slot] != empty) {
-      if (positions_[slots_[slot]] == position) return slots_[slot];
-      slot = (slot + 1) & (slots_.size() - 1);
-    }
-    if (positions_.size() == most_vertices) return empty;
-    const auto number = static_cast<std::uint32_t>(positions_.size());
-    slots_[slot] = number;
-    positions_.push_back(position);
-    return number;
+  /// `expected`: about so many will be distinct.
+  explicit VertexMerger(std::vector<Position>& positions, std::size_t expected = 512)
+      : positions_(positions), slots_(std::bit_ceil(2 * std::max<std::size_t>(expected, 512))) {}
+
+  /// -0 is 0, which it equals.
+  static Position rounded(Position position) {
+    for (double& c : position) c += 0.0;
+    return position;
   }
-
-  static constexpr std::uint32_t empty = 0xFFFFFFFFU;
-
- private:
-  static std::size_t hash(const std::array<double, 3>& position) {
+  static std::uint64_t hash(const Position& position) {
     std::uint64_t h = 0;
     for (double c : position) {
       h = (h ^ std::bit_cast<std::uint64_t>(c)) * 0x9E3779B97F4A7C15ULL;
       h ^= h >> 29;
     }
     h *= 0xD6E8FEB86659FD93ULL;
-    return static_cast<std::size_t>(h ^ (h >> 32));
+    return h ^ (h >> 32);
+  }
+  /// The two reads that miss the cache, asked for ahead, one call each.
+  void prefetch_slot(std::uint64_t hash) const { fetch(&slots_[slot_of(hash)]); }
+  void prefetch_position(std::uint64_t hash) const {
+    const std::uint32_t number = slots_[slot_of(hash)].number;
+    if (number != empty) fetch(&positions_[number]);
+  }
+
+  /// Of a rounded position with its hash.
+  std::uint32_t number_of(const Position& position, std::uint64_t hash) {
+    if (positions_.size() * 2 >= slots_.size()) grow();
+    const auto tag = static_cast<std::uint32_t>(hash >> 32);
+    std::size_t slot = slot_of(hash);
+    while (slots_[slot].number != empty) {
+      if (slots_[slot].tag == tag && positions_[slots_[slot].number] == position)
+        return slots_[slot].number;
+      slot = (slot + 1) & (slots_.size() - 1);
+    }
+    if (positions_.size() == most_vertices) return empty;
+    const auto number = static_cast<std::uint32_t>(positions_.size());
+    slots_[slot] = {tag, number};
+    positions_.push_back(position);
+    return number;
+  }
+  std::uint32_t number_of(Position position) {
+    position = rounded(position);
+    return number_of(position, hash(position));
+  }
+
+  static constexpr std::uint32_t empty = 0xFFFFFFFFU;
+
+ private:
+  struct Slot {
+    std::uint32_t tag = 0;  ///< of the hash, so that others' positions are seldom looked at
+    std::uint32_t number = empty;
+  };
+
+  [[nodiscard]] std::size_t slot_of(std::uint64_t hash) const {
+    return static_cast<std::size_t>(hash) & (slots_.size() - 1);
+  }
+  static void fetch(const void* address) {
+#ifdef __GNUC__
+    __builtin_prefetch(address);
+#else
+    static_cast<void>(address);
+#endif
   }
 
   void grow() {
-    std::vector<std::uint32_t> larger(slots_.size() * 2, empty);
-    for (const std::uint32_t number : slots_) {
-      if (number == empty) continue;
-      std::size_t slot = hash(positions_[number]) & (larger.size() - 1);
-      while (larger[slot] != empty) slot = (slot + 1) & (larger.size() - 1);
-      larger[slot] = number;
+    std::vector<Slot> larger(slots_.size() * 2);
+    for (const Slot& old : slots_) {
+      if (old.number == empty) continue;
+      std::size_t slot = hash(positions_[old.number]) & (larger.size() - 1);
+      while (larger[slot].number != empty) slot = (slot + 1) & (larger.size() - 1);
+      larger[slot] = old;
     }
     slots_ = std::move(larger);
   }
 
-  std::vector<std::array<double, 3>>& positions_;
-  std::vector<std::uint32_t> slots_;
+  std::vector<Position>& positions_;
+  std::vector<Slot> slots_;
 };
 
 constexpr std::size_t preamble = 84;  // 80 bytes of anything, then the number of facets
@@ -102,23 +140,39 @@ Triangles read_binary(std::string_view bytes, std::string_view name) {
 
   Triangles surface;
   surface.triangles.reserve(facets);
-  VertexMerger merger(surface.positions);
-  for (std::uint64_t f = 0; f < facets; ++f) {
-    const std::size_t corners = preamble + f * facet_size + 12;  // behind the normal
-    std::array<std::uint32_t, 3> triangle{};
-    for (std::size_t c = 0; c < 3; ++c) {
-      std::array<double, 3> position{};
+  surface.positions.reserve(facets / 2 + 2);  // of closed surfaces exactly (Euler), but for handles
+  VertexMerger merger(surface.positions, facets / 2);
+
+  // Block by block, so that what is looked up is on its way before it is asked for.
+  constexpr std::size_t block = 64;
+  std::array<VertexMerger::Position, 3 * block> positions;
+  std::array<std::uint64_t, 3 * block> hashes;
+  for (std::uint64_t first = 0; first < facets; first += block) {
+    const auto size = static_cast<std::size_t>(std::min<std::uint64_t>(block, facets - first));
+    for (std::size_t i = 0; i < 3 * size; ++i) {
+      const std::uint64_t facet = first + i / 3;
+      const std::size_t corner =
+          preamble + facet * facet_size + 12 + 12 * (i % 3);  // past the normal
       for (std::size_t k = 0; k < 3; ++k) {
-        const std::size_t at = corners + 12 * c + 4 * k;
-        position[k] = static_cast<double>(load<float>(bytes.data() + at, std::endian::little));
-        if (!std::isfinite(position[k]))
-          fail("facet " + std::to_string(f) + " (byte " + std::to_string(at) + "): coordinate " +
-               "xyz"[k] + " is not finite");
+        const std::size_t at = corner + 4 * k;
+        positions[i][k] = static_cast<double>(load<float>(bytes.data() + at, std::endian::little));
+        if (!std::isfinite(positions[i][k]))
+          fail("facet " + std::to_string(facet) + " (byte " + std::to_string(at) +
+               "): coordinate " + "xyz"[k] + " is not finite");
       }
-      triangle[c] = merger.number_of(position);
-      if (triangle[c] == VertexMerger::empty) fail("more vertices than 32 bits count");
+      positions[i] = VertexMerger::rounded(positions[i]);
+      hashes[i] = VertexMerger::hash(positions[i]);
+      merger.prefetch_slot(hashes[i]);
     }
-    surface.triangles.push_back(triangle);
+    for (std::size_t i = 0; i < 3 * size; ++i) merger.prefetch_position(hashes[i]);
+    for (std::size_t f = 0; f < size; ++f) {
+      std::array<std::uint32_t, 3> triangle{};
+      for (std::size_t c = 0; c < 3; ++c) {
+        triangle[c] = merger.number_of(positions[3 * f + c], hashes[3 * f + c]);
+        if (triangle[c] == VertexMerger::empty) fail("more vertices than 32 bits count");
+      }
+      surface.triangles.push_back(triangle);
+    }
   }
   return surface;
 }

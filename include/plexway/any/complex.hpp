@@ -1,0 +1,37 @@
+#pragma once
+
+#include <type_traits>
+#include <utility>
+#include <variant>
+
+#include <plexway/any_domain.hpp>
+#include <plexway/domain/domains.hpp>
+
+namespace plexway {
+
+#define PLEXWAY_POINTER(...) , const __VA_ARGS__*
+/// What an AnyDomain is made of, for templates that take every kind; never std::monostate, nor
+/// null.
+using AnyComplex = std::variant<std::monostate PLEXWAY_DOMAINS(PLEXWAY_POINTER)>;
+#undef PLEXWAY_POINTER
+
+/// The complex with the vertices and simplices of the shape. Lives as long as the domain. Where a
+/// surface is solved on other triangles it is built when it is first asked for. Of a mixed domain
+/// vertices and simplices have the numbers of its pieces.
+[[nodiscard]] AnyComplex complex_of(const AnyDomain& domain);
+
+/// Calls use(complex) with it.
+template <class Use>
+decltype(auto) with_complex(const AnyDomain& domain, const Use& use) {
+  using Result = decltype(use(std::declval<const TriangleMesh<float>&>()));
+  return std::visit(
+      [&](const auto& complex) -> Result {
+        if constexpr (std::is_same_v<std::decay_t<decltype(complex)>, std::monostate>)
+          throw std::bad_variant_access();
+        else
+          return use(*complex);
+      },
+      complex_of(domain));
+}
+
+}  // namespace plexway

@@ -1,0 +1,85 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include <plexway/propagate/distance_field.hpp>
+
+namespace plexway {
+
+enum class Precision { single, twice };
+
+/// Which triangles a surface is solved on.
+enum class Triangulation {
+  input,
+  delaunay,   ///< the intrinsic Delaunay triangulation of its vertices
+  refined,    ///< that, with more vertices
+  automatic,  ///< what pays (what_pays)
+};
+
+/// Which ones they became.
+struct TriangulationReport {
+  Triangulation done = Triangulation::input;  ///< never automatic
+  std::size_t flips = 0;
+  std::size_t inserted_vertices = 0;
+  double seconds = 0;  ///< for building on other triangles, where that was done
+};
+
+/// Distances at the vertices of an AnyDomain, in the caller's order and unit: +inf where no path
+/// leads, never NaN.
+class AnyField {
+ public:
+  using Data = std::variant<DistanceField<float>, DistanceField<double>>;
+
+  Data data;
+  TriangulationReport triangulation;  ///< which triangles it was solved on in the end
+
+  [[nodiscard]] std::size_t size() const {
+    return std::visit([](const auto& f) { return f.distance.size(); }, data);
+  }
+  [[nodiscard]] double operator[](std::size_t vertex) const {
+    return std::visit([&](const auto& f) { return static_cast<double>(f.distance[vertex]); }, data);
+  }
+  /// As doubles, a copy.
+  [[nodiscard]] std::vector<double> doubles() const {
+    return std::visit(
+        [](const auto& f) { return std::vector<double>(f.distance.begin(), f.distance.end()); },
+        data);
+  }
+  /// As they are, no copy; empty where the domain has the other precision.
+  [[nodiscard]] std::span<const float> singles() const {
+    const auto* of = std::get_if<DistanceField<float>>(&data);
+    return of == nullptr ? std::span<const float>() : std::span<const float>(of->distance);
+  }
+  [[nodiscard]] std::span<const double> twice() const {
+    const auto* of = std::get_if<DistanceField<double>>(&data);
+    return of == nullptr ? std::span<const double>() : std::span<const double>(of->distance);
+  }
+  /// Nearest source of each vertex, by its place in the list; `none` where unreached. Empty for a
+  /// single source.
+  [[nodiscard]] std::span<const Index> label() const {
+    return std::visit([](const auto& f) { return std::span<const Index>(f.label); }, data);
+  }
+  /// The same with -1 where unreached, as files have it.
+  [[nodiscard]] std::vector<std::int32_t> file_label() const {
+    std::vector<std::int32_t> labels;
+    labels.reserve(label().size());
+    for (const Index l : label()) labels.push_back(l == none ? -1 : static_cast<std::int32_t>(l));
+    return labels;
+  }
+  /// False if max_expansions ended the solve early.
+  [[nodiscard]] bool complete() const {
+    return std::visit([](const auto& f) { return f.complete; }, data);
+  }
+  [[nodiscard]] const PropagateStatistics& statistics() const {
+    return std::visit([](const auto& f) -> const PropagateStatistics& { return f.statistics; },
+                      data);
+  }
+};
+
+}  // namespace plexway

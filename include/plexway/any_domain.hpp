@@ -1,0 +1,158 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include <plexway/any/field.hpp>
+#include <plexway/any/shape.hpp>
+#include <plexway/apps/path.hpp>
+#include <plexway/apps/read_out.hpp>
+#include <plexway/executors/gl_executor.hpp>
+#include <plexway/propagate/options.hpp>
+#include <plexway/source/source_list.hpp>
+#include <plexway/support.hpp>
+
+/// The component `any`: link plexway::any. A domain of any kind, its kind and its precision hidden:
+/// what programs use that take what users give them.
+///
+///   const AnyDomain domain = AnyDomain::read("knot.ply");
+///   const AnyField field = domain.solve(Serial{}, PointSource::at(7));
+///   domain.shape().write_field("distances.vtu", field.doubles());
+namespace plexway {
+
+struct CloudSummary;
+
+/// What runs a solve.
+using AnyExecutor = std::variant<Serial, OpenMP, GL>;
+
+/// How a shape becomes a domain.
+struct BuildOptions {
+  Precision precision = Precision::single;
+  Triangulation triangulation = Triangulation::automatic;
+  /// What its edges cost, by AnyShape::measure; null: their lengths in space, or those given.
+  std::shared_ptr<const MeasuredLengths> lengths = nullptr;
+  /// Of clouds: called with the share that is done; returning false stops with Cancelled.
+  std::function<bool(double)> progress = {};
+};
+
+/// A distance field that can tell the way and the distance of any point, kind and precision hidden;
+/// see PathField. Keeps what it refers to. Any number of threads may ask at once.
+class AnyPathField {
+ public:
+  /// The distances that it was made from.
+  [[nodiscard]] const AnyField& field() const;
+  /// The way from a point back to its nearest source; points of a path lie in simplices of the
+  /// shape, but of a cloud in triangles of its sheet. `positions` are empty where the shape has
+  /// none, or lengths by a metric. Throws and costs as PathField::trace.
+  [[nodiscard]] Path trace(const PointSource& point, const TraceOptions& options = {}) const;
+  /// The distance of any point, and of many; throws and costs as PathField::at. UsageError for
+  /// clouds.
+  [[nodiscard]] double at(const PointSource& point, ReadOut level = ReadOut::neighbours) const;
+  [[nodiscard]] std::vector<double> at(std::span<const PointSource> points,
+                                       ReadOut level = ReadOut::neighbours) const;
+  /// The direction away from the source at the centre of each triangle or tetrahedron; throws as
+  /// PathField::gradient. UsageError for clouds.
+  [[nodiscard]] std::vector<std::array<double, 3>> gradient() const;
+  [[nodiscard]] std::size_t bytes() const;
+
+  struct State;
+
+ private:
+  friend class AnyDomain;
+  explicit AnyPathField(std::shared_ptr<const State> state) : state_(std::move(state)) {}
+
+  std::shared_ptr<const State> state_;
+};
+
+/// A domain of any kind, ready for distances.
+///
+/// Immutable: any number of threads may solve on one domain at once, each with a workspace of its
+/// own, which is kept for the next solve. Copies share what they hold.
+class AnyDomain {
+ public:
+  /// Throws InputError, after "FILE: " where the shape has a file, as the domains' constructors do,
+  /// and UsageError for a triangulation of what is no surface.
+  explicit AnyDomain(AnyShape shape, const BuildOptions& options = {});
+  /// From a file; throws as AnyShape::read, too.
+  [[nodiscard]] static AnyDomain read(const std::filesystem::path& file,
+                                      const ReadOptions& reading = {},
+                                      const BuildOptions& building = {});
+
+  [[nodiscard]] const AnyShape& shape() const;
+  [[nodiscard]] DomainKind kind() const { return shape().kind(); }
+  [[nodiscard]] Precision precision() const;
+  [[nodiscard]] std::size_t vertices() const { return shape().vertices(); }
+  /// Of the domain: a cloud has triangles only here. Without those of a refinement.
+  [[nodiscard]] std::size_t simplices() const;
+  /// Parts that no path connects; of a mixed domain counted by its welds.
+  [[nodiscard]] std::size_t components() const;
+  /// Mean length of the edges of a surface; else 0.
+  [[nodiscard]] double mean_edge() const;
+  /// Edges of a surface where paths are refracted.
+  [[nodiscard]] std::size_t refracting_edges() const;
+  /// What a cloud was made into, or null.
+  [[nodiscard]] const CloudSummary* cloud() const;
+  /// Which triangles a surface is solved on, at first: see AnyField::triangulation.
+  [[nodiscard]] const TriangulationReport& triangulation() const;
+  /// Seconds that building took.
+  [[nodiscard]] double build_seconds() const;
+  /// Bytes held, workspaces included, but not the shape.
+  [[nodiscard]] std::size_t bytes() const;
+
+  /// Does it go together? By the table of support.hpp, with everything that values tell.
+  [[nodiscard]] Support support(const AnyExecutor& executor, const SourceList& sources,
+                                const PropagateOptions& options = {}) const;
+
+  /// ONE field: the distance of every vertex from the nearest of `sources`. Throws and costs as
+  /// plexway::solve, NotBuiltError for GL in a build without it, and InputError after "FILE: ".
+  ///
+  /// Where the triangulation was left open and the solve left more than a vertex in fifty to
+  /// repair, the triangles of the input are tried as well. Points are those of the shape; curves
+  /// and triangles lie in its triangles, so where those were to be others, UsageError, or if that
+  /// was left open, those of the shape.
+  [[nodiscard]] AnyField solve(const AnyExecutor& executor, const SourceList& sources,
+                               const PropagateOptions& options = {}) const;
+  /// The same into a field whose memory is used again.
+  void solve(const AnyExecutor& executor, const SourceList& sources,
+             const PropagateOptions& options, AnyField& field) const;
+
+  /// Takes the field of source k alone. Called by one thread at a time, in any order.
+  using TakeField = std::function<void(std::size_t k, const AnyField& field)>;
+  /// K fields, one *to each* of the K sources, as `solve` has them by Serial; by OpenMP a thread a
+  /// source, by GL one after the other. Memory: a workspace and a field a thread.
+  void solve_each(const AnyExecutor& executor, const SourceList& sources,
+                  const PropagateOptions& options, const TakeField& take) const;
+  /// The same into rows: K times vertices() numbers, row k the distances from source k. False if
+  /// max_expansions ended one early. Throws UsageError for another count.
+  bool solve_each(const AnyExecutor& executor, const SourceList& sources,
+                  const PropagateOptions& options, std::span<double> rows) const;
+  bool solve_each(const AnyExecutor& executor, const SourceList& sources,
+                  const PropagateOptions& options, std::span<float> rows) const;
+
+  /// A field that can tell ways. Surfaces, solids, wireframes and clouds (UsageError). Its
+  /// distances are those of `solve`; the way is looked for in the triangles of the shape. Cost: a
+  /// solve, and on a surface where other triangles were taken those of the shape are built once.
+  [[nodiscard]] AnyPathField path_field(const AnyExecutor& executor,
+                                        std::span<const PointSource> sources,
+                                        const PropagateOptions& options = {}) const;
+
+  struct State;
+  /// For <plexway/any/complex.hpp>.
+  [[nodiscard]] const State& state() const { return *state_; }
+
+ private:
+  std::shared_ptr<const State> state_;
+};
+
+}  // namespace plexway

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <span>
+
+namespace plexway {
+
+/// A point of a simplex.
+struct SimplexPoint {
+  std::size_t simplex = 0;
+  /// Of its corners: >= 0, sum 1; 0 beyond them.
+  std::array<double, 4> barycentric = {1, 0, 0, 0};
+  /// From the point asked for, in a unit that depends on that and the positions alone.
+  double squared_distance = std::numeric_limits<double>::infinity();
+};
+
+/// The point of some simplices that is closest to `point`, finite coordinates: of tetrahedra that
+/// is the point itself where it lies inside. Among equally close ones, the one of the first
+/// simplex. Cost: one pass over the simplices.
+SimplexPoint closest_point(std::span<const std::array<double, 3>> positions,
+                           std::span<const std::array<std::uint32_t, 2>> edges,
+                           const std::array<double, 3>& point);
+SimplexPoint closest_point(std::span<const std::array<double, 3>> positions,
+                           std::span<const std::array<std::uint32_t, 3>> triangles,
+                           const std::array<double, 3>& point);
+SimplexPoint closest_point(std::span<const std::array<double, 3>> positions,
+                           std::span<const std::array<std::uint32_t, 4>> tets,
+                           const std::array<double, 3>& point);
+
+}  // namespace plexway

@@ -1,0 +1,166 @@
+#include <plexway/any_domain.hpp>
+
+#include <algorithm>
+#include <atomic>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "any/prepared.hpp"
+#include "any/shape_state.hpp"
+#include "executors/share_out.hpp"
+#include "executors/supported.hpp"
+
+namespace plexway {
+
+struct AnyDomain::State {
+  AnyShape shape;
+  std::shared_ptr<const Prepared> prepared;
+  double build_seconds = 0;
+};
+
+AnyDomain::AnyDomain(AnyShape shape, const BuildOptions& options) {
+  const Watch building;
+  auto prepared = with_file_name(shape, [&] { return prepare(shape, options); });
+  state_ = std::make_shared<const State>(
+      State{std::move(shape), std::move(prepared), building.seconds()});
+}
+
+AnyDomain AnyDomain::read(const std::filesystem::path& file, const ReadOptions& reading,
+                          const BuildOptions& building) {
+  return AnyDomain(AnyShape::read(file, reading), building);
+}
+
+const AnyShape& AnyDomain::shape() const { return state_->shape; }
+Precision AnyDomain::precision() const { return state_->prepared->precision(); }
+std::size_t AnyDomain::simplices() const { return state_->prepared->simplices(); }
+std::size_t AnyDomain::components() const { return state_->prepared->components(); }
+double AnyDomain::mean_edge() const { return state_->prepared->mean_edge(); }
+std::size_t AnyDomain::refracting_edges() const { return state_->prepared->refracting_edges(); }
+const CloudSummary* AnyDomain::cloud() const { return state_->prepared->cloud(); }
+const TriangulationReport& AnyDomain::triangulation() const {
+  return state_->prepared->triangulation();
+}
+double AnyDomain::build_seconds() const { return state_->build_seconds; }
+std::size_t AnyDomain::bytes() const { return state_->prepared->bytes(); }
+
+Support AnyDomain::support(const AnyExecutor& executor, const SourceList& sources,
+                           const PropagateOptions& options) const {
+  const ExecutorKind kind = std::visit([](const auto& e) { return e.kind; }, executor);
+  return detail::support_of(state_->prepared->combination(kind), state_->prepared->metric(),
+                            sources, options);
+}
+
+AnyField AnyDomain::solve(const AnyExecutor& executor, const SourceList& sources,
+                          const PropagateOptions& options) const {
+  AnyField field;
+  solve(executor, sources, options, field);
+  return field;
+}
+
+void AnyDomain::solve(const AnyExecutor& executor, const SourceList& sources,
+                      const PropagateOptions& options, AnyField& field) const {
+  with_file_name(shape(), [&] { state_->prepared->solve(executor, sources, options, field); });
+}
+
+namespace {
+
+// What a thread has of its own.
+struct Own {
+  AnyField field;
+  PropagateOptions options;
+};
+
+}  // namespace
+
+void AnyDomain::solve_each(const AnyExecutor& executor, const SourceList& sources,
+                           const PropagateOptions& options, const TakeField& take) const {
+  const auto* team = std::get_if<OpenMP>(&executor);
+  if (team == nullptr) {
+    AnyField field;
+    for (std::size_t k = 0; k < sources.size(); ++k) {
+      solve(executor, sources.only(k), options, field);
+      take(k, field);
+    }
+    return;
+  }
+  std::vector<std::unique_ptr<Own>> own(team_size(*team));
+  std::mutex taking;
+  std::atomic<bool> stop{false};
+  detail::share_out(*team, sources.size(), [&](std::size_t k, std::size_t thread) {
+    std::unique_ptr<Own>& mine = own[thread];
+    if (!mine) {
+      mine = std::make_unique<Own>();
+      mine->options = options;
+      if (options.progress)  // the caller's function is for the caller's thread
+        mine->options.progress = [&stop, &options, thread](const Progress& progress) {
+          if (thread == 0 && !options.progress(progress)) stop = true;
+          return !stop;
+        };
+    }
+    solve(Serial{}, sources.only(k), mine->options, mine->field);
+    const std::scoped_lock lock(taking);
+    take(k, mine->field);
+  });
+}
+
+namespace {
+
+template <class Real>
+bool solve_rows(const AnyDomain& domain, const AnyExecutor& executor, const SourceList& sources,
+                const PropagateOptions& options, std::span<Real> rows) {
+  const std::size_t vertices = domain.vertices();
+  detail::check_rows(rows.size(), sources.size(), vertices);
+  bool complete = true;
+  domain.solve_each(executor, sources, options, [&](std::size_t k, const AnyField& field) {
+    std::visit(
+        [&](const auto& f) {
+          std::transform(f.distance.begin(), f.distance.end(),
+                         rows.begin() + static_cast<std::ptrdiff_t>(k * vertices),
+                         [](auto d) { return static_cast<Real>(d); });
+        },
+        field.data);
+    complete = complete && field.complete();
+  });
+  return complete;
+}
+
+}  // namespace
+
+bool AnyDomain::solve_each(const AnyExecutor& executor, const SourceList& sources,
+                           const PropagateOptions& options, std::span<double> rows) const {
+  return solve_rows(*this, executor, sources, options, rows);
+}
+bool AnyDomain::solve_each(const AnyExecutor& executor, const SourceList& sources,
+                           const PropagateOptions& options, std::span<float> rows) const {
+  return solve_rows(*this, executor, sources, options, rows);
+}
+
+AnyPathField AnyDomain::path_field(const AnyExecutor& executor,
+                                   std::span<const PointSource> sources,
+                                   const PropagateOptions& options) const {
+  return AnyPathField(with_file_name(
+      shape(), [&] { return state_->prepared->path_field(executor, sources, options); }));
+}
+
+const AnyField& AnyPathField::field() const { return state_->field; }
+Path AnyPathField::trace(const PointSource& point, const TraceOptions& options) const {
+  return state_->trace(point, options);
+}
+double AnyPathField::at(const PointSource& point, ReadOut level) const {
+  return state_->at(point, level);
+}
+std::vector<double> AnyPathField::at(std::span<const PointSource> points, ReadOut level) const {
+  std::vector<double> distances;
+  distances.reserve(points.size());
+  for (const PointSource& point : points) distances.push_back(state_->at(point, level));
+  return distances;
+}
+std::vector<std::array<double, 3>> AnyPathField::gradient() const { return state_->gradient(); }
+std::size_t AnyPathField::bytes() const { return state_->bytes(); }
+
+AnyComplex complex_of(const AnyDomain& domain) { return domain.state().prepared->complex(); }
+
+}  // namespace plexway

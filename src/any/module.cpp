@@ -1,0 +1,63 @@
+#include "any/module.hpp"
+
+#ifdef PLEXWAY_MODULE_FOLDER
+#include <dlfcn.h>
+
+#include <filesystem>
+#include <system_error>
+#include <vector>
+
+#include <plexway/error.hpp>
+
+namespace plexway {
+namespace {
+
+namespace fs = std::filesystem;
+
+// The folder of the program, and that of the shared library which holds this function.
+std::vector<fs::path> own_folders() {
+  std::vector<fs::path> folders;
+  std::error_code none_such;
+  const fs::path program = fs::read_symlink("/proc/self/exe", none_such);
+  if (!none_such) folders.push_back(program.parent_path());
+  Dl_info here{};
+  if (::dladdr(reinterpret_cast<const void*>(&module_function), &here) != 0 &&
+      here.dli_fname != nullptr && fs::path(here.dli_fname).is_absolute())
+    folders.push_back(fs::path(here.dli_fname).parent_path());
+  return folders;
+}
+
+// Lazily, because to look up all that PCL and VTK might call takes a third of a second. It stays
+// loaded: what it throws must outlive it.
+void* load_module(const char* file) {
+  constexpr int how = RTLD_LAZY | RTLD_LOCAL;
+  for (fs::path folder : own_folders()) {
+    std::error_code none_such;
+    if (fs::exists(folder / "plexway" / file, none_such))
+      return ::dlopen((folder / "plexway" / file).c_str(), how);
+    for (int up = 0; up < 3; ++up) {
+      folder = folder.parent_path();
+      const fs::path beside = folder / PLEXWAY_MODULE_FOLDER / file;
+      if (fs::exists(beside, none_such)) return ::dlopen(beside.c_str(), how);
+    }
+  }
+  return ::dlopen(file, how);  // where the RUNPATH says
+}
+
+}  // namespace
+
+void* module_function(const std::string& what, const char* library, const char* file,
+                      const char* function) {
+  void* const module = load_module(file);
+  if (module == nullptr) {
+    const char* const reason = ::dlerror();
+    throw Error(what + ": plexway's module for " + library +
+                " cannot be loaded: " + (reason == nullptr ? "unknown reason" : reason));
+  }
+  void* const entry = ::dlsym(module, function);
+  if (entry == nullptr) throw Error(what + ": " + file + " is not plexway's module");
+  return entry;
+}
+
+}  // namespace plexway
+#endif

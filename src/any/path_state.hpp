@@ -1,0 +1,149 @@
+#pragma once
+
+#include <algorithm>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include <plexway/apps/cloud_path_field.hpp>
+#include <plexway/apps/path_field.hpp>
+#include <plexway/error.hpp>
+
+#include "any/prepared.hpp"
+
+namespace plexway {
+
+template <class Complex>
+inline constexpr bool has_paths =
+    Complex::kind == DomainKind::surface || Complex::kind == DomainKind::solid ||
+    Complex::kind == DomainKind::wireframe || Complex::kind == DomainKind::cloud;
+
+/// Where paths are drawn; lengths of their own are not those between positions.
+inline std::span<const std::array<double, 3>> path_places(const AnyShape& shape, bool measured) {
+  if (measured) return {};
+  if (shape.cloud() != nullptr) return shape.cloud()->measured();
+  if (const auto* wireframe = std::get_if<io::Edges>(&shape.data()))
+    if (!wireframe->lengths.empty()) return {};
+  return shape.positions();
+}
+
+template <class Complex>
+class PathsOf final : public AnyPathField::State {
+ public:
+  using Real = RealOf<Complex>;
+
+  PathsOf(std::shared_ptr<const Prepared> keep, AnyShape shape, const Complex& complex,
+          bool measured)
+      : keep_(std::move(keep)),
+        shape_(std::move(shape)),
+        complex_(complex),
+        measured_(measured),
+        paths_(complex, path_places(shape_, measured)) {}
+
+  /// On the complex that paths lie in.
+  void solve(const AnyExecutor& executor, std::span<const PointSource> sources,
+             const PropagateOptions& options) {
+    remember(executor, sources, options);
+    solve_in(paths_);
+    field.data = paths_.distances();
+  }
+
+  /// Distances found on other triangles.
+  void adopt(const AnyExecutor& executor, AnyField found, std::span<const PointSource> sources,
+             const PropagateOptions& options) {
+    remember(executor, sources, options);
+    field = std::move(found);
+    adopted_ = true;
+    if constexpr (Complex::kind == DomainKind::surface)
+      paths_.adopt(std::get<DistanceField<Real>>(field.data), sources_);
+  }
+
+  Path trace(const PointSource& point, const TraceOptions& options) const override {
+    Path path = paths_.trace(point, options);
+    // Labels on the triangles of the path lead closer to it than distances of vertices do.
+    if (adopted_ && path.source != none &&
+        (path.capped || length(path) > 1.001 * promised(point))) {
+      Path other = with_labels().trace(point, options);
+      if (other.source != none && length(other) < length(path)) path = std::move(other);
+    }
+    if (measured_ && !shape_.positions().empty() && shape_.cloud() == nullptr) {
+      path.positions.clear();
+      for (const PathPoint& at : path.points)
+        path.positions.push_back(
+            shape_.position({.simplex = at.simplex, .barycentric = at.barycentric}));
+    }
+    return path;
+  }
+
+  double at(const PointSource& point, ReadOut level) const override {
+    if constexpr (requires { paths_.at(point, level); })
+      return level == ReadOut::linear ? paths_.at(point, level) : with_labels().at(point, level);
+    else
+      throw UsageError("a cloud has distances at its points only");
+  }
+
+  std::vector<std::array<double, 3>> gradient() const override {
+    if constexpr (requires { paths_.gradient(); })
+      return with_labels().gradient();
+    else
+      throw UsageError("a cloud has distances at its points only");
+  }
+
+  std::size_t bytes() const override { return paths_.bytes() + (labels_ ? labels_->bytes() : 0); }
+
+ private:
+  void remember(const AnyExecutor& executor, std::span<const PointSource> sources,
+                const PropagateOptions& options) {
+    executor_ = executor;
+    sources_.assign(sources.begin(), sources.end());
+    options_ = options;
+  }
+
+  void solve_in(PathField<Complex>& paths) const {
+    std::visit(
+        [&](const auto& chosen) {
+          using E = std::decay_t<decltype(chosen)>;
+          if constexpr (!supports<E, Complex>)
+            support(combination<E, Complex>()).require();
+          else if constexpr (E::kind != ExecutorKind::gl)
+            paths.solve(chosen, std::span<const PointSource>(sources_), options_);
+          else
+            throw UsageError("paths are traced on what the executors Serial and OpenMP leave");
+        },
+        executor_);
+  }
+
+  // Solved on the complex itself.
+  const PathField<Complex>& with_labels() const {
+    if (!adopted_) return paths_;
+    std::call_once(labels_once_, [&] {
+      labels_.emplace(complex_, path_places(shape_, measured_));
+      solve_in(*labels_);
+    });
+    return *labels_;
+  }
+
+  double length(const Path& path) const { return path.length + sources_[path.source].offset; }
+  double promised(const PointSource& point) const {
+    if (point.vertex != none) return field[point.vertex];
+    if constexpr (requires { paths_.at(point, ReadOut::linear); })
+      return paths_.at(point, ReadOut::linear);
+    else
+      return 0;
+  }
+
+  std::shared_ptr<const Prepared> keep_;
+  AnyShape shape_;
+  const Complex& complex_;
+  bool measured_, adopted_ = false;
+  PathField<Complex> paths_;
+  AnyExecutor executor_;
+  std::vector<PointSource> sources_;
+  PropagateOptions options_;
+  mutable std::once_flag labels_once_;
+  mutable std::optional<PathField<Complex>> labels_;
+};
+
+}  // namespace plexway

@@ -1,0 +1,55 @@
+#pragma once
+
+#include <memory>
+#include <span>
+
+#include <plexway/any/complex.hpp>
+#include <plexway/any_domain.hpp>
+
+namespace plexway {
+
+/// A complex made ready for distances, its precision and its kind hidden. Any number of threads may
+/// solve at once.
+class Prepared : public std::enable_shared_from_this<Prepared> {
+ public:
+  virtual ~Prepared() = default;
+  Prepared() = default;
+  Prepared(const Prepared&) = delete;
+  Prepared& operator=(const Prepared&) = delete;
+
+  [[nodiscard]] virtual Precision precision() const = 0;
+  [[nodiscard]] virtual std::size_t simplices() const = 0;
+  [[nodiscard]] virtual std::size_t components() const = 0;
+  [[nodiscard]] virtual double mean_edge() const { return 0; }
+  [[nodiscard]] virtual std::size_t refracting_edges() const { return 0; }
+  [[nodiscard]] virtual const CloudSummary* cloud() const { return nullptr; }
+  [[nodiscard]] virtual const TriangulationReport& triangulation() const {
+    static const TriangulationReport as_given;
+    return as_given;
+  }
+  [[nodiscard]] virtual std::size_t bytes() const = 0;
+  [[nodiscard]] virtual MetricKind metric() const = 0;
+  [[nodiscard]] virtual Combination combination(ExecutorKind executor) const = 0;
+  [[nodiscard]] virtual AnyComplex complex() const = 0;
+
+  virtual void solve(const AnyExecutor& executor, const SourceList& sources,
+                     const PropagateOptions& options, AnyField& field) const = 0;
+  [[nodiscard]] virtual std::shared_ptr<const AnyPathField::State> path_field(
+      const AnyExecutor& executor, std::span<const PointSource> sources,
+      const PropagateOptions& options) const = 0;
+};
+
+struct AnyPathField::State {
+  AnyField field;
+
+  virtual ~State() = default;
+  [[nodiscard]] virtual Path trace(const PointSource& point, const TraceOptions& options) const = 0;
+  [[nodiscard]] virtual double at(const PointSource& point, ReadOut level) const = 0;
+  [[nodiscard]] virtual std::vector<std::array<double, 3>> gradient() const = 0;
+  [[nodiscard]] virtual std::size_t bytes() const = 0;
+};
+
+/// Builds the complex of a shape. `shape` is kept.
+std::shared_ptr<const Prepared> prepare(const AnyShape& shape, const BuildOptions& options);
+
+}  // namespace plexway

@@ -1,0 +1,240 @@
+#include <algorithm>
+#include <array>
+#include <fstream>
+#include <system_error>
+#include <utility>
+
+#include <plexway/error.hpp>
+
+#include "any/fill.hpp"
+#include "any/openvdb_functions.hpp"
+#include "any/shape_state.hpp"
+#include "any/simplex_edges.hpp"
+#include "io/extension.hpp"
+
+namespace plexway {
+namespace {
+
+bool has_extension(const std::filesystem::path& file, std::span<const std::string_view> known) {
+  const std::string extension = io::lower_extension(file);
+  return std::find(known.begin(), known.end(), extension) != known.end();
+}
+
+// Whether an .obj has a statement that starts with this letter.
+bool has_statement(const std::string& file, char letter) {
+  std::ifstream in(file);
+  for (std::string line; std::getline(in, line);) {
+    const std::size_t at = line.find_first_not_of(" \t");
+    if (at != line.npos && line[at] == letter && at + 1 < line.size() &&
+        (line[at + 1] == ' ' || line[at + 1] == '\t'))
+      return true;
+  }
+  return false;
+}
+
+using Data = AnyShape::Data;
+
+// An .obj may be either of two. Only one that cannot be read as a surface is looked at again.
+Data read_obj(const std::string& file, std::optional<DomainKind> asked) {
+  if (asked == DomainKind::wireframe && has_statement(file, 'l')) return io::read_edges(file);
+  try {
+    return io::read_triangles(file);
+  } catch (const InputError&) {
+    if (asked == DomainKind::surface || has_statement(file, 'f') || !has_statement(file, 'l'))
+      throw;
+  }
+  return io::read_edges(file);
+}
+
+Data read_mesh(const std::string& file, std::optional<DomainKind> asked) {
+  const bool triangles = has_extension(file, io::triangle_extensions());
+  const bool lines = has_extension(file, io::edge_extensions());
+  if (triangles && lines) return read_obj(file, asked);
+  if (triangles) return io::read_triangles(file);
+  if (lines) return io::read_edges(file);
+  if (has_extension(file, io::tet_extensions())) return io::read_tets(file);
+  std::error_code ignored;
+  if (std::filesystem::is_directory(file, ignored))
+    throw InputError(file + ": is a directory, not a file");
+  const std::string extension = std::filesystem::path(file).extension().string();
+  throw InputError(
+      file + ": " + (extension.empty() ? "no extension" : "unknown extension '" + extension + "'") +
+      "; known are .obj .off .ply .stl for surfaces, .node .ele .mesh .msh .vtu .vtk "
+      ".poly .smesh .vdb for solids, .edges .obj for wireframes, .xyz .pcd .ply for clouds");
+}
+
+// A .ply is a cloud where it is asked to be one, or where it cannot be a surface.
+bool is_read_as_cloud(const std::string& file, std::optional<DomainKind> asked) {
+  if (is_cloud_file(file)) return true;
+  if (asked == DomainKind::cloud) return has_extension(file, io::point_extensions());
+  return !asked && io::is_ply_cloud(file);
+}
+
+bool can_be(DomainKind natural, DomainKind wanted) {
+  if (natural == wanted) return true;
+  if (natural == DomainKind::surface)
+    return wanted == DomainKind::solid || wanted == DomainKind::wireframe ||
+           wanted == DomainKind::cloud;
+  return natural == DomainKind::solid && wanted == DomainKind::wireframe;
+}
+
+[[noreturn]] void cannot_be(const std::string& file, DomainKind natural, DomainKind wanted) {
+  throw InputError(file + ": is a " + std::string(kind_name(natural)) +
+                   ", which cannot be taken as a " + std::string(kind_name(wanted)));
+}
+
+// Makes a shape of a file; what is asked for is in `options`.
+class Reading {
+ public:
+  Reading(std::string file, const ReadOptions& options)
+      : file_(std::move(file)), options_(options) {}
+
+  AnyShape::State read();
+
+ private:
+  [[nodiscard]] std::string name(std::string_view field) const {
+    return spelled(options_.spelling, field);
+  }
+  [[nodiscard]] std::string as(DomainKind kind) const {
+    return name("as") + " " + std::string(kind_name(kind));
+  }
+  void begin(const std::string& what) const {
+    if (options_.progress.stage) options_.progress.stage(what);
+  }
+  void check_cloud_options(DomainKind wanted) const;
+  void take_level_set(bool surface);
+  void fill();
+
+  std::string file_;
+  const ReadOptions& options_;
+  AnyShape::State state_;
+};
+
+void Reading::check_cloud_options(DomainKind wanted) const {
+  if (!options_.cloud.given() || wanted == DomainKind::cloud) return;
+  throw UsageError(name("k") + ", " + name("neighbour_radius") + ", " + name("max_normal_angle") +
+                   ", " + name("voxel") + ", " + name("denoise") + " and " + name("smooth") +
+                   " need a cloud: a file of points, or a surface with " + as(DomainKind::cloud));
+}
+
+AnyShape::State Reading::read() {
+  const VolumeOptions& volume = options_.volume;
+  const std::optional<DomainKind> asked = options_.as;
+  check(options_);
+  state_.file = file_;
+  state_.voxel = volume.voxel.value_or(0);
+  if (!volume.grid.empty() && !is_vdb(file_))
+    throw UsageError(name("grid") + " needs a .vdb: other files have no grids");
+  begin("reading " + file_);
+  const Watch loading;
+  const bool is_cloud = is_read_as_cloud(file_, asked);
+  CloudFile points;
+  if (is_cloud)
+    points = read_cloud(file_);
+  else if (!is_poly(file_) && !is_vdb(file_))
+    state_.data = read_mesh(file_, asked);
+  state_.load_seconds = loading.seconds();
+  const DomainKind natural = is_cloud ? DomainKind::cloud
+                             : is_poly(file_) || is_vdb(file_)
+                                 ? DomainKind::solid
+                                 : static_cast<DomainKind>(state_.data.index());
+  const DomainKind wanted = asked.value_or(natural);
+  const bool surface_of_vdb = is_vdb(file_) && wanted == DomainKind::surface;
+  if (!can_be(natural, wanted) && !surface_of_vdb) cannot_be(file_, natural, wanted);
+  if (volume.repair && (natural != DomainKind::surface || wanted == DomainKind::cloud))
+    throw UsageError(name("repair") + " needs a surface, and takes it as a surface or as a solid");
+  check_cloud_options(wanted);
+
+  const bool wants_solid = natural == DomainKind::surface && wanted == DomainKind::solid;
+  // Without a word about how TetGen should do it, a repaired solid is cut from its level set.
+  const bool cut = is_vdb(file_) || (volume.repair && !(wants_solid && options_.fill.given()));
+  const bool fills = is_poly(file_) || (wants_solid && !cut);
+  if (options_.fill.given() && !fills)
+    throw UsageError(name("max_volume") + ", " + name("quality") + ", " + name("keep_surface") +
+                     ", " + name("max_seconds") + " and " +
+                     name(options_.spelling == Spelling::flags ? "hole" : "holes") +
+                     " need a surface to fill: give one with " + as(DomainKind::solid));
+  if (volume.voxel && !cut && !volume.repair && !volume.writes_volume &&
+      wanted != DomainKind::cloud)
+    throw UsageError(name("voxel") + " needs a cloud, " + name("repair") +
+                     ", or a .vdb to read or to write");
+  if (cut || volume.repair)
+    take_level_set(fills || wanted == DomainKind::surface ||
+                   (natural == DomainKind::surface && wanted != DomainKind::solid));
+  if (fills) fill();
+  if (wanted == DomainKind::wireframe) {
+    if (const auto* surface = std::get_if<io::Triangles>(&state_.data))
+      state_.data = edges_of(*surface);
+    else if (const auto* solid = std::get_if<io::Tets>(&state_.data))
+      state_.data = edges_of(*solid);
+  }
+  if (wanted == DomainKind::cloud) {
+    if (!is_cloud) points.points.positions = std::get<io::Triangles>(state_.data).positions;
+    const Watch looking;
+    state_.data = make_cloud(file_, std::move(points), options_);
+    state_.neighbour_seconds = looking.seconds();
+  }
+  state_.vertices = std::visit(
+      [](const auto& data) -> std::size_t {
+        using Kind = std::decay_t<decltype(data)>;
+        if constexpr (std::is_same_v<Kind, io::Edges> || std::is_same_v<Kind, SimplexShape>)
+          return data.vertices;
+        else if constexpr (std::is_same_v<Kind, CloudShape>)
+          return data.points.positions.size();
+        else
+          return data.positions.size();
+      },
+      state_.data);
+  return std::move(state_);
+}
+
+void Reading::fill() {
+  require_tetgen(options_.as ? as(*options_.as) : file_);
+  begin("filling " + file_ + " with tetrahedra");
+  const Watch meshing;
+  state_.data = is_poly(file_)
+                    ? fill_poly(file_, options_)
+                    : fill_surface(file_, std::get<io::Triangles>(state_.data), options_);
+  state_.mesh_seconds = meshing.seconds();
+}
+
+void Reading::take_level_set(bool surface) {
+  const double voxel = options_.volume.voxel.value_or(0);
+  std::string& note = state_.level_set_note;
+  const Watch meshing;
+  if (is_vdb(file_)) {
+    const OpenvdbFunctions& openvdb = openvdb_functions(file_);
+    begin("cutting " + file_);
+    try {
+      const std::string& grid = options_.volume.grid;
+      if (surface)
+        state_.data = openvdb.surface_of_file(file_, grid, voxel, note);
+      else
+        state_.data = openvdb.solid_of_file(file_, grid, voxel, note);
+    } catch (const InputError& error) {
+      const std::string cause = error.what();
+      throw InputError(cause.starts_with(file_) ? cause : file_ + ": " + cause);
+    }
+  } else {
+    const OpenvdbFunctions& openvdb = openvdb_functions(name("repair"));
+    begin("repairing " + file_);
+    const auto broken = std::get<io::Triangles>(std::move(state_.data));
+    try {
+      if (surface)
+        state_.data = openvdb.repaired(broken, voxel, note);
+      else
+        state_.data = openvdb.solid_inside(broken, voxel, note);
+    } catch (const InputError& error) {
+      throw InputError(file_ + ": cannot be repaired: " + error.what());
+    }
+  }
+  if (!surface) state_.mesh_seconds = meshing.seconds();
+}
+
+}  // namespace
+
+AnyShape AnyShape::read(const std::filesystem::path& file, const ReadOptions& options) {
+  return AnyShape(std::make_shared<State>(Reading(file.string(), options).read()));
+}
+
+}  // namespace plexway

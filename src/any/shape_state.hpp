@@ -1,0 +1,48 @@
+#pragma once
+
+#include <chrono>
+#include <string>
+#include <utility>
+
+#include <plexway/any/shape.hpp>
+#include <plexway/error.hpp>
+
+namespace plexway {
+
+struct AnyShape::State {
+  std::filesystem::path file;
+  double voxel = 0;  ///< of a .vdb to write; 0: to be chosen
+  std::string level_set_note;
+  Data data;
+  std::optional<MeasuredLengths> lengths;  ///< alone, without positions
+  std::size_t vertices = 0;
+  Points places;  ///< of a SimplexShape of three coordinates or fewer
+  double load_seconds = 0;
+  std::optional<double> mesh_seconds, neighbour_seconds;
+};
+
+/// Seconds since it was made.
+class Watch {
+ public:
+  [[nodiscard]] double seconds() const {
+    return std::chrono::duration<double>(Clock::now() - start_).count();
+  }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  Clock::time_point start_ = Clock::now();
+};
+
+/// What `build` makes of a shape, with its file's name put in front of what is wrong with it: a
+/// complex knows vertices and faces, but not where they came from.
+template <class Build>
+auto with_file_name(const AnyShape& shape, Build build) {
+  if (shape.file().empty()) return build();
+  try {
+    return build();
+  } catch (const InputError& error) {
+    throw InputError(shape.file().string() + ": " + error.what());
+  }
+}
+
+}  // namespace plexway

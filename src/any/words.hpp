@@ -1,0 +1,18 @@
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+
+namespace plexway {
+
+/// "triangle" for "triangles"; knows "vertices" and "tetrahedra" too.
+std::string singular(std::string_view plural);
+/// "1 triangle", "2 triangles"; the plural is given.
+std::string counted(std::size_t count, std::string_view plural);
+/// Four significant digits, for people: "0.01234", "1.235e-07", "inf".
+std::string short_number(double value);
+/// "1.23 s", "4.5 ms".
+std::string short_time(double seconds);
+
+}  // namespace plexway

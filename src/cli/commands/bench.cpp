@@ -1,0 +1,288 @@
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <optional>
+#include <random>
+#include <string>
+#include <vector>
+
+#include <plexway/any_domain.hpp>
+#include <plexway/error.hpp>
+
+#include "cli/commands/commands.hpp"
+#include "cli/options/input.hpp"
+#include "cli/options/solve_options.hpp"
+#include "cli/options/source_argument.hpp"
+#include "cli/options/triangulation_option.hpp"
+#include "cli/report/anatomy.hpp"
+#include "cli/report/console.hpp"
+#include "cli/report/dijkstra_peer.hpp"
+#include "cli/report/progress.hpp"
+#include "cli/report/report.hpp"
+#include "cli/report/truth_file.hpp"
+
+namespace plexway::cli {
+namespace {
+
+struct BenchCommand {
+  std::string input;
+  std::string as;
+  std::vector<std::string> sources;
+  std::vector<std::string> truths;
+  std::size_t repeats = 20;
+  std::size_t random_sources = 0;
+  FillArguments fill;
+  CloudPreparation cloud;
+  SolveOptions solve;
+  TriangulationArgument triangulation;
+  bool anatomy = false;
+  bool json = false;
+  bool quiet = false;
+};
+
+// Times of single runs, in ns a vertex.
+struct Times {
+  std::vector<double> plexway, dijkstra;
+};
+
+struct Result {
+  double build = 0, dijkstra_build = 0;
+  bool has_dijkstra = false;
+  Executor executor;
+  std::size_t sources = 0;
+  Times times;
+  ErrorGauge errors;
+};
+
+double median(std::vector<double> values) {
+  if (values.empty()) return std::nan("");
+  std::sort(values.begin(), values.end());
+  const std::size_t half = values.size() / 2;
+  return values.size() % 2 == 1 ? values[half] : (values[half - 1] + values[half]) / 2;
+}
+
+// A graph search starts at a vertex: for a point of a simplex at the nearest corner, nearly.
+Index vertex_near(const Domain& domain, const PointSource& source) {
+  if (source.vertex != none) return source.vertex;
+  const auto& weight = source.barycentric;
+  const auto corner = std::max_element(weight.begin(), weight.end()) - weight.begin();
+  return domain.corners(source.simplex)[static_cast<std::size_t>(corner)];
+}
+
+// `count` vertices that a path from the first source leads to: times of empty fields mean nothing.
+void add_random_sources(std::vector<PointSource>& sources, std::size_t count,
+                        const std::vector<double>& distance_from_first) {
+  std::vector<Index> reached;
+  for (std::size_t v = 0; v < distance_from_first.size(); ++v) {
+    if (std::isfinite(distance_from_first[v])) reached.push_back(static_cast<Index>(v));
+  }
+  if (reached.empty()) return;
+  std::mt19937_64 random(20210712);
+  for (std::size_t i = 0; i < count; ++i)
+    sources.push_back(PointSource::at(reached[random() % reached.size()]));
+}
+
+std::vector<std::vector<double>> read_truths(const BenchCommand& command, const Domain& domain) {
+  std::vector<std::vector<double>> truths;
+  for (const std::string& file : command.truths)
+    truths.push_back(read_truth(file, domain.vertices()));
+  return truths;
+}
+
+std::size_t field_bytes(const AnyField& field) {
+  return std::visit(
+      [](const auto& f) {
+        return f.distance.capacity() * sizeof(f.distance[0]) + f.label.capacity() * sizeof(Index);
+      },
+      field.data);
+}
+
+// Every source in turn, the two solvers in turn: one source again and again would train the branch
+// predictor, and blocks of one solver would see another clock than blocks of the other.
+Times measure(const BenchCommand& command, const AnyDomain& solver, AnyField& field,
+              DijkstraPeer* dijkstra, const std::vector<PointSource>& sources,
+              const PropagateOptions& options, const Executor& executor, ProgressLine& progress) {
+  const Domain& domain = solver.shape();
+  Times times;
+  const double to_ns_a_vertex = 1e9 / static_cast<double>(domain.vertices());
+  for (std::size_t repeat = 0; repeat < command.repeats; ++repeat) {
+    const PointSource& source = sources[repeat % sources.size()];
+    if (dijkstra != nullptr) {
+      const Index start = vertex_near(domain, source);
+      const Stopwatch running;
+      dijkstra->run(start);
+      times.dijkstra.push_back(running.seconds() * to_ns_a_vertex);
+    }
+    const Stopwatch solving;
+    solver.solve(executor, source, options, field);
+    times.plexway.push_back(solving.seconds() * to_ns_a_vertex);
+    progress.done(static_cast<double>(repeat + 1) / static_cast<double>(command.repeats));
+  }
+  return times;
+}
+
+Json to_json(const BenchCommand& command, const AnyDomain& solver, const AnyField& field,
+             const Result& result) {
+  const Domain& domain = solver.shape();
+  const double ns = median(result.times.plexway);
+  const double dijkstra_ns = median(result.times.dijkstra);
+  Json json;
+  json["input"] = command.input;
+  json["kind"] = domain.kind_name();
+  json["vertices"] = domain.vertices();
+  json["simplices"] = solver.simplices();
+  json["precision"] = command.solve.precision;
+  json["executor"] = executor_name(result.executor);
+  json["threads"] = executor_threads(result.executor);
+  json["visibility"] = command.solve.visibility;
+  if (domain.kind() == DomainKind::surface) {
+    json["triangulation"] = name_of(field.triangulation);
+    json["flips"] = field.triangulation.flips;
+  }
+  json["sources"] = result.sources;
+  json["repeats"] = command.repeats;
+  json["seconds"]["load"] = domain.load_seconds();
+  if (domain.mesh_seconds()) json["seconds"]["mesh"] = *domain.mesh_seconds();
+  if (domain.neighbour_seconds()) json["seconds"]["neighbours"] = *domain.neighbour_seconds();
+  json["seconds"]["build"] = result.build;
+  if (domain.kind() == DomainKind::surface)
+    json["seconds"]["triangulation"] = field.triangulation.seconds;
+  json["seconds"]["dijkstra_build"] =
+      result.has_dijkstra ? Json(result.dijkstra_build) : Json(nullptr);
+  json["bytes_per_vertex"] = static_cast<double>(solver.bytes() + field_bytes(field)) /
+                             static_cast<double>(domain.vertices());
+  json["ns_per_vertex"] = json_number(ns);
+  json["dijkstra_ns_per_vertex"] = json_number(dijkstra_ns);
+  json["ratio"] = json_number(ns / dijkstra_ns);
+  json["mean"] = json_number(result.errors.mean());
+  json["p99"] = json_number(result.errors.percentile(99));
+  json["max"] = json_number(result.errors.max());
+  json["most_below"] = json_number(result.errors.most_below());
+  json["compared"] = result.errors.compared();
+  json["mismatched_unreached"] = result.errors.mismatched_unreached();
+  return json;
+}
+
+// The same object for people, a line a value.
+std::string to_text(const Json& json) {
+  Table table;
+  for (const auto& [key, value] : json.items()) {
+    if (value.is_object()) continue;
+    table.add(key, value.is_string()         ? value.get<std::string>()
+                   : value.is_number_float() ? short_number(value.get<double>())
+                   : value.is_null()         ? "-"
+                                             : value.dump());
+  }
+  for (const auto& [key, value] : json["seconds"].items()) {
+    if (!value.is_null()) table.add(key + " seconds", short_number(value.get<double>()));
+  }
+  return table.text();
+}
+
+void run_bench(const BenchCommand& command) {
+  const PropagateOptions options = propagate_options(command.solve);
+  const Precision precision = precision_of(command.solve);
+  const Triangulation triangulation = triangulation_of(command.triangulation);
+  const std::vector<SourceArgument> arguments = parse_sources(command.sources);
+  if (command.truths.size() > arguments.size())
+    throw UsageError("more --truth than --source: give one file for each source, in order");
+
+  Result result;
+  ProgressLine progress(command.quiet);
+  const Domain domain =
+      load_domain(command.input, command.as, command.fill, command.cloud, progress);
+  std::vector<PointSource> sources = locate_sources(domain, arguments);
+  const auto truths = read_truths(command, domain);
+  if (command.anatomy && truths.empty())
+    throw UsageError("--anatomy splits errors: give the exact distances with --truth");
+  std::optional<Anatomy> anatomy;
+  if (command.anatomy) anatomy.emplace(domain);
+
+  progress.phase("building");
+  check_triangulation(triangulation, domain);
+  const AnyDomain solver(domain, {.precision = precision, .triangulation = triangulation});
+  AnyField field;
+  result.build = solver.build_seconds();
+  const Stopwatch building_graph;
+  const auto dijkstra = make_dijkstra_peer(domain, precision);
+  result.dijkstra_build = building_graph.seconds();
+  result.has_dijkstra = dijkstra != nullptr;
+
+  result.executor = choose_executor(command.solve.executor, options, solver, 1);
+  // Not timed; it also brings workspace and field to their size.
+  progress.phase("comparing with the truth");
+  std::vector<double> distance_from_first;
+  for (std::size_t i = 0; i < sources.size(); ++i) {
+    solver.solve(result.executor, sources[i], options, field);
+    const std::vector<double> distance = field.doubles();
+    if (i < truths.size()) result.errors.add(distance, truths[i]);
+    if (i < truths.size() && anatomy)
+      anatomy->add(distance, truths[i], domain.position(sources[i]));
+    if (i == 0) distance_from_first = distance;
+  }
+  add_random_sources(sources, command.random_sources, distance_from_first);
+  result.sources = sources.size();
+
+  progress.phase("measuring");
+  result.times =
+      measure(command, solver, field, dijkstra.get(), sources, options, result.executor, progress);
+  progress.clear();
+
+  Json json = to_json(command, solver, field, result);
+  const std::string text = to_text(json) + (anatomy ? "\n" + anatomy->text() : "");
+  if (anatomy) json["anatomy"] = anatomy->json();
+  write_output(command.json ? json_text(json) : text);
+  flush_output();
+  if (!result.has_dijkstra && !command.quiet)
+    say_note("this build has no Boost.Graph, so there is no Dijkstra to compare with");
+}
+
+}  // namespace
+
+void add_bench_command(CLI::App& tool, Action& action) {
+  auto command = std::make_shared<BenchCommand>();
+  CLI::App& app = *tool.add_subcommand(
+      "bench", "Speed against Boost.Graph's Dijkstra, and error against truth");
+  app.add_option("INPUT", command->input, input_help)->type_name("FILE")->required();
+  app.add_option("--source,-s", command->sources,
+                 "vertex:ID or point:X,Y,Z; repeat it to take turns between sources")
+      ->required()
+      ->type_name("WHERE")
+      ->allow_extra_args(false);
+  app.add_option("--truth", command->truths,
+                 "exact distances from the source in the same place: one a line, in\n"
+                 "vertex order; nan lines are skipped, inf means unreached")
+      ->type_name("FILE")
+      ->allow_extra_args(false);
+  app.add_option("--random-sources", command->random_sources,
+                 "take turns with K more vertices, always the same ones")
+      ->check(CLI::Range(0, 1'000'000))
+      ->type_name("K");
+  app.add_option("--repeats", command->repeats, "timed runs of each solver (default 20)")
+      ->check(CLI::Range(1, 1'000'000))
+      ->type_name("N");
+  app.add_option("--as", command->as, as_help)->type_name("KIND");
+  app.add_flag("--anatomy", command->anatomy,
+               "split the errors: above and below exact, near the source, where\n"
+               "fronts meet, by the shape of simplices, by curvature, in solids by how\n"
+               "far the path is from straight; needs --truth");
+  app.add_flag("--json", command->json, "print one JSON object");
+  app.add_flag("--quiet,-q", command->quiet, "no notes, no progress");
+  add_solve_options(app, command->solve, false);
+  add_triangulation_option(app, command->triangulation);
+  add_fill_options(app, command->fill);
+  add_cloud_options(app, command->cloud);
+  app.footer(
+      "Examples:\n"
+      "  plexway bench bunny.obj --source vertex:3160 --truth bunny.v3160.txt\n"
+      "  plexway bench bunny.obj --source vertex:3160 --random-sources 10 --json\n"
+      "  plexway bench part.obj --source vertex:0 --truth part.v0.txt --triangulation input\n"
+      "  plexway bench bunny.obj --source vertex:3160 --truth bunny.v3160.txt --anatomy\n"
+      "  plexway bench cavity.ele --source vertex:170 --truth cavity.v170.txt --anatomy\n"
+      "  plexway bench vessels.obj --source vertex:0 --random-sources 10\n"
+      "  plexway bench swiss.xyz --source vertex:0 --truth swiss.v0.txt --k 16");
+  app.callback([command, &action] { action = [command] { run_bench(*command); }; });
+}
+
+}  // namespace plexway::cli

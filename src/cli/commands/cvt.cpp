@@ -1,0 +1,188 @@
+#include <CLI/CLI.hpp>
+#include <cmath>
+#include <memory>
+#include <string>
+#include <type_traits>
+#include <vector>
+
+#include <plexway/apps/centroidal_voronoi.hpp>
+#include <plexway/apps/poisson_disk.hpp>
+#include <plexway/error.hpp>
+#include <plexway/io/field.hpp>
+#include <plexway/solve.hpp>
+
+#include "cli/commands/commands.hpp"
+#include "cli/commands/sampling_command.hpp"
+#include "cli/report/distance_output.hpp"
+#include "cli/report/point_output.hpp"
+#include "cli/report/progress.hpp"
+
+namespace plexway::cli {
+namespace {
+
+struct CvtCommand : SamplingCommand {
+  std::size_t count = 0, iterations = 100;
+  std::uint64_t seed = 1;
+  double tolerance = 1e-3;
+  std::string centre = "centroid", cells, dual;
+};
+
+struct Result {
+  CentroidalVoronoi voronoi;
+  std::vector<double> distance;
+  std::vector<Index> label;
+  double seconds = 0;
+};
+
+template <class Complex>
+Result compute(const Complex& complex, const CvtCommand& command, ProgressLine& progress) {
+  Result result;
+  PoissonOptions throwing;
+  throwing.count = command.count;
+  throwing.seed = command.seed;
+  progress.phase("throwing darts");
+  const PoissonDisks start = poisson_disks(Serial{}, complex, throwing);
+  VoronoiOptions options;
+  options.centre =
+      command.centre == "centroid" ? CellCentre::centroid : CellCentre::farthest_from_border;
+  options.max_iterations = command.iterations;
+  options.tolerance = command.tolerance;
+  progress.phase("moving seeds");
+  std::size_t done = 0;
+  options.progress = [&](const VoronoiStep& step) {
+    const std::string line = "iteration " + std::to_string(++done) + ": energy " +
+                             short_number(step.energy) + ", movement " +
+                             short_number(step.movement);
+    progress.phase(line);
+    return true;
+  };
+  const Stopwatch moving;
+  result.voronoi = centroidal_voronoi(Serial{}, complex, start.darts, options);
+  result.seconds = moving.seconds();
+  if (command.cells.empty() && command.dual.empty() && !command.picture.wanted()) return result;
+  const auto field = solve(Serial{}, complex, std::span<const PointSource>(result.voronoi.seeds));
+  result.distance.assign(field.distance.begin(), field.distance.end());
+  result.label = field.label;
+  if (result.label.empty()) {
+    for (const double d : result.distance) result.label.push_back(std::isfinite(d) ? 0 : none);
+  }
+  return result;
+}
+
+void run_cvt(const CvtCommand& command) {
+  const Precision precision = precision_of(command);
+  if (command.count == 0) throw UsageError("--count must be > 0");
+  if (!(command.tolerance >= 0)) throw UsageError("--tolerance must be >= 0");
+  if (command.centre != "centroid" && command.centre != "border")
+    throw UsageError("--centre '" + command.centre + "': choose one of centroid, border");
+  check_output_name(command.out, command.input, point_file_extensions());
+  check_output_name(command.cells, command.input, io::field_extensions(), "--cells");
+  check_output_name(command.dual, command.input, surface_file_extensions(), "--dual");
+  check_outputs_differ({command.out, command.cells, command.dual, command.picture.file});
+  check_picture(command.picture, command.input);
+
+  ProgressLine progress(command.quiet);
+  const Domain domain =
+      load_domain(command.input, command.as, command.fill, command.cloud, progress);
+  const auto* surface = std::get_if<io::Triangles>(&domain.data());
+  if (!command.dual.empty() && surface == nullptr)
+    throw UsageError("--dual: only a surface has a dual triangulation here");
+  Result result;
+  with_sampled(domain, precision,
+               [&](const auto& complex) { result = compute(complex, command, progress); });
+  const CentroidalVoronoi& voronoi = result.voronoi;
+  if (!command.out.empty())
+    write_points(command.out, domain, voronoi.seeds, "content", voronoi.cell_content);
+  std::vector<std::int32_t> labels;
+  for (const Index l : result.label)
+    labels.push_back(l == none ? -1 : static_cast<std::int32_t>(l));
+  if (command.picture.wanted()) {
+    PictureContent content;
+    content.distance = result.distance;
+    content.label = labels;
+    for (const PointSource& seed : voronoi.seeds) content.dots.push_back(domain.position(seed));
+    write_picture(command.picture, domain, content);
+  }
+  if (!command.cells.empty()) {
+    domain.write_field(command.cells, result.distance, labels);
+  }
+  DualTriangulation dual;
+  if (!command.dual.empty()) {
+    dual = dual_triangulation(surface->triangles, result.label, voronoi.seeds.size());
+    std::vector<std::array<double, 3>> points;
+    for (const PointSource& seed : voronoi.seeds) points.push_back(domain.position(seed));
+    write_surface(command.dual, points, dual.triangles);
+  }
+  progress.clear();
+
+  Json json;
+  json["input"] = command.input;
+  json["kind"] = domain.kind_name();
+  json["seeds"] = voronoi.seeds.size();
+  json["converged"] = voronoi.converged;
+  json["energy"] = voronoi.energy;
+  json["steps"] = Json::array();
+  for (const VoronoiStep& step : voronoi.steps)
+    json["steps"].push_back({{"energy", step.energy}, {"movement", step.movement}});
+  json["seconds"] = result.seconds;
+  Table table;
+  table.add("input", command.input);
+  table.add("seeds", counted(voronoi.seeds.size(), "seeds") + ", " +
+                         counted(voronoi.steps.size(), "iterations") +
+                         (voronoi.converged ? "" : "; not at rest yet"));
+  if (!voronoi.steps.empty())
+    table.add("energy", short_number(voronoi.steps.front().energy) + " at first, " +
+                            short_number(voronoi.energy) + " now");
+  if (!command.dual.empty()) {
+    json["dual"]["triangles"] = dual.triangles.size();
+    json["dual"]["manifold"] = dual.manifold;
+    json["dual"]["irregular"] = dual.irregular;
+    table.add(
+        "dual",
+        counted(dual.triangles.size(), "triangles") +
+            (dual.manifold ? "" : "; no manifold at " + counted(dual.irregular.size(), "seeds")));
+  }
+  table.add("time", short_time(result.seconds));
+  add_written(table, {command.out, command.cells, command.dual, command.picture.file});
+  print_summary(command, json, table);
+}
+
+}  // namespace
+
+void add_cvt_command(CLI::App& tool, Action& action) {
+  auto command = std::make_shared<CvtCommand>();
+  CLI::App& app = *tool.add_subcommand(
+      "cvt", "Points in the middle of their Voronoi cells (centroidal Voronoi tessellation)");
+  add_sampling_options(app, *command, "write the seeds: .csv .npy .obj .ply by extension");
+  add_picture_options(app, command->picture);
+  app.add_option("--count,-n", command->count, "so many seeds")
+      ->required()
+      ->check(CLI::NonNegativeNumber)
+      ->type_name("N");
+  app.add_option("--seed", command->seed, "of the Poisson disks that it starts from (default 1)")
+      ->check(CLI::NonNegativeNumber)
+      ->type_name("S");
+  app.add_option("--iterations", command->iterations, "at most so many (default 100)")
+      ->check(CLI::NonNegativeNumber)
+      ->type_name("N");
+  app.add_option("--tolerance", command->tolerance,
+                 "stop when seeds move by less, in sizes of a cell (default 0.001)")
+      ->type_name("T");
+  app.add_option("--centre", command->centre,
+                 "where a seed moves in its cell: centroid (default), or border: where it is\n"
+                 "farthest from the border")
+      ->type_name("NAME");
+  app.add_option("--cells", command->cells,
+                 "write each vertex's distance and cell: .csv .ply .vtk .vtu")
+      ->type_name("FILE");
+  app.add_option("--dual", command->dual, "write the triangles of seeds: .obj .off .ply")
+      ->type_name("FILE");
+  app.footer(
+      "Examples:\n"
+      "  plexway cvt knot.ply --count 500 --cells cells.vtu --dual remeshed.obj\n"
+      "  plexway cvt knot.ply --count 200 --picture cells.png\n"
+      "  plexway cvt elbow.mesh --count 50 --iterations 20 --out seeds.csv --json");
+  app.callback([command, &action] { action = [command] { run_cvt(*command); }; });
+}
+
+}  // namespace plexway::cli

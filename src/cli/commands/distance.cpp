@@ -1,0 +1,414 @@
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <set>
+#include <string>
+#include <vector>
+
+#include <plexway/any_domain.hpp>
+#include <plexway/complex/point_cloud.hpp>
+#include <plexway/error.hpp>
+#include <plexway/io/field.hpp>
+
+#include "any/fill.hpp"
+#include "cli/commands/commands.hpp"
+#include "cli/exit_codes.hpp"
+#include "cli/options/input.hpp"
+#include "cli/options/isoline_options.hpp"
+#include "cli/options/metric_options.hpp"
+#include "cli/options/picture_options.hpp"
+#include "cli/options/solve_options.hpp"
+#include "cli/options/source_set.hpp"
+#include "cli/options/triangulation_option.hpp"
+#include "cli/report/cloud_words.hpp"
+#include "cli/report/console.hpp"
+#include "cli/report/distance_output.hpp"
+#include "cli/report/progress.hpp"
+#include "cli/report/report.hpp"
+#include "cli/report/source_marks.hpp"
+
+namespace plexway::cli {
+namespace {
+
+struct DistanceCommand {
+  std::string input;
+  std::string as;
+  std::vector<std::string> sources;
+  std::string out;
+  IsolineOptions isolines;
+  FillArguments fill;
+  CloudPreparation cloud;
+  SolveOptions solve;
+  PictureArguments picture;
+  MetricArgument metric;
+  TriangulationArgument triangulation;
+  bool json = false;
+  bool quiet = false;
+};
+
+// What came out, as far as a report tells it.
+struct Outcome {
+  double build = 0, solve = 0;
+  std::size_t reached = 0;        // sources included
+  std::size_t beside_source = 0;  // reached, and not a source
+  double max_distance = 0;
+  std::size_t farthest = 0;
+  Executor executor;
+};
+
+std::string executor_text(const Executor& executor) {
+  const std::size_t threads = executor_threads(executor);
+  return std::string(executor_name(executor)) +
+         (threads > 1 ? " with " + counted(threads, "threads") : "");
+}
+
+Outcome survey(const std::vector<double>& distance, const std::vector<Source>& sources) {
+  Outcome outcome;
+  outcome.max_distance = -std::numeric_limits<double>::infinity();
+  for (std::size_t v = 0; v < distance.size(); ++v) {
+    if (!std::isfinite(distance[v])) continue;
+    ++outcome.reached;
+    if (distance[v] <= outcome.max_distance) continue;
+    outcome.max_distance = distance[v];
+    outcome.farthest = v;
+  }
+  std::set<Index> at;
+  const auto take = [&](Index v) {
+    if (v != none && std::isfinite(distance[v])) at.insert(v);
+  };
+  for (const Source& source : sources) {
+    if (const auto* point = std::get_if<PointSource>(&source)) take(point->vertex);
+    if (const auto* set = std::get_if<VertexSource>(&source))
+      for (const Index v : set->vertices) take(v);
+  }
+  // Where sets leave nothing to reach, nothing failed.
+  const bool covered = at.size() == distance.size() && as_points(sources).empty();
+  outcome.beside_source = covered ? at.size() : outcome.reached - at.size();
+  return outcome;
+}
+
+Json to_json(const DistanceCommand& command, const AnyDomain& solver, const AnyField& field,
+             const MeasuredLengths* lengths, const Outcome& outcome) {
+  const Domain& domain = solver.shape();
+  Json json;
+  json["input"] = command.input;
+  json["kind"] = domain.kind_name();
+  json["vertices"] = domain.vertices();
+  json["simplices"] = solver.simplices();
+  json["components"] = solver.components();
+  json["seconds"]["load"] = domain.load_seconds();
+  if (domain.mesh_seconds()) json["seconds"]["mesh"] = *domain.mesh_seconds();
+  if (domain.neighbour_seconds()) json["seconds"]["neighbours"] = *domain.neighbour_seconds();
+  json["seconds"]["build"] = outcome.build;
+  json["seconds"]["solve"] = outcome.solve;
+  json["reached"] = outcome.reached;
+  json["unreached"] = domain.vertices() - outcome.reached;
+  json["max_distance"] = json_number(outcome.max_distance);
+  json["expansions"] = field.statistics().expansions;
+  json["updates"] = field.statistics().updates;
+  if (domain.kind() == DomainKind::surface) {
+    json["lowered_vertices"] = field.statistics().lowered_vertices;
+    json["raised_vertices"] = field.statistics().raised_vertices;
+  }
+  json["executor"] = executor_name(outcome.executor);
+  json["threads"] = executor_threads(outcome.executor);
+  json["precision"] = command.solve.precision == "float" ? "float" : "double";
+  if (domain.kind() == DomainKind::surface) json["triangulation"] = name_of(field.triangulation);
+  add_metric(command.metric, lengths, solver.refracting_edges(), json);
+  if (!domain.level_set_note().empty()) json["voxels"] = domain.level_set_note();
+  if (const CloudShape* cloud = domain.cloud()) {
+    json["points_in_file"] = cloud->points_in_file;
+    json["not_finite"] = cloud->not_finite;
+    json["outliers"] = cloud->outliers;
+    const auto dropped = dropped_points(*cloud);
+    json["dropped"] = dropped ? Json(*dropped) : Json(nullptr);
+  }
+  return json;
+}
+
+std::string to_text(const DistanceCommand& command, const AnyDomain& solver, const AnyField& field,
+                    const MeasuredLengths* lengths, const std::vector<SetArgument>& arguments,
+                    const std::vector<Source>& sources, const Outcome& outcome) {
+  const Domain& domain = solver.shape();
+  Table table;
+  table.add("input", command.input);
+  table.add(std::string(domain.kind_name()),
+            counted(domain.vertices(), "vertices") + ", " +
+                counted(solver.simplices(), domain.simplex_name()) + ", " +
+                counted(solver.components(), "components"));
+  if (!domain.level_set_note().empty()) table.add("voxels", domain.level_set_note());
+  add_metric(command.metric, lengths, solver.refracting_edges(), table);
+  if (domain.cloud() != nullptr && !kept_points(*domain.cloud()).empty())
+    table.add("kept", kept_points(*domain.cloud()));
+  for (std::size_t i = 0; i < sources.size(); ++i) {
+    const std::string label = sources.size() == 1 ? "source" : "source " + std::to_string(i);
+    table.add(label, describe_source_set(domain, arguments[i], sources[i]));
+  }
+  if (field.triangulation.done != Triangulation::input)
+    table.add("triangles", describe(field.triangulation));
+  std::string reached =
+      std::to_string(outcome.reached) + " of " + counted(domain.vertices(), "vertices");
+  if (outcome.reached > 0) {
+    reached += "; the farthest is vertex " + std::to_string(outcome.farthest) + " at " +
+               short_number(outcome.max_distance);
+  }
+  table.add("reached", reached);
+  table.add("work", counted(field.statistics().expansions, "expansions") + ", " +
+                        counted(field.statistics().updates, "updates"));
+  std::string mesh = domain.mesh_seconds() ? ", mesh " + short_time(*domain.mesh_seconds()) : "";
+  if (domain.neighbour_seconds()) mesh = ", neighbours " + short_time(*domain.neighbour_seconds());
+  table.add("time", "load " + short_time(domain.load_seconds()) + mesh + ", build " +
+                        short_time(outcome.build) + ", solve " + short_time(outcome.solve) + " (" +
+                        executor_text(outcome.executor) + ", " + command.solve.precision + ")");
+  add_written(table,
+              {command.out == "-" ? "" : command.out, command.isolines.out, command.picture.file});
+  return table.text();
+}
+
+// Vertices in no simplex.
+std::size_t count_apart(const Domain& domain) {
+  std::vector<bool> used(domain.vertices(), false);
+  for (std::size_t s = 0; s < domain.simplices(); ++s)
+    for (const auto v : domain.corners(s)) used[v] = true;
+  return static_cast<std::size_t>(std::count(used.begin(), used.end(), false));
+}
+
+// Why not all was reached.
+std::string why_unreached(const AnyDomain& solver, bool bounded) {
+  const Domain& domain = solver.shape();
+  std::string why;
+  if (domain.cloud() != nullptr) {
+    if (solver.components() > 1) why = why_disconnected(*domain.cloud(), solver.components());
+  } else {
+    why = "the " + std::string(domain.kind_name()) + " has " +
+          counted(solver.components(), "components");
+    if (const std::size_t apart = count_apart(domain); apart > 0) {
+      why.append(", ").append(counted(apart, "vertices")).append(apart == 1 ? " is" : " are");
+      why.append(" in none of its ").append(domain.simplex_name());
+    }
+  }
+  if (bounded)
+    why.append(why.empty() ? "" : ", and ")
+        .append("--radius or --max-expansions ends the search early");
+  return why;
+}
+
+// Things the user should know, though nothing failed.
+void say_notes(const AnyDomain& solver, const AnyField& field, const Outcome& outcome, bool bounded,
+               bool single) {
+  const Domain& domain = solver.shape();
+  if (domain.cloud() != nullptr && domain.cloud()->not_finite > 0)
+    say_note(counted(domain.cloud()->not_finite, "points") +
+             " not finite, and dropped: vertices count those that are left; the column original "
+             "has their numbers in the file");
+  if (const CloudSummary* cloud = solver.cloud()) {
+    if (cloud->near_duplicates > 0)
+      say_note(counted(cloud->near_duplicates, "points") +
+               " much nearer to an earlier one than all others are: they count as that one");
+    if (100 * cloud->bridges > cloud->distinct)
+      say_note(counted(cloud->bridges, "points") +
+               " hang together by single edges: no surface was found there, and ways go from point "
+               "to point; more neighbours may help (--k " +
+               std::to_string(4 * std::max<std::size_t>(domain.cloud()->k, 16)) + ")");
+  }
+  if (!field.complete()) {
+    say_note("stopped after " + counted(field.statistics().expansions, "expansions") +
+             ": distances may still be too long");
+  }
+  const std::size_t raised = field.statistics().raised_vertices;
+  if (100 * raised > domain.vertices())
+    say_note(counted(raised, "vertices") +
+             " came out nearer than the straight line through space, and were given its length: "
+             "distances here are poor; another --triangulation may do better");
+  const std::size_t lowered = field.statistics().lowered_vertices;
+  if (20 * lowered > domain.vertices())
+    say_note(counted(lowered, "vertices") +
+             " came out farther than a neighbour and the edge between, and were given that way: "
+             "distances here are less accurate");
+  // Rounding turns a line of sight a little at each edge.
+  constexpr double too_many = 5e4;
+  if (single && outcome.max_distance > too_many * solver.mean_edge() && solver.mean_edge() > 0)
+    say_note("distances of up to " + short_number(outcome.max_distance / solver.mean_edge()) +
+             " edges: single precision may be off by more than 1e-4; use --precision double");
+  const std::size_t unreached = domain.vertices() - outcome.reached;
+  if (unreached == 0) return;
+  const std::string why = why_unreached(solver, bounded);
+  say_note(counted(unreached, "vertices") + " not reached (inf)" + (why.empty() ? "" : ": " + why));
+}
+
+// Also where there is one source only.
+std::vector<std::int32_t> labels_of(const AnyField& field, const std::vector<double>& distance) {
+  std::vector<std::int32_t> label = field.file_label();
+  if (label.empty())
+    for (const double d : distance) label.push_back(std::isfinite(d) ? 0 : -1);
+  return label;
+}
+
+void run_distance(DistanceCommand command) {
+  const PropagateOptions wanted = propagate_options(command.solve);
+  Precision precision = precision_of(command.solve);
+  Triangulation triangulation = triangulation_of(command.triangulation);
+  const std::vector<SetArgument> arguments = parse_source_sets(command.sources);
+  if (command.out != "-" && !is_vdb(command.out))
+    check_output_name(command.out, command.input, AnyShape::field_extensions(DomainKind::cloud));
+  check_picture(command.picture, command.input);
+  check_isolines(command.isolines, command.input);
+  std::vector<std::string> read = {metric_file(command.metric), command.solve.table};
+  for (const SetArgument& argument : arguments) read.push_back(argument.file);
+  if (command.out != "-") check_output_place(command.out, read, "--out");
+  check_output_place(command.isolines.out, read, "--isolines-out");
+  check_outputs_differ({command.out, command.isolines.out, command.picture.file});
+
+  command.fill.volume.writes_volume = is_vdb(command.out);
+  ProgressLine progress(command.quiet);
+  const Domain domain =
+      load_domain(command.input, command.as, command.fill, command.cloud, progress);
+  if (domain.cloud() == nullptr && command.out != "-")
+    check_output_name(command.out, command.input, AnyShape::field_extensions(domain.kind()));
+  check_isolines(command.isolines, domain);
+  const std::vector<Source> sources = locate_source_sets(domain, arguments);
+  const std::vector<PointSource> points = as_points(sources);
+  if (needs_double(domain, sources)) {
+    if (command.solve.executor.name == "auto") command.solve.executor.name = "serial";
+    if (command.solve.executor.name != "serial")
+      throw UsageError("--executor '" + command.solve.executor.name +
+                       "': lines and triangles of surfaces start a field on one thread only; "
+                       "choose serial");
+    if (precision == Precision::single && command.solve.precision_given)
+      throw UsageError("--precision float: lines and triangles of surfaces need double");
+    if (precision == Precision::single) command.solve.precision = "double, which lines need";
+    precision = Precision::twice;
+    // Lines lie in the triangles of the file.
+    if (triangulation == Triangulation::automatic) triangulation = Triangulation::input;
+  }
+
+  if (!command.metric.text.empty()) progress.phase("reading the metric");
+  const auto lengths = measure(command.metric, domain, Jumps::refract);
+  check_triangulation(triangulation, domain);
+  progress.phase("building");
+  const AnyDomain solver(domain, {.precision = precision,
+                                  .triangulation = triangulation,
+                                  .lengths = lengths,
+                                  .progress = progress.share_callback()});
+
+  progress.phase("solving");
+  PropagateOptions options = wanted;
+  options.progress = progress.callback();
+  const Stopwatch solving;
+  const Executor executor =
+      choose_executor(command.solve.executor, options, solver, sources.size());
+  const AnyField field =
+      solver.solve(executor, points.empty() ? SourceList(sources) : SourceList(points), options);
+  const double solve = solving.seconds();
+
+  const std::vector<double> distance = field.doubles();
+  Outcome outcome = survey(distance, sources);
+  outcome.build = solver.build_seconds();
+  outcome.solve = solve;
+  outcome.executor = executor;
+
+  const bool to_stdout = command.out == "-";
+  const std::vector<double> isovalues = isoline_values(command.isolines, distance);
+  if (!command.out.empty()) {
+    progress.phase("writing " + (to_stdout ? "the distances" : command.out));
+    const std::vector<std::int32_t> label = field.file_label();
+    if (to_stdout) {
+      progress.clear();
+      write_distance_csv(distance, label,
+                         domain.cloud() != nullptr
+                             ? std::span<const std::uint32_t>(domain.cloud()->points.original)
+                             : std::span<const std::uint32_t>());
+    } else {
+      domain.write_field(command.out, distance, label);
+    }
+  }
+  if (!command.isolines.out.empty()) {
+    progress.phase("writing " + command.isolines.out);
+    write_isolines(command.isolines, domain, distance, isovalues);
+  }
+  if (command.picture.wanted()) {
+    progress.phase("drawing " + command.picture.file);
+    PictureContent content;
+    content.distance = distance;
+    const bool cells = command.picture.colour == "cells";
+    const std::vector<std::int32_t> label =
+        cells ? labels_of(field, distance) : std::vector<std::int32_t>();
+    content.label = label;
+    for (const Source& source : sources) add_source_mark(domain, source, content);
+    write_picture(command.picture, domain, content);
+  }
+  progress.clear();
+
+  std::string report;
+  if (command.json)
+    report = json_text(to_json(command, solver, field, lengths.get(), outcome));
+  else if (!command.quiet)
+    report = to_text(command, solver, field, lengths.get(), arguments, sources, outcome);
+  if (to_stdout)
+    write_diagnostics(report);
+  else
+    write_output(report);
+  flush_output();
+
+  if (outcome.beside_source == 0) {
+    throw NothingReached(command.input +
+                         ": nothing reached: no vertex but the source itself has "
+                         "a finite distance");
+  }
+  const bool bounded = command.solve.radius || command.solve.max_expansions;
+  if (!command.quiet) say_violations(domain, lengths.get());
+  if (!command.quiet && !command.isolines.out.empty() && isovalues.empty())
+    say_note("--isolines-out holds nothing: no distance is as large as the step");
+  if (!command.quiet) say_notes(solver, field, outcome, bounded, precision == Precision::single);
+}
+
+}  // namespace
+
+void add_distance_command(CLI::App& tool, Action& action) {
+  auto command = std::make_shared<DistanceCommand>();
+  CLI::App& app = *tool.add_subcommand(
+      "distance", "Geodesic distance of every vertex from one or more sources");
+  app.add_option("INPUT", command->input, input_help)->type_name("FILE")->required();
+  app.add_option("--source,-s", command->sources, source_set_help)
+      ->required()
+      ->type_name("WHERE")
+      ->allow_extra_args(false);
+  app.add_option(
+         "--out,-o", command->out,
+         "write the distances: .csv .npy .ply .vtk .vtu .glb .gltf (.pcd of clouds,\n"
+         ".vdb of solids) by extension, or - for CSV on standard output (the summary then goes to\n"
+         "standard error)")
+      ->type_name("FILE");
+  app.add_option("--as", command->as, as_help)->type_name("KIND");
+  app.add_flag("--json", command->json, "print the summary as one JSON object");
+  app.add_flag("--quiet,-q", command->quiet, "no summary, notes or progress; errors stay");
+  add_isoline_options(app, command->isolines);
+  add_solve_options(app, command->solve, true);
+  add_triangulation_option(app, command->triangulation);
+  add_metric_option(app, command->metric);
+  add_fill_options(app, command->fill);
+  add_cloud_options(app, command->cloud);
+  add_picture_options(app, command->picture, true);
+  app.footer(
+      "Examples:\n"
+      "  plexway distance knot.ply --source vertex:0 --out distance.ply\n"
+      "  plexway distance knot.ply --source point:1,0,0.5 --radius 2 --json\n"
+      "  plexway distance knot.ply --source vertex:0 --source vertex:99 --out nearest.csv\n"
+      "  plexway distance hills.off --source boundary --source vertex:900+0.5 -o rim.vtu\n"
+      "  plexway distance knot.ply --source segment:1,0,0,0,1,0 --source circle:0,0,1,0.2\n"
+      "  plexway distance knot.ply --source vertex:0 --isoline-step 0.1 --isolines-out lines.obj\n"
+      "  plexway distance organ.off --as solid --max-volume 1e-3 --source point:0,0,0 -o d.vtu\n"
+      "  plexway distance fluid.vdb --source point:0,0,0 --out field.vdb\n"
+      "  plexway distance broken.stl --repair --as solid --source vertex:0 --out d.glb\n"
+      "  plexway distance part.stl --source vertex:0 --triangulation delaunay -o d.vtu\n"
+      "  plexway distance ground.off --source vertex:0 --metric speed:speeds.txt -o times.vtu\n"
+      "  plexway distance vessels.obj --source vertex:0 --out distance.vtk\n"
+      "  plexway distance knot.ply --source vertex:0 --picture knot.png --view iso\n"
+      "  plexway distance scan.pcd --voxel 0.01 --denoise --source point:0,0,0 --out d.ply\n"
+      "  plexway distance knot.ply --source vertex:0 --quiet --out - | sort -t, -gk2 | tail -1");
+  app.callback([command, &action] { action = [command] { run_distance(*command); }; });
+}
+
+}  // namespace plexway::cli

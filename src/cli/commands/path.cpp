@@ -1,0 +1,321 @@
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <memory>
+#include <span>
+#include <string>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+#include <plexway/any/complex.hpp>
+#include <plexway/any_domain.hpp>
+#include <plexway/apps/path_search.hpp>
+#include <plexway/error.hpp>
+#include <plexway/io/paths.hpp>
+
+#include "cli/commands/commands.hpp"
+#include "cli/exit_codes.hpp"
+#include "cli/options/input.hpp"
+#include "cli/options/metric_options.hpp"
+#include "cli/options/picture_options.hpp"
+#include "cli/options/solve_options.hpp"
+#include "cli/options/source_argument.hpp"
+#include "cli/options/triangulation_option.hpp"
+#include "cli/report/console.hpp"
+#include "cli/report/distance_output.hpp"
+#include "cli/report/progress.hpp"
+#include "cli/report/report.hpp"
+
+namespace plexway::cli {
+namespace {
+
+struct PathCommand {
+  std::string input;
+  std::string as;
+  std::vector<std::string> from, to;
+  std::string out;
+  FillArguments fill;
+  CloudPreparation cloud;
+  SolveOptions solve;
+  TraceOptions trace;
+  PictureArguments picture;
+  MetricArgument metric;
+  TriangulationArgument triangulation;
+  bool astar = false;
+  bool margin_given = false;
+  bool json = false;
+  bool quiet = false;
+};
+
+struct Outcome {
+  std::vector<Path> paths;
+  std::vector<double> distance;  // none where only a part was searched
+  std::vector<double> promised;  // of each target, as the field has it
+  TriangulationReport triangulation;
+  PropagateStatistics statistics;
+  double build = 0, solve = 0, trace = 0;
+};
+
+// Without looking at all of the surface.
+template <class Real>
+void search(const TriangleMesh<Real>& mesh, const Domain& domain, const PathCommand& command,
+            const std::vector<PointSource>& sources, const std::vector<PointSource>& targets,
+            ProgressLine& progress, Outcome& outcome) {
+  // Under a metric a straight line in space is no lower bound.
+  PathSearch<Real> search = command.metric.text.empty() ? PathSearch<Real>(mesh, domain.positions())
+                                                        : PathSearch<Real>(mesh);
+  progress.phase("searching");
+  SearchOptions options;
+  options.progress = progress.callback();
+  options.trace = command.trace;
+  SearchResult found = search.find(Serial{}, sources, targets, options);
+  outcome.paths = std::move(found.paths);
+  outcome.promised = std::move(found.distance);
+  outcome.statistics = found.statistics;
+  for (Path& path : outcome.paths) {
+    if (command.metric.text.empty()) break;
+    for (const PathPoint& at : path.points)
+      path.positions.push_back(
+          domain.position({.simplex = at.simplex, .barycentric = at.barycentric}));
+  }
+}
+
+Outcome find_paths(const Domain& domain, const BuildOptions& building, const PathCommand& command,
+                   const std::vector<PointSource>& sources, const std::vector<PointSource>& targets,
+                   PropagateOptions options, ProgressLine& progress) {
+  Outcome outcome;
+  progress.phase("building");
+  const AnyDomain built(domain, building);
+  outcome.build = built.build_seconds();
+  const Stopwatch solving;
+  if (command.astar) {
+    with_complex(built, [&](const auto& complex) {
+      if constexpr (std::decay_t<decltype(complex)>::kind == DomainKind::surface)
+        search(complex, domain, command, sources, targets, progress, outcome);
+    });
+    outcome.solve = solving.seconds();
+    return outcome;
+  }
+  progress.phase("solving");
+  options.progress = progress.callback();
+  const AnyPathField field = built.path_field(Serial{}, sources, options);
+  outcome.solve = solving.seconds();
+  outcome.statistics = field.field().statistics();
+  outcome.triangulation = field.field().triangulation;
+  outcome.distance = field.field().doubles();
+  progress.phase("tracing");
+  const Stopwatch tracing;
+  for (const PointSource& target : targets) {
+    outcome.paths.push_back(field.trace(target, command.trace));
+    outcome.promised.push_back(target.vertex == none ? field.at(target, ReadOut::linear)
+                                                     : outcome.distance[target.vertex]);
+  }
+  outcome.trace = tracing.seconds();
+  return outcome;
+}
+
+Json to_json(const PathCommand& command, const Domain& domain, const Outcome& outcome) {
+  Json json;
+  json["input"] = command.input;
+  json["kind"] = domain.kind_name();
+  json["vertices"] = domain.vertices();
+  json["simplices"] = domain.simplices();
+  json["paths"] = Json::array();
+  for (std::size_t k = 0; k < outcome.paths.size(); ++k) {
+    const Path& path = outcome.paths[k];
+    Json one;
+    one["to"] = command.to[k];
+    one["from"] = path.source == none ? Json() : Json(command.from[path.source]);
+    one["length"] = json_number(path.length);
+    one["distance"] = json_number(outcome.promised[k]);
+    one["points"] = path.points.size();
+    one["windows"] = path.windows;
+    one["capped"] = path.capped;
+    json["paths"].push_back(one);
+  }
+  if (!command.metric.text.empty()) json["metric"] = command.metric.text;
+  json["seconds"]["load"] = domain.load_seconds();
+  if (domain.mesh_seconds()) json["seconds"]["mesh"] = *domain.mesh_seconds();
+  json["seconds"]["build"] = outcome.build;
+  json["seconds"]["solve"] = outcome.solve;
+  json["seconds"]["trace"] = outcome.trace;
+  json["expansions"] = outcome.statistics.expansions;
+  json["updates"] = outcome.statistics.updates;
+  json["executor"] = "serial";
+  if (domain.kind() == DomainKind::surface) json["triangulation"] = name_of(outcome.triangulation);
+  return json;
+}
+
+std::string to_text(const PathCommand& command, const Domain& domain, const Outcome& outcome) {
+  Table table;
+  table.add("input", command.input);
+  if (!command.metric.text.empty()) table.add("metric", command.metric.text);
+  table.add(std::string(domain.kind_name()),
+            counted(domain.vertices(), "vertices") + ", " +
+                counted(domain.simplices(), domain.simplex_name()));
+  for (std::size_t k = 0; k < outcome.paths.size(); ++k) {
+    const Path& path = outcome.paths[k];
+    table.add(outcome.paths.size() == 1 ? "path" : "path " + std::to_string(k),
+              path.source == none
+                  ? command.to[k] + " is not reached"
+                  : command.to[k] + " to " + command.from[path.source] + ": length " +
+                        short_number(path.length) + ", " + counted(path.points.size(), "points"));
+  }
+  table.add("work", counted(outcome.statistics.expansions, "expansions"));
+  table.add("time", "load " + short_time(domain.load_seconds()) + ", build " +
+                        short_time(outcome.build) + ", solve " + short_time(outcome.solve) +
+                        ", trace " + short_time(outcome.trace));
+  add_written(table, {command.out, command.picture.file});
+  return table.text();
+}
+
+// Things the user should know about paths that were found.
+void say_notes(const Outcome& outcome, const std::vector<PointSource>& sources) {
+  std::size_t capped = 0, apart = 0;
+  double most = 0;
+  for (std::size_t k = 0; k < outcome.paths.size(); ++k) {
+    const Path& path = outcome.paths[k];
+    if (path.source == none) continue;
+    capped += path.capped;
+    const double length = path.length + sources[path.source].offset;
+    const double gap = length > 0 ? std::abs(outcome.promised[k] / length - 1) : 0;
+    if (!(gap > 0.01) || !std::isfinite(gap)) continue;
+    ++apart;
+    most = std::max(most, gap);
+  }
+  if (capped > 0)
+    say_note(counted(capped, "paths") +
+             ": the search for a shorter one ended early, so there may be one");
+  if (apart > 0)
+    say_note(counted(apart, "paths") + ": the length differs from the distance by up to " +
+             short_number(100 * most) + " %; the length is the more exact");
+}
+
+void run_path(const PathCommand& command) {
+  const PropagateOptions options = propagate_options(command.solve);
+  const Precision precision = precision_of(command.solve);
+  if (command.solve.executor.name != "serial" && command.solve.executor.name != "auto")
+    throw UsageError("--executor '" + command.solve.executor.name +
+                     "': paths are traced on what one thread leaves; choose serial");
+  const std::vector<SourceArgument> from = parse_sources(command.from, "from");
+  const std::vector<SourceArgument> to = parse_sources(command.to, "to");
+  check_output_name(command.out, command.input, io::path_extensions());
+  if (!(command.trace.margin >= 0 && command.trace.margin < 1))
+    throw UsageError("--margin must be >= 0 and < 1");
+  if (command.astar && options.visibility != Visibility::saddles)
+    throw UsageError("--astar knows the default visibility only");
+
+  if (command.astar && (command.solve.schedule_given || command.solve.step_given))
+    throw UsageError(
+        "--astar takes simplices in an order of its own: leave out --schedule and --step");
+  const Triangulation triangulation = triangulation_of(command.triangulation);
+  if (command.astar && triangulation != Triangulation::automatic &&
+      triangulation != Triangulation::input)
+    throw UsageError("--astar searches the triangles of the file: leave out --triangulation");
+  check_picture(command.picture, command.input);
+  const std::array read = {metric_file(command.metric), command.solve.table};
+  check_output_place(command.out, read, "--out");
+
+  ProgressLine progress(command.quiet);
+  const Domain domain =
+      load_domain(command.input, command.as, command.fill, command.cloud, progress);
+  if (command.astar && domain.kind() != DomainKind::surface)
+    throw UsageError("--astar: a " + std::string(domain.kind_name()) +
+                     " is solved as a whole; A* is for surfaces");
+  check_triangulation(triangulation, domain);
+  if (command.margin_given && domain.kind() != DomainKind::surface && domain.cloud() == nullptr)
+    throw UsageError("--margin: for surfaces and clouds, not a " + std::string(domain.kind_name()));
+  const std::vector<PointSource> sources = locate_sources(domain, from);
+  const std::vector<PointSource> targets = locate_sources(domain, to);
+  if (!command.metric.text.empty()) progress.phase("reading the metric");
+  // Paths go straight over an edge: it has one length.
+  const auto lengths = measure(command.metric, domain, Jumps::smooth);
+  Outcome outcome =
+      find_paths(domain,
+                 {.precision = precision,
+                  .triangulation = command.astar ? Triangulation::input : triangulation,
+                  .lengths = lengths,
+                  .progress = progress.share_callback()},
+                 command, sources, targets, options, progress);
+  if (!command.out.empty()) {
+    progress.phase("writing " + command.out);
+    io::write_paths(command.out, outcome.paths);
+  }
+  if (command.picture.wanted()) {
+    progress.phase("drawing " + command.picture.file);
+    PictureContent content;
+    content.distance = outcome.distance;
+    content.look_inside = true;
+    for (const Path& path : outcome.paths) content.paths.push_back(path.positions);
+    if (!domain.positions().empty()) {
+      for (const PointSource& source : sources) content.sources.push_back(domain.position(source));
+      for (const PointSource& target : targets) content.targets.push_back(domain.position(target));
+    }
+    write_picture(command.picture, domain, content);
+  }
+  progress.clear();
+  if (command.json)
+    write_output(json_text(to_json(command, domain, outcome)));
+  else if (!command.quiet)
+    write_output(to_text(command, domain, outcome));
+  flush_output();
+
+  std::size_t unreached = 0;
+  for (const Path& path : outcome.paths) unreached += path.source == none;
+  if (unreached == outcome.paths.size())
+    throw NothingReached(command.input + ": nothing reached: no path leads to any target");
+  if (!command.quiet) say_violations(domain, lengths.get());
+  if (!command.quiet) say_notes(outcome, sources);
+  if (unreached > 0 && !command.quiet)
+    say_note(counted(unreached, "targets") + " not reached: no path leads there");
+}
+
+}  // namespace
+
+void add_path_command(CLI::App& tool, Action& action) {
+  auto command = std::make_shared<PathCommand>();
+  CLI::App& app = *tool.add_subcommand("path", "Shortest paths from sources to targets");
+  app.add_option("INPUT", command->input, input_help)->type_name("FILE")->required();
+  app.add_option("--from,-f", command->from,
+                 "vertex:ID (0-based, file order) or point:X,Y,Z (closest point of the\n"
+                 "domain); repeat it for several sources, paths then lead to the nearest")
+      ->required()
+      ->type_name("WHERE")
+      ->allow_extra_args(false);
+  app.add_option("--to,-t", command->to, "the same; repeat it for several targets, a path each")
+      ->required()
+      ->type_name("WHERE")
+      ->allow_extra_args(false);
+  app.add_option("--out,-o", command->out,
+                 "write the paths: .obj (lines), .ply, .vtp or .json by extension, each from its\n"
+                 "target back to its source")
+      ->type_name("FILE");
+  app.add_option("--as", command->as, as_help)->type_name("KIND");
+  app.add_flag("--astar", command->astar,
+               "surfaces: look only at what a shortest path may pass, instead of everything");
+  app.add_option(
+         "--margin", command->trace.margin,
+         "surfaces and clouds: the path is the shortest of all where distances are too long\n"
+         "by no more than this share (default 0.003); 0 is quicker, and locally shortest")
+      ->each([command](const std::string&) { command->margin_given = true; })
+      ->type_name("X");
+  app.add_flag("--json", command->json, "print the summary as one JSON object");
+  app.add_flag("--quiet,-q", command->quiet, "no summary, notes or progress; errors stay");
+  add_solve_options(app, command->solve, false);
+  add_triangulation_option(app, command->triangulation);
+  add_metric_option(app, command->metric);
+  add_fill_options(app, command->fill);
+  add_cloud_options(app, command->cloud);
+  add_picture_options(app, command->picture);
+  app.footer(
+      "Examples:\n"
+      "  plexway path knot.ply --from vertex:0 --to vertex:99 --out path.obj\n"
+      "  plexway path knot.ply --from vertex:0 --to vertex:99 --to point:1,0,0 --astar --json\n"
+      "  plexway path knot.ply --from vertex:0 --to vertex:99 --picture path.png\n"
+      "  plexway path organ.off --as solid --from point:0,0,0 --to point:1,1,0 -o path.vtp");
+  app.callback([command, &action] { action = [command] { run_path(*command); }; });
+}
+
+}  // namespace plexway::cli

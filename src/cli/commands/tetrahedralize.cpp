@@ -1,0 +1,114 @@
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <limits>
+#include <memory>
+#include <string>
+#include <variant>
+
+#include <plexway/error.hpp>
+#include <plexway/io/tets.hpp>
+
+#include "any/fill.hpp"
+#include "any/solid_survey.hpp"
+#include "cli/commands/commands.hpp"
+#include "cli/options/input.hpp"
+#include "cli/report/console.hpp"
+#include "cli/report/distance_output.hpp"
+#include "cli/report/progress.hpp"
+#include "cli/report/report.hpp"
+
+namespace plexway::cli {
+namespace {
+
+struct TetrahedralizeCommand {
+  std::string input;
+  std::string out;
+  FillArguments fill;
+  bool json = false;
+  bool quiet = false;
+};
+
+Json to_json(const TetrahedralizeCommand& command, const Domain& domain,
+             const SolidSurvey& survey) {
+  Json json;
+  json["input"] = command.input;
+  json["out"] = command.out;
+  json["kind"] = domain.kind_name();
+  json["vertices"] = domain.vertices();
+  json["simplices"] = domain.simplices();
+  if (!domain.level_set_note().empty()) json["voxels"] = domain.level_set_note();
+  json["volume"] = json_number(survey.volume);
+  json["largest_volume"] = json_number(survey.largest_volume);
+  json["seconds"] = {{"load", domain.load_seconds()}, {"mesh", *domain.mesh_seconds()}};
+  return json;
+}
+
+std::string to_text(const TetrahedralizeCommand& command, const Domain& domain,
+                    const SolidSurvey& survey) {
+  Table table;
+  table.add("input", command.input);
+  if (!domain.level_set_note().empty()) table.add("voxels", domain.level_set_note());
+  table.add("solid", counted(domain.vertices(), "vertices") + ", " +
+                         counted(domain.simplices(), domain.simplex_name()));
+  table.add("volume", short_number(survey.volume) + ", largest tetrahedron " +
+                          short_number(survey.largest_volume));
+  table.add("time", "load " + short_time(domain.load_seconds()) + ", mesh " +
+                        short_time(*domain.mesh_seconds()));
+  table.add("written", command.out);
+  return table.text();
+}
+
+void run_tetrahedralize(const TetrahedralizeCommand& command) {
+  check_output_name(command.out, command.input, io::tet_extensions());
+  (void)filling(command.fill);
+  if (!is_vdb(command.input) && !(command.fill.volume.repair && !command.fill.given()))
+    require_tetgen("tetrahedralize");
+  ProgressLine progress(command.quiet);
+  const Domain domain = load_domain(command.input, "solid", command.fill, {}, progress);
+  if (!domain.mesh_seconds())
+    throw InputError(command.input + ": is a solid already; give a surface, .poly or .smesh");
+  const auto& solid = std::get<io::Tets>(domain.data());
+  progress.phase("writing " + command.out);
+  io::write_tets(command.out, solid);
+  progress.clear();
+  const SolidSurvey survey = survey_solid(solid);
+  if (command.json)
+    write_output(json_text(to_json(command, domain, survey)));
+  else if (!command.quiet)
+    write_output(to_text(command, domain, survey));
+  flush_output();
+}
+
+}  // namespace
+
+void add_tetrahedralize_command(CLI::App& tool, Action& action) {
+  auto command = std::make_shared<TetrahedralizeCommand>();
+  CLI::App& app = *tool.add_subcommand("tetrahedralize",
+                                       "Fills a closed surface with tetrahedra, by TetGen (AGPL)");
+  app.add_option(
+         "INPUT", command->input,
+         "a closed surface: .obj .off .ply .stl, or TetGen's .poly .smesh; a level set: .vdb")
+      ->type_name("FILE")
+      ->required();
+  app.add_option("--out,-o", command->out,
+                 "write the solid: .node .ele .mesh .msh .vtu .vtk by extension. The\n"
+                 "vertices of the surface come first, with their numbers")
+      ->required()
+      ->type_name("FILE");
+  app.add_flag("--json", command->json, "print the summary as one JSON object");
+  app.add_flag("--quiet,-q", command->quiet, "no summary or progress; errors stay");
+  add_fill_options(app, command->fill);
+  app.footer(
+      "Examples:\n"
+      "  plexway tetrahedralize organ.off --out organ.vtu\n"
+      "  plexway tetrahedralize organ.off --out organ.mesh --max-volume 1e-3 --quality 1.5\n"
+      "  plexway tetrahedralize shell.stl --out shell.ele --hole 0,0,0 --keep-surface --json\n"
+      "  plexway tetrahedralize broken.stl --repair --voxel 0.01 --out clean.vtu\n"
+      "  plexway tetrahedralize fluid.vdb --grid surface --out fluid.mesh\n"
+      "  plexway tetrahedralize part.poly --out part.msh");
+  app.callback([command, &action] { action = [command] { run_tetrahedralize(*command); }; });
+}
+
+}  // namespace plexway::cli

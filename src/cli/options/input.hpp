@@ -1,0 +1,31 @@
+#pragma once
+
+#include <string>
+
+#include <plexway/any/shape.hpp>
+
+#include "cli/options/cloud_options.hpp"
+#include "cli/options/fill_options.hpp"
+#include "cli/report/progress.hpp"
+
+namespace plexway::cli {
+
+/// What a user hands to the tool.
+using Domain = AnyShape;
+
+/// Reads INPUT as AnyShape::read does. Throws UsageError, too, for a kind that does not exist.
+Domain load_domain(const std::string& file, const std::string& as, const FillArguments& fill,
+                   const CloudPreparation& cloud, ProgressLine& progress);
+
+/// What INPUT may be, for the help of the commands.
+inline constexpr const char* input_help =
+    "a surface: .obj .off .ply .stl; a solid: .node .ele .mesh .msh .vtu .vtk,\n"
+    ".poly .smesh through TetGen, and a level set .vdb through OpenVDB; a wireframe: .edges, or "
+    ".obj with lines only;\n"
+    "a cloud of points: .xyz, .ply without faces, and .pcd through PCL";
+inline constexpr const char* as_help =
+    "what to take it as: surface, solid (fills a surface with tetrahedra),\n"
+    "wireframe (the edges alone) or cloud (the vertices of a surface alone);\n"
+    "default: what the extension says";
+
+}  // namespace plexway::cli

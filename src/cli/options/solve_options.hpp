@@ -1,0 +1,38 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include <plexway/any/field.hpp>
+#include <plexway/propagate/options.hpp>
+
+#include "cli/options/executor_argument.hpp"
+
+namespace CLI {
+class App;
+}
+
+namespace plexway::cli {
+
+/// The options that say how to solve, as typed.
+struct SolveOptions {
+  std::string visibility = "saddles";
+  std::string table;
+  std::string schedule = "dual_queue";
+  double step = PropagateOptions{}.step;
+  std::optional<double> radius;
+  std::optional<std::size_t> max_expansions;
+  std::string precision = "float";
+  bool schedule_given = false, step_given = false, precision_given = false;
+  ExecutorArgument executor;
+};
+
+/// Adds the options to a command; `bounded` adds those that end a propagation early.
+void add_solve_options(CLI::App& command, SolveOptions& options, bool bounded);
+
+/// Throw UsageError for a value that does not exist or is out of range; the first also as
+/// check_executor and read_probe_table.
+PropagateOptions propagate_options(const SolveOptions& options);
+Precision precision_of(const SolveOptions& options);
+
+}  // namespace plexway::cli

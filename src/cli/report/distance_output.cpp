@@ -1,0 +1,106 @@
+#include "cli/report/distance_output.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <filesystem>
+#include <system_error>
+#include <vector>
+
+#include <plexway/error.hpp>
+
+#include "cli/report/console.hpp"
+#include "io/extension.hpp"
+
+namespace plexway::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+template <class Number>
+void append(std::string& text, Number value) {
+  char digits[32];
+  const auto result = std::to_chars(digits, digits + sizeof digits, value);
+  text.append(digits, result.ptr);
+}
+
+// TetGen's files come in pairs: writing one writes the other, and reading a .poly may read both.
+std::vector<fs::path> files_of(const fs::path& name) {
+  std::vector<fs::path> files = {name};
+  const std::string own = name.extension().string();
+  const bool pair = own == ".node" || own == ".ele";
+  if (pair) files.push_back(fs::path(name).replace_extension(".ele"));
+  if (pair || own == ".poly" || own == ".smesh")
+    files.push_back(fs::path(name).replace_extension(".node"));
+  return files;
+}
+
+}  // namespace
+
+void check_output_place(const std::string& out, std::span<const std::string> inputs,
+                        const char* option) {
+  if (out.empty()) return;
+  std::error_code error;
+  for (const fs::path& written : files_of(out))
+    for (const std::string& input : inputs)
+      for (const fs::path& read : files_of(input))
+        if (fs::equivalent(written, read, error))
+          throw UsageError(std::string(option) + " " + out + ": would overwrite " + read.string() +
+                           ", which the input needs");
+  const fs::path folder =
+      fs::path(out).has_parent_path() ? fs::path(out).parent_path() : fs::path(".");
+  if (!fs::is_directory(folder, error))
+    throw Error("cannot write " + out + ": there is no folder " + folder.string());
+  if (fs::is_directory(out, error)) throw Error("cannot write " + out + ": it is a directory");
+}
+
+void check_output_name(const std::string& out, const std::string& input,
+                       std::span<const std::string_view> known, const char* option) {
+  if (out.empty()) return;
+  const fs::path file = out;
+  const std::string extension = io::lower_extension(file);
+  if (std::find(known.begin(), known.end(), extension) == known.end()) {
+    std::string names;
+    for (const std::string_view name : known) names.append(" ").append(name);
+    throw UsageError(std::string(option) + " " + out + ": unknown extension; those written are" +
+                     names);
+  }
+  check_output_place(out, {&input, 1}, option);
+}
+
+void check_outputs_differ(std::initializer_list<std::string> names) {
+  std::error_code error;
+  for (auto a = names.begin(); a != names.end(); ++a)
+    for (auto b = names.begin(); b != a; ++b)
+      if (!a->empty() && (fs::path(*a).lexically_normal() == fs::path(*b).lexically_normal() ||
+                          fs::equivalent(*a, *b, error)))
+        throw UsageError(*a + ": two results would go into this one file");
+}
+
+void write_distance_csv(std::span<const double> distance, std::span<const std::int32_t> label,
+                        std::span<const std::uint32_t> original) {
+  std::string text = "vertex,distance";
+  if (!label.empty()) text += ",label";
+  if (!original.empty()) text += ",original";
+  text += '\n';
+  for (std::size_t v = 0; v < distance.size(); ++v) {
+    append(text, v);
+    text += ',';
+    append(text, distance[v]);
+    if (!label.empty()) {
+      text += ',';
+      append(text, label[v]);
+    }
+    if (!original.empty()) {
+      text += ',';
+      append(text, original[v]);
+    }
+    text += '\n';
+    if (text.size() < (std::size_t{1} << 16)) continue;
+    write_output(text);
+    text.clear();
+  }
+  write_output(text);
+  flush_output();
+}
+
+}  // namespace plexway::cli
