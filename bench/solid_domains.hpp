@@ -3,10 +3,13 @@
 // Solids with obstacles, as fine as one likes, with exact answers. Needs TetGen.
 
 #include <string>
+#include <utility>
 #include <vector>
 
+#include <plexway/solve.hpp>
 #include <plexway/tetgen/tetrahedralize.hpp>
 
+#include "../data/convex_obstacles.hpp"
 #include "../data/obstacles.hpp"
 #include "harness.hpp"
 
@@ -71,6 +74,93 @@ inline SolidDomain cavity_domain(double tets) {
   domain.truth.distance =
       samples::around_ball(domain.positions, domain.positions[domain.truth.source], 0.5);
   return domain;
+}
+
+/// The cube from -1 to 1 around convex obstacles; no truth.
+inline SolidDomain obstacle_domain(const samples::Obstacles& obstacles, double tets) {
+  plexway::tetgen::PiecewiseLinearComplex boundary;
+  const auto add = [&](const samples::Polyhedron& block) {
+    const auto first = static_cast<Index>(boundary.positions.size());
+    boundary.positions.insert(boundary.positions.end(), block.points.begin(), block.points.end());
+    for (std::vector<Index> face : block.faces) {
+      for (Index& corner : face) corner += first;
+      boundary.facets.push_back({{std::move(face)}, {}});
+    }
+  };
+  add(samples::Polyhedron::block({1, 1, 1}, {0, 0, 0}));
+  for (const samples::Polyhedron& block : obstacles.blocks) {
+    add(block);
+    boundary.holes.push_back(block.middle);
+  }
+  auto solid = plexway::tetgen::tetrahedralize(boundary, about(tets, 8));
+  return {obstacles.name, std::move(solid.positions), std::move(solid.tets), {}};
+}
+
+/// Errors of distances from one source, relative, against ways around obstacles by brute force.
+struct ObstacleErrors {
+  std::size_t count = 0;
+  double sum = 0, worst = 0, in_sight = 0, below = 0;
+
+  [[nodiscard]] double mean() const { return sum / static_cast<double>(count); }
+};
+
+/// Of these executors' distances, which it takes by solve(mesh, source) as vectors, the errors of
+/// each. Sources: vertices far from the obstacles, a vertex just off an edge, and a point in a
+/// tetrahedron just off a face; `most` of them.
+template <class Real, class... Solve>
+std::array<ObstacleErrors, sizeof...(Solve)> obstacle_errors(const samples::Obstacles& obstacles,
+                                                             double tets, int parts,
+                                                             std::size_t most,
+                                                             const Solve&... solve) {
+  using namespace samples;
+  const SolidDomain domain = obstacle_domain(obstacles, tets);
+  const plexway::TetMesh<Real> mesh(domain.positions, domain.tets);
+  const Polyhedron& first = obstacles.blocks[0];
+  std::vector<std::pair<plexway::PointSource, Point>> sources;
+  const auto at_vertex = [&](const Point& p) {
+    const Index v = nearest_vertex(domain.positions, p);
+    sources.push_back({plexway::PointSource::at(v), domain.positions[v]});
+  };
+  const Point edge = first.points[0] + .3 * (first.points[1] - first.points[0]);
+  at_vertex(edge + .04 * unit(edge - first.middle));
+  {
+    const Point p = 1 / 3. * (first.points[0] + first.points[1] + first.points[2]) +
+                    .05 * first.planes[0].normal;
+    std::vector<Point> middles;
+    for (const auto& tet : domain.tets) {
+      Point middle{};
+      for (const Index v : tet) middle = middle + .25 * domain.positions[v];
+      middles.push_back(middle);
+    }
+    const Index tet = nearest_vertex(middles, p);
+    const std::array<double, 4> weight = {.2, .3, .15, .35};
+    Point at{};
+    for (std::size_t i = 0; i < 4; ++i) at = at + weight[i] * domain.positions[domain.tets[tet][i]];
+    sources.push_back({plexway::PointSource::in(tet, weight), at});
+  }
+  for (const Point& p : {Point{-.83, .11, .17}, {.61, -.72, .43}, {-.2, -.9, -.85}}) at_vertex(p);
+  if (sources.size() > most) sources.resize(most);
+
+  std::array<ObstacleErrors, sizeof...(Solve)> errors{};
+  WaysAround ways(obstacles.blocks, parts);
+  for (const auto& [source, at] : sources) {
+    ways.start(at);
+    const std::vector<std::vector<double>> fields = {solve(mesh, source)...};
+    for (std::size_t v = 0; v < domain.positions.size(); ++v) {
+      const double truth = ways.to(domain.positions[v]);
+      if (!(truth > 0)) continue;
+      for (std::size_t n = 0; n < fields.size(); ++n) {
+        const double error = fields[n][v] / truth - 1;
+        ObstacleErrors& e = errors[n];
+        ++e.count;
+        e.sum += std::abs(error);
+        e.worst = std::max(e.worst, std::abs(error));
+        e.below = std::min(e.below, error);
+        if (ways.sees(at, domain.positions[v])) e.in_sight = std::max(e.in_sight, std::abs(error));
+      }
+    }
+  }
+  return errors;
 }
 
 }  // namespace bench

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include <plexway/executors/window_solver.hpp>
+#include <plexway/solve.hpp>
 
 #include "compare.hpp"
 
@@ -21,25 +21,25 @@ template <class Real>
 class WindowPeer {
  public:
   WindowPeer(const bench::Surface& surface, Accuracy accuracy)
-      : mesh_(surface.positions, surface.faces), solver_(mesh_), accuracy_(accuracy) {}
+      : mesh_(surface.positions, surface.faces) {
+    options_.accuracy = accuracy;
+  }
 
   void solve(Index source) {
-    const PointSource at = PointSource::at(source);
-    solver_.solve({&at, 1}, accuracy_, {}, field_, &error_);
+    plexway::solve(Serial{}, mesh_, PointSource::at(source), options_, workspace_, field_);
   }
   [[nodiscard]] std::vector<double> distance() const {
     return {field_.distance.begin(), field_.distance.end()};
   }
-  [[nodiscard]] const std::vector<Real>& error() const { return error_; }
+  [[nodiscard]] const std::vector<Real>& error() const { return field_.error; }
   [[nodiscard]] const PropagateStatistics& statistics() const { return field_.statistics; }
-  [[nodiscard]] std::size_t bytes() const { return solver_.bytes(); }
+  [[nodiscard]] std::size_t bytes() const { return workspace_.bytes(); }
 
  private:
   TriangleMesh<Real> mesh_;
-  WindowSolver<Real> solver_;
-  Accuracy accuracy_;
+  PropagateOptions options_;
+  Workspace<Real> workspace_;
   DistanceField<Real> field_;
-  std::vector<Real> error_;
 };
 
 struct Judged {
@@ -117,7 +117,9 @@ void measure_surface(const std::filesystem::path& file, const Options& options,
       truths.push_back({source, exact.distance()});
     }
   }
-  bench::PlexwayPeer<float> fast(surface, {});
+  PropagateOptions one_label;
+  one_label.accuracy = Accuracy::fast();
+  bench::PlexwayPeer<float> fast(surface, one_label);
   const auto add = [&](const std::string& name, const nlohmann::ordered_json& measured) {
     nlohmann::ordered_json row = {
         {"mesh", surface.name}, {"vertices", surface.positions.size()}, {"accuracy", name}};

@@ -2,6 +2,34 @@
 # out just the ones asked for and name the one that is missing.
 include(CMakePackageConfigHelpers)
 
+# plexway_pkg_config(NAME depends packages): a file plexway-NAME.pc for who builds without CMake. What
+# a static library links is told with it.
+function(plexway_pkg_config name depends packages)
+  set(links "-lplexway_${name}")
+  foreach(pair Threads:-pthread OpenMP:-fopenmp pugixml:-lpugixml ZLIB:-lz PNG:-lpng)
+    string(REGEX MATCH "^(.*):(.*)$" matched "${pair}")
+    if(CMAKE_MATCH_1 IN_LIST packages)
+      string(APPEND links " ${CMAKE_MATCH_2}")
+    endif()
+  endforeach()
+  list(TRANSFORM depends PREPEND "plexway-")
+  list(JOIN depends ", " requires)
+  set(file "${PROJECT_BINARY_DIR}/pkgconfig/plexway-${name}.pc")
+  file(WRITE "${file}" "prefix=\${pcfiledir}/${up_to_prefix}
+libdir=\${prefix}/${CMAKE_INSTALL_LIBDIR}
+includedir=\${prefix}/${CMAKE_INSTALL_INCLUDEDIR}
+
+Name: plexway-${name}
+Description: ${PROJECT_DESCRIPTION}
+Version: ${PROJECT_VERSION}
+Requires: ${requires}
+Libs: -L\${libdir} ${links}
+Cflags: -I\${includedir}
+")
+  install(FILES "${file}" DESTINATION "${CMAKE_INSTALL_LIBDIR}/pkgconfig" COMPONENT dev)
+endfunction()
+file(RELATIVE_PATH up_to_prefix "/${CMAKE_INSTALL_LIBDIR}/pkgconfig" "/")
+
 set(package_dir "${CMAKE_INSTALL_LIBDIR}/cmake/plexway")
 get_property(components GLOBAL PROPERTY PLEXWAY_COMPONENTS)
 set(plexway_component_depends "")
@@ -13,24 +41,59 @@ foreach(component IN LISTS components)
   string(APPEND plexway_component_depends "set(plexway_${component}_depends ${depends})\n"
     "set(plexway_${component}_packages ${packages})\n")
   install(TARGETS plexway_${component} EXPORT plexway-${component}
-    LIBRARY DESTINATION "${CMAKE_INSTALL_LIBDIR}"
-    ARCHIVE DESTINATION "${CMAKE_INSTALL_LIBDIR}"
-    RUNTIME DESTINATION "${CMAKE_INSTALL_BINDIR}")
+    LIBRARY DESTINATION "${CMAKE_INSTALL_LIBDIR}" COMPONENT dev
+    ARCHIVE DESTINATION "${CMAKE_INSTALL_LIBDIR}" COMPONENT dev
+    RUNTIME DESTINATION "${CMAKE_INSTALL_BINDIR}" COMPONENT dev)
+  plexway_pkg_config(${component} "${depends}" "${packages}")
   install(EXPORT plexway-${component} NAMESPACE plexway::
-    FILE plexway-${component}.cmake DESTINATION "${package_dir}")
+    FILE plexway-${component}.cmake DESTINATION "${package_dir}" COMPONENT dev)
   foreach(dir IN LISTS header_dirs)
-    install(DIRECTORY "${dir}/plexway" DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}")
+    install(DIRECTORY "${dir}/plexway" DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}" COMPONENT dev)
   endforeach()
 endforeach()
 
+# What the tool is installed with is made of its own table of options.
 if(TARGET plexway_tool)
-  install(TARGETS plexway_tool RUNTIME DESTINATION "${CMAKE_INSTALL_BINDIR}")
+  install(TARGETS plexway_tool RUNTIME DESTINATION "${CMAKE_INSTALL_BINDIR}" COMPONENT tool)
+  set(pages "${PROJECT_BINARY_DIR}/pages")
+  set(made "")
+  foreach(page man:plexway.1 bash:plexway zsh:_plexway fish:plexway.fish)
+    string(REGEX MATCH "^(.*):(.*)$" matched "${page}")
+    set(kind "${CMAKE_MATCH_1}")
+    set(file "${pages}/${kind}/${CMAKE_MATCH_2}")
+    file(MAKE_DIRECTORY "${pages}/${kind}")
+    add_custom_command(OUTPUT "${file}" COMMAND plexway_tool --help-page ${kind} > "${file}"
+      DEPENDS plexway_tool COMMENT "Writing ${CMAKE_MATCH_2}" VERBATIM)
+    list(APPEND made "${file}")
+  endforeach()
+  add_custom_target(plexway_pages ALL DEPENDS ${made})
+  install(FILES "${pages}/man/plexway.1" DESTINATION "${CMAKE_INSTALL_MANDIR}/man1" COMPONENT tool)
+  install(FILES "${pages}/bash/plexway"
+    DESTINATION "${CMAKE_INSTALL_DATADIR}/bash-completion/completions" COMPONENT tool)
+  install(FILES "${pages}/zsh/_plexway"
+    DESTINATION "${CMAKE_INSTALL_DATADIR}/zsh/vendor-completions" COMPONENT tool)
+  install(FILES "${pages}/fish/plexway.fish"
+    DESTINATION "${CMAKE_INSTALL_DATADIR}/fish/vendor_completions.d" COMPONENT tool)
+  install(FILES "${PROJECT_SOURCE_DIR}/LICENSE" "${PROJECT_SOURCE_DIR}/README.md"
+      "${PROJECT_SOURCE_DIR}/CHANGELOG.md" "${PROJECT_SOURCE_DIR}/docs/CLI.md"
+      "${PROJECT_SOURCE_DIR}/docs/FORMATS.md"
+    DESTINATION "${CMAKE_INSTALL_DATADIR}/doc/plexway" COMPONENT tool)
 endif()
-foreach(module plexway_pcl_module plexway_openvdb_module)
-  if(TARGET ${module})
-    install(TARGETS ${module} LIBRARY DESTINATION "${CMAKE_INSTALL_LIBDIR}/plexway")
+foreach(part pcl openvdb tetgen)
+  if(TARGET plexway_${part}_module)
+    install(TARGETS plexway_${part}_module
+      LIBRARY DESTINATION "${CMAKE_INSTALL_LIBDIR}/plexway" COMPONENT ${part})
+  endif()
+  if(TARGET plexway_${part}_helper)
+    install(TARGETS plexway_${part}_helper
+      RUNTIME DESTINATION "${CMAKE_INSTALL_LIBDIR}/plexway" COMPONENT ${part})
   endif()
 endforeach()
+
+if(TARGET plexway_tetgen_helper)
+  install(FILES "${PROJECT_SOURCE_DIR}/cmake/tetgen-copyright.txt"
+    DESTINATION "${CMAKE_INSTALL_DATADIR}/doc/plexway-tetgen" RENAME copyright COMPONENT tetgen)
+endif()
 
 configure_package_config_file("${PROJECT_SOURCE_DIR}/cmake/plexwayConfig.cmake.in"
   "${PROJECT_BINARY_DIR}/plexwayConfig.cmake" INSTALL_DESTINATION "${package_dir}")
@@ -39,5 +102,7 @@ write_basic_package_version_file("${PROJECT_BINARY_DIR}/plexwayConfigVersion.cma
 install(FILES
   "${PROJECT_BINARY_DIR}/plexwayConfig.cmake"
   "${PROJECT_BINARY_DIR}/plexwayConfigVersion.cmake"
-  DESTINATION "${package_dir}")
-install(FILES "${PROJECT_SOURCE_DIR}/LICENSE" DESTINATION "${CMAKE_INSTALL_DOCDIR}")
+  DESTINATION "${package_dir}" COMPONENT dev)
+install(FILES "${PROJECT_SOURCE_DIR}/LICENSE"
+  DESTINATION "${CMAKE_INSTALL_DATADIR}/doc/libplexway-dev" COMPONENT dev)
+include(PlexwayPackage)

@@ -32,9 +32,41 @@ function(plexway_add_provider name)
   set(dir "${CMAKE_CURRENT_SOURCE_DIR}/${name}")
   file(GLOB sources CONFIGURE_DEPENDS "${dir}/src/*.cpp")
   plexway_add_component(${name} SOURCES ${sources} HEADERS_FROM "${dir}/include" DEPENDS core)
+  target_include_directories(plexway_${name} PRIVATE "${PROJECT_SOURCE_DIR}/src")
   target_include_directories(plexway_${name} SYSTEM PRIVATE ${arg_INCLUDES})
   target_link_libraries(plexway_${name} PRIVATE ${arg_LIBRARIES})
   message(STATUS "plexway: provider ${name}")
+endfunction()
+
+# plexway_add_helper(NAME [INCLUDES dir...] [LIBRARIES lib...])
+# A program plexway-NAME that the provider NAME runs as a child process, made of NAME/helper/; it lies
+# in a folder of its own, so that no one finds it on a PATH. See helper_process.hpp.
+function(plexway_add_helper name)
+  cmake_parse_arguments(arg "" "" "INCLUDES;LIBRARIES" ${ARGN})
+  if(NOT TARGET plexway_${name})
+    return()
+  endif()
+  set(target plexway_${name}_helper)
+  set(folder "${CMAKE_INSTALL_LIBDIR}/plexway")
+  file(GLOB sources CONFIGURE_DEPENDS "${CMAKE_CURRENT_SOURCE_DIR}/${name}/helper/*.cpp")
+  add_executable(${target} ${sources})
+  plexway_compile_options(${target})
+  set_target_properties(${target} PROPERTIES OUTPUT_NAME plexway-${name}
+    RUNTIME_OUTPUT_DIRECTORY "${PROJECT_BINARY_DIR}/${folder}")
+  target_include_directories(${target} PRIVATE
+    "${PROJECT_SOURCE_DIR}/include" "${PROJECT_BINARY_DIR}/include"
+    "${CMAKE_CURRENT_SOURCE_DIR}/${name}/include")
+  target_include_directories(${target} SYSTEM PRIVATE ${arg_INCLUDES})
+  target_link_libraries(${target} PRIVATE ${arg_LIBRARIES})
+  add_dependencies(plexway_${name} ${target})
+  target_link_libraries(plexway_${name} PRIVATE ${CMAKE_DL_LIBS})
+  if(PLEXWAY_INSTALL)
+    set(place "${CMAKE_INSTALL_FULL_LIBDIR}/plexway")
+  else()
+    set(place "${PROJECT_BINARY_DIR}/${folder}")
+  endif()
+  target_compile_definitions(plexway_${name} PRIVATE
+    PLEXWAY_HELPER_SUBFOLDER="${folder}" PLEXWAY_HELPER_FOLDER="${place}")
 endfunction()
 
 # An option for a provider that does not exist must not pass unnoticed.

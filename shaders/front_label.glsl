@@ -5,10 +5,10 @@ struct Label { uint source; };
 uint rank_of(Label label) { return label.source; }
 uint mix_of(Label label) { return 0u; }
 #elif defined(PLEXWAY_SOLIDS)
-struct Label { uvec4 a, b, c, d; };  // solid.glsl
-uint rank_of(Label label) { return label.b.w << 3 | label.b.x; }
+struct Label { uvec4 a, b; };  // solid.glsl
+uint rank_of(Label label) { return label.b.w << 3 | (label.b.x & 3u); }
 uint mix_of(Label label) {
-  uvec4 m = label.a * 0x9E3779B1u + label.b * 0x85EBCA77u + label.c + label.d * 0xC2B2AE3Du;
+  uvec4 m = label.a * 0x9E3779B1u + label.b * 0x85EBCA77u;
   return (m.x ^ m.y * 3u ^ m.z * 5u ^ m.w * 7u) >> 24;
 }
 #else

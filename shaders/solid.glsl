@@ -1,7 +1,7 @@
 // A solid on the device, and what the texts of its step are about: TetRecord<float> and
 // ReflexEdge<float> (complex/tet_record.hpp), SolidLabel (propagate/solid_label.hpp).
 //
-// A shader that includes this has declared `labels` before, four uvec4 a cell, see `unpack`.
+// A shader that includes this has declared `labels` before, two uvec4 a cell, see `unpack`.
 
 #define Real float
 #define Index uint
@@ -59,7 +59,8 @@ uniform uint tet_count;  // also the number of the sentinel: "no tetrahedron"
 uniform uint reflex_count;
 
 const uint REFLEX_SIZE = 21u;
-const int label_limits = 6;
+const int label_bends = 2;
+const uint unfolded_door = 0x80000000u;
 
 struct ReflexEdge {
   vec3 solid, direction, end[2];
@@ -70,23 +71,23 @@ struct ReflexEdge {
 struct SolidLabel {
   vec3 source;
   float sigma, centre;
-  uint ring, limit[label_limits], path;
+  uint bend[label_bends], door;
 };
 
 uint cell_base = 0u;  // number of tetrahedron 0 of this field
 
-/// A label at rest is a: S, sigma; b: the face it came in by, ring, the path's name or 0 for no label,
-/// the source's number; c and d: limits.
-SolidLabel unpack(uvec4 a, uvec4 b, uvec4 c, uvec4 d) {
+const uint UNFOLDED = 4u, KNOWN = 8u;
+
+/// A label at rest is a: S, sigma; b: the face it came in by, with the two flags and the edge that
+/// S was turned about, its bends, the source's number.
+SolidLabel unpack(uvec4 a, uvec4 b) {
   SolidLabel label;
   label.source = uintBitsToFloat(a.xyz);
   label.sigma = uintBitsToFloat(a.w);
   label.centre = 0.0;
-  label.ring = b.y;
-  for (int k = 0; k < 4; ++k) label.limit[k] = c[k];
-  label.limit[4] = d.x;
-  label.limit[5] = d.y;
-  label.path = b.z;
+  label.bend[0] = b.y;
+  label.bend[1] = b.z;
+  label.door = (b.x & UNFOLDED) != 0u ? unfolded_door + (b.x >> 4) : none;
   return label;
 }
 
@@ -106,15 +107,6 @@ ReflexEdge reflex_edge(uint edge) {
   return e;
 }
 
-uint bent_path(uint path, uint edge) { return path * 0x9E3779B1u + (edge + 1u); }
-uint path_before(uint path, uint edge) { return (path - (edge + 1u)) * 0x0E8B2F51u; }
-uint name_of(vec3 at, float sigma) {
-  vec4 all = vec4(at, sigma);
-  uint name = 0u;
-  for (int i = 0; i < 4; ++i) name = bent_path(name, uint(int(floor(all[i] * 4096.0 + 0.5))));
-  return name == 0u ? 1u : name;
-}
-
 // For each face, by twos of bits: its corners, anticlockwise as seen from outside.
 const uint FACE_CORNERS[4] = uint[4](0x39u, 0x2cu, 0x34u, 0x18u);
 
@@ -124,27 +116,33 @@ vec3 corner_of(uint t, uint i) { return point(tets[t].corner[i]); }
 vec3 face_corner(uint t, uint face, uint k) {
   return corner_of(t, FACE_CORNERS[face] >> (2u * k) & 3u);
 }
+uint vertex_of(uint t, uint i) { return tets[t].corner[i]; }
+uint face_corner_number(uint face, uint k) { return FACE_CORNERS[face] >> (2u * k) & 3u; }
+float component(vec3 p, uint i) { return p[i]; }
 uint neighbour(uint t, uint i) { return tets[t].across[i] >> 2; }
+uint face_beyond(uint t, uint i) { return tets[t].across[i] & 3u; }
 uint no_tet() { return tet_count; }
 uint first_reflex(uint t) { return tets[t].reflex; }
 uint reflex_entry(uint e) { return reflex_words[reflex_count * REFLEX_SIZE + e]; }
 uint entry_edge(uint entry) { return entry >> 4; }
 bool entry_is_last(uint entry) { return (entry & 1u) != 0u; }
 bool any_reflex() { return reflex_count != 0u; }
-uint own_rings() { return reflex_count; }
-bool reached(uint t) { return labels[4u * (cell_base + t) + 1u].z != 0u; }
+uint own_edges() { return reflex_count; }
+bool reached(uint t) { return (labels[2u * (cell_base + t) + 1u].x & KNOWN) != 0u; }
 SolidLabel label_of(uint t) {
-  uint at = 4u * (cell_base + t);
-  return unpack(labels[at], labels[at + 1u], labels[at + 2u], labels[at + 3u]);
+  uint at = 2u * (cell_base + t);
+  return unpack(labels[at], labels[at + 1u]);
 }
-bool same_limits(SolidLabel a, SolidLabel b) {
-  for (int k = 0; k < label_limits; ++k)
-    if (a.limit[k] != b.limit[k]) return false;
-  return true;
+bool same_way(SolidLabel a, SolidLabel b) {
+  return a.source == b.source && a.sigma == b.sigma && a.bend[0] == b.bend[0] &&
+         a.bend[1] == b.bend[1];
 }
+/// Labels from outside are of mixed domains.
+bool comes_in(SolidLabel label, uint t) { return false; }
 
 //@include plexway/propagate/solid_sight.inl
 //@include plexway/propagate/solid_paths.inl
+//@include plexway/propagate/solid_walk.inl
 //@include plexway/propagate/solid_step.inl
 
 /// Longest way from the centre to a corner.

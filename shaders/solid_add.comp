@@ -7,7 +7,7 @@
 //@include front.glsl
 
 layout(std430, binding = 4) writeonly buffer WaitingLabels { uvec4 waiting_labels[]; };
-struct Offer { uvec4 entry, a, b, c, d; };  // cell and bits of the distance; the label
+struct Offer { uvec4 entry, a, b; };  // cell and bits of the distance; the label
 layout(std430, binding = 5) readonly buffer Offers { Offer offers[]; };
 
 uniform uint count;
@@ -19,9 +19,7 @@ void main() {
   if (i < count && slot < capacity) {
     uint to = far_queue * capacity + slot;
     waiting[to] = Entry(offers[i].entry.x, offers[i].entry.y, round_number);
-    waiting_labels[4u * to] = offers[i].a;
-    waiting_labels[4u * to + 1u] = offers[i].b;
-    waiting_labels[4u * to + 2u] = offers[i].c;
-    waiting_labels[4u * to + 3u] = offers[i].d;
+    waiting_labels[2u * to] = offers[i].a;
+    waiting_labels[2u * to + 1u] = offers[i].b;
   }
 }

@@ -1,6 +1,6 @@
 #version 430
-// A vertex takes the least distance that its tetrahedra offer, and their source; of those that came
-// the same way one is asked. One invocation a vertex of a field.
+// A vertex takes the least distance that its tetrahedra offer, and their source. One invocation
+// a vertex of a field.
 
 #ifndef PLEXWAY_GROUP
 #define PLEXWAY_GROUP 64
@@ -12,6 +12,8 @@ layout(std430, binding = 1) buffer VertexSource { uint vertex_source[]; };
 layout(std430, binding = 2) readonly buffer Labels { uvec4 labels[]; };
 // Where the corners of each vertex begin, then corners: 4 t + i.
 layout(std430, binding = 3) readonly buffer Corners { uint corners[]; };
+
+layout(std430, binding = 4) readonly buffer Cells { uvec4 cells[]; };  // as front.glsl's
 
 //@include solid.glsl
 
@@ -25,20 +27,21 @@ void main() {
   uint v = at % vertex_count;
   cell_base = at / vertex_count * tet_count;
   float least = uintBitsToFloat(vertex_best[at]);
-  uint path = 0u, source = none;
+  uint source = none;
+  bool any = false;
   uint end = corners[v + 1u];
   for (uint n = corners[v]; n < end; ++n) {
     uint corner = corners[vertex_count + 1u + n], t = corner >> 2;
     if (!reached(t)) continue;
     SolidLabel label = label_of(t);
-    if (label.path == path) continue;
+    label.centre = uintBitsToFloat(cells[cell_base + t].w);
     float d = corner_reach(label, t, corner & 3u, least);
     if (!(d < least)) continue;
     least = d;
-    path = label.path;
-    source = labels[4u * (cell_base + t) + 1u].w;
+    any = true;
+    source = labels[2u * (cell_base + t) + 1u].w;
   }
-  if (path == 0u) return;
+  if (!any) return;
   vertex_best[at] = floatBitsToUint(least);
   if (sources_wanted != 0u) vertex_source[at] = source;
 }

@@ -24,7 +24,7 @@ uniform uint repair;  // 0, or fields times tetrahedra
 void main() {
   start_group();
   uint face = invocation() & 3u, number = invocation() >> 2;
-  uvec4 a, b, c, d;
+  uvec4 a, b;
   uint cell = 0u, bits = UNREACHED, made = 0u;
   bool alive = false, waits_on = false;
   if (repair > 0u) {
@@ -32,10 +32,8 @@ void main() {
     bits = cells[cell].known;
     alive = number < repair && bits != UNREACHED && uintBitsToFloat(bits) <= radius;
     if (alive) {
-      a = labels[4u * cell];
-      b = labels[4u * cell + 1u];
-      c = labels[4u * cell + 2u];
-      d = labels[4u * cell + 3u];
+      a = labels[2u * cell];
+      b = labels[2u * cell + 1u];
     }
   } else if (number < round_count) {
     uint place = place_of(number);
@@ -44,13 +42,11 @@ void main() {
     made = waiting[place].round;
     alive = cell != NO_CELL;
     if (alive) {
-      a = waiting_labels[4u * place];
-      b = waiting_labels[4u * place + 1u];
-      c = waiting_labels[4u * place + 2u];
-      d = waiting_labels[4u * place + 3u];
+      a = waiting_labels[2u * place];
+      b = waiting_labels[2u * place + 1u];
       bool later = uintBitsToFloat(bits) >= limit;
       waits_on = later && face == 0u;
-      alive = !later && b.x != face;
+      alive = !later && (b.x & 3u) != face;
     }
   }
 
@@ -80,7 +76,8 @@ void main() {
     // Around a bend all paths are equally long from both sides: a gain must be more than rounding.
     const float gain = 1.0 - 16.0 * HINGE_EPSILON;
     float known = known_bits == UNREACHED ? HINGE_INFINITY : uintBitsToFloat(known_bits) * gain;
-    SolidLabel from = unpack(a, b, c, d);
+    SolidLabel from = unpack(a, b);
+    from.centre = uintBitsToFloat(bits);
     vec3 q = centre_of(u);
     if (may_beat(from, straight_squared(from, q), known)) {
       if (any_reflex() || last_resort != 0u)
@@ -96,9 +93,9 @@ void main() {
     near = distance < limit && repair == 0u;
     wanted = repair > 0u || floatBitsToUint(distance) <= cells[target].least;
     a = floatBitsToUint(vec4(label.source, label.sigma));
-    b = uvec4(across & 3u, label.ring, label.path, b.w);
-    c = uvec4(label.limit[0], label.limit[1], label.limit[2], label.limit[3]);
-    d = uvec4(label.limit[4], label.limit[5], 0u, 0u);
+    uint state = (across & 3u) | KNOWN;
+    if (is_unfolded(label)) state |= UNFOLDED | (label.door - unfolded_door) << 4;
+    b = uvec4(state, label.bend[0], label.bend[1], b.w);
   }
   if (waits_on) {  // goes on as it is
     wanted = true;
@@ -112,9 +109,7 @@ void main() {
     // Repairs are accepted by a pass of its own: no label that this one reads may be new.
     bool waits = waits_on || repair > 0u || lower(target, offered);
     waiting[to] = Entry(waits ? target : NO_CELL, offered, waits_on ? made : round_number);
-    waiting_labels[4u * to] = a;
-    waiting_labels[4u * to + 1u] = b;
-    waiting_labels[4u * to + 2u] = c;
-    waiting_labels[4u * to + 3u] = d;
+    waiting_labels[2u * to] = a;
+    waiting_labels[2u * to + 1u] = b;
   }
 }

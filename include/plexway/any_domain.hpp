@@ -23,6 +23,7 @@
 #include <plexway/source/source_list.hpp>
 #include <plexway/support.hpp>
 
+/// @file
 /// The component `any`: link plexway::any. A domain of any kind, its kind and its precision hidden:
 /// what programs use that take what users give them.
 ///
@@ -38,7 +39,9 @@ using AnyExecutor = std::variant<Serial, OpenMP, GL>;
 
 /// How a shape becomes a domain.
 struct BuildOptions {
+  /// What fields are solved in.
   Precision precision = Precision::single;
+  /// Of surfaces.
   Triangulation triangulation = Triangulation::automatic;
   /// What its edges cost, by AnyShape::measure; null: their lengths in space, or those given.
   std::shared_ptr<const MeasuredLengths> lengths = nullptr;
@@ -59,13 +62,16 @@ class AnyPathField {
   /// The distance of any point, and of many; throws and costs as PathField::at. UsageError for
   /// clouds.
   [[nodiscard]] double at(const PointSource& point, ReadOut level = ReadOut::neighbours) const;
+  /// Of many points.
   [[nodiscard]] std::vector<double> at(std::span<const PointSource> points,
                                        ReadOut level = ReadOut::neighbours) const;
   /// The direction away from the source at the centre of each triangle or tetrahedron; throws as
   /// PathField::gradient. UsageError for clouds.
   [[nodiscard]] std::vector<std::array<double, 3>> gradient() const;
+  /// Bytes held.
   [[nodiscard]] std::size_t bytes() const;
 
+  /// For the library's own use.
   struct State;
 
  private:
@@ -89,9 +95,13 @@ class AnyDomain {
                                       const ReadOptions& reading = {},
                                       const BuildOptions& building = {});
 
+  /// What it was made from.
   [[nodiscard]] const AnyShape& shape() const;
+  /// The kind of the shape.
   [[nodiscard]] DomainKind kind() const { return shape().kind(); }
+  /// What fields are solved in.
   [[nodiscard]] Precision precision() const;
+  /// Of the shape: fields have one distance each.
   [[nodiscard]] std::size_t vertices() const { return shape().vertices(); }
   /// Of the domain: a cloud has triangles only here. Without those of a refinement.
   [[nodiscard]] std::size_t simplices() const;
@@ -137,6 +147,7 @@ class AnyDomain {
   /// max_expansions ended one early. Throws UsageError for another count.
   bool solve_each(const AnyExecutor& executor, const SourceList& sources,
                   const PropagateOptions& options, std::span<double> rows) const;
+  /// Likewise; rounded where the domain is of double.
   bool solve_each(const AnyExecutor& executor, const SourceList& sources,
                   const PropagateOptions& options, std::span<float> rows) const;
 
@@ -147,6 +158,7 @@ class AnyDomain {
                                         std::span<const PointSource> sources,
                                         const PropagateOptions& options = {}) const;
 
+  /// For the library's own use.
   struct State;
   /// For <plexway/any/complex.hpp>.
   [[nodiscard]] const State& state() const { return *state_; }

@@ -21,10 +21,11 @@ concept ExecutorType = requires {
 /// One thread.
 ///
 /// Solving again with the same workspace gives bit-identical results and, once field and workspace
-/// have their size, allocates nothing. Cost: surfaces 50 to 80 ns a face; solids 160 to 400 ns a
-/// tetrahedron; wireframes 25 to 60 ns a vertex on lattices of a million, never more than
+/// have their size, allocates nothing. Cost: surfaces 50 to 80 ns a face; solids 160 ns (convex)
+/// to 4 us a tetrahedron; wireframes 25 to 60 ns a vertex on lattices of a million, never more than
 /// O((n + m) log n) but for Schedule::fifo; clouds 100 to 160 ns a point.
 struct Serial {
+  /// Its rows in the table of support.hpp.
   static constexpr ExecutorKind kind = ExecutorKind::serial;
 };
 
@@ -47,6 +48,7 @@ struct Serial {
 /// Solving throws UsageError for less than one thread or an empty chunk, and NotBuiltError in a
 /// build without OpenMP. The progress callback is called by the calling thread.
 struct OpenMP {
+  /// Its rows in the table of support.hpp.
   static constexpr ExecutorKind kind = ExecutorKind::openmp;
 
   int threads = 0;  ///< 0: as many as OpenMP would take (OMP_NUM_THREADS, or one a core)

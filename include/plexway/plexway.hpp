@@ -1,7 +1,11 @@
 #pragma once
 
+/// @file
 /// All of the library, but for what the optional providers under complexes/ bring: solve on any
 /// domain, what to do with distances, files and pictures. Link the components that you use.
+#include <plexway/any/complex.hpp>
+#include <plexway/any_domain.hpp>
+#include <plexway/apps/all_pairs.hpp>
 #include <plexway/apps/bounded_search.hpp>
 #include <plexway/apps/centroidal_voronoi.hpp>
 #include <plexway/apps/cloud_path_field.hpp>
@@ -15,22 +19,31 @@
 #include <plexway/apps/path_search.hpp>
 #include <plexway/apps/poisson_disk.hpp>
 #include <plexway/apps/read_out.hpp>
+#include <plexway/apps/row_reductions.hpp>
 #include <plexway/apps/tuning.hpp>
 #include <plexway/complex/blocks.hpp>
 #include <plexway/complex/distinct_points.hpp>
 #include <plexway/complex/intrinsic_delaunay.hpp>
 #include <plexway/complex/kuhn_grid.hpp>
+#include <plexway/complex/mask.hpp>
 #include <plexway/complex/neighbours.hpp>
 #include <plexway/complex/normals.hpp>
 #include <plexway/complex/smoothing.hpp>
 #include <plexway/error.hpp>
 #include <plexway/executors/gl.hpp>
+#include <plexway/io/block_journal.hpp>
 #include <plexway/io/edges.hpp>
 #include <plexway/io/field.hpp>
+#include <plexway/io/matrix_file.hpp>
+#include <plexway/io/mixed.hpp>
+#include <plexway/io/part_file.hpp>
 #include <plexway/io/paths.hpp>
 #include <plexway/io/points.hpp>
+#include <plexway/io/simplices.hpp>
+#include <plexway/io/sparse_file.hpp>
 #include <plexway/io/tets.hpp>
 #include <plexway/io/triangles.hpp>
+#include <plexway/io/write_pairs.hpp>
 #include <plexway/metric/edge_lengths.hpp>
 #include <plexway/metric/tensor.hpp>
 #include <plexway/render/image.hpp>

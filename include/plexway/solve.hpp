@@ -18,6 +18,8 @@
 //
 //   solve(executor, domain, sources)       ONE distance a vertex: to the *nearest* of the sources
 //   solve_each(executor, domain, sources)  K distances a vertex: one *to each* of the K sources
+
+/// The library: domains, sources, executors, fields, and what to do with them.
 namespace plexway {
 
 namespace detail {

@@ -6,6 +6,8 @@
 #include <plexway/executors.hpp>
 #include <plexway/propagate/options.hpp>
 
+/// @file
+/// The table of what goes together, and the sentence that says why something does not.
 // What goes with what. Everything that can be solved, and everything that is refused and why, is
 // decided here and nowhere else.
 namespace plexway {
@@ -53,21 +55,38 @@ enum class SourceKind {
     "curves and triangles as sources need double precision: their virtual sources are far away")   \
   X(shapes_threads, "curves and triangles as sources are for the executor Serial")                 \
   X(shapes_visibility,                                                                             \
-    "curves and triangles as sources need labels with limits: use the policy saddles")
+    "curves and triangles as sources need labels with limits: use the policy saddles")             \
+  X(windows_domain,                                                                                \
+    "accuracies other than fast are for surfaces and clouds: other domains have one, ask for "     \
+    "fast")                                                                                        \
+  X(windows_gl,                                                                                    \
+    "the executor GL keeps one label a triangle: use the executor Serial, or the accuracy fast")   \
+  X(windows_threads,                                                                               \
+    "windows are for one thread a field: use the executor Serial, solve_each, or the accuracy "    \
+    "fast")                                                                                        \
+  X(windows_refraction, "windows are not refracted: use the accuracy fast")                        \
+  X(windows_visibility,                                                                            \
+    "windows know what they see: use the policy saddles, or the accuracy fast")                    \
+  X(windows_shapes,                                                                                \
+    "windows start from points and sets of vertices: use the accuracy fast for curves and "        \
+    "triangles")                                                                                   \
+  X(windows_float,                                                                                 \
+    "exact distances need double precision: make the domain of double, or ask for accurate")
 
-enum class Refusal {
-  nothing,
 #define PLEXWAY_NAME(name, sentence) name,
-  PLEXWAY_REFUSALS(PLEXWAY_NAME)
+/// The reasons of PLEXWAY_REFUSALS by name; `nothing` is none.
+enum class Refusal { nothing, PLEXWAY_REFUSALS(PLEXWAY_NAME) };
 #undef PLEXWAY_NAME
-};
 
 /// Yes, or the reason why not.
 class Support {
  public:
+  /// Yes, unless there is a reason.
   constexpr Support(Refusal refusal = Refusal::nothing) : refusal_(refusal) {}
 
+  /// Does it go together?
   [[nodiscard]] constexpr explicit operator bool() const { return refusal_ == Refusal::nothing; }
+  /// The reason by name.
   [[nodiscard]] constexpr Refusal refusal() const { return refusal_; }
   /// One sentence; empty for yes.
   [[nodiscard]] constexpr const char* sentence() const {
@@ -91,15 +110,41 @@ class Support {
 
 /// A cell of the table: what a field is to be solved on, by what, from what and how.
 struct Combination {
+  /// What runs the solve.
   ExecutorKind executor;
+  /// What it runs on.
   DomainKind domain;
   int dimension;  ///< of its simplices
+  /// Is the domain one of float?
   bool single_precision;
+  /// Where the domain's lengths come from.
   MetricKind metric = MetricKind::intrinsic;
+  /// What the field starts from.
   SourceKind source = SourceKind::vertex;
+  /// As in PropagateOptions.
   Visibility visibility = Visibility::saddles;
+  /// As in PropagateOptions.
   Schedule schedule = Schedule::dual_queue;
+  /// By which rule.
+  Accuracy::Kind accuracy = Accuracy::Kind::usual;
 };
+
+/// Could windows solve it (Accuracy)? Else why not.
+constexpr Support support_of_windows(const Combination& c) {
+  if (c.domain != DomainKind::surface && c.domain != DomainKind::cloud)
+    return Refusal::windows_domain;
+  if (c.executor == ExecutorKind::gl) return Refusal::windows_gl;
+  if (c.executor != ExecutorKind::serial) return Refusal::windows_threads;
+  if (c.metric == MetricKind::refracting) return Refusal::windows_refraction;
+  if (c.visibility != Visibility::saddles) return Refusal::windows_visibility;
+  if (c.source == SourceKind::curve || c.source == SourceKind::simplex)
+    return Refusal::windows_shapes;
+  if (c.accuracy == Accuracy::Kind::exact && c.single_precision) return Refusal::windows_float;
+  return Refusal::nothing;
+}
+
+/// What `usual` comes to in this cell; whatever else is asked for as it is.
+[[nodiscard]] Accuracy resolved(Accuracy accuracy, const Combination& c);
 
 /// Does it go together?
 ///
@@ -114,6 +159,8 @@ constexpr Support support(const Combination& c) {
   const bool tuned = c.visibility == Visibility::tuned;
   const bool saddles = c.visibility == Visibility::saddles;
   const bool priority = c.schedule == Schedule::priority;
+  const bool by_windows =
+      c.accuracy == Accuracy::Kind::merged || c.accuracy == Accuracy::Kind::exact;
   const bool shape = c.source == SourceKind::curve || c.source == SourceKind::simplex;
 
   // What the types of executor and domain say.
@@ -130,15 +177,22 @@ constexpr Support support(const Combination& c) {
   // Order.
   if (priority && !serial) return Refusal::order;
   if (priority && c.domain == mixed) return Refusal::mixed_order;
+  // Accuracy, whatever the source.
+  if (by_windows) {
+    Combination points = c;
+    points.source = SourceKind::vertex;
+    if (const Support windows = support_of_windows(points); !windows) return windows;
+  }
   // Sources.
   if (c.domain == cloud && c.source == SourceKind::point) return Refusal::cloud_point;
   if (c.dimension > 3 && c.source == SourceKind::point) return Refusal::point_of_five;
-  if (!shape || c.domain == wireframe) return Refusal::nothing;
-  if (c.domain != surface) return Refusal::shapes;
-  if (c.single_precision) return Refusal::shapes_float;
-  if (!serial) return Refusal::shapes_threads;
-  if (!saddles) return Refusal::shapes_visibility;
-  return Refusal::nothing;
+  if (shape && c.domain != wireframe) {
+    if (c.domain != surface) return Refusal::shapes;
+    if (c.single_precision) return Refusal::shapes_float;
+    if (!serial) return Refusal::shapes_threads;
+    if (!saddles) return Refusal::shapes_visibility;
+  }
+  return by_windows ? support_of_windows(c) : Support();
 }
 
 /// The cell of an executor and a domain as types, for the kinds of sources and options that may be
@@ -149,9 +203,11 @@ template <ExecutorType E, DomainType D>
                                                 Schedule schedule = Schedule::dual_queue,
                                                 MetricKind metric = D::kind == DomainKind::solid
                                                                         ? MetricKind::embedded
-                                                                        : MetricKind::intrinsic) {
+                                                                        : MetricKind::intrinsic,
+                                                Accuracy::Kind accuracy = Accuracy::Kind::usual) {
   return {E::kind, D::kind, D::dimension, std::is_same_v<typename D::Number, float>,
-          metric,  source,  visibility,   schedule};
+          metric,  source,  visibility,   schedule,
+          accuracy};
 }
 
 /// Is there anything that an executor solves on a domain?

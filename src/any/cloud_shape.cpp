@@ -9,6 +9,7 @@
 
 #include "any/pcl_functions.hpp"
 #include "io/extension.hpp"
+#include "io/input_name.hpp"
 
 #ifdef PLEXWAY_HAS_FLANN
 #include <plexway/flann/neighbours.hpp>
@@ -103,8 +104,7 @@ bool all_point_to_one_side(const CloudShape& cloud) {
 }  // namespace
 
 bool is_cloud_file(const std::string& file) {
-  const std::string extension = io::lower_extension(file);
-  return extension == ".xyz" || extension == ".pcd";
+  return io::InputName(file).extension == ".xyz" || io::lower_extension(file) == ".pcd";
 }
 
 CloudFile read_cloud(const std::string& file) {

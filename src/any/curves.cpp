@@ -82,7 +82,7 @@ CurveSource AnyShape::joined(std::span<const PointSource> points) const {
   const auto* wires = std::get_if<io::Edges>(&data());
   if (!shown || (surface == nullptr && wires == nullptr))
     throw UsageError("lines go along surfaces and wireframes with positions, not a " +
-                     std::string(kind_name()));
+                     std::string(kind_noun(kind())));
   return with_file_name(*this, [&]() -> CurveSource {
     if (surface != nullptr) {
       const TriangleMesh<double> mesh(surface->positions, surface->triangles);
@@ -95,7 +95,7 @@ CurveSource AnyShape::joined(std::span<const PointSource> points) const {
 
 Source AnyShape::boundary(double offset) const {
   const auto nothing = [&]() -> InputError {
-    return InputError("source boundary: the " + std::string(kind_name()) + " has none");
+    return InputError("source boundary: the " + std::string(kind_noun(kind())) + " has none");
   };
   if (const auto* surface = std::get_if<io::Triangles>(&data())) {
     CurveSource curve{.points = rim_lines(*surface), .offset = offset};

@@ -62,6 +62,8 @@ io::Tets filled(const std::string& file, Fill fill) {
     throw InputError(file + ": cannot be filled: " + error.what());
   } catch (const UsageError&) {
     throw;
+  } catch (const NotBuiltError&) {
+    throw;
   } catch (const Cancelled&) {
     throw;
   } catch (const Error& error) {

@@ -1,3 +1,5 @@
+#include <cmath>
+#include <set>
 #include <utility>
 #include <variant>
 
@@ -36,6 +38,26 @@ std::vector<double> measure_lengths(const io::Edges& wireframe, const metric::Me
   return lengths;
 }
 
+// Each speed makes pieces of its own.
+std::vector<double> speeds_of(const AnyShape& shape, const metric::Metric& metric) {
+  constexpr std::size_t most = 64;
+  const auto* speeds = std::get_if<metric::SimplexSpeeds>(&metric);
+  if (speeds == nullptr) throw UsageError("a mixed domain is measured by speeds only");
+  if (speeds->speed.size() != shape.simplices())
+    throw InputError(std::to_string(speeds->speed.size()) + " speeds for " +
+                     std::to_string(shape.simplices()) + " simplices");
+  std::set<double> different;
+  for (std::size_t s = 0; s < speeds->speed.size(); ++s) {
+    if (!(speeds->speed[s] > 0) || std::isinf(speeds->speed[s]))
+      throw InputError("simplex " + std::to_string(s) + ": a speed must be above 0");
+    different.insert(speeds->speed[s]);
+    if (different.size() > most)
+      throw UsageError("a mixed domain takes at most " + std::to_string(most) +
+                       " different speeds, a region each");
+  }
+  return speeds->speed;
+}
+
 }  // namespace
 
 MeasuredLengths AnyShape::measure(const metric::Metric& metric) const {
@@ -53,9 +75,11 @@ MeasuredLengths AnyShape::measure(const metric::Metric& metric) const {
     lengths.edges = wireframe->lengths.empty()
                         ? metric::edge_lengths(wireframe->positions, wireframe->edges, metric)
                         : measure_lengths(*wireframe, metric);
+  } else if (kind() == DomainKind::mixed) {
+    lengths.speeds = speeds_of(*this, metric);
   } else {
-    throw UsageError("surfaces, solids and wireframes are measured, not a " +
-                     std::string(kind_name()));
+    throw UsageError("surfaces, solids, wireframes and mixed domains are measured, not a " +
+                     std::string(kind_noun(kind())));
   }
   return lengths;
 }

@@ -1,8 +1,15 @@
 #include "any/mixed_domain.hpp"
 
 #include <array>
+#include <map>
 #include <span>
+#include <string>
 #include <utility>
+
+#include <plexway/error.hpp>
+
+#include "any/words.hpp"
+#include "complex/nearby.hpp"
 
 namespace plexway {
 namespace {
@@ -31,41 +38,59 @@ struct ComplexOf<Real, 4> {
 template <class Real>
 class Adding {
  public:
-  Adding(const MixedShape& shape, MixedPieces<Real>& made) : shape_(shape), made_(made) {}
+  Adding(const MixedShape& shape, std::span<const double> speeds, MixedPieces<Real>& made)
+      : shape_(shape), speeds_(speeds), made_(made) {}
 
+  /// The next simplices of the shape: a piece for each speed.
   template <std::size_t N>
   void add(std::size_t part, const std::vector<std::array<Index, N>>& simplices) {
-    if (simplices.empty()) return;
+    std::map<double, std::vector<Index>> of_speed;
+    for (Index s = 0; s < simplices.size(); ++s)
+      of_speed[speeds_.empty() ? 1 : speeds_[made_.simplex.size() + s]].push_back(s);
+    const std::size_t first = made_.simplex.size();
+    made_.simplex.resize(first + simplices.size());
+    for (const auto& [speed, numbers] : of_speed)
+      add_piece<N>(part, first, simplices, numbers, speed);
+  }
+
+ private:
+  template <std::size_t N>
+  void add_piece(std::size_t part, std::size_t first,
+                 const std::vector<std::array<Index, N>>& simplices,
+                 const std::vector<Index>& numbers, double speed) {
     std::vector<Index> inner(shape_.positions.size(), none);
-    for (const auto& row : simplices)
-      for (const Index v : row) inner[v] = 0;
+    std::vector<std::array<Index, N>> own;
+    for (const Index s : numbers) {
+      own.push_back(simplices[s]);
+      for (const Index v : simplices[s]) inner[v] = 0;
+    }
     Added piece{part, {}};
     std::vector<std::array<double, 3>> positions;
     for (Index v = 0; v < inner.size(); ++v) {
       if (inner[v] == none) continue;
       inner[v] = static_cast<Index>(piece.outer.size());
       piece.outer.push_back(v);
-      positions.push_back(shape_.positions[v]);
+      const auto& p = shape_.positions[v];
+      positions.push_back({p[0] / speed, p[1] / speed, p[2] / speed});
     }
-    std::vector<std::array<Index, N>> own = simplices;
     for (auto& row : own)
       for (Index& v : row) v = inner[v];
     const auto at = made_.complex.add(typename ComplexOf<Real, N>::Type(positions, own), positions);
     for (Index v = 0; v < piece.outer.size(); ++v)
       if (made_.vertex[piece.outer[v]] == none) made_.vertex[piece.outer[v]] = at.vertex(v);
-    for (Index s = 0; s < own.size(); ++s) made_.simplex.push_back(at.simplex(s));
+    for (Index s = 0; s < own.size(); ++s) made_.simplex[first + numbers[s]] = at.simplex(s);
     weld(piece);
     pieces_.push_back(std::move(piece));
   }
 
- private:
   // With those there are: by number in its own part, by nearness with other parts.
   void weld(const Added& piece) {
     const auto known = made_.complex.pieces();
     for (std::size_t p = 0; p < pieces_.size(); ++p) {
       const Added& other = pieces_[p];
       if (other.part != piece.part) {
-        made_.complex.weld(known[p], known.back(), {.tolerance = shape_.tolerance});
+        const auto near = near_pairs(other, piece);
+        made_.complex.weld(known[p], known.back(), std::span<const std::array<Index, 2>>(near));
         continue;
       }
       std::vector<std::array<Index, 2>> pairs;
@@ -79,7 +104,33 @@ class Adding {
     }
   }
 
+  // Vertices of two parts that are one. None may be one with two that lie apart: that would shrink
+  // what is between them to a point.
+  std::vector<std::array<Index, 2>> near_pairs(const Added& a, const Added& b) const {
+    const auto places = [&](const Added& of) {
+      std::vector<std::array<double, 3>> at;
+      for (const Index v : of.outer) at.push_back(shape_.positions[v]);
+      return at;
+    };
+    const auto pairs = nearby_pairs(places(a), places(b), shape_.tolerance);
+    const std::array<const Added*, 2> sides = {&a, &b};
+    for (const std::size_t side : {0, 1}) {
+      std::vector<Index> partner(sides[side]->outer.size(), none);
+      for (const auto& pair : pairs) {
+        const Index v = pair[side], other = sides[1 - side]->outer[pair[1 - side]];
+        if (partner[v] == none) partner[v] = other;
+        if (shape_.positions[partner[v]] != shape_.positions[other])
+          throw UsageError("a tolerance of " + short_number(shape_.tolerance) +
+                           " is too large: vertex " + std::to_string(sides[side]->outer[v]) +
+                           " would be one with vertices " + std::to_string(partner[v]) + " and " +
+                           std::to_string(other) + ", which lie apart");
+      }
+    }
+    return pairs;
+  }
+
   const MixedShape& shape_;
+  std::span<const double> speeds_;
   MixedPieces<Real>& made_;
   std::vector<Added> pieces_;
 };
@@ -87,8 +138,9 @@ class Adding {
 }  // namespace
 
 template <class Real>
-MixedPieces<Real>::MixedPieces(const MixedShape& shape) : vertex(shape.positions.size(), none) {
-  Adding<Real> adding(shape, *this);
+MixedPieces<Real>::MixedPieces(const MixedShape& shape, std::span<const double> speeds)
+    : vertex(shape.positions.size(), none) {
+  Adding<Real> adding(shape, speeds, *this);
   for (std::size_t p = 0; p < shape.parts.size(); ++p) {
     adding.add(p, shape.parts[p].edges);
     adding.add(p, shape.parts[p].triangles);

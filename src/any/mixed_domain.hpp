@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <span>
 #include <vector>
 
 #include <plexway/any/shape.hpp>
@@ -8,10 +9,11 @@
 
 namespace plexway {
 
-/// A mixed shape as pieces of one dimension each, welded where they share vertices.
+/// A mixed shape as pieces of one dimension and one speed each, welded where they share vertices.
 template <class Real>
 struct MixedPieces {
-  explicit MixedPieces(const MixedShape& shape);
+  /// `speeds` are one a simplex, or none: 1 for all.
+  explicit MixedPieces(const MixedShape& shape, std::span<const double> speeds = {});
 
   MixedComplex<Real> complex;
   std::vector<Index> vertex;   ///< of each of the shape's vertices, one of the complex; or none

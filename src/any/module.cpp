@@ -1,5 +1,33 @@
 #include "any/module.hpp"
 
+#include <array>
+#include <atomic>
+
+#include "file/unfinished.hpp"
+
+namespace plexway {
+namespace {
+
+// Each module has a list of its own.
+constinit std::array<std::atomic<void (*)()>, 8> removers{};
+
+[[maybe_unused]] void add_remover(void (*remover)()) {
+  for (auto& place : removers) {
+    void (*nobody)() = nullptr;
+    if (place == remover || place.compare_exchange_strong(nobody, remover)) return;
+  }
+}
+
+}  // namespace
+
+void remove_unfinished_files() noexcept {
+  file::remove_unfinished();
+  for (auto& place : removers)
+    if (void (*const remover)() = place; remover != nullptr) remover();
+}
+
+}  // namespace plexway
+
 #ifdef PLEXWAY_MODULE_FOLDER
 #include <dlfcn.h>
 
@@ -56,6 +84,8 @@ void* module_function(const std::string& what, const char* library, const char* 
   }
   void* const entry = ::dlsym(module, function);
   if (entry == nullptr) throw Error(what + ": " + file + " is not plexway's module");
+  if (void* const remover = ::dlsym(module, "plexway_remove_unfinished"); remover != nullptr)
+    add_remover(reinterpret_cast<void (*)()>(remover));
   return entry;
 }
 

@@ -14,4 +14,8 @@ namespace plexway {
 void* module_function(const std::string& what, const char* library, const char* file,
                       const char* function);
 
+/// Removes the temporary files of this program and of the modules it has loaded. May be called by a
+/// handler of signals.
+void remove_unfinished_files() noexcept;
+
 }  // namespace plexway

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <functional>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -46,14 +47,21 @@ class PathsOf final : public AnyPathField::State {
   void solve(const AnyExecutor& executor, std::span<const PointSource> sources,
              const PropagateOptions& options) {
     remember(executor, sources, options);
-    solve_in(paths_);
+    solve_in(paths_, sources_, options);
     field.data = paths_.distances();
   }
 
+  /// Other triangles over the same surface, and where a point is there.
+  struct Elsewhere {
+    const Complex* complex = nullptr;
+    std::function<PointSource(const PointSource&)> place = {};
+  };
+
   /// Distances found on other triangles.
   void adopt(const AnyExecutor& executor, AnyField found, std::span<const PointSource> sources,
-             const PropagateOptions& options) {
+             const PropagateOptions& options, Elsewhere elsewhere) {
     remember(executor, sources, options);
+    elsewhere_ = std::move(elsewhere);
     field = std::move(found);
     adopted_ = true;
     if constexpr (Complex::kind == DomainKind::surface)
@@ -63,7 +71,7 @@ class PathsOf final : public AnyPathField::State {
   Path trace(const PointSource& point, const TraceOptions& options) const override {
     Path path = paths_.trace(point, options);
     // Labels on the triangles of the path lead closer to it than distances of vertices do.
-    if (adopted_ && path.source != none &&
+    if (adopted_ && field.accuracy() == Accuracy::fast() && path.source != none &&
         (path.capped || length(path) > 1.001 * promised(point))) {
       Path other = with_labels().trace(point, options);
       if (other.source != none && length(other) < length(path)) path = std::move(other);
@@ -78,9 +86,13 @@ class PathsOf final : public AnyPathField::State {
   }
 
   double at(const PointSource& point, ReadOut level) const override {
-    if constexpr (requires { paths_.at(point, level); })
-      return level == ReadOut::linear ? paths_.at(point, level) : with_labels().at(point, level);
-    else
+    if constexpr (requires { paths_.at(point, level); }) {
+      if (level == ReadOut::linear) return paths_.at(point, level);
+      // Windows are asked where they are.
+      if (adopted_ && field.accuracy() != Accuracy::fast())
+        return with_windows().at(elsewhere_.place(point), level);
+      return with_labels().at(point, level);
+    } else
       throw UsageError("a cloud has distances at its points only");
   }
 
@@ -91,7 +103,9 @@ class PathsOf final : public AnyPathField::State {
       throw UsageError("a cloud has distances at its points only");
   }
 
-  std::size_t bytes() const override { return paths_.bytes() + (labels_ ? labels_->bytes() : 0); }
+  std::size_t bytes() const override {
+    return paths_.bytes() + (labels_ ? labels_->bytes() : 0) + (windows_ ? windows_->bytes() : 0);
+  }
 
  private:
   void remember(const AnyExecutor& executor, std::span<const PointSource> sources,
@@ -99,16 +113,18 @@ class PathsOf final : public AnyPathField::State {
     executor_ = executor;
     sources_.assign(sources.begin(), sources.end());
     options_ = options;
+    options_.progress = {};  // who asks later is not in this call any more
   }
 
-  void solve_in(PathField<Complex>& paths) const {
+  void solve_in(PathField<Complex>& paths, std::span<const PointSource> sources,
+                const PropagateOptions& options) const {
     std::visit(
         [&](const auto& chosen) {
           using E = std::decay_t<decltype(chosen)>;
           if constexpr (!supports<E, Complex>)
             support(combination<E, Complex>()).require();
           else if constexpr (E::kind != ExecutorKind::gl)
-            paths.solve(chosen, std::span<const PointSource>(sources_), options_);
+            paths.solve(chosen, sources, options);
           else
             throw UsageError("paths are traced on what the executors Serial and OpenMP leave");
         },
@@ -120,9 +136,20 @@ class PathsOf final : public AnyPathField::State {
     if (!adopted_) return paths_;
     std::call_once(labels_once_, [&] {
       labels_.emplace(complex_, path_places(shape_, measured_));
-      solve_in(*labels_);
+      solve_in(*labels_, sources_, options_);
     });
     return *labels_;
+  }
+
+  // Solved on the other triangles.
+  const PathField<Complex>& with_windows() const {
+    std::call_once(windows_once_, [&] {
+      std::vector<PointSource> there;
+      for (const PointSource& source : sources_) there.push_back(elsewhere_.place(source));
+      windows_.emplace(*elsewhere_.complex);
+      solve_in(*windows_, there, options_);
+    });
+    return *windows_;
   }
 
   double length(const Path& path) const { return path.length + sources_[path.source].offset; }
@@ -144,6 +171,9 @@ class PathsOf final : public AnyPathField::State {
   PropagateOptions options_;
   mutable std::once_flag labels_once_;
   mutable std::optional<PathField<Complex>> labels_;
+  Elsewhere elsewhere_;
+  mutable std::once_flag windows_once_;
+  mutable std::optional<PathField<Complex>> windows_;
 };
 
 }  // namespace plexway

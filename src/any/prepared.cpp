@@ -15,6 +15,7 @@
 #include "any/path_state.hpp"
 #include "any/shape_state.hpp"
 #include "any/workspaces.hpp"
+#include "executors/checks.hpp"
 #include "executors/supported.hpp"
 
 #ifdef PLEXWAY_HAS_GL
@@ -28,6 +29,7 @@ template <class Real>
 void cut(DistanceField<Real>& field, std::size_t vertices) {
   field.distance.resize(vertices);
   if (!field.label.empty()) field.label.resize(vertices);
+  if (!field.error.empty()) field.error.resize(vertices);
 }
 
 // A field of the right precision, with the memory that it had.
@@ -222,7 +224,10 @@ class PreparedSurface final : public PreparedKind<TriangleMesh<Real>> {
     if (field.triangulation.done == Triangulation::input)
       state->solve(executor, sources, options);
     else
-      state->adopt(executor, std::move(field), sources, options);
+      state->adopt(executor, std::move(field), sources, options,
+                   {&made_.mesh, [this](const PointSource& point) {
+                      return made_.delaunay->to_intrinsic(point);
+                    }});
     return state;
   }
 
@@ -253,19 +258,23 @@ class PreparedSurface final : public PreparedKind<TriangleMesh<Real>> {
     });
   }
 
+  // Where a point of the input is in the other triangles, which would take what lies outside of its
+  // triangle to the nearest place.
+  PointSource moved(const PointSource& point) const {
+    check_source(point, {this->shape_.vertices(), this->shape_.simplices(), "face", 3});
+    return made_.delaunay->to_intrinsic(point);
+  }
+
   SourceList moved(const SourceList& sources, Room<TriangleMesh<Real>>& room) const {
-    const IntrinsicDelaunay& delaunay = *made_.delaunay;
     if (sources.only_points()) {
       room.points.clear();
-      for (const PointSource& point : sources.points())
-        room.points.push_back(delaunay.to_intrinsic(point));
+      for (const PointSource& point : sources.points()) room.points.push_back(moved(point));
       return SourceList(std::span<const PointSource>(room.points));
     }
     room.sources.assign(sources.sources().begin(), sources.sources().end());
     for (Source& source : room.sources) {
-      if (auto* point = std::get_if<PointSource>(&source)) *point = delaunay.to_intrinsic(*point);
-      if (auto* ball = std::get_if<BallSource>(&source))
-        ball->centre = delaunay.to_intrinsic(ball->centre);
+      if (auto* point = std::get_if<PointSource>(&source)) *point = moved(*point);
+      if (auto* ball = std::get_if<BallSource>(&source)) ball->centre = moved(ball->centre);
     }
     return SourceList(std::span<const Source>(room.sources));
   }
@@ -285,8 +294,10 @@ class PreparedMixed final : public PreparedKind<MixedComplex<Real>> {
   using Base = PreparedKind<MixedComplex<Real>>;
 
  public:
-  explicit PreparedMixed(const AnyShape& shape)
-      : Base(shape, false), pieces_(std::get<MixedShape>(shape.data())) {
+  PreparedMixed(const AnyShape& shape, const MeasuredLengths* lengths)
+      : Base(shape, lengths != nullptr),
+        pieces_(std::get<MixedShape>(shape.data()),
+                lengths == nullptr ? std::span<const double>() : lengths->speeds) {
     count_components();
   }
 
@@ -308,6 +319,8 @@ class PreparedMixed final : public PreparedKind<MixedComplex<Real>> {
     };
     pick(room.other.distance, found.distance, std::numeric_limits<Real>::infinity());
     pick(room.other.label, found.label, none);
+    pick(room.other.error, found.error, Real(0));
+    found.accuracy = room.other.accuracy;
     found.complete = room.other.complete;
     found.statistics = room.other.statistics;
     field.triangulation = {};
@@ -404,7 +417,7 @@ std::shared_ptr<const Prepared> prepare_as(const AnyShape& shape, const BuildOpt
         if constexpr (std::is_same_v<Data, io::Triangles>) {
           return std::make_shared<PreparedSurface<Real>>(shape, options, lengths);
         } else if constexpr (std::is_same_v<Data, MixedShape>) {
-          return std::make_shared<PreparedMixed<Real>>(shape);
+          return std::make_shared<PreparedMixed<Real>>(shape, lengths);
         } else if constexpr (std::is_same_v<Data, SimplexShape>) {
           switch (data.dimension) {
             case 1:
@@ -431,14 +444,14 @@ std::shared_ptr<const Prepared> prepare(const AnyShape& shape, const BuildOption
   const bool asked = options.triangulation == Triangulation::delaunay ||
                      options.triangulation == Triangulation::refined;
   if (asked && shape.kind() != DomainKind::surface)
-    throw UsageError("a " + std::string(shape.kind_name()) +
+    throw UsageError("a " + std::string(kind_noun(shape.kind())) +
                      " has no triangles to flip: leave its triangulation as it is");
-  const bool measurable = shape.kind() == DomainKind::surface ||
-                          shape.kind() == DomainKind::solid ||
-                          shape.kind() == DomainKind::wireframe;
+  const bool measurable =
+      shape.kind() == DomainKind::surface || shape.kind() == DomainKind::solid ||
+      shape.kind() == DomainKind::wireframe || shape.kind() == DomainKind::mixed;
   if (options.lengths && !measurable)
-    throw UsageError("lengths by a metric are for surfaces, solids and wireframes, not a " +
-                     std::string(shape.kind_name()));
+    throw UsageError("a metric is for surfaces, solids, wireframes and mixed domains, not a " +
+                     std::string(kind_noun(shape.kind())));
   return options.precision == Precision::single ? prepare_as<float>(shape, options)
                                                 : prepare_as<double>(shape, options);
 }

@@ -57,6 +57,12 @@ void check(const ReadOptions& options) {
 
 std::string_view kind_name(DomainKind kind) { return kind_names[static_cast<std::size_t>(kind)]; }
 
+std::string_view kind_noun(DomainKind kind) {
+  return kind == DomainKind::mixed       ? "mixed domain"
+         : kind == DomainKind::simplices ? "complex of simplices"
+                                         : kind_name(kind);
+}
+
 std::optional<DomainKind> kind_named(std::string_view name) {
   const auto found = std::find(kind_names.begin(), kind_names.end(), name);
   if (found == kind_names.end()) return std::nullopt;

@@ -1,29 +1,33 @@
 #include <algorithm>
 #include <array>
-#include <fstream>
+#include <cmath>
 #include <system_error>
 #include <utility>
 
 #include <plexway/error.hpp>
+#include <plexway/io/mixed.hpp>
 
 #include "any/fill.hpp"
 #include "any/openvdb_functions.hpp"
 #include "any/shape_state.hpp"
 #include "any/simplex_edges.hpp"
-#include "io/extension.hpp"
+#include "io/file_bytes.hpp"
+#include "io/input_name.hpp"
 
 namespace plexway {
 namespace {
 
 bool has_extension(const std::filesystem::path& file, std::span<const std::string_view> known) {
-  const std::string extension = io::lower_extension(file);
+  const std::string extension = io::InputName(file).extension;
   return std::find(known.begin(), known.end(), extension) != known.end();
 }
 
 // Whether an .obj has a statement that starts with this letter.
 bool has_statement(const std::string& file, char letter) {
-  std::ifstream in(file);
-  for (std::string line; std::getline(in, line);) {
+  const io::FileBytes bytes(file);
+  for (std::string_view rest = bytes.view(); !rest.empty();) {
+    const std::string_view line = rest.substr(0, rest.find('\n'));
+    rest.remove_prefix(std::min(line.size() + 1, rest.size()));
     const std::size_t at = line.find_first_not_of(" \t");
     if (at != line.npos && line[at] == letter && at + 1 < line.size() &&
         (line[at + 1] == ' ' || line[at + 1] == '\t'))
@@ -33,6 +37,9 @@ bool has_statement(const std::string& file, char letter) {
 }
 
 using Data = AnyShape::Data;
+
+// Those whose readers go back and forth, or look for a second file beside it.
+constexpr std::array<std::string_view, 4> tied_to_names = {".poly", ".smesh", ".vdb", ".pcd"};
 
 // An .obj may be either of two. Only one that cannot be read as a surface is looked at again.
 Data read_obj(const std::string& file, std::optional<DomainKind> asked) {
@@ -46,17 +53,37 @@ Data read_obj(const std::string& file, std::optional<DomainKind> asked) {
   return io::read_edges(file);
 }
 
+MixedShape mixed_of(io::Mixed cells) {
+  MixedShape shape;
+  shape.parts = {{.first_vertex = 0,
+                  .vertices = cells.positions.size(),
+                  .edges = std::move(cells.edges),
+                  .triangles = std::move(cells.triangles),
+                  .tets = std::move(cells.tets)}};
+  shape.positions = std::move(cells.positions);
+  return shape;
+}
+
 Data read_mesh(const std::string& file, std::optional<DomainKind> asked) {
   const bool triangles = has_extension(file, io::triangle_extensions());
   const bool lines = has_extension(file, io::edge_extensions());
   if (triangles && lines) return read_obj(file, asked);
   if (triangles) return io::read_triangles(file);
   if (lines) return io::read_edges(file);
+  if (asked == DomainKind::mixed && has_extension(file, io::mixed_extensions()))
+    return mixed_of(io::read_mixed(file));
   if (has_extension(file, io::tet_extensions())) return io::read_tets(file);
+  if (io::InputName(file).extension == ".simplices") return io::read_simplices(file);
   std::error_code ignored;
   if (std::filesystem::is_directory(file, ignored))
     throw InputError(file + ": is a directory, not a file");
-  const std::string extension = std::filesystem::path(file).extension().string();
+  const std::string extension = io::InputName(file).extension;
+  if (has_extension(file, tied_to_names))
+    throw InputError(file + ": a " + extension +
+                     " must be a file with that extension: it is not read from end to end, or not "
+                     "alone");
+  if (extension.empty() && io::InputName(file).standard_input)
+    throw InputError(file + ": standard input has no extension: say what it is, as in ply:-");
   throw InputError(
       file + ": " + (extension.empty() ? "no extension" : "unknown extension '" + extension + "'") +
       "; known are .obj .off .ply .stl for surfaces, .node .ele .mesh .msh .vtu .vtk "
@@ -79,8 +106,41 @@ bool can_be(DomainKind natural, DomainKind wanted) {
 }
 
 [[noreturn]] void cannot_be(const std::string& file, DomainKind natural, DomainKind wanted) {
-  throw InputError(file + ": is a " + std::string(kind_name(natural)) +
-                   ", which cannot be taken as a " + std::string(kind_name(wanted)));
+  throw InputError(file + ": is a " + std::string(kind_noun(natural)) +
+                   ", which cannot be taken as a " + std::string(kind_noun(wanted)));
+}
+
+// One more file of a mixed domain.
+template <class Kind>
+void append(Kind data, const std::string& file, MixedShape& shape) {
+  MixedShape::Part part;
+  std::vector<std::array<double, 3>> positions;
+  if constexpr (!std::is_same_v<Kind, SimplexShape> && !std::is_same_v<Kind, CloudShape>)
+    positions = std::move(data.positions);
+  if constexpr (std::is_same_v<Kind, io::Triangles>) {
+    part.triangles = std::move(data.triangles);
+  } else if constexpr (std::is_same_v<Kind, io::Tets>) {
+    part.tets = std::move(data.tets);
+  } else if constexpr (std::is_same_v<Kind, io::Edges>) {
+    if (positions.empty())
+      throw InputError(file + ": has lengths alone; parts of a mixed domain need positions");
+    part.edges = std::move(data.edges);
+  } else if constexpr (std::is_same_v<Kind, MixedShape>) {
+    part = std::move(data.parts.front());
+  } else {
+    throw InputError(file + ": a mixed domain is made of surfaces, solids and wireframes");
+  }
+  part.first_vertex = shape.positions.size();
+  part.vertices = positions.size();
+  if (part.first_vertex + part.vertices >= none)
+    throw InputError(file + ": more vertices in all than 32 bits count");
+  const auto move = [&](auto& rows) {
+    for (auto& row : rows)
+      for (Index& v : row) v += static_cast<Index>(part.first_vertex);
+  };
+  move(part.edges), move(part.triangles), move(part.tets);
+  shape.positions.insert(shape.positions.end(), positions.begin(), positions.end());
+  shape.parts.push_back(std::move(part));
 }
 
 // Makes a shape of a file; what is asked for is in `options`.
@@ -232,6 +292,41 @@ void Reading::take_level_set(bool surface) {
 }
 
 }  // namespace
+
+AnyShape AnyShape::read(std::span<const std::filesystem::path> files, double tolerance,
+                        const ReadOptions& options) {
+  const auto name = [&](std::string_view field) { return spelled(options.spelling, field); };
+  check(options);
+  if (!(tolerance >= 0) || std::isinf(tolerance))
+    throw UsageError(name("weld") + " must be a number >= 0");
+  if (options.as.value_or(DomainKind::mixed) != DomainKind::mixed || options.fill.given() ||
+      options.cloud.given() || options.volume.repair || options.volume.voxel ||
+      !options.volume.grid.empty())
+    throw UsageError(
+        "several files are parts of a mixed domain, each as its file has it: " + name("as") +
+        " and what is made of surfaces, level sets and points go with one");
+  State state;
+  MixedShape shape;
+  shape.tolerance = tolerance;
+  const Watch loading;
+  std::string names;
+  for (const std::filesystem::path& path : files) {
+    const std::string file = path.string();
+    names += (names.empty() ? "" : ", ") + file;
+    if (options.progress.stage) options.progress.stage("reading " + file);
+    if (is_cloud_file(file) || io::is_ply_cloud(file) || is_poly(file) || is_vdb(file))
+      throw InputError(file + ": a mixed domain is made of surfaces, solids and wireframes");
+    std::visit([&](auto&& data) { append(std::move(data), file, shape); },
+               read_mesh(file, has_extension(file, io::mixed_extensions())
+                                   ? std::optional(DomainKind::mixed)
+                                   : std::nullopt));
+  }
+  state.load_seconds = loading.seconds();
+  state.file = names;
+  state.vertices = shape.positions.size();
+  state.data = std::move(shape);
+  return AnyShape(std::make_shared<State>(std::move(state)));
+}
 
 AnyShape AnyShape::read(const std::filesystem::path& file, const ReadOptions& options) {
   return AnyShape(std::make_shared<State>(Reading(file.string(), options).read()));

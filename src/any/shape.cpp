@@ -378,6 +378,7 @@ std::span<const std::array<double, 3>> AnyShape::positions() const {
 PointSource AnyShape::closest(const std::array<double, 3>& point) const {
   require_positions(*this);
   if (cloud() != nullptr) return nearest_of_points(positions(), point);
+  if (simplices() == 0) throw UsageError("there is no simplex to be close to");
   const SimplexPoint found = closest_of(*this, point);
   const auto at = corners(found.simplex);
   for (std::size_t i = 0; i < at.size(); ++i) {
@@ -407,13 +408,14 @@ std::vector<Path> AnyShape::isolines(std::span<const double> distance,
                                      std::span<const double> values) const {
   const auto* surface = std::get_if<io::Triangles>(&data());
   if (surface == nullptr)
-    throw UsageError("isolines are drawn on surfaces, not on a " + std::string(kind_name()));
+    throw UsageError("isolines are drawn on surfaces, not on a " + std::string(kind_noun(kind())));
   require_positions(*this);
   return plexway::isolines(surface->positions, surface->triangles, distance, values);
 }
 
 void AnyShape::write_field(const std::filesystem::path& out, std::span<const double> distance,
-                           std::span<const std::int32_t> label) const {
+                           std::span<const std::int32_t> label,
+                           std::span<const double> error) const {
   if (is_vdb(out.string())) {
     const auto* solid = std::get_if<io::Tets>(&data());
     if (solid == nullptr)
@@ -439,11 +441,14 @@ void AnyShape::write_field(const std::filesystem::path& out, std::span<const dou
             pcl_functions(out.string())
                 .write_field(out, data.points.positions, distance, data.points.original);
           else
-            io::write_field(out, data.points, distance, label);
+            io::write_field(out, data.points, distance, label, error);
         } else if constexpr (std::is_same_v<Kind, MixedShape>) {
           write_mixed(out, data, distance, label);
         } else if constexpr (!std::is_same_v<Kind, SimplexShape>) {
-          io::write_field(out, data, distance, label);
+          if constexpr (std::is_same_v<Kind, io::Triangles>)
+            io::write_field(out, data, distance, label, error);
+          else
+            io::write_field(out, data, distance, label);
         }
       },
       data());

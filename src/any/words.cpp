@@ -9,6 +9,7 @@ std::string singular(std::string_view plural) {
     return std::string(plural.substr(0, plural.size() - end.size())).append(with);
   };
   if (plural.ends_with("vertices")) return swapped("vertices", "vertex");
+  if (plural.ends_with("simplices")) return swapped("simplices", "simplex");
   if (plural.ends_with("hedra")) return swapped("hedra", "hedron");
   return plural.ends_with("s") ? swapped("s", "") : std::string(plural);
 }

@@ -106,9 +106,12 @@ void BoundedSearch<Real>::find_with(Queue queue, std::span<const PointSource> so
     }
     if (distance < d[v] || (tie && distance == d[v])) d[v] = distance, label[v] = number;
   };
+  Real longest = 0;
   for (const Index f : reached_)
-    for (std::size_t i = 0; i < 3; ++i)
+    for (std::size_t i = 0; i < 3; ++i) {
       offer(triangles[f].corner[i], rule.corner_distance(f, i), front.source(f));
+      longest = std::max(longest, triangles[f].length[i]);
+    }
   for (std::size_t n = sources.size(); n-- > 0;) {
     const Index number = static_cast<Index>(n);
     const double sigma = sources[n].offset / mesh.unit();
@@ -153,6 +156,7 @@ void BoundedSearch<Real>::find_with(Queue queue, std::span<const PointSource> so
   if (simplices)
     for (const Index f : reached_) found_.simplices.push_back(triangles[f].face & ~reversed);
   found_.complete = !front.out_of_budget();
+  found_.longest_edge = static_cast<double>(longest) * mesh.unit();
   found_.statistics = {front.expansions(), front.updates(), front.reached_count()};
 }
 

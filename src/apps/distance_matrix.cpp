@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include <plexway/apps/path_field.hpp>
 #include <plexway/error.hpp>
 
 #include "apps/cloud_points.hpp"
@@ -15,12 +16,11 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-template <class Complex>
-DistanceMatrix matrix(const Complex& domain, std::span<const PointSource> points,
-                      const std::function<bool(double)>& progress, const SourceDomain& limits) {
-  using Field = Growth<Complex>;
-  using Real = typename Field::Number;
-  constexpr Index corners = Field::corners;
+// Calls row(i, radius), which is to write row i as far as that, for all rows.
+template <class Row>
+DistanceMatrix by_rows(std::span<const PointSource> points,
+                       const std::function<bool(double)>& progress, const SourceDomain& limits,
+                       const Row& write_row) {
   check(points, {}, limits);
   for (const PointSource& p : points)
     if (p.offset != 0) throw UsageError("a point of a distance matrix has no offset");
@@ -29,9 +29,6 @@ DistanceMatrix matrix(const Complex& domain, std::span<const PointSource> points
   DistanceMatrix result;
   result.size = n;
   result.distance.assign(n * n, infinity);
-  SimplexNumbers<Complex> numbers(domain);
-  Workspace<Real> workspace;
-  Field field(domain, workspace);
   std::vector<double>& d = result.distance;
   for (std::size_t i = 0; i < n; ++i) {
     if (progress && !progress(static_cast<double>(i) / static_cast<double>(n)))
@@ -43,34 +40,9 @@ DistanceMatrix matrix(const Complex& domain, std::span<const PointSource> points
       for (std::size_t r = 0; r < i; ++r) bound = std::min(bound, d[r * n + i] + d[r * n + j]);
       radius = std::max(radius, bound);
     }
-    field.clear();
     // Bounds have the errors of the distances that they come from.
-    const Real reach = static_cast<Real>(radius * 1.05 / domain.unit());
-    if (points[i].vertex != none) {
-      field.add_vertex(domain.inside_vertex(points[i].vertex), 0, 0, reach);
-    } else {
-      const auto [s, weights] = numbers.inside(points[i]);
-      field.add(s, weights, 0, 0, reach);
-    }
-    for (std::size_t j = 0; j < n; ++j) {
-      Real found = std::numeric_limits<Real>::infinity();
-      if (points[j].vertex != none) {
-        field.each_corner_at(domain.inside_vertex(points[j].vertex), [&](Index c) {
-          if (field.reached(c / corners))
-            found = std::min(found, field.corner_distance(c / corners, c % corners));
-        });
-      } else {
-        const auto place = numbers.inside(points[j]);
-        field.each_label(place.first, [&](Index, const auto& distance) {
-          found = std::min(found, distance(place.second));
-          return false;
-        });
-      }
-      d[i * n + j] = i == j ? 0 : static_cast<double>(found) * domain.unit();
-    }
-    result.statistics.expansions += field.totals().expansions;
-    result.statistics.updates += field.totals().updates;
-    result.statistics.reached_simplices += field.totals().reached_simplices;
+    write_row(i, radius * 1.05, std::span<double>(d).subspan(i * n, n), result.statistics);
+    d[i * n + i] = 0;
   }
   for (std::size_t i = 0; i < n; ++i)
     for (std::size_t j = 0; j < i; ++j) {
@@ -82,13 +54,87 @@ DistanceMatrix matrix(const Complex& domain, std::span<const PointSource> points
   return result;
 }
 
+void add(const PropagateStatistics& row, PropagateStatistics& all) {
+  all.expansions += row.expansions;
+  all.updates += row.updates;
+  all.reached_simplices += row.reached_simplices;
+}
+
+// By labels, read where the points are alone.
+template <class Complex>
+DistanceMatrix matrix(const Complex& domain, std::span<const PointSource> points,
+                      const std::function<bool(double)>& progress, const SourceDomain& limits) {
+  using Field = Growth<Complex>;
+  using Real = typename Field::Number;
+  constexpr Index corners = Field::corners;
+  SimplexNumbers<Complex> numbers(domain);
+  Workspace<Real> workspace;
+  Field field(domain, workspace);
+  return by_rows(
+      points, progress, limits,
+      [&](std::size_t i, double radius, std::span<double> row, PropagateStatistics& statistics) {
+        field.clear();
+        const Real reach = static_cast<Real>(radius / domain.unit());
+        if (points[i].vertex != none) {
+          field.add_vertex(domain.inside_vertex(points[i].vertex), 0, 0, reach);
+        } else {
+          const auto [s, weights] = numbers.inside(points[i]);
+          field.add(s, weights, 0, 0, reach);
+        }
+        for (std::size_t j = 0; j < points.size(); ++j) {
+          Real found = std::numeric_limits<Real>::infinity();
+          if (points[j].vertex != none) {
+            field.each_corner_at(domain.inside_vertex(points[j].vertex), [&](Index c) {
+              if (field.reached(c / corners))
+                found = std::min(found, field.corner_distance(c / corners, c % corners));
+            });
+          } else {
+            const auto [s, weights] = numbers.inside(points[j]);
+            field.each_label(s, [&, &weights = weights](Index, const auto& distance) {
+              found = std::min(found, distance(weights));
+              return false;
+            });
+          }
+          row[j] = static_cast<double>(found) * domain.unit();
+        }
+        add(field.totals(), statistics);
+      });
+}
+
+// By windows.
+template <class Real>
+DistanceMatrix window_matrix(const TriangleMesh<Real>& mesh, std::span<const PointSource> points,
+                             const std::function<bool(double)>& progress, Accuracy accuracy,
+                             const SourceDomain& limits) {
+  PathField field(mesh);
+  PropagateOptions options;
+  options.accuracy = accuracy;
+  DistanceMatrix result = by_rows(
+      points, progress, limits,
+      [&](std::size_t i, double radius, std::span<double> row, PropagateStatistics& statistics) {
+        options.radius = radius;
+        add(field.solve(Serial{}, points[i], options).statistics, statistics);
+        const std::vector<double> found = field.at(points);
+        std::copy(found.begin(), found.end(), row.begin());
+      });
+  result.accuracy = accuracy;
+  return result;
+}
+
 }  // namespace
 
 template <class Real>
 DistanceMatrix distance_matrix(Serial, const TriangleMesh<Real>& mesh,
                                std::span<const PointSource> points,
-                               const std::function<bool(double)>& progress) {
-  return matrix(mesh, points, progress, {mesh.vertex_count(), mesh.face_count(), "face", 3});
+                               const std::function<bool(double)>& progress, Accuracy accuracy) {
+  const SourceDomain limits = {mesh.vertex_count(), mesh.face_count(), "face", 3};
+  Combination cell = combination<Serial, TriangleMesh<Real>>();
+  cell.metric = mesh.metric();
+  cell.accuracy = accuracy.kind();
+  support(cell).require();
+  accuracy = resolved(accuracy, cell);
+  if (accuracy == Accuracy::fast()) return matrix(mesh, points, progress, limits);
+  return window_matrix(mesh, points, progress, accuracy, limits);
 }
 
 template <class Real>
@@ -102,23 +148,24 @@ DistanceMatrix distance_matrix(Serial, const TetMesh<Real>& mesh,
 template <class Real>
 DistanceMatrix distance_matrix(Serial executor, const PointCloud<Real>& cloud,
                                std::span<const PointSource> points,
-                               const std::function<bool(double)>& progress) {
+                               const std::function<bool(double)>& progress, Accuracy accuracy) {
   return distance_matrix(executor, cloud.surface(),
-                         std::span<const PointSource>(first_at_place(cloud, points)), progress);
+                         std::span<const PointSource>(first_at_place(cloud, points)), progress,
+                         accuracy);
 }
 
 template DistanceMatrix distance_matrix(Serial, const PointCloud<float>&,
                                         std::span<const PointSource>,
-                                        const std::function<bool(double)>&);
+                                        const std::function<bool(double)>&, Accuracy);
 template DistanceMatrix distance_matrix(Serial, const PointCloud<double>&,
                                         std::span<const PointSource>,
-                                        const std::function<bool(double)>&);
+                                        const std::function<bool(double)>&, Accuracy);
 template DistanceMatrix distance_matrix(Serial, const TriangleMesh<float>&,
                                         std::span<const PointSource>,
-                                        const std::function<bool(double)>&);
+                                        const std::function<bool(double)>&, Accuracy);
 template DistanceMatrix distance_matrix(Serial, const TriangleMesh<double>&,
                                         std::span<const PointSource>,
-                                        const std::function<bool(double)>&);
+                                        const std::function<bool(double)>&, Accuracy);
 template DistanceMatrix distance_matrix(Serial, const TetMesh<float>&, std::span<const PointSource>,
                                         const std::function<bool(double)>&);
 template DistanceMatrix distance_matrix(Serial, const TetMesh<double>&,

@@ -14,6 +14,7 @@
 #include "apps/solved.hpp"
 #include "apps/surface_read_out.hpp"
 #include "apps/surface_trace.hpp"
+#include "apps/window_read_out.hpp"
 #include "apps/wire_trace.hpp"
 #include "executors/checks.hpp"
 
@@ -138,17 +139,22 @@ PathField<Domain<Real>>::PathField(const Domain<Real>& domain,
 
 template <template <class> class Domain, class Real>
 void PathField<Domain<Real>>::took(std::span<const PointSource> sources, Visibility visibility,
-                                   bool labels) {
+                                   Kept kept) {
   sources_.assign(sources.begin(), sources.end());
   visibility_ = visibility;
-  labels_ = labels;
+  kept_ = kept;
   solved_ = true;
 }
 
 template <template <class> class Domain, class Real>
 Solved<Real> PathField<Domain<Real>>::solved() const {
-  return {workspace_, field_,           sources_,    positions_, {},
-          outer_,     outer_simplices_, visibility_, labels_};
+  const windows::KeptWindows<Real>* windows = nullptr;
+  if constexpr (std::is_same_v<Domain<Real>, TriangleMesh<Real>>)
+    if (kept_ == Kept::windows) windows = workspace_.windows.solver()->kept();
+  return {workspace_,       field_,      sources_,
+          positions_,       {},          outer_,
+          outer_simplices_, visibility_, kept_ == Kept::labels,
+          windows};
 }
 
 template <template <class> class Domain, class Real>
@@ -166,7 +172,7 @@ template <template <class> class Domain, class Real>
 void PathField<Domain<Real>>::check_labels(ReadOut level) const {
   if (!solved_) throw UsageError("there is nothing to read before a solve");
   if (level == ReadOut::linear || std::is_same_v<Domain<Real>, Wireframe<Real>>) return;
-  if (!labels_ || visibility_ != Visibility::saddles)
+  if (kept_ == Kept::nothing || visibility_ != Visibility::saddles)
     throw UsageError(
         "distances inside simplices need the labels of the policy saddles, by Serial or OpenMP");
   if constexpr (std::is_same_v<Domain<Real>, TetMesh<Real>>)
@@ -219,7 +225,7 @@ std::vector<std::array<double, 3>> PathField<Domain<Real>>::gradient() const {
     directions.assign(domain_->face_count(), {0, 0, 0});
     for (Index face = 0; face < domain_->face_count(); ++face) {
       const Index f = domain_->inside_face(face).first;
-      if (!workspace_.marks.reached(f)) continue;
+      if (!solved.windows && !workspace_.marks.reached(f)) continue;
       const std::array<double, 2> along = read_out.gradient(f);
       Vector3<double> corner[3];
       for (std::size_t i = 0; i < 3; ++i) {
@@ -243,7 +249,7 @@ std::vector<std::array<double, 3>> PathField<Domain<Real>>::gradient() const {
 template <template <class> class Domain, class Real>
 std::vector<Index> PathField<Domain<Real>>::simplex_labels() const {
   if (!solved_) throw UsageError("there is nothing to read before a solve");
-  if (!labels_) throw UsageError("the executor left no labels: use Serial or OpenMP");
+  if (kept_ == Kept::nothing) throw UsageError("the executor left no labels: use Serial or OpenMP");
   std::vector<Index> labels;
   const auto take = [&](Index inside) {
     const bool many = sources_.size() > 1;
@@ -252,7 +258,15 @@ std::vector<Index> PathField<Domain<Real>>::simplex_labels() const {
                                                        : 0);
   };
   if constexpr (std::is_same_v<Domain<Real>, TriangleMesh<Real>>) {
-    for (Index f = 0; f < domain_->face_count(); ++f) take(domain_->inside_face(f).first);
+    const Solved<Real> solved = this->solved();
+    for (Index f = 0; f < domain_->face_count(); ++f) {
+      const Index inside = domain_->inside_face(f).first;
+      if (solved.windows)
+        labels.push_back(
+            WindowReadOut<Real>(*domain_, solved).look(inside, {1. / 3, 1. / 3, 1. / 3}).source);
+      else
+        take(inside);
+    }
   } else if constexpr (std::is_same_v<Domain<Real>, TetMesh<Real>>) {
     for (Index t = 0; t < domain_->tet_count(); ++t) take(domain_->inside_tet(t).first);
   } else {

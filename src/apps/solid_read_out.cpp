@@ -22,7 +22,7 @@ double SolidReadOut<Real>::at(Index t, const std::array<double, 4>& weight, Read
   for (std::size_t i = 0; i < 4; ++i)
     q = q + static_cast<Real>(weight[i]) * mesh_.points()[record.corner[i]];
   double best = std::numeric_limits<double>::infinity();
-  if (front_.reached(t)) best = static_cast<double>(rule_.distance_at(t, q));
+  if (front_.reached(t)) best = static_cast<double>(rule_.distance_at(t, t, q));
   if (level == ReadOut::simplex) return best;
   for (std::size_t i = 0; i < 4; ++i)
     best =
@@ -30,8 +30,7 @@ double SolidReadOut<Real>::at(Index t, const std::array<double, 4>& weight, Read
   for (const Index across : record.across) {
     const Index u = across >> TetAcross::tet_shift;
     if (u != mesh_.tet_count() && front_.reached(u))
-      best = std::min(best,
-                      static_cast<double>(rule_.offered_over(u, across & TetAcross::face_mask, q)));
+      best = std::min(best, static_cast<double>(rule_.distance_at(u, t, q)));
   }
   return best;
 }

@@ -80,12 +80,12 @@ class SolidTrace {
         if (solved_.workspace.marks.reached(begin)) order.emplace_back(estimate(begin, at), begin);
       std::sort(order.begin(), order.end());
       if (!order.empty()) promise = order[0].first;
-      std::vector<Index> scenes;  // labels that look at the same scene lead the same way
+      std::vector<Index> tried;
       for (const auto& [promised, begin] : order) {
         if (promised * doubt > shortest) break;
-        const Index scene = scene_of(begin);
-        if (scene != 0 && std::find(scenes.begin(), scenes.end(), scene) != scenes.end()) continue;
-        scenes.push_back(scene);
+        const auto alike = [&, t = begin](Index u) { return same_scene(t, u); };
+        if (std::any_of(tried.begin(), tried.end(), alike)) continue;
+        tried.push_back(begin);
         Way way;
         if (follow(begin, at, v, way)) keep(std::move(way));
       }
@@ -109,8 +109,10 @@ class SolidTrace {
   }
 
   [[nodiscard]] bool full_rule() const { return solved_.visibility == Visibility::saddles; }
-  [[nodiscard]] Index scene_of(Index t) const {
-    return full_rule() ? solved_.workspace.solids.labels[t].path : 0;
+  /// Labels that look at the same scene lead the same way.
+  [[nodiscard]] bool same_scene(Index t, Index u) const {
+    const auto& labels = solved_.workspace.solids.labels;
+    return full_rule() && same_way(labels[t], labels[u]);
   }
   /// Length of a label's path to a point of its tetrahedron, more or less.
   [[nodiscard]] double estimate(Index t, const Vector3<double>& at) const {

@@ -10,6 +10,8 @@
 #include <plexway/propagate/workspace.hpp>
 #include <plexway/source/point_source.hpp>
 
+#include "propagate/windows/kept_windows.hpp"
+
 namespace plexway {
 
 /// What a solve left behind, for those who trace paths in it.
@@ -26,6 +28,7 @@ struct Solved {
   std::span<const Index> outer_simplices;
   Visibility visibility;
   bool labels;  ///< are labels and marks in the workspace those of the field?
+  const windows::KeptWindows<Real>* windows = nullptr;  ///< or these? Surfaces only.
 
   /// The source that the label of a simplex leads to.
   [[nodiscard]] Index source_of(Index simplex) const {

@@ -6,6 +6,8 @@
 #include <tuple>
 #include <utility>
 
+#include "apps/window_read_out.hpp"
+
 namespace plexway {
 namespace {
 
@@ -122,6 +124,7 @@ double SurfaceReadOut<Real>::at(Index f, const std::array<double, 3>& weight, Re
         sum += weight[i] * static_cast<double>(solved_.field.distance[solved_.outer[t.corner[i]]]);
     return sum / mesh_.unit();
   }
+  if (solved_.windows) return WindowReadOut<Real>(mesh_, solved_).at(f, weight);
   double best = labels_.reached(f) ? own(f, weight) : infinity;
   if (level == ReadOut::simplex) return best;
   for (std::size_t i = 0; i < 3; ++i) {
@@ -154,6 +157,7 @@ double SurfaceReadOut<Real>::at(Index f, const std::array<double, 3>& weight, Re
 
 template <class Real>
 std::array<double, 2> SurfaceReadOut<Real>::gradient(Index f) const {
+  if (solved_.windows) return WindowReadOut<Real>(mesh_, solved_).gradient(f);
   const TriangleRecord<Real>& t = triangles_[f];
   const std::size_t in = labels_.hinge(f);
   const Point centre = point_over(f, in, {1. / 3, 1. / 3, 1. / 3});

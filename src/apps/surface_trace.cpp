@@ -5,6 +5,8 @@
 #include <unordered_set>
 #include <utility>
 
+#include "apps/window_read_out.hpp"
+
 namespace plexway {
 namespace {
 
@@ -400,6 +402,14 @@ Path SurfaceTrace<Real>::trace(const PointSource& point, const TraceOptions& opt
         promise, static_cast<double>(
                      solved_.field.distance[shape_.outer_vertex(mesh_.triangles()[f].corner[i])]) +
                      shape_.distance(f, at_corner(i), b));
+  if (solved_.windows) {
+    if (corner_of(b) == 3) promise = WindowReadOut<Real>(mesh_, solved_).at(f, b) * unit;
+    if (Way way; follow_windows(f, b, way)) keep(straighten(std::move(way)));
+    constexpr double rounding = 1e-9;
+    if (best.source != none && solved_.field.accuracy == Accuracy::exact() &&
+        whole(best) <= promise * (1 + rounding))
+      return to_path(best);  // there is none shorter
+  }
   for (const bool blindly : {false, true}) {
     const double allowed = promise * (blindly ? failure : disappointment);
     Way way;

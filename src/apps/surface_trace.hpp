@@ -26,7 +26,8 @@ inline std::array<double, 3> inside(const std::array<double, 4>& b, bool turned)
 /// Paths on a solved surface.
 ///
 /// A way back is a strip of triangles, or several where it passes a vertex that fans only touch in.
-/// It is found in three ways, each where the one before leads nowhere:
+/// After windows it is found by them, from triangle to triangle. Else in three ways, each where the
+/// one before leads nowhere:
 ///  * by sight: straight towards the last bend that the label knows, whatever labels the triangles
 ///    between have by now (large ones mostly have better ones for their own centre), and on from
 ///    that vertex. Distances of the vertices fall, so it ends.
@@ -68,6 +69,7 @@ class SurfaceTrace {
   /// At a vertex where fans meet, a corner from where a path leads on.
   [[nodiscard]] Index beyond_pinch(Index vertex) const;
 
+  bool follow_windows(Index f, std::array<double, 3> at, Way& way) const;
   bool descend(Index f, const std::array<double, 3>& b, bool blindly, Way& way) const;
   [[nodiscard]] std::optional<Heading> side(Index v, Index w) const;
   void add(Way& way, Strip& leg, Heading& at, const Heading& to) const;

@@ -150,13 +150,15 @@ void TuningSet::rebuild(const SaddleThresholds& saddles) {
 
 std::vector<double> TuningSet::errors(const PropagateOptions& options) const {
   const State& s = *state_;
+  PropagateOptions by_labels = options;  // what is tuned are their rules
+  by_labels.accuracy = Accuracy::fast();
   std::vector<double> errors(s.fields.size());
   at_once(s.fields.size(), s.threads, [&](std::size_t i) {
     const auto& [number, t] = s.fields[i];
     const TuningSurface::Truth& truth = s.surfaces[number].truths[t];
     // A source at a vertex needs no translation: vertices keep their numbers.
     const auto field =
-        solve(Serial{}, *s.prepared[number].mesh, PointSource::at(truth.source), options);
+        solve(Serial{}, *s.prepared[number].mesh, PointSource::at(truth.source), by_labels);
     errors[i] = field_error(truth.distance, field.distance);
   });
   return errors;

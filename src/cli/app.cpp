@@ -14,6 +14,8 @@
 #include "cli/exit_codes.hpp"
 #include "cli/options/executor_argument.hpp"
 #include "cli/report/console.hpp"
+#include "cli/report/help_pages.hpp"
+#include "io/file_bytes.hpp"
 
 namespace plexway::cli {
 namespace {
@@ -28,7 +30,7 @@ std::string version_text() {
   std::string licence = "MIT";
 #ifdef PLEXWAY_HAS_TETGEN
   providers += " tetgen";
-  licence += "; TetGen 1.5 (AGPL) is built in, so the AGPL holds for this program as a whole";
+  licence += "; the program plexway-tetgen, which fills surfaces, links TetGen 1.5 (AGPL)";
 #endif
 #ifdef PLEXWAY_HAS_FLANN
   providers += " flann";
@@ -71,6 +73,10 @@ int parse_and_run(int argc, const char* const* argv) {
   CLI::App tool("Geodesic distance by virtual source propagation", "plexway");
   bool version = false;
   tool.add_flag("--version", version, "version, precisions, executors, providers and licence");
+  std::string page;
+  tool.add_option("--help-page", page,
+                  "the manual page (man), or completions for bash, zsh or fish")
+      ->type_name("KIND");
   tool.require_subcommand(0, 1);
   tool.footer(
       "'plexway COMMAND --help' tells more about a command.\n\n"
@@ -104,6 +110,11 @@ int parse_and_run(int argc, const char* const* argv) {
   } catch (const CLI::ParseError& error) {
     throw UsageError(usage_complaint(tool, error));
   }
+  if (!page.empty()) {
+    write_output(help_page(tool, page));
+    flush_output();
+    return exit_ok;
+  }
   if (version) {
     write_output(version_text());
     flush_output();
@@ -123,6 +134,8 @@ int fail(ExitCode code, const char* message) noexcept {
 
 int run(int argc, const char* const* argv) noexcept {
   ignore_signals_of_writing();
+  leave_nothing_behind();
+  io::FileBytes::keep_streams();
   try {
     return parse_and_run(argc, argv);
   } catch (const OutputClosed&) {

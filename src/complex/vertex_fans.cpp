@@ -133,7 +133,7 @@ bool is_open_book(std::span<const TriangleRecord<Real>> triangles, std::span<con
     double angle = 0;
     std::size_t ends = 0, rim = 0;
     walk_fan(triangles, corners[c], [&](Index corner) {
-      seen[static_cast<std::size_t>(std::find(corners.begin(), corners.end(), corner) -
+      seen[static_cast<std::size_t>(std::lower_bound(corners.begin(), corners.end(), corner) -
                                     corners.begin())] = 1;
       const TriangleRecord<Real>& t = triangles[corner / 3];
       const std::size_t i = corner % 3;
@@ -151,14 +151,22 @@ bool is_open_book(std::span<const TriangleRecord<Real>> triangles, std::span<con
     rims += rim;
   }
   if (rims != 0 && rims != pages) return false;
-  // Each edge of the spine joins all pages.
-  for (const Index start : spine) {
+  // Each edge of the spine joins all pages. One walk around an edge is all that its pages need.
+  for (Index& across : spine) across &= ~Across::special;
+  std::sort(spine.begin(), spine.end());
+  std::vector<char> walked(spine.size(), 0);
+  for (std::size_t n = 0; n < spine.size(); ++n) {
+    if (walked[n]) continue;
     std::size_t joined = 0;
-    Index across = start;
+    Index across = spine[n];
     do {
       ++joined;
-      across = triangles[across >> Across::face_shift].across[across & Across::edge_mask];
-    } while (joined <= pages && ((across ^ start) & ~Across::special) != 0);
+      const auto at = std::lower_bound(spine.begin(), spine.end(), across);
+      if (at != spine.end() && *at == across)
+        walked[static_cast<std::size_t>(at - spine.begin())] = 1;
+      across = triangles[across >> Across::face_shift].across[across & Across::edge_mask] &
+               ~Across::special;
+    } while (joined <= pages && across != spine[n]);
     if (joined != pages) return false;
   }
   return !spine.empty();

@@ -69,6 +69,8 @@ inline void check(std::span<const PointSource> sources, const PropagateOptions& 
   if (sources.size() >= none) throw UsageError("too many sources");
   if (!(options.step > 0)) throw UsageError("the step must be > 0");
   if (!(options.radius >= 0)) throw UsageError("the radius must be >= 0");
+  if (!(options.accuracy.error() >= 0 && options.accuracy.error() < 1))
+    throw UsageError("the accuracy must be a relative error from 0 to below 1");
   check(options.probe);
 }
 

@@ -40,9 +40,11 @@ void solve_on_cloud(const PointCloud<Real>& cloud, std::span<const PointSource> 
   solve_on_surface_of(cloud, sources, solve);
   field.distance.resize(cloud.point_count());
   if (!field.label.empty()) field.label.resize(cloud.point_count());
+  if (!field.error.empty()) field.error.resize(cloud.point_count());
   for (const auto& [twin, first] : cloud.twins()) {
     field.distance[twin] = field.distance[first];
     if (!field.label.empty()) field.label[twin] = field.label[first];
+    if (!field.error.empty()) field.error[twin] = field.error[first];
   }
 }
 

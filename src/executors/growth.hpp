@@ -342,7 +342,7 @@ class Growth<TetMesh<Real>>
     const auto rule = this->rule();
     const auto ask = [&](Index u) {
       return found(this->source(u),
-                   [&](const Weights& w) { return rule.distance_at(u, position(t, w)); });
+                   [&](const Weights& w) { return rule.distance_at(u, t, position(t, w)); });
     };
     if (this->reached(t) && ask(t)) return;
     Index heard[16] = {this->reached(t) ? this->source(t) : none};

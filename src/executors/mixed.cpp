@@ -8,6 +8,7 @@
 #include "executors/checks.hpp"
 #include "executors/run.hpp"
 #include "propagate/mixed_propagation.hpp"
+#include "propagate/windows/window_solver.hpp"
 
 namespace plexway {
 namespace {
@@ -37,11 +38,39 @@ std::size_t corners_of(const typename MixedComplex<Real>::Complex& complex) {
   return std::holds_alternative<TriangleMesh<Real>>(complex) ? 3 : 4;
 }
 
+// Sheets that are one surface, where windows go: one label a triangle leaks light from room to
+// room.
+template <class Real>
+const TriangleMesh<Real>* one_surface(const MixedComplex<Real>& domain,
+                                      const PropagateOptions& options) {
+  if (options.accuracy == Accuracy::fast() || domain.pieces().size() != 1) return nullptr;
+  const auto* mesh = std::get_if<TriangleMesh<Real>>(&domain.complex(domain.pieces()[0]));
+  return mesh != nullptr && mesh->metric() != MetricKind::refracting ? mesh : nullptr;
+}
+
+template <class Real>
+void solve_by_windows(const TriangleMesh<Real>& mesh, std::span<const PointSource> sources,
+                      const PropagateOptions& options, MixedWorkspace<Real>& workspace,
+                      DistanceField<Real>& field) {
+  const Accuracy accuracy = std::is_same_v<Real, double> ? Accuracy::exact() : Accuracy::accurate();
+  workspace.pieces.resize(1);
+  Workspace<Real>& own = workspace.pieces[0];
+  own.windows.on(mesh).solve(sources, accuracy, options, own, field);
+  field.accuracy = accuracy;
+  if (!field.label.empty()) return;
+  for (const Real d : field.distance)
+    field.label.push_back(d < std::numeric_limits<Real>::infinity() ? 0 : none);
+}
+
 // On a domain whose pieces are joined.
 template <class Real>
 void solve_joined(const MixedComplex<Real>& domain, std::span<const PointSource> sources,
                   const PropagateOptions& options, MixedWorkspace<Real>& workspace,
                   DistanceField<Real>& field) {
+  if (const auto* mesh = one_surface(domain, options)) {
+    solve_by_windows(*mesh, sources, options, workspace, field);
+    return;
+  }
   workspace.pieces.resize(domain.pieces().size());
   MixedPropagation<Real> propagation(domain, workspace.pieces, workspace.offered, options);
   for (std::size_t n = 0; n < sources.size(); ++n) {
@@ -107,11 +136,14 @@ void solve_points(const Serial&, const MixedComplex<Real>& domain,
     solve_joined(joined->domain, std::span<const PointSource>(own), options, workspace, all);
     field.complete = all.complete;
     field.statistics = all.statistics;
+    field.accuracy = all.accuracy;
     field.distance.resize(domain.vertex_count());
     field.label.resize(domain.vertex_count());
+    field.error.resize(all.error.empty() ? 0 : domain.vertex_count());
     for (std::size_t v = 0; v < field.distance.size(); ++v) {
       field.distance[v] = all.distance[joined->vertex[v]];
       field.label[v] = all.label[joined->vertex[v]];
+      if (!all.error.empty()) field.error[v] = all.error[joined->vertex[v]];
     }
   } else {
     solve_joined(domain, sources, options, workspace, field);

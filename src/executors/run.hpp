@@ -29,6 +29,8 @@ void take_ball(const SourceParts::Ball& ball, const DistanceField<Real>& alone, 
   if (field.distance.empty()) {
     field.distance.assign(alone.distance.size(), infinity);
     field.label.assign(labels ? alone.distance.size() : 0, none);
+    field.error.assign(alone.error.size(), 0);
+    field.accuracy = alone.accuracy;
     field.statistics = {};
     field.complete = true;
   }
@@ -38,6 +40,7 @@ void take_ball(const SourceParts::Ball& ball, const DistanceField<Real>& alone, 
     if (!(d < field.distance[v]) || d > static_cast<Real>(radius)) continue;
     field.distance[v] = d;
     if (labels) field.label[v] = ball.owner;
+    if (!field.error.empty()) field.error[v] = alone.error[v];
   }
   field.statistics.expansions += alone.statistics.expansions;
   field.statistics.updates += alone.statistics.updates;
@@ -85,6 +88,8 @@ void run(const E& executor, const D& domain, const SourceList& sources,
          const PropagateOptions& options, WorkspaceOf<E, D>& workspace,
          DistanceField<RealOf<D>>& field) {
   require_support(combination<E, D>(), domain.metric(), sources, options);
+  field.error.clear();
+  field.accuracy = Accuracy::fast();
   if (sources.only_points()) {
     solve_points(executor, domain, sources.points(), options, workspace, field);
     return;

@@ -13,6 +13,7 @@
 #include <plexway/propagate/wavefront.hpp>
 
 #include "executors/checks.hpp"
+#include "propagate/changed_vertices.hpp"
 #include "propagate/finish.hpp"
 #include "propagate/simplex_propagation.hpp"
 
@@ -65,6 +66,38 @@ void read_out(const SimplicialComplex<Real, N>& domain, std::span<const PointSou
   }
 }
 
+/// No vertex is farther than a neighbour and the edge between: where one came out so, it is given
+/// that way, and what lies behind it. Cost: one look at all edges.
+template <class Real, int N>
+void relax_edges(const SimplicialComplex<Real, N>& domain, Workspace<Real>& workspace) {
+  ChangedVertices changed(workspace.front);
+  const auto relax = [&](const auto& record, std::size_t i, std::size_t j) {
+    Index v = record.corner[i], w = record.corner[j];
+    const Real length2 = record.length2[SimplexLayout<N>::edge(i, j)];
+    const Real rise = workspace.vertex[w] - workspace.vertex[v];
+    if (rise * rise <= length2) [[likely]]
+      return;
+    if (rise < 0) std::swap(v, w);
+    const Real by = workspace.vertex[v] + std::sqrt(length2);
+    if (!(by < workspace.vertex[w])) return;  // nor where neither is reached
+    // A search that ends early does not go on here.
+    if (workspace.vertex[w] == std::numeric_limits<Real>::infinity()) return;
+    workspace.vertex[w] = by;
+    workspace.vertex_source[w] = workspace.vertex_source[v];
+    changed.push(w);
+  };
+  do {
+    changed.clear();
+    for (const auto& record : domain.records())
+      for (std::size_t j = 1; j <= N; ++j)
+        for (std::size_t i = 0; i < j; ++i) relax(record, i, j);
+    for (Index v = 0; changed.pop(v);)
+      for (const Index c : domain.corners_at(v))
+        for (std::size_t j = 0; j <= N; ++j)
+          if (j != c % (N + 1)) relax(domain.records()[c / (N + 1)], c % (N + 1), j);
+  } while (changed.lost());
+}
+
 /// Which rule a domain is solved by: one place decides. Where the domain lies flat (FlatDomain) and
 /// the policy is `saddles`, the default, strings that know their bends; else the plain step.
 template <class Real, int N, class Queue, class Solve>
@@ -101,6 +134,8 @@ void solve(const SimplicialComplex<Real, N>& domain, std::span<const PointSource
       propagation.seed(sources[n], static_cast<Index>(n));
     crew.run(propagation, front, simplices);
     read_out(domain, sources, rule, front, crew, workspace);
+    // The policies that study the step itself show it as it is, on surfaces too.
+    if (options.visibility == Visibility::saddles) relax_edges(domain, workspace);
 
     if (sources.size() > 1)
       finish<Real, true>(domain, sources, options, front, workspace, crew, field);

@@ -37,18 +37,16 @@ void solve(const TetMesh<Real>& mesh, std::span<const PointSource> sources,
     propagation.seed(sources[n], static_cast<Index>(n));
   crew.run(propagation, front, mesh.tet_count());
 
-  constexpr Real infinity = std::numeric_limits<Real>::infinity();
-  const std::size_t vertices = mesh.vertex_count();
-  workspace.vertex.assign(vertices, infinity);
-  if constexpr (kLabels) workspace.vertex_source.assign(vertices, none);
   if constexpr (requires { crew.team(); }) {
+    const std::size_t vertices = mesh.vertex_count();
+    workspace.vertex.assign(vertices, std::numeric_limits<Real>::infinity());
+    if constexpr (kLabels) workspace.vertex_source.assign(vertices, none);
     crew.over(vertices, [&](std::size_t begin, std::size_t end) {
       read_out_around<Real, kLabels>(mesh, rule, front, static_cast<Index>(begin),
                                      static_cast<Index>(end), workspace);
     });
   } else {
-    workspace.vertex_path.assign(vertices, 0);
-    read_out_tets<Real, kLabels>(mesh, rule, front, workspace);
+    read_out<Real, kLabels>(mesh, rule, front, workspace);
   }
   read_out_sources<Real, kLabels>(mesh, sources, workspace);
   // The full rule is exact where nothing bends a path.

@@ -11,6 +11,12 @@ void Support::require() const {
   if (!*this) throw UsageError(sentence());
 }
 
+Accuracy resolved(Accuracy accuracy, const Combination& c) {
+  if (accuracy.kind() != Accuracy::Kind::usual) return accuracy;
+  constexpr bool windows_are_usual = false;  // at several times the work
+  return windows_are_usual && support_of_windows(c) ? Accuracy::accurate() : Accuracy::fast();
+}
+
 namespace detail {
 namespace {
 
@@ -32,6 +38,7 @@ Support support_of(Combination what, MetricKind metric, const SourceList& source
   what.metric = metric;
   what.visibility = options.visibility;
   what.schedule = options.schedule;
+  what.accuracy = options.accuracy.kind();
   Support found = support(what);
   const auto look = [&](SourceKind kind) {
     if (!found) return;

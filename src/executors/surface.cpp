@@ -3,6 +3,7 @@
 #include "executors/drive.hpp"
 #include "executors/run.hpp"
 #include "executors/solve_surface.hpp"
+#include "propagate/windows/window_solver.hpp"
 
 namespace plexway {
 
@@ -11,6 +12,14 @@ void solve_points(const E& executor, const TriangleMesh<Real>& mesh,
                   std::span<const PointSource> sources, const PropagateOptions& options,
                   Workspace<Real>& workspace, DistanceField<Real>& field) {
   check(sources, options, mesh);
+  const Accuracy accuracy = resolved(
+      options.accuracy, combination<E, TriangleMesh<Real>>(SourceKind::point, options.visibility,
+                                                           options.schedule, mesh.metric()));
+  if (accuracy.kind() != Accuracy::Kind::fast) {
+    workspace.windows.on(mesh).solve(sources, accuracy, options, workspace, field);
+    field.accuracy = accuracy;
+    return;
+  }
   with_labels(sources, [&](auto labels) {
     constexpr bool kLabels = decltype(labels)::value;
     drive<kLabels>(executor, mesh, sources, options, workspace, [&](auto queue, const auto& crew) {

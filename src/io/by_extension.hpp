@@ -10,6 +10,7 @@
 
 #include "extension.hpp"
 #include "file_bytes.hpp"
+#include "input_name.hpp"
 
 namespace plexway::io {
 
@@ -19,7 +20,7 @@ template <class Shape, std::size_t N>
 Shape read_by_extension(
     const std::filesystem::path& file, const std::array<std::string_view, N>& extensions,
     const std::array<Shape (*)(std::string_view, std::string_view), N>& parsers) {
-  const std::string extension = lower_extension(file);
+  const std::string extension = InputName(file).extension;
   for (std::size_t i = 0; i < N; ++i) {
     if (extension != extensions[i]) continue;
     const FileBytes bytes(file);

@@ -35,6 +35,7 @@ void write_field_of(const std::filesystem::path& file, const Field& field) {
   if (!field.label.empty()) require_length("labels", field.label.size(), field.vertices);
   if (!field.original.empty())
     require_length("original numbers", field.original.size(), field.vertices);
+  if (!field.error.empty()) require_length("errors", field.error.size(), field.vertices);
   const std::string extension = lower_extension(file);
   for (std::size_t i = 0; i < extensions.size(); ++i) {
     if (extension != extensions[i]) continue;
@@ -50,9 +51,11 @@ void write_field_of(const std::filesystem::path& file, const Field& field) {
 }
 
 void write_field(const std::filesystem::path& file, const Triangles& surface,
-                 std::span<const double> distance, std::span<const std::int32_t> label) {
+                 std::span<const double> distance, std::span<const std::int32_t> label,
+                 std::span<const double> error) {
   const Cells cells = cells_of<3>(5, surface.triangles);
-  write_field_of(file, {surface.positions.size(), surface.positions, {&cells, 1}, distance, label});
+  write_field_of(
+      file, {surface.positions.size(), surface.positions, {&cells, 1}, distance, label, {}, error});
 }
 
 void write_field(const std::filesystem::path& file, const Tets& solid,
@@ -70,13 +73,18 @@ void write_field(const std::filesystem::path& file, const Edges& wireframe,
 }
 
 void write_field(const std::filesystem::path& file, const Points& cloud,
-                 std::span<const double> distance, std::span<const std::int32_t> label) {
+                 std::span<const double> distance, std::span<const std::int32_t> label,
+                 std::span<const double> error) {
   std::vector<std::uint32_t> own(cloud.positions.size());
   std::iota(own.begin(), own.end(), 0u);
   const Cells cells = {1, 1, own};
-  write_field_of(
-      file,
-      {cloud.positions.size(), cloud.positions, {&cells, 1}, distance, label, cloud.original});
+  write_field_of(file, {cloud.positions.size(),
+                        cloud.positions,
+                        {&cells, 1},
+                        distance,
+                        label,
+                        cloud.original,
+                        error});
 }
 
 void write_field(const std::filesystem::path& file, std::span<const MixedPart> parts,

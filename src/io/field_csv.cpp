@@ -5,7 +5,8 @@ namespace plexway::io {
 void write_csv(OutputFile& out, const Field& field) {
   out.write(field.positions.empty() ? "vertex,distance" : "vertex,x,y,z,distance");
   if (!field.label.empty()) out.write(",label");
-  out.write(field.original.empty() ? "\n" : ",original\n");
+  if (!field.original.empty()) out.write(",original");
+  out.write(field.error.empty() ? "\n" : ",error\n");
   for (std::size_t i = 0; i < field.distance.size(); ++i) {
     out.write_text(i);
     if (!field.positions.empty()) {
@@ -23,6 +24,10 @@ void write_csv(OutputFile& out, const Field& field) {
     if (!field.original.empty()) {
       out.write(",");
       out.write_text(field.original[i]);
+    }
+    if (!field.error.empty()) {
+      out.write(",");
+      out.write_text(field.error[i]);
     }
     out.write("\n");
   }

@@ -36,6 +36,7 @@ struct Field {
   std::span<const std::int32_t> label;  ///< one a vertex, or empty
   /// The number that each vertex had in the input, or empty: the same.
   std::span<const std::uint32_t> original = {};
+  std::span<const double> error = {};  ///< of each distance, or empty
 
   std::size_t cell_count() const {
     std::size_t count = 0;

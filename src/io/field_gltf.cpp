@@ -83,6 +83,8 @@ class Document {
     if (!field.original.empty())
       write_scalars("_ORIGINAL",
                     [&](std::size_t v) { return static_cast<float>(field.original[v]); });
+    if (!field.error.empty())
+      write_scalars("_ERROR", [&](std::size_t v) { return static_cast<float>(field.error[v]); });
     write_indices();
     if (bytes.size() > std::numeric_limits<std::uint32_t>::max() - (1u << 20))
       throw Error("a .glb or .gltf holds 4 GB at most, which is too little here; write a .vtu");

@@ -32,6 +32,7 @@ void write_ply(OutputFile& out, const Field& field) {
       "property uchar red\nproperty uchar green\nproperty uchar blue\n";
   if (!field.label.empty()) header += "property int label\n";
   if (!field.original.empty()) header += "property " + index + " original\n";
+  if (!field.error.empty()) header += "property double error\n";
   if (const auto faces = count_with(field, 3); faces != 0)
     header += "element face " + std::to_string(faces) + "\nproperty list uchar " + index +
               " vertex_indices\n";
@@ -50,6 +51,7 @@ void write_ply(OutputFile& out, const Field& field) {
     for (const std::uint8_t c : colour(field.distance[i], largest)) out.write_binary(c);
     if (!field.label.empty()) out.write_binary(field.label[i]);
     if (!field.original.empty()) out.write_binary(field.original[i]);
+    if (!field.error.empty()) out.write_binary(field.error[i]);
   }
   for (const std::size_t corners : {std::size_t{3}, std::size_t{2}}) {
     for (const Cells& kind : field.cells) {

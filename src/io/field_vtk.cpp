@@ -38,7 +38,7 @@ void write_vtk(OutputFile& out, const Field& field) {
     for (const double d : field.distance) out.write_big_endian(d);
   }
   // Of several SCALARS many readers take the first alone.
-  const int more = !field.label.empty() + !field.original.empty();
+  const int more = !field.label.empty() + !field.original.empty() + !field.error.empty();
   if (more > 0) out.write("\nFIELD FieldData " + std::to_string(more) + "\n");
   if (!field.label.empty()) {
     out.write("label 1 " + count(field.vertices) + " int\n");
@@ -48,6 +48,11 @@ void write_vtk(OutputFile& out, const Field& field) {
     out.write(std::string(field.label.empty() ? "" : "\n") + "original 1 " + count(field.vertices) +
               " unsigned_int\n");
     for (const std::uint32_t i : field.original) out.write_big_endian(i);
+  }
+  if (!field.error.empty()) {
+    out.write(std::string(more == 1 ? "" : "\n") + "error 1 " + count(field.vertices) +
+              " double\n");
+    for (const double e : field.error) out.write_big_endian(e);
   }
   out.write("\n");
 }

@@ -35,6 +35,7 @@ void write_vtu(OutputFile& out, const Field& field) {
   const bool distances = !field.distance.empty();
   const bool labels = !field.label.empty();
   const bool originals = distances && !field.original.empty();
+  const bool errors = distances && !field.error.empty();
 
   Blocks blocks;
   std::string xml =
@@ -49,6 +50,7 @@ void write_vtu(OutputFile& out, const Field& field) {
     xml += blocks.array("Float64", "distance", 1, 8 * vertices);
     if (labels) xml += blocks.array("Int32", "label", 1, 4 * vertices);
     if (originals) xml += blocks.array("UInt32", "original", 1, 4 * vertices);
+    if (errors) xml += blocks.array("Float64", "error", 1, 8 * vertices);
     xml += "      </PointData>\n";
   }
   xml += "      <Points>\n";
@@ -72,6 +74,10 @@ void write_vtu(OutputFile& out, const Field& field) {
   if (originals) {
     out.write_binary(4 * vertices);
     for (const std::uint32_t i : field.original) out.write_binary(i);
+  }
+  if (errors) {
+    out.write_binary(8 * vertices);
+    for (const double e : field.error) out.write_binary(e);
   }
   out.write_binary(24 * vertices);
   for (const auto& position : field.positions)

@@ -1,53 +1,97 @@
 #include "file_bytes.hpp"
 
 #include <algorithm>
+#include <atomic>
 #include <cerrno>
 #include <cstdint>
 #include <cstdio>
+#include <map>
+#include <mutex>
 #include <string>
 #include <system_error>
 
 #include <plexway/error.hpp>
 
+#include "input_name.hpp"
+
 namespace plexway::io {
 namespace {
 
-using File = std::unique_ptr<std::FILE, decltype([](std::FILE* f) { std::fclose(f); })>;
+struct Close {
+  void operator()(std::FILE* f) const {
+    if (f != stdin) std::fclose(f);
+  }
+};
+
+struct Kept {
+  std::shared_ptr<char[]> bytes;
+  std::size_t size = 0;
+};
+
+std::atomic<bool> keeps_streams = false;
+
+// Those read so far, by name.
+std::map<std::string, Kept>& kept_streams() {
+  static std::map<std::string, Kept> kept;
+  return kept;
+}
+std::mutex kept_lock;
 
 }  // namespace
 
-FileBytes::FileBytes(const std::filesystem::path& file) {
+void FileBytes::keep_streams() { keeps_streams = true; }
+
+FileBytes::FileBytes(const std::filesystem::path& name, std::size_t most) {
   const auto fail = [&](const std::string& cause) {
-    throw InputError(file.string() + ": " + cause);
+    throw InputError(name.string() + ": " + cause);
   };
   const auto refused = [&](int code) {
     fail("cannot be read: " + std::generic_category().message(code));
   };
+  const InputName input(name);
   std::error_code ignored;
-  const auto status = std::filesystem::status(file, ignored);
-  if (status.type() == std::filesystem::file_type::not_found) fail("no such file");
-  if (std::filesystem::is_directory(status)) fail("is a directory, not a file");
-
-  const File in(std::fopen(file.c_str(), "rb"));
-  if (!in) refused(errno);
-  // A pipe does not know its size, and a file may grow: the size is only a first guess.
   std::uintmax_t guess = 0;
-  if (std::filesystem::is_regular_file(status)) {
-    guess = std::filesystem::file_size(file, ignored);
+  bool stream = true;
+  if (!input.standard_input) {
+    const auto status = std::filesystem::status(input.file, ignored);
+    if (status.type() == std::filesystem::file_type::not_found) fail("no such file");
+    if (std::filesystem::is_directory(status)) fail("is a directory, not a file");
+    stream = !std::filesystem::is_regular_file(status);
+    // A pipe does not know its size, and a file may grow: the size is only a first guess.
+    if (!stream) guess = std::filesystem::file_size(input.file, ignored);
     if (ignored) guess = 0;
   }
-  auto room = static_cast<std::size_t>(std::max<std::uintmax_t>(guess + 1, 1U << 16));
-  bytes_ = std::make_unique_for_overwrite<char[]>(room);
+  const bool keeps = stream && keeps_streams;
+  std::unique_lock<std::mutex> lock(kept_lock, std::defer_lock);
+  if (keeps) {
+    lock.lock();
+    if (const auto found = kept_streams().find(input.file.string());
+        found != kept_streams().end()) {
+      bytes_ = found->second.bytes;
+      size_ = found->second.size;
+      return;
+    }
+  }
+
+  const std::unique_ptr<std::FILE, Close> in(
+      input.standard_input ? stdin : std::fopen(input.file.c_str(), "rb"));
+  if (!in) refused(errno);
+  const std::size_t limit = stream ? SIZE_MAX : most;
+  auto room =
+      std::min(limit, static_cast<std::size_t>(std::max<std::uintmax_t>(guess + 1, 1U << 16)));
+  auto bytes = std::make_unique_for_overwrite<char[]>(room);
   for (;;) {
-    size_ += std::fread(bytes_.get() + size_, 1, room - size_, in.get());
-    if (size_ < room) break;
+    size_ += std::fread(bytes.get() + size_, 1, room - size_, in.get());
+    if (size_ < room || size_ == limit) break;
     auto larger = std::make_unique_for_overwrite<char[]>(2 * room);
-    std::copy_n(bytes_.get(), size_, larger.get());
-    bytes_ = std::move(larger);
+    std::copy_n(bytes.get(), size_, larger.get());
+    bytes = std::move(larger);
     room *= 2;
   }
   if (std::ferror(in.get()) != 0) refused(errno);
   if (size_ == 0) fail("is empty");
+  bytes_ = std::move(bytes);
+  if (keeps) kept_streams()[input.file.string()] = {bytes_, size_};
 }
 
 }  // namespace plexway::io

@@ -26,9 +26,9 @@ struct Format {
 template <class Source>
 class GmshReader {
  public:
-  GmshReader(Source in, std::string_view name) : in_(in), name_(name) {}
+  GmshReader(Source in, std::string_view name, Take take) : in_(in), name_(name), take_(take) {}
 
-  Tets read(bool version4) {
+  Mixed read(bool version4) {
     while (!(has_nodes_ && has_elements_)) {
       const std::string_view section = in_.word();
       if (section == "$Nodes") {
@@ -54,7 +54,7 @@ class GmshReader {
         in_.fail("expected a section, found " + quote(section));
       }
     }
-    require_tets(solid_, others_, name_);
+    require_cells(solid_, others_, take_, name_);
     return std::move(solid_);
   }
 
@@ -199,22 +199,37 @@ class GmshReader {
   }
 
   void element(const GmshElement& element, std::int64_t number, NumberType type) {
-    if (element.kind != gmsh_tetrahedra) {
-      others_.add(element.kind);
+    const bool mixed = take_ == Take::mixed;
+    if (element.kind == gmsh_tetrahedra) {
+      solid_.tets.push_back(
+          corners<4>(element, "tetrahedron", "a node of the tetrahedron", number, type));
+    } else if (mixed && element.kind == gmsh_triangles) {
+      solid_.triangles.push_back(
+          corners<3>(element, "triangle", "a node of the triangle", number, type));
+    } else if (mixed && element.kind == gmsh_lines) {
+      solid_.edges.push_back(corners<2>(element, "line", "a node of the line", number, type));
+    } else {
+      if (!mixed || element.kind != gmsh_points) others_.add(element.kind);
       in_.skip(type, element.nodes, "a node of the element");
-      return;
     }
-    std::array<std::uint32_t, 4> tet{};
-    for (std::uint32_t& corner : tet) {
-      const std::int64_t tag = in_.whole(type, "a node of the tetrahedron");
+  }
+
+  template <std::size_t N>
+  std::array<std::uint32_t, N> corners(const GmshElement& element, const char* what,
+                                       std::string_view node, std::int64_t number,
+                                       NumberType type) {
+    std::array<std::uint32_t, N> found{};
+    for (std::uint32_t& corner : found) {
+      const std::int64_t tag = in_.whole(type, node);
       const auto vertex = tags_.find(tag);
       if (!vertex)
-        in_.fail("tetrahedron " + std::to_string(number) + " names node " + std::to_string(tag) +
-                 ", which is not among the " + std::to_string(tags_.size()) + " nodes");
+        in_.fail(std::string(what) + " " + std::to_string(number) + " names node " +
+                 std::to_string(tag) + ", which is not among the " + std::to_string(tags_.size()) +
+                 " nodes");
       corner = *vertex;
     }
-    in_.skip(type, element.nodes - 4, "a node of the tetrahedron");
-    solid_.tets.push_back(tet);
+    in_.skip(type, element.nodes - N, node);
+    return found;
   }
 
   [[noreturn]] void more_than(std::string_view what, std::uint64_t stated) {
@@ -229,7 +244,8 @@ class GmshReader {
 
   Source in_;
   std::string_view name_;
-  Tets solid_;
+  Take take_;
+  Mixed solid_;
   NodeTags tags_;
   OtherCells others_;
   bool has_nodes_ = false;
@@ -257,16 +273,14 @@ Format read_format(TextScanner& scanner) {
   return format;
 }
 
-}  // namespace
-
-Tets parse_gmsh(std::string_view bytes, std::string_view name) {
+Mixed parse(std::string_view bytes, std::string_view name, Take take) {
   TextScanner scanner(bytes, name);
   const Format format = read_format(scanner);
   const bool version4 = format.version > 3;
   if (!format.binary) {
     if (!scanner.to_content() || scanner.field() != "$EndMeshFormat")
       scanner.fail("expected $EndMeshFormat");
-    return GmshReader(TextValues(scanner), name).read(version4);
+    return GmshReader(TextValues(scanner), name, take).read(version4);
   }
   // A one, as an int, tells the byte order.
   const std::size_t at = bytes.size() - scanner.bytes_left();
@@ -278,7 +292,17 @@ Tets parse_gmsh(std::string_view bytes, std::string_view name) {
   if (in.whole(i32, "the number that tells the order of bytes") != 1)
     in.fail("the number that tells the order of bytes is not 1");
   if (in.word() != "$EndMeshFormat") in.fail("expected $EndMeshFormat");
-  return GmshReader(in, name).read(version4);
+  return GmshReader(in, name, take).read(version4);
+}
+
+}  // namespace
+
+Tets parse_gmsh(std::string_view bytes, std::string_view name) {
+  return tets_of(parse(bytes, name, Take::tets));
+}
+
+Mixed parse_gmsh_mixed(std::string_view bytes, std::string_view name) {
+  return parse(bytes, name, Take::mixed);
 }
 
 }  // namespace plexway::io

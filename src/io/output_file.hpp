@@ -4,25 +4,21 @@
 #include <array>
 #include <charconv>
 #include <cstddef>
-#include <cstdio>
 #include <filesystem>
 #include <string>
 #include <string_view>
 
 #include "bytes.hpp"
+#include "file/new_file.hpp"
 
 namespace plexway::io {
 
-/// A file that appears whole or not at all: written beside its place, renamed by `commit`.
-///
-/// A target that exists and is no regular file (a pipe, a device) is written directly. All members
-/// throw Error "cannot write FILE: reason"; without `commit` the destructor leaves nothing behind.
+/// A file that appears whole or not at all (`file/new_file.hpp`), by way of a buffer. All members
+/// throw Error "cannot write FILE: reason".
 class OutputFile {
  public:
-  explicit OutputFile(const std::filesystem::path& file);
-  ~OutputFile();
-  OutputFile(const OutputFile&) = delete;
-  OutputFile& operator=(const OutputFile&) = delete;
+  explicit OutputFile(const std::filesystem::path& file)
+      : file_(file), buffer_(std::size_t{1} << 16, '\0') {}
 
   void write(std::string_view bytes) {
     if (bytes.size() > buffer_.size() - used_) return write_through(bytes);
@@ -57,16 +53,10 @@ class OutputFile {
   void commit();
 
  private:
-  void open(bool directly);
   void write_through(std::string_view bytes);
   void flush();
-  void discard();
-  [[noreturn]] void refused(int code);
 
-  std::filesystem::path named_;    ///< as the caller names it, for messages
-  std::filesystem::path target_;   ///< with symbolic links resolved
-  std::filesystem::path written_;  ///< the temporary file, or the target itself
-  std::FILE* file_ = nullptr;
+  file::NewFile file_;
   std::string buffer_;
   std::size_t used_ = 0;
 };

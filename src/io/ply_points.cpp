@@ -1,11 +1,11 @@
 // Stanford PLY as a cloud: its vertices alone.
 
-#include <fstream>
 #include <string>
 
 #include <plexway/io/points.hpp>
 
-#include "extension.hpp"
+#include "file_bytes.hpp"
+#include "input_name.hpp"
 #include "ply_body.hpp"
 
 namespace plexway::io {
@@ -72,11 +72,15 @@ Points parse_ply_points(std::string_view bytes, std::string_view name) {
 }
 
 bool is_ply_cloud(const std::filesystem::path& file) {
-  if (lower_extension(file) != ".ply") return false;
-  std::ifstream in(file, std::ios::binary);
-  std::string start(1 << 14, '\0');  // longer than any header but those with a page of comments
-  in.read(start.data(), static_cast<std::streamsize>(start.size()));
-  start.resize(static_cast<std::size_t>(in.gcount()));
+  if (InputName(file).extension != ".ply") return false;
+  std::string start;
+  try {
+    constexpr std::size_t most = 1
+                                 << 14;  // longer than any header but those with a page of comments
+    start = FileBytes(file, most).view().substr(0, most);
+  } catch (const InputError&) {
+    return false;  // who reads it will say what is wrong
+  }
   // A header that ends with the file is fine here: there is no data to look at.
   if (const auto end = start.find("end_header"); end != start.npos) start.resize(end + 10);
   start += '\n';

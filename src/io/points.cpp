@@ -4,6 +4,7 @@
 #include <string>
 
 #include "by_extension.hpp"
+#include "input_name.hpp"
 #include "output_file.hpp"
 
 namespace plexway::io {
@@ -16,7 +17,7 @@ constexpr std::array<std::string_view, 2> extensions = {".xyz", ".ply"};
 constexpr std::array<Parser, 2> parsers = {parse_xyz, parse_ply_points};
 
 void refuse_pcd(const fs::path& file) {
-  if (lower_extension(file) == ".pcd")
+  if (InputName(file).extension == ".pcd")
     throw NotBuiltError(file.string() +
                         ": .pcd goes through PCL: see plexway/pcl/files.hpp, component pcl, which "
                         "needs libpcl-dev; without it, .ply and .xyz");

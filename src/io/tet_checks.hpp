@@ -8,6 +8,7 @@
 #include <vector>
 
 #include <plexway/error.hpp>
+#include <plexway/io/mixed.hpp>
 #include <plexway/io/tets.hpp>
 
 #include "surface_checks.hpp"
@@ -31,6 +32,8 @@ class OtherCells {
     kinds_.emplace_back(kind, count);
   }
 
+  [[nodiscard]] bool empty() const { return kinds_.empty(); }
+
   /// "12 triangles, 3 lines"; "no cells at all".
   std::string text() const {
     std::string list;
@@ -43,10 +46,30 @@ class OtherCells {
   std::vector<std::pair<std::string, std::uint64_t>> kinds_;
 };
 
+/// Which cells a reader takes: tetrahedra, passing over all others, or whatever a mixed domain can
+/// have, and nothing else.
+enum class Take { tets, mixed };
+
 inline void require_tets(const Tets& solid, const OtherCells& others, std::string_view name) {
   if (solid.tets.empty())
     throw InputError(std::string(name) + ": has no tetrahedra; it has " + others.text());
 }
+
+/// Throws where there is nothing of what is taken, or where something would be missing.
+inline void require_cells(const Mixed& cells, const OtherCells& others, Take take,
+                          std::string_view name) {
+  if (take == Take::tets) {
+    if (cells.tets.empty()) require_tets({}, others, name);
+    return;
+  }
+  if (!others.empty())
+    throw InputError(std::string(name) + ": has " + others.text() +
+                     "; a mixed domain has lines, triangles and tetrahedra");
+  if (cells.edges.empty() && cells.triangles.empty() && cells.tets.empty())
+    throw InputError(std::string(name) + ": has no lines, triangles or tetrahedra");
+}
+
+inline Tets tets_of(Mixed cells) { return {std::move(cells.positions), std::move(cells.tets)}; }
 
 /// What is wrong with a tetrahedron that names a vertex the file does not have. Both as the file
 /// counts them.

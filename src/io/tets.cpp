@@ -5,6 +5,7 @@
 #include <plexway/error.hpp>
 
 #include "by_extension.hpp"
+#include "input_name.hpp"
 
 namespace plexway::io {
 namespace {
@@ -48,7 +49,7 @@ Tets read_node_ele(const fs::path& file, bool is_node) {
 std::span<const std::string_view> tet_extensions() { return extensions; }
 
 Tets read_tets(const fs::path& file) {
-  const std::string extension = lower_extension(file);
+  const std::string extension = InputName(file).extension;
   if (extension == ".node" || extension == ".ele") return read_node_ele(file, extension == ".node");
   std::error_code ignored;
   if (extension == ".meshb" && !fs::is_directory(file, ignored))

@@ -7,8 +7,13 @@ namespace {
 
 using Parser = Triangles (*)(std::string_view, std::string_view);
 
-constexpr std::array<std::string_view, 4> extensions = {".obj", ".off", ".ply", ".stl"};
-constexpr std::array<Parser, 4> parsers = {parse_obj, parse_off, parse_ply, parse_stl};
+constexpr std::array<std::string_view, 10> extensions = {
+    ".obj", ".off", ".ply", ".stl", ".gii",
+    // FreeSurfer's files have no extension; these stand behind lh. and rh.
+    ".white", ".pial", ".inflated", ".sphere", ".orig"};
+constexpr std::array<Parser, 10> parsers = {
+    parse_obj,        parse_off,        parse_ply,        parse_stl,        parse_gifti,
+    parse_freesurfer, parse_freesurfer, parse_freesurfer, parse_freesurfer, parse_freesurfer};
 
 }  // namespace
 

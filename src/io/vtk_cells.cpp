@@ -68,10 +68,35 @@ std::optional<NumberType> vtk_number_type(std::string_view name) {
   return std::nullopt;
 }
 
+// Lines, polylines and triangles, those of second order too; points are no more than vertices.
+bool VtkTets::add_other(const VtkCells& cells, std::size_t cell, std::int64_t type) {
+  constexpr std::int64_t empty = 0, point = 1, points = 2, line = 3, polyline = 4, triangle = 5,
+                         line2 = 21, triangle2 = 22;
+  const std::uint64_t from = cell == 0 ? 0 : cells.ends[cell - 1];
+  const std::uint64_t nodes = cells.ends[cell] - from;
+  const std::uint32_t* corner = cells.connectivity.data() + from;
+  if (type == empty || type == point || type == points) return true;
+  if ((type == line && nodes == 2) || (type == line2 && nodes == 3)) {
+    solid_.edges.push_back({corner[0], corner[1]});
+    return true;
+  }
+  if (type == polyline && nodes >= 2) {
+    for (std::uint64_t i = 0; i + 1 < nodes; ++i)
+      solid_.edges.push_back({corner[i], corner[i + 1]});
+    return true;
+  }
+  if ((type == triangle && nodes == 3) || (type == triangle2 && nodes == 6)) {
+    solid_.triangles.push_back({corner[0], corner[1], corner[2]});
+    return true;
+  }
+  return false;
+}
+
 std::optional<std::string> VtkTets::add(const VtkCells& cells, std::size_t cell,
                                         std::int64_t type) {
   const auto needed = nodes_of_tetrahedron(type);
   if (!needed) {
+    if (take_ == Take::mixed && add_other(cells, cell, type)) return std::nullopt;
     others_.add(kind_of(type));
     return std::nullopt;
   }

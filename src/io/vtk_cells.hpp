@@ -25,23 +25,27 @@ struct VtkCells {
 /// The number type behind a name of VTK's XML ("Float64") or legacy files ("double").
 std::optional<NumberType> vtk_number_type(std::string_view name);
 
-/// Adds to `solid` the corners of the cells that are tetrahedra, of the first or a higher order,
-/// and counts the others. The same for both kinds of file.
+/// Adds to `solid` the corners of the cells that are taken, of the first or a higher order, and
+/// counts the others. The same for both kinds of file.
 class VtkTets {
  public:
-  VtkTets(Tets& solid, OtherCells& others) : solid_(solid), others_(others) {}
+  VtkTets(Mixed& solid, OtherCells& others, Take take)
+      : solid_(solid), others_(others), take_(take) {}
 
   /// What is wrong with cell `cell` of type `type`, or nothing.
   std::optional<std::string> add(const VtkCells& cells, std::size_t cell, std::int64_t type);
 
  private:
-  Tets& solid_;
+  bool add_other(const VtkCells& cells, std::size_t cell, std::int64_t type);
+
+  Mixed& solid_;
   OtherCells& others_;
+  Take take_;
 };
 
 /// Reads `count` points and appends them to `solid`.
 template <class Source>
-void read_vtk_points(Source& in, NumberType type, std::uint64_t count, Tets& solid) {
+void read_vtk_points(Source& in, NumberType type, std::uint64_t count, Mixed& solid) {
   if (count >= most_vertices - solid.positions.size()) in.fail("more points than 32 bits count");
   solid.positions.reserve(solid.positions.size() + count);
   for (std::uint64_t i = 0; i < count; ++i) {

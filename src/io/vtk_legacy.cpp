@@ -23,9 +23,9 @@ std::string lower(std::string_view word) {
 template <class Source>
 class LegacyReader {
  public:
-  LegacyReader(Source in, std::string_view name) : in_(in), name_(name) {}
+  LegacyReader(Source in, std::string_view name, Take take) : in_(in), name_(name), take_(take) {}
 
-  Tets read(bool version5) {
+  Mixed read(bool version5) {
     // What comes after these three is data at points and cells.
     while (!(has_points_ && has_cells_ && has_types_)) {
       const std::string_view word = in_.word();
@@ -55,7 +55,7 @@ class LegacyReader {
         in_.fail("expected POINTS, CELLS or CELL_TYPES, found " + quote(word));
       }
     }
-    require_tets(solid_, others_, name_);
+    require_cells(solid_, others_, take_, name_);
     return std::move(solid_);
   }
 
@@ -178,7 +178,7 @@ class LegacyReader {
     if (types != cells_.ends.size())
       in_.fail("there are " + std::to_string(types) + " types for " +
                std::to_string(cells_.ends.size()) + " cells");
-    VtkTets tets(solid_, others_);
+    VtkTets tets(solid_, others_, take_);
     for (std::uint64_t c = 0; c < types; ++c)
       if (const auto wrong = tets.add(cells_, c, in_.whole(i32, "the type of a cell")))
         in_.fail(*wrong);
@@ -187,7 +187,8 @@ class LegacyReader {
 
   Source in_;
   std::string_view name_;
-  Tets solid_;
+  Take take_;
+  Mixed solid_;
   VtkCells cells_;
   OtherCells others_;
   bool has_points_ = false;
@@ -195,9 +196,7 @@ class LegacyReader {
   bool has_types_ = false;
 };
 
-}  // namespace
-
-Tets parse_vtk(std::string_view bytes, std::string_view name) {
+Mixed parse(std::string_view bytes, std::string_view name, Take take) {
   // The first line looks like a comment, and the second holds anything.
   const auto fail = [&](std::size_t line, const std::string& cause) {
     throw InputError(std::string(name) + ":" + std::to_string(line) + ": " + cause);
@@ -217,9 +216,19 @@ Tets parse_vtk(std::string_view bytes, std::string_view name) {
   if (mode != "ascii" && mode != "binary")
     scanner.fail("expected ASCII or BINARY, found " + quote(word));
   scanner.next_line();
-  if (mode == "ascii") return LegacyReader(TextValues(scanner), name).read(version >= 5);
+  if (mode == "ascii") return LegacyReader(TextValues(scanner), name, take).read(version >= 5);
   const std::size_t at = bytes.size() - scanner.bytes_left();
-  return LegacyReader(ByteValues(bytes, name, std::endian::big, at), name).read(version >= 5);
+  return LegacyReader(ByteValues(bytes, name, std::endian::big, at), name, take).read(version >= 5);
+}
+
+}  // namespace
+
+Tets parse_vtk(std::string_view bytes, std::string_view name) {
+  return tets_of(parse(bytes, name, Take::tets));
+}
+
+Mixed parse_vtk_mixed(std::string_view bytes, std::string_view name) {
+  return parse(bytes, name, Take::mixed);
 }
 
 }  // namespace plexway::io

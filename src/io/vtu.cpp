@@ -4,6 +4,7 @@
 #include <plexway/io/tets.hpp>
 
 #include <plexway/error.hpp>
+#include <plexway/io/mixed.hpp>
 
 #if PLEXWAY_IO_PUGIXML
 
@@ -20,10 +21,10 @@ namespace {
 
 class VtuReader {
  public:
-  VtuReader(std::string_view bytes, std::string_view name)
-      : bytes_(bytes), name_(name), room_(least_room + most_packed * bytes.size()) {}
+  VtuReader(std::string_view bytes, std::string_view name, Take take)
+      : bytes_(bytes), name_(name), take_(take), room_(least_room + most_packed * bytes.size()) {}
 
-  Tets read() {
+  Mixed read() {
     load();
     const pugi::xml_node root = document_.child("VTKFile");
     if (!root) fail(1, "expected the element VTKFile");
@@ -35,7 +36,7 @@ class VtuReader {
     appended_base64_ = std::string_view(appended.attribute("encoding").value()) == "base64";
     for (const pugi::xml_node piece : root.child("UnstructuredGrid").children("Piece"))
       read_piece(piece);
-    require_tets(solid_, others_, name_);
+    require_cells(solid_, others_, take_, name_);
     return std::move(solid_);
   }
 
@@ -141,7 +142,7 @@ class VtuReader {
                    base + read_vtk_corner(in, type, static_cast<std::size_t>(points))));
            });
     values(cell_array(piece, "types"), "types of cells", cells, 1, [&](auto& in, NumberType type) {
-      VtkTets tets(solid_, others_);
+      VtkTets tets(solid_, others_, take_);
       for (std::uint64_t c = 0; c < cells; ++c)
         if (const auto wrong = tets.add(list, c, in.whole(type, "the type of a cell")))
           in.fail(*wrong);
@@ -210,6 +211,7 @@ class VtuReader {
 
   std::string_view bytes_;
   std::string_view name_;
+  Take take_;
   std::uint64_t room_;
   mutable std::size_t counted_ = 0;
   mutable std::size_t counted_line_ = 1;
@@ -218,14 +220,18 @@ class VtuReader {
   bool appended_base64_ = false;
   VtuEncoding encoding_;
   std::string_view compressor_;
-  Tets solid_;
+  Mixed solid_;
   OtherCells others_;
 };
 
 }  // namespace
 
 Tets parse_vtu(std::string_view bytes, std::string_view name) {
-  return VtuReader(bytes, name).read();
+  return tets_of(VtuReader(bytes, name, Take::tets).read());
+}
+
+Mixed parse_vtu_mixed(std::string_view bytes, std::string_view name) {
+  return VtuReader(bytes, name, Take::mixed).read();
 }
 
 }  // namespace plexway::io
@@ -234,10 +240,15 @@ Tets parse_vtu(std::string_view bytes, std::string_view name) {
 
 namespace plexway::io {
 
-Tets parse_vtu(std::string_view, std::string_view) {
+Mixed parse_vtu_mixed(std::string_view, std::string_view) {
   throw NotBuiltError(
       "this plexway reads no .vtu: install libpugixml-dev and build it again, or save the file as "
       "legacy .vtk");
+}
+
+Tets parse_vtu(std::string_view bytes, std::string_view name) {
+  Mixed none = parse_vtu_mixed(bytes, name);
+  return {std::move(none.positions), std::move(none.tets)};
 }
 
 }  // namespace plexway::io

@@ -12,6 +12,7 @@
 
 #include <plexway/error.hpp>
 
+#include "base64.hpp"
 #include "bytes.hpp"
 
 #if PLEXWAY_IO_ZLIB
@@ -71,7 +72,7 @@ class Stream {
         bits <<= 6;
         continue;
       }
-      const int value = value_of(c);
+      const int value = base64_value(c);
       if (value < 0 || padding != 0)
         fail("its base64 holds something else: " + std::to_string(static_cast<unsigned char>(c)));
       bits = bits << 6 | static_cast<std::uint32_t>(value);
@@ -86,13 +87,6 @@ class Stream {
       ++at_;
     if (at_ == data_.size()) fail("its base64 ends too soon");
     return data_[at_++];
-  }
-
-  static int value_of(char c) {
-    if (c >= 'A' && c <= 'Z') return c - 'A';
-    if (c >= 'a' && c <= 'z') return c - 'a' + 26;
-    if (c >= '0' && c <= '9') return c - '0' + 52;
-    return c == '+' ? 62 : c == '/' ? 63 : -1;
   }
 
   std::string_view data_;

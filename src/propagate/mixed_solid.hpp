@@ -179,11 +179,7 @@ class MixedSolid final : public MixedPiece<Real> {
   void close_ring() override { rings_.pop_back(); }
 
   void read_out(std::span<Real> distance, std::span<Index> label) override {
-    const std::size_t vertices = mesh_.vertex_count();
-    workspace_.vertex.assign(vertices, infinity);
-    workspace_.vertex_source.assign(vertices, none);
-    workspace_.vertex_path.assign(vertices, 0);
-    read_out_tets<Real, true>(mesh_, rule_, wave_, workspace_);
+    plexway::read_out<Real, true>(mesh_, rule_, wave_, workspace_);
     this->take_out(mesh_, workspace_, distance, label);
   }
 

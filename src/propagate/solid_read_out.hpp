@@ -15,22 +15,19 @@
 
 namespace plexway {
 
-/// Every corner of every reached tetrahedron offers a distance; vertices keep the least. Of those
-/// around a vertex that came the same way, one is asked.
+/// Every corner of every reached tetrahedron offers a distance; vertices keep the least. Before,
+/// they are at infinity.
 template <class Real, bool kLabels, class Rule, class Front>
 void read_out_tets(const TetMesh<Real>& mesh, const Rule& rule, const Front& front,
                    Workspace<Real>& workspace) {
   const std::span<const TetRecord<Real>> tets = mesh.tets();
   for (Index t = 0; t + 1 < tets.size(); ++t) {
     if (!front.reached(t)) continue;
-    const Index path = rule.path(t);
     for (Index i = 0; i < 4; ++i) {
       const Index v = tets[t].corner[i];
-      if (workspace.vertex_path[v] == path && path != 0) continue;
       const Real d = rule.corner_distance(t, i, workspace.vertex[v]);
       if (!(d < workspace.vertex[v])) continue;
       workspace.vertex[v] = d;
-      workspace.vertex_path[v] = path;
       if constexpr (kLabels) workspace.vertex_source[v] = front.source(t);
     }
   }
@@ -70,27 +67,29 @@ void offer_corners(const TetMesh<Real>& mesh, const PointSource& source, const O
 }
 
 /// The same for the vertices from `begin` to `end`, each from its own tetrahedra: what several
-/// threads can do at once.
+/// threads can do at once, and where paths bend, less work.
 template <class Real, bool kLabels, class Rule, class Front>
 void read_out_around(const TetMesh<Real>& mesh, const Rule& rule, const Front& front, Index begin,
                      Index end, Workspace<Real>& workspace) {
   for (Index v = begin; v < end; ++v) {
-    Real best = std::numeric_limits<Real>::infinity();
-    Index best_path = 0, source = none;
-    for (const Index c : mesh.corners_at(v)) {
-      const Index t = c / 4;
-      if (!front.reached(t)) continue;
-      const Index path = rule.path(t);
-      if (best_path == path && path != 0) continue;
-      const Real d = rule.corner_distance(t, c % 4, best);
-      if (!(d < best)) continue;
-      best = d;
-      best_path = path;
-      source = front.source(t);
-    }
-    workspace.vertex[v] = best;
-    if constexpr (kLabels) workspace.vertex_source[v] = source;
+    rule.ask_around(mesh.corners_at(v), [&](Index t, Real distance) {
+      workspace.vertex[v] = distance;
+      if constexpr (kLabels) workspace.vertex_source[v] = front.source(t);
+    });
   }
+}
+
+/// For one thread, all vertices.
+template <class Real, bool kLabels, class Rule, class Front>
+void read_out(const TetMesh<Real>& mesh, const Rule& rule, const Front& front,
+              Workspace<Real>& workspace) {
+  const std::size_t vertices = mesh.vertex_count();
+  workspace.vertex.assign(vertices, std::numeric_limits<Real>::infinity());
+  if constexpr (kLabels) workspace.vertex_source.assign(vertices, none);
+  if (rule.bends())
+    read_out_around<Real, kLabels>(mesh, rule, front, 0, static_cast<Index>(vertices), workspace);
+  else
+    read_out_tets<Real, kLabels>(mesh, rule, front, workspace);
 }
 
 /// No vertex is farther than a neighbour and the edge between. True if some vertex got nearer.

@@ -321,6 +321,60 @@ TEST_CASE("any domain: a file is as its arrays") {
   CHECK(std::filesystem::file_size(out) > 8 * ball.positions.size());
 }
 
+TEST_CASE("any domain: regions of a mixed domain with speeds of their own") {
+  // Two unit squares side by side, the right one twice as fast, and a wire, four times as fast.
+  const Surface grid = meshes::grid(16, 8, 2, 1);
+  MixedShape shape;
+  shape.positions = grid.positions;
+  MixedShape::Part part;
+  part.triangles = grid.faces;
+  const Index start = grid.nearest(0, 0.5), end = grid.nearest(2, 0.5);
+  const auto far = static_cast<Index>(shape.positions.size());
+  shape.positions.push_back({2, 0.5, 8});
+  part.edges = {{end, far}};
+  part.vertices = shape.positions.size();
+  shape.parts = {part};
+  const AnyShape mixed = AnyShape::mixed(shape);
+  metric::SimplexSpeeds speeds{.speed = {4}};
+  for (const auto& f : part.triangles) {
+    double x = 0;
+    for (const Index v : f) x += shape.positions[v][0] / 3;
+    speeds.speed.push_back(x < 1 ? 1 : 2);
+  }
+  BuildOptions options = as_given<double>();
+  options.lengths = std::make_shared<const MeasuredLengths>(mixed.measure(speeds));
+  const AnyDomain any(mixed, options);
+  CHECK(any.components() == 1);
+  const AnyField field = any.solve(Serial{}, PointSource::at(start));
+  CHECK(field[end] == Approx(1.5).epsilon(1e-9));
+  // The wire starts from what the triangles at its end have, before vertices are read out.
+  CHECK(field[far] == Approx(1.5 + 2).epsilon(1e-5));
+  double worst = 0, mean = 0;
+  std::size_t count = 0;
+  for (std::size_t v = 0; v < grid.positions.size(); ++v) {
+    const auto& p = grid.positions[v];
+    if (p[0] < 1 - 1e-9) continue;  // there fast ways along the middle may be shorter
+    double exact = infinity;
+    for (int i = 0; i <= 20000; ++i) {
+      const double y = i / 20000.;
+      exact = std::min(exact, std::hypot(1, y - 0.5) + std::hypot(p[0] - 1, p[1] - y) / 2);
+    }
+    worst = std::max(worst, std::abs(field[v] / exact - 1));
+    mean += std::abs(field[v] / exact - 1);
+    ++count;
+  }
+  CAPTURE(worst, mean / static_cast<double>(count));
+  // As docs/methods/mixed.md has it for domains whose pieces are of different speed.
+  CHECK(worst < 4e-3);
+  CHECK(mean / static_cast<double>(count) < 2e-4);
+  // From a point of a triangle, by the shape's number of it.
+  const PointSource inside = mixed.closest({1.9, 0.5, 0});
+  CHECK(inside.simplex != none);
+  CHECK(any.solve(Serial{}, inside)[far] == Approx(0.05 + 2).epsilon(1e-9));
+  CHECK_THROWS_AS(mixed.measure(metric::SimplexSpeeds{.speed = {1, 2}}), InputError);
+  CHECK_THROWS_AS(mixed.measure(metric::VertexTensors{}), UsageError);
+}
+
 TEST_CASE("any domain: a mixed domain over shared vertices") {
   // A cube, a sheet that goes on from its edge x = 1, z = 0, and a wire from the sheet's far
   // corner.

@@ -78,10 +78,11 @@ TEST_CASE("the JSON of distance has its keys, in order") {
   const auto json = nlohmann::ordered_json::parse(run.out);
   std::vector<std::string> keys;
   for (const auto& item : json.items()) keys.push_back(item.key());
-  CHECK(keys == std::vector<std::string>{
-                    "input", "kind", "vertices", "simplices", "components", "seconds", "reached",
-                    "unreached", "max_distance", "expansions", "updates", "lowered_vertices",
-                    "raised_vertices", "executor", "threads", "precision", "triangulation"});
+  CHECK(keys == std::vector<std::string>{"input", "kind", "vertices", "simplices", "components",
+                                         "seconds", "reached", "unreached", "max_distance",
+                                         "expansions", "updates", "lowered_vertices",
+                                         "raised_vertices", "executor", "threads", "precision",
+                                         "accuracy", "triangulation"});
   CHECK(json["input"] == sample("knot.ply"));
   CHECK(json["kind"] == "surface");
   CHECK(json["vertices"] == 5120);

@@ -78,3 +78,21 @@ TEST_CASE("paths that cannot be are said so") {
       run_tool({"path", sample("vessels.obj"), "--from", "vertex:0", "--to", "vertex:1", "--astar"})
           .code == 2);
 }
+
+TEST_CASE("path takes targets from a file") {
+  const Folder folder;
+  const std::string input = folder.write("square.off", square_off(5)).string();
+  const std::string targets = folder.write("targets.txt", "24\n4\n").string();
+  const auto run = run_tool({"path", input, "--from", "vertex:0", "--to", "vertices:" + targets,
+                             "--to", "vertex:20", "--json"});
+  REQUIRE(run.code == 0);
+  const auto paths = run.json()["paths"];
+  REQUIRE(paths.size() == 3);
+  CHECK(paths[0]["to"] == "vertex:24");
+  CHECK(paths[0]["length"] == Approx(std::sqrt(2.)).epsilon(1e-6));
+  CHECK(paths[1]["length"] == Approx(1).epsilon(1e-6));
+  const auto beyond = run_tool({"path", input, "--from", "vertex:0", "--to",
+                                "vertices:" + folder.write("beyond.txt", "25\n").string()});
+  CHECK(beyond.code == 3);
+  CHECK(beyond.complaints() == 1);
+}

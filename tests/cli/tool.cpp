@@ -3,14 +3,17 @@
 #include <fcntl.h>
 #include <poll.h>
 #include <stdlib.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <array>
 #include <catch2/catch.hpp>
+#include <chrono>
 #include <csignal>
 #include <sstream>
+#include <thread>
 #include <utility>
 
 namespace cli_testing {
@@ -67,7 +70,14 @@ void drain(Channel& out, Channel& err, Outcome& outcome) {
   }
 }
 
-Outcome run(const std::vector<std::string>& arguments, Channel& out, Channel& err) {
+// What may cut a run short; 0 is nothing.
+struct Limits {
+  int milliseconds = 0;
+  std::size_t file_bytes = 0;
+};
+
+Outcome run(const std::vector<std::string>& arguments, Channel& out, Channel& err,
+            const Limits& limits = {}) {
   std::vector<std::string> words = {PLEXWAY_TEST_TOOL};
   words.insert(words.end(), arguments.begin(), arguments.end());
   std::vector<char*> argv;
@@ -82,13 +92,24 @@ Outcome run(const std::vector<std::string>& arguments, Channel& out, Channel& er
     ::dup2(out.write, STDOUT_FILENO);
     ::dup2(err.write, STDERR_FILENO);
     std::signal(SIGPIPE, SIG_DFL);
+    if (limits.file_bytes > 0) {
+      const rlimit most = {limits.file_bytes, limits.file_bytes};
+      ::setrlimit(RLIMIT_FSIZE, &most);
+    }
     ::execv(argv[0], argv.data());
     ::_exit(127);
   }
   Channel::close_end(out.write);
   Channel::close_end(err.write);
+  std::thread killer;
+  if (limits.milliseconds > 0)
+    killer = std::thread([child, &limits] {
+      std::this_thread::sleep_for(std::chrono::milliseconds(limits.milliseconds));
+      ::kill(child, SIGKILL);  // at worst a child that ended and still waits to be asked for
+    });
   Outcome outcome;
   drain(out, err, outcome);
+  if (killer.joinable()) killer.join();
   int status = 0;
   REQUIRE(::waitpid(child, &status, 0) == child);
   outcome.code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
@@ -122,6 +143,20 @@ Outcome run_tool_into_closed_pipe(const std::vector<std::string>& arguments) {
   Channel::close_end(out.read);
   err.make_pipe();
   return run(arguments, out, err);
+}
+
+Outcome run_tool_and_kill(const std::vector<std::string>& arguments, int milliseconds) {
+  Channel out, err;
+  out.make_pipe();
+  err.make_pipe();
+  return run(arguments, out, err, {.milliseconds = milliseconds});
+}
+
+Outcome run_tool_with_small_files(const std::vector<std::string>& arguments, std::size_t bytes) {
+  Channel out, err;
+  out.make_pipe();
+  err.make_pipe();
+  return run(arguments, out, err, {.file_bytes = bytes});
 }
 
 Outcome run_tool_on_terminal(const std::vector<std::string>& arguments) {

@@ -29,6 +29,12 @@ Outcome run_tool_into_closed_pipe(const std::vector<std::string>& arguments);
 /// The same, with a terminal as standard error.
 Outcome run_tool_on_terminal(const std::vector<std::string>& arguments);
 
+/// The same, killed (SIGKILL) after so many milliseconds if it still runs then.
+Outcome run_tool_and_kill(const std::vector<std::string>& arguments, int milliseconds);
+
+/// The same, where no file may be longer than so many bytes: a disk that gets full.
+Outcome run_tool_with_small_files(const std::vector<std::string>& arguments, std::size_t bytes);
+
 /// The path of a sample in data/.
 std::string sample(const std::string& name);
 

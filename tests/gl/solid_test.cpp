@@ -1,10 +1,9 @@
 // Solids on a GL device against closed forms, exact answers and the serial executor.
 //
-// Which reflex edges a label hears of from its neighbours depends on the order of updates, and with
-// it, around curved obstacles, which of several bends it takes; no order is right. How far
-// distances move with it is measured by the serial executor with other schedules. Where that is
-// less than 1e-4 (mean) and 1e-3 (worst), the device must be as close as that; elsewhere within
-// twice of it.
+// Around curved obstacles the order of updates decides which of several nearly equal ways a label
+// takes; no order is right. How far distances move with it is measured by the serial executor with
+// other schedules. Where that is less than 1e-4 (mean) and 1e-3 (worst), the device must be as close
+// as that; elsewhere within twice of it.
 
 #include <catch2/catch.hpp>
 #include <random>

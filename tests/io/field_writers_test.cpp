@@ -7,6 +7,7 @@
 #include <span>
 #include <sstream>
 
+#include <plexway/error.hpp>
 #include <plexway/io/field.hpp>
 
 #include "io_testing.hpp"
@@ -277,4 +278,43 @@ TEST_CASE("write_field: more than a buffer's worth") {
     REQUIRE(std::sscanf(line.c_str(), "%*d,%lf,%lf,%lf,0.25", &a, &b, &c) == 3);
     REQUIRE((a == x && b == y && c == z));
   }
+}
+
+TEST_CASE("an estimate of the error is a column behind all others") {
+  const std::vector<double> error = {0, 0.25, 1.0 / 3, 0};
+  const Folder folder;
+  const auto with = [&](const char* name) {
+    write_field(folder.path() / name, surface, distance, label, error);
+    return bytes_of(folder.path() / name);
+  };
+  const auto bytes = [&](bool turned) {
+    std::string all;
+    for (const double e : error) {
+      std::string one(sizeof e, '\0');
+      std::memcpy(one.data(), &e, sizeof e);
+      if (turned) std::reverse(one.begin(), one.end());
+      all += one;
+    }
+    return all;
+  };
+  CHECK(with("d.csv") ==
+        "vertex,x,y,z,distance,label,error\n0,0,0,0,0,0,0\n1,0.1,0,0,0.1,0,0.25\n"
+        "2,0.3333333333333333,1e-300,-2,0.6666666666666666,7,0.3333333333333333\n"
+        "3,4,5,6,inf,-1,0\n");
+  const std::string ply = with("d.ply");
+  CHECK_THAT(ply, Contains("property int label\nproperty double error\nelement face"));
+  Cursor cursor(std::string_view(ply).substr(ply.find("end_header\n") + 11));
+  for (const double e : error) {
+    cursor.take_many<double>(4);
+    cursor.take_many<std::uint8_t>(3);
+    cursor.take<std::int32_t>();
+    CHECK(cursor.take<double>() == e);
+  }
+  CHECK_THAT(with("d.vtu"), Contains("Name=\"error\"") && Contains(bytes(false)));
+  CHECK_THAT(with("d.vtk"), Contains("FIELD FieldData 2\nlabel 1 4 int\n") &&
+                                Contains("\nerror 1 4 double\n" + bytes(true)));
+  CHECK_THAT(with("d.gltf"), Contains("_ERROR"));
+  CHECK(with("d.npy") == written("d.npy", true));
+  CHECK_THROWS_AS(write_field(folder.path() / "e.csv", surface, distance, {}, {error.data(), 3}),
+                  plexway::UsageError);
 }

@@ -136,12 +136,16 @@ TEST_CASE("read_triangles: what is wrong with the file itself") {
   CHECK(complaint_of(named("dir.obj")) == named("dir.obj") + ": is a directory, not a file");
   CHECK(complaint_of(folder.write("empty.ply", "")) == named("empty.ply") + ": is empty");
   CHECK(complaint_of(folder.write("mesh.xyz", "0 0 0\n")) ==
-        named("mesh.xyz") + ": unknown extension '.xyz'; known are .obj .off .ply .stl");
+        named("mesh.xyz") +
+            ": unknown extension '.xyz'; known are .obj .off .ply .stl .gii .white .pial .inflated "
+            ".sphere .orig");
   CHECK(complaint_of(folder.write("mesh", "0 0 0\n")) ==
-        named("mesh") + ": no extension; known are .obj .off .ply .stl");
+        named("mesh") +
+            ": no extension; known are .obj .off .ply .stl .gii .white .pial .inflated .sphere "
+            ".orig");
   CHECK(complaint_of(folder.write("mesh.obj", three + "f 1 2 4")) ==
         named("mesh.obj") + ":4: face 0 names vertex 4, but the file has 3 vertices");
-  CHECK(plexway::io::triangle_extensions().size() == 4);
+  CHECK(plexway::io::triangle_extensions().size() == 10);
 }
 
 TEST_CASE("read_triangles: the extension picks the format in any case, and any size is read") {

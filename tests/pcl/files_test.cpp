@@ -126,5 +126,5 @@ TEST_CASE("distances are an intensity that PCL reads") {
   CHECK_THROWS_AS(write_points(folder.at("no/e.pcd"), points), plexway::Error);
   CHECK_THROWS_AS(write_points(folder.path(), points), plexway::UsageError);
   std::filesystem::create_directory(folder.at("dir.pcd"));
-  CHECK_THROWS_WITH(write_points(folder.at("dir.pcd"), points), Contains("is a directory"));
+  CHECK_THROWS_WITH(write_points(folder.at("dir.pcd"), points), Contains("Is a directory"));
 }

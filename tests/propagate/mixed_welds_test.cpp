@@ -164,9 +164,7 @@ TEST_CASE("a fin on a sheet, and a page on part of a line") {
         return rooms.way(0, at(up ? source : v), 1, at(up ? v : source));
       });
       CAPTURE(foot[0], foot[1], source, e.mean, e.worst, e.low);
-      CHECK(e.mean < 1e-4);
-      CHECK(e.worst < 1e-2);
-      CHECK(e.low > -1e-9);
+      CHECK(e.worst < 1e-9);
     }
   }
 }
@@ -239,7 +237,7 @@ TEST_CASE("a sheet behind an obstacle in a solid") {
     }
 }
 
-TEST_CASE("random rooms in a row, folded in space, are never too near") {
+TEST_CASE("random rooms in a row, folded in space, are exact") {
   std::mt19937 random(5);
   const auto integer = [&](int low, int high) {
     return std::uniform_int_distribution<int>(low, high)(random);
@@ -247,9 +245,7 @@ TEST_CASE("random rooms in a row, folded in space, are never too near") {
   const auto real = [&](double low, double high) {
     return std::uniform_real_distribution<double>(low, high)(random);
   };
-  Errors all;
   constexpr int domains = 700;
-  int below = 0;
   for (int trial = 0; trial < domains; ++trial) {
     Welded domain(unsigned(trial) + 1);
     const int count = integer(2, 4), rows = integer(6, 12);
@@ -285,12 +281,10 @@ TEST_CASE("random rooms in a row, folded in space, are never too near") {
     const Errors e = errors(domain, source, [&](Index v) {
       return rooms.way(room(source), flat[source], room(v), flat[v]);
     });
-    // One surface of the same triangles gives the same: what is left is its rule's.
-    below += e.low < -1e-3;
-    all.mean += e.mean / domains;
+    CAPTURE(trial, e.mean, e.worst, e.low);
+    if (e.low <= -1e-9) CHECK(e.low > -1e-9);
+    if (e.worst >= 1e-9) CHECK(e.worst < 1e-9);
   }
-  CHECK(below <= domains / 50);
-  CHECK(all.mean < 1e-3);
 }
 
 TEST_CASE("random boxes in a row, joined by windows, are never too near") {

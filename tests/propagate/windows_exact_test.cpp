@@ -16,9 +16,9 @@ namespace {
 /// In double, in any order: the same bits, and these are right.
 void check_exact(const TriangleMesh<double>& mesh, const std::vector<PointSource>& sources,
                  const std::vector<double>& exact, double within = 1e-11) {
-  WindowSolver<double> solver(mesh);
+  Workspace<double> workspace;
   DistanceField<double> first, field;
-  solver.solve(sources, Accuracy::exact(), {}, first);
+  solve_windows(mesh, sources, Accuracy::exact(), {}, workspace, first);
   const Errors e = compare(first.distance, exact);
   CAPTURE(e.mean, e.max, e.below);
   CHECK(e.fits);
@@ -26,7 +26,7 @@ void check_exact(const TriangleMesh<double>& mesh, const std::vector<PointSource
   for (const Schedule schedule : schedules) {
     PropagateOptions options;
     options.schedule = schedule;
-    solver.solve(sources, Accuracy::exact(), options, field);
+    solve_windows(mesh, sources, Accuracy::exact(), options, workspace, field);
     CHECK(field.distance == first.distance);
   }
 }

@@ -1,11 +1,12 @@
 #pragma once
 
+#include <span>
 #include <string>
+#include <type_traits>
 #include <vector>
 
-#include <plexway/executors/window_solver.hpp>
-
 #include "propagate/solving.hpp"
+#include "propagate/windows/window_solver.hpp"
 
 namespace plexway::testing {
 
@@ -15,13 +16,27 @@ inline std::string name(Accuracy accuracy) {
   return accuracy == Accuracy::exact() ? "exact" : std::to_string(accuracy.error());
 }
 
+/// As plexway::solve; and exactly in single precision, which that refuses: merged windows come to
+/// it where they give up.
+template <class Real>
+void solve_windows(const TriangleMesh<Real>& mesh, std::span<const PointSource> sources,
+                   Accuracy accuracy, PropagateOptions options, Workspace<Real>& workspace,
+                   DistanceField<Real>& field) {
+  if (std::is_same_v<Real, float> && accuracy == Accuracy::exact()) {
+    workspace.windows.on(mesh).solve(sources, accuracy, options, workspace, field);
+    return;
+  }
+  options.accuracy = accuracy;
+  plexway::solve(Serial{}, mesh, sources, options, workspace, field);
+}
+
 template <class Real>
 std::vector<double> solve_windows(const TriangleMesh<Real>& mesh,
                                   const std::vector<PointSource>& sources, Accuracy accuracy,
                                   const PropagateOptions& options = {}) {
-  WindowSolver<Real> solver(mesh);
+  Workspace<Real> workspace;
   DistanceField<Real> field;
-  solver.solve(sources, accuracy, options, field);
+  solve_windows(mesh, sources, accuracy, options, workspace, field);
   return {field.distance.begin(), field.distance.end()};
 }
 

@@ -23,7 +23,7 @@
 
 #include <plexway/any_domain.hpp>
 #include <plexway/error.hpp>
-#include <plexway/executors/serial.hpp>
+#include <plexway/executors.hpp>
 #include <plexway/version.hpp>
 
 #include "drawing.hpp"
@@ -40,6 +40,7 @@ using plexway::web::JsonLine;
 
 struct Session {
   std::optional<AnyDomain> domain;
+  std::optional<AnyDomain> precise;  ///< the same in double precision
   std::optional<AnyDomain> edges;  ///< the same as a wireframe: what Dijkstra sees
   Drawing drawing;
   std::vector<PointSource> sources;
@@ -95,11 +96,26 @@ const AnyDomain& opened() {
   return *session().domain;
 }
 
-PropagateOptions options_of(const char* accuracy) {
+PropagateOptions options_of(std::string_view accuracy) {
   PropagateOptions options;
-  if (const std::string_view name = accuracy; name != "fast")
-    throw UsageError("accuracy '" + std::string(name) + "' is not known here: take fast");
+  if (accuracy == "fast")
+    options.accuracy = Accuracy::fast();
+  else if (accuracy == "accurate")
+    options.accuracy = Accuracy::accurate();
+  else if (accuracy == "exact")
+    options.accuracy = Accuracy::exact();
+  else if (accuracy != "usual")
+    throw UsageError("accuracy '" + std::string(accuracy) +
+                     "' is not known: take usual, fast, accurate or exact");
   return options;
+}
+
+// Exact distances take the domain in double precision, which is built when they are first asked for.
+const AnyDomain& solved_on(std::string_view accuracy) {
+  Session& now = session();
+  if (accuracy != "exact") return opened();
+  if (!now.precise) now.precise = AnyDomain(opened().shape(), {.precision = Precision::twice});
+  return *now.precise;
 }
 
 }  // namespace
@@ -206,8 +222,9 @@ PLEXWAY_PAGE_CALLS int plexway_solve(const char* accuracy) {
   return answered([&] {
     Session& now = session();
     if (now.sources.empty()) throw UsageError("choose a source first");
+    const AnyDomain& domain = solved_on(accuracy);
     const auto start = std::chrono::steady_clock::now();
-    opened().solve(Serial{}, now.sources, options_of(accuracy), now.field);
+    domain.solve(Serial{}, now.sources, options_of(accuracy), now.field);
     const double solve = milliseconds_since(start);
     now.paths.reset();
     now.distance.resize(now.field.size());
@@ -275,7 +292,7 @@ PLEXWAY_PAGE_CALLS int plexway_path(const char* accuracy) {
     if (!now.hit.found) throw UsageError("pick a point first");
     const auto start = std::chrono::steady_clock::now();
     if (!now.paths)
-      now.paths = opened().path_field(Serial{}, now.sources, options_of(accuracy));
+      now.paths = solved_on(accuracy).path_field(Serial{}, now.sources, options_of(accuracy));
     const Path way = now.paths->trace(now.hit.source);
     now.path.clear();
     for (const std::array<double, 3>& point : way.positions)

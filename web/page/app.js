@@ -14,7 +14,8 @@ const samples = [
 ];
 // What a browser can hold beside the picture.
 const largestFile = 400 * 2 ** 20;
-const accuracies = [['fast', 'fast']];
+// By windows on surfaces and clouds; other domains have one way each.
+const accuracies = [['fast', 'fast'], ['accurate', 'accurate'], ['exact', 'exact']];
 
 const at = (id) => document.getElementById(id);
 const settings = new URLSearchParams(location.hash.slice(1));
@@ -48,7 +49,7 @@ async function busy(task) {
   }
 }
 
-const accuracy = () => at('accuracy').value;
+const accuracy = () => (at('accuracy').disabled ? 'usual' : at('accuracy').value);
 const mode = () => document.querySelector('input[name=mode]:checked').value;
 const milliseconds = (ms) => (ms < 10 ? ms.toFixed(1) : Math.round(ms)) + ' ms';
 
@@ -177,6 +178,7 @@ async function open(files, sampleIndex = '') {
     Object.assign(state, { domain, file: files[0].name, sources: [], target: null, distance: null,
       label: null, difference: null });
     at('sample').value = sampleIndex;
+    at('accuracy').disabled = !['surface', 'cloud'].includes(domain.kind);
     at('cutting').hidden = !['solid', 'mixed'].includes(domain.kind);
     at('cut').checked = domain.kind === 'solid';
     at('length').textContent = at('pointer').textContent = '–';

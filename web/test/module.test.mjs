@@ -30,7 +30,7 @@ for (const [kind, vertex, ...files] of [
     assert.equal(told.kind, kind);
     assert.equal(told.positions.length, 3 * told.vertices);
     engine.setSource(0, vertex);
-    const solved = engine.solve('fast');
+    const solved = engine.solve('usual');
     assert.equal(solved.distance[vertex], 0);
     for (const extension of ['npy', 'csv']) {
       const ours = Buffer.from(engine.write('d.' + extension));
@@ -39,6 +39,16 @@ for (const [kind, vertex, ...files] of [
     }
   });
 }
+
+for (const accuracy of ['fast', 'accurate', 'exact'])
+  test(`${accuracy}: the module and the tool write the same bytes`, () => {
+    engine.open(read('exact/surfaces/spot.obj'));
+    engine.setSource(0, 100);
+    engine.solve(accuracy);
+    const precision = accuracy === 'exact' ? ['--precision', 'double'] : [];
+    assert.ok(Buffer.from(engine.write('d.npy')).equals(byTool(join(data, 'exact/surfaces/spot.obj'),
+      ['--source', 'vertex:100', '--accuracy', accuracy, ...precision])));
+  });
 
 test('what is on screen is the boundary of a solid: closed, each edge on two triangles', () => {
   const { triangles } = engine.open(read('elbow.mesh'));

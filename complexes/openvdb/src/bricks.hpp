@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <unordered_map>
 #include <vector>
@@ -12,6 +13,9 @@ namespace plexway::openvdb {
 
 using Vector = std::array<double, 3>;
 using Cell = std::array<std::int32_t, 3>;
+
+/// Takes bricks one by one, dense (512 values) or, with a null pointer, inside as a whole.
+using BrickTaker = std::function<void(const Cell& corner, const float* values)>;
 
 /// Bricks of 8 x 8 x 8, found by their corner over 8.
 class BrickNumbers {
@@ -70,7 +74,11 @@ struct Frame {
     return at;
   }
   [[nodiscard]] Vector to_index(const Vector& world) const;
-  [[nodiscard]] double determinant() const;
+  [[nodiscard]] double determinant() const {
+    const auto& [a, b, c] = axes;
+    return (a[1] * b[2] - a[2] * b[1]) * c[0] + (a[2] * b[0] - a[0] * b[2]) * c[1] +
+           (a[0] * b[1] - a[1] * b[0]) * c[2];
+  }
 };
 
 /// What a level set is made of: bricks of values, and bricks that lie inside as a whole. Where

@@ -4,7 +4,7 @@
 
 #include <plexway/error.hpp>
 
-#include "grid_copy.hpp"
+#include "bricks.hpp"
 
 namespace plexway::openvdb {
 

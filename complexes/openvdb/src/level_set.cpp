@@ -18,8 +18,6 @@ Vector cross(const Vector& a, const Vector& b) {
 
 }  // namespace
 
-double Frame::determinant() const { return dot(cross(axes[0], axes[1]), axes[2]); }
-
 Vector Frame::to_index(const Vector& world) const {
   const Vector p = {world[0] - origin[0], world[1] - origin[1], world[2] - origin[2]};
   const double volume = determinant();

@@ -16,6 +16,7 @@
 #include <plexway/complex/ids.hpp>
 #include <plexway/error.hpp>
 
+#include "file/new_file.hpp"
 #include "pcd_check.hpp"
 #include "quiet.hpp"
 
@@ -215,26 +216,17 @@ int write_with_pcl(const std::string& file, bool ply, const PCLPointCloud2& clou
 }
 
 void write_cloud(const fs::path& file, const PCLPointCloud2& cloud, PcdForm form) {
-  const auto fail = [&](const std::string& cause) {
-    throw Error("cannot write " + file.string() + ": " + cause);
-  };
-  std::error_code error;
-  if (fs::is_directory(file, error)) fail("is a directory");
-  fs::path written = file;
-  written += ".part";
+  file::NewFile out(file);
   int result = -1;
   std::string cause = "PCL failed to";
   try {
     const Quiet quiet;
-    result = write_with_pcl(written.string(), lower_extension(file) == ".ply", cloud, form);
+    result = write_with_pcl(out.place(), lower_extension(file) == ".ply", cloud, form);
   } catch (const std::exception& from_pcl) {
     cause = from_pcl.what();
   }
-  if (result == 0) fs::rename(written, file, error);
-  if (result == 0 && !error) return;
-  const std::error_code reason = error;
-  fs::remove(written, error);
-  fail(reason ? reason.message() : cause);
+  if (result != 0) out.refuse(cause);
+  out.commit();
 }
 
 void check_writing(const char* who, const fs::path& file, std::size_t points) {

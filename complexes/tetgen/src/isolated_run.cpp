@@ -1,6 +1,6 @@
-// TetGen in a child process. It is not made to be a guest: it writes to standard output even when
-// told to be quiet, leaks all it has when it gives up, and asserts. A child keeps all of that away
-// from the caller, from its other threads and from its standard output.
+// TetGen in a program of its own, helper/main.cpp. It is not made to be a guest: it writes to
+// standard output even when told to be quiet, leaks all it has when it gives up, and asserts. A
+// child keeps all of that away from the caller, and the AGPL too.
 
 #include "isolated_run.hpp"
 
@@ -11,68 +11,32 @@
 #include <array>
 #include <cerrno>
 #include <chrono>
-#include <cstdint>
-#include <cstdio>
-#include <cstring>
-#include <new>
+#include <string>
+#include <vector>
 
 #include <plexway/error.hpp>
 
-#include "../../child_process.hpp"
-#include "tetgen_arrays.hpp"
+#include "../../helper_process.hpp"
+#include "../../plain_bytes.hpp"
 
 namespace plexway::tetgen {
 namespace {
 
-using isolated::Pipe, isolated::send;
-
 constexpr std::size_t most_said = std::size_t{1} << 18;
-// Behind it begins what TetGen says; before it may stand what the caller had not flushed yet.
-constexpr std::string_view start_of_speech = "\n\x01plexway\x01\n";
 
-struct Header {
-  std::int32_t ending = 0;
-  std::uint64_t points = 0, tets = 0, attributes = 0;
-};
-
-template <class Number>
-void send_array(int to, const Number* numbers, std::uint64_t count) {
-  send(to, numbers, count * sizeof(Number));
-}
-
-void fill(const PiecewiseLinearComplex& complex, const std::string& switches, int speech,
-          int answer) {
-  isolated::speak_into(speech);
-  std::fwrite(start_of_speech.data(), 1, start_of_speech.size(), stdout);
-  std::fflush(stdout);
-  std::setvbuf(stdout, nullptr, _IOLBF, 1 << 12);  // abort() does not flush
-
-  // Nothing is freed: the process ends here, and after an error TetGen's memory is not to be
-  // touched.
-  Header header;
-  auto* const in = new tetgenio;
-  auto* const out = new tetgenio;
-  try {
-    to_tetgen(complex, *in);
-    std::string line = switches;
-    ::tetrahedralize(line.data(), in, out);
-  } catch (const int code) {
-    header.ending = code == 0 ? static_cast<int>(Ending::internal_error) : code;
-  } catch (const std::bad_alloc&) {
-    header.ending = static_cast<int>(Ending::out_of_memory);
-  } catch (...) {
-    header.ending = static_cast<int>(Ending::internal_error);
+std::string request_of(const PiecewiseLinearComplex& complex, const std::string& switches) {
+  isolated::BytesOut out;
+  out.put_row(switches);
+  out.put_row(complex.positions);
+  out.put_row(complex.holes);
+  out.put_row(complex.regions);
+  out.put(static_cast<std::uint64_t>(complex.facets.size()));
+  for (const auto& facet : complex.facets) {
+    out.put_row(facet.holes);
+    out.put(static_cast<std::uint64_t>(facet.polygons.size()));
+    for (const auto& polygon : facet.polygons) out.put_row(polygon);
   }
-  std::fflush(stdout);
-  if (header.ending == 0) {
-    header.points = static_cast<std::uint64_t>(out->numberofpoints);
-    header.tets = static_cast<std::uint64_t>(out->numberoftetrahedra);
-    if (out->numberoftetrahedronattributes == 1) header.attributes = header.tets;
-  }
-  send(answer, &header, sizeof header);
-  send_array(answer, out->pointlist, 3 * header.points);
-  send_array(answer, out->tetrahedronlist, 4 * header.tets);
-  send_array(answer, out->tetrahedronattributelist, header.attributes);
+  return out.bytes();
 }
 
 // Seconds since it was made, against what a caller is ready to wait.
@@ -109,13 +73,13 @@ class Clock {
 
 // Reads both pipes to their ends, whichever has something, so that neither can fill up and block;
 // or until patience is over, and then says how.
-Ending listen_to(Pipe& speech, Pipe& answer, const Patience& patience, std::string& said,
+Ending listen_to(isolated::Helper& helper, const Patience& patience, std::string& said,
                  std::string& bytes) {
+  isolated::Descriptor &speech = helper.speech(), &answer = helper.answer();
   Clock clock(patience);
   std::vector<char> buffer(std::size_t{1} << 16);
-  while (speech.read.number >= 0 || answer.read.number >= 0) {
-    std::array<pollfd, 2> wait = {
-        {{speech.read.number, POLLIN, 0}, {answer.read.number, POLLIN, 0}}};
+  while (speech.number >= 0 || answer.number >= 0) {
+    std::array<pollfd, 2> wait = {{{speech.number, POLLIN, 0}, {answer.number, POLLIN, 0}}};
     if (::poll(wait.data(), wait.size(), clock.wait()) < 0 && errno != EINTR) return Ending::killed;
     if (const Ending ending = clock.look(); ending != Ending::done) return ending;
     for (std::size_t i = 0; i < 2; ++i) {
@@ -123,7 +87,7 @@ Ending listen_to(Pipe& speech, Pipe& answer, const Patience& patience, std::stri
       const ssize_t got = ::read(wait[i].fd, buffer.data(), buffer.size());
       if (got < 0 && errno == EINTR) continue;
       if (got <= 0) {
-        (i == 0 ? speech.read : answer.read).close();
+        (i == 0 ? speech : answer).close();
         continue;
       }
       const auto size = static_cast<std::size_t>(got);
@@ -139,43 +103,28 @@ Ending listen_to(Pipe& speech, Pipe& answer, const Patience& patience, std::stri
   return Ending::done;
 }
 
-template <class Row>
-bool take(std::string_view& bytes, std::vector<Row>& rows, std::uint64_t count) {
-  if (bytes.size() < count * sizeof(Row)) return false;
-  rows.resize(count);
-  if (count > 0) std::memcpy(rows.data(), bytes.data(), count * sizeof(Row));
-  bytes.remove_prefix(count * sizeof(Row));
-  return true;
-}
-
 }  // namespace
 
 Run run_isolated(const PiecewiseLinearComplex& complex, const std::string& switches,
                  const Patience& patience) {
-  Pipe speech("TetGen"), answer("TetGen");
-  const isolated::Child running(
-      "TetGen", [&] { fill(complex, switches, speech.write.number, answer.write.number); });
-  speech.write.close();
-  answer.write.close();
-
+  isolated::Helper helper(helper_name, "TetGen", reinterpret_cast<const void*>(&run_isolated),
+                          true);
+  helper.tell(request_of(complex, switches));
   Run run;
   std::string bytes;
-  const Ending heard = listen_to(speech, answer, patience, run.said, bytes);
-  const std::size_t start = run.said.find(start_of_speech);
-  run.said.erase(0, start == run.said.npos ? run.said.size() : start + start_of_speech.size());
-  if (heard != Ending::done) {
-    run.ending = heard;
+  run.ending = listen_to(helper, patience, run.said, bytes);
+  if (run.ending != Ending::done) return run;
+  // Only a whole answer counts; a helper that was killed gives none.
+  isolated::BytesIn in(bytes);
+  std::int32_t ending = 0;
+  if (in.get(ending) && in.get_row(run.points) && in.get_row(run.tets) &&
+      in.get_row(run.attributes)) {
+    run.ending = static_cast<Ending>(ending);
     return run;
   }
-  // Only a whole answer counts; a child that was killed gives none.
-  Header header;
-  if (bytes.size() < sizeof header) return run;
-  std::memcpy(&header, bytes.data(), sizeof header);
-  std::string_view rest(bytes);
-  rest.remove_prefix(sizeof header);
-  if (take(rest, run.points, header.points) && take(rest, run.tets, header.tets) &&
-      take(rest, run.attributes, header.attributes))
-    run.ending = static_cast<Ending>(header.ending);
+  const isolated::HelperEnd end = helper.end();
+  run.ending = end.crashed() ? Ending::crashed : Ending::killed;
+  run.how = end.text();
   return run;
 }
 

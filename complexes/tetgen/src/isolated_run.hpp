@@ -8,6 +8,9 @@
 
 namespace plexway::tetgen {
 
+/// The name of the program that runs TetGen.
+constexpr const char* helper_name = "plexway-tetgen";
+
 /// How a run of TetGen ended. The first ones are the numbers that TetGen itself throws.
 enum class Ending : int {
   done = 0,
@@ -17,7 +20,8 @@ enum class Ending : int {
   tiny_feature = 4,
   close_facets = 5,
   input_error = 10,
-  killed = 100,  ///< by a signal, its own abort() included
+  killed = 100,   ///< by somebody, or by the system
+  crashed = 103,  ///< by a fault of its own, abort() included
   out_of_time = 101,
   cancelled = 102,
 };
@@ -25,6 +29,7 @@ enum class Ending : int {
 /// What a run left behind.
 struct Run {
   Ending ending = Ending::killed;
+  std::string how;   ///< it was killed
   std::string said;  ///< on standard output and standard error, up to a limit
   /// Where done: points (the input's own first), four corners a tetrahedron, an attribute each.
   std::vector<std::array<double, 3>> points;
@@ -41,7 +46,8 @@ struct Patience {
 };
 
 /// Runs TetGen on `complex` in a child process with the switches of its command line. Indices must
-/// be in range. Throws Error when there can be no child.
+/// be in range. Throws Error when there can be no child, NotBuiltError when the program is not
+/// installed.
 Run run_isolated(const PiecewiseLinearComplex& complex, const std::string& switches,
                  const Patience& patience);
 

@@ -66,6 +66,8 @@ std::string plural(std::size_t count, const std::string& what) {
 
 void give_reason(const Run& run, const Run& diagnosis, const std::string& facet) {
   if (run.ending == Ending::out_of_memory) throw std::bad_alloc();
+  if (run.ending == Ending::killed)
+    throw Error(std::string("the program ") + helper_name + ", which fills solids, " + run.how);
   if (run.ending == Ending::cancelled || diagnosis.ending == Ending::cancelled)
     throw Cancelled("TetGen was stopped");
   const Clashes clashes = clashes_in(diagnosis.said);

@@ -162,7 +162,8 @@ Solid fill(const PiecewiseLinearComplex& complex, const TetrahedralizeOptions& o
       if (run.ending == Ending::out_of_time)
         patience.seconds = std::min(patience.seconds, options.max_seconds);
       Run diagnosis;
-      if (run.ending != Ending::cancelled) diagnosis = run_isolated(work, "pzd", patience);
+      if (run.ending != Ending::cancelled && run.ending != Ending::killed)
+        diagnosis = run_isolated(work, "pzd", patience);
       give_reason(run, diagnosis, facet);
     }
     Solid solid = solid_of(std::move(run), work.positions);

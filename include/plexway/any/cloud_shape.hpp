@@ -18,19 +18,26 @@ namespace plexway {
 /// Points with their neighbours. Thinned and denoised points are gone: numbers count those kept,
 /// and `points.original` has those in the file.
 struct CloudShape {
+  /// Those kept.
   io::Points points;
   /// Where paths are measured, one a point; empty: at the points.
   std::vector<std::array<double, 3>> smoothed;
+  /// Of these.
   Neighbours neighbours;
   std::size_t k = 0;  ///< as asked for; 0: all within a radius
+  /// Degrees, as asked for (CloudOptions).
   std::optional<double> max_normal_angle;
 
+  /// As many as there were.
   std::size_t points_in_file = 0;
   std::size_t not_finite = 0;  ///< dropped when read
   std::size_t outliers = 0;    ///< dropped by denoising
+  /// Is each point the mean of those in a cube?
   bool thinned = false;
+  /// Do the file's normals tell inside from outside?
   bool normals_agree = false;
 
+  /// Where paths are measured, smoothed or not.
   [[nodiscard]] const std::vector<std::array<double, 3>>& measured() const {
     return smoothed.empty() ? points.positions : smoothed;
   }
@@ -45,6 +52,7 @@ struct CloudShape {
 
 /// The points of a file, before anything is done to them.
 struct CloudFile {
+  /// As read.
   io::Points points;
   std::size_t not_finite = 0;  ///< dropped
 };

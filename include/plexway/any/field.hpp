@@ -12,6 +12,7 @@
 
 namespace plexway {
 
+/// Whether numbers are float or double.
 enum class Precision { single, twice };
 
 /// Which triangles a surface is solved on.
@@ -25,7 +26,9 @@ enum class Triangulation {
 /// Which ones they became.
 struct TriangulationReport {
   Triangulation done = Triangulation::input;  ///< never automatic
+  /// Edges flipped on the way.
   std::size_t flips = 0;
+  /// New vertices, by refinement.
   std::size_t inserted_vertices = 0;
   double seconds = 0;  ///< for building on other triangles, where that was done
 };
@@ -34,14 +37,18 @@ struct TriangulationReport {
 /// leads, never NaN.
 class AnyField {
  public:
+  /// A field in either precision.
   using Data = std::variant<DistanceField<float>, DistanceField<double>>;
 
+  /// The field.
   Data data;
   TriangulationReport triangulation;  ///< which triangles it was solved on in the end
 
+  /// One distance a vertex: so many.
   [[nodiscard]] std::size_t size() const {
     return std::visit([](const auto& f) { return f.distance.size(); }, data);
   }
+  /// The distance of a vertex, which must be one (not checked).
   [[nodiscard]] double operator[](std::size_t vertex) const {
     return std::visit([&](const auto& f) { return static_cast<double>(f.distance[vertex]); }, data);
   }
@@ -56,6 +63,7 @@ class AnyField {
     const auto* of = std::get_if<DistanceField<float>>(&data);
     return of == nullptr ? std::span<const float>() : std::span<const float>(of->distance);
   }
+  /// Likewise.
   [[nodiscard]] std::span<const double> twice() const {
     const auto* of = std::get_if<DistanceField<double>>(&data);
     return of == nullptr ? std::span<const double>() : std::span<const double>(of->distance);
@@ -76,6 +84,17 @@ class AnyField {
   [[nodiscard]] bool complete() const {
     return std::visit([](const auto& f) { return f.complete; }, data);
   }
+  /// How far off each distance may be, an estimate (DistanceField::error); empty for
+  /// Accuracy::fast().
+  [[nodiscard]] std::vector<double> error() const {
+    return std::visit(
+        [](const auto& f) { return std::vector<double>(f.error.begin(), f.error.end()); }, data);
+  }
+  /// By which it was solved.
+  [[nodiscard]] Accuracy accuracy() const {
+    return std::visit([](const auto& f) { return f.accuracy; }, data);
+  }
+  /// What it cost.
   [[nodiscard]] const PropagateStatistics& statistics() const {
     return std::visit([](const auto& f) -> const PropagateStatistics& { return f.statistics; },
                       data);

@@ -62,17 +62,24 @@ enum class Spelling {
   fields,  ///< max_volume
   flags,   ///< --max-volume
 };
+/// A field's name in that spelling.
 [[nodiscard]] std::string spelled(Spelling spelling, std::string_view field);
 
 /// How to read a domain from a file.
 struct ReadOptions {
   /// What to take it as; nothing: what the file says. A surface may be taken as a solid (it is
-  /// filled), its edges as a wireframe, its vertices as a cloud.
+  /// filled), its edges as a wireframe, its vertices as a cloud; a .msh, .vtu or .vtk as mixed:
+  /// with its lines and triangles beside its tetrahedra.
   std::optional<DomainKind> as = {};
+  /// How a surface is filled.
   FillOptions fill = {};
+  /// How level sets are made and read.
   VolumeOptions volume = {};
+  /// How points are made a domain.
   CloudPreparation cloud = {};
+  /// How messages name these options.
   Spelling spelling = Spelling::fields;
+  /// What is told meanwhile.
   ReadProgress progress = {};
 };
 
@@ -81,6 +88,8 @@ void check(const ReadOptions& options);
 
 /// "surface", "solid", "wireframe", "simplices", "cloud" or "mixed".
 [[nodiscard]] std::string_view kind_name(DomainKind kind);
+/// In a sentence: "surface", but "mixed domain" and "complex of simplices".
+[[nodiscard]] std::string_view kind_noun(DomainKind kind);
 /// The kind of that name, if there is one.
 [[nodiscard]] std::optional<DomainKind> kind_named(std::string_view name);
 

@@ -16,6 +16,7 @@
 #include <plexway/any/read_options.hpp>
 #include <plexway/apps/path.hpp>
 #include <plexway/io/edges.hpp>
+#include <plexway/io/simplices.hpp>
 #include <plexway/io/tets.hpp>
 #include <plexway/io/triangles.hpp>
 #include <plexway/metric/edge_lengths.hpp>
@@ -23,39 +24,44 @@
 
 namespace plexway {
 
-/// Simplices of one dimension, 1 to 4, with any number of coordinates or with lengths alone.
-struct SimplexShape {
-  int dimension = 4;
-  std::size_t vertices = 0;
-  std::size_t axes = 0;                ///< coordinates a vertex; 0: none
-  std::vector<double> positions = {};  ///< vertices x axes
-  std::vector<Index> corners = {};     ///< dimension + 1 a simplex
-  /// If there are no positions: dimension (dimension + 1) / 2 a simplex, ordered as
-  /// SimplicialComplex has them.
-  std::vector<double> lengths = {};
-};
+/// Simplices of one dimension, 1 to 4.
+using SimplexShape = io::Simplices;
 
 /// Edges, triangles and tetrahedra over shared vertices. Vertices are numbered through, part after
 /// part; simplices likewise, and in each part edges come first, then triangles, then tetrahedra.
 struct MixedShape {
+  /// One of the parts: vertices that follow each other, and simplices of them.
   struct Part {
+    ///@{
+    /// Its first vertex, and how many it has.
     std::size_t first_vertex = 0, vertices = 0;
+    ///@}
     // By numbers of the whole.
+    /// Edges, by numbers of the whole, as all simplices.
     std::vector<std::array<Index, 2>> edges = {};
+    /// Triangles.
     std::vector<std::array<Index, 3>> triangles = {};
+    /// Tetrahedra.
     std::vector<std::array<Index, 4>> tets = {};
   };
+  /// Of all parts, part after part, in one unit.
   std::vector<std::array<double, 3>> positions;
+  /// At least one.
   std::vector<Part> parts;
   double tolerance = 0;  ///< vertices of two parts are one if they are this close
 };
 
 /// Lengths of edges by a metric, those of the kind of domain that was measured.
 struct MeasuredLengths {
+  /// Of a surface, as TriangleMesh takes them; else empty.
   std::vector<std::array<double, 3>> triangles;
+  /// Of a solid, as TetMesh takes them; else empty.
   std::vector<std::array<double, 6>> tets;
+  /// Of a wireframe, one an edge; else empty.
   std::vector<double> edges;
-  bool refracts = false;  ///< triangles may measure an edge they share in two ways
+  std::vector<double> speeds;  ///< of a mixed domain's simplices, all kinds in order
+  bool refracts = false;       ///< triangles may measure an edge they share in two ways
+  /// Simplices whose lengths no flat simplex has.
   metric::Violations violations;
 };
 
@@ -66,6 +72,7 @@ class AnyShape {
   /// In the order of DomainKind.
   using Data =
       std::variant<io::Triangles, io::Tets, io::Edges, SimplexShape, CloudShape, MixedShape>;
+  /// Three coordinates a point.
   using Points = std::vector<std::array<double, 3>>;
 
   /// Reads `file`, and fills or unravels it where `options.as` asks for that; else the extension
@@ -75,19 +82,31 @@ class AnyShape {
   [[nodiscard]] static AnyShape read(const std::filesystem::path& file,
                                      const ReadOptions& options = {});
 
+  /// Reads several files, each a surface, a solid or a wireframe with positions, or a .msh, .vtu or
+  /// .vtk with cells of several dimensions: parts of one mixed domain, whose vertices are one where
+  /// they are closer than `tolerance` in file units, >= 0. Throws as above; UsageError for options
+  /// that say how to fill, repair or connect points.
+  [[nodiscard]] static AnyShape read(std::span<const std::filesystem::path> files, double tolerance,
+                                     const ReadOptions& options = {});
+
   // From arrays: positions in any unit, simplices by vertices counted from 0. All throw InputError
   // that names the simplex for a vertex out of range.
+  /// Triangles.
   [[nodiscard]] static AnyShape surface(Points positions,
                                         std::vector<std::array<Index, 3>> triangles);
+  /// Tetrahedra.
   [[nodiscard]] static AnyShape solid(Points positions, std::vector<std::array<Index, 4>> tets);
+  /// Edges.
   [[nodiscard]] static AnyShape wireframe(Points positions,
                                           std::vector<std::array<Index, 2>> edges);
   /// By lengths alone, one row a simplex, in the order of TriangleMesh, TetMesh and Wireframe.
   [[nodiscard]] static AnyShape surface(std::size_t vertices,
                                         std::vector<std::array<Index, 3>> triangles,
                                         std::vector<std::array<double, 3>> lengths);
+  /// Likewise.
   [[nodiscard]] static AnyShape solid(std::size_t vertices, std::vector<std::array<Index, 4>> tets,
                                       std::vector<std::array<double, 6>> lengths);
+  /// Likewise.
   [[nodiscard]] static AnyShape wireframe(std::size_t vertices,
                                           std::vector<std::array<Index, 2>> edges,
                                           std::vector<double> lengths);
@@ -96,12 +115,17 @@ class AnyShape {
   [[nodiscard]] static AnyShape cloud(io::Points points, const ReadOptions& options = {});
   /// Of dimension 1 to 4. Throws InputError for counts that do not fit.
   [[nodiscard]] static AnyShape simplices(SimplexShape shape);
+  /// Of parts that are there already. Throws InputError for numbers that do not fit, UsageError for
+  /// a tolerance that is not >= 0.
   [[nodiscard]] static AnyShape mixed(MixedShape shape);
 
   /// The file, or empty.
   [[nodiscard]] const std::filesystem::path& file() const;
+  /// What it holds.
   [[nodiscard]] const Data& data() const;
+  /// Its kind.
   [[nodiscard]] DomainKind kind() const;
+  /// The name of its kind: see plexway::kind_name.
   [[nodiscard]] std::string_view kind_name() const { return plexway::kind_name(kind()); }
   /// The cloud if it is one, else null.
   [[nodiscard]] const CloudShape* cloud() const { return std::get_if<CloudShape>(&data()); }
@@ -109,6 +133,7 @@ class AnyShape {
   [[nodiscard]] int dimension() const;
   /// What its simplices are called, in the plural.
   [[nodiscard]] std::string_view simplex_name() const;
+  /// Points, of a cloud.
   [[nodiscard]] std::size_t vertices() const;
   /// As given: a cloud has none.
   [[nodiscard]] std::size_t simplices() const;
@@ -124,7 +149,9 @@ class AnyShape {
   /// Seconds that reading took, and those that filling a surface and finding the neighbours of a
   /// cloud took, if that was done.
   [[nodiscard]] double load_seconds() const;
+  /// For filling, if that was done.
   [[nodiscard]] std::optional<double> mesh_seconds() const;
+  /// For neighbours, if that was done.
   [[nodiscard]] std::optional<double> neighbour_seconds() const;
 
   /// The point of the domain closest to `point`; a vertex where it is that vertex. Among several,
@@ -142,21 +169,26 @@ class AnyShape {
   /// other kinds.
   [[nodiscard]] Source boundary(double offset = 0) const;
 
-  /// Lengths by a metric; `refract`: triangles may measure an edge they share in two ways. Throws
-  /// InputError as metric::triangle_lengths, and UsageError for kinds that cannot be measured.
+  /// Lengths by a metric. Triangles may measure an edge they share in two ways where the metric
+  /// says Sides::own. Mixed domains take a speed a simplex, of at most 64 different ones: paths are
+  /// refracted where it changes. Throws InputError as metric::triangle_lengths, and UsageError for
+  /// what cannot be measured.
   [[nodiscard]] MeasuredLengths measure(const metric::Metric& metric) const;
 
   /// Lines on a surface where a field has the values. UsageError for other kinds; see isolines.hpp.
   [[nodiscard]] std::vector<Path> isolines(std::span<const double> distance,
                                            std::span<const double> values) const;
 
-  /// Writes one distance a vertex; the extension of `out` picks the format. Throws as
+  /// Writes one distance a vertex, and of surfaces and clouds its `error` where there is one; the
+  /// extension of `out` picks the format. Throws as
   /// io::write_field; a cloud fits a .pcd as well, a solid a .vdb.
   void write_field(const std::filesystem::path& out, std::span<const double> distance,
-                   std::span<const std::int32_t> label = {}) const;
+                   std::span<const std::int32_t> label = {},
+                   std::span<const double> error = {}) const;
   /// The extensions that fields of a kind may have, with the dot, in lower case.
   [[nodiscard]] static std::span<const std::string_view> field_extensions(DomainKind kind);
 
+  /// For the library's own use.
   struct State;
 
  private:

@@ -16,14 +16,21 @@ namespace plexway {
 /// What lies within a radius, caller's numbers.
 template <class Real>
 struct Surroundings {
+  /// A vertex and how far it is.
   struct Vertex {
+    /// The caller's number.
     Index vertex;
+    /// In the domain's unit.
     Real distance;
     Index label;  ///< nearest source, by its place in the list
   };
   std::vector<Vertex> vertices;  ///< no farther than the radius, each once
   std::vector<Index> simplices;  ///< those that were reached, each once; may reach beyond
   bool complete = true;          ///< false if max_expansions ended the search early
+  /// Longest edge of the triangles that were reached. What would have corrected a distance may lie
+  /// beyond the radius: on raw scans one in 10^4 is off by some percent, within an edge of the rim.
+  double longest_edge = 0;
+  /// Of the search.
   PropagateStatistics statistics;
 };
 
@@ -36,6 +43,7 @@ struct Surroundings {
 template <class Real>
 class BoundedSearch {
  public:
+  /// Refers to the surface. Throws UsageError for one with refracting edges. Cost: linear.
   explicit BoundedSearch(const TriangleMesh<Real>& mesh);
 
   /// Vertices within options.radius of the nearest of `sources`. The result stays until the next
@@ -43,6 +51,7 @@ class BoundedSearch {
   /// unless options.visibility is the default. Cost: about 0.2 us a triangle that is reached.
   const Surroundings<Real>& find(Serial, std::span<const PointSource> sources,
                                  const PropagateOptions& options, bool simplices = false);
+  /// From one source, with the options that are the default but for the radius.
   const Surroundings<Real>& find(Serial executor, const PointSource& source, double radius,
                                  bool simplices = false) {
     PropagateOptions options;
@@ -50,6 +59,7 @@ class BoundedSearch {
     return find(executor, std::span<const PointSource>(&source, 1), options, simplices);
   }
 
+  /// Bytes held, without those of the surface.
   [[nodiscard]] std::size_t bytes() const;
 
  private:

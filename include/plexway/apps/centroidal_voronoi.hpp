@@ -29,8 +29,11 @@ struct VoronoiStep {
   double movement = 0;  ///< of the seeds after that, root mean square
 };
 
+/// How seeds move, and how long.
 struct VoronoiOptions {
+  /// Where to.
   CellCentre centre = CellCentre::centroid;
+  /// Done after so many, converged or not.
   std::size_t max_iterations = 100;
   /// Done when the movement is below this share of a cell's size (content / seeds)^(1 / dimension).
   double tolerance = 1e-3;
@@ -38,11 +41,14 @@ struct VoronoiOptions {
   std::function<bool(const VoronoiStep&)> progress = {};
 };
 
+/// Seeds in the middle of their cells.
 struct CentroidalVoronoi {
+  /// As many as there were, in their order.
   std::vector<PointSource> seeds;
   /// Nearest seed of each simplex's centre, on clouds of each point; none if unreached.
   std::vector<Index> label;
   std::vector<double> cell_content;  ///< area or volume of each seed's cell
+  /// One an iteration.
   std::vector<VoronoiStep> steps;
   double energy = 0;               ///< at the end
   bool converged = false;          ///< the movement fell below the tolerance
@@ -57,6 +63,7 @@ struct CentroidalVoronoi {
 /// for.
 ///
 /// Throws UsageError for no seeds, a seed that is not in the domain, options out of range.
+/// UsageError for a surface with refracting edges, too.
 /// Cost: about 1.6 propagations from a single source an iteration, 3.1 with farthest_from_border.
 /// Source: Trettner, Bommes, Kobbelt: Geodesic Distance Computation via Virtual Source Propagation,
 /// SGP 2021, section 6, for farthest_from_border; Lloyd: Least Squares Quantization in PCM, 1982.
@@ -90,6 +97,9 @@ struct DualTriangulation {
 };
 
 /// From the nearest seed of each vertex, as `solve` from several sources gives it.
+///
+/// Shapes: m faces of vertices < n, n labels, each < `seeds` or none; not checked. Cost: linear,
+/// but for sorting the edges between cells.
 [[nodiscard]] DualTriangulation dual_triangulation(std::span<const std::array<Index, 3>> faces,
                                                    std::span<const Index> vertex_label,
                                                    std::size_t seeds);

@@ -14,10 +14,12 @@ namespace plexway {
 /// A distance field on a cloud of points that can tell the way: along the sheet of triangles that
 /// the cloud holds.
 ///
+/// @code
 ///   PathField field(cloud, points);
 ///   field.solve(Serial{}, PointSource::at(0));
 ///   Path path = field.trace(17);
 ///
+/// @endcode
 /// Sources and targets are points. Those of a path in between are points of the sheet's triangles:
 /// their simplices are numbers of `cloud.surface()`, whose corners `corners` tells. The cloud and
 /// its points are referred to and must outlive it.
@@ -43,9 +45,10 @@ class PathField<PointCloud<Real>> {
       plexway::solve(executor, *cloud_, sources, options, workspace_, field_);
     else
       field_ = plexway::solve(executor, *cloud_, sources, options);
-    took(sources, options.visibility, keeps_labels);
+    took(sources, options.visibility, keeps_labels && field_.accuracy == Accuracy::fast());
     return field_;
   }
+  /// From one source.
   template <class Executor>
   const DistanceField<Real>& solve(Executor executor, const PointSource& source,
                                    const PropagateOptions& options = {}) {

@@ -16,12 +16,16 @@ namespace plexway {
 
 /// Distances between chosen points.
 struct DistanceMatrix {
+  /// So many points.
   std::size_t size = 0;
   std::vector<double> distance;  ///< row by row, symmetric, 0 on the diagonal; +inf where no path
   /// The largest difference between the two ways, in the length of the way: an error estimate.
   double asymmetry = 0;
+  Accuracy accuracy = Accuracy::fast();  ///< by which it was solved
+  /// Of all propagations.
   PropagateStatistics statistics;
 
+  /// From point i to point j, both < size.
   [[nodiscard]] double operator()(std::size_t i, std::size_t j) const {
     return distance[i * size + j];
   }
@@ -32,11 +36,14 @@ struct DistanceMatrix {
 /// counts. Offsets are not asked for (UsageError).
 ///
 /// Throws UsageError for no points or a point that is not in the domain, and Cancelled when
-/// `progress`, called with the share that is done, returns false.
+/// `progress`, called with the share that is done, returns false. On surfaces and clouds the
+/// accuracy is that of `solve`.
+/// UsageError for a surface with refracting edges, too.
 template <class Real>
-[[nodiscard]] DistanceMatrix distance_matrix(
-    Serial, const TriangleMesh<Real>& mesh, std::span<const PointSource> points,
-    const std::function<bool(double share)>& progress = {});
+[[nodiscard]] DistanceMatrix distance_matrix(Serial, const TriangleMesh<Real>& mesh,
+                                             std::span<const PointSource> points,
+                                             const std::function<bool(double share)>& progress = {},
+                                             Accuracy accuracy = Accuracy::usual());
 /// In a solid, which must have coordinates (UsageError).
 template <class Real>
 [[nodiscard]] DistanceMatrix distance_matrix(
@@ -44,8 +51,9 @@ template <class Real>
     const std::function<bool(double share)>& progress = {});
 /// Among points of a cloud, by number.
 template <class Real>
-[[nodiscard]] DistanceMatrix distance_matrix(
-    Serial, const PointCloud<Real>& cloud, std::span<const PointSource> points,
-    const std::function<bool(double share)>& progress = {});
+[[nodiscard]] DistanceMatrix distance_matrix(Serial, const PointCloud<Real>& cloud,
+                                             std::span<const PointSource> points,
+                                             const std::function<bool(double share)>& progress = {},
+                                             Accuracy accuracy = Accuracy::usual());
 
 }  // namespace plexway

@@ -14,6 +14,7 @@
 
 namespace plexway {
 
+/// When there are enough points.
 struct FarthestOptions {
   std::size_t count = 2;  ///< so many points, those that it starts from included
   /// Or fewer: stop when no vertex is farther than this from them.
@@ -22,12 +23,14 @@ struct FarthestOptions {
   std::function<bool(double share)> progress = {};
 };
 
+/// Points far from each other.
 struct FarthestPoints {
   std::vector<PointSource> points;  ///< the given ones first, then vertices
   /// How far each was from those before it when it was chosen: +inf for the first ones of a
   /// component, then falling. 0 for those given.
   std::vector<double> distance;
   double covering = 0;  ///< no vertex is farther from the points; +inf where some are unreachable
+  /// Of all propagations.
   PropagateStatistics statistics;
 };
 
@@ -37,6 +40,7 @@ struct FarthestPoints {
 /// are left out.
 ///
 /// Throws UsageError for no start, a start that is not in the domain or options out of range.
+/// UsageError for a surface with refracting edges, too.
 template <class Real>
 [[nodiscard]] FarthestPoints farthest_points(Serial, const TriangleMesh<Real>& mesh,
                                              std::span<const PointSource> start,

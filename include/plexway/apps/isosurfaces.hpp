@@ -10,6 +10,7 @@ namespace plexway {
 
 /// Triangles where a field on a solid has given values.
 struct Isosurfaces {
+  /// Vertices, in the unit of the solid's positions.
   std::vector<std::array<double, 3>> positions;
   std::vector<std::array<Index, 3>> triangles;  ///< value by value
   std::vector<Index> value;                     ///< of each vertex: a place in the list of values

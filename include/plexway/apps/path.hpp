@@ -11,7 +11,9 @@ namespace plexway {
 
 /// A point of a simplex, caller's numbers: one coordinate a corner, >= 0, sum 1; 0 beyond them.
 struct PathPoint {
+  /// It lies in this simplex.
   Index simplex = none;
+  /// Its coordinates there.
   std::array<double, 4> barycentric = {0, 0, 0, 0};
 };
 
@@ -32,6 +34,7 @@ struct TraceOptions {
 /// the path never leaves the domain. It is empty, and its length +inf, where no path leads; from a
 /// source that no simplex has to itself it is empty and 0 long.
 struct Path {
+  /// From the point asked for to the source.
   std::vector<PathPoint> points;
   /// Where the points are; empty where the domain has no coordinates.
   std::vector<std::array<double, 3>> positions;

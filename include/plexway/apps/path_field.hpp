@@ -25,15 +25,18 @@ struct Solved;
 
 /// A distance field that can tell the way: what a solve learned, and the domain it holds on.
 ///
+/// @code
 ///   PathField field(mesh, positions);
 ///   field.solve(Serial{}, sources);
 ///   Path path = field.trace(PointSource::at(17));
 ///
+/// @endcode
 /// Domain: TriangleMesh, TetMesh or Wireframe. The domain and the positions are referred to and
 /// must outlive it.
 template <class Domain>
 class PathField;
 
+/// On a surface, a solid or a wireframe.
 template <template <class> class Domain, class Real>
 class PathField<Domain<Real>> {
   static_assert(Domain<Real>::kind == DomainKind::surface ||
@@ -46,6 +49,7 @@ class PathField<Domain<Real>> {
   /// With them paths have coordinates, and all lengths are taken from them in double. Throws
   /// UsageError for another count. Cost: linear; 4 bytes a vertex, and a
   /// tetrahedron, and 8 an edge of a wireframe.
+  /// UsageError for a surface with refracting edges, too.
   explicit PathField(const Domain<Real>& domain,
                      std::span<const std::array<double, 3>> positions = {});
 
@@ -56,15 +60,18 @@ class PathField<Domain<Real>> {
   const DistanceField<Real>& solve(Executor executor, std::span<const PointSource> sources,
                                    const PropagateOptions& options = {}) {
     solved_ = false;
-    constexpr bool keeps_labels =
-        std::is_same_v<WorkspaceOf<Executor, Domain<Real>>, Workspace<Real>>;
-    if constexpr (keeps_labels)
+    constexpr bool keeps = std::is_same_v<WorkspaceOf<Executor, Domain<Real>>, Workspace<Real>>;
+    if constexpr (keeps) {
+      workspace_.windows.keep_windows(true);
       plexway::solve(executor, *domain_, sources, options, workspace_, field_);
-    else
+    } else {
       field_ = plexway::solve(executor, *domain_, sources, options);
-    took(sources, options.visibility, keeps_labels);
+    }
+    const bool fast = field_.accuracy == Accuracy::fast();
+    took(sources, options.visibility, !keeps ? Kept::nothing : fast ? Kept::labels : Kept::windows);
     return field_;
   }
+  /// From one source.
   template <class Executor>
   const DistanceField<Real>& solve(Executor executor, const PointSource& source,
                                    const PropagateOptions& options = {}) {
@@ -76,7 +83,7 @@ class PathField<Domain<Real>> {
   void adopt(DistanceField<Real> found, std::span<const PointSource> sources) {
     solved_ = false;
     field_ = std::move(found);
-    took(sources, Visibility::saddles, false);
+    took(sources, Visibility::saddles, Kept::nothing);
   }
 
   /// What the last solve found.
@@ -103,10 +110,12 @@ class PathField<Domain<Real>> {
 
   /// The distance of any point of the domain, in its unit; its offset does not count. +inf where no
   /// path leads. `linear` needs the vertices' distances only; the other levels ask the virtual
-  /// sources that Visibility::saddles left, with Serial and OpenMP. In solids `star` asks what
-  /// `neighbours` asks, and tetrahedra need their coordinates; along the edges of wireframes all
-  /// levels but `linear` are exact. A solve's radius bounds the distances of vertices, so `linear`;
-  /// the labels that other levels ask go on by about a simplex.
+  /// sources that Visibility::saddles or windows left, with Serial and OpenMP. In solids `star`
+  /// asks what `neighbours` asks, and tetrahedra need their coordinates; along the edges of
+  /// wireframes all levels but `linear` are exact. A solve's radius bounds the distances of
+  /// vertices, so `linear`; the labels that other levels ask go on by about a simplex. After
+  /// windows (Accuracy) all levels but `linear` ask those, and are as accurate as they are: exact
+  /// after Accuracy::exact().
   ///
   /// Across an edge `neighbours` and `star` are continuous where the labels on both sides are all
   /// that is asked; docs/apps/read_out.md has what jumps. Throws UsageError for a
@@ -137,12 +146,16 @@ class PathField<Domain<Real>> {
   [[nodiscard]] std::size_t bytes() const;
 
   // For the floors above and for further propagation.
+  /// What the last solve left, and the next one takes.
   [[nodiscard]] Workspace<Real>& workspace() { return workspace_; }
+  /// The domain that it refers to.
   [[nodiscard]] const Domain<Real>& domain() const { return *domain_; }
 
  private:
   void check_labels(ReadOut level) const;
-  void took(std::span<const PointSource> sources, Visibility visibility, bool labels);
+  /// What the workspace has of the field.
+  enum class Kept { nothing, labels, windows };
+  void took(std::span<const PointSource> sources, Visibility visibility, Kept kept);
   [[nodiscard]] Solved<Real> solved() const;
 
   const Domain<Real>* domain_;
@@ -153,11 +166,14 @@ class PathField<Domain<Real>> {
   DistanceField<Real> field_;
   std::vector<PointSource> sources_;
   Visibility visibility_ = Visibility::saddles;
-  bool solved_ = false, labels_ = false;
+  bool solved_ = false;
+  Kept kept_ = Kept::nothing;
 };
 
+/// The domain says which it is.
 template <template <class> class Domain, class Real>
 PathField(const Domain<Real>&) -> PathField<Domain<Real>>;
+/// Likewise, with positions.
 template <template <class> class Domain, class Real, class Positions>
 PathField(const Domain<Real>&, const Positions&) -> PathField<Domain<Real>>;
 

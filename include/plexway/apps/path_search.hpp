@@ -16,6 +16,7 @@
 
 namespace plexway {
 
+/// What leads a search, and when it stops.
 struct SearchOptions {
   /// A lower bound of the distance from a vertex (caller's number) to the nearest target, in the
   /// domain's unit. It must change by no more than the distance from vertex to vertex. Empty: the
@@ -27,11 +28,14 @@ struct SearchOptions {
   std::function<bool(const Progress&)> progress = {};  ///< as in PropagateOptions
 };
 
+/// What a search found.
 struct SearchResult {
   /// One a target, in their order; empty, of infinite length, where no path leads.
   std::vector<Path> paths;
   std::vector<double> distance;  ///< as labels have it, before paths are pulled straight
+  /// False if max_expansions ended the search early.
   bool complete = true;
+  /// What it cost.
   PropagateStatistics statistics;
 };
 
@@ -55,6 +59,7 @@ template <class Real>
 class PathSearch {
  public:
   /// Nearest first, unless a search brings a heuristic. Refers to the surface.
+  /// Throws UsageError for a surface with refracting edges.
   explicit PathSearch(const TriangleMesh<Real>& mesh);
   /// A* by the straight line in space, times `scale`. Throws UsageError, naming the triangle and
   /// the greatest scale that would do, where a way on the surface may be shorter than that:
@@ -62,7 +67,9 @@ class PathSearch {
   PathSearch(const TriangleMesh<Real>& mesh, std::span<const std::array<double, 3>> positions,
              double scale = 1);
   ~PathSearch();
+  /// Moves what it holds; what is left may be assigned to or destroyed, no more.
   PathSearch(PathSearch&&) noexcept;
+  /// Likewise.
   PathSearch& operator=(PathSearch&&) noexcept;
 
   /// Paths from the targets back to the nearest of `sources`. Throws UsageError for no target or
@@ -71,6 +78,7 @@ class PathSearch {
   [[nodiscard]] SearchResult find(Serial, std::span<const PointSource> sources,
                                   std::span<const PointSource> targets,
                                   const SearchOptions& options = {});
+  /// From one source to one target.
   [[nodiscard]] SearchResult find(Serial executor, const PointSource& source,
                                   const PointSource& target, const SearchOptions& options = {}) {
     return find(executor, std::span<const PointSource>(&source, 1),

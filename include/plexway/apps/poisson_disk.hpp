@@ -22,12 +22,14 @@ enum class DartOrder {
   simplices  ///< into one simplex after the other, in random order: denser where they are smaller
 };
 
+/// How darts are thrown.
 struct PoissonOptions {
   /// No two darts are nearer than this (domain's unit), and no point is farther from all of them.
   double radius = 0;
   /// Or so many darts: the radius is then searched for. Give one of the two.
   std::size_t count = 0;
   std::uint64_t seed = 1;  ///< the same seed gives the same darts, on any machine
+  /// Where the next one goes.
   DartOrder order = DartOrder::uniform;
   /// Only at vertices: then no vertex is farther than the radius. So it is on clouds, always.
   bool at_vertices = false;
@@ -48,6 +50,7 @@ struct PoissonDisks {
   bool maximal = true;
   std::size_t thrown = 0;      ///< darts tried
   std::size_t taken_back = 0;  ///< of these, found too near a neighbour when they spread
+  /// Of all propagations.
   PropagateStatistics statistics;
 };
 
@@ -62,6 +65,7 @@ struct PoissonDisks {
 ///
 /// Throws UsageError for options out of range and for a radius so small that the parts would not
 /// fit, PrecisionError for radii too different for the domain's numbers.
+/// UsageError for a surface with refracting edges, too.
 /// Cost: 2.2 to 2.5 propagations from a single source, and more where edges must be cut; with
 /// `count`, three to ten times that.
 /// Source: Trettner, Bommes, Kobbelt: Geodesic Distance Computation via Virtual Source Propagation,
@@ -89,12 +93,14 @@ template <class Real>
   Workspace<Real> workspace;
   return poisson_disks(executor, mesh, options, workspace);
 }
+/// With a workspace of its own.
 template <class Real>
 [[nodiscard]] PoissonDisks poisson_disks(Serial executor, const TetMesh<Real>& mesh,
                                          const PoissonOptions& options) {
   Workspace<Real> workspace;
   return poisson_disks(executor, mesh, options, workspace);
 }
+/// With a workspace of its own.
 template <class Real>
 [[nodiscard]] PoissonDisks poisson_disks(Serial executor, const PointCloud<Real>& cloud,
                                          const PoissonOptions& options) {

@@ -48,8 +48,10 @@ enum class Retriangulation {
 
 /// What was done to get there.
 struct DelaunaySummary {
+  /// Edges flipped.
   std::size_t flips = 0;
   std::size_t stuck_edges = 0;  ///< not Delaunay, and could not be flipped: see IntrinsicDelaunay
+  /// By refinement.
   std::size_t inserted_vertices = 0;
 };
 
@@ -77,10 +79,12 @@ struct TriangulatedSurface;
 /// Builds a surface from coordinates on the triangles that pay (what_pays), or those wanted,
 /// without a mesh of the others: the same as
 ///
+/// @code
 ///   TriangleMesh<Real> mesh(positions, faces);
 ///   IntrinsicDelaunay delaunay(TriangleMesh<double>(positions, faces), refinement_for(...));
 ///   mesh = delaunay.mesh<Real>();
 ///
+/// @endcode
 /// in a third of the time. Throws InputError as TriangleMesh does.
 template <class Real>
 [[nodiscard]] TriangulatedSurface<Real> triangulate(
@@ -90,11 +94,13 @@ template <class Real>
 /// The intrinsic Delaunay triangulation of a surface: other triangles over the same vertices in
 /// the same metric, such that the two angles opposite to an inner edge never exceed 180 degrees.
 ///
+/// @code
 ///   TriangleMesh<double> input(positions, faces);
 ///   IntrinsicDelaunay delaunay(input);
 ///   auto mesh = delaunay.mesh<float>();
 ///   auto field = solve(Serial{}, mesh, delaunay.to_intrinsic(PointSource::in(17, b)));
 ///
+/// @endcode
 /// Vertices keep their numbers, so distances at vertices need no translation. Triangles do not:
 /// those that no flip touched have the number they had, each other has that of some triangle. Two
 /// vertices may share several edges, and a triangle may be glued to itself. Edges with one triangle
@@ -117,10 +123,12 @@ class IntrinsicDelaunay {
   /// With a refinement, circumcentres of bad triangles become vertices, numbered after the input's,
   /// or middles of boundary edges that are in between (Chew: Guaranteed-quality mesh generation for
   /// curved surfaces, 1993; on intrinsic triangulations Sharp, Soliman, Crane: Navigating intrinsic
-  /// triangulations, 2019, section 4.2).
+  /// triangulations, 2019, section 4.2). Throws UsageError for one that is out of range.
   template <class Real>
   explicit IntrinsicDelaunay(const TriangleMesh<Real>& input, const Refinement& refinement = {});
+  /// Moves the triangulation; what is left may be assigned to or destroyed, no more.
   IntrinsicDelaunay(IntrinsicDelaunay&&) noexcept;
+  /// Likewise.
   IntrinsicDelaunay& operator=(IntrinsicDelaunay&&) noexcept;
   ~IntrinsicDelaunay();
 
@@ -131,7 +139,9 @@ class IntrinsicDelaunay {
   /// Once the meshes wanted are made: frees what they were made from, 96 bytes a triangle and more.
   /// mesh() then throws UsageError; points are mapped as before.
   void release_triangles();
+  /// What was done.
   [[nodiscard]] const DelaunaySummary& summary() const;
+  /// Bytes held.
   [[nodiscard]] std::size_t bytes() const;
 
   /// The place that a vertex, or a point of an input triangle, has in the triangulation. Exact to
@@ -140,14 +150,20 @@ class IntrinsicDelaunay {
   [[nodiscard]] PointSource to_intrinsic(const PointSource& point) const;
   /// And back: the place of a point of the triangulation, or of a vertex that was put in, in the
   /// input's triangles.
+  /// Throws UsageError for a triangle that does not exist. Cost: as there.
   [[nodiscard]] PointSource to_input(const PointSource& point) const;
 
   /// A straight line in one triangle of the triangulation, as straight lines in triangles of the
   /// input: from the first of each to the second.
   struct Piece {
     Index face;  ///< of the input
+    ///@{
+    /// Barycentric coordinates in that triangle.
     std::array<double, 3> from, to;
+    ///@}
   };
+  /// Between two points of a triangle, in barycentric coordinates; the pieces come in order.
+  /// Throws UsageError for a triangle that does not exist. Cost: as there, for each piece.
   [[nodiscard]] std::vector<Piece> line_to_input(Index face, const std::array<double, 3>& from,
                                                  const std::array<double, 3>& to) const;
 
@@ -165,9 +181,11 @@ class IntrinsicDelaunay {
 /// A surface on the triangles that it is solved on.
 template <class Real>
 struct TriangulatedSurface {
+  /// The input's triangles, or the others.
   TriangleMesh<Real> mesh;
   /// Translates points where other triangles than the input's were taken; its own are released.
   std::optional<IntrinsicDelaunay> delaunay;
+  /// What was done to them.
   Retriangulation done = Retriangulation::keep;
 };
 

@@ -22,24 +22,35 @@ class KuhnGrid {
 
  public:
   using Place = std::array<std::size_t, N>;  ///< of a vertex or a cell, along the axes
+  /// A point of space.
   using Point = std::array<double, N>;
+  /// Vertices of a simplex, from the lowest corner of its cell to the highest.
   using Simplex = std::array<Index, N + 1>;
+  /// Is a cell absent?
   using Absent = std::function<bool(const Place& cell)>;
 
   /// So many cells along each axis, all of one size.
   /// Throws InputError for no cell, a spacing that is not > 0, or more than 2^32 - 2 vertices.
   KuhnGrid(const Place& cells, const Point& spacing, const Point& origin = {});
   /// By the coordinates of the planes across each axis, strictly ascending, at least two.
+  /// Throws InputError unless they are, and for more than 2^32 - 2 vertices.
   explicit KuhnGrid(std::array<std::vector<double>, N> planes);
 
+  /// Of all cells, absent ones included.
   [[nodiscard]] std::size_t vertex_count() const { return vertex_count_; }
+  /// Along an axis.
   [[nodiscard]] std::size_t cells(std::size_t axis) const { return planes_[axis].size() - 1; }
+  /// Coordinates of the planes across an axis, ascending, one more than cells.
   [[nodiscard]] const std::vector<double>& planes(std::size_t axis) const { return planes_[axis]; }
 
+  /// The vertex at a place, which must be in the grid (not checked).
   [[nodiscard]] Index vertex(const Place& at) const;
+  /// And back.
   [[nodiscard]] Place place(Index vertex) const;
+  /// Where a vertex is in space.
   [[nodiscard]] Point position(Index vertex) const;
   /// The vertex nearest to a point of space.
+  /// Among all, also of absent cells. Cost: N binary searches.
   [[nodiscard]] Index nearest(const Point& point) const;
   /// The middle of a cell, as a predicate of obstacles wants it.
   [[nodiscard]] Point centre(const Place& cell) const;
@@ -47,6 +58,7 @@ class KuhnGrid {
   /// N coordinates a vertex, as SimplicialComplex takes them.
   [[nodiscard]] std::vector<double> positions() const;
   /// The simplices of all cells that are not absent, N! a cell, cells with axis 0 fastest.
+  /// `absent` is asked once a cell.
   [[nodiscard]] std::vector<Simplex> simplices(const Absent& absent = {}) const;
   /// All of it as a domain. Throws InputError if every cell is absent.
   template <class Real>

@@ -16,7 +16,9 @@ struct Neighbours {
   std::vector<Index> begin;  ///< n + 1, ascending, from 0; empty for no points
   std::vector<Index> of;     ///< m point numbers < n
 
+  /// n.
   [[nodiscard]] std::size_t point_count() const { return begin.empty() ? 0 : begin.size() - 1; }
+  /// The neighbours of a point < n, nearest first.
   [[nodiscard]] std::span<const Index> around(Index point) const {
     return std::span<const Index>(of).subspan(begin[point], begin[point + 1] - begin[point]);
   }

@@ -19,10 +19,12 @@ enum class EdgeLengths {
   /// As in space on clean clouds. On noisy ones, as far as they are: without its height along the
   /// mean normal of its ends. What is noise shows in the heights of near and far neighbours.
   automatic,
+  /// Always as in space.
   in_space,
   tangential,  ///< always without the heights, detail of the size of the spacing included
 };
 
+/// How a cloud becomes a sheet.
 struct CloudOptions {
   /// Neighbours are refused where their normals differ by more (degrees), or where the segment
   /// between them is steeper than half of it: so sheets across a thin gap stay apart.
@@ -30,6 +32,7 @@ struct CloudOptions {
   /// One a point, of any length, pointing outward everywhere; a zero or NaN stands for unknown.
   /// Empty: estimated, and then inside and outside are not told apart.
   std::span<const std::array<double, 3>> normals = {};
+  /// How long the sheet's edges are.
   EdgeLengths lengths = EdgeLengths::automatic;
   /// Holes that a circle of so many spacings fits in stay holes.
   double widest_circle = 3;
@@ -42,12 +45,14 @@ struct CloudOptions {
 
 /// What a cloud is made of, counted while it is built.
 struct CloudSummary {
+  /// As given.
   std::size_t points = 0;
   std::size_t distinct = 0;         ///< places
   std::size_t duplicates = 0;       ///< points - distinct
   std::size_t near_duplicates = 0;  ///< of these, at another place, but `without_near_twins`
   std::size_t neighbour_pairs = 0;  ///< of places
   std::size_t refused_pairs = 0;    ///< of these, not on one sheet
+  /// Of the sheet.
   std::size_t triangles = 0;
   std::size_t bridges = 0;                   ///< pairs that only an edge connects, not a sheet
   std::size_t boundary_points = 0;           ///< places on the boundary of the sheet
@@ -70,8 +75,11 @@ struct CloudSummary {
 template <class Real>
 class PointCloud {
  public:
+  /// The precision of lengths inside, and of fields.
   using Number = Real;
+  /// A cloud.
   static constexpr DomainKind kind = DomainKind::cloud;
+  /// Of its simplices, the sheet's triangles.
   static constexpr int dimension = 2;
 
   /// From n points in any unit and their neighbours (about 16 each; `symmetric_closure` first).
@@ -82,12 +90,15 @@ class PointCloud {
   PointCloud(std::span<const std::array<double, 3>> points, const Neighbours& neighbours,
              const CloudOptions& options = {});
 
+  /// n, twins included.
   [[nodiscard]] std::size_t point_count() const { return summary_.points; }
   /// The points: fields have one distance each.
   [[nodiscard]] std::size_t vertex_count() const { return summary_.points; }
   /// Triangles of the sheet.
   [[nodiscard]] std::size_t simplex_count() const { return surface_.face_count(); }
+  /// Intrinsic: the lengths of the sheet's edges are all that counts.
   [[nodiscard]] MetricKind metric() const { return MetricKind::intrinsic; }
+  /// What it is made of, counted while it was built.
   [[nodiscard]] const CloudSummary& summary() const { return summary_; }
   /// Bytes this complex holds.
   [[nodiscard]] std::size_t bytes() const;
@@ -99,6 +110,7 @@ class PointCloud {
   /// triangle.
   [[nodiscard]] const TriangleMesh<Real>& surface() const { return surface_; }
   /// The vertex of a point: itself, or its first twin.
+  /// Cost: a binary search among twins.
   [[nodiscard]] Index of_point(Index point) const;
   /// Points that are not the first at their place, ascending, and who is.
   [[nodiscard]] std::span<const std::array<Index, 2>> twins() const { return twins_; }

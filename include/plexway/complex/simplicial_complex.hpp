@@ -15,8 +15,11 @@ namespace plexway {
 
 /// What a complex is made of, counted while it is built.
 struct SimplicialSummary {
+  /// Referenced or not: as many as were given.
   std::size_t vertices = 0;
+  /// Of dimension N.
   std::size_t simplices = 0;
+  /// Of simplices, each once, however many simplices share it.
   std::size_t facets = 0;
   std::size_t boundary_facets = 0;        ///< one simplex
   std::size_t fan_facets = 0;             ///< more than two simplices
@@ -53,12 +56,19 @@ struct SimplicialSummary {
 template <class Real, int N>
 class SimplicialComplex {
  public:
+  /// The precision of lengths inside, and of fields.
   using Number = Real;
+  /// Simplices of any one dimension.
   static constexpr DomainKind kind = DomainKind::simplices;
+  /// N.
   static constexpr int dimension = N;
+  /// In what order a simplex has its edges.
   using Layout = SimplexLayout<N>;
+  /// What propagation reads of a simplex.
   using Record = SimplexRecord<Real, N>;
+  /// Vertices of a simplex.
   using Corners = std::array<Index, N + 1>;
+  /// Of a simplex, one an edge: (0,1) (0,2) (1,2) (0,3) ...
   using Lengths = std::array<double, N*(N + 1) / 2>;
 
   /// From lengths alone: one row a simplex, in the order (0,1) (0,2) (1,2) (0,3) (1,3) (2,3) (0,4)
@@ -75,18 +85,28 @@ class SimplicialComplex {
   SimplicialComplex(std::span<const double> positions, std::size_t axes,
                     std::span<const Corners> simplices);
 
+  /// Referenced or not: fields have one distance each.
   [[nodiscard]] std::size_t vertex_count() const { return vertex_to_inside_.size(); }
+  /// Of dimension N.
   [[nodiscard]] std::size_t simplex_count() const { return records_.size(); }
+  /// Intrinsic: the lengths of edges are all that is asked for.
   [[nodiscard]] MetricKind metric() const { return MetricKind::intrinsic; }
+  /// What it is made of, counted while it was built.
   [[nodiscard]] const SimplicialSummary& summary() const { return summary_; }
+  /// One unit inside, in the input's: the mean edge.
   [[nodiscard]] double unit() const { return summary_.mean_edge; }
   /// Bytes this complex holds.
   [[nodiscard]] std::size_t bytes() const;
 
   // What follows serves the floors above and uses the numbers inside.
+  /// @name For the floors above
+  ///@{
 
+  /// One a simplex, in the order inside.
   [[nodiscard]] std::span<const Record> records() const { return records_; }
+  /// The number inside of a vertex, which must be one (not checked).
   [[nodiscard]] Index inside_vertex(Index vertex) const { return vertex_to_inside_[vertex]; }
+  /// The number inside of each vertex, in the caller's order.
   [[nodiscard]] std::span<const Index> vertices_inside() const { return vertex_to_inside_; }
   /// Linear search: one pass over the records.
   [[nodiscard]] Index inside_simplex(Index simplex) const;
@@ -103,6 +123,7 @@ class SimplicialComplex {
   [[nodiscard]] std::span<const Index> pinched() const { return pinched_; }
   /// Points and bending faces, if the complex is flat; else nullptr.
   [[nodiscard]] const FlatDomain<N>* flat() const { return flat_.get(); }
+  ///@}
 
  private:
   void assemble(std::size_t vertices, std::span<const Corners> simplices,

@@ -19,10 +19,12 @@ namespace plexway {
 [[nodiscard]] double noise_level(std::span<const std::array<double, 3>> points,
                                  const Neighbours& neighbours, int threads = 0);
 
+/// How much to smooth.
 struct SmoothOptions {
   /// Clouds with less noise than this (see noise_level) stay as they are, to the last bit. 0 moves
   /// points of any cloud.
   double least_noise = .06;
+  /// How often all points move.
   int rounds = 2;
   int threads = 0;  ///< 0: all there are
   /// Called with the share that is done; returning false stops with Cancelled.

@@ -16,7 +16,9 @@ namespace plexway {
 
 /// What a solid is made of, counted while it is built.
 struct SolidSummary {
+  /// Referenced or not: as many as were given.
   std::size_t vertices = 0;
+  /// Tetrahedra.
   std::size_t tets = 0;
   std::size_t edges = 0;                  ///< distinct
   std::size_t faces = 0;                  ///< distinct
@@ -28,6 +30,7 @@ struct SolidSummary {
   std::size_t unreferenced_vertices = 0;  ///< in no tetrahedron: no path leads to them
   std::size_t degenerate_tets = 0;        ///< no volume, in the input's precision
   std::size_t inverted_tets = 0;          ///< negative volume as given; turned over
+  /// The lowest number of such a tetrahedron; none: there is none.
   Index first_degenerate = none, first_inverted = none;  ///< the first such, if there is one
   std::size_t components = 0;  ///< of tetrahedra joined by faces or pinched edges or vertices
   double mean_edge = 0;        ///< in the input's unit; the library works in this unit inside
@@ -46,8 +49,11 @@ struct SolidSummary {
 template <class Real>
 class TetMesh {
  public:
+  /// The precision of lengths inside, and of fields.
   using Number = Real;
+  /// A solid.
   static constexpr DomainKind kind = DomainKind::solid;
+  /// Of its simplices.
   static constexpr int dimension = 3;
 
   /// From coordinates. Shapes: n positions in any unit, m tetrahedra of vertex indices < n, in
@@ -66,13 +72,19 @@ class TetMesh {
   TetMesh(std::size_t vertices, std::span<const std::array<Index, 4>> tets,
           std::span<const std::array<double, 6>> lengths);
 
+  /// n, referenced or not: fields have one distance each.
   [[nodiscard]] std::size_t vertex_count() const { return vertex_to_inside_.size(); }
+  /// m, the tetrahedra.
   [[nodiscard]] std::size_t tet_count() const { return tet_to_inside_.size(); }
+  /// The same: tetrahedra are a solid's simplices.
   [[nodiscard]] std::size_t simplex_count() const { return tet_count(); }
+  /// Embedded where it has coordinates, else intrinsic.
   [[nodiscard]] MetricKind metric() const {
     return summary_.embedded ? MetricKind::embedded : MetricKind::intrinsic;
   }
+  /// What it is made of, counted while it was built.
   [[nodiscard]] const SolidSummary& summary() const { return summary_; }
+  /// Has it coordinates?
   [[nodiscard]] bool embedded() const { return summary_.embedded; }
   /// The mean edge, in the input's unit.
   [[nodiscard]] double unit() const { return summary_.mean_edge; }
@@ -80,12 +92,17 @@ class TetMesh {
   [[nodiscard]] std::size_t bytes() const;
 
   // What follows serves the floors above and uses the numbers inside.
+  /// @name For the floors above
+  ///@{
 
   /// An edge that fans of tetrahedra share without sharing a face at it.
   struct PinchedEdge {
+    /// Its ends.
     Index vertex[2];
+    /// Its tetrahedra in pinched_edge_tets.
     Index begin, end;  ///< its tetrahedra in pinched_edge_tets
   };
+  /// Marks a tetrahedron that was turned over in the translation behind inside_tet.
   static constexpr Index turned = Index{1} << 31;
 
   /// The records, and one sentinel behind them that stands for "no tetrahedron".
@@ -94,9 +111,13 @@ class TetMesh {
   [[nodiscard]] std::span<const Vector3<Real>> points() const { return points_; }
   /// Squared lengths of a tetrahedron's edges; empty if embedded.
   [[nodiscard]] std::span<const std::array<Real, 6>> squared_lengths() const { return lengths_; }
+  /// The edges at which paths may bend, an entry a reflex fan.
   [[nodiscard]] std::span<const ReflexEdge<Real>> reflex_edges() const { return reflex_; }
+  /// Which of them each tetrahedron has: ReflexEntry, packed, a row a tetrahedron that has any.
   [[nodiscard]] std::span<const Index> reflex_list() const { return reflex_list_; }
+  /// The number inside of each vertex, in the caller's order.
   [[nodiscard]] std::span<const Index> vertices_inside() const { return vertex_to_inside_; }
+  /// The number inside of a vertex, which must be one (not checked).
   [[nodiscard]] Index inside_vertex(Index vertex) const { return vertex_to_inside_[vertex]; }
   /// The second is true if its last two corners are exchanged here.
   [[nodiscard]] std::pair<Index, bool> inside_tet(Index tet) const {
@@ -110,10 +131,13 @@ class TetMesh {
   }
   /// Vertices (inside) where tetrahedra touch in the vertex only, ascending.
   [[nodiscard]] std::span<const Index> pinched() const { return pinched_; }
+  /// Edges where fans of tetrahedra only touch.
   [[nodiscard]] std::span<const PinchedEdge> pinched_edges() const { return pinched_edges_; }
+  /// The tetrahedra at these, edge by edge.
   [[nodiscard]] std::span<const Index> pinched_edge_tets() const { return pinched_edge_tets_; }
   /// Of the content: a copy has the same, everything else another (Identity).
   [[nodiscard]] std::uint64_t identity() const { return identity_.value(); }
+  ///@}
 
  private:
   void assemble(std::size_t vertices, std::span<const std::array<Index, 4>> tets,

@@ -19,9 +19,13 @@ class TriangleShapes;
 
 /// What a surface is made of, counted while it is built.
 struct SurfaceSummary {
+  /// Referenced or not: as many as were given.
   std::size_t vertices = 0;
+  /// Triangles.
   std::size_t faces = 0;
+  /// Of triangles, each once, however many triangles share it.
   std::size_t edges = 0;
+  /// With one triangle only.
   std::size_t boundary_edges = 0;
   std::size_t non_manifold_edges = 0;     ///< more than two triangles
   std::size_t pinched_vertices = 0;       ///< several fans of triangles meet there only
@@ -30,6 +34,7 @@ struct SurfaceSummary {
   std::size_t violated_faces = 0;  ///< lengths broke the triangle inequality (see the constructor)
   std::size_t refracting_edges = 0;  ///< with another length on either side (SurfaceHints)
   std::size_t components = 0;        ///< of triangles joined by edges or pinched vertices
+  /// Can all triangles be turned so that neighbours agree which side is up?
   bool orientable = true;
   double mean_edge = 0;  ///< in the input's unit; the library works in this unit inside
 };
@@ -57,7 +62,11 @@ struct SaddleThresholds {
 /// A straight line on a surface between two vertices, which need not be an edge: an edge of other
 /// triangles over the same surface.
 struct SurfaceChord {
+  ///@{
+  /// Its ends, the caller's numbers.
   Index from, to;
+  ///@}
+  /// In the input's unit.
   double length;
 };
 
@@ -76,6 +85,7 @@ struct SurfaceHints {
   std::span<const std::array<double, 3>> positions = {};
   /// Lines known besides edges: no vertex will be farther than the other end and the line between.
   std::span<const SurfaceChord> chords = {};
+  /// Which vertices paths may bend at.
   SaddleThresholds saddles = SaddleThresholds::standard();
 };
 
@@ -92,8 +102,11 @@ struct SurfaceHints {
 template <class Real>
 class TriangleMesh {
  public:
+  /// The precision of lengths inside, and of fields.
   using Number = Real;
+  /// A surface.
   static constexpr DomainKind kind = DomainKind::surface;
+  /// Of its simplices.
   static constexpr int dimension = 2;
 
   /// From coordinates. Shapes: n positions in any unit, m triangles of vertex indices < n.
@@ -124,21 +137,28 @@ class TriangleMesh {
   /// inside the library, which answer for all of it. Throws only for a length that is not finite.
   TriangleMesh(FaceLayout&& layout, const TriangleShapes& shapes, const SurfaceHints& hints);
 
+  /// n, referenced or not: fields have one distance each.
   [[nodiscard]] std::size_t vertex_count() const { return vertex_to_inside_.size(); }
+  /// m, the triangles.
   [[nodiscard]] std::size_t face_count() const { return triangles_.size() - 1; }
+  /// The same: triangles are a surface's simplices.
   [[nodiscard]] std::size_t simplex_count() const { return face_count(); }
   /// Refracting where an edge has another length on either side.
   [[nodiscard]] MetricKind metric() const {
     return summary_.refracting_edges > 0 ? MetricKind::refracting : MetricKind::intrinsic;
   }
+  /// What it is made of, counted while it was built.
   [[nodiscard]] const SurfaceSummary& summary() const { return summary_; }
   /// Bytes this complex holds.
   [[nodiscard]] std::size_t bytes() const;
 
   // What follows serves the floors above and uses the numbers inside.
+  /// @name For the floors above
+  ///@{
 
   /// The records, and one sentinel behind them that stands for "no triangle".
   [[nodiscard]] std::span<const TriangleRecord<Real>> triangles() const { return triangles_; }
+  /// The number inside of a vertex, which must be one (not checked).
   [[nodiscard]] Index inside_vertex(Index vertex) const { return vertex_to_inside_[vertex]; }
   /// The second is true if its corners run backwards here.
   [[nodiscard]] std::pair<Index, bool> inside_face(Index face) const {
@@ -146,6 +166,7 @@ class TriangleMesh {
     const Index inside = face_to_inside_[face];
     return {inside, (triangles_[inside].face & reversed) != 0};
   }
+  /// The number inside of each vertex, in the caller's order.
   [[nodiscard]] std::span<const Index> vertices_inside() const { return vertex_to_inside_; }
   /// Corners 3 f + i at a vertex, all fans.
   void corners_at(Index inside_vertex, std::vector<Index>& corners) const;
@@ -155,6 +176,7 @@ class TriangleMesh {
   }
   /// Vertices (inside) where several fans meet, ascending.
   [[nodiscard]] std::span<const Index> pinched() const { return pinched_; }
+  /// One unit inside, in the input's: the mean edge.
   [[nodiscard]] double unit() const { return summary_.mean_edge; }
   /// Where vertices (inside) lie in space, in units of the mean edge and about some origin; NaN
   /// where that is not known. Empty where it is of none: lengths alone, or a metric.
@@ -163,17 +185,22 @@ class TriangleMesh {
   [[nodiscard]] bool faces_are_in_space() const { return in_space_; }
   /// Ends of the chords at a vertex, all inside.
   struct ChordEnd {
+    /// The other end.
     Index vertex;
+    /// In units of the mean edge.
     Real length;
   };
+  /// The chords at a vertex (inside) by their other ends; empty if there are none.
   [[nodiscard]] std::span<const ChordEnd> chords_at(Index inside_vertex) const {
     if (chords_.empty()) return {};
     return std::span(chords_).subspan(
         chord_begin_[inside_vertex], chord_begin_[inside_vertex + 1] - chord_begin_[inside_vertex]);
   }
+  /// Does it have any?
   [[nodiscard]] bool has_chords() const { return !chords_.empty(); }
   /// Of the content: a copy has the same, everything else another (Identity).
   [[nodiscard]] std::uint64_t identity() const { return identity_.value(); }
+  ///@}
 
  private:
   void assemble(FaceLayout layout, const TriangleShapes& shapes, const SurfaceHints& hints);

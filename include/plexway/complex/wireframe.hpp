@@ -14,10 +14,13 @@ namespace plexway {
 
 /// What a wireframe is made of, counted while it is built.
 struct WireframeSummary {
+  /// In an edge or not: as many as were given.
   std::size_t vertices = 0;
+  /// As given, parallel edges and loops included.
   std::size_t edges = 0;
   std::size_t components = 0;             ///< of edges joined at vertices
   std::size_t unreferenced_vertices = 0;  ///< in no edge: no path leads to them
+  /// Of length 0.
   std::size_t zero_length_edges = 0;
   double mean_edge = 0;   ///< in the input's unit
   std::size_t loops = 0;  ///< edges from a vertex to itself: allowed, but no path gains by one
@@ -26,7 +29,9 @@ struct WireframeSummary {
 /// An edge as its vertex has it: where it leads, and its length in the unit inside.
 template <class Real>
 struct WireArc {
+  /// The vertex it leads to, inside.
   Index to;
+  /// In the unit inside.
   Real length;
 };
 
@@ -42,8 +47,11 @@ struct WireArc {
 template <class Real>
 class Wireframe {
  public:
+  /// The precision of lengths inside, and of fields.
   using Number = Real;
+  /// A wireframe.
   static constexpr DomainKind kind = DomainKind::wireframe;
+  /// Of its simplices.
   static constexpr int dimension = 1;
 
   /// From n positions in any unit and m edges of vertex indices < n. Throws InputError naming the
@@ -57,10 +65,15 @@ class Wireframe {
   Wireframe(std::size_t vertices, std::span<const std::array<Index, 2>> edges,
             std::span<const double> lengths);
 
+  /// n, in an edge or not: fields have one distance each.
   [[nodiscard]] std::size_t vertex_count() const { return vertex_to_inside_.size(); }
+  /// m.
   [[nodiscard]] std::size_t edge_count() const { return arc_of_edge_.size(); }
+  /// The same: edges are a wireframe's simplices.
   [[nodiscard]] std::size_t simplex_count() const { return edge_count(); }
+  /// Intrinsic: the lengths of edges are all that counts.
   [[nodiscard]] MetricKind metric() const { return MetricKind::intrinsic; }
+  /// What it is made of, counted while it was built.
   [[nodiscard]] const WireframeSummary& summary() const { return summary_; }
   /// Bytes this complex holds.
   [[nodiscard]] std::size_t bytes() const;
@@ -74,22 +87,32 @@ class Wireframe {
   [[nodiscard]] double typical_edge() const { return typical_edge_; }
 
   // What follows serves the floors above and uses the numbers inside.
+  /// @name For the floors above
+  ///@{
 
   /// The arcs of vertex v are those from begin()[v] to begin()[v + 1]. A loop is there once.
   [[nodiscard]] std::span<const Index> begin() const { return begin_; }
+  /// All arcs, vertex by vertex: each edge from both its ends.
   [[nodiscard]] std::span<const WireArc<Real>> arcs() const { return arcs_; }
+  /// The number inside of a vertex, which must be one (not checked).
   [[nodiscard]] Index inside_vertex(Index vertex) const { return vertex_to_inside_[vertex]; }
+  /// The number inside of each vertex, in the caller's order.
   [[nodiscard]] std::span<const Index> vertices_inside() const { return vertex_to_inside_; }
 
   /// An edge in the caller's direction.
   struct Ends {
+    ///@{
+    /// Vertices, inside.
     Index from, to;
+    ///@}
+    /// In the unit inside.
     Real length;
   };
   /// Cost: logarithmic.
   [[nodiscard]] Ends inside_edge(Index edge) const;
   /// Of the content: a copy has the same, everything else another (Identity).
   [[nodiscard]] std::uint64_t identity() const { return identity_.value(); }
+  ///@}
 
  private:
   void assemble(std::span<const std::array<Index, 2>> edges, std::span<const double> lengths);

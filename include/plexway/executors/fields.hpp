@@ -12,6 +12,7 @@ template <class Real>
 class Fields {
  public:
   Fields() = default;
+  /// Room for K rows of N numbers, which are not set.
   Fields(std::size_t rows, std::size_t columns)
       : values_(std::make_unique_for_overwrite<Real[]>(rows * columns)),
         rows_(rows),
@@ -23,11 +24,13 @@ class Fields {
   [[nodiscard]] std::span<const Real> row(std::size_t k) const {
     return {values_.get() + k * columns_, columns_};
   }
+  /// To be written to.
   [[nodiscard]] std::span<Real> row(std::size_t k) {
     return {values_.get() + k * columns_, columns_};
   }
   /// All rows, one after another.
   [[nodiscard]] std::span<const Real> values() const { return {values_.get(), rows_ * columns_}; }
+  /// To be written to.
   [[nodiscard]] std::span<Real> values() { return {values_.get(), rows_ * columns_}; }
 
   bool complete = true;  ///< false if max_expansions ended one of them early

@@ -6,6 +6,7 @@
 #include <plexway/executors/gl_executor.hpp>
 #include <plexway/solve.hpp>
 
+/// @file
 /// The component `gl`: link plexway::gl.
 namespace plexway {
 
@@ -16,7 +17,9 @@ class GLWorkspace {
  public:
   GLWorkspace();
   ~GLWorkspace();
+  /// Moves what it holds; what is left may be assigned to or destroyed, no more.
   GLWorkspace(GLWorkspace&&) noexcept;
+  /// Likewise.
   GLWorkspace& operator=(GLWorkspace&&) noexcept;
 
   /// Bytes on the device.
@@ -27,6 +30,7 @@ class GLWorkspace {
   [[nodiscard]] std::size_t rounds() const;
 
   struct Implementation;
+  /// For the library's own use.
   [[nodiscard]] Implementation& implementation() { return *implementation_; }
 
  private:

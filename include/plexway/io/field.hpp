@@ -13,7 +13,9 @@
 
 namespace plexway::io {
 
-/// Writes one distance a vertex, and one label where `label` is not empty, in file order.
+/// Writes one distance a vertex, and one label where `label` is not empty, in file order; where
+/// `error` is not empty, how far off each may be (DistanceField::error) as a column `error` (glTF:
+/// `_ERROR`; not in .npy).
 ///
 /// The extension (any case) picks the format: .csv, .npy (distances only), .ply, .vtk, .vtu, .glb
 /// and .gltf. Unreached vertices carry +inf in each of them, but -1 in glTF, which knows no
@@ -23,7 +25,8 @@ namespace plexway::io {
 /// Throws UsageError for an unknown extension or arrays that are not as long as
 /// `surface.positions`, and Error "cannot write FILE: reason" when the system refuses.
 void write_field(const std::filesystem::path& file, const Triangles& surface,
-                 std::span<const double> distance, std::span<const std::int32_t> label = {});
+                 std::span<const double> distance, std::span<const std::int32_t> label = {},
+                 std::span<const double> error = {});
 
 /// The same for a solid. A .ply holds its vertices alone, a .glb its boundary.
 void write_field(const std::filesystem::path& file, const Tets& solid,
@@ -38,13 +41,18 @@ void write_field(const std::filesystem::path& file, const Edges& wireframe,
 /// out, `cloud.original` is a column `original` (glTF: `_ORIGINAL`, a float); an .npy then has
 /// records of `distance` (f8) and `original` (u4).
 void write_field(const std::filesystem::path& file, const Points& cloud,
-                 std::span<const double> distance, std::span<const std::int32_t> label = {});
+                 std::span<const double> distance, std::span<const std::int32_t> label = {},
+                 std::span<const double> error = {});
 
 /// A part of a mixed domain; empty lists are left out. The parts' vertices follow one another.
 struct MixedPart {
+  /// n, one a vertex.
   std::span<const std::array<double, 3>> positions;
+  /// Of vertices < n, counted from the part's first.
   std::span<const std::array<std::uint32_t, 2>> edges = {};
+  /// Likewise.
   std::span<const std::array<std::uint32_t, 3>> triangles = {};
+  /// Likewise.
   std::span<const std::array<std::uint32_t, 4>> tets = {};
 };
 

@@ -39,7 +39,9 @@ std::span<const std::string_view> tet_extensions();
 
 /// The bytes of a file and what it is called in messages.
 struct NamedText {
+  /// All of the file; referred to.
   std::string_view text;
+  /// What messages call it; referred to.
   std::string_view name;
 };
 

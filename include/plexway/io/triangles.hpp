@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+/// The component `io`, link plexway::io: files in and out, as plain arrays.
 namespace plexway::io {
 
 /// A triangle surface as a file has it: nothing merged, reordered or dropped.
@@ -53,5 +54,16 @@ Triangles parse_ply(std::string_view bytes, std::string_view name);
 /// STL, ascii or binary. It is a soup of triangles: corners with identical coordinates become one
 /// vertex, numbered in order of first appearance. Throws InputError.
 Triangles parse_stl(std::string_view bytes, std::string_view name);
+
+/// GIfTI (.surf.gii): its first arrays of points and of triangles; ascii, base64, and base64 of zlib.
+/// Its transforms to other spaces are not applied. Throws InputError, and NotBuiltError without
+/// pugixml, or zlib where it is packed.
+Triangles parse_gifti(std::string_view bytes, std::string_view name);
+
+/// FreeSurfer's binary surfaces of triangles, such as lh.white. Throws InputError.
+Triangles parse_freesurfer(std::string_view bytes, std::string_view name);
+
+/// The labels in a GIfTI file (.label.gii), one a vertex: its first array. Throws as parse_gifti.
+std::vector<std::int32_t> read_gifti_labels(const std::filesystem::path& file);
 
 }  // namespace plexway::io

@@ -22,48 +22,64 @@ enum class Sides {
   least,  ///< of the fastest: never longer than a path along the edge
 };
 
+/// How simplices that share an edge agree on its length.
 struct Agreement {
+  /// Whose length it has.
   Sides sides = Sides::mean;
   double jump = 0.15;  ///< as a share of the longer
 };
 
 /// One tensor a simplex, in its order.
 struct SimplexTensors {
+  /// One a simplex, in the caller's order.
   std::vector<Tensor> tensor;
+  /// Where simplices share an edge.
   Agreement agreement = {};
 };
 
 /// One speed a simplex: a path of length L in it costs L / speed.
 struct SimplexSpeeds {
+  /// One a simplex, in the caller's order; > 0.
   std::vector<double> speed;
+  /// Where simplices share an edge.
   Agreement agreement = {};
 };
 
 /// One tensor a vertex, linear along edges: the length is the integral, in closed form.
 struct VertexTensors {
+  /// One a vertex, in the caller's order.
   std::vector<Tensor> tensor;
 };
 
 /// A tensor at any point, integrated along each edge by three points (Gauss).
 struct TensorFunction {
+  /// The tensor at a point.
   std::function<Tensor(const Point&)> at;
 };
 
 /// The length from one end of an edge to the other, the lower vertex first. Called once an edge of
 /// each simplex.
 struct LengthFunction {
+  /// The length between two points; >= 0 and finite.
   std::function<double(const Point&, const Point&)> between;
 };
 
 /// A length for every edge, in any order and direction. Given twice, the last one counts.
 struct GivenLengths {
+  /// An edge and how long it is.
   struct Edge {
+    ///@{
+    /// Its vertices.
     Index from, to;
+    ///@}
+    /// >= 0 and finite.
     double length;
   };
+  /// At least every edge of the simplices.
   std::vector<Edge> edges;
 };
 
+/// Any of these.
 using Metric = std::variant<SimplexTensors, SimplexSpeeds, VertexTensors, TensorFunction,
                             LengthFunction, GivenLengths>;
 
@@ -92,13 +108,16 @@ using Metric = std::variant<SimplexTensors, SimplexSpeeds, VertexTensors, Tensor
 
 /// Simplices whose lengths no flat simplex has.
 struct Violations {
+  /// So many simplices.
   std::size_t count = 0;
   Index first = none;  ///< the lowest of them
 };
 
 /// Triangles with an edge longer than the way around by the other two, beyond rounding.
+/// Three lengths a triangle, as triangle_lengths has them. Cost: linear.
 [[nodiscard]] Violations find_violations(std::span<const std::array<double, 3>> lengths);
 /// Tetrahedra with such a face, or whose faces do not close in space.
+/// Six lengths a tetrahedron, as tet_lengths has them. Cost: linear.
 [[nodiscard]] Violations find_violations(std::span<const std::array<double, 6>> lengths);
 
 }  // namespace plexway::metric

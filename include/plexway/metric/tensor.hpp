@@ -4,12 +4,16 @@
 
 namespace plexway::metric {
 
+/// A point or a step in space.
 using Point = std::array<double, 3>;
 
 /// A symmetric 3 x 3 matrix M in world coordinates: a short step d is sqrt(d^T M d) long. The
 /// identity is the ordinary length; 1 / speed^2 times it is travel time.
 struct Tensor {
+  ///@{
+  /// An entry of the matrix; the other half is the same.
   double xx = 1, xy = 0, xz = 0, yy = 1, yz = 0, zz = 1;
+  ///@}
 
   /// d^T M d: negative along some d where M is not positive.
   [[nodiscard]] constexpr double squared(const Point& d) const {

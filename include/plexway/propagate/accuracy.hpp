@@ -2,20 +2,26 @@
 
 namespace plexway {
 
-/// How accurate distances on a surface shall be: an error, or one of the names.
+/// How accurate distances on a surface or a cloud shall be: an error, or one of the names.
 ///
 /// A number is the mean relative error to expect at vertices, away from thin triangles: windows are
 /// merged as long as that stays so. It is no bound; single vertices may be off by a hundred times
 /// as much. Below 1e-5 merging saves nothing any more, and that is `exact`.
+///
+/// What goes with what is in support.hpp. docs/accuracy.md has the errors and times to expect.
 class Accuracy {
  public:
-  enum class Kind { fast, merged, exact };
+  /// By which rule: `usual` chooses one, `fast` is labels, `merged` and `exact` are windows.
+  enum class Kind { usual, fast, merged, exact };
 
-  /// One label a triangle (Visibility::saddles): mean errors of 3e-4 to 2e-3, single vertices more.
+  /// For who does not choose: `fast`; but sheets of a mixed domain that join to one surface are
+  /// solved by windows, in double exactly.
+  static constexpr Accuracy usual() { return Accuracy(Kind::usual, 7e-5); }
+  /// One label a simplex: on surfaces mean errors of 3e-4 to 2e-3, single vertices more.
   static constexpr Accuracy fast() { return Accuracy(Kind::fast, 1e-3); }
   /// Merged windows.
   static constexpr Accuracy accurate() { return Accuracy(7e-5); }
-  /// All windows, in double: nothing but rounding. Ask a TriangleMesh<double>: the other one's
+  /// All windows, in double: nothing but rounding. For a TriangleMesh<double>: the other one's
   /// lengths are themselves rounded to 6e-8.
   static constexpr Accuracy exact() { return Accuracy(Kind::exact, 0); }
 
@@ -23,8 +29,11 @@ class Accuracy {
   explicit constexpr Accuracy(double error)
       : kind_(error < 1e-5 ? Kind::exact : Kind::merged), error_(error) {}
 
+  /// By which rule it is reached.
   [[nodiscard]] constexpr Kind kind() const { return kind_; }
+  /// The mean relative error to expect.
   [[nodiscard]] constexpr double error() const { return error_; }
+  /// Are both the same?
   friend constexpr bool operator==(const Accuracy&, const Accuracy&) = default;
 
  private:

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include <plexway/complex/ids.hpp>
+#include <plexway/propagate/accuracy.hpp>
 
 namespace plexway {
 
@@ -11,8 +12,9 @@ namespace plexway {
 struct PropagateStatistics {
   std::size_t expansions = 0;  ///< simplices taken from the queue
   std::size_t updates = 0;     ///< labels accepted
+  /// Simplices that a label came to.
   std::size_t reached_simplices = 0;
-  /// Surfaces, Visibility::saddles: vertices that labels put farther than a neighbour and the edge
+  /// Surfaces, Accuracy::fast: vertices that labels put farther than a neighbour and the edge
   /// between, and that got the way by that neighbour. Many: the field is less accurate there.
   std::size_t lowered_vertices = 0;
   /// Likewise vertices that labels put nearer than the straight line through space by more than
@@ -29,7 +31,12 @@ struct DistanceField {
   std::vector<Real> distance;  ///< one a vertex
   std::vector<Index> label;    ///< nearest source of each vertex, by its place in the list of
                                ///< sources; none where unreached. Empty for a single source.
-  bool complete = true;        ///< false if max_expansions ended the propagation early
+  /// How far off each distance may be, in the domain's unit: an estimate, mostly several times too
+  /// large, now and then too small, no bound. 0 where unreached or exact. Empty for Accuracy::fast.
+  std::vector<Real> error;
+  Accuracy accuracy = Accuracy::fast();  ///< by which it was solved, never `usual`
+  bool complete = true;                  ///< false if max_expansions ended the propagation early
+  /// What it cost.
   PropagateStatistics statistics;
 };
 

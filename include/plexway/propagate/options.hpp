@@ -4,6 +4,7 @@
 #include <functional>
 #include <limits>
 
+#include <plexway/propagate/accuracy.hpp>
 #include <plexway/propagate/probe_table.hpp>
 
 namespace plexway {
@@ -36,8 +37,13 @@ struct Progress {
   double distance;         ///< the front is about here, in the domain's unit
 };
 
+/// How far a propagation goes, and by which rule.
 struct PropagateOptions {
+  /// Of windows count below schedule, radius, max_expansions and progress.
+  Accuracy accuracy = Accuracy::usual();
+  /// When a simplex sees a virtual source.
   Visibility visibility = Visibility::saddles;
+  /// Which label propagates next.
   Schedule schedule = Schedule::dual_queue;
   /// Width of the dual queue's limit, in mean edge lengths, > 0.
   double step = 1;

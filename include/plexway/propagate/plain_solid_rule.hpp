@@ -40,7 +40,6 @@ class PlainSolidRule {
   }
 
   [[nodiscard]] Real distance(Index t) const { return front_->label(t).centre; }
-  [[nodiscard]] Index path(Index) const { return 0; }  // not known
   [[nodiscard]] Real distance_or_inf(Index t) const {
     return front_->reached(t) ? distance(t) : std::numeric_limits<Real>::infinity();
   }
@@ -146,6 +145,20 @@ class PlainSolidRule {
 
   [[nodiscard]] Real corner_distance(Index t, Index i, Real = 0) const {
     return front_->label(t).sigma + std::sqrt(front_->label(t).distance2[i]);
+  }
+
+  /// As SolidRule's.
+  [[nodiscard]] bool bends() const { return false; }
+  template <class Offer>
+  void ask_around(std::span<const Index> around, const Offer& offer) const {
+    Real best = std::numeric_limits<Real>::infinity();
+    Index by = none;
+    for (const Index c : around) {
+      if (!front_->reached(c / 4)) continue;
+      const Real d = corner_distance(c / 4, c % 4);
+      if (d < best) best = d, by = c / 4;
+    }
+    if (by != none) offer(by, best);
   }
 
   /// Labels of u offer a path over the edge (v, w) of t, which touches u in that edge only.

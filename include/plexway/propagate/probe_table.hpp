@@ -29,6 +29,7 @@ struct ProbeTable {
     return {11.7528, 1.53965, 1.20639, {1.01992, 0.86097, 0.853053, 1.12208, 0.661627, 1.19274}};
   }
 
+  /// Are all numbers the same?
   bool operator==(const ProbeTable&) const = default;
 };
 

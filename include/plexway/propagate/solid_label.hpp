@@ -5,27 +5,32 @@
 
 namespace plexway {
 
-/// What a tetrahedron in space remembers: the virtual source S of the best path to its centre, and
-/// the reflex edges that the line of sight passes most closely.
-///
-/// A ring source: if `ring` is an edge, the path bends there, and where depends on the point it is
-/// for; S is then the point before that bend.
+/// What a tetrahedron in space remembers: the path to its centre, a string from the virtual source
+/// S around reflex edges. Where it bends at them depends on the point it is for.
 template <class Real>
 struct SolidLabel {
   Vector3<Real> source;  ///< S, in the frame of TetMesh::points
   Real sigma;            ///< walked from the source to S
   Real centre;           ///< distance of the tetrahedron's centre
-  Index ring;            ///< reflex edge at which the path from S bends, or none
-  static constexpr int limits = 6;
-  Index limit[limits];  ///< reflex edges that may hide S, the most pressing first, or none
-  Index path;           ///< says which source and which bends led here (see SolidPath)
+  static constexpr int bends = 2;
+  Index bend[bends];  ///< reflex edges on the way from S, in this order, or none
+  Index door;         ///< how the way begins: none, if S is a point of the solid, or SolidDoor's
 };
 
-/// Names for sequences of bends: labels with equal names look at the same scene.
-struct SolidPath {
-  static constexpr Index factor = 0x9E3779B1u, inverse = 0x0E8B2F51u;
-  static constexpr Index bent(Index path, Index edge) { return path * factor + (edge + 1); }
-  static constexpr Index before(Index path, Index edge) { return (path - (edge + 1)) * inverse; }
+/// Do both have the same S and bends? Then they look at the same scene.
+template <class Real>
+[[nodiscard]] bool same_way(const SolidLabel<Real>& a, const SolidLabel<Real>& b) {
+  return a.sigma == b.sigma && a.source.x == b.source.x && a.source.y == b.source.y &&
+         a.source.z == b.source.z && a.bend[0] == b.bend[0] && a.bend[1] == b.bend[1];
+}
+
+/// Where S is not a point that strings can be walked to.
+struct SolidDoor {
+  /// S is outside: the path comes in over a face of a tetrahedron.
+  static constexpr Index face(Index tet, Index face) { return 4 * tet + face; }
+  /// S was turned about a reflex edge, which is parallel to bend[0]: `unfolded` + edge. More than
+  /// 4 x 2^29 faces would take 30 GB at least.
+  static constexpr Index unfolded = Index{1} << 31;
 };
 
 }  // namespace plexway

@@ -17,43 +17,32 @@ template <class Real>
 class SolidPaths : protected kernel::SolidSight<Real> {
  protected:
   using Sight = kernel::SolidSight<Real>;
-  using Sight::bend_point, Sight::from_edge, Sight::hides_point, Sight::lights, Sight::parallel,
-      Sight::point_on, Sight::see_edge, Sight::way_over;
-  using typename Sight::Crossing, typename Sight::EdgeSight, typename Sight::FromEdge,
-      typename Sight::WayOver;
+  using Sight::bend_point, Sight::parallel, Sight::point_on, Sight::presses;
 
  public:
   using Label = SolidLabel<Real>;
   using Point = Vector3<Real>;
   using Edge = ReflexEdge<Real>;
 
-  explicit SolidPaths(const Edge* reflex) : reflex_(reflex) {}
+  SolidPaths(const Edge* reflex, Index own_edges) : reflex_(reflex), own_edges_(own_edges) {}
 
-  static constexpr int label_limits = Label::limits;
+  static constexpr int label_bends = Label::bends;
+  static constexpr Index unfolded_door = SolidDoor::unfolded;
   [[nodiscard, gnu::always_inline]] const Edge& reflex_edge(Index edge) const {
     return reflex_[edge];
   }
-  static constexpr Index bent_path(Index path, Index edge) { return SolidPath::bent(path, edge); }
-  static constexpr Index path_before(Index path, Index edge) {
-    return SolidPath::before(path, edge);
-  }
+  [[nodiscard]] Index own_edges() const { return own_edges_; }
+  static Real abs(Real x) { return std::abs(x); }
+  static Real max(Real a, Real b) { return a < b ? b : a; }
+  static int max(int a, int b) { return a < b ? b : a; }
+  static Real min(Real a, Real b) { return b < a ? b : a; }
+  static Real sqrt(Real x) { return std::sqrt(x); }
+  static Real clamp(Real x, Real a, Real b) { return kernel::clamp(x, a, b); }
 #include <plexway/propagate/solid_paths.inl>
-
-  /// The path with what hides q.
-  [[nodiscard]] Reach measure(const Label& label, const Point& q) const {
-    return measure(label, q, reach(label, q), std::numeric_limits<Real>::infinity());
-  }
-
-  /// A name for a virtual source that has none by the bends that led to it: its place.
-  static Index name_of(const Point& at, Real sigma) {
-    Index name = 0;
-    for (const Real x : {at.x, at.y, at.z, sigma})
-      name = SolidPath::bent(name, static_cast<Index>(std::llround(x * Real(4096))));
-    return name == 0 ? 1 : name;
-  }
 
  protected:
   const Edge* reflex_;
+  Index own_edges_;  // edges from here on are further ones, which only bend paths
 };
 
 #include <plexway/kernel/text_end.inl>

@@ -1,173 +1,231 @@
-// The path that a label of a solid describes: from the virtual source, over its ring, around the
-// edges it remembers, to a point. One text for C++ (the body of SolidPaths<Real>, see
+// The path that a label of a solid describes: a string from the virtual source S around reflex
+// edges to a point, pulled taut. One text for C++ (the body of SolidPaths<Real>, see
 // solid_paths.hpp) and GLSL, after solid_sight.inl. Before it stand also
-//   Label               a SolidLabel (propagate/solid_label.hpp), and `label_limits`, how many
+//   Label               a SolidLabel (propagate/solid_label.hpp), and `label_bends`, how many
 //   none                no edge
+//   unfolded_door       with an edge added: the door of a label whose S was turned about it
 //   reflex_edge(Index)  an Edge
-//   bent_path(path, edge), path_before(path, edge)  names, see SolidPath
+//   own_edges()         edges from there on are further ones, which only bend paths
 
-/// So far beyond its ends an edge hides, in its own length.
-HINGE_CONST Real slack = Real(0.5);
+/// A string under way may have more bends than a label keeps.
+HINGE_CONST int most_bends = label_bends + 3;
 
-struct Reach {
-  Point eye;    // the last bend
+struct Taut {
+  Point at[most_bends + 2];  // S, the bends, the end
+  Index edge[most_bends];    // the reflex edge of each bend
+  int bends;
   Real extent;  // of the whole path
-  int bend;     // at this limit, or -1
 };
 
-HINGE_FN Reach straight_reach(HINGE_IN(Label) label, HINGE_IN(Point) q) {
-  Reach there = {label.source, label.sigma + norm(q - label.source), -1};
-  return there;
+HINGE_METHOD Point taut_end(HINGE_IN(Taut) s) HINGE_READS { return s.at[s.bends + 1]; }
+
+void measure(HINGE_INOUT(Taut) s, Real sigma) HINGE_READS {
+  s.extent = sigma;
+  for (int i = 0; i <= HINGE_ROLLED(s.bends); ++i) s.extent += norm(s.at[i + 1] - s.at[i]);
 }
 
-/// Where S is from the ring: the same for all q.
-HINGE_METHOD FromEdge before_ring(HINGE_IN(Label) label) HINGE_READS {
-  FromEdge nothing = {Real(0), Real(0)};
-  if (label.ring == none) return nothing;
-  return from_edge(reflex_edge(label.ring), label.source);
-}
-HINGE_METHOD Reach reach(HINGE_IN(Label) label, HINGE_IN(FromEdge) before,
-                         HINGE_IN(Point) q) HINGE_READS {
-  if (label.ring == none) return straight_reach(label, q);
-  WayOver way = way_over(reflex_edge(label.ring), before, q);
-  Reach there = {way.bend, label.sigma + way.extent, -1};
-  return there;
-}
-/// The path as the label has it, limits aside.
-HINGE_METHOD Reach reach(HINGE_IN(Label) label, HINGE_IN(Point) q) HINGE_READS {
-  if (label.ring == none) return straight_reach(label, q);
-  return reach(label, before_ring(label), q);
-}
-HINGE_METHOD Real way_to(HINGE_IN(Label) label, HINGE_IN(Point) q) HINGE_READS {
-  return reach(label, q).extent;
-}
-
-/// The same with a bend at one limit: exact after a point.
-Reach reach_by(HINGE_IN(Label) label, HINGE_IN(Point) eye, int limit,
-               HINGE_IN(Point) q) HINGE_READS {
-  Point b = bend_point(reflex_edge(label.limit[limit]), eye, q);
-  Reach there = {b, way_to(label, b) + norm(q - b), limit};
-  return there;
-}
-HINGE_METHOD bool hides(Index edge, HINGE_IN(Point) eye, HINGE_IN(Point) q) HINGE_READS {
-  HINGE_IN(Edge) e = reflex_edge(edge);
-  Crossing unused;
-  return hides_point(e, see_edge(e, eye), eye, q, slack, unused);
-}
-
-/// The path with what hides q. At `known` or more it need not be exact: it is longer yet.
-Reach measure(HINGE_IN(Label) label, HINGE_IN(Point) q, HINGE_IN(Reach) straight,
-              Real known) HINGE_READS {
-  Crossing crossing[label_limits];
-  int dark[label_limits];
-  int count = 0;
-  for (int k = 0; k < HINGE_ROLLED(label_limits) && label.limit[k] != none; ++k) {
-    HINGE_IN(Edge) e = reflex_edge(label.limit[k]);
-    if (hides_point(e, see_edge(e, straight.eye), straight.eye, q, slack, crossing[count]))
-      dark[count++] = k;
+/// Moves the bends near to where the string is shortest, given its edges and ends: one by one,
+/// there and back. One bend is where it belongs then.
+void slide(HINGE_INOUT(Taut) s) HINGE_READS {
+  int k = s.bends;
+  Point end = s.at[k + 1];
+  for (int i = 0; i < HINGE_ROLLED(k); ++i)
+    s.at[i + 1] = bend_point(reflex_edge(s.edge[i]), s.at[i], end);
+  for (int n = 1; n < HINGE_ROLLED(k); ++n) {
+    int i = k - 1 - n;
+    s.at[i + 1] = bend_point(reflex_edge(s.edge[i]), s.at[i], s.at[i + 2]);
   }
-  if (count == 0) return straight;
-  FromEdge before = before_ring(label);
-  Reach bent = straight;
-  for (int i = 0; i < count; ++i) {
-    Point b = point_on(reflex_edge(label.limit[dark[i]]), crossing[i].times / crossing[i].sum);
-    Real way = reach(label, before, b).extent + norm(q - b);
-    if (way > bent.extent || bent.bend < 0) {
-      bent.eye = b;
-      bent.extent = way;
-      bent.bend = dark[i];
-    }
-    if (!(way < known)) return bent;
-  }
-  // What hides a part of that way is another bend, before or behind, if it makes the way longer: a
-  // string pulled taut. `at` are its bends, from the eye before them to q behind them.
-  int chain[label_limits];
-  Point at[label_limits + 2];
-  Point trial[label_limits + 2];
-  int bends = 1;
-  chain[0] = bent.bend;
-  at[0] = straight.eye;
-  at[1] = bent.eye;
-  at[2] = q;
-  int misses = 0;  // since the last one that was put in
-  int j = 0;
-  while (misses < HINGE_ROLLED(label_limits) && bends < label_limits) {
-    if (j == label_limits || label.limit[j] == none) {
-      misses += label_limits - j;
-      j = 0;
-      continue;
-    }
-    int place = -1;
-    for (int i = 0; i < HINGE_ROLLED(bends); ++i)
-      if (chain[i] == j) place = -2;
-    for (int i = 0; i <= HINGE_ROLLED(bends); ++i)
-      if (place == -1 && hides(label.limit[j], at[i], at[i + 1])) place = i;
-    Real way = Real(0);
-    if (place >= 0) {
-      for (int n = 0; n <= HINGE_ROLLED(bends) + 1; ++n) trial[n <= place ? n : n + 1] = at[n];
-      trial[place + 1] = at[place];
-      for (int n = 0; n < HINGE_ROLLED(2) * (bends + 1); ++n) {
-        int k = n <= bends ? n : n - bends - 1;
-        int bend = k < place ? chain[k] : j;
-        if (k > place) bend = chain[k - 1];
-        trial[k + 1] = bend_point(reflex_edge(label.limit[bend]), trial[k], trial[k + 2]);
+}
+
+/// Several bends the rest of the way: Newton's method for all at once. Lengths are convex.
+void settle(HINGE_INOUT(Taut) s, Real sigma) HINGE_READS {
+  int k = s.bends;
+  Point end = s.at[k + 1];
+  measure(s, sigma);
+  for (int round = 0; round < HINGE_ROLLED(8); ++round) {
+    // Rows of the Hessian, eliminated as they come: diagonal, to the next, right side.
+    Real upper[most_bends];
+    Real right[most_bends];
+    Point come = s.at[1] - s.at[0];
+    Real way_in = max(norm(come), Real(1e-9));
+    come = Real(1) / way_in * come;
+    for (int i = 0; i < HINGE_ROLLED(k); ++i) {
+      HINGE_IN(Edge) e = reflex_edge(s.edge[i]);
+      Point on = s.at[i + 2] - s.at[i + 1];
+      Real way_on = max(norm(on), Real(1e-9));
+      on = Real(1) / way_on * on;
+      Real a = dot(e.direction, come);
+      Real b = dot(e.direction, on);
+      Real slope = a - b;
+      Real x = dot(s.at[i + 1] - e.end[0], e.direction);
+      Real diagonal = (Real(1) - a * a) / way_in + (Real(1) - b * b) / way_on;
+      Real next = Real(0);
+      Real before = Real(0);
+      if (i + 1 < k) {
+        HINGE_IN(Edge) f = reflex_edge(s.edge[i + 1]);
+        next = (b * dot(f.direction, on) - dot(e.direction, f.direction)) / way_on;
       }
-      way = way_to(label, trial[1]);
-      for (int n = 1; n <= HINGE_ROLLED(bends) + 1; ++n) way += norm(trial[n + 1] - trial[n]);
+      if (i > 0) {
+        HINGE_IN(Edge) f = reflex_edge(s.edge[i - 1]);
+        before = (a * dot(f.direction, come) - dot(e.direction, f.direction)) / way_in;
+      }
+      // At an end, and pulled beyond it: stays.
+      bool stays = (x <= Real(0) && slope > Real(0)) || (x >= e.extent && slope < Real(0)) ||
+                   !(diagonal > Real(0));
+      if (stays) {
+        upper[i] = Real(0);
+        right[i] = Real(0);
+      } else {
+        Real pivot = diagonal;
+        Real rest = -slope;
+        if (i > 0) {
+          pivot -= before * upper[i - 1];
+          rest -= before * right[i - 1];
+        }
+        pivot = max(pivot, Real(1e-3) * diagonal);
+        upper[i] = next / pivot;
+        right[i] = rest / pivot;
+      }
+      come = on;
+      way_in = way_on;
     }
-    if (way > bent.extent) {
-      // Counting up: of a loop with n from bends down, Mesa 22.3 loses what it stores.
-      for (int n = 0; n < HINGE_ROLLED(bends) - place; ++n) chain[bends - n] = chain[bends - n - 1];
-      chain[place] = j;
-      ++bends;
-      for (int n = 0; n <= HINGE_ROLLED(bends) + 1; ++n) at[n] = trial[n];
-      bent.extent = way;
-      misses = 0;
-      j = 0;
-    } else {
-      ++misses;
-      ++j;
+    Point moved[most_bends];
+    Real step = Real(0);
+    Real farthest = Real(0);
+    for (int n = 0; n < HINGE_ROLLED(k); ++n) {
+      int i = k - 1 - n;
+      step = right[i] - upper[i] * step;
+      HINGE_IN(Edge) e = reflex_edge(s.edge[i]);
+      Real x = dot(s.at[i + 1] - e.end[0], e.direction);
+      moved[i] = point_on(e, x + step);
+      farthest = max(farthest, abs(step));
     }
+    Real extent = sigma;
+    Point last = s.at[0];
+    for (int i = 0; i < HINGE_ROLLED(k); ++i) {
+      extent += norm(moved[i] - last);
+      last = moved[i];
+    }
+    extent += norm(end - last);
+    if (!(extent < s.extent)) break;
+    s.extent = extent;
+    for (int i = 0; i < HINGE_ROLLED(k); ++i) s.at[i + 1] = moved[i];
+    if (farthest < Real(1e-3)) break;  // it converges quadratically
   }
-  bent.eye = at[bends];
-  bent.bend = chain[0];
-  return bent;
 }
 
-HINGE_DO void clear_limits(HINGE_INOUT(Label) label) {
-  for (int k = 0; k < label_limits; ++k) label.limit[k] = none;
+HINGE_METHOD bool at_an_end(HINGE_IN(Edge) e, HINGE_IN(Point) bend) HINGE_READS {
+  Real x = dot(bend - e.end[0], e.direction);
+  return !(x > Real(1e-6) * e.extent && x < Real(1 - 1e-6) * e.extent);
 }
 
-/// Bends at a limit for good.
-void turn(HINGE_INOUT(Label) label, int limit, HINGE_IN(Point) q) HINGE_READS {
-  Index edge = label.limit[limit];
-  if (label.ring != none) {
-    // If the edges are parallel, S turns about the old ring until it lies in line with the way to
-    // the new one: exact. Else the bend becomes the source.
-    HINGE_IN(Edge) ring = reflex_edge(label.ring);
-    Point c = reach_by(label, reach(label, q).eye, limit, q).eye;
-    Point b = bend_point(ring, label.source, c);
+void leave_out(HINGE_INOUT(Taut) s, int i) HINGE_READS {
+  Point end = s.at[s.bends + 1];
+  for (int n = 0; n + 1 < HINGE_ROLLED(s.bends); ++n)
+    if (n >= i) s.edge[n] = s.edge[n + 1];
+  --s.bends;
+  s.at[s.bends + 1] = end;
+}
+
+/// The first bend that a string lifts off, or -1. `kept`: so many of the first must stay.
+/// `strict`: also one at its edge's end: the string may get past there.
+int lifted(HINGE_IN(Taut) s, int kept, bool strict) HINGE_READS {
+  for (int i = kept; i < HINGE_ROLLED(s.bends); ++i) {
+    HINGE_IN(Edge) e = reflex_edge(s.edge[i]);
+    if (!presses(e, s.at[i], s.at[i + 2]) || (strict && at_an_end(e, s.at[i + 1]))) return i;
+  }
+  return -1;
+}
+
+/// Pulls a string taut: edges that it lifts off are left out.
+void pull(HINGE_INOUT(Taut) s, Real sigma, int kept, bool strict) HINGE_READS {
+  for (;;) {
+    slide(s);
+    int off = lifted(s, kept, strict);
+    if (off < 0 && s.bends > 1) {
+      settle(s, sigma);
+      off = lifted(s, kept, strict);
+    } else if (off < 0) {
+      measure(s, sigma);
+    }
+    if (off < 0) return;
+    leave_out(s, off);
+  }
+}
+
+HINGE_METHOD bool is_unfolded(HINGE_IN(Label) label) HINGE_READS {
+  return label.door != none && label.door >= unfolded_door;
+}
+
+/// Edges of a label that belong to its S.
+HINGE_METHOD int fixed_bends(HINGE_IN(Label) label) HINGE_READS {
+  if (label.bend[0] == none) return 0;
+  return label.bend[0] >= own_edges() || is_unfolded(label) ? 1 : 0;
+}
+
+/// The label's string to q, not pulled yet.
+Taut edges_of(HINGE_IN(Label) label, HINGE_IN(Point) q) HINGE_READS {
+  Taut s;
+  s.at[0] = label.source;
+  s.bends = 0;
+  s.extent = Real(0);
+  for (int i = 0; i < most_bends; ++i) {
+    s.at[i + 1] = q;
+    s.edge[i] = none;
+  }
+  for (int i = 0; i < label_bends; ++i) {
+    if (label.bend[i] == none) break;
+    s.edge[s.bends++] = label.bend[i];
+  }
+  return s;
+}
+/// And pulled.
+Taut taut_to(HINGE_IN(Label) label, HINGE_IN(Point) q) HINGE_READS {
+  Taut s = edges_of(label, q);
+  pull(s, label.sigma, fixed_bends(label), true);
+  return s;
+}
+
+HINGE_DO void clear_bends(HINGE_INOUT(Label) label) {
+  for (int k = 0; k < label_bends; ++k) label.bend[k] = none;
+}
+
+HINGE_METHOD bool is_beside(HINGE_IN(Edge) e, HINGE_IN(Point) p) HINGE_READS {
+  Real x = dot(p - e.end[0], e.direction);
+  return x >= Real(-1e-6) * e.extent && x <= Real(1 + 1e-6) * e.extent;
+}
+/// May S turn about an edge? Of a label that was turned before only if all paths over this edge
+/// pass the edge before within its ends.
+bool may_turn(HINGE_IN(Label) label, HINGE_IN(Edge) e) HINGE_READS {
+  if (!is_unfolded(label)) return true;
+  HINGE_IN(Edge) before = reflex_edge(label.door - unfolded_door);
+  return is_beside(before, label.source) && is_beside(before, e.end[0]) &&
+         is_beside(before, e.end[1]);
+}
+
+/// Makes a label of a string. What is too long loses its first bends: about an edge parallel to the
+/// next one S turns, which is exact; else the bend becomes S.
+void keep(HINGE_IN(Taut) s, HINGE_INOUT(Label) label) HINGE_READS {
+  int first = 0;
+  for (; s.bends - first > label_bends; ++first) {
+    HINGE_IN(Edge) e = reflex_edge(s.edge[first]);
+    Point b = s.at[first + 1];
+    Point c = s.at[first + 2];
     Real walked = norm(b - label.source);
     Real on = norm(c - b);
-    Real at = dot(b - ring.end[0], ring.direction);
-    if (parallel(ring, reflex_edge(edge)) && at > Real(0) && at < ring.extent && on > Real(0)) {
+    if (on > Real(0) && parallel(e, reflex_edge(s.edge[first + 1])) && !at_an_end(e, b) &&
+        may_turn(label, e)) {
       label.source = b + walked / on * (b - c);
+      label.door = unfolded_door + s.edge[first];
     } else {
-      label.sigma += walked;
       label.source = b;
+      label.sigma += walked;
+      label.door = none;
     }
   }
-  label.path = bent_path(label.path, edge);
-  label.ring = edge;
-  for (int k = 0; k + 1 < label_limits; ++k)
-    if (k >= limit) label.limit[k] = label.limit[k + 1];
-  label.limit[label_limits - 1] = none;
-}
-
-bool hides_all(Index edge, HINGE_IN(Point) eye, HINGE_IN(Point) a, HINGE_IN(Point) b,
-               HINGE_IN(Point) c) HINGE_READS {
-  EdgeSight seen = see_edge(reflex_edge(edge), eye);
-  Real angle2 = Real(1e-8);
-  return !lights(seen, eye, a, angle2) && !lights(seen, eye, b, angle2) &&
-         !lights(seen, eye, c, angle2);
+  for (int i = 0; i < label_bends; ++i) {
+    label.bend[i] = none;
+    if (first + i < s.bends) label.bend[i] = s.edge[first + i];
+  }
+  label.centre = s.extent;
 }

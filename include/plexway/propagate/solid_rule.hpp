@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstring>
 #include <limits>
+#include <span>
 #include <utility>
 
 #include <plexway/complex/tet_mesh.hpp>
@@ -19,37 +19,38 @@ namespace plexway {
 /// Corners of face i, anticlockwise as seen from outside.
 inline constexpr Index tet_face_corners[4][3] = {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}};
 
-/// Visibility::saddles on solids in space: a virtual source is a point, or a ring about a reflex
-/// edge; paths bend at reflex edges only, and each label remembers six that may hide its source.
+/// Visibility::saddles on solids in space: a label is a string from a point around reflex edges,
+/// which are the only places where paths bend, and is walked through the tetrahedra before it
+/// counts.
 template <class Real, class Front>
 class SolidRule : public SolidPaths<Real> {
   using Paths = SolidPaths<Real>;
   using View = kernel::SolidSight<Real>;
-  using Paths::bent_path, Paths::clear_limits, Paths::hides, Paths::hides_all, Paths::label_limits,
-      Paths::measure, Paths::name_of, Paths::path_before, Paths::reach, Paths::reflex_,
-      Paths::reflex_edge, Paths::slack, Paths::turn;
-  using typename Paths::Edge, typename Paths::Reach;
-  using typename View::Crossing, typename View::EdgeSight, typename View::SightRank;
-  using View::bend_point, View::hides_point, View::passes, View::rank_edge, View::see_edge;
+  using Paths::abs, Paths::clamp, Paths::max, Paths::min, Paths::sqrt;
+  using Paths::at_an_end, Paths::clear_bends, Paths::edges_of, Paths::fixed_bends, Paths::keep,
+      Paths::label_bends, Paths::leave_out, Paths::measure, Paths::most_bends, Paths::own_edges,
+      Paths::own_edges_, Paths::pull, Paths::reflex_, Paths::reflex_edge, Paths::slide,
+      Paths::taut_end, Paths::taut_to, Paths::unfolded_door;
+  using typename Paths::Edge, typename Paths::Taut;
+  using typename View::FromEdge;
+  using View::bend_point, View::normal_to, View::passes, View::presses;
+  using View::crossing_along, View::from_edge, View::point_on, Paths::is_unfolded;
 
  public:
   using Label = SolidLabel<Real>;
   using Point = Vector3<Real>;
 
   SolidRule(const TetMesh<Real>& mesh, Front& front)
-      : Paths(mesh.reflex_edges().data()),
+      : Paths(mesh.reflex_edges().data(), static_cast<Index>(mesh.reflex_edges().size())),
         mesh_(&mesh),
         tets_(mesh.tets().data()),
         points_(mesh.points().data()),
         list_(mesh.reflex_list().data()),
         sentinel_(static_cast<Index>(mesh.tet_count())),
         any_reflex_(!mesh.reflex_edges().empty()),
-        own_rings_(static_cast<Index>(mesh.reflex_edges().size())),
         front_(&front) {
-    Label nearest = {};
+    Label nearest = point_label({0, 0, 0}, 0);
     nearest.centre = -1;  // nothing is nearer: never accepted
-    nearest.ring = none;
-    clear_limits(nearest);
     front_->put(sentinel_, nearest);
   }
   /// The same rule on the front of another executor.
@@ -58,11 +59,11 @@ class SolidRule : public SolidPaths<Real> {
     return SolidRule<Real, Other>(*this, front);
   }
 
+#include <plexway/propagate/solid_walk.inl>
+
 #include <plexway/propagate/solid_step.inl>
 
   [[nodiscard]] Real distance(Index t) const { return front_->label(t).centre; }
-  /// Says which way the path came; labels that agree in it agree about distances.
-  [[nodiscard]] Index path(Index t) const { return front_->label(t).path; }
   /// What a label for t must be below: by more than rounding.
   [[nodiscard, gnu::always_inline]] Real to_beat(Index t) const {
     constexpr Real gain = Real(1) - Real(16) * std::numeric_limits<Real>::epsilon();
@@ -89,12 +90,6 @@ class SolidRule : public SolidPaths<Real> {
   /// Offers the label of t over all faces but the one it came by.
   [[gnu::always_inline]] void expand(Index t, bool last_resort) const {
     const Index in = static_cast<Index>(front_->hinge(t));
-    // Not in a team: others may read its label now.
-    if constexpr (requires(const Label& label) { front_->narrow(t, label); }) {
-      Label own = front_->label(t);
-      if (hears(t, own)) [[unlikely]]
-        front_->narrow(t, own);
-    }
     for (Index i = 0; i < 4; ++i)
       if (i != in) cross(t, i, last_resort);
   }
@@ -146,18 +141,48 @@ class SolidRule : public SolidPaths<Real> {
                                      Real known = std::numeric_limits<Real>::infinity()) const {
     return corner_reach(front_->label(t), t, i, known);
   }
-  /// The same to any point of it, or of a neighbour that sees t's source as t does.
-  [[nodiscard]] Real distance_at(Index t, const Point& q,
-                                 Real known = std::numeric_limits<Real>::infinity()) const {
-    return this->reach_at(front_->label(t), t, q, known);
-  }
+  /// Do paths bend at edges?
+  [[nodiscard]] bool bends() const { return any_reflex_; }
+  /// The least distance that tetrahedra offer a vertex, which is corner c % 4 of c / 4 for each c
+  /// of `around`: offer(tetrahedron, distance), unless none is reached. First by their own strings,
+  /// one of those that came the same way; then around what hides some of them.
+  template <class Offer>
+  void ask_around(std::span<const Index> around, const Offer& offer) const {
+    Real best = std::numeric_limits<Real>::infinity();
+    Index by = none;
+    const auto take = [&](Index t, Real d) {
+      if (!(d < best)) return;
+      best = d;
+      by = t;
+    };
+    Hidden hidden[most_hidden];
+    std::size_t count = 0;
+    for (const Index c : around) {
+      const Index t = c / 4;
+      if (!front_->reached(t)) continue;
+      const Label& label = front_->label(t);
+      if (by != none && same_way(label, front_->label(by))) continue;
+      bool hides = false;
+      const Real d = corner_sight(label, t, c % 4, best, hides);
+      if (!hides)
+        take(t, d);
+      else if (count < most_hidden)
+        hidden[count++] = {d, c};
+      else
+        take(t, corner_distance(t, c % 4, best));
+    }
+    std::sort(hidden, hidden + count, [](const Hidden& a, const Hidden& b) {
+      return a.distance < b.distance || (a.distance == b.distance && a.corner < b.corner);
+    });
 
-  /// Length of the path from the source of u, through a face of it, to q beyond; +inf if it does
-  /// not pass there.
-  [[nodiscard]] Real offered_over(Index u, Index face, const Point& q) const {
-    const Sight sight = seen_from(u, q);
-    if (!passes_face(sight.eye, q, u, face)) return std::numeric_limits<Real>::infinity();
-    return sight.sigma + norm(q - sight.eye);
+    for (std::size_t n = 0; n < count && hidden[n].distance < best; ++n)
+      take(hidden[n].corner / 4, corner_distance(hidden[n].corner / 4, hidden[n].corner % 4, best));
+    if (by != none) offer(by, best);
+  }
+  /// The same to any point of u: t, or one that touches it.
+  [[nodiscard]] Real distance_at(Index t, Index u, const Point& q,
+                                 Real known = std::numeric_limits<Real>::infinity()) const {
+    return reach_at(front_->label(t), t, u, q, known);
   }
 
   /// Length of the path from the source of t through a face to that of the neighbour; +inf if none
@@ -170,22 +195,16 @@ class SolidRule : public SolidPaths<Real> {
     const Point here = seen_from(t, tets_[u].centre).eye, there = seen_from(u, tets_[t].centre).eye;
     if (!passes(here, there, a, b, c, face_tolerance)) return std::numeric_limits<Real>::infinity();
     const Point q = plane_crossing(here, there, a, b, c);
-    return distance_at(t, q) + distance_at(u, q);
+    return distance_at(t, t, q) + distance_at(u, u, q);
   }
 
   /// Labels of u offer a path over the edge (v, w) of t, which touches u in that edge only.
   bool pass_edge(Index u, Index t, Index v, Index w, Real known_gain) const {
-    const Label& from = front_->label(u);
     const Point q = tets_[t].centre;
-    const Reach before = reach(from, bend_point(points_[v], points_[w], from.source, q));
-    const Point b = bend_point(points_[v], points_[w], before.eye, q);
-    Label label;
-    const Reach there = measure(from, b);
-    label.source = b;
-    label.sigma = there.extent;
-    label.ring = none;
-    clear_limits(label);
-    label.path = name_of(b, label.sigma);
+    const Point b = bend_point(points_[v], points_[w], seen_from(u, tets_[u].centre).eye, q);
+    const Real walked = distance_at(u, u, b);
+    if (!(walked < std::numeric_limits<Real>::infinity())) return false;
+    Label label = point_label(b, walked);
     label.centre = label.sigma + norm(q - b);
     if (!(label.centre < to_beat(t) * known_gain)) return false;
     Index face = 0;  // one that contains the edge
@@ -210,26 +229,38 @@ class SolidRule : public SolidPaths<Real> {
   };
   /// The last bend on the way from the source of t to q, a point of its boundary.
   [[nodiscard]] Sight seen_from(Index t, const Point& q) const {
-    Label label = front_->label(t);
-    Reach simple = reach(label, q);
-    gather(t, sentinel_, label, q, simple);
-    const Reach path = measure(label, q, simple, std::numeric_limits<Real>::infinity());
-    return {path.eye, path.extent - norm(q - path.eye)};
+    const Label& label = front_->label(t);
+    Taut s;
+    const Point end = q + nudge * (tets_[t].centre - q);
+    if (any_reflex_ &&
+        !find_taut(label, t, tets_[t].centre, t, end, q, std::numeric_limits<Real>::infinity(), s))
+      s = taut_to(label, tets_[t].centre);
+    if (!any_reflex_) s = taut_to(label, q);
+    const Point eye = s.at[s.bends];
+    return {eye, s.extent - norm(taut_end(s) - eye)};
   }
 
   /// A source at `eye`, outside, comes in over a face of t.
   bool enter_face(Index t, std::size_t face, const Point& eye, Real sigma, Index source) const {
     const Point q = tets_[t].centre;
     Label label = point_label(eye, sigma);
-    Reach path = {eye, sigma + norm(q - eye), -1};
-    if (!(path.extent < to_beat(t))) return false;
+    label.door = SolidDoor::face(t, static_cast<Index>(face));
+    label.centre = sigma + norm(q - eye);
+    if (!(label.centre < to_beat(t))) return false;
     // The face as seen from within, where the path goes on.
     const Index* order = tet_face_corners[face];
     const Index* corner = tets_[t].corner;
     const Point &a = points_[corner[order[0]]], &b = points_[corner[order[2]]],
                 &c = points_[corner[order[1]]];
-    if (!passes(path.eye, q, a, b, c, face_tolerance)) bend_anywhere(label, path, q, a, b, c);
-    return enter(t, face, label, path.extent, source);
+    if (!passes(eye, q, a, b, c, face_tolerance)) {  // over the best point of the face's edges
+      const Point over[3] = {bend_point(a, b, eye, q), bend_point(b, c, eye, q),
+                             bend_point(c, a, eye, q)};
+      const auto way = [&](const Point& p) { return norm(p - eye) + norm(q - p); };
+      const Point& at = *std::min_element(
+          over, over + 3, [&](const Point& p, const Point& r) { return way(p) < way(r); });
+      start_at(label, at, sigma + norm(at - eye), q);
+    }
+    return enter(t, face, label, source);
   }
 
   /// Offers the source of t to its neighbours even where the line misses the face between. Of many
@@ -240,7 +271,7 @@ class SolidRule : public SolidPaths<Real> {
     for (Index i = 0; i < 4; ++i) {
       const Index across = tets_[t].across[i], u = across >> TetAcross::tet_shift;
       Label label = front_->label(t);
-      label.centre = reach(label, tets_[u].centre).extent;
+      label.centre = taut_to(label, tets_[u].centre).extent;
       if (!(label.centre < to_beat(u) * (1 - gain))) continue;
       if (any_reflex_)
         cross(t, i, true);
@@ -252,10 +283,10 @@ class SolidRule : public SolidPaths<Real> {
   /// A source that is seen over an edge of t only: a ring about it.
   bool enter_edge(Index t, std::size_t face, Index ring, const Point& eye, Real sigma,
                   Index source) const {
-    const Index path = SolidPath::bent(name_of(eye, sigma), ring);
-    Label label = {eye, sigma, 0, ring, {}, path};
-    clear_limits(label);
-    return enter(t, face, label, reach(label, tets_[t].centre).extent, source);
+    Label label = point_label(eye, sigma);
+    label.bend[0] = ring;
+    label.centre = taut_to(label, tets_[t].centre).extent;
+    return enter(t, face, label, source);
   }
 
   /// Fetches what the expansion of t will need, in two steps: t itself, then its neighbours.
@@ -272,20 +303,25 @@ class SolidRule : public SolidPaths<Real> {
   friend class SolidRule;
   template <class Other>
   SolidRule(const SolidRule<Real, Other>& rule, Front& front)
-      : Paths(rule.reflex_),
+      : Paths(rule.reflex_, rule.own_edges_),
         mesh_(rule.mesh_),
         tets_(rule.tets_),
         points_(rule.points_),
         list_(rule.list_),
         sentinel_(rule.sentinel_),
         any_reflex_(rule.any_reflex_),
-        own_rings_(rule.own_rings_),
         front_(&front) {}
 
-  bool enter(Index t, std::size_t face, Label label, Real centre, Index source) const {
-    if (!(centre < to_beat(t))) return false;
-    label.centre = centre;
-    front_->accept(t, face, label, centre, source);
+  /// A corner whose string is hidden, and its length.
+  struct Hidden {
+    Real distance;
+    Index corner;
+  };
+  static constexpr std::size_t most_hidden = 32;
+
+  bool enter(Index t, std::size_t face, const Label& label, Index source) const {
+    if (!(label.centre < to_beat(t))) return false;
+    front_->accept(t, face, label, label.centre, source);
     cross(t, static_cast<Index>(face), false);  // which `expand` leaves out
     return true;
   }
@@ -301,8 +337,8 @@ class SolidRule : public SolidPaths<Real> {
   }
 
   static Label point_label(const Point& at, Real sigma) {
-    Label label = {at, sigma, 0, none, {}, name_of(at, sigma)};
-    clear_limits(label);
+    Label label = {at, sigma, 0, {}, none};
+    clear_bends(label);
     return label;
   }
 
@@ -323,8 +359,17 @@ class SolidRule : public SolidPaths<Real> {
   [[gnu::always_inline]] const Point& face_corner(Index t, Index face, Index k) const {
     return corner_of(t, tet_face_corners[face][k]);
   }
+  [[gnu::always_inline]] Index vertex_of(Index t, Index i) const { return tets_[t].corner[i]; }
+  [[gnu::always_inline]] static Real component(const Point& p, Index i) {
+    constexpr Real Point::*axis[3] = {&Point::x, &Point::y, &Point::z};
+    return p.*axis[i];
+  }
+  static Index face_corner_number(Index face, Index k) { return tet_face_corners[face][k]; }
   [[gnu::always_inline]] Index neighbour(Index t, Index i) const {
     return tets_[t].across[i] >> TetAcross::tet_shift;
+  }
+  [[gnu::always_inline]] Index face_beyond(Index t, Index i) const {
+    return tets_[t].across[i] & TetAcross::face_mask;
   }
   Index no_tet() const { return sentinel_; }
   [[gnu::always_inline]] Index first_reflex(Index t) const { return tets_[t].reflex; }
@@ -332,11 +377,16 @@ class SolidRule : public SolidPaths<Real> {
   static Index entry_edge(Index entry) { return entry >> ReflexEntry::edge_shift; }
   static bool entry_is_last(Index entry) { return (entry & ReflexEntry::last) != 0; }
   bool any_reflex() const { return any_reflex_; }
-  Index own_rings() const { return own_rings_; }
   [[gnu::always_inline]] bool reached(Index t) const { return front_->reached(t); }
   [[gnu::always_inline]] const Label& label_of(Index t) const { return front_->label(t); }
-  [[gnu::always_inline]] static bool same_limits(const Label& a, const Label& b) {
-    return std::memcmp(a.limit, b.limit, sizeof a.limit) == 0;
+  /// A line that left the solid in t on its way to the label's source: did it leave by the door?
+  [[nodiscard]] bool comes_in(const Label& label, Index t) const {
+    if (label.door == none || is_unfolded(label)) return false;
+    const Index door = label.door / 4, face = label.door % 4;
+    const Point &a = face_corner(door, face, 0), &b = face_corner(door, face, 1),
+                &c = face_corner(door, face, 2);
+    const Point n = normal_to(b - a, c - a);
+    return std::abs(dot(n, tets_[t].centre - a)) < norm(n);
   }
 
   const TetMesh<Real>* mesh_;
@@ -345,7 +395,6 @@ class SolidRule : public SolidPaths<Real> {
   const Index* list_;
   Index sentinel_;
   bool any_reflex_;
-  Index own_rings_;  // rings from here on are further edges, which hide nothing
   Front* front_;
 };
 

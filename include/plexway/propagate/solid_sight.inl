@@ -7,6 +7,9 @@
 /// Relative rounding that decisions must survive.
 HINGE_CONST Real solid_rounding = Real(64) * HINGE_EPSILON;
 
+/// Across a and b: what SolidRule calls `cross` is another thing.
+HINGE_FN Point normal_to(HINGE_IN(Point) a, HINGE_IN(Point) b) { return cross(a, b); }
+
 /// A point, or the eye, from a reflex edge: how far along its line, and how far off it.
 struct FromEdge {
   Real along, off;
@@ -32,32 +35,7 @@ HINGE_FN Point point_on(HINGE_IN(Edge) e, Real along) {
   return e.end[0] + clamp(along, Real(0), e.extent) * e.direction;
 }
 
-/// The shortest way from p to q over an edge.
-struct WayOver {
-  Point bend;
-  Real extent;
-};
-
-/// Unfolds q about the edge's line until it lies opposite p, and draws a straight line; or bends at
-/// an end.
-HINGE_FN WayOver way_over(HINGE_IN(Edge) e, HINGE_IN(FromEdge) from, HINGE_IN(Point) q) {
-  FromEdge to = from_edge(e, q);
-  Real x = crossing_along(from, to);
-  if (HINGE_LIKELY(x >= Real(0) && x <= e.extent)) {
-    Real along = to.along - from.along;
-    Real off = to.off + from.off;
-    WayOver straight = {e.end[0] + x * e.direction, sqrt(along * along + off * off)};
-    return straight;
-  }
-  Real end = x < Real(0) ? Real(0) : e.extent;
-  Real xp = end - from.along;
-  Real xq = end - to.along;
-  WayOver bent = {e.end[0] + end * e.direction,
-                  sqrt(xp * xp + from.off * from.off) + sqrt(xq * xq + to.off * to.off)};
-  return bent;
-}
-
-/// The bend alone.
+/// Where the shortest way from p to q over an edge bends.
 HINGE_FN Point bend_point(HINGE_IN(Edge) e, HINGE_IN(Point) p, HINGE_IN(Point) q) {
   FromEdge from = from_edge(e, p);
   FromEdge to = from_edge(e, q);
@@ -79,103 +57,11 @@ HINGE_COLD bool parallel(HINGE_IN(Edge) a, HINGE_IN(Edge) b) {
   return abs(dot(a.direction, b.direction)) > Real(1 - 1e-6);
 }
 
-/// A reflex edge seen from a point.
-struct EdgeSight {
-  Point a, n;  // to its first end; across the line of sight and the edge
-  Real solid;  // n's side: > 0 towards the solid
-};
-
-HINGE_FN EdgeSight see_edge(HINGE_IN(Edge) edge, HINGE_IN(Point) eye) {
-  EdgeSight s;
-  s.a = edge.end[0] - eye;
-  s.n = cross(s.a, edge.direction);
-  s.solid = dot(s.n, edge.solid);
-  return s;
-}
-
-/// Not in its shadow, by more than a small angle (squared).
-HINGE_COLD bool lights(HINGE_IN(EdgeSight) s, HINGE_IN(Point) eye, HINGE_IN(Point) q, Real angle2) {
-  Point g = q - eye;
-  Real h = s.solid < Real(0) ? -dot(s.n, g) : dot(s.n, g);
-  return h > Real(0) && h * h > angle2 * dot(s.n, s.n) * dot(g, g);
-}
-
-/// Not end on; an eye in front of both sides of the edge has nothing hidden from it; well behind
-/// both it does not see the edge, unless that is almost flat.
-HINGE_FN bool can_hide(HINGE_IN(Edge) edge, HINGE_IN(EdgeSight) s, Real nn) {
-  if (!(nn > solid_rounding * solid_rounding * dot(s.a, s.a))) return false;
-  Real s0 = dot(s.a, edge.normal[0]);
-  Real s1 = dot(s.a, edge.normal[1]);
-  if (max(s0, s1) < Real(0)) return false;
-  return min(s0, s1) <= Real(1024) * solid_rounding ||
-         dot(edge.normal[0], edge.normal[1]) >= Real(0.5);
-}
-
-/// Does q, on the dark side, come out behind the obstacle? Else it may be before it, or on another
-/// side of it.
-HINGE_FN bool comes_out_behind(HINGE_IN(Edge) edge, HINGE_IN(EdgeSight) s, HINGE_IN(Point) q,
-                               HINGE_IN(Point) g, Real h, Real nn, Real eye_along) {
-  if (!(h * h > solid_rounding * solid_rounding * nn * dot(g, g))) return false;
-  Point aq = q - edge.end[0];
-  Real q0 = dot(aq, edge.normal[0]);
-  Real q1 = dot(aq, edge.normal[1]);
-  bool first = dot(s.a, edge.normal[0]) < dot(s.a, edge.normal[1]);  // faces the eye
-  Real front = first ? q0 : q1;
-  Real back = first ? q1 : q0;
-  if (back <= solid_rounding && front >= -solid_rounding) return false;
-  return !(back < -solid_rounding) || dot(aq, s.a + eye_along * edge.direction) > Real(0);
-}
-
-/// Where a path bends, as a distance from the edge's first end: times / sum.
-struct Crossing {
-  Real times, sum;
-};
-
-/// Is q in its shadow? `slack`: how far beyond its ends it still hides, in its own lengths. Says
-/// also where the path would bend. Most edges do not hide a point, and most of those because it
-/// lies on their bright side.
-HINGE_FN bool hides_point(HINGE_IN(Edge) edge, HINGE_IN(EdgeSight) s, HINGE_IN(Point) eye,
-                          HINGE_IN(Point) q, Real slack, HINGE_INOUT(Crossing) crossing) {
-  Point g = q - eye;
-  Real h = dot(s.n, g);
-  if (HINGE_LIKELY(s.solid * h >= Real(0))) return false;
-  Real nn = dot(s.n, s.n);
-  if (!can_hide(edge, s, nn)) return false;
-  Real eye_along = dot(s.a, edge.direction) * Real(-1);
-  Real eye_off = sqrt(nn);
-  FromEdge there = from_edge(edge, q);
-  Real x = eye_along * there.off + there.along * eye_off;
-  Real sum = eye_off + there.off;
-  Real most = slack * edge.extent * sum;
-  if (!(x >= -most && x - edge.extent * sum <= most)) return false;
-  crossing.times = x;
-  crossing.sum = sum;
-  return comes_out_behind(edge, s, q, g, h, nn, eye_along);
-}
-
-struct SightRank {
-  Real closeness;  // how closely the line of sight passes an edge: an angle, squared
-  bool dark;       // as `hides_point` says
-};
-
-/// infinity: it can hide nothing, or does not hide q and is no closer than `worst`.
-HINGE_COLD SightRank rank_edge(HINGE_IN(Edge) edge, HINGE_IN(EdgeSight) s, HINGE_IN(Point) eye,
-                               HINGE_IN(Point) q, Real slack, Real worst) {
-  SightRank rank = {HINGE_INFINITY, false};
-  Point g = q - eye;
-  Real h = dot(s.n, g);
-  Real nn = dot(s.n, s.n);
-  Real sine2 = h * h / (nn * dot(g, g));
-  if ((s.solid * h >= Real(0) && sine2 >= worst) || !can_hide(edge, s, nn)) return rank;
-  FromEdge from = {dot(s.a, edge.direction) * Real(-1), sqrt(nn)};
-  FromEdge there = from_edge(edge, q);
-  Real x = crossing_along(from, there);
-  Real beyond = max(max(-x, x - edge.extent), Real(0));
-  Point b = edge.end[1] - eye;
-  rank.closeness = sine2 + beyond * beyond / min(dot(s.a, s.a), dot(b, b));
-  rank.dark = s.solid * h < Real(0) && beyond <= slack * edge.extent &&
-              comes_out_behind(edge, s, q, g, h, nn, from.along);
-  return rank;
+/// Does a string from p over the edge to q press against what is behind it? Else it would lift off:
+/// q lies in front of the plane through p and the edge.
+HINGE_FN bool presses(HINGE_IN(Edge) edge, HINGE_IN(Point) p, HINGE_IN(Point) q) {
+  Point n = cross(edge.end[0] - p, edge.direction);
+  return dot(n, edge.solid) * dot(n, q - p) < Real(0);
 }
 
 /// Does the line from `eye` to q, on the other side, pass triangle (a, b, c)? Give or take

@@ -1,19 +1,14 @@
 // The step of Visibility::saddles in solids, from a tetrahedron to a face neighbour, and the
-// distance of a corner: one text for C++ (part of the body of SolidRule, see solid_rule.hpp) and
-// GLSL, after solid_paths.inl. Before it stand also, for tetrahedra t by number,
-//   centre_of(t), corner_of(t, i)    points
-//   face_corner(t, face, k)          corners of a face, anticlockwise as seen from outside
-//   neighbour(t, i)                  over face i, or no_tet()
+// distance of a point: one text for C++ (part of the body of SolidRule, see solid_rule.hpp) and
+// GLSL, after solid_walk.inl. Before it stand also
 //   first_reflex(t), reflex_entry(e), entry_edge(entry), entry_is_last(entry)
-//   any_reflex(), own_rings()        are there reflex edges; which rings hide something: below it
-//   reached(t), label_of(t)          what is known. Where labels change meanwhile, one may be read
-//                                    half old, half new: only its edges and its name are used, and
-//                                    an edge that is none of the scene's hides nothing that matters
-//   same_limits(label, label), name_of(point, sigma)
+//   any_reflex()                     are there reflex edges
+//   reached(t), label_of(t)          what is known
+//   same_way(label, label)           do they have the same S and bends?
 
 HINGE_CONST Real face_tolerance = Real(0.1);
 
-/// Squared distance of q from the virtual source. A ring's way is longer than the straight one.
+/// Squared distance of q from the virtual source. No bend makes a way shorter.
 HINGE_FN Real straight_squared(HINGE_IN(Label) label, HINGE_IN(Point) q) {
   Point g = q - label.source;
   return dot(g, g);
@@ -38,187 +33,254 @@ HINGE_METHOD bool offer_straight(HINGE_IN(Label) from, Index t, Index face, HING
   return true;
 }
 
+HINGE_METHOD Point face_middle(Index t, Index face) HINGE_READS {
+  Point middle = Real(1) / Real(3) * face_corner(t, face, 0u);
+  middle = middle + Real(1) / Real(3) * face_corner(t, face, 1u);
+  middle = middle + Real(1) / Real(3) * face_corner(t, face, 2u);
+  return middle;
+}
 /// Longest way worth comparing with from the centre of t over face i to the next centre: through
 /// the face's centroid.
 Real way(Index t, Index i) HINGE_READS {
-  Point middle = Real(1) / Real(3) * face_corner(t, i, 0u);
-  middle = middle + Real(1) / Real(3) * face_corner(t, i, 1u);
-  middle = middle + Real(1) / Real(3) * face_corner(t, i, 2u);
+  Point middle = face_middle(t, i);
   return norm(middle - centre_of(t)) + norm(centre_of(neighbour(t, i)) - middle);
 }
 
-/// Is there an edge at t that hides q?
-bool own_hides(HINGE_IN(Label) from, Index t, HINGE_IN(Point) eye, HINGE_IN(Point) q) HINGE_READS {
-  Index e = first_reflex(t);
-  if (e == none) return false;
+/// A bend as lines are walked to it: a little off the edge and from its ends, into the solid.
+HINGE_METHOD Point beside(HINGE_IN(Edge) e, HINGE_IN(Point) bend) HINGE_READS {
+  Real off = nudge * min(e.extent, Real(1));
+  Real along = dot(bend - e.end[0], e.direction);
+  return e.end[0] + clamp(along, off, e.extent - off) * e.direction + off * e.solid;
+}
+
+/// Walks the string back from its end, seen as `end` in tetrahedron u, to the source.
+bool is_free(HINGE_IN(Taut) s, HINGE_IN(Label) label, Index u, HINGE_IN(Point) end,
+             HINGE_INOUT(Hit) hit) HINGE_READS {
+  Point from = end;
+  hit.tet = u;
+  hit.leg = s.bends;
+  for (int n = 0; n <= HINGE_ROLLED(s.bends); ++n) {
+    hit.leg = s.bends - n;
+    Point to = s.at[hit.leg];
+    bool last = hit.leg == 0;
+    if (hit.leg > 0) {
+      // What lies before a further edge is not of this solid.
+      Index edge = s.edge[max(hit.leg, 1) - 1];
+      last = edge >= own_edges();
+      if (!last) to = beside(reflex_edge(edge), to);
+    } else if (is_unfolded(label)) {
+      // What is before the edge that S was turned about was walked when it was.
+      HINGE_IN(Edge) e = reflex_edge(label.door - unfolded_door);
+      FromEdge source = from_edge(e, s.at[0]);
+      FromEdge bend = from_edge(e, s.at[1]);
+      Real along = crossing_along(source, bend);
+      if (!(along >= Real(0) && along <= e.extent)) return false;
+      to = beside(e, point_on(e, along));
+    }
+    if (!go(hit.tet, from, to)) return hit.leg == 0 && comes_in(label, hit.tet);
+    if (last) break;
+    from = to;
+  }
+  return true;
+}
+
+/// Lines are walked a little beside strings, so edges that strings only touch may be in the way:
+/// those around which the detour is no longer than this.
+HINGE_CONST Real touch = Real(1e-3) * nudge;
+
+/// Which reflex edge at the place where a leg left the solid is in its way: the one around which
+/// the detour is least; where none is, one that the leg only touches. none: none there. `inside`:
+/// not where the way bends at the edge's end.
+Index edge_in_the_way(HINGE_IN(Taut) s, HINGE_IN(Hit) hit, bool inside) HINGE_READS {
+  Index e = first_reflex(hit.tet);
+  if (e == none) return none;
+  Point p = s.at[hit.leg];
+  Point q = s.at[hit.leg + 1];
+  Index found = none;
+  Real least = HINGE_INFINITY;
+  bool any_presses = false;
+  Real touches = norm(q - p) + touch;
   for (;; ++e) {
     Index entry = reflex_entry(e);
     Index edge = entry_edge(entry);
-    if (edge != from.ring && hides(edge, eye, q)) return true;
+    bool there = (hit.leg > 0 && s.edge[max(hit.leg, 1) - 1] == edge) ||
+                 (hit.leg < s.bends && s.edge[hit.leg] == edge);
+    if (!there) {
+      HINGE_IN(Edge) reflex = reflex_edge(edge);
+      Point b = bend_point(reflex, p, q);
+      Real before = norm(b - p);
+      Real behind = norm(q - b);
+      Real detour = before + behind;
+      bool in_the_way = presses(reflex, p, q);
+      bool better = detour < least;
+      if (in_the_way != any_presses) better = in_the_way;
+      // An edge that begins at p or q is not in the way.
+      if (better && (in_the_way || detour < touches) && min(before, behind) > Real(1e-2) * nudge &&
+          !(inside && at_an_end(reflex, b))) {
+        any_presses = in_the_way;
+        least = detour;
+        found = edge;
+      }
+    }
     if (entry_is_last(entry)) break;
+  }
+  return found;
+}
+
+void put_in(HINGE_INOUT(Taut) s, int place, Index edge) HINGE_READS {
+  Point end = s.at[s.bends + 1];
+  for (int n = 0; n < HINGE_ROLLED(s.bends); ++n) {
+    int i = s.bends - n;
+    if (i > place) s.edge[i] = s.edge[i - 1];
+  }
+  s.edge[place] = edge;
+  ++s.bends;
+  s.at[s.bends + 1] = end;
+}
+
+bool bends_at(HINGE_IN(Taut) s, Index edge) HINGE_READS {
+  for (int i = 0; i < HINGE_ROLLED(s.bends); ++i)
+    if (s.edge[i] == edge) return true;
+  return false;
+}
+
+/// Puts an edge behind another one, or first.
+void put_behind(HINGE_INOUT(Taut) s, Index before, Index edge) HINGE_READS {
+  int place = 0;
+  for (int i = 0; i < HINGE_ROLLED(s.bends); ++i)
+    if (s.edge[i] == before) place = i + 1;
+  if (s.bends < most_bends) put_in(s, place, edge);
+}
+HINGE_METHOD Index edge_before(HINGE_IN(Taut) s, int leg) HINGE_READS {
+  if (leg == 0) return none;
+  return s.edge[leg - 1];
+}
+
+HINGE_CONST int most_halvings = 8;
+HINGE_CONST int most_tries = 4;
+// What find_taut tries: the label's own string, one to a point on the way, one that passes the ends
+// of edges, one with a further edge, the same not pulled, and without a neighbour of that edge.
+HINGE_CONST int own_string = 0;
+HINGE_CONST int halved = 1;
+HINGE_CONST int loose = 2;
+HINGE_CONST int further = 3;
+HINGE_CONST int touching = 4;
+HINGE_CONST int thinned = 5;
+
+/// The string of a label of t to a point of u, which is t or its neighbour over a face; `end` is
+/// where it is walked from. False where it is not below `known`, or where what is in its way is not
+/// found. A string that is free is a path; what it must still go around is found where it leaves
+/// the solid, or, by halving, where it would do so first on the way from the centre of t, which it
+/// reaches, over `middle`.
+///
+/// One loop that pulls and walks a string in one place each: shader compilers copy every call.
+bool find_taut(HINGE_IN(Label) label, Index t, HINGE_IN(Point) middle, Index u, HINGE_IN(Point) end,
+               HINGE_IN(Point) q, Real known, HINGE_INOUT(Taut) s) HINGE_READS {
+  int kept = fixed_bends(label);
+  s = edges_of(label, q);
+  Taut all;   // the label's edges and the further ones, not pulled
+  Taut base;  // the last string that was pulled and is not free
+  Hit hit;
+  Hit base_hit;
+  int trying = own_string;
+  int tries = 0;
+  int halvings = 0;
+  Index edge = none;
+  Index from = u;
+  Point start = end;
+  Real low = Real(0);
+  Real high = Real(2);
+  Real bound = known;
+  for (int turn = 0; turn < HINGE_ROLLED(most_tries * (most_halvings + 5)); ++turn) {
+    if (trying == touching) {
+      slide(s);
+      measure(s, label.sigma);
+    } else {
+      pull(s, label.sigma, kept, trying <= halved);
+    }
+    if (trying == further && !bends_at(s, edge)) {
+      // Only touched, or lifted off by the bends around it.
+      bound = min(known, s.extent + touch);
+      s = base;
+      trying = touching;
+      continue;
+    }
+    bool below = trying == halved || s.extent < bound;
+    if (below && is_free(s, label, from, start, hit)) {
+      if (trying != halved) return true;
+      low = Real(0.5) * (low + high);
+    } else if (trying == touching) {
+      // One of the bends around the edge is not needed.
+      bound = known;
+      s = base;
+      int place = 0;
+      for (int i = 0; i < HINGE_ROLLED(s.bends); ++i)
+        if (s.edge[i] == edge) place = i;
+      if (place + 1 < s.bends)
+        leave_out(s, place + 1);
+      else if (place > kept)
+        leave_out(s, place - 1);
+      trying = thinned;
+      continue;
+    } else {
+      bool inside = trying != loose;
+      if (trying == halved) {
+        high = Real(0.5) * (low + high);
+      } else if (trying == loose) {
+        s = base;
+        hit = base_hit;
+      } else {
+        if (!below || tries == most_tries || s.bends == most_bends) return false;
+        if (trying == own_string) all = edges_of(label, q);
+        ++tries;
+        base = s;
+        base_hit = hit;
+        low = Real(0);
+        high = Real(2);
+        halvings = 0;
+      }
+      Index before = edge_before(s, hit.leg);
+      edge = edge_in_the_way(s, hit, inside);
+      if (edge != none) {
+        put_behind(all, before, edge);
+        put_behind(base, before, edge);
+        s = base;
+        from = u;
+        start = end;
+        trying = further;
+        continue;
+      }
+      if (trying == loose) return false;
+    }
+    // On the way there, then; or around the end of an edge.
+    s = all;
+    from = u;
+    start = end;
+    trying = halvings < most_halvings ? halved : loose;
+    if (trying == halved) {
+      ++halvings;
+      Real at = Real(0.5) * (low + high);
+      bool here = at < Real(1);
+      if (here) {
+        from = t;
+        start = centre_of(t) + at * (middle - centre_of(t));
+      } else {
+        start = middle + (at - Real(1)) * (end - middle);
+      }
+      s.at[s.bends + 1] = start;
+    }
   }
   return false;
 }
 
-/// In t's memory, or at t?
-bool may_bend(HINGE_IN(Label) from, Index t, HINGE_IN(Point) eye, HINGE_IN(Point) q) HINGE_READS {
-  for (int k = 0; k < HINGE_ROLLED(label_limits); ++k) {
-    if (from.limit[k] == none) break;
-    if (hides(from.limit[k], eye, q)) return true;
-  }
-  return own_hides(from, t, eye, q);
-}
-
-HINGE_CONST int most_candidates = 32;
-struct Candidates {
-  Index edge[most_candidates];
-  int count;
-};
-
-HINGE_DO void add_candidate(HINGE_INOUT(Candidates) found, Index edge, Index except) {
-  if (edge == except || found.count == most_candidates) return;
-  for (int i = 0; i < found.count; ++i)
-    if (found.edge[i] == edge) return;
-  found.edge[found.count++] = edge;
-}
-
-/// Chooses which edges the label remembers for q in u: its own, those of t, and those of neighbours
-/// of u that look at the same scene. u may be no_tet().
-void gather(Index t, Index u, HINGE_INOUT(Label) label, HINGE_IN(Point) q,
-            HINGE_INOUT(Reach) straight) HINGE_READS {
-  Candidates found;
-  found.count = 0;
-  for (int k = 0; k < label_limits; ++k) {
-    if (label.limit[k] == none) break;
-    found.edge[found.count++] = label.limit[k];
-  }
-  int own = found.count;
-  Index e = first_reflex(t);
-  if (e != none)
-    for (;; ++e) {
-      Index entry = reflex_entry(e);
-      add_candidate(found, entry_edge(entry), label.ring);
-      if (entry_is_last(entry)) break;
-    }
-  if (u != no_tet())
-    for (int i = 0; i < HINGE_ROLLED(4); ++i) {
-      Index v = neighbour(u, Index(i));
-      if (v == t || v == no_tet() || !reached(v)) continue;
-      HINGE_IN(Label) other = label_of(v);
-      if (other.path == label.path) {
-        if (!same_limits(other, label))
-          for (int k = 0; k < HINGE_ROLLED(label_limits); ++k) {
-            if (other.limit[k] == none) break;
-            add_candidate(found, other.limit[k], label.ring);
-          }
-      } else if (other.ring < own_rings() && path_before(other.path, other.ring) == label.path) {
-        add_candidate(found, other.ring, label.ring);
-      }
-    }
-  if (found.count == own) return;
-  // An edge that hides the ring itself comes before it.
-  if (label.ring < own_rings())
-    for (int i = own; i < found.count; ++i) {
-      Index edge = found.edge[i];
-      if (!hides(edge, label.source, straight.eye)) continue;
-      label.path = bent_path(path_before(label.path, label.ring), edge);
-      found.edge[i] = label.ring;
-      label.ring = edge;
-      straight = reach(label, q);
-    }
-  if (found.count <= label_limits) {
-    for (int i = own; i < found.count; ++i) label.limit[i] = found.edge[i];
-    return;
-  }
-  // The one that hides q most closely comes first; what else is in the way is so from that bend.
-  Point eye = straight.eye;
-  Index bend = none;
-  Real closest = HINGE_INFINITY;
-  for (int i = 0; i < found.count; ++i) {
-    Index edge = found.edge[i];
-    HINGE_IN(Edge) reflex = reflex_edge(edge);
-    EdgeSight seen = see_edge(reflex, eye);
-    Crossing unused;
-    if (edge == label.ring || !hides_point(reflex, seen, eye, q, slack, unused)) continue;
-    Real close2 = rank_edge(reflex, seen, eye, q, slack, HINGE_INFINITY).closeness;
-    if (close2 < closest) {
-      closest = close2;
-      bend = edge;
-    }
-  }
-  clear_limits(label);
-  int first = 0;
-  if (bend != none) {
-    label.limit[0] = bend;
-    eye = bend_point(reflex_edge(bend), eye, q);
-    first = 1;
-  }
-  // Then the nearest, and before them those that hide q.
-  int count = first;
-  Real key[label_limits];
-  for (int i = 0; i < found.count; ++i) {
-    Index edge = found.edge[i];
-    if (edge == label.ring || edge == bend) continue;
-    HINGE_IN(Edge) reflex = reflex_edge(edge);
-    SightRank rank = rank_edge(reflex, see_edge(reflex, eye), eye, q, slack,
-                               count < label_limits ? HINGE_INFINITY : key[label_limits - 1]);
-    if (!(rank.closeness < HINGE_INFINITY)) continue;
-    Real k = rank.dark ? Real(-1) / (Real(1) + rank.closeness) : rank.closeness;
-    int place = count < label_limits ? count++ : label_limits;
-    for (; place > first && k < key[place - 1]; --place)
-      if (place < label_limits) {
-        key[place] = key[place - 1];
-        label.limit[place] = label.limit[place - 1];
-      }
-    if (place < label_limits) {
-      key[place] = k;
-      label.limit[place] = edge;
-    }
-  }
-}
-
-/// When its turn comes, a label with room asks the neighbours again: some were reached since. Its
-/// distance stays, even if its centre turns out to lie in shadow. True if it heard of anything.
-bool hears(Index t, HINGE_INOUT(Label) label) HINGE_READS {
-  if (!any_reflex() || label.limit[label_limits - 1] != none) return false;
-  Label before = label;
-  Reach path = reach(label, centre_of(t));
-  gather(t, t, label, centre_of(t), path);
-  return before.ring != label.ring || !same_limits(before, label);
-}
-
-/// No straight line: over the best point of the face's edges.
-void bend_anywhere(HINGE_INOUT(Label) label, HINGE_INOUT(Reach) path, HINGE_IN(Point) q,
-                   HINGE_IN(Point) a, HINGE_IN(Point) b, HINGE_IN(Point) c) HINGE_READS {
-  Real best = HINGE_INFINITY;
-  Point at = a;
-  Real walked = Real(0);
-  Point first = a;
-  Point second = b;
-  Point third = c;
-  for (int i = 0; i < HINGE_ROLLED(3); ++i) {
-    Point p = bend_point(first, second, path.eye, q);
-    Point next = second;
-    second = third;
-    third = first;
-    first = next;
-    Real w = norm(p - path.eye);
-    Real d = w + norm(q - p);
-    if (d < best) {
-      best = d;
-      at = p;
-      walked = w;
-    }
-  }
-  walked += path.extent - norm(q - path.eye);
+/// A virtual source in a tetrahedron, or on its boundary.
+HINGE_DO void start_at(HINGE_INOUT(Label) label, HINGE_IN(Point) at, Real sigma,
+                       HINGE_IN(Point) q) {
   label.source = at;
-  label.sigma = walked;
-  label.ring = none;
-  clear_limits(label);
-  label.path = name_of(at, walked);
-  path.eye = at;
-  path.extent = walked + norm(q - at);
-  path.bend = -1;
+  label.sigma = sigma;
+  label.door = none;
+  clear_bends(label);
+  label.centre = sigma + norm(q - at);
 }
 
 /// The full rule: what t offers to u over a face, if it is below `known`. `last_resort`: bends on
@@ -226,50 +288,62 @@ void bend_anywhere(HINGE_INOUT(Label) label, HINGE_INOUT(Reach) path, HINGE_IN(P
 HINGE_FAST bool offer_bent(HINGE_IN(Label) from, Index t, Index face, Index u, Real known,
                            bool last_resort, HINGE_INOUT(Label) label) HINGE_READS {
   Point q = centre_of(u);
-  Reach path = reach(from, q);
-  if (!(path.extent < known)) return false;
-  HINGE_IN(Point) a = face_corner(t, face, 0u);
-  HINGE_IN(Point) b = face_corner(t, face, 1u);
-  HINGE_IN(Point) c = face_corner(t, face, 2u);
-  bool through = passes(path.eye, q, a, b, c, face_tolerance);
-  // A line that misses the face passes it if it bends at an edge known here.
-  if (!through && !last_resort && !may_bend(from, t, path.eye, q)) return false;
+  // It has come the same way?
+  if (!last_resort && reached(u) && same_way(from, label_of(u))) return false;
+  Point over = face_middle(t, face);
+  Point end = q;
+  Index in_tet = u;
+  // No other way: through the middle of the face.
+  Point middle = over;
+  Real sigma = from.centre + norm(middle - centre_of(t));
+  Taut s;
   label = from;
-  gather(t, u, label, q, path);
-  if (label.limit[0] != none || label.ring != from.ring) {
-    Real within = known;
-    for (int bends = 0; bends < HINGE_ROLLED(2); ++bends) {
-      Point eye = path.eye;
-      path = measure(label, q, path, within);
-      if (bends == 1) break;
-      if (!(path.extent < known)) return false;
-      if (path.bend < 0 || !hides_all(label.limit[path.bend], eye, a, b, c)) break;
-      turn(label, path.bend, q);
-      path = reach(label, q);
-      within = HINGE_INFINITY;
+  for (int n = 0; n < HINGE_ROLLED(2); ++n) {
+    bool found = find_taut(from, t, over, in_tet, end, end, n == 0 ? known : sigma, s);
+    if (found && n == 0) {
+      keep(s, label);
+      return true;
     }
-  }
-  bool same = path.bend < 0 && label.ring == from.ring;
-  if (!(same ? through : passes(path.eye, q, a, b, c, face_tolerance))) {
     if (!last_resort) return false;
-    bend_anywhere(label, path, q, a, b, c);
+    if (found) sigma = s.extent;
+    over = centre_of(t);
+    end = middle;
+    in_tet = t;
   }
-  if (!(path.extent < known)) return false;
-  label.centre = path.extent;
-  return true;
+  start_at(label, middle, sigma, q);
+  return label.centre < known;
 }
 
-/// Length of the path to a point of a reached tetrahedron, as far as it is below `known`.
-HINGE_FAST Real reach_at(HINGE_IN(Label) from, Index t, HINGE_IN(Point) q, Real known) HINGE_READS {
+/// A point q of u's boundary as strings are walked from it.
+HINGE_METHOD Point within(Index u, HINGE_IN(Point) q) HINGE_READS {
+  return q + nudge * (centre_of(u) - q);
+}
+
+/// Length of the path to a point of u, which is the reached tetrahedron t or beside it, as far as
+/// it is below `known`; else no less than that.
+HINGE_FAST Real reach_at(HINGE_IN(Label) from, Index t, Index u, HINGE_IN(Point) q,
+                         Real known) HINGE_READS {
   Real straight = from.sigma + norm(q - from.source);
   if (!any_reflex() || !(straight < known)) return straight;
-  Reach simple = reach(from, q);
-  if (!(simple.extent < known)) return simple.extent;
-  Label label = from;
-  if (first_reflex(t) != none) gather(t, no_tet(), label, q, simple);
-  return measure(label, q, simple, known).extent;
+  Taut s;
+  if (find_taut(from, t, centre_of(t), u, within(u, q), q, known, s)) return s.extent;
+  if (t != u) return HINGE_INFINITY;
+  return from.centre + norm(q - centre_of(t));
 }
 /// To its corner i.
 HINGE_FAST Real corner_reach(HINGE_IN(Label) from, Index t, Index i, Real known) HINGE_READS {
-  return reach_at(from, t, corner_of(t, i), known);
+  return reach_at(from, t, t, corner_of(t, i), known);
+}
+/// The same by the label's own string alone; `hidden`: that is below `known`, but not free.
+HINGE_FAST Real corner_sight(HINGE_IN(Label) from, Index t, Index i, Real known,
+                             HINGE_INOUT(bool) hidden) HINGE_READS {
+  Point q = corner_of(t, i);
+  hidden = false;
+  Real straight = from.sigma + norm(q - from.source);
+  if (!any_reflex() || !(straight < known)) return straight;
+  Taut s = taut_to(from, q);
+  Hit hit;
+  if (!(s.extent < known) || is_free(s, from, t, within(t, q), hit)) return s.extent;
+  hidden = true;
+  return s.extent;
 }

@@ -13,6 +13,7 @@
 #include <plexway/propagate/simplex_label.hpp>
 #include <plexway/propagate/solid_label.hpp>
 #include <plexway/propagate/visit_marks.hpp>
+#include <plexway/propagate/window_memory.hpp>
 
 namespace plexway {
 
@@ -20,18 +21,20 @@ namespace plexway {
 /// time; grows on first use and is then reused without allocating or clearing.
 template <class Real>
 struct Workspace {
+  /// Which simplices have a label.
   VisitMarks marks;
   LabelStorage<SaddleLabel<Real>> saddles;           ///< Visibility::saddles
   LabelStorage<PlainLabel<Real>> plain;              ///< the other policies
   LabelStorage<SolidLabel<Real>> solids;             ///< in solids: Visibility::saddles
   LabelStorage<PlainSolidLabel<Real>> plain_solids;  ///< in solids: the other policies
   SimplexLabels<Real> simplex;                       ///< SimplicialComplex
-  std::vector<Index> source;  ///< nearest source a simplex; empty for one source
+  std::vector<Index> source;   ///< nearest source a simplex; empty for one source
+  WindowMemory<Real> windows;  ///< on surfaces: accuracies but `fast`
+  /// The queues.
   FrontStorage front;
   TeamRooms team;                    ///< for executors with several threads
   std::vector<Real> vertex;          ///< read-out, in the numbers inside
   std::vector<Index> vertex_source;  ///< its labels
-  std::vector<Index> vertex_path;    ///< in solids: how the path came
   std::vector<Index> corners;        ///< around one vertex
 
   /// Room for a front and marks over so many simplices and a sentinel behind them; all unreached
@@ -43,12 +46,13 @@ struct Workspace {
     if (labels) source.resize(simplices + 1);
   }
 
+  /// Bytes held.
   [[nodiscard]] std::size_t bytes() const {
     const auto of = [](const auto& v) { return v.capacity() * sizeof(v[0]); };
     return sizeof(*this) + marks.bytes() + saddles.count * sizeof(SaddleLabel<Real>) +
            plain.count * sizeof(PlainLabel<Real>) + solids.count * sizeof(SolidLabel<Real>) +
            plain_solids.count * sizeof(PlainSolidLabel<Real>) + simplex.bytes() + of(source) +
-           of(vertex) + of(vertex_source) + of(vertex_path) + of(corners) +
+           windows.bytes() + of(vertex) + of(vertex_source) + of(corners) +
            front.capacity * 2 * sizeof(Index) + of(front.heap) + team.bytes();
   }
 };

@@ -10,12 +10,17 @@ namespace plexway::render {
 
 /// Pixels in sRGB, rows from the top, each from the left; alpha is straight, not multiplied in.
 struct Image {
+  ///@{
+  /// In pixels.
   std::size_t width = 0, height = 0;
+  ///@}
   std::vector<std::array<std::uint8_t, 4>> pixels;  ///< width * height
 
+  /// The pixel of column x < width and row y < height (not checked).
   [[nodiscard]] const std::array<std::uint8_t, 4>& at(std::size_t x, std::size_t y) const {
     return pixels[y * width + x];
   }
+  /// To be written to.
   [[nodiscard]] std::array<std::uint8_t, 4>& at(std::size_t x, std::size_t y) {
     return pixels[y * width + x];
   }

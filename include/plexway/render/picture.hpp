@@ -9,26 +9,35 @@
 #include <plexway/render/image.hpp>
 #include <plexway/render/scene.hpp>
 
+/// The component `render`, link plexway::render: pictures of domains and fields, without a display.
 namespace plexway::render {
 
 /// Where the camera stands. Azimuth 0, elevation 0 is the front: it looks along +y, x to the right,
 /// z up. A larger azimuth walks to the right around what is looked at, a larger elevation upwards.
 struct View {
+  /// Around the axis that points up, and above the horizon.
   double azimuth = 0, elevation = 0;  ///< degrees
 };
 
 /// Cuts away all x with normal . x > offset. Without an offset the plane goes through the middle of
 /// the scene, and that half is cut away which lies towards the camera.
 struct Clip {
+  /// Of any length but 0, in the scene's coordinates.
   Point normal = {1, 0, 0};
+  /// In the scene's unit times the length of the normal; without: through the middle.
   std::optional<double> offset = {};
 };
 
+/// How a picture is drawn.
 struct PictureOptions {
+  ///@{
+  /// In pixels, 1 to 16384.
   std::size_t width = 800, height = 600;
+  ///@}
   /// Without one: from above where the scene is flat, else from the front, right and above.
   std::optional<View> view = {};
   char up = 'z';  ///< the axis that points up: x, y or z
+  /// Without perspective.
   bool orthographic = false;
   /// Values at the ends of the colour bar; without: the least and the largest that are finite.
   std::optional<std::array<double, 2>> range = {};
@@ -38,6 +47,7 @@ struct PictureOptions {
   bool transparent = false;        ///< the background
   std::string title = "distance";  ///< over the colour bar
   bool legend = true;              ///< the colour bar, and what grey means
+  /// What is cut away; without: nothing.
   std::optional<Clip> clip = {};
   /// Surfaces of equal value inside solids, at these values; the solids become ghosts.
   std::vector<double> isosurfaces = {};

@@ -8,6 +8,7 @@
 
 namespace plexway::render {
 
+/// A point or a direction in space.
 using Point = std::array<double, 3>;
 using Colour = std::array<std::uint8_t, 3>;  ///< sRGB
 
@@ -16,8 +17,11 @@ using Colour = std::array<std::uint8_t, 3>;  ///< sRGB
 /// call.
 struct Part {
   std::span<const Point> positions;  ///< finite
+  /// Simplices of each kind, of vertices < positions.size(); empty where there are none.
   std::span<const std::array<std::uint32_t, 2>> edges = {};
+  /// Likewise.
   std::span<const std::array<std::uint32_t, 3>> triangles = {};
+  /// Likewise.
   std::span<const std::array<std::uint32_t, 4>> tets = {};
   /// One a vertex, of any length, or none: which way the discs of a cloud face.
   std::span<const Point> normals = {};
@@ -34,18 +38,22 @@ struct Part {
 
 /// Balls at points, with a colour or with values.
 struct Dots {
+  /// Finite, in the scene's unit.
   std::vector<Point> positions;
   std::vector<double> value = {};  ///< one a point, or none
+  /// Of points without values.
   Colour colour = {213, 70, 46};
   double size = 1;  ///< 1 is as thick as looks right for a sample
 };
 
 /// Everything in one picture. The lengths of all parts are in one unit.
 struct Scene {
+  /// The domain, in as many parts as are shown in different ways.
   std::vector<Part> parts;
   std::vector<std::vector<Point>> paths;  ///< polylines, drawn as tubes
   std::vector<Point> sources;             ///< red balls
   std::vector<Point> targets;             ///< white balls
+  /// Balls besides.
   std::vector<Dots> dots;
 };
 

@@ -25,6 +25,7 @@ struct PointSource {
     for (std::size_t i = 0; i < N; ++i) source.barycentric[i] = barycentric[i];
     return source;
   }
+  /// The same for coordinates in braces: PointSource::in(7, {.5, .25, .25}).
   template <std::size_t N>
   static PointSource in(Index simplex, const double (&barycentric)[N]) {
     return in(simplex, std::to_array(barycentric));

@@ -10,6 +10,7 @@ namespace plexway {
 
 /// Vertices, all one source: the distance from the nearest of them. Caller's numbers.
 struct VertexSource {
+  /// At least one.
   std::vector<Index> vertices;
   /// What the field starts with at each, >= 0; empty: `offset` for all. So a field goes on from
   /// another's values.
@@ -37,6 +38,7 @@ struct CurveSource {
 /// All of one simplex: a triangle of a surface, an edge of a wireframe. Inside it the distance is
 /// 0.
 struct SimplexSource {
+  /// The caller's number.
   Index simplex = none;
   double offset = 0;  ///< >= 0
 };

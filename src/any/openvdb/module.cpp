@@ -9,6 +9,7 @@
 #include <plexway/openvdb/surface.hpp>
 
 #include "any/openvdb_functions.hpp"
+#include "file/unfinished.hpp"
 
 namespace {
 
@@ -80,3 +81,4 @@ constexpr OpenvdbFunctions functions = {solid_of_file, surface_of_file, solid_in
 }  // namespace
 
 extern "C" const OpenvdbFunctions* plexway_openvdb_functions() { return &functions; }
+extern "C" void plexway_remove_unfinished() { plexway::file::remove_unfinished(); }

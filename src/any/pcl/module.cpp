@@ -6,6 +6,7 @@
 #include <plexway/pcl/filters.hpp>
 
 #include "any/pcl_functions.hpp"
+#include "file/unfinished.hpp"
 
 namespace {
 
@@ -36,3 +37,4 @@ constexpr PclFunctions functions = {read_points, write_field, plexway::pcl::voxe
 }  // namespace
 
 extern "C" const PclFunctions* plexway_pcl_functions() { return &functions; }
+extern "C" void plexway_remove_unfinished() { plexway::file::remove_unfinished(); }

@@ -34,6 +34,7 @@ struct BenchCommand {
   std::size_t random_sources = 0;
   FillArguments fill;
   CloudPreparation cloud;
+  PieceArguments pieces;
   SolveOptions solve;
   TriangulationArgument triangulation;
   bool anatomy = false;
@@ -93,7 +94,8 @@ std::vector<std::vector<double>> read_truths(const BenchCommand& command, const 
 std::size_t field_bytes(const AnyField& field) {
   return std::visit(
       [](const auto& f) {
-        return f.distance.capacity() * sizeof(f.distance[0]) + f.label.capacity() * sizeof(Index);
+        return f.distance.capacity() * sizeof(f.distance[0]) + f.label.capacity() * sizeof(Index) +
+               f.error.capacity() * sizeof(f.error[0]);
       },
       field.data);
 }
@@ -128,14 +130,16 @@ Json to_json(const BenchCommand& command, const AnyDomain& solver, const AnyFiel
   const double ns = median(result.times.plexway);
   const double dijkstra_ns = median(result.times.dijkstra);
   Json json;
-  json["input"] = command.input;
+  json["input"] = domain.file().string();
   json["kind"] = domain.kind_name();
   json["vertices"] = domain.vertices();
   json["simplices"] = solver.simplices();
-  json["precision"] = command.solve.precision;
+  json["precision"] = precision_of(command.solve) == Precision::single ? "float" : "double";
   json["executor"] = executor_name(result.executor);
   json["threads"] = executor_threads(result.executor);
   json["visibility"] = command.solve.visibility;
+  if (domain.kind() == DomainKind::surface || domain.cloud() != nullptr)
+    json["accuracy"] = json_of(field.accuracy());
   if (domain.kind() == DomainKind::surface) {
     json["triangulation"] = name_of(field.triangulation);
     json["flips"] = field.triangulation.flips;
@@ -191,7 +195,7 @@ void run_bench(const BenchCommand& command) {
   Result result;
   ProgressLine progress(command.quiet);
   const Domain domain =
-      load_domain(command.input, command.as, command.fill, command.cloud, progress);
+      load_domain(command.input, command.as, command.fill, command.cloud, progress, command.pieces);
   std::vector<PointSource> sources = locate_sources(domain, arguments);
   const auto truths = read_truths(command, domain);
   if (command.anatomy && truths.empty())
@@ -245,6 +249,7 @@ void add_bench_command(CLI::App& tool, Action& action) {
   CLI::App& app = *tool.add_subcommand(
       "bench", "Speed against Boost.Graph's Dijkstra, and error against truth");
   app.add_option("INPUT", command->input, input_help)->type_name("FILE")->required();
+  add_piece_options(app, command->pieces);
   app.add_option("--source,-s", command->sources,
                  "vertex:ID or point:X,Y,Z; repeat it to take turns between sources")
       ->required()

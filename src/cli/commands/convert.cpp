@@ -113,6 +113,11 @@ class Conversion {
                           : ""));
   }
 
+  [[noreturn]] void not_written() const {
+    throw UsageError(command_.input +
+                     ": surfaces, solids, wireframes and clouds are converted, nothing else");
+  }
+
   void count(std::size_t v, std::size_t s) {
     vertices = v;
     simplices = s;
@@ -156,8 +161,8 @@ class Conversion {
   }
 
   void write(const CloudShape&) { cannot("cloud", io::point_extensions()); }
-  void write(const SimplexShape&) { cannot("complex of simplices", {}); }
-  void write(const MixedShape&) { cannot("mixed domain", {}); }
+  void write(const SimplexShape&) { not_written(); }
+  void write(const MixedShape&) { not_written(); }
 
   const ConvertCommand& command_;
   std::string extension_;
@@ -170,7 +175,6 @@ void run_convert(const ConvertCommand& command) {
   ProgressLine progress(command.quiet);
   const Stopwatch clock;
   Conversion conversion(command, progress);
-  const std::string extension = io::lower_extension(command.input);
   const bool is_cloud = command.as.empty() && !command.fill.volume.repair &&
                         (is_cloud_file(command.input) || io::is_ply_cloud(command.input));
   if (is_cloud || command.as == "cloud")

@@ -40,6 +40,7 @@ struct DistanceCommand {
   IsolineOptions isolines;
   FillArguments fill;
   CloudPreparation cloud;
+  PieceArguments pieces;
   SolveOptions solve;
   PictureArguments picture;
   MetricArgument metric;
@@ -93,7 +94,7 @@ Json to_json(const DistanceCommand& command, const AnyDomain& solver, const AnyF
              const MeasuredLengths* lengths, const Outcome& outcome) {
   const Domain& domain = solver.shape();
   Json json;
-  json["input"] = command.input;
+  json["input"] = domain.file().string();
   json["kind"] = domain.kind_name();
   json["vertices"] = domain.vertices();
   json["simplices"] = solver.simplices();
@@ -115,6 +116,8 @@ Json to_json(const DistanceCommand& command, const AnyDomain& solver, const AnyF
   json["executor"] = executor_name(outcome.executor);
   json["threads"] = executor_threads(outcome.executor);
   json["precision"] = command.solve.precision == "float" ? "float" : "double";
+  if (domain.kind() == DomainKind::surface || domain.cloud() != nullptr)
+    json["accuracy"] = json_of(field.accuracy());
   if (domain.kind() == DomainKind::surface) json["triangulation"] = name_of(field.triangulation);
   add_metric(command.metric, lengths, solver.refracting_edges(), json);
   if (!domain.level_set_note().empty()) json["voxels"] = domain.level_set_note();
@@ -133,7 +136,7 @@ std::string to_text(const DistanceCommand& command, const AnyDomain& solver, con
                     const std::vector<Source>& sources, const Outcome& outcome) {
   const Domain& domain = solver.shape();
   Table table;
-  table.add("input", command.input);
+  table.add("input", domain.file().string());
   table.add(std::string(domain.kind_name()),
             counted(domain.vertices(), "vertices") + ", " +
                 counted(solver.simplices(), domain.simplex_name()) + ", " +
@@ -161,7 +164,11 @@ std::string to_text(const DistanceCommand& command, const AnyDomain& solver, con
   if (domain.neighbour_seconds()) mesh = ", neighbours " + short_time(*domain.neighbour_seconds());
   table.add("time", "load " + short_time(domain.load_seconds()) + mesh + ", build " +
                         short_time(outcome.build) + ", solve " + short_time(outcome.solve) + " (" +
-                        executor_text(outcome.executor) + ", " + command.solve.precision + ")");
+                        executor_text(outcome.executor) + ", " +
+                        (domain.kind() == DomainKind::surface || domain.cloud() != nullptr
+                             ? name_of(field.accuracy()) + ", "
+                             : std::string()) +
+                        command.solve.precision + ")");
   add_written(table,
               {command.out == "-" ? "" : command.out, command.isolines.out, command.picture.file});
   return table.text();
@@ -182,7 +189,7 @@ std::string why_unreached(const AnyDomain& solver, bool bounded) {
   if (domain.cloud() != nullptr) {
     if (solver.components() > 1) why = why_disconnected(*domain.cloud(), solver.components());
   } else {
-    why = "the " + std::string(domain.kind_name()) + " has " +
+    why = "the " + std::string(kind_noun(domain.kind())) + " has " +
           counted(solver.components(), "components");
     if (const std::size_t apart = count_apart(domain); apart > 0) {
       why.append(", ").append(counted(apart, "vertices")).append(apart == 1 ? " is" : " are");
@@ -249,6 +256,8 @@ std::vector<std::int32_t> labels_of(const AnyField& field, const std::vector<dou
 void run_distance(DistanceCommand command) {
   const PropagateOptions wanted = propagate_options(command.solve);
   Precision precision = precision_of(command.solve);
+  if (precision == Precision::twice && command.solve.precision == "float")
+    command.solve.precision = "double, which exact distances need";
   Triangulation triangulation = triangulation_of(command.triangulation);
   const std::vector<SetArgument> arguments = parse_source_sets(command.sources);
   if (command.out != "-" && !is_vdb(command.out))
@@ -257,6 +266,7 @@ void run_distance(DistanceCommand command) {
   check_isolines(command.isolines, command.input);
   std::vector<std::string> read = {metric_file(command.metric), command.solve.table};
   for (const SetArgument& argument : arguments) read.push_back(argument.file);
+  read.insert(read.end(), command.pieces.more.begin(), command.pieces.more.end());
   if (command.out != "-") check_output_place(command.out, read, "--out");
   check_output_place(command.isolines.out, read, "--isolines-out");
   check_outputs_differ({command.out, command.isolines.out, command.picture.file});
@@ -264,7 +274,7 @@ void run_distance(DistanceCommand command) {
   command.fill.volume.writes_volume = is_vdb(command.out);
   ProgressLine progress(command.quiet);
   const Domain domain =
-      load_domain(command.input, command.as, command.fill, command.cloud, progress);
+      load_domain(command.input, command.as, command.fill, command.cloud, progress, command.pieces);
   if (domain.cloud() == nullptr && command.out != "-")
     check_output_name(command.out, command.input, AnyShape::field_extensions(domain.kind()));
   check_isolines(command.isolines, domain);
@@ -319,9 +329,10 @@ void run_distance(DistanceCommand command) {
       write_distance_csv(distance, label,
                          domain.cloud() != nullptr
                              ? std::span<const std::uint32_t>(domain.cloud()->points.original)
-                             : std::span<const std::uint32_t>());
+                             : std::span<const std::uint32_t>(),
+                         field.error());
     } else {
-      domain.write_field(command.out, distance, label);
+      domain.write_field(command.out, distance, label, field.error());
     }
   }
   if (!command.isolines.out.empty()) {
@@ -371,6 +382,7 @@ void add_distance_command(CLI::App& tool, Action& action) {
   CLI::App& app = *tool.add_subcommand(
       "distance", "Geodesic distance of every vertex from one or more sources");
   app.add_option("INPUT", command->input, input_help)->type_name("FILE")->required();
+  add_piece_options(app, command->pieces);
   app.add_option("--source,-s", command->sources, source_set_help)
       ->required()
       ->type_name("WHERE")

@@ -31,6 +31,7 @@ void run_farthest(const FarthestCommand& command) {
   if (!(command.radius >= 0)) throw UsageError("--radius must be >= 0");
   check_output_name(command.out, command.input, point_file_extensions());
   check_picture(command.picture, command.input);
+  check_outputs_differ({command.out, command.picture.file});
   const auto arguments = parse_sources(
       command.sources.empty() ? std::vector<std::string>{"vertex:0"} : command.sources);
   ProgressLine progress(command.quiet);

@@ -20,6 +20,7 @@ struct InfoCommand {
   std::string as;
   FillArguments fill;
   CloudPreparation cloud;
+  PieceArguments pieces;
   bool devices = false;
   bool json = false;
   bool quiet = false;
@@ -36,15 +37,15 @@ void run_info(const InfoCommand& command) {
   if (command.input.empty()) throw UsageError("INPUT is required; try 'plexway info --help'");
   ProgressLine progress(command.quiet);
   const Domain domain =
-      load_domain(command.input, command.as, command.fill, command.cloud, progress);
+      load_domain(command.input, command.as, command.fill, command.cloud, progress, command.pieces);
   progress.phase("measuring");
   const InfoReport report =
       std::visit([&](const auto& shape) { return info_of(domain, shape); }, domain.data());
   progress.clear();
-  Json json = {{"input", command.input}, {"kind", domain.kind_name()}};
+  Json json = {{"input", domain.file().string()}, {"kind", domain.kind_name()}};
   json.update(report.json);
   Table table;
-  table.add("input", command.input);
+  table.add("input", domain.file().string());
   table.add(report.table);
   write_output(command.json ? json_text(json) : table.text());
   flush_output();
@@ -56,6 +57,7 @@ void add_info_command(CLI::App& tool, Action& action) {
   auto command = std::make_shared<InfoCommand>();
   CLI::App& app = *tool.add_subcommand("info", "What a domain is made of, and what may surprise");
   app.add_option("INPUT", command->input, input_help)->type_name("FILE");
+  add_piece_options(app, command->pieces);
   app.add_option("--as", command->as, as_help)->type_name("KIND");
   app.add_flag("--devices", command->devices, "list executors and devices instead");
   app.add_flag("--json", command->json, "print one JSON object");

@@ -1,12 +1,14 @@
 #include <CLI/CLI.hpp>
 #include <memory>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 #include <plexway/apps/distance_matrix.hpp>
 #include <plexway/error.hpp>
 
 #include "cli/commands/commands.hpp"
+#include "cli/commands/pairs_matrix.hpp"
 #include "cli/commands/sampling_command.hpp"
 #include "cli/options/source_argument.hpp"
 #include "cli/report/console.hpp"
@@ -17,14 +19,34 @@
 namespace plexway::cli {
 namespace {
 
-struct PairsCommand : SamplingCommand {
-  std::vector<std::string> sources;
+struct PairsCommand : MatrixCommand {
+  std::vector<std::string> points;
 };
 
-void run_pairs(const PairsCommand& command) {
+void run_pairs(const PairsCommand& pairs) {
+  if (pairs.points.empty() == pairs.sources.empty())
+    throw UsageError("give --sources FILE|all, or points one by one with --source");
+  if (!pairs.sources.empty()) {
+    run_matrix(pairs);
+    return;
+  }
+  if (const std::string other = only_for_matrices(pairs); !other.empty())
+    throw UsageError(other + " goes with --sources FILE|all, not with --source");
+  SamplingCommand command;
+  command.input = pairs.input;
+  command.as = pairs.as;
+  command.out = pairs.out;
+  command.precision = pairs.solve.precision;
+  command.precision_given = pairs.solve.precision_given;
+  command.accuracy = pairs.solve.accuracy;
+  command.fill = pairs.fill;
+  command.cloud = pairs.cloud;
+  command.json = pairs.json;
+  command.quiet = pairs.quiet;
   const Precision precision = precision_of(command);
+  const Accuracy accuracy = accuracy_of(command.accuracy);
   check_output_name(command.out, command.input, matrix_file_extensions());
-  const auto arguments = parse_sources(command.sources);
+  const auto arguments = parse_sources(pairs.points);
   ProgressLine progress(command.quiet);
   const Domain domain =
       load_domain(command.input, command.as, command.fill, command.cloud, progress);
@@ -34,16 +56,27 @@ void run_pairs(const PairsCommand& command) {
   double seconds = 0;
   with_sampled(domain, precision, [&](const auto& complex) {
     const Stopwatch solving;
-    matrix = distance_matrix(Serial{}, complex, points, [&](double share) {
+    const auto tell = [&](double share) {
       progress.done(share);
       return true;
-    });
+    };
+    using Complex = std::decay_t<decltype(complex)>;
+    if constexpr (requires { distance_matrix(Serial{}, complex, points, tell, accuracy); }) {
+      matrix = distance_matrix(Serial{}, complex, points, tell, accuracy);
+    } else {
+      Combination cell = combination<Serial, Complex>();
+      cell.accuracy = accuracy.kind();
+      support(cell).require();
+      matrix = distance_matrix(Serial{}, complex, points, tell);
+    }
     seconds = solving.seconds();
   });
   if (!command.out.empty()) write_matrix(command.out, matrix.size, matrix.distance);
   progress.clear();
 
   PointSummary summary(command, domain, points.size());
+  if (domain.kind() == DomainKind::surface || domain.cloud() != nullptr)
+    summary.json["accuracy"] = json_of(matrix.accuracy);
   summary.json["asymmetry"] = matrix.asymmetry;
   summary.table.add("two ways",
                     "differ by " + short_number(matrix.asymmetry) + " of the shorter at most");
@@ -58,16 +91,36 @@ void run_pairs(const PairsCommand& command) {
 
 void add_pairs_command(CLI::App& tool, Action& action) {
   auto command = std::make_shared<PairsCommand>();
-  CLI::App& app =
-      *tool.add_subcommand("pairs", "The matrix of distances between chosen points, symmetric");
-  add_sampling_options(app, *command, "write the matrix: .csv or .npy");
-  app.add_option("--source,-s", command->sources, "a point: vertex:ID or point:X,Y,Z; repeat it")
-      ->required()
+  command->solve.executor.name = "auto";
+  CLI::App& app = *tool.add_subcommand(
+      "pairs", "Matrices of distances: between chosen points, or of any size, restartable");
+  app.add_option("INPUT", command->input, input_help)->type_name("FILE")->required();
+  app.add_option("--source,-s", command->points,
+                 "a point of a small symmetric matrix: vertex:ID or point:X,Y,Z; repeat it")
       ->type_name("WHERE")
       ->allow_extra_args(false);
+  app.add_option("--out,-o", command->out,
+                 "write the matrix: .csv or .npy of points; .npy of --sources, .npz or .mtx where\n"
+                 "it is sparse")
+      ->type_name("FILE");
+  app.add_option("--as", command->as, as_help)->type_name("KIND");
+  app.add_flag("--json", command->json, "print the summary as one JSON object");
+  app.add_flag("--quiet,-q", command->quiet, "no summary, notes or progress; errors stay");
+  add_mask_option(app, command->mask);
+  add_matrix_options(app, *command);
+  add_solve_options(app, command->solve, false);
+  add_triangulation_option(app, command->triangulation);
+  add_metric_option(app, command->metric);
+  add_fill_options(app, command->fill);
+  add_cloud_options(app, command->cloud);
   app.footer(
-      "Example:\n"
-      "  plexway pairs knot.ply -s vertex:0 -s vertex:50 -s point:1,0,0.5 --out matrix.csv");
+      "Run again after it was ended, the same command goes on where it was.\n\n"
+      "Examples:\n"
+      "  plexway pairs knot.ply -s vertex:0 -s vertex:50 -s point:1,0,0.5 --out matrix.csv\n"
+      "  plexway pairs knot.ply --sources all --out matrix.npy --symmetric\n"
+      "  plexway pairs knot.ply --sources all --radius 0.3 --out near.npz\n"
+      "  plexway farthest knot.ply --count 100 --out landmarks.csv\n"
+      "  plexway pairs knot.ply --sources landmarks.csv --out landmarks.npy");
   app.callback([command, &action] { action = [command] { run_pairs(*command); }; });
 }
 

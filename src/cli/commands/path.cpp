@@ -5,6 +5,7 @@
 #include <memory>
 #include <span>
 #include <string>
+#include <string_view>
 #include <type_traits>
 #include <utility>
 #include <vector>
@@ -27,6 +28,7 @@
 #include "cli/report/distance_output.hpp"
 #include "cli/report/progress.hpp"
 #include "cli/report/report.hpp"
+#include "io/number_rows.hpp"
 
 namespace plexway::cli {
 namespace {
@@ -55,6 +57,7 @@ struct Outcome {
   std::vector<double> promised;  // of each target, as the field has it
   TriangulationReport triangulation;
   PropagateStatistics statistics;
+  Accuracy accuracy = Accuracy::fast();
   double build = 0, solve = 0, trace = 0;
 };
 
@@ -103,13 +106,16 @@ Outcome find_paths(const Domain& domain, const BuildOptions& building, const Pat
   const AnyPathField field = built.path_field(Serial{}, sources, options);
   outcome.solve = solving.seconds();
   outcome.statistics = field.field().statistics();
+  outcome.accuracy = field.field().accuracy();
   outcome.triangulation = field.field().triangulation;
   outcome.distance = field.field().doubles();
   progress.phase("tracing");
   const Stopwatch tracing;
   for (const PointSource& target : targets) {
     outcome.paths.push_back(field.trace(target, command.trace));
-    outcome.promised.push_back(target.vertex == none ? field.at(target, ReadOut::linear)
+    const ReadOut level =
+        outcome.accuracy == Accuracy::fast() ? ReadOut::linear : ReadOut::neighbours;
+    outcome.promised.push_back(target.vertex == none ? field.at(target, level)
                                                      : outcome.distance[target.vertex]);
   }
   outcome.trace = tracing.seconds();
@@ -135,6 +141,8 @@ Json to_json(const PathCommand& command, const Domain& domain, const Outcome& ou
     one["capped"] = path.capped;
     json["paths"].push_back(one);
   }
+  if (domain.kind() == DomainKind::surface || domain.cloud() != nullptr)
+    json["accuracy"] = json_of(outcome.accuracy);
   if (!command.metric.text.empty()) json["metric"] = command.metric.text;
   json["seconds"]["load"] = domain.load_seconds();
   if (domain.mesh_seconds()) json["seconds"]["mesh"] = *domain.mesh_seconds();
@@ -193,7 +201,25 @@ void say_notes(const Outcome& outcome, const std::vector<PointSource>& sources) 
              short_number(100 * most) + " %; the length is the more exact");
 }
 
-void run_path(const PathCommand& command) {
+// Each of vertices:FILE as the vertex that it is.
+std::vector<std::string> one_by_one(const std::vector<std::string>& places) {
+  constexpr std::string_view list = "vertices:";
+  std::vector<std::string> single;
+  for (const std::string& place : places) {
+    if (place.substr(0, list.size()) != list) {
+      single.push_back(place);
+      continue;
+    }
+    const std::string file = place.substr(list.size());
+    for (const io::NumberRow& row : io::read_number_rows(file, 1, 1, "a vertex (0-based) a line"))
+      single.push_back("vertex:" + std::to_string(io::vertex_in(file, row, 0, none)));
+  }
+  return single;
+}
+
+void run_path(const PathCommand& typed) {
+  PathCommand command = typed;
+  command.to = one_by_one(typed.to);
   const PropagateOptions options = propagate_options(command.solve);
   const Precision precision = precision_of(command.solve);
   if (command.solve.executor.name != "serial" && command.solve.executor.name != "auto")
@@ -206,6 +232,9 @@ void run_path(const PathCommand& command) {
     throw UsageError("--margin must be >= 0 and < 1");
   if (command.astar && options.visibility != Visibility::saddles)
     throw UsageError("--astar knows the default visibility only");
+  if (command.astar && options.accuracy != Accuracy::usual() &&
+      options.accuracy != Accuracy::fast())
+    throw UsageError("--astar searches with one label a triangle: it knows --accuracy fast only");
 
   if (command.astar && (command.solve.schedule_given || command.solve.step_given))
     throw UsageError(
@@ -217,16 +246,18 @@ void run_path(const PathCommand& command) {
   check_picture(command.picture, command.input);
   const std::array read = {metric_file(command.metric), command.solve.table};
   check_output_place(command.out, read, "--out");
+  check_outputs_differ({command.out, command.picture.file});
 
   ProgressLine progress(command.quiet);
   const Domain domain =
       load_domain(command.input, command.as, command.fill, command.cloud, progress);
   if (command.astar && domain.kind() != DomainKind::surface)
-    throw UsageError("--astar: a " + std::string(domain.kind_name()) +
+    throw UsageError("--astar: a " + std::string(kind_noun(domain.kind())) +
                      " is solved as a whole; A* is for surfaces");
   check_triangulation(triangulation, domain);
   if (command.margin_given && domain.kind() != DomainKind::surface && domain.cloud() == nullptr)
-    throw UsageError("--margin: for surfaces and clouds, not a " + std::string(domain.kind_name()));
+    throw UsageError("--margin: for surfaces and clouds, not a " +
+                     std::string(kind_noun(domain.kind())));
   const std::vector<PointSource> sources = locate_sources(domain, from);
   const std::vector<PointSource> targets = locate_sources(domain, to);
   if (!command.metric.text.empty()) progress.phase("reading the metric");
@@ -284,7 +315,9 @@ void add_path_command(CLI::App& tool, Action& action) {
       ->required()
       ->type_name("WHERE")
       ->allow_extra_args(false);
-  app.add_option("--to,-t", command->to, "the same; repeat it for several targets, a path each")
+  app.add_option("--to,-t", command->to,
+                 "the same, or vertices:FILE with one a line; repeat it for several targets, a\n"
+                 "path each")
       ->required()
       ->type_name("WHERE")
       ->allow_extra_args(false);

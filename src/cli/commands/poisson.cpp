@@ -52,6 +52,7 @@ void run_poisson(const PoissonCommand& command) {
   check_output_name(command.out, command.input, point_file_extensions());
   check_picture(command.picture, command.input);
   check_output_place(command.out, {&command.spacing, 1}, "--out");
+  check_outputs_differ({command.out, command.picture.file});
   const std::vector<double> spacing =
       command.spacing.empty() ? std::vector<double>{} : read_spacing(command.spacing);
 

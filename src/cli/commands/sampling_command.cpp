@@ -10,7 +10,9 @@ void add_sampling_options(CLI::App& app, SamplingCommand& command, const char* o
       ->required();
   app.add_option("--out,-o", command.out, out_help)->type_name("FILE");
   app.add_option("--as", command.as, as_help)->type_name("KIND");
-  app.add_option("--precision", command.precision, "float (default) or double")->type_name("NAME");
+  app.add_option("--precision", command.precision, "float (default) or double")
+      ->each([&command](const std::string&) { command.precision_given = true; })
+      ->type_name("NAME");
   app.add_flag("--json", command.json, "print the summary as one JSON object");
   app.add_flag("--quiet,-q", command.quiet, "no summary or progress; errors stay");
   add_fill_options(app, command.fill);
@@ -20,6 +22,8 @@ void add_sampling_options(CLI::App& app, SamplingCommand& command, const char* o
 Precision precision_of(const SamplingCommand& command) {
   SolveOptions options;
   options.precision = command.precision;
+  options.precision_given = command.precision_given;
+  options.accuracy = command.accuracy;
   return precision_of(options);
 }
 

@@ -24,6 +24,8 @@ namespace plexway::cli {
 struct SamplingCommand {
   std::string input, as, out;
   std::string precision = "float";
+  bool precision_given = false;
+  std::string accuracy;  ///< where the command has the option
   FillArguments fill;
   CloudPreparation cloud;
   PictureArguments picture;

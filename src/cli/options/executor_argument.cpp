@@ -72,13 +72,16 @@ void check_executor(const ExecutorArgument& argument, const PropagateOptions& op
                .dimension = 2,
                .single_precision = true,
                .visibility = options.visibility,
-               .schedule = options.schedule})
+               .schedule = options.schedule,
+               .accuracy = options.accuracy.kind()})
           .refusal();
   if (refusal == Refusal::order)
     throw UsageError("--schedule priority needs --executor serial: " + name +
                      " does not take labels in order");
   if (refusal == Refusal::gl_visibility)
     throw UsageError("--executor gl knows --visibility saddles only");
+  if (refusal == Refusal::windows_gl || refusal == Refusal::windows_threads)
+    throw UsageError("--executor " + name + " knows --accuracy fast only");
 }
 
 Executor choose_executor(const ExecutorArgument& argument, const PropagateOptions& options,
@@ -92,6 +95,14 @@ Executor choose_executor(const ExecutorArgument& argument, const PropagateOption
   }
   if (argument.name != "auto" || !openmp_built() || options.schedule == Schedule::priority)
     return Serial{};
+  const bool triangles = domain.kind() == DomainKind::surface || domain.kind() == DomainKind::cloud;
+  if (triangles &&
+      resolved(options.accuracy, {.executor = ExecutorKind::serial,
+                                  .domain = DomainKind::surface,
+                                  .dimension = 2,
+                                  .single_precision = true,
+                                  .visibility = options.visibility}) != Accuracy::fast())
+    return Serial{};  // windows are one thread's
   const bool bounded =
       options.radius < PropagateOptions{}.radius ||
       options.max_expansions < PropagateOptions{}.max_expansions;  // fronts may stay short

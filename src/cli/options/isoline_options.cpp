@@ -71,7 +71,7 @@ void check_isolines(const IsolineOptions& options, const Domain& domain) {
   const bool solid = domain.kind() == DomainKind::solid;
   if (!solid && domain.kind() != DomainKind::surface)
     throw UsageError("--isoline-step: for surfaces and solids, not a " +
-                     std::string(domain.kind_name()));
+                     std::string(kind_noun(domain.kind())));
   check_output_name(options.out, domain.file().string(),
                     solid ? io::triangle_output_extensions() : io::path_extensions(),
                     "--isolines-out");

@@ -198,7 +198,7 @@ void write_picture(const PictureArguments& arguments, const Domain& domain,
   if (!arguments.wanted()) return;
   const render::PictureOptions options = options_of(arguments);
   if (!options.isosurfaces.empty() && domain.kind() != DomainKind::solid)
-    throw UsageError("--isosurfaces: for solids, not a " + std::string(domain.kind_name()));
+    throw UsageError("--isosurfaces: for solids, not a " + std::string(kind_noun(domain.kind())));
   render::Part part;
   part.positions = domain.positions();
   if (part.positions.empty())

@@ -1,6 +1,7 @@
 #include "cli/options/solve_options.hpp"
 
 #include <CLI/CLI.hpp>
+#include <charconv>
 #include <cmath>
 #include <initializer_list>
 #include <string_view>
@@ -26,8 +27,51 @@ Value choose(std::string_view option, const std::string& typed,
 
 }  // namespace
 
+void add_accuracy_option(CLI::App& command, std::string& accuracy, const std::string& group) {
+  CLI::Option* const option =
+      command
+          .add_option(
+              "--accuracy", accuracy,
+              "of surfaces and clouds: fast (one source a triangle: mean errors of 3e-4 to\n"
+              "2e-3), accurate (7e-5), exact (in double), or a mean error, as 1e-3")
+          ->type_name("NAME|X");
+  if (!group.empty()) option->group(group);
+}
+
+Accuracy accuracy_of(const std::string& typed) {
+  if (typed.empty()) return Accuracy::usual();
+  if (typed == "fast") return Accuracy::fast();
+  if (typed == "accurate") return Accuracy::accurate();
+  if (typed == "exact") return Accuracy::exact();
+  double error = -1;
+  const auto read = std::from_chars(typed.data(), typed.data() + typed.size(), error);
+  if (read.ec != std::errc() || read.ptr != typed.data() + typed.size() ||
+      !(error >= 0 && error < 1))
+    throw UsageError("--accuracy '" + typed +
+                     "': choose fast, accurate, exact, or a mean error from 0 to below 1");
+  return Accuracy(error);
+}
+
+Json json_of(Accuracy accuracy) {
+  if (accuracy == Accuracy::accurate()) return "accurate";
+  switch (accuracy.kind()) {
+    case Accuracy::Kind::fast:
+      return "fast";
+    case Accuracy::Kind::exact:
+      return "exact";
+    default:
+      return accuracy.error();
+  }
+}
+
+std::string name_of(Accuracy accuracy) {
+  const Json json = json_of(accuracy);
+  return json.is_string() ? json.get<std::string>() : short_number(json.get<double>());
+}
+
 void add_solve_options(CLI::App& command, SolveOptions& options, bool bounded) {
   const std::string group = "How to solve";
+  add_accuracy_option(command, options.accuracy, group);
   command
       .add_option("--visibility", options.visibility,
                   "when a line of sight counts: saddles (default), tuned, centroid, or\n"
@@ -69,6 +113,7 @@ void add_solve_options(CLI::App& command, SolveOptions& options, bool bounded) {
 
 PropagateOptions propagate_options(const SolveOptions& options) {
   PropagateOptions made;
+  made.accuracy = accuracy_of(options.accuracy);
   made.visibility = choose<Visibility>("--visibility", options.visibility,
                                        {{"saddles", Visibility::saddles},
                                         {"tuned", Visibility::tuned},
@@ -98,8 +143,13 @@ PropagateOptions propagate_options(const SolveOptions& options) {
 }
 
 Precision precision_of(const SolveOptions& options) {
-  return choose<Precision>("--precision", options.precision,
-                           {{"float", Precision::single}, {"double", Precision::twice}});
+  const Precision typed =
+      choose<Precision>("--precision", options.precision,
+                        {{"float", Precision::single}, {"double", Precision::twice}});
+  if (accuracy_of(options.accuracy).kind() != Accuracy::Kind::exact) return typed;
+  if (options.precision_given && typed == Precision::single)
+    throw UsageError("--precision float: exact distances need double");
+  return Precision::twice;
 }
 
 }  // namespace plexway::cli

@@ -7,6 +7,7 @@
 #include <plexway/propagate/options.hpp>
 
 #include "cli/options/executor_argument.hpp"
+#include "cli/report/report.hpp"
 
 namespace CLI {
 class App;
@@ -16,6 +17,7 @@ namespace plexway::cli {
 
 /// The options that say how to solve, as typed.
 struct SolveOptions {
+  std::string accuracy;  ///< empty: the usual one
   std::string visibility = "saddles";
   std::string table;
   std::string schedule = "dual_queue";
@@ -30,8 +32,16 @@ struct SolveOptions {
 /// Adds the options to a command; `bounded` adds those that end a propagation early.
 void add_solve_options(CLI::App& command, SolveOptions& options, bool bounded);
 
+/// Adds --accuracy alone.
+void add_accuracy_option(CLI::App& command, std::string& accuracy, const std::string& group);
+/// As typed; the usual one where nothing was. Throws UsageError.
+Accuracy accuracy_of(const std::string& typed);
+/// `fast`, `accurate`, `exact`, or the number.
+std::string name_of(Accuracy accuracy);
+Json json_of(Accuracy accuracy);
+
 /// Throw UsageError for a value that does not exist or is out of range; the first also as
-/// check_executor and read_probe_table.
+/// check_executor and read_probe_table. What is exact is double.
 PropagateOptions propagate_options(const SolveOptions& options);
 Precision precision_of(const SolveOptions& options);
 

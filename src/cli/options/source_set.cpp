@@ -170,7 +170,7 @@ Source locate(const Domain& domain, const SetArgument& set) {
     case Kind::simplex:
       if (domain.kind() != DomainKind::surface && domain.kind() != DomainKind::wireframe)
         throw UsageError("--source '" + set.text + "': for surfaces and wireframes, not a " +
-                         std::string(domain.kind_name()));
+                         std::string(kind_noun(domain.kind())));
       if (set.simplex >= domain.simplices())
         throw InputError(domain.file().string() + ": source " + set.text +
                          " is out of range: the " + std::string(domain.simplex_name()) +

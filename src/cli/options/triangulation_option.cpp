@@ -31,7 +31,7 @@ void check_triangulation(Triangulation wanted, const Domain& domain) {
   if (asked && domain.kind() != DomainKind::surface)
     throw UsageError(std::string("--triangulation ") +
                      (wanted == Triangulation::delaunay ? "delaunay" : "refined") + ": a " +
-                     std::string(domain.kind_name()) +
+                     std::string(kind_noun(domain.kind())) +
                      " has no triangles to flip; leave the option out");
 }
 

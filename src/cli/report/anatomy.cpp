@@ -50,7 +50,7 @@ Anatomy::Anatomy(const Domain& domain)
     : domain_(domain), solid_(domain.kind() == DomainKind::solid) {
   if (!solid_ && domain.kind() != DomainKind::surface)
     throw UsageError("--anatomy splits the errors of surfaces and solids, not those of a " +
-                     std::string(domain.kind_name()));
+                     std::string(kind_noun(domain.kind())));
   const auto points = domain.positions();
   const std::size_t vertices = domain.vertices(), corners = solid_ ? 4 : 3;
   shape_.assign(vertices, 0);

@@ -7,12 +7,21 @@
 
 #include <plexway/error.hpp>
 
+#include "any/module.hpp"
+
 namespace plexway::cli {
 namespace {
 
 [[noreturn]] void refused(int code) {
   if (code == EPIPE) throw OutputClosed{};
   throw Error("cannot write standard output: " + std::generic_category().message(code));
+}
+
+// Held back until this returns, and then what it is by default.
+void end_by(int signal) {
+  remove_unfinished_files();
+  std::signal(signal, SIG_DFL);
+  std::raise(signal);
 }
 
 }  // namespace
@@ -46,6 +55,16 @@ void ignore_signals_of_writing() {
 #ifdef SIGXFSZ
   std::signal(SIGXFSZ, SIG_IGN);
 #endif
+}
+
+void leave_nothing_behind() {
+  for (const int signal : {SIGINT, SIGTERM
+#ifdef SIGHUP
+                           ,
+                           SIGHUP
+#endif
+       })
+    if (std::signal(signal, end_by) == SIG_IGN) std::signal(signal, SIG_IGN);
 }
 
 }  // namespace plexway::cli

@@ -27,4 +27,8 @@ inline void say_error(std::string_view message) noexcept { say("error", message)
 /// handle, instead of signals.
 void ignore_signals_of_writing();
 
+/// Has SIGINT, SIGTERM and SIGHUP, where they are not ignored, remove temporary files before they
+/// end the process as usual.
+void leave_nothing_behind();
+
 }  // namespace plexway::cli

@@ -9,6 +9,7 @@
 #include <plexway/error.hpp>
 
 #include "cli/report/console.hpp"
+#include "file/new_file.hpp"
 #include "io/extension.hpp"
 
 namespace plexway::cli {
@@ -32,6 +33,26 @@ std::vector<fs::path> files_of(const fs::path& name) {
   if (pair || own == ".poly" || own == ".smesh")
     files.push_back(fs::path(name).replace_extension(".node"));
   return files;
+}
+
+// And those that writing one makes.
+std::vector<fs::path> written_files_of(const fs::path& name) {
+  const std::string own = name.extension().string();
+  return own == ".node" || own == ".ele" ? files_of(name) : std::vector<fs::path>{name};
+}
+
+// Where it lies once all links are followed, be there a file or not.
+fs::path place_of(const fs::path& name) {
+  try {
+    return fs::weakly_canonical(fs::absolute(file::end_of_links(name)));
+  } catch (const std::system_error&) {
+    return name.lexically_normal();  // who writes it will say what is wrong
+  }
+}
+
+bool one_file(const fs::path& a, const fs::path& b) {
+  std::error_code error;
+  return place_of(a) == place_of(b) || fs::equivalent(a, b, error);
 }
 
 }  // namespace
@@ -68,19 +89,24 @@ void check_output_name(const std::string& out, const std::string& input,
 }
 
 void check_outputs_differ(std::initializer_list<std::string> names) {
-  std::error_code error;
-  for (auto a = names.begin(); a != names.end(); ++a)
-    for (auto b = names.begin(); b != a; ++b)
-      if (!a->empty() && (fs::path(*a).lexically_normal() == fs::path(*b).lexically_normal() ||
-                          fs::equivalent(*a, *b, error)))
-        throw UsageError(*a + ": two results would go into this one file");
+  const std::vector<std::string> all(names);
+  for (auto a = all.begin(); a != all.end(); ++a) {
+    if (a->empty()) continue;
+    for (auto b = all.begin(); b != a; ++b)
+      for (const fs::path& one : written_files_of(*a))
+        for (const fs::path& other : written_files_of(*b))
+          if (!b->empty() && one_file(one, other))
+            throw UsageError(*a + ": two results would go into this one file" +
+                             (*a == *b ? "" : ", the other as " + *b));
+  }
 }
 
 void write_distance_csv(std::span<const double> distance, std::span<const std::int32_t> label,
-                        std::span<const std::uint32_t> original) {
+                        std::span<const std::uint32_t> original, std::span<const double> error) {
   std::string text = "vertex,distance";
   if (!label.empty()) text += ",label";
   if (!original.empty()) text += ",original";
+  if (!error.empty()) text += ",error";
   text += '\n';
   for (std::size_t v = 0; v < distance.size(); ++v) {
     append(text, v);
@@ -93,6 +119,10 @@ void write_distance_csv(std::span<const double> distance, std::span<const std::i
     if (!original.empty()) {
       text += ',';
       append(text, original[v]);
+    }
+    if (!error.empty()) {
+      text += ',';
+      append(text, error[v]);
     }
     text += '\n';
     if (text.size() < (std::size_t{1} << 16)) continue;

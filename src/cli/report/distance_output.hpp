@@ -20,9 +20,9 @@ void check_output_name(const std::string& out, const std::string& input,
 /// Throws UsageError where two of them, not empty, are the same.
 void check_outputs_differ(std::initializer_list<std::string> names);
 
-/// CSV on standard output: `vertex,distance`, `,label` where there are labels and `,original` where
-/// there are such numbers. Throws as write_output.
+/// CSV on standard output: `vertex,distance`, and `,label`, `,original` and `,error` where there
+/// are such. Throws as write_output.
 void write_distance_csv(std::span<const double> distance, std::span<const std::int32_t> label,
-                        std::span<const std::uint32_t> original);
+                        std::span<const std::uint32_t> original, std::span<const double> error);
 
 }  // namespace plexway::cli

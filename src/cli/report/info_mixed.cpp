@@ -8,10 +8,12 @@ namespace plexway::cli {
 namespace {
 
 // What both kinds tell of their vertices.
-void add_sizes_of(const Domain& domain, InfoReport& report) {
-  const auto sizes = component_sizes(domain);
-  report.json["component_sizes"] = sizes_json(sizes);
-  add_sizes(report.table, sizes);
+void add_sizes_of(const Domain& domain, bool welded, InfoReport& report) {
+  if (!welded) {  // the graph of edges knows nothing of welds
+    const auto sizes = component_sizes(domain);
+    report.json["component_sizes"] = sizes_json(sizes);
+    add_sizes(report.table, sizes);
+  }
   const bool placed = !domain.positions().empty();
   const Bounds box = bounding_box(domain.positions());
   report.json["bounding_box"] = placed ? to_json(box) : Json(nullptr);
@@ -58,7 +60,7 @@ InfoReport info_of(const Domain& domain, const SimplexShape& simplices) {
                                    : "no: distances are exact where nothing is in the way");
     }
   });
-  add_sizes_of(domain, report);
+  add_sizes_of(domain, false, report);
   return report;
 }
 
@@ -95,7 +97,7 @@ InfoReport info_of(const Domain& domain, const MixedShape& mixed) {
                                     counted(summary.hinges[0], "vertices") + " between them");
     }
   });
-  add_sizes_of(domain, report);
+  add_sizes_of(domain, mixed.parts.size() > 1, report);
   return report;
 }
 

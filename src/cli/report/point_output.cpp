@@ -6,6 +6,7 @@
 #include <plexway/error.hpp>
 
 #include "io/extension.hpp"
+#include "io/npy_header.hpp"
 #include "io/output_file.hpp"
 
 namespace plexway::cli {
@@ -18,18 +19,6 @@ using io::OutputFile;
   std::string names;
   for (const std::string_view name : known) names.append(" ").append(name);
   throw UsageError("--out " + out.string() + ": unknown extension; those written are" + names);
-}
-
-// NumPy's header, see io/field_npy.cpp.
-void start_npy(OutputFile& out, const std::string& shape) {
-  using namespace std::string_view_literals;
-  constexpr auto magic = "\x93NUMPY\x01\x00"sv;
-  std::string header = "{'descr': '<f8', 'fortran_order': False, 'shape': (" + shape + "), }";
-  while ((magic.size() + 2 + header.size() + 1) % 64 != 0) header += ' ';
-  header += '\n';
-  out.write(magic);
-  out.write_binary(static_cast<std::uint16_t>(header.size()));
-  out.write(header);
 }
 
 void write_row(OutputFile& out, std::span<const double> numbers, char between) {
@@ -77,7 +66,7 @@ void write_points(const std::filesystem::path& out, const Domain& domain,
     if (!original.empty()) file.write(",original");
     file.write("\n");
   } else if (extension == ".npy") {
-    start_npy(file, std::to_string(points.size()) + ", 3");
+    file.write(io::npy_header("'<f8'", std::to_string(points.size()) + ", 3"));
   } else if (extension == ".ply") {
     start_ply(file, points.size());
     if (!value.empty()) {
@@ -125,7 +114,7 @@ void write_matrix(const std::filesystem::path& out, std::size_t n, std::span<con
   const std::string extension = io::lower_extension(out);
   OutputFile file(out);
   if (extension == ".npy") {
-    start_npy(file, std::to_string(n) + ", " + std::to_string(n));
+    file.write(io::npy_header("'<f8'", std::to_string(n) + ", " + std::to_string(n)));
     for (const double x : values) file.write_binary(x);
   } else if (extension == ".csv") {
     for (std::size_t i = 0; i < n; ++i) {

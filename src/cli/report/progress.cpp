@@ -17,11 +17,13 @@ void ProgressLine::phase(std::string_view what) {
   if (shown_) draw(phase_ + " ...");
 }
 
-void ProgressLine::done(double share) {
+void ProgressLine::done(double share, std::string_view more) {
   using namespace std::chrono_literals;
   if (!shown_ || Clock::now() - drawn_ < 100ms) return;
   const int percent = static_cast<int>(100 * std::clamp(share, 0.0, 1.0));
-  draw(phase_ + " ... " + std::to_string(percent) + " %");
+  std::string text = phase_ + " ... " + std::to_string(percent) + " %";
+  if (!more.empty()) text.append(", ").append(more);
+  draw(text);
 }
 
 void ProgressLine::seconds_passed(double seconds) {

@@ -21,8 +21,9 @@ class ProgressLine {
 
   /// A new piece of work: "reading knot.ply".
   void phase(std::string_view what);
-  /// How much of it is done, 0 to 1. Draws at most ten times a second.
-  void done(double share);
+  /// How much of it is done, 0 to 1, and what else there is to say. Draws at most ten times a
+  /// second.
+  void done(double share, std::string_view more = {});
   /// How long it has taken, where nobody knows how much is done. Draws as above.
   void seconds_passed(double seconds);
   void clear();

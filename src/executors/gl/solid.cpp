@@ -96,7 +96,7 @@ class SolidRun {
 
   void upload(SolidBuffers& to) {
     static_assert(sizeof(TetRecord<float>) == 48 && sizeof(ReflexEdge<float>) == 84 &&
-                  sizeof(SolidCell) == 64 && sizeof(AddedLabel) == 80);
+                  sizeof(SolidCell) == 32 && sizeof(AddedLabel) == 48);
     to.tets.upload(session_, mesh_.tets().first(mesh_.tet_count()));
     to.points.upload(session_, mesh_.points());
     to.inside.upload(session_, mesh_.vertices_inside());
@@ -186,6 +186,7 @@ class SolidRun {
     bind_vertices();
     workspace_.front.labels().bind(session_, 2);
     buffers_.corners.bind(session_, 3);
+    workspace_.front.cells().bind(session_, 4);
     bind_solid();
     dispatch(session_, vertices);
   }

@@ -31,10 +31,11 @@ class HostFront {
     label.source = {cell.place[0], cell.place[1], cell.place[2]};
     label.sigma = cell.sigma;
     label.centre = std::bit_cast<float>(distance);
-    label.ring = cell.ring;
-    std::copy(cell.limit.begin(), cell.limit.end(), label.limit);
-    label.path = cell.path;
-    front_.accept(t, cell.hinge, label, label.centre, cell.source);
+    std::copy(cell.bend.begin(), cell.bend.end(), label.bend);
+    label.door = (cell.state & SolidCell::unfolded) != 0
+                     ? SolidDoor::unfolded + (cell.state >> SolidCell::edge_shift)
+                     : none;
+    front_.accept(t, cell.state & SolidCell::face_mask, label, label.centre, cell.source);
   }
 
   /// Takes what waits.
@@ -48,13 +49,13 @@ class HostFront {
         const Vector3<float>& s = label.source;
         SolidCell cell = {{s.x, s.y, s.z},
                           label.sigma,
-                          static_cast<GLuint>(front_.hinge(t)),
-                          label.ring,
-                          label.path,
-                          front_.source(t),
+                          static_cast<GLuint>(front_.hinge(t)) | SolidCell::known,
                           {},
-                          {}};
-        std::copy(std::begin(label.limit), std::end(label.limit), cell.limit.begin());
+                          front_.source(t)};
+        if (label.door != none)
+          cell.state |= SolidCell::unfolded | (label.door - SolidDoor::unfolded)
+                                                  << SolidCell::edge_shift;
+        std::copy(std::begin(label.bend), std::end(label.bend), cell.bend.begin());
         take(t, std::bit_cast<GLuint>(label.centre), cell);
       }
     } while (front_.take_stock(0));

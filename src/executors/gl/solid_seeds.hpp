@@ -16,9 +16,10 @@ namespace plexway::gl {
 struct SolidCell {
   std::array<float, 3> place;
   float sigma;
-  GLuint hinge, ring, path, source;
-  std::array<GLuint, SolidLabel<float>::limits> limit;
-  std::array<GLuint, 2> spare;
+  GLuint state;  ///< the face it came in by, the two flags below, the edge S was turned about
+  std::array<GLuint, SolidLabel<float>::bends> bend;
+  GLuint source;
+  static constexpr GLuint face_mask = 3, unfolded = 4, known = 8, edge_shift = 4;
 };
 
 /// As the serial rule computes them.

@@ -7,6 +7,7 @@
 #include <plexway/error.hpp>
 
 #include "propagate/windows/bucket_ring.hpp"
+#include "propagate/windows/cross_edge.hpp"
 #include "propagate/windows/trim.hpp"
 
 namespace plexway::windows {
@@ -36,6 +37,14 @@ constexpr std::size_t patience = 1000;
 /// In mean edges.
 constexpr double bucket_width = 0.5;
 
+/// Two numbers at once: for a ray through a window's begin and one through its end.
+typedef double Pair __attribute__((vector_size(16)));
+/// A point of an edge is `shift` times its length plus `factor` times the way from the pivot.
+struct FromPivot {
+  double factor, shift;
+};
+constexpr FromPivot from_pivot[2] = {{1, 0}, {-1, 1}};
+
 Window<double> measured(const Beam<double>& beam, double sigma) {
   Window<double> window = {beam, sigma, 0, 0, 0};
   window.begin_at(beam.begin);
@@ -47,11 +56,16 @@ Window<double> measured(const Beam<double>& beam, double sigma) {
 
 template <class Real>
 ExactWindows<Real>::ExactWindows(const TriangleMesh<Real>& mesh, const VertexAngles& angles)
-    : triangles_(mesh.triangles()), mesh_(mesh), angles_(angles), pseudo_source_(triangles_) {}
+    : triangles_(mesh.triangles()),
+      mesh_(mesh),
+      angles_(angles),
+      pseudo_source_(triangles_),
+      sentinel_(static_cast<Index>(mesh.face_count())) {}
 
 template <class Real>
 void ExactWindows<Real>::solve(std::span<const PointSource> sources,
-                               const PropagateOptions& options) {
+                               const PropagateOptions& options, KeptWindows<Real>* kept) {
+  kept_ = kept;
   distance_.assign(mesh_.vertex_count(), infinity);
   arrival_.resize(mesh_.vertex_count());
   labels_ = sources.size() > 1;
@@ -98,34 +112,54 @@ void ExactWindows<Real>::run(Order& order, const PropagateOptions& options) {
   const auto next = [this](Index n) -> Index& { return nodes_[n].next; };
   const auto near = [this](Index n) { return nearest(nodes_[n]); };
   constexpr std::size_t share = 65536;
+  std::size_t pause = statistics_.expansions;  // where there is more to do than go on
   for (;;) {
-    if (statistics_.expansions >= options.max_expansions) {
-      complete_ = order.pop(next, near) == none;
-      return;
-    }
-    if (statistics_.expansions % share == 0 && statistics_.expansions > 0) {
-      if (options.progress &&
+    if (statistics_.expansions >= pause) {
+      if (statistics_.expansions >= options.max_expansions) {
+        complete_ = order.pop(next, near) == none;
+        return;
+      }
+      if (statistics_.expansions >= share && options.progress &&
           !options.progress({statistics_.expansions, statistics_.reached_simplices,
                              mesh_.face_count(), order.distance() * mesh_.unit()}))
         throw Cancelled("cancelled by the progress callback");
       if (statistics_.expansions / patience > mesh_.face_count()) tie_ = -Rounding<Real>::tie;
+      pause = std::min(options.max_expansions, (statistics_.expansions / share + 1) * share);
     }
     const Index n = order.pop(next, near);
     if (n == none) return;
     ++statistics_.expansions;
-    const Node node = nodes_[n];
-    nodes_[n].next = std::exchange(free_, n);
-    if (node.edge & vertex_bit)
-      shine(order, node.edge & ~vertex_bit);
-    else
-      expand(order, node, labels_ ? node_source_[n] : 0);
+    if (const Index after = order.peek(); after != none) {
+      const Node& node = nodes_[after];
+      __builtin_prefetch(&nodes_[node.next != none ? node.next : after]);
+      const char* const t = reinterpret_cast<const char*>(&triangles_[node.edge >> 2]);
+      __builtin_prefetch(t);
+      __builtin_prefetch(t + 64);
+    }
+    if (nodes_[n].edge & vertex_bit) [[unlikely]] {
+      const Index vertex = nodes_[n].edge & ~vertex_bit;
+      nodes_[n].next = std::exchange(free_, n);
+      shine(order, vertex);
+    } else {
+      if (kept_) [[unlikely]]
+        keep(nodes_[n], labels_ ? node_source_[n] : 0);
+      expand(order, n);
+    }
   }
+}
+
+template <class Real>
+void ExactWindows<Real>::keep(const Node& node, Index source) {
+  const auto real = [](double x) { return static_cast<Real>(x); };
+  const Beam<double>& b = node.beam;
+  kept_->take(node.edge, {real(b.x), real(b.h), real(b.begin), real(b.end)}, real(node.sigma),
+              source);
 }
 
 template <class Real>
 double ExactWindows<Real>::nearest(const Node& node) {
   const Beam<double>& beam = node.beam;
-  const bool across = !(node.edge & vertex_bit) && beam.begin < beam.x && beam.x < beam.end;
+  const bool across = (beam.begin < beam.x) & (beam.x < beam.end);
   return across ? node.sigma + beam.h : std::min(node.at_begin, node.at_end);
 }
 
@@ -182,45 +216,111 @@ template <class Real>
 template <class Order>
 void ExactWindows<Real>::enter(Order& order, Index across, const Window<double>& w, Index source) {
   const Index edge = across >> Across::face_shift << 2 | (across & Across::edge_mask);
-  __builtin_prefetch(&triangles_[edge >> 2]);
-  push(order, {w.beam, w.sigma, w.at_begin, w.at_end, edge, none}, w.nearest(), source);
+  const double near = w.nearest();
+  if (near <= radius_)
+    push(order, {w.beam, w.sigma, w.at_begin, w.at_end, edge, none}, near, source);
 }
 
 template <class Real>
 template <class Order>
 void ExactWindows<Real>::leave(Order& order, Index f, std::size_t edge, const Window<double>& w,
                                Index source) {
-  Index across = triangles_[f].across[edge];
-  if (across >> Across::face_shift == mesh_.face_count()) return;
+  const Index across = triangles_[f].across[edge];
+  if (across >> Across::face_shift == sentinel_) return;
   if (!(across & Across::special)) [[likely]] {
     enter(order, across, w, source);
     return;
   }
-  const Window<double> turned = w.mirrored(static_cast<double>(triangles_[f].length[edge]));
-  bool flip = (across & Across::flip) != 0;
-  if (!(across & Across::fan)) {
-    enter(order, across, turned, source);
+  const Window<double> mirrored = w.mirrored(static_cast<double>(triangles_[f].length[edge]));
+  cross_edge(triangles_, f, edge,
+             [&](Index over, bool turned) { enter(order, over, turned ? mirrored : w, source); });
+}
+
+/// Most windows are narrow: all of their light leaves by one edge, and reaches no vertex. Which
+/// edge is as good as random, so it is looked up, not branched on; both rays go in lanes.
+template <class Real>
+template <class Order>
+[[gnu::always_inline]] inline void ExactWindows<Real>::expand(Order& order, Index n) {
+  Node& node = nodes_[n];
+  const TriangleRecord<Real>& t = triangles_[node.edge >> 2];
+  const std::size_t in = node.edge & 3, before = edge_before(in), after = edge_after(in);
+  const double width = static_cast<double>(t.length[in]);
+  const double x = node.beam.x, h = std::max(node.beam.h, least_height);
+  const double begin = node.beam.begin, end = node.beam.end, sigma = node.sigma;
+  const double least = rounding(node.at_end);
+  const double to_a = distance_[t.corner[in]], to_b = distance_[t.corner[after]];
+  // Would trim do anything?
+  const bool served =
+      to_a + least + begin < node.at_begin || to_b + least + (width - end) < node.at_end;
+
+  const double left = static_cast<double>(t.length[before]);
+  const double right = static_cast<double>(t.length[after]);
+  const bool from_a = left <= right;
+  const std::size_t nearer = from_a ? in : after;
+  const double edge = std::min(left, right), from_b = from_pivot[!from_a].shift * width;
+  const double apex_x =
+      from_b + from_pivot[!from_a].factor * (edge * static_cast<double>(t.cosine[nearer]));
+  const double apex_h = edge * static_cast<double>(t.sine(nearer));
+  const double across = (apex_x - x) * h, down = apex_h + h;
+  const double slack = Rounding<Real>::cover * width * down;
+  // All on the same side of the ray to the apex, and not near it.
+  const std::size_t to_right = across < (begin - x) * down - slack;
+  const std::size_t to_left = across > (end - x) * down + slack;
+  if (served || (to_left ^ to_right) == 0 || !(begin < end)) [[unlikely]] {
+    const Window<double> window = {{x, h, begin, end}, sigma, node.at_begin, node.at_end, 0};
+    const Index halfedge = node.edge, source = labels_ ? node_source_[n] : 0;
+    node.next = std::exchange(free_, n);
+    expand_wide(order, window, halfedge, source);
     return;
   }
-  // All the way around the edge; each turn is told from the one before.
-  for (;;) {
-    const Index g = across >> Across::face_shift, k = across & Across::edge_mask;
-    if (g == f && k == edge) return;
-    enter(order, across, flip ? turned : w, source);
-    across = triangles_[g].across[k];
-    flip ^= !(across & Across::flip);
+
+  // The edge from its pivot: A, or B and all mirrored.
+  const std::size_t pivot = to_right ? after : in, out = to_right ? after : before;
+  const FromPivot& from = from_pivot[to_right];
+  const double mirror = from.factor, origin = from.shift * width;
+  const double cosine = static_cast<double>(t.cosine[pivot]);
+  const double sine = static_cast<double>(t.sine(pivot));
+  const double length = static_cast<double>(t.length[out]);
+  const double seen = origin + mirror * x;
+  const double child_x = cosine * seen - sine * h;
+  const double child_h = std::max(sine * seen + cosine * h, 0.);
+  const Pair points = origin + mirror * Pair{begin, end};
+  const Pair below = sine * (seen - points) + cosine * h;
+  const Pair reached = points * h / below, all = {length, length};
+  const Pair at = (below > 0) & (reached < all) ? reached : all;
+  const Pair along = at - child_x, squares = along * along + child_h * child_h;
+  const Pair distances = sigma + Pair{std::sqrt(squares[0]), std::sqrt(squares[1])};
+
+  const double child_origin = from.shift * length;
+  const Pair child_ends = child_origin + mirror * at;
+  const double child_begin = child_ends[0], child_end = child_ends[1];
+  if (!(child_begin < child_end)) [[unlikely]] {
+    node.next = std::exchange(free_, n);
+    return;
   }
+  const Index over = t.across[out];
+  node.beam = {child_origin + mirror * child_x, child_h, child_begin, child_end};
+  node.at_begin = distances[0], node.at_end = distances[1];
+  if ((over & Across::special) || over >> Across::face_shift == sentinel_ || radius_ < infinity)
+      [[unlikely]] {
+    const Window<double> child = {node.beam, sigma, node.at_begin, node.at_end, 0};
+    const Index f = node.edge >> 2, source = labels_ ? node_source_[n] : 0;
+    node.next = std::exchange(free_, n);
+    leave(order, f, out, child, source);
+    return;
+  }
+  node.edge = over >> Across::face_shift << 2 | (over & Across::edge_mask);
+  order.push(n, std::min(distances[0], distances[1]),
+             [this](Index i) -> Index& { return nodes_[i].next; });
 }
 
 template <class Real>
 template <class Order>
-void ExactWindows<Real>::expand(Order& order, const Node& node, Index source) {
-  const Index f = node.edge >> 2;
-  const EnteredTriangle<double> t(triangles_[f], node.edge & 3);
-  Window<double> w = {node.beam, node.sigma, node.at_begin, node.at_end, 0};
-  w.beam.h = std::max(w.beam.h, least_height);
+void ExactWindows<Real>::expand_wide(Order& order, Window<double> w, Index halfedge, Index source) {
+  const Index f = halfedge >> 2;
+  const EnteredTriangle<double> t(triangles_[f], halfedge & 3);
   const double to_a = distance_[t.a], to_b = distance_[t.b];
-  if (nearest(node) > radius_ || !trim(w, t.width, to_a, to_b)) return;
+  if (!trim(w, t.width, to_a, to_b)) return;
 
   // Where the ray to the apex crosses the edge: `across` / `down` from below the source.
   const double x = w.beam.x, h = w.beam.h;

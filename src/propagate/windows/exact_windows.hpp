@@ -11,6 +11,7 @@
 #include <plexway/propagate/options.hpp>
 #include <plexway/source/point_source.hpp>
 
+#include "propagate/windows/kept_windows.hpp"
 #include "propagate/windows/merge.hpp"
 #include "propagate/windows/node_orders.hpp"
 #include "propagate/windows/pseudo_source.hpp"
@@ -23,9 +24,9 @@ namespace plexway::windows {
 /// A window is the light of one source on one edge, an interval. It goes on through a triangle to
 /// one or two edges, until vertices or other windows serve all of its interval as well. Vertices
 /// with more than 2 pi around (pi on a boundary) are sources themselves, into their shadow. What
-/// decides that a window is needless: its edge's ends and the vertex behind (Xin and Wang,
-/// Improving Chen and Han's algorithm, TOG 2009), and one angle, one split (Chen and Han, SoCG
-/// 1990).
+/// decides that a window is needless: its edge's ends and, for wide ones, the vertex behind (Xin
+/// and Wang, Improving Chen and Han's algorithm, TOG 2009), and one angle, one split (Chen and Han,
+/// SoCG 1990).
 ///
 /// All of these only drop what is longer by more than rounding, so the order of work does not
 /// matter: it gives the same bits, sooner or later. What is kept from solve to solve is memory.
@@ -35,8 +36,10 @@ class ExactWindows {
   /// `mesh` and `angles` must outlive this.
   ExactWindows(const TriangleMesh<Real>& mesh, const VertexAngles& angles);
 
-  /// The sources must be checked. Throws Cancelled as the progress callback says.
-  void solve(std::span<const PointSource> sources, const PropagateOptions& options);
+  /// The sources must be checked. Windows are put into `kept` as well, unless it is null. Throws
+  /// Cancelled as the progress callback says.
+  void solve(std::span<const PointSource> sources, const PropagateOptions& options,
+             KeptWindows<Real>* kept = nullptr);
 
   /// Afterwards, by the numbers inside, in mean edges; +inf where unreached.
   [[nodiscard]] double distance(Index vertex) const { return distance_[vertex]; }
@@ -48,7 +51,7 @@ class ExactWindows {
 
  private:
   /// A window, one cache line; or a vertex that is to shine, `at_begin` away.
-  struct Node {
+  struct alignas(64) Node {
     Beam<double> beam;
     double sigma, at_begin, at_end;
     Index edge;  ///< the halfedge it enters by, 4 f + i; or a vertex and vertex_bit
@@ -65,7 +68,9 @@ class ExactWindows {
   template <class Order>
   void seed(Order& order, std::span<const PointSource> sources);
   template <class Order>
-  void expand(Order& order, const Node& window, Index source);
+  void expand(Order& order, Index n);
+  template <class Order>
+  void expand_wide(Order& order, Window<double> window, Index halfedge, Index source);
   template <class Order>
   void shine(Order& order, Index vertex);
   template <class Order>
@@ -89,11 +94,14 @@ class ExactWindows {
   template <class Order>
   void push(Order& order, const Node& node, double near, Index source);
   [[nodiscard]] static double nearest(const Node& node);
+  void keep(const Node& node, Index source);
 
   std::span<const TriangleRecord<Real>> triangles_;
   const TriangleMesh<Real>& mesh_;
   const VertexAngles& angles_;
   PseudoSource<Real> pseudo_source_;
+  Index sentinel_;  ///< beyond a boundary
+  KeptWindows<Real>* kept_ = nullptr;
   bool labels_ = false;
   bool splits_whole_ = true;  ///< may a window lose all of a side (see expand)?
   double tie_ = 0, radius_ = 0;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 
 #include "propagate/windows/overlay.hpp"
@@ -13,8 +14,8 @@ class Gathered : public Overlay<Real> {
   /// Neighbours are joined over gaps up to this share of the edge.
   static constexpr Real joint = Real(3e-2);
 
-  /// Of windows on an edge of that length; `scale`: by so much may a merged one be off on an edge
-  /// of length 1.
+  /// Of windows on an edge of that length; `scale`: by so much may a merged one be off for each
+  /// mean edge that it serves, up to one: errors at random add up to most where edges are long.
   void start(Real length, Real scale) {
     this->clear();
     length_ = length;
@@ -65,27 +66,12 @@ class Gathered : public Overlay<Real> {
     if (this->size() < this->most) this->append(added);
   }
 
-  /// One fewer: the shortest goes, into a neighbour if they come to one window at all.
-  void shorten() {
-    const auto extent = [&](std::size_t i) {
-      return (*this)[i].window.beam.end - (*this)[i].window.beam.begin;
-    };
-    std::size_t shortest = 0;
-    for (std::size_t i = 1; i < this->size(); ++i)
-      if (extent(i) < extent(shortest)) shortest = i;
-    const std::size_t u = shortest == 0 ? 0 : shortest - 1;
-    if ((*this)[u].source == (*this)[u + 1].source &&
-        merge((*this)[u].window, (*this)[u + 1].window, std::numeric_limits<Real>::infinity()))
-      shortest = u + 1;
-    for (std::size_t i = shortest; i + 1 < this->size(); ++i) (*this)[i] = (*this)[i + 1];
-    this->resize(this->size() - 1);
-  }
-
  private:
   /// Makes one of two if it may.
   bool fits(Labelled<Real>& u, const Labelled<Real>& w) const {
+    const Real length = w.window.beam.end - u.window.beam.begin;
     return u.source == w.source && joined(u, w) &&
-           merge(u.window, w.window, scale_ * (w.window.beam.end - u.window.beam.begin));
+           merge(u.window, w.window, scale_ * std::min(length, Real(1)));
   }
 
   Real length_ = 0, scale_ = 0;

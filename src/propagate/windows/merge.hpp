@@ -47,17 +47,11 @@ template <class Real>
   const Real by_u = u.at(b), by_w = w.at(b), middle = (by_u + by_w) / 2;
   const Real jump = std::abs(by_u - by_w) / 2;
   const Real rise = u.at_begin - middle, fall = w.at_end - middle;
-  const Real bend = p * fall + q * rise;
-  const Real most = farthest_merged;
+  const Real bend = 2 * (p * fall + q * rise);
   const Real area = p * q * (p + q) - p * fall * fall - q * rise * rise;
-  const bool fits = area < 2 * most * bend;
-  Real r = most, x;
-  if (fits) {
-    r = area / (2 * bend);
-    x = (2 * r * rise + rise * rise - p * p) / (2 * p);
-  } else {
-    x = ((2 * r + rise) * rise - p * p - (2 * r + fall) * fall + q * q) / (2 * (p + q));
-  }
+  const Real least_bend = area * (Real(1) / farthest_merged);
+  const Real r = area / std::max(bend, least_bend);
+  const Real x = ((2 * r + rise) * rise - p * p - (2 * r + fall) * fall + q * q) / (2 * (p + q));
   const Real h2 = r * r - x * x;
   if (!(area > 0) || !(h2 > 0)) return false;
   const Real sigma = middle - r;
@@ -66,9 +60,11 @@ template <class Real>
     return sigma + std::sqrt(along * along + h2);
   };
   const Real miss_u = at(-p / 2) - u.at(b - p / 2), miss_w = at(q / 2) - w.at(b + q / 2);
-  const Real miss_a = fits ? 0 : at(-p) - u.at_begin, miss_c = fits ? 0 : at(q) - w.at_end;
-  const Real miss =
-      std::max({std::abs(miss_u), std::abs(miss_w), jump, std::abs(miss_a), std::abs(miss_c)});
+  // Where r is cut the far ends, too.
+  const Real cut = bend < least_bend ? Real(1) : Real(0);
+  const Real miss_a = cut * (at(-p) - u.at_begin), miss_c = cut * (at(q) - w.at_end);
+  const Real miss_inside = std::max(std::max(std::abs(miss_u), std::abs(miss_w)), jump);
+  const Real miss = std::max(miss_inside, std::max(std::abs(miss_a), std::abs(miss_c)));
   if (!(miss <= limit)) return false;
   const Real mean = ((4 * miss_u + miss_a) * p + (4 * miss_w + miss_c) * q) / (6 * (p + q));
   const Real before = std::max(u.error, w.error);

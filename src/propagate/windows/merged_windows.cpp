@@ -8,45 +8,61 @@
 
 #include <plexway/error.hpp>
 
+#include "propagate/windows/cross_edge.hpp"
+
 namespace plexway::windows {
 namespace {
 
 template <class Real>
 constexpr Real infinity = std::numeric_limits<Real>::infinity();
 
-/// In mean edges.
-constexpr double bucket_width = 0.5;
+/// In mean edges. Wider ones take more turns, since halfedges have theirs before all is there.
+constexpr double bucket_width = 0.125;
+/// Where between its nearest and its farthest distance a window has its turn.
+constexpr double turn_at = 0.3;
 /// Vertices have their turn so much later than their distance, in mean edges: after the light that
 /// may reach them straight.
-constexpr double late = 0.5;
-/// So many turns a halfedge in the mean are too many: one to four are usual.
-constexpr std::size_t patience = 12;
+constexpr double late = 0.25;
+/// So many turns a halfedge in the mean are too many: below one is usual.
+constexpr std::size_t patience = 4;
+/// Boundaries that turn by more than rounding bend paths, radians.
+constexpr double least_bend = 2e-6;
 
 }  // namespace
 
 template <class Real>
 MergedWindows<Real>::MergedWindows(const TriangleMesh<Real>& mesh, const VertexAngles& angles)
-    : triangles_(mesh.triangles()), mesh_(mesh), angles_(angles), pseudo_source_(triangles_) {
+    : triangles_(mesh.triangles()),
+      mesh_(mesh),
+      angles_(angles),
+      pseudo_source_(triangles_),
+      sentinel_(static_cast<Index>(mesh.face_count())) {
   excess_.resize(mesh.vertex_count());
-  for (Index v = 0; v < mesh.vertex_count(); ++v) excess_[v] = static_cast<Real>(angles.excess(v));
+  for (Index v = 0; v < mesh.vertex_count(); ++v) {
+    const double excess = angles.excess(v);
+    const bool ear = angles.kind[v] == VertexAngles::boundary && excess > least_bend;
+    excess_[v] = ear ? infinity<Real> : static_cast<Real>(excess);
+  }
 }
 
 template <class Real>
 bool MergedWindows<Real>::solve(std::span<const PointSource> sources,
-                                const PropagateOptions& options, const MergeLimit& limit) {
+                                const PropagateOptions& options, const MergeLimit& limit,
+                                KeptWindows<Real>* kept) {
   limit_ = limit;
+  kept_ = kept;
   labels_ = sources.size() > 1;
   vertices_.assign(mesh_.vertex_count(), {infinity<Real>, none, {0, 0}});
   error_.resize(mesh_.vertex_count());
   if (labels_) source_.resize(mesh_.vertex_count());
   if (pending_.empty() || !complete_) pending_.assign(4 * mesh_.face_count(), none);
   blocks_.clear();
-  entries_.clear();
-  free_block_ = free_entry_ = none;
+  vertex_next_.assign(mesh_.vertex_count(), idle);
+  free_block_ = none;
   complete_ = false;  // until all is done: a callback may throw
   statistics_ = {};
   radius_ = static_cast<Real>(options.radius / mesh_.unit());
-  set_scale(0);
+  scale_ = scale_at(0);
   const auto solve_in = [&](auto& order) {
     order.start(bucket_width);
     seed(order, sources);
@@ -71,70 +87,91 @@ bool MergedWindows<Real>::solve(std::span<const PointSource> sources,
 }
 
 template <class Real>
-void MergedWindows<Real>::set_scale(double distance) {
-  scale_ = static_cast<Real>(
+Real MergedWindows<Real>::scale_at(double distance) const {
+  return static_cast<Real>(
       limit_.limit * (limit_.reach < infinity<double> ? std::sqrt(distance / limit_.reach) : 1));
 }
 
 template <class Real>
-Real MergedWindows<Real>::near(Index what) const {
-  if (what & bent) return vertices_[what & ~bent].distance + static_cast<Real>(late);
-  return pending_[what] == none ? Real(0) : blocks_[pending_[what]].nearest;
+Real MergedWindows<Real>::near(Index node) const {
+  return node & bent ? vertices_[node & ~bent].distance + static_cast<Real>(late)
+                     : blocks_[node].near;
 }
 
 template <class Real>
-template <class Order>
-[[gnu::always_inline]] inline void MergedWindows<Real>::push(Order& order, Index what, Real near) {
-  Index n = free_entry_;
-  if (n == none) {
-    n = static_cast<Index>(entries_.size());
-    entries_.emplace_back();
-  } else {
-    free_entry_ = entries_[n].next;
-  }
-  entries_[n].what = what;
-  order.push(n, static_cast<double>(near), [this](Index i) -> Index& { return entries_[i].next; });
+[[gnu::always_inline]] inline Index& MergedWindows<Real>::next(Index node) {
+  return node & bent ? vertex_next_[node & ~bent] : blocks_[node].next;
 }
 
 /// What the next turn will look up.
 template <class Real>
-void MergedWindows<Real>::fetch(Index what) const {
-  if (what & bent) return;
-  const TriangleRecord<Real>& t = triangles_[what >> 2];
-  const std::size_t in = what & 3, before = edge_before(in), after = edge_after(in);
-  __builtin_prefetch(&pending_[what]);
-  __builtin_prefetch(&vertices_[t.corner[before]]);
-  const Index* const pending = pending_.data();  // a boundary leads to its end
-  __builtin_prefetch(pending + (t.across[before] >> Across::face_shift << 2));
-  __builtin_prefetch(pending + (t.across[after] >> Across::face_shift << 2));
+[[gnu::always_inline]] inline void MergedWindows<Real>::fetch(Index node) const {
+  if (node & bent) return;
+  __builtin_prefetch(&triangles_[blocks_[node].halfedge >> 2]);
+}
+
+template <class Real>
+template <class Order>
+[[gnu::always_inline]] inline void MergedWindows<Real>::commit_any(Order& order, const Turn& turn) {
+  scale_ = turn.scale;
+  if (turn.windows.size() == 1)
+    commit_one(order, turn);
+  else
+    commit(order, turn);
 }
 
 template <class Real>
 template <class Order>
 typename MergedWindows<Real>::Outcome MergedWindows<Real>::run(Order& order,
                                                                const PropagateOptions& options) {
-  const auto next = [this](Index n) -> Index& { return entries_[n].next; };
-  const auto near_of = [this](Index n) { return static_cast<double>(near(entries_[n].what)); };
+  const auto next_of = [this](Index n) -> Index& { return next(n); };
+  const auto near_of = [this](Index n) { return static_cast<double>(near(n)); };
   constexpr std::size_t share = 65536;
   std::size_t report = statistics_.expansions / share * share + share;
   double before = -1;
-  for (Index n; (n = order.pop(next, near_of)) != none;) {
-    const Index what = entries_[n].what;
-    const bool vertex = (what & bent) != 0;
-    if (!vertex && pending_[what] == none) {  // it had its turn when something nearer came
-      entries_[n].next = std::exchange(free_entry_, n);
+  Real scale = 0;
+  // One turn is prepared before the one ahead of it is committed: what a wrong guess there undoes
+  // is then not the arithmetic.
+  std::size_t current = 0;
+  bool waits = false;
+  for (;;) {
+    const Index n = order.pop(next_of, near_of);
+    if (n == none) {
+      if (!waits) return Outcome::done;
+      waits = false;
+      commit_any(order, turns_[current ^ 1]);
       continue;
     }
     if (statistics_.expansions == options.max_expansions) return Outcome::stopped;
     ++statistics_.expansions;
-    entries_[n].next = std::exchange(free_entry_, n);
-    if (const Index after = order.peek(); after != none) fetch(entries_[after].what);
-    if (order.distance() != before) set_scale(before = order.distance());
-    if (vertex) {
-      shine(order, what & ~bent);
+    if (const Index after = order.peek(); after != none) fetch(after);
+    if (order.distance() != before) scale = scale_at(before = order.distance());
+    scale_ = scale;
+    if (n & bent) {
+      vertex_next_[n & ~bent] = idle;
+      shine(order, n & ~bent);
     } else {
-      prepare(turn_, what);
-      commit(order, turn_);
+      Turn& turn = turns_[current];
+      const Block& block = start(turn, n);
+      if (block.count == 1) {
+        turn.windows.append({block.window[0], labels_ ? block.source[0] : 0});
+        turn.spread[0].go(turn.triangle, turn.windows[0].window);
+      } else {
+        gather(turn.windows, block);
+        if (turn.windows.size() == 1)
+          turn.spread[0].go(turn.triangle, turn.windows[0].window);
+        else
+          prepare(turn);
+      }
+      if (kept_) [[unlikely]] {
+        for (std::size_t i = 0; i < turn.windows.size(); ++i) {
+          const auto& [window, source] = turn.windows[i];
+          kept_->take(block.halfedge, window.beam, window.sigma, source);
+        }
+      }
+      current ^= 1;
+      if (waits) commit_any(order, turns_[current]);
+      waits = true;
     }
     if (statistics_.expansions < report) continue;
     report += share;
@@ -145,7 +182,6 @@ typename MergedWindows<Real>::Outcome MergedWindows<Real>::run(Order& order,
     if (statistics_.expansions > patience * 3 * mesh_.face_count() + share)
       return Outcome::too_much;
   }
-  return Outcome::done;
 }
 
 template <class Real>
@@ -158,35 +194,26 @@ void MergedWindows<Real>::offer(Order& order, Index vertex, Real distance, Index
   error_[vertex] = error;
   if (labels_) source_[vertex] = source;
   ++statistics_.updates;
-  if (corner == none || (corner & bent) || excess_[vertex] > 4 * scale_)
-    push(order, vertex | bent, distance + static_cast<Real>(late));
+  if ((corner == none || (corner & bent) || excess_[vertex] > 4 * scale_) &&
+      vertex_next_[vertex] == idle)
+    order.push(vertex | bent, static_cast<double>(distance + static_cast<Real>(late)),
+               [this](Index i) -> Index& { return next(i); });
 }
 
 /// All that waits in a block.
 template <class Real>
-void MergedWindows<Real>::gather(Gathered<Real>& windows, const Block& block) {
+void MergedWindows<Real>::gather(Gathered<Real>& windows, const Block& block) const {
   const std::size_t count = block.count;
-  std::array<unsigned, room> rank;
-  for (unsigned i = 0; i < count; ++i) {
-    unsigned at = i;
-    for (; at > 0 && block.window[i].beam.begin < block.window[rank[at - 1]].beam.begin; --at)
-      rank[at] = rank[at - 1];
-    rank[at] = i;
-  }
+  std::array<std::size_t, room> place{}, at;
+  for (std::size_t i = 1; i < count; ++i)
+    for (std::size_t j = 0; j < i; ++j) {
+      const bool before = block.window[i].beam.begin < block.window[j].beam.begin;
+      place[i] += !before;
+      place[j] += before;
+    }
+  for (std::size_t i = 0; i < count; ++i) at[place[i]] = i;
   for (std::size_t i = 0; i < count; ++i)
-    windows.take({block.window[rank[i]], block.source[rank[i]]});
-}
-
-template <class Real>
-void MergedWindows<Real>::make_room(Block& block, Real length) {
-  crowd_.start(length, scale_);
-  gather(crowd_, block);
-  while (crowd_.size() >= room) crowd_.shorten();
-  block.count = static_cast<Index>(crowd_.size());
-  for (std::size_t i = 0; i < crowd_.size(); ++i) {
-    block.window[i] = crowd_[i].window;
-    block.source[i] = crowd_[i].source;
-  }
+    windows.take({block.window[at[i]], labels_ ? block.source[at[i]] : 0});
 }
 
 template <class Real>
@@ -195,33 +222,37 @@ template <class Order>
                                                               const Window<Real>& window,
                                                               Index source) {
   const Index halfedge = across >> Across::face_shift << 2 | (across & Across::edge_mask);
-  const Real near = window.nearest();
-  Index b = pending_[halfedge];
-  if (b == none) {
-    b = free_block_;
-    if (b == none) {
-      b = static_cast<Index>(blocks_.size());
-      blocks_.emplace_back();
-    } else {
-      free_block_ = blocks_[b].count;
-    }
-    pending_[halfedge] = b;
-    __builtin_prefetch(&triangles_[halfedge >> 2]);
-    blocks_[b].count = 1;
-    blocks_[b].window[0] = window;
-    blocks_[b].source[0] = source;
-    blocks_[b].nearest = near;
-    push(order, halfedge, near);
+  if (radius_ < infinity<Real> && window.nearest() > radius_) [[unlikely]]
+    return;
+  const Real near = std::min(window.at_begin, window.at_end) * static_cast<Real>(1 - turn_at) +
+                    std::max(window.at_begin, window.at_end) * static_cast<Real>(turn_at);
+  const Index waiting = pending_[halfedge];
+  if (waiting != none && blocks_[waiting].count < room) {
+    Block& block = blocks_[waiting];
+    block.window[block.count] = window;
+    if (labels_) block.source[block.count] = source;
+    ++block.count;
+    block.near = std::min(block.near, near);
     return;
   }
-  Block& block = blocks_[b];
-  if (block.count == room) make_room(block, triangles_[halfedge >> 2].length[halfedge & 3]);
-  block.window[block.count] = window;
-  block.source[block.count++] = source;
-  if (near < block.nearest) {
-    block.nearest = near;
-    push(order, halfedge, near);
+  // The first, or one more than there is room for: that begins another turn.
+  Index b = free_block_;
+  if (b == none) [[unlikely]] {
+    b = static_cast<Index>(blocks_.size());
+    blocks_.emplace_back();
+  } else {
+    free_block_ = blocks_[b].next;
   }
+  pending_[halfedge] = b;
+  __builtin_prefetch(&triangles_[halfedge >> 2]);
+  Block& block = blocks_[b];
+  block.near = near;
+  block.halfedge = halfedge;
+  block.count = 1;
+  block.window[0] = window;
+  if (labels_) block.source[0] = source;
+  order.push(b, static_cast<double>(near),
+             [&](Index i) -> Index& { return i == b ? block.next : next(i); });
 }
 
 /// A window over edge `edge` of f, measured from the edge's second corner, enters all triangles on
@@ -233,7 +264,7 @@ template <class Order>
                                                               const Window<Real>& window,
                                                               Index source) {
   const Index across = triangles_[f].across[edge];
-  if (across >> Across::face_shift == mesh_.face_count()) return;
+  if (across >> Across::face_shift == sentinel_) return;
   if (across & Across::special) [[unlikely]]
     leave_special(order, f, edge, window, source);
   else
@@ -245,39 +276,59 @@ template <class Order>
 [[gnu::noinline]] void MergedWindows<Real>::leave_special(Order& order, Index f, std::size_t edge,
                                                           const Window<Real>& window,
                                                           Index source) {
-  const Window<Real> turned = window.mirrored(triangles_[f].length[edge]);
-  Index across = triangles_[f].across[edge];
-  bool flip = (across & Across::flip) != 0;
-  if (!(across & Across::fan)) {
-    enter(order, across, turned, source);
-    return;
-  }
-  for (;;) {
-    const Index g = across >> Across::face_shift, k = across & Across::edge_mask;
-    if (g == f && k == edge) return;
-    enter(order, across, flip ? turned : window, source);
-    across = triangles_[g].across[k];
-    flip ^= !(across & Across::flip);
-  }
+  const Window<Real> mirrored = window.mirrored(triangles_[f].length[edge]);
+  cross_edge(triangles_, f, edge, [&](Index across, bool turned) {
+    enter(order, across, turned ? mirrored : window, source);
+  });
 }
 
+/// A block has its turn.
 template <class Real>
-[[gnu::always_inline]] inline void MergedWindows<Real>::prepare(Turn& turn, Index halfedge) {
-  const Index b = std::exchange(pending_[halfedge], none);
+[[gnu::always_inline]] inline auto MergedWindows<Real>::start(Turn& turn, Index b) -> Block& {
   Block& block = blocks_[b];
+  block.next = std::exchange(free_block_, b);
+  const Index halfedge = block.halfedge;
+  if (pending_[halfedge] == b) pending_[halfedge] = none;
   turn.face = halfedge >> 2;
+  turn.scale = scale_;
+  const TriangleRecord<Real>& record = triangles_[turn.face];
+  turn.triangle.enter(record, halfedge & 3);
   const EnteredTriangle<Real>& t = turn.triangle;
-  turn.triangle.enter(triangles_[turn.face], halfedge & 3);
-  Gathered<Real>& windows = turn.windows;
-  windows.start(t.width, scale_);
-  if (block.count == 1)
-    windows.append({block.window[0], block.source[0]});
-  else
-    gather(windows, block);
-  if (block.nearest > radius_) [[unlikely]]
-    windows.clear();
-  block.count = std::exchange(free_block_, b);
+  __builtin_prefetch(&vertices_[t.p]);
+  const Index* const pending = pending_.data();  // a boundary leads to its end
+  __builtin_prefetch(pending + (record.across[t.before] >> Across::face_shift << 2));
+  __builtin_prefetch(pending + (record.across[t.after] >> Across::face_shift << 2));
+  turn.windows.start(t.width, scale_);
+  return block;
+}
 
+/// One window goes on: straight to the apex, or around the end that is nearer to it.
+template <class Real>
+template <class Order>
+[[gnu::always_inline]] inline void MergedWindows<Real>::commit_one(Order& order, const Turn& turn) {
+  const EnteredTriangle<Real>& t = turn.triangle;
+  const Spread<Real>& s = turn.spread[0];
+  const auto& [w, source] = turn.windows[0];
+  const bool right = s.right_reaches(), seen = s.left_reaches() & right;
+  const Real ends[2] = {w.beam.begin, w.beam.end}, to_ends[2] = {w.at_begin, w.at_end};
+  const Real dx = t.apex_x - ends[right];
+  const Real ways[2] = {to_ends[right] + std::sqrt(dx * dx + t.apex_h * t.apex_h), s.distance[1]};
+  if (ways[seen] < vertices_[t.p].distance) {
+    const Index corner = static_cast<Index>(3 * turn.face + t.before);
+    offer(order, t.p, ways[seen], seen ? corner : corner | bent,
+          seen ? t.towards(w.beam.x, w.beam.h) : t.towards(ends[right], 0), source, w.error);
+  }
+  const int wanted = s.wanted(vertices_[t.a].distance, vertices_[t.b].distance,
+                              vertices_[t.p].distance, scale_ * s.length);
+  if (wanted & 1) leave(order, turn.face, t.before, s.left(w), source);
+  if (wanted & 2) leave(order, turn.face, t.after, s.right(w), source);
+}
+
+/// Several windows, before vertices are looked at.
+template <class Real>
+[[gnu::always_inline]] inline void MergedWindows<Real>::prepare(Turn& turn) {
+  const EnteredTriangle<Real>& t = turn.triangle;
+  const Gathered<Real>& windows = turn.windows;
   turn.to_apex = infinity<Real>;
   turn.seen = 0;
   const auto sees = [&](std::size_t i, Real distance) {
@@ -321,21 +372,25 @@ void MergedWindows<Real>::commit(Order& order, const Turn& turn) {
   const EnteredTriangle<Real>& t = turn.triangle;
   const Gathered<Real>& windows = turn.windows;
   const Index corner = static_cast<Index>(3 * turn.face + t.before);
-  if (turn.to_apex < infinity<Real>) {
+  Real bound = vertices_[t.p].distance;
+  const bool is_lit = turn.to_apex < infinity<Real>;
+  if (turn.to_apex < bound) {
     const Labelled<Real>& seen = windows[turn.seen];
-    if (turn.to_apex < vertices_[t.p].distance)
-      offer(order, t.p, turn.to_apex, corner, t.towards(seen.window.beam.x, seen.window.beam.h),
-            seen.source, seen.window.error);
-  } else {
-    // Around the nearest end of what is lit.
-    for (std::size_t i = 0; i < windows.size(); ++i) {
-      const Window<Real>& w = windows[i].window;
-      const bool to_left = turn.spread[i].right_reaches();
-      const Real end = to_left ? w.beam.end : w.beam.begin, dx = t.apex_x - end;
-      offer(order, t.p,
-            (to_left ? w.at_end : w.at_begin) + std::sqrt(dx * dx + t.apex_h * t.apex_h),
-            corner | bent, t.towards(end, 0), windows[i].source, w.error);
-    }
+    offer(order, t.p, turn.to_apex, corner, t.towards(seen.window.beam.x, seen.window.beam.h),
+          seen.source, seen.window.error);
+    bound = turn.to_apex;
+  }
+  // Around the end of what is lit beside it; where another window sees it, if that is shorter by
+  // more than merging may be off.
+  if (is_lit) bound -= 4 * scale_ * t.width;
+  for (std::size_t i = 0; i < windows.size(); ++i) {
+    const Window<Real>& w = windows[i].window;
+    const bool to_left = turn.spread[i].right_reaches();
+    if (to_left && turn.spread[i].left_reaches()) continue;
+    const Real end = to_left ? w.beam.end : w.beam.begin, dx = t.apex_x - end;
+    const Real way = (to_left ? w.at_end : w.at_begin) + std::sqrt(dx * dx + t.apex_h * t.apex_h);
+    if (way < bound)
+      offer(order, t.p, way, corner | bent, t.towards(end, 0), windows[i].source, w.error);
   }
   const Real to_a = vertices_[t.a].distance, to_b = vertices_[t.b].distance;
   const Real to_p = vertices_[t.p].distance;
@@ -391,71 +446,17 @@ void MergedWindows<Real>::shine(Order& order, Index vertex) {
 }
 
 template <class Real>
-template <class Order>
-void MergedWindows<Real>::seed(Order& order, std::span<const PointSource> sources) {
-  for (std::size_t n = 0; n < sources.size(); ++n) {
-    const PointSource& s = sources[n];
-    const Index number = static_cast<Index>(n);
-    const Real sigma = static_cast<Real>(s.offset / mesh_.unit());
-    if (s.vertex != none) {
-      offer(order, mesh_.inside_vertex(s.vertex), sigma, none, {0, 0}, number, 0);
-      continue;
-    }
-    const auto [f, turned] = mesh_.inside_face(s.simplex);
-    const TriangleRecord<Real>& t = triangles_[f];
-    std::array<double, 4> b = s.barycentric;
-    if (turned) std::swap(b[1], b[2]);
-    const auto corner = std::find(b.begin(), b.begin() + 3, 1.);
-    if (corner != b.begin() + 3) {
-      offer(order, t.corner[corner - b.begin()], sigma, none, {0, 0}, number, 0);
-      continue;
-    }
-    for (std::size_t e = 0; e < 3; ++e) {
-      const std::size_t i = edge_after(e), p = edge_before(e);
-      const double length = static_cast<double>(t.length[e]);
-      const double x = b[i] * length + b[p] * static_cast<double>(t.apex_x(e));
-      const double h = b[p] * static_cast<double>(t.apex_h(e));
-      const Beam<double> beam = Beam<double>{x, h, 0, length}.mirrored(length);
-      Window<Real> window = {
-          {static_cast<Real>(beam.x), static_cast<Real>(beam.h), 0, t.length[e]}, sigma, 0, 0, 0};
-      window.begin_at(0);
-      window.end_at(t.length[e]);
-      leave(order, f, e, window, number);
-      offer(order, t.corner[e], sigma + static_cast<Real>(std::sqrt(x * x + h * h)),
-            static_cast<Index>(3 * f + e), {static_cast<Real>(x), static_cast<Real>(h)}, number, 0);
-    }
-  }
-}
-
-template <class Real>
-template <class Order>
-bool MergedWindows<Real>::fill_holes(Order& order) {
-  if (radius_ < infinity<Real> ||
-      std::all_of(vertices_.begin(), vertices_.end(),
-                  [](const Vertex& v) { return v.distance < infinity<Real>; }))
-    return false;
-  bool any = false;
-  for (Index f = 0; f < mesh_.face_count(); ++f) {
-    const TriangleRecord<Real>& t = triangles_[f];
-    for (std::size_t e = 0; e < 3; ++e)
-      for (const auto& [from, to] : {std::pair(e, edge_after(e)), std::pair(edge_after(e), e)}) {
-        const Index v = t.corner[from], w = t.corner[to];
-        if (vertices_[w].distance < infinity<Real> || !(vertices_[v].distance < infinity<Real>))
-          continue;
-        offer(order, w, vertices_[v].distance + t.length[e], none, {0, 0}, labels_ ? source_[v] : 0,
-              error_[v]);
-        any = true;
-      }
-  }
-  return any;
-}
-
-template <class Real>
 std::size_t MergedWindows<Real>::bytes() const {
   const auto of = [](const auto& v) { return v.capacity() * sizeof(v[0]); };
   return sizeof(*this) + of(excess_) + of(vertices_) + of(source_) + of(error_) + of(pending_) +
-         of(blocks_) + of(entries_) + of(corners_);
+         of(blocks_) + of(vertex_next_) + of(corners_);
 }
+
+}  // namespace plexway::windows
+
+#include "propagate/windows/merged_seeds.inl"
+
+namespace plexway::windows {
 
 template class MergedWindows<float>;
 template class MergedWindows<double>;

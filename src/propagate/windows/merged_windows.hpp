@@ -13,6 +13,7 @@
 #include "propagate/windows/bucket_ring.hpp"
 #include "propagate/windows/entered_triangle.hpp"
 #include "propagate/windows/gather.hpp"
+#include "propagate/windows/kept_windows.hpp"
 #include "propagate/windows/node_orders.hpp"
 #include "propagate/windows/pseudo_source.hpp"
 #include "propagate/windows/spread.hpp"
@@ -41,11 +42,11 @@ class MergedWindows {
   /// `mesh` and `angles` must outlive this.
   MergedWindows(const TriangleMesh<Real>& mesh, const VertexAngles& angles);
 
-  /// The sources must be checked. Throws Cancelled as the progress callback says. False, and no
-  /// result, where merging does not pay: among needles windows do not become fewer, and what comes
-  /// out is no good.
+  /// The sources must be checked. Windows are put into `kept` as well, unless it is null. Throws
+  /// Cancelled as the progress callback says. False, and no result, where merging does not pay:
+  /// among needles windows do not become fewer, and what comes out is no good.
   [[nodiscard]] bool solve(std::span<const PointSource> sources, const PropagateOptions& options,
-                           const MergeLimit& limit);
+                           const MergeLimit& limit, KeptWindows<Real>* kept = nullptr);
 
   /// Afterwards, by the numbers inside, in mean edges; +inf where unreached.
   [[nodiscard]] Real distance(Index vertex) const { return vertices_[vertex].distance; }
@@ -66,30 +67,31 @@ class MergedWindows {
   };
   static constexpr Index bent = Index{1} << 31;
 
-  /// The windows that wait on one halfedge.
+  /// The windows that wait on one halfedge, 4 f + i. What waits in the queue: the number of a
+  /// block, or a vertex with `bent` set; each once.
   static constexpr std::size_t room = 8;
-  struct Block {
-    Real nearest;
-    Index count;  ///< or, of a free block, the next free one
+  struct alignas(64) Block {
+    Real near;  ///< when it has its turn: told by the window that came first
+    Index halfedge;
+    Index count;
+    Index next;  ///< in the queue, or of the free ones
     std::array<Window<Real>, room> window;
-    std::array<Index, room> source;
+    std::array<Index, room> source;  ///< where there are several
   };
-  /// What waits in the queue: a halfedge 4 f + i, or a vertex with `bent` set.
-  struct Entry {
-    Index what;
-    Index next;
-  };
+  static constexpr Index idle = none - 1;  ///< next of a vertex that does not wait
 
   /// One halfedge's turn: what its windows come to on the triangle's other edges, before vertices
   /// are looked at.
   struct Turn {
     Index face;
+    Real scale;
     EnteredTriangle<Real> triangle;
     Gathered<Real> windows;
     std::array<Spread<Real>, Overlay<Real>::most> spread;
     Real to_apex;  ///< straight; +inf where the apex lies in shadow as far as these windows know
     std::size_t seen;  ///< from this window
   };
+  static constexpr std::size_t batch = 4;  ///< turns at a time
   enum class Outcome { done, stopped, too_much };
 
   template <class Order>
@@ -98,7 +100,13 @@ class MergedWindows {
   void seed(Order& order, std::span<const PointSource> sources);
   template <class Order>
   bool fill_holes(Order& order);
-  void prepare(Turn& turn, Index halfedge);
+  Block& start(Turn& turn, Index block);
+  void fetch(Index node) const;
+  template <class Order>
+  void commit_any(Order& order, const Turn& turn);
+  template <class Order>
+  void commit_one(Order& order, const Turn& turn);
+  void prepare(Turn& turn);
   template <class Order>
   void commit(Order& order, const Turn& turn);
   template <class Order>
@@ -113,20 +121,19 @@ class MergedWindows {
   template <class Order>
   void offer(Order& order, Index vertex, Real distance, Index corner, Towards<Real> from,
              Index source, Real error);
-  template <class Order>
-  void push(Order& order, Index what, Real near);
 
-  static void gather(Gathered<Real>& windows, const Block& block);
-  void make_room(Block& block, Real length);
-  void fetch(Index what) const;
-  void set_scale(double distance);
-  [[nodiscard]] Real near(Index what) const;
+  void gather(Gathered<Real>& windows, const Block& block) const;
+  [[nodiscard]] Real scale_at(double distance) const;
+  [[nodiscard]] Real near(Index node) const;
+  [[nodiscard]] Index& next(Index node);
 
   std::span<const TriangleRecord<Real>> triangles_;
   const TriangleMesh<Real>& mesh_;
   const VertexAngles& angles_;
   PseudoSource<Real> pseudo_source_;
+  Index sentinel_;  ///< beyond a boundary
   MergeLimit limit_;
+  KeptWindows<Real>* kept_ = nullptr;
   bool labels_ = false;
   Real scale_ = 0;  ///< the limit for an edge of length 1, at the distance in turn
   Real radius_ = 0;
@@ -137,11 +144,10 @@ class MergedWindows {
   std::vector<Real> error_;
   std::vector<Index> pending_;  ///< a block for each halfedge 4 f + i, or none; none after a solve
   std::vector<Block> blocks_;
-  std::vector<Entry> entries_;
+  std::vector<Index> vertex_next_;
   std::vector<Index> corners_;
-  Index free_block_ = none, free_entry_ = none;
-  Gathered<Real> crowd_;  ///< of a block that is full
-  Turn turn_;
+  Index free_block_ = none;
+  std::array<Turn, batch> turns_;
   bool complete_ = true;
   PropagateStatistics statistics_;
   NearestOfAll nearest_;

@@ -45,7 +45,6 @@ class Overlay {
   [[nodiscard]] const Labelled<Real>& operator[](std::size_t i) const { return pieces_[i]; }
   [[nodiscard]] Labelled<Real>& back() { return pieces_[count_ - 1]; }
   void append(const Labelled<Real>& piece) { pieces_[count_++] = piece; }
-  void resize(std::size_t count) { count_ = count; }
 
   /// Puts a window among those that are there; where two hold a point the nearer one keeps it.
   void insert(const Labelled<Real>& added) {
@@ -53,8 +52,9 @@ class Overlay {
       if (count_ < most) append(added);
       return;
     }
-    const std::array<Labelled<Real>, most> old = pieces_;
     const std::size_t old_count = std::exchange(count_, 0);
+    std::array<Labelled<Real>, most> old;
+    std::copy_n(pieces_.begin(), old_count, old.begin());
     owner_ = nullptr;
     Real from = added.window.beam.begin;
     const Real until = added.window.beam.end;

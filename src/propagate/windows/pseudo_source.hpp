@@ -84,14 +84,19 @@ class PseudoSource {
     Turn at;
   };
 
-  /// Goes on to the corner that holds the direction opposite to the arrival. False if the fan ends.
+  /// Goes on to the corner that holds the direction opposite to the arrival. False if the fan ends,
+  /// or has next to no angle and is only gone around.
   bool find(Border& border) const {
-    for (;;) {
+    constexpr int most_rounds = 16;
+    const FanWalk start = border.walk;
+    for (int rounds = 0; rounds < most_rounds;) {
       const Turn next = turned(border.at, angle(border.walk.face, border.walk.corner));
       if (border.at.off >= 0 && next.off < 0) return true;
       border.at = next;
       if (!border.walk.step(triangles_)) return false;
+      rounds += border.walk.face == start.face && border.walk.corner == start.corner;
     }
+    return false;
   }
 
   /// From one border to the other, or to the end of the fan.

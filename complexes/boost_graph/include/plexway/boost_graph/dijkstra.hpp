@@ -29,7 +29,9 @@ class EdgeDijkstra {
   /// hold. Cost: linear.
   explicit EdgeDijkstra(const EdgeGraph& graph);
   ~EdgeDijkstra();
+  /// Moves what it holds; what is left may be assigned to or destroyed, no more.
   EdgeDijkstra(EdgeDijkstra&&) noexcept;
+  /// Likewise.
   EdgeDijkstra& operator=(EdgeDijkstra&&) noexcept;
   EdgeDijkstra(const EdgeDijkstra&) = delete;
   EdgeDijkstra& operator=(const EdgeDijkstra&) = delete;

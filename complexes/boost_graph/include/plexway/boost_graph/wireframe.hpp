@@ -46,6 +46,7 @@ template <class Real = float, class Graph, class LengthMap, class IndexMap>
 
 /// The identity, for graphs whose vertex descriptors are the numbers 0 ... n - 1.
 struct NumberedVertices {
+  /// As a property map: every vertex is its own number.
   template <class Vertex>
   friend Vertex get(const NumberedVertices&, const Vertex& vertex) {
     static_assert(std::is_integral_v<Vertex>,

@@ -9,8 +9,10 @@
 
 #include <plexway/complex/neighbours.hpp>
 
+/// The component `flann`, link plexway::flann: neighbours of points, by FLANN.
 namespace plexway::flann {
 
+/// Who counts as a neighbour.
 struct NeighbourOptions {
   std::size_t k = 16;  ///< at most so many; 0: all within the radius
   /// Only those at most so far away (the points' unit), > 0.

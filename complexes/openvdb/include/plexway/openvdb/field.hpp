@@ -16,6 +16,7 @@ inline constexpr float outside = -1;
 /// How a field becomes a volume.
 struct FieldOptions {
   double voxel = 0;  ///< side, in the unit of positions; 0: half the solid's mean edge
+  /// Of the grid.
   std::string name = "distance";
 };
 

@@ -9,6 +9,7 @@
 #include <string>
 #include <string_view>
 
+/// The component `openvdb`, link plexway::openvdb: level sets and volumes, by OpenVDB.
 namespace plexway::openvdb {
 
 struct Bricks;
@@ -17,6 +18,7 @@ struct Bricks;
 /// Known near the surface, of the sign alone elsewhere. Immutable, cheap to copy.
 class LevelSet {
  public:
+  /// Of a grid made inside the library; not null.
   explicit LevelSet(std::shared_ptr<const Bricks> bricks) : bricks_(std::move(bricks)) {}
 
   /// The grid's name; empty if it has none.
@@ -32,6 +34,7 @@ class LevelSet {
   /// Bytes that it holds.
   [[nodiscard]] std::size_t bytes() const;
 
+  /// The grid, for the library's own use.
   [[nodiscard]] const Bricks& bricks() const { return *bricks_; }
 
  private:

@@ -10,12 +10,14 @@ namespace plexway::openvdb {
 
 /// Tetrahedra, ready for a TetMesh.
 struct Solid {
+  /// In the level set's unit.
   std::vector<std::array<double, 3>> positions;
   std::vector<std::array<Index, 4>> tets;  ///< positive volume: (b - a) x (c - a) . (d - a) > 0
 };
 
 /// Triangles, ready for a TriangleMesh.
 struct Surface {
+  /// In the level set's unit.
   std::vector<std::array<double, 3>> positions;
   std::vector<std::array<Index, 3>> triangles;  ///< counterclockwise from outside
 };

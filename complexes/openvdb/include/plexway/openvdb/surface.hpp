@@ -19,6 +19,7 @@ struct Repair {
   std::size_t holes = 0;       ///< rims of such edges, each closed by a fan
   double largest_hole = 0;     ///< diagonal of the box around the largest rim
   std::size_t sheets = 0;      ///< parts that are more hole than surface, left out
+  /// Triangles of these sheets.
   std::size_t sheet_triangles = 0;
 
   /// "voxel 0.01; 3 holes closed, the largest 0.2 across": for people, without an end of line.

@@ -18,6 +18,7 @@ namespace plexway::pcl {
 
 /// The points of a cloud that are finite, as in a dense cloud all are.
 struct FinitePoints {
+  /// In the cloud's unit and order.
   std::vector<std::array<double, 3>> positions;
   std::vector<Index> place;  ///< where each of them is in the cloud, ascending
 };

@@ -9,11 +9,13 @@
 
 #include <plexway/complex/ids.hpp>
 
+/// The component `pcl`, link plexway::pcl: files and filters of clouds, by PCL.
 namespace plexway::pcl {
 
 /// A cloud of points as a file has it, but for points that are not finite: organised clouds have
 /// them where the scanner saw nothing.
 struct FilePoints {
+  /// Finite, in file units.
   std::vector<std::array<double, 3>> positions;
   /// One a point, 0 0 0 where none is known; empty if the file has none.
   std::vector<std::array<double, 3>> normals;
@@ -30,6 +32,7 @@ struct FilePoints {
 /// printed: PCL's messages are held back meanwhile, in all threads.
 FilePoints read_points(const std::filesystem::path& file);
 
+/// The three forms of a .pcd.
 enum class PcdForm { ascii, binary, compressed };
 
 /// Writes .pcd in the form asked for or .ply (binary), in single precision, as PCL's types have it.

@@ -18,7 +18,9 @@ namespace plexway::pcl {
 std::vector<std::array<double, 3>> voxel_grid(std::span<const std::array<double, 3>> points,
                                               double size);
 
+/// What counts as an outlier.
 struct OutlierOptions {
+  /// So many nearest points are looked at, at least 1.
   int neighbours = 8;
   /// A point is an outlier where the mean distance to its neighbours is that many standard
   /// deviations above the mean of all. Of 20000 evenly scattered points 0.4 % are at 3, 3 % at 2

@@ -20,14 +20,18 @@ struct PiecewiseLinearComplex {
   };
   /// The part of space around a point, up to the next facets.
   struct Region {
+    /// Anywhere inside of it.
     std::array<double, 3> point;
     double attribute = 0;   ///< what Solid::regions says of its tetrahedra
     double max_volume = 0;  ///< of them; 0 for no bound
   };
 
+  /// n, in any unit; some may be of no facet.
   std::vector<std::array<double, 3>> positions;
+  /// Of vertices < n.
   std::vector<Facet> facets;
   std::vector<std::array<double, 3>> holes;  ///< points in parts of space that stay empty
+  /// May be none.
   std::vector<Region> regions;
 };
 

@@ -8,6 +8,7 @@
 #include <plexway/complex/ids.hpp>
 #include <plexway/tetgen/piecewise_linear_complex.hpp>
 
+/// The component `tetgen`, link plexway::tetgen: solids from closed surfaces, by TetGen (AGPL).
 namespace plexway::tetgen {
 
 /// What a tetrahedral mesh shall be like. Lengths in the input's unit.

@@ -3,12 +3,9 @@
 #include <functional>
 #include <string>
 
-#include "bricks.hpp"
+#include "../src/bricks.hpp"
 
 namespace plexway::openvdb {
-
-/// Takes bricks one by one, dense (512 values) or, with a null pointer, inside as a whole.
-using BrickTaker = std::function<void(const Cell& corner, const float* values)>;
 
 /// What comes ahead of a grid's bricks.
 struct GridHead {

@@ -5,8 +5,8 @@
 #include <filesystem>
 #include <vector>
 
-#include "grid_bricks.hpp"
-#include "number_text.hpp"
+#include "../src/grid_bricks.hpp"
+#include "../src/number_text.hpp"
 
 namespace plexway::openvdb {
 namespace {
@@ -74,7 +74,7 @@ void copy(const Grid& grid, const std::function<void(const GridHead&)>& head,
 
 void copy_grid(const std::string& file, const std::string& wanted,
                const std::function<void(const GridHead&)>& head, const BrickTaker& brick) {
-  // Never freed: OpenVDB frees trees with TBB's threads, which a forked process lacks.
+  // Never freed: the process ends here, and a damaged file may have bent what there is to free.
   auto& input = *new ::openvdb::io::File(file);
   auto& grid = *new GridBase::Ptr;
   std::string name;

@@ -1,0 +1,108 @@
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <span>
+#include <vector>
+
+#include <plexway/apps/all_pairs.hpp>
+#include <plexway/io/block_journal.hpp>
+#include <plexway/io/matrix_file.hpp>
+#include <plexway/io/sparse_file.hpp>
+
+// Matrices of distances into files, in blocks that a journal remembers: what a run did not finish
+// the next one does.
+//
+//   PairsRequest request;                                  // all rows, all columns
+//   const auto rows = request.row_count(n), columns = request.column_count(n);
+//   BlockJournal journal("d.npy", {{"mesh", ...}}, request.block_count(n));
+//   MatrixFile file("d.npy", rows, columns, MatrixNumber::float32, journal.resumed());
+//   write_pairs(OpenMP{}, mesh, request, file, journal);
+//   file.commit();
+//   journal.remove();
+
+namespace plexway::io {
+
+namespace detail {
+
+/// Runs `solve` for what the journal lacks, and keeps what is finished if it ends by an error.
+template <class Solve>
+PairsReport run_with_journal(PairsRequest request, BlockJournal& journal,
+                             const std::function<void()>& sync, const Solve& solve) {
+  request.wanted = [&journal](std::size_t block) { return !journal.has(block); };
+  PairsReport report;
+  try {
+    report = solve(request);
+  } catch (...) {
+    try {
+      journal.flush(sync);
+    } catch (...) {  // the first error is the one to tell
+    }
+    throw;
+  }
+  journal.flush(sync);
+  return report;
+}
+
+}  // namespace detail
+
+/// What is made of a row of distances, and into which file it goes.
+template <class Real>
+struct RowOutput {
+  /// With a row for each of the request's.
+  MatrixFile& file;
+  /// Of all columns of the request, to those of the file; empty: the row as it is. Any thread.
+  std::function<std::vector<double>(DenseRow<Real>)> made = {};
+};
+
+/// The rows that the journal lacks, by `all_pairs`, into one file or several at once. `wanted` is
+/// not asked for. Throws as all_pairs, BlockJournal and MatrixFile; what was finished before stays.
+template <RowExecutor E, DomainType D>
+PairsReport write_pairs(const E& executor, const D& domain, const PairsRequest& request,
+                        std::span<const RowOutput<RealOf<D>>> outputs, BlockJournal& journal) {
+  const auto sync = [&] {
+    for (const auto& output : outputs) output.file.sync();
+  };
+  return detail::run_with_journal(request, journal, sync, [&](const PairsRequest& missing) {
+    return all_pairs(executor, domain, missing,
+                     {[&](std::size_t row, DenseRow<RealOf<D>> distance) {
+                        for (const auto& output : outputs) {
+                          if (output.made)
+                            output.file.template write_row<double>(row, output.made(distance));
+                          else
+                            output.file.write_row(row, distance);
+                        }
+                      },
+                      [&](std::size_t block) { journal.finish(block, {}, sync); }});
+  });
+}
+
+/// Into one file.
+template <RowExecutor E, DomainType D>
+PairsReport write_pairs(const E& executor, const D& domain, const PairsRequest& request,
+                        MatrixFile& file, BlockJournal& journal) {
+  const RowOutput<RealOf<D>> output{file};
+  return write_pairs(executor, domain, request, std::span<const RowOutput<RealOf<D>>>(&output, 1),
+                     journal);
+}
+
+/// The same of what is near, by `near_pairs`.
+template <RowExecutor E, DomainType D>
+PairsReport write_near_pairs(const E& executor, const D& domain, const PairsRequest& request,
+                             const NearLimits& limits, SparseFile& file, BlockJournal& journal) {
+  const auto sync = [&] { file.sync(); };
+  return detail::run_with_journal(request, journal, sync, [&](const PairsRequest& missing) {
+    return near_pairs(
+        executor, domain, missing, limits,
+        {[&](std::size_t row, SparseRow<RealOf<D>> near) {
+           std::vector<SparseEntry> entries;
+           entries.reserve(near.size());
+           for (const auto& [column, distance] : near)
+             entries.push_back({column, static_cast<double>(distance)});
+           file.write_row(row, entries);
+         },
+         [&](std::size_t block) { journal.finish(block, file.finish_block(block), sync); }});
+  });
+}
+
+}  // namespace plexway::io

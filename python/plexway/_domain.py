@@ -1,0 +1,793 @@
+"""What all domains can be asked."""
+
+from __future__ import annotations
+
+import os
+from typing import TYPE_CHECKING, Any, Dict, List, Optional, Sequence, Tuple, Type, Union
+
+import numpy as np
+
+from . import _plexway
+from ._arrays import Array
+from ._progress import Progress, ProgressLike
+from ._results import (
+    Cells,
+    Disks,
+    FarthestPoints,
+    Field,
+    Isosurfaces,
+    Path,
+    Picture,
+    Points,
+    made_path,
+)
+from ._sources import index, located
+
+if TYPE_CHECKING:
+    from numpy.typing import ArrayLike
+
+    from ._sources import Place
+
+AccuracyLike = Union[None, str, float]
+
+_INFINITY = float("inf")
+_DEFAULT = _plexway.SolveArguments("serial", 0, _INFINITY, "saddles", None)
+
+
+def _arguments(
+    threads: Optional[int],
+    executor: Optional[str],
+    radius: float,
+    visibility: str,
+    accuracy: AccuracyLike,
+    many: bool = False,
+) -> Any:
+    """How to solve. Several fields take all threads unless told otherwise, a single one takes one."""
+    if threads is not None and threads < 0:
+        raise ValueError(f"threads: expected 0 (all) or more, got {threads}")
+    if executor is None:
+        if threads is None:
+            executor = "openmp" if many and _plexway.openmp_built() else "serial"
+        else:
+            executor = "serial" if threads == 1 else "openmp"
+    return _plexway.SolveArguments(executor, threads or 0, float(radius), visibility, accuracy)
+
+
+_CLASSES: Dict[str, Type["Domain"]] = {}
+
+
+class Domain:
+    """A space that distances are asked on: base of `Surface`, `Solid`, `Wireframe`, `Cloud`,
+    `Mixed` and `Simplicial`.
+
+    Domains do not change, may be used by any number of threads at once, and can be pickled.
+    Vertices and simplices are counted from 0, as given. Distances are in the unit of the positions.
+    """
+
+    _native: Any
+    _kept: Optional[Array] = None  # with a mask: the caller's numbers of what is left
+    _given: int = 0  # and how many simplices there were
+
+    def __init_subclass__(cls, **kwargs: Any) -> None:
+        super().__init_subclass__(**kwargs)
+        _CLASSES[cls.__name__] = cls
+
+    def __init__(self) -> None:
+        raise TypeError("make a Surface, Solid, Wireframe, Cloud, Mixed or Simplicial")
+
+    # -- What it is.
+
+    @property
+    def kind(self) -> str:
+        """'surface', 'solid', 'wireframe', 'simplices', 'cloud' or 'mixed'."""
+        kind: str = self._native.kind
+        return kind
+
+    @property
+    def vertex_count(self) -> int:
+        """How many vertices there are."""
+        count: int = self._native.vertex_count
+        return count
+
+    @property
+    def vertices(self) -> Optional[Array]:
+        """Positions: float64, shape (n, axes), read only and no copy; None where there are only
+        lengths."""
+        positions: Optional[Array] = self._native.positions
+        return positions
+
+    @property
+    def simplices(self) -> Optional[Array]:
+        """Vertices of each simplex: uint32, shape (m, corners), read only and no copy; with a mask
+        those that are left. None for clouds and mixed domains."""
+        simplices: Optional[Array] = self._native.simplices
+        return simplices
+
+    @property
+    def components(self) -> int:
+        """Parts that no path connects."""
+        count: int = self._native.components
+        return count
+
+    @property
+    def dtype(self) -> np.dtype[Any]:
+        """Of its distances: float32, or float64 with precision='double'."""
+        return np.dtype(np.float64 if self._native.double else np.float32)
+
+    def info(self) -> Dict[str, Any]:
+        """What it is made of.
+
+        Returns
+        -------
+        dict
+            kind, dimension, vertices, simplices, components, precision, bytes (held beside the
+            positions), build_seconds, and where they mean something: file, bounds, mean_edge,
+            triangulation, refracting_edges, cloud.
+        """
+        native = self._native
+        told: Dict[str, Any] = {
+            "kind": self.kind,
+            "dimension": native.dimension,
+            "vertices": native.vertex_count,
+            "simplices": native.simplex_count,
+            "components": native.components,
+            "precision": "double" if native.double else "single",
+            "bytes": native.bytes,
+            "build_seconds": native.build_seconds,
+        }
+        if native.file:
+            told["file"] = native.file
+        positions = self.vertices
+        if positions is not None and len(positions):
+            told["bounds"] = (positions.min(axis=0), positions.max(axis=0))
+        if self.kind == "surface":
+            told["mean_edge"] = native.mean_edge
+            told["triangulation"] = native.triangulation
+            told["refracting_edges"] = native.refracting_edges
+        if native.cloud is not None:
+            told["cloud"] = {
+                k: v for k, v in native.cloud.items() if k not in ("normals", "original")
+            }
+        return told
+
+    def __repr__(self) -> str:
+        def counted(count: int, name: str) -> str:
+            one = {"vertices": "vertex", "tetrahedra": "tetrahedron", "simplices": "simplex"}
+            return f"{count} {one.get(name, name.rstrip('s')) if count == 1 else name}"
+
+        native = self._native
+        sizes = [counted(native.vertex_count, "points" if self.kind == "cloud" else "vertices")]
+        if self.kind != "cloud":
+            sizes.append(counted(native.simplex_count, native.simplex_name))
+        return f"plexway.{type(self).__name__}({', '.join(sizes)})"
+
+    # -- Distances.
+
+    def distance(
+        self,
+        source: Any,
+        *,
+        accuracy: AccuracyLike = None,
+        radius: float = _INFINITY,
+        threads: Optional[int] = None,
+        executor: Optional[str] = None,
+        visibility: str = "saddles",
+        out: Optional[Array] = None,
+        progress: ProgressLike = None,
+    ) -> Array:
+        """The distance of every vertex from the nearest source.
+
+        Parameters
+        ----------
+        source
+            A vertex (int), vertices (integers), a point (three floats), points (k, 3), or one or a
+            list of `Vertex`, `Point`, `Vertices`, `Segment`, `Polyline`, `Ball`, `WholeSimplex`,
+            `Boundary`.
+        accuracy : {'fast', 'accurate', 'exact'} or float, optional
+            On surfaces and clouds, how near to the exact distances: 'fast' has mean relative errors
+            around 1e-3, 'accurate' below 1e-4, 'exact' (in double precision) none but rounding; a
+            number is the mean error to expect. None: the library's default.
+        radius : float
+            Go no farther: what is beyond is at ``inf``.
+        threads : int, optional
+            1 by default, which is fastest for all but the largest domains; 0: all.
+        executor : {'serial', 'openmp', 'gl'}, optional
+            'gl' is a graphics processor, in single precision.
+        visibility : {'saddles', 'centroid', 'upper_bound'}
+            The rule; 'upper_bound' is never below the exact distance.
+        out : ndarray, shape (n,), optional
+            Where to put the distances.
+        progress : bool or callable, optional
+            True draws a bar; a function is called with the share that is done.
+
+        Returns
+        -------
+        ndarray, shape (n,)
+            float32, or float64 from a domain of precision 'double' or a source that needs it
+            (lines and triangles of surfaces). ``inf`` where no path leads.
+
+        Notes
+        -----
+        The interpreter is free meanwhile, and Ctrl-C ends the work.
+        """
+        if type(source) is int and radius == _INFINITY and threads is None and progress is None:
+            if executor is None and visibility == "saddles" and accuracy is None:
+                vertex = _plexway.Point(index(source, self._native.vertex_count, "vertex"), 0.0)
+                found = _plexway.solve(self._native, [vertex], _DEFAULT, False, False, None)[0]
+                return found if out is None else _into(out, found)
+        arguments = _arguments(threads, executor, radius, visibility, accuracy)
+        sources = located(self, source)
+        with Progress(progress, "solving") as report:
+            found = _plexway.solve(
+                self._native, sources, arguments, False, False, report
+            )[0]
+        return found if out is None else _into(out, found)
+
+    def nearest(
+        self,
+        sources: Any,
+        *,
+        accuracy: AccuracyLike = None,
+        radius: float = _INFINITY,
+        threads: Optional[int] = None,
+        executor: Optional[str] = None,
+        visibility: str = "saddles",
+        progress: ProgressLike = None,
+    ) -> Tuple[Array, Array]:
+        """The distance of every vertex from the nearest source, and which one that is.
+
+        Parameters
+        ----------
+        sources
+            As in `distance`; ``[0, 7]`` are two sources, ``Vertices([0, 7])`` is one.
+        accuracy, radius, threads, executor, visibility, progress
+            As in `distance`.
+
+        Returns
+        -------
+        distance : ndarray, shape (n,)
+        label : ndarray of int32, shape (n,)
+            The place of the nearest source in the list; -1 where no path leads.
+        """
+        arguments = _arguments(threads, executor, radius, visibility, accuracy)
+        located_sources = located(self, sources)
+        with Progress(progress, "solving") as report:
+            found, label, _ = _plexway.solve(
+                self._native, located_sources, arguments, True, False, report
+            )
+        return found, label
+
+    def estimate(
+        self,
+        source: Any,
+        *,
+        accuracy: AccuracyLike = "accurate",
+        radius: float = _INFINITY,
+        progress: ProgressLike = None,
+    ) -> Tuple[Array, Array]:
+        """The distance of every vertex from the nearest source, and how far off it may be: on
+        surfaces and clouds.
+
+        Parameters
+        ----------
+        source
+            As in `distance`, without lines and triangles.
+        accuracy, radius, progress
+            As in `distance`; 'fast' has no estimate.
+
+        Returns
+        -------
+        distance : ndarray, shape (n,)
+        error : ndarray of float64, shape (n,)
+            An estimate, mostly several times too large, now and then too small; no bound. 0 where
+            unreached or exact.
+        """
+        arguments = _arguments(None, None, radius, "saddles", accuracy)
+        sources = located(self, source)
+        with Progress(progress, "solving") as report:
+            found, _, error = _plexway.solve(self._native, sources, arguments, False, True, report)
+        if len(error) != len(found):
+            raise _plexway.UsageError("accuracy 'fast' has no estimate of its error")
+        return found, error
+
+    def distances(
+        self,
+        sources: Any = None,
+        *,
+        accuracy: AccuracyLike = None,
+        radius: float = _INFINITY,
+        threads: Optional[int] = None,
+        executor: Optional[str] = None,
+        visibility: str = "saddles",
+        out: Optional[Array] = None,
+        dtype: Any = None,
+        progress: ProgressLike = None,
+    ) -> Array:
+        """The distance of every vertex from *each* of k sources.
+
+        Parameters
+        ----------
+        sources
+            As in `distance`, each for itself; None: every vertex.
+        threads : int, optional
+            One source a thread; all threads by default (0), whatever their number the same bits.
+        out : ndarray of float32 or float64, shape (k, n), optional
+            Where to put them, such as an `numpy.memmap`.
+        dtype : float32 or float64, optional
+            Of the result where there is no `out`; that of the domain by default.
+        accuracy, radius, executor, visibility, progress
+            As in `distance`.
+
+        Returns
+        -------
+        ndarray, shape (k, n)
+            Row i: the distances from source i.
+
+        Notes
+        -----
+        Memory beside the result: about 100 bytes a triangle and 12 a vertex for each thread.
+        """
+        arguments = _arguments(threads, executor, radius, visibility, accuracy, many=True)
+        every = np.arange(self.vertex_count) if sources is None else sources
+        located_sources = located(self, every)
+        shape = (len(located_sources), self.vertex_count)
+        if out is None:
+            out = np.empty(shape, self.dtype if dtype is None else np.dtype(dtype))
+        elif not isinstance(out, np.ndarray):
+            raise TypeError(f"out: expected an ndarray, got {type(out).__name__}")
+        elif dtype is not None and np.dtype(dtype) != out.dtype:
+            raise ValueError(f"dtype: {np.dtype(dtype)}, but out has {out.dtype}")
+        if out.dtype not in (np.float32, np.float64):
+            raise ValueError(f"distances are float32 or float64, not {out.dtype}")
+        if out.shape != shape:
+            raise ValueError(f"out: expected shape {shape}, got {out.shape}")
+        if not out.flags.writeable:
+            raise ValueError("out: the array is read only")
+        with Progress(progress, "solving") as report:
+            _plexway.solve_each(self._native, located_sources, arguments, out, report)
+        return out
+
+    def near(
+        self,
+        sources: Any = None,
+        *,
+        radius: float = _INFINITY,
+        count: Optional[int] = None,
+        columns: Optional[ArrayLike] = None,
+        threads: Optional[int] = None,
+        accuracy: AccuracyLike = None,
+        progress: ProgressLike = None,
+    ) -> Any:
+        """The distances that are small, as a sparse matrix: from each source to what lies within a
+        radius, or to the nearest vertices.
+
+        Parameters
+        ----------
+        sources
+            As in `distances`, each a row; None: every vertex.
+        radius : float
+            No entry is larger.
+        count : int, optional
+            So many entries a row, the nearest. Give one of the two, or both.
+        columns : array_like of int, optional
+            Which vertices are columns; all without.
+        threads, accuracy, progress
+            As in `distances`.
+
+        Returns
+        -------
+        scipy.sparse.csr_matrix, shape (k, columns)
+            Needs SciPy. A source's own vertex is an entry, with the value 0.
+
+        Notes
+        -----
+        On surfaces and clouds a row costs what it reaches, not what the domain is large, with
+        ``accuracy='fast'``.
+        """
+        try:
+            from scipy.sparse import csr_matrix  # type: ignore
+        except ImportError as error:
+            raise _plexway.NotBuilt("sparse matrices need SciPy: install python3-scipy") from error
+        if radius == _INFINITY and count is None:
+            raise ValueError("give a radius, a count, or both; all distances are `distances`")
+        if count is not None and count < 1:
+            raise ValueError(f"count: expected 1 or more, got {count}")
+        if not radius >= 0:
+            raise ValueError(f"radius: expected 0 or more, got {radius}")
+        arguments = _arguments(threads, None, _INFINITY, "saddles", accuracy, many=True)
+        every = np.arange(self.vertex_count) if sources is None else sources
+        located_sources = located(self, every)
+        with Progress(progress, "solving") as report:
+            rows = _plexway.near(
+                self._native, located_sources, columns, float(radius), count, arguments, report
+            )
+        width = self.vertex_count if columns is None else len(np.asarray(columns))
+        return csr_matrix(rows, shape=(len(located_sources), width))
+
+    def field(
+        self,
+        source: Any,
+        *,
+        accuracy: AccuracyLike = None,
+        radius: float = _INFINITY,
+        threads: Optional[int] = None,
+        visibility: str = "saddles",
+        progress: ProgressLike = None,
+    ) -> Field:
+        """A distance field that is kept, to ask it for ways and for the distance of any point.
+
+        Parameters
+        ----------
+        source
+            As in `distance`, vertices and points alone.
+        accuracy, radius, threads, visibility, progress
+            As in `distance`.
+
+        Returns
+        -------
+        Field
+        """
+        arguments = _arguments(threads, None, radius, visibility, accuracy)
+        sources = located(self, source)
+        with Progress(progress, "solving") as report:
+            native = _plexway.path_field(self._native, sources, arguments, report)
+        return Field(self, native)
+
+    def path(self, source: Any, target: Place, *, margin: float = 3e-3) -> Path:
+        """The shortest way from `target` to the nearest source. For several ways to one source keep
+        a `field`.
+
+        Parameters
+        ----------
+        source
+            As in `distance`, vertices and points alone.
+        target : Place
+            A vertex, a point in space, or a `Point`.
+        margin : float
+            See `Field.path`.
+
+        Returns
+        -------
+        Path
+            From the target to the source.
+        """
+        return self.field(source).path(target, margin=margin)
+
+    def at(self, source: Any, points: ArrayLike, *, level: str = "neighbours") -> Array:
+        """Distances of any points of the domain from the nearest source; see `Field.at`.
+
+        Returns
+        -------
+        ndarray of float64, shape (k,)
+        """
+        return self.field(source).at(points, level=level)
+
+    def gradient(self, source: Any) -> Array:
+        """Directions away from the source at the centre of each simplex; see `Field.gradient`.
+
+        Returns
+        -------
+        ndarray of float64, shape (m, 3)
+        """
+        return self.field(source).gradient()
+
+    # -- What people do with distances.
+
+    def isolines(self, distance: ArrayLike, values: ArrayLike) -> List[Path]:
+        """Lines on a surface where a field has given values.
+
+        Parameters
+        ----------
+        distance : array_like of float, shape (n,)
+            Any numbers, one a vertex.
+        values : array_like of float
+            A number, or several.
+
+        Returns
+        -------
+        list of Path
+            Value by value; `Path.source` is the place of its value. Closed lines end where they
+            begin.
+        """
+        lines = _plexway.isolines(self._native, distance, np.atleast_1d(np.asarray(values, float)))
+        return [made_path(self, line) for line in lines]
+
+    def isosurfaces(self, distance: ArrayLike, values: ArrayLike) -> Isosurfaces:
+        """Surfaces in a solid where a field has given values; see `isolines`.
+
+        Returns
+        -------
+        Isosurfaces
+        """
+        return Isosurfaces(
+            *_plexway.isosurfaces(
+                self._native, distance, np.atleast_1d(np.asarray(values, float))
+            )
+        )
+
+    def poisson(
+        self,
+        radius: Optional[float] = None,
+        *,
+        count: Optional[int] = None,
+        seed: int = 1,
+        at_vertices: bool = False,
+        by_simplices: bool = False,
+        spacing: Optional[ArrayLike] = None,
+        progress: ProgressLike = None,
+    ) -> Disks:
+        """Points no nearer to each other than a radius, and none missing (Poisson disks).
+
+        Parameters
+        ----------
+        radius : float
+            No two points are nearer, and no point of the domain is farther from all.
+        count : int
+            Or so many: the radius is searched for. Give one of the two.
+        seed : int
+            The same seed gives the same points.
+        at_vertices : bool
+            Vertices only; so it is on clouds, always.
+        by_simplices : bool
+            One simplex after the other in random order: denser where they are smaller.
+        spacing : array_like of float, shape (n,), optional
+            The radius at a vertex is `radius` times this.
+        progress
+            As in `distance`.
+
+        Returns
+        -------
+        Disks
+        """
+        if (radius is None) == (count is None):
+            raise ValueError("give one of radius and count")
+        if radius is not None and not 0 < radius < _INFINITY:
+            raise ValueError(f"radius: expected a number > 0, got {radius}")
+        if count is not None and count < 1:
+            raise ValueError(f"count: expected 1 or more, got {count}")
+        with Progress(progress, "throwing darts") as report:
+            points, found, maximal = _plexway.poisson(
+                self._native,
+                float(radius or 0),
+                int(count or 0),
+                seed,
+                at_vertices,
+                by_simplices,
+                spacing,
+                report,
+            )
+        return Disks(Points(self, points), found, maximal)
+
+    def farthest(
+        self,
+        count: int,
+        *,
+        start: Any = 0,
+        radius: float = 0.0,
+        progress: ProgressLike = None,
+    ) -> FarthestPoints:
+        """Vertices one after the other, each the farthest from those before.
+
+        Parameters
+        ----------
+        count : int
+            So many points, those of `start` included.
+        start
+            As `source` in `distance`, vertices and points alone.
+        radius : float
+            Stop when no vertex is farther than this from them.
+
+        Returns
+        -------
+        FarthestPoints
+        """
+        sources = located(self, start)
+        if count < 1:
+            raise ValueError(f"count: expected 1 or more, got {count}")
+        with Progress(progress, "choosing points") as report:
+            points, distance, covering = _plexway.farthest(
+                self._native, sources, count, float(radius), report
+            )
+        return FarthestPoints(Points(self, points), distance, covering)
+
+    def cvt(
+        self,
+        seeds: Any,
+        *,
+        iterations: int = 100,
+        tolerance: float = 1e-3,
+        progress: ProgressLike = None,
+    ) -> Cells:
+        """Moves seeds until each lies in the middle of its Voronoi cell (Lloyd's algorithm).
+
+        Parameters
+        ----------
+        seeds : int, Points or as in `distance`
+            Where they begin; a number of seeds begins with so many Poisson disks.
+        iterations : int
+            At most so many.
+        tolerance : float
+            Done when seeds move by less than this share of a cell's size.
+
+        Returns
+        -------
+        Cells
+        """
+        if iterations < 1:
+            raise ValueError(f"iterations: expected 1 or more, got {iterations}")
+        if isinstance(seeds, int):
+            seeds = self.poisson(count=seeds).points
+        native = seeds._native if isinstance(seeds, Points) else located(self, seeds)
+        with Progress(progress, "moving seeds") as report:
+            points, label, content, energy, converged = _plexway.cvt(
+                self._native, native, iterations, tolerance, report
+            )
+        if self.kind != "cloud":
+            label = self._scattered(label, -1)
+        return Cells(Points(self, points), label, content, energy, converged)
+
+    def closest(self, point: ArrayLike) -> Points:
+        """The points of the domain closest to points in space.
+
+        Parameters
+        ----------
+        point : array_like of float, shape (3,) or (k, 3)
+
+        Returns
+        -------
+        Points
+        """
+        return Points(self, located(self, np.asarray(point, float)))
+
+    def picture(
+        self,
+        distance: Optional[ArrayLike] = None,
+        *,
+        source: Any = None,
+        paths: Sequence[Union[Path, ArrayLike]] = (),
+        size: Tuple[int, int] = (800, 600),
+        view: Optional[Tuple[float, float]] = None,
+        isolines: Optional[int] = None,
+        map: str = "viridis",
+        transparent: bool = False,
+        title: str = "distance",
+        cut: bool = False,
+    ) -> Picture:
+        """Draws the domain, by OpenGL without a window.
+
+        Parameters
+        ----------
+        distance : array_like of float, shape (n,), optional
+            Colours.
+        source
+            Vertices and points that get a red ball.
+        paths : sequence of Path or of array_like, shape (p, 3)
+        size : (int, int)
+            Width and height in pixels.
+        view : (float, float), optional
+            Azimuth and elevation of the camera in degrees.
+        isolines : int, optional
+            So many lines of equal value; at round numbers without.
+        map : {'viridis', 'magma', 'cividis'}
+        transparent : bool
+            The background.
+        title : str
+            Over the colour bar.
+        cut : bool
+            Cut the half away that is nearer to the camera.
+
+        Returns
+        -------
+        Picture
+            ndarray of uint8, shape (height, width, 4).
+        """
+        marks = [] if source is None else located(self, source)
+        lines = [p.points if isinstance(p, Path) else p for p in paths]
+        width, height = size
+        return _plexway.picture(
+            self._native,
+            distance,
+            marks,
+            [line for line in lines if line is not None and len(np.asarray(line))],
+            width,
+            height,
+            view,
+            isolines,
+            map,
+            transparent,
+            title,
+            cut,
+        ).view(Picture)
+
+    def write(
+        self,
+        file: Union[str, os.PathLike[str]],
+        distance: ArrayLike,
+        label: Optional[ArrayLike] = None,
+    ) -> None:
+        """Writes one distance a vertex, with the domain where the format holds it: .vtu, .ply,
+        .npy, .csv and others, by extension.
+
+        Parameters
+        ----------
+        file : path
+        distance : array_like of float, shape (n,)
+        label : array_like of int, shape (n,), optional
+        """
+        self._native.write_field(os.fspath(file), distance, label)
+
+    # -- Numbers of simplices with and without a mask.
+
+    def _inner_simplex(self, simplex: Any) -> int:
+        count = self._native.given_simplices if self._kept is None else self._given
+        number = index(simplex, count, "simplex")
+        if self._kept is None:
+            return number
+        inner = int(np.searchsorted(self._kept, number))
+        if inner == len(self._kept) or self._kept[inner] != number:
+            raise _plexway.UsageError(f"simplex {number} is left out by the mask")
+        return inner
+
+    def _outer_simplex(self, simplex: int) -> int:
+        return simplex if self._kept is None else int(self._kept[simplex])
+
+    def _outer_of(self, simplices: Array) -> Array:
+        if self._kept is None:
+            return simplices
+        return np.where(simplices < 0, simplices, self._kept[simplices])
+
+    def _scattered(self, rows: Array, fill: float = 0) -> Array:
+        """Rows of the simplices that are left as rows of all."""
+        if self._kept is None:
+            return rows
+        every = np.full((self._given, *rows.shape[1:]), fill, rows.dtype)
+        every[self._kept] = rows
+        return every
+
+    def _options(self) -> Dict[str, Any]:
+        """How it was built, for pickles."""
+        native = self._native
+        metric = None
+        if native.measured is not None:
+            metric = ("measured", np.array(native.measured), native.refracts)
+        return {
+            "precision": "double" if native.double else "single",
+            "triangulation": native.wanted_triangulation,
+            "metric": metric,
+            "progress": None,
+        }
+
+    def _recipe(self) -> Tuple[str, Tuple[Any, ...], Dict[str, Any]]:
+        """The function of the native module that makes it again, and what that takes."""
+        native = self._native
+        given = native.lengths
+        lengths = None if given is None else np.array(given)
+        positions = None if native.positions is None else np.array(native.positions)
+        arrays = (positions, native.vertex_count, np.array(native.simplices), lengths)
+        return "from_arrays", (self.kind, *arrays), self._options()
+
+    def __reduce__(self) -> Tuple[Any, ...]:
+        return _restored, (type(self).__name__, self._recipe(), self._kept, self._given)
+
+
+def _into(out: Array, found: Array) -> Array:
+    if out.shape != found.shape:
+        raise ValueError(f"out: expected shape {found.shape}, got {out.shape}")
+    np.copyto(out, found, casting="same_kind")
+    return out
+
+
+def _restored(name: str, recipe: Any, kept: Optional[Array], given: int) -> Domain:
+    function, arguments, options = recipe
+    native = getattr(_plexway, function)(*arguments, **options)
+    return _wrapped(_CLASSES[name], native, kept, given)
+
+
+def _wrapped(
+    cls: Type[Domain], native: Any, kept: Optional[Array] = None, given: int = 0
+) -> Domain:
+    made = cls.__new__(cls)
+    made._native = native
+    made._kept = kept
+    made._given = given
+    return made

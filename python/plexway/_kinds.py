@@ -1,0 +1,428 @@
+"""The kinds of domains."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any, Dict, List, Optional, Sequence, Tuple
+
+import numpy as np
+
+from . import _plexway
+from ._arrays import Array
+from ._domain import Domain, _restored
+from ._interop import arrays_of, looks_like_mesh
+from ._metrics import described
+from ._progress import Progress, ProgressLike
+
+if TYPE_CHECKING:
+    from numpy.typing import ArrayLike
+
+
+def _options_of(
+    precision: str, triangulation: str, metric: Any, report: Any
+) -> Dict[str, Any]:
+    return {
+        "precision": precision,
+        "triangulation": triangulation,
+        "metric": described(metric),
+        "progress": report,
+    }
+
+
+class _OfSimplices(Domain):
+    """A surface, a solid or a wireframe."""
+
+    _kind = ""
+    _cells = ""
+    _corners = 0
+
+    def _build(
+        self,
+        V: Any,
+        rows: Any,
+        lengths: Any,
+        vertices: Optional[int],
+        metric: Any,
+        mask: Any,
+        precision: str,
+        triangulation: str,
+        progress: ProgressLike,
+    ) -> None:
+        name = type(self).__name__
+        if rows is None and looks_like_mesh(V):
+            V, cells = arrays_of(V)
+            rows = cells.get(self._cells)
+            if rows is None:
+                raise _plexway.InputError(f"{name}: the mesh has no {self._cells}")
+        if rows is None:
+            raise TypeError(f"{name}: expected positions and {self._cells}, or a mesh")
+        if (V is None) == (lengths is None):
+            raise TypeError(f"{name}: give positions, or lengths in their place")
+        rows = np.asarray(rows)
+        if rows.ndim != 2 or rows.shape[1] != self._corners:
+            raise ValueError(
+                f"{self._cells}: expected shape (m, {self._corners}), got {rows.shape}"
+            )
+        if V is not None:
+            V = np.asarray(V)
+            vertices = len(V) if V.ndim else 0
+        elif vertices is None:
+            vertices = int(rows.max()) + 1 if rows.size else 0
+        if mask is not None:
+            self._given = len(rows)
+            self._kept = kept = np.flatnonzero(_mask_of(mask, rows, vertices))
+            rows = rows[kept]
+            lengths = None if lengths is None else np.asarray(lengths)[kept]
+            metric = _masked(metric, kept, self._given)
+        with Progress(progress, "building") as report:
+            self._native = _plexway.from_arrays(
+                self._kind,
+                V,
+                vertices,
+                rows,
+                lengths,
+                **_options_of(precision, triangulation, metric, report),
+            )
+
+
+def _mask_of(mask: Any, rows: Array, vertices: int) -> Array:
+    """Which simplices are left; by a mask of vertices those all of whose corners are."""
+    mask = np.asarray(mask)
+    if mask.dtype.kind != "b" or mask.ndim != 1:
+        raise ValueError("mask: expected truth values, one a vertex or one a simplex")
+    if len(rows) == vertices and len(mask) == vertices:
+        raise ValueError(
+            "mask: there are as many simplices as vertices; leave the simplices out of the array"
+        )
+    if len(mask) in (len(rows), vertices):
+        left: Array = mask if len(mask) == len(rows) else mask[rows].all(axis=1)
+        return left
+    raise ValueError(f"mask: expected {vertices} or {len(rows)} truth values, got {len(mask)}")
+
+
+def _masked(metric: Any, kept: Array, given: int) -> Any:
+    """A metric with one value a simplex, for those that are left."""
+    for name in ("speed", "tensor"):
+        values = getattr(metric, name, None)
+        if values is None or type(metric).__name__ == "VertexTensors":
+            continue
+        if len(np.asarray(values)) == given:
+            return type(metric)(np.asarray(values)[kept], metric.refract)
+    return metric
+
+
+class Surface(_OfSimplices):
+    """Triangles: with positions in the plane or in space, or by the lengths of their edges alone.
+
+    Parameters
+    ----------
+    V : array_like of float, shape (n, 3) or (n, 2)
+        Positions, of any number type, in C or Fortran order. Or a mesh of trimesh, Open3D, meshio,
+        pyvista or VTK; then leave `F` out.
+    F : array_like of int, shape (m, 3)
+        Triangles by vertices, counted from 0. Edges with more than two triangles, boundaries and
+        several parts are welcome.
+    lengths : array_like of float, shape (m, 3), optional
+        In the place of `V`: lengths of the edges (0,1), (1,2), (2,0) of each triangle.
+    vertices : int, optional
+        With `lengths`: how many vertices there are.
+    metric : optional
+        `SimplexSpeeds`, `SimplexTensors`, `VertexTensors`, `EdgeLengths`, or a function from a
+        point to a symmetric 3 x 3 matrix.
+    mask : array_like of bool, shape (m,) or (n,), optional
+        Triangles that are left; or vertices, then triangles all of whose corners are. Numbers of
+        vertices and triangles stay.
+    precision : {'single', 'double'}
+    triangulation : {'auto', 'input', 'delaunay', 'refined'}
+        Which triangles over the same surface distances are found on.
+    progress : bool or callable, optional
+
+    Raises
+    ------
+    InputError
+        For a vertex out of range or a position that is not finite.
+    ValueError
+        For an array of a wrong shape or type.
+    """
+
+    _kind, _cells, _corners = "surface", "triangles", 3
+
+    def __init__(
+        self,
+        V: Any = None,
+        F: Optional[ArrayLike] = None,
+        *,
+        lengths: Optional[ArrayLike] = None,
+        vertices: Optional[int] = None,
+        metric: Any = None,
+        mask: Optional[ArrayLike] = None,
+        precision: str = "single",
+        triangulation: str = "auto",
+        progress: ProgressLike = None,
+    ) -> None:
+        self._build(V, F, lengths, vertices, metric, mask, precision, triangulation, progress)
+
+
+class Solid(_OfSimplices):
+    """Tetrahedra.
+
+    Parameters
+    ----------
+    V : array_like of float, shape (n, 3)
+        Or a mesh, as in `Surface`.
+    T : array_like of int, shape (m, 4)
+    lengths : array_like of float, shape (m, 6), optional
+        In the place of `V`: of the edges (0,1), (0,2), (1,2), (0,3), (1,3), (2,3).
+    vertices, metric, mask, precision, progress
+        As in `Surface`.
+    """
+
+    _kind, _cells, _corners = "solid", "tets", 4
+
+    def __init__(
+        self,
+        V: Any = None,
+        T: Optional[ArrayLike] = None,
+        *,
+        lengths: Optional[ArrayLike] = None,
+        vertices: Optional[int] = None,
+        metric: Any = None,
+        mask: Optional[ArrayLike] = None,
+        precision: str = "single",
+        progress: ProgressLike = None,
+    ) -> None:
+        self._build(V, T, lengths, vertices, metric, mask, precision, "auto", progress)
+
+
+class Wireframe(_OfSimplices):
+    """Edges: distances along them, as by Dijkstra's algorithm, and from points inside edges.
+
+    Parameters
+    ----------
+    V : array_like of float, shape (n, 3) or (n, 2)
+        Or a mesh, as in `Surface`.
+    E : array_like of int, shape (m, 2)
+    lengths : array_like of float, shape (m,), optional
+        In the place of `V`.
+    vertices, metric, mask, precision, progress
+        As in `Surface`.
+    """
+
+    _kind, _cells, _corners = "wireframe", "edges", 2
+
+    def __init__(
+        self,
+        V: Any = None,
+        E: Optional[ArrayLike] = None,
+        *,
+        lengths: Optional[ArrayLike] = None,
+        vertices: Optional[int] = None,
+        metric: Any = None,
+        mask: Optional[ArrayLike] = None,
+        precision: str = "single",
+        progress: ProgressLike = None,
+    ) -> None:
+        self._build(V, E, lengths, vertices, metric, mask, precision, "auto", progress)
+
+
+class Cloud(Domain):
+    """Points of a surface, without triangles.
+
+    Parameters
+    ----------
+    V : array_like of float, shape (n, 3)
+        Or a cloud of trimesh, Open3D, pyvista or VTK.
+    normals : array_like of float, shape (n, 3), optional
+        Outward; not necessarily of length 1.
+    k : int, optional
+        Neighbours of each point; 16, or all within the radius.
+    neighbour_radius : float, optional
+        No neighbour is farther.
+    max_normal_angle : float, optional
+        In degrees: no neighbour's normal differs by more.
+    smooth : bool
+        Measure along a smooth surface near the points.
+    voxel : float, optional
+        Thin to one point for each cube of this side. Numbers then count what is left.
+    denoise : bool
+        Drop points that lie alone first. Numbers then count what is left.
+    precision : {'single', 'double'}
+    progress : bool or callable, optional
+
+    Raises
+    ------
+    NotBuilt
+        In a build without FLANN; `voxel` and `denoise` take PCL.
+    """
+
+    def __init__(
+        self,
+        V: Any,
+        *,
+        normals: Optional[ArrayLike] = None,
+        k: Optional[int] = None,
+        neighbour_radius: Optional[float] = None,
+        max_normal_angle: Optional[float] = None,
+        smooth: bool = False,
+        voxel: Optional[float] = None,
+        denoise: bool = False,
+        precision: str = "single",
+        progress: ProgressLike = None,
+    ) -> None:
+        if looks_like_mesh(V):
+            V, _ = arrays_of(V)
+        self._neighbours = {
+            "k": k,
+            "neighbour_radius": neighbour_radius,
+            "max_normal_angle": max_normal_angle,
+            "smooth": smooth,
+        }
+        with Progress(progress, "building") as report:
+            self._native = _plexway.from_points(
+                V,
+                normals,
+                None,
+                **self._neighbours,
+                voxel=voxel,
+                denoise=denoise,
+                **_options_of(precision, "auto", None, report),
+            )
+
+    _neighbours: Dict[str, Any] = {}
+
+    def _recipe(self) -> Tuple[str, Tuple[Any, ...], Dict[str, Any]]:
+        native = self._native
+        cloud = native.cloud
+        arrays = (np.array(native.positions), cloud["normals"], cloud["original"])
+        copies = tuple(None if a is None else np.array(a) for a in arrays)
+        return "from_points", copies, {**self._neighbours, **self._options()}
+
+    def __reduce__(self) -> Tuple[Any, ...]:
+        return _restored_cloud, (self._recipe(), self._neighbours)
+
+
+def _restored_cloud(recipe: Any, neighbours: Dict[str, Any]) -> Domain:
+    made = _restored("Cloud", recipe, None, 0)
+    assert isinstance(made, Cloud)
+    made._neighbours = neighbours
+    return made
+
+
+class Simplicial(Domain):
+    """Simplices of one dimension, 1 to 4, with any number of coordinates or by lengths alone: a
+    robot's states in space and time, for instance.
+
+    Parameters
+    ----------
+    V : array_like of float, shape (n, axes)
+    S : array_like of int, shape (m, dimension + 1)
+    lengths : array_like of float, shape (m, dimension (dimension + 1) / 2), optional
+        In the place of `V`: lengths of the edges (0,1), (0,2), (1,2), (0,3), ... of each.
+    vertices : int, optional
+        With `lengths`: how many vertices there are.
+    precision, progress
+        As in `Surface`.
+    """
+
+    def __init__(
+        self,
+        V: Optional[ArrayLike] = None,
+        S: Optional[ArrayLike] = None,
+        *,
+        lengths: Optional[ArrayLike] = None,
+        vertices: Optional[int] = None,
+        precision: str = "single",
+        progress: ProgressLike = None,
+    ) -> None:
+        rows = np.asarray(S)
+        if S is None or (V is None) == (lengths is None):
+            raise TypeError("Simplicial: give simplices, and positions or lengths")
+        if rows.ndim != 2 or not 2 <= rows.shape[1] <= 5:
+            raise ValueError(f"S: expected shape (m, 2) to (m, 5), got {rows.shape}")
+        axes = 0
+        dimension = rows.shape[1] - 1
+        if V is not None:
+            V = np.asarray(V)
+            if V.ndim != 2:
+                raise ValueError(f"V: expected shape (n, axes), got {V.shape}")
+            vertices, axes = V.shape
+        else:
+            measured = np.asarray(lengths)
+            wanted = (len(rows), dimension * (dimension + 1) // 2)
+            if measured.shape != wanted:
+                raise ValueError(f"lengths: expected shape {wanted}, got {measured.shape}")
+            if vertices is None:
+                vertices = int(rows.max()) + 1 if rows.size else 0
+        with Progress(progress, "building") as report:
+            self._native = _plexway.from_simplices(
+                V,
+                vertices,
+                rows,
+                dimension,
+                axes,
+                lengths,
+                **_options_of(precision, "auto", None, report),
+            )
+
+    def _recipe(self) -> Tuple[str, Tuple[Any, ...], Dict[str, Any]]:
+        native = self._native
+        positions, lengths = native.positions, native.lengths
+        axes = 0 if positions is None else positions.shape[1]
+        simplices = np.array(native.simplices)
+        return (
+            "from_simplices",
+            (
+                None if positions is None else np.array(positions),
+                native.vertex_count,
+                simplices,
+                simplices.shape[1] - 1,
+                axes,
+                None if lengths is None else np.array(lengths),
+            ),
+            self._options(),
+        )
+
+
+class Mixed(Domain):
+    """Parts of different dimension that share vertices: a sheet on a block, wires between.
+
+    Parameters
+    ----------
+    parts : sequence
+        Each a `Surface`, `Solid` or `Wireframe` with positions, or a tuple (V, F), (V, T), (V, E)
+        by the number of corners. Vertices are numbered through, part after part.
+    tolerance : float
+        Vertices of two parts are one if they are this close; 0: in the same place.
+    precision, progress
+        As in `Surface`.
+    """
+
+    def __init__(
+        self,
+        parts: Sequence[Any],
+        *,
+        tolerance: float = 0.0,
+        precision: str = "single",
+        progress: ProgressLike = None,
+    ) -> None:
+        made: List[Tuple[Any, Any, Any, Any]] = []
+        for part in parts:
+            if isinstance(part, Domain):
+                if part.vertices is None or part.simplices is None:
+                    raise ValueError(f"Mixed: {part!r} has no positions")
+                V, rows = part.vertices, part.simplices
+            else:
+                V, rows = part
+                rows = np.asarray(rows)
+            if rows.ndim != 2 or rows.shape[1] not in (2, 3, 4):
+                raise ValueError(f"Mixed: expected simplices (m, 2), (m, 3) or (m, 4), got {rows.shape}")
+            edges, triangles, tets = (
+                rows if c == rows.shape[1] else np.zeros((0, c), np.int64) for c in (2, 3, 4)
+            )
+            made.append((V, edges, triangles, tets))
+        with Progress(progress, "building") as report:
+            self._native = _plexway.from_parts(
+                made, float(tolerance), **_options_of(precision, "auto", None, report)
+            )
+
+    def _recipe(self) -> Tuple[str, Tuple[Any, ...], Dict[str, Any]]:
+        return "from_parts", tuple(self._native.parts), self._options()

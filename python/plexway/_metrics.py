@@ -1,0 +1,96 @@
+"""What a path costs, where that is not its length."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any, Optional, Tuple
+
+import numpy as np
+
+if TYPE_CHECKING:
+    from numpy.typing import ArrayLike
+
+
+@dataclass(frozen=True, eq=False)
+class SimplexSpeeds:
+    """One speed > 0 a simplex: a path of length L in it costs L / speed.
+
+    Parameters
+    ----------
+    speed : array_like of float, shape (m,)
+    refract : bool
+        On surfaces: paths are refracted where speeds jump. (Such a surface tells distances, but no
+        ways.) False: an edge takes the mean of both sides.
+    """
+
+    speed: ArrayLike
+    refract: bool = True
+
+
+@dataclass(frozen=True, eq=False)
+class SimplexTensors:
+    """One symmetric matrix M a simplex: a short step d costs sqrt(d @ M @ d).
+
+    Parameters
+    ----------
+    tensor : array_like of float, shape (m, 3, 3)
+    refract : bool
+        As in `SimplexSpeeds`.
+    """
+
+    tensor: ArrayLike
+    refract: bool = True
+
+
+@dataclass(frozen=True, eq=False)
+class VertexTensors:
+    """One symmetric matrix a vertex, linear along edges; see `SimplexTensors`.
+
+    Parameters
+    ----------
+    tensor : array_like of float, shape (n, 3, 3)
+    """
+
+    tensor: ArrayLike
+
+
+@dataclass(frozen=True, eq=False)
+class EdgeLengths:
+    """A length for every edge, in any order and direction.
+
+    Parameters
+    ----------
+    edges : array_like of int, shape (e, 2)
+    length : array_like of float, shape (e,)
+    """
+
+    edges: ArrayLike
+    length: ArrayLike
+
+
+def described(metric: Any) -> Optional[Tuple[Any, ...]]:
+    """The metric as the library takes it."""
+    if metric is None:
+        return None
+    if isinstance(metric, SimplexSpeeds):
+        speeds = np.asarray(metric.speed)
+        if speeds.ndim != 1:
+            raise ValueError(f"SimplexSpeeds: expected shape (m,), got {speeds.shape}")
+        return "speeds", speeds, metric.refract
+    if isinstance(metric, (SimplexTensors, VertexTensors)):
+        tensors = np.asarray(metric.tensor)
+        if tensors.ndim != 3 or tensors.shape[1:] != (3, 3):
+            raise ValueError(
+                f"{type(metric).__name__}: expected shape (k, 3, 3), got {tensors.shape}"
+            )
+        if isinstance(metric, SimplexTensors):
+            return "simplex tensors", tensors, metric.refract
+        return "vertex tensors", tensors
+    if isinstance(metric, EdgeLengths):
+        return "lengths", np.asarray(metric.edges), np.asarray(metric.length)
+    if callable(metric):
+        return "function", metric
+    raise TypeError(
+        "metric: expected SimplexSpeeds, SimplexTensors, VertexTensors, EdgeLengths or a function "
+        f"from a point to a 3 x 3 matrix, got {type(metric).__name__}"
+    )

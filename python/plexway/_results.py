@@ -1,0 +1,285 @@
+"""What comes back."""
+
+from __future__ import annotations
+
+import struct
+import zlib
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any, Iterator, List, Optional, Union
+
+import numpy as np
+
+from ._arrays import Array
+from ._sources import Point, Vertex, located, place
+
+if TYPE_CHECKING:
+    from numpy.typing import ArrayLike
+
+    from ._domain import Domain
+    from ._sources import Place
+
+
+@dataclass(frozen=True, eq=False)
+class Path:
+    """A way from a point back to the nearest source, straight in each simplex. Empty, with a length
+    of ``inf``, where no way leads.
+
+    Attributes
+    ----------
+    points : ndarray of float64, shape (p, 3), or None
+        Where its points are; None where the domain has no positions.
+    simplices : ndarray of int64, shape (p,)
+        The straight line from each point to the next lies in the simplex of the first of the two.
+        (Of a cloud: triangles of its sheet.)
+    barycentric : ndarray of float64, shape (p, 4)
+        Coordinates of each point in its simplex, 0 beyond its corners.
+    length : float
+        Summed over the straight lines, in the unit of the domain.
+    source : int
+        The place of the source in the list of sources; -1 if no way leads.
+    """
+
+    points: Optional[Array]
+    simplices: Array
+    barycentric: Array
+    length: float
+    source: int
+
+    def __len__(self) -> int:
+        return len(self.simplices)
+
+
+class Points:
+    """Points of a domain.
+
+    Attributes
+    ----------
+    vertices : ndarray of int64, shape (k,)
+        Which vertex each one is; -1 for a point of a simplex.
+    simplices : ndarray of int64, shape (k,)
+        The simplex that each lies in; -1 for a vertex.
+    barycentric : ndarray of float64, shape (k, 4)
+        Its coordinates there.
+
+    ``points[i]`` and iteration give `Vertex` or `Point`, which are sources.
+    """
+
+    def __init__(self, domain: Domain, native: List[Any]) -> None:
+        self._domain = domain
+        self._native = native
+        outer = domain._outer_simplex
+        self.vertices = np.array([-1 if p.vertex is None else p.vertex for p in native], np.int64)
+        self.simplices = np.array(
+            [-1 if p.simplex is None else outer(p.simplex) for p in native], np.int64
+        )
+        self.barycentric = np.array([p.barycentric for p in native], float).reshape(-1, 4)
+
+    @property
+    def positions(self) -> Array:
+        """Where they are: float64, shape (k, 3)."""
+        return np.array(
+            [self._domain._native.position(p) for p in self._native], float
+        ).reshape(-1, 3)
+
+    def __len__(self) -> int:
+        return len(self._native)
+
+    def __getitem__(self, i: int) -> Union[Vertex, Point]:
+        if self.vertices[i] >= 0:
+            return Vertex(int(self.vertices[i]))
+        return Point(int(self.simplices[i]), tuple(self.barycentric[i].tolist()))
+
+    def __iter__(self) -> Iterator[Union[Vertex, Point]]:
+        return (self[i] for i in range(len(self)))
+
+    def __repr__(self) -> str:
+        return f"plexway.Points({len(self)})"
+
+
+@dataclass(frozen=True, eq=False)
+class Disks:
+    """Points none of which is nearer to another than the radius.
+
+    Attributes
+    ----------
+    points : Points
+        In the order in which they were thrown.
+    radius : float
+        What was asked for, or found for the count.
+    maximal : bool
+        No room is left for another.
+    """
+
+    points: Points
+    radius: float
+    maximal: bool
+
+
+@dataclass(frozen=True, eq=False)
+class FarthestPoints:
+    """Points each of which was the farthest from those before.
+
+    Attributes
+    ----------
+    points : Points
+        Those it started from first.
+    distance : ndarray of float64, shape (k,)
+        How far each was from those before it; 0 for those given, ``inf`` for the first of a part
+        that none of them reaches.
+    covering : float
+        No vertex is farther from the points.
+    """
+
+    points: Points
+    distance: Array
+    covering: float
+
+
+@dataclass(frozen=True, eq=False)
+class Cells:
+    """A centroidal Voronoi tessellation.
+
+    Attributes
+    ----------
+    seeds : Points
+    label : ndarray of int32
+        The nearest seed of the centre of each simplex, of a cloud of each point; -1 if unreached.
+    content : ndarray of float64, shape (k,)
+        Area or volume of each seed's cell.
+    energy : ndarray of float64
+        The integral of the squared distance from the nearest seed, before each iteration and at
+        the end.
+    converged : bool
+    """
+
+    seeds: Points
+    label: Array
+    content: Array
+    energy: Array
+    converged: bool
+
+
+@dataclass(frozen=True, eq=False)
+class Isosurfaces:
+    """Triangles in a solid where a field has given values.
+
+    Attributes
+    ----------
+    positions : ndarray of float64, shape (n, 3)
+    triangles : ndarray of uint32, shape (m, 3)
+    value : ndarray of uint32, shape (n,)
+        Of each vertex, the place of its value in the list of values.
+    """
+
+    positions: Array
+    triangles: Array
+    value: Array
+
+
+class Field:
+    """A distance field that is kept: it can tell ways, and the distance of any point.
+
+    Made by `Domain.field`. Any number of threads may ask at once.
+    """
+
+    def __init__(self, domain: Domain, native: Any) -> None:
+        self._domain = domain
+        self._native = native
+
+    @property
+    def domain(self) -> Domain:
+        """The domain that it lies on."""
+        return self._domain
+
+    @property
+    def distance(self) -> Array:
+        """One distance a vertex, shape (n,); not a copy, and read only."""
+        array: Array = self._native.distance
+        return array
+
+    def path(self, start: Place, *, margin: float = 3e-3) -> Path:
+        """The shortest way from `start` back to the nearest source.
+
+        Parameters
+        ----------
+        start : Place
+            A vertex, a point in space (the closest of the domain is taken), or a `Point`.
+        margin : float
+            On a surface: the path is the shortest of all if nowhere near it the field is too long
+            by more than this share. 0: not looked for, some ten times faster, locally shortest.
+
+        Returns
+        -------
+        Path
+        """
+        return made_path(self._domain, self._native.trace(place(self._domain, start), margin))
+
+    def at(self, points: ArrayLike, *, level: str = "neighbours") -> Array:
+        """Distances of any points of the domain.
+
+        Parameters
+        ----------
+        points : array_like, shape (k, 3), or a list of places
+            Points in space (the closest of the domain are taken), vertices, `Point`.
+        level : {'neighbours', 'linear', 'simplex', 'star'}
+            Who is asked: 'linear' interpolates between the corners, the others ask virtual sources.
+
+        Returns
+        -------
+        ndarray of float64, shape (k,)
+        """
+        found: Array = self._native.at(located(self._domain, points), level)
+        return found
+
+    def gradient(self) -> Array:
+        """The direction away from the source at the centre of each triangle or tetrahedron.
+
+        Returns
+        -------
+        ndarray of float64, shape (m, 3)
+            Of length 1; 0 where no path leads, or the source is there.
+        """
+        return self._domain._scattered(self._native.gradient())
+
+    def __repr__(self) -> str:
+        return f"plexway.Field(on {self._domain!r})"
+
+
+def made_path(domain: Domain, told: Any) -> Path:
+    positions, simplices, barycentric, length, source = told
+    if domain.kind != "cloud":
+        simplices = domain._outer_of(simplices)
+    return Path(positions, simplices, barycentric, length, source)
+
+
+class Picture(Array):
+    """A picture: ndarray of uint8, shape (height, width, 4), rows from the top; red, green, blue,
+    alpha. Notebooks show it."""
+
+    def _repr_png_(self) -> Optional[bytes]:
+        if self.ndim != 3 or self.shape[2] != 4 or self.dtype != np.uint8:
+            return None
+        return self.png()
+
+    def png(self) -> bytes:
+        """The bytes of a PNG file."""
+        height, width = self.shape[:2]
+        rows = np.zeros((height, 1 + 4 * width), np.uint8)
+        rows[:, 1:] = np.asarray(self).reshape(height, 4 * width)
+
+        def chunk(name: bytes, data: bytes) -> bytes:
+            body = name + data
+            return struct.pack(">I", len(data)) + body + struct.pack(">I", zlib.crc32(body))
+
+        head = struct.pack(">IIBBBBB", width, height, 8, 6, 0, 0, 0)
+        return (
+            b"\x89PNG\r\n\x1a\n"
+            + chunk(b"IHDR", head)
+            + chunk(b"IDAT", zlib.compress(rows.tobytes(), 6))
+            + chunk(b"IEND", b"")
+        )
+
+    def save(self, file: Any) -> None:
+        """Writes a PNG file."""
+        with open(file, "wb") as out:
+            out.write(self.png())

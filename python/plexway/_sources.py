@@ -1,0 +1,244 @@
+"""What a field may start from."""
+
+from __future__ import annotations
+
+import operator
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any, List, Optional, Sequence, Union
+
+import numpy as np
+
+from . import _plexway
+
+if TYPE_CHECKING:
+    from numpy.typing import ArrayLike
+
+    #: An integer: a vertex. Three floats: the closest point of the domain. Or a Vertex or Point.
+    Place = Union[int, ArrayLike, "Vertex", "Point"]
+
+
+class Source:
+    """Base of all sources that have a name.
+
+    Beside these, a source may be an integer (a vertex), integers or truth values for all vertices
+    (vertices), or rows of three floats (the points of the domain closest to them).
+    """
+
+
+@dataclass(frozen=True)
+class Vertex(Source):
+    """A vertex, counted from 0.
+
+    Parameters
+    ----------
+    vertex : int
+    offset : float
+        What the field starts with there, >= 0, in the unit of the domain.
+    """
+
+    vertex: int
+    offset: float = 0.0
+
+
+@dataclass(frozen=True)
+class Point(Source):
+    """A point of a simplex.
+
+    Parameters
+    ----------
+    simplex : int
+        Counted from 0.
+    barycentric : sequence of float
+        One coordinate a corner, >= 0, sum 1; at most four corners.
+    offset : float
+        What the field starts with there, >= 0.
+    """
+
+    simplex: int
+    barycentric: Sequence[float]
+    offset: float = 0.0
+
+
+@dataclass(frozen=True, eq=False)
+class Vertices(Source):
+    """Vertices that are one source together: the distance from the nearest.
+
+    Parameters
+    ----------
+    vertices : array_like of int, shape (k,)
+    offsets : array_like of float, shape (k,), optional
+        What the field starts with at each, >= 0: so a field goes on from the values of another.
+    offset : float
+        Added to each.
+    """
+
+    vertices: ArrayLike
+    offsets: Optional[ArrayLike] = None
+    offset: float = 0.0
+
+
+@dataclass(frozen=True, eq=False)
+class Ball(Source):
+    """All points at the distance `radius` from `centre`: a circle, or a sphere.
+
+    Parameters
+    ----------
+    centre : Place
+    radius : float
+    offset : float
+    """
+
+    centre: Place
+    radius: float
+    offset: float = 0.0
+
+
+@dataclass(frozen=True, eq=False)
+class Polyline(Source):
+    """Points joined by shortest paths, on a surface or a wireframe with positions.
+
+    Parameters
+    ----------
+    points : sequence of Place
+    offset : float
+    """
+
+    points: Sequence[Place]
+    offset: float = 0.0
+
+
+@dataclass(frozen=True, eq=False)
+class Segment(Source):
+    """The shortest way from `start` to `end`, all of it; see `Polyline`.
+
+    Parameters
+    ----------
+    start, end : Place
+    offset : float
+    """
+
+    start: Place
+    end: Place
+    offset: float = 0.0
+
+
+@dataclass(frozen=True)
+class WholeSimplex(Source):
+    """All of a triangle of a surface, or of an edge of a wireframe.
+
+    Parameters
+    ----------
+    simplex : int
+    offset : float
+    """
+
+    simplex: int
+    offset: float = 0.0
+
+
+@dataclass(frozen=True)
+class Boundary(Source):
+    """The whole boundary: of a surface its rim, of a solid the vertices of its skin, of a wireframe
+    its loose ends.
+
+    Parameters
+    ----------
+    offset : float
+    """
+
+    offset: float = 0.0
+
+
+def index(value: Any, count: int, what: str) -> int:
+    """`value` as a number from 0 to below `count`; IndexError says what is out of range."""
+    number = operator.index(value)
+    if not 0 <= number < count:
+        raise _plexway.UsageError(f"{what} {number}: there are {count}, counted from 0")
+    return number
+
+
+def place(domain: Any, at: Any) -> Any:
+    """A single place as the library has it."""
+    if isinstance(at, Vertex):
+        return _plexway.Point(index(at.vertex, domain.vertex_count, "vertex"), float(at.offset))
+    if isinstance(at, Point):
+        inner = domain._inner_simplex(at.simplex)
+        return _plexway.Point(inner, [float(b) for b in at.barycentric], float(at.offset))
+    if isinstance(at, Source):
+        raise TypeError(f"expected a vertex or a point, got {type(at).__name__}")
+    if not isinstance(at, (bool, np.bool_)):
+        try:
+            return _plexway.Point(index(at, domain.vertex_count, "vertex"), 0.0)
+        except TypeError:
+            pass
+    array = np.asarray(at)
+    if array.shape in ((3,), (2,)) and array.dtype.kind in "fiu":
+        xyz = [float(x) for x in array] + [0.0] * (3 - len(array))
+        if not np.all(np.isfinite(xyz)):
+            raise _plexway.UsageError(f"the point {xyz} is not finite")
+        return domain._native.closest(xyz)
+    raise ValueError(
+        f"expected a vertex (an integer) or a point (three floats), got {at!r:.60}"
+    )
+
+
+def located(domain: Any, source: Any) -> List[Any]:
+    """A source, or several, as the library has them: one each.
+
+    Integers in one row are so many vertices; truth values, one a vertex, those that are true; three
+    floats are a point in space, and rows of three numbers of any type are points.
+    """
+    if type(source) is int:
+        return [_plexway.Point(index(source, domain.vertex_count, "vertex"), 0.0)]
+    if isinstance(source, Source):
+        return [_one(domain, source)]
+    if isinstance(source, (list, tuple)) and any(isinstance(s, Source) for s in source):
+        return [one for s in source for one in located(domain, s)]
+    try:
+        array = np.asarray(source)
+    except ValueError:
+        array = np.empty((), object)
+    if array.dtype.kind == "b":
+        if array.shape != (domain.vertex_count,):
+            raise ValueError(
+                f"sources by truth values: expected shape ({domain.vertex_count},), got {array.shape}"
+            )
+        array = np.flatnonzero(array)
+    if array.dtype.kind in "fiu" and array.ndim == 2 and array.shape[1] in (2, 3) and len(array):
+        return [place(domain, row) for row in array]
+    if array.dtype.kind in "iu" and array.ndim <= 1 and array.size:
+        count = domain.vertex_count
+        return [
+            _plexway.Point(index(v, count, "vertex"), 0.0) for v in array.ravel().tolist()
+        ]
+    if array.dtype.kind == "f" and array.shape in ((3,), (2,)):
+        return [place(domain, array)]
+    if array.size == 0:
+        raise _plexway.UsageError("no source: the list is empty")
+    raise ValueError(
+        "a source is a vertex (an integer), vertices (integers), a point (three floats), points "
+        f"(k, 3), or one of plexway's sources; got {array.dtype} of shape {array.shape}"
+    )
+
+
+def _one(domain: Any, source: Source) -> Any:
+    native = domain._native
+    if isinstance(source, (Vertex, Point)):
+        return place(domain, source)
+    if isinstance(source, Vertices):
+        vertices = np.asarray(source.vertices)
+        if vertices.dtype.kind == "b":
+            vertices = np.flatnonzero(vertices)
+        return _plexway.VertexSet(vertices, source.offsets, float(source.offset))
+    if isinstance(source, Ball):
+        return _plexway.Ball(place(domain, source.centre), float(source.radius), float(source.offset))
+    if isinstance(source, Segment):
+        source = Polyline([source.start, source.end], source.offset)
+    if isinstance(source, Polyline):
+        points = [place(domain, p) for p in source.points]
+        return native.joined(points, float(source.offset))
+    if isinstance(source, WholeSimplex):
+        return _plexway.WholeSimplex(domain._inner_simplex(source.simplex), float(source.offset))
+    if isinstance(source, Boundary):
+        return native.boundary(float(source.offset))
+    raise TypeError(f"{type(source).__name__} is no source that plexway knows")

@@ -1,0 +1,230 @@
+#include "domain.hpp"
+
+#include <pybind11/stl.h>
+#include <pybind11/stl/filesystem.h>
+
+#include <algorithm>
+#include <type_traits>
+
+#include <plexway/complex/point_cloud.hpp>
+#include <plexway/error.hpp>
+
+#include "arrays.hpp"
+
+namespace plexway::python {
+
+Domain::Domain(AnyShape shape, BuildOptions options)
+    : any_(std::move(shape), options), options_(std::move(options)) {
+  options_.progress = {};  // it was the caller's while building
+}
+
+const AnyDomain& Domain::for_sources(const AnyExecutor& executor, const SourceList& sources,
+                                     const PropagateOptions& options) const {
+  const Refusal refusal = any_.support(executor, sources, options).refusal();
+  if (refusal != Refusal::shapes_float && refusal != Refusal::windows_float) return any_;
+  const std::scoped_lock lock(mutex_);
+  if (!twice_) {
+    BuildOptions twice = options_;
+    twice.precision = Precision::twice;
+    twice_ = std::make_unique<const AnyDomain>(shape(), twice);
+  }
+  return *twice_;
+}
+
+std::size_t Domain::bytes() const {
+  const std::scoped_lock lock(mutex_);
+  return any_.bytes() + (twice_ ? twice_->bytes() : 0);
+}
+
+namespace {
+
+py::object positions(const std::shared_ptr<Domain>& domain) {
+  const py::object owner = py::cast(domain);
+  if (const auto* shape = std::get_if<SimplexShape>(&domain->shape().data());
+      shape != nullptr && shape->axes > 0)
+    return view(shape->positions.data(), shape->vertices, shape->axes, owner);
+  const auto rows = domain->shape().positions();
+  if (rows.empty()) return py::none();
+  return view(rows.data(), rows.size(), owner);
+}
+
+template <std::size_t N>
+py::object rows(const std::vector<std::array<Index, N>>& simplices, const py::object& owner) {
+  return view(simplices.data(), simplices.size(), owner);
+}
+
+py::object simplices(const std::shared_ptr<Domain>& domain) {
+  const py::object owner = py::cast(domain);
+  return std::visit(
+      [&](const auto& data) -> py::object {
+        using Kind = std::decay_t<decltype(data)>;
+        if constexpr (std::is_same_v<Kind, io::Triangles>) {
+          return rows(data.triangles, owner);
+        } else if constexpr (std::is_same_v<Kind, io::Tets>) {
+          return rows(data.tets, owner);
+        } else if constexpr (std::is_same_v<Kind, io::Edges>) {
+          return rows(data.edges, owner);
+        } else if constexpr (std::is_same_v<Kind, SimplexShape>) {
+          const auto corners = static_cast<std::size_t>(data.dimension) + 1;
+          return view(data.corners.data(), data.corners.size() / corners, corners, owner);
+        } else {
+          return py::none();
+        }
+      },
+      domain->shape().data());
+}
+
+// One row a simplex, as the domain was made from; or None.
+py::object lengths_of(const MeasuredLengths* lengths, const py::object& owner) {
+  if (lengths == nullptr) return py::none();
+  if (!lengths->triangles.empty())
+    return view(lengths->triangles.data(), lengths->triangles.size(), owner);
+  if (!lengths->tets.empty()) return view(lengths->tets.data(), lengths->tets.size(), owner);
+  return view(lengths->edges.data(), lengths->edges.size(), 1, owner).attr("ravel")();
+}
+
+py::object given_lengths(const std::shared_ptr<Domain>& domain) {
+  const py::object owner = py::cast(domain);
+  const AnyShape& shape = domain->shape();
+  if (const auto* edges = std::get_if<io::Edges>(&shape.data()); edges && !edges->lengths.empty())
+    return view(edges->lengths.data(), edges->lengths.size(), 1, owner).attr("ravel")();
+  if (const auto* own = std::get_if<SimplexShape>(&shape.data()); own && !own->lengths.empty()) {
+    const auto n = static_cast<std::size_t>(own->dimension * (own->dimension + 1) / 2);
+    return view(own->lengths.data(), own->lengths.size() / n, n, owner);
+  }
+  return lengths_of(shape.lengths(), owner);
+}
+
+// Parts of a mixed domain as from_parts takes them, vertices by numbers of the part.
+py::object parts(const Domain& domain) {
+  const auto* shape = std::get_if<MixedShape>(&domain.shape().data());
+  if (shape == nullptr) return py::none();
+  py::list list;
+  for (const MixedShape::Part& part : shape->parts) {
+    const auto from = [&](auto rows) {
+      for (auto& row : rows)
+        for (Index& v : row) v -= static_cast<Index>(part.first_vertex);
+      return owned(std::move(rows));
+    };
+    const auto first = shape->positions.begin() + static_cast<std::ptrdiff_t>(part.first_vertex);
+    list.append(py::make_tuple(
+        owned(std::vector(first, first + static_cast<std::ptrdiff_t>(part.vertices))),
+        from(part.edges), from(part.triangles), from(part.tets)));
+  }
+  return py::make_tuple(list, shape->tolerance);
+}
+
+// What a cloud kept of its points, and how it looked for neighbours.
+py::object cloud(const std::shared_ptr<Domain>& domain) {
+  const CloudShape* shape = domain->shape().cloud();
+  if (shape == nullptr) return py::none();
+  const py::object owner = py::cast(domain);
+  py::dict told;
+  told["normals"] = shape->points.normals.empty()
+                        ? py::object(py::none())
+                        : view(shape->points.normals.data(), shape->points.normals.size(), owner);
+  told["original"] = shape->points.original.empty() ? py::object(py::none())
+                                                    : owned(std::vector(shape->points.original));
+  told["k"] = shape->k;
+  told["max_normal_angle"] = shape->max_normal_angle;
+  told["smooth"] = !shape->smoothed.empty();
+  told["points_in_file"] = shape->points_in_file;
+  told["not_finite"] = shape->not_finite;
+  told["outliers"] = shape->outliers;
+  return told;
+}
+
+const char* name_of(Triangulation triangulation) {
+  switch (triangulation) {
+    case Triangulation::delaunay:
+      return "delaunay";
+    case Triangulation::refined:
+      return "refined";
+    case Triangulation::automatic:
+      return "auto";
+    case Triangulation::input:
+      break;
+  }
+  return "input";
+}
+
+}  // namespace
+
+void bind_domain(py::module_& module) {
+  py::class_<Domain, std::shared_ptr<Domain>>(module, "Domain")
+      .def_property_readonly("kind",
+                             [](const Domain& d) { return std::string(d.shape().kind_name()); })
+      .def_property_readonly("dimension", [](const Domain& d) { return d.shape().dimension(); })
+      .def_property_readonly("simplex_name",
+                             [](const Domain& d) { return std::string(d.shape().simplex_name()); })
+      .def_property_readonly("vertex_count", [](const Domain& d) { return d.any().vertices(); })
+      .def_property_readonly("simplex_count", [](const Domain& d) { return d.any().simplices(); })
+      .def_property_readonly("given_simplices",
+                             [](const Domain& d) { return d.shape().simplices(); })
+      .def_property_readonly("components", [](const Domain& d) { return d.any().components(); })
+      .def_property_readonly("mean_edge", [](const Domain& d) { return d.any().mean_edge(); })
+      .def_property_readonly("bytes", &Domain::bytes)
+      .def_property_readonly("build_seconds",
+                             [](const Domain& d) { return d.any().build_seconds(); })
+      .def_property_readonly("refracting_edges",
+                             [](const Domain& d) { return d.any().refracting_edges(); })
+      .def_property_readonly(
+          "double", [](const Domain& d) { return d.any().precision() == Precision::twice; })
+      .def_property_readonly("file", [](const Domain& d) { return d.shape().file().string(); })
+      .def_property_readonly("triangulation",
+                             [](const Domain& d) {
+                               const TriangulationReport& report = d.any().triangulation();
+                               py::dict told;
+                               told["done"] = name_of(report.done);
+                               told["flips"] = report.flips;
+                               told["inserted_vertices"] = report.inserted_vertices;
+                               return told;
+                             })
+      .def_property_readonly("wanted_triangulation",
+                             [](const Domain& d) { return name_of(d.options().triangulation); })
+      .def_property_readonly("measured",
+                             [](const std::shared_ptr<Domain>& d) {
+                               return lengths_of(d->options().lengths.get(), py::cast(d));
+                             })
+      .def_property_readonly(
+          "refracts",
+          [](const Domain& d) { return d.options().lengths && d.options().lengths->refracts; })
+      .def_property_readonly("positions", &positions)
+      .def_property_readonly("simplices", &simplices)
+      .def_property_readonly("lengths", &given_lengths)
+      .def_property_readonly("parts", &parts)
+      .def_property_readonly("cloud", &cloud)
+      .def("corners",
+           [](const Domain& d, std::size_t simplex) {
+             if (simplex >= d.shape().simplices()) throw py::index_error("no such simplex");
+             const auto corners = d.shape().corners(simplex);
+             return std::vector<Index>(corners.begin(), corners.end());
+           })
+      .def("closest",
+           [](const Domain& d, const std::array<double, 3>& point) {
+             const py::gil_scoped_release free;
+             return d.shape().closest(point);
+           })
+      .def("position",
+           [](const Domain& d, const PointSource& point) { return d.shape().position(point); })
+      .def("joined",
+           [](const Domain& d, const std::vector<PointSource>& points, double offset) {
+             const py::gil_scoped_release free;
+             CurveSource curve = d.shape().joined(points);
+             curve.offset = offset;
+             return curve;
+           })
+      .def("boundary", [](const Domain& d, double offset) { return d.shape().boundary(offset); })
+      .def("write_field", [](const Domain& d, const std::filesystem::path& out,
+                             const py::object& distance, const py::object& label) {
+        const std::vector<double> values = numbers_of(distance, "distance");
+        std::vector<std::int32_t> labels;
+        if (!label.is_none())
+          for (const double l : numbers_of(label, "label"))
+            labels.push_back(static_cast<std::int32_t>(l));
+        const py::gil_scoped_release free;
+        d.shape().write_field(out, values, labels);
+      });
+}
+
+}  // namespace plexway::python

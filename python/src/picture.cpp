@@ -1,0 +1,102 @@
+#include <pybind11/stl.h>
+
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include <plexway/error.hpp>
+
+#include "arrays.hpp"
+#include "domain.hpp"
+
+#ifdef PLEXWAY_HAS_RENDER
+#include <plexway/render/picture.hpp>
+#endif
+
+namespace plexway::python {
+namespace {
+
+#ifdef PLEXWAY_HAS_RENDER
+
+void add_parts(const AnyShape& shape, render::Part common, std::vector<render::Part>& parts) {
+  common.positions = shape.positions();
+  std::visit(
+      [&](const auto& data) {
+        using Kind = std::decay_t<decltype(data)>;
+        if constexpr (std::is_same_v<Kind, io::Triangles>) {
+          common.triangles = data.triangles;
+        } else if constexpr (std::is_same_v<Kind, io::Tets>) {
+          common.tets = data.tets;
+        } else if constexpr (std::is_same_v<Kind, io::Edges>) {
+          common.edges = data.edges;
+        } else if constexpr (std::is_same_v<Kind, CloudShape>) {
+          common.normals = data.normals();
+        } else if constexpr (std::is_same_v<Kind, MixedShape>) {
+          for (const MixedShape::Part& part : data.parts) {
+            render::Part one = common;
+            one.edges = part.edges;
+            one.triangles = part.triangles;
+            one.tets = part.tets;
+            parts.push_back(one);
+          }
+          return;
+        } else {
+          throw UsageError(
+              "pictures are of surfaces, solids, wireframes, clouds and mixed domains");
+        }
+        parts.push_back(common);
+      },
+      shape.data());
+}
+
+py::array_t<std::uint8_t> picture(const Domain& domain, const py::object& distance,
+                                  const std::vector<PointSource>& sources, const py::list& paths,
+                                  std::size_t width, std::size_t height, const py::object& view,
+                                  const py::object& isolines, const std::string& map,
+                                  bool transparent, const std::string& title, bool clip) {
+  if (domain.shape().positions().empty())
+    throw UsageError("there is nothing to draw: the vertices have no positions in space");
+  std::vector<double> value;
+  if (!distance.is_none()) value = numbers_of(distance, "distance");
+  render::Scene scene;
+  render::Part common;
+  common.value = value;
+  add_parts(domain.shape(), common, scene.parts);
+  for (const PointSource& source : sources)
+    scene.sources.push_back(domain.shape().position(source));
+  for (const py::handle& path : paths) scene.paths.push_back(points_of(path, "paths"));
+  render::PictureOptions options;
+  options.width = width;
+  options.height = height;
+  if (!view.is_none()) {
+    const auto angles = view.cast<std::array<double, 2>>();
+    options.view = {.azimuth = angles[0], .elevation = angles[1]};
+  }
+  if (!isolines.is_none()) options.isolines = isolines.cast<std::size_t>();
+  options.map = map;
+  options.transparent = transparent;
+  options.title = title;
+  if (clip) options.clip.emplace();
+  render::Image image;
+  {
+    const py::gil_scoped_release free;
+    image = render::picture(scene, options);
+  }
+  return owned(std::move(image.pixels))
+      .reshape({static_cast<py::ssize_t>(image.height), static_cast<py::ssize_t>(image.width),
+                py::ssize_t{4}});
+}
+
+#else
+
+py::object picture(const py::args&) {
+  throw NotBuiltError("pictures are not in this build: it needs libpng and OpenGL");
+}
+
+#endif
+
+}  // namespace
+
+void bind_picture(py::module_& module) { module.def("picture", &picture); }
+
+}  // namespace plexway::python

@@ -1,0 +1,106 @@
+#include <pybind11/stl.h>
+
+#include <string>
+#include <type_traits>
+#include <vector>
+
+#include <plexway/any/complex.hpp>
+#include <plexway/apps/centroidal_voronoi.hpp>
+#include <plexway/apps/farthest_points.hpp>
+#include <plexway/apps/poisson_disk.hpp>
+#include <plexway/error.hpp>
+
+#include "arrays.hpp"
+#include "domain.hpp"
+
+namespace plexway::python {
+namespace {
+
+// Calls use(complex) for the kinds that points are spread over.
+template <class Use>
+auto with_sampled(const Domain& domain, const Use& use) {
+  using Result = decltype(use(std::declval<const TriangleMesh<float>&>()));
+  return with_complex(domain.any(), [&](const auto& complex) -> Result {
+    using Kind = std::decay_t<decltype(complex)>;
+    if constexpr (Kind::kind == DomainKind::surface || Kind::kind == DomainKind::solid ||
+                  Kind::kind == DomainKind::cloud)
+      return use(complex);
+    else
+      throw UsageError("points are spread over surfaces, solids and clouds, not over a " +
+                       std::string(domain.shape().kind_name()));
+  });
+}
+
+py::tuple poisson(const Domain& domain, double radius, std::size_t count, std::uint64_t seed,
+                  bool at_vertices, bool by_simplices, const py::object& spacing,
+                  py::object progress) {
+  Watch watch(std::move(progress));
+  std::vector<double> spacings;
+  if (!spacing.is_none()) spacings = numbers_of(spacing, "spacing");
+  PoissonOptions options;
+  options.radius = radius;
+  options.count = count;
+  options.seed = seed;
+  options.at_vertices = at_vertices;
+  options.order = by_simplices ? DartOrder::simplices : DartOrder::uniform;
+  options.spacing = spacings;
+  options.progress = watch.of_share();
+  PoissonDisks disks = watch.run([&] {
+    return with_sampled(
+        domain, [&](const auto& complex) { return poisson_disks(Serial{}, complex, options); });
+  });
+  return py::make_tuple(disks.darts, disks.radius, disks.maximal);
+}
+
+py::tuple farthest(const Domain& domain, std::vector<Source> given, std::size_t count,
+                   double radius, py::object progress) {
+  const Sources start(std::move(given));
+  const auto points = start.points("farthest points");
+  Watch watch(std::move(progress));
+  FarthestOptions options;
+  options.count = count;
+  options.radius = radius;
+  options.progress = watch.of_share();
+  FarthestPoints found = watch.run([&] {
+    return with_sampled(domain, [&](const auto& complex) {
+      return farthest_points(Serial{}, complex, points, options);
+    });
+  });
+  return py::make_tuple(found.points, owned(std::move(found.distance)), found.covering);
+}
+
+py::tuple cvt(const Domain& domain, std::vector<Source> given, std::size_t iterations,
+              double tolerance, py::object progress) {
+  const Sources seeds(std::move(given));
+  const auto points = seeds.points("cells");
+  Watch watch(std::move(progress));
+  VoronoiOptions options;
+  options.max_iterations = iterations;
+  options.tolerance = tolerance;
+  double done = 0;
+  options.progress = [&](const VoronoiStep&) {
+    return watch.tick(++done / static_cast<double>(iterations));
+  };
+  CentroidalVoronoi found = watch.run([&] {
+    return with_sampled(domain, [&](const auto& complex) {
+      return centroidal_voronoi(Serial{}, complex, points, options);
+    });
+  });
+  std::vector<std::int32_t> label;
+  for (const Index l : found.label) label.push_back(l == none ? -1 : static_cast<std::int32_t>(l));
+  std::vector<double> energy;
+  for (const VoronoiStep& step : found.steps) energy.push_back(step.energy);
+  energy.push_back(found.energy);
+  return py::make_tuple(found.seeds, owned(std::move(label)), owned(std::move(found.cell_content)),
+                        owned(std::move(energy)), found.converged);
+}
+
+}  // namespace
+
+void bind_sampling(py::module_& module) {
+  module.def("poisson", &poisson);
+  module.def("farthest", &farthest);
+  module.def("cvt", &cvt);
+}
+
+}  // namespace plexway::python

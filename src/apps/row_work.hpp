@@ -1,0 +1,141 @@
+#pragma once
+
+#include <atomic>
+#include <chrono>
+#include <cstddef>
+#include <functional>
+#include <limits>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <vector>
+
+#include <plexway/apps/all_pairs.hpp>
+#include <plexway/error.hpp>
+
+#include "executors/share_out.hpp"
+
+/// What dense and sparse matrices have in common: which rows, dealt to whom, and when a block is
+/// through.
+namespace plexway::apps {
+
+inline std::size_t threads_of(const Serial&) { return 1; }
+inline std::size_t threads_of(const OpenMP& executor) { return team_size(executor); }
+
+inline void deal(const Serial&, std::size_t count,
+                 const std::function<void(std::size_t, std::size_t)>& work) {
+  for (std::size_t k = 0; k < count; ++k) work(k, 0);
+}
+inline void deal(const OpenMP& executor, std::size_t count,
+                 const std::function<void(std::size_t, std::size_t)>& work) {
+  detail::share_out(executor, count, work);
+}
+
+/// Throws UsageError for a request that makes no sense.
+inline void check(const PairsRequest& request, std::size_t vertices) {
+  if (request.row_count(vertices) == 0)
+    throw UsageError("a matrix of distances needs at least one row");
+  if (request.block == 0) throw UsageError("a block of rows must have at least one");
+  for (const Index v : request.columns)
+    if (v >= vertices)
+      throw UsageError("column vertex " + std::to_string(v) + " is out of range, there are " +
+                       std::to_string(vertices));
+}
+
+/// The source of row k.
+class RowSource {
+ public:
+  RowSource(const PairsRequest& request, std::size_t row)
+      : own_(PointSource::at(static_cast<Index>(row))),
+        list_(request.rows ? request.rows->only(row) : SourceList(own_)) {}
+  RowSource(const RowSource&) = delete;
+  RowSource& operator=(const RowSource&) = delete;
+
+  [[nodiscard]] const SourceList& list() const { return list_; }
+  /// If it is a point, else null.
+  [[nodiscard]] const PointSource* point() const {
+    return list_.only_points() ? list_.points().data() : nullptr;
+  }
+
+ private:
+  PointSource own_;
+  SourceList list_;
+};
+
+inline void add(PropagateStatistics& sum, const PropagateStatistics& one) {
+  sum.expansions += one.expansions;
+  sum.updates += one.updates;
+  sum.reached_simplices += one.reached_simplices;
+  sum.lowered_vertices += one.lowered_vertices;
+  sum.raised_vertices += one.raised_vertices;
+}
+
+/// Deals the wanted rows to threads. `Worker`, one a thread and made by it, has
+/// `solve(const RowSource&, row, PropagateOptions with a progress callback that hears of the end)`,
+/// which hands the row on, and `report`.
+template <class E, class Worker>
+PairsReport deal_rows(const E& executor, std::size_t vertices, const PairsRequest& request,
+                      const std::function<void(std::size_t)>& block_done,
+                      const std::function<std::unique_ptr<Worker>()>& make_worker) {
+  using Clock = std::chrono::steady_clock;
+  const std::size_t rows = request.row_count(vertices), blocks = request.block_count(vertices);
+  std::vector<std::size_t> wanted;  // blocks
+  std::size_t total = 0;
+  const auto rows_of = [&](std::size_t b) {
+    return std::min(request.block, rows - b * request.block);
+  };
+  for (std::size_t b = 0; b < blocks; ++b)
+    if (!request.wanted || request.wanted(b)) wanted.push_back(b), total += rows_of(b);
+
+  const auto left = std::make_unique<std::atomic<std::size_t>[]>(wanted.size());
+  for (std::size_t i = 0; i < wanted.size(); ++i) left[i] = rows_of(wanted[i]);
+  std::vector<std::unique_ptr<Worker>> workers(threads_of(executor));
+  std::vector<PropagateOptions> options(workers.size(), request.solve);
+  std::atomic<bool> stop{false};
+  std::atomic<std::size_t> done{0};
+  std::mutex one_block;
+  const auto start = Clock::now();
+
+  // Only the last of all blocks may be short, so a number tells block and row.
+  deal(executor, total, [&](std::size_t k, std::size_t thread) {
+    const std::size_t i = k / request.block, row = wanted[i] * request.block + k % request.block;
+    if (!workers[thread]) {
+      workers[thread] = make_worker();
+      // The callers' functions are for the callers' thread.
+      options[thread].progress = [&, thread](const Progress& progress) {
+        if (thread == 0 && request.solve.progress && !request.solve.progress(progress)) stop = true;
+        return !stop;
+      };
+    }
+    try {
+      const RowSource source(request, row);
+      workers[thread]->solve(source, row, options[thread]);
+      if (left[i].fetch_sub(1) == 1 && block_done) {
+        const std::scoped_lock lock(one_block);
+        block_done(wanted[i]);
+      }
+      const std::size_t so_far = done.fetch_add(1) + 1;
+      if (thread != 0 || !request.progress) return;
+      const double seconds = std::chrono::duration<double>(Clock::now() - start).count();
+      const double rate = seconds > 0 ? static_cast<double>(so_far) / seconds : 0;
+      const double to_go = static_cast<double>(total - so_far);
+      if (!request.progress({so_far, total, seconds, rate,
+                             rate > 0 ? to_go / rate : std::numeric_limits<double>::infinity()}))
+        throw Cancelled("cancelled by the progress callback");
+    } catch (...) {
+      stop = true;  // others are in the middle of a row
+      throw;
+    }
+  });
+
+  PairsReport report;
+  report.rows = total;
+  for (const auto& worker : workers) {
+    if (!worker) continue;
+    add(report.statistics, worker->report.statistics);
+    report.complete = report.complete && worker->report.complete;
+  }
+  return report;
+}
+
+}  // namespace plexway::apps

@@ -1,0 +1,232 @@
+#include "cli/commands/pairs_job.hpp"
+
+#include <CLI/CLI.hpp>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <span>
+#include <string_view>
+#include <type_traits>
+#include <utility>
+#include <variant>
+
+#include <plexway/error.hpp>
+#include <plexway/io/sparse_file.hpp>
+#include <plexway/version.hpp>
+
+#include "cli/report/distance_output.hpp"
+
+namespace plexway::cli {
+namespace {
+
+namespace fs = std::filesystem;
+using io::Fingerprint;
+using io::MatrixFile;
+using io::MatrixNumber;
+
+template <class Numbers>
+std::string fingerprint_of(const Numbers& numbers) {
+  Fingerprint print;
+  print.add_numbers(numbers);
+  return print.text();
+}
+
+std::string fingerprint_of(const Domain& domain) {
+  Fingerprint print;
+  print.add_numbers(domain.positions());
+  for (std::size_t i = 0; i < domain.simplices(); ++i) print.add_numbers(domain.corners(i));
+  if (const MeasuredLengths* lengths = domain.lengths()) {
+    print.add_numbers(lengths->triangles);
+    print.add_numbers(lengths->tets);
+    print.add_numbers(lengths->edges);
+  }
+  if (const auto* wire = std::get_if<io::Edges>(&domain.data())) print.add_numbers(wire->lengths);
+  if (const auto* simplices = std::get_if<SimplexShape>(&domain.data()))
+    print.add_numbers(simplices->positions);
+  if (const auto* mixed = std::get_if<MixedShape>(&domain.data()))
+    print.add_numbers(std::array{mixed->tolerance});
+  if (const CloudShape* cloud = domain.cloud()) {
+    print.add_numbers(cloud->measured());
+    print.add_numbers(cloud->neighbours.begin);
+    print.add_numbers(cloud->neighbours.of);
+  }
+  return print.text();
+}
+
+}  // namespace
+
+void check_names(const MatrixCommand& command) {
+  const bool sparse = command.radius || command.nearest;
+  constexpr std::array<std::string_view, 1> dense_files = {".npy"};
+  constexpr std::array<std::string_view, 2> parcel_files = {".npy", ".csv"};
+  constexpr std::array<std::string_view, 1> tables = {".csv"};
+  if (command.out.empty() && command.stats.empty() && command.histogram.empty())
+    throw UsageError("--sources: say what to write: --out, --stats or --histogram");
+  if (sparse && (!command.labels.empty() || !command.stats.empty() || !command.histogram.empty() ||
+                 command.symmetric))
+    throw UsageError(
+        "--radius and --nearest make a sparse matrix: leave out --labels, --stats, --histogram and "
+        "--symmetric");
+  if (command.radius && !(*command.radius >= 0 && std::isfinite(*command.radius)))
+    throw UsageError("--radius must be a number >= 0");
+  if (command.nearest && *command.nearest == 0) throw UsageError("--nearest must be >= 1");
+  if (!command.labels.empty() && command.out.empty())
+    throw UsageError("--labels: give --out for the matrix of means between parcels");
+  if (!command.labels.empty() && command.symmetric)
+    throw UsageError("--symmetric is for distances between vertices: leave out --labels");
+  if (!command.histogram.empty() && !(command.bin_width && *command.bin_width > 0))
+    throw UsageError("--histogram needs --bin-width, a number > 0");
+  if (command.histogram.empty() && command.bin_width)
+    throw UsageError("--bin-width goes with --histogram");
+  if (command.bins == 0 || command.bins > 1'000'000)
+    throw UsageError("--bins must be from 1 to 1000000");
+  check_output_name(command.out, command.input,
+                    sparse                   ? io::SparseFile::extensions()
+                    : command.labels.empty() ? std::span<const std::string_view>(dense_files)
+                                             : parcel_files);
+  check_output_name(command.stats, command.input, tables, "--stats");
+  check_output_name(command.histogram, command.input, tables, "--histogram");
+  check_outputs_differ({command.out, command.stats, command.histogram});
+  const std::array read = {command.sources,
+                           command.targets,
+                           command.labels,
+                           mask_file(command.mask),
+                           metric_file(command.metric),
+                           command.solve.table};
+  for (const auto& [name, option] :
+       {std::pair(&command.out, "--out"), std::pair(&command.stats, "--stats"),
+        std::pair(&command.histogram, "--histogram")})
+    check_output_place(*name, read, option);
+}
+
+void describe(Job& job, const MeasuredLengths* lengths) {
+  const MatrixCommand& command = job.command;
+  auto& lines = job.description;
+  const auto add = [&](const char* name, std::string value) {
+    lines.push_back({name, std::move(value)});
+  };
+  const auto number = [](double value) {
+    std::array<char, 32> text{};
+    std::snprintf(text.data(), text.size(), "%.17g", value);
+    return std::string(text.data());
+  };
+  add("plexway", version_string);
+  add("input", fingerprint_of(job.domain) + " " + std::string(job.domain.kind_name()));
+  Fingerprint rows;
+  for (const PointSource& point : job.rows) {
+    rows.add_numbers(std::array{point.vertex, point.simplex});
+    rows.add_numbers(point.barycentric);
+  }
+  add("rows", std::to_string(job.rows.size()) + " " + rows.text());
+  add("columns", std::to_string(job.columns.size()) + " " + fingerprint_of(job.columns));
+  add("precision", command.solve.precision);
+  add("accuracy", name_of(job.options.accuracy));
+  add("visibility", command.solve.visibility);
+  if (!command.solve.table.empty()) add("table", fingerprint_of(job.options.probe.share));
+  add("schedule", command.solve.schedule + " " + number(job.options.step));
+  add("triangulation", command.triangulation.name);
+  if (lengths != nullptr) {
+    Fingerprint metric;
+    metric.add_numbers(lengths->triangles);
+    metric.add_numbers(lengths->tets);
+    metric.add_numbers(lengths->edges);
+    add("metric", metric.text());
+  }
+  if (job.mask) {
+    Fingerprint mask;
+    mask.add_numbers(job.mask->closed_vertices());
+    mask.add_numbers(job.mask->closed_simplices());
+    add("mask", mask.text());
+  }
+  if (command.radius) add("radius", number(*command.radius));
+  if (command.nearest) add("nearest", std::to_string(*command.nearest));
+  if (job.parcels) add("labels", fingerprint_of(job.parcels->parcels.of));
+  if (!job.parcels && !command.out.empty()) add("type", command.type);
+  if (command.symmetric) add("symmetric", "yes");
+  if (!command.histogram.empty())
+    add("histogram", number(*command.bin_width) + " " + std::to_string(command.bins));
+  std::string written;
+  for (const std::string* name : {&command.out, &command.stats, &command.histogram})
+    if (!name->empty())
+      written += (written.empty() ? "" : " ") + fs::path(*name).filename().string();
+  add("written", written);
+}
+
+double expected_bytes(const Job& job) {
+  double bytes = 0;
+  if (job.wants_matrix() && !job.sparse)
+    bytes += MatrixFile::bytes(job.rows.size(), job.columns.size(), job.number);
+  if (job.parcels)
+    bytes += MatrixFile::bytes(job.rows.size(), job.parcels->parcels.count, MatrixNumber::float64);
+  if (job.wants_statistics())
+    bytes += MatrixFile::bytes(job.rows.size(), job.statistics_columns(), MatrixNumber::float64);
+  return bytes;
+}
+
+void add_matrix_options(CLI::App& app, MatrixCommand& command) {
+  const std::string group = "Matrices of any size";
+  app.add_option("--sources", command.sources,
+                 "a row each: all, or FILE with a vertex (0-based) a line or the .csv of\n"
+                 "'plexway farthest'")
+      ->type_name("FILE|all")
+      ->group(group);
+  app.add_option("--targets", command.targets, "a column each, vertices: all (default) or FILE")
+      ->type_name("FILE|all")
+      ->group(group);
+  app.add_option("--type", command.type, "numbers of the matrix: float16, float32 or float64")
+      ->type_name("NAME")
+      ->group(group);
+  app.add_option("--radius", command.radius,
+                 "only what is no farther: a sparse matrix, .npz (scipy, CSR) or .mtx")
+      ->type_name("R")
+      ->group(group);
+  app.add_option("--nearest", command.nearest, "only the K nearest of each row; sparse likewise")
+      ->check(CLI::NonNegativeNumber)
+      ->type_name("K")
+      ->group(group);
+  app.add_flag("--symmetric", command.symmetric,
+               "of the two ways between two vertices the shorter counts for both")
+      ->group(group);
+  app.add_option("--labels", command.labels,
+                 "a label a vertex, a line each (below 0: none) or .label.gii: --out is then\n"
+                 "the mean distance between parcels, .npy or .csv")
+      ->type_name("FILE")
+      ->group(group);
+  app.add_option("--stats", command.stats,
+                 "of each row: how many are reached, mean, largest, farthest vertex; .csv")
+      ->type_name("FILE")
+      ->group(group);
+  app.add_option("--histogram", command.histogram, "how many distances of which size; .csv")
+      ->type_name("FILE")
+      ->group(group);
+  app.add_option("--bin-width", command.bin_width, "of the histogram")
+      ->type_name("X")
+      ->group(group);
+  app.add_option("--bins", command.bins, "of the histogram (default 100); the last has the rest")
+      ->check(CLI::NonNegativeNumber)
+      ->type_name("N")
+      ->group(group);
+  app.add_flag("--estimate", command.estimate, "only say how long it will take, and how many bytes")
+      ->group(group);
+}
+
+std::string only_for_matrices(const MatrixCommand& command) {
+  if (!command.targets.empty()) return "--targets";
+  if (command.radius) return "--radius";
+  if (command.nearest) return "--nearest";
+  if (command.symmetric) return "--symmetric";
+  if (command.estimate) return "--estimate";
+  if (!command.labels.empty()) return "--labels";
+  if (!command.stats.empty()) return "--stats";
+  if (!command.histogram.empty()) return "--histogram";
+  if (!command.metric.text.empty()) return "--metric";
+  if (!command.mask.text.empty()) return "--mask";
+  if (command.solve.executor.threads) return "--threads";
+  if (command.solve.visibility != "saddles") return "--visibility";
+  if (command.solve.schedule_given) return "--schedule";
+  if (command.solve.step_given) return "--step";
+  return {};
+}
+
+}  // namespace plexway::cli

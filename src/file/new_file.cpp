@@ -1,0 +1,167 @@
+#include "file/new_file.hpp"
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstdio>
+#include <system_error>
+
+#include <plexway/error.hpp>
+
+namespace plexway::file {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr int most_attempts = 1000;
+
+}  // namespace
+
+fs::path end_of_links(fs::path file) {
+  for (int links = 0; links < 40; ++links) {
+    std::error_code none_here;
+    if (!fs::is_symlink(fs::symlink_status(file, none_here))) return file;
+    file = file.parent_path() / fs::read_symlink(file);
+  }
+  throw std::system_error(std::make_error_code(std::errc::too_many_symbolic_link_levels));
+}
+
+NewFile::NewFile(const fs::path& file) : given_(file), target_(file) {
+  try {
+    target_ = end_of_links(file);
+  } catch (const std::system_error& error) {
+    refuse(error.code().value());
+  }
+  struct stat old {};
+  const bool exists = ::stat(target_.c_str(), &old) == 0;
+  if (!exists && errno != ENOENT) refuse(errno);
+  if (exists && S_ISDIR(old.st_mode)) refuse(EISDIR);
+  if (exists && ::access(target_.c_str(), W_OK) != 0) refuse(errno);
+  if (exists && !S_ISREG(old.st_mode)) {
+    descriptor_ = ::open(target_.c_str(), O_WRONLY | O_CLOEXEC);
+    if (descriptor_ < 0) refuse(errno);
+    return;
+  }
+  open_nameless();
+  if (descriptor_ < 0) open_named();
+  if (descriptor_ < 0) refuse(errno);
+  if (!exists) return;
+  // Who may not give files away keeps what is written.
+  if (old.st_uid != ::geteuid() || old.st_gid != ::getegid())
+    (void)!::fchown(descriptor_, old.st_uid, old.st_gid);
+  (void)!::fchmod(descriptor_, old.st_mode & 07777);
+}
+
+NewFile::~NewFile() { discard(); }
+
+void NewFile::open_nameless() {
+#ifdef O_TMPFILE
+  if (always_named) return;
+  const fs::path folder = target_.has_parent_path() ? target_.parent_path() : fs::path(".");
+  descriptor_ = ::open(folder.c_str(), O_TMPFILE | O_WRONLY | O_CLOEXEC, 0666);
+  if (descriptor_ < 0) return;
+  way_ = Way::nameless;
+  // Its name comes by way of /proc.
+  if (::access(place().c_str(), F_OK) == 0) return;
+  ::close(descriptor_);
+  descriptor_ = -1;
+#endif
+}
+
+void NewFile::open_named() {
+  const SignalsHeld held;
+  // A name that is taken is refused, so two writers never share a temporary file.
+  for (int attempt = 0; attempt < most_attempts; ++attempt) {
+    written_ = beside(attempt);
+    descriptor_ = ::open(written_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+    if (descriptor_ >= 0) {
+      way_ = Way::named;
+      listed_.emplace(written_.c_str());
+      return;
+    }
+    if (errno != EEXIST) return;
+  }
+}
+
+fs::path NewFile::beside(int attempt) const {
+  fs::path name = target_;
+  return name += ".part" + std::to_string(attempt);
+}
+
+std::string NewFile::place() const {
+  if (way_ == Way::nameless) return "/proc/self/fd/" + std::to_string(descriptor_);
+  return way_ == Way::named ? written_.string() : target_.string();
+}
+
+int NewFile::write(const char* bytes, std::size_t size) noexcept {
+  while (size > 0) {
+    const ssize_t sent = ::write(descriptor_, bytes, size);
+    if (sent < 0 && errno == EINTR) continue;
+    if (sent < 0) return errno;
+    bytes += sent;
+    size -= static_cast<std::size_t>(sent);
+  }
+  return 0;
+}
+
+int NewFile::synchronise() noexcept {
+  // What cannot be synchronised, such as a pipe, says EINVAL.
+  const int failed = ::fsync(descriptor_) == 0 ? 0 : errno;
+  return failed == EINVAL || failed == EROFS ? 0 : failed;
+}
+
+// A link never replaces a file, so where there is one it takes a name beside it first.
+int NewFile::link_nameless() {
+  const auto link_to = [&](const fs::path& name) {
+    return ::linkat(AT_FDCWD, place().c_str(), AT_FDCWD, name.c_str(), AT_SYMLINK_FOLLOW);
+  };
+  if (link_to(target_) == 0) return 0;
+  for (int attempt = 0; errno == EEXIST && attempt < most_attempts; ++attempt) {
+    const fs::path name = beside(attempt);
+    if (link_to(name) != 0) continue;
+    const Unfinished listed(name.c_str());
+    if (::rename(name.c_str(), target_.c_str()) == 0) return 0;
+    const int failed = errno;
+    ::unlink(name.c_str());
+    return failed;
+  }
+  return errno;
+}
+
+void NewFile::commit() {
+  int failed = 0;
+  {
+    const SignalsHeld held;
+    if (way_ == Way::nameless) failed = link_nameless();
+    const int closing = descriptor_;
+    if (failed == 0) {
+      descriptor_ = -1;
+      if (::close(closing) != 0 && errno != EINTR) failed = errno;
+    }
+    if (failed == 0 && way_ == Way::named && ::rename(written_.c_str(), target_.c_str()) != 0)
+      failed = errno;
+    if (failed != 0 && way_ == Way::named) ::unlink(written_.c_str());
+    listed_.reset();
+  }
+  if (failed != 0) refuse(failed);
+}
+
+void NewFile::discard() noexcept {
+  if (descriptor_ < 0) return;
+  ::close(descriptor_);
+  descriptor_ = -1;
+  if (way_ == Way::named) ::unlink(written_.c_str());
+  listed_.reset();
+}
+
+void NewFile::refuse(int reason) { refuse(std::generic_category().message(reason)); }
+
+void NewFile::refuse(const std::string& reason) {
+  discard();
+  throw Error("cannot write " + given_.string() + ": " + reason);
+}
+
+}  // namespace plexway::file

@@ -1,0 +1,66 @@
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "file/unfinished.hpp"
+
+namespace plexway::file {
+
+/// A file that appears whole or not at all.
+///
+/// Where the system has files without a name it is one until `commit`, so nothing stays behind
+/// whatever ends the process; elsewhere it is written beside its place, and on the list of
+/// `unfinished.hpp`. A symbolic link stays a link, whether what it points to is there or not. A
+/// file that is replaced gives its mode and owner to the new one, and one that may not be written
+/// is not. A target that exists and is no regular file (a pipe, a device) is written directly. All
+/// but `write` throw Error "cannot write FILE: reason"; without `commit` nothing is left behind.
+class NewFile {
+ public:
+  explicit NewFile(const std::filesystem::path& file);
+  ~NewFile();
+  NewFile(const NewFile&) = delete;
+  NewFile& operator=(const NewFile&) = delete;
+
+  /// Where it is written, for who can only write to a name.
+  [[nodiscard]] std::string place() const;
+  /// Whether what was written can be gone back to.
+  [[nodiscard]] bool seekable() const { return way_ != Way::direct; }
+  /// Writes all of it; errno where that failed, or 0.
+  [[nodiscard]] int write(const char* bytes, std::size_t size) noexcept;
+  [[nodiscard]] int descriptor() const { return descriptor_; }
+  /// Waits until the disk has it; errno where that failed, or 0.
+  [[nodiscard]] int synchronise() noexcept;
+
+  /// Puts the file in its place.
+  void commit();
+  /// Leaves nothing behind, and throws for this errno.
+  [[noreturn]] void refuse(int reason);
+  [[noreturn]] void refuse(const std::string& reason);
+
+  /// For tests: as where the system has no files without a name.
+  static inline bool always_named = false;
+
+ private:
+  enum class Way { direct, nameless, named };
+
+  void open_nameless();
+  void open_named();
+  [[nodiscard]] std::filesystem::path beside(int attempt) const;
+  [[nodiscard]] int link_nameless();
+  void discard() noexcept;
+
+  std::filesystem::path given_;    ///< as the caller names it, for messages
+  std::filesystem::path target_;   ///< with symbolic links resolved
+  std::filesystem::path written_;  ///< the temporary file's name, where it has one
+  std::optional<Unfinished> listed_;
+  Way way_ = Way::direct;
+  int descriptor_ = -1;
+};
+
+/// Where a chain of symbolic links ends, be there a file or not. Throws std::system_error.
+std::filesystem::path end_of_links(std::filesystem::path file);
+
+}  // namespace plexway::file

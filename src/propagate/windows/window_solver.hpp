@@ -1,0 +1,73 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+
+#include <plexway/complex/triangle_mesh.hpp>
+#include <plexway/propagate/accuracy.hpp>
+#include <plexway/propagate/distance_field.hpp>
+#include <plexway/propagate/options.hpp>
+#include <plexway/propagate/workspace.hpp>
+#include <plexway/source/point_source.hpp>
+
+#include "propagate/windows/exact_windows.hpp"
+#include "propagate/windows/kept_windows.hpp"
+#include "propagate/windows/merged_windows.hpp"
+#include "propagate/windows/vertex_angles.hpp"
+
+namespace plexway::windows {
+
+/// Distances on a surface by windows, one solve after the other, on one thread. Keeps what depends
+/// on the surface alone, and its memory.
+template <class Real>
+class WindowSolver {
+ public:
+  /// `mesh` must outlive the solver and have no refracting edges.
+  explicit WindowSolver(const TriangleMesh<Real>& mesh);
+  WindowSolver(const WindowSolver&) = delete;
+  WindowSolver& operator=(const WindowSolver&) = delete;
+
+  /// Was it made for this mesh, as it is now?
+  [[nodiscard]] bool is_for(const TriangleMesh<Real>& mesh) const;
+
+  /// The distance of every vertex from the nearest of `sources`, as plexway::solve gives it. Of the
+  /// options count schedule, radius, max_expansions (of windows) and progress; all must be checked,
+  /// and the accuracy be a merged one or exact. Exact: the same bits whatever the schedule. Throws
+  /// Cancelled. Sources: Mitchell, Mount, Papadimitriou (SIAM J. Comput. 1987);
+  /// Chen, Han (SoCG 1990); Xin, Wang (TOG 2009).
+  ///
+  /// What was merged is read out as labels are: no vertex is left farther than a neighbour and the
+  /// edge between, where triangles without an area hide it. `workspace` is for that.
+  void solve(std::span<const PointSource> sources, Accuracy accuracy,
+             const PropagateOptions& options, Workspace<Real>& workspace,
+             DistanceField<Real>& field);
+
+  /// Shall solves keep their windows?
+  void keep_windows(bool keep);
+  /// Those of the last solve, or null.
+  [[nodiscard]] const KeptWindows<Real>* kept() const { return kept_ ? &*kept_ : nullptr; }
+
+  /// Bytes held, without the mesh.
+  [[nodiscard]] std::size_t bytes() const;
+
+ private:
+  template <bool kLabels, class Windows>
+  void read_out(const Windows& windows, std::span<const PointSource> sources,
+                const PropagateOptions& options, Workspace<Real>& workspace,
+                DistanceField<Real>& field) const;
+
+  const TriangleMesh<Real>& mesh_;
+  std::uint64_t identity_;
+  const TriangleRecord<Real>* triangles_;
+  VertexAngles angles_;
+  std::optional<ExactWindows<Real>> exact_;
+  std::optional<MergedWindows<Real>> merged_;
+  std::optional<KeptWindows<Real>> kept_;
+};
+
+extern template class WindowSolver<float>;
+extern template class WindowSolver<double>;
+
+}  // namespace plexway::windows

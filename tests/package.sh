@@ -1,0 +1,63 @@
+#!/bin/sh
+# The Debian packages, made and unpacked into a folder of their own, do what they are for:
+#   tests/package.sh BUILD FOLDER
+# Everything must be built. FOLDER is made anew.
+set -eu
+build="$1"
+folder="$(realpath -m "$2")"
+source="$(cd "$(dirname "$0")/.." && pwd)"
+rm -rf "$folder"
+mkdir -p "$folder/root"
+(cd "$build" && cpack -G DEB -B "$folder" >"$folder/cpack.log" 2>&1) || {
+  cat "$folder/cpack.log"
+  exit 1
+}
+for package in "$folder"/*.deb; do
+  dpkg-deb -x "$package" "$folder/root"
+done
+usr="$folder/root/usr"
+tool="$usr/bin/plexway"
+
+"$tool" --version | grep -q '^plexway '
+"$tool" distance "$source/data/knot.ply" --source vertex:0 --quiet --out "$folder/d.csv" >/dev/null
+test "$(wc -l <"$folder/d.csv")" -gt 100
+
+# TetGen is there with its package, and told to be missing without it.
+if [ -e "$usr/lib/plexway/plexway-tetgen" ]; then
+  if ldd "$tool" | grep -q libtet; then
+    echo "the tool links TetGen" >&2
+    exit 1
+  fi
+  "$tool" tetrahedralize "$source/data/elbow.off" --out "$folder/e.vtu" --quiet >/dev/null
+  mv "$usr/lib/plexway/plexway-tetgen" "$folder/away"
+  code=0
+  "$tool" tetrahedralize "$source/data/elbow.off" --out "$folder/f.vtu" 2>"$folder/err" || code=$?
+  test "$code" = 4
+  grep -q 'the program plexway-tetgen, which runs TetGen, is not installed' "$folder/err"
+fi
+
+# The manual page, and completions that complete.
+if command -v man >/dev/null; then
+  man --warnings -l "$usr/share/man/man1/plexway.1" 2>"$folder/man.err" | grep -q -- --isoline-step
+  test ! -s "$folder/man.err"
+fi
+if command -v bash >/dev/null; then
+  completions="$usr/share/bash-completion/completions/plexway"
+  bash -c '. "$1"; COMP_WORDS=(plexway tet); COMP_CWORD=1; _plexway
+    [ "${COMPREPLY[*]}" = tetrahedralize ]
+    COMP_WORDS=(plexway distance a.ply --isoline-s); COMP_CWORD=3; _plexway
+    [ "${COMPREPLY[*]}" = --isoline-step ]' bash "$completions"
+fi
+
+# The library, by CMake and by pkg-config.
+cmake -S "$source/tests/consumer" -B "$folder/consumer" "-DCMAKE_PREFIX_PATH=$usr" \
+  -DPLEXWAY_WANTED=core,io >"$folder/cmake.log"
+cmake --build "$folder/consumer" >>"$folder/cmake.log"
+"$folder/consumer/consumer"
+if command -v pkg-config >/dev/null; then
+  flags="$(PKG_CONFIG_PATH="$usr/lib/pkgconfig" pkg-config --cflags --libs plexway-io)"
+  # shellcheck disable=SC2086
+  c++ -std=c++20 "$source/tests/consumer/main.cpp" $flags -o "$folder/by_pkg_config"
+  "$folder/by_pkg_config"
+fi
+echo "packages: all well"
