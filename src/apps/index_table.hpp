@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <utility>
 #include <vector>
 
@@ -28,7 +29,8 @@ class IndexTable {
   };
   Slot& find(Index key) {
     const std::size_t mask = slots_.size() - 1;
-    std::size_t at = (key * std::size_t{0x9E3779B97F4A7C15}) >> 20 & mask;
+    std::size_t at =
+        static_cast<std::size_t>((key * std::uint64_t{0x9E3779B97F4A7C15}) >> 20) & mask;
     while (slots_[at].key != none && slots_[at].key != key) at = (at + 1) & mask;
     return slots_[at];
   }

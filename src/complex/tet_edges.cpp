@@ -111,7 +111,11 @@ class Finder {
       const auto look_at = [&](Index w) {
         auto last = first;
         while (last != starts.end() && last->end == w) ++last;
-        around_edge(v, w, {first, last}, degree[w]);
+        around_edge(
+            v, w,
+            std::span<const Start>(starts).subspan(static_cast<std::size_t>(first - starts.begin()),
+                                                   static_cast<std::size_t>(last - first)),
+            degree[w]);
         first = last;
       };
       if (embedded_)

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <span>
+#include <tuple>
 #include <vector>
 
 #include <plexway/complex/blocks.hpp>
@@ -17,7 +18,9 @@ struct Candidate {
   int missing;  // votes
   double circle;
   Triangle corners;
-  friend auto operator<=>(const Candidate&, const Candidate&) = default;
+  friend bool operator<(const Candidate& a, const Candidate& b) {
+    return std::tie(a.missing, a.circle, a.corners) < std::tie(b.missing, b.circle, b.corners);
+  }
 };
 
 // Does the umbrella of `place` have the triangle with a and b?

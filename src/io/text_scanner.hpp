@@ -99,7 +99,8 @@ class TextScanner {
     const char* from = *at_ == '+' ? at_ + 1 : at_;
     double value = 0;
     auto [stop, error] = std::from_chars(from, end_, value);
-    if (error == std::errc::result_out_of_range && too_small({from, stop})) {
+    if (error == std::errc::result_out_of_range &&
+        too_small({from, static_cast<std::size_t>(stop - from)})) {
       value = 0;
       error = std::errc{};
     }
