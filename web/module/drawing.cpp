@@ -12,10 +12,12 @@ namespace plexway::web {
 Drawing::Drawing(const AnyShape& shape) {
   const auto positions = shape.positions();
   if (positions.size() != shape.vertices() || positions.empty())
-    throw UsageError("a domain by lengths, or of more than three dimensions, can be solved but not "
-                     "drawn: take the command-line tool");
+    throw UsageError(
+        "a domain by lengths, or of more than three dimensions, can be solved but not "
+        "drawn: take the command-line tool");
   constexpr double infinity = std::numeric_limits<double>::infinity();
-  std::array<double, 3> low = {infinity, infinity, infinity}, high = {-infinity, -infinity, -infinity};
+  std::array<double, 3> low = {infinity, infinity, infinity},
+                        high = {-infinity, -infinity, -infinity};
   for (const auto& p : positions)
     for (std::size_t i = 0; i < 3; ++i) {
       low[i] = std::min(low[i], p[i]);
@@ -52,10 +54,14 @@ Drawing::Drawing(const AnyShape& shape) {
 
 std::pair<const void*, std::size_t> Drawing::array(int which) const {
   switch (which) {
-    case 0: return {positions_.data(), positions_.size()};
-    case 1: return {triangles_.data(), 3 * triangles_.size()};
-    case 2: return {edges_.data(), 2 * edges_.size()};
-    default: return {nullptr, 0};
+    case 0:
+      return {positions_.data(), positions_.size()};
+    case 1:
+      return {triangles_.data(), 3 * triangles_.size()};
+    case 2:
+      return {edges_.data(), 2 * edges_.size()};
+    default:
+      return {nullptr, 0};
   }
 }
 

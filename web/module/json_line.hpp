@@ -26,8 +26,8 @@ class JsonLine {
     text_ += value ? "true" : "false";
   }
   template <class Number>
-    requires std::integral<Number> && (!std::same_as<Number, bool>)
-  void add(std::string_view name, Number value) {
+  requires std::integral<Number> &&
+      (!std::same_as<Number, bool>)void add(std::string_view name, Number value) {
     begin(name);
     text_ += std::to_string(value);
   }

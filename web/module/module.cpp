@@ -41,7 +41,7 @@ using plexway::web::JsonLine;
 struct Session {
   std::optional<AnyDomain> domain;
   std::optional<AnyDomain> precise;  ///< the same in double precision
-  std::optional<AnyDomain> edges;  ///< the same as a wireframe: what Dijkstra sees
+  std::optional<AnyDomain> edges;    ///< the same as a wireframe: what Dijkstra sees
   Drawing drawing;
   std::vector<PointSource> sources;
   AnyField field, along_edges;
@@ -60,7 +60,8 @@ Session& session() {
 }
 
 double milliseconds_since(std::chrono::steady_clock::time_point start) {
-  return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+  return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start)
+      .count();
 }
 
 // Runs the body; the text becomes what it returns, or the sentence of what it throws.
@@ -83,7 +84,8 @@ int answered(const Body& body) {
     text = error.what();
     return 6;
   } catch (const std::bad_alloc&) {
-    text = "the browser gives this page no more memory: take a smaller file, or the command-line tool";
+    text =
+        "the browser gives this page no more memory: take a smaller file, or the command-line tool";
     return 1;
   } catch (const std::exception& error) {
     text = error.what();
@@ -110,7 +112,8 @@ PropagateOptions options_of(std::string_view accuracy) {
   return options;
 }
 
-// Exact distances take the domain in double precision, which is built when they are first asked for.
+// Exact distances take the domain in double precision, which is built when they are first asked
+// for.
 const AnyDomain& solved_on(std::string_view accuracy) {
   Session& now = session();
   if (accuracy != "exact") return opened();
@@ -123,7 +126,8 @@ const AnyDomain& solved_on(std::string_view accuracy) {
 PLEXWAY_PAGE_CALLS const char* plexway_version() { return version_string; }
 PLEXWAY_PAGE_CALLS const char* plexway_text() { return session().text.c_str(); }
 
-/// Reads a file of the page's own file system. `as`: a kind's name, or empty for what the file says.
+/// Reads a file of the page's own file system. `as`: a kind's name, or empty for what the file
+/// says.
 PLEXWAY_PAGE_CALLS int plexway_open(const char* file, const char* as, int twice) {
   return answered([&] {
     Session& now = session();
@@ -171,8 +175,8 @@ PLEXWAY_PAGE_CALLS std::size_t plexway_array_size(int which) {
 
 /// The place nearest to the eye that a ray meets, in the drawing's coordinates; `slack`: how far
 /// from points and edges, as a share of the way to them. Keeps it for the calls that take `picked`.
-PLEXWAY_PAGE_CALLS int plexway_pick(double ox, double oy, double oz, double dx, double dy, double dz,
-                                    double slack) {
+PLEXWAY_PAGE_CALLS int plexway_pick(double ox, double oy, double oz, double dx, double dy,
+                                    double dz, double slack) {
   return answered([&] {
     Session& now = session();
     now.hit = web::pick(opened().shape(), now.drawing, {ox, oy, oz}, {dx, dy, dz}, slack);
@@ -312,7 +316,8 @@ PLEXWAY_PAGE_CALLS const float* plexway_way() { return session().path.data(); }
 PLEXWAY_PAGE_CALLS int plexway_cut(double nx, double ny, double nz, double offset) {
   return answered([&] {
     Session& now = session();
-    now.section = web::section_of(opened().shape(), now.drawing, {nx, ny, nz}, offset, now.distance);
+    now.section =
+        web::section_of(opened().shape(), now.drawing, {nx, ny, nz}, offset, now.distance);
     JsonLine line;
     line.add("triangles", now.section.numbers.size() / 12);
     return line.text();

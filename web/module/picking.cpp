@@ -152,7 +152,8 @@ AnyShape edges_of(const AnyShape& shape) {
   std::vector<std::array<Index, 2>> edges;
   if (const CloudShape* cloud = shape.cloud()) {
     for (Index i = 0; i < shape.vertices(); ++i)
-      for (const Index j : cloud->neighbours.around(i)) edges.push_back({std::min(i, j), std::max(i, j)});
+      for (const Index j : cloud->neighbours.around(i))
+        edges.push_back({std::min(i, j), std::max(i, j)});
   } else {
     for (std::size_t s = 0; s < shape.simplices(); ++s) {
       const auto corners = shape.corners(s);
@@ -163,7 +164,8 @@ AnyShape edges_of(const AnyShape& shape) {
   }
   std::sort(edges.begin(), edges.end());
   edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
-  return AnyShape::wireframe({shape.positions().begin(), shape.positions().end()}, std::move(edges));
+  return AnyShape::wireframe({shape.positions().begin(), shape.positions().end()},
+                             std::move(edges));
 }
 
 std::vector<PointSource> corners_of(const AnyShape& shape, std::span<const PointSource> sources) {
@@ -221,10 +223,11 @@ Section section_of(const AnyShape& shape, const Drawing& drawing, const Vector& 
       for (std::size_t i = 0; i < 3; ++i)
         corner[count][i] = static_cast<float>((1 - share) * positions[3 * std::size_t{a} + i] +
                                               share * positions[3 * std::size_t{b} + i]);
-      const double d = distance.empty() ? 0 : (1 - share) * static_cast<double>(distance[a]) +
-                                                  share * static_cast<double>(distance[b]);
-      corner[count++][3] = std::isnan(d) ? std::numeric_limits<float>::infinity()
-                                         : static_cast<float>(d);
+      const double d = distance.empty() ? 0
+                                        : (1 - share) * static_cast<double>(distance[a]) +
+                                              share * static_cast<double>(distance[b]);
+      corner[count++][3] =
+          std::isnan(d) ? std::numeric_limits<float>::infinity() : static_cast<float>(d);
     };
     if (above == 2) {
       cross_edge(order[0], order[2]);
