@@ -2,8 +2,8 @@
 //
 // Around curved obstacles the order of updates decides which of several nearly equal ways a label
 // takes; no order is right. How far distances move with it is measured by the serial executor with
-// other schedules. Where that is less than 1e-4 (mean) and 1e-3 (worst), the device must be as close
-// as that; elsewhere within twice of it.
+// other schedules. Where that is less than 1e-4 (mean) and 1e-3 (worst), the device must be as
+// close as that; elsewhere within twice of it.
 
 #include <catch2/catch.hpp>
 #include <random>

@@ -55,9 +55,9 @@ Triangles parse_ply(std::string_view bytes, std::string_view name);
 /// vertex, numbered in order of first appearance. Throws InputError.
 Triangles parse_stl(std::string_view bytes, std::string_view name);
 
-/// GIfTI (.surf.gii): its first arrays of points and of triangles; ascii, base64, and base64 of zlib.
-/// Its transforms to other spaces are not applied. Throws InputError, and NotBuiltError without
-/// pugixml, or zlib where it is packed.
+/// GIfTI (.surf.gii): its first arrays of points and of triangles; ascii, base64, and base64 of
+/// zlib. Its transforms to other spaces are not applied. Throws InputError, and NotBuiltError
+/// without pugixml, or zlib where it is packed.
 Triangles parse_gifti(std::string_view bytes, std::string_view name);
 
 /// FreeSurfer's binary surfaces of triangles, such as lh.white. Throws InputError.
