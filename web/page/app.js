@@ -25,7 +25,7 @@ const state = {
 };
 // What tests measure.
 const timings = { moves: [], firstPicture: 0, solves: [] };
-self.plexwayPage = { state, timings };
+self.plexwayPage = { state, timings, openFiles };
 
 const view = new View(at('canvas'));
 self.plexwayPage.view = view;
@@ -173,7 +173,9 @@ async function open(files, sampleIndex = '') {
   const start = performance.now();
   stopPlaying();
   await busy(async () => {
-    const domain = await solver.call('open', { files }, files.map((file) => file.bytes.buffer));
+    const domain = await solver.call('open', { files, as: at('as').value },
+      files.map((file) => file.bytes.buffer));
+    state.opened = { sampleIndex, list: state.choosing };
     domain.span = spans(domain.positions);
     Object.assign(state, { domain, file: files[0].name, sources: [], target: null, distance: null,
       label: null, difference: null });
@@ -209,6 +211,7 @@ async function openFiles(list) {
   try {
     const chosen = [...list];
     if (chosen.length === 0) return;
+    state.choosing = chosen;
     const total = chosen.reduce((sum, file) => sum + file.size, 0);
     if (total > largestFile)
       throw new Error(`${chosen[0].name}: ${Math.round(total / 2 ** 20)} MB are more than the ` +
@@ -347,6 +350,11 @@ function listen() {
   at('sample').addEventListener('change', (event) => openSample(Number(event.target.value)));
   at('file').addEventListener('change', (event) => {
     openFiles(event.target.files).then(() => (event.target.value = ''));
+  });
+  at('as').addEventListener('change', () => {
+    const { sampleIndex, list } = state.opened ?? {};
+    if (sampleIndex) openSample(Number(sampleIndex));
+    else if (list) openFiles(list);
   });
   at('accuracy').addEventListener('change', () => guarded(async () => {
     solved(await solver.call('solve', { accuracy: accuracy() }));

@@ -1,10 +1,10 @@
 // The module against the command-line tool: the same bits on files of every kind.
 import assert from 'node:assert/strict';
-import { readFileSync } from 'node:fs';
+import { readFileSync, writeFileSync } from 'node:fs';
 import { createRequire } from 'node:module';
 import { basename, join } from 'node:path';
 import { test } from 'node:test';
-import { byTool, data, moduleFolder, scratch, tool } from './setup.mjs';
+import { byTool, converted, data, moduleFolder, scratch, tool } from './setup.mjs';
 import { build } from 'esbuild';
 
 // The page's own calls, bundled around the module as the worker has them.
@@ -39,6 +39,42 @@ for (const [kind, vertex, ...files] of [
     }
   });
 }
+
+for (const [from, ...extensions] of [
+  ['knot.ply', 'obj', 'off', 'ply', 'stl'],
+  ['elbow.mesh', 'mesh', 'vtu', 'vtk', 'node'],
+  ['vessels.obj', 'edges', 'obj'],
+])
+  for (const extension of extensions)
+    test(`.${extension} of ${from}: the module and the tool write the same bytes`, () => {
+      const file = converted(join(data, from), extension);
+      const names = extension === 'node' ? [file, file.replace(/node$/, 'ele')] : [file];
+      const files = names.map((name) => ({ name: basename(name), bytes: readFileSync(name) }));
+      if (extension === 'edges') {
+        // By lengths alone there is nothing to draw, and that is said.
+        assert.throws(() => engine.open(files), /can be solved but not drawn/);
+        return;
+      }
+      engine.open(files);
+      engine.setSource(0, 7);
+      engine.solve('usual');
+      assert.ok(Buffer.from(engine.write('d.npy')).equals(byTool(file, ['--source', 'vertex:7'])));
+    });
+
+test('lines and triangles of one file are a mixed domain', () => {
+  const file = join(scratch, 'mixed.vtk');
+  writeFileSync(file, [
+    '# vtk DataFile Version 3.0', 'a square with a whisker', 'ASCII', 'DATASET UNSTRUCTURED_GRID',
+    'POINTS 5 double', '0 0 0', '1 0 0', '1 1 0', '0 1 0', '2 1 0',
+    'CELLS 3 11', '3 0 1 2', '3 0 2 3', '2 2 4', 'CELL_TYPES 3', '5', '5', '3', ''].join('\n'));
+  const told = engine.open([{ name: 'mixed.vtk', bytes: readFileSync(file) }], 'mixed');
+  assert.equal(told.kind, 'mixed');
+  assert.equal(told.edges.length, 2);
+  assert.equal(told.triangles.length, 6);
+  engine.setSource(0, 0);
+  const { distance } = engine.solve('usual');
+  assert.ok(Math.abs(distance[4] - (Math.SQRT2 + 1)) < 1e-6);
+});
 
 for (const accuracy of ['fast', 'accurate', 'exact'])
   test(`${accuracy}: the module and the tool write the same bytes`, () => {

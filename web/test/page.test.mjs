@@ -4,7 +4,9 @@ import { mkdirSync, readFileSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { after, before, test } from 'node:test';
 import { chromium as browserType } from 'playwright-core';
-import { byTool, chromium, chromiumArguments, data, page as folder, root, scratch } from './setup.mjs';
+import {
+  byTool, chromium, chromiumArguments, data, page as folder, root, scratch, solveMsByTool, torus,
+} from './setup.mjs';
 import { serve } from './serve.mjs';
 
 let browser, server, page;
@@ -233,30 +235,63 @@ test('from a disk, without a server', async () => {
   await other.close();
 });
 
-// Times are told, not asserted: what they are on a busy machine says nothing.
-test('how long a move takes', async () => {
+test('a mesh that is too large is refused with its size', async () => {
+  await page.evaluate(() => self.plexwayPage.openFiles([{ name: 'huge.ply', size: 5e8 }]));
+  assert.match(await page.locator('#error').textContent(), /huge\.ply: 477 MB/);
   await openFile(join(data, 'knot.ply'));
-  const moves = await page.evaluate(async () => {
-    const { view, timings } = self.plexwayPage;
-    const from = timings.moves.length, solves = timings.solves.length;
-    const canvas = view.canvas.getBoundingClientRect();
-    const send = (type, x, y) => view.canvas.dispatchEvent(new PointerEvent(type, {
-      pointerId: 1, clientX: canvas.left + x, clientY: canvas.top + y, buttons: 1, bubbles: true }));
-    const [x, y] = view.onCanvas(self.plexwayPage.state.sources[0].at);
-    view.canvas.setPointerCapture = () => {};
-    send('pointerdown', x, y);
-    for (let k = 0; k < 60; ++k) {
-      send('pointermove', x + (canvas.width / 2 - x) * (k / 60), y + (canvas.height / 2 - y) * (k / 60));
-      await new Promise((done) => setTimeout(done, 25));
-    }
-    send('pointerup', canvas.width / 2, canvas.height / 2);
-    return { moves: timings.moves.slice(from), solves: timings.solves.slice(solves) };
-  });
-  const median = (list) => [...list].sort((a, b) => a - b)[Math.floor(list.length / 2)];
-  assert.ok(moves.moves.length > 3);
-  measured.knot = { vertices: await page.evaluate(() => self.plexwayPage.state.domain.vertices),
-    moveMs: median(moves.moves), solveMs: median(moves.solves), moves: moves.moves.length };
 });
+
+test('every accuracy, live', async () => {
+  for (const accuracy of ['accurate', 'exact', 'fast']) {
+    const before = await page.evaluate(() => self.plexwayPage.timings.solves.length);
+    await page.selectOption('#accuracy', accuracy);
+    await page.waitForFunction((n) => self.plexwayPage.timings.solves.length > n, before, { timeout: 60000 });
+    await idle();
+    await noError();
+  }
+});
+
+// Times are told, not asserted: what they are on a busy machine says nothing.
+for (const [name, vertices] of [['scan', 35000], ['large', 100000]])
+  test(`how long a move takes: ${vertices} vertices`, async () => {
+    const file = join(scratch, `${name}.ply`);
+    writeFileSync(file, torus(vertices));
+    await openFile(file);
+    const moves = await page.evaluate(async () => {
+      const { view, timings } = self.plexwayPage;
+      const from = timings.moves.length, solves = timings.solves.length;
+      const canvas = view.canvas.getBoundingClientRect();
+      const send = (type, x, y) => view.canvas.dispatchEvent(new PointerEvent(type, {
+        pointerId: 1, clientX: canvas.left + x, clientY: canvas.top + y, buttons: 1, bubbles: true }));
+      // The ball may hide behind: it is put at the vertex that is nearest to the eye.
+      const { positions } = self.plexwayPage.state.domain, eye = view.ray(0, 0).from;
+      let front = 0, most = -Infinity;
+      for (let k = 0; k < positions.length; k += 3) {
+        const toEye = positions[k] * eye[0] + positions[k + 1] * eye[1] + positions[k + 2] * eye[2];
+        if (toEye > most) [most, front] = [toEye, k];
+      }
+      const [x, y] = view.onCanvas(positions.slice(front, front + 3));
+      view.canvas.setPointerCapture = () => {};
+      send('pointerdown', x, y);
+      send('pointerup', x, y);
+      await new Promise((done) => setTimeout(done, 800));
+      const [bx, by] = view.onCanvas(self.plexwayPage.state.sources[0].at);
+      send('pointerdown', bx, by);
+      for (let k = 0; k < 40; ++k) {
+        send('pointermove', bx - 2 * k, by - 0.5 * k);
+        await new Promise((done) => setTimeout(done, 60));
+      }
+      send('pointerup', bx - 80, by - 20);
+      await new Promise((done) => setTimeout(done, 500));
+      return { moves: timings.moves.slice(from), solves: timings.solves.slice(solves) };
+    });
+    const median = (list) => [...list].sort((a, b) => a - b)[Math.floor(list.length / 2)];
+    assert.ok(moves.moves.length > 3, `${moves.moves.length} moves`);
+    const native = solveMsByTool(file);
+    measured[name] = { vertices: await page.evaluate(() => self.plexwayPage.state.domain.vertices),
+      moveMs: median(moves.moves), solveMs: median(moves.solves), nativeMs: native,
+      timesNative: median(moves.solves) / native, moves: moves.moves.length };
+  });
 
 test('nothing was complained about', () => {
   const expected = /favicon/;

@@ -24,6 +24,41 @@ export function byTool(file, options, extension = 'npy') {
   return readFileSync(out);
 }
 
+// A file of data/ in another format, by the tool.
+export function converted(file, extension) {
+  const out = join(scratch, `converted.${extension}`);
+  execFileSync(tool, ['convert', file, out], { stdio: 'pipe' });
+  return out;
+}
+
+// A torus of about so many vertices, as a binary .ply.
+export function torus(vertices) {
+  const m = Math.round(Math.sqrt(vertices / 2)), n = Math.round(vertices / m);
+  const points = new Float32Array(3 * n * m), faces = Buffer.alloc(13 * 2 * n * m);
+  let at = 0;
+  for (let i = 0; i < n; ++i)
+    for (let j = 0; j < m; ++j) {
+      const u = (2 * Math.PI * (i + 0.3 * Math.sin(7 * j))) / n, v = (2 * Math.PI * j) / m;
+      points.set([(3 + Math.cos(v)) * Math.cos(u), (3 + Math.cos(v)) * Math.sin(u), Math.sin(v)], 3 * (i * m + j));
+      const [i1, j1] = [(i + 1) % n, (j + 1) % m];
+      for (const face of [[i * m + j, i1 * m + j, i1 * m + j1], [i * m + j, i1 * m + j1, i * m + j1]]) {
+        at = faces.writeUInt8(3, at);
+        for (const corner of face) at = faces.writeUInt32LE(corner, at);
+      }
+    }
+  const header = `ply\nformat binary_little_endian 1.0\nelement vertex ${n * m}\nproperty float x\n` +
+    'property float y\nproperty float z\n' +
+    `element face ${2 * n * m}\nproperty list uchar uint vertex_indices\nend_header\n`;
+  return Buffer.concat([Buffer.from(header), Buffer.from(points.buffer), faces]);
+}
+
+// Milliseconds of a solve by the tool, the median of many.
+export function solveMsByTool(file) {
+  const told = JSON.parse(execFileSync(tool,
+    ['bench', file, '--source', 'vertex:0', '--repeats', '31', '--json'], { encoding: 'utf8', stdio: ['ignore', 'pipe', 'ignore'] }));
+  return (told.ns_per_vertex * told.vertices) / 1e6;
+}
+
 // An .npy of one axis, or what is in its header.
 export function numbers(npy) {
   const length = npy[6] === 1 ? npy.readUInt16LE(8) : npy.readUInt32LE(8);

@@ -3,6 +3,10 @@
 #include <cstdint>
 #include <limits>
 
+#if defined(__wasm_simd128__)
+#include <wasm_simd128.h>
+#endif
+
 #include <plexway/kernel/hinge.hpp>
 
 #pragma GCC diagnostic push
@@ -57,19 +61,30 @@ struct Lanes {
   [[gnu::always_inline]] friend Lanes max(Lanes a, Lanes b) {
 #if defined(__SSE2__)
     if constexpr (sizeof(Real) == 4) return __builtin_ia32_maxps(b.v, a.v);
+#elif defined(__wasm_simd128__)
+    if constexpr (sizeof(Real) == 4) return (Vector)wasm_f32x4_pmax((v128_t)a.v, (v128_t)b.v);
 #endif
     return b.v > a.v ? b.v : a.v;
   }
   [[gnu::always_inline]] friend Lanes min(Lanes a, Lanes b) {
 #if defined(__SSE2__)
     if constexpr (sizeof(Real) == 4) return __builtin_ia32_minps(b.v, a.v);
+#elif defined(__wasm_simd128__)
+    if constexpr (sizeof(Real) == 4) return (Vector)wasm_f32x4_pmin((v128_t)a.v, (v128_t)b.v);
 #endif
     return b.v < a.v ? b.v : a.v;
   }
   [[gnu::always_inline]] friend Lanes select(Mask condition, Lanes a, Lanes b) {
+#if defined(__wasm_simd128__)
+    if constexpr (sizeof(Real) == 4)
+      return (Vector)wasm_v128_bitselect((v128_t)a.v, (v128_t)b.v, (v128_t)condition);
+#endif
     return condition ? a.v : b.v;
   }
   [[gnu::always_inline]] friend Lanes sqrt(Lanes a) {
+#if defined(__wasm_simd128__)
+    if constexpr (sizeof(Real) == 4) return (Vector)wasm_f32x4_sqrt((v128_t)a.v);
+#endif
     for (int i = 0; i < 4; ++i) a.v[i] = kernel::sqrt(a.v[i]);
     return a;
   }
@@ -89,6 +104,9 @@ template <class Mask>
     return __builtin_ia32_movmskpd((Half)low) | __builtin_ia32_movmskpd((Half)high) << 2;
   }
 #else
+#if defined(__wasm_simd128__)
+  if constexpr (sizeof(Mask) == 16) return static_cast<int>(wasm_i32x4_bitmask((v128_t)mask));
+#endif
   int bits = 0;
   for (int i = 0; i < 4; ++i) bits |= mask[i] ? 1 << i : 0;
   return bits;
