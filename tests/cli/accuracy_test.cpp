@@ -72,8 +72,9 @@ TEST_CASE("paths are as long as distances, whatever the accuracy and the triangl
                     to, "--accuracy", accuracy, "--triangulation", triangles, "--json", "--quiet"});
       INFO(run.err);
       REQUIRE(run.code == 0);
-      CHECK(run.json()["accuracy"] == accuracy);
-      for (const auto& path : run.json()["paths"]) {
+      const auto told = run.json();
+      CHECK(told["accuracy"] == accuracy);
+      for (const auto& path : told["paths"]) {
         CAPTURE(triangles, accuracy, path.dump());
         CHECK(path["length"].get<double>() ==
               Approx(path["distance"].get<double>())

@@ -2,6 +2,7 @@
 
 #include <unistd.h>
 
+#include <csignal>
 #include <cstdint>
 #include <cstdio>
 #include <new>
@@ -68,6 +69,9 @@ void fill(const PiecewiseLinearComplex& complex, std::string switches) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  // Whoever asked is told by which signal TetGen ended, also where a sanitizer would report
+  // instead.
+  for (const int signal : {SIGSEGV, SIGBUS, SIGFPE, SIGABRT}) std::signal(signal, SIG_DFL);
   try {
     const std::string told = isolated::begin_as_helper(argc, argv);
     std::string switches;

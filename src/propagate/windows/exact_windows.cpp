@@ -132,7 +132,8 @@ void ExactWindows<Real>::run(Order& order, const PropagateOptions& options) {
     if (const Index after = order.peek(); after != none) {
       const Node& node = nodes_[after];
       __builtin_prefetch(&nodes_[node.next != none ? node.next : after]);
-      const char* const t = reinterpret_cast<const char*>(&triangles_[node.edge >> 2]);
+      const Index face = node.edge & vertex_bit ? 0 : node.edge >> 2;
+      const char* const t = reinterpret_cast<const char*>(&triangles_[face]);
       __builtin_prefetch(t);
       __builtin_prefetch(t + 64);
     }
