@@ -12,6 +12,7 @@ set(implementation
   kernel/lanes.hpp
   # What domains are made of inside: records, their numbers, and what is found out about them.
   complex/box_tree.hpp
+  complex/elimination.hpp
   complex/identity.hpp
   complex/simplex_flat.hpp
   complex/simplex_record.hpp

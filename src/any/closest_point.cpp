@@ -5,18 +5,12 @@
 #include <limits>
 #include <vector>
 
+#include "complex/point3.hpp"
+
 namespace plexway {
 namespace {
 
-using Vector = std::array<double, 3>;
-
-Vector minus(const Vector& a, const Vector& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
-
-double dot(const Vector& a, const Vector& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-
-Vector cross(const Vector& a, const Vector& b) {
-  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
+using Vector = Point3;
 
 // A point of a simplex with N corners. All that follows looks for the one closest to the origin.
 template <std::size_t N>

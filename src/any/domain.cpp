@@ -22,7 +22,7 @@ struct AnyDomain::State {
 };
 
 AnyDomain::AnyDomain(AnyShape shape, const BuildOptions& options) {
-  const Watch building;
+  const Stopwatch building;
   auto prepared = with_file_name(shape, [&] { return prepare(shape, options); });
   state_ = std::make_shared<const State>(
       State{std::move(shape), std::move(prepared), building.seconds()});
@@ -94,11 +94,8 @@ void AnyDomain::solve_each(const AnyExecutor& executor, const SourceList& source
     if (!mine) {
       mine = std::make_unique<Own>();
       mine->options = options;
-      if (options.progress)  // the caller's function is for the caller's thread
-        mine->options.progress = [&stop, &options, thread](const Progress& progress) {
-          if (thread == 0 && !options.progress(progress)) stop = true;
-          return !stop;
-        };
+      if (options.progress)
+        mine->options.progress = detail::shared_progress(options.progress, thread, stop);
     }
     solve(Serial{}, sources.only(k), mine->options, mine->field);
     const std::scoped_lock lock(taking);

@@ -48,7 +48,7 @@ template <class Real>
 TriangulatedSurface<Real> make_surface(Triangulation wanted, const Making& making,
                                        TriangulationReport& report) {
   report = {};
-  const Watch working;
+  const Stopwatch working;
   auto made =
       triangulated<Real>(asked_for(wanted), std::get<io::Triangles>(making.shape.data()), making);
   report.done = named(made.done);

@@ -186,7 +186,7 @@ AnyShape::State Reading::read() {
   if (!volume.grid.empty() && !is_vdb(file_))
     throw UsageError(name("grid") + " needs a .vdb: other files have no grids");
   begin("reading " + file_);
-  const Watch loading;
+  const Stopwatch loading;
   const bool is_cloud = is_read_as_cloud(file_, asked);
   CloudFile points;
   if (is_cloud)
@@ -230,7 +230,7 @@ AnyShape::State Reading::read() {
   }
   if (wanted == DomainKind::cloud) {
     if (!is_cloud) points.points.positions = std::get<io::Triangles>(state_.data).positions;
-    const Watch looking;
+    const Stopwatch looking;
     state_.data = make_cloud(file_, std::move(points), options_);
     state_.neighbour_seconds = looking.seconds();
   }
@@ -251,7 +251,7 @@ AnyShape::State Reading::read() {
 void Reading::fill() {
   require_tetgen(options_.as ? as(*options_.as) : file_);
   begin("filling " + file_ + " with tetrahedra");
-  const Watch meshing;
+  const Stopwatch meshing;
   state_.data = is_poly(file_)
                     ? fill_poly(file_, options_)
                     : fill_surface(file_, std::get<io::Triangles>(state_.data), options_);
@@ -261,7 +261,7 @@ void Reading::fill() {
 void Reading::take_level_set(bool surface) {
   const double voxel = options_.volume.voxel.value_or(0);
   std::string& note = state_.level_set_note;
-  const Watch meshing;
+  const Stopwatch meshing;
   if (is_vdb(file_)) {
     const OpenvdbFunctions& openvdb = openvdb_functions(file_);
     begin("cutting " + file_);
@@ -308,7 +308,7 @@ AnyShape AnyShape::read(std::span<const std::filesystem::path> files, double tol
   State state;
   MixedShape shape;
   shape.tolerance = tolerance;
-  const Watch loading;
+  const Stopwatch loading;
   std::string names;
   for (const std::filesystem::path& path : files) {
     const std::string file = path.string();

@@ -202,7 +202,7 @@ AnyShape AnyShape::wireframe(std::size_t vertices, std::vector<std::array<Index,
 
 AnyShape AnyShape::cloud(io::Points points, const ReadOptions& options) {
   check(options);
-  const Watch looking;
+  const Stopwatch looking;
   CloudShape cloud = make_cloud("a cloud", {std::move(points), 0}, options);
   const std::size_t n = cloud.points.positions.size();
   State state = of_data(std::move(cloud), n);

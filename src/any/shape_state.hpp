@@ -1,11 +1,12 @@
 #pragma once
 
-#include <chrono>
 #include <string>
 #include <utility>
 
 #include <plexway/any/shape.hpp>
 #include <plexway/error.hpp>
+
+#include "any/stopwatch.hpp"
 
 namespace plexway {
 
@@ -19,18 +20,6 @@ struct AnyShape::State {
   Points places;  ///< of a SimplexShape of three coordinates or fewer
   double load_seconds = 0;
   std::optional<double> mesh_seconds, neighbour_seconds;
-};
-
-/// Seconds since it was made.
-class Watch {
- public:
-  [[nodiscard]] double seconds() const {
-    return std::chrono::duration<double>(Clock::now() - start_).count();
-  }
-
- private:
-  using Clock = std::chrono::steady_clock;
-  Clock::time_point start_ = Clock::now();
 };
 
 /// What `build` makes of a shape, with its file's name put in front of what is wrong with it: a

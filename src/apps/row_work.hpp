@@ -101,11 +101,7 @@ PairsReport deal_rows(const E& executor, std::size_t vertices, const PairsReques
     const std::size_t i = k / request.block, row = wanted[i] * request.block + k % request.block;
     if (!workers[thread]) {
       workers[thread] = make_worker();
-      // The callers' functions are for the callers' thread.
-      options[thread].progress = [&, thread](const Progress& progress) {
-        if (thread == 0 && request.solve.progress && !request.solve.progress(progress)) stop = true;
-        return !stop;
-      };
+      options[thread].progress = detail::shared_progress(request.solve.progress, thread, stop);
     }
     try {
       const RowSource source(request, row);

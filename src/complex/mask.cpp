@@ -19,11 +19,14 @@ void close(std::vector<char>& closed, Index number, const char* what) {
 void Mask::close_vertex(Index vertex) { close(vertex_, vertex, "vertex"); }
 void Mask::close_simplex(Index simplex) { close(simplex_, simplex, "simplex"); }
 
-void Mask::check(std::size_t simplices, Index largest) const {
-  if (simplices != simplex_.size())
+void Mask::check_rows(std::size_t rows) const {
+  if (rows != simplex_.size())
     throw UsageError("a mask of " + std::to_string(simplex_.size()) + " simplices for " +
-                     std::to_string(simplices));
-  if (simplices > 0 && largest >= vertex_.size())
+                     std::to_string(rows));
+}
+
+void Mask::check_vertex(Index largest) const {
+  if (largest >= vertex_.size())
     throw UsageError("a mask of " + std::to_string(vertex_.size()) +
                      " vertices for a simplex with vertex " + std::to_string(largest));
 }

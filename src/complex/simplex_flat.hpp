@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include <plexway/complex/elimination.hpp>
 #include <plexway/complex/simplex_flat.hpp>
 #include <plexway/complex/simplex_record.hpp>
 
@@ -404,15 +405,7 @@ class FlatDomainBuilder {
         m[d][i] = position(r.corner[i + 1])[d] - position(r.corner[0])[d];
       m[d][N] = p[d] - position(r.corner[0])[d];
     }
-    for (std::size_t i = 0; i < N; ++i) {
-      std::size_t row = i;
-      for (std::size_t k = i + 1; k < N; ++k)
-        if (std::abs(m[k][i]) > std::abs(m[row][i])) row = k;
-      if (row != i) std::swap_ranges(m[row], m[row] + N + 1, m[i]);
-      for (std::size_t k = 0; k < N; ++k)
-        if (k != i)
-          for (std::size_t d = N + 1; d-- > i;) m[k][d] -= m[k][i] / m[i][i] * m[i][d];
-    }
+    eliminate(m);
     double rest = 1;
     constexpr double least = 1e-6;
     for (std::size_t i = 0; i < N; ++i) {

@@ -140,11 +140,8 @@ bool run_rows_at_once(const OpenMP& executor, const D& domain, const SourceList&
     if (!mine) {
       mine = std::make_unique<Own>();
       mine->options = options;
-      if (options.progress)  // the caller's function is for the caller's thread
-        mine->options.progress = [&stop, &options, thread](const Progress& progress) {
-          if (thread == 0 && !options.progress(progress)) stop = true;
-          return !stop;
-        };
+      if (options.progress)
+        mine->options.progress = shared_progress(options.progress, thread, stop);
     }
     run(Serial{}, domain, sources.only(k), mine->options, thread == 0 ? workspace : mine->workspace,
         mine->field);

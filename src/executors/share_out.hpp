@@ -1,9 +1,11 @@
 #pragma once
 
+#include <atomic>
 #include <cstddef>
 #include <functional>
 
 #include <plexway/executors.hpp>
+#include <plexway/propagate/options.hpp>
 
 namespace plexway::detail {
 
@@ -11,5 +13,16 @@ namespace plexway::detail {
 /// Throws what the first of them threw. `threads` is at most the team's size.
 void share_out(const OpenMP& executor, std::size_t count,
                const std::function<void(std::size_t k, std::size_t thread)>& work);
+
+/// What each thread's own solves report to: the caller's function, called on the caller's thread,
+/// which is the first; all of them hear by `stop` that it asked to stop, or that another failed.
+[[nodiscard]] inline std::function<bool(const Progress&)> shared_progress(
+    const std::function<bool(const Progress&)>& callers, std::size_t thread,
+    std::atomic<bool>& stop) {
+  return [&callers, thread, &stop](const Progress& progress) {
+    if (thread == 0 && callers && !callers(progress)) stop = true;
+    return !stop;
+  };
+}
 
 }  // namespace plexway::detail

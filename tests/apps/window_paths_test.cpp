@@ -8,18 +8,13 @@
 
 #include "apps/path_testing.hpp"
 #include "exact_data.hpp"
+#include "with_accuracy.hpp"
 
 using namespace plexway;
 using namespace plexway::testing;
 
 // Paths, distances inside triangles and directions after a solve by windows.
 namespace {
-
-PropagateOptions at(Accuracy accuracy) {
-  PropagateOptions options;
-  options.accuracy = accuracy;
-  return options;
-}
 
 Surface landscape(Index n, unsigned seed) {
   std::mt19937 random(seed);

@@ -13,6 +13,7 @@
 
 #include "complex/test_meshes.hpp"
 #include "complex/test_solids.hpp"
+#include "with_accuracy.hpp"
 
 namespace {
 
@@ -67,13 +68,11 @@ TEST_CASE("a wall with a door in a plane sends paths through the door") {
     return best;
   };
   double worst = 0, worst_of_labels = 0;
-  PropagateOptions exactly;
-  exactly.accuracy = Accuracy::exact();
   for (Index source = 0; source < s.positions.size(); source += 13) {
     const Position& a = s.positions[source];
     if (a[0] > 0.35) continue;
     const PointSource from = PointSource::at(source);
-    const auto field = solve(Serial{}, mesh, from, exactly);
+    const auto field = solve(Serial{}, mesh, from, testing::at(Accuracy::exact()));
     const auto labels = solve(Serial{}, mesh, from);
     for (std::size_t v = 0; v < s.positions.size(); ++v) {
       if (s.positions[v][0] < 0.65) continue;
@@ -143,9 +142,7 @@ TEST_CASE("a sphere without its cap sends paths along the cap's rim") {
   };
   const Index source = at(rings * 3 / 8, 0);
   const PointSource from = PointSource::at(source);
-  PropagateOptions exactly;
-  exactly.accuracy = Accuracy::exact();
-  const auto field = solve(Serial{}, mesh, from, exactly);
+  const auto field = solve(Serial{}, mesh, from, testing::at(Accuracy::exact()));
   double worst = 0, sum = 0;
   std::size_t count = 0, behind = 0;
   for (Index v = 0; v < s.positions.size(); ++v) {
@@ -206,4 +203,10 @@ TEST_CASE("masks close tetrahedra and edges") {
   CHECK_THROWS_AS(ring.close_simplex(4), UsageError);
   CHECK_THROWS_AS(ring.open(std::vector<std::array<Index, 2>>{{0, 1}}), UsageError);
   CHECK_THROWS_AS(Mask(2, 1).open(std::vector<std::array<Index, 2>>{{0, 2}}), UsageError);
+  const std::vector<std::array<Index, 2>> beyond = {{0, 2}}, two = {{0, 1}, {1, 0}};
+  const std::span<const std::array<Index, 2>> beyond_rows(beyond), two_rows(two);
+  CHECK_THROWS_AS(Mask(2, 1).number(beyond_rows), UsageError);
+  CHECK_THROWS_AS(Mask(2, 1).number(two_rows), UsageError);
+  CHECK_THROWS_AS(Mask(2, 2).open_rows(two_rows, std::vector<double>{1}), UsageError);
+  CHECK(Mask(2, 2).open_rows(two_rows, std::vector<double>{1, 2}) == std::vector<double>{1, 2});
 }

@@ -9,6 +9,7 @@
 
 #include "exact_data.hpp"
 #include "propagate/solving.hpp"
+#include "with_accuracy.hpp"
 
 using namespace plexway;
 using namespace plexway::testing;
@@ -16,12 +17,6 @@ using namespace plexway::testing;
 // PropagateOptions::accuracy, as solve takes it: what the windows_*_test measure of the engine is
 // not measured again.
 namespace {
-
-PropagateOptions at(Accuracy accuracy) {
-  PropagateOptions options;
-  options.accuracy = accuracy;
-  return options;
-}
 
 /// A landscape with saddles everywhere.
 Surface hills(Index n, unsigned seed) {

@@ -171,4 +171,23 @@ struct Welded {
   }
 };
 
+/// What a field is off the truth, as a share of it; `low`: the most that it falls short.
+struct Errors {
+  double mean = 0, worst = 0, low = 0;
+};
+inline Errors errors(const Welded& domain, Index source,
+                     const std::function<double(Index)>& exact) {
+  const auto field = solve(Serial{}, domain.complex, PointSource::at(source));
+  Errors e;
+  for (Index v = 0; v < domain.positions.size(); ++v) {
+    const double truth = exact(v);
+    if (truth < 1e-12) continue;
+    const double off = (field.distance[v] / domain.move.scale - truth) / truth;
+    e.mean += std::abs(off) / double(domain.positions.size());
+    e.worst = std::max(e.worst, std::abs(off));
+    e.low = std::min(e.low, off);
+  }
+  return e;
+}
+
 }  // namespace mixed_domains

@@ -33,22 +33,6 @@ double refracted(double h, double d, double x, double v, double w) {
   return way((low + high) / 2);
 }
 
-struct Errors {
-  double mean = 0, worst = 0, low = 0;
-};
-Errors errors(const Welded& domain, Index source, const std::function<double(Index)>& exact) {
-  const auto field = solve(Serial{}, domain.complex, PointSource::at(source));
-  Errors e;
-  for (Index v = 0; v < domain.positions.size(); ++v) {
-    const double truth = exact(v);
-    if (truth < 1e-12) continue;
-    const double off = (field.distance[v] / domain.move.scale - truth) / truth;
-    e.mean += std::abs(off) / double(domain.positions.size());
-    e.worst = std::max(e.worst, std::abs(off));
-    e.low = std::min(e.low, off);
-  }
-  return e;
-}
 void check(const Errors& e, double mean, double worst) {
   CAPTURE(e.mean, e.worst, e.low);
   CHECK(e.mean < mean);

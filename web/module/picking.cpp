@@ -8,20 +8,15 @@
 
 #include <plexway/error.hpp>
 
+#include "complex/point3.hpp"
+
 namespace plexway::web {
 namespace {
 
-using Vector = std::array<double, 3>;
+using Vector = Point3;
 
-Vector operator-(const Vector& a, const Vector& b) {
-  return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
-}
 Vector along(const Vector& a, const Vector& d, double t) {
   return {a[0] + t * d[0], a[1] + t * d[1], a[2] + t * d[2]};
-}
-double dot(const Vector& a, const Vector& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-Vector cross(const Vector& a, const Vector& b) {
-  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
 double norm(const Vector& a) { return std::sqrt(dot(a, a)); }
 
@@ -37,11 +32,12 @@ class Ray {
 
   // Möller and Trumbore 1997: how far the ray goes to the triangle, and the shares of b and c.
   bool meets(const std::array<Index, 3>& corners, double& t, double& u, double& v) const {
-    const Vector a = place(corners[0]), ab = place(corners[1]) - a, ac = place(corners[2]) - a;
+    const Vector a = place(corners[0]), ab = minus(place(corners[1]), a),
+                 ac = minus(place(corners[2]), a);
     const Vector p = cross(direction_, ac);
     const double det = dot(ab, p);
     if (det == 0) return false;
-    const Vector s = from_ - a;
+    const Vector s = minus(from_, a);
     u = dot(s, p) / det;
     if (!(u >= 0 && u <= 1)) return false;
     const Vector q = cross(s, ab);
@@ -53,14 +49,14 @@ class Ray {
 
   // How close it passes to a segment: where on the segment, where on the ray.
   double passes(const Vector& a, const Vector& b, double& share, double& t) const {
-    const Vector e = b - a, s = from_ - a;
+    const Vector e = minus(b, a), s = minus(from_, a);
     const double ee = dot(e, e), ed = dot(e, direction_), se = dot(s, e), sd = dot(s, direction_);
     const double det = ee - ed * ed;  // the direction has length 1
     share = det > 1e-12 * ee ? (se - ed * sd) / det : 0;
     share = ee > 0 ? std::clamp(share, 0.0, 1.0) : 0;
     const Vector on = along(a, e, share);
-    t = dot(on - from_, direction_);
-    return norm(on - along(from_, direction_, t));
+    t = dot(minus(on, from_), direction_);
+    return norm(minus(on, along(from_, direction_, t)));
   }
 
  private:
@@ -178,7 +174,7 @@ std::vector<PointSource> corners_of(const AnyShape& shape, std::span<const Point
     const Vector at = shape.position(source);
     for (const Index corner : shape.corners(source.simplex)) {
       PointSource start = PointSource::at(corner);
-      start.offset = source.offset + norm(shape.positions()[corner] - at);
+      start.offset = source.offset + norm(minus(shape.positions()[corner], at));
       starts.push_back(start);
     }
   }

@@ -48,18 +48,22 @@ class Mask {
       const std::vector<std::array<Index, N>>& simplices) const {
     return open(std::span<const std::array<Index, N>>(simplices));
   }
-  /// What belongs to them, such as their lengths.
+  /// What belongs to them, such as their lengths. Throws likewise, and if there is not one row of
+  /// `rows` a simplex.
   template <std::size_t N, class Row>
   [[nodiscard]] std::vector<Row> open_rows(std::span<const std::array<Index, N>> simplices,
                                            const std::vector<Row>& rows) const {
+    check(simplices);
+    check_rows(rows.size());
     std::vector<Row> kept;
     for (std::size_t s = 0; s < simplices.size(); ++s)
       if (is_open(simplices[s], s)) kept.push_back(rows[s]);
     return kept;
   }
-  /// The number of each simplex among the open ones, or none.
+  /// The number of each simplex among the open ones, or none. Throws likewise.
   template <std::size_t N>
   [[nodiscard]] std::vector<Index> number(std::span<const std::array<Index, N>> simplices) const {
+    check(simplices);
     std::vector<Index> numbers;
     Index next = 0;
     for (std::size_t s = 0; s < simplices.size(); ++s)
@@ -68,7 +72,16 @@ class Mask {
   }
 
  private:
-  void check(std::size_t simplices, Index largest) const;
+  void check_rows(std::size_t rows) const;
+  void check_vertex(Index largest) const;
+  template <std::size_t N>
+  void check(std::span<const std::array<Index, N>> simplices) const {
+    check_rows(simplices.size());
+    Index largest = 0;
+    for (const auto& corners : simplices)
+      for (const Index v : corners) largest = v > largest ? v : largest;
+    if (!simplices.empty()) check_vertex(largest);
+  }
   template <std::size_t N>
   [[nodiscard]] bool is_open(const std::array<Index, N>& corners, std::size_t simplex) const {
     if (simplex_[simplex] != 0) return false;
@@ -83,10 +96,7 @@ class Mask {
 template <std::size_t N>
 std::vector<std::array<Index, N>> Mask::open(
     std::span<const std::array<Index, N>> simplices) const {
-  Index largest = 0;
-  for (const auto& corners : simplices)
-    for (const Index v : corners) largest = v > largest ? v : largest;
-  check(simplices.size(), largest);
+  check(simplices);
   std::vector<std::array<Index, N>> kept;
   for (std::size_t s = 0; s < simplices.size(); ++s)
     if (is_open(simplices[s], s)) kept.push_back(simplices[s]);

@@ -7,6 +7,7 @@
 #include <limits>
 #include <span>
 
+#include <plexway/complex/elimination.hpp>
 #include <plexway/complex/simplicial_complex.hpp>
 #include <plexway/propagate/simplex_label.hpp>
 #include <plexway/propagate/simplex_string.hpp>
@@ -308,15 +309,7 @@ class SimplexStringRule {
         m[d][k] = flat_->positions[records_[s].corner[Layout::corner(corner, k)]][d] -
                   flat_->positions[records_[s].corner[corner]][d];
     for (std::size_t d = 0; d < N; ++d) m[d][N] = direction[d];
-    for (std::size_t i = 0; i < N; ++i) {
-      std::size_t row = i;
-      for (std::size_t k = i + 1; k < N; ++k)
-        if (std::abs(m[k][i]) > std::abs(m[row][i])) row = k;
-      if (row != i) std::swap_ranges(m[row], m[row] + N + 1, m[i]);
-      for (std::size_t k = 0; k < N; ++k)
-        if (k != i)
-          for (std::size_t d = N + 1; d-- > i;) m[k][d] -= m[k][i] / m[i][i] * m[i][d];
-    }
+    eliminate(m);
     for (std::size_t i = 0; i < N; ++i)
       if (m[i][N] / m[i][i] < 0) return false;
     return true;

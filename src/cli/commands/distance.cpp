@@ -224,16 +224,23 @@ void say_notes(const AnyDomain& solver, const AnyField& field, const Outcome& ou
     say_note("stopped after " + counted(field.statistics().expansions, "expansions") +
              ": distances may still be too long");
   }
+  // Labels that got much wrong say so, and windows are the cure where there are any.
+  const bool has_windows =
+      domain.kind() == DomainKind::surface || domain.kind() == DomainKind::cloud;
+  const bool by_labels = field.accuracy() == Accuracy::fast();
+  const std::string cure = has_windows && by_labels ? "; --accuracy accurate has none of this" : "";
   const std::size_t raised = field.statistics().raised_vertices;
   if (100 * raised > domain.vertices())
     say_note(counted(raised, "vertices") +
              " came out nearer than the straight line through space, and were given its length: "
-             "distances here are poor; another --triangulation may do better");
+             "distances here are poor" +
+             (cure.empty() ? "; another --triangulation may do better" : cure));
   const std::size_t lowered = field.statistics().lowered_vertices;
-  if (20 * lowered > domain.vertices())
+  if (50 * lowered > domain.vertices())
     say_note(counted(lowered, "vertices") +
              " came out farther than a neighbour and the edge between, and were given that way: "
-             "distances here are less accurate");
+             "distances here are less accurate" +
+             cure);
   // Rounding turns a line of sight a little at each edge.
   constexpr double too_many = 5e4;
   if (single && outcome.max_distance > too_many * solver.mean_edge() && solver.mean_edge() > 0)

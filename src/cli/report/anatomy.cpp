@@ -9,16 +9,13 @@
 
 #include <plexway/error.hpp>
 
+#include "complex/point3.hpp"
+
 namespace plexway::cli {
 namespace {
 
-using Vector = std::array<double, 3>;
+using Vector = Point3;
 
-Vector minus(const Vector& a, const Vector& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
-double dot(const Vector& a, const Vector& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-Vector cross(const Vector& a, const Vector& b) {
-  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
 double norm(const Vector& a) { return std::sqrt(dot(a, a)); }
 
 // Longest edge to least height: 1.15 for an equilateral triangle, 1.22 for a regular tetrahedron.

@@ -7,6 +7,8 @@
 
 #include <plexway/propagate/options.hpp>
 
+#include "any/stopwatch.hpp"
+
 namespace plexway::cli {
 
 /// One line on stderr that is overwritten as work goes on, and wiped at the end.
@@ -49,18 +51,6 @@ class ProgressLine {
   bool shown_;
   std::string phase_;
   Clock::time_point drawn_;
-};
-
-/// Seconds since it was made.
-class Stopwatch {
- public:
-  [[nodiscard]] double seconds() const {
-    return std::chrono::duration<double>(Clock::now() - start_).count();
-  }
-
- private:
-  using Clock = std::chrono::steady_clock;
-  Clock::time_point start_ = Clock::now();
 };
 
 }  // namespace plexway::cli
