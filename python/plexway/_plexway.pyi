@@ -141,6 +141,7 @@ def solve_each(
     sources: Sequence[_Source],
     arguments: SolveArguments,
     out: Array,
+    columns: Any,
     progress: _Report,
 ) -> bool: ...
 def near(
@@ -152,6 +153,19 @@ def near(
     arguments: SolveArguments,
     progress: _Report,
 ) -> Tuple[Array, Array, Array]: ...
+def pairs_file(
+    domain: Domain,
+    sources: Sequence[_Source],
+    columns: Any,
+    out: str,
+    radius: float,
+    nearest: Optional[int],
+    type: str,
+    block: int,
+    restart: bool,
+    arguments: SolveArguments,
+    progress: _Report,
+) -> int: ...
 def path_field(
     domain: Domain, sources: Sequence[_Source], arguments: SolveArguments, progress: _Report
 ) -> Field: ...

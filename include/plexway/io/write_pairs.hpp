@@ -56,8 +56,9 @@ struct RowOutput {
 };
 
 /// The rows that the journal lacks, by `all_pairs`, into one file or several at once. `wanted` is
-/// not asked for. Throws as all_pairs, BlockJournal and MatrixFile; what was finished before stays.
-template <RowExecutor E, DomainType D>
+/// not asked for. Any domain that all_pairs takes: AnyDomain with any/pairs.hpp. Throws as
+/// all_pairs, BlockJournal and MatrixFile; what was finished before stays.
+template <class E, class D>
 PairsReport write_pairs(const E& executor, const D& domain, const PairsRequest& request,
                         std::span<const RowOutput<RealOf<D>>> outputs, BlockJournal& journal) {
   const auto sync = [&] {
@@ -78,7 +79,7 @@ PairsReport write_pairs(const E& executor, const D& domain, const PairsRequest& 
 }
 
 /// Into one file.
-template <RowExecutor E, DomainType D>
+template <class E, class D>
 PairsReport write_pairs(const E& executor, const D& domain, const PairsRequest& request,
                         MatrixFile& file, BlockJournal& journal) {
   const RowOutput<RealOf<D>> output{file};
@@ -87,7 +88,7 @@ PairsReport write_pairs(const E& executor, const D& domain, const PairsRequest& 
 }
 
 /// The same of what is near, by `near_pairs`.
-template <RowExecutor E, DomainType D>
+template <class E, class D>
 PairsReport write_near_pairs(const E& executor, const D& domain, const PairsRequest& request,
                              const NearLimits& limits, SparseFile& file, BlockJournal& journal) {
   const auto sync = [&] { file.sync(); };
