@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -24,11 +25,11 @@ namespace {
 // A row each, to columns. Stays where it is: the request refers to it.
 struct Matrix {
   Matrix(const Domain& domain, std::vector<Source> given, const py::object& wanted,
-         const SolveArguments& arguments, py::object progress)
+         SolveArguments how, py::object progress)
       : sources(std::move(given)),
-        executor(executor_of(arguments)),
+        executor(executor_of(how)),
         watch(std::move(progress)),
-        arguments(arguments) {
+        arguments(std::move(how)) {
     if (!wanted.is_none()) {
       columns = indices_of(wanted, "columns");
       if (columns.empty()) throw UsageError("columns: the list is empty");
@@ -88,7 +89,8 @@ py::tuple near(const Domain& domain, std::vector<Source> given, const py::object
 
 // All that the file depends on.
 io::BlockJournal::Description description_of(const Domain& domain, const Matrix& matrix,
-                                             const std::string& what, const std::string& type) {
+                                             double radius, const std::string& what,
+                                             const std::string& type) {
   const BuildOptions& built = domain.options();
   const Accuracy accuracy = matrix.request.solve.accuracy;
   const auto number = [](double value) {
@@ -109,9 +111,36 @@ io::BlockJournal::Description description_of(const Domain& domain, const Matrix&
           {"accuracy",
            std::to_string(static_cast<int>(accuracy.kind())) + " " + number(accuracy.error())},
           {"visibility", matrix.arguments.visibility},
-          {"radius", number(matrix.arguments.radius)},
+          {"radius", number(radius)},
           {"matrix", what},
           {"type", type}};
+}
+
+std::size_t write_dense(const Matrix& matrix, const std::filesystem::path& out, std::size_t rows,
+                        std::size_t columns, io::MatrixNumber number, io::BlockJournal& journal) {
+  if (journal.is_complete() && !std::filesystem::exists(io::PartFile::path_of(out))) {
+    journal.remove();  // ended when all was in its place
+    return 0;
+  }
+  io::MatrixFile file(out, rows, columns, number, journal.resumed());
+  const PairsReport report =
+      io::write_pairs(matrix.executor, *matrix.any, matrix.request, file, journal);
+  journal.complete([&] { file.sync(); });
+  file.commit();
+  journal.remove();
+  return report.rows;
+}
+
+std::size_t write_sparse(const Matrix& matrix, const std::filesystem::path& out, std::size_t rows,
+                         std::size_t columns, io::MatrixNumber number, const NearLimits& limits,
+                         io::BlockJournal& journal) {
+  io::SparseFile file(out, rows, columns, matrix.request.block, number, journal);
+  const PairsReport report =
+      io::write_near_pairs(matrix.executor, *matrix.any, matrix.request, limits, file, journal);
+  file.commit(journal);
+  journal.remove();  // first: a journal without its part could not be gone on with
+  file.remove();
+  return report.rows;
 }
 
 // Into `out`, going on with what an earlier call left. The extension tells dense from sparse.
@@ -129,34 +158,26 @@ std::size_t pairs_file(const Domain& domain, std::vector<Source> given, const py
   const std::size_t rows = matrix.request.row_count(vertices);
   const std::size_t width = matrix.request.column_count(vertices);
   const bool dense = out.extension() == ".npy";
-  std::string what = dense ? "dense" : "sparse within " + std::to_string(radius);
+  const NearLimits limits = limits_of(radius, nearest);
+  std::string what = dense ? "dense" : "sparse";
   if (nearest) what += ", nearest " + std::to_string(*nearest);
   what += " in blocks of " + std::to_string(block);
   return matrix.watch.run([&]() -> std::size_t {
     if (!restart) io::BlockJournal::discard(out);
     if (dense) io::check_room(out, io::MatrixFile::bytes(rows, width, number));
-    io::BlockJournal journal(out, description_of(domain, matrix, what, type),
+    io::BlockJournal journal(out, description_of(domain, matrix, radius, what, type),
                              matrix.request.block_count(vertices));
-    PairsReport report;
-    if (!dense) {
-      io::SparseFile file(out, rows, width, block, number, journal);
-      report = io::write_near_pairs(matrix.executor, *matrix.any, matrix.request,
-                                    limits_of(radius, nearest), file, journal);
-      file.commit(journal);
-      journal.remove();  // first: a journal without its part could not be gone on with
-      file.remove();
-      return report.rows;
+    try {
+      return dense ? write_dense(matrix, out, rows, width, number, journal)
+                   : write_sparse(matrix, out, rows, width, number, limits, journal);
+    } catch (...) {
+      if (journal.finished() == 0 && !journal.is_complete()) {  // nothing to go on with
+        std::error_code none_such;
+        std::filesystem::remove(io::PartFile::path_of(out), none_such);
+        journal.remove();
+      }
+      throw;
     }
-    if (journal.is_complete() && !std::filesystem::exists(io::PartFile::path_of(out))) {
-      journal.remove();  // ended when all was in its place
-      return 0;
-    }
-    io::MatrixFile file(out, rows, width, number, journal.resumed());
-    report = io::write_pairs(matrix.executor, *matrix.any, matrix.request, file, journal);
-    journal.complete([&] { file.sync(); });
-    file.commit();
-    journal.remove();
-    return report.rows;
   });
 }
 

@@ -101,7 +101,7 @@ def test_memory_map(sheet, tmp_path):
         (lambda V, F: px.distance(V, F, [0.0, np.inf, 0.0]), px.UsageError, "finite"),
         (lambda V, F: px.distance(V, F, np.ones(4)), ValueError, "source"),
         (lambda V, F: px.distance(V, F, np.ones(4, bool)), ValueError, "truth"),
-        (lambda V, F: px.distance(V, F, [[0, 1], [2]]), ValueError, "source"),
+        (lambda V, F: px.distance(V, F, [[0, 1], [2]]), ValueError, "a vertex"),
         (lambda V, F: px.distance(V, F, [[0, 1, 2, 3]]), ValueError, "source"),
         (lambda V, F: px.distance(V, F, "zero"), ValueError, "source"),
         (lambda V, F: px.distance(V, F, px.Vertices([0], [-1.0])), ValueError, ""),
