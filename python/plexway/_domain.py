@@ -335,8 +335,9 @@ class Domain:
 
         Notes
         -----
-        Memory beside the result: about 100 bytes a triangle and 12 a vertex for each thread. What
-        does not fit into memory goes into a file by `pairs`.
+        Memory beside the result, for each thread: 12 bytes a vertex, and a triangle some 20 for
+        'fast' and some 50 for 'accurate'. What does not fit into memory goes into a file by
+        `pairs`.
         """
         arguments = _arguments(threads, executor, radius, visibility, accuracy, many=True)
         every = np.arange(self.vertex_count) if sources is None else sources
