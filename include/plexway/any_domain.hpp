@@ -87,9 +87,6 @@ class AnyPathField {
 /// own, which is kept for the next solve. Copies share what they hold.
 class AnyDomain {
  public:
-  /// What rows of matrices are handed over in, whatever the precision (any/pairs.hpp).
-  using Number = double;
-
   /// Throws InputError, after "FILE: " where the shape has a file, as the domains' constructors do,
   /// and UsageError for a triangulation of what is no surface.
   explicit AnyDomain(AnyShape shape, const BuildOptions& options = {});

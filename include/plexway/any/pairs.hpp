@@ -4,6 +4,7 @@
 
 #include <plexway/any_domain.hpp>
 #include <plexway/apps/all_pairs.hpp>
+#include <plexway/io/write_pairs.hpp>
 
 // Distance matrices of a domain whose kind and precision are hidden: see apps/all_pairs.hpp. With
 // this io::write_pairs and io::write_near_pairs take it, too.
@@ -20,6 +21,13 @@ PairsReport all_pairs(const AnyExecutor& executor, const AnyDomain& domain,
 PairsReport near_pairs(const AnyExecutor& executor, const AnyDomain& domain,
                        const PairsRequest& request, const NearLimits& limits,
                        const PairsSink<SparseRow<double>>& sink);
+
+/// Whatever the precision.
+template <>
+struct io::RowNumber<AnyDomain> {
+  /// See plexway::all_pairs of an AnyDomain.
+  using Type = double;
+};
 
 ///@{
 /// Tells inputs apart, for the description of a journal: hexadecimal digits.

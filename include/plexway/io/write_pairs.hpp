@@ -23,6 +23,13 @@
 
 namespace plexway::io {
 
+/// What a domain's rows are handed over in.
+template <class D>
+struct RowNumber {
+  /// Its own numbers; double where they are hidden (any/pairs.hpp).
+  using Type = RealOf<D>;
+};
+
 namespace detail {
 
 /// Runs `solve` for what the journal lacks, and keeps what is finished if it ends by an error.
@@ -60,13 +67,14 @@ struct RowOutput {
 /// all_pairs, BlockJournal and MatrixFile; what was finished before stays.
 template <class E, class D>
 PairsReport write_pairs(const E& executor, const D& domain, const PairsRequest& request,
-                        std::span<const RowOutput<RealOf<D>>> outputs, BlockJournal& journal) {
+                        std::span<const RowOutput<typename RowNumber<D>::Type>> outputs,
+                        BlockJournal& journal) {
   const auto sync = [&] {
     for (const auto& output : outputs) output.file.sync();
   };
   return detail::run_with_journal(request, journal, sync, [&](const PairsRequest& missing) {
     return all_pairs(executor, domain, missing,
-                     {[&](std::size_t row, DenseRow<RealOf<D>> distance) {
+                     {[&](std::size_t row, DenseRow<typename RowNumber<D>::Type> distance) {
                         for (const auto& output : outputs) {
                           if (output.made)
                             output.file.template write_row<double>(row, output.made(distance));
@@ -82,9 +90,9 @@ PairsReport write_pairs(const E& executor, const D& domain, const PairsRequest& 
 template <class E, class D>
 PairsReport write_pairs(const E& executor, const D& domain, const PairsRequest& request,
                         MatrixFile& file, BlockJournal& journal) {
-  const RowOutput<RealOf<D>> output{file};
-  return write_pairs(executor, domain, request, std::span<const RowOutput<RealOf<D>>>(&output, 1),
-                     journal);
+  const RowOutput<typename RowNumber<D>::Type> output{file};
+  return write_pairs(executor, domain, request,
+                     std::span<const RowOutput<typename RowNumber<D>::Type>>(&output, 1), journal);
 }
 
 /// The same of what is near, by `near_pairs`.
@@ -95,7 +103,7 @@ PairsReport write_near_pairs(const E& executor, const D& domain, const PairsRequ
   return detail::run_with_journal(request, journal, sync, [&](const PairsRequest& missing) {
     return near_pairs(
         executor, domain, missing, limits,
-        {[&](std::size_t row, SparseRow<RealOf<D>> near) {
+        {[&](std::size_t row, SparseRow<typename RowNumber<D>::Type> near) {
            std::vector<SparseEntry> entries;
            entries.reserve(near.size());
            for (const auto& [column, distance] : near)
