@@ -29,6 +29,9 @@ struct RowNumber {
   /// Its own numbers; double where they are hidden (any/pairs.hpp).
   using Type = RealOf<D>;
 };
+/// The same.
+template <class D>
+using RowReal = typename RowNumber<D>::Type;
 
 namespace detail {
 
@@ -67,14 +70,13 @@ struct RowOutput {
 /// all_pairs, BlockJournal and MatrixFile; what was finished before stays.
 template <class E, class D>
 PairsReport write_pairs(const E& executor, const D& domain, const PairsRequest& request,
-                        std::span<const RowOutput<typename RowNumber<D>::Type>> outputs,
-                        BlockJournal& journal) {
+                        std::span<const RowOutput<RowReal<D>>> outputs, BlockJournal& journal) {
   const auto sync = [&] {
     for (const auto& output : outputs) output.file.sync();
   };
   return detail::run_with_journal(request, journal, sync, [&](const PairsRequest& missing) {
     return all_pairs(executor, domain, missing,
-                     {[&](std::size_t row, DenseRow<typename RowNumber<D>::Type> distance) {
+                     {[&](std::size_t row, DenseRow<RowReal<D>> distance) {
                         for (const auto& output : outputs) {
                           if (output.made)
                             output.file.template write_row<double>(row, output.made(distance));
@@ -90,9 +92,9 @@ PairsReport write_pairs(const E& executor, const D& domain, const PairsRequest& 
 template <class E, class D>
 PairsReport write_pairs(const E& executor, const D& domain, const PairsRequest& request,
                         MatrixFile& file, BlockJournal& journal) {
-  const RowOutput<typename RowNumber<D>::Type> output{file};
-  return write_pairs(executor, domain, request,
-                     std::span<const RowOutput<typename RowNumber<D>::Type>>(&output, 1), journal);
+  const RowOutput<RowReal<D>> output{file};
+  return write_pairs(executor, domain, request, std::span<const RowOutput<RowReal<D>>>(&output, 1),
+                     journal);
 }
 
 /// The same of what is near, by `near_pairs`.
@@ -103,7 +105,7 @@ PairsReport write_near_pairs(const E& executor, const D& domain, const PairsRequ
   return detail::run_with_journal(request, journal, sync, [&](const PairsRequest& missing) {
     return near_pairs(
         executor, domain, missing, limits,
-        {[&](std::size_t row, SparseRow<typename RowNumber<D>::Type> near) {
+        {[&](std::size_t row, SparseRow<RowReal<D>> near) {
            std::vector<SparseEntry> entries;
            entries.reserve(near.size());
            for (const auto& [column, distance] : near)
