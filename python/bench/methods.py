@@ -1,4 +1,4 @@
-"""What each method takes, for the table of docs/python.md: processor time, the least of three calls.
+"""What each method takes, for the table of docs/python.md: processor time, the lesser of two calls.
 
     PYTHONPATH=build/python python3 python/bench/methods.py FILE [SOLID]
 
@@ -18,7 +18,7 @@ import plexway
 
 def least(work):
     times = []
-    for _ in range(3):
+    for _ in range(2):
         begun = time.process_time()
         work()
         times.append(time.process_time() - begun)
@@ -46,22 +46,22 @@ def main(file, solid=None):
     V = np.array(surface.vertices)
     n = surface.vertex_count
     some = np.linspace(0, n - 1, 20).astype(int)
-    distance = surface.distance(0)
-    field = surface.field(0)
+    distance = surface.distance(0, accuracy="accurate")
+    field = surface.field(0, accuracy="accurate")
     size = float(distance[np.isfinite(distance)].max())
     block = plexway.read(solid) if solid else cube()
     folder = tempfile.TemporaryDirectory()
     name = Path(folder.name)
     work = {
-        "distance": lambda: surface.distance(0),
+        "distance, accurate": lambda: surface.distance(0, accuracy="accurate"),
         "distance, fast": lambda: surface.distance(0, accuracy="fast"),
         "distance, exact": lambda: surface.distance(0, accuracy="exact"),
-        "distances, 20 rows": lambda: surface.distances(some, threads=1),
-        "nearest, 20 sources": lambda: surface.nearest(some),
+        "distances, 20 rows": lambda: surface.distances(some, threads=1, accuracy="accurate"),
+        "nearest, 20 sources": lambda: surface.nearest(some, accuracy="accurate"),
         "estimate": lambda: surface.estimate(0),
         "near, a row of 100": lambda: surface.near(some, count=100, threads=1),
-        "pairs, 20 rows": lambda: surface.pairs(name / "d.npy", some, threads=1),
-        "field": lambda: surface.field(0),
+        "pairs, 20 rows": lambda: surface.pairs(name / "d.npy", some, threads=1, accuracy="accurate"),
+        "field": lambda: surface.field(0, accuracy="accurate"),
         "field.path": lambda: field.path(n // 2),
         "field.at, 1000 points": lambda: field.at(V[:1000]),
         "field.gradient": field.gradient,
@@ -79,8 +79,7 @@ def main(file, solid=None):
     print(surface, block)
     for what, call in work.items():
         try:
-            call()
-            print(f"{what}: {told(least(call))}")
+            print(f"{what}: {told(least(call))}", flush=True)
         except plexway.NotBuilt as missing:
             print(f"{what}: {missing}")
 
