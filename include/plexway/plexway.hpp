@@ -4,6 +4,7 @@
 /// All of the library, but for what the optional providers under complexes/ bring: solve on any
 /// domain, what to do with distances, files and pictures. Link the components that you use.
 #include <plexway/any/complex.hpp>
+#include <plexway/any/pairs.hpp>
 #include <plexway/any/scene.hpp>
 #include <plexway/any_domain.hpp>
 #include <plexway/apps/all_pairs.hpp>

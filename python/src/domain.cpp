@@ -92,6 +92,8 @@ py::object lengths_of(const MeasuredLengths* lengths, const py::object& owner) {
   if (!lengths->triangles.empty())
     return view(lengths->triangles.data(), lengths->triangles.size(), owner);
   if (!lengths->tets.empty()) return view(lengths->tets.data(), lengths->tets.size(), owner);
+  if (!lengths->speeds.empty())
+    return view(lengths->speeds.data(), lengths->speeds.size(), 1, owner).attr("ravel")();
   return view(lengths->edges.data(), lengths->edges.size(), 1, owner).attr("ravel")();
 }
 
@@ -194,6 +196,14 @@ void bind_domain(py::module_& module) {
                              })
       .def_property_readonly("wanted_triangulation",
                              [](const Domain& d) { return name_of(d.options().triangulation); })
+      .def_property_readonly(
+          "violations",  // simplices whose lengths no flat one has, and the first
+          [](const Domain& d) {
+            const MeasuredLengths* lengths =
+                d.options().lengths ? d.options().lengths.get() : d.shape().lengths();
+            const metric::Violations found = lengths ? lengths->violations : metric::Violations{};
+            return py::make_tuple(found.count, found.first);
+          })
       .def_property_readonly("measured",
                              [](const std::shared_ptr<Domain>& d) {
                                return lengths_of(d->options().lengths.get(), py::cast(d));
