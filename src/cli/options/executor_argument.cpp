@@ -80,7 +80,7 @@ void check_executor(const ExecutorArgument& argument, const PropagateOptions& op
                      " does not take labels in order");
   if (refusal == Refusal::gl_visibility)
     throw UsageError("--executor gl knows --visibility saddles only");
-  if (refusal == Refusal::windows_gl || refusal == Refusal::windows_threads)
+  if (refusal == Refusal::windows_gl)
     throw UsageError("--executor " + name + " knows --accuracy fast only");
 }
 
