@@ -151,9 +151,9 @@ class AnyDomain {
   bool solve_each(const AnyExecutor& executor, const SourceList& sources,
                   const PropagateOptions& options, std::span<float> rows) const;
 
-  /// A field that can tell ways. Surfaces, solids, wireframes and clouds (UsageError). Its
-  /// distances are those of `solve`; the way is looked for in the triangles of the shape. Cost: a
-  /// solve, and on a surface where other triangles were taken those of the shape are built once.
+  /// A field that can tell ways; on mixed domains and complexes it traces none, and `at` takes
+  /// ReadOut::linear alone (UsageError). Its distances are those of `solve`; ways are looked for in
+  /// the shape's triangles. Cost: a solve, and those triangles once, where others were taken.
   [[nodiscard]] AnyPathField path_field(const AnyExecutor& executor,
                                         std::span<const PointSource> sources,
                                         const PropagateOptions& options = {}) const;

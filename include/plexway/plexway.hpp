@@ -42,6 +42,7 @@
 #include <plexway/io/part_file.hpp>
 #include <plexway/io/paths.hpp>
 #include <plexway/io/points.hpp>
+#include <plexway/io/regions.hpp>
 #include <plexway/io/simplices.hpp>
 #include <plexway/io/sparse_file.hpp>
 #include <plexway/io/tets.hpp>

@@ -10,6 +10,7 @@
 #include <plexway/error.hpp>
 #include <plexway/solve.hpp>
 
+#include "any/linear_field.hpp"
 #include "any/make_complex.hpp"
 #include "any/mixed_domain.hpp"
 #include "any/path_state.hpp"
@@ -129,7 +130,7 @@ class PreparedKind : public Prepared {
       state->solve(executor, sources, options);
       return state;
     } else {
-      throw UsageError("paths are traced on surfaces, solids, wireframes and clouds");
+      return linear_field(shared_from_this(), shape_, executor, sources, options);
     }
   }
 

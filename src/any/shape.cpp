@@ -406,11 +406,29 @@ std::array<double, 3> AnyShape::position(const PointSource& source) const {
 
 std::vector<Path> AnyShape::isolines(std::span<const double> distance,
                                      std::span<const double> values) const {
-  const auto* surface = std::get_if<io::Triangles>(&data());
-  if (surface == nullptr)
-    throw UsageError("isolines are drawn on surfaces, not on a " + std::string(kind_noun(kind())));
-  require_positions(*this);
-  return plexway::isolines(surface->positions, surface->triangles, distance, values);
+  if (const auto* surface = std::get_if<io::Triangles>(&data())) {
+    require_positions(*this);
+    return plexway::isolines(surface->positions, surface->triangles, distance, values);
+  }
+  const auto* mixed = std::get_if<MixedShape>(&data());
+  if (mixed == nullptr)
+    throw UsageError("isolines are drawn on surfaces and mixed domains, not on a " +
+                     std::string(kind_noun(kind())));
+  std::vector<std::array<Index, 3>> triangles;
+  std::vector<Index> number;  // of each among all simplices
+  Index simplex = 0;
+  for (const MixedShape::Part& part : mixed->parts) {
+    simplex += static_cast<Index>(part.edges.size());
+    for (const auto& triangle : part.triangles) {
+      triangles.push_back(triangle);
+      number.push_back(simplex++);
+    }
+    simplex += static_cast<Index>(part.tets.size());
+  }
+  std::vector<Path> lines = plexway::isolines(mixed->positions, triangles, distance, values);
+  for (Path& line : lines)
+    for (PathPoint& point : line.points) point.simplex = number[point.simplex];
+  return lines;
 }
 
 void AnyShape::write_field(const std::filesystem::path& out, std::span<const double> distance,

@@ -1,6 +1,7 @@
 // Gmsh's .msh, versions 2 and 4.1, ascii and binary. https://gmsh.info/doc/texinfo/gmsh.html,
 // sections "MSH file format" and "MSH file format version 2 (Legacy)".
 
+#include <map>
 #include <string>
 #include <utility>
 
@@ -8,6 +9,7 @@
 
 #include "gmsh_elements.hpp"
 #include "node_tags.hpp"
+#include "region_parsers.hpp"
 #include "tet_checks.hpp"
 #include "value_source.hpp"
 
@@ -26,7 +28,9 @@ struct Format {
 template <class Source>
 class GmshReader {
  public:
-  GmshReader(Source in, std::string_view name, Take take) : in_(in), name_(name), take_(take) {}
+  /// `regions`: where those of the cells go, if they are wanted.
+  GmshReader(Source in, std::string_view name, Take take, Regions* regions)
+      : in_(in), name_(name), take_(take), regions_(regions) {}
 
   Mixed read(bool version4) {
     while (!(has_nodes_ && has_elements_)) {
@@ -43,6 +47,9 @@ class GmshReader {
         version4 ? elements4() : elements2();
         end_section("$EndElements");
         has_elements_ = true;
+      } else if (section == "$Entities" && regions_ != nullptr && version4) {
+        entities4();
+        end_section("$EndEntities");
       } else if (section == "$ParametricNodes") {
         in_.fail("$ParametricNodes are not read; save the file without parametric coordinates");
       } else if (section.empty()) {
@@ -122,6 +129,29 @@ class GmshReader {
     if (tags_.size() != nodes) fewer_than("nodes", tags_.size(), nodes);
   }
 
+  // Physical groups belong to the entities that elements are on.
+  void entities4() {
+    in_.end_line();
+    std::array<std::uint64_t, 4> entities{};
+    for (std::uint64_t& n : entities)
+      n = count(in_.whole(u64, "the number of entities"), "entities", u64, 1);
+    for (std::int64_t dimension = 0; dimension < 4; ++dimension)
+      for (std::uint64_t i = 0; i < entities[static_cast<std::size_t>(dimension)]; ++i) {
+        const std::int64_t tag = in_.whole(i32, "the entity's tag");
+        in_.skip(f64, dimension == 0 ? 3 : 6, "the entity's place");
+        const std::uint64_t groups =
+            count(in_.whole(u64, "the number of physical groups"), "physical groups", i32, 1);
+        if (groups > 0) {
+          groups_[{dimension, tag}] = in_.whole(i32, "the physical group");
+          in_.skip(i32, groups - 1, "the physical group");
+        }
+        if (dimension == 0) continue;
+        const std::uint64_t parts =
+            count(in_.whole(u64, "the number of parts of its boundary"), "parts", i32, 1);
+        in_.skip(i32, parts, "a part of the entity's boundary");
+      }
+  }
+
   void elements2() {
     const std::uint64_t elements =
         count(in_.text_whole("the number of elements"), "elements", i32, 1);
@@ -131,7 +161,7 @@ class GmshReader {
         const std::int64_t number = in_.whole(i32, "the element's number");
         const GmshElement* element = find_gmsh_element(in_.whole(i32, "the element's type"));
         if (element != nullptr) {
-          in_.skip(i32, tag_count(), "the element's tags");
+          tags2(tag_count());
           this->element(*element, number, i32);
           in_.end_item();
         } else {
@@ -148,7 +178,7 @@ class GmshReader {
         const std::uint64_t tags = tag_count();
         for (std::uint64_t e = 0; e < here; ++e) {
           const std::int64_t number = in_.whole(i32, "the element's number");
-          in_.skip(i32, tags, "the element's tags");
+          tags2(tags);
           this->element(element, number, i32);
         }
         i += here;
@@ -164,7 +194,10 @@ class GmshReader {
     in_.skip(u64, 2, "the least and the largest tag");
     std::uint64_t seen = 0;
     for (std::int64_t b = 0; b < blocks; ++b) {
-      in_.skip(i32, 2, "the entity's dimension and tag");
+      const std::int64_t dimension = in_.whole(i32, "the entity's dimension and tag");
+      const std::int64_t tag = in_.whole(i32, "the entity's dimension and tag");
+      const auto group = groups_.find({dimension, tag});
+      region_ = group == groups_.end() ? 0 : group->second;
       const std::int64_t type = in_.whole(i32, "the type of elements");
       const std::uint64_t here = count(in_.whole(u64, "the number of elements of the block"),
                                        "elements in a block", u64, 2);
@@ -194,6 +227,12 @@ class GmshReader {
     return *element;
   }
 
+  // The first is the physical group, 0 for none.
+  void tags2(std::uint64_t tags) {
+    region_ = tags == 0 ? 0 : in_.whole(i32, "the element's tags");
+    if (tags > 1) in_.skip(i32, tags - 1, "the element's tags");
+  }
+
   std::uint64_t tag_count() {
     return count(in_.whole(i32, "the number of tags"), "tags of an element", i32, 1);
   }
@@ -212,6 +251,10 @@ class GmshReader {
       if (!mixed || element.kind != gmsh_points) others_.add(element.kind);
       in_.skip(type, element.nodes, "a node of the element");
     }
+    if (regions_ == nullptr) return;
+    regions_->edges.resize(solid_.edges.size(), region_);
+    regions_->triangles.resize(solid_.triangles.size(), region_);
+    regions_->tets.resize(solid_.tets.size(), region_);
   }
 
   template <std::size_t N>
@@ -245,6 +288,9 @@ class GmshReader {
   Source in_;
   std::string_view name_;
   Take take_;
+  Regions* regions_;
+  std::map<std::pair<std::int64_t, std::int64_t>, std::int64_t> groups_;  // by dimension and tag
+  std::int64_t region_ = 0;  // of the element that is read
   Mixed solid_;
   NodeTags tags_;
   OtherCells others_;
@@ -273,14 +319,14 @@ Format read_format(TextScanner& scanner) {
   return format;
 }
 
-Mixed parse(std::string_view bytes, std::string_view name, Take take) {
+Mixed parse(std::string_view bytes, std::string_view name, Take take, Regions* regions = nullptr) {
   TextScanner scanner(bytes, name);
   const Format format = read_format(scanner);
   const bool version4 = format.version > 3;
   if (!format.binary) {
     if (!scanner.to_content() || scanner.field() != "$EndMeshFormat")
       scanner.fail("expected $EndMeshFormat");
-    return GmshReader(TextValues(scanner), name, take).read(version4);
+    return GmshReader(TextValues(scanner), name, take, regions).read(version4);
   }
   // A one, as an int, tells the byte order.
   const std::size_t at = bytes.size() - scanner.bytes_left();
@@ -292,7 +338,7 @@ Mixed parse(std::string_view bytes, std::string_view name, Take take) {
   if (in.whole(i32, "the number that tells the order of bytes") != 1)
     in.fail("the number that tells the order of bytes is not 1");
   if (in.word() != "$EndMeshFormat") in.fail("expected $EndMeshFormat");
-  return GmshReader(in, name, take).read(version4);
+  return GmshReader(in, name, take, regions).read(version4);
 }
 
 }  // namespace
@@ -303,6 +349,12 @@ Tets parse_gmsh(std::string_view bytes, std::string_view name) {
 
 Mixed parse_gmsh_mixed(std::string_view bytes, std::string_view name) {
   return parse(bytes, name, Take::mixed);
+}
+
+Regions parse_gmsh_regions(std::string_view bytes, std::string_view name, Take take) {
+  Regions regions;
+  (void)parse(bytes, name, take, &regions);
+  return regions;
 }
 
 }  // namespace plexway::io

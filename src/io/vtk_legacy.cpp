@@ -5,6 +5,7 @@
 #include <string>
 #include <utility>
 
+#include "region_parsers.hpp"
 #include "vtk_cells.hpp"
 
 namespace plexway::io {
@@ -23,7 +24,9 @@ std::string lower(std::string_view word) {
 template <class Source>
 class LegacyReader {
  public:
-  LegacyReader(Source in, std::string_view name, Take take) : in_(in), name_(name), take_(take) {}
+  /// `regions`: where those of the cells go, if they are wanted.
+  LegacyReader(Source in, std::string_view name, Take take, Regions* regions)
+      : in_(in), name_(name), take_(take), regions_(regions) {}
 
   Mixed read(bool version5) {
     // What comes after these three is data at points and cells.
@@ -56,10 +59,84 @@ class LegacyReader {
       }
     }
     require_cells(solid_, others_, take_, name_);
+    if (regions_ != nullptr) read_regions();
     return std::move(solid_);
   }
 
  private:
+  // Data at points and cells, each array under a keyword that says how it is written.
+  void read_regions() {
+    std::vector<std::int64_t> best;
+    std::size_t rank = region_names.size();
+    std::uint64_t tuples = 0;
+    bool at_cells = false;
+    // An array of `components` numbers each, of `name`.
+    const auto array = [&](std::string_view name, std::uint64_t components, NumberType type) {
+      const std::size_t found = at_cells && components == 1 ? region_rank(name) : rank;
+      if (components != 0 && tuples > in_.most(type) / components)
+        in_.fail("the array " + quote(name) + " is cut off");
+      if (found >= rank) return in_.skip(type, components * tuples, "a value of the array");
+      rank = found;
+      best.clear();
+      for (std::uint64_t c = 0; c < tuples; ++c) best.push_back(read_region(in_, type));
+    };
+    for (;;) {
+      const std::string_view word = in_.word();
+      const std::string keyword = lower(word);
+      if (keyword.empty()) break;
+      if (keyword == "cell_data" || keyword == "point_data") {
+        at_cells = keyword == "cell_data";
+        tuples = count("tuples", i8, 1);
+        if (at_cells && tuples != cells_.ends.size())
+          in_.fail("data for " + std::to_string(tuples) + " cells, but there are " +
+                   std::to_string(cells_.ends.size()));
+      } else if (keyword == "metadata") {
+        in_.skip_to_blank_line();
+      } else if (keyword == "field") {
+        in_.word();  // its name
+        for (std::uint64_t left = count("arrays", i8, 1); left > 0;) {
+          const std::string name(in_.word());
+          if (name == "METADATA") {
+            in_.skip_to_blank_line();
+            continue;
+          }
+          const std::uint64_t components = count("components", i8, 1);
+          if (count("tuples", i8, 1) != tuples) in_.fail("an array of another number of tuples");
+          const NumberType type = number_type();
+          in_.end_line();
+          array(name, components, type);
+          --left;
+        }
+      } else if (keyword == "scalars") {
+        const std::string name(in_.word());
+        const NumberType type = number_type();
+        // How many components, if it says so, and a table of colours.
+        std::uint64_t components = 1;
+        std::string next = lower(in_.word());
+        if (next != "lookup_table") {
+          if (next.size() != 1 || next[0] < '1' || next[0] > '4')
+            in_.fail("expected LOOKUP_TABLE, found " + quote(next));
+          components = static_cast<std::uint64_t>(next[0] - '0');
+          next = lower(in_.word());
+          if (next != "lookup_table") in_.fail("expected LOOKUP_TABLE, found " + quote(next));
+        }
+        in_.word();
+        in_.end_line();
+        array(name, components, type);
+      } else if (keyword == "vectors" || keyword == "normals" || keyword == "tensors") {
+        const std::string name(in_.word());
+        const NumberType type = number_type();
+        in_.end_line();
+        array(name, keyword == "tensors" ? 9 : 3, type);
+      } else {
+        in_.fail("data under " + quote(word) + " are not read: regions must come before");
+      }
+      if (rank == 0) break;
+    }
+    if (rank == region_names.size()) no_regions(name_);
+    *regions_ = owners_.regions(best);
+  }
+
   std::uint64_t count(std::string_view what, NumberType type, std::uint64_t values) {
     return checked_count(in_, in_.text_whole("the number of " + std::string(what)), what, type,
                          values);
@@ -179,15 +256,19 @@ class LegacyReader {
       in_.fail("there are " + std::to_string(types) + " types for " +
                std::to_string(cells_.ends.size()) + " cells");
     VtkTets tets(solid_, others_, take_);
-    for (std::uint64_t c = 0; c < types; ++c)
+    for (std::uint64_t c = 0; c < types; ++c) {
       if (const auto wrong = tets.add(cells_, c, in_.whole(i32, "the type of a cell")))
         in_.fail(*wrong);
+      if (regions_ != nullptr) owners_.take(solid_, c);
+    }
     has_types_ = true;
   }
 
   Source in_;
   std::string_view name_;
   Take take_;
+  Regions* regions_;
+  CellOwners owners_;
   Mixed solid_;
   VtkCells cells_;
   OtherCells others_;
@@ -196,7 +277,7 @@ class LegacyReader {
   bool has_types_ = false;
 };
 
-Mixed parse(std::string_view bytes, std::string_view name, Take take) {
+Mixed parse(std::string_view bytes, std::string_view name, Take take, Regions* regions = nullptr) {
   // The first line looks like a comment, and the second holds anything.
   const auto fail = [&](std::size_t line, const std::string& cause) {
     throw InputError(std::string(name) + ":" + std::to_string(line) + ": " + cause);
@@ -216,9 +297,11 @@ Mixed parse(std::string_view bytes, std::string_view name, Take take) {
   if (mode != "ascii" && mode != "binary")
     scanner.fail("expected ASCII or BINARY, found " + quote(word));
   scanner.next_line();
-  if (mode == "ascii") return LegacyReader(TextValues(scanner), name, take).read(version >= 5);
+  if (mode == "ascii")
+    return LegacyReader(TextValues(scanner), name, take, regions).read(version >= 5);
   const std::size_t at = bytes.size() - scanner.bytes_left();
-  return LegacyReader(ByteValues(bytes, name, std::endian::big, at), name, take).read(version >= 5);
+  return LegacyReader(ByteValues(bytes, name, std::endian::big, at), name, take, regions)
+      .read(version >= 5);
 }
 
 }  // namespace
@@ -229,6 +312,12 @@ Tets parse_vtk(std::string_view bytes, std::string_view name) {
 
 Mixed parse_vtk_mixed(std::string_view bytes, std::string_view name) {
   return parse(bytes, name, Take::mixed);
+}
+
+Regions parse_vtk_regions(std::string_view bytes, std::string_view name, Take take) {
+  Regions regions;
+  (void)parse(bytes, name, take, &regions);
+  return regions;
 }
 
 }  // namespace plexway::io

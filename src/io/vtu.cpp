@@ -13,6 +13,7 @@
 #include <pugixml.hpp>
 #include <string>
 
+#include "region_parsers.hpp"
 #include "vtk_cells.hpp"
 #include "vtu_data.hpp"
 
@@ -21,8 +22,13 @@ namespace {
 
 class VtuReader {
  public:
-  VtuReader(std::string_view bytes, std::string_view name, Take take)
-      : bytes_(bytes), name_(name), take_(take), room_(least_room + most_packed * bytes.size()) {}
+  /// `regions`: where those of the cells go, if they are wanted.
+  VtuReader(std::string_view bytes, std::string_view name, Take take, Regions* regions = nullptr)
+      : bytes_(bytes),
+        name_(name),
+        take_(take),
+        regions_(regions),
+        room_(least_room + most_packed * bytes.size()) {}
 
   Mixed read() {
     load();
@@ -143,10 +149,27 @@ class VtuReader {
            });
     values(cell_array(piece, "types"), "types of cells", cells, 1, [&](auto& in, NumberType type) {
       VtkTets tets(solid_, others_, take_);
-      for (std::uint64_t c = 0; c < cells; ++c)
+      for (std::uint64_t c = 0; c < cells; ++c) {
         if (const auto wrong = tets.add(list, c, in.whole(type, "the type of a cell")))
           in.fail(*wrong);
+        if (regions_ != nullptr) owners_.take(solid_, regions_of_cells_.size() + c);
+      }
     });
+    if (regions_ != nullptr) read_regions(piece, cells);
+  }
+
+  void read_regions(pugi::xml_node piece, std::uint64_t cells) {
+    pugi::xml_node best;
+    std::size_t rank = region_names.size();
+    for (const pugi::xml_node array : piece.child("CellData").children("DataArray")) {
+      const std::size_t found = region_rank(array.attribute("Name").value());
+      if (found < rank) rank = found, best = array;
+    }
+    if (!best) no_regions(name_);
+    values(best, "regions of cells", cells, 1, [&](auto& in, NumberType type) {
+      for (std::uint64_t c = 0; c < cells; ++c) regions_of_cells_.push_back(read_region(in, type));
+    });
+    *regions_ = owners_.regions(regions_of_cells_);
   }
 
   pugi::xml_node cell_array(pugi::xml_node piece, const char* name) const {
@@ -212,6 +235,9 @@ class VtuReader {
   std::string_view bytes_;
   std::string_view name_;
   Take take_;
+  Regions* regions_;
+  CellOwners owners_;
+  std::vector<std::int64_t> regions_of_cells_;
   std::uint64_t room_;
   mutable std::size_t counted_ = 0;
   mutable std::size_t counted_line_ = 1;
@@ -234,9 +260,17 @@ Mixed parse_vtu_mixed(std::string_view bytes, std::string_view name) {
   return VtuReader(bytes, name, Take::mixed).read();
 }
 
+Regions parse_vtu_regions(std::string_view bytes, std::string_view name, Take take) {
+  Regions regions;
+  (void)VtuReader(bytes, name, take, &regions).read();
+  return regions;
+}
+
 }  // namespace plexway::io
 
 #else
+
+#include "region_parsers.hpp"
 
 namespace plexway::io {
 
@@ -244,6 +278,11 @@ Mixed parse_vtu_mixed(std::string_view, std::string_view) {
   throw NotBuiltError(
       "this plexway reads no .vtu: install libpugixml-dev and build it again, or save the file as "
       "legacy .vtk");
+}
+
+Regions parse_vtu_regions(std::string_view bytes, std::string_view name, Take) {
+  (void)parse_vtu_mixed(bytes, name);
+  return {};
 }
 
 Tets parse_vtu(std::string_view bytes, std::string_view name) {

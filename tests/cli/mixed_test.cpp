@@ -89,6 +89,55 @@ TEST_CASE("cells of several dimensions in one file are a mixed domain") {
   CHECK(run_tool({"bench", file, "--as", "mixed", "-s", "vertex:5", "--repeats", "2"}).code == 0);
 }
 
+TEST_CASE("speeds by the regions of the file, and lines of equal distance on a mixed domain") {
+  const Folder folder;
+  const std::string file =
+      folder.write("flag.vtk", flag + "CELL_DATA 3\nFIELD f 1\nregion 1 3 int\n7 7 3\n");
+  const auto by = [&](const std::string& name, const std::string& text) {
+    return std::string(name) + ":" + folder.write(name + ".txt", text);
+  };
+  // The line twice as fast as the square.
+  const auto distance = distances(
+      {file, "--as", "mixed", "-s", "vertex:5", "--metric", by("regions", "3 2\n7 1\n9 5\n")});
+  CHECK(distance[2] == Approx(2));
+  CHECK(distance[1] == Approx(3));
+  CHECK(distance[0] == Approx(2 + std::sqrt(2)));
+  CHECK(distance == distances({file, "--as", "mixed", "-s", "vertex:5", "--metric",
+                               by("speed", "2\n2\n1\n1\n")}));
+  const auto fails = [&](const std::string& text, int code, const std::string& why) {
+    const auto run = run_tool(
+        {"distance", file, "--as", "mixed", "-s", "vertex:5", "--metric", by("regions", text)});
+    CHECK(run.code == code);
+    CHECK_THAT(run.err, Contains(why));
+  };
+  fails("3 2\n", 3, "no speed for region 7");
+  fails("3 2\n7 0\n", 3, "above 0");
+  fails("3 2\n3 1\n", 3, "already");
+  CHECK(run_tool({"distance", folder.write("square.off", square_at(0, 4)), "-s", "vertex:0",
+                  "--metric", by("regions", "1 1\n")})
+            .code == 2);
+
+  // From the corner of a square about as far as a circle, and each point in a triangle there.
+  const std::string left = folder.write("left.off", square_at(0, 21));
+  const std::string right = folder.write("right.off", square_at(1, 21));
+  const std::string lines = folder.write("lines.json", "");
+  CHECK(run_tool({"distance", left, right, "--weld", "1e-6", "-s", "vertex:0", "--isoline-step",
+                  "0.8", "--isolines-out", lines, "--quiet"})
+            .code == 0);
+  const auto json = nlohmann::json::parse(io_testing::bytes_of(lines));
+  double length = 0;
+  for (const auto& line : json["paths"]) {
+    if (line["source"] != 0) continue;
+    length += line["length"].get<double>();
+    for (std::size_t i = 0; i < line["points"].size(); ++i) {
+      const auto& at = line["positions"][i];
+      CHECK(std::hypot(at[0].get<double>(), at[1].get<double>()) == Approx(0.8).epsilon(3e-3));
+      CHECK(line["points"][i]["simplex"].get<int>() < 2 * 800);
+    }
+  }
+  CHECK(length == Approx(0.8 * std::acos(0.)).epsilon(3e-3));
+}
+
 TEST_CASE("several files are welded to a mixed domain") {
   const Folder folder;
   const std::string left = folder.write("left.off", square_at(0, 6));

@@ -1,12 +1,15 @@
 #include "any/arguments/metric_argument.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <cstdint>
 #include <map>
 #include <optional>
 #include <utility>
 #include <variant>
 
 #include <plexway/error.hpp>
+#include <plexway/io/regions.hpp>
 
 #include "any/words.hpp"
 #include "io/number_rows.hpp"
@@ -14,7 +17,7 @@
 namespace plexway {
 namespace {
 
-enum class Kind { tensor, vertex_tensor, speed, lengths };
+enum class Kind { tensor, vertex_tensor, speed, regions, lengths };
 
 struct Parsed {
   Kind kind;
@@ -29,10 +32,12 @@ Parsed parse(const MetricArgument& argument) {
     if (kind == "tensor") return {Kind::tensor, file};
     if (kind == "vertex-tensor") return {Kind::vertex_tensor, file};
     if (kind == "speed") return {Kind::speed, file};
+    if (kind == "regions") return {Kind::regions, file};
     if (kind == "lengths") return {Kind::lengths, file};
   }
-  throw UsageError("--metric '" + argument.text +
-                   "': write tensor:FILE, vertex-tensor:FILE, speed:FILE or lengths:FILE");
+  throw UsageError(
+      "--metric '" + argument.text +
+      "': write tensor:FILE, vertex-tensor:FILE, speed:FILE, regions:FILE or lengths:FILE");
 }
 
 void check_rows(const std::string& file, std::size_t rows, std::size_t needed,
@@ -79,6 +84,38 @@ std::vector<double> read_speeds(const std::string& file, std::size_t needed,
   return speeds;
 }
 
+// Of each simplex as its region in the domain's own file has it.
+std::vector<double> read_region_speeds(const std::string& file, const AnyShape& domain) {
+  std::map<std::int64_t, double> speed_of;
+  const auto rows = io::read_number_rows(file, 2, 2, "a region and its speed a line");
+  for (const io::NumberRow& row : rows) {
+    const double region = row.numbers[0];
+    if (region != std::floor(region) || !(std::abs(region) < 9e15))
+      fail_at(file, row, "a region is a whole number");
+    if (!(row.numbers[1] > 0)) fail_at(file, row, "a speed must be above 0");
+    if (!speed_of.try_emplace(static_cast<std::int64_t>(region), row.numbers[1]).second)
+      fail_at(file, row, "region " + short_number(region) + " has a speed already");
+  }
+  const bool mixed = domain.kind() == DomainKind::mixed;
+  if (!mixed && domain.kind() != DomainKind::solid)
+    throw UsageError("--metric regions: for solids and mixed domains out of a .msh, .vtu or .vtk");
+  const io::Regions regions = io::read_regions(domain.file(), mixed);
+  std::vector<double> speeds;
+  for (const auto* list : {&regions.edges, &regions.triangles, &regions.tets})
+    for (const std::int64_t region : *list) {
+      const auto found = speed_of.find(region);
+      if (found == speed_of.end())
+        throw InputError(file + ": no speed for region " + std::to_string(region) + " of " +
+                         domain.file().string());
+      speeds.push_back(found->second);
+    }
+  if (speeds.size() != domain.simplices())
+    throw UsageError("--metric regions: " + domain.file().string() + " has regions of " +
+                     counted(speeds.size(), "cells") + ", but the domain has " +
+                     counted(domain.simplices(), domain.simplex_name()));
+  return speeds;
+}
+
 metric::GivenLengths read_lengths(const std::string& file, std::size_t vertices) {
   metric::GivenLengths given;
   std::map<std::pair<Index, Index>, const io::NumberRow*> first;
@@ -107,6 +144,8 @@ metric::Metric read_metric(const Parsed& asked, const AnyShape& domain,
     case Kind::speed:
       return metric::SimplexSpeeds{
           read_speeds(asked.file, domain.simplices(), domain.simplex_name()), by};
+    case Kind::regions:
+      return metric::SimplexSpeeds{read_region_speeds(asked.file, domain), by};
     case Kind::lengths:
       break;
   }

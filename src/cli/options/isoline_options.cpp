@@ -69,8 +69,8 @@ void check_isolines(const IsolineOptions& options, const std::string& input) {
 void check_isolines(const IsolineOptions& options, const Domain& domain) {
   if (options.out.empty()) return;
   const bool solid = domain.kind() == DomainKind::solid;
-  if (!solid && domain.kind() != DomainKind::surface)
-    throw UsageError("--isoline-step: for surfaces and solids, not a " +
+  if (!solid && domain.kind() != DomainKind::surface && domain.kind() != DomainKind::mixed)
+    throw UsageError("--isoline-step: for surfaces, solids and mixed domains, not a " +
                      std::string(kind_noun(domain.kind())));
   check_output_name(options.out, domain.file().string(),
                     solid ? io::triangle_output_extensions() : io::path_extensions(),
