@@ -117,7 +117,7 @@ Json to_json(const DistanceCommand& command, const AnyDomain& solver, const AnyF
   json["threads"] = executor_threads(outcome.executor);
   json["precision"] = command.solve.precision == "float" ? "float" : "double";
   if (domain.kind() == DomainKind::surface || domain.cloud() != nullptr)
-    json["accuracy"] = json_of(field.accuracy());
+    add_accuracy(field.accuracy(), field.statistics(), json);
   if (domain.kind() == DomainKind::surface) json["triangulation"] = name_of(field.triangulation);
   add_metric(command.metric, lengths, solver.refracting_edges(), json);
   if (!domain.level_set_note().empty()) json["voxels"] = domain.level_set_note();
@@ -204,8 +204,17 @@ std::string why_unreached(const AnyDomain& solver, bool bounded) {
 
 // Things the user should know, though nothing failed.
 void say_notes(const AnyDomain& solver, const AnyField& field, const Outcome& outcome, bool bounded,
-               bool single) {
+               bool single, bool accuracy_given) {
   const Domain& domain = solver.shape();
+  note_accuracy(field.statistics());
+  const bool by_labels = field.accuracy() == Accuracy::fast();
+  // Windows go there, but for curves, speeds that jump, and options of labels.
+  if (std::holds_alternative<GL>(outcome.executor) && !accuracy_given &&
+      (domain.kind() == DomainKind::surface || domain.kind() == DomainKind::cloud))
+    say_note("--executor gl knows --accuracy fast only; serial is more accurate");
+  if (const std::size_t threads = executor_threads(outcome.executor); threads > 1 && !by_labels)
+    say_note("a field of this accuracy is one thread's work: --accuracy fast takes all " +
+             std::to_string(threads));
   if (domain.cloud() != nullptr && domain.cloud()->not_finite > 0)
     say_note(counted(domain.cloud()->not_finite, "points") +
              " not finite, and dropped: vertices count those that are left; the column original "
@@ -229,7 +238,6 @@ void say_notes(const AnyDomain& solver, const AnyField& field, const Outcome& ou
   const bool has_windows =
       (domain.kind() == DomainKind::surface || domain.kind() == DomainKind::cloud) &&
       solver.refracting_edges() == 0;
-  const bool by_labels = field.accuracy() == Accuracy::fast();
   const std::string cure = has_windows && by_labels ? "; --accuracy accurate has none of this" : "";
   const std::size_t raised = field.statistics().raised_vertices;
   if (100 * raised > domain.vertices())
@@ -381,7 +389,9 @@ void run_distance(DistanceCommand command) {
   if (!command.quiet) say_violations(domain, lengths.get());
   if (!command.quiet && !command.isolines.out.empty() && isovalues.empty())
     say_note("--isolines-out holds nothing: no distance is as large as the step");
-  if (!command.quiet) say_notes(solver, field, outcome, bounded, precision == Precision::single);
+  if (!command.quiet)
+    say_notes(solver, field, outcome, bounded, precision == Precision::single,
+              !command.solve.accuracy.empty());
 }
 
 }  // namespace
