@@ -15,7 +15,7 @@
 namespace {
 
 void check(const bench::Surface& surface, bench::Index source, const std::vector<double>& exact) {
-  plexway::PropagateOptions options;
+  plexway::PropagateOptions options = bench::one_label();
   options.visibility = plexway::Visibility::upper_bound;
   bench::PlexwayPeer<double> above(surface, options);
   above.solve(source);

@@ -83,7 +83,8 @@ void solve_and_compare(const Complex& complex, const Cloud& cloud,
   plexway::DistanceField<float> field;
   const auto solve = [&](Index i) {
     const auto source = plexway::PointSource::at(i);
-    plexway::solve(plexway::Serial{}, complex, std::span(&source, 1), {}, workspace, field);
+    plexway::solve(plexway::Serial{}, complex, std::span(&source, 1), bench::one_label(), workspace,
+                   field);
   };
   std::vector<std::array<Index, 2>> edges;
   for (Index i = 0; i < cloud.points.size(); ++i)

@@ -120,7 +120,8 @@ nlohmann::ordered_json measure(const Measured& cloud, const Options& options) {
   plexway::DistanceField<Real> field;
   const auto solve = [&](Index v) {
     const auto source = plexway::PointSource::at(v);
-    plexway::solve(plexway::Serial{}, *domain, std::span(&source, 1), {}, workspace, field);
+    plexway::solve(plexway::Serial{}, *domain, std::span(&source, 1), bench::one_label(), workspace,
+                   field);
   };
   plexway::boost_graph::EdgeDijkstra<Real> dijkstra(graph_of(cloud, neighbours));
   const auto sources = bench::spread_numbers(options.effort.sources, cloud.points.size());

@@ -34,7 +34,9 @@ struct Sample {
 
 template <class Mesh>
 std::vector<double> solve(const Mesh& mesh, Index source) {
-  return plexway::solve(plexway::Serial{}, mesh, plexway::PointSource::at(source)).distance;
+  return plexway::solve(plexway::Serial{}, mesh, plexway::PointSource::at(source),
+                        bench::one_label())
+      .distance;
 }
 
 Sample measure(const Shape& shape, Index source, const std::vector<double>& exact) {

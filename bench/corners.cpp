@@ -69,7 +69,7 @@ int main(int argc, char** argv) {
                       {"wrong", "wrong"},
                       {"ns", "ns/V", "%.0f"},
                       {"expansions", "expansions/face", "%.3f"}});
-  plexway::PropagateOptions options;
+  plexway::PropagateOptions options = bench::one_label();
   options.vectorised = !scalar;
   return report.write(table, [&] {
     for (const samples::CornerDomain& domain : samples::corner_domains())

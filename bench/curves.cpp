@@ -186,7 +186,7 @@ nlohmann::ordered_json measure(const Unrolled& s, const plexway::TriangleMesh<do
                                const Case& one, std::size_t turns) {
   plexway::Workspace<double> workspace;
   plexway::DistanceField<double> whole, sampled;
-  const plexway::PropagateOptions options{};
+  const plexway::PropagateOptions options = bench::one_label();
   std::vector<double> first, ratio;
   for (std::size_t i = 0; i <= turns; ++i) {
     const double a = bench::seconds([&] {

@@ -75,12 +75,12 @@ void measure_field(const bench::Surface& surface, const Settings& settings, std:
   plexway::DistanceField<Real> field;
   std::vector<std::size_t> expansions(teams.size() + 1);
   std::vector<std::function<void()>> works = {[&] {
-    plexway::solve(Serial{}, mesh, sources, {}, workspace, field);
+    plexway::solve(Serial{}, mesh, sources, bench::one_label(), workspace, field);
     expansions[0] = field.statistics.expansions;
   }};
   for (std::size_t i = 0; i < teams.size(); ++i)
     works.push_back([&, i] {
-      plexway::solve(teams[i].second, mesh, sources, {}, workspace, field);
+      plexway::solve(teams[i].second, mesh, sources, bench::one_label(), workspace, field);
       expansions[i + 1] = field.statistics.expansions;
     });
   const auto seconds = take_turns(settings.repeats, works);
@@ -110,8 +110,8 @@ class Strangers {
     for (std::size_t i = 0; i < own_.size(); ++i)
       threads.emplace_back([&, i] {
         for (std::size_t k = i; k < sources.size(); k += own_.size())
-          plexway::solve(Serial{}, own_[i]->mesh, sources.subspan(k, 1), {}, own_[i]->workspace,
-                         own_[i]->field);
+          plexway::solve(Serial{}, own_[i]->mesh, sources.subspan(k, 1), bench::one_label(),
+                         own_[i]->workspace, own_[i]->field);
       });
     for (std::thread& thread : threads) thread.join();
   }
@@ -131,9 +131,12 @@ void measure_batch(const bench::Surface& surface, const Settings& settings, benc
   const plexway::TriangleMesh<Real> mesh(surface.positions, surface.faces);
   const auto list = sources_on(surface, settings.batch);
   const std::span<const PointSource> sources(list);
-  std::vector<std::function<void()>> works = {[&] { (void)solve_each(Serial{}, mesh, sources); }};
+  std::vector<std::function<void()>> works = {
+      [&] { (void)solve_each(Serial{}, mesh, sources, bench::one_label()); }};
   for (const int threads : settings.threads)
-    works.push_back([&, threads] { (void)solve_each(OpenMP{.threads = threads}, mesh, sources); });
+    works.push_back([&, threads] {
+      (void)solve_each(OpenMP{.threads = threads}, mesh, sources, bench::one_label());
+    });
   Strangers<Real> one(surface, 1), all(surface, settings.threads.back());
   works.push_back([&] { one.solve(sources); });
   works.push_back([&] { all.solve(sources); });

@@ -65,13 +65,13 @@ nlohmann::ordered_json measure(const Surface& surface, const Work& work, plexway
       solve(Serial{}, mesh,
             work.batch ? std::span<const PointSource>(&sources[k], 1)
                        : std::span<const PointSource>(sources),
-            {}, workspace, field);
+            bench::one_label(), workspace, field);
   };
   const auto device = [&] {
     if (work.batch)
-      solve_each(executor, mesh, sources, {}, there, all);
+      solve_each(executor, mesh, sources, bench::one_label(), there, all);
     else
-      solve(executor, mesh, sources, {}, there, one);
+      solve(executor, mesh, sources, bench::one_label(), there, one);
   };
   serial();
   const double first = bench::seconds(device);  // the surface goes to the device, shaders compile

@@ -23,12 +23,21 @@
 
 #include <plexway/complex/ids.hpp>
 #include <plexway/io/triangles.hpp>
+#include <plexway/propagate/options.hpp>
 
 #ifdef __GLIBC__
 #include <malloc.h>
 #endif
 
 namespace bench {
+
+/// Labels, one a triangle: what tables call fast, and what orders, policies and executors are
+/// compared with. What is not asked for by name is windows (bench_windows compares both).
+inline plexway::PropagateOptions one_label() {
+  plexway::PropagateOptions options;
+  options.accuracy = plexway::Accuracy::fast();
+  return options;
+}
 
 using plexway::Index;
 

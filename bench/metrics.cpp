@@ -45,8 +45,8 @@ nlohmann::ordered_json measure(const samples::HalvedSquare& square, const Case& 
   std::vector<double> ns, exact;
   for (int repeat = 0; repeat < 5; ++repeat)
     ns.push_back(1e9 * bench::seconds([&] {
-                   plexway::solve(plexway::Serial{}, mesh, std::span(&at, 1),
-                                  plexway::PropagateOptions{}, workspace, field);
+                   plexway::solve(plexway::Serial{}, mesh, std::span(&at, 1), bench::one_label(),
+                                  workspace, field);
                  }) /
                  static_cast<double>(square.points.size()));
   for (const Point& p : square.points) exact.push_back(one.exact(square.points[source], p));

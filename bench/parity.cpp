@@ -37,22 +37,22 @@ Kind serial(const std::string& name, const PropagateOptions& options) {
 }
 
 std::vector<Kind> all_kinds() {
-  PropagateOptions options;
+  PropagateOptions options = bench::one_label();
   std::vector<Kind> kinds = {serial("Serial", options)};
   for (const double step : {0.25, 0.5, 2.}) {
     options.step = step;
     kinds.push_back(serial("Serial, step " + std::to_string(step).substr(0, 4), options));
   }
-  options = {};
+  options = bench::one_label();
   options.schedule = Schedule::priority;
   kinds.push_back(serial("Serial, priority", options));
-  options = {};
+  options = bench::one_label();
   options.vectorised = false;
   kinds.push_back(serial("Serial, not vectorised", options));
   if (openmp_built()) {
     const auto team = [](int threads, bool vectorised) {
       return [threads, vectorised](const Mesh& mesh, const PointSource& source) {
-        PropagateOptions some;
+        PropagateOptions some = bench::one_label();
         some.vectorised = vectorised;
         return plexway::solve(OpenMP{.threads = threads}, mesh,
                               std::span<const PointSource>(&source, 1), some)

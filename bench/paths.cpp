@@ -155,7 +155,7 @@ void bounded() {
   for (int round = 0; round < 5; ++round) {
     const PointSource source = PointSource::at(static_cast<Index>(random() % positions.size()));
     solves.push_back(seconds([&] {
-      plexway::solve(Serial{}, mesh, std::span<const PointSource>(&source, 1), PropagateOptions{},
+      plexway::solve(Serial{}, mesh, std::span<const PointSource>(&source, 1), bench::one_label(),
                      workspace, field);
     }));
     triangles = 0;

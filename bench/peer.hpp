@@ -72,7 +72,7 @@ template <class Real>
 PeerKind plexway_peer(std::string name, plexway::Visibility visibility) {
   return {std::move(name), sizeof(Real) == 4,
           [visibility](const Surface& surface) {
-            plexway::PropagateOptions options;
+            plexway::PropagateOptions options = one_label();
             options.visibility = visibility;
             return std::make_unique<PlexwayPeer<Real>>(surface, options);
           },

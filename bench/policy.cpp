@@ -20,9 +20,9 @@ struct Variant {
 std::vector<Variant> variants() {
   using plexway::Schedule;
   using plexway::Visibility;
-  std::vector<Variant> all(1, {"saddles (default)", {}});
+  std::vector<Variant> all(1, {"saddles (default)", bench::one_label()});
   const auto add = [&](const char* name) -> plexway::PropagateOptions& {
-    return all.emplace_back(Variant{name, {}}).options;
+    return all.emplace_back(Variant{name, bench::one_label()}).options;
   };
   add("saddles, plain step").vectorised = false;
   add("centroid (hinge kernel)").visibility = Visibility::centroid;
@@ -42,7 +42,7 @@ nlohmann::ordered_json measure(const bench::Surface& surface, const Variant& var
   const auto sources = bench::rotating_sources(surface, effort.sources);
   const double vertices = static_cast<double>(surface.positions.size());
   const auto times = bench::take_turns(
-      sources, effort, [&](bench::Index v) { peer.solve(v, {}); },
+      sources, effort, [&](bench::Index v) { peer.solve(v, bench::one_label()); },
       [&](bench::Index v) { peer.solve(v); });
   double expansions = 0;
   double updates = 0;

@@ -57,8 +57,9 @@ void measure(const std::string& name, const std::vector<std::array<double, 3>>& 
   for (int turn = 0; turn < 5; ++turn) {
     const PointSource source =
         PointSource::at(static_cast<Index>(positions.size() / 7) * static_cast<Index>(turn));
-    least(solve,
-          [&] { plexway::solve(Serial{}, mesh, std::span(&source, 1), {}, workspace, field); });
+    least(solve, [&] {
+      plexway::solve(Serial{}, mesh, std::span(&source, 1), bench::one_label(), workspace, field);
+    });
     least(poisson, [&] { darts = poisson_disks(Serial{}, mesh, options, darts_workspace); });
     if (turn > 2) continue;
     for (const int m : {0, 1}) {

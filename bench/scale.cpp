@@ -86,7 +86,7 @@ nlohmann::ordered_json measure(const Surface& surface, const bench::Effort& effo
   std::unique_ptr<bench::PlexwayPeer<Real>> peer;
   row["build_ns_per_vertex"] =
       1e9 / vertices * bench::seconds([&] {
-        peer = std::make_unique<bench::PlexwayPeer<Real>>(surface, plexway::PropagateOptions{});
+        peer = std::make_unique<bench::PlexwayPeer<Real>>(surface, bench::one_label());
       });
   const auto build_peak = bench::status_bytes("VmHWM");
   for (const Index source : sources) peer->solve(source);

@@ -43,11 +43,12 @@ nlohmann::ordered_json measure(const bench::Surface& surface, Retriangulation ki
   const auto sources = bench::rotating_sources(surface, effort.sources);
   const auto solve = [&](bench::Index v) {
     const auto source = plexway::PointSource::at(v);
-    plexway::solve(plexway::Serial{}, mesh, {&source, 1}, {}, workspace, field);
+    plexway::solve(plexway::Serial{}, mesh, {&source, 1}, bench::one_label(), workspace, field);
   };
   const auto on_input = [&](bench::Index v) {
     const auto source = plexway::PointSource::at(v);
-    plexway::solve(plexway::Serial{}, input, {&source, 1}, {}, input_workspace, input_field);
+    plexway::solve(plexway::Serial{}, input, {&source, 1}, bench::one_label(), input_workspace,
+                   input_field);
   };
   const auto times = bench::take_turns(sources, effort, on_input, solve);
   row["ns_per_vertex"] = 1e9 * times.second / vertices;

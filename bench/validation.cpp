@@ -40,6 +40,7 @@ std::vector<Policy> policies(const std::string& table_file) {
   const auto add = [&](const char* name, bool automatic, Visibility visibility,
                        const ProbeTable& table) {
     all.push_back({name, automatic, {}});
+    all.back().options = bench::one_label();
     all.back().options.visibility = visibility;
     all.back().options.probe = table;
   };

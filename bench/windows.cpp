@@ -117,9 +117,7 @@ void measure_surface(const std::filesystem::path& file, const Options& options,
       truths.push_back({source, exact.distance()});
     }
   }
-  PropagateOptions one_label;
-  one_label.accuracy = Accuracy::fast();
-  bench::PlexwayPeer<float> fast(surface, one_label);
+  bench::PlexwayPeer<float> fast(surface, bench::one_label());
   const auto add = [&](const std::string& name, const nlohmann::ordered_json& measured) {
     nlohmann::ordered_json row = {
         {"mesh", surface.name}, {"vertices", surface.positions.size()}, {"accuracy", name}};

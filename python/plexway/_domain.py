@@ -193,7 +193,7 @@ class Domain:
         accuracy : {'fast', 'accurate', 'exact'} or float, optional
             On surfaces and clouds, how near to the exact distances: 'fast' has mean relative errors
             around 1e-3, 'accurate' below 1e-4, 'exact' (in double precision) none but rounding; a
-            number is the mean error to expect. None: the library's default.
+            number is the mean error to expect. None: 'accurate' where it is supported, else 'fast'.
         radius : float
             Go no farther: what is beyond is at ``inf``.
         threads : int, optional

@@ -203,14 +203,6 @@ class PreparedSurface final : public PreparedKind<TriangleMesh<Real>> {
     }
     solve_on(executor, made_.mesh, moved(sources, room), options, room, found);
     cut(found, this->shape_.vertices());
-    // Which triangles are better was only guessed.
-    if (!sources.only_points() || !left_open_ || 50 * repairs(found) <= found.distance.size())
-      return;
-    if (std::holds_alternative<GL>(executor)) return;
-    solve_on(executor, input(), sources, options, room, room.other);
-    if (room.other.distance.empty() || repairs(room.other) >= repairs(found)) return;
-    std::swap(room.other, found);
-    field.triangulation = {};
   }
 
   std::shared_ptr<const AnyPathField::State> path_field(
@@ -224,13 +216,10 @@ class PreparedSurface final : public PreparedKind<TriangleMesh<Real>> {
     }
     AnyField field;
     solve(executor, SourceList(sources), options, field);
-    if (field.triangulation.done == Triangulation::input)
-      state->solve(executor, sources, options);
-    else
-      state->adopt(executor, std::move(field), sources, options,
-                   {&made_.mesh, [this](const PointSource& point) {
-                      return made_.delaunay->to_intrinsic(point);
-                    }});
+    state->adopt(executor, std::move(field), sources, options,
+                 {&made_.mesh, [this](const PointSource& point) {
+                    return made_.delaunay->to_intrinsic(point);
+                  }});
     return state;
   }
 
@@ -248,10 +237,6 @@ class PreparedSurface final : public PreparedKind<TriangleMesh<Real>> {
       input_.emplace(make_complex<Real>(std::get<io::Triangles>(this->shape_.data()), making()));
     });
     return *input_;
-  }
-
-  static std::size_t repairs(const DistanceField<Real>& field) {
-    return field.statistics.raised_vertices + field.statistics.lowered_vertices;
   }
 
   static bool has_shapes(std::span<const Source> sources) {

@@ -58,6 +58,7 @@ void add(const PropagateStatistics& row, PropagateStatistics& all) {
   all.expansions += row.expansions;
   all.updates += row.updates;
   all.reached_simplices += row.reached_simplices;
+  all.windows_gave_up += row.windows_gave_up;
 }
 
 // By labels, read where the points are alone.
@@ -101,14 +102,14 @@ DistanceMatrix matrix(const Complex& domain, std::span<const PointSource> points
       });
 }
 
-// By windows.
+// By windows; `given` is what was asked for, `accuracy` what it comes to.
 template <class Real>
 DistanceMatrix window_matrix(const TriangleMesh<Real>& mesh, std::span<const PointSource> points,
-                             const std::function<bool(double)>& progress, Accuracy accuracy,
-                             const SourceDomain& limits) {
+                             const std::function<bool(double)>& progress, Accuracy given,
+                             Accuracy accuracy, const SourceDomain& limits) {
   PathField field(mesh);
   PropagateOptions options;
-  options.accuracy = accuracy;
+  options.accuracy = given;
   DistanceMatrix result = by_rows(
       points, progress, limits,
       [&](std::size_t i, double radius, std::span<double> row, PropagateStatistics& statistics) {
@@ -117,7 +118,7 @@ DistanceMatrix window_matrix(const TriangleMesh<Real>& mesh, std::span<const Poi
         const std::vector<double> found = field.at(points);
         std::copy(found.begin(), found.end(), row.begin());
       });
-  result.accuracy = accuracy;
+  result.accuracy = result.statistics.windows_gave_up > 0 ? Accuracy::fast() : accuracy;
   return result;
 }
 
@@ -132,9 +133,9 @@ DistanceMatrix distance_matrix(Serial, const TriangleMesh<Real>& mesh,
   cell.metric = mesh.metric();
   cell.accuracy = accuracy.kind();
   support(cell).require();
-  accuracy = resolved(accuracy, cell);
-  if (accuracy == Accuracy::fast()) return matrix(mesh, points, progress, limits);
-  return window_matrix(mesh, points, progress, accuracy, limits);
+  const Accuracy found = resolved(accuracy, cell);
+  if (found == Accuracy::fast()) return matrix(mesh, points, progress, limits);
+  return window_matrix(mesh, points, progress, accuracy, found, limits);
 }
 
 template <class Real>

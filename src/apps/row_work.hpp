@@ -92,6 +92,7 @@ inline void add(PropagateStatistics& sum, const PropagateStatistics& one) {
   sum.reached_simplices += one.reached_simplices;
   sum.lowered_vertices += one.lowered_vertices;
   sum.raised_vertices += one.raised_vertices;
+  sum.windows_gave_up += one.windows_gave_up;
 }
 
 /// Deals the wanted rows to threads. `Worker`, one a thread and made by it, has

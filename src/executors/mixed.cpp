@@ -70,9 +70,10 @@ template <class Real>
 void solve_joined(const MixedComplex<Real>& domain, std::span<const PointSource> sources,
                   const PropagateOptions& options, MixedWorkspace<Real>& workspace,
                   DistanceField<Real>& field) {
+  bool gave_up = false;
   if (const auto* mesh = one_surface(domain, options)) {
     if (solve_by_windows(*mesh, sources, options, workspace, field)) return;
-    field.windows_gave_up = true;
+    gave_up = true;
   }
   workspace.pieces.resize(domain.pieces().size());
   MixedPropagation<Real> propagation(domain, workspace.pieces, workspace.offered, options);
@@ -82,6 +83,7 @@ void solve_joined(const MixedComplex<Real>& domain, std::span<const PointSource>
   }
   propagation.run();
   propagation.read_out(workspace.distance, workspace.label, field);
+  field.statistics.windows_gave_up = gave_up;
 
   const auto offer = [&](std::size_t v, Real d, Index label) {
     if (!(d < field.distance[v])) return false;
@@ -140,7 +142,6 @@ void solve_points(const Serial&, const MixedComplex<Real>& domain,
     field.complete = all.complete;
     field.statistics = all.statistics;
     field.accuracy = all.accuracy;
-    field.windows_gave_up = all.windows_gave_up;
     field.distance.resize(domain.vertex_count());
     field.label.resize(domain.vertex_count());
     field.error.resize(all.error.empty() ? 0 : domain.vertex_count());

@@ -34,8 +34,7 @@ void take_ball(const SourceParts::Ball& ball, const DistanceField<Real>& alone, 
     field.statistics = {};
     field.complete = true;
   }
-  if (alone.windows_gave_up) {
-    field.windows_gave_up = true;
+  if (alone.statistics.windows_gave_up > 0) {
     field.accuracy = alone.accuracy;
     field.error.clear();
   }
@@ -47,6 +46,7 @@ void take_ball(const SourceParts::Ball& ball, const DistanceField<Real>& alone, 
     if (labels) field.label[v] = ball.owner;
     if (!field.error.empty()) field.error[v] = alone.error[v];
   }
+  field.statistics.windows_gave_up += alone.statistics.windows_gave_up;
   field.statistics.expansions += alone.statistics.expansions;
   field.statistics.updates += alone.statistics.updates;
   field.statistics.reached_simplices =
@@ -82,7 +82,6 @@ void run_parts(const E& executor, const D& domain, std::span<const Source> sourc
   for (const SourceParts::Ball& ball : parts.balls) {
     PropagateOptions bounded = options;
     bounded.radius = std::max(options.radius - ball.offset + ball.radius, 0.);
-    alone.windows_gave_up = false;
     alone.error.clear();
     alone.accuracy = Accuracy::fast();
     solve_points(executor, domain, std::span<const PointSource>(&ball.centre, 1), bounded,
@@ -98,7 +97,6 @@ void run(const E& executor, const D& domain, const SourceList& sources,
   require_support(combination<E, D>(), domain.metric(), sources, options);
   field.error.clear();
   field.accuracy = Accuracy::fast();
-  field.windows_gave_up = false;
   if (sources.only_points()) {
     solve_points(executor, domain, sources.points(), options, workspace, field);
     return;

@@ -16,13 +16,14 @@ void solve_points(const E& executor, const TriangleMesh<Real>& mesh,
   const Accuracy accuracy = resolved(
       options.accuracy,
       detail::with(combination<E, TriangleMesh<Real>>(SourceKind::point), mesh.metric(), options));
-  if (accuracy.kind() != Accuracy::Kind::fast) {
+  const bool by_windows = accuracy.kind() != Accuracy::Kind::fast;
+  if (by_windows) {
     if constexpr (E::kind == ExecutorKind::openmp) team_size(executor);  // throws if it is none
     if (workspace.windows.on(mesh).solve(sources, accuracy, options, workspace, field)) {
       field.accuracy = accuracy;
       return;
     }
-    field.windows_gave_up = true;
+    field.error.clear();
   }
   with_labels(sources, [&](auto labels) {
     constexpr bool kLabels = decltype(labels)::value;
@@ -30,6 +31,7 @@ void solve_points(const E& executor, const TriangleMesh<Real>& mesh,
       surface::solve_with<Real, kLabels>(mesh, sources, options, workspace, queue, crew, field);
     });
   });
+  field.statistics.windows_gave_up = by_windows;
 }
 
 namespace detail {

@@ -147,3 +147,33 @@ TEST_CASE("labels that got much wrong on a tube that winds say so, and name the 
     CHECK(fast.err.find("--accuracy accurate") != std::string::npos);
   }
 }
+
+TEST_CASE("distance is accurate by default where labels are far off") {
+  const auto from_840 = [](std::vector<std::string> more) {
+    more.insert(more.begin(), {"distance", sample("knot.ply"), "--source", "vertex:840", "--quiet",
+                               "--out", "-"});
+    const auto run = run_tool(more);
+    INFO(run.err);
+    REQUIRE(run.code == 0);
+    return csv_column(run.out, "distance");
+  };
+  const auto exact = from_840({"--accuracy", "exact"});
+  const auto worst = [&](const std::vector<double>& found) {
+    double most = 0;
+    REQUIRE(found.size() == exact.size());
+    for (std::size_t v = 0; v < exact.size(); ++v)
+      if (exact[v] > 0) most = std::max(most, std::abs(found[v] / exact[v] - 1));
+    return most;
+  };
+  CHECK(worst(from_840({"--accuracy", "fast"})) > 0.2);  // else there is nothing to see here
+  CHECK(worst(from_840({})) <= 5e-3);
+  CHECK(worst(from_840({"--executor", "openmp", "--threads", "2"})) <= 5e-3);
+  // What only labels know brings labels, and is told.
+  const auto tuned = run_tool({"distance", sample("knot.ply"), "--source", "vertex:840", "--json",
+                               "--visibility", "tuned"});
+  CHECK(tuned.json()["accuracy"] == "fast");
+  const auto both = run_tool({"distance", sample("knot.ply"), "--source", "vertex:840",
+                              "--visibility", "tuned", "--accuracy", "accurate"});
+  CHECK(both.code == 2);
+  CHECK(both.complaints() == 1);
+}

@@ -15,7 +15,7 @@ const samples = [
 // What a browser can hold beside the picture.
 const largestFile = 400 * 2 ** 20;
 // By windows on surfaces and clouds; other domains have one way each.
-const accuracies = [['fast', 'fast'], ['accurate', 'accurate'], ['exact', 'exact']];
+const accuracies = [['fast', 'fast, about 1e-3'], ['accurate', 'accurate, 1e-4'], ['exact', 'exact']];
 
 const at = (id) => document.getElementById(id);
 const settings = new URLSearchParams(location.hash.slice(1));

@@ -14,12 +14,15 @@ struct PropagateStatistics {
   std::size_t updates = 0;     ///< labels accepted
   /// Simplices that a label came to.
   std::size_t reached_simplices = 0;
-  /// Surfaces, Accuracy::fast: vertices that labels put farther than a neighbour and the edge
-  /// between, and that got the way by that neighbour. Many: the field is less accurate there.
+  /// Surfaces, but for Accuracy::exact: vertices that came out farther than a neighbour and the
+  /// edge between, and that got the way by that neighbour. Many: the field is less accurate there.
   std::size_t lowered_vertices = 0;
-  /// Likewise vertices that labels put nearer than the straight line through space by more than
+  /// Likewise vertices that came out nearer than the straight line through space by more than
   /// 1e-4 of it. They got its length, a bound that is mostly still too short.
   std::size_t raised_vertices = 0;
+  /// Accuracy::usual: fields where windows became too many, so that labels did it, and the accuracy
+  /// is `fast`. 0 or 1; more in sums over several fields.
+  std::size_t windows_gave_up = 0;
 };
 
 /// Distances at the vertices, in the caller's order and the domain's unit.
@@ -36,8 +39,6 @@ struct DistanceField {
   std::vector<Real> error;
   Accuracy accuracy = Accuracy::fast();  ///< by which it was solved, never `usual`
   bool complete = true;                  ///< false if max_expansions ended the propagation early
-  /// Accuracy::usual: windows became too many here, so labels did it, and `accuracy` is fast.
-  bool windows_gave_up = false;
   /// What it cost.
   PropagateStatistics statistics;
 };

@@ -86,7 +86,7 @@ Json to_json(const DistanceCommand& command, const AnyDomain& solver, const AnyF
   json["threads"] = executor_threads(outcome.executor);
   json["precision"] = command.solve.precision == "float" ? "float" : "double";
   if (domain.kind() == DomainKind::surface || domain.cloud() != nullptr)
-    json["accuracy"] = json_of(field.accuracy());
+    add_accuracy(field.accuracy(), field.statistics(), json);
   if (domain.kind() == DomainKind::surface) json["triangulation"] = name_of(field.triangulation);
   add_metric(command.metric, lengths, solver.refracting_edges(), json);
   if (!domain.level_set_note().empty()) json["voxels"] = domain.level_set_note();
@@ -143,6 +143,20 @@ std::string to_text(const DistanceCommand& command, const AnyDomain& solver, con
   return table.text();
 }
 
+// Who did not choose learns what was chosen, and what another choice would bring.
+void note_choices(const AnyDomain& solver, const AnyField& field, const Executor& executor,
+                  bool accuracy_given) {
+  note_accuracy(field.statistics());
+  const DomainKind kind = solver.shape().kind();
+  if (std::holds_alternative<GL>(executor) && !accuracy_given &&
+      (kind == DomainKind::surface || kind == DomainKind::cloud))
+    say_note("--executor gl knows --accuracy fast only; serial is more accurate");
+  const std::size_t threads = executor_threads(executor);
+  if (threads > 1 && field.accuracy() != Accuracy::fast())
+    say_note("a field of this accuracy is one thread's work: --accuracy fast takes all " +
+             std::to_string(threads));
+}
+
 // Also where there is one source only.
 std::vector<std::int32_t> labels_of(const AnyField& field, const std::vector<double>& distance) {
   std::vector<std::int32_t> label = field.file_label();
@@ -176,7 +190,8 @@ void run_distance(DistanceCommand command) {
   if (domain.cloud() == nullptr && command.out != "-")
     check_output_name(command.out, command.input, AnyShape::field_extensions(domain.kind()));
   check_isolines(command.isolines, domain);
-  const std::vector<Source> sources = locate_source_sets(domain, arguments, !command.metric.text.empty());
+  const std::vector<Source> sources =
+      locate_source_sets(domain, arguments, !command.metric.text.empty());
   const std::vector<PointSource> points = as_points(sources);
   if (needs_double(domain, sources)) {
     if (command.solve.executor.name == "auto") command.solve.executor.name = "serial";
@@ -271,6 +286,7 @@ void run_distance(DistanceCommand command) {
   if (!command.quiet && !command.isolines.out.empty() && isovalues.empty())
     say_note("--isolines-out holds nothing: no distance is as large as the step");
   if (command.quiet) return;
+  note_choices(solver, field, outcome.executor, !command.solve.accuracy.empty());
   for (const std::string& remark : field_remarks(solver, field, outcome, bounded)) say_note(remark);
 }
 

@@ -76,11 +76,12 @@ void run_pairs(const PairsCommand& pairs) {
 
   PointSummary summary(command, domain, points.size());
   if (domain.kind() == DomainKind::surface || domain.cloud() != nullptr)
-    summary.json["accuracy"] = json_of(matrix.accuracy);
+    add_accuracy(matrix.accuracy, matrix.statistics, summary.json);
   summary.json["asymmetry"] = matrix.asymmetry;
   summary.table.add("two ways",
                     "differ by " + short_number(matrix.asymmetry) + " of the shorter at most");
   summary.finish(command, matrix.statistics, seconds);
+  if (!command.quiet) note_accuracy(matrix.statistics);
   if (matrix.asymmetry > 0.01 && !command.quiet)
     say_note("the two ways between some points, there and back, differ by " +
              short_number(100 * matrix.asymmetry) +

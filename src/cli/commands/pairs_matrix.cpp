@@ -279,6 +279,8 @@ void print(const MatrixCommand& command, const Job& job, const Outcome& outcome)
     json["blocks_kept"] = outcome.resumed_blocks;
     json["threads"] = outcome.threads;
     json["expansions"] = outcome.report.statistics.expansions;
+    if (outcome.report.statistics.windows_gave_up > 0)
+      json["windows_gave_up"] = outcome.report.statistics.windows_gave_up;
     json["seconds"] = outcome.solving;
     table.add("work", counted(outcome.report.rows, "rows") + " solved, " +
                           counted(outcome.report.statistics.expansions, "expansions"));
@@ -364,6 +366,7 @@ void run_matrix(const MatrixCommand& command) {
   progress.clear();
   print(command, job, outcome);
   if (!command.quiet) say_violations(domain, lengths.get());
+  if (!command.quiet) note_accuracy(outcome.report.statistics);
 }
 
 }  // namespace plexway::cli

@@ -142,7 +142,7 @@ Json to_json(const PathCommand& command, const Domain& domain, const Outcome& ou
     json["paths"].push_back(one);
   }
   if (domain.kind() == DomainKind::surface || domain.cloud() != nullptr)
-    json["accuracy"] = json_of(outcome.accuracy);
+    add_accuracy(outcome.accuracy, outcome.statistics, json);
   if (!command.metric.text.empty()) json["metric"] = command.metric.text;
   json["seconds"]["load"] = domain.load_seconds();
   if (domain.mesh_seconds()) json["seconds"]["mesh"] = *domain.mesh_seconds();
@@ -193,6 +193,7 @@ void say_notes(const Outcome& outcome, const std::vector<PointSource>& sources) 
     ++apart;
     most = std::max(most, gap);
   }
+  note_accuracy(outcome.statistics);
   if (capped > 0)
     say_note(counted(capped, "paths") +
              ": the search for a shorter one ended early, so there may be one");

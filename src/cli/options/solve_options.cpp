@@ -10,6 +10,7 @@
 #include <plexway/error.hpp>
 
 #include "any/tuning/policy_file.hpp"
+#include "cli/report/console.hpp"
 
 namespace plexway::cli {
 namespace {
@@ -32,8 +33,9 @@ void add_accuracy_option(CLI::App& command, std::string& accuracy, const std::st
       command
           .add_option(
               "--accuracy", accuracy,
-              "of surfaces and clouds: fast (one source a triangle: mean errors of 3e-4 to\n"
-              "2e-3), accurate (7e-5), exact (in double), or a mean error, as 1e-3")
+              "of surfaces and clouds: accurate (default; mean errors below 1e-4), fast (a\n"
+              "third of the time; 1e-3, single vertices far off), exact (in double), or a mean\n"
+              "error, as 1e-3")
           ->type_name("NAME|X");
   if (!group.empty()) option->group(group);
 }
@@ -67,6 +69,19 @@ Json json_of(Accuracy accuracy) {
 std::string name_of(Accuracy accuracy) {
   const Json json = json_of(accuracy);
   return json.is_string() ? json.get<std::string>() : short_number(json.get<double>());
+}
+
+void add_accuracy(Accuracy accuracy, const PropagateStatistics& statistics, Json& json) {
+  json["accuracy"] = json_of(accuracy);
+  if (statistics.windows_gave_up > 0) json["windows_gave_up"] = statistics.windows_gave_up;
+}
+
+void note_accuracy(const PropagateStatistics& statistics) {
+  const std::size_t fields = statistics.windows_gave_up;
+  if (fields > 0)
+    say_note("windows became too many to wait for" +
+             (fields > 1 ? " from " + counted(fields, "sources") : std::string()) +
+             ": the distances are those of --accuracy fast; --accuracy exact waits longer");
 }
 
 void add_solve_options(CLI::App& command, SolveOptions& options, bool bounded) {

@@ -39,6 +39,10 @@ Accuracy accuracy_of(const std::string& typed);
 /// `fast`, `accurate`, `exact`, or the number.
 std::string name_of(Accuracy accuracy);
 Json json_of(Accuracy accuracy);
+/// The keys `accuracy`, and `windows_gave_up` if they did, in one field or some of several.
+void add_accuracy(Accuracy accuracy, const PropagateStatistics& statistics, Json& json);
+/// A note to who did not choose an accuracy and did not get the usual one.
+void note_accuracy(const PropagateStatistics& statistics);
 
 /// Throw UsageError for a value that does not exist or is out of range; the first also as
 /// check_executor and read_probe_table. What is exact is double.
