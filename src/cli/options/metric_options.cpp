@@ -114,7 +114,9 @@ metric::Metric read_metric(const Parsed& asked, const Domain& domain, const metr
   return read_lengths(asked.file, domain.vertices());
 }
 
-std::string name_of_metric(const MetricArgument& argument, std::size_t refracting_edges) {
+std::string name_of_metric(const MetricArgument& argument, const MeasuredLengths& lengths,
+                           std::size_t refracting_edges) {
+  if (!lengths.speeds.empty()) return argument.text + "; refracts where speeds change";
   return argument.text +
          (refracting_edges > 0 ? "; refracts at " + counted(refracting_edges, "edges") : "");
 }
@@ -141,12 +143,19 @@ std::shared_ptr<const MeasuredLengths> measure(const MetricArgument& argument, c
   const Parsed asked = parse(argument);
   if (domain.cloud() != nullptr)
     throw UsageError("--metric: a cloud has no simplices of its own to measure; give a surface");
-  const bool refracts = domain.kind() == DomainKind::surface && jumps == Jumps::refract &&
-                        (asked.kind == Kind::speed || asked.kind == Kind::tensor);
+  const bool refracts =
+      jumps == Jumps::refract &&
+      (domain.kind() == DomainKind::surface || domain.kind() == DomainKind::solid) &&
+      (asked.kind == Kind::speed || asked.kind == Kind::tensor);
   const metric::Metric metric =
       read_metric(asked, domain, {refracts ? metric::Sides::own : metric::Sides::mean});
   try {
-    return std::make_shared<const MeasuredLengths>(domain.measure(metric));
+    auto lengths = std::make_shared<const MeasuredLengths>(domain.measure(metric));
+    if (refracts && !lengths->refracts)
+      say_note("paths in solids are refracted between regions of at most 64 different speeds: here "
+               "each edge takes the mean of its tetrahedra, which is of first order where they "
+               "jump");
+    return lengths;
   } catch (const InputError& error) {
     throw InputError(asked.file + ": " + error.what());
   } catch (const UsageError& error) {
@@ -164,7 +173,7 @@ void add_metric(const MetricArgument& argument, const MeasuredLengths* lengths,
 
 void add_metric(const MetricArgument& argument, const MeasuredLengths* lengths,
                 std::size_t refracting_edges, Table& table) {
-  if (lengths != nullptr) table.add("metric", name_of_metric(argument, refracting_edges));
+  if (lengths != nullptr) table.add("metric", name_of_metric(argument, *lengths, refracting_edges));
 }
 
 void say_violations(const Domain& domain, const MeasuredLengths* lengths) {
