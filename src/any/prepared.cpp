@@ -288,7 +288,8 @@ class PreparedSurface final : public PreparedKind<TriangleMesh<Real>> {
   mutable std::optional<TriangleMesh<Real>> input_;
 };
 
-/// Mixed domains, and solids with a region to each speed: their pieces have vertices and simplices of their own.
+/// Mixed domains, and solids with a region to each speed: their pieces have vertices and simplices
+/// of their own.
 template <class Real>
 class PreparedMixed final : public PreparedKind<MixedComplex<Real>> {
   using Base = PreparedKind<MixedComplex<Real>>;
@@ -296,8 +297,7 @@ class PreparedMixed final : public PreparedKind<MixedComplex<Real>> {
  public:
   PreparedMixed(const AnyShape& shape, const MixedShape& mixed, const MeasuredLengths* lengths)
       : Base(shape, lengths != nullptr),
-        pieces_(mixed,
-                lengths == nullptr ? std::span<const double>() : lengths->speeds) {
+        pieces_(mixed, lengths == nullptr ? std::span<const double>() : lengths->speeds) {
     count_components();
   }
 

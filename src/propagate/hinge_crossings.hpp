@@ -192,8 +192,8 @@ class HingeCrossings {
       least.place = fermat.crossing(eye, end);
       least.distance = fermat.way(eye, end, least.place);
       const auto p = before.place(least.place);
-      least.before = std::sqrt((p[0] - eye.x) * (p[0] - eye.x) +
-                               (p[1] - eye.y) * (p[1] - eye.y) + eye.h * eye.h);
+      least.before = std::sqrt((p[0] - eye.x) * (p[0] - eye.x) + (p[1] - eye.y) * (p[1] - eye.y) +
+                               eye.h * eye.h);
     } else {
       for (Index m = hinge.begin[side]; m < hinge.end[side]; ++m) {
         const Member& member = domain_.members()[m];

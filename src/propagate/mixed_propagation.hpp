@@ -294,8 +294,8 @@ class MixedPropagation {
         offered = found.distance;
         if (static_cast<double>(found.distance) > options_.radius) continue;
         const Index to = weld.piece[1 - side];
-        if (!pieces_[to]->enter_vertex(weld.vertex[1 - side], found.distance,
-                                       crossings_.next(), true))
+        if (!pieces_[to]->enter_vertex(weld.vertex[1 - side], found.distance, crossings_.next(),
+                                       true))
           continue;
         crossings_.add({root(found.source), bends_[w], static_cast<std::uint8_t>(side),
                         pieces_[to]->place(weld.vertex[1 - side])});

@@ -7,13 +7,13 @@
 
 #include <plexway/solve.hpp>
 
-#include "layered_solids.hpp"
+#include "mixed_domains.hpp"
 
 // Solids whose speeds jump at faces: Snell's law and head waves, over several such faces.
 
 namespace {
 
-using namespace layered_solids;
+using namespace mixed_domains;
 
 /// A solid of layers, turned and scaled, as a mixed domain.
 struct Layered {
@@ -26,8 +26,7 @@ struct Layered {
   }
   [[nodiscard]] Errors errors_from(Index source) const {
     const Position from = domain.positions[source];
-    return errors(domain, source,
-                  [&](Index v) { return layers.time(from, domain.positions[v]); });
+    return errors(domain, source, [&](Index v) { return layers.time(from, domain.positions[v]); });
   }
   /// Any vertex; or one less than a cell and a half off a plane.
   template <class Random>
@@ -96,17 +95,15 @@ struct Ducted {
       return sum + leg(upper != (crossings % 2 == 1), last, q);
     };
     const auto low = [&](std::size_t k) { return k % 2 == 0 && sides >> (k / 2) & 1 ? .6 : 0; };
-    const auto high = [&](std::size_t k) {
-      return k % 2 == 0 && !(sides >> (k / 2) & 1) ? .4 : 1;
-    };
+    const auto high = [&](std::size_t k) { return k % 2 == 0 && !(sides >> (k / 2) & 1) ? .4 : 1; };
     double best = time(at);
     for (double step = .2; step > 1e-8; step /= 2)
       for (bool again = true; again;) {
         again = false;
         for (std::size_t k = 0; k < at.size(); ++k)
           for (std::size_t l = k; l < at.size(); ++l)
-            for (const auto& [s, t] : {std::array{1., 1.}, std::array{-1., 1.},
-                                       std::array{1., -1.}, std::array{-1., -1.}}) {
+            for (const auto& [s, t] : {std::array{1., 1.}, std::array{-1., 1.}, std::array{1., -1.},
+                                       std::array{-1., -1.}}) {
               auto moved = at;
               moved[k] = std::clamp(moved[k] + s * step, low(k), high(k));
               if (l != k) moved[l] = std::clamp(moved[l] + t * step, low(l), high(l));
@@ -116,8 +113,7 @@ struct Ducted {
       }
     return best;
   }
-  [[nodiscard]] double time(const Position& p, bool upper, const Position& q,
-                            bool to_upper) const {
+  [[nodiscard]] double time(const Position& p, bool upper, const Position& q, bool to_upper) const {
     double best = upper == to_upper ? leg(upper, p, q) : infinity;
     for (std::size_t n = upper == to_upper ? 2 : 1; n <= (below > above ? 3 : 2); n += 2)
       for (unsigned sides = 0; sides < 1U << n; ++sides)
@@ -133,8 +129,10 @@ TEST_CASE("a jump that ends at an obstacle") {
   for (const double c : {.5, 2.}) {
     Block lower = block({0, 0, 0}, {1, 1, .5}, n);
     for (Position& p : lower.positions)
-      if (p[2] > .25 - 1e-9) p[2] = .3 + (p[2] - .25) * .8;  // a row of vertices at z = .3
-      else p[2] *= 1.2;
+      if (p[2] > .25 - 1e-9)
+        p[2] = .3 + (p[2] - .25) * .8;  // a row of vertices at z = .3
+      else
+        p[2] *= 1.2;
     std::erase_if(lower.tets, [&](const auto& tet) {
       double x = 0, z = 0;
       for (const Index v : tet) x += lower.positions[v][0] / 4, z += lower.positions[v][2] / 4;

@@ -152,9 +152,10 @@ std::shared_ptr<const MeasuredLengths> measure(const MetricArgument& argument, c
   try {
     auto lengths = std::make_shared<const MeasuredLengths>(domain.measure(metric));
     if (refracts && !lengths->refracts)
-      say_note("paths in solids are refracted between regions of at most 64 different speeds: here "
-               "each edge takes the mean of its tetrahedra, which is of first order where they "
-               "jump");
+      say_note(
+          "paths in solids are refracted between regions of at most 64 different speeds: here "
+          "each edge takes the mean of its tetrahedra, which is of first order where they "
+          "jump");
     return lengths;
   } catch (const InputError& error) {
     throw InputError(asked.file + ": " + error.what());
