@@ -224,9 +224,11 @@ void say_notes(const AnyDomain& solver, const AnyField& field, const Outcome& ou
     say_note("stopped after " + counted(field.statistics().expansions, "expansions") +
              ": distances may still be too long");
   }
-  // Labels that got much wrong say so, and windows are the cure where there are any.
+  // Labels that got much wrong say so, and windows are the cure where there are any. Where speeds
+  // jump there are none, and what travels along an edge is lowered though nothing is wrong.
   const bool has_windows =
-      domain.kind() == DomainKind::surface || domain.kind() == DomainKind::cloud;
+      (domain.kind() == DomainKind::surface || domain.kind() == DomainKind::cloud) &&
+      solver.refracting_edges() == 0;
   const bool by_labels = field.accuracy() == Accuracy::fast();
   const std::string cure = has_windows && by_labels ? "; --accuracy accurate has none of this" : "";
   const std::size_t raised = field.statistics().raised_vertices;
@@ -236,7 +238,7 @@ void say_notes(const AnyDomain& solver, const AnyField& field, const Outcome& ou
              "distances here are poor" +
              (cure.empty() ? "; another --triangulation may do better" : cure));
   const std::size_t lowered = field.statistics().lowered_vertices;
-  if (50 * lowered > domain.vertices())
+  if ((cure.empty() ? 20 : 50) * lowered > domain.vertices())
     say_note(counted(lowered, "vertices") +
              " came out farther than a neighbour and the edge between, and were given that way: "
              "distances here are less accurate" +
