@@ -109,12 +109,11 @@ TEST_CASE("solids and wireframes are measured as well") {
   const auto slow = distances({"--metric", "speed:" + one}, sample("elbow.mesh"));
   const auto plain = distances({}, sample("elbow.mesh"));
   REQUIRE(slow.size() == plain.size());
-  for (std::size_t v = 1; v < slow.size(); ++v) CHECK(slow[v] == Approx(2 * plain[v]).epsilon(1e-5));
+  for (std::size_t v = 1; v < slow.size(); ++v)
+    CHECK(slow[v] == Approx(2 * plain[v]).epsilon(1e-5));
   // As many speeds as tetrahedra: no regions.
   std::string many;
-  for (int t = 0; t < 5000; ++t) many += std::to_string(1 + 1e-4 * t) + "\n";
-  const auto count = run_tool({"info", sample("elbow.mesh"), "--json"}).json()["tetrahedra"];
-  many.resize(9 * count.get<std::size_t>());
+  for (int t = 0; t < 1152; ++t) many += std::to_string(1 + 1e-4 * t) + "\n";
   const auto mean = run_tool({"distance", sample("elbow.mesh"), "--source", "vertex:0", "--metric",
                               "speed:" + folder.write("many.txt", many)});
   CHECK(mean.code == 0);
