@@ -7,6 +7,7 @@
 
 #include "complex/number_range.hpp"
 #include "propagate/read_out.hpp"
+#include "propagate/straight_lines.hpp"
 
 namespace plexway {
 namespace windows {
@@ -41,8 +42,17 @@ void WindowSolver<Real>::read_out(const Windows& windows, std::span<const PointS
     if constexpr (kLabels) workspace.vertex_source[v] = windows.source(v);
   }
   field.statistics = windows.statistics();
-  if constexpr (std::is_same_v<Windows, MergedWindows<Real>>)
+  constexpr bool merged = std::is_same_v<Windows, MergedWindows<Real>>;
+  if constexpr (merged)
     field.statistics.lowered_vertices = read_out_edges<Real, kLabels>(mesh_, workspace).much;
+  // Merging misses to either side, and so does single precision; on flat parts it is cheap to see
+  // where distances fell short.
+  if constexpr (merged || sizeof(Real) == 4) {
+    const StraightLines<Real> lines(mesh_, sources);
+    for (Index v = 0; v < inside.size(); ++v)
+      workspace.vertex[v] =
+          lines.raised(v, workspace.vertex[v], kLabels ? workspace.vertex_source[v] : Index{0});
+  }
   field.distance.resize(inside.size());
   field.label.resize(kLabels ? inside.size() : 0);
   for (std::size_t v = 0; v < inside.size(); ++v) {
