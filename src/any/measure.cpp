@@ -95,6 +95,7 @@ MeasuredLengths AnyShape::measure(const metric::Metric& metric) const {
     if (lengths.refracts) {
       lengths.speeds = std::get<metric::SimplexSpeeds>(metric).speed;
     } else {
+      lengths.smoothed = keeps_sides(metric);
       lengths.tets = metric::tet_lengths(solid->positions, solid->tets, smoothed(metric));
       lengths.violations =
           metric::find_violations(std::span<const std::array<double, 6>>(lengths.tets));

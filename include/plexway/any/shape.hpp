@@ -64,6 +64,8 @@ struct MeasuredLengths {
   std::vector<double> speeds;
   /// Simplices may measure an edge they share in two ways.
   bool refracts = false;
+  /// They were to, but a solid of so many speeds, or of tensors, takes their mean.
+  bool smoothed = false;
   /// Simplices whose lengths no flat simplex has.
   metric::Violations violations;
 };
@@ -167,9 +169,9 @@ class AnyShape {
   /// where the domain is neither a surface nor a wireframe with positions, InputError where no path
   /// leads.
   [[nodiscard]] CurveSource joined(std::span<const PointSource> points) const;
-  /// The whole boundary: of a surface as a curve, of a solid the vertices of its boundary, of a
-  /// wireframe the ends of single edges. Throws InputError where there is none, UsageError for
-  /// other kinds.
+  /// The whole boundary: of a surface as a curve, of a solid its faces (every vertex with its exact
+  /// distance; by lengths alone the boundary's vertices), of a wireframe the ends of single edges.
+  /// Throws InputError where there is none, UsageError for other kinds.
   [[nodiscard]] Source boundary(double offset = 0) const;
 
   /// Lengths by a metric. Triangles may measure an edge they share in two ways where the metric
