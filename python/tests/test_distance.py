@@ -64,7 +64,7 @@ def test_accuracy():
         assert np.abs(d - truth).max() < bound * np.sqrt(2)
         assert d.dtype == (np.float64 if accuracy == "exact" else np.float32)
     assert np.array_equal(sheet.distance(at), sheet.distance(at, accuracy="accurate"))
-    for labels in ({"visibility": "centroid"}, {"executor": "serial", "visibility": "tuned"}):
+    for labels in ({"visibility": "centroid"}, {"executor": "serial", "visibility": "upper_bound"}):
         known = sheet.distance(at, **labels)
         assert np.array_equal(known, sheet.distance(at, accuracy="fast", **labels))
         with pytest.raises(px.UsageError, match="windows"):
