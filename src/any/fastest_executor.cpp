@@ -21,6 +21,8 @@ AnyExecutor fastest_executor(const AnyDomain& domain, std::size_t sources,
   if (domain.simplices() < auto_simplices || sources < auto_sources || bounded ||
       team_size(team) < 2)
     return Serial{};
+  // Several threads are not for every domain: a solid of several speeds is a mixed one.
+  if (!domain.support(team, PointSource::at(0), options)) return Serial{};
   return team;
 }
 

@@ -276,16 +276,16 @@ class PreparedSurface final : public PreparedKind<TriangleMesh<Real>> {
   mutable std::optional<TriangleMesh<Real>> input_;
 };
 
-/// Mixed domains: their pieces have vertices and simplices of their own.
+/// Mixed domains, and solids with a region to each speed: their pieces have vertices and simplices
+/// of their own.
 template <class Real>
 class PreparedMixed final : public PreparedKind<MixedComplex<Real>> {
   using Base = PreparedKind<MixedComplex<Real>>;
 
  public:
-  PreparedMixed(const AnyShape& shape, const MeasuredLengths* lengths)
+  PreparedMixed(const AnyShape& shape, const MixedShape& mixed, const MeasuredLengths* lengths)
       : Base(shape, lengths != nullptr),
-        pieces_(std::get<MixedShape>(shape.data()),
-                lengths == nullptr ? std::span<const double>() : lengths->speeds) {
+        pieces_(mixed, lengths == nullptr ? std::span<const double>() : lengths->speeds) {
     count_components();
   }
 
@@ -405,7 +405,7 @@ std::shared_ptr<const Prepared> prepare_as(const AnyShape& shape, const BuildOpt
         if constexpr (std::is_same_v<Data, io::Triangles>) {
           return std::make_shared<PreparedSurface<Real>>(shape, options, lengths);
         } else if constexpr (std::is_same_v<Data, MixedShape>) {
-          return std::make_shared<PreparedMixed<Real>>(shape, lengths);
+          return std::make_shared<PreparedMixed<Real>>(shape, data, lengths);
         } else if constexpr (std::is_same_v<Data, SimplexShape>) {
           switch (data.dimension) {
             case 1:
@@ -418,6 +418,13 @@ std::shared_ptr<const Prepared> prepare_as(const AnyShape& shape, const BuildOpt
               return prepare_simplices<Real, 4>(shape);
           }
         } else {
+          if constexpr (std::is_same_v<Data, io::Tets>)
+            if (lengths != nullptr && lengths->refracts) {
+              MixedShape regions;
+              regions.positions = data.positions;
+              regions.parts.push_back({.tets = data.tets});
+              return std::make_shared<PreparedMixed<Real>>(shape, regions, lengths);
+            }
           using Complex = decltype(make_complex<Real>(data, making));
           return std::make_shared<PreparedPlain<Complex>>(
               shape, lengths != nullptr, [&] { return make_complex<Real>(data, making); });

@@ -259,6 +259,14 @@ std::vector<std::array<double, 3>> triangle_lengths(std::span<const Point> posit
 std::vector<std::array<double, 6>> tet_lengths(std::span<const Point> positions,
                                                std::span<const std::array<Index, 4>> tets,
                                                const Metric& metric) {
+  const auto own = [](const auto& m) {
+    if constexpr (requires { m.agreement; }) return m.agreement.sides == Sides::own;
+    return false;
+  };
+  if (std::visit(own, metric))
+    throw UsageError(
+        "tetrahedra keep no lengths of their own for an edge that they share: take Sides::mean, or "
+        "a mixed domain of a solid for each speed, as AnyShape::measure does");
   return measured<4>(positions, tets, metric);
 }
 

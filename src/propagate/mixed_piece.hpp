@@ -86,9 +86,11 @@ class MixedPiece {
   /// Nothing was accepted with the ring opened last.
   virtual void close_ring() {}
 
-  /// A vertex posed on a hinge; and of the fronts whose crossing simplices around it see straight,
-  /// the nearest: `starts(number)` tells where that is.
-  virtual HingeEnd<Real> pose(const Member&, int, Index) const { return {}; }
+  /// A point posed on a hinge, and the point at a place of the hinge.
+  virtual HingeEnd<Real> pose(const Member&, int, const Point&) const { return {}; }
+  virtual Point place(const Member&, int, const HingePlace<Real>&) const { return {}; }
+  /// Of the fronts whose crossing simplices around a vertex see straight, the nearest:
+  /// `starts(number)` tells where that is.
   virtual Index crossing_seen(Index, const std::function<const Point*(Index)>&) const {
     return none;
   }
@@ -96,8 +98,6 @@ class MixedPiece {
   /// Does every point see every other?
   [[nodiscard]] virtual bool sees_all() const { return false; }
   virtual void vertices_around(Index, std::vector<Index>&) const {}
-  virtual void crossings_seen(Index, const std::function<const Point*(Index)>&,
-                              std::vector<Index>&) const {}
 
   /// One a vertex, in the caller's order.
   virtual void read_out(std::span<Real> distance, std::span<Index> label) = 0;

@@ -11,7 +11,7 @@
 #include <plexway/complex/mixed_complex.hpp>
 
 #include "propagate/hinge_chains.hpp"
-#include "propagate/hinge_neighbours.hpp"
+#include "propagate/hinge_crossings.hpp"
 #include "propagate/mixed_piece.hpp"
 #include "propagate/mixed_solid.hpp"
 #include "propagate/mixed_surface.hpp"
@@ -34,7 +34,7 @@ class MixedPropagation {
         offered_(offered),
         posed_(domain.members().size()),
         chains_(domain),
-        neighbours_(domain) {
+        crossings_(domain, pieces_) {
     const Real step =
         options.schedule == Schedule::fifo ? infinity : static_cast<Real>(options.step);
     // What pieces count and report is summed up here.
@@ -58,7 +58,7 @@ class MixedPropagation {
 
   /// A source in the piece's own numbers. A welded vertex is one in its other pieces too.
   void seed(Index piece, const PointSource& source, Index number) {
-    sources_ = std::max(sources_, number + 1);
+    crossings_.keep_clear(number);
     pieces_[piece]->seed(source, number);
     waits_[piece] = 1;
     if (source.vertex == none) return;
@@ -83,7 +83,7 @@ class MixedPropagation {
             options_.max_expansions > spent ? options_.max_expansions - spent : 0;
         const std::size_t own = pieces_[p]->statistics().expansions;
         constexpr std::size_t most = std::numeric_limits<std::size_t>::max();
-        pieces_[p]->run(left > most - own ? most : own + left, sources_);
+        pieces_[p]->run(left > most - own ? most : own + left, crossings_.first());
         if (pieces_[p]->out_of_budget()) complete_ = false;
       }
       // Bends at vertices last: they serve what nothing else reaches.
@@ -99,7 +99,7 @@ class MixedPropagation {
       distance.resize(piece.vertices);
       label.resize(piece.vertices);
       pieces_[piece.number]->read_out(distance, label);
-      straighten(piece.number, distance, label);
+      crossings_.straighten(piece.number, distance, label);
       for (Index& l : label) l = root(l);
       std::copy(distance.begin(), distance.end(), field.distance.begin() + piece.first_vertex);
       std::copy(label.begin(), label.end(), field.label.begin() + piece.first_vertex);
@@ -145,15 +145,7 @@ class MixedPropagation {
     return options_.progress(all);
   }
 
-  // Labels that start on a hinge have numbers of their own behind the caller's sources.
-  struct Crossing {
-    Index source, hinge;
-    std::uint8_t side;  // that the front came from
-    Vector3<Real> start;
-  };
-  [[nodiscard]] Index root(Index number) const {
-    return number == none || number < sources_ ? number : crossings_[number - sources_].source;
-  }
+  [[nodiscard]] Index root(Index number) const { return crossings_.root(number); }
 
   [[nodiscard]] bool is_solid(Index piece) const {
     return std::holds_alternative<TetMesh<Real>>(domain_.complex(domain_.pieces()[piece]));
@@ -259,12 +251,11 @@ class MixedPropagation {
       }
       for (Index k = hinge.begin[1 - side]; k < hinge.end[1 - side]; ++k) {
         const HingeFront<Real> front(*pieces_[hinge.piece[side]], domain_.members()[m],
-                                     hinge.dimension, posed_[m].source,
-                                     sources_ + static_cast<Index>(crossings_.size()));
+                                     hinge.dimension, posed_[m].source, crossings_.next());
         Vector3<Real> start = {0, 0, 0};
         if (!pieces_[to]->enter_front(domain_.members()[k], front, start)) continue;
         accepted(to, true);
-        crossings_.push_back({posed_[m].source, n, static_cast<std::uint8_t>(side), start});
+        crossings_.add({posed_[m].source, n, static_cast<std::uint8_t>(side), start});
       }
     }
     return any;
@@ -303,106 +294,16 @@ class MixedPropagation {
         offered = found.distance;
         if (static_cast<double>(found.distance) > options_.radius) continue;
         const Index to = weld.piece[1 - side];
-        if (!pieces_[to]->enter_vertex(weld.vertex[1 - side], found.distance,
-                                       sources_ + static_cast<Index>(crossings_.size()), true))
+        if (!pieces_[to]->enter_vertex(weld.vertex[1 - side], found.distance, crossings_.next(),
+                                       true))
           continue;
-        crossings_.push_back({root(found.source), bends_[w], static_cast<std::uint8_t>(side),
-                              pieces_[to]->place(weld.vertex[1 - side])});
+        crossings_.add({root(found.source), bends_[w], static_cast<std::uint8_t>(side),
+                        pieces_[to]->place(weld.vertex[1 - side])});
         waits_[to] = 1;
         any = true;
       }
     }
     return any;
-  }
-
-  // A label that starts on a hinge starts where it is best for one tetrahedron there. What is
-  // behind may do better to cross a little farther on: each vertex looks for its own crossing.
-  void straighten(Index piece, std::vector<Real>& distance, std::vector<Index>& label) const {
-    if (crossings_.empty()) return;
-    const auto& own = *pieces_[piece];
-    const auto starts = [&](Index number) -> const Vector3<Real>* {
-      if (number == none || number < sources_) return nullptr;
-      return &crossings_[number - sources_].start;
-    };
-    std::vector<Index> around;
-    const auto& complex = domain_.complex(domain_.pieces()[piece]);
-    const auto inside = [&](Index v) {
-      return std::visit([&](const auto& c) { return c.inside_vertex(v); }, complex);
-    };
-    std::vector<Index> outside(distance.size());
-    for (Index v = 0; v < distance.size(); ++v) outside[inside(v)] = v;
-    std::vector<Via> via(distance.size());
-    std::vector<Index> front;
-    for (Index v = 0; v < distance.size(); ++v) {
-      const Index number = own.crossing_seen(inside(v), starts);
-      if (number == none) continue;
-      const Crossing& c = crossings_[number - sources_];
-      via[v] = least_over({c.hinge, c.source, c.side, 0}, inside(v));
-      if (via[v].distance < distance[v]) distance[v] = via[v].distance, label[v] = c.source;
-      front.push_back(v);
-    }
-    // A vertex none of whose simplices came over the hinge may itself be nearer that way.
-    if (!own.sees_all()) return;
-    for (std::size_t i = 0; i < front.size(); ++i) {
-      const Via from = via[front[i]];
-      own.vertices_around(inside(front[i]), around);
-      for (const Index inner : around) {
-        const Index w = outside[inner];
-        if (via[w].hinge != none) continue;
-        const Via there = least_over(from, inner);
-        if (!(there.distance < distance[w] * (1 - bend_loss))) continue;
-        via[w] = there;
-        distance[w] = via[w].distance;
-        label[w] = from.source;
-        front.push_back(w);
-      }
-    }
-  }
-
-  // The least way over a hinge, from there over its neighbours as long as that is shorter.
-  struct Via {
-    Index hinge = none, source = none;
-    std::uint8_t side = 0;
-    Real distance = 0;
-  };
-  [[nodiscard]] Via least_over(Via via, Index vertex) const {
-    Over best = way_over(via.hinge, via.side, vertex);
-    for (int steps = 0; steps < 64 && best.rims > 0; ++steps) {
-      Index better = none;
-      // At an end of the hinge: another one there may be better that shares no edge with it.
-      for (const Index other :
-           best.rims > 1 ? neighbours_.over_vertices(via.hinge) : neighbours_.over_edges(via.hinge))
-        if (const Over there = way_over(other, via.side, vertex); there.distance < best.distance)
-          best = there, better = other;
-      if (better == none) break;
-      via.hinge = better;
-    }
-    via.distance = best.distance;
-    return via;
-  }
-  struct Over {
-    Real distance;
-    int rims;  // of the hinge that the crossing lies on: a neighbour may be better
-  };
-  [[nodiscard]] Over way_over(Index n, std::size_t side, Index vertex) const {
-    const auto& hinge = domain_.hinges()[n];
-    const Index to = hinge.piece[1 - side];
-    const Member& beyond = domain_.members()[hinge.begin[1 - side]];
-    const HingeShape<Real> shape = pieces_[to]->shape(beyond, hinge.dimension);
-    const HingeEnd<Real> target = pieces_[to]->pose(beyond, hinge.dimension, vertex);
-    Over least = {infinity, 0};
-    for (Index m = hinge.begin[side]; m < hinge.end[side]; ++m) {
-      const Member& member = domain_.members()[m];
-      if (!(pieces_[hinge.piece[side]]->distance(member.simplex) < infinity)) continue;
-      const HingeFront<Real> front(*pieces_[hinge.piece[side]], member, hinge.dimension, none,
-                                   none);
-      const auto path = front.shortest(shape, target);
-      if (!(path.extent < least.distance)) continue;
-      const HingePlace<Real>& b = path.crossing;
-      constexpr Real rim = 16 * std::numeric_limits<Real>::epsilon();
-      least = {path.extent, (b[0] <= rim) + (b[1] <= rim) + (1 - b[0] - b[1] <= rim)};
-    }
-    return least;
   }
 
   const Domain& domain_;
@@ -416,9 +317,7 @@ class MixedPropagation {
   std::vector<Change> changed_;
   std::vector<PosedSource<Real>> posed_;  // by member: what it offered last
   HingeChains<Real> chains_;
-  HingeNeighbours<Real> neighbours_;
-  Index sources_ = 0;
-  std::vector<Crossing> crossings_;
+  HingeCrossings<Real> crossings_;
   std::vector<char> isometric_;  // by hinge
   std::vector<Index> bends_;     // by weld: a hinge at which a path may bend there, or none
   std::vector<char> waits_;

@@ -90,8 +90,7 @@ class MixedSolid final : public MixedPiece<Real> {
   PosedSource<Real> leave(const Member& m, int dimension,
                           const HingePlace<Real>& b) const override {
     const Frame frame(*this, m, dimension);
-    const auto sight =
-        rule_.seen_from(m.simplex, frame.origin + b[0] * frame.to[0] + b[1] * frame.to[1]);
+    const auto sight = rule_.seen_from(m.simplex, frame.place(b));
     const HingeEnd<Real> end = frame.pose(sight.eye, unit_);
     return {end.x, end.y, end.h, sight.sigma * unit_, wave_.source(m.simplex)};
   }
@@ -112,8 +111,11 @@ class MixedSolid final : public MixedPiece<Real> {
     return wave_.updates() != before;
   }
 
-  HingeEnd<Real> pose(const Member& m, int dimension, Index vertex) const override {
-    return Frame(*this, m, dimension).pose(mesh_.points()[vertex], unit_);
+  HingeEnd<Real> pose(const Member& m, int dimension, const Point& point) const override {
+    return Frame(*this, m, dimension).pose(point, unit_);
+  }
+  Point place(const Member& m, int dimension, const HingePlace<Real>& b) const override {
+    return Frame(*this, m, dimension).place(b);
   }
 
   Point place(Index vertex) const override { return mesh_.points()[vertex]; }
@@ -206,6 +208,9 @@ class MixedSolid final : public MixedPiece<Real> {
   struct Frame {
     Point origin, to[2] = {{0, 0, 0}, {0, 0, 0}};  // and from there to vertices 1 and 2
     Point u = {0, 0, 0}, w = {0, 0, 0}, out = {0, 0, 0};
+    [[nodiscard]] Point place(const HingePlace<Real>& b) const {
+      return origin + b[0] * to[0] + b[1] * to[1];
+    }
     [[nodiscard]] HingeEnd<Real> pose(const Point& p, Real unit) const {
       const Point d = p - origin;
       const Real x = dot(d, u), y = dot(d, w);

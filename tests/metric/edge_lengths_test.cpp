@@ -156,6 +156,11 @@ TEST_CASE("what measures nothing is refused by name") {
   refused(metric::VertexTensors{{{}, {}}}, "2 tensors for 4 vertices");
   refused(metric::VertexTensors{{{}, {}, {}, Tensor::planar(1, 0, 0)}}, "vertex 3: its tensor");
   refused(metric::LengthFunction{[](const Point&, const Point&) { return -1.0; }}, "edge 0 - 1");
+  const std::vector<Point> corners = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+  const std::vector<std::array<Index, 4>> tet = {{0, 1, 2, 3}};
+  CHECK_THROWS_AS(
+      metric::tet_lengths(corners, tet, metric::SimplexSpeeds{{1}, {metric::Sides::own}}),
+      UsageError);
   const Triangles wrong = {{0, 1, 7}};
   CHECK_THROWS_WITH(metric::triangle_lengths(square, wrong, metric::SimplexSpeeds{{1}}),
                     "triangle 0: vertex 7 is out of range, there are 4");

@@ -1,8 +1,5 @@
-#include <algorithm>
-#include <array>
 #include <catch2/catch.hpp>
 #include <cmath>
-#include <map>
 #include <vector>
 
 #include <plexway/solve.hpp>
@@ -14,24 +11,6 @@
 namespace {
 
 using namespace mixed_domains;
-
-/// Times where slowness is 1 and a line or plane has speed c: r and rho are the distances of the
-/// two ends from it, x that of their feet. `direct`: without it.
-double along_fast(double r, double rho, double x, double c, double direct) {
-  if (c <= 1 || x < (r + rho) / std::sqrt(c * c - 1)) return direct;
-  return std::min(direct, x / c + (r + rho) * std::sqrt(1 - 1 / (c * c)));
-}
-
-/// From height h over a line at speed v to depth d under it at speed w.
-double refracted(double h, double d, double x, double v, double w) {
-  double low = 0, high = x;
-  const auto way = [&](double s) { return std::hypot(s, h) / v + std::hypot(x - s, d) / w; };
-  for (int i = 0; i < 100; ++i) {
-    const double a = low + (high - low) / 3, b = high - (high - low) / 3;
-    (way(a) < way(b) ? high : low) = way(a) < way(b) ? b : a;
-  }
-  return way((low + high) / 2);
-}
 
 void check(const Errors& e, double mean, double worst) {
   CAPTURE(e.mean, e.worst, e.low);
@@ -133,69 +112,6 @@ TEST_CASE("a sheet of another speed stands on a block") {
             1e-4, 1e-2);
     }
 }
-
-namespace {
-
-/// The unit ball, a block blown up, and its surface.
-Block ball(std::size_t n) {
-  Block b = block({-1, -1, -1}, {1, 1, 1}, n);
-  for (Position& p : b.positions) {
-    const double cube = std::max({std::abs(p[0]), std::abs(p[1]), std::abs(p[2])});
-    const double r = std::hypot(p[0], p[1], p[2]);
-    for (double& x : p) x *= r > 0 ? cube / r : 1;
-  }
-  return b;
-}
-Sheet skin_of(const Block& b) {
-  std::map<std::array<Index, 3>, int> faces;
-  for (const auto& tet : b.tets)
-    for (std::size_t i = 0; i < 4; ++i) {
-      std::array<Index, 3> face = {tet[(i + 1) % 4], tet[(i + 2) % 4], tet[(i + 3) % 4]};
-      std::sort(face.begin(), face.end());
-      ++faces[face];
-    }
-  Sheet s;
-  std::map<Index, Index> number;
-  for (const auto& [face, tets] : faces) {
-    if (tets > 1) continue;
-    std::array<Index, 3> own;
-    for (std::size_t i = 0; i < 3; ++i) {
-      const auto [it, is_new] = number.insert({face[i], static_cast<Index>(s.positions.size())});
-      if (is_new) s.positions.push_back(b.positions[face[i]]);
-      own[i] = it->second;
-    }
-    s.faces.push_back(own);
-  }
-  return s;
-}
-
-/// In the plane of the two places and the middle: onto the circle, along it, and off it.
-double by_the_skin(const Position& p, const Position& q, double c) {
-  const double direct = distance(p, q);
-  if (c <= 1) return direct;
-  const double r = distance(p, {0, 0, 0}), s = distance(q, {0, 0, 0});
-  const double cosine = r * s > 0 ? (p[0] * q[0] + p[1] * q[1] + p[2] * q[2]) / (r * s) : 1;
-  const double angle = std::acos(std::clamp(cosine, -1., 1.));
-  const auto way = [&](double on, double off) {
-    return std::sqrt(std::max(0., 1 + r * r - 2 * r * std::cos(on))) + (off - on) / c +
-           std::sqrt(std::max(0., 1 + s * s - 2 * s * std::cos(angle - off)));
-  };
-  double best = infinity, on = 0, off = angle, step = angle / 24;
-  for (int i = 0; i <= 24; ++i)
-    for (int j = i; j <= 24; ++j)
-      if (const double d = way(i * angle / 24, j * angle / 24); d < best)
-        best = d, on = i * angle / 24, off = j * angle / 24;
-  for (int round = 0; round < 200 && step > 1e-9; ++round) {
-    const double a = on, b = off;
-    for (const double x : {a - step, a, a + step})
-      for (const double y : {b - step, b, b + step})
-        if (x >= 0 && x <= y && y <= angle && way(x, y) < best) best = way(x, y), on = x, off = y;
-    if (on == a && off == b) step /= 2;
-  }
-  return std::min(direct, best);
-}
-
-}  // namespace
 
 TEST_CASE("a skin of another speed on a ball") {
   // The ball is a polyhedron: its facets alone make distances 1e-3 short at 16 cells across.

@@ -65,3 +65,27 @@ TEST_CASE("solids: no path is longer than along edges") {
     for (std::size_t v = 0; v < bound.size(); ++v) CHECK(found[v] <= bound[v] * (1 + 1e-12));
   }
 }
+
+TEST_CASE("solids: tetrahedra without volume keep between the straight line and the edges") {
+  // A cube pressed onto a line or flat, or its lowest layer of cells.
+  std::mt19937 random(8);
+  for (const int axes : {1, 2, 3})
+    for (int round = 0; round < 4; ++round) {
+      Solid s = solid_cube(4, 0);
+      for (Position& p : s.positions) {
+        const bool low = p[2] < .3;
+        for (double& x : p) x += (axes == 3 ? .06 : .3) * (uniform(random) - .5);
+        if (axes == 1) p[1] = 0;
+        if (axes < 3 || low) p[2] = 0;
+      }
+      const auto source = static_cast<Index>(below(random, s.positions.size()));
+      const auto bound = along_edges(s, source);
+      const auto found = solve(s.mesh<double>(), PointSource::at(source));
+      for (std::size_t v = 0; v < bound.size(); ++v) {
+        const Position &p = s.positions[v], &q = s.positions[source];
+        CAPTURE(axes, round, v);
+        CHECK(found[v] <= bound[v] * (1 + 1e-12));
+        CHECK(found[v] >= std::hypot(p[0] - q[0], p[1] - q[1], p[2] - q[2]) * (1 - 1e-9));
+      }
+    }
+}

@@ -55,12 +55,17 @@ struct MixedShape {
 struct MeasuredLengths {
   /// Of a surface, as TriangleMesh takes them; else empty.
   std::vector<std::array<double, 3>> triangles;
-  /// Of a solid, as TetMesh takes them; else empty.
+  /// Of a solid, as TetMesh takes them; else empty, as where paths are refracted.
   std::vector<std::array<double, 6>> tets;
   /// Of a wireframe, one an edge; else empty.
   std::vector<double> edges;
-  std::vector<double> speeds;  ///< of a mixed domain's simplices, all kinds in order
-  bool refracts = false;       ///< triangles may measure an edge they share in two ways
+  /// Of a mixed domain's simplices, all kinds in order, and of a solid's with regions to each
+  /// speed.
+  std::vector<double> speeds;
+  /// Simplices may measure an edge they share in two ways.
+  bool refracts = false;
+  /// They were to, but a solid of so many speeds, or of tensors, takes their mean.
+  bool smoothed = false;
   /// Simplices whose lengths no flat simplex has.
   metric::Violations violations;
 };
@@ -171,8 +176,9 @@ class AnyShape {
 
   /// Lengths by a metric. Triangles may measure an edge they share in two ways where the metric
   /// says Sides::own. Mixed domains take a speed a simplex, of at most 64 different ones: paths are
-  /// refracted where it changes. Throws InputError as metric::triangle_lengths, and UsageError for
-  /// what cannot be measured.
+  /// refracted where it changes. So are those in solids by SimplexSpeeds with Sides::own; of more
+  /// than 64 speeds, and of tensors, an edge of a solid takes the mean of its simplices. Throws
+  /// InputError as metric::triangle_lengths, and UsageError for what cannot be measured.
   [[nodiscard]] MeasuredLengths measure(const metric::Metric& metric) const;
 
   /// Lines on a surface where a field has the values. UsageError for other kinds; see isolines.hpp.

@@ -78,9 +78,11 @@ class SolidRule : public SolidPaths<Real> {
     return longest;
   }
 
-  /// Can an offer be dropped that another does not make up for? Not in a convex solid.
+  /// Can an offer be dropped that another does not make up for? Not in a convex solid, but for what
+  /// passes tetrahedra without volume.
   [[nodiscard]] bool drops() const {
-    return any_reflex_ || !mesh_->pinched().empty() || !mesh_->pinched_edges().empty();
+    return any_reflex_ || !mesh_->pinched().empty() || !mesh_->pinched_edges().empty() ||
+           mesh_->summary().degenerate_tets > 0;
   }
   /// No more than the square of `way`; cheap.
   [[nodiscard]] Real least_way2(Index t, Index u) const {

@@ -164,8 +164,9 @@ std::shared_ptr<const MeasuredLengths> measure(const MetricArgument& argument,
   const Parsed asked = parse(argument);
   if (domain.cloud() != nullptr)
     throw UsageError("--metric: a cloud has no simplices of its own to measure; give a surface");
-  const bool refracts = domain.kind() == DomainKind::surface && jumps == Jumps::refract &&
-                        (asked.kind == Kind::speed || asked.kind == Kind::tensor);
+  const bool refracts =
+      (domain.kind() == DomainKind::surface || domain.kind() == DomainKind::solid) &&
+      jumps == Jumps::refract && (asked.kind == Kind::speed || asked.kind == Kind::tensor);
   const metric::Metric metric =
       read_metric(asked, domain, {refracts ? metric::Sides::own : metric::Sides::mean});
   try {
@@ -175,6 +176,12 @@ std::shared_ptr<const MeasuredLengths> measure(const MetricArgument& argument,
   } catch (const UsageError& error) {
     throw UsageError(std::string("--metric: ") + error.what());
   }
+}
+
+std::string smoothed_note(const MeasuredLengths* lengths) {
+  if (lengths == nullptr || !lengths->smoothed) return {};
+  return "in solids paths are refracted between regions of at most 64 speeds: here each edge takes "
+         "the mean of its tetrahedra, which is of first order where they jump";
 }
 
 std::string violations_note(const AnyShape& domain, const MeasuredLengths* lengths) {

@@ -18,7 +18,9 @@ void add_metric_option(CLI::App& command, MetricArgument& argument) {
       ->group("How to solve");
 }
 
-static std::string name_of_metric(const MetricArgument& argument, std::size_t refracting_edges) {
+static std::string name_of_metric(const MetricArgument& argument, const MeasuredLengths& lengths,
+                                  std::size_t refracting_edges) {
+  if (!lengths.speeds.empty()) return argument.text + "; refracts where speeds change";
   return argument.text +
          (refracting_edges > 0 ? "; refracts at " + counted(refracting_edges, "edges") : "");
 }
@@ -33,11 +35,12 @@ void add_metric(const MetricArgument& argument, const MeasuredLengths* lengths,
 
 void add_metric(const MetricArgument& argument, const MeasuredLengths* lengths,
                 std::size_t refracting_edges, Table& table) {
-  if (lengths != nullptr) table.add("metric", name_of_metric(argument, refracting_edges));
+  if (lengths != nullptr) table.add("metric", name_of_metric(argument, *lengths, refracting_edges));
 }
 
 void say_violations(const AnyShape& domain, const MeasuredLengths* lengths) {
-  if (const std::string note = violations_note(domain, lengths); !note.empty()) say_note(note);
+  for (const std::string& note : {smoothed_note(lengths), violations_note(domain, lengths)})
+    if (!note.empty()) say_note(note);
 }
 
 }  // namespace plexway::cli

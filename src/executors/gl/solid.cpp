@@ -49,7 +49,7 @@ class SolidRun {
             session_, mesh.identity(), [&](SolidBuffers& fresh) { upload(fresh); })),
         radius_(static_cast<float>(job.options.radius / mesh.unit())),
         drops_(!mesh.reflex_edges().empty() || !mesh.pinched().empty() ||
-               !mesh.pinched_edges().empty()) {}
+               !mesh.pinched_edges().empty() || mesh.summary().degenerate_tets > 0) {}
 
   /// Until no label waits, in so many fields. False if the budget is spent.
   bool run(const SolidSeeds& seeds, std::size_t fields) {
