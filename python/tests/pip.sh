@@ -24,5 +24,8 @@ pip="$folder/venv/bin/pip"
 cd "$folder/elsewhere"
 "$folder/venv/bin/python" "$source/python/tests/installed.py" "$source" "$folder/venv"
 "$pip" uninstall --yes plexway >"$folder/uninstall.log"
-! "$folder/venv/bin/python" -c "import plexway" 2>/dev/null
+if "$folder/venv/bin/python" -c "import plexway" 2>/dev/null; then
+  echo "pip: uninstalled, and still there" >&2
+  exit 1
+fi
 echo "pip: all well"
