@@ -89,7 +89,7 @@ TEST_CASE("regions of a .vtk are cell data, in scalars and fields") {
   CHECK_THROWS_WITH(read("CELL_DATA 3\nFIELD f 1\nregion 1 3 double\n1 2 2.5\n"),
                     Contains("no whole number"));
   CHECK_THROWS_WITH(read("CELL_DATA 2\nFIELD f 1\nregion 1 2 int\n1 2\n"), Contains("there are 3"));
-  CHECK_THROWS_WITH(read("CELL_DATA 3\nFIELD f 1\nregion 1 3 int\n1 2\n"), Contains("ends"));
+  CHECK_THROWS_WITH(read("CELL_DATA 3\nFIELD f 1\nregion 1 3 int\n1 2\n"), Contains("is cut off"));
   CHECK_THROWS_WITH(read("POINT_DATA 4\nFIELD f 1\nregion 1 4 int\n1 2 3 4\n"),
                     Contains("has no regions"));
   CHECK_THROWS_WITH(read(""), Contains("has no regions"));
