@@ -10,11 +10,13 @@
 #include <plexway/error.hpp>
 #include <plexway/solve.hpp>
 
+#include "any/kept_build.hpp"
 #include "any/make_complex.hpp"
 #include "any/mixed_domain.hpp"
 #include "any/path_state.hpp"
 #include "any/shape_state.hpp"
 #include "any/workspaces.hpp"
+#include "complex/kept_parts.hpp"
 #include "executors/checks.hpp"
 #include "executors/supported.hpp"
 
@@ -112,6 +114,10 @@ class PreparedKind : public Prepared {
   std::size_t bytes() const override { return of().bytes() + rooms_.bytes(); }
   AnyComplex complex() const override { return &of(); }
 
+  void keep(KeptOut& out) const override {
+    if constexpr (KeptParts::knows<Complex>) KeptParts::keep(out, of());
+  }
+
   void solve(const AnyExecutor& executor, const SourceList& sources,
              const PropagateOptions& options, AnyField& field) const override {
     typename Workspaces<Room<Complex>>::Taken room(rooms_);
@@ -149,6 +155,12 @@ class PreparedPlain final : public PreparedKind<Complex> {
   PreparedPlain(const AnyShape& shape, bool measured, const Make& make)
       : PreparedKind<Complex>(shape, measured), complex_(make()) {}
 
+  /// Is it one of that shape?
+  [[nodiscard]] bool fits(const AnyShape& shape) const {
+    return complex_.vertex_count() == shape.vertices() &&
+           (shape.kind() == DomainKind::cloud || complex_.simplex_count() == shape.simplices());
+  }
+
  private:
   const Complex& of() const override { return complex_; }
 
@@ -168,6 +180,23 @@ class PreparedSurface final : public PreparedKind<TriangleMesh<Real>> {
         lengths_(lengths),
         left_open_(options.triangulation == Triangulation::automatic),
         made_(make_surface<Real>(options.triangulation, making(), report_)) {}
+  PreparedSurface(const AnyShape& shape, Triangulation asked, KeptIn& in)
+      : Base(shape, shape.lengths() != nullptr),
+        lengths_(shape.lengths()),
+        left_open_(asked == Triangulation::automatic),
+        made_(open(in, report_)) {
+    const std::size_t own = made_.mesh.vertex_count() - report_.inserted_vertices;
+    in.require(own == shape.vertices());
+    in.require(made_.delaunay || made_.mesh.face_count() == shape.simplices());
+  }
+
+  void keep(KeptOut& out) const override {
+    const auto done = static_cast<std::uint32_t>(made_.done);
+    out(done, report_.flips, report_.inserted_vertices, report_.seconds,
+        made_.delaunay.has_value());
+    KeptParts::keep(out, made_.mesh);
+    if (made_.delaunay) KeptParts::keep(out, *made_.delaunay);
+  }
 
   std::size_t simplices() const override { return this->shape_.simplices(); }
   double mean_edge() const override { return made_.mesh.unit(); }
@@ -233,6 +262,26 @@ class PreparedSurface final : public PreparedKind<TriangleMesh<Real>> {
 
  private:
   [[nodiscard]] Making making() const { return {this->shape_, lengths_}; }
+  static TriangulatedSurface<Real> open(KeptIn& in, TriangulationReport& report) {
+    std::uint32_t done = 0;
+    bool delaunay = false;
+    in(done, report.flips, report.inserted_vertices, report.seconds, delaunay);
+    in.require(done <= static_cast<std::uint32_t>(Retriangulation::refined));
+    TriangulatedSurface<Real> made{KeptParts::open<TriangleMesh<Real>>(in), std::nullopt,
+                                   static_cast<Retriangulation>(done)};
+    in.require(delaunay == (made.done != Retriangulation::keep) &&
+               report.inserted_vertices < made.mesh.vertex_count());
+    report.done = named(made.done);
+    if (delaunay) {
+      made.delaunay.emplace(
+          KeptParts::open_delaunay(in, made.mesh.face_count(), made.mesh.vertex_count()));
+      in.require(made.delaunay->summary().flips == report.flips &&
+                 made.delaunay->summary().inserted_vertices == report.inserted_vertices);
+    } else {
+      in.require(report.flips + report.inserted_vertices == 0);
+    }
+    return made;
+  }
   const TriangleMesh<Real>& of() const override { return made_.mesh; }
 
   // Are there other triangles than the shape's?
@@ -438,6 +487,36 @@ std::shared_ptr<const Prepared> prepare_as(const AnyShape& shape, const BuildOpt
       shape.data());
 }
 
+template <class Complex>
+std::shared_ptr<const Prepared> open_plain(const AnyShape& shape, KeptIn& in) {
+  auto opened = std::make_shared<PreparedPlain<Complex>>(
+      shape, shape.lengths() != nullptr, [&] { return KeptParts::open<Complex>(in); });
+  in.require(opened->fits(shape));
+  return opened;
+}
+
+// What is built already.
+template <class Real>
+std::shared_ptr<const Prepared> open_as(const AnyShape& shape, const KeptBuild& kept) {
+  KeptIn in = kept.complex;
+  std::shared_ptr<const Prepared> opened;
+  switch (shape.kind()) {
+    case DomainKind::surface:
+      opened = std::make_shared<PreparedSurface<Real>>(shape, kept.triangulation, in);
+      break;
+    case DomainKind::solid:
+      opened = open_plain<TetMesh<Real>>(shape, in);
+      break;
+    case DomainKind::wireframe:
+      opened = open_plain<Wireframe<Real>>(shape, in);
+      break;
+    default:
+      opened = open_plain<PointCloud<Real>>(shape, in);
+  }
+  in.end();
+  return opened;
+}
+
 }  // namespace
 
 std::shared_ptr<const Prepared> prepare(const AnyShape& shape, const BuildOptions& options) {
@@ -452,6 +531,9 @@ std::shared_ptr<const Prepared> prepare(const AnyShape& shape, const BuildOption
   if (options.lengths && !measurable)
     throw UsageError("a metric is for surfaces, solids, wireframes and mixed domains, not a " +
                      std::string(kind_noun(shape.kind())));
+  if (const KeptBuild* const kept = shape.state().kept.get(); kept && kept->answers(options))
+    return options.precision == Precision::single ? open_as<float>(shape, *kept)
+                                                  : open_as<double>(shape, *kept);
   return options.precision == Precision::single ? prepare_as<float>(shape, options)
                                                 : prepare_as<double>(shape, options);
 }

@@ -11,6 +11,7 @@
 #include "complex/delaunay_flips.hpp"
 #include "complex/face_layout.hpp"
 #include "complex/intrinsic_triangulation.hpp"
+#include "complex/kept_parts.hpp"
 #include "complex/shape_blocks.hpp"
 #include "complex/simplex_order.hpp"
 
@@ -109,8 +110,8 @@ std::vector<SurfaceChord> lost_edges(std::vector<SurfaceChord> then,
 struct IntrinsicDelaunay::State {
   double unit = 1;
   IntrinsicTriangulation triangulation;
-  std::vector<Index> face_of_slot;  // the caller's
-  std::vector<Index> slot_of_face;
+  Rows<Index> face_of_slot;  // the caller's
+  Rows<Index> slot_of_face;
   std::size_t faces = 0;  // of the input
   bool refracts = false;
   bool released = false;                         // are the triangles gone?
@@ -118,18 +119,20 @@ struct IntrinsicDelaunay::State {
   std::vector<SurfaceChord> chords;
   DelaunaySummary summary;
 
+  State() = default;
   template <class Real>
   explicit State(const TriangleMesh<Real>& input)
       : unit(input.unit()),
         triangulation(input),
-        face_of_slot(input.face_count()),
-        slot_of_face(input.face_count()),
         faces(input.face_count()),
         refracts(input.summary().refracting_edges > 0) {
-    for (Index s = 0; s < face_of_slot.size(); ++s) {
-      face_of_slot[s] = input.triangles()[s].face & ~reversed;
-      slot_of_face[face_of_slot[s]] = s;
+    std::vector<Index> face(faces), slot(faces);
+    for (Index s = 0; s < faces; ++s) {
+      face[s] = input.triangles()[s].face & ~reversed;
+      slot[face[s]] = s;
     }
+    face_of_slot = std::move(face);
+    slot_of_face = std::move(slot);
     if (input.positions().empty()) return;
     positions.resize(input.vertex_count());
     for (Index v = 0; v < positions.size(); ++v)
@@ -224,8 +227,8 @@ struct IntrinsicDelaunay::State {
     summary = {flips.count(), flips.stuck(), triangulation.inserted().size()};
     triangulation.release_counts();
     for (Index s = static_cast<Index>(faces); s < triangulation.triangles().size(); ++s) {
-      face_of_slot.push_back(s);
-      slot_of_face.push_back(s);
+      face_of_slot.own().push_back(s);
+      slot_of_face.own().push_back(s);
     }
   }
 
@@ -262,6 +265,40 @@ void IntrinsicDelaunay::release_triangles() {
   state_->released = true;
 }
 
+template <class Archive, class Delaunay>
+void KeptParts::each_of_delaunay(Archive& archive, Delaunay& delaunay) {
+  auto& s = *delaunay.state_;
+  archive(s.unit, s.face_of_slot, s.slot_of_face, s.faces, s.refracts, s.summary.flips,
+          s.summary.stuck_edges, s.summary.inserted_vertices);
+  auto& t = s.triangulation;
+  archive(t.vertices_, t.turned_, t.inserted_, t.history_.patches_, t.history_.first_,
+          t.history_.last_);
+}
+
+void KeptParts::keep(KeptOut& out, const IntrinsicDelaunay& delaunay) {
+  each_of_delaunay(out, delaunay);
+}
+
+IntrinsicDelaunay KeptParts::open_delaunay(KeptIn& in, std::size_t triangles,
+                                           std::size_t vertices) {
+  IntrinsicDelaunay delaunay;
+  delaunay.state_ = std::make_unique<IntrinsicDelaunay::State>();
+  each_of_delaunay(in, delaunay);
+  IntrinsicDelaunay::State& s = *delaunay.state_;
+  s.released = true;
+  const std::size_t slots = s.triangulation.history().slots();
+  in.require(slots == triangles && s.triangulation.vertices() == vertices);
+  in.require(s.faces > 0 && s.faces <= slots && s.face_of_slot.size() == slots &&
+             s.slot_of_face.size() == slots);
+  bool bad = s.triangulation.inserted().size() > s.triangulation.vertices();
+  for (const Index slot : s.slot_of_face) bad |= slot >= slots;
+  for (const Index face : s.face_of_slot) bad |= face >= slots;
+  for (std::size_t f = 0; f < s.faces; ++f) bad |= s.slot_of_face[f] >= s.faces;
+  for (const SlotPoint& point : s.triangulation.inserted()) bad |= point.slot >= s.faces;
+  in.require(!bad && s.triangulation.history().sound());
+  return delaunay;
+}
+
 const DelaunaySummary& IntrinsicDelaunay::summary() const { return state_->summary; }
 
 std::size_t IntrinsicDelaunay::bytes() const {
@@ -292,7 +329,8 @@ TriangleMesh<Real> IntrinsicDelaunay::mesh(const SaddleThresholds& saddles) cons
         across[s][i] = o == none ? none : o & ~Across::special;
       }
     }
-    return {FaceLayout(vertices, state_->face_of_slot, std::move(faces), std::move(across)), shapes,
+    std::vector<Index> order(state_->face_of_slot.begin(), state_->face_of_slot.end());
+    return {FaceLayout(vertices, std::move(order), std::move(faces), std::move(across)), shapes,
             hints};
   }
   // New triangles lie behind all others: they need a new order.

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include <plexway/complex/tet_mesh.hpp>
+#include <plexway/propagate/solid_clear_space.hpp>
 #include <plexway/propagate/solid_label.hpp>
 #include <plexway/propagate/solid_paths.hpp>
 #include <plexway/propagate/solid_sight.hpp>
@@ -60,6 +61,33 @@ class SolidRule : public SolidPaths<Real> {
   }
 
 #include <plexway/propagate/solid_walk.inl>
+
+  /// `walk`, but straight over what is known to be clear, which leads to the same tetrahedron.
+  bool go(Index& t, const Point& from, const Point& to) const {
+    constexpr Real worth_it = 3;  // mean edges
+    const Point way = to - from;
+    const Real far = norm(way);
+    if (clear_ == nullptr || !(far > worth_it)) return walk(t, from, to);
+    Point at = from;
+    for (Real s = 0; s < 1;) {
+      const auto run = clear_->next(from, to, s, worth_it / far);
+      if (run.tet == none) break;
+      if (run.begin > s) {
+        const Point begin = from + run.begin * way;
+        if (!walk(t, at, begin)) return false;
+        at = begin;
+      }
+      const Point end = from + run.end * way;
+      Index there = run.tet;
+      if (!walk(there, tets_[there].centre, end)) break;
+      t = there;
+      at = end;
+      s = run.end;
+    }
+    return walk(t, at, to);
+  }
+  /// Where lines need not be walked; referred to.
+  void skip(const SolidClearSpace<Real>& clear) { clear_ = clear.empty() ? nullptr : &clear; }
 
 #include <plexway/propagate/solid_step.inl>
 
@@ -310,6 +338,7 @@ class SolidRule : public SolidPaths<Real> {
         list_(rule.list_),
         sentinel_(rule.sentinel_),
         any_reflex_(rule.any_reflex_),
+        clear_(rule.clear_),
         front_(&front) {}
 
   /// A corner whose string is hidden, and its length.
@@ -395,6 +424,7 @@ class SolidRule : public SolidPaths<Real> {
   const Index* list_;
   Index sentinel_;
   bool any_reflex_;
+  const SolidClearSpace<Real>* clear_ = nullptr;
   Front* front_;
 };
 

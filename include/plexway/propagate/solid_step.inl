@@ -3,6 +3,7 @@
 // GLSL, after solid_walk.inl. Before it stand also
 //   first_reflex(t), reflex_entry(e), entry_edge(entry), entry_is_last(entry)
 //   any_reflex()                     are there reflex edges
+//   go(t, from, to)                  `walk`, perhaps by a shorter way to the same tetrahedron
 //   reached(t), label_of(t)          what is known
 //   same_way(label, label)           do they have the same S and bends?
 

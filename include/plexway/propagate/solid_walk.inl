@@ -59,7 +59,7 @@ HINGE_FN Real turn_of(HINGE_IN(Seen) a, HINGE_IN(Seen) b) { return a.x * b.y - a
 
 /// From a point of t straight to another; t is then the tetrahedron it came to. False if that is
 /// outside of the solid, or behind a part of the boundary.
-bool go(HINGE_INOUT(Index) t, HINGE_IN(Point) from, HINGE_IN(Point) to) HINGE_READS {
+bool walk(HINGE_INOUT(Index) t, HINGE_IN(Point) from, HINGE_IN(Point) to) HINGE_READS {
   Point g = to - from;
   Real far = norm(g);
   if (!(far > Real(1e-2) * nudge)) return true;
