@@ -114,7 +114,7 @@ def test_prepared(tmp_path):
     assert prepared.read_bytes() == (tmp_path / "kept.plexway").read_bytes()
     opened = px.read(prepared)
     assert np.array_equal(opened.distance(3), domain.distance(3))
-    with pytest.raises(ValueError):
+    with pytest.raises(px.Error, match="damaged"):
         damaged = bytearray(prepared.read_bytes())
         damaged[500] ^= 1
         (tmp_path / "damaged.plexway").write_bytes(damaged)

@@ -192,8 +192,7 @@ class PreparedSurface final : public PreparedKind<TriangleMesh<Real>> {
 
   void keep(KeptOut& out) const override {
     const auto done = static_cast<std::uint32_t>(made_.done);
-    out(done, report_.flips, report_.inserted_vertices, report_.seconds,
-        made_.delaunay.has_value());
+    out(done, report_.flips, report_.inserted_vertices, made_.delaunay.has_value());
     KeptParts::keep(out, made_.mesh);
     if (made_.delaunay) KeptParts::keep(out, *made_.delaunay);
   }
@@ -265,7 +264,7 @@ class PreparedSurface final : public PreparedKind<TriangleMesh<Real>> {
   static TriangulatedSurface<Real> open(KeptIn& in, TriangulationReport& report) {
     std::uint32_t done = 0;
     bool delaunay = false;
-    in(done, report.flips, report.inserted_vertices, report.seconds, delaunay);
+    in(done, report.flips, report.inserted_vertices, delaunay);
     in.require(done <= static_cast<std::uint32_t>(Retriangulation::refined));
     TriangulatedSurface<Real> made{KeptParts::open<TriangleMesh<Real>>(in), std::nullopt,
                                    static_cast<Retriangulation>(done)};

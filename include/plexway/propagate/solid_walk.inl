@@ -97,6 +97,7 @@ bool walk(HINGE_INOUT(Index) t, HINGE_IN(Point) from, HINGE_IN(Point) to) HINGE_
   Index vb = vertex_of(t, face_corner_number(face, 1u));
   Index vc = vertex_of(t, face_corner_number(face, 2u));
   Real top = max(a.z, max(b.z, c.z));  // no corner of the face is farther along
+  Index passed = t;  // now and then: a line that comes back goes round in circles by rounding
   for (int steps = 0; steps < HINGE_ROLLED(65536); ++steps) {
     Index next = neighbour(t, face);
     bool ends = next == no_tet();
@@ -119,6 +120,8 @@ bool walk(HINGE_INOUT(Index) t, HINGE_IN(Point) from, HINGE_IN(Point) to) HINGE_
     }
     Index j = face_beyond(t, face);
     t = next;
+    if (HINGE_RARE(t == passed)) return false;
+    if ((steps & (steps - 1)) == 0) passed = t;
     Seen d = seen_along(line, from, corner_of(t, j));
     Index vd = vertex_of(t, j);
     top = max(top, d.z);
