@@ -265,6 +265,16 @@ void IntrinsicDelaunay::release_triangles() {
   state_->released = true;
 }
 
+template <>
+struct KeptGap<PatchHistory::Patch> {
+  static constexpr std::size_t begin = offsetof(PatchHistory::Patch, kind) + 1,
+                               end = sizeof(PatchHistory::Patch);
+};
+template <>
+struct KeptGap<SlotPoint> {
+  static constexpr std::size_t begin = sizeof(Index), end = offsetof(SlotPoint, at);
+};
+
 template <class Archive, class Delaunay>
 void KeptParts::each_of_delaunay(Archive& archive, Delaunay& delaunay) {
   auto& s = *delaunay.state_;

@@ -121,7 +121,7 @@ void KeptIn::check() {
     refuse("was prepared by another version of plexway (its format is " +
            std::to_string(header.version) + ", here it is " + std::to_string(kept_version) +
            "): prepare it again");
-  require(bytes_.size() % block == 0);
+  if (bytes_.size() % block != 0) refuse("is cut short or damaged");
   at_ = block;
   end_ = bytes_.size() - block;
   const auto trailer = block_at<Trailer>(bytes_, end_);

@@ -37,6 +37,13 @@ void seal(std::span<std::byte> file);
 template <class T>
 concept KeptElement = std::is_trivially_copyable_v<T> && !std::is_pointer_v<T>;
 
+/// Bytes of an element that belong to no member: nothing is written of what happens to be there, so
+/// the same build gives the same file. (GCC 12's __builtin_clear_padding clears others as well.)
+template <class T>
+struct KeptGap {
+  static constexpr std::size_t begin = 0, end = 0;
+};
+
 /// Writes such a file, which appears whole or not at all (NewFile). Throws Error "cannot write
 /// FILE: reason".
 class KeptOut {
@@ -71,17 +78,14 @@ class KeptOut {
   void put_elements(std::span<const T> elements) {
     begin_part(sizeof(T), elements.size());
     if constexpr (std::is_class_v<T>) {
-      // What lies between members is whatever was there: the same build gives the same file.
       constexpr std::size_t many = 128;
       std::array<T, many> some;
       for (; !elements.empty(); elements = elements.subspan(std::min(many, elements.size()))) {
         const std::size_t count = std::min(many, elements.size());
         std::memcpy(static_cast<void*>(some.data()), elements.data(), count * sizeof(T));
-#if defined(__has_builtin)
-#if __has_builtin(__builtin_clear_padding)
-        for (T& one : some) __builtin_clear_padding(&one);
-#endif
-#endif
+        for (std::size_t n = 0; KeptGap<T>::end > 0 && n < count; ++n)
+          std::memset(reinterpret_cast<std::byte*>(&some[n]) + KeptGap<T>::begin, 0,
+                      KeptGap<T>::end - KeptGap<T>::begin);
         write(reinterpret_cast<const std::byte*>(some.data()), count * sizeof(T));
       }
     } else {

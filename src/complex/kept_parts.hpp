@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <type_traits>
 
 #include <plexway/complex/intrinsic_delaunay.hpp>
@@ -11,6 +12,24 @@
 #include "complex/kept_archive.hpp"
 
 namespace plexway {
+
+template <>
+struct KeptGap<TriangleRecord<double>> {
+  static constexpr std::size_t begin = 12, end = offsetof(TriangleRecord<double>, length);
+};
+template <>
+struct KeptGap<TetRecord<double>> {
+  static constexpr std::size_t begin = offsetof(TetRecord<double>, reflex) + sizeof(Index),
+                               end = sizeof(TetRecord<double>);
+};
+template <>
+struct KeptGap<WireArc<double>> {
+  static constexpr std::size_t begin = sizeof(Index), end = offsetof(WireArc<double>, length);
+};
+template <>
+struct KeptGap<TriangleMesh<double>::ChordEnd> {
+  static constexpr std::size_t begin = sizeof(Index), end = sizeof(double);
+};
 
 /// What complexes are made of, one list for writing and reading. Whatever is read is checked so far
 /// that nothing done with it leaves its arrays or goes on for ever, whoever wrote the file.

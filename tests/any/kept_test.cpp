@@ -75,11 +75,9 @@ void check_kept(const AnyShape& shape, std::span<const PointSource> sources,
     // The same build is the same file.
     const std::string bytes = bytes_of(file);
     built.keep(file);
-#ifdef __GNUC__
-#ifndef __clang__
     CHECK(bytes == bytes_of(file));
-#endif
-#endif
+    AnyDomain(shape, options).keep(file);
+    CHECK(bytes == bytes_of(file));
     const AnyDomain opened = AnyDomain::read(file, {}, options);
     check_same(built, opened, sources);
     // And kept again.
@@ -173,8 +171,8 @@ TEST_CASE("what cannot be kept is refused with the reason") {
   CHECK_THROWS_AS(AnyDomain(AnyShape::mixed(mixed)).keep(file), UsageError);
   const AnyShape triangle = AnyShape::surface({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}});
   BuildOptions measured;
-  measured.lengths = std::make_shared<const MeasuredLengths>(
-      MeasuredLengths{.triangles = {{1, 1, 1}}, .tets = {}, .edges = {}, .speeds = {}});
+  measured.lengths = std::make_shared<const MeasuredLengths>(MeasuredLengths{
+      .triangles = {{1, 1, 1}}, .tets = {}, .edges = {}, .speeds = {}, .violations = {}});
   CHECK_THROWS_AS(AnyDomain(triangle, measured).keep(file), UsageError);
   CHECK(folder.files() == 0);
   AnyDomain(triangle).keep(file);
@@ -229,7 +227,8 @@ TEST_CASE("changed parts behind a right checksum are refused, or do no harm") {
   for (int n = 0; n < 400; ++n) {
     std::string bytes = good;
     const std::size_t at = 64 + random() % (bytes.size() - 128) / 4 * 4;
-    const std::uint32_t word = n % 2 == 0 ? random() : ~std::uint32_t{0} >> random() % 32;
+    const std::uint32_t word =
+        static_cast<std::uint32_t>(n % 2 == 0 ? random() : ~std::uint32_t{0} >> random() % 32);
     std::memcpy(bytes.data() + at, &word, sizeof(word));
     seal(std::as_writable_bytes(std::span(bytes)));
     folder.write("bad.plexway", bytes);

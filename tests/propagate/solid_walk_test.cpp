@@ -1,5 +1,5 @@
-// Lines through a solid: straight over clear space they come to where walking comes, and a line that
-// starts outside of its tetrahedron ends.
+// Lines through a solid: straight over clear space they come to where walking comes, and a line
+// that starts outside of its tetrahedron ends.
 
 #include <catch2/catch.hpp>
 #include <random>
