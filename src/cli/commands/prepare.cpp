@@ -1,11 +1,16 @@
 #include <CLI/CLI.hpp>
+#include <array>
+#include <cstdint>
 #include <filesystem>
 #include <memory>
 #include <string>
+#include <string_view>
+#include <system_error>
 
 #include <plexway/any_domain.hpp>
 #include <plexway/error.hpp>
 
+#include "any/info/report.hpp"
 #include "cli/commands/commands.hpp"
 #include "cli/options/input.hpp"
 #include "cli/options/solve_options.hpp"
@@ -13,7 +18,6 @@
 #include "cli/report/console.hpp"
 #include "cli/report/distance_output.hpp"
 #include "cli/report/progress.hpp"
-#include "cli/report/report.hpp"
 
 namespace plexway::cli {
 namespace {
