@@ -154,7 +154,7 @@ bool is_sound(const AnyShape::State& state) {
 
 bool KeptBuild::answers(const BuildOptions& options) const {
   return options.lengths == nullptr && options.precision == precision &&
-         options.triangulation == triangulation;
+         (!is_surface || options.triangulation == triangulation);
 }
 
 bool is_kept_build(const std::filesystem::path& file) {
@@ -199,8 +199,8 @@ AnyShape::State read_kept_build(KeptIn in) {
   in(measured);
   if (measured) each_of_lengths(in, state.lengths.emplace());
   in.require(is_sound(state));
-  state.kept =
-      std::make_shared<const KeptBuild>(KeptBuild{precision, triangulation, std::move(in)});
+  state.kept = std::make_shared<const KeptBuild>(
+      KeptBuild{precision, triangulation, kind == DomainKind::surface, std::move(in)});
   return state;
 }
 

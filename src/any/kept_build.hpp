@@ -15,6 +15,7 @@ struct BuildOptions;
 struct KeptBuild {
   Precision precision = Precision::single;
   Triangulation triangulation = Triangulation::automatic;  ///< as it was asked for
+  bool is_surface = false;                                 ///< else that means nothing
   KeptIn complex;                                          ///< at its first part
 
   /// Is it what they ask for? If not, the shape is built anew.
