@@ -8,146 +8,17 @@
 #include <utility>
 
 #include <plexway/error.hpp>
-#include <plexway/solve.hpp>
 
 #include "any/kept_build.hpp"
 #include "any/make_complex.hpp"
 #include "any/mixed_domain.hpp"
-#include "any/path_state.hpp"
+#include "any/prepared_kind.hpp"
 #include "any/shape_state.hpp"
-#include "any/workspaces.hpp"
 #include "complex/kept_parts.hpp"
 #include "executors/checks.hpp"
-#include "executors/supported.hpp"
-
-#ifdef PLEXWAY_HAS_GL
-#include <plexway/executors/gl.hpp>
-#endif
 
 namespace plexway {
 namespace {
-
-template <class Real>
-void cut(DistanceField<Real>& field, std::size_t vertices) {
-  field.distance.resize(vertices);
-  if (!field.label.empty()) field.label.resize(vertices);
-  if (!field.error.empty()) field.error.resize(vertices);
-}
-
-// A field of the right precision, with the memory that it had.
-template <class Real>
-DistanceField<Real>& as(AnyField& field) {
-  if (auto* const kept = std::get_if<DistanceField<Real>>(&field.data)) return *kept;
-  return field.data.template emplace<DistanceField<Real>>();
-}
-
-/// What a solve changes.
-template <class Complex>
-struct Room {
-  WorkspaceOf<Serial, Complex> workspace;
-  std::vector<PointSource> points;  // where they are in the complex
-  std::vector<Source> sources;
-  DistanceField<RealOf<Complex>> other;
-#ifdef PLEXWAY_HAS_GL
-  GLWorkspace gl;
-#endif
-
-  [[nodiscard]] std::size_t bytes() const {
-    std::size_t sum = other.distance.capacity() * sizeof(RealOf<Complex>);
-    if constexpr (requires { workspace.bytes(); })
-      sum += workspace.bytes();
-    else
-      for (const auto& piece : workspace.pieces) sum += piece.bytes();
-#ifdef PLEXWAY_HAS_GL
-    sum += gl.bytes();
-#endif
-    return sum;
-  }
-};
-
-template <class Complex, class Room>
-void solve_on(const AnyExecutor& executor, const Complex& complex, const SourceList& sources,
-              const PropagateOptions& options, Room& room, DistanceField<RealOf<Complex>>& field) {
-  std::visit(
-      [&](const auto& chosen) {
-        using E = std::decay_t<decltype(chosen)>;
-        if constexpr (!supports<E, Complex>) {
-          support(combination<E, Complex>()).require();
-        } else if constexpr (E::kind == ExecutorKind::openmp && !teams_built_in) {
-          static_cast<void>(team_size(chosen));  // says that it is not built in
-        } else if constexpr (E::kind == ExecutorKind::gl) {
-#ifdef PLEXWAY_HAS_GL
-          plexway::solve(chosen, complex, sources, options, room.gl, field);
-#else
-          throw NotBuiltError(
-              "the executor GL is not built in; install libegl-dev and build again");
-#endif
-        } else {
-          plexway::solve(chosen, complex, sources, options, room.workspace, field);
-        }
-      },
-      executor);
-}
-
-/// What all kinds have in common. A kind brings `complex_`, and says where sources are in it.
-template <class Complex>
-class PreparedKind : public Prepared {
- public:
-  using Real = RealOf<Complex>;
-
-  Precision precision() const final {
-    return std::is_same_v<Real, float> ? Precision::single : Precision::twice;
-  }
-  MetricKind metric() const final { return of().metric(); }
-  Combination combination(ExecutorKind executor) const final {
-    return {executor, Complex::kind, Complex::dimension, std::is_same_v<Real, float>};
-  }
-  std::size_t simplices() const override { return of().simplex_count(); }
-  std::size_t components() const override {
-    if constexpr (requires { of().summary().components; })
-      return of().summary().components;
-    else
-      return 1;
-  }
-  const CloudSummary* cloud() const final {
-    if constexpr (Complex::kind == DomainKind::cloud) return &of().summary();
-    return nullptr;
-  }
-  std::size_t bytes() const override { return of().bytes() + rooms_.bytes(); }
-  AnyComplex complex() const override { return &of(); }
-
-  void keep(KeptOut& out) const override {
-    if constexpr (KeptParts::knows<Complex>) KeptParts::keep(out, of());
-  }
-
-  void solve(const AnyExecutor& executor, const SourceList& sources,
-             const PropagateOptions& options, AnyField& field) const override {
-    typename Workspaces<Room<Complex>>::Taken room(rooms_);
-    solve_on(executor, of(), sources, options, *room, as<Real>(field));
-    field.triangulation = {};
-  }
-
-  std::shared_ptr<const AnyPathField::State> path_field(
-      const AnyExecutor& executor, std::span<const PointSource> sources,
-      const PropagateOptions& options) const override {
-    if constexpr (has_paths<Complex>) {
-      auto state = std::make_shared<PathsOf<Complex>>(shared_from_this(), shape_, of(), measured_);
-      state->solve(executor, sources, options);
-      return state;
-    } else {
-      throw UsageError("paths are traced on surfaces, solids, wireframes and clouds");
-    }
-  }
-
- protected:
-  PreparedKind(AnyShape shape, bool measured) : shape_(std::move(shape)), measured_(measured) {}
-
-  [[nodiscard]] virtual const Complex& of() const = 0;
-
-  AnyShape shape_;
-  bool measured_;  // by a metric: positions do not tell lengths
-  mutable Workspaces<Room<Complex>> rooms_;
-};
 
 /// Solids, wireframes, clouds and simplices: solved as they are.
 template <class Complex>
@@ -211,8 +82,8 @@ class PreparedSurface final : public PreparedKind<TriangleMesh<Real>> {
 
   void solve(const AnyExecutor& executor, const SourceList& sources,
              const PropagateOptions& options, AnyField& field) const override {
-    typename Workspaces<Room<TriangleMesh<Real>>>::Taken taken(this->rooms_);
-    Room<TriangleMesh<Real>>& room = *taken;
+    typename Workspaces<SolveRoom<TriangleMesh<Real>>>::Taken taken(this->rooms_);
+    SolveRoom<TriangleMesh<Real>>& room = *taken;
     DistanceField<Real>& found = as<Real>(field);
     field.triangulation = report_;
     if (!made_.delaunay) {
@@ -315,7 +186,7 @@ class PreparedSurface final : public PreparedKind<TriangleMesh<Real>> {
     return made_.delaunay->to_intrinsic(point);
   }
 
-  SourceList moved(const SourceList& sources, Room<TriangleMesh<Real>>& room) const {
+  SourceList moved(const SourceList& sources, SolveRoom<TriangleMesh<Real>>& room) const {
     if (sources.only_points()) {
       room.points.clear();
       for (const PointSource& point : sources.points()) room.points.push_back(moved(point));
@@ -358,8 +229,8 @@ class PreparedMixed final : public PreparedKind<MixedComplex<Real>> {
 
   void solve(const AnyExecutor& executor, const SourceList& sources,
              const PropagateOptions& options, AnyField& field) const override {
-    typename Workspaces<Room<MixedComplex<Real>>>::Taken taken(this->rooms_);
-    Room<MixedComplex<Real>>& room = *taken;
+    typename Workspaces<SolveRoom<MixedComplex<Real>>>::Taken taken(this->rooms_);
+    SolveRoom<MixedComplex<Real>>& room = *taken;
     DistanceField<Real>& found = as<Real>(field);
     solve_on(executor, pieces_.complex, moved(sources, room), options, room, room.other);
     const auto pick = [&](const auto& from, auto& to, auto nothing) {
@@ -398,7 +269,7 @@ class PreparedMixed final : public PreparedKind<MixedComplex<Real>> {
       point.simplex = simplex(point.simplex);
   }
 
-  SourceList moved(const SourceList& sources, Room<MixedComplex<Real>>& room) const {
+  SourceList moved(const SourceList& sources, SolveRoom<MixedComplex<Real>>& room) const {
     if (sources.only_points()) {
       room.points.assign(sources.points().begin(), sources.points().end());
       for (PointSource& point : room.points) move(point);
