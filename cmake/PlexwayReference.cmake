@@ -13,6 +13,7 @@ set(implementation
   # What domains are made of inside: records, their numbers, and what is found out about them.
   complex/box_tree.hpp
   complex/identity.hpp
+  complex/rows.hpp
   complex/simplex_flat.hpp
   complex/simplex_record.hpp
   complex/tet_record.hpp
@@ -44,6 +45,7 @@ set(implementation
   propagate/simplex_string.hpp
   propagate/simplex_string_rule.hpp
   propagate/simplex_taut.hpp
+  propagate/solid_clear_space.hpp
   propagate/solid_paths.hpp
   propagate/solid_rule.hpp
   propagate/solid_sight.hpp

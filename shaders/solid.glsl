@@ -143,6 +143,11 @@ bool comes_in(SolidLabel label, uint t) { return false; }
 //@include plexway/propagate/solid_sight.inl
 //@include plexway/propagate/solid_paths.inl
 //@include plexway/propagate/solid_walk.inl
+
+bool go(HINGE_INOUT(Index) t, HINGE_IN(Point) from, HINGE_IN(Point) to) {
+  return walk(t, from, to);
+}
+
 //@include plexway/propagate/solid_step.inl
 
 /// Longest way from the centre to a corner.

@@ -95,6 +95,16 @@ class AnyDomain {
                                       const ReadOptions& reading = {},
                                       const BuildOptions& building = {});
 
+  /// Writes the shape and what was built of it to a file, mostly called NAME.plexway, which is read
+  /// as any other (AnyShape::read) and then maps into memory instead of being built: fields have
+  /// the same bits. Any number of processes may share its memory. The file is for this version of
+  /// the library and for machines with this byte order; it has a checksum, and one that is foreign
+  /// or damaged is refused (InputError). Where other BuildOptions are asked for the shape is built
+  /// anew. Surfaces, solids, wireframes and clouds, without a metric (UsageError); throws Error
+  /// "cannot write FILE: reason". Size in single precision: 110 bytes a
+  /// triangle, 150 on Delaunay triangles.
+  void keep(const std::filesystem::path& file) const;
+
   /// What it was made from.
   [[nodiscard]] const AnyShape& shape() const;
   /// The kind of the shape.

@@ -815,6 +815,20 @@ class Domain:
         """
         self._native.write_field(os.fspath(file), distance, label)
 
+    def keep(self, file: Union[str, os.PathLike[str]]) -> None:
+        """Writes what was built to a file, mostly called NAME.plexway, which `read` takes as any
+        other: it then maps into memory instead of being built, and gives the same bits.
+
+        Surfaces, solids, wireframes and clouds, without a metric or a mask.
+
+        Parameters
+        ----------
+        file : path
+        """
+        if self._kept is not None:
+            raise ValueError("keep: a domain with a mask is built each time")
+        self._native.keep(os.fspath(file))
+
     # -- Numbers of simplices with and without a mask.
 
     def _inner_simplex(self, simplex: Any) -> int:

@@ -96,3 +96,26 @@ def test_a_surface_is_filled(tmp_path):
         pytest.skip(str(missing))
     d = told(off, tmp_path / "d.npy", "--as", "solid", "--source", "vertex:0")
     assert isinstance(solid, px.Solid) and np.array_equal(d, solid.distance(0))
+
+
+def test_prepared(tmp_path):
+    """A file that the tool prepared, and one that Python keeps."""
+    V, F = meshes.sphere(30)
+    domain = px.Surface(V, F)
+    domain.keep(tmp_path / "kept.plexway")
+    (tmp_path / "blob.obj").write_text(
+        "".join(f"v {float(x)!r} {float(y)!r} {float(z)!r}\n" for x, y, z in V)
+        + "".join(f"f {a + 1} {b + 1} {c + 1}\n" for a, b, c in F)
+    )
+    prepared = tmp_path / "prepared.plexway"
+    subprocess.run(
+        [TOOL, "prepare", tmp_path / "blob.obj", "--out", prepared, "--quiet"], check=True
+    )
+    assert prepared.read_bytes() == (tmp_path / "kept.plexway").read_bytes()
+    opened = px.read(prepared)
+    assert np.array_equal(opened.distance(3), domain.distance(3))
+    with pytest.raises(px.Error, match="damaged"):
+        damaged = bytearray(prepared.read_bytes())
+        damaged[500] ^= 1
+        (tmp_path / "damaged.plexway").write_bytes(damaged)
+        px.read(tmp_path / "damaged.plexway")

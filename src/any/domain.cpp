@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "any/kept_build.hpp"
 #include "any/prepared.hpp"
 #include "any/shape_state.hpp"
 #include "executors/share_out.hpp"
@@ -18,6 +19,7 @@ namespace plexway {
 struct AnyDomain::State {
   AnyShape shape;
   std::shared_ptr<const Prepared> prepared;
+  BuildOptions options;  // as asked for, without progress
   double build_seconds = 0;
 };
 
@@ -25,7 +27,16 @@ AnyDomain::AnyDomain(AnyShape shape, const BuildOptions& options) {
   const Stopwatch building;
   auto prepared = with_file_name(shape, [&] { return prepare(shape, options); });
   state_ = std::make_shared<const State>(
-      State{std::move(shape), std::move(prepared), building.seconds()});
+      State{std::move(shape), std::move(prepared),
+            BuildOptions{options.precision, options.triangulation, options.lengths, {}},
+            building.seconds()});
+}
+
+void AnyDomain::keep(const std::filesystem::path& file) const {
+  KeptOut out(file);
+  write_kept_shape(out, shape(), state_->options);
+  state_->prepared->keep(out);
+  out.commit();
 }
 
 AnyDomain AnyDomain::read(const std::filesystem::path& file, const ReadOptions& reading,

@@ -21,12 +21,6 @@ constexpr std::optional<Retriangulation> asked_for(Triangulation wanted) {
   return std::nullopt;
 }
 
-constexpr Triangulation named(Retriangulation done) {
-  return done == Retriangulation::keep    ? Triangulation::input
-         : done == Retriangulation::flips ? Triangulation::delaunay
-                                          : Triangulation::refined;
-}
-
 template <class Real>
 TriangulatedSurface<Real> triangulated(std::optional<Retriangulation> asked,
                                        const io::Triangles& surface, const Making& making) {

@@ -10,6 +10,12 @@
 
 namespace plexway {
 
+constexpr Triangulation named(Retriangulation done) {
+  return done == Retriangulation::keep    ? Triangulation::input
+         : done == Retriangulation::flips ? Triangulation::delaunay
+                                          : Triangulation::refined;
+}
+
 /// What a complex is made of.
 struct Making {
   const AnyShape& shape;

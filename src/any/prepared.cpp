@@ -8,141 +8,17 @@
 #include <utility>
 
 #include <plexway/error.hpp>
-#include <plexway/solve.hpp>
 
-#include "any/linear_field.hpp"
+#include "any/kept_build.hpp"
 #include "any/make_complex.hpp"
 #include "any/mixed_domain.hpp"
-#include "any/path_state.hpp"
+#include "any/prepared_kind.hpp"
 #include "any/shape_state.hpp"
-#include "any/workspaces.hpp"
+#include "complex/kept_parts.hpp"
 #include "executors/checks.hpp"
-#include "executors/supported.hpp"
-
-#ifdef PLEXWAY_HAS_GL
-#include <plexway/executors/gl.hpp>
-#endif
 
 namespace plexway {
 namespace {
-
-template <class Real>
-void cut(DistanceField<Real>& field, std::size_t vertices) {
-  field.distance.resize(vertices);
-  if (!field.label.empty()) field.label.resize(vertices);
-  if (!field.error.empty()) field.error.resize(vertices);
-}
-
-// A field of the right precision, with the memory that it had.
-template <class Real>
-DistanceField<Real>& as(AnyField& field) {
-  if (auto* const kept = std::get_if<DistanceField<Real>>(&field.data)) return *kept;
-  return field.data.template emplace<DistanceField<Real>>();
-}
-
-/// What a solve changes.
-template <class Complex>
-struct Room {
-  WorkspaceOf<Serial, Complex> workspace;
-  std::vector<PointSource> points;  // where they are in the complex
-  std::vector<Source> sources;
-  DistanceField<RealOf<Complex>> other;
-#ifdef PLEXWAY_HAS_GL
-  GLWorkspace gl;
-#endif
-
-  [[nodiscard]] std::size_t bytes() const {
-    std::size_t sum = other.distance.capacity() * sizeof(RealOf<Complex>);
-    if constexpr (requires { workspace.bytes(); })
-      sum += workspace.bytes();
-    else
-      for (const auto& piece : workspace.pieces) sum += piece.bytes();
-#ifdef PLEXWAY_HAS_GL
-    sum += gl.bytes();
-#endif
-    return sum;
-  }
-};
-
-template <class Complex, class Room>
-void solve_on(const AnyExecutor& executor, const Complex& complex, const SourceList& sources,
-              const PropagateOptions& options, Room& room, DistanceField<RealOf<Complex>>& field) {
-  std::visit(
-      [&](const auto& chosen) {
-        using E = std::decay_t<decltype(chosen)>;
-        if constexpr (!supports<E, Complex>) {
-          support(combination<E, Complex>()).require();
-        } else if constexpr (E::kind == ExecutorKind::openmp && !teams_built_in) {
-          static_cast<void>(team_size(chosen));  // says that it is not built in
-        } else if constexpr (E::kind == ExecutorKind::gl) {
-#ifdef PLEXWAY_HAS_GL
-          plexway::solve(chosen, complex, sources, options, room.gl, field);
-#else
-          throw NotBuiltError(
-              "the executor GL is not built in; install libegl-dev and build again");
-#endif
-        } else {
-          plexway::solve(chosen, complex, sources, options, room.workspace, field);
-        }
-      },
-      executor);
-}
-
-/// What all kinds have in common. A kind brings `complex_`, and says where sources are in it.
-template <class Complex>
-class PreparedKind : public Prepared {
- public:
-  using Real = RealOf<Complex>;
-
-  Precision precision() const final {
-    return std::is_same_v<Real, float> ? Precision::single : Precision::twice;
-  }
-  MetricKind metric() const final { return of().metric(); }
-  Combination combination(ExecutorKind executor) const final {
-    return {executor, Complex::kind, Complex::dimension, std::is_same_v<Real, float>};
-  }
-  std::size_t simplices() const override { return of().simplex_count(); }
-  std::size_t components() const override {
-    if constexpr (requires { of().summary().components; })
-      return of().summary().components;
-    else
-      return 1;
-  }
-  const CloudSummary* cloud() const final {
-    if constexpr (Complex::kind == DomainKind::cloud) return &of().summary();
-    return nullptr;
-  }
-  std::size_t bytes() const override { return of().bytes() + rooms_.bytes(); }
-  AnyComplex complex() const override { return &of(); }
-
-  void solve(const AnyExecutor& executor, const SourceList& sources,
-             const PropagateOptions& options, AnyField& field) const override {
-    typename Workspaces<Room<Complex>>::Taken room(rooms_);
-    solve_on(executor, of(), sources, options, *room, as<Real>(field));
-    field.triangulation = {};
-  }
-
-  std::shared_ptr<const AnyPathField::State> path_field(
-      const AnyExecutor& executor, std::span<const PointSource> sources,
-      const PropagateOptions& options) const override {
-    if constexpr (has_paths<Complex>) {
-      auto state = std::make_shared<PathsOf<Complex>>(shared_from_this(), shape_, of(), measured_);
-      state->solve(executor, sources, options);
-      return state;
-    } else {
-      return linear_field(shared_from_this(), shape_, executor, sources, options);
-    }
-  }
-
- protected:
-  PreparedKind(AnyShape shape, bool measured) : shape_(std::move(shape)), measured_(measured) {}
-
-  [[nodiscard]] virtual const Complex& of() const = 0;
-
-  AnyShape shape_;
-  bool measured_;  // by a metric: positions do not tell lengths
-  mutable Workspaces<Room<Complex>> rooms_;
-};
 
 /// Solids, wireframes, clouds and simplices: solved as they are.
 template <class Complex>
@@ -151,6 +27,12 @@ class PreparedPlain final : public PreparedKind<Complex> {
   template <class Make>
   PreparedPlain(const AnyShape& shape, bool measured, const Make& make)
       : PreparedKind<Complex>(shape, measured), complex_(make()) {}
+
+  /// Is it one of that shape?
+  [[nodiscard]] bool fits(const AnyShape& shape) const {
+    return complex_.vertex_count() == shape.vertices() &&
+           (shape.kind() == DomainKind::cloud || complex_.simplex_count() == shape.simplices());
+  }
 
  private:
   const Complex& of() const override { return complex_; }
@@ -171,6 +53,22 @@ class PreparedSurface final : public PreparedKind<TriangleMesh<Real>> {
         lengths_(lengths),
         left_open_(options.triangulation == Triangulation::automatic),
         made_(make_surface<Real>(options.triangulation, making(), report_)) {}
+  PreparedSurface(const AnyShape& shape, Triangulation asked, KeptIn& in)
+      : Base(shape, shape.lengths() != nullptr),
+        lengths_(shape.lengths()),
+        left_open_(asked == Triangulation::automatic),
+        made_(open(in, report_)) {
+    const std::size_t own = made_.mesh.vertex_count() - report_.inserted_vertices;
+    in.require(own == shape.vertices());
+    in.require(made_.delaunay || made_.mesh.face_count() == shape.simplices());
+  }
+
+  void keep(KeptOut& out) const override {
+    const auto done = static_cast<std::uint32_t>(made_.done);
+    out(done, report_.flips, report_.inserted_vertices, made_.delaunay.has_value());
+    KeptParts::keep(out, made_.mesh);
+    if (made_.delaunay) KeptParts::keep(out, *made_.delaunay);
+  }
 
   std::size_t simplices() const override { return this->shape_.simplices(); }
   double mean_edge() const override { return made_.mesh.unit(); }
@@ -184,8 +82,8 @@ class PreparedSurface final : public PreparedKind<TriangleMesh<Real>> {
 
   void solve(const AnyExecutor& executor, const SourceList& sources,
              const PropagateOptions& options, AnyField& field) const override {
-    typename Workspaces<Room<TriangleMesh<Real>>>::Taken taken(this->rooms_);
-    Room<TriangleMesh<Real>>& room = *taken;
+    typename Workspaces<SolveRoom<TriangleMesh<Real>>>::Taken taken(this->rooms_);
+    SolveRoom<TriangleMesh<Real>>& room = *taken;
     DistanceField<Real>& found = as<Real>(field);
     field.triangulation = report_;
     if (!made_.delaunay) {
@@ -225,6 +123,26 @@ class PreparedSurface final : public PreparedKind<TriangleMesh<Real>> {
 
  private:
   [[nodiscard]] Making making() const { return {this->shape_, lengths_}; }
+  static TriangulatedSurface<Real> open(KeptIn& in, TriangulationReport& report) {
+    std::uint32_t done = 0;
+    bool delaunay = false;
+    in(done, report.flips, report.inserted_vertices, delaunay);
+    in.require(done <= static_cast<std::uint32_t>(Retriangulation::refined));
+    TriangulatedSurface<Real> made{KeptParts::open<TriangleMesh<Real>>(in), std::nullopt,
+                                   static_cast<Retriangulation>(done)};
+    in.require(delaunay == (made.done != Retriangulation::keep) &&
+               report.inserted_vertices < made.mesh.vertex_count());
+    report.done = named(made.done);
+    if (delaunay) {
+      made.delaunay.emplace(
+          KeptParts::open_delaunay(in, made.mesh.face_count(), made.mesh.vertex_count()));
+      in.require(made.delaunay->summary().flips == report.flips &&
+                 made.delaunay->summary().inserted_vertices == report.inserted_vertices);
+    } else {
+      in.require(report.flips + report.inserted_vertices == 0);
+    }
+    return made;
+  }
   const TriangleMesh<Real>& of() const override { return made_.mesh; }
 
   // Are there other triangles than the shape's?
@@ -253,7 +171,7 @@ class PreparedSurface final : public PreparedKind<TriangleMesh<Real>> {
     return made_.delaunay->to_intrinsic(point);
   }
 
-  SourceList moved(const SourceList& sources, Room<TriangleMesh<Real>>& room) const {
+  SourceList moved(const SourceList& sources, SolveRoom<TriangleMesh<Real>>& room) const {
     if (sources.only_points()) {
       room.points.clear();
       for (const PointSource& point : sources.points()) room.points.push_back(moved(point));
@@ -296,8 +214,8 @@ class PreparedMixed final : public PreparedKind<MixedComplex<Real>> {
 
   void solve(const AnyExecutor& executor, const SourceList& sources,
              const PropagateOptions& options, AnyField& field) const override {
-    typename Workspaces<Room<MixedComplex<Real>>>::Taken taken(this->rooms_);
-    Room<MixedComplex<Real>>& room = *taken;
+    typename Workspaces<SolveRoom<MixedComplex<Real>>>::Taken taken(this->rooms_);
+    SolveRoom<MixedComplex<Real>>& room = *taken;
     DistanceField<Real>& found = as<Real>(field);
     solve_on(executor, pieces_.complex, moved(sources, room), options, room, room.other);
     const auto pick = [&](const auto& from, auto& to, auto nothing) {
@@ -336,7 +254,7 @@ class PreparedMixed final : public PreparedKind<MixedComplex<Real>> {
       point.simplex = simplex(point.simplex);
   }
 
-  SourceList moved(const SourceList& sources, Room<MixedComplex<Real>>& room) const {
+  SourceList moved(const SourceList& sources, SolveRoom<MixedComplex<Real>>& room) const {
     if (sources.only_points()) {
       room.points.assign(sources.points().begin(), sources.points().end());
       for (PointSource& point : room.points) move(point);
@@ -433,6 +351,36 @@ std::shared_ptr<const Prepared> prepare_as(const AnyShape& shape, const BuildOpt
       shape.data());
 }
 
+template <class Complex>
+std::shared_ptr<const Prepared> open_plain(const AnyShape& shape, KeptIn& in) {
+  auto opened = std::make_shared<PreparedPlain<Complex>>(
+      shape, shape.lengths() != nullptr, [&] { return KeptParts::open<Complex>(in); });
+  in.require(opened->fits(shape));
+  return opened;
+}
+
+// What is built already.
+template <class Real>
+std::shared_ptr<const Prepared> open_as(const AnyShape& shape, const KeptBuild& kept) {
+  KeptIn in = kept.complex;
+  std::shared_ptr<const Prepared> opened;
+  switch (shape.kind()) {
+    case DomainKind::surface:
+      opened = std::make_shared<PreparedSurface<Real>>(shape, kept.triangulation, in);
+      break;
+    case DomainKind::solid:
+      opened = open_plain<TetMesh<Real>>(shape, in);
+      break;
+    case DomainKind::wireframe:
+      opened = open_plain<Wireframe<Real>>(shape, in);
+      break;
+    default:
+      opened = open_plain<PointCloud<Real>>(shape, in);
+  }
+  in.end();
+  return opened;
+}
+
 }  // namespace
 
 std::shared_ptr<const Prepared> prepare(const AnyShape& shape, const BuildOptions& options) {
@@ -447,6 +395,9 @@ std::shared_ptr<const Prepared> prepare(const AnyShape& shape, const BuildOption
   if (options.lengths && !measurable)
     throw UsageError("a metric is for surfaces, solids, wireframes and mixed domains, not a " +
                      std::string(kind_noun(shape.kind())));
+  if (const KeptBuild* const kept = shape.state().kept.get(); kept && kept->answers(options))
+    return options.precision == Precision::single ? open_as<float>(shape, *kept)
+                                                  : open_as<double>(shape, *kept);
   return options.precision == Precision::single ? prepare_as<float>(shape, options)
                                                 : prepare_as<double>(shape, options);
 }

@@ -6,6 +6,8 @@
 #include <plexway/any/complex.hpp>
 #include <plexway/any_domain.hpp>
 
+#include "complex/kept_archive.hpp"
+
 namespace plexway {
 
 /// Has this build teams of threads? Where it has none their code is not compiled in either, which
@@ -42,6 +44,8 @@ class Prepared : public std::enable_shared_from_this<Prepared> {
 
   virtual void solve(const AnyExecutor& executor, const SourceList& sources,
                      const PropagateOptions& options, AnyField& field) const = 0;
+  /// The complex alone.
+  virtual void keep(KeptOut& out) const = 0;
   [[nodiscard]] virtual std::shared_ptr<const AnyPathField::State> path_field(
       const AnyExecutor& executor, std::span<const PointSource> sources,
       const PropagateOptions& options) const = 0;

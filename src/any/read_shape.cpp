@@ -8,6 +8,7 @@
 #include <plexway/io/mixed.hpp>
 
 #include "any/fill.hpp"
+#include "any/kept_build.hpp"
 #include "any/openvdb_functions.hpp"
 #include "any/shape_state.hpp"
 #include "any/simplex_edges.hpp"
@@ -87,7 +88,8 @@ Data read_mesh(const std::string& file, std::optional<DomainKind> asked) {
   throw InputError(
       file + ": " + (extension.empty() ? "no extension" : "unknown extension '" + extension + "'") +
       "; known are .obj .off .ply .stl for surfaces, .node .ele .mesh .msh .vtu .vtk "
-      ".poly .smesh .vdb for solids, .edges .obj for wireframes, .xyz .pcd .ply for clouds");
+      ".poly .smesh .vdb for solids, .edges .obj for wireframes, .xyz .pcd .ply for clouds, "
+      ".plexway for what is prepared");
 }
 
 // A .ply is a cloud where it is asked to be one, or where it cannot be a surface.
@@ -162,6 +164,7 @@ class Reading {
     if (options_.progress.stage) options_.progress.stage(what);
   }
   void check_cloud_options(DomainKind wanted) const;
+  void refuse_preparation() const;
   void take_level_set(bool surface);
   void fill();
 
@@ -177,6 +180,14 @@ void Reading::check_cloud_options(DomainKind wanted) const {
                    " need a cloud: a file of points, or a surface with " + as(DomainKind::cloud));
 }
 
+void Reading::refuse_preparation() const {
+  if (options_.as || options_.fill.given() || options_.cloud.given() || options_.volume.repair ||
+      (options_.volume.voxel && !options_.volume.writes_volume))
+    throw UsageError(file_ + ": is prepared already: " + name("as") +
+                     " and what fills, repairs and connects points go with the file that it was "
+                     "made of");
+}
+
 AnyShape::State Reading::read() {
   const VolumeOptions& volume = options_.volume;
   const std::optional<DomainKind> asked = options_.as;
@@ -185,6 +196,12 @@ AnyShape::State Reading::read() {
   state_.voxel = volume.voxel.value_or(0);
   if (!volume.grid.empty() && !is_vdb(file_))
     throw UsageError(name("grid") + " needs a .vdb: other files have no grids");
+  if (is_kept_build(file_)) {
+    refuse_preparation();
+    AnyShape::State kept = read_kept_build(std::filesystem::path(file_));
+    if (volume.voxel) kept.voxel = *volume.voxel;
+    return kept;
+  }
   begin("reading " + file_);
   const Stopwatch loading;
   const bool is_cloud = is_read_as_cloud(file_, asked);

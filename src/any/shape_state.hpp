@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <string>
 #include <utility>
 
@@ -9,6 +10,8 @@
 #include "any/stopwatch.hpp"
 
 namespace plexway {
+
+struct KeptBuild;
 
 struct AnyShape::State {
   std::filesystem::path file;
@@ -20,6 +23,7 @@ struct AnyShape::State {
   Points places;  ///< of a SimplexShape of three coordinates or fewer
   double load_seconds = 0;
   std::optional<double> mesh_seconds, neighbour_seconds;
+  std::shared_ptr<const KeptBuild> kept;  ///< of a prepared file
 };
 
 /// What `build` makes of a shape, with its file's name put in front of what is wrong with it: a

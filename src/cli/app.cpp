@@ -95,6 +95,7 @@ int parse_and_run(int argc, const char* const* argv) {
   add_path_command(tool, action);
   add_tetrahedralize_command(tool, action);
   add_convert_command(tool, action);
+  add_prepare_command(tool, action);
   add_poisson_command(tool, action);
   add_cvt_command(tool, action);
   add_farthest_command(tool, action);

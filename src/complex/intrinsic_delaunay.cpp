@@ -4,13 +4,14 @@
 #include <cmath>
 #include <numbers>
 #include <string>
-#include <tuple>
 
 #include <plexway/error.hpp>
 
 #include "complex/delaunay_flips.hpp"
 #include "complex/face_layout.hpp"
 #include "complex/intrinsic_triangulation.hpp"
+#include "complex/kept_parts.hpp"
+#include "complex/lost_edges.hpp"
 #include "complex/shape_blocks.hpp"
 #include "complex/simplex_order.hpp"
 
@@ -64,53 +65,13 @@ class ShapesOfSlots final : public TriangleShapes {
   double unit_;
 };
 
-void add_chord(std::vector<SurfaceChord>& to, Index v, Index w, double length) {
-  if (v != w) to.push_back({std::min(v, w), std::max(v, w), length});
-}
-
-// Edges of the input that are none any more: straight lines still. `then` has those of slots that
-// something happened to, and lines that the input knew.
-std::vector<SurfaceChord> lost_edges(std::vector<SurfaceChord> then,
-                                     const IntrinsicTriangulation& now, std::size_t input_faces) {
-  std::vector<SurfaceChord> there;
-  for (Index s = 0; s < now.triangles().size(); ++s) {
-    if (s < input_faces && !now.history().changed(s)) continue;
-    const IntrinsicTriangle& t = now.triangles()[s];
-    for (std::size_t i = 0; i < 3; ++i)
-      add_chord(there, t.corner[i], t.corner[edge_after(i)], t.length[i]);
-  }
-  const auto less = [](const SurfaceChord& a, const SurfaceChord& b) {
-    return std::tie(a.from, a.to, a.length) < std::tie(b.from, b.to, b.length);
-  };
-  // Of several between the same ends the shortest counts.
-  const auto shortest = [&](std::vector<SurfaceChord>& all) {
-    std::sort(all.begin(), all.end(), less);
-    all.erase(std::unique(all.begin(), all.end(),
-                          [](const SurfaceChord& a, const SurfaceChord& b) {
-                            return a.from == b.from && a.to == b.to;
-                          }),
-              all.end());
-  };
-  shortest(then);
-  shortest(there);
-  auto known = there.begin();
-  std::erase_if(then, [&](const SurfaceChord& chord) {
-    while (known != there.end() &&
-           std::tie(known->from, known->to) < std::tie(chord.from, chord.to))
-      ++known;
-    return known != there.end() && known->from == chord.from && known->to == chord.to &&
-           known->length <= chord.length * (1 + 1e-12);
-  });
-  return then;
-}
-
 }  // namespace
 
 struct IntrinsicDelaunay::State {
   double unit = 1;
   IntrinsicTriangulation triangulation;
-  std::vector<Index> face_of_slot;  // the caller's
-  std::vector<Index> slot_of_face;
+  Rows<Index> face_of_slot;  // the caller's
+  Rows<Index> slot_of_face;
   std::size_t faces = 0;  // of the input
   bool refracts = false;
   bool released = false;                         // are the triangles gone?
@@ -118,18 +79,20 @@ struct IntrinsicDelaunay::State {
   std::vector<SurfaceChord> chords;
   DelaunaySummary summary;
 
+  State() = default;
   template <class Real>
   explicit State(const TriangleMesh<Real>& input)
       : unit(input.unit()),
         triangulation(input),
-        face_of_slot(input.face_count()),
-        slot_of_face(input.face_count()),
         faces(input.face_count()),
         refracts(input.summary().refracting_edges > 0) {
-    for (Index s = 0; s < face_of_slot.size(); ++s) {
-      face_of_slot[s] = input.triangles()[s].face & ~reversed;
-      slot_of_face[face_of_slot[s]] = s;
+    std::vector<Index> face(faces), slot(faces);
+    for (Index s = 0; s < faces; ++s) {
+      face[s] = input.triangles()[s].face & ~reversed;
+      slot[face[s]] = s;
     }
+    face_of_slot = std::move(face);
+    slot_of_face = std::move(slot);
     if (input.positions().empty()) return;
     positions.resize(input.vertex_count());
     for (Index v = 0; v < positions.size(); ++v)
@@ -224,8 +187,8 @@ struct IntrinsicDelaunay::State {
     summary = {flips.count(), flips.stuck(), triangulation.inserted().size()};
     triangulation.release_counts();
     for (Index s = static_cast<Index>(faces); s < triangulation.triangles().size(); ++s) {
-      face_of_slot.push_back(s);
-      slot_of_face.push_back(s);
+      face_of_slot.own().push_back(s);
+      slot_of_face.own().push_back(s);
     }
   }
 
@@ -262,6 +225,50 @@ void IntrinsicDelaunay::release_triangles() {
   state_->released = true;
 }
 
+template <>
+struct KeptGap<PatchHistory::Patch> {
+  static constexpr std::size_t begin = offsetof(PatchHistory::Patch, kind) + 1,
+                               end = sizeof(PatchHistory::Patch);
+};
+template <>
+struct KeptGap<SlotPoint> {
+  static constexpr std::size_t begin = sizeof(Index), end = offsetof(SlotPoint, at);
+};
+
+template <class Archive, class Delaunay>
+void KeptParts::each_of_delaunay(Archive& archive, Delaunay& delaunay) {
+  auto& s = *delaunay.state_;
+  archive(s.unit, s.face_of_slot, s.slot_of_face, s.faces, s.refracts, s.summary.flips,
+          s.summary.stuck_edges, s.summary.inserted_vertices);
+  auto& t = s.triangulation;
+  archive(t.vertices_, t.turned_, t.inserted_, t.history_.patches_, t.history_.first_,
+          t.history_.last_);
+}
+
+void KeptParts::keep(KeptOut& out, const IntrinsicDelaunay& delaunay) {
+  each_of_delaunay(out, delaunay);
+}
+
+IntrinsicDelaunay KeptParts::open_delaunay(KeptIn& in, std::size_t triangles,
+                                           std::size_t vertices) {
+  IntrinsicDelaunay delaunay;
+  delaunay.state_ = std::make_unique<IntrinsicDelaunay::State>();
+  each_of_delaunay(in, delaunay);
+  IntrinsicDelaunay::State& s = *delaunay.state_;
+  s.released = true;
+  const std::size_t slots = s.triangulation.history().slots();
+  in.require(slots == triangles && s.triangulation.vertices() == vertices);
+  in.require(s.faces > 0 && s.faces <= slots && s.face_of_slot.size() == slots &&
+             s.slot_of_face.size() == slots);
+  bool bad = s.triangulation.inserted().size() > s.triangulation.vertices();
+  for (const Index slot : s.slot_of_face) bad |= slot >= slots;
+  for (const Index face : s.face_of_slot) bad |= face >= slots;
+  for (std::size_t f = 0; f < s.faces; ++f) bad |= s.slot_of_face[f] >= s.faces;
+  for (const SlotPoint& point : s.triangulation.inserted()) bad |= point.slot >= s.faces;
+  in.require(!bad && s.triangulation.history().sound());
+  return delaunay;
+}
+
 const DelaunaySummary& IntrinsicDelaunay::summary() const { return state_->summary; }
 
 std::size_t IntrinsicDelaunay::bytes() const {
@@ -292,7 +299,8 @@ TriangleMesh<Real> IntrinsicDelaunay::mesh(const SaddleThresholds& saddles) cons
         across[s][i] = o == none ? none : o & ~Across::special;
       }
     }
-    return {FaceLayout(vertices, state_->face_of_slot, std::move(faces), std::move(across)), shapes,
+    std::vector<Index> order(state_->face_of_slot.begin(), state_->face_of_slot.end());
+    return {FaceLayout(vertices, std::move(order), std::move(faces), std::move(across)), shapes,
             hints};
   }
   // New triangles lie behind all others: they need a new order.

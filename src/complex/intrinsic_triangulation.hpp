@@ -36,6 +36,8 @@ using Halfedge = Index;
 /// Triangles keep their place, a *slot*: a flip makes two of two, a split adds slots at the end.
 class IntrinsicTriangulation {
  public:
+  /// Of nothing.
+  IntrinsicTriangulation() = default;
   /// Lengths in the mesh's unit. Slots are the mesh's numbers inside, corners the caller's
   /// vertices.
   template <class Real>
@@ -69,6 +71,8 @@ class IntrinsicTriangulation {
   [[nodiscard]] std::span<const SlotPoint> inserted() const { return inserted_; }
 
  private:
+  friend struct KeptParts;
+
   [[nodiscard]] Index& across(Halfedge h) {
     return triangles_[h >> Across::face_shift].across[h & Across::edge_mask];
   }

@@ -67,24 +67,60 @@ std::size_t side_of(const Form& form, double y) { return form.before_count == 2 
 
 void PatchHistory::add(Patch patch) {
   const Form& form = form_of(patch);
-  const Index number = static_cast<Index>(patches_.size());
+  std::vector<Patch>& patches = patches_.own();
+  std::vector<Index>&firsts = first_.own(), &lasts = last_.own();
+  const Index number = static_cast<Index>(patches.size());
   for (std::size_t k = 0; k < form.after_count; ++k) {
     const Index slot = patch.slot[k];
-    if (slot >= first_.size()) {
-      first_.resize(slot + 1, none);
-      last_.resize(slot + 1, none);
+    if (slot >= firsts.size()) {
+      firsts.resize(slot + 1, none);
+      lasts.resize(slot + 1, none);
     }
-    Index& last = last_[slot];
+    Index& last = lasts[slot];
     if (k < form.before_count) {
       patch.earlier[k] = last;
       if (last == none)
-        first_[slot] = number;
+        firsts[slot] = number;
       else
-        patches_[last].later[place_of(patches_[last], slot)] = number;
+        patches[last].later[place_of(patches[last], slot)] = number;
     }
     last = number;
   }
-  patches_.push_back(patch);
+  patches.push_back(patch);
+}
+
+bool PatchHistory::sound() const {
+  const std::size_t slots = last_.size();
+  if (first_.size() != slots) return false;
+  const auto is_among = [&](Index number, Index slot, std::size_t(Form::*count)) {
+    if (number >= patches_.size()) return false;
+    const Patch& patch = patches_[number];
+    if (static_cast<std::size_t>(patch.kind) >= forms.size()) return false;
+    return place_of(patch, slot) < form_of(patch).*count;
+  };
+  for (Index s = 0; s < slots; ++s)
+    if ((first_[s] != none && !is_among(first_[s], s, &Form::before_count)) ||
+        (last_[s] != none && !is_among(last_[s], s, &Form::after_count)))
+      return false;
+  for (Index number = 0; number < patches_.size(); ++number) {
+    const Patch& patch = patches_[number];
+    if (static_cast<std::size_t>(patch.kind) >= forms.size()) return false;
+    const Form& form = form_of(patch);
+    for (std::size_t k = 0; k < form.after_count; ++k) {
+      const Index slot = patch.slot[k], later = patch.later[k];
+      if (slot >= slots) return false;
+      if (later != none && (later <= number || !is_among(later, slot, &Form::before_count)))
+        return false;
+    }
+    for (std::size_t k = 0; k < form.before_count; ++k) {
+      const Index earlier = patch.earlier[k];
+      if (patch.order[k].first > 2 || patch.order[k].mirrored > 1) return false;
+      if (earlier != none &&
+          (earlier >= number || !is_among(earlier, patch.slot[k], &Form::after_count)))
+        return false;
+    }
+  }
+  return true;
 }
 
 SlotPoint PatchHistory::forward(SlotPoint point) const {

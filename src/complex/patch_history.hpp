@@ -7,6 +7,7 @@
 #include <vector>
 
 #include <plexway/complex/ids.hpp>
+#include <plexway/complex/rows.hpp>
 
 #include "complex/planar.hpp"
 
@@ -22,7 +23,7 @@ struct SlotPoint {
 /// k-th, minus where the triangle is turned over.
 struct CornerOrder {
   std::uint8_t first = 0;
-  bool mirrored = false;
+  std::uint8_t mirrored = 0;  ///< or 1
   [[nodiscard]] std::size_t operator()(std::size_t k) const {
     return (mirrored ? first + 3u - k : first + k) % 3;
   }
@@ -57,7 +58,8 @@ class PatchHistory {
     Kind kind = Kind::flip;
   };
 
-  explicit PatchHistory(std::size_t slots = 0) : first_(slots, none), last_(slots, none) {}
+  explicit PatchHistory(std::size_t slots = 0)
+      : first_(std::vector<Index>(slots, none)), last_(std::vector<Index>(slots, none)) {}
 
   /// Links of the patch are made here. Slots beyond those known are new.
   void add(Patch patch);
@@ -76,6 +78,10 @@ class PatchHistory {
   void back(const Piece& line, std::vector<Piece>& pieces) const;
 
   [[nodiscard]] std::size_t size() const { return patches_.size(); }
+  /// Slots of the last triangulation.
+  [[nodiscard]] std::size_t slots() const { return last_.size(); }
+  /// For one that comes from a file: do all ways through it stay within it, and end?
+  [[nodiscard]] bool sound() const;
   /// Has anything happened to a slot of the first triangulation?
   [[nodiscard]] bool changed(Index slot) const { return first_[slot] != none; }
   [[nodiscard]] std::size_t bytes() const {
@@ -84,8 +90,10 @@ class PatchHistory {
   }
 
  private:
-  std::vector<Patch> patches_;
-  std::vector<Index> first_, last_;  // patches of each slot
+  friend struct KeptParts;
+
+  Rows<Patch> patches_;
+  Rows<Index> first_, last_;  // patches of each slot
 };
 
 }  // namespace plexway

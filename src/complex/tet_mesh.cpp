@@ -160,16 +160,18 @@ void TetMesh<Real>::assemble(std::size_t vertices, std::span<const std::array<In
   const std::size_t m = tets.size();
   summary_.vertices = vertices;
   summary_.tets = m;
-  tet_to_inside_.resize(m);
+  std::vector<Index>& tet_to_inside = tet_to_inside_.own();
+  tet_to_inside.resize(m);
   for (std::size_t i = 0; i < m; ++i)
-    tet_to_inside_[order[i]] = static_cast<Index>(i) | (turn[order[i]] ? turned : 0);
-  vertex_to_inside_.assign(vertices, none);
+    tet_to_inside[order[i]] = static_cast<Index>(i) | (turn[order[i]] ? turned : 0);
+  std::vector<Index>& vertex_to_inside = vertex_to_inside_.own();
+  vertex_to_inside.assign(vertices, none);
   Index named = 0;
   for (const Index t : order)
     for (const Index v : tets[t])
-      if (vertex_to_inside_[v] == none) vertex_to_inside_[v] = named++;
+      if (vertex_to_inside[v] == none) vertex_to_inside[v] = named++;
   summary_.unreferenced_vertices = vertices - named;
-  for (Index& v : vertex_to_inside_)
+  for (Index& v : vertex_to_inside)
     if (v == none) v = named++;
 
   // A turned tetrahedron has its last two corners, and so faces, exchanged.
@@ -212,7 +214,7 @@ void TetMesh<Real>::assemble(std::size_t vertices, std::span<const std::array<In
   summary_.components = topology.components;
   pinched_ = std::move(topology.pinched_vertices);
   for (const auto& e : topology.pinched_edges)
-    pinched_edges_.push_back({{e.vertex[0], e.vertex[1]}, e.begin, e.end});
+    pinched_edges_.own().push_back({{e.vertex[0], e.vertex[1]}, e.begin, e.end});
   pinched_edge_tets_ = std::move(topology.pinched_edge_tets);
 
   const auto rounded = [](const Vector3<double>& p) {
@@ -220,35 +222,37 @@ void TetMesh<Real>::assemble(std::size_t vertices, std::span<const std::array<In
   };
   constexpr auto packed = [](Index tet, Index face) { return tet << TetAcross::tet_shift | face; };
   const Index sentinel = packed(static_cast<Index>(m), 0);
-  tets_.reserve(m + 1);
+  std::vector<TetRecord<Real>>& records = tets_.own();
+  records.reserve(m + 1);
   for (std::size_t t = 0; t < m; ++t) {
     Vector3<double> centre = {0, 0, 0};
     if (summary_.embedded)
       for (const Index v : corner[t]) centre = centre + 0.25 * at[v];
     const auto side = [&](std::size_t i) { return over[t][i] == none ? sentinel : over[t][i]; };
-    tets_.push_back({{side(0), side(1), side(2), side(3)},
-                     {corner[t][0], corner[t][1], corner[t][2], corner[t][3]},
-                     rounded(centre),
-                     summary_.embedded ? topology.first_reflex[t] : none});
+    records.push_back({{side(0), side(1), side(2), side(3)},
+                       {corner[t][0], corner[t][1], corner[t][2], corner[t][3]},
+                       rounded(centre),
+                       summary_.embedded ? topology.first_reflex[t] : none});
   }
-  tets_.push_back({{sentinel, sentinel, sentinel, sentinel}, {0, 0, 0, 0}, {0, 0, 0}, none});
+  records.push_back({{sentinel, sentinel, sentinel, sentinel}, {0, 0, 0, 0}, {0, 0, 0}, none});
 
   if (summary_.embedded) {
-    points_.reserve(vertices);
-    for (const Vector3<double>& p : at) points_.push_back(rounded(p));
+    points_.own().reserve(vertices);
+    for (const Vector3<double>& p : at) points_.own().push_back(rounded(p));
     reflex_list_ = std::move(topology.reflex_list);
     for (const auto& e : topology.reflex) {
       const auto along = e.end[1] - e.end[0];
       const double length = norm(along);
-      reflex_.push_back({rounded(e.normal[0] + e.normal[1]),
-                         rounded(length > 0 ? 1 / length * along : along),
-                         {rounded(e.end[0]), rounded(e.end[1])},
-                         static_cast<Real>(length),
-                         {rounded(e.normal[0]), rounded(e.normal[1])},
-                         {e.vertex[0], e.vertex[1]}});
+      reflex_.own().push_back({rounded(e.normal[0] + e.normal[1]),
+                               rounded(length > 0 ? 1 / length * along : along),
+                               {rounded(e.end[0]), rounded(e.end[1])},
+                               static_cast<Real>(length),
+                               {rounded(e.normal[0]), rounded(e.normal[1])},
+                               {e.vertex[0], e.vertex[1]}});
     }
   } else {
-    lengths_.resize(m + 1);
+    std::vector<std::array<Real, 6>>& squares = lengths_.own();
+    squares.resize(m + 1);
     for (std::size_t t = 0; t < m; ++t) {
       // Through the pose, so that they are those of a tetrahedron.
       if (!has_volume(points[t])) {
@@ -257,7 +261,7 @@ void TetMesh<Real>::assemble(std::size_t vertices, std::span<const std::array<In
       }
       for (std::size_t e = 0; e < 6; ++e) {
         const auto d = points[t][tet_edge_ends[e][1]] - points[t][tet_edge_ends[e][0]];
-        lengths_[t][e] = static_cast<Real>(dot(d, d));
+        squares[t][e] = static_cast<Real>(dot(d, d));
       }
     }
   }

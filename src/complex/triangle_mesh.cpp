@@ -212,18 +212,19 @@ void TriangleMesh<Real>::assemble(FaceLayout layout, const TriangleShapes& shape
   VertexFans fans = find_vertex_fans(layout);
 
   // What the layout says goes into the records, so that it need not be held while they are filled.
-  triangles_.reserve(m + 1);
+  std::vector<TriangleRecord<Real>>& triangles = triangles_.own();
+  triangles.reserve(m + 1);
   for (std::size_t f = 0; f < m; ++f) {
     const auto &o = layout.across[f], &v = layout.corner[f];
-    triangles_.push_back({{o[0], o[1], o[2]},
-                          {},
-                          {},
-                          {},
-                          {v[0], v[1], v[2]},
-                          layout.face[f] | (layout.is_turned(f) ? reversed : 0)});
+    triangles.push_back({{o[0], o[1], o[2]},
+                         {},
+                         {},
+                         {},
+                         {v[0], v[1], v[2]},
+                         layout.face[f] | (layout.is_turned(f) ? reversed : 0)});
   }
   const Index sentinel = static_cast<Index>(m) << Across::face_shift;
-  triangles_.push_back(
+  triangles.push_back(
       {{sentinel, sentinel, sentinel}, {1, 1, 1}, {0, 0, 0}, {1, 1, 1}, {0, 0, 0}, none});
   vertex_to_inside_ = std::move(layout.vertex_to_inside);
   face_to_inside_ = std::move(layout.face_to_inside);
@@ -232,7 +233,7 @@ void TriangleMesh<Real>::assemble(FaceLayout layout, const TriangleShapes& shape
   std::vector<double> angle = take_shapes(shapes);
   for (std::size_t v = 0; v < angle.size(); ++v)  // from here on what is more than flat
     angle[v] -= (fans.on_boundary[v] ? 1 : 2) * std::numbers::pi;
-  mark_saddles<Real>(triangles_, fans, std::move(angle), hints);
+  mark_saddles<Real>(triangles, fans, std::move(angle), hints);
 
   corner_of_vertex_ = std::move(fans.corner);
   irregular_ = std::move(fans.irregular);
@@ -251,6 +252,7 @@ void TriangleMesh<Real>::assemble(FaceLayout layout, const TriangleShapes& shape
 template <class Real>
 std::vector<double> TriangleMesh<Real>::take_shapes(const TriangleShapes& shapes) {
   const std::size_t m = face_count();
+  std::vector<TriangleRecord<Real>>& triangles = triangles_.own();
   constexpr std::size_t size = ShapeBlock::size;
   Lengths lengths(m);  // of faces inside, edges as the caller numbers them
   double longest = 0;
@@ -261,12 +263,12 @@ std::vector<double> TriangleMesh<Real>::take_shapes(const TriangleShapes& shapes
   std::array<ShapeBlock::Row, 3> angle;
   for (std::size_t first = 0; first < m; first += size) {
     const std::size_t count = std::min(size, m - first);
-    for (std::size_t k = 0; k < count; ++k) faces[k] = triangles_[first + k].face & ~reversed;
+    for (std::size_t k = 0; k < count; ++k) faces[k] = triangles[first + k].face & ~reversed;
     shapes.look_up(std::span(faces).first(count), block);
     round_angles(block, rounded);
     angles_of(block, angle);
     for (std::size_t k = 0; k < count; ++k) {
-      TriangleRecord<Real>& t = triangles_[first + k];
+      TriangleRecord<Real>& t = triangles[first + k];
       summary_.degenerate_faces += block.degenerate[k];
       summary_.violated_faces += block.violated[k];
       const bool turned = (t.face & reversed) != 0;
@@ -286,7 +288,7 @@ std::vector<double> TriangleMesh<Real>::take_shapes(const TriangleShapes& shapes
       m, longest, [&](std::size_t f) -> const auto& { return lengths[f]; });
   summary_.mean_edge = unit;
   for (std::size_t f = 0; f < m; ++f) {
-    TriangleRecord<Real>& t = triangles_[f];
+    TriangleRecord<Real>& t = triangles[f];
     const auto& [a, b, c] = lengths[f];
     NumberRange<Real>::check_simplex("face", t.face & ~reversed, std::max({a, b, c}) / unit);
     for (std::size_t i = 0; i < 3; ++i) t.length[i] = static_cast<Real>(lengths[f][i] / unit);
@@ -300,26 +302,29 @@ template <class Real>
 void TriangleMesh<Real>::place(std::span<const std::array<double, 3>> positions) {
   if (positions.empty()) return;
   constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
-  positions_.assign(vertex_count(), {unknown, unknown, unknown});
+  std::vector<std::array<double, 3>>& at = positions_.own();
+  at.assign(vertex_count(), {unknown, unknown, unknown});
   for (std::size_t v = 0; v < positions.size(); ++v)
     for (std::size_t i = 0; i < 3; ++i)
-      positions_[vertex_to_inside_[v]][i] = (positions[v][i] - positions[0][i]) / unit();
+      at[vertex_to_inside_[v]][i] = (positions[v][i] - positions[0][i]) / unit();
 }
 
 template <class Real>
 void TriangleMesh<Real>::take_chords(std::span<const SurfaceChord> chords) {
   if (chords.empty()) return;
-  chord_begin_.assign(vertex_count() + 1, 0);
+  std::vector<Index>& begin = chord_begin_.own();
+  begin.assign(vertex_count() + 1, 0);
   for (const SurfaceChord& chord : chords)
-    for (const Index v : {chord.from, chord.to}) ++chord_begin_[vertex_to_inside_[v] + 1];
-  for (std::size_t v = 0; v < vertex_count(); ++v) chord_begin_[v + 1] += chord_begin_[v];
-  chords_.resize(2 * chords.size());
-  std::vector<Index> end(chord_begin_.begin(), chord_begin_.end() - 1);
+    for (const Index v : {chord.from, chord.to}) ++begin[vertex_to_inside_[v] + 1];
+  for (std::size_t v = 0; v < vertex_count(); ++v) begin[v + 1] += begin[v];
+  std::vector<ChordEnd>& rows = chords_.own();
+  rows.resize(2 * chords.size());
+  std::vector<Index> end(begin.begin(), begin.end() - 1);
   for (const SurfaceChord& chord : chords) {
     const Index v = vertex_to_inside_[chord.from], w = vertex_to_inside_[chord.to];
     const Real length = static_cast<Real>(chord.length / unit());
-    chords_[end[v]++] = {w, length};
-    chords_[end[w]++] = {v, length};
+    rows[end[v]++] = {w, length};
+    rows[end[w]++] = {v, length};
   }
 }
 

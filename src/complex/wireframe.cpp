@@ -103,27 +103,30 @@ void Wireframe<Real>::assemble(std::span<const std::array<Index, 2>> edges,
     typical_edge_ = typical_of(lengths, summary_.mean_edge) / unit_;
   }
 
-  begin_.assign(n + 1, 0);
+  std::vector<Index>& begin = begin_.own();
+  begin.assign(n + 1, 0);
   for (const auto& [a, b] : edges) {
-    ++begin_[vertex_to_inside_[a] + 1];
-    if (a != b) ++begin_[vertex_to_inside_[b] + 1];
+    ++begin[vertex_to_inside_[a] + 1];
+    if (a != b) ++begin[vertex_to_inside_[b] + 1];
   }
   for (std::size_t v = 0; v < n; ++v) {
-    summary_.unreferenced_vertices += begin_[v + 1] == 0;
-    begin_[v + 1] += begin_[v];
+    summary_.unreferenced_vertices += begin[v + 1] == 0;
+    begin[v + 1] += begin[v];
   }
-  arcs_.resize(begin_[n]);
-  arc_of_edge_.resize(edges.size());
-  std::vector<Index> end(begin_.begin(), begin_.end() - 1);  // of the row as filled so far
+  std::vector<WireArc<Real>>& arcs = arcs_.own();
+  arcs.resize(begin[n]);
+  std::vector<Index>& arc_of_edge = arc_of_edge_.own();
+  arc_of_edge.resize(edges.size());
+  std::vector<Index> end(begin.begin(), begin.end() - 1);  // of the row as filled so far
   for (std::size_t e = 0; e < edges.size(); ++e) {
     const Index a = vertex_to_inside_[edges[e][0]], b = vertex_to_inside_[edges[e][1]];
     NumberRange<Real>::check_edge(e, lengths[e] / unit_);
     const Real length = static_cast<Real>(lengths[e] / unit_);
     summary_.zero_length_edges += lengths[e] == 0;
     summary_.loops += a == b;
-    arc_of_edge_[e] = end[a];
-    arcs_[end[a]++] = {b, length};
-    if (a != b) arcs_[end[b]++] = {a, length};
+    arc_of_edge[e] = end[a];
+    arcs[end[a]++] = {b, length};
+    if (a != b) arcs[end[b]++] = {a, length};
   }
   count_components();
 }

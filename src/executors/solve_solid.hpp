@@ -73,7 +73,10 @@ void solve_with(const TetMesh<Real>& mesh, std::span<const PointSource> sources,
   };
   if (mesh.embedded() && options.visibility == Visibility::saddles) {
     auto wave = front(workspace.solids.reserve(records));
-    const SolidRule<Real, decltype(wave)> rule(mesh, wave);
+    SolidRule<Real, decltype(wave)> rule(mesh, wave);
+    thread_local SolidClearSpace<Real> clear;  // so that a second solve allocates nothing
+    if (clear.identity() != mesh.identity()) clear.measure(mesh);
+    rule.skip(clear);
     solve<Real, kLabels>(mesh, sources, options, workspace, rule, wave, crew, field);
   } else {
     auto wave = front(workspace.plain_solids.reserve(records));

@@ -94,7 +94,7 @@ TEST_CASE("speeds by the regions of the file, and lines of equal distance on a m
   const std::string file =
       folder.write("flag.vtk", flag + "CELL_DATA 3\nFIELD f 1\nregion 1 3 int\n7 7 3\n");
   const auto by = [&](const std::string& name, const std::string& text) {
-    return std::string(name) + ":" + folder.write(name + ".txt", text);
+    return std::string(name) + ":" + folder.write(name + ".txt", text).string();
   };
   // The line twice as fast as the square.
   const auto distance = distances(

@@ -196,6 +196,8 @@ class AnyShape {
 
   /// For the library's own use.
   struct State;
+  /// Likewise.
+  [[nodiscard]] const State& state() const { return *state_; }
 
  private:
   explicit AnyShape(std::shared_ptr<const State> state) : state_(std::move(state)) {}

@@ -172,6 +172,7 @@ class IntrinsicDelaunay {
   friend TriangulatedSurface<Real> triangulate(std::span<const std::array<double, 3>> positions,
                                                std::span<const std::array<Index, 3>> faces,
                                                std::optional<Retriangulation> wanted);
+  friend struct KeptParts;
   IntrinsicDelaunay();
 
   struct State;

@@ -118,6 +118,9 @@ class PointCloud {
   [[nodiscard]] std::span<const std::array<double, 3>> more_places() const { return more_; }
 
  private:
+  friend struct KeptParts;
+  explicit PointCloud(TriangleMesh<Real>&& surface) : surface_(std::move(surface)) {}
+
   CloudSummary summary_;
   std::vector<std::array<Index, 2>> twins_;
   std::vector<std::array<double, 3>> more_;

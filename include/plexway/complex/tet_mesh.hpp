@@ -9,6 +9,7 @@
 
 #include <plexway/complex/identity.hpp>
 #include <plexway/complex/ids.hpp>
+#include <plexway/complex/rows.hpp>
 #include <plexway/complex/tet_record.hpp>
 #include <plexway/domain/concept.hpp>
 
@@ -140,6 +141,9 @@ class TetMesh {
   ///@}
 
  private:
+  friend struct KeptParts;
+  TetMesh() = default;
+
   void assemble(std::size_t vertices, std::span<const std::array<Index, 4>> tets,
                 std::span<const std::array<double, 3>> scaled,
                 std::span<const std::array<double, 6>> lengths,
@@ -148,17 +152,17 @@ class TetMesh {
 
   SolidSummary summary_;
   Identity identity_;
-  std::vector<TetRecord<Real>> tets_;
-  std::vector<Vector3<Real>> points_;
-  std::vector<std::array<Real, 6>> lengths_;
-  std::vector<ReflexEdge<Real>> reflex_;
-  std::vector<Index> reflex_list_;
-  std::vector<Index> vertex_to_inside_;
-  std::vector<Index> tet_to_inside_;  // and `turned`
-  std::vector<Index> corners_begin_, corners_;
-  std::vector<Index> pinched_;
-  std::vector<PinchedEdge> pinched_edges_;
-  std::vector<Index> pinched_edge_tets_;
+  Rows<TetRecord<Real>> tets_;
+  Rows<Vector3<Real>> points_;
+  Rows<std::array<Real, 6>> lengths_;
+  Rows<ReflexEdge<Real>> reflex_;
+  Rows<Index> reflex_list_;
+  Rows<Index> vertex_to_inside_;
+  Rows<Index> tet_to_inside_;  // and `turned`
+  Rows<Index> corners_begin_, corners_;
+  Rows<Index> pinched_;
+  Rows<PinchedEdge> pinched_edges_;
+  Rows<Index> pinched_edge_tets_;
 };
 
 extern template class TetMesh<float>;

@@ -9,6 +9,7 @@
 
 #include <plexway/complex/identity.hpp>
 #include <plexway/complex/ids.hpp>
+#include <plexway/complex/rows.hpp>
 #include <plexway/complex/triangle_record.hpp>
 #include <plexway/domain/concept.hpp>
 
@@ -203,6 +204,9 @@ class TriangleMesh {
   ///@}
 
  private:
+  friend struct KeptParts;
+  TriangleMesh() = default;
+
   void assemble(FaceLayout layout, const TriangleShapes& shapes, const SurfaceHints& hints);
   std::vector<double> take_shapes(const TriangleShapes& shapes);
   void place(std::span<const std::array<double, 3>> positions);
@@ -210,17 +214,17 @@ class TriangleMesh {
 
   SurfaceSummary summary_;
   Identity identity_;
-  std::vector<TriangleRecord<Real>> triangles_;
-  std::vector<Index> vertex_to_inside_;
-  std::vector<Index> face_to_inside_;
-  std::vector<Index> corner_of_vertex_;  // one corner a vertex (inside), or none
+  Rows<TriangleRecord<Real>> triangles_;
+  Rows<Index> vertex_to_inside_;
+  Rows<Index> face_to_inside_;
+  Rows<Index> corner_of_vertex_;  // one corner a vertex (inside), or none
   // Vertices whose corners one walk around cannot find: pinched, or on a non-manifold edge.
-  std::vector<Index> irregular_, irregular_begin_, irregular_corners_;
-  std::vector<Index> pinched_;
-  std::vector<std::array<double, 3>> positions_;
+  Rows<Index> irregular_, irregular_begin_, irregular_corners_;
+  Rows<Index> pinched_;
+  Rows<std::array<double, 3>> positions_;
   bool in_space_ = false;
-  std::vector<Index> chord_begin_;  // a row a vertex, each chord in two of them
-  std::vector<ChordEnd> chords_;
+  Rows<Index> chord_begin_;  // a row a vertex, each chord in two of them
+  Rows<ChordEnd> chords_;
 };
 
 /// Throws UsageError where a surface has refracting edges: `what` unfolds triangles over edges.

@@ -8,6 +8,7 @@
 
 #include <plexway/complex/identity.hpp>
 #include <plexway/complex/ids.hpp>
+#include <plexway/complex/rows.hpp>
 #include <plexway/domain/concept.hpp>
 
 namespace plexway {
@@ -115,16 +116,19 @@ class Wireframe {
   ///@}
 
  private:
+  friend struct KeptParts;
+  Wireframe() = default;
+
   void assemble(std::span<const std::array<Index, 2>> edges, std::span<const double> lengths);
   void count_components();
 
   WireframeSummary summary_;
   Identity identity_;
   double unit_ = 1, typical_edge_ = 1;
-  std::vector<Index> begin_;
-  std::vector<WireArc<Real>> arcs_;
-  std::vector<Index> vertex_to_inside_;
-  std::vector<Index> arc_of_edge_;  // from the edge's first vertex to its second
+  Rows<Index> begin_;
+  Rows<WireArc<Real>> arcs_;
+  Rows<Index> vertex_to_inside_;
+  Rows<Index> arc_of_edge_;  // from the edge's first vertex to its second
 };
 
 extern template class Wireframe<float>;

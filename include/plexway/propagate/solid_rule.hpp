@@ -8,6 +8,7 @@
 #include <utility>
 
 #include <plexway/complex/tet_mesh.hpp>
+#include <plexway/propagate/solid_clear_space.hpp>
 #include <plexway/propagate/solid_label.hpp>
 #include <plexway/propagate/solid_paths.hpp>
 #include <plexway/propagate/solid_sight.hpp>
@@ -60,6 +61,33 @@ class SolidRule : public SolidPaths<Real> {
   }
 
 #include <plexway/propagate/solid_walk.inl>
+
+  /// `walk`, but straight over what is known to be clear, which leads to the same tetrahedron.
+  bool go(Index& t, const Point& from, const Point& to) const {
+    constexpr Real worth_it = 3;  // mean edges
+    const Point way = to - from;
+    const Real far = norm(way);
+    if (clear_ == nullptr || !(far > worth_it)) return walk(t, from, to);
+    Point at = from;
+    for (Real s = 0; s < 1;) {
+      const auto run = clear_->next(from, to, s, worth_it / far);
+      if (run.tet == none) break;
+      if (run.begin > s) {
+        const Point begin = from + run.begin * way;
+        if (!walk(t, at, begin)) return false;
+        at = begin;
+      }
+      const Point end = from + run.end * way;
+      Index there = run.tet;
+      if (!walk(there, tets_[there].centre, end)) break;
+      t = there;
+      at = end;
+      s = run.end;
+    }
+    return walk(t, at, to);
+  }
+  /// Where lines need not be walked; referred to.
+  void skip(const SolidClearSpace<Real>& clear) { clear_ = clear.empty() ? nullptr : &clear; }
 
 #include <plexway/propagate/solid_step.inl>
 
@@ -184,7 +212,7 @@ class SolidRule : public SolidPaths<Real> {
   /// The same to any point of u: t, or one that touches it.
   [[nodiscard]] Real distance_at(Index t, Index u, const Point& q,
                                  Real known = std::numeric_limits<Real>::infinity()) const {
-    return reach_at(front_->label(t), t, u, q, known);
+    return reach_at(front_->label(t), t, common_point(t, u), u, q, known);
   }
 
   /// Length of the path from the source of t through a face to that of the neighbour; +inf if none
@@ -194,7 +222,8 @@ class SolidRule : public SolidPaths<Real> {
     const Index* order = tet_face_corners[face];
     const Point &a = points_[tets_[t].corner[order[0]]], &b = points_[tets_[t].corner[order[1]]],
                 &c = points_[tets_[t].corner[order[2]]];
-    const Point here = seen_from(t, tets_[u].centre).eye, there = seen_from(u, tets_[t].centre).eye;
+    const Point middle = face_middle(t, face);
+    const Point here = seen_over(t, middle, u).eye, there = seen_over(u, middle, t).eye;
     if (!passes(here, there, a, b, c, face_tolerance)) return std::numeric_limits<Real>::infinity();
     const Point q = plane_crossing(here, there, a, b, c);
     return distance_at(t, t, q) + distance_at(u, u, q);
@@ -231,15 +260,11 @@ class SolidRule : public SolidPaths<Real> {
   };
   /// The last bend on the way from the source of t to q, a point of its boundary.
   [[nodiscard]] Sight seen_from(Index t, const Point& q) const {
-    const Label& label = front_->label(t);
-    Taut s;
-    const Point end = q + nudge * (tets_[t].centre - q);
-    if (any_reflex_ &&
-        !find_taut(label, t, tets_[t].centre, t, end, q, std::numeric_limits<Real>::infinity(), s))
-      s = taut_to(label, tets_[t].centre);
-    if (!any_reflex_) s = taut_to(label, q);
-    const Point eye = s.at[s.bends];
-    return {eye, s.extent - norm(taut_end(s) - eye)};
+    return sight(t, tets_[t].centre, t, q + nudge * (tets_[t].centre - q), q);
+  }
+  /// The same on the way to the centre of a neighbour over the face with that middle.
+  [[nodiscard]] Sight seen_over(Index t, const Point& middle, Index u) const {
+    return sight(t, middle, u, tets_[u].centre, tets_[u].centre);
   }
 
   /// A source at `eye`, outside, comes in over a face of t.
@@ -312,6 +337,7 @@ class SolidRule : public SolidPaths<Real> {
         list_(rule.list_),
         sentinel_(rule.sentinel_),
         any_reflex_(rule.any_reflex_),
+        clear_(rule.clear_),
         front_(&front) {}
 
   /// A corner whose string is hidden, and its length.
@@ -320,6 +346,31 @@ class SolidRule : public SolidPaths<Real> {
     Index corner;
   };
   static constexpr std::size_t most_hidden = 32;
+
+  /// The last bend on the way from the source of t over `middle` to q, which is walked from `end`
+  /// in u.
+  [[nodiscard]] Sight sight(Index t, const Point& middle, Index u, const Point& end,
+                            const Point& q) const {
+    const Label& label = front_->label(t);
+    Taut s;
+    if (!any_reflex_)
+      s = taut_to(label, q);
+    else if (!find_taut(label, t, middle, u, end, q, std::numeric_limits<Real>::infinity(), s))
+      s = taut_to(label, tets_[t].centre);
+    const Point eye = s.at[s.bends];
+    return {eye, s.extent - norm(taut_end(s) - eye)};
+  }
+  /// A point that t has with u, which touches it: the middle of their common corners.
+  [[nodiscard]] Point common_point(Index t, Index u) const {
+    Point sum = {0, 0, 0};
+    Real count = 0;
+    for (const Index v : tets_[t].corner)
+      if (std::find(tets_[u].corner, tets_[u].corner + 4, v) != tets_[u].corner + 4) {
+        sum = sum + points_[v];
+        ++count;
+      }
+    return t == u || count == 0 ? tets_[t].centre : Real(1) / count * sum;
+  }
 
   bool enter(Index t, std::size_t face, const Label& label, Index source) const {
     if (!(label.centre < to_beat(t))) return false;
@@ -397,6 +448,7 @@ class SolidRule : public SolidPaths<Real> {
   const Index* list_;
   Index sentinel_;
   bool any_reflex_;
+  const SolidClearSpace<Real>* clear_ = nullptr;
   Front* front_;
 };
 

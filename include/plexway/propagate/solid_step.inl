@@ -3,6 +3,7 @@
 // GLSL, after solid_walk.inl. Before it stand also
 //   first_reflex(t), reflex_entry(e), entry_edge(entry), entry_is_last(entry)
 //   any_reflex()                     are there reflex edges
+//   go(t, from, to)                  `walk`, perhaps by a shorter way to the same tetrahedron
 //   reached(t), label_of(t)          what is known
 //   same_way(label, label)           do they have the same S and bends?
 
@@ -319,20 +320,20 @@ HINGE_METHOD Point within(Index u, HINGE_IN(Point) q) HINGE_READS {
   return q + nudge * (centre_of(u) - q);
 }
 
-/// Length of the path to a point of u, which is the reached tetrahedron t or beside it, as far as
-/// it is below `known`; else no less than that.
-HINGE_FAST Real reach_at(HINGE_IN(Label) from, Index t, Index u, HINGE_IN(Point) q,
-                         Real known) HINGE_READS {
+/// Length of the path to a point of u, which is the reached tetrahedron t or has the point
+/// `middle` with it, as far as it is below `known`; else no less than that.
+HINGE_FAST Real reach_at(HINGE_IN(Label) from, Index t, HINGE_IN(Point) middle, Index u,
+                         HINGE_IN(Point) q, Real known) HINGE_READS {
   Real straight = from.sigma + norm(q - from.source);
   if (!any_reflex() || !(straight < known)) return straight;
   Taut s;
-  if (find_taut(from, t, centre_of(t), u, within(u, q), q, known, s)) return s.extent;
+  if (find_taut(from, t, middle, u, within(u, q), q, known, s)) return s.extent;
   if (t != u) return HINGE_INFINITY;
   return from.centre + norm(q - centre_of(t));
 }
 /// To its corner i.
 HINGE_FAST Real corner_reach(HINGE_IN(Label) from, Index t, Index i, Real known) HINGE_READS {
-  return reach_at(from, t, t, corner_of(t, i), known);
+  return reach_at(from, t, centre_of(t), t, corner_of(t, i), known);
 }
 /// The same by the label's own string alone; `hidden`: that is below `known`, but not free.
 HINGE_FAST Real corner_sight(HINGE_IN(Label) from, Index t, Index i, Real known,

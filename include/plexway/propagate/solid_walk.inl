@@ -59,7 +59,7 @@ HINGE_FN Real turn_of(HINGE_IN(Seen) a, HINGE_IN(Seen) b) { return a.x * b.y - a
 
 /// From a point of t straight to another; t is then the tetrahedron it came to. False if that is
 /// outside of the solid, or behind a part of the boundary.
-bool go(HINGE_INOUT(Index) t, HINGE_IN(Point) from, HINGE_IN(Point) to) HINGE_READS {
+bool walk(HINGE_INOUT(Index) t, HINGE_IN(Point) from, HINGE_IN(Point) to) HINGE_READS {
   Point g = to - from;
   Real far = norm(g);
   if (!(far > Real(1e-2) * nudge)) return true;
@@ -97,6 +97,7 @@ bool go(HINGE_INOUT(Index) t, HINGE_IN(Point) from, HINGE_IN(Point) to) HINGE_RE
   Index vb = vertex_of(t, face_corner_number(face, 1u));
   Index vc = vertex_of(t, face_corner_number(face, 2u));
   Real top = max(a.z, max(b.z, c.z));  // no corner of the face is farther along
+  Index passed = t;  // now and then: a line that comes back goes round in circles by rounding
   for (int steps = 0; steps < HINGE_ROLLED(65536); ++steps) {
     Index next = neighbour(t, face);
     bool ends = next == no_tet();
@@ -119,6 +120,8 @@ bool go(HINGE_INOUT(Index) t, HINGE_IN(Point) from, HINGE_IN(Point) to) HINGE_RE
     }
     Index j = face_beyond(t, face);
     t = next;
+    if (HINGE_RARE(t == passed)) return false;
+    if ((steps & (steps - 1)) == 0) passed = t;
     Seen d = seen_along(line, from, corner_of(t, j));
     Index vd = vertex_of(t, j);
     top = max(top, d.z);

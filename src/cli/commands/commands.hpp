@@ -17,6 +17,7 @@ void add_bench_command(CLI::App& tool, Action& action);
 void add_path_command(CLI::App& tool, Action& action);
 void add_tetrahedralize_command(CLI::App& tool, Action& action);
 void add_convert_command(CLI::App& tool, Action& action);
+void add_prepare_command(CLI::App& tool, Action& action);
 void add_poisson_command(CLI::App& tool, Action& action);
 void add_cvt_command(CLI::App& tool, Action& action);
 void add_farthest_command(CLI::App& tool, Action& action);

@@ -46,7 +46,8 @@ inline constexpr const char* input_help =
     ".poly .smesh through TetGen, and a level set .vdb through OpenVDB; a wireframe: .edges, or "
     ".obj with lines only;\n"
     "a cloud of points: .xyz, .ply without faces, and .pcd through PCL;\n"
-    "simplices of dimension 1 to 4: .simplices";
+    "simplices of dimension 1 to 4: .simplices;\n"
+    "any of these, built: .plexway, see 'plexway prepare'";
 inline constexpr const char* as_help =
     "what to take it as: surface, solid (fills a surface with tetrahedra),\n"
     "wireframe (the edges alone), cloud (the vertices of a surface alone) or mixed (all\n"

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <filesystem>
+
+#include <plexway/any/field.hpp>
+#include <plexway/any/shape.hpp>
+
+#include "complex/kept_archive.hpp"
+
+namespace plexway {
+
+struct BuildOptions;
+
+/// A domain that was built already, in the file that its shape was read from.
+struct KeptBuild {
+  Precision precision = Precision::single;
+  Triangulation triangulation = Triangulation::automatic;  ///< as it was asked for
+  bool is_surface = false;                                 ///< else that means nothing
+  KeptIn complex;                                          ///< at its first part
+
+  /// Is it what they ask for? If not, the shape is built anew.
+  [[nodiscard]] bool answers(const BuildOptions& options) const;
+};
+
+/// By its extension, .plexway.
+[[nodiscard]] bool is_kept_build(const std::filesystem::path& file);
+
+/// The shape in such a file, and the build. Throws InputError "FILE: cause" for a file that is
+/// none, foreign or damaged.
+[[nodiscard]] AnyShape::State read_kept_build(const std::filesystem::path& file);
+/// Of what KeptIn reads.
+[[nodiscard]] AnyShape::State read_kept_build(KeptIn in);
+
+/// Writes what comes before the complex. Throws UsageError for a kind that cannot be kept.
+void write_kept_shape(KeptOut& out, const AnyShape& shape, const BuildOptions& options);
+
+}  // namespace plexway
