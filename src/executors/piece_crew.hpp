@@ -1,0 +1,102 @@
+#pragma once
+
+#include <atomic>
+#include <cmath>
+#include <cstddef>
+#include <deque>
+#include <limits>
+#include <utility>
+
+#include <plexway/complex/triangle_mesh.hpp>
+
+#include "executors/crew.hpp"
+#include "executors/supersteps.hpp"
+#include "propagate/pieces/triangle_patches.hpp"
+#include "propagate/pieces/triangle_piece.hpp"
+
+namespace plexway {
+
+/// How a surface is cut and how its pieces take turns. Of the surface alone, never of threads.
+struct PieceSettings {
+  std::size_t size = 2048;  ///< triangles a piece
+  double pace = 0.25;       ///< a superstep's, in roots of the size: mean edges
+  double threshold = 0.01;  ///< gains below this many mean edges are not posted
+
+  /// For a surface of so many triangles.
+  static PieceSettings usual(std::size_t triangles);
+};
+
+/// A team does the work of a solve on a surface, piece by piece. Seeds, pinches, revivals and
+/// repairs are done on the whole by one thread between runs, as for `Serial`, and read-out by all.
+template <class Real, bool kLabels>
+class PieceCrew : public TeamCrew<Real, kLabels> {
+ public:
+  using Base = TeamCrew<Real, kLabels>;
+  PieceCrew(const Base& base, const TriangleMesh<Real>& mesh, const PieceSettings& settings)
+      : Base(base), mesh_(mesh), settings_(settings) {}
+
+  template <class Propagation, class Front>
+  void run(Propagation& propagation, Front& front, std::size_t simplices) const {
+    using Label = typename Front::Label;
+    using PieceRule = decltype(propagation.rule().over(
+        mesh_.triangles(), std::declval<PieceFront<Real, Label, kLabels>&>()));
+    using Piece = TrianglePiece<Real, Label, PieceRule, kLabels>;
+    TrianglePatches<Real>& patches = this->workspace_.pieces.of(mesh_, settings_.size);
+    const Cut& cut = patches.cut();
+    std::deque<Piece> pieces;
+    for (std::size_t p = 0; p < patches.count(); ++p)
+      pieces.emplace_back(cut.pieces[p], patches[p], propagation.rule(),
+                          typename Piece::Settings{
+                              &this->options_, this->step_,
+                              static_cast<Real>(this->options_.radius / this->unit_),
+                              mesh_.summary().refracting_edges > 0, simplices, this->unit_,
+                              static_cast<Real>(settings_.threshold)});
+    const double pace = settings_.pace * std::sqrt(static_cast<double>(settings_.size));
+    Supersteps<Piece> supersteps(this->team_, pieces, static_cast<Real>(pace), simplices,
+                                 this->unit_, this->options_);
+    PropagateStatistics known;
+    propagation.run([&](bool last_resort) {
+      front.drain([&](Index f) {
+        pieces[cut.piece_of[f]].give(cut.number_of[f], front.hinge(f), front.label(f),
+                                     propagation.rule().distance(f), front.source(f));
+      });
+      for (Piece& piece : pieces) piece.set_last_resort(last_resort);
+      const bool complete = supersteps.run(front.statistics());
+      gather(pieces, front);
+      PropagateStatistics now;
+      for (const Piece& piece : pieces) {
+        const PropagateStatistics own = piece.statistics();
+        now.expansions += own.expansions;
+        now.updates += own.updates;
+        now.reached_simplices += own.reached_simplices;
+      }
+      front.account({now.expansions - known.expansions, now.updates - known.updates,
+                     now.reached_simplices - known.reached_simplices},
+                    !complete);
+      known = now;
+    });
+    counts = supersteps.counts();
+  }
+
+  mutable SuperstepCounts counts;  ///< of the last run
+
+ private:
+  template <class Pieces, class Front>
+  void gather(const Pieces& pieces, Front& front) const {
+    std::atomic<std::size_t> next{0};
+    this->team_.run([&](int, int) {
+      for (;;) {
+        const std::size_t p = next.fetch_add(1, std::memory_order_relaxed);
+        if (p >= pieces.size()) return;
+        pieces[p].gather([&](Index f, std::size_t hinge, const auto& label, Index source) {
+          front.know(f, hinge, label, source);
+        });
+      }
+    });
+  }
+
+  const TriangleMesh<Real>& mesh_;
+  PieceSettings settings_;
+};
+
+}  // namespace plexway
