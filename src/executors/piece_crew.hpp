@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <atomic>
 #include <cmath>
 #include <cstddef>
@@ -18,12 +19,9 @@ namespace plexway {
 
 /// How a surface is cut and how its pieces take turns. Of the surface alone, never of threads.
 struct PieceSettings {
-  std::size_t size = 2048;  ///< triangles a piece
-  double pace = 0.25;       ///< a superstep's, in roots of the size: mean edges
+  std::size_t size;         ///< triangles a piece
+  double pace = 1. / 16;    ///< a superstep's, in roots of the size: mean edges
   double threshold = 0.01;  ///< gains below this many mean edges are not posted
-
-  /// For a surface of so many triangles.
-  static PieceSettings usual(std::size_t triangles);
 };
 
 /// A team does the work of a solve on a surface, piece by piece. Seeds, pinches, revivals and
@@ -54,6 +52,7 @@ class PieceCrew : public TeamCrew<Real, kLabels> {
     const double pace = settings_.pace * std::sqrt(static_cast<double>(settings_.size));
     Supersteps<Piece> supersteps(this->team_, pieces, static_cast<Real>(pace), simplices,
                                  this->unit_, this->options_);
+    supersteps.counts().log = counts.log;
     PropagateStatistics known;
     propagation.run([&](bool last_resort) {
       front.drain([&](Index f) {
@@ -62,7 +61,7 @@ class PieceCrew : public TeamCrew<Real, kLabels> {
       });
       for (Piece& piece : pieces) piece.set_last_resort(last_resort);
       const bool complete = supersteps.run(front.statistics());
-      gather(pieces, front);
+      gather(pieces, front);  // what follows looks at the whole
       PropagateStatistics now;
       for (const Piece& piece : pieces) {
         const PropagateStatistics own = piece.statistics();
@@ -75,7 +74,34 @@ class PieceCrew : public TeamCrew<Real, kLabels> {
                     !complete);
       known = now;
     });
+    each(pieces.size(), [&](std::size_t p) { pieces[p].read_out(); });
     counts = supersteps.counts();
+  }
+
+  /// After `run`: the distances of vertices.
+  void read_out(Workspace<Real>& workspace) const {
+    TrianglePatches<Real>& patches = workspace.pieces.of(mesh_, settings_.size);
+    const auto take = [&](Index v, const TrianglePatch<Real>& patch, std::size_t i) {
+      workspace.vertex[v] = patch.vertex[i];
+      if constexpr (kLabels) workspace.vertex_source[v] = patch.vertex_source[i];
+    };
+    each(patches.count(), [&](std::size_t p) {
+      const TrianglePatch<Real>& patch = patches[p];
+      for (std::size_t i = 0; i < patch.vertices.size(); ++i)
+        if (patch.is_shared[i] == 0) take(patch.vertices[i], patch, i);
+    });
+    for (std::size_t p = 0; p < patches.count(); ++p) {
+      const TrianglePatch<Real>& patch = patches[p];
+      for (std::size_t i = 0; i < patch.vertices.size(); ++i) {
+        const Index v = patch.vertices[i];
+        if (patch.is_shared[i] == 0) continue;
+        bool better = patch.vertex[i] < workspace.vertex[v];
+        if constexpr (kLabels)
+          better |= patch.vertex[i] == workspace.vertex[v] &&
+                    patch.vertex_source[i] < workspace.vertex_source[v];
+        if (better) take(v, patch, i);
+      }
+    }
   }
 
   mutable SuperstepCounts counts;  ///< of the last run
@@ -83,14 +109,22 @@ class PieceCrew : public TeamCrew<Real, kLabels> {
  private:
   template <class Pieces, class Front>
   void gather(const Pieces& pieces, Front& front) const {
+    each(pieces.size(), [&](std::size_t p) {
+      pieces[p].gather([&](Index f, std::size_t hinge, const auto& label, Index source) {
+        front.know(f, hinge, label, source);
+      });
+    });
+  }
+
+  /// work(p) for all p < count, thread by thread as they come.
+  template <class Work>
+  void each(std::size_t count, const Work& work) const {
     std::atomic<std::size_t> next{0};
     this->team_.run([&](int, int) {
       for (;;) {
         const std::size_t p = next.fetch_add(1, std::memory_order_relaxed);
-        if (p >= pieces.size()) return;
-        pieces[p].gather([&](Index f, std::size_t hinge, const auto& label, Index source) {
-          front.know(f, hinge, label, source);
-        });
+        if (p >= count) return;
+        work(p);
       }
     });
   }

@@ -23,6 +23,8 @@ namespace plexway {
 /// What supersteps were like, for measurements.
 struct SuperstepCounts {
   std::size_t supersteps = 0, letters = 0, runs = 0;
+  /// Where it is wanted: of each superstep the expansions of each piece that ran.
+  std::vector<std::vector<std::size_t>>* log = nullptr;
 };
 
 /// A propagation in pieces by a team. In a superstep each piece that has something to do takes the
@@ -88,7 +90,7 @@ class Supersteps {
 
   /// In all runs.
   [[nodiscard]] const PropagateStatistics& done() const { return done_; }
-  [[nodiscard]] const SuperstepCounts& counts() const { return counts_; }
+  [[nodiscard]] SuperstepCounts& counts() { return counts_; }
 
  private:
   struct alignas(64) After {
@@ -153,6 +155,10 @@ class Supersteps {
       const Outbox& box = pieces_[p]->mail().of(superstep_);
       for (std::size_t peer = 0; peer < cut.peer_count(); ++peer)
         if (box.has_letters(superstep_, peer)) awake_[cut.peers[peer].piece] = 1;
+    }
+    if (counts_.log != nullptr) {
+      auto& runs = counts_.log->emplace_back();
+      for (const std::size_t p : active_) runs.push_back(after_[p].work.expansions);
     }
     ++counts_.supersteps;
     counts_.runs += active_.size();

@@ -58,6 +58,37 @@ TrianglePatches<Real>::TrianglePatches(const TriangleMesh<Real>& mesh, std::size
     : identity_(mesh.identity()), size_(size), cut_(cut_of(mesh, size)) {
   patches_.resize(cut_.pieces.size());
   for (Index p = 0; p < patches_.size(); ++p) take_records(mesh, p);
+  take_vertices(mesh.vertex_count());
+}
+
+/// From the surface's vertices to those of pieces.
+template <class Real>
+void TrianglePatches<Real>::take_vertices(std::size_t vertices) {
+  std::vector<Index> number(vertices), piece(vertices, none);
+  std::vector<std::uint8_t> is_shared(vertices, 0);
+  for (Index p = 0; p < patches_.size(); ++p) {
+    TrianglePatch<Real>& patch = patches_[p];
+    const std::size_t own = cut_.pieces[p].own;
+    patch.vertices.reserve(own / 2 + own / 8 + 8);
+    for (std::size_t f = 0; f < patch.triangles.size(); ++f)
+      for (Index& corner : patch.triangles[f].corner) {
+        if (f >= own) {
+          corner = none;
+          continue;
+        }
+        if (piece[corner] != p) {
+          if (piece[corner] != none) is_shared[corner] = 1;
+          piece[corner] = p;
+          number[corner] = static_cast<Index>(patch.vertices.size());
+          patch.vertices.push_back(corner);
+        }
+        corner = number[corner];
+      }
+  }
+  for (TrianglePatch<Real>& patch : patches_) {
+    patch.is_shared.reserve(patch.vertices.size());
+    for (const Index v : patch.vertices) patch.is_shared.push_back(is_shared[v]);
+  }
 }
 
 template <class Real>
@@ -111,7 +142,8 @@ template <class Real>
 std::size_t TrianglePatch<Real>::bytes() const {
   const auto of = [](const auto& v) { return v.capacity() * sizeof(v[0]); };
   return of(triangles) + of(leads_in) + marks.bytes() + front.capacity * 2 * sizeof(Index) +
-         labels.bytes() + of(source) + of(posted) + of(is_new) + mail.box[0].bytes() + mail.box[1].bytes();
+         labels.bytes() + of(source) + of(posted) + of(is_new) + of(vertices) + of(is_shared) + of(vertex) +
+         of(vertex_source) + mail.box[0].bytes() + mail.box[1].bytes();
 }
 
 template <class Real>

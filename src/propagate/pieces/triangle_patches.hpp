@@ -18,10 +18,13 @@ namespace plexway {
 /// What a piece of a surface keeps from solve to solve.
 template <class Real>
 struct TrianglePatch {
-  /// By the piece's numbers, and a sentinel. A ghost's other neighbours are cut off.
+  /// By the piece's numbers, and a sentinel. A ghost's other neighbours are cut off; corners are
+  /// numbers in `vertices`, those of ghosts `none`.
   std::vector<TriangleRecord<Real>> triangles;
   /// Of each ghost: bit e, if a triangle of the piece lies over its edge e.
   std::vector<std::uint8_t> leads_in;
+  std::vector<Index> vertices;          ///< of its own triangles: the surface's numbers inside
+  std::vector<std::uint8_t> is_shared;  ///< of each: have other pieces got it, too?
 
   VisitMarks marks;
   FrontStorage front;
@@ -30,6 +33,8 @@ struct TrianglePatch {
   std::vector<Real> posted;         ///< of those at a cut: the distance last told,
   std::vector<std::uint8_t> is_new;  ///< and is it told now?
   Outboxes mail;
+  std::vector<Real> vertex;  ///< read-out, and its labels
+  std::vector<Index> vertex_source;
 
   [[nodiscard]] std::size_t bytes() const;
 };
@@ -51,6 +56,7 @@ class TrianglePatches {
 
  private:
   void take_records(const TriangleMesh<Real>& mesh, Index piece);
+  void take_vertices(std::size_t vertices);
 
   std::uint64_t identity_;
   std::size_t size_;

@@ -11,6 +11,7 @@
 #include "propagate/pieces/mail.hpp"
 #include "propagate/pieces/piece_front.hpp"
 #include "propagate/pieces/triangle_patches.hpp"
+#include "propagate/read_out.hpp"
 #include "propagate/triangle_spread.hpp"
 
 namespace plexway {
@@ -127,6 +128,29 @@ class TrianglePiece {
   [[nodiscard]] PropagateStatistics statistics() const {
     return {front_.expansions(), front_.updates() - outside_.updates,
             front_.reached_count() - outside_.reached_simplices};
+  }
+
+  /// The least distance that its own triangles offer each of their vertices, and of equal ones that
+  /// from the first source, into the patch.
+  void read_out() {
+    patch_.vertex.assign(patch_.vertices.size(), std::numeric_limits<Real>::infinity());
+    if constexpr (kLabels) patch_.vertex_source.assign(patch_.vertices.size(), none);
+    const auto offer = [&](Index v, Real d, Index f) {
+      if constexpr (kLabels) {
+        if (!(d < patch_.vertex[v] ||
+              (d == patch_.vertex[v] && front_.source(f) < patch_.vertex_source[v])))
+          return;
+        patch_.vertex[v] = d, patch_.vertex_source[v] = front_.source(f);
+      } else {
+        patch_.vertex[v] = std::min(patch_.vertex[v], d);
+      }
+    };
+    const std::span<const TriangleRecord<Real>> triangles = patch_.triangles;
+    const Index end = static_cast<Index>(cut_.own);
+    if constexpr (requires { spread_.rule().label(0).x; })
+      offer_apexes(triangles, spread_.rule(), front_, 0, end, offer);
+    else
+      offer_corners(triangles, spread_.rule(), front_, 0, end, offer);
   }
 
   /// take(triangle of the surface, hinge, label, source) for each of its own that is reached.
