@@ -22,15 +22,13 @@ struct Partition {
 /// Linear in them times the logarithm of the number of pieces.
 [[nodiscard]] Partition bisected(std::span<const std::array<float, 3>> points, std::size_t size);
 
-/// Without points: pieces grow breadth first, each from where the last one stopped; what is left
-/// too small joins the neighbour that it shares most hinges with. neighbours(s, visit) calls
-/// visit(t) for each simplex over a hinge of s.
+/// Without points: pieces grow breadth first, each from where the last one stopped, so that crumbs
+/// are left. neighbours(s, visit) calls visit(t) for each simplex over a hinge of s.
 template <class Neighbours>
 [[nodiscard]] Partition grown(std::size_t count, std::size_t size, const Neighbours& neighbours) {
   Partition found;
   found.piece_of.assign(count, none);
   std::vector<Index> line;
-  std::vector<std::size_t> sizes;
   std::size_t lowest = 0;
   Index start = none;
   for (std::size_t left = count; left > 0;) {
@@ -47,7 +45,6 @@ template <class Neighbours>
         found.piece_of[t] = piece;
         line.push_back(t);
       });
-    sizes.push_back(line.size());
     left -= line.size();
     start = none;
     for (auto s = line.rbegin(); s != line.rend() && start == none; ++s)
@@ -55,31 +52,6 @@ template <class Neighbours>
         if (start == none && found.piece_of[t] == none) start = t;
       });
   }
-  std::vector<Index> into(found.pieces);
-  std::iota(into.begin(), into.end(), Index{0});
-  const auto root = [&](Index p) {
-    while (into[p] != p) p = into[p] = into[into[p]];
-    return p;
-  };
-  std::vector<std::pair<Index, Index>> shared;  // a small piece and one beside it, a hinge each
-  for (Index s = 0; s < count; ++s)
-    if (const Index p = found.piece_of[s]; sizes[p] < size / 4)
-      neighbours(s, [&](Index t) {
-        if (found.piece_of[t] != p) shared.push_back({p, found.piece_of[t]});
-      });
-  std::sort(shared.begin(), shared.end());
-  for (std::size_t i = 0; i < shared.size();) {
-    const Index p = shared[i].first;
-    Index best = none;
-    std::size_t most = 0;
-    while (i < shared.size() && shared[i].first == p) {
-      const std::size_t begin = i;
-      while (i < shared.size() && shared[i] == shared[begin]) ++i;
-      if (i - begin > most) most = i - begin, best = shared[begin].second;
-    }
-    into[root(p)] = root(best);
-  }
-  for (Index& p : found.piece_of) p = root(p);
   return found;
 }
 
@@ -127,6 +99,38 @@ void smooth_cuts(Partition& partition, const Neighbours& neighbours) {
   }
 }
 
+/// Pieces of fewer than `least` simplices join the neighbour that they share most hinges with.
+template <class Neighbours>
+void join_crumbs(Partition& partition, std::size_t least, const Neighbours& neighbours) {
+  std::vector<std::size_t> sizes(partition.pieces);
+  for (const Index p : partition.piece_of) ++sizes[p];
+  std::vector<Index> into(partition.pieces);
+  std::iota(into.begin(), into.end(), Index{0});
+  const auto root = [&](Index p) {
+    while (into[p] != p) p = into[p] = into[into[p]];
+    return p;
+  };
+  std::vector<std::pair<Index, Index>> shared;  // a small piece and one beside it, a hinge each
+  for (Index s = 0; s < partition.piece_of.size(); ++s)
+    if (const Index p = partition.piece_of[s]; sizes[p] < least)
+      neighbours(s, [&](Index t) {
+        if (partition.piece_of[t] != p) shared.push_back({p, partition.piece_of[t]});
+      });
+  std::sort(shared.begin(), shared.end());
+  for (std::size_t i = 0; i < shared.size();) {
+    const Index p = shared[i].first;
+    Index best = none;
+    std::size_t most = 0;
+    while (i < shared.size() && shared[i].first == p) {
+      const std::size_t begin = i;
+      while (i < shared.size() && shared[i] == shared[begin]) ++i;
+      if (i - begin > most) most = i - begin, best = shared[begin].second;
+    }
+    into[root(p)] = root(best);
+  }
+  for (Index& p : partition.piece_of) p = root(p);
+}
+
 /// Pieces of about `size` simplices, by a point each, or where there are none by neighbours alone.
 template <class Neighbours>
 [[nodiscard]] Partition partition(std::size_t count, std::size_t size,
@@ -134,6 +138,7 @@ template <class Neighbours>
                                   const Neighbours& neighbours) {
   Partition found = points.empty() ? grown(count, size, neighbours) : bisected(points, size);
   smooth_cuts(found, neighbours);
+  join_crumbs(found, size / 4, neighbours);
   leave_out_empty(found);
   return found;
 }

@@ -51,8 +51,7 @@ class PieceCrew : public TeamCrew<Real, kLabels> {
                               static_cast<Real>(settings_.threshold)});
     const double pace = settings_.pace * std::sqrt(static_cast<double>(settings_.size));
     Supersteps<Piece> supersteps(this->team_, pieces, static_cast<Real>(pace), simplices,
-                                 this->unit_, this->options_);
-    supersteps.counts().log = counts.log;
+                                 this->unit_, this->options_, this->workspace_.pieces.counts());
     PropagateStatistics known;
     propagation.run([&](bool last_resort) {
       front.drain([&](Index f) {
@@ -75,7 +74,6 @@ class PieceCrew : public TeamCrew<Real, kLabels> {
       known = now;
     });
     each(pieces.size(), [&](std::size_t p) { pieces[p].read_out(); });
-    counts = supersteps.counts();
   }
 
   /// After `run`: the distances of vertices.
@@ -103,8 +101,6 @@ class PieceCrew : public TeamCrew<Real, kLabels> {
       }
     }
   }
-
-  mutable SuperstepCounts counts;  ///< of the last run
 
  private:
   template <class Pieces, class Front>

@@ -13,19 +13,13 @@
 #include <plexway/propagate/distance_field.hpp>
 #include <plexway/propagate/endless.hpp>
 #include <plexway/propagate/options.hpp>
+#include <plexway/propagate/piece_memory.hpp>
 
 #include "complex/cut.hpp"
 #include "executors/team.hpp"
 #include "propagate/pieces/mail.hpp"
 
 namespace plexway {
-
-/// What supersteps were like, for measurements.
-struct SuperstepCounts {
-  std::size_t supersteps = 0, letters = 0, runs = 0;
-  /// Where it is wanted: of each superstep the expansions of each piece that ran.
-  std::vector<std::vector<std::size_t>>* log = nullptr;
-};
 
 /// A propagation in pieces by a team. In a superstep each piece that has something to do takes the
 /// letters of the superstep before, runs up to a horizon, and posts what its peers must know. So a
@@ -44,11 +38,19 @@ class Supersteps {
   using Letter = typename Piece::Letter;
 
   /// `pieces` is indexed by their numbers. `pace`: so far the horizon moves on in a superstep, in
-  /// the unit inside, which is `unit` of the caller's; of `simplices` in all.
+  /// the unit inside, which is `unit` of the caller's; of `simplices` in all. `counts` are started
+  /// anew.
   template <class Pieces>
   Supersteps(const Team& team, Pieces& pieces, Real pace, std::size_t simplices, double unit,
-             const PropagateOptions& options)
-      : team_(team), pace_(pace), simplices_(simplices), unit_(unit), options_(options) {
+             const PropagateOptions& options, SuperstepCounts& counts)
+      : team_(team),
+        pace_(pace),
+        simplices_(simplices),
+        unit_(unit),
+        options_(options),
+        counts_(counts) {
+    counts_.supersteps = counts_.runs = counts_.letters = counts_.bytes = 0;
+    counts_.log.clear();
     for (Piece& piece : pieces) pieces_.push_back(&piece);
     after_.resize(pieces_.size());
     awake_.resize(pieces_.size());
@@ -90,7 +92,6 @@ class Supersteps {
 
   /// In all runs.
   [[nodiscard]] const PropagateStatistics& done() const { return done_; }
-  [[nodiscard]] SuperstepCounts& counts() { return counts_; }
 
  private:
   struct alignas(64) After {
@@ -149,6 +150,7 @@ class Supersteps {
       expansions += after.work.expansions;
       first += after.work.first;
       counts_.letters += after.work.letters;
+      counts_.bytes += after.work.letters * sizeof(Letter);
       if (after.work.letters == 0) continue;
       nearest = std::min(nearest, after.told);
       const CutPiece& cut = pieces_[p]->cut();
@@ -156,8 +158,8 @@ class Supersteps {
       for (std::size_t peer = 0; peer < cut.peer_count(); ++peer)
         if (box.has_letters(superstep_, peer)) awake_[cut.peers[peer].piece] = 1;
     }
-    if (counts_.log != nullptr) {
-      auto& runs = counts_.log->emplace_back();
+    if (counts_.keeps_log) {
+      auto& runs = counts_.log.emplace_back();
       for (const std::size_t p : active_) runs.push_back(after_[p].work.expansions);
     }
     ++counts_.supersteps;
@@ -226,7 +228,7 @@ class Supersteps {
   std::size_t superstep_ = 1, share_ = 0, more_ = 0, updates_ = 0, recent_ = 0;
   bool ended_ = false, complete_ = false;
   PropagateStatistics before_, done_;
-  SuperstepCounts counts_;
+  SuperstepCounts& counts_;
 
   std::exception_ptr failure_;
   std::mutex failing_;

@@ -67,7 +67,7 @@ class DualQueue {
         limit_ = std::max(limit_, nearest_far_) + step_;
         if (!(nearest_far_ < limit_))  // the step drowns in the distance
           limit_ = std::nextafter(nearest_far_, std::numeric_limits<Real>::infinity());
-        limit_ = std::min(limit_, horizon_);
+        if (!(limit_ + step_ / 2 < horizon_)) limit_ = horizon_;  // no short turn before it
         nearest_far_ = std::numeric_limits<Real>::infinity();
       }
       simplex = near_[near_begin_];

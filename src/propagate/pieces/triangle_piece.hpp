@@ -135,22 +135,25 @@ class TrianglePiece {
   void read_out() {
     patch_.vertex.assign(patch_.vertices.size(), std::numeric_limits<Real>::infinity());
     if constexpr (kLabels) patch_.vertex_source.assign(patch_.vertices.size(), none);
-    const auto offer = [&](Index v, Real d, Index f) {
+    Real* const vertex = patch_.vertex.data();
+    Index* const owner = patch_.vertex_source.data();
+    Front front = front_;  // that nothing points to
+    const auto rule = spread_.rule().on(front);
+    const auto offer = [=, &front](Index v, Real d, Index f) {
       if constexpr (kLabels) {
-        if (!(d < patch_.vertex[v] ||
-              (d == patch_.vertex[v] && front_.source(f) < patch_.vertex_source[v])))
-          return;
-        patch_.vertex[v] = d, patch_.vertex_source[v] = front_.source(f);
+        const Index source = front.source(f);
+        if (d < vertex[v] || (d == vertex[v] && source < owner[v]))
+          vertex[v] = d, owner[v] = source;
       } else {
-        patch_.vertex[v] = std::min(patch_.vertex[v], d);
+        vertex[v] = std::min(vertex[v], d);
       }
     };
     const std::span<const TriangleRecord<Real>> triangles = patch_.triangles;
     const Index end = static_cast<Index>(cut_.own);
-    if constexpr (requires { spread_.rule().label(0).x; })
-      offer_apexes(triangles, spread_.rule(), front_, 0, end, offer);
+    if constexpr (requires { rule.label(0).x; })
+      offer_apexes(triangles, rule, front, 0, end, offer);
     else
-      offer_corners(triangles, spread_.rule(), front_, 0, end, offer);
+      offer_corners(triangles, rule, front, 0, end, offer);
   }
 
   /// take(triangle of the surface, hinge, label, source) for each of its own that is reached.
