@@ -1,7 +1,7 @@
 // One source on a surface by pieces (OpenMP::piece) against Serial. Counts are the same on any
 // machine and with any number of threads; times are taken in turns. The model says what recorded
-// counts come to on more threads: each superstep's runs are dealt to the threads longest first, a run
-// costs its expansions and some, a superstep what a barrier does.
+// counts come to on more threads: each superstep's runs are dealt to the threads longest first, a
+// run costs its expansions and some, a superstep what a barrier does.
 
 #include <CLI/CLI.hpp>
 #include <algorithm>

@@ -67,7 +67,8 @@ template <class Neighbours>
   const std::span<const Index> piece_of = result.piece_of;
   std::vector<std::size_t> sizes(partition.pieces);
   for (const Index p : piece_of) ++sizes[p];
-  for (std::size_t p = 0; p < sizes.size(); ++p) result.pieces[p].simplices.reserve(sizes[p] * 9 / 8);
+  for (std::size_t p = 0; p < sizes.size(); ++p)
+    result.pieces[p].simplices.reserve(sizes[p] * 9 / 8);
   std::vector<bool> inner(piece_of.size());
   for (Index s = 0; s < piece_of.size(); ++s) {
     bool at_cut = false;
@@ -99,9 +100,9 @@ template <class Neighbours>
   }
   const auto place_in = [&](Index p, Index peer) {
     const auto& peers = result.pieces[p].peers;
-    const auto found = std::lower_bound(
-        peers.begin(), peers.end(), peer,
-        [](const CutPiece::Peer& a, Index number) { return a.piece < number; });
+    const auto found =
+        std::lower_bound(peers.begin(), peers.end(), peer,
+                         [](const CutPiece::Peer& a, Index number) { return a.piece < number; });
     return static_cast<Index>(found - peers.begin());
   };
   // Peer by peer, what it has as ghosts, by its numbers.

@@ -34,8 +34,7 @@ void halve(std::span<Place> places, Index first, Index pieces, std::vector<Index
   const std::size_t middle = places.size() * below / pieces;
   std::nth_element(places.begin(), places.begin() + static_cast<std::ptrdiff_t>(middle),
                    places.end(), [axis](const Place& a, const Place& b) {
-                     return a.at[axis] != b.at[axis] ? a.at[axis] < b.at[axis]
-                                                     : a.run < b.run;
+                     return a.at[axis] != b.at[axis] ? a.at[axis] < b.at[axis] : a.run < b.run;
                    });
   halve(places.first(middle), first, below, piece_of);
   halve(places.subspan(middle), first + below, pieces - below, piece_of);

@@ -18,8 +18,8 @@ struct Partition {
   Index pieces = 0;             ///< none of them empty
 };
 
-/// By bisection: the points (one a simplex, finite) are halved where they reach farthest, and again.
-/// Linear in them times the logarithm of the number of pieces.
+/// By bisection: the points (one a simplex, finite) are halved where they reach farthest, and
+/// again. Linear in them times the logarithm of the number of pieces.
 [[nodiscard]] Partition bisected(std::span<const std::array<float, 3>> points, std::size_t size);
 
 /// Without points: pieces grow breadth first, each from where the last one stopped, so that crumbs

@@ -19,9 +19,8 @@ namespace plexway {
 
 /// How a surface is cut and how its pieces take turns. Of the surface alone, never of threads.
 struct PieceSettings {
-  std::size_t size;         ///< triangles a piece
-  double pace = 1. / 16;    ///< a superstep's, in roots of the size: mean edges
-  double threshold = 0.01;  ///< gains below this many mean edges are not posted
+  std::size_t size;       ///< triangles a piece
+  double pace = 1. / 16;  ///< a superstep's, in roots of the size: mean edges
 };
 
 /// A team does the work of a solve on a surface, piece by piece. Seeds, pinches, revivals and
@@ -43,12 +42,11 @@ class PieceCrew : public TeamCrew<Real, kLabels> {
     const Cut& cut = patches.cut();
     std::deque<Piece> pieces;
     for (std::size_t p = 0; p < patches.count(); ++p)
-      pieces.emplace_back(cut.pieces[p], patches[p], propagation.rule(),
-                          typename Piece::Settings{
-                              &this->options_, this->step_,
-                              static_cast<Real>(this->options_.radius / this->unit_),
-                              mesh_.summary().refracting_edges > 0, simplices, this->unit_,
-                              static_cast<Real>(settings_.threshold)});
+      pieces.emplace_back(
+          cut.pieces[p], patches[p], propagation.rule(),
+          typename Piece::Settings{&this->options_, this->step_,
+                                   static_cast<Real>(this->options_.radius / this->unit_),
+                                   mesh_.summary().refracting_edges > 0, simplices, this->unit_});
     const double pace = settings_.pace * std::sqrt(static_cast<double>(settings_.size));
     Supersteps<Piece> supersteps(this->team_, pieces, static_cast<Real>(pace), simplices,
                                  this->unit_, this->options_, this->workspace_.pieces.counts());

@@ -28,9 +28,8 @@ namespace plexway {
 ///
 /// A piece:
 ///   cut()               who its peers are
-///   mail()              its letters; take(letter), run(horizon, most, updates), post(superstep, work)
-///   nearest()           no nearer label waits in it
-///   statistics()        what it did so far
+///   mail()              its letters; take(letter), run(horizon, most, updates), post(superstep,
+///   work) nearest()           no nearer label waits in it statistics()        what it did so far
 template <class Piece>
 class Supersteps {
  public:
@@ -167,7 +166,8 @@ class Supersteps {
     done_.expansions += expansions;
     recent_ += expansions;
     constexpr double most_repeats = 0.3;
-    plan(nearest, static_cast<double>(first) < (1 - most_repeats) * static_cast<double>(expansions));
+    plan(nearest,
+         static_cast<double>(first) < (1 - most_repeats) * static_cast<double>(expansions));
     report();
   }
 

@@ -59,7 +59,8 @@ class TrianglePropagation {
 
   void seed_vertex(Index vertex, Real sigma, Index number) {
     mesh_.corners_at(vertex, workspace_.corners);
-    for (const Index c : workspace_.corners) spread_.rule().seed_corner(c / 3, c % 3, sigma, number);
+    for (const Index c : workspace_.corners)
+      spread_.rule().seed_corner(c / 3, c % 3, sigma, number);
   }
 
   void run() {

@@ -45,8 +45,7 @@ TEST_CASE("pieces are of one size, compact, and the same each time") {
   const bool with_points = GENERATE(true, false);
   const auto points = with_points ? board.points() : std::vector<std::array<float, 3>>();
   const std::size_t size = GENERATE(100u, 450u);
-  const Partition partition =
-      plexway::partition(board.count(), size, points, board.neighbours());
+  const Partition partition = plexway::partition(board.count(), size, points, board.neighbours());
   INFO(with_points << " " << size);
   REQUIRE(partition.piece_of.size() == board.count());
   for (const std::size_t n : sizes(partition)) {
@@ -65,8 +64,8 @@ TEST_CASE("pieces are of one size, compact, and the same each time") {
 
 TEST_CASE("a partition of little is whole") {
   const Board board = {3, 2};
-  const auto points = GENERATE(true, false) ? Board{3, 2}.points()
-                                            : std::vector<std::array<float, 3>>();
+  const auto points =
+      GENERATE(true, false) ? Board{3, 2}.points() : std::vector<std::array<float, 3>>();
   const Partition one = partition(board.count(), 100, points, board.neighbours());
   CHECK(one.pieces == 1);
   CHECK(one.piece_of == std::vector<Index>(6, 0));
@@ -82,7 +81,8 @@ TEST_CASE("a partition of little is whole") {
 TEST_CASE("pieces know their peers, and peers what they have as ghosts") {
   const Board board = {40, 31};
   const auto neighbours = board.neighbours();
-  const Cut cut = plexway::cut(partition(board.count(), 60, board.points(), neighbours), neighbours);
+  const Cut cut =
+      plexway::cut(partition(board.count(), 60, board.points(), neighbours), neighbours);
   std::size_t own = 0;
   for (Index p = 0; p < cut.pieces.size(); ++p) {
     const CutPiece& piece = cut.pieces[p];

@@ -25,10 +25,10 @@ OpenMP pieces(int threads, std::size_t size) { return {.threads = threads, .piec
 PropagateOptions fast() { return at(Accuracy::fast()); }
 
 std::vector<Surface> surfaces() {
-  std::vector<Surface> all = {grid(24, 24),      grid(40, 12, 3, 1),  slit_square(12),
-                              cube(8),           sphere(4),           prism(24, 12, 2),
-                              moebius(60, 8),    sheets(3, 8),        bow_tie(10),
-                              soup(60, 120, 1),  soup(80, 60, 2),     subdivide(tetrahedron())};
+  std::vector<Surface> all = {grid(24, 24),     grid(40, 12, 3, 1), slit_square(12),
+                              cube(8),          sphere(4),          prism(24, 12, 2),
+                              moebius(60, 8),   sheets(3, 8),       bow_tie(10),
+                              soup(60, 120, 1), soup(80, 60, 2),    subdivide(tetrahedron())};
   for (unsigned seed = 1; seed <= 4; ++seed) all.push_back(random_polygon(6, 120, 120, seed));
   return all;
 }
@@ -157,8 +157,7 @@ TEST_CASE("pieces: as accurate as Serial on curved surfaces") {
         std::size_t count = 0;
         for (std::size_t v = 0; v < exact.distance.size(); ++v) {
           if (!(exact.distance[v] > 0)) continue;
-          const double e =
-              std::abs(static_cast<double>(field.distance[v]) / exact.distance[v] - 1);
+          const double e = std::abs(static_cast<double>(field.distance[v]) / exact.distance[v] - 1);
           sum += e, most = std::max(most, e), ++count;
         }
         return sum / static_cast<double>(count);

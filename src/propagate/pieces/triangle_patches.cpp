@@ -129,8 +129,8 @@ void TrianglePatches<Real>::take_records(const TriangleMesh<Real>& mesh, Index n
         patch.leads_in[i - piece.own] |= static_cast<std::uint8_t>(1 << e);
       }
       const Index g = here(t.across[e] >> Across::face_shift);
-      t.across[e] = g == none ? end << Across::face_shift
-                              : g << Across::face_shift | (t.across[e] & rest);
+      t.across[e] =
+          g == none ? end << Across::face_shift : g << Across::face_shift | (t.across[e] & rest);
     }
   }
   for (Index& across : patch.triangles[end].across)
@@ -142,8 +142,8 @@ template <class Real>
 std::size_t TrianglePatch<Real>::bytes() const {
   const auto of = [](const auto& v) { return v.capacity() * sizeof(v[0]); };
   return of(triangles) + of(leads_in) + marks.bytes() + front.capacity * 2 * sizeof(Index) +
-         labels.bytes() + of(source) + of(posted) + of(is_new) + of(vertices) + of(is_shared) + of(vertex) +
-         of(vertex_source) + mail.box[0].bytes() + mail.box[1].bytes();
+         labels.bytes() + of(source) + of(posted) + of(is_new) + of(vertices) + of(is_shared) +
+         of(vertex) + of(vertex_source) + mail.box[0].bytes() + mail.box[1].bytes();
 }
 
 template <class Real>

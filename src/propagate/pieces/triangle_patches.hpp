@@ -30,7 +30,7 @@ struct TrianglePatch {
   FrontStorage front;
   Room labels;
   std::vector<Index> source;
-  std::vector<Real> posted;         ///< of those at a cut: the distance last told,
+  std::vector<Real> posted;          ///< of those at a cut: the distance last told,
   std::vector<std::uint8_t> is_new;  ///< and is it told now?
   Outboxes mail;
   std::vector<Real> vertex;  ///< read-out, and its labels

@@ -37,7 +37,6 @@ class TrianglePiece {
     bool refracts;
     std::size_t faces;
     double unit;
-    Real threshold;  ///< a label is posted if it is so much nearer than what was posted before
   };
 
   /// `like` is the rule, on any front.
@@ -46,7 +45,6 @@ class TrianglePiece {
                 const Settings& settings)
       : cut_(cut),
         patch_(patch),
-        threshold_(settings.threshold),
         front_(base(cut, patch, settings), cut.own),
         spread_(patch.triangles, like.over(patch.triangles, front_), front_, settings.radius,
                 settings.refracts, settings.faces) {
@@ -105,7 +103,7 @@ class TrianglePiece {
     for (Index i = 0; i < cut_.at_cut; ++i) {
       if (!front_.reached(i) || front_.waits(i)) continue;
       const Real d = spread_.rule().distance(i);
-      if (!(d < patch_.posted[i] - threshold_)) continue;
+      if (!(d < patch_.posted[i])) continue;
       patch_.posted[i] = d;
       patch_.is_new[i] = 1;
       least = std::min(least, d);
@@ -192,7 +190,6 @@ class TrianglePiece {
 
   const CutPiece& cut_;
   TrianglePatch<Real>& patch_;
-  Real threshold_;
   bool last_resort_ = false;
   Front front_;
   TriangleSpread<Real, Rule, Front> spread_;
