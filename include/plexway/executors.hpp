@@ -54,7 +54,7 @@ struct OpenMP {
   int threads = 0;  ///< 0: as many as OpenMP would take (OMP_NUM_THREADS, or one a core)
   /// Simplices that a thread takes at a time. Fronts up to this size are one thread's work.
   std::size_t chunk = 128;
-  /// Surfaces, Accuracy::fast: not 0, and the surface is cut into pieces of about so many triangles
+  /// Surfaces and clouds, Accuracy::fast: not 0, and the surface is cut into pieces of about so many triangles
   /// (2,000 to 4,000 are best), which exchange labels over their borders, a thread each, instead of
   /// rounds over the whole front. Threads then wait for each other some dozens of times a solve
   /// instead of thousands. The result is again the same to the last bit with any number of threads,
