@@ -85,7 +85,7 @@ class TeamCrew {
 
   [[nodiscard]] const Team& team() const { return team_; }
 
- private:
+ protected:
   // Nothing waits in the front's second queue while the team works: it has room for all simplices.
   [[nodiscard]] Index* list() const { return workspace_.front.far.get(); }
 

@@ -5,9 +5,11 @@
 #include <span>
 #include <type_traits>
 
+#include <plexway/complex/triangle_mesh.hpp>
 #include <plexway/executors.hpp>
 
 #include "executors/crew.hpp"
+#include "executors/piece_crew.hpp"
 #include "executors/unordered.hpp"
 #include "propagate/alone.hpp"
 #include "propagate/finish.hpp"
@@ -24,8 +26,9 @@ void drive(const Serial&, const D& domain, std::span<const PointSource>,
 }
 
 template <bool kLabels, class D, class Real, class Solve>
-void drive(const OpenMP& executor, const D& domain, std::span<const PointSource> sources,
-           const PropagateOptions& options, Workspace<Real>& workspace, const Solve& solve) {
+void drive_in_rounds(const OpenMP& executor, const D& domain, std::span<const PointSource> sources,
+                     const PropagateOptions& options, Workspace<Real>& workspace,
+                     const Solve& solve) {
   const Team team(executor);
   check_ties(sources);
   workspace.front.reserve(domain.simplex_count());
@@ -33,6 +36,33 @@ void drive(const OpenMP& executor, const D& domain, std::span<const PointSource>
   const TeamCrew<Real, kLabels> crew(team, workspace, step_of<Real>(options), domain.unit(),
                                      options);
   solve(queue, crew);
+}
+
+template <bool kLabels, class D, class Real, class Solve>
+void drive(const OpenMP& executor, const D& domain, std::span<const PointSource> sources,
+           const PropagateOptions& options, Workspace<Real>& workspace, const Solve& solve) {
+  drive_in_rounds<kLabels>(executor, domain, sources, options, workspace, solve);
+}
+
+/// On surfaces by pieces where that is asked for.
+template <bool kLabels, class Real, class Solve>
+void drive(const OpenMP& executor, const TriangleMesh<Real>& mesh,
+           std::span<const PointSource> sources, const PropagateOptions& options,
+           Workspace<Real>& workspace, const Solve& solve) {
+  if (executor.piece == 0) {
+    drive_in_rounds<kLabels>(executor, mesh, sources, options, workspace, solve);
+    return;
+  }
+  const Team team(executor);
+  const PieceSettings settings = {.size = executor.piece};
+  if (mesh.face_count() < executor.piece + executor.piece / 2) {  // one piece: the serial loop
+    drive<kLabels>(Serial{}, mesh, sources, options, workspace, solve);
+    return;
+  }
+  workspace.front.reserve(mesh.face_count());
+  const DualQueue<Real> queue(workspace.front, std::numeric_limits<Real>::infinity());
+  const TeamCrew<Real, kLabels> crew(team, workspace, step_of<Real>(options), mesh.unit(), options);
+  solve(queue, PieceCrew<Real, kLabels>(crew, mesh, settings));
 }
 
 /// Calls `solve` with std::true_type where vertices have labels: from more than one source.

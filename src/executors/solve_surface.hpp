@@ -72,7 +72,9 @@ void solve(const TriangleMesh<Real>& mesh, std::span<const PointSource> sources,
   const std::size_t vertices = mesh.vertex_count();
   workspace.vertex.assign(vertices, infinity);
   if constexpr (kLabels) workspace.vertex_source.assign(vertices, none);
-  if constexpr (requires { crew.team(); })
+  if constexpr (requires { crew.read_out(workspace); })
+    crew.read_out(workspace);
+  else if constexpr (requires { crew.team(); })
     read_out_triangles<Real, kLabels>(crew.team(), mesh.triangles(), rule, front, workspace);
   else
     read_out_triangles<Real, kLabels>(mesh.triangles(), rule, front, workspace);

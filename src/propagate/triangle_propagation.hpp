@@ -13,6 +13,8 @@
 #include <plexway/propagate/workspace.hpp>
 #include <plexway/source/point_source.hpp>
 
+#include "propagate/triangle_spread.hpp"
+
 namespace plexway {
 
 /// One propagation over a surface from seeds to the last label, for any rule and front.
@@ -24,10 +26,10 @@ class TrianglePropagation {
       : mesh_(mesh),
         triangles_(mesh.triangles()),
         workspace_(workspace),
-        rule_(rule),
         front_(front),
         radius_(static_cast<Real>(options.radius / mesh.unit())),
-        refracts_(mesh.summary().refracting_edges > 0) {}
+        spread_(triangles_, rule, front, radius_, mesh.summary().refracting_edges > 0,
+                mesh.face_count()) {}
 
   void seed(const PointSource& source, Index number) {
     const Real sigma = static_cast<Real>(source.offset / mesh_.unit());
@@ -52,12 +54,13 @@ class TrianglePropagation {
     const double x =
         b[1] * static_cast<double>(t.length[0]) + b[2] * static_cast<double>(t.apex_x(0));
     const double y = b[2] * static_cast<double>(t.apex_h(0));
-    rule_.seed_inside(f, static_cast<Real>(x), static_cast<Real>(y), sigma, number);
+    spread_.rule().seed_inside(f, static_cast<Real>(x), static_cast<Real>(y), sigma, number);
   }
 
   void seed_vertex(Index vertex, Real sigma, Index number) {
     mesh_.corners_at(vertex, workspace_.corners);
-    for (const Index c : workspace_.corners) rule_.seed_corner(c / 3, c % 3, sigma, number);
+    for (const Index c : workspace_.corners)
+      spread_.rule().seed_corner(c / 3, c % 3, sigma, number);
   }
 
   void run() {
@@ -77,9 +80,9 @@ class TrianglePropagation {
   /// Expands triangles for the front of a thread. `rounds.updates()` says how much was done so far.
   template <class Other, class Rounds>
   [[nodiscard]] auto expander(Other& front, bool last_resort, const Rounds& rounds) const {
-    return Expander<Other, Rounds>{*this, front, rule_.on(front), rounds, last_resort};
+    return Expander<Other, Rounds>{*this, front, rule().on(front), rounds, last_resort};
   }
-  [[nodiscard]] const Rule& rule() const { return rule_; }
+  [[nodiscard]] const Rule& rule() const { return spread_.rule(); }
 
  private:
   template <class Other, class Rounds>
@@ -91,10 +94,11 @@ class TrianglePropagation {
     bool last_resort;
 
     void operator()(Index f) {
-      if (propagation.refracts_) [[unlikely]]
-        propagation.limit(rule, rounds.updates());
-      propagation.expand(rule, front, f, last_resort,
-                         [this](Index g, std::size_t edge) { rule.cross(g, edge, last_resort); });
+      const auto& spread = propagation.spread_;
+      if (spread.refracts()) [[unlikely]]
+        spread.limit(rule, rounds.updates());
+      spread.expand(rule, front, f, last_resort,
+                    [this](Index g, std::size_t edge) { rule.cross(g, edge, last_resort); });
     }
     void narrow(Index f) const requires requires(const Rule& any) { any.hear(f); }
     { rule.hear(f); }
@@ -105,63 +109,12 @@ class TrianglePropagation {
  public:  // the parts of run, for those who must not look at the whole surface
   void spread(bool last_resort) {
     Index f = 0;
-    while (!spread_share(last_resort, f)) {
-      if (!front_.take_stock(rule_.distance(f))) return;
-      if (refracts_) limit(rule_, front_.updates());
+    while (!spread_.share(last_resort, f)) {
+      if (!front_.take_stock(spread_.rule().distance(f))) return;
+      if (spread_.refracts()) spread_.limit(spread_.rule(), front_.updates());
     }
   }
 
- private:
-  /// Two updates a triangle are usual. Where lengths are no metric at all, refracted paths might
-  /// get shorter each time around, without end: from 64 on they must gain more and more.
-  template <class AnyRule>
-  void limit(AnyRule& rule, std::size_t updates) const {
-    if constexpr (requires { rule.set_patience(Real(1)); }) {
-      const double more =
-          static_cast<double>(updates) / (64 * static_cast<double>(mesh_.face_count()));
-      if (more > 1) rule.set_patience(std::max(static_cast<Real>(2 - more), Real(1e-20)));
-    }
-  }
-
-  /// The hot loop, until no triangle waits (true) or the share of the budget is spent. It works on
-  /// a copy of the front that nothing points to, which the compiler can keep in registers; the
-  /// rare full rule gets the original.
-  bool spread_share(bool last_resort, Index& f) {
-    Front wave = front_;
-    const Rule rule = rule_.on(wave);
-    const auto full = [&](Index g, std::size_t edge) {
-      front_ = wave;
-      rule_.cross(g, edge, last_resort);
-      wave = front_;
-    };
-    const auto distance_of = [&](Index g) { return rule.distance(g); };
-    while (wave.next(f, distance_of)) expand(rule, wave, f, last_resort, full);
-    front_ = wave;
-    return !wave.share_spent();
-  }
-
-  /// One triangle, as far as the radius allows; full(f, edge) is for the rare full rule.
-  template <class OnFront, class AnyFront, class Full>
-  [[gnu::always_inline]] void expand(const OnFront& rule, const AnyFront& front, Index f,
-                                     bool last_resort, const Full& full) const {
-    const Real radius = radius_;
-    if (rule.distance(f) > radius) [[unlikely]]
-      if (rule.distance(f) - size(triangles_[f]) > radius) return;
-    if (last_resort) [[unlikely]] {
-      for (std::size_t e = 0; e < 3; ++e)
-        if (e != front.hinge(f)) full(f, e);
-      return;
-    }
-    rule.expand(f, full);
-  }
-
-  /// No point of a triangle is farther from its centre: two thirds of a median, and no median is
-  /// longer than the longest edge.
-  static Real size(const TriangleRecord<Real>& t) {
-    return std::max({t.length[0], t.length[1], t.length[2]}) * (Real(2) / 3);
-  }
-
- public:
   /// A path may pass a vertex where fans of triangles only touch: it bends there (a hinge of
   /// dimension 0). True if some triangle got a better label.
   bool pass_pinches(std::span<const Index> pinched) {
@@ -172,17 +125,17 @@ class TrianglePropagation {
       Index number = none;
       for (const Index c : workspace_.corners) {
         if (!front_.reached(c / 3)) continue;
-        const Real d = rule_.corner_distance(c / 3, c % 3);
+        const Real d = spread_.rule().corner_distance(c / 3, c % 3);
         if (d < best) best = d, number = front_.source(c / 3);
       }
       if (!(best < std::numeric_limits<Real>::infinity()) || best > radius_) continue;
       for (const Index c : workspace_.corners) {
         const std::size_t i = c % 3;
         // Within rounding of its own path it stays with that one; else this would not end.
-        if (front_.reached(c / 3) && rule_.corner_distance(c / 3, i) <=
+        if (front_.reached(c / 3) && spread_.rule().corner_distance(c / 3, i) <=
                                          best * (1 + 64 * std::numeric_limits<Real>::epsilon()))
           continue;
-        any |= rule_.seed_corner(c / 3, i, best, number);
+        any |= spread_.rule().seed_corner(c / 3, i, best, number);
       }
     }
     return any;
@@ -201,7 +154,7 @@ class TrianglePropagation {
       if (!front_.reached(f)) continue;
       for (std::size_t e = 0; e < 3; ++e) {
         const Index g = triangles_[f].across[e] >> Across::face_shift;
-        if (!front_.reached(g) && e != front_.hinge(f)) rule_.cross(f, e, true);
+        if (!front_.reached(g) && e != front_.hinge(f)) spread_.rule().cross(f, e, true);
       }
     }
     return front_.updates() != before;
@@ -210,10 +163,9 @@ class TrianglePropagation {
   const TriangleMesh<Real>& mesh_;
   std::span<const TriangleRecord<Real>> triangles_;
   Workspace<Real>& workspace_;
-  Rule rule_;
   Front& front_;
   Real radius_;
-  bool refracts_;
+  TriangleSpread<Real, Rule, Front> spread_;
 };
 
 }  // namespace plexway

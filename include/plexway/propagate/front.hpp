@@ -32,7 +32,8 @@ struct FrontStorage {
 ///
 /// GSP's dual queue (GSP 2021, section 5) with one change: what is still beyond the limit when its
 /// turn comes goes back to the second queue, so that the order stays near to far for any step. With
-/// an infinite step it is a plain queue. Each simplex waits at most once.
+/// an infinite step it is a plain queue. Each simplex waits at most once. What is at a horizon or
+/// beyond waits until that moves on.
 template <class Real>
 class DualQueue {
  public:
@@ -58,7 +59,7 @@ class DualQueue {
   [[gnu::always_inline]] bool pop(Index& simplex, DistanceOf distance_of) {
     for (;;) {
       if (near_begin_ == near_end_) {
-        if (far_end_ == 0) return false;
+        if (far_end_ == 0 || nearest_far_ >= horizon_) return false;
         std::swap(near_, far_);
         near_begin_ = 0;
         near_end_ = far_end_;
@@ -66,6 +67,7 @@ class DualQueue {
         limit_ = std::max(limit_, nearest_far_) + step_;
         if (!(nearest_far_ < limit_))  // the step drowns in the distance
           limit_ = std::nextafter(nearest_far_, std::numeric_limits<Real>::infinity());
+        if (!(limit_ + step_ / 2 < horizon_)) limit_ = horizon_;  // no short turn before it
         nearest_far_ = std::numeric_limits<Real>::infinity();
       }
       simplex = near_[near_begin_];
@@ -79,6 +81,19 @@ class DualQueue {
     }
   }
 
+  /// Never moves back. Before the first it is infinite.
+  void set_horizon(Real horizon) {
+    horizon_ = horizon;
+    limit_ = std::min(limit_, horizon);
+  }
+  /// No simplex that waits is nearer: 0 where some are in turn, +inf where none waits.
+  [[nodiscard]] Real nearest() const {
+    if (near_begin_ != near_end_) return 0;
+    return far_end_ == 0 ? std::numeric_limits<Real>::infinity() : nearest_far_;
+  }
+  /// One that waits has got nearer than it was when it was added.
+  void note(Real distance) { nearest_far_ = std::min(nearest_far_, distance); }
+
  private:
   std::size_t advance(std::size_t at, bool by) const { return (at + by) & (capacity_ - 1); }
 
@@ -87,6 +102,7 @@ class DualQueue {
   std::size_t capacity_;
   std::size_t near_begin_ = 0, near_end_ = 0, far_end_ = 0;
   Real step_, limit_;
+  Real horizon_ = std::numeric_limits<Real>::infinity();
   Real nearest_far_ = std::numeric_limits<Real>::infinity();
 };
 

@@ -50,6 +50,13 @@ class PlainRule {
     return PlainRule<Real, Other>({triangles_, sentinel_ + std::size_t{1}}, front, aim_);
   }
 
+  /// The same rule over other triangles.
+  template <class Other>
+  [[nodiscard]] PlainRule<Real, Other> over(std::span<const TriangleRecord<Real>> triangles,
+                                            Other& front) const {
+    return PlainRule<Real, Other>(triangles, front, aim_);
+  }
+
   void prefetch(Index) const {}
   void prefetch_around(Index) const {}
 

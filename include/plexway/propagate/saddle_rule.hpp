@@ -49,6 +49,13 @@ class SaddleRule : public SaddlePoses<Real> {
     return rule;
   }
 
+  /// The same rule over other triangles.
+  template <class Other>
+  [[nodiscard]] SaddleRule<Real, Other> over(std::span<const TriangleRecord<Real>> triangles,
+                                             Other& front) const {
+    return SaddleRule<Real, Other>(triangles, front, vectorised_);
+  }
+
   /// Below 1, a refracted path must be shorter by that factor to count.
   void set_patience(Real patience) { patience_ = patience; }
 

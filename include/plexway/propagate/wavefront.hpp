@@ -46,6 +46,9 @@ class Wavefront {
     return mark_[s] & VisitMarks::hinge_mask;
   }
 
+  /// A reached simplex: is it still to be expanded?
+  [[nodiscard]] bool waits(Index s) const { return (mark_[s] & VisitMarks::waiting) != 0; }
+
   [[nodiscard, gnu::always_inline]] const Label& label(Index s) const { return labels_[s]; }
   [[nodiscard]] Label* labels() const { return labels_; }
   /// Changes a label and nothing else.
@@ -65,6 +68,14 @@ class Wavefront {
     queue_.push(s, distance, !waits);
     reached_ += !known;
     ++updates_;
+  }
+
+  /// Likewise, but it need not wait for that: nothing is to be told from there.
+  void know(Index s, std::size_t hinge, const Label& label, Index source) {
+    labels_[s] = label;
+    const bool waits = reached(s) && this->waits(s);
+    mark_[s] = static_cast<VisitMarks::Mark>(current_ | (waits ? VisitMarks::waiting : 0) | hinge);
+    if constexpr (kLabels) source_[s] = source;
   }
 
   [[nodiscard]] Index source(Index s) const {
@@ -117,6 +128,7 @@ class Wavefront {
   }
 
   [[nodiscard]] const Queue& queue() const { return queue_; }
+  [[nodiscard]] Queue& queue() { return queue_; }
 
   [[nodiscard]] bool share_spent() const { return countdown_ == 0; }
   [[nodiscard]] std::size_t expansions() const { return granted_ - countdown_; }
@@ -127,6 +139,12 @@ class Wavefront {
   /// For rules whose steps take microseconds: shares are small, so that who wants to stop is heard
   /// within some hundredths of a second.
   void expect_slow_steps() { share_ = 4096; }
+
+  /// So many expansions from now on, by one who keeps count himself: instead of `take_stock`.
+  void grant(std::size_t expansions) {
+    granted_ += expansions - countdown_;
+    countdown_ = expansions;
+  }
 
   /// Grants the next share of the budget and reports progress. `distance` is where the front is.
   /// False if the budget is spent. Throws Cancelled, and EndlessError.

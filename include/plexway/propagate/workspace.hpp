@@ -6,6 +6,7 @@
 #include <plexway/complex/ids.hpp>
 #include <plexway/propagate/front.hpp>
 #include <plexway/propagate/label_storage.hpp>
+#include <plexway/propagate/piece_memory.hpp>
 #include <plexway/propagate/plain_label.hpp>
 #include <plexway/propagate/plain_solid_label.hpp>
 #include <plexway/propagate/room.hpp>
@@ -33,6 +34,7 @@ struct Workspace {
   /// The queues.
   FrontStorage front;
   TeamRooms team;                    ///< for executors with several threads
+  PieceMemory<Real> pieces;          ///< likewise, on surfaces
   std::vector<Real> vertex;          ///< read-out, in the numbers inside
   std::vector<Index> vertex_source;  ///< its labels
   std::vector<Index> corners;        ///< around one vertex
@@ -53,7 +55,7 @@ struct Workspace {
            plain.count * sizeof(PlainLabel<Real>) + solids.count * sizeof(SolidLabel<Real>) +
            plain_solids.count * sizeof(PlainSolidLabel<Real>) + simplex.bytes() + of(source) +
            windows.bytes() + of(vertex) + of(vertex_source) + of(corners) +
-           front.capacity * 2 * sizeof(Index) + of(front.heap) + team.bytes();
+           front.capacity * 2 * sizeof(Index) + of(front.heap) + team.bytes() + pieces.bytes();
   }
 };
 

@@ -1,0 +1,143 @@
+// One source on a surface by pieces (OpenMP::piece) against Serial. Counts are the same on any
+// machine and with any number of threads; times are taken in turns. The model says what recorded
+// counts come to on more threads: each superstep's runs are dealt to the threads longest first, a
+// run costs its expansions and some, a superstep what a barrier does.
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include <plexway/solve.hpp>
+
+#include "compare.hpp"
+
+namespace {
+
+using namespace plexway;
+using Mesh = TriangleMesh<float>;
+
+struct Settings {
+  std::vector<std::string> meshes;
+  std::vector<std::size_t> generated;
+  std::vector<std::size_t> sizes = {1024, 2048, 4096};
+  int threads = 2;
+  double run_cost = 12, barrier_cost = 60;  // in expansions
+};
+
+/// How many times as fast as `expansions` one after the other.
+double modelled(const std::vector<std::vector<std::size_t>>& log, std::size_t threads,
+                double expansions, const Settings& settings) {
+  double time = 0;
+  for (std::vector<std::size_t> runs : log) {
+    std::sort(runs.begin(), runs.end(), std::greater<>());
+    std::vector<double> busy(threads, 0);
+    for (const std::size_t run : runs)
+      *std::min_element(busy.begin(), busy.end()) += static_cast<double>(run) + settings.run_cost;
+    time += *std::max_element(busy.begin(), busy.end());
+    if (threads > 1 && runs.size() > 1) time += settings.barrier_cost;
+  }
+  return expansions / time;
+}
+
+void measure(const bench::Surface& surface, const bench::Effort& effort, const Settings& settings,
+             bench::Table& table) {
+  const Mesh mesh(surface.positions, surface.faces);
+  const double faces = static_cast<double>(mesh.face_count());
+  PropagateOptions options;
+  options.accuracy = Accuracy::fast();
+  const auto sources = bench::rotating_sources(surface, effort.sources);
+  Workspace<float> alone;
+  DistanceField<float> field;
+  const auto solve_by = [&](const auto& executor, Workspace<float>& workspace) {
+    return [&, executor](Index source) {
+      const PointSource from[] = {PointSource::at(source)};
+      solve(executor, mesh, from, options, workspace, field);
+    };
+  };
+  for (const std::size_t size : settings.sizes) {
+    Workspace<float> workspace;
+    SuperstepCounts& counts = workspace.pieces.counts();
+    counts.keeps_log = true;
+    double serial = 0, by_pieces = 0, supersteps = 0, letters = 0, bytes = 0;
+    double model[4] = {};
+    const auto first = bench::seconds([&] { solve_by(OpenMP{1, 128, size}, workspace)(0); });
+    for (const Index source : sources) {
+      solve_by(Serial{}, alone)(source);
+      const double expansions = static_cast<double>(field.statistics.expansions);
+      serial += expansions / faces;
+      solve_by(OpenMP{1, 128, size}, workspace)(source);
+      by_pieces += static_cast<double>(field.statistics.expansions) / faces;
+      supersteps += static_cast<double>(counts.supersteps);
+      letters += static_cast<double>(counts.letters) / faces;
+      bytes += static_cast<double>(counts.bytes) / faces;
+      for (std::size_t i = 0; const std::size_t threads : {2, 4, 8, 64})
+        model[i++] += modelled(counts.log, threads, expansions, settings);
+    }
+    counts.keeps_log = false;
+    const bench::Times times =
+        bench::take_turns(sources, effort, solve_by(Serial{}, alone),
+                          solve_by(OpenMP{settings.threads, 128, size}, workspace));
+    const double n = static_cast<double>(sources.size());
+    table.add({{"mesh", surface.name},
+               {"faces", mesh.face_count()},
+               {"size", size},
+               {"supersteps", supersteps / n},
+               {"serial", serial / n},
+               {"expansions", by_pieces / n},
+               {"letters", letters / n},
+               {"bytes", bytes / n},
+               {"kept", static_cast<double>(workspace.pieces.bytes()) / faces},
+               {"cut_ns", 1e9 * (first - times.second) / faces},
+               {"model2", model[0] / n},
+               {"model4", model[1] / n},
+               {"model8", model[2] / n},
+               {"model64", model[3] / n},
+               {"serial_ms", 1e3 * times.first},
+               {"ms", 1e3 * times.second},
+               {"speed", 1 / times.ratio}});
+  }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  Settings settings;
+  bench::Effort effort;
+  effort.sources = 3;
+  bench::Report report;
+  CLI::App app("Surfaces by pieces: counts, a model of more threads, times beside Serial");
+  app.add_option("MESH", settings.meshes, "Surfaces");
+  app.add_option("--generated", settings.generated, "Bumpy spheres of about so many vertices");
+  app.add_option("--sizes", settings.sizes, "Triangles a piece", true);
+  app.add_option("--threads", settings.threads, "Threads of the runs that are timed", true);
+  app.add_option("--sources", effort.sources, "Sources a mesh", true);
+  app.add_option("--budget", effort.budget, "Seconds a row", true);
+  report.add_options(app);
+  CLI11_PARSE(app, argc, argv);
+  bench::Table table({{"mesh", "mesh"},
+                      {"faces", "triangles"},
+                      {"size", "a piece"},
+                      {"supersteps", "supersteps", "%.0f"},
+                      {"serial", "expansions a triangle, Serial", "%.3f"},
+                      {"expansions", "pieces", "%.3f"},
+                      {"letters", "letters a triangle", "%.3f"},
+                      {"bytes", "their bytes", "%.1f"},
+                      {"kept", "bytes kept", "%.0f"},
+                      {"cut_ns", "cutting, ns a triangle", "%.0f"},
+                      {"model2", "model, 2 threads", "%.2f"},
+                      {"model4", "4", "%.2f"},
+                      {"model8", "8", "%.2f"},
+                      {"model64", "64", "%.2f"},
+                      {"serial_ms", "Serial, ms", "%.1f"},
+                      {"ms", "pieces, ms", "%.1f"},
+                      {"speed", "speed", "%.2f"}});
+  return report.write(table, [&] {
+    for (const std::string& mesh : settings.meshes)
+      measure(bench::read_surface(mesh), effort, settings, table);
+    for (const std::size_t vertices : settings.generated)
+      measure(bench::bumpy_surface(vertices), effort, settings, table);
+  });
+}

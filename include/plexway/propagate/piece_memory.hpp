@@ -1,0 +1,52 @@
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <vector>
+
+#include <plexway/complex/triangle_mesh.hpp>
+
+namespace plexway {
+
+template <class Real>
+class TrianglePatches;
+
+/// What the last solve by pieces was like, whatever the threads.
+struct SuperstepCounts {
+  std::size_t supersteps = 0;
+  std::size_t runs = 0;     ///< of a piece in a superstep
+  std::size_t letters = 0;  ///< labels told to other pieces
+  std::size_t bytes = 0;    ///< of letters
+  /// If it is kept: of each superstep the expansions of each piece that ran.
+  std::vector<std::vector<std::size_t>> log;
+  bool keeps_log = false;
+};
+
+/// What solves by several threads keep of a surface that is cut into pieces, and the pieces' own
+/// memory. Holds nothing before the first.
+template <class Real>
+class PieceMemory {
+ public:
+  PieceMemory() noexcept;
+  ~PieceMemory();
+  PieceMemory(PieceMemory&&) noexcept;
+  PieceMemory& operator=(PieceMemory&&) noexcept;
+
+  /// The pieces of this surface: those of the last call, unless that was for another surface or
+  /// another size. About `size` triangles each. Cost of new ones: about a solve's.
+  TrianglePatches<Real>& of(const TriangleMesh<Real>& mesh, std::size_t size);
+
+  /// What the last solve was like.
+  [[nodiscard]] SuperstepCounts& counts() { return counts_; }
+
+  [[nodiscard]] std::size_t bytes() const;
+
+ private:
+  std::unique_ptr<TrianglePatches<Real>> patches_;
+  SuperstepCounts counts_;
+};
+
+extern template class PieceMemory<float>;
+extern template class PieceMemory<double>;
+
+}  // namespace plexway

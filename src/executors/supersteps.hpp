@@ -1,0 +1,238 @@
+#pragma once
+
+#include <algorithm>
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+#include <exception>
+#include <limits>
+#include <mutex>
+#include <vector>
+
+#include <plexway/error.hpp>
+#include <plexway/propagate/distance_field.hpp>
+#include <plexway/propagate/endless.hpp>
+#include <plexway/propagate/options.hpp>
+#include <plexway/propagate/piece_memory.hpp>
+
+#include "complex/cut.hpp"
+#include "executors/team.hpp"
+#include "propagate/pieces/mail.hpp"
+
+namespace plexway {
+
+/// A propagation in pieces by a team. In a superstep each piece that has something to do takes the
+/// letters of the superstep before, runs up to a horizon, and posts what its peers must know. So a
+/// piece depends on what it knew, on letters in a fixed order and on the horizon, which depends on
+/// sums and minima over all: the result is the same with any number of threads.
+///
+/// A piece:
+///   cut()               who its peers are
+///   mail()              its letters; take(letter), run(horizon, most, updates), post(superstep,
+///   work) nearest()           no nearer label waits in it statistics()        what it did so far
+template <class Piece>
+class Supersteps {
+ public:
+  using Real = typename Piece::Number;
+  using Letter = typename Piece::Letter;
+
+  /// `pieces` is indexed by their numbers. `pace`: so far the horizon moves on in a superstep, in
+  /// the unit inside, which is `unit` of the caller's; of `simplices` in all. `counts` are started
+  /// anew.
+  template <class Pieces>
+  Supersteps(const Team& team, Pieces& pieces, Real pace, std::size_t simplices, double unit,
+             const PropagateOptions& options, SuperstepCounts& counts)
+      : team_(team),
+        pace_(pace),
+        simplices_(simplices),
+        unit_(unit),
+        options_(options),
+        counts_(counts) {
+    counts_.supersteps = counts_.runs = counts_.letters = counts_.bytes = 0;
+    counts_.log.clear();
+    for (Piece& piece : pieces) pieces_.push_back(&piece);
+    after_.resize(pieces_.size());
+    awake_.resize(pieces_.size());
+    if (pieces_.size() == 1) pace_ = std::numeric_limits<Real>::infinity();
+  }
+
+  /// Until no label waits. `before` is what was done by others. False if it ended early, as
+  /// max_expansions were spent. Throws Cancelled and EndlessError.
+  bool run(const PropagateStatistics& before) {
+    before_ = before;
+    ended_ = complete_ = false;
+    for (std::size_t p = 0; p < pieces_.size(); ++p) after_[p].nearest = pieces_[p]->nearest();
+    plan(std::numeric_limits<Real>::infinity(), false);
+    Gate gate(team_.size());
+    if (!ended_)
+      team_.run([&](int i, int threads) {
+        while (!ended_) {
+          attempt([&] { work(); });
+          if (i != 0) {
+            gate.pass(threads);
+            continue;
+          }
+          gate.lead(threads, [&] {
+            attempt([&] {
+              advance();
+              // One piece is not worth waking the others for.
+              while (!ended_ && (threads == 1 || active_.size() == 1)) {
+                work();
+                advance();
+              }
+            });
+            if (failure_) ended_ = true;
+          });
+        }
+      });
+    if (failure_) std::rethrow_exception(failure_);
+    return complete_;
+  }
+
+  /// In all runs.
+  [[nodiscard]] const PropagateStatistics& done() const { return done_; }
+
+ private:
+  struct alignas(64) After {
+    Real nearest;  ///< of what waits there
+    Real told;     ///< of what it posted
+    PieceWork work;
+    std::size_t updates, reached;
+  };
+
+  template <class Work>
+  void attempt(const Work& work) noexcept {
+    try {
+      work();
+    } catch (...) {
+      const std::scoped_lock lock(failing_);
+      if (!failure_) failure_ = std::current_exception();
+    }
+  }
+
+  // ---- Together ----
+
+  void work() {
+    for (;;) {
+      const std::size_t i = cursor_.fetch_add(1, std::memory_order_relaxed);
+      if (i >= active_.size()) return;
+      step(active_[i], share_ + (i < more_));
+    }
+  }
+
+  void step(std::size_t p, std::size_t most) {
+    Piece& piece = *pieces_[p];
+    const CutPiece& cut = piece.cut();
+    for (std::size_t peer = 0; peer < cut.peer_count(); ++peer) {
+      const CutPiece::Peer& from = cut.peers[peer];
+      Outbox& box = pieces_[from.piece]->mail().of(superstep_ - 1);
+      for (const Letter& letter : box.template letters<Letter>(superstep_ - 1, from.place))
+        piece.take(letter);
+    }
+    After& after = after_[p];
+    after.work = piece.run(horizon_, most, updates_);
+    after.told = piece.post(superstep_, after.work);
+    after.nearest = piece.nearest();
+    const PropagateStatistics now = piece.statistics();
+    after.updates = now.updates;
+    after.reached = now.reached_simplices;
+  }
+
+  // ---- Alone, between supersteps ----
+
+  void advance() {
+    Real nearest = std::numeric_limits<Real>::infinity();
+    std::size_t expansions = 0, first = 0;
+    std::fill(awake_.begin(), awake_.end(), 0);
+    for (const std::size_t p : active_) {
+      const After& after = after_[p];
+      expansions += after.work.expansions;
+      first += after.work.first;
+      counts_.letters += after.work.letters;
+      counts_.bytes += after.work.letters * sizeof(Letter);
+      if (after.work.letters == 0) continue;
+      nearest = std::min(nearest, after.told);
+      const CutPiece& cut = pieces_[p]->cut();
+      const Outbox& box = pieces_[p]->mail().of(superstep_);
+      for (std::size_t peer = 0; peer < cut.peer_count(); ++peer)
+        if (box.has_letters(superstep_, peer)) awake_[cut.peers[peer].piece] = 1;
+    }
+    if (counts_.keeps_log) {
+      auto& runs = counts_.log.emplace_back();
+      for (const std::size_t p : active_) runs.push_back(after_[p].work.expansions);
+    }
+    ++counts_.supersteps;
+    counts_.runs += active_.size();
+    done_.expansions += expansions;
+    recent_ += expansions;
+    constexpr double most_repeats = 0.3;
+    plan(nearest,
+         static_cast<double>(first) < (1 - most_repeats) * static_cast<double>(expansions));
+    report();
+  }
+
+  /// The next superstep. `told` is the nearest of all letters.
+  void plan(Real told, bool withhold) {
+    Real nearest = told;
+    for (const After& after : after_) nearest = std::min(nearest, after.nearest);
+    if (!(nearest < std::numeric_limits<Real>::infinity())) {
+      ended_ = complete_ = true;
+      return;
+    }
+    horizon_ = std::max(nearest + pace_, withhold ? horizon_ : horizon_ + pace_);
+    if (!(nearest < horizon_))  // the pace drowns in the distance
+      horizon_ = std::nextafter(nearest, std::numeric_limits<Real>::infinity());
+    active_.clear();
+    for (std::size_t p = 0; p < pieces_.size(); ++p)
+      if (awake_[p] != 0 || after_[p].nearest < horizon_) active_.push_back(p);
+    // Not more than are left, in shares that depend on nothing but numbers.
+    const std::size_t spent = before_.expansions + done_.expansions;
+    check_end(spent, simplices_);
+    const std::size_t left = options_.max_expansions - std::min(options_.max_expansions, spent);
+    if (left == 0) {
+      ended_ = true;
+      return;
+    }
+    constexpr std::size_t most = 65536;
+    share_ = std::min(left / active_.size(), most);
+    more_ = share_ == most ? 0 : left % active_.size();
+    ++superstep_;
+    cursor_.store(0, std::memory_order_relaxed);
+    updates_ = before_.updates;
+    for (const After& after : after_) updates_ += after.updates;
+  }
+
+  void report() {
+    constexpr std::size_t often = 65536;
+    if (recent_ < often || !options_.progress) return;
+    recent_ = 0;
+    std::size_t reached = before_.reached_simplices;
+    for (const After& after : after_) reached += after.reached;
+    if (!options_.progress({before_.expansions + done_.expansions, reached, simplices_,
+                            static_cast<double>(horizon_) * unit_}))
+      throw Cancelled("cancelled by the progress callback");
+  }
+
+  const Team& team_;
+  std::vector<Piece*> pieces_;
+  Real pace_;
+  std::size_t simplices_;
+  double unit_;
+  const PropagateOptions& options_;
+
+  // Changed alone.
+  std::vector<After> after_;
+  std::vector<std::uint8_t> awake_;  // has letters to take
+  std::vector<std::size_t> active_;
+  Real horizon_ = 0;
+  std::size_t superstep_ = 1, share_ = 0, more_ = 0, updates_ = 0, recent_ = 0;
+  bool ended_ = false, complete_ = false;
+  PropagateStatistics before_, done_;
+  SuperstepCounts& counts_;
+
+  std::exception_ptr failure_;
+  std::mutex failing_;
+  alignas(64) std::atomic<std::size_t> cursor_{0};
+};
+
+}  // namespace plexway

@@ -1,0 +1,70 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include <plexway/complex/triangle_mesh.hpp>
+#include <plexway/propagate/front.hpp>
+#include <plexway/propagate/room.hpp>
+#include <plexway/propagate/visit_marks.hpp>
+
+#include "complex/cut.hpp"
+#include "propagate/pieces/mail.hpp"
+
+namespace plexway {
+
+/// What a piece of a surface keeps from solve to solve.
+template <class Real>
+struct TrianglePatch {
+  /// By the piece's numbers, and a sentinel. A ghost's other neighbours are cut off; corners are
+  /// numbers in `vertices`, those of ghosts `none`.
+  std::vector<TriangleRecord<Real>> triangles;
+  /// Of each ghost: bit e, if a triangle of the piece lies over its edge e.
+  std::vector<std::uint8_t> leads_in;
+  std::vector<Index> vertices;          ///< of its own triangles: the surface's numbers inside
+  std::vector<std::uint8_t> is_shared;  ///< of each: have other pieces got it, too?
+
+  VisitMarks marks;
+  FrontStorage front;
+  Room labels;
+  std::vector<Index> source;
+  std::vector<Real> posted;          ///< of those at a cut: the distance last told,
+  std::vector<std::uint8_t> is_new;  ///< and is it told now?
+  Outboxes mail;
+  std::vector<Real> vertex;  ///< read-out, and its labels
+  std::vector<Index> vertex_source;
+
+  [[nodiscard]] std::size_t bytes() const;
+};
+
+/// A surface cut into pieces.
+template <class Real>
+class TrianglePatches {
+ public:
+  /// About `size` triangles each.
+  TrianglePatches(const TriangleMesh<Real>& mesh, std::size_t size);
+
+  [[nodiscard]] bool is_for(const TriangleMesh<Real>& mesh, std::size_t size) const {
+    return mesh.identity() == identity_ && size == size_;
+  }
+  [[nodiscard]] const Cut& cut() const { return cut_; }
+  [[nodiscard]] std::size_t count() const { return cut_.pieces.size(); }
+  [[nodiscard]] TrianglePatch<Real>& operator[](std::size_t piece) { return patches_[piece]; }
+  [[nodiscard]] std::size_t bytes() const;
+
+ private:
+  void take_records(const TriangleMesh<Real>& mesh, Index piece);
+  void take_vertices(std::size_t vertices);
+
+  std::uint64_t identity_;
+  std::size_t size_;
+  Cut cut_;
+  std::vector<TrianglePatch<Real>> patches_;
+};
+
+extern template class TrianglePatches<float>;
+extern template class TrianglePatches<double>;
+
+}  // namespace plexway
