@@ -87,6 +87,8 @@ peers=$bin/bench_cgal
   run policy "$bin/bench_policy" "$@" $effort
   run triangulation "$bin/bench_triangulation" "$@" $triangulation $effort
   run windows "$bin/bench_windows" "$@" $effort
+  run window_sources "$bin/bench_window_sources" "$@" --sources 40
+  run window_refinement "$bin/bench_window_refinement"
   run build "$bin/bench_build" "$@" $build
   [ -z "$data" ] || run parity "$bin/bench_parity" "$@"
   run corners "$bin/bench_corners" $corners

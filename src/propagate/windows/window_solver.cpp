@@ -52,8 +52,8 @@ bool WindowSolver<Real>::is_for(const TriangleMesh<Real>& mesh) const {
 template <class Real>
 template <bool kLabels, class Windows>
 void WindowSolver<Real>::read_out(const Windows& windows, std::span<const PointSource> sources,
-                                  const PropagateOptions& options, Workspace<Real>& workspace,
-                                  DistanceField<Real>& field) const {
+                                  const PropagateOptions& options, bool mends,
+                                  Workspace<Real>& workspace, DistanceField<Real>& field) const {
   NumberRange<Real>::check_unit(mesh_.unit());
   constexpr Real infinity = std::numeric_limits<Real>::infinity();
   const Real radius = static_cast<Real>(options.radius);
@@ -65,7 +65,7 @@ void WindowSolver<Real>::read_out(const Windows& windows, std::span<const PointS
     if constexpr (kLabels) workspace.vertex_source[v] = windows.source(v);
   }
   field.statistics = windows.statistics();
-  if constexpr (std::is_same_v<Windows, MergedWindows<Real>>) {
+  if (mends) {
     const auto mended = surface::mend<Real, kLabels>(mesh_, sources, workspace, Alone{});
     field.statistics.lowered_vertices = mended.lowered;
     field.statistics.raised_vertices = mended.raised;
@@ -94,13 +94,13 @@ template <class Real>
 bool WindowSolver<Real>::solve(std::span<const PointSource> sources, Accuracy accuracy,
                                const PropagateOptions& options, Workspace<Real>& workspace,
                                DistanceField<Real>& field) {
+  const bool merge = accuracy.kind() != Accuracy::Kind::exact;
   const auto take = [&](const auto& windows) {
     if (sources.size() > 1)
-      read_out<true>(windows, sources, options, workspace, field);
+      read_out<true>(windows, sources, options, merge, workspace, field);
     else
-      read_out<false>(windows, sources, options, workspace, field);
+      read_out<false>(windows, sources, options, merge, workspace, field);
   };
-  const bool merge = accuracy.kind() != Accuracy::Kind::exact;
   if (merge && !merged_) merged_.emplace(mesh_, angles_);
   const auto keep = [&]() -> KeptWindows<Real>* {
     if (!kept_) return nullptr;

@@ -39,9 +39,9 @@ class WindowSolver {
   /// else EndlessError, and not as soon. Sources: Mitchell, Mount, Papadimitriou (SIAM J. Comput.
   /// 1987); Chen, Han (SoCG 1990); Xin, Wang (TOG 2009).
   ///
-  /// What was merged is read out as labels are: no vertex is left below the straight line in space,
-  /// and none farther than a neighbour and the edge between, where triangles without an area hide
-  /// it. `workspace` is for that.
+  /// What was to be merged is read out as labels are: no vertex is left below the straight line in
+  /// space, and none farther than a neighbour and the edge between, where triangles without an area
+  /// hide it. `workspace` is for that.
   [[nodiscard]] bool solve(std::span<const PointSource> sources, Accuracy accuracy,
                            const PropagateOptions& options, Workspace<Real>& workspace,
                            DistanceField<Real>& field);
@@ -57,7 +57,7 @@ class WindowSolver {
  private:
   template <bool kLabels, class Windows>
   void read_out(const Windows& windows, std::span<const PointSource> sources,
-                const PropagateOptions& options, Workspace<Real>& workspace,
+                const PropagateOptions& options, bool mends, Workspace<Real>& workspace,
                 DistanceField<Real>& field) const;
 
   const TriangleMesh<Real>& mesh_;
