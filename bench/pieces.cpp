@@ -111,10 +111,11 @@ int main(int argc, char** argv) {
   CLI::App app("Surfaces by pieces: counts, a model of more threads, times beside Serial");
   app.add_option("MESH", settings.meshes, "Surfaces");
   app.add_option("--generated", settings.generated, "Bumpy spheres of about so many vertices");
-  app.add_option("--sizes", settings.sizes, "Triangles a piece", true);
-  app.add_option("--threads", settings.threads, "Threads of the runs that are timed", true);
-  app.add_option("--sources", effort.sources, "Sources a mesh", true);
-  app.add_option("--budget", effort.budget, "Seconds a row", true);
+  app.add_option("--sizes", settings.sizes, "Triangles a piece")->capture_default_str();
+  app.add_option("--threads", settings.threads, "Threads of the runs that are timed")
+      ->capture_default_str();
+  app.add_option("--sources", effort.sources, "Sources a mesh")->capture_default_str();
+  app.add_option("--budget", effort.budget, "Seconds a row")->capture_default_str();
   report.add_options(app);
   CLI11_PARSE(app, argc, argv);
   bench::Table table({{"mesh", "mesh"},
