@@ -30,6 +30,7 @@
   F(DISABLE, Disable)                                               \
   F(DISABLEVERTEXATTRIBARRAY, DisableVertexAttribArray)             \
   F(DRAWARRAYS, DrawArrays)                                         \
+  F(FINISH, Finish)                                                 \
   F(ENABLE, Enable)                                                 \
   F(ENABLEVERTEXATTRIBARRAY, EnableVertexAttribArray)               \
   F(FRAMEBUFFERRENDERBUFFER, FramebufferRenderbuffer)               \

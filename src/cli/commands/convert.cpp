@@ -37,9 +37,9 @@ bool among(std::span<const std::string_view> known, const std::string& extension
 std::vector<std::string_view> output_extensions() {
   std::vector<std::string_view> all;
   for (const auto known : {io::triangle_output_extensions(), io::tet_extensions(),
-                           io::edge_output_extensions(), io::point_extensions()})
+                           io::edge_output_extensions(), io::point_output_extensions()})
     for (const std::string_view one : known)
-      if (one != ".pcd" && std::find(all.begin(), all.end(), one) == all.end()) all.push_back(one);
+      if (std::find(all.begin(), all.end(), one) == all.end()) all.push_back(one);
   all.push_back(".vdb");
   return all;
 }
@@ -57,8 +57,11 @@ std::string kind_for(const ConvertCommand& command) {
 
 class Conversion {
  public:
-  Conversion(const ConvertCommand& command, ProgressLine& progress)
-      : command_(command), extension_(io::lower_extension(command.out)), progress_(progress) {}
+  Conversion(const ConvertCommand& command, ProgressLine& progress, Phases& phases)
+      : command_(command),
+        extension_(io::lower_extension(command.out)),
+        progress_(progress),
+        phases_(phases) {}
 
   void cloud() {
     progress_.phase("reading " + command_.input);
@@ -67,8 +70,8 @@ class Conversion {
       throw UsageError(command_.input +
                        ": points are copied as they are: --repair, --voxel, --grid and what TetGen "
                        "is told mean nothing here");
-    if (!among(io::point_extensions(), extension_) || extension_ == ".pcd")
-      cannot("cloud", io::point_extensions());
+    if (!among(io::point_output_extensions(), extension_))
+      cannot("cloud", io::point_output_extensions());
     io::Points points;
     if (is_cloud_file(command_.input) || io::is_ply_cloud(command_.input)) {
       CloudFile cloud = read_cloud(command_.input);
@@ -77,6 +80,7 @@ class Conversion {
       const Domain domain = load_domain(command_.input, "", {}, {}, progress_);
       points.positions.assign(domain.positions().begin(), domain.positions().end());
     }
+    phases_.end("load");
     io::write_points(command_.out, points);
     kind = "cloud";
     vertices = points.positions.size();
@@ -93,6 +97,7 @@ class Conversion {
     kind = domain.kind_name();
     simplex_name = domain.simplex_name();
     note = domain.level_set_note();
+    phases_.end("load");
     progress_.phase("writing " + command_.out);
     std::visit([&](const auto& shape) { write(shape); }, domain.data());
   }
@@ -103,8 +108,7 @@ class Conversion {
  private:
   [[noreturn]] void cannot(const char* what, std::span<const std::string_view> known) const {
     std::string names;
-    for (const std::string_view one : known)
-      if (one != ".pcd") names.append(" ").append(one);
+    for (const std::string_view one : known) names.append(" ").append(one);
     const bool has_edges = std::string_view(what) == "surface";
     throw UsageError(command_.out + ": a " + what + " does not go into a " + extension_ +
                      ", but into" + names +
@@ -160,53 +164,54 @@ class Conversion {
     io::write_edges(command_.out, wireframe);
   }
 
-  void write(const CloudShape&) { cannot("cloud", io::point_extensions()); }
+  void write(const CloudShape& cloud) {
+    if (!among(io::point_output_extensions(), extension_))
+      cannot("cloud", io::point_output_extensions());
+    count(cloud.points.positions.size(), 0);
+    simplex_name.clear();
+    io::write_points(command_.out, cloud.points);
+  }
   void write(const SimplexShape&) { not_written(); }
   void write(const MixedShape&) { not_written(); }
 
   const ConvertCommand& command_;
   std::string extension_;
   ProgressLine& progress_;
+  Phases& phases_;
 };
 
 void run_convert(const ConvertCommand& command) {
   check_output_name(command.out, command.input, output_extensions(), "output");
   (void)filling(command.fill);
   ProgressLine progress(command.quiet);
-  const Stopwatch clock;
-  Conversion conversion(command, progress);
+  Phases phases;
+  Conversion conversion(command, progress, phases);
   const bool is_cloud = command.as.empty() && !command.fill.volume.repair &&
                         (is_cloud_file(command.input) || io::is_ply_cloud(command.input));
   if (is_cloud || command.as == "cloud")
     conversion.cloud();
   else
     conversion.mesh();
+  phases.end("write");
   progress.clear();
-  const double seconds = clock.seconds();
-  if (command.json) {
-    Json json;
-    json["input"] = command.input;
-    json["out"] = command.out;
-    json["kind"] = conversion.kind;
-    json["vertices"] = conversion.vertices;
-    json["simplices"] = conversion.simplices;
-    if (!conversion.note.empty()) json["voxels"] = conversion.note;
-    json["seconds"] = seconds;
-    write_output(json_text(json));
-  } else if (!command.quiet) {
-    Table table;
-    table.add("input", command.input);
-    table.add(conversion.kind,
-              counted(conversion.vertices, "vertices") +
-                  (conversion.simplex_name.empty()
-                       ? std::string()
-                       : ", " + counted(conversion.simplices, conversion.simplex_name)));
-    if (!conversion.note.empty()) table.add("voxels", conversion.note);
-    table.add("time", short_time(seconds));
-    table.add("written", command.out);
-    write_output(table.text());
-  }
-  flush_output();
+  Json json;
+  json["input"] = command.input;
+  json["out"] = command.out;
+  json["kind"] = conversion.kind;
+  json["vertices"] = conversion.vertices;
+  json["simplices"] = conversion.simplices;
+  if (!conversion.note.empty()) json["voxels"] = conversion.note;
+  Table table;
+  table.add("input", command.input);
+  table.add(conversion.kind,
+            counted(conversion.vertices, "vertices") +
+                (conversion.simplex_name.empty()
+                     ? std::string()
+                     : ", " + counted(conversion.simplices, conversion.simplex_name)));
+  if (!conversion.note.empty()) table.add("voxels", conversion.note);
+  phases.tell(json, table);
+  add_written(table, {command.out});
+  print_report(json, table, command.json, command.quiet, {command.out});
 }
 
 }  // namespace

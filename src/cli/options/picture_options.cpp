@@ -6,11 +6,16 @@
 
 #include <plexway/complex/normals.hpp>
 #include <plexway/error.hpp>
+#include <plexway/io/page.hpp>
 
 #ifdef PLEXWAY_HAS_RENDER
 #include <plexway/render/picture.hpp>
 #endif
 
+#include "any/simplex_edges.hpp"
+#include "any/solid_boundary.hpp"
+#include "any/survey.hpp"
+#include "cli/report/console.hpp"
 #include "cli/report/distance_output.hpp"
 #include "io/colour_map.hpp"
 
@@ -18,6 +23,7 @@ namespace plexway::cli {
 namespace {
 
 constexpr std::array<std::string_view, 1> picture_extensions = {".png"};
+constexpr std::array<std::string_view, 2> page_extensions = {".html", ".htm"};
 
 // Numbers between commas.
 std::vector<double> numbers(const std::string& option, const std::string& text,
@@ -49,6 +55,67 @@ bool options_given(const PictureArguments& a) {
        {&a.view, &a.size, &a.range, &a.map, &a.clip, &a.isosurfaces, &a.up, &a.title, &a.colour})
     if (!text->empty()) return true;
   return a.isolines || a.transparent || a.orthographic || a.small;
+}
+
+std::array<double, 2> range_of(const std::string& text) {
+  const auto ends = numbers("--range", text, 2, "LO,HI");
+  if (!(ends[0] < ends[1])) throw UsageError("--range: LO must be less than HI");
+  return {ends[0], ends[1]};
+}
+
+char up_of(const std::string& text) {
+  if (text.empty()) return 'z';
+  if (text != "x" && text != "y" && text != "z")
+    throw UsageError("--up '" + text + "': choose one of x, y, z");
+  return text[0];
+}
+
+io::Page page_of(const PictureArguments& arguments) {
+  io::Page page;
+  page.up = up_of(arguments.up);
+  if (!arguments.range.empty()) page.range = range_of(arguments.range);
+  if (!arguments.map.empty()) {
+    const io::ColourMap exists(arguments.map);
+    page.map = arguments.map;
+  }
+  if (!arguments.title.empty()) page.title = arguments.title;
+  return page;
+}
+
+void write_page(const PictureArguments& arguments, const Domain& domain,
+                const PictureContent& content) {
+  if (arguments.html.empty()) return;
+  io::Page page = page_of(arguments);
+  page.positions = domain.positions();
+  if (page.positions.empty())
+    throw UsageError("--html: " + domain.file().string() + " has no positions to draw");
+  page.value = content.distance;
+  page.label = content.label;
+  if (const auto* surface = std::get_if<io::Triangles>(&domain.data())) {
+    page.triangles = surface->triangles;
+  } else if (const auto* solid = std::get_if<io::Tets>(&domain.data())) {
+    page.triangles = boundary_faces(solid->positions, solid->tets);
+  } else if (const auto* wires = std::get_if<io::Edges>(&domain.data())) {
+    page.edges = wires->edges;
+  } else if (const auto* mixed = std::get_if<MixedShape>(&domain.data())) {
+    for (const MixedShape::Part& part : mixed->parts) {
+      page.edges.insert(page.edges.end(), part.edges.begin(), part.edges.end());
+      page.triangles.insert(page.triangles.end(), part.triangles.begin(), part.triangles.end());
+      const auto skin = boundary_faces(mixed->positions, part.tets);
+      page.triangles.insert(page.triangles.end(), skin.begin(), skin.end());
+    }
+  }
+  // Inside a solid there is something to see: of its skin the edges are left.
+  if (content.look_inside && std::holds_alternative<io::Tets>(domain.data())) {
+    for (const auto& [a, b, c] : page.triangles)
+      page.edges.insert(page.edges.end(), {{a, b}, {b, c}, {c, a}});
+    page.triangles.clear();
+  }
+  page.sources = content.sources;
+  page.targets = content.targets;
+  page.dots = content.dots;
+  page.paths = content.paths;
+  io::write_page(arguments.html, page);
 }
 
 #ifdef PLEXWAY_HAS_RENDER
@@ -105,11 +172,7 @@ render::PictureOptions options_of(const PictureArguments& arguments) {
         options.width > 16384 || options.height > 16384)
       throw UsageError("--size '" + size + "': expected WIDTHxHEIGHT in pixels, such as 800x600");
   }
-  if (!arguments.range.empty()) {
-    const auto ends = numbers("--range", arguments.range, 2, "LO,HI");
-    if (!(ends[0] < ends[1])) throw UsageError("--range: LO must be less than HI");
-    options.range = {ends[0], ends[1]};
-  }
+  if (!arguments.range.empty()) options.range = range_of(arguments.range);
   options.isolines = arguments.isolines;
   if (!arguments.map.empty()) {
     const io::ColourMap exists(arguments.map);
@@ -118,11 +181,7 @@ render::PictureOptions options_of(const PictureArguments& arguments) {
   if (!arguments.clip.empty()) options.clip = clip_of(arguments.clip);
   if (!arguments.isosurfaces.empty())
     options.isosurfaces = numbers("--isosurfaces", arguments.isosurfaces, "V,V,...");
-  if (!arguments.up.empty()) {
-    if (arguments.up != "x" && arguments.up != "y" && arguments.up != "z")
-      throw UsageError("--up '" + arguments.up + "': choose one of x, y, z");
-    options.up = arguments.up[0];
-  }
+  options.up = up_of(arguments.up);
   if (!arguments.title.empty()) options.title = arguments.title;
   options.transparent = arguments.transparent;
   options.orthographic = arguments.orthographic;
@@ -134,9 +193,12 @@ render::PictureOptions options_of(const PictureArguments& arguments) {
 }  // namespace
 
 void add_picture_options(CLI::App& app, PictureArguments& arguments, bool cells) {
-  app.add_option("--picture", arguments.file,
-                 "draw a picture, .png, without a display; the next options go with it")
-      ->type_name("FILE");
+  add_output(app, "--picture", arguments.file,
+             "draw a picture, .png, without a display; the next options go with it", "png");
+  add_output(app, "--html", arguments.html,
+             "a page to turn in a browser: one file, no network; --up, --range, --map and --title\n"
+             "go with it",
+             "html");
   app.add_option("--view", arguments.view,
                  "from where: front, back, left, right, top, bottom, iso, or AZ,EL in\n"
                  "degrees around the front (default: from above if flat, else 28,24)")
@@ -174,7 +236,13 @@ void add_picture_options(CLI::App& app, PictureArguments& arguments, bool cells)
 void check_picture(const PictureArguments& arguments, const std::string& input) {
   if (!arguments.wanted()) {
     if (options_given(arguments))
-      throw UsageError("--view, --size, --range, --clip and the like need --picture FILE");
+      throw UsageError(
+          "--view, --size, --range, --clip and the like need --picture FILE or --html FILE");
+    return;
+  }
+  check_output_name(arguments.html, input, page_extensions, "--html");
+  if (arguments.file.empty()) {
+    (void)page_of(arguments);
     return;
   }
 #ifdef PLEXWAY_HAS_RENDER
@@ -195,7 +263,8 @@ void check_picture(const PictureArguments& arguments, const std::string& input) 
 
 void write_picture(const PictureArguments& arguments, const Domain& domain,
                    const PictureContent& content) {
-  if (!arguments.wanted()) return;
+  write_page(arguments, domain, content);
+  if (arguments.file.empty()) return;
   const render::PictureOptions options = options_of(arguments);
   if (!options.isosurfaces.empty() && domain.kind() != DomainKind::solid)
     throw UsageError("--isosurfaces: for solids, not a " + std::string(kind_noun(domain.kind())));
@@ -227,6 +296,17 @@ void write_picture(const PictureArguments& arguments, const Domain& domain,
                                             : cloud->points.normals;
     part.normals = normals;
   }
+  // What has no area shows nothing; its edges do.
+  io::Edges lines;
+  const bool filled = domain.kind() == DomainKind::surface || domain.kind() == DomainKind::solid;
+  if (filled && lie_in_line(domain.positions())) {
+    lines = edges_of(domain);
+    part = {};
+    part.positions = lines.positions, part.edges = lines.edges;
+    part.value = content.distance, part.label = content.label;
+    if (!content.quiet)
+      say_note("all points lie in a line: the picture shows the edges, for there is no area");
+  }
   render::Scene scene;
   if (parts.empty()) parts = {part};
   scene.parts = parts;
@@ -244,8 +324,9 @@ void write_picture(const PictureArguments& arguments, const Domain& domain,
 
 #else
 
-void write_picture(const PictureArguments& arguments, const Domain&, const PictureContent&) {
-  check_picture(arguments, {});
+void write_picture(const PictureArguments& arguments, const Domain& domain,
+                   const PictureContent& content) {
+  write_page(arguments, domain, content);
 }
 
 #endif

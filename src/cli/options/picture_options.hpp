@@ -16,15 +16,15 @@ class App;
 
 namespace plexway::cli {
 
-/// --picture and what goes with it, as typed.
+/// --picture and --html, and what goes with them, as typed.
 struct PictureArguments {
-  std::string file;
+  std::string file, html;
   std::string view, size, range, map, clip, isosurfaces, up, title;
   std::optional<std::size_t> isolines;
   std::string colour;  ///< distance or cells, where a command has both
   bool transparent = false, orthographic = false, small = false;
 
-  [[nodiscard]] bool wanted() const { return !file.empty(); }
+  [[nodiscard]] bool wanted() const { return !file.empty() || !html.empty(); }
 };
 
 /// Adds the options to a command; `cells` adds --colour.
@@ -40,11 +40,12 @@ struct PictureContent {
   std::span<const std::int32_t> label = {};  ///< one a vertex, or none
   std::vector<std::array<double, 3>> sources, targets, dots;
   std::vector<std::vector<std::array<double, 3>>> paths;
+  bool quiet = false;        ///< no notes
   bool look_inside = false;  ///< solids become ghosts, unless they are cut open
 };
 
-/// Draws and writes the picture. Throws as render::picture and render::write_png, and UsageError
-/// for a domain without positions.
+/// Draws and writes the picture, and the page. Throws as render::picture, render::write_png and
+/// io::write_page, and UsageError for a domain without positions.
 void write_picture(const PictureArguments& arguments, const Domain& domain,
                    const PictureContent& content);
 

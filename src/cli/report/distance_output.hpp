@@ -6,7 +6,17 @@
 #include <string>
 #include <string_view>
 
+namespace CLI {
+class App;
+}
+
 namespace plexway::cli {
+
+/// Adds an option that names an output; "-" becomes "USUAL:-", standard output in that format.
+void add_output(CLI::App& command, const std::string& name, std::string& out,
+                const std::string& help, const char* usual);
+/// Whether an output goes there: "-", or "FORMAT:-".
+bool on_standard_output(const std::string& out);
 
 /// Before any work: throws UsageError where `out`, given by `option`, is one of the files that are
 /// read, and Error where its folder does not exist or it is one. Empty is fine.

@@ -4,6 +4,9 @@
 #include <cmath>
 #include <cstdio>
 
+#include "cli/report/console.hpp"
+#include "cli/report/distance_output.hpp"
+
 namespace plexway::cli {
 
 void Table::add(std::string label, std::string text) {
@@ -23,9 +26,38 @@ std::string Table::text() const {
   return text;
 }
 
+void Phases::end(std::string name) {
+  const double now = watch_.seconds();
+  parts_.emplace_back(std::move(name), now - before_);
+  before_ = now;
+}
+
+void Phases::tell(Json& json, Table& table) const {
+  std::string text;
+  for (const auto& [name, seconds] : parts_) {
+    json["seconds"][name] = seconds;
+    text += (text.empty() ? "" : ", ") + name + " " + short_time(seconds);
+  }
+  table.add("time", text);
+}
+
 void add_written(Table& table, std::initializer_list<std::string> files) {
   for (const std::string& file : files)
-    if (!file.empty()) table.add("written", file);
+    if (!file.empty() && !on_standard_output(file)) table.add("written", file);
+}
+
+void print_report(const Json& json, const Table& table, bool as_json, bool quiet,
+                  std::initializer_list<std::string> files) {
+  std::string text;
+  if (as_json)
+    text = json_text(json);
+  else if (!quiet)
+    text = table.text();
+  if (std::any_of(files.begin(), files.end(), on_standard_output))
+    write_diagnostics(text);
+  else
+    write_output(text);
+  flush_output();
 }
 
 std::string json_text(const Json& object) {
