@@ -152,7 +152,9 @@ class PageWriter {
     for (std::size_t k = 0; k < marks.at.size(); ++k) {
       out_.write(k > 0 ? ",[" : "[");
       out_.write_text((marks.at[k] - low_) / (high_ - low_));
-      out_.write("," + script_text(marks.label[k]) + "]");
+      out_.write(",");
+      out_.write(script_text(marks.label[k]));
+      out_.write("]");
     }
     out_.write("],\"map\":[");
     const auto& table = ColourMap(page_.map).table();
