@@ -84,6 +84,9 @@ TEST_CASE("one seed on a square goes to the middle") {
 
 TEST_CASE("borders of cells run through triangles and tetrahedra") {
   samples::Noise noise(5);
+  const auto any_of = [&](std::size_t count) {
+    return static_cast<Index>((0.5 + 0.5 * noise()) * static_cast<double>(count - 1));
+  };
   const auto share_of_samples = [](const std::vector<Point>& seeds, int n, int layers) {
     std::vector<double> share(seeds.size(), 0);
     for (int x = 0; x < n; ++x)
@@ -111,9 +114,7 @@ TEST_CASE("borders of cells run through triangles and tetrahedra") {
     const samples::Shape shape = square(20);
     const TriangleMesh<double> mesh(shape.points, shape.faces);
     std::vector<PointSource> seeds;
-    for (int i = 0; i < 12; ++i)
-      seeds.push_back(
-          PointSource::at(static_cast<Index>((0.5 + 0.5 * noise()) * (shape.points.size() - 1))));
+    for (int i = 0; i < 12; ++i) seeds.push_back(PointSource::at(any_of(shape.points.size())));
     const auto cells = centroidal_voronoi(Serial{}, mesh, seeds, {.max_iterations = 0});
     // Cells are 0.08 large and triangles 0.00125; whole triangles are off by up to 4e-3 here.
     check_cells(cells.cell_content,
@@ -125,9 +126,7 @@ TEST_CASE("borders of cells run through triangles and tetrahedra") {
     cube(8, points, tets);
     const TetMesh<double> mesh(points, tets);
     std::vector<PointSource> seeds;
-    for (int i = 0; i < 6; ++i)
-      seeds.push_back(
-          PointSource::at(static_cast<Index>((0.5 + 0.5 * noise()) * (points.size() - 1))));
+    for (int i = 0; i < 6; ++i) seeds.push_back(PointSource::at(any_of(points.size())));
     const auto cells = centroidal_voronoi(Serial{}, mesh, seeds, {.max_iterations = 0});
     check_cells(cells.cell_content, share_of_samples(positions(cells.seeds, points, tets), 60, 60),
                 2e-3);

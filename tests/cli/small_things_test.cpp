@@ -112,8 +112,8 @@ TEST_CASE("parts of a domain that get no seed, dart or point are told") {
   const auto one = run_tool({"cvt", file, "--count", "1", "--iterations", "2"});
   INFO(one.err);
   REQUIRE(one.code == 0);
-  CHECK_THAT(one.err, Contains("no seed in 1 parts of the surface (5 vertices)"));
-  CHECK_THAT(run_tool({"farthest", file, "--count", "1"}).err, Contains("no point in 1 parts"));
+  CHECK_THAT(one.err, Contains("no seed in 1 part of the surface (5 vertices)"));
+  CHECK_THAT(run_tool({"farthest", file, "--count", "1"}).err, Contains("no point in 1 part"));
   CHECK(run_tool({"farthest", file, "--count", "2"}).err.empty());
   CHECK(run_tool({"cvt", file, "--count", "1", "--iterations", "2", "--quiet"}).err.empty());
 }
