@@ -30,9 +30,9 @@
   F(DISABLE, Disable)                                               \
   F(DISABLEVERTEXATTRIBARRAY, DisableVertexAttribArray)             \
   F(DRAWARRAYS, DrawArrays)                                         \
-  F(FINISH, Finish)                                                 \
   F(ENABLE, Enable)                                                 \
   F(ENABLEVERTEXATTRIBARRAY, EnableVertexAttribArray)               \
+  F(FINISH, Finish)                                                 \
   F(FRAMEBUFFERRENDERBUFFER, FramebufferRenderbuffer)               \
   F(GENBUFFERS, GenBuffers)                                         \
   F(GENFRAMEBUFFERS, GenFramebuffers)                               \

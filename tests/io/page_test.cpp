@@ -1,5 +1,5 @@
-// The page that shows a result in a browser: what is in the file. That it draws is tested in a
-// browser (tests/page_draws.sh).
+// The page that shows a result in a browser: what is in the file. That it draws was looked at in a
+// browser, from a disk.
 
 #include <catch2/catch.hpp>
 #include <cmath>

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <string_view>
 
-#include <plexway/complex/normals.hpp>
 #include <plexway/error.hpp>
 #include <plexway/io/page.hpp>
 
@@ -12,9 +11,7 @@
 #include <plexway/render/picture.hpp>
 #endif
 
-#include "any/simplex_edges.hpp"
-#include "any/solid_boundary.hpp"
-#include "any/survey.hpp"
+#include "any/shape_page.hpp"
 #include "cli/report/console.hpp"
 #include "cli/report/distance_output.hpp"
 #include "io/colour_map.hpp"
@@ -83,38 +80,10 @@ io::Page page_of(const PictureArguments& arguments) {
 }
 
 void write_page(const PictureArguments& arguments, const Domain& domain,
-                const PictureContent& content) {
+                const SceneContent& content) {
   if (arguments.html.empty()) return;
   io::Page page = page_of(arguments);
-  page.positions = domain.positions();
-  if (page.positions.empty())
-    throw UsageError("--html: " + domain.file().string() + " has no positions to draw");
-  page.value = content.distance;
-  page.label = content.label;
-  if (const auto* surface = std::get_if<io::Triangles>(&domain.data())) {
-    page.triangles = surface->triangles;
-  } else if (const auto* solid = std::get_if<io::Tets>(&domain.data())) {
-    page.triangles = boundary_faces(solid->positions, solid->tets);
-  } else if (const auto* wires = std::get_if<io::Edges>(&domain.data())) {
-    page.edges = wires->edges;
-  } else if (const auto* mixed = std::get_if<MixedShape>(&domain.data())) {
-    for (const MixedShape::Part& part : mixed->parts) {
-      page.edges.insert(page.edges.end(), part.edges.begin(), part.edges.end());
-      page.triangles.insert(page.triangles.end(), part.triangles.begin(), part.triangles.end());
-      const auto skin = boundary_faces(mixed->positions, part.tets);
-      page.triangles.insert(page.triangles.end(), skin.begin(), skin.end());
-    }
-  }
-  // Inside a solid there is something to see: of its skin the edges are left.
-  if (content.look_inside && std::holds_alternative<io::Tets>(domain.data())) {
-    for (const auto& [a, b, c] : page.triangles)
-      page.edges.insert(page.edges.end(), {{a, b}, {b, c}, {c, a}});
-    page.triangles.clear();
-  }
-  page.sources = content.sources;
-  page.targets = content.targets;
-  page.dots = content.dots;
-  page.paths = content.paths;
+  fill_page(page, domain, content);
   io::write_page(arguments.html, page);
 }
 
@@ -262,70 +231,27 @@ void check_picture(const PictureArguments& arguments, const std::string& input) 
 #ifdef PLEXWAY_HAS_RENDER
 
 void write_picture(const PictureArguments& arguments, const Domain& domain,
-                   const PictureContent& content) {
+                   const SceneContent& content, bool quiet) {
   write_page(arguments, domain, content);
   if (arguments.file.empty()) return;
   const render::PictureOptions options = options_of(arguments);
+  if (domain.positions().empty())
+    throw UsageError("--picture: " + domain.file().string() + " has no positions to draw");
   if (!options.isosurfaces.empty() && domain.kind() != DomainKind::solid)
     throw UsageError("--isosurfaces: for solids, not a " + std::string(kind_noun(domain.kind())));
-  render::Part part;
-  part.positions = domain.positions();
-  if (part.positions.empty())
-    throw UsageError("--picture: " + domain.file().string() + " has no positions to draw");
-  part.value = content.distance;
-  part.label = content.label;
-  std::vector<std::array<double, 3>> normals;
-  std::vector<render::Part> parts;
-  if (const auto* surface = std::get_if<io::Triangles>(&domain.data())) {
-    part.triangles = surface->triangles;
-  } else if (const auto* solid = std::get_if<io::Tets>(&domain.data())) {
-    part.tets = solid->tets;
-    part.ghost = content.look_inside && !options.clip;
-  } else if (const auto* wires = std::get_if<io::Edges>(&domain.data())) {
-    part.edges = wires->edges;
-  } else if (const auto* mixed = std::get_if<MixedShape>(&domain.data())) {
-    for (const MixedShape::Part& of : mixed->parts) {
-      part.edges = of.edges;
-      part.triangles = of.triangles;
-      part.tets = of.tets;
-      part.ghost = content.look_inside && !options.clip;
-      parts.push_back(part);
-    }
-  } else if (const CloudShape* cloud = domain.cloud()) {
-    normals = cloud->points.normals.empty() ? estimate_normals(cloud->measured(), cloud->neighbours)
-                                            : cloud->points.normals;
-    part.normals = normals;
-  }
-  // What has no area shows nothing; its edges do.
-  io::Edges lines;
-  const bool filled = domain.kind() == DomainKind::surface || domain.kind() == DomainKind::solid;
-  if (filled && lie_in_line(domain.positions())) {
-    lines = edges_of(domain);
-    part = {};
-    part.positions = lines.positions, part.edges = lines.edges;
-    part.value = content.distance, part.label = content.label;
-    if (!content.quiet)
-      say_note("all points lie in a line: the picture shows the edges, for there is no area");
-  }
-  render::Scene scene;
-  if (parts.empty()) parts = {part};
-  scene.parts = parts;
-  scene.sources = content.sources;
-  scene.targets = content.targets;
-  scene.paths = content.paths;
-  if (!content.dots.empty()) {
-    render::Dots dots;
-    dots.positions = content.dots;
-    if (!content.label.empty()) dots.colour = {35, 40, 50};
-    scene.dots = {dots};
-  }
-  render::write_png(arguments.file, render::picture(scene, options), arguments.small ? 256 : 0);
+  SceneContent shown = content;
+  shown.look_inside = content.look_inside && !options.clip;
+  const ShapeScene scene(domain, shown);
+  if (scene.is_line() && !quiet)
+    say_note("all points lie in a line: the picture shows the edges, for there is no area");
+  render::write_png(arguments.file, render::picture(scene.scene(), options),
+                    arguments.small ? 256 : 0);
 }
 
 #else
 
 void write_picture(const PictureArguments& arguments, const Domain& domain,
-                   const PictureContent& content) {
+                   const SceneContent& content, bool) {
   write_page(arguments, domain, content);
 }
 

@@ -4,7 +4,9 @@
 #include <initializer_list>
 #include <span>
 #include <string>
-#include <string_view>
+
+#include "any/info/report.hpp"
+#include "io/output_place.hpp"
 
 namespace CLI {
 class App;
@@ -15,20 +17,16 @@ namespace plexway::cli {
 /// Adds an option that names an output; "-" becomes "USUAL:-", standard output in that format.
 void add_output(CLI::App& command, const std::string& name, std::string& out,
                 const std::string& help, const char* usual);
-/// Whether an output goes there: "-", or "FORMAT:-".
-bool on_standard_output(const std::string& out);
 
-/// Before any work: throws UsageError where `out`, given by `option`, is one of the files that are
-/// read, and Error where its folder does not exist or it is one. Empty is fine.
-void check_output_place(const std::string& out, std::span<const std::string> inputs,
-                        const char* option);
+using io::check_output_name;
+using io::check_output_place;
+using io::check_outputs_differ;
+using io::on_standard_output;
 
-/// The same for one input, and UsageError for an extension that is not `known`.
-void check_output_name(const std::string& out, const std::string& input,
-                       std::span<const std::string_view> known, const char* option = "--out");
-
-/// Throws UsageError where two of them, not empty, are the same.
-void check_outputs_differ(std::initializer_list<std::string> names);
+/// What a command says at its end: on standard output, but on standard error where one of its
+/// results went there. JSON or a table, or nothing where `quiet`. Throws as write_output.
+void print_report(const Json& json, const Table& table, bool as_json, bool quiet,
+                  std::initializer_list<std::string> files);
 
 /// CSV on standard output: `vertex,distance`, and `,label`, `,original` and `,error` where there
 /// are such. Throws as write_output.
