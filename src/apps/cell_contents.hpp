@@ -51,16 +51,47 @@ class SimplexParts {
   }
 };
 
+/// A simplex in parts of equal content, by its corners and the middles of its edges: points as
+/// weights, parts as points.
+template <std::size_t Corners>
+struct HalvedSimplex {
+  static constexpr std::size_t points = Corners * (Corners + 1) / 2;
+  static constexpr auto ends = [] {
+    std::array<std::array<std::size_t, 2>, points> found{};
+    std::size_t n = 0;
+    for (; n < Corners; ++n) found[n] = {n, n};
+    for (std::size_t i = 0; i < Corners; ++i)
+      for (std::size_t j = i + 1; j < Corners; ++j) found[n++] = {i, j};
+    return found;
+  }();
+  static constexpr auto parts = [] {
+    if constexpr (Corners == 3)
+      return std::array<std::array<std::size_t, 3>, 4>{
+          {{0, 3, 4}, {1, 3, 5}, {2, 4, 5}, {3, 4, 5}}};
+    else  // what is left between the corners is cut along the line from one middle to the opposite
+      return std::array<std::array<std::size_t, 4>, 8>{{{0, 4, 5, 6},
+                                                        {1, 4, 7, 8},
+                                                        {2, 5, 7, 9},
+                                                        {3, 6, 8, 9},
+                                                        {4, 9, 5, 7},
+                                                        {4, 9, 7, 8},
+                                                        {4, 9, 8, 6},
+                                                        {4, 9, 6, 5}}};
+  }();
+};
+
 /// The content of each of so many cells. A simplex at a border is shared out where the distances
-/// that the labels on it and around it promise at its corners, linear between them, are equal: off
-/// by the square of an edge, where counting each simplex as its centre's is off by an edge. The
-/// cells add up to what is reached. Cost: linear.
+/// that the labels on it and around it promise at its corners and the middles of its edges, linear
+/// between them, are equal: off by the square of half an edge, where counting each simplex as its
+/// centre's is off by an edge. The cells add up to what is reached. Cost: linear.
 template <class Complex>
 std::vector<double> cell_contents(Growth<Complex>& field, std::size_t cells) {
   constexpr std::size_t corners = Growth<Complex>::corners;
+  using Halved = HalvedSimplex<corners>;
   std::vector<double> content(cells, 0);
   std::vector<Index> here;
-  typename SimplexParts<corners>::Values values;
+  std::array<std::vector<double>, Halved::points> values;
+  typename SimplexParts<corners>::Values part;
   for (Index s = 0; s < field.simplices(); ++s) {
     if (!field.reached(s)) continue;
     here.clear();
@@ -69,9 +100,9 @@ std::vector<double> cell_contents(Growth<Complex>& field, std::size_t cells) {
       const auto known = std::find(here.begin(), here.end(), cell);
       const auto n = static_cast<std::size_t>(known - here.begin());
       if (known == here.end()) here.push_back(cell);
-      for (std::size_t k = 0; k < corners; ++k) {
+      for (std::size_t k = 0; k < Halved::points; ++k) {
         Weights at{};
-        at[k] = 1;
+        for (const std::size_t end : Halved::ends[k]) at[end] += 0.5;
         // Where it promises nothing the others have it.
         const double d = std::min(static_cast<double>(distance(at)), 1e30);
         if (n == values[k].size())
@@ -81,9 +112,12 @@ std::vector<double> cell_contents(Growth<Complex>& field, std::size_t cells) {
       }
       return false;
     });
-    const auto whole = static_cast<double>(field.measure(s));
-    const auto share = SimplexParts<corners>::shares(values);
-    for (std::size_t n = 0; n < here.size(); ++n) content[here[n]] += whole * share[n];
+    const double whole = static_cast<double>(field.measure(s)) / Halved::parts.size();
+    for (const auto& piece : Halved::parts) {
+      for (std::size_t k = 0; k < corners; ++k) part[k] = values[piece[k]];
+      const auto share = SimplexParts<corners>::shares(part);
+      for (std::size_t n = 0; n < here.size(); ++n) content[here[n]] += whole * share[n];
+    }
   }
   return content;
 }

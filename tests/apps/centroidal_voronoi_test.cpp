@@ -87,12 +87,14 @@ TEST_CASE("borders of cells run through triangles and tetrahedra") {
   const auto any_of = [&](std::size_t count) {
     return static_cast<Index>((0.5 + 0.5 * noise()) * static_cast<double>(count - 1));
   };
-  const auto share_of_samples = [](const std::vector<Point>& seeds, int n, int layers) {
+  const auto share_of_samples = [&](const std::vector<Point>& seeds, int n, int layers) {
     std::vector<double> share(seeds.size(), 0);
     for (int x = 0; x < n; ++x)
       for (int y = 0; y < n; ++y)
         for (int z = 0; z < layers; ++z) {
-          const Point p = {(x + 0.5) / n, (y + 0.5) / n, layers == 1 ? 0 : (z + 0.5) / layers};
+          // Somewhere in its cube: seeds of a lattice have their borders on planes of another one.
+          const auto in = [&](int k, int count) { return (k + 0.5 + 0.5 * noise()) / count; };
+          const Point p = {in(x, n), in(y, n), layers == 1 ? 0 : in(z, layers)};
           std::size_t best = 0;
           for (std::size_t i = 1; i < seeds.size(); ++i)
             if (euclid(p, seeds[i]) < euclid(p, seeds[best])) best = i;
