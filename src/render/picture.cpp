@@ -11,10 +11,10 @@
 #include "checks.hpp"
 #include "finish.hpp"
 #include "io/colour_map.hpp"
+#include "io/ticks.hpp"
 #include "legend.hpp"
 #include "rounds.hpp"
 #include "skins.hpp"
-#include "io/ticks.hpp"
 
 namespace plexway::render {
 namespace {

@@ -3,10 +3,10 @@
 #include <plexway/render/image.hpp>
 
 #include "io/io_testing.hpp"
+#include "io/ticks.hpp"
 #include "render/drawing.hpp"
 #include "render/palette.hpp"
 #include "render/stroke_font.hpp"
-#include "io/ticks.hpp"
 
 using namespace render_testing;
 
