@@ -39,6 +39,7 @@
 #include <plexway/io/field.hpp>
 #include <plexway/io/matrix_file.hpp>
 #include <plexway/io/mixed.hpp>
+#include <plexway/io/page.hpp>
 #include <plexway/io/part_file.hpp>
 #include <plexway/io/paths.hpp>
 #include <plexway/io/points.hpp>

@@ -104,7 +104,9 @@ bool all_point_to_one_side(const CloudShape& cloud) {
 }  // namespace
 
 bool is_cloud_file(const std::string& file) {
-  return io::InputName(file).extension == ".xyz" || io::lower_extension(file) == ".pcd";
+  const std::string extension = io::InputName(file).extension;
+  return extension == ".xyz" || extension == ".csv" || extension == ".las" || extension == ".laz" ||
+         io::lower_extension(file) == ".pcd";
 }
 
 CloudFile read_cloud(const std::string& file) {

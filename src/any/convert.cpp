@@ -14,6 +14,7 @@
 #include "any/fill.hpp"
 #include "any/openvdb_functions.hpp"
 #include "any/solid_boundary.hpp"
+#include "any/stopwatch.hpp"
 #include "io/extension.hpp"
 
 namespace plexway {
@@ -47,8 +48,8 @@ class Conversion : public Converted {
       throw UsageError(input_ +
                        ": points are copied as they are: --repair, --voxel, --grid and what TetGen "
                        "is told mean nothing here");
-    if (!among(io::point_extensions(), extension_) || extension_ == ".pcd")
-      cannot("cloud", io::point_extensions());
+    if (!among(io::point_output_extensions(), extension_))
+      cannot("cloud", io::point_output_extensions());
     io::Points points;
     if (is_cloud_file(input_) || io::is_ply_cloud(input_)) {
       CloudFile cloud = read_cloud(input_);
@@ -60,6 +61,7 @@ class Conversion : public Converted {
       const AnyShape domain = AnyShape::read(input_, plain);
       points.positions.assign(domain.positions().begin(), domain.positions().end());
     }
+    load_seconds = watch_.seconds();
     io::write_points(out_, points);
     kind = "cloud";
     vertices = points.positions.size();
@@ -78,15 +80,17 @@ class Conversion : public Converted {
     kind = domain.kind_name();
     simplex_name = domain.simplex_name();
     note = domain.level_set_note();
+    load_seconds = watch_.seconds();
     stage("writing " + out_);
     std::visit([&](const auto& shape) { write(shape); }, domain.data());
   }
 
+  void finish() { write_seconds = watch_.seconds() - load_seconds; }
+
  private:
   [[noreturn]] void cannot(const char* what, std::span<const std::string_view> known) const {
     std::string names;
-    for (const std::string_view one : known)
-      if (one != ".pcd") names.append(" ").append(one);
+    for (const std::string_view one : known) names.append(" ").append(one);
     const bool has_edges = std::string_view(what) == "surface";
     throw UsageError(out_ + ": a " + what + " does not go into a " + extension_ + ", but into" +
                      names +
@@ -141,7 +145,13 @@ class Conversion : public Converted {
     io::write_edges(out_, wireframe);
   }
 
-  void write(const CloudShape&) { cannot("cloud", io::point_extensions()); }
+  void write(const CloudShape& cloud) {
+    if (!among(io::point_output_extensions(), extension_))
+      cannot("cloud", io::point_output_extensions());
+    count(cloud.points.positions.size(), 0);
+    simplex_name.clear();
+    io::write_points(out_, cloud.points);
+  }
   void write(const SimplexShape&) { not_written(); }
   void write(const MixedShape&) { not_written(); }
 
@@ -152,6 +162,7 @@ class Conversion : public Converted {
   const std::string &input_, &out_;
   const ReadOptions& options_;
   std::string extension_;
+  Stopwatch watch_;
 };
 
 }  // namespace
@@ -159,9 +170,9 @@ class Conversion : public Converted {
 std::vector<std::string_view> conversion_extensions() {
   std::vector<std::string_view> all;
   for (const auto known : {io::triangle_output_extensions(), io::tet_extensions(),
-                           io::edge_output_extensions(), io::point_extensions()})
+                           io::edge_output_extensions(), io::point_output_extensions()})
     for (const std::string_view one : known)
-      if (one != ".pcd" && std::find(all.begin(), all.end(), one) == all.end()) all.push_back(one);
+      if (std::find(all.begin(), all.end(), one) == all.end()) all.push_back(one);
   all.push_back(".vdb");
   return all;
 }
@@ -173,6 +184,7 @@ Converted convert(const std::string& input, const std::string& out, const ReadOp
     conversion.cloud();
   else
     conversion.mesh();
+  conversion.finish();
   return conversion;
 }
 

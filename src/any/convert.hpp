@@ -15,6 +15,7 @@ struct Converted {
   std::string simplex_name;  ///< in the plural; empty for clouds
   std::string note;          ///< how a level set came in or out, or empty
   std::size_t vertices = 0, simplices = 0;
+  double load_seconds = 0, write_seconds = 0;
 };
 
 /// Extensions that something can be written as, with the dot.

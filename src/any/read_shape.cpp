@@ -12,6 +12,7 @@
 #include "any/openvdb_functions.hpp"
 #include "any/shape_state.hpp"
 #include "any/simplex_edges.hpp"
+#include "io/did_you_mean.hpp"
 #include "io/file_bytes.hpp"
 #include "io/input_name.hpp"
 
@@ -65,6 +66,18 @@ MixedShape mixed_of(io::Mixed cells) {
   return shape;
 }
 
+// Of a file that may hold any kind, what has most dimensions.
+Data data_of(const std::string& file, io::Mixed cells) {
+  if (!cells.tets.empty()) return io::Tets{std::move(cells.positions), std::move(cells.tets)};
+  if (!cells.triangles.empty())
+    return io::Triangles{std::move(cells.positions), std::move(cells.triangles)};
+  if (!cells.edges.empty()) {
+    const std::size_t n = cells.positions.size();
+    return io::Edges{std::move(cells.positions), std::move(cells.edges), {}, n};
+  }
+  throw InputError(file + ": has points alone: no lines, triangles or tetrahedra");
+}
+
 Data read_mesh(const std::string& file, std::optional<DomainKind> asked) {
   const bool triangles = has_extension(file, io::triangle_extensions());
   const bool lines = has_extension(file, io::edge_extensions());
@@ -73,6 +86,7 @@ Data read_mesh(const std::string& file, std::optional<DomainKind> asked) {
   if (lines) return io::read_edges(file);
   if (asked == DomainKind::mixed && has_extension(file, io::mixed_extensions()))
     return mixed_of(io::read_mixed(file));
+  if (has_extension(file, io::cell_extensions())) return data_of(file, io::read_cells(file));
   if (has_extension(file, io::tet_extensions())) return io::read_tets(file);
   if (io::InputName(file).extension == ".simplices") return io::read_simplices(file);
   std::error_code ignored;
@@ -85,11 +99,23 @@ Data read_mesh(const std::string& file, std::optional<DomainKind> asked) {
                      "alone");
   if (extension.empty() && io::InputName(file).standard_input)
     throw InputError(file + ": standard input has no extension: say what it is, as in ply:-");
-  throw InputError(
-      file + ": " + (extension.empty() ? "no extension" : "unknown extension '" + extension + "'") +
-      "; known are .obj .off .ply .stl for surfaces, .node .ele .mesh .msh .vtu .vtk "
-      ".poly .smesh .vdb for solids, .edges .obj for wireframes, .xyz .pcd .ply for clouds, "
-      ".plexway for what is prepared");
+  if (extension == ".3mf" || extension == ".dae" || extension == ".fbx" || extension == ".step")
+    throw InputError(file + ": a " + extension +
+                     " is not read; save the surface as .stl, .ply or .glb");
+  static constexpr std::array<std::string_view, 25> known = {
+      ".obj",   ".off",   ".ply", ".stl", ".gii", ".node", ".ele",       ".mesh",
+      ".msh",   ".vtu",   ".vtk", ".vtp", ".glb", ".gltf", ".vdb",       ".poly",
+      ".smesh", ".edges", ".xyz", ".pcd", ".csv", ".las",  ".simplices", ".white",
+      ".plexway"};
+  std::string hint = io::did_you_mean(extension, known);
+  throw InputError(file + ": " +
+                   (extension.empty() ? "no extension" : "unknown extension '" + extension + "'") +
+                   hint + (hint.empty() ? ";" : "") +
+                   " known are .obj .off .ply .stl .vtp .glb .gltf for surfaces, .node .ele .mesh "
+                   ".msh .vtu .vtk .poly .smesh .vdb for solids, .edges .obj for wireframes, .xyz "
+                   ".csv .las .pcd "
+                   ".ply for clouds; a .msh .vtu .vtk .vtp .glb is what it holds; .plexway is what is "
+                  "prepared");
 }
 
 // A .ply is a cloud where it is asked to be one, or where it cannot be a surface.
@@ -204,12 +230,20 @@ AnyShape::State Reading::read() {
   }
   begin("reading " + file_);
   const Stopwatch loading;
-  const bool is_cloud = is_read_as_cloud(file_, asked);
+  bool is_cloud = is_read_as_cloud(file_, asked);
   CloudFile points;
-  if (is_cloud)
+  if (is_cloud) {
     points = read_cloud(file_);
-  else if (!is_poly(file_) && !is_vdb(file_))
+  } else if (asked != DomainKind::mixed && has_extension(file_, io::cell_extensions())) {
+    io::Mixed cells = io::read_cells(file_);
+    is_cloud = cells.edges.empty() && cells.triangles.empty() && cells.tets.empty();
+    if (is_cloud)
+      points.points.positions = std::move(cells.positions);
+    else
+      state_.data = data_of(file_, std::move(cells));
+  } else if (!is_poly(file_) && !is_vdb(file_)) {
     state_.data = read_mesh(file_, asked);
+  }
   state_.load_seconds = loading.seconds();
   const DomainKind natural = is_cloud ? DomainKind::cloud
                              : is_poly(file_) || is_vdb(file_)

@@ -8,6 +8,9 @@
 #include <plexway/complex/normals.hpp>
 #include <plexway/error.hpp>
 
+#include "any/simplex_edges.hpp"
+#include "any/survey.hpp"
+
 namespace plexway {
 namespace {
 
@@ -93,6 +96,15 @@ ShapeScene::ShapeScene(const AnyShape& shape, const SceneContent& content) {
         }
       },
       shape.data());
+  // What has no area shows nothing; its edges do.
+  const bool filled = shape.kind() == DomainKind::surface || shape.kind() == DomainKind::solid;
+  if (filled && lie_in_line(shape.positions())) {
+    lines_ = edges_of(shape);
+    part = {};
+    part.positions = lines_.positions, part.edges = lines_.edges;
+    part.value = content.distance, part.label = content.label;
+    is_line_ = true;
+  }
   if (scene_.parts.empty()) scene_.parts = {part};
   scene_.sources = content.sources;
   scene_.targets = content.targets;

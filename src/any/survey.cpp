@@ -5,6 +5,7 @@
 #include <variant>
 
 #include "any/simplex_edges.hpp"
+#include "complex/point3.hpp"
 
 #ifdef PLEXWAY_HAS_BOOST_GRAPH
 #include <plexway/boost_graph/graph.hpp>
@@ -22,6 +23,23 @@ Bounds bounding_box(std::span<const std::array<double, 3>> positions) {
     }
   }
   return box;
+}
+
+bool lie_in_line(std::span<const std::array<double, 3>> positions) {
+  if (positions.empty()) return false;
+  const std::array<double, 3> from = positions.front();
+  std::array<double, 3> along{};
+  double longest = 0;
+  for (const auto& p : positions) {
+    const auto off = minus(p, from);
+    if (dot(off, off) > longest) longest = dot(off, off), along = off;
+  }
+  if (!(longest > 0)) return false;
+  for (const auto& p : positions) {
+    const auto area = cross(along, minus(p, from));
+    if (dot(area, area) > 1e-14 * longest * longest) return false;
+  }
+  return true;
 }
 
 Spread spread_of(std::span<const double> lengths) {

@@ -19,6 +19,10 @@ struct Bounds {
 };
 Bounds bounding_box(std::span<const std::array<double, 3>> positions);
 
+/// Whether no point is farther from the line through two of them than a ten-millionth of how far
+/// those are apart; one point is none. Cost: linear.
+bool lie_in_line(std::span<const std::array<double, 3>> positions);
+
 /// Smallest, mean and largest of some lengths.
 struct Spread {
   double min = std::numeric_limits<double>::infinity(), mean = 0, max = 0;

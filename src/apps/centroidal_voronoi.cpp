@@ -9,6 +9,7 @@
 #include <plexway/error.hpp>
 #include <plexway/solve.hpp>
 
+#include "apps/cell_contents.hpp"
 #include "apps/cell_moments.hpp"
 #include "apps/cloud_points.hpp"
 #include "executors/checks.hpp"
@@ -54,7 +55,8 @@ class Lloyd {
     result.energy = energy_ * size * unit * unit;
     for (const Place& place : places_)
       result.seeds.push_back(numbers_.outside(place.first, place.second));
-    for (const Cell& cell : cells_) result.cell_content.push_back(cell.content * size);
+    result.cell_content = cell_contents(field_, cells_.size());
+    for (double& content : result.cell_content) content *= size;
     result.label.assign(field_.simplices(), none);
     for (Index s = 0; s < field_.simplices(); ++s)
       if (field_.reached(s)) result.label[numbers_.outside(s, {}).simplex] = field_.source(s);

@@ -6,6 +6,7 @@
 #include <stdexcept>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include <plexway/error.hpp>
 #include <plexway/version.hpp>
@@ -15,6 +16,7 @@
 #include "cli/options/executor_argument.hpp"
 #include "cli/report/console.hpp"
 #include "cli/report/help_pages.hpp"
+#include "io/did_you_mean.hpp"
 #include "io/file_bytes.hpp"
 
 namespace plexway::cli {
@@ -52,6 +54,19 @@ const CLI::App& innermost(const CLI::App& tool) {
   return chosen.empty() ? tool : *chosen.front();
 }
 
+// What was probably meant: an option for what begins as one, else a command.
+std::string hint(const CLI::App& app, const std::string& typed) {
+  std::vector<std::string> words;
+  if (typed.starts_with("-")) {
+    for (const CLI::Option* option : app.get_options())
+      for (const std::string& name : option->get_lnames()) words.push_back("--" + name);
+  } else {
+    for (const CLI::App* command : app.get_subcommands({})) words.push_back(command->get_name());
+  }
+  const std::vector<std::string_view> known(words.begin(), words.end());
+  return io::did_you_mean(typed.substr(0, typed.find('=')), known);
+}
+
 std::string usage_complaint(const CLI::App& tool, const CLI::ParseError& error) {
   const CLI::App& app = innermost(tool);
   const bool in_tool = &app == &tool;
@@ -63,9 +78,10 @@ std::string usage_complaint(const CLI::App& tool, const CLI::ParseError& error) 
                              : in_tool                 ? "unknown command '"
                                                        : "unexpected argument '";
     message = what + first + "'";
+    message += hint(app, first);
   }
   const std::string name = in_tool ? "plexway" : "plexway " + app.get_name();
-  return message + "; try '" + name + " --help'";
+  return message + (message.ends_with('?') ? " try '" : "; try '") + name + " --help'";
 }
 
 int parse_and_run(int argc, const char* const* argv) {

@@ -148,6 +148,17 @@ SimplicialComplex<Real, N>::SimplicialComplex(std::span<const double> positions,
   assemble(positions.size() / axes, simplices, std::move(lengths));
   if constexpr (N > 1)
     if (axes == N && summary_.fan_facets == 0) lay_flat(positions);
+  if (N > 1 && !summary_.flat) keep_coordinates(positions, axes);
+}
+
+template <class Real, int N>
+void SimplicialComplex<Real, N>::keep_coordinates(std::span<const double> positions,
+                                                  std::size_t axes) {
+  axes_ = axes;
+  coordinates_.resize(positions.size());
+  for (std::size_t v = 0; v < vertex_count(); ++v)
+    for (std::size_t d = 0; d < axes; ++d)
+      coordinates_[axes * vertex_to_inside_[v] + d] = positions[axes * v + d] / unit();
 }
 
 template <class Real, int N>
@@ -291,7 +302,7 @@ std::size_t SimplicialComplex<Real, N>::bytes() const {
   };
   const auto of = [](const auto& v) { return v.capacity() * sizeof(v[0]); };
   return sizeof(*this) + of(records_) + of(vertex_to_inside_) + of(star_begin_) + of(corners_) +
-         of(places_) + of(pinched_) + flat_bytes();
+         of(places_) + of(pinched_) + of(coordinates_) + flat_bytes();
 }
 
 template <class Real, int N>

@@ -59,9 +59,13 @@ std::array<std::uint64_t, 4> ascending(const std::array<Index, 4>& tet) {
   auto run = sides.begin(), end = run;
   while (end - run < 3)
     for (run = end; end != sides.end() && end->others == run->others;) ++end;
+  constexpr std::ptrdiff_t listed = 3;
   std::string list;
-  for (auto k = run; k != end; ++k)
-    list += (k == run ? "" : k + 1 == end ? " and " : ", ") + std::to_string(k->corner / 4);
+  for (auto k = run; k != end && k - run < listed; ++k) {
+    const bool last = k + 1 == end;
+    list += (k == run ? "" : last ? " and " : ", ") + std::to_string(k->corner / 4);
+  }
+  if (end - run > listed) list += " and " + std::to_string(end - run - listed) + " more";
   throw InputError(
       "tets " + list + " share " +
       name({lowest, static_cast<Index>(run->others >> 32), static_cast<Index>(run->others)}) +

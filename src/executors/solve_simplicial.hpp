@@ -6,6 +6,7 @@
 #include <limits>
 #include <span>
 #include <type_traits>
+#include <vector>
 
 #include <plexway/error.hpp>
 #include <plexway/propagate/simplex_rule.hpp>
@@ -98,6 +99,54 @@ void relax_edges(const SimplicialComplex<Real, N>& domain, Workspace<Real>& work
   } while (changed.lost());
 }
 
+/// No path is shorter than the straight line between its ends, whatever the complex does in
+/// between. Where two simplices lie on one side of the facet that they share, a source unfolded
+/// over it is a mirror image, and the plain step, which judges a line of sight by centres, may
+/// measure to it past the facet: such a distance can only be wrong, and gets the line's length,
+/// which is nearer to the truth. Returns how many were below it by more than 1e-4. Cost: the
+/// coordinates of all vertices, times all sources.
+template <class Real, int N>
+std::size_t raise_to_lines(const SimplicialComplex<Real, N>& domain,
+                           std::span<const PointSource> sources, Workspace<Real>& workspace) {
+  const std::size_t axes = workspace.vertex.empty() ? 0 : domain.coordinates(0).size();
+  if (axes == 0) return 0;
+  std::vector<double> from(axes * sources.size(), 0);
+  for (std::size_t n = 0; n < sources.size(); ++n) {
+    const auto add = [&](Index v, double weight) {
+      for (std::size_t d = 0; d < axes; ++d)
+        from[axes * n + d] += weight * domain.coordinates(v)[d];
+    };
+    if (sources[n].vertex != none) {
+      add(domain.inside_vertex(sources[n].vertex), 1);
+      continue;
+    }
+    const Index s = domain.inside_simplex(sources[n].simplex);
+    const std::array<double, N + 1> b = inside_coordinates(domain, s, sources[n]);
+    for (std::size_t i = 0; i <= N; ++i) add(domain.records()[s].corner[i], b[i]);
+  }
+  const auto line = [&](std::span<const double> to, std::size_t n) {
+    double sum = 0;
+    for (std::size_t d = 0; d < axes; ++d)
+      sum += (to[d] - from[axes * n + d]) * (to[d] - from[axes * n + d]);
+    return sources[n].offset / domain.unit() + std::sqrt(sum);
+  };
+  // By more than rounding.
+  constexpr double slack = 1 - 64 * static_cast<double>(std::numeric_limits<Real>::epsilon());
+  std::size_t raised = 0;
+  for (std::size_t v = 0; v < workspace.vertex.size(); ++v) {
+    Real& d = workspace.vertex[v];
+    if (!(d < std::numeric_limits<Real>::infinity())) continue;
+    const auto to = domain.coordinates(static_cast<Index>(v));
+    double least = std::numeric_limits<double>::infinity();
+    for (std::size_t n = 0; n < sources.size() && static_cast<double>(d) < slack * least; ++n)
+      least = std::min(least, line(to, n));
+    if (!(static_cast<double>(d) < slack * least)) continue;
+    raised += static_cast<double>(d) < least * (1 - 1e-4);
+    d = static_cast<Real>(least);
+  }
+  return raised;
+}
+
 /// Which rule a domain is solved by: one place decides. Where the domain lies flat (FlatDomain) and
 /// the policy is `saddles`, the default, strings that know their bends; else the plain step.
 template <class Real, int N, class Queue, class Solve>
@@ -135,12 +184,17 @@ void solve(const SimplicialComplex<Real, N>& domain, std::span<const PointSource
     crew.run(propagation, front, simplices);
     read_out(domain, sources, rule, front, crew, workspace);
     // The policies that study the step itself show it as it is, on surfaces too.
-    if (options.visibility == Visibility::saddles) relax_edges(domain, workspace);
+    std::size_t raised = 0;
+    if (options.visibility == Visibility::saddles) {
+      relax_edges(domain, workspace);
+      raised = raise_to_lines(domain, sources, workspace);
+    }
 
     if (sources.size() > 1)
       finish<Real, true>(domain, sources, options, front, workspace, crew, field);
     else
       finish<Real, false>(domain, sources, options, front, workspace, crew, field);
+    field.statistics.raised_vertices = raised;
   });
 }
 

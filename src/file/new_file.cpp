@@ -10,6 +10,8 @@
 
 #include <plexway/error.hpp>
 
+#include "file/standard_output.hpp"
+
 namespace plexway::file {
 
 namespace fs = std::filesystem;
@@ -30,6 +32,13 @@ fs::path end_of_links(fs::path file) {
 }
 
 NewFile::NewFile(const fs::path& file) : given_(file), target_(file) {
+  if (!format_on_standard_output(file.string()).empty()) {
+    standard_output_ = true;
+    std::fflush(stdout);  // what was said before comes before
+    descriptor_ = ::fcntl(STDOUT_FILENO, F_DUPFD_CLOEXEC, 0);
+    if (descriptor_ < 0) refuse(errno);
+    return;
+  }
   try {
     target_ = end_of_links(file);
   } catch (const std::system_error& error) {
@@ -92,7 +101,8 @@ fs::path NewFile::beside(int attempt) const {
 }
 
 std::string NewFile::place() const {
-  if (way_ == Way::nameless) return "/proc/self/fd/" + std::to_string(descriptor_);
+  if (way_ == Way::nameless || standard_output_)
+    return "/proc/self/fd/" + std::to_string(descriptor_);
   return way_ == Way::named ? written_.string() : target_.string();
 }
 
@@ -157,7 +167,13 @@ void NewFile::discard() noexcept {
   listed_.reset();
 }
 
-void NewFile::refuse(int reason) { refuse(std::generic_category().message(reason)); }
+void NewFile::refuse(int reason) {
+  if (standard_output_ && reason == EPIPE) {
+    discard();
+    throw OutputClosed{};
+  }
+  refuse(std::generic_category().message(reason));
+}
 
 void NewFile::refuse(const std::string& reason) {
   discard();

@@ -15,8 +15,9 @@ namespace plexway::file {
 /// whatever ends the process; elsewhere it is written beside its place, and on the list of
 /// `unfinished.hpp`. A symbolic link stays a link, whether what it points to is there or not. A
 /// file that is replaced gives its mode and owner to the new one, and one that may not be written
-/// is not. A target that exists and is no regular file (a pipe, a device) is written directly. All
-/// but `write` throw Error "cannot write FILE: reason"; without `commit` nothing is left behind.
+/// is not. A target that exists and is no regular file (a pipe, a device) is written directly, and
+/// so is standard output, by the name that `standard_output.hpp` gives it. All but `write` throw
+/// Error "cannot write FILE: reason"; without `commit` nothing is left behind.
 class NewFile {
  public:
   explicit NewFile(const std::filesystem::path& file);
@@ -36,7 +37,8 @@ class NewFile {
 
   /// Puts the file in its place.
   void commit();
-  /// Leaves nothing behind, and throws for this errno.
+  /// Leaves nothing behind, and throws for this errno; OutputClosed where the reader of standard
+  /// output is gone.
   [[noreturn]] void refuse(int reason);
   [[noreturn]] void refuse(const std::string& reason);
 
@@ -57,6 +59,7 @@ class NewFile {
   std::filesystem::path written_;  ///< the temporary file's name, where it has one
   std::optional<Unfinished> listed_;
   Way way_ = Way::direct;
+  bool standard_output_ = false;
   int descriptor_ = -1;
 };
 

@@ -10,6 +10,15 @@ namespace plexway::io {
 
 using Rgb = std::array<std::uint8_t, 3>;
 
+/// Of cells, such that neighbours can be told apart.
+inline constexpr std::array<Rgb, 8> cell_colours = {{{119, 170, 221},
+                                                     {238, 136, 102},
+                                                     {238, 221, 136},
+                                                     {68, 187, 153},
+                                                     {255, 170, 187},
+                                                     {153, 221, 255},
+                                                     {187, 204, 51},
+                                                     {190, 170, 220}}};
 inline constexpr Rgb unreached_grey = {128, 128, 128};
 
 /// 256 colours in sRGB from dark to light, lightness growing evenly: equal steps of the value look

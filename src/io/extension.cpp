@@ -1,10 +1,15 @@
 #include "extension.hpp"
 
+#include "did_you_mean.hpp"
+#include "file/standard_output.hpp"
 #include "quote.hpp"
 
 namespace plexway::io {
 
 std::string lower_extension(const std::filesystem::path& file) {
+  const std::string name = file.string();
+  if (const auto format = file::format_on_standard_output(name); !format.empty())
+    return std::string(1, '.').append(format);
   std::string extension = file.extension().string();
   for (char& c : extension)
     if (c >= 'A' && c <= 'Z') c = static_cast<char>(c + ('a' - 'A'));
@@ -13,10 +18,12 @@ std::string lower_extension(const std::filesystem::path& file) {
 
 std::string unknown_extension(const std::filesystem::path& file,
                               std::span<const std::string_view> known) {
-  const std::string extension = file.extension().string();
+  const bool stream = !file::format_on_standard_output(file.string()).empty();
+  const std::string extension = stream ? lower_extension(file) : file.extension().string();
   std::string message = file.string() + ": ";
   message += extension.empty() ? "no extension" : "unknown extension " + quote(extension);
-  message += "; known are";
+  message += did_you_mean(extension, known);
+  message += message.ends_with('?') ? " known are" : "; known are";
   for (const auto name : known) message.append(" ").append(name);
   return message;
 }

@@ -7,7 +7,8 @@
 
 namespace plexway::io {
 
-/// The extension of `file` with its dot, ascii letters in lower case.
+/// The extension of `file` with its dot, ascii letters in lower case; of "ply:-", standard output
+/// as a .ply, ".ply".
 std::string lower_extension(const std::filesystem::path& file);
 
 /// "FILE: unknown extension '.xyz'; known are .a .b"

@@ -238,13 +238,18 @@ class GmshReader {
   }
 
   void element(const GmshElement& element, std::int64_t number, NumberType type) {
-    const bool mixed = take_ == Take::mixed;
+    const bool mixed = take_ != Take::tets;
     if (element.kind == gmsh_tetrahedra) {
       solid_.tets.push_back(
           corners<4>(element, "tetrahedron", "a node of the tetrahedron", number, type));
     } else if (mixed && element.kind == gmsh_triangles) {
       solid_.triangles.push_back(
           corners<3>(element, "triangle", "a node of the triangle", number, type));
+    } else if (mixed && element.kind == gmsh_quadrilaterals) {
+      const auto q =
+          corners<4>(element, "quadrilateral", "a node of the quadrilateral", number, type);
+      solid_.triangles.push_back({q[0], q[1], q[2]});
+      solid_.triangles.push_back({q[0], q[2], q[3]});
     } else if (mixed && element.kind == gmsh_lines) {
       solid_.edges.push_back(corners<2>(element, "line", "a node of the line", number, type));
     } else {
@@ -345,6 +350,10 @@ Mixed parse(std::string_view bytes, std::string_view name, Take take, Regions* r
 
 Tets parse_gmsh(std::string_view bytes, std::string_view name) {
   return tets_of(parse(bytes, name, Take::tets));
+}
+
+Mixed parse_gmsh_cells(std::string_view bytes, std::string_view name) {
+  return parse(bytes, name, Take::any);
 }
 
 Mixed parse_gmsh_mixed(std::string_view bytes, std::string_view name) {

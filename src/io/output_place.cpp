@@ -8,6 +8,8 @@
 #include <plexway/error.hpp>
 
 #include "file/new_file.hpp"
+#include "file/standard_output.hpp"
+#include "io/did_you_mean.hpp"
 #include "io/extension.hpp"
 
 namespace plexway::io {
@@ -42,15 +44,29 @@ fs::path place_of(const fs::path& name) {
 }
 
 bool one_file(const fs::path& a, const fs::path& b) {
+  if (on_standard_output(a.string()) || on_standard_output(b.string()))
+    return on_standard_output(a.string()) && on_standard_output(b.string());
   std::error_code error;
   return place_of(a) == place_of(b) || fs::equivalent(a, b, error);
 }
 
 }  // namespace
 
+bool on_standard_output(const std::string& out) {
+  return out == "-" || !file::format_on_standard_output(out).empty();
+}
+
 void check_output_place(const std::string& out, std::span<const std::string> inputs,
                         const char* option) {
   if (out.empty()) return;
+  if (on_standard_output(out)) {
+    // Two files, or written by a library that goes back in its file.
+    for (const std::string_view whole : {".node", ".ele", ".pcd", ".vdb", ".npz", ".mtx"})
+      if (lower_extension(out) == whole)
+        throw UsageError(std::string(option) + " " + out + ": a " + std::string(whole) +
+                         " does not go to standard output");
+    return;
+  }
   std::error_code error;
   for (const fs::path& written : files_of(out))
     for (const std::string& input : inputs)
@@ -73,8 +89,8 @@ void check_output_name(const std::string& out, const std::string& input,
   if (std::find(known.begin(), known.end(), extension) == known.end()) {
     std::string names;
     for (const std::string_view name : known) names.append(" ").append(name);
-    throw UsageError(std::string(option) + " " + out + ": unknown extension; those written are" +
-                     names);
+    throw UsageError(std::string(option) + " " + out + ": unknown extension" +
+                     did_you_mean(extension, known) + "; those written are" + names);
   }
   check_output_place(out, {&input, 1}, option);
 }

@@ -7,6 +7,9 @@
 
 namespace plexway::io {
 
+/// Whether an output goes there: "-", or "FORMAT:-".
+bool on_standard_output(const std::string& out);
+
 /// Before any work: throws UsageError where `out`, given by `option`, is one of the files that are
 /// read, and Error where its folder does not exist or it is one. Empty is fine.
 void check_output_place(const std::string& out, std::span<const std::string> inputs,

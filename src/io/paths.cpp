@@ -13,11 +13,18 @@
 namespace plexway::io {
 namespace {
 
-using Paths = std::span<const Path>;
+// What is written: of isolines the value of each, by its source.
+struct Paths {
+  std::span<const Path> all;
+  std::span<const double> values = {};
+
+  [[nodiscard]] auto begin() const { return all.begin(); }
+  [[nodiscard]] auto end() const { return all.end(); }
+};
 
 constexpr std::array<std::string_view, 4> extensions = {".obj", ".ply", ".vtp", ".json"};
 
-std::size_t count_points(Paths paths) {
+std::size_t count_points(const Paths& paths) {
   std::size_t count = 0;
   for (const Path& path : paths) count += path.positions.size();
   return count;
@@ -30,7 +37,7 @@ void write_row(OutputFile& out, const std::array<double, 3>& p, std::string_view
   }
 }
 
-void write_obj(OutputFile& out, Paths paths) {
+void write_obj(OutputFile& out, const Paths& paths) {
   out.write("# geodesic paths by plexway\n");
   for (const Path& path : paths)
     for (const auto& p : path.positions) {
@@ -52,7 +59,7 @@ void write_obj(OutputFile& out, Paths paths) {
   }
 }
 
-void write_ply(OutputFile& out, Paths paths) {
+void write_ply(OutputFile& out, const Paths& paths) {
   std::size_t edges = 0;
   for (const Path& path : paths) edges += path.positions.empty() ? 0 : path.positions.size() - 1;
   out.write("ply\nformat ascii 1.0\ncomment geodesic paths by plexway\nelement vertex " +
@@ -76,7 +83,7 @@ void write_ply(OutputFile& out, Paths paths) {
   }
 }
 
-void write_vtp(OutputFile& out, Paths paths) {
+void write_vtp(OutputFile& out, const Paths& paths) {
   std::size_t lines = 0;
   for (const Path& path : paths) lines += !path.positions.empty();
   const auto begin = [&](const char* type, const char* name) {
@@ -125,13 +132,22 @@ void write_vtp(OutputFile& out, Paths paths) {
     out.write(" ");
   }
   end();
+  if (!paths.values.empty()) {
+    begin("Float64", "value");
+    for (const Path& path : paths) {
+      if (path.positions.empty()) continue;
+      out.write_text(paths.values[path.source]);
+      out.write(" ");
+    }
+    end();
+  }
   out.write("</CellData>\n</Piece>\n</PolyData>\n</VTKFile>\n");
 }
 
-void write_json(OutputFile& out, Paths paths) {
+void write_json(OutputFile& out, const Paths& paths) {
   out.write("{\"paths\": [");
-  for (std::size_t k = 0; k < paths.size(); ++k) {
-    const Path& path = paths[k];
+  for (std::size_t k = 0; k < paths.all.size(); ++k) {
+    const Path& path = paths.all[k];
     out.write(k == 0 ? "\n{" : ",\n{");
     const bool reached = std::isfinite(path.length);
     out.write("\"length\": ");
@@ -144,6 +160,10 @@ void write_json(OutputFile& out, Paths paths) {
       out.write_text(path.source);
     else
       out.write("null");
+    if (!paths.values.empty()) {
+      out.write(", \"value\": ");
+      out.write_text(paths.values[path.source]);
+    }
     out.write(", \"points\": [");
     for (std::size_t i = 0; i < path.points.size(); ++i) {
       out.write(i == 0 ? "{\"simplex\": " : ", {\"simplex\": ");
@@ -166,14 +186,10 @@ void write_json(OutputFile& out, Paths paths) {
   out.write("\n]}\n");
 }
 
-using Writer = void (*)(OutputFile&, Paths);
+using Writer = void (*)(OutputFile&, const Paths&);
 constexpr std::array<Writer, 4> writers = {write_obj, write_ply, write_vtp, write_json};
 
-}  // namespace
-
-std::span<const std::string_view> path_extensions() { return extensions; }
-
-void write_paths(const std::filesystem::path& file, std::span<const Path> paths) {
+void write_lines(const std::filesystem::path& file, const Paths& paths) {
   const std::string extension = lower_extension(file);
   for (std::size_t i = 0; i < extensions.size(); ++i) {
     if (extension != extensions[i]) continue;
@@ -187,6 +203,23 @@ void write_paths(const std::filesystem::path& file, std::span<const Path> paths)
     return;
   }
   throw UsageError(unknown_extension(file, extensions));
+}
+
+}  // namespace
+
+std::span<const std::string_view> path_extensions() { return extensions; }
+
+void write_paths(const std::filesystem::path& file, std::span<const Path> paths) {
+  write_lines(file, {paths});
+}
+
+void write_isolines(const std::filesystem::path& file, std::span<const Path> lines,
+                    std::span<const double> values) {
+  for (const Path& line : lines)
+    if (line.source >= values.size())
+      throw UsageError(file.string() + ": a line is of value " + std::to_string(line.source) +
+                       ", and there are " + std::to_string(values.size()));
+  write_lines(file, {lines, values});
 }
 
 }  // namespace plexway::io

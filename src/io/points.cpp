@@ -13,8 +13,10 @@ namespace {
 namespace fs = std::filesystem;
 using Parser = Points (*)(std::string_view, std::string_view);
 
-constexpr std::array<std::string_view, 2> extensions = {".xyz", ".ply"};
-constexpr std::array<Parser, 2> parsers = {parse_xyz, parse_ply_points};
+constexpr std::array<std::string_view, 5> extensions = {".xyz", ".ply", ".csv", ".las", ".laz"};
+constexpr std::array<Parser, 5> parsers = {parse_xyz, parse_ply_points, parse_csv_points, parse_las,
+                                           parse_las};
+constexpr std::array<std::string_view, 2> output_extensions = {".xyz", ".ply"};
 
 void refuse_pcd(const fs::path& file) {
   if (InputName(file).extension == ".pcd")
@@ -67,6 +69,7 @@ void write_ply_cloud(OutputFile& out, const Points& points) {
 }  // namespace
 
 std::span<const std::string_view> point_extensions() { return extensions; }
+std::span<const std::string_view> point_output_extensions() { return output_extensions; }
 
 Points read_points(const fs::path& file) {
   refuse_pcd(file);
@@ -76,8 +79,9 @@ Points read_points(const fs::path& file) {
 void write_points(const fs::path& file, const Points& points) {
   refuse_pcd(file);
   const std::string extension = lower_extension(file);
-  const bool text = extension == extensions[0];
-  if (!text && extension != extensions[1]) throw UsageError(unknown_extension(file, extensions));
+  const bool text = extension == output_extensions[0];
+  if (!text && extension != output_extensions[1])
+    throw UsageError(unknown_extension(file, output_extensions));
   require_sound(points);
   OutputFile out(file);
   if (text)

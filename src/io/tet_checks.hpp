@@ -46,9 +46,9 @@ class OtherCells {
   std::vector<std::pair<std::string, std::uint64_t>> kinds_;
 };
 
-/// Which cells a reader takes: tetrahedra, passing over all others, or whatever a mixed domain can
-/// have, and nothing else.
-enum class Take { tets, mixed };
+/// Which cells a reader takes: tetrahedra, passing over all others; whatever a mixed domain can
+/// have, and nothing else; or whatever there is, where tetrahedra let it pass over others.
+enum class Take { tets, mixed, any };
 
 inline void require_tets(const Tets& solid, const OtherCells& others, std::string_view name) {
   if (solid.tets.empty())
@@ -62,9 +62,11 @@ inline void require_cells(const Mixed& cells, const OtherCells& others, Take tak
     if (cells.tets.empty()) require_tets({}, others, name);
     return;
   }
+  if (take == Take::any && !cells.tets.empty()) return;
   if (!others.empty())
     throw InputError(std::string(name) + ": has " + others.text() +
-                     "; a mixed domain has lines, triangles and tetrahedra");
+                     "; a domain is made of lines, polygons and tetrahedra");
+  if (take == Take::any && !cells.positions.empty()) return;  // points may be a cloud
   if (cells.edges.empty() && cells.triangles.empty() && cells.tets.empty())
     throw InputError(std::string(name) + ": has no lines, triangles or tetrahedra");
 }

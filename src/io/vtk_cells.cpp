@@ -68,13 +68,17 @@ std::optional<NumberType> vtk_number_type(std::string_view name) {
   return std::nullopt;
 }
 
-// Lines, polylines and triangles, those of second order too; points are no more than vertices.
+// Lines and polygons, those of second order too; points are no more than vertices.
 bool VtkTets::add_other(const VtkCells& cells, std::size_t cell, std::int64_t type) {
   constexpr std::int64_t empty = 0, point = 1, points = 2, line = 3, polyline = 4, triangle = 5,
-                         line2 = 21, triangle2 = 22;
+                         strip = 6, polygon = 7, pixel = 8, quad = 9, line2 = 21, triangle2 = 22,
+                         quad2 = 23;
   const std::uint64_t from = cell == 0 ? 0 : cells.ends[cell - 1];
   const std::uint64_t nodes = cells.ends[cell] - from;
   const std::uint32_t* corner = cells.connectivity.data() + from;
+  const auto add_triangle = [&](std::uint64_t a, std::uint64_t b, std::uint64_t c) {
+    solid_.triangles.push_back({corner[a], corner[b], corner[c]});
+  };
   if (type == empty || type == point || type == points) return true;
   if ((type == line && nodes == 2) || (type == line2 && nodes == 3)) {
     solid_.edges.push_back({corner[0], corner[1]});
@@ -86,7 +90,23 @@ bool VtkTets::add_other(const VtkCells& cells, std::size_t cell, std::int64_t ty
     return true;
   }
   if ((type == triangle && nodes == 3) || (type == triangle2 && nodes == 6)) {
-    solid_.triangles.push_back({corner[0], corner[1], corner[2]});
+    add_triangle(0, 1, 2);
+    return true;
+  }
+  if ((type == polygon && nodes >= 3) || (type == quad && nodes == 4) ||
+      (type == quad2 && nodes == 8)) {
+    const std::uint64_t corners = type == quad2 ? 4 : nodes;
+    for (std::uint64_t i = 2; i < corners; ++i) add_triangle(0, i - 1, i);
+    return true;
+  }
+  if (type == pixel && nodes == 4) {
+    add_triangle(0, 1, 3);
+    add_triangle(0, 3, 2);
+    return true;
+  }
+  if (type == strip && nodes >= 3) {
+    for (std::uint64_t i = 2; i < nodes; ++i)
+      add_triangle(i - 2, i % 2 == 0 ? i - 1 : i, i % 2 == 0 ? i : i - 1);
     return true;
   }
   return false;
@@ -96,7 +116,7 @@ std::optional<std::string> VtkTets::add(const VtkCells& cells, std::size_t cell,
                                         std::int64_t type) {
   const auto needed = nodes_of_tetrahedron(type);
   if (!needed) {
-    if (take_ == Take::mixed && add_other(cells, cell, type)) return std::nullopt;
+    if (take_ != Take::tets && add_other(cells, cell, type)) return std::nullopt;
     others_.add(kind_of(type));
     return std::nullopt;
   }

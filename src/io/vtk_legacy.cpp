@@ -35,8 +35,11 @@ class LegacyReader {
       const std::string keyword = lower(word);
       if (keyword == "dataset") {
         const std::string_view kind = in_.word();
+        if (lower(kind) == "polydata" && take_ != Take::tets) return read_polydata(version5);
         if (lower(kind) != "unstructured_grid")
-          in_.fail("the dataset is " + quote(kind) + "; tetrahedra need an UNSTRUCTURED_GRID");
+          in_.fail("the dataset is " + quote(kind) +
+                   (take_ == Take::tets ? "; tetrahedra need an UNSTRUCTURED_GRID"
+                                        : "; read are UNSTRUCTURED_GRID and POLYDATA"));
       } else if (keyword == "field") {
         skip_field();
       } else if (keyword == "metadata") {
@@ -135,6 +138,40 @@ class LegacyReader {
     }
     if (rank == region_names.size()) no_regions(name_);
     *regions_ = owners_.regions(best);
+  }
+
+  /// Points, and then cells of one kind after the other, as far as they go.
+  Mixed read_polydata(bool version5) {
+    if (regions_ != nullptr) no_regions(name_);
+    for (;;) {
+      const std::string_view word = in_.word();
+      const std::string keyword = lower(word);
+      const std::int64_t type = keyword == "vertices"          ? 2
+                                : keyword == "lines"           ? 4
+                                : keyword == "polygons"        ? 7
+                                : keyword == "triangle_strips" ? 6
+                                                               : 0;
+      if (keyword.empty() || keyword == "point_data" || keyword == "cell_data") break;
+      if (keyword == "field") {
+        skip_field();
+      } else if (keyword == "metadata") {
+        in_.skip_to_blank_line();
+      } else if (keyword == "points" && !has_points_) {
+        points();
+      } else if (type != 0) {
+        if (!has_points_) in_.fail(std::string(word) + " come before POINTS");
+        cells_ = {};
+        version5 ? cells5() : cells();
+        VtkTets taken(solid_, others_, take_);
+        for (std::uint64_t c = 0; c < cells_.ends.size(); ++c)
+          if (const auto wrong = taken.add(cells_, c, type)) in_.fail(*wrong);
+      } else {
+        in_.fail("expected POINTS, LINES or POLYGONS, found " + quote(word));
+      }
+    }
+    if (!has_points_) in_.fail("the file has no POINTS");
+    require_cells(solid_, others_, take_, name_);
+    return std::move(solid_);
   }
 
   std::uint64_t count(std::string_view what, NumberType type, std::uint64_t values) {
@@ -308,6 +345,10 @@ Mixed parse(std::string_view bytes, std::string_view name, Take take, Regions* r
 
 Tets parse_vtk(std::string_view bytes, std::string_view name) {
   return tets_of(parse(bytes, name, Take::tets));
+}
+
+Mixed parse_vtk_cells(std::string_view bytes, std::string_view name) {
+  return parse(bytes, name, Take::any);
 }
 
 Mixed parse_vtk_mixed(std::string_view bytes, std::string_view name) {

@@ -1,5 +1,6 @@
-// VTK's XML unstructured grid. The XML is pugixml's work; but raw appended data is not XML, so it
-// is cut off first. https://docs.vtk.org/en/latest/design_documents/VTKFileFormats.html
+// VTK's XML unstructured grid and polygons (.vtp). The XML is pugixml's work; but raw appended data
+// is not XML, so it is cut off first.
+// https://docs.vtk.org/en/latest/design_documents/VTKFileFormats.html
 
 #include <plexway/io/tets.hpp>
 
@@ -35,13 +36,17 @@ class VtuReader {
     const pugi::xml_node root = document_.child("VTKFile");
     if (!root) fail(1, "expected the element VTKFile");
     const std::string_view type = root.attribute("type").value();
-    if (type != "UnstructuredGrid")
-      fail(root, "the file is of type " + quote(type) + "; tetrahedra need an UnstructuredGrid");
+    const bool polygons = type == "PolyData" && take_ != Take::tets;
+    if (type != "UnstructuredGrid" && !polygons)
+      fail(root, "the file is of type " + quote(type) +
+                     (take_ == Take::tets ? "; tetrahedra need an UnstructuredGrid"
+                                          : "; read are UnstructuredGrid and PolyData"));
     read_encoding(root);
     const pugi::xml_node appended = root.child("AppendedData");
     appended_base64_ = std::string_view(appended.attribute("encoding").value()) == "base64";
-    for (const pugi::xml_node piece : root.child("UnstructuredGrid").children("Piece"))
-      read_piece(piece);
+    for (const pugi::xml_node piece :
+         root.child(polygons ? "PolyData" : "UnstructuredGrid").children("Piece"))
+      read_piece(piece, polygons);
     require_cells(solid_, others_, take_, name_);
     return std::move(solid_);
   }
@@ -110,9 +115,8 @@ class VtuReader {
     return value;
   }
 
-  void read_piece(pugi::xml_node piece) {
+  void read_piece(pugi::xml_node piece, bool polygons) {
     const std::uint64_t points = number(piece, "NumberOfPoints");
-    const std::uint64_t cells = number(piece, "NumberOfCells");
     const std::size_t base = solid_.positions.size();
     if (points != 0) {
       const pugi::xml_node array = piece.child("Points").child("DataArray");
@@ -122,13 +126,47 @@ class VtuReader {
       values(array, "points", points, 3,
              [&](auto& in, NumberType type) { read_vtk_points(in, type, points, solid_); });
     }
-    if (cells != 0) read_cells(piece, points, cells, base);
+    if (polygons) {
+      if (regions_ != nullptr) no_regions(name_);
+      read_polygons(piece, "Lines", "NumberOfLines", 4, points, base);
+      read_polygons(piece, "Polys", "NumberOfPolys", 7, points, base);
+      read_polygons(piece, "Strips", "NumberOfStrips", 6, points, base);
+    } else if (const std::uint64_t cells = number(piece, "NumberOfCells"); cells != 0) {
+      read_cells(piece, points, cells, base);
+    }
+  }
+
+  /// What PolyData has of one kind, whose cells all have this type. A kind that is not counted is
+  /// not there.
+  void read_polygons(pugi::xml_node piece, const char* kind, const char* count, std::int64_t type,
+                     std::uint64_t points, std::size_t base) {
+    const std::uint64_t cells = piece.attribute(count) ? number(piece, count) : 0;
+    if (cells == 0) return;
+    const VtkCells list = read_list(piece, kind, points, cells, base);
+    VtkTets taken(solid_, others_, take_);
+    for (std::uint64_t c = 0; c < cells; ++c)
+      if (const auto wrong = taken.add(list, c, type)) fail(piece.child(kind), *wrong);
   }
 
   void read_cells(pugi::xml_node piece, std::uint64_t points, std::uint64_t cells,
                   std::size_t base) {
+    const VtkCells list = read_list(piece, "Cells", points, cells, base);
+    values(cell_array(piece, "Cells", "types"), "types of cells", cells, 1,
+           [&](auto& in, NumberType type) {
+             VtkTets tets(solid_, others_, take_);
+             for (std::uint64_t c = 0; c < cells; ++c) {
+               if (const auto wrong = tets.add(list, c, in.whole(type, "the type of a cell")))
+                 in.fail(*wrong);
+               if (regions_ != nullptr) owners_.take(solid_, regions_of_cells_.size() + c);
+             }
+           });
+    if (regions_ != nullptr) read_regions(piece, cells);
+  }
+
+  VtkCells read_list(pugi::xml_node piece, const char* kind, std::uint64_t points,
+                     std::uint64_t cells, std::size_t base) {
     VtkCells list;
-    values(cell_array(piece, "offsets"), "offsets", cells, 1, [&](auto& in, NumberType type) {
+    values(cell_array(piece, kind, "offsets"), "offsets", cells, 1, [&](auto& in, NumberType type) {
       list.ends.reserve(cells);
       std::int64_t before = 0;
       for (std::uint64_t c = 0; c < cells; ++c) {
@@ -140,22 +178,14 @@ class VtuReader {
       }
     });
     const std::uint64_t corners = list.ends.back();
-    values(cell_array(piece, "connectivity"), "points of cells", corners, 1,
+    values(cell_array(piece, kind, "connectivity"), "points of cells", corners, 1,
            [&](auto& in, NumberType type) {
              list.connectivity.reserve(corners);
              for (std::uint64_t i = 0; i < corners; ++i)
                list.connectivity.push_back(static_cast<std::uint32_t>(
                    base + read_vtk_corner(in, type, static_cast<std::size_t>(points))));
            });
-    values(cell_array(piece, "types"), "types of cells", cells, 1, [&](auto& in, NumberType type) {
-      VtkTets tets(solid_, others_, take_);
-      for (std::uint64_t c = 0; c < cells; ++c) {
-        if (const auto wrong = tets.add(list, c, in.whole(type, "the type of a cell")))
-          in.fail(*wrong);
-        if (regions_ != nullptr) owners_.take(solid_, regions_of_cells_.size() + c);
-      }
-    });
-    if (regions_ != nullptr) read_regions(piece, cells);
+    return list;
   }
 
   void read_regions(pugi::xml_node piece, std::uint64_t cells) {
@@ -172,9 +202,9 @@ class VtuReader {
     *regions_ = owners_.regions(regions_of_cells_);
   }
 
-  pugi::xml_node cell_array(pugi::xml_node piece, const char* name) const {
+  pugi::xml_node cell_array(pugi::xml_node piece, const char* kind, const char* name) const {
     const pugi::xml_node array =
-        piece.child("Cells").find_child_by_attribute("DataArray", "Name", name);
+        piece.child(kind).find_child_by_attribute("DataArray", "Name", name);
     if (!array) fail(piece, "the piece has no array " + quote(name));
     return array;
   }
@@ -256,6 +286,10 @@ Tets parse_vtu(std::string_view bytes, std::string_view name) {
   return tets_of(VtuReader(bytes, name, Take::tets).read());
 }
 
+Mixed parse_vtu_cells(std::string_view bytes, std::string_view name) {
+  return VtuReader(bytes, name, Take::any).read();
+}
+
 Mixed parse_vtu_mixed(std::string_view bytes, std::string_view name) {
   return VtuReader(bytes, name, Take::mixed).read();
 }
@@ -273,6 +307,10 @@ Regions parse_vtu_regions(std::string_view bytes, std::string_view name, Take ta
 #include "region_parsers.hpp"
 
 namespace plexway::io {
+
+Mixed parse_vtu_cells(std::string_view bytes, std::string_view name) {
+  return parse_vtu_mixed(bytes, name);
+}
 
 Mixed parse_vtu_mixed(std::string_view, std::string_view) {
   throw NotBuiltError(

@@ -49,25 +49,25 @@ class Target {
 
 const void* offset(std::size_t bytes) { return reinterpret_cast<const void*>(bytes); }
 
-// The triangles of a batch on the device.
+// Triangles on the device.
 class Mesh {
  public:
-  Mesh(const DrawFunctions& gl, const Batch& batch)
-      : gl_(gl), corners_(static_cast<GLsizei>(batch.corners.size())) {
+  Mesh(const DrawFunctions& gl, std::span<const Corner> corners, std::span<const Others> others)
+      : gl_(gl), corners_(static_cast<GLsizei>(corners.size())) {
     gl.GenVertexArrays(1, &array_);
     gl.BindVertexArray(array_);
     gl.GenBuffers(2, buffers_.data());
-    load(0, batch.corners);
+    load(0, corners);
     attribute(0, 3, GL_FLOAT, sizeof(Corner), 0);
     attribute(1, 4, GL_SHORT, sizeof(Corner), 12);
     attribute(2, 1, GL_FLOAT, sizeof(Corner), 20);
     attribute(3, 4, GL_UNSIGNED_BYTE, sizeof(Corner), 24);
-    if (batch.others.empty()) {
+    if (others.empty()) {
       gl.VertexAttrib2f(4, 1e30f, 1e30f);
       for (const GLuint a : {5u, 6u}) gl.VertexAttrib4f(a, 0, 0, 0, 0);
       return;
     }
-    load(1, batch.others);
+    load(1, others);
     attribute(4, 2, GL_FLOAT, sizeof(Others), 0);
     attribute(5, 4, GL_UNSIGNED_BYTE, sizeof(Others), 8);
     attribute(6, 4, GL_UNSIGNED_BYTE, sizeof(Others), 12);
@@ -79,14 +79,17 @@ class Mesh {
   Mesh(const Mesh&) = delete;
   Mesh& operator=(const Mesh&) = delete;
 
-  void draw() const { gl_.DrawArrays(GL_TRIANGLES, 0, corners_); }
+  void draw() const {
+    gl_.BindVertexArray(array_);
+    gl_.DrawArrays(GL_TRIANGLES, 0, corners_);
+  }
 
  private:
   template <class Item>
-  void load(std::size_t k, const std::vector<Item>& items) {
+  void load(std::size_t k, std::span<const Item> items) {
     gl_.BindBuffer(GL_ARRAY_BUFFER, buffers_[k]);
-    gl_.BufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(items.size() * sizeof(Item)),
-                   items.data(), GL_STATIC_DRAW);
+    gl_.BufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(items.size_bytes()), items.data(),
+                   GL_STATIC_DRAW);
   }
   void attribute(GLuint place, GLint count, GLenum type, std::size_t stride, std::size_t at) {
     gl_.EnableVertexAttribArray(place);
@@ -157,43 +160,66 @@ class Painter {
 constexpr double clearly_behind = 0.04;  // of the scene's size
 constexpr std::array<float, 4> outline_ink = {0.07f, 0.08f, 0.1f, 1};
 
+// What is behind something, once a sample, faintly; it does not count for what is in front.
+void draw_behind(const DrawFunctions& gl, const Painter& painter, const Mesh& mesh,
+                 const std::array<float, 4>& veil) {
+  gl.Enable(GL_STENCIL_TEST);
+  gl.StencilFunc(GL_EQUAL, 0, 0xFF);
+  gl.StencilOp(GL_KEEP, GL_KEEP, GL_INCR);
+  gl.DepthFunc(GL_GREATER);
+  gl.DepthMask(GL_FALSE);
+  gl.Enable(GL_BLEND);
+  gl.BlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
+  painter.draw_tinted(mesh, veil, 0, clearly_behind);
+  gl.Disable(GL_BLEND);
+  gl.DepthMask(GL_TRUE);
+  gl.DepthFunc(GL_LEQUAL);
+  gl.Disable(GL_STENCIL_TEST);
+}
+
+void draw_piece(const DrawFunctions& gl, const Painter& painter, const Batch& batch,
+                std::span<const Corner> corners, std::span<const Others> others) {
+  const Mesh mesh(gl, corners, others);
+  if (batch.look == Look::ghost) {
+    gl.Enable(GL_BLEND);
+    gl.BlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
+    gl.DepthMask(GL_FALSE);
+    painter.draw(mesh, batch);
+    gl.DepthMask(GL_TRUE);
+    gl.Disable(GL_BLEND);
+    return;
+  }
+  if (batch.look == Look::overlay) {
+    if (batch.behind.empty())
+      draw_behind(gl, painter, mesh, batch.veil);
+    else
+      draw_behind(gl, painter, Mesh(gl, batch.behind, {}), batch.veil);
+    // The outline: the far side of a slightly thicker body.
+    gl.Enable(GL_CULL_FACE);
+    gl.CullFace(GL_FRONT);
+    painter.draw_tinted(mesh, outline_ink, 1.1, 0);
+    gl.Disable(GL_CULL_FACE);
+  }
+  painter.draw(mesh, batch);
+}
+
 void draw_all(const DrawFunctions& gl, const Painter& painter, std::span<const Batch> batches) {
   gl.Enable(GL_DEPTH_TEST);
   gl.DepthFunc(GL_LEQUAL);
   for (const Look look : {Look::lit, Look::cap, Look::overlay, Look::ghost})
     for (const Batch& batch : batches) {
       if (batch.look != look || batch.corners.empty()) continue;
-      const Mesh mesh(gl, batch);
-      if (look == Look::ghost) {
-        gl.Enable(GL_BLEND);
-        gl.BlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
-        gl.DepthMask(GL_FALSE);
-        painter.draw(mesh, batch);
-        gl.DepthMask(GL_TRUE);
-        gl.Disable(GL_BLEND);
-        continue;
+      // The device copies what it gets, so of much it gets a piece at a time. An overlay is whole.
+      constexpr std::size_t piece = 3 * (std::size_t{1} << 18);
+      const std::span<const Corner> corners = batch.corners;
+      const std::span<const Others> others = batch.others;
+      const std::size_t step = look == Look::overlay ? corners.size() : piece;
+      for (std::size_t from = 0; from < corners.size(); from += step) {
+        const std::size_t count = std::min(step, corners.size() - from);
+        draw_piece(gl, painter, batch, corners.subspan(from, count),
+                   others.empty() ? others : others.subspan(from, count));
+        if (count < corners.size()) gl.Finish();  // else it keeps them all until the end
       }
-      if (look == Look::overlay) {
-        // What is behind something, once a sample, faintly; it does not count for what is in front.
-        gl.Enable(GL_STENCIL_TEST);
-        gl.StencilFunc(GL_EQUAL, 0, 0xFF);
-        gl.StencilOp(GL_KEEP, GL_KEEP, GL_INCR);
-        gl.DepthFunc(GL_GREATER);
-        gl.DepthMask(GL_FALSE);
-        gl.Enable(GL_BLEND);
-        gl.BlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
-        painter.draw_tinted(mesh, batch.veil, 0, clearly_behind);
-        gl.Disable(GL_BLEND);
-        gl.DepthMask(GL_TRUE);
-        gl.DepthFunc(GL_LEQUAL);
-        gl.Disable(GL_STENCIL_TEST);
-        // The outline: the far side of a slightly thicker body.
-        gl.Enable(GL_CULL_FACE);
-        gl.CullFace(GL_FRONT);
-        painter.draw_tinted(mesh, outline_ink, 1.1, 0);
-        gl.Disable(GL_CULL_FACE);
-      }
-      painter.draw(mesh, batch);
     }
 }
 

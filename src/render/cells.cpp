@@ -4,17 +4,12 @@
 #include <cmath>
 #include <tuple>
 
+#include "io/colour_map.hpp"
+
 namespace plexway::render {
 namespace {
 
-constexpr std::array<Colour, 8> palette = {{{119, 170, 221},
-                                            {238, 136, 102},
-                                            {238, 221, 136},
-                                            {68, 187, 153},
-                                            {255, 170, 187},
-                                            {153, 221, 255},
-                                            {187, 204, 51},
-                                            {190, 170, 220}}};
+constexpr const std::array<Colour, 8>& palette = io::cell_colours;
 constexpr float far_away = 1e30f;
 
 double length(const Point& a, const Point& b) {

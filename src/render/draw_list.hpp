@@ -71,6 +71,8 @@ struct Batch {
   std::array<float, 4> veil = {1, 1, 1, 0.3f};  ///< an overlay behind something: sRGB and opacity
   std::vector<Corner> corners;
   std::vector<Others> others;  ///< as many as corners, or none
+  /// Of an overlay: what is drawn in its place where it is behind something; empty: itself.
+  std::vector<Corner> behind;
 
   void add(const Vertex& a, const Vertex& b, const Vertex& c);
 };

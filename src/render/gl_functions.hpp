@@ -32,6 +32,7 @@
   F(DRAWARRAYS, DrawArrays)                                         \
   F(ENABLE, Enable)                                                 \
   F(ENABLEVERTEXATTRIBARRAY, EnableVertexAttribArray)               \
+  F(FINISH, Finish)                                                 \
   F(FRAMEBUFFERRENDERBUFFER, FramebufferRenderbuffer)               \
   F(GENBUFFERS, GenBuffers)                                         \
   F(GENFRAMEBUFFERS, GenFramebuffers)                               \

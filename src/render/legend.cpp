@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "ticks.hpp"
+#include "io/ticks.hpp"
 
 namespace plexway::render {
 namespace {
@@ -16,7 +16,7 @@ struct Layout {
   double text;    // height of a capital
   double margin;  // around everything
   double bar_width, bar_top, bar_height, left, width;
-  Ticks numbers;
+  io::Ticks numbers;
 };
 
 Layout layout(const Legend& legend, double width, double height) {
@@ -35,7 +35,7 @@ Layout layout(const Legend& legend, double width, double height) {
   if (legend.bar) {
     const double room = l.bar_height / (2.6 * l.text);
     l.numbers =
-        ticks(legend.low, legend.high, static_cast<std::size_t>(std::clamp(room, 1.0, 6.0)));
+        io::ticks(legend.low, legend.high, static_cast<std::size_t>(std::clamp(room, 1.0, 6.0)));
     for (const std::string& label : l.numbers.label)
       l.width = std::max(l.width, text_width(label, l.text));
     l.width += l.bar_width + 0.95 * l.text;

@@ -11,10 +11,10 @@
 #include "checks.hpp"
 #include "finish.hpp"
 #include "io/colour_map.hpp"
+#include "io/ticks.hpp"
 #include "legend.hpp"
 #include "rounds.hpp"
 #include "skins.hpp"
-#include "ticks.hpp"
 
 namespace plexway::render {
 namespace {
@@ -165,8 +165,14 @@ void add_overlays(std::vector<Batch>& batches, const Scene& scene, const Making&
   for (const Point& p : scene.targets) add_ball(ends, at(p, plain(target_white)), 2.2 * width, 14);
   batches.push_back(std::move(ends));
   Batch starts(Look::overlay);
-  starts.veil = {1, 0.35f, 0.25f, 0.55f};
-  for (const Point& p : scene.sources) add_ball(starts, at(p, plain(source_red)), 2.6 * width, 14);
+  // One that is hidden is a ring: a dot would seem to lie on the near side.
+  starts.veil = {0.88f, 0.16f, 0.1f, 0.9f};
+  for (const Point& p : scene.sources) {
+    const Vertex source = at(p, plain(source_red));
+    const double radius = 2.6 * width;
+    add_ball(starts, source, radius, 14);
+    add_ring(starts.behind, source, 0.72 * radius, 1.08 * radius, making.toward);
+  }
   batches.push_back(std::move(starts));
 }
 
@@ -180,7 +186,7 @@ void choose_isolines(Style& style, const PictureOptions& options, bool cells) {
     return;
   }
   // Few in cells: there they show the shape, and borders matter.
-  style.line_step = cells ? ticks(low, high, 5).step : ticks(low, high, 6).fine_step();
+  style.line_step = cells ? io::ticks(low, high, 5).step : io::ticks(low, high, 6).fine_step();
   const double slack = 1e-6 * style.line_step;
   const double first = std::floor((low + slack) / style.line_step) + 1;
   style.first_line = first * style.line_step;

@@ -79,6 +79,24 @@ void add_ball(Batch& batch, const Vertex& centre, double radius, std::size_t rin
     }
 }
 
+void add_ring(std::vector<Corner>& corners, const Vertex& centre, double inner, double outer,
+              const Point& toward) {
+  constexpr std::size_t sides = 40;
+  Ring ring{some_perpendicular(toward), {}};
+  ring.y = cross(toward, ring.x);
+  Batch band(Look::overlay);
+  for (std::size_t k = 0; k < sides; ++k) {
+    const auto at = [&](std::size_t side, double radius) {
+      Vertex v = centre;
+      v.normal = toward;
+      v.position = plus(centre.position, times(radius, ring.at(side, sides)));
+      return v;
+    };
+    add_quad(band, at(k, inner), at(k, outer), at(k + 1, outer), at(k + 1, inner));
+  }
+  corners.insert(corners.end(), band.corners.begin(), band.corners.end());
+}
+
 void add_tube(Batch& batch, std::span<const Vertex> points, double radius, std::size_t sides) {
   std::vector<Vertex> line;
   for (const Vertex& v : points) {
@@ -171,13 +189,18 @@ void add_discs(Batch& batch, const Part& part, const Making& making) {
   if (!part.label.empty()) cells.emplace(part);
   const std::vector<double> spacing = spacings(part.positions);
   const bool flat = !part.normals.empty();
-  const std::size_t sides = part.positions.size() < 50000 ? 14 : 8;
+  const std::size_t most_sides = part.positions.size() < 50000 ? 14 : 8;
+  // Of very many points a disc is a pixel or two, and a triangle does for it.
+  const bool tiny = part.positions.size() > 200000;
+  batch.corners.reserve(part.positions.size() * (tiny ? 3 : 3 * most_sides));
   for (std::size_t i = 0; i < part.positions.size(); ++i) {
     Vertex centre =
         vertex_of(part, cells ? &*cells : nullptr, static_cast<std::uint32_t>(i), making);
     if (making.clip && making.clip->over(centre.position) > 0) continue;
-    const double radius =
+    double radius =
         std::max((flat ? 0.68 : 0.58) * making.frame.scale * spacing[i], 1.2 * making.pixel);
+    const std::size_t sides = tiny && radius < 2.5 * making.pixel ? 3 : most_sides;
+    if (sides == 3) radius *= 1.55;  // the area of the disc
     Point facing = flat ? unit_or_zero(part.normals[i]) : making.toward;
     const bool bulges = !flat || !(dot(facing, facing) > 0);
     if (bulges) facing = making.toward;
@@ -191,7 +214,10 @@ void add_discs(Batch& batch, const Part& part, const Making& making) {
       if (bulges) v.position = minus(v.position, times(0.5 * radius, facing));
       return v;
     };
-    for (std::size_t k = 0; k < sides; ++k) batch.add(centre, rim(k), rim(k + 1));
+    if (sides == 3)
+      batch.add(rim(0), rim(1), rim(2));
+    else
+      for (std::size_t k = 0; k < sides; ++k) batch.add(centre, rim(k), rim(k + 1));
   }
 }
 

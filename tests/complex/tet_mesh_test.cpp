@@ -134,6 +134,11 @@ TEMPLATE_TEST_CASE("bad solids name what is wrong", "", float, double) {
   fan.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {0, 0, -1}, {0.1, 0.1, 2}};
   fan.tets = {{0, 1, 2, 3}, {0, 1, 2, 4}, {0, 1, 2, 5}};
   CHECK_THAT(error(fan), Contains("tets 0, 1 and 2 share face 0 1 2"));
+  for (std::uint32_t k = 0; k < 400; ++k) {
+    fan.positions.push_back({0.1, 0.1, 3.0 + k});
+    fan.tets.push_back({0, 1, 2, 6 + k});
+  }
+  CHECK_THAT(error(fan), Contains("tets 0, 1, 2 and 400 more share face 0 1 2: at most two can"));
   fan.tets = {{0, 1, 2, 3}, {0, 1, 2, 5}};
   CHECK_THAT(error(fan), Contains("tets 0 and 1 lie on the same side of face 0 1 2"));
   fan.tets = {{0, 1, 2, 3}, {0, 1, 2, 4}};

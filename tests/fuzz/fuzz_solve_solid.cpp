@@ -57,11 +57,7 @@ void check(const Domain& domain, const Grid& grid, Index source, double slack,
            const plexway::PropagateOptions& options) {
   const auto field = plexway::solve(plexway::Serial{}, domain, PointSource::at(source), options);
   check_field(field.distance, Graph::of(grid.tets, grid.places), source, slack);
-  // Strings and the rule of solids promise that; the plain step, which a complex that folds over
-  // itself takes, does not.
-  bool promised = true;
-  if constexpr (requires { domain.summary().flat; }) promised = domain.summary().flat;
-  if (promised) check_straight(field.distance, grid.places, source, slack);
+  check_straight(field.distance, grid.places, source, slack);
 }
 
 }  // namespace

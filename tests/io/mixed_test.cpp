@@ -80,10 +80,10 @@ TEST_CASE("lines, triangles and tetrahedra come from one .msh") {
 
 TEST_CASE("cells that a mixed domain cannot have are refused, as it would have holes") {
   CHECK_THROWS_WITH(
-      io::parse_vtk_mixed(vtk("CELLS 2 8\n2 4 5\n4 0 1 4 2\n", "CELL_TYPES 2\n3 9\n"), "f.vtk"),
-      Contains("f.vtk: has 1 quadrilaterals"));
-  CHECK_THROWS_WITH(io::parse_gmsh_mixed(gmsh("1\n1 3 0 10 11 14 12\n"), "f.msh"),
-                    Contains("quadrilaterals"));
+      io::parse_vtk_mixed(vtk("CELLS 2 9\n2 4 5\n5 0 1 4 2 3\n", "CELL_TYPES 2\n3 14\n"), "f.vtk"),
+      Contains("f.vtk: has 1 pyramids"));
+  CHECK_THROWS_WITH(io::parse_gmsh_mixed(gmsh("1\n1 7 0 10 11 14 12 13\n"), "f.msh"),
+                    Contains("pyramids"));
   CHECK_THROWS_AS(io::parse_vtk_mixed(vtk("CELLS 1 2\n1 4\n", "CELL_TYPES 1\n1\n"), "f"),
                   InputError);
 }

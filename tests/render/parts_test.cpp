@@ -3,10 +3,10 @@
 #include <plexway/render/image.hpp>
 
 #include "io/io_testing.hpp"
+#include "io/ticks.hpp"
 #include "render/drawing.hpp"
 #include "render/palette.hpp"
 #include "render/stroke_font.hpp"
-#include "render/ticks.hpp"
 
 using namespace render_testing;
 
@@ -23,7 +23,7 @@ TEST_CASE("ticks are round, inside, and written as short as they can be") {
       {0, 3e6, {"0", "5e+05", "1.0e+06", "1.5e+06", "2.0e+06", "2.5e+06", "3.0e+06"}},
       {0, 5e-6, {"0", "1e-06", "2e-06", "3e-06", "4e-06", "5e-06"}}};
   for (const Example& e : examples) {
-    const Ticks t = ticks(e.low, e.high, 6);
+    const plexway::io::Ticks t = plexway::io::ticks(e.low, e.high, 6);
     CHECK(t.label == e.label);
     REQUIRE(t.at.size() == t.label.size());
     for (std::size_t k = 0; k < t.at.size(); ++k) {

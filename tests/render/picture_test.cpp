@@ -48,6 +48,25 @@ TEST_CASE("from every side a source is where it projects to") {
   }
 }
 
+TEST_CASE("a source behind something is a ring, one in front a dot") {
+  const Shape shape = cube(2);
+  for (const double y : {0.0, 1.0}) {  // on the near side, on the far side
+    Scene scene;
+    scene.parts = {shape.part()};
+    scene.sources = {{0.5, y, 0.5}};
+    const auto image = drawn(scene, plainly(0, 0));
+    if (!image) return;
+    const Extent seen = extent(*image, is_red);
+    const auto at = middle_of(seen);
+    const auto middle = image->at(static_cast<std::size_t>(std::lround(at[0])),
+                                  static_cast<std::size_t>(std::lround(at[1])));
+    CHECK(is_red(middle) == (y == 0));
+    const auto expected = extent(*image, is_drawn).at(0.5, 0.5);
+    CHECK(std::abs(at[0] - expected[0]) < 1.5);
+    CHECK(std::abs(at[1] - expected[1]) < 1.5);
+  }
+}
+
 TEST_CASE("in perspective what is nearer is larger, and all fits closely") {
   Shape shape = square(4);
   for (Point& p : shape.positions) p = {p[0], 4 * p[1], 0};

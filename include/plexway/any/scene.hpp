@@ -43,9 +43,14 @@ class ShapeScene {
 
   /// The scene.
   [[nodiscard]] const render::Scene& scene() const { return scene_; }
+  /// Whether all points of a surface or a solid lie in a line: its edges are drawn, there is no
+  /// area.
+  [[nodiscard]] bool is_line() const { return is_line_; }
 
  private:
   std::vector<std::array<double, 3>> normals_;
+  io::Edges lines_;
+  bool is_line_ = false;
   render::Scene scene_;
 };
 

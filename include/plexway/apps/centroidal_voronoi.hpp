@@ -47,7 +47,9 @@ struct CentroidalVoronoi {
   std::vector<PointSource> seeds;
   /// Nearest seed of each simplex's centre, on clouds of each point; none if unreached.
   std::vector<Index> label;
-  std::vector<double> cell_content;  ///< area or volume of each seed's cell
+  /// Area or volume of each seed's cell, its border running through simplices: they add up to what
+  /// is reached.
+  std::vector<double> cell_content;
   /// One an iteration.
   std::vector<VoronoiStep> steps;
   double energy = 0;               ///< at the end

@@ -50,7 +50,8 @@ struct SimplicialSummary {
 ///
 /// Vertices and simplices have the caller's numbers in this interface; inside they are in
 /// breadth-first order. Memory, float: 33, 53, 77 and 104 bytes a simplex for N = 1 to 4, and 8 a
-/// vertex; a flat domain has 8 N bytes more of each. A facet with n simplices takes n steps each
+/// vertex; a flat domain has 8 N bytes more of each, another one with coordinates 8 for each of a
+/// vertex. A facet with n simplices takes n steps each
 /// time one of them gets nearer: mind the hubs of graphs. Where surfaces and solids have classes of
 /// their own (TriangleMesh, TetMesh), those can do more.
 template <class Real, int N>
@@ -123,6 +124,10 @@ class SimplicialComplex {
   [[nodiscard]] std::span<const Index> pinched() const { return pinched_; }
   /// Points and bending faces, if the complex is flat; else nullptr.
   [[nodiscard]] const FlatDomain<N>* flat() const { return flat_.get(); }
+  /// Of a vertex (inside), in units; nothing where they are not known, or the complex is flat.
+  [[nodiscard]] std::span<const double> coordinates(Index inside_vertex) const {
+    return std::span<const double>(coordinates_).subspan(axes_ * inside_vertex, axes_);
+  }
   ///@}
 
  private:
@@ -130,6 +135,7 @@ class SimplicialComplex {
                 std::vector<Lengths> lengths);
   void find_stars(std::size_t vertices);
   void lay_flat(std::span<const double> positions);
+  void keep_coordinates(std::span<const double> positions, std::size_t axes);
 
   SimplicialSummary summary_;
   std::vector<Record> records_;
@@ -138,6 +144,8 @@ class SimplicialComplex {
   std::vector<unsigned char> places_;  // N < 4: where the caller's corners went, two bits each
   std::vector<Index> pinched_;
   std::shared_ptr<const FlatDomain<N>> flat_;
+  std::size_t axes_ = 0;
+  std::vector<double> coordinates_;
 };
 
 }  // namespace plexway

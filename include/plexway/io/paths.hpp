@@ -19,6 +19,11 @@ namespace plexway::io {
 /// Error "cannot write FILE: reason" when the system refuses.
 void write_paths(const std::filesystem::path& file, std::span<const Path> paths);
 
+/// Isolines (plexway::isolines) as paths are written; .json and .vtp have the `value` of each
+/// besides, values[source]. Throws as write_paths, and UsageError for a source that has no value.
+void write_isolines(const std::filesystem::path& file, std::span<const Path> lines,
+                    std::span<const double> values);
+
 /// The extensions `write_paths` knows, with the dot, in lower case.
 std::span<const std::string_view> path_extensions();
 

@@ -37,8 +37,10 @@ Points read_points(const std::filesystem::path& file);
 /// when the system refuses.
 void write_points(const std::filesystem::path& file, const Points& points);
 
-/// The extensions `read_points` and `write_points` know, with the dot, in lower case.
+/// The extensions `read_points` knows, with the dot, in lower case.
 std::span<const std::string_view> point_extensions();
+/// Those that `write_points` knows.
+std::span<const std::string_view> point_output_extensions();
 
 /// Whether `file` is a .ply that has vertices but no faces, as its header says: a cloud. False for
 /// anything else, unreadable files too. Cost: reads the header only.
@@ -49,6 +51,15 @@ bool is_ply_cloud(const std::filesystem::path& file);
 /// number says how many points follow. Throws InputError, also for normals whose length is far from
 /// 1 (and not 0): they are something else, such as colours.
 Points parse_xyz(std::string_view text, std::string_view name);
+
+/// A table of points, a line each, between commas, semicolons, tabs or blanks. A header names the
+/// columns x, y and z, and nx, ny and nz where there are normals; others are passed over, and
+/// without a header there are three. `#` starts a comment. Throws InputError.
+Points parse_csv_points(std::string_view text, std::string_view name);
+
+/// LAS 1.0 to 1.4, points of any format, but not packed as .laz. Withheld points are left out.
+/// Throws InputError.
+Points parse_las(std::string_view bytes, std::string_view name);
 
 /// The vertices of a Stanford PLY: ascii, binary little and big endian; `nx ny nz` as normals. All
 /// else is passed over. Throws InputError.

@@ -30,8 +30,8 @@ Triangles read_triangles(const std::filesystem::path& file);
 std::span<const std::string_view> triangle_extensions();
 
 /// Writes the surface; the extension (any case) picks the format. Nothing is rounded but in
-/// .stl, .glb and .gltf, which hold single precision; .vtu, .vtk, .glb and .gltf are for other
-/// programs: `read_triangles` does not take them. The file appears whole or not at all.
+/// .stl, .glb and .gltf, which hold single precision; .vtu, .vtk, .glb and .gltf are read again by
+/// `read_cells`. The file appears whole or not at all.
 ///
 /// Throws UsageError for an unknown extension, a coordinate that is not finite or, in single
 /// precision, too large, an index out of range, and Error "cannot write FILE: reason" when the

@@ -92,16 +92,22 @@ std::vector<PointSource> locate_sources(const AnyShape& domain,
   return sources;
 }
 
+std::optional<double> distance_from(const AnyShape& domain, const SourceArgument& argument,
+                                    const PointSource& source) {
+  const auto* point = std::get_if<1>(&argument.where);
+  if (point == nullptr) return std::nullopt;
+  const auto at = domain.position(source);
+  return std::hypot(at[0] - (*point)[0], at[1] - (*point)[1], at[2] - (*point)[2]);
+}
+
 std::string describe_source(const AnyShape& domain, const SourceArgument& argument,
                             const PointSource& source) {
-  const auto* point = std::get_if<1>(&argument.where);
-  if (point == nullptr) return "vertex " + std::to_string(source.vertex);
-  const auto at = domain.position(source);
-  const double off = std::hypot(at[0] - (*point)[0], at[1] - (*point)[1], at[2] - (*point)[2]);
+  const auto off = distance_from(domain, argument, source);
+  if (!off) return "vertex " + std::to_string(source.vertex);
   const std::string place = source.vertex != none ? "vertex " + std::to_string(source.vertex)
                                                   : singular(domain.simplex_name()) + " " +
                                                         std::to_string(source.simplex);
-  return argument.text + " (" + place + ", " + short_number(off) + " away)";
+  return argument.text + " (" + place + ", " + short_number(*off) + " away)";
 }
 
 }  // namespace plexway

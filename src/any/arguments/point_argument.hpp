@@ -35,6 +35,10 @@ PointSource locate_source(const AnyShape& domain, const SourceArgument& argument
 std::vector<PointSource> locate_sources(const AnyShape& domain,
                                         const std::vector<SourceArgument>& arguments);
 
+/// How far a point that was asked for is from where it is in the domain; nothing for a vertex.
+std::optional<double> distance_from(const AnyShape& domain, const SourceArgument& argument,
+                                    const PointSource& source);
+
 /// For people: "vertex 12", or "point:1,2,3 (triangle 7, 0.01 away)".
 std::string describe_source(const AnyShape& domain, const SourceArgument& argument,
                             const PointSource& source);

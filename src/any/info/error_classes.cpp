@@ -122,7 +122,7 @@ void ErrorClasses::count(std::size_t split, std::size_t part, double error) {
 }
 
 void ErrorClasses::add(std::span<const double> distance, std::span<const double> truth,
-                  const Vector& source) {
+                       const Vector& source) {
   const auto points = domain_.positions();
   std::fill(ridge_.begin(), ridge_.end(), static_cast<unsigned char>(0));
   for (std::size_t s = 0; s < domain_.simplices(); ++s) {

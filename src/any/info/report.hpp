@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "any/stopwatch.hpp"
 #include "any/words.hpp"
 
 namespace plexway {
@@ -27,7 +28,21 @@ class Table {
   std::vector<std::pair<std::string, std::string>> lines_;
 };
 
-/// A line "written" for each file, but those without a name.
+/// What a command did with its time: all of it, part after part.
+class Phases {
+ public:
+  /// A part ends, which began where the one before ended.
+  void end(std::string name);
+  /// The object `seconds`, and the line "time".
+  void tell(Json& json, Table& table) const;
+
+ private:
+  Stopwatch watch_;
+  double before_ = 0;
+  std::vector<std::pair<std::string, double>> parts_;
+};
+
+/// A line "written" for each file, but those without a name and standard output.
 void add_written(Table& table, std::initializer_list<std::string> files);
 
 /// The object as the tool prints it: indented, with a line end. Bytes that are not UTF-8, as a file

@@ -22,35 +22,29 @@ struct ConvertCommand {
 void run_convert(const ConvertCommand& command) {
   check_output_name(command.out, command.input, conversion_extensions(), "output");
   ProgressLine progress(command.quiet);
-  const Stopwatch clock;
   const Converted conversion =
       convert(command.input, command.out, read_options(command.as, command.fill, {}, progress));
   progress.clear();
-  const double seconds = clock.seconds();
-  if (command.json) {
-    Json json;
-    json["input"] = command.input;
-    json["out"] = command.out;
-    json["kind"] = conversion.kind;
-    json["vertices"] = conversion.vertices;
-    json["simplices"] = conversion.simplices;
-    if (!conversion.note.empty()) json["voxels"] = conversion.note;
-    json["seconds"] = seconds;
-    write_output(json_text(json));
-  } else if (!command.quiet) {
-    Table table;
-    table.add("input", command.input);
-    table.add(conversion.kind,
-              counted(conversion.vertices, "vertices") +
-                  (conversion.simplex_name.empty()
-                       ? std::string()
-                       : ", " + counted(conversion.simplices, conversion.simplex_name)));
-    if (!conversion.note.empty()) table.add("voxels", conversion.note);
-    table.add("time", short_time(seconds));
-    table.add("written", command.out);
-    write_output(table.text());
-  }
-  flush_output();
+  Json json;
+  json["input"] = command.input;
+  json["out"] = command.out;
+  json["kind"] = conversion.kind;
+  json["vertices"] = conversion.vertices;
+  json["simplices"] = conversion.simplices;
+  if (!conversion.note.empty()) json["voxels"] = conversion.note;
+  Table table;
+  table.add("input", command.input);
+  table.add(conversion.kind,
+            counted(conversion.vertices, "vertices") +
+                (conversion.simplex_name.empty()
+                     ? std::string()
+                     : ", " + counted(conversion.simplices, conversion.simplex_name)));
+  if (!conversion.note.empty()) table.add("voxels", conversion.note);
+  json["seconds"] = {{"load", conversion.load_seconds}, {"write", conversion.write_seconds}};
+  table.add("time", "load " + short_time(conversion.load_seconds) + ", write " +
+                        short_time(conversion.write_seconds));
+  add_written(table, {command.out});
+  print_report(json, table, command.json, command.quiet, {command.out});
 }
 
 }  // namespace

@@ -31,17 +31,19 @@ struct Result {
   CentroidalVoronoi voronoi;
   std::vector<double> distance;
   std::vector<Index> label;
-  double seconds = 0;
 };
 
 template <class Complex>
-Result compute(const Complex& complex, const CvtCommand& command, ProgressLine& progress) {
+Result compute(const Complex& complex, const CvtCommand& command, ProgressLine& progress,
+               Phases& phases) {
   Result result;
+  phases.end("build");
   PoissonOptions throwing;
   throwing.count = command.count;
   throwing.seed = command.seed;
   progress.phase("throwing darts");
   const PoissonDisks start = poisson_disks(Serial{}, complex, throwing);
+  phases.end("start");
   VoronoiOptions options;
   options.centre =
       command.centre == "centroid" ? CellCentre::centroid : CellCentre::farthest_from_border;
@@ -56,9 +58,8 @@ Result compute(const Complex& complex, const CvtCommand& command, ProgressLine& 
     progress.phase(line);
     return true;
   };
-  const Stopwatch moving;
   result.voronoi = centroidal_voronoi(Serial{}, complex, start.darts, options);
-  result.seconds = moving.seconds();
+  phases.end("move");
   if (command.cells.empty() && command.dual.empty() && !command.picture.wanted()) return result;
   const auto field = solve(Serial{}, complex, std::span<const PointSource>(result.voronoi.seeds));
   result.distance.assign(field.distance.begin(), field.distance.end());
@@ -66,6 +67,7 @@ Result compute(const Complex& complex, const CvtCommand& command, ProgressLine& 
   if (result.label.empty()) {
     for (const double d : result.distance) result.label.push_back(std::isfinite(d) ? 0 : none);
   }
+  phases.end("cells");
   return result;
 }
 
@@ -78,18 +80,21 @@ void run_cvt(const CvtCommand& command) {
   check_output_name(command.out, command.input, point_file_extensions());
   check_output_name(command.cells, command.input, io::field_extensions(), "--cells");
   check_output_name(command.dual, command.input, surface_file_extensions(), "--dual");
-  check_outputs_differ({command.out, command.cells, command.dual, command.picture.file});
+  check_outputs_differ(
+      {command.out, command.cells, command.dual, command.picture.file, command.picture.html});
   check_picture(command.picture, command.input);
 
   ProgressLine progress(command.quiet);
+  Phases phases;
   const Domain domain =
       load_domain(command.input, command.as, command.fill, command.cloud, progress);
+  phases.end("load");
   const auto* surface = std::get_if<io::Triangles>(&domain.data());
   if (!command.dual.empty() && surface == nullptr)
     throw UsageError("--dual: only a surface has a dual triangulation here");
   Result result;
   with_sampled(domain, precision,
-               [&](const auto& complex) { result = compute(complex, command, progress); });
+               [&](const auto& complex) { result = compute(complex, command, progress, phases); });
   const CentroidalVoronoi& voronoi = result.voronoi;
   if (!command.out.empty())
     write_points(command.out, domain, voronoi.seeds, "content", voronoi.cell_content);
@@ -101,7 +106,7 @@ void run_cvt(const CvtCommand& command) {
     content.distance = result.distance;
     content.label = labels;
     for (const PointSource& seed : voronoi.seeds) content.dots.push_back(domain.position(seed));
-    write_picture(command.picture, domain, content);
+    write_picture(command.picture, domain, content, command.quiet);
   }
   if (!command.cells.empty()) {
     domain.write_field(command.cells, result.distance, labels);
@@ -113,6 +118,7 @@ void run_cvt(const CvtCommand& command) {
     for (const PointSource& seed : voronoi.seeds) points.push_back(domain.position(seed));
     write_surface(command.dual, points, dual.triangles);
   }
+  phases.end("write");
   progress.clear();
 
   Json json;
@@ -124,7 +130,6 @@ void run_cvt(const CvtCommand& command) {
   json["steps"] = Json::array();
   for (const VoronoiStep& step : voronoi.steps)
     json["steps"].push_back({{"energy", step.energy}, {"movement", step.movement}});
-  json["seconds"] = result.seconds;
   Table table;
   table.add("input", command.input);
   table.add("seeds", counted(voronoi.seeds.size(), "seeds") + ", " +
@@ -142,9 +147,13 @@ void run_cvt(const CvtCommand& command) {
         counted(dual.triangles.size(), "triangles") +
             (dual.manifold ? "" : "; no manifold at " + counted(dual.irregular.size(), "seeds")));
   }
-  table.add("time", short_time(result.seconds));
-  add_written(table, {command.out, command.cells, command.dual, command.picture.file});
-  print_summary(command, json, table);
+  phases.tell(json, table);
+  add_written(table, {command.out, command.cells, command.dual, command.picture.file,
+                      command.picture.html});
+  print_report(
+      json, table, command.json, command.quiet,
+      {command.out, command.cells, command.dual, command.picture.file, command.picture.html});
+  if (!command.quiet) say_parts_without(domain, voronoi.seeds, "seeds");
 }
 
 }  // namespace
@@ -172,11 +181,9 @@ void add_cvt_command(CLI::App& tool, Action& action) {
                  "where a seed moves in its cell: centroid (default), or border: where it is\n"
                  "farthest from the border")
       ->type_name("NAME");
-  app.add_option("--cells", command->cells,
-                 "write each vertex's distance and cell: .csv .ply .vtk .vtu")
-      ->type_name("FILE");
-  app.add_option("--dual", command->dual, "write the triangles of seeds: .obj .off .ply")
-      ->type_name("FILE");
+  add_output(app, "--cells", command->cells,
+             "write each vertex's distance and cell: .csv .ply .vtk .vtu", "csv");
+  add_output(app, "--dual", command->dual, "write the triangles of seeds: .obj .off .ply", "obj");
   app.footer(
       "Examples:\n"
       "  plexway cvt knot.ply --count 500 --cells cells.vtu --dual remeshed.obj\n"

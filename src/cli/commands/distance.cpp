@@ -50,7 +50,7 @@ struct DistanceCommand {
 // What came out, as far as a report tells it.
 struct Outcome : FieldReach {
   double build = 0, solve = 0;
-  Executor executor;
+  Executor executor = {};
 };
 
 std::string executor_text(const Executor& executor) {
@@ -100,9 +100,9 @@ Json to_json(const DistanceCommand& command, const AnyDomain& solver, const AnyF
   return json;
 }
 
-std::string to_text(const DistanceCommand& command, const AnyDomain& solver, const AnyField& field,
-                    const MeasuredLengths* lengths, const std::vector<SetArgument>& arguments,
-                    const std::vector<Source>& sources, const Outcome& outcome) {
+Table to_table(const DistanceCommand& command, const AnyDomain& solver, const AnyField& field,
+               const MeasuredLengths* lengths, const std::vector<SetArgument>& arguments,
+               const std::vector<Source>& sources, const Outcome& outcome) {
   const Domain& domain = solver.shape();
   Table table;
   table.add("input", domain.file().string());
@@ -139,8 +139,8 @@ std::string to_text(const DistanceCommand& command, const AnyDomain& solver, con
                              : std::string()) +
                         command.solve.precision + ")");
   add_written(table,
-              {command.out == "-" ? "" : command.out, command.isolines.out, command.picture.file});
-  return table.text();
+              {command.out, command.isolines.out, command.picture.file, command.picture.html});
+  return table;
 }
 
 // Who did not choose learns what was chosen, and what another choice would bring.
@@ -181,7 +181,8 @@ void run_distance(DistanceCommand command) {
   read.insert(read.end(), command.pieces.more.begin(), command.pieces.more.end());
   if (command.out != "-") check_output_place(command.out, read, "--out");
   check_output_place(command.isolines.out, read, "--isolines-out");
-  check_outputs_differ({command.out, command.isolines.out, command.picture.file});
+  check_outputs_differ(
+      {command.out, command.isolines.out, command.picture.file, command.picture.html});
 
   command.fill.volume.writes_volume = is_vdb(command.out);
   ProgressLine progress(command.quiet);
@@ -232,13 +233,13 @@ void run_distance(DistanceCommand command) {
   outcome.solve = solve;
   outcome.executor = executor;
 
-  const bool to_stdout = command.out == "-";
+  const bool plain = command.out == "-";
   const std::vector<double> isovalues = isoline_values(command.isolines, distance);
   if (!command.out.empty()) {
-    progress.phase("writing " + (to_stdout ? "the distances" : command.out));
+    progress.phase("writing " + (plain ? "the distances" : command.out));
     const std::vector<std::int32_t> label = field.file_label();
-    if (to_stdout) {
-      progress.clear();
+    if (on_standard_output(command.out)) progress.clear();
+    if (plain) {
       write_distance_csv(distance, label,
                          domain.cloud() != nullptr
                              ? std::span<const std::uint32_t>(domain.cloud()->points.original)
@@ -261,20 +262,14 @@ void run_distance(DistanceCommand command) {
         cells ? labels_of(field, distance) : std::vector<std::int32_t>();
     content.label = label;
     for (const Source& source : sources) content.mark(domain, source);
-    write_picture(command.picture, domain, content);
+    write_picture(command.picture, domain, content, command.quiet);
   }
   progress.clear();
 
-  std::string report;
-  if (command.json)
-    report = json_text(to_json(command, solver, field, lengths.get(), outcome));
-  else if (!command.quiet)
-    report = to_text(command, solver, field, lengths.get(), arguments, sources, outcome);
-  if (to_stdout)
-    write_diagnostics(report);
-  else
-    write_output(report);
-  flush_output();
+  print_report(to_json(command, solver, field, lengths.get(), outcome),
+               to_table(command, solver, field, lengths.get(), arguments, sources, outcome),
+               command.json, command.quiet,
+               {command.out, command.isolines.out, command.picture.file, command.picture.html});
 
   if (outcome.beside_source == 0) {
     throw NothingReached(command.input +
@@ -305,8 +300,8 @@ void add_distance_command(CLI::App& tool, Action& action) {
   app.add_option(
          "--out,-o", command->out,
          "write the distances: .csv .npy .ply .vtk .vtu .glb .gltf (.pcd of clouds,\n"
-         ".vdb of solids) by extension, or - for CSV on standard output (the summary then goes to\n"
-         "standard error)")
+         ".vdb of solids) by extension, or - for CSV on standard output, ply:- for a .ply there,\n"
+         "and so on (the summary then goes to standard error)")
       ->type_name("FILE");
   app.add_option("--as", command->as, as_help)->type_name("KIND");
   app.add_flag("--json", command->json, "print the summary as one JSON object");

@@ -31,12 +31,14 @@ void run_farthest(const FarthestCommand& command) {
   if (!(command.radius >= 0)) throw UsageError("--radius must be >= 0");
   check_output_name(command.out, command.input, point_file_extensions());
   check_picture(command.picture, command.input);
-  check_outputs_differ({command.out, command.picture.file});
+  check_outputs_differ({command.out, command.picture.file, command.picture.html});
   const auto arguments = parse_sources(
       command.sources.empty() ? std::vector<std::string>{"vertex:0"} : command.sources);
   ProgressLine progress(command.quiet);
+  Phases phases;
   const Domain domain =
       load_domain(command.input, command.as, command.fill, command.cloud, progress);
+  phases.end("load");
   const auto start = locate_sources(domain, arguments);
   FarthestOptions options;
   options.count = command.count == 0 ? std::numeric_limits<std::size_t>::max() : command.count;
@@ -47,12 +49,11 @@ void run_farthest(const FarthestCommand& command) {
   };
   progress.phase("looking for the farthest points");
   FarthestPoints found;
-  double seconds = 0;
   std::vector<double> nearest;  // to the points found, where a picture shows it
   with_sampled(domain, precision, [&](const auto& complex) {
-    const Stopwatch searching;
+    phases.end("build");
     found = farthest_points(Serial{}, complex, start, options);
-    seconds = searching.seconds();
+    phases.end("search");
     if (!command.picture.wanted()) return;
     const auto field = solve(Serial{}, complex, std::span<const PointSource>(found.points));
     nearest.assign(field.distance.begin(), field.distance.end());
@@ -63,14 +64,16 @@ void run_farthest(const FarthestCommand& command) {
     SceneContent content;
     content.distance = nearest;
     for (const PointSource& point : found.points) content.dots.push_back(domain.position(point));
-    write_picture(command.picture, domain, content);
+    write_picture(command.picture, domain, content, command.quiet);
   }
+  phases.end("write");
   progress.clear();
 
   PointSummary summary(command, domain, found.points.size());
   summary.json["covering"] = json_number(found.covering);
   summary.table.add("covering", "no vertex is farther than " + short_number(found.covering));
-  summary.finish(command, found.statistics, seconds);
+  summary.finish(command, found.statistics, phases);
+  if (!command.quiet) say_parts_without(domain, found.points, "points");
 }
 
 }  // namespace

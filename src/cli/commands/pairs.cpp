@@ -48,14 +48,15 @@ void run_pairs(const PairsCommand& pairs) {
   check_output_name(command.out, command.input, matrix_file_extensions());
   const auto arguments = parse_sources(pairs.points);
   ProgressLine progress(command.quiet);
+  Phases phases;
   const Domain domain =
       load_domain(command.input, command.as, command.fill, command.cloud, progress);
+  phases.end("load");
   const auto points = locate_sources(domain, arguments);
   progress.phase("solving");
   DistanceMatrix matrix;
-  double seconds = 0;
   with_sampled(domain, precision, [&](const auto& complex) {
-    const Stopwatch solving;
+    phases.end("build");
     const auto tell = [&](double share) {
       progress.done(share);
       return true;
@@ -69,9 +70,10 @@ void run_pairs(const PairsCommand& pairs) {
       support(cell).require();
       matrix = distance_matrix(Serial{}, complex, points, tell);
     }
-    seconds = solving.seconds();
+    phases.end("solve");
   });
   if (!command.out.empty()) write_matrix(command.out, matrix.size, matrix.distance);
+  phases.end("write");
   progress.clear();
 
   PointSummary summary(command, domain, points.size());
@@ -80,7 +82,7 @@ void run_pairs(const PairsCommand& pairs) {
   summary.json["asymmetry"] = matrix.asymmetry;
   summary.table.add("two ways",
                     "differ by " + short_number(matrix.asymmetry) + " of the shorter at most");
-  summary.finish(command, matrix.statistics, seconds);
+  summary.finish(command, matrix.statistics, phases);
   if (!command.quiet) note_accuracy(matrix.statistics);
   if (matrix.asymmetry > 0.01 && !command.quiet)
     say_note("the two ways between some points, there and back, differ by " +
@@ -100,10 +102,10 @@ void add_pairs_command(CLI::App& tool, Action& action) {
                  "a point of a small symmetric matrix: vertex:ID or point:X,Y,Z; repeat it")
       ->type_name("WHERE")
       ->allow_extra_args(false);
-  app.add_option("--out,-o", command->out,
-                 "write the matrix: .csv or .npy of points; .npy of --sources, .npz or .mtx where\n"
-                 "it is sparse")
-      ->type_name("FILE");
+  add_output(app, "--out,-o", command->out,
+             "write the matrix: .csv or .npy of points (- for CSV on standard output); .npy of\n"
+             "--sources, .npz or .mtx where it is sparse",
+             "csv");
   app.add_option("--as", command->as, as_help)->type_name("KIND");
   app.add_flag("--json", command->json, "print the summary as one JSON object");
   app.add_flag("--quiet,-q", command->quiet, "no summary, notes or progress; errors stay");

@@ -59,6 +59,9 @@ void check_names(const MatrixCommand& command) {
     throw UsageError("--bin-width goes with --histogram");
   if (command.bins == 0 || command.bins > 1'000'000)
     throw UsageError("--bins must be from 1 to 1000000");
+  for (const std::string* out : {&command.out, &command.stats, &command.histogram})
+    if (on_standard_output(*out))
+      throw UsageError(*out + ": what can be gone on with is a file, not standard output");
   check_output_name(command.out, command.input,
                     sparse                   ? io::SparseFile::extensions()
                     : command.labels.empty() ? std::span<const std::string_view>(dense_files)

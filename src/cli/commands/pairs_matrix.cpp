@@ -281,7 +281,9 @@ void print(const MatrixCommand& command, const Job& job, const Outcome& outcome)
     json["expansions"] = outcome.report.statistics.expansions;
     if (outcome.report.statistics.windows_gave_up > 0)
       json["windows_gave_up"] = outcome.report.statistics.windows_gave_up;
-    json["seconds"] = outcome.solving;
+    json["seconds"]["load"] = job.domain.load_seconds();
+    if (job.domain.mesh_seconds()) json["seconds"]["mesh"] = *job.domain.mesh_seconds();
+    json["seconds"]["solve"] = outcome.solving;
     table.add("work", counted(outcome.report.rows, "rows") + " solved, " +
                           counted(outcome.report.statistics.expansions, "expansions"));
     table.add("time", short_time(outcome.solving));

@@ -51,6 +51,12 @@ struct PathCommand {
   bool quiet = false;
 };
 
+// Points as they were asked for, and where that is in the domain.
+struct Places {
+  std::vector<SourceArgument> asked;
+  std::vector<PointSource> found;
+};
+
 struct Outcome {
   std::vector<Path> paths;
   std::vector<double> distance;  // none where only a part was searched
@@ -122,24 +128,49 @@ Outcome find_paths(const Domain& domain, const BuildOptions& building, const Pat
   return outcome;
 }
 
-Json to_json(const PathCommand& command, const Domain& domain, const Outcome& outcome) {
-  Json json;
+// How far the point that was asked for is from the domain, where one was.
+Json snapped(const Domain& domain, const SourceArgument& asked, const PointSource& found) {
+  const auto off = distance_from(domain, asked, found);
+  return off ? Json(*off) : Json(nullptr);
+}
+
+// What is printed: as JSON, and for people.
+void report(const PathCommand& command, const Domain& domain, const Outcome& outcome,
+            const Places& from, const Places& to, Json& json, Table& table) {
   json["input"] = command.input;
   json["kind"] = domain.kind_name();
   json["vertices"] = domain.vertices();
   json["simplices"] = domain.simplices();
   json["paths"] = Json::array();
+  table.add("input", command.input);
+  if (!command.metric.text.empty()) table.add("metric", command.metric.text);
+  table.add(std::string(domain.kind_name()),
+            counted(domain.vertices(), "vertices") + ", " +
+                counted(domain.simplices(), domain.simplex_name()));
   for (std::size_t k = 0; k < outcome.paths.size(); ++k) {
     const Path& path = outcome.paths[k];
+    const bool reached = path.source != none;
     Json one;
     one["to"] = command.to[k];
-    one["from"] = path.source == none ? Json() : Json(command.from[path.source]);
+    one["from"] = reached ? Json(command.from[path.source]) : Json();
+    one["to_snapped"] = snapped(domain, to.asked[k], to.found[k]);
+    one["from_snapped"] =
+        reached ? snapped(domain, from.asked[path.source], from.found[path.source]) : Json();
     one["length"] = json_number(path.length);
     one["distance"] = json_number(outcome.promised[k]);
     one["points"] = path.points.size();
     one["windows"] = path.windows;
     one["capped"] = path.capped;
     json["paths"].push_back(one);
+    const auto place = [&](const Places& places, std::size_t n) {
+      return std::holds_alternative<Index>(places.asked[n].where)
+                 ? places.asked[n].text
+                 : describe_source(domain, places.asked[n], places.found[n]);
+    };
+    table.add(outcome.paths.size() == 1 ? "path" : "path " + std::to_string(k),
+              reached ? place(to, k) + " to " + place(from, path.source) + ": length " +
+                            short_number(path.length) + ", " + counted(path.points.size(), "points")
+                      : place(to, k) + " is not reached");
   }
   if (domain.kind() == DomainKind::surface || domain.cloud() != nullptr)
     add_accuracy(outcome.accuracy, outcome.statistics, json);
@@ -153,30 +184,11 @@ Json to_json(const PathCommand& command, const Domain& domain, const Outcome& ou
   json["updates"] = outcome.statistics.updates;
   json["executor"] = "serial";
   if (domain.kind() == DomainKind::surface) json["triangulation"] = name_of(outcome.triangulation);
-  return json;
-}
-
-std::string to_text(const PathCommand& command, const Domain& domain, const Outcome& outcome) {
-  Table table;
-  table.add("input", command.input);
-  if (!command.metric.text.empty()) table.add("metric", command.metric.text);
-  table.add(std::string(domain.kind_name()),
-            counted(domain.vertices(), "vertices") + ", " +
-                counted(domain.simplices(), domain.simplex_name()));
-  for (std::size_t k = 0; k < outcome.paths.size(); ++k) {
-    const Path& path = outcome.paths[k];
-    table.add(outcome.paths.size() == 1 ? "path" : "path " + std::to_string(k),
-              path.source == none
-                  ? command.to[k] + " is not reached"
-                  : command.to[k] + " to " + command.from[path.source] + ": length " +
-                        short_number(path.length) + ", " + counted(path.points.size(), "points"));
-  }
   table.add("work", counted(outcome.statistics.expansions, "expansions"));
   table.add("time", "load " + short_time(domain.load_seconds()) + ", build " +
                         short_time(outcome.build) + ", solve " + short_time(outcome.solve) +
                         ", trace " + short_time(outcome.trace));
-  add_written(table, {command.out, command.picture.file});
-  return table.text();
+  add_written(table, {command.out, command.picture.file, command.picture.html});
 }
 
 // Things the user should know about paths that were found.
@@ -247,7 +259,7 @@ void run_path(const PathCommand& typed) {
   check_picture(command.picture, command.input);
   const std::array read = {metric_file(command.metric), command.solve.table};
   check_output_place(command.out, read, "--out");
-  check_outputs_differ({command.out, command.picture.file});
+  check_outputs_differ({command.out, command.picture.file, command.picture.html});
 
   ProgressLine progress(command.quiet);
   const Domain domain =
@@ -285,14 +297,14 @@ void run_path(const PathCommand& typed) {
       for (const PointSource& source : sources) content.sources.push_back(domain.position(source));
       for (const PointSource& target : targets) content.targets.push_back(domain.position(target));
     }
-    write_picture(command.picture, domain, content);
+    write_picture(command.picture, domain, content, command.quiet);
   }
   progress.clear();
-  if (command.json)
-    write_output(json_text(to_json(command, domain, outcome)));
-  else if (!command.quiet)
-    write_output(to_text(command, domain, outcome));
-  flush_output();
+  Json json;
+  Table table;
+  report(command, domain, outcome, {from, sources}, {to, targets}, json, table);
+  print_report(json, table, command.json, command.quiet,
+               {command.out, command.picture.file, command.picture.html});
 
   std::size_t unreached = 0;
   for (const Path& path : outcome.paths) unreached += path.source == none;
@@ -322,10 +334,10 @@ void add_path_command(CLI::App& tool, Action& action) {
       ->required()
       ->type_name("WHERE")
       ->allow_extra_args(false);
-  app.add_option("--out,-o", command->out,
-                 "write the paths: .obj (lines), .ply, .vtp or .json by extension, each from its\n"
-                 "target back to its source")
-      ->type_name("FILE");
+  add_output(app, "--out,-o", command->out,
+             "write the paths: .obj (lines), .ply, .vtp or .json by extension, each from its\n"
+             "target back to its source; - for JSON on standard output",
+             "json");
   app.add_option("--as", command->as, as_help)->type_name("KIND");
   app.add_flag("--astar", command->astar,
                "surfaces: look only at what a shortest path may pass, instead of everything");

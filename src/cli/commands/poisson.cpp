@@ -52,13 +52,15 @@ void run_poisson(const PoissonCommand& command) {
   check_output_name(command.out, command.input, point_file_extensions());
   check_picture(command.picture, command.input);
   check_output_place(command.out, {&command.spacing, 1}, "--out");
-  check_outputs_differ({command.out, command.picture.file});
+  check_outputs_differ({command.out, command.picture.file, command.picture.html});
   const std::vector<double> spacing =
       command.spacing.empty() ? std::vector<double>{} : read_spacing(command.spacing);
 
   ProgressLine progress(command.quiet);
+  Phases phases;
   const Domain domain =
       load_domain(command.input, command.as, command.fill, command.cloud, progress);
+  phases.end("load");
   if (!spacing.empty() && spacing.size() != domain.vertices())
     throw InputError(command.spacing + ": " + counted(spacing.size(), "numbers") + " for " +
                      counted(domain.vertices(), "vertices"));
@@ -75,19 +77,19 @@ void run_poisson(const PoissonCommand& command) {
   };
   progress.phase("throwing darts");
   PoissonDisks disks;
-  double seconds = 0;
   with_sampled(domain, precision, [&](const auto& complex) {
-    const Stopwatch throwing;
+    phases.end("build");
     disks = poisson_disks(Serial{}, complex, options);
-    seconds = throwing.seconds();
+    phases.end("throw");
   });
   if (!command.out.empty()) write_points(command.out, domain, disks.darts);
   if (command.picture.wanted()) {
     SceneContent content;
     content.look_inside = true;
     for (const PointSource& dart : disks.darts) content.dots.push_back(domain.position(dart));
-    write_picture(command.picture, domain, content);
+    write_picture(command.picture, domain, content, command.quiet);
   }
+  phases.end("write");
   progress.clear();
 
   Json json;
@@ -99,7 +101,6 @@ void run_poisson(const PoissonCommand& command) {
   json["thrown"] = disks.thrown;
   json["taken_back"] = disks.taken_back;
   json["expansions"] = disks.statistics.expansions;
-  json["seconds"] = seconds;
   Table table;
   table.add("input", command.input);
   table.add("darts", counted(disks.darts.size(), "darts") + ", radius " +
@@ -107,9 +108,11 @@ void run_poisson(const PoissonCommand& command) {
                          (disks.maximal ? "" : "; a few more would find room"));
   table.add("work", counted(disks.thrown, "darts") + " thrown, " +
                         counted(disks.statistics.expansions, "expansions"));
-  table.add("time", short_time(seconds));
-  add_written(table, {command.out, command.picture.file});
-  print_summary(command, json, table);
+  phases.tell(json, table);
+  add_written(table, {command.out, command.picture.file, command.picture.html});
+  print_report(json, table, command.json, command.quiet,
+               {command.out, command.picture.file, command.picture.html});
+  if (!command.quiet) say_parts_without(domain, disks.darts, "darts");
 }
 
 }  // namespace

@@ -2,13 +2,16 @@
 
 #include <CLI/CLI.hpp>
 
+#include "any/parts.hpp"
+#include "cli/report/distance_output.hpp"
+
 namespace plexway::cli {
 
 void add_sampling_options(CLI::App& app, SamplingCommand& command, const char* out_help) {
   app.add_option("INPUT", command.input, "a surface, a solid or a cloud, as for 'plexway distance'")
       ->type_name("FILE")
       ->required();
-  app.add_option("--out,-o", command.out, out_help)->type_name("FILE");
+  add_output(app, "--out,-o", command.out, std::string(out_help) + output_help, "csv");
   app.add_option("--as", command.as, as_help)->type_name("KIND");
   app.add_option("--precision", command.precision, "float (default) or double")
       ->each([&command](const std::string&) { command.precision_given = true; })
@@ -27,6 +30,16 @@ Precision precision_of(const SamplingCommand& command) {
   return precision_of(options);
 }
 
+void say_parts_without(const Domain& domain, std::span<const PointSource> points,
+                       std::string_view plural) {
+  const Parts left = parts_without(domain, points);
+  if (left.count == 0) return;
+  say_note("no " + singular(plural) + " in " + counted(left.count, "parts") + " of the " +
+           std::string(kind_noun(domain.kind())) + " (" + counted(left.vertices, "vertices") +
+           "): there are more parts than " + std::string(plural) +
+           ", or they went to larger ones; what lies there belongs to none");
+}
+
 PointSummary::PointSummary(const SamplingCommand& command, const Domain& domain,
                            std::size_t points) {
   json["input"] = command.input;
@@ -37,21 +50,13 @@ PointSummary::PointSummary(const SamplingCommand& command, const Domain& domain,
 }
 
 void PointSummary::finish(const SamplingCommand& command, const PropagateStatistics& work,
-                          double seconds) {
+                          const Phases& phases) {
   json["expansions"] = work.expansions;
-  json["seconds"] = seconds;
   table.add("work", counted(work.expansions, "expansions"));
-  table.add("time", short_time(seconds));
-  add_written(table, {command.out, command.picture.file});
-  print_summary(command, json, table);
-}
-
-void print_summary(const SamplingCommand& command, const Json& json, const Table& table) {
-  if (command.json)
-    write_output(json_text(json));
-  else if (!command.quiet)
-    write_output(table.text());
-  flush_output();
+  phases.tell(json, table);
+  add_written(table, {command.out, command.picture.file, command.picture.html});
+  print_report(json, table, command.json, command.quiet,
+               {command.out, command.picture.file, command.picture.html});
 }
 
 }  // namespace plexway::cli

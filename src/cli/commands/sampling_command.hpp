@@ -1,6 +1,8 @@
 #pragma once
 
+#include <span>
 #include <string>
+#include <string_view>
 #include <type_traits>
 
 #include <plexway/error.hpp>
@@ -32,6 +34,8 @@ struct SamplingCommand {
   bool json = false, quiet = false;
 };
 
+inline constexpr const char* output_help = "; - for CSV on standard output";
+
 /// Adds INPUT, --out (which it describes), --as and so on.
 void add_sampling_options(CLI::App& app, SamplingCommand& command, const char* out_help);
 
@@ -57,16 +61,18 @@ void with_sampled(const Domain& domain, Precision precision, Use use) {
   });
 }
 
+/// A note about the parts of the domain in which none of the points lies, if there are any.
+void say_parts_without(const Domain& domain, std::span<const PointSource> points,
+                       std::string_view plural);
+
 /// A summary of so many points: what the commands say first, and what they say last.
 struct PointSummary {
   Json json;
   Table table;
 
   PointSummary(const SamplingCommand& command, const Domain& domain, std::size_t points);
-  void finish(const SamplingCommand& command, const PropagateStatistics& work, double seconds);
+  void finish(const SamplingCommand& command, const PropagateStatistics& work,
+              const Phases& phases);
 };
-
-/// The summary, as JSON or as a table, where it is wanted.
-void print_summary(const SamplingCommand& command, const Json& json, const Table& table);
 
 }  // namespace plexway::cli

@@ -30,36 +30,6 @@ struct TetrahedralizeCommand {
   bool quiet = false;
 };
 
-Json to_json(const TetrahedralizeCommand& command, const Domain& domain,
-             const SolidSurvey& survey) {
-  Json json;
-  json["input"] = command.input;
-  json["out"] = command.out;
-  json["kind"] = domain.kind_name();
-  json["vertices"] = domain.vertices();
-  json["simplices"] = domain.simplices();
-  if (!domain.level_set_note().empty()) json["voxels"] = domain.level_set_note();
-  json["volume"] = json_number(survey.volume);
-  json["largest_volume"] = json_number(survey.largest_volume);
-  json["seconds"] = {{"load", domain.load_seconds()}, {"mesh", *domain.mesh_seconds()}};
-  return json;
-}
-
-std::string to_text(const TetrahedralizeCommand& command, const Domain& domain,
-                    const SolidSurvey& survey) {
-  Table table;
-  table.add("input", command.input);
-  if (!domain.level_set_note().empty()) table.add("voxels", domain.level_set_note());
-  table.add("solid", counted(domain.vertices(), "vertices") + ", " +
-                         counted(domain.simplices(), domain.simplex_name()));
-  table.add("volume", short_number(survey.volume) + ", largest tetrahedron " +
-                          short_number(survey.largest_volume));
-  table.add("time", "load " + short_time(domain.load_seconds()) + ", mesh " +
-                        short_time(*domain.mesh_seconds()));
-  table.add("written", command.out);
-  return table.text();
-}
-
 void run_tetrahedralize(const TetrahedralizeCommand& command) {
   check_output_name(command.out, command.input, io::tet_extensions());
   (void)filling(command.fill);
@@ -74,11 +44,27 @@ void run_tetrahedralize(const TetrahedralizeCommand& command) {
   io::write_tets(command.out, solid);
   progress.clear();
   const SolidSurvey survey = survey_solid(solid);
-  if (command.json)
-    write_output(json_text(to_json(command, domain, survey)));
-  else if (!command.quiet)
-    write_output(to_text(command, domain, survey));
-  flush_output();
+  Json json;
+  json["input"] = command.input;
+  json["out"] = command.out;
+  json["kind"] = domain.kind_name();
+  json["vertices"] = domain.vertices();
+  json["simplices"] = domain.simplices();
+  if (!domain.level_set_note().empty()) json["voxels"] = domain.level_set_note();
+  json["volume"] = json_number(survey.volume);
+  json["largest_volume"] = json_number(survey.largest_volume);
+  json["seconds"] = {{"load", domain.load_seconds()}, {"mesh", *domain.mesh_seconds()}};
+  Table table;
+  table.add("input", command.input);
+  if (!domain.level_set_note().empty()) table.add("voxels", domain.level_set_note());
+  table.add("solid", counted(domain.vertices(), "vertices") + ", " +
+                         counted(domain.simplices(), domain.simplex_name()));
+  table.add("volume", short_number(survey.volume) + ", largest tetrahedron " +
+                          short_number(survey.largest_volume));
+  table.add("time", "load " + short_time(domain.load_seconds()) + ", mesh " +
+                        short_time(*domain.mesh_seconds()));
+  add_written(table, {command.out});
+  print_report(json, table, command.json, command.quiet, {command.out});
 }
 
 }  // namespace
@@ -92,11 +78,11 @@ void add_tetrahedralize_command(CLI::App& tool, Action& action) {
          "a closed surface: .obj .off .ply .stl, or TetGen's .poly .smesh; a level set: .vdb")
       ->type_name("FILE")
       ->required();
-  app.add_option("--out,-o", command->out,
-                 "write the solid: .node .ele .mesh .msh .vtu .vtk by extension. The\n"
-                 "vertices of the surface come first, with their numbers")
-      ->required()
-      ->type_name("FILE");
+  add_output(app, "--out,-o", command->out,
+             "write the solid: .node .ele .mesh .msh .vtu .vtk by extension (- for .mesh on\n"
+             "standard output). The vertices of the surface come first, with their numbers",
+             "mesh");
+  app.get_option("--out")->required();
   app.add_flag("--json", command->json, "print the summary as one JSON object");
   app.add_flag("--quiet,-q", command->quiet, "no summary or progress; errors stay");
   add_fill_options(app, command->fill);

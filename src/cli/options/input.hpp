@@ -42,10 +42,11 @@ Domain load_domain(const std::string& file, const std::string& as, const FillArg
 
 /// What INPUT may be, for the help of the commands.
 inline constexpr const char* input_help =
-    "a surface: .obj .off .ply .stl; a solid: .node .ele .mesh .msh .vtu .vtk,\n"
+    "a surface: .obj .off .ply .stl .vtp .glb .gltf; a solid: .node .ele .mesh .msh .vtu .vtk,\n"
     ".poly .smesh through TetGen, and a level set .vdb through OpenVDB; a wireframe: .edges, or "
     ".obj with lines only;\n"
-    "a cloud of points: .xyz, .ply without faces, and .pcd through PCL;\n"
+    "a cloud of points: .xyz .csv .las, .ply without faces, and .pcd through PCL; a .msh .vtu\n"
+    ".vtk .vtp .glb is what it holds;\n"
     "simplices of dimension 1 to 4: .simplices;\n"
     "any of these, built: .plexway, see 'plexway prepare'";
 inline constexpr const char* as_help =

@@ -50,12 +50,10 @@ void add_isoline_options(CLI::App& command, IsolineOptions& options) {
                   "lines on a surface, or surfaces in a solid, at each multiple of this distance,\n"
                   "for --isolines-out")
       ->type_name("STEP");
-  command
-      .add_option(
-          "--isolines-out", options.out,
-          "where to: .obj (lines), .ply, .vtp or .json; of a solid .obj, .off, .ply, .stl,\n"
-          ".glb, .gltf or .vtu (triangles)")
-      ->type_name("FILE");
+  add_output(command, "--isolines-out", options.out,
+             "where to: .obj (lines), .ply, .vtp or .json; of a solid .obj, .off, .ply, .stl,\n"
+             ".glb, .gltf or .vtu (triangles); - for .obj on standard output",
+             "obj");
 }
 
 void check_isolines(const IsolineOptions& options, const std::string& input) {
@@ -98,7 +96,7 @@ void write_isolines(const IsolineOptions& options, const Domain& domain,
                     std::span<const double> distance, std::span<const double> values) {
   if (const auto* solid = std::get_if<io::Tets>(&domain.data()))
     return write_isosurfaces(options.out, *solid, distance, values);
-  io::write_paths(options.out, domain.isolines(distance, values));
+  io::write_isolines(options.out, domain.isolines(distance, values), values);
 }
 
 }  // namespace plexway::cli

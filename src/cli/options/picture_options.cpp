@@ -5,11 +5,14 @@
 #include <string_view>
 
 #include <plexway/error.hpp>
+#include <plexway/io/page.hpp>
 
 #ifdef PLEXWAY_HAS_RENDER
 #include <plexway/render/picture.hpp>
 #endif
 
+#include "any/shape_page.hpp"
+#include "cli/report/console.hpp"
 #include "cli/report/distance_output.hpp"
 #include "io/colour_map.hpp"
 
@@ -17,6 +20,7 @@ namespace plexway::cli {
 namespace {
 
 constexpr std::array<std::string_view, 1> picture_extensions = {".png"};
+constexpr std::array<std::string_view, 2> page_extensions = {".html", ".htm"};
 
 // Numbers between commas.
 std::vector<double> numbers(const std::string& option, const std::string& text,
@@ -48,6 +52,39 @@ bool options_given(const PictureArguments& a) {
        {&a.view, &a.size, &a.range, &a.map, &a.clip, &a.isosurfaces, &a.up, &a.title, &a.colour})
     if (!text->empty()) return true;
   return a.isolines || a.transparent || a.orthographic || a.small;
+}
+
+std::array<double, 2> range_of(const std::string& text) {
+  const auto ends = numbers("--range", text, 2, "LO,HI");
+  if (!(ends[0] < ends[1])) throw UsageError("--range: LO must be less than HI");
+  return {ends[0], ends[1]};
+}
+
+char up_of(const std::string& text) {
+  if (text.empty()) return 'z';
+  if (text != "x" && text != "y" && text != "z")
+    throw UsageError("--up '" + text + "': choose one of x, y, z");
+  return text[0];
+}
+
+io::Page page_of(const PictureArguments& arguments) {
+  io::Page page;
+  page.up = up_of(arguments.up);
+  if (!arguments.range.empty()) page.range = range_of(arguments.range);
+  if (!arguments.map.empty()) {
+    const io::ColourMap exists(arguments.map);
+    page.map = arguments.map;
+  }
+  if (!arguments.title.empty()) page.title = arguments.title;
+  return page;
+}
+
+void write_page(const PictureArguments& arguments, const Domain& domain,
+                const SceneContent& content) {
+  if (arguments.html.empty()) return;
+  io::Page page = page_of(arguments);
+  fill_page(page, domain, content);
+  io::write_page(arguments.html, page);
 }
 
 #ifdef PLEXWAY_HAS_RENDER
@@ -104,11 +141,7 @@ render::PictureOptions options_of(const PictureArguments& arguments) {
         options.width > 16384 || options.height > 16384)
       throw UsageError("--size '" + size + "': expected WIDTHxHEIGHT in pixels, such as 800x600");
   }
-  if (!arguments.range.empty()) {
-    const auto ends = numbers("--range", arguments.range, 2, "LO,HI");
-    if (!(ends[0] < ends[1])) throw UsageError("--range: LO must be less than HI");
-    options.range = {ends[0], ends[1]};
-  }
+  if (!arguments.range.empty()) options.range = range_of(arguments.range);
   options.isolines = arguments.isolines;
   if (!arguments.map.empty()) {
     const io::ColourMap exists(arguments.map);
@@ -117,11 +150,7 @@ render::PictureOptions options_of(const PictureArguments& arguments) {
   if (!arguments.clip.empty()) options.clip = clip_of(arguments.clip);
   if (!arguments.isosurfaces.empty())
     options.isosurfaces = numbers("--isosurfaces", arguments.isosurfaces, "V,V,...");
-  if (!arguments.up.empty()) {
-    if (arguments.up != "x" && arguments.up != "y" && arguments.up != "z")
-      throw UsageError("--up '" + arguments.up + "': choose one of x, y, z");
-    options.up = arguments.up[0];
-  }
+  options.up = up_of(arguments.up);
   if (!arguments.title.empty()) options.title = arguments.title;
   options.transparent = arguments.transparent;
   options.orthographic = arguments.orthographic;
@@ -133,9 +162,12 @@ render::PictureOptions options_of(const PictureArguments& arguments) {
 }  // namespace
 
 void add_picture_options(CLI::App& app, PictureArguments& arguments, bool cells) {
-  app.add_option("--picture", arguments.file,
-                 "draw a picture, .png, without a display; the next options go with it")
-      ->type_name("FILE");
+  add_output(app, "--picture", arguments.file,
+             "draw a picture, .png, without a display; the next options go with it", "png");
+  add_output(app, "--html", arguments.html,
+             "a page to turn in a browser: one file, no network; --up, --range, --map and --title\n"
+             "go with it",
+             "html");
   app.add_option("--view", arguments.view,
                  "from where: front, back, left, right, top, bottom, iso, or AZ,EL in\n"
                  "degrees around the front (default: from above if flat, else 28,24)")
@@ -173,7 +205,13 @@ void add_picture_options(CLI::App& app, PictureArguments& arguments, bool cells)
 void check_picture(const PictureArguments& arguments, const std::string& input) {
   if (!arguments.wanted()) {
     if (options_given(arguments))
-      throw UsageError("--view, --size, --range, --clip and the like need --picture FILE");
+      throw UsageError(
+          "--view, --size, --range, --clip and the like need --picture FILE or --html FILE");
+    return;
+  }
+  check_output_name(arguments.html, input, page_extensions, "--html");
+  if (arguments.file.empty()) {
+    (void)page_of(arguments);
     return;
   }
 #ifdef PLEXWAY_HAS_RENDER
@@ -193,8 +231,9 @@ void check_picture(const PictureArguments& arguments, const std::string& input) 
 #ifdef PLEXWAY_HAS_RENDER
 
 void write_picture(const PictureArguments& arguments, const Domain& domain,
-                   const SceneContent& content) {
-  if (!arguments.wanted()) return;
+                   const SceneContent& content, bool quiet) {
+  write_page(arguments, domain, content);
+  if (arguments.file.empty()) return;
   const render::PictureOptions options = options_of(arguments);
   if (domain.positions().empty())
     throw UsageError("--picture: " + domain.file().string() + " has no positions to draw");
@@ -203,14 +242,17 @@ void write_picture(const PictureArguments& arguments, const Domain& domain,
   SceneContent shown = content;
   shown.look_inside = content.look_inside && !options.clip;
   const ShapeScene scene(domain, shown);
+  if (scene.is_line() && !quiet)
+    say_note("all points lie in a line: the picture shows the edges, for there is no area");
   render::write_png(arguments.file, render::picture(scene.scene(), options),
                     arguments.small ? 256 : 0);
 }
 
 #else
 
-void write_picture(const PictureArguments& arguments, const Domain&, const SceneContent&) {
-  check_picture(arguments, {});
+void write_picture(const PictureArguments& arguments, const Domain& domain,
+                   const SceneContent& content, bool) {
+  write_page(arguments, domain, content);
 }
 
 #endif

@@ -14,15 +14,15 @@ class App;
 
 namespace plexway::cli {
 
-/// --picture and what goes with it, as typed.
+/// --picture and --html, and what goes with them, as typed.
 struct PictureArguments {
-  std::string file;
+  std::string file, html;
   std::string view, size, range, map, clip, isosurfaces, up, title;
   std::optional<std::size_t> isolines;
   std::string colour;  ///< distance or cells, where a command has both
   bool transparent = false, orthographic = false, small = false;
 
-  [[nodiscard]] bool wanted() const { return !file.empty(); }
+  [[nodiscard]] bool wanted() const { return !file.empty() || !html.empty(); }
 };
 
 /// Adds the options to a command; `cells` adds --colour.
@@ -32,9 +32,9 @@ void add_picture_options(CLI::App& app, PictureArguments& arguments, bool cells 
 /// --picture, NotBuiltError where this build draws no pictures, and as check_output_name.
 void check_picture(const PictureArguments& arguments, const std::string& input);
 
-/// Draws and writes the picture. Throws as render::picture and render::write_png, and UsageError
-/// for a domain without positions.
+/// Draws and writes the picture, and the page. Throws as render::picture, render::write_png and
+/// io::write_page, and UsageError for a domain without positions. Says a note unless `quiet`.
 void write_picture(const PictureArguments& arguments, const Domain& domain,
-                   const SceneContent& content);
+                   const SceneContent& content, bool quiet);
 
 }  // namespace plexway::cli

@@ -90,7 +90,7 @@ void add_solve_options(CLI::App& command, SolveOptions& options, bool bounded) {
   command
       .add_option("--visibility", options.visibility,
                   "when a line of sight counts: saddles (default), tuned, centroid, or\n"
-                  "upper_bound (never below exact)")
+                  "upper_bound (never below exact, up to a third above)")
       ->type_name("NAME")
       ->group(group);
   command

@@ -2,10 +2,11 @@
 
 #include <string_view>
 
+#include "file/standard_output.hpp"
+
 namespace plexway::cli {
 
-/// Thrown when the reader of our standard output went away: no error, but no reason to go on.
-struct OutputClosed {};
+using file::OutputClosed;
 
 /// Writes data to standard output. Throws OutputClosed, or Error when the system refuses.
 void write_output(std::string_view text);

@@ -1,5 +1,7 @@
 #include "cli/report/distance_output.hpp"
 
+#include <CLI/CLI.hpp>
+#include <algorithm>
 #include <charconv>
 #include <string>
 
@@ -16,6 +18,29 @@ void append(std::string& text, Number value) {
 }
 
 }  // namespace
+
+void add_output(CLI::App& command, const std::string& name, std::string& out,
+                const std::string& help, const char* usual) {
+  const std::string on_output = std::string(usual) + ":-";
+  command.add_option(name, out, help)
+      ->type_name("FILE")
+      ->transform(
+          [on_output](const std::string& given) { return given == "-" ? on_output : given; });
+}
+
+void print_report(const Json& json, const Table& table, bool as_json, bool quiet,
+                  std::initializer_list<std::string> files) {
+  std::string text;
+  if (as_json)
+    text = json_text(json);
+  else if (!quiet)
+    text = table.text();
+  if (std::any_of(files.begin(), files.end(), io::on_standard_output))
+    write_diagnostics(text);
+  else
+    write_output(text);
+  flush_output();
+}
 
 void write_distance_csv(std::span<const double> distance, std::span<const std::int32_t> label,
                         std::span<const std::uint32_t> original, std::span<const double> error) {

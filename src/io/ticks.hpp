@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-namespace plexway::render {
+namespace plexway::io {
 
 /// Round numbers along a scale.
 struct Ticks {
@@ -18,4 +18,4 @@ struct Ticks {
 /// About `wanted` of them between low and high, low < high, both finite.
 Ticks ticks(double low, double high, std::size_t wanted);
 
-}  // namespace plexway::render
+}  // namespace plexway::io

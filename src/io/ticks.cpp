@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstdio>
 
-namespace plexway::render {
+namespace plexway::io {
 namespace {
 
 // 1, 2 or 5, and the power of ten.
@@ -57,4 +57,4 @@ Ticks ticks(double low, double high, std::size_t wanted) {
   return result;
 }
 
-}  // namespace plexway::render
+}  // namespace plexway::io

@@ -1,0 +1,233 @@
+// Files that may hold any kind: what is written reads back, and what others write.
+
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+#include <plexway/io/field.hpp>
+#include <plexway/io/mixed.hpp>
+#include <plexway/io/paths.hpp>
+#include <plexway/io/triangles.hpp>
+
+#include "io_testing.hpp"
+
+using namespace io_testing;
+using namespace plexway;
+using Catch::Contains;
+
+namespace {
+
+// Four triangles, one vertex apart from them, and numbers that single precision has.
+io::Triangles pyramid() {
+  return {{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0.5, 0.5, 0.75}, {7, 7, 7}},
+          {{0, 1, 4}, {1, 2, 4}, {2, 3, 4}, {3, 0, 4}}};
+}
+
+// Nothing where this build does not read the format.
+std::optional<io::Mixed> read(const std::filesystem::path& file) {
+  try {
+    return io::read_cells(file);
+  } catch (const NotBuiltError&) {
+    return std::nullopt;
+  }
+}
+
+io::Mixed gltf_of(const std::string& json) { return io::parse_gltf(json, "mesh"); }
+
+// A .gltf of one triangle 0 0 0, 1 0 0, 0 1 0 as two primitives' worth of numbers.
+std::string gltf(const std::string& nodes, const std::string& primitive,
+                 const std::string& more = "") {
+  return R"({"asset":{"version":"2.0")" + more + R"(},"nodes":[)" + nodes +
+         R"(],"meshes":[{"primitives":[)" + primitive +
+         R"(]}],"accessors":[{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3"},)"
+         R"({"bufferView":1,"componentType":5123,"count":3,"type":"SCALAR"}],)"
+         R"("bufferViews":[{"buffer":0,"byteLength":36},{"buffer":0,"byteOffset":36,)"
+         R"("byteLength":6}],"buffers":[{"byteLength":42,"uri":"data:;base64,)"
+         "AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAAAAABAAIA"
+         R"("}]})";
+}
+
+constexpr const char* indexed = R"({"attributes":{"POSITION":0},"indices":1})";
+
+bool reads_gltf() {
+  try {
+    gltf_of(gltf(R"({"mesh":0})", indexed));
+  } catch (const NotBuiltError&) {
+    return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+TEST_CASE("surfaces that are written as .vtu .vtk .glb .gltf read back") {
+  const Folder folder;
+  const io::Triangles surface = pyramid();
+  const std::vector<double> distance = {0, 1, 1.5, 1, 0.9, std::numeric_limits<double>::infinity()};
+  for (const char* name : {"s.vtu", "s.vtk", "s.glb", "s.gltf"}) {
+    for (const bool field : {false, true}) {
+      if (field)
+        io::write_field(folder.at(name), surface, distance);
+      else
+        io::write_triangles(folder.at(name), surface);
+      const auto cells = read(folder.at(name));
+      if (!cells) continue;
+      INFO(name);
+      CHECK(cells->triangles.size() == 4);
+      CHECK(cells->tets.empty());
+      const bool gltf = std::string_view(name).find(".gl") != std::string_view::npos;
+      // glTF has no vertices that nothing names.
+      if (!gltf) CHECK(cells->positions == surface.positions);
+      for (std::size_t t = 0; t < 4; ++t)
+        for (std::size_t k = 0; k < 3; ++k)
+          CHECK(cells->positions.at(cells->triangles[t][k]) ==
+                surface.positions[surface.triangles[t][k]]);
+    }
+  }
+}
+
+TEST_CASE("wires, points and paths that are written read back") {
+  const Folder folder;
+  io::Edges wires{{{0, 0, 0}, {1, 0, 0}, {1, 0.5, 0.25}}, {{0, 1}, {1, 2}}, {}, 3};
+  const std::vector<double> distance = {0, 1, 1.5};
+  for (const char* name : {"w.vtu", "w.vtk", "w.glb"}) {
+    INFO(name);
+    io::write_field(folder.at(name), wires, distance);
+    if (const auto cells = read(folder.at(name))) {
+      CHECK(cells->edges == wires.edges);
+      CHECK(cells->positions == wires.positions);
+    }
+    const io::Points cloud{wires.positions, {}, {}};
+    io::write_field(folder.at(name), cloud, distance);
+    if (const auto cells = read(folder.at(name))) {
+      CHECK(cells->edges.empty());
+      CHECK(cells->triangles.empty());
+      CHECK(cells->positions == wires.positions);
+    }
+  }
+  Path path;
+  path.positions = wires.positions;
+  path.points.resize(3);
+  path.length = 2, path.source = 0;
+  io::write_paths(folder.at("p.vtp"), {&path, 1});
+  if (const auto cells = read(folder.at("p.vtp"))) {
+    CHECK(cells->edges == wires.edges);
+    CHECK(cells->positions == wires.positions);
+  }
+}
+
+TEST_CASE("polygons of .vtp and legacy POLYDATA become triangles") {
+  const std::string five = "0 0 0  1 0 0  1 1 0  0 1 0  0.5 0.5 1";
+  const auto check = [](const io::Mixed& cells) {
+    CHECK(cells.positions.size() == 5);
+    CHECK(cells.triangles ==
+          Faces{{0, 1, 2}, {0, 2, 3}, {0, 1, 4}, {1, 2, 4}, {2, 1, 4}, {1, 0, 4}});
+    CHECK(cells.edges == std::vector<std::array<std::uint32_t, 2>>{{3, 4}, {4, 0}});
+  };
+  check(io::parse_vtk_cells(
+      "# vtk DataFile Version 3.0\nt\nASCII\nDATASET POLYDATA\nPOINTS 5 float\n" + five +
+          "\nLINES 1 4\n3 3 4 0\nPOLYGONS 3 13\n4 0 1 2 3\n3 0 1 4\n3 1 2 4\n"
+          "TRIANGLE_STRIPS 1 5\n4 2 1 4 0\nPOINT_DATA 5\nSCALARS a float\n",
+      "f"));
+  check(io::parse_vtk_cells(
+      "# vtk DataFile Version 5.1\nt\nASCII\nDATASET POLYDATA\nPOINTS 5 double\n" + five +
+          "\nLINES 2 3\nOFFSETS vtktypeint64\n0 3\nCONNECTIVITY vtktypeint64\n3 4 0\n"
+          "POLYGONS 4 10\nOFFSETS vtktypeint64\n0 4 7 10\nCONNECTIVITY vtktypeint64\n"
+          "0 1 2 3 0 1 4 1 2 4\nTRIANGLE_STRIPS 2 4\nOFFSETS vtktypeint64\n0 4\n"
+          "CONNECTIVITY vtktypeint64\n2 1 4 0\n",
+      "f"));
+  const auto list = [](const std::string& name, const std::string& corners,
+                       const std::string& ends) {
+    return "<" + name + "><DataArray type=\"Int64\" Name=\"connectivity\">" + corners +
+           "</DataArray><DataArray type=\"Int64\" Name=\"offsets\">" + ends + "</DataArray></" +
+           name + ">";
+  };
+  const std::string vtp =
+      "<VTKFile type=\"PolyData\"><PolyData><Piece NumberOfPoints=\"5\" NumberOfVerts=\"0\" "
+      "NumberOfLines=\"1\" NumberOfPolys=\"3\" NumberOfStrips=\"1\"><Points><DataArray "
+      "type=\"Float64\" NumberOfComponents=\"3\">" +
+      five + "</DataArray></Points>" + list("Lines", "3 4 0", "3") +
+      list("Strips", "2 1 4 0", "4") + list("Polys", "0 1 2 3 0 1 4 1 2 4", "4 7 10") +
+      "</Piece></PolyData></VTKFile>";
+  try {
+    check(io::parse_vtu_cells(vtp, "f"));
+  } catch (const NotBuiltError&) {
+  }
+  CHECK(complaint(io::parse_vtk, "# vtk DataFile Version 3.0\nt\nASCII\nDATASET POLYDATA\n") ==
+        "mesh:4: the dataset is 'POLYDATA'; tetrahedra need an UNSTRUCTURED_GRID");
+  CHECK(complaint(io::parse_vtk_cells,
+                  "# vtk DataFile Version 3.0\nt\nASCII\nDATASET POLYDATA\nPOINTS 1 float\n0 0 0\n"
+                  "POLYGONS 1 4\n3 0 0 1\n") ==
+        "mesh:8: a cell names point 1, but there are 1 points");
+}
+
+TEST_CASE("tetrahedra win over what is beside them, and what no domain is made of is refused") {
+  const std::string points =
+      "# vtk DataFile Version 2.0\nt\nASCII\nDATASET UNSTRUCTURED_GRID\n"
+      "POINTS 5 float\n0 0 0 1 0 0 0 1 0 0 0 1 1 1 1\n";
+  const auto both = io::parse_vtk_cells(
+      points + "CELLS 2 11\n4 0 1 2 3\n5 0 1 2 3 4\nCELL_TYPES 2\n10 14\n", "f");
+  CHECK(both.tets.size() == 1);
+  CHECK(complaint(io::parse_vtk_cells,
+                  points + "CELLS 2 10\n3 0 1 2\n5 0 1 2 3 4\nCELL_TYPES 2\n5 14\n") ==
+        "mesh: has 1 pyramids; a domain is made of lines, polygons and tetrahedra");
+}
+
+TEST_CASE("glTF is where its nodes put it") {
+  if (!reads_gltf()) return;
+  const io::Mixed plain = gltf_of(gltf(R"({"mesh":0})", indexed));
+  CHECK(plain.triangles == Faces{{0, 1, 2}});
+  CHECK(plain.positions == Positions{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}});
+  // Twice: as it is, and below a node that turns it by 90 degrees about z, scales and moves it.
+  const io::Mixed twice = gltf_of(
+      gltf(R"({"mesh":0},{"children":[2],"rotation":[0,0,0.7071067811865476,0.7071067811865476],)"
+           R"("translation":[10,0,0]},{"mesh":0,"scale":[2,3,4]})",
+           indexed, R"(},"scenes":[{"nodes":[0,1]}],"x":{)"));
+  REQUIRE(twice.positions.size() == 6);
+  CHECK(twice.triangles == Faces{{0, 1, 2}, {3, 4, 5}});
+  const Positions moved = {{10, 0, 0}, {10, 2, 0}, {7, 0, 0}};
+  for (std::size_t v = 0; v < 3; ++v)
+    for (std::size_t k = 0; k < 3; ++k)
+      CHECK(twice.positions[3 + v][k] == Approx(moved[v][k]).margin(1e-12));
+}
+
+TEST_CASE("glTF's seams are closed, but not those in files of plexway") {
+  if (!reads_gltf()) return;
+  // The same numbers behind two accessors, as exporters write a seam.
+  const std::string two =
+      R"({"attributes":{"POSITION":0}},{"attributes":{"POSITION":2},"indices":1})";
+  std::string seam = gltf(R"({"mesh":0})", two);
+  const std::string last = R"("count":3,"type":"SCALAR"}])";
+  seam.replace(seam.find(last), last.size(),
+               R"("count":3,"type":"SCALAR"},{"bufferView":0,"componentType":5126,"count":3,)"
+               R"("type":"VEC3"}])");
+  CHECK(gltf_of(seam).positions.size() == 3);
+  CHECK(gltf_of(seam).triangles.size() == 2);
+  std::string own = seam;
+  own.replace(own.find(R"("version":"2.0")"), 15, R"("version":"2.0","generator":"plexway")");
+  CHECK(gltf_of(own).positions.size() == 6);
+}
+
+TEST_CASE("glTF that is packed, elsewhere or broken is refused in one line") {
+  if (!reads_gltf()) return;
+  const std::string good = gltf(R"({"mesh":0})", indexed);
+  const auto said = [&](const std::string& from, const std::string& to) {
+    std::string broken = good;
+    REQUIRE(broken.find(from) != broken.npos);
+    return complaint(io::parse_gltf, broken.replace(broken.find(from), from.size(), to));
+  };
+  CHECK_THAT(said(R"("nodes")", R"("extensionsRequired":["KHR_draco_mesh_compression"],"nodes")"),
+             Contains("needs the extension 'KHR_draco_mesh_compression'"));
+  CHECK_THAT(said("data:;base64,", "mesh.bin?"), Contains("in another file"));
+  CHECK_THAT(said(R"("byteLength":36)", R"("byteLength":35)"), Contains("fewer numbers"));
+  CHECK_THAT(said(R"("byteLength":6})", R"("byteLength":600})"), Contains("outside its buffer"));
+  CHECK_THAT(said(R"("POSITION":0)", R"("POSITION":1)"), Contains("not of type VEC3"));
+  CHECK_THAT(said(R"("mesh":0)", R"("mesh":4)"), Contains("names '4' of 1 meshes"));
+  CHECK_THAT(said(R"("mesh":0)", R"("children":[0])"), Contains("circle"));
+  CHECK_THAT(said(R"("nodes")", R"("nodes)"), Contains("JSON is broken"));
+  CHECK_THAT(complaint(io::parse_gltf, "glTF"), Contains("ends inside its header"));
+  CHECK_THAT(complaint(io::parse_gltf, "{}"), Contains("has no points"));
+  CHECK_THAT(complaint(io::parse_gltf, R"({"meshes":[[1]],"nodes":[{"mesh":0}]})"),
+             Contains("has no points"));
+}
