@@ -19,6 +19,7 @@
 #include <plexway/apps/path_search.hpp>
 #include <plexway/apps/poisson_disk.hpp>
 #include <plexway/apps/read_out.hpp>
+#include <plexway/apps/row_ranks.hpp>
 #include <plexway/apps/row_reductions.hpp>
 #include <plexway/apps/tuning.hpp>
 #include <plexway/complex/blocks.hpp>

@@ -2,6 +2,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <cstdint>
+#include <cstdlib>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
@@ -260,6 +261,68 @@ TEST_CASE("a sparse matrix killed on the way is bit for bit one that was not") {
     }
   }
   REQUIRE(run_tool(command(parts)).code == 0);
+  CHECK(content(parts) == content(whole));
+}
+
+TEST_CASE("pairs write HDF5 that h5py reads, whole after any number of kills") {
+  const testing::Folder folder;
+  const std::string input = folder.write("square.off", square_off(40));
+  const std::string plain = folder.at("d.npy"), whole = folder.at("whole.h5"),
+                    parts = folder.at("parts.h5");
+  const auto command = [&](const std::string& out) {
+    return std::vector<std::string>{"pairs",     input,   "--sources", "all",     "--symmetric",
+                                    "--threads", "2",     "--type",    "float16", "--precision",
+                                    "double",    "--out", out,         "--json"};
+  };
+  const Outcome undisturbed = run_tool(command(whole));
+  if (undisturbed.code == 4) {  // a build without HDF5 says so, before anything is read
+    CHECK(undisturbed.complaints() == 1);
+    CHECK(undisturbed.err.find("libhdf5-dev") != std::string::npos);
+    CHECK(folder.files() == 1);
+    return;
+  }
+  REQUIRE(undisturbed.code == 0);
+  REQUIRE(run_tool(command(plain)).code == 0);
+  CHECK(folder.files() == 3);
+  CHECK(fs::file_size(whole) < fs::file_size(plain));
+  if (const std::string python = "/usr/bin/python3 -c 'import h5py, numpy";
+      std::system((python + "' >/dev/null 2>&1").c_str()) == 0) {
+    CHECK(std::system((python + "; f = h5py.File(\"" + whole + "\"); d = f[\"distance\"]; " +
+                       "assert d.dtype == numpy.float16 and d.compression == \"gzip\"; " +
+                       "assert (d[()] == numpy.load(\"" + plain + "\")).all(); " +
+                       "assert (f[\"rows\"][()] == numpy.arange(1600)).all(); " +
+                       "assert (f[\"columns\"][()] == numpy.arange(1600)).all()'")
+                          .c_str()) == 0);
+  }
+
+  const int about = static_cast<int>(1000 * undisturbed.json()["seconds"].get<double>());
+  std::mt19937 random(3);
+  for (int kills = 0; kills < 6;) {
+    const int wait = 1 + static_cast<int>(random() % static_cast<unsigned>(about + 100));
+    if (run_tool_and_kill(command(parts), wait).code != 0) {
+      ++kills;
+    } else {
+      REQUIRE(content(parts) == content(whole));
+      fs::remove(parts);
+    }
+  }
+  REQUIRE(run_tool(command(parts)).code == 0);
+  CHECK(content(parts) == content(whole));
+  CHECK(folder.files() == 4);
+
+  // A disk that gets full, while rows are solved and while they are packed.
+  fs::remove(parts);
+  for (const std::size_t room : {2'000'000UL, 5'500'000UL}) {
+    const Outcome full = run_tool_with_small_files(command(parts), room);
+    if (full.code == 0) continue;
+    CHECK(full.code == 1);
+    CHECK(full.err.find("cannot write " + parts) != std::string::npos);
+    CHECK_FALSE(fs::exists(parts));
+    CHECK(fs::exists(parts + ".journal"));
+  }
+  const Outcome rest = run_tool(command(parts));
+  REQUIRE(rest.code == 0);
+  CHECK(rest.json()["rows_solved"] < 1600);
   CHECK(content(parts) == content(whole));
 }
 

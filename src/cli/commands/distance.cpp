@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <set>
 #include <string>
 #include <vector>
@@ -13,10 +14,12 @@
 #include <plexway/io/field.hpp>
 
 #include "any/fill.hpp"
+#include "any/shape_state.hpp"
 #include "cli/commands/commands.hpp"
 #include "cli/exit_codes.hpp"
 #include "cli/options/input.hpp"
 #include "cli/options/isoline_options.hpp"
+#include "cli/options/mask_option.hpp"
 #include "cli/options/metric_options.hpp"
 #include "cli/options/picture_options.hpp"
 #include "cli/options/solve_options.hpp"
@@ -43,6 +46,7 @@ struct DistanceCommand {
   PieceArguments pieces;
   SolveOptions solve;
   PictureArguments picture;
+  MaskArgument mask;
   MetricArgument metric;
   TriangulationArgument triangulation;
   bool json = false;
@@ -90,9 +94,8 @@ Outcome survey(const std::vector<double>& distance, const std::vector<Source>& s
   return outcome;
 }
 
-Json to_json(const DistanceCommand& command, const AnyDomain& solver, const AnyField& field,
-             const MeasuredLengths* lengths, const Outcome& outcome) {
-  const Domain& domain = solver.shape();
+Json to_json(const DistanceCommand& command, const Domain& domain, const AnyDomain& solver,
+             const AnyField& field, const MeasuredLengths* lengths, const Outcome& outcome) {
   Json json;
   json["input"] = domain.file().string();
   json["kind"] = domain.kind_name();
@@ -131,10 +134,10 @@ Json to_json(const DistanceCommand& command, const AnyDomain& solver, const AnyF
   return json;
 }
 
-std::string to_text(const DistanceCommand& command, const AnyDomain& solver, const AnyField& field,
-                    const MeasuredLengths* lengths, const std::vector<SetArgument>& arguments,
-                    const std::vector<Source>& sources, const Outcome& outcome) {
-  const Domain& domain = solver.shape();
+std::string to_text(const DistanceCommand& command, const Domain& domain, const AnyDomain& solver,
+                    const AnyField& field, const MeasuredLengths* lengths,
+                    const std::vector<SetArgument>& arguments, const std::vector<Source>& sources,
+                    const Outcome& outcome) {
   Table table;
   table.add("input", domain.file().string());
   table.add(std::string(domain.kind_name()),
@@ -271,7 +274,8 @@ void run_distance(DistanceCommand command) {
     check_output_name(command.out, command.input, AnyShape::field_extensions(DomainKind::cloud));
   check_picture(command.picture, command.input);
   check_isolines(command.isolines, command.input);
-  std::vector<std::string> read = {metric_file(command.metric), command.solve.table};
+  std::vector<std::string> read = {metric_file(command.metric), mask_file(command.mask),
+                                   command.solve.table};
   for (const SetArgument& argument : arguments) read.push_back(argument.file);
   read.insert(read.end(), command.pieces.more.begin(), command.pieces.more.end());
   if (command.out != "-") check_output_place(command.out, read, "--out");
@@ -280,14 +284,20 @@ void run_distance(DistanceCommand command) {
 
   command.fill.volume.writes_volume = is_vdb(command.out);
   ProgressLine progress(command.quiet);
-  const Domain domain =
+  const Domain whole =
       load_domain(command.input, command.as, command.fill, command.cloud, progress, command.pieces);
-  if (domain.cloud() == nullptr && command.out != "-")
-    check_output_name(command.out, command.input, AnyShape::field_extensions(domain.kind()));
-  check_isolines(command.isolines, domain);
-  const std::vector<Source> sources = locate_source_sets(domain, arguments);
+  if (whole.cloud() == nullptr && command.out != "-")
+    check_output_name(command.out, command.input, AnyShape::field_extensions(whole.kind()));
+  check_isolines(command.isolines, whole);
+  const std::vector<Source> located = locate_source_sets(whole, arguments);
+  const std::optional<Mask> mask = read_mask(command.mask, whole);
+  std::vector<Source> sources = located;
+  if (mask) {
+    const OpenParts open(*mask, whole);
+    for (Source& source : sources) open.move(source);
+  }
   const std::vector<PointSource> points = as_points(sources);
-  if (needs_double(domain, sources)) {
+  if (needs_double(whole, sources)) {
     if (command.solve.executor.name == "auto") command.solve.executor.name = "serial";
     if (command.solve.executor.name != "serial")
       throw UsageError("--executor '" + command.solve.executor.name +
@@ -302,13 +312,17 @@ void run_distance(DistanceCommand command) {
   }
 
   if (!command.metric.text.empty()) progress.phase("reading the metric");
-  const auto lengths = measure(command.metric, domain, Jumps::refract);
-  check_triangulation(triangulation, domain);
+  auto lengths = measure(command.metric, whole, Jumps::refract);
+  check_triangulation(triangulation, whole);
   progress.phase("building");
-  const AnyDomain solver(domain, {.precision = precision,
-                                  .triangulation = triangulation,
-                                  .lengths = lengths,
-                                  .progress = progress.share_callback()});
+  const Domain domain = mask ? open_domain(*mask, whole, lengths) : whole;
+  const auto build = [&] {
+    return AnyDomain(domain, {.precision = precision,
+                              .triangulation = triangulation,
+                              .lengths = lengths,
+                              .progress = progress.share_callback()});
+  };
+  const AnyDomain solver = mask ? with_file_name(whole, build) : build();
 
   progress.phase("solving");
   PropagateOptions options = wanted;
@@ -361,9 +375,9 @@ void run_distance(DistanceCommand command) {
 
   std::string report;
   if (command.json)
-    report = json_text(to_json(command, solver, field, lengths.get(), outcome));
+    report = json_text(to_json(command, whole, solver, field, lengths.get(), outcome));
   else if (!command.quiet)
-    report = to_text(command, solver, field, lengths.get(), arguments, sources, outcome);
+    report = to_text(command, whole, solver, field, lengths.get(), arguments, located, outcome);
   if (to_stdout)
     write_diagnostics(report);
   else
@@ -376,7 +390,7 @@ void run_distance(DistanceCommand command) {
                          "a finite distance");
   }
   const bool bounded = command.solve.radius || command.solve.max_expansions;
-  if (!command.quiet) say_violations(domain, lengths.get());
+  if (!command.quiet) say_violations(whole, lengths.get());
   if (!command.quiet && !command.isolines.out.empty() && isovalues.empty())
     say_note("--isolines-out holds nothing: no distance is as large as the step");
   if (!command.quiet) say_notes(solver, field, outcome, bounded, precision == Precision::single);
@@ -407,6 +421,7 @@ void add_distance_command(CLI::App& tool, Action& action) {
   add_solve_options(app, command->solve, true);
   add_triangulation_option(app, command->triangulation);
   add_metric_option(app, command->metric);
+  add_mask_option(app, command->mask);
   add_fill_options(app, command->fill);
   add_cloud_options(app, command->cloud);
   add_picture_options(app, command->picture, true);
@@ -423,6 +438,7 @@ void add_distance_command(CLI::App& tool, Action& action) {
       "  plexway distance broken.stl --repair --as solid --source vertex:0 --out d.glb\n"
       "  plexway distance part.stl --source vertex:0 --triangulation delaunay -o d.vtu\n"
       "  plexway distance ground.off --source vertex:0 --metric speed:speeds.txt -o times.vtu\n"
+      "  plexway distance cortex.surf.gii --source vertex:0 --mask vertices:wall.txt -o d.npy\n"
       "  plexway distance vessels.obj --source vertex:0 --out distance.vtk\n"
       "  plexway distance knot.ply --source vertex:0 --picture knot.png --view iso\n"
       "  plexway distance scan.pcd --voxel 0.01 --denoise --source point:0,0,0 --out d.ply\n"

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <cstdio>
 #include <filesystem>
 #include <functional>
@@ -22,7 +23,9 @@
 #include <plexway/error.hpp>
 #include <plexway/io/write_pairs.hpp>
 
+#include "any/hdf5_functions.hpp"
 #include "any/make_complex.hpp"
+#include "cli/among.hpp"
 #include "cli/commands/pairs_job.hpp"
 #include "cli/options/input.hpp"
 #include "cli/options/vertex_list.hpp"
@@ -50,8 +53,14 @@ struct Outcome {
   std::string asymmetry;
   std::uint64_t entries = 0;
   std::optional<StatisticsSummary> statistics;
-  std::size_t threads = 1;
+  std::size_t threads = 1, ranks = 1;
   bool only_estimated = false;
+
+  /// "2 threads" or "4 ranks, here of 2 threads".
+  [[nodiscard]] std::string team() const {
+    const std::string each = counted(threads, "threads");
+    return ranks == 1 ? each : counted(ranks, "ranks") + ", here of " + each;
+  }
 };
 
 std::string asymmetry_text(const io::Asymmetry& found) {
@@ -67,7 +76,11 @@ class MatrixRun {
 
   MatrixRun(const Job& job, const E& executor, const Complex& complex,
             const std::vector<PointSource>& rows, ProgressLine& progress)
-      : job_(job), executor_(executor), complex_(complex), progress_(progress) {
+      : job_(job),
+        among_(job.command.among),
+        executor_(executor),
+        complex_(complex),
+        progress_(progress) {
     request_.rows = SourceList(rows);
     request_.columns = job.columns;
     request_.solve = job.options;
@@ -75,8 +88,13 @@ class MatrixRun {
   }
 
   Outcome run() {
+    if (among_ != nullptr && !among_->ranks.leads()) {
+      follow();
+      return outcome_;
+    }
     outcome_.expected_bytes = expected_bytes(job_);
     if constexpr (std::is_same_v<E, OpenMP>) outcome_.threads = team_size(executor_);
+    outcome_.ranks = among_ == nullptr ? 1 : among_->ranks.count();
     estimate();
     if (job_.command.estimate) {
       outcome_.only_estimated = true;
@@ -118,7 +136,7 @@ class MatrixRun {
       const double each = (seconds - before) / static_cast<double>(std::max(more - probes, 1UL));
       outcome_.expected_seconds =
           (more > probes && each > 0 ? each : seconds / static_cast<double>(more)) *
-          static_cast<double>(rows);
+          static_cast<double>(rows) / static_cast<double>(outcome_.ranks);
       if (seconds > 0.05 || 16 * more > rows) break;
       probes = more;
       before = seconds;
@@ -126,7 +144,7 @@ class MatrixRun {
     if (job_.command.estimate || outcome_.expected_seconds < 5) return;
     std::string text = std::to_string(rows) + " x " + std::to_string(job_.columns.size()) +
                        ": about " + short_time(outcome_.expected_seconds) + " on " +
-                       counted(outcome_.threads, "threads");
+                       outcome_.team();
     if (outcome_.expected_bytes > 0) text += ", " + io::short_bytes(outcome_.expected_bytes);
     progress_.note(text + "; what is finished stays if it is ended before");
   }
@@ -152,11 +170,38 @@ class MatrixRun {
             .nearest = job_.command.nearest.value_or(none)};
   }
 
+  // Alone or among others.
+  PairsReport dense_rows(const PairsRequest& request, const PairsSink<DenseRow<Real>>& sink) {
+    const auto solve = [&](const auto& mine, const auto& out) {
+      return all_pairs(executor_, complex_, mine, out);
+    };
+    if (among_ == nullptr) return solve(request, sink);
+    return share_rows(among_->ranks, request, complex_.vertex_count(), sink, solve);
+  }
+  PairsReport near_rows(const PairsRequest& request, const PairsSink<SparseRow<Real>>& sink) {
+    const auto solve = [&](const auto& mine, const auto& out) {
+      return near_pairs(executor_, complex_, mine, limits(), out);
+    };
+    if (among_ == nullptr) return solve(request, sink);
+    return share_rows(among_->ranks, request, complex_.vertex_count(), sink, solve);
+  }
+
+  // Rows go to the leader, which has the files.
+  void follow() {
+    if (job_.command.estimate) return;
+    if (job_.sparse)
+      near_rows(request_, {});
+    else
+      dense_rows(request_, {});
+  }
+
   void run_sparse(BlockJournal& journal) {
     io::SparseFile file(job_.command.out, job_.rows.size(), job_.columns.size(), job_.block,
                         job_.number, journal);
     const Stopwatch watch;
-    outcome_.report = io::write_near_pairs(executor_, complex_, request_, limits(), file, journal);
+    outcome_.report = io::write_near_rows<Real>(
+        request_, file, journal,
+        [&](const auto& missing, const auto& sink) { return near_rows(missing, sink); });
     outcome_.solving = watch.seconds();
     progress_.phase("writing " + job_.command.out);
     outcome_.entries = file.commit(journal);
@@ -192,8 +237,9 @@ class MatrixRun {
                          }});
     }
     const Stopwatch watch;
-    outcome_.report = io::write_pairs(executor_, complex_, request_,
-                                      std::span<const io::RowOutput<Real>>(outputs), journal);
+    outcome_.report = io::write_rows(
+        request_, std::span<const io::RowOutput<Real>>(outputs), journal,
+        [&](const auto& missing, const auto& sink) { return dense_rows(missing, sink); });
     outcome_.solving = watch.seconds();
     if (matrix && job_.square) compare_ways(*matrix, journal);
     if (parcels) write_parcels(command.out, *parcels, *job_.parcels);
@@ -204,9 +250,13 @@ class MatrixRun {
     // Ended before this line all is done again from the parts, and behind it nothing.
     if (matrix) {
       journal.complete([&] { matrix->sync(); });
-      matrix->commit();
+      if (is_hdf5(command.out))
+        write_hdf5(*matrix);
+      else
+        matrix->commit();
     }
     journal.remove();
+    if (matrix && is_hdf5(command.out)) matrix->remove();
     if (parcels) parcels->remove();
     if (statistics) statistics->remove();
   }
@@ -219,7 +269,22 @@ class MatrixRun {
     if (job_.command.symmetric) make_symmetric(matrix);
   }
 
+  void write_hdf5(const MatrixFile& matrix) {
+    const std::string& out = job_.command.out;
+    progress_.phase("writing " + out);
+    std::vector<std::int64_t> rows, columns(job_.columns.begin(), job_.columns.end());
+    for (const PointSource& row : job_.rows)
+      rows.push_back(row.vertex == none ? -1 : std::int64_t{row.vertex});
+    const auto read = [&](std::size_t row, std::size_t column, std::span<char> bytes) {
+      matrix.read_bytes(row, column, bytes);
+    };
+    hdf5_functions("--out " + out)
+        .write_matrix(out, {matrix.rows(), matrix.columns()}, io::size_of(job_.number), read, rows,
+                      columns, OpenMP{.threads = static_cast<int>(outcome_.threads)});
+  }
+
   const Job& job_;
+  const Among* among_;
   const E& executor_;
   const Complex& complex_;
   ProgressLine& progress_;
@@ -248,7 +313,9 @@ Outcome run_on(const Domain& whole, std::shared_ptr<const MeasuredLengths> lengt
     const std::string& name = job.command.solve.executor.name;
     if (name == "serial" || !openmp_built())
       return MatrixRun(job, Serial{}, complex, rows, progress).run();
-    const OpenMP team{.threads = job.command.solve.executor.threads.value_or(0)};
+    const Among* const among = job.command.among;
+    const OpenMP team{.threads = job.command.solve.executor.threads.value_or(
+                          among == nullptr ? 0 : among->threads)};
     return MatrixRun(job, team, complex, rows, progress).run();
   };
   if (domain.kind() == DomainKind::surface)
@@ -270,13 +337,13 @@ void print(const MatrixCommand& command, const Job& job, const Outcome& outcome)
   table.add("matrix", std::to_string(job.rows.size()) + " x " + std::to_string(job.columns.size()));
   if (outcome.only_estimated) {
     json["estimate"] = {{"seconds", outcome.expected_seconds}, {"bytes", outcome.expected_bytes}};
-    table.add("estimate", short_time(outcome.expected_seconds) + " on " +
-                              counted(outcome.threads, "threads") +
+    table.add("estimate", short_time(outcome.expected_seconds) + " on " + outcome.team() +
                               (job.sparse ? "" : ", " + io::short_bytes(outcome.expected_bytes)));
   } else {
     json["rows_solved"] = outcome.report.rows;
     json["blocks_kept"] = outcome.resumed_blocks;
     json["threads"] = outcome.threads;
+    if (command.among != nullptr) json["ranks"] = outcome.ranks;
     json["expansions"] = outcome.report.statistics.expansions;
     json["seconds"] = outcome.solving;
     table.add("work", counted(outcome.report.rows, "rows") + " solved, " +
@@ -338,7 +405,10 @@ void run_matrix(const MatrixCommand& command) {
     job.rows = read_point_list(command.sources, domain);
   }
   job.mask = read_mask(command.mask, domain);
-  if (job.mask && command.sources != "all") move_sources(*job.mask, domain, job.rows);
+  if (job.mask && command.sources != "all") {
+    const OpenParts open(*job.mask, domain);
+    for (PointSource& row : job.rows) open.move(row);
+  }
   if (!command.labels.empty()) {
     job.parcels = read_parcels(command.labels, domain.vertices());
     job.parcels->take(job.rows, job.columns, command.labels);
@@ -361,6 +431,7 @@ void run_matrix(const MatrixCommand& command) {
     throw InputError(file + ": " + error.what());
   }
   progress.clear();
+  if (command.among != nullptr && !command.among->ranks.leads()) return;
   print(command, job, outcome);
   if (!command.quiet) say_violations(domain, lengths.get());
 }
