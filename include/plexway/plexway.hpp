@@ -6,6 +6,7 @@
 #include <plexway/any/complex.hpp>
 #include <plexway/any_domain.hpp>
 #include <plexway/apps/all_pairs.hpp>
+#include <plexway/apps/block_rows.hpp>
 #include <plexway/apps/bounded_search.hpp>
 #include <plexway/apps/centroidal_voronoi.hpp>
 #include <plexway/apps/cloud_path_field.hpp>

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <cstdint>
@@ -162,6 +163,55 @@ TEST_CASE("statistics and histograms and parcels are those of the matrix") {
       CHECK((to_lower ? to7 : to3)[lower ? 1 : 0] == Approx(sum / pairs).epsilon(1e-5));
     }
   CHECK(folder.files() == 6);
+}
+
+TEST_CASE("rows by a device are its fields, and go on where they were") {
+  const testing::Folder folder;
+  const int n = 9;
+  const std::string input = folder.write("square.off", square_off(n));
+  const std::string out = folder.at("d.npy"), field = folder.at("field.csv");
+  const std::vector<std::string> command = {"pairs",
+                                            input,
+                                            "--sources",
+                                            "all",
+                                            "--out",
+                                            out,
+                                            "--executor",
+                                            "gl",
+                                            "--quiet",
+                                            "--targets",
+                                            folder.write("t.txt", "80\n7\n0\n")};
+  const Outcome run = run_tool(command);
+  if (run.code == 4) {  // no device, or a build without
+    CHECK(run.complaints() == 1);
+    return;
+  }
+  INFO(run.err);
+  REQUIRE(run.code == 0);
+  const auto d = matrix(out);
+  REQUIRE(d.size() == static_cast<std::size_t>(3 * n * n));
+  for (const int a : {0, 17, 40, 80}) {
+    REQUIRE(run_tool({"distance", input, "--source", "vertex:" + std::to_string(a), "--executor",
+                      "gl", "--quiet", "--out", field})
+                .code == 0);
+    const auto column = csv_column(content(field), "distance");
+    for (const std::size_t c : {0UL, 1UL, 2UL})
+      CHECK(static_cast<float>(d[3 * static_cast<std::size_t>(a) + c]) ==
+            static_cast<float>(column[std::array{80UL, 7UL, 0UL}[c]]));
+  }
+  for (const auto& [more, text] :
+       {std::pair<std::vector<std::string>, std::string>{{"--precision", "double"}, "precision"},
+        {{"--accuracy", "accurate"}, "--accuracy fast"},
+        {{"--radius", "1", "--out", folder.at("d.npz")}, "threads"}}) {
+    std::vector<std::string> words = {"pairs", input, "--sources", "all", "--executor", "gl"};
+    if (more[0] != "--radius") words.insert(words.end(), {"--out", out});
+    words.insert(words.end(), more.begin(), more.end());
+    const Outcome refused = run_tool(words);
+    CAPTURE(refused.err);
+    CHECK(refused.code == 2);
+    CHECK(refused.complaints() == 1);
+    CHECK(refused.err.find(text) != std::string::npos);
+  }
 }
 
 TEST_CASE("pairs go around what is masked") {

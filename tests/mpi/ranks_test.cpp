@@ -35,7 +35,7 @@ const std::optional<Words>& mpirun() {
     Words words = {PLEXWAY_TEST_MPIRUN};
     const Outcome version = run_program(words + Words{"--version"});
     if (version.out.find("Open MPI") != std::string::npos ||
-        version.out.find("Open RTE") != std::string::npos) {
+        version.out.find("OpenRTE") != std::string::npos) {
       words.push_back("--oversubscribe");
       if (::geteuid() == 0) words.push_back("--allow-run-as-root");
     }

@@ -138,12 +138,34 @@ void write_chunks(hid_t set, const Matrix& matrix, std::array<std::size_t, 2> ch
   }
 }
 
-void write(const std::string& place, const Matrix& matrix, const OpenMP& threads) {
-  // Files are closed when they are told to be, with all that is in them.
-  const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
+// Files are closed when they are told to be, with all that is in them.
+Handle file_access() {
+  Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
   done(H5Pset_fclose_degree(access, H5F_CLOSE_STRONG));
   done(H5Pset_libver_bounds(access, H5F_LIBVER_EARLIEST, H5F_LIBVER_V18));
-  Handle file(H5Fcreate(place.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access), H5Fclose);
+  return access;
+}
+
+// A file with nothing in it. HDF5 creates files by name alone, and ours has none yet: so it is made
+// in memory.
+std::string empty_file() {
+  const Handle access = file_access();
+  done(H5Pset_fapl_core(access, 4096, false));
+  const Handle file(H5Fcreate("empty", H5F_ACC_TRUNC, H5P_DEFAULT, access), H5Fclose);
+  done(H5Fflush(file, H5F_SCOPE_GLOBAL));
+  const ssize_t size = H5Fget_file_image(file, nullptr, 0);
+  if (size < 0) throw Refused();
+  std::string bytes(static_cast<std::size_t>(size), '\0');
+  if (H5Fget_file_image(file, bytes.data(), bytes.size()) < 0) throw Refused();
+  return bytes;
+}
+
+void write(file::NewFile& out, const Matrix& matrix, const OpenMP& threads) {
+  const std::string empty = empty_file();
+  if (const int failed = out.write(empty.data(), empty.size()); failed != 0) throw Refused{failed};
+  const Handle access = file_access();
+  done(H5Pset_fapl_stdio(access));  // the usual driver wants to know the name at the end of links
+  Handle file(H5Fopen(out.place().c_str(), H5F_ACC_RDWR, access), H5Fclose);
   write_version(file);
   write_names(file, "rows", matrix.row_names);
   write_names(file, "columns", matrix.column_names);
@@ -177,7 +199,7 @@ void write_matrix(const std::filesystem::path& file, const Matrix& matrix, const
   try {
     const Silence silence;
     errno = 0;
-    write(out.place(), matrix, threads);
+    write(out, matrix, threads);
   } catch (const Refused& refused) {
     if (refused.reason != 0) out.refuse(refused.reason);
     out.refuse("HDF5 refuses");

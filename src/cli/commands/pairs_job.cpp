@@ -124,6 +124,7 @@ void describe(Job& job, const MeasuredLengths* lengths) {
   add("rows", std::to_string(job.rows.size()) + " " + rows.text());
   add("columns", std::to_string(job.columns.size()) + " " + fingerprint_of(job.columns));
   add("precision", command.solve.precision);
+  if (command.solve.executor.name == "gl") add("executor", "gl");  // the others have one's bits
   add("accuracy", name_of(job.options.accuracy));
   add("visibility", command.solve.visibility);
   if (!command.solve.table.empty()) add("table", fingerprint_of(job.options.probe.share));

@@ -19,9 +19,15 @@
 #include <plexway/any/complex.hpp>
 #include <plexway/any_domain.hpp>
 #include <plexway/apps/all_pairs.hpp>
+#include <plexway/apps/block_rows.hpp>
 #include <plexway/apps/row_reductions.hpp>
 #include <plexway/error.hpp>
 #include <plexway/io/write_pairs.hpp>
+#include <plexway/support.hpp>
+
+#ifdef PLEXWAY_HAS_GL
+#include <plexway/executors/gl.hpp>
+#endif
 
 #include "any/hdf5_functions.hpp"
 #include "any/make_complex.hpp"
@@ -159,9 +165,9 @@ class MatrixRun {
     few.block = 1;
     const Stopwatch watch;
     if (job_.sparse)
-      near_pairs(executor_, complex_, few, limits(), {[](std::size_t, SparseRow<Real>) {}});
+      own_near_rows(few, {[](std::size_t, SparseRow<Real>) {}});
     else
-      all_pairs(executor_, complex_, few, {[](std::size_t, DenseRow<Real>) {}});
+      own_rows(few, {[](std::size_t, DenseRow<Real>) {}});
     return watch.seconds();
   }
 
@@ -170,18 +176,28 @@ class MatrixRun {
             .nearest = job_.command.nearest.value_or(none)};
   }
 
+  // By this process.
+  PairsReport own_rows(const PairsRequest& request, const PairsSink<DenseRow<Real>>& sink) {
+    if constexpr (RowExecutor<E>)
+      return all_pairs(executor_, complex_, request, sink);
+    else
+      return all_pairs_by_blocks(executor_, complex_, request, sink);
+  }
+  PairsReport own_near_rows(const PairsRequest& request, const PairsSink<SparseRow<Real>>& sink) {
+    if constexpr (RowExecutor<E>)
+      return near_pairs(executor_, complex_, request, limits(), sink);
+    else
+      throw UsageError("--nearest and --radius are looked for by threads");  // refused before
+  }
+
   // Alone or among others.
   PairsReport dense_rows(const PairsRequest& request, const PairsSink<DenseRow<Real>>& sink) {
-    const auto solve = [&](const auto& mine, const auto& out) {
-      return all_pairs(executor_, complex_, mine, out);
-    };
+    const auto solve = [&](const auto& mine, const auto& out) { return own_rows(mine, out); };
     if (among_ == nullptr) return solve(request, sink);
     return share_rows(among_->ranks, request, complex_.vertex_count(), sink, solve);
   }
   PairsReport near_rows(const PairsRequest& request, const PairsSink<SparseRow<Real>>& sink) {
-    const auto solve = [&](const auto& mine, const auto& out) {
-      return near_pairs(executor_, complex_, mine, limits(), out);
-    };
+    const auto solve = [&](const auto& mine, const auto& out) { return own_near_rows(mine, out); };
     if (among_ == nullptr) return solve(request, sink);
     return share_rows(among_->ranks, request, complex_.vertex_count(), sink, solve);
   }
@@ -292,6 +308,19 @@ class MatrixRun {
   Outcome outcome_;
 };
 
+template <class Complex>
+Outcome run_on_device(const Job& job, const Complex& complex, const std::vector<PointSource>& rows,
+                      ProgressLine& progress) {
+#ifdef PLEXWAY_HAS_GL
+  if constexpr (supports<GL, Complex>) {
+    const GL device{.device = job.command.solve.executor.device.value_or(-1)};
+    return MatrixRun(job, device, complex, rows, progress).run();
+  }
+  support(combination<GL, Complex>()).require();
+#endif
+  throw NotBuiltError("--executor gl: not built in");
+}
+
 template <class Real>
 Outcome run_on_surface(const Domain& domain, const MeasuredLengths* lengths, const Job& job,
                        const auto& run) {
@@ -311,6 +340,7 @@ Outcome run_on(const Domain& whole, std::shared_ptr<const MeasuredLengths> lengt
   const Domain domain = job.mask ? open_domain(*job.mask, whole, lengths) : whole;
   const auto run = [&](const auto& complex, const std::vector<PointSource>& rows) {
     const std::string& name = job.command.solve.executor.name;
+    if (name == "gl") return run_on_device(job, complex, rows, progress);
     if (name == "serial" || !openmp_built())
       return MatrixRun(job, Serial{}, complex, rows, progress).run();
     const Among* const among = job.command.among;
@@ -344,10 +374,14 @@ void print(const MatrixCommand& command, const Job& job, const Outcome& outcome)
     json["blocks_kept"] = outcome.resumed_blocks;
     json["threads"] = outcome.threads;
     if (command.among != nullptr) json["ranks"] = outcome.ranks;
-    json["expansions"] = outcome.report.statistics.expansions;
+    // Devices count them for all rows of a launch together.
+    const bool counts = command.solve.executor.name != "gl";
+    if (counts) json["expansions"] = outcome.report.statistics.expansions;
     json["seconds"] = outcome.solving;
-    table.add("work", counted(outcome.report.rows, "rows") + " solved, " +
-                          counted(outcome.report.statistics.expansions, "expansions"));
+    table.add(
+        "work",
+        counted(outcome.report.rows, "rows") + " solved" +
+            (counts ? ", " + counted(outcome.report.statistics.expansions, "expansions") : ""));
     table.add("time", short_time(outcome.solving));
     if (job.sparse) {
       json["entries"] = outcome.entries;
@@ -378,8 +412,12 @@ void print(const MatrixCommand& command, const Job& job, const Outcome& outcome)
 void run_matrix(const MatrixCommand& command) {
   const PropagateOptions options = propagate_options(command.solve);
   const Precision precision = precision_of(command.solve);
-  if (command.solve.executor.name == "gl")
-    throw UsageError("--executor gl: rows of a matrix are solved one a thread; choose openmp");
+  const bool by_device = command.solve.executor.name == "gl";
+  if (by_device && precision == Precision::twice)
+    throw UsageError("--executor gl computes in single precision: use --precision float");
+  if (by_device && (command.radius || command.nearest))
+    throw UsageError(
+        "--executor gl: --radius and --nearest are looked for by threads; choose openmp");
   check_names(command);
   const MatrixNumber number = io::matrix_number_of(command.type);
   const Triangulation triangulation = triangulation_of(command.triangulation);
