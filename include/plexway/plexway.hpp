@@ -4,6 +4,7 @@
 /// All of the library, but for what the optional providers under complexes/ bring: solve on any
 /// domain, what to do with distances, files and pictures. Link the components that you use.
 #include <plexway/any/complex.hpp>
+#include <plexway/any/scene.hpp>
 #include <plexway/any_domain.hpp>
 #include <plexway/apps/all_pairs.hpp>
 #include <plexway/apps/block_rows.hpp>
@@ -23,6 +24,7 @@
 #include <plexway/apps/row_ranks.hpp>
 #include <plexway/apps/row_reductions.hpp>
 #include <plexway/apps/tuning.hpp>
+#include <plexway/carried.hpp>
 #include <plexway/complex/blocks.hpp>
 #include <plexway/complex/distinct_points.hpp>
 #include <plexway/complex/intrinsic_delaunay.hpp>

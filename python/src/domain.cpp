@@ -31,6 +31,18 @@ const AnyDomain& Domain::for_sources(const AnyExecutor& executor, const SourceLi
   return *twice_;
 }
 
+Source Domain::boundary(double offset) const {
+  Source source = shape().boundary(offset);
+  auto* const walls = std::get_if<VertexSource>(&source);
+  if (walls == nullptr || !options_.lengths) return source;
+  // By a metric the nearest wall in space says nothing: its vertices are left.
+  VertexSource rim{.vertices = {}, .offset = offset};
+  for (std::size_t i = 0; i < walls->vertices.size(); ++i)
+    if (walls->offsets.empty() || walls->offsets[i] == 0)
+      rim.vertices.push_back(walls->vertices[i]);
+  return rim;
+}
+
 std::size_t Domain::bytes() const {
   const std::scoped_lock lock(mutex_);
   return any_.bytes() + (twice_ ? twice_->bytes() : 0);
@@ -214,7 +226,7 @@ void bind_domain(py::module_& module) {
              curve.offset = offset;
              return curve;
            })
-      .def("boundary", [](const Domain& d, double offset) { return d.shape().boundary(offset); })
+      .def("boundary", &Domain::boundary)
       .def("write_field", [](const Domain& d, const std::filesystem::path& out,
                              const py::object& distance, const py::object& label) {
         const std::vector<double> values = numbers_of(distance, "distance");

@@ -1,6 +1,9 @@
 #include <plexway/hdf5/matrix.hpp>
 
+#include <fcntl.h>
 #include <hdf5.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <array>
@@ -22,9 +25,13 @@ namespace {
 constexpr std::size_t most_rows = 32, most_numbers = std::size_t{1} << 16;
 constexpr int level = 1;
 
-/// HDF5 would not; with the system's reason, if it had one.
+/// HDF5 would not; with the system's reason, if it had one. HDF5 1.10 crashes when it closes what
+/// it could not write, so from then on this write closes nothing: that is left to the end of the
+/// process.
 struct Refused {
-  int reason = errno;
+  explicit Refused(int why = errno) : reason(why) { seen = true; }
+  int reason;
+  static inline thread_local bool seen = false;
 };
 
 void done(herr_t status) {
@@ -52,13 +59,13 @@ class Handle {
  public:
   using Close = herr_t (*)(hid_t);
 
-  Handle(hid_t id, Close close) : id_(id), close_(close) {
+  Handle(hid_t id, Close give_back) : id_(id), close_(give_back) {
     if (id_ < 0) throw Refused();
   }
   Handle(Handle&& other) noexcept : id_(std::exchange(other.id_, -1)), close_(other.close_) {}
   Handle& operator=(Handle&&) = delete;
   ~Handle() {
-    if (id_ >= 0) close_(id_);
+    if (id_ >= 0 && !Refused::seen) close_(id_);
   }
   /// Now, where it matters whether that succeeds.
   void close() { done(close_(std::exchange(id_, -1))); }
@@ -86,6 +93,30 @@ Handle dataset_properties() {
   return properties;
 }
 
+/// Makes sure of room on the disk: HDF5 1.10 crashes when it closes a file that it could not write.
+class Room {
+ public:
+  Room(int descriptor, hid_t file, std::size_t chunks)
+      : descriptor_(descriptor), file_(file), for_itself_((std::size_t{1} << 16) + 256 * chunks) {}
+
+  /// For so many bytes more, and what HDF5 notes about them. Where the system cannot tell it does
+  /// not.
+  void need(std::size_t bytes) const {
+#ifdef FALLOC_FL_KEEP_SIZE
+    hsize_t size = 0;
+    done(H5Fget_filesize(file_, &size));
+    const auto end = static_cast<off_t>(size + bytes + for_itself_);
+    if (::fallocate(descriptor_, FALLOC_FL_KEEP_SIZE, 0, end) != 0 && errno != EOPNOTSUPP)
+      throw Refused(errno);
+#endif
+  }
+
+ private:
+  int descriptor_;
+  hid_t file_;
+  std::size_t for_itself_;
+};
+
 void write_names(hid_t file, const char* name, std::span<const std::int64_t> names) {
   if (names.empty()) return;
   const hsize_t size = names.size();
@@ -109,7 +140,7 @@ void write_version(hid_t file) {
 
 // Threads compress some chunks, and then one writes them in their order.
 void write_chunks(hid_t set, const Matrix& matrix, std::array<std::size_t, 2> chunk,
-                  const OpenMP& threads) {
+                  const Room& room, const OpenMP& threads) {
   const std::size_t across = (matrix.columns + chunk[1] - 1) / chunk[1];
   const std::size_t chunks = (matrix.rows + chunk[0] - 1) / chunk[0] * across;
   const std::size_t bytes = matrix.number_bytes;
@@ -131,6 +162,7 @@ void write_chunks(hid_t set, const Matrix& matrix, std::array<std::size_t, 2> ch
     else
       pack(0, 0);
     for (std::size_t k = 0; k < count; ++k) {
+      room.need(packed[k].size());
       const std::array<hsize_t, 2> at = {(first + k) / across * chunk[0],
                                          (first + k) % across * chunk[1]};
       done(H5Dwrite_chunk(set, H5P_DEFAULT, 0, at.data(), packed[k].size(), packed[k].data()));
@@ -162,16 +194,19 @@ std::string empty_file() {
 
 void write(file::NewFile& out, const Matrix& matrix, const OpenMP& threads) {
   const std::string empty = empty_file();
-  if (const int failed = out.write(empty.data(), empty.size()); failed != 0) throw Refused{failed};
+  if (const int failed = out.write(empty.data(), empty.size()); failed != 0) throw Refused(failed);
   const Handle access = file_access();
   done(H5Pset_fapl_stdio(access));  // the usual driver wants to know the name at the end of links
   Handle file(H5Fopen(out.place().c_str(), H5F_ACC_RDWR, access), H5Fclose);
+  const std::size_t high = std::min(most_rows, matrix.rows);
+  const std::array<std::size_t, 2> chunk = {high, std::min(most_numbers / high, matrix.columns)};
+  const Room room(out.descriptor(), file,
+                  (matrix.rows / chunk[0] + 1) * (matrix.columns / chunk[1] + 1));
+  room.need(sizeof(std::int64_t) * (matrix.row_names.size() + matrix.column_names.size()));
   write_version(file);
   write_names(file, "rows", matrix.row_names);
   write_names(file, "columns", matrix.column_names);
 
-  const std::size_t high = std::min(most_rows, matrix.rows);
-  const std::array<std::size_t, 2> chunk = {high, std::min(most_numbers / high, matrix.columns)};
   const std::array<hsize_t, 2> shape = {matrix.rows, matrix.columns}, sides = {chunk[0], chunk[1]};
   const Handle space(H5Screate_simple(2, shape.data(), nullptr), H5Sclose);
   const Handle properties = dataset_properties();
@@ -181,9 +216,13 @@ void write(file::NewFile& out, const Matrix& matrix, const OpenMP& threads) {
   const Handle type = number_type(matrix.number_bytes);
   Handle set(H5Dcreate2(file, "distance", type, space, H5P_DEFAULT, properties, H5P_DEFAULT),
              H5Dclose);
-  write_chunks(set, matrix, chunk, threads);
+  write_chunks(set, matrix, chunk, room, threads);
   set.close();
   file.close();
+  // What was kept ready and not needed goes back.
+  struct stat written {};
+  if (::fstat(out.descriptor(), &written) == 0)
+    (void)!::ftruncate(out.descriptor(), written.st_size);
 }
 
 }  // namespace
@@ -196,8 +235,11 @@ void write_matrix(const std::filesystem::path& file, const Matrix& matrix, const
                      std::to_string(matrix.number_bytes));
   file::NewFile out(file);
   if (!out.seekable()) out.refuse("HDF5 files go to no pipe");
+  // Nor does it close what is open when the process ends.
+  [[maybe_unused]] static const herr_t no_end = H5dont_atexit();
   try {
     const Silence silence;
+    Refused::seen = false;
     errno = 0;
     write(out, matrix, threads);
   } catch (const Refused& refused) {

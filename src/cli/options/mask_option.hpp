@@ -1,16 +1,6 @@
 #pragma once
 
-#include <memory>
-#include <optional>
-#include <string>
-#include <vector>
-
-#include <plexway/complex/mask.hpp>
-#include <plexway/source/point_source.hpp>
-#include <plexway/source/source.hpp>
-
-#include "cli/options/input.hpp"
-#include "cli/options/metric_options.hpp"
+#include "any/arguments/mask_argument.hpp"
 
 namespace CLI {
 class App;
@@ -18,42 +8,7 @@ class App;
 
 namespace plexway::cli {
 
-/// As typed: FILE or KIND:FILE, or nothing.
-struct MaskArgument {
-  std::string text;
-};
-
+/// Adds --mask to a command.
 void add_mask_option(CLI::App& command, MaskArgument& argument);
-/// The file, or nothing. Throws UsageError for an unknown kind.
-[[nodiscard]] std::string mask_file(const MaskArgument& argument);
-
-/// What is closed of a domain, or nothing. Throws InputError "FILE:LINE: cause", where nothing
-/// stays open, and UsageError for a cloud.
-[[nodiscard]] std::optional<Mask> read_mask(const MaskArgument& argument, const Domain& domain);
-
-/// What a mask leaves of a domain, by numbers: open_domain counts only the open simplices.
-class OpenParts {
- public:
-  OpenParts(const Mask& mask, const Domain& domain);
-
-  /// From the whole domain to the open one. Throw InputError for what is closed, or cut off from
-  /// everything.
-  void move(PointSource& point) const;
-  void move(Source& source) const;
-  /// Back: the number of an open simplex in the whole domain.
-  [[nodiscard]] Index whole(Index simplex) const { return whole_[simplex]; }
-
- private:
-  void check(Index vertex) const;
-  [[nodiscard]] Index open(Index simplex) const;
-
-  const Mask& mask_;
-  std::vector<Index> number_, whole_;
-  std::vector<char> reached_;
-};
-
-/// The domain, and lengths of its simplices (may be null), without what is closed.
-[[nodiscard]] Domain open_domain(const Mask& mask, const Domain& domain,
-                                 std::shared_ptr<const MeasuredLengths>& lengths);
 
 }  // namespace plexway::cli
