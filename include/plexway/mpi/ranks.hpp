@@ -18,6 +18,7 @@
 //         });
 //   }
 
+/// Ranks of MPI that share the rows of a matrix.
 namespace plexway::mpi {
 
 /// All ranks of a run (MPI_COMM_WORLD), one of which is this process. Rank 0 leads, and solves like
@@ -35,7 +36,9 @@ class Ranks final : public RowRanks {
   Ranks(const Ranks&) = delete;
   Ranks& operator=(const Ranks&) = delete;
 
+  /// Rank 0.
   [[nodiscard]] bool leads() const override { return rank() == 0; }
+  /// As many as mpirun began.
   [[nodiscard]] std::size_t count() const override;
   /// Which one this is.
   [[nodiscard]] std::size_t rank() const;

@@ -10,6 +10,7 @@
 
 // Dense matrices as HDF5 files.
 
+/// Matrices as HDF5 files, by libhdf5.
 namespace plexway::hdf5 {
 
 /// A matrix that lies elsewhere, and goes into a file in pieces.
