@@ -79,7 +79,10 @@ if(TARGET plexway_tool)
       "${PROJECT_SOURCE_DIR}/docs/FORMATS.md"
     DESTINATION "${CMAKE_INSTALL_DATADIR}/doc/plexway" COMPONENT tool)
 endif()
-foreach(part pcl openvdb tetgen)
+if(TARGET plexway_mpi_tool)
+  install(TARGETS plexway_mpi_tool RUNTIME DESTINATION "${CMAKE_INSTALL_BINDIR}" COMPONENT mpi)
+endif()
+foreach(part pcl openvdb tetgen hdf5)
   if(TARGET plexway_${part}_module)
     install(TARGETS plexway_${part}_module
       LIBRARY DESTINATION "${CMAKE_INSTALL_LIBDIR}/plexway" COMPONENT ${part})

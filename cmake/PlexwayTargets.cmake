@@ -73,27 +73,52 @@ macro(plexway_require name)
   endif()
 endmacro()
 
-# The command-line tool: target plexway_tool, file name plexway. It takes every component built.
+# The command-line tool: target plexway_tool, file name plexway, and plexway_mpi_tool, plexway-mpi,
+# the same among ranks. They take every component built.
 function(plexway_add_tool)
   if(NOT PLEXWAY_BUILD_TOOL)
     return()
   endif()
   file(GLOB sources CONFIGURE_DEPENDS
     "${PROJECT_SOURCE_DIR}/src/cli/*.cpp" "${PROJECT_SOURCE_DIR}/src/cli/*/*.cpp")
+  list(REMOVE_ITEM sources "${PROJECT_SOURCE_DIR}/src/cli/main.cpp")
   plexway_require(CLI11 PACKAGE libcli11-dev FOR PLEXWAY_BUILD_TOOL)
   plexway_require(nlohmann_json PACKAGE nlohmann-json3-dev FOR PLEXWAY_BUILD_TOOL)
-  add_executable(plexway_tool ${sources})
-  set_target_properties(plexway_tool PROPERTIES OUTPUT_NAME plexway)
-  plexway_compile_options(plexway_tool)
-  target_include_directories(plexway_tool PRIVATE "${PROJECT_SOURCE_DIR}/src")
-  target_link_libraries(plexway_tool PRIVATE CLI11::CLI11 nlohmann_json::nlohmann_json)
-  plexway_link_all(plexway_tool EXCEPT pcl openvdb)
-  foreach(module plexway_pcl_module plexway_openvdb_module)
-    if(TARGET ${module})
-      add_dependencies(plexway_tool ${module})
+  add_library(plexway_cli OBJECT ${sources})
+  plexway_compile_options(plexway_cli)
+  target_include_directories(plexway_cli PRIVATE "${PROJECT_SOURCE_DIR}/src")
+  target_link_libraries(plexway_cli PRIVATE CLI11::CLI11 nlohmann_json::nlohmann_json)
+  plexway_link_all(plexway_cli EXCEPT pcl openvdb hdf5 mpi)
+  set(built "")
+  foreach(module pcl openvdb hdf5)
+    if(TARGET plexway_${module}_module)
+      string(TOUPPER ${module} upper)
+      list(APPEND built PLEXWAY_HAS_${upper}=1)
     endif()
   endforeach()
-  set_target_properties(plexway_tool PROPERTIES
+  set_source_files_properties("${PROJECT_SOURCE_DIR}/src/cli/app.cpp"  # which lists them
+    PROPERTIES COMPILE_DEFINITIONS "${built}")
+
+  plexway_add_tool_program(plexway_tool plexway "${PROJECT_SOURCE_DIR}/src/cli/main.cpp")
+  if(TARGET plexway_mpi)
+    plexway_add_tool_program(plexway_mpi_tool plexway-mpi
+      "${PROJECT_SOURCE_DIR}/src/cli_mpi/main.cpp")
+    target_link_libraries(plexway_mpi_tool PRIVATE plexway::mpi)
+  endif()
+endfunction()
+
+function(plexway_add_tool_program target name main)
+  add_executable(${target} "${main}" $<TARGET_OBJECTS:plexway_cli>)
+  set_target_properties(${target} PROPERTIES OUTPUT_NAME ${name})
+  plexway_compile_options(${target})
+  target_include_directories(${target} PRIVATE "${PROJECT_SOURCE_DIR}/src")
+  plexway_link_all(${target} EXCEPT pcl openvdb hdf5 mpi)
+  foreach(module pcl openvdb hdf5)
+    if(TARGET plexway_${module}_module)
+      add_dependencies(${target} plexway_${module}_module)
+    endif()
+  endforeach()
+  set_target_properties(${target} PROPERTIES
     BUILD_RPATH "${PROJECT_BINARY_DIR}/${CMAKE_INSTALL_LIBDIR}/plexway"
     INSTALL_RPATH "$ORIGIN/../${CMAKE_INSTALL_LIBDIR}/plexway")
 endfunction()
@@ -134,10 +159,14 @@ function(plexway_add_any)
   if(UNIX)
     plexway_add_module(pcl)
     plexway_add_module(openvdb)
+    plexway_add_module(hdf5 FILE src/any/hdf5_functions.cpp)
   endif()
 endfunction()
 
+# FILE is the only one of the component that has to know what the module is called; without it all
+# do.
 function(plexway_add_module name)
+  cmake_parse_arguments(arg "" "FILE" "" ${ARGN})
   if(NOT TARGET plexway_${name})
     return()
   endif()
@@ -150,9 +179,14 @@ function(plexway_add_module name)
     LIBRARY_OUTPUT_DIRECTORY "${PROJECT_BINARY_DIR}/${folder}")
   target_include_directories(${module} PRIVATE "${PROJECT_SOURCE_DIR}/src")
   target_link_libraries(${module} PRIVATE plexway::${name} plexway::io)
-  target_compile_definitions(plexway_any PRIVATE PLEXWAY_HAS_${upper}=1
-    PLEXWAY_${upper}_MODULE="$<TARGET_FILE_NAME:${module}>"
-    PLEXWAY_MODULE_FOLDER="${folder}")
+  set(definitions "PLEXWAY_${upper}_MODULE=\"plexway_${name}${CMAKE_SHARED_MODULE_SUFFIX}\"")
+  if(arg_FILE)
+    set_source_files_properties("${PROJECT_SOURCE_DIR}/${arg_FILE}" PROPERTIES
+      COMPILE_DEFINITIONS "${definitions}")
+  else()
+    target_compile_definitions(plexway_any PRIVATE PLEXWAY_HAS_${upper}=1 "${definitions}")
+  endif()
+  target_compile_definitions(plexway_any PRIVATE PLEXWAY_MODULE_FOLDER="${folder}")
   target_link_libraries(plexway_any PRIVATE ${CMAKE_DL_LIBS})
 endfunction()
 

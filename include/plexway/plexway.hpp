@@ -8,6 +8,7 @@
 #include <plexway/any/scene.hpp>
 #include <plexway/any_domain.hpp>
 #include <plexway/apps/all_pairs.hpp>
+#include <plexway/apps/block_rows.hpp>
 #include <plexway/apps/bounded_search.hpp>
 #include <plexway/apps/centroidal_voronoi.hpp>
 #include <plexway/apps/cloud_path_field.hpp>
@@ -21,6 +22,7 @@
 #include <plexway/apps/path_search.hpp>
 #include <plexway/apps/poisson_disk.hpp>
 #include <plexway/apps/read_out.hpp>
+#include <plexway/apps/row_ranks.hpp>
 #include <plexway/apps/row_reductions.hpp>
 #include <plexway/apps/tuning.hpp>
 #include <plexway/carried.hpp>

@@ -8,6 +8,7 @@
 #include <limits>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -95,6 +96,62 @@ inline void add(PropagateStatistics& sum, const PropagateStatistics& one) {
   sum.windows_gave_up += one.windows_gave_up;
 }
 
+/// Which row is next, for threads that ask one at a time, and when all of a block are through.
+class RowDealer {
+ public:
+  RowDealer(const PairsRequest& request, std::size_t vertices)
+      : rows_(request.row_count(vertices)),
+        block_(request.block),
+        next_(request.next),
+        left_(request.block_count(vertices), 0) {
+    if (next_) {
+      wanted_rows_ = rows_;
+      return;
+    }
+    for (std::size_t b = 0; b < left_.size(); ++b)
+      if (!request.wanted || request.wanted(b)) wanted_.push_back(b), wanted_rows_ += size(b);
+    next_ = [this]() -> std::optional<std::size_t> {
+      if (given_ == wanted_.size()) return std::nullopt;
+      return wanted_[given_++];
+    };
+  }
+  RowDealer(const RowDealer&) = delete;
+  RowDealer& operator=(const RowDealer&) = delete;
+
+  /// Rows that are to be solved; all where `next` tells.
+  [[nodiscard]] std::size_t wanted_rows() const { return wanted_rows_; }
+
+  [[nodiscard]] std::optional<std::size_t> take() {
+    const std::scoped_lock lock(mutex_);
+    if (row_ == end_) {
+      const auto block = next_();
+      if (!block) return std::nullopt;
+      row_ = *block * block_;
+      end_ = row_ + size(*block);
+      left_[*block] = size(*block);
+    }
+    return row_++;
+  }
+  /// A row is through; was it the last of its block?
+  [[nodiscard]] bool finish(std::size_t row) {
+    const std::scoped_lock lock(mutex_);
+    return --left_[row / block_] == 0;
+  }
+
+ private:
+  [[nodiscard]] std::size_t size(std::size_t block) const {
+    return std::min(block_, rows_ - block * block_);
+  }
+
+  std::size_t rows_, block_;
+  std::function<std::optional<std::size_t>()> next_;
+  std::vector<std::size_t> wanted_;  // blocks
+  std::size_t wanted_rows_ = 0, given_ = 0;
+  std::mutex mutex_;
+  std::size_t row_ = 0, end_ = 0;  // of the block that is being dealt
+  std::vector<std::size_t> left_;  // rows of each block
+};
+
 /// Deals the wanted rows to threads. `Worker`, one a thread and made by it, has
 /// `solve(const RowSource&, row, PropagateOptions with a progress callback that hears of the end)`,
 /// which hands the row on, and `report`.
@@ -103,46 +160,41 @@ PairsReport deal_rows(const E& executor, std::size_t vertices, const PairsReques
                       const std::function<void(std::size_t)>& block_done,
                       const std::function<std::unique_ptr<Worker>()>& make_worker) {
   using Clock = std::chrono::steady_clock;
-  const std::size_t rows = request.row_count(vertices), blocks = request.block_count(vertices);
-  std::vector<std::size_t> wanted;  // blocks
-  std::size_t total = 0;
-  const auto rows_of = [&](std::size_t b) {
-    return std::min(request.block, rows - b * request.block);
-  };
-  for (std::size_t b = 0; b < blocks; ++b)
-    if (!request.wanted || request.wanted(b)) wanted.push_back(b), total += rows_of(b);
-
-  const auto left = std::make_unique<std::atomic<std::size_t>[]>(wanted.size());
-  for (std::size_t i = 0; i < wanted.size(); ++i) left[i] = rows_of(wanted[i]);
+  RowDealer dealer(request, vertices);
+  const std::size_t total = dealer.wanted_rows();
   std::vector<std::unique_ptr<Worker>> workers(threads_of(executor));
-  std::vector<PropagateOptions> options(workers.size(), request.solve);
   std::atomic<bool> stop{false};
   std::atomic<std::size_t> done{0};
   std::mutex one_block;
   const auto start = Clock::now();
 
-  // Only the last of all blocks may be short, so a number tells block and row.
-  deal(executor, total, [&](std::size_t k, std::size_t thread) {
-    const std::size_t i = k / request.block, row = wanted[i] * request.block + k % request.block;
-    if (!workers[thread]) {
-      workers[thread] = make_worker();
-      options[thread].progress = detail::shared_progress(request.solve.progress, thread, stop);
-    }
+  const auto tell = [&] {
+    const std::size_t so_far = done;
+    const double seconds = std::chrono::duration<double>(Clock::now() - start).count();
+    const double rate = seconds > 0 ? static_cast<double>(so_far) / seconds : 0;
+    const double to_go = static_cast<double>(total - so_far);
+    if (!request.progress({so_far, total, seconds, rate,
+                           rate > 0 ? to_go / rate : std::numeric_limits<double>::infinity()}))
+      throw Cancelled("cancelled by the progress callback");
+  };
+  // Each thread takes rows until there are none.
+  deal(executor, workers.size(), [&](std::size_t, std::size_t thread) {
+    PropagateOptions options = request.solve;
+    options.progress = detail::shared_progress(request.solve.progress, thread, stop);
     try {
-      const RowSource source(request, row);
-      workers[thread]->solve(source, row, options[thread]);
-      if (left[i].fetch_sub(1) == 1 && block_done) {
-        const std::scoped_lock lock(one_block);
-        block_done(wanted[i]);
+      while (!stop) {
+        const auto row = dealer.take();
+        if (!row) return;
+        if (!workers[thread]) workers[thread] = make_worker();
+        const RowSource source(request, *row);
+        workers[thread]->solve(source, *row, options);
+        if (dealer.finish(*row) && block_done) {
+          const std::scoped_lock lock(one_block);
+          block_done(*row / request.block);
+        }
+        ++done;
+        if (thread == 0 && request.progress) tell();
       }
-      const std::size_t so_far = done.fetch_add(1) + 1;
-      if (thread != 0 || !request.progress) return;
-      const double seconds = std::chrono::duration<double>(Clock::now() - start).count();
-      const double rate = seconds > 0 ? static_cast<double>(so_far) / seconds : 0;
-      const double to_go = static_cast<double>(total - so_far);
-      if (!request.progress({so_far, total, seconds, rate,
-                             rate > 0 ? to_go / rate : std::numeric_limits<double>::infinity()}))
-        throw Cancelled("cancelled by the progress callback");
     } catch (...) {
       stop = true;  // others are in the middle of a row
       throw;
@@ -150,7 +202,7 @@ PairsReport deal_rows(const E& executor, std::size_t vertices, const PairsReques
   });
 
   PairsReport report;
-  report.rows = total;
+  report.rows = done;
   for (const auto& worker : workers) {
     if (!worker) continue;
     add(report.statistics, worker->report.statistics);

@@ -11,6 +11,7 @@
 #include <plexway/error.hpp>
 #include <plexway/version.hpp>
 
+#include "cli/among.hpp"
 #include "cli/commands/commands.hpp"
 #include "cli/exit_codes.hpp"
 #include "cli/options/executor_argument.hpp"
@@ -42,6 +43,9 @@ std::string version_text() {
 #endif
 #ifdef PLEXWAY_HAS_OPENVDB
   providers += " openvdb";
+#endif
+#ifdef PLEXWAY_HAS_HDF5
+  providers += " hdf5";
 #endif
   return std::string("plexway ") + version_string + "\nprecision  float double\nexecutors " +
          executors + "\nproviders " + (providers.empty() ? " none" : providers) + "\nlicence    " +
@@ -84,7 +88,7 @@ std::string usage_complaint(const CLI::App& tool, const CLI::ParseError& error) 
   return message + (message.ends_with('?') ? " try '" : "; try '") + name + " --help'";
 }
 
-int parse_and_run(int argc, const char* const* argv) {
+void parse_and_run(int argc, const char* const* argv, const Among* among) {
   Action action;
   CLI::App tool("Geodesic distance by virtual source propagation", "plexway");
   bool version = false;
@@ -115,67 +119,70 @@ int parse_and_run(int argc, const char* const* argv) {
   add_poisson_command(tool, action);
   add_cvt_command(tool, action);
   add_farthest_command(tool, action);
-  add_pairs_command(tool, action);
+  add_pairs_command(tool, action, among);
   add_tune_command(tool, action);
 
   try {
     tool.parse(argc, argv);
   } catch (const CLI::Success&) {  // help was asked for
+    if (among != nullptr && !among->ranks.leads()) return;
     write_output(tool.help());
     flush_output();
-    return exit_ok;
+    return;
   } catch (const CLI::ParseError& error) {
     throw UsageError(usage_complaint(tool, error));
   }
+  if (among != nullptr && !tool.got_subcommand("pairs"))
+    throw UsageError("ranks share the rows of 'pairs --sources'; all else is for plexway alone");
   if (!page.empty()) {
     write_output(help_page(tool, page));
     flush_output();
-    return exit_ok;
+    return;
   }
   if (version) {
     write_output(version_text());
     flush_output();
-    return exit_ok;
+    return;
   }
   if (!action) throw UsageError("no command given; try 'plexway --help'");
   action();
-  return exit_ok;
-}
-
-int fail(ExitCode code, const char* message) noexcept {
-  say_error(message);
-  return code;
 }
 
 }  // namespace
 
-int run(int argc, const char* const* argv) noexcept {
+int run(int argc, const char* const* argv, const Among* among) noexcept {
   ignore_signals_of_writing();
   leave_nothing_behind();
   io::FileBytes::keep_streams();
+  const auto ended = [&](ExitCode code, const char* message = nullptr) -> int {
+    if (among != nullptr) return among->ended(code, message);
+    if (message != nullptr) say_error(message);
+    return code;
+  };
   try {
-    return parse_and_run(argc, argv);
+    parse_and_run(argc, argv, among);
+    return ended(exit_ok);
   } catch (const OutputClosed&) {
-    return exit_ok;
+    return ended(exit_ok);
   } catch (const UsageError& error) {
-    return fail(exit_usage, error.what());
+    return ended(exit_usage, error.what());
   } catch (const InputError& error) {
-    return fail(exit_bad_input, error.what());
+    return ended(exit_bad_input, error.what());
   } catch (const NotBuiltError& error) {
-    return fail(exit_not_built, error.what());
+    return ended(exit_not_built, error.what());
   } catch (const NothingReached& error) {
-    return fail(exit_nothing_reached, error.what());
+    return ended(exit_nothing_reached, error.what());
   } catch (const EndlessError& error) {
-    return fail(exit_endless, error.what());
+    return ended(exit_endless, error.what());
   } catch (const std::bad_alloc&) {
-    return fail(exit_failure,
-                "out of memory: the input does not fit into what this process may use");
+    return ended(exit_failure,
+                 "out of memory: the input does not fit into what this process may use");
   } catch (const std::length_error&) {
-    return fail(exit_failure, "out of memory: an array would be larger than any can be");
+    return ended(exit_failure, "out of memory: an array would be larger than any can be");
   } catch (const std::exception& error) {
-    return fail(exit_failure, error.what());
+    return ended(exit_failure, error.what());
   } catch (...) {
-    return fail(exit_failure, "an unknown failure");
+    return ended(exit_failure, "an unknown failure");
   }
 }
 

@@ -20,6 +20,37 @@ namespace {
 
 constexpr int most_attempts = 1000;
 
+// Held on what lies beside its place for as long as its writer lives. Of the open file, and so not
+// in the way of flock(), which other people's libraries take.
+bool claim([[maybe_unused]] int descriptor) {
+#ifdef F_OFD_SETLK
+  struct flock whole {};
+  whole.l_type = F_WRLCK;
+  whole.l_whence = SEEK_SET;
+  return ::fcntl(descriptor, F_OFD_SETLK, &whole) == 0;
+#else
+  return false;
+#endif
+}
+
+bool is_named(int descriptor, const fs::path& name) {
+  struct stat opened {
+  }, named{};
+  return ::fstat(descriptor, &opened) == 0 && ::lstat(name.c_str(), &named) == 0 &&
+         opened.st_ino == named.st_ino && opened.st_dev == named.st_dev;
+}
+
+// What a writer left that was killed: of ours by its name, and claimed by nobody.
+void remove_left_over(const fs::path& name) {
+  const int descriptor = ::open(name.c_str(), O_WRONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
+  if (descriptor < 0) return;
+  struct stat it {};
+  if (::fstat(descriptor, &it) == 0 && S_ISREG(it.st_mode) && it.st_uid == ::geteuid() &&
+      claim(descriptor) && is_named(descriptor, name))
+    ::unlink(name.c_str());
+  ::close(descriptor);
+}
+
 }  // namespace
 
 fs::path end_of_links(fs::path file) {
@@ -85,11 +116,19 @@ void NewFile::open_named() {
   // A name that is taken is refused, so two writers never share a temporary file.
   for (int attempt = 0; attempt < most_attempts; ++attempt) {
     written_ = beside(attempt);
+    remove_left_over(written_);
     descriptor_ = ::open(written_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
     if (descriptor_ >= 0) {
-      way_ = Way::named;
-      listed_.emplace(written_.c_str());
-      return;
+      // Until it is claimed another writer may take it for one that was left.
+      (void)claim(descriptor_);
+      if (is_named(descriptor_, written_)) {
+        way_ = Way::named;
+        listed_.emplace(written_.c_str());
+        return;
+      }
+      ::close(descriptor_);
+      descriptor_ = -1;
+      errno = EEXIST;
     }
     if (errno != EEXIST) return;
   }
@@ -97,7 +136,7 @@ void NewFile::open_named() {
 
 fs::path NewFile::beside(int attempt) const {
   fs::path name = target_;
-  return name += ".part" + std::to_string(attempt);
+  return name += ".plexway-part" + std::to_string(attempt);
 }
 
 std::string NewFile::place() const {
@@ -129,16 +168,22 @@ int NewFile::link_nameless() {
     return ::linkat(AT_FDCWD, place().c_str(), AT_FDCWD, name.c_str(), AT_SYMLINK_FOLLOW);
   };
   if (link_to(target_) == 0) return 0;
-  for (int attempt = 0; errno == EEXIST && attempt < most_attempts; ++attempt) {
+  int reason = errno;
+  if (reason == EEXIST) (void)claim(descriptor_);
+  for (int attempt = 0; reason == EEXIST && attempt < most_attempts; ++attempt) {
     const fs::path name = beside(attempt);
-    if (link_to(name) != 0) continue;
+    remove_left_over(name);
+    if (link_to(name) != 0) {
+      reason = errno;
+      continue;
+    }
     const Unfinished listed(name.c_str());
     if (::rename(name.c_str(), target_.c_str()) == 0) return 0;
     const int failed = errno;
     ::unlink(name.c_str());
     return failed;
   }
-  return errno;
+  return reason;
 }
 
 void NewFile::commit() {

@@ -12,12 +12,12 @@ namespace plexway::file {
 /// A file that appears whole or not at all.
 ///
 /// Where the system has files without a name it is one until `commit`, so nothing stays behind
-/// whatever ends the process; elsewhere it is written beside its place, and on the list of
-/// `unfinished.hpp`. A symbolic link stays a link, whether what it points to is there or not. A
-/// file that is replaced gives its mode and owner to the new one, and one that may not be written
-/// is not. A target that exists and is no regular file (a pipe, a device) is written directly, and
-/// so is standard output, by the name that `standard_output.hpp` gives it. All but `write` throw
-/// Error "cannot write FILE: reason"; without `commit` nothing is left behind.
+/// whatever ends the process; elsewhere it is NAME.plexway-partN, which whoever writes NAME next
+/// removes after a kill, and on the list of `unfinished.hpp`. Links stay links, their ends there or
+/// not. A file that is replaced gives mode and owner to the new one; one that may not be written
+/// is not. A target that exists and is no regular file (a pipe, a device) is written directly,
+/// and so is standard output, by the name that `standard_output.hpp` gives it. All but `write`
+/// throw Error "cannot write FILE: reason"; without `commit` nothing is left behind.
 class NewFile {
  public:
   explicit NewFile(const std::filesystem::path& file);

@@ -93,7 +93,7 @@ void MatrixFile::write(std::size_t row, std::size_t column, std::span<const Real
 
 void MatrixFile::read(std::size_t row, std::size_t column, std::span<double> values) const {
   std::vector<char> bytes(values.size() * size_of(number_));
-  file_.read(place(row, column), bytes);
+  read_bytes(row, column, bytes);
   for (std::size_t i = 0; i < values.size(); ++i) {
     const char* const from = bytes.data() + i * size_of(number_);
     constexpr auto little = std::endian::little;

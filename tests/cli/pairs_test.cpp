@@ -1,7 +1,9 @@
 #include <algorithm>
+#include <array>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <cstdint>
+#include <cstdlib>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
@@ -163,6 +165,55 @@ TEST_CASE("statistics and histograms and parcels are those of the matrix") {
   CHECK(folder.files() == 6);
 }
 
+TEST_CASE("rows by a device are its fields, and go on where they were") {
+  const testing::Folder folder;
+  const int n = 9;
+  const std::string input = folder.write("square.off", square_off(n));
+  const std::string out = folder.at("d.npy"), field = folder.at("field.csv");
+  const std::vector<std::string> command = {"pairs",
+                                            input,
+                                            "--sources",
+                                            "all",
+                                            "--out",
+                                            out,
+                                            "--executor",
+                                            "gl",
+                                            "--quiet",
+                                            "--targets",
+                                            folder.write("t.txt", "80\n7\n0\n")};
+  const Outcome run = run_tool(command);
+  if (run.code == 4) {  // no device, or a build without
+    CHECK(run.complaints() == 1);
+    return;
+  }
+  INFO(run.err);
+  REQUIRE(run.code == 0);
+  const auto d = matrix(out);
+  REQUIRE(d.size() == static_cast<std::size_t>(3 * n * n));
+  for (const int a : {0, 17, 40, 80}) {
+    REQUIRE(run_tool({"distance", input, "--source", "vertex:" + std::to_string(a), "--executor",
+                      "gl", "--quiet", "--out", field})
+                .code == 0);
+    const auto column = csv_column(content(field), "distance");
+    for (const std::size_t c : {0UL, 1UL, 2UL})
+      CHECK(static_cast<float>(d[3 * static_cast<std::size_t>(a) + c]) ==
+            static_cast<float>(column[std::array{80UL, 7UL, 0UL}[c]]));
+  }
+  for (const auto& [more, text] :
+       {std::pair<std::vector<std::string>, std::string>{{"--precision", "double"}, "precision"},
+        {{"--accuracy", "accurate"}, "--accuracy fast"},
+        {{"--radius", "1", "--out", folder.at("d.npz")}, "threads"}}) {
+    std::vector<std::string> words = {"pairs", input, "--sources", "all", "--executor", "gl"};
+    if (more[0] != "--radius") words.insert(words.end(), {"--out", out});
+    words.insert(words.end(), more.begin(), more.end());
+    const Outcome refused = run_tool(words);
+    CAPTURE(refused.err);
+    CHECK(refused.code == 2);
+    CHECK(refused.complaints() == 1);
+    CHECK(refused.err.find(text) != std::string::npos);
+  }
+}
+
 TEST_CASE("pairs go around what is masked") {
   // Vertices (4, 0) to (4, 5) of 9 x 9 are closed, and with them the triangles about each, which
   // reach up to (3, 6) and (4, 6), and to (5, 5) on the other side.
@@ -260,6 +311,68 @@ TEST_CASE("a sparse matrix killed on the way is bit for bit one that was not") {
     }
   }
   REQUIRE(run_tool(command(parts)).code == 0);
+  CHECK(content(parts) == content(whole));
+}
+
+TEST_CASE("pairs write HDF5 that h5py reads, whole after any number of kills") {
+  const testing::Folder folder;
+  const std::string input = folder.write("square.off", square_off(40));
+  const std::string plain = folder.at("d.npy"), whole = folder.at("whole.h5"),
+                    parts = folder.at("parts.h5");
+  const auto command = [&](const std::string& out) {
+    return std::vector<std::string>{"pairs",     input,   "--sources", "all",     "--symmetric",
+                                    "--threads", "2",     "--type",    "float16", "--precision",
+                                    "double",    "--out", out,         "--json"};
+  };
+  const Outcome undisturbed = run_tool(command(whole));
+  if (undisturbed.code == 4) {  // a build without HDF5 says so, before anything is read
+    CHECK(undisturbed.complaints() == 1);
+    CHECK(undisturbed.err.find("libhdf5-dev") != std::string::npos);
+    CHECK(folder.files() == 1);
+    return;
+  }
+  REQUIRE(undisturbed.code == 0);
+  REQUIRE(run_tool(command(plain)).code == 0);
+  CHECK(folder.files() == 3);
+  CHECK(fs::file_size(whole) < fs::file_size(plain));
+  if (const std::string python = "/usr/bin/python3 -c 'import h5py, numpy";
+      std::system((python + "' >/dev/null 2>&1").c_str()) == 0) {
+    CHECK(std::system((python + "; f = h5py.File(\"" + whole + "\"); d = f[\"distance\"]; " +
+                       "assert d.dtype == numpy.float16 and d.compression == \"gzip\"; " +
+                       "assert (d[()] == numpy.load(\"" + plain + "\")).all(); " +
+                       "assert (f[\"rows\"][()] == numpy.arange(1600)).all(); " +
+                       "assert (f[\"columns\"][()] == numpy.arange(1600)).all()'")
+                          .c_str()) == 0);
+  }
+
+  const int about = static_cast<int>(1000 * undisturbed.json()["seconds"].get<double>());
+  std::mt19937 random(3);
+  for (int kills = 0; kills < 6;) {
+    const int wait = 1 + static_cast<int>(random() % static_cast<unsigned>(about + 100));
+    if (run_tool_and_kill(command(parts), wait).code != 0) {
+      ++kills;
+    } else {
+      REQUIRE(content(parts) == content(whole));
+      fs::remove(parts);
+    }
+  }
+  REQUIRE(run_tool(command(parts)).code == 0);
+  CHECK(content(parts) == content(whole));
+  CHECK(folder.files() == 4);
+
+  // A disk that gets full, while rows are solved and while they are packed.
+  fs::remove(parts);
+  for (const std::size_t room : {2'000'000UL, 5'500'000UL}) {
+    const Outcome full = run_tool_with_small_files(command(parts), room);
+    if (full.code == 0) continue;
+    CHECK(full.code == 1);
+    CHECK(full.err.find("cannot write " + parts) != std::string::npos);
+    CHECK_FALSE(fs::exists(parts));
+    CHECK(fs::exists(parts + ".journal"));
+  }
+  const Outcome rest = run_tool(command(parts));
+  REQUIRE(rest.code == 0);
+  CHECK(rest.json()["rows_solved"] < 1600);
   CHECK(content(parts) == content(whole));
 }
 

@@ -1,4 +1,5 @@
 #include "cli/tool.hpp"
+#include "cli/program.hpp"
 
 #include <fcntl.h>
 #include <poll.h>
@@ -76,10 +77,8 @@ struct Limits {
   std::size_t file_bytes = 0;
 };
 
-Outcome run(const std::vector<std::string>& arguments, Channel& out, Channel& err,
-            const Limits& limits = {}) {
-  std::vector<std::string> words = {PLEXWAY_TEST_TOOL};
-  words.insert(words.end(), arguments.begin(), arguments.end());
+Outcome run_words(std::vector<std::string> words, Channel& out, Channel& err,
+                  const Limits& limits = {}) {
   std::vector<char*> argv;
   for (std::string& word : words) argv.push_back(word.data());
   argv.push_back(nullptr);
@@ -96,7 +95,7 @@ Outcome run(const std::vector<std::string>& arguments, Channel& out, Channel& er
       const rlimit most = {limits.file_bytes, limits.file_bytes};
       ::setrlimit(RLIMIT_FSIZE, &most);
     }
-    ::execv(argv[0], argv.data());
+    ::execvp(argv[0], argv.data());
     ::_exit(127);
   }
   Channel::close_end(out.write);
@@ -116,6 +115,13 @@ Outcome run(const std::vector<std::string>& arguments, Channel& out, Channel& er
   return outcome;
 }
 
+Outcome run(const std::vector<std::string>& arguments, Channel& out, Channel& err,
+            const Limits& limits = {}) {
+  std::vector<std::string> words = {PLEXWAY_TEST_TOOL};
+  words.insert(words.end(), arguments.begin(), arguments.end());
+  return run_words(std::move(words), out, err, limits);
+}
+
 }  // namespace
 
 std::size_t Outcome::complaints() const {
@@ -127,6 +133,13 @@ Outcome run_tool(const std::vector<std::string>& arguments) {
   out.make_pipe();
   err.make_pipe();
   return run(arguments, out, err);
+}
+
+Outcome run_program(const std::vector<std::string>& words, std::size_t file_bytes) {
+  Channel out, err;
+  out.make_pipe();
+  err.make_pipe();
+  return run_words(words, out, err, {.file_bytes = file_bytes});
 }
 
 Outcome run_tool_into(const std::string& file, const std::vector<std::string>& arguments) {

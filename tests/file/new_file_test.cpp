@@ -79,6 +79,54 @@ TEST_CASE("a new file is there once it is whole, and leaves nothing else") {
   });
 }
 
+TEST_CASE("what a killed writer leaves goes with the next one, and what a living one has stays") {
+  const Folder folder;
+  const fs::path name = folder.write("a.txt", "old");
+  NewFile::always_named = true;
+  for (int killed = 0; killed < 3; ++killed) {
+    const pid_t child = ::fork();
+    REQUIRE(child >= 0);
+    if (child == 0) {
+      NewFile file(name);
+      (void)file.write("half", 4);
+      ::kill(::getpid(), SIGKILL);
+    }
+    int status = 0;
+    REQUIRE(::waitpid(child, &status, 0) == child);
+    REQUIRE(WIFSIGNALED(status));
+    CHECK(folder.files() == 2);  // each takes the place of the one before
+  }
+  CHECK(bytes_of(name) == "old");
+  {
+    NewFile one(name), other(name);
+    write(one, "one");
+    write(other, "other");
+    CHECK(folder.files() == 3);
+    CHECK(one.place() != other.place());
+    other.commit();
+    CHECK(bytes_of(name) == "other");
+    one.commit();
+    CHECK(bytes_of(name) == "one");
+  }
+  CHECK(folder.files() == 1);
+  // Without a name there may be one for a moment, while a file is replaced.
+  folder.write("a.txt.plexway-part0", "left at that moment");
+  NewFile::always_named = false;
+  write_whole(name, "new");
+  CHECK(bytes_of(name) == "new");
+  CHECK(folder.files() == 1);
+  // Folders and links are left alone.
+  fs::create_directory(folder.at("a.txt.plexway-part0"));
+  fs::create_symlink("a.txt", folder.at("a.txt.plexway-part1"));
+  for (const bool named : {false, true}) {
+    NewFile::always_named = named;
+    write_whole(name, "newer");
+    CHECK(bytes_of(name) == "newer");
+    CHECK(folder.files() == 3);
+  }
+  NewFile::always_named = false;
+}
+
 TEST_CASE("a link stays a link, be there a file at its end or not") {
   both_ways([](const Folder& folder) {
     fs::create_directory(folder.at("deep"));

@@ -41,6 +41,10 @@ struct PairsRequest {
   std::size_t block = 32;
   /// Which blocks are wanted; empty: all. Asked once for each, before the first row.
   std::function<bool(std::size_t block)> wanted = {};
+  /// Where others solve rows of the same matrix (row_ranks.hpp): asked for a block to solve, by any
+  /// thread, one at a time, until there is none; `wanted` is not asked then. Empty: all that are
+  /// wanted, in their order.
+  std::function<std::optional<std::size_t>()> next = {};
   /// Called by the calling thread after each of its rows. Returning false ends with Cancelled.
   std::function<bool(const PairsProgress&)> progress = {};
 

@@ -42,6 +42,10 @@ class MatrixFile {
   void write(std::size_t row, std::size_t column, std::span<const Real> values);
   /// Values of a row from a column on, as they were rounded.
   void read(std::size_t row, std::size_t column, std::span<double> values) const;
+  /// The same as bytes, little endian: size_of(number) each.
+  void read_bytes(std::size_t row, std::size_t column, std::span<char> bytes) const {
+    file_.read(place(row, column), bytes);
+  }
   /// To the disk.
   void sync() { file_.sync(); }
   /// To the disk, and in its place.

@@ -65,26 +65,35 @@ struct RowOutput {
   std::function<std::vector<double>(DenseRow<Real>)> made = {};
 };
 
-/// The rows that the journal lacks, by `all_pairs`, into one file or several at once. `wanted` is
-/// not asked for. Any domain that all_pairs takes: AnyDomain with any/pairs.hpp. Throws as
-/// all_pairs, BlockJournal and MatrixFile; what was finished before stays.
-template <class E, class D>
-PairsReport write_pairs(const E& executor, const D& domain, const PairsRequest& request,
-                        std::span<const RowOutput<RowReal<D>>> outputs, BlockJournal& journal) {
+/// The rows that the journal lacks, into one file or several at once, by `solve(request, sink)`:
+/// all_pairs, or who shares rows with others. `wanted` is not asked for. Throws as `solve`,
+/// BlockJournal and MatrixFile; what was finished before stays.
+template <class Real, class Solve>
+PairsReport write_rows(const PairsRequest& request, std::span<const RowOutput<Real>> outputs,
+                       BlockJournal& journal, const Solve& solve) {
   const auto sync = [&] {
     for (const auto& output : outputs) output.file.sync();
   };
-  return detail::run_with_journal(request, journal, sync, [&](const PairsRequest& missing) {
-    return all_pairs(executor, domain, missing,
-                     {[&](std::size_t row, DenseRow<RowReal<D>> distance) {
-                        for (const auto& output : outputs) {
-                          if (output.made)
-                            output.file.template write_row<double>(row, output.made(distance));
-                          else
-                            output.file.write_row(row, distance);
-                        }
-                      },
-                      [&](std::size_t block) { journal.finish(block, {}, sync); }});
+  const PairsSink<DenseRow<Real>> sink = {
+      [&](std::size_t row, DenseRow<Real> distance) {
+        for (const auto& output : outputs) {
+          if (output.made)
+            output.file.template write_row<double>(row, output.made(distance));
+          else
+            output.file.write_row(row, distance);
+        }
+      },
+      [&](std::size_t block) { journal.finish(block, {}, sync); }};
+  return detail::run_with_journal(
+      request, journal, sync, [&](const PairsRequest& missing) { return solve(missing, sink); });
+}
+
+/// The same by `all_pairs`. Any domain that it takes: AnyDomain with any/pairs.hpp.
+template <class E, class D>
+PairsReport write_pairs(const E& executor, const D& domain, const PairsRequest& request,
+                        std::span<const RowOutput<RowReal<D>>> outputs, BlockJournal& journal) {
+  return write_rows(request, outputs, journal, [&](const auto& missing, const auto& sink) {
+    return all_pairs(executor, domain, missing, sink);
   });
 }
 
@@ -97,23 +106,32 @@ PairsReport write_pairs(const E& executor, const D& domain, const PairsRequest& 
                      journal);
 }
 
-/// The same of what is near, by `near_pairs`.
+/// The rows that the journal lacks, into a sparse file, by `solve(request, sink)` as above.
+template <class Real, class Solve>
+PairsReport write_near_rows(const PairsRequest& request, SparseFile& file, BlockJournal& journal,
+                            const Solve& solve) {
+  const auto sync = [&] { file.sync(); };
+  const PairsSink<SparseRow<Real>> sink = {
+      [&](std::size_t row, SparseRow<Real> near) {
+        std::vector<SparseEntry> entries;
+        entries.reserve(near.size());
+        for (const auto& [column, distance] : near)
+          entries.push_back({column, static_cast<double>(distance)});
+        file.write_row(row, entries);
+      },
+      [&](std::size_t block) { journal.finish(block, file.finish_block(block), sync); }};
+  return detail::run_with_journal(
+      request, journal, sync, [&](const PairsRequest& missing) { return solve(missing, sink); });
+}
+
+/// The same by `near_pairs`.
 template <class E, class D>
 PairsReport write_near_pairs(const E& executor, const D& domain, const PairsRequest& request,
                              const NearLimits& limits, SparseFile& file, BlockJournal& journal) {
-  const auto sync = [&] { file.sync(); };
-  return detail::run_with_journal(request, journal, sync, [&](const PairsRequest& missing) {
-    return near_pairs(
-        executor, domain, missing, limits,
-        {[&](std::size_t row, SparseRow<RowReal<D>> near) {
-           std::vector<SparseEntry> entries;
-           entries.reserve(near.size());
-           for (const auto& [column, distance] : near)
-             entries.push_back({column, static_cast<double>(distance)});
-           file.write_row(row, entries);
-         },
-         [&](std::size_t block) { journal.finish(block, file.finish_block(block), sync); }});
-  });
+  return write_near_rows<RowReal<D>>(request, file, journal,
+                                     [&](const auto& missing, const auto& sink) {
+                                       return near_pairs(executor, domain, missing, limits, sink);
+                                     });
 }
 
 }  // namespace plexway::io

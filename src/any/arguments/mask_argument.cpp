@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <utility>
+#include <variant>
 
 #include <plexway/error.hpp>
 
@@ -57,32 +58,56 @@ std::optional<Mask> read_mask(const MaskArgument& argument, const AnyShape& doma
   throw InputError(file + ": closes all of " + domain.file().string());
 }
 
-void move_sources(const Mask& mask, const AnyShape& domain, std::vector<PointSource>& sources) {
-  std::vector<Index> number(domain.simplices(), none);
-  std::vector<char> reached(domain.vertices(), 0);
-  Index next = 0;
+OpenParts::OpenParts(const Mask& mask, const AnyShape& domain)
+    : mask_(mask), number_(domain.simplices(), none), reached_(domain.vertices(), 0) {
   for (std::size_t s = 0; s < domain.simplices(); ++s) {
     const auto corners = domain.corners(s);
     if (mask.closed_simplices()[s] != 0 ||
         std::any_of(corners.begin(), corners.end(),
                     [&](std::uint32_t v) { return mask.closed_vertices()[v] != 0; }))
       continue;
-    number[s] = next++;
-    for (const std::uint32_t v : corners) reached[v] = 1;
+    number_[s] = static_cast<Index>(whole_.size());
+    whole_.push_back(static_cast<Index>(s));
+    for (const std::uint32_t v : corners) reached_[v] = 1;
   }
-  for (PointSource& source : sources) {
-    if (source.vertex != none) {
-      if (reached[source.vertex] != 0) continue;
-      throw InputError("--mask: source vertex " + std::to_string(source.vertex) +
-                       (mask.closed_vertices()[source.vertex] != 0
-                            ? " is masked: no path leaves it"
-                            : " is cut off by the mask: no path leaves it"));
-    }
-    if (number[source.simplex] == none)
-      throw InputError("--mask: a source lies in the masked simplex " +
-                       std::to_string(source.simplex) + ": no path leaves it");
-    source.simplex = number[source.simplex];
+}
+
+void OpenParts::check(Index vertex) const {
+  if (reached_[vertex] != 0) return;
+  throw InputError(
+      "--mask: vertex " + std::to_string(vertex) +
+      (mask_.closed_vertices()[vertex] != 0 ? " is masked" : " is cut off by the mask") +
+      ": no path passes there");
+}
+
+Index OpenParts::open(Index simplex) const {
+  if (number_[simplex] == none)
+    throw InputError("--mask: simplex " + std::to_string(simplex) +
+                     " is masked, and a point or a source lies in it: no path passes there");
+  return number_[simplex];
+}
+
+void OpenParts::move(PointSource& point) const {
+  if (point.vertex != none)
+    check(point.vertex);
+  else
+    point.simplex = open(point.simplex);
+}
+
+void OpenParts::move(Source& source) const {
+  if (auto* const point = std::get_if<PointSource>(&source)) move(*point);
+  if (auto* const ball = std::get_if<BallSource>(&source)) move(ball->centre);
+  if (auto* const whole = std::get_if<SimplexSource>(&source))
+    whole->simplex = open(whole->simplex);
+  if (const auto* const set = std::get_if<VertexSource>(&source)) {
+    // Values were measured in the whole domain.
+    if (!set->offsets.empty())
+      throw UsageError("--mask: the boundary of a solid is a source of the whole solid alone");
+    for (const Index v : set->vertices) check(v);
   }
+  if (auto* const curve = std::get_if<CurveSource>(&source))
+    for (PointSource& point : curve->points)
+      if (!names_nothing(point)) move(point);
 }
 
 AnyShape open_domain(const Mask& mask, const AnyShape& domain,

@@ -8,6 +8,7 @@
 #include <plexway/any/shape.hpp>
 #include <plexway/complex/mask.hpp>
 #include <plexway/source/point_source.hpp>
+#include <plexway/source/source.hpp>
 
 namespace plexway {
 
@@ -23,9 +24,26 @@ struct MaskArgument {
 /// stays open, and UsageError for a cloud.
 [[nodiscard]] std::optional<Mask> read_mask(const MaskArgument& argument, const AnyShape& domain);
 
-/// Sources where `simplices` are only the open ones. Throws InputError for one that is closed, or
-/// that the mask cuts off from everything.
-void move_sources(const Mask& mask, const AnyShape& domain, std::vector<PointSource>& sources);
+/// What a mask leaves of a domain, by numbers: open_domain counts only the open simplices.
+class OpenParts {
+ public:
+  OpenParts(const Mask& mask, const AnyShape& domain);
+
+  /// From the whole domain to the open one. Throw InputError for what is closed, or cut off from
+  /// everything.
+  void move(PointSource& point) const;
+  void move(Source& source) const;
+  /// Back: the number of an open simplex in the whole domain.
+  [[nodiscard]] Index whole(Index simplex) const { return whole_[simplex]; }
+
+ private:
+  void check(Index vertex) const;
+  [[nodiscard]] Index open(Index simplex) const;
+
+  const Mask& mask_;
+  std::vector<Index> number_, whole_;
+  std::vector<char> reached_;
+};
 
 /// The domain, and lengths of its simplices (may be null), without what is closed.
 [[nodiscard]] AnyShape open_domain(const Mask& mask, const AnyShape& domain,

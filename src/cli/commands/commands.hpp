@@ -8,6 +8,8 @@ class App;
 
 namespace plexway::cli {
 
+struct Among;
+
 /// What the command line asks for; set while it is parsed, run afterwards.
 using Action = std::function<void()>;
 
@@ -21,7 +23,7 @@ void add_prepare_command(CLI::App& tool, Action& action);
 void add_poisson_command(CLI::App& tool, Action& action);
 void add_cvt_command(CLI::App& tool, Action& action);
 void add_farthest_command(CLI::App& tool, Action& action);
-void add_pairs_command(CLI::App& tool, Action& action);
+void add_pairs_command(CLI::App& tool, Action& action, const Among* among);
 void add_tune_command(CLI::App& tool, Action& action);
 
 }  // namespace plexway::cli

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -15,10 +16,12 @@
 #include "any/field_remarks.hpp"
 #include "any/fill.hpp"
 #include "any/info/report.hpp"
+#include "any/shape_state.hpp"
 #include "cli/commands/commands.hpp"
 #include "cli/exit_codes.hpp"
 #include "cli/options/input.hpp"
 #include "cli/options/isoline_options.hpp"
+#include "cli/options/mask_option.hpp"
 #include "cli/options/metric_options.hpp"
 #include "cli/options/picture_options.hpp"
 #include "cli/options/solve_options.hpp"
@@ -41,6 +44,7 @@ struct DistanceCommand {
   PieceArguments pieces;
   SolveOptions solve;
   PictureArguments picture;
+  MaskArgument mask;
   MetricArgument metric;
   TriangulationArgument triangulation;
   bool json = false;
@@ -59,9 +63,8 @@ std::string executor_text(const Executor& executor) {
          (threads > 1 ? " with " + counted(threads, "threads") : "");
 }
 
-Json to_json(const DistanceCommand& command, const AnyDomain& solver, const AnyField& field,
-             const MeasuredLengths* lengths, const Outcome& outcome) {
-  const Domain& domain = solver.shape();
+Json to_json(const DistanceCommand& command, const Domain& domain, const AnyDomain& solver,
+             const AnyField& field, const MeasuredLengths* lengths, const Outcome& outcome) {
   Json json;
   json["input"] = domain.file().string();
   json["kind"] = domain.kind_name();
@@ -100,10 +103,10 @@ Json to_json(const DistanceCommand& command, const AnyDomain& solver, const AnyF
   return json;
 }
 
-Table to_table(const DistanceCommand& command, const AnyDomain& solver, const AnyField& field,
-               const MeasuredLengths* lengths, const std::vector<SetArgument>& arguments,
-               const std::vector<Source>& sources, const Outcome& outcome) {
-  const Domain& domain = solver.shape();
+Table to_table(const DistanceCommand& command, const Domain& domain, const AnyDomain& solver,
+               const AnyField& field, const MeasuredLengths* lengths,
+               const std::vector<SetArgument>& arguments, const std::vector<Source>& sources,
+               const Outcome& outcome) {
   Table table;
   table.add("input", domain.file().string());
   table.add(std::string(domain.kind_name()),
@@ -176,7 +179,8 @@ void run_distance(DistanceCommand command) {
     check_output_name(command.out, command.input, AnyShape::field_extensions(DomainKind::cloud));
   check_picture(command.picture, command.input);
   check_isolines(command.isolines, command.input);
-  std::vector<std::string> read = {metric_file(command.metric), command.solve.table};
+  std::vector<std::string> read = {metric_file(command.metric), mask_file(command.mask),
+                                   command.solve.table};
   for (const SetArgument& argument : arguments) read.push_back(argument.file);
   read.insert(read.end(), command.pieces.more.begin(), command.pieces.more.end());
   if (command.out != "-") check_output_place(command.out, read, "--out");
@@ -186,15 +190,21 @@ void run_distance(DistanceCommand command) {
 
   command.fill.volume.writes_volume = is_vdb(command.out);
   ProgressLine progress(command.quiet);
-  const Domain domain =
+  const Domain whole =
       load_domain(command.input, command.as, command.fill, command.cloud, progress, command.pieces);
-  if (domain.cloud() == nullptr && command.out != "-")
-    check_output_name(command.out, command.input, AnyShape::field_extensions(domain.kind()));
-  check_isolines(command.isolines, domain);
-  const std::vector<Source> sources =
-      locate_source_sets(domain, arguments, !command.metric.text.empty());
+  if (whole.cloud() == nullptr && command.out != "-")
+    check_output_name(command.out, command.input, AnyShape::field_extensions(whole.kind()));
+  check_isolines(command.isolines, whole);
+  const std::vector<Source> located =
+      locate_source_sets(whole, arguments, !command.metric.text.empty());
+  const std::optional<Mask> mask = read_mask(command.mask, whole);
+  std::vector<Source> sources = located;
+  if (mask) {
+    const OpenParts open(*mask, whole);
+    for (Source& source : sources) open.move(source);
+  }
   const std::vector<PointSource> points = as_points(sources);
-  if (needs_double(domain, sources)) {
+  if (needs_double(whole, sources)) {
     if (command.solve.executor.name == "auto") command.solve.executor.name = "serial";
     if (command.solve.executor.name != "serial")
       throw UsageError("--executor '" + command.solve.executor.name +
@@ -209,13 +219,17 @@ void run_distance(DistanceCommand command) {
   }
 
   if (!command.metric.text.empty()) progress.phase("reading the metric");
-  const auto lengths = measure(command.metric, domain, Jumps::refract);
-  check_triangulation(triangulation, domain);
+  auto lengths = measure(command.metric, whole, Jumps::refract);
+  check_triangulation(triangulation, whole);
   progress.phase("building");
-  const AnyDomain solver(domain, {.precision = precision,
-                                  .triangulation = triangulation,
-                                  .lengths = lengths,
-                                  .progress = progress.share_callback()});
+  const Domain domain = mask ? open_domain(*mask, whole, lengths) : whole;
+  const auto build = [&] {
+    return AnyDomain(domain, {.precision = precision,
+                              .triangulation = triangulation,
+                              .lengths = lengths,
+                              .progress = progress.share_callback()});
+  };
+  const AnyDomain solver = mask ? with_file_name(whole, build) : build();
 
   progress.phase("solving");
   PropagateOptions options = wanted;
@@ -266,8 +280,8 @@ void run_distance(DistanceCommand command) {
   }
   progress.clear();
 
-  print_report(to_json(command, solver, field, lengths.get(), outcome),
-               to_table(command, solver, field, lengths.get(), arguments, sources, outcome),
+  print_report(to_json(command, whole, solver, field, lengths.get(), outcome),
+               to_table(command, whole, solver, field, lengths.get(), arguments, located, outcome),
                command.json, command.quiet,
                {command.out, command.isolines.out, command.picture.file, command.picture.html});
 
@@ -277,7 +291,7 @@ void run_distance(DistanceCommand command) {
                          "a finite distance");
   }
   const bool bounded = command.solve.radius || command.solve.max_expansions;
-  if (!command.quiet) say_violations(domain, lengths.get());
+  if (!command.quiet) say_violations(whole, lengths.get());
   if (!command.quiet && !command.isolines.out.empty() && isovalues.empty())
     say_note("--isolines-out holds nothing: no distance is as large as the step");
   if (command.quiet) return;
@@ -310,6 +324,7 @@ void add_distance_command(CLI::App& tool, Action& action) {
   add_solve_options(app, command->solve, true);
   add_triangulation_option(app, command->triangulation);
   add_metric_option(app, command->metric);
+  add_mask_option(app, command->mask);
   add_fill_options(app, command->fill);
   add_cloud_options(app, command->cloud);
   add_picture_options(app, command->picture, true);
@@ -326,6 +341,7 @@ void add_distance_command(CLI::App& tool, Action& action) {
       "  plexway distance broken.stl --repair --as solid --source vertex:0 --out d.glb\n"
       "  plexway distance part.stl --source vertex:0 --triangulation delaunay -o d.vtu\n"
       "  plexway distance ground.off --source vertex:0 --metric speed:speeds.txt -o times.vtu\n"
+      "  plexway distance cortex.surf.gii --source vertex:0 --mask vertices:wall.txt -o d.npy\n"
       "  plexway distance vessels.obj --source vertex:0 --out distance.vtk\n"
       "  plexway distance knot.ply --source vertex:0 --picture knot.png --view iso\n"
       "  plexway distance scan.pcd --voxel 0.01 --denoise --source point:0,0,0 --out d.ply\n"

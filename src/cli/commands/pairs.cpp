@@ -9,6 +9,7 @@
 
 #include "any/arguments/point_argument.hpp"
 #include "any/point_file.hpp"
+#include "cli/among.hpp"
 #include "cli/commands/commands.hpp"
 #include "cli/commands/pairs_matrix.hpp"
 #include "cli/commands/sampling_command.hpp"
@@ -30,6 +31,8 @@ void run_pairs(const PairsCommand& pairs) {
     run_matrix(pairs);
     return;
   }
+  if (pairs.among != nullptr)
+    throw UsageError("ranks share the rows of --sources FILE|all, not those of --source");
   if (const std::string other = only_for_matrices(pairs); !other.empty())
     throw UsageError(other + " goes with --sources FILE|all, not with --source");
   SamplingCommand command;
@@ -92,8 +95,9 @@ void run_pairs(const PairsCommand& pairs) {
 
 }  // namespace
 
-void add_pairs_command(CLI::App& tool, Action& action) {
+void add_pairs_command(CLI::App& tool, Action& action, const Among* among) {
   auto command = std::make_shared<PairsCommand>();
+  command->among = among;
   command->solve.executor.name = "auto";
   CLI::App& app = *tool.add_subcommand(
       "pairs", "Matrices of distances: between chosen points, or of any size, restartable");
@@ -102,10 +106,11 @@ void add_pairs_command(CLI::App& tool, Action& action) {
                  "a point of a small symmetric matrix: vertex:ID or point:X,Y,Z; repeat it")
       ->type_name("WHERE")
       ->allow_extra_args(false);
-  add_output(app, "--out,-o", command->out,
-             "write the matrix: .csv or .npy of points (- for CSV on standard output); .npy of\n"
-             "--sources, .npz or .mtx where it is sparse",
-             "csv");
+  add_output(
+      app, "--out,-o", command->out,
+      "write the matrix: .csv or .npy of points (- for CSV on standard output); .npy or .h5\n"
+      "(HDF5, compressed) of --sources, .npz or .mtx where it is sparse",
+      "csv");
   app.add_option("--as", command->as, as_help)->type_name("KIND");
   app.add_flag("--json", command->json, "print the summary as one JSON object");
   app.add_flag("--quiet,-q", command->quiet, "no summary, notes or progress; errors stay");
@@ -124,7 +129,11 @@ void add_pairs_command(CLI::App& tool, Action& action) {
       "  plexway pairs knot.ply --sources all --radius 0.3 --out near.npz\n"
       "  plexway farthest knot.ply --count 100 --out landmarks.csv\n"
       "  plexway pairs knot.ply --sources landmarks.csv --out landmarks.npy");
-  app.callback([command, &action] { action = [command] { run_pairs(*command); }; });
+  app.callback([command, &action] {
+    // One process talks.
+    if (command->among != nullptr && !command->among->ranks.leads()) command->quiet = true;
+    action = [command] { run_pairs(*command); };
+  });
 }
 
 }  // namespace plexway::cli

@@ -15,7 +15,9 @@
 #include <plexway/io/sparse_file.hpp>
 #include <plexway/version.hpp>
 
+#include "any/hdf5_functions.hpp"
 #include "cli/report/distance_output.hpp"
+#include "io/extension.hpp"
 
 namespace plexway::cli {
 namespace {
@@ -36,7 +38,7 @@ std::string fingerprint_of(const Numbers& numbers) {
 
 void check_names(const MatrixCommand& command) {
   const bool sparse = command.radius || command.nearest;
-  constexpr std::array<std::string_view, 1> dense_files = {".npy"};
+  constexpr std::array<std::string_view, 2> dense_files = {".npy", ".h5"};
   constexpr std::array<std::string_view, 2> parcel_files = {".npy", ".csv"};
   constexpr std::array<std::string_view, 1> tables = {".csv"};
   if (command.out.empty() && command.stats.empty() && command.histogram.empty())
@@ -69,6 +71,7 @@ void check_names(const MatrixCommand& command) {
   check_output_name(command.stats, command.input, tables, "--stats");
   check_output_name(command.histogram, command.input, tables, "--histogram");
   check_outputs_differ({command.out, command.stats, command.histogram});
+  if (is_hdf5(command.out)) hdf5_functions("--out " + command.out);
   const std::array read = {command.sources,
                            command.targets,
                            command.labels,
@@ -97,6 +100,7 @@ void describe(Job& job, const MeasuredLengths* lengths) {
   add("rows", std::to_string(job.rows.size()) + " " + fingerprint_of(SourceList(job.rows)));
   add("columns", std::to_string(job.columns.size()) + " " + fingerprint_of(job.columns));
   add("precision", command.solve.precision);
+  if (command.solve.executor.name == "gl") add("executor", "gl");  // the others have one's bits
   add("accuracy", name_of(job.options.accuracy));
   add("visibility", command.solve.visibility);
   if (!command.solve.table.empty()) add("table", fingerprint_of(job.options.probe.share));
@@ -123,10 +127,13 @@ void describe(Job& job, const MeasuredLengths* lengths) {
   add("written", written);
 }
 
+bool is_hdf5(const std::string& file) { return io::lower_extension(file) == ".h5"; }
+
 double expected_bytes(const Job& job) {
   double bytes = 0;
   if (job.wants_matrix() && !job.sparse)
-    bytes += MatrixFile::bytes(job.rows.size(), job.columns.size(), job.number);
+    bytes += MatrixFile::bytes(job.rows.size(), job.columns.size(), job.number) *
+             (is_hdf5(job.command.out) ? 2 : 1);
   if (job.parcels)
     bytes += MatrixFile::bytes(job.rows.size(), job.parcels->parcels.count, MatrixNumber::float64);
   if (job.wants_statistics())

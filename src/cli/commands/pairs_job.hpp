@@ -56,7 +56,11 @@ void check_names(const MatrixCommand& command);
 /// All that the result depends on, a line each, so that what changed can be named.
 void describe(Job& job, const MeasuredLengths* lengths);
 
-/// On the disk while it is made, as far as that is known before.
+/// Does the name say HDF5?
+[[nodiscard]] bool is_hdf5(const std::string& file);
+
+/// On the disk while it is made, as far as that is known before: HDF5 is made of what lies beside
+/// it, and may not get smaller.
 [[nodiscard]] double expected_bytes(const Job& job);
 
 }  // namespace plexway::cli

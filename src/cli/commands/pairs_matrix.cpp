@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <cstdio>
 #include <filesystem>
 #include <functional>
@@ -18,14 +19,22 @@
 #include <plexway/any/complex.hpp>
 #include <plexway/any_domain.hpp>
 #include <plexway/apps/all_pairs.hpp>
+#include <plexway/apps/block_rows.hpp>
 #include <plexway/apps/row_reductions.hpp>
 #include <plexway/error.hpp>
 #include <plexway/io/write_pairs.hpp>
+#include <plexway/support.hpp>
+
+#ifdef PLEXWAY_HAS_GL
+#include <plexway/executors/gl.hpp>
+#endif
 
 #include "any/arguments/point_list.hpp"
+#include "any/hdf5_functions.hpp"
 #include "any/info/report.hpp"
 #include "any/make_complex.hpp"
 #include "any/pair_tables.hpp"
+#include "cli/among.hpp"
 #include "cli/commands/pairs_job.hpp"
 #include "cli/options/input.hpp"
 #include "cli/report/console.hpp"
@@ -51,8 +60,14 @@ struct Outcome {
   std::string asymmetry;
   std::uint64_t entries = 0;
   std::optional<StatisticsSummary> statistics;
-  std::size_t threads = 1;
+  std::size_t threads = 1, ranks = 1;
   bool only_estimated = false;
+
+  /// "2 threads" or "4 ranks, here of 2 threads".
+  [[nodiscard]] std::string team() const {
+    const std::string each = counted(threads, "threads");
+    return ranks == 1 ? each : counted(ranks, "ranks") + ", here of " + each;
+  }
 };
 
 std::string asymmetry_text(const io::Asymmetry& found) {
@@ -68,7 +83,11 @@ class MatrixRun {
 
   MatrixRun(const Job& job, const E& executor, const Complex& complex,
             const std::vector<PointSource>& rows, ProgressLine& progress)
-      : job_(job), executor_(executor), complex_(complex), progress_(progress) {
+      : job_(job),
+        among_(job.command.among),
+        executor_(executor),
+        complex_(complex),
+        progress_(progress) {
     request_.rows = SourceList(rows);
     request_.columns = job.columns;
     request_.solve = job.options;
@@ -76,8 +95,13 @@ class MatrixRun {
   }
 
   Outcome run() {
+    if (among_ != nullptr && !among_->ranks.leads()) {
+      follow();
+      return outcome_;
+    }
     outcome_.expected_bytes = expected_bytes(job_);
     if constexpr (std::is_same_v<E, OpenMP>) outcome_.threads = team_size(executor_);
+    outcome_.ranks = among_ == nullptr ? 1 : among_->ranks.count();
     estimate();
     if (job_.command.estimate) {
       outcome_.only_estimated = true;
@@ -119,7 +143,7 @@ class MatrixRun {
       const double each = (seconds - before) / static_cast<double>(std::max(more - probes, 1UL));
       outcome_.expected_seconds =
           (more > probes && each > 0 ? each : seconds / static_cast<double>(more)) *
-          static_cast<double>(rows);
+          static_cast<double>(rows) / static_cast<double>(outcome_.ranks);
       if (seconds > 0.05 || 16 * more > rows) break;
       probes = more;
       before = seconds;
@@ -127,7 +151,7 @@ class MatrixRun {
     if (job_.command.estimate || outcome_.expected_seconds < 5) return;
     std::string text = std::to_string(rows) + " x " + std::to_string(job_.columns.size()) +
                        ": about " + short_time(outcome_.expected_seconds) + " on " +
-                       counted(outcome_.threads, "threads");
+                       outcome_.team();
     if (outcome_.expected_bytes > 0) text += ", " + io::short_bytes(outcome_.expected_bytes);
     progress_.note(text + "; what is finished stays if it is ended before");
   }
@@ -142,9 +166,9 @@ class MatrixRun {
     few.block = 1;
     const Stopwatch watch;
     if (job_.sparse)
-      near_pairs(executor_, complex_, few, limits(), {[](std::size_t, SparseRow<Real>) {}});
+      own_near_rows(few, {[](std::size_t, SparseRow<Real>) {}});
     else
-      all_pairs(executor_, complex_, few, {[](std::size_t, DenseRow<Real>) {}});
+      own_rows(few, {[](std::size_t, DenseRow<Real>) {}});
     return watch.seconds();
   }
 
@@ -153,11 +177,48 @@ class MatrixRun {
             .nearest = job_.command.nearest.value_or(none)};
   }
 
+  // By this process.
+  PairsReport own_rows(const PairsRequest& request, const PairsSink<DenseRow<Real>>& sink) {
+    if constexpr (RowExecutor<E>)
+      return all_pairs(executor_, complex_, request, sink);
+    else
+      return all_pairs_by_blocks(executor_, complex_, request, sink);
+  }
+  PairsReport own_near_rows(const PairsRequest& request, const PairsSink<SparseRow<Real>>& sink) {
+    if constexpr (RowExecutor<E>)
+      return near_pairs(executor_, complex_, request, limits(), sink);
+    else
+      throw UsageError("--nearest and --radius are looked for by threads");  // refused before
+  }
+
+  // Alone or among others.
+  PairsReport dense_rows(const PairsRequest& request, const PairsSink<DenseRow<Real>>& sink) {
+    const auto solve = [&](const auto& mine, const auto& out) { return own_rows(mine, out); };
+    if (among_ == nullptr) return solve(request, sink);
+    return share_rows(among_->ranks, request, complex_.vertex_count(), sink, solve);
+  }
+  PairsReport near_rows(const PairsRequest& request, const PairsSink<SparseRow<Real>>& sink) {
+    const auto solve = [&](const auto& mine, const auto& out) { return own_near_rows(mine, out); };
+    if (among_ == nullptr) return solve(request, sink);
+    return share_rows(among_->ranks, request, complex_.vertex_count(), sink, solve);
+  }
+
+  // Rows go to the leader, which has the files.
+  void follow() {
+    if (job_.command.estimate) return;
+    if (job_.sparse)
+      near_rows(request_, {});
+    else
+      dense_rows(request_, {});
+  }
+
   void run_sparse(BlockJournal& journal) {
     io::SparseFile file(job_.command.out, job_.rows.size(), job_.columns.size(), job_.block,
                         job_.number, journal);
     const Stopwatch watch;
-    outcome_.report = io::write_near_pairs(executor_, complex_, request_, limits(), file, journal);
+    outcome_.report = io::write_near_rows<Real>(
+        request_, file, journal,
+        [&](const auto& missing, const auto& sink) { return near_rows(missing, sink); });
     outcome_.solving = watch.seconds();
     progress_.phase("writing " + job_.command.out);
     outcome_.entries = file.commit(journal);
@@ -193,8 +254,9 @@ class MatrixRun {
                          }});
     }
     const Stopwatch watch;
-    outcome_.report = io::write_pairs(executor_, complex_, request_,
-                                      std::span<const io::RowOutput<Real>>(outputs), journal);
+    outcome_.report = io::write_rows(
+        request_, std::span<const io::RowOutput<Real>>(outputs), journal,
+        [&](const auto& missing, const auto& sink) { return dense_rows(missing, sink); });
     outcome_.solving = watch.seconds();
     if (matrix && job_.square) compare_ways(*matrix, journal);
     if (parcels) write_parcels(command.out, *parcels, *job_.parcels);
@@ -205,9 +267,13 @@ class MatrixRun {
     // Ended before this line all is done again from the parts, and behind it nothing.
     if (matrix) {
       journal.complete([&] { matrix->sync(); });
-      matrix->commit();
+      if (is_hdf5(command.out))
+        write_hdf5(*matrix);
+      else
+        matrix->commit();
     }
     journal.remove();
+    if (matrix && is_hdf5(command.out)) matrix->remove();
     if (parcels) parcels->remove();
     if (statistics) statistics->remove();
   }
@@ -220,13 +286,41 @@ class MatrixRun {
     if (job_.command.symmetric) make_symmetric(matrix);
   }
 
+  void write_hdf5(const MatrixFile& matrix) {
+    const std::string& out = job_.command.out;
+    progress_.phase("writing " + out);
+    std::vector<std::int64_t> rows, columns(job_.columns.begin(), job_.columns.end());
+    for (const PointSource& row : job_.rows)
+      rows.push_back(row.vertex == none ? -1 : std::int64_t{row.vertex});
+    const auto read = [&](std::size_t row, std::size_t column, std::span<char> bytes) {
+      matrix.read_bytes(row, column, bytes);
+    };
+    hdf5_functions("--out " + out)
+        .write_matrix(out, {matrix.rows(), matrix.columns()}, io::size_of(job_.number), read, rows,
+                      columns, OpenMP{.threads = static_cast<int>(outcome_.threads)});
+  }
+
   const Job& job_;
+  const Among* among_;
   const E& executor_;
   const Complex& complex_;
   ProgressLine& progress_;
   PairsRequest request_;
   Outcome outcome_;
 };
+
+template <class Complex>
+Outcome run_on_device(const Job& job, const Complex& complex, const std::vector<PointSource>& rows,
+                      ProgressLine& progress) {
+#ifdef PLEXWAY_HAS_GL
+  if constexpr (supports<GL, Complex>) {
+    const GL device{.device = job.command.solve.executor.device.value_or(-1)};
+    return MatrixRun(job, device, complex, rows, progress).run();
+  }
+  support(combination<GL, Complex>()).require();
+#endif
+  throw NotBuiltError("--executor gl: not built in");
+}
 
 template <class Real>
 Outcome run_on_surface(const Domain& domain, const MeasuredLengths* lengths, const Job& job,
@@ -247,9 +341,12 @@ Outcome run_on(const Domain& whole, std::shared_ptr<const MeasuredLengths> lengt
   const Domain domain = job.mask ? open_domain(*job.mask, whole, lengths) : whole;
   const auto run = [&](const auto& complex, const std::vector<PointSource>& rows) {
     const std::string& name = job.command.solve.executor.name;
+    if (name == "gl") return run_on_device(job, complex, rows, progress);
     if (name == "serial" || !openmp_built())
       return MatrixRun(job, Serial{}, complex, rows, progress).run();
-    const OpenMP team{.threads = job.command.solve.executor.threads.value_or(0)};
+    const Among* const among = job.command.among;
+    const OpenMP team{.threads = job.command.solve.executor.threads.value_or(
+                          among == nullptr ? 0 : among->threads)};
     return MatrixRun(job, team, complex, rows, progress).run();
   };
   if (domain.kind() == DomainKind::surface)
@@ -271,21 +368,25 @@ void print(const MatrixCommand& command, const Job& job, const Outcome& outcome)
   table.add("matrix", std::to_string(job.rows.size()) + " x " + std::to_string(job.columns.size()));
   if (outcome.only_estimated) {
     json["estimate"] = {{"seconds", outcome.expected_seconds}, {"bytes", outcome.expected_bytes}};
-    table.add("estimate", short_time(outcome.expected_seconds) + " on " +
-                              counted(outcome.threads, "threads") +
+    table.add("estimate", short_time(outcome.expected_seconds) + " on " + outcome.team() +
                               (job.sparse ? "" : ", " + io::short_bytes(outcome.expected_bytes)));
   } else {
     json["rows_solved"] = outcome.report.rows;
     json["blocks_kept"] = outcome.resumed_blocks;
     json["threads"] = outcome.threads;
-    json["expansions"] = outcome.report.statistics.expansions;
+    if (command.among != nullptr) json["ranks"] = outcome.ranks;
+    // Devices count them for all rows of a launch together.
+    const bool counts = command.solve.executor.name != "gl";
+    if (counts) json["expansions"] = outcome.report.statistics.expansions;
     if (outcome.report.statistics.windows_gave_up > 0)
       json["windows_gave_up"] = outcome.report.statistics.windows_gave_up;
     json["seconds"]["load"] = job.domain.load_seconds();
     if (job.domain.mesh_seconds()) json["seconds"]["mesh"] = *job.domain.mesh_seconds();
     json["seconds"]["solve"] = outcome.solving;
-    table.add("work", counted(outcome.report.rows, "rows") + " solved, " +
-                          counted(outcome.report.statistics.expansions, "expansions"));
+    table.add(
+        "work",
+        counted(outcome.report.rows, "rows") + " solved" +
+            (counts ? ", " + counted(outcome.report.statistics.expansions, "expansions") : ""));
     table.add("time", short_time(outcome.solving));
     if (job.sparse) {
       json["entries"] = outcome.entries;
@@ -316,8 +417,12 @@ void print(const MatrixCommand& command, const Job& job, const Outcome& outcome)
 void run_matrix(const MatrixCommand& command) {
   const PropagateOptions options = propagate_options(command.solve);
   const Precision precision = precision_of(command.solve);
-  if (command.solve.executor.name == "gl")
-    throw UsageError("--executor gl: rows of a matrix are solved one a thread; choose openmp");
+  const bool by_device = command.solve.executor.name == "gl";
+  if (by_device && precision == Precision::twice)
+    throw UsageError("--executor gl computes in single precision: use --precision float");
+  if (by_device && (command.radius || command.nearest))
+    throw UsageError(
+        "--executor gl: --radius and --nearest are looked for by threads; choose openmp");
   check_names(command);
   const MatrixNumber number = io::matrix_number_of(command.type);
   const Triangulation triangulation = triangulation_of(command.triangulation);
@@ -343,7 +448,10 @@ void run_matrix(const MatrixCommand& command) {
     job.rows = read_point_list(command.sources, domain);
   }
   job.mask = read_mask(command.mask, domain);
-  if (job.mask && command.sources != "all") move_sources(*job.mask, domain, job.rows);
+  if (job.mask && command.sources != "all") {
+    const OpenParts open(*job.mask, domain);
+    for (PointSource& row : job.rows) open.move(row);
+  }
   if (!command.labels.empty()) {
     job.parcels = read_parcels(command.labels, domain.vertices());
     job.parcels->take(job.rows, job.columns, command.labels);
@@ -366,6 +474,7 @@ void run_matrix(const MatrixCommand& command) {
     throw InputError(file + ": " + error.what());
   }
   progress.clear();
+  if (command.among != nullptr && !command.among->ranks.leads()) return;
   print(command, job, outcome);
   if (!command.quiet) say_violations(domain, lengths.get());
   if (!command.quiet) note_accuracy(outcome.report.statistics);

@@ -17,6 +17,8 @@ class App;
 
 namespace plexway::cli {
 
+struct Among;
+
 /// What `plexway pairs --sources` is told, as typed.
 struct MatrixCommand {
   std::string input, as;
@@ -35,6 +37,7 @@ struct MatrixCommand {
   MaskArgument mask;
   MetricArgument metric;
   TriangulationArgument triangulation;
+  const Among* among = nullptr;  ///< who shares the rows; null: nobody
 };
 
 /// The options that only matrices of this kind have.

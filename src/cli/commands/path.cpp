@@ -3,6 +3,7 @@
 #include <array>
 #include <cmath>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -18,9 +19,11 @@
 
 #include "any/arguments/point_argument.hpp"
 #include "any/info/report.hpp"
+#include "any/shape_state.hpp"
 #include "cli/commands/commands.hpp"
 #include "cli/exit_codes.hpp"
 #include "cli/options/input.hpp"
+#include "cli/options/mask_option.hpp"
 #include "cli/options/metric_options.hpp"
 #include "cli/options/picture_options.hpp"
 #include "cli/options/solve_options.hpp"
@@ -43,6 +46,7 @@ struct PathCommand {
   SolveOptions solve;
   TraceOptions trace;
   PictureArguments picture;
+  MaskArgument mask;
   MetricArgument metric;
   TriangulationArgument triangulation;
   bool astar = false;
@@ -257,34 +261,49 @@ void run_path(const PathCommand& typed) {
       triangulation != Triangulation::input)
     throw UsageError("--astar searches the triangles of the file: leave out --triangulation");
   check_picture(command.picture, command.input);
-  const std::array read = {metric_file(command.metric), command.solve.table};
+  const std::array read = {metric_file(command.metric), mask_file(command.mask),
+                           command.solve.table};
   check_output_place(command.out, read, "--out");
   check_outputs_differ({command.out, command.picture.file, command.picture.html});
 
   ProgressLine progress(command.quiet);
-  const Domain domain =
+  const Domain whole =
       load_domain(command.input, command.as, command.fill, command.cloud, progress);
-  if (command.astar && domain.kind() != DomainKind::surface)
-    throw UsageError("--astar: a " + std::string(kind_noun(domain.kind())) +
+  if (command.astar && whole.kind() != DomainKind::surface)
+    throw UsageError("--astar: a " + std::string(kind_noun(whole.kind())) +
                      " is solved as a whole; A* is for surfaces");
-  check_triangulation(triangulation, domain);
-  if (command.margin_given && domain.kind() != DomainKind::surface && domain.cloud() == nullptr)
+  check_triangulation(triangulation, whole);
+  if (command.margin_given && whole.kind() != DomainKind::surface && whole.cloud() == nullptr)
     throw UsageError("--margin: for surfaces and clouds, not a " +
-                     std::string(kind_noun(domain.kind())));
-  const std::vector<PointSource> sources = locate_sources(domain, from);
-  const std::vector<PointSource> targets = locate_sources(domain, to);
+                     std::string(kind_noun(whole.kind())));
+  std::vector<PointSource> sources = locate_sources(whole, from);
+  std::vector<PointSource> targets = locate_sources(whole, to);
   if (!command.metric.text.empty()) progress.phase("reading the metric");
   // Paths go straight over an edge: it has one length.
-  const auto lengths = measure(command.metric, domain, Jumps::smooth);
-  Outcome outcome =
-      find_paths(domain,
-                 {.precision = precision,
-                  .triangulation = command.astar ? Triangulation::input : triangulation,
-                  .lengths = lengths,
-                  .progress = progress.share_callback()},
-                 command, sources, targets, options, progress);
+  auto lengths = measure(command.metric, whole, Jumps::smooth);
+  const std::optional<Mask> mask = read_mask(command.mask, whole);
+  const std::optional<OpenParts> open =
+      mask ? std::optional<OpenParts>({*mask, whole}) : std::nullopt;
+  const std::vector<PointSource> found_sources = sources, found_targets = targets;
+  if (open) {
+    for (PointSource& source : sources) open->move(source);
+    for (PointSource& target : targets) open->move(target);
+  }
+  const Domain domain = mask ? open_domain(*mask, whole, lengths) : whole;
+  const auto find = [&] {
+    return find_paths(domain,
+                      {.precision = precision,
+                       .triangulation = command.astar ? Triangulation::input : triangulation,
+                       .lengths = lengths,
+                       .progress = progress.share_callback()},
+                      command, sources, targets, options, progress);
+  };
+  Outcome outcome = mask ? with_file_name(whole, find) : find();
   if (!command.out.empty()) {
     progress.phase("writing " + command.out);
+    if (open)
+      for (Path& path : outcome.paths)
+        for (PathPoint& point : path.points) point.simplex = open->whole(point.simplex);
     io::write_paths(command.out, outcome.paths);
   }
   if (command.picture.wanted()) {
@@ -302,7 +321,7 @@ void run_path(const PathCommand& typed) {
   progress.clear();
   Json json;
   Table table;
-  report(command, domain, outcome, {from, sources}, {to, targets}, json, table);
+  report(command, whole, outcome, {from, found_sources}, {to, found_targets}, json, table);
   print_report(json, table, command.json, command.quiet,
                {command.out, command.picture.file, command.picture.html});
 
@@ -310,7 +329,7 @@ void run_path(const PathCommand& typed) {
   for (const Path& path : outcome.paths) unreached += path.source == none;
   if (unreached == outcome.paths.size())
     throw NothingReached(command.input + ": nothing reached: no path leads to any target");
-  if (!command.quiet) say_violations(domain, lengths.get());
+  if (!command.quiet) say_violations(whole, lengths.get());
   if (!command.quiet) say_notes(outcome, sources);
   if (unreached > 0 && !command.quiet)
     say_note(counted(unreached, "targets") + " not reached: no path leads there");
@@ -352,6 +371,7 @@ void add_path_command(CLI::App& tool, Action& action) {
   add_solve_options(app, command->solve, false);
   add_triangulation_option(app, command->triangulation);
   add_metric_option(app, command->metric);
+  add_mask_option(app, command->mask);
   add_fill_options(app, command->fill);
   add_cloud_options(app, command->cloud);
   add_picture_options(app, command->picture);

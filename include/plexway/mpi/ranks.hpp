@@ -1,0 +1,88 @@
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <string>
+
+#include <plexway/apps/row_ranks.hpp>
+#include <plexway/error.hpp>
+
+// Ranks of MPI that share the rows of a matrix.
+//
+//   int main(int argc, char** argv) {
+//     plexway::mpi::Ranks ranks(argc, argv);
+//     ... every rank makes the same mesh and request ...
+//     plexway::share_rows<plexway::DenseRow<float>>(
+//         ranks, request, mesh.vertex_count(), sink, [&](const auto& mine, const auto& rows) {
+//           return plexway::all_pairs(plexway::Serial{}, mesh, mine, rows);
+//         });
+//   }
+
+/// Ranks of MPI that share the rows of a matrix.
+namespace plexway::mpi {
+
+/// All ranks of a run (MPI_COMM_WORLD), one of which is this process. Rank 0 leads, and solves like
+/// the others.
+///
+/// Each rank has a domain of its own: what has many cores is best given one rank a node, whose
+/// threads share one. Only one thread at a time calls MPI (MPI_THREAD_SERIALIZED). A rank that dies
+/// takes the others along, as MPI has it.
+class Ranks final : public RowRanks {
+ public:
+  /// MPI_Init_thread. One in a process. Throws Error where threads are not allowed.
+  Ranks(int& argc, char**& argv);
+  /// MPI_Finalize, or MPI_Abort where the others wait for what will not come.
+  ~Ranks() override;
+  Ranks(const Ranks&) = delete;
+  Ranks& operator=(const Ranks&) = delete;
+
+  /// Rank 0.
+  [[nodiscard]] bool leads() const override { return rank() == 0; }
+  /// As many as mpirun began.
+  [[nodiscard]] std::size_t count() const override;
+  /// Which one this is.
+  [[nodiscard]] std::size_t rank() const;
+  /// Threads for each rank of this node, so that its cores are busy: those that the rank is bound
+  /// to, else its share.
+  [[nodiscard]] int threads() const;
+
+  /// As RowRanks has it. Cost: a message a row, from the others to the leader. Throws Absent if a
+  /// rank does not come; UsageError for rows of 2 GB.
+  PairsReport share(const PairsRequest& request, std::size_t vertices, const PairsSink<Bytes>& sink,
+                    const Solve& solve) override;
+
+  /// Why ranks do not come to `share`.
+  struct Verdict {
+    std::size_t rank;  ///< the first that failed, which is the one to say why
+    int code;          ///< its exit code; 0 where none failed
+  };
+  /// This rank will not come to `share`, since it is through, with exit code 0, or failed, with
+  /// another. Ranks that wait there go on by Absent. Once, and not after `share`.
+  Verdict stay_away(int code);
+  /// Has this rank been in `share` or `stay_away`?
+  [[nodiscard]] bool met() const;
+  /// Ends all ranks at once.
+  [[noreturn]] void end_all(int code);
+
+ private:
+  struct State;
+  Verdict meet(int code);
+
+  std::unique_ptr<State> state_;
+};
+
+/// This rank came to `share`, and others did not.
+class Absent : public Error {
+ public:
+  /// What they said.
+  explicit Absent(Ranks::Verdict verdict)
+      : Error("rank " + std::to_string(verdict.rank) + " does not come to share rows"),
+        verdict_(verdict) {}
+  /// What they said.
+  [[nodiscard]] Ranks::Verdict verdict() const { return verdict_; }
+
+ private:
+  Ranks::Verdict verdict_;
+};
+
+}  // namespace plexway::mpi

@@ -1,0 +1,53 @@
+// The tool among ranks of MPI: mpirun -n 4 plexway-mpi pairs INPUT ...
+
+#include <cstdio>
+#include <exception>
+#include <optional>
+#include <string>
+
+#include <plexway/mpi/ranks.hpp>
+
+#include "cli/among.hpp"
+#include "cli/app.hpp"
+#include "cli/report/console.hpp"
+
+namespace {
+
+using plexway::mpi::Ranks;
+
+// One line for all ranks, from the one that failed first.
+int ended(Ranks& ranks, int code, const char* message) {
+  std::optional<Ranks::Verdict> verdict;
+  if (ranks.met()) {
+    if (code == 0) return code;
+    try {
+      throw;
+    } catch (const plexway::mpi::Absent& absent) {
+      return absent.verdict().code;
+    } catch (...) {
+      plexway::cli::say_error(message);
+      ranks.end_all(code);
+    }
+  }
+  verdict = ranks.stay_away(code);
+  if (code != 0 && verdict->rank == ranks.rank())
+    plexway::cli::say_error(ranks.leads()
+                                ? std::string(message)
+                                : "rank " + std::to_string(ranks.rank()) + ": " + message);
+  return verdict->code;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    Ranks ranks(argc, argv);
+    const plexway::cli::Among among{ranks, ranks.threads(), [&](int code, const char* message) {
+                                      return ended(ranks, code, message);
+                                    }};
+    return plexway::cli::run(argc, argv, &among);
+  } catch (const std::exception& error) {
+    plexway::cli::say_error(error.what());
+    return 1;
+  }
+}

@@ -1,0 +1,353 @@
+#include <plexway/mpi/ranks.hpp>
+
+#include <mpi.h>
+#include <sched.h>
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <chrono>
+#include <cstdint>
+#include <cstring>
+#include <exception>
+#include <limits>
+#include <mutex>
+#include <new>
+#include <optional>
+#include <thread>
+#include <type_traits>
+#include <vector>
+
+#include <plexway/error.hpp>
+
+#include "apps/row_work.hpp"
+
+namespace plexway::mpi {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+// To the leader: give me a block; a row, as its number and its bytes; a block is through; I am
+// through, and this is what I did; I failed. From it: which block.
+enum Tag { want = 1, row, through, report, failed, block };
+
+constexpr std::uint64_t no_block = std::numeric_limits<std::uint64_t>::max();
+constexpr auto nap = std::chrono::microseconds(100);
+
+static_assert(std::is_trivially_copyable_v<PairsReport>);
+
+void send(const void* bytes, std::size_t size, int to, Tag tag) {
+  if (size > static_cast<std::size_t>(std::numeric_limits<int>::max()))
+    throw UsageError("a row of more than 2 GB does not go from rank to rank");
+  MPI_Send(bytes, static_cast<int>(size), MPI_BYTE, to, tag, MPI_COMM_WORLD);
+}
+
+// MPI's own waiting takes a core, which others have use for.
+void wait(MPI_Request& request) {
+  for (int ready = 0;;) {
+    MPI_Test(&request, &ready, MPI_STATUS_IGNORE);
+    if (ready != 0) return;
+    std::this_thread::sleep_for(nap);
+  }
+}
+
+// What was thrown, for the leader to throw again: its kind and its text.
+enum class Kind : char { other, usage, input, not_built, endless, memory };
+
+std::string packed_error() {
+  const auto text = [](Kind kind, const char* what) {
+    return std::string(1, static_cast<char>(kind)) + what;
+  };
+  try {
+    throw;
+  } catch (const UsageError& error) {
+    return text(Kind::usage, error.what());
+  } catch (const InputError& error) {
+    return text(Kind::input, error.what());
+  } catch (const NotBuiltError& error) {
+    return text(Kind::not_built, error.what());
+  } catch (const EndlessError& error) {
+    return text(Kind::endless, error.what());
+  } catch (const std::bad_alloc&) {
+    return text(Kind::memory, "");
+  } catch (const std::exception& error) {
+    return text(Kind::other, error.what());
+  } catch (...) {
+    return text(Kind::other, "an unknown failure");
+  }
+}
+
+[[noreturn]] void throw_packed(const std::string& packed, int rank) {
+  const std::string text = "rank " + std::to_string(rank) + ": " + packed.substr(1);
+  switch (static_cast<Kind>(packed[0])) {
+    case Kind::usage:
+      throw UsageError(text);
+    case Kind::input:
+      throw InputError(text);
+    case Kind::not_built:
+      throw NotBuiltError(text);
+    case Kind::endless:
+      throw EndlessError(text);
+    case Kind::memory:
+      throw std::bad_alloc();
+    case Kind::other:
+      break;
+  }
+  throw Error(text);
+}
+
+/// The leader's side of a matrix: its own threads solve beside, while this one hears the others.
+class Leader {
+ public:
+  Leader(const PairsRequest& request, std::size_t vertices, const PairsSink<RowRanks::Bytes>& sink,
+         int others)
+      : request_(request), sink_(sink), others_(others) {
+    const std::size_t rows = request.row_count(vertices);
+    for (std::size_t b = 0; b < request.block_count(vertices); ++b) {
+      if (request.wanted && !request.wanted(b)) continue;
+      wanted_.push_back(b);
+      total_ += std::min(request.block, rows - b * request.block);
+    }
+  }
+
+  PairsReport run(const RowRanks::Solve& solve) {
+    std::thread solver([&] { solve_own(solve); });
+    try {
+      while (others_ > 0 || !solved_) {
+        if (own_failed_) break;
+        if (!hear()) std::this_thread::sleep_for(nap);
+        tell();
+      }
+    } catch (...) {
+      stop_ = true;
+      solver.join();
+      throw;
+    }
+    solver.join();
+    if (own_error_) std::rethrow_exception(own_error_);
+    return report_;
+  }
+
+ private:
+  std::optional<std::size_t> next() {
+    const std::scoped_lock lock(dealing_);
+    if (stop_ || given_ == wanted_.size()) return std::nullopt;
+    return wanted_[given_++];
+  }
+
+  void keep(std::size_t number, RowRanks::Bytes bytes) {
+    sink_.row(number, bytes);
+    ++rows_;
+  }
+  void finish(std::size_t number) {
+    if (!sink_.block) return;
+    const std::scoped_lock lock(finishing_);
+    sink_.block(number);
+  }
+
+  void solve_own(const RowRanks::Solve& solve) {
+    try {
+      PairsRequest mine = request_;
+      mine.wanted = {};
+      mine.progress = {};
+      mine.next = [this] { return next(); };
+      mine.solve.progress = [this](const Progress& progress) {
+        return !stop_ && (!request_.solve.progress || request_.solve.progress(progress));
+      };
+      const PairsReport done =
+          solve(mine, {[this](std::size_t number, RowRanks::Bytes bytes) { keep(number, bytes); },
+                       [this](std::size_t number) { finish(number); }});
+      add(done);
+    } catch (...) {
+      own_error_ = std::current_exception();
+      own_failed_ = true;
+    }
+    solved_ = true;
+  }
+
+  void add(const PairsReport& done) {
+    const std::scoped_lock lock(finishing_);
+    report_.rows += done.rows;
+    report_.complete = report_.complete && done.complete;
+    apps::add(report_.statistics, done.statistics);
+  }
+
+  // Takes a message, if there is one.
+  bool hear() {
+    int here = 0, size = 0;
+    MPI_Status status;
+    MPI_Iprobe(MPI_ANY_SOURCE, MPI_ANY_TAG, MPI_COMM_WORLD, &here, &status);
+    if (here == 0) return false;
+    MPI_Get_count(&status, MPI_BYTE, &size);
+    message_.resize(static_cast<std::size_t>(size));
+    MPI_Recv(message_.data(), size, MPI_BYTE, status.MPI_SOURCE, status.MPI_TAG, MPI_COMM_WORLD,
+             MPI_STATUS_IGNORE);
+    std::uint64_t number = no_block;
+    if (message_.size() >= sizeof number) std::memcpy(&number, message_.data(), sizeof number);
+    switch (static_cast<Tag>(status.MPI_TAG)) {
+      case want: {
+        if (const auto given = next()) number = *given;
+        send(&number, sizeof number, status.MPI_SOURCE, block);
+        break;
+      }
+      case row:
+        keep(number, RowRanks::Bytes(message_).subspan(sizeof number));
+        break;
+      case through:
+        finish(number);
+        break;
+      case report: {
+        PairsReport done;
+        std::memcpy(&done, message_.data(), sizeof done);
+        add(done);
+        --others_;
+        break;
+      }
+      case failed:
+        throw_packed({reinterpret_cast<const char*>(message_.data()), message_.size()},
+                     status.MPI_SOURCE);
+      case block:
+        break;
+    }
+    return true;
+  }
+
+  void tell() {
+    if (!request_.progress) return;
+    const auto now = Clock::now();
+    if (now - told_ < std::chrono::milliseconds(50)) return;
+    told_ = now;
+    const double seconds = std::chrono::duration<double>(now - start_).count();
+    const std::size_t rows = rows_;
+    const double rate = static_cast<double>(rows) / std::max(seconds, 1e-9);
+    const double left = static_cast<double>(total_ - rows) / rate;
+    if (!request_.progress({rows, total_, seconds, rate,
+                            rows > 0 ? left : std::numeric_limits<double>::infinity()}))
+      throw Cancelled("cancelled by the progress callback");
+  }
+
+  const PairsRequest& request_;
+  const PairsSink<RowRanks::Bytes>& sink_;
+  int others_;
+  std::vector<std::size_t> wanted_;  // blocks
+  std::size_t given_ = 0, total_ = 0;
+  std::mutex dealing_, finishing_;
+  std::atomic<bool> stop_{false}, solved_{false}, own_failed_{false};
+  std::exception_ptr own_error_;
+  std::atomic<std::size_t> rows_{0};
+  PairsReport report_;
+  std::vector<std::byte> message_;
+  Clock::time_point start_ = Clock::now(), told_ = start_;
+};
+
+PairsReport follow(const PairsRequest& request, const RowRanks::Solve& solve) {
+  std::mutex calling;  // of MPI
+  PairsRequest mine = request;
+  mine.wanted = {};
+  mine.progress = {};
+  mine.next = [&]() -> std::optional<std::size_t> {
+    const std::scoped_lock lock(calling);
+    std::uint64_t number = 0;
+    send(nullptr, 0, 0, want);
+    MPI_Recv(&number, sizeof number, MPI_BYTE, 0, block, MPI_COMM_WORLD, MPI_STATUS_IGNORE);
+    if (number == no_block) return std::nullopt;
+    return static_cast<std::size_t>(number);
+  };
+  const PairsSink<RowRanks::Bytes> sink = {
+      [&](std::size_t number, RowRanks::Bytes bytes) {
+        const std::uint64_t head = number;
+        std::vector<std::byte> message(sizeof head + bytes.size());
+        std::memcpy(message.data(), &head, sizeof head);
+        if (!bytes.empty()) std::memcpy(message.data() + sizeof head, bytes.data(), bytes.size());
+        const std::scoped_lock lock(calling);
+        send(message.data(), message.size(), 0, row);
+      },
+      [&](std::size_t number) {
+        const std::uint64_t head = number;
+        const std::scoped_lock lock(calling);
+        send(&head, sizeof head, 0, through);
+      }};
+  try {
+    const PairsReport done = solve(mine, sink);
+    send(&done, sizeof done, 0, report);
+    return done;
+  } catch (...) {
+    const std::string packed = packed_error();
+    send(packed.data(), packed.size(), 0, failed);
+  }
+  // The leader says why, and ends all.
+  for (;;) std::this_thread::sleep_for(std::chrono::seconds(1));
+}
+
+}  // namespace
+
+struct Ranks::State {
+  int rank = 0, count = 1, on_node = 1;
+  bool met = false;
+};
+
+Ranks::Ranks(int& argc, char**& argv) : state_(std::make_unique<State>()) {
+  int provided = 0;
+  MPI_Init_thread(&argc, &argv, MPI_THREAD_SERIALIZED, &provided);
+  if (provided < MPI_THREAD_SERIALIZED) {
+    MPI_Finalize();
+    throw Error("this MPI allows no threads");
+  }
+  MPI_Comm_rank(MPI_COMM_WORLD, &state_->rank);
+  MPI_Comm_size(MPI_COMM_WORLD, &state_->count);
+  MPI_Comm node;
+  MPI_Comm_split_type(MPI_COMM_WORLD, MPI_COMM_TYPE_SHARED, 0, MPI_INFO_NULL, &node);
+  MPI_Comm_size(node, &state_->on_node);
+  MPI_Comm_free(&node);
+}
+
+Ranks::~Ranks() {
+  MPI_Request all;
+  MPI_Ibarrier(MPI_COMM_WORLD, &all);
+  wait(all);
+  MPI_Finalize();
+}
+
+std::size_t Ranks::count() const { return static_cast<std::size_t>(state_->count); }
+std::size_t Ranks::rank() const { return static_cast<std::size_t>(state_->rank); }
+bool Ranks::met() const { return state_->met; }
+
+int Ranks::threads() const {
+  const int cores = static_cast<int>(std::max(std::thread::hardware_concurrency(), 1U));
+  cpu_set_t bound;
+  CPU_ZERO(&bound);
+  const int ours = ::sched_getaffinity(0, sizeof bound, &bound) == 0 ? CPU_COUNT(&bound) : cores;
+  return std::max(ours < cores ? ours : cores / state_->on_node, 1);
+}
+
+PairsReport Ranks::share(const PairsRequest& request, std::size_t vertices,
+                         const PairsSink<Bytes>& sink, const Solve& solve) {
+  constexpr int here = -1;
+  const Verdict verdict = meet(here);
+  if (verdict.code != here) throw Absent{verdict};
+  if (!leads()) return follow(request, solve);
+  return Leader(request, vertices, sink, state_->count - 1).run(solve);
+}
+
+Ranks::Verdict Ranks::stay_away(int code) { return meet(code); }
+
+Ranks::Verdict Ranks::meet(int code) {
+  state_->met = true;
+  std::vector<int> codes(count());
+  MPI_Request all;
+  MPI_Iallgather(&code, 1, MPI_INT, codes.data(), 1, MPI_INT, MPI_COMM_WORLD, &all);
+  wait(all);
+  // The leader's failure, or else the first; or else who is through; or nobody.
+  for (std::size_t r = 0; r < codes.size(); ++r)
+    if (codes[r] > 0) return {r, codes[r]};
+  for (std::size_t r = 0; r < codes.size(); ++r)
+    if (codes[r] == 0) return {r, 0};
+  return {0, code};
+}
+
+void Ranks::end_all(int code) {
+  MPI_Abort(MPI_COMM_WORLD, code);
+  std::terminate();  // not reached
+}
+
+}  // namespace plexway::mpi

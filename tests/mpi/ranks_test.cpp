@@ -1,0 +1,166 @@
+// The tool among ranks, by mpirun. Where mpirun does not run a case says so and is through.
+
+#include <unistd.h>
+
+#include <catch2/catch.hpp>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "cli/program.hpp"
+#include "folder.hpp"
+
+namespace {
+
+using namespace cli_testing;
+namespace fs = std::filesystem;
+using Words = std::vector<std::string>;
+
+Words operator+(Words a, const Words& b) {
+  a.insert(a.end(), b.begin(), b.end());
+  return a;
+}
+
+std::string content(const fs::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+// mpirun with what lets it run here, or nothing.
+const std::optional<Words>& mpirun() {
+  static const std::optional<Words> found = []() -> std::optional<Words> {
+    Words words = {PLEXWAY_TEST_MPIRUN};
+    const Outcome version = run_program(words + Words{"--version"});
+    if (version.out.find("Open MPI") != std::string::npos ||
+        version.out.find("OpenRTE") != std::string::npos) {
+      words.push_back("--oversubscribe");
+      if (::geteuid() == 0) words.push_back("--allow-run-as-root");
+    }
+    if (run_program(words + Words{"-n", "2", "true"}).code == 0) return words;
+    return std::nullopt;
+  }();
+  if (!found) WARN("not tested: " << PLEXWAY_TEST_MPIRUN << " runs nothing here");
+  return found;
+}
+
+Outcome run_ranks(int count, const Words& arguments, std::size_t file_bytes = 0) {
+  return run_program(
+      *mpirun() + Words{"-n", std::to_string(count), PLEXWAY_TEST_MPI_TOOL} + arguments,
+      file_bytes);
+}
+
+// Lines that are ours: mpirun adds some of its own where ranks fail.
+std::vector<std::string> complaints(const Outcome& run) {
+  std::vector<std::string> ours;
+  for (std::size_t at = 0; (at = run.err.find("plexway: ", at)) != run.err.npos; at += 9)
+    if (at == 0 || run.err[at - 1] == '\n')
+      ours.push_back(run.err.substr(at, run.err.find('\n', at) - at));
+  return ours;
+}
+
+}  // namespace
+
+TEST_CASE("ranks make bit for bit what threads make") {
+  if (!mpirun()) return;
+  const testing::Folder folder;
+  const std::string input = folder.write("square.off", square_off(16));
+  const auto command = [&](const Words& more) {
+    return Words{"pairs", input, "--sources", "all", "--json"} + more;
+  };
+  const auto same = [&](const std::string& name, const Words& options, int ranks) {
+    CAPTURE(name, ranks);
+    const std::string alone = folder.at("alone" + name), together = folder.at("ranks" + name);
+    REQUIRE(run_tool(command(options + Words{"--out", alone})).code == 0);
+    const Outcome run = run_ranks(ranks, command(options + Words{"--out", together}));
+    INFO(run.err);
+    REQUIRE(run.code == 0);
+    CHECK(run.err.empty());
+    CHECK(run.json()["ranks"] == ranks);
+    CHECK(run.json()["rows_solved"] == 256);
+    CHECK(content(together) == content(alone));
+    fs::remove(alone);
+    fs::remove(together);
+  };
+  same(".npy", {"--symmetric", "--precision", "double", "--type", "float64"}, 1);
+  same(".npy", {"--accuracy", "fast"}, 2);
+  same(".npy", {"--accuracy", "fast", "--threads", "2"}, 3);
+  same(".npz", {"--radius", "0.3", "--nearest", "9"}, 2);
+  same(".mtx", {"--radius", "0.2", "--precision", "double"}, 4);
+  CHECK(folder.files() == 1);
+}
+
+TEST_CASE("what ranks cannot do is said once") {
+  if (!mpirun()) return;
+  const testing::Folder folder;
+  const std::string input = folder.write("square.off", square_off(5));
+  const auto refused = [&](const Words& arguments, int code, const std::string& text) {
+    const Outcome run = run_ranks(2, arguments);
+    CAPTURE(run.err);
+    CHECK(run.code == code);
+    const auto lines = complaints(run);
+    REQUIRE(lines.size() == 1);
+    CHECK(lines[0].find(text) != std::string::npos);
+  };
+  const std::string out = folder.at("d.npy");
+  refused({"pairs", folder.at("none.off"), "--sources", "all", "--out", out}, 3, "none.off");
+  refused({"pairs", input, "--sources", "all", "--out", folder.at("no/d.npy")}, 1, "no folder");
+  refused({"info", input}, 2, "pairs --sources");
+  refused({"pairs", input, "-s", "vertex:0", "-s", "vertex:1", "--out", out}, 2, "--sources");
+  CHECK(folder.files() == 1);
+}
+
+TEST_CASE("a rank that dies ends the run, and the next goes on where it was") {
+  if (!mpirun()) return;
+  const testing::Folder folder;
+  const std::string input = folder.write("square.off", square_off(48));
+  const std::string alone = folder.at("alone.npy"), out = folder.at("ranks.npy");
+  const auto command = [&](const std::string& file) {
+    return Words{"pairs", input, "--sources", "all", "--type", "float64", "--quiet", "--out", file};
+  };
+  REQUIRE(run_tool(command(alone)).code == 0);
+  // The second of two is killed after some time; less where it was through by then.
+  const Words tool = Words{PLEXWAY_TEST_MPI_TOOL} + command(out);
+  bool kept = false;
+  for (double seconds = 1.6; !kept; seconds *= 0.6) {
+    REQUIRE(seconds > 0.01);
+    const Outcome killed =
+        run_program(*mpirun() + Words{"-n", "1"} + tool +
+                    Words{":", "-n", "1", "timeout", "-s", "KILL", std::to_string(seconds)} + tool);
+    if (killed.code == 0) {
+      fs::remove(out);
+      continue;
+    }
+    CHECK(killed.err.find("mpi") != std::string::npos);  // it says that one ended
+    CHECK_FALSE(fs::exists(out));
+    kept = fs::exists(out + ".journal");
+  }
+  const Outcome rest = run_ranks(3, command(out));
+  INFO(rest.err);
+  REQUIRE(rest.code == 0);
+  CHECK(content(out) == content(alone));
+  CHECK(folder.files() == 3);
+}
+
+TEST_CASE("a disk that gets full ends all ranks, and nothing is lost") {
+  if (!mpirun()) return;
+  const testing::Folder folder;
+  const std::string input = folder.write("square.off", square_off(40));
+  const std::string alone = folder.at("alone.npy"), out = folder.at("ranks.npy");
+  const auto command = [&](const std::string& file) {
+    return Words{"pairs", input, "--sources", "all", "--quiet", "--out", file};
+  };
+  REQUIRE(run_tool(command(alone)).code == 0);
+  const Outcome full = run_ranks(2, command(out), 5'000'000);
+  CAPTURE(full.err);
+  CHECK(full.code == 1);
+  const auto lines = complaints(full);
+  REQUIRE(lines.size() == 1);
+  CHECK(lines[0].find("cannot write " + out) != std::string::npos);
+  CHECK_FALSE(fs::exists(out));
+  REQUIRE(fs::exists(out + ".journal"));
+  REQUIRE(run_ranks(2, command(out)).code == 0);
+  CHECK(content(out) == content(alone));
+}
