@@ -115,7 +115,7 @@ TEST_CASE("solids and wireframes are measured as well") {
   std::string many;
   for (int t = 0; t < 1152; ++t) many += std::to_string(1 + 1e-4 * t) + "\n";
   const auto mean = run_tool({"distance", sample("elbow.mesh"), "--source", "vertex:0", "--metric",
-                              "speed:" + folder.write("many.txt", many)});
+                              "speed:" + folder.write("many.txt", many).string()});
   CHECK(mean.code == 0);
   CHECK(mean.err.find("at most 64 speeds") != mean.err.npos);
   const std::string edges = folder.write("streets.edges", "0 1 3\n1 2 4\n2 0 9\n");
