@@ -14,11 +14,11 @@ foreach(source IN LISTS fuzzers)
     add_test(NAME "fuzz/corpus ${format}" COMMAND ${target} "${fuzz_dir}/corpus/${format}")
     set_tests_properties("fuzz/corpus ${format}" PROPERTIES LABELS fuzz TIMEOUT 600)
   endif()
-  if(format STREQUAL "rows")  # the tool's own readers
+  if(format STREQUAL "rows")  # readers that no component has by itself
     find_package(nlohmann_json QUIET)
-    set(readers "${PROJECT_SOURCE_DIR}/src/cli/report/table_file.cpp"
-      "${PROJECT_SOURCE_DIR}/src/cli/report/truth_file.cpp"
-      "${PROJECT_SOURCE_DIR}/src/any/words.cpp")
+    set(readers "${PROJECT_SOURCE_DIR}/src/any/tuning/policy_file.cpp"
+      "${PROJECT_SOURCE_DIR}/src/any/errors/truth_file.cpp"
+      "${PROJECT_SOURCE_DIR}/src/any/info/report.cpp" "${PROJECT_SOURCE_DIR}/src/any/words.cpp")
     target_sources(${target} PRIVATE ${readers})
     target_link_libraries(${target} PRIVATE nlohmann_json::nlohmann_json)
   endif()

@@ -1,5 +1,5 @@
-# Debian packages by CPack: plexway (the tool, its manual page and completions), libplexway-dev, and
-# what brings large libraries or another licence along in packages of their own. `cpack -G DEB` in
+# Debian packages by CPack: plexway (the tool, its manual page and completions), libplexway-dev,
+# python3-plexway, and what brings large libraries or another licence along in packages of their own. `cpack -G DEB` in
 # the build folder makes all of them.
 set(CPACK_PACKAGE_NAME plexway)
 set(CPACK_PACKAGE_VENDOR "plexway")
@@ -42,5 +42,16 @@ foreach(part tetgen openvdb pcl)
 endforeach()
 if(TARGET plexway_tool)
   list(APPEND CPACK_COMPONENTS_ALL tool)
+endif()
+if(TARGET plexway_python)
+  plexway_deb(python python3-plexway python "Geodesic distance: the Python package")
+  # The module is of one version of the interpreter.
+  execute_process(COMMAND "${PLEXWAY_PYTHON}" -c
+      "import sys; a, b = sys.version_info[:2]; print(f'python3 (>= {a}.{b}), python3 (<< {a}.{b + 1})')"
+    OUTPUT_VARIABLE interpreter OUTPUT_STRIP_TRAILING_WHITESPACE)
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS "${interpreter}, python3-numpy")
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_RECOMMENDS "python3-scipy, python3-tqdm")
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_SUGGESTS "plexway-tetgen, plexway-openvdb, plexway-pcl")
+  list(APPEND CPACK_COMPONENTS_ALL python)
 endif()
 include(CPack)

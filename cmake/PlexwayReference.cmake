@@ -12,7 +12,6 @@ set(implementation
   kernel/lanes.hpp
   # What domains are made of inside: records, their numbers, and what is found out about them.
   complex/box_tree.hpp
-  complex/elimination.hpp
   complex/identity.hpp
   complex/simplex_flat.hpp
   complex/simplex_record.hpp
@@ -31,6 +30,7 @@ set(implementation
   propagate/visit_marks.hpp
   propagate/window_memory.hpp
   # The rules, step by step.
+  complex/elimination.hpp
   propagate/endless.hpp
   propagate/plain_rule.hpp
   propagate/plain_solid_rule.hpp

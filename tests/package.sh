@@ -36,6 +36,13 @@ if [ -e "$usr/lib/plexway/plexway-tetgen" ]; then
   grep -q 'the program plexway-tetgen, which runs TetGen, is not installed' "$folder/err"
 fi
 
+# The Python package, which finds the helpers of the others.
+if [ -e "$usr/lib/python3/dist-packages/plexway" ]; then
+  dpkg-deb -f "$folder"/python3-plexway_*.deb Depends | grep -q 'python3-numpy'
+  (cd "$folder" && PYTHONPATH="$usr/lib/python3/dist-packages" PLEXWAY_HELPERS="$usr/lib/plexway" \
+    /usr/bin/python3 "$source/tests/package.py" "$source/data")
+fi
+
 # The manual page, and completions that complete.
 if command -v man >/dev/null; then
   man --warnings -l "$usr/share/man/man1/plexway.1" 2>"$folder/man.err" | grep -q -- --isoline-step

@@ -11,4 +11,7 @@ inline PropagateOptions at(Accuracy accuracy) {
   return options;
 }
 
+/// For what is tested of labels: their bits, orders and repairs, and where they are exact.
+inline PropagateOptions by_labels() { return at(Accuracy::fast()); }
+
 }  // namespace plexway::testing

@@ -4,6 +4,8 @@
 /// All of the library, but for what the optional providers under complexes/ bring: solve on any
 /// domain, what to do with distances, files and pictures. Link the components that you use.
 #include <plexway/any/complex.hpp>
+#include <plexway/any/pairs.hpp>
+#include <plexway/any/scene.hpp>
 #include <plexway/any_domain.hpp>
 #include <plexway/apps/all_pairs.hpp>
 #include <plexway/apps/bounded_search.hpp>
@@ -21,6 +23,7 @@
 #include <plexway/apps/read_out.hpp>
 #include <plexway/apps/row_reductions.hpp>
 #include <plexway/apps/tuning.hpp>
+#include <plexway/carried.hpp>
 #include <plexway/complex/blocks.hpp>
 #include <plexway/complex/distinct_points.hpp>
 #include <plexway/complex/intrinsic_delaunay.hpp>

@@ -61,12 +61,12 @@ enum class SourceKind {
     "fast")                                                                                        \
   X(windows_gl,                                                                                    \
     "the executor GL keeps one label a triangle: use the executor Serial, or the accuracy fast")   \
-  X(windows_threads,                                                                               \
-    "windows are for one thread a field: use the executor Serial, solve_each, or the accuracy "    \
-    "fast")                                                                                        \
   X(windows_refraction, "windows are not refracted: use the accuracy fast")                        \
   X(windows_visibility,                                                                            \
     "windows know what they see: use the policy saddles, or the accuracy fast")                    \
+  X(windows_labels,                                                                                \
+    "the step of the dual queue and `vectorised` are of labels: leave them as they are, or use "   \
+    "the accuracy fast")                                                                           \
   X(windows_shapes,                                                                                \
     "windows start from points and sets of vertices: use the accuracy fast for curves and "        \
     "triangles")                                                                                   \
@@ -127,16 +127,19 @@ struct Combination {
   Schedule schedule = Schedule::dual_queue;
   /// By which rule.
   Accuracy::Kind accuracy = Accuracy::Kind::usual;
+  /// Is an option given that only labels know: a step, or not vectorised?
+  bool label_options = false;
 };
 
-/// Could windows solve it (Accuracy)? Else why not.
+/// Could windows solve it (Accuracy)? Else why not. A field by windows is one thread's work; so a
+/// team has one do it, with the same bits as Serial.
 constexpr Support support_of_windows(const Combination& c) {
   if (c.domain != DomainKind::surface && c.domain != DomainKind::cloud)
     return Refusal::windows_domain;
   if (c.executor == ExecutorKind::gl) return Refusal::windows_gl;
-  if (c.executor != ExecutorKind::serial) return Refusal::windows_threads;
   if (c.metric == MetricKind::refracting) return Refusal::windows_refraction;
   if (c.visibility != Visibility::saddles) return Refusal::windows_visibility;
+  if (c.label_options) return Refusal::windows_labels;
   if (c.source == SourceKind::curve || c.source == SourceKind::simplex)
     return Refusal::windows_shapes;
   if (c.accuracy == Accuracy::Kind::exact && c.single_precision) return Refusal::windows_float;

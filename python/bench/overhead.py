@@ -1,10 +1,11 @@
-"""What Python costs beside C++: a call, building from arrays, rows on threads.
+"""What Python costs beside C++: a call, and building from arrays. (Rows on threads: bench/python_threads.py.)
 
     PYTHONPATH=build/python python3 python/bench/overhead.py [FILE]
 
-A call: k calls of `distance` beside the same k solves in one call of `distances`, in turns. Building: what
-comes before the library's constructor (a call that fails there) beside the whole. All in processor time, but
-threads, which are by the clock.
+A call: k calls of `distance` beside the same k solves in one call of `distances` that keeps one number of
+each, in turns; the difference has the memory of each result in it, which C++ would take as well. Building: what
+comes before the library's constructor (a call that fails there) beside the whole. By the clock and in
+processor time: on a machine that others use the clock says nothing.
 """
 
 import statistics
@@ -14,6 +15,9 @@ import time
 import numpy as np
 
 import plexway
+
+
+CLOCKS = {"by the clock": time.perf_counter, "processor time": time.process_time}
 
 
 def seconds(work, clock=time.process_time):
@@ -27,7 +31,7 @@ def report(surface):
     print(surface)
 
     sources = list(range(0, 40))
-    out = np.empty((len(sources), len(V)), np.float32)
+    out = np.empty((len(sources), 1), np.float32)
     single = plexway.Surface(V[F[0]], [[0, 1, 2]])
     single.distance(0)
     calls = 20000
@@ -36,17 +40,18 @@ def report(surface):
 
     def one_by_one():
         for source in sources:
-            surface.distance(source)
+            surface.distance(source, accuracy="fast")
 
     def together():
-        surface.distances(sources, out=out, threads=1)
+        surface.distances(sources, columns=[0], out=out, threads=1, accuracy="fast")
 
     one_by_one(), together()
-    pairs = [(seconds(one_by_one), seconds(together)) for _ in range(9)]
-    per_call = [1e6 * (a - b) / len(sources) for a, b in pairs]
-    solve = 1e6 * statistics.median(b for _, b in pairs) / len(sources)
-    print(f"a solve: {solve:.0f} us; a call more: {statistics.median(per_call):.1f} us in the middle, "
-          f"{min(per_call):.1f} to {max(per_call):.1f}")
+    for name, clock in CLOCKS.items():
+        pairs = [(seconds(one_by_one, clock), seconds(together, clock)) for _ in range(15)]
+        per_call = [1e6 * (a - b) / len(sources) for a, b in pairs]
+        solve = 1e6 * statistics.median(b for _, b in pairs) / len(sources)
+        print(f"{name}: a solve {solve:.0f} us; a call more {statistics.median(per_call):.1f} us in "
+              f"the middle of 15 turns, {min(per_call):.1f} to {max(per_call):.1f}")
 
     def before():
         try:
@@ -54,14 +59,13 @@ def report(surface):
         except ValueError:
             pass
 
-    shares = [seconds(before) / seconds(lambda: plexway.Surface(V, F)) for _ in range(9)]
-    print(f"building from arrays: {100 * statistics.median(shares):.1f} % of it before the library")
+    def whole():
+        plexway.Surface(V, F)
 
-    many = np.arange(0, len(V), max(1, len(V) // 200))
-    rows = np.empty((len(many), len(V)), np.float32)
-    one = min(seconds(lambda: surface.distances(many, out=rows, threads=1), time.perf_counter) for _ in range(3))
-    two = min(seconds(lambda: surface.distances(many, out=rows, threads=2), time.perf_counter) for _ in range(3))
-    print(f"{len(many)} rows: two threads {one / two:.2f} times as fast as one")
+    for name, clock in CLOCKS.items():
+        shares = [seconds(before, clock) / seconds(whole, clock) for _ in range(15)]
+        print(f"{name}: building from arrays: {100 * statistics.median(shares):.1f} % of it before "
+              f"the library, in the middle of 15 turns")
 
 
 if __name__ == "__main__":

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import os
+import warnings
 from typing import TYPE_CHECKING, Any, Dict, List, Optional, Sequence, Tuple, Type, Union
 
 import numpy as np
 
 from . import _plexway
-from ._arrays import Array
+from ._arrays import Array, plain, real, whole
 from ._progress import Progress, ProgressLike
 from ._results import (
     Cells,
@@ -43,14 +44,17 @@ def _arguments(
     many: bool = False,
 ) -> Any:
     """How to solve. Several fields take all threads unless told otherwise, a single one takes one."""
-    if threads is not None and threads < 0:
-        raise ValueError(f"threads: expected 0 (all) or more, got {threads}")
+    if threads is not None:
+        threads = whole(threads, "threads", 0)
+    if accuracy is not None and not isinstance(accuracy, str):
+        accuracy = real(accuracy, "accuracy")
     if executor is None:
         if threads is None:
             executor = "openmp" if many and _plexway.openmp_built() else "serial"
         else:
             executor = "serial" if threads == 1 else "openmp"
-    return _plexway.SolveArguments(executor, threads or 0, float(radius), visibility, accuracy)
+    reach = real(radius, "radius")
+    return _plexway.SolveArguments(executor, threads or 0, reach, visibility, accuracy)
 
 
 _CLASSES: Dict[str, Type["Domain"]] = {}
@@ -122,7 +126,8 @@ class Domain:
         dict
             kind, dimension, vertices, simplices, components, precision, bytes (held beside the
             positions), build_seconds, and where they mean something: file, bounds, mean_edge,
-            triangulation, refracting_edges, cloud.
+            triangulation, refracting_edges, violations (simplices whose lengths no flat one has),
+            cloud.
         """
         native = self._native
         told: Dict[str, Any] = {
@@ -144,6 +149,8 @@ class Domain:
             told["mean_edge"] = native.mean_edge
             told["triangulation"] = native.triangulation
             told["refracting_edges"] = native.refracting_edges
+        if self.kind in ("surface", "solid"):
+            told["violations"] = native.violations[0]
         if native.cloud is not None:
             told["cloud"] = {
                 k: v for k, v in native.cloud.items() if k not in ("normals", "original")
@@ -294,6 +301,7 @@ class Domain:
         self,
         sources: Any = None,
         *,
+        columns: Optional[ArrayLike] = None,
         accuracy: AccuracyLike = None,
         radius: float = _INFINITY,
         threads: Optional[int] = None,
@@ -309,6 +317,8 @@ class Domain:
         ----------
         sources
             As in `distance`, each for itself; None: every vertex.
+        columns : array_like of int, optional
+            Which vertices are columns, in any order; all without.
         threads : int, optional
             One source a thread; all threads by default (0), whatever their number the same bits.
         out : ndarray of float32 or float64, shape (k, n), optional
@@ -325,12 +335,15 @@ class Domain:
 
         Notes
         -----
-        Memory beside the result: about 100 bytes a triangle and 12 a vertex for each thread.
+        Memory beside the result, for each thread: 12 bytes a vertex, and a triangle some 20 for
+        'fast' and some 50 for 'accurate'. What does not fit into memory goes into a file by
+        `pairs`.
         """
         arguments = _arguments(threads, executor, radius, visibility, accuracy, many=True)
         every = np.arange(self.vertex_count) if sources is None else sources
-        located_sources = located(self, every)
-        shape = (len(located_sources), self.vertex_count)
+        located_sources = located(self, every, none_is_well=True)
+        width = self.vertex_count if columns is None else len(plain(columns, "columns"))
+        shape = (len(located_sources), width)
         if out is None:
             out = np.empty(shape, self.dtype if dtype is None else np.dtype(dtype))
         elif not isinstance(out, np.ndarray):
@@ -344,8 +357,98 @@ class Domain:
         if not out.flags.writeable:
             raise ValueError("out: the array is read only")
         with Progress(progress, "solving") as report:
-            _plexway.solve_each(self._native, located_sources, arguments, out, report)
+            _plexway.solve_each(self._native, located_sources, arguments, out, columns, report)
         return out
+
+    def pairs(
+        self,
+        out: Union[str, os.PathLike[str]],
+        sources: Any = None,
+        *,
+        columns: Optional[ArrayLike] = None,
+        radius: float = _INFINITY,
+        count: Optional[int] = None,
+        dtype: Any = None,
+        block: int = 32,
+        restart: bool = True,
+        threads: Optional[int] = None,
+        accuracy: AccuracyLike = None,
+        visibility: str = "saddles",
+        progress: ProgressLike = None,
+    ) -> Any:
+        """Distances from each source into a file, however many: what a call that was ended did not
+        finish the next one does.
+
+        Parameters
+        ----------
+        out : path
+            .npy: a dense matrix. .npz (as `scipy.sparse.load_npz` reads it) or .mtx (Matrix
+            Market): a sparse one, of what is near.
+        sources
+            As in `distances`, each a row; None: every vertex.
+        columns : array_like of int, optional
+            Which vertices are columns, in any order; all without.
+        radius : float
+            A sparse matrix has no larger entry; in a dense one what is beyond is ``inf``.
+        count : int, optional
+            A sparse matrix has so many entries a row, the nearest.
+        dtype : float16, float32 or float64, optional
+            Of the file; that of the domain by default. Sparse ones have no float16.
+        block : int
+            So many rows are finished together.
+        restart : bool
+            True: go on with what an earlier call with the same arguments left in `out`.part and
+            `out`.journal. False: begin anew.
+        threads, accuracy, visibility, progress
+            As in `distances`.
+
+        Returns
+        -------
+        numpy.memmap, shape (k, columns)
+            Of an .npy file; read only. Of .npz and .mtx a scipy.sparse.csr_matrix.
+
+        Raises
+        ------
+        Error
+            If what an earlier call left was begun with other arguments, another process is at it,
+            or the disk has no room. What is finished stays.
+
+        Notes
+        -----
+        Rows have the bits of `distances`, those of sparse matrices the bits of `near`, whatever the
+        number of threads, and however often it was ended. Memory: a row a thread, beside what the
+        solver takes; of a sparse matrix that is returned all of it.
+        """
+        file = os.fspath(out)
+        ending = os.path.splitext(file)[1]
+        dense = ending == ".npy"
+        if ending not in (".npy", ".npz", ".mtx"):
+            raise ValueError(f"out: expected a file .npy (dense), .npz or .mtx (sparse), got {file!r}")
+        if not dense:
+            _check_near(radius, count)
+        elif count is not None:
+            raise ValueError("count: only for sparse matrices, .npz or .mtx")
+        number = self.dtype if dtype is None else np.dtype(dtype)
+        reach = radius if dense else _INFINITY
+        arguments = _arguments(threads, None, reach, visibility, accuracy, many=True)
+        every = np.arange(self.vertex_count) if sources is None else sources
+        with Progress(progress, "solving") as report:
+            _plexway.pairs_file(
+                self._native,
+                located(self, every),
+                columns,
+                file,
+                real(radius, "radius"),
+                None if count is None else whole(count, "count", 1),
+                number.name,
+                whole(block, "block", 1),
+                bool(restart),
+                arguments,
+                report,
+            )
+        if dense:
+            return np.load(file, mmap_mode="r")
+        return _loaded_sparse(file)
 
     def near(
         self,
@@ -384,24 +487,22 @@ class Domain:
         On surfaces and clouds a row costs what it reaches, not what the domain is large, with
         ``accuracy='fast'``.
         """
-        try:
-            from scipy.sparse import csr_matrix  # type: ignore
-        except ImportError as error:
-            raise _plexway.NotBuilt("sparse matrices need SciPy: install python3-scipy") from error
-        if radius == _INFINITY and count is None:
-            raise ValueError("give a radius, a count, or both; all distances are `distances`")
-        if count is not None and count < 1:
-            raise ValueError(f"count: expected 1 or more, got {count}")
-        if not radius >= 0:
-            raise ValueError(f"radius: expected 0 or more, got {radius}")
+        csr_matrix = _scipy_sparse().csr_matrix
+        _check_near(radius, count)
         arguments = _arguments(threads, None, _INFINITY, "saddles", accuracy, many=True)
         every = np.arange(self.vertex_count) if sources is None else sources
         located_sources = located(self, every)
         with Progress(progress, "solving") as report:
             rows = _plexway.near(
-                self._native, located_sources, columns, float(radius), count, arguments, report
+                self._native,
+                located_sources,
+                columns,
+                float(radius),
+                None if count is None else int(count),
+                arguments,
+                report,
             )
-        width = self.vertex_count if columns is None else len(np.asarray(columns))
+        width = self.vertex_count if columns is None else len(plain(columns, "columns"))
         return csr_matrix(rows, shape=(len(located_sources), width))
 
     def field(
@@ -541,16 +642,16 @@ class Domain:
         """
         if (radius is None) == (count is None):
             raise ValueError("give one of radius and count")
-        if radius is not None and not 0 < radius < _INFINITY:
+        if radius is not None and not 0 < real(radius, "radius") < _INFINITY:
             raise ValueError(f"radius: expected a number > 0, got {radius}")
-        if count is not None and count < 1:
-            raise ValueError(f"count: expected 1 or more, got {count}")
+        if count is not None:
+            count = whole(count, "count", 1)
         with Progress(progress, "throwing darts") as report:
             points, found, maximal = _plexway.poisson(
                 self._native,
                 float(radius or 0),
-                int(count or 0),
-                seed,
+                count or 0,
+                whole(seed, "seed", 0),
                 at_vertices,
                 by_simplices,
                 spacing,
@@ -582,11 +683,10 @@ class Domain:
         FarthestPoints
         """
         sources = located(self, start)
-        if count < 1:
-            raise ValueError(f"count: expected 1 or more, got {count}")
+        count = whole(count, "count", 1)
         with Progress(progress, "choosing points") as report:
             points, distance, covering = _plexway.farthest(
-                self._native, sources, count, float(radius), report
+                self._native, sources, count, real(radius, "radius"), report
             )
         return FarthestPoints(Points(self, points), distance, covering)
 
@@ -613,14 +713,13 @@ class Domain:
         -------
         Cells
         """
-        if iterations < 1:
-            raise ValueError(f"iterations: expected 1 or more, got {iterations}")
-        if isinstance(seeds, int):
-            seeds = self.poisson(count=seeds).points
+        iterations = whole(iterations, "iterations", 1)
+        if isinstance(seeds, (int, np.integer)):
+            seeds = self.poisson(count=whole(seeds, "seeds", 1)).points
         native = seeds._native if isinstance(seeds, Points) else located(self, seeds)
         with Progress(progress, "moving seeds") as report:
             points, label, content, energy, converged = _plexway.cvt(
-                self._native, native, iterations, tolerance, report
+                self._native, native, iterations, real(tolerance, "tolerance"), report
             )
         if self.kind != "cloud":
             label = self._scattered(label, -1)
@@ -637,7 +736,7 @@ class Domain:
         -------
         Points
         """
-        return Points(self, located(self, np.asarray(point, float)))
+        return Points(self, located(self, np.asarray(point, float), none_is_well=True))
 
     def picture(
         self,
@@ -683,7 +782,7 @@ class Domain:
         """
         marks = [] if source is None else located(self, source)
         lines = [p.points if isinstance(p, Path) else p for p in paths]
-        width, height = size
+        width, height = (whole(number, "size", 1) for number in size)
         return _plexway.picture(
             self._native,
             distance,
@@ -770,7 +869,50 @@ class Domain:
         return _restored, (type(self).__name__, self._recipe(), self._kept, self._given)
 
 
+def _warn_of_violations(domain: Domain) -> None:
+    """Says it where lengths are no metric, and were taken as those of the nearest flat simplices."""
+    count, first = domain._native.violations
+    if count:
+        warnings.warn(
+            f"lengths break the triangle inequality in {count} of {domain._native.simplex_count} "
+            f"{domain._native.simplex_name}, such as number {domain._outer_simplex(first)}: they "
+            "were taken as those of the nearest flat ones",
+            RuntimeWarning,
+            stacklevel=4,
+        )
+
+
+def _check_near(radius: Any, count: Any) -> None:
+    if real(radius, "radius") == _INFINITY and count is None:
+        raise ValueError("give a radius, a count, or both; all distances are `distances`")
+    if count is not None:
+        whole(count, "count", 1)
+    if not radius >= 0:
+        raise ValueError(f"radius: expected 0 or more, got {radius}")
+
+
+def _scipy_sparse() -> Any:
+    try:
+        import scipy.sparse  # type: ignore
+    except ImportError as error:
+        raise _plexway.NotBuilt("sparse matrices need SciPy: install python3-scipy") from error
+    return scipy.sparse
+
+
+def _loaded_sparse(file: str) -> Any:
+    if file.endswith(".npz"):
+        return _scipy_sparse().load_npz(file)
+    _scipy_sparse()
+    from scipy.io import mmread  # type: ignore
+
+    return mmread(file).tocsr()
+
+
 def _into(out: Array, found: Array) -> Array:
+    if not isinstance(out, np.ndarray):
+        raise TypeError(f"out: expected an ndarray, got {type(out).__name__}")
+    if not out.flags.writeable:
+        raise ValueError("out: the array is read only")
     if out.shape != found.shape:
         raise ValueError(f"out: expected shape {found.shape}, got {out.shape}")
     np.copyto(out, found, casting="same_kind")

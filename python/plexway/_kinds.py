@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING, Any, Dict, List, Optional, Sequence, Tuple
 import numpy as np
 
 from . import _plexway
-from ._arrays import Array
-from ._domain import Domain, _restored
+from ._arrays import Array, plain, real, whole
+from ._domain import Domain, _restored, _warn_of_violations
 from ._interop import arrays_of, looks_like_mesh
 from ._metrics import described
 from ._progress import Progress, ProgressLike
@@ -17,9 +17,15 @@ if TYPE_CHECKING:
     from numpy.typing import ArrayLike
 
 
+_USUAL = {"precision": "single", "triangulation": "auto"}
+
+
 def _options_of(
     precision: str, triangulation: str, metric: Any, report: Any
 ) -> Dict[str, Any]:
+    for name, value in (("precision", precision), ("triangulation", triangulation)):
+        if not isinstance(value, str):
+            raise TypeError(f"{name}: expected a name such as {_USUAL[name]!r}, got {value!r:.40}")
     return {
         "precision": precision,
         "triangulation": triangulation,
@@ -57,13 +63,13 @@ class _OfSimplices(Domain):
             raise TypeError(f"{name}: expected positions and {self._cells}, or a mesh")
         if (V is None) == (lengths is None):
             raise TypeError(f"{name}: give positions, or lengths in their place")
-        rows = np.asarray(rows)
+        rows = plain(rows, self._cells)
         if rows.ndim != 2 or rows.shape[1] != self._corners:
             raise ValueError(
                 f"{self._cells}: expected shape (m, {self._corners}), got {rows.shape}"
             )
         if V is not None:
-            V = np.asarray(V)
+            V = plain(V, "V")
             vertices = len(V) if V.ndim else 0
         elif vertices is None:
             vertices = int(rows.max()) + 1 if rows.size else 0
@@ -71,7 +77,7 @@ class _OfSimplices(Domain):
             self._given = len(rows)
             self._kept = kept = np.flatnonzero(_mask_of(mask, rows, vertices))
             rows = rows[kept]
-            lengths = None if lengths is None else np.asarray(lengths)[kept]
+            lengths = None if lengths is None else plain(lengths, "lengths")[kept]
             metric = _masked(metric, kept, self._given)
         with Progress(progress, "building") as report:
             self._native = _plexway.from_arrays(
@@ -82,6 +88,7 @@ class _OfSimplices(Domain):
                 lengths,
                 **_options_of(precision, triangulation, metric, report),
             )
+        _warn_of_violations(self)
 
 
 def _mask_of(mask: Any, rows: Array, vertices: int) -> Array:
@@ -270,20 +277,24 @@ class Cloud(Domain):
     ) -> None:
         if looks_like_mesh(V):
             V, _ = arrays_of(V)
+        def number(value: Any, name: str) -> Optional[float]:
+            return None if value is None else real(value, name)
+
         self._neighbours = {
-            "k": k,
-            "neighbour_radius": neighbour_radius,
-            "max_normal_angle": max_normal_angle,
-            "smooth": smooth,
+            "k": None if k is None else whole(k, "k", 1),
+            "neighbour_radius": number(neighbour_radius, "neighbour_radius"),
+            "max_normal_angle": number(max_normal_angle, "max_normal_angle"),
+            "smooth": bool(smooth),
         }
+        voxel = number(voxel, "voxel")
         with Progress(progress, "building") as report:
             self._native = _plexway.from_points(
-                V,
+                plain(V, "V"),
                 normals,
                 None,
                 **self._neighbours,
                 voxel=voxel,
-                denoise=denoise,
+                denoise=bool(denoise),
                 **_options_of(precision, "auto", None, report),
             )
 
@@ -319,7 +330,7 @@ class Simplicial(Domain):
         In the place of `V`: lengths of the edges (0,1), (0,2), (1,2), (0,3), ... of each.
     vertices : int, optional
         With `lengths`: how many vertices there are.
-    precision, progress
+    mask, precision, progress
         As in `Surface`.
     """
 
@@ -330,10 +341,11 @@ class Simplicial(Domain):
         *,
         lengths: Optional[ArrayLike] = None,
         vertices: Optional[int] = None,
+        mask: Optional[ArrayLike] = None,
         precision: str = "single",
         progress: ProgressLike = None,
     ) -> None:
-        rows = np.asarray(S)
+        rows = plain(S, "S")
         if S is None or (V is None) == (lengths is None):
             raise TypeError("Simplicial: give simplices, and positions or lengths")
         if rows.ndim != 2 or not 2 <= rows.shape[1] <= 5:
@@ -341,7 +353,7 @@ class Simplicial(Domain):
         axes = 0
         dimension = rows.shape[1] - 1
         if V is not None:
-            V = np.asarray(V)
+            V = plain(V, "V")
             if V.ndim != 2:
                 raise ValueError(f"V: expected shape (n, axes), got {V.shape}")
             vertices, axes = V.shape
@@ -352,6 +364,11 @@ class Simplicial(Domain):
                 raise ValueError(f"lengths: expected shape {wanted}, got {measured.shape}")
             if vertices is None:
                 vertices = int(rows.max()) + 1 if rows.size else 0
+        if mask is not None:
+            self._given = len(rows)
+            self._kept = kept = np.flatnonzero(_mask_of(mask, rows, vertices))
+            rows = rows[kept]
+            lengths = None if lengths is None else plain(lengths, "lengths")[kept]
         with Progress(progress, "building") as report:
             self._native = _plexway.from_simplices(
                 V,
@@ -392,6 +409,9 @@ class Mixed(Domain):
         by the number of corners. Vertices are numbered through, part after part.
     tolerance : float
         Vertices of two parts are one if they are this close; 0: in the same place.
+    metric : SimplexSpeeds, optional
+        A speed for each simplex, part after part, of at most 64 different ones: paths are refracted
+        where it changes.
     precision, progress
         As in `Surface`.
     """
@@ -401,18 +421,30 @@ class Mixed(Domain):
         parts: Sequence[Any],
         *,
         tolerance: float = 0.0,
+        metric: Any = None,
         precision: str = "single",
         progress: ProgressLike = None,
     ) -> None:
         made: List[Tuple[Any, Any, Any, Any]] = []
+        if len(parts) == 0:
+            raise ValueError("Mixed: expected at least one part")
         for part in parts:
             if isinstance(part, Domain):
                 if part.vertices is None or part.simplices is None:
                     raise ValueError(f"Mixed: {part!r} has no positions")
+                if part._native.measured is not None:
+                    raise ValueError(
+                        f"Mixed: {part!r} has a metric of its own: give speeds to the whole"
+                    )
                 V, rows = part.vertices, part.simplices
             else:
+                if not isinstance(part, (tuple, list)) or len(part) != 2:
+                    raise ValueError(
+                        "Mixed: a part is a Surface, a Solid, a Wireframe, or positions and "
+                        f"simplices, got {type(part).__name__}"
+                    )
                 V, rows = part
-                rows = np.asarray(rows)
+                rows = plain(rows, "simplices")
             if rows.ndim != 2 or rows.shape[1] not in (2, 3, 4):
                 raise ValueError(f"Mixed: expected simplices (m, 2), (m, 3) or (m, 4), got {rows.shape}")
             edges, triangles, tets = (
@@ -421,7 +453,7 @@ class Mixed(Domain):
             made.append((V, edges, triangles, tets))
         with Progress(progress, "building") as report:
             self._native = _plexway.from_parts(
-                made, float(tolerance), **_options_of(precision, "auto", None, report)
+                made, real(tolerance, "tolerance"), **_options_of(precision, "auto", metric, report)
             )
 
     def _recipe(self) -> Tuple[str, Tuple[Any, ...], Dict[str, Any]]:

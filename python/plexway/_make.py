@@ -9,7 +9,7 @@ import numpy as np
 
 from . import _plexway
 from ._arrays import Array
-from ._domain import _INFINITY, AccuracyLike, Domain, _wrapped
+from ._domain import _INFINITY, AccuracyLike, Domain, _warn_of_violations, _wrapped
 from ._interop import arrays_of, looks_like_mesh
 from ._kinds import (
     Cloud,
@@ -91,6 +91,7 @@ def read(
             **_options_of(precision, triangulation, metric, report),
         )
     made = _wrapped(_BY_KIND[native.kind], native)
+    _warn_of_violations(made)
     if isinstance(made, Cloud):
         names = ("k", "neighbour_radius", "max_normal_angle", "smooth")
         made._neighbours = {name: options[name] for name in names if name in options}
@@ -121,7 +122,11 @@ def domain(V: Any, simplices: Optional[ArrayLike] = None, *, kind: Optional[str]
             f"kind {kind!r}: choose one of 'surface', 'solid', 'wireframe', 'cloud', 'simplices'"
         )
     if isinstance(V, (str, os.PathLike)):
+        if simplices is not None:
+            raise TypeError("domain: a file holds its simplices: leave them out, or give positions")
         return read(V, kind=kind, **options)
+    if isinstance(V, Domain):
+        raise TypeError(f"{V!r} is a domain already: ask it itself, domain.distance(source)")
     if simplices is None and looks_like_mesh(V):
         V, cells = arrays_of(V)
         classes: List[Type[_OfSimplices]] = [Solid, Surface, Wireframe]
@@ -132,6 +137,10 @@ def domain(V: Any, simplices: Optional[ArrayLike] = None, *, kind: Optional[str]
         if kind not in (None, "cloud"):
             raise _plexway.InputError(f"kind {kind!r} needs simplices")
         return Cloud(V, **options)
+    if np.ndim(simplices) != 2:
+        raise ValueError(
+            f"simplices: expected shape (m, corners), got {np.shape(simplices)}; None is a cloud"
+        )
     if kind is None:
         corners, axes = np.shape(simplices)[-1], np.shape(V)[-1] if np.ndim(V) == 2 else 0
         by_corners = {2: "wireframe", 3: "surface", 4: "solid"}

@@ -80,6 +80,8 @@ class Domain:
     @property
     def wanted_triangulation(self) -> str: ...
     @property
+    def violations(self) -> Tuple[int, int]: ...
+    @property
     def measured(self) -> Optional[Array]: ...
     @property
     def refracts(self) -> bool: ...
@@ -141,6 +143,7 @@ def solve_each(
     sources: Sequence[_Source],
     arguments: SolveArguments,
     out: Array,
+    columns: Any,
     progress: _Report,
 ) -> bool: ...
 def near(
@@ -152,6 +155,19 @@ def near(
     arguments: SolveArguments,
     progress: _Report,
 ) -> Tuple[Array, Array, Array]: ...
+def pairs_file(
+    domain: Domain,
+    sources: Sequence[_Source],
+    columns: Any,
+    out: str,
+    radius: float,
+    nearest: Optional[int],
+    type: str,
+    block: int,
+    restart: bool,
+    arguments: SolveArguments,
+    progress: _Report,
+) -> int: ...
 def path_field(
     domain: Domain, sources: Sequence[_Source], arguments: SolveArguments, progress: _Report
 ) -> Field: ...

@@ -5,7 +5,7 @@ from __future__ import annotations
 import struct
 import zlib
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, Iterator, List, Optional, Union
+from typing import TYPE_CHECKING, Any, Iterator, List, Optional, Tuple, Union
 
 import numpy as np
 
@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from ._sources import Place
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class Path:
     """A way from a point back to the nearest source, straight in each simplex. Empty, with a length
     of ``inf``, where no way leads.
@@ -47,6 +47,15 @@ class Path:
 
     def __len__(self) -> int:
         return len(self.simplices)
+
+    def __repr__(self) -> str:
+        if not len(self):
+            return "plexway.Path(no way leads there)"
+        return f"plexway.Path({_counted(len(self), 'point')}, length {self.length:.6g})"
+
+
+def _counted(count: int, name: str) -> str:
+    return f"{count} {name}{'' if count == 1 else 's'}"
 
 
 class Points:
@@ -95,8 +104,15 @@ class Points:
     def __repr__(self) -> str:
         return f"plexway.Points({len(self)})"
 
+    def __reduce__(self) -> Tuple[Any, ...]:
+        return _restored_points, (self._domain, list(self))
 
-@dataclass(frozen=True, eq=False)
+
+def _restored_points(domain: Domain, points: List[Any]) -> Points:
+    return Points(domain, [place(domain, point) for point in points])
+
+
+@dataclass(frozen=True, eq=False, repr=False)
 class Disks:
     """Points none of which is nearer to another than the radius.
 
@@ -114,8 +130,12 @@ class Disks:
     radius: float
     maximal: bool
 
+    def __repr__(self) -> str:
+        room = "" if self.maximal else ", with room left"
+        return f"plexway.Disks({_counted(len(self.points), 'point')}, radius {self.radius:.6g}{room})"
 
-@dataclass(frozen=True, eq=False)
+
+@dataclass(frozen=True, eq=False, repr=False)
 class FarthestPoints:
     """Points each of which was the farthest from those before.
 
@@ -134,8 +154,12 @@ class FarthestPoints:
     distance: Array
     covering: float
 
+    def __repr__(self) -> str:
+        count = _counted(len(self.points), "point")
+        return f"plexway.FarthestPoints({count}, covering {self.covering:.6g})"
 
-@dataclass(frozen=True, eq=False)
+
+@dataclass(frozen=True, eq=False, repr=False)
 class Cells:
     """A centroidal Voronoi tessellation.
 
@@ -158,8 +182,12 @@ class Cells:
     energy: Array
     converged: bool
 
+    def __repr__(self) -> str:
+        end = "converged" if self.converged else "not converged"
+        return f"plexway.Cells({_counted(len(self.seeds), 'seed')}, {end})"
 
-@dataclass(frozen=True, eq=False)
+
+@dataclass(frozen=True, eq=False, repr=False)
 class Isosurfaces:
     """Triangles in a solid where a field has given values.
 
@@ -174,6 +202,9 @@ class Isosurfaces:
     positions: Array
     triangles: Array
     value: Array
+
+    def __repr__(self) -> str:
+        return f"plexway.Isosurfaces({_counted(len(self.triangles), 'triangle')})"
 
 
 class Field:
@@ -228,7 +259,7 @@ class Field:
         -------
         ndarray of float64, shape (k,)
         """
-        found: Array = self._native.at(located(self._domain, points), level)
+        found: Array = self._native.at(located(self._domain, points, none_is_well=True), level)
         return found
 
     def gradient(self) -> Array:
@@ -243,6 +274,9 @@ class Field:
 
     def __repr__(self) -> str:
         return f"plexway.Field(on {self._domain!r})"
+
+    def __reduce__(self) -> Tuple[Any, ...]:
+        raise TypeError("a Field is not pickled: send the domain, and make it there by `field`")
 
 
 def made_path(domain: Domain, told: Any) -> Path:

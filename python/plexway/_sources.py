@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any, List, Optional, Sequence, Union
 import numpy as np
 
 from . import _plexway
+from ._arrays import plain
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike
@@ -138,8 +139,8 @@ class WholeSimplex(Source):
 
 @dataclass(frozen=True)
 class Boundary(Source):
-    """The whole boundary: of a surface its rim, of a solid the vertices of its skin, of a wireframe
-    its loose ends.
+    """The whole boundary: of a surface its rim, of a solid its faces (under a metric, or by
+    lengths alone, their vertices), of a wireframe its loose ends.
 
     Parameters
     ----------
@@ -182,7 +183,7 @@ def place(domain: Any, at: Any) -> Any:
     )
 
 
-def located(domain: Any, source: Any) -> List[Any]:
+def located(domain: Any, source: Any, none_is_well: bool = False) -> List[Any]:
     """A source, or several, as the library has them: one each.
 
     Integers in one row are so many vertices; truth values, one a vertex, those that are true; three
@@ -195,8 +196,12 @@ def located(domain: Any, source: Any) -> List[Any]:
     if isinstance(source, (list, tuple)) and any(isinstance(s, Source) for s in source):
         return [one for s in source for one in located(domain, s)]
     try:
-        array = np.asarray(source)
+        array = plain(source, "source")
     except ValueError:
+        if isinstance(source, np.ma.MaskedArray):
+            raise
+        if isinstance(source, (list, tuple)):  # vertices beside points
+            return [place(domain, one) for one in source]
         array = np.empty((), object)
     if array.dtype.kind == "b":
         if array.shape != (domain.vertex_count,):
@@ -213,12 +218,20 @@ def located(domain: Any, source: Any) -> List[Any]:
         ]
     if array.dtype.kind == "f" and array.shape in ((3,), (2,)):
         return [place(domain, array)]
-    if array.size == 0:
+    if array.size == 0 and array.dtype.kind != "O":
+        if none_is_well:
+            return []
         raise _plexway.UsageError("no source: the list is empty")
     raise ValueError(
         "a source is a vertex (an integer), vertices (integers), a point (three floats), points "
-        f"(k, 3), or one of plexway's sources; got {array.dtype} of shape {array.shape}"
+        f"(k, 3), or one of plexway's sources; got {_told(source, array)}"
     )
+
+
+def _told(source: Any, array: Any) -> str:
+    if array.ndim == 0 or array.dtype.kind in "OUS":
+        return f"{type(source).__name__} {source!r:.40}"
+    return f"{array.dtype} of shape {array.shape}"
 
 
 def _one(domain: Any, source: Source) -> Any:
@@ -236,6 +249,8 @@ def _one(domain: Any, source: Source) -> Any:
         source = Polyline([source.start, source.end], source.offset)
     if isinstance(source, Polyline):
         points = [place(domain, p) for p in source.points]
+        if not points:
+            raise _plexway.UsageError("a line needs at least one point")
         return native.joined(points, float(source.offset))
     if isinstance(source, WholeSimplex):
         return _plexway.WholeSimplex(domain._inner_simplex(source.simplex), float(source.offset))

@@ -83,6 +83,8 @@ MeasuredLengths measured_before(const AnyShape& shape, const py::tuple& describe
     lengths.tets = number_rows_of<6>(described[1], "lengths");
     lengths.violations =
         metric::find_violations(std::span<const std::array<double, 6>>(lengths.tets));
+  } else if (shape.kind() == DomainKind::mixed) {
+    lengths.speeds = numbers_of(described[1], "speeds");
   } else {
     lengths.edges = numbers_of(described[1], "lengths");
   }

@@ -31,6 +31,18 @@ const AnyDomain& Domain::for_sources(const AnyExecutor& executor, const SourceLi
   return *twice_;
 }
 
+Source Domain::boundary(double offset) const {
+  Source source = shape().boundary(offset);
+  auto* const walls = std::get_if<VertexSource>(&source);
+  if (walls == nullptr || !options_.lengths) return source;
+  // By a metric the nearest wall in space says nothing: its vertices are left.
+  VertexSource rim{.vertices = {}, .offset = offset};
+  for (std::size_t i = 0; i < walls->vertices.size(); ++i)
+    if (walls->offsets.empty() || walls->offsets[i] == 0)
+      rim.vertices.push_back(walls->vertices[i]);
+  return rim;
+}
+
 std::size_t Domain::bytes() const {
   const std::scoped_lock lock(mutex_);
   return any_.bytes() + (twice_ ? twice_->bytes() : 0);
@@ -80,6 +92,8 @@ py::object lengths_of(const MeasuredLengths* lengths, const py::object& owner) {
   if (!lengths->triangles.empty())
     return view(lengths->triangles.data(), lengths->triangles.size(), owner);
   if (!lengths->tets.empty()) return view(lengths->tets.data(), lengths->tets.size(), owner);
+  if (!lengths->speeds.empty())
+    return view(lengths->speeds.data(), lengths->speeds.size(), 1, owner).attr("ravel")();
   return view(lengths->edges.data(), lengths->edges.size(), 1, owner).attr("ravel")();
 }
 
@@ -182,6 +196,14 @@ void bind_domain(py::module_& module) {
                              })
       .def_property_readonly("wanted_triangulation",
                              [](const Domain& d) { return name_of(d.options().triangulation); })
+      .def_property_readonly(
+          "violations",  // simplices whose lengths no flat one has, and the first
+          [](const Domain& d) {
+            const MeasuredLengths* lengths =
+                d.options().lengths ? d.options().lengths.get() : d.shape().lengths();
+            const metric::Violations found = lengths ? lengths->violations : metric::Violations{};
+            return py::make_tuple(found.count, found.first);
+          })
       .def_property_readonly("measured",
                              [](const std::shared_ptr<Domain>& d) {
                                return lengths_of(d->options().lengths.get(), py::cast(d));
@@ -214,7 +236,7 @@ void bind_domain(py::module_& module) {
              curve.offset = offset;
              return curve;
            })
-      .def("boundary", [](const Domain& d, double offset) { return d.shape().boundary(offset); })
+      .def("boundary", &Domain::boundary)
       .def("write_field", [](const Domain& d, const std::filesystem::path& out,
                              const py::object& distance, const py::object& label) {
         const std::vector<double> values = numbers_of(distance, "distance");

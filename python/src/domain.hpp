@@ -26,6 +26,8 @@ class Domain {
   /// has single, another one, built when it is first needed and then kept.
   [[nodiscard]] const AnyDomain& for_sources(const AnyExecutor& executor, const SourceList& sources,
                                              const PropagateOptions& options) const;
+  /// The whole boundary: of a solid its faces, or their vertices alone where a metric measures.
+  [[nodiscard]] Source boundary(double offset) const;
   [[nodiscard]] std::size_t bytes() const;
 
  private:

@@ -1,13 +1,20 @@
 #include <pybind11/stl.h>
+#include <pybind11/stl/filesystem.h>
 
+#include <array>
 #include <cstdint>
-#include <mutex>
+#include <cstdio>
+#include <filesystem>
+#include <optional>
 #include <string>
+#include <system_error>
+#include <utility>
 #include <vector>
 
-#include <plexway/any/complex.hpp>
-#include <plexway/apps/all_pairs.hpp>
+#include <plexway/any/pairs.hpp>
 #include <plexway/error.hpp>
+#include <plexway/io/write_pairs.hpp>
+#include <plexway/version.hpp>
 
 #include "arrays.hpp"
 #include "domain.hpp"
@@ -15,67 +22,170 @@
 namespace plexway::python {
 namespace {
 
-template <class Run>
-void by(const AnyExecutor& executor, const Run& run) {
-  if (const auto* team = std::get_if<OpenMP>(&executor))
-    run(*team);
-  else if (std::holds_alternative<Serial>(executor))
-    run(Serial{});
-  else
-    throw UsageError("pairs are for the executors serial and openmp");
+// A row each, to columns. Stays where it is: the request refers to it.
+struct Matrix {
+  Matrix(const Domain& domain, std::vector<Source> given, const py::object& wanted,
+         SolveArguments how, py::object progress)
+      : sources(std::move(given)),
+        executor(executor_of(how)),
+        watch(std::move(progress)),
+        arguments(std::move(how)) {
+    if (!wanted.is_none()) {
+      columns = indices_of(wanted, "columns");
+      if (columns.empty()) throw UsageError("columns: the list is empty");
+    }
+    request.rows.emplace(sources.list());
+    request.columns = columns;
+    request.solve = options_of(arguments, watch);
+    request.solve.progress = [this](const Progress&) { return watch.tick(share); };
+    request.progress = [this](const PairsProgress& at) {
+      share = static_cast<double>(at.rows_done) / static_cast<double>(at.rows);
+      return watch.tick(share);
+    };
+    any = &domain.for_sources(executor, sources.list(), request.solve);
+  }
+  Matrix(const Matrix&) = delete;
+  Matrix& operator=(const Matrix&) = delete;
+
+  Sources sources;
+  AnyExecutor executor;
+  Watch watch;
+  SolveArguments arguments;
+  std::vector<Index> columns = {};
+  PairsRequest request = {};
+  const AnyDomain* any = nullptr;
+  double share = 0;  // of the rows; of the calling thread
+};
+
+NearLimits limits_of(double radius, const std::optional<std::size_t>& nearest) {
+  return {.radius = radius, .nearest = nearest.value_or(none)};
 }
 
 // Rows of few entries, as scipy.sparse.csr_matrix takes them: (data, columns, starts).
 py::tuple near(const Domain& domain, std::vector<Source> given, const py::object& columns,
-               double radius, const py::object& nearest, const SolveArguments& arguments,
-               py::object progress) {
-  if (domain.shape().kind() == DomainKind::mixed)  // its complexes have numbers of their own
-    throw UsageError("sparse rows are for domains of one kind: ask a mixed one for `distances`");
-  const Sources sources(std::move(given));
-  const AnyExecutor executor = executor_of(arguments);
-  std::vector<Index> wanted;
-  if (!columns.is_none()) wanted = indices_of(columns, "columns");
-  NearLimits limits;
-  limits.radius = radius;
-  if (!nearest.is_none()) limits.nearest = nearest.cast<std::size_t>();
-  Watch watch(std::move(progress));
-  PairsRequest request;
-  request.rows.emplace(sources.list());
-  request.columns = wanted;
-  request.solve = options_of(arguments, watch);
-  request.solve.progress = [&](const Progress&) { return watch.tick(0); };
-  request.progress = [&](const PairsProgress& at) {
-    return watch.tick(static_cast<double>(at.rows_done) / static_cast<double>(at.rows));
-  };
-  std::vector<std::vector<std::pair<Index, double>>> rows(sources.list().size());
-  watch.run([&] {
-    by(executor, [&](const auto& by_whom) {
-      with_complex(domain.any(), [&](const auto& complex) {
-        using Real = RealOf<std::decay_t<decltype(complex)>>;
-        (void)near_pairs(by_whom, complex, request, limits,
-                         {.row = [&](std::size_t row, SparseRow<Real> content) {
-                           for (const NearEntry<Real>& entry : content)
-                             rows[row].emplace_back(entry.column,
-                                                    static_cast<double>(entry.distance));
-                         }});
-      });
-    });
+               double radius, const std::optional<std::size_t>& nearest,
+               const SolveArguments& arguments, py::object progress) {
+  Matrix matrix(domain, std::move(given), columns, arguments, std::move(progress));
+  std::vector<std::vector<NearEntry<double>>> rows(matrix.sources.list().size());
+  matrix.watch.run([&] {
+    (void)near_pairs(matrix.executor, *matrix.any, matrix.request, limits_of(radius, nearest),
+                     {.row = [&](std::size_t row, SparseRow<double> content) {
+                       rows[row].assign(content.begin(), content.end());
+                     }});
   });
   std::vector<double> data;
   std::vector<std::int64_t> indices, starts = {0};
-  for (const auto& row : rows) {
+  for (auto& row : rows) {
     for (const auto& [column, distance] : row) {
       indices.push_back(column);
       data.push_back(distance);
     }
     starts.push_back(static_cast<std::int64_t>(indices.size()));
+    row = {};
   }
   return py::make_tuple(owned(std::move(data)), owned(std::move(indices)),
                         owned(std::move(starts)));
 }
 
+// All that the file depends on.
+io::BlockJournal::Description description_of(const Domain& domain, const Matrix& matrix,
+                                             double radius, const std::string& what,
+                                             const std::string& type) {
+  const BuildOptions& built = domain.options();
+  const Accuracy accuracy = matrix.request.solve.accuracy;
+  const auto number = [](double value) {
+    std::array<char, 32> text{};
+    std::snprintf(text.data(), text.size(), "%.17g", value);
+    return std::string(text.data());
+  };
+  io::Fingerprint columns;
+  columns.add_numbers(matrix.columns);
+  return {{"plexway", version_string},
+          {"input", fingerprint_of(domain.shape()) + " " + std::string(domain.shape().kind_name())},
+          {"metric", built.lengths ? fingerprint_of(*built.lengths) : "none"},
+          {"triangulation", std::to_string(static_cast<int>(built.triangulation))},
+          {"precision", matrix.any->precision() == Precision::twice ? "double" : "single"},
+          {"rows", std::to_string(matrix.request.rows->size()) + " " +
+                       fingerprint_of(*matrix.request.rows)},
+          {"columns", std::to_string(matrix.columns.size()) + " " + columns.text()},
+          {"accuracy",
+           std::to_string(static_cast<int>(accuracy.kind())) + " " + number(accuracy.error())},
+          {"visibility", matrix.arguments.visibility},
+          {"radius", number(radius)},
+          {"matrix", what},
+          {"type", type}};
+}
+
+std::size_t write_dense(const Matrix& matrix, const std::filesystem::path& out, std::size_t rows,
+                        std::size_t columns, io::MatrixNumber number, io::BlockJournal& journal) {
+  if (journal.is_complete() && !std::filesystem::exists(io::PartFile::path_of(out))) {
+    journal.remove();  // ended when all was in its place
+    return 0;
+  }
+  io::MatrixFile file(out, rows, columns, number, journal.resumed());
+  const PairsReport report =
+      io::write_pairs(matrix.executor, *matrix.any, matrix.request, file, journal);
+  journal.complete([&] { file.sync(); });
+  file.commit();
+  journal.remove();
+  return report.rows;
+}
+
+std::size_t write_sparse(const Matrix& matrix, const std::filesystem::path& out, std::size_t rows,
+                         std::size_t columns, io::MatrixNumber number, const NearLimits& limits,
+                         io::BlockJournal& journal) {
+  io::SparseFile file(out, rows, columns, matrix.request.block, number, journal);
+  const PairsReport report =
+      io::write_near_pairs(matrix.executor, *matrix.any, matrix.request, limits, file, journal);
+  file.commit(journal);
+  journal.remove();  // first: a journal without its part could not be gone on with
+  file.remove();
+  return report.rows;
+}
+
+// Into `out`, going on with what an earlier call left. The extension tells dense from sparse.
+// Returns how many rows were solved.
+std::size_t pairs_file(const Domain& domain, std::vector<Source> given, const py::object& columns,
+                       const std::filesystem::path& out, double radius,
+                       const std::optional<std::size_t>& nearest, const std::string& type,
+                       std::size_t block, bool restart, const SolveArguments& arguments,
+                       py::object progress) {
+  Matrix matrix(domain, std::move(given), columns, arguments, std::move(progress));
+  if (block == 0) throw UsageError("block: a block of rows must have at least one");
+  matrix.request.block = block;
+  const io::MatrixNumber number = io::matrix_number_of(type);
+  const std::size_t vertices = matrix.any->vertices();
+  const std::size_t rows = matrix.request.row_count(vertices);
+  const std::size_t width = matrix.request.column_count(vertices);
+  const bool dense = out.extension() == ".npy";
+  const NearLimits limits = limits_of(radius, nearest);
+  std::string what = dense ? "dense" : "sparse";
+  if (nearest) what += ", nearest " + std::to_string(*nearest);
+  what += " in blocks of " + std::to_string(block);
+  return matrix.watch.run([&]() -> std::size_t {
+    if (!restart) io::BlockJournal::discard(out);
+    if (dense) io::check_room(out, io::MatrixFile::bytes(rows, width, number));
+    io::BlockJournal journal(out, description_of(domain, matrix, radius, what, type),
+                             matrix.request.block_count(vertices));
+    try {
+      return dense ? write_dense(matrix, out, rows, width, number, journal)
+                   : write_sparse(matrix, out, rows, width, number, limits, journal);
+    } catch (...) {
+      if (journal.finished() == 0 && !journal.is_complete()) {  // nothing to go on with
+        std::error_code none_such;
+        std::filesystem::remove(io::PartFile::path_of(out), none_such);
+        journal.remove();
+      }
+      throw;
+    }
+  });
+}
+
 }  // namespace
 
-void bind_pairs(py::module_& module) { module.def("near", &near); }
+void bind_pairs(py::module_& module) {
+  module.def("near", &near);
+  module.def("pairs_file", &pairs_file);
+}
 
 }  // namespace plexway::python

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include <plexway/any/scene.hpp>
 #include <plexway/error.hpp>
 
 #include "arrays.hpp"
@@ -18,37 +19,6 @@ namespace {
 
 #ifdef PLEXWAY_HAS_RENDER
 
-void add_parts(const AnyShape& shape, render::Part common, std::vector<render::Part>& parts) {
-  common.positions = shape.positions();
-  std::visit(
-      [&](const auto& data) {
-        using Kind = std::decay_t<decltype(data)>;
-        if constexpr (std::is_same_v<Kind, io::Triangles>) {
-          common.triangles = data.triangles;
-        } else if constexpr (std::is_same_v<Kind, io::Tets>) {
-          common.tets = data.tets;
-        } else if constexpr (std::is_same_v<Kind, io::Edges>) {
-          common.edges = data.edges;
-        } else if constexpr (std::is_same_v<Kind, CloudShape>) {
-          common.normals = data.normals();
-        } else if constexpr (std::is_same_v<Kind, MixedShape>) {
-          for (const MixedShape::Part& part : data.parts) {
-            render::Part one = common;
-            one.edges = part.edges;
-            one.triangles = part.triangles;
-            one.tets = part.tets;
-            parts.push_back(one);
-          }
-          return;
-        } else {
-          throw UsageError(
-              "pictures are of surfaces, solids, wireframes, clouds and mixed domains");
-        }
-        parts.push_back(common);
-      },
-      shape.data());
-}
-
 py::array_t<std::uint8_t> picture(const Domain& domain, const py::object& distance,
                                   const std::vector<PointSource>& sources, const py::list& paths,
                                   std::size_t width, std::size_t height, const py::object& view,
@@ -58,13 +28,12 @@ py::array_t<std::uint8_t> picture(const Domain& domain, const py::object& distan
     throw UsageError("there is nothing to draw: the vertices have no positions in space");
   std::vector<double> value;
   if (!distance.is_none()) value = numbers_of(distance, "distance");
-  render::Scene scene;
-  render::Part common;
-  common.value = value;
-  add_parts(domain.shape(), common, scene.parts);
+  SceneContent content;
+  content.distance = value;
   for (const PointSource& source : sources)
-    scene.sources.push_back(domain.shape().position(source));
-  for (const py::handle& path : paths) scene.paths.push_back(points_of(path, "paths"));
+    content.sources.push_back(domain.shape().position(source));
+  for (const py::handle& path : paths) content.paths.push_back(points_of(path, "paths"));
+  const ShapeScene scene(domain.shape(), content);
   render::PictureOptions options;
   options.width = width;
   options.height = height;
@@ -80,7 +49,7 @@ py::array_t<std::uint8_t> picture(const Domain& domain, const py::object& distan
   render::Image image;
   {
     const py::gil_scoped_release free;
-    image = render::picture(scene, options);
+    image = render::picture(scene.scene(), options);
   }
   return owned(std::move(image.pixels))
       .reshape({static_cast<py::ssize_t>(image.height), static_cast<py::ssize_t>(image.width),

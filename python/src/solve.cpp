@@ -84,9 +84,10 @@ py::tuple solve(const Domain& domain, std::vector<Source> given, const SolveArgu
 
 template <class Real>
 bool each(const Domain& domain, const Sources& sources, const AnyExecutor& executor,
-          const SolveArguments& arguments, py::array_t<Real>& out, py::object progress) {
+          const SolveArguments& arguments, py::array_t<Real>& out,
+          const std::vector<Index>* columns, py::object progress) {
   auto rows = out.template mutable_unchecked<2>();
-  const auto vertices = static_cast<py::ssize_t>(domain.any().vertices());
+  const std::size_t width = columns != nullptr ? columns->size() : domain.any().vertices();
   Watch watch(std::move(progress));
   const SourceList list = sources.list();
   const double count = static_cast<double>(list.size());
@@ -103,8 +104,9 @@ bool each(const Domain& domain, const Sources& sources, const AnyExecutor& execu
           const auto row = static_cast<py::ssize_t>(k);
           std::visit(
               [&](const auto& f) {
-                for (py::ssize_t v = 0; v < vertices; ++v)
-                  rows(row, v) = static_cast<Real>(f.distance[static_cast<std::size_t>(v)]);
+                for (std::size_t c = 0; c < width; ++c)
+                  rows(row, static_cast<py::ssize_t>(c)) =
+                      static_cast<Real>(f.distance[columns != nullptr ? (*columns)[c] : c]);
               },
               field.data);
           complete = complete && field.complete();
@@ -115,17 +117,27 @@ bool each(const Domain& domain, const Sources& sources, const AnyExecutor& execu
   return complete;
 }
 
-// Row k of `out`, (K, N) of float32 or float64 in any order of memory: the distances from source k.
+// Row k of `out`, (K, N) of float32 or float64 in any order of memory: the distances from source k
+// to all vertices, or to the columns.
 bool solve_each(const Domain& domain, std::vector<Source> given, const SolveArguments& arguments,
-                py::array out, py::object progress) {
+                py::array out, const py::object& wanted, py::object progress) {
+  std::vector<Index> columns;
+  if (!wanted.is_none()) {
+    columns = indices_of(wanted, "columns");
+    for (const Index v : columns)
+      if (v >= domain.any().vertices())
+        throw UsageError("columns: vertex " + std::to_string(v) + ": there are " +
+                         std::to_string(domain.any().vertices()) + ", counted from 0");
+  }
+  const std::vector<Index>* const to = wanted.is_none() ? nullptr : &columns;
   const Sources sources(std::move(given));
   const AnyExecutor executor = executor_of(arguments);
   if (py::isinstance<py::array_t<float>>(out)) {
     auto typed = py::reinterpret_borrow<py::array_t<float>>(out);
-    return each(domain, sources, executor, arguments, typed, std::move(progress));
+    return each(domain, sources, executor, arguments, typed, to, std::move(progress));
   }
   auto typed = py::reinterpret_borrow<py::array_t<double>>(out);
-  return each(domain, sources, executor, arguments, typed, std::move(progress));
+  return each(domain, sources, executor, arguments, typed, to, std::move(progress));
 }
 
 }  // namespace

@@ -57,3 +57,44 @@ def loose_edges(F):
     """Edges of triangles, each once."""
     e = np.sort(F[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2), axis=1)
     return np.unique(e, axis=0)
+
+
+def domains():
+    """A domain of each kind that lies flat, and whatever solver it takes is right on: functions that
+    make them, by name, each with the positions that distances are straight lines between."""
+    import plexway as px
+
+    def surface(**options):
+        V, F = grid(10, jitter=0.2)
+        return px.Surface(V, F, **options), V
+
+    def solid(**options):
+        V, T = kuhn(3, 3)
+        return px.Solid(V, T, **options), V
+
+    def wireframe(**options):
+        V = np.stack([np.linspace(0, 1, 30) ** 2, np.zeros(30), np.zeros(30)], axis=1)
+        return px.Wireframe(V, np.stack([np.arange(29), np.arange(1, 30)], 1), **options), V
+
+    def cloud(**options):
+        V, _ = grid(20)
+        return px.Cloud(V, **options), V
+
+    def simplices(**options):
+        V, S = kuhn(2, 4)
+        return px.Simplicial(V, S, **options), V
+
+    def mixed(**options):
+        # A square in two parts: what is flat as a whole has straight distances.
+        V, F = grid(8)
+        left = V[F].mean(axis=1)[:, 0] < 0.5
+        return px.Mixed([(V, F[left]), (V, F[~left])], **options), np.concatenate([V, V])
+
+    return {
+        "surface": surface,
+        "solid": solid,
+        "wireframe": wireframe,
+        "cloud": cloud,
+        "simplices": simplices,
+        "mixed": mixed,
+    }

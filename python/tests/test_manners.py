@@ -1,6 +1,7 @@
 """How it behaves: arrays of any type, errors, threads, Ctrl-C, progress, pickles."""
 
 import concurrent.futures
+import multiprocessing
 import pickle
 import signal
 import threading
@@ -41,6 +42,15 @@ def test_any_type_and_order(sheet):
     assert np.array_equal(px.distance(strided[:, ::2], F, 3), d)
     whole = px.distance(np.array([[0, 0], [3, 0], [0, 4]]), np.array([[0, 1, 2]], np.uint8), 1)
     assert np.allclose(whole, [3, 0, 5])
+
+
+def test_nothing_asked_for_is_nothing(sheet):
+    V, F = sheet
+    surface = px.Surface(V, F)
+    assert surface.distances([]).shape == (0, len(V))
+    assert len(surface.closest(np.zeros((0, 3)))) == 0
+    assert surface.at(0, []).shape == (0,)
+    assert np.array_equal(surface.distance([0, [1.0, 1.0, 0.0]]), surface.distance([0, len(V) - 1]))
 
 
 def test_views_and_out_are_no_copies(sheet):
@@ -101,7 +111,7 @@ def test_memory_map(sheet, tmp_path):
         (lambda V, F: px.distance(V, F, [0.0, np.inf, 0.0]), px.UsageError, "finite"),
         (lambda V, F: px.distance(V, F, np.ones(4)), ValueError, "source"),
         (lambda V, F: px.distance(V, F, np.ones(4, bool)), ValueError, "truth"),
-        (lambda V, F: px.distance(V, F, [[0, 1], [2]]), ValueError, "source"),
+        (lambda V, F: px.distance(V, F, [[0, 1], [2]]), ValueError, "a vertex"),
         (lambda V, F: px.distance(V, F, [[0, 1, 2, 3]]), ValueError, "source"),
         (lambda V, F: px.distance(V, F, "zero"), ValueError, "source"),
         (lambda V, F: px.distance(V, F, px.Vertices([0], [-1.0])), ValueError, ""),
@@ -117,6 +127,26 @@ def test_memory_map(sheet, tmp_path):
         (lambda V, F: px.distance(V, F, 0, executor="tpu"), ValueError, "'serial'"),
         (lambda V, F: px.distance(V, F, 0, visibility="x"), ValueError, "'saddles'"),
         (lambda V, F: px.distance(V, F, 0, colour=1), TypeError, "colour"),
+        (lambda V, F: px.distance(V, F, 0, threads=1.5), TypeError, "threads"),
+        (lambda V, F: px.distance(V, F, 0, radius=None), TypeError, "radius"),
+        (lambda V, F: px.distance(V, F, 0, accuracy=True), TypeError, "accuracy"),
+        (lambda V, F: px.Surface(V, F, precision=None), TypeError, "precision"),
+        (lambda V, F: px.Surface(np.ma.array(V, mask=V > 0.5), F), ValueError, "masked"),
+        (lambda V, F: px.distance(V, [], 0), ValueError, "simplices"),
+        (lambda V, F: px.distance("a.obj", F, 0), TypeError, "file"),
+        (lambda V, F: px.distance(V, F, 2.0), ValueError, "float 2.0"),
+        (lambda V, F: px.distance(V, F, None), TypeError, "source"),
+        (lambda V, F: px.distance(V, F, px.Polyline([])), px.UsageError, "at least one"),
+        (lambda V, F: px.Surface(V, F).near(count=2.5), TypeError, "count"),
+        (lambda V, F: px.Surface(V, F).poisson(count=5, seed=-1), ValueError, "seed"),
+        (lambda V, F: px.Surface(V, F).farthest(2.5), TypeError, "count"),
+        (lambda V, F: px.Surface(V, F).cvt(0), ValueError, "seeds"),
+        (lambda V, F: px.Surface(V, F).distance(0, out=[0.0]), TypeError, "out"),
+        (lambda V, F: px.Surface(V, F).distances([0], columns=[-1]), ValueError, "columns"),
+        (lambda V, F: px.Surface(V, F).distances([0], columns=[10**6]), px.UsageError, "columns"),
+        (lambda V, F: px.Cloud(V, k=2.5), TypeError, "k:"),
+        (lambda V, F: px.Mixed([]), ValueError, "part"),
+        (lambda V, F: px.Mixed([(V, F, F)]), ValueError, "part"),
         (lambda V, F: px.Surface(V, F).poisson(), ValueError, "one of"),
         (lambda V, F: px.Surface(V, F).poisson(-1.0), ValueError, "radius"),
         (lambda V, F: px.Surface(V, F).isosurfaces(V[:, 0], 0.5), px.UsageError, "solids"),
@@ -170,6 +200,23 @@ def test_threads_at_once(sheet):
         assert all(map(np.array_equal, pool.map(ball.distance, sources), truth))
         ways = list(pool.map(lambda s: ball.path(0, s).length, sources[:8]))
     assert ways == [ball.path(0, s).length for s in sources[:8]]
+
+
+def rows_of(domain, source):
+    return domain.distances([source, 0], threads=2)
+
+
+@pytest.mark.parametrize("method", ["fork", "spawn"])
+def test_processes(method):
+    # A child has none of the threads that its parent worked with.
+    if method not in multiprocessing.get_all_start_methods():
+        pytest.skip("not here")
+    V, F = meshes.sphere(12)
+    ball = px.Surface(V, F)
+    truth = ball.distances([3, 4, 0], threads=2)
+    with multiprocessing.get_context(method).Pool(2) as pool:
+        first, second = pool.starmap_async(rows_of, [(ball, 3), (ball, 4)]).get(120)
+    assert np.array_equal(first, truth[[0, 2]]) and np.array_equal(second, truth[[1, 2]])
 
 
 def test_the_interpreter_is_free():
@@ -227,6 +274,12 @@ def test_control_c(threads):
         V, E = np.random.default_rng(0).uniform(size=(20000, 3)), np.arange(20000)
         chain = px.Wireframe(V, np.stack([E[:-1], E[1:]], 1))
         late = interrupted(lambda: chain.distances(many, threads=threads), 0.3)
+        assert late < 0.1 * threads
+        # Around a hole in four dimensions, where a step takes long.
+        V, S = meshes.kuhn(6, 4)
+        S = S[np.abs(V[S].mean(axis=1) - 0.5).max(axis=1) > 0.2]
+        robot = px.Simplicial(V, S)
+        late = interrupted(lambda: robot.distances(threads=threads), 0.3)
         assert late < 0.1 * threads
     finally:
         signal.signal(signal.SIGPROF, old)

@@ -136,4 +136,8 @@ SimplexPoint closest_point(Positions positions, std::span<const std::array<std::
   return closest_of_all(positions, tets, point);
 }
 
+double squared_distance(const std::array<Vector, 3>& corners) {
+  return closest(corners).squared_distance;
+}
+
 }  // namespace plexway

@@ -30,4 +30,7 @@ SimplexPoint closest_point(std::span<const std::array<double, 3>> positions,
                            std::span<const std::array<std::uint32_t, 4>> tets,
                            const std::array<double, 3>& point);
 
+/// Squared distance of the origin from a triangle, which may have no area. Corners of about 1.
+double squared_distance(const std::array<std::array<double, 3>, 3>& corners);
+
 }  // namespace plexway

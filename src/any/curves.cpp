@@ -9,6 +9,7 @@
 #include <plexway/solve.hpp>
 
 #include "any/shape_state.hpp"
+#include "any/walls.hpp"
 
 namespace plexway {
 namespace {
@@ -102,15 +103,16 @@ Source AnyShape::boundary(double offset) const {
     if (curve.points.empty()) throw nothing();
     return curve;
   }
-  VertexSource source{.vertices = {}, .offset = offset};
+  VertexSource source;
   if (const auto* solid = std::get_if<io::Tets>(&data()))
-    source.vertices = rim(solid->tets);
+    source = lengths() == nullptr ? walls_of(*solid) : VertexSource{.vertices = rim(solid->tets)};
   else if (const auto* wires = std::get_if<io::Edges>(&data()))
     source.vertices = rim(wires->edges);
   else if (cloud() != nullptr)
     throw UsageError("a cloud of points has no faces to tell its boundary by");
   else
     throw UsageError("boundaries are those of surfaces, solids and wireframes");
+  source.offset = offset;
   if (source.vertices.empty()) throw nothing();
   return source;
 }

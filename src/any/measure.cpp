@@ -62,6 +62,10 @@ std::vector<double> speeds_of(const AnyShape& shape, const metric::Metric& metri
 
 MeasuredLengths AnyShape::measure(const metric::Metric& metric) const {
   MeasuredLengths lengths;
+  if ((kind() == DomainKind::surface || kind() == DomainKind::solid) && positions().empty())
+    throw UsageError(
+        "a metric is measured between positions, and there are lengths alone: measure "
+        "them by it before");
   if (const auto* surface = std::get_if<io::Triangles>(&data())) {
     lengths.refracts = keeps_sides(metric);
     lengths.triangles = metric::triangle_lengths(surface->positions, surface->triangles, metric);

@@ -123,6 +123,8 @@ class PathsOf final : public AnyPathField::State {
           using E = std::decay_t<decltype(chosen)>;
           if constexpr (!supports<E, Complex>)
             support(combination<E, Complex>()).require();
+          else if constexpr (E::kind == ExecutorKind::openmp && !teams_built_in)
+            static_cast<void>(team_size(chosen));  // says that it is not built in
           else if constexpr (E::kind != ExecutorKind::gl)
             paths.solve(chosen, sources, options);
           else

@@ -71,6 +71,8 @@ void solve_on(const AnyExecutor& executor, const Complex& complex, const SourceL
         using E = std::decay_t<decltype(chosen)>;
         if constexpr (!supports<E, Complex>) {
           support(combination<E, Complex>()).require();
+        } else if constexpr (E::kind == ExecutorKind::openmp && !teams_built_in) {
+          static_cast<void>(team_size(chosen));  // says that it is not built in
         } else if constexpr (E::kind == ExecutorKind::gl) {
 #ifdef PLEXWAY_HAS_GL
           plexway::solve(chosen, complex, sources, options, room.gl, field);

@@ -8,6 +8,14 @@
 
 namespace plexway {
 
+/// Has this build teams of threads? Where it has none their code is not compiled in either, which
+/// is a seventh of the page's module.
+#ifdef PLEXWAY_HAS_TEAMS
+inline constexpr bool teams_built_in = true;
+#else
+inline constexpr bool teams_built_in = false;
+#endif
+
 /// A complex made ready for distances, its precision and its kind hidden. Any number of threads may
 /// solve at once.
 class Prepared : public std::enable_shared_from_this<Prepared> {

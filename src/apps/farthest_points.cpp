@@ -5,6 +5,7 @@
 #include <limits>
 #include <queue>
 #include <tuple>
+#include <unordered_map>
 
 #include <plexway/error.hpp>
 
@@ -29,7 +30,15 @@ class Traversal {
                      const FarthestOptions& options) {
     constexpr double infinity = std::numeric_limits<double>::infinity();
     FarthestPoints result;
+    // What the field starts with at vertices: where points get as dense as simplices, the label
+    // there is another's.
+    std::unordered_map<Index, Real> offset;
     for (const PointSource& point : start) {
+      if (point.vertex != none) {
+        const Real own = static_cast<Real>(point.offset / domain_.unit());
+        const auto [known, is_new] = offset.try_emplace(point.vertex, own);
+        if (!is_new) known->second = std::min(known->second, own);
+      }
       add(point, static_cast<Index>(result.points.size()));
       result.points.push_back(point);
       result.distance.push_back(0);
@@ -42,7 +51,8 @@ class Traversal {
     while (!farthest.empty()) {
       const auto [known, packed] = farthest.top();
       const Index v = none - packed;
-      const Real now = distance(domain_.inside_vertex(v));
+      Real now = distance(domain_.inside_vertex(v));
+      if (const auto own = offset.find(v); own != offset.end()) now = std::min(now, own->second);
       farthest.pop();
       if (now < known) {
         farthest.emplace(now, packed);

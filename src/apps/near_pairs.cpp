@@ -92,17 +92,7 @@ class NearWorker {
       search(*sheet, *source.point(), options);
     else
       solve_all(source.list(), options);
-    const auto nearer = [](const auto& a, const auto& b) {
-      return a.distance < b.distance || (a.distance == b.distance && a.column < b.column);
-    };
-    if (entries_.size() > limits_.nearest) {
-      std::nth_element(entries_.begin(),
-                       entries_.begin() + static_cast<std::ptrdiff_t>(limits_.nearest),
-                       entries_.end(), nearer);
-      entries_.resize(limits_.nearest);
-    }
-    std::sort(entries_.begin(), entries_.end(),
-              [](const auto& a, const auto& b) { return a.column < b.column; });
+    apps::keep_nearest(entries_, limits_.nearest);
     sink_.row(row, entries_);
   }
 
@@ -194,10 +184,7 @@ PairsReport near_pairs(const E& executor, const D& domain, const PairsRequest& r
                        const NearLimits& limits, const PairsSink<SparseRow<RealOf<D>>>& sink) {
   using Worker = NearWorker<D>;
   const std::size_t vertices = domain.vertex_count();
-  apps::check(request, vertices);
-  if (!(limits.radius >= 0)) throw UsageError("the radius must be >= 0");
-  if (limits.nearest == 0) throw UsageError("the number of nearest columns must be >= 1");
-  if (request.column_count(vertices) >= none) throw UsageError("too many columns");
+  apps::check(limits, request, vertices);
   const auto* sheet = sheet_of(domain);
   const ColumnsOfVertex columns(columns_on_sheet(domain, request.columns),
                                 sheet != nullptr ? sheet->vertex_count() : vertices);

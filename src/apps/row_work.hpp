@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <cstddef>
@@ -40,6 +41,29 @@ inline void check(const PairsRequest& request, std::size_t vertices) {
     if (v >= vertices)
       throw UsageError("column vertex " + std::to_string(v) + " is out of range, there are " +
                        std::to_string(vertices));
+}
+
+/// Likewise with limits that make none.
+inline void check(const NearLimits& limits, const PairsRequest& request, std::size_t vertices) {
+  check(request, vertices);
+  if (!(limits.radius >= 0)) throw UsageError("the radius must be >= 0");
+  if (limits.nearest == 0) throw UsageError("the number of nearest columns must be >= 1");
+  if (request.column_count(vertices) >= none) throw UsageError("too many columns");
+}
+
+/// The nearest of a row, the first of equals, in the order of columns.
+template <class Real>
+void keep_nearest(std::vector<NearEntry<Real>>& entries, std::size_t count) {
+  if (entries.size() > count) {
+    const auto nearer = [](const auto& a, const auto& b) {
+      return a.distance < b.distance || (a.distance == b.distance && a.column < b.column);
+    };
+    std::nth_element(entries.begin(), entries.begin() + static_cast<std::ptrdiff_t>(count),
+                     entries.end(), nearer);
+    entries.resize(count);
+  }
+  std::sort(entries.begin(), entries.end(),
+            [](const auto& a, const auto& b) { return a.column < b.column; });
 }
 
 /// The source of row k.

@@ -5,7 +5,7 @@
 
 #include <plexway/error.hpp>
 
-#include "executors/alone.hpp"
+#include "propagate/alone.hpp"
 #include "executors/checks.hpp"
 #include "executors/curve_sources.hpp"
 #include "executors/solve_surface.hpp"

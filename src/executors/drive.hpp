@@ -8,10 +8,10 @@
 #include <plexway/complex/triangle_mesh.hpp>
 #include <plexway/executors.hpp>
 
-#include "executors/alone.hpp"
 #include "executors/crew.hpp"
 #include "executors/piece_crew.hpp"
 #include "executors/unordered.hpp"
+#include "propagate/alone.hpp"
 #include "propagate/finish.hpp"
 
 /// What an executor brings to a solve: a queue for the serial parts, and a crew. All that differs

@@ -45,21 +45,24 @@ const TriangleMesh<Real>* one_surface(const MixedComplex<Real>& domain,
                                       const PropagateOptions& options) {
   if (options.accuracy == Accuracy::fast() || domain.pieces().size() != 1) return nullptr;
   const auto* mesh = std::get_if<TriangleMesh<Real>>(&domain.complex(domain.pieces()[0]));
-  return mesh != nullptr && mesh->metric() != MetricKind::refracting ? mesh : nullptr;
+  if (mesh == nullptr) return nullptr;
+  const auto cell = combination<Serial, TriangleMesh<Real>>(SourceKind::point);
+  return support_of_windows(detail::with(cell, mesh->metric(), options)) ? mesh : nullptr;
 }
 
 template <class Real>
-void solve_by_windows(const TriangleMesh<Real>& mesh, std::span<const PointSource> sources,
+bool solve_by_windows(const TriangleMesh<Real>& mesh, std::span<const PointSource> sources,
                       const PropagateOptions& options, MixedWorkspace<Real>& workspace,
                       DistanceField<Real>& field) {
   const Accuracy accuracy = std::is_same_v<Real, double> ? Accuracy::exact() : Accuracy::accurate();
   workspace.pieces.resize(1);
   Workspace<Real>& own = workspace.pieces[0];
-  own.windows.on(mesh).solve(sources, accuracy, options, own, field);
+  if (!own.windows.on(mesh).solve(sources, accuracy, options, own, field)) return false;
   field.accuracy = accuracy;
-  if (!field.label.empty()) return;
-  for (const Real d : field.distance)
-    field.label.push_back(d < std::numeric_limits<Real>::infinity() ? 0 : none);
+  if (field.label.empty())
+    for (const Real d : field.distance)
+      field.label.push_back(d < std::numeric_limits<Real>::infinity() ? 0 : none);
+  return true;
 }
 
 // On a domain whose pieces are joined.
@@ -68,8 +71,8 @@ void solve_joined(const MixedComplex<Real>& domain, std::span<const PointSource>
                   const PropagateOptions& options, MixedWorkspace<Real>& workspace,
                   DistanceField<Real>& field) {
   if (const auto* mesh = one_surface(domain, options)) {
-    solve_by_windows(*mesh, sources, options, workspace, field);
-    return;
+    if (solve_by_windows(*mesh, sources, options, workspace, field)) return;
+    field.windows_gave_up = true;
   }
   workspace.pieces.resize(domain.pieces().size());
   MixedPropagation<Real> propagation(domain, workspace.pieces, workspace.offered, options);
@@ -137,6 +140,7 @@ void solve_points(const Serial&, const MixedComplex<Real>& domain,
     field.complete = all.complete;
     field.statistics = all.statistics;
     field.accuracy = all.accuracy;
+    field.windows_gave_up = all.windows_gave_up;
     field.distance.resize(domain.vertex_count());
     field.label.resize(domain.vertex_count());
     field.error.resize(all.error.empty() ? 0 : domain.vertex_count());

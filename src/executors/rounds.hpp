@@ -354,7 +354,7 @@ class Rounds {
   }
 
   void report() {
-    if (!options_.progress || done_.expansions - reported_ < 65536) return;
+    if (!options_.progress || done_.expansions - reported_ < 4096) return;
     reported_ = done_.expansions;
     std::size_t reached = before_.reached_simplices;
     for (const Hand& hand : hands_) reached += hand.reached;

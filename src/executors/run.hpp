@@ -34,6 +34,11 @@ void take_ball(const SourceParts::Ball& ball, const DistanceField<Real>& alone, 
     field.statistics = {};
     field.complete = true;
   }
+  if (alone.windows_gave_up) {
+    field.windows_gave_up = true;
+    field.accuracy = alone.accuracy;
+    field.error.clear();
+  }
   const Real rim = static_cast<Real>(ball.radius), offset = static_cast<Real>(ball.offset);
   for (std::size_t v = 0; v < field.distance.size(); ++v) {
     const Real d = std::abs(alone.distance[v] - rim) + offset;
@@ -77,6 +82,9 @@ void run_parts(const E& executor, const D& domain, std::span<const Source> sourc
   for (const SourceParts::Ball& ball : parts.balls) {
     PropagateOptions bounded = options;
     bounded.radius = std::max(options.radius - ball.offset + ball.radius, 0.);
+    alone.windows_gave_up = false;
+    alone.error.clear();
+    alone.accuracy = Accuracy::fast();
     solve_points(executor, domain, std::span<const PointSource>(&ball.centre, 1), bounded,
                  workspace, alone);
     take_ball(ball, alone, options.radius, labels, field);
@@ -90,6 +98,7 @@ void run(const E& executor, const D& domain, const SourceList& sources,
   require_support(combination<E, D>(), domain.metric(), sources, options);
   field.error.clear();
   field.accuracy = Accuracy::fast();
+  field.windows_gave_up = false;
   if (sources.only_points()) {
     solve_points(executor, domain, sources.points(), options, workspace, field);
     return;

@@ -11,8 +11,8 @@
 #include <plexway/propagate/plain_rule.hpp>
 #include <plexway/propagate/saddle_rule.hpp>
 
-#include "executors/mend_surface.hpp"
 #include "propagate/finish.hpp"
+#include "propagate/mend_surface.hpp"
 #include "propagate/read_out.hpp"
 #include "propagate/triangle_propagation.hpp"
 

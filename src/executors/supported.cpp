@@ -13,8 +13,7 @@ void Support::require() const {
 
 Accuracy resolved(Accuracy accuracy, const Combination& c) {
   if (accuracy.kind() != Accuracy::Kind::usual) return accuracy;
-  constexpr bool windows_are_usual = false;  // at several times the work
-  return windows_are_usual && support_of_windows(c) ? Accuracy::accurate() : Accuracy::fast();
+  return support_of_windows(c) ? Accuracy::accurate() : Accuracy::fast();
 }
 
 namespace detail {
@@ -33,12 +32,18 @@ SourceKind kind_of(const SimplexSource&) { return SourceKind::simplex; }
 
 }  // namespace
 
-Support support_of(Combination what, MetricKind metric, const SourceList& sources,
-                   const PropagateOptions& options) {
+Combination with(Combination what, MetricKind metric, const PropagateOptions& options) {
   what.metric = metric;
   what.visibility = options.visibility;
   what.schedule = options.schedule;
   what.accuracy = options.accuracy.kind();
+  what.label_options = options.step != PropagateOptions{}.step || !options.vectorised;
+  return what;
+}
+
+Support support_of(Combination what, MetricKind metric, const SourceList& sources,
+                   const PropagateOptions& options) {
+  what = with(what, metric, options);
   Support found = support(what);
   const auto look = [&](SourceKind kind) {
     if (!found) return;

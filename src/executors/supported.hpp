@@ -7,6 +7,10 @@
 
 namespace plexway::detail {
 
+/// The cell of these options.
+[[nodiscard]] Combination with(Combination what, MetricKind metric,
+                               const PropagateOptions& options);
+
 /// Do a domain's metric, the options and all sources go together with an executor and a domain?
 [[nodiscard]] Support support_of(Combination what, MetricKind metric, const SourceList& sources,
                                  const PropagateOptions& options);

@@ -3,6 +3,7 @@
 #include "executors/drive.hpp"
 #include "executors/run.hpp"
 #include "executors/solve_surface.hpp"
+#include "executors/supported.hpp"
 #include "propagate/windows/window_solver.hpp"
 
 namespace plexway {
@@ -13,12 +14,16 @@ void solve_points(const E& executor, const TriangleMesh<Real>& mesh,
                   Workspace<Real>& workspace, DistanceField<Real>& field) {
   check(sources, options, mesh);
   const Accuracy accuracy = resolved(
-      options.accuracy, combination<E, TriangleMesh<Real>>(SourceKind::point, options.visibility,
-                                                           options.schedule, mesh.metric()));
+      options.accuracy,
+      detail::with(combination<E, TriangleMesh<Real>>(SourceKind::point), mesh.metric(), options));
   if (accuracy.kind() != Accuracy::Kind::fast) {
-    workspace.windows.on(mesh).solve(sources, accuracy, options, workspace, field);
-    field.accuracy = accuracy;
-    return;
+    if constexpr (E::kind == ExecutorKind::openmp)
+      static_cast<void>(team_size(executor));  // throws if it is none
+    if (workspace.windows.on(mesh).solve(sources, accuracy, options, workspace, field)) {
+      field.accuracy = accuracy;
+      return;
+    }
+    field.windows_gave_up = true;
   }
   with_labels(sources, [&](auto labels) {
     constexpr bool kLabels = decltype(labels)::value;

@@ -1,10 +1,20 @@
 #include "executors/team.hpp"
 
 #include <string>
+#include <system_error>
+#include <vector>
 
 #include <plexway/error.hpp>
 
 #include "executors/share_out.hpp"
+
+#if defined(PLEXWAY_CORE_OPENMP) && !defined(PLEXWAY_TEAM_OF_THREADS)
+#include <omp.h>
+#if __has_include(<pthread.h>)
+#include <pthread.h>
+#define PLEXWAY_FORKS 1
+#endif
+#endif
 
 namespace plexway {
 
@@ -29,6 +39,58 @@ Team::Team(const OpenMP& executor) : size_(executor.threads), chunk_(executor.ch
   size_ = static_cast<int>(std::max(std::thread::hardware_concurrency(), 1u));
 #elif defined(PLEXWAY_CORE_OPENMP)
   size_ = std::min(omp_get_max_threads(), most);
+#endif
+}
+
+namespace {
+
+#if defined(PLEXWAY_FORKS)
+// A child has none of its parent's threads, and GNU's OpenMP does not know.
+std::atomic<bool> forked{false};
+[[maybe_unused]] const int watched =
+    ::pthread_atfork(nullptr, nullptr, [] { forked.store(true, std::memory_order_relaxed); });
+#endif
+
+#if defined(PLEXWAY_FORKS) || defined(PLEXWAY_TEAM_OF_THREADS)
+// By threads of their own. Who comes first waits until it is known how many the system gave.
+void run_threads(int size, const std::function<void(int, int)>& work) {
+  std::atomic<int> all{0};
+  std::vector<std::thread> threads;
+  threads.reserve(static_cast<std::size_t>(size));
+  try {
+    for (int i = 1; i < size; ++i)
+      threads.emplace_back([&, i] {
+        all.wait(0);
+        work(i, all.load());
+      });
+  } catch (const std::system_error&) {  // then with fewer
+  }
+  const int count = static_cast<int>(threads.size()) + 1;
+  all.store(count);
+  all.notify_all();
+  work(0, count);
+  for (std::thread& thread : threads) thread.join();
+}
+#endif
+
+}  // namespace
+
+void Team::run_guarded(const std::function<void(int, int)>& work) const {
+  if (size_ == 1) {
+    work(0, 1);
+    return;
+  }
+#if defined(PLEXWAY_TEAM_OF_THREADS)
+  run_threads(size_, work);
+#elif defined(PLEXWAY_CORE_OPENMP)
+#if defined(PLEXWAY_FORKS)
+  if (forked.load(std::memory_order_relaxed)) {
+    run_threads(size_, work);
+    return;
+  }
+#endif
+#pragma omp parallel num_threads(size_)
+  work(omp_get_thread_num(), omp_get_num_threads());
 #endif
 }
 

@@ -4,20 +4,17 @@
 #include <atomic>
 #include <cstddef>
 #include <exception>
+#include <functional>
 #include <mutex>
 #include <thread>
-#include <vector>
 
 #include <plexway/executors.hpp>
-
-#if defined(PLEXWAY_CORE_OPENMP) && !defined(PLEXWAY_TEAM_OF_THREADS)
-#include <omp.h>
-#endif
 
 namespace plexway {
 
 /// Threads that run the same function at once: OpenMP's or, with PLEXWAY_TEAM_OF_THREADS (builds
-/// for ThreadSanitizer, which does not understand OpenMP's own synchronisation), std::thread's.
+/// for ThreadSanitizer, which does not understand OpenMP's own synchronisation), std::thread's; so
+/// it is in a child that was forked, too, where OpenMP's would be waited for without end.
 /// Everything else is the same code.
 class Team {
  public:
@@ -67,22 +64,7 @@ class Team {
   }
 
  private:
-  template <class Guarded>
-  void run_guarded(const Guarded& work) const {
-    if (size_ == 1) {
-      work(0, 1);
-      return;
-    }
-#if defined(PLEXWAY_TEAM_OF_THREADS)
-    std::vector<std::thread> threads;
-    for (int i = 1; i < size_; ++i) threads.emplace_back(work, i, size_);
-    work(0, size_);
-    for (std::thread& thread : threads) thread.join();
-#elif defined(PLEXWAY_CORE_OPENMP)
-#pragma omp parallel num_threads(size_)
-    work(omp_get_thread_num(), omp_get_num_threads());
-#endif
-  }
+  void run_guarded(const std::function<void(int, int)>& work) const;
 
   int size_;
   std::size_t chunk_;

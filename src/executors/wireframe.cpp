@@ -3,7 +3,7 @@
 
 #include <plexway/propagate/wire_step.hpp>
 
-#include "executors/alone.hpp"
+#include "propagate/alone.hpp"
 #include "executors/checks.hpp"
 #include "executors/run.hpp"
 #include "propagate/wire_propagation.hpp"

@@ -75,16 +75,27 @@ std::filesystem::path BlockJournal::path_of(const std::filesystem::path& out) {
   return path += ".journal";
 }
 
-BlockJournal::BlockJournal(const std::filesystem::path& out, const Description& description,
-                           std::size_t blocks)
-    : out_(out), path_(path_of(out)), finished_(blocks, 0), place_(blocks) {
+BlockJournal::BlockJournal(const std::filesystem::path& out) : out_(out), path_(path_of(out)) {
   try {
     open();
-    read(header_of(description, blocks));
   } catch (...) {
     if (file_ >= 0) ::close(file_);
     throw;
   }
+}
+
+BlockJournal::BlockJournal(const std::filesystem::path& out, const Description& description,
+                           std::size_t blocks)
+    : BlockJournal(out) {
+  finished_.assign(blocks, 0);
+  place_.resize(blocks);
+  read(header_of(description, blocks));
+}
+
+void BlockJournal::discard(const std::filesystem::path& out) {
+  BlockJournal old(out);
+  (void)old.content();
+  old.remove();
 }
 
 BlockJournal::~BlockJournal() {
@@ -112,18 +123,25 @@ void BlockJournal::open() {
   }
 }
 
-void BlockJournal::read(const std::string& header) {
+// What is there. Somebody else's file is left alone.
+std::string BlockJournal::content() const {
   struct stat status {};
   if (::fstat(file_, &status) != 0) refused(errno);
-  std::string content;
-  if (status.st_size > 0) content = FileBytes(path_).view();
+  if (status.st_size == 0) return {};
+  std::string content(FileBytes(path_).view());
+  const std::string_view text = content;
+  if (first_line.substr(0, text.size()) != text.substr(0, first_line.size()))
+    throw Error("cannot write " + out_.string() + ": " + path_.string() +
+                " is in the way and no journal of ours: move it away");
+  return content;
+}
+
+void BlockJournal::read(const std::string& header) {
+  const std::string content = this->content();
   std::string_view text = content;
   const std::size_t begin = text.find("\nbegin\n");
   if (begin == text.npos || text.substr(0, first_line.size()) != first_line) {
-    // None, or one whose beginning was not written whole. Somebody else's file is left alone.
-    if (!text.empty() && first_line.substr(0, text.size()) != text.substr(0, first_line.size()))
-      throw Error("cannot write " + out_.string() + ": " + path_.string() +
-                  " is in the way and no journal of ours: move it away");
+    // None, or one whose beginning was not written whole.
     if (::ftruncate(file_, 0) != 0) refused(errno);
     append(header);
     return;

@@ -33,7 +33,9 @@ class SimplexPropagation {
       : domain_(domain),
         rule_(rule),
         front_(front),
-        radius_(static_cast<Real>(options.radius / domain.unit())) {}
+        radius_(static_cast<Real>(options.radius / domain.unit())) {
+    front.expect_slow_steps();
+  }
 
   void seed(const PointSource& source, Index number) {
     const Real sigma = static_cast<Real>(source.offset / domain_.unit());

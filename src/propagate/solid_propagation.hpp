@@ -25,7 +25,9 @@ class SolidPropagation {
         tets_(mesh.tets()),
         rule_(rule),
         front_(front),
-        radius_(static_cast<Real>(options.radius / mesh.unit())) {}
+        radius_(static_cast<Real>(options.radius / mesh.unit())) {
+    front.expect_slow_steps();
+  }
 
   void seed(const PointSource& source, Index number) {
     const Real sigma = static_cast<Real>(source.offset / mesh_.unit());

@@ -22,6 +22,7 @@
 #include "complex/test_meshes.hpp"
 #include "complex/test_solids.hpp"
 #include "folder.hpp"
+#include "with_accuracy.hpp"
 
 namespace {
 
@@ -213,14 +214,18 @@ TEST_CASE("any domain: a surface is solved on the triangles that pay") {
   CHECK(any.triangulation().done == Triangulation::refined);
   CHECK(any.triangulation().inserted_vertices == made.delaunay->summary().inserted_vertices);
   const PointSource source = PointSource::in(100, {0.2, 0.2, 0.6});
-  auto direct = solve(Serial{}, made.mesh, made.delaunay->to_intrinsic(source));
-  direct.distance.resize(grid.positions.size());
-  const AnyField field = any.solve(Serial{}, source);
-  CHECK(std::get<DistanceField<float>>(field.data).distance == direct.distance);
   const auto at = shape.position(source);
-  for (std::size_t v = 0; v < field.size(); ++v) {
-    const auto& p = grid.positions[v];
-    CHECK(field[v] == Approx(std::hypot(p[0] - at[0], p[1] - at[1])).epsilon(1e-5).margin(1e-6));
+  for (const auto& [accuracy, off] :
+       {std::pair(Accuracy::fast(), 1e-5), {Accuracy::usual(), 5e-5}}) {
+    const PropagateOptions options = meshes::at(accuracy);
+    auto direct = solve(Serial{}, made.mesh, made.delaunay->to_intrinsic(source), options);
+    direct.distance.resize(grid.positions.size());
+    const AnyField field = any.solve(Serial{}, source, options);
+    CHECK(std::get<DistanceField<float>>(field.data).distance == direct.distance);
+    for (std::size_t v = 0; v < field.size(); ++v) {
+      const auto& p = grid.positions[v];
+      CHECK(field[v] == Approx(std::hypot(p[0] - at[0], p[1] - at[1])).epsilon(off).margin(1e-6));
+    }
   }
   // Lines lie in the triangles of the shape.
   const std::vector<PointSource> ends = {PointSource::at(0), PointSource::at(40)};

@@ -10,6 +10,7 @@
 #include "apps/path_testing.hpp"
 #include "exact_data.hpp"
 #include "propagate/solving.hpp"
+#include "with_accuracy.hpp"
 
 using namespace plexway;
 using namespace plexway::testing;
@@ -179,11 +180,12 @@ TEMPLATE_TEST_CASE("a bounded search is the full solve, cut off", "", float, dou
       std::vector<PointSource> sources = {anywhere(s.faces, random)};
       if (round % 2) sources.push_back(PointSource::at(s.faces[below(random, s.faces.size())][0]));
       sources[0].offset = round % 3 ? 0 : 0.05;
-      PropagateOptions options;
+      PropagateOptions options = by_labels();
       options.radius = 0.1 + 0.3 * uniform(random);
       const auto cut =
           plexway::solve(Serial{}, mesh, std::span<const PointSource>(sources), options);
-      const auto full = plexway::solve(Serial{}, mesh, std::span<const PointSource>(sources));
+      const auto full =
+          plexway::solve(Serial{}, mesh, std::span<const PointSource>(sources), by_labels());
       const auto& found = search.find(Serial{}, sources, options, true);
       CAPTURE(k, round);
       CHECK(found.complete);

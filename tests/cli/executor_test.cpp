@@ -52,9 +52,9 @@ TEST_CASE("auto takes several threads only where they can do it") {
   for (int i = 0; i < 240; ++i)
     for (int j = 0; j < 240; ++j) points << i << ' ' << j + 0.5 * (i % 2) << " 0\n";
   const std::string cloud = folder.write("sheet.xyz", points.str());
-  const auto executor = [&] {
-    std::vector<std::string> command = {"distance",  cloud, "--executor", "auto",
-                                        "--threads", "2",   "--json"};
+  const auto executor = [&](const std::string& accuracy) {
+    std::vector<std::string> command = {"distance", cloud,    "--executor", "auto",  "--threads",
+                                        "2",        "--json", "--accuracy", accuracy};
     for (int n = 0; n < 64; ++n) {
       command.push_back("-s");
       command.push_back("vertex:" + std::to_string(900 * n));
@@ -64,7 +64,8 @@ TEST_CASE("auto takes several threads only where they can do it") {
     REQUIRE(run.code == 0);
     return run.json()["executor"].get<std::string>();
   };
-  CHECK(executor() == (has_openmp() ? "openmp" : "serial"));
+  CHECK(executor("fast") == (has_openmp() ? "openmp" : "serial"));
+  CHECK(executor("accurate") == "serial");
 }
 
 TEST_CASE("executors and options that do not go together are usage errors") {

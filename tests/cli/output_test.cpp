@@ -48,7 +48,7 @@ TEST_CASE("with CSV on standard output the summary goes to standard error") {
   const auto run =
       run_tool({"distance", sample("torus.obj"), "--source", "vertex:0", "--out", "-", "--json"});
   REQUIRE(run.code == 0);
-  CHECK(run.out.rfind("vertex,distance\n0,0\n1,", 0) == 0);
+  CHECK(run.out.rfind("vertex,distance,error\n0,0,0\n1,", 0) == 0);
   CHECK(csv_column(run.out, "distance").size() == 1152);
   CHECK(nlohmann::json::parse(run.err)["reached"] == 1152);
 }

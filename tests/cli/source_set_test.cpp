@@ -106,6 +106,11 @@ TEST_CASE("the boundary of a solid and of a wireframe, and one of its edges") {
     const auto& [x, y, z] = places[v];
     CHECK((solid[v] == 0) == (x == 0 || x == 2 || y == 0 || y == 2 || z == 0 || z == 1 ||
                               (x == 1 && y >= 1) || (y == 1 && x >= 1)));
+    // The faces, not their vertices: exact.
+    const double far_x = std::hypot(x - 1, std::max(1 - y, 0.)),
+                 far_y = std::hypot(y - 1, std::max(1 - x, 0.));
+    const double exact = std::min({x, y, z, 1 - z, 2 - x, 2 - y, far_x, far_y});
+    CHECK(solid[v] == Approx(exact).margin(1e-6));
   }
   const Folder folder;
   const std::string wires = folder.write("y.edges", "0 1 1\n1 2 2\n1 3 4\n");

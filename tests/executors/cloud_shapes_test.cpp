@@ -11,10 +11,13 @@
 
 #include "complex/cube_distance.hpp"
 #include "complex/test_clouds.hpp"
+#include "with_accuracy.hpp"
 
+using plexway::Accuracy;
 using plexway::Index;
 using plexway::PointCloud;
 using plexway::PointSource;
+using plexway::PropagateOptions;
 using plexway::Serial;
 using Points = std::vector<std::array<double, 3>>;
 using Distance = std::function<double(std::size_t, std::size_t)>;
@@ -27,10 +30,10 @@ struct Errors {
 };
 
 Errors errors_of(const PointCloud<double>& cloud, std::size_t points, const Distance& exact,
-                 std::initializer_list<Index> sources) {
+                 std::initializer_list<Index> sources, const PropagateOptions& options = {}) {
   Errors errors;
   for (const Index source : sources) {
-    const auto found = plexway::solve(Serial{}, cloud, PointSource::at(source)).distance;
+    const auto found = plexway::solve(Serial{}, cloud, PointSource::at(source), options).distance;
     for (std::size_t v = 0; v < points; ++v) {
       const double wanted = exact(source, v);
       errors.unreached += !std::isfinite(found[v]);
@@ -110,9 +113,14 @@ TEST_CASE("a cube of points has twelve edges and is closed") {
       return plexway::testing::cube_distance(points[i], points[j]);
     };
   };
-  const Errors of_grid = errors_of(regular, grid.size(), exact(grid), {0, 100, 777});
-  CHECK(of_grid.unreached == 0);
-  CHECK(of_grid.worst < 1e-12);
+  for (const auto& [accuracy, worst] : {std::pair(Accuracy::fast(), 1e-12),
+                                        {Accuracy::exact(), 1e-12},
+                                        {Accuracy::usual(), 1e-5}}) {
+    const Errors of_grid =
+        errors_of(regular, grid.size(), exact(grid), {0, 100, 777}, plexway::testing::at(accuracy));
+    CHECK(of_grid.unreached == 0);
+    CHECK(of_grid.worst < worst);
+  }
 
   const Points points = cube_by_chance(6000, 3);
   const PointCloud<double> cube(points, test_clouds::near_pairs(points));

@@ -11,31 +11,33 @@
 #include "propagate/simplex_testing.hpp"
 #include "propagate/solid_solving.hpp"
 #include "propagate/solving.hpp"
+#include "with_accuracy.hpp"
 
 using namespace plexway;
 using namespace plexway::testing;
 namespace fs = std::filesystem;
 
-// OpenMP against Serial. Where the step is exact, order does not matter, and the two agree to
-// rounding. Elsewhere the order of updates decides which of two paths a simplex hears of first:
-// there OpenMP may differ from Serial as much as Serial's schedules do from each other, and must be
-// as accurate.
+// OpenMP against Serial, by labels (windows are one thread's: the same bits). Where the step is
+// exact, order does not matter, and the two agree to rounding. Elsewhere the order of updates
+// decides which of two paths a simplex hears of first: there OpenMP may differ from Serial as much
+// as Serial's schedules do from each other, and must be as accurate.
 
 TEMPLATE_TEST_CASE("a team agrees with one thread where the step is exact", "", float, double) {
   const double tolerance = sizeof(TestType) == 4 ? 2e-6 : 1e-13;
   unsigned seed = 0;
   const auto check = [&](const auto& domain, std::size_t count) {
     const auto sources = random_sources(domain, count, ++seed);
-    const auto alone = solve(Serial{}, domain, sources);
+    const auto alone = solve(Serial{}, domain, sources, by_labels());
     for (const int threads : {1, 2, 8}) {
-      const auto field = solve(team(threads), domain, sources);
+      const auto field = solve(team(threads), domain, sources, by_labels());
       const Parity p = parity(alone, field);
       INFO("domain " << seed << ", " << threads << " threads");
       CHECK(p.worst < tolerance);
       CHECK(p.reached_by_one == 0);
       if (p.other_label == 0) continue;
       // Labels differ at ties only: both sources are as near.
-      const auto rows = solve_each(Serial{}, domain, std::span<const PointSource>(sources));
+      const auto rows =
+          solve_each(Serial{}, domain, std::span<const PointSource>(sources), by_labels());
       for (std::size_t v = 0; v < field.label.size(); ++v) {
         if (field.label[v] == alone.label[v]) continue;
         const double a = static_cast<double>(rows.row(field.label[v])[v]);
@@ -70,7 +72,7 @@ struct Tally {
 
   template <class Domain>
   void add(const Domain& domain, const std::vector<PointSource>& sources) {
-    PropagateOptions options;
+    PropagateOptions options = by_labels();
     const auto alone = solve(Serial{}, domain, sources, options);
     team += parity(alone, solve(testing::team(2), domain, sources, options)).mean;
     double largest = 0;
@@ -114,8 +116,10 @@ TEST_CASE("a team is as accurate as one thread on a sphere") {
     return 2 *
            std::asin(std::min(std::hypot(p[0] - from[0], p[1] - from[1], p[2] - from[2]) / 2, 1.));
   });
-  const Errors alone = compare(solve(Serial{}, mesh, PointSource::at(0)).distance, exact);
-  const Errors several = compare(solve(team(8), mesh, PointSource::at(0)).distance, exact);
+  const Errors alone =
+      compare(solve(Serial{}, mesh, PointSource::at(0), by_labels()).distance, exact);
+  const Errors several =
+      compare(solve(team(8), mesh, PointSource::at(0), by_labels()).distance, exact);
   CHECK(several.fits);
   CHECK(several.mean < 1.1 * alone.mean);
   CHECK(several.max < 1.25 * alone.max);
@@ -135,11 +139,12 @@ TEST_CASE("a team is as accurate as one thread on real surfaces") {
         exact_values(exact_file("surfaces", name + (".v" + std::to_string(source)) + ".txt"));
     const TriangleMesh<float> mesh(read.positions, read.triangles);
     const auto from = PointSource::at(static_cast<Index>(source));
-    const Errors alone = compare(solve(Serial{}, mesh, from).distance, exact);
-    const Errors several = compare(solve(OpenMP{.threads = 2}, mesh, from).distance, exact);
+    const Errors alone = compare(solve(Serial{}, mesh, from, by_labels()).distance, exact);
+    const Errors several =
+        compare(solve(OpenMP{.threads = 2}, mesh, from, by_labels()).distance, exact);
     // On one mesh any order of one thread's is as good: those of beetle_car give .7 to 2.1e-3.
     double poorest = alone.mean;
-    PropagateOptions options;
+    PropagateOptions options = by_labels();
     for (const double step : {0.25, 0.5, 2.}) {
       options.step = step;
       poorest =

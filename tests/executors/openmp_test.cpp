@@ -11,6 +11,7 @@
 #include "propagate/simplex_testing.hpp"
 #include "propagate/solid_solving.hpp"
 #include "propagate/solving.hpp"
+#include "with_accuracy.hpp"
 
 using namespace plexway;
 using namespace plexway::testing;
@@ -62,7 +63,7 @@ TEMPLATE_TEST_CASE("any number of threads gives the same bits on surfaces", "[th
     for (const Visibility visibility : visibilities)
       for (const Schedule schedule : {Schedule::dual_queue, Schedule::fifo}) {
         if (schedule == Schedule::fifo && visibility != Visibility::saddles) continue;
-        PropagateOptions options;
+        PropagateOptions options = by_labels();
         options.visibility = visibility;
         options.schedule = schedule;
         INFO("surface " << seed << " " << name(options));
@@ -76,7 +77,7 @@ TEMPLATE_TEST_CASE("any number of threads gives the same bits in solids", "[thre
   for (const Solid& s :
        {solid_cube(5), l_shape(4), walled(6), edge_touch(3), vertex_touch(3), walled(4, 0)})
     for (const Visibility visibility : solid_visibilities) {
-      PropagateOptions options;
+      PropagateOptions options = by_labels();
       options.visibility = visibility;
       INFO("solid " << seed << " " << name(options));
       check_same_bits(s.mesh<TestType>(), options, ++seed);
@@ -86,10 +87,11 @@ TEMPLATE_TEST_CASE("any number of threads gives the same bits in solids", "[thre
 TEMPLATE_TEST_CASE("any number of threads gives the same bits elsewhere", "[threads]", float,
                    double) {
   for (unsigned seed = 1; seed <= 4; ++seed)
-    check_same_bits(random_wires(seed, 500, 1200, 0.7 * seed).wireframe<TestType>(), {}, seed);
-  check_same_bits(cube_grid<2>(12).template complex<TestType>(), {}, 2);
-  check_same_bits(cube_grid<3>(5, 3).template complex<TestType>(), {}, 3);
-  check_same_bits(cube_grid<4>(3).template complex<TestType>(), {}, 4);
+    check_same_bits(random_wires(seed, 500, 1200, 0.7 * seed).wireframe<TestType>(), by_labels(),
+                    seed);
+  check_same_bits(cube_grid<2>(12).template complex<TestType>(), by_labels(), 2);
+  check_same_bits(cube_grid<3>(5, 3).template complex<TestType>(), by_labels(), 3);
+  check_same_bits(cube_grid<4>(3).template complex<TestType>(), by_labels(), 4);
 }
 
 TEST_CASE("200 solves on eight threads are one", "[threads]") {
@@ -97,10 +99,10 @@ TEST_CASE("200 solves on eight threads are one", "[threads]") {
   const auto sources = random_sources(mesh, 5, 1);
   Workspace<float> workspace;
   DistanceField<float> first, field;
-  solve(team(8), mesh, sources, {}, workspace, first);
+  solve(team(8), mesh, sources, by_labels(), workspace, first);
   std::size_t others = 0;
   for (int i = 0; i < 200; ++i) {
-    solve(team(8), mesh, sources, {}, workspace, field);
+    solve(team(8), mesh, sources, by_labels(), workspace, field);
     others += !same_bits(first, field);
   }
   CHECK(others == 0);
@@ -111,7 +113,7 @@ TEST_CASE("queues grow when every vertex is a source", "[threads]") {
   std::vector<PointSource> sources;
   for (Index v = 0; v < mesh.vertex_count(); ++v) sources.push_back(PointSource::at(v));
   for (const int threads : {1, 8}) {
-    const auto field = solve(team(threads), mesh, sources);
+    const auto field = solve(team(threads), mesh, sources, by_labels());
     bool own = true;
     for (Index v = 0; v < mesh.vertex_count(); ++v)
       own = own && field.distance[v] == 0 && field.label[v] == v;
@@ -121,14 +123,14 @@ TEST_CASE("queues grow when every vertex is a source", "[threads]") {
   std::mt19937 random(3);
   for (PointSource& s : sources) s.offset = 100 * uniform(random);
   sources[7].offset = 0;
-  const auto field = solve(team(8), mesh, sources);
-  CHECK(parity(solve(Serial{}, mesh, sources), field).worst < 1.5e-6);
+  const auto field = solve(team(8), mesh, sources, by_labels());
+  CHECK(parity(solve(Serial{}, mesh, sources, by_labels()), field).worst < 1.5e-6);
 }
 
 TEST_CASE("a team keeps radius, offsets and sources inside triangles", "[threads]") {
   const Surface s = grid(30, 30);
   const auto mesh = s.mesh<double>();
-  PropagateOptions options;
+  PropagateOptions options = by_labels();
   options.radius = 0.3;
   const PointSource sources[] = {
       {.vertex = 100, .offset = 0.05}, PointSource::in(700, {.2, .3, .5}), PointSource::at(900)};
@@ -147,7 +149,7 @@ TEST_CASE("a team keeps radius, offsets and sources inside triangles", "[threads
 
 TEST_CASE("a team stops where it is told", "[threads]") {
   const auto mesh = grid(60, 60).mesh<float>();
-  PropagateOptions options;
+  PropagateOptions options = by_labels();
   const auto whole = solve(team(4), mesh, PointSource::at(0), options);
   CHECK(whole.complete);
   for (const std::size_t most : {0u, 1u, 100u, 3000u}) {
@@ -167,7 +169,7 @@ TEST_CASE("a team stops where it is told", "[threads]") {
 
 TEST_CASE("a team reports to the calling thread and can be cancelled", "[threads]") {
   const auto mesh = grid(200, 200).mesh<float>();
-  PropagateOptions options;
+  PropagateOptions options = by_labels();
   const auto caller = std::this_thread::get_id();
   std::size_t calls = 0, last = 0;
   bool in_order = true;
@@ -197,10 +199,10 @@ TEST_CASE("a team reports to the calling thread and can be cancelled", "[threads
 
 TEST_CASE("a team refuses what needs order, and settings that make no sense", "[threads]") {
   const auto mesh = grid(3, 3).mesh<float>();
-  PropagateOptions options;
+  PropagateOptions options = by_labels();
   options.schedule = Schedule::priority;
   const auto refused = [&](const OpenMP& executor, const auto& domain,
-                           const PropagateOptions& with = {}) {
+                           const PropagateOptions& with = by_labels()) {
     CHECK_THROWS_AS(solve(executor, domain, PointSource::at(0), with), UsageError);
   };
   refused({}, mesh, options);
@@ -210,11 +212,31 @@ TEST_CASE("a team refuses what needs order, and settings that make no sense", "[
   refused({.threads = -1}, mesh);
   refused({.threads = 1 << 20}, mesh);
   refused({.chunk = 0}, mesh);
-  options = {};
+  refused({.threads = -1}, mesh, {});
+  options = by_labels();
   options.visibility = Visibility::tuned;
   refused({}, solid_cube(1).mesh<float>(), options);
   CHECK_THROWS_AS(solve(OpenMP{}, mesh, PointSource::at(99)), UsageError);
   CHECK_THROWS_AS(solve(OpenMP{}, mesh, std::span<const PointSource>{}), UsageError);
+}
+
+TEMPLATE_TEST_CASE("by default a team gives the bits of one thread", "[threads]", float, double) {
+  unsigned seed = 0;
+  for (const Surface& s :
+       {sphere(4), moebius(60, 8), bow_tie(10), soup(60, 120, 1), sheets(3, 8)}) {
+    const auto mesh = s.mesh<TestType>();
+    for (const std::size_t count : {1u, 5u}) {
+      const auto sources = random_sources(mesh, count, ++seed);
+      const auto alone = solve(Serial{}, mesh, sources);
+      CHECK(alone.accuracy == Accuracy::accurate());
+      const auto several = solve(team(2), mesh, sources);
+      CHECK(same_bits(alone, several));
+      CHECK(alone.error == several.error);
+      const auto rows = solve_each(team(2), mesh, std::span<const PointSource>(sources));
+      const auto first = solve(Serial{}, mesh, sources[0]);
+      CHECK(std::equal(rows.row(0).begin(), rows.row(0).end(), first.distance.begin()));
+    }
+  }
 }
 
 TEST_CASE("nearest first is a schedule", "[threads]") {

@@ -3,6 +3,7 @@
 #include <plexway/error.hpp>
 
 #include "propagate/solving.hpp"
+#include "with_accuracy.hpp"
 
 using namespace plexway;
 using namespace plexway::testing;
@@ -51,13 +52,40 @@ TEMPLATE_TEST_CASE("options and sources that make no sense are refused", "", flo
 TEMPLATE_TEST_CASE("any step gives the same answers up to rounding", "", float, double) {
   const Surface s = random_polygon(6, 200, 300, 5);
   const auto mesh = s.mesh<TestType>();
-  PropagateOptions options;
+  PropagateOptions options = by_labels();
   for (const double step : {1e-3, .1, 1., 2., 50., infinity}) {
     options.step = step;
     const Errors e =
         compare(solve(mesh, PointSource::at(100), options), straight(s, s.positions[100]));
     CHECK(e.fits);
     CHECK(e.max < 2.5e-6);
+  }
+}
+
+TEST_CASE("options that only labels know bring labels, or are refused beside windows") {
+  const auto mesh = sphere(3).mesh<float>();
+  const PointSource source = PointSource::at(7);
+  const auto check = [&](PropagateOptions options) {
+    const auto field = plexway::solve(Serial{}, mesh, source, options);
+    CHECK(field.accuracy == Accuracy::fast());
+    CHECK(field.error.empty());
+    options.accuracy = Accuracy::fast();
+    CHECK(plexway::solve(Serial{}, mesh, source, options).distance == field.distance);
+    options.accuracy = Accuracy::accurate();
+    CHECK_THROWS_AS(plexway::solve(Serial{}, mesh, source, options), UsageError);
+  };
+  CHECK(plexway::solve(Serial{}, mesh, source).accuracy == Accuracy::accurate());
+  PropagateOptions options;
+  options.step = 2;
+  check(options);
+  options = {};
+  options.vectorised = false;
+  check(options);
+  for (const Visibility visibility :
+       {Visibility::tuned, Visibility::centroid, Visibility::upper_bound}) {
+    options = {};
+    options.visibility = visibility;
+    check(options);
   }
 }
 
@@ -94,27 +122,28 @@ TEMPLATE_TEST_CASE("within the radius nothing changes, beyond is out of reach", 
 
 TEMPLATE_TEST_CASE("an expansion budget ends a propagation early", "", float, double) {
   const auto mesh = large().mesh<TestType>();
-  const auto whole = plexway::solve(Serial{}, mesh, PointSource::at(0));
-  CHECK(whole.complete);
-  CHECK(whole.statistics.reached_simplices == mesh.face_count());
-  CHECK(whole.statistics.updates >= mesh.face_count());
-  for (const std::size_t budget : {0ul, 1ul, 1000ul, 70000ul}) {
-    PropagateOptions options;
-    options.max_expansions = budget;
-    const auto part = plexway::solve(Serial{}, mesh, PointSource::at(0), options);
-    CAPTURE(budget);
-    CHECK_FALSE(part.complete);
-    CHECK(part.statistics.expansions <= budget);
-    CHECK(part.distance[0] == 0);
-    bool valid = true;
-    for (std::size_t v = 0; v < part.distance.size(); ++v)
-      valid &= part.distance[v] >= whole.distance[v] * TestType(1 - 1e-5);
-    CHECK(valid);
-    CHECK(std::isinf(part.distance.back()));
+  for (const Accuracy accuracy : {Accuracy::fast(), Accuracy::usual()}) {
+    PropagateOptions options = at(accuracy);
+    const auto whole = plexway::solve(Serial{}, mesh, PointSource::at(0), options);
+    CHECK(whole.complete);
+    CHECK(whole.statistics.reached_simplices == mesh.face_count());
+    if (accuracy == Accuracy::fast()) CHECK(whole.statistics.updates >= mesh.face_count());
+    for (const std::size_t budget : {0ul, 1ul, 1000ul, 70000ul}) {
+      options.max_expansions = budget;
+      const auto part = plexway::solve(Serial{}, mesh, PointSource::at(0), options);
+      CAPTURE(accuracy.error(), budget);
+      CHECK_FALSE(part.complete);
+      CHECK(part.statistics.expansions <= budget);
+      CHECK(part.distance[0] == 0);
+      bool valid = true;
+      for (std::size_t v = 0; v < part.distance.size(); ++v)
+        valid &= part.distance[v] >= whole.distance[v] * TestType(1 - 1e-5);
+      CHECK(valid);
+      CHECK(std::isinf(part.distance.back()));
+    }
+    options.max_expansions = whole.statistics.expansions + 1;
+    CHECK(plexway::solve(Serial{}, mesh, PointSource::at(0), options).complete);
   }
-  PropagateOptions ample;
-  ample.max_expansions = whole.statistics.expansions + 1;
-  CHECK(plexway::solve(Serial{}, mesh, PointSource::at(0), ample).complete);
 }
 
 TEMPLATE_TEST_CASE("progress is told and may cancel", "", float, double) {

@@ -12,6 +12,7 @@
 #include "complex/flat_curves.hpp"
 #include "complex/test_meshes.hpp"
 #include "complex/test_solids.hpp"
+#include "with_accuracy.hpp"
 
 using namespace plexway;
 using namespace plexway::testing;
@@ -247,11 +248,16 @@ TEST_CASE("a circle is as far inside as outside") {
   const Rule rule = [&](const Position& p) {
     return std::abs(std::hypot(p[0] - 0.5, p[1] - 0.5) - 0.3) + 0.1;
   };
-  CHECK(errors(s, solve(Serial{}, s.mesh<double>(), Source(circle)).distance, rule, 0.1).max <
-        1e-12);
-  CHECK(errors(s, solve(Serial{}, s.mesh<float>(), Source(circle)).distance, rule, 0.1).max < 4e-6);
-  CHECK(errors(s, solve(OpenMP{2}, s.mesh<float>(), Source(circle)).distance, rule, 0.1).max <
-        4e-6);
+  const auto off = [&](const auto& executor, const auto& mesh, const PropagateOptions& options) {
+    return errors(s, solve(executor, mesh, Source(circle), options).distance, rule, 0.1).max;
+  };
+  CHECK(off(Serial{}, s.mesh<double>(), by_labels()) < 1e-12);
+  CHECK(off(Serial{}, s.mesh<double>(), at(Accuracy::exact())) < 1e-12);
+  CHECK(off(Serial{}, s.mesh<float>(), by_labels()) < 4e-6);
+  CHECK(off(OpenMP{2}, s.mesh<float>(), by_labels()) < 4e-6);
+  CHECK(off(Serial{}, s.mesh<double>(), {}) < 1e-9);
+  CHECK(off(Serial{}, s.mesh<float>(), {}) < 1e-4);
+  CHECK(off(OpenMP{2}, s.mesh<float>(), {}) < 1e-4);
   // Within a radius of 0.15: only beside the rim.
   const auto bounded = solve(Serial{}, s.mesh<double>(), Source(circle), {.radius = 0.15});
   for (std::size_t v = 0; v < s.positions.size(); ++v)
@@ -267,7 +273,7 @@ TEST_CASE("several sources of all kinds give the least and say whose it is") {
       BallSource{.centre = PointSource::at(s.nearest(0.75, 0.5)), .radius = 0.2},
       PointSource::at(s.nearest(0.75, 0.5)),
       VertexSource{.vertices = {0, 40}, .offsets = {0.1, 0}, .offset = 0.05}};
-  const auto field = solve(Serial{}, mesh, sources);
+  const auto field = solve(Serial{}, mesh, sources, by_labels());
   const Position c = {0.75, 0.5, 0};
   const auto to = [&](std::size_t n, const Position& p) {
     const double d = std::hypot(p[0] - c[0], p[1] - c[1]);
@@ -288,6 +294,13 @@ TEST_CASE("several sources of all kinds give the least and say whose it is") {
   }
   CHECK(worst < 1e-6);
   CHECK(wrong == 0);
+  // By default what starts at the ball is found by windows.
+  const auto usual = solve(Serial{}, mesh, sources);
+  CHECK(usual.label == field.label);
+  double apart = 0;
+  for (std::size_t v = 0; v < s.positions.size(); ++v)
+    apart = std::max(apart, std::abs(usual.distance[v] - field.distance[v]));
+  CHECK(apart < 1e-4);
 }
 
 TEST_CASE("a field goes on from the values of another") {

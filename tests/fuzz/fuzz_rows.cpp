@@ -6,8 +6,8 @@
 
 #include <string>
 
-#include "cli/report/table_file.hpp"
-#include "cli/report/truth_file.hpp"
+#include "any/errors/truth_file.hpp"
+#include "any/tuning/policy_file.hpp"
 #include "fuzz_reader.hpp"
 #include "io/number_rows.hpp"
 
@@ -26,14 +26,14 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
           for (const double x : row.numbers) fuzz::require(!std::isnan(x), "no NaN in a row");
         break;
       case 1:
-        for (const double x : plexway::cli::read_truth(name, 3 + kind / 16))
+        for (const double x : plexway::read_truth(name, 3 + kind / 16))
           fuzz::require(!(x < 0), "no distance below 0");
         break;
       case 2:
-        (void)plexway::cli::read_probe_table(name);
+        (void)plexway::read_probe_table(name);
         break;
       default:
-        (void)plexway::cli::read_saddle_thresholds(name);
+        (void)plexway::read_saddle_thresholds(name);
     }
   } catch (const plexway::InputError& error) {
     const std::string_view message = error.what();

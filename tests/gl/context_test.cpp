@@ -14,6 +14,7 @@
 #include "executors/gl/program.hpp"
 #include "executors/gl/shader_text.hpp"
 #include "gl/device.hpp"
+#include "with_accuracy.hpp"
 
 using namespace plexway;
 using namespace plexway::testing;
@@ -160,7 +161,7 @@ TEST_CASE("what context was current stays so, and threads take turns", "[gl]") {
   if (!device()) return;
   const auto mesh = grid(12, 12).mesh<float>();
   const PointSource source = PointSource::at(3);
-  const auto expected = solve(Serial{}, mesh, source).distance;
+  const auto expected = solve(Serial{}, mesh, source, by_labels()).distance;
   CHECK(eglGetCurrentContext() == EGL_NO_CONTEXT);
   std::vector<std::thread> threads;
   std::vector<DistanceField<float>> fields(4);

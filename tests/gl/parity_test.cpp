@@ -15,6 +15,7 @@
 #include "complex/test_wires.hpp"
 #include "exact_data.hpp"
 #include "gl/device.hpp"
+#include "with_accuracy.hpp"
 
 using namespace plexway;
 using namespace plexway::testing;
@@ -26,7 +27,7 @@ struct Together {
 
   template <class Domain>
   Together(const Domain& domain, std::span<const PointSource> sources) {
-    PropagateOptions options;
+    PropagateOptions options = by_labels();
     options.vectorised = false;
     team = solve(OpenMP{.threads = 2}, domain, sources, options);
     device = solve(GL{}, domain, sources, options);

@@ -8,6 +8,7 @@
 
 #include "complex/test_meshes.hpp"
 #include "gl/device.hpp"
+#include "with_accuracy.hpp"
 
 using namespace plexway;
 using namespace plexway::testing;
@@ -36,7 +37,7 @@ TEST_CASE("queues on a device that are too short grow and nothing is lost", "[gl
   const auto mesh = s.mesh<float>();
   for (const std::size_t count : {1u, 30u}) {
     const auto sources = some_sources(s.positions.size(), count);
-    const auto serial = plexway::solve(Serial{}, mesh, sources);
+    const auto serial = plexway::solve(Serial{}, mesh, sources, by_labels());
     for (const std::size_t queue : {1u, 2u, 17u, 100u}) {
       GL executor;
       executor.queue = queue;
@@ -61,7 +62,7 @@ TEST_CASE("queues grow where labels are put in between rounds", "[gl]") {
   const Surface s = bow_tie(8);  // the other half is entered through its pinch
   const auto mesh = s.mesh<float>();
   const PointSource source = PointSource::at(3);
-  const auto serial = plexway::solve(Serial{}, mesh, source);
+  const auto serial = plexway::solve(Serial{}, mesh, source, by_labels());
   GL executor;
   executor.queue = 1;
   GLWorkspace workspace;
@@ -171,7 +172,8 @@ TEST_CASE("a workspace on a device may meet another domain", "[gl]") {
     const auto mesh = grid(n, n).mesh<float>();
     plexway::solve(GL{}, mesh, sources, {}, workspace, field);
     CHECK(field.distance.size() == (n + 1) * (n + 1));
-    CHECK(difference(plexway::solve(Serial{}, mesh, source).distance, field.distance).max < 1e-5);
+    CHECK(difference(plexway::solve(Serial{}, mesh, source, by_labels()).distance, field.distance)
+              .max < 1e-5);
   }
   CHECK(workspace.bytes() > 0);
 }

@@ -20,6 +20,7 @@
 #include "gl/device.hpp"
 #include "gl/rounds_reference.hpp"
 #include "propagate/solving.hpp"
+#include "with_accuracy.hpp"
 
 using namespace plexway;
 using namespace plexway::testing;
@@ -39,7 +40,7 @@ Difference spread_of(const Surface& surface, std::span<const PointSource> source
     spread = most(spread, difference(distance, solve(Serial{}, mesh, sources, options).distance));
   };
   const auto mesh = surface.mesh<float>();
-  PropagateOptions options;
+  PropagateOptions options = by_labels();
   for (const double step : {0.05, 0.25, 0.5, 2., 3., 5., 8.}) {
     options.step = step;
     add(mesh, options);
@@ -48,7 +49,7 @@ Difference spread_of(const Surface& surface, std::span<const PointSource> source
     const Difference rounds = difference(distance, RoundsReference(mesh, sources, step).distance());
     if (rounds.fits) spread = most(spread, rounds);
   }
-  options = {};
+  options = by_labels();
   options.vectorised = false;
   add(mesh, options);
   for (const Schedule schedule : {Schedule::fifo, Schedule::priority}) {
@@ -90,7 +91,8 @@ void check_labels(const TriangleMesh<float>& mesh, std::span<const PointSource> 
                   double close) {
   REQUIRE(field.label.size() == field.distance.size());
   std::vector<std::vector<float>> alone;
-  for (const PointSource& s : sources) alone.push_back(solve(Serial{}, mesh, s).distance);
+  for (const PointSource& s : sources)
+    alone.push_back(solve(Serial{}, mesh, s, by_labels()).distance);
   std::size_t others = 0;
   for (std::size_t v = 0; v < field.label.size(); ++v) {
     const Index label = field.label[v];
@@ -122,7 +124,7 @@ Totals compare(const Surface& surface, std::size_t count = 1) {
                  : PointSource::at(surface.faces[below(random, surface.faces.size())][0]));
       if (turn == 1) sources.back().offset = 0.3 * mesh.unit() * uniform(random);
     }
-    const auto serial = solve(Serial{}, mesh, sources);
+    const auto serial = solve(Serial{}, mesh, sources, by_labels());
     const Difference spread = spread_of(surface, sources, serial.distance);
     DistanceField<float> field;
     solve(GL{}, mesh, sources, {}, workspace, field);
@@ -275,7 +277,7 @@ TEST_CASE("real surfaces on a device are as near to the truth as the serial exec
     const Errors by_device = testing::compare(solve(GL{}, mesh, source).distance, exact);
     // Any order is as good: the serial executor's, and that of a team, whose rounds these are.
     Errors by_serial;
-    PropagateOptions options;
+    PropagateOptions options = by_labels();
     options.vectorised = false;
     double poorest =
         openmp_built()
@@ -314,7 +316,7 @@ TEST_CASE("one field a source on a device", "[gl]") {
     CHECK(solve_each(executor, mesh, sources, {}, workspace, all));
     Totals totals;
     for (std::size_t k = 0; k < sources.size(); ++k) {
-      const auto one = solve(Serial{}, mesh, sources[k]).distance;
+      const auto one = solve(Serial{}, mesh, sources[k], by_labels()).distance;
       const std::span<const float> row(all.data() + k * vertices, vertices);
       totals.add(difference(one, row),
                  spread_of(s, std::span<const PointSource>(&sources[k], 1), one));

@@ -16,7 +16,7 @@ const std::map<std::string, int> floor_of_name = {
     {"error.hpp", 0},   {"version.hpp", 0}, {"kernel", 0},         {"file", 0},
     {"complex", 1},     {"source", 1},      {"metric", 1},         {"domain", 1},
     {"propagate", 2},   {"executors", 3},   {"executors.hpp", 3},  {"solve.hpp", 3},
-    {"support.hpp", 3}, {"complexes", 4},   {"apps", 5},           {"io", 6},
+    {"support.hpp", 3}, {"carried.hpp", 3}, {"complexes", 4},   {"apps", 5},           {"io", 6},
     {"render", 6},      {"any", 7},         {"any_domain.hpp", 7}, {"cli", 8},
     {"shaders", 0},     {"plexway.hpp", 8},
 };

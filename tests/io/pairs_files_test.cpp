@@ -214,7 +214,18 @@ TEST_CASE("a journal remembers finished blocks, and nothing that is not whole") 
   CHECK(journal.is_complete());
   journal.remove();
   CHECK(folder.files() == 0);
+  {
+    BlockJournal another(out, what, 5);
+    another.finish(4, {}, nothing);
+    another.flush(nothing);
+    CHECK_THROWS_WITH(BlockJournal::discard(out), Catch::Contains("another run"));
+  }
+  BlockJournal::discard(out);
+  BlockJournal::discard(out);  // nothing there
+  CHECK(folder.files() == 0);
   folder.write("n.npy.journal", "a diary");
+  CHECK_THROWS_WITH(BlockJournal::discard(folder.at("n.npy")),
+                    Catch::Contains("no journal of ours"));
   CHECK_THROWS_WITH(BlockJournal(folder.at("n.npy"), what, 5),
                     Catch::Contains("no journal of ours"));
   CHECK(content(folder.at("n.npy.journal")) == "a diary");

@@ -14,6 +14,7 @@
 #include "complex/test_meshes.hpp"
 #include "complex/test_solids.hpp"
 #include "executors/crew.hpp"
+#include "with_accuracy.hpp"
 
 using namespace plexway;
 using namespace plexway::testing;
@@ -33,12 +34,14 @@ Surface with_far_corner(double away) {
 
 template <class Real>
 double largest_error(const Surface& s) {
-  const auto d = plexway::solve(Serial{}, s.mesh<Real>(), from(17)).distance;
   double worst = 0;
-  for (std::size_t v = 0; v + 1 < s.positions.size(); ++v) {
-    const auto &p = s.positions[v], &q = s.positions[17];
-    const double exact = std::hypot(p[0] - q[0], p[1] - q[1]);
-    worst = std::max(worst, std::abs(static_cast<double>(d[v]) - exact));
+  for (const Accuracy accuracy : {Accuracy::fast(), Accuracy::usual()}) {
+    const auto d = plexway::solve(Serial{}, s.mesh<Real>(), from(17), at(accuracy)).distance;
+    for (std::size_t v = 0; v + 1 < s.positions.size(); ++v) {
+      const auto &p = s.positions[v], &q = s.positions[17];
+      const double exact = std::hypot(p[0] - q[0], p[1] - q[1]);
+      worst = std::max(worst, std::abs(static_cast<double>(d[v]) - exact));
+    }
   }
   return worst;
 }

@@ -7,6 +7,7 @@
 #include <plexway/solve.hpp>
 
 #include "propagate/solving.hpp"
+#include "with_accuracy.hpp"
 
 using namespace plexway;
 using namespace plexway::testing;
@@ -80,7 +81,8 @@ void check_surface(const Surface& s, const std::vector<Index>& from) {
       check_field(s, {field.distance.begin(), field.distance.end()}, from, slack);
     };
     check(plexway::solve(Serial{}, mesh, all));
-    check(plexway::solve(OpenMP{2}, mesh, all));
+    check(plexway::solve(Serial{}, mesh, all, by_labels()));
+    check(plexway::solve(OpenMP{2}, mesh, all, by_labels()));
   }
 }
 
@@ -95,8 +97,8 @@ TEMPLATE_TEST_CASE("no distance is below the straight line around a spike", "", 
       for (const Index source : {0u, 33u, 63u, 80u}) {
         check_surface<TestType>(s, {source});
         const auto flipped = IntrinsicDelaunay(s.mesh<double>()).mesh<TestType>();
-        raised +=
-            plexway::solve(Serial{}, flipped, PointSource::at(source)).statistics.raised_vertices;
+        raised += plexway::solve(Serial{}, flipped, PointSource::at(source), by_labels())
+                      .statistics.raised_vertices;
       }
       check_surface<TestType>(s, {7, 33, 78});
     }
@@ -114,7 +116,8 @@ TEMPLATE_TEST_CASE("in fans of thin triangles no vertex is farther than a neighb
     check_surface<TestType>(s, {0, 75});
     const auto flipped = IntrinsicDelaunay(s.mesh<double>()).mesh<TestType>();
     CHECK(flipped.has_chords());
-    lowered += plexway::solve(Serial{}, flipped, PointSource::at(1)).statistics.lowered_vertices;
+    lowered += plexway::solve(Serial{}, flipped, PointSource::at(1), by_labels())
+                   .statistics.lowered_vertices;
   }
   CHECK(lowered > 0);
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <catch2/catch.hpp>
 #include <span>
 #include <string>
 #include <type_traits>
@@ -22,12 +23,14 @@ template <class Real>
 void solve_windows(const TriangleMesh<Real>& mesh, std::span<const PointSource> sources,
                    Accuracy accuracy, PropagateOptions options, Workspace<Real>& workspace,
                    DistanceField<Real>& field) {
-  if (std::is_same_v<Real, float> && accuracy == Accuracy::exact()) {
-    workspace.windows.on(mesh).solve(sources, accuracy, options, workspace, field);
-    return;
-  }
   options.accuracy = accuracy;
-  plexway::solve(Serial{}, mesh, sources, options, workspace, field);
+  if (std::is_same_v<Real, float> && accuracy == Accuracy::exact()) {
+    const bool solved =
+        workspace.windows.on(mesh).solve(sources, accuracy, options, workspace, field);
+    CHECK(solved);
+  } else {
+    plexway::solve(Serial{}, mesh, sources, options, workspace, field);
+  }
 }
 
 template <class Real>

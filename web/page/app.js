@@ -198,6 +198,7 @@ async function open(files, sampleIndex = '') {
 }
 
 async function openSample(index) {
+  calm();
   try {
     const names = samples[index].files;
     const files = await Promise.all(names.map(async (name) => ({ name, bytes: await beside(`samples/${name}`) })));
@@ -208,6 +209,7 @@ async function openSample(index) {
 }
 
 async function openFiles(list) {
+  calm();
   try {
     const chosen = [...list];
     if (chosen.length === 0) return;

@@ -53,9 +53,9 @@ export function torus(vertices) {
 }
 
 // Milliseconds of a solve by the tool, the median of many.
-export function solveMsByTool(file) {
+export function solveMsByTool(file, accuracy = 'fast') {
   const told = JSON.parse(execFileSync(tool,
-    ['bench', file, '--source', 'vertex:0', '--repeats', '31', '--json'], { encoding: 'utf8', stdio: ['ignore', 'pipe', 'ignore'] }));
+    ['bench', file, '--source', 'vertex:0', '--accuracy', accuracy, '--repeats', '31', '--json'], { encoding: 'utf8', stdio: ['ignore', 'pipe', 'ignore'] }));
   return (told.ns_per_vertex * told.vertices) / 1e6;
 }
 

@@ -94,6 +94,10 @@ class AnyField {
   [[nodiscard]] Accuracy accuracy() const {
     return std::visit([](const auto& f) { return f.accuracy; }, data);
   }
+  /// Did windows become too many, so that labels did it (DistanceField::windows_gave_up)?
+  [[nodiscard]] bool windows_gave_up() const {
+    return std::visit([](const auto& f) { return f.windows_gave_up; }, data);
+  }
   /// What it cost.
   [[nodiscard]] const PropagateStatistics& statistics() const {
     return std::visit([](const auto& f) -> const PropagateStatistics& { return f.statistics; },

@@ -164,9 +164,9 @@ class AnyShape {
   /// where the domain is neither a surface nor a wireframe with positions, InputError where no path
   /// leads.
   [[nodiscard]] CurveSource joined(std::span<const PointSource> points) const;
-  /// The whole boundary: of a surface as a curve, of a solid the vertices of its boundary, of a
-  /// wireframe the ends of single edges. Throws InputError where there is none, UsageError for
-  /// other kinds.
+  /// The whole boundary: of a surface as a curve, of a solid its faces (every vertex with its exact
+  /// distance; by lengths alone the boundary's vertices), of a wireframe the ends of single edges.
+  /// Throws InputError where there is none, UsageError for other kinds.
   [[nodiscard]] Source boundary(double offset = 0) const;
 
   /// Lengths by a metric. Triangles may measure an edge they share in two ways where the metric

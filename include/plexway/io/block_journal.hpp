@@ -56,6 +56,9 @@ class BlockJournal {
   /// refuses.
   BlockJournal(const std::filesystem::path& out, const Description& description,
                std::size_t blocks);
+  /// Forgets what an earlier run of `out` left, whatever its description. Throws Error if another
+  /// run holds it, or if what is in the place is no journal.
+  static void discard(const std::filesystem::path& out);
   ~BlockJournal();
   BlockJournal(const BlockJournal&) = delete;
   BlockJournal& operator=(const BlockJournal&) = delete;
@@ -96,7 +99,9 @@ class BlockJournal {
   [[nodiscard]] static std::filesystem::path path_of(const std::filesystem::path& out);
 
  private:
+  explicit BlockJournal(const std::filesystem::path& out);
   void open();
+  [[nodiscard]] std::string content() const;
   void read(const std::string& header);
   void append(const std::string& text);
   [[noreturn]] void refused(int code) const;

@@ -23,6 +23,16 @@
 
 namespace plexway::io {
 
+/// What a domain's rows are handed over in.
+template <class D>
+struct RowNumber {
+  /// Its own numbers; double where they are hidden (any/pairs.hpp).
+  using Type = RealOf<D>;
+};
+/// The same.
+template <class D>
+using RowReal = typename RowNumber<D>::Type;
+
 namespace detail {
 
 /// Runs `solve` for what the journal lacks, and keeps what is finished if it ends by an error.
@@ -56,16 +66,17 @@ struct RowOutput {
 };
 
 /// The rows that the journal lacks, by `all_pairs`, into one file or several at once. `wanted` is
-/// not asked for. Throws as all_pairs, BlockJournal and MatrixFile; what was finished before stays.
-template <RowExecutor E, DomainType D>
+/// not asked for. Any domain that all_pairs takes: AnyDomain with any/pairs.hpp. Throws as
+/// all_pairs, BlockJournal and MatrixFile; what was finished before stays.
+template <class E, class D>
 PairsReport write_pairs(const E& executor, const D& domain, const PairsRequest& request,
-                        std::span<const RowOutput<RealOf<D>>> outputs, BlockJournal& journal) {
+                        std::span<const RowOutput<RowReal<D>>> outputs, BlockJournal& journal) {
   const auto sync = [&] {
     for (const auto& output : outputs) output.file.sync();
   };
   return detail::run_with_journal(request, journal, sync, [&](const PairsRequest& missing) {
     return all_pairs(executor, domain, missing,
-                     {[&](std::size_t row, DenseRow<RealOf<D>> distance) {
+                     {[&](std::size_t row, DenseRow<RowReal<D>> distance) {
                         for (const auto& output : outputs) {
                           if (output.made)
                             output.file.template write_row<double>(row, output.made(distance));
@@ -78,23 +89,23 @@ PairsReport write_pairs(const E& executor, const D& domain, const PairsRequest& 
 }
 
 /// Into one file.
-template <RowExecutor E, DomainType D>
+template <class E, class D>
 PairsReport write_pairs(const E& executor, const D& domain, const PairsRequest& request,
                         MatrixFile& file, BlockJournal& journal) {
-  const RowOutput<RealOf<D>> output{file};
-  return write_pairs(executor, domain, request, std::span<const RowOutput<RealOf<D>>>(&output, 1),
+  const RowOutput<RowReal<D>> output{file};
+  return write_pairs(executor, domain, request, std::span<const RowOutput<RowReal<D>>>(&output, 1),
                      journal);
 }
 
 /// The same of what is near, by `near_pairs`.
-template <RowExecutor E, DomainType D>
+template <class E, class D>
 PairsReport write_near_pairs(const E& executor, const D& domain, const PairsRequest& request,
                              const NearLimits& limits, SparseFile& file, BlockJournal& journal) {
   const auto sync = [&] { file.sync(); };
   return detail::run_with_journal(request, journal, sync, [&](const PairsRequest& missing) {
     return near_pairs(
         executor, domain, missing, limits,
-        {[&](std::size_t row, SparseRow<RealOf<D>> near) {
+        {[&](std::size_t row, SparseRow<RowReal<D>> near) {
            std::vector<SparseEntry> entries;
            entries.reserve(near.size());
            for (const auto& [column, distance] : near)

@@ -14,8 +14,11 @@ class Accuracy {
   /// By which rule: `usual` chooses one, `fast` is labels, `merged` and `exact` are windows.
   enum class Kind { usual, fast, merged, exact };
 
-  /// For who does not choose: `fast`; but sheets of a mixed domain that join to one surface are
-  /// solved by windows, in double exactly.
+  /// For who does not choose: `accurate` where windows go (support.hpp), else `fast`. So it is
+  /// `fast` on executor GL, under refraction, from curves and triangles, and with options that are
+  /// of labels (Visibility but saddles, a step). Sheets of a mixed domain that join to one surface
+  /// are solved by windows, in double exactly. Where windows become too many, labels take over
+  /// (DistanceField::windows_gave_up); asked for by name, windows end with EndlessError there.
   static constexpr Accuracy usual() { return Accuracy(Kind::usual, 7e-5); }
   /// One label a simplex: on surfaces mean errors of 3e-4 to 2e-3, single vertices more.
   static constexpr Accuracy fast() { return Accuracy(Kind::fast, 1e-3); }

@@ -36,6 +36,8 @@ struct DistanceField {
   std::vector<Real> error;
   Accuracy accuracy = Accuracy::fast();  ///< by which it was solved, never `usual`
   bool complete = true;                  ///< false if max_expansions ended the propagation early
+  /// Accuracy::usual: windows became too many here, so labels did it, and `accuracy` is fast.
+  bool windows_gave_up = false;
   /// What it cost.
   PropagateStatistics statistics;
 };

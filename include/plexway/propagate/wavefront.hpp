@@ -142,6 +142,10 @@ class Wavefront {
     countdown_ = expansions;
   }
 
+  /// For rules whose steps take microseconds: shares are small, so that who wants to stop is heard
+  /// within some hundredths of a second.
+  void expect_slow_steps() { share_ = 4096; }
+
   /// Grants the next share of the budget and reports progress. `distance` is where the front is.
   /// False if the budget is spent. Throws Cancelled, and EndlessError.
   bool take_stock(Real distance) {
@@ -151,9 +155,8 @@ class Wavefront {
             {granted_, reached_, simplices_, static_cast<double>(distance) * unit_}))
       throw Cancelled("cancelled by the progress callback");
     check_end(granted_, simplices_);
-    constexpr std::size_t share = 65536;
     const std::size_t most = options_->max_expansions;
-    countdown_ = granted_ < most ? std::min(share, most - granted_) : 0;
+    countdown_ = granted_ < most ? std::min(share_, most - granted_) : 0;
     granted_ += countdown_;
     out_of_budget_ = countdown_ == 0;
     return countdown_ != 0;
@@ -172,6 +175,7 @@ class Wavefront {
   std::size_t simplices_;
   double unit_;
   const PropagateOptions* options_;
+  std::size_t share_ = 65536;
   std::size_t countdown_ = 0, granted_ = 0, updates_ = 0, reached_ = 0;
   bool out_of_budget_ = false;
 };

@@ -10,17 +10,17 @@
 #include <plexway/any_domain.hpp>
 #include <plexway/error.hpp>
 
+#include "any/arguments/point_argument.hpp"
+#include "any/errors/edge_dijkstra.hpp"
+#include "any/errors/truth_file.hpp"
+#include "any/info/error_classes.hpp"
+#include "any/info/report.hpp"
 #include "cli/commands/commands.hpp"
 #include "cli/options/input.hpp"
 #include "cli/options/solve_options.hpp"
-#include "cli/options/source_argument.hpp"
 #include "cli/options/triangulation_option.hpp"
-#include "cli/report/anatomy.hpp"
 #include "cli/report/console.hpp"
-#include "cli/report/dijkstra_peer.hpp"
 #include "cli/report/progress.hpp"
-#include "cli/report/report.hpp"
-#include "cli/report/truth_file.hpp"
 
 namespace plexway::cli {
 namespace {
@@ -103,7 +103,7 @@ std::size_t field_bytes(const AnyField& field) {
 // Every source in turn, the two solvers in turn: one source again and again would train the branch
 // predictor, and blocks of one solver would see another clock than blocks of the other.
 Times measure(const BenchCommand& command, const AnyDomain& solver, AnyField& field,
-              DijkstraPeer* dijkstra, const std::vector<PointSource>& sources,
+              EdgeDijkstra* dijkstra, const std::vector<PointSource>& sources,
               const PropagateOptions& options, const Executor& executor, ProgressLine& progress) {
   const Domain& domain = solver.shape();
   Times times;
@@ -200,7 +200,7 @@ void run_bench(const BenchCommand& command) {
   const auto truths = read_truths(command, domain);
   if (command.anatomy && truths.empty())
     throw UsageError("--anatomy splits errors: give the exact distances with --truth");
-  std::optional<Anatomy> anatomy;
+  std::optional<ErrorClasses> anatomy;
   if (command.anatomy) anatomy.emplace(domain);
 
   progress.phase("building");
@@ -209,7 +209,7 @@ void run_bench(const BenchCommand& command) {
   AnyField field;
   result.build = solver.build_seconds();
   const Stopwatch building_graph;
-  const auto dijkstra = make_dijkstra_peer(domain, precision);
+  const auto dijkstra = make_edge_dijkstra(domain, precision);
   result.dijkstra_build = building_graph.seconds();
   result.has_dijkstra = dijkstra != nullptr;
 

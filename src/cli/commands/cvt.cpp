@@ -11,10 +11,10 @@
 #include <plexway/io/field.hpp>
 #include <plexway/solve.hpp>
 
+#include "any/point_file.hpp"
 #include "cli/commands/commands.hpp"
 #include "cli/commands/sampling_command.hpp"
 #include "cli/report/distance_output.hpp"
-#include "cli/report/point_output.hpp"
 #include "cli/report/progress.hpp"
 
 namespace plexway::cli {
@@ -97,7 +97,7 @@ void run_cvt(const CvtCommand& command) {
   for (const Index l : result.label)
     labels.push_back(l == none ? -1 : static_cast<std::int32_t>(l));
   if (command.picture.wanted()) {
-    PictureContent content;
+    SceneContent content;
     content.distance = result.distance;
     content.label = labels;
     for (const PointSource& seed : voronoi.seeds) content.dots.push_back(domain.position(seed));

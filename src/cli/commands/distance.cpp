@@ -1,9 +1,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <memory>
-#include <set>
 #include <string>
 #include <vector>
 
@@ -12,7 +10,11 @@
 #include <plexway/error.hpp>
 #include <plexway/io/field.hpp>
 
+#include "any/arguments/source_argument.hpp"
+#include "any/cloud_words.hpp"
+#include "any/field_remarks.hpp"
 #include "any/fill.hpp"
+#include "any/info/report.hpp"
 #include "cli/commands/commands.hpp"
 #include "cli/exit_codes.hpp"
 #include "cli/options/input.hpp"
@@ -20,14 +22,10 @@
 #include "cli/options/metric_options.hpp"
 #include "cli/options/picture_options.hpp"
 #include "cli/options/solve_options.hpp"
-#include "cli/options/source_set.hpp"
 #include "cli/options/triangulation_option.hpp"
-#include "cli/report/cloud_words.hpp"
 #include "cli/report/console.hpp"
 #include "cli/report/distance_output.hpp"
 #include "cli/report/progress.hpp"
-#include "cli/report/report.hpp"
-#include "cli/report/source_marks.hpp"
 
 namespace plexway::cli {
 namespace {
@@ -50,12 +48,8 @@ struct DistanceCommand {
 };
 
 // What came out, as far as a report tells it.
-struct Outcome {
+struct Outcome : FieldReach {
   double build = 0, solve = 0;
-  std::size_t reached = 0;        // sources included
-  std::size_t beside_source = 0;  // reached, and not a source
-  double max_distance = 0;
-  std::size_t farthest = 0;
   Executor executor;
 };
 
@@ -63,31 +57,6 @@ std::string executor_text(const Executor& executor) {
   const std::size_t threads = executor_threads(executor);
   return std::string(executor_name(executor)) +
          (threads > 1 ? " with " + counted(threads, "threads") : "");
-}
-
-Outcome survey(const std::vector<double>& distance, const std::vector<Source>& sources) {
-  Outcome outcome;
-  outcome.max_distance = -std::numeric_limits<double>::infinity();
-  for (std::size_t v = 0; v < distance.size(); ++v) {
-    if (!std::isfinite(distance[v])) continue;
-    ++outcome.reached;
-    if (distance[v] <= outcome.max_distance) continue;
-    outcome.max_distance = distance[v];
-    outcome.farthest = v;
-  }
-  std::set<Index> at;
-  const auto take = [&](Index v) {
-    if (v != none && std::isfinite(distance[v])) at.insert(v);
-  };
-  for (const Source& source : sources) {
-    if (const auto* point = std::get_if<PointSource>(&source)) take(point->vertex);
-    if (const auto* set = std::get_if<VertexSource>(&source))
-      for (const Index v : set->vertices) take(v);
-  }
-  // Where sets leave nothing to reach, nothing failed.
-  const bool covered = at.size() == distance.size() && as_points(sources).empty();
-  outcome.beside_source = covered ? at.size() : outcome.reached - at.size();
-  return outcome;
 }
 
 Json to_json(const DistanceCommand& command, const AnyDomain& solver, const AnyField& field,
@@ -174,84 +143,6 @@ std::string to_text(const DistanceCommand& command, const AnyDomain& solver, con
   return table.text();
 }
 
-// Vertices in no simplex.
-std::size_t count_apart(const Domain& domain) {
-  std::vector<bool> used(domain.vertices(), false);
-  for (std::size_t s = 0; s < domain.simplices(); ++s)
-    for (const auto v : domain.corners(s)) used[v] = true;
-  return static_cast<std::size_t>(std::count(used.begin(), used.end(), false));
-}
-
-// Why not all was reached.
-std::string why_unreached(const AnyDomain& solver, bool bounded) {
-  const Domain& domain = solver.shape();
-  std::string why;
-  if (domain.cloud() != nullptr) {
-    if (solver.components() > 1) why = why_disconnected(*domain.cloud(), solver.components());
-  } else {
-    why = "the " + std::string(kind_noun(domain.kind())) + " has " +
-          counted(solver.components(), "components");
-    if (const std::size_t apart = count_apart(domain); apart > 0) {
-      why.append(", ").append(counted(apart, "vertices")).append(apart == 1 ? " is" : " are");
-      why.append(" in none of its ").append(domain.simplex_name());
-    }
-  }
-  if (bounded)
-    why.append(why.empty() ? "" : ", and ")
-        .append("--radius or --max-expansions ends the search early");
-  return why;
-}
-
-// Things the user should know, though nothing failed.
-void say_notes(const AnyDomain& solver, const AnyField& field, const Outcome& outcome, bool bounded,
-               bool single) {
-  const Domain& domain = solver.shape();
-  if (domain.cloud() != nullptr && domain.cloud()->not_finite > 0)
-    say_note(counted(domain.cloud()->not_finite, "points") +
-             " not finite, and dropped: vertices count those that are left; the column original "
-             "has their numbers in the file");
-  if (const CloudSummary* cloud = solver.cloud()) {
-    if (cloud->near_duplicates > 0)
-      say_note(counted(cloud->near_duplicates, "points") +
-               " much nearer to an earlier one than all others are: they count as that one");
-    if (100 * cloud->bridges > cloud->distinct)
-      say_note(counted(cloud->bridges, "points") +
-               " hang together by single edges: no surface was found there, and ways go from point "
-               "to point; more neighbours may help (--k " +
-               std::to_string(4 * std::max<std::size_t>(domain.cloud()->k, 16)) + ")");
-  }
-  if (!field.complete()) {
-    say_note("stopped after " + counted(field.statistics().expansions, "expansions") +
-             ": distances may still be too long");
-  }
-  // Labels that got much wrong say so, and windows are the cure where there are any.
-  const bool has_windows =
-      domain.kind() == DomainKind::surface || domain.kind() == DomainKind::cloud;
-  const bool by_labels = field.accuracy() == Accuracy::fast();
-  const std::string cure = has_windows && by_labels ? "; --accuracy accurate has none of this" : "";
-  const std::size_t raised = field.statistics().raised_vertices;
-  if (100 * raised > domain.vertices())
-    say_note(counted(raised, "vertices") +
-             " came out nearer than the straight line through space, and were given its length: "
-             "distances here are poor" +
-             (cure.empty() ? "; another --triangulation may do better" : cure));
-  const std::size_t lowered = field.statistics().lowered_vertices;
-  if (50 * lowered > domain.vertices())
-    say_note(counted(lowered, "vertices") +
-             " came out farther than a neighbour and the edge between, and were given that way: "
-             "distances here are less accurate" +
-             cure);
-  // Rounding turns a line of sight a little at each edge.
-  constexpr double too_many = 5e4;
-  if (single && outcome.max_distance > too_many * solver.mean_edge() && solver.mean_edge() > 0)
-    say_note("distances of up to " + short_number(outcome.max_distance / solver.mean_edge()) +
-             " edges: single precision may be off by more than 1e-4; use --precision double");
-  const std::size_t unreached = domain.vertices() - outcome.reached;
-  if (unreached == 0) return;
-  const std::string why = why_unreached(solver, bounded);
-  say_note(counted(unreached, "vertices") + " not reached (inf)" + (why.empty() ? "" : ": " + why));
-}
-
 // Also where there is one source only.
 std::vector<std::int32_t> labels_of(const AnyField& field, const std::vector<double>& distance) {
   std::vector<std::int32_t> label = field.file_label();
@@ -285,7 +176,7 @@ void run_distance(DistanceCommand command) {
   if (domain.cloud() == nullptr && command.out != "-")
     check_output_name(command.out, command.input, AnyShape::field_extensions(domain.kind()));
   check_isolines(command.isolines, domain);
-  const std::vector<Source> sources = locate_source_sets(domain, arguments);
+  const std::vector<Source> sources = locate_source_sets(domain, arguments, !command.metric.text.empty());
   const std::vector<PointSource> points = as_points(sources);
   if (needs_double(domain, sources)) {
     if (command.solve.executor.name == "auto") command.solve.executor.name = "serial";
@@ -321,7 +212,7 @@ void run_distance(DistanceCommand command) {
   const double solve = solving.seconds();
 
   const std::vector<double> distance = field.doubles();
-  Outcome outcome = survey(distance, sources);
+  Outcome outcome{reach_of(distance, sources)};
   outcome.build = solver.build_seconds();
   outcome.solve = solve;
   outcome.executor = executor;
@@ -348,13 +239,13 @@ void run_distance(DistanceCommand command) {
   }
   if (command.picture.wanted()) {
     progress.phase("drawing " + command.picture.file);
-    PictureContent content;
+    SceneContent content;
     content.distance = distance;
     const bool cells = command.picture.colour == "cells";
     const std::vector<std::int32_t> label =
         cells ? labels_of(field, distance) : std::vector<std::int32_t>();
     content.label = label;
-    for (const Source& source : sources) add_source_mark(domain, source, content);
+    for (const Source& source : sources) content.mark(domain, source);
     write_picture(command.picture, domain, content);
   }
   progress.clear();
@@ -379,7 +270,8 @@ void run_distance(DistanceCommand command) {
   if (!command.quiet) say_violations(domain, lengths.get());
   if (!command.quiet && !command.isolines.out.empty() && isovalues.empty())
     say_note("--isolines-out holds nothing: no distance is as large as the step");
-  if (!command.quiet) say_notes(solver, field, outcome, bounded, precision == Precision::single);
+  if (command.quiet) return;
+  for (const std::string& remark : field_remarks(solver, field, outcome, bounded)) say_note(remark);
 }
 
 }  // namespace

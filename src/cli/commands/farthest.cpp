@@ -8,11 +8,11 @@
 #include <plexway/apps/farthest_points.hpp>
 #include <plexway/error.hpp>
 
+#include "any/arguments/point_argument.hpp"
+#include "any/point_file.hpp"
 #include "cli/commands/commands.hpp"
 #include "cli/commands/sampling_command.hpp"
-#include "cli/options/source_argument.hpp"
 #include "cli/report/distance_output.hpp"
-#include "cli/report/point_output.hpp"
 #include "cli/report/progress.hpp"
 
 namespace plexway::cli {
@@ -60,7 +60,7 @@ void run_farthest(const FarthestCommand& command) {
   if (!command.out.empty())
     write_points(command.out, domain, found.points, "distance", found.distance);
   if (command.picture.wanted()) {
-    PictureContent content;
+    SceneContent content;
     content.distance = nearest;
     for (const PointSource& point : found.points) content.dots.push_back(domain.position(point));
     write_picture(command.picture, domain, content);

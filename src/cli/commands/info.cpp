@@ -5,12 +5,13 @@
 
 #include <plexway/error.hpp>
 
+#include "any/info/info_report.hpp"
+#include "any/info/report.hpp"
 #include "cli/commands/commands.hpp"
 #include "cli/options/input.hpp"
 #include "cli/report/console.hpp"
-#include "cli/report/info_report.hpp"
+#include "cli/report/info_devices.hpp"
 #include "cli/report/progress.hpp"
-#include "cli/report/report.hpp"
 
 namespace plexway::cli {
 namespace {

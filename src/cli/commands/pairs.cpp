@@ -7,13 +7,13 @@
 #include <plexway/apps/distance_matrix.hpp>
 #include <plexway/error.hpp>
 
+#include "any/arguments/point_argument.hpp"
+#include "any/point_file.hpp"
 #include "cli/commands/commands.hpp"
 #include "cli/commands/pairs_matrix.hpp"
 #include "cli/commands/sampling_command.hpp"
-#include "cli/options/source_argument.hpp"
 #include "cli/report/console.hpp"
 #include "cli/report/distance_output.hpp"
-#include "cli/report/point_output.hpp"
 #include "cli/report/progress.hpp"
 
 namespace plexway::cli {

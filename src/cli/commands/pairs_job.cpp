@@ -9,8 +9,8 @@
 #include <string_view>
 #include <type_traits>
 #include <utility>
-#include <variant>
 
+#include <plexway/any/pairs.hpp>
 #include <plexway/error.hpp>
 #include <plexway/io/sparse_file.hpp>
 #include <plexway/version.hpp>
@@ -29,28 +29,6 @@ template <class Numbers>
 std::string fingerprint_of(const Numbers& numbers) {
   Fingerprint print;
   print.add_numbers(numbers);
-  return print.text();
-}
-
-std::string fingerprint_of(const Domain& domain) {
-  Fingerprint print;
-  print.add_numbers(domain.positions());
-  for (std::size_t i = 0; i < domain.simplices(); ++i) print.add_numbers(domain.corners(i));
-  if (const MeasuredLengths* lengths = domain.lengths()) {
-    print.add_numbers(lengths->triangles);
-    print.add_numbers(lengths->tets);
-    print.add_numbers(lengths->edges);
-  }
-  if (const auto* wire = std::get_if<io::Edges>(&domain.data())) print.add_numbers(wire->lengths);
-  if (const auto* simplices = std::get_if<SimplexShape>(&domain.data()))
-    print.add_numbers(simplices->positions);
-  if (const auto* mixed = std::get_if<MixedShape>(&domain.data()))
-    print.add_numbers(std::array{mixed->tolerance});
-  if (const CloudShape* cloud = domain.cloud()) {
-    print.add_numbers(cloud->measured());
-    print.add_numbers(cloud->neighbours.begin);
-    print.add_numbers(cloud->neighbours.of);
-  }
   return print.text();
 }
 
@@ -113,12 +91,7 @@ void describe(Job& job, const MeasuredLengths* lengths) {
   };
   add("plexway", version_string);
   add("input", fingerprint_of(job.domain) + " " + std::string(job.domain.kind_name()));
-  Fingerprint rows;
-  for (const PointSource& point : job.rows) {
-    rows.add_numbers(std::array{point.vertex, point.simplex});
-    rows.add_numbers(point.barycentric);
-  }
-  add("rows", std::to_string(job.rows.size()) + " " + rows.text());
+  add("rows", std::to_string(job.rows.size()) + " " + fingerprint_of(SourceList(job.rows)));
   add("columns", std::to_string(job.columns.size()) + " " + fingerprint_of(job.columns));
   add("precision", command.solve.precision);
   add("accuracy", name_of(job.options.accuracy));
@@ -126,13 +99,7 @@ void describe(Job& job, const MeasuredLengths* lengths) {
   if (!command.solve.table.empty()) add("table", fingerprint_of(job.options.probe.share));
   add("schedule", command.solve.schedule + " " + number(job.options.step));
   add("triangulation", command.triangulation.name);
-  if (lengths != nullptr) {
-    Fingerprint metric;
-    metric.add_numbers(lengths->triangles);
-    metric.add_numbers(lengths->tets);
-    metric.add_numbers(lengths->edges);
-    add("metric", metric.text());
-  }
+  if (lengths != nullptr) add("metric", fingerprint_of(*lengths));
   if (job.mask) {
     Fingerprint mask;
     mask.add_numbers(job.mask->closed_vertices());

@@ -11,9 +11,9 @@
 #include <plexway/propagate/options.hpp>
 #include <plexway/source/point_source.hpp>
 
+#include "any/pair_tables.hpp"
 #include "cli/commands/pairs_matrix.hpp"
 #include "cli/options/input.hpp"
-#include "cli/report/pairs_output.hpp"
 
 namespace plexway::cli {
 

@@ -22,14 +22,15 @@
 #include <plexway/error.hpp>
 #include <plexway/io/write_pairs.hpp>
 
+#include "any/arguments/point_list.hpp"
+#include "any/info/report.hpp"
 #include "any/make_complex.hpp"
+#include "any/pair_tables.hpp"
 #include "cli/commands/pairs_job.hpp"
 #include "cli/options/input.hpp"
-#include "cli/options/vertex_list.hpp"
 #include "cli/report/console.hpp"
-#include "cli/report/pairs_output.hpp"
+#include "cli/report/pairs_report.hpp"
 #include "cli/report/progress.hpp"
-#include "cli/report/report.hpp"
 
 namespace plexway::cli {
 namespace {

@@ -16,18 +16,18 @@
 #include <plexway/error.hpp>
 #include <plexway/io/paths.hpp>
 
+#include "any/arguments/point_argument.hpp"
+#include "any/info/report.hpp"
 #include "cli/commands/commands.hpp"
 #include "cli/exit_codes.hpp"
 #include "cli/options/input.hpp"
 #include "cli/options/metric_options.hpp"
 #include "cli/options/picture_options.hpp"
 #include "cli/options/solve_options.hpp"
-#include "cli/options/source_argument.hpp"
 #include "cli/options/triangulation_option.hpp"
 #include "cli/report/console.hpp"
 #include "cli/report/distance_output.hpp"
 #include "cli/report/progress.hpp"
-#include "cli/report/report.hpp"
 #include "io/number_rows.hpp"
 
 namespace plexway::cli {
@@ -276,7 +276,7 @@ void run_path(const PathCommand& typed) {
   }
   if (command.picture.wanted()) {
     progress.phase("drawing " + command.picture.file);
-    PictureContent content;
+    SceneContent content;
     content.distance = outcome.distance;
     content.look_inside = true;
     for (const Path& path : outcome.paths) content.paths.push_back(path.positions);

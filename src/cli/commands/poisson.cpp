@@ -10,10 +10,10 @@
 #include <plexway/apps/poisson_disk.hpp>
 #include <plexway/error.hpp>
 
+#include "any/point_file.hpp"
 #include "cli/commands/commands.hpp"
 #include "cli/commands/sampling_command.hpp"
 #include "cli/report/distance_output.hpp"
-#include "cli/report/point_output.hpp"
 #include "cli/report/progress.hpp"
 #include "io/number_rows.hpp"
 
@@ -83,7 +83,7 @@ void run_poisson(const PoissonCommand& command) {
   });
   if (!command.out.empty()) write_points(command.out, domain, disks.darts);
   if (command.picture.wanted()) {
-    PictureContent content;
+    SceneContent content;
     content.look_inside = true;
     for (const PointSource& dart : disks.darts) content.dots.push_back(domain.position(dart));
     write_picture(command.picture, domain, content);

@@ -7,12 +7,12 @@
 #include <plexway/propagate/distance_field.hpp>
 
 #include <plexway/any/complex.hpp>
+#include "any/info/report.hpp"
 #include "cli/options/fill_options.hpp"
 #include "cli/options/input.hpp"
 #include "cli/options/picture_options.hpp"
 #include "cli/options/solve_options.hpp"
 #include "cli/report/console.hpp"
-#include "cli/report/report.hpp"
 
 namespace CLI {
 class App;

@@ -11,13 +11,13 @@
 #include <plexway/io/tets.hpp>
 
 #include "any/fill.hpp"
+#include "any/info/report.hpp"
 #include "any/solid_survey.hpp"
 #include "cli/commands/commands.hpp"
 #include "cli/options/input.hpp"
 #include "cli/report/console.hpp"
 #include "cli/report/distance_output.hpp"
 #include "cli/report/progress.hpp"
-#include "cli/report/report.hpp"
 
 namespace plexway::cli {
 namespace {

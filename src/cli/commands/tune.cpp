@@ -1,120 +1,28 @@
 #include <CLI/CLI.hpp>
-#include <algorithm>
 #include <cmath>
-#include <cstdio>
-#include <limits>
 #include <memory>
-#include <optional>
 #include <string>
-#include <utility>
-#include <vector>
 
-#include <plexway/apps/tuning.hpp>
 #include <plexway/error.hpp>
-#include <plexway/version.hpp>
 
+#include "any/tuning/tuning_run.hpp"
 #include "cli/commands/commands.hpp"
+#include "cli/options/input.hpp"
 #include "cli/report/console.hpp"
 #include "cli/report/distance_output.hpp"
 #include "cli/report/progress.hpp"
-#include "cli/report/report.hpp"
-#include "cli/report/table_file.hpp"
-#include "cli/report/tune_files.hpp"
 
 namespace plexway::cli {
 namespace {
 
-struct TuneCommand {
-  std::vector<std::string> inputs;
-  std::string truth_folder;
+// The request, and what is typed otherwise than it is meant.
+struct TuneCommand : TuningRequest {
   std::string what = "table";
-  std::string from = "random";
   std::string step_rule = "fifth";
   std::string fitness = "mean";
   std::string triangulation = "input";
-  EvolutionOptions evolution;
-  std::size_t threads = 0;
-  std::size_t stop_after = std::numeric_limits<std::size_t>::max();
-  std::string out, cpp, checkpoint;
-  bool resume = false;
   bool json = false;
   bool quiet = false;
-};
-
-// Six digits: a result that can be printed, and is what was measured.
-double rounded(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.6g", value);
-  return std::stod(text);
-}
-std::vector<double> rounded(std::vector<double> values) {
-  for (double& x : values) x = rounded(x);
-  return values;
-}
-
-// What is tuned: how its numbers make a mean error, and a file.
-class Subject {
- public:
-  Subject(bool table, bool relative, TuningSet& set) : table_(table), set_(set) {
-    if (relative) {
-      PropagateOptions reference;
-      if (table) reference.visibility = Visibility::centroid;
-      reference_ = set.errors(reference);
-    }
-    if (table) options_.visibility = Visibility::tuned;
-  }
-
-  // What evolution makes small: the mean error, or the geometric mean of each field's beside what
-  // it was at first: then surfaces where all policies are good count as much as those where none
-  // is.
-  double score(const std::vector<double>& values) {
-    if (reference_.empty()) return error(values);
-    take(values);
-    const std::vector<double> errors = set_.errors(options_);
-    constexpr double rounding = 1e-6;  // less is not worth anything
-    double sum = 0;
-    for (std::size_t i = 0; i < errors.size(); ++i)
-      sum += std::log(std::max(errors[i], rounding) / std::max(reference_[i], rounding));
-    return std::exp(sum / static_cast<double>(errors.size()));
-  }
-
-  double error(const std::vector<double>& values) {
-    take(values);
-    return set_.mean_error(options_);
-  }
-  [[nodiscard]] Json json(const std::vector<double>& values) const {
-    return table_ ? to_json(probe_table_of(values)) : to_json(saddle_thresholds_of(values));
-  }
-  [[nodiscard]] std::string cpp(const std::vector<double>& values) const {
-    return table_ ? to_cpp(probe_table_of(values)) : to_cpp(saddle_thresholds_of(values));
-  }
-  // What the outcome is to be compared with.
-  Json baselines() {
-    Json errors;
-    if (table_) {
-      PropagateOptions centroid;
-      centroid.visibility = Visibility::centroid;
-      errors["centroid"] = set_.mean_error(centroid);
-      errors["published"] = error(values_of(ProbeTable::published()));
-      errors["learned"] = error(values_of(ProbeTable::learned()));
-    } else {
-      errors["standard"] = error(values_of(SaddleThresholds::standard()));
-    }
-    return errors;
-  }
-
- private:
-  void take(const std::vector<double>& values) {
-    if (table_)
-      options_.probe = probe_table_of(values);
-    else
-      set_.rebuild(saddle_thresholds_of(values));
-  }
-
-  bool table_;
-  TuningSet& set_;
-  std::vector<double> reference_;
-  PropagateOptions options_;
 };
 
 void check(const TuneCommand& command) {
@@ -132,159 +40,44 @@ void check(const TuneCommand& command) {
   check_outputs_differ({command.out, command.cpp, command.checkpoint});
 }
 
-std::vector<double> start_of(const TuneCommand& command) {
-  const bool table = command.what == "table";
-  if (command.from == "random") return {};
-  if (table && command.from == "centroid") return {5, 4, 0.5, 1, 1, 1, 1, 1, 1};
-  if (table && command.from == "published") return values_of(ProbeTable::published());
-  if (table && command.from == "learned") return values_of(ProbeTable::learned());
-  if (!table && command.from == "standard") return values_of(SaddleThresholds::standard());
-  if (command.from.find('.') == std::string::npos)
-    throw UsageError("--from '" + command.from + "': choose one of random, " +
-                     (table ? "centroid, published, learned" : "standard") +
-                     ", or a .json file of 'plexway tune'");
-  return table ? values_of(read_probe_table(command.from))
-               : values_of(read_saddle_thresholds(command.from));
-}
-
-std::string hexadecimal(std::uint64_t value) {
-  char text[24];
-  std::snprintf(text, sizeof text, "%016llx", static_cast<unsigned long long>(value));
-  return text;
-}
-
-// All that the outcome depends on.
-Json settings_of(const TuneCommand& command, const TuningSet& set) {
-  return {{"what", command.what},
-          {"seed", command.evolution.seed},
-          {"evaluations", command.evolution.evaluations},
-          {"restarts", command.evolution.restarts},
-          {"from", command.from},
-          {"start", command.evolution.start},
-          {"mutation", command.evolution.step},
-          {"step-rule", command.step_rule},
-          {"fitness", command.fitness},
-          {"triangulation", command.triangulation},
-          {"surfaces", command.inputs.size()},
-          {"fields", set.fields()},
-          {"digest", hexadecimal(set.digest())}};
-}
-
-// Evaluations until all are done or this run has had enough.
-void evolve(const TuneCommand& command, const Json& settings, Subject& subject,
-            Evolution& evolution, ProgressLine& progress) {
-  const double all =
-      static_cast<double>(command.evolution.evaluations * command.evolution.restarts);
-  Stopwatch since_saved;
-  const auto save = [&] {
-    if (!command.checkpoint.empty())
-      write_checkpoint(command.checkpoint, settings, evolution.state());
-    since_saved = Stopwatch();
-  };
-  const auto describe = [&] {
-    return "start " + std::to_string(evolution.state().restart + 1) + ", best " +
-           short_number(-evolution.best_fitness());
-  };
-  progress.phase("tuning");
-  for (std::size_t i = 0; i < command.stop_after && !evolution.done(); ++i) {
-    const std::size_t start = evolution.state().restart;
-    if (evolution.tell(-subject.score(rounded(evolution.propose()))))
-      progress.phase("tuning: " + describe());
-    progress.done(static_cast<double>(evolution.evaluations()) / all);
-    if (since_saved.seconds() > 2) save();
-    if (evolution.state().restart > start)
-      progress.note("start " + std::to_string(start + 1) + " of " +
-                    std::to_string(command.evolution.restarts) + ": the best so far is " +
-                    short_number(-evolution.best_fitness()));
-  }
-  save();
-}
-
-std::string comment(const TuneCommand& command, const Json& settings, double error) {
-  std::string text = "// plexway " + std::string(version_string) + " tune --what " + command.what +
-                     " --from " + command.from + " --seed " +
-                     std::to_string(command.evolution.seed) + " --evaluations " +
-                     std::to_string(command.evolution.evaluations) + " --restarts " +
-                     std::to_string(command.evolution.restarts) + " --fitness " + command.fitness +
-                     " --triangulation " + command.triangulation + "\n";
-  return text + "// on " + counted(command.inputs.size(), "surfaces") + ", " +
-         counted(settings["fields"].get<std::size_t>(), "fields") + ", digest " +
-         settings["digest"].get<std::string>() + "; mean error " + short_number(error) + "\n";
-}
-
-void run_tune(TuneCommand command) {
+void run_tune(const TuneCommand& command) {
   check(command);
-  command.evolution.adapt = command.step_rule == "fifth";
-  command.evolution.start = start_of(command);
-  const bool table = command.what == "table";
-
+  TuningRequest request = command;
+  request.table = command.what == "table";
+  request.relative = command.fitness == "relative";
+  request.automatic = command.triangulation == "auto";
+  request.evolution.adapt = command.step_rule == "fifth";
   ProgressLine progress(command.quiet);
-  progress.phase("reading " + counted(command.inputs.size(), "surfaces"));
-  const Stopwatch loading;
-  TuningInput input = read_tuning_surfaces(command.inputs, command.truth_folder);
-  // Hours lie between here and the result: what cannot be written is told now.
-  check_output_place(command.out, input.files, "--out");
-  check_output_place(command.cpp, input.files, "--cpp");
-  check_output_place(command.checkpoint, input.files, "--checkpoint");
-  TuningSet set(std::move(input.surfaces), command.triangulation == "auto", command.threads);
-  const double load = loading.seconds();
-
-  const Json settings = settings_of(command, set);
-  const auto parameters = table ? probe_parameters() : saddle_parameters();
-  Evolution evolution = [&] {
-    if (!command.resume) return Evolution(parameters, command.evolution);
-    EvolutionState state = read_checkpoint(command.checkpoint, settings);
-    try {
-      return Evolution(parameters, command.evolution, std::move(state));
-    } catch (const UsageError&) {
-      throw InputError(command.checkpoint +
-                       ": is a damaged checkpoint; start again without --resume");
-    }
-  }();
-  Subject subject(table, command.fitness == "relative", set);
-  const Json baselines = subject.baselines();
-  const Stopwatch tuning;
-  evolve(command, settings, subject, evolution, progress);
+  const TuningOutcome outcome = run_tuning(request, read_progress(progress));
   progress.clear();
 
-  const std::vector<double> best = rounded(evolution.best());
-  const double error = subject.error(best);
-  Json found = subject.json(best);
-  found["provenance"] = settings;
-  found["provenance"]["plexway"] = version_string;
-  found["provenance"]["mean_error"] = error;
-  found["provenance"]["baselines"] = baselines;
-  found["provenance"]["complete"] = evolution.done();
-  if (!command.out.empty()) write_whole(command.out, json_text(found));
-  if (!command.cpp.empty())
-    write_whole(command.cpp, comment(command, settings, error) + subject.cpp(best));
-
-  const double reference = baselines[table ? "centroid" : "standard"].get<double>();
-  Json json = settings;
-  json["evaluated"] = evolution.evaluations();
-  json["complete"] = evolution.done();
-  json["baselines"] = baselines;
+  const double error = outcome.mean_error;
+  const char* const usual = request.table ? "centroid" : "standard";
+  const double reference = outcome.baselines[usual].get<double>();
+  Json json = outcome.settings;
+  json["evaluated"] = outcome.evaluated;
+  json["complete"] = outcome.complete;
+  json["baselines"] = outcome.baselines;
   json["mean_error"] = error;
   json["improvement"] = json_number(1 - error / reference);
-  json["found"] = subject.json(best);
-  json["seconds"] = {{"load", load}, {"tune", tuning.seconds()}};
+  json["found"] = outcome.found;
+  json["seconds"] = {{"load", outcome.load_seconds}, {"tune", outcome.tune_seconds}};
   if (command.json) {
     write_output(json_text(json));
   } else if (!command.quiet) {
     Table text;
     text.add("set",
-             counted(command.inputs.size(), "surfaces") + ", " + counted(set.fields(), "fields"));
-    text.add("evaluations", std::to_string(evolution.evaluations()) +
-                                (evolution.done() ? "" : ", not all: go on with --resume"));
-    for (const auto& [name, value] : baselines.items())
+             counted(command.inputs.size(), "surfaces") + ", " + counted(outcome.fields, "fields"));
+    text.add("evaluations", std::to_string(outcome.evaluated) +
+                                (outcome.complete ? "" : ", not all: go on with --resume"));
+    for (const auto& [name, value] : outcome.baselines.items())
       text.add(name, "mean error " + short_number(value.get<double>()));
     text.add("found", "mean error " + short_number(error) + ", " +
                           short_number(100 * std::abs(1 - error / reference)) + " % " +
-                          (error > reference ? "more" : "less") + " than " +
-                          (table ? "centroid" : "standard"));
-    for (std::size_t i = 0; i < best.size(); ++i)
-      text.add(parameters[i].name, short_number(best[i]));
-    text.add("time", short_time(tuning.seconds()));
+                          (error > reference ? "more" : "less") + " than " + usual);
+    for (std::size_t i = 0; i < outcome.best.size(); ++i)
+      text.add(outcome.parameters[i].name, short_number(outcome.best[i]));
+    text.add("time", short_time(outcome.tune_seconds));
     add_written(text, {command.out, command.cpp, command.checkpoint});
     write_output(text.text());
   }

@@ -7,7 +7,7 @@
 #include <plexway/error.hpp>
 #include <plexway/support.hpp>
 
-#include <plexway/any_domain.hpp>
+#include "any/fastest_executor.hpp"
 
 namespace plexway::cli {
 namespace {
@@ -80,7 +80,7 @@ void check_executor(const ExecutorArgument& argument, const PropagateOptions& op
                      " does not take labels in order");
   if (refusal == Refusal::gl_visibility)
     throw UsageError("--executor gl knows --visibility saddles only");
-  if (refusal == Refusal::windows_gl || refusal == Refusal::windows_threads)
+  if (refusal == Refusal::windows_gl)
     throw UsageError("--executor " + name + " knows --accuracy fast only");
 }
 
@@ -93,23 +93,7 @@ Executor choose_executor(const ExecutorArgument& argument, const PropagateOption
       throw UsageError("--executor gl computes in single precision: use --precision float");
     return GL{.device = argument.device.value_or(-1)};
   }
-  if (argument.name != "auto" || !openmp_built() || options.schedule == Schedule::priority)
-    return Serial{};
-  const bool triangles = domain.kind() == DomainKind::surface || domain.kind() == DomainKind::cloud;
-  if (triangles &&
-      resolved(options.accuracy, {.executor = ExecutorKind::serial,
-                                  .domain = DomainKind::surface,
-                                  .dimension = 2,
-                                  .single_precision = true,
-                                  .visibility = options.visibility}) != Accuracy::fast())
-    return Serial{};  // windows are one thread's
-  const bool bounded =
-      options.radius < PropagateOptions{}.radius ||
-      options.max_expansions < PropagateOptions{}.max_expansions;  // fronts may stay short
-  if (domain.simplices() < auto_simplices || sources < auto_sources || bounded ||
-      team_size(team) < 2)
-    return Serial{};
-  return team;
+  return argument.name == "auto" ? fastest_executor(domain, sources, options, team) : Serial{};
 }
 
 }  // namespace plexway::cli

@@ -39,11 +39,6 @@ void add_executor_options(CLI::App& command, ExecutorArgument& argument, const s
 /// NotBuiltError for one that this build lacks. Before anything is read.
 void check_executor(const ExecutorArgument& argument, const PropagateOptions& options);
 
-/// So many simplices and so many sources are worth several threads. Measured by bench_executors on
-/// two cores: 2M triangles from one source 0.5 times as fast as Serial, from 1000 sources 1.9
-/// times.
-inline constexpr std::size_t auto_simplices = 100'000, auto_sources = 64;
-
 /// Who solves: `auto` chooses by size, of those who can (docs/CLI.md). `sources` start one field.
 [[nodiscard]] Executor choose_executor(const ExecutorArgument& argument,
                                        const PropagateOptions& options, const AnyDomain& domain,

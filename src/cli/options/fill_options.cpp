@@ -4,7 +4,7 @@
 
 #include <plexway/error.hpp>
 
-#include "cli/options/source_argument.hpp"
+#include "any/arguments/point_argument.hpp"
 
 namespace plexway::cli {
 

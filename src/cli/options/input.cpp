@@ -15,9 +15,19 @@ void add_piece_options(CLI::App& command, PieceArguments& pieces) {
       ->type_name("TOLERANCE");
 }
 
-Domain load_domain(const std::string& file, const std::string& as, const FillArguments& fill,
-                   const CloudPreparation& cloud, ProgressLine& progress,
-                   const PieceArguments& pieces) {
+ReadProgress read_progress(ProgressLine& progress) {
+  return {.stage = [&](std::string_view what) { progress.phase(what); },
+          .share = progress.share_callback(),
+          .seconds =
+              [&](double seconds) {
+                progress.seconds_passed(seconds);
+                return true;
+              },
+          .note = [&](std::string_view text) { progress.note(text); }};
+}
+
+ReadOptions read_options(const std::string& as, const FillArguments& fill,
+                         const CloudPreparation& cloud, ProgressLine& progress) {
   ReadOptions options;
   options.spelling = Spelling::flags;
   if (!as.empty()) {
@@ -29,14 +39,14 @@ Domain load_domain(const std::string& file, const std::string& as, const FillArg
   options.fill = filling(fill);
   options.volume = fill.volume;
   options.cloud = cloud;
-  options.progress = {.stage = [&](std::string_view what) { progress.phase(what); },
-                      .share = progress.share_callback(),
-                      .seconds =
-                          [&](double seconds) {
-                            progress.seconds_passed(seconds);
-                            return true;
-                          },
-                      .note = [&](std::string_view text) { progress.note(text); }};
+  options.progress = read_progress(progress);
+  return options;
+}
+
+Domain load_domain(const std::string& file, const std::string& as, const FillArguments& fill,
+                   const CloudPreparation& cloud, ProgressLine& progress,
+                   const PieceArguments& pieces) {
+  const ReadOptions options = read_options(as, fill, cloud, progress);
   if (pieces.more.empty() && !pieces.weld) return Domain::read(file, options);
   if (pieces.more.empty()) throw UsageError("--weld needs several files");
   if (!pieces.weld)

@@ -28,6 +28,13 @@ struct PieceArguments {
 /// Adds MORE and --weld to a command.
 void add_piece_options(CLI::App& command, PieceArguments& pieces);
 
+/// What the library tells while it works, on the line; `progress` must stay.
+[[nodiscard]] ReadProgress read_progress(ProgressLine& progress);
+
+/// How INPUT is to be read. Throws UsageError for a kind that does not exist.
+[[nodiscard]] ReadOptions read_options(const std::string& as, const FillArguments& fill,
+                                       const CloudPreparation& cloud, ProgressLine& progress);
+
 /// Reads INPUT as AnyShape::read does. Throws UsageError, too, for a kind that does not exist.
 Domain load_domain(const std::string& file, const std::string& as, const FillArguments& fill,
                    const CloudPreparation& cloud, ProgressLine& progress,

@@ -1,125 +1,10 @@
 #include "cli/options/metric_options.hpp"
 
 #include <CLI/CLI.hpp>
-#include <algorithm>
-#include <map>
-#include <optional>
-#include <type_traits>
-#include <utility>
-#include <variant>
-
-#include <plexway/error.hpp>
 
 #include "cli/report/console.hpp"
-#include "io/number_rows.hpp"
 
 namespace plexway::cli {
-namespace {
-
-enum class Kind { tensor, vertex_tensor, speed, lengths };
-
-struct Parsed {
-  Kind kind;
-  std::string file;
-};
-
-Parsed parse(const MetricArgument& argument) {
-  const std::size_t colon = argument.text.find(':');
-  const std::string kind = argument.text.substr(0, colon);
-  const std::string file = colon == argument.text.npos ? "" : argument.text.substr(colon + 1);
-  if (!file.empty()) {
-    if (kind == "tensor") return {Kind::tensor, file};
-    if (kind == "vertex-tensor") return {Kind::vertex_tensor, file};
-    if (kind == "speed") return {Kind::speed, file};
-    if (kind == "lengths") return {Kind::lengths, file};
-  }
-  throw UsageError("--metric '" + argument.text +
-                   "': write tensor:FILE, vertex-tensor:FILE, speed:FILE or lengths:FILE");
-}
-
-void check_rows(const std::string& file, std::size_t rows, std::size_t needed,
-                std::string_view what) {
-  if (rows != needed && rows != 1)
-    throw InputError(file + ": " + std::to_string(rows) + " rows for " + counted(needed, what) +
-                     ": write one each, in the order of the input, or one for all");
-}
-
-std::vector<metric::Tensor> read_tensors(const std::string& file, std::size_t needed,
-                                         std::string_view what) {
-  const std::string row_text =
-      "xx xy xz yy yz zz a line, or xx xy yy in the plane, or a single number, the speed";
-  const auto rows = io::read_number_rows(file, 1, 6, row_text);
-  std::vector<metric::Tensor> tensors;
-  tensors.reserve(rows.size());
-  for (const io::NumberRow& row : rows) {
-    const auto& n = row.numbers;
-    if (n.size() == 6)
-      tensors.push_back({n[0], n[1], n[2], n[3], n[4], n[5]});
-    else if (n.size() == 3)
-      tensors.push_back(metric::Tensor::planar(n[0], n[1], n[2]));
-    else if (n.size() == 1 && n[0] > 0)
-      tensors.push_back(metric::Tensor::of_speed(n[0]));
-    else
-      fail_at(file, row, n.size() == 1 ? "a speed must be above 0" : "write " + row_text);
-  }
-  check_rows(file, rows.size(), needed, what);
-  tensors.resize(needed, tensors[0]);
-  return tensors;
-}
-
-std::vector<double> read_speeds(const std::string& file, std::size_t needed,
-                                std::string_view what) {
-  const auto rows = io::read_number_rows(file, 1, 1, "one speed a line, above 0");
-  std::vector<double> speeds;
-  speeds.reserve(rows.size());
-  for (const io::NumberRow& row : rows) {
-    if (!(row.numbers[0] > 0)) fail_at(file, row, "a speed must be above 0");
-    speeds.push_back(row.numbers[0]);
-  }
-  check_rows(file, rows.size(), needed, what);
-  speeds.resize(needed, speeds[0]);
-  return speeds;
-}
-
-metric::GivenLengths read_lengths(const std::string& file, std::size_t vertices) {
-  metric::GivenLengths given;
-  std::map<std::pair<Index, Index>, const io::NumberRow*> first;
-  const auto rows = io::read_number_rows(file, 3, 3, "vertex vertex length a line");
-  for (const io::NumberRow& row : rows) {
-    const Index a = vertex_in(file, row, 0, vertices), b = vertex_in(file, row, 1, vertices);
-    const double length = row.numbers[2];
-    if (length < 0) fail_at(file, row, "a length below 0");
-    given.edges.push_back({a, b, length});
-    const auto [known, is_new] = first.try_emplace(std::minmax(a, b), &row);
-    if (!is_new && known->second->numbers[2] != length)
-      fail_at(file, row,
-              "the edge has another length than in line " + std::to_string(known->second->line));
-  }
-  return given;
-}
-
-metric::Metric read_metric(const Parsed& asked, const Domain& domain, const metric::Agreement& by) {
-  switch (asked.kind) {
-    case Kind::tensor:
-      return metric::SimplexTensors{
-          read_tensors(asked.file, domain.simplices(), domain.simplex_name()), by};
-    case Kind::vertex_tensor:
-      return metric::VertexTensors{read_tensors(asked.file, domain.vertices(), "vertices")};
-    case Kind::speed:
-      return metric::SimplexSpeeds{
-          read_speeds(asked.file, domain.simplices(), domain.simplex_name()), by};
-    case Kind::lengths:
-      break;
-  }
-  return read_lengths(asked.file, domain.vertices());
-}
-
-std::string name_of_metric(const MetricArgument& argument, std::size_t refracting_edges) {
-  return argument.text +
-         (refracting_edges > 0 ? "; refracts at " + counted(refracting_edges, "edges") : "");
-}
-
-}  // namespace
 
 void add_metric_option(CLI::App& command, MetricArgument& argument) {
   command
@@ -131,27 +16,9 @@ void add_metric_option(CLI::App& command, MetricArgument& argument) {
       ->group("How to solve");
 }
 
-std::string metric_file(const MetricArgument& argument) {
-  return argument.text.empty() ? "" : parse(argument).file;
-}
-
-std::shared_ptr<const MeasuredLengths> measure(const MetricArgument& argument, const Domain& domain,
-                                               Jumps jumps) {
-  if (argument.text.empty()) return nullptr;
-  const Parsed asked = parse(argument);
-  if (domain.cloud() != nullptr)
-    throw UsageError("--metric: a cloud has no simplices of its own to measure; give a surface");
-  const bool refracts = domain.kind() == DomainKind::surface && jumps == Jumps::refract &&
-                        (asked.kind == Kind::speed || asked.kind == Kind::tensor);
-  const metric::Metric metric =
-      read_metric(asked, domain, {refracts ? metric::Sides::own : metric::Sides::mean});
-  try {
-    return std::make_shared<const MeasuredLengths>(domain.measure(metric));
-  } catch (const InputError& error) {
-    throw InputError(asked.file + ": " + error.what());
-  } catch (const UsageError& error) {
-    throw UsageError(std::string("--metric: ") + error.what());
-  }
+static std::string name_of_metric(const MetricArgument& argument, std::size_t refracting_edges) {
+  return argument.text +
+         (refracting_edges > 0 ? "; refracts at " + counted(refracting_edges, "edges") : "");
 }
 
 void add_metric(const MetricArgument& argument, const MeasuredLengths* lengths,
@@ -167,13 +34,8 @@ void add_metric(const MetricArgument& argument, const MeasuredLengths* lengths,
   if (lengths != nullptr) table.add("metric", name_of_metric(argument, refracting_edges));
 }
 
-void say_violations(const Domain& domain, const MeasuredLengths* lengths) {
-  if (lengths == nullptr || lengths->violations.count == 0) return;
-  const std::string_view what = domain.simplex_name();
-  say_note("the metric breaks the triangle inequality in " +
-           counted(lengths->violations.count, what) + " of " + std::to_string(domain.simplices()) +
-           ", such as " + singular(what) + " " + std::to_string(lengths->violations.first) +
-           ": their lengths were taken as those of the nearest flat ones");
+void say_violations(const AnyShape& domain, const MeasuredLengths* lengths) {
+  if (const std::string note = violations_note(domain, lengths); !note.empty()) say_note(note);
 }
 
 }  // namespace plexway::cli

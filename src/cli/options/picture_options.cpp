@@ -4,7 +4,6 @@
 #include <cmath>
 #include <string_view>
 
-#include <plexway/complex/normals.hpp>
 #include <plexway/error.hpp>
 
 #ifdef PLEXWAY_HAS_RENDER
@@ -194,57 +193,23 @@ void check_picture(const PictureArguments& arguments, const std::string& input) 
 #ifdef PLEXWAY_HAS_RENDER
 
 void write_picture(const PictureArguments& arguments, const Domain& domain,
-                   const PictureContent& content) {
+                   const SceneContent& content) {
   if (!arguments.wanted()) return;
   const render::PictureOptions options = options_of(arguments);
+  if (domain.positions().empty())
+    throw UsageError("--picture: " + domain.file().string() + " has no positions to draw");
   if (!options.isosurfaces.empty() && domain.kind() != DomainKind::solid)
     throw UsageError("--isosurfaces: for solids, not a " + std::string(kind_noun(domain.kind())));
-  render::Part part;
-  part.positions = domain.positions();
-  if (part.positions.empty())
-    throw UsageError("--picture: " + domain.file().string() + " has no positions to draw");
-  part.value = content.distance;
-  part.label = content.label;
-  std::vector<std::array<double, 3>> normals;
-  std::vector<render::Part> parts;
-  if (const auto* surface = std::get_if<io::Triangles>(&domain.data())) {
-    part.triangles = surface->triangles;
-  } else if (const auto* solid = std::get_if<io::Tets>(&domain.data())) {
-    part.tets = solid->tets;
-    part.ghost = content.look_inside && !options.clip;
-  } else if (const auto* wires = std::get_if<io::Edges>(&domain.data())) {
-    part.edges = wires->edges;
-  } else if (const auto* mixed = std::get_if<MixedShape>(&domain.data())) {
-    for (const MixedShape::Part& of : mixed->parts) {
-      part.edges = of.edges;
-      part.triangles = of.triangles;
-      part.tets = of.tets;
-      part.ghost = content.look_inside && !options.clip;
-      parts.push_back(part);
-    }
-  } else if (const CloudShape* cloud = domain.cloud()) {
-    normals = cloud->points.normals.empty() ? estimate_normals(cloud->measured(), cloud->neighbours)
-                                            : cloud->points.normals;
-    part.normals = normals;
-  }
-  render::Scene scene;
-  if (parts.empty()) parts = {part};
-  scene.parts = parts;
-  scene.sources = content.sources;
-  scene.targets = content.targets;
-  scene.paths = content.paths;
-  if (!content.dots.empty()) {
-    render::Dots dots;
-    dots.positions = content.dots;
-    if (!content.label.empty()) dots.colour = {35, 40, 50};
-    scene.dots = {dots};
-  }
-  render::write_png(arguments.file, render::picture(scene, options), arguments.small ? 256 : 0);
+  SceneContent shown = content;
+  shown.look_inside = content.look_inside && !options.clip;
+  const ShapeScene scene(domain, shown);
+  render::write_png(arguments.file, render::picture(scene.scene(), options),
+                    arguments.small ? 256 : 0);
 }
 
 #else
 
-void write_picture(const PictureArguments& arguments, const Domain&, const PictureContent&) {
+void write_picture(const PictureArguments& arguments, const Domain&, const SceneContent&) {
   check_picture(arguments, {});
 }
 

@@ -1,12 +1,10 @@
 #pragma once
 
-#include <array>
 #include <cstddef>
-#include <cstdint>
 #include <optional>
-#include <span>
 #include <string>
-#include <vector>
+
+#include <plexway/any/scene.hpp>
 
 #include "cli/options/input.hpp"
 
@@ -34,18 +32,9 @@ void add_picture_options(CLI::App& app, PictureArguments& arguments, bool cells 
 /// --picture, NotBuiltError where this build draws no pictures, and as check_output_name.
 void check_picture(const PictureArguments& arguments, const std::string& input);
 
-/// What a command knows of a domain.
-struct PictureContent {
-  std::span<const double> distance = {};     ///< one a vertex, or none
-  std::span<const std::int32_t> label = {};  ///< one a vertex, or none
-  std::vector<std::array<double, 3>> sources, targets, dots;
-  std::vector<std::vector<std::array<double, 3>>> paths;
-  bool look_inside = false;  ///< solids become ghosts, unless they are cut open
-};
-
 /// Draws and writes the picture. Throws as render::picture and render::write_png, and UsageError
 /// for a domain without positions.
 void write_picture(const PictureArguments& arguments, const Domain& domain,
-                   const PictureContent& content);
+                   const SceneContent& content);
 
 }  // namespace plexway::cli

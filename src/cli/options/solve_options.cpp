@@ -9,7 +9,7 @@
 
 #include <plexway/error.hpp>
 
-#include "cli/report/table_file.hpp"
+#include "any/tuning/policy_file.hpp"
 
 namespace plexway::cli {
 namespace {

@@ -6,8 +6,8 @@
 #include <plexway/any/field.hpp>
 #include <plexway/propagate/options.hpp>
 
+#include "any/info/report.hpp"
 #include "cli/options/executor_argument.hpp"
-#include "cli/report/report.hpp"
 
 namespace CLI {
 class App;

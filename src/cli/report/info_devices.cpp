@@ -1,3 +1,5 @@
+#include "cli/report/info_devices.hpp"
+
 #include <algorithm>
 #include <string>
 #include <string_view>
@@ -6,7 +8,6 @@
 #include <plexway/error.hpp>
 
 #include "cli/options/executor_argument.hpp"
-#include "cli/report/info_report.hpp"
 
 namespace plexway::cli {
 namespace {

@@ -28,12 +28,13 @@ struct Rounding<float> {
   static constexpr double tie = 1e-6, cover = 1e-5, excess = 2e-6, shadow = 1e-5;
 };
 
-/// No source lies nearer to a line of sight's edge than this, in mean edges: one on the edge itself
-/// then lights both of its sides.
-constexpr double least_height = 1e-14;
+/// No source lies nearer to the line of its edge than this, in lengths of the edge: one on the edge
+/// itself then lights both of its sides.
+constexpr double least_height(double width) { return 1e-14 * width + 1e-290; }
 /// So many windows a triangle, and ties are no longer broken in favour of both: where lengths are
 /// no metric, or nothing has any length, light could go around for ever.
-constexpr std::size_t patience = 1000;
+constexpr std::size_t ties_end = 1000;
+constexpr std::size_t share = 65536;  ///< windows between two looks at what is told and allowed
 /// In mean edges.
 constexpr double bucket_width = 0.5;
 
@@ -63,9 +64,11 @@ ExactWindows<Real>::ExactWindows(const TriangleMesh<Real>& mesh, const VertexAng
       sentinel_(static_cast<Index>(mesh.face_count())) {}
 
 template <class Real>
-void ExactWindows<Real>::solve(std::span<const PointSource> sources,
-                               const PropagateOptions& options, KeptWindows<Real>* kept) {
+bool ExactWindows<Real>::solve(std::span<const PointSource> sources,
+                               const PropagateOptions& options, const Patience& patience,
+                               KeptWindows<Real>* kept) {
   kept_ = kept;
+  patience_ = patience;
   distance_.assign(mesh_.vertex_count(), infinity);
   arrival_.resize(mesh_.vertex_count());
   labels_ = sources.size() > 1;
@@ -86,48 +89,47 @@ void ExactWindows<Real>::solve(std::span<const PointSource> sources,
   const auto solve_in = [&](auto& order) {
     order.start(bucket_width);
     seed(order, sources);
-    do run(order, options);
+    do
+      if (!run(order, options)) return false;
     while (complete_ && fill_holes(order));
+    return true;
   };
   switch (options.schedule) {
-    case Schedule::dual_queue: {
-      BucketRing ring;
-      solve_in(ring);
-      break;
-    }
     case Schedule::fifo: {
       FirstIn line;
-      solve_in(line);
-      break;
+      return solve_in(line);
     }
     case Schedule::priority:
-      solve_in(nearest_);
-      break;
+      return solve_in(nearest_);
+    default: {
+      BucketRing ring;
+      return solve_in(ring);
+    }
   }
 }
 
 template <class Real>
 template <class Order>
-void ExactWindows<Real>::run(Order& order, const PropagateOptions& options) {
+bool ExactWindows<Real>::run(Order& order, const PropagateOptions& options) {
   const auto next = [this](Index n) -> Index& { return nodes_[n].next; };
   const auto near = [this](Index n) { return nearest(nodes_[n]); };
-  constexpr std::size_t share = 65536;
   std::size_t pause = statistics_.expansions;  // where there is more to do than go on
   for (;;) {
     if (statistics_.expansions >= pause) {
       if (statistics_.expansions >= options.max_expansions) {
         complete_ = order.pop(next, near) == none;
-        return;
+        return true;
       }
       if (statistics_.expansions >= share && options.progress &&
           !options.progress({statistics_.expansions, statistics_.reached_simplices,
                              mesh_.face_count(), order.distance() * mesh_.unit()}))
         throw Cancelled("cancelled by the progress callback");
-      if (statistics_.expansions / patience > mesh_.face_count()) tie_ = -Rounding<Real>::tie;
+      if (too_many()) return false;
+      if (statistics_.expansions / ties_end > mesh_.face_count()) tie_ = -Rounding<Real>::tie;
       pause = std::min(options.max_expansions, (statistics_.expansions / share + 1) * share);
     }
     const Index n = order.pop(next, near);
-    if (n == none) return;
+    if (n == none) return true;
     ++statistics_.expansions;
     if (const Index after = order.peek(); after != none) {
       const Node& node = nodes_[after];
@@ -184,7 +186,7 @@ template <class Real>
 bool ExactWindows<Real>::trim(Window<double>& w, double length, double to_first,
                               double to_second) const {
   Beam<double>& beam = w.beam;
-  const double way = rounding(w.at_end);
+  const double way = rounding(length + w.at_end);
   to_first += way;
   to_second += way;
   if (to_first + beam.end <= w.at_end || to_second + (length - beam.begin) <= w.at_begin)
@@ -246,9 +248,9 @@ template <class Order>
   const TriangleRecord<Real>& t = triangles_[node.edge >> 2];
   const std::size_t in = node.edge & 3, before = edge_before(in), after = edge_after(in);
   const double width = static_cast<double>(t.length[in]);
-  const double x = node.beam.x, h = std::max(node.beam.h, least_height);
+  const double x = node.beam.x, h = std::max(node.beam.h, least_height(width));
   const double begin = node.beam.begin, end = node.beam.end, sigma = node.sigma;
-  const double least = rounding(node.at_end);
+  const double least = rounding(width + node.at_end);
   const double to_a = distance_[t.corner[in]], to_b = distance_[t.corner[after]];
   // Would trim do anything?
   const bool served =
@@ -346,7 +348,7 @@ void ExactWindows<Real>::expand_wide(Order& order, Window<double> w, Index halfe
     Split& best = split_[3 * f + t.in];
     const double foot = x + across / down;
     if (way < best.distance) best = {way, foot};
-    if (way > best.distance + rounding(way)) {
+    if (way > best.distance + rounding(t.width + way)) {
       // What starts between the two rays and crosses the nearer one's is needless. What starts
       // beyond that ray would have crossed it before, or met its source.
       if (foot < best.foot) {
@@ -359,7 +361,7 @@ void ExactWindows<Real>::expand_wide(Order& order, Window<double> w, Index halfe
     }
   }
 
-  const double to_p = distance_[t.p], least = rounding(w.at_end);
+  const double to_p = distance_[t.p], least = rounding(t.width + w.at_end);
   // One side, measured from its pivot: from the ray through a point of AB to that through another,
   // or to the apex. `to_other`: the vertex that lies behind.
   const auto go = [&](const Beam<double>& seen, double near, double far, bool to_apex,

@@ -19,6 +19,12 @@
 
 namespace plexway::windows {
 
+/// What a solve by windows may take before it is given up.
+struct Patience {
+  std::size_t windows = 0;  ///< propagated in all
+  std::size_t waiting = 0;  ///< at a time
+};
+
 /// Exact distances: every window that may hold a shortest path is propagated, in double.
 ///
 /// A window is the light of one source on one edge, an interval. It goes on through a triangle to
@@ -37,9 +43,10 @@ class ExactWindows {
   ExactWindows(const TriangleMesh<Real>& mesh, const VertexAngles& angles);
 
   /// The sources must be checked. Windows are put into `kept` as well, unless it is null. Throws
-  /// Cancelled as the progress callback says.
-  void solve(std::span<const PointSource> sources, const PropagateOptions& options,
-             KeptWindows<Real>* kept = nullptr);
+  /// Cancelled as the progress callback says. False, and no result, where more windows are needed
+  /// than `patience` allows.
+  [[nodiscard]] bool solve(std::span<const PointSource> sources, const PropagateOptions& options,
+                           const Patience& patience, KeptWindows<Real>* kept = nullptr);
 
   /// Afterwards, by the numbers inside, in mean edges; +inf where unreached.
   [[nodiscard]] double distance(Index vertex) const { return distance_[vertex]; }
@@ -64,7 +71,10 @@ class ExactWindows {
   };
 
   template <class Order>
-  void run(Order& order, const PropagateOptions& options);
+  bool run(Order& order, const PropagateOptions& options);
+  [[nodiscard]] bool too_many() const {
+    return statistics_.expansions > patience_.windows || nodes_.size() > patience_.waiting;
+  }
   template <class Order>
   void seed(Order& order, std::span<const PointSource> sources);
   template <class Order>
@@ -86,8 +96,9 @@ class ExactWindows {
   void offer(Order& order, Index vertex, double distance, const Arrival<double>& arrival,
              Index source);
 
-  /// What two ways must differ by, to differ: more than rounding.
-  [[nodiscard]] double rounding(double way) const { return tie_ * (1 + way); }
+  /// What two ways must differ by, to differ: more than rounding. An edge that they cross counts as
+  /// part of them, since it is what places are measured along.
+  [[nodiscard]] double rounding(double way) const { return tie_ * way; }
   /// Cuts off what the ends of its edge serve as well. False if nothing is left.
   [[nodiscard]] bool trim(Window<double>& window, double length, double to_first,
                           double to_second) const;
@@ -105,6 +116,7 @@ class ExactWindows {
   bool labels_ = false;
   bool splits_whole_ = true;  ///< may a window lose all of a side (see expand)?
   double tie_ = 0, radius_ = 0;
+  Patience patience_;
 
   std::vector<double> distance_;
   std::vector<Arrival<double>> arrival_;

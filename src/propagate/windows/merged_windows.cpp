@@ -62,7 +62,10 @@ bool MergedWindows<Real>::solve(std::span<const PointSource> sources,
   complete_ = false;  // until all is done: a callback may throw
   statistics_ = {};
   radius_ = static_cast<Real>(options.radius / mesh_.unit());
-  scale_ = scale_at(0);
+  least_offset_ = std::numeric_limits<double>::infinity();
+  for (const PointSource& s : sources)
+    least_offset_ = std::min(least_offset_, s.offset / mesh_.unit());
+  scale_ = scale_at(least_offset_);
   const auto solve_in = [&](auto& order) {
     order.start(bucket_width);
     seed(order, sources);
@@ -88,8 +91,9 @@ bool MergedWindows<Real>::solve(std::span<const PointSource> sources,
 
 template <class Real>
 Real MergedWindows<Real>::scale_at(double distance) const {
-  return static_cast<Real>(
-      limit_.limit * (limit_.reach < infinity<double> ? std::sqrt(distance / limit_.reach) : 1));
+  const double way = std::max(distance - least_offset_, 0.);
+  return static_cast<Real>(limit_.limit *
+                           (limit_.reach < infinity<double> ? std::sqrt(way / limit_.reach) : 1));
 }
 
 template <class Real>

@@ -135,7 +135,8 @@ class MergedWindows {
   MergeLimit limit_;
   KeptWindows<Real>* kept_ = nullptr;
   bool labels_ = false;
-  Real scale_ = 0;  ///< the limit for an edge of length 1, at the distance in turn
+  Real scale_ = 0;           ///< the limit for an edge of length 1, at the distance in turn
+  double least_offset_ = 0;  ///< of a source: distances count from there for the limit
   Real radius_ = 0;
 
   std::vector<Real> excess_;  ///< of each vertex, as VertexAngles has it

@@ -18,6 +18,7 @@ namespace plexway::windows {
 template <class Real>
 struct Spread {
   using L = kernel::Lanes<Real>;
+  static constexpr Real rounding = sizeof(Real) == sizeof(float) ? Real(2e-6) : Real(1e-9);
 
   L x, h;    ///< the source as the edge sees it
   L length;  ///< of the edge
@@ -34,10 +35,12 @@ struct Spread {
     x = cosine * source - sine * off;
     const L below = sine * source + cosine * off;
     h = max(below, L(Real(0)));
-    // Where the ray through `point` goes; it never comes down to the edge where `slope` <= 0.
+    // Where the ray through `point` goes; it never comes down to the edge where `slope` <= 0. What
+    // only rounding keeps from the apex reaches it: else the way around the light's end, as long as
+    // the straight one, would make a source of the apex.
     const L slope = below - sine * point;
     const L reached = point * off / slope;
-    at = select((slope.v > 0) & (reached.v < length.v), reached, length);
+    at = select((slope.v > 0) & (reached.v < (length * L(1 - rounding)).v), reached, length);
     measure(w.sigma);
   }
 

@@ -1,15 +1,38 @@
 #include "propagate/windows/window_solver.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <limits>
+#include <string>
 #include <type_traits>
 
+#include <plexway/error.hpp>
 #include <plexway/propagate/window_memory.hpp>
 
 #include "complex/number_range.hpp"
-#include "propagate/read_out.hpp"
+#include "propagate/alone.hpp"
+#include "propagate/mend_surface.hpp"
 
 namespace plexway {
 namespace windows {
+namespace {
+
+/// What exact windows may take. Scans and CAD parts need 2 to 80 windows a triangle, raw needles
+/// 500, two sheets with the same vertices 900, and all more as the root of their number grows; of
+/// these 5 at most wait at a time, of 64 bytes each. Who did not ask for windows by name waits
+/// about twenty times as long as usual for them, or a second.
+Patience patience(std::size_t triangles, bool by_name, bool kept) {
+  constexpr std::size_t most_kept = none - (std::size_t{1} << 20);  // they are numbered
+  const auto root = static_cast<std::size_t>(std::sqrt(static_cast<double>(triangles)));
+  const auto windows = [&](std::size_t a_triangle, int and_two_to) {
+    return a_triangle * triangles + (std::size_t{1} << and_two_to);
+  };
+  if (!by_name) return {std::min(windows(4096, 18), windows(128, 25)), windows(32, 20)};
+  return {kept ? std::min(windows(1024, 25), most_kept) : windows(4096 + 16 * root, 20),
+          std::min(windows(128, 22), most_kept / 2)};
+}
+
+}  // namespace
 
 template <class Real>
 WindowSolver<Real>::WindowSolver(const TriangleMesh<Real>& mesh)
@@ -33,6 +56,7 @@ void WindowSolver<Real>::read_out(const Windows& windows, std::span<const PointS
                                   DistanceField<Real>& field) const {
   NumberRange<Real>::check_unit(mesh_.unit());
   constexpr Real infinity = std::numeric_limits<Real>::infinity();
+  const Real radius = static_cast<Real>(options.radius);
   const auto inside = mesh_.vertices_inside();
   workspace.vertex.resize(inside.size());
   if constexpr (kLabels) workspace.vertex_source.resize(inside.size());
@@ -41,14 +65,18 @@ void WindowSolver<Real>::read_out(const Windows& windows, std::span<const PointS
     if constexpr (kLabels) workspace.vertex_source[v] = windows.source(v);
   }
   field.statistics = windows.statistics();
-  if constexpr (std::is_same_v<Windows, MergedWindows<Real>>)
-    field.statistics.lowered_vertices = read_out_edges<Real, kLabels>(mesh_, workspace).much;
+  if constexpr (std::is_same_v<Windows, MergedWindows<Real>>) {
+    const auto mended = surface::mend<Real, kLabels>(mesh_, sources, workspace, Alone{});
+    field.statistics.lowered_vertices = mended.lowered;
+    field.statistics.raised_vertices = mended.raised;
+  }
   field.distance.resize(inside.size());
   field.label.resize(kLabels ? inside.size() : 0);
   for (std::size_t v = 0; v < inside.size(); ++v) {
-    const double d = static_cast<double>(workspace.vertex[inside[v]]) * mesh_.unit();
-    const bool in = d <= options.radius;
-    field.distance[v] = in ? static_cast<Real>(d) : infinity;
+    const Real d =
+        static_cast<Real>(static_cast<double>(workspace.vertex[inside[v]]) * mesh_.unit());
+    const bool in = d <= radius;
+    field.distance[v] = in ? d : infinity;
     if constexpr (kLabels)
       field.label[v] = in && d < infinity ? workspace.vertex_source[inside[v]] : none;
   }
@@ -63,7 +91,7 @@ void WindowSolver<Real>::read_out(const Windows& windows, std::span<const PointS
 }
 
 template <class Real>
-void WindowSolver<Real>::solve(std::span<const PointSource> sources, Accuracy accuracy,
+bool WindowSolver<Real>::solve(std::span<const PointSource> sources, Accuracy accuracy,
                                const PropagateOptions& options, Workspace<Real>& workspace,
                                DistanceField<Real>& field) {
   const auto take = [&](const auto& windows) {
@@ -88,10 +116,18 @@ void WindowSolver<Real>::solve(std::span<const PointSource> sources, Accuracy ac
   if (!merge || !merged_->solve(sources, options, merge_limit(accuracy.error()), keep()) ||
       !is_sound()) {
     if (!exact_) exact_.emplace(mesh_, angles_);
-    exact_->solve(sources, options, keep());
+    const bool may_give_up = options.accuracy.kind() == Accuracy::Kind::usual;
+    const Patience limit = patience(mesh_.face_count(), !may_give_up, kept_.has_value());
+    if (!exact_->solve(sources, options, limit, keep())) {
+      if (may_give_up) return false;
+      throw EndlessError("stopped after " + std::to_string(exact_->statistics().expansions) +
+                         " windows on " + std::to_string(mesh_.face_count()) +
+                         " triangles: too many to wait for; use the accuracy fast, or look for "
+                         "triangles that lie on each other");
+    }
     take(*exact_);
     field.error.assign(mesh_.vertex_count(), 0);
-    return;
+    return true;
   }
   take(*merged_);
   const auto inside = mesh_.vertices_inside();
@@ -100,6 +136,7 @@ void WindowSolver<Real>::solve(std::span<const PointSource> sources, Accuracy ac
     field.error[v] = field.distance[v] < std::numeric_limits<Real>::infinity()
                          ? merged_->error(inside[v]) * static_cast<Real>(mesh_.unit())
                          : Real(0);
+  return true;
 }
 
 template <class Real>

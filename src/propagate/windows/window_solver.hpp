@@ -35,14 +35,16 @@ class WindowSolver {
   /// The distance of every vertex from the nearest of `sources`, as plexway::solve gives it. Of the
   /// options count schedule, radius, max_expansions (of windows) and progress; all must be checked,
   /// and the accuracy be a merged one or exact. Exact: the same bits whatever the schedule. Throws
-  /// Cancelled. Sources: Mitchell, Mount, Papadimitriou (SIAM J. Comput. 1987);
-  /// Chen, Han (SoCG 1990); Xin, Wang (TOG 2009).
+  /// Cancelled. Where windows become too many, false and no field if options.accuracy is `usual`;
+  /// else EndlessError, and not as soon. Sources: Mitchell, Mount, Papadimitriou (SIAM J. Comput.
+  /// 1987); Chen, Han (SoCG 1990); Xin, Wang (TOG 2009).
   ///
-  /// What was merged is read out as labels are: no vertex is left farther than a neighbour and the
-  /// edge between, where triangles without an area hide it. `workspace` is for that.
-  void solve(std::span<const PointSource> sources, Accuracy accuracy,
-             const PropagateOptions& options, Workspace<Real>& workspace,
-             DistanceField<Real>& field);
+  /// What was merged is read out as labels are: no vertex is left below the straight line in space,
+  /// and none farther than a neighbour and the edge between, where triangles without an area hide
+  /// it. `workspace` is for that.
+  [[nodiscard]] bool solve(std::span<const PointSource> sources, Accuracy accuracy,
+                           const PropagateOptions& options, Workspace<Real>& workspace,
+                           DistanceField<Real>& field);
 
   /// Shall solves keep their windows?
   void keep_windows(bool keep);

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <string>
+
+#include <plexway/any_domain.hpp>
+#include <plexway/apps/all_pairs.hpp>
+#include <plexway/io/write_pairs.hpp>
+
+// Distance matrices of a domain whose kind and precision are hidden: see apps/all_pairs.hpp. With
+// this io::write_pairs and io::write_near_pairs take it, too.
+
+namespace plexway {
+
+/// As plexway::all_pairs, on any domain, mixed ones too: rows have the bits of AnyDomain::solve by
+/// Serial, on whatever triangles that takes. UsageError for the executor GL.
+PairsReport all_pairs(const AnyExecutor& executor, const AnyDomain& domain,
+                      const PairsRequest& request, const PairsSink<DenseRow<double>>& sink);
+
+/// As plexway::near_pairs. On surfaces rows are found on the triangles of the shape, on mixed
+/// domains each is a solve of all.
+PairsReport near_pairs(const AnyExecutor& executor, const AnyDomain& domain,
+                       const PairsRequest& request, const NearLimits& limits,
+                       const PairsSink<SparseRow<double>>& sink);
+
+/// Whatever the precision.
+template <>
+struct io::RowNumber<AnyDomain> {
+  /// See plexway::all_pairs of an AnyDomain.
+  using Type = double;
+};
+
+///@{
+/// Tells inputs apart, for the description of a journal: hexadecimal digits.
+[[nodiscard]] std::string fingerprint_of(const AnyShape& shape);
+[[nodiscard]] std::string fingerprint_of(const MeasuredLengths& lengths);
+[[nodiscard]] std::string fingerprint_of(const SourceList& sources);
+///@}
+
+}  // namespace plexway

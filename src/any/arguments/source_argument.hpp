@@ -1,0 +1,51 @@
+#pragma once
+
+#include <array>
+#include <span>
+#include <string>
+#include <vector>
+
+#include <plexway/source/source.hpp>
+
+#include <plexway/any/shape.hpp>
+
+namespace plexway {
+
+/// What `--source` of `plexway distance` says, before the domain is known.
+struct SetArgument {
+  enum class Kind { point, vertices, boundary, segment, polyline, simplex, circle };
+  std::string text;   ///< as typed
+  std::string place;  ///< without the offset
+  Kind kind = Kind::point;
+  std::vector<double> numbers;  ///< of segments and circles
+  std::string file;             ///< of vertices and polylines
+  Index simplex = none;
+  double offset = 0;
+};
+
+/// What `--source` may be, for help and errors.
+extern const char* const source_set_help;
+
+/// Reads vertex:ID, point:X,Y,Z, vertices:FILE, boundary, segment:X,Y,Z,X,Y,Z, polyline:FILE,
+/// triangle:ID (or simplex:ID) and circle:X,Y,Z,R, each with +offset behind it if wanted. Throws
+/// UsageError for anything else.
+std::vector<SetArgument> parse_source_sets(const std::vector<std::string>& texts);
+
+/// The sources in `domain`. Points of segments and polylines are joined by shortest paths. Throws
+/// InputError for what the domain or a file has not, UsageError for what the kind of domain cannot
+/// start from. `measured`: by a metric, so boundaries of solids are their vertices alone.
+std::vector<Source> locate_source_sets(const AnyShape& domain,
+                                       std::span<const SetArgument> arguments,
+                                       bool measured = false);
+
+/// If all of them are points: as points.
+std::vector<PointSource> as_points(std::span<const Source> sources);
+
+/// Are there some that need double precision?
+bool needs_double(const AnyShape& domain, std::span<const Source> sources);
+
+/// For people.
+std::string describe_source_set(const AnyShape& domain, const SetArgument& argument,
+                                const Source& source);
+
+}  // namespace plexway

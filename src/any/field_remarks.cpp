@@ -1,0 +1,129 @@
+#include "any/field_remarks.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <set>
+#include <utility>
+
+#include <plexway/complex/point_cloud.hpp>
+
+#include "any/arguments/source_argument.hpp"
+#include "any/cloud_words.hpp"
+#include "any/words.hpp"
+
+namespace plexway {
+
+FieldReach reach_of(std::span<const double> distance, std::span<const Source> sources) {
+  FieldReach outcome;
+  outcome.max_distance = -std::numeric_limits<double>::infinity();
+  for (std::size_t v = 0; v < distance.size(); ++v) {
+    if (!std::isfinite(distance[v])) continue;
+    ++outcome.reached;
+    if (distance[v] <= outcome.max_distance) continue;
+    outcome.max_distance = distance[v];
+    outcome.farthest = v;
+  }
+  std::set<Index> at;
+  const auto take = [&](Index v) {
+    if (v != none && std::isfinite(distance[v])) at.insert(v);
+  };
+  for (const Source& source : sources) {
+    if (const auto* point = std::get_if<PointSource>(&source)) take(point->vertex);
+    if (const auto* set = std::get_if<VertexSource>(&source))
+      for (const Index v : set->vertices) take(v);
+  }
+  // Where sets leave nothing to reach, nothing failed.
+  const bool covered = at.size() == distance.size() && as_points(sources).empty();
+  outcome.beside_source = covered ? at.size() : outcome.reached - at.size();
+  return outcome;
+}
+
+namespace {
+
+// Vertices in no simplex.
+std::size_t count_apart(const AnyShape& domain) {
+  std::vector<bool> used(domain.vertices(), false);
+  for (std::size_t s = 0; s < domain.simplices(); ++s)
+    for (const auto v : domain.corners(s)) used[v] = true;
+  return static_cast<std::size_t>(std::count(used.begin(), used.end(), false));
+}
+
+// Why not all was reached.
+std::string why_unreached(const AnyDomain& solver, bool bounded) {
+  const AnyShape& domain = solver.shape();
+  std::string why;
+  if (domain.cloud() != nullptr) {
+    if (solver.components() > 1) why = why_disconnected(*domain.cloud(), solver.components());
+  } else {
+    why = "the " + std::string(kind_noun(domain.kind())) + " has " +
+          counted(solver.components(), "components");
+    if (const std::size_t apart = count_apart(domain); apart > 0) {
+      why.append(", ").append(counted(apart, "vertices")).append(apart == 1 ? " is" : " are");
+      why.append(" in none of its ").append(domain.simplex_name());
+    }
+  }
+  if (bounded)
+    why.append(why.empty() ? "" : ", and ")
+        .append("--radius or --max-expansions ends the search early");
+  return why;
+}
+
+}  // namespace
+
+std::vector<std::string> field_remarks(const AnyDomain& solver, const AnyField& field,
+                                       const FieldReach& outcome, bool bounded) {
+  std::vector<std::string> remarks;
+  const auto remark = [&](std::string text) { remarks.push_back(std::move(text)); };
+  const bool single = solver.precision() == Precision::single;
+  const AnyShape& domain = solver.shape();
+  if (domain.cloud() != nullptr && domain.cloud()->not_finite > 0)
+    remark(counted(domain.cloud()->not_finite, "points") +
+           " not finite, and dropped: vertices count those that are left; the column original "
+           "has their numbers in the file");
+  if (const CloudSummary* cloud = solver.cloud()) {
+    if (cloud->near_duplicates > 0)
+      remark(counted(cloud->near_duplicates, "points") +
+             " much nearer to an earlier one than all others are: they count as that one");
+    if (100 * cloud->bridges > cloud->distinct)
+      remark(counted(cloud->bridges, "points") +
+             " hang together by single edges: no surface was found there, and ways go from point "
+             "to point; more neighbours may help (--k " +
+             std::to_string(4 * std::max<std::size_t>(domain.cloud()->k, 16)) + ")");
+  }
+  if (!field.complete()) {
+    remark("stopped after " + counted(field.statistics().expansions, "expansions") +
+           ": distances may still be too long");
+  }
+  // Labels that got much wrong say so, and windows are the cure where there are any. Where speeds
+  // jump there are none, and what travels along an edge is lowered though nothing is wrong.
+  const bool has_windows =
+      (domain.kind() == DomainKind::surface || domain.kind() == DomainKind::cloud) &&
+      solver.refracting_edges() == 0;
+  const bool by_labels = field.accuracy() == Accuracy::fast();
+  const std::string cure = has_windows && by_labels ? "; --accuracy accurate has none of this" : "";
+  const std::size_t raised = field.statistics().raised_vertices;
+  if (100 * raised > domain.vertices())
+    remark(counted(raised, "vertices") +
+           " came out nearer than the straight line through space, and were given its length: "
+           "distances here are poor" +
+           (cure.empty() ? "; another --triangulation may do better" : cure));
+  const std::size_t lowered = field.statistics().lowered_vertices;
+  if ((cure.empty() ? 20 : 50) * lowered > domain.vertices())
+    remark(counted(lowered, "vertices") +
+           " came out farther than a neighbour and the edge between, and were given that way: "
+           "distances here are less accurate" +
+           cure);
+  // Rounding turns a line of sight a little at each edge.
+  constexpr double too_many = 5e4;
+  if (single && outcome.max_distance > too_many * solver.mean_edge() && solver.mean_edge() > 0)
+    remark("distances of up to " + short_number(outcome.max_distance / solver.mean_edge()) +
+           " edges: single precision may be off by more than 1e-4; use --precision double");
+  const std::size_t unreached = domain.vertices() - outcome.reached;
+  if (unreached == 0) return remarks;
+  const std::string why = why_unreached(solver, bounded);
+  remark(counted(unreached, "vertices") + " not reached (inf)" + (why.empty() ? "" : ": " + why));
+  return remarks;
+}
+
+}  // namespace plexway

@@ -1,0 +1,88 @@
+#include <array>
+#include <string>
+#include <variant>
+
+#include <plexway/any/pairs.hpp>
+#include <plexway/io/block_journal.hpp>
+
+namespace plexway {
+namespace {
+
+using io::Fingerprint;
+
+void add(Fingerprint& print, const MeasuredLengths& lengths) {
+  print.add_numbers(lengths.triangles);
+  print.add_numbers(lengths.tets);
+  print.add_numbers(lengths.edges);
+  print.add_numbers(lengths.speeds);
+}
+
+void add(Fingerprint& print, const PointSource& point) {
+  print.add_numbers(std::array{point.vertex, point.simplex});
+  print.add_numbers(point.barycentric);
+  print.add_numbers(std::array{point.offset});
+}
+void add(Fingerprint& print, const VertexSource& source) {
+  print.add_numbers(source.vertices);
+  print.add_numbers(source.offsets);
+  print.add_numbers(std::array{source.offset});
+}
+void add(Fingerprint& print, const BallSource& ball) {
+  add(print, ball.centre);
+  print.add_numbers(std::array{ball.radius, ball.offset});
+}
+void add(Fingerprint& print, const CurveSource& curve) {
+  for (const PointSource& point : curve.points) add(print, point);
+  print.add_numbers(std::array{curve.offset});
+}
+void add(Fingerprint& print, const SimplexSource& source) {
+  print.add_numbers(std::array{source.simplex});
+  print.add_numbers(std::array{source.offset});
+}
+
+}  // namespace
+
+std::string fingerprint_of(const MeasuredLengths& lengths) {
+  Fingerprint print;
+  add(print, lengths);
+  return print.text();
+}
+
+std::string fingerprint_of(const AnyShape& shape) {
+  Fingerprint print;
+  print.add(shape.kind_name());
+  print.add_numbers(shape.positions());
+  for (std::size_t i = 0; i < shape.simplices(); ++i) print.add_numbers(shape.corners(i));
+  if (const MeasuredLengths* lengths = shape.lengths()) add(print, *lengths);
+  if (const auto* wire = std::get_if<io::Edges>(&shape.data())) print.add_numbers(wire->lengths);
+  if (const auto* simplices = std::get_if<SimplexShape>(&shape.data())) {
+    print.add_numbers(simplices->positions);
+    print.add_numbers(simplices->lengths);
+  }
+  if (const auto* mixed = std::get_if<MixedShape>(&shape.data())) {
+    for (const MixedShape::Part& part : mixed->parts)
+      print.add_numbers(std::array{part.first_vertex, part.vertices});
+    print.add_numbers(std::array{mixed->tolerance});
+  }
+  if (const CloudShape* cloud = shape.cloud()) {
+    print.add_numbers(cloud->measured());
+    print.add_numbers(cloud->neighbours.begin);
+    print.add_numbers(cloud->neighbours.of);
+  }
+  return print.text();
+}
+
+std::string fingerprint_of(const SourceList& sources) {
+  Fingerprint print;
+  if (sources.only_points()) {
+    for (const PointSource& point : sources.points()) add(print, point);
+    return print.text();
+  }
+  for (const Source& source : sources.sources()) {
+    print.add_numbers(std::array{source.index()});
+    std::visit([&](const auto& of) { add(print, of); }, source);
+  }
+  return print.text();
+}
+
+}  // namespace plexway

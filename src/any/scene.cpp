@@ -1,0 +1,107 @@
+#include <plexway/any/scene.hpp>
+
+#include <string>
+#include <type_traits>
+#include <utility>
+#include <variant>
+
+#include <plexway/complex/normals.hpp>
+#include <plexway/error.hpp>
+
+namespace plexway {
+namespace {
+
+constexpr std::size_t most_dots = 200;
+
+class Marker {
+ public:
+  Marker(const AnyShape& domain, SceneContent& content) : domain_(domain), content_(content) {}
+
+  void operator()(const PointSource& point) { content_.sources.push_back(domain_.position(point)); }
+  void operator()(const VertexSource& set) {
+    if (set.vertices.size() > most_dots || set.vertices.size() == domain_.vertices()) return;
+    for (const Index v : set.vertices) content_.dots.push_back(domain_.positions()[v]);
+  }
+  void operator()(const BallSource&) {}
+  void operator()(const CurveSource& curve) {
+    std::vector<std::array<double, 3>> line;
+    const auto finish = [&] {
+      if (line.size() > 1) content_.paths.push_back(std::move(line));
+      line.clear();
+    };
+    for (const PointSource& point : curve.points) {
+      if (names_nothing(point))
+        finish();
+      else
+        line.push_back(domain_.position(point));
+    }
+    finish();
+  }
+  void operator()(const SimplexSource& whole) {
+    std::vector<std::array<double, 3>> rim;
+    const auto corners = domain_.corners(whole.simplex);
+    for (const Index v : corners) rim.push_back(domain_.positions()[v]);
+    if (corners.size() > 2) rim.push_back(rim.front());
+    content_.paths.push_back(std::move(rim));
+  }
+
+ private:
+  const AnyShape& domain_;
+  SceneContent& content_;
+};
+
+}  // namespace
+
+void SceneContent::mark(const AnyShape& shape, const Source& source) {
+  if (!shape.positions().empty()) std::visit(Marker(shape, *this), source);
+}
+
+ShapeScene::ShapeScene(const AnyShape& shape, const SceneContent& content) {
+  render::Part part;
+  part.positions = shape.positions();
+  if (part.positions.empty())
+    throw UsageError((shape.file().empty() ? "the domain" : shape.file().string()) +
+                     " has no positions to draw");
+  part.value = content.distance;
+  part.label = content.label;
+  std::visit(
+      [&](const auto& data) {
+        using Kind = std::decay_t<decltype(data)>;
+        if constexpr (std::is_same_v<Kind, io::Triangles>) {
+          part.triangles = data.triangles;
+        } else if constexpr (std::is_same_v<Kind, io::Tets>) {
+          part.tets = data.tets;
+          part.ghost = content.look_inside;
+        } else if constexpr (std::is_same_v<Kind, io::Edges>) {
+          part.edges = data.edges;
+        } else if constexpr (std::is_same_v<Kind, CloudShape>) {
+          normals_ = data.points.normals.empty()
+                         ? estimate_normals(data.measured(), data.neighbours)
+                         : data.points.normals;
+          part.normals = normals_;
+        } else if constexpr (std::is_same_v<Kind, MixedShape>) {
+          for (const MixedShape::Part& of : data.parts) {
+            part.edges = of.edges;
+            part.triangles = of.triangles;
+            part.tets = of.tets;
+            part.ghost = content.look_inside;
+            scene_.parts.push_back(part);
+          }
+        } else {
+          throw UsageError(
+              "pictures are of surfaces, solids, wireframes, clouds and mixed domains");
+        }
+      },
+      shape.data());
+  if (scene_.parts.empty()) scene_.parts = {part};
+  scene_.sources = content.sources;
+  scene_.targets = content.targets;
+  scene_.paths = content.paths;
+  if (content.dots.empty()) return;
+  render::Dots dots;
+  dots.positions = content.dots;
+  if (!content.label.empty()) dots.colour = {35, 40, 50};
+  scene_.dots = {std::move(dots)};
+}
+
+}  // namespace plexway

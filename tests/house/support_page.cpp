@@ -1,0 +1,197 @@
+#include "house/support_page.hpp"
+
+#include <array>
+#include <map>
+#include <set>
+#include <string_view>
+#include <vector>
+
+#include <plexway/support.hpp>
+
+namespace house {
+namespace {
+
+using namespace plexway;
+
+template <class Value>
+struct Named {
+  const char* name;
+  Value value;
+};
+
+struct Row {
+  const char* name;
+  DomainKind kind;
+  int dimension;
+};
+constexpr std::array<Row, 7> rows = {{{"surface", DomainKind::surface, 2},
+                                      {"solid", DomainKind::solid, 3},
+                                      {"wireframe", DomainKind::wireframe, 1},
+                                      {"simplices, dimension 1 to 3", DomainKind::simplices, 3},
+                                      {"simplices, dimension 4", DomainKind::simplices, 4},
+                                      {"cloud", DomainKind::cloud, 2},
+                                      {"mixed", DomainKind::mixed, 3}}};
+constexpr std::array<Named<ExecutorKind>, 3> executors = {
+    {{"Serial", ExecutorKind::serial}, {"OpenMP", ExecutorKind::openmp}, {"GL", ExecutorKind::gl}}};
+constexpr std::array<Named<SourceKind>, 4> sources = {{{"vertices, balls", SourceKind::vertex},
+                                                       {"points", SourceKind::point},
+                                                       {"curves", SourceKind::curve},
+                                                       {"simplices", SourceKind::simplex}}};
+constexpr std::array<Named<Visibility>, 4> visibilities = {
+    {{"saddles", Visibility::saddles},
+     {"tuned", Visibility::tuned},
+     {"centroid", Visibility::centroid},
+     {"upper_bound", Visibility::upper_bound}}};
+constexpr std::array<Named<Schedule>, 3> schedules = {{{"dual_queue", Schedule::dual_queue},
+                                                       {"fifo", Schedule::fifo},
+                                                       {"priority", Schedule::priority}}};
+constexpr std::array<Named<Accuracy::Kind>, 3> accuracies = {{{"fast", Accuracy::Kind::fast},
+                                                              {"accurate", Accuracy::Kind::merged},
+                                                              {"exact", Accuracy::Kind::exact}}};
+
+MetricKind usual_metric(DomainKind kind) {
+  return kind == DomainKind::solid ? MetricKind::embedded : MetricKind::intrinsic;
+}
+
+// Numbers of sentences, in the order in which they come up.
+class Page {
+ public:
+  std::string text() {
+    std::string tables = executor_table();  // one after another: numbers go in that order
+    tables += option_tables();
+    return "# What goes together\n\n"
+           "Made from `include/plexway/support.hpp` by `ninja plexway_support_page`; a test of the "
+           "house compares the\n"
+           "two. What does not go together is refused with the sentence of the number, by the "
+           "compiler where types\n"
+           "alone tell. `float` and `double`: only domains of that precision.\n" +
+           tables + sentences();
+  }
+
+ private:
+  std::string number(Refusal refusal) {
+    const auto [found, fresh] = numbers_.try_emplace(refusal, numbers_.size() + 1);
+    if (fresh) order_.push_back(refusal);
+    return "no [" + std::to_string(found->second) + "]";
+  }
+
+  static Combination cell(ExecutorKind executor, const Row& row, bool single) {
+    return {executor, row.kind, row.dimension, single, usual_metric(row.kind)};
+  }
+
+  // Of both precisions.
+  template <class Change>
+  std::string entry(ExecutorKind executor, const Row& row, const Change& change) {
+    std::array<Support, 2> found;
+    for (const bool single : {false, true}) {
+      Combination c = cell(executor, row, single);
+      change(c);
+      found[single] = support(c);
+    }
+    if (found[0] && found[1]) return "yes";
+    if (found[0]) return "double [" + number(found[1].refusal()).substr(4);
+    if (found[1]) return "float [" + number(found[0].refusal()).substr(4);
+    // Where there is another reason than the precision, that is the one.
+    return number(found[found[0].refusal() == Refusal::gl_double].refusal());
+  }
+
+  std::string executor_table() {
+    std::string text =
+        "\n## Executors\n\nAnything at all: from a vertex, by default options.\n\n| domain |";
+    for (const auto& e : executors) text.append(" `").append(e.name).append("` |");
+    text += "\n|---|---|---|---|\n";
+    for (const Row& row : rows) {
+      text.append("| ").append(row.name).append(" |");
+      for (const auto& e : executors) text += " " + entry(e.value, row, [](Combination&) {}) + " |";
+      text += "\n";
+    }
+    return text;
+  }
+
+  template <class Values, class Change>
+  std::string table(const char* heading, const Values& values, const Change& change) {
+    std::string text = std::string("\n## ") + heading + "\n\n| domain | executor |";
+    for (const auto& v : values) text.append(" ").append(v.name).append(" |");
+    text += "\n|---|---|";
+    for (std::size_t i = 0; i < values.size(); ++i) text += "---|";
+    text += "\n";
+    for (const Row& row : rows)
+      for (const auto& e : executors) {
+        if (!support(cell(e.value, row, true))) continue;
+        text.append("| ").append(row.name).append(" | `").append(e.name).append("` |");
+        for (const auto& v : values)
+          text += " " + entry(e.value, row, [&](Combination& c) { change(c, v.value); }) + " |";
+        text += "\n";
+      }
+    return text;
+  }
+
+  std::string option_tables() {
+    std::string text =
+        table("Sources", sources, [](Combination& c, SourceKind v) { c.source = v; });
+    text += table("Accuracy", accuracies, [](Combination& c, Accuracy::Kind v) { c.accuracy = v; });
+    text +=
+        table("Visibility", visibilities, [](Combination& c, Visibility v) { c.visibility = v; });
+    text += table("Schedule", schedules, [](Combination& c, Schedule v) { c.schedule = v; });
+    return text + metric_table();
+  }
+
+  std::string metric_table() {
+    std::string text =
+        "\n## Metric\n\nSurfaces that refract, and solids by lengths alone.\n\n| domain |";
+    for (const auto& e : executors) text.append(" `").append(e.name).append("` |");
+    text += "\n|---|---|---|---|\n";
+    const std::array<Named<MetricKind>, 2> metrics = {
+        {{"surface, refracting", MetricKind::refracting},
+         {"solid, lengths", MetricKind::intrinsic}}};
+    for (std::size_t i = 0; i < metrics.size(); ++i) {
+      text.append("| ").append(metrics[i].name).append(" |");
+      for (const auto& e : executors)
+        text += " " +
+                entry(e.value, rows[i], [&](Combination& c) { c.metric = metrics[i].value; }) +
+                " |";
+      text += "\n";
+    }
+    return text;
+  }
+
+  std::string sentences() {
+    std::string text = "\n## Sentences\n\n";
+    for (std::size_t i = 0; i < order_.size(); ++i)
+      text += std::to_string(i + 1) + ". " + Support(order_[i]).sentence() + "\n";
+    const std::vector<Refusal> rest = only_together();
+    text += "\nAnd where two options do not go with each other, though each is fine alone:\n\n";
+    for (const Refusal refusal : rest)
+      text += std::string("* ") + Support(refusal).sentence() + "\n";
+    return text;
+  }
+
+  // Those that no table above has a number for.
+  std::vector<Refusal> only_together() {
+    std::set<Refusal> rest;
+    for (const Row& row : rows)
+      for (const auto& e : executors)
+        for (const auto& s : sources)
+          for (const auto& v : visibilities)
+            for (const auto& o : schedules)
+              for (const auto& a : accuracies)
+                for (const MetricKind m : {usual_metric(row.kind), MetricKind::refracting})
+                  for (const bool single : {false, true}) {
+                    if (m == MetricKind::refracting && row.kind != DomainKind::surface) continue;
+                    const Support found = support({e.value, row.kind, row.dimension, single, m,
+                                                   s.value, v.value, o.value, a.value});
+                    if (!found && numbers_.count(found.refusal()) == 0)
+                      rest.insert(found.refusal());
+                  }
+    return {rest.begin(), rest.end()};
+  }
+
+  std::map<Refusal, std::size_t> numbers_;
+  std::vector<Refusal> order_;
+};
+
+}  // namespace
+
+std::string support_page() { return Page().text(); }
+
+}  // namespace house

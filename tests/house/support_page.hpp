@@ -1,0 +1,10 @@
+#pragma once
+
+#include <string>
+
+namespace house {
+
+/// docs/support.md, all of it, made from the table in support.hpp.
+std::string support_page();
+
+}  // namespace house
