@@ -21,6 +21,7 @@ set(implementation
   # What a workspace is made of: labels, and room for them.
   propagate/front.hpp
   propagate/label_storage.hpp
+  propagate/piece_memory.hpp
   propagate/plain_label.hpp
   propagate/plain_solid_label.hpp
   propagate/room.hpp

@@ -1,5 +1,6 @@
 // A domain of one's own: a map of hexagons, as board games have it. Each is a vertex, a step to a
-// neighbour costs what a function says. Less than 60 lines, and all executors and sources work on it.
+// neighbour costs what a function says. Less than 60 lines, and all executors and sources work on
+// it.
 #pragma once
 
 #include <vector>

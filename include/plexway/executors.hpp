@@ -54,13 +54,13 @@ struct OpenMP {
   int threads = 0;  ///< 0: as many as OpenMP would take (OMP_NUM_THREADS, or one a core)
   /// Simplices that a thread takes at a time. Fronts up to this size are one thread's work.
   std::size_t chunk = 128;
-  /// Surfaces and clouds, Accuracy::fast: not 0, and the surface is cut into pieces of about so many triangles
-  /// (2,000 to 4,000 are best), which exchange labels over their borders, a thread each, instead of
-  /// rounds over the whole front. Threads then wait for each other some dozens of times a solve
-  /// instead of thousands. The result is again the same to the last bit with any number of threads,
-  /// and in a single piece Serial's. Another size gives other labels, all of them as accurate.
-  /// Cost: the workspace keeps the pieces of the last surface, 130 to 150 bytes a triangle in
-  /// float; the first solve cuts them. Other domains go in rounds whatever this says.
+  /// Surfaces and clouds, Accuracy::fast: not 0, and the surface is cut into pieces of about so
+  /// many triangles (2,000 to 4,000 are best), which exchange labels over their borders, a thread
+  /// each, instead of rounds over the whole front. Threads then wait for each other some dozens of
+  /// times a solve instead of thousands. The result is again the same to the last bit with any
+  /// number of threads, and in a single piece Serial's. Another size gives other labels, all of
+  /// them as accurate. Cost: the workspace keeps the pieces of the last surface, 130 to 150 bytes a
+  /// triangle in float; the first solve cuts them. Other domains go in rounds whatever this says.
   std::size_t piece = 0;
 };
 

@@ -103,19 +103,18 @@ Data read_mesh(const std::string& file, std::optional<DomainKind> asked) {
     throw InputError(file + ": a " + extension +
                      " is not read; save the surface as .stl, .ply or .glb");
   static constexpr std::array<std::string_view, 25> known = {
-      ".obj",   ".off",   ".ply", ".stl", ".gii", ".node", ".ele",       ".mesh",
-      ".msh",   ".vtu",   ".vtk", ".vtp", ".glb", ".gltf", ".vdb",       ".poly",
-      ".smesh", ".edges", ".xyz", ".pcd", ".csv", ".las",  ".simplices", ".white",
-      ".plexway"};
+      ".obj", ".off", ".ply", ".stl", ".gii",       ".node",  ".ele",    ".mesh",  ".msh",
+      ".vtu", ".vtk", ".vtp", ".glb", ".gltf",      ".vdb",   ".poly",   ".smesh", ".edges",
+      ".xyz", ".pcd", ".csv", ".las", ".simplices", ".white", ".plexway"};
   std::string hint = io::did_you_mean(extension, known);
-  throw InputError(file + ": " +
-                   (extension.empty() ? "no extension" : "unknown extension '" + extension + "'") +
-                   hint + (hint.empty() ? ";" : "") +
-                   " known are .obj .off .ply .stl .vtp .glb .gltf for surfaces, .node .ele .mesh "
-                   ".msh .vtu .vtk .poly .smesh .vdb for solids, .edges .obj for wireframes, .xyz "
-                   ".csv .las .pcd "
-                   ".ply for clouds; a .msh .vtu .vtk .vtp .glb is what it holds; .plexway is what is "
-                  "prepared");
+  throw InputError(
+      file + ": " + (extension.empty() ? "no extension" : "unknown extension '" + extension + "'") +
+      hint + (hint.empty() ? ";" : "") +
+      " known are .obj .off .ply .stl .vtp .glb .gltf for surfaces, .node .ele .mesh "
+      ".msh .vtu .vtk .poly .smesh .vdb for solids, .edges .obj for wireframes, .xyz "
+      ".csv .las .pcd "
+      ".ply for clouds; a .msh .vtu .vtk .vtp .glb is what it holds; .plexway is what is "
+      "prepared");
 }
 
 // A .ply is a cloud where it is asked to be one, or where it cannot be a surface.

@@ -5,10 +5,10 @@
 
 #include <plexway/error.hpp>
 
-#include "propagate/alone.hpp"
 #include "executors/checks.hpp"
 #include "executors/curve_sources.hpp"
 #include "executors/solve_surface.hpp"
+#include "propagate/alone.hpp"
 #include "propagate/border_light.hpp"
 #include "propagate/curve_pieces.hpp"
 #include "propagate/curve_seeds.hpp"

@@ -3,9 +3,9 @@
 
 #include <plexway/propagate/wire_step.hpp>
 
-#include "propagate/alone.hpp"
 #include "executors/checks.hpp"
 #include "executors/run.hpp"
+#include "propagate/alone.hpp"
 #include "propagate/wire_propagation.hpp"
 
 namespace plexway {

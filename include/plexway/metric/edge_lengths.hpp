@@ -95,8 +95,8 @@ using Metric = std::variant<SimplexTensors, SimplexSpeeds, VertexTensors, Tensor
     const Metric& metric);
 
 /// Lengths of the edges (0,1) (0,2) (1,2) (0,3) (1,3) (2,3) of each tetrahedron, as TetMesh takes
-/// them. Throws as above, and UsageError for Sides::own: a solid whose speeds jump is a mixed domain
-/// (AnyShape::measure).
+/// them. Throws as above, and UsageError for Sides::own: a solid whose speeds jump is a mixed
+/// domain (AnyShape::measure).
 [[nodiscard]] std::vector<std::array<double, 6>> tet_lengths(
     std::span<const Point> positions, std::span<const std::array<Index, 4>> tets,
     const Metric& metric);
