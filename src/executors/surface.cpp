@@ -16,15 +16,10 @@ void solve_points(const E& executor, const TriangleMesh<Real>& mesh,
   const Accuracy accuracy = resolved(
       options.accuracy,
       detail::with(combination<E, TriangleMesh<Real>>(SourceKind::point), mesh.metric(), options));
-<<<<<<< HEAD
   const bool by_windows = accuracy.kind() != Accuracy::Kind::fast;
   if (by_windows) {
-    if constexpr (E::kind == ExecutorKind::openmp) team_size(executor);  // throws if it is none
-=======
-  if (accuracy.kind() != Accuracy::Kind::fast) {
     if constexpr (E::kind == ExecutorKind::openmp)
       static_cast<void>(team_size(executor));  // throws if it is none
->>>>>>> pieces
     if (workspace.windows.on(mesh).solve(sources, accuracy, options, workspace, field)) {
       field.accuracy = accuracy;
       return;

@@ -136,25 +136,15 @@ class Wavefront {
   [[nodiscard]] std::size_t reached_count() const { return reached_; }
   [[nodiscard]] bool out_of_budget() const { return out_of_budget_; }
 
-<<<<<<< HEAD
   /// For rules whose steps take microseconds: shares are small, so that who wants to stop is heard
   /// within some hundredths of a second.
   void expect_slow_steps() { share_ = 4096; }
 
-=======
->>>>>>> pieces
   /// So many expansions from now on, by one who keeps count himself: instead of `take_stock`.
   void grant(std::size_t expansions) {
     granted_ += expansions - countdown_;
     countdown_ = expansions;
   }
-<<<<<<< HEAD
-=======
-
-  /// For rules whose steps take microseconds: shares are small, so that who wants to stop is heard
-  /// within some hundredths of a second.
-  void expect_slow_steps() { share_ = 4096; }
->>>>>>> pieces
 
   /// Grants the next share of the budget and reports progress. `distance` is where the front is.
   /// False if the budget is spent. Throws Cancelled, and EndlessError.
