@@ -11,7 +11,7 @@ namespace examples {
 
 using plexway::Index;
 
-/// `width` x `height` hexagons in rows; each has up to six neighbours: in its own row, and two in
+/// `columns` x `rows` hexagons; each has up to six neighbours: in its own row, and two in
 /// each of the rows below and above.
 template <class Real>
 class HexagonMap : public plexway::CarriedDomain<HexagonMap<Real>, plexway::Wireframe<Real>> {
@@ -20,8 +20,8 @@ class HexagonMap : public plexway::CarriedDomain<HexagonMap<Real>, plexway::Wire
  public:
   /// `cost(a, b)` of the step between neighbours, >= 0.
   template <class Cost>
-  HexagonMap(Index width, Index height, const Cost& cost)
-      : HexagonMap(width, steps_of(width, height), width * height, cost) {}
+  HexagonMap(Index columns, Index rows, const Cost& cost)
+      : HexagonMap(columns, steps_of(columns, rows), columns * rows, cost) {}
 
   [[nodiscard]] Index at(Index column, Index row) const { return width_ * row + column; }
   /// Its simplices are the steps.
@@ -31,18 +31,18 @@ class HexagonMap : public plexway::CarriedDomain<HexagonMap<Real>, plexway::Wire
   using Steps = std::vector<std::array<Index, 2>>;
 
   template <class Cost>
-  HexagonMap(Index width, Steps steps, Index hexagons, const Cost& cost)
+  HexagonMap(Index columns, Steps steps, Index hexagons, const Cost& cost)
       : Base(plexway::Wireframe<Real>(hexagons, steps, costs_of(steps, cost))),
-        width_(width),
+        width_(columns),
         steps_(std::move(steps)) {}
 
-  static Steps steps_of(Index width, Index height) {
+  static Steps steps_of(Index columns, Index rows) {
     Steps steps;
-    for (Index v = 0; v < width * height; ++v) {
-      const bool first = v % width == 0, last = v % width == width - 1;
+    for (Index v = 0; v < columns * rows; ++v) {
+      const bool first = v % columns == 0, last = v % columns == columns - 1;
       if (!first) steps.push_back({v - 1, v});
-      if (v >= width) steps.push_back({v - width, v});
-      if (v >= width && !last) steps.push_back({v - width + 1, v});
+      if (v >= columns) steps.push_back({v - columns, v});
+      if (v >= columns && !last) steps.push_back({v - columns + 1, v});
     }
     return steps;
   }

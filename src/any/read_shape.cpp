@@ -93,10 +93,6 @@ Data read_mesh(const std::string& file, std::optional<DomainKind> asked) {
   if (std::filesystem::is_directory(file, ignored))
     throw InputError(file + ": is a directory, not a file");
   const std::string extension = io::InputName(file).extension;
-  if (has_extension(file, tied_to_names))
-    throw InputError(file + ": a " + extension +
-                     " must be a file with that extension: it is not read from end to end, or not "
-                     "alone");
   if (extension.empty() && io::InputName(file).standard_input)
     throw InputError(file + ": standard input has no extension: say what it is, as in ply:-");
   if (extension == ".3mf" || extension == ".dae" || extension == ".fbx" || extension == ".step")
@@ -227,6 +223,12 @@ AnyShape::State Reading::read() {
     if (volume.voxel) kept.voxel = *volume.voxel;
     return kept;
   }
+  // As in vdb:-.
+  if (has_extension(file_, tied_to_names) &&
+      std::filesystem::path(file_).extension() != io::InputName(file_).extension)
+    throw InputError(file_ + ": a " + io::InputName(file_).extension +
+                     " must be a file with that extension: it is not read from end to end, or not "
+                     "alone");
   begin("reading " + file_);
   const Stopwatch loading;
   bool is_cloud = is_read_as_cloud(file_, asked);

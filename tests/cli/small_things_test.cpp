@@ -24,7 +24,7 @@ std::string two_squares() {
   for (const int first : {0, 5})
     for (const auto& t : {std::array{0, 1, 3}, {1, 2, 3}, {2, 4, 3}, {0, 3, 4}}) {
       off += "3";
-      for (const int v : t) off += " " + std::to_string(first + v);
+      for (const int v : t) off.append(" ").append(std::to_string(first + v));
       off += "\n";
     }
   return off;
@@ -75,9 +75,9 @@ TEST_CASE("every command writes to standard output, and then reports to standard
     CHECK(run.err.find("written") == run.err.npos);
     return run.out;
   };
-  check({"distance", torus, "-s", "vertex:0", "-o", "-"}, "vertex,distance\n0,0\n");
+  check({"distance", torus, "-s", "vertex:0", "-o", "-"}, "vertex,distance,error\n0,0,0\n");
   check({"distance", torus, "-s", "vertex:0", "-o", "ply:-"}, "ply\n");
-  check({"distance", torus, "-s", "vertex:0", "-o", "csv:-"}, "vertex,x,y,z,distance\n");
+  check({"distance", torus, "-s", "vertex:0", "-o", "csv:-"}, "vertex,x,y,z,distance,error\n");
   check({"path", torus, "-f", "vertex:0", "-t", "vertex:9", "-o", "-"}, "{\"paths\"");
   check({"path", torus, "-f", "vertex:0", "-t", "vertex:9", "-o", "obj:-"}, "# geodesic");
   check({"poisson", torus, "--count", "9", "-o", "-"}, "x,y,z,vertex");

@@ -162,8 +162,8 @@ TEST_CASE("a matrix in HDF5 that cannot be written leaves what was there, and sa
   };
   CHECK_THROWS_WITH(write_matrix(file, failing), "no such row");
   CHECK(bytes_of(file) == "old");
-  CHECK_THROWS_AS(write_matrix(file, {.rows = 0, .columns = 3}), plexway::UsageError);
-  CHECK_THROWS_AS(write_matrix(file, {.rows = 2, .columns = 3, .number_bytes = 3}),
+  CHECK_THROWS_AS(write_matrix(file, {.rows = 0, .columns = 3, .read = {}}), plexway::UsageError);
+  CHECK_THROWS_AS(write_matrix(file, {.rows = 2, .columns = 3, .number_bytes = 3, .read = {}}),
                   plexway::UsageError);
   CHECK_THROWS_WITH(write_matrix(folder.at("no/d.h5"), made.matrix()),
                     Catch::Contains("cannot write") && Catch::Contains("No such file"));

@@ -102,7 +102,8 @@ class Page {
     text += "\n|---|---|---|---|\n";
     for (const Row& row : rows) {
       text.append("| ").append(row.name).append(" |");
-      for (const auto& e : executors) text += " " + entry(e.value, row, [](Combination&) {}) + " |";
+      for (const auto& e : executors)
+        text.append(" ").append(entry(e.value, row, [](Combination&) {})).append(" |");
       text += "\n";
     }
     return text;
@@ -120,7 +121,9 @@ class Page {
         if (!support(cell(e.value, row, true))) continue;
         text.append("| ").append(row.name).append(" | `").append(e.name).append("` |");
         for (const auto& v : values)
-          text += " " + entry(e.value, row, [&](Combination& c) { change(c, v.value); }) + " |";
+          text.append(" ")
+              .append(entry(e.value, row, [&](Combination& c) { change(c, v.value); }))
+              .append(" |");
         text += "\n";
       }
     return text;
@@ -147,9 +150,9 @@ class Page {
     for (std::size_t i = 0; i < metrics.size(); ++i) {
       text.append("| ").append(metrics[i].name).append(" |");
       for (const auto& e : executors)
-        text += " " +
-                entry(e.value, rows[i], [&](Combination& c) { c.metric = metrics[i].value; }) +
-                " |";
+        text.append(" ")
+            .append(entry(e.value, rows[i], [&](Combination& c) { c.metric = metrics[i].value; }))
+            .append(" |");
       text += "\n";
     }
     return text;

@@ -99,12 +99,8 @@ void OpenParts::move(Source& source) const {
   if (auto* const ball = std::get_if<BallSource>(&source)) move(ball->centre);
   if (auto* const whole = std::get_if<SimplexSource>(&source))
     whole->simplex = open(whole->simplex);
-  if (const auto* const set = std::get_if<VertexSource>(&source)) {
-    // Values were measured in the whole domain.
-    if (!set->offsets.empty())
-      throw UsageError("--mask: the boundary of a solid is a source of the whole solid alone");
+  if (const auto* const set = std::get_if<VertexSource>(&source))
     for (const Index v : set->vertices) check(v);
-  }
   if (auto* const curve = std::get_if<CurveSource>(&source))
     for (PointSource& point : curve->points)
       if (!names_nothing(point)) move(point);

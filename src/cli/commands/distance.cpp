@@ -202,6 +202,10 @@ void run_distance(DistanceCommand command) {
   if (mask) {
     const OpenParts open(*mask, whole);
     for (Source& source : sources) open.move(source);
+    // Its distances were measured in the whole domain.
+    for (const SetArgument& argument : arguments)
+      if (argument.kind == SetArgument::Kind::boundary && whole.kind() == DomainKind::solid)
+        throw UsageError("--mask: the boundary of a solid is a source of the whole solid alone");
   }
   const std::vector<PointSource> points = as_points(sources);
   if (needs_double(whole, sources)) {
