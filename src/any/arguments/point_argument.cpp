@@ -7,7 +7,7 @@
 
 #include <plexway/error.hpp>
 
-#include "any/info/report.hpp"
+#include "any/words.hpp"
 
 namespace plexway {
 namespace {

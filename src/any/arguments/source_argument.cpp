@@ -9,9 +9,9 @@
 #include <plexway/error.hpp>
 
 #include "any/arguments/point_argument.hpp"
-#include "any/info/report.hpp"
 #include "any/shape_state.hpp"
 #include "any/walls.hpp"
+#include "any/words.hpp"
 #include "io/number_rows.hpp"
 
 namespace plexway {
