@@ -246,10 +246,7 @@ void run_distance(DistanceCommand command) {
   const double solve = solving.seconds();
 
   const std::vector<double> distance = field.doubles();
-  Outcome outcome{reach_of(distance, sources)};
-  outcome.build = solver.build_seconds();
-  outcome.solve = solve;
-  outcome.executor = executor;
+  Outcome outcome{reach_of(distance, sources), solver.build_seconds(), solve, executor};
 
   const bool plain = command.out == "-";
   const std::vector<double> isovalues = isoline_values(command.isolines, distance);
