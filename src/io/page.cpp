@@ -157,7 +157,8 @@ class PageWriter {
       out_.write("]");
     }
     out_.write("],\"map\":[");
-    const auto& table = ColourMap(page_.map).table();
+    const ColourMap map(page_.map);
+    const auto& table = map.table();
     for (std::size_t k = 0; k < table.size(); ++k) {
       out_.write(k > 0 ? ",[" : "[");
       for (std::size_t c = 0; c < 3; ++c) {

@@ -39,8 +39,10 @@ double Ticks::fine_step() const {
 
 Ticks ticks(double low, double high, std::size_t wanted) {
   Ticks result;
-  const auto [digit, power] =
+  const auto rounded =
       round_step((high - low) / static_cast<double>(std::max<std::size_t>(wanted, 1)));
+  const auto digit = rounded.first;
+  const auto power = rounded.second;
   // Whole numbers are divided by powers of ten, so that 3 steps of 0.1 are 0.3.
   const double large = std::max(std::abs(low), std::abs(high));
   const bool scientific = large >= 1e5 || power < -4;
