@@ -330,7 +330,7 @@ PLEXWAY_PAGE_CALLS int plexway_write(const char* file) {
   return answered([&] {
     Session& now = session();
     if (now.distance.empty()) throw UsageError("solve first");
-    opened().shape().write_field(file, now.field.doubles(), now.label);
+    opened().shape().write_field(file, now.field.doubles(), now.label, now.field.error());
     return std::string("{}");
   });
 }

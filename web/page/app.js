@@ -91,11 +91,13 @@ function tellCommands() {
   const sources = state.sources.map((source) => source.argument);
   const name = state.file;
   at('command').value = `plexway distance ${name} ` +
-    sources.map((s) => `--source ${s}`).join(' ') + ' --out distance.vtu';
+    sources.map((s) => `--source ${s}`).join(' ') +
+    (accuracy() === 'usual' ? '' : ` --accuracy ${accuracy()}`) + ' --out distance.vtu';
   const python = sources.map((s) => s.startsWith('vertex:')
     ? s.slice(7) : `domain.closest([${s.slice(6).replaceAll(',', ', ')}])`);
   at('python').value = `import plexway\ndomain = plexway.read("${name}")\n` +
-    `distance = domain.distance(${python.length === 1 ? python[0] : `[${python.join(', ')}]`})`;
+    `distance = domain.distance(${python.length === 1 ? python[0] : `[${python.join(', ')}]`}` +
+    (accuracy() === 'usual' ? ')' : `, accuracy="${accuracy()}")`);
   const query = new URLSearchParams();
   const sample = at('sample').value;
   if (sample !== '') query.set('sample', sample);

@@ -136,7 +136,12 @@ test('every kind of file, and what is exported is what the tool writes', async (
     const [download] = await Promise.all([page.waitForEvent('download'), page.click('[data-save=npy]')]);
     const file = join(scratch, 'page.npy');
     await download.saveAs(file);
-    assert.ok(readFileSync(file).equals(byTool(join(data, name), ['--source', 'vertex:0'])), name);
+    // As the page says that the tool is asked, for the same bits.
+    const [, options] = /^plexway distance \S+ (.*) --out/.exec(await page.inputValue('#command'));
+    assert.ok(readFileSync(file).equals(byTool(join(data, name), options.split(' '))), name);
+    const windows = !/\.(mesh|obj)$/.test(name);
+    assert.equal(options, windows ? '--source vertex:0 --accuracy fast' : '--source vertex:0');
+    assert.equal(/accuracy="fast"\)$/.test(await page.inputValue('#python')), windows);
     await shot(name.replace('.', '-'));
   }
 });
