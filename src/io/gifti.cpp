@@ -64,11 +64,15 @@ class GiftiReader {
     each_row<3>(faces, [&](const std::array<double, 3>& corners) {
       std::array<std::uint32_t, 3> face;
       for (std::size_t i = 0; i < 3; ++i) {
-        if (!(corners[i] >= 0 && corners[i] < static_cast<double>(surface.positions.size()) &&
-              corners[i] == std::floor(corners[i])))
-          fail(bad_index(surface.triangles.size(), static_cast<std::int64_t>(corners[i]),
+        const double corner = corners[i];
+        constexpr double most = 9e15;  // beyond, doubles skip whole numbers
+        if (!(std::abs(corner) < most && corner == std::floor(corner)))
+          fail("triangle " + std::to_string(surface.triangles.size()) +
+               " has a corner that is not the number of a vertex");
+        if (!(corner >= 0 && corner < static_cast<double>(surface.positions.size())))
+          fail(bad_index(surface.triangles.size(), static_cast<std::int64_t>(corner),
                          surface.positions.size()));
-        face[i] = static_cast<std::uint32_t>(corners[i]);
+        face[i] = static_cast<std::uint32_t>(corner);
       }
       surface.triangles.push_back(face);
     });
