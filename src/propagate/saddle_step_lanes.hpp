@@ -1,7 +1,8 @@
 #pragma once
 
-#include <plexway/complex/triangle_record.hpp>
-#include <plexway/propagate/saddle_step.hpp>
+#include <plexway/complex/detail/triangle_record.hpp>
+
+#include "propagate/saddle_step.hpp"
 
 namespace plexway {
 

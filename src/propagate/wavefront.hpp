@@ -3,12 +3,13 @@
 #include <cstddef>
 #include <functional>
 
-#include <plexway/error.hpp>
 #include <plexway/propagate/distance_field.hpp>
-#include <plexway/propagate/endless.hpp>
-#include <plexway/propagate/front.hpp>
 #include <plexway/propagate/options.hpp>
-#include <plexway/propagate/visit_marks.hpp>
+
+#include "propagate/endless.hpp"
+#include "propagate/front.hpp"
+#include "propagate/progress_counter.hpp"
+#include "propagate/visit_marks.hpp"
 
 namespace plexway {
 
@@ -150,10 +151,9 @@ class Wavefront {
   /// False if the budget is spent. Throws Cancelled, and EndlessError.
   bool take_stock(Real distance) {
     if (countdown_ != 0) return false;
-    if (options_->progress && granted_ > 0 &&
-        !options_->progress(
-            {granted_, reached_, simplices_, static_cast<double>(distance) * unit_}))
-      throw Cancelled("cancelled by the progress callback");
+    if (options_->progress && granted_ > 0)
+      tell_progress(*options_,
+                    {granted_, reached_, simplices_, static_cast<double>(distance) * unit_});
     check_end(granted_, simplices_);
     const std::size_t most = options_->max_expansions;
     countdown_ = granted_ < most ? std::min(share_, most - granted_) : 0;

@@ -19,7 +19,7 @@ inline double sqrt(double a) { return std::sqrt(a); }
 inline float abs(float a) { return std::abs(a); }
 inline double abs(double a) { return std::abs(a); }
 
-#include <plexway/kernel/text_begin.inl>
+#include "kernel/text_begin.inl"
 
 /// Updates over an intersection of dimension K (0 a vertex, 1 an edge, 2 a triangle, 3 a
 /// tetrahedron) in float, double, or a SIMD type with their operators, numeric_limits and the
@@ -37,9 +37,9 @@ struct HingeKernel {
   static_assert(K_ >= 0 && K_ <= 3, "hinges have dimension 0, 1, 2 or 3");
   using Real = Real_;
   static constexpr int K = K_;
-#include <plexway/kernel/hinge_kernel.inl>
+#include "kernel/hinge_kernel.inl"
 };
 
-#include <plexway/kernel/text_end.inl>
+#include "kernel/text_end.inl"
 
 }  // namespace plexway::kernel

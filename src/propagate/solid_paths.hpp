@@ -3,13 +3,14 @@
 #include <cmath>
 #include <limits>
 
-#include <plexway/complex/tet_record.hpp>
-#include <plexway/propagate/solid_label.hpp>
-#include <plexway/propagate/solid_sight.hpp>
+#include <plexway/complex/detail/tet_record.hpp>
+
+#include "propagate/solid_label.hpp"
+#include "propagate/solid_sight.hpp"
 
 namespace plexway {
 
-#include <plexway/kernel/text_begin.inl>
+#include "kernel/text_begin.inl"
 
 /// The path that a label of a solid describes: the text of solid_paths.inl, which shaders compile
 /// as well.
@@ -38,13 +39,13 @@ class SolidPaths : protected kernel::SolidSight<Real> {
   static Real min(Real a, Real b) { return b < a ? b : a; }
   static Real sqrt(Real x) { return std::sqrt(x); }
   static Real clamp(Real x, Real a, Real b) { return kernel::clamp(x, a, b); }
-#include <plexway/propagate/solid_paths.inl>
+#include "propagate/solid_paths.inl"
 
  protected:
   const Edge* reflex_;
   Index own_edges_;  // edges from here on are further ones, which only bend paths
 };
 
-#include <plexway/kernel/text_end.inl>
+#include "kernel/text_end.inl"
 
 }  // namespace plexway

@@ -3,8 +3,9 @@
 #include <cmath>
 #include <limits>
 
-#include <plexway/complex/tet_record.hpp>
-#include <plexway/kernel/hinge.hpp>
+#include <plexway/complex/detail/tet_record.hpp>
+
+#include "kernel/hinge.hpp"
 
 namespace plexway::kernel {
 
@@ -16,7 +17,7 @@ constexpr double clamp(double a, double least, double most) {
   return a < least ? least : most < a ? most : a;
 }
 
-#include <plexway/kernel/text_begin.inl>
+#include "kernel/text_begin.inl"
 
 /// What reflex edges hide from where: the text of solid_sight.inl, which shaders compile as well.
 template <class Real_>
@@ -24,10 +25,10 @@ struct SolidSight {
   using Real = Real_;
   using Point = Vector3<Real>;
   using Edge = ReflexEdge<Real>;
-#include <plexway/propagate/solid_sight.inl>
+#include "propagate/solid_sight.inl"
 };
 
-#include <plexway/kernel/text_end.inl>
+#include "kernel/text_end.inl"
 
 }  // namespace plexway::kernel
 

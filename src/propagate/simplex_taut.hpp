@@ -6,7 +6,8 @@
 #include <cstddef>
 #include <limits>
 
-#include <plexway/complex/simplex_flat.hpp>
+#include "complex/flat_domain.hpp"
+
 
 namespace plexway {
 

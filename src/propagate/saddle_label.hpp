@@ -1,6 +1,7 @@
 #pragma once
 
-#include <plexway/kernel/lanes.hpp>
+#include "kernel/lanes.hpp"
+
 
 namespace plexway {
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include <plexway/propagate/saddle_step.hpp>
+#include "propagate/saddle_step.hpp"
 
 /// One update under Visibility::saddles over an edge that the triangles on both sides measure
 /// differently: where a speed or a tensor jumps (SurfaceHints::refracts).

@@ -7,10 +7,11 @@
 #include <limits>
 #include <span>
 
-#include <plexway/complex/simplex_record.hpp>
-#include <plexway/kernel/hinge.hpp>
+#include <plexway/complex/detail/simplex_record.hpp>
 #include <plexway/propagate/options.hpp>
-#include <plexway/propagate/simplex_label.hpp>
+
+#include "kernel/hinge.hpp"
+#include "propagate/simplex_label.hpp"
 
 namespace plexway {
 

@@ -1,6 +1,7 @@
 #pragma once
 
-#include <plexway/kernel/hinge.hpp>
+#include "kernel/hinge.hpp"
+
 
 namespace plexway {
 

@@ -6,9 +6,10 @@
 #include <limits>
 
 #include <plexway/complex/tet_mesh.hpp>
-#include <plexway/kernel/hinge.hpp>
 #include <plexway/propagate/options.hpp>
-#include <plexway/propagate/plain_solid_label.hpp>
+
+#include "kernel/hinge.hpp"
+#include "propagate/plain_solid_label.hpp"
 
 namespace plexway {
 

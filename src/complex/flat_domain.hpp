@@ -7,8 +7,9 @@
 #include <span>
 #include <vector>
 
-#include <plexway/complex/box_tree.hpp>
 #include <plexway/complex/ids.hpp>
+
+#include "complex/box_tree.hpp"
 
 namespace plexway {
 

@@ -4,7 +4,8 @@
 #include <array>
 #include <cmath>
 
-#include <plexway/propagate/saddle_rule.hpp>
+#include "propagate/saddle_rule.hpp"
+
 
 namespace plexway {
 

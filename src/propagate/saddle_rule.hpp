@@ -9,12 +9,13 @@
 #include <span>
 #include <type_traits>
 
-#include <plexway/complex/triangle_record.hpp>
-#include <plexway/propagate/saddle_label.hpp>
-#include <plexway/propagate/saddle_poses.hpp>
-#include <plexway/propagate/saddle_refraction.hpp>
-#include <plexway/propagate/saddle_step.hpp>
-#include <plexway/propagate/saddle_step_lanes.hpp>
+#include <plexway/complex/detail/triangle_record.hpp>
+
+#include "propagate/saddle_label.hpp"
+#include "propagate/saddle_poses.hpp"
+#include "propagate/saddle_refraction.hpp"
+#include "propagate/saddle_step.hpp"
+#include "propagate/saddle_step_lanes.hpp"
 
 namespace plexway {
 

@@ -5,10 +5,11 @@
 #include <limits>
 #include <span>
 
-#include <plexway/complex/triangle_record.hpp>
-#include <plexway/kernel/hinge.hpp>
-#include <plexway/propagate/plain_label.hpp>
-#include <plexway/propagate/probe.hpp>
+#include <plexway/complex/detail/triangle_record.hpp>
+
+#include "kernel/hinge.hpp"
+#include "propagate/plain_label.hpp"
+#include "propagate/probe.hpp"
 
 namespace plexway {
 

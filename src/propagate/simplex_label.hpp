@@ -4,8 +4,9 @@
 #include <cstddef>
 #include <tuple>
 
-#include <plexway/complex/simplex_flat.hpp>
-#include <plexway/propagate/label_storage.hpp>
+#include "complex/flat_domain.hpp"
+#include "propagate/label_storage.hpp"
+
 
 namespace plexway {
 

@@ -3,9 +3,10 @@
 #include <cmath>
 #include <limits>
 
-#include <plexway/complex/triangle_record.hpp>
-#include <plexway/kernel/hinge.hpp>
-#include <plexway/propagate/saddle_label.hpp>
+#include <plexway/complex/detail/triangle_record.hpp>
+
+#include "kernel/hinge.hpp"
+#include "propagate/saddle_label.hpp"
 
 /// One update under Visibility::saddles, hinge by hinge: the text of saddle_step.inl, which shaders
 /// compile as well. saddle_step_lanes.hpp does the common case of both hinges of a triangle at
@@ -14,7 +15,7 @@ namespace plexway {
 
 namespace kernel {
 
-#include <plexway/kernel/text_begin.inl>
+#include "kernel/text_begin.inl"
 
 template <class Real_>
 struct SaddleKernel : HingeKernel<Real_, 1> {
@@ -25,10 +26,10 @@ struct SaddleKernel : HingeKernel<Real_, 1> {
   using typename Hinge::HingeCrossing;
   using typename Hinge::HingePoint;
   using typename Hinge::HingePose;
-#include <plexway/propagate/saddle_step.inl>
+#include "propagate/saddle_step.inl"
 };
 
-#include <plexway/kernel/text_end.inl>
+#include "kernel/text_end.inl"
 
 }  // namespace kernel
 

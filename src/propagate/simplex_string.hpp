@@ -5,8 +5,9 @@
 #include <cmath>
 #include <cstddef>
 
-#include <plexway/complex/simplex_flat.hpp>
-#include <plexway/propagate/simplex_taut.hpp>
+#include "complex/flat_domain.hpp"
+#include "propagate/simplex_taut.hpp"
+
 
 namespace plexway {
 

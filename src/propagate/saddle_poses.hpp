@@ -2,9 +2,10 @@
 
 #include <cstddef>
 
-#include <plexway/complex/triangle_record.hpp>
-#include <plexway/propagate/saddle_label.hpp>
-#include <plexway/propagate/saddle_step.hpp>
+#include <plexway/complex/detail/triangle_record.hpp>
+
+#include "propagate/saddle_label.hpp"
+#include "propagate/saddle_step.hpp"
 
 namespace plexway {
 

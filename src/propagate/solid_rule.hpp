@@ -8,14 +8,15 @@
 #include <utility>
 
 #include <plexway/complex/tet_mesh.hpp>
-#include <plexway/propagate/solid_clear_space.hpp>
-#include <plexway/propagate/solid_label.hpp>
-#include <plexway/propagate/solid_paths.hpp>
-#include <plexway/propagate/solid_sight.hpp>
+
+#include "propagate/solid_clear_space.hpp"
+#include "propagate/solid_label.hpp"
+#include "propagate/solid_paths.hpp"
+#include "propagate/solid_sight.hpp"
 
 namespace plexway {
 
-#include <plexway/kernel/text_begin.inl>
+#include "kernel/text_begin.inl"
 
 /// Corners of face i, anticlockwise as seen from outside.
 inline constexpr Index tet_face_corners[4][3] = {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}};
@@ -60,7 +61,7 @@ class SolidRule : public SolidPaths<Real> {
     return SolidRule<Real, Other>(*this, front);
   }
 
-#include <plexway/propagate/solid_walk.inl>
+#include "propagate/solid_walk.inl"
 
   /// `walk`, but straight over what is known to be clear, which leads to the same tetrahedron.
   bool go(Index& t, const Point& from, const Point& to) const {
@@ -89,7 +90,7 @@ class SolidRule : public SolidPaths<Real> {
   /// Where lines need not be walked; referred to.
   void skip(const SolidClearSpace<Real>& clear) { clear_ = clear.empty() ? nullptr : &clear; }
 
-#include <plexway/propagate/solid_step.inl>
+#include "propagate/solid_step.inl"
 
   [[nodiscard]] Real distance(Index t) const { return front_->label(t).centre; }
   /// What a label for t must be below: by more than rounding.
@@ -452,6 +453,6 @@ class SolidRule : public SolidPaths<Real> {
   Front* front_;
 };
 
-#include <plexway/kernel/text_end.inl>
+#include "kernel/text_end.inl"
 
 }  // namespace plexway

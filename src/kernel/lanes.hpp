@@ -7,7 +7,7 @@
 #include <wasm_simd128.h>
 #endif
 
-#include <plexway/kernel/hinge.hpp>
+#include "kernel/hinge.hpp"
 
 #pragma GCC diagnostic push
 // Vectors of four doubles never cross a function boundary here: everything is inlined.

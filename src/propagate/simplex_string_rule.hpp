@@ -7,10 +7,11 @@
 #include <limits>
 #include <span>
 
-#include <plexway/complex/elimination.hpp>
 #include <plexway/complex/simplicial_complex.hpp>
-#include <plexway/propagate/simplex_label.hpp>
-#include <plexway/propagate/simplex_string.hpp>
+
+#include "complex/elimination.hpp"
+#include "propagate/simplex_label.hpp"
+#include "propagate/simplex_string.hpp"
 
 namespace plexway {
 
