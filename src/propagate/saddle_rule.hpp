@@ -78,8 +78,8 @@ class SaddleRule : public SaddlePoses<Real> {
     const Index over_left = t.across[left], over_right = t.across[right];
     Label own = front_.label(f);
     if constexpr (requires { front_.narrow(f, own); })
-      if (may_hear_of_limits(t, in, own)) [[unlikely]]
-        own = hear_of_limits(f, own, [&](const Label& narrower) { front_.narrow(f, narrower); });
+      if (may_narrow(t, in, own)) [[unlikely]]
+        own = narrow_by_neighbours(f, own, [&](const Label& narrower) { front_.narrow(f, narrower); });
     if (((over_left | over_right) & Across::special) || !vectorised_) [[unlikely]] {
       full(f, left);
       full(f, right);
@@ -123,15 +123,15 @@ class SaddleRule : public SaddlePoses<Real> {
   }
 
   /// For fronts that want all triangles of a round to have heard before any is expanded.
-  void hear(Index f) const {
+  void narrow(Index f) const {
     const Label& own = front_.label(f);
-    if (may_hear_of_limits(triangles_[f], front_.hinge(f), own))
-      hear_of_limits(f, own, [&](const Label& narrower) { front_.narrow_later(f, narrower); });
+    if (may_narrow(triangles_[f], front_.hinge(f), own))
+      narrow_by_neighbours(f, own, [&](const Label& narrower) { front_.narrow_later(f, narrower); });
   }
 
   /// May triangle t, come in by edge `in`, take tighter limits over (see narrow_limits)? The common
   /// no, without branches: each would be a coin toss.
-  [[gnu::always_inline]] bool may_hear_of_limits(const TriangleRecord<Real>& t, std::size_t in,
+  [[gnu::always_inline]] bool may_narrow(const TriangleRecord<Real>& t, std::size_t in,
                                                  const Label& label) const {
     const Seen seen(t, in, label);
     const Label& other = front_.label(seen.across >> Across::face_shift);
@@ -155,7 +155,7 @@ class SaddleRule : public SaddlePoses<Real> {
   /// Takes tighter limits over from the neighbour that the source sees before f, if it holds the
   /// same source: take(label). Returns the label that f has then.
   template <class Take>
-  [[gnu::noinline]] Label hear_of_limits(Index f, Label label, const Take& take) const {
+  [[gnu::noinline]] Label narrow_by_neighbours(Index f, Label label, const Take& take) const {
     const TriangleRecord<Real>& t = triangles_[f];
     const std::size_t in = front_.hinge(f);
     const Seen seen(t, in, label);

@@ -100,8 +100,8 @@ class TrianglePropagation {
       spread.expand(rule, front, f, last_resort,
                     [this](Index g, std::size_t edge) { rule.cross(g, edge, last_resort); });
     }
-    void narrow(Index f) const requires requires(const Rule& any) { any.hear(f); }
-    { rule.hear(f); }
+    void narrow(Index f) const requires requires(const Rule& any) { any.narrow(f); }
+    { rule.narrow(f); }
     void far_ahead(Index f) const { rule.prefetch(f); }
     void ahead(Index f) const { rule.prefetch_around(f); }
   };
