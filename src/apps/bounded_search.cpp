@@ -21,7 +21,7 @@ namespace plexway {
 
 template <class Real>
 BoundedSearch<Real>::BoundedSearch(const TriangleMesh<Real>& mesh) : mesh_(&mesh) {
-  refuse_refraction(mesh.summary(), "a bounded search");
+  support_of_searches(mesh.metric()).require();
   const std::size_t vertices = mesh.vertex_count();
   WorkspaceState<Real>& workspace = workspace_.state();
   workspace.start(mesh.face_count(), true);
@@ -40,8 +40,7 @@ const Surroundings<Real>& BoundedSearch<Real>::find(Serial, std::span<const Poin
                                                     const PropagateOptions& options,
                                                     bool simplices) {
   check(sources, options, {mesh_->vertex_count(), mesh_->face_count(), "face", 3});
-  if (options.visibility != Visibility::saddles)
-    throw UsageError("a bounded search knows the default visibility only, saddles");
+  support_of_searches(mesh_->metric(), options.visibility).require();
   with_queue<Real>(options, workspace_.state().front, [&](auto queue) {
     find_with(LoggedQueue<Real, decltype(queue)>(queue, reached_), sources, options, simplices);
   });

@@ -177,7 +177,7 @@ struct PathSearch<Real>::State {
 template <class Real>
 PathSearch<Real>::PathSearch(const TriangleMesh<Real>& mesh)
     : state_(std::make_unique<State>(mesh)) {
-  refuse_refraction(mesh.summary(), "a search for paths");
+  support_of_searches(mesh.metric()).require();
 }
 
 template <class Real>

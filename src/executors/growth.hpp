@@ -205,7 +205,7 @@ class Growth<TriangleMesh<Real>>
 
   Growth(const TriangleMesh<Real>& mesh, WorkspaceState<Real>& workspace)
       : Base(mesh, mesh.face_count(), workspace, workspace.saddles.reserve(mesh.face_count() + 1)) {
-    refuse_refraction(mesh.summary(), "a field that grows");
+    support_of_searches(mesh.metric()).require();
     this->clear();
   }
 
