@@ -72,6 +72,13 @@ std::string fingerprint_of(const AnyShape& shape) {
   return print.text();
 }
 
+std::string fingerprint_of(const Mask& mask) {
+  Fingerprint print;
+  print.add_numbers(mask.closed_vertices());
+  print.add_numbers(mask.closed_simplices());
+  return print.text();
+}
+
 std::string fingerprint_of(const SourceList& sources) {
   Fingerprint print;
   if (sources.only_points()) {

@@ -34,6 +34,7 @@ struct io::RowNumber<AnyDomain> {
 [[nodiscard]] std::string fingerprint_of(const AnyShape& shape);
 [[nodiscard]] std::string fingerprint_of(const MeasuredLengths& lengths);
 [[nodiscard]] std::string fingerprint_of(const SourceList& sources);
+[[nodiscard]] std::string fingerprint_of(const Mask& mask);
 ///@}
 
 }  // namespace plexway

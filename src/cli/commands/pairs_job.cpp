@@ -108,10 +108,7 @@ void describe(Job& job, const MeasuredLengths* lengths) {
   add("triangulation", command.triangulation.name);
   if (lengths != nullptr) add("metric", fingerprint_of(*lengths));
   if (job.mask) {
-    Fingerprint mask;
-    mask.add_numbers(job.mask->closed_vertices());
-    mask.add_numbers(job.mask->closed_simplices());
-    add("mask", mask.text());
+    add("mask", plexway::fingerprint_of(*job.mask));
   }
   if (command.radius) add("radius", number(*command.radius));
   if (command.nearest) add("nearest", std::to_string(*command.nearest));

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -27,7 +28,7 @@ struct Job {
   bool sparse = false;
   io::MatrixNumber number = io::MatrixNumber::float32;
   PropagateOptions options;
-  std::optional<Mask> mask = {};
+  std::shared_ptr<const Mask> mask = nullptr;
   std::optional<ParcelLabels> parcels = {};
   io::BlockJournal::Description description = {};
   std::size_t block = 32;

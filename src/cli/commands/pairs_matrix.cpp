@@ -324,21 +324,25 @@ Outcome run_on_device(const Job& job, const Complex& complex, const std::vector<
 
 template <class Real>
 Outcome run_on_surface(const Domain& domain, const MeasuredLengths* lengths, const Job& job,
-                       const auto& run) {
+                       const std::vector<PointSource>& rows, const auto& run) {
   TriangulationReport report;
-  const auto made =
-      make_surface<Real>(triangulation_of(job.command.triangulation),
-                         {domain, lengths != nullptr ? lengths : domain.lengths()}, report);
-  if (!made.delaunay) return run(made.mesh, job.rows);
+  const auto made = make_surface<Real>(
+      triangulation_of(job.command.triangulation),
+      {domain, lengths != nullptr ? lengths : domain.lengths(), job.mask.get()}, report);
+  if (!made.delaunay) return run(made.mesh, rows);
   std::vector<PointSource> moved;
-  for (const PointSource& point : job.rows) moved.push_back(made.delaunay->to_intrinsic(point));
+  for (const PointSource& point : rows) moved.push_back(made.delaunay->to_intrinsic(point));
   return run(made.mesh, moved);
 }
 
-Outcome run_on(const Domain& whole, std::shared_ptr<const MeasuredLengths> lengths,
+Outcome run_on(const Domain& domain, std::shared_ptr<const MeasuredLengths> lengths,
                Precision precision, const Job& job, ProgressLine& progress) {
   progress.phase("building");
-  const Domain domain = job.mask ? open_domain(*job.mask, whole, lengths) : whole;
+  std::vector<PointSource> inside = job.rows;
+  if (job.mask) {
+    const OpenSimplices open(*job.mask, domain);
+    for (PointSource& row : inside) row = open.inside(row);
+  }
   const auto run = [&](const auto& complex, const std::vector<PointSource>& rows) {
     const std::string& name = job.command.solve.executor.name;
     if (name == "gl") return run_on_device(job, complex, rows, progress);
@@ -350,11 +354,14 @@ Outcome run_on(const Domain& whole, std::shared_ptr<const MeasuredLengths> lengt
     return MatrixRun(job, team, complex, rows, progress).run();
   };
   if (domain.kind() == DomainKind::surface)
-    return precision == Precision::single ? run_on_surface<float>(domain, lengths.get(), job, run)
-                                          : run_on_surface<double>(domain, lengths.get(), job, run);
-  const AnyDomain built(
-      domain, {.precision = precision, .triangulation = Triangulation::input, .lengths = lengths});
-  return with_complex(built, [&](const auto& complex) { return run(complex, job.rows); });
+    return precision == Precision::single
+               ? run_on_surface<float>(domain, lengths.get(), job, inside, run)
+               : run_on_surface<double>(domain, lengths.get(), job, inside, run);
+  const AnyDomain built(domain, {.precision = precision,
+                                 .triangulation = Triangulation::input,
+                                 .lengths = lengths,
+                                 .mask = job.mask});
+  return with_complex(built, [&](const auto& complex) { return run(complex, inside); });
 }
 
 void print(const MatrixCommand& command, const Job& job, const Outcome& outcome) {
@@ -448,10 +455,7 @@ void run_matrix(const MatrixCommand& command) {
     job.rows = read_point_list(command.sources, domain);
   }
   job.mask = read_mask(command.mask, domain);
-  if (job.mask && command.sources != "all") {
-    const OpenParts open(*job.mask, domain);
-    for (PointSource& row : job.rows) open.move(row);
-  }
+  if (command.sources != "all") require_open(job.mask.get(), domain, job.rows);
   if (!command.labels.empty()) {
     job.parcels = read_parcels(command.labels, domain.vertices());
     job.parcels->take(job.rows, job.columns, command.labels);
