@@ -185,4 +185,14 @@ std::size_t AnyPathField::bytes() const { return state_->bytes(); }
 
 AnyComplex complex_of(const AnyDomain& domain) { return domain.state().prepared->complex(); }
 
+RowComplex row_complex(const AnyDomain& domain, std::span<const PointSource> rows) {
+  std::vector<PointSource> inside(rows.begin(), rows.end());
+  if (const OpenSimplices* const open = domain.open_simplices())
+    for (PointSource& row : inside) row = open->inside(row);
+  RowComplex found = domain.state().prepared->row_complex(std::move(inside));
+  if (std::holds_alternative<std::monostate>(found.complex))
+    found.rows.assign(rows.begin(), rows.end());
+  return found;
+}
+
 }  // namespace plexway

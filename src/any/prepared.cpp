@@ -80,6 +80,11 @@ class PreparedSurface final : public PreparedKind<TriangleMesh<Real>> {
            (input_ ? input_->bytes() : 0);
   }
   AnyComplex complex() const override { return &input(); }
+  RowComplex row_complex(std::vector<PointSource> points) const override {
+    if (made_.delaunay)
+      for (PointSource& point : points) point = moved(point);
+    return {&made_.mesh, std::move(points)};
+  }
 
   void solve(const AnyExecutor& executor, const SourceList& sources,
              const PropagateOptions& options, AnyField& field) const override {
@@ -211,6 +216,9 @@ class PreparedMixed final : public PreparedKind<MixedComplex<Real>> {
   }
 
   std::size_t components() const override { return components_; }
+  RowComplex row_complex(std::vector<PointSource> points) const override {
+    return {std::monostate(), std::move(points)};
+  }
   std::size_t bytes() const override {
     return Base::bytes() + (pieces_.vertex.capacity() + pieces_.simplex.capacity()) * sizeof(Index);
   }

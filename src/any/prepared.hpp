@@ -6,6 +6,7 @@
 #include <plexway/any/complex.hpp>
 #include <plexway/any_domain.hpp>
 
+#include "any/row_complex.hpp"
 #include "complex/kept_archive.hpp"
 
 namespace plexway {
@@ -44,6 +45,10 @@ class Prepared : public std::enable_shared_from_this<Prepared> {
   [[nodiscard]] virtual MetricKind metric() const = 0;
   [[nodiscard]] virtual Combination combination(ExecutorKind executor) const = 0;
   [[nodiscard]] virtual AnyComplex complex() const = 0;
+  /// What `solve` takes for points of the complex.
+  [[nodiscard]] virtual RowComplex row_complex(std::vector<PointSource> points) const {
+    return {complex(), std::move(points)};
+  }
 
   /// Sources are in the complex: see `open`. So in path_field; what is asked of that is in the
   /// shape.

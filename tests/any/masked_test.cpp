@@ -47,7 +47,7 @@ struct Worst {
   void take(const AnyDomain& domain, Index source, const std::vector<double>& truth) {
     const auto off = [&](Accuracy accuracy) {
       const AnyField field =
-          domain.solve(Serial{}, PointSource::at(source), testing::at(accuracy));
+          domain.solve(Serial{}, PointSource::at(source), plexway::testing::at(accuracy));
       double worst = 0;
       for (std::size_t v = 0; v < truth.size(); ++v) {
         CAPTURE(v, truth[v], field[v]);
@@ -288,7 +288,7 @@ TEST_CASE("masks that fit nothing, close everything or are to be kept are refuse
   Mask all(16, 18);
   for (Index f = 0; f < 18; ++f) all.close_simplex(f);
   CHECK_THROWS_AS(AnyDomain(shape, with(all)), InputError);
-  const testing::Folder folder;
+  const ::testing::Folder folder;
   CHECK_THROWS_AS(AnyDomain(shape, with(Mask(16, 18))).keep(folder.at("a.plexway")), UsageError);
   CHECK(folder.files() == 0);
 }
