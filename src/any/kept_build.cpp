@@ -214,4 +214,10 @@ AnyShape::State read_kept_build(const std::filesystem::path& file) {
   return state;
 }
 
+AnyShape read_kept_for(const std::filesystem::path& file, const std::filesystem::path& name) {
+  AnyShape::State state = read_kept_build(file);
+  state.file = name;
+  return AnyShape::of(std::move(state));
+}
+
 }  // namespace plexway

@@ -203,6 +203,8 @@ class AnyShape {
   struct State;
   /// Likewise.
   [[nodiscard]] const State& state() const { return *state_; }
+  /// Likewise.
+  [[nodiscard]] static AnyShape of(State state);
 
  private:
   explicit AnyShape(std::shared_ptr<const State> state) : state_(std::move(state)) {}

@@ -3,7 +3,9 @@
 #include <CLI/CLI.hpp>
 #include <array>
 #include <cmath>
+#include <filesystem>
 #include <numeric>
+#include <optional>
 #include <span>
 #include <string_view>
 #include <utility>
@@ -14,6 +16,7 @@
 #include <plexway/io/sparse_file.hpp>
 
 #include "any/arguments/point_list.hpp"
+#include "any/kept_build.hpp"
 #include "any/hdf5_functions.hpp"
 #include "any/info/report.hpp"
 #include "any/pair_files.hpp"
@@ -194,6 +197,35 @@ void print(const MatrixCommand& command, const Domain& domain, const PairFiles& 
   flush_output();
 }
 
+// INPUT: where ranks share a node, one of them reads and builds it, and all map what it made. Not so
+// what is measured by a metric or masked, and kinds that cannot be kept: each rank has its own.
+Domain load(const MatrixCommand& command, const BuildOptions& building, ProgressLine& progress) {
+  const auto read = [&] {
+    return load_domain(command.input, command.as, command.fill, command.cloud, progress);
+  };
+  if (command.among == nullptr || !command.among->once_a_node || is_kept_build(command.input) ||
+      !command.metric.text.empty() || !command.mask.text.empty())
+    return read();
+  std::optional<Domain> domain;
+  command.among->once_a_node(
+      [&](const std::filesystem::path& file) {
+        domain = read();
+        try {
+          AnyDomain(*domain, building).keep(file);
+        } catch (const InputError&) {
+          throw;
+        } catch (const Error&) {  // no room for it, or not kept
+          return;
+        }
+        domain.reset();
+      },
+      [&](const std::filesystem::path& file) {
+        if (!domain)
+          domain = std::filesystem::exists(file) ? read_kept_for(file, command.input) : read();
+      });
+  return *domain;
+}
+
 }  // namespace
 
 void add_matrix_options(CLI::App& app, MatrixCommand& command) {
@@ -266,8 +298,7 @@ void run_matrix(const MatrixCommand& command) {
   const Executor executor = executor_of(command);
   check_names(command);
   ProgressLine progress(command.quiet);
-  const Domain domain =
-      load_domain(command.input, command.as, command.fill, command.cloud, progress);
+  const Domain domain = load(command, files.building, progress);
   check_triangulation(files.building.triangulation, domain);
   take_rows(command, domain, progress, files);
   const PairFilesProgress tell = {
