@@ -13,9 +13,8 @@ std::vector<std::int64_t> AnyShape::regions() const {
   if (file().empty()) throw UsageError("regions are told by a file, and this shape has none");
   const std::string name = file().string();
   const auto foreign = [&](std::size_t cells) {
-    return UsageError(name + " has regions of " + counted(cells, "cells") +
-                      ", which are not the " + counted(simplices(), simplex_name()) +
-                      " of the domain");
+    return UsageError(name + " has regions of " + counted(cells, "cells") + ", which are not the " +
+                      counted(simplices(), simplex_name()) + " of the domain");
   };
   io::Regions found = io::read_regions(file(), kind() != DomainKind::solid);
   std::vector<std::int64_t> regions;
@@ -30,13 +29,13 @@ std::vector<std::int64_t> AnyShape::regions() const {
       if (cells.triangles != surface->triangles) throw foreign(cells.triangles.size());
       regions = std::move(found.triangles);
     } else {
-      if (cells.edges != std::get<io::Edges>(data()).edges)
-        throw foreign(cells.edges.size());
+      if (cells.edges != std::get<io::Edges>(data()).edges) throw foreign(cells.edges.size());
       regions = std::move(found.edges);
     }
   } else {
-    throw UsageError("regions are those of surfaces, solids, wireframes and mixed domains, not of a " +
-                     std::string(kind_noun(kind())));
+    throw UsageError(
+        "regions are those of surfaces, solids, wireframes and mixed domains, not of a " +
+        std::string(kind_noun(kind())));
   }
   if (regions.size() != simplices()) throw foreign(regions.size());
   return regions;

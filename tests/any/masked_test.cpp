@@ -195,8 +195,7 @@ TEST_CASE("behind a mask fields, sources and paths keep the numbers of the shape
       REQUIRE(slopes.size() == s.faces.size());
       const auto slopes_of_cut = of_the_cut.gradient();
       for (Index f = 0; f < slopes.size(); ++f)
-        CHECK(slopes[f] ==
-              (numbers[f] == none ? Position{0, 0, 0} : slopes_of_cut[numbers[f]]));
+        CHECK(slopes[f] == (numbers[f] == none ? Position{0, 0, 0} : slopes_of_cut[numbers[f]]));
       // A vertex behind the mask reaches itself, a simplex nothing.
       const AnyField alone = domain.solve(Serial{}, PointSource::at(100));
       CHECK(alone[100] == 0);
@@ -259,16 +258,17 @@ TEST_CASE("masks of solids, wireframes and simplices, with lengths and metrics")
   for (const Position& p : whole.positions)
     given.positions.insert(given.positions.end(), p.begin(), p.end());
   SimplexShape less = given;
-  for (const auto& tet : whole.tets) given.corners.insert(given.corners.end(), tet.begin(), tet.end());
+  for (const auto& tet : whole.tets)
+    given.corners.insert(given.corners.end(), tet.begin(), tet.end());
   for (const auto& tet : open) less.corners.insert(less.corners.end(), tet.begin(), tet.end());
-  same(AnyDomain(AnyShape::simplices(given), {.mask = walls}), AnyDomain(AnyShape::simplices(less)));
+  same(AnyDomain(AnyShape::simplices(given), {.mask = walls}),
+       AnyDomain(AnyShape::simplices(less)));
 
   // A ring of lengths alone.
   Mask gap(4, 4);
   gap.close_simplex(0);
-  const AnyDomain ring(
-      AnyShape::wireframe(4, {{0, 1}, {1, 2}, {2, 3}, {3, 0}}, {1, 2, 3, 4}),
-      {.mask = std::make_shared<Mask>(gap)});
+  const AnyDomain ring(AnyShape::wireframe(4, {{0, 1}, {1, 2}, {2, 3}, {3, 0}}, {1, 2, 3, 4}),
+                       {.mask = std::make_shared<Mask>(gap)});
   CHECK(ring.solve(Serial{}, PointSource::at(0)).doubles() == std::vector<double>{0, 9, 7, 4});
   CHECK(ring.solve(Serial{}, PointSource::in(3, {0.25, 0.75})).doubles() ==
         std::vector<double>{1, 8, 6, 3});

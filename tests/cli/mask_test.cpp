@@ -258,8 +258,8 @@ TEST_CASE("labels and regions are masks: of vertices, of the file's own cells, i
   for (const std::uint32_t n : {0U, 3U}) add(annotation, n);
   for (const std::uint32_t n : {0U, 3U, 7U})
     for (const std::uint32_t part : {n, 0U, n == 0 ? 1U : 0U, n, 0U, 0U}) add(annotation, part);
-  std::string list = "#!ascii label\n" +
-                     std::to_string(std::count(closed.begin(), closed.end(), '\n')) + "\n";
+  std::string list =
+      "#!ascii label\n" + std::to_string(std::count(closed.begin(), closed.end(), '\n')) + "\n";
   for (const char c : closed) list += c == '\n' ? std::string(" 0 0 0 0\n") : std::string(1, c);
   const std::string wall = "vertices:" + folder.write("wall.txt", closed).string(),
                     text = folder.write("l.txt", labels), out = folder.at("d.npy"),
@@ -289,9 +289,9 @@ TEST_CASE("labels and regions are masks: of vertices, of the file's own cells, i
           run(path, square, wall, folder.at("p.obj")));
   }
   // A file with regions: three squares in a row, the middle one a region of two triangles.
-  std::string vtk = "# vtk DataFile Version 3.0\nx\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 8 double\n";
-  for (int v = 0; v < 8; ++v)
-    vtk += std::to_string(v % 4) + " " + std::to_string(v / 4) + " 0\n";
+  std::string vtk =
+      "# vtk DataFile Version 3.0\nx\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 8 double\n";
+  for (int v = 0; v < 8; ++v) vtk += std::to_string(v % 4) + " " + std::to_string(v / 4) + " 0\n";
   vtk += "CELLS 6 24\n3 0 1 5\n3 0 5 4\n3 1 2 6\n3 1 6 5\n3 2 3 7\n3 2 7 6\nCELL_TYPES 6\n";
   for (int f = 0; f < 6; ++f) vtk += "5\n";
   vtk += "CELL_DATA 6\nSCALARS region int 1\nLOOKUP_TABLE default\n1 1 2 5 1 1\n";

@@ -19,9 +19,7 @@ int check_tets(Parser parse, const std::uint8_t* data, std::size_t size) {
       for (const auto vertex : tet)
         require(vertex < solid.positions.size(), "indices are in range");
   } catch (const plexway::InputError& error) {
-    const std::string_view message = error.what();
-    require(message.starts_with("input:"), "a message names the file");
-    for (const char c : message) require(c >= ' ' && c <= '~', "a message is one printable line");
+    require_one_line(error.what(), "input:");
   } catch (const plexway::NotBuiltError&) {
     // A build without pugixml or zlib may say so.
   }

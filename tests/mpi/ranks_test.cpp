@@ -101,8 +101,16 @@ TEST_CASE("ranks of a node map what one of them built, and do without where ther
   REQUIRE(run_tool(command + Words{alone}).code == 0);
   REQUIRE(run_tool({"prepare", input, "--out", kept, "--quiet"}).code == 0);
   const auto same = [&](const std::string& domain, const std::string& place) {
-    const Words run = Words{"env", "TMPDIR=" + place, PLEXWAY_TEST_MPI_TOOL, "pairs", domain,
-                            "--sources", "all", "--quiet", "--out", out};
+    const Words run = Words{"env",
+                            "TMPDIR=" + place,
+                            PLEXWAY_TEST_MPI_TOOL,
+                            "pairs",
+                            domain,
+                            "--sources",
+                            "all",
+                            "--quiet",
+                            "--out",
+                            out};
     const Outcome done = run_program(*mpirun() + Words{"-n", "3"} + run);
     INFO(done.err);
     REQUIRE(done.code == 0);

@@ -164,9 +164,9 @@ AnyShape open_shape(const Mask& mask, const AnyShape& domain) {
   };
   if (const auto* surface = std::get_if<io::Triangles>(&domain.data())) {
     const auto& all = surface->triangles;
-    return own == nullptr ? AnyShape::surface(positions, mask.open(all))
-                          : AnyShape::surface(domain.vertices(), mask.open(all),
-                                              rows(all, own->triangles));
+    return own == nullptr
+               ? AnyShape::surface(positions, mask.open(all))
+               : AnyShape::surface(domain.vertices(), mask.open(all), rows(all, own->triangles));
   }
   if (const auto* solid = std::get_if<io::Tets>(&domain.data())) {
     const auto& all = solid->tets;

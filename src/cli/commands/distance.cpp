@@ -243,8 +243,9 @@ void run_distance(DistanceCommand command) {
   Outcome outcome{reach_of(distance, sources), solver.build_seconds(), solve, executor};
 
   // What is written and drawn is what is open.
-  const bool shown_open = mask != nullptr && (!command.out.empty() || !command.isolines.out.empty() ||
-                                              command.picture.wanted());
+  const bool shown_open =
+      mask != nullptr &&
+      (!command.out.empty() || !command.isolines.out.empty() || command.picture.wanted());
   const Domain shown = shown_open ? open_shape(*mask, domain) : domain;
   const bool plain = command.out == "-";
   const std::vector<double> isovalues = isoline_values(command.isolines, distance);

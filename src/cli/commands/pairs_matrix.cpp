@@ -16,9 +16,9 @@
 #include <plexway/io/sparse_file.hpp>
 
 #include "any/arguments/point_list.hpp"
-#include "any/kept_build.hpp"
 #include "any/hdf5_functions.hpp"
 #include "any/info/report.hpp"
+#include "any/kept_build.hpp"
 #include "any/pair_files.hpp"
 #include "cli/among.hpp"
 #include "cli/options/input.hpp"
@@ -197,8 +197,8 @@ void print(const MatrixCommand& command, const Domain& domain, const PairFiles& 
   flush_output();
 }
 
-// INPUT: where ranks share a node, one of them reads and builds it, and all map what it made. Not so
-// what is measured by a metric or masked, and kinds that cannot be kept: each rank has its own.
+// INPUT: where ranks share a node, one of them reads and builds it, and all map what it made. Not
+// so what is measured by a metric or masked, and kinds that cannot be kept: each rank has its own.
 Domain load(const MatrixCommand& command, const BuildOptions& building, ProgressLine& progress) {
   const auto read = [&] {
     return load_domain(command.input, command.as, command.fill, command.cloud, progress);

@@ -316,7 +316,8 @@ void run_path(const PathCommand& typed) {
       for (const PointSource& source : sources) content.sources.push_back(domain.position(source));
       for (const PointSource& target : targets) content.targets.push_back(domain.position(target));
     }
-    write_picture(command.picture, mask ? open_shape(*mask, domain) : domain, content, command.quiet);
+    write_picture(command.picture, mask ? open_shape(*mask, domain) : domain, content,
+                  command.quiet);
   }
   progress.clear();
   Json json;
