@@ -7,8 +7,9 @@
 
 TOOL is the plexway program. Times are of the processor (user and system, threads together), each the
 least of three turns and with the time to read the surface taken off, so that they mean something on
-a machine that others use too. Peers are taken where they are: scipy's Dijkstra along edges, Boost's in
-`plexway bench`, CGAL's in build/bin/bench_peers, and the Connectome Workbench's wb_command.
+a machine that others use too. Peers are taken where they are: scipy's Dijkstra along edges, Boost's and
+CGAL's in bench_cgal or bench_peers beside TOOL, and the Connectome Workbench's wb_command. What stands
+beside them in the table is the clock of their own program.
 """
 import json
 import os
@@ -85,9 +86,25 @@ def gifti(points, triangles):
             array("TRIANGLE", "INT32", triangles) + "</GIFTI>\n")
 
 
+def in_benchmark(tool, folder, sources, truth):
+    """What the peers of bench_cgal or bench_peers take for a row, and their errors."""
+    programs = [os.path.join(os.path.dirname(tool), name) for name in ("bench_cgal", "bench_peers")]
+    program = next((p for p in programs if os.path.exists(p)), None)
+    if program is None:
+        print("no bench_cgal or bench_peers beside the tool", file=sys.stderr)
+        return
+    for source, exact in zip(sources, truth):
+        np.savetxt(os.path.join(folder, f"surface.v{source}.txt"), exact, fmt="%.17g")
+    words = [program, os.path.join(folder, "surface.off"), "--json", "--sources", str(len(sources)),
+             "--only", "Dijkstra", "--only", "heat"]
+    for row in json.loads(processor_time(words)[1]):
+        if "mean" in row:
+            yield (f"{row['peer']} (clock)", 1e-9 * row["ns_per_vertex"] * row["vertices"],
+                   (row["mean"], row["max"]))
+
+
 def table(tool, surface):
-    folder = tempfile.mkdtemp()
-    try:
+    with tempfile.TemporaryDirectory() as folder:
         points, triangles = read_surface(tool, surface, folder)
         n = len(points)
         rows = np.arange(ROWS) * (n // ROWS)
@@ -130,21 +147,9 @@ def table(tool, surface):
         except ImportError:
             print("no scipy", file=sys.stderr)
 
-        # Of one source each, with the truth beside; the clock is the program's own.
         some = rows[:3]
-        seconds, off = [], []
-        for source, exact in zip(some, truth):
-            file = os.path.join(folder, "truth.txt")
-            np.savetxt(file, exact, fmt="%.17g")
-            _, text = processor_time([tool, "bench", surface, "--source", f"vertex:{source}",
-                                      "--truth", file, "--json"])
-            peer = json.loads(text).get("dijkstra")
-            if peer:
-                seconds.append(peer["seconds"])
-                off.append((peer["mean_error"], peer["max_error"]))
-        if seconds:
-            line("Boost, Dijkstra along edges (clock)", min(seconds), 1,
-                 (np.mean([o[0] for o in off]), max(o[1] for o in off)))
+        for peer, seconds, off in in_benchmark(tool, folder, some, truth):
+            line(peer, seconds, 1, off)
 
         workbench = shutil.which("wb_command")
         if workbench:
@@ -169,8 +174,6 @@ def table(tool, surface):
                 off.append(errors(np.where(found < 0, np.inf, found), exact))
             line("Connectome Workbench, -surface-geodesic-distance", min(seconds), 1,
                  (np.mean([o[0] for o in off]), max(o[1] for o in off)))
-    finally:
-        shutil.rmtree(folder)
 
 
 def hills(n, name):
@@ -193,16 +196,19 @@ def hills(n, name):
         file.write(faces.tobytes())
 
 
+def hills_and_rows(folder, n, vertices):
+    """Such a surface, and a list of these vertices: two files."""
+    surface, rows = (os.path.join(folder, name) for name in ("hills.ply", "rows.txt"))
+    hills(n, surface)
+    np.savetxt(rows, vertices, fmt="%d")
+    return surface, rows
+
+
 def radius(tool):
-    folder = tempfile.mkdtemp()
-    try:
-        n = 1000
-        surface = os.path.join(folder, "hills.ply")
-        hills(n, surface)
-        random = np.random.default_rng(1)
-        rows = 400
-        sources = os.path.join(folder, "rows.txt")
-        np.savetxt(sources, random.choice(n * n, rows, replace=False), fmt="%d")
+    n, rows = 1000, 400
+    some = np.random.default_rng(1).choice(n * n, rows, replace=False)
+    with tempfile.TemporaryDirectory() as folder:
+        surface, sources = hills_and_rows(folder, n, some)
         print(f"{n * n} vertices, {rows} rows\n")
         print("| radius in edges | entries a row | processor us a row | ns an entry |\n|---|---|---|---|")
 
@@ -218,26 +224,18 @@ def radius(tool):
             seconds -= reading
             print(f"| {reach} | {entries / rows:.4g} | {1e6 * seconds / rows:.3g} |"
                   f" {1e9 * seconds / entries:.3g} |", flush=True)
-    finally:
-        shutil.rmtree(folder)
 
 
 def memory(tool):
-    folder = tempfile.mkdtemp()
-    try:
-        n = 317
-        surface = os.path.join(folder, "hills.ply")
-        hills(n, surface)
-        print(f"{n * n} columns, two threads\n\n| rows | resident MB |\n|---|---|")
-        for rows in (50, 200, 800):
-            sources = os.path.join(folder, "rows.txt")
-            np.savetxt(sources, np.arange(rows) * (n * n // rows), fmt="%d")
+    n = 317
+    print(f"{n * n} columns, two threads\n\n| rows | resident MB |\n|---|---|")
+    for rows in (50, 200, 800):
+        with tempfile.TemporaryDirectory() as folder:
+            surface, sources = hills_and_rows(folder, n, np.arange(rows) * (n * n // rows))
             used = resident([tool, "pairs", surface, "--sources", sources, "--out",
                              os.path.join(folder, "d.npy"), "--threads", "2", "--accuracy", "fast",
                              "--quiet"])
             print(f"| {rows} | {used / 1e6:.4g} |", flush=True)
-    finally:
-        shutil.rmtree(folder)
 
 
 if __name__ == "__main__":

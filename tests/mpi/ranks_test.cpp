@@ -92,6 +92,38 @@ TEST_CASE("ranks make bit for bit what threads make") {
   CHECK(folder.files() == 1);
 }
 
+TEST_CASE("ranks of a node map what one of them built, and do without where there is no room") {
+  if (!mpirun()) return;
+  const testing::Folder folder, temporary;
+  const std::string input = folder.write("square.off", square_off(16)), alone = folder.at("a.npy"),
+                    out = folder.at("d.npy"), kept = folder.at("square.plexway");
+  const Words command = {"pairs", input, "--sources", "all", "--quiet", "--out"};
+  REQUIRE(run_tool(command + Words{alone}).code == 0);
+  REQUIRE(run_tool({"prepare", input, "--out", kept, "--quiet"}).code == 0);
+  const auto same = [&](const std::string& domain, const std::string& place) {
+    const Words run = Words{"env",
+                            "TMPDIR=" + place,
+                            PLEXWAY_TEST_MPI_TOOL,
+                            "pairs",
+                            domain,
+                            "--sources",
+                            "all",
+                            "--quiet",
+                            "--out",
+                            out};
+    const Outcome done = run_program(*mpirun() + Words{"-n", "3"} + run);
+    INFO(done.err);
+    REQUIRE(done.code == 0);
+    CHECK(content(out) == content(alone));
+    fs::remove(out);
+  };
+  same(input, temporary.path().string());
+  CHECK(temporary.files() == 0);
+  same(kept, temporary.path().string());
+  same(input, folder.at("no such folder").string());
+  CHECK(folder.files() == 3);
+}
+
 TEST_CASE("what ranks cannot do is said once") {
   if (!mpirun()) return;
   const testing::Folder folder;
