@@ -7,9 +7,9 @@ SECONDS are of the processor, since a busy machine stretches the clock; what han
 
 The command gets a session of its own, so that all it started ends with it. REPORT is a JSON object: `wall` and
 `processor` seconds (user and system, of the command and what it waited for), `peak` bytes of the largest of these
-processes, `status` as the shell has it (128 + N for signal N), `late` where it was stopped: by `clock` or `processor`. This program is small
-on purpose, since the kernel counts what started a process as the process's own until it has loaded: no peak is
-below its size, which is reported as `floor`.
+processes, `status` as the shell has it (128 + N for signal N), `late` where it was stopped: by `clock` or `processor`.
+This program is small on purpose, since the kernel counts what started a process as the process's own until it has
+loaded: no peak is below its size, which is reported as `floor`.
 """
 import json
 import math
