@@ -24,7 +24,9 @@ int check_cells(Parser parse, const std::uint8_t* data, std::size_t size) {
     in_range(cells.triangles);
     in_range(cells.tets);
   } catch (const plexway::InputError& error) {
-    require_one_line(error.what(), "input:");
+    const std::string_view message = error.what();
+    require(message.starts_with("input:"), "a message names the file");
+    for (const char c : message) require(c >= ' ' && c <= '~', "a message is one printable line");
   } catch (const plexway::NotBuiltError&) {
     // A build without pugixml, zlib or nlohmann-json may say so.
   }

@@ -26,7 +26,9 @@ int check_edge_reader(Parser parse, const std::uint8_t* data, std::size_t size) 
       for (const auto vertex : edge) require(vertex < wires.vertices, "indices are in range");
     require(wires.vertices <= (1u << 24) + 64 * size, "no more vertices than the file is worth");
   } catch (const plexway::InputError& error) {
-    require_one_line(error.what(), "input:");
+    const std::string_view message = error.what();
+    require(message.starts_with("input:"), "a message names the file");
+    for (const char c : message) require(c >= ' ' && c <= '~', "a message is one printable line");
   }
   return 0;
 }

@@ -20,7 +20,9 @@ int check_points(Parser parse, const std::uint8_t* data, std::size_t size) {
       for (const auto& row : *rows)
         for (const double c : row) require(std::isfinite(c), "coordinates are finite");
   } catch (const plexway::InputError& error) {
-    require_one_line(error.what(), "input:");
+    const std::string_view message = error.what();
+    require(message.starts_with("input:"), "a message names the file");
+    for (const char c : message) require(c >= ' ' && c <= '~', "a message is one printable line");
   }
   return 0;
 }

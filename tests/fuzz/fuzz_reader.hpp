@@ -18,12 +18,6 @@ inline void require(bool holds, std::string_view what) {
   std::abort();
 }
 
-/// What every message promises.
-inline void require_one_line(std::string_view message, std::string_view name) {
-  require(message.starts_with(name), "a message names the file");
-  for (const char c : message) require(c >= ' ' && c <= '~', "a message is one printable line");
-}
-
 /// What every reader promises for any bytes: a sound surface, or an InputError of one line that
 /// starts with the file's name.
 template <class Parser>
@@ -38,7 +32,9 @@ int check_reader(Parser parse, const std::uint8_t* data, std::size_t size) {
       for (const auto vertex : triangle)
         require(vertex < surface.positions.size(), "indices are in range");
   } catch (const InputError& error) {
-    require_one_line(error.what(), "input:");
+    const std::string_view message = error.what();
+    require(message.starts_with("input:"), "a message names the file");
+    for (const char c : message) require(c >= ' ' && c <= '~', "a message is one printable line");
   }
   return 0;
 }

@@ -36,7 +36,10 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         (void)plexway::read_saddle_thresholds(name);
     }
   } catch (const plexway::InputError& error) {
-    fuzz::require_one_line(error.what(), name);
+    const std::string_view message = error.what();
+    fuzz::require(message.starts_with(name), "a message names the file");
+    for (const char c : message)
+      fuzz::require(c >= ' ' && c <= '~', "a message is one printable line");
   }
   ::close(bytes);
   return 0;

@@ -19,7 +19,9 @@ int check_tets(Parser parse, const std::uint8_t* data, std::size_t size) {
       for (const auto vertex : tet)
         require(vertex < solid.positions.size(), "indices are in range");
   } catch (const plexway::InputError& error) {
-    require_one_line(error.what(), "input:");
+    const std::string_view message = error.what();
+    require(message.starts_with("input:"), "a message names the file");
+    for (const char c : message) require(c >= ' ' && c <= '~', "a message is one printable line");
   } catch (const plexway::NotBuiltError&) {
     // A build without pugixml or zlib may say so.
   }
