@@ -49,7 +49,8 @@ TEMPLATE_TEST_CASE("the table of searches", "", float, double) {
     const auto path = [&] {
       return PathSearch<TestType>(mesh).find(Serial{}, PointSource::at(0), PointSource::at(far));
     };
-    const auto grown = [&] { return farthest_points(Serial{}, mesh, {}, {.count = 3}); };
+    const PointSource from[] = {PointSource::at(0)};
+    const auto grown = [&] { return farthest_points(Serial{}, mesh, from, {.count = 3}); };
     if (!found) {
       CHECK_THROWS_WITH(path(), found.sentence());
       CHECK_THROWS_WITH(grown(), found.sentence());
