@@ -16,8 +16,10 @@
 #include <new>
 #include <optional>
 #include <string>
+#include <system_error>
 #include <thread>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 #include <plexway/error.hpp>
@@ -338,10 +340,12 @@ bool Ranks::share_nodes() const { return state_->share_nodes; }
 
 void Ranks::once_a_node(const std::function<void(const std::filesystem::path&)>& make,
                         const std::function<void(const std::filesystem::path&)>& take) {
-  const std::filesystem::path file = std::filesystem::temp_directory_path() /
-                                     ("plexway-" + std::to_string(state_->maker) + ".plexway");
+  std::error_code none_there;
+  std::filesystem::path file = std::filesystem::temp_directory_path(none_there);
+  if (none_there) file = "/tmp";
+  file /= "plexway-" + std::to_string(state_->maker) + ".plexway";
   struct Removed {
-    explicit Removed(const std::filesystem::path& path) : path(path.string()) {}
+    explicit Removed(std::string name) : path(std::move(name)) {}
     ~Removed() { ::unlink(path.c_str()); }
     const std::string path;
     const file::Unfinished by_signals{path.c_str()};
@@ -353,7 +357,7 @@ void Ranks::once_a_node(const std::function<void(const std::filesystem::path&)>&
   };
   std::optional<Removed> made;
   if (state_->rank_on_node == 0) {
-    made.emplace(file);
+    made.emplace(file.string());
     make(file);
   }
   all_are_here();
