@@ -16,10 +16,8 @@
 #include <new>
 #include <optional>
 #include <string>
-#include <system_error>
 #include <thread>
 #include <type_traits>
-#include <utility>
 #include <vector>
 
 #include <plexway/error.hpp>
@@ -340,12 +338,12 @@ bool Ranks::share_nodes() const { return state_->share_nodes; }
 
 void Ranks::once_a_node(const std::function<void(const std::filesystem::path&)>& make,
                         const std::function<void(const std::filesystem::path&)>& take) {
-  std::error_code none_there;
-  std::filesystem::path file = std::filesystem::temp_directory_path(none_there);
-  if (none_there) file = "/tmp";
+  std::error_code absent;
+  std::filesystem::path file = std::filesystem::temp_directory_path(absent);
+  if (absent) file = "/dev/null";  // nothing can be written below it, and so each makes its own
   file /= "plexway-" + std::to_string(state_->maker) + ".plexway";
   struct Removed {
-    explicit Removed(std::string name) : path(std::move(name)) {}
+    explicit Removed(const std::filesystem::path& name) : path(name.string()) {}
     ~Removed() { ::unlink(path.c_str()); }
     const std::string path;
     const file::Unfinished by_signals{path.c_str()};
@@ -357,7 +355,7 @@ void Ranks::once_a_node(const std::function<void(const std::filesystem::path&)>&
   };
   std::optional<Removed> made;
   if (state_->rank_on_node == 0) {
-    made.emplace(file.string());
+    made.emplace(file);
     make(file);
   }
   all_are_here();

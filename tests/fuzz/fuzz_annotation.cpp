@@ -1,5 +1,7 @@
 // FreeSurfer's annotations: a label for each vertex, or an InputError of one line.
 
+#include <vector>
+
 #include "fuzz_reader.hpp"
 #include "io/freesurfer_labels.hpp"
 
