@@ -15,8 +15,8 @@
 #include <vector>
 
 #include <plexway/any/field.hpp>
-#include <plexway/any/shape.hpp>
 #include <plexway/any/open_simplices.hpp>
+#include <plexway/any/shape.hpp>
 #include <plexway/apps/path.hpp>
 #include <plexway/apps/read_out.hpp>
 #include <plexway/executors/gl_executor.hpp>
@@ -109,9 +109,9 @@ class AnyDomain {
   /// the same bits. Any number of processes may share its memory. The file is for this version of
   /// the library and for machines with this byte order; it has a checksum, and one that is foreign
   /// or damaged is refused (InputError). Where other BuildOptions are asked for the shape is built
-  /// anew. Surfaces, solids, wireframes and clouds, without a metric or a mask (UsageError); throws Error
-  /// "cannot write FILE: reason". Size in single precision: 110 bytes a
-  /// triangle, 150 on Delaunay triangles.
+  /// anew. Surfaces, solids, wireframes and clouds, without a metric or a mask (UsageError); throws
+  /// Error "cannot write FILE: reason". Size in single precision: 110 bytes a triangle, 150 on
+  /// Delaunay triangles.
   void keep(const std::filesystem::path& file) const;
 
   /// What it was made from.
@@ -152,8 +152,8 @@ class AnyDomain {
   /// Where the triangulation was left open and the solve left more than a vertex in fifty to
   /// repair, the triangles of the input are tried as well. Points are those of the shape; curves
   /// and triangles lie in its triangles, so where those were to be others, UsageError, or if that
-  /// was left open, those of the shape. UsageError for a point in a simplex that is masked; a vertex
-  /// behind the mask reaches itself.
+  /// was left open, those of the shape. UsageError for a point in a simplex that is masked; a
+  /// vertex behind the mask reaches itself.
   [[nodiscard]] AnyField solve(const AnyExecutor& executor, const SourceList& sources,
                                const PropagateOptions& options = {}) const;
   /// The same into a field whose memory is used again.
