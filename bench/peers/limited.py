@@ -68,7 +68,7 @@ def main():
     finally:  # whoever stops this stops the command
         end_all_of(child)
     code = 128 + os.WTERMSIG(status) if os.WIFSIGNALED(status) else os.WEXITSTATUS(status)
-    if not late and status and used.ru_utime + used.ru_stime >= seconds:
+    if not late and os.WIFSIGNALED(status) and os.WTERMSIG(status) == signal.SIGXCPU:
         late.append("processor")
     own = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
     with open(report, "w", encoding="utf-8") as file:
