@@ -95,16 +95,17 @@ std::vector<double> isoline_values(const IsolineOptions& options,
   return values;
 }
 
-void write_isolines(const IsolineOptions& options, const AnyDomain& domain, const AnyField& field,
-                    const AnyPathField* paths, std::span<const double> values) {
-  if (const auto* solid = std::get_if<io::Tets>(&domain.shape().data()))
+void write_isolines(const IsolineOptions& options, const Domain& shown, const AnyDomain& domain,
+                    const AnyField& field, const AnyPathField* paths,
+                    std::span<const double> values) {
+  if (const auto* solid = std::get_if<io::Tets>(&shown.data()))
     return write_isosurfaces(options.out, *solid, field.doubles(), values);
   constexpr double share = 1e-3;  // of the step, which no eye sees
-  io::write_isolines(options.out,
-                     paths != nullptr
-                         ? isolines(domain.shape(), *paths, values, share * *options.step)
-                         : isolines(domain, field, values),
-                     values);
+  const std::vector<Path> lines =
+      paths != nullptr           ? isolines(shown, *paths, values, share * *options.step)
+      : shown.cloud() != nullptr ? isolines(domain, field, values)
+                                 : shown.isolines(field.doubles(), values);
+  io::write_isolines(options.out, lines, values);
 }
 
 }  // namespace plexway::cli
