@@ -323,6 +323,7 @@ void run_path(const PathCommand& typed) {
   Json json;
   Table table;
   report(command, domain, outcome, {from, sources}, {to, targets}, json, table);
+  report_picture(command.picture, domain, json, table);
   print_report(json, table, command.json, command.quiet,
                {command.out, command.picture.file, command.picture.html});
 
