@@ -206,9 +206,9 @@ void solve_shapes(const E& executor, const TriangleMesh<Real>& mesh,
   }
 }
 
-#define PLEXWAY_SHAPES_ON(E, Real)                                                           \
-  template void solve_shapes(const E&, const TriangleMesh<Real>&, std::span<const Source>,   \
-                             SourceParts&, const PropagateOptions&, Workspace<Real>&,        \
+#define PLEXWAY_SHAPES_ON(E, Real)                                                         \
+  template void solve_shapes(const E&, const TriangleMesh<Real>&, std::span<const Source>, \
+                             SourceParts&, const PropagateOptions&, Workspace<Real>&,      \
                              DistanceField<Real>&);
 PLEXWAY_SHAPES_ON(Serial, float)
 PLEXWAY_SHAPES_ON(Serial, double)

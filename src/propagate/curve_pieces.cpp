@@ -181,8 +181,8 @@ std::vector<CurvePiece> cut_curve(const TriangleMesh<Real>& mesh,
 }
 
 template <class Real>
-bool runs_straight(const TriangleMesh<Real>& mesh, const CurvePiece& piece,
-                   const CurvePiece& next, int side) {
+bool runs_straight(const TriangleMesh<Real>& mesh, const CurvePiece& piece, const CurvePiece& next,
+                   int side) {
   const TriangleRecord<Real>& t = mesh.triangles()[piece.face];
   const std::size_t place = place_of(t, piece.to);
   if (place < 3) {
@@ -222,15 +222,14 @@ std::vector<bool> shows_as_point(const TriangleMesh<Real>& mesh,
   return shows;
 }
 
-#define PLEXWAY_CURVES_ON(Real)                                                              \
-  template std::size_t place_of(const TriangleRecord<Real>&, const Plane&);                  \
-  template std::vector<CurvePiece> cut_curve(const TriangleMesh<Real>&,                      \
-                                             std::span<const PointSource>);                  \
-  template bool runs_straight(const TriangleMesh<Real>&, const CurvePiece&,                  \
-                              const CurvePiece&, int);                                       \
-  template std::vector<bool> shows_as_point(const TriangleMesh<Real>&,                       \
-                                            std::span<const PointSource>,                    \
-                                            std::span<const CurvePiece>);
+#define PLEXWAY_CURVES_ON(Real)                                                                \
+  template std::size_t place_of(const TriangleRecord<Real>&, const Plane&);                    \
+  template std::vector<CurvePiece> cut_curve(const TriangleMesh<Real>&,                        \
+                                             std::span<const PointSource>);                    \
+  template bool runs_straight(const TriangleMesh<Real>&, const CurvePiece&, const CurvePiece&, \
+                              int);                                                            \
+  template std::vector<bool> shows_as_point(                                                   \
+      const TriangleMesh<Real>&, std::span<const PointSource>, std::span<const CurvePiece>);
 PLEXWAY_CURVES_ON(float)
 PLEXWAY_CURVES_ON(double)
 #undef PLEXWAY_CURVES_ON

@@ -19,8 +19,9 @@ using Plane = std::complex<double>;
 template <class Real>
 std::array<Plane, 3> corners_of(const TriangleRecord<Real>& t) {
   const double second = static_cast<double>(t.length[2]);
-  return {0, static_cast<double>(t.length[0]),
-          Plane{second * static_cast<double>(t.cosine[0]), second * static_cast<double>(t.sine(0))}};
+  return {
+      0, static_cast<double>(t.length[0]),
+      Plane{second * static_cast<double>(t.cosine[0]), second * static_cast<double>(t.sine(0))}};
 }
 
 inline double cross(const Plane& a, const Plane& b) { return (std::conj(a) * b).imag(); }
@@ -58,8 +59,8 @@ std::vector<bool> shows_as_point(const TriangleMesh<Real>& mesh,
 /// Does the curve run straight on from one piece to the next, as seen from its left (side 0) or
 /// right (side 1)? That is: has it pi of surface there.
 template <class Real>
-bool runs_straight(const TriangleMesh<Real>& mesh, const CurvePiece& piece,
-                   const CurvePiece& next, int side);
+bool runs_straight(const TriangleMesh<Real>& mesh, const CurvePiece& piece, const CurvePiece& next,
+                   int side);
 
 /// Where a piece ends in its triangle: at corner i (i), inside edge e (3 + e), or inside (6).
 template <class Real>

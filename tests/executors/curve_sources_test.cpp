@@ -53,11 +53,14 @@ void check_all(const Surface& s, const std::vector<Source>& sources, const Rule&
   const auto merged = solve(Serial{}, twice, sources);
   CHECK(merged.accuracy == Accuracy::accurate());
   const Errors m = errors(merged.distance, rule, least);
-  CHECK(m.max < 1e-4);
+  // The worst is what the points at its ends have alone, in a plane too.
+  CHECK(m.mean < 1e-5);
+  CHECK(m.max < 2e-4);
   const auto single = solve(Serial{}, once, sources);
   CHECK(single.accuracy == Accuracy::accurate());
   const Errors f = errors(single.distance, rule, least);
-  CHECK(f.max < 1e-4);
+  CHECK(f.mean < 2e-5);
+  CHECK(f.max < 2e-4);
   for (const Schedule schedule : {Schedule::fifo, Schedule::priority}) {
     PropagateOptions options = at(Accuracy::exact());
     options.schedule = schedule;
@@ -159,8 +162,7 @@ TEST_CASE("curves as windows: polylines, several curves and points, and whose a 
     check_all(s, sources, rule, 1. / 30);
     for (const Accuracy accuracy : {Accuracy::exact(), Accuracy::accurate()}) {
       const auto field = solve(Serial{}, s.mesh<double>(), sources, at(accuracy));
-      for (Index v = 0; v < s.positions.size(); ++v)
-        CHECK(to(field.label[v], v) <= rule(v) + 1e-4);
+      for (Index v = 0; v < s.positions.size(); ++v) CHECK(to(field.label[v], v) <= rule(v) + 1e-4);
     }
   }
 }
@@ -217,9 +219,9 @@ TEST_CASE("curves as windows: light bends around a corner") {
     const auto merged = solve(Serial{}, s.mesh<float>(), Source(flat_curve(s, a, b).source()));
     // Many points of it: never nearer than the curve, and hardly farther than the step between.
     const FlatCurve curve = flat_curve(s, a, b);
-    const auto sampled = solve(Serial{}, s.mesh<double>(),
-                               std::span<const PointSource>(curve.points(400)),
-                               at(Accuracy::exact()));
+    const auto sampled =
+        solve(Serial{}, s.mesh<double>(), std::span<const PointSource>(curve.points(400)),
+              at(Accuracy::exact()));
     CAPTURE(n, c[0], c[1]);
     for (Index v = 0; v < s.positions.size(); ++v) {
       if (std::isinf(sampled.distance[v])) continue;  // left over by the cut

@@ -62,8 +62,8 @@ void CurveLights::add_curve(const TriangleMesh<Real>& mesh, std::span<const Curv
       const double d = std::abs(back), width = std::abs(at[edge_after(i)] - at[i]);
       if (!(d > 0) || !(width > 0)) continue;  // where the curve passes it is a point of its own
       const Plane unit = (at[edge_after(i)] - at[i]) / width;
-      corners.push_back({piece.face, i, sigma + d,
-                         {dot(back, unit), std::max(cross(unit, back), 0.)}, number});
+      corners.push_back(
+          {piece.face, i, sigma + d, {dot(back, unit), std::max(cross(unit, back), 0.)}, number});
     }
   }
 }
@@ -75,8 +75,12 @@ void CurveLights::add_face(const TriangleMesh<Real>& mesh, Index face, double of
   const TriangleRecord<Real>& t = mesh.triangles()[f];
   for (Index e = 0; e < 3; ++e)
     if (t.length[e] > 0)
-      lights.push_back({f, e, false, {0, -1, 0, static_cast<double>(t.length[e])},
-                        offset / mesh.unit(), number});
+      lights.push_back({f,
+                        e,
+                        false,
+                        {0, -1, 0, static_cast<double>(t.length[e])},
+                        offset / mesh.unit(),
+                        number});
 }
 
 template void CurveLights::add_curve(const TriangleMesh<float>&, std::span<const CurvePiece>,

@@ -9,9 +9,9 @@
 
 namespace plexway::windows {
 
-/// A source seen from an edge: at (x, -h), `begin` to `end` of the edge in its light. Or, where h is
-/// below 0, the light of a straight line, which is parallel: it travels by (x, -h), a unit vector.
-/// Turning the frame does the same to both.
+/// A source seen from an edge: at (x, -h), `begin` to `end` of the edge in its light. Or, where h
+/// is below 0, the light of a straight line, which is parallel: it travels by (x, -h), a unit
+/// vector. Turning the frame does the same to both.
 template <class Real>
 struct Beam {
   Real x, h, begin, end;

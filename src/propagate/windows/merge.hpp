@@ -40,18 +40,13 @@ struct Window {
 /// No source of merged windows lies farther away, in mean edges: single precision would lose it.
 inline constexpr int farthest_merged = 300;
 
-/// Where the light of a line and of its end meet, the front goes from straight to round at once:
-/// there a merged window may be off by this share of the limit, since the border is a line that all
-/// edges along it share, and what is off adds up.
-inline constexpr float strict = 0.125F;
-
 /// Parallel light that goes on as parallel light: one window in place of the first. False, and
 /// nothing done, where the two are not the same light but for rounding, which `limit` is far above.
 template <class Real>
 [[nodiscard]] bool join_parallel(Window<Real>& u, const Window<Real>& w, Real limit) {
   if (!u.beam.is_parallel() || !w.beam.is_parallel()) return false;
-  const Real miss = std::max(std::abs(u.at(w.beam.end) - w.at_end),
-                             std::abs(w.at(u.beam.begin) - u.at_begin));
+  const Real miss =
+      std::max(std::abs(u.at(w.beam.end) - w.at_end), std::abs(w.at(u.beam.begin) - u.at_begin));
   if (!(miss <= limit / 64)) return false;
   if (w.beam.end - w.beam.begin > u.beam.end - u.beam.begin)
     u.beam.x = w.beam.x, u.beam.h = w.beam.h, u.sigma = w.sigma, u.at_begin = u.at(u.beam.begin);
@@ -69,10 +64,10 @@ template <class Real>
 /// sign. A front that is straight or hollow gets the farthest source, and misses the far ends, too.
 template <class Real>
 [[nodiscard]] inline bool merge(Window<Real>& u, const Window<Real>& w, Real limit) {
-  if (u.beam.is_parallel() != w.beam.is_parallel())
-    limit *= static_cast<Real>(strict);
-  else if (u.beam.is_parallel() && join_parallel(u, w, limit))
-    return true;
+  // Where the light of a line and of its end meet, the front goes from straight to round at once:
+  // the border is a line that all edges along it share, and what is off there adds up.
+  if (u.beam.is_parallel() != w.beam.is_parallel()) return false;
+  if (u.beam.is_parallel() && join_parallel(u, w, limit)) return true;
   const Real a = u.beam.begin, b = (u.beam.end + w.beam.begin) / 2, c = w.beam.end;
   const Real p = b - a, q = c - b;
   const Real by_u = u.at(b), by_w = w.at(b), middle = (by_u + by_w) / 2;

@@ -50,8 +50,9 @@ void MergedWindows<Real>::seed(Order& order, const WindowSources& sources) {
       continue;
     }
     seed_in(order, f, {b[0], b[1], b[2]}, sigma, number);
-    // On an edge all triangles there have it. As a window over that edge it would light them through
-    // a single point, and what cuts off a part of the edge would cut off all light to one side.
+    // On an edge all triangles there have it. As a window over that edge it would light them
+    // through a single point, and what cuts off a part of the edge would cut off all light to one
+    // side.
     for (std::size_t e = 0; e < 3; ++e) {
       if (b[edge_before(e)] > on_edge || t.across[e] >> Across::face_shift == sentinel_) continue;
       cross_edge(triangles_, f, e, [&](Index across, bool same_way) {

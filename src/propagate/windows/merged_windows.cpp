@@ -46,8 +46,8 @@ MergedWindows<Real>::MergedWindows(const TriangleMesh<Real>& mesh, const VertexA
 }
 
 template <class Real>
-bool MergedWindows<Real>::solve(const WindowSources& sources, const PropagateOptions& options,  const MergeLimit& limit,
-                                KeptWindows<Real>* kept) {
+bool MergedWindows<Real>::solve(const WindowSources& sources, const PropagateOptions& options,
+                                const MergeLimit& limit, KeptWindows<Real>* kept) {
   limit_ = limit;
   kept_ = kept;
   labels_ = sources.labels;
@@ -379,8 +379,8 @@ void MergedWindows<Real>::commit(Order& order, const Turn& turn) {
   const bool is_lit = turn.to_apex < infinity<Real>;
   if (turn.to_apex < bound) {
     const Labelled<Real>& seen = windows[turn.seen];
-    offer(order, t.p, turn.to_apex, corner, t.towards(seen.window.beam),
-          seen.source, seen.window.error);
+    offer(order, t.p, turn.to_apex, corner, t.towards(seen.window.beam), seen.source,
+          seen.window.error);
     bound = turn.to_apex;
   }
   // Around the end of what is lit beside it; where another window sees it, if that is shorter by

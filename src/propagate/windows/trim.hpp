@@ -5,8 +5,9 @@
 namespace plexway::windows {
 
 /// Up to where on an edge its first vertex serves as well as a source at (x, -h) from that vertex:
-/// x0 = 0, the vertex `c` farther away than the source's own sigma. Parallel light as a beam has it. +inf where the vertex serves
-/// all of the edge; anything below 0, or NaN, where it serves none.
+/// x0 = 0, the vertex `c` farther away than the source's own sigma. Parallel light as a beam has
+/// it. +inf where the vertex serves all of the edge; anything below 0, or NaN, where it serves
+/// none.
 ///
 /// From c + b <= |S - b|, squared: no root is taken. (Solving for b where |S - b| - b, which falls
 /// with b, comes down to c.)

@@ -14,10 +14,10 @@ namespace plexway::windows {
 /// Parallel light that a straight line sends over an edge of a triangle. Numbers and unit inside.
 struct LineLight {
   Index face, edge;
-  bool into;             ///< from the edge into the triangle; else out of it, over the edge
-  Beam<double> beam;     ///< measured from the edge's first corner
-  double sigma;          ///< at that corner, as a window has it
-  Index number;          ///< of the source
+  bool into;          ///< from the edge into the triangle; else out of it, over the edge
+  Beam<double> beam;  ///< measured from the edge's first corner
+  double sigma;       ///< at that corner, as a window has it
+  Index number;       ///< of the source
 
   [[nodiscard]] Window<double> window() const {
     Window<double> w = {beam, sigma, 0, 0, 0};
