@@ -9,13 +9,13 @@
 #include <plexway/complex/triangle_mesh.hpp>
 #include <plexway/propagate/distance_field.hpp>
 #include <plexway/propagate/options.hpp>
-#include <plexway/source/point_source.hpp>
 
 #include "propagate/windows/kept_windows.hpp"
 #include "propagate/windows/merge.hpp"
 #include "propagate/windows/node_orders.hpp"
 #include "propagate/windows/pseudo_source.hpp"
 #include "propagate/windows/vertex_angles.hpp"
+#include "propagate/windows/window_sources.hpp"
 
 namespace plexway::windows {
 
@@ -45,7 +45,7 @@ class ExactWindows {
   /// The sources must be checked. Windows are put into `kept` as well, unless it is null. Throws
   /// Cancelled as the progress callback says. False, and no result, where more windows are needed
   /// than `patience` allows.
-  [[nodiscard]] bool solve(std::span<const PointSource> sources, const PropagateOptions& options,
+  [[nodiscard]] bool solve(const WindowSources& sources, const PropagateOptions& options,
                            const Patience& patience, KeptWindows<Real>* kept = nullptr);
 
   /// Afterwards, by the numbers inside, in mean edges; +inf where unreached.
@@ -76,7 +76,7 @@ class ExactWindows {
     return statistics_.expansions > patience_.windows || nodes_.size() > patience_.waiting;
   }
   template <class Order>
-  void seed(Order& order, std::span<const PointSource> sources);
+  void seed(Order& order, const WindowSources& sources);
   template <class Order>
   void expand(Order& order, Index n);
   template <class Order>

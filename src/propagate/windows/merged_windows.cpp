@@ -46,12 +46,11 @@ MergedWindows<Real>::MergedWindows(const TriangleMesh<Real>& mesh, const VertexA
 }
 
 template <class Real>
-bool MergedWindows<Real>::solve(std::span<const PointSource> sources,
-                                const PropagateOptions& options, const MergeLimit& limit,
-                                KeptWindows<Real>* kept) {
+bool MergedWindows<Real>::solve(const WindowSources& sources, const PropagateOptions& options,
+                                const MergeLimit& limit, KeptWindows<Real>* kept) {
   limit_ = limit;
   kept_ = kept;
-  labels_ = sources.size() > 1;
+  labels_ = sources.labels;
   vertices_.assign(mesh_.vertex_count(), {infinity<Real>, none, {0, 0}});
   error_.resize(mesh_.vertex_count());
   if (labels_) source_.resize(mesh_.vertex_count());
@@ -63,7 +62,7 @@ bool MergedWindows<Real>::solve(std::span<const PointSource> sources,
   statistics_ = {};
   radius_ = static_cast<Real>(options.radius / mesh_.unit());
   least_offset_ = std::numeric_limits<double>::infinity();
-  for (const PointSource& s : sources)
+  for (const PointSource& s : sources.points)
     least_offset_ = std::min(least_offset_, s.offset / mesh_.unit());
   scale_ = scale_at(least_offset_);
   const auto solve_in = [&](auto& order) {
@@ -320,7 +319,7 @@ template <class Order>
   if (ways[seen] < vertices_[t.p].distance) {
     const Index corner = static_cast<Index>(3 * turn.face + t.before);
     offer(order, t.p, ways[seen], seen ? corner : corner | bent,
-          seen ? t.towards(w.beam.x, w.beam.h) : t.towards(ends[right], 0), source, w.error);
+          seen ? t.towards(w.beam) : t.towards(ends[right], 0), source, w.error);
   }
   const int wanted = s.wanted(vertices_[t.a].distance, vertices_[t.b].distance,
                               vertices_[t.p].distance, scale_ * s.length);
@@ -346,13 +345,13 @@ template <class Real>
     // No gap opens between joined neighbours: both reach the apex if it lies there and they agree
     // on it, else they meet at the middle.
     Spread<Real>& before = turn.spread[i - 1];
-    const Real sigma_before = windows[i - 1].window.sigma, sigma = windows[i].window.sigma;
+    const Window<Real>&window_before = windows[i - 1].window, &window = windows[i].window;
     if (!before.left_reaches() && !s.right_reaches()) {
       const Spread<Real> dark_before = before, dark = s;
       before.at.v[1] = t.left;
       s.at.v[3] = t.right;
-      before.measure(sigma_before);
-      s.measure(sigma);
+      before.measure(t, window_before);
+      s.measure(t, window);
       const Real from_left = before.distance[1], from_right = s.distance[3];
       if (std::abs(from_left - from_right) <= 4 * scale_ * t.width)
         sees(from_left < from_right ? i : i - 1, std::max(from_left, from_right));
@@ -360,12 +359,12 @@ template <class Real>
         before = dark_before, s = dark;
     } else if (before.at[1] < s.at[0]) {
       before.at.v[1] = s.at.v[0] = (before.at[1] + s.at[0]) / 2;
-      before.measure(sigma_before);
-      s.measure(sigma);
+      before.measure(t, window_before);
+      s.measure(t, window);
     } else if (s.at[3] < before.at[2]) {
       before.at.v[2] = s.at.v[3] = (before.at[2] + s.at[3]) / 2;
-      before.measure(sigma_before);
-      s.measure(sigma);
+      before.measure(t, window_before);
+      s.measure(t, window);
     }
   }
 }
@@ -380,8 +379,8 @@ void MergedWindows<Real>::commit(Order& order, const Turn& turn) {
   const bool is_lit = turn.to_apex < infinity<Real>;
   if (turn.to_apex < bound) {
     const Labelled<Real>& seen = windows[turn.seen];
-    offer(order, t.p, turn.to_apex, corner, t.towards(seen.window.beam.x, seen.window.beam.h),
-          seen.source, seen.window.error);
+    offer(order, t.p, turn.to_apex, corner, t.towards(seen.window.beam), seen.source,
+          seen.window.error);
     bound = turn.to_apex;
   }
   // Around the end of what is lit beside it; where another window sees it, if that is shorter by

@@ -8,7 +8,6 @@
 #include <plexway/complex/triangle_mesh.hpp>
 #include <plexway/propagate/distance_field.hpp>
 #include <plexway/propagate/options.hpp>
-#include <plexway/source/point_source.hpp>
 
 #include "propagate/windows/bucket_ring.hpp"
 #include "propagate/windows/entered_triangle.hpp"
@@ -18,6 +17,7 @@
 #include "propagate/windows/pseudo_source.hpp"
 #include "propagate/windows/spread.hpp"
 #include "propagate/windows/vertex_angles.hpp"
+#include "propagate/windows/window_sources.hpp"
 
 namespace plexway::windows {
 
@@ -45,7 +45,7 @@ class MergedWindows {
   /// The sources must be checked. Windows are put into `kept` as well, unless it is null. Throws
   /// Cancelled as the progress callback says. False, and no result, where merging does not pay:
   /// among needles windows do not become fewer, and what comes out is no good.
-  [[nodiscard]] bool solve(std::span<const PointSource> sources, const PropagateOptions& options,
+  [[nodiscard]] bool solve(const WindowSources& sources, const PropagateOptions& options,
                            const MergeLimit& limit, KeptWindows<Real>* kept = nullptr);
 
   /// Afterwards, by the numbers inside, in mean edges; +inf where unreached.
@@ -97,7 +97,9 @@ class MergedWindows {
   template <class Order>
   Outcome run(Order& order, const PropagateOptions& options);
   template <class Order>
-  void seed(Order& order, std::span<const PointSource> sources);
+  void seed(Order& order, const WindowSources& sources);
+  template <class Order>
+  void seed_in(Order& order, Index f, const std::array<double, 3>& place, Real sigma, Index number);
   template <class Order>
   bool fill_holes(Order& order);
   Block& start(Turn& turn, Index block);

@@ -51,7 +51,7 @@ bool WindowSolver<Real>::is_for(const TriangleMesh<Real>& mesh) const {
 /// the last bit.
 template <class Real>
 template <bool kLabels, class Windows>
-void WindowSolver<Real>::read_out(const Windows& windows, std::span<const PointSource> sources,
+void WindowSolver<Real>::read_out(const Windows& windows, const WindowSources& sources,
                                   const PropagateOptions& options, bool mends,
                                   WorkspaceState<Real>& workspace,
                                   DistanceField<Real>& field) const {
@@ -67,7 +67,9 @@ void WindowSolver<Real>::read_out(const Windows& windows, std::span<const PointS
   }
   field.statistics = windows.statistics();
   if (mends) {
-    const auto mended = surface::mend<Real, kLabels>(mesh_, sources, workspace, Alone{});
+    const auto mended = surface::mend<Real, kLabels>(
+        mesh_, sources.only_points() ? sources.points : std::span<const PointSource>(), workspace,
+        Alone{});
     field.statistics.lowered_vertices = mended.lowered;
     field.statistics.raised_vertices = mended.raised;
   }
@@ -81,10 +83,14 @@ void WindowSolver<Real>::read_out(const Windows& windows, std::span<const PointS
     if constexpr (kLabels)
       field.label[v] = in && d < infinity ? workspace.vertex_source[inside[v]] : none;
   }
-  for (std::size_t n = 0; n < sources.size(); ++n)
-    if (const Index v = sources[n].vertex; v != none && windows.source(mesh_.inside_vertex(v)) == n)
-      if (sources[n].offset <= options.radius)
-        field.distance[v] = static_cast<Real>(sources[n].offset);
+  const auto at_vertex = [&](const PointSource& s, Index number) {
+    const Index v = s.vertex;
+    return v != none && windows.source(mesh_.inside_vertex(v)) == number &&
+           s.offset <= options.radius;
+  };
+  for (std::size_t n = 0; n < sources.points.size(); ++n)
+    if (const PointSource& s = sources.points[n]; at_vertex(s, sources.number(n)))
+      field.distance[s.vertex] = static_cast<Real>(s.offset);
   field.complete = windows.complete();
   const auto triangles = mesh_.triangles();
   for (std::size_t f = 0; f < mesh_.face_count(); ++f)
@@ -92,12 +98,12 @@ void WindowSolver<Real>::read_out(const Windows& windows, std::span<const PointS
 }
 
 template <class Real>
-bool WindowSolver<Real>::solve(std::span<const PointSource> sources, Accuracy accuracy,
+bool WindowSolver<Real>::solve(const WindowSources& sources, Accuracy accuracy,
                                const PropagateOptions& options, WorkspaceState<Real>& workspace,
                                DistanceField<Real>& field) {
   const bool merge = accuracy.kind() != Accuracy::Kind::exact;
   const auto take = [&](const auto& windows) {
-    if (sources.size() > 1)
+    if (sources.labels)
       read_out<true>(windows, sources, options, merge, workspace, field);
     else
       read_out<false>(windows, sources, options, merge, workspace, field);

@@ -9,12 +9,12 @@
 #include <plexway/propagate/accuracy.hpp>
 #include <plexway/propagate/distance_field.hpp>
 #include <plexway/propagate/options.hpp>
-#include <plexway/source/point_source.hpp>
 
 #include "propagate/windows/exact_windows.hpp"
 #include "propagate/windows/kept_windows.hpp"
 #include "propagate/windows/merged_windows.hpp"
 #include "propagate/windows/vertex_angles.hpp"
+#include "propagate/windows/window_sources.hpp"
 #include "propagate/workspace_state.hpp"
 
 namespace plexway::windows {
@@ -42,7 +42,7 @@ class WindowSolver {
   /// What was to be merged is read out as labels are: no vertex is left below the straight line in
   /// space, and none farther than a neighbour and the edge between, where triangles without an area
   /// hide it. `workspace` is for that.
-  [[nodiscard]] bool solve(std::span<const PointSource> sources, Accuracy accuracy,
+  [[nodiscard]] bool solve(const WindowSources& sources, Accuracy accuracy,
                            const PropagateOptions& options, WorkspaceState<Real>& workspace,
                            DistanceField<Real>& field);
 
@@ -56,7 +56,7 @@ class WindowSolver {
 
  private:
   template <bool kLabels, class Windows>
-  void read_out(const Windows& windows, std::span<const PointSource> sources,
+  void read_out(const Windows& windows, const WindowSources& sources,
                 const PropagateOptions& options, bool mends, WorkspaceState<Real>& workspace,
                 DistanceField<Real>& field) const;
 
