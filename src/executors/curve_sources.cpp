@@ -83,7 +83,7 @@ void add_shapes(const TriangleMesh<Real>& mesh, std::span<const Source> sources,
 template <class Real>
 bool solve_by_windows(const TriangleMesh<Real>& mesh, std::span<const Source> sources,
                       std::span<const Shape> shapes, const SourceParts& parts, Accuracy accuracy,
-                      const PropagateOptions& options, Workspace<Real>& workspace,
+                      const PropagateOptions& options, WorkspaceState<Real>& workspace,
                       DistanceField<Real>& field) {
   windows::CurveLights seeds;
   add_shapes(mesh, sources, shapes, parts.points.size(), seeds);
@@ -124,7 +124,7 @@ class SidedFront : public Wave {
 template <bool kLabels>
 class Curves {
  public:
-  Curves(const CurveSeeds& seeds, Workspace<double>& workspace)
+  Curves(const CurveSeeds& seeds, WorkspaceState<double>& workspace)
       : seeds_(seeds), workspace_(workspace) {}
 
   template <class Rule, class Front>
@@ -145,12 +145,12 @@ class Curves {
 
  private:
   const CurveSeeds& seeds_;
-  Workspace<double>& workspace_;
+  WorkspaceState<double>& workspace_;
 };
 
 template <bool kLabels>
 void solve(const TriangleMesh<double>& mesh, const SourceParts& parts, const CurveSeeds& seeds,
-           const PropagateOptions& options, Workspace<double>& workspace,
+           const PropagateOptions& options, WorkspaceState<double>& workspace,
            DistanceField<double>& field) {
   workspace.front.reserve(mesh.face_count());
   workspace.start(mesh.face_count(), kLabels);
@@ -171,8 +171,9 @@ void solve(const TriangleMesh<double>& mesh, const SourceParts& parts, const Cur
 template <class E, class Real>
 void solve_shapes(const E& executor, const TriangleMesh<Real>& mesh,
                   std::span<const Source> sources, SourceParts& parts,
-                  const PropagateOptions& options, Workspace<Real>& workspace,
+                  const PropagateOptions& options, Workspace<Real>& kept,
                   DistanceField<Real>& field) {
+  WorkspaceState<Real>& workspace = kept.state();
   const std::vector<Shape> shapes = cut_shapes(mesh, sources, parts);
   check(std::span<const PointSource>(parts.points), options, mesh);
   const Accuracy accuracy = resolved(

@@ -8,7 +8,8 @@
 #include <vector>
 
 #include <plexway/complex/triangle_mesh.hpp>
-#include <plexway/kernel/lanes.hpp>
+
+#include "kernel/lanes.hpp"
 
 #include "propagate/curve_pieces.hpp"
 

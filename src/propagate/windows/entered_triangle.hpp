@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <limits>
 
-#include <plexway/complex/triangle_record.hpp>
+#include <plexway/complex/detail/triangle_record.hpp>
 
 namespace plexway::windows {
 
