@@ -60,7 +60,13 @@ void MergedWindows<Real>::seed(Order& order, const WindowSources& sources) {
         std::array<double, 3> there = {0, 0, 0};
         there[k] = b[same_way ? e : edge_after(e)];
         there[edge_after(k)] = b[same_way ? edge_after(e) : e];
-        seed_in(order, across >> Across::face_shift, there, sigma, number);
+        const Index g = across >> Across::face_shift;
+        seed_in(order, g, there, sigma, number);
+        if (!kept_) return;  // what is read there looks for the source over the edge
+        const Real length = triangles_[g].length[k];
+        kept_->take(static_cast<Index>(4 * g + k),
+                    {static_cast<Real>(there[edge_after(k)]) * length, 0, 0, length}, sigma,
+                    number);
       });
     }
   }
