@@ -11,7 +11,7 @@ namespace plexway {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr double touching = 1e-6;  // coordinates and lengths, as a share
+constexpr double touching = 1e-5;  // coordinates, and lengths as a share of a cell
 constexpr double worth = 1e-10;    // what a change must gain, of the length
 
 double norm(const Point3& a) { return std::sqrt(dot(a, a)); }
@@ -25,7 +25,9 @@ CellFace held_by(const CellCrossing& crossing) {
 }
 
 /// Ways around a vertex or an edge: from one direction to another through the cells there, as seen
-/// from a point of it. Along an edge angles are those of what is left across it.
+/// from a point of it. The shortest is that of the least angle; where cells measure what they share
+/// differently, angles count as much as these are slower. Along an edge they are those of what is
+/// left across it.
 class Around {
  public:
   /// `point`: of crossing `held`, whose face is exactly what is gone around.
@@ -46,27 +48,65 @@ class Around {
           CellFace two = one;
           two.add(cell.vertex[j]);
           constexpr int parts = 4;
-          for (int k = 1; k < parts; ++k)
-            open(two, {1 - k / double(parts), k / double(parts), 0});
+          for (int k = 1; k < parts; ++k) open(two, {1 - k / double(parts), k / double(parts), 0});
         }
       }
     }
+    slowness_.assign(cells_.size(), 1);
+    for (std::size_t d = 0; d < directions_.size(); ++d) {
+      double least = infinity;
+      for (std::size_t c = 0; c < cells_.size(); ++c)
+        if (in(d, c)) least = std::min(least, norm(direction(d, c)));
+      for (std::size_t c = 0; least > 0 && c < cells_.size(); ++c)
+        if (in(d, c)) slowness_[c] = std::max(slowness_[c], norm(direction(d, c)) / least);
+    }
+    one_speed_ = *std::max_element(slowness_.begin(), slowness_.end()) < 1 + 1e-6;
   }
 
   /// More cells than a way straight over an edge passes.
   [[nodiscard]] bool any() const { return cells_.size() > 2; }
 
   struct Way {
-    std::vector<Index> cells;       // from the first to the last
-    std::vector<CellCrossing> at;   // between them
-    std::vector<CellFace> towards;  // the directions used
+    std::vector<Index> cells;      // from the first to the last
+    std::vector<CellCrossing> at;  // between them
     double angle = infinity;
   };
+  /// Cells that may pay where they are run along: faster than others at the same place.
+  [[nodiscard]] std::vector<Index> fast() const {
+    std::vector<Index> found;
+    for (std::size_t c = 0; !one_speed_ && c < cells_.size(); ++c)
+      if (slowness_[c] < 1 + 1e-6) found.push_back(numbers_[c]);
+    return found;
+  }
+  /// Could a way of that angle be shorter than straight to the point and on from there?
+  [[nodiscard]] bool may_gain(double angle) const {
+    constexpr double coarse = 0.35;  // so much longer is a way over few directions
+    return angle < (one_speed_ ? std::numbers::pi + coarse : infinity);
+  }
 
-  /// From a point of cell `from` to one of cell `to`, but over no direction in `avoided`.
+  /// From a point of cell `from` to one of cell `to`. Cells and directions that it passes are left
+  /// out by the next one.
   [[nodiscard]] Way find(Index from, const std::array<double, 4>& start, Index to,
-                         const std::array<double, 4>& end,
-                         const std::vector<CellFace>& avoided) const {
+                         const std::array<double, 4>& end) {
+    Way way = shortest(from, start, to, end);
+    for (std::size_t k = 1; k + 1 < way.cells.size(); ++k)
+      avoided_cells_[place_of(way.cells[k])] = 1;
+    if (way.cells.size() == 2)
+      for (std::size_t d = 0; d < directions_.size(); ++d)
+        if (in(d, place_of(from)) && in(d, place_of(to))) avoided_[d] = 1;
+    return way;
+  }
+  /// The same, whatever was left out or is by the next one.
+  [[nodiscard]] Way any_way(Index from, const std::array<double, 4>& start, Index to,
+                            const std::array<double, 4>& end) {
+    avoided_cells_.assign(cells_.size(), 0);
+    avoided_.assign(directions_.size(), 0);
+    return shortest(from, start, to, end);
+  }
+
+ private:
+  [[nodiscard]] Way shortest(Index from, const std::array<double, 4>& start, Index to,
+                             const std::array<double, 4>& end) {
     Way way;
     const std::size_t first = place_of(from), last = place_of(to);
     if (first == cells_.size() || last == cells_.size()) return way;
@@ -74,13 +114,13 @@ class Around {
     std::vector<double> angle(n, infinity);
     std::vector<std::size_t> before(n, n), by(n, 0);
     std::vector<char> done(n, 0);
-    const auto is_avoided = [&](std::size_t d) {
-      return std::find(avoided.begin(), avoided.end(), directions_[d].towards) != avoided.end();
-    };
+    avoided_cells_.resize(cells_.size());
+    avoided_.resize(n);
     const auto relax = [&](std::size_t c, const Point3& u, double so_far, std::size_t origin) {
+      if (avoided_cells_[c]) return;
       for (std::size_t d = 0; d < n; ++d) {
-        if (done[d] || !in(d, c) || is_avoided(d)) continue;
-        const double there = so_far + angle_between(u, direction(d, c));
+        if (done[d] || !in(d, c) || avoided_[d]) continue;
+        const double there = so_far + slowness_[c] * angle_between(u, direction(d, c));
         if (there < angle[d]) angle[d] = there, before[d] = origin, by[d] = c;
       }
     };
@@ -94,7 +134,8 @@ class Around {
       if (next == n || angle[next] >= way.angle) break;
       done[next] = 1;
       if (in(next, last)) {
-        const double whole = angle[next] + angle_between(direction(next, last), aim);
+        const double whole =
+            angle[next] + slowness_[last] * angle_between(direction(next, last), aim);
         if (whole < way.angle) way.angle = whole, best = next;
       }
       for (std::size_t c = 0; c < cells_.size(); ++c)
@@ -106,8 +147,8 @@ class Around {
     std::reverse(passed.begin(), passed.end());
     way.cells = {from};
     for (std::size_t k = 0; k < passed.size(); ++k) {
-      way.towards.push_back(directions_[passed[k]].towards);
-      const Index next = numbers_[k + 1 < passed.size() ? by[passed[k + 1]] : last];
+      const std::size_t behind = k + 1 < passed.size() ? by[passed[k + 1]] : last;
+      const Index next = numbers_[behind];
       if (next == way.cells.back()) continue;
       way.at.push_back(crossing(way.cells.back(), next, directions_[passed[k]]));
       way.cells.push_back(next);
@@ -115,7 +156,6 @@ class Around {
     return way;
   }
 
- private:
   struct Direction {
     CellFace towards;
     std::array<double, 3> at;
@@ -191,7 +231,17 @@ class Around {
   std::vector<Index> numbers_;
   std::vector<Cell> cells_;
   std::vector<Direction> directions_;
+  std::vector<double> slowness_;  // of cells, against the fastest beside
+  bool one_speed_ = true;
+  std::vector<char> avoided_cells_, avoided_;
 };
+
+double size_of(const Cell& cell) {
+  double most = 0;
+  for (std::size_t i = 1; i < cell.corners; ++i)
+    most = std::max(most, norm(minus(cell.place[i], cell.place[0])));
+  return most;
+}
 
 // Crossings first to last are one point, on `held`.
 struct Contact {
@@ -199,21 +249,34 @@ struct Contact {
   CellCrossing held;
 };
 
-std::vector<Contact> contacts_of(const Cells& all, const CellString& string, double length) {
+std::vector<Contact> contacts_of(const Cells& all, const CellString& string) {
   std::vector<Contact> contacts;
+  std::vector<CellFace> held;
   for (std::size_t k = 0; k < string.crossings.size(); ++k) {
     const CellFace face = held_by(string.crossings[k]);
-    if (!contacts.empty() && contacts.back().last + 1 == k &&
-        contacts.back().held.face == face && string.length(all, k) <= touching * length) {
-      contacts.back().last = k;
-      continue;
+    if (!contacts.empty()) {
+      CellFace common;  // of two points that are one but for rounding
+      for (std::size_t i = 0; i < face.corners; ++i)
+        if (held.back().has(face.vertex[i])) common.add(face.vertex[i]);
+      if (common.corners > 0 &&
+          string.length(all, k) <= touching * size_of(all.cell(string.cells[k]))) {
+        contacts.back().last = k;
+        held.back() = common;
+        continue;
+      }
     }
-    CellCrossing held{face, {}};
+    contacts.push_back({k, k, {}});
+    held.push_back(face);
+  }
+  for (std::size_t c = 0; c < contacts.size(); ++c) {
+    const CellCrossing& crossing = string.crossings[contacts[c].first];
+    CellCrossing& point = contacts[c].held;
+    point.face = held[c];
     double sum = 0;
-    for (std::size_t i = 0, j = 0; i < string.crossings[k].face.corners; ++i)
-      if (string.crossings[k].at[i] > touching) sum += held.at[j++] = string.crossings[k].at[i];
-    for (double& x : held.at) x /= sum;
-    contacts.push_back({k, k, held});
+    for (std::size_t i = 0; i < point.face.corners; ++i)
+      for (std::size_t j = 0; j < crossing.face.corners; ++j)
+        if (crossing.face.vertex[j] == point.face.vertex[i]) sum += point.at[i] = crossing.at[j];
+    for (double& x : point.at) x /= sum;
   }
   return contacts;
 }
@@ -265,14 +328,12 @@ bool go_around(const Cells& all, const Contact& contact, CellString& part) {
       return true;
     }
   }
-  const Around around(all, contact.held);
+  Around around(all, contact.held);
   if (!around.any()) return false;
-  constexpr int ways = 3;
-  std::vector<CellFace> avoided;
+  constexpr int ways = 4;
   for (int k = 0; k < ways; ++k) {
-    const Around::Way way = around.find(from, part.start, to, part.end, avoided);
-    // Where all cells have one speed, from pi on nothing is gained.
-    if (!(way.angle < 1.5 * std::numbers::pi)) return false;
+    const Around::Way way = around.find(from, part.start, to, part.end);
+    if (way.cells.empty() || !around.may_gain(way.angle)) return false;
     CellString other;
     other.start = part.start, other.end = part.end;
     other.cells = way.cells;
@@ -281,9 +342,112 @@ bool go_around(const Cells& all, const Contact& contact, CellString& part) {
       part = std::move(other);
       return true;
     }
-    avoided.insert(avoided.end(), way.towards.begin(), way.towards.end());
   }
   return false;
+}
+
+// Between two cells, at a point that both have.
+CellCrossing crossing_at(const Cells& all, const CellCrossing& point, Index one, Index other) {
+  CellCrossing made{all.between(one, other, point.face), {}};
+  for (std::size_t i = 0; i < made.face.corners; ++i)
+    for (std::size_t j = 0; j < point.face.corners; ++j)
+      if (point.face.vertex[j] == made.face.vertex[i]) made.at[i] = point.at[j];
+  return made;
+}
+
+// By a fast cell at what holds the part: into it around that and out of it there, the other way
+// round, or in and out there.
+bool run_along(const Cells& all, const Contact& contact, CellString& part) {
+  const double known = part.length(all);
+  Around around(all, contact.held);
+  const Index from = part.cells.front(), to = part.cells.back();
+  const auto crossing = [&](Index one, Index other) {
+    return crossing_at(all, contact.held, one, other);
+  };
+  bool any = false;
+  CellString best = part;
+  double least = known * (1 - worth);
+  for (const Index fast : around.fast()) {
+    if (fast == from || fast == to) continue;
+    std::array<double, 4> middle = {};
+    const std::size_t corners = all.corners(fast).size();
+    if (corners == 2) continue;
+    for (std::size_t i = 0; i < corners; ++i) middle[i] = 1 / static_cast<double>(corners);
+    const Around::Way in = around.any_way(from, part.start, fast, middle);
+    const Around::Way out = around.any_way(fast, middle, to, part.end);
+    for (int k = 0; k < 3; ++k) {
+      CellString other;
+      other.start = part.start, other.end = part.end;
+      if (k == 1 && !in.cells.empty()) {
+        other.cells = in.cells, other.crossings = in.at;
+      } else {
+        other.cells = {from, fast};
+        other.crossings = {crossing(from, fast)};
+      }
+      if (k == 2 && !out.cells.empty()) {
+        other.cells.insert(other.cells.end(), out.cells.begin() + 1, out.cells.end());
+        other.crossings.insert(other.crossings.end(), out.at.begin(), out.at.end());
+      } else {
+        other.cells.push_back(to);
+        other.crossings.push_back(crossing(fast, to));
+      }
+      pull_taut(all, other);
+      if (const double length = other.length(all); length < least)
+        least = length, best = std::move(other), any = true;
+    }
+  }
+  if (any) part = std::move(best);
+  return any;
+}
+
+// From the start along a fast cell beside the first.
+bool run_off(const Cells& all, CellString& string) {
+  const Cell first = all.cell(string.cells[0]);
+  CellCrossing start;
+  for (std::size_t i = 0; i < first.corners; ++i)
+    if (string.start[i] > 0 && start.face.corners < 3) start.face.add(first.vertex[i]);
+  double sum = 0;
+  for (std::size_t i = 0; i < first.corners; ++i)
+    for (std::size_t j = 0; j < start.face.corners; ++j)
+      if (start.face.vertex[j] == first.vertex[i]) sum += start.at[j] = string.start[i];
+  if (first.corners == 2 || sum < 1 - 1e-9) return false;  // inside of a tetrahedron
+  const bool alone = string.crossings.empty();
+  const std::array<double, 4> end = alone ? string.end : string.place(first, 0);
+  const double least = string.length(all, 0) - worth * string.length(all);
+  Around around(all, start);
+  for (const Index fast : around.fast()) {
+    const std::size_t corners = all.corners(fast).size();
+    if (fast == string.cells[0] || corners == 2) continue;
+    const Cell cell = all.cell(fast);
+    std::array<double, 4> middle = {}, there = {};
+    for (std::size_t i = 0; i < corners; ++i) middle[i] = 1 / static_cast<double>(corners);
+    for (std::size_t j = 0; j < start.face.corners; ++j)
+      there[cell.corner(start.face.vertex[j])] = start.at[j];
+    const Around::Way way = around.any_way(fast, middle, string.cells[0], end);
+    for (const bool direct : {true, false}) {
+      CellString part{way.cells, there, end, way.at};
+      if (direct) {
+        part.cells = {fast, string.cells[0]};
+        part.crossings = {crossing_at(all, start, fast, string.cells[0])};
+      }
+      if (part.cells.empty()) continue;
+      pull_taut(all, part);
+      if (!(part.length(all) < least)) continue;
+      part.cells.insert(part.cells.end(), string.cells.begin() + 1, string.cells.end());
+      part.crossings.insert(part.crossings.end(), string.crossings.begin(), string.crossings.end());
+      part.end = string.end;
+      string = std::move(part);
+      return true;
+    }
+  }
+  return false;
+}
+
+// The way back.
+void turn(CellString& string) {
+  std::reverse(string.cells.begin(), string.cells.end());
+  std::reverse(string.crossings.begin(), string.crossings.end());
+  std::swap(string.start, string.end);
 }
 
 // At the ends: a cell that the way only touches is left out.
@@ -348,14 +512,18 @@ bool improve(const Cells& all, CellString& string) {
   trim(all, string);
   bool any = false;
   // From the last to the first, so that places before stay what they are.
-  const std::vector<Contact> contacts = contacts_of(all, string, before);
+  const std::vector<Contact> contacts = contacts_of(all, string);
   for (std::size_t c = contacts.size(); c-- > 0;) {
     const Contact& contact = contacts[c];
     if (contact.held.face.corners > 2) continue;  // nothing holds it there
     CellString part = part_of(all, string, contact.first, contact.last);
-    if (!go_around(all, contact, part)) continue;
+    if (!go_around(all, contact, part) && !run_along(all, contact, part)) continue;
     string = spliced(string, contact.first, contact.last, part);
     any = true;
+  }
+  for (int end = 0; end < 2; ++end) {
+    any |= run_off(all, string);
+    turn(string);
   }
   CellString wider = string;
   add_sheets(all, wider);

@@ -42,8 +42,7 @@ Path trace_cells(const Cells& all, std::span<const double> distance,
   Path best;
   if (start.vertex != none && !(distance[start.vertex] < infinity)) return best;
   std::vector<CellGoal> goals;
-  for (const PointSource& source : sources)
-    goals.push_back({in_cells(all, source), source.offset});
+  for (const PointSource& source : sources) goals.push_back({in_cells(all, source), source.offset});
   if (start.vertex != none && all.around(start.vertex).empty()) {  // a vertex of no simplex
     for (std::size_t n = 0; n < goals.size(); ++n)
       if (goals[n].point.vertex == start.vertex &&

@@ -129,7 +129,8 @@ CellFace Cells::between(Index one, Index other, const CellFace& at) const {
 }
 
 std::size_t Cells::bytes() const {
-  return (outer_.capacity() + vertex_.capacity() + corner_.capacity() + around_.capacity()) * sizeof(Index) +
+  return (outer_.capacity() + vertex_.capacity() + corner_.capacity() + around_.capacity()) *
+             sizeof(Index) +
          (corner_begin_.capacity() + around_begin_.capacity()) * sizeof(std::uint32_t);
 }
 

@@ -129,17 +129,18 @@ TEST_CASE("a path bends at the corner that welding two rectangles makes") {
   const Position corner = {1.2, 1, 0};
   for (const Index source : {other.vertex(3), other.vertex(20), other.vertex(40)}) {
     const Position from = scene.positions[source];
-    check(gaps(scene, source,
-               [&](Index v) {
-                 const Position& p = scene.positions[v];
-                 if (Scene::of(other, v)) return distance(from, p);
-                 // Over the line y = 1 left of the corner, or around it.
-                 const double down = std::max(from[1] - p[1], 1e-300);
-                 const double x = from[0] + (p[0] - from[0]) * (from[1] - 1) / down;
-                 if (x <= 1.2 + 1e-12) return distance(from, p);
-                 return distance(from, corner) + distance(corner, p);
-               },
-               60),
+    check(gaps(
+              scene, source,
+              [&](Index v) {
+                const Position& p = scene.positions[v];
+                if (Scene::of(other, v)) return distance(from, p);
+                // Over the line y = 1 left of the corner, or around it.
+                const double down = std::max(from[1] - p[1], 1e-300);
+                const double x = from[0] + (p[0] - from[0]) * (from[1] - 1) / down;
+                if (x <= 1.2 + 1e-12) return distance(from, p);
+                return distance(from, corner) + distance(corner, p);
+              },
+              60),
           1e-9, 1e-8);
   }
 }
@@ -147,20 +148,22 @@ TEST_CASE("a path bends at the corner that welding two rectangles makes") {
 TEST_CASE("a path runs along a skin of another speed where that pays") {
   constexpr std::size_t n = 8;
   for (const double c : {.5, 1., 2.})
-    for (const Position& from : {Position{0, 0, 1}, Position{.25, .25, .75}, Position{.25, .5, .5}}) {
+    for (const Position& from :
+         {Position{0, 0, 1}, Position{.25, .25, .75}, Position{.25, .5, .5}}) {
       Scene scene(1);
       const auto skin = scene.add(sheet({0, 0, 1}, {1, 0, 0}, {0, 1, 0}, n, n), c);
       const auto solid = scene.add(block({0, 0, 0}, {1, 1, 1}, n));
       scene.weld(skin, solid);
       CAPTURE(c, from[0], from[1], from[2]);
-      check(gaps(scene, scene.nearest(solid, from),
-                 [&](Index v) {
-                   const Position& p = scene.positions[v];
-                   return along_fast(1 - from[2], 1 - p[2],
-                                     std::hypot(p[0] - from[0], p[1] - from[1]), c,
-                                     distance(from, p));
-                 },
-                 20),
+      check(gaps(
+                scene, scene.nearest(solid, from),
+                [&](Index v) {
+                  const Position& p = scene.positions[v];
+                  return along_fast(1 - from[2], 1 - p[2],
+                                    std::hypot(p[0] - from[0], p[1] - from[1]), c,
+                                    distance(from, p));
+                },
+                20),
             1e-5, 1e-4);
     }
 }
@@ -178,19 +181,20 @@ TEST_CASE("a path is refracted into a sheet that stands on a block") {
       };
       const Index source = scene.nearest(from[2] > 1 ? plate : solid, from);
       CAPTURE(c, from[0], from[1], from[2]);
-      check(gaps(scene, source,
-                 [&](Index v) {
-                   const Position& p = scene.positions[v];
-                   const double x = std::abs(p[1] - from[1]), r = foot(from), rho = foot(p);
-                   const bool above = p[2] > 1 || (p[2] == 1 && Scene::of(plate, v));
-                   if (!above && from[2] <= 1) return along_fast(r, rho, x, c, distance(from, p));
-                   if (above && from[2] > 1) {
-                     const double direct = distance(from, p) / c;
-                     return c >= 1 ? direct : along_fast(r / c, rho / c, x / c, 1 / c, direct);
-                   }
-                   return above ? refracted(rho, r, x, c, 1) : refracted(r, rho, x, c, 1);
-                 },
-                 20),
+      check(gaps(
+                scene, source,
+                [&](Index v) {
+                  const Position& p = scene.positions[v];
+                  const double x = std::abs(p[1] - from[1]), r = foot(from), rho = foot(p);
+                  const bool above = p[2] > 1 || (p[2] == 1 && Scene::of(plate, v));
+                  if (!above && from[2] <= 1) return along_fast(r, rho, x, c, distance(from, p));
+                  if (above && from[2] > 1) {
+                    const double direct = distance(from, p) / c;
+                    return c >= 1 ? direct : along_fast(r / c, rho / c, x / c, 1 / c, direct);
+                  }
+                  return above ? refracted(rho, r, x, c, 1) : refracted(r, rho, x, c, 1);
+                },
+                20),
             1e-5, 1e-4);
     }
 }
@@ -203,23 +207,24 @@ TEST_CASE("a path takes the wire between two solids") {
   const auto wire = scene.add(rod({in, {2, 0, 0}, {2.5, 3, 1}, out}), 5);
   scene.weld(one, wire);
   scene.weld(other, wire);
-  const double length = distance(in, {2, 0, 0}) + distance({2, 0, 0}, {2.5, 3, 1}) +
-                        distance({2.5, 3, 1}, out);
+  const double length =
+      distance(in, {2, 0, 0}) + distance({2, 0, 0}, {2.5, 3, 1}) + distance({2.5, 3, 1}, out);
   for (const Index source : {one.vertex(0), one.vertex(77)}) {
     const Position from = scene.positions[source];
-    check(gaps(scene, source,
-               [&](Index v) {
-                 const Position& p = scene.positions[v];
-                 if (Scene::of(one, v)) return distance(from, p);
-                 const double to_wire = distance(from, in);
-                 if (Scene::of(other, v)) return to_wire + length / 5 + distance(out, p) / 2;
-                 double along = 0;
-                 const Position corners[] = {in, {2, 0, 0}, {2.5, 3, 1}, out};
-                 for (Index i = 0; i < v - wire.first_vertex; ++i)
-                   along += distance(corners[i], corners[i + 1]);
-                 return to_wire + along / 5;
-               },
-               60),
+    check(gaps(
+              scene, source,
+              [&](Index v) {
+                const Position& p = scene.positions[v];
+                if (Scene::of(one, v)) return distance(from, p);
+                const double to_wire = distance(from, in);
+                if (Scene::of(other, v)) return to_wire + length / 5 + distance(out, p) / 2;
+                double along = 0;
+                const Position corners[] = {in, {2, 0, 0}, {2.5, 3, 1}, out};
+                for (Index i = 0; i < v - wire.first_vertex; ++i)
+                  along += distance(corners[i], corners[i + 1]);
+                return to_wire + along / 5;
+              },
+              60),
           1e-9, 1e-8);
   }
 }
@@ -232,15 +237,16 @@ TEST_CASE("a path between solids of two speeds follows Snell and runs ahead alon
     const auto other = scene.add(block({1, 0, 0}, {2, 1, 1}, n), 2);
     scene.weld(one, other);
     CAPTURE(from[0], from[1], from[2]);
-    check(gaps(scene, scene.nearest(one, from),
-               [&](Index v) {
-                 const Position& p = scene.positions[v];
-                 const double x = std::hypot(p[1] - from[1], p[2] - from[2]);
-                 if (Scene::of(one, v))
-                   return along_fast(1 - from[0], 1 - p[0], x, 2, distance(from, p));
-                 return refracted(1 - from[0], p[0] - 1, x, 1, 2);
-               },
-               30),
+    check(gaps(
+              scene, scene.nearest(one, from),
+              [&](Index v) {
+                const Position& p = scene.positions[v];
+                const double x = std::hypot(p[1] - from[1], p[2] - from[2]);
+                if (Scene::of(one, v))
+                  return along_fast(1 - from[0], 1 - p[0], x, 2, distance(from, p));
+                return refracted(1 - from[0], p[0] - 1, x, 1, 2);
+              },
+              30),
           1e-5, 1e-4);
   }
 }
@@ -257,9 +263,10 @@ TEST_CASE("a path through layers of several speeds, their cells moved at random"
       for (std::size_t i = 0; i < k; ++i) scene.weld(pieces[i], pieces[k]);
     }
     for (const Index source : {Index(7), Index(200), Index(500)})
-      check(gaps(scene, source,
-                 [&](Index v) { return layers.time(scene.positions[source], scene.positions[v]); },
-                 20),
+      check(gaps(
+                scene, source,
+                [&](Index v) { return layers.time(scene.positions[source], scene.positions[v]); },
+                20),
             1e-5, 1e-4);
   }
 }

@@ -59,10 +59,10 @@ class PathField<MixedComplex<Real>> {
 
   /// The way from a point back to its nearest source: no small change makes it shorter. It crosses
   /// a hinge between two speeds where Fermat says, runs along a fast sheet where that pays, and
-  /// meets wires at their vertices only, as distances do. Where it is more than 5e-4 longer than the
-  /// distance it was looked for three times, each time more finely. Throws UsageError for a point
-  /// that is not in the domain, or before a solve. Any number of threads may trace at once. Cost:
-  /// see search_cells; some milliseconds for a hundred cells.
+  /// meets wires at their vertices only, as distances do. Where it is more than 5e-4 longer than
+  /// the distance it was looked for three times, each time more finely. Throws UsageError for a
+  /// point that is not in the domain, or before a solve. Any number of threads may trace at once.
+  /// Cost: see search_cells; some milliseconds for a hundred cells.
   [[nodiscard]] Path trace(const PointSource& point, const TraceOptions& options = {}) const;
   /// From a vertex.
   [[nodiscard]] Path trace(Index vertex, const TraceOptions& options = {}) const {
