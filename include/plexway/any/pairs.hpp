@@ -36,4 +36,11 @@ struct io::RowNumber<AnyDomain> {
 [[nodiscard]] std::string fingerprint_of(const SourceList& sources);
 ///@}
 
+/// All that the numbers of a matrix depend on, for the description of its journal: the library's
+/// version, the domain, how it is built, rows, columns, and how they are solved. What is made of
+/// the numbers comes behind it. Cost: linear in the shape, rows and columns.
+[[nodiscard]] io::BlockJournal::Description description_of(const AnyShape& shape,
+                                                           const BuildOptions& building,
+                                                           const PairsRequest& request);
+
 }  // namespace plexway
