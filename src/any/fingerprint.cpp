@@ -108,6 +108,13 @@ std::string fingerprint_of(const AnyShape& shape) {
   return print.text();
 }
 
+std::string fingerprint_of(const Mask& mask) {
+  Fingerprint print;
+  print.add_numbers(mask.closed_vertices());
+  print.add_numbers(mask.closed_simplices());
+  return print.text();
+}
+
 std::string fingerprint_of(const SourceList& sources) {
   Fingerprint print;
   if (sources.only_points()) {
@@ -139,6 +146,7 @@ io::BlockJournal::Description description_of(const AnyShape& shape, const BuildO
   if (solve.visibility == Visibility::tuned)
     lines.emplace_back("table", fingerprint_of_numbers(solve.probe.share));
   if (building.lengths) lines.emplace_back("metric", fingerprint_of(*building.lengths));
+  if (building.mask) lines.emplace_back("mask", fingerprint_of(*building.mask));
   if (std::isfinite(solve.radius)) lines.emplace_back("radius", exact_number(solve.radius));
   return lines;
 }

@@ -43,6 +43,7 @@ class LinearField final : public AnyPathField::State {
     where.offset = 0;
     check_source(where, {shape_.vertices(), shape_.simplices(), "simplex", 4});
     if (where.vertex != none) return field[where.vertex];
+    if (const OpenSimplices* const open = domain_->open()) static_cast<void>(open->inside(where));
     if (level != ReadOut::linear) {
       const Path path = trace_(where, {});
       return path.source == none ? infinity : path.length + sources_[path.source].offset;
@@ -65,7 +66,9 @@ class LinearField final : public AnyPathField::State {
     const auto positions = shape_.positions();
     if (positions.empty()) throw UsageError("directions in space need positions");
     std::vector<std::array<double, 3>> all(shape_.simplices(), {0, 0, 0});
+    const OpenSimplices* const open = domain_->open();
     for (std::size_t s = 0; s < all.size(); ++s) {
+      if (open != nullptr && open->inside(static_cast<Index>(s)) == none) continue;
       const auto corners = shape_.corners(s);
       std::array<Point3, 3> axis{};
       Point3 sum{};

@@ -22,10 +22,9 @@
 #include <plexway/executors/gl.hpp>
 #endif
 
-#include "any/arguments/mask_argument.hpp"
 #include "any/exact_number.hpp"
 #include "any/hdf5_functions.hpp"
-#include "any/make_complex.hpp"
+#include "any/row_complex.hpp"
 #include "any/stopwatch.hpp"
 #include "any/words.hpp"
 #include "io/extension.hpp"
@@ -111,7 +110,6 @@ struct PairWork {
       (found.add_numbers(numbers), ...);
       lines.emplace_back(name, found.text());
     };
-    if (files.mask) print("mask", files.mask->closed_vertices(), files.mask->closed_simplices());
     if (files.nearest) lines.emplace_back("nearest", std::to_string(*files.nearest));
     if (files.parcels) print("labels", files.parcels->parcels.of);
     if (wants_matrix()) lines.emplace_back("type", std::string(io::name_of(files.number)));
@@ -132,7 +130,7 @@ struct PairWork {
 template <class E, class Complex>
 class PairRun {
  public:
-  using Real = RealOf<Complex>;
+  using Real = io::RowReal<Complex>;
 
   PairRun(const PairWork& work, const E& executor, const Complex& complex,
           const std::vector<PointSource>& rows)
@@ -239,12 +237,12 @@ class PairRun {
   PairsReport dense_rows(const PairsRequest& request, const PairsSink<DenseRow<Real>>& sink) {
     const auto solve = [&](const auto& mine, const auto& out) { return own_rows(mine, out); };
     if (work_.ranks == nullptr) return solve(request, sink);
-    return share_rows(*work_.ranks, request, complex_.vertex_count(), sink, solve);
+    return share_rows(*work_.ranks, request, work_.domain.vertices(), sink, solve);
   }
   PairsReport near_rows(const PairsRequest& request, const PairsSink<SparseRow<Real>>& sink) {
     const auto solve = [&](const auto& mine, const auto& out) { return own_near_rows(mine, out); };
     if (work_.ranks == nullptr) return solve(request, sink);
-    return share_rows(*work_.ranks, request, complex_.vertex_count(), sink, solve);
+    return share_rows(*work_.ranks, request, work_.domain.vertices(), sink, solve);
   }
 
   // Rows go to the leader, which has the files.
@@ -353,48 +351,40 @@ template <class Complex>
 PairFilesReport run_on_device(const PairWork& work, const GL& device, const Complex& complex,
                               const std::vector<PointSource>& rows) {
 #ifdef PLEXWAY_HAS_GL
-  if constexpr (supports<GL, Complex>) return PairRun(work, device, complex, rows).run();
-  support(combination<GL, Complex>()).require();
+  if constexpr (std::is_same_v<Complex, AnyDomain>) {
+    complex.support(device, SourceList(rows), work.files.solve).require();
+  } else {
+    if constexpr (supports<GL, Complex>) return PairRun(work, device, complex, rows).run();
+    support(combination<GL, Complex>()).require();
+  }
 #endif
   throw NotBuiltError("the executor GL is not built in; install libegl-dev and build again");
-}
-
-template <class Real>
-PairFilesReport run_on_surface(const PairWork& work, const AnyShape& open,
-                               const MeasuredLengths* lengths, const auto& run) {
-  TriangulationReport report;
-  const auto made = make_surface<Real>(
-      work.files.building.triangulation,
-      {open, lengths != nullptr ? lengths : open.lengths(), work.files.building.progress}, report);
-  if (!made.delaunay) return run(made.mesh, work.files.rows);
-  std::vector<PointSource> moved;
-  for (const PointSource& point : work.files.rows)
-    moved.push_back(made.delaunay->to_intrinsic(point));
-  return run(made.mesh, moved);
 }
 
 PairFilesReport run_on(const PairWork& work, const AnyExecutor& executor) {
   work.stage("building");
   BuildOptions building = work.files.building;
-  const AnyShape open =
-      work.files.mask ? open_domain(*work.files.mask, work.domain, building.lengths) : work.domain;
-  const auto run = [&](const auto& complex, const std::vector<PointSource>& rows) {
+  if (work.domain.kind() != DomainKind::surface) building.triangulation = Triangulation::input;
+  const AnyDomain built(work.domain, building);
+  const RowComplex of_rows = row_complex(built, work.files.rows);
+  const auto run = [&](const auto& complex) {
     return std::visit(
         [&](const auto& chosen) {
           if constexpr (std::is_same_v<std::decay_t<decltype(chosen)>, GL>)
-            return run_on_device(work, chosen, complex, rows);
+            return run_on_device(work, chosen, complex, of_rows.rows);
           else
-            return PairRun(work, chosen, complex, rows).run();
+            return PairRun(work, chosen, complex, of_rows.rows).run();
         },
         executor);
   };
-  if (open.kind() == DomainKind::surface)
-    return building.precision == Precision::single
-               ? run_on_surface<float>(work, open, building.lengths.get(), run)
-               : run_on_surface<double>(work, open, building.lengths.get(), run);
-  building.triangulation = Triangulation::input;
-  const AnyDomain built(open, building);
-  return with_complex(built, [&](const auto& complex) { return run(complex, work.files.rows); });
+  return std::visit(
+      [&](const auto& complex) {
+        if constexpr (std::is_same_v<std::decay_t<decltype(complex)>, std::monostate>)
+          return run(built);
+        else
+          return run(*complex);
+      },
+      of_rows.complex);
 }
 
 PairFilesReport run_on_named(const PairWork& work, const AnyExecutor& executor) {

@@ -12,7 +12,6 @@
 #include <plexway/any/pairs.hpp>
 #include <plexway/any_domain.hpp>
 #include <plexway/apps/row_ranks.hpp>
-#include <plexway/complex/mask.hpp>
 #include <plexway/io/matrix_file.hpp>
 
 #include "any/pair_tables.hpp"
@@ -22,11 +21,10 @@ namespace plexway {
 /// A matrix of distances, or what is made of its rows, and which files that goes to; those without
 /// a name are not written. Names and numbers are checked by who fills it in.
 struct PairFiles {
-  std::vector<PointSource> rows;  ///< of the whole domain, whatever is masked
+  std::vector<PointSource> rows;  ///< of the shape, whatever is masked
   std::vector<Index> columns;     ///< vertices
   BuildOptions building;
   PropagateOptions solve;
-  std::optional<Mask> mask = {};
   ///@{
   /// Only what is near: a sparse matrix, and no other file.
   std::optional<double> radius = {};

@@ -34,6 +34,7 @@ struct io::RowNumber<AnyDomain> {
 [[nodiscard]] std::string fingerprint_of(const AnyShape& shape);
 [[nodiscard]] std::string fingerprint_of(const MeasuredLengths& lengths);
 [[nodiscard]] std::string fingerprint_of(const SourceList& sources);
+[[nodiscard]] std::string fingerprint_of(const Mask& mask);
 ///@}
 
 /// All that the numbers of a matrix depend on, for the description of its journal: the library's

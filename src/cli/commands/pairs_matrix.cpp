@@ -3,7 +3,9 @@
 #include <CLI/CLI.hpp>
 #include <array>
 #include <cmath>
+#include <filesystem>
 #include <numeric>
+#include <optional>
 #include <span>
 #include <string_view>
 #include <utility>
@@ -16,6 +18,7 @@
 #include "any/arguments/point_list.hpp"
 #include "any/hdf5_functions.hpp"
 #include "any/info/report.hpp"
+#include "any/kept_build.hpp"
 #include "any/pair_files.hpp"
 #include "cli/among.hpp"
 #include "cli/options/input.hpp"
@@ -124,11 +127,8 @@ void take_rows(const MatrixCommand& command, const Domain& domain, ProgressLine&
   } else {
     files.rows = read_point_list(command.sources, domain);
   }
-  files.mask = read_mask(command.mask, domain);
-  if (files.mask && command.sources != "all") {
-    const OpenParts open(*files.mask, domain);
-    for (PointSource& row : files.rows) open.move(row);
-  }
+  files.building.mask = read_mask(command.mask, domain);
+  if (command.sources != "all") require_open(files.building.mask.get(), domain, files.rows);
   if (!command.labels.empty()) {
     files.parcels = read_parcels(command.labels, domain.vertices());
     files.parcels->take(files.rows, files.columns, command.labels);
@@ -195,6 +195,35 @@ void print(const MatrixCommand& command, const Domain& domain, const PairFiles& 
   else if (!command.quiet)
     write_output(table.text());
   flush_output();
+}
+
+// INPUT: where ranks share a node, one of them reads and builds it, and all map what it made. Not
+// so what is measured by a metric or masked, and kinds that cannot be kept: each rank has its own.
+Domain load(const MatrixCommand& command, const BuildOptions& building, ProgressLine& progress) {
+  const auto read = [&] {
+    return load_domain(command.input, command.as, command.fill, command.cloud, progress);
+  };
+  if (command.among == nullptr || !command.among->once_a_node || is_kept_build(command.input) ||
+      !command.metric.text.empty() || !command.mask.text.empty())
+    return read();
+  std::optional<Domain> domain;
+  command.among->once_a_node(
+      [&](const std::filesystem::path& file) {
+        domain = read();
+        try {
+          AnyDomain(*domain, building).keep(file);
+        } catch (const InputError&) {
+          throw;
+        } catch (const Error&) {  // no room for it, or not kept
+          return;
+        }
+        domain.reset();
+      },
+      [&](const std::filesystem::path& file) {
+        if (!domain)
+          domain = std::filesystem::exists(file) ? read_kept_for(file, command.input) : read();
+      });
+  return *domain;
 }
 
 }  // namespace
@@ -269,8 +298,7 @@ void run_matrix(const MatrixCommand& command) {
   const Executor executor = executor_of(command);
   check_names(command);
   ProgressLine progress(command.quiet);
-  const Domain domain =
-      load_domain(command.input, command.as, command.fill, command.cloud, progress);
+  const Domain domain = load(command, files.building, progress);
   check_triangulation(files.building.triangulation, domain);
   take_rows(command, domain, progress, files);
   const PairFilesProgress tell = {
