@@ -19,6 +19,7 @@
 #include <plexway/apps/fine_field.hpp>
 #include <plexway/apps/isolines.hpp>
 #include <plexway/apps/isosurfaces.hpp>
+#include <plexway/apps/mixed_path_field.hpp>
 #include <plexway/apps/path.hpp>
 #include <plexway/apps/path_field.hpp>
 #include <plexway/apps/path_search.hpp>
