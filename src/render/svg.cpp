@@ -62,7 +62,12 @@ std::string shape_of(const std::vector<std::vector<Place>>& lines) {
   for (const auto& line : lines) {
     const bool closed = line.size() > 3 && line.front() == line.back();
     for (std::size_t k = 0; k + (closed ? 1 : 0) < line.size(); ++k)
-      d += (k == 0 ? "M" : k == 1 ? "L" : " ") + number(line[k][0]) + "," + number(line[k][1]);
+      d.append(k == 0   ? "M"
+               : k == 1 ? "L"
+                        : " ")
+          .append(number(line[k][0]))
+          .append(",")
+          .append(number(line[k][1]));
     if (closed) d += "Z";
   }
   return d;
@@ -126,8 +131,10 @@ class Overlay {
           const Sight::Parts parts = sight_.parts(line, 0);
           shown.insert(shown.end(), parts.open.begin(), parts.open.end());
         }
-      const Legend colours = {
-          .low = made_.style.low, .high = made_.style.high, .map = made_.style.map};
+      Legend colours;
+      colours.low = made_.style.low;
+      colours.high = made_.style.high;
+      colours.map = made_.style.map;
       sheet_.path(shape_of(shown), " data-value=\"" + exact(value) + "\"" +
                                        paint("stroke", line_ink(colours, value)));
     }
