@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstddef>
+#include <limits>
 #include <tuple>
 
 #include <plexway/complex/simplex_flat.hpp>
@@ -33,13 +34,31 @@ struct SimplexStringLabel {
   float nudge[N];  ///< by so many clearances (FlatDomain) the string is held off its source
 };
 
-/// Labels for whichever dimension a domain has and whichever rule is asked; only these take room.
+/// What a vertex of a flat domain knows: the shortest way to it that was found.
+template <int N>
+struct SimplexVertexWay {
+  SimplexStringLabel<N> label;  ///< `centre` is the vertex's distance
+  double seen;                  ///< what the simplices around knew when they were last asked
+  Index simplex;                ///< it ends in this one of those around
+  Index source;
+  bool is_new;  ///< or what is around is: others are still to be told
+
+  void forget() {
+    label.centre = std::numeric_limits<double>::infinity();
+    seen = 0;
+    source = none;
+    is_new = false;
+  }
+};
+
+/// Labels, and ways of vertices, for whichever dimension a domain has and whichever rule is asked;
+/// only these take room.
 template <class Real>
 class SimplexLabels {
  public:
   template <class Label>
-  Label* reserve(std::size_t simplices) {
-    return std::get<LabelStorage<Label>>(storage_).reserve(simplices);
+  Label* reserve(std::size_t count) {
+    return std::get<LabelStorage<Label>>(storage_).reserve(count);
   }
   [[nodiscard]] std::size_t bytes() const {
     return std::apply([](const auto&... s) { return (s.bytes() + ...); }, storage_);
@@ -50,7 +69,11 @@ class SimplexLabels {
   using Plain = LabelStorage<SimplexLabel<Real, N>>;
   template <int N>
   using String = LabelStorage<SimplexStringLabel<N>>;
-  std::tuple<Plain<1>, Plain<2>, Plain<3>, Plain<4>, String<2>, String<3>, String<4>> storage_;
+  template <int N>
+  using Way = LabelStorage<SimplexVertexWay<N>>;
+  std::tuple<Plain<1>, Plain<2>, Plain<3>, Plain<4>, String<2>, String<3>, String<4>, Way<2>,
+             Way<3>, Way<4>>
+      storage_;
 };
 
 }  // namespace plexway

@@ -9,7 +9,7 @@ void MergedWindows<Real>::seed(Order& order, std::span<const PointSource> source
   for (std::size_t n = 0; n < sources.size(); ++n) {
     const PointSource& s = sources[n];
     const Index number = static_cast<Index>(n);
-    const Real sigma = static_cast<Real>(s.offset / mesh_.unit());
+    const Real sigma = static_cast<Real>(s.offset / mesh_.unit() - base_);
     if (s.vertex != none) {
       offer(order, mesh_.inside_vertex(s.vertex), sigma, none, {0, 0}, number, 0);
       continue;
@@ -55,7 +55,7 @@ bool MergedWindows<Real>::fill_holes(Order& order) {
         const Index v = t.corner[from], w = t.corner[to];
         if (vertices_[w].distance < infinity<Real> || !(vertices_[v].distance < infinity<Real>))
           continue;
-        offer(order, w, vertices_[v].distance + t.length[e], none, {0, 0}, labels_ ? source_[v] : 0,
+        offer(order, w, distance_to(v) + t.length[e], none, {0, 0}, labels_ ? source_[v] : 0,
               error_[v]);
         any = true;
       }

@@ -27,6 +27,11 @@ constexpr double late = 0.25;
 constexpr std::size_t patience = 4;
 /// Boundaries that turn by more than rounding bend paths, radians.
 constexpr double least_bend = 2e-6;
+/// So many mean edges from a source the limit of merging grows no more. Misses are as often short
+/// as long, but in the least of several ways a little short is left of each, at every edge.
+constexpr double grows_until = 1000;
+/// Lengths of windows are counted from a multiple of so many mean edges that the front is at.
+constexpr double stage = 256;
 
 }  // namespace
 
@@ -66,6 +71,8 @@ bool MergedWindows<Real>::solve(std::span<const PointSource> sources,
   for (const PointSource& s : sources)
     least_offset_ = std::min(least_offset_, s.offset / mesh_.unit());
   scale_ = scale_at(least_offset_);
+  base_ = least_offset_ < infinity<double> ? std::floor(least_offset_ / stage) * stage : 0;
+  low_.clear();
   const auto solve_in = [&](auto& order) {
     order.start(bucket_width);
     seed(order, sources);
@@ -91,15 +98,36 @@ bool MergedWindows<Real>::solve(std::span<const PointSource> sources,
 
 template <class Real>
 Real MergedWindows<Real>::scale_at(double distance) const {
-  const double way = std::max(distance - least_offset_, 0.);
+  const double way = std::clamp(distance - least_offset_, 0., grows_until);
   return static_cast<Real>(limit_.limit *
                            (limit_.reach < infinity<double> ? std::sqrt(way / limit_.reach) : 1));
 }
 
 template <class Real>
-Real MergedWindows<Real>::near(Index node) const {
-  return node & bent ? vertices_[node & ~bent].distance + static_cast<Real>(late)
-                     : blocks_[node].near;
+double MergedWindows<Real>::near(Index node) const {
+  return node & bent
+             ? static_cast<double>(vertices_[node & ~bent].distance + static_cast<Real>(late))
+             : static_cast<double>(blocks_[node].near) + base_;
+}
+
+/// The front is far from where lengths are counted from: from now on from nearer by. Of all that
+/// waits the nearer one is kept, at every step; if that is what happens to be rounded down,
+/// distances get short, the more the longer they are.
+template <class Real>
+void MergedWindows<Real>::go_on_to(double distance) {
+  const double base = (std::floor(distance / stage) - 1) * stage;
+  const Real less = static_cast<Real>(base - base_);
+  base_ = base;
+  if (low_.empty()) low_.assign(mesh_.vertex_count(), 0);
+  for (Block& block : blocks_) {
+    block.near -= less;
+    for (std::size_t i = 0; i < block.count; ++i) {
+      Window<Real>& w = block.window[i];
+      w.sigma -= less;
+      w.at_begin -= less;
+      w.at_end -= less;
+    }
+  }
 }
 
 template <class Real>
@@ -129,7 +157,7 @@ template <class Order>
 typename MergedWindows<Real>::Outcome MergedWindows<Real>::run(Order& order,
                                                                const PropagateOptions& options) {
   const auto next_of = [this](Index n) -> Index& { return next(n); };
-  const auto near_of = [this](Index n) { return static_cast<double>(near(n)); };
+  const auto near_of = [this](Index n) { return near(n); };
   constexpr std::size_t share = 65536;
   std::size_t report = statistics_.expansions / share * share + share;
   double before = -1;
@@ -149,7 +177,13 @@ typename MergedWindows<Real>::Outcome MergedWindows<Real>::run(Order& order,
     if (statistics_.expansions == options.max_expansions) return Outcome::stopped;
     ++statistics_.expansions;
     if (const Index after = order.peek(); after != none) fetch(after);
-    if (order.distance() != before) scale = scale_at(before = order.distance());
+    if (order.distance() != before) {
+      scale = scale_at(before = order.distance());
+      if (before - base_ > 2 * stage) [[unlikely]] {
+        if (std::exchange(waits, false)) commit_any(order, turns_[current ^ 1]);
+        go_on_to(before);
+      }
+    }
     scale_ = scale;
     if (n & bent) {
       vertex_next_[n & ~bent] = idle;
@@ -170,7 +204,7 @@ typename MergedWindows<Real>::Outcome MergedWindows<Real>::run(Order& order,
       if (kept_) [[unlikely]] {
         for (std::size_t i = 0; i < turn.windows.size(); ++i) {
           const auto& [window, source] = turn.windows[i];
-          kept_->take(block.halfedge, window.beam, window.sigma, source);
+          kept_->take(block.halfedge, window.beam, window.sigma + static_cast<Real>(base_), source);
         }
       }
       current ^= 1;
@@ -193,14 +227,16 @@ template <class Order>
 void MergedWindows<Real>::offer(Order& order, Index vertex, Real distance, Index corner,
                                 Towards<Real> from, Index source, Real error) {
   Vertex& v = vertices_[vertex];
-  if (!(distance < v.distance)) return;
-  v = {distance, corner, from};
+  if (!(distance < v.distance - static_cast<Real>(base_))) return;
+  v = {distance + static_cast<Real>(base_), corner, from};
+  if (!low_.empty()) [[unlikely]]
+    low_[vertex] = distance - (v.distance - static_cast<Real>(base_));
   error_[vertex] = error;
   if (labels_) source_[vertex] = source;
   ++statistics_.updates;
   if ((corner == none || (corner & bent) || excess_[vertex] > 4 * scale_) &&
       vertex_next_[vertex] == idle)
-    order.push(vertex | bent, static_cast<double>(distance + static_cast<Real>(late)),
+    order.push(vertex | bent, static_cast<double>(distance + static_cast<Real>(late)) + base_,
                [this](Index i) -> Index& { return next(i); });
 }
 
@@ -226,7 +262,7 @@ template <class Order>
                                                               const Window<Real>& window,
                                                               Index source) {
   const Index halfedge = across >> Across::face_shift << 2 | (across & Across::edge_mask);
-  if (radius_ < infinity<Real> && window.nearest() > radius_) [[unlikely]]
+  if (radius_ < infinity<Real> && window.nearest() > radius_ - static_cast<Real>(base_)) [[unlikely]]
     return;
   const Real near = std::min(window.at_begin, window.at_end) * static_cast<Real>(1 - turn_at) +
                     std::max(window.at_begin, window.at_end) * static_cast<Real>(turn_at);
@@ -255,7 +291,7 @@ template <class Order>
   block.count = 1;
   block.window[0] = window;
   if (labels_) block.source[0] = source;
-  order.push(b, static_cast<double>(near),
+  order.push(b, static_cast<double>(near) + base_,
              [&](Index i) -> Index& { return i == b ? block.next : next(i); });
 }
 
@@ -317,13 +353,12 @@ template <class Order>
   const Real ends[2] = {w.beam.begin, w.beam.end}, to_ends[2] = {w.at_begin, w.at_end};
   const Real dx = t.apex_x - ends[right];
   const Real ways[2] = {to_ends[right] + std::sqrt(dx * dx + t.apex_h * t.apex_h), s.distance[1]};
-  if (ways[seen] < vertices_[t.p].distance) {
+  if (ways[seen] < distance_to(t.p)) {
     const Index corner = static_cast<Index>(3 * turn.face + t.before);
     offer(order, t.p, ways[seen], seen ? corner : corner | bent,
           seen ? t.towards(w.beam.x, w.beam.h) : t.towards(ends[right], 0), source, w.error);
   }
-  const int wanted = s.wanted(vertices_[t.a].distance, vertices_[t.b].distance,
-                              vertices_[t.p].distance, scale_ * s.length);
+  const int wanted = s.wanted(distance_to(t.a), distance_to(t.b), distance_to(t.p), scale_ * s.length);
   if (wanted & 1) leave(order, turn.face, t.before, s.left(w), source);
   if (wanted & 2) leave(order, turn.face, t.after, s.right(w), source);
 }
@@ -376,7 +411,7 @@ void MergedWindows<Real>::commit(Order& order, const Turn& turn) {
   const EnteredTriangle<Real>& t = turn.triangle;
   const Gathered<Real>& windows = turn.windows;
   const Index corner = static_cast<Index>(3 * turn.face + t.before);
-  Real bound = vertices_[t.p].distance;
+  Real bound = distance_to(t.p);
   const bool is_lit = turn.to_apex < infinity<Real>;
   if (turn.to_apex < bound) {
     const Labelled<Real>& seen = windows[turn.seen];
@@ -396,8 +431,7 @@ void MergedWindows<Real>::commit(Order& order, const Turn& turn) {
     if (way < bound)
       offer(order, t.p, way, corner | bent, t.towards(end, 0), windows[i].source, w.error);
   }
-  const Real to_a = vertices_[t.a].distance, to_b = vertices_[t.b].distance;
-  const Real to_p = vertices_[t.p].distance;
+  const Real to_a = distance_to(t.a), to_b = distance_to(t.b), to_p = distance_to(t.p);
   using L = typename Spread<Real>::L;
   for (std::size_t i = 0; i < windows.size(); ++i) {
     const Labelled<Real>& w = windows[i];
@@ -411,8 +445,8 @@ template <class Real>
 template <class Order>
 void MergedWindows<Real>::shine(Order& order, Index vertex) {
   const Vertex v = vertices_[vertex];
-  const Real sigma = v.distance;
-  if (sigma > radius_) return;
+  if (v.distance > radius_) return;
+  const Real sigma = distance_to(vertex) + (low_.empty() ? Real(0) : low_[vertex]);
   const bool anywhere = v.corner == none, is_bent = !anywhere && (v.corner & bent);
   // What is bent looks around both corners of what is lit; else only strong saddles shine.
   const Real shadow = excess_[vertex] + (is_bent ? std::numbers::pi_v<Real> : -4 * scale_);
@@ -453,7 +487,7 @@ template <class Real>
 std::size_t MergedWindows<Real>::bytes() const {
   const auto of = [](const auto& v) { return v.capacity() * sizeof(v[0]); };
   return sizeof(*this) + of(excess_) + of(vertices_) + of(source_) + of(error_) + of(pending_) +
-         of(blocks_) + of(vertex_next_) + of(corners_);
+         of(blocks_) + of(vertex_next_) + of(corners_) + of(low_);
 }
 
 }  // namespace plexway::windows

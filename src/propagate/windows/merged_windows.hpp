@@ -124,7 +124,12 @@ class MergedWindows {
 
   void gather(Gathered<Real>& windows, const Block& block) const;
   [[nodiscard]] Real scale_at(double distance) const;
-  [[nodiscard]] Real near(Index node) const;
+  [[nodiscard]] double near(Index node) const;
+  void go_on_to(double distance);
+  /// The distance of a vertex, as windows count.
+  [[nodiscard]] Real distance_to(Index vertex) const {
+    return vertices_[vertex].distance - static_cast<Real>(base_);
+  }
   [[nodiscard]] Index& next(Index node);
 
   std::span<const TriangleRecord<Real>> triangles_;
@@ -138,11 +143,13 @@ class MergedWindows {
   Real scale_ = 0;           ///< the limit for an edge of length 1, at the distance in turn
   double least_offset_ = 0;  ///< of a source: distances count from there for the limit
   Real radius_ = 0;
+  double base_ = 0;  ///< lengths of windows are counted from here, which keeps them small
 
   std::vector<Real> excess_;  ///< of each vertex, as VertexAngles has it
   std::vector<Vertex> vertices_;
   std::vector<Index> source_;
   std::vector<Real> error_;
+  std::vector<Real> low_;  ///< what vertices' distances were rounded by; empty while nothing is
   std::vector<Index> pending_;  ///< a block for each halfedge 4 f + i, or none; none after a solve
   std::vector<Block> blocks_;
   std::vector<Index> vertex_next_;
