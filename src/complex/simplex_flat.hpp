@@ -396,9 +396,8 @@ class FlatDomainBuilder {
     };
     for (std::size_t a = 0, end; a < arcs_.size(); a = end) {
       end = end_of(a);
-      if (end == a + 1 || std::any_of(&arcs_[a], &arcs_[a] + (end - a), [](const Arc& arc) {
-            return arc.angle > pi + 1e-7;
-          }))
+      if (end == a + 1 || std::any_of(&arcs_[a], &arcs_[a] + (end - a),
+                                      [](const Arc& arc) { return arc.angle > pi + 1e-7; }))
         continue;
       pieces.push_back(arcs_[a].wedge);
       pieces.back().face.gate = true;

@@ -55,7 +55,8 @@ struct BendingFace {
   Point side;                        ///< across `into`
   double origin_into, origin_side;   ///< the origin's coordinates along these
   Index rims_begin, rims_end;
-  bool gate = false;  ///< no obstacle: parts of the domain touch here and nowhere near, see FaceGate
+  bool gate =
+      false;  ///< no obstacle: parts of the domain touch here and nowhere near, see FaceGate
 
   [[nodiscard]] Point at(const Along& a) const {
     Point p = origin;
@@ -83,8 +84,8 @@ struct BendingRim {
 /// touch: a hinge of one dimension less than a facet. Ways pass it at any point of the face.
 template <int N>
 struct FaceGate {
-  Index from, to;  ///< simplices
-  Index face;      ///< one with `gate` set
+  Index from, to;                         ///< simplices
+  Index face;                             ///< one with `gate` set
   typename BendingFace<N>::Along middle;  ///< of what they share
 };
 
@@ -94,14 +95,14 @@ template <int N>
 struct FlatDomain {
   using Point = std::array<double, N>;
 
-  std::vector<Point> positions;  ///< by the numbers inside
-  std::vector<Point> centres;    ///< of simplices
+  std::vector<Point> positions;       ///< by the numbers inside
+  std::vector<Point> centres;         ///< of simplices
   std::vector<BendingFace<N>> faces;  ///< those that are gates come last
   std::vector<BendingRim<N>> rims;
-  BoxTree<N> tree;             ///< over faces but gates
+  BoxTree<N> tree;                 ///< over faces but gates
   std::vector<FaceGate<N>> gates;  ///< by `from`
-  std::vector<Index> corners;  ///< vertices on faces, ascending
-  double rounding;             ///< coordinates and what is derived from them are good to this
+  std::vector<Index> corners;      ///< vertices on faces, ascending
+  double rounding;                 ///< coordinates and what is derived from them are good to this
   double clearance;  ///< bends are held so far off their face, which `rounding` cannot undo
 
   [[nodiscard]] std::span<const BendingRim<N>> rims_of(const BendingFace<N>& face) const {

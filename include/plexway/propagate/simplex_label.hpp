@@ -37,14 +37,15 @@ struct SimplexStringLabel {
 /// What a vertex of a flat domain knows: the shortest way to it that was found.
 template <int N>
 struct SimplexVertexWay {
-  SimplexStringLabel<N> label;  ///< `centre` is the vertex's distance
+  SimplexStringLabel<N> label;  ///< of that way at the centre of a simplex around
+  double distance;              ///< of the vertex
   double seen;                  ///< what the simplices around knew when they were last asked
-  Index simplex;                ///< it ends in this one of those around
+  Index simplex;
   Index source;
   bool is_new;  ///< or what is around is: others are still to be told
 
   void forget() {
-    label.centre = std::numeric_limits<double>::infinity();
+    distance = std::numeric_limits<double>::infinity();
     seen = 0;
     source = none;
     is_new = false;

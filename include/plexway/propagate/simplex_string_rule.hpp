@@ -114,7 +114,7 @@ class SimplexStringRule {
   /// The least that is known of a vertex, and from which source.
   void read_vertex(Index vertex, Real& distance, Index& source) const {
     const auto& way = SimplexVertexWays<Real, N, const SimplexStringRule>(*this, ways_).at(vertex);
-    distance = static_cast<Real>(way.label.centre);
+    distance = static_cast<Real>(way.distance);
     source = way.source;
   }
 
@@ -124,110 +124,43 @@ class SimplexStringRule {
   [[nodiscard]] const Front& front() const { return *front_; }
   [[nodiscard]] const Point& centre(Index s) const { return flat_->centres[s]; }
 
-  /// The way to corner i, as far as it is below `limit`. Has it other bends than s's own?
-  bool reach(Index s, std::size_t i, double limit, Label& way, bool& bent) const {
-    using Pulled = typename SimplexString<N>::Pulled;
-    const Label& label = front_->label(s);
-    const Point& at = flat_->positions[records_[s].corner[i]];
-    bent = false;
-    if (!any_faces_) {
-      way = label;
-      way.centre = label.sigma + distance_of(label.source, at);
-      return way.centre < limit;
-    }
-    SimplexString<N> string(*flat_);
-    draw(*flat_, label, string);
-    string.add_point(centre(s), centre(s));
-    string.add_point(plus(at, flat_->clearance, direction<N>(at, centre(s))), at);
-    switch (string.pull(limit - label.sigma)) {
-      case Pulled::taut:
-        way = label_of(*flat_, string, label.sigma);
-        bent = !same_way(way, label);
-        break;
-      case Pulled::longer:
-        return false;
-      case Pulled::stuck:
-        bent = true;
-        way = point_label<N>(centre(s), label.centre);
-        way.centre = label.centre + distance_of(centre(s), at);
-    }
-    return way.centre < limit;
-  }
-  /// A way of a vertex goes on to simplex t, at its corner i: true if t is nearer by it.
-  bool offer_from(Index t, std::size_t i, const SimplexVertexWay<N>& way) {
-    const Point &at = flat_->positions[records_[t].corner[i]], &there = centre(t);
-    const double known = to_beat(t);
-    if (!(least_over<N>(*flat_, way.label, at, there) < known)) return false;
-    SimplexString<N> string(*flat_);
-    if (!draw_to(way, t, at, string)) return false;
-    string.add_point(there, there);
-    if (string.pull(known - way.label.sigma) != SimplexString<N>::Pulled::taut) return false;
-    return accept(t, no_facet, label_of(*flat_, string, way.label.sigma), way.source);
-  }
-  /// Likewise to corner k of t, as far as that is below `limit`.
-  bool reach_from(Index t, std::size_t i, std::size_t k, const SimplexVertexWay<N>& way,
-                  double limit, Label& to) const {
-    const Point& at = flat_->positions[records_[t].corner[i]];
-    const Point& there = flat_->positions[records_[t].corner[k]];
-    if (!(least_over<N>(*flat_, way.label, at, there) < limit)) return false;
-    SimplexString<N> string(*flat_);
-    if (!draw_to(way, t, at, string)) return false;
-    string.add_point(plus(there, flat_->clearance, direction<N>(there, centre(t))), there);
-    if (string.pull(limit - way.label.sigma) != SimplexString<N>::Pulled::taut) return false;
-    to = label_of(*flat_, string, way.label.sigma);
-    return to.centre < limit;
-  }
-
- private:
-  static constexpr double infinity = std::numeric_limits<double>::infinity();
-  static constexpr double gain = 1 - std::max(1e-10, 8. * std::numeric_limits<Real>::epsilon());
-
+  /// What a simplex must be offered for its centre to be taken.
   [[nodiscard]] double to_beat(Index s) const {
     return front_->reached(s) ? front_->label(s).centre * gain * static_cast<double>(patience_)
                               : infinity;
   }
-
-  [[nodiscard]] double least(const Label& label, Index s, const Point& to) const {
-    return least_over<N>(*flat_, label, centre(s), to);
-  }
-  /// A vertex's way, to where it goes on into t.
-  bool draw_to(const SimplexVertexWay<N>& way, Index t, const Point& at,
-               SimplexString<N>& string) const {
-    const auto held = [&](Index s) {
-      return plus(at, flat_->clearance, direction<N>(at, centre(s)));
-    };
-    draw(*flat_, way.label, string);
-    string.add_point(held(way.simplex), at);
-    if (way.simplex == t) return true;
-    if (!flat_->passes_by(at, held(way.simplex), held(t))) return false;
-    string.add_point(held(t), at);
-    return string.pull(infinity) == SimplexString<N>::Pulled::taut;
-  }
-
   bool accept(Index t, std::size_t in, const Label& label, Index source) {
     if (!(label.centre < to_beat(t))) return false;
     front_->accept(t, in, label, static_cast<Real>(label.centre), source);
     if (front_->expands_soon()) prefetch_around(t);
     return true;
   }
-
-  void cross(Index s, std::size_t facet) {
-    const Index across = records_[s].across[facet];
-    if (across == none) return;
-    const Index t = across >> FacetAcross::simplex_shift;
-    const Label& from = front_->label(s);
-    const double known = to_beat(t), straight = least(from, s, centre(t));
-    if (!(straight < known)) return;
-    Label label;
-    if (!any_faces_) {
-      label = from;
-      label.centre = straight;
-    } else if (!offer_around(from, s, facet, t, known, label)) {
-      return;
+  /// The length of a way at the centre of s on to its corner i, +inf beyond `limit`. Has it other
+  /// bends there?
+  double reach(const Label& label, Index s, std::size_t i, double limit, bool& bent) const {
+    using Pulled = typename SimplexString<N>::Pulled;
+    const Point& at = flat_->positions[records_[s].corner[i]];
+    bent = false;
+    if (!any_faces_) return label.sigma + distance_of(label.source, at);
+    SimplexString<N> string(*flat_);
+    draw(*flat_, label, string);
+    string.add_point(centre(s), centre(s));
+    string.add_point(plus(at, flat_->clearance, direction<N>(at, centre(s))), at);
+    switch (string.pull(limit - label.sigma)) {
+      case Pulled::taut:
+        bent = string.bends() != label.bends;
+        for (std::size_t k = 0; k < label.bends && !bent; ++k)
+          bent = string[k + 1].face != label.face[k];
+        return label.sigma + string.length();
+      case Pulled::longer:
+        return infinity;
+      case Pulled::stuck:
+        break;
     }
-    accept(t, across & FacetAcross::facet_mask, label, front_->source(s));
+    bent = true;
+    return label.centre + distance_of(centre(s), at);
   }
-
+  /// A way at the centre of s, over a facet to the centre of t; false beyond `known`.
   bool offer_around(const Label& from, Index s, std::size_t facet, Index t, double known,
                     Label& label) const {
     using Pulled = typename SimplexString<N>::Pulled;
@@ -258,6 +191,30 @@ class SimplexStringRule {
     label = point_label<N>(direct ? here : gate, walked);
     label.centre = walked + distance_of(label.source, there);
     return label.centre < known;
+  }
+
+ private:
+  static constexpr double infinity = std::numeric_limits<double>::infinity();
+  static constexpr double gain = 1 - std::max(1e-10, 8. * std::numeric_limits<Real>::epsilon());
+
+  [[nodiscard]] double least(const Label& label, Index s, const Point& to) const {
+    return least_over<N>(*flat_, label, centre(s), to);
+  }
+  void cross(Index s, std::size_t facet) {
+    const Index across = records_[s].across[facet];
+    if (across == none) return;
+    const Index t = across >> FacetAcross::simplex_shift;
+    const Label& from = front_->label(s);
+    const double known = to_beat(t), straight = least(from, s, centre(t));
+    if (!(straight < known)) return;
+    Label label;
+    if (!any_faces_) {
+      label = from;
+      label.centre = straight;
+    } else if (!offer_around(from, s, facet, t, known, label)) {
+      return;
+    }
+    accept(t, across & FacetAcross::facet_mask, label, front_->source(s));
   }
 
   /// To the simplex on the other side of a gate.

@@ -262,7 +262,8 @@ template <class Order>
                                                               const Window<Real>& window,
                                                               Index source) {
   const Index halfedge = across >> Across::face_shift << 2 | (across & Across::edge_mask);
-  if (radius_ < infinity<Real> && window.nearest() > radius_ - static_cast<Real>(base_)) [[unlikely]]
+  if (radius_ < infinity<Real> && window.nearest() > radius_ - static_cast<Real>(base_))
+      [[unlikely]]
     return;
   const Real near = std::min(window.at_begin, window.at_end) * static_cast<Real>(1 - turn_at) +
                     std::max(window.at_begin, window.at_end) * static_cast<Real>(turn_at);
@@ -358,7 +359,8 @@ template <class Order>
     offer(order, t.p, ways[seen], seen ? corner : corner | bent,
           seen ? t.towards(w.beam.x, w.beam.h) : t.towards(ends[right], 0), source, w.error);
   }
-  const int wanted = s.wanted(distance_to(t.a), distance_to(t.b), distance_to(t.p), scale_ * s.length);
+  const int wanted =
+      s.wanted(distance_to(t.a), distance_to(t.b), distance_to(t.p), scale_ * s.length);
   if (wanted & 1) leave(order, turn.face, t.before, s.left(w), source);
   if (wanted & 2) leave(order, turn.face, t.after, s.right(w), source);
 }
