@@ -13,6 +13,7 @@
 #include <plexway/solve.hpp>
 
 #include "compare.hpp"
+#include "propagate/workspace_state.hpp"
 
 namespace {
 
@@ -59,7 +60,7 @@ void measure(const bench::Surface& surface, const bench::Effort& effort, const S
   };
   for (const std::size_t size : settings.sizes) {
     Workspace<float> workspace;
-    SuperstepCounts& counts = workspace.pieces.counts();
+    SuperstepCounts& counts = workspace.state().pieces.counts();
     counts.keeps_log = true;
     double serial = 0, by_pieces = 0, supersteps = 0, letters = 0, bytes = 0;
     double model[4] = {};
@@ -89,7 +90,7 @@ void measure(const bench::Surface& surface, const bench::Effort& effort, const S
                {"expansions", by_pieces / n},
                {"letters", letters / n},
                {"bytes", bytes / n},
-               {"kept", static_cast<double>(workspace.pieces.bytes()) / faces},
+               {"kept", static_cast<double>(workspace.state().pieces.bytes()) / faces},
                {"cut_ns", 1e9 * (first - times.second) / faces},
                {"model2", model[0] / n},
                {"model4", model[1] / n},

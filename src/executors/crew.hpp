@@ -6,15 +6,18 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <mutex>
 #include <span>
+#include <utility>
+#include <vector>
 
-#include <plexway/propagate/endless.hpp>
 #include <plexway/propagate/options.hpp>
-#include <plexway/propagate/workspace.hpp>
 
 #include "executors/rounds.hpp"
 #include "executors/team.hpp"
+#include "propagate/endless.hpp"
 #include "propagate/read_out.hpp"
+#include "propagate/workspace_state.hpp"
 
 namespace plexway {
 
@@ -23,7 +26,7 @@ namespace plexway {
 template <class Real, bool kLabels>
 class TeamCrew {
  public:
-  TeamCrew(const Team& team, Workspace<Real>& workspace, Real step, double unit,
+  TeamCrew(const Team& team, WorkspaceState<Real>& workspace, Real step, double unit,
            const PropagateOptions& options)
       : team_(team), workspace_(workspace), step_(step), unit_(unit), options_(options) {}
 
@@ -74,16 +77,20 @@ class TeamCrew {
   /// In order, and those that are wanted before any is looked at: with any number of threads.
   template <class Wanted, class Look>
   void search(std::size_t count, const Wanted& wanted, const Look& look) const {
+    // Where a range begins, those found in it are written: nothing is shared, nothing to sort.
     Index* const found = list();
-    std::atomic<std::size_t> number{0};
+    std::vector<std::pair<std::size_t, std::size_t>> ranges;
+    std::mutex mutex;
     team_.over(count, [&](std::size_t begin, std::size_t end) {
+      std::size_t last = begin;
       for (std::size_t i = begin; i < end; ++i)
-        if (wanted(i))
-          found[number.fetch_add(1, std::memory_order_relaxed)] = static_cast<Index>(i);
+        if (wanted(i)) found[last++] = static_cast<Index>(i);
+      const std::scoped_lock lock(mutex);
+      ranges.emplace_back(begin, last);
     });
-    const std::span<Index> all(found, number.load(std::memory_order_relaxed));
-    std::sort(all.begin(), all.end());
-    for (const Index i : all) look(i);
+    std::sort(ranges.begin(), ranges.end());
+    for (const auto& [begin, end] : ranges)
+      for (std::size_t i = begin; i < end; ++i) look(found[i]);
   }
 
   [[nodiscard]] const Team& team() const { return team_; }
@@ -93,7 +100,7 @@ class TeamCrew {
   [[nodiscard]] Index* list() const { return workspace_.front.far.get(); }
 
   const Team& team_;
-  Workspace<Real>& workspace_;
+  WorkspaceState<Real>& workspace_;
   Real step_;
   double unit_;
   const PropagateOptions& options_;
@@ -102,7 +109,7 @@ class TeamCrew {
 /// Triangles offer distances to their vertices, which keep the least.
 template <class Real, bool kLabels, class Rule, class Front>
 void read_out_triangles(const Team& team, std::span<const TriangleRecord<Real>> triangles,
-                        const Rule& rule, const Front& front, Workspace<Real>& workspace) {
+                        const Rule& rule, const Front& front, WorkspaceState<Real>& workspace) {
   using Key = OfferKey<Real>;
   const auto offers = [&](const auto& offer) {
     team.over(triangles.size() - 1, [&](std::size_t begin, std::size_t end) {

@@ -12,6 +12,7 @@
 #include "exact_data.hpp"
 #include "executors/parity.hpp"
 #include "propagate/solving.hpp"
+#include "propagate/workspace_state.hpp"
 #include "with_accuracy.hpp"
 
 // Surfaces by pieces (OpenMP::piece), in pieces so small that there are many even here.
@@ -271,8 +272,9 @@ TEST_CASE("pieces: reports to the calling thread, and can be cancelled", "[threa
   options.progress = nullptr;
   solve(pieces(4, 2000), mesh, source, options, workspace, field);
   CHECK(same_bits(whole, field));
-  CHECK(workspace.pieces.bytes() > 64 * mesh.face_count());
-  CHECK(workspace.bytes() > workspace.pieces.bytes());
+  const std::size_t bytes = workspace.state().pieces.bytes();
+  CHECK(bytes > 64 * mesh.face_count());
+  CHECK(workspace.bytes() > bytes);
 }
 
 TEST_CASE("pieces: a workspace goes from surface to surface") {

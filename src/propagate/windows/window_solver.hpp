@@ -9,13 +9,13 @@
 #include <plexway/propagate/accuracy.hpp>
 #include <plexway/propagate/distance_field.hpp>
 #include <plexway/propagate/options.hpp>
-#include <plexway/propagate/workspace.hpp>
 #include <plexway/source/point_source.hpp>
 
 #include "propagate/windows/exact_windows.hpp"
 #include "propagate/windows/kept_windows.hpp"
 #include "propagate/windows/merged_windows.hpp"
 #include "propagate/windows/vertex_angles.hpp"
+#include "propagate/workspace_state.hpp"
 
 namespace plexway::windows {
 
@@ -43,7 +43,7 @@ class WindowSolver {
   /// space, and none farther than a neighbour and the edge between, where triangles without an area
   /// hide it. `workspace` is for that.
   [[nodiscard]] bool solve(std::span<const PointSource> sources, Accuracy accuracy,
-                           const PropagateOptions& options, Workspace<Real>& workspace,
+                           const PropagateOptions& options, WorkspaceState<Real>& workspace,
                            DistanceField<Real>& field);
 
   /// Shall solves keep their windows?
@@ -57,7 +57,7 @@ class WindowSolver {
  private:
   template <bool kLabels, class Windows>
   void read_out(const Windows& windows, std::span<const PointSource> sources,
-                const PropagateOptions& options, bool mends, Workspace<Real>& workspace,
+                const PropagateOptions& options, bool mends, WorkspaceState<Real>& workspace,
                 DistanceField<Real>& field) const;
 
   const TriangleMesh<Real>& mesh_;
