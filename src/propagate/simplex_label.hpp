@@ -8,7 +8,6 @@
 #include "complex/flat_domain.hpp"
 #include "propagate/label_storage.hpp"
 
-
 namespace plexway {
 
 /// What an N-simplex remembers under the plain step: the virtual source of the best path to its

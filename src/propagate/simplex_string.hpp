@@ -8,7 +8,6 @@
 #include "complex/flat_domain.hpp"
 #include "propagate/simplex_taut.hpp"
 
-
 namespace plexway {
 
 /// A path in a flat domain as a string from a source over bends to an end, changed in such a way
