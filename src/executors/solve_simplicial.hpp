@@ -161,7 +161,8 @@ void with_rule(const SimplicialComplex<Real, N>& domain, const PropagateOptions&
         SimplexVertexWay<N>* const ways =
             workspace.simplex.template reserve<SimplexVertexWay<N>>(vertices);
         for (std::size_t v = 0; v < vertices; ++v) ways[v].forget();
-        return SimplexStringRule<Real, N, Front>(domain, front, ways);
+        return SimplexStringRule<Real, N, Front>(domain, front, ways,
+                                                 &workspace.simplex.template telling<N>());
       });
       return;
     }

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <limits>
 #include <tuple>
+#include <vector>
 
 #include "complex/flat_domain.hpp"
 #include "propagate/label_storage.hpp"
@@ -52,6 +53,16 @@ struct SimplexVertexWay {
   }
 };
 
+/// Lists that vertices need to tell others, kept from solve to solve.
+template <int N>
+struct SimplexTelling {
+  std::vector<Index> waiting;
+  // Around one vertex, by simplex: the way there, whether it came there, and in which order.
+  std::vector<SimplexStringLabel<N>> star;
+  std::vector<char> seen;
+  std::vector<std::size_t> line;
+};
+
 /// Labels, and ways of vertices, for whichever dimension a domain has and whichever rule is asked;
 /// only these take room.
 template <class Real>
@@ -60,6 +71,10 @@ class SimplexLabels {
   template <class Label>
   Label* reserve(std::size_t count) {
     return std::get<LabelStorage<Label>>(storage_).reserve(count);
+  }
+  template <int N>
+  SimplexTelling<N>& telling() {
+    return std::get<SimplexTelling<N>>(telling_);
   }
   [[nodiscard]] std::size_t bytes() const {
     return std::apply([](const auto&... s) { return (s.bytes() + ...); }, storage_);
@@ -75,6 +90,7 @@ class SimplexLabels {
   std::tuple<Plain<1>, Plain<2>, Plain<3>, Plain<4>, String<2>, String<3>, String<4>, Way<2>,
              Way<3>, Way<4>>
       storage_;
+  std::tuple<SimplexTelling<2>, SimplexTelling<3>, SimplexTelling<4>> telling_;
 };
 
 }  // namespace plexway

@@ -33,18 +33,20 @@ class SimplexStringRule {
   static constexpr std::size_t no_facet = FacetAcross::facet_mask;
 
   /// `ways`: room for all vertices; none is known yet.
-  SimplexStringRule(const Domain& domain, Front& front, SimplexVertexWay<N>* ways)
+  SimplexStringRule(const Domain& domain, Front& front, SimplexVertexWay<N>* ways,
+                    SimplexTelling<N>* telling)
       : domain_(&domain),
         flat_(domain.flat()),
         records_(domain.records().data()),
         any_faces_(!flat_->faces.empty()),
         front_(&front),
-        ways_(ways) {}
+        ways_(ways),
+        telling_(telling) {}
 
   /// The same rule on the front of another executor.
   template <class Other>
   [[nodiscard]] SimplexStringRule<Real, N, Other> on(Other& front) const {
-    return {*domain_, front, ways_};
+    return {*domain_, front, ways_, telling_};
   }
 
   [[nodiscard]] Real distance(Index s) const { return static_cast<Real>(front_->label(s).centre); }
@@ -109,12 +111,13 @@ class SimplexStringRule {
   template <class Over>
   bool pass_vertices(double radius, const Over& over) {
     if (!any_faces_ && domain_->pinched().empty()) return false;
-    return SimplexVertexWays<Real, N, SimplexStringRule>(*this, ways_).pass(radius, over);
+    return SimplexVertexWays<Real, N, SimplexStringRule>(*this, ways_, telling_).pass(radius, over);
   }
 
   /// The least that is known of a vertex, and from which source.
   void read_vertex(Index vertex, Real& distance, Index& source) const {
-    const auto& way = SimplexVertexWays<Real, N, const SimplexStringRule>(*this, ways_).at(vertex);
+    const auto& way =
+        SimplexVertexWays<Real, N, const SimplexStringRule>(*this, ways_, telling_).at(vertex);
     distance = static_cast<Real>(way.distance);
     source = way.source;
   }
@@ -267,6 +270,7 @@ class SimplexStringRule {
   bool any_faces_;
   Front* front_;
   SimplexVertexWay<N>* ways_;
+  SimplexTelling<N>* telling_;
   Real patience_ = 1;
 };
 

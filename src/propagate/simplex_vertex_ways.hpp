@@ -27,7 +27,8 @@ class SimplexVertexWays {
   using Way = SimplexVertexWay<N>;
   using Label = SimplexStringLabel<N>;
 
-  SimplexVertexWays(Rule& rule, Way* ways) : rule_(rule), domain_(rule.domain()), ways_(ways) {}
+  SimplexVertexWays(Rule& rule, Way* ways, SimplexTelling<N>* telling)
+      : rule_(rule), domain_(rule.domain()), ways_(ways), telling_(*telling) {}
 
   /// A vertex's way, after all around were asked; at +inf if there is none.
   const Way& at(Index v) const {
@@ -41,7 +42,8 @@ class SimplexVertexWays {
     over(domain_.vertex_count(), [&](std::size_t begin, std::size_t end) {
       for (std::size_t v = begin; v < end; ++v) look(static_cast<Index>(v));
     });
-    std::vector<Index> waiting;
+    std::vector<Index>& waiting = telling_.waiting;
+    waiting.clear();
     for (Index v = 0; v < domain_.vertex_count(); ++v)
       if (ways_[v].is_new && ways_[v].distance <= radius) waiting.push_back(v);
     std::sort(waiting.begin(), waiting.end(), [&](Index a, Index b) {
@@ -117,22 +119,22 @@ class SimplexVertexWays {
           std::find_if(star.begin(), star.end(), [s](Index c) { return c / sides == s; }) -
           star.begin());
     };
-    star_.assign(star.size(), {});
-    seen_.assign(star.size(), 0);
-    line_.assign(1, place(way.simplex));
-    star_[line_[0]] = way.label;
-    seen_[line_[0]] = 1;
-    for (std::size_t n = 0; n < line_.size(); ++n) {
-      const Index s = star[line_[n]] / sides;
-      const Label from = star_[line_[n]];
+    telling_.star.assign(star.size(), {});
+    telling_.seen.assign(star.size(), 0);
+    telling_.line.assign(1, place(way.simplex));
+    telling_.star[telling_.line[0]] = way.label;
+    telling_.seen[telling_.line[0]] = 1;
+    for (std::size_t n = 0; n < telling_.line.size(); ++n) {
+      const Index s = star[telling_.line[n]] / sides;
+      const Label from = telling_.star[telling_.line[n]];
       for (std::size_t facet = 0; facet < sides; ++facet) {
         const Index across = domain_.records()[s].across[facet];
-        if (facet == star[line_[n]] % sides || across == none) continue;
+        if (facet == star[telling_.line[n]] % sides || across == none) continue;
         const Index t = across >> FacetAcross::simplex_shift;
         const std::size_t at = place(t);
-        if (seen_[at]) continue;
-        seen_[at] = 1;
-        Label& label = star_[at];
+        if (telling_.seen[at]) continue;
+        telling_.seen[at] = 1;
+        Label& label = telling_.star[at];
         if (has(t, way)) {
           label = rule_.front().label(t);
         } else {
@@ -140,7 +142,7 @@ class SimplexVertexWays {
           any |= rule_.accept(t, across & FacetAcross::facet_mask, label, way.source);
           for (std::size_t k = 0; k < sides; ++k) give(t, k, label, way.source, radius, waiting);
         }
-        line_.push_back(at);
+        telling_.line.push_back(at);
       }
     }
     return any;
@@ -194,10 +196,7 @@ class SimplexVertexWays {
   Rule& rule_;
   const SimplicialComplex<Real, N>& domain_;
   Way* ways_;
-  // Around one vertex, by simplex: the way there, whether it came there, and in which order.
-  std::vector<Label> star_;
-  std::vector<char> seen_;
-  std::vector<std::size_t> line_;
+  SimplexTelling<N>& telling_;
 };
 
 }  // namespace plexway
