@@ -92,13 +92,13 @@ TEST_CASE("fields of mixed domains are read linearly or by paths, and tell direc
     const Path path = field.trace(at);
     CHECK(path.length == Approx(truth).epsilon(1e-9));
     REQUIRE(path.positions.size() == path.points.size());
-    double sum = 0;
+    double way = 0;
     for (std::size_t i = 0; i + 1 < path.positions.size(); ++i) {
       const auto &p = path.positions[i], &q = path.positions[i + 1];
-      sum += std::hypot(q[0] - p[0], q[1] - p[1], q[2] - p[2]);
+      way += std::hypot(q[0] - p[0], q[1] - p[1], q[2] - p[2]);
       CHECK(path.points[i].simplex < shape.simplices());
     }
-    CHECK(sum == Approx(truth).epsilon(1e-9));
+    CHECK(way == Approx(truth).epsilon(1e-9));
   }
 }
 
