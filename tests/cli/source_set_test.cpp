@@ -64,7 +64,7 @@ TEST_CASE("the tool starts fields from lines, triangles, circles and sets") {
        1e-12},
       // Its own corners are 0; single corners near the strip's border have the way from its end.
       {"triangle:0", [&](double x, double y) { return to_triangle(x, y); }, 1e-2},
-      // The others are solved in single precision.
+      // The others in single precision.
       {"circle:0.5,0.5,0,0.25",
        [](double x, double y) { return std::abs(std::hypot(x - 0.5, y - 0.5) - 0.25); }, 1e-6},
       {"vertices:" + some,
@@ -73,15 +73,21 @@ TEST_CASE("the tool starts fields from lines, triangles, circles and sets") {
       {"vertex:0+1e-1", [](double x, double y) { return std::hypot(x, y) + 0.1; }, 2.5e-6},
   };
   for (const auto& [source, rule, bound] : cases) {
-    const auto run = run_tool({"distance", square, "--source", source, "--out", "-", "--quiet"});
+    const std::string precision = bound < 1e-9 ? "double" : "float";
+    const auto run = run_tool({"distance", square, "--source", source, "--out", "-", "--quiet",
+                               "--precision", precision});
     INFO(source << ": " << run.err);
     REQUIRE(run.code == 0);
     CHECK(largest_error(run.out, n, rule) < bound);
   }
-  for (const auto& [source, precision] :
-       {std::pair{"boundary", "double"}, std::pair{"vertex:0", "float"}})
-    CHECK(run_tool({"distance", square, "--source", source, "--json"}).json()["precision"] ==
-          precision);
+  const auto precision = [&](const std::string& source, const std::string& accuracy) {
+    return run_tool({"distance", square, "--source", source, "--accuracy", accuracy, "--json"})
+        .json()["precision"];
+  };
+  CHECK(precision("boundary", "accurate") == "float");
+  CHECK(precision("boundary", "fast") == "double");
+  CHECK(precision("boundary", "exact") == "double");
+  CHECK(precision("vertex:0", "fast") == "float");
   const auto both = run_tool({"distance", square, "--source", "boundary+0.3", "--source",
                               "vertex:220", "--out", "-", "--executor", "auto", "--quiet"});
   REQUIRE(both.code == 0);
@@ -138,7 +144,8 @@ TEST_CASE("sources that are none or not there are told by name") {
       {{square, "--source", "vertices:" + far}, 3, "far.txt:1: vertex 1234567 is out of range"},
       {{square, "--source", "vertices:" + below}, 3, "below.txt:2: an offset below 0"},
       {{square, "--source", "polyline:" + far}, 3, "far.txt:1: write a point"},
-      {{square, "--source", "boundary", "--executor", "openmp"}, 2, "serial"},
+      {{square, "--source", "boundary", "--executor", "openmp", "--accuracy", "fast"}, 2, "Serial"},
+      {{square, "--source", "boundary", "--precision", "float", "--accuracy", "fast"}, 2, "double"},
       {{sample("knot.ply"), "--source", "boundary"}, 3, "has none"},
       {{sample("elbow.mesh"), "--source", "triangle:0"}, 2, "surfaces and wireframes"},
       {{sample("two_parts.obj"), "--source", "segment:-9,0,0,9,0,0"}, 3, "no path leads"},

@@ -33,7 +33,9 @@ class PathField<MixedComplex<Real>> {
   /// pieces. Throws UsageError for another count. Cost: linear; 36 bytes a tetrahedron.
   explicit PathField(const MixedComplex<Real>& domain,
                      std::span<const std::array<double, 3>> positions = {});
+  /// Moved; what is left may only be destroyed or assigned to.
   PathField(PathField&&) noexcept;
+  /// Likewise.
   PathField& operator=(PathField&&) noexcept;
   ~PathField();
 

@@ -223,7 +223,7 @@ std::vector<PointSource> as_points(std::span<const Source> sources) {
   return points.size() == sources.size() ? points : std::vector<PointSource>();
 }
 
-bool needs_double(const AnyShape& domain, std::span<const Source> sources) {
+bool have_shapes(const AnyShape& domain, std::span<const Source> sources) {
   if (domain.kind() != DomainKind::surface) return false;
   for (const Source& source : sources)
     if (std::holds_alternative<CurveSource>(source) ||

@@ -41,8 +41,8 @@ std::vector<Source> locate_source_sets(const AnyShape& domain,
 /// If all of them are points: as points.
 std::vector<PointSource> as_points(std::span<const Source> sources);
 
-/// Are there some that need double precision?
-bool needs_double(const AnyShape& domain, std::span<const Source> sources);
+/// Are there curves or triangles on a surface? They lie in its triangles as they are.
+bool have_shapes(const AnyShape& domain, std::span<const Source> sources);
 
 /// For people.
 std::string describe_source_set(const AnyShape& domain, const SetArgument& argument,

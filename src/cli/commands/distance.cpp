@@ -245,18 +245,16 @@ void run_distance(DistanceCommand command) {
       if (argument.kind == SetArgument::Kind::boundary)
         throw UsageError("--mask: the boundary of a solid is a source of the whole solid alone");
   const std::vector<PointSource> points = as_points(sources);
-  if (needs_double(domain, sources)) {
-    if (command.solve.executor.name == "auto") command.solve.executor.name = "serial";
-    if (command.solve.executor.name != "serial")
-      throw UsageError("--executor '" + command.solve.executor.name +
-                       "': lines and triangles of surfaces start a field on one thread only; "
-                       "choose serial");
-    if (precision == Precision::single && command.solve.precision_given)
-      throw UsageError("--precision float: lines and triangles of surfaces need double");
-    if (precision == Precision::single) command.solve.precision = "double, which lines need";
-    precision = Precision::twice;
-    // Lines lie in the triangles of the file.
+  if (have_shapes(domain, sources)) {
     if (triangulation == Triangulation::automatic) triangulation = Triangulation::input;
+    if (command.solve.executor.name == "auto") command.solve.executor.name = "serial";
+    // Labels start from them in double precision, and go where paths are refracted.
+    const bool by_labels =
+        wanted.accuracy.kind() == Accuracy::Kind::fast || !command.metric.text.empty();
+    if (by_labels && precision == Precision::single && !command.solve.precision_given) {
+      precision = Precision::twice;
+      command.solve.precision = "double, which labels of lines need";
+    }
   }
 
   if (!command.metric.text.empty()) progress.phase("reading the metric");
