@@ -232,3 +232,71 @@ TEST_CASE("merged windows: a smaller error takes more work, is smaller, and is t
     CHECK_THROWS_AS(solve_windows(mesh, {&source, 1}, Accuracy(no), {}, workspace, field),
                     UsageError);
 }
+
+TEMPLATE_TEST_CASE("merged windows: edges of no length, as raw scans have them", "", float,
+                   double) {
+  // A plane folded along x = 0, 1, 2, ... and cut by lines that are not parallel: the straight line
+  // in space is shorter than the way, and raises nothing.
+  constexpr Index n = 60;
+  std::mt19937 random(5);
+  Surface flat, s;
+  const double slope = std::tan(0.6), c = 1 / std::hypot(1, slope);
+  for (Index i = 0; i < n; ++i)
+    for (Index j = 0; j < n; ++j) {
+      const double y = j + (j == 0 || j == n - 1 ? 0 : .6 * (uniform(random) - .5));
+      flat.add(i, y);
+      s.add(c * i, y, i % 2 == 0 ? 0 : c * slope);
+    }
+  for (Index i = 0; i + 1 < n; ++i)
+    for (Index j = 0; j + 1 < n; ++j) {
+      const Index a = i * n + j;
+      if (random() % 2)
+        s.quad(a, a + n, a + n + 1, a + 1);
+      else
+        s.quad(a + 1, a, a + n, a + n + 1);
+    }
+  // Vertices are doubled: half of the fan, from a neighbour p to a neighbour q, gets the twin, and
+  // two triangles without an area close the gap.
+  std::vector<std::vector<std::size_t>> fans(s.positions.size());
+  for (std::size_t f = 0; f < s.faces.size(); ++f)
+    for (const Index v : s.faces[f]) fans[v].push_back(f);
+  for (int k = 0; k < 60; ++k) {
+    const Index v = (2 + below(random, n - 4)) * n + 2 + below(random, n - 4);
+    const auto at = [&](std::size_t f) {
+      return static_cast<std::size_t>(std::find(s.faces[f].begin(), s.faces[f].end(), v) -
+                                      s.faces[f].begin());
+    };
+    std::vector<std::size_t>& fan = fans[v];
+    if (fan.size() < 4) continue;
+    for (const std::size_t f : fan)  // not where a neighbour has a twin
+      for (const Index w : s.faces[f])
+        if (fans[w].empty()) fan.clear();
+    if (fan.empty()) continue;
+    const Index twin = static_cast<Index>(s.positions.size());
+    s.positions.push_back(s.positions[v]);
+    flat.positions.push_back(flat.positions[v]);
+    fans.emplace_back();
+    std::size_t f = fan[0];
+    const Index p = s.faces[f][(at(f) + 1) % 3];
+    Index q = p;
+    for (std::size_t half = 0; half < fan.size() / 2; ++half) {
+      const std::size_t i = at(f);
+      q = s.faces[f][(i + 2) % 3];
+      s.faces[f][i] = twin;
+      for (const std::size_t g : fan)
+        if (at(g) < 3 && s.faces[g][(at(g) + 1) % 3] == q) {
+          f = g;
+          break;
+        }
+    }
+    s.triangle(v, p, twin);
+    s.triangle(v, twin, q);
+    fans[v].clear();
+  }
+  REQUIRE(s.faces.size() > 2 * (n - 1) * (n - 1) + 60);
+  const auto mesh = s.template mesh<TestType>();
+  REQUIRE(mesh.summary().boundary_edges == 4 * (n - 1));
+  for (const Index source : {Index{17}, Index{n * 31 + 12}, Index{n * 50 + 40}})
+    check_merged(mesh, {PointSource::at(source)}, straight(flat, flat.positions[source]), 5e-5,
+                 2e-3);
+}

@@ -20,6 +20,7 @@ struct Spread {
   static constexpr Real rounding = sizeof(Real) == sizeof(float) ? Real(2e-6) : Real(1e-9);
 
   L x, h;    ///< the source as the edge sees it, as beams have it
+  L behind;  ///< h, but below 0 where the edge turns its back to the source: at edges of no length
   L length;  ///< of the edge
   L at;      ///< where the light ends on it; `length` also for rays that leave by the other edge
   L distance;
@@ -36,12 +37,12 @@ struct Spread {
     const L point(beam.begin, beam.end, t.width - beam.end, t.width - beam.begin);
     length = L(t.left, t.left, t.right, t.right);
     x = cosine * source - sine * off;
-    const L below = sine * source + cosine * off;
-    h = max(below, L(Real(0)));
+    behind = sine * source + cosine * off;
+    h = max(behind, L(Real(0)));
     // Where the ray through `point` goes; it never comes down to the edge where `slope` <= 0. What
     // only rounding keeps from the apex reaches it: else the way around the light's end, as long as
     // the straight one, would make a source of the apex.
-    const L slope = below - sine * point;
+    const L slope = behind - sine * point;
     const L reached = point * off / slope;
     at = select((slope.v > 0) & (reached.v < (length * L(1 - rounding)).v), reached, length);
     measure(t, w);
@@ -55,7 +56,7 @@ struct Spread {
       return;
     }
     const L along = at - x;
-    distance = sqrt(along * along + h * h) + L(w.sigma);
+    distance = sqrt(along * along + behind * behind) + L(w.sigma);
   }
 
   /// Does light on this side reach the apex?
