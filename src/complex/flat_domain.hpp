@@ -121,7 +121,8 @@ struct FlatDomain {
                                             [s](const FaceGate<N>& g) { return g.from < s; });
     const auto end =
         std::partition_point(begin, gates.end(), [s](const FaceGate<N>& g) { return g.from == s; });
-    return {begin, end};
+    return std::span(gates).subspan(static_cast<std::size_t>(begin - gates.begin()),
+                                    static_cast<std::size_t>(end - begin));
   }
   /// Where a string that bends at `a` is held: off the face and not quite at its rim, so that what
   /// it touches there and what it passes can be told apart. In a gate there is no room.

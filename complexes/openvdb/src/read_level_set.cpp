@@ -22,6 +22,13 @@
 namespace plexway::openvdb {
 namespace {
 
+// Messages are one printable line; what OpenVDB says may have bytes of the file in it.
+std::string printable(std::string text) {
+  for (char& c : text)
+    if (c < ' ' || c > '~') c = '?';
+  return text;
+}
+
 using isolated::Descriptor;
 
 /// False once the helper has gone silent.
@@ -77,7 +84,11 @@ class Listener {
 
   Heard listen() {
     for (Word word{}; in_.get(word);) {
-      if (word == Word::complaint) return in_.get(complaint_) ? Heard::complaint : Heard::silence;
+      if (word == Word::complaint) {
+        if (!in_.get(complaint_)) return Heard::silence;
+        complaint_ = printable(complaint_);
+        return Heard::complaint;
+      }
       if (word == Word::no_memory) return Heard::no_memory;
       if (word == Word::end) return has_head_ ? Heard::all : Heard::nonsense;
       const bool whole = take(word);
@@ -204,7 +215,7 @@ LevelSet read_level_set(const std::filesystem::path& file, std::string_view grid
   const std::shared_ptr<Bricks>& bricks = listener.bricks();
   LevelSet level_set(bricks);
   if (level_set.inside_voxels() == 0)
-    throw InputError(file.string() + ": grid '" + bricks->name +
+    throw InputError(file.string() + ": grid '" + printable(bricks->name) +
                      "' is negative nowhere: nothing lies inside");
   return level_set;
 }
