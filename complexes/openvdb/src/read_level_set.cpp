@@ -25,7 +25,7 @@ namespace {
 // Messages are one printable line; what OpenVDB says may have bytes of the file in it.
 std::string printable(std::string text) {
   for (char& c : text)
-    if (c < ' ' || c > '~') c = '?';
+    if (c < ' ' || c > '~') c = c == '\n' ? ' ' : '?';
   return text;
 }
 
@@ -207,11 +207,7 @@ LevelSet read_level_set(const std::filesystem::path& file, std::string_view grid
   if (heard == Heard::nonsense)
     throw InputError(file.string() + ": OpenVDB makes nonsense of it: the file is damaged");
   if (heard == Heard::silence) throw_silence(file.string(), listener.ready(), size, helper.end());
-  if (heard == Heard::complaint) {
-    std::string complaint = listener.complaint();
-    std::replace(complaint.begin(), complaint.end(), '\n', ' ');
-    throw InputError(file.string() + ": " + complaint);
-  }
+  if (heard == Heard::complaint) throw InputError(file.string() + ": " + listener.complaint());
   const std::shared_ptr<Bricks>& bricks = listener.bricks();
   LevelSet level_set(bricks);
   if (level_set.inside_voxels() == 0)
