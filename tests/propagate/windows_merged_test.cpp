@@ -300,3 +300,28 @@ TEMPLATE_TEST_CASE("merged windows: edges of no length, as raw scans have them",
     check_merged(mesh, {PointSource::at(source)}, straight(flat, flat.positions[source]), 5e-5,
                  2e-3);
 }
+
+TEMPLATE_TEST_CASE("windows: points that all but lie at a vertex", "", float, double) {
+  const Surface s = random_polygon(7, 100, 0, 3);
+  const auto mesh = s.template mesh<TestType>();
+  std::mt19937 random(8);
+  for (const double near : {1e-17, 1e-14, 1e-11, 1e-9, 1e-7, 3e-6, 1e-4})
+    for (int k = 0; k < 6; ++k) {
+      const Index f = below(random, s.faces.size());
+      const double share = uniform(random);
+      const PointSource point = PointSource::in(f, {1 - near, share * near, (1 - share) * near});
+      Position p = {0, 0, 0};
+      for (std::size_t i = 0; i < 3; ++i)
+        for (std::size_t c = 0; c < 3; ++c)
+          p[c] += point.barycentric[i] * s.positions[s.faces[f][i]][c];
+      const std::vector<double> truth = straight(s, p);
+      CAPTURE(near, f, share);
+      for (const Accuracy accuracy : window_accuracies) {
+        const auto found = solve_windows(mesh, {point}, accuracy);
+        double mean = 0;
+        for (std::size_t v = 0; v < truth.size(); ++v)
+          mean += std::abs(found[v] - truth[v]) / static_cast<double>(truth.size());
+        CHECK(mean < 2e-4 * *std::max_element(truth.begin(), truth.end()));
+      }
+    }
+}

@@ -18,9 +18,8 @@ void ExactWindows<Real>::seed(Order& order, const WindowSources& sources) {
     const TriangleRecord<Real>& t = triangles_[f];
     std::array<double, 4> b = s.barycentric;
     if (turned) std::swap(b[1], b[2]);
-    const auto corner = std::find(b.begin(), b.begin() + 3, 1.);
-    if (corner != b.begin() + 3) {
-      offer(order, t.corner[corner - b.begin()], sigma, {}, number);
+    if (const auto at = near_corner(t, b)) {
+      offer(order, t.corner[at->corner], sigma + at->way, {}, number);
       continue;
     }
     for (std::size_t e = 0; e < 3; ++e) {

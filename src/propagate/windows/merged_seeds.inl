@@ -44,9 +44,8 @@ void MergedWindows<Real>::seed(Order& order, const WindowSources& sources) {
     const TriangleRecord<Real>& t = triangles_[f];
     std::array<double, 4> b = s.barycentric;
     if (turned) std::swap(b[1], b[2]);
-    const auto corner = std::find(b.begin(), b.begin() + 3, 1.);
-    if (corner != b.begin() + 3) {
-      offer(order, t.corner[corner - b.begin()], sigma, none, {0, 0}, number, 0);
+    if (const auto at = near_corner(t, b)) {
+      offer(order, t.corner[at->corner], sigma + real(at->way), none, {0, 0}, number, 0);
       continue;
     }
     seed_in(order, f, {b[0], b[1], b[2]}, sigma, number);

@@ -1,4 +1,5 @@
 #include "propagate/windows/merged_windows.hpp"
+#include "propagate/windows/near_corner.hpp"
 
 #include <algorithm>
 #include <cmath>
