@@ -10,6 +10,7 @@
 
 #include "executors/crew.hpp"
 #include "executors/piece_crew.hpp"
+#include "executors/piece_size.hpp"
 #include "executors/unordered.hpp"
 #include "propagate/alone.hpp"
 #include "propagate/finish.hpp"
@@ -44,18 +45,14 @@ void drive(const OpenMP& executor, const D& domain, std::span<const PointSource>
   drive_in_rounds<kLabels>(executor, domain, sources, options, workspace, solve);
 }
 
-/// On surfaces by pieces where that is asked for.
+/// On surfaces by pieces: a single one is the serial loop.
 template <bool kLabels, class Real, class Solve>
 void drive(const OpenMP& executor, const TriangleMesh<Real>& mesh,
            std::span<const PointSource> sources, const PropagateOptions& options,
            Workspace<Real>& workspace, const Solve& solve) {
-  if (executor.piece == 0) {
-    drive_in_rounds<kLabels>(executor, mesh, sources, options, workspace, solve);
-    return;
-  }
   const Team team(executor);
-  const PieceSettings settings = {.size = executor.piece};
-  if (mesh.face_count() < executor.piece + executor.piece / 2) {  // one piece: the serial loop
+  const PieceSettings settings = {.size = piece_size(executor, mesh.face_count())};
+  if (is_one_piece(settings.size, mesh.face_count())) {
     drive<kLabels>(Serial{}, mesh, sources, options, workspace, solve);
     return;
   }

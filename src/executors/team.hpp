@@ -63,6 +63,19 @@ class Team {
     });
   }
 
+  /// Calls work(i) for all i < count, by threads as they come.
+  template <class Work>
+  void each(std::size_t count, const Work& work) const {
+    std::atomic<std::size_t> next{0};
+    run([&](int, int) {
+      for (;;) {
+        const std::size_t i = next.fetch_add(1, std::memory_order_relaxed);
+        if (i >= count) return;
+        work(i);
+      }
+    });
+  }
+
  private:
   void run_guarded(const std::function<void(int, int)>& work) const;
 

@@ -6,7 +6,6 @@
 
 #include <plexway/error.hpp>
 
-#include "propagate/windows/bucket_ring.hpp"
 #include "propagate/windows/cross_edge.hpp"
 #include "propagate/windows/trim.hpp"
 
@@ -33,7 +32,7 @@ struct Rounding<float> {
 constexpr double least_height(double width) { return 1e-14 * width + 1e-290; }
 /// So many windows a triangle, and ties are no longer broken in favour of both: where lengths are
 /// no metric, or nothing has any length, light could go around for ever.
-constexpr std::size_t ties_end = 1000;
+constexpr std::size_t most_with_ties = 1000;
 constexpr std::size_t share = 65536;  ///< windows between two looks at what is told and allowed
 /// In mean edges.
 constexpr double bucket_width = 0.5;
@@ -56,39 +55,41 @@ Window<double> measured(const Beam<double>& beam, double sigma) {
 }  // namespace
 
 template <class Real>
-ExactWindows<Real>::ExactWindows(const TriangleMesh<Real>& mesh, const VertexAngles& angles)
-    : triangles_(mesh.triangles()),
-      mesh_(mesh),
-      angles_(angles),
-      pseudo_source_(triangles_),
-      sentinel_(static_cast<Index>(mesh.face_count())) {}
+ExactWindows<Real>::ExactWindows(const Sheet<Real>& sheet)
+    : sheet_(sheet),
+      triangles_(sheet.triangles),
+      own_(sheet.own),
+      pseudo_source_(triangles_) {}
+
+template <class Real>
+double ExactWindows<Real>::least_tie() {
+  return Rounding<Real>::tie;
+}
+
+template <class Real>
+bool ExactWindows<Real>::ties_end(std::size_t windows, std::size_t triangles) {
+  return windows / most_with_ties > triangles;
+}
+
+template <class Real>
+void ExactWindows<Real>::end_ties() {
+  tie_ = -least_tie();
+}
 
 template <class Real>
 bool ExactWindows<Real>::solve(std::span<const PointSource> sources,
                                const PropagateOptions& options, const Patience& patience,
                                KeptWindows<Real>* kept) {
+  begin(sources, options, patience);
   kept_ = kept;
-  patience_ = patience;
-  distance_.assign(mesh_.vertex_count(), infinity);
-  arrival_.resize(mesh_.vertex_count());
-  labels_ = sources.size() > 1;
-  if (labels_) source_.resize(mesh_.vertex_count());
-  split_.assign(3 * mesh_.face_count(), {infinity, 0});
-  nodes_.clear();
-  node_source_.clear();
-  free_ = none;
-  complete_ = true;
-  statistics_ = {};
-  tie_ = Rounding<Real>::tie;
-  radius_ = options.radius / mesh_.unit();
-  // A source inside a triangle may lie in another's light, and over an edge with several triangles
-  // light comes from several sheets.
-  splits_whole_ = mesh_.summary().non_manifold_edges == 0 &&
-                  std::all_of(sources.begin(), sources.end(),
-                              [](const PointSource& s) { return s.vertex != none; });
   const auto solve_in = [&](auto& order) {
     order.start(bucket_width);
-    seed(order, sources);
+    for_each_seed(
+        *sheet_.mesh, sources,
+        [&](Index v, double sigma, Index n) { offer(order, v, sigma, {}, n); },
+        [&](Index f, const std::array<double, 4>& b, double sigma, Index n) {
+          seed_inside(order, f, b, sigma, n);
+        });
     do
       if (!run(order, options)) return false;
     while (complete_ && fill_holes(order));
@@ -101,11 +102,56 @@ bool ExactWindows<Real>::solve(std::span<const PointSource> sources,
     }
     case Schedule::priority:
       return solve_in(nearest_);
-    default: {
-      BucketRing ring;
-      return solve_in(ring);
-    }
+    default:
+      return solve_in(ring_);
   }
+}
+
+template <class Real>
+void ExactWindows<Real>::begin(std::span<const PointSource> sources,
+                               const PropagateOptions& options, const Patience& patience) {
+  kept_ = nullptr;
+  patience_ = patience;
+  distance_.assign(sheet_.vertex_count, infinity);
+  arrival_.resize(sheet_.vertex_count);
+  labels_ = sources.size() > 1;
+  if (labels_) source_.resize(sheet_.vertex_count);
+  split_.assign(3 * std::size_t{own_}, {infinity, 0});
+  nodes_.clear();
+  node_source_.clear();
+  free_ = none;
+  complete_ = true;
+  statistics_ = {};
+  tie_ = least_tie();
+  radius_ = options.radius / sheet_.mesh->unit();
+  // A source inside a triangle may lie in another's light, and over an edge with several triangles
+  // light comes from several sheets.
+  splits_whole_ = sheet_.mesh->summary().non_manifold_edges == 0 &&
+                  std::all_of(sources.begin(), sources.end(),
+                              [](const PointSource& s) { return s.vertex != none; });
+  ring_.start(bucket_width);
+  leaving_.start(sheet_.shared);
+}
+
+template <class Real>
+void ExactWindows<Real>::take(const Letter<double>& letter) {
+  const auto admit = [&](double near) {
+    ring_.admit(near, [this](Index n) -> Index& { return nodes_[n].next; });
+  };
+  const Window<double>& w = letter.window;
+  if (letter.tells_of_vertex()) {
+    admit(w.at_begin);
+    static_cast<void>(know(ring_, letter.vertex(), w.at_begin, letter.arrival(), letter.source));
+  } else {
+    admit(turn_of(w));
+    enter(ring_, letter.to, w, letter.source);
+  }
+}
+
+template <class Real>
+void ExactWindows<Real>::run_to(double horizon, std::size_t most) {
+  ring_.set_horizon(horizon);
+  static_cast<void>(spread(ring_, most));
 }
 
 template <class Real>
@@ -113,21 +159,30 @@ template <class Order>
 bool ExactWindows<Real>::run(Order& order, const PropagateOptions& options) {
   const auto next = [this](Index n) -> Index& { return nodes_[n].next; };
   const auto near = [this](Index n) { return nearest(nodes_[n]); };
-  std::size_t pause = statistics_.expansions;  // where there is more to do than go on
   for (;;) {
-    if (statistics_.expansions >= pause) {
-      if (statistics_.expansions >= options.max_expansions) {
-        complete_ = order.pop(next, near) == none;
-        return true;
-      }
-      if (statistics_.expansions >= share && options.progress &&
-          !options.progress({statistics_.expansions, statistics_.reached_simplices,
-                             mesh_.face_count(), order.distance() * mesh_.unit()}))
-        throw Cancelled("cancelled by the progress callback");
-      if (too_many()) return false;
-      if (statistics_.expansions / ties_end > mesh_.face_count()) tie_ = -Rounding<Real>::tie;
-      pause = std::min(options.max_expansions, (statistics_.expansions / share + 1) * share);
+    if (statistics_.expansions >= options.max_expansions) {
+      complete_ = order.pop(next, near) == none;
+      return true;
     }
+    if (statistics_.expansions >= share && options.progress &&
+        !options.progress({statistics_.expansions, statistics_.reached_simplices, own_,
+                           order.distance() * sheet_.mesh->unit()}))
+      throw Cancelled("cancelled by the progress callback");
+    if (too_many()) return false;
+    if (ties_end(statistics_.expansions, own_)) end_ties();
+    const std::size_t pause =
+        std::min(options.max_expansions, (statistics_.expansions / share + 1) * share);
+    if (spread(order, pause - statistics_.expansions)) return true;
+  }
+}
+
+/// Until nothing waits (true), or so many windows.
+template <class Real>
+template <class Order>
+bool ExactWindows<Real>::spread(Order& order, std::size_t most) {
+  const auto next = [this](Index n) -> Index& { return nodes_[n].next; };
+  const auto near = [this](Index n) { return nearest(nodes_[n]); };
+  for (const std::size_t end = statistics_.expansions + most; statistics_.expansions != end;) {
     const Index n = order.pop(next, near);
     if (n == none) return true;
     ++statistics_.expansions;
@@ -149,6 +204,7 @@ bool ExactWindows<Real>::run(Order& order, const PropagateOptions& options) {
       expand(order, n);
     }
   }
+  return false;
 }
 
 template <class Real>
@@ -206,37 +262,53 @@ template <class Real>
 template <class Order>
 void ExactWindows<Real>::offer(Order& order, Index vertex, double distance,
                                const Arrival<double>& arrival, Index source) {
-  if (!(distance < distance_[vertex])) return;
+  if (know(order, vertex, distance, arrival, source) && vertex < sheet_.shared)
+    leaving_.tell(vertex);
+}
+
+/// Did the vertex get nearer?
+template <class Real>
+template <class Order>
+bool ExactWindows<Real>::know(Order& order, Index vertex, double distance,
+                              const Arrival<double>& arrival, Index source) {
+  if (!(distance < distance_[vertex])) return false;
   distance_[vertex] = distance;
   if (labels_) source_[vertex] = source;
   arrival_[vertex] = arrival;
   ++statistics_.updates;
-  if (arrival.corner != none && !(angles_.excess(vertex) > Rounding<Real>::excess)) return;
-  push(order, {{}, 0, distance, distance, vertex | vertex_bit, none}, distance, source);
+  if (arrival.corner == none || sheet_.angles->excess(vertex) > Rounding<Real>::excess)
+    push(order, {{}, 0, distance, distance, vertex | vertex_bit, none}, distance, source);
+  return true;
 }
 
 template <class Real>
 template <class Order>
-void ExactWindows<Real>::enter(Order& order, Index across, const Window<double>& w, Index source) {
-  const Index edge = across >> Across::face_shift << 2 | (across & Across::edge_mask);
+void ExactWindows<Real>::enter(Order& order, Index halfedge, const Window<double>& w,
+                               Index source) {
   const double near = w.nearest();
   if (near <= radius_)
-    push(order, {w.beam, w.sigma, w.at_begin, w.at_end, edge, none}, near, source);
+    push(order, {w.beam, w.sigma, w.at_begin, w.at_end, halfedge, none}, near, source);
 }
 
 template <class Real>
 template <class Order>
 void ExactWindows<Real>::leave(Order& order, Index f, std::size_t edge, const Window<double>& w,
                                Index source) {
-  const Index across = triangles_[f].across[edge];
-  if (across >> Across::face_shift == sentinel_) return;
+  const Index across = triangles_[f].across[edge], sentinel = sheet_.sentinel();
+  if (across >> Across::face_shift == sentinel) return;
+  const auto go = [&](Index over, const Window<double>& seen) {
+    if (over >> Across::face_shift >= own_) [[unlikely]]
+      leaving_.windows.push_back({halfedge_of(over), source, none, seen});
+    else
+      enter(order, halfedge_of(over), seen, source);
+  };
   if (!(across & Across::special)) [[likely]] {
-    enter(order, across, w, source);
+    go(across, w);
     return;
   }
   const Window<double> mirrored = w.mirrored(static_cast<double>(triangles_[f].length[edge]));
   cross_edge(triangles_, f, edge,
-             [&](Index over, bool turned) { enter(order, over, turned ? mirrored : w, source); });
+             [&](Index over, bool turned) { go(over, turned ? mirrored : w); });
 }
 
 /// Most windows are narrow: all of their light leaves by one edge, and reaches no vertex. Which
@@ -304,7 +376,7 @@ template <class Order>
   const Index over = t.across[out];
   node.beam = {child_origin + mirror * child_x, child_h, child_begin, child_end};
   node.at_begin = distances[0], node.at_end = distances[1];
-  if ((over & Across::special) || over >> Across::face_shift == sentinel_ || radius_ < infinity)
+  if ((over & Across::special) || over >> Across::face_shift >= own_ || radius_ < infinity)
       [[unlikely]] {
     const Window<double> child = {node.beam, sigma, node.at_begin, node.at_end, 0};
     const Index f = node.edge >> 2, source = labels_ ? node_source_[n] : 0;
@@ -312,7 +384,7 @@ template <class Order>
     leave(order, f, out, child, source);
     return;
   }
-  node.edge = over >> Across::face_shift << 2 | (over & Across::edge_mask);
+  node.edge = halfedge_of(over);
   order.push(n, std::min(distances[0], distances[1]),
              [this](Index i) -> Index& { return nodes_[i].next; });
 }
@@ -403,8 +475,9 @@ void ExactWindows<Real>::shine(Order& order, Index vertex) {
   if (sigma > radius_) return;
   const Index source = this->source(vertex);
   const Arrival<double> arrival = arrival_[vertex];
-  const VertexAngles::Kind kind = angles_.kind[vertex];
+  const VertexAngles::Kind kind = sheet_.angles->kind[vertex];
   const auto lit = [&](const Lit& part) {
+    if (part.face >= own_) return;
     const TriangleRecord<Real>& t = triangles_[part.face];
     const Beam<double> beam = {static_cast<double>(t.apex_x(part.edge)),
                                static_cast<double>(t.apex_h(part.edge)), part.begin, part.end};
@@ -412,6 +485,7 @@ void ExactWindows<Real>::shine(Order& order, Index vertex) {
           measured(beam.mirrored(static_cast<double>(t.length[part.edge])), sigma), source);
   };
   const auto along = [&](const FanWalk& walk) {
+    if (walk.face >= own_) return;
     const TriangleRecord<Real>& t = triangles_[walk.face];
     const Index e = walk.leaving_edge();
     // The far end, and the way back there: along the edge, in the corner that it starts or ends.
@@ -422,7 +496,7 @@ void ExactWindows<Real>::shine(Order& order, Index vertex) {
           {3 * walk.face + far, walk.by_start ? cosine : 1, walk.by_start ? sine : 0}, source);
   };
   if (arrival.corner == none || kind == VertexAngles::irregular) {
-    mesh_.corners_at(vertex, corners_);
+    sheet_.corners_at(vertex, corners_);
     pseudo_source_.shine_all(corners_, lit, along);
   } else {
     pseudo_source_.shine(arrival, kind == VertexAngles::boundary, {1, Rounding<Real>::shadow}, lit,
@@ -432,66 +506,32 @@ void ExactWindows<Real>::shine(Order& order, Index vertex) {
 
 template <class Real>
 template <class Order>
-void ExactWindows<Real>::seed(Order& order, std::span<const PointSource> sources) {
-  for (std::size_t n = 0; n < sources.size(); ++n) {
-    const PointSource& s = sources[n];
-    const Index number = static_cast<Index>(n);
-    const double sigma = s.offset / mesh_.unit();
-    if (s.vertex != none) {
-      offer(order, mesh_.inside_vertex(s.vertex), sigma, {}, number);
-      continue;
-    }
-    const auto [f, turned] = mesh_.inside_face(s.simplex);
-    const TriangleRecord<Real>& t = triangles_[f];
-    std::array<double, 4> b = s.barycentric;
-    if (turned) std::swap(b[1], b[2]);
-    const auto corner = std::find(b.begin(), b.begin() + 3, 1.);
-    if (corner != b.begin() + 3) {
-      offer(order, t.corner[corner - b.begin()], sigma, {}, number);
-      continue;
-    }
-    for (std::size_t e = 0; e < 3; ++e) {
-      const std::size_t i = edge_after(e), p = edge_before(e);
-      const double length = static_cast<double>(t.length[e]);
-      const double x = b[i] * length + b[p] * static_cast<double>(t.apex_x(e));
-      const double h = b[p] * static_cast<double>(t.apex_h(e));
-      leave(order, f, e, measured(Beam<double>{x, h, 0, length}.mirrored(length), sigma), number);
-      // The corner at the edge's start; the source in the frame of that edge.
-      const double back = std::sqrt(x * x + h * h);
-      offer(order, t.corner[e], sigma + back, {static_cast<Index>(3 * f + e), x, h}, number);
-    }
+void ExactWindows<Real>::seed_inside(Order& order, Index f, const std::array<double, 4>& b,
+                                     double sigma, Index number) {
+  const TriangleRecord<Real>& t = triangles_[f];
+  for (std::size_t e = 0; e < 3; ++e) {
+    const auto [x, h, length] = SeenFromEdge<Real>(t, b, e);
+    leave(order, f, e, measured(Beam<double>{x, h, 0, length}.mirrored(length), sigma), number);
+    // The corner at the edge's start; the source in the frame of that edge.
+    const double back = std::sqrt(x * x + h * h);
+    offer(order, t.corner[e], sigma + back, {static_cast<Index>(3 * f + e), x, h}, number);
   }
 }
 
-/// Light that rounding lost, or that fell on nothing with an area: vertices that are farther than
-/// along an edge from a neighbour. False if there is none.
 template <class Real>
 template <class Order>
 bool ExactWindows<Real>::fill_holes(Order& order) {
   if (radius_ < infinity) return false;
-  bool any = false;
-  const auto look = [&](Index v, Index w, double length) {
-    const double way = distance_[v] + length;
-    if (!(way + std::abs(rounding(way)) < distance_[w])) return;
-    offer(order, w, way, {}, source(v));
-    any = true;
-  };
-  for (Index f = 0; f < mesh_.face_count(); ++f) {
-    const TriangleRecord<Real>& t = triangles_[f];
-    for (std::size_t e = 0; e < 3; ++e) {
-      const Index v = t.corner[e], w = t.corner[edge_after(e)];
-      look(v, w, static_cast<double>(t.length[e]));
-      look(w, v, static_cast<double>(t.length[e]));
-    }
-  }
-  return any;
+  return fill_holes(
+      triangles_, own_, [&](Index v) { return distance_[v]; },
+      [&](Index v, Index w, double way) { offer(order, w, way, {}, source(v)); });
 }
 
 template <class Real>
 std::size_t ExactWindows<Real>::bytes() const {
   const auto of = [](const auto& v) { return v.capacity() * sizeof(v[0]); };
   return sizeof(*this) + of(distance_) + of(arrival_) + of(source_) + of(split_) + of(nodes_) +
-         of(node_source_) + of(corners_);
+         of(node_source_) + of(corners_) + leaving_.bytes();
 }
 
 template class ExactWindows<float>;

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <span>
 
@@ -12,15 +13,17 @@
 #include <plexway/propagate/workspace.hpp>
 #include <plexway/source/point_source.hpp>
 
+#include "propagate/alone.hpp"
 #include "propagate/windows/exact_windows.hpp"
 #include "propagate/windows/kept_windows.hpp"
 #include "propagate/windows/merged_windows.hpp"
+#include "propagate/windows/pieced_windows.hpp"
 #include "propagate/windows/vertex_angles.hpp"
 
 namespace plexway::windows {
 
-/// Distances on a surface by windows, one solve after the other, on one thread. Keeps what depends
-/// on the surface alone, and its memory.
+/// Distances on a surface by windows, one solve after the other, by one thread or by a crew. Keeps
+/// what depends on the surface alone, and its memory.
 template <class Real>
 class WindowSolver {
  public:
@@ -44,7 +47,15 @@ class WindowSolver {
   /// hide it. `workspace` is for that.
   [[nodiscard]] bool solve(std::span<const PointSource> sources, Accuracy accuracy,
                            const PropagateOptions& options, Workspace<Real>& workspace,
-                           DistanceField<Real>& field);
+                           DistanceField<Real>& field) {
+    return solve_by(Alone{}, sources, accuracy, options, workspace, field);
+  }
+  /// Likewise by a crew (solve_by.inl): in pieces of about crew.piece_size() triangles, unless it is
+  /// Alone. Exact: the same bits. No windows are kept.
+  template <class Crew>
+  [[nodiscard]] bool solve_by(const Crew& crew, std::span<const PointSource> sources,
+                              Accuracy accuracy, const PropagateOptions& options,
+                              Workspace<Real>& workspace, DistanceField<Real>& field);
 
   /// Shall solves keep their windows?
   void keep_windows(bool keep);
@@ -55,10 +66,23 @@ class WindowSolver {
   [[nodiscard]] std::size_t bytes() const;
 
  private:
-  template <bool kLabels, class Windows>
+  struct Pieces {
+    WindowPatches<Real> patches;
+    std::optional<PiecedWindows<Real, ExactWindows<Real>>> exact;
+    std::optional<PiecedWindows<Real, MergedWindows<Real>>> merged;
+  };
+
+  template <bool kLabels, class Windows, class Crew>
   void read_out(const Windows& windows, std::span<const PointSource> sources,
-                const PropagateOptions& options, bool mends, Workspace<Real>& workspace,
-                DistanceField<Real>& field) const;
+                const PropagateOptions& options, bool mends, const Crew& crew,
+                Workspace<Real>& workspace, DistanceField<Real>& field) const;
+  [[nodiscard]] ExactWindows<Real>& exact(const Alone&);
+  [[nodiscard]] MergedWindows<Real>& merged(const Alone&);
+  template <class Crew>
+  [[nodiscard]] auto& exact(const Crew& crew);
+  template <class Crew>
+  [[nodiscard]] auto& merged(const Crew& crew);
+  [[nodiscard]] Pieces& pieces(std::size_t size);
 
   const TriangleMesh<Real>& mesh_;
   std::uint64_t identity_;
@@ -67,6 +91,7 @@ class WindowSolver {
   std::optional<ExactWindows<Real>> exact_;
   std::optional<MergedWindows<Real>> merged_;
   std::optional<KeptWindows<Real>> kept_;
+  std::unique_ptr<Pieces> pieces_;  ///< of the last crew
 };
 
 extern template class WindowSolver<float>;
