@@ -6,7 +6,10 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <mutex>
 #include <span>
+#include <utility>
+#include <vector>
 
 #include <plexway/propagate/endless.hpp>
 #include <plexway/propagate/options.hpp>
@@ -71,16 +74,20 @@ class TeamCrew {
   /// In order, and those that are wanted before any is looked at: with any number of threads.
   template <class Wanted, class Look>
   void search(std::size_t count, const Wanted& wanted, const Look& look) const {
+    // Where a range begins, those found in it are written: nothing is shared, nothing to sort.
     Index* const found = list();
-    std::atomic<std::size_t> number{0};
+    std::vector<std::pair<std::size_t, std::size_t>> ranges;
+    std::mutex mutex;
     team_.over(count, [&](std::size_t begin, std::size_t end) {
+      std::size_t last = begin;
       for (std::size_t i = begin; i < end; ++i)
-        if (wanted(i))
-          found[number.fetch_add(1, std::memory_order_relaxed)] = static_cast<Index>(i);
+        if (wanted(i)) found[last++] = static_cast<Index>(i);
+      const std::scoped_lock lock(mutex);
+      ranges.emplace_back(begin, last);
     });
-    const std::span<Index> all(found, number.load(std::memory_order_relaxed));
-    std::sort(all.begin(), all.end());
-    for (const Index i : all) look(i);
+    std::sort(ranges.begin(), ranges.end());
+    for (const auto& [begin, end] : ranges)
+      for (std::size_t i = begin; i < end; ++i) look(found[i]);
   }
 
   [[nodiscard]] const Team& team() const { return team_; }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <span>
@@ -127,8 +128,8 @@ struct Lowered {
 
 /// No vertex is farther than a neighbour and the edge between, or the chord. A triangle keeps one
 /// label, the best for its centre, and now and then, at a corner on a ragged boundary, that one is
-/// poor. Cost: one pass, and n log n for the n vertices near
-/// what it changes (Dijkstra's order: each gets its last distance once).
+/// poor. Cost: one pass, and n log n for the n vertices near what it changes (Dijkstra's order:
+/// each gets its last distance once).
 ///
 /// search(wrong, look) calls look(f) at least for all triangles that wrong(f) names.
 template <class Real, bool kLabels, class Search>
@@ -142,39 +143,59 @@ Lowered read_out_edges(const TriangleMesh<Real>& mesh, Workspace<Real>& workspac
     const Real x = t.length[0], y = t.length[1], z = t.length[2];
     return !(std::abs(a - b) <= x && std::abs(b - c) <= y && std::abs(c - a) <= z);
   };
-  PriorityQueue<Real> nearer(workspace.front);
   Lowered lowered;
-  const auto relax = [&](Index from, Index to, Real length) {
+  const auto relax = [&](Index from, Index to, Real length, const auto& keep) {
     if (!(d[from] + length < d[to]) || !(d[to] < std::numeric_limits<Real>::infinity())) return;
     lowered.any = true;
     lowered.much += d[from] + length < d[to] * Real(1 - 1e-4);
     d[to] = d[from] + length;
     if constexpr (kLabels) workspace.vertex_source[to] = workspace.vertex_source[from];
-    nearer.push(to, d[to]);
+    keep(to, d[to]);
   };
+  PriorityQueue<Real> nearer(workspace.front);
+  const auto push = [&](Index v, Real at) { nearer.push(v, at); };
+  std::size_t seen = 0;  // corners
+  const auto pass_on = [&](Index v) {
+    mesh.corners_at(v, workspace.corners);
+    seen += workspace.corners.size();
+    for (const Index corner : workspace.corners) {
+      const TriangleRecord<Real>& t = triangles[corner / 3];
+      const std::size_t i = corner % 3;
+      relax(v, t.corner[edge_after(i)], t.length[i], push);
+      relax(v, t.corner[edge_before(i)], t.length[edge_before(i)], push);
+    }
+    for (const auto& chord : mesh.chords_at(v)) relax(v, chord.vertex, chord.length, push);
+  };
+  // Nearly all that there is to lower is found here and lowers nothing further: so it is passed on
+  // while it is in the cache, not in Dijkstra's order, which jumps to and fro; but for what hubs of
+  // many triangles would make dear.
+  std::size_t most = 0;
   search(wrong, [&](std::size_t f) {
     if (!wrong(f)) [[likely]]
       return;
     const TriangleRecord<Real>& t = triangles[f];
+    std::array<std::pair<Index, Real>, 6> found;
+    std::size_t count = 0;
+    const auto keep = [&](Index v, Real at) { found[count++] = {v, at}; };
     for (std::size_t i = 0; i < 3; ++i) {
       const Index v = t.corner[i], w = t.corner[edge_after(i)];
-      relax(v, w, t.length[i]);
-      relax(w, v, t.length[i]);
+      relax(v, w, t.length[i], keep);
+      relax(w, v, t.length[i], keep);
+    }
+    most += 32;
+    for (std::size_t i = 0; i < count; ++i) {
+      const auto [v, at] = found[i];
+      if (d[v] != at) continue;  // nearer still by now, and kept again
+      if (seen < most)
+        pass_on(v);
+      else
+        push(v, at);
     }
   });
   if (mesh.has_chords())
     for (Index v = 0; v < mesh.vertex_count(); ++v)
-      for (const auto& chord : mesh.chords_at(v)) relax(v, chord.vertex, chord.length);
-  for (Index v = 0; nearer.pop(v, [&](Index w) { return d[w]; });) {
-    mesh.corners_at(v, workspace.corners);
-    for (const Index corner : workspace.corners) {
-      const TriangleRecord<Real>& t = triangles[corner / 3];
-      const std::size_t i = corner % 3;
-      relax(v, t.corner[edge_after(i)], t.length[i]);
-      relax(v, t.corner[edge_before(i)], t.length[edge_before(i)]);
-    }
-    for (const auto& chord : mesh.chords_at(v)) relax(v, chord.vertex, chord.length);
-  }
+      for (const auto& chord : mesh.chords_at(v)) relax(v, chord.vertex, chord.length, push);
+  for (Index v = 0; nearer.pop(v, [&](Index w) { return d[w]; });) pass_on(v);
   return lowered;
 }
 

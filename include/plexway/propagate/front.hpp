@@ -24,6 +24,7 @@ struct FrontStorage {
     capacity = std::bit_ceil(simplices + 1);
     near = std::make_unique_for_overwrite<Index[]>(capacity);
     far = std::make_unique_for_overwrite<Index[]>(capacity);
+    heap.reserve(std::min<std::size_t>(capacity, 1024));  // where it holds repairs, few
   }
 };
 
