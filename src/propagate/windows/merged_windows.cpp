@@ -127,7 +127,10 @@ void MergedWindows<Real>::take(const Letter<Real>& letter) {
 template <class Real>
 void MergedWindows<Real>::run_to(double horizon, std::size_t most) {
   ring_.set_horizon(horizon);
-  static_cast<void>(spread(ring_, most));
+  if (!spread(ring_, most) && waits_ && !(ring_.nearest() < horizon)) {  // spent just so
+    waits_ = false;
+    commit_any(ring_, turns_[current_ ^ 1]);
+  }
   complete_ = nearest() == infinity<double>;
 }
 
