@@ -36,7 +36,7 @@ void drive_in_rounds(const OpenMP& executor, const D& domain, std::span<const Po
   const DualQueue<Real> queue(workspace.front, std::numeric_limits<Real>::infinity());
   const TeamCrew<Real, kLabels> crew(team, workspace, step_of<Real>(options), domain.unit(),
                                      options);
-  solve(queue, crew);
+  team.hold([&] { solve(queue, crew); });
 }
 
 template <bool kLabels, class D, class Real, class Solve>
@@ -59,7 +59,7 @@ void drive(const OpenMP& executor, const TriangleMesh<Real>& mesh,
   workspace.front.reserve(mesh.face_count());
   const DualQueue<Real> queue(workspace.front, std::numeric_limits<Real>::infinity());
   const TeamCrew<Real, kLabels> crew(team, workspace, step_of<Real>(options), mesh.unit(), options);
-  solve(queue, PieceCrew<Real, kLabels>(crew, mesh, settings));
+  team.hold([&] { solve(queue, PieceCrew<Real, kLabels>(crew, mesh, settings)); });
 }
 
 /// Calls `solve` with std::true_type where vertices have labels: from more than one source.

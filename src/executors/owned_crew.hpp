@@ -125,7 +125,7 @@ void drive(const OpenMP& executor, const TetMesh<Real>& mesh, std::span<const Po
   workspace.front.reserve(mesh.tet_count());
   const DualQueue<Real> queue(workspace.front, std::numeric_limits<Real>::infinity());
   const TeamCrew<Real, kLabels> crew(team, workspace, step_of<Real>(options), mesh.unit(), options);
-  solve(queue, OwnedCrew<Real, kLabels>(crew, pieces));
+  team.hold([&] { solve(queue, OwnedCrew<Real, kLabels>(crew, pieces)); });
 }
 
 }  // namespace plexway

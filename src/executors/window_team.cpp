@@ -57,8 +57,12 @@ bool solve_by_windows(const OpenMP& executor, const TriangleMesh<Real>& mesh,
     return solver.solve(sources, accuracy, options, workspace, field);
   workspace.front.reserve(mesh.face_count());
   const TeamCrew<Real, false> crew(team, workspace, 0, mesh.unit(), options);
-  return solver.solve_by(WindowCrew<Real>(crew, size), sources, accuracy, options, workspace,
-                         field);
+  bool solved = false;
+  team.hold([&] {
+    solved = solver.solve_by(WindowCrew<Real>(crew, size), sources, accuracy, options, workspace,
+                             field);
+  });
+  return solved;
 }
 
 template bool solve_by_windows(const OpenMP&, const TriangleMesh<float>&,
