@@ -1,8 +1,8 @@
-// One source on a surface by pieces (OpenMP::piece) against Serial, by labels or windows. Counts are
-// the same on any machine and with any number of threads, and so must be the bits: `--repeats` solves
-// with 1, 2, 3 and 8 threads are compared (0 differ). Times are taken in turns. The model says what recorded
-// counts come to on more threads: each superstep's runs are dealt to the threads longest first, a
-// run costs its expansions and some, a superstep what a barrier does.
+// One source on a surface by pieces (OpenMP::piece) against Serial, by labels or windows. Counts
+// are the same on any machine and with any number of threads, and so must be the bits: `--repeats`
+// solves with 1, 2, 3 and 8 threads are compared (0 differ). Times are taken in turns. The model
+// says what recorded counts come to on more threads: each superstep's runs are dealt to the threads
+// longest first, a run costs its expansions and some, a superstep what a barrier does.
 
 #include <CLI/CLI.hpp>
 #include <algorithm>

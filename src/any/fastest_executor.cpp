@@ -12,9 +12,9 @@ AnyExecutor fastest_executor(const AnyDomain& domain, std::size_t sources,
   const bool bounded =
       options.radius < PropagateOptions{}.radius ||
       options.max_expansions < PropagateOptions{}.max_expansions;  // fronts may stay short
-  if (domain.simplices() < auto_simplices || (!in_pieces && sources < auto_sources) || bounded ||
-      team_size(team) < 2)
-    return Serial{};
+  const bool pays = in_pieces && domain.simplices() >= auto_in_pieces;
+  const bool many = domain.simplices() >= auto_simplices && sources >= auto_sources;
+  if (!(pays || many) || bounded || team_size(team) < 2) return Serial{};
   // Several threads are not for every domain: a solid of several speeds is a mixed one.
   if (!domain.support(team, PointSource::at(0), options)) return Serial{};
   return team;

@@ -70,9 +70,8 @@ class OwnedCrew : public TeamCrew<Real, kLabels> {
     /// A superstep's, in edges of a cube of so many tetrahedra: mean edges.
     constexpr double pace = 1. / 8;
     Supersteps<Piece> supersteps(
-        this->team_, pieces,
-        static_cast<Real>(pace * std::cbrt(static_cast<double>(pieces_.size))), simplices,
-        this->unit_, this->options_, this->workspace_.pieces.counts());
+        this->team_, pieces, static_cast<Real>(pace * std::cbrt(static_cast<double>(pieces_.size))),
+        simplices, this->unit_, this->options_, this->workspace_.pieces.counts());
     const auto goes_on = [&](std::size_t expansions) {
       check_end(expansions, simplices);
       return true;

@@ -12,8 +12,8 @@
 namespace plexway {
 namespace {
 
-/// A superstep's, in roots of the number of triangles: mean edges. Half of what labels take: windows
-/// that come late do not merge with those that were there.
+/// A superstep's, in roots of the number of triangles: mean edges. Half of what labels take:
+/// windows that come late do not merge with those that were there.
 constexpr double pace = 1. / 32;
 
 template <class Real>
@@ -59,8 +59,8 @@ bool solve_by_windows(const OpenMP& executor, const TriangleMesh<Real>& mesh,
   const TeamCrew<Real, false> crew(team, workspace, 0, mesh.unit(), options);
   bool solved = false;
   team.hold([&] {
-    solved = solver.solve_by(WindowCrew<Real>(crew, size), sources, accuracy, options, workspace,
-                             field);
+    solved =
+        solver.solve_by(WindowCrew<Real>(crew, size), sources, accuracy, options, workspace, field);
   });
   return solved;
 }

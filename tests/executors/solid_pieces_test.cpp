@@ -26,9 +26,12 @@ struct Named {
   Solid solid;
 };
 std::vector<Named> solids() {
-  return {{"cube", solid_cube(5)},         {"L", l_shape(6)},
-          {"wall", walled(8, 0.25)},       {"pipe", pipe(12, 3, 4)},
-          {"edge", edge_touch(6)},         {"vertex", vertex_touch(4)},
+  return {{"cube", solid_cube(5)},
+          {"L", l_shape(6)},
+          {"wall", walled(8, 0.25)},
+          {"pipe", pipe(12, 3, 4)},
+          {"edge", edge_touch(6)},
+          {"vertex", vertex_touch(4)},
           {"far", moved(l_shape(4), 1e3, {5e3, 0, 1e3})}};
 }
 

@@ -15,8 +15,8 @@
 #include "executors/piece_testing.hpp"
 #include "with_accuracy.hpp"
 
-// Windows by pieces (OpenMP::piece): the bits of Serial where they are exact, as accurate where they
-// are merged, and the same with any number of threads.
+// Windows by pieces (OpenMP::piece): the bits of Serial where they are exact, as accurate where
+// they are merged, and the same with any number of threads.
 
 using namespace plexway;
 using namespace plexway::testing;

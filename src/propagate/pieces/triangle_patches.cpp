@@ -55,7 +55,9 @@ Partition partition_of(const TriangleMesh<Real>& mesh, std::size_t size) {
 
 template <class Real>
 TrianglePatches<Real>::TrianglePatches(const TriangleMesh<Real>& mesh, std::size_t size)
-    : identity_(mesh.identity()), size_(size), cut_(plexway::cut(partition_of(mesh, size), neighbours_of(mesh))) {
+    : identity_(mesh.identity()),
+      size_(size),
+      cut_(plexway::cut(partition_of(mesh, size), neighbours_of(mesh))) {
   patches_.resize(cut_.pieces.size());
   for (Index p = 0; p < patches_.size(); ++p) take_records(mesh, p);
   number_vertices(cut_, mesh.vertex_count(), patches_);
@@ -89,7 +91,8 @@ template <class Real>
 std::size_t TrianglePatch<Real>::bytes() const {
   const auto of = [](const auto& v) { return v.capacity() * sizeof(v[0]); };
   return of(triangles) + of(leads_in) + marks.bytes() + front.capacity * 2 * sizeof(Index) +
-         labels.bytes() + of(source) + of(posted) + of(is_new) + of(vertices) + of(vertex) + of(vertex_source) + mail.box[0].bytes() + mail.box[1].bytes();
+         labels.bytes() + of(source) + of(posted) + of(is_new) + of(vertices) + of(vertex) +
+         of(vertex_source) + mail.box[0].bytes() + mail.box[1].bytes();
 }
 
 template <class Real>

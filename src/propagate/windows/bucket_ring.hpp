@@ -187,7 +187,7 @@ class BucketRing {
   double width_ = 1, per_width_ = 1;
   std::int64_t at_ = 0;  // the bucket in turn, counted from distance 0
   std::int64_t horizon_ = std::numeric_limits<std::int64_t>::max();
-  double last_ = 0;      // the ring ends there, in buckets
+  double last_ = 0;  // the ring ends there, in buckets
   std::size_t near_count_ = 0, far_count_ = 0;
   double nearest_far_ = 0;
 };

@@ -56,10 +56,7 @@ Window<double> measured(const Beam<double>& beam, double sigma) {
 
 template <class Real>
 ExactWindows<Real>::ExactWindows(const Sheet<Real>& sheet)
-    : sheet_(sheet),
-      triangles_(sheet.triangles),
-      own_(sheet.own),
-      pseudo_source_(triangles_) {}
+    : sheet_(sheet), triangles_(sheet.triangles), own_(sheet.own), pseudo_source_(triangles_) {}
 
 template <class Real>
 double ExactWindows<Real>::least_tie() {
@@ -105,53 +102,6 @@ bool ExactWindows<Real>::solve(std::span<const PointSource> sources,
     default:
       return solve_in(ring_);
   }
-}
-
-template <class Real>
-void ExactWindows<Real>::begin(std::span<const PointSource> sources,
-                               const PropagateOptions& options, const Patience& patience) {
-  kept_ = nullptr;
-  patience_ = patience;
-  distance_.assign(sheet_.vertex_count, infinity);
-  arrival_.resize(sheet_.vertex_count);
-  labels_ = sources.size() > 1;
-  if (labels_) source_.resize(sheet_.vertex_count);
-  split_.assign(3 * std::size_t{own_}, {infinity, 0});
-  nodes_.clear();
-  node_source_.clear();
-  free_ = none;
-  complete_ = true;
-  statistics_ = {};
-  tie_ = least_tie();
-  radius_ = options.radius / sheet_.mesh->unit();
-  // A source inside a triangle may lie in another's light, and over an edge with several triangles
-  // light comes from several sheets.
-  splits_whole_ = sheet_.mesh->summary().non_manifold_edges == 0 &&
-                  std::all_of(sources.begin(), sources.end(),
-                              [](const PointSource& s) { return s.vertex != none; });
-  ring_.start(bucket_width);
-  leaving_.start(sheet_.shared);
-}
-
-template <class Real>
-void ExactWindows<Real>::take(const Letter<double>& letter) {
-  const auto admit = [&](double near) {
-    ring_.admit(near, [this](Index n) -> Index& { return nodes_[n].next; });
-  };
-  const Window<double>& w = letter.window;
-  if (letter.tells_of_vertex()) {
-    admit(w.at_begin);
-    static_cast<void>(know(ring_, letter.vertex(), w.at_begin, letter.arrival(), letter.source));
-  } else {
-    admit(turn_of(w));
-    enter(ring_, letter.to, w, letter.source);
-  }
-}
-
-template <class Real>
-void ExactWindows<Real>::run_to(double horizon, std::size_t most) {
-  ring_.set_horizon(horizon);
-  static_cast<void>(spread(ring_, most));
 }
 
 template <class Real>
@@ -505,34 +455,17 @@ void ExactWindows<Real>::shine(Order& order, Index vertex) {
 }
 
 template <class Real>
-template <class Order>
-void ExactWindows<Real>::seed_inside(Order& order, Index f, const std::array<double, 4>& b,
-                                     double sigma, Index number) {
-  const TriangleRecord<Real>& t = triangles_[f];
-  for (std::size_t e = 0; e < 3; ++e) {
-    const auto [x, h, length] = SeenFromEdge<Real>(t, b, e);
-    leave(order, f, e, measured(Beam<double>{x, h, 0, length}.mirrored(length), sigma), number);
-    // The corner at the edge's start; the source in the frame of that edge.
-    const double back = std::sqrt(x * x + h * h);
-    offer(order, t.corner[e], sigma + back, {static_cast<Index>(3 * f + e), x, h}, number);
-  }
-}
-
-template <class Real>
-template <class Order>
-bool ExactWindows<Real>::fill_holes(Order& order) {
-  if (radius_ < infinity) return false;
-  return fill_holes(
-      triangles_, own_, [&](Index v) { return distance_[v]; },
-      [&](Index v, Index w, double way) { offer(order, w, way, {}, source(v)); });
-}
-
-template <class Real>
 std::size_t ExactWindows<Real>::bytes() const {
   const auto of = [](const auto& v) { return v.capacity() * sizeof(v[0]); };
   return sizeof(*this) + of(distance_) + of(arrival_) + of(source_) + of(split_) + of(nodes_) +
          of(node_source_) + of(corners_) + leaving_.bytes();
 }
+
+}  // namespace plexway::windows
+
+#include "propagate/windows/exact_seeds.inl"
+
+namespace plexway::windows {
 
 template class ExactWindows<float>;
 template class ExactWindows<double>;

@@ -24,7 +24,9 @@ struct Letter {
 
   [[nodiscard]] static Letter of_vertex(Index vertex, Real distance, const Arrival<Real>& arrival,
                                         Index source, Real error) {
-    return {vertex | is_vertex, source, arrival.corner,
+    return {vertex | is_vertex,
+            source,
+            arrival.corner,
             {{arrival.along, arrival.off, 0, 0}, 0, distance, 0, error}};
   }
   [[nodiscard]] bool tells_of_vertex() const { return (to & is_vertex) != 0; }

@@ -1,7 +1,78 @@
-// Where merged windows begin: at the sources, and again at what no window reached. Part of
-// merged_windows.cpp.
+// Where merged windows begin and end: at the sources, at letters, and again at what no window
+// reached. Part of merged_windows.cpp.
 
 namespace plexway::windows {
+
+template <class Real>
+void MergedWindows<Real>::begin(std::span<const PointSource> sources,
+                                const PropagateOptions& options, const MergeLimit& limit) {
+  const double unit = sheet_.mesh->unit();
+  limit_ = limit;
+  kept_ = nullptr;
+  labels_ = sources.size() > 1;
+  vertices_.assign(sheet_.vertex_count, {infinity<Real>, none, {0, 0}});
+  error_.resize(sheet_.vertex_count);
+  if (labels_) source_.resize(sheet_.vertex_count);
+  if (pending_.empty() || !complete_) pending_.assign(4 * std::size_t{own_}, none);
+  blocks_.clear();
+  vertex_next_.assign(sheet_.vertex_count, idle);
+  free_block_ = none;
+  waits_ = false;
+  complete_ = false;  // until all is done: a callback may throw
+  statistics_ = {};
+  radius_ = static_cast<Real>(options.radius / unit);
+  least_offset_ = std::numeric_limits<double>::infinity();
+  for (const PointSource& s : sources) least_offset_ = std::min(least_offset_, s.offset / unit);
+  scale_ = scale_at(least_offset_);
+  ring_.start(bucket_width);
+  leaving_.start(sheet_.shared);
+}
+
+template <class Real>
+bool MergedWindows<Real>::too_many(std::size_t turns, std::size_t triangles) {
+  return turns > patience * 3 * triangles + share;
+}
+
+template <class Real>
+void MergedWindows<Real>::take(const Letter<Real>& letter) {
+  const auto admit = [&](Real near) {
+    ring_.admit(static_cast<double>(near), [this](Index n) -> Index& { return next(n); });
+  };
+  const Window<Real>& w = letter.window;
+  if (!letter.tells_of_vertex()) {
+    admit(turn_of(w));
+    enter(ring_, letter.to, w, letter.source);
+    return;
+  }
+  admit(w.at_begin);
+  scale_ = scale_at(static_cast<double>(w.at_begin));
+  static_cast<void>(know(ring_, letter.vertex(), w.at_begin, letter.corner,
+                         {w.beam.x, w.beam.h}, letter.source, w.error));
+}
+
+template <class Real>
+void MergedWindows<Real>::run_to(double horizon, std::size_t most) {
+  ring_.set_horizon(horizon);
+  if (!spread(ring_, most) && waits_ && !(ring_.nearest() < horizon)) {  // spent just so
+    waits_ = false;
+    commit_any(ring_, turns_[current_ ^ 1]);
+  }
+  complete_ = nearest() == infinity<double>;
+}
+
+/// After the last turn allowed: is there anything else to do?
+template <class Real>
+template <class Order>
+typename MergedWindows<Real>::Outcome MergedWindows<Real>::left_over(Order& order) {
+  const auto next_of = [this](Index n) -> Index& { return next(n); };
+  const auto near_of = [this](Index n) { return static_cast<double>(near(n)); };
+  while (order.pop(next_of, near_of) == none) {
+    if (!waits_) return Outcome::done;
+    waits_ = false;
+    commit_any(order, turns_[current_ ^ 1]);
+  }
+  return Outcome::stopped;
+}
 
 template <class Real>
 template <class Order>

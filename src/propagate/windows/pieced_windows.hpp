@@ -124,8 +124,8 @@ class PiecedWindows {
       for (Index i = 0; i < patch.shared; ++i) {
         const Index v = patch.vertices[i];
         const Number d = windows.vertex_distance(i);
-        if (d < distance_[v] || (labels_ && d == distance_[v] && d < infinity &&
-                                 windows.source(i) < source_[v]))
+        if (d < distance_[v] ||
+            (labels_ && d == distance_[v] && d < infinity && windows.source(i) < source_[v]))
           take(v, windows, i);
       }
     }

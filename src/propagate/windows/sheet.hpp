@@ -21,7 +21,7 @@ namespace plexway::windows {
 template <class Real>
 struct Sheet {
   const TriangleMesh<Real>* mesh = nullptr;
-  const VertexAngles* angles = nullptr;  ///< of its own vertices
+  const VertexAngles* angles = nullptr;             ///< of its own vertices
   std::span<const TriangleRecord<Real>> triangles;  ///< its own, ghosts, a sentinel
   Index own = 0;                                    ///< triangles
   Index vertex_count = 0;

@@ -84,8 +84,8 @@ std::size_t WindowPatches<Real>::bytes() const {
   const auto of = [](const auto& v) { return v.capacity() * sizeof(v[0]); };
   std::size_t sum = cut_.bytes() + of(patches_) + of(place_begin_) + of(places_);
   for (const Patch& patch : patches_)
-    sum += of(patch.triangles) + of(patch.vertices) + of(patch.angles.total) +
-           of(patch.angles.kind);
+    sum +=
+        of(patch.triangles) + of(patch.vertices) + of(patch.angles.total) + of(patch.angles.kind);
   return sum;
 }
 

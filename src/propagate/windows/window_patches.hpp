@@ -12,7 +12,8 @@
 
 namespace plexway::windows {
 
-/// A surface cut into pieces for windows: ghosts are the triangles that share a vertex with a piece.
+/// A surface cut into pieces for windows: ghosts are the triangles that share a vertex with a
+/// piece.
 template <class Real>
 class WindowPatches {
  public:

@@ -50,8 +50,8 @@ class WindowSolver {
                            DistanceField<Real>& field) {
     return solve_by(Alone{}, sources, accuracy, options, workspace, field);
   }
-  /// Likewise by a crew (solve_by.inl): in pieces of about crew.piece_size() triangles, unless it is
-  /// Alone. Exact: the same bits. No windows are kept.
+  /// Likewise by a crew (solve_by.inl): in pieces of about crew.piece_size() triangles, unless it
+  /// is Alone. Exact: the same bits. No windows are kept.
   template <class Crew>
   [[nodiscard]] bool solve_by(const Crew& crew, std::span<const PointSource> sources,
                               Accuracy accuracy, const PropagateOptions& options,
