@@ -1,7 +1,7 @@
 // What building costs before the first solve: surfaces, the same by way of Delaunay triangles, and
-// solids. Times are medians; instructions are those of the processor's own counter, which other
-// programs do not disturb (Linux; blank where it is not to be had); memory is what is allocated
-// beyond the input, at the peak and held.
+// solids. Times are medians of the processor, one thread; instructions are those of the processor's
+// own counter, which other programs do not disturb (Linux; blank where it is not to be had); memory
+// is what is allocated beyond the input, at the peak and held.
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -118,7 +118,7 @@ Cost measure(std::size_t units, int repeats, const Make& make) {
     peak = held;
     const std::uint64_t start = counter.now();
     std::uint64_t end = start;
-    times.push_back(1e9 / n * bench::seconds([&] {
+    times.push_back(1e9 / n * bench::processor_seconds([&] {
                       const auto made = make();
                       end = counter.now();
                       cost.held = static_cast<double>(held - before) / n;

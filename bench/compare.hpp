@@ -4,8 +4,10 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <fstream>
 #include <iostream>
 #include <memory>
+#include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
@@ -26,6 +28,8 @@ struct CompareOptions {
   Effort effort;
   std::size_t exact_limit = 12000;
   double limit = 600;
+  std::string rows_of;
+  std::filesystem::path rows_from, rows_to;
   Report report;
 };
 
@@ -143,6 +147,35 @@ inline void compare_on(const Surface& surface, const std::filesystem::path& trut
   }
 }
 
+/// One peer as a program of its own, as bench/peers/run calls them: reads a mesh and a list of
+/// vertices, writes a row of distances for each as plain doubles.
+inline int write_rows(const CompareOptions& options, const std::vector<PeerKind>& kinds) try {
+  const auto kind = std::find_if(kinds.begin(), kinds.end(), [&](const PeerKind& candidate) {
+    return candidate.name == options.rows_of;
+  });
+  if (kind == kinds.end()) throw std::runtime_error("no peer is called " + options.rows_of);
+  if (options.meshes.size() != 1) throw std::runtime_error("--rows wants one MESH");
+  const Surface surface = read_surface(options.meshes.front());
+  const auto peer = kind->build(surface);
+  std::ifstream sources(options.rows_from);
+  std::ofstream out(options.rows_to, std::ios::binary);
+  for (std::size_t source = 0; sources >> source;) {
+    if (source >= surface.positions.size()) throw std::runtime_error("a source is no vertex");
+    peer->solve(static_cast<Index>(source));
+    const std::vector<double> row = peer->distance();
+    out.write(reinterpret_cast<const char*>(row.data()),
+              static_cast<std::streamsize>(row.size() * sizeof(double)));
+  }
+  out.close();
+  if (!sources.eof())
+    throw std::runtime_error(options.rows_from.string() + ": no list of vertices");
+  if (!out) throw std::runtime_error(options.rows_to.string() + ": cannot be written");
+  return 0;
+} catch (const std::exception& error) {
+  std::cerr << error.what() << '\n';
+  return 1;
+}
+
 /// The whole program: every peer on every mesh, one table on stdout, progress on stderr.
 inline int compare_peers(int argc, char** argv, const std::vector<PeerKind>& kinds) {
   CompareOptions options;
@@ -159,8 +192,14 @@ inline int compare_peers(int argc, char** argv, const std::vector<PeerKind>& kin
       ->capture_default_str();
   app.add_option("--limit", options.limit, "Seconds after which a row is given up")
       ->capture_default_str();
+  auto* rows =
+      app.add_option("--rows", options.rows_of, "No table: the rows of the peer of this name");
+  app.add_option("--from", options.rows_from, "With --rows: a file of vertices")->needs(rows);
+  app.add_option("--to", options.rows_to, "With --rows: where they go, as plain doubles")
+      ->needs(rows);
   options.report.add_options(app);
   CLI11_PARSE(app, argc, argv);
+  if (!options.rows_of.empty()) return write_rows(options, kinds);
   if (options.meshes.empty() && options.generated.empty()) {
     std::cerr << "no MESH and no --generate: nothing to measure\n";
     return 2;

@@ -7,59 +7,22 @@ import json
 import math
 import sys
 
+from log_plot import COLOURS, LogPanel, MARKS, decades, mark, picture, text
+
 WIDTH, HEIGHT, LEFT, TOP, GAP, PANEL_W, PANEL_H = 960, 440, 70, 46, 90, 380, 320
-COLOURS = ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#56789a", "#a6761d"]
 LEAST = 1e-9  # smaller errors are drawn as this: what is exact is rounding
-MARKS = ["circle", "square", "diamond", "triangle"]
 
 
-def decades(values):
-    return math.floor(math.log10(min(values)) + 1e-9), math.ceil(math.log10(max(values)) - 1e-9)
-
-
-def text(x, y, words, anchor="middle", size=12, extra=""):
-    return (f'<text x="{x:.1f}" y="{y:.1f}" text-anchor="{anchor}" font-size="{size}"{extra}>'
-            f"{words}</text>")
-
-
-def mark(kind, x, y, colour):
-    r = 4
-    if kind == "circle":
-        return f'<circle cx="{x:.1f}" cy="{y:.1f}" r="{r}" fill="{colour}"/>'
-    corners = {
-        "square": [(-r, -r), (r, -r), (r, r), (-r, r)],
-        "diamond": [(0, -r - 1), (r + 1, 0), (0, r + 1), (-r - 1, 0)],
-        "triangle": [(0, -r - 1), (r + 1, r), (-r - 1, r)],
-    }[kind]
-    points = " ".join(f"{x + a:.1f},{y + b:.1f}" for a, b in corners)
-    return f'<polygon points="{points}" fill="{colour}"/>'
-
-
-def power(exponent):
-    return f'10<tspan dy="-5" font-size="9">{exponent}</tspan>'
-
-
-class Panel:
+class Panel(LogPanel):
     def __init__(self, left, title, rows, first_colour):
-        self.left, self.title, self.first = left, title, first_colour
+        self.title, self.first = title, first_colour
         self.series = {}
         for row in rows:
             self.series.setdefault(row["series"], []).append((row["edge"], max(row["mean"], LEAST)))
         points = [p for s in self.series.values() for p in s]
         edges = [math.log10(x) for x, _ in points]
-        self.x = min(edges) - 0.12, max(edges) + 0.12
-        self.y = decades([e for _, e in points])
-        if self.y[0] == self.y[1]:
-            self.y = self.y[0], self.y[1] + 1
-
-    def at(self, edge, error):
-        fx = (math.log10(edge) - self.x[0]) / (self.x[1] - self.x[0])
-        fy = (math.log10(error) - self.y[0]) / (self.y[1] - self.y[0])
-        return self.left + fx * PANEL_W, TOP + (1 - fy) * PANEL_H
-
-    @staticmethod
-    def label(exponent):
-        return ("&#8804; " if 10.0**exponent <= LEAST else "") + power(exponent)
+        super().__init__(left, TOP, PANEL_W, PANEL_H, (min(edges) - 0.12, max(edges) + 0.12),
+                         decades([e for _, e in points]), LEAST)
 
     def guide(self, order, out):
         """A dashed line of this slope through the panel's upper right part."""
@@ -72,24 +35,7 @@ class Panel:
         out.append(text(a + 6, b - 6, f"order {order}", "start", 11, ' fill="#666"'))
 
     def draw(self, out):
-        out.append(text(self.left + PANEL_W / 2, TOP - 16, self.title, size=14))
-        out.append(f'<rect x="{self.left}" y="{TOP}" width="{PANEL_W}" height="{PANEL_H}" '
-                   'fill="none" stroke="#333"/>')
-        for exponent in range(self.y[0], self.y[1] + 1):
-            _, y = self.at(1, 10**exponent)
-            out.append(f'<line x1="{self.left}" y1="{y:.1f}" x2="{self.left + PANEL_W}" '
-                       f'y2="{y:.1f}" stroke="#ddd"/>')
-            out.append(text(self.left - 8, y + 4, self.label(exponent), "end"))
-        for exponent in range(math.floor(self.x[0]), math.ceil(self.x[1]) + 1):
-            for digit in (1, 2, 5):
-                edge = digit * 10.0**exponent
-                if not self.x[0] <= math.log10(edge) <= self.x[1]:
-                    continue
-                x, _ = self.at(edge, 10.0 ** self.y[0])
-                out.append(f'<line x1="{x:.1f}" y1="{TOP}" x2="{x:.1f}" y2="{TOP + PANEL_H}" '
-                           'stroke="#eee"/>')
-                out.append(text(x, TOP + PANEL_H + 18, f"{edge:g}"))
-        out.append(text(self.left + PANEL_W / 2, TOP + PANEL_H + 40, "mean edge"))
+        self.frame(self.title, "mean edge", (1, 2, 5), out)
         for order in (1, 2):
             self.guide(order, out)
         for i, (name, points) in enumerate(self.series.items()):
@@ -111,9 +57,7 @@ def main():
         rows = json.load(file)
     surfaces = [row for row in rows if row["kind"] != "solid"]
     solids = [row for row in rows if row["kind"] == "solid"]
-    out = [f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {WIDTH} {HEIGHT}" '
-           f'width="{WIDTH}" height="{HEIGHT}" font-family="sans-serif" fill="#222">',
-           f'<rect width="{WIDTH}" height="{HEIGHT}" fill="white"/>']
+    out = []
     left, colour = LEFT, 0
     for title, part in (("surfaces", surfaces), ("solids around obstacles", solids)):
         if part:
@@ -123,9 +67,8 @@ def main():
         left += PANEL_W + GAP
     out.append(text(16, TOP + PANEL_H / 2, "mean relative error", "middle", 12,
                     f' transform="rotate(-90 16 {TOP + PANEL_H / 2:.0f})"'))
-    out.append("</svg>")
     with open(sys.argv[2], "w", encoding="utf-8") as file:
-        file.write("\n".join(out) + "\n")
+        file.write(picture(WIDTH, HEIGHT, out))
 
 
 if __name__ == "__main__":

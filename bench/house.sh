@@ -11,9 +11,10 @@ lines() {
   files "$1" "$2" | while read -r file; do git show "$1:$file"; done | wc -l
 }
 headers() { git ls-tree -r --name-only "$1" -- include complexes | grep -c '/\?include/.*\.hpp$' || true; }
-implementation() {  # those that the API reference leaves out
-  git show "$1:cmake/PlexwayReference.cmake" 2>/dev/null |
-    awk '/^set\(implementation/ {on = 1; next} on && /\.hpp/ {n++} on && /\)$/ {on = 0} END {print n + 0}'
+implementation() {  # those that the API reference leaves out: by a list, or in folders named detail
+  listed=$(git show "$1:cmake/PlexwayReference.cmake" 2>/dev/null |
+    awk '/^set\(implementation/ {on = 1; next} on && /\.hpp/ {n++} on && /\)$/ {on = 0} END {print n + 0}')
+  echo $((listed + $(git ls-tree -r --name-only "$1" -- include | grep -c '/detail/.*\.hpp$' || true)))
 }
 verbs() {  # declarations, not calls: a line that begins with a type, at no indentation
   files "$1" include | grep '\.hpp$' | while read -r file; do git show "$1:$file"; done |
@@ -29,7 +30,7 @@ row() {
 revisions="$*"
 printf '| |'; for r in $revisions; do printf ' %s |' "$(git show -s --format='%h, %as' "$r" | tail -1)"; done
 printf '\n|---|'; for r in $revisions; do printf -- '---:|'; done; printf '\n'
-for folder in include src/complex src/metric src/propagate src/executors src/apps src/io src/file \
+for folder in include src/kernel src/complex src/metric src/propagate src/executors src/apps src/io src/file \
   src/render src/any src/cli shaders complexes python/src web/module tests bench examples; do
   row "\`$folder\`" lines "$folder"
 done

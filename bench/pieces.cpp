@@ -15,6 +15,7 @@
 #include <plexway/solve.hpp>
 
 #include "compare.hpp"
+#include "propagate/workspace_state.hpp"
 
 namespace {
 
@@ -66,7 +67,7 @@ void measure(const bench::Surface& surface, const bench::Effort& effort, const S
   };
   for (const std::size_t size : settings.sizes) {
     Workspace<Real> workspace;
-    SuperstepCounts& counts = workspace.pieces.counts();
+    SuperstepCounts& counts = workspace.state().pieces.counts();
     counts.keeps_log = true;
     double serial = 0, by_pieces = 0, supersteps = 0, letters = 0, bytes = 0;
     double model[4] = {};

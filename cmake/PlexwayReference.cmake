@@ -1,57 +1,8 @@
 # The reference of the library's interface by Doxygen: target plexway_reference, pages in
-# BUILD/reference. A public symbol without its docstring is an error, so a new header is either
-# documented or named below. PLEXWAY_WITH_REFERENCE is AUTO, ON or OFF.
+# BUILD/reference. A public symbol without its docstring is an error; what public headers need and no
+# user includes, such as the records that domains are made of, is in folders named detail and left
+# out. PLEXWAY_WITH_REFERENCE is AUTO, ON or OFF.
 include(PlexwayProvider)
-
-# Headers that no user includes, since they are how propagation is done: public headers need those of
-# the first three groups, for members of domains and workspaces, and none of the last. A test of the
-# house holds us to it.
-set(implementation
-  # Floor 0: arithmetic, in one text for C++ and GLSL.
-  kernel/hinge.hpp
-  kernel/lanes.hpp
-  # What domains are made of inside: records, their numbers, and what is found out about them.
-  complex/box_tree.hpp
-  complex/identity.hpp
-  complex/rows.hpp
-  complex/simplex_flat.hpp
-  complex/simplex_record.hpp
-  complex/tet_record.hpp
-  complex/triangle_record.hpp
-  # What a workspace is made of: labels, and room for them.
-  propagate/front.hpp
-  propagate/label_storage.hpp
-  propagate/piece_memory.hpp
-  propagate/plain_label.hpp
-  propagate/plain_solid_label.hpp
-  propagate/room.hpp
-  propagate/saddle_label.hpp
-  propagate/simplex_label.hpp
-  propagate/solid_label.hpp
-  propagate/visit_marks.hpp
-  propagate/window_memory.hpp
-  # The rules, step by step.
-  complex/elimination.hpp
-  propagate/endless.hpp
-  propagate/plain_rule.hpp
-  propagate/plain_solid_rule.hpp
-  propagate/probe.hpp
-  propagate/saddle_offers.hpp
-  propagate/saddle_poses.hpp
-  propagate/saddle_refraction.hpp
-  propagate/saddle_rule.hpp
-  propagate/saddle_step.hpp
-  propagate/saddle_step_lanes.hpp
-  propagate/simplex_rule.hpp
-  propagate/simplex_string.hpp
-  propagate/simplex_string_rule.hpp
-  propagate/simplex_taut.hpp
-  propagate/solid_clear_space.hpp
-  propagate/solid_paths.hpp
-  propagate/solid_rule.hpp
-  propagate/solid_sight.hpp
-  propagate/wavefront.hpp
-  propagate/wire_step.hpp)
 
 if(NOT PROJECT_IS_TOP_LEVEL)
   set(PLEXWAY_WITH_REFERENCE OFF CACHE STRING "Make the API reference: AUTO, ON or OFF")
@@ -70,16 +21,15 @@ if(NOT DOXYGEN_FOUND)
   return()
 endif()
 
-list(TRANSFORM implementation PREPEND "${PROJECT_SOURCE_DIR}/include/plexway/")
 file(GLOB provider_headers "${PROJECT_SOURCE_DIR}/complexes/*/include")
 
 set(DOXYGEN_OUTPUT_DIRECTORY "${PROJECT_BINARY_DIR}")
 set(DOXYGEN_HTML_OUTPUT reference)
 set(DOXYGEN_FILE_PATTERNS "*.hpp")
-set(DOXYGEN_EXCLUDE ${implementation})
+set(DOXYGEN_EXCLUDE_PATTERNS "*/detail/*")
 # What implements, types that headers only declare, macros that headers take back.
 set(DOXYGEN_EXCLUDE_SYMBOLS "plexway::detail" "plexway::*::detail" "boost"
-  "plexway::JoinedPieces" "plexway::Solved" "plexway::openvdb::Bricks"
+  "plexway::JoinedPieces" "plexway::Solved" "plexway::WorkspaceState" "plexway::FlatDomain" "plexway::openvdb::Bricks"
   PLEXWAY_NAME PLEXWAY_CASE)
 set(DOXYGEN_STRIP_FROM_PATH
   "${PROJECT_SOURCE_DIR}/include" "${PROJECT_BINARY_DIR}/include" ${provider_headers})

@@ -1,15 +1,15 @@
 # Shaders as one text each. GLSL has no include: a line `//@include NAME` stands for the text NAME, a
-# file of shaders/ or include/. `#line` says where each part comes from, by the place of its file in
+# file of shaders/ or src/. `#line` says where each part comes from, by the place of its file in
 # the list, so that a compiler's message leads to the file it means.
 
 # Sets OUT to the text of FILE and appends all files read to FILES. ROOT is the source tree.
 function(plexway_expand_shader root file out files_variable)
   set(path "${root}/shaders/${file}")
   if(NOT EXISTS "${path}")
-    set(path "${root}/include/${file}")
+    set(path "${root}/src/${file}")
   endif()
   if(NOT EXISTS "${path}")
-    message(FATAL_ERROR "there is no ${file} in shaders/ or include/")
+    message(FATAL_ERROR "there is no ${file} in shaders/ or src/")
   endif()
   set(known ${${files_variable}})
   list(LENGTH known self)

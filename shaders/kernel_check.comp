@@ -14,7 +14,7 @@
 #endif
 const int K = PLEXWAY_K;
 
-//@include plexway/kernel/hinge_kernel.inl
+//@include kernel/hinge_kernel.inl
 
 layout(local_size_x = 64) in;
 

@@ -5,8 +5,8 @@
 #define Real float
 const int K = 1;
 
-//@include plexway/kernel/hinge_kernel.inl
-//@include plexway/propagate/saddle_step.inl
+//@include kernel/hinge_kernel.inl
+//@include propagate/saddle_step.inl
 
 #ifndef PLEXWAY_GROUP
 #define PLEXWAY_GROUP 64

@@ -140,15 +140,15 @@ bool same_way(SolidLabel a, SolidLabel b) {
 /// Labels from outside are of mixed domains.
 bool comes_in(SolidLabel label, uint t) { return false; }
 
-//@include plexway/propagate/solid_sight.inl
-//@include plexway/propagate/solid_paths.inl
-//@include plexway/propagate/solid_walk.inl
+//@include propagate/solid_sight.inl
+//@include propagate/solid_paths.inl
+//@include propagate/solid_walk.inl
 
 bool go(HINGE_INOUT(Index) t, HINGE_IN(Point) from, HINGE_IN(Point) to) {
   return walk(t, from, to);
 }
 
-//@include plexway/propagate/solid_step.inl
+//@include propagate/solid_step.inl
 
 /// Longest way from the centre to a corner.
 float size_of(uint t) {

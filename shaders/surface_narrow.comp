@@ -12,8 +12,8 @@ const int K = 1;
 #ifndef PLEXWAY_GROUP
 #define PLEXWAY_GROUP 64
 #endif
-//@include plexway/kernel/hinge_kernel.inl
-//@include plexway/propagate/saddle_step.inl
+//@include kernel/hinge_kernel.inl
+//@include propagate/saddle_step.inl
 //@include surface.glsl
 //@include front.glsl
 

@@ -16,6 +16,7 @@
 
 #include <plexway/any/field.hpp>
 #include <plexway/any/shape.hpp>
+#include <plexway/any/open_simplices.hpp>
 #include <plexway/apps/path.hpp>
 #include <plexway/apps/read_out.hpp>
 #include <plexway/executors/gl_executor.hpp>
@@ -45,6 +46,9 @@ struct BuildOptions {
   Triangulation triangulation = Triangulation::automatic;
   /// What its edges cost, by AnyShape::measure; null: their lengths in space, or those given.
   std::shared_ptr<const MeasuredLengths> lengths = nullptr;
+  /// Where no path may go, of surfaces, solids, wireframes and simplices; null: everywhere. Fields,
+  /// sources and paths keep the numbers of the shape.
+  std::shared_ptr<const Mask> mask = nullptr;
   /// Of clouds: called with the share that is done; returning false stops with Cancelled.
   std::function<bool(double)> progress = {};
 };
@@ -88,19 +92,24 @@ class AnyPathField {
 class AnyDomain {
  public:
   /// Throws InputError, after "FILE: " where the shape has a file, as the domains' constructors do,
-  /// and UsageError for a triangulation of what is no surface.
+  /// and where a mask leaves nothing; UsageError for a triangulation of what is no surface, and a
+  /// mask of another size.
   explicit AnyDomain(AnyShape shape, const BuildOptions& options = {});
   /// From a file; throws as AnyShape::read, too.
   [[nodiscard]] static AnyDomain read(const std::filesystem::path& file,
                                       const ReadOptions& reading = {},
                                       const BuildOptions& building = {});
 
+  /// The same shape, which is shared, with other walls; null: with none. The complex is built anew,
+  /// as walls decide where paths bend and which triangles are Delaunay. Throws as the constructor.
+  [[nodiscard]] AnyDomain masked(std::shared_ptr<const Mask> mask) const;
+
   /// Writes the shape and what was built of it to a file, mostly called NAME.plexway, which is read
   /// as any other (AnyShape::read) and then maps into memory instead of being built: fields have
   /// the same bits. Any number of processes may share its memory. The file is for this version of
   /// the library and for machines with this byte order; it has a checksum, and one that is foreign
   /// or damaged is refused (InputError). Where other BuildOptions are asked for the shape is built
-  /// anew. Surfaces, solids, wireframes and clouds, without a metric (UsageError); throws Error
+  /// anew. Surfaces, solids, wireframes and clouds, without a metric or a mask (UsageError); throws Error
   /// "cannot write FILE: reason". Size in single precision: 110 bytes a
   /// triangle, 150 on Delaunay triangles.
   void keep(const std::filesystem::path& file) const;
@@ -113,7 +122,8 @@ class AnyDomain {
   [[nodiscard]] Precision precision() const;
   /// Of the shape: fields have one distance each.
   [[nodiscard]] std::size_t vertices() const { return shape().vertices(); }
-  /// Of the domain: a cloud has triangles only here. Without those of a refinement.
+  /// Of the domain: a cloud has triangles only here. Without those of a refinement, and with those
+  /// that a mask closes.
   [[nodiscard]] std::size_t simplices() const;
   /// Parts that no path connects; of a mixed domain counted by its welds.
   [[nodiscard]] std::size_t components() const;
@@ -121,6 +131,8 @@ class AnyDomain {
   [[nodiscard]] double mean_edge() const;
   /// Edges of a surface where paths are refracted.
   [[nodiscard]] std::size_t refracting_edges() const;
+  /// Which of its simplices are open; null where all are.
+  [[nodiscard]] const OpenSimplices* open_simplices() const;
   /// What a cloud was made into, or null.
   [[nodiscard]] const CloudSummary* cloud() const;
   /// Which triangles a surface is solved on, at first: see AnyField::triangulation.
@@ -140,7 +152,8 @@ class AnyDomain {
   /// Where the triangulation was left open and the solve left more than a vertex in fifty to
   /// repair, the triangles of the input are tried as well. Points are those of the shape; curves
   /// and triangles lie in its triangles, so where those were to be others, UsageError, or if that
-  /// was left open, those of the shape.
+  /// was left open, those of the shape. UsageError for a point in a simplex that is masked; a vertex
+  /// behind the mask reaches itself.
   [[nodiscard]] AnyField solve(const AnyExecutor& executor, const SourceList& sources,
                                const PropagateOptions& options = {}) const;
   /// The same into a field whose memory is used again.

@@ -78,7 +78,7 @@ struct WorkspaceFor;
 
 }  // namespace detail
 
-/// The workspace of an executor on a kind of domain: Workspace, MixedWorkspace or GLWorkspace.
+/// The workspace of an executor on a kind of domain: Workspace or GLWorkspace.
 template <class E, class D>
 using WorkspaceOf = typename detail::WorkspaceFor<E, D>::type;
 

@@ -8,7 +8,6 @@
 #include <plexway/executors.hpp>
 #include <plexway/executors/fields.hpp>
 #include <plexway/propagate/distance_field.hpp>
-#include <plexway/propagate/mixed_workspace.hpp>
 #include <plexway/propagate/options.hpp>
 #include <plexway/propagate/workspace.hpp>
 #include <plexway/source/source_list.hpp>
@@ -32,10 +31,6 @@ concept OwnWorkspace = requires {
 template <class E, class D>
 struct WorkspaceFor {
   using type = Workspace<RealOf<D>>;
-};
-template <class E, class Real>
-requires(!OwnWorkspace<E>) struct WorkspaceFor<E, MixedComplex<Real>> {
-  using type = MixedWorkspace<Real>;
 };
 template <OwnWorkspace E, class D>
 struct WorkspaceFor<E, D> {

@@ -45,6 +45,10 @@ enum class SourceKind {
   X(refraction_visibility,                                                                         \
     "paths are refracted under Visibility::saddles only: use that, or build the surface with one " \
     "length an edge")                                                                              \
+  X(search_refraction,                                                                             \
+    "searches that end early, and samples, are not refracted: build the surface with one length "  \
+    "an edge")                                                                                     \
+  X(search_visibility, "searches that end early know the default visibility only: saddles")        \
   X(cloud_point, "a source on a cloud is a point by number, not a place in a triangle")            \
   X(point_of_five,                                                                                 \
     "a source in four dimensions must be a vertex: a point of a 4-simplex has five coordinates")   \
@@ -211,6 +215,15 @@ template <ExecutorType E, DomainType D>
   return {E::kind, D::kind, D::dimension, std::is_same_v<typename D::Number, float>,
           metric,  source,  visibility,   schedule,
           accuracy};
+}
+
+/// Do searches go no farther there than is asked (BoundedSearch, PathSearch, and the fields that
+/// samples grow)? Else why not.
+constexpr Support support_of_searches(MetricKind metric,
+                                      Visibility visibility = Visibility::saddles) {
+  if (metric == MetricKind::refracting) return Refusal::search_refraction;
+  if (visibility != Visibility::saddles) return Refusal::search_visibility;
+  return Refusal::nothing;
 }
 
 /// Is there anything that an executor solves on a domain?

@@ -39,7 +39,7 @@ from ._plexway import (
 )
 from ._domain import Domain
 from ._kinds import Cloud, Mixed, Simplicial, Solid, Surface, Wireframe
-from ._make import distance, domain, read
+from ._make import distance, domain, read, read_labels
 from ._metrics import EdgeLengths, SimplexSpeeds, SimplexTensors, VertexTensors
 from ._results import Cells, Disks, FarthestPoints, Field, Isosurfaces, Path, Picture, Points
 from ._sources import (
@@ -94,4 +94,5 @@ __all__ = [
     "distance",
     "domain",
     "read",
+    "read_labels",
 ]

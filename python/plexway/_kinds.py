@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, Dict, List, Optional, Sequence, Tuple
+from typing import TYPE_CHECKING, Any, Dict, List, Optional, Sequence, Tuple, Union
 
 import numpy as np
 
@@ -91,8 +91,45 @@ class _OfSimplices(Domain):
         _warn_of_violations(self)
 
 
+def _labels_in(mask: str) -> Tuple[str, List[int]]:
+    """What "FILE:3,7" says."""
+    file, _, numbers = mask.rpartition(":")
+    try:
+        labels = [int(number) for number in numbers.split(",")]
+    except ValueError:
+        labels = []
+    if not file or not labels:
+        raise ValueError(
+            f"mask {mask!r}: expected truth values, or labels that are left out: 'FILE:3,7'"
+        )
+    return file, labels
+
+
+def _without(found: Array, labels: List[int], file: str, what: str) -> Array:
+    """Where none of the labels is; each must be somewhere."""
+    for label in labels:
+        if label not in found:
+            raise _plexway.InputError(f"{file}: nothing has the {what} {label}")
+    left: Array = ~np.isin(found, labels)
+    return left
+
+
+class _Left:
+    """A mask of simplices, which needs no guess."""
+
+    def __init__(self, rows: Array) -> None:
+        self.rows = rows
+
+
 def _mask_of(mask: Any, rows: Array, vertices: int) -> Array:
     """Which simplices are left; by a mask of vertices those all of whose corners are."""
+    if isinstance(mask, _Left):
+        return mask.rows
+    if isinstance(mask, str):
+        file, labels = _labels_in(mask)
+        of_vertex = _without(_plexway.read_labels(file, vertices), labels, file, "label")
+        every: Array = of_vertex[rows].all(axis=1)
+        return every
     mask = np.asarray(mask)
     if mask.dtype.kind != "b" or mask.ndim != 1:
         raise ValueError("mask: expected truth values, one a vertex or one a simplex")
@@ -135,9 +172,10 @@ class Surface(_OfSimplices):
     metric : optional
         `SimplexSpeeds`, `SimplexTensors`, `VertexTensors`, `EdgeLengths`, or a function from a
         point to a symmetric 3 x 3 matrix.
-    mask : array_like of bool, shape (m,) or (n,), optional
-        Triangles that are left; or vertices, then triangles all of whose corners are. Numbers of
-        vertices and triangles stay.
+    mask : array_like of bool, shape (m,) or (n,), or str, optional
+        Triangles that are left; or vertices, then triangles all of whose corners are. Or labels
+        that are left out, 'FILE:3,7', of a file that gives each vertex one (see `read_labels`).
+        Numbers of vertices and triangles stay.
     precision : {'single', 'double'}
     triangulation : {'auto', 'input', 'delaunay', 'refined'}
         Which triangles over the same surface distances are found on.
@@ -161,7 +199,7 @@ class Surface(_OfSimplices):
         lengths: Optional[ArrayLike] = None,
         vertices: Optional[int] = None,
         metric: Any = None,
-        mask: Optional[ArrayLike] = None,
+        mask: Union[None, str, ArrayLike] = None,
         precision: str = "single",
         triangulation: str = "auto",
         progress: ProgressLike = None,
@@ -193,7 +231,7 @@ class Solid(_OfSimplices):
         lengths: Optional[ArrayLike] = None,
         vertices: Optional[int] = None,
         metric: Any = None,
-        mask: Optional[ArrayLike] = None,
+        mask: Union[None, str, ArrayLike] = None,
         precision: str = "single",
         progress: ProgressLike = None,
     ) -> None:
@@ -224,7 +262,7 @@ class Wireframe(_OfSimplices):
         lengths: Optional[ArrayLike] = None,
         vertices: Optional[int] = None,
         metric: Any = None,
-        mask: Optional[ArrayLike] = None,
+        mask: Union[None, str, ArrayLike] = None,
         precision: str = "single",
         progress: ProgressLike = None,
     ) -> None:
@@ -341,7 +379,7 @@ class Simplicial(Domain):
         *,
         lengths: Optional[ArrayLike] = None,
         vertices: Optional[int] = None,
-        mask: Optional[ArrayLike] = None,
+        mask: Union[None, str, ArrayLike] = None,
         precision: str = "single",
         progress: ProgressLike = None,
     ) -> None:

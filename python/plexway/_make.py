@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any, Dict, List, Optional, Type, Union
 import numpy as np
 
 from . import _plexway
-from ._arrays import Array
+from ._arrays import Array, whole
 from ._domain import _INFINITY, AccuracyLike, Domain, _warn_of_violations, _wrapped
 from ._interop import arrays_of, looks_like_mesh
 from ._kinds import (
@@ -18,8 +18,11 @@ from ._kinds import (
     Solid,
     Surface,
     Wireframe,
+    _labels_in,
+    _Left,
     _OfSimplices,
     _options_of,
+    _without,
 )
 from ._progress import Progress, ProgressLike
 from ._sources import Boundary, Polyline, Segment, WholeSimplex
@@ -44,6 +47,7 @@ def read(
     precision: str = "single",
     triangulation: str = "auto",
     metric: Any = None,
+    mask: Any = None,
     progress: ProgressLike = None,
     **options: Any,
 ) -> Domain:
@@ -60,6 +64,9 @@ def read(
         Of several files: vertices are one where they are this close.
     precision, triangulation, metric, progress
         As in `Surface`.
+    mask
+        As in `Surface`; 'regions:3,7' leaves out these regions of a .msh, .vtu or .vtk. Of
+        surfaces, solids and wireframes.
     **options
         Of clouds: k, neighbour_radius, max_normal_angle, smooth, denoise, deviations, voxel. Of
         surfaces that are filled: max_volume. Of level sets: voxel, grid, repair.
@@ -88,14 +95,64 @@ def read(
             float(tolerance),
             kind,
             **options,
-            **_options_of(precision, triangulation, metric, report),
+            **_options_of(precision, triangulation, metric if mask is None else None, report),
         )
+    if mask is not None:
+        return _read_masked(native, mask, metric, precision, triangulation, progress)
     made = _wrapped(_BY_KIND[native.kind], native)
     _warn_of_violations(made)
     if isinstance(made, Cloud):
         names = ("k", "neighbour_radius", "max_normal_angle", "smooth")
         made._neighbours = {name: options[name] for name in names if name in options}
     return made
+
+
+def _read_masked(
+    native: Any, mask: Any, metric: Any, precision: str, triangulation: str, progress: ProgressLike
+) -> Domain:
+    """What was read, built anew without what is masked."""
+    cls: Any = _BY_KIND[native.kind]
+    if not issubclass(cls, _OfSimplices):
+        raise TypeError(f"read: masks are for surfaces, solids and wireframes, not a {native.kind}")
+    if isinstance(mask, str) and mask.startswith("regions:"):
+        _, regions = _labels_in(mask)
+        mask = _Left(_without(native.regions(), regions, native.file, "region"))
+    given: Dict[str, Any] = {"metric": metric, "mask": mask, "precision": precision}
+    if cls is Surface:
+        given["triangulation"] = triangulation
+    if native.lengths is not None:
+        given.update(lengths=native.lengths, vertices=native.vertex_count)
+    return cls(  # type: ignore[no-any-return]
+        None if native.lengths is not None else native.positions,
+        native.simplices,
+        progress=progress,
+        **given,
+    )
+
+
+def read_labels(file: Union[str, os.PathLike[str]], vertices: int) -> Array:
+    """The label that a file gives each vertex of a surface.
+
+    Parameters
+    ----------
+    file : path
+        .label.gii (GIfTI, its first array), .annot (FreeSurfer: the numbers of its colour table, -1
+        for what has none), .label (FreeSurfer: 1 for the vertices that it lists, else 0); of any
+        other a whole number a line, one a vertex.
+    vertices : int
+        How many there are.
+
+    Returns
+    -------
+    ndarray of int64, shape (vertices,)
+
+    Raises
+    ------
+    InputError
+        For a file that is missing or malformed, or has not one a vertex.
+    """
+    labels: Array = _plexway.read_labels(os.fspath(file), whole(vertices, "vertices", 0))
+    return labels
 
 
 def domain(V: Any, simplices: Optional[ArrayLike] = None, *, kind: Optional[str] = None, **options: Any) -> Domain:

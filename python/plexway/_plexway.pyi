@@ -131,6 +131,7 @@ def from_parts(parts: Sequence[Any], tolerance: float, **options: Any) -> Domain
 def read(
     files: Sequence[str], tolerance: float, kind: Optional[str], **options: Any
 ) -> Domain: ...
+def read_labels(file: str, vertices: int) -> Array: ...
 def solve(
     domain: Domain,
     sources: Sequence[_Source],

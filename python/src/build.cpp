@@ -8,6 +8,7 @@
 #include <vector>
 
 #include <plexway/error.hpp>
+#include <plexway/io/labels.hpp>
 
 #include "arrays.hpp"
 #include "domain.hpp"
@@ -257,6 +258,9 @@ void bind_build(py::module_& module) {
   module.def("from_points", &from_points);
   module.def("from_parts", &from_parts);
   module.def("read", &read);
+  module.def("read_labels", [](const std::filesystem::path& file, std::size_t vertices) {
+    return owned(io::read_vertex_labels(file, vertices));
+  });
 }
 
 }  // namespace plexway::python

@@ -237,6 +237,7 @@ void bind_domain(py::module_& module) {
              return curve;
            })
       .def("boundary", &Domain::boundary)
+      .def("regions", [](const Domain& d) { return owned(d.shape().regions()); })
       .def("keep", [](const Domain& d, const std::filesystem::path& out) { d.any().keep(out); })
       .def("write_field", [](const Domain& d, const std::filesystem::path& out,
                              const py::object& distance, const py::object& label) {

@@ -1,9 +1,7 @@
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
 
-#include <array>
 #include <cstdint>
-#include <cstdio>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -14,7 +12,6 @@
 #include <plexway/any/pairs.hpp>
 #include <plexway/error.hpp>
 #include <plexway/io/write_pairs.hpp>
-#include <plexway/version.hpp>
 
 #include "arrays.hpp"
 #include "domain.hpp"
@@ -91,29 +88,14 @@ py::tuple near(const Domain& domain, std::vector<Source> given, const py::object
 io::BlockJournal::Description description_of(const Domain& domain, const Matrix& matrix,
                                              double radius, const std::string& what,
                                              const std::string& type) {
-  const BuildOptions& built = domain.options();
-  const Accuracy accuracy = matrix.request.solve.accuracy;
-  const auto number = [](double value) {
-    std::array<char, 32> text{};
-    std::snprintf(text.data(), text.size(), "%.17g", value);
-    return std::string(text.data());
-  };
-  io::Fingerprint columns;
-  columns.add_numbers(matrix.columns);
-  return {{"plexway", version_string},
-          {"input", fingerprint_of(domain.shape()) + " " + std::string(domain.shape().kind_name())},
-          {"metric", built.lengths ? fingerprint_of(*built.lengths) : "none"},
-          {"triangulation", std::to_string(static_cast<int>(built.triangulation))},
-          {"precision", matrix.any->precision() == Precision::twice ? "double" : "single"},
-          {"rows", std::to_string(matrix.request.rows->size()) + " " +
-                       fingerprint_of(*matrix.request.rows)},
-          {"columns", std::to_string(matrix.columns.size()) + " " + columns.text()},
-          {"accuracy",
-           std::to_string(static_cast<int>(accuracy.kind())) + " " + number(accuracy.error())},
-          {"visibility", matrix.arguments.visibility},
-          {"radius", number(radius)},
-          {"matrix", what},
-          {"type", type}};
+  BuildOptions building = domain.options();
+  building.precision = matrix.any->precision();
+  PairsRequest request = matrix.request;
+  request.solve.radius = radius;
+  auto lines = plexway::description_of(domain.shape(), building, request);
+  lines.emplace_back("matrix", what);
+  lines.emplace_back("type", type);
+  return lines;
 }
 
 std::size_t write_dense(const Matrix& matrix, const std::filesystem::path& out, std::size_t rows,

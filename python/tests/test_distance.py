@@ -199,6 +199,52 @@ def test_metrics():
     assert np.abs(d - 3 * straight(V, V[0])).max() < 1e-6
 
 
+def test_masks_by_labels_and_regions(tmp_path):
+    n = 12
+    V, F = meshes.grid(n)
+    labels = np.where(np.abs(V[:, 0] - 0.5) < 0.06, np.where(V[:, 1] < 0.7, 3, 7), 0)
+    wall = (labels == 3)
+    assert wall.any() and (labels == 7).any()
+    file = tmp_path / "parcels.txt"
+    np.savetxt(file, labels, fmt="%d")
+    assert np.array_equal(px.read_labels(file, len(V)), labels)
+    truth = px.Surface(V, F, mask=~wall).distance(0)
+    assert np.isinf(truth[wall]).all()
+    assert np.array_equal(px.Surface(V, F, mask=f"{file}:3").distance(0), truth)
+    both = px.distance(V, F, 0, mask=f"{file}:3,7")
+    assert np.isinf(both[V[:, 0] > 0.6]).all()
+
+    mesh = tmp_path / "sheet.vtk"
+    cells = "\n".join("3 %d %d %d" % tuple(f) for f in F)
+    region = np.where(V[F].mean(axis=1)[:, 0] < 0.5, 4, 9)
+    mesh.write_text(
+        "# vtk DataFile Version 3.0\nx\nASCII\nDATASET UNSTRUCTURED_GRID\n"
+        f"POINTS {len(V)} double\n"
+        + "\n".join("%.17g %.17g %.17g" % tuple(np.append(v, 0)[:3]) for v in V)
+        + f"\nCELLS {len(F)} {4 * len(F)}\n{cells}\nCELL_TYPES {len(F)}\n" + "5\n" * len(F)
+        + f"CELL_DATA {len(F)}\nSCALARS region int 1\nLOOKUP_TABLE default\n"
+        + "\n".join(map(str, region)) + "\n"
+    )
+    read = px.read(mesh, mask=f"{file}:3")
+    assert np.array_equal(read.distance(0), truth)
+    left = px.read(mesh, mask="regions:9", precision="double")
+    assert np.array_equal(
+        left.distance(0), px.Surface(V, F, mask=region == 4, precision="double").distance(0)
+    )
+    for wrong, error, text in (
+        (f"{file}:8", px.InputError, "nothing has the label 8"),
+        (f"{file}", ValueError, "FILE:3,7"),
+        ("regions:5", px.InputError, "region 5"),
+        (tmp_path.name, ValueError, "FILE:3,7"),
+    ):
+        with pytest.raises(error, match=text):
+            px.read(mesh, mask=wrong)
+    cloud = tmp_path / "c.xyz"
+    np.savetxt(cloud, np.random.default_rng(1).random((60, 3)))
+    with pytest.raises((TypeError, px.NotBuilt)):
+        px.read(cloud, mask=f"{file}:3")
+
+
 def test_mask():
     # A wall in the middle of the sheet with a gap at the top: the way bends once at its corner.
     n = 20

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "any/inside.hpp"
 #include "any/kept_build.hpp"
 #include "any/prepared.hpp"
 #include "any/shape_state.hpp"
@@ -26,10 +27,16 @@ struct AnyDomain::State {
 AnyDomain::AnyDomain(AnyShape shape, const BuildOptions& options) {
   const Stopwatch building;
   auto prepared = with_file_name(shape, [&] { return prepare(shape, options); });
-  state_ = std::make_shared<const State>(
-      State{std::move(shape), std::move(prepared),
-            BuildOptions{options.precision, options.triangulation, options.lengths, {}},
-            building.seconds()});
+  state_ = std::make_shared<const State>(State{
+      std::move(shape), std::move(prepared),
+      BuildOptions{options.precision, options.triangulation, options.lengths, options.mask, {}},
+      building.seconds()});
+}
+
+AnyDomain AnyDomain::masked(std::shared_ptr<const Mask> mask) const {
+  BuildOptions options = state_->options;
+  options.mask = std::move(mask);
+  return AnyDomain(shape(), options);
 }
 
 void AnyDomain::keep(const std::filesystem::path& file) const {
@@ -46,7 +53,10 @@ AnyDomain AnyDomain::read(const std::filesystem::path& file, const ReadOptions& 
 
 const AnyShape& AnyDomain::shape() const { return state_->shape; }
 Precision AnyDomain::precision() const { return state_->prepared->precision(); }
-std::size_t AnyDomain::simplices() const { return state_->prepared->simplices(); }
+std::size_t AnyDomain::simplices() const {
+  return open_simplices() != nullptr ? shape().simplices() : state_->prepared->simplices();
+}
+const OpenSimplices* AnyDomain::open_simplices() const { return state_->prepared->open(); }
 std::size_t AnyDomain::components() const { return state_->prepared->components(); }
 double AnyDomain::mean_edge() const { return state_->prepared->mean_edge(); }
 std::size_t AnyDomain::refracting_edges() const { return state_->prepared->refracting_edges(); }
@@ -73,7 +83,9 @@ AnyField AnyDomain::solve(const AnyExecutor& executor, const SourceList& sources
 
 void AnyDomain::solve(const AnyExecutor& executor, const SourceList& sources,
                       const PropagateOptions& options, AnyField& field) const {
-  with_file_name(shape(), [&] { state_->prepared->solve(executor, sources, options, field); });
+  const Inside inside(open_simplices(), sources);
+  with_file_name(shape(),
+                 [&] { state_->prepared->solve(executor, inside.list(), options, field); });
 }
 
 namespace {
@@ -149,8 +161,10 @@ bool AnyDomain::solve_each(const AnyExecutor& executor, const SourceList& source
 AnyPathField AnyDomain::path_field(const AnyExecutor& executor,
                                    std::span<const PointSource> sources,
                                    const PropagateOptions& options) const {
-  return AnyPathField(with_file_name(
-      shape(), [&] { return state_->prepared->path_field(executor, sources, options); }));
+  const Inside inside(open_simplices(), sources);
+  return AnyPathField(with_file_name(shape(), [&] {
+    return state_->prepared->path_field(executor, inside.list().points(), options);
+  }));
 }
 
 const AnyField& AnyPathField::field() const { return state_->field; }
@@ -170,5 +184,15 @@ std::vector<std::array<double, 3>> AnyPathField::gradient() const { return state
 std::size_t AnyPathField::bytes() const { return state_->bytes(); }
 
 AnyComplex complex_of(const AnyDomain& domain) { return domain.state().prepared->complex(); }
+
+RowComplex row_complex(const AnyDomain& domain, std::span<const PointSource> rows) {
+  std::vector<PointSource> inside(rows.begin(), rows.end());
+  if (const OpenSimplices* const open = domain.open_simplices())
+    for (PointSource& row : inside) row = open->inside(row);
+  RowComplex found = domain.state().prepared->row_complex(std::move(inside));
+  if (std::holds_alternative<std::monostate>(found.complex))
+    found.rows.assign(rows.begin(), rows.end());
+  return found;
+}
 
 }  // namespace plexway

@@ -1,9 +1,14 @@
 #include <array>
+#include <cmath>
 #include <string>
+#include <string_view>
 #include <variant>
 
 #include <plexway/any/pairs.hpp>
 #include <plexway/io/block_journal.hpp>
+#include <plexway/version.hpp>
+
+#include "any/exact_number.hpp"
 
 namespace plexway {
 namespace {
@@ -40,6 +45,37 @@ void add(Fingerprint& print, const SimplexSource& source) {
   print.add_numbers(std::array{source.offset});
 }
 
+template <class Numbers>
+std::string fingerprint_of_numbers(const Numbers& numbers) {
+  Fingerprint print;
+  print.add_numbers(numbers);
+  return print.text();
+}
+
+// In the order of Visibility, Schedule and Triangulation.
+constexpr std::array<std::string_view, 4> visibilities = {"saddles", "tuned", "centroid",
+                                                          "upper_bound"};
+constexpr std::array<std::string_view, 3> schedules = {"dual_queue", "fifo", "priority"};
+constexpr std::array<std::string_view, 4> triangulations = {"input", "delaunay", "refined", "auto"};
+template <class Names, class Enum>
+std::string name_in(const Names& names, Enum value) {
+  return std::string(names[static_cast<std::size_t>(value)]);
+}
+
+std::string text_of(Accuracy accuracy) {
+  switch (accuracy.kind()) {
+    case Accuracy::Kind::usual:
+      return "usual";
+    case Accuracy::Kind::fast:
+      return "fast";
+    case Accuracy::Kind::exact:
+      return "exact";
+    case Accuracy::Kind::merged:
+      break;
+  }
+  return accuracy == Accuracy::accurate() ? "accurate" : exact_number(accuracy.error());
+}
+
 }  // namespace
 
 std::string fingerprint_of(const MeasuredLengths& lengths) {
@@ -72,6 +108,13 @@ std::string fingerprint_of(const AnyShape& shape) {
   return print.text();
 }
 
+std::string fingerprint_of(const Mask& mask) {
+  Fingerprint print;
+  print.add_numbers(mask.closed_vertices());
+  print.add_numbers(mask.closed_simplices());
+  return print.text();
+}
+
 std::string fingerprint_of(const SourceList& sources) {
   Fingerprint print;
   if (sources.only_points()) {
@@ -83,6 +126,29 @@ std::string fingerprint_of(const SourceList& sources) {
     std::visit([&](const auto& of) { add(print, of); }, source);
   }
   return print.text();
+}
+
+io::BlockJournal::Description description_of(const AnyShape& shape, const BuildOptions& building,
+                                             const PairsRequest& request) {
+  const PropagateOptions& solve = request.solve;
+  io::BlockJournal::Description lines = {
+      {"plexway", version_string},
+      {"input", fingerprint_of(shape) + " " + std::string(shape.kind_name())},
+      {"rows", std::to_string(request.row_count(shape.vertices())) + " " +
+                   (request.rows ? fingerprint_of(*request.rows) : "all")},
+      {"columns", std::to_string(request.column_count(shape.vertices())) + " " +
+                      fingerprint_of_numbers(request.columns)},
+      {"precision", building.precision == Precision::twice ? "double" : "float"},
+      {"accuracy", text_of(solve.accuracy)},
+      {"visibility", name_in(visibilities, solve.visibility)},
+      {"schedule", name_in(schedules, solve.schedule) + " " + exact_number(solve.step)},
+      {"triangulation", name_in(triangulations, building.triangulation)}};
+  if (solve.visibility == Visibility::tuned)
+    lines.emplace_back("table", fingerprint_of_numbers(solve.probe.share));
+  if (building.lengths) lines.emplace_back("metric", fingerprint_of(*building.lengths));
+  if (building.mask) lines.emplace_back("mask", fingerprint_of(*building.mask));
+  if (std::isfinite(solve.radius)) lines.emplace_back("radius", exact_number(solve.radius));
+  return lines;
 }
 
 }  // namespace plexway

@@ -153,7 +153,7 @@ bool is_sound(const AnyShape::State& state) {
 }  // namespace
 
 bool KeptBuild::answers(const BuildOptions& options) const {
-  return options.lengths == nullptr && options.precision == precision &&
+  return options.lengths == nullptr && options.mask == nullptr && options.precision == precision &&
          (!is_surface || options.triangulation == triangulation);
 }
 
@@ -166,6 +166,8 @@ void write_kept_shape(KeptOut& out, const AnyShape& shape, const BuildOptions& o
     throw UsageError(
         "a domain measured by a metric cannot be kept: its shape does not tell the "
         "lengths");
+  if (options.mask != nullptr)
+    throw UsageError("a domain with a mask cannot be kept: keep it without, and mask it then");
   const AnyShape::State& state = shape.state();
   DomainKind kind = shape.kind();
   Precision precision = options.precision;
@@ -210,6 +212,12 @@ AnyShape::State read_kept_build(const std::filesystem::path& file) {
   state.file = file;
   state.load_seconds = loading.seconds();
   return state;
+}
+
+AnyShape read_kept_for(const std::filesystem::path& file, const std::filesystem::path& name) {
+  AnyShape::State state = read_kept_build(file);
+  state.file = name;
+  return AnyShape::of(std::move(state));
 }
 
 }  // namespace plexway

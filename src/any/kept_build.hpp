@@ -28,6 +28,9 @@ struct KeptBuild {
 /// The shape in such a file, and the build. Throws InputError "FILE: cause" for a file that is
 /// none, foreign or damaged.
 [[nodiscard]] AnyShape::State read_kept_build(const std::filesystem::path& file);
+/// The same for a file that stands for another one, which messages name.
+[[nodiscard]] AnyShape read_kept_for(const std::filesystem::path& file,
+                                     const std::filesystem::path& name);
 /// Of what KeptIn reads.
 [[nodiscard]] AnyShape::State read_kept_build(KeptIn in);
 

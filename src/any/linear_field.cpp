@@ -37,6 +37,7 @@ class LinearField final : public AnyPathField::State {
     where.offset = 0;
     check_source(where, {shape_.vertices(), shape_.simplices(), "simplex", 4});
     if (where.vertex != none) return field[where.vertex];
+    if (const OpenSimplices* const open = domain_->open()) static_cast<void>(open->inside(where));
     const auto corners = shape_.corners(where.simplex);
     double sum = 0;
     for (std::size_t i = 0; i < where.barycentric.size(); ++i) {
@@ -55,7 +56,9 @@ class LinearField final : public AnyPathField::State {
     const auto positions = shape_.positions();
     if (positions.empty()) throw UsageError("directions in space need positions");
     std::vector<std::array<double, 3>> all(shape_.simplices(), {0, 0, 0});
+    const OpenSimplices* const open = domain_->open();
     for (std::size_t s = 0; s < all.size(); ++s) {
+      if (open != nullptr && open->inside(static_cast<Index>(s)) == none) continue;
       const auto corners = shape_.corners(s);
       std::array<Point3, 3> axis{};
       Point3 sum{};

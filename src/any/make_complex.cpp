@@ -25,7 +25,7 @@ template <class Real>
 TriangulatedSurface<Real> triangulated(std::optional<Retriangulation> asked,
                                        const io::Triangles& surface, const Making& making) {
   if (making.lengths == nullptr)
-    return triangulate<Real>(surface.positions, surface.triangles, asked);
+    return triangulate<Real>(surface.positions, making.open(surface.triangles), asked);
   TriangleMesh<Real> mesh = make_complex<Real>(surface, making);
   const Retriangulation done = asked ? *asked : what_pays(measure_triangulation(mesh));
   if (done == Retriangulation::keep) return {std::move(mesh), std::nullopt, done};

@@ -1,10 +1,15 @@
 #pragma once
 
+#include <array>
 #include <functional>
 #include <optional>
+#include <span>
+#include <utility>
+#include <vector>
 
 #include <plexway/any/field.hpp>
 #include <plexway/any/shape.hpp>
+#include <plexway/complex/mask.hpp>
 #include <plexway/complex/intrinsic_delaunay.hpp>
 #include <plexway/domain/domains.hpp>
 
@@ -16,32 +21,68 @@ constexpr Triangulation named(Retriangulation done) {
                                           : Triangulation::refined;
 }
 
+/// Rows of what is open: some of their own, or all as they lie there.
+template <class Row>
+class OpenRows {
+ public:
+  OpenRows(const std::vector<Row>& all) : rows_(all) {}
+  OpenRows(std::vector<Row>&& some) : some_(std::move(some)), rows_(some_) {}
+  OpenRows(const OpenRows&) = delete;
+  OpenRows& operator=(const OpenRows&) = delete;
+
+  operator std::span<const Row>() const { return rows_; }
+
+ private:
+  std::vector<Row> some_;
+  std::span<const Row> rows_;
+};
+
 /// What a complex is made of.
 struct Making {
   const AnyShape& shape;
   const MeasuredLengths* lengths = nullptr;  ///< by a metric, or those alone; null: in space
+  const Mask* mask = nullptr;                ///< null: all is open
   std::function<bool(double)> progress = {};
+
+  /// Those of the shape that are open.
+  template <std::size_t N>
+  [[nodiscard]] OpenRows<std::array<Index, N>> open(
+      const std::vector<std::array<Index, N>>& simplices) const {
+    if (mask == nullptr) return simplices;
+    return mask->open(simplices);
+  }
+  /// What belongs to them.
+  template <std::size_t N, class Row>
+  [[nodiscard]] OpenRows<Row> open(const std::vector<std::array<Index, N>>& simplices,
+                                   const std::vector<Row>& rows) const {
+    if (mask == nullptr) return rows;
+    return mask->open_rows(std::span<const std::array<Index, N>>(simplices), rows);
+  }
 };
 
 // The complex of each kind of shape. Each is built in place: complexes are not to be copied.
 template <class Real>
 TriangleMesh<Real> make_complex(const io::Triangles& surface, const Making& making) {
-  if (making.lengths == nullptr) return {surface.positions, surface.triangles};
+  const auto open = making.open(surface.triangles);
+  if (making.lengths == nullptr) return {surface.positions, open};
   SurfaceHints hints;
   hints.refracts = making.lengths->refracts;
-  return {making.shape.vertices(), surface.triangles, making.lengths->triangles, hints};
+  return {making.shape.vertices(), open,
+          making.open(surface.triangles, making.lengths->triangles), hints};
 }
 template <class Real>
 TetMesh<Real> make_complex(const io::Tets& solid, const Making& making) {
-  if (making.lengths == nullptr) return {solid.positions, solid.tets};
-  return {making.shape.vertices(), solid.tets, making.lengths->tets};
+  const auto open = making.open(solid.tets);
+  if (making.lengths == nullptr) return {solid.positions, open};
+  return {making.shape.vertices(), open, making.open(solid.tets, making.lengths->tets)};
 }
 template <class Real>
 Wireframe<Real> make_complex(const io::Edges& wireframe, const Making& making) {
-  if (making.lengths != nullptr)
-    return {wireframe.vertices, wireframe.edges, making.lengths->edges};
-  if (wireframe.lengths.empty()) return {wireframe.positions, wireframe.edges};
-  return {wireframe.vertices, wireframe.edges, wireframe.lengths};
+  const auto open = making.open(wireframe.edges);
+  if (making.lengths == nullptr && wireframe.lengths.empty()) return {wireframe.positions, open};
+  return {wireframe.vertices, open,
+          making.open(wireframe.edges,
+                      making.lengths != nullptr ? making.lengths->edges : wireframe.lengths)};
 }
 template <class Real>
 PointCloud<Real> make_complex(const CloudShape& cloud, const Making& making) {

@@ -1,36 +1,19 @@
 #include "any/pair_tables.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 
 #include <plexway/error.hpp>
-#include <plexway/io/triangles.hpp>
+#include <plexway/io/labels.hpp>
 
-#include "any/words.hpp"
 #include "io/extension.hpp"
 #include "io/npy_header.hpp"
-#include "io/number_rows.hpp"
 #include "io/output_file.hpp"
 
 namespace plexway {
 
 ParcelLabels read_parcels(const std::string& file, std::size_t vertices) {
-  std::vector<std::int64_t> label;
-  const bool gifti = io::lower_extension(file) == ".gii";
-  if (gifti)
-    for (const std::int32_t l : io::read_gifti_labels(file)) label.push_back(l);
-  if (!gifti)
-    for (const io::NumberRow& row :
-         io::read_number_rows(file, 1, 1, "a whole number a line, one a vertex")) {
-      const double value = row.numbers[0];
-      if (value != std::floor(value) || std::abs(value) > 9e15)
-        io::fail_at(file, row, "not a whole number: " + short_number(value));
-      label.push_back(static_cast<std::int64_t>(value));
-    }
-  if (label.size() != vertices)
-    throw InputError(file + ": " + std::to_string(label.size()) + " labels, but there are " +
-                     std::to_string(vertices) + " vertices");
+  const std::vector<std::int64_t> label = io::read_vertex_labels(file, vertices);
   ParcelLabels found;
   for (const std::int64_t l : label)
     if (l >= 0) found.labels.push_back(l);

@@ -25,7 +25,7 @@ struct ParcelLabels {
             const std::string& file);
 };
 
-/// A whole number a line, one a vertex; below 0 is none. Throws InputError.
+/// As io::read_vertex_labels; below 0 is none. Throws InputError.
 [[nodiscard]] ParcelLabels read_parcels(const std::string& file, std::size_t vertices);
 
 /// Means over the rows of each parcel: .npy, or .csv with the labels in front.

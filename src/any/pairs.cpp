@@ -9,6 +9,7 @@
 #include <plexway/any/complex.hpp>
 #include <plexway/error.hpp>
 
+#include "any/inside.hpp"
 #include "apps/row_work.hpp"
 
 namespace plexway {
@@ -90,10 +91,15 @@ PairsReport near_pairs(const AnyExecutor& executor, const AnyDomain& domain,
                        sink.row(row, entries);
                      });
   }
+  // Rows are found in the complex itself.
+  const Inside inside(domain.open_simplices(),
+                      request.rows.value_or(std::span<const PointSource>()));
+  PairsRequest within = request;
+  if (request.rows) within.rows = inside.list();
   return by(executor, [&](const auto& with) {
     return with_complex(domain, [&](const auto& complex) {
       using Real = RealOf<std::decay_t<decltype(complex)>>;
-      return near_pairs(with, complex, request, limits,
+      return near_pairs(with, complex, within, limits,
                         {[&](std::size_t row, SparseRow<Real> near) {
                            std::vector<NearEntry<double>> entries;
                            entries.reserve(near.size());

@@ -68,7 +68,8 @@ class PathsOf final : public AnyPathField::State {
       paths_.adopt(std::get<DistanceField<Real>>(field.data), sources_);
   }
 
-  Path trace(const PointSource& point, const TraceOptions& options) const override {
+  Path trace(const PointSource& outside, const TraceOptions& options) const override {
+    const PointSource point = inside(outside);
     Path path = paths_.trace(point, options);
     // Labels on the triangles of the path lead closer to it than distances of vertices do.
     if (adopted_ && field.accuracy() == Accuracy::fast() && path.source != none &&
@@ -76,6 +77,9 @@ class PathsOf final : public AnyPathField::State {
       Path other = with_labels().trace(point, options);
       if (other.source != none && length(other) < length(path)) path = std::move(other);
     }
+    if (const OpenSimplices* const open = keep_->open())
+      for (PathPoint& at : path.points)
+        if (at.simplex != none) at.simplex = open->outside(at.simplex);
     if (measured_ && !shape_.positions().empty() && shape_.cloud() == nullptr) {
       path.positions.clear();
       for (const PathPoint& at : path.points)
@@ -85,8 +89,9 @@ class PathsOf final : public AnyPathField::State {
     return path;
   }
 
-  double at(const PointSource& point, ReadOut level) const override {
-    if constexpr (requires { paths_.at(point, level); }) {
+  double at(const PointSource& outside, ReadOut level) const override {
+    if constexpr (requires { paths_.at(outside, level); }) {
+      const PointSource point = inside(outside);
       if (level == ReadOut::linear) return paths_.at(point, level);
       // Windows are asked where they are.
       if (adopted_ && field.accuracy() != Accuracy::fast())
@@ -97,9 +102,14 @@ class PathsOf final : public AnyPathField::State {
   }
 
   std::vector<std::array<double, 3>> gradient() const override {
-    if constexpr (requires { paths_.gradient(); })
-      return with_labels().gradient();
-    else
+    if constexpr (requires { paths_.gradient(); }) {
+      std::vector<std::array<double, 3>> found = with_labels().gradient();
+      const OpenSimplices* const open = keep_->open();
+      if (open == nullptr) return found;
+      std::vector<std::array<double, 3>> all(shape_.simplices(), {0, 0, 0});
+      for (Index s = 0; s < found.size(); ++s) all[open->outside(s)] = found[s];
+      return all;
+    } else
       throw UsageError("a cloud has distances at its points only");
   }
 
@@ -108,6 +118,11 @@ class PathsOf final : public AnyPathField::State {
   }
 
  private:
+  PointSource inside(const PointSource& point) const {
+    const OpenSimplices* const open = keep_->open();
+    return open == nullptr ? point : open->inside(point);
+  }
+
   void remember(const AnyExecutor& executor, std::span<const PointSource> sources,
                 const PropagateOptions& options) {
     executor_ = executor;

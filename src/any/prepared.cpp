@@ -51,6 +51,7 @@ class PreparedSurface final : public PreparedKind<TriangleMesh<Real>> {
       : Base(shape, lengths != nullptr),
         kept_(options.lengths),
         lengths_(lengths),
+        mask_(options.mask),
         left_open_(options.triangulation == Triangulation::automatic),
         made_(make_surface<Real>(options.triangulation, making(), report_)) {}
   PreparedSurface(const AnyShape& shape, Triangulation asked, KeptIn& in)
@@ -79,6 +80,11 @@ class PreparedSurface final : public PreparedKind<TriangleMesh<Real>> {
            (input_ ? input_->bytes() : 0);
   }
   AnyComplex complex() const override { return &input(); }
+  RowComplex row_complex(std::vector<PointSource> points) const override {
+    if (made_.delaunay)
+      for (PointSource& point : points) point = moved(point);
+    return {&made_.mesh, std::move(points)};
+  }
 
   void solve(const AnyExecutor& executor, const SourceList& sources,
              const PropagateOptions& options, AnyField& field) const override {
@@ -122,7 +128,7 @@ class PreparedSurface final : public PreparedKind<TriangleMesh<Real>> {
   }
 
  private:
-  [[nodiscard]] Making making() const { return {this->shape_, lengths_}; }
+  [[nodiscard]] Making making() const { return {this->shape_, lengths_, mask_.get()}; }
   static TriangulatedSurface<Real> open(KeptIn& in, TriangulationReport& report) {
     std::uint32_t done = 0;
     bool delaunay = false;
@@ -187,6 +193,7 @@ class PreparedSurface final : public PreparedKind<TriangleMesh<Real>> {
 
   std::shared_ptr<const MeasuredLengths> kept_;
   const MeasuredLengths* lengths_;
+  std::shared_ptr<const Mask> mask_;
   bool left_open_;
   TriangulationReport report_;
   TriangulatedSurface<Real> made_;
@@ -201,13 +208,17 @@ class PreparedMixed final : public PreparedKind<MixedComplex<Real>> {
   using Base = PreparedKind<MixedComplex<Real>>;
 
  public:
-  PreparedMixed(const AnyShape& shape, const MixedShape& mixed, const MeasuredLengths* lengths)
-      : Base(shape, lengths != nullptr),
-        pieces_(mixed, lengths == nullptr ? std::span<const double>() : lengths->speeds) {
-    count_components();
+  /// `speeds` are one a simplex of `mixed`, or none: 1 for all.
+  PreparedMixed(const AnyShape& shape, const MixedShape& mixed, std::span<const double> speeds,
+                const Mask* mask)
+      : Base(shape, !speeds.empty()), pieces_(mixed, speeds) {
+    count_components(mask);
   }
 
   std::size_t components() const override { return components_; }
+  RowComplex row_complex(std::vector<PointSource> points) const override {
+    return {std::monostate(), std::move(points)};
+  }
   std::size_t bytes() const override {
     return Base::bytes() + (pieces_.vertex.capacity() + pieces_.simplex.capacity()) * sizeof(Index);
   }
@@ -274,7 +285,7 @@ class PreparedMixed final : public PreparedKind<MixedComplex<Real>> {
   }
 
   // Of simplices that vertices join, or vertices that are one.
-  void count_components() {
+  void count_components(const Mask* mask) {
     std::vector<Index> up(pieces_.complex.vertex_count());
     for (Index v = 0; v < up.size(); ++v) up[v] = v;
     const auto top = [&](Index v) {
@@ -284,6 +295,7 @@ class PreparedMixed final : public PreparedKind<MixedComplex<Real>> {
     const auto join = [&](Index a, Index b) { up[top(a)] = top(b); };
     for (std::size_t s = 0; s < this->shape_.simplices(); ++s) {
       const auto corners = this->shape_.corners(s);
+      if (mask != nullptr && !mask->is_open(corners, s)) continue;
       for (const Index v : corners) join(pieces_.vertex[v], pieces_.vertex[corners[0]]);
     }
     for (const auto& [a, b] : pieces_.complex.outer_welds()) join(a, b);
@@ -297,51 +309,59 @@ class PreparedMixed final : public PreparedKind<MixedComplex<Real>> {
 };
 
 template <class Real, int N>
-std::shared_ptr<const Prepared> prepare_simplices(const AnyShape& shape) {
+std::shared_ptr<Prepared> prepare_simplices(const AnyShape& shape, const Mask* mask) {
   using Complex = SimplicialComplex<Real, N>;
   const auto& given = std::get<SimplexShape>(shape.data());
   constexpr std::size_t corners = N + 1, edges = SimplexLayout<N>::edges;
-  std::vector<typename Complex::Corners> simplices(given.corners.size() / corners);
-  for (std::size_t i = 0; i < given.corners.size(); ++i)
-    simplices[i / corners][i % corners] = given.corners[i];
+  const auto rows = [&](const auto& numbers, std::size_t width, auto row) {
+    std::vector<decltype(row)> open;
+    for (std::size_t s = 0; s < given.corners.size() / corners; ++s) {
+      if (mask != nullptr && !mask->is_open(shape.corners(s), s)) continue;
+      std::copy_n(numbers.begin() + static_cast<std::ptrdiff_t>(s * width), width, row.begin());
+      open.push_back(row);
+    }
+    return open;
+  };
+  const auto simplices = rows(given.corners, corners, typename Complex::Corners());
   return std::make_shared<PreparedPlain<Complex>>(shape, given.axes == 0, [&]() -> Complex {
     if (given.axes > 0) return {given.positions, given.axes, simplices};
-    std::vector<typename Complex::Lengths> lengths(simplices.size());
-    for (std::size_t i = 0; i < given.lengths.size(); ++i)
-      lengths[i / edges][i % edges] = given.lengths[i];
-    return {given.vertices, simplices, lengths};
+    return {given.vertices, simplices, rows(given.lengths, edges, typename Complex::Lengths())};
   });
 }
 
 template <class Real>
-std::shared_ptr<const Prepared> prepare_as(const AnyShape& shape, const BuildOptions& options) {
+std::shared_ptr<Prepared> prepare_as(const AnyShape& shape, const BuildOptions& options) {
   const MeasuredLengths* const lengths = options.lengths ? options.lengths.get() : shape.lengths();
-  const Making making{shape, lengths, options.progress};
+  const Making making{shape, lengths, options.mask.get(), options.progress};
   return std::visit(
-      [&](const auto& data) -> std::shared_ptr<const Prepared> {
+      [&](const auto& data) -> std::shared_ptr<Prepared> {
         using Data = std::decay_t<decltype(data)>;
         if constexpr (std::is_same_v<Data, io::Triangles>) {
           return std::make_shared<PreparedSurface<Real>>(shape, options, lengths);
         } else if constexpr (std::is_same_v<Data, MixedShape>) {
-          return std::make_shared<PreparedMixed<Real>>(shape, data, lengths);
+          return std::make_shared<PreparedMixed<Real>>(
+              shape, data, lengths == nullptr ? std::span<const double>() : lengths->speeds,
+              nullptr);
         } else if constexpr (std::is_same_v<Data, SimplexShape>) {
           switch (data.dimension) {
             case 1:
-              return prepare_simplices<Real, 1>(shape);
+              return prepare_simplices<Real, 1>(shape, making.mask);
             case 2:
-              return prepare_simplices<Real, 2>(shape);
+              return prepare_simplices<Real, 2>(shape, making.mask);
             case 3:
-              return prepare_simplices<Real, 3>(shape);
+              return prepare_simplices<Real, 3>(shape, making.mask);
             default:
-              return prepare_simplices<Real, 4>(shape);
+              return prepare_simplices<Real, 4>(shape, making.mask);
           }
         } else {
           if constexpr (std::is_same_v<Data, io::Tets>)
             if (lengths != nullptr && lengths->refracts) {
               MixedShape regions;
               regions.positions = data.positions;
-              regions.parts.push_back({.tets = data.tets});
-              return std::make_shared<PreparedMixed<Real>>(shape, regions, lengths);
+              regions.parts.emplace_back().tets =
+                  making.mask == nullptr ? data.tets : making.mask->open(data.tets);
+              return std::make_shared<PreparedMixed<Real>>(
+                  shape, regions, making.open(data.tets, lengths->speeds), making.mask);
             }
           using Complex = decltype(make_complex<Real>(data, making));
           return std::make_shared<PreparedPlain<Complex>>(
@@ -352,7 +372,7 @@ std::shared_ptr<const Prepared> prepare_as(const AnyShape& shape, const BuildOpt
 }
 
 template <class Complex>
-std::shared_ptr<const Prepared> open_plain(const AnyShape& shape, KeptIn& in) {
+std::shared_ptr<Prepared> open_plain(const AnyShape& shape, KeptIn& in) {
   auto opened = std::make_shared<PreparedPlain<Complex>>(
       shape, shape.lengths() != nullptr, [&] { return KeptParts::open<Complex>(in); });
   in.require(opened->fits(shape));
@@ -361,9 +381,9 @@ std::shared_ptr<const Prepared> open_plain(const AnyShape& shape, KeptIn& in) {
 
 // What is built already.
 template <class Real>
-std::shared_ptr<const Prepared> open_as(const AnyShape& shape, const KeptBuild& kept) {
+std::shared_ptr<Prepared> open_as(const AnyShape& shape, const KeptBuild& kept) {
   KeptIn in = kept.complex;
-  std::shared_ptr<const Prepared> opened;
+  std::shared_ptr<Prepared> opened;
   switch (shape.kind()) {
     case DomainKind::surface:
       opened = std::make_shared<PreparedSurface<Real>>(shape, kept.triangulation, in);
@@ -398,8 +418,13 @@ std::shared_ptr<const Prepared> prepare(const AnyShape& shape, const BuildOption
   if (const KeptBuild* const kept = shape.state().kept.get(); kept && kept->answers(options))
     return options.precision == Precision::single ? open_as<float>(shape, *kept)
                                                   : open_as<double>(shape, *kept);
-  return options.precision == Precision::single ? prepare_as<float>(shape, options)
-                                                : prepare_as<double>(shape, options);
+  std::unique_ptr<const OpenSimplices> open;
+  if (options.mask) open = std::make_unique<const OpenSimplices>(*options.mask, shape);
+  std::shared_ptr<Prepared> made = options.precision == Precision::single
+                                       ? prepare_as<float>(shape, options)
+                                       : prepare_as<double>(shape, options);
+  made->open_ = std::move(open);
+  return made;
 }
 
 }  // namespace plexway

@@ -6,6 +6,7 @@
 #include <plexway/any/complex.hpp>
 #include <plexway/any_domain.hpp>
 
+#include "any/row_complex.hpp"
 #include "complex/kept_archive.hpp"
 
 namespace plexway {
@@ -27,6 +28,9 @@ class Prepared : public std::enable_shared_from_this<Prepared> {
   Prepared(const Prepared&) = delete;
   Prepared& operator=(const Prepared&) = delete;
 
+  /// Which simplices of the shape the complex has, whose numbers are theirs inside; null: all.
+  [[nodiscard]] const OpenSimplices* open() const { return open_.get(); }
+
   [[nodiscard]] virtual Precision precision() const = 0;
   [[nodiscard]] virtual std::size_t simplices() const = 0;
   [[nodiscard]] virtual std::size_t components() const = 0;
@@ -41,7 +45,13 @@ class Prepared : public std::enable_shared_from_this<Prepared> {
   [[nodiscard]] virtual MetricKind metric() const = 0;
   [[nodiscard]] virtual Combination combination(ExecutorKind executor) const = 0;
   [[nodiscard]] virtual AnyComplex complex() const = 0;
+  /// What `solve` takes for points of the complex.
+  [[nodiscard]] virtual RowComplex row_complex(std::vector<PointSource> points) const {
+    return {complex(), std::move(points)};
+  }
 
+  /// Sources are in the complex: see `open`. So in path_field; what is asked of that is in the
+  /// shape.
   virtual void solve(const AnyExecutor& executor, const SourceList& sources,
                      const PropagateOptions& options, AnyField& field) const = 0;
   /// The complex alone.
@@ -49,6 +59,12 @@ class Prepared : public std::enable_shared_from_this<Prepared> {
   [[nodiscard]] virtual std::shared_ptr<const AnyPathField::State> path_field(
       const AnyExecutor& executor, std::span<const PointSource> sources,
       const PropagateOptions& options) const = 0;
+
+ private:
+  friend std::shared_ptr<const Prepared> prepare(const AnyShape& shape,
+                                                 const BuildOptions& options);
+
+  std::unique_ptr<const OpenSimplices> open_;
 };
 
 struct AnyPathField::State {

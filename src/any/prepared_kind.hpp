@@ -50,10 +50,7 @@ struct SolveRoom {
 
   [[nodiscard]] std::size_t bytes() const {
     std::size_t sum = other.distance.capacity() * sizeof(RealOf<Complex>);
-    if constexpr (requires { workspace.bytes(); })
-      sum += workspace.bytes();
-    else
-      for (const auto& piece : workspace.pieces) sum += piece.bytes();
+    sum += workspace.bytes();
 #ifdef PLEXWAY_HAS_GL
     sum += gl.bytes();
 #endif

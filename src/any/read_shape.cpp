@@ -381,7 +381,9 @@ AnyShape AnyShape::read(std::span<const std::filesystem::path> files, double tol
 }
 
 AnyShape AnyShape::read(const std::filesystem::path& file, const ReadOptions& options) {
-  return AnyShape(std::make_shared<State>(Reading(file.string(), options).read()));
+  return of(Reading(file.string(), options).read());
 }
+
+AnyShape AnyShape::of(State state) { return AnyShape(std::make_shared<State>(std::move(state))); }
 
 }  // namespace plexway

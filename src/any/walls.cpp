@@ -7,10 +7,9 @@
 #include <limits>
 #include <vector>
 
-#include <plexway/complex/box_tree.hpp>
-
 #include "any/closest_point.hpp"
 #include "any/solid_boundary.hpp"
+#include "complex/box_tree.hpp"
 
 namespace plexway {
 namespace {

@@ -7,26 +7,28 @@
 #include <utility>
 
 #include <plexway/error.hpp>
-#include <plexway/propagate/saddle_rule.hpp>
-#include <plexway/propagate/wavefront.hpp>
 
 #include "apps/logged_queue.hpp"
 #include "executors/checks.hpp"
 #include "propagate/finish.hpp"
+#include "propagate/saddle_rule.hpp"
 #include "propagate/straight_lines.hpp"
 #include "propagate/triangle_propagation.hpp"
+#include "propagate/wavefront.hpp"
+#include "propagate/workspace_state.hpp"
 
 namespace plexway {
 
 template <class Real>
 BoundedSearch<Real>::BoundedSearch(const TriangleMesh<Real>& mesh) : mesh_(&mesh) {
-  refuse_refraction(mesh.summary(), "a bounded search");
+  support_of_searches(mesh.metric()).require();
   const std::size_t vertices = mesh.vertex_count();
-  workspace_.start(mesh.face_count(), true);
-  workspace_.front.reserve(mesh.face_count());
-  workspace_.saddles.reserve(mesh.face_count() + 1);
-  workspace_.vertex.resize(vertices);
-  workspace_.vertex_source.resize(vertices);
+  WorkspaceState<Real>& workspace = workspace_.state();
+  workspace.start(mesh.face_count(), true);
+  workspace.front.reserve(mesh.face_count());
+  workspace.saddles.reserve(mesh.face_count() + 1);
+  workspace.vertex.resize(vertices);
+  workspace.vertex_source.resize(vertices);
   stamp_.assign(vertices, 0);
   outer_.resize(vertices);
   for (std::size_t v = 0; v < vertices; ++v)
@@ -38,9 +40,8 @@ const Surroundings<Real>& BoundedSearch<Real>::find(Serial, std::span<const Poin
                                                     const PropagateOptions& options,
                                                     bool simplices) {
   check(sources, options, {mesh_->vertex_count(), mesh_->face_count(), "face", 3});
-  if (options.visibility != Visibility::saddles)
-    throw UsageError("a bounded search knows the default visibility only, saddles");
-  with_queue<Real>(options, workspace_.front, [&](auto queue) {
+  support_of_searches(mesh_->metric(), options.visibility).require();
+  with_queue<Real>(options, workspace_.state().front, [&](auto queue) {
     find_with(LoggedQueue<Real, decltype(queue)>(queue, reached_), sources, options, simplices);
   });
   return found_;
@@ -54,13 +55,14 @@ void BoundedSearch<Real>::find_with(Queue queue, std::span<const PointSource> so
   const TriangleMesh<Real>& mesh = *mesh_;
   const std::span<const TriangleRecord<Real>> triangles = mesh.triangles();
   reached_.clear();
-  workspace_.start(mesh.face_count(), true);
+  WorkspaceState<Real>& workspace = workspace_.state();
+  workspace.start(mesh.face_count(), true);
   Wavefront<Real, SaddleLabel<Real>, Queue, true> front(
-      workspace_.marks, workspace_.saddles.labels.get(), queue, workspace_.source.data(),
+      workspace.marks, workspace.saddles.labels.get(), queue, workspace.source.data(),
       mesh.face_count(), mesh.unit(), options);
   const SaddleRule<Real, decltype(front)> rule(triangles, front, options.vectorised);
   TrianglePropagation<Real, std::decay_t<decltype(rule)>, decltype(front), true> propagation(
-      mesh, workspace_, rule, front, options);
+      mesh, workspace, rule, front, options);
   for (std::size_t n = 0; n < sources.size(); ++n)
     propagation.seed(sources[n], static_cast<Index>(n));
 
@@ -95,8 +97,8 @@ void BoundedSearch<Real>::find_with(Queue queue, std::span<const PointSource> so
     search_ = 1;
   }
   touched_.clear();
-  Real* const d = workspace_.vertex.data();
-  Index* const label = workspace_.vertex_source.data();
+  Real* const d = workspace.vertex.data();
+  Index* const label = workspace.vertex_source.data();
   const auto offer = [&](Index v, Real distance, Index number, bool tie = false) {
     if (stamp_[v] != search_) {
       stamp_[v] = search_;

@@ -179,7 +179,7 @@ class Lloyd {
 
   const Complex& domain_;
   SimplexNumbers<Complex> numbers_;
-  Workspace<Real> workspace_, border_workspace_;
+  WorkspaceState<Real> workspace_, border_workspace_;
   Field field_;
   Moments moments_;
   std::vector<Place> places_;

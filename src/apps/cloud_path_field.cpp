@@ -85,10 +85,14 @@ Path PathField<PointCloud<Real>>::trace(const PointSource& point,
   const PointSource at = first_at_place(*cloud_, std::span(&point, 1))[0];
   using Places = std::span<const std::array<double, 3>>;
   const bool more = cloud_->surface().vertex_count() != field_.distance.size();
-  const Solved<Real> solved = {workspace_, more ? sheet_ : field_,
-                               sources_,   in_space_ ? places_ : Places(),
-                               places_,    outer_,
-                               {},         visibility_,
+  const Solved<Real> solved = {workspace_.state(),
+                               more ? sheet_ : field_,
+                               sources_,
+                               in_space_ ? places_ : Places(),
+                               places_,
+                               outer_,
+                               {},
+                               visibility_,
                                labels_};
   return or_no_way_at_all(SurfaceTrace<Real>(cloud_->surface(), solved).trace(at, options), solved,
                           at);

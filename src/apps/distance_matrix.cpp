@@ -69,7 +69,7 @@ DistanceMatrix matrix(const Complex& domain, std::span<const PointSource> points
   using Real = typename Field::Number;
   constexpr Index corners = Field::corners;
   SimplexNumbers<Complex> numbers(domain);
-  Workspace<Real> workspace;
+  WorkspaceState<Real> workspace;
   Field field(domain, workspace);
   return by_rows(
       points, progress, limits,

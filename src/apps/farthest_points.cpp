@@ -98,7 +98,7 @@ class Traversal {
 
   const Complex& domain_;
   SimplexNumbers<Complex> numbers_;
-  Workspace<Real> workspace_;
+  WorkspaceState<Real> workspace_;
   Field field_;
 };
 

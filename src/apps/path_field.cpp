@@ -150,10 +150,16 @@ template <template <class> class Domain, class Real>
 Solved<Real> PathField<Domain<Real>>::solved() const {
   const windows::KeptWindows<Real>* windows = nullptr;
   if constexpr (std::is_same_v<Domain<Real>, TriangleMesh<Real>>)
-    if (kept_ == Kept::windows) windows = workspace_.windows.solver()->kept();
-  return {workspace_,       field_,      sources_,
-          positions_,       {},          outer_,
-          outer_simplices_, visibility_, kept_ == Kept::labels,
+    if (kept_ == Kept::windows) windows = workspace_.state().windows.solver()->kept();
+  return {workspace_.state(),
+          field_,
+          sources_,
+          positions_,
+          {},
+          outer_,
+          outer_simplices_,
+          visibility_,
+          kept_ == Kept::labels,
           windows};
 }
 
@@ -215,7 +221,7 @@ std::vector<std::array<double, 3>> PathField<Domain<Real>>::gradient() const {
     directions.assign(domain_->tet_count(), {0, 0, 0});
     for (Index tet = 0; tet < domain_->tet_count(); ++tet) {
       const Index t = domain_->inside_tet(tet).first;
-      if (workspace_.marks.reached(t)) directions[tet] = read_out.gradient(t);
+      if (workspace_.state().marks.reached(t)) directions[tet] = read_out.gradient(t);
     }
   }
   if constexpr (std::is_same_v<Domain<Real>, TriangleMesh<Real>>) {
@@ -225,7 +231,7 @@ std::vector<std::array<double, 3>> PathField<Domain<Real>>::gradient() const {
     directions.assign(domain_->face_count(), {0, 0, 0});
     for (Index face = 0; face < domain_->face_count(); ++face) {
       const Index f = domain_->inside_face(face).first;
-      if (!solved.windows && !workspace_.marks.reached(f)) continue;
+      if (!solved.windows && !workspace_.state().marks.reached(f)) continue;
       const std::array<double, 2> along = read_out.gradient(f);
       Vector3<double> corner[3];
       for (std::size_t i = 0; i < 3; ++i) {
@@ -253,9 +259,9 @@ std::vector<Index> PathField<Domain<Real>>::simplex_labels() const {
   std::vector<Index> labels;
   const auto take = [&](Index inside) {
     const bool many = sources_.size() > 1;
-    labels.push_back(!workspace_.marks.reached(inside) ? none
-                     : many                            ? workspace_.source[inside]
-                                                       : 0);
+    labels.push_back(!workspace_.state().marks.reached(inside) ? none
+                     : many                                    ? workspace_.state().source[inside]
+                                                               : 0);
   };
   if constexpr (std::is_same_v<Domain<Real>, TriangleMesh<Real>>) {
     const Solved<Real> solved = this->solved();

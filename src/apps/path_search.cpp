@@ -8,14 +8,14 @@
 
 #include <plexway/apps/path_field.hpp>
 #include <plexway/error.hpp>
-#include <plexway/propagate/saddle_rule.hpp>
-#include <plexway/propagate/wavefront.hpp>
 #include <plexway/solve.hpp>
 
 #include "apps/guided_queue.hpp"
 #include "apps/surface_trace.hpp"
 #include "executors/checks.hpp"
+#include "propagate/saddle_rule.hpp"
 #include "propagate/triangle_propagation.hpp"
+#include "propagate/wavefront.hpp"
 
 namespace plexway {
 namespace {
@@ -56,7 +56,7 @@ struct PathSearch<Real>::State {
   std::span<const std::array<double, 3>> positions;
   double scale = 0;
   std::vector<Index> outer;
-  Workspace<Real> workspace;
+  WorkspaceState<Real> workspace;
   DistanceField<Real> no_field;
   GuidedFront<Real, State> front;
 
@@ -177,7 +177,7 @@ struct PathSearch<Real>::State {
 template <class Real>
 PathSearch<Real>::PathSearch(const TriangleMesh<Real>& mesh)
     : state_(std::make_unique<State>(mesh)) {
-  refuse_refraction(mesh.summary(), "a search for paths");
+  support_of_searches(mesh.metric()).require();
 }
 
 template <class Real>
@@ -250,7 +250,7 @@ SearchResult PathSearch<Real>::find(Serial, std::span<const PointSource> sources
   s.next_settled = infinity;
   s.front.heap.clear();
 
-  Workspace<Real>& workspace = s.workspace;
+  WorkspaceState<Real>& workspace = s.workspace;
   workspace.start(mesh.face_count(), true);
   SaddleLabel<Real>* const labels = workspace.saddles.reserve(mesh.face_count() + 1);
   using Queue = GuidedQueue<Real, State>;

@@ -81,7 +81,7 @@ void check_radii(std::size_t simplices, std::vector<double>& radii) {
 template <class Complex>
 PoissonDisks sample(const Complex& domain, const SimplexNumbers<Complex>& numbers,
                     std::span<const Index> candidates, const PoissonOptions& options, double radius,
-                    std::size_t most, Workspace<typename Growth<Complex>::Number>& kept,
+                    std::size_t most, WorkspaceState<typename Growth<Complex>::Number>& kept,
                     std::size_t parts = most_parts) {
   using Real = typename Growth<Complex>::Number;
   // In radii. Simplices on the way between two darts then belong to one of them, not to others.
@@ -102,7 +102,7 @@ PoissonDisks sample(const Complex& domain, const SimplexNumbers<Complex>& number
   vertices.reserve(candidates.size());
   for (const Index v : candidates) vertices.push_back(inside(domain.inside_vertex(v)));
 
-  Workspace<Real> own_workspace;
+  WorkspaceState<Real> own_workspace;
   Growth<Complex> field(complex, fine.copy ? own_workspace : kept);
   check_radii<Real>(field.simplices(), radii);
   const DartThrower<Complex> thrower(field, radii, vertices, options, most, [&](double share) {
@@ -143,7 +143,7 @@ PoissonDisks sample(const Complex& domain, const SimplexNumbers<Complex>& number
 template <class Complex>
 PoissonDisks poisson(const Complex& domain, std::span<const Index> candidates,
                      const PoissonOptions& options,
-                     Workspace<typename Growth<Complex>::Number>& workspace) {
+                     WorkspaceState<typename Growth<Complex>::Number>& workspace) {
   const SimplexNumbers<Complex> numbers(domain);
   constexpr std::size_t unlimited = std::numeric_limits<std::size_t>::max();
   if (options.count == 0)
@@ -208,7 +208,7 @@ PoissonDisks poisson(const Complex& domain, std::span<const Index> candidates,
 
 template <class Complex>
 PoissonDisks poisson(const Complex& domain, const PoissonOptions& options,
-                     Workspace<typename Growth<Complex>::Number>& workspace) {
+                     WorkspaceState<typename Growth<Complex>::Number>& workspace) {
   check(options, domain.vertex_count());
   std::vector<Index> all(options.at_vertices ? domain.vertex_count() : 0);
   std::iota(all.begin(), all.end(), Index{0});
@@ -220,14 +220,14 @@ PoissonDisks poisson(const Complex& domain, const PoissonOptions& options,
 template <class Real>
 PoissonDisks poisson_disks(Serial, const TriangleMesh<Real>& mesh, const PoissonOptions& options,
                            Workspace<Real>& workspace) {
-  return poisson(mesh, options, workspace);
+  return poisson(mesh, options, workspace.state());
 }
 
 template <class Real>
 PoissonDisks poisson_disks(Serial, const TetMesh<Real>& mesh, const PoissonOptions& options,
                            Workspace<Real>& workspace) {
   if (!mesh.embedded()) throw UsageError("darts in a solid need its coordinates");
-  return poisson(mesh, options, workspace);
+  return poisson(mesh, options, workspace.state());
 }
 
 template <class Real>
@@ -255,7 +255,7 @@ PoissonDisks poisson_disks(Serial, const PointCloud<Real>& cloud, const PoissonO
                    *std::max_element(spacing.begin(), spacing.end()));
     at_points.spacing = spacing;
   }
-  return poisson(cloud.surface(), candidates, at_points, workspace);
+  return poisson(cloud.surface(), candidates, at_points, workspace.state());
 }
 
 template PoissonDisks poisson_disks(Serial, const PointCloud<float>&, const PoissonOptions&,

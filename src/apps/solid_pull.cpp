@@ -3,7 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include <plexway/propagate/solid_sight.hpp>
+#include "propagate/solid_sight.hpp"
+
 
 namespace plexway {
 namespace {

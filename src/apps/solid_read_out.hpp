@@ -6,9 +6,9 @@
 
 #include <plexway/apps/read_out.hpp>
 #include <plexway/complex/tet_mesh.hpp>
-#include <plexway/propagate/solid_rule.hpp>
 
 #include "apps/solved.hpp"
+#include "propagate/solid_rule.hpp"
 
 namespace plexway {
 

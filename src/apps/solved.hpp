@@ -7,17 +7,17 @@
 #include <plexway/error.hpp>
 #include <plexway/propagate/distance_field.hpp>
 #include <plexway/propagate/options.hpp>
-#include <plexway/propagate/workspace.hpp>
 #include <plexway/source/point_source.hpp>
 
 #include "propagate/windows/kept_windows.hpp"
+#include "propagate/workspace_state.hpp"
 
 namespace plexway {
 
 /// What a solve left behind, for those who trace paths in it.
 template <class Real>
 struct Solved {
-  const Workspace<Real>& workspace;
+  const WorkspaceState<Real>& workspace;
   const DistanceField<Real>& field;
   std::span<const PointSource> sources;
   std::span<const std::array<double, 3>> positions;  ///< caller's order; may be empty

@@ -6,11 +6,11 @@
 #include <limits>
 
 #include <plexway/complex/triangle_mesh.hpp>
-#include <plexway/propagate/plain_rule.hpp>
-#include <plexway/propagate/saddle_rule.hpp>
 
 #include "apps/solved.hpp"
 #include "apps/vector2.hpp"
+#include "propagate/plain_rule.hpp"
+#include "propagate/saddle_rule.hpp"
 
 namespace plexway {
 
@@ -132,7 +132,7 @@ class SurfaceLabels {
  private:
   template <class Ask>
   double ask(Ask question) const {
-    const Workspace<Real>& w = solved_.workspace;
+    const WorkspaceState<Real>& w = solved_.workspace;
     if (saddles_) {
       LeftLabels<Real, SaddleLabel<Real>> left(w.marks, w.saddles.labels.get());
       return question(SaddleRule<Real, decltype(left)>(mesh_.triangles(), left, false));

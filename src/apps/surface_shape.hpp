@@ -5,7 +5,7 @@
 #include <cmath>
 #include <span>
 
-#include <plexway/complex/tet_record.hpp>
+#include <plexway/complex/detail/tet_record.hpp>
 #include <plexway/complex/triangle_mesh.hpp>
 
 #include "apps/vector2.hpp"

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <filesystem>
 #include <functional>
 
 #include <plexway/apps/row_ranks.hpp>
@@ -10,6 +11,9 @@ namespace plexway::cli {
 struct Among {
   RowRanks& ranks;
   int threads;  ///< of this one, unless the command says how many
+  /// As mpi::Ranks::once_a_node; empty where no two of them share memory.
+  using WithFile = std::function<void(const std::filesystem::path&)>;
+  std::function<void(const WithFile& make, const WithFile& take)> once_a_node;
   /// The command is through, or failed with a message. Says it, if it is for this process to say,
   /// and returns the exit code.
   std::function<int(int code, const char* message)> ended;

@@ -42,9 +42,14 @@ int ended(Ranks& ranks, int code, const char* message) {
 int main(int argc, char** argv) {
   try {
     Ranks ranks(argc, argv);
-    const plexway::cli::Among among{ranks, ranks.threads(), [&](int code, const char* message) {
-                                      return ended(ranks, code, message);
-                                    }};
+    using Among = plexway::cli::Among;
+    Among among{ranks, ranks.threads(), {}, [&](int code, const char* message) {
+                  return ended(ranks, code, message);
+                }};
+    if (ranks.share_nodes())
+      among.once_a_node = [&](const Among::WithFile& make, const Among::WithFile& take) {
+        ranks.once_a_node(make, take);
+      };
     return plexway::cli::run(argc, argv, &among);
   } catch (const std::exception& error) {
     plexway::cli::say_error(error.what());

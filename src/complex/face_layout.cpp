@@ -4,7 +4,7 @@
 #include <cmath>
 #include <utility>
 
-#include <plexway/complex/triangle_record.hpp>
+#include <plexway/complex/detail/triangle_record.hpp>
 
 #include "complex/edge_matching.hpp"
 #include "complex/shape_blocks.hpp"

@@ -1,4 +1,4 @@
-#include <plexway/complex/identity.hpp>
+#include <plexway/complex/detail/identity.hpp>
 
 #include <atomic>
 #include <cstdint>

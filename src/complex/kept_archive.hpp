@@ -11,7 +11,7 @@
 #include <type_traits>
 #include <vector>
 
-#include <plexway/complex/rows.hpp>
+#include <plexway/complex/detail/rows.hpp>
 
 #include "file/checksum.hpp"
 #include "file/mapped_file.hpp"

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include <plexway/complex/ids.hpp>
-#include <plexway/complex/rows.hpp>
+#include <plexway/complex/detail/rows.hpp>
 
 #include "complex/planar.hpp"
 

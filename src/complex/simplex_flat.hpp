@@ -11,10 +11,10 @@
 #include <utility>
 #include <vector>
 
-#include <plexway/complex/elimination.hpp>
-#include <plexway/complex/simplex_flat.hpp>
-#include <plexway/complex/simplex_record.hpp>
+#include <plexway/complex/detail/simplex_record.hpp>
 
+#include "complex/elimination.hpp"
+#include "complex/flat_domain.hpp"
 #include "complex/simplex_gluing.hpp"
 
 namespace plexway {

@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include <plexway/complex/simplex_record.hpp>
+#include <plexway/complex/detail/simplex_record.hpp>
 
 namespace plexway {
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstddef>
 
-#include <plexway/complex/simplex_record.hpp>
+#include <plexway/complex/detail/simplex_record.hpp>
 
 namespace plexway {
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include <plexway/complex/ids.hpp>
-#include <plexway/complex/tet_record.hpp>
+#include <plexway/complex/detail/tet_record.hpp>
 
 namespace plexway {
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <tuple>
 
-#include <plexway/complex/tet_record.hpp>
+#include <plexway/complex/detail/tet_record.hpp>
 #include <plexway/error.hpp>
 
 namespace plexway {

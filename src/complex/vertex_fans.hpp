@@ -5,7 +5,7 @@
 #include <vector>
 
 #include <plexway/complex/ids.hpp>
-#include <plexway/complex/triangle_record.hpp>
+#include <plexway/complex/detail/triangle_record.hpp>
 
 namespace plexway {
 

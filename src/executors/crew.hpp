@@ -11,13 +11,13 @@
 #include <utility>
 #include <vector>
 
-#include <plexway/propagate/endless.hpp>
 #include <plexway/propagate/options.hpp>
-#include <plexway/propagate/workspace.hpp>
 
 #include "executors/rounds.hpp"
 #include "executors/team.hpp"
+#include "propagate/endless.hpp"
 #include "propagate/read_out.hpp"
+#include "propagate/workspace_state.hpp"
 
 namespace plexway {
 
@@ -26,7 +26,7 @@ namespace plexway {
 template <class Real, bool kLabels>
 class TeamCrew {
  public:
-  TeamCrew(const Team& team, Workspace<Real>& workspace, Real step, double unit,
+  TeamCrew(const Team& team, WorkspaceState<Real>& workspace, Real step, double unit,
            const PropagateOptions& options)
       : team_(team), workspace_(workspace), step_(step), unit_(unit), options_(options) {}
 
@@ -97,7 +97,7 @@ class TeamCrew {
   [[nodiscard]] Index* list() const { return workspace_.front.far.get(); }
 
   const Team& team_;
-  Workspace<Real>& workspace_;
+  WorkspaceState<Real>& workspace_;
   Real step_;
   double unit_;
   const PropagateOptions& options_;
@@ -106,7 +106,7 @@ class TeamCrew {
 /// Triangles offer distances to their vertices, which keep the least.
 template <class Real, bool kLabels, class Rule, class Front>
 void read_out_triangles(const Team& team, std::span<const TriangleRecord<Real>> triangles,
-                        const Rule& rule, const Front& front, Workspace<Real>& workspace) {
+                        const Rule& rule, const Front& front, WorkspaceState<Real>& workspace) {
   using Key = OfferKey<Real>;
   const auto offers = [&](const auto& offer) {
     team.over(triangles.size() - 1, [&](std::size_t begin, std::size_t end) {

@@ -86,7 +86,8 @@ class SidedFront : public Wave {
 template <bool kLabels>
 class Curves {
  public:
-  Curves(const TriangleMesh<double>& mesh, const CurveSeeds& seeds, Workspace<double>& workspace)
+  Curves(const TriangleMesh<double>& mesh, const CurveSeeds& seeds,
+         WorkspaceState<double>& workspace)
       : mesh_(mesh), seeds_(seeds), workspace_(workspace) {}
 
   template <class Rule, class Front>
@@ -110,12 +111,12 @@ class Curves {
  private:
   const TriangleMesh<double>& mesh_;
   const CurveSeeds& seeds_;
-  Workspace<double>& workspace_;
+  WorkspaceState<double>& workspace_;
 };
 
 template <bool kLabels>
 void solve(const TriangleMesh<double>& mesh, const SourceParts& parts, const CurveSeeds& seeds,
-           const PropagateOptions& options, Workspace<double>& workspace,
+           const PropagateOptions& options, WorkspaceState<double>& workspace,
            DistanceField<double>& field) {
   workspace.front.reserve(mesh.face_count());
   workspace.start(mesh.face_count(), kLabels);
@@ -135,8 +136,9 @@ void solve(const TriangleMesh<double>& mesh, const SourceParts& parts, const Cur
 }  // namespace
 
 void solve_shapes(const Serial&, const TriangleMesh<double>& mesh, std::span<const Source> sources,
-                  SourceParts& parts, const PropagateOptions& options, Workspace<double>& workspace,
+                  SourceParts& parts, const PropagateOptions& options, Workspace<double>& kept,
                   DistanceField<double>& field) {
+  WorkspaceState<double>& workspace = kept.state();
   CurveSeeds seeds;
   add_shapes(mesh, sources, parts, seeds);
   seeds.sort(mesh.face_count(), sources.size() == 1);

@@ -6,8 +6,8 @@
 #include <plexway/executors.hpp>
 #include <plexway/propagate/distance_field.hpp>
 #include <plexway/propagate/options.hpp>
-#include <plexway/propagate/workspace.hpp>
 
+#include <plexway/propagate/workspace.hpp>
 #include "executors/source_parts.hpp"
 
 namespace plexway::detail {

@@ -21,14 +21,14 @@ namespace plexway {
 
 template <bool kLabels, class D, class Real, class Solve>
 void drive(const Serial&, const D& domain, std::span<const PointSource>,
-           const PropagateOptions& options, Workspace<Real>& workspace, const Solve& solve) {
+           const PropagateOptions& options, WorkspaceState<Real>& workspace, const Solve& solve) {
   workspace.front.reserve(domain.simplex_count());
   with_queue<Real>(options, workspace.front, [&](auto queue) { solve(queue, Alone{}); });
 }
 
 template <bool kLabels, class D, class Real, class Solve>
 void drive_in_rounds(const OpenMP& executor, const D& domain, std::span<const PointSource> sources,
-                     const PropagateOptions& options, Workspace<Real>& workspace,
+                     const PropagateOptions& options, WorkspaceState<Real>& workspace,
                      const Solve& solve) {
   const Team team(executor);
   check_ties(sources);
@@ -41,7 +41,7 @@ void drive_in_rounds(const OpenMP& executor, const D& domain, std::span<const Po
 
 template <bool kLabels, class D, class Real, class Solve>
 void drive(const OpenMP& executor, const D& domain, std::span<const PointSource> sources,
-           const PropagateOptions& options, Workspace<Real>& workspace, const Solve& solve) {
+           const PropagateOptions& options, WorkspaceState<Real>& workspace, const Solve& solve) {
   drive_in_rounds<kLabels>(executor, domain, sources, options, workspace, solve);
 }
 
@@ -49,7 +49,7 @@ void drive(const OpenMP& executor, const D& domain, std::span<const PointSource>
 template <bool kLabels, class Real, class Solve>
 void drive(const OpenMP& executor, const TriangleMesh<Real>& mesh,
            std::span<const PointSource> sources, const PropagateOptions& options,
-           Workspace<Real>& workspace, const Solve& solve) {
+           WorkspaceState<Real>& workspace, const Solve& solve) {
   const Team team(executor);
   const PieceSettings settings = {.size = piece_size(executor, mesh.face_count(), {4096, 64})};
   if (is_one_piece(settings.size, mesh.face_count())) {

@@ -14,15 +14,15 @@
 #include <plexway/complex/tet_mesh.hpp>
 #include <plexway/complex/triangle_mesh.hpp>
 #include <plexway/propagate/distance_field.hpp>
-#include <plexway/propagate/front.hpp>
-#include <plexway/propagate/saddle_offers.hpp>
-#include <plexway/propagate/solid_rule.hpp>
-#include <plexway/propagate/wavefront.hpp>
-#include <plexway/propagate/workspace.hpp>
 
 #include "executors/simplex_numbers.hpp"
+#include "propagate/front.hpp"
+#include "propagate/saddle_offers.hpp"
 #include "propagate/solid_propagation.hpp"
+#include "propagate/solid_rule.hpp"
 #include "propagate/triangle_propagation.hpp"
+#include "propagate/wavefront.hpp"
+#include "propagate/workspace_state.hpp"
 
 namespace plexway {
 
@@ -139,7 +139,7 @@ class GrowthBase {
   }
 
  protected:
-  GrowthBase(const Complex& complex, std::size_t simplices, Workspace<Real>& workspace,
+  GrowthBase(const Complex& complex, std::size_t simplices, WorkspaceState<Real>& workspace,
              Label* labels)
       : complex_(complex),
         simplices_(simplices),
@@ -179,7 +179,7 @@ class GrowthBase {
 
   const Complex& complex_;
   std::size_t simplices_;
-  Workspace<Real>& workspace_;
+  WorkspaceState<Real>& workspace_;
   Label* labels_;
   PropagateOptions options_;
   std::vector<Index> log_;
@@ -203,9 +203,9 @@ class Growth<TriangleMesh<Real>>
   using typename Base::Wave;
   static constexpr std::size_t corners = 3;
 
-  Growth(const TriangleMesh<Real>& mesh, Workspace<Real>& workspace)
+  Growth(const TriangleMesh<Real>& mesh, WorkspaceState<Real>& workspace)
       : Base(mesh, mesh.face_count(), workspace, workspace.saddles.reserve(mesh.face_count() + 1)) {
-    refuse_refraction(mesh.summary(), "a field that grows");
+    support_of_searches(mesh.metric()).require();
     this->clear();
   }
 
@@ -303,7 +303,7 @@ class Growth<TetMesh<Real>>
   using typename Base::Wave;
   static constexpr std::size_t corners = 4;
 
-  Growth(const TetMesh<Real>& mesh, Workspace<Real>& workspace)
+  Growth(const TetMesh<Real>& mesh, WorkspaceState<Real>& workspace)
       : Base(mesh, mesh.tet_count(), workspace, workspace.solids.reserve(mesh.tet_count() + 1)) {
     this->clear();
   }

@@ -52,11 +52,11 @@ const TriangleMesh<Real>* one_surface(const MixedComplex<Real>& domain,
 
 template <class Real>
 bool solve_by_windows(const TriangleMesh<Real>& mesh, std::span<const PointSource> sources,
-                      const PropagateOptions& options, MixedWorkspace<Real>& workspace,
+                      const PropagateOptions& options, WorkspaceState<Real>& workspace,
                       DistanceField<Real>& field) {
   const Accuracy accuracy = std::is_same_v<Real, double> ? Accuracy::exact() : Accuracy::accurate();
-  workspace.pieces.resize(1);
-  Workspace<Real>& own = workspace.pieces[0];
+  workspace.parts.resize(1);
+  WorkspaceState<Real>& own = workspace.parts[0];
   if (!own.windows.on(mesh).solve(sources, accuracy, options, own, field)) return false;
   field.accuracy = accuracy;
   if (field.label.empty())
@@ -68,15 +68,15 @@ bool solve_by_windows(const TriangleMesh<Real>& mesh, std::span<const PointSourc
 // On a domain whose pieces are joined.
 template <class Real>
 void solve_joined(const MixedComplex<Real>& domain, std::span<const PointSource> sources,
-                  const PropagateOptions& options, MixedWorkspace<Real>& workspace,
+                  const PropagateOptions& options, WorkspaceState<Real>& workspace,
                   DistanceField<Real>& field) {
   bool gave_up = false;
   if (const auto* mesh = one_surface(domain, options)) {
     if (solve_by_windows(*mesh, sources, options, workspace, field)) return;
     gave_up = true;
   }
-  workspace.pieces.resize(domain.pieces().size());
-  MixedPropagation<Real> propagation(domain, workspace.pieces, workspace.offered, options);
+  workspace.parts.resize(domain.pieces().size());
+  MixedPropagation<Real> propagation(domain, workspace.parts, workspace.offered, options);
   for (std::size_t n = 0; n < sources.size(); ++n) {
     const auto [piece, source] = find_piece(domain, sources[n]);
     propagation.seed(piece, source, static_cast<Index>(n));
@@ -122,7 +122,8 @@ void solve_joined(const MixedComplex<Real>& domain, std::span<const PointSource>
 template <class Real>
 void solve_points(const Serial&, const MixedComplex<Real>& domain,
                   std::span<const PointSource> sources, const PropagateOptions& options,
-                  MixedWorkspace<Real>& workspace, DistanceField<Real>& field) {
+                  Workspace<Real>& kept, DistanceField<Real>& field) {
+  WorkspaceState<Real>& workspace = kept.state();
   check(sources, options);
   for (const PointSource& source : sources) {
     const auto [number, own] = find_piece(domain, source);

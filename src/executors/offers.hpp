@@ -9,8 +9,9 @@
 #include <type_traits>
 
 #include <plexway/complex/ids.hpp>
-#include <plexway/propagate/room.hpp>
-#include <plexway/propagate/visit_marks.hpp>
+
+#include "propagate/room.hpp"
+#include "propagate/visit_marks.hpp"
 
 namespace plexway {
 

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include <plexway/complex/tet_mesh.hpp>
-#include <plexway/propagate/endless.hpp>
+#include "propagate/endless.hpp"
 
 #include "complex/cut.hpp"
 #include "complex/partition.hpp"
@@ -112,7 +112,7 @@ class OwnedCrew : public TeamCrew<Real, kLabels> {
 /// In solids by pieces: a single one is the serial loop.
 template <bool kLabels, class Real, class Solve>
 void drive(const OpenMP& executor, const TetMesh<Real>& mesh, std::span<const PointSource> sources,
-           const PropagateOptions& options, Workspace<Real>& workspace, const Solve& solve) {
+           const PropagateOptions& options, WorkspaceState<Real>& workspace, const Solve& solve) {
   const Team team(executor);
   const std::size_t size = piece_size(executor, mesh.tet_count(), {4096, 64});
   if (is_one_piece(size, mesh.tet_count())) {

@@ -87,7 +87,7 @@ class PieceCrew : public TeamCrew<Real, kLabels> {
   }
 
   /// After `run`: the distances of vertices.
-  void read_out(Workspace<Real>& workspace) const {
+  void read_out(WorkspaceState<Real>& workspace) const {
     TrianglePatches<Real>& patches = workspace.pieces.of(mesh_, settings_.size);
     const auto take = [&](Index v, const TrianglePatch<Real>& patch, std::size_t i) {
       workspace.vertex[v] = patch.vertex[i];

@@ -10,12 +10,12 @@
 #include <mutex>
 #include <vector>
 
-#include <plexway/error.hpp>
 #include <plexway/propagate/distance_field.hpp>
 #include <plexway/propagate/options.hpp>
 
 #include "executors/team.hpp"
 #include "executors/team_front.hpp"
+#include "propagate/progress_counter.hpp"
 
 namespace plexway {
 
@@ -40,6 +40,7 @@ class Rounds {
       : team_(team),
         store_(store),
         options_(options),
+        told_(options, 4096),
         simplices_(simplices),
         unit_(unit),
         step_(step),
@@ -86,7 +87,7 @@ class Rounds {
     patience_ = patience;
     done_ = {};
     ended_early_ = out_of_budget_ = stuck_ = false;
-    reported_ = 0;
+    told_.restart();
     far_.take_alone(hands_.front().front.far());
     live_count_ = 0;
     next_queue();
@@ -297,7 +298,7 @@ class Rounds {
       const std::size_t live = live_count_.exchange(0, std::memory_order_relaxed);
       out_of_budget_ = expanding_ < live;
       ended_early_ = out_of_budget_ || done_.expansions > patience_;
-      report();
+      told_.count(done_.expansions, [&] { return progress(); });
       if (ended_early_)
         phase_ = Phase::done;
       else
@@ -353,19 +354,17 @@ class Rounds {
     stuck_ = false;
   }
 
-  void report() {
-    if (!options_.progress || done_.expansions - reported_ < 4096) return;
-    reported_ = done_.expansions;
+  [[nodiscard]] Progress progress() const {
     std::size_t reached = before_.reached_simplices;
     for (const Hand& hand : hands_) reached += hand.reached;
-    if (!options_.progress({before_.expansions + done_.expansions, reached, simplices_,
-                            static_cast<double>(distance_) * unit_}))
-      throw Cancelled("cancelled by the progress callback");
+    return {before_.expansions + done_.expansions, reached, simplices_,
+            static_cast<double>(distance_) * unit_};
   }
 
   const Team& team_;
   Store store_;
   const PropagateOptions& options_;
+  ProgressCounter told_;
   std::size_t simplices_;
   double unit_;
   Real step_, distance_ = 0;  // the limit as a distance
@@ -379,7 +378,7 @@ class Rounds {
   Phase phase_ = Phase::done;
   OfferQueue<Waiting>* queue_ = nullptr;  // what is being settled
   std::uint64_t limit_ = 0, nearest_ = Key::unreached;
-  std::size_t expanding_ = 0, patience_ = 0, reported_ = 0;
+  std::size_t expanding_ = 0, patience_ = 0;
   std::uint32_t round_ = 0;
   bool narrows_ = false, stuck_ = false, ended_early_ = false, out_of_budget_ = false;
   PropagateStatistics before_, done_;

@@ -8,7 +8,8 @@ namespace plexway {
 template <class E, class Real, int N>
 void solve_points(const E& executor, const SimplicialComplex<Real, N>& domain,
                   std::span<const PointSource> sources, const PropagateOptions& options,
-                  Workspace<Real>& workspace, DistanceField<Real>& field) {
+                  Workspace<Real>& kept, DistanceField<Real>& field) {
+  WorkspaceState<Real>& workspace = kept.state();
   check(sources, options, domain);
   drive<true>(executor, domain, sources, options, workspace, [&](auto queue, const auto& crew) {
     simplicial::solve(domain, sources, options, workspace, queue, crew, field);

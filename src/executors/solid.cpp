@@ -9,7 +9,8 @@ namespace plexway {
 template <class E, class Real>
 void solve_points(const E& executor, const TetMesh<Real>& mesh,
                   std::span<const PointSource> sources, const PropagateOptions& options,
-                  Workspace<Real>& workspace, DistanceField<Real>& field) {
+                  Workspace<Real>& kept, DistanceField<Real>& field) {
+  WorkspaceState<Real>& workspace = kept.state();
   check(sources, options, mesh);
   with_labels(sources, [&](auto labels) {
     constexpr bool kLabels = decltype(labels)::value;

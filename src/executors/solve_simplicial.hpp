@@ -9,14 +9,14 @@
 #include <vector>
 
 #include <plexway/error.hpp>
-#include <plexway/propagate/simplex_rule.hpp>
-#include <plexway/propagate/simplex_string_rule.hpp>
-#include <plexway/propagate/wavefront.hpp>
 
 #include "executors/checks.hpp"
 #include "propagate/changed_vertices.hpp"
 #include "propagate/finish.hpp"
 #include "propagate/simplex_propagation.hpp"
+#include "propagate/simplex_rule.hpp"
+#include "propagate/simplex_string_rule.hpp"
+#include "propagate/wavefront.hpp"
 
 /// A solve on a complex of any dimension, for any crew.
 namespace plexway::simplicial {
@@ -25,7 +25,8 @@ namespace plexway::simplicial {
 /// they lie in, exactly.
 template <class Real, int N, class Rule, class Front, class Crew>
 void read_out(const SimplicialComplex<Real, N>& domain, std::span<const PointSource> sources,
-              const Rule& rule, const Front& front, const Crew& crew, Workspace<Real>& workspace) {
+              const Rule& rule, const Front& front, const Crew& crew,
+              WorkspaceState<Real>& workspace) {
   workspace.vertex.assign(domain.vertex_count(), std::numeric_limits<Real>::infinity());
   workspace.vertex_source.assign(domain.vertex_count(), none);
   const auto offer = [&](Index v, Real d, Index number) {
@@ -70,7 +71,7 @@ void read_out(const SimplicialComplex<Real, N>& domain, std::span<const PointSou
 /// No vertex is farther than a neighbour and the edge between: where one came out so, it is given
 /// that way, and what lies behind it. Cost: one look at all edges.
 template <class Real, int N>
-void relax_edges(const SimplicialComplex<Real, N>& domain, Workspace<Real>& workspace) {
+void relax_edges(const SimplicialComplex<Real, N>& domain, WorkspaceState<Real>& workspace) {
   ChangedVertices changed(workspace.front);
   const auto relax = [&](const auto& record, std::size_t i, std::size_t j) {
     Index v = record.corner[i], w = record.corner[j];
@@ -107,7 +108,7 @@ void relax_edges(const SimplicialComplex<Real, N>& domain, Workspace<Real>& work
 /// coordinates of all vertices, times all sources.
 template <class Real, int N>
 std::size_t raise_to_lines(const SimplicialComplex<Real, N>& domain,
-                           std::span<const PointSource> sources, Workspace<Real>& workspace) {
+                           std::span<const PointSource> sources, WorkspaceState<Real>& workspace) {
   const std::size_t axes = workspace.vertex.empty() ? 0 : domain.coordinates(0).size();
   if (axes == 0) return 0;
   std::vector<double> from(axes * sources.size(), 0);
@@ -168,7 +169,7 @@ void with_rule(const SimplicialComplex<Real, N>& domain, const PropagateOptions&
 /// One solve with a queue of its own.
 template <class Real, int N, class Queue, class Crew>
 void solve(const SimplicialComplex<Real, N>& domain, std::span<const PointSource> sources,
-           const PropagateOptions& options, Workspace<Real>& workspace, Queue queue,
+           const PropagateOptions& options, WorkspaceState<Real>& workspace, Queue queue,
            const Crew& crew, DistanceField<Real>& field) {
   const std::size_t simplices = domain.simplex_count();
   workspace.start(simplices, true);

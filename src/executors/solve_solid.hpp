@@ -5,12 +5,12 @@
 #include <type_traits>
 
 #include <plexway/error.hpp>
-#include <plexway/propagate/plain_solid_rule.hpp>
-#include <plexway/propagate/solid_rule.hpp>
 
 #include "propagate/finish.hpp"
+#include "propagate/plain_solid_rule.hpp"
 #include "propagate/solid_propagation.hpp"
 #include "propagate/solid_read_out.hpp"
+#include "propagate/solid_rule.hpp"
 
 /// A solve in a solid, for any crew.
 namespace plexway::solid {
@@ -18,7 +18,7 @@ namespace plexway::solid {
 /// The sources themselves, exactly, and the corners of tetrahedra they lie in.
 template <class Real, bool kLabels>
 void read_out_sources(const TetMesh<Real>& mesh, std::span<const PointSource> sources,
-                      Workspace<Real>& workspace) {
+                      WorkspaceState<Real>& workspace) {
   for (std::size_t n = sources.size(); n-- > 0;)
     offer_corners(mesh, sources[n], [&](Index v, double d) {
       const Real distance = static_cast<Real>(d);
@@ -30,7 +30,7 @@ void read_out_sources(const TetMesh<Real>& mesh, std::span<const PointSource> so
 
 template <class Real, bool kLabels, class Rule, class Front, class Crew>
 void solve(const TetMesh<Real>& mesh, std::span<const PointSource> sources,
-           const PropagateOptions& options, Workspace<Real>& workspace, const Rule& rule,
+           const PropagateOptions& options, WorkspaceState<Real>& workspace, const Rule& rule,
            Front& front, const Crew& crew, DistanceField<Real>& field) {
   SolidPropagation<Real, Rule, Front> propagation(mesh, rule, front, options);
   for (std::size_t n = 0; n < sources.size(); ++n)
@@ -62,7 +62,7 @@ void solve(const TetMesh<Real>& mesh, std::span<const PointSource> sources,
 /// One solve with a queue of its own: rule and labels by the policy, the rest by the crew.
 template <class Real, bool kLabels, class Queue, class Crew>
 void solve_with(const TetMesh<Real>& mesh, std::span<const PointSource> sources,
-                const PropagateOptions& options, Workspace<Real>& workspace, Queue queue,
+                const PropagateOptions& options, WorkspaceState<Real>& workspace, Queue queue,
                 const Crew& crew, DistanceField<Real>& field) {
   workspace.start(mesh.tet_count(), kLabels);
   const std::size_t records = mesh.tet_count() + 1;

@@ -8,12 +8,11 @@
 #include <type_traits>
 #include <utility>
 
-#include <plexway/propagate/plain_rule.hpp>
-#include <plexway/propagate/saddle_rule.hpp>
-
 #include "propagate/finish.hpp"
 #include "propagate/mend_surface.hpp"
+#include "propagate/plain_rule.hpp"
 #include "propagate/read_out.hpp"
+#include "propagate/saddle_rule.hpp"
 #include "propagate/triangle_propagation.hpp"
 
 /// A solve on a surface, for any crew.
@@ -22,7 +21,7 @@ namespace plexway::surface {
 /// The sources themselves, exactly, and the corners of triangles they lie in.
 template <class Real, bool kLabels>
 void read_out_sources(const TriangleMesh<Real>& mesh, std::span<const PointSource> sources,
-                      Workspace<Real>& workspace) {
+                      WorkspaceState<Real>& workspace) {
   const auto offer = [&](Index v, double d, std::size_t number) {
     if (!(static_cast<Real>(d) < workspace.vertex[v]) &&
         !(kLabels && static_cast<Real>(d) == workspace.vertex[v]))
@@ -59,7 +58,7 @@ struct NoShapes {
 /// `shapes` seeds the labels with what is no point, and reads it out after the triangles.
 template <class Real, bool kLabels, class Rule, class Front, class Crew, class Shapes = NoShapes>
 void solve(const TriangleMesh<Real>& mesh, std::span<const PointSource> sources,
-           const PropagateOptions& options, Workspace<Real>& workspace, const Rule& rule,
+           const PropagateOptions& options, WorkspaceState<Real>& workspace, const Rule& rule,
            Front& front, const Crew& crew, DistanceField<Real>& field, const Shapes& shapes = {}) {
   TrianglePropagation<Real, Rule, Front, kLabels> propagation(mesh, workspace, rule, front,
                                                               options);
@@ -104,7 +103,7 @@ void solve(const TriangleMesh<Real>& mesh, std::span<const PointSource> sources,
 /// One solve with a queue of its own: rule and labels by the policy, the rest by the crew.
 template <class Real, bool kLabels, class Queue, class Crew>
 void solve_with(const TriangleMesh<Real>& mesh, std::span<const PointSource> sources,
-                const PropagateOptions& options, Workspace<Real>& workspace, Queue queue,
+                const PropagateOptions& options, WorkspaceState<Real>& workspace, Queue queue,
                 const Crew& crew, DistanceField<Real>& field) {
   workspace.start(mesh.face_count(), kLabels);
   const std::size_t records = mesh.face_count() + 1;

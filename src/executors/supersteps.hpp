@@ -10,14 +10,15 @@
 #include <mutex>
 #include <vector>
 
-#include <plexway/error.hpp>
 #include <plexway/propagate/distance_field.hpp>
 #include <plexway/propagate/options.hpp>
-#include <plexway/propagate/piece_memory.hpp>
 
 #include "complex/cut.hpp"
 #include "executors/team.hpp"
+#include "propagate/endless.hpp"
+#include "propagate/piece_memory.hpp"
 #include "propagate/pieces/mail.hpp"
+#include "propagate/progress_counter.hpp"
 
 namespace plexway {
 
@@ -52,6 +53,7 @@ class Supersteps {
         simplices_(simplices),
         unit_(unit),
         options_(options),
+        told_(options, 65536),
         counts_(counts) {
     counts_.supersteps = counts_.runs = counts_.letters = counts_.bytes = 0;
     counts_.log.clear();
@@ -176,11 +178,10 @@ class Supersteps {
     ++counts_.supersteps;
     counts_.runs += active_.size();
     done_.expansions += expansions;
-    recent_ += expansions;
     constexpr double most_repeats = 0.3;
     plan(nearest,
          static_cast<double>(first) < (1 - most_repeats) * static_cast<double>(expansions));
-    report();
+    told_.count(done_.expansions, [&] { return progress(); });
   }
 
   /// The next superstep. `told` is the nearest of all letters.
@@ -216,15 +217,11 @@ class Supersteps {
     for (const After& after : after_) updates_ += after.updates;
   }
 
-  void report() {
-    constexpr std::size_t often = 65536;
-    if (recent_ < often || !options_.progress) return;
-    recent_ = 0;
+  [[nodiscard]] Progress progress() const {
     std::size_t reached = before_.reached_simplices;
     for (const After& after : after_) reached += after.reached;
-    if (!options_.progress({before_.expansions + done_.expansions, reached, simplices_,
-                            static_cast<double>(horizon_) * unit_}))
-      throw Cancelled("cancelled by the progress callback");
+    return {before_.expansions + done_.expansions, reached, simplices_,
+            static_cast<double>(horizon_) * unit_};
   }
 
   const Team& team_;
@@ -234,13 +231,14 @@ class Supersteps {
   double unit_;
   const PropagateOptions& options_;
   std::function<bool(std::size_t)> goes_on_;
+  ProgressCounter told_;
 
   // Changed alone.
   std::vector<After> after_;
   std::vector<std::uint8_t> awake_;  // has letters to take
   std::vector<std::size_t> active_;
   Real horizon_ = 0;
-  std::size_t superstep_ = 1, share_ = 0, more_ = 0, updates_ = 0, recent_ = 0;
+  std::size_t superstep_ = 1, share_ = 0, more_ = 0, updates_ = 0;
   bool ended_ = false, complete_ = false;
   PropagateStatistics before_, done_;
   SuperstepCounts& counts_;

@@ -12,7 +12,8 @@ namespace plexway {
 template <class E, class Real>
 void solve_points(const E& executor, const TriangleMesh<Real>& mesh,
                   std::span<const PointSource> sources, const PropagateOptions& options,
-                  Workspace<Real>& workspace, DistanceField<Real>& field) {
+                  Workspace<Real>& kept, DistanceField<Real>& field) {
+  WorkspaceState<Real>& workspace = kept.state();
   check(sources, options, mesh);
   const Accuracy accuracy = resolved(
       options.accuracy,

@@ -4,9 +4,8 @@
 #include <cstddef>
 #include <cstdint>
 
-#include <plexway/propagate/visit_marks.hpp>
-
 #include "executors/offers.hpp"
+#include "propagate/visit_marks.hpp"
 
 namespace plexway {
 

@@ -47,7 +47,7 @@ class WindowCrew : public TeamCrew<Real, false> {
 template <class Real>
 bool solve_by_windows(const OpenMP& executor, const TriangleMesh<Real>& mesh,
                       std::span<const PointSource> sources, Accuracy accuracy,
-                      const PropagateOptions& options, Workspace<Real>& workspace,
+                      const PropagateOptions& options, WorkspaceState<Real>& workspace,
                       DistanceField<Real>& field) {
   const Team team(executor);
   auto& solver = workspace.windows.on(mesh);
@@ -67,9 +67,9 @@ bool solve_by_windows(const OpenMP& executor, const TriangleMesh<Real>& mesh,
 
 template bool solve_by_windows(const OpenMP&, const TriangleMesh<float>&,
                                std::span<const PointSource>, Accuracy, const PropagateOptions&,
-                               Workspace<float>&, DistanceField<float>&);
+                               WorkspaceState<float>&, DistanceField<float>&);
 template bool solve_by_windows(const OpenMP&, const TriangleMesh<double>&,
                                std::span<const PointSource>, Accuracy, const PropagateOptions&,
-                               Workspace<double>&, DistanceField<double>&);
+                               WorkspaceState<double>&, DistanceField<double>&);
 
 }  // namespace plexway

@@ -7,8 +7,9 @@
 #include <plexway/propagate/accuracy.hpp>
 #include <plexway/propagate/distance_field.hpp>
 #include <plexway/propagate/options.hpp>
-#include <plexway/propagate/workspace.hpp>
 #include <plexway/source/point_source.hpp>
+
+#include "propagate/workspace_state.hpp"
 
 namespace plexway {
 
@@ -17,7 +18,7 @@ namespace plexway {
 template <class Real>
 [[nodiscard]] bool solve_by_windows(const OpenMP& executor, const TriangleMesh<Real>& mesh,
                                     std::span<const PointSource> sources, Accuracy accuracy,
-                                    const PropagateOptions& options, Workspace<Real>& workspace,
-                                    DistanceField<Real>& field);
+                                    const PropagateOptions& options,
+                                    WorkspaceState<Real>& workspace, DistanceField<Real>& field);
 
 }  // namespace plexway

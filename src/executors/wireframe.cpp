@@ -1,19 +1,18 @@
 #include <limits>
 #include <type_traits>
 
-#include <plexway/propagate/wire_step.hpp>
-
 #include "executors/checks.hpp"
 #include "executors/run.hpp"
 #include "propagate/alone.hpp"
 #include "propagate/wire_propagation.hpp"
+#include "propagate/wire_step.hpp"
 
 namespace plexway {
 namespace {
 
 template <class Real, class Step, bool kLabels>
 void solve(const Wireframe<Real>& wireframe, std::span<const PointSource> sources,
-           const PropagateOptions& options, Workspace<Real>& workspace,
+           const PropagateOptions& options, WorkspaceState<Real>& workspace,
            DistanceField<Real>& field) {
   WirePropagation<Real, Step, kLabels> propagation(wireframe, workspace, options);
   constexpr std::size_t unlimited = std::numeric_limits<std::size_t>::max();
@@ -48,7 +47,8 @@ void solve(const Wireframe<Real>& wireframe, std::span<const PointSource> source
 template <class Real>
 void solve_points(const Serial&, const Wireframe<Real>& wireframe,
                   std::span<const PointSource> sources, const PropagateOptions& options,
-                  Workspace<Real>& workspace, DistanceField<Real>& field) {
+                  Workspace<Real>& kept, DistanceField<Real>& field) {
+  WorkspaceState<Real>& workspace = kept.state();
   check(sources, options, wireframe);
   const auto with_step = [&](auto labels, auto step) {
     solve<Real, decltype(step), decltype(labels)::value>(wireframe, sources, options, workspace,

@@ -3,13 +3,12 @@
 #include <type_traits>
 #include <vector>
 
-#include <plexway/propagate/wire_step.hpp>
-
 #include "executors/checks.hpp"
 #include "executors/crew.hpp"
 #include "executors/run.hpp"
 #include "executors/unordered.hpp"
 #include "propagate/wire_propagation.hpp"
+#include "propagate/wire_step.hpp"
 
 namespace plexway {
 namespace {
@@ -74,7 +73,7 @@ struct Seeds {
 
 template <class Real, class Step, bool kLabels>
 void solve(const Team& team, const Wireframe<Real>& wireframe, std::span<const PointSource> sources,
-           const PropagateOptions& options, Workspace<Real>& workspace,
+           const PropagateOptions& options, WorkspaceState<Real>& workspace,
            DistanceField<Real>& field) {
   const std::size_t n = wireframe.vertex_count();
   WirePropagation<Real, Step, kLabels> propagation(wireframe, workspace, options);
@@ -122,7 +121,8 @@ void solve(const Team& team, const Wireframe<Real>& wireframe, std::span<const P
 template <class Real>
 void solve_points(const OpenMP& executor, const Wireframe<Real>& wireframe,
                   std::span<const PointSource> sources, const PropagateOptions& options,
-                  Workspace<Real>& workspace, DistanceField<Real>& field) {
+                  Workspace<Real>& kept, DistanceField<Real>& field) {
+  WorkspaceState<Real>& workspace = kept.state();
   const Team team(executor);
   check(sources, options, wireframe);
   check_ties(sources);

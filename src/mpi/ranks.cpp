@@ -2,6 +2,7 @@
 
 #include <mpi.h>
 #include <sched.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <array>
@@ -14,6 +15,7 @@
 #include <mutex>
 #include <new>
 #include <optional>
+#include <string>
 #include <thread>
 #include <type_traits>
 #include <vector>
@@ -21,6 +23,7 @@
 #include <plexway/error.hpp>
 
 #include "apps/row_work.hpp"
+#include "file/unfinished.hpp"
 
 namespace plexway::mpi {
 namespace {
@@ -281,8 +284,13 @@ PairsReport follow(const PairsRequest& request, const RowRanks::Solve& solve) {
 
 }  // namespace
 
+// What `meet` is told by who goes on.
+constexpr int here = -1;
+
 struct Ranks::State {
   int rank = 0, count = 1, on_node = 1;
+  int rank_on_node = 0, maker = 0;  // the process that makes what its node needs once
+  bool share_nodes = false;
   bool met = false;
 };
 
@@ -298,7 +306,13 @@ Ranks::Ranks(int& argc, char**& argv) : state_(std::make_unique<State>()) {
   MPI_Comm node;
   MPI_Comm_split_type(MPI_COMM_WORLD, MPI_COMM_TYPE_SHARED, 0, MPI_INFO_NULL, &node);
   MPI_Comm_size(node, &state_->on_node);
+  MPI_Comm_rank(node, &state_->rank_on_node);
+  state_->maker = static_cast<int>(::getpid());
+  MPI_Bcast(&state_->maker, 1, MPI_INT, 0, node);
   MPI_Comm_free(&node);
+  int most = 1;
+  MPI_Allreduce(&state_->on_node, &most, 1, MPI_INT, MPI_MAX, MPI_COMM_WORLD);
+  state_->share_nodes = most > 1;
 }
 
 Ranks::~Ranks() {
@@ -320,9 +334,37 @@ int Ranks::threads() const {
   return std::max(ours < cores ? ours : cores / state_->on_node, 1);
 }
 
+bool Ranks::share_nodes() const { return state_->share_nodes; }
+
+void Ranks::once_a_node(const std::function<void(const std::filesystem::path&)>& make,
+                        const std::function<void(const std::filesystem::path&)>& take) {
+  std::error_code absent;
+  std::filesystem::path file = std::filesystem::temp_directory_path(absent);
+  if (absent) file = "/dev/null";  // nothing can be written below it, and so each makes its own
+  file /= "plexway-" + std::to_string(state_->maker) + ".plexway";
+  struct Removed {
+    explicit Removed(const std::filesystem::path& name) : path(name.string()) {}
+    ~Removed() { ::unlink(path.c_str()); }
+    const std::string path;
+    const file::Unfinished by_signals{path.c_str()};
+  };
+  const auto all_are_here = [this] {
+    const Verdict verdict = meet(here);
+    if (verdict.code != here) throw Absent{verdict};
+    state_->met = false;  // there is more to come
+  };
+  std::optional<Removed> made;
+  if (state_->rank_on_node == 0) {
+    made.emplace(file);
+    make(file);
+  }
+  all_are_here();
+  take(file);
+  all_are_here();
+}
+
 PairsReport Ranks::share(const PairsRequest& request, std::size_t vertices,
                          const PairsSink<Bytes>& sink, const Solve& solve) {
-  constexpr int here = -1;
   const Verdict verdict = meet(here);
   if (verdict.code != here) throw Absent{verdict};
   if (!leads()) return follow(request, solve);

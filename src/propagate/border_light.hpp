@@ -7,9 +7,9 @@
 #include <vector>
 
 #include <plexway/complex/triangle_mesh.hpp>
-#include <plexway/propagate/saddle_rule.hpp>
 
 #include "propagate/curve_seeds.hpp"
+#include "propagate/saddle_rule.hpp"
 
 namespace plexway {
 

@@ -3,7 +3,8 @@
 #include <cstddef>
 
 #include <plexway/complex/ids.hpp>
-#include <plexway/propagate/front.hpp>
+
+#include "propagate/front.hpp"
 
 namespace plexway {
 

@@ -10,7 +10,8 @@
 #include <vector>
 
 #include <plexway/complex/triangle_mesh.hpp>
-#include <plexway/kernel/lanes.hpp>
+
+#include "kernel/lanes.hpp"
 
 namespace plexway {
 

@@ -6,12 +6,12 @@
 #include <span>
 
 #include <plexway/propagate/distance_field.hpp>
-#include <plexway/propagate/front.hpp>
 #include <plexway/propagate/options.hpp>
-#include <plexway/propagate/workspace.hpp>
 #include <plexway/source/point_source.hpp>
 
 #include "complex/number_range.hpp"
+#include "propagate/front.hpp"
+#include "propagate/workspace_state.hpp"
 
 namespace plexway {
 
@@ -30,8 +30,8 @@ void with_queue(const PropagateOptions& options, FrontStorage& storage, Solve so
 /// radius, +inf where unreached, a source's own offset to the last bit.
 template <class Real, bool kLabels, class Complex, class Front, class Crew>
 void finish(const Complex& complex, std::span<const PointSource> sources,
-            const PropagateOptions& options, const Front& front, const Workspace<Real>& workspace,
-            const Crew& crew, DistanceField<Real>& field) {
+            const PropagateOptions& options, const Front& front,
+            const WorkspaceState<Real>& workspace, const Crew& crew, DistanceField<Real>& field) {
   NumberRange<Real>::check_unit(complex.unit());
   constexpr Real infinity = std::numeric_limits<Real>::infinity();
   const std::span<const Index> inside = complex.vertices_inside();

@@ -19,7 +19,7 @@ struct Mended {
 /// the edge between.
 template <class Real, bool kLabels, class Crew>
 Mended mend(const TriangleMesh<Real>& mesh, std::span<const PointSource> sources,
-            Workspace<Real>& workspace, const Crew& crew) {
+            WorkspaceState<Real>& workspace, const Crew& crew) {
   const StraightLines<Real> lines(mesh, sources);
   Mended mended;
   mended.raised = lines.template raise<kLabels>(workspace, crew);

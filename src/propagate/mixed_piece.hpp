@@ -10,10 +10,10 @@
 #include <plexway/complex/mixed_complex.hpp>
 #include <plexway/propagate/distance_field.hpp>
 #include <plexway/propagate/options.hpp>
-#include <plexway/propagate/workspace.hpp>
 #include <plexway/source/point_source.hpp>
 
 #include "propagate/hinge_fermat.hpp"
+#include "propagate/workspace_state.hpp"
 
 namespace plexway {
 
@@ -114,7 +114,7 @@ class MixedPiece {
 
   // Between the domain's unit in the caller's order and what is read out inside.
   template <class Complex>
-  static void take_out(const Complex& complex, const Workspace<Real>& workspace,
+  static void take_out(const Complex& complex, const WorkspaceState<Real>& workspace,
                        std::span<Real> distance, std::span<Index> label) {
     const std::span<const Index> inside = complex.vertices_inside();
     for (std::size_t v = 0; v < inside.size(); ++v) {
@@ -124,7 +124,7 @@ class MixedPiece {
   }
   /// `relax` on the distances as they are in the domain by now; only what got nearer changes.
   template <class Complex, class Relax>
-  static bool relax_with(const Complex& complex, Workspace<Real>& workspace,
+  static bool relax_with(const Complex& complex, WorkspaceState<Real>& workspace,
                          std::span<Real> distance, std::span<Index> label, Relax relax) {
     const std::span<const Index> inside = complex.vertices_inside();
     const Real unit = static_cast<Real>(complex.unit());

@@ -27,7 +27,7 @@ class MixedPropagation {
   using Member = typename Domain::Member;
 
   /// `offered` is room for what has crossed already.
-  MixedPropagation(const Domain& domain, std::span<Workspace<Real>> workspaces,
+  MixedPropagation(const Domain& domain, std::span<WorkspaceState<Real>> workspaces,
                    std::vector<Real>& offered, const PropagateOptions& options)
       : domain_(domain),
         options_(options),
@@ -41,7 +41,7 @@ class MixedPropagation {
     PropagateOptions mine = options;
     if (options.progress) mine.progress = [this](const Progress& p) { return report(p); };
     for (const auto& piece : domain.pieces()) {
-      Workspace<Real>& workspace = workspaces[piece.number];
+      WorkspaceState<Real>& workspace = workspaces[piece.number];
       const auto& complex = domain.complex(piece);
       if (const auto* surface = std::get_if<TriangleMesh<Real>>(&complex))
         pieces_.push_back(std::make_unique<MixedSurface<Real>>(*surface, workspace, mine, step));

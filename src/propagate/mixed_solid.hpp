@@ -7,11 +7,10 @@
 #include <limits>
 #include <vector>
 
-#include <plexway/propagate/solid_rule.hpp>
-
 #include "propagate/mixed_piece.hpp"
 #include "propagate/solid_propagation.hpp"
 #include "propagate/solid_read_out.hpp"
+#include "propagate/solid_rule.hpp"
 
 namespace plexway {
 
@@ -25,8 +24,8 @@ class MixedSolid final : public MixedPiece<Real> {
   using Wave = Wavefront<Real, SolidLabel<Real>, DualQueue<Real>, true>;
   using Rule = SolidRule<Real, Wave>;
 
-  MixedSolid(const TetMesh<Real>& mesh, Workspace<Real>& workspace, const PropagateOptions& options,
-             Real step)
+  MixedSolid(const TetMesh<Real>& mesh, WorkspaceState<Real>& workspace,
+             const PropagateOptions& options, Real step)
       : mesh_(mesh),
         workspace_(prepare(mesh, workspace)),
         options_(options),
@@ -198,7 +197,7 @@ class MixedSolid final : public MixedPiece<Real> {
  private:
   static constexpr Real infinity = std::numeric_limits<Real>::infinity();
 
-  static Workspace<Real>& prepare(const TetMesh<Real>& mesh, Workspace<Real>& workspace) {
+  static WorkspaceState<Real>& prepare(const TetMesh<Real>& mesh, WorkspaceState<Real>& workspace) {
     workspace.front.reserve(mesh.tet_count());
     workspace.start(mesh.tet_count(), true);
     return workspace;
@@ -240,7 +239,7 @@ class MixedSolid final : public MixedPiece<Real> {
   };
 
   const TetMesh<Real>& mesh_;
-  Workspace<Real>& workspace_;
+  WorkspaceState<Real>& workspace_;
   PropagateOptions options_;
   Real unit_;
   std::vector<ReflexEdge<Real>> rings_;

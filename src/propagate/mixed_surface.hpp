@@ -5,10 +5,9 @@
 #include <cmath>
 #include <limits>
 
-#include <plexway/propagate/saddle_rule.hpp>
-
 #include "propagate/mixed_piece.hpp"
 #include "propagate/read_out.hpp"
+#include "propagate/saddle_rule.hpp"
 #include "propagate/triangle_propagation.hpp"
 
 namespace plexway {
@@ -22,7 +21,7 @@ class MixedSurface final : public MixedPiece<Real> {
   using Wave = Wavefront<Real, SaddleLabel<Real>, DualQueue<Real>, true>;
   using Rule = SaddleRule<Real, Wave>;
 
-  MixedSurface(const TriangleMesh<Real>& mesh, Workspace<Real>& workspace,
+  MixedSurface(const TriangleMesh<Real>& mesh, WorkspaceState<Real>& workspace,
                const PropagateOptions& options, Real step)
       : mesh_(mesh),
         workspace_(prepare(mesh, workspace)),
@@ -163,7 +162,8 @@ class MixedSurface final : public MixedPiece<Real> {
  private:
   static constexpr Real infinity = std::numeric_limits<Real>::infinity();
 
-  static Workspace<Real>& prepare(const TriangleMesh<Real>& mesh, Workspace<Real>& workspace) {
+  static WorkspaceState<Real>& prepare(const TriangleMesh<Real>& mesh,
+                                       WorkspaceState<Real>& workspace) {
     workspace.front.reserve(mesh.face_count());
     workspace.start(mesh.face_count(), true);
     return workspace;
@@ -336,7 +336,7 @@ class MixedSurface final : public MixedPiece<Real> {
   };
 
   const TriangleMesh<Real>& mesh_;
-  Workspace<Real>& workspace_;
+  WorkspaceState<Real>& workspace_;
   PropagateOptions options_;
   Real unit_;
   Wave wave_;

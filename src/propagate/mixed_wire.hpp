@@ -3,10 +3,9 @@
 #include <cmath>
 #include <limits>
 
-#include <plexway/propagate/wire_step.hpp>
-
 #include "propagate/mixed_piece.hpp"
 #include "propagate/wire_propagation.hpp"
+#include "propagate/wire_step.hpp"
 
 namespace plexway {
 
@@ -17,7 +16,7 @@ class MixedWire final : public MixedPiece<Real> {
   using typename MixedPiece<Real>::Member;
   using typename MixedPiece<Real>::Found;
 
-  MixedWire(const Wireframe<Real>& wireframe, Workspace<Real>& workspace,
+  MixedWire(const Wireframe<Real>& wireframe, WorkspaceState<Real>& workspace,
             const PropagateOptions& options, Real step)
       : wireframe_(wireframe),
         workspace_(prepare(wireframe, workspace)),
@@ -70,7 +69,8 @@ class MixedWire final : public MixedPiece<Real> {
   bool out_of_budget() const override { return propagation_.out_of_budget(); }
 
  private:
-  static Workspace<Real>& prepare(const Wireframe<Real>& wireframe, Workspace<Real>& workspace) {
+  static WorkspaceState<Real>& prepare(const Wireframe<Real>& wireframe,
+                                       WorkspaceState<Real>& workspace) {
     workspace.front.reserve(wireframe.vertex_count());
     return workspace;
   }
@@ -79,7 +79,7 @@ class MixedWire final : public MixedPiece<Real> {
   }
 
   const Wireframe<Real>& wireframe_;
-  Workspace<Real>& workspace_;
+  WorkspaceState<Real>& workspace_;
   PropagateOptions options_;
   Real unit_, step_;
   DualQueue<Real> front_;

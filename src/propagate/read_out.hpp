@@ -8,9 +8,10 @@
 #include <utility>
 
 #include <plexway/complex/triangle_mesh.hpp>
-#include <plexway/propagate/front.hpp>
-#include <plexway/propagate/saddle_rule.hpp>
-#include <plexway/propagate/workspace.hpp>
+
+#include "propagate/front.hpp"
+#include "propagate/saddle_rule.hpp"
+#include "propagate/workspace_state.hpp"
 
 namespace plexway {
 
@@ -104,7 +105,7 @@ void offer_corners(std::span<const TriangleRecord<Real>> triangles, const Rule& 
 /// Vertices keep the least distance that triangles offer.
 template <class Real, bool kLabels, class Rule, class Front>
 void read_out_triangles(std::span<const TriangleRecord<Real>> triangles, const Rule& rule,
-                        const Front& front, Workspace<Real>& workspace) {
+                        const Front& front, WorkspaceState<Real>& workspace) {
   const auto offer = [&](Index v, Real d, Index f) {
     if constexpr (kLabels) {
       if (d < workspace.vertex[v])
@@ -133,7 +134,7 @@ struct Lowered {
 ///
 /// search(wrong, look) calls look(f) at least for all triangles that wrong(f) names.
 template <class Real, bool kLabels, class Search>
-Lowered read_out_edges(const TriangleMesh<Real>& mesh, Workspace<Real>& workspace,
+Lowered read_out_edges(const TriangleMesh<Real>& mesh, WorkspaceState<Real>& workspace,
                        const Search& search) {
   const std::span<const TriangleRecord<Real>> triangles = mesh.triangles();
   Real* d = workspace.vertex.data();
@@ -200,7 +201,7 @@ Lowered read_out_edges(const TriangleMesh<Real>& mesh, Workspace<Real>& workspac
 }
 
 template <class Real, bool kLabels>
-Lowered read_out_edges(const TriangleMesh<Real>& mesh, Workspace<Real>& workspace) {
+Lowered read_out_edges(const TriangleMesh<Real>& mesh, WorkspaceState<Real>& workspace) {
   return read_out_edges<Real, kLabels>(mesh, workspace, [&](const auto&, const auto& look) {
     for (std::size_t f = 0; f < mesh.face_count(); ++f) look(f);
   });
@@ -210,7 +211,7 @@ Lowered read_out_edges(const TriangleMesh<Real>& mesh, Workspace<Real>& workspac
 /// its corners.
 template <class Real, bool kLabels, class Rule, class Front>
 void read_out_around(const TriangleMesh<Real>& mesh, const Rule& rule, const Front& front,
-                     Index vertex, Workspace<Real>& workspace) {
+                     Index vertex, WorkspaceState<Real>& workspace) {
   mesh.corners_at(vertex, workspace.corners);
   for (const Index c : workspace.corners) {
     if (!front.reached(c / 3)) continue;

@@ -9,9 +9,10 @@
 
 #include <plexway/complex/tet_mesh.hpp>
 #include <plexway/propagate/options.hpp>
-#include <plexway/propagate/wavefront.hpp>
-#include <plexway/propagate/workspace.hpp>
 #include <plexway/source/point_source.hpp>
+
+#include "propagate/wavefront.hpp"
+#include "propagate/workspace_state.hpp"
 
 namespace plexway {
 

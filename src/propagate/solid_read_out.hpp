@@ -8,10 +8,10 @@
 #include <utility>
 
 #include <plexway/complex/tet_mesh.hpp>
-#include <plexway/propagate/workspace.hpp>
 #include <plexway/source/point_source.hpp>
 
 #include "propagate/changed_vertices.hpp"
+#include "propagate/workspace_state.hpp"
 
 namespace plexway {
 
@@ -19,7 +19,7 @@ namespace plexway {
 /// they are at infinity.
 template <class Real, bool kLabels, class Rule, class Front>
 void read_out_tets(const TetMesh<Real>& mesh, const Rule& rule, const Front& front,
-                   Workspace<Real>& workspace) {
+                   WorkspaceState<Real>& workspace) {
   const std::span<const TetRecord<Real>> tets = mesh.tets();
   for (Index t = 0; t + 1 < tets.size(); ++t) {
     if (!front.reached(t)) continue;
@@ -70,7 +70,7 @@ void offer_corners(const TetMesh<Real>& mesh, const PointSource& source, const O
 /// threads can do at once, and where paths bend, less work.
 template <class Real, bool kLabels, class Rule, class Front>
 void read_out_around(const TetMesh<Real>& mesh, const Rule& rule, const Front& front, Index begin,
-                     Index end, Workspace<Real>& workspace) {
+                     Index end, WorkspaceState<Real>& workspace) {
   for (Index v = begin; v < end; ++v) {
     rule.ask_around(mesh.corners_at(v), [&](Index t, Real distance) {
       workspace.vertex[v] = distance;
@@ -82,7 +82,7 @@ void read_out_around(const TetMesh<Real>& mesh, const Rule& rule, const Front& f
 /// For one thread, all vertices.
 template <class Real, bool kLabels, class Rule, class Front>
 void read_out(const TetMesh<Real>& mesh, const Rule& rule, const Front& front,
-              Workspace<Real>& workspace) {
+              WorkspaceState<Real>& workspace) {
   const std::size_t vertices = mesh.vertex_count();
   workspace.vertex.assign(vertices, std::numeric_limits<Real>::infinity());
   if constexpr (kLabels) workspace.vertex_source.assign(vertices, none);
@@ -97,7 +97,7 @@ void read_out(const TetMesh<Real>& mesh, const Rule& rule, const Front& front,
 ///
 /// search(wrong, look) calls look(t) at least for all tetrahedra that wrong(t) names.
 template <class Real, bool kLabels, class Search>
-bool read_out_tet_edges(const TetMesh<Real>& mesh, Workspace<Real>& workspace,
+bool read_out_tet_edges(const TetMesh<Real>& mesh, WorkspaceState<Real>& workspace,
                         const Search& search) {
   const std::span<const TetRecord<Real>> tets = mesh.tets();
   const std::span<const Vector3<Real>> points = mesh.points();
@@ -148,7 +148,7 @@ bool read_out_tet_edges(const TetMesh<Real>& mesh, Workspace<Real>& workspace,
 }
 
 template <class Real, bool kLabels>
-bool read_out_tet_edges(const TetMesh<Real>& mesh, Workspace<Real>& workspace) {
+bool read_out_tet_edges(const TetMesh<Real>& mesh, WorkspaceState<Real>& workspace) {
   return read_out_tet_edges<Real, kLabels>(mesh, workspace, [&](const auto&, const auto& look) {
     for (std::size_t t = 0; t < mesh.tet_count(); ++t) look(t);
   });

@@ -10,8 +10,9 @@
 #include <utility>
 
 #include <plexway/complex/triangle_mesh.hpp>
-#include <plexway/propagate/workspace.hpp>
 #include <plexway/source/point_source.hpp>
+
+#include "propagate/workspace_state.hpp"
 
 namespace plexway {
 
@@ -27,7 +28,7 @@ class StraightLines {
   /// Raises what is below, by more than rounding. Returns how many were by more than 1e-4. Cost: 24
   /// bytes read a vertex, and all sources for a vertex that is below the line to its own.
   template <bool kLabels, class Crew>
-  std::size_t raise(Workspace<Real>& workspace, const Crew& crew) const {
+  std::size_t raise(WorkspaceState<Real>& workspace, const Crew& crew) const {
     if (positions_.empty() || sources_.empty()) return 0;
     std::atomic<std::size_t> raised{0};
     crew.over(workspace.vertex.size(), [&](std::size_t begin, std::size_t end) {

@@ -9,11 +9,11 @@
 #include <plexway/complex/triangle_mesh.hpp>
 #include <plexway/propagate/distance_field.hpp>
 #include <plexway/propagate/options.hpp>
-#include <plexway/propagate/wavefront.hpp>
-#include <plexway/propagate/workspace.hpp>
 #include <plexway/source/point_source.hpp>
 
 #include "propagate/triangle_spread.hpp"
+#include "propagate/wavefront.hpp"
+#include "propagate/workspace_state.hpp"
 
 namespace plexway {
 
@@ -21,7 +21,7 @@ namespace plexway {
 template <class Real, class Rule, class Front, bool kLabels>
 class TrianglePropagation {
  public:
-  TrianglePropagation(const TriangleMesh<Real>& mesh, Workspace<Real>& workspace, Rule rule,
+  TrianglePropagation(const TriangleMesh<Real>& mesh, WorkspaceState<Real>& workspace, Rule rule,
                       Front& front, const PropagateOptions& options)
       : mesh_(mesh),
         triangles_(mesh.triangles()),
@@ -100,8 +100,8 @@ class TrianglePropagation {
       spread.expand(rule, front, f, last_resort,
                     [this](Index g, std::size_t edge) { rule.cross(g, edge, last_resort); });
     }
-    void narrow(Index f) const requires requires(const Rule& any) { any.hear(f); }
-    { rule.hear(f); }
+    void narrow(Index f) const requires requires(const Rule& any) { any.narrow(f); }
+    { rule.narrow(f); }
     void far_ahead(Index f) const { rule.prefetch(f); }
     void ahead(Index f) const { rule.prefetch_around(f); }
   };
@@ -162,7 +162,7 @@ class TrianglePropagation {
 
   const TriangleMesh<Real>& mesh_;
   std::span<const TriangleRecord<Real>> triangles_;
-  Workspace<Real>& workspace_;
+  WorkspaceState<Real>& workspace_;
   Front& front_;
   Real radius_;
   TriangleSpread<Real, Rule, Front> spread_;

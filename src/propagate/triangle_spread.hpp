@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <span>
 
-#include <plexway/complex/triangle_record.hpp>
+#include <plexway/complex/detail/triangle_record.hpp>
 
 namespace plexway {
 

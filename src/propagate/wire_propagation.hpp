@@ -8,13 +8,13 @@
 #include <span>
 
 #include <plexway/complex/wireframe.hpp>
-#include <plexway/error.hpp>
 #include <plexway/propagate/distance_field.hpp>
 #include <plexway/propagate/options.hpp>
-#include <plexway/propagate/workspace.hpp>
 #include <plexway/source/point_source.hpp>
 
 #include "complex/number_range.hpp"
+#include "propagate/progress_counter.hpp"
+#include "propagate/workspace_state.hpp"
 
 namespace plexway {
 
@@ -31,7 +31,7 @@ class WirePropagation {
  public:
   static constexpr Real infinity = std::numeric_limits<Real>::infinity();
 
-  WirePropagation(const Wireframe<Real>& wireframe, Workspace<Real>& workspace,
+  WirePropagation(const Wireframe<Real>& wireframe, WorkspaceState<Real>& workspace,
                   const PropagateOptions& options)
       : wireframe_(wireframe),
         options_(options),
@@ -174,10 +174,9 @@ class WirePropagation {
  private:
   /// Grants the next share of the budget and reports progress; false if the budget is spent.
   bool take_stock(Real distance) {
-    if (options_.progress && granted_ > 0 &&
-        !options_.progress({granted_, reached_, wireframe_.vertex_count(),
-                            static_cast<double>(distance) * wireframe_.unit()}))
-      throw Cancelled("cancelled by the progress callback");
+    if (options_.progress && granted_ > 0)
+      tell_progress(options_, {granted_, reached_, wireframe_.vertex_count(),
+                               static_cast<double>(distance) * wireframe_.unit()});
     constexpr std::size_t share = 65536;
     left_ = granted_ < options_.max_expansions ? std::min(share, options_.max_expansions - granted_)
                                                : 0;

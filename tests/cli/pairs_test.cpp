@@ -253,6 +253,35 @@ TEST_CASE("pairs go around what is masked") {
   }
 }
 
+TEST_CASE("rows of solids whose speeds jump, and of mixed domains, are those of distance") {
+  // Such a solid is solved as regions, whose vertices have numbers of their own.
+  const testing::Folder folder;
+  const std::string elbow = sample("elbow.mesh"), rows = folder.write("rows.txt", "0\n17\n5\n");
+  std::string speeds;
+  for (int t = 0; t < 1152; ++t) speeds += t % 3 == 0 ? "2\n" : "1\n";
+  const std::string metric = "speed:" + folder.write("speeds.txt", speeds).string();
+  const std::string out = folder.at("d.npy"), one = folder.at("one.npy");
+  const auto check = [&](const std::vector<std::string>& what, const std::string& input) {
+    const auto run = [&](std::vector<std::string> words) {
+      words.insert(words.begin() + 1, input);
+      words.insert(words.end(), what.begin(), what.end());
+      const Outcome done = run_tool(words);
+      INFO(done.err);
+      REQUIRE(done.code == 0);
+    };
+    run({"pairs", "--sources", rows, "--out", out, "--quiet"});
+    std::vector<double> all;
+    for (const char* vertex : {"vertex:0", "vertex:17", "vertex:5"}) {
+      run({"distance", "--source", vertex, "--out", one, "--quiet"});
+      const auto d = matrix(one);
+      all.insert(all.end(), d.begin(), d.end());
+    }
+    CHECK(matrix(out) == all);
+  };
+  check({"--metric", metric}, elbow);
+  check({}, elbow);
+}
+
 TEST_CASE("a matrix killed twenty times is bit for bit one that was not") {
   const testing::Folder folder;
   const std::string input = folder.write("square.off", square_off(64));

@@ -13,6 +13,7 @@
 #include "executors/parity.hpp"
 #include "executors/piece_testing.hpp"
 #include "propagate/solving.hpp"
+#include "propagate/workspace_state.hpp"
 #include "with_accuracy.hpp"
 
 // Surfaces by pieces (OpenMP::piece), by labels; windows are in window_pieces_test.cpp.
@@ -261,8 +262,9 @@ TEST_CASE("pieces: reports to the calling thread, and can be cancelled", "[threa
   options.progress = nullptr;
   solve(pieces(4, 2000), mesh, source, options, workspace, field);
   CHECK(same_bits(whole, field));
-  CHECK(workspace.pieces.bytes() > 64 * mesh.face_count());
-  CHECK(workspace.bytes() > workspace.pieces.bytes());
+  const std::size_t bytes = workspace.state().pieces.bytes();
+  CHECK(bytes > 64 * mesh.face_count());
+  CHECK(workspace.bytes() > bytes);
 }
 
 TEST_CASE("pieces: a workspace goes from surface to surface") {

@@ -1,5 +1,5 @@
-#include "fuzz_tets.hpp"
+#include "fuzz_reader.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  return fuzz::check_tets(plexway::io::parse_medit, data, size);
+  return fuzz::check_reader(plexway::io::parse_medit, data, size);
 }

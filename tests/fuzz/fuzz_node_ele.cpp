@@ -1,6 +1,6 @@
 // The two files of TetGen as one: what stands behind the first '@' is the .ele.
 
-#include "fuzz_tets.hpp"
+#include "fuzz_reader.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const auto parse = [](std::string_view both, std::string_view name) {
@@ -8,5 +8,5 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     const std::string_view ele = at == std::string_view::npos ? "" : both.substr(at + 1);
     return plexway::io::parse_node_ele({both.substr(0, at), name}, {ele, name});
   };
-  return fuzz::check_tets(parse, data, size);
+  return fuzz::check_reader(parse, data, size);
 }

@@ -1,11 +1,6 @@
 // The tool's own small files: rows of numbers (sources, metrics, spacings), true distances, tables.
 // The first byte says which.
 
-#include <sys/mman.h>
-#include <unistd.h>
-
-#include <string>
-
 #include "any/errors/truth_file.hpp"
 #include "any/tuning/policy_file.hpp"
 #include "fuzz_reader.hpp"
@@ -13,13 +8,10 @@
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   if (size == 0) return 0;
-  const int bytes = ::memfd_create("input", 0);
-  fuzz::require(bytes >= 0, "a file in memory");
   const std::uint8_t kind = data[0];
-  const ssize_t written = ::write(bytes, data + 1, size - 1);
-  fuzz::require(written == static_cast<ssize_t>(size - 1), "all bytes in memory");
-  const std::string name = "/proc/self/fd/" + std::to_string(bytes);
-  try {
+  const fuzz::MemoryFile file(data + 1, size - 1);
+  const std::string name = file.name();
+  return fuzz::check_input(name, [&] {
     switch (kind % 4) {
       case 0:
         for (const auto& row : plexway::io::read_number_rows(name, 1, 6, "numbers"))
@@ -35,12 +27,5 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
       default:
         (void)plexway::read_saddle_thresholds(name);
     }
-  } catch (const plexway::InputError& error) {
-    const std::string_view message = error.what();
-    fuzz::require(message.starts_with(name), "a message names the file");
-    for (const char c : message)
-      fuzz::require(c >= ' ' && c <= '~', "a message is one printable line");
-  }
-  ::close(bytes);
-  return 0;
+  });
 }

@@ -134,16 +134,4 @@ inline plexway::PropagateOptions options_of(Choices& choices) {
   return options;
 }
 
-/// Runs `solve`, which may refuse what it is given in one line.
-template <class Solve>
-int check_solving(Solve solve) {
-  try {
-    solve();
-  } catch (const plexway::InputError& error) {
-    for (const char* c = error.what(); *c != 0; ++c)
-      require(*c >= ' ' && *c <= '~', "a message is one printable line");
-  }
-  return 0;
-}
-
 }  // namespace fuzz

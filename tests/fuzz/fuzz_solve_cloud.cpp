@@ -34,7 +34,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
       }
     near.begin.push_back(static_cast<Index>(near.of.size()));
   }
-  return check_solving([&] {
+  return check_input({}, [&] {
     const plexway::PointCloud<double> cloud(points, near);
     const auto field =
         plexway::solve(plexway::Serial{}, cloud, plexway::PointSource::at(source), options);

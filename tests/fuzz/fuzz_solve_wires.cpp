@@ -16,7 +16,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     graph.edges.push_back({choices.below(graph.vertices), choices.below(graph.vertices)});
     graph.lengths.push_back(choices.number());
   }
-  return check_solving([&] {
+  return check_input({}, [&] {
     const plexway::Wireframe<double> wires(graph.vertices, graph.edges, graph.lengths);
     const auto at = plexway::PointSource::at(source);
     const auto field =

@@ -8,9 +8,9 @@
 #include <vector>
 
 #include <plexway/complex/triangle_mesh.hpp>
-#include <plexway/propagate/saddle_step.hpp>
 
 #include "executors/gl/surface_seeds.hpp"
+#include "propagate/saddle_step.hpp"
 
 namespace plexway::testing {
 
@@ -27,7 +27,7 @@ class RoundsReference {
         best_(mesh.face_count(), infinity),
         known_(mesh.face_count(), infinity),
         labels_(mesh.face_count()) {
-    Workspace<float> workspace;
+    WorkspaceState<float> workspace;
     gl::SurfaceSeeds seeds;
     seeds.add(mesh, sources, 0, workspace);
     std::vector<Entry> current;

@@ -5,13 +5,12 @@
 #include <random>
 #include <vector>
 
-#include <plexway/kernel/hinge.hpp>
-#include <plexway/propagate/saddle_step.hpp>
-
 #include "executors/gl/buffer.hpp"
 #include "executors/gl/front.hpp"
 #include "executors/gl/uniforms.hpp"
 #include "gl/device.hpp"
+#include "kernel/hinge.hpp"
+#include "propagate/saddle_step.hpp"
 
 namespace {
 

@@ -12,23 +12,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// The headers that the reference leaves out: those that public headers need, and the rules.
-struct Implementation {
-  std::set<std::string> needed, rules;
-};
-
-Implementation implementation() {
-  static const std::regex header(R"(^  ([a-z_]+/[a-z_]+\.hpp)\)?$)");
-  Implementation found;
-  bool rules = false;
-  for (const std::string& line : house::lines_of("cmake/PlexwayReference.cmake")) {
-    rules = rules || line.find("# The rules, step by step.") != line.npos;
-    std::smatch match;
-    if (std::regex_match(line, match, header))
-      (rules ? found.rules : found.needed).insert("plexway/" + match[1].str());
-  }
-  return found;
-}
+bool is_detail(const std::string& header) { return header.find("/detail/") != header.npos; }
 
 }  // namespace
 
@@ -48,7 +32,6 @@ TEST_CASE("every namespace of the public headers has a docstring") {
       }
     }
   }
-  documented.erase("plexway::kernel");  // no user's business: cmake/PlexwayReference.cmake
   CHECK(documented.size() >= 9);
   for (const auto& [name, has] : documented) {
     INFO(name);
@@ -56,24 +39,22 @@ TEST_CASE("every namespace of the public headers has a docstring") {
   }
 }
 
-TEST_CASE("what the reference leaves out is there, and public headers do without the rules") {
-  const Implementation left_out = implementation();
-  REQUIRE(left_out.needed.size() > 10);
-  REQUIRE(left_out.rules.size() > 10);
-  for (const auto* names : {&left_out.needed, &left_out.rules}) {
-    for (const std::string& name : *names) {
-      INFO(name);
-      CHECK(fs::exists(house::root() / "include" / name));
-    }
-  }
-  std::set<std::string> reached;
+TEST_CASE("public headers need no header of src, and all that are details") {
+  std::set<std::string> reached, details;
   std::vector<std::string> todo;
   for (const std::string& file : house::files_under("include")) {
+    if (fs::path(file).extension() != ".hpp") continue;
     const std::string name = file.substr(std::string("include/").size());
-    if (fs::path(name).extension() == ".hpp" && left_out.needed.count(name) == 0 &&
-        left_out.rules.count(name) == 0)
+    if (is_detail(name))
+      details.insert(name);
+    else
       todo.push_back(name);
+    for (const house::Include& include : house::includes_of(file)) {
+      INFO(file << ": " << include.name << " is not installed");
+      CHECK_FALSE(include.quoted);
+    }
   }
+  REQUIRE(todo.size() > 80);
   while (!todo.empty()) {
     const std::string name = todo.back();
     todo.pop_back();
@@ -81,12 +62,8 @@ TEST_CASE("what the reference leaves out is there, and public headers do without
     for (const house::Include& include : house::includes_of("include/" + name))
       todo.push_back(include.name);
   }
-  for (const std::string& name : left_out.rules) {
-    INFO(name << " is needed by a public header");
-    CHECK(reached.count(name) == 0);
-  }
-  for (const std::string& name : left_out.needed) {
-    INFO(name << " is needed by no public header: it is one of the rules");
+  for (const std::string& name : details) {
+    INFO(name << " is needed by no public header: it belongs into src");
     CHECK(reached.count(name) == 1);
   }
 }

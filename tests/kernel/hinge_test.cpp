@@ -2,14 +2,14 @@
 
 #include "hinge_oracle.hpp"
 
-#include <plexway/kernel/hinge.hpp>
-
 #include <catch2/catch.hpp>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <type_traits>
+
+#include "kernel/hinge.hpp"
 
 namespace {
 

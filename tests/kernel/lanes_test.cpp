@@ -1,11 +1,11 @@
 // Real may be a SIMD type down to `distance_squared`: four hinges at once give the same bits as one
 // after another. This pins what such a type has to bring.
 
-#include <plexway/kernel/hinge.hpp>
-
 #include <catch2/catch.hpp>
 
 #include <random>
+
+#include "kernel/hinge.hpp"
 
 namespace lanes {
 

@@ -92,6 +92,38 @@ TEST_CASE("ranks make bit for bit what threads make") {
   CHECK(folder.files() == 1);
 }
 
+TEST_CASE("ranks of a node map what one of them built, and do without where there is no room") {
+  if (!mpirun()) return;
+  const testing::Folder folder, temporary;
+  const std::string input = folder.write("square.off", square_off(16)), alone = folder.at("a.npy"),
+                    out = folder.at("d.npy"), kept = folder.at("square.plexway");
+  const Words command = {"pairs", input, "--sources", "all", "--quiet", "--out"};
+  REQUIRE(run_tool(command + Words{alone}).code == 0);
+  REQUIRE(run_tool({"prepare", input, "--out", kept, "--quiet"}).code == 0);
+  const auto same = [&](const std::string& domain, const std::string& place) {
+    const Words run = Words{"env",
+                            "TMPDIR=" + place,
+                            PLEXWAY_TEST_MPI_TOOL,
+                            "pairs",
+                            domain,
+                            "--sources",
+                            "all",
+                            "--quiet",
+                            "--out",
+                            out};
+    const Outcome done = run_program(*mpirun() + Words{"-n", "3"} + run);
+    INFO(done.err);
+    REQUIRE(done.code == 0);
+    CHECK(content(out) == content(alone));
+    fs::remove(out);
+  };
+  same(input, temporary.path().string());
+  CHECK(temporary.files() == 0);
+  same(kept, temporary.path().string());
+  same(input, folder.at("no such folder").string());
+  CHECK(folder.files() == 3);
+}
+
 TEST_CASE("what ranks cannot do is said once") {
   if (!mpirun()) return;
   const testing::Folder folder;
@@ -121,14 +153,18 @@ TEST_CASE("a rank that dies ends the run, and the next goes on where it was") {
     return Words{"pairs", input, "--sources", "all", "--type", "float64", "--quiet", "--out", file};
   };
   REQUIRE(run_tool(command(alone)).code == 0);
-  // The second of two is killed after some time; less where it was through by then.
+  // The second of two is killed as soon as there is a journal, and again where it was through by
+  // then.
   const Words tool = Words{PLEXWAY_TEST_MPI_TOOL} + command(out);
+  const std::string script =
+      "\"$@\" & rank=$!\n"
+      "while kill -0 $rank 2>/dev/null && [ ! -s '" +
+      out + ".journal' ]; do sleep 0.005; done\nkill -9 $rank 2>/dev/null\nwait $rank";
   bool kept = false;
-  for (double seconds = 1.6; !kept; seconds *= 0.6) {
-    REQUIRE(seconds > 0.01);
-    const Outcome killed =
-        run_program(*mpirun() + Words{"-n", "1"} + tool +
-                    Words{":", "-n", "1", "timeout", "-s", "KILL", std::to_string(seconds)} + tool);
+  for (int tries = 0; !kept; ++tries) {
+    REQUIRE(tries < 20);
+    const Outcome killed = run_program(*mpirun() + Words{"-n", "1"} + tool +
+                                       Words{":", "-n", "1", "sh", "-c", script, "sh"} + tool);
     if (killed.code == 0) {
       fs::remove(out);
       continue;

@@ -7,13 +7,14 @@
 
 #include <plexway/complex/simplicial_complex.hpp>
 #include <plexway/error.hpp>
-#include <plexway/propagate/front.hpp>
-#include <plexway/propagate/wavefront.hpp>
 #include <plexway/solve.hpp>
 
 #include "complex/test_meshes.hpp"
 #include "complex/test_solids.hpp"
 #include "executors/crew.hpp"
+#include "propagate/front.hpp"
+#include "propagate/wavefront.hpp"
+#include "propagate/workspace_state.hpp"
 #include "with_accuracy.hpp"
 
 using namespace plexway;
@@ -223,7 +224,7 @@ using Front = Wavefront<float, Gaining::Label, Queue, false>;
 
 TEST_CASE("labels that improve without end are given up, alone and by a team") {
   const PropagateOptions options;
-  Workspace<float> workspace;
+  WorkspaceState<float> workspace;
   workspace.front.reserve(2);
   workspace.start(2, false);
   Gaining::Label labels[3] = {{1e30F}, {1e30F}, {0}};

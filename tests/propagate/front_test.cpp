@@ -3,10 +3,9 @@
 #include <limits>
 #include <vector>
 
-#include <plexway/propagate/front.hpp>
-#include <plexway/propagate/visit_marks.hpp>
-
+#include "propagate/front.hpp"
 #include "propagate/solving.hpp"
+#include "propagate/visit_marks.hpp"
 
 using namespace plexway;
 using namespace plexway::testing;

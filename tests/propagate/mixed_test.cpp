@@ -247,7 +247,7 @@ TEST_CASE("solving a mixed domain again gives the same bits") {
   const auto plate = domain.add(sheet({-1, 0, 1}, {1, 0, 0}, {0, 1, 0}, 4, 4));
   const auto solid = domain.add(block({0, 0, 0}, {1, 1, 1}, 4));
   domain.weld(plate, solid);
-  MixedWorkspace<double> workspace;
+  Workspace<double> workspace;
   DistanceField<double> first, again;
   const PointSource source = PointSource::at(plate.vertex(1)), other = PointSource::at(0);
   const auto solve = [&](const PointSource& s, DistanceField<double>& field) {

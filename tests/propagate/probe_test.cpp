@@ -3,8 +3,8 @@
 #include <set>
 
 #include <plexway/error.hpp>
-#include <plexway/propagate/probe.hpp>
 
+#include "propagate/probe.hpp"
 #include "propagate/solving.hpp"
 
 using namespace plexway;

@@ -5,10 +5,9 @@
 #include <random>
 #include <vector>
 
-#include <plexway/propagate/solid_clear_space.hpp>
-#include <plexway/propagate/solid_rule.hpp>
-
 #include "complex/test_solids.hpp"
+#include "propagate/solid_clear_space.hpp"
+#include "propagate/solid_rule.hpp"
 
 namespace {
 

@@ -8,6 +8,7 @@
 
 #include "propagate/solving.hpp"
 #include "propagate/windows/window_solver.hpp"
+#include "propagate/workspace_state.hpp"
 
 namespace plexway::testing {
 
@@ -25,8 +26,8 @@ void solve_windows(const TriangleMesh<Real>& mesh, std::span<const PointSource> 
                    DistanceField<Real>& field) {
   options.accuracy = accuracy;
   if (std::is_same_v<Real, float> && accuracy == Accuracy::exact()) {
-    const bool solved =
-        workspace.windows.on(mesh).solve(sources, accuracy, options, workspace, field);
+    WorkspaceState<Real>& state = workspace.state();
+    const bool solved = state.windows.on(mesh).solve(sources, accuracy, options, state, field);
     CHECK(solved);
   } else {
     plexway::solve(Serial{}, mesh, sources, options, workspace, field);

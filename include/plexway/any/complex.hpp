@@ -17,7 +17,8 @@ using AnyComplex = std::variant<std::monostate PLEXWAY_DOMAINS(PLEXWAY_POINTER)>
 
 /// The complex with the vertices and simplices of the shape. Lives as long as the domain. Where a
 /// surface is solved on other triangles it is built when it is first asked for. Of a mixed domain
-/// vertices and simplices have the numbers of its pieces.
+/// vertices and simplices have the numbers of its pieces, and behind a mask simplices those of
+/// AnyDomain::open_simplices.
 [[nodiscard]] AnyComplex complex_of(const AnyDomain& domain);
 
 /// Calls use(complex) with it.

@@ -34,6 +34,14 @@ struct io::RowNumber<AnyDomain> {
 [[nodiscard]] std::string fingerprint_of(const AnyShape& shape);
 [[nodiscard]] std::string fingerprint_of(const MeasuredLengths& lengths);
 [[nodiscard]] std::string fingerprint_of(const SourceList& sources);
+[[nodiscard]] std::string fingerprint_of(const Mask& mask);
 ///@}
+
+/// All that the numbers of a matrix depend on, for the description of its journal: the library's
+/// version, the domain, how it is built, rows, columns, and how they are solved. What is made of
+/// the numbers comes behind it. Cost: linear in the shape, rows and columns.
+[[nodiscard]] io::BlockJournal::Description description_of(const AnyShape& shape,
+                                                           const BuildOptions& building,
+                                                           const PairsRequest& request);
 
 }  // namespace plexway

@@ -149,6 +149,11 @@ class AnyShape {
   /// Lengths that it was made from, or null.
   [[nodiscard]] const MeasuredLengths* lengths() const;
 
+  /// The region of each simplex, as the .msh, .vtu or .vtk that it was read from has them; see
+  /// io::read_regions. Reads the file again. Throws InputError as that, and UsageError for a shape
+  /// of no such file, or whose simplices are not the file's.
+  [[nodiscard]] std::vector<std::int64_t> regions() const;
+
   /// How a level set came in: the grid and its voxels, or what was repaired; else empty.
   [[nodiscard]] const std::string& level_set_note() const;
   /// Seconds that reading took, and those that filling a surface and finding the neighbours of a
@@ -198,6 +203,8 @@ class AnyShape {
   struct State;
   /// Likewise.
   [[nodiscard]] const State& state() const { return *state_; }
+  /// Likewise.
+  [[nodiscard]] static AnyShape of(State state);
 
  private:
   explicit AnyShape(std::shared_ptr<const State> state) : state_(std::move(state)) {}

@@ -62,7 +62,7 @@ class PathField<Domain<Real>> {
     solved_ = false;
     constexpr bool keeps = std::is_same_v<WorkspaceOf<Executor, Domain<Real>>, Workspace<Real>>;
     if constexpr (keeps) {
-      workspace_.windows.keep_windows(true);
+      workspace_.keep_windows(true);
       plexway::solve(executor, *domain_, sources, options, workspace_, field_);
     } else {
       field_ = plexway::solve(executor, *domain_, sources, options);

@@ -36,6 +36,13 @@ class Mask {
   [[nodiscard]] std::span<const char> closed_vertices() const { return vertex_; }
   /// One a simplex: not 0 where it is closed itself, not by a vertex.
   [[nodiscard]] std::span<const char> closed_simplices() const { return simplex_; }
+  /// May a path enter the simplex with that number and these corners? (Not checked.)
+  [[nodiscard]] bool is_open(std::span<const Index> corners, std::size_t simplex) const {
+    if (simplex_[simplex] != 0) return false;
+    for (const Index v : corners)
+      if (vertex_[v] != 0) return false;
+    return true;
+  }
 
   /// The simplices that are open, in their order. Throws UsageError if there is not one row a
   /// simplex, or a corner is out of range.
@@ -82,14 +89,6 @@ class Mask {
       for (const Index v : corners) largest = v > largest ? v : largest;
     if (!simplices.empty()) check_vertex(largest);
   }
-  template <std::size_t N>
-  [[nodiscard]] bool is_open(const std::array<Index, N>& corners, std::size_t simplex) const {
-    if (simplex_[simplex] != 0) return false;
-    for (const Index v : corners)
-      if (vertex_[v] != 0) return false;
-    return true;
-  }
-
   std::vector<char> vertex_, simplex_;
 };
 

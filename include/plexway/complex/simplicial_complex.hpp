@@ -6,12 +6,15 @@
 #include <span>
 #include <vector>
 
+#include <plexway/complex/detail/simplex_record.hpp>
 #include <plexway/complex/ids.hpp>
-#include <plexway/complex/simplex_flat.hpp>
-#include <plexway/complex/simplex_record.hpp>
 #include <plexway/domain/concept.hpp>
 
 namespace plexway {
+
+/// What a complex knows where it is flat, for the library's own use.
+template <int N>
+struct FlatDomain;
 
 /// What a complex is made of, counted while it is built.
 struct SimplicialSummary {

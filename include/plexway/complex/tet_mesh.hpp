@@ -7,10 +7,10 @@
 #include <utility>
 #include <vector>
 
-#include <plexway/complex/identity.hpp>
+#include <plexway/complex/detail/identity.hpp>
 #include <plexway/complex/ids.hpp>
-#include <plexway/complex/rows.hpp>
-#include <plexway/complex/tet_record.hpp>
+#include <plexway/complex/detail/rows.hpp>
+#include <plexway/complex/detail/tet_record.hpp>
 #include <plexway/domain/concept.hpp>
 
 namespace plexway {

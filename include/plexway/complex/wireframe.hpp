@@ -6,9 +6,9 @@
 #include <span>
 #include <vector>
 
-#include <plexway/complex/identity.hpp>
+#include <plexway/complex/detail/identity.hpp>
 #include <plexway/complex/ids.hpp>
-#include <plexway/complex/rows.hpp>
+#include <plexway/complex/detail/rows.hpp>
 #include <plexway/domain/concept.hpp>
 
 namespace plexway {

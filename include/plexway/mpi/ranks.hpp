@@ -1,6 +1,8 @@
 #pragma once
 
 #include <cstddef>
+#include <filesystem>
+#include <functional>
 #include <memory>
 #include <string>
 
@@ -42,6 +44,14 @@ class Ranks final : public RowRanks {
   [[nodiscard]] std::size_t count() const override;
   /// Which one this is.
   [[nodiscard]] std::size_t rank() const;
+  /// Has any node more than one rank?
+  [[nodiscard]] bool share_nodes() const;
+  /// For what a node needs once, such as a domain that maps into memory (AnyDomain::keep): one rank
+  /// of each node makes a file in its folder of temporary files, or leaves it be; then all of them
+  /// take it, or what is not there; then it is removed, also where a signal ends the rank that made
+  /// it. All ranks call it. Throws what `make` and `take` do, and Absent on the others then.
+  void once_a_node(const std::function<void(const std::filesystem::path&)>& make,
+                   const std::function<void(const std::filesystem::path&)>& take);
   /// Threads for each rank of this node, so that its cores are busy: those that the rank is bound
   /// to, else its share.
   [[nodiscard]] int threads() const;

@@ -1,62 +1,41 @@
 #pragma once
 
 #include <cstddef>
-#include <vector>
-
-#include <plexway/complex/ids.hpp>
-#include <plexway/propagate/front.hpp>
-#include <plexway/propagate/label_storage.hpp>
-#include <plexway/propagate/piece_memory.hpp>
-#include <plexway/propagate/plain_label.hpp>
-#include <plexway/propagate/plain_solid_label.hpp>
-#include <plexway/propagate/room.hpp>
-#include <plexway/propagate/saddle_label.hpp>
-#include <plexway/propagate/simplex_label.hpp>
-#include <plexway/propagate/solid_label.hpp>
-#include <plexway/propagate/visit_marks.hpp>
-#include <plexway/propagate/window_memory.hpp>
+#include <memory>
 
 namespace plexway {
 
-/// All that a propagation changes: labels, marks, queues. Belongs to one domain and one thread at a
-/// time; grows on first use and is then reused without allocating or clearing.
+/// What a Workspace holds, for the library's own use.
 template <class Real>
-struct Workspace {
-  /// Which simplices have a label.
-  VisitMarks marks;
-  LabelStorage<SaddleLabel<Real>> saddles;           ///< Visibility::saddles
-  LabelStorage<PlainLabel<Real>> plain;              ///< the other policies
-  LabelStorage<SolidLabel<Real>> solids;             ///< in solids: Visibility::saddles
-  LabelStorage<PlainSolidLabel<Real>> plain_solids;  ///< in solids: the other policies
-  SimplexLabels<Real> simplex;                       ///< SimplicialComplex
-  std::vector<Index> source;   ///< nearest source a simplex; empty for one source
-  WindowMemory<Real> windows;  ///< on surfaces: accuracies but `fast`
-  /// The queues.
-  FrontStorage front;
-  TeamRooms team;                    ///< for executors with several threads
-  PieceMemory<Real> pieces;          ///< likewise, on surfaces
-  std::vector<Real> vertex;          ///< read-out, in the numbers inside
-  std::vector<Index> vertex_source;  ///< its labels
-  std::vector<Index> corners;        ///< around one vertex
+struct WorkspaceState;
 
-  /// Room for a front and marks over so many simplices and a sentinel behind them; all unreached
-  /// but the sentinel, which nothing can improve.
-  void start(std::size_t simplices, bool labels) {
-    marks.resize(simplices + 1);
-    marks.start();
-    marks.data()[simplices] = marks.current();
-    if (labels) source.resize(simplices + 1);
-  }
+/// All that a propagation changes: labels, marks, queues. Belongs to one domain, of any kind, and
+/// one thread at a time; grows on first use and is then reused without allocating or clearing.
+/// Movable.
+template <class Real>
+class Workspace {
+ public:
+  /// Empty.
+  Workspace();
+  ~Workspace();
+  /// The other one is as new.
+  Workspace(Workspace&&) noexcept;
+  /// Likewise.
+  Workspace& operator=(Workspace&&) noexcept;
 
   /// Bytes held.
-  [[nodiscard]] std::size_t bytes() const {
-    const auto of = [](const auto& v) { return v.capacity() * sizeof(v[0]); };
-    return sizeof(*this) + marks.bytes() + saddles.count * sizeof(SaddleLabel<Real>) +
-           plain.count * sizeof(PlainLabel<Real>) + solids.count * sizeof(SolidLabel<Real>) +
-           plain_solids.count * sizeof(PlainSolidLabel<Real>) + simplex.bytes() + of(source) +
-           windows.bytes() + of(vertex) + of(vertex_source) + of(corners) +
-           front.capacity * 2 * sizeof(Index) + of(front.heap) + team.bytes() + pieces.bytes();
-  }
+  [[nodiscard]] std::size_t bytes() const;
+  /// On surfaces solved by windows: whether those stay, for paths, after the next solve.
+  void keep_windows(bool keep);
+
+  ///@{
+  /// For the library's own use.
+  [[nodiscard]] WorkspaceState<Real>& state();
+  [[nodiscard]] const WorkspaceState<Real>& state() const { return *state_; }
+  ///@}
+
+ private:
+  std::unique_ptr<WorkspaceState<Real>> state_;  // null: moved away
 };
 
 }  // namespace plexway

@@ -1,145 +1,183 @@
 #include "any/arguments/mask_argument.hpp"
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
-#include <utility>
+#include <cstdint>
+#include <set>
+#include <string_view>
 #include <variant>
+#include <vector>
 
+#include <plexway/any/open_simplices.hpp>
 #include <plexway/error.hpp>
+#include <plexway/io/labels.hpp>
 
+#include "any/words.hpp"
 #include "io/number_rows.hpp"
 
 namespace plexway {
 namespace {
 
-// "vertices" or "simplices", and the file.
-std::pair<std::string, std::string> parts_of(const MaskArgument& argument) {
-  const std::size_t colon = argument.text.find(':');
-  const std::string kind = argument.text.substr(0, colon);
-  if (colon == argument.text.npos || (kind != "vertices" && kind != "simplices"))
-    throw UsageError("--mask '" + argument.text + "': write vertices:FILE or simplices:FILE");
-  return {kind, argument.text.substr(colon + 1)};
+enum class Kind { vertices, simplices, labels, regions };
+
+struct Parsed {
+  Kind kind;
+  std::string file;
+  std::set<std::int64_t> labels;
+};
+
+// "3,7", or nothing.
+std::set<std::int64_t> whole_numbers(std::string_view text) {
+  std::set<std::int64_t> numbers;
+  for (const char* at = text.data(); at <= text.data() + text.size();) {
+    std::int64_t number = 0;
+    const auto [end, error] = std::from_chars(at, text.data() + text.size(), number);
+    if (error != std::errc{}) return {};
+    numbers.insert(number);
+    if (end == text.data() + text.size()) return numbers;
+    if (*end != ',') return {};
+    at = end + 1;
+  }
+  return {};
+}
+
+Parsed parse(const MaskArgument& argument) {
+  const std::string& text = argument.text;
+  const std::size_t first = text.find(':'), last = text.rfind(':');
+  if (first != text.npos && first > 0 && first + 1 < text.size()) {
+    const std::string kind = text.substr(0, first), rest = text.substr(first + 1);
+    if (kind == "vertices") return {Kind::vertices, rest, {}};
+    if (kind == "simplices") return {Kind::simplices, rest, {}};
+    std::set<std::int64_t> labels = whole_numbers(std::string_view(text).substr(last + 1));
+    if (!labels.empty() && kind == "regions" && first == last)
+      return {Kind::regions, "", std::move(labels)};
+    if (!labels.empty()) return {Kind::labels, text.substr(0, last), std::move(labels)};
+  }
+  throw UsageError("--mask '" + text +
+                   "': write vertices:FILE, simplices:FILE, FILE:3,7 (labels) or regions:3,7");
+}
+
+// Calls close(i) for those that have one of the labels, each of which must be there.
+template <class Close>
+void close_labelled(const std::vector<std::int64_t>& label, const std::set<std::int64_t>& closed,
+                    const std::string& file, const char* what, const Close& close) {
+  std::set<std::int64_t> unseen = closed;
+  for (std::size_t i = 0; i < label.size(); ++i) {
+    if (!closed.contains(label[i])) continue;
+    unseen.erase(label[i]);
+    close(static_cast<Index>(i));
+  }
+  if (!unseen.empty())
+    throw InputError(file + ": nothing has the " + what + " " + std::to_string(*unseen.begin()));
+}
+
+void close_numbered(const Parsed& asked, const AnyShape& domain, Mask& mask) {
+  const bool vertices = asked.kind == Kind::vertices;
+  const std::string what = vertices ? "vertices" : "simplices";
+  for (const io::NumberRow& row : io::read_number_rows(
+           asked.file, 1, 1, "the number (0-based) of one of the " + what + " a line")) {
+    if (vertices) {
+      mask.close_vertex(io::vertex_in(asked.file, row, 0, domain.vertices()));
+      continue;
+    }
+    const double s = row.numbers[0];
+    if (!(s >= 0 && s == std::floor(s) && s < static_cast<double>(domain.simplices())))
+      io::fail_at(asked.file, row,
+                  "no such simplex: the " + std::string(domain.simplex_name()) + " are 0 to " +
+                      std::to_string(domain.simplices() - 1));
+    mask.close_simplex(static_cast<Index>(s));
+  }
+}
+
+template <class Place>
+void require_all(const Mask* mask, const AnyShape& domain, std::span<const Place> places) {
+  if (mask == nullptr) return;
+  const OpenSimplices open(*mask, domain);
+  const auto check = [&](Index vertex) {
+    if (vertex == none || open.reach(vertex)) return;
+    throw InputError(
+        "--mask: vertex " + std::to_string(vertex) +
+        (mask->closed_vertices()[vertex] != 0 ? " is masked" : " is cut off by the mask") +
+        ": no path passes there");
+  };
+  for (const Place& place : places) {
+    try {
+      static_cast<void>(open.inside(place));
+    } catch (const UsageError& error) {
+      throw InputError(std::string("--mask: ") + error.what());
+    }
+    if constexpr (std::is_same_v<Place, PointSource>) {
+      check(place.vertex);
+    } else {
+      if (const auto* point = std::get_if<PointSource>(&place)) check(point->vertex);
+      if (const auto* ball = std::get_if<BallSource>(&place)) check(ball->centre.vertex);
+      if (const auto* set = std::get_if<VertexSource>(&place))
+        for (const Index v : set->vertices) check(v);
+      if (const auto* curve = std::get_if<CurveSource>(&place))
+        for (const PointSource& point : curve->points) check(point.vertex);
+    }
+  }
 }
 
 }  // namespace
 
 std::string mask_file(const MaskArgument& argument) {
-  return argument.text.empty() ? std::string() : parts_of(argument).second;
+  return argument.text.empty() ? std::string() : parse(argument).file;
 }
 
-std::optional<Mask> read_mask(const MaskArgument& argument, const AnyShape& domain) {
-  if (argument.text.empty()) return std::nullopt;
-  const auto [kind, file] = parts_of(argument);
+std::shared_ptr<const Mask> read_mask(const MaskArgument& argument, const AnyShape& domain) {
+  if (argument.text.empty()) return nullptr;
+  const Parsed asked = parse(argument);
   if (domain.kind() != DomainKind::surface && domain.kind() != DomainKind::solid &&
       domain.kind() != DomainKind::wireframe)
     throw UsageError("--mask: for surfaces, solids and wireframes; leave points out of a cloud");
-  Mask mask(domain.vertices(), domain.simplices());
-  const bool vertices = kind == "vertices";
-  for (const io::NumberRow& row :
-       io::read_number_rows(file, 1, 1, "the number (0-based) of one of the " + kind + " a line")) {
-    if (vertices) {
-      mask.close_vertex(io::vertex_in(file, row, 0, domain.vertices()));
-      continue;
-    }
-    const double s = row.numbers[0];
-    if (!(s >= 0 && s == std::floor(s) && s < static_cast<double>(domain.simplices())))
-      io::fail_at(file, row,
-                  "no such simplex: the " + std::string(domain.simplex_name()) + " are 0 to " +
-                      std::to_string(domain.simplices() - 1));
-    mask.close_simplex(static_cast<Index>(s));
-  }
-  for (std::size_t s = 0; s < domain.simplices(); ++s) {
-    const auto corners = domain.corners(s);
-    if (mask.closed_simplices()[s] == 0 &&
-        std::none_of(corners.begin(), corners.end(),
-                     [&](std::uint32_t v) { return mask.closed_vertices()[v] != 0; }))
-      return mask;
-  }
-  throw InputError(file + ": closes all of " + domain.file().string());
-}
-
-OpenParts::OpenParts(const Mask& mask, const AnyShape& domain)
-    : mask_(mask), number_(domain.simplices(), none), reached_(domain.vertices(), 0) {
-  for (std::size_t s = 0; s < domain.simplices(); ++s) {
-    const auto corners = domain.corners(s);
-    if (mask.closed_simplices()[s] != 0 ||
-        std::any_of(corners.begin(), corners.end(),
-                    [&](std::uint32_t v) { return mask.closed_vertices()[v] != 0; }))
-      continue;
-    number_[s] = static_cast<Index>(whole_.size());
-    whole_.push_back(static_cast<Index>(s));
-    for (const std::uint32_t v : corners) reached_[v] = 1;
-  }
-}
-
-void OpenParts::check(Index vertex) const {
-  if (reached_[vertex] != 0) return;
-  throw InputError(
-      "--mask: vertex " + std::to_string(vertex) +
-      (mask_.closed_vertices()[vertex] != 0 ? " is masked" : " is cut off by the mask") +
-      ": no path passes there");
-}
-
-Index OpenParts::open(Index simplex) const {
-  if (number_[simplex] == none)
-    throw InputError("--mask: simplex " + std::to_string(simplex) +
-                     " is masked, and a point or a source lies in it: no path passes there");
-  return number_[simplex];
-}
-
-void OpenParts::move(PointSource& point) const {
-  if (point.vertex != none)
-    check(point.vertex);
+  auto mask = std::make_shared<Mask>(domain.vertices(), domain.simplices());
+  const auto close_vertex = [&](Index v) { mask->close_vertex(v); };
+  const auto close_simplex = [&](Index s) { mask->close_simplex(s); };
+  if (asked.kind == Kind::labels)
+    close_labelled(io::read_vertex_labels(asked.file, domain.vertices()), asked.labels, asked.file,
+                   "label", close_vertex);
+  else if (asked.kind == Kind::regions)
+    close_labelled(domain.regions(), asked.labels, domain.file().string(), "region", close_simplex);
   else
-    point.simplex = open(point.simplex);
+    close_numbered(asked, domain, *mask);
+  for (std::size_t s = 0; s < domain.simplices(); ++s)
+    if (mask->is_open(domain.corners(s), s)) return mask;
+  throw InputError("--mask " + argument.text + ": closes all of " + domain.file().string());
 }
 
-void OpenParts::move(Source& source) const {
-  if (auto* const point = std::get_if<PointSource>(&source)) move(*point);
-  if (auto* const ball = std::get_if<BallSource>(&source)) move(ball->centre);
-  if (auto* const whole = std::get_if<SimplexSource>(&source))
-    whole->simplex = open(whole->simplex);
-  if (const auto* const set = std::get_if<VertexSource>(&source))
-    for (const Index v : set->vertices) check(v);
-  if (auto* const curve = std::get_if<CurveSource>(&source))
-    for (PointSource& point : curve->points)
-      if (!names_nothing(point)) move(point);
+void require_open(const Mask* mask, const AnyShape& domain, std::span<const PointSource> points) {
+  require_all(mask, domain, points);
+}
+void require_open(const Mask* mask, const AnyShape& domain, std::span<const Source> sources) {
+  require_all(mask, domain, sources);
 }
 
-AnyShape open_domain(const Mask& mask, const AnyShape& domain,
-                     std::shared_ptr<const MeasuredLengths>& lengths) {
-  const auto keep = [&](const auto& simplices, auto member, const MeasuredLengths* own) {
-    const auto rows = [&](const MeasuredLengths& all) {
-      return mask.open_rows(simplices, all.*member);
-    };
-    if (lengths != nullptr) {
-      MeasuredLengths open = *lengths;
-      open.*member = rows(*lengths);
-      lengths = std::make_shared<const MeasuredLengths>(std::move(open));
-    }
-    return own == nullptr ? decltype(rows(*own))() : rows(*own);
-  };
+AnyShape open_shape(const Mask& mask, const AnyShape& domain) {
   const std::vector<std::array<double, 3>> positions(domain.positions().begin(),
                                                      domain.positions().end());
-  const MeasuredLengths* own = domain.lengths();
+  const MeasuredLengths* const own = domain.lengths();
+  const auto rows = [&](const auto& simplices, const auto& all) {
+    using Corners = typename std::decay_t<decltype(simplices)>::value_type;
+    return mask.open_rows(std::span<const Corners>(simplices), all);
+  };
   if (const auto* surface = std::get_if<io::Triangles>(&domain.data())) {
-    const std::span<const std::array<Index, 3>> all = surface->triangles;
-    auto kept = keep(all, &MeasuredLengths::triangles, own);
-    return own == nullptr ? AnyShape::surface(positions, mask.open(all))
-                          : AnyShape::surface(domain.vertices(), mask.open(all), std::move(kept));
+    const auto& all = surface->triangles;
+    return own == nullptr
+               ? AnyShape::surface(positions, mask.open(all))
+               : AnyShape::surface(domain.vertices(), mask.open(all), rows(all, own->triangles));
   }
   if (const auto* solid = std::get_if<io::Tets>(&domain.data())) {
-    const std::span<const std::array<Index, 4>> all = solid->tets;
-    auto kept = keep(all, &MeasuredLengths::tets, own);
-    return own == nullptr ? AnyShape::solid(positions, mask.open(all))
-                          : AnyShape::solid(domain.vertices(), mask.open(all), std::move(kept));
+    const auto& all = solid->tets;
+    return own == nullptr
+               ? AnyShape::solid(positions, mask.open(all))
+               : AnyShape::solid(domain.vertices(), mask.open(all), rows(all, own->tets));
   }
   const io::Edges& wire = std::get<io::Edges>(domain.data());
-  const std::span<const std::array<Index, 2>> all = wire.edges;
-  keep(all, &MeasuredLengths::edges, nullptr);
-  return wire.lengths.empty() ? AnyShape::wireframe(positions, mask.open(all))
-                              : AnyShape::wireframe(wire.vertices, mask.open(all),
-                                                    mask.open_rows(all, wire.lengths));
+  return wire.lengths.empty() ? AnyShape::wireframe(positions, mask.open(wire.edges))
+                              : AnyShape::wireframe(wire.vertices, mask.open(wire.edges),
+                                                    rows(wire.edges, wire.lengths));
 }
 
 }  // namespace plexway

@@ -1,9 +1,8 @@
 #pragma once
 
 #include <memory>
-#include <optional>
+#include <span>
 #include <string>
-#include <vector>
 
 #include <plexway/any/shape.hpp>
 #include <plexway/complex/mask.hpp>
@@ -12,41 +11,29 @@
 
 namespace plexway {
 
-/// As typed: FILE or KIND:FILE, or nothing.
+/// As typed, or nothing: vertices:FILE or simplices:FILE, numbers; FILE:3,7, what has these labels
+/// in a file of labels of vertices (io::read_vertex_labels); or regions:3,7, what has these in the
+/// input's own file (AnyShape::regions).
 struct MaskArgument {
   std::string text;
 };
 
-/// The file, or nothing. Throws UsageError for an unknown kind.
+/// The file, or nothing. Throws UsageError for what is none of these.
 [[nodiscard]] std::string mask_file(const MaskArgument& argument);
 
-/// What is closed of a domain, or nothing. Throws InputError "FILE:LINE: cause", where nothing
-/// stays open, and UsageError for a cloud.
-[[nodiscard]] std::optional<Mask> read_mask(const MaskArgument& argument, const AnyShape& domain);
+/// What is closed of a domain, or null. Throws InputError "FILE:LINE: cause", where nothing stays
+/// open, and for a label or region that nothing has; UsageError for a cloud.
+[[nodiscard]] std::shared_ptr<const Mask> read_mask(const MaskArgument& argument,
+                                                    const AnyShape& domain);
 
-/// What a mask leaves of a domain, by numbers: open_domain counts only the open simplices.
-class OpenParts {
- public:
-  OpenParts(const Mask& mask, const AnyShape& domain);
+///@{
+/// Throws InputError for a place that is closed, or cut off from everything. Null closes nothing.
+void require_open(const Mask* mask, const AnyShape& domain, std::span<const PointSource> points);
+void require_open(const Mask* mask, const AnyShape& domain, std::span<const Source> sources);
+///@}
 
-  /// From the whole domain to the open one. Throw InputError for what is closed, or cut off from
-  /// everything.
-  void move(PointSource& point) const;
-  void move(Source& source) const;
-  /// Back: the number of an open simplex in the whole domain.
-  [[nodiscard]] Index whole(Index simplex) const { return whole_[simplex]; }
-
- private:
-  void check(Index vertex) const;
-  [[nodiscard]] Index open(Index simplex) const;
-
-  const Mask& mask_;
-  std::vector<Index> number_, whole_;
-  std::vector<char> reached_;
-};
-
-/// The domain, and lengths of its simplices (may be null), without what is closed.
-[[nodiscard]] AnyShape open_domain(const Mask& mask, const AnyShape& domain,
-                                   std::shared_ptr<const MeasuredLengths>& lengths);
+/// What is left of a shape, with the vertices that it had: for pictures, lines and files, which
+/// show what there is. Without lengths of a metric.
+[[nodiscard]] AnyShape open_shape(const Mask& mask, const AnyShape& domain);
 
 }  // namespace plexway

@@ -9,7 +9,6 @@
 #include <variant>
 
 #include <plexway/error.hpp>
-#include <plexway/io/regions.hpp>
 
 #include "any/words.hpp"
 #include "io/number_rows.hpp"
@@ -96,23 +95,16 @@ std::vector<double> read_region_speeds(const std::string& file, const AnyShape& 
     if (!speed_of.try_emplace(static_cast<std::int64_t>(region), row.numbers[1]).second)
       fail_at(file, row, "region " + short_number(region) + " has a speed already");
   }
-  const bool mixed = domain.kind() == DomainKind::mixed;
-  if (!mixed && domain.kind() != DomainKind::solid)
+  if (domain.kind() != DomainKind::mixed && domain.kind() != DomainKind::solid)
     throw UsageError("--metric regions: for solids and mixed domains out of a .msh, .vtu or .vtk");
-  const io::Regions regions = io::read_regions(domain.file(), mixed);
   std::vector<double> speeds;
-  for (const auto* list : {&regions.edges, &regions.triangles, &regions.tets})
-    for (const std::int64_t region : *list) {
-      const auto found = speed_of.find(region);
-      if (found == speed_of.end())
-        throw InputError(file + ": no speed for region " + std::to_string(region) + " of " +
-                         domain.file().string());
-      speeds.push_back(found->second);
-    }
-  if (speeds.size() != domain.simplices())
-    throw UsageError("--metric regions: " + domain.file().string() + " has regions of " +
-                     counted(speeds.size(), "cells") + ", but the domain has " +
-                     counted(domain.simplices(), domain.simplex_name()));
+  for (const std::int64_t region : domain.regions()) {
+    const auto found = speed_of.find(region);
+    if (found == speed_of.end())
+      throw InputError(file + ": no speed for region " + std::to_string(region) + " of " +
+                       domain.file().string());
+    speeds.push_back(found->second);
+  }
   return speeds;
 }
 

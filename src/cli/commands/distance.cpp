@@ -186,25 +186,22 @@ void run_distance(DistanceCommand command) {
 
   command.fill.volume.writes_volume = is_vdb(command.out);
   ProgressLine progress(command.quiet);
-  const Domain whole =
+  const Domain domain =
       load_domain(command.input, command.as, command.fill, command.cloud, progress, command.pieces);
-  if (whole.cloud() == nullptr && command.out != "-")
-    check_output_name(command.out, command.input, AnyShape::field_extensions(whole.kind()));
-  check_isolines(command.isolines, whole);
-  const std::vector<Source> located =
-      locate_source_sets(whole, arguments, !command.metric.text.empty());
-  const std::optional<Mask> mask = read_mask(command.mask, whole);
-  std::vector<Source> sources = located;
-  if (mask) {
-    const OpenParts open(*mask, whole);
-    for (Source& source : sources) open.move(source);
+  if (domain.cloud() == nullptr && command.out != "-")
+    check_output_name(command.out, command.input, AnyShape::field_extensions(domain.kind()));
+  check_isolines(command.isolines, domain);
+  const std::vector<Source> sources =
+      locate_source_sets(domain, arguments, !command.metric.text.empty());
+  const std::shared_ptr<const Mask> mask = read_mask(command.mask, domain);
+  require_open(mask.get(), domain, sources);
+  if (mask != nullptr && domain.kind() == DomainKind::solid)
     // Its distances were measured in the whole domain.
     for (const SetArgument& argument : arguments)
-      if (argument.kind == SetArgument::Kind::boundary && whole.kind() == DomainKind::solid)
+      if (argument.kind == SetArgument::Kind::boundary)
         throw UsageError("--mask: the boundary of a solid is a source of the whole solid alone");
-  }
   const std::vector<PointSource> points = as_points(sources);
-  if (needs_double(whole, sources)) {
+  if (needs_double(domain, sources)) {
     if (command.solve.executor.name == "auto") command.solve.executor.name = "serial";
     if (command.solve.executor.name != "serial")
       throw UsageError("--executor '" + command.solve.executor.name +
@@ -219,17 +216,14 @@ void run_distance(DistanceCommand command) {
   }
 
   if (!command.metric.text.empty()) progress.phase("reading the metric");
-  auto lengths = measure(command.metric, whole, Jumps::refract);
-  check_triangulation(triangulation, whole);
+  auto lengths = measure(command.metric, domain, Jumps::refract);
+  check_triangulation(triangulation, domain);
   progress.phase("building");
-  const Domain domain = mask ? open_domain(*mask, whole, lengths) : whole;
-  const auto build = [&] {
-    return AnyDomain(domain, {.precision = precision,
-                              .triangulation = triangulation,
-                              .lengths = lengths,
-                              .progress = progress.share_callback()});
-  };
-  const AnyDomain solver = mask ? with_file_name(whole, build) : build();
+  const AnyDomain solver(domain, {.precision = precision,
+                                  .triangulation = triangulation,
+                                  .lengths = lengths,
+                                  .mask = mask,
+                                  .progress = progress.share_callback()});
 
   progress.phase("solving");
   PropagateOptions options = wanted;
@@ -244,6 +238,11 @@ void run_distance(DistanceCommand command) {
   const std::vector<double> distance = field.doubles();
   Outcome outcome{reach_of(distance, sources), solver.build_seconds(), solve, executor};
 
+  // What is written and drawn is what is open.
+  const bool shown_open =
+      mask != nullptr &&
+      (!command.out.empty() || !command.isolines.out.empty() || command.picture.wanted());
+  const Domain shown = shown_open ? open_shape(*mask, domain) : domain;
   const bool plain = command.out == "-";
   const std::vector<double> isovalues = isoline_values(command.isolines, distance);
   if (!command.out.empty()) {
@@ -257,12 +256,12 @@ void run_distance(DistanceCommand command) {
                              : std::span<const std::uint32_t>(),
                          field.error());
     } else {
-      domain.write_field(command.out, distance, label, field.error());
+      shown.write_field(command.out, distance, label, field.error());
     }
   }
   if (!command.isolines.out.empty()) {
     progress.phase("writing " + command.isolines.out);
-    write_isolines(command.isolines, domain, distance, isovalues);
+    write_isolines(command.isolines, shown, distance, isovalues);
   }
   if (command.picture.wanted()) {
     progress.phase("drawing " + command.picture.file);
@@ -273,12 +272,12 @@ void run_distance(DistanceCommand command) {
         cells ? labels_of(field, distance) : std::vector<std::int32_t>();
     content.label = label;
     for (const Source& source : sources) content.mark(domain, source);
-    write_picture(command.picture, domain, content, command.quiet);
+    write_picture(command.picture, shown, content, command.quiet);
   }
   progress.clear();
 
-  print_report(to_json(command, whole, solver, field, lengths.get(), outcome),
-               to_table(command, whole, solver, field, lengths.get(), arguments, located, outcome),
+  print_report(to_json(command, domain, solver, field, lengths.get(), outcome),
+               to_table(command, domain, solver, field, lengths.get(), arguments, sources, outcome),
                command.json, command.quiet,
                {command.out, command.isolines.out, command.picture.file, command.picture.html});
 
@@ -288,7 +287,7 @@ void run_distance(DistanceCommand command) {
                          "a finite distance");
   }
   const bool bounded = command.solve.radius || command.solve.max_expansions;
-  if (!command.quiet) say_violations(whole, lengths.get());
+  if (!command.quiet) say_violations(domain, lengths.get());
   if (!command.quiet && !command.isolines.out.empty() && isovalues.empty())
     say_note("--isolines-out holds nothing: no distance is as large as the step");
   if (command.quiet) return;

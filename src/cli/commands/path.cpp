@@ -87,12 +87,6 @@ void search(const TriangleMesh<Real>& mesh, const Domain& domain, const PathComm
   outcome.paths = std::move(found.paths);
   outcome.promised = std::move(found.distance);
   outcome.statistics = found.statistics;
-  for (Path& path : outcome.paths) {
-    if (command.metric.text.empty()) break;
-    for (const PathPoint& at : path.points)
-      path.positions.push_back(
-          domain.position({.simplex = at.simplex, .barycentric = at.barycentric}));
-  }
 }
 
 Outcome find_paths(const Domain& domain, const BuildOptions& building, const PathCommand& command,
@@ -104,10 +98,26 @@ Outcome find_paths(const Domain& domain, const BuildOptions& building, const Pat
   outcome.build = built.build_seconds();
   const Stopwatch solving;
   if (command.astar) {
+    const OpenSimplices* const open = built.open_simplices();
+    const auto inside = [&](std::vector<PointSource> points) {
+      for (PointSource& point : points)
+        if (open != nullptr) point = open->inside(point);
+      return points;
+    };
     with_complex(built, [&](const auto& complex) {
       if constexpr (std::decay_t<decltype(complex)>::kind == DomainKind::surface)
-        search(complex, domain, command, sources, targets, progress, outcome);
+        search(complex, domain, command, inside(sources), inside(targets), progress, outcome);
     });
+    if (open != nullptr)
+      for (Path& path : outcome.paths)
+        for (PathPoint& at : path.points) at.simplex = open->outside(at.simplex);
+    // Under a metric the search knows no positions.
+    for (Path& path : outcome.paths) {
+      if (command.metric.text.empty()) break;
+      for (const PathPoint& at : path.points)
+        path.positions.push_back(
+            domain.position({.simplex = at.simplex, .barycentric = at.barycentric}));
+    }
     outcome.solve = solving.seconds();
     return outcome;
   }
@@ -267,43 +277,33 @@ void run_path(const PathCommand& typed) {
   check_outputs_differ({command.out, command.picture.file, command.picture.html});
 
   ProgressLine progress(command.quiet);
-  const Domain whole =
+  const Domain domain =
       load_domain(command.input, command.as, command.fill, command.cloud, progress);
-  if (command.astar && whole.kind() != DomainKind::surface)
-    throw UsageError("--astar: a " + std::string(kind_noun(whole.kind())) +
+  if (command.astar && domain.kind() != DomainKind::surface)
+    throw UsageError("--astar: a " + std::string(kind_noun(domain.kind())) +
                      " is solved as a whole; A* is for surfaces");
-  check_triangulation(triangulation, whole);
-  if (command.margin_given && whole.kind() != DomainKind::surface && whole.cloud() == nullptr)
+  check_triangulation(triangulation, domain);
+  if (command.margin_given && domain.kind() != DomainKind::surface && domain.cloud() == nullptr)
     throw UsageError("--margin: for surfaces and clouds, not a " +
-                     std::string(kind_noun(whole.kind())));
-  std::vector<PointSource> sources = locate_sources(whole, from);
-  std::vector<PointSource> targets = locate_sources(whole, to);
+                     std::string(kind_noun(domain.kind())));
+  const std::vector<PointSource> sources = locate_sources(domain, from);
+  const std::vector<PointSource> targets = locate_sources(domain, to);
   if (!command.metric.text.empty()) progress.phase("reading the metric");
   // Paths go straight over an edge: it has one length.
-  auto lengths = measure(command.metric, whole, Jumps::smooth);
-  const std::optional<Mask> mask = read_mask(command.mask, whole);
-  const std::optional<OpenParts> open =
-      mask ? std::optional<OpenParts>({*mask, whole}) : std::nullopt;
-  const std::vector<PointSource> found_sources = sources, found_targets = targets;
-  if (open) {
-    for (PointSource& source : sources) open->move(source);
-    for (PointSource& target : targets) open->move(target);
-  }
-  const Domain domain = mask ? open_domain(*mask, whole, lengths) : whole;
-  const auto find = [&] {
-    return find_paths(domain,
-                      {.precision = precision,
-                       .triangulation = command.astar ? Triangulation::input : triangulation,
-                       .lengths = lengths,
-                       .progress = progress.share_callback()},
-                      command, sources, targets, options, progress);
-  };
-  Outcome outcome = mask ? with_file_name(whole, find) : find();
+  auto lengths = measure(command.metric, domain, Jumps::smooth);
+  const std::shared_ptr<const Mask> mask = read_mask(command.mask, domain);
+  require_open(mask.get(), domain, sources);
+  require_open(mask.get(), domain, targets);
+  Outcome outcome =
+      find_paths(domain,
+                 {.precision = precision,
+                  .triangulation = command.astar ? Triangulation::input : triangulation,
+                  .lengths = lengths,
+                  .mask = mask,
+                  .progress = progress.share_callback()},
+                 command, sources, targets, options, progress);
   if (!command.out.empty()) {
     progress.phase("writing " + command.out);
-    if (open)
-      for (Path& path : outcome.paths)
-        for (PathPoint& point : path.points) point.simplex = open->whole(point.simplex);
     io::write_paths(command.out, outcome.paths);
   }
   if (command.picture.wanted()) {
@@ -316,12 +316,13 @@ void run_path(const PathCommand& typed) {
       for (const PointSource& source : sources) content.sources.push_back(domain.position(source));
       for (const PointSource& target : targets) content.targets.push_back(domain.position(target));
     }
-    write_picture(command.picture, domain, content, command.quiet);
+    write_picture(command.picture, mask ? open_shape(*mask, domain) : domain, content,
+                  command.quiet);
   }
   progress.clear();
   Json json;
   Table table;
-  report(command, whole, outcome, {from, found_sources}, {to, found_targets}, json, table);
+  report(command, domain, outcome, {from, sources}, {to, targets}, json, table);
   print_report(json, table, command.json, command.quiet,
                {command.out, command.picture.file, command.picture.html});
 
@@ -329,7 +330,7 @@ void run_path(const PathCommand& typed) {
   for (const Path& path : outcome.paths) unreached += path.source == none;
   if (unreached == outcome.paths.size())
     throw NothingReached(command.input + ": nothing reached: no path leads to any target");
-  if (!command.quiet) say_violations(whole, lengths.get());
+  if (!command.quiet) say_violations(domain, lengths.get());
   if (!command.quiet) say_notes(outcome, sources);
   if (unreached > 0 && !command.quiet)
     say_note(counted(unreached, "targets") + " not reached: no path leads there");

@@ -4,9 +4,9 @@
 #include <limits>
 
 #include <plexway/error.hpp>
-#include <plexway/propagate/endless.hpp>
 
 #include "complex/number_range.hpp"
+#include "propagate/endless.hpp"
 
 namespace plexway::gl {
 

@@ -5,11 +5,10 @@
 #include <iterator>
 #include <limits>
 
-#include <plexway/propagate/solid_rule.hpp>
-#include <plexway/propagate/wavefront.hpp>
-
 #include "propagate/solid_propagation.hpp"
 #include "propagate/solid_read_out.hpp"
+#include "propagate/solid_rule.hpp"
+#include "propagate/wavefront.hpp"
 
 namespace plexway::gl {
 namespace {
@@ -21,7 +20,7 @@ using Rule = SolidRule<float, Wave>;
 class HostFront {
  public:
   HostFront(const TetMesh<float>& mesh, const PropagateOptions& options,
-            Workspace<float>& workspace)
+            WorkspaceState<float>& workspace)
       : front_(make(mesh, options, workspace)),
         rule_(mesh, front_),
         propagation(mesh, rule_, front_, options) {}
@@ -63,7 +62,7 @@ class HostFront {
 
  private:
   static Wave make(const TetMesh<float>& mesh, const PropagateOptions& options,
-                   Workspace<float>& workspace) {
+                   WorkspaceState<float>& workspace) {
     const std::size_t tets = mesh.tet_count();
     workspace.front.reserve(tets);
     workspace.start(tets, true);
@@ -89,7 +88,7 @@ PropagateOptions without_limits(const PropagateOptions& options) {
 }  // namespace
 
 void SolidSeeds::add(const TetMesh<float>& mesh, std::span<const PointSource> sources,
-                     std::size_t field, Workspace<float>& workspace) {
+                     std::size_t field, WorkspaceState<float>& workspace) {
   const PropagateOptions options;
   HostFront host(mesh, options, workspace);
   for (std::size_t n = 0; n < sources.size(); ++n) {
@@ -107,7 +106,7 @@ void SolidSeeds::add(const TetMesh<float>& mesh, std::span<const PointSource> so
 
 void SolidSeeds::add_pinches(const TetMesh<float>& mesh, const PropagateOptions& options,
                              std::size_t field, std::span<const Cell> best,
-                             std::span<const SolidCell> known, Workspace<float>& workspace) {
+                             std::span<const SolidCell> known, WorkspaceState<float>& workspace) {
   const std::size_t tets = mesh.tet_count(), first = field * tets;
   const PropagateOptions all = without_limits(options);
   HostFront host(mesh, all, workspace);

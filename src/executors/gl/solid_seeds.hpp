@@ -4,11 +4,11 @@
 #include <span>
 
 #include <plexway/complex/tet_mesh.hpp>
-#include <plexway/propagate/solid_label.hpp>
-#include <plexway/propagate/workspace.hpp>
 #include <plexway/source/point_source.hpp>
 
 #include "executors/gl/seeds.hpp"
+#include "propagate/solid_label.hpp"
+#include "propagate/workspace_state.hpp"
 
 namespace plexway::gl {
 
@@ -26,12 +26,12 @@ struct SolidCell {
 struct SolidSeeds : SeedsOf<SolidCell> {
   /// Sources of one field.
   void add(const TetMesh<float>& mesh, std::span<const PointSource> sources, std::size_t field,
-           Workspace<float>& workspace);
+           WorkspaceState<float>& workspace);
   /// What passes the vertices and edges of one field where tetrahedra only touch, given what is
   /// known of all tetrahedra: distances, and labels.
   void add_pinches(const TetMesh<float>& mesh, const PropagateOptions& options, std::size_t field,
                    std::span<const Cell> best, std::span<const SolidCell> known,
-                   Workspace<float>& workspace);
+                   WorkspaceState<float>& workspace);
 };
 
 }  // namespace plexway::gl

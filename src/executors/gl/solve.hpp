@@ -5,9 +5,9 @@
 #include <span>
 
 #include <plexway/executors/gl.hpp>
-#include <plexway/propagate/endless.hpp>
 
 #include "executors/gl/run.hpp"
+#include "propagate/endless.hpp"
 
 /// A solve on the device, for any kind of domain. Its Run says what is particular: `Domain`,
 /// `Seeds` (a SeedsOf with `add(domain, sources, field, host workspace)`), `check(domain, sources,

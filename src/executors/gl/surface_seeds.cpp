@@ -4,14 +4,13 @@
 #include <cmath>
 #include <limits>
 
-#include <plexway/propagate/saddle_rule.hpp>
-
+#include "propagate/saddle_rule.hpp"
 #include "propagate/triangle_propagation.hpp"
 
 namespace plexway::gl {
 
 void SurfaceSeeds::add(const TriangleMesh<float>& mesh, std::span<const PointSource> sources,
-                       std::size_t field, Workspace<float>& workspace) {
+                       std::size_t field, WorkspaceState<float>& workspace) {
   const std::size_t faces = mesh.face_count(), first_cell = field * faces;
   const std::size_t first_vertex = field * mesh.vertex_count();
   const PropagateOptions options;

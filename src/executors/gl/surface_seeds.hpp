@@ -4,10 +4,10 @@
 #include <span>
 
 #include <plexway/complex/triangle_mesh.hpp>
-#include <plexway/propagate/workspace.hpp>
 #include <plexway/source/point_source.hpp>
 
 #include "executors/gl/seeds.hpp"
+#include "propagate/workspace_state.hpp"
 
 namespace plexway::gl {
 
@@ -23,7 +23,7 @@ struct SurfaceLabel {
 struct SurfaceSeeds : SeedsOf<SurfaceLabel> {
   /// Sources of one field.
   void add(const TriangleMesh<float>& mesh, std::span<const PointSource> sources, std::size_t field,
-           Workspace<float>& workspace);
+           WorkspaceState<float>& workspace);
 };
 
 }  // namespace plexway::gl

@@ -22,7 +22,7 @@ struct WireBuffers final : GLWorkspace::Implementation::DomainBuffers {
 // A label is the number of its source.
 struct WireSeeds : SeedsOf<GLuint> {
   void add(const Wireframe<float>& wireframe, std::span<const PointSource> from, std::size_t field,
-           Workspace<float>&) {
+           WorkspaceState<float>&) {
     const std::size_t first = field * wireframe.vertex_count();
     const auto put = [&](Index v, double sigma, std::size_t number) {
       waiting.push_back(

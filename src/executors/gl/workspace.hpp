@@ -4,9 +4,8 @@
 #include <memory>
 #include <vector>
 
-#include <plexway/propagate/workspace.hpp>
-
 #include "executors/gl/front.hpp"
+#include "propagate/workspace_state.hpp"
 
 namespace plexway {
 
@@ -48,7 +47,7 @@ struct GLWorkspace::Implementation {
   std::unique_ptr<DomainBuffers> domain;
   std::uint64_t domain_identity = 0;
   gl::Buffer vertex_best, vertex_source, distances, sources, small;
-  Workspace<float> host;  // for seeds
+  WorkspaceState<float> host;  // for seeds
   std::size_t rounds = 0;
 };
 

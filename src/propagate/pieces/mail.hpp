@@ -9,7 +9,8 @@
 #include <vector>
 
 #include <plexway/complex/ids.hpp>
-#include <plexway/propagate/room.hpp>
+
+#include "propagate/room.hpp"
 
 namespace plexway {
 

@@ -4,8 +4,8 @@
 #include <vector>
 
 #include <plexway/complex/ids.hpp>
-#include <plexway/propagate/front.hpp>
-#include <plexway/propagate/wavefront.hpp>
+#include "propagate/front.hpp"
+#include "propagate/wavefront.hpp"
 
 namespace plexway {
 

@@ -3,9 +3,8 @@
 #include <array>
 #include <cmath>
 
-#include <plexway/propagate/piece_memory.hpp>
-
 #include "complex/partition.hpp"
+#include "propagate/piece_memory.hpp"
 #include "propagate/pieces/piece_records.hpp"
 
 namespace plexway {

@@ -6,12 +6,12 @@
 #include <vector>
 
 #include <plexway/complex/triangle_mesh.hpp>
-#include <plexway/propagate/front.hpp>
-#include <plexway/propagate/room.hpp>
-#include <plexway/propagate/visit_marks.hpp>
 
 #include "complex/cut.hpp"
+#include "propagate/front.hpp"
 #include "propagate/pieces/mail.hpp"
+#include "propagate/room.hpp"
+#include "propagate/visit_marks.hpp"
 
 namespace plexway {
 

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <cstddef>
 
-#include <plexway/complex/triangle_record.hpp>
+#include <plexway/complex/detail/triangle_record.hpp>
 
 namespace plexway::windows {
 

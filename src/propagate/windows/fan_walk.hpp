@@ -2,7 +2,7 @@
 
 #include <span>
 
-#include <plexway/complex/triangle_record.hpp>
+#include <plexway/complex/detail/triangle_record.hpp>
 
 namespace plexway::windows {
 

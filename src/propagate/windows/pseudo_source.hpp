@@ -3,7 +3,7 @@
 #include <cmath>
 #include <span>
 
-#include <plexway/complex/triangle_record.hpp>
+#include <plexway/complex/detail/triangle_record.hpp>
 
 #include "propagate/windows/entered_triangle.hpp"
 #include "propagate/windows/fan_walk.hpp"

@@ -36,7 +36,7 @@ template <class Real>
 template <bool kLabels, class Windows, class Crew>
 void WindowSolver<Real>::read_out(const Windows& windows, std::span<const PointSource> sources,
                                   const PropagateOptions& options, bool mends, const Crew& crew,
-                                  Workspace<Real>& workspace, DistanceField<Real>& field) const {
+                                  WorkspaceState<Real>& workspace, DistanceField<Real>& field) const {
   NumberRange<Real>::check_unit(mesh_.unit());
   constexpr Real infinity = std::numeric_limits<Real>::infinity();
   const Real radius = static_cast<Real>(options.radius);
@@ -88,7 +88,7 @@ template <class Real>
 template <class Crew>
 bool WindowSolver<Real>::solve_by(const Crew& crew, std::span<const PointSource> sources,
                                   Accuracy accuracy, const PropagateOptions& options,
-                                  Workspace<Real>& workspace, DistanceField<Real>& field) {
+                                  WorkspaceState<Real>& workspace, DistanceField<Real>& field) {
   constexpr bool alone = std::is_same_v<Crew, Alone>;
   const bool merge = accuracy.kind() != Accuracy::Kind::exact;
   const auto solved = [&](auto& windows, const auto& limit) {

@@ -2,8 +2,7 @@
 
 #include <algorithm>
 
-#include <plexway/kernel/lanes.hpp>
-
+#include "kernel/lanes.hpp"
 #include "propagate/windows/entered_triangle.hpp"
 #include "propagate/windows/merge.hpp"
 

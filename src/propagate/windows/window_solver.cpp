@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include <plexway/propagate/window_memory.hpp>
+#include "propagate/window_memory.hpp"
 
 #include "propagate/windows/solve_by.inl"
 
@@ -80,10 +80,10 @@ std::size_t WindowSolver<Real>::bytes() const {
 template class WindowSolver<float>;
 template class WindowSolver<double>;
 template bool WindowSolver<float>::solve_by(const Alone&, std::span<const PointSource>, Accuracy,
-                                            const PropagateOptions&, Workspace<float>&,
+                                            const PropagateOptions&, WorkspaceState<float>&,
                                             DistanceField<float>&);
 template bool WindowSolver<double>::solve_by(const Alone&, std::span<const PointSource>, Accuracy,
-                                             const PropagateOptions&, Workspace<double>&,
+                                             const PropagateOptions&, WorkspaceState<double>&,
                                              DistanceField<double>&);
 
 }  // namespace windows

@@ -10,7 +10,6 @@
 #include <plexway/propagate/accuracy.hpp>
 #include <plexway/propagate/distance_field.hpp>
 #include <plexway/propagate/options.hpp>
-#include <plexway/propagate/workspace.hpp>
 #include <plexway/source/point_source.hpp>
 
 #include "propagate/alone.hpp"
@@ -19,6 +18,7 @@
 #include "propagate/windows/merged_windows.hpp"
 #include "propagate/windows/pieced_windows.hpp"
 #include "propagate/windows/vertex_angles.hpp"
+#include "propagate/workspace_state.hpp"
 
 namespace plexway::windows {
 
@@ -46,7 +46,7 @@ class WindowSolver {
   /// space, and none farther than a neighbour and the edge between, where triangles without an area
   /// hide it. `workspace` is for that.
   [[nodiscard]] bool solve(std::span<const PointSource> sources, Accuracy accuracy,
-                           const PropagateOptions& options, Workspace<Real>& workspace,
+                           const PropagateOptions& options, WorkspaceState<Real>& workspace,
                            DistanceField<Real>& field) {
     return solve_by(Alone{}, sources, accuracy, options, workspace, field);
   }
@@ -55,7 +55,7 @@ class WindowSolver {
   template <class Crew>
   [[nodiscard]] bool solve_by(const Crew& crew, std::span<const PointSource> sources,
                               Accuracy accuracy, const PropagateOptions& options,
-                              Workspace<Real>& workspace, DistanceField<Real>& field);
+                              WorkspaceState<Real>& workspace, DistanceField<Real>& field);
 
   /// Shall solves keep their windows?
   void keep_windows(bool keep);
@@ -75,7 +75,7 @@ class WindowSolver {
   template <bool kLabels, class Windows, class Crew>
   void read_out(const Windows& windows, std::span<const PointSource> sources,
                 const PropagateOptions& options, bool mends, const Crew& crew,
-                Workspace<Real>& workspace, DistanceField<Real>& field) const;
+                WorkspaceState<Real>& workspace, DistanceField<Real>& field) const;
   [[nodiscard]] ExactWindows<Real>& exact(const Alone&);
   [[nodiscard]] MergedWindows<Real>& merged(const Alone&);
   template <class Crew>

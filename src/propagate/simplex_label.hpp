@@ -1,0 +1,57 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <tuple>
+
+#include "complex/flat_domain.hpp"
+#include "propagate/label_storage.hpp"
+
+
+namespace plexway {
+
+/// What an N-simplex remembers under the plain step: the virtual source of the best path to its
+/// centre, as squared distances to its own vertices. No coordinates.
+template <class Real, int N>
+struct SimplexLabel {
+  Real distance2[N + 1];
+  Real sigma;   ///< walked from the source to the virtual source
+  Real centre;  ///< distance of the centre
+};
+
+/// What an N-simplex of a flat domain remembers: the path to its centre from where it is settled,
+/// over at most four faces. Points and lengths in the unit inside.
+template <int N>
+struct SimplexStringLabel {
+  static constexpr std::size_t most = 4;
+
+  std::array<double, N> source;  ///< of the string: the domain's source, or a bend long past
+  double sigma;                  ///< walked up to there
+  double centre;                 ///< distance of the centre
+  std::array<double, N - 2> along[most];  ///< where it bends on the faces
+  Index face[most];
+  Index bends;
+  float nudge[N];  ///< by so many clearances (FlatDomain) the string is held off its source
+};
+
+/// Labels for whichever dimension a domain has and whichever rule is asked; only these take room.
+template <class Real>
+class SimplexLabels {
+ public:
+  template <class Label>
+  Label* reserve(std::size_t simplices) {
+    return std::get<LabelStorage<Label>>(storage_).reserve(simplices);
+  }
+  [[nodiscard]] std::size_t bytes() const {
+    return std::apply([](const auto&... s) { return (s.bytes() + ...); }, storage_);
+  }
+
+ private:
+  template <int N>
+  using Plain = LabelStorage<SimplexLabel<Real, N>>;
+  template <int N>
+  using String = LabelStorage<SimplexStringLabel<N>>;
+  std::tuple<Plain<1>, Plain<2>, Plain<3>, Plain<4>, String<2>, String<3>, String<4>> storage_;
+};
+
+}  // namespace plexway

@@ -1,0 +1,328 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+
+#include "complex/flat_domain.hpp"
+#include "propagate/simplex_taut.hpp"
+
+
+namespace plexway {
+
+/// A path in a flat domain as a string from a source over bends to an end, changed in such a way
+/// that it never leaves the domain.
+///
+/// All changes are one: two legs A-B-C are exchanged for a way from A to C within their triangle.
+/// What is not domain can come into a triangle with two free sides only over the third, so either
+/// that side is free, or the triangle holds points of bending faces, and the shortest way is along
+/// their convex hull with A and C. A bend is dropped so, moved along its face (two triangles), and
+/// the end of the string goes from one place to another. So every string that comes out is a path:
+/// no simplex is walked through, and a search among the faces takes the place of that.
+///
+/// Bends are held a little off their faces (FlatDomain::clearance), so that what lies beside a
+/// string and what it has passed can be told apart by the signs of areas; lengths are those of the
+/// string on the faces themselves.
+template <int N>
+class SimplexString {
+ public:
+  using Point = std::array<double, N>;
+  using Along = typename BendingFace<N>::Along;
+
+  struct Node {
+    Index face;   ///< none: the source, the end, or a point on the way
+    bool placed;  ///< on its face; not so where a bend was just found
+    Along along;
+    Point at;     ///< where the string is held
+    Point sharp;  ///< where it is measured
+  };
+
+  enum class Pulled {
+    taut,
+    longer,  ///< than the limit
+    stuck,   ///< it needs more bends or changes than there is room for
+  };
+
+  explicit SimplexString(const FlatDomain<N>& domain) : domain_(domain) {}
+
+  void start(const Point& at, const Point& sharp) {
+    node_[0] = {none, true, {}, at, sharp};
+    count_ = 1;
+  }
+  void add_bend(Index face, const Along& along) {
+    const BendingFace<N>& f = domain_.faces[face];
+    node_[count_++] = {face, true, along, domain_.held(f, along), f.at(along)};
+  }
+  void add_point(const Point& at, const Point& sharp) {
+    node_[count_++] = {none, true, {}, at, sharp};
+  }
+  [[nodiscard]] std::size_t count() const { return count_; }
+  [[nodiscard]] std::size_t bends() const { return count_ - 2; }
+  [[nodiscard]] const Node& operator[](std::size_t i) const { return node_[i]; }
+
+  [[nodiscard]] double length() const {
+    double sum = 0;
+    for (std::size_t i = 1; i < count_; ++i) sum += distance_of(node_[i - 1].sharp, node_[i].sharp);
+    return sum;
+  }
+
+  /// Takes out the point before the end, which must be one that is no bend, and pulls the string
+  /// taut.
+  Pulled pull(double limit) {
+    if (!cut(count_ - 2)) return Pulled::stuck;
+    for (int changes = 0; changes < most_changes; ++changes) {
+      if (!drop_slack()) return Pulled::stuck;
+      if (bends() > 0) {
+        Taut<N> taut(domain_);
+        taut.start(node_[0].sharp, node_[count_ - 1].sharp);
+        for (std::size_t i = 1; i + 1 < count_; ++i) taut.add(node_[i].face, node_[i].along);
+        if (taut.solve() > limit) return Pulled::longer;
+        if (!place(taut)) return Pulled::stuck;
+        if (!settled()) continue;
+      }
+      return length() > limit ? Pulled::longer : Pulled::taut;
+    }
+    return Pulled::stuck;
+  }
+  /// Nothing but a search: does the triangle hold no point of a bending face?
+  [[nodiscard]] bool is_clear(const Point& a, const Point& b, const Point& c) {
+    find(a, b, c, none, none);
+    return found_ == 0;
+  }
+
+ private:
+  static constexpr std::size_t room = 16, most_found = 48;
+  static constexpr int most_changes = 24;
+
+  struct Found {
+    double x, y;  // in the triangle: shares of C and of B
+    Index face;
+  };
+
+  /// Moves the bends to their places, one after another.
+  bool place(const Taut<N>& taut) {
+    std::size_t i = 1;
+    for (std::size_t k = 0, bends = count_ - 2; k < bends; ++k) {
+      const BendingFace<N>& face = domain_.faces[node_[i].face];
+      const Along& along = taut.along(k);
+      const std::size_t behind = count_ - (i + 1);  // others may come in on both sides
+      if (!move(i, domain_.held(face, along))) return false;
+      node_[i].along = along;
+      node_[i].sharp = face.at(along);
+      node_[i].placed = true;
+      i = count_ - behind;
+    }
+    return true;
+  }
+
+  [[nodiscard]] bool settled() {
+    for (std::size_t i = 1; i + 1 < count_; ++i)
+      if (!node_[i].placed || !turns(i)) return false;
+    return true;
+  }
+  /// Is the string around the face, so that it would be shorter through what is no domain?
+  [[nodiscard]] bool turns(std::size_t i) const {
+    Found found;
+    return pierces(node_[i].face, node_[i - 1].at, node_[i].at, node_[i + 1].at,
+                   is_near(node_[i].face, i - 1, i + 1), found);
+  }
+  bool drop_slack() {
+    for (std::size_t i = 1, tries = 0; i + 1 < count_;) {
+      if (turns(i)) {
+        ++i;
+        continue;
+      }
+      if (++tries > 2 * room || !cut(i)) return false;
+      i = i > 1 ? i - 1 : 1;
+    }
+    return true;
+  }
+
+  /// A leg keeps its distance from faces but those on which it ends.
+  [[nodiscard]] bool is_near(Index face, std::size_t i, std::size_t j) const {
+    return face != node_[i].face && face != node_[j].face;
+  }
+
+  /// Without node i.
+  bool cut(std::size_t i) {
+    find(node_[i - 1].at, node_[i].at, node_[i + 1].at, node_[i - 1].face, node_[i + 1].face);
+    return replace(i, i + 1);
+  }
+  /// Node i to another place that it reaches straight; i is then where the node is.
+  bool move(std::size_t& i, const Point& to) {
+    const Point old = node_[i].at;
+    if (distance_of(old, to) <= domain_.rounding) {
+      node_[i].at = to;
+      return true;
+    }
+    // From A-B-C over A-B-to-C, whose last leg is made good in the end.
+    if (count_ == room) return false;
+    std::copy_backward(node_ + i, node_ + count_, node_ + count_ + 1);
+    ++count_;
+    node_[i + 1].at = to;
+    const std::size_t from_end = count_ - (i + 1);
+    if (!cut(i)) return false;
+    i = count_ - from_end;
+    find(to, old, node_[i + 1].at, node_[i].face, node_[i + 1].face);
+    return replace(i + 1, i + 1);
+  }
+
+  /// Puts the hull of what was found in the place of nodes [begin, end).
+  bool replace(std::size_t begin, std::size_t end) {
+    if (found_ > most_found) return false;
+    const std::size_t kept = found_ == 0 ? 0 : hull();
+    if (count_ + kept > room + (end - begin)) return false;
+    if (kept != end - begin) {
+      if (kept > end - begin)
+        std::copy_backward(node_ + end, node_ + count_, node_ + count_ + kept - (end - begin));
+      else
+        std::copy(node_ + end, node_ + count_, node_ + begin + kept);
+      count_ = count_ + kept - (end - begin);
+    }
+    for (std::size_t k = 0; k < kept; ++k) {
+      const Found& f = candidate_[k];
+      const BendingFace<N>& face = domain_.faces[f.face];
+      Node& node = node_[begin + k];
+      node.face = f.face;
+      node.placed = false;
+      const Point p = at(a_, b_, c_, f);
+      node.along = face.along_of(p);
+      node.sharp = p;
+      node.at = aside(p, f);
+    }
+    return true;
+  }
+
+  /// From a point of the hull away from A-C, where the triangle is free: by a clearance, or half as
+  /// far as the triangle goes.
+  Point aside(const Point& p, const Found& f) const {
+    const Point base = minus(c_, a_);
+    const double share = inner(minus(b_, a_), base) / inner(base, base);
+    const Point up = minus(minus(b_, a_), plus(Point{}, share, base));
+    const double height = std::sqrt(inner(up, up));
+    if (!(height > 0)) return p;
+    double most = domain_.clearance / height;  // of `up`
+    if (share > 0) most = std::min(most, f.x / share / 2);
+    if (share < 1) most = std::min(most, (1 - f.x - f.y) / (1 - share) / 2);
+    return plus(p, std::max(most, 0.), up);
+  }
+
+  /// The upper hull of what was found, from A to C, and what lies on it.
+  std::size_t hull() {
+    std::sort(candidate_, candidate_ + found_, [](const Found& l, const Found& r) {
+      if (l.x != r.x) return l.x < r.x;
+      return l.y != r.y ? l.y < r.y : l.face < r.face;
+    });
+    const Found a = {0, 0, none}, c = {1, 0, none};
+    const auto below = [](const Found& o, const Found& p, const Found& q) {
+      return (p.x - o.x) * (q.y - o.y) - (p.y - o.y) * (q.x - o.x) > 1e-14;
+    };
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i <= found_; ++i) {
+      const Found next = i < found_ ? candidate_[i] : c;
+      while (kept > 0 && below(kept > 1 ? candidate_[kept - 2] : a, candidate_[kept - 1], next))
+        --kept;
+      if (i < found_) candidate_[kept++] = next;
+    }
+    return kept;
+  }
+
+  /// Points of bending faces in the triangle.
+  void find(const Point& a, const Point& b, const Point& c, Index face_a, Index face_c) {
+    a_ = a, b_ = b, c_ = c;
+    found_ = 0;
+    // The triangle is within the line from a corner to the middle of the side across, widened by
+    // half that side: best with the shortest side.
+    const double ab = square(a, b), bc = square(b, c), ca = square(c, a);
+    const Point& apex = bc <= ab && bc <= ca ? a : ca <= ab ? b : c;
+    const Point& l = &apex == &a ? b : a;
+    const Point& r = &apex == &c ? b : c;
+    Point way_over, low, high;  // boxes are met where the line from the apex is in all slabs
+    for (std::size_t d = 0; d < N; ++d) {
+      const double way = (l[d] + r[d]) / 2 - apex[d], half = std::abs(l[d] - r[d]) / 2;
+      way_over[d] = std::abs(way) > 1e-200 ? 1 / way : 1e200;
+      low[d] = -half - apex[d];
+      high[d] = half - apex[d];
+    }
+    const auto meets = [&](const Box<N>& box) {
+      double from = 0, to = 1;
+      for (std::size_t d = 0; d < N; ++d) {
+        const double s = (box.low[d] + low[d]) * way_over[d];
+        const double t = (box.high[d] + high[d]) * way_over[d];
+        from = std::max(from, std::min(s, t));
+        to = std::min(to, std::max(s, t));
+        if (from > to) return false;
+      }
+      return true;
+    };
+    domain_.tree.search(meets, [&](Index f) {
+      Found found;
+      if (!pierces(f, a, b, c, f != face_a && f != face_c, found)) return;
+      if (found_ < most_found) candidate_[found_] = found;
+      ++found_;
+    });
+  }
+  static double square(const Point& a, const Point& b) {
+    const Point d = minus(a, b);
+    return inner(d, d);
+  }
+
+  /// Does the triangle A-B-C meet the face, or the way A-C come closer to it than bends are held
+  /// (`near`)? Of two ways out of rounding it takes yes, but for a face on which A or C is held:
+  /// legs leave it along its walls.
+  bool pierces(Index f, const Point& a, const Point& b, const Point& c, bool near,
+               Found& found) const {
+    const BendingFace<N>& face = domain_.faces[f];
+    const double slack = domain_.rounding, margin = near ? domain_.clearance / 4 : slack;
+    const double sa = inner(a, face.side) - face.origin_side;
+    const double sb = inner(b, face.side) - face.origin_side;
+    const double sc = inner(c, face.side) - face.origin_side;
+    if (std::min({sa, sb, sc}) > margin || std::max({sa, sb, sc}) < -margin) return false;
+    const double ia = inner(a, face.into) - face.origin_into;
+    const double ib = inner(b, face.into) - face.origin_into;
+    const double ic = inner(c, face.into) - face.origin_into;
+    if (std::min({ia, ib, ic}) > margin || std::max({ia, ib, ic}) < -margin) return false;
+    const double at_a = sb * ic - ib * sc, at_b = sc * ia - ic * sa, at_c = sa * ib - ia * sb;
+    const double all = at_a + at_b + at_c;
+    const double sign = all < 0 ? -1 : 1;
+    const auto over = [&](double area, double su, double iu, double sv, double iv, double by) {
+      return area * sign < -by * (std::abs(su - sv) + std::abs(iu - iv));
+    };
+    if (over(at_a, sb, ib, sc, ic, slack) || over(at_b, sc, ic, sa, ia, margin) ||
+        over(at_c, sa, ia, sb, ib, slack))
+      return false;
+    // On the way A-C, or so near that areas do not tell where.
+    const double way_s = sc - sa, way_i = ic - ia, way2 = way_s * way_s + way_i * way_i;
+    if (!(way2 > 0)) return false;
+    if (at_b * sign <= slack * std::sqrt(way2)) {
+      const double x = -(sa * way_s + ia * way_i) / way2;
+      if (x < 0 || x > 1) return false;
+      found = {x, 0, f};
+      if (!near) {  // where it is held, and no other place of the face?
+        const Point p = at(a, b, c, found);
+        if (std::min(distance_of(p, a), distance_of(p, c)) < 16 * domain_.clearance) return false;
+      }
+    } else {
+      found = {at_c / all, at_b / all, f};
+    }
+    if constexpr (N > 2)
+      if (!domain_.holds(face, face.along_of(at(a, b, c, found)), 16 * slack)) return false;
+    return true;
+  }
+  static Point at(const Point& a, const Point& b, const Point& c, const Found& found) {
+    Point p;
+    for (std::size_t d = 0; d < N; ++d)
+      p[d] = a[d] + found.y * (b[d] - a[d]) + found.x * (c[d] - a[d]);
+    return p;
+  }
+
+  const FlatDomain<N>& domain_;
+  Node node_[room];
+  std::size_t count_ = 0;
+  Point a_, b_, c_;  // the triangle last searched
+  Found candidate_[most_found];
+  std::size_t found_ = 0;
+};
+
+}  // namespace plexway

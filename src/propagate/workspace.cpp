@@ -1,0 +1,38 @@
+#include <plexway/propagate/workspace.hpp>
+
+#include "propagate/workspace_state.hpp"
+
+namespace plexway {
+
+template <class Real>
+Workspace<Real>::Workspace() : state_(std::make_unique<WorkspaceState<Real>>()) {}
+
+template <class Real>
+Workspace<Real>::~Workspace() = default;
+
+template <class Real>
+Workspace<Real>::Workspace(Workspace&&) noexcept = default;
+
+template <class Real>
+Workspace<Real>& Workspace<Real>::operator=(Workspace&&) noexcept = default;
+
+template <class Real>
+std::size_t Workspace<Real>::bytes() const {
+  return state_ ? state_->bytes() : 0;
+}
+
+template <class Real>
+void Workspace<Real>::keep_windows(bool keep) {
+  state().windows.keep_windows(keep);
+}
+
+template <class Real>
+WorkspaceState<Real>& Workspace<Real>::state() {
+  if (!state_) state_ = std::make_unique<WorkspaceState<Real>>();
+  return *state_;
+}
+
+template class Workspace<float>;
+template class Workspace<double>;
+
+}  // namespace plexway
