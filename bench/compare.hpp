@@ -120,6 +120,7 @@ inline void add_effort_options(CLI::App& app, Effort& effort) {
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
   app.add_flag("--warm", effort.warm, "An untimed solve before each timed one");
+  app.add_flag("--processor", effort.processor, "The processor's time instead of the clock's");
   app.add_option("--budget", effort.budget, "Seconds after which a row ends early")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();

@@ -1,6 +1,6 @@
 // Sources that are not points, against closed forms: a segment, a circle and a triangle, each as
-// one source and as 200 points of it, in turns. Errors are relative to the distance, but where that
-// is less than an edge, to the edge.
+// one source by windows, by labels, and as 200 points of it by labels, in turns. Errors are
+// relative to the distance, but where that is less than an edge, to the edge.
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -183,22 +183,26 @@ Case triangle(const Unrolled& s) {
 }
 
 nlohmann::ordered_json measure(const Unrolled& s, const plexway::TriangleMesh<double>& mesh,
-                               const Case& one, std::size_t turns) {
+                               const Case& one, plexway::Accuracy accuracy, std::size_t turns) {
   plexway::Workspace<double> workspace;
-  plexway::DistanceField<double> whole, sampled;
-  const plexway::PropagateOptions options = bench::one_label();
-  std::vector<double> first, ratio;
+  plexway::DistanceField<double> whole, by_labels, sampled;
+  plexway::PropagateOptions options;
+  options.accuracy = accuracy;
+  const plexway::PropagateOptions labels = bench::one_label();
+  std::vector<double> first, ratio, to_labels;
+  const auto solve = [&](const auto& sources, const plexway::PropagateOptions& by,
+                         plexway::DistanceField<double>& field) {
+    return bench::seconds(
+        [&] { plexway::solve(plexway::Serial{}, mesh, sources, by, workspace, field); });
+  };
   for (std::size_t i = 0; i <= turns; ++i) {
-    const double a = bench::seconds([&] {
-      plexway::solve(plexway::Serial{}, mesh, std::span(&one.source, 1), options, workspace, whole);
-    });
-    const double b = bench::seconds([&] {
-      plexway::solve(plexway::Serial{}, mesh, std::span<const PointSource>(one.points), options,
-                     workspace, sampled);
-    });
+    const double a = solve(std::span(&one.source, 1), options, whole);
+    const double b = solve(std::span(&one.source, 1), labels, by_labels);
+    const double c = solve(std::span<const PointSource>(one.points), labels, sampled);
     if (i == 0) continue;
     first.push_back(1e9 * a / static_cast<double>(s.flat.size()));
-    ratio.push_back(a / b);
+    to_labels.push_back(a / b);
+    ratio.push_back(a / c);
   }
   struct Errors {
     double mean = 0, max = 0;
@@ -213,15 +217,18 @@ nlohmann::ordered_json measure(const Unrolled& s, const plexway::TriangleMesh<do
     }
     return e;
   };
-  const Errors e = errors(whole), points = errors(sampled);
+  const Errors e = errors(whole), l = errors(by_labels), points = errors(sampled);
   return {{"surface", s.name},
           {"vertices", s.flat.size()},
           {"source", one.name},
           {"mean", e.mean},
           {"max", e.max},
+          {"labels_mean", l.mean},
+          {"labels_max", l.max},
           {"points_mean", points.mean},
           {"points_max", points.max},
           {"ns", bench::median(first)},
+          {"to_labels", bench::median(to_labels)},
           {"ratio", bench::median(ratio)}};
 }
 
@@ -230,10 +237,13 @@ nlohmann::ordered_json measure(const Unrolled& s, const plexway::TriangleMesh<do
 int main(int argc, char** argv) {
   std::vector<Index> cells = {60, 200, 600};
   std::size_t turns = 15;
+  double accuracy = plexway::Accuracy::accurate().error();
   bench::Report report;
   CLI::App app("Segments, circles and triangles as sources against 200 points of them");
   app.add_option("--cells", cells, "Cells a side")->delimiter(',')->capture_default_str();
   app.add_option("--turns", turns, "Solves of each")->capture_default_str();
+  app.add_option("--accuracy", accuracy, "Mean relative error to ask windows for; 0: exact")
+      ->capture_default_str();
   report.add_options(app);
   CLI11_PARSE(app, argc, argv);
 
@@ -242,18 +252,21 @@ int main(int argc, char** argv) {
                       {"source", "source"},
                       {"mean", "error mean", "%.1e"},
                       {"max", "max", "%.1e"},
+                      {"labels_mean", "labels: mean", "%.1e"},
+                      {"labels_max", "max", "%.1e"},
                       {"points_mean", "200 points: mean", "%.1e"},
                       {"points_max", "max", "%.1e"},
                       {"ns", "ns/V", "%.0f"},
+                      {"to_labels", "time / labels", "%.2f"},
                       {"ratio", "time / 200 points", "%.2f"}});
   return report.write(table, [&] {
     for (const Index n : cells) {
       for (const Unrolled& s : {square(n), prism(n)}) {
         const plexway::TriangleMesh<double> mesh(s.shape.points, s.shape.faces);
-        table.add(measure(s, mesh, segment(s, mesh), turns));
+        table.add(measure(s, mesh, segment(s, mesh), plexway::Accuracy(accuracy), turns));
         if (s.name != "square") continue;
-        table.add(measure(s, mesh, circle(s), turns));
-        table.add(measure(s, mesh, triangle(s), turns));
+        table.add(measure(s, mesh, circle(s), plexway::Accuracy(accuracy), turns));
+        table.add(measure(s, mesh, triangle(s), plexway::Accuracy(accuracy), turns));
       }
     }
   });

@@ -93,7 +93,8 @@ def solids(build, scan, folder, data):
     with tempfile.TemporaryDirectory(dir=folder) as some:
         for name in glob.glob(os.path.join(data, "solids", "cavity_100k.*")):
             os.symlink(os.path.abspath(name), os.path.join(some, os.path.basename(name)))
-        rows = build.run("bench_solids", some, "--sizes", "12,70", "--sources", "3", "--repeats", "1", "--budget", "10")
+        rows = build.run("bench_solids", some, "--sizes", "12,70", "--sources", "3", "--repeats", "1", "--budget", "10",
+                         "--processor")
     by = {row["mesh"]: row for row in rows}
     if "cavity_100k" in by:
         yield "cavity_100k: x Dijkstra", by["cavity_100k"].get("ratio")
@@ -107,8 +108,10 @@ def fast(build, scan, folder, data):
     if not meshes:
         return
     rows = build.run("bench_peers" if build.has("bench_peers") else "bench_cgal", *meshes, "--only", "saddles, float",
-                     "--sources", "6", "--repeats", "2", "--budget", "5")
+                     "--sources", "6", "--repeats", "2", "--budget", "5", "--processor")
     ratios = {row["mesh"]: row["ratio"] for row in rows if "ratio" in row}
+    if not ratios:
+        raise RuntimeError("bench_peers measured nothing: " + "; ".join(sorted({row.get("note", "") for row in rows})))
     yield "`fast` on the input's triangles: x Dijkstra, median of the meshes", statistics.median(ratios.values())
     yield f"the same, worst ({max(ratios, key=ratios.get)})", max(ratios.values())
 

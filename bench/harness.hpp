@@ -87,6 +87,8 @@ struct Effort {
   /// An untimed solve before each timed one: caches then hold the solver's own data, as when one
   /// field after another is computed, rather than the other solver's.
   bool warm = false;
+  /// Times are the processor's: for one thread on a machine that others use too.
+  bool processor = false;
 };
 
 /// Medians of two solvers that took turns.
@@ -106,13 +108,16 @@ Times take_turns(std::span<const Index> sources, const Effort& effort, const Fir
   std::vector<double> a;
   std::vector<double> b;
   std::vector<double> ratios;
+  const auto timed = [&](const auto& work) {
+    return effort.processor ? processor_seconds(work) : seconds(work);
+  };
   const auto turn = [&](std::size_t i) {
     const std::size_t ahead = (i + sources.size() / 2) % sources.size();
     const std::size_t other = (i + sources.size() / 3) % sources.size();
     if (effort.warm) first(sources[other]);
-    a.push_back(seconds([&] { first(sources[i]); }));
+    a.push_back(timed([&] { first(sources[i]); }));
     if (effort.warm) second(sources[other]);
-    b.push_back(seconds([&] { second(sources[ahead]); }));
+    b.push_back(timed([&] { second(sources[ahead]); }));
     ratios.push_back(b.back() / a.back());
     return a.back() + b.back();
   };

@@ -268,6 +268,7 @@ int main(int argc, char** argv) {
   app.add_option("--repeats", effort.repeats, "Solves from each source")->capture_default_str();
   app.add_option("--budget", effort.budget, "Seconds after which a row ends early")
       ->capture_default_str();
+  app.add_flag("--processor", effort.processor, "The processor's time instead of the clock's");
   app.add_option("--limit", limit, "Seconds after which a row is given up")->capture_default_str();
   app.add_option("--policy", policy, "saddles, centroid or upper_bound")
       ->check(CLI::IsMember({"saddles", "centroid", "upper_bound"}))

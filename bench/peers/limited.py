@@ -60,12 +60,15 @@ def main():
 
     signal.signal(signal.SIGALRM, stop)
     signal.setitimer(signal.ITIMER_REAL, 10 * seconds)
-    _, status, used = os.wait4(child, 0)
-    wall = time.monotonic() - begin
-    signal.setitimer(signal.ITIMER_REAL, 0)
-    end_all_of(child)
+    signal.signal(signal.SIGTERM, lambda *_: sys.exit(143))
+    try:
+        _, status, used = os.wait4(child, 0)
+        wall = time.monotonic() - begin
+        signal.setitimer(signal.ITIMER_REAL, 0)
+    finally:  # whoever stops this stops the command
+        end_all_of(child)
     code = 128 + os.WTERMSIG(status) if os.WIFSIGNALED(status) else os.WEXITSTATUS(status)
-    if not late and status and used.ru_utime + used.ru_stime >= seconds:
+    if not late and os.WIFSIGNALED(status) and os.WTERMSIG(status) == signal.SIGXCPU:
         late.append("processor")
     own = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
     with open(report, "w", encoding="utf-8") as file:

@@ -80,10 +80,11 @@ ASPECTS = {"first": "the first answer", "further": "a further source", "peak": "
 
 
 def better(rows, ours):
-    """Where a peer is better than one of our rows: by how much at most, and on how many of the meshes that both answered."""
+    """Where a peer is better than one of our rows: by how much at most, and on how many of the meshes that both
+    answered without a wrong value."""
     out = []
     names = [n for n in dict.fromkeys(row["peer"] for row in rows) if not n.startswith("plexway")]
-    by = {(row["peer"], row["mesh"]): row for row in rows if "failure" not in row}
+    by = {(row["peer"], row["mesh"]): row for row in rows if "failure" not in row and not row.get("wrong")}
     for name in names:
         both = [(by[name, mesh], by[ours, mesh]) for peer, mesh in by if peer == name and (ours, mesh) in by]
         said = []

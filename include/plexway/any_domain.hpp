@@ -15,8 +15,8 @@
 #include <vector>
 
 #include <plexway/any/field.hpp>
-#include <plexway/any/shape.hpp>
 #include <plexway/any/open_simplices.hpp>
+#include <plexway/any/shape.hpp>
 #include <plexway/apps/path.hpp>
 #include <plexway/apps/read_out.hpp>
 #include <plexway/executors/gl_executor.hpp>
@@ -109,9 +109,9 @@ class AnyDomain {
   /// the same bits. Any number of processes may share its memory. The file is for this version of
   /// the library and for machines with this byte order; it has a checksum, and one that is foreign
   /// or damaged is refused (InputError). Where other BuildOptions are asked for the shape is built
-  /// anew. Surfaces, solids, wireframes and clouds, without a metric or a mask (UsageError); throws Error
-  /// "cannot write FILE: reason". Size in single precision: 110 bytes a
-  /// triangle, 150 on Delaunay triangles.
+  /// anew. Surfaces, solids, wireframes and clouds, without a metric or a mask (UsageError); throws
+  /// Error "cannot write FILE: reason". Size in single precision: 110 bytes a triangle, 150 on
+  /// Delaunay triangles.
   void keep(const std::filesystem::path& file) const;
 
   /// What it was made from.
@@ -152,8 +152,8 @@ class AnyDomain {
   /// Where the triangulation was left open and the solve left more than a vertex in fifty to
   /// repair, the triangles of the input are tried as well. Points are those of the shape; curves
   /// and triangles lie in its triangles, so where those were to be others, UsageError, or if that
-  /// was left open, those of the shape. UsageError for a point in a simplex that is masked; a vertex
-  /// behind the mask reaches itself.
+  /// was left open, those of the shape. UsageError for a point in a simplex that is masked; a
+  /// vertex behind the mask reaches itself.
   [[nodiscard]] AnyField solve(const AnyExecutor& executor, const SourceList& sources,
                                const PropagateOptions& options = {}) const;
   /// The same into a field whose memory is used again.
@@ -174,9 +174,9 @@ class AnyDomain {
   bool solve_each(const AnyExecutor& executor, const SourceList& sources,
                   const PropagateOptions& options, std::span<float> rows) const;
 
-  /// A field that can tell ways; on mixed domains and complexes it traces none, and `at` takes
-  /// ReadOut::linear alone (UsageError). Its distances are those of `solve`; ways are looked for in
-  /// the shape's triangles. Cost: a solve, and those triangles once, where others were taken.
+  /// A field that can tell ways, but on complexes none, and there `at` takes ReadOut::linear alone
+  /// (UsageError); on mixed domains other levels are ways' lengths. Distances are those of `solve`;
+  /// ways lie in the shape's triangles. Cost: a solve, and those once, where others were taken.
   [[nodiscard]] AnyPathField path_field(const AnyExecutor& executor,
                                         std::span<const PointSource> sources,
                                         const PropagateOptions& options = {}) const;

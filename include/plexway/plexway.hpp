@@ -4,6 +4,7 @@
 /// All of the library, but for what the optional providers under complexes/ bring: solve on any
 /// domain, what to do with distances, files and pictures. Link the components that you use.
 #include <plexway/any/complex.hpp>
+#include <plexway/any/isolines.hpp>
 #include <plexway/any/pairs.hpp>
 #include <plexway/any/scene.hpp>
 #include <plexway/any_domain.hpp>
@@ -15,8 +16,10 @@
 #include <plexway/apps/distance_matrix.hpp>
 #include <plexway/apps/evolution.hpp>
 #include <plexway/apps/farthest_points.hpp>
+#include <plexway/apps/fine_field.hpp>
 #include <plexway/apps/isolines.hpp>
 #include <plexway/apps/isosurfaces.hpp>
+#include <plexway/apps/mixed_path_field.hpp>
 #include <plexway/apps/path.hpp>
 #include <plexway/apps/path_field.hpp>
 #include <plexway/apps/path_search.hpp>

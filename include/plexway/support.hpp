@@ -55,9 +55,15 @@ enum class SourceKind {
   X(shapes,                                                                                        \
     "curves and simplices as sources are for surfaces and wireframes: name points or vertices "    \
     "here")                                                                                        \
+  X(shapes_gl,                                                                                     \
+    "the executor GL starts from points and sets of vertices: use the executor Serial for curves " \
+    "and simplices")                                                                               \
   X(shapes_float,                                                                                  \
-    "curves and triangles as sources need double precision: their virtual sources are far away")   \
-  X(shapes_threads, "curves and triangles as sources are for the executor Serial")                 \
+    "labels start from curves and triangles in double precision, since their virtual sources are " \
+    "far away: make the domain of double, or ask for windows (accurate)")                          \
+  X(shapes_threads,                                                                                \
+    "labels start from curves and triangles on the executor Serial: use that, or ask for windows " \
+    "(accurate)")                                                                                  \
   X(shapes_visibility,                                                                             \
     "curves and triangles as sources need labels with limits: use the policy saddles")             \
   X(windows_domain,                                                                                \
@@ -71,9 +77,6 @@ enum class SourceKind {
   X(windows_labels,                                                                                \
     "the step of the dual queue and `vectorised` are of labels: leave them as they are, or use "   \
     "the accuracy fast")                                                                           \
-  X(windows_shapes,                                                                                \
-    "windows start from points and sets of vertices: use the accuracy fast for curves and "        \
-    "triangles")                                                                                   \
   X(windows_float,                                                                                 \
     "exact distances need double precision: make the domain of double, or ask for accurate")
 
@@ -144,8 +147,6 @@ constexpr Support support_of_windows(const Combination& c) {
   if (c.metric == MetricKind::refracting) return Refusal::windows_refraction;
   if (c.visibility != Visibility::saddles) return Refusal::windows_visibility;
   if (c.label_options) return Refusal::windows_labels;
-  if (c.source == SourceKind::curve || c.source == SourceKind::simplex)
-    return Refusal::windows_shapes;
   if (c.accuracy == Accuracy::Kind::exact && c.single_precision) return Refusal::windows_float;
   return Refusal::nothing;
 }
@@ -184,22 +185,21 @@ constexpr Support support(const Combination& c) {
   // Order.
   if (priority && !serial) return Refusal::order;
   if (priority && c.domain == mixed) return Refusal::mixed_order;
-  // Accuracy, whatever the source.
-  if (by_windows) {
-    Combination points = c;
-    points.source = SourceKind::vertex;
-    if (const Support windows = support_of_windows(points); !windows) return windows;
-  }
+  // Accuracy.
+  const Support windows = support_of_windows(c);
+  if (by_windows && !windows) return windows;
   // Sources.
   if (c.domain == cloud && c.source == SourceKind::point) return Refusal::cloud_point;
   if (c.dimension > 3 && c.source == SourceKind::point) return Refusal::point_of_five;
   if (shape && c.domain != wireframe) {
     if (c.domain != surface) return Refusal::shapes;
-    if (c.single_precision) return Refusal::shapes_float;
-    if (!serial) return Refusal::shapes_threads;
-    if (!saddles) return Refusal::shapes_visibility;
+    const bool by_labels = c.accuracy == Accuracy::Kind::fast || !windows;
+    if (by_labels && gl) return Refusal::shapes_gl;
+    if (by_labels && !saddles) return Refusal::shapes_visibility;
+    if (by_labels && !serial) return Refusal::shapes_threads;
+    if (by_labels && c.single_precision) return Refusal::shapes_float;
   }
-  return by_windows ? support_of_windows(c) : Support();
+  return Support();
 }
 
 /// The cell of an executor and a domain as types, for the kinds of sources and options that may be

@@ -884,7 +884,16 @@ class Domain:
 
 
 def _warn_of_violations(domain: Domain) -> None:
-    """Says it where lengths are no metric, and were taken as those of the nearest flat simplices."""
+    """Says it where lengths are no metric, and were taken as those of the nearest flat simplices; and
+    where paths in a solid were to be refracted, but are not."""
+    if domain._native.smoothed:
+        warnings.warn(
+            "in solids paths are refracted between regions of at most 64 speeds: here each edge takes "
+            "the mean of its tetrahedra, which is of first order where they jump; refract=False says "
+            "that this is meant",
+            RuntimeWarning,
+            stacklevel=4,
+        )
     count, first = domain._native.violations
     if count:
         warnings.warn(

@@ -19,8 +19,9 @@ class SimplexSpeeds:
     ----------
     speed : array_like of float, shape (m,)
     refract : bool
-        On surfaces: paths are refracted where speeds jump. (Such a surface tells distances, but no
-        ways.) False: an edge takes the mean of both sides.
+        Paths are refracted where speeds jump: on surfaces, which then tell distances but no ways, and
+        in solids of at most 64 speeds. False, and in solids of more (with a warning): an edge takes
+        the mean of its simplices.
     """
 
     speed: ArrayLike

@@ -46,10 +46,10 @@ std::vector<metric::Tensor> tensors_of(const py::handle& array) {
 }
 
 // `described`: what it is, its array, and for those a simplex whether paths are refracted.
-metric::Metric metric_of(const py::tuple& described, bool surface) {
+metric::Metric metric_of(const py::tuple& described, bool refracts) {
   const auto kind = described[0].cast<std::string>();
   metric::Agreement agreement;
-  if (surface && described.size() == 3 && kind != "lengths" && described[2].cast<bool>())
+  if (refracts && described.size() == 3 && kind != "lengths" && described[2].cast<bool>())
     agreement.sides = metric::Sides::own;
   if (kind == "speeds") return metric::SimplexSpeeds{numbers_of(described[1], "metric"), agreement};
   if (kind == "simplex tensors") return metric::SimplexTensors{tensors_of(described[1]), agreement};
@@ -80,6 +80,8 @@ MeasuredLengths measured_before(const AnyShape& shape, const py::tuple& describe
     lengths.triangles = number_rows_of<3>(described[1], "lengths");
     lengths.violations =
         metric::find_violations(std::span<const std::array<double, 3>>(lengths.triangles));
+  } else if (shape.kind() == DomainKind::solid && lengths.refracts) {
+    lengths.speeds = numbers_of(described[1], "speeds");
   } else if (shape.kind() == DomainKind::solid) {
     lengths.tets = number_rows_of<6>(described[1], "lengths");
     lengths.violations =
@@ -113,7 +115,8 @@ std::shared_ptr<Domain> build(AnyShape shape, const BuildArguments& arguments) {
     options.lengths = std::make_shared<const MeasuredLengths>(
         described[0].cast<std::string>() == "measured"
             ? measured_before(shape, described)
-            : shape.measure(metric_of(described, shape.kind() == DomainKind::surface)));
+            : shape.measure(metric_of(described, shape.kind() == DomainKind::surface ||
+                                                     shape.kind() == DomainKind::solid)));
   }
   Watch watch(arguments.progress);
   options.progress = watch.of_share();

@@ -209,6 +209,9 @@ void bind_domain(py::module_& module) {
                                return lengths_of(d->options().lengths.get(), py::cast(d));
                              })
       .def_property_readonly(
+          "smoothed",  // an edge takes the mean of its tetrahedra, though speeds jump
+          [](const Domain& d) { return d.options().lengths && d.options().lengths->smoothed; })
+      .def_property_readonly(
           "refracts",
           [](const Domain& d) { return d.options().lengths && d.options().lengths->refracts; })
       .def_property_readonly("positions", &positions)

@@ -1,5 +1,7 @@
 """Distances against closed forms, on every kind of domain."""
 
+import pickle
+
 import meshes
 import numpy as np
 import pytest
@@ -407,3 +409,26 @@ def test_kinds_by_name_and_info():
     assert np.array_equal(told["bounds"][1], [1, 1, 0])
     assert repr(px.Surface(V, F)) == "plexway.Surface(25 vertices, 32 triangles)"
     assert repr(px.Wireframe([[0, 0], [1, 0]], [[0, 1]])) == "plexway.Wireframe(2 vertices, 1 edge)"
+
+
+def test_speeds_that_jump_in_a_solid_refract():
+    V, T = meshes.kuhn(6, 3)
+    speed = np.where(V[T].mean(axis=1)[:, 2] < 0.5, 1.0, 2.0)
+    source = int(np.argmin(np.linalg.norm(V - [0, 0.5, 0], axis=1)))
+    x = np.hypot(V[:, 0] - V[source, 0], V[:, 1] - V[source, 1])[:, None]
+    above, s = V[:, 2] > 0.5, np.linspace(0, 1, 20001)[None]
+    truth = np.min(np.hypot(s * x, 0.5) + np.hypot(x - s * x, V[:, 2:] - 0.5) / 2, axis=1)
+    solid = px.Solid(V, T, metric=px.SimplexSpeeds(speed), precision="double")
+    d = solid.distance(source)
+    off = np.abs(d / truth - 1)[above]
+    assert off.mean() < 1e-4 and off.max() < 2e-2
+    # The mean of both sides is another metric, so it must be asked for.
+    mean = px.Solid(V, T, metric=px.SimplexSpeeds(speed, refract=False), precision="double")
+    assert np.abs(mean.distance(source) / truth - 1)[above].mean() > 1e-3
+    with pytest.warns(RuntimeWarning, match="64 speeds"):
+        px.Solid(V, T, metric=px.SimplexSpeeds(np.linspace(1, 2, len(T))))
+    # Paths are refracted as well, and a copy by pickle knows the speeds.
+    for target in np.flatnonzero(above)[::20]:
+        assert solid.path(source, int(target)).length == pytest.approx(truth[target], rel=1e-6)
+    again = pickle.loads(pickle.dumps(solid))
+    assert np.array_equal(again.distance(source), d)

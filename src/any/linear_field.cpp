@@ -4,6 +4,7 @@
 #include <limits>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include <plexway/error.hpp>
 
@@ -21,16 +22,21 @@ class LinearField final : public AnyPathField::State {
       : domain_(std::move(domain)), shape_(shape) {}
 
   void solve(const AnyExecutor& executor, std::span<const PointSource> sources,
-             const PropagateOptions& options) {
+             const PropagateOptions& options, const MakeTrace& make) {
     domain_->solve(executor, SourceList(sources), options, field);
+    sources_.assign(sources.begin(), sources.end());
+    if (make) trace_ = make(field);
   }
 
-  Path trace(const PointSource&, const TraceOptions&) const override {
-    throw UsageError("paths are traced on surfaces, solids, wireframes and clouds");
+  Path trace(const PointSource& point, const TraceOptions& options) const override {
+    if (!trace_)
+      throw UsageError(
+          "paths are traced on surfaces, solids, wireframes, clouds and mixed domains");
+    return trace_(point, options);
   }
 
   double at(const PointSource& point, ReadOut level) const override {
-    if (level != ReadOut::linear)
+    if (level != ReadOut::linear && !trace_)
       throw UsageError("within a " + std::string(kind_noun(shape_.kind())) +
                        " distances are read linearly: ask for ReadOut::linear");
     PointSource where = point;
@@ -38,6 +44,10 @@ class LinearField final : public AnyPathField::State {
     check_source(where, {shape_.vertices(), shape_.simplices(), "simplex", 4});
     if (where.vertex != none) return field[where.vertex];
     if (const OpenSimplices* const open = domain_->open()) static_cast<void>(open->inside(where));
+    if (level != ReadOut::linear) {
+      const Path path = trace_(where, {});
+      return path.source == none ? infinity : path.length + sources_[path.source].offset;
+    }
     const auto corners = shape_.corners(where.simplex);
     double sum = 0;
     for (std::size_t i = 0; i < where.barycentric.size(); ++i) {
@@ -89,17 +99,17 @@ class LinearField final : public AnyPathField::State {
  private:
   std::shared_ptr<const Prepared> domain_;
   AnyShape shape_;
+  std::vector<PointSource> sources_;
+  TraceFrom trace_;
 };
 
 }  // namespace
 
-std::shared_ptr<const AnyPathField::State> linear_field(std::shared_ptr<const Prepared> domain,
-                                                        const AnyShape& shape,
-                                                        const AnyExecutor& executor,
-                                                        std::span<const PointSource> sources,
-                                                        const PropagateOptions& options) {
+std::shared_ptr<const AnyPathField::State> linear_field(
+    std::shared_ptr<const Prepared> domain, const AnyShape& shape, const AnyExecutor& executor,
+    std::span<const PointSource> sources, const PropagateOptions& options, const MakeTrace& trace) {
   auto state = std::make_shared<LinearField>(std::move(domain), shape);
-  state->solve(executor, sources, options);
+  state->solve(executor, sources, options, trace);
   return state;
 }
 

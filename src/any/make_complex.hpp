@@ -9,8 +9,8 @@
 
 #include <plexway/any/field.hpp>
 #include <plexway/any/shape.hpp>
-#include <plexway/complex/mask.hpp>
 #include <plexway/complex/intrinsic_delaunay.hpp>
+#include <plexway/complex/mask.hpp>
 #include <plexway/domain/domains.hpp>
 
 namespace plexway {
@@ -67,8 +67,8 @@ TriangleMesh<Real> make_complex(const io::Triangles& surface, const Making& maki
   if (making.lengths == nullptr) return {surface.positions, open};
   SurfaceHints hints;
   hints.refracts = making.lengths->refracts;
-  return {making.shape.vertices(), open,
-          making.open(surface.triangles, making.lengths->triangles), hints};
+  return {making.shape.vertices(), open, making.open(surface.triangles, making.lengths->triangles),
+          hints};
 }
 template <class Real>
 TetMesh<Real> make_complex(const io::Tets& solid, const Making& making) {

@@ -7,6 +7,7 @@
 #include <type_traits>
 #include <utility>
 
+#include <plexway/apps/mixed_path_field.hpp>
 #include <plexway/error.hpp>
 
 #include "any/kept_build.hpp"
@@ -241,6 +242,42 @@ class PreparedMixed final : public PreparedKind<MixedComplex<Real>> {
     found.complete = room.other.complete;
     found.statistics = room.other.statistics;
     field.triangulation = {};
+  }
+
+  std::shared_ptr<const AnyPathField::State> path_field(
+      const AnyExecutor& executor, std::span<const PointSource> sources,
+      const PropagateOptions& options) const override {
+    const auto trace = [&](const AnyField& field) -> TraceFrom {
+      DistanceField<Real> found;
+      found.distance.assign(pieces_.complex.vertex_count(), std::numeric_limits<Real>::infinity());
+      const auto& distance = std::get<DistanceField<Real>>(field.data).distance;
+      for (std::size_t v = 0; v < distance.size(); ++v)
+        if (pieces_.vertex[v] != none) found.distance[pieces_.vertex[v]] = distance[v];
+      std::vector<PointSource> inside(sources.begin(), sources.end());
+      for (PointSource& source : inside) move(source);
+      std::vector<Index> outer(pieces_.complex.simplex_count());
+      for (Index s = 0; s < pieces_.simplex.size(); ++s) outer[pieces_.simplex[s]] = s;
+      auto paths = std::make_shared<PathField<MixedComplex<Real>>>(pieces_.complex);
+      paths->adopt(std::move(found), inside);
+      return [this, paths, outer = std::move(outer)](PointSource point,
+                                                     const TraceOptions& tracing) -> Path {
+        const bool alone =
+            point.vertex < pieces_.vertex.size() && pieces_.vertex[point.vertex] == none;
+        if (alone) return {};  // in no simplex
+        const OpenSimplices* const open = this->open();
+        if (open != nullptr) point = open->inside(point);
+        move(point);
+        Path path = paths->trace(point, tracing);
+        for (PathPoint& at : path.points) {
+          at.simplex = outer[at.simplex];
+          if (open != nullptr) at.simplex = open->outside(at.simplex);
+          path.positions.push_back(
+              this->shape_.position({.simplex = at.simplex, .barycentric = at.barycentric}));
+        }
+        return path;
+      };
+    };
+    return linear_field(this->shared_from_this(), this->shape_, executor, sources, options, trace);
   }
 
  private:

@@ -123,7 +123,9 @@ class PreparedKind : public Prepared {
   std::shared_ptr<const AnyPathField::State> path_field(
       const AnyExecutor& executor, std::span<const PointSource> sources,
       const PropagateOptions& options) const override {
-    if constexpr (has_paths<Complex>) {
+    if constexpr (Complex::kind == DomainKind::mixed) {
+      throw UsageError("a mixed domain has numbers of its own");  // PreparedMixed knows them
+    } else if constexpr (has_paths<Complex>) {
       auto state = std::make_shared<PathsOf<Complex>>(shared_from_this(), shape_, of(), measured_);
       state->solve(executor, sources, options);
       return state;

@@ -72,6 +72,11 @@ ShapeScene::ShapeScene(const AnyShape& shape, const SceneContent& content) {
         using Kind = std::decay_t<decltype(data)>;
         if constexpr (std::is_same_v<Kind, io::Triangles>) {
           part.triangles = data.triangles;
+          if (content.fine != nullptr && content.label.empty()) {
+            part.positions = content.fine->positions;
+            part.triangles = content.fine->faces;
+            part.value = content.fine->distance;
+          }
         } else if constexpr (std::is_same_v<Kind, io::Tets>) {
           part.tets = data.tets;
           part.ghost = content.look_inside;

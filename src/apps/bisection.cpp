@@ -11,23 +11,22 @@
 namespace plexway {
 
 template <int N>
-Bisection<N>::Bisection(std::span<const std::array<Index, corners>> simplices,
+Bisection<N>::Bisection(std::size_t vertices, std::span<const std::array<Index, corners>> simplices,
                         std::span<const std::array<Index, sides>> edges, std::vector<Edge> lengths,
-                        std::vector<double> limits, std::size_t most)
-    : most_(std::min(most, most_parts)),
+                        const Excess& excess, std::size_t most)
+    : vertices_(vertices),
+      most_(std::min(most, most_parts)),
       edges_(std::move(lengths)),
-      around_(edges_.size()),
-      limits_(std::move(limits)) {
+      around_(edges_.size()) {
   simplices_.reserve(simplices.size());
   for (std::size_t s = 0; s < simplices.size(); ++s) {
-    Simplex simplex = {simplices[s], edges[s], static_cast<Index>(s), {}};
-    for (std::size_t i = 0; i < corners; ++i) simplex.place[i][i] = 1;
     for (const Index e : edges[s]) around_[e].push_back(static_cast<Index>(s));
-    simplices_.push_back(simplex);
+    simplices_.push_back({simplices[s], edges[s], static_cast<Index>(s)});
   }
   std::priority_queue<std::pair<double, Index>> longest;
   const auto consider = [&](Index e) {
-    if (excess(e) > 1) longest.emplace(excess(e), e);
+    const double much = excess(*this, e);
+    if (much > 1) longest.emplace(much, e);
   };
   for (Index e = 0; e < edges_.size(); ++e) consider(e);
   while (!longest.empty()) {
@@ -38,12 +37,7 @@ Bisection<N>::Bisection(std::span<const std::array<Index, corners>> simplices,
     consider(e);  // now its first half
     for (std::size_t n = before; n < edges_.size(); ++n) consider(static_cast<Index>(n));
   }
-}
-
-template <int N>
-double Bisection<N>::excess(Index edge) const {
-  const Edge& e = edges_[edge];
-  return e.length / std::min(limits_[e.vertex[0]], limits_[e.vertex[1]]);
+  around_ = {};
 }
 
 template <int N>
@@ -54,8 +48,7 @@ void Bisection<N>::bisect(Index edge) {
         "into more than " +
         std::to_string(most_) + " parts");
   const Edge old = edges_[edge];
-  const Index middle = static_cast<Index>(limits_.size());
-  limits_.push_back((limits_[old.vertex[0]] + limits_[old.vertex[1]]) / 2);
+  const Index middle = static_cast<Index>(vertices_ + halved_.size());
   halved_.emplace_back(old.vertex[0], old.vertex[1]);
   edges_[edge] = {{old.vertex[0], middle}, old.length / 2};
   const Index second = static_cast<Index>(edges_.size());
@@ -73,10 +66,7 @@ void Bisection<N>::bisect(Index edge) {
     if (whole.vertex[i] != old.vertex[0]) std::swap(i, j);
     Simplex first = whole, last = whole;
     const Index other = static_cast<Index>(simplices_.size());
-    std::array<double, 4> place;
-    for (std::size_t k = 0; k < 4; ++k) place[k] = (whole.place[i][k] + whole.place[j][k]) / 2;
     first.vertex[j] = last.vertex[i] = middle;
-    first.place[j] = last.place[i] = place;
     first.edge[side(i, j)] = edge;
     last.edge[side(i, j)] = second;
     for (std::size_t k = 0; k < corners; ++k) {

@@ -1,7 +1,10 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
+#include <functional>
+#include <map>
 #include <span>
 #include <utility>
 #include <vector>
@@ -9,9 +12,11 @@
 #include <plexway/complex/ids.hpp>
 #include <plexway/error.hpp>
 
+#include "executors/simplex_numbers.hpp"
+
 namespace plexway {
 
-/// Of 600 bytes each.
+/// Of 300 bytes each.
 inline constexpr std::size_t most_parts = none >> 6;
 
 class TooManyParts : public UsageError {
@@ -37,39 +42,64 @@ class Bisection {
   struct Simplex {
     std::array<Index, corners> vertex;
     std::array<Index, sides> edge;
-    Index parent;                                      ///< the simplex given that it is a part of
-    std::array<std::array<double, 4>, corners> place;  ///< corners as weights of the parent's
+    Index parent;  ///< the simplex given that it is a part of
   };
   struct Edge {
     Index vertex[2];
     double length;
   };
 
-  /// `edges[s]` numbers the sides of simplex s; `limits` has one value a vertex: an edge longer
-  /// than that of either end is bisected. A vertex in the middle of an edge takes the mean.
-  /// Throws TooManyParts where that makes more than `most` simplices.
-  Bisection(std::span<const std::array<Index, corners>> simplices,
+  /// How much too long an edge is; it is bisected if that is > 1, the greatest first. It is asked
+  /// for every edge, and after each bisection first for an edge that ends at the new vertex.
+  using Excess = std::function<double(const Bisection&, Index edge)>;
+
+  /// `edges[s]` numbers the sides of simplex s. Throws TooManyParts where that makes more than
+  /// `most` simplices.
+  Bisection(std::size_t vertices, std::span<const std::array<Index, corners>> simplices,
             std::span<const std::array<Index, sides>> edges, std::vector<Edge> lengths,
-            std::vector<double> limits, std::size_t most = most_parts);
+            const Excess& excess, std::size_t most = most_parts);
 
   [[nodiscard]] const std::vector<Simplex>& simplices() const { return simplices_; }
   [[nodiscard]] const std::vector<Edge>& edges() const { return edges_; }
-  /// One a vertex. New vertices follow those given.
-  [[nodiscard]] const std::vector<double>& limits() const { return limits_; }
-  /// Ends of the edge that new vertex i, from 0, halved.
+  /// One of the simplices that an edge is a side of; only while `excess` is asked.
+  [[nodiscard]] Index beside(Index edge) const { return around_[edge].front(); }
+  /// Ends of the edge that new vertex i, from 0, halved. They follow the vertices given.
   [[nodiscard]] const std::vector<std::pair<Index, Index>>& halved() const { return halved_; }
 
  private:
-  [[nodiscard]] double excess(Index edge) const;
   void bisect(Index edge);
 
-  std::size_t most_;
+  std::size_t vertices_, most_;
   std::vector<Simplex> simplices_;
   std::vector<Edge> edges_;
   std::vector<std::vector<Index>> around_;  // simplices at an edge
-  std::vector<double> limits_;
   std::vector<std::pair<Index, Index>> halved_;
 };
+
+/// Where a vertex lies in a simplex given that holds it, as weights of its corners. `given`: so
+/// many vertices were there before. Cost: the vertices that were halved to get there, some tens.
+template <class Corners>
+Weights place_in(std::span<const std::pair<Index, Index>> halved, std::size_t given,
+                 const Corners& corners, Index vertex) {
+  Weights weights{};
+  const auto corner = [&](Index v) {
+    return static_cast<std::size_t>(std::find(corners.begin(), corners.end(), v) - corners.begin());
+  };
+  if (vertex < given) {
+    weights[corner(vertex)] = 1;
+    return weights;
+  }
+  // Each vertex comes after those it lies between.
+  std::map<Index, double, std::greater<>> shares = {{vertex, 1}};
+  while (shares.begin()->first >= given) {
+    const auto [v, share] = *shares.begin();
+    shares.erase(shares.begin());
+    shares[halved[v - given].first] += share / 2;
+    shares[halved[v - given].second] += share / 2;
+  }
+  for (const auto& [v, share] : shares) weights[corner(v)] = share;
+  return weights;
+}
 
 extern template class Bisection<2>;
 extern template class Bisection<3>;

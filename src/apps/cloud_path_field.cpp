@@ -7,6 +7,7 @@
 #include <plexway/error.hpp>
 
 #include "apps/cloud_points.hpp"
+#include "apps/cloud_sheet.hpp"
 #include "apps/solved.hpp"
 #include "apps/surface_trace.hpp"
 
@@ -34,12 +35,11 @@ bool measured_in_space(const TriangleMesh<Real>& sheet, std::span<const Index> o
 template <class Real>
 PathField<PointCloud<Real>>::PathField(const PointCloud<Real>& cloud,
                                        std::span<const std::array<double, 3>> points)
-    : cloud_(&cloud), places_(points), outer_(cloud.surface().vertex_count()) {
+    : cloud_(&cloud), places_(points) {
   if (!points.empty() && points.size() != cloud.point_count())
     throw UsageError(std::to_string(points.size()) + " positions for " +
                      std::to_string(cloud.point_count()) + " points: give one a point, or none");
-  const std::span<const Index> inside = cloud.surface().vertices_inside();
-  for (std::size_t v = 0; v < inside.size(); ++v) outer_[inside[v]] = static_cast<Index>(v);
+  outer_ = sheet_vertices(cloud);
   if (points.empty()) return;
   if (!cloud.more_places().empty()) {
     own_places_.assign(points.begin(), points.end());
@@ -57,24 +57,8 @@ void PathField<PointCloud<Real>>::took(std::span<const PointSource> sources, Vis
   labels_ = labels;
   solved_ = true;
   // Tracing asks all vertices of the sheet. What joins two points is where both ends are.
-  if (cloud_->surface().vertex_count() == field_.distance.size()) return;
-  constexpr Real infinity = std::numeric_limits<Real>::infinity();
-  const auto triangles = cloud_->surface().triangles();
-  sheet_.distance.assign(cloud_->surface().vertex_count(), infinity);
-  std::copy(field_.distance.begin(), field_.distance.end(), sheet_.distance.begin());
-  const Real unit = static_cast<Real>(cloud_->unit());
-  std::vector<Index> corners;
-  for (Index v = static_cast<Index>(field_.distance.size()); v < sheet_.distance.size(); ++v) {
-    cloud_->surface().corners_at(cloud_->surface().inside_vertex(v), corners);
-    for (const Index c : corners)
-      for (const std::size_t e : {std::size_t{c % 3}, edge_before(c % 3)}) {
-        const TriangleRecord<Real>& t = triangles[c / 3];
-        const Index end = outer_[t.corner[e == c % 3 ? edge_after(e) : e]];
-        if (end < field_.distance.size())
-          sheet_.distance[v] =
-              std::min(sheet_.distance[v], field_.distance[end] + unit * t.length[e]);
-      }
-  }
+  if (cloud_->surface().vertex_count() != field_.distance.size())
+    sheet_.distance = sheet_distances<Real>(*cloud_, field_.distance, outer_);
 }
 
 template <class Real>

@@ -8,15 +8,65 @@
 namespace plexway {
 namespace {
 
+/// Cuts edges that are longer than the limit of either end; a new vertex takes the mean of two.
+template <int N>
+class Limits {
+ public:
+  explicit Limits(std::vector<double>& limits) : limits_(limits) {}
+  double operator()(const Bisection<N>& fine, Index edge) const {
+    const auto& [ends, length] = fine.edges()[edge];
+    if (std::max(ends[0], ends[1]) == limits_.size()) {
+      const auto [v, w] = fine.halved().back();
+      limits_.push_back((limits_[v] + limits_[w]) / 2);
+    }
+    return length / std::min(limits_[ends[0]], limits_[ends[1]]);
+  }
+
+ private:
+  std::vector<double>& limits_;
+};
+
 template <class Complex, int N>
 void take_parts(const Bisection<N>& fine, CutDomain<Complex>& domain) {
-  domain.limits = fine.limits();
-  domain.parts.reserve(fine.simplices().size());
-  for (const auto& simplex : fine.simplices()) {
-    typename CutDomain<Complex>::Part part = {simplex.parent, {}};
-    std::copy(simplex.place.begin(), simplex.place.end(), part.place.begin());
-    domain.parts.push_back(part);
+  domain.halved = fine.halved();
+  domain.parent.reserve(fine.simplices().size());
+  for (const auto& simplex : fine.simplices()) domain.parent.push_back(simplex.parent);
+}
+
+template <class Real>
+double length_of(const TetMesh<Real>& mesh, Index v, Index w) {
+  return static_cast<double>(norm(mesh.points()[v] - mesh.points()[w]));
+}
+
+template <class Real>
+Bisection<3> bisected(const TetMesh<Real>& mesh, std::vector<double>& limits, std::size_t most) {
+  const auto tets = mesh.tets();
+  const Index count = static_cast<Index>(mesh.tet_count());
+  struct Side {
+    Index v, w, at;  // at: 6 t + edge
+  };
+  std::vector<Side> all;
+  all.reserve(std::size_t{6} * count);
+  std::vector<std::array<Index, 4>> simplices(count);
+  for (Index t = 0; t < count; ++t) {
+    std::copy(tets[t].corner, tets[t].corner + 4, simplices[t].begin());
+    for (Index e = 0; e < 6; ++e) {
+      const Index v = tets[t].corner[tet_edge_ends[e][0]], w = tets[t].corner[tet_edge_ends[e][1]];
+      all.push_back({std::min(v, w), std::max(v, w), 6 * t + e});
+    }
   }
+  std::sort(all.begin(), all.end(), [](const Side& a, const Side& b) {
+    return std::tie(a.v, a.w, a.at) < std::tie(b.v, b.w, b.at);
+  });
+  std::vector<std::array<Index, 6>> sides(count);
+  std::vector<typename Bisection<3>::Edge> edges;
+  for (std::size_t n = 0; n < all.size(); ++n) {
+    const Side& s = all[n];
+    if (n == 0 || s.v != all[n - 1].v || s.w != all[n - 1].w)
+      edges.push_back({{s.v, s.w}, length_of(mesh, s.v, s.w)});
+    sides[s.at / 6][s.at % 6] = static_cast<Index>(edges.size() - 1);
+  }
+  return Bisection<3>(limits.size(), simplices, sides, std::move(edges), Limits<3>(limits), most);
 }
 
 }  // namespace
@@ -70,25 +120,30 @@ CutDomain<TriangleMesh<Real>> cut(const TriangleMesh<Real>& mesh, std::vector<do
     domain.limits = std::move(limits);
     return domain;
   }
-  const Bisection<2> fine(simplices, sides, std::move(edges), std::move(limits), most);
-  take_parts(fine, domain);
-  const auto& cut = fine.simplices();
-  std::vector<std::array<Index, 3>> faces_cut(cut.size()), across(cut.size());
-  std::vector<std::array<double, 3>> lengths(cut.size());
-  std::vector<Index> first(fine.edges().size(), none), last = first;  // cycles of halfedges
-  for (Index f = 0; f < cut.size(); ++f) {
-    faces_cut[f] = cut[f].vertex;
-    for (std::size_t i = 0; i < 3; ++i) {
-      const Index edge = cut[f].edge[side_of(i)], halfedge = 3 * f + static_cast<Index>(i);
-      lengths[f][i] = fine.edges()[edge].length * mesh.unit();
-      across[f][i] = none;
-      if (first[edge] == none) {
-        first[edge] = halfedge;
-      } else {
-        across[last[edge] / 3][last[edge] % 3] = halfedge;
-        across[f][i] = first[edge];
+  std::vector<std::array<Index, 3>> faces_cut, across;
+  std::vector<std::array<double, 3>> lengths;
+  {  // What cut it need not be there while a copy is built.
+    domain.limits = std::move(limits);
+    const Bisection<2> fine(domain.limits.size(), simplices, sides, std::move(edges),
+                            Limits<2>(domain.limits), most);
+    take_parts(fine, domain);
+    const auto& cut = fine.simplices();
+    faces_cut.resize(cut.size()), across.resize(cut.size()), lengths.resize(cut.size());
+    std::vector<Index> first(fine.edges().size(), none), last = first;  // cycles of halfedges
+    for (Index f = 0; f < cut.size(); ++f) {
+      faces_cut[f] = cut[f].vertex;
+      for (std::size_t i = 0; i < 3; ++i) {
+        const Index edge = cut[f].edge[side_of(i)], halfedge = 3 * f + static_cast<Index>(i);
+        lengths[f][i] = fine.edges()[edge].length * mesh.unit();
+        across[f][i] = none;
+        if (first[edge] == none) {
+          first[edge] = halfedge;
+        } else {
+          across[last[edge] / 3][last[edge] % 3] = halfedge;
+          across[f][i] = first[edge];
+        }
+        last[edge] = halfedge;
       }
-      last[edge] = halfedge;
     }
   }
   domain.copy =
@@ -105,57 +160,34 @@ CutDomain<TetMesh<Real>> cut(const TetMesh<Real>& mesh, std::vector<double> limi
   const auto tets = mesh.tets();
   const auto points = mesh.points();
   const Index count = static_cast<Index>(mesh.tet_count());
-  const auto length = [&](Index v, Index w) {
-    return static_cast<double>(norm(points[v] - points[w]));
-  };
   bool fits = true;
   for (Index t = 0; t < count && fits; ++t)
     for (const auto& [i, j] : tet_edge_ends) {
       const Index v = tets[t].corner[i], w = tets[t].corner[j];
-      fits = fits && length(v, w) <= std::min(limits[v], limits[w]);
+      fits = fits && length_of(mesh, v, w) <= std::min(limits[v], limits[w]);
     }
   if (fits) {
     domain.limits = std::move(limits);
     return domain;
   }
-  struct Side {
-    Index v, w, at;  // at: 6 t + edge
-  };
-  std::vector<Side> all;
-  all.reserve(std::size_t{6} * count);
-  std::vector<std::array<Index, 4>> simplices(count);
-  for (Index t = 0; t < count; ++t) {
-    std::copy(tets[t].corner, tets[t].corner + 4, simplices[t].begin());
-    for (Index e = 0; e < 6; ++e) {
-      const Index v = tets[t].corner[tet_edge_ends[e][0]], w = tets[t].corner[tet_edge_ends[e][1]];
-      all.push_back({std::min(v, w), std::max(v, w), 6 * t + e});
-    }
+  std::vector<std::array<Index, 4>> cut;
+  {  // What cut it need not be there while a copy is built.
+    domain.limits = std::move(limits);
+    const Bisection<3> fine = bisected(mesh, domain.limits, most);
+    take_parts(fine, domain);
+    cut.reserve(fine.simplices().size());
+    for (const auto& simplex : fine.simplices()) cut.push_back(simplex.vertex);
   }
-  std::sort(all.begin(), all.end(), [](const Side& a, const Side& b) {
-    return std::tie(a.v, a.w, a.at) < std::tie(b.v, b.w, b.at);
-  });
-  std::vector<std::array<Index, 6>> sides(count);
-  std::vector<typename Bisection<3>::Edge> edges;
-  for (std::size_t n = 0; n < all.size(); ++n) {
-    const Side& s = all[n];
-    if (n == 0 || s.v != all[n - 1].v || s.w != all[n - 1].w)
-      edges.push_back({{s.v, s.w}, length(s.v, s.w)});
-    sides[s.at / 6][s.at % 6] = static_cast<Index>(edges.size() - 1);
-  }
-  const Bisection<3> fine(simplices, sides, std::move(edges), std::move(limits), most);
-  take_parts(fine, domain);
   std::vector<std::array<double, 3>> positions;
   positions.reserve(domain.limits.size());
   for (const Vector3<Real>& p : points)
     positions.push_back({static_cast<double>(p.x) * mesh.unit(),
                          static_cast<double>(p.y) * mesh.unit(),
                          static_cast<double>(p.z) * mesh.unit()});
-  for (const auto& [v, w] : fine.halved()) {
+  for (const auto& [v, w] : domain.halved) {
     const auto a = positions[v], b = positions[w];
     positions.push_back({(a[0] + b[0]) / 2, (a[1] + b[1]) / 2, (a[2] + b[2]) / 2});
   }
-  std::vector<std::array<Index, 4>> cut;
-  for (const auto& simplex : fine.simplices()) cut.push_back(simplex.vertex);
   domain.copy = std::make_unique<TetMesh<Real>>(positions, cut);
   domain.complex = domain.copy.get();
   return domain;

@@ -1,9 +1,8 @@
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <memory>
-#include <span>
+#include <utility>
 #include <vector>
 
 #include <plexway/complex/tet_mesh.hpp>
@@ -21,11 +20,10 @@ struct CutDomain {
   std::unique_ptr<Complex> copy;     ///< which this is, or none
   std::vector<double> limits;        ///< one a vertex, of `complex`
 
-  struct Part {
-    Index parent;                                ///< in the domain given
-    std::array<std::array<double, 4>, 4> place;  ///< corners as weights of the parent's
-  };
-  std::vector<Part> parts;  ///< by the numbers that the caller of `copy` knows
+  /// Of a copy, by the numbers that its caller knows: which simplex of the domain given each is a
+  /// part of, and between which two vertices each new one lies halfway, after those given.
+  std::vector<Index> parent;
+  std::vector<std::pair<Index, Index>> halved;
 };
 
 /// `limits`: the longest edge wanted at each vertex, in the unit inside. Throws TooManyParts where

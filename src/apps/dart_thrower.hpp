@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <limits>
 #include <numeric>
 #include <vector>
@@ -57,11 +58,18 @@ class DartThrower {
   [[nodiscard]] std::size_t taken_back() const { return taken_back_; }
 
  private:
+  using Corners = std::array<Weights, corners>;
+  static constexpr unsigned kinds = 1u << (corners - 1);  ///< parts that a piece is cut into
+
+  /// A part of a simplex that was cut `level` times, each time into `kinds` parts; `way` has the
+  /// number of the part that was taken each time, the last one lowest. There are many pieces, so
+  /// their corners are worked out when one is drawn.
   struct Piece {
+    std::uint64_t way = 0;
     Index simplex;
-    int level;
-    std::array<Weights, corners> corner;
+    int level = 0;
   };
+  static constexpr int most_levels = 64 / static_cast<int>(corners - 1);
 
   [[nodiscard]] bool full() const { return darts_.size() >= most_; }
 
@@ -152,36 +160,44 @@ class DartThrower {
       if (field_.reached(s) && (field_.distance(s) + largest_ <= limit_ ||
                                 field_.distance(s) + field_.size(s) <= limit_))
         continue;
-      const Piece piece = {s, 0, whole()};
-      if (!covered(piece)) add(piece);
+      if (!covered(s, whole())) add(Piece{.simplex = s});
     }
     for (std::size_t n = 0; !pieces.empty() && !full(); ++n) {
       if (n % 4096 == 0) report(std::max(0., 1 - pieces.bound() / total));
       const Piece piece = pieces.draw(random_);
+      const Corners corner = corners_of(piece);
       const std::size_t taken_back = taken_back_;
-      throw_into(piece.simplex, piece.corner);
+      throw_into(piece.simplex, corner);
       // Below this no one would find a gap. A dart that was taken back found that the piece is
       // covered after all, though no label here says so.
       const Real size = std::ldexp(field_.size(piece.simplex), -piece.level) / limit_;
-      if (size < (taken_back_ > taken_back ? Real(5e-3) : Real(1e-4))) continue;
-      add_open_parts(piece, add);
+      if (size < (taken_back_ > taken_back ? Real(5e-3) : Real(1e-4)) || piece.level == most_levels)
+        continue;
+      add_open_parts(piece, corner, add);
     }
     maximal_ = pieces.empty();
   }
 
-  static std::array<Weights, corners> whole() {
-    std::array<Weights, corners> corner{};
+  static Corners whole() {
+    Corners corner{};
     for (std::size_t i = 0; i < corners; ++i) corner[i][i] = 1;
+    return corner;
+  }
+  static Corners corners_of(const Piece& piece) {
+    Corners corner = whole();
+    constexpr int bits = corners - 1;
+    for (int level = piece.level; level-- > 0;)
+      corner = part_of(corner, static_cast<unsigned>(piece.way >> bits * level) % kinds);
     return corner;
   }
 
   /// Is there one dart that covers all of it? The points that a label covers are convex within a
   /// simplex, so its corners tell.
-  bool covered(const Piece& piece) {
+  bool covered(Index s, const Corners& corner) {
     bool any = false;
-    field_.each_label(piece.simplex, [&](Index, const auto& distance) {
+    field_.each_label(s, [&](Index, const auto& distance) {
       any = true;
-      for (const Weights& w : piece.corner) any = any && distance(w) <= limit_;
+      for (const Weights& w : corner) any = any && distance(w) <= limit_;
       return any;
     });
     return any;
@@ -189,47 +205,45 @@ class DartThrower {
 
   /// Cut into 2^N parts of equal size; those that no single dart covers.
   template <class Add>
-  void add_open_parts(const Piece& piece, Add add) {
-    constexpr std::size_t count = std::size_t{1} << (corners - 1);
-    std::array<Piece, count> part;
-    halve(piece, part);
-    unsigned open = (1u << count) - 1;
+  void add_open_parts(const Piece& piece, const Corners& corner, Add add) {
+    std::array<Corners, kinds> part;
+    for (unsigned n = 0; n < kinds; ++n) part[n] = part_of(corner, n);
+    unsigned open = (1u << kinds) - 1;
     field_.each_label(piece.simplex, [&](Index, const auto& distance) {
-      for (std::size_t n = 0; n < count; ++n) {
+      for (unsigned n = 0; n < kinds; ++n) {
         if (!(open >> n & 1)) continue;
         bool all = true;
-        for (const Weights& w : part[n].corner) all = all && distance(w) <= limit_;
+        for (const Weights& w : part[n]) all = all && distance(w) <= limit_;
         if (all) open &= ~(1u << n);
       }
       return open == 0;
     });
-    for (std::size_t n = 0; n < count; ++n)
-      if (open >> n & 1) add(part[n]);
+    for (unsigned n = 0; n < kinds; ++n)
+      if (open >> n & 1) add(Piece{piece.way * kinds + n, piece.simplex, piece.level + 1});
   }
 
-  template <std::size_t Count>
-  static void halve(const Piece& piece, std::array<Piece, Count>& part) {
+  /// Part n of these: those at the corners first, then what is left in the middle.
+  static Corners part_of(const Corners& corner, unsigned n) {
     const auto middle = [&](std::size_t i, std::size_t j) {
       Weights w{};
-      for (std::size_t k = 0; k < corners; ++k)
-        w[k] = (piece.corner[i][k] + piece.corner[j][k]) / 2;
+      for (std::size_t k = 0; k < corners; ++k) w[k] = (corner[i][k] + corner[j][k]) / 2;
       return w;
     };
-    for (Piece& p : part) p.simplex = piece.simplex, p.level = piece.level + 1;
-    for (std::size_t i = 0; i < corners; ++i)
-      for (std::size_t j = 0; j < corners; ++j)
-        part[i].corner[j] = i == j ? piece.corner[i] : middle(i, j);
-    if constexpr (corners == 3) {
-      part[3].corner = {middle(0, 1), middle(1, 2), middle(2, 0)};
+    Corners part;
+    if (n < corners) {
+      for (std::size_t j = 0; j < corners; ++j) part[j] = n == j ? corner[n] : middle(n, j);
+    } else if constexpr (corners == 3) {
+      part = {middle(0, 1), middle(1, 2), middle(2, 0)};
     } else {  // an octahedron, around one of its diagonals
-      const Weights a = middle(0, 2), b = middle(1, 3);
-      const Weights ring[4] = {middle(0, 1), middle(1, 2), middle(2, 3), middle(3, 0)};
-      for (std::size_t i = 0; i < 4; ++i) part[4 + i].corner = {a, b, ring[i], ring[(i + 1) % 4]};
+      constexpr std::size_t ring[4][2] = {{0, 1}, {1, 2}, {2, 3}, {3, 0}};
+      const auto &a = ring[n - 4], &b = ring[(n - 3) % 4];
+      part = {middle(0, 2), middle(1, 3), middle(a[0], a[1]), middle(b[0], b[1])};
     }
+    return part;
   }
 
   /// A dart at a random point of a part of a simplex; false if that is covered.
-  bool throw_into(Index s, const std::array<Weights, corners>& corner) {
+  bool throw_into(Index s, const Corners& corner) {
     std::array<double, corners + 1> cut{};  // spacings of sorted numbers are uniform weights
     for (std::size_t i = 1; i < corners; ++i) cut[i] = random_.uniform();
     cut[corners] = 1;

@@ -77,6 +77,15 @@ void check_radii(std::size_t simplices, std::vector<double>& radii) {
   for (double& radius : radii) radius = std::min(radius, widest);
 }
 
+template <class Real>
+std::span<const Index> corners_in(const TriangleMesh<Real>& mesh, Index s) {
+  return mesh.triangles()[s].corner;
+}
+template <class Real>
+std::span<const Index> corners_in(const TetMesh<Real>& mesh, Index s) {
+  return mesh.tets()[s].corner;
+}
+
 /// A sample with one radius, `most` darts at most. `candidates`: the vertices that darts may hit.
 template <class Complex>
 PoissonDisks sample(const Complex& domain, const SimplexNumbers<Complex>& numbers,
@@ -130,12 +139,15 @@ PoissonDisks sample(const Complex& domain, const SimplexNumbers<Complex>& number
       result.darts.push_back(PointSource::at(numbers.outside_vertex(v)));
       continue;
     }
-    const PointSource there = own.outside(dart.simplex, dart.weights);
-    const auto& part = fine.parts[there.simplex];
+    const Index parent = fine.parent[own.outside(dart.simplex, dart.weights).simplex];
+    const std::span<const Index> corners = corners_in(domain, parent);
     Weights weights{};
-    for (std::size_t i = 0; i < 4; ++i)
-      for (std::size_t k = 0; k < 4; ++k) weights[k] += there.barycentric[i] * part.place[i][k];
-    result.darts.push_back(numbers.outside(part.parent, weights));
+    for (std::size_t i = 0; i < Growth<Complex>::corners; ++i) {
+      const Index v = own.outside_vertex(field.corners_of(dart.simplex)[i]);
+      const Weights place = place_in(fine.halved, domain.vertex_count(), corners, v);
+      for (std::size_t k = 0; k < 4; ++k) weights[k] += dart.weights[i] * place[k];
+    }
+    result.darts.push_back(numbers.outside(parent, weights));
   }
   return result;
 }

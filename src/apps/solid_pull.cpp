@@ -5,7 +5,6 @@
 
 #include "propagate/solid_sight.hpp"
 
-
 namespace plexway {
 namespace {
 

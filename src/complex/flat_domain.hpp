@@ -56,6 +56,8 @@ struct BendingFace {
   Point side;                        ///< across `into`
   double origin_into, origin_side;   ///< the origin's coordinates along these
   Index rims_begin, rims_end;
+  bool gate =
+      false;  ///< no obstacle: parts of the domain touch here and nowhere near, see FaceGate
 
   [[nodiscard]] Point at(const Along& a) const {
     Point p = origin;
@@ -79,19 +81,29 @@ struct BendingRim {
   Along from, to;
 };
 
+/// From one simplex to another that it touches in a piece of dimension N - 2 alone, where obstacles
+/// touch: a hinge of one dimension less than a facet. Ways pass it at any point of the face.
+template <int N>
+struct FaceGate {
+  Index from, to;                         ///< simplices
+  Index face;                             ///< one with `gate` set
+  typename BendingFace<N>::Along middle;  ///< of what they share
+};
+
 /// A complex of dimension N in R^N that does not overlap itself: its vertices and centroids as
 /// points, about the middle and in units of the mean edge, and the faces on which paths bend.
 template <int N>
 struct FlatDomain {
   using Point = std::array<double, N>;
 
-  std::vector<Point> positions;  ///< by the numbers inside
-  std::vector<Point> centres;    ///< of simplices
-  std::vector<BendingFace<N>> faces;
+  std::vector<Point> positions;       ///< by the numbers inside
+  std::vector<Point> centres;         ///< of simplices
+  std::vector<BendingFace<N>> faces;  ///< those that are gates come last
   std::vector<BendingRim<N>> rims;
-  BoxTree<N> tree;             ///< over faces
-  std::vector<Index> corners;  ///< vertices on faces, ascending
-  double rounding;             ///< coordinates and what is derived from them are good to this
+  BoxTree<N> tree;                 ///< over faces but gates
+  std::vector<FaceGate<N>> gates;  ///< by `from`
+  std::vector<Index> corners;      ///< vertices on faces, ascending
+  double rounding;                 ///< coordinates and what is derived from them are good to this
   double clearance;  ///< bends are held so far off their face, which `rounding` cannot undo
 
   [[nodiscard]] std::span<const BendingRim<N>> rims_of(const BendingFace<N>& face) const {
@@ -103,15 +115,23 @@ struct FlatDomain {
       if (inner(rim.outward, a) > rim.reach + slack) return false;
     return true;
   }
+  /// Out of a simplex.
+  [[nodiscard]] std::span<const FaceGate<N>> gates_of(Index s) const {
+    const auto begin = std::partition_point(gates.begin(), gates.end(),
+                                            [s](const FaceGate<N>& g) { return g.from < s; });
+    const auto end =
+        std::partition_point(begin, gates.end(), [s](const FaceGate<N>& g) { return g.from == s; });
+    return {begin, end};
+  }
   /// Where a string that bends at `a` is held: off the face and not quite at its rim, so that what
-  /// it touches there and what it passes can be told apart.
+  /// it touches there and what it passes can be told apart. In a gate there is no room.
   [[nodiscard]] Point held(const BendingFace<N>& face, typename BendingFace<N>::Along a) const {
     const double margin = 8 * clearance;
     for (const BendingRim<N>& rim : rims_of(face)) {
       const double over = inner(rim.outward, a) - (rim.reach - margin);
       if (over > 0) a = plus(a, -over, rim.outward);
     }
-    return plus(face.at(a), -clearance, face.into);
+    return face.gate ? face.at(a) : plus(face.at(a), -clearance, face.into);
   }
   /// From one point to another near a vertex, past the obstacles that meet in the vertex?
   [[nodiscard]] bool passes_by(const Point& vertex, const Point& from, const Point& to) const {
@@ -139,7 +159,7 @@ struct FlatDomain {
   [[nodiscard]] std::size_t bytes() const {
     const auto of = [](const auto& v) { return v.capacity() * sizeof(v[0]); };
     return sizeof(*this) + of(positions) + of(centres) + of(faces) + of(rims) + of(corners) +
-           tree.bytes();
+           of(gates) + tree.bytes();
   }
 };
 

@@ -6,9 +6,9 @@
 #include <span>
 #include <vector>
 
+#include <plexway/complex/detail/triangle_record.hpp>
 #include <plexway/complex/ids.hpp>
 #include <plexway/complex/triangle_mesh.hpp>
-#include <plexway/complex/detail/triangle_record.hpp>
 
 #include "complex/patch_history.hpp"
 #include "complex/planar.hpp"

@@ -6,8 +6,8 @@
 #include <span>
 #include <vector>
 
-#include <plexway/complex/ids.hpp>
 #include <plexway/complex/detail/rows.hpp>
+#include <plexway/complex/ids.hpp>
 
 #include "complex/planar.hpp"
 

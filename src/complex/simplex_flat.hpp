@@ -44,8 +44,10 @@ class FlatDomainBuilder {
   std::shared_ptr<const FlatDomain<N>> build() {
     to_the_middle();
     if (!lies_flat() || !find_faces()) return nullptr;
-    merge_faces();
+    merge_faces(wedges_);
+    plant_tree();
     if (overlaps()) return nullptr;
+    add_gates();
     return domain_;
   }
 
@@ -58,6 +60,13 @@ class FlatDomainBuilder {
     Piece corner;
     Face face;  // without its rims
     Index simplex;
+    Index merged = none;  // the face that it is in
+  };
+  /// What is domain around a piece from one facet of the boundary to another.
+  struct Arc {
+    Wedge wedge;
+    double angle;
+    std::size_t in, out;  // facets of the first simplex: the boundary's, and where it goes on
   };
 
   const Point& position(Index v) const { return domain_->positions[v]; }
@@ -140,6 +149,7 @@ class FlatDomainBuilder {
 
   bool go_around(Index s, std::size_t in, std::size_t out) {
     const Index first = static_cast<Index>((N + 1) * s + in);
+    const std::size_t first_in = in, first_out = out;
     Wedge wedge;
     wedge.simplex = s;
     for (std::size_t k = 0, n = 0; k <= N; ++k)
@@ -175,11 +185,12 @@ class FlatDomainBuilder {
       if (s == start && steps > records_.size()) return false;
     }
     // Each arc is met from both its ends.
-    if (static_cast<Index>((N + 1) * s + out) < first || !(angle > pi + 1e-7)) return true;
+    if (static_cast<Index>((N + 1) * s + out) < first) return true;
     const double middle = pi + angle / 2;
     face.into = plus(scaled(std::cos(middle), x), std::sin(middle), y);
     face.side = plus(scaled(-std::sin(middle), x), std::cos(middle), y);
-    wedges_.push_back(wedge);
+    if (angle > pi + 1e-7) wedges_.push_back(wedge);
+    arcs_.push_back({wedge, angle, first_in, first_out});
     return true;
   }
 
@@ -210,8 +221,9 @@ class FlatDomainBuilder {
     double measure;
   };
 
-  void merge_faces() {
-    const std::size_t count = wedges_.size();
+  /// Makes faces of pieces.
+  void merge_faces(std::vector<Wedge>& wedges) {
+    const std::size_t count = wedges.size();
     struct Side {
       std::array<Index, N - 1> key;  // the vertices of a side of a piece; none at the end
       Index wedge;
@@ -225,7 +237,7 @@ class FlatDomainBuilder {
           Side side{{}, static_cast<Index>(w)};
           side.key.fill(none);
           for (std::size_t k = 0, n = 0; k < N - 1; ++k)
-            if (k != out) side.key[n++] = wedges_[w].corner[k];
+            if (k != out) side.key[n++] = wedges[w].corner[k];
           sides.push_back(side);
         }
       std::sort(sides.begin(), sides.end(), [](const Side& a, const Side& b) {
@@ -233,7 +245,7 @@ class FlatDomainBuilder {
       });
       for (std::size_t a = 0; a < sides.size(); ++a)
         for (std::size_t b = a + 1; b < sides.size() && sides[b].key == sides[a].key; ++b)
-          if (same_flat(wedges_[sides[a].wedge], wedges_[sides[b].wedge])) {
+          if (same_flat(wedges[sides[a].wedge], wedges[sides[b].wedge])) {
             groups.unite(sides[a].wedge, sides[b].wedge);
             touching.emplace_back(sides[a].wedge, sides[b].wedge);
           }
@@ -249,8 +261,8 @@ class FlatDomainBuilder {
       Part whole{members[g][0], {}, 0};
       for (const Index w : members[g]) {
         Part part{members[g][0], {}, 0};
-        for (const Index v : wedges_[w].corner)
-          part.corner.push_back(wedges_[members[g][0]].face.along_of(position(v)));
+        for (const Index v : wedges[w].corner)
+          part.corner.push_back(wedges[members[g][0]].face.along_of(position(v)));
         part.measure = hull(part.corner);
         whole.corner.insert(whole.corner.end(), part.corner.begin(), part.corner.end());
         whole.measure += part.measure;
@@ -259,11 +271,15 @@ class FlatDomainBuilder {
       std::vector<Along> corners = whole.corner;
       if (hull(corners) <= whole.measure * (1 + 1e-9)) {
         whole.corner = corners;
-        add_face(whole);
+        for (const Index w : members[g]) wedges[w].merged = next_face();
+        add_face(wedges, whole);
       } else {
-        for (const Part& part : join(parts, members[g], contacts[g])) add_face(part);
+        join(parts, wedges, members[g], contacts[g]);
       }
     }
+  }
+
+  void plant_tree() {
     std::vector<Box<N>> boxes;
     for (const Face& face : domain_->faces) {
       Box<N> box = Box<N>::empty();
@@ -312,8 +328,8 @@ class FlatDomainBuilder {
     }
   }
 
-  static std::vector<Part> join(std::vector<Part>& parts, const std::vector<Index>& members,
-                                const std::vector<std::pair<Index, Index>>& contacts) {
+  void join(std::vector<Part>& parts, std::vector<Wedge>& wedges, const std::vector<Index>& members,
+            const std::vector<std::pair<Index, Index>>& contacts) {
     const auto number = [&](Index w) {
       return static_cast<Index>(std::lower_bound(members.begin(), members.end(), w) -
                                 members.begin());
@@ -334,14 +350,18 @@ class FlatDomainBuilder {
         any = true;
       }
     }
-    std::vector<Part> kept;
-    for (Index p = 0; p < parts.size(); ++p)
-      if (joined.find(p) == p) kept.push_back(parts[p]);
-    return kept;
+    std::vector<Index> face(parts.size());
+    for (Index p = 0; p < parts.size(); ++p) {
+      if (joined.find(p) != p) continue;
+      face[p] = next_face();
+      add_face(wedges, parts[p]);
+    }
+    for (Index p = 0; p < parts.size(); ++p) wedges[members[p]].merged = face[joined.find(p)];
   }
 
-  void add_face(const Part& part) {
-    Face face = wedges_[part.wedge].face;
+  [[nodiscard]] Index next_face() const { return static_cast<Index>(domain_->faces.size()); }
+  void add_face(const std::vector<Wedge>& wedges, const Part& part) {
+    Face face = wedges[part.wedge].face;
     face.origin_into = inner(face.origin, face.into);
     face.origin_side = inner(face.origin, face.side);
     face.rims_begin = static_cast<Index>(domain_->rims.size());
@@ -358,6 +378,61 @@ class FlatDomainBuilder {
     }
     face.rims_end = static_cast<Index>(domain_->rims.size());
     domain_->faces.push_back(face);
+  }
+
+  /// Where several arcs of domain around one piece touch in it, and all are at most half the way
+  /// round (else paths that bend there have it for a corner), paths go from one to another.
+  void add_gates() {
+    std::sort(arcs_.begin(), arcs_.end(), [](const Arc& a, const Arc& b) {
+      if (a.wedge.corner != b.wedge.corner) return a.wedge.corner < b.wedge.corner;
+      return b.wedge.face.into < a.wedge.face.into;
+    });
+    std::vector<Wedge> pieces;
+    std::vector<std::size_t> first;  // arc of each piece
+    const auto end_of = [&](std::size_t a) {
+      std::size_t end = a + 1;
+      while (end < arcs_.size() && arcs_[end].wedge.corner == arcs_[a].wedge.corner) ++end;
+      return end;
+    };
+    for (std::size_t a = 0, end; a < arcs_.size(); a = end) {
+      end = end_of(a);
+      if (end == a + 1 || std::any_of(&arcs_[a], &arcs_[a] + (end - a),
+                                      [](const Arc& arc) { return arc.angle > pi + 1e-7; }))
+        continue;
+      pieces.push_back(arcs_[a].wedge);
+      pieces.back().face.gate = true;
+      first.push_back(a);
+    }
+    merge_faces(pieces);
+    for (std::size_t p = 0; p < pieces.size(); ++p) {
+      Point at{};
+      for (const Index v : pieces[p].corner) at = plus(at, 1. / (N - 1), position(v));
+      const Along middle = domain_->faces[pieces[p].merged].along_of(at);
+      const std::size_t end = end_of(first[p]);
+      for (std::size_t a = first[p]; a < end; ++a)
+        for (const Index from : simplices_of(arcs_[a]))
+          for (std::size_t b = first[p]; b < end; ++b)
+            if (b != a)
+              for (const Index to : simplices_of(arcs_[b]))
+                domain_->gates.push_back({from, to, pieces[p].merged, middle});
+    }
+    std::stable_sort(domain_->gates.begin(), domain_->gates.end(),
+                     [](const auto& a, const auto& b) { return a.from < b.from; });
+  }
+
+  [[nodiscard]] std::vector<Index> simplices_of(const Arc& arc) const {
+    std::vector<Index> all;
+    Index s = arc.wedge.simplex;
+    for (std::size_t in = arc.in, out = arc.out;;) {
+      all.push_back(s);
+      const Index to = records_[s].across[out];
+      if (to == none) return all;
+      const Index leaving = records_[s].corner[in];
+      s = to >> FacetAcross::simplex_shift;
+      in = to & FacetAcross::facet_mask;
+      out = 0;
+      while (records_[s].corner[out] != leaving) ++out;
+    }
   }
 
   /// Is the middle of a piece on which paths bend, or of one simplex in many, inside of a simplex?
@@ -419,6 +494,7 @@ class FlatDomainBuilder {
   std::span<const Record> records_;
   std::shared_ptr<FlatDomain<N>> domain_;
   std::vector<Wedge> wedges_;
+  std::vector<Arc> arcs_;
 };
 
 }  // namespace plexway

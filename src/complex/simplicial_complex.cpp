@@ -170,7 +170,9 @@ void SimplicialComplex<Real, N>::lay_flat(std::span<const double> positions) {
         points[vertex_to_inside_[v]][d] = positions[N * v + d] / unit();
     flat_ = FlatDomainBuilder<Real, N>(records_, std::move(points)).build();
     summary_.flat = flat_ != nullptr;
-    summary_.bending_faces = summary_.flat ? flat_->faces.size() : 0;
+    if (!flat_) return;
+    summary_.bending_faces = static_cast<std::size_t>(std::count_if(
+        flat_->faces.begin(), flat_->faces.end(), [](const auto& face) { return !face.gate; }));
   }
 }
 

@@ -5,8 +5,8 @@
 #include <span>
 #include <vector>
 
-#include <plexway/complex/ids.hpp>
 #include <plexway/complex/detail/tet_record.hpp>
+#include <plexway/complex/ids.hpp>
 
 namespace plexway {
 

@@ -4,8 +4,8 @@
 #include <span>
 #include <vector>
 
-#include <plexway/complex/ids.hpp>
 #include <plexway/complex/detail/triangle_record.hpp>
+#include <plexway/complex/ids.hpp>
 
 namespace plexway {
 

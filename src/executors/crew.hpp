@@ -62,6 +62,9 @@ class TeamCrew {
             [&](std::size_t t) { return propagation.may_need_repair(static_cast<Index>(t)); },
             [&](std::size_t t) { look(static_cast<Index>(t)); });
       });
+    else if constexpr (requires { propagation.run(spread, *this); })
+      propagation.run(spread,
+                      [&](std::size_t count, const auto& work) { team_.over(count, work); });
     else
       propagation.run(spread);
   }

@@ -6,16 +6,18 @@
 #include <plexway/executors.hpp>
 #include <plexway/propagate/distance_field.hpp>
 #include <plexway/propagate/options.hpp>
-
 #include <plexway/propagate/workspace.hpp>
+
 #include "executors/source_parts.hpp"
 
 namespace plexway::detail {
 
-/// Points and shapes on a surface, as one field.
-void solve_shapes(const Serial& executor, const TriangleMesh<double>& mesh,
+/// Points and shapes on a surface, as one field: by windows, or by the labels of one thread in
+/// double.
+template <class E, class Real>
+void solve_shapes(const E& executor, const TriangleMesh<Real>& mesh,
                   std::span<const Source> sources, SourceParts& parts,
-                  const PropagateOptions& options, Workspace<double>& workspace,
-                  DistanceField<double>& field);
+                  const PropagateOptions& options, Workspace<Real>& workspace,
+                  DistanceField<Real>& field);
 
 }  // namespace plexway::detail

@@ -152,12 +152,18 @@ std::size_t raise_to_lines(const SimplicialComplex<Real, N>& domain,
 /// the policy is `saddles`, the default, strings that know their bends; else the plain step.
 template <class Real, int N, class Queue, class Solve>
 void with_rule(const SimplicialComplex<Real, N>& domain, const PropagateOptions& options,
-               const Solve& solve) {
+               WorkspaceState<Real>& workspace, const Solve& solve) {
   if constexpr (N > 1)
     if (options.visibility == Visibility::saddles && domain.flat()) {
       using Front = Wavefront<Real, SimplexStringLabel<N>, Queue, true>;
-      solve.template operator()<Front>(
-          [&](Front& front) { return SimplexStringRule<Real, N, Front>(domain, front); });
+      solve.template operator()<Front>([&](Front& front) {
+        const std::size_t vertices = domain.vertex_count();
+        SimplexVertexWay<N>* const ways =
+            workspace.simplex.template reserve<SimplexVertexWay<N>>(vertices);
+        for (std::size_t v = 0; v < vertices; ++v) ways[v].forget();
+        return SimplexStringRule<Real, N, Front>(domain, front, ways,
+                                                 &workspace.simplex.template telling<N>());
+      });
       return;
     }
   using Front = Wavefront<Real, SimplexLabel<Real, N>, Queue, true>;
@@ -173,7 +179,7 @@ void solve(const SimplicialComplex<Real, N>& domain, std::span<const PointSource
            const Crew& crew, DistanceField<Real>& field) {
   const std::size_t simplices = domain.simplex_count();
   workspace.start(simplices, true);
-  with_rule<Real, N, Queue>(domain, options, [&]<class Front>(const auto& make_rule) {
+  with_rule<Real, N, Queue>(domain, options, workspace, [&]<class Front>(const auto& make_rule) {
     using Label = typename Front::Label;
     Front front(workspace.marks, workspace.simplex.template reserve<Label>(simplices), queue,
                 workspace.source.data(), simplices, domain.unit(), options);

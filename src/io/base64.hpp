@@ -1,10 +1,30 @@
 #pragma once
 
+#include <algorithm>
+#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <string_view>
 
 namespace plexway::io {
+
+inline constexpr std::string_view base64_digits =
+    "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+
+/// Bytes as text, with its padding.
+inline std::string encode_base64(std::string_view bytes) {
+  std::string out;
+  out.reserve((bytes.size() + 2) / 3 * 4);
+  for (std::size_t i = 0; i < bytes.size(); i += 3) {
+    std::uint32_t three = 0;
+    const std::size_t some = std::min<std::size_t>(3, bytes.size() - i);
+    for (std::size_t k = 0; k < some; ++k)
+      three |= std::uint32_t{static_cast<unsigned char>(bytes[i + k])} << (16 - 8 * k);
+    for (std::size_t k = 0; k < 4; ++k)
+      out += k <= some ? base64_digits[three >> (18 - 6 * k) & 63] : '=';
+  }
+  return out;
+}
 
 /// What a character of base64 stands for, or -1.
 constexpr int base64_value(char c) {

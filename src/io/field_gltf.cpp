@@ -10,6 +10,7 @@
 
 #include <plexway/error.hpp>
 
+#include "base64.hpp"
 #include "bytes.hpp"
 #include "colour_map.hpp"
 #include "field_formats.hpp"
@@ -249,21 +250,6 @@ class Document {
   std::size_t accessor_count_ = 0;
 };
 
-std::string base64(const std::string& bytes) {
-  constexpr std::string_view digits =
-      "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string out;
-  out.reserve((bytes.size() + 2) / 3 * 4);
-  for (std::size_t i = 0; i < bytes.size(); i += 3) {
-    std::uint32_t three = 0;
-    const std::size_t some = std::min<std::size_t>(3, bytes.size() - i);
-    for (std::size_t k = 0; k < some; ++k)
-      three |= std::uint32_t{static_cast<unsigned char>(bytes[i + k])} << (16 - 8 * k);
-    for (std::size_t k = 0; k < 4; ++k) out += k <= some ? digits[three >> (18 - 6 * k) & 63] : '=';
-  }
-  return out;
-}
-
 }  // namespace
 
 void write_glb(OutputFile& out, const Field& field) {
@@ -286,7 +272,7 @@ void write_glb(OutputFile& out, const Field& field) {
 void write_gltf(OutputFile& out, const Field& field) {
   const Document document(field);
   out.write(document.json("\"uri\":\"data:application/octet-stream;base64," +
-                          base64(document.bytes) + "\","));
+                          encode_base64(document.bytes) + "\","));
   out.write("\n");
 }
 

@@ -8,6 +8,7 @@
 
 #include <plexway/error.hpp>
 
+#include "base64.hpp"
 #include "bytes.hpp"
 #include "colour_map.hpp"
 #include "output_file.hpp"
@@ -203,11 +204,10 @@ class PageWriter {
     }
   }
   void flush_group() {
-    constexpr char digits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
     group_ <<= 8 * (3 - waiting_);
     char letters[4];
     for (int i = 0; i < 4; ++i)
-      letters[i] = i > waiting_ ? '=' : digits[group_ >> (18 - 6 * i) & 63];
+      letters[i] = i > waiting_ ? '=' : base64_digits[group_ >> (18 - 6 * i) & 63];
     out_.write({letters, 4});
     group_ = 0;
     waiting_ = 0;

@@ -5,6 +5,7 @@
 #include <numbers>
 #include <optional>
 #include <string>
+#include <type_traits>
 #include <utility>
 
 #include <plexway/error.hpp>
@@ -14,6 +15,11 @@ namespace plexway {
 namespace {
 
 constexpr double tolerance = 1e-9;  // of a triangle's size
+// What two triangles may place differently, of their size, and what may count as straight, radians.
+template <class Real>
+constexpr double apart = std::is_same_v<Real, float> ? 1e-6 : 1e-8;
+template <class Real>
+constexpr double straight = std::is_same_v<Real, float> ? 3e-5 : 1e-6;
 
 using Weights3 = std::array<double, 3>;
 
@@ -23,7 +29,8 @@ struct Spot {
   Weights3 weight;
 };
 
-void spots_at_vertex(const TriangleMesh<double>& mesh, Index vertex, std::vector<Spot>& spots) {
+template <class Real>
+void spots_at_vertex(const TriangleMesh<Real>& mesh, Index vertex, std::vector<Spot>& spots) {
   std::vector<Index> corners;
   mesh.corners_at(vertex, corners);
   for (const Index c : corners) {
@@ -33,7 +40,8 @@ void spots_at_vertex(const TriangleMesh<double>& mesh, Index vertex, std::vector
   }
 }
 
-std::vector<Spot> spots_of(const TriangleMesh<double>& mesh, const PointSource& point) {
+template <class Real>
+std::vector<Spot> spots_of(const TriangleMesh<Real>& mesh, const PointSource& point) {
   std::vector<Spot> spots;
   if (point.vertex != none) {
     spots_at_vertex(mesh, mesh.inside_vertex(point.vertex), spots);
@@ -71,23 +79,27 @@ std::vector<Spot> spots_of(const TriangleMesh<double>& mesh, const PointSource& 
   return spots;
 }
 
-double size_of(const TriangleRecord<double>& t) {
-  return std::max({t.length[0], t.length[1], t.length[2]});
+template <class Real>
+double size_of(const TriangleRecord<Real>& t) {
+  return static_cast<double>(std::max({t.length[0], t.length[1], t.length[2]}));
 }
 
-double angle_at(const TriangleRecord<double>& t, std::size_t corner) {
-  return std::atan2(t.sine(corner), t.cosine[corner]);
+template <class Real>
+double angle_at(const TriangleRecord<Real>& t, std::size_t corner) {
+  return std::atan2(static_cast<double>(t.sine(corner)), static_cast<double>(t.cosine[corner]));
 }
 
 // From edge `corner` at that corner, counterclockwise, to a direction within the triangle.
-double angle_of(const TriangleRecord<double>& t, std::size_t corner, const Plane& direction) {
+template <class Real>
+double angle_of(const TriangleRecord<Real>& t, std::size_t corner, const Plane& direction) {
   const auto at = corners_of(t);
   const Plane edge = at[edge_after(corner)] - at[corner];
   return std::clamp(std::arg(direction * std::conj(edge)), 0., angle_at(t, corner));
 }
 
 // The angle of `next`'s beginning at a corner of a triangle, if it begins there.
-std::optional<double> begins_at(const TriangleRecord<double>& t, Index f, std::size_t corner,
+template <class Real>
+std::optional<double> begins_at(const TriangleRecord<Real>& t, Index f, std::size_t corner,
                                 const CurvePiece& next) {
   if (next.face != f || place_of(t, next.from) != corner) return std::nullopt;
   return angle_of(t, corner, next.to - next.from);
@@ -95,12 +107,13 @@ std::optional<double> begins_at(const TriangleRecord<double>& t, Index f, std::s
 
 // The angle between two pieces around the vertex between them, on one side; none where the surface
 // ends or turns over before.
-std::optional<double> angle_between(const TriangleMesh<double>& mesh, const CurvePiece& piece,
+template <class Real>
+std::optional<double> angle_between(const TriangleMesh<Real>& mesh, const CurvePiece& piece,
                                     const CurvePiece& next, std::size_t corner, int side) {
   Index f = piece.face;
   double sum = 0, at = angle_of(mesh.triangles()[f], corner, piece.from - piece.to);
   for (int steps = 0; steps < 4096; ++steps) {
-    const TriangleRecord<double>& t = mesh.triangles()[f];
+    const TriangleRecord<Real>& t = mesh.triangles()[f];
     if (const auto begin = begins_at(t, f, corner, next)) {
       const double turn = side == 0 ? at - *begin : *begin - at;
       if (steps > 0 || turn >= 0) return sum + turn;
@@ -118,7 +131,8 @@ std::optional<double> angle_between(const TriangleMesh<double>& mesh, const Curv
 
 }  // namespace
 
-std::size_t place_of(const TriangleRecord<double>& t, const Plane& p) {
+template <class Real>
+std::size_t place_of(const TriangleRecord<Real>& t, const Plane& p) {
   const auto at = corners_of(t);
   const double near = 1e-8 * size_of(t);
   for (std::size_t i = 0; i < 3; ++i)
@@ -130,7 +144,8 @@ std::size_t place_of(const TriangleRecord<double>& t, const Plane& p) {
   return 6;
 }
 
-std::vector<CurvePiece> cut_curve(const TriangleMesh<double>& mesh,
+template <class Real>
+std::vector<CurvePiece> cut_curve(const TriangleMesh<Real>& mesh,
                                   std::span<const PointSource> points) {
   std::vector<CurvePiece> pieces;
   std::vector<Spot> here, there;
@@ -165,19 +180,19 @@ std::vector<CurvePiece> cut_curve(const TriangleMesh<double>& mesh,
   return pieces;
 }
 
-bool runs_straight(const TriangleMesh<double>& mesh, const CurvePiece& piece,
-                   const CurvePiece& next, int side) {
-  constexpr double straight = 1e-6;
-  const TriangleRecord<double>& t = mesh.triangles()[piece.face];
+template <class Real>
+bool runs_straight(const TriangleMesh<Real>& mesh, const CurvePiece& piece, const CurvePiece& next,
+                   int side) {
+  const TriangleRecord<Real>& t = mesh.triangles()[piece.face];
   const std::size_t place = place_of(t, piece.to);
   if (place < 3) {
     const auto angle = angle_between(mesh, piece, next, place, side);
-    return angle && std::abs(*angle - std::numbers::pi) < straight;
+    return angle && std::abs(*angle - std::numbers::pi) < straight<Real>;
   }
-  const double near = 1e-8 * size_of(t);
+  const double near = apart<Real> * size_of(t);
   if (next.face == piece.face)
     return std::abs(next.from - piece.to) < near &&
-           std::abs(next.direction() - piece.direction()) < straight;
+           std::abs(next.direction() - piece.direction()) < straight<Real>;
   if (place == 6) return false;
   const std::size_t edge = place - 3;
   const Index across = t.across[edge];
@@ -188,10 +203,11 @@ bool runs_straight(const TriangleMesh<double>& mesh, const CurvePiece& piece,
   if (std::abs(std::abs(piece.to - at[edge]) - std::abs(next.from - beyond[edge_after(k)])) > near)
     return false;
   return std::abs(piece.direction() * std::conj(here) / std::abs(here) -
-                  next.direction() * std::conj(there) / std::abs(there)) < straight;
+                  next.direction() * std::conj(there) / std::abs(there)) < straight<Real>;
 }
 
-std::vector<bool> shows_as_point(const TriangleMesh<double>& mesh,
+template <class Real>
+std::vector<bool> shows_as_point(const TriangleMesh<Real>& mesh,
                                  std::span<const PointSource> points,
                                  std::span<const CurvePiece> pieces) {
   std::vector<bool> shows(points.size());
@@ -205,5 +221,17 @@ std::vector<bool> shows_as_point(const TriangleMesh<double>& mesh,
   }
   return shows;
 }
+
+#define PLEXWAY_CURVES_ON(Real)                                                                \
+  template std::size_t place_of(const TriangleRecord<Real>&, const Plane&);                    \
+  template std::vector<CurvePiece> cut_curve(const TriangleMesh<Real>&,                        \
+                                             std::span<const PointSource>);                    \
+  template bool runs_straight(const TriangleMesh<Real>&, const CurvePiece&, const CurvePiece&, \
+                              int);                                                            \
+  template std::vector<bool> shows_as_point(                                                   \
+      const TriangleMesh<Real>&, std::span<const PointSource>, std::span<const CurvePiece>);
+PLEXWAY_CURVES_ON(float)
+PLEXWAY_CURVES_ON(double)
+#undef PLEXWAY_CURVES_ON
 
 }  // namespace plexway

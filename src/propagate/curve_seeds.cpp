@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "propagate/curve_pieces.hpp"
-
 namespace plexway {
 namespace {
 
@@ -31,11 +29,6 @@ struct LitLine {
     return {dot(along, p - origin), dot(up, p - origin)};
   }
 };
-
-Plane nearest_point(const CurvePiece& piece, const Plane& p) {
-  const double s = dot(piece.direction(), p - piece.from);
-  return piece.from + std::clamp(s, 0., piece.length()) * piece.direction();
-}
 
 // May the light go out over an edge from a to b? Its part within the strip must not lie below the
 // line, where the light comes from, nor may all of it be beyond the strip.

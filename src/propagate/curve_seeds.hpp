@@ -1,8 +1,6 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
-#include <complex>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -13,19 +11,11 @@
 
 #include "kernel/lanes.hpp"
 
+#include "propagate/curve_pieces.hpp"
+
 namespace plexway {
 
-/// A point of the plane of a triangle: corner 0 at the origin, edge 0 on the real axis, the rest
-/// above it.
-using Plane = std::complex<double>;
-
-inline std::array<Plane, 3> corners_of(const TriangleRecord<double>& t) {
-  return {0, t.length[0], Plane{t.apex_x(0), t.apex_h(0)}};
-}
-
-struct CurvePiece;
-
-/// What curves and triangles on a surface seed it with. Numbers and unit inside.
+/// What curves and triangles on a surface seed labels with. Numbers and unit inside.
 ///
 /// A straight line sends parallel light to both sides. Its virtual source is put 10^7 lengths of
 /// the line behind it, at a distance of minus as much: within the width of the line that is the

@@ -2,7 +2,6 @@
 
 #include "kernel/lanes.hpp"
 
-
 namespace plexway {
 
 /// What a triangle remembers under Visibility::saddles: the virtual source S of the best path to

@@ -6,7 +6,6 @@
 
 #include "propagate/saddle_rule.hpp"
 
-
 namespace plexway {
 
 /// What labels say about any point of a triangle, and about where two fronts meet: SaddleRule for

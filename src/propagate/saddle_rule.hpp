@@ -79,7 +79,8 @@ class SaddleRule : public SaddlePoses<Real> {
     Label own = front_.label(f);
     if constexpr (requires { front_.narrow(f, own); })
       if (may_narrow(t, in, own)) [[unlikely]]
-        own = narrow_by_neighbours(f, own, [&](const Label& narrower) { front_.narrow(f, narrower); });
+        own = narrow_by_neighbours(f, own,
+                                   [&](const Label& narrower) { front_.narrow(f, narrower); });
     if (((over_left | over_right) & Across::special) || !vectorised_) [[unlikely]] {
       full(f, left);
       full(f, right);
@@ -126,13 +127,14 @@ class SaddleRule : public SaddlePoses<Real> {
   void narrow(Index f) const {
     const Label& own = front_.label(f);
     if (may_narrow(triangles_[f], front_.hinge(f), own))
-      narrow_by_neighbours(f, own, [&](const Label& narrower) { front_.narrow_later(f, narrower); });
+      narrow_by_neighbours(f, own,
+                           [&](const Label& narrower) { front_.narrow_later(f, narrower); });
   }
 
   /// May triangle t, come in by edge `in`, take tighter limits over (see narrow_limits)? The common
   /// no, without branches: each would be a coin toss.
   [[gnu::always_inline]] bool may_narrow(const TriangleRecord<Real>& t, std::size_t in,
-                                                 const Label& label) const {
+                                         const Label& label) const {
     const Seen seen(t, in, label);
     const Label& other = front_.label(seen.across >> Across::face_shift);
     using L = kernel::Lanes<Real>;

@@ -2,11 +2,12 @@
 
 #include <array>
 #include <cstddef>
+#include <limits>
 #include <tuple>
+#include <vector>
 
 #include "complex/flat_domain.hpp"
 #include "propagate/label_storage.hpp"
-
 
 namespace plexway {
 
@@ -34,13 +35,46 @@ struct SimplexStringLabel {
   float nudge[N];  ///< by so many clearances (FlatDomain) the string is held off its source
 };
 
-/// Labels for whichever dimension a domain has and whichever rule is asked; only these take room.
+/// What a vertex of a flat domain knows: the shortest way to it that was found.
+template <int N>
+struct SimplexVertexWay {
+  SimplexStringLabel<N> label;  ///< of that way at the centre of a simplex around
+  double distance;              ///< of the vertex
+  double seen;                  ///< what the simplices around knew when they were last asked
+  Index simplex;
+  Index source;
+  bool is_new;  ///< or what is around is: others are still to be told
+
+  void forget() {
+    distance = std::numeric_limits<double>::infinity();
+    seen = 0;
+    source = none;
+    is_new = false;
+  }
+};
+
+/// Lists that vertices need to tell others, kept from solve to solve.
+template <int N>
+struct SimplexTelling {
+  std::vector<Index> waiting;
+  // Around one vertex, by simplex: the way there, whether it came there, and in which order.
+  std::vector<SimplexStringLabel<N>> star;
+  std::vector<char> seen;
+  std::vector<std::size_t> line;
+};
+
+/// Labels, and ways of vertices, for whichever dimension a domain has and whichever rule is asked;
+/// only these take room.
 template <class Real>
 class SimplexLabels {
  public:
   template <class Label>
-  Label* reserve(std::size_t simplices) {
-    return std::get<LabelStorage<Label>>(storage_).reserve(simplices);
+  Label* reserve(std::size_t count) {
+    return std::get<LabelStorage<Label>>(storage_).reserve(count);
+  }
+  template <int N>
+  SimplexTelling<N>& telling() {
+    return std::get<SimplexTelling<N>>(telling_);
   }
   [[nodiscard]] std::size_t bytes() const {
     return std::apply([](const auto&... s) { return (s.bytes() + ...); }, storage_);
@@ -51,7 +85,12 @@ class SimplexLabels {
   using Plain = LabelStorage<SimplexLabel<Real, N>>;
   template <int N>
   using String = LabelStorage<SimplexStringLabel<N>>;
-  std::tuple<Plain<1>, Plain<2>, Plain<3>, Plain<4>, String<2>, String<3>, String<4>> storage_;
+  template <int N>
+  using Way = LabelStorage<SimplexVertexWay<N>>;
+  std::tuple<Plain<1>, Plain<2>, Plain<3>, Plain<4>, String<2>, String<3>, String<4>, Way<2>,
+             Way<3>, Way<4>>
+      storage_;
+  std::tuple<SimplexTelling<2>, SimplexTelling<3>, SimplexTelling<4>> telling_;
 };
 
 }  // namespace plexway

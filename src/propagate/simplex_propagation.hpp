@@ -66,14 +66,15 @@ class SimplexPropagation {
   }
 
   void run() {
-    run([&](bool) { spread(); });
+    run([&](bool) { spread(); },
+        [](std::size_t count, const auto& work) { work(std::size_t{0}, count); });
   }
-  /// With another way to expand all that waits.
-  template <class Spread>
-  void run(const Spread& spread_all) {
+  /// With another way to expand all that waits, and to do work(begin, end) for all of a number.
+  template <class Spread, class Over>
+  void run(const Spread& spread_all, const Over& over) {
     do {
       spread_all(false);
-    } while (!front_.out_of_budget() && pass_vertices());
+    } while (!front_.out_of_budget() && pass_vertices(over));
   }
 
   /// Expands simplices for the front of a thread, in `rounds` that know how many updates were made.
@@ -141,35 +142,32 @@ class SimplexPropagation {
   }
 
   /// A path may pass a vertex where parts only touch: it bends there (a hinge of dimension 0). And
-  /// a path around a corner may be lost just before it, where another one leads to the centres:
-  /// the corner knows it. True if some simplex got a better label.
-  bool pass_vertices() {
-    bool any = false;
-    for (const Index v : domain_.pinched()) any |= pass(v);
-    if constexpr (requires { rule_.corners(); })
-      for (const Index v : rule_.corners()) any |= pass(v);
-    return any;
+  /// rules may know more of vertices. True if some simplex got a better label.
+  template <class Over>
+  bool pass_vertices(const Over& over) {
+    if constexpr (requires { rule_.pass_vertices(0., over); }) {
+      return rule_.pass_vertices(static_cast<double>(radius_), over);
+    } else {
+      bool any = false;
+      for (const Index v : domain_.pinched()) any |= pass(v);
+      return any;
+    }
   }
   bool pass(Index v) {
     Real best = std::numeric_limits<Real>::infinity();
     Index number = none;
-    if constexpr (requires { rule_.read_vertex(v, best, number); }) {
-      rule_.read_vertex(v, best, number);
-    } else {
-      for (const Index c : domain_.corners_at(v)) {
-        if (!front_.reached(c / sides)) continue;
-        const Real d = rule_.corner_distance(c / sides, c % sides);
-        if (d < best) best = d, number = front_.source(c / sides);
-      }
+    for (const Index c : domain_.corners_at(v)) {
+      if (!front_.reached(c / sides)) continue;
+      const Real d = rule_.corner_distance(c / sides, c % sides);
+      if (d < best) best = d, number = front_.source(c / sides);
     }
     if (!(best < std::numeric_limits<Real>::infinity()) || best > radius_) return false;
     bool any = false;
     for (const Index c : domain_.corners_at(v)) {
       // Within rounding of its own path it stays with that one; else this would not end.
       const Real enough = best * (1 + 64 * std::numeric_limits<Real>::epsilon());
-      if constexpr (!requires { rule_.corners(); })
-        if (front_.reached(c / sides) && rule_.corner_distance(c / sides, c % sides) <= enough)
-          continue;
+      if (front_.reached(c / sides) && rule_.corner_distance(c / sides, c % sides) <= enough)
+        continue;
       any |= rule_.seed_corner(c / sides, c % sides, best, number);
     }
     return any;

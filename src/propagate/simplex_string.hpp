@@ -8,7 +8,6 @@
 #include "complex/flat_domain.hpp"
 #include "propagate/simplex_taut.hpp"
 
-
 namespace plexway {
 
 /// A path in a flat domain as a string from a source over bends to an end, changed in such a way
@@ -69,8 +68,9 @@ class SimplexString {
 
   /// Takes out the point before the end, which must be one that is no bend, and pulls the string
   /// taut.
-  Pulled pull(double limit) {
-    if (!cut(count_ - 2)) return Pulled::stuck;
+  Pulled pull(double limit) { return cut(count_ - 2) ? tighten(limit) : Pulled::stuck; }
+  /// Pulls it taut with all its bends.
+  Pulled tighten(double limit) {
     for (int changes = 0; changes < most_changes; ++changes) {
       if (!drop_slack()) return Pulled::stuck;
       if (bends() > 0) {
@@ -123,6 +123,7 @@ class SimplexString {
   }
   /// Is the string around the face, so that it would be shorter through what is no domain?
   [[nodiscard]] bool turns(std::size_t i) const {
+    if (domain_.faces[node_[i].face].gate) return true;  // the only way to the other part
     Found found;
     return pierces(node_[i].face, node_[i - 1].at, node_[i].at, node_[i + 1].at,
                    is_near(node_[i].face, i - 1, i + 1), found);

@@ -8,7 +8,6 @@
 
 #include "complex/flat_domain.hpp"
 
-
 namespace plexway {
 
 /// The shortest string between two points over given bending faces, in their order. Between faces

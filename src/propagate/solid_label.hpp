@@ -1,7 +1,7 @@
 #pragma once
 
-#include <plexway/complex/ids.hpp>
 #include <plexway/complex/detail/tet_record.hpp>
+#include <plexway/complex/ids.hpp>
 
 namespace plexway {
 

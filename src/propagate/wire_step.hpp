@@ -2,7 +2,6 @@
 
 #include "kernel/hinge.hpp"
 
-
 namespace plexway {
 
 /// An edge hands its virtual source on over a vertex: the K = 0 hinge kernel, word for word. The

@@ -62,52 +62,44 @@ Window scene_window(const Legend& legend, double width, double height) {
           std::max(height - 2 * l.margin, 1.0)};
 }
 
-void draw_legend(Image& image, const Legend& legend) {
-  const auto width = static_cast<double>(image.width), height = static_cast<double>(image.height);
+Ink line_ink(const Legend& legend, double value) {
+  const auto place = static_cast<std::size_t>(
+      std::clamp(255 * (value - legend.low) / (legend.high - legend.low), 0.0, 255.0));
+  const Colour c = legend.map[place];
+  const bool bright = 0.2126 * c[0] + 0.7152 * c[1] + 0.0722 * c[2] > 97;
+  return bright ? Ink{{20, 22, 30}, 0.55} : Ink{{255, 255, 255}, 0.5};
+}
+
+void draw_legend(Sheet& sheet, const Legend& legend) {
+  const double width = sheet.width(), height = sheet.height();
   const Layout l = layout(legend, width, height);
   const double pen = line_width(width, height);
   double below = l.bar_top;
   if (legend.bar) {
     if (!legend.title.empty())
-      draw_text(image, legend.title, {l.left, l.bar_top - 1.25 * l.text}, l.text, text_ink);
+      sheet.text(legend.title, {l.left, l.bar_top - 1.25 * l.text}, l.text, text_ink);
     const double right = l.left + std::round(l.bar_width), bottom = l.bar_top + l.bar_height;
-    for (double y = l.bar_top; y < bottom; ++y) {
-      const double t = 1 - (y + 0.5 - l.bar_top) / l.bar_height;
-      const double place = std::clamp(t * 255, 0.0, 255.0);
-      const auto k = std::min(static_cast<std::size_t>(place), std::size_t{254});
-      Ink ink;
-      for (std::size_t c = 0; c < 3; ++c)
-        ink.colour[c] = static_cast<std::uint8_t>(
-            std::lround(legend.map[k][c] + (place - static_cast<double>(k)) *
-                                               (legend.map[k + 1][c] - legend.map[k][c])));
-      fill_box(image, {l.left, y}, {right, y + 1}, ink);
-    }
+    sheet.ramp({l.left, l.bar_top}, {right, bottom}, legend.map);
     const auto y_of = [&](double value) {
       return bottom - l.bar_height * (value - legend.low) / (legend.high - legend.low);
     };
     for (const double value : legend.isolines) {
       const double y = y_of(value);
-      const auto place = static_cast<std::size_t>(
-          std::clamp(255 * (value - legend.low) / (legend.high - legend.low), 0.0, 255.0));
-      const Colour c = legend.map[place];
-      const bool bright = 0.2126 * c[0] + 0.7152 * c[1] + 0.0722 * c[2] > 97;
-      const Ink ink = bright ? Ink{{20, 22, 30}, 0.55} : Ink{{255, 255, 255}, 0.5};
-      fill_box(image, {l.left, y - 0.4 * pen}, {right, y + 0.4 * pen}, ink);
+      sheet.box({l.left, y - 0.4 * pen}, {right, y + 0.4 * pen}, line_ink(legend, value));
     }
     for (std::size_t k = 0; k < l.numbers.at.size(); ++k) {
       const double y = y_of(l.numbers.at[k]);
-      fill_box(image, {right, y - 0.5 * pen}, {right + 0.4 * l.text, y + 0.5 * pen}, fine_ink);
-      draw_text(image, l.numbers.label[k], {right + 0.95 * l.text, y + 0.5 * l.text}, l.text,
-                text_ink);
+      sheet.box({right, y - 0.5 * pen}, {right + 0.4 * l.text, y + 0.5 * pen}, fine_ink);
+      sheet.text(l.numbers.label[k], {right + 0.95 * l.text, y + 0.5 * l.text}, l.text, text_ink);
     }
     below = bottom + l.text;
   }
   for (const auto& swatch : legend.swatches) {
     const double size = std::round(1.35 * l.text);
-    fill_box(image, {l.left, std::round(below)}, {l.left + size, std::round(below) + size},
-             {swatch.colour, 1});
-    draw_text(image, swatch.text, {l.left + 2.1 * l.text, std::round(below) + 1.17 * l.text},
-              l.text, text_ink);
+    sheet.box({l.left, std::round(below)}, {l.left + size, std::round(below) + size},
+              {swatch.colour, 1});
+    sheet.text(swatch.text, {l.left + 2.1 * l.text, std::round(below) + 1.17 * l.text}, l.text,
+               text_ink);
     below += 2 * l.text;
   }
 }

@@ -4,8 +4,6 @@
 #include <string>
 #include <vector>
 
-#include <plexway/render/image.hpp>
-
 #include "camera.hpp"
 #include "drawing.hpp"
 
@@ -31,6 +29,9 @@ double line_width(double width, double height);
 /// Where the scene goes in a picture of this size.
 Window scene_window(const Legend& legend, double width, double height);
 
-void draw_legend(Image& image, const Legend& legend);
+/// Whether a line of a value is dark on the map's colour there, or bright.
+Ink line_ink(const Legend& legend, double value);
+
+void draw_legend(Sheet& sheet, const Legend& legend);
 
 }  // namespace plexway::render

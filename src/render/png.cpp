@@ -8,14 +8,15 @@
 
 #include "io/output_file.hpp"
 #include "palette.hpp"
+#include "png_bytes.hpp"
 
 // libpng's simplified interface reports failures by a code, without longjmp.
 
 namespace plexway::render {
 
-void write_png(const std::filesystem::path& file, const Image& image, std::size_t colours) {
+std::string png_bytes(const Image& image, std::size_t colours) {
   if (image.pixels.empty() || image.pixels.size() != image.width * image.height)
-    throw UsageError("cannot write " + file.string() + ": the image is empty");
+    throw UsageError("a PNG cannot be empty");
   if (colours > 256)
     throw UsageError("a PNG has at most 256 colours in a list, not " + std::to_string(colours));
   const bool opaque = std::all_of(image.pixels.begin(), image.pixels.end(),
@@ -46,8 +47,13 @@ void write_png(const std::filesystem::path& file, const Image& image, std::size_
   png_alloc_size_t size = PNG_IMAGE_PNG_SIZE_MAX(png);
   std::string bytes(size, '\0');
   if (png_image_write_to_memory(&png, bytes.data(), &size, 0, rows.data(), 0, palette.data()) == 0)
-    throw Error("cannot write " + file.string() + ": " + png.message);
+    throw Error(std::string("cannot make a PNG: ") + png.message);
   bytes.resize(size);
+  return bytes;
+}
+
+void write_png(const std::filesystem::path& file, const Image& image, std::size_t colours) {
+  const std::string bytes = png_bytes(image, colours);
   io::OutputFile out(file);
   out.write(bytes);
   out.commit();

@@ -281,9 +281,12 @@ TEST_CASE("any domain: what does not go together is refused by the table's sente
   const Surface grid = meshes::grid(4, 4);
   const AnyDomain single(AnyShape::surface(grid.positions, grid.faces), as_given<float>());
   const SimplexSource triangle{.simplex = 3};
-  const Support no = single.support(Serial{}, triangle);
+  PropagateOptions labels;
+  labels.accuracy = Accuracy::fast();
+  const Support no = single.support(Serial{}, triangle, labels);
   CHECK(no.refusal() == Refusal::shapes_float);
-  CHECK_THROWS_WITH(single.solve(Serial{}, triangle), no.sentence());
+  CHECK_THROWS_WITH(single.solve(Serial{}, triangle, labels), no.sentence());
+  CHECK(static_cast<bool>(single.support(Serial{}, triangle)));
   CHECK(static_cast<bool>(single.support(Serial{}, PointSource::at(0))));
   const AnyDomain twice(AnyShape::surface(grid.positions, grid.faces), as_given<double>());
   CHECK(twice.support(GL{}, PointSource::at(0)).refusal() == Refusal::gl_double);

@@ -39,7 +39,7 @@ MixedShape two_squares_and_a_line() {
 
 }  // namespace
 
-TEST_CASE("fields of mixed domains are read linearly, and tell directions") {
+TEST_CASE("fields of mixed domains are read linearly or by paths, and tell directions") {
   const AnyShape shape = AnyShape::mixed(two_squares_and_a_line());
   const AnyDomain domain(shape, {.precision = Precision::twice});
   const PointSource source = PointSource::at(0);
@@ -78,13 +78,28 @@ TEST_CASE("fields of mixed domains are read linearly, and tell directions") {
   CHECK(sum / static_cast<double>(shape.simplices()) < 1.5e-3);
   CHECK(field.at(PointSource::at(7), ReadOut::linear) == field.field()[7]);
 
-  CHECK_THROWS_WITH(field.at(PointSource::at(7)),
-                    Catch::Contains("mixed domain distances are read linearly"));
   CHECK_THROWS_AS(field.at(PointSource::at(100000), ReadOut::linear), UsageError);
   const PointSource apex{.simplex = static_cast<Index>(shape.simplices() - 1),
                          .barycentric = {0.2, 0.3, 0.5, 0}};  // of the line
   CHECK_THROWS_WITH(field.at(apex, ReadOut::linear), Catch::Contains("2 corners"));
-  CHECK_THROWS_WITH(field.trace(PointSource::at(7)), Catch::Contains("paths are traced on"));
+
+  // By the way there, and over the weld and up the line.
+  for (const Index s : {0, 100, 200, 287, 400, static_cast<int>(shape.simplices()) - 1}) {
+    PointSource at{.simplex = s, .barycentric = {0.2, 0.5, 0.3, 0}};
+    if (shape.corners(s).size() == 2) at.barycentric = {0.25, 0.75, 0, 0};
+    const double truth = exact(shape.position(at));
+    CHECK(field.at(at) == Approx(truth).epsilon(1e-9));
+    const Path path = field.trace(at);
+    CHECK(path.length == Approx(truth).epsilon(1e-9));
+    REQUIRE(path.positions.size() == path.points.size());
+    double way = 0;
+    for (std::size_t i = 0; i + 1 < path.positions.size(); ++i) {
+      const auto &p = path.positions[i], &q = path.positions[i + 1];
+      way += std::hypot(q[0] - p[0], q[1] - p[1], q[2] - p[2]);
+      CHECK(path.points[i].simplex < shape.simplices());
+    }
+    CHECK(way == Approx(truth).epsilon(1e-9));
+  }
 }
 
 TEST_CASE("fields of complexes of simplices are read linearly") {
@@ -110,4 +125,6 @@ TEST_CASE("fields of complexes of simplices are read linearly") {
   const auto way = field.gradient()[300];
   CHECK(way[0] * place[0] + way[1] * place[1] ==
         Approx(std::hypot(place[0], place[1])).epsilon(2e-3));
+  CHECK_THROWS_WITH(field.at(middle), Catch::Contains("distances are read linearly"));
+  CHECK_THROWS_WITH(field.trace(middle), Catch::Contains("paths are traced on"));
 }

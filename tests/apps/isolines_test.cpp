@@ -3,6 +3,7 @@
 #include <limits>
 #include <numbers>
 
+#include <plexway/apps/fine_field.hpp>
 #include <plexway/apps/isolines.hpp>
 #include <plexway/error.hpp>
 
@@ -52,4 +53,57 @@ TEST_CASE("isolines end at the boundary and at what is not reached") {
   CHECK_THROWS_AS(isolines(s.positions, s.faces, std::vector<double>(3), value), UsageError);
   const double no[] = {std::nan("")};
   CHECK_THROWS_AS(isolines(s.positions, s.faces, x, no), UsageError);
+}
+
+TEST_CASE("isolines inside large triangles are arcs") {
+  // Two triangles, and the distance from a corner: every line is a quarter of a circle.
+  const std::vector<Position> positions = {{0, 0, 0}, {4, 0, 0}, {4, 4, 0}, {0, 4, 0}};
+  const std::vector<std::array<Index, 3>> faces = {{0, 1, 2}, {0, 2, 3}};
+  const auto place = [&](Index face, const auto& weights) {
+    Position at{};
+    for (std::size_t i = 0; i < 3; ++i)
+      for (std::size_t k = 0; k < 3; ++k) at[k] += weights[i] * positions[faces[face][i]][k];
+    return at;
+  };
+  std::vector<double> distance;
+  for (const Position& p : positions) distance.push_back(std::hypot(p[0], p[1]));
+  const auto exact = [&](Index face, const std::array<double, 4>& weights) {
+    const Position at = place(face, weights);
+    return std::hypot(at[0], at[1]);
+  };
+  const double values[] = {3, 0.7};
+  const auto lines = isolines(positions, faces, distance, values, exact, 1e-2);
+  REQUIRE(lines.size() == 2);
+  for (const Path& line : lines) {
+    const double radius = values[line.source];
+    CHECK(line.length == Approx(std::numbers::pi / 2 * radius).epsilon(1e-2));  // of chords
+    REQUIRE(line.points.size() == line.positions.size());
+    for (std::size_t i = 0; i < line.points.size(); ++i) {
+      const Position& p = line.positions[i];
+      CHECK(std::hypot(p[0], p[1]) == Approx(radius).epsilon(1e-11));
+      const Position same = place(line.points[i].simplex, line.points[i].barycentric);
+      for (std::size_t k = 0; k < 3; ++k) CHECK(same[k] == Approx(p[k]).margin(1e-12));
+    }
+  }
+  // Linear, the outer one would be a chord through (3, 0) and the diagonal's point at 3.
+  CHECK(isolines(positions, faces, distance, values)[0].length < 0.99 * std::numbers::pi / 2 * 3);
+  CHECK_THROWS_AS(isolines(positions, faces, distance, values, exact, 0), UsageError);
+}
+
+TEST_CASE("a fine field fits together and is as exact as the one it is made of") {
+  const Surface s = sphere(2);
+  std::vector<double> height;
+  for (const Position& p : s.positions) height.push_back(p[2] * p[2]);
+  const auto inside = [&](Index face, const std::array<double, 4>& weights) {
+    double z = 0;
+    for (std::size_t i = 0; i < 3; ++i) z += weights[i] * s.positions[s.faces[face][i]][2];
+    return z * z;
+  };
+  const FineField fine = fine_field(s.positions, s.faces, height, inside, {.tolerance = 1e-3});
+  CHECK(fine.parts > 1);
+  CHECK(fine.faces.size() == s.faces.size() * fine.parts * fine.parts);
+  // Closed as before: Euler's number, so that no vertex is there twice.
+  CHECK(fine.positions.size() + fine.faces.size() == 3 * fine.faces.size() / 2 + 2);
+  for (std::size_t v = 0; v < fine.positions.size(); ++v)
+    CHECK(fine.distance[v] == Approx(fine.positions[v][2] * fine.positions[v][2]).margin(1e-14));
 }

@@ -49,6 +49,35 @@ void check_agreement(const Surface& s, const std::vector<PointSource>& sources, 
 
 }  // namespace
 
+TEST_CASE("after windows a source on an edge is seen from all triangles there") {
+  Surface s = grid(12, 12);
+  std::mt19937 random(3);
+  for (Position& p : s.positions)
+    for (std::size_t i = 0; i < 2; ++i)
+      if (p[0] > 0 && p[0] < 1 && p[1] > 0 && p[1] < 1) p[i] += (uniform(random) - .5) / 24;
+  const auto mesh = s.mesh<double>();
+  const auto place = [&](Index f, const std::array<double, 3>& weight) {
+    Position p = {0, 0, 0};
+    for (std::size_t i = 0; i < 3; ++i)
+      for (std::size_t k = 0; k < 3; ++k) p[k] += weight[i] * s.positions[s.faces[f][i]][k];
+    return p;
+  };
+  for (const Index f : {40u, 271u})
+    for (std::size_t e = 0; e < 3; ++e) {
+      std::array<double, 3> on_edge = {0, 0, 0};
+      on_edge[e] = .3;
+      on_edge[(e + 1) % 3] = .7;
+      const Position source = place(f, on_edge);
+      PathField field(mesh, s.positions);
+      field.solve(Serial{}, PointSource::in(f, on_edge));
+      for (Index g = 0; g < s.faces.size(); ++g) {
+        const Position p = place(g, {.2, .3, .5});
+        CHECK(field.at(PointSource::in(g, {.2, .3, .5})) ==
+              Approx(std::hypot(p[0] - source[0], p[1] - source[1])).epsilon(1e-4));
+      }
+    }
+}
+
 TEST_CASE("after windows paths are as long as distances") {
   for (unsigned seed = 1; seed <= 3; ++seed) {
     const Surface s = landscape(24, seed);

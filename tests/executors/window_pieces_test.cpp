@@ -1,15 +1,19 @@
 #include <catch2/catch.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
 #include <random>
 #include <string>
 #include <thread>
+#include <vector>
 
 #include <plexway/error.hpp>
 #include <plexway/io/triangles.hpp>
 #include <plexway/solve.hpp>
 
+#include "complex/jittered.hpp"
 #include "exact_data.hpp"
 #include "executors/parity.hpp"
 #include "executors/piece_testing.hpp"
@@ -151,6 +155,86 @@ TEST_CASE("pieces: windows in planes, around corners and over vertices that only
         CHECK(p.reached_by_one == 0);
         CHECK(p.worst < std::max(2 * q.worst, 1e-3));
       }
+    }
+  }
+}
+
+// All triangles at that edge have the point, the other piece's too: a window over the edge would
+// light them through a single point.
+TEMPLATE_TEST_CASE("pieces: windows from points on edges, inside pieces and between them", "",
+                   float, double) {
+  for (const Index n : {20u, 60u}) {
+    const Surface s = jittered(n, n);
+    const auto mesh = s.mesh<TestType>();
+    // What a point inside a triangle comes to; single precision merges more.
+    constexpr bool once = sizeof(TestType) < sizeof(double);
+    constexpr double most = once ? 1e-3 : 1e-4, most_mean = once ? 8e-6 : 2e-7;
+    std::mt19937 random(n);
+    Workspace<TestType> workspace;
+    DistanceField<TestType> serial, team;
+    for (int i = 0; i < 30; ++i) {
+      const Index f = below(random, s.faces.size());
+      std::array<double, 3> b{};
+      const std::size_t e = below(random, 3);
+      b[e] = .05 + .9 * uniform(random);
+      b[(e + 1) % 3] = 1 - b[e];
+      Position at_source{};
+      for (std::size_t k = 0; k < 3; ++k)
+        for (std::size_t j = 0; j < 2; ++j) at_source[j] += b[k] * s.positions[s.faces[f][k]][j];
+      const auto off = [&](const DistanceField<TestType>& field) {
+        Parity p;
+        for (std::size_t v = 0; v < s.positions.size(); ++v) {
+          const double exact =
+              std::hypot(s.positions[v][0] - at_source[0], s.positions[v][1] - at_source[1]);
+          const double miss = std::abs(static_cast<double>(field.distance[v]) - exact);
+          p.worst = std::max(p.worst, miss / std::max(exact, 1. / n));
+          p.mean += miss / std::max(exact, 1. / n) / static_cast<double>(s.positions.size());
+        }
+        return p;
+      };
+      const PointSource sources[] = {PointSource::in(f, b)};
+      INFO(n << " by " << n << ", source " << i << " in triangle " << f);
+      solve(Serial{}, mesh, sources, at(Accuracy::accurate()), workspace, serial);
+      CHECK(off(serial).worst < most);
+      CHECK(off(serial).mean < most_mean);
+      for (const std::size_t size : {64u, 10u}) {
+        solve(pieces(2, size), mesh, sources, at(Accuracy::accurate()), workspace, team);
+        CHECK(off(team).worst < most);
+        CHECK(off(team).mean < most_mean);
+      }
+      if (n == 60 || once) continue;
+      solve(Serial{}, mesh, sources, at(Accuracy::exact()), workspace, serial);
+      CHECK(off(serial).worst < 1e-12);
+      solve(pieces(2, 64), mesh, sources, at(Accuracy::exact()), workspace, team);
+      CHECK(team.distance == serial.distance);
+    }
+  }
+}
+
+TEST_CASE("pieces: windows from points on edges of several triangles, and whose a vertex is") {
+  for (const Surface& s : {sheets(3, 10), sheets(5, 6), moebius(60, 8), cube(8)}) {
+    const auto mesh = s.mesh<double>();
+    std::mt19937 random(2);
+    for (int i = 0; i < 6; ++i) {
+      std::vector<PointSource> sources;
+      for (int k = 0; k < 2; ++k) {
+        // Of the edges that several triangles share the first ones; then any.
+        const Index f = i < 3 ? static_cast<Index>(2 * i + k) : below(random, s.faces.size());
+        std::array<double, 3> b{};
+        const std::size_t e = below(random, 3);
+        b[e] = .1 + .8 * uniform(random);
+        b[(e + 1) % 3] = 1 - b[e];
+        sources.push_back(PointSource::in(f, b));
+      }
+      sources[1].offset = .1;
+      const auto exact = solve(Serial{}, mesh, sources, at(Accuracy::exact()));
+      const auto serial = solve(Serial{}, mesh, sources, at(Accuracy::accurate()));
+      const auto team = solve(pieces(2, 24), mesh, sources, at(Accuracy::accurate()));
+      CHECK(solve(pieces(2, 24), mesh, sources, at(Accuracy::exact())).distance == exact.distance);
+      const Parity p = parity(exact, team), q = parity(exact, serial);
+      INFO("source " << i << ", worst of Serial " << q.worst);
+      CHECK(p.reached_by_one == 0);
+      CHECK(p.worst < std::max(2 * q.worst, 1e-3));
     }
   }
 }

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include <plexway/any/shape.hpp>
+#include <plexway/apps/fine_field.hpp>
 #include <plexway/render/scene.hpp>
 #include <plexway/source/source.hpp>
 
@@ -15,6 +16,9 @@ namespace plexway {
 struct SceneContent {
   std::span<const double> distance = {};     ///< one a vertex, or none
   std::span<const std::int32_t> label = {};  ///< one a vertex, or none: then colours show cells
+  /// Of a surface that is coloured by `distance`: triangles on which that is nearer to linear
+  /// (AnyPathField::fine), or null. It must stay as well.
+  const FineField* fine = nullptr;
   ///@{
   /// Balls in red and in white, and smaller ones.
   std::vector<std::array<double, 3>> sources, targets, dots;

@@ -4,8 +4,10 @@
 #include <span>
 #include <vector>
 
+#include <plexway/apps/fine_field.hpp>
 #include <plexway/apps/path.hpp>
 #include <plexway/complex/ids.hpp>
+#include <plexway/complex/point_cloud.hpp>
 
 namespace plexway {
 
@@ -20,6 +22,25 @@ namespace plexway {
 [[nodiscard]] std::vector<Path> isolines(std::span<const std::array<double, 3>> positions,
                                          std::span<const std::array<Index, 3>> faces,
                                          std::span<const double> distance,
+                                         std::span<const double> values);
+
+/// The same for a field that is known inside of faces, too: lines are arcs, and cross edges where
+/// `at` has the value. Between their points they are off by about `tolerance` (the field's unit),
+/// where the field is smooth. PathPoint::simplex is a face given. Throws UsageError for a tolerance
+/// that is not > 0, too. Cost: that of fine_field, and some ten calls of `at` a point.
+[[nodiscard]] std::vector<Path> isolines(std::span<const std::array<double, 3>> positions,
+                                         std::span<const std::array<Index, 3>> faces,
+                                         std::span<const double> distance,
+                                         std::span<const double> values, const DistanceInside& at,
+                                         double tolerance);
+
+/// Lines on a cloud, straight in each triangle of its sheet: PathPoint::simplex is one of those.
+/// `points` and `distance` have one entry a point, as the cloud was made and solved. Throws as
+/// above.
+template <class Real>
+[[nodiscard]] std::vector<Path> isolines(const PointCloud<Real>& cloud,
+                                         std::span<const std::array<double, 3>> points,
+                                         std::span<const Real> distance,
                                          std::span<const double> values);
 
 }  // namespace plexway

@@ -8,9 +8,9 @@
 #include <vector>
 
 #include <plexway/complex/detail/identity.hpp>
-#include <plexway/complex/ids.hpp>
 #include <plexway/complex/detail/rows.hpp>
 #include <plexway/complex/detail/triangle_record.hpp>
+#include <plexway/complex/ids.hpp>
 #include <plexway/domain/concept.hpp>
 
 namespace plexway {

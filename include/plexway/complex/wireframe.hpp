@@ -7,8 +7,8 @@
 #include <vector>
 
 #include <plexway/complex/detail/identity.hpp>
-#include <plexway/complex/ids.hpp>
 #include <plexway/complex/detail/rows.hpp>
+#include <plexway/complex/ids.hpp>
 #include <plexway/domain/concept.hpp>
 
 namespace plexway {

@@ -15,7 +15,7 @@ class Accuracy {
   enum class Kind { usual, fast, merged, exact };
 
   /// For who does not choose: `accurate` where windows go (support.hpp), else `fast`. So it is
-  /// `fast` on executor GL, under refraction, from curves and triangles, and with options that are
+  /// `fast` on executor GL, under refraction, and with options that are
   /// of labels (Visibility but saddles, a step). Sheets of a mixed domain that join to one surface
   /// are solved by windows, in double exactly. Where windows become too many, labels take over
   /// (PropagateStatistics::windows_gave_up); asked for by name, windows end with EndlessError

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstddef>
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
@@ -68,5 +69,13 @@ struct PictureOptions {
 /// point, a size of 0 or more than 16384, an unknown map or a clip plane without direction.
 /// Cost: linear; a million triangles take a few seconds on one core without a graphics processor.
 [[nodiscard]] Image picture(const Scene& scene, const PictureOptions& options = {});
+
+/// The same as an SVG of the picture's size: the shaded domain as an image in it, over that as
+/// lines the isolines, each with its `data-value`, and the paths, sources and targets, all with
+/// what is hidden left out or faint; the legend as text. Lines inside cells (Part::label) stay in
+/// the image, which has at most `colours` colours as in write_png. The file appears whole or not at
+/// all. Throws as picture() and write_png.
+void write_svg(const std::filesystem::path& file, const Scene& scene,
+               const PictureOptions& options = {}, std::size_t colours = 0);
 
 }  // namespace plexway::render

@@ -148,6 +148,7 @@ void run_cvt(const CvtCommand& command) {
             (dual.manifold ? "" : "; no manifold at " + counted(dual.irregular.size(), "seeds")));
   }
   phases.tell(json, table);
+  report_picture(command.picture, domain, json, table);
   add_written(table, {command.out, command.cells, command.dual, command.picture.file,
                       command.picture.html});
   print_report(

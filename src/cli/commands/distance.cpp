@@ -1,11 +1,13 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include <plexway/any/isolines.hpp>
 #include <plexway/any_domain.hpp>
 #include <plexway/complex/point_cloud.hpp>
 #include <plexway/error.hpp>
@@ -164,6 +166,44 @@ std::vector<std::int32_t> labels_of(const AnyField& field, const std::vector<dou
   return label;
 }
 
+struct Extent {
+  double diagonal = 0;  ///< of the box around the shape
+  bool flat = false;
+};
+
+Extent extent_of(const Domain& domain) {
+  std::array<double, 3> low = domain.positions()[0], high = low;
+  for (const auto& p : domain.positions())
+    for (std::size_t k = 0; k < 3; ++k) {
+      low[k] = std::min(low[k], p[k]);
+      high[k] = std::max(high[k], p[k]);
+    }
+  const std::array<double, 3> size = {high[0] - low[0], high[1] - low[1], high[2] - low[2]};
+  const double diagonal = std::hypot(size[0], size[1], size[2]);
+  return {diagonal, *std::min_element(size.begin(), size.end()) < 1e-3 * diagonal};
+}
+
+// About a pixel of a picture, in the shape's unit.
+double a_pixel_of(const Domain& domain) { return extent_of(domain).diagonal / 600; }
+
+// Triangles are large enough in a picture to see that lines bend in them. Where the surface bends,
+// too, smaller triangles in the same planes would show as facets.
+bool fine_in_picture(const AnyDomain& domain) {
+  return domain.mean_edge() > 4 * a_pixel_of(domain.shape()) && extent_of(domain.shape()).flat;
+}
+
+// Whether something is drawn that asks for the field inside of triangles, and it can be known: from
+// points, without a device, on a surface that lies in space as it is measured.
+bool knows_inside(const DistanceCommand& command, const AnyDomain& domain,
+                  const std::vector<PointSource>& points, const Executor& executor) {
+  if (domain.kind() != DomainKind::surface || domain.shape().positions().empty() ||
+      points.empty() || std::holds_alternative<GL>(executor) || domain.refracting_edges() > 0 ||
+      !command.metric.text.empty() || command.solve.radius || command.solve.max_expansions)
+    return false;
+  return !command.isolines.out.empty() ||
+         (!command.picture.file.empty() && fine_in_picture(domain));
+}
+
 void run_distance(DistanceCommand command) {
   const PropagateOptions wanted = propagate_options(command.solve);
   Precision precision = precision_of(command.solve);
@@ -231,8 +271,14 @@ void run_distance(DistanceCommand command) {
   const Stopwatch solving;
   const Executor executor =
       choose_executor(command.solve.executor, options, solver, sources.size());
+  // What draws arcs asks the field inside of triangles, too.
+  std::optional<AnyPathField> paths;
+  if (mask == nullptr && knows_inside(command, solver, points, executor))
+    paths.emplace(solver.path_field(executor, points, options));
   const AnyField field =
-      solver.solve(executor, points.empty() ? SourceList(sources) : SourceList(points), options);
+      paths ? paths->field()
+            : solver.solve(executor, points.empty() ? SourceList(sources) : SourceList(points),
+                           options);
   const double solve = solving.seconds();
 
   const std::vector<double> distance = field.doubles();
@@ -261,7 +307,7 @@ void run_distance(DistanceCommand command) {
   }
   if (!command.isolines.out.empty()) {
     progress.phase("writing " + command.isolines.out);
-    write_isolines(command.isolines, shown, distance, isovalues);
+    write_isolines(command.isolines, shown, solver, field, paths ? &*paths : nullptr, isovalues);
   }
   if (command.picture.wanted()) {
     progress.phase("drawing " + command.picture.file);
@@ -271,14 +317,21 @@ void run_distance(DistanceCommand command) {
     const std::vector<std::int32_t> label =
         cells ? labels_of(field, distance) : std::vector<std::int32_t>();
     content.label = label;
+    std::optional<FineField> fine;
+    if (paths && !cells && fine_in_picture(solver)) {
+      fine = fine_field(domain, *paths, a_pixel_of(domain) / 4);
+      content.fine = &*fine;
+    }
     for (const Source& source : sources) content.mark(domain, source);
     write_picture(command.picture, shown, content, command.quiet);
   }
   progress.clear();
 
-  print_report(to_json(command, domain, solver, field, lengths.get(), outcome),
-               to_table(command, domain, solver, field, lengths.get(), arguments, sources, outcome),
-               command.json, command.quiet,
+  Json json = to_json(command, domain, solver, field, lengths.get(), outcome);
+  Table table =
+      to_table(command, domain, solver, field, lengths.get(), arguments, sources, outcome);
+  report_picture(command.picture, shown, json, table);
+  print_report(json, table, command.json, command.quiet,
                {command.out, command.isolines.out, command.picture.file, command.picture.html});
 
   if (outcome.beside_source == 0) {

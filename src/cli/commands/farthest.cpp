@@ -72,6 +72,7 @@ void run_farthest(const FarthestCommand& command) {
   PointSummary summary(command, domain, found.points.size());
   summary.json["covering"] = json_number(found.covering);
   summary.table.add("covering", "no vertex is farther than " + short_number(found.covering));
+  report_picture(command.picture, domain, summary.json, summary.table);
   summary.finish(command, found.statistics, phases);
   if (!command.quiet) say_parts_without(domain, found.points, "points");
 }

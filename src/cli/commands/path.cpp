@@ -41,6 +41,7 @@ struct PathCommand {
   std::string as;
   std::vector<std::string> from, to;
   std::string out;
+  PieceArguments pieces;
   FillArguments fill;
   CloudPreparation cloud;
   SolveOptions solve;
@@ -133,8 +134,9 @@ Outcome find_paths(const Domain& domain, const BuildOptions& building, const Pat
   const Stopwatch tracing;
   for (const PointSource& target : targets) {
     outcome.paths.push_back(field.trace(target, command.trace));
-    const ReadOut level =
-        outcome.accuracy == Accuracy::fast() ? ReadOut::linear : ReadOut::neighbours;
+    const ReadOut level = outcome.accuracy == Accuracy::fast() && built.kind() != DomainKind::mixed
+                              ? ReadOut::linear
+                              : ReadOut::neighbours;
     outcome.promised.push_back(target.vertex == none ? field.at(target, level)
                                                      : outcome.distance[target.vertex]);
   }
@@ -146,6 +148,15 @@ Outcome find_paths(const Domain& domain, const BuildOptions& building, const Pat
 Json snapped(const Domain& domain, const SourceArgument& asked, const PointSource& found) {
   const auto off = distance_from(domain, asked, found);
   return off ? Json(*off) : Json(nullptr);
+}
+
+double length_in_space(const Path& path) {
+  double sum = 0;
+  for (std::size_t i = 0; i + 1 < path.positions.size(); ++i) {
+    const auto &p = path.positions[i], &q = path.positions[i + 1];
+    sum += std::hypot(q[0] - p[0], q[1] - p[1], q[2] - p[2]);
+  }
+  return sum;
 }
 
 // What is printed: as JSON, and for people.
@@ -171,6 +182,8 @@ void report(const PathCommand& command, const Domain& domain, const Outcome& out
     one["from_snapped"] =
         reached ? snapped(domain, from.asked[path.source], from.found[path.source]) : Json();
     one["length"] = json_number(path.length);
+    if (!command.metric.text.empty() && !path.positions.empty())
+      one["length_in_space"] = length_in_space(path);
     one["distance"] = json_number(outcome.promised[k]);
     one["points"] = path.points.size();
     one["windows"] = path.windows;
@@ -271,14 +284,15 @@ void run_path(const PathCommand& typed) {
       triangulation != Triangulation::input)
     throw UsageError("--astar searches the triangles of the file: leave out --triangulation");
   check_picture(command.picture, command.input);
-  const std::array read = {metric_file(command.metric), mask_file(command.mask),
-                           command.solve.table};
+  std::vector<std::string> read = {metric_file(command.metric), mask_file(command.mask),
+                                   command.solve.table};
+  read.insert(read.end(), command.pieces.more.begin(), command.pieces.more.end());
   check_output_place(command.out, read, "--out");
   check_outputs_differ({command.out, command.picture.file, command.picture.html});
 
   ProgressLine progress(command.quiet);
   const Domain domain =
-      load_domain(command.input, command.as, command.fill, command.cloud, progress);
+      load_domain(command.input, command.as, command.fill, command.cloud, progress, command.pieces);
   if (command.astar && domain.kind() != DomainKind::surface)
     throw UsageError("--astar: a " + std::string(kind_noun(domain.kind())) +
                      " is solved as a whole; A* is for surfaces");
@@ -289,8 +303,9 @@ void run_path(const PathCommand& typed) {
   const std::vector<PointSource> sources = locate_sources(domain, from);
   const std::vector<PointSource> targets = locate_sources(domain, to);
   if (!command.metric.text.empty()) progress.phase("reading the metric");
-  // Paths go straight over an edge: it has one length.
-  auto lengths = measure(command.metric, domain, Jumps::smooth);
+  // On a surface paths go straight over an edge: it has one length.
+  auto lengths = measure(command.metric, domain,
+                         domain.kind() == DomainKind::surface ? Jumps::smooth : Jumps::refract);
   const std::shared_ptr<const Mask> mask = read_mask(command.mask, domain);
   require_open(mask.get(), domain, sources);
   require_open(mask.get(), domain, targets);
@@ -323,6 +338,7 @@ void run_path(const PathCommand& typed) {
   Json json;
   Table table;
   report(command, domain, outcome, {from, sources}, {to, targets}, json, table);
+  report_picture(command.picture, domain, json, table);
   print_report(json, table, command.json, command.quiet,
                {command.out, command.picture.file, command.picture.html});
 
@@ -342,6 +358,7 @@ void add_path_command(CLI::App& tool, Action& action) {
   auto command = std::make_shared<PathCommand>();
   CLI::App& app = *tool.add_subcommand("path", "Shortest paths from sources to targets");
   app.add_option("INPUT", command->input, input_help)->type_name("FILE")->required();
+  add_piece_options(app, command->pieces);
   app.add_option("--from,-f", command->from,
                  "vertex:ID (0-based, file order) or point:X,Y,Z (closest point of the\n"
                  "domain); repeat it for several sources, paths then lead to the nearest")

@@ -109,6 +109,7 @@ void run_poisson(const PoissonCommand& command) {
   table.add("work", counted(disks.thrown, "darts") + " thrown, " +
                         counted(disks.statistics.expansions, "expansions"));
   phases.tell(json, table);
+  report_picture(command.picture, domain, json, table);
   add_written(table, {command.out, command.picture.file, command.picture.html});
   print_report(json, table, command.json, command.quiet,
                {command.out, command.picture.file, command.picture.html});

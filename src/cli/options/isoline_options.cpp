@@ -6,6 +6,7 @@
 #include <variant>
 #include <vector>
 
+#include <plexway/any/isolines.hpp>
 #include <plexway/apps/isosurfaces.hpp>
 #include <plexway/error.hpp>
 #include <plexway/io/field.hpp>
@@ -46,9 +47,10 @@ void write_isosurfaces(const std::string& out, const io::Tets& solid,
 
 void add_isoline_options(CLI::App& command, IsolineOptions& options) {
   command
-      .add_option("--isoline-step", options.step,
-                  "lines on a surface, or surfaces in a solid, at each multiple of this distance,\n"
-                  "for --isolines-out")
+      .add_option(
+          "--isoline-step", options.step,
+          "lines on a surface or a cloud, or surfaces in a solid, at each multiple of this\n"
+          "distance, for --isolines-out")
       ->type_name("STEP");
   add_output(command, "--isolines-out", options.out,
              "where to: .obj (lines), .ply, .vtp or .json; of a solid .obj, .off, .ply, .stl,\n"
@@ -67,8 +69,9 @@ void check_isolines(const IsolineOptions& options, const std::string& input) {
 void check_isolines(const IsolineOptions& options, const Domain& domain) {
   if (options.out.empty()) return;
   const bool solid = domain.kind() == DomainKind::solid;
-  if (!solid && domain.kind() != DomainKind::surface && domain.kind() != DomainKind::mixed)
-    throw UsageError("--isoline-step: for surfaces, solids and mixed domains, not a " +
+  if (!solid && domain.kind() != DomainKind::surface && domain.kind() != DomainKind::mixed &&
+      domain.kind() != DomainKind::cloud)
+    throw UsageError("--isoline-step: for surfaces, clouds, solids and mixed domains, not a " +
                      std::string(kind_noun(domain.kind())));
   check_output_name(options.out, domain.file().string(),
                     solid ? io::triangle_output_extensions() : io::path_extensions(),
@@ -92,11 +95,17 @@ std::vector<double> isoline_values(const IsolineOptions& options,
   return values;
 }
 
-void write_isolines(const IsolineOptions& options, const Domain& domain,
-                    std::span<const double> distance, std::span<const double> values) {
-  if (const auto* solid = std::get_if<io::Tets>(&domain.data()))
-    return write_isosurfaces(options.out, *solid, distance, values);
-  io::write_isolines(options.out, domain.isolines(distance, values), values);
+void write_isolines(const IsolineOptions& options, const Domain& shown, const AnyDomain& domain,
+                    const AnyField& field, const AnyPathField* paths,
+                    std::span<const double> values) {
+  if (const auto* solid = std::get_if<io::Tets>(&shown.data()))
+    return write_isosurfaces(options.out, *solid, field.doubles(), values);
+  constexpr double share = 1e-3;  // of the step, which no eye sees
+  const std::vector<Path> lines =
+      paths != nullptr           ? isolines(shown, *paths, values, share * *options.step)
+      : shown.cloud() != nullptr ? isolines(domain, field, values)
+                                 : shown.isolines(field.doubles(), values);
+  io::write_isolines(options.out, lines, values);
 }
 
 }  // namespace plexway::cli

@@ -12,14 +12,16 @@
 #endif
 
 #include "any/shape_page.hpp"
+#include "any/up_axis.hpp"
 #include "cli/report/console.hpp"
 #include "cli/report/distance_output.hpp"
 #include "io/colour_map.hpp"
+#include "io/extension.hpp"
 
 namespace plexway::cli {
 namespace {
 
-constexpr std::array<std::string_view, 1> picture_extensions = {".png"};
+constexpr std::array<std::string_view, 2> picture_extensions = {".png", ".svg"};
 constexpr std::array<std::string_view, 2> page_extensions = {".html", ".htm"};
 
 // Numbers between commas.
@@ -60,16 +62,15 @@ std::array<double, 2> range_of(const std::string& text) {
   return {ends[0], ends[1]};
 }
 
-char up_of(const std::string& text) {
-  if (text.empty()) return 'z';
+void check_up(const std::string& text) {
+  if (text.empty()) return;
   if (text != "x" && text != "y" && text != "z")
     throw UsageError("--up '" + text + "': choose one of x, y, z");
-  return text[0];
 }
 
 io::Page page_of(const PictureArguments& arguments) {
   io::Page page;
-  page.up = up_of(arguments.up);
+  check_up(arguments.up);
   if (!arguments.range.empty()) page.range = range_of(arguments.range);
   if (!arguments.map.empty()) {
     const io::ColourMap exists(arguments.map);
@@ -83,6 +84,7 @@ void write_page(const PictureArguments& arguments, const Domain& domain,
                 const SceneContent& content) {
   if (arguments.html.empty()) return;
   io::Page page = page_of(arguments);
+  page.up = arguments.up_of(domain);
   fill_page(page, domain, content);
   io::write_page(arguments.html, page);
 }
@@ -150,7 +152,7 @@ render::PictureOptions options_of(const PictureArguments& arguments) {
   if (!arguments.clip.empty()) options.clip = clip_of(arguments.clip);
   if (!arguments.isosurfaces.empty())
     options.isosurfaces = numbers("--isosurfaces", arguments.isosurfaces, "V,V,...");
-  options.up = up_of(arguments.up);
+  check_up(arguments.up);
   if (!arguments.title.empty()) options.title = arguments.title;
   options.transparent = arguments.transparent;
   options.orthographic = arguments.orthographic;
@@ -162,8 +164,11 @@ render::PictureOptions options_of(const PictureArguments& arguments) {
 }  // namespace
 
 void add_picture_options(CLI::App& app, PictureArguments& arguments, bool cells) {
-  add_output(app, "--picture", arguments.file,
-             "draw a picture, .png, without a display; the next options go with it", "png");
+  add_output(
+      app, "--picture", arguments.file,
+      "draw a picture without a display: .png, or .svg, whose lines and text are drawn over\n"
+      "the shaded image; the next options go with it",
+      "png");
   add_output(app, "--html", arguments.html,
              "a page to turn in a browser: one file, no network; --up, --range, --map and --title\n"
              "go with it",
@@ -172,7 +177,8 @@ void add_picture_options(CLI::App& app, PictureArguments& arguments, bool cells)
                  "from where: front, back, left, right, top, bottom, iso, or AZ,EL in\n"
                  "degrees around the front (default: from above if flat, else 28,24)")
       ->type_name("VIEW");
-  app.add_option("--up", arguments.up, "which axis points up: x, y or z (default)")
+  app.add_option("--up", arguments.up,
+                 "which axis points up: x, y or z (default: y or z, by the shape)")
       ->type_name("AXIS");
   app.add_option("--size", arguments.size, "pixels (default 800x600)")->type_name("WxH");
   app.add_option("--range", arguments.range,
@@ -200,6 +206,18 @@ void add_picture_options(CLI::App& app, PictureArguments& arguments, bool cells)
   app.add_flag("--orthographic", arguments.orthographic, "parallel lines stay parallel");
   app.add_flag("--transparent", arguments.transparent, "no background");
   app.add_flag("--small", arguments.small, "256 colours, a quarter of the bytes");
+}
+
+char PictureArguments::up_of(const Domain& domain) const {
+  return up.empty() ? probable_up(domain) : up[0];
+}
+
+void report_picture(const PictureArguments& arguments, const Domain& domain, Json& json,
+                    Table& table) {
+  if (!arguments.wanted() || domain.positions().empty()) return;
+  const std::string axis(1, arguments.up_of(domain));
+  json["up"] = axis;
+  table.add("up", axis + (arguments.up.empty() ? ", by the shape; --up says another axis" : ""));
 }
 
 void check_picture(const PictureArguments& arguments, const std::string& input) {
@@ -234,7 +252,8 @@ void write_picture(const PictureArguments& arguments, const Domain& domain,
                    const SceneContent& content, bool quiet) {
   write_page(arguments, domain, content);
   if (arguments.file.empty()) return;
-  const render::PictureOptions options = options_of(arguments);
+  render::PictureOptions options = options_of(arguments);
+  options.up = arguments.up_of(domain);
   if (domain.positions().empty())
     throw UsageError("--picture: " + domain.file().string() + " has no positions to draw");
   if (!options.isosurfaces.empty() && domain.kind() != DomainKind::solid)
@@ -244,8 +263,11 @@ void write_picture(const PictureArguments& arguments, const Domain& domain,
   const ShapeScene scene(domain, shown);
   if (scene.is_line() && !quiet)
     say_note("all points lie in a line: the picture shows the edges, for there is no area");
-  render::write_png(arguments.file, render::picture(scene.scene(), options),
-                    arguments.small ? 256 : 0);
+  const std::size_t colours = arguments.small ? 256 : 0;
+  if (io::lower_extension(arguments.file) == ".svg")
+    render::write_svg(arguments.file, scene.scene(), options, colours);
+  else
+    render::write_png(arguments.file, render::picture(scene.scene(), options), colours);
 }
 
 #else

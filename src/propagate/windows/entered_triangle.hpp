@@ -1,22 +1,35 @@
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 
 #include <plexway/complex/detail/triangle_record.hpp>
 
 namespace plexway::windows {
 
-/// A source seen from an edge: at (x, -h), `begin` to `end` of the edge in its light.
+/// A source seen from an edge: at (x, -h), `begin` to `end` of the edge in its light. Or, where h
+/// is below 0, the light of a straight line, which is parallel: it travels by (x, -h), a unit
+/// vector. Turning the frame does the same to both.
 template <class Real>
 struct Beam {
   Real x, h, begin, end;
 
+  [[nodiscard]] bool is_parallel() const { return h < 0; }
   /// The same measured from the edge's other end.
   [[nodiscard]] Beam mirrored(Real length) const {
-    return {length - x, h, length - end, length - begin};
+    return {is_parallel() ? -x : length - x, h, length - end, length - begin};
   }
 };
+
+/// Parallel light that goes by (along, off), turned and by rounding no more a unit vector: as a
+/// beam has it. Light that runs along the edge is kept from it by a rounding error.
+template <class Real>
+[[nodiscard]] Beam<Real> parallel(Real along, Real off, Real begin, Real end) {
+  const Real size = std::sqrt(along * along + off * off);
+  return {along / size, -std::max(off / size, std::numeric_limits<Real>::epsilon()), begin, end};
+}
 
 /// A direction in a corner: along the edge that starts there, and off it. Of any length.
 template <class Real>
@@ -62,41 +75,53 @@ struct EnteredTriangle {
     apex_h = from_a ? left * sin_a : right * sin_b;
   }
 
-  /// Where the ray from S to P crosses AB.
-  [[nodiscard, gnu::always_inline]] Real foot(Real x, Real h) const {
-    return x + (apex_x - x) * (h / (h + apex_h));
+  /// From P back to the source; to (x, -h).
+  [[nodiscard, gnu::always_inline]] Towards<Real> towards(const Beam<Real>& beam) const {
+    return beam.is_parallel() ? back(beam.x, -beam.h) : towards(beam.x, beam.h);
   }
-
-  /// From P back to (x, -h).
   [[nodiscard, gnu::always_inline]] Towards<Real> towards(Real x, Real h) const {
-    const Real dx = apex_x - x, dy = apex_h + h;
-    return {apex_h * dy + apex_x * dx, apex_x * dy - apex_h * dx};
+    return back(apex_x - x, apex_h + h);
   }
 
-  /// S as the left edge sees it, measured from A; the right edge's is that of `width - x` and B.
-  [[nodiscard, gnu::always_inline]] Beam<Real> seen_left(Real x, Real h) const {
-    return {cos_a * x - sin_a * h, sin_a * x + cos_a * h, 0, left};
+  /// The source as the left edge sees it, measured from A, or the right edge, from B; all of the
+  /// edge in its light.
+  [[nodiscard, gnu::always_inline]] Beam<Real> seen_left(const Beam<Real>& beam) const {
+    return seen(beam.x, beam, cos_a, sin_a, left);
   }
-  [[nodiscard, gnu::always_inline]] Beam<Real> seen_right(Real x, Real h) const {
-    const Real u = width - x;
-    return {cos_b * u - sin_b * h, sin_b * u + cos_b * h, 0, right};
+  [[nodiscard, gnu::always_inline]] Beam<Real> seen_right(const Beam<Real>& beam) const {
+    return seen(beam.is_parallel() ? -beam.x : width - beam.x, beam, cos_b, sin_b, right);
+  }
+  /// What parallel light that has come as far as `sigma` at A has at B.
+  [[nodiscard, gnu::always_inline]] Real sigma_at_b(const Beam<Real>& beam, Real sigma) const {
+    return beam.is_parallel() ? sigma + width * beam.x : sigma;
   }
 
-  /// Where the ray from S through a point of AB meets the left edge, from A; in [0, left].
-  [[nodiscard, gnu::always_inline]] Real onto_left(Real x, Real h, Real point) const {
-    return onto(point, x - point, h, cos_a, sin_a, left);
+  /// Where the ray through a point of AB meets the left edge, from A; in [0, left].
+  [[nodiscard, gnu::always_inline]] Real onto_left(const Beam<Real>& beam, Real point) const {
+    return onto(point, beam.is_parallel() ? beam.x : beam.x - point, beam.h, cos_a, sin_a, left);
   }
   /// Likewise the right edge, from B.
-  [[nodiscard, gnu::always_inline]] Real onto_right(Real x, Real h, Real point) const {
-    return onto(width - point, point - x, h, cos_b, sin_b, right);
+  [[nodiscard, gnu::always_inline]] Real onto_right(const Beam<Real>& beam, Real point) const {
+    return onto(width - point, beam.is_parallel() ? -beam.x : point - beam.x, beam.h, cos_b, sin_b,
+                right);
   }
 
  private:
-  /// `back`: how far S lies behind the point, seen from the pivot.
-  static Real onto(Real point, Real back, Real h, Real cosine, Real sine, Real length) {
-    const Real below = sine * back + cosine * h;
+  /// Back along a ray to P.
+  [[nodiscard, gnu::always_inline]] Towards<Real> back(Real dx, Real dy) const {
+    return {apex_h * dy + apex_x * dx, apex_x * dy - apex_h * dx};
+  }
+  static Beam<Real> seen(Real x, const Beam<Real>& beam, Real cosine, Real sine, Real length) {
+    const Real along = cosine * x - sine * beam.h, below = sine * x + cosine * beam.h;
+    if (beam.is_parallel()) return parallel(along, -below, Real(0), length);
+    return {along, std::max(below, Real(0)), 0, length};
+  }
+  /// `behind`: how far S lies behind the point, seen from the pivot; of parallel light its
+  /// direction.
+  static Real onto(Real point, Real behind, Real h, Real cosine, Real sine, Real length) {
+    const Real below = sine * behind + cosine * h;
     const Real t = point * h / below;
-    return below > 0 && t < length ? t : length;
+    return (h < 0 ? below < 0 : below > 0) && t < length ? t : length;
   }
 };
 

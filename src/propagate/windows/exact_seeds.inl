@@ -4,13 +4,13 @@
 namespace plexway::windows {
 
 template <class Real>
-void ExactWindows<Real>::begin(std::span<const PointSource> sources,
-                               const PropagateOptions& options, const Patience& patience) {
+void ExactWindows<Real>::begin(const WindowSources& sources, const PropagateOptions& options,
+                               const Patience& patience) {
   kept_ = nullptr;
   patience_ = patience;
   distance_.assign(sheet_.vertex_count, infinity);
   arrival_.resize(sheet_.vertex_count);
-  labels_ = sources.size() > 1;
+  labels_ = sources.labels;
   if (labels_) source_.resize(sheet_.vertex_count);
   split_.assign(3 * std::size_t{own_}, {infinity, 0});
   nodes_.clear();
@@ -20,10 +20,10 @@ void ExactWindows<Real>::begin(std::span<const PointSource> sources,
   statistics_ = {};
   tie_ = least_tie();
   radius_ = options.radius / sheet_.mesh->unit();
-  // A source inside a triangle may lie in another's light, and over an edge with several triangles
+  // A source that is no vertex may lie in another's light, and over an edge with several triangles
   // light comes from several sheets.
-  splits_whole_ = sheet_.mesh->summary().non_manifold_edges == 0 &&
-                  std::all_of(sources.begin(), sources.end(),
+  splits_whole_ = sheet_.mesh->summary().non_manifold_edges == 0 && sources.only_points() &&
+                  std::all_of(sources.points.begin(), sources.points.end(),
                               [](const PointSource& s) { return s.vertex != none; });
   ring_.start(bucket_width);
   leaving_.start(sheet_.shared);
@@ -61,6 +61,27 @@ void ExactWindows<Real>::seed_inside(Order& order, Index f, const std::array<dou
     // The corner at the edge's start; the source in the frame of that edge.
     const double back = std::sqrt(x * x + h * h);
     offer(order, t.corner[e], sigma + back, {static_cast<Index>(3 * f + e), x, h}, number);
+  }
+}
+
+template <class Real>
+template <class Order>
+void ExactWindows<Real>::seed(Order& order, const WindowSources& sources) {
+  for_each_seed(
+      *sheet_.mesh, sources, [&](Index v, double sigma, Index n) { offer(order, v, sigma, {}, n); },
+      [&](Index f, const std::array<double, 4>& b, double sigma, Index n) {
+        seed_inside(order, f, b, sigma, n);
+      });
+  for (const CornerBesideLine& c : sources.corners)
+    offer(order, triangles_[c.face].corner[c.corner], c.distance,
+          {3 * c.face + c.corner, c.back.along, c.back.off}, c.number);
+  for (const LineLight& light : sources.lights) {
+    const Window<double> window = light.window();
+    const double length = static_cast<double>(triangles_[light.face].length[light.edge]);
+    if (light.into)
+      enter(order, light.face << 2 | light.edge, window, light.number);
+    else
+      leave(order, light.face, light.edge, window.mirrored(length), light.number);
   }
 }
 

@@ -74,19 +74,13 @@ void ExactWindows<Real>::end_ties() {
 }
 
 template <class Real>
-bool ExactWindows<Real>::solve(std::span<const PointSource> sources,
-                               const PropagateOptions& options, const Patience& patience,
-                               KeptWindows<Real>* kept) {
+bool ExactWindows<Real>::solve(const WindowSources& sources, const PropagateOptions& options,
+                               const Patience& patience, KeptWindows<Real>* kept) {
   begin(sources, options, patience);
   kept_ = kept;
   const auto solve_in = [&](auto& order) {
     order.start(bucket_width);
-    for_each_seed(
-        *sheet_.mesh, sources,
-        [&](Index v, double sigma, Index n) { offer(order, v, sigma, {}, n); },
-        [&](Index f, const std::array<double, 4>& b, double sigma, Index n) {
-          seed_inside(order, f, b, sigma, n);
-        });
+    seed(order, sources);
     do
       if (!run(order, options)) return false;
     while (complete_ && fill_holes(order));
@@ -168,7 +162,7 @@ void ExactWindows<Real>::keep(const Node& node, Index source) {
 template <class Real>
 double ExactWindows<Real>::nearest(const Node& node) {
   const Beam<double>& beam = node.beam;
-  const bool across = (beam.begin < beam.x) & (beam.x < beam.end);
+  const bool across = (beam.begin < beam.x) & (beam.x < beam.end) & (beam.h >= 0);
   return across ? node.sigma + beam.h : std::min(node.at_begin, node.at_end);
 }
 
@@ -202,7 +196,9 @@ bool ExactWindows<Real>::trim(Window<double>& w, double length, double to_first,
     if (low > beam.begin) beam.begin = low;
   }
   if (to_second + (length - beam.end) < w.at_end) {
-    const double high = length - served_from_end(length - beam.x, beam.h, to_second - w.sigma);
+    const Window<double> from_end = w.mirrored(length);
+    const double high =
+        length - served_from_end(from_end.beam.x, beam.h, to_second - from_end.sigma);
     if (high < beam.end) beam.end = high;
   }
   return beam.begin < beam.end;
@@ -291,8 +287,10 @@ template <class Order>
   // All on the same side of the ray to the apex, and not near it.
   const std::size_t to_right = across < (begin - x) * down - slack;
   const std::size_t to_left = across > (end - x) * down + slack;
-  if (served || (to_left ^ to_right) == 0 || !(begin < end)) [[unlikely]] {
-    const Window<double> window = {{x, h, begin, end}, sigma, node.at_begin, node.at_end, 0};
+  const bool parallel = node.beam.is_parallel();
+  if (served || (to_left ^ to_right) == 0 || !(begin < end) || parallel) [[unlikely]] {
+    const Window<double> window = {
+        {x, parallel ? node.beam.h : h, begin, end}, sigma, node.at_begin, node.at_end, 0};
     const Index halfedge = node.edge, source = labels_ ? node_source_[n] : 0;
     node.next = std::exchange(free_, n);
     expand_wide(order, window, halfedge, source);
@@ -347,10 +345,15 @@ void ExactWindows<Real>::expand_wide(Order& order, Window<double> w, Index halfe
   const double to_a = distance_[t.a], to_b = distance_[t.b];
   if (!trim(w, t.width, to_a, to_b)) return;
 
-  // Where the ray to the apex crosses the edge: `across` / `down` from below the source.
-  const double x = w.beam.x, h = w.beam.h;
-  const double across = (t.apex_x - x) * h, down = t.apex_h + h;
-  const double from = (w.beam.begin - x) * down, until = (w.beam.end - x) * down;
+  // Where the ray to the apex crosses the edge: `across` / `down` from below the source, of
+  // parallel light from A.
+  const Beam<double>& beam = w.beam;
+  const bool parallel = beam.is_parallel();
+  const double x = parallel ? 0 : beam.x;
+  const double across =
+      parallel ? -(t.apex_x * beam.h + t.apex_h * beam.x) : (t.apex_x - x) * beam.h;
+  const double down = parallel ? -beam.h : t.apex_h + beam.h;
+  const double from = (beam.begin - x) * down, until = (beam.end - x) * down;
   const double slack = Rounding<Real>::cover * t.width * down;
   bool go_left = across > from, go_right = across < until;
   // Up to where light goes left, and from where on right.
@@ -358,9 +361,9 @@ void ExactWindows<Real>::expand_wide(Order& order, Window<double> w, Index halfe
   double way = infinity;
   if (across <= until + slack && across >= from - slack) {
     const double dx = t.apex_x - x;
-    way = w.sigma + std::sqrt(dx * dx + down * down);
+    way = w.sigma + (parallel ? dx * beam.x + t.apex_h * down : std::sqrt(dx * dx + down * down));
     if (way < distance_[t.p]) {
-      const Towards<double> back = t.towards(x, h);
+      const Towards<double> back = t.towards(beam);
       offer(order, t.p, way, {static_cast<Index>(3 * f + t.before), back.along, back.off}, source);
     }
   }
@@ -386,16 +389,15 @@ void ExactWindows<Real>::expand_wide(Order& order, Window<double> w, Index halfe
   const double to_p = distance_[t.p], least = rounding(t.width + w.at_end);
   // One side, measured from its pivot: from the ray through a point of AB to that through another,
   // or to the apex. `to_other`: the vertex that lies behind.
-  const auto go = [&](const Beam<double>& seen, double near, double far, bool to_apex,
+  const auto go = [&](const Beam<double>& seen, double sigma, double near, double far, bool to_apex,
                       double to_pivot, double to_other, double cosine, double sine,
                       Window<double>& child) {
-    child = {{seen.x, std::max(seen.h, 0.), near, to_apex ? seen.end : far}, w.sigma, 0, 0, 0};
-    Beam<double>& beam = child.beam;
-    if (!(beam.begin < beam.end)) return false;
-    child.at_end = to_apex && way < infinity ? way : child.at(beam.end);
-    if (to_pivot + beam.end + least < child.at_end) return false;
-    child.at_begin = child.at(beam.begin);
-    if (to_p + (seen.end - beam.begin) + least < child.at_begin) return false;
+    child = {{seen.x, seen.h, near, to_apex ? seen.end : far}, sigma, 0, 0, 0};
+    if (!(child.beam.begin < child.beam.end)) return false;
+    child.at_end = to_apex && way < infinity ? way : child.at(child.beam.end);
+    if (to_pivot + child.beam.end + least < child.at_end) return false;
+    child.at_begin = child.at(child.beam.begin);
+    if (to_p + (seen.end - child.beam.begin) + least < child.at_begin) return false;
     // Light that enters over AB and meets this edge at some point has crossed the line from the
     // other vertex to the first such point: if that vertex reaches it sooner, all is needless.
     const double along = cosine * t.width - near, off = sine * t.width;
@@ -405,14 +407,14 @@ void ExactWindows<Real>::expand_wide(Order& order, Window<double> w, Index halfe
   Window<double> child;
   if (go_left && w.beam.begin < left_end) {
     const bool to_apex = across <= (left_end - x) * down;
-    if (go(t.seen_left(x, h), t.onto_left(x, h, w.beam.begin),
-           to_apex ? 0 : t.onto_left(x, h, left_end), to_apex, to_a, to_b, t.cos_a, t.sin_a, child))
+    if (go(t.seen_left(beam), w.sigma, t.onto_left(beam, beam.begin),
+           to_apex ? 0 : t.onto_left(beam, left_end), to_apex, to_a, to_b, t.cos_a, t.sin_a, child))
       leave(order, f, t.before, child, source);
   }
   if (go_right && right_begin < w.beam.end) {
     const bool to_apex = across >= (right_begin - x) * down;
-    if (go(t.seen_right(x, h), t.onto_right(x, h, w.beam.end),
-           to_apex ? 0 : t.onto_right(x, h, right_begin), to_apex, to_b, to_a, t.cos_b, t.sin_b,
+    if (go(t.seen_right(beam), t.sigma_at_b(beam, w.sigma), t.onto_right(beam, beam.end),
+           to_apex ? 0 : t.onto_right(beam, right_begin), to_apex, to_b, to_a, t.cos_b, t.sin_b,
            child))
       leave(order, f, t.after, child.mirrored(t.right), source);
   }

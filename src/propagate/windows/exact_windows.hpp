@@ -10,7 +10,6 @@
 #include <plexway/complex/triangle_mesh.hpp>
 #include <plexway/propagate/distance_field.hpp>
 #include <plexway/propagate/options.hpp>
-#include <plexway/source/point_source.hpp>
 
 #include "propagate/windows/bucket_ring.hpp"
 #include "propagate/windows/kept_windows.hpp"
@@ -20,6 +19,7 @@
 #include "propagate/windows/pseudo_source.hpp"
 #include "propagate/windows/sheet.hpp"
 #include "propagate/windows/vertex_angles.hpp"
+#include "propagate/windows/window_sources.hpp"
 
 namespace plexway::windows {
 
@@ -56,14 +56,20 @@ class ExactWindows {
   /// The sources must be checked. Windows are put into `kept` as well, unless it is null. Throws
   /// Cancelled as the progress callback says. False, and no result, where more windows are needed
   /// than `patience` allows.
-  [[nodiscard]] bool solve(std::span<const PointSource> sources, const PropagateOptions& options,
+  [[nodiscard]] bool solve(const WindowSources& sources, const PropagateOptions& options,
                            const Patience& patience, KeptWindows<Real>* kept = nullptr);
 
   // ---- As a piece, which others tell when to do what ----
 
   /// A solve from `sources`, which are then given one by one.
-  void begin(std::span<const PointSource> sources, const PropagateOptions& options,
+  void begin(const WindowSources& sources, const PropagateOptions& options,
              const Patience& patience);
+  /// Calls seed(g, barycentric) for the triangles that a source inside f is to be given to.
+  template <class Seed>
+  static void for_each_place(std::span<const TriangleRecord<Real>>, Index f,
+                             const std::array<double, 4>& barycentric, const Seed& seed) {
+    seed(f, barycentric);
+  }
   /// A source at a vertex or inside a triangle of this piece.
   void seed_vertex(Index vertex, double sigma, Index number) {
     offer(ring_, vertex, sigma, {}, number);
@@ -151,6 +157,8 @@ class ExactWindows {
   }
   template <class Order>
   bool spread(Order& order, std::size_t most);
+  template <class Order>
+  void seed(Order& order, const WindowSources& sources);
   template <class Order>
   void seed_inside(Order& order, Index f, const std::array<double, 4>& barycentric, double sigma,
                    Index number);

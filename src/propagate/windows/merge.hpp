@@ -11,20 +11,27 @@ namespace plexway::windows {
 template <class Real>
 struct Window {
   Beam<Real> beam;
-  Real sigma;             ///< where windows were merged it may be below 0
+  /// Where windows were merged it may be below 0. Of parallel light the distance at the edge's
+  /// first vertex, were it lit.
+  Real sigma;
   Real at_begin, at_end;  ///< distances at both ends
   Real error;             ///< what merging may have cost so far, estimated
 
   [[nodiscard]] Real at(Real b) const {
+    if (beam.is_parallel()) [[unlikely]]
+      return sigma + b * beam.x;
     const Real u = b - beam.x;
     return sigma + std::sqrt(u * u + beam.h * beam.h);
   }
   /// The nearest distance of all its points.
   [[nodiscard]] Real nearest() const {
-    return beam.begin < beam.x && beam.x < beam.end ? sigma + beam.h : std::min(at_begin, at_end);
+    return beam.begin < beam.x && beam.x < beam.end && !beam.is_parallel()
+               ? sigma + beam.h
+               : std::min(at_begin, at_end);
   }
   [[nodiscard]] Window mirrored(Real length) const {
-    return {beam.mirrored(length), sigma, at_end, at_begin, error};
+    return {beam.mirrored(length), beam.is_parallel() ? sigma + length * beam.x : sigma, at_end,
+            at_begin, error};
   }
   void begin_at(Real b) { beam.begin = b, at_begin = at(b); }
   void end_at(Real b) { beam.end = b, at_end = at(b); }
@@ -32,6 +39,21 @@ struct Window {
 
 /// No source of merged windows lies farther away, in mean edges: single precision would lose it.
 inline constexpr int farthest_merged = 300;
+
+/// Parallel light that goes on as parallel light: one window in place of the first. False, and
+/// nothing done, where the two are not the same light but for rounding, which `limit` is far above.
+template <class Real>
+[[nodiscard]] bool join_parallel(Window<Real>& u, const Window<Real>& w, Real limit) {
+  if (!u.beam.is_parallel() || !w.beam.is_parallel()) return false;
+  const Real miss =
+      std::max(std::abs(u.at(w.beam.end) - w.at_end), std::abs(w.at(u.beam.begin) - u.at_begin));
+  if (!(miss <= limit / 64)) return false;
+  if (w.beam.end - w.beam.begin > u.beam.end - u.beam.begin)
+    u.beam.x = w.beam.x, u.beam.h = w.beam.h, u.sigma = w.sigma, u.at_begin = u.at(u.beam.begin);
+  u.end_at(w.beam.end);
+  u.error = std::max(u.error, w.error);
+  return true;
+}
 
 /// Makes one window of two neighbours, in place of the first: its source gives the same distances
 /// at both far ends and where the two meet. False, and nothing done, where they do not fit: where
@@ -42,6 +64,10 @@ inline constexpr int farthest_merged = 300;
 /// sign. A front that is straight or hollow gets the farthest source, and misses the far ends, too.
 template <class Real>
 [[nodiscard]] inline bool merge(Window<Real>& u, const Window<Real>& w, Real limit) {
+  // Where the light of a line and of its end meet, the front goes from straight to round at once:
+  // the border is a line that all edges along it share, and what is off there adds up.
+  if (u.beam.is_parallel() != w.beam.is_parallel()) return false;
+  if (u.beam.is_parallel() && join_parallel(u, w, limit)) return true;
   const Real a = u.beam.begin, b = (u.beam.end + w.beam.begin) / 2, c = w.beam.end;
   const Real p = b - a, q = c - b;
   const Real by_u = u.at(b), by_w = w.at(b), middle = (by_u + by_w) / 2;

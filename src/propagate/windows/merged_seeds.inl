@@ -4,12 +4,12 @@
 namespace plexway::windows {
 
 template <class Real>
-void MergedWindows<Real>::begin(std::span<const PointSource> sources,
-                                const PropagateOptions& options, const MergeLimit& limit) {
+void MergedWindows<Real>::begin(const WindowSources& sources, const PropagateOptions& options,
+                                const MergeLimit& limit) {
   const double unit = sheet_.mesh->unit();
   limit_ = limit;
   kept_ = nullptr;
-  labels_ = sources.size() > 1;
+  labels_ = sources.labels;
   vertices_.assign(sheet_.vertex_count, {infinity<Real>, none, {0, 0}});
   error_.resize(sheet_.vertex_count);
   if (labels_) source_.resize(sheet_.vertex_count);
@@ -22,7 +22,8 @@ void MergedWindows<Real>::begin(std::span<const PointSource> sources,
   statistics_ = {};
   radius_ = static_cast<Real>(options.radius / unit);
   least_offset_ = std::numeric_limits<double>::infinity();
-  for (const PointSource& s : sources) least_offset_ = std::min(least_offset_, s.offset / unit);
+  for (const PointSource& s : sources.points)
+    least_offset_ = std::min(least_offset_, s.offset / unit);
   scale_ = scale_at(least_offset_);
   ring_.start(bucket_width);
   leaving_.start(sheet_.shared);
@@ -46,8 +47,8 @@ void MergedWindows<Real>::take(const Letter<Real>& letter) {
   }
   admit(w.at_begin);
   scale_ = scale_at(static_cast<double>(w.at_begin));
-  static_cast<void>(know(ring_, letter.vertex(), w.at_begin, letter.corner,
-                         {w.beam.x, w.beam.h}, letter.source, w.error));
+  static_cast<void>(know(ring_, letter.vertex(), w.at_begin, letter.corner, {w.beam.x, w.beam.h},
+                         letter.source, w.error));
 }
 
 template <class Real>
@@ -74,6 +75,7 @@ typename MergedWindows<Real>::Outcome MergedWindows<Real>::left_over(Order& orde
   return Outcome::stopped;
 }
 
+/// Over the edges that it does not lie on, and to the corners.
 template <class Real>
 template <class Order>
 void MergedWindows<Real>::seed_inside(Order& order, Index f, const std::array<double, 4>& b,
@@ -86,9 +88,44 @@ void MergedWindows<Real>::seed_inside(Order& order, Index f, const std::array<do
         {static_cast<Real>(beam.x), static_cast<Real>(beam.h), 0, t.length[e]}, sigma, 0, 0, 0};
     window.begin_at(0);
     window.end_at(t.length[e]);
-    leave(order, f, e, window, number);
+    if (b[edge_before(e)] > on_edge) leave(order, f, e, window, number);
     offer(order, t.corner[e], sigma + static_cast<Real>(std::sqrt(x * x + h * h)),
           static_cast<Index>(3 * f + e), {static_cast<Real>(x), static_cast<Real>(h)}, number, 0);
+  }
+}
+
+template <class Real>
+template <class Order>
+void MergedWindows<Real>::seed(Order& order, const WindowSources& sources) {
+  const auto real = [](double x) { return static_cast<Real>(x); };
+  const auto at_vertex = [&](Index v, double sigma, Index n) {
+    offer(order, v, real(sigma), none, {0, 0}, n, 0);
+  };
+  const auto inside = [&](Index f, const std::array<double, 4>& b, double sigma, Index n) {
+    triangles_at(triangles_, f, b, [&](Index g, const std::array<double, 4>& there, std::size_t k) {
+      seed_inside(order, g, there, real(sigma), n);
+      if (!kept_ || k == 3) return;  // what is read there looks for the source over the edge
+      const Real length = triangles_[g].length[k];
+      kept_->take(4 * g + static_cast<Index>(k),
+                  {real(there[edge_after(k)]) * length, 0, 0, length}, real(sigma), n);
+    });
+  };
+  for_each_seed(*sheet_.mesh, sources, at_vertex, inside);
+  for (const CornerBesideLine& c : sources.corners)
+    offer(order, triangles_[c.face].corner[c.corner], real(c.distance), 3 * c.face + c.corner,
+          {real(c.back.along), real(c.back.off)}, c.number, 0);
+  for (const LineLight& light : sources.lights) {
+    const Beam<double>& b = light.beam;
+    const Real length = triangles_[light.face].length[light.edge];
+    Window<Real> window = {
+        parallel(real(b.x), real(-b.h), real(b.begin), std::min(real(b.end), length)),
+        real(light.sigma), 0, 0, 0};
+    window.begin_at(window.beam.begin);
+    window.end_at(window.beam.end);
+    if (light.into)
+      enter(order, light.face << 2 | light.edge, window, light.number);
+    else
+      leave(order, light.face, light.edge, window.mirrored(length), light.number);
   }
 }
 

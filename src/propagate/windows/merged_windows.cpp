@@ -41,21 +41,13 @@ MergedWindows<Real>::MergedWindows(const Sheet<Real>& sheet)
 }
 
 template <class Real>
-bool MergedWindows<Real>::solve(std::span<const PointSource> sources,
-                                const PropagateOptions& options, const MergeLimit& limit,
-                                KeptWindows<Real>* kept) {
+bool MergedWindows<Real>::solve(const WindowSources& sources, const PropagateOptions& options,
+                                const MergeLimit& limit, KeptWindows<Real>* kept) {
   begin(sources, options, limit);
   kept_ = kept;
   const auto solve_in = [&](auto& order) {
     order.start(bucket_width);
-    for_each_seed(
-        *sheet_.mesh, sources,
-        [&](Index v, double sigma, Index n) {
-          offer(order, v, static_cast<Real>(sigma), none, {0, 0}, n, 0);
-        },
-        [&](Index f, const std::array<double, 4>& b, double sigma, Index n) {
-          seed_inside(order, f, b, static_cast<Real>(sigma), n);
-        });
+    seed(order, sources);
     Outcome outcome;
     do outcome = run(order, options);
     while (outcome == Outcome::done && fill_holes(order));
@@ -334,7 +326,7 @@ template <class Order>
   if (ways[seen] < vertices_[t.p].distance) {
     const Index corner = static_cast<Index>(3 * turn.face + t.before);
     offer(order, t.p, ways[seen], seen ? corner : corner | bent,
-          seen ? t.towards(w.beam.x, w.beam.h) : t.towards(ends[right], 0), source, w.error);
+          seen ? t.towards(w.beam) : t.towards(ends[right], 0), source, w.error);
   }
   const int wanted = s.wanted(vertices_[t.a].distance, vertices_[t.b].distance,
                               vertices_[t.p].distance, scale_ * s.length);
@@ -360,13 +352,13 @@ template <class Real>
     // No gap opens between joined neighbours: both reach the apex if it lies there and they agree
     // on it, else they meet at the middle.
     Spread<Real>& before = turn.spread[i - 1];
-    const Real sigma_before = windows[i - 1].window.sigma, sigma = windows[i].window.sigma;
+    const Window<Real>&window_before = windows[i - 1].window, &window = windows[i].window;
     if (!before.left_reaches() && !s.right_reaches()) {
       const Spread<Real> dark_before = before, dark = s;
       before.at.v[1] = t.left;
       s.at.v[3] = t.right;
-      before.measure(sigma_before);
-      s.measure(sigma);
+      before.measure(t, window_before);
+      s.measure(t, window);
       const Real from_left = before.distance[1], from_right = s.distance[3];
       if (std::abs(from_left - from_right) <= 4 * scale_ * t.width)
         sees(from_left < from_right ? i : i - 1, std::max(from_left, from_right));
@@ -374,12 +366,12 @@ template <class Real>
         before = dark_before, s = dark;
     } else if (before.at[1] < s.at[0]) {
       before.at.v[1] = s.at.v[0] = (before.at[1] + s.at[0]) / 2;
-      before.measure(sigma_before);
-      s.measure(sigma);
+      before.measure(t, window_before);
+      s.measure(t, window);
     } else if (s.at[3] < before.at[2]) {
       before.at.v[2] = s.at.v[3] = (before.at[2] + s.at[3]) / 2;
-      before.measure(sigma_before);
-      s.measure(sigma);
+      before.measure(t, window_before);
+      s.measure(t, window);
     }
   }
 }
@@ -394,8 +386,8 @@ void MergedWindows<Real>::commit(Order& order, const Turn& turn) {
   const bool is_lit = turn.to_apex < infinity<Real>;
   if (turn.to_apex < bound) {
     const Labelled<Real>& seen = windows[turn.seen];
-    offer(order, t.p, turn.to_apex, corner, t.towards(seen.window.beam.x, seen.window.beam.h),
-          seen.source, seen.window.error);
+    offer(order, t.p, turn.to_apex, corner, t.towards(seen.window.beam), seen.source,
+          seen.window.error);
     bound = turn.to_apex;
   }
   // Around the end of what is lit beside it; where another window sees it, if that is shorter by

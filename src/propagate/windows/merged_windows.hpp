@@ -11,7 +11,6 @@
 #include <plexway/complex/triangle_mesh.hpp>
 #include <plexway/propagate/distance_field.hpp>
 #include <plexway/propagate/options.hpp>
-#include <plexway/source/point_source.hpp>
 
 #include "propagate/windows/bucket_ring.hpp"
 #include "propagate/windows/entered_triangle.hpp"
@@ -22,7 +21,9 @@
 #include "propagate/windows/pseudo_source.hpp"
 #include "propagate/windows/sheet.hpp"
 #include "propagate/windows/spread.hpp"
+#include "propagate/windows/triangles_at.hpp"
 #include "propagate/windows/vertex_angles.hpp"
+#include "propagate/windows/window_sources.hpp"
 
 namespace plexway::windows {
 
@@ -53,14 +54,23 @@ class MergedWindows {
   /// The sources must be checked. Windows are put into `kept` as well, unless it is null. Throws
   /// Cancelled as the progress callback says. False, and no result, where merging does not pay:
   /// among needles windows do not become fewer, and what comes out is no good.
-  [[nodiscard]] bool solve(std::span<const PointSource> sources, const PropagateOptions& options,
+  [[nodiscard]] bool solve(const WindowSources& sources, const PropagateOptions& options,
                            const MergeLimit& limit, KeptWindows<Real>* kept = nullptr);
 
   // ---- As a piece, which others tell when to do what ----
 
   /// A solve from `sources`, which are then given one by one.
-  void begin(std::span<const PointSource> sources, const PropagateOptions& options,
+  void begin(const WindowSources& sources, const PropagateOptions& options,
              const MergeLimit& limit);
+  /// Calls seed(g, barycentric) for the triangles that a source inside f is to be given to: where
+  /// it lies on an edge, all at that edge. As a window over that edge it would light them through a
+  /// single point, and what cuts off a part of the edge would cut off all light to one side.
+  template <class Seed>
+  static void for_each_place(std::span<const TriangleRecord<Real>> triangles, Index f,
+                             const std::array<double, 4>& barycentric, const Seed& seed) {
+    triangles_at(triangles, f, barycentric,
+                 [&](Index g, const std::array<double, 4>& b, std::size_t) { seed(g, b); });
+  }
   /// A source at a vertex or inside a triangle of this piece.
   void seed_vertex(Index vertex, double sigma, Index number) {
     offer(ring_, vertex, static_cast<Real>(sigma), none, {0, 0}, number, 0);
@@ -170,6 +180,8 @@ class MergedWindows {
   Outcome left_over(Order& order);
   template <class Order>
   bool spread(Order& order, std::size_t most);
+  template <class Order>
+  void seed(Order& order, const WindowSources& sources);
   template <class Order>
   void seed_inside(Order& order, Index f, const std::array<double, 4>& barycentric, Real sigma,
                    Index number);

@@ -30,12 +30,13 @@ class PiecedWindows {
     for (Index p = 0; p < patches.count(); ++p) pieces_.emplace_back(patches, p);
   }
 
-  /// As Windows::solve. The crew does the work: crew.run(pieces, statistics, goes_on) until no
-  /// window waits (true) or there is a reason to stop, and crew.each(count, work).
+  /// As Windows::solve, from points alone. The crew does the work: crew.run(pieces, statistics,
+  /// goes_on) until no window waits (true) or there is a reason to stop, and crew.each(count,
+  /// work).
   template <class Crew>
-  [[nodiscard]] bool solve(const Crew& crew, std::span<const PointSource> sources,
+  [[nodiscard]] bool solve(const Crew& crew, const WindowSources& sources,
                            const PropagateOptions& options, const typename Windows::Limit& limit) {
-    labels_ = sources.size() > 1;
+    labels_ = sources.labels;
     statistics_ = {};
     complete_ = true;
     crew.each(pieces_.size(), [&](std::size_t p) { pieces_[p].begin(sources, options, limit); });
@@ -47,7 +48,10 @@ class PiecedWindows {
         },
         [&](Index f, const std::array<double, 4>& b, double sigma, Index n) {
           const Cut& cut = patches_.cut();
-          pieces_[cut.piece_of[f]].windows().seed_inside(cut.number_of[f], b, sigma, n);
+          Windows::for_each_place(
+              mesh_.triangles(), f, b, [&](Index g, const std::array<double, 4>& there) {
+                pieces_[cut.piece_of[g]].windows().seed_inside(cut.number_of[g], there, sigma, n);
+              });
         });
     bool too_many = false;
     const auto goes_on = [&](std::size_t expansions) {

@@ -8,10 +8,10 @@
 #include <vector>
 
 #include <plexway/complex/triangle_mesh.hpp>
-#include <plexway/source/point_source.hpp>
 
 #include "complex/cut.hpp"
 #include "propagate/windows/vertex_angles.hpp"
+#include "propagate/windows/window_sources.hpp"
 
 namespace plexway::windows {
 
@@ -56,14 +56,14 @@ struct Sheet {
   }
 };
 
-/// Calls at_vertex(v, offset, n) or inside(f, barycentric, offset, n) for each of the sources, by
+/// Calls at_vertex(v, offset, n) or inside(f, barycentric, offset, n) for each of the points, by
 /// the surface's numbers and in its unit.
 template <class Real, class AtVertex, class Inside>
-void for_each_seed(const TriangleMesh<Real>& mesh, std::span<const PointSource> sources,
+void for_each_seed(const TriangleMesh<Real>& mesh, const WindowSources& sources,
                    const AtVertex& at_vertex, const Inside& inside) {
-  for (std::size_t n = 0; n < sources.size(); ++n) {
-    const PointSource& s = sources[n];
-    const Index number = static_cast<Index>(n);
+  for (std::size_t n = 0; n < sources.points.size(); ++n) {
+    const PointSource& s = sources.points[n];
+    const Index number = sources.number(n);
     const double offset = s.offset / mesh.unit();
     if (s.vertex != none) {
       at_vertex(mesh.inside_vertex(s.vertex), offset, number);

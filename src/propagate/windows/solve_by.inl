@@ -34,9 +34,10 @@ auto& WindowSolver<Real>::merged(const Crew& crew) {
 /// the last bit.
 template <class Real>
 template <bool kLabels, class Windows, class Crew>
-void WindowSolver<Real>::read_out(const Windows& windows, std::span<const PointSource> sources,
+void WindowSolver<Real>::read_out(const Windows& windows, const WindowSources& sources,
                                   const PropagateOptions& options, bool mends, const Crew& crew,
-                                  WorkspaceState<Real>& workspace, DistanceField<Real>& field) const {
+                                  WorkspaceState<Real>& workspace,
+                                  DistanceField<Real>& field) const {
   NumberRange<Real>::check_unit(mesh_.unit());
   constexpr Real infinity = std::numeric_limits<Real>::infinity();
   const Real radius = static_cast<Real>(options.radius);
@@ -52,7 +53,9 @@ void WindowSolver<Real>::read_out(const Windows& windows, std::span<const PointS
   });
   field.statistics = windows.statistics();
   if (mends) {
-    const auto mended = surface::mend<Real, kLabels>(mesh_, sources, workspace, crew);
+    const auto mended = surface::mend<Real, kLabels>(
+        mesh_, sources.only_points() ? sources.points : std::span<const PointSource>(), workspace,
+        crew);
     field.statistics.lowered_vertices = mended.lowered;
     field.statistics.raised_vertices = mended.raised;
   }
@@ -68,10 +71,12 @@ void WindowSolver<Real>::read_out(const Windows& windows, std::span<const PointS
         field.label[v] = in && d < infinity ? workspace.vertex_source[inside[v]] : none;
     }
   });
-  for (std::size_t n = 0; n < sources.size(); ++n)
-    if (const Index v = sources[n].vertex; v != none && windows.source(mesh_.inside_vertex(v)) == n)
-      if (sources[n].offset <= options.radius)
-        field.distance[v] = static_cast<Real>(sources[n].offset);
+  for (std::size_t n = 0; n < sources.points.size(); ++n) {
+    const PointSource& s = sources.points[n];
+    if (s.vertex != none && s.offset <= options.radius &&
+        windows.source(mesh_.inside_vertex(s.vertex)) == sources.number(n))
+      field.distance[s.vertex] = static_cast<Real>(s.offset);
+  }
   field.complete = windows.complete();
   const auto triangles = mesh_.triangles();
   std::atomic<std::size_t> reached{0};
@@ -86,10 +91,12 @@ void WindowSolver<Real>::read_out(const Windows& windows, std::span<const PointS
 
 template <class Real>
 template <class Crew>
-bool WindowSolver<Real>::solve_by(const Crew& crew, std::span<const PointSource> sources,
-                                  Accuracy accuracy, const PropagateOptions& options,
-                                  WorkspaceState<Real>& workspace, DistanceField<Real>& field) {
+bool WindowSolver<Real>::solve_by(const Crew& crew, const WindowSources& sources, Accuracy accuracy,
+                                  const PropagateOptions& options, WorkspaceState<Real>& workspace,
+                                  DistanceField<Real>& field) {
   constexpr bool alone = std::is_same_v<Crew, Alone>;
+  if constexpr (!alone)
+    if (!sources.only_points()) return solve(sources, accuracy, options, workspace, field);
   const bool merge = accuracy.kind() != Accuracy::Kind::exact;
   const auto solved = [&](auto& windows, const auto& limit) {
     if constexpr (alone) {
@@ -100,7 +107,7 @@ bool WindowSolver<Real>::solve_by(const Crew& crew, std::span<const PointSource>
     }
   };
   const auto take = [&](const auto& windows) {
-    if (sources.size() > 1)
+    if (sources.labels)
       read_out<true>(windows, sources, options, merge, crew, workspace, field);
     else
       read_out<false>(windows, sources, options, merge, crew, workspace, field);

@@ -19,13 +19,17 @@ struct Spread {
   using L = kernel::Lanes<Real>;
   static constexpr Real rounding = sizeof(Real) == sizeof(float) ? Real(2e-6) : Real(1e-9);
 
-  L x, h;    ///< the source as the edge sees it
+  L x, h;    ///< the source as the edge sees it, as beams have it
   L length;  ///< of the edge
   L at;      ///< where the light ends on it; `length` also for rays that leave by the other edge
   L distance;
 
   [[gnu::always_inline]] void go(const EnteredTriangle<Real>& t, const Window<Real>& w) {
     const Beam<Real>& beam = w.beam;
+    if (beam.is_parallel()) [[unlikely]] {
+      go_parallel(t, w);
+      return;
+    }
     const Real a = t.width - beam.x;
     const L cosine(t.cos_a, t.cos_a, t.cos_b, t.cos_b), sine(t.sin_a, t.sin_a, t.sin_b, t.sin_b);
     const L source(beam.x, beam.x, a, a), off(beam.h);
@@ -40,13 +44,18 @@ struct Spread {
     const L slope = below - sine * point;
     const L reached = point * off / slope;
     at = select((slope.v > 0) & (reached.v < (length * L(1 - rounding)).v), reached, length);
-    measure(w.sigma);
+    measure(t, w);
   }
 
   /// The distances where the light ends.
-  [[gnu::always_inline]] void measure(Real sigma) {
+  [[gnu::always_inline]] void measure(const EnteredTriangle<Real>& t, const Window<Real>& w) {
+    if (w.beam.is_parallel()) [[unlikely]] {
+      const Real to_b = t.sigma_at_b(w.beam, w.sigma);
+      distance = at * x + L(w.sigma, w.sigma, to_b, to_b);
+      return;
+    }
     const L along = at - x;
-    distance = sqrt(along * along + h * h) + L(sigma);
+    distance = sqrt(along * along + h * h) + L(w.sigma);
   }
 
   /// Does light on this side reach the apex?
@@ -69,7 +78,29 @@ struct Spread {
   }
   [[nodiscard]] Window<Real> right(const Window<Real>& w) const {
     const Real l = length[2];
+    if (w.beam.is_parallel()) [[unlikely]]
+      return {{-x[2], h[2], l - at[3], l - at[2]},
+              distance[2] + (l - at[2]) * x[2],
+              distance[3],
+              distance[2],
+              w.error};
     return {{l - x[2], h[2], l - at[3], l - at[2]}, w.sigma, distance[3], distance[2], w.error};
+  }
+
+ private:
+  [[gnu::noinline]] void go_parallel(const EnteredTriangle<Real>& t, const Window<Real>& w) {
+    const Beam<Real> to_left = t.seen_left(w.beam), to_right = t.seen_right(w.beam);
+    x = L(to_left.x, to_left.x, to_right.x, to_right.x);
+    h = L(to_left.h, to_left.h, to_right.h, to_right.h);
+    length = L(t.left, t.left, t.right, t.right);
+    const auto reached = [](Real place, Real all) {
+      return place < all * (1 - rounding) ? place : all;
+    };
+    at = L(reached(t.onto_left(w.beam, w.beam.begin), t.left),
+           reached(t.onto_left(w.beam, w.beam.end), t.left),
+           reached(t.onto_right(w.beam, w.beam.end), t.right),
+           reached(t.onto_right(w.beam, w.beam.begin), t.right));
+    measure(t, w);
   }
 };
 

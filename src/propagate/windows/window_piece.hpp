@@ -30,7 +30,7 @@ class WindowPiece {
   [[nodiscard]] Windows& windows() { return windows_; }
   [[nodiscard]] const Windows& windows() const { return windows_; }
 
-  void begin(std::span<const PointSource> sources, const PropagateOptions& options,
+  void begin(const WindowSources& sources, const PropagateOptions& options,
              const typename Windows::Limit& limit) {
     windows_.begin(sources, options, limit);
     for (Outbox& box : mail_.box) box.forget();

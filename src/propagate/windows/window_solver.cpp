@@ -79,10 +79,10 @@ std::size_t WindowSolver<Real>::bytes() const {
 
 template class WindowSolver<float>;
 template class WindowSolver<double>;
-template bool WindowSolver<float>::solve_by(const Alone&, std::span<const PointSource>, Accuracy,
+template bool WindowSolver<float>::solve_by(const Alone&, const WindowSources&, Accuracy,
                                             const PropagateOptions&, WorkspaceState<float>&,
                                             DistanceField<float>&);
-template bool WindowSolver<double>::solve_by(const Alone&, std::span<const PointSource>, Accuracy,
+template bool WindowSolver<double>::solve_by(const Alone&, const WindowSources&, Accuracy,
                                              const PropagateOptions&, WorkspaceState<double>&,
                                              DistanceField<double>&);
 

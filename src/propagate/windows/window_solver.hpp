@@ -10,7 +10,6 @@
 #include <plexway/propagate/accuracy.hpp>
 #include <plexway/propagate/distance_field.hpp>
 #include <plexway/propagate/options.hpp>
-#include <plexway/source/point_source.hpp>
 
 #include "propagate/alone.hpp"
 #include "propagate/windows/exact_windows.hpp"
@@ -18,6 +17,7 @@
 #include "propagate/windows/merged_windows.hpp"
 #include "propagate/windows/pieced_windows.hpp"
 #include "propagate/windows/vertex_angles.hpp"
+#include "propagate/windows/window_sources.hpp"
 #include "propagate/workspace_state.hpp"
 
 namespace plexway::windows {
@@ -45,17 +45,18 @@ class WindowSolver {
   /// What was to be merged is read out as labels are: no vertex is left below the straight line in
   /// space, and none farther than a neighbour and the edge between, where triangles without an area
   /// hide it. `workspace` is for that.
-  [[nodiscard]] bool solve(std::span<const PointSource> sources, Accuracy accuracy,
+  [[nodiscard]] bool solve(const WindowSources& sources, Accuracy accuracy,
                            const PropagateOptions& options, WorkspaceState<Real>& workspace,
                            DistanceField<Real>& field) {
     return solve_by(Alone{}, sources, accuracy, options, workspace, field);
   }
   /// Likewise by a crew (solve_by.inl): in pieces of about crew.piece_size() triangles, unless it
-  /// is Alone. Exact: the same bits. No windows are kept.
+  /// is Alone. Exact: the same bits. No windows are kept. What is not only from points is solved
+  /// as a whole, by one thread.
   template <class Crew>
-  [[nodiscard]] bool solve_by(const Crew& crew, std::span<const PointSource> sources,
-                              Accuracy accuracy, const PropagateOptions& options,
-                              WorkspaceState<Real>& workspace, DistanceField<Real>& field);
+  [[nodiscard]] bool solve_by(const Crew& crew, const WindowSources& sources, Accuracy accuracy,
+                              const PropagateOptions& options, WorkspaceState<Real>& workspace,
+                              DistanceField<Real>& field);
 
   /// Shall solves keep their windows?
   void keep_windows(bool keep);
@@ -73,7 +74,7 @@ class WindowSolver {
   };
 
   template <bool kLabels, class Windows, class Crew>
-  void read_out(const Windows& windows, std::span<const PointSource> sources,
+  void read_out(const Windows& windows, const WindowSources& sources,
                 const PropagateOptions& options, bool mends, const Crew& crew,
                 WorkspaceState<Real>& workspace, DistanceField<Real>& field) const;
   [[nodiscard]] ExactWindows<Real>& exact(const Alone&);
@@ -96,5 +97,12 @@ class WindowSolver {
 
 extern template class WindowSolver<float>;
 extern template class WindowSolver<double>;
+extern template bool WindowSolver<float>::solve_by(const Alone&, const WindowSources&, Accuracy,
+                                                   const PropagateOptions&, WorkspaceState<float>&,
+                                                   DistanceField<float>&);
+extern template bool WindowSolver<double>::solve_by(const Alone&, const WindowSources&, Accuracy,
+                                                    const PropagateOptions&,
+                                                    WorkspaceState<double>&,
+                                                    DistanceField<double>&);
 
 }  // namespace plexway::windows

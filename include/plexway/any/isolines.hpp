@@ -1,0 +1,28 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include <plexway/any_domain.hpp>
+#include <plexway/apps/fine_field.hpp>
+#include <plexway/apps/path.hpp>
+
+namespace plexway {
+
+/// Lines on a surface where a field has the values: arcs, which know the field inside of triangles
+/// (isolines.hpp). Throws UsageError for other shapes, and as plexway::isolines.
+[[nodiscard]] std::vector<Path> isolines(const AnyShape& shape, const AnyPathField& field,
+                                         std::span<const double> values, double tolerance);
+
+/// Triangles over a surface on which its field is linear within the tolerance (fine_field.hpp).
+/// Throws likewise.
+[[nodiscard]] FineField fine_field(const AnyShape& shape, const AnyPathField& field,
+                                   double tolerance);
+
+/// Lines where a field that was solved on `domain` has the values, straight in triangles: those of
+/// surfaces and mixed domains (AnyShape::isolines), and those of a cloud's sheet. UsageError for
+/// other kinds.
+[[nodiscard]] std::vector<Path> isolines(const AnyDomain& domain, const AnyField& field,
+                                         std::span<const double> values);
+
+}  // namespace plexway

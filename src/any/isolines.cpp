@@ -1,0 +1,57 @@
+#include <plexway/any/isolines.hpp>
+
+#include <variant>
+
+#include <plexway/any/complex.hpp>
+#include <plexway/apps/isolines.hpp>
+#include <plexway/error.hpp>
+
+namespace plexway {
+namespace {
+
+const io::Triangles& surface_of(const AnyShape& shape) {
+  const auto* surface = std::get_if<io::Triangles>(&shape.data());
+  if (surface == nullptr)
+    throw UsageError("a field is known inside of triangles on surfaces, not on a " +
+                     std::string(kind_noun(shape.kind())));
+  if (surface->positions.empty()) throw UsageError("isolines need positions");
+  return *surface;
+}
+
+DistanceInside inside(const AnyPathField& field) {
+  return [&field](Index face, const std::array<double, 4>& weights) {
+    return field.at({.simplex = face, .barycentric = weights});
+  };
+}
+
+}  // namespace
+
+std::vector<Path> isolines(const AnyShape& shape, const AnyPathField& field,
+                           std::span<const double> values, double tolerance) {
+  const io::Triangles& surface = surface_of(shape);
+  return isolines(surface.positions, surface.triangles, field.field().doubles(), values,
+                  inside(field), tolerance);
+}
+
+FineField fine_field(const AnyShape& shape, const AnyPathField& field, double tolerance) {
+  const io::Triangles& surface = surface_of(shape);
+  return fine_field(surface.positions, surface.triangles, field.field().doubles(), inside(field),
+                    {.tolerance = tolerance});
+}
+
+std::vector<Path> isolines(const AnyDomain& domain, const AnyField& field,
+                           std::span<const double> values) {
+  const CloudShape* cloud = domain.shape().cloud();
+  if (cloud == nullptr) return domain.shape().isolines(field.doubles(), values);
+  std::vector<Path> lines;
+  const auto along = [&]<class Real>(const PointCloud<Real>& sheet) {
+    const auto& found = std::get<DistanceField<Real>>(field.data);
+    lines = isolines(sheet, cloud->measured(), std::span<const Real>(found.distance), values);
+  };
+  with_complex(domain, [&](const auto& complex) {
+    if constexpr (std::decay_t<decltype(complex)>::kind == DomainKind::cloud) along(complex);
+  });
+  return lines;
+}
+
+}  // namespace plexway

@@ -1,0 +1,172 @@
+#include "apps/cells.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <type_traits>
+#include <utility>
+#include <variant>
+
+#include "complex/simplex_gluing.hpp"
+
+namespace plexway {
+namespace {
+
+// Corners of a simplex of a piece, vertices inside, in the caller's order.
+template <class Real>
+std::array<Index, 4> corners_in(const TriangleMesh<Real>& mesh, Index simplex) {
+  const auto [f, turned] = mesh.inside_face(simplex);
+  const Index* const c = mesh.triangles()[f].corner;
+  return {c[0], c[turned ? 2 : 1], c[turned ? 1 : 2], none};
+}
+template <class Real>
+std::array<Index, 4> corners_in(const TetMesh<Real>& mesh, Index simplex) {
+  const auto [t, turned] = mesh.inside_tet(simplex);
+  const Index* const c = mesh.tets()[t].corner;
+  return {c[0], c[1], c[turned ? 3 : 2], c[turned ? 2 : 3]};
+}
+template <class Real>
+std::array<Index, 4> corners_in(const Wireframe<Real>& wireframe, Index simplex) {
+  const auto ends = wireframe.inside_edge(simplex);
+  return {ends.from, ends.to, none, none};
+}
+
+template <class Real>
+void place(const TriangleMesh<Real>& mesh, Index simplex, std::array<Point3, 4>& at) {
+  const auto [f, turned] = mesh.inside_face(simplex);
+  const TriangleRecord<Real>& t = mesh.triangles()[f];
+  const double unit = mesh.unit();
+  at[0] = {0, 0, 0};
+  at[turned ? 2 : 1] = {static_cast<double>(t.length[0]) * unit, 0, 0};
+  at[turned ? 1 : 2] = {static_cast<double>(t.apex_x(0)) * unit,
+                        static_cast<double>(t.apex_h(0)) * unit, 0};
+}
+template <class Real>
+void place(const TetMesh<Real>& mesh, Index simplex, std::array<Point3, 4>& at) {
+  const std::array<Index, 4> corner = corners_in(mesh, simplex);
+  const auto point = [&](std::size_t i) {
+    const Vector3<Real>& p = mesh.points()[corner[i]];
+    return Point3{static_cast<double>(p.x), static_cast<double>(p.y), static_cast<double>(p.z)};
+  };
+  const Point3 origin = point(0);
+  for (std::size_t i = 0; i < 4; ++i) {
+    at[i] = minus(point(i), origin);
+    for (double& x : at[i]) x *= mesh.unit();
+  }
+}
+template <class Real>
+void place(const Wireframe<Real>& wireframe, Index simplex, std::array<Point3, 4>& at) {
+  at[0] = {0, 0, 0};
+  at[1] = {static_cast<double>(wireframe.inside_edge(simplex).length) * wireframe.unit(), 0, 0};
+}
+
+}  // namespace
+
+template <class Real>
+Cells::Cells(const MixedComplex<Real>& domain)
+    : outer_(domain.vertex_count()), vertex_(domain.vertex_count()) {
+  DisjointSets same(domain.vertex_count());
+  for (const auto& [v, w] : domain.outer_welds()) same.unite(v, w);
+  std::vector<Index> number(vertex_.size(), none);
+  Index count = 0;
+  for (Index v = 0; v < vertex_.size(); ++v) {
+    Index& n = number[same.find(v)];
+    if (n == none) n = count++;
+    vertex_[v] = n;
+  }
+  corner_begin_.reserve(domain.simplex_count() + 1);
+  corner_begin_.push_back(0);
+  around_begin_.assign(count + 1, 0);
+  for (const auto& piece : domain.pieces())
+    std::visit(
+        [&](const auto& complex) {
+          const std::span<const Index> inside = complex.vertices_inside();
+          for (Index v = 0; v < piece.vertices; ++v)
+            outer_[piece.first_vertex + inside[v]] = piece.first_vertex + v;
+          for (Index s = 0; s < piece.simplices; ++s) {
+            for (const Index v : corners_in(complex, s)) {
+              if (v == none) break;
+              corner_.push_back(vertex_[outer_[piece.first_vertex + v]]);
+              ++around_begin_[corner_.back() + 1];
+            }
+            corner_begin_.push_back(static_cast<std::uint32_t>(corner_.size()));
+          }
+        },
+        domain.complex(piece));
+  for (std::size_t v = 0; v < count; ++v) around_begin_[v + 1] += around_begin_[v];
+  around_.resize(corner_.size());
+  std::vector<std::uint32_t> end(around_begin_.begin(), around_begin_.end() - 1);
+  for (Index s = 0; s + 1 < corner_begin_.size(); ++s)
+    for (const Index v : corners(s)) around_[end[v]++] = s;
+}
+
+std::span<const Index> Cells::corners(Index simplex) const {
+  return std::span(corner_).subspan(corner_begin_[simplex],
+                                    corner_begin_[simplex + 1] - corner_begin_[simplex]);
+}
+
+void Cells::around(const CellFace& face, std::vector<Index>& simplices) const {
+  simplices.clear();
+  for (const Index s : around(face.vertex[0])) {
+    const auto own = corners(s);
+    if (own.size() < face.corners || (own.size() == 2 && face.corners > 1)) continue;
+    bool all = simplices.empty() || simplices.back() != s;  // a loop has its vertex twice
+    for (std::size_t i = 1; all && i < face.corners; ++i)
+      all = std::find(own.begin(), own.end(), face.vertex[i]) != own.end();
+    if (all) simplices.push_back(s);
+  }
+}
+
+CellFace Cells::between(Index one, Index other, const CellFace& at) const {
+  const auto a = corners(one), b = corners(other);
+  if (a.size() == 2 || b.size() == 2) return at;
+  CellFace shared;
+  for (const Index v : a) {
+    if (std::find(b.begin(), b.end(), v) == b.end()) continue;
+    if (shared.corners == 3) return at;
+    shared.add(v);
+  }
+  return shared;
+}
+
+std::size_t Cells::bytes() const {
+  return (outer_.capacity() + vertex_.capacity() + corner_.capacity() + around_.capacity()) *
+             sizeof(Index) +
+         (corner_begin_.capacity() + around_begin_.capacity()) * sizeof(std::uint32_t);
+}
+
+template <class Real>
+auto MixedCells<Real>::piece_of(Index simplex) const -> const Piece& {
+  const auto pieces = domain_.pieces();
+  return *(std::upper_bound(pieces.begin(), pieces.end(), simplex,
+                            [](Index s, const Piece& piece) { return s < piece.first_simplex; }) -
+           1);
+}
+
+template <class Real>
+Cell MixedCells<Real>::cell(Index simplex) const {
+  Cell cell;
+  for (const Index v : corners(simplex)) cell.vertex[cell.corners++] = v;
+  const Piece& piece = piece_of(simplex);
+  std::visit(
+      [&](const auto& complex) { place(complex, simplex - piece.first_simplex, cell.place); },
+      domain_.complex(piece));
+  return cell;
+}
+
+template <class Real>
+std::array<Index, 4> MixedCells<Real>::outer_corners(Index simplex) const {
+  const Piece& piece = piece_of(simplex);
+  std::array<Index, 4> corner = std::visit(
+      [&](const auto& complex) { return corners_in(complex, simplex - piece.first_simplex); },
+      domain_.complex(piece));
+  for (Index& v : corner)
+    if (v != none) v = outer_[piece.first_vertex + v];
+  return corner;
+}
+
+template Cells::Cells(const MixedComplex<float>&);
+template Cells::Cells(const MixedComplex<double>&);
+template class MixedCells<float>;
+template class MixedCells<double>;
+
+}  // namespace plexway

@@ -1,0 +1,90 @@
+#include <plexway/apps/mixed_path_field.hpp>
+
+#include <algorithm>
+#include <limits>
+#include <string>
+#include <variant>
+
+#include <plexway/error.hpp>
+
+#include "apps/cell_trace.hpp"
+#include "apps/solved.hpp"
+#include "executors/checks.hpp"
+
+namespace plexway {
+namespace {
+
+// How many corners a simplex has; 0 if there is none such.
+template <class Real>
+std::size_t corners_of(const MixedComplex<Real>& domain, Index simplex) {
+  for (const auto& piece : domain.pieces())
+    if (simplex >= piece.first_simplex && simplex - piece.first_simplex < piece.simplices)
+      return domain.complex(piece).index() == 0 ? 3 : domain.complex(piece).index() == 1 ? 4 : 2;
+  return 0;
+}
+
+}  // namespace
+
+template <class Real>
+PathField<MixedComplex<Real>>::PathField(const MixedComplex<Real>& domain,
+                                         std::span<const std::array<double, 3>> positions)
+    : domain_(&domain), positions_(positions), cells_(new MixedCells<Real>(domain)) {
+  if (!positions.empty() && positions.size() != domain.vertex_count())
+    throw UsageError(std::to_string(positions.size()) + " positions for " +
+                     std::to_string(domain.vertex_count()) +
+                     " vertices: give one a vertex, or none");
+}
+
+template <class Real>
+PathField<MixedComplex<Real>>::PathField(PathField&&) noexcept = default;
+template <class Real>
+PathField<MixedComplex<Real>>& PathField<MixedComplex<Real>>::operator=(PathField&&) noexcept =
+    default;
+template <class Real>
+PathField<MixedComplex<Real>>::~PathField() = default;
+
+template <class Real>
+void PathField<MixedComplex<Real>>::adopt(DistanceField<Real> found,
+                                          std::span<const PointSource> sources) {
+  field_ = std::move(found);
+  sources_.assign(sources.begin(), sources.end());
+  distance_.assign(cells_->vertex_count(), std::numeric_limits<double>::infinity());
+  for (std::size_t v = 0; v < field_.distance.size(); ++v) {
+    double& d = distance_[cells_->vertex(static_cast<Index>(v))];
+    d = std::min(d, static_cast<double>(field_.distance[v]));
+  }
+  solved_ = true;
+}
+
+template <class Real>
+Path PathField<MixedComplex<Real>>::trace(const PointSource& point,
+                                          const TraceOptions& options) const {
+  if (!solved_) throw UsageError("there is nothing to trace before a solve");
+  check(options);
+  PointSource at = point;
+  at.offset = 0;
+  const std::size_t corners = at.vertex == none ? corners_of(*domain_, at.simplex) : 4;
+  check_source(at, {domain_->vertex_count(), domain_->simplex_count(), "simplex",
+                    corners == 0 ? 4 : corners});
+  Path path = trace_cells(*cells_, distance_, sources_, at);
+  if (positions_.empty()) return path;
+  for (const PathPoint& p : path.points) {
+    const std::array<Index, 4> outer = cells_->outer_corners(p.simplex);
+    std::array<double, 3> place = {0, 0, 0};
+    for (std::size_t i = 0; i < 4 && outer[i] != none; ++i)
+      for (std::size_t k = 0; k < 3; ++k) place[k] += p.barycentric[i] * positions_[outer[i]][k];
+    path.positions.push_back(place);
+  }
+  return path;
+}
+
+template <class Real>
+std::size_t PathField<MixedComplex<Real>>::bytes() const {
+  return cells_->bytes() + distance_.capacity() * sizeof(double) +
+         field_.distance.capacity() * sizeof(Real);
+}
+
+template class PathField<MixedComplex<float>>;
+template class PathField<MixedComplex<double>>;
+
+}  // namespace plexway

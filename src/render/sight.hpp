@@ -1,0 +1,38 @@
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "canvas.hpp"
+#include "drawing.hpp"
+
+namespace plexway::render {
+
+/// Where points of the frame are in a picture that was drawn, and whether something is in front.
+class Sight {
+ public:
+  Sight(const Drawn& drawn, const Camera& camera);
+
+  struct Seen {
+    Place place;      ///< in pixels of the picture
+    double distance;  ///< from the camera
+  };
+  [[nodiscard]] Seen operator()(const Point& point) const;
+  /// Nothing drawn is nearer by more than `slack` and about two pixels.
+  [[nodiscard]] bool open(const Seen& seen, double slack) const;
+  /// How many pixels a length of the frame is at a distance.
+  [[nodiscard]] double pixels(double length, double distance) const;
+
+  /// A polyline's parts that are open, and those that are not, in pixels.
+  struct Parts {
+    std::vector<std::vector<Place>> open, hidden;
+  };
+  [[nodiscard]] Parts parts(std::span<const Point> line, double slack) const;
+
+ private:
+  const Drawn& drawn_;
+  const Camera& camera_;
+};
+
+}  // namespace plexway::render
