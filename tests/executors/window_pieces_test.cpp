@@ -211,6 +211,54 @@ TEMPLATE_TEST_CASE("pieces: windows from points on edges, inside pieces and betw
   }
 }
 
+// Too near to a corner for light over the edges there to be told from the corner's.
+TEMPLATE_TEST_CASE("pieces: windows from points that all but lie at a vertex, by one thread too",
+                   "", float, double) {
+  constexpr bool once = sizeof(TestType) < sizeof(double);
+  const Surface s = jittered(12, 5);
+  const auto mesh = s.mesh<TestType>();
+  std::mt19937 random(7);
+  Workspace<TestType> workspace;
+  DistanceField<TestType> field;
+  for (const double off : {1e-3, 2.5e-5, 1e-6, 1e-8, 9e-10, 3e-11, 1e-13, 3e-16})
+    for (int i = 0; i < 6; ++i) {
+      const Index f = below(random, s.faces.size());
+      const std::size_t c = below(random, 3);
+      std::array<double, 3> b{};
+      b[(c + 1) % 3] = i % 3 == 1 ? 0 : off;
+      b[(c + 2) % 3] = i % 3 == 2 ? 0 : off;
+      b[c] = 1 - b[(c + 1) % 3] - b[(c + 2) % 3];
+      Position at_source{};
+      for (std::size_t k = 0; k < 3; ++k)
+        for (std::size_t j = 0; j < 2; ++j) at_source[j] += b[k] * s.positions[s.faces[f][k]][j];
+      const PointSource sources[] = {PointSource::in(f, b)};
+      const auto worst = [&] {
+        double most = 0;
+        for (std::size_t v = 0; v < s.positions.size(); ++v) {
+          const auto& p = s.positions[v];
+          const double exact = std::hypot(p[0] - at_source[0], p[1] - at_source[1]);
+          const double miss = std::abs(static_cast<double>(field.distance[v]) - exact);
+          most = std::max(most, miss / std::max(exact, 1. / 12));
+        }
+        return most;
+      };
+      INFO(off << " off corner " << c << " of triangle " << f);
+      solve(Serial{}, mesh, sources, at(Accuracy::accurate()), workspace, field);
+      CHECK(worst() < 3e-4);
+      solve(pieces(2, 64), mesh, sources, at(Accuracy::accurate()), workspace, field);
+      CHECK(worst() < 3e-4);
+      if (once) continue;
+      solve(Serial{}, mesh, sources, at(Accuracy::exact()), workspace, field);
+      // Below 1e-9 by way of the corner: there and back.
+      const Position& corner = s.positions[s.faces[f][c]];
+      const double way = std::hypot(corner[0] - at_source[0], corner[1] - at_source[1]);
+      CHECK(worst() < (off < 1e-9 ? 12 * 2 * way : 0) + 1e-13);
+      const auto serial = field.distance;
+      solve(pieces(2, 64), mesh, sources, at(Accuracy::exact()), workspace, field);
+      CHECK(field.distance == serial);
+    }
+}
+
 TEST_CASE("pieces: windows from points on edges of several triangles, and whose a vertex is") {
   for (const Surface& s : {sheets(3, 10), sheets(5, 6), moebius(60, 8), cube(8)}) {
     const auto mesh = s.mesh<double>();

@@ -88,7 +88,7 @@ void MergedWindows<Real>::seed_inside(Order& order, Index f, const std::array<do
         {static_cast<Real>(beam.x), static_cast<Real>(beam.h), 0, t.length[e]}, sigma, 0, 0, 0};
     window.begin_at(0);
     window.end_at(t.length[e]);
-    if (b[edge_before(e)] > on_edge) leave(order, f, e, window, number);
+    if (b[edge_before(e)] > on_edge<Real>) leave(order, f, e, window, number);
     offer(order, t.corner[e], sigma + static_cast<Real>(std::sqrt(x * x + h * h)),
           static_cast<Index>(3 * f + e), {static_cast<Real>(x), static_cast<Real>(h)}, number, 0);
   }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <span>
 #include <utility>
@@ -56,8 +57,25 @@ struct Sheet {
   }
 };
 
+/// The source inside triangle t as its edge e sees it.
+template <class Real>
+struct SeenFromEdge {
+  double x, h, length;
+  SeenFromEdge(const TriangleRecord<Real>& t, const std::array<double, 4>& b, std::size_t e)
+      : x(b[edge_after(e)] * static_cast<double>(t.length[e]) +
+          b[edge_before(e)] * static_cast<double>(t.apex_x(e))),
+        h(b[edge_before(e)] * static_cast<double>(t.apex_h(e))),
+        length(static_cast<double>(t.length[e])) {}
+};
+
+/// So small a barycentric coordinate is none: the point lies on that edge. With two it lies at a
+/// corner, since its light over the edges there would be lost in rounding.
+template <class Real>
+inline constexpr double on_edge = sizeof(Real) == sizeof(float) ? 3e-5 : 1e-9;
+
 /// Calls at_vertex(v, offset, n) or inside(f, barycentric, offset, n) for each of the points, by
-/// the surface's numbers and in its unit.
+/// the surface's numbers and in its unit. The offset of a vertex that the point only all but lies
+/// at is longer by the way there, so that nothing comes out nearer than it is.
 template <class Real, class AtVertex, class Inside>
 void for_each_seed(const TriangleMesh<Real>& mesh, const WindowSources& sources,
                    const AtVertex& at_vertex, const Inside& inside) {
@@ -72,23 +90,15 @@ void for_each_seed(const TriangleMesh<Real>& mesh, const WindowSources& sources,
     const auto [f, turned] = mesh.inside_face(s.simplex);
     std::array<double, 4> b = s.barycentric;
     if (turned) std::swap(b[1], b[2]);
-    const auto corner = std::find(b.begin(), b.begin() + 3, 1.);
-    if (corner != b.begin() + 3)
-      at_vertex(mesh.triangles()[f].corner[corner - b.begin()], offset, number);
-    else
+    const TriangleRecord<Real>& t = mesh.triangles()[f];
+    const auto k = static_cast<std::size_t>(std::max_element(b.begin(), b.begin() + 3) - b.begin());
+    if (std::max(b[edge_after(k)], b[edge_before(k)]) <= on_edge<Real>) {
+      const SeenFromEdge<Real> seen(t, b, k);
+      at_vertex(t.corner[k], offset + std::sqrt(seen.x * seen.x + seen.h * seen.h), number);
+    } else {
       inside(f, b, offset, number);
+    }
   }
 }
-
-/// The source inside triangle t as its edge e sees it.
-template <class Real>
-struct SeenFromEdge {
-  double x, h, length;
-  SeenFromEdge(const TriangleRecord<Real>& t, const std::array<double, 4>& b, std::size_t e)
-      : x(b[edge_after(e)] * static_cast<double>(t.length[e]) +
-          b[edge_before(e)] * static_cast<double>(t.apex_x(e))),
-        h(b[edge_before(e)] * static_cast<double>(t.apex_h(e))),
-        length(static_cast<double>(t.length[e])) {}
-};
 
 }  // namespace plexway::windows

@@ -7,11 +7,9 @@
 #include <plexway/complex/detail/triangle_record.hpp>
 
 #include "propagate/windows/cross_edge.hpp"
+#include "propagate/windows/sheet.hpp"
 
 namespace plexway::windows {
-
-/// So small a barycentric coordinate is none.
-inline constexpr double on_edge = 1e-9;
 
 /// The triangles that a point of f lies in: calls visit(f, barycentric, 3) and, where it lies on an
 /// edge, visit(g, barycentric, k) for the others there; edge k of g is that one.
@@ -21,7 +19,8 @@ void triangles_at(std::span<const TriangleRecord<Real>> triangles, Index f,
   visit(f, b, std::size_t{3});
   const Index sentinel = static_cast<Index>(triangles.size() - 1);
   for (std::size_t e = 0; e < 3; ++e) {
-    if (b[edge_before(e)] > on_edge || triangles[f].across[e] >> Across::face_shift == sentinel)
+    if (b[edge_before(e)] > on_edge<Real> ||
+        triangles[f].across[e] >> Across::face_shift == sentinel)
       continue;
     cross_edge(triangles, f, e, [&](Index across, bool turned) {
       const std::size_t k = across & Across::edge_mask;
