@@ -161,8 +161,9 @@ class AnyDomain {
   bool solve_each(const AnyExecutor& executor, const SourceList& sources,
                   const PropagateOptions& options, std::span<float> rows) const;
 
-  /// A field that can tell ways; on mixed domains and complexes it traces none, and `at` takes
-  /// ReadOut::linear alone (UsageError). Its distances are those of `solve`; ways are looked for in
+  /// A field that can tell ways. On complexes of simplices it traces none, and `at` takes
+  /// ReadOut::linear alone (UsageError); on mixed domains the other levels are the length of the way
+  /// from the point. Its distances are those of `solve`; ways are looked for in
   /// the shape's triangles. Cost: a solve, and those triangles once, where others were taken.
   [[nodiscard]] AnyPathField path_field(const AnyExecutor& executor,
                                         std::span<const PointSource> sources,

@@ -34,9 +34,6 @@ enum class SourceKind {
   X(order,                                                                                         \
     "the schedule priority needs one thread that takes the nearest label: use the executor "       \
     "Serial, or the schedules dual_queue or fifo")                                                 \
-  X(mixed_threads,                                                                                 \
-    "mixed domains are not propagated on by several threads: use the executor Serial, or "         \
-    "solve_each, which takes one thread a source")                                                 \
   X(mixed_visibility, "mixed domains know the default visibility only")                            \
   X(mixed_order, "mixed domains are not propagated nearest first: use the dual queue")             \
   X(table,                                                                                         \
@@ -71,7 +68,13 @@ enum class SourceKind {
     "windows start from points and sets of vertices: use the accuracy fast for curves and "        \
     "triangles")                                                                                   \
   X(windows_float,                                                                                 \
-    "exact distances need double precision: make the domain of double, or ask for accurate")
+    "exact distances need double precision: make the domain of double, or ask for accurate") \
+  X(paths_domain,                                                                                  \
+    "paths are traced on surfaces, solids, wireframes, clouds and mixed domains: build one of "    \
+    "these of the simplices")                                                                      \
+  X(paths_refraction,                                                                              \
+    "paths are not traced on a surface that refracts: build it with one length an edge, or as a "  \
+    "mixed domain of a piece for each speed")
 
 #define PLEXWAY_NAME(name, sentence) name,
 /// The reasons of PLEXWAY_REFUSALS by name; `nothing` is none.
@@ -146,6 +149,14 @@ constexpr Support support_of_windows(const Combination& c) {
   return Refusal::nothing;
 }
 
+/// Are paths traced on it? Else why not. By what executor it was solved does not matter.
+constexpr Support support_of_paths(DomainKind domain, MetricKind metric = MetricKind::intrinsic) {
+  if (domain == DomainKind::simplices) return Refusal::paths_domain;
+  if (domain == DomainKind::surface && metric == MetricKind::refracting)
+    return Refusal::paths_refraction;
+  return Refusal::nothing;
+}
+
 /// What `usual` comes to in this cell; whatever else is asked for as it is.
 [[nodiscard]] Accuracy resolved(Accuracy accuracy, const Combination& c);
 
@@ -169,7 +180,6 @@ constexpr Support support(const Combination& c) {
   // What the types of executor and domain say.
   if (gl && (c.domain == simplices || c.domain == mixed)) return Refusal::gl_domain;
   if (gl && !c.single_precision) return Refusal::gl_double;
-  if (c.executor == ExecutorKind::openmp && c.domain == mixed) return Refusal::mixed_threads;
   // Rules.
   if (tuned && c.domain != surface && c.domain != cloud) return Refusal::table;
   if (c.domain == mixed && !saddles) return Refusal::mixed_visibility;

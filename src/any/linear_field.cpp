@@ -7,6 +7,7 @@
 #include <vector>
 
 #include <plexway/error.hpp>
+#include <plexway/support.hpp>
 
 #include "complex/point3.hpp"
 #include "executors/checks.hpp"
@@ -29,9 +30,7 @@ class LinearField final : public AnyPathField::State {
   }
 
   Path trace(const PointSource& point, const TraceOptions& options) const override {
-    if (!trace_)
-      throw UsageError(
-          "paths are traced on surfaces, solids, wireframes, clouds and mixed domains");
+    if (!trace_) support_of_paths(shape_.kind()).require();
     return trace_(point, options);
   }
 

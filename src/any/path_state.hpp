@@ -16,11 +16,6 @@
 
 namespace plexway {
 
-template <class Complex>
-inline constexpr bool has_paths =
-    Complex::kind == DomainKind::surface || Complex::kind == DomainKind::solid ||
-    Complex::kind == DomainKind::wireframe || Complex::kind == DomainKind::cloud;
-
 /// Where paths are drawn; lengths of their own are not those between positions.
 inline std::span<const std::array<double, 3>> path_places(const AnyShape& shape, bool measured) {
   if (measured) return {};

@@ -128,7 +128,7 @@ class PreparedKind : public Prepared {
       const PropagateOptions& options) const override {
     if constexpr (Complex::kind == DomainKind::mixed) {
       throw UsageError("a mixed domain has numbers of its own");  // PreparedMixed knows them
-    } else if constexpr (has_paths<Complex>) {
+    } else if constexpr (support_of_paths(Complex::kind)) {
       auto state = std::make_shared<PathsOf<Complex>>(shared_from_this(), shape_, of(), measured_);
       state->solve(executor, sources, options);
       return state;

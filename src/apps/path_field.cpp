@@ -114,7 +114,7 @@ PathField<Domain<Real>>::PathField(const Domain<Real>& domain,
                                    std::span<const std::array<double, 3>> positions)
     : domain_(&domain), positions_(positions) {
   if constexpr (std::is_same_v<Domain<Real>, TriangleMesh<Real>>)
-    refuse_refraction(domain.summary(), "tracing paths");
+    support_of_paths(DomainKind::surface, domain.metric()).require();
   const std::span<const Index> inside = domain.vertices_inside();
   if (!positions.empty() && positions.size() != inside.size())
     throw UsageError(std::to_string(positions.size()) + " positions for " +

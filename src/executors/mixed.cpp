@@ -7,6 +7,7 @@
 #include "complex/joined_pieces.hpp"
 #include "executors/checks.hpp"
 #include "executors/run.hpp"
+#include "executors/share_out.hpp"
 #include "propagate/mixed_propagation.hpp"
 #include "propagate/windows/window_solver.hpp"
 
@@ -65,9 +66,20 @@ bool solve_by_windows(const TriangleMesh<Real>& mesh, std::span<const PointSourc
   return true;
 }
 
+// How pieces that wait are worked through: one after the other, or a thread each.
+PiecesAtOnce at_once(const Serial&, const PropagateOptions&) { return {}; }
+PiecesAtOnce at_once(const OpenMP& team, const PropagateOptions& options) {
+  static_cast<void>(team_size(team));  // that there can be one
+  // A budget is spent in order.
+  if (options.max_expansions < PropagateOptions{}.max_expansions) return {};
+  return [team](std::size_t count, const std::function<void(std::size_t, std::size_t)>& work) {
+    detail::share_out(team, count, work);
+  };
+}
+
 // On a domain whose pieces are joined.
 template <class Real>
-void solve_joined(const MixedComplex<Real>& domain, std::span<const PointSource> sources,
+void solve_joined(const PiecesAtOnce& at_once, const MixedComplex<Real>& domain, std::span<const PointSource> sources,
                   const PropagateOptions& options, MixedWorkspace<Real>& workspace,
                   DistanceField<Real>& field) {
   bool gave_up = false;
@@ -81,7 +93,7 @@ void solve_joined(const MixedComplex<Real>& domain, std::span<const PointSource>
     const auto [piece, source] = find_piece(domain, sources[n]);
     propagation.seed(piece, source, static_cast<Index>(n));
   }
-  propagation.run();
+  propagation.run(at_once);
   propagation.read_out(workspace.distance, workspace.label, field);
   field.statistics.windows_gave_up = gave_up;
 
@@ -119,8 +131,8 @@ void solve_joined(const MixedComplex<Real>& domain, std::span<const PointSource>
 
 }  // namespace
 
-template <class Real>
-void solve_points(const Serial&, const MixedComplex<Real>& domain,
+template <ExecutorType E, class Real>
+void solve_points(const E& executor, const MixedComplex<Real>& domain,
                   std::span<const PointSource> sources, const PropagateOptions& options,
                   MixedWorkspace<Real>& workspace, DistanceField<Real>& field) {
   check(sources, options);
@@ -138,7 +150,7 @@ void solve_points(const Serial&, const MixedComplex<Real>& domain,
       else
         source.simplex = joined->simplex[source.simplex];
     DistanceField<Real> all;
-    solve_joined(joined->domain, std::span<const PointSource>(own), options, workspace, all);
+    solve_joined(at_once(executor, options), joined->domain, std::span<const PointSource>(own), options, workspace, all);
     field.complete = all.complete;
     field.statistics = all.statistics;
     field.accuracy = all.accuracy;
@@ -151,17 +163,13 @@ void solve_points(const Serial&, const MixedComplex<Real>& domain,
       if (!all.error.empty()) field.error[v] = all.error[joined->vertex[v]];
     }
   } else {
-    solve_joined(domain, sources, options, workspace, field);
+    solve_joined(at_once(executor, options), domain, sources, options, workspace, field);
   }
   if (sources.size() == 1) field.label.clear();
 }
 
 namespace detail {
-#define PLEXWAY_COMPILE_MIXED(...)     \
-  PLEXWAY_COMPILE(Serial, __VA_ARGS__) \
-  PLEXWAY_EACH_OF(OpenMP, __VA_ARGS__)
-PLEXWAY_MIXED(PLEXWAY_COMPILE_MIXED)
-#undef PLEXWAY_COMPILE_MIXED
+PLEXWAY_MIXED(PLEXWAY_COMPILE_HERE)
 }  // namespace detail
 
 }  // namespace plexway

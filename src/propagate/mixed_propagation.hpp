@@ -4,8 +4,10 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <functional>
 #include <limits>
 #include <memory>
+#include <mutex>
 #include <vector>
 
 #include <plexway/complex/mixed_complex.hpp>
@@ -18,6 +20,10 @@
 #include "propagate/mixed_wire.hpp"
 
 namespace plexway {
+
+/// Calls work(k, thread) for all k below a count, several at once; the caller's thread is 0.
+using PiecesAtOnce = std::function<void(
+    std::size_t count, const std::function<void(std::size_t k, std::size_t thread)>& work)>;
 
 /// One propagation over a mixed domain: pieces take turns, and between them labels cross the welds.
 template <class Real>
@@ -37,11 +43,12 @@ class MixedPropagation {
         crossings_(domain, pieces_) {
     const Real step =
         options.schedule == Schedule::fifo ? infinity : static_cast<Real>(options.step);
-    // What pieces count and report is summed up here.
-    PropagateOptions mine = options;
-    if (options.progress) mine.progress = [this](const Progress& p) { return report(p); };
     for (const auto& piece : domain.pieces()) {
       Workspace<Real>& workspace = workspaces[piece.number];
+      // What pieces count and report is summed up here.
+      PropagateOptions mine = options;
+      if (options.progress)
+        mine.progress = [this, p = pieces_.size()](const Progress& own) { return report(p, own); };
       const auto& complex = domain.complex(piece);
       if (const auto* surface = std::get_if<TriangleMesh<Real>>(&complex))
         pieces_.push_back(std::make_unique<MixedSurface<Real>>(*surface, workspace, mine, step));
@@ -52,6 +59,8 @@ class MixedPropagation {
                                                             workspace, mine, step));
     }
     waits_.assign(pieces_.size(), 0);
+    reported_.resize(pieces_.size());
+    on_callers_thread_.assign(pieces_.size(), 1);
     find_bends();
     offered_.assign(domain.members().size() + 2 * domain.welds().size(), infinity);
   }
@@ -72,20 +81,26 @@ class MixedPropagation {
             waits_[weld.piece[1 - side]] = 1;
   }
 
-  void run() {
+  /// Pieces that wait know nothing of each other until labels cross the welds: whether they run one
+  /// after the other or `at_once`, the bits are the same.
+  void run(const PiecesAtOnce& at_once) {
+    std::vector<std::size_t> waiting;
     do {
-      for (std::size_t p = 0; p < pieces_.size(); ++p) {
-        if (!waits_[p]) continue;
-        waits_[p] = 0;
-        running_ = p;
-        const std::size_t spent = expansions();
-        const std::size_t left =
-            options_.max_expansions > spent ? options_.max_expansions - spent : 0;
-        const std::size_t own = pieces_[p]->statistics().expansions;
-        constexpr std::size_t most = std::numeric_limits<std::size_t>::max();
-        pieces_[p]->run(left > most - own ? most : own + left, crossings_.first());
-        if (pieces_[p]->out_of_budget()) complete_ = false;
+      waiting.clear();
+      for (std::size_t p = 0; p < pieces_.size(); ++p)
+        if (std::exchange(waits_[p], 0) != 0) waiting.push_back(p);
+      if (at_once && waiting.size() > 1) {
+        at_once(waiting.size(), [&](std::size_t k, std::size_t thread) {
+          run_piece(waiting[k], std::numeric_limits<std::size_t>::max(), thread == 0);
+        });
+      } else {
+        for (const std::size_t p : waiting) {
+          const std::size_t spent = expansions();
+          run_piece(p, options_.max_expansions > spent ? options_.max_expansions - spent : 0, true);
+        }
       }
+      for (const std::size_t p : waiting)
+        if (pieces_[p]->out_of_budget()) complete_ = false;
       // Bends at vertices last: they serve what nothing else reaches.
     } while (complete_ && (cross() || bend()));
   }
@@ -134,15 +149,27 @@ class MixedPropagation {
     return sum;
   }
 
-  bool report(const Progress& of_piece) const {
-    Progress all = of_piece;
+  void run_piece(std::size_t p, std::size_t left, bool on_callers_thread) {
+    on_callers_thread_[p] = on_callers_thread;
+    const std::size_t own = pieces_[p]->statistics().expansions;
+    constexpr std::size_t most = std::numeric_limits<std::size_t>::max();
+    pieces_[p]->run(left > most - own ? most : own + left, crossings_.first());
+  }
+
+  // The caller's function is called on the caller's thread.
+  bool report(std::size_t piece, const Progress& own) {
+    const std::scoped_lock lock(reporting_);
+    reported_[piece] = own;
+    if (on_callers_thread_[piece] == 0) return !stopped_;
+    Progress all = own;
     all.simplices = domain_.simplex_count();
     for (std::size_t p = 0; p < pieces_.size(); ++p) {
-      if (p == running_) continue;
-      all.expansions += pieces_[p]->statistics().expansions;
-      all.reached += pieces_[p]->statistics().reached_simplices;
+      if (p == piece) continue;
+      all.expansions += reported_[p].expansions;
+      all.reached += reported_[p].reached;
     }
-    return options_.progress(all);
+    if (!options_.progress(all)) stopped_ = true;
+    return !stopped_;
   }
 
   [[nodiscard]] Index root(Index number) const { return crossings_.root(number); }
@@ -321,7 +348,10 @@ class MixedPropagation {
   std::vector<char> isometric_;  // by hinge
   std::vector<Index> bends_;     // by weld: a hinge at which a path may bend there, or none
   std::vector<char> waits_;
-  std::size_t running_ = 0;
+  std::vector<Progress> reported_;  // by piece
+  std::mutex reporting_;
+  bool stopped_ = false;
+  std::vector<char> on_callers_thread_;  // by piece
   bool complete_ = true;
 };
 

@@ -82,5 +82,25 @@ TEST_CASE("any domain: paths are refracted where the speeds of a solid jump") {
   const AnyField field = any.solve(Serial{}, PointSource::at(100));
   for (Index v = 0; v < positions.size(); ++v)
     CHECK(field[v] == Approx(samples::distance(positions[100], positions[v]) / 3).epsilon(1e-9));
-  CHECK_THROWS_AS(any.solve(OpenMP{2}, PointSource::at(0)), UsageError);
+  // Several threads, a piece each: the same bits; and the options that end a solve early.
+  if (!openmp_built()) return;
+  options.lengths = std::make_shared<const MeasuredLengths>(shape.measure(speeds));
+  const AnyDomain layered(shape, options);
+  for (const Index source : {Index(0), Index(300)}) {
+    const auto alone = layered.solve(Serial{}, PointSource::at(source));
+    for (const int threads : {1, 2, 3})
+      CHECK(layered.solve(OpenMP{threads}, PointSource::at(source)).doubles() == alone.doubles());
+  }
+  PropagateOptions few;
+  few.max_expansions = 500;
+  CHECK(layered.solve(OpenMP{2}, PointSource::at(0), few).doubles() ==
+        layered.solve(Serial{}, PointSource::at(0), few).doubles());
+  PropagateOptions watched;
+  std::size_t calls = 0;
+  watched.progress = [&](const Progress& p) {
+    CHECK(p.simplices == tets.size());
+    return ++calls < 3;
+  };
+  CHECK_THROWS_AS(layered.solve(OpenMP{2}, PointSource::at(0), watched), Cancelled);
+  CHECK_THROWS_AS(layered.solve(OpenMP{-1}, PointSource::at(0)), UsageError);
 }

@@ -270,3 +270,38 @@ TEST_CASE("a path through layers of several speeds, their cells moved at random"
             1e-5, 1e-4);
   }
 }
+
+// Distances are measured against a round ball, but this one has facets, so they come out short. A
+// path lies in the facets: what is short with both is theirs.
+TEST_CASE("on a ball with a fast skin distances are those of paths over its facets") {
+  const Block b = ball(8);
+  Scene scene(0);
+  const auto solid = scene.add(b);
+  const auto skin = scene.add(skin_of(b), 3);
+  scene.weld(solid, skin);
+  Index source = 0;
+  for (Index v = 0; v < solid.vertices; ++v)
+    if (distance(scene.positions[v], {.3, .5, .81}) <
+        distance(scene.positions[source], {.3, .5, .81}))
+      source = v;
+  PathField field(scene.complex);
+  field.solve(Serial{}, PointSource::at(source));
+  double mean = 0, worst = 0, low = 0, round = 0;
+  std::size_t count = 0;
+  for (Index v = 0; v < scene.positions.size(); v += 9) {
+    const double truth = by_the_skin(scene.positions[source], scene.positions[v], 3);
+    if (truth < 1e-12) continue;
+    const double length = field.trace(v).length, d = field.distances().distance[v];
+    mean += std::abs(d / length - 1);
+    worst = std::max(worst, std::abs(d / length - 1));
+    low = std::min(low, d / length - 1);
+    round = std::max(round, std::abs(length / truth - 1));
+    ++count;
+  }
+  mean /= static_cast<double>(count);
+  CAPTURE(mean, worst, low, round);
+  CHECK(mean < 1e-3);
+  CHECK(worst < 1e-2);
+  CHECK(low > -1e-3);
+  CHECK(round > 1e-2);  // the facets alone
+}

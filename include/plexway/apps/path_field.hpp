@@ -31,7 +31,8 @@ struct Solved;
 ///   Path path = field.trace(PointSource::at(17));
 ///
 /// @endcode
-/// Domain: TriangleMesh, TetMesh or Wireframe. The domain and the positions are referred to and
+/// Domain: TriangleMesh, TetMesh or Wireframe; PointCloud and MixedComplex by headers of their own
+/// (cloud_path_field.hpp, mixed_path_field.hpp). The domain and the positions are referred to and
 /// must outlive it.
 template <class Domain>
 class PathField;
@@ -39,10 +40,9 @@ class PathField;
 /// On a surface, a solid or a wireframe.
 template <template <class> class Domain, class Real>
 class PathField<Domain<Real>> {
-  static_assert(Domain<Real>::kind == DomainKind::surface ||
-                    Domain<Real>::kind == DomainKind::solid ||
-                    Domain<Real>::kind == DomainKind::wireframe,
-                "paths are traced on surfaces, solids, wireframes and clouds");
+  static_assert(support_of_paths(Domain<Real>::kind).refusal() != Refusal::paths_domain,
+                "paths are traced on surfaces, solids, wireframes, clouds and mixed domains: see "
+                "PLEXWAY_REFUSALS");
 
  public:
   /// `positions`, one a vertex in the caller's order and unit, are those the domain was made from.
