@@ -266,7 +266,7 @@ TEMPLATE_TEST_CASE("merged windows: edges of no length, as raw scans have them",
       return static_cast<std::size_t>(std::find(s.faces[f].begin(), s.faces[f].end(), v) -
                                       s.faces[f].begin());
     };
-    std::vector<std::size_t>& fan = fans[v];
+    std::vector<std::size_t> fan = fans[v];
     if (fan.size() < 4) continue;
     for (const std::size_t f : fan)  // not where a neighbour has a twin
       for (const Index w : s.faces[f])
