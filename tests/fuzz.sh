@@ -1,53 +1,77 @@
 #!/bin/sh
-# All fuzzers, one after the other, for so many seconds each:
-#   tests/fuzz.sh [seconds [folder of the build]]
-# Builds them first (clang, libFuzzer, AddressSanitizer, UndefinedBehaviorSanitizer). What they try
-# that is new stays in FOLDER/found/<format>; what breaks a promise lies there too, as crash-* or
-# timeout-*, and belongs into tests/fuzz/corpus/<format> once it is mended. A line for each at the end.
-# An hour of each: tests/fuzz.sh 3600
+# Fuzzers, one at a time (clang, libFuzzer, AddressSanitizer, UndefinedBehaviorSanitizer):
+#   tests/fuzz.sh [seconds [folder of the build [seconds in all]]]
+# Each runs for so many seconds, once; where `seconds in all` is given, in turns until they are up,
+# the one that ran least so far first, so the same command goes on where it ended. An hour of each:
+#   tests/fuzz.sh 3600
 #
-# PLEXWAY_FUZZ_UNTIL, in seconds since 1970: begins none that would end later, and exits with 75.
-# PLEXWAY_FUZZ_ON=1: passes those over that ran as long before, so a run that ended goes on.
+# What they try that is new stays in FOLDER/found/<format>; what breaks a promise lies there, too,
+# as crash-* or timeout-*, and belongs into tests/fuzz/corpus/<format> once it is mended. A line for
+# each run, also in <format>.runs: seconds of the processor, inputs, edges, finding or none.
+#
+# PLEXWAY_FUZZ_TOOL=ON: argument lines, too, for which the tool is built.
 set -eu
 cd "$(dirname "$0")/.."
 seconds="${1:-3600}"
 folder="${2:-build/fuzz}"
+in_all="${3:-0}"
 .ci/configure "$folder" -DCMAKE_BUILD_TYPE=Debug "-DCMAKE_CXX_FLAGS_DEBUG=-O1 -g1" \
   -DCMAKE_CXX_COMPILER=clang++ -DPLEXWAY_FUZZ=ON "-DPLEXWAY_SANITIZE=address;undefined" \
-  -DPLEXWAY_BUILD_TOOL=OFF -DPLEXWAY_BUILD_BENCH=OFF -DPLEXWAY_BUILD_EXAMPLES=OFF \
+  "-DPLEXWAY_BUILD_TOOL=${PLEXWAY_FUZZ_TOOL:-OFF}" \
+  -DPLEXWAY_BUILD_BENCH=OFF -DPLEXWAY_BUILD_EXAMPLES=OFF \
   -DPLEXWAY_WITH_OPENVDB=OFF -DPLEXWAY_WITH_PCL=OFF -DPLEXWAY_WITH_GL=OFF \
   -DPLEXWAY_WITH_FLANN=OFF -DPLEXWAY_WITH_BOOST_GRAPH=OFF >/dev/null
 cmake --build "$folder" --parallel "$(nproc)" --target plexway_fuzzers
-failed=0
-for program in "$folder"/bin/fuzz_*; do
-  format="${program##*/fuzz_}"
-  found="$folder/found/$format"
+until="$(($(date +%s) + in_all))"
+ran=" "
+failed=" "
+
+names() {
+  for program in "$folder"/bin/fuzz_*; do
+    name="${program##*/fuzz_}"
+    if [ "$name" != arguments ] || [ "${PLEXWAY_FUZZ_TOOL:-OFF}" = ON ]; then echo "$name"; fi
+  done
+}
+
+# The one that ran least, of those that may run once more; nothing if there is none.
+next() {
+  for name in $(names); do
+    case "$failed" in *" $name "*) continue ;; esac
+    if [ "$in_all" = 0 ]; then
+      case "$ran" in *" $name "*) continue ;; esac
+    fi
+    touch "$folder/found/$name.runs"
+    awk -v name="$name" '{ sum += $1 } END { print sum + 0, name }' "$folder/found/$name.runs"
+  done | sort -n | sed -n '1s/.* //p'
+}
+
+mkdir -p "$folder/found"
+while [ "$in_all" = 0 ] || [ "$(($(date +%s) + seconds))" -le "$until" ]; do
+  name="$(next)"
+  [ -n "$name" ] || break
+  found="$folder/found/$name"
   mkdir -p "$found"
   log="$found.log"
-  line="$found.line"
-  if [ "${PLEXWAY_FUZZ_ON:-0}" = 1 ] && [ -f "$line" ] &&
-    [ "$(sed -n 1p "$line")" -ge "$seconds" ]; then
-    sed -n 2p "$line"
-    grep -q FINDING "$line" && failed=1
-    continue
-  fi
-  if [ -n "${PLEXWAY_FUZZ_UNTIL:-}" ] &&
-    [ "$(($(date +%s) + seconds))" -gt "$PLEXWAY_FUZZ_UNTIL" ]; then
-    exit 75
-  fi
+  verdict=none
   # What holds a reader's memory together must not depend on how long its text is.
-  if "$program" -max_total_time="$seconds" -timeout=25 -rss_limit_mb=3000 -max_len=4096 \
-    -print_final_stats=1 -artifact_prefix="$found/" "$found" "tests/fuzz/corpus/$format" \
-    >"$log" 2>&1; then
-    verdict="no finding"
-  else
-    verdict="FINDING, see $log"
-    failed=1
-  fi
-  runs="$(sed -n 's/^stat::number_of_executed_units: *//p' "$log")"
+  (
+    code=0
+    "$folder/bin/fuzz_$name" -max_total_time="$seconds" -timeout=25 -rss_limit_mb=3000 \
+      -max_len=4096 -artifact_prefix="$found/" "$found" "tests/fuzz/corpus/$name" \
+      >"$log" 2>&1 || code=$?
+    times >"$found.time"
+    exit $code
+  ) || verdict=FINDING
+  cpu="$(tail -1 "$found.time" | tr 'ms' '  ' | awk '{ printf "%.1f", 60 * ($1 + $3) + $2 + $4 }')"
+  inputs="$(sed -n 's/^#\([0-9]*\)\t.*/\1/p' "$log" | tail -1)"
   edges="$(sed -n 's/.* cov: \([0-9]*\) .*/\1/p' "$log" | tail -1)"
-  said="$format: ${runs:-?} inputs, ${edges:-?} edges, $verdict"
-  printf '%s\n%s\n' "$seconds" "$said" >"$line"
-  echo "$said"
+  echo "$cpu ${inputs:-0} ${edges:-0} $verdict" >>"$found.runs"
+  ran="$ran$name "
+  if [ "$verdict" = FINDING ]; then
+    failed="$failed$name "
+    echo "$name: FINDING, see $log"
+  else
+    echo "$name: ${inputs:-?} inputs, ${edges:-?} edges, $cpu s, no finding"
+  fi
 done
-exit $failed
+[ "$failed" = " " ]

@@ -1,62 +1,88 @@
 #!/bin/sh
-# The figures of docs/RELIABILITY.md, made again:
-#   tests/reliability.sh [seconds a fuzzer [kills a kind of output [folder of the build [minutes]]]]
-# The build must have the tool and the tests. After so many minutes (default: without end) it stops
-# with code 75, and the same command goes on where it was. What each stage said is kept in
-# FOLDER/reliability; without that folder all begins anew. At the end: one table, in Markdown.
+# The table of docs/RELIABILITY.md, made again:
+#   tests/reliability.sh MINUTES [kills of each output [folder of the build [seconds a turn]]]
+# The build must have the tool and the tests. First kills, helpers that fail, damaged files and the
+# packages; then fuzzers in turns until the minutes are up, which begin none that would end later.
+# The same command goes on: a stage that ran to its end is not run again, and the fuzzer that ran
+# least is the next. An hour of each fuzzer are about 1,900 minutes, in any portions.
+#
+# What each stage said is kept in FOLDER/reliability, what fuzzers did in FOLDER/fuzz/found; without
+# these two all begins anew. At the end: one table, in Markdown, and a line where a finding is.
 set -eu
 cd "$(dirname "$0")/.."
-seconds="${1:-3600}"
+minutes="${1:?tests/reliability.sh MINUTES [kills [folder of the build [seconds a turn]]]}"
 kills="${2:-100}"
 build="${3:-build}"
-minutes="${4:-0}"
+turn="${4:-60}"
+until="$(($(date +%s) + 60 * minutes))"
 kept="$build/reliability"
+found="$build/fuzz/found"
 mkdir -p "$kept"
-until=""
-if [ "$minutes" -gt 0 ]; then until="$(($(date +%s) + 60 * minutes))"; fi
 
-# stage NAME COMMAND...: runs it unless it has run to its end before; its output is kept.
+# stage NAME COMMAND...: runs it unless it ran before; its output is kept, and how it ended.
 stage() {
   name="$1"
   shift
   if [ -f "$kept/$name.code" ]; then return; fi
-  if [ -n "$until" ] && [ "$(date +%s)" -ge "$until" ]; then
+  if [ "$(date +%s)" -ge "$until" ]; then
     echo "reliability: time is up before '$name'; the same command goes on" >&2
     exit 75
   fi
   echo "== $name" >&2
   code=0
   "$@" >"$kept/$name.out" 2>&1 || code=$?
-  if [ "$code" = 75 ]; then
-    echo "reliability: time is up in '$name'; the same command goes on" >&2
-    exit 75
-  fi
   echo "$code" >"$kept/$name.code"
 }
 
-fuzz() {
-  PLEXWAY_FUZZ_ON=1 PLEXWAY_FUZZ_UNTIL="$until" tests/fuzz.sh "$seconds" "$build/fuzz"
-}
-
 stage kills tests/kills.sh "$kills" "$build"
-stage helpers-openvdb "$build/bin/test_openvdb" "the file is blamed*,no fork*"
-stage helpers-tetgen "$build/bin/test_tetgen" "the surface is not blamed*"
-stage damaged-vdb "$build/bin/test_openvdb" "truncated and damaged*"
-stage damaged-pcd "$build/bin/test_pcl" "bad pcd*"
-stage faults "$build/bin/test_cli" "[faults]"
+stage helpers-openvdb "$build/bin/test_openvdb" --warn NoTests "the file is blamed*,no fork*"
+stage helpers-tetgen "$build/bin/test_tetgen" --warn NoTests "the surface is not blamed*"
+stage damaged-vdb "$build/bin/test_openvdb" --warn NoTests "truncated and damaged*"
+stage damaged-pcd "$build/bin/test_pcl" --warn NoTests "bad pcd*"
+stage faults "$build/bin/test_cli" --warn NoTests "faults:*"
 stage packages tests/package.sh "$build" "$build/tests/package"
-stage fuzzers fuzz
 
+left="$((until - $(date +%s)))"
+if [ "$left" -ge "$turn" ]; then
+  echo "== fuzzers, for $((left / 60)) min" >&2
+  PLEXWAY_FUZZ_TOOL=ON tests/fuzz.sh "$turn" "$build/fuzz" "$left" >"$kept/fuzzers.out" 2>&1 || true
+fi
+
+failed=0
 echo "| what | how often | found |"
 echo "|---|---|---|"
-sed -n "s/^\([a-z_]*\): \(.* inputs, .* edges\), \(.*\)$/| fuzzer \`\1\`, $seconds s | \2 | \3 |/p" \
-  "$kept/fuzzers.out"
 for name in kills helpers-openvdb helpers-tetgen damaged-vdb damaged-pcd faults packages; do
   how="$(tail -3 "$kept/$name.out" | grep . | tail -1)"
-  verdict="no finding"
-  if [ "$(cat "$kept/$name.code")" != 0 ]; then verdict="FINDING, see $kept/$name.out"; fi
-  if [ "$name" = kills ]; then name="kills, $kills an output"; fi
+  verdict="nothing"
+  if [ "$(cat "$kept/$name.code")" != 0 ]; then
+    verdict="FINDING, see $kept/$name.out"
+    failed=1
+  fi
+  if [ "$name" = kills ]; then name="kills, $kills of each output"; fi
   echo "| $name | $how | $verdict |"
 done
-grep -q FINDING "$kept"/fuzzers.out && exit 1
-for code in "$kept"/*.code; do [ "$(cat "$code")" = 0 ] || exit 1; done
+echo
+echo "| output | kills | too late | temporary files left | half files | helpers left |"
+echo "|---|---|---|---|---|---|"
+sed -n 's/^kills of \(.*\): \(.*\) ended it, \(.*\) too late; temporary files \(.*\), half files \(.*\), helpers \(.*\)$/| `\1` | \2 | \3 | \4 | \5 | \6 |/p' \
+  "$kept/kills.out"
+echo
+echo "| fuzzer | seconds | inputs | edges reached | found | seconds since |"
+echo "|---|---|---|---|---|---|"
+for runs in "$found"/*.runs; do
+  [ -s "$runs" ] || continue
+  awk -v name="$(basename "$runs" .runs)" '
+    { time += $1; inputs += $2; if ($3 > edges) edges = $3; since += $1 }
+    $4 != "none" { ++findings; since = 0 }
+    END { printf "| `%s` | %d | %d | %d | %s | %d |\n", name, time, inputs, edges,
+                 findings ? findings : "nothing", since }' "$runs"
+  tail -1 "$runs" | grep -q FINDING && failed=1
+done
+if [ -f "$found/arguments.log" ]; then
+  echo
+  echo "| command | lines, last run | done (code 0) | refused |"
+  echo "|---|---|---|---|"
+  sed -n 's/^lines of \([^:]*\): \([0-9]*\), \([0-9]*\) of them with code 0, \([0-9]*\) refused$/| `\1` | \2 | \3 | \4 |/p' \
+    "$found/arguments.log"
+fi
+exit $failed

@@ -12,6 +12,7 @@
 #include <csignal>
 #include <cstdlib>
 #include <filesystem>
+#include <iostream>
 #include <random>
 #include <string>
 #include <thread>
@@ -85,6 +86,12 @@ std::string without_own_number(std::string bytes) {
   return bytes;
 }
 
+// What kills of one kind of output left behind.
+struct Tally {
+  std::string out;
+  int ended = 0, finished = 0, helpers = 0, half = 0, others = 0;
+};
+
 struct Case {
   std::string out;
   std::vector<std::string> arguments;  // in front of `out`
@@ -108,7 +115,7 @@ TEST_CASE("kills at random moments leave the old file or the new one, and no oth
        {"distance", ball, "--as", "solid", "--source", "vertex:0", "--voxel", "0.02", "--out"}},
   };
   std::mt19937 random(5);
-  int ended = 0, finished = 0;
+  std::vector<Tally> tallies;
   for (const Case& it : cases) {
     const Folder folder;
     const std::string out = folder.at(it.out).string();
@@ -121,6 +128,7 @@ TEST_CASE("kills at random moments leave the old file or the new one, and no oth
     REQUIRE(code == 0);
     const auto whole_time = Clock::now() - began;
     const std::string whole = without_own_number(bytes_of(out));
+    Tally& tally = tallies.emplace_back(Tally{it.arguments[0] + ' ' + it.out});
     for (int n = 0; n < kills; ++n) {
       const bool replaces = n % 2 == 0;
       if (replaces)
@@ -135,15 +143,29 @@ TEST_CASE("kills at random moments leave the old file or the new one, and no oth
       const int got = wait_for(child);
       INFO("signal " << signal << " at " << share << " of the time, code " << got);
       CHECK((got == 128 + signal || got == 0));
-      ++(got == 0 ? finished : ended);
-      CHECK_FALSE(helper_left(child));
+      ++(got == 0 ? tally.finished : tally.ended);
+      const bool helper = helper_left(child);
+      CHECK_FALSE(helper);
+      tally.helpers += helper;
       const std::string left = fs::exists(out) ? without_own_number(bytes_of(out)) : "";
-      CHECK((left == whole || (got != 0 && left == (replaces ? "old" : ""))));
+      const bool sound = left == whole || (got != 0 && left == (replaces ? "old" : ""));
+      CHECK(sound);
+      tally.half += !sound;
       std::vector<std::string> others;
       for (const auto& entry : fs::directory_iterator(folder.path()))
         if (entry.path() != out) others.push_back(entry.path().filename());
       CHECK(others.empty());
+      tally.others += !others.empty();
     }
+  }
+  int ended = 0, finished = 0;
+  for (const Tally& tally : tallies) {
+    ended += tally.ended;
+    finished += tally.finished;
+    if (wanted != nullptr)
+      std::cout << "kills of " << tally.out << ": " << tally.ended << " ended it, "
+                << tally.finished << " too late; temporary files " << tally.others
+                << ", half files " << tally.half << ", helpers " << tally.helpers << '\n';
   }
   CHECK(ended > finished);
 }

@@ -88,6 +88,24 @@ class Caught {
   int memory_, before_ = -1;
 };
 
+/// How often each command was tried, told at the end.
+class Tally {
+ public:
+  ~Tally() {
+    for (const auto& [command, counts] : counts_)
+      std::cerr << "lines of " << command << ": " << counts[0] << ", " << counts[1]
+                << " of them with code 0, " << counts[2] << " refused\n";
+  }
+  void count(const std::string& command, int code) {
+    auto& counts = counts_[command];
+    ++counts[0];
+    ++counts[code == 0 ? 1 : 2];
+  }
+
+ private:
+  std::map<std::string, std::array<std::size_t, 3>> counts_;
+};
+
 struct Outcome {
   int code;
   std::string out, err;
@@ -226,6 +244,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   std::string typed = "plexway";
   for (const std::string& word : line) typed += " '" + word + "'";
   const Outcome outcome = run(line);
+  static Tally tally;
+  if (!line.empty() && std::find(commands.begin(), commands.end(), line[0]) != commands.end())
+    tally.count(line[0], outcome.code);
   const auto require = [&](bool holds, const char* what) {
     fuzz::require(holds, std::string(what) + ": " + typed + "\n" + outcome.out + outcome.err);
   };
