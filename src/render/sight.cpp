@@ -47,7 +47,7 @@ double Sight::pixels(double length, double distance) const {
   return length / (camera_.pixel * (camera_.orthographic ? 1 : distance));
 }
 
-Sight::Parts Sight::parts(std::span<const Point> line, double slack) const {
+Sight::Parts Sight::parts(std::span<const Point> line, double radius) const {
   constexpr double step = 1.5;  // pixels between two looks
   Parts parts;
   std::vector<Place> part;
@@ -56,8 +56,20 @@ Sight::Parts Sight::parts(std::span<const Point> line, double slack) const {
     if (part.size() > 1) (is_open ? parts.open : parts.hidden).push_back(part);
     part.clear();
   };
+  Place across{};  // to the side of the line, of length 1
+  const auto any_open = [&](const Seen& seen) {
+    // Of a tube around a line in the surface about half is seen; over a rim it bends with it.
+    const double slack = 3 * radius, aside = pixels(radius, seen.distance);
+    if (open(seen, slack)) return true;
+    for (const double side : {-aside, aside})
+      if (side != 0 && open({{seen.place[0] + side * across[0], seen.place[1] + side * across[1]},
+                             seen.distance},
+                            slack))
+        return true;
+    return false;
+  };
   const auto look = [&](const Seen& seen, bool corner) {
-    const bool now = open(seen, slack);
+    const bool now = any_open(seen);
     if (now != is_open) {
       if (!part.empty()) part.push_back(seen.place);
       finish();
@@ -76,6 +88,8 @@ Sight::Parts Sight::parts(std::span<const Point> line, double slack) const {
     if (k > 0) {
       const Seen from = (*this)(line[k - 1]);
       const double length = std::hypot(to.place[0] - from.place[0], to.place[1] - from.place[1]);
+      if (length > 0)
+        across = {(from.place[1] - to.place[1]) / length, (to.place[0] - from.place[0]) / length};
       const auto looks = static_cast<std::size_t>(std::min(length / step, 1e5));
       for (std::size_t n = 1; n <= looks; ++n) {
         const double t = static_cast<double>(n) / static_cast<double>(looks + 1);

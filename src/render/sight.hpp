@@ -24,11 +24,13 @@ class Sight {
   /// How many pixels a length of the frame is at a distance.
   [[nodiscard]] double pixels(double length, double distance) const;
 
-  /// A polyline's parts that are open, and those that are not, in pixels.
+  /// Parts of a tube around a polyline (radius 0: of the polyline) that are open, and those that
+  /// are not, in pixels. A tube in a surface stands out a little: behind a rim it is open where one
+  /// of its sides is.
   struct Parts {
     std::vector<std::vector<Place>> open, hidden;
   };
-  [[nodiscard]] Parts parts(std::span<const Point> line, double slack) const;
+  [[nodiscard]] Parts parts(std::span<const Point> line, double radius) const;
 
  private:
   const Drawn& drawn_;

@@ -151,8 +151,7 @@ class Overlay {
         distance += sight_(line.back()).distance / static_cast<double>(path.size());
       }
       if (line.size() < 2) continue;
-      // Of a tube around a line in the surface about half is seen; over a rim it bends with it.
-      const Sight::Parts parts = sight_.parts(line, 3 * tube);
+      const Sight::Parts parts = sight_.parts(line, tube);
       const double wide = 1.2 * sight_.pixels(tube, distance);
       const auto stroke = [&](const auto& lines, const Ink& ink, double width) {
         sheet_.path(shape_of(lines),
