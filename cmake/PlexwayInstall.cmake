@@ -2,16 +2,34 @@
 # out just the ones asked for and name the one that is missing.
 include(CMakePackageConfigHelpers)
 
-# plexway_pkg_config(NAME depends packages): a file plexway-NAME.pc for who builds without CMake. What
-# a static library links is told with it.
-function(plexway_pkg_config name depends packages)
-  set(links "-lplexway_${name}")
-  foreach(pair Threads:-pthread OpenMP:-fopenmp pugixml:-lpugixml ZLIB:-lz PNG:-lpng)
-    string(REGEX MATCH "^(.*):(.*)$" matched "${pair}")
-    if(CMAKE_MATCH_1 IN_LIST packages)
-      string(APPEND links " ${CMAKE_MATCH_2}")
+# plexway_pkg_config(NAME depends): a file plexway-NAME.pc for who builds without CMake. What a static
+# library links is told with it, as CMake's files tell it.
+function(plexway_pkg_config name depends)
+  set(of_Threads::Threads -pthread)
+  set(of_OpenMP::OpenMP_CXX -fopenmp)
+  set(of_pugixml::pugixml -lpugixml)
+  set(of_ZLIB::ZLIB -lz)
+  set(of_PNG::PNG -lpng)
+  get_property(of_MPI::MPI_CXX GLOBAL PROPERTY PLEXWAY_MPI_LIBRARIES)
+  set(links "")
+  get_target_property(linked plexway_${name} INTERFACE_LINK_LIBRARIES)
+  foreach(item IN LISTS linked)
+    string(REGEX REPLACE "^\\$<LINK_ONLY:(.*)>$" "\\1" item "${item}")
+    if(item STREQUAL "" OR item MATCHES "^plexway::|^\\$<")
+      continue()
+    elseif(item MATCHES "::")
+      if(NOT DEFINED of_${item})
+        message(FATAL_ERROR "plexway-${name}.pc: which library is ${item}?")
+      endif()
+      list(APPEND links ${of_${item}})
+    elseif(IS_ABSOLUTE "${item}" OR item MATCHES "^-")
+      list(APPEND links "${item}")
+    else()
+      list(APPEND links "-l${item}")
     endif()
   endforeach()
+  list(REMOVE_DUPLICATES links)
+  list(JOIN links " " links)
   list(TRANSFORM depends PREPEND "plexway-")
   list(JOIN depends ", " requires)
   set(file "${PROJECT_BINARY_DIR}/pkgconfig/plexway-${name}.pc")
@@ -23,7 +41,7 @@ Name: plexway-${name}
 Description: ${PROJECT_DESCRIPTION}
 Version: ${PROJECT_VERSION}
 Requires: ${requires}
-Libs: -L\${libdir} ${links}
+Libs: -L\${libdir} -lplexway_${name} ${links}
 Cflags: -I\${includedir}
 ")
   install(FILES "${file}" DESTINATION "${CMAKE_INSTALL_LIBDIR}/pkgconfig" COMPONENT dev)
@@ -44,7 +62,7 @@ foreach(component IN LISTS components)
     LIBRARY DESTINATION "${CMAKE_INSTALL_LIBDIR}" COMPONENT dev
     ARCHIVE DESTINATION "${CMAKE_INSTALL_LIBDIR}" COMPONENT dev
     RUNTIME DESTINATION "${CMAKE_INSTALL_BINDIR}" COMPONENT dev)
-  plexway_pkg_config(${component} "${depends}" "${packages}")
+  plexway_pkg_config(${component} "${depends}")
   install(EXPORT plexway-${component} NAMESPACE plexway::
     FILE plexway-${component}.cmake DESTINATION "${package_dir}" COMPONENT dev)
   foreach(dir IN LISTS header_dirs)

@@ -25,7 +25,7 @@ endfunction()
 
 plexway_deb(dev libplexway-dev libdevel "Geodesic distance: the library, static, with its headers")
 set(CPACK_DEBIAN_DEV_PACKAGE_SHLIBDEPS OFF)
-set(CPACK_DEBIAN_DEV_PACKAGE_SUGGESTS "plexway-tetgen, plexway-openvdb, libopenvdb-dev, libpcl-dev")
+set(CPACK_DEBIAN_DEV_PACKAGE_SUGGESTS "plexway-tetgen, plexway-openvdb, libopenvdb-dev, libpcl-dev, libhdf5-dev, libopenmpi-dev, liblz4-dev")
 # What find_package and a link of the library ask for, where a component was built with it.
 set(needed "")
 foreach(pair pugixml:libpugixml-dev ZLIB:zlib1g-dev PNG:libpng-dev)

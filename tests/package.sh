@@ -56,15 +56,29 @@ if command -v bash >/dev/null; then
     [ "${COMPREPLY[*]}" = --isoline-step ]' bash "$completions"
 fi
 
-# The library, by CMake and by pkg-config.
-cmake -S "$source/tests/consumer" -B "$folder/consumer" "-DCMAKE_PREFIX_PATH=$usr" \
-  -DPLEXWAY_WANTED=core,io >"$folder/cmake.log"
+# The library, by CMake (two components; one that needs others; all that there are) and by pkg-config.
+for wanted in core,io apps ""; do
+  cmake -S "$source/tests/consumer" -B "$folder/consumer" "-DCMAKE_PREFIX_PATH=$usr" \
+    "-DPLEXWAY_WANTED=$wanted" >"$folder/cmake.log" 2>&1 || {
+    cat "$folder/cmake.log"
+    exit 1
+  }
+done
 cmake --build "$folder/consumer" >>"$folder/cmake.log"
 "$folder/consumer/consumer"
 if command -v pkg-config >/dev/null; then
-  flags="$(PKG_CONFIG_PATH="$usr/lib/pkgconfig" pkg-config --cflags --libs plexway-io)"
-  # shellcheck disable=SC2086
-  c++ -std=c++20 "$source/tests/consumer/main.cpp" $flags -o "$folder/by_pkg_config"
+  export PKG_CONFIG_PATH="$usr/lib/pkgconfig"
+  # shellcheck disable=SC2046
+  c++ -std=c++20 $(pkg-config --cflags plexway-io) -c "$source/tests/consumer/main.cpp" \
+    -o "$folder/consumer.o"
+  # All of each library, so that what it links must be named.
+  for file in "$usr"/lib/pkgconfig/*.pc; do
+    name="$(basename "$file" .pc)"
+    all="$usr/lib/lib$(echo "$name" | tr - _).a"
+    # shellcheck disable=SC2046
+    c++ "$folder/consumer.o" -Wl,--whole-archive "$all" -Wl,--no-whole-archive \
+      $(pkg-config --libs "$name" plexway-io) -o "$folder/by_pkg_config"
+  done
   "$folder/by_pkg_config"
 fi
 echo "packages: all well"

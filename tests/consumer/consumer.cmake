@@ -32,6 +32,15 @@ plexway_consumer_test(find_package
   "-DCMAKE_PREFIX_PATH=${consumer_prefix}" "-DPLEXWAY_WANTED=core,io" -DPLEXWAY_WANTED_VERSION=0.1)
 set_tests_properties("consumer/find_package" PROPERTIES FIXTURES_REQUIRED plexway_installed)
 
+# What a component depends on comes with it; and all that there are.
+if(TARGET plexway_render)
+  plexway_consumer_test(one_component
+    "-DCMAKE_PREFIX_PATH=${consumer_prefix}" "-DPLEXWAY_WANTED=render")
+  set_tests_properties("consumer/one_component" PROPERTIES FIXTURES_REQUIRED plexway_installed)
+endif()
+plexway_consumer_test(every_component "-DCMAKE_PREFIX_PATH=${consumer_prefix}" -DPLEXWAY_WANTED=)
+set_tests_properties("consumer/every_component" PROPERTIES FIXTURES_REQUIRED plexway_installed)
+
 plexway_consumer_test(missing_component
   "-DCMAKE_PREFIX_PATH=${consumer_prefix}" "-DPLEXWAY_WANTED=core,teapots")
 set_tests_properties("consumer/missing_component" PROPERTIES
