@@ -108,6 +108,22 @@ TEST_CASE("one package list serves the README's commands and CI") {
   }
 }
 
+TEST_CASE("the port for vcpkg has the project's version, and options that there are") {
+  std::smatch version;
+  const std::string project = text_of("CMakeLists.txt");
+  REQUIRE(std::regex_search(project, version, std::regex(R"(project\(plexway VERSION ([0-9.]+))")));
+  CHECK(text_of("cmake/vcpkg/plexway/vcpkg.json").find("\"version\": \"" + version.str(1) + "\"") !=
+        std::string::npos);
+  const std::string port = text_of("cmake/vcpkg/plexway/portfile.cmake");
+  static const std::regex option("-D(PLEXWAY_(?:BUILD|INSTALL)[A-Z_]*)=");
+  std::size_t options = 0;
+  for (std::sregex_iterator it(port.begin(), port.end(), option), end; it != end; ++it, ++options) {
+    INFO(it->str(1));
+    CHECK(project.find("option(" + it->str(1) + " ") != std::string::npos);
+  }
+  CHECK(options == 5);
+}
+
 TEST_CASE("packages that build messages name are on the list") {
   const std::set<std::string> listed = listed_packages();
   CHECK(listed.count("catch2") == 1);
