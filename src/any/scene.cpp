@@ -8,6 +8,7 @@
 #include <plexway/complex/normals.hpp>
 #include <plexway/error.hpp>
 
+#include "any/cloud_slopes.hpp"
 #include "any/simplex_edges.hpp"
 #include "any/survey.hpp"
 
@@ -87,6 +88,10 @@ ShapeScene::ShapeScene(const AnyShape& shape, const SceneContent& content) {
                          ? estimate_normals(data.measured(), data.neighbours)
                          : data.points.normals;
           part.normals = normals_;
+          if (!content.distance.empty() && content.label.empty()) {
+            slopes_ = cloud_slopes(data.measured(), normals_, data.neighbours, content.distance);
+            part.slope = slopes_;
+          }
         } else if constexpr (std::is_same_v<Kind, MixedShape>) {
           for (const MixedShape::Part& of : data.parts) {
             part.edges = of.edges;

@@ -64,6 +64,7 @@ void check(const Scene& scene, const PictureOptions& options) {
     check_indices(part.tets, n);
     check_length(part.normals.size(), n, "normals");
     check_length(part.value.size(), n, "values");
+    check_length(part.slope.size(), n, "slopes");
     check_length(part.label.size(), n, "labels");
   }
   for (const auto& path : scene.paths)

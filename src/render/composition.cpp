@@ -95,6 +95,8 @@ void add_part(std::vector<Batch>& batches, const Part& part, const PictureOption
       !options.isosurfaces.empty() && !part.tets.empty() && !part.value.empty();
   if (is_cloud(part)) {
     Batch discs(Look::lit);
+    discs.isolines = !part.slope.empty();
+    discs.joined = false;
     if (!part.positions.empty()) add_discs(discs, part, making);
     batches.push_back(std::move(discs));
   }
@@ -206,7 +208,8 @@ Legend legend_of(const Scene& scene, const PictureOptions& options, const Style&
     cells = cells || !part.label.empty();
     by_value_somewhere = by_value_somewhere || (!part.value.empty() && part.label.empty() &&
                                                 (!part.ghost || !part.edges.empty()));
-    lines = lines || !part.triangles.empty() || !part.tets.empty();
+    lines = lines || !part.triangles.empty() || !part.tets.empty() ||
+            (is_cloud(part) && !part.slope.empty());
   }
   for (const Dots& dots : scene.dots)
     by_value_somewhere = by_value_somewhere || !dots.value.empty();

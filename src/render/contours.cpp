@@ -25,7 +25,7 @@ Point point_on(const Corner& a, const Corner& b, double value) {
 }  // namespace
 
 bool has_contours(const Batch& batch) {
-  return batch.isolines && batch.look != Look::ghost && batch.others.empty() &&
+  return batch.isolines && batch.joined && batch.look != Look::ghost && batch.others.empty() &&
          std::all_of(batch.corners.begin(), batch.corners.end(), [](const Corner& corner) {
            return corner.paint == by_value || corner.paint[3] == 255;
          });

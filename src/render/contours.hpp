@@ -10,8 +10,8 @@ namespace plexway::render {
 /// it, joined over their edges.
 std::vector<std::vector<Point>> contours(const Batch& batch, double value);
 
-/// Whether all triangles of a batch are coloured by one value, so that `contours` has all its
-/// lines.
+/// Whether all triangles of a batch meet and are coloured by one value, so that `contours` has all
+/// its lines.
 bool has_contours(const Batch& batch);
 
 }  // namespace plexway::render

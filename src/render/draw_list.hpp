@@ -68,6 +68,7 @@ struct Batch {
 
   Look look;
   bool isolines = false;
+  bool joined = true;  ///< triangles meet in edges; discs lie over each other
   std::array<float, 4> veil = {1, 1, 1, 0.3f};  ///< an overlay behind something: sRGB and opacity
   std::vector<Corner> corners;
   std::vector<Others> others;  ///< as many as corners, or none

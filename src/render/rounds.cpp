@@ -207,8 +207,13 @@ void add_discs(Batch& batch, const Part& part, const Making& making) {
     Ring ring{some_perpendicular(facing), {}};
     ring.y = cross(facing, ring.x);
     centre.normal = facing;
+    const bool sloped = !part.slope.empty() && centre.paint == by_value;
     const auto rim = [&](std::size_t k) {
       Vertex v = moved(centre, ring.at(k, sides), radius);
+      if (sloped) {
+        const double rise = dot(part.slope[i], v.normal) * radius / making.frame.scale;
+        if (std::isfinite(rise)) v.value += rise;
+      }
       // A little round, so that single discs can be told apart.
       v.normal = unit(plus(v.normal, times(bulges ? 0.55 : 3.5, facing)));
       if (bulges) v.position = minus(v.position, times(0.5 * radius, facing));

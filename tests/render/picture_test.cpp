@@ -216,6 +216,55 @@ TEST_CASE("the isosurface of the distance from a point is a sphere") {
   CHECK(std::abs(middle_of(ball)[0] - middle_of(all)[0]) < 1.5);
 }
 
+TEST_CASE("a cloud whose slope is known has isolines, straight over all its discs") {
+  const Shape grid = square(30).with([](const Point& p) { return p[0]; });
+  const std::vector<Point> normals(grid.positions.size(), {0, 0, 1}),
+      slopes(grid.positions.size(), {1, 0, 0});
+  Part cloud;
+  cloud.positions = grid.positions;
+  cloud.normals = normals;
+  cloud.value = grid.value;
+  cloud.slope = slopes;
+  Scene scene;
+  scene.parts = {cloud};
+  PictureOptions options;
+  options.width = options.height = 400;
+  options.view = View{0, 90};
+  options.orthographic = true;
+  options.legend = false;
+  options.isolines = 0;
+  const auto without = drawn(scene, options);
+  if (!without) return;
+  options.isolines = 4;
+  const auto with = drawn(scene, options);
+  // The middles of the runs of pixels that the lines change, in each row of the inner half.
+  std::vector<double> first;
+  for (std::size_t y = 100; y < 300; ++y) {
+    std::vector<double> middles;
+    for (std::size_t x = 0, begin = 0; x <= 400; ++x) {
+      const bool line = x < 400 && with->pixels[y * 400 + x] != without->pixels[y * 400 + x];
+      const bool before =
+          x > 0 && with->pixels[y * 400 + x - 1] != without->pixels[y * 400 + x - 1];
+      if (line && !before) begin = x;
+      if (!line && before) middles.push_back(.5 * static_cast<double>(begin + x - 1));
+    }
+    CAPTURE(y);
+    REQUIRE(middles.size() == 4);
+    if (first.empty()) first = middles;
+    for (std::size_t k = 0; k < 4; ++k) CHECK(std::abs(middles[k] - first[k]) <= 1);
+  }
+  for (std::size_t k = 1; k < 3; ++k)
+    CHECK(first[k + 1] - first[k] == Approx(first[k] - first[k - 1]).margin(2));
+  // Without slopes each disc has one value, and there is no line.
+  scene.parts[0].slope = {};
+  CHECK(drawn(scene, options)->pixels == [&] {
+    options.isolines = 0;
+    return drawn(scene, options)->pixels;
+  }());
+  scene.parts[0].slope = std::span(slopes).first(3);
+  CHECK_THROWS_AS(picture(scene, options), plexway::UsageError);
+}
+
 TEST_CASE("wireframes, clouds and paths are there, and a clip plane cuts them") {
   const std::vector<Point> ends = {{0, 0, 0}, {1, 0, 0}, {1, 0, 1}};
   const std::vector<std::array<std::uint32_t, 2>> edges = {{0, 1}, {1, 2}};

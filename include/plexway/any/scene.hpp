@@ -52,7 +52,7 @@ class ShapeScene {
   [[nodiscard]] bool is_line() const { return is_line_; }
 
  private:
-  std::vector<std::array<double, 3>> normals_;
+  std::vector<std::array<double, 3>> normals_, slopes_;
   io::Edges lines_;
   bool is_line_ = false;
   render::Scene scene_;

@@ -27,6 +27,9 @@ struct Part {
   std::span<const Point> normals = {};
   /// One a vertex, or none: then the part has one colour. What is not finite was not reached.
   std::span<const double> value = {};
+  /// Of a cloud, one a vertex, or none: how `value` grows, by length. With it discs are coloured
+  /// linearly and have isolines. What is not finite counts as 0.
+  std::span<const Point> slope = {};
   /// One a vertex, or none: which cell it is in, negative where in none. Each cell has a colour of
   /// its own, and `value`, the distance from the cell's source, tells where borders run inside of
   /// triangles.
