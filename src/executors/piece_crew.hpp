@@ -65,13 +65,6 @@ class PieceCrew : public TeamCrew<Real, kLabels> {
       others.updates -= known.updates;
       others.reached_simplices -= known.reached_simplices;
       const bool complete = supersteps.run(others, goes_on);
-      // What follows looks at the whole; and what was just read is read out at once.
-      this->team_.each(pieces.size(), [&](std::size_t p) {
-        pieces[p].gather([&](Index f, std::size_t hinge, const auto& label, Index source) {
-          front.know(f, hinge, label, source);
-        });
-        pieces[p].read_out();
-      });
       PropagateStatistics now;
       for (const Piece& piece : pieces) {
         const PropagateStatistics own = piece.statistics();
@@ -83,6 +76,16 @@ class PieceCrew : public TeamCrew<Real, kLabels> {
                      now.reached_simplices - known.reached_simplices},
                     !complete);
       known = now;
+      // What looks at the whole looks for what is not reached and at pinched vertices. And what was
+      // just read is read out at once.
+      const bool whole = front.reached_count() < simplices || !mesh_.pinched().empty();
+      this->team_.each(pieces.size(), [&](std::size_t p) {
+        if (whole)
+          pieces[p].gather([&](Index f, std::size_t hinge, const auto& label, Index source) {
+            front.know(f, hinge, label, source);
+          });
+        pieces[p].read_out();
+      });
     });
   }
 

@@ -8,12 +8,14 @@
 #include <functional>
 #include <limits>
 #include <mutex>
+#include <utility>
 #include <vector>
 
 #include <plexway/propagate/distance_field.hpp>
 #include <plexway/propagate/options.hpp>
 
 #include "complex/cut.hpp"
+#include "executors/crowding.hpp"
 #include "executors/team.hpp"
 #include "propagate/endless.hpp"
 #include "propagate/piece_memory.hpp"
@@ -74,33 +76,19 @@ class Supersteps {
     ended_ = complete_ = false;
     for (std::size_t p = 0; p < pieces_.size(); ++p) after_[p].nearest = pieces_[p]->nearest();
     plan(std::numeric_limits<Real>::infinity(), false);
-    Gate gate(team_.size());
-    if (!ended_)
-      team_.run([&](int i, int threads) {
-        while (!ended_) {
-          attempt([&] { work(i, threads); });
-          if (i != 0) {
-            gate.pass(threads);
-            continue;
-          }
-          gate.lead(threads, [&] {
-            attempt([&] {
-              advance();
-              // One piece is not worth waking the others for.
-              while (!ended_ && (threads == 1 || active_.size() == 1)) {
-                work(0, 1);
-                advance();
-              }
-            });
-            if (failure_) ended_ = true;
-          });
-        }
-      });
+    while (!ended_ && !failure_)
+      if (team_.size() == 1 || active_.size() == 1 || Crowding::crowded())
+        attempt([&] { alone(); });
+      else
+        team_.hold([&] { together(); });
     if (failure_) std::rethrow_exception(failure_);
     return complete_;
   }
 
  private:
+  struct alignas(64) Worked {
+    double seconds = 0;
+  };
   struct alignas(64) After {
     Real nearest;  ///< of what waits there
     Real told;     ///< of what it posted
@@ -119,6 +107,38 @@ class Supersteps {
   }
 
   // ---- Together ----
+
+  /// Until it ends, or one thread is better.
+  void together() {
+    Gate gate(team_.size());
+    std::vector<Worked> worked(static_cast<std::size_t>(team_.size()));
+    double since = seconds_on_wall();
+    bool apart = false;
+    team_.run([&](int i, int threads) {
+      while (!ended_ && !apart) {
+        const double before = seconds_of_thread();
+        attempt([&] { work(i, threads); });
+        worked[static_cast<std::size_t>(i)].seconds += seconds_of_thread() - before;
+        if (i != 0) {
+          gate.pass(threads);
+          continue;
+        }
+        gate.lead(threads, [&] {
+          attempt([&] { advance(); });
+          const double now = seconds_on_wall();
+          constexpr double enough = 1.5e-3;
+          if (now - since > enough) {
+            double sum = 0;
+            for (Worked& w : worked) sum += std::exchange(w.seconds, 0);
+            Crowding::report(sum, now - since);
+            since = now;
+          }
+          // One piece is not worth waking the others for.
+          apart = failure_ || threads == 1 || active_.size() == 1 || Crowding::crowded();
+        });
+      }
+    });
+  }
 
   void work(int thread, int threads) {
     const auto take = [&](std::size_t i) {
@@ -152,7 +172,12 @@ class Supersteps {
     after.reached = now.reached_simplices;
   }
 
-  // ---- Alone, between supersteps ----
+  // ---- Alone ----
+
+  void alone() {
+    work(0, 1);
+    advance();
+  }
 
   void advance() {
     Real nearest = std::numeric_limits<Real>::infinity();

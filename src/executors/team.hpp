@@ -10,6 +10,8 @@
 
 #include <plexway/executors.hpp>
 
+#include "executors/crowding.hpp"
+
 namespace plexway {
 
 /// Where a team's threads wait for each other: all come, the first then does what must be done
@@ -94,7 +96,9 @@ class Team {
         if (!failure) failure = std::current_exception();
       }
     };
-    if (held_ == nullptr) {
+    if (alone_ || (held_ != nullptr && Crowding::crowded())) {
+      guarded(0, 1);
+    } else if (held_ == nullptr) {
       run_guarded(guarded);
     } else {
       held_->gate.gather(held_->threads);
@@ -108,10 +112,16 @@ class Team {
 
   /// Calls `body` on this thread, and for so long the others are there for `run` and what takes it;
   /// in between they sleep. OpenMP's own threads spin for milliseconds before and after each piece
-  /// of work, which is another program's time.
+  /// of work, which is another program's time. Where that has the cores there are no others.
   template <class Body>
   void hold(const Body& body) const {
     if (size_ == 1 || held_ != nullptr) {
+      body();
+      return;
+    }
+    const Back back{alone_, alone_};
+    alone_ = Crowding::crowded();
+    if (alone_) {
       body();
       return;
     }
@@ -182,11 +192,16 @@ class Team {
     int threads = 1;
     std::function<void(int, int)> work;
   };
+  struct Back {
+    bool &value, before;
+    ~Back() { value = before; }
+  };
   void run_guarded(const std::function<void(int, int)>& work) const;
 
   int size_;
   std::size_t chunk_;
   mutable Held* held_ = nullptr;
+  mutable bool alone_ = false;  ///< held, but by one thread
 };
 
 }  // namespace plexway
