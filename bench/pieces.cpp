@@ -1,12 +1,14 @@
-// One source on a surface by pieces (OpenMP::piece) against Serial. Counts are the same on any
-// machine and with any number of threads; times are taken in turns. The model says what recorded
-// counts come to on more threads: each superstep's runs are dealt to the threads longest first, a
-// run costs its expansions and some, a superstep what a barrier does.
+// One source on a surface by pieces (OpenMP::piece) against Serial, by labels or windows. Counts
+// are the same on any machine and with any number of threads, and so must be the bits: `--repeats`
+// solves with 1, 2, 3 and 8 threads are compared (0 differ). Times are taken in turns. The model
+// says what recorded counts come to on more threads: each superstep's runs are dealt to the threads
+// longest first, a run costs its expansions and some, a superstep what a barrier does.
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -18,13 +20,17 @@
 namespace {
 
 using namespace plexway;
-using Mesh = TriangleMesh<float>;
+
+const std::map<std::string, Accuracy> accuracies = {
+    {"fast", Accuracy::fast()}, {"accurate", Accuracy::accurate()}, {"exact", Accuracy::exact()}};
 
 struct Settings {
   std::vector<std::string> meshes;
   std::vector<std::size_t> generated;
-  std::vector<std::size_t> sizes = {1024, 2048, 4096};
+  std::vector<std::size_t> sizes = {0, 2048, 8192};  // 0: what OpenMP takes by itself
   int threads = 2;
+  std::size_t repeats = 4;  // of solves that must have the same bits
+  std::string accuracy = "fast";
   double run_cost = 12, barrier_cost = 60;  // in expansions
 };
 
@@ -43,28 +49,36 @@ double modelled(const std::vector<std::vector<std::size_t>>& log, std::size_t th
   return expansions / time;
 }
 
+template <class Real>
 void measure(const bench::Surface& surface, const bench::Effort& effort, const Settings& settings,
              bench::Table& table) {
-  const Mesh mesh(surface.positions, surface.faces);
+  const TriangleMesh<Real> mesh(surface.positions, surface.faces);
   const double faces = static_cast<double>(mesh.face_count());
   PropagateOptions options;
-  options.accuracy = Accuracy::fast();
+  options.accuracy = accuracies.at(settings.accuracy);
   const auto sources = bench::rotating_sources(surface, effort.sources);
-  Workspace<float> alone;
-  DistanceField<float> field;
-  const auto solve_by = [&](const auto& executor, Workspace<float>& workspace) {
+  Workspace<Real> alone;
+  DistanceField<Real> field, first;
+  const auto solve_by = [&](const auto& executor, Workspace<Real>& workspace) {
     return [&, executor](Index source) {
       const PointSource from[] = {PointSource::at(source)};
       solve(executor, mesh, from, options, workspace, field);
     };
   };
   for (const std::size_t size : settings.sizes) {
-    Workspace<float> workspace;
+    Workspace<Real> workspace;
     SuperstepCounts& counts = workspace.state().pieces.counts();
     counts.keeps_log = true;
     double serial = 0, by_pieces = 0, supersteps = 0, letters = 0, bytes = 0;
     double model[4] = {};
-    const auto first = bench::seconds([&] { solve_by(OpenMP{1, 128, size}, workspace)(0); });
+    const auto once = bench::seconds([&] { solve_by(OpenMP{1, 128, size}, workspace)(0); });
+    first = field;
+    std::size_t others = 0;
+    for (std::size_t i = 0; i < settings.repeats; ++i) {
+      constexpr int threads[] = {1, 2, 3, 8};
+      solve_by(OpenMP{threads[i % 4], 128, size}, workspace)(0);
+      others += field.distance != first.distance || field.error != first.error;
+    }
     for (const Index source : sources) {
       solve_by(Serial{}, alone)(source);
       const double expansions = static_cast<double>(field.statistics.expansions);
@@ -90,8 +104,10 @@ void measure(const bench::Surface& surface, const bench::Effort& effort, const S
                {"expansions", by_pieces / n},
                {"letters", letters / n},
                {"bytes", bytes / n},
-               {"kept", static_cast<double>(workspace.state().pieces.bytes()) / faces},
-               {"cut_ns", 1e9 * (first - times.second) / faces},
+               {"others", others},
+               {"kept_by_one", static_cast<double>(alone.bytes()) / faces},
+               {"kept_by_pieces", static_cast<double>(workspace.bytes()) / faces},
+               {"cut_ns", 1e9 * (once - times.second) / faces},
                {"model2", model[0] / n},
                {"model4", model[1] / n},
                {"model8", model[2] / n},
@@ -115,6 +131,11 @@ int main(int argc, char** argv) {
   app.add_option("--sizes", settings.sizes, "Triangles a piece")->capture_default_str();
   app.add_option("--threads", settings.threads, "Threads of the runs that are timed")
       ->capture_default_str();
+  app.add_option("--accuracy", settings.accuracy, "fast, accurate or exact (in double)")
+      ->check(CLI::IsMember({"fast", "accurate", "exact"}))
+      ->capture_default_str();
+  app.add_option("--repeats", settings.repeats, "Solves whose bits are compared")
+      ->capture_default_str();
   app.add_option("--sources", effort.sources, "Sources a mesh")->capture_default_str();
   app.add_option("--budget", effort.budget, "Seconds a row")->capture_default_str();
   report.add_options(app);
@@ -127,7 +148,9 @@ int main(int argc, char** argv) {
                       {"expansions", "pieces", "%.3f"},
                       {"letters", "letters a triangle", "%.3f"},
                       {"bytes", "their bytes", "%.1f"},
-                      {"kept", "bytes kept", "%.0f"},
+                      {"others", "other bits"},
+                      {"kept_by_one", "bytes kept a triangle, Serial", "%.0f"},
+                      {"kept_by_pieces", "pieces", "%.0f"},
                       {"cut_ns", "cutting, ns a triangle", "%.0f"},
                       {"model2", "model, 2 threads", "%.2f"},
                       {"model4", "4", "%.2f"},
@@ -137,9 +160,13 @@ int main(int argc, char** argv) {
                       {"ms", "pieces, ms", "%.1f"},
                       {"speed", "speed", "%.2f"}});
   return report.write(table, [&] {
-    for (const std::string& mesh : settings.meshes)
-      measure(bench::read_surface(mesh), effort, settings, table);
-    for (const std::size_t vertices : settings.generated)
-      measure(bench::bumpy_surface(vertices), effort, settings, table);
+    const auto any = [&](const bench::Surface& surface) {
+      if (settings.accuracy == "exact")
+        measure<double>(surface, effort, settings, table);
+      else
+        measure<float>(surface, effort, settings, table);
+    };
+    for (const std::string& mesh : settings.meshes) any(bench::read_surface(mesh));
+    for (const std::size_t vertices : settings.generated) any(bench::bumpy_surface(vertices));
   });
 }

@@ -31,19 +31,19 @@ struct Serial {
 
 /// Several threads of one process.
 ///
-/// The step is that of Serial. Threads take the front in chunks; what they offer waits with its
-/// label in a queue; the least offer to a simplex becomes its label between two rounds. So the
-/// result does not depend on the number of threads or on their timing: it is the same to the last
-/// bit, as far as a propagation is not cut short by max_expansions. It differs from Serial's where
-/// the order of updates decides which of two paths a simplex hears of first. The workspace is the
-/// one that Serial takes.
+/// The step is that of Serial. Surfaces, clouds and solids are cut into pieces, which exchange
+/// labels or windows over their borders; elsewhere threads take the front in chunks, in rounds.
+/// Either way the result does not depend on the number of threads or on their timing: it is the
+/// same to the last bit, also where a propagation is cut short by max_expansions. Exact windows and
+/// a domain of a single piece have Serial's bits. Else it differs from Serial's where the order of
+/// work decides, and is as accurate. The workspace is the one that Serial takes.
 ///
-/// Cost: on one thread 1.1 (many sources) to 1.35 (one) times that of Serial. Threads wait for each
-/// other several times for each step of the front, so it takes large domains with long fronts, and
-/// cores that nobody else wants; else Serial is faster. Many fields of one domain are best had by
-/// `solve_each`, which takes one thread a source. Memory in float, beyond Serial's: 8 bytes a
-/// simplex, and 48 (surfaces) to 64 (solids) for each label that waits; in double 16, and about
-/// twice that.
+/// Cost: on one thread 1.05 to 1.2 times that of Serial in pieces, up to 1.35 in rounds. Rounds
+/// wait for each other several times for each step of the front, so they want large domains with
+/// long fronts, and cores that nobody else wants. Many fields of one domain are best had by
+/// `solve_each`, which takes one thread a source. Memory in float, beyond Serial's: pieces of
+/// surfaces 130 to 150 bytes a triangle, of solids 20 a tetrahedron, kept from solve to solve;
+/// rounds 8 bytes a simplex and 48 to 64 for each label that waits; in double about twice that.
 ///
 /// Solving throws UsageError for less than one thread or an empty chunk, and NotBuiltError in a
 /// build without OpenMP. The progress callback is called by the calling thread.
@@ -52,15 +52,15 @@ struct OpenMP {
   static constexpr ExecutorKind kind = ExecutorKind::openmp;
 
   int threads = 0;  ///< 0: as many as OpenMP would take (OMP_NUM_THREADS, or one a core)
-  /// Simplices that a thread takes at a time. Fronts up to this size are one thread's work.
+  /// In rounds: simplices that a thread takes at a time. Fronts up to this size are one thread's.
   std::size_t chunk = 128;
-  /// Surfaces and clouds, Accuracy::fast: not 0, and the surface is cut into pieces of about so
-  /// many triangles (2,000 to 4,000 are best), which exchange labels over their borders, a thread
-  /// each, instead of rounds over the whole front. Threads then wait for each other some dozens of
-  /// times a solve instead of thousands. The result is again the same to the last bit with any
-  /// number of threads, and in a single piece Serial's. Another size gives other labels, all of
-  /// them as accurate. Cost: the workspace keeps the pieces of the last surface, 130 to 150 bytes a
-  /// triangle in float; the first solve cuts them. Other domains go in rounds whatever this says.
+  /// Surfaces, clouds, solids: about so many simplices a piece. 0: by the size of the domain, and a
+  /// single piece below 32,768 simplices, which is the serial loop. Threads wait for each other
+  /// once a superstep, some dozens to hundreds of times a solve. Another size gives other labels
+  /// and merged windows, all of them as accurate. The first solve cuts the domain, which takes
+  /// about as long as a solve. Other domains go in rounds whatever this says. By windows an order
+  /// other than Schedule::dual_queue, and a solve that keeps its windows for distances inside
+  /// triangles, is one thread's.
   std::size_t piece = 0;
 };
 

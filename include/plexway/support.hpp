@@ -138,8 +138,8 @@ struct Combination {
   bool label_options = false;
 };
 
-/// Could windows solve it (Accuracy)? Else why not. A field by windows is one thread's work; so a
-/// team has one do it, with the same bits as Serial.
+/// Could windows solve it (Accuracy)? Else why not. A team takes them in pieces, or has one thread
+/// do it where the order asked for is not theirs.
 constexpr Support support_of_windows(const Combination& c) {
   if (c.domain != DomainKind::surface && c.domain != DomainKind::cloud)
     return Refusal::windows_domain;

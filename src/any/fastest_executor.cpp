@@ -7,20 +7,14 @@ namespace plexway {
 AnyExecutor fastest_executor(const AnyDomain& domain, std::size_t sources,
                              const PropagateOptions& options, const OpenMP& team) {
   if (!openmp_built() || options.schedule == Schedule::priority) return Serial{};
-  const bool triangles = domain.kind() == DomainKind::surface || domain.kind() == DomainKind::cloud;
-  if (triangles &&
-      resolved(options.accuracy, {.executor = ExecutorKind::serial,
-                                  .domain = DomainKind::surface,
-                                  .dimension = 2,
-                                  .single_precision = true,
-                                  .visibility = options.visibility}) != Accuracy::fast())
-    return Serial{};  // windows are one thread's
+  const bool in_pieces = domain.kind() == DomainKind::surface ||
+                         domain.kind() == DomainKind::cloud || domain.kind() == DomainKind::solid;
   const bool bounded =
       options.radius < PropagateOptions{}.radius ||
       options.max_expansions < PropagateOptions{}.max_expansions;  // fronts may stay short
-  if (domain.simplices() < auto_simplices || sources < auto_sources || bounded ||
-      team_size(team) < 2)
-    return Serial{};
+  const bool pays = in_pieces && domain.simplices() >= auto_in_pieces;
+  const bool many = domain.simplices() >= auto_simplices && sources >= auto_sources;
+  if (!(pays || many) || bounded || team_size(team) < 2) return Serial{};
   // Several threads are not for every domain: a solid of several speeds is a mixed one.
   if (!domain.support(team, PointSource::at(0), options)) return Serial{};
   return team;

@@ -34,6 +34,13 @@ struct CutPiece {
   std::vector<Slot> slots;
 
   [[nodiscard]] std::size_t peer_count() const { return peers.size() - 1; }
+  /// The place of another piece among the peers, which must be one.
+  [[nodiscard]] std::size_t place_of(Index other) const {
+    const auto found =
+        std::lower_bound(peers.begin(), peers.end() - 1, other,
+                         [](const Peer& peer, Index number) { return peer.piece < number; });
+    return static_cast<std::size_t>(found - peers.begin());
+  }
   [[nodiscard]] std::span<const Slot> slots_of(std::size_t peer) const {
     return std::span(slots).subspan(peers[peer].slot_begin,
                                     peers[peer + 1].slot_begin - peers[peer].slot_begin);
@@ -55,6 +62,14 @@ struct Cut {
   std::vector<CutPiece> pieces;
   std::vector<Index> piece_of;   ///< of each simplex of the domain
   std::vector<Index> number_of;  ///< and its number there
+
+  [[nodiscard]] std::size_t bytes() const {
+    const auto of = [](const auto& v) { return v.capacity() * sizeof(v[0]); };
+    std::size_t sum = of(piece_of) + of(number_of) + of(pieces);
+    for (const CutPiece& piece : pieces)
+      sum += of(piece.simplices) + of(piece.peers) + of(piece.slots);
+    return sum;
+  }
 };
 
 /// neighbours(s, visit) as for `partition`, and symmetric: whoever is visited visits back.

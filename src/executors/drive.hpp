@@ -10,6 +10,7 @@
 
 #include "executors/crew.hpp"
 #include "executors/piece_crew.hpp"
+#include "executors/piece_size.hpp"
 #include "executors/unordered.hpp"
 #include "propagate/alone.hpp"
 #include "propagate/finish.hpp"
@@ -35,7 +36,7 @@ void drive_in_rounds(const OpenMP& executor, const D& domain, std::span<const Po
   const DualQueue<Real> queue(workspace.front, std::numeric_limits<Real>::infinity());
   const TeamCrew<Real, kLabels> crew(team, workspace, step_of<Real>(options), domain.unit(),
                                      options);
-  solve(queue, crew);
+  team.hold([&] { solve(queue, crew); });
 }
 
 template <bool kLabels, class D, class Real, class Solve>
@@ -44,25 +45,21 @@ void drive(const OpenMP& executor, const D& domain, std::span<const PointSource>
   drive_in_rounds<kLabels>(executor, domain, sources, options, workspace, solve);
 }
 
-/// On surfaces by pieces where that is asked for.
+/// On surfaces by pieces: a single one is the serial loop.
 template <bool kLabels, class Real, class Solve>
 void drive(const OpenMP& executor, const TriangleMesh<Real>& mesh,
            std::span<const PointSource> sources, const PropagateOptions& options,
            WorkspaceState<Real>& workspace, const Solve& solve) {
-  if (executor.piece == 0) {
-    drive_in_rounds<kLabels>(executor, mesh, sources, options, workspace, solve);
-    return;
-  }
   const Team team(executor);
-  const PieceSettings settings = {.size = executor.piece};
-  if (mesh.face_count() < executor.piece + executor.piece / 2) {  // one piece: the serial loop
+  const PieceSettings settings = {.size = piece_size(executor, mesh.face_count(), {4096, 64})};
+  if (is_one_piece(settings.size, mesh.face_count())) {
     drive<kLabels>(Serial{}, mesh, sources, options, workspace, solve);
     return;
   }
   workspace.front.reserve(mesh.face_count());
   const DualQueue<Real> queue(workspace.front, std::numeric_limits<Real>::infinity());
   const TeamCrew<Real, kLabels> crew(team, workspace, step_of<Real>(options), mesh.unit(), options);
-  solve(queue, PieceCrew<Real, kLabels>(crew, mesh, settings));
+  team.hold([&] { solve(queue, PieceCrew<Real, kLabels>(crew, mesh, settings)); });
 }
 
 /// Calls `solve` with std::true_type where vertices have labels: from more than one source.

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 #include <cstddef>
 #include <deque>
@@ -50,15 +49,22 @@ class PieceCrew : public TeamCrew<Real, kLabels> {
     const double pace = settings_.pace * std::sqrt(static_cast<double>(settings_.size));
     Supersteps<Piece> supersteps(this->team_, pieces, static_cast<Real>(pace), simplices,
                                  this->unit_, this->options_, this->workspace_.pieces.counts());
-    PropagateStatistics known;
+    const auto goes_on = [&](std::size_t expansions) {
+      check_end(expansions, simplices);
+      return true;
+    };
+    PropagateStatistics known;  // of the pieces
     propagation.run([&](bool last_resort) {
       front.drain([&](Index f) {
         pieces[cut.piece_of[f]].give(cut.number_of[f], front.hinge(f), front.label(f),
                                      propagation.rule().distance(f), front.source(f));
       });
       for (Piece& piece : pieces) piece.set_last_resort(last_resort);
-      const bool complete = supersteps.run(front.statistics());
-      gather(pieces, front);  // what follows looks at the whole
+      PropagateStatistics others = front.statistics();
+      others.expansions -= known.expansions;
+      others.updates -= known.updates;
+      others.reached_simplices -= known.reached_simplices;
+      const bool complete = supersteps.run(others, goes_on);
       PropagateStatistics now;
       for (const Piece& piece : pieces) {
         const PropagateStatistics own = piece.statistics();
@@ -70,8 +76,17 @@ class PieceCrew : public TeamCrew<Real, kLabels> {
                      now.reached_simplices - known.reached_simplices},
                     !complete);
       known = now;
+      // What looks at the whole looks for what is not reached and at pinched vertices. And what was
+      // just read is read out at once.
+      const bool whole = front.reached_count() < simplices || !mesh_.pinched().empty();
+      this->team_.each(pieces.size(), [&](std::size_t p) {
+        if (whole)
+          pieces[p].gather([&](Index f, std::size_t hinge, const auto& label, Index source) {
+            front.know(f, hinge, label, source);
+          });
+        pieces[p].read_out();
+      });
     });
-    each(pieces.size(), [&](std::size_t p) { pieces[p].read_out(); });
   }
 
   /// After `run`: the distances of vertices.
@@ -81,16 +96,15 @@ class PieceCrew : public TeamCrew<Real, kLabels> {
       workspace.vertex[v] = patch.vertex[i];
       if constexpr (kLabels) workspace.vertex_source[v] = patch.vertex_source[i];
     };
-    each(patches.count(), [&](std::size_t p) {
+    this->team_.each(patches.count(), [&](std::size_t p) {
       const TrianglePatch<Real>& patch = patches[p];
-      for (std::size_t i = 0; i < patch.vertices.size(); ++i)
-        if (patch.is_shared[i] == 0) take(patch.vertices[i], patch, i);
+      for (std::size_t i = patch.shared; i < patch.vertices.size(); ++i)
+        take(patch.vertices[i], patch, i);
     });
     for (std::size_t p = 0; p < patches.count(); ++p) {
       const TrianglePatch<Real>& patch = patches[p];
-      for (std::size_t i = 0; i < patch.vertices.size(); ++i) {
+      for (std::size_t i = 0; i < patch.shared; ++i) {
         const Index v = patch.vertices[i];
-        if (patch.is_shared[i] == 0) continue;
         bool better = patch.vertex[i] < workspace.vertex[v];
         if constexpr (kLabels)
           better |= patch.vertex[i] == workspace.vertex[v] &&
@@ -101,28 +115,6 @@ class PieceCrew : public TeamCrew<Real, kLabels> {
   }
 
  private:
-  template <class Pieces, class Front>
-  void gather(const Pieces& pieces, Front& front) const {
-    each(pieces.size(), [&](std::size_t p) {
-      pieces[p].gather([&](Index f, std::size_t hinge, const auto& label, Index source) {
-        front.know(f, hinge, label, source);
-      });
-    });
-  }
-
-  /// work(p) for all p < count, thread by thread as they come.
-  template <class Work>
-  void each(std::size_t count, const Work& work) const {
-    std::atomic<std::size_t> next{0};
-    this->team_.run([&](int, int) {
-      for (;;) {
-        const std::size_t p = next.fetch_add(1, std::memory_order_relaxed);
-        if (p >= count) return;
-        work(p);
-      }
-    });
-  }
-
   const TriangleMesh<Real>& mesh_;
   PieceSettings settings_;
 };

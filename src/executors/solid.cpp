@@ -1,5 +1,6 @@
 #include "executors/checks.hpp"
 #include "executors/drive.hpp"
+#include "executors/owned_crew.hpp"
 #include "executors/run.hpp"
 #include "executors/solve_solid.hpp"
 

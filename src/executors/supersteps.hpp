@@ -5,14 +5,17 @@
 #include <cstddef>
 #include <cstdint>
 #include <exception>
+#include <functional>
 #include <limits>
 #include <mutex>
+#include <utility>
 #include <vector>
 
 #include <plexway/propagate/distance_field.hpp>
 #include <plexway/propagate/options.hpp>
 
 #include "complex/cut.hpp"
+#include "executors/crowding.hpp"
 #include "executors/team.hpp"
 #include "propagate/endless.hpp"
 #include "propagate/piece_memory.hpp"
@@ -28,8 +31,13 @@ namespace plexway {
 ///
 /// A piece:
 ///   cut()               who its peers are
-///   mail()              its letters; take(letter), run(horizon, most, updates), post(superstep,
-///   work) nearest()           no nearer label waits in it statistics()        what it did so far
+///   mail()              its letters
+///   take(letter), run(horizon, most, updates), post(superstep, work)
+///   nearest()           no nearer label waits in it
+///   statistics()        what it did so far
+///
+/// A piece belongs to a thread, whose cache has it; other threads take what that one has not come
+/// to. Who does what changes nothing.
 template <class Piece>
 class Supersteps {
  public:
@@ -54,46 +62,33 @@ class Supersteps {
     for (Piece& piece : pieces) pieces_.push_back(&piece);
     after_.resize(pieces_.size());
     awake_.resize(pieces_.size());
+    taken_ = std::vector<std::atomic<std::size_t>>(pieces_.size());
     if (pieces_.size() == 1) pace_ = std::numeric_limits<Real>::infinity();
   }
 
   /// Until no label waits. `before` is what was done by others. False if it ended early, as
-  /// max_expansions were spent. Throws Cancelled and EndlessError.
-  bool run(const PropagateStatistics& before) {
+  /// max_expansions were spent or goes_on(expansions), asked before each superstep, says no. Throws
+  /// Cancelled, and what goes_on throws.
+  template <class GoesOn>
+  bool run(const PropagateStatistics& before, const GoesOn& goes_on) {
     before_ = before;
+    goes_on_ = goes_on;
     ended_ = complete_ = false;
     for (std::size_t p = 0; p < pieces_.size(); ++p) after_[p].nearest = pieces_[p]->nearest();
     plan(std::numeric_limits<Real>::infinity(), false);
-    Gate gate(team_.size());
-    if (!ended_)
-      team_.run([&](int i, int threads) {
-        while (!ended_) {
-          attempt([&] { work(); });
-          if (i != 0) {
-            gate.pass(threads);
-            continue;
-          }
-          gate.lead(threads, [&] {
-            attempt([&] {
-              advance();
-              // One piece is not worth waking the others for.
-              while (!ended_ && (threads == 1 || active_.size() == 1)) {
-                work();
-                advance();
-              }
-            });
-            if (failure_) ended_ = true;
-          });
-        }
-      });
+    while (!ended_ && !failure_)
+      if (team_.size() == 1 || active_.size() == 1 || Crowding::crowded())
+        attempt([&] { alone(); });
+      else
+        team_.hold([&] { together(); });
     if (failure_) std::rethrow_exception(failure_);
     return complete_;
   }
 
-  /// In all runs.
-  [[nodiscard]] const PropagateStatistics& done() const { return done_; }
-
  private:
+  struct alignas(64) Worked {
+    double seconds = 0;
+  };
   struct alignas(64) After {
     Real nearest;  ///< of what waits there
     Real told;     ///< of what it posted
@@ -113,12 +108,50 @@ class Supersteps {
 
   // ---- Together ----
 
-  void work() {
-    for (;;) {
-      const std::size_t i = cursor_.fetch_add(1, std::memory_order_relaxed);
-      if (i >= active_.size()) return;
-      step(active_[i], share_ + (i < more_));
-    }
+  /// Until it ends, or one thread is better.
+  void together() {
+    Gate gate(team_.size());
+    std::vector<Worked> worked(static_cast<std::size_t>(team_.size()));
+    double since = seconds_on_wall();
+    bool apart = false;
+    team_.run([&](int i, int threads) {
+      while (!ended_ && !apart) {
+        const double before = seconds_of_thread();
+        attempt([&] { work(i, threads); });
+        worked[static_cast<std::size_t>(i)].seconds += seconds_of_thread() - before;
+        if (i != 0) {
+          gate.pass(threads);
+          continue;
+        }
+        gate.lead(threads, [&] {
+          attempt([&] { advance(); });
+          const double now = seconds_on_wall();
+          constexpr double enough = 1.5e-3;
+          if (now - since > enough) {
+            double sum = 0;
+            for (Worked& w : worked) sum += std::exchange(w.seconds, 0);
+            Crowding::report(sum, now - since);
+            since = now;
+          }
+          // One piece is not worth waking the others for.
+          apart = failure_ || threads == 1 || active_.size() == 1 || Crowding::crowded();
+        });
+      }
+    });
+  }
+
+  void work(int thread, int threads) {
+    const auto take = [&](std::size_t i) {
+      std::atomic<std::size_t>& taken = taken_[i];
+      if (taken.load(std::memory_order_relaxed) != superstep_ &&
+          taken.exchange(superstep_, std::memory_order_relaxed) != superstep_)
+        step(active_[i], share_ + (i < more_));
+    };
+    for (std::size_t i = 0; i < active_.size(); ++i)
+      if (active_[i] % static_cast<std::size_t>(threads) == static_cast<std::size_t>(thread))
+        take(i);
+    if (threads > 1)
+      for (std::size_t i = active_.size(); i-- > 0;) take(i);
   }
 
   void step(std::size_t p, std::size_t most) {
@@ -139,7 +172,12 @@ class Supersteps {
     after.reached = now.reached_simplices;
   }
 
-  // ---- Alone, between supersteps ----
+  // ---- Alone ----
+
+  void alone() {
+    work(0, 1);
+    advance();
+  }
 
   void advance() {
     Real nearest = std::numeric_limits<Real>::infinity();
@@ -187,7 +225,10 @@ class Supersteps {
       if (awake_[p] != 0 || after_[p].nearest < horizon_) active_.push_back(p);
     // Not more than are left, in shares that depend on nothing but numbers.
     const std::size_t spent = before_.expansions + done_.expansions;
-    check_end(spent, simplices_);
+    if (!goes_on_(spent)) {
+      ended_ = true;
+      return;
+    }
     const std::size_t left = options_.max_expansions - std::min(options_.max_expansions, spent);
     if (left == 0) {
       ended_ = true;
@@ -197,7 +238,6 @@ class Supersteps {
     share_ = std::min(left / active_.size(), most);
     more_ = share_ == most ? 0 : left % active_.size();
     ++superstep_;
-    cursor_.store(0, std::memory_order_relaxed);
     updates_ = before_.updates;
     for (const After& after : after_) updates_ += after.updates;
   }
@@ -215,6 +255,7 @@ class Supersteps {
   std::size_t simplices_;
   double unit_;
   const PropagateOptions& options_;
+  std::function<bool(std::size_t)> goes_on_;
   ProgressCounter told_;
 
   // Changed alone.
@@ -229,7 +270,7 @@ class Supersteps {
 
   std::exception_ptr failure_;
   std::mutex failing_;
-  alignas(64) std::atomic<std::size_t> cursor_{0};
+  std::vector<std::atomic<std::size_t>> taken_;  // of each that is active: in which superstep last
 };
 
 }  // namespace plexway

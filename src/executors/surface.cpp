@@ -4,6 +4,7 @@
 #include "executors/run.hpp"
 #include "executors/solve_surface.hpp"
 #include "executors/supported.hpp"
+#include "executors/window_team.hpp"
 #include "propagate/windows/window_solver.hpp"
 
 namespace plexway {
@@ -19,9 +20,13 @@ void solve_points(const E& executor, const TriangleMesh<Real>& mesh,
       detail::with(combination<E, TriangleMesh<Real>>(SourceKind::point), mesh.metric(), options));
   const bool by_windows = accuracy.kind() != Accuracy::Kind::fast;
   if (by_windows) {
-    if constexpr (E::kind == ExecutorKind::openmp)
-      static_cast<void>(team_size(executor));  // throws if it is none
-    if (workspace.windows.on(mesh).solve(sources, accuracy, options, workspace, field)) {
+    const auto solved = [&] {
+      if constexpr (E::kind == ExecutorKind::openmp)
+        return solve_by_windows(executor, mesh, sources, accuracy, options, workspace, field);
+      else
+        return workspace.windows.on(mesh).solve(sources, accuracy, options, workspace, field);
+    };
+    if (solved()) {
       field.accuracy = accuracy;
       return;
     }

@@ -3,7 +3,7 @@
 #include <cstddef>
 #include <span>
 
-#include "propagate/read_out.hpp"
+#include "propagate/read_out_edges.hpp"
 #include "propagate/straight_lines.hpp"
 
 namespace plexway::surface {
@@ -11,7 +11,7 @@ namespace plexway::surface {
 /// What `mend` did.
 struct Mended {
   std::size_t raised = 0;   ///< vertices below the straight line, by more than 1e-4
-  std::size_t lowered = 0;  ///< how often a vertex got nearer by more than 1e-4
+  std::size_t lowered = 0;  ///< vertices that got nearer by more than 1e-4
 };
 
 /// Distances at vertices that can only be wrong: those below the straight line in space, from
@@ -23,9 +23,7 @@ Mended mend(const TriangleMesh<Real>& mesh, std::span<const PointSource> sources
   const StraightLines<Real> lines(mesh, sources);
   Mended mended;
   mended.raised = lines.template raise<kLabels>(workspace, crew);
-  const Lowered lowered = read_out_edges<Real, kLabels>(
-      mesh, workspace,
-      [&](const auto& wrong, const auto& look) { crew.search(mesh.face_count(), wrong, look); });
+  const Lowered lowered = read_out_edges<Real, kLabels>(mesh, workspace, crew);
   mended.lowered = lowered.much;
   // What sums of many edges lost by rounding.
   if (lowered.any) lines.template raise<kLabels>(workspace, crew);

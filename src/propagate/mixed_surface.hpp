@@ -5,8 +5,10 @@
 #include <cmath>
 #include <limits>
 
+#include "propagate/alone.hpp"
 #include "propagate/mixed_piece.hpp"
 #include "propagate/read_out.hpp"
+#include "propagate/read_out_edges.hpp"
 #include "propagate/saddle_rule.hpp"
 #include "propagate/triangle_propagation.hpp"
 
@@ -150,8 +152,9 @@ class MixedSurface final : public MixedPiece<Real> {
   }
 
   bool relax(std::span<Real> distance, std::span<Index> label) override {
-    return this->relax_with(mesh_, workspace_, distance, label,
-                            [&] { return read_out_edges<Real, true>(mesh_, workspace_).any; });
+    return this->relax_with(mesh_, workspace_, distance, label, [&] {
+      return read_out_edges<Real, true>(mesh_, workspace_, Alone{}).any;
+    });
   }
 
   PropagateStatistics statistics() const override {

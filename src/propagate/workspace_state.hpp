@@ -8,6 +8,7 @@
 
 #include "propagate/front.hpp"
 #include "propagate/label_storage.hpp"
+#include "propagate/lowering_rooms.hpp"
 #include "propagate/piece_memory.hpp"
 #include "propagate/plain_label.hpp"
 #include "propagate/plain_solid_label.hpp"
@@ -39,6 +40,7 @@ struct WorkspaceState {
   std::vector<Real> vertex;          ///< read-out, in the numbers inside
   std::vector<Index> vertex_source;  ///< its labels
   std::vector<Index> corners;        ///< around one vertex
+  LoweringRooms<Real> lowering;      ///< read_out_edges
   ///@{
   /// On mixed domains: one a piece that is propagated on, what a member of a hinge has offered
   /// already, and the read-out of one piece with its nearest sources.
@@ -65,7 +67,7 @@ struct WorkspaceState {
            saddles.count * sizeof(SaddleLabel<Real>) + plain.count * sizeof(PlainLabel<Real>) +
            solids.count * sizeof(SolidLabel<Real>) +
            plain_solids.count * sizeof(PlainSolidLabel<Real>) + simplex.bytes() + of(source) +
-           windows.bytes() + of(vertex) + of(vertex_source) + of(corners) +
+           windows.bytes() + of(vertex) + of(vertex_source) + of(corners) + lowering.bytes() +
            front.capacity * 2 * sizeof(Index) + of(front.heap) + team.bytes() + pieces.bytes();
   }
 };

@@ -12,6 +12,7 @@
 #include <plexway/solve.hpp>
 
 #include "complex/flat_curves.hpp"
+#include "complex/jittered.hpp"
 #include "complex/test_meshes.hpp"
 #include "with_accuracy.hpp"
 
@@ -72,17 +73,6 @@ void check_all(const Surface& s, const std::vector<Source>& sources, const Rule&
   }
   if (sources.size() == 1) return;
   REQUIRE(exact.label.size() == exact.distance.size());
-}
-
-/// Vertices inside moved at random: no two edges are parallel, and none turns over.
-Surface jittered(Index n, unsigned seed) {
-  Surface s = grid(n, n);
-  std::mt19937 random(seed);
-  for (Position& p : s.positions)
-    for (std::size_t i = 0; i < 2; ++i)
-      if (p[0] > 0 && p[0] < 1 && p[1] > 0 && p[1] < 1)
-        p[i] += (uniform(random) - .5) / (2 * static_cast<double>(n));
-  return s;
 }
 
 Position random_place(std::mt19937& random) {

@@ -26,7 +26,7 @@ void check_same_bits(const Domain& domain, const PropagateOptions& options, unsi
   for (const std::size_t count : {1u, 6u}) {
     const auto sources = random_sources(domain, count, seed);
     solve(team(1), domain, sources, options, workspace, first);
-    for (const OpenMP& executor : {team(2), team(8), OpenMP{2, 1}, OpenMP{3, 1000}}) {
+    for (const OpenMP& executor : {team(2), team(8), OpenMP{2, 1, 64}, OpenMP{3, 1000, 64}}) {
       solve(executor, domain, sources, options, workspace, field);
       CHECK(same_bits(first, field));
     }
@@ -229,7 +229,7 @@ TEMPLATE_TEST_CASE("by default a team gives the bits of one thread", "[threads]"
       const auto sources = random_sources(mesh, count, ++seed);
       const auto alone = solve(Serial{}, mesh, sources);
       CHECK(alone.accuracy == Accuracy::accurate());
-      const auto several = solve(team(2), mesh, sources);
+      const auto several = solve(OpenMP{2}, mesh, sources);
       CHECK(same_bits(alone, several));
       CHECK(alone.error == several.error);
       const auto rows = solve_each(team(2), mesh, std::span<const PointSource>(sources));

@@ -11,29 +11,19 @@
 
 #include "exact_data.hpp"
 #include "executors/parity.hpp"
+#include "executors/piece_testing.hpp"
 #include "propagate/solving.hpp"
 #include "propagate/workspace_state.hpp"
 #include "with_accuracy.hpp"
 
-// Surfaces by pieces (OpenMP::piece), in pieces so small that there are many even here.
+// Surfaces by pieces (OpenMP::piece), by labels; windows are in window_pieces_test.cpp.
 
 using namespace plexway;
 using namespace plexway::testing;
 
 namespace {
 
-OpenMP pieces(int threads, std::size_t size) { return {.threads = threads, .piece = size}; }
-
 PropagateOptions fast() { return at(Accuracy::fast()); }
-
-std::vector<Surface> surfaces() {
-  std::vector<Surface> all = {grid(24, 24),     grid(40, 12, 3, 1), slit_square(12),
-                              cube(8),          sphere(4),          prism(24, 12, 2),
-                              moebius(60, 8),   sheets(3, 8),       bow_tie(10),
-                              soup(60, 120, 1), soup(80, 60, 2),    subdivide(tetrahedron())};
-  for (unsigned seed = 1; seed <= 4; ++seed) all.push_back(random_polygon(6, 120, 120, seed));
-  return all;
-}
 
 /// A square whose left half is slower: lengths jump, paths are refracted.
 template <class Real>

@@ -156,10 +156,6 @@ void note_choices(const AnyDomain& solver, const AnyField& field, const Executor
   if (std::holds_alternative<GL>(executor) && !accuracy_given &&
       (kind == DomainKind::surface || kind == DomainKind::cloud))
     say_note("--executor gl knows --accuracy fast only; serial is more accurate");
-  const std::size_t threads = executor_threads(executor);
-  if (threads > 1 && field.accuracy() != Accuracy::fast())
-    say_note("a field of this accuracy is one thread's work: --accuracy fast takes all " +
-             std::to_string(threads));
 }
 
 // Also where there is one source only.

@@ -23,8 +23,8 @@ struct TrianglePatch {
   std::vector<TriangleRecord<Real>> triangles;
   /// Of each ghost: bit e, if a triangle of the piece lies over its edge e.
   std::vector<std::uint8_t> leads_in;
-  std::vector<Index> vertices;          ///< of its own triangles: the surface's numbers inside
-  std::vector<std::uint8_t> is_shared;  ///< of each: have other pieces got it, too?
+  std::vector<Index> vertices;  ///< of its own triangles: the surface's numbers inside
+  std::size_t shared = 0;       ///< so many of them, the first, are other pieces', too
 
   VisitMarks marks;
   FrontStorage front;
@@ -56,13 +56,16 @@ class TrianglePatches {
 
  private:
   void take_records(const TriangleMesh<Real>& mesh, Index piece);
-  void take_vertices(std::size_t vertices);
 
   std::uint64_t identity_;
   std::size_t size_;
   Cut cut_;
   std::vector<TrianglePatch<Real>> patches_;
 };
+
+/// A surface's triangles in compact parts of about `size`; `cut` comes to it next.
+template <class Real>
+[[nodiscard]] Partition partition_of(const TriangleMesh<Real>& mesh, std::size_t size);
 
 extern template class TrianglePatches<float>;
 extern template class TrianglePatches<double>;

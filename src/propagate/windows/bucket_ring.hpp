@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -18,6 +19,8 @@ namespace plexway::windows {
 ///
 /// Node numbers below `none`. Next(node) gives a reference to the node's link, near(node) its
 /// distance.
+///
+/// At a horizon it stops as if nothing waited; afterwards what is nearer may still be let in.
 class BucketRing {
  public:
   static constexpr std::size_t buckets = 256;
@@ -30,7 +33,43 @@ class BucketRing {
     per_width_ = 1 / width;
     near_count_ = far_count_ = 0;
     nearest_far_ = std::numeric_limits<double>::infinity();
+    horizon_ = std::numeric_limits<std::int64_t>::max();
     go_to(0);
+  }
+
+  /// What is at `distance` or beyond waits from now on. Something nearer than that has its turn,
+  /// whatever the width of a bucket.
+  void set_horizon(double distance) {
+    horizon_ = static_cast<std::int64_t>(std::ceil(std::min(distance * per_width_, 2 * most)));
+    if (const std::int64_t first = first_bucket(); nearest() < distance && first < last_bucket)
+      horizon_ = std::max(horizon_, first + 1);
+  }
+  /// Nothing that waits is nearer; +inf where nothing does.
+  [[nodiscard]] double nearest() const {
+    if (near_count_ == 0 && in_turn_ == none)
+      return far_count_ == 0 ? std::numeric_limits<double>::infinity() : nearest_far_;
+    return static_cast<double>(first_bucket()) * width_;
+  }
+  /// Between turns: what is as near as this may be pushed and comes first.
+  template <class Next>
+  void admit(double near, const Next& next) {
+    if (in_turn_ != none) put_back(next);
+    const auto bucket = static_cast<std::int64_t>(std::clamp(near * per_width_, 0., most));
+    if (bucket >= at_) return;
+    // The ring then ends sooner.
+    constexpr auto reach = static_cast<std::int64_t>(buckets) - 1;
+    for (std::int64_t k = std::max(bucket + reach, at_); k < at_ + reach; ++k)
+      for (Index node = std::exchange(head_[static_cast<std::size_t>(k) % buckets], none);
+           node != none;) {
+        const Index after = next(node);
+        next(node) = far_;
+        far_ = node;
+        --near_count_;
+        ++far_count_;
+        nearest_far_ = std::min(nearest_far_, static_cast<double>(k) * width_);
+        node = after;
+      }
+    go_to(bucket);
   }
 
   /// About how far the front is.
@@ -70,6 +109,28 @@ class BucketRing {
 
  private:
   static constexpr double most = 1e18;  // numbers of buckets stay whole numbers
+  static constexpr auto last_bucket = std::numeric_limits<std::int64_t>::max() - 1;
+
+  /// The first bucket of the ring with something in it; where none has, `last_bucket`, or that of
+  /// the nearest beyond.
+  [[nodiscard]] std::int64_t first_bucket() const {
+    if (in_turn_ != none) return at_;
+    if (near_count_ > 0)
+      for (std::int64_t k = at_;; ++k)
+        if (head_[static_cast<std::size_t>(k) % buckets] != none) return k;
+    if (far_count_ == 0) return last_bucket;
+    return static_cast<std::int64_t>(std::min(nearest_far_ * per_width_, most));
+  }
+
+  /// A turn that was not ended is to be had again.
+  template <class Next>
+  void put_back(const Next& next) {
+    Index last = in_turn_;
+    while (next(last) != none) last = next(last);
+    Index& head = head_[static_cast<std::size_t>(at_) % buckets];
+    next(last) = head;
+    head = std::exchange(in_turn_, none);
+  }
 
   void go_to(std::int64_t bucket) {
     at_ = bucket;
@@ -82,10 +143,13 @@ class BucketRing {
     for (;;) {
       if (near_count_ == 0) {
         if (far_count_ == 0) return;
-        go_to(static_cast<std::int64_t>(std::min(nearest_far_ * per_width_, most)));
+        const auto bucket = static_cast<std::int64_t>(std::min(nearest_far_ * per_width_, most));
+        if (bucket >= horizon_) return;
+        go_to(bucket);
         bring_near(next, near);
         continue;
       }
+      if (at_ >= horizon_) return;
       in_turn_ = std::exchange(head_[static_cast<std::size_t>(at_) % buckets], none);
       if (in_turn_ != none) return;
       go_to(at_ + 1);
@@ -122,7 +186,8 @@ class BucketRing {
   Index far_ = none;
   double width_ = 1, per_width_ = 1;
   std::int64_t at_ = 0;  // the bucket in turn, counted from distance 0
-  double last_ = 0;      // the ring ends there, in buckets
+  std::int64_t horizon_ = std::numeric_limits<std::int64_t>::max();
+  double last_ = 0;  // the ring ends there, in buckets
   std::size_t near_count_ = 0, far_count_ = 0;
   double nearest_far_ = 0;
 };

@@ -7,6 +7,11 @@
 
 namespace plexway::windows {
 
+/// The halfedge that an Across leads to, 4 f + i.
+[[nodiscard]] constexpr Index halfedge_of(Index across) {
+  return across >> Across::face_shift << 2 | (across & Across::edge_mask);
+}
+
 /// All triangles on the other side of edge `edge` of f, one or several: calls
 /// over(across, turned). `across` leads to the triangle's own edge; `turned` says that this runs
 /// the same way as the edge left, so that what was measured from the one's second corner, which is

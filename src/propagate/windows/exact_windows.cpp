@@ -1,5 +1,4 @@
 #include "propagate/windows/exact_windows.hpp"
-#include "propagate/windows/near_corner.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -7,7 +6,6 @@
 
 #include <plexway/error.hpp>
 
-#include "propagate/windows/bucket_ring.hpp"
 #include "propagate/windows/cross_edge.hpp"
 #include "propagate/windows/trim.hpp"
 
@@ -34,7 +32,7 @@ struct Rounding<float> {
 constexpr double least_height(double width) { return 1e-14 * width + 1e-290; }
 /// So many windows a triangle, and ties are no longer broken in favour of both: where lengths are
 /// no metric, or nothing has any length, light could go around for ever.
-constexpr std::size_t ties_end = 1000;
+constexpr std::size_t most_with_ties = 1000;
 constexpr std::size_t share = 65536;  ///< windows between two looks at what is told and allowed
 /// In mean edges.
 constexpr double bucket_width = 0.5;
@@ -57,35 +55,29 @@ Window<double> measured(const Beam<double>& beam, double sigma) {
 }  // namespace
 
 template <class Real>
-ExactWindows<Real>::ExactWindows(const TriangleMesh<Real>& mesh, const VertexAngles& angles)
-    : triangles_(mesh.triangles()),
-      mesh_(mesh),
-      angles_(angles),
-      pseudo_source_(triangles_),
-      sentinel_(static_cast<Index>(mesh.face_count())) {}
+ExactWindows<Real>::ExactWindows(const Sheet<Real>& sheet)
+    : sheet_(sheet), triangles_(sheet.triangles), own_(sheet.own), pseudo_source_(triangles_) {}
+
+template <class Real>
+double ExactWindows<Real>::least_tie() {
+  return Rounding<Real>::tie;
+}
+
+template <class Real>
+bool ExactWindows<Real>::ties_end(std::size_t windows, std::size_t triangles) {
+  return windows / most_with_ties > triangles;
+}
+
+template <class Real>
+void ExactWindows<Real>::end_ties() {
+  tie_ = -least_tie();
+}
 
 template <class Real>
 bool ExactWindows<Real>::solve(const WindowSources& sources, const PropagateOptions& options,
                                const Patience& patience, KeptWindows<Real>* kept) {
+  begin(sources, options, patience);
   kept_ = kept;
-  patience_ = patience;
-  distance_.assign(mesh_.vertex_count(), infinity);
-  arrival_.resize(mesh_.vertex_count());
-  labels_ = sources.labels;
-  if (labels_) source_.resize(mesh_.vertex_count());
-  split_.assign(3 * mesh_.face_count(), {infinity, 0});
-  nodes_.clear();
-  node_source_.clear();
-  free_ = none;
-  complete_ = true;
-  statistics_ = {};
-  tie_ = Rounding<Real>::tie;
-  radius_ = options.radius / mesh_.unit();
-  // A source that is no vertex may lie in another's light, and over an edge with several triangles
-  // light comes from several sheets.
-  splits_whole_ = mesh_.summary().non_manifold_edges == 0 && sources.only_points() &&
-                  std::all_of(sources.points.begin(), sources.points.end(),
-                              [](const PointSource& s) { return s.vertex != none; });
   const auto solve_in = [&](auto& order) {
     order.start(bucket_width);
     seed(order, sources);
@@ -101,10 +93,8 @@ bool ExactWindows<Real>::solve(const WindowSources& sources, const PropagateOpti
     }
     case Schedule::priority:
       return solve_in(nearest_);
-    default: {
-      BucketRing ring;
-      return solve_in(ring);
-    }
+    default:
+      return solve_in(ring_);
   }
 }
 
@@ -113,21 +103,30 @@ template <class Order>
 bool ExactWindows<Real>::run(Order& order, const PropagateOptions& options) {
   const auto next = [this](Index n) -> Index& { return nodes_[n].next; };
   const auto near = [this](Index n) { return nearest(nodes_[n]); };
-  std::size_t pause = statistics_.expansions;  // where there is more to do than go on
   for (;;) {
-    if (statistics_.expansions >= pause) {
-      if (statistics_.expansions >= options.max_expansions) {
-        complete_ = order.pop(next, near) == none;
-        return true;
-      }
-      if (statistics_.expansions >= share && options.progress &&
-          !options.progress({statistics_.expansions, statistics_.reached_simplices,
-                             mesh_.face_count(), order.distance() * mesh_.unit()}))
-        throw Cancelled("cancelled by the progress callback");
-      if (too_many()) return false;
-      if (statistics_.expansions / ties_end > mesh_.face_count()) tie_ = -Rounding<Real>::tie;
-      pause = std::min(options.max_expansions, (statistics_.expansions / share + 1) * share);
+    if (statistics_.expansions >= options.max_expansions) {
+      complete_ = order.pop(next, near) == none;
+      return true;
     }
+    if (statistics_.expansions >= share && options.progress &&
+        !options.progress({statistics_.expansions, statistics_.reached_simplices, own_,
+                           order.distance() * sheet_.mesh->unit()}))
+      throw Cancelled("cancelled by the progress callback");
+    if (too_many()) return false;
+    if (ties_end(statistics_.expansions, own_)) end_ties();
+    const std::size_t pause =
+        std::min(options.max_expansions, (statistics_.expansions / share + 1) * share);
+    if (spread(order, pause - statistics_.expansions)) return true;
+  }
+}
+
+/// Until nothing waits (true), or so many windows.
+template <class Real>
+template <class Order>
+bool ExactWindows<Real>::spread(Order& order, std::size_t most) {
+  const auto next = [this](Index n) -> Index& { return nodes_[n].next; };
+  const auto near = [this](Index n) { return nearest(nodes_[n]); };
+  for (const std::size_t end = statistics_.expansions + most; statistics_.expansions != end;) {
     const Index n = order.pop(next, near);
     if (n == none) return true;
     ++statistics_.expansions;
@@ -149,6 +148,7 @@ bool ExactWindows<Real>::run(Order& order, const PropagateOptions& options) {
       expand(order, n);
     }
   }
+  return false;
 }
 
 template <class Real>
@@ -208,37 +208,53 @@ template <class Real>
 template <class Order>
 void ExactWindows<Real>::offer(Order& order, Index vertex, double distance,
                                const Arrival<double>& arrival, Index source) {
-  if (!(distance < distance_[vertex])) return;
+  if (know(order, vertex, distance, arrival, source) && vertex < sheet_.shared)
+    leaving_.tell(vertex);
+}
+
+/// Did the vertex get nearer?
+template <class Real>
+template <class Order>
+bool ExactWindows<Real>::know(Order& order, Index vertex, double distance,
+                              const Arrival<double>& arrival, Index source) {
+  if (!(distance < distance_[vertex])) return false;
   distance_[vertex] = distance;
   if (labels_) source_[vertex] = source;
   arrival_[vertex] = arrival;
   ++statistics_.updates;
-  if (arrival.corner != none && !(angles_.excess(vertex) > Rounding<Real>::excess)) return;
-  push(order, {{}, 0, distance, distance, vertex | vertex_bit, none}, distance, source);
+  if (arrival.corner == none || sheet_.angles->excess(vertex) > Rounding<Real>::excess)
+    push(order, {{}, 0, distance, distance, vertex | vertex_bit, none}, distance, source);
+  return true;
 }
 
 template <class Real>
 template <class Order>
-void ExactWindows<Real>::enter(Order& order, Index across, const Window<double>& w, Index source) {
-  const Index edge = across >> Across::face_shift << 2 | (across & Across::edge_mask);
+void ExactWindows<Real>::enter(Order& order, Index halfedge, const Window<double>& w,
+                               Index source) {
   const double near = w.nearest();
   if (near <= radius_)
-    push(order, {w.beam, w.sigma, w.at_begin, w.at_end, edge, none}, near, source);
+    push(order, {w.beam, w.sigma, w.at_begin, w.at_end, halfedge, none}, near, source);
 }
 
 template <class Real>
 template <class Order>
 void ExactWindows<Real>::leave(Order& order, Index f, std::size_t edge, const Window<double>& w,
                                Index source) {
-  const Index across = triangles_[f].across[edge];
-  if (across >> Across::face_shift == sentinel_) return;
+  const Index across = triangles_[f].across[edge], sentinel = sheet_.sentinel();
+  if (across >> Across::face_shift == sentinel) return;
+  const auto go = [&](Index over, const Window<double>& seen) {
+    if (over >> Across::face_shift >= own_) [[unlikely]]
+      leaving_.windows.push_back({halfedge_of(over), source, none, seen});
+    else
+      enter(order, halfedge_of(over), seen, source);
+  };
   if (!(across & Across::special)) [[likely]] {
-    enter(order, across, w, source);
+    go(across, w);
     return;
   }
   const Window<double> mirrored = w.mirrored(static_cast<double>(triangles_[f].length[edge]));
   cross_edge(triangles_, f, edge,
-             [&](Index over, bool turned) { enter(order, over, turned ? mirrored : w, source); });
+             [&](Index over, bool turned) { go(over, turned ? mirrored : w); });
 }
 
 /// Most windows are narrow: all of their light leaves by one edge, and reaches no vertex. Which
@@ -308,7 +324,7 @@ template <class Order>
   const Index over = t.across[out];
   node.beam = {child_origin + mirror * child_x, child_h, child_begin, child_end};
   node.at_begin = distances[0], node.at_end = distances[1];
-  if ((over & Across::special) || over >> Across::face_shift == sentinel_ || radius_ < infinity)
+  if ((over & Across::special) || over >> Across::face_shift >= own_ || radius_ < infinity)
       [[unlikely]] {
     const Window<double> child = {node.beam, sigma, node.at_begin, node.at_end, 0};
     const Index f = node.edge >> 2, source = labels_ ? node_source_[n] : 0;
@@ -316,7 +332,7 @@ template <class Order>
     leave(order, f, out, child, source);
     return;
   }
-  node.edge = over >> Across::face_shift << 2 | (over & Across::edge_mask);
+  node.edge = halfedge_of(over);
   order.push(n, std::min(distances[0], distances[1]),
              [this](Index i) -> Index& { return nodes_[i].next; });
 }
@@ -411,8 +427,9 @@ void ExactWindows<Real>::shine(Order& order, Index vertex) {
   if (sigma > radius_) return;
   const Index source = this->source(vertex);
   const Arrival<double> arrival = arrival_[vertex];
-  const VertexAngles::Kind kind = angles_.kind[vertex];
+  const VertexAngles::Kind kind = sheet_.angles->kind[vertex];
   const auto lit = [&](const Lit& part) {
+    if (part.face >= own_) return;
     const TriangleRecord<Real>& t = triangles_[part.face];
     const Beam<double> beam = {static_cast<double>(t.apex_x(part.edge)),
                                static_cast<double>(t.apex_h(part.edge)), part.begin, part.end};
@@ -420,6 +437,7 @@ void ExactWindows<Real>::shine(Order& order, Index vertex) {
           measured(beam.mirrored(static_cast<double>(t.length[part.edge])), sigma), source);
   };
   const auto along = [&](const FanWalk& walk) {
+    if (walk.face >= own_) return;
     const TriangleRecord<Real>& t = triangles_[walk.face];
     const Index e = walk.leaving_edge();
     // The far end, and the way back there: along the edge, in the corner that it starts or ends.
@@ -430,7 +448,7 @@ void ExactWindows<Real>::shine(Order& order, Index vertex) {
           {3 * walk.face + far, walk.by_start ? cosine : 1, walk.by_start ? sine : 0}, source);
   };
   if (arrival.corner == none || kind == VertexAngles::irregular) {
-    mesh_.corners_at(vertex, corners_);
+    sheet_.corners_at(vertex, corners_);
     pseudo_source_.shine_all(corners_, lit, along);
   } else {
     pseudo_source_.shine(arrival, kind == VertexAngles::boundary, {1, Rounding<Real>::shadow}, lit,
@@ -442,7 +460,7 @@ template <class Real>
 std::size_t ExactWindows<Real>::bytes() const {
   const auto of = [](const auto& v) { return v.capacity() * sizeof(v[0]); };
   return sizeof(*this) + of(distance_) + of(arrival_) + of(source_) + of(split_) + of(nodes_) +
-         of(node_source_) + of(corners_);
+         of(node_source_) + of(corners_) + leaving_.bytes();
 }
 
 }  // namespace plexway::windows

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <limits>
 #include <span>
@@ -10,10 +11,13 @@
 #include <plexway/propagate/distance_field.hpp>
 #include <plexway/propagate/options.hpp>
 
+#include "propagate/windows/bucket_ring.hpp"
 #include "propagate/windows/kept_windows.hpp"
+#include "propagate/windows/letters.hpp"
 #include "propagate/windows/merge.hpp"
 #include "propagate/windows/node_orders.hpp"
 #include "propagate/windows/pseudo_source.hpp"
+#include "propagate/windows/sheet.hpp"
 #include "propagate/windows/vertex_angles.hpp"
 #include "propagate/windows/window_sources.hpp"
 
@@ -24,6 +28,9 @@ struct Patience {
   std::size_t windows = 0;  ///< propagated in all
   std::size_t waiting = 0;  ///< at a time
 };
+/// For so many triangles. Who did not ask for windows `by_name` waits about twenty times as long as
+/// usual for them, or a second. Are they `kept`?
+[[nodiscard]] Patience patience(std::size_t triangles, bool by_name, bool kept);
 
 /// Exact distances: every window that may hold a shortest path is propagated, in double.
 ///
@@ -36,17 +43,87 @@ struct Patience {
 ///
 /// All of these only drop what is longer by more than rounding, so the order of work does not
 /// matter: it gives the same bits, sooner or later. What is kept from solve to solve is memory.
+/// On a surface, or as one piece of it (pieced_windows.hpp).
 template <class Real>
 class ExactWindows {
  public:
-  /// `mesh` and `angles` must outlive this.
-  ExactWindows(const TriangleMesh<Real>& mesh, const VertexAngles& angles);
+  using Number = double;
+  using Limit = Patience;
+
+  /// What the sheet refers to must outlive this.
+  explicit ExactWindows(const Sheet<Real>& sheet);
 
   /// The sources must be checked. Windows are put into `kept` as well, unless it is null. Throws
   /// Cancelled as the progress callback says. False, and no result, where more windows are needed
   /// than `patience` allows.
   [[nodiscard]] bool solve(const WindowSources& sources, const PropagateOptions& options,
                            const Patience& patience, KeptWindows<Real>* kept = nullptr);
+
+  // ---- As a piece, which others tell when to do what ----
+
+  /// A solve from `sources`, which are then given one by one.
+  void begin(const WindowSources& sources, const PropagateOptions& options,
+             const Patience& patience);
+  /// Calls seed(g, barycentric) for the triangles that a source inside f is to be given to.
+  template <class Seed>
+  static void for_each_place(std::span<const TriangleRecord<Real>>, Index f,
+                             const std::array<double, 4>& barycentric, const Seed& seed) {
+    seed(f, barycentric);
+  }
+  /// A source at a vertex or inside a triangle of this piece.
+  void seed_vertex(Index vertex, double sigma, Index number) {
+    offer(ring_, vertex, sigma, {}, number);
+  }
+  void seed_inside(Index f, const std::array<double, 4>& barycentric, double sigma, Index number) {
+    seed_inside(ring_, f, barycentric, sigma, number);
+  }
+  /// Light that reaches a vertex in no way that windows know.
+  void seed_hole(Index vertex, double distance, Index source, double) {
+    offer(ring_, vertex, distance, {}, source);
+  }
+  /// From another piece; the letter's corner by the numbers here.
+  void take(const Letter<double>& letter);
+  /// As far as the horizon, or so many windows.
+  void run_to(double horizon, std::size_t most);
+  /// Nothing waits that is nearer.
+  [[nodiscard]] double nearest() const { return ring_.nearest(); }
+  /// When a window has its turn.
+  [[nodiscard]] static double turn_of(const Window<double>& window) { return window.nearest(); }
+  [[nodiscard]] Leaving<double>& leaving() { return leaving_; }
+  [[nodiscard]] double vertex_distance(Index vertex) const { return distance_[vertex]; }
+  [[nodiscard]] double vertex_error(Index) const { return 0; }
+  [[nodiscard]] Arrival<double> arrival(Index vertex) const { return arrival_[vertex]; }
+  static constexpr Index corner_flags = 0;
+  /// So many windows were at most waiting at a time.
+  [[nodiscard]] std::size_t most_waiting() const { return nodes_.size(); }
+  /// Are ties still broken in favour of both after so many windows on so many triangles?
+  [[nodiscard]] static bool ties_end(std::size_t windows, std::size_t triangles);
+  void end_ties();
+
+  /// Light that rounding lost, or that fell on nothing with an area: calls fill(from, to, way) for
+  /// vertices that are farther than along an edge from a neighbour; distance(v) may then be
+  /// another. False if there are none.
+  template <class Distance, class Fill>
+  static bool fill_holes(std::span<const TriangleRecord<Real>> triangles, Index own,
+                         const Distance& distance, const Fill& fill) {
+    bool any = false;
+    const double tie = least_tie();
+    const auto look = [&](Index v, Index w, double length) {
+      const double way = distance(v) + length;
+      if (!(way + tie * way < distance(w))) return;
+      fill(v, w, way);
+      any = true;
+    };
+    for (Index f = 0; f < own; ++f) {
+      const TriangleRecord<Real>& t = triangles[f];
+      for (std::size_t e = 0; e < 3; ++e) {
+        const Index v = t.corner[e], w = t.corner[edge_after(e)];
+        look(v, w, static_cast<double>(t.length[e]));
+        look(w, v, static_cast<double>(t.length[e]));
+      }
+    }
+    return any;
+  }
 
   /// Afterwards, by the numbers inside, in mean edges; +inf where unreached.
   [[nodiscard]] double distance(Index vertex) const { return distance_[vertex]; }
@@ -57,6 +134,9 @@ class ExactWindows {
   [[nodiscard]] std::size_t bytes() const;
 
  private:
+  /// What two ways must differ by to differ, relative.
+  [[nodiscard]] static double least_tie();
+
   /// A window, one cache line; or a vertex that is to shine, `at_begin` away.
   struct alignas(64) Node {
     Beam<double> beam;
@@ -76,7 +156,12 @@ class ExactWindows {
     return statistics_.expansions > patience_.windows || nodes_.size() > patience_.waiting;
   }
   template <class Order>
+  bool spread(Order& order, std::size_t most);
+  template <class Order>
   void seed(Order& order, const WindowSources& sources);
+  template <class Order>
+  void seed_inside(Order& order, Index f, const std::array<double, 4>& barycentric, double sigma,
+                   Index number);
   template <class Order>
   void expand(Order& order, Index n);
   template <class Order>
@@ -91,10 +176,13 @@ class ExactWindows {
   template <class Order>
   void leave(Order& order, Index f, std::size_t edge, const Window<double>& window, Index source);
   template <class Order>
-  void enter(Order& order, Index across, const Window<double>& window, Index source);
+  void enter(Order& order, Index halfedge, const Window<double>& window, Index source);
   template <class Order>
   void offer(Order& order, Index vertex, double distance, const Arrival<double>& arrival,
              Index source);
+  template <class Order>
+  bool know(Order& order, Index vertex, double distance, const Arrival<double>& arrival,
+            Index source);
 
   /// What two ways must differ by, to differ: more than rounding. An edge that they cross counts as
   /// part of them, since it is what places are measured along.
@@ -107,11 +195,10 @@ class ExactWindows {
   [[nodiscard]] static double nearest(const Node& node);
   void keep(const Node& node, Index source);
 
+  Sheet<Real> sheet_;
   std::span<const TriangleRecord<Real>> triangles_;
-  const TriangleMesh<Real>& mesh_;
-  const VertexAngles& angles_;
+  Index own_;  ///< what lies behind is another piece's, or a boundary
   PseudoSource<Real> pseudo_source_;
-  Index sentinel_;  ///< beyond a boundary
   KeptWindows<Real>* kept_ = nullptr;
   bool labels_ = false;
   bool splits_whole_ = true;  ///< may a window lose all of a side (see expand)?
@@ -129,6 +216,8 @@ class ExactWindows {
   bool complete_ = true;
   PropagateStatistics statistics_;
   NearestOfAll nearest_;
+  BucketRing ring_;
+  Leaving<double> leaving_;
 };
 
 extern template class ExactWindows<float>;

@@ -1,28 +1,94 @@
-// Where merged windows begin: at the sources, and again at what no window reached. Part of
-// merged_windows.cpp.
+// Where merged windows begin and end: at the sources, at letters, and again at what no window
+// reached. Part of merged_windows.cpp.
 
 namespace plexway::windows {
 
-/// So small a barycentric coordinate is none.
-inline constexpr double on_edge = 1e-9;
+template <class Real>
+void MergedWindows<Real>::begin(const WindowSources& sources, const PropagateOptions& options,
+                                const MergeLimit& limit) {
+  const double unit = sheet_.mesh->unit();
+  limit_ = limit;
+  kept_ = nullptr;
+  labels_ = sources.labels;
+  vertices_.assign(sheet_.vertex_count, {infinity<Real>, none, {0, 0}});
+  error_.resize(sheet_.vertex_count);
+  if (labels_) source_.resize(sheet_.vertex_count);
+  if (pending_.empty() || !complete_) pending_.assign(4 * std::size_t{own_}, none);
+  blocks_.clear();
+  vertex_next_.assign(sheet_.vertex_count, idle);
+  free_block_ = none;
+  waits_ = false;
+  complete_ = false;  // until all is done: a callback may throw
+  statistics_ = {};
+  radius_ = static_cast<Real>(options.radius / unit);
+  least_offset_ = std::numeric_limits<double>::infinity();
+  for (const PointSource& s : sources.points)
+    least_offset_ = std::min(least_offset_, s.offset / unit);
+  scale_ = scale_at(least_offset_);
+  ring_.start(bucket_width);
+  leaving_.start(sheet_.shared);
+}
 
-/// A point of a triangle: over the edges that it does not lie on, and to the corners.
+template <class Real>
+bool MergedWindows<Real>::too_many(std::size_t turns, std::size_t triangles) {
+  return turns > patience * 3 * triangles + share;
+}
+
+template <class Real>
+void MergedWindows<Real>::take(const Letter<Real>& letter) {
+  const auto admit = [&](Real near) {
+    ring_.admit(static_cast<double>(near), [this](Index n) -> Index& { return next(n); });
+  };
+  const Window<Real>& w = letter.window;
+  if (!letter.tells_of_vertex()) {
+    admit(turn_of(w));
+    enter(ring_, letter.to, w, letter.source);
+    return;
+  }
+  admit(w.at_begin);
+  scale_ = scale_at(static_cast<double>(w.at_begin));
+  static_cast<void>(know(ring_, letter.vertex(), w.at_begin, letter.corner, {w.beam.x, w.beam.h},
+                         letter.source, w.error));
+}
+
+template <class Real>
+void MergedWindows<Real>::run_to(double horizon, std::size_t most) {
+  ring_.set_horizon(horizon);
+  if (!spread(ring_, most) && waits_ && !(ring_.nearest() < horizon)) {  // spent just so
+    waits_ = false;
+    commit_any(ring_, turns_[current_ ^ 1]);
+  }
+  complete_ = nearest() == infinity<double>;
+}
+
+/// After the last turn allowed: is there anything else to do?
 template <class Real>
 template <class Order>
-void MergedWindows<Real>::seed_in(Order& order, Index f, const std::array<double, 3>& b, Real sigma,
-                                  Index number) {
+typename MergedWindows<Real>::Outcome MergedWindows<Real>::left_over(Order& order) {
+  const auto next_of = [this](Index n) -> Index& { return next(n); };
+  const auto near_of = [this](Index n) { return static_cast<double>(near(n)); };
+  while (order.pop(next_of, near_of) == none) {
+    if (!waits_) return Outcome::done;
+    waits_ = false;
+    commit_any(order, turns_[current_ ^ 1]);
+  }
+  return Outcome::stopped;
+}
+
+/// Over the edges that it does not lie on, and to the corners.
+template <class Real>
+template <class Order>
+void MergedWindows<Real>::seed_inside(Order& order, Index f, const std::array<double, 4>& b,
+                                      Real sigma, Index number) {
   const TriangleRecord<Real>& t = triangles_[f];
   for (std::size_t e = 0; e < 3; ++e) {
-    const std::size_t i = edge_after(e), p = edge_before(e);
-    const double length = static_cast<double>(t.length[e]);
-    const double x = b[i] * length + b[p] * static_cast<double>(t.apex_x(e));
-    const double h = b[p] * static_cast<double>(t.apex_h(e));
+    const auto [x, h, length] = SeenFromEdge<Real>(t, b, e);
     const Beam<double> beam = Beam<double>{x, h, 0, length}.mirrored(length);
     Window<Real> window = {
         {static_cast<Real>(beam.x), static_cast<Real>(beam.h), 0, t.length[e]}, sigma, 0, 0, 0};
     window.begin_at(0);
     window.end_at(t.length[e]);
-    if (b[p] > on_edge) leave(order, f, e, window, number);
+    if (b[edge_before(e)] > on_edge<Real>) leave(order, f, e, window, number);
     offer(order, t.corner[e], sigma + static_cast<Real>(std::sqrt(x * x + h * h)),
           static_cast<Index>(3 * f + e), {static_cast<Real>(x), static_cast<Real>(h)}, number, 0);
   }
@@ -32,43 +98,19 @@ template <class Real>
 template <class Order>
 void MergedWindows<Real>::seed(Order& order, const WindowSources& sources) {
   const auto real = [](double x) { return static_cast<Real>(x); };
-  for (std::size_t n = 0; n < sources.points.size(); ++n) {
-    const PointSource& s = sources.points[n];
-    const Index number = sources.number(n);
-    const Real sigma = static_cast<Real>(s.offset / mesh_.unit());
-    if (s.vertex != none) {
-      offer(order, mesh_.inside_vertex(s.vertex), sigma, none, {0, 0}, number, 0);
-      continue;
-    }
-    const auto [f, turned] = mesh_.inside_face(s.simplex);
-    const TriangleRecord<Real>& t = triangles_[f];
-    std::array<double, 4> b = s.barycentric;
-    if (turned) std::swap(b[1], b[2]);
-    if (const auto at = near_corner(t, b)) {
-      offer(order, t.corner[at->corner], sigma + real(at->way), none, {0, 0}, number, 0);
-      continue;
-    }
-    seed_in(order, f, {b[0], b[1], b[2]}, sigma, number);
-    // On an edge all triangles there have it. As a window over that edge it would light them
-    // through a single point, and what cuts off a part of the edge would cut off all light to one
-    // side.
-    for (std::size_t e = 0; e < 3; ++e) {
-      if (b[edge_before(e)] > on_edge || t.across[e] >> Across::face_shift == sentinel_) continue;
-      cross_edge(triangles_, f, e, [&](Index across, bool same_way) {
-        const std::size_t k = across & Across::edge_mask;
-        std::array<double, 3> there = {0, 0, 0};
-        there[k] = b[same_way ? e : edge_after(e)];
-        there[edge_after(k)] = b[same_way ? edge_after(e) : e];
-        const Index g = across >> Across::face_shift;
-        seed_in(order, g, there, sigma, number);
-        if (!kept_) return;  // what is read there looks for the source over the edge
-        const Real length = triangles_[g].length[k];
-        kept_->take(static_cast<Index>(4 * g + k),
-                    {static_cast<Real>(there[edge_after(k)]) * length, 0, 0, length}, sigma,
-                    number);
-      });
-    }
-  }
+  const auto at_vertex = [&](Index v, double sigma, Index n) {
+    offer(order, v, real(sigma), none, {0, 0}, n, 0);
+  };
+  const auto inside = [&](Index f, const std::array<double, 4>& b, double sigma, Index n) {
+    triangles_at(triangles_, f, b, [&](Index g, const std::array<double, 4>& there, std::size_t k) {
+      seed_inside(order, g, there, real(sigma), n);
+      if (!kept_ || k == 3) return;  // what is read there looks for the source over the edge
+      const Real length = triangles_[g].length[k];
+      kept_->take(4 * g + static_cast<Index>(k),
+                  {real(there[edge_after(k)]) * length, 0, 0, length}, real(sigma), n);
+    });
+  };
+  for_each_seed(*sheet_.mesh, sources, at_vertex, inside);
   for (const CornerBesideLine& c : sources.corners)
     offer(order, triangles_[c.face].corner[c.corner], real(c.distance), 3 * c.face + c.corner,
           {real(c.back.along), real(c.back.off)}, c.number, 0);
@@ -81,7 +123,7 @@ void MergedWindows<Real>::seed(Order& order, const WindowSources& sources) {
     window.begin_at(window.beam.begin);
     window.end_at(window.beam.end);
     if (light.into)
-      enter(order, light.face << Across::face_shift | light.edge, window, light.number);
+      enter(order, light.face << 2 | light.edge, window, light.number);
     else
       leave(order, light.face, light.edge, window.mirrored(length), light.number);
   }
@@ -94,20 +136,11 @@ bool MergedWindows<Real>::fill_holes(Order& order) {
       std::all_of(vertices_.begin(), vertices_.end(),
                   [](const Vertex& v) { return v.distance < infinity<Real>; }))
     return false;
-  bool any = false;
-  for (Index f = 0; f < mesh_.face_count(); ++f) {
-    const TriangleRecord<Real>& t = triangles_[f];
-    for (std::size_t e = 0; e < 3; ++e)
-      for (const auto& [from, to] : {std::pair(e, edge_after(e)), std::pair(edge_after(e), e)}) {
-        const Index v = t.corner[from], w = t.corner[to];
-        if (vertices_[w].distance < infinity<Real> || !(vertices_[v].distance < infinity<Real>))
-          continue;
-        offer(order, w, vertices_[v].distance + t.length[e], none, {0, 0}, labels_ ? source_[v] : 0,
-              error_[v]);
-        any = true;
-      }
-  }
-  return any;
+  return fill_holes(
+      triangles_, own_, [&](Index v) { return vertices_[v].distance; },
+      [&](Index v, Index w, Real way) {
+        offer(order, w, way, none, {0, 0}, labels_ ? source_[v] : 0, error_[v]);
+      });
 }
 
 }  // namespace plexway::windows

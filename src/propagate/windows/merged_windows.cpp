@@ -1,5 +1,4 @@
 #include "propagate/windows/merged_windows.hpp"
-#include "propagate/windows/near_corner.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -19,8 +18,6 @@ constexpr Real infinity = std::numeric_limits<Real>::infinity();
 
 /// In mean edges. Wider ones take more turns, since halfedges have theirs before all is there.
 constexpr double bucket_width = 0.125;
-/// Where between its nearest and its farthest distance a window has its turn.
-constexpr double turn_at = 0.3;
 /// Vertices have their turn so much later than their distance, in mean edges: after the light that
 /// may reach them straight.
 constexpr double late = 0.25;
@@ -28,20 +25,17 @@ constexpr double late = 0.25;
 constexpr std::size_t patience = 4;
 /// Boundaries that turn by more than rounding bend paths, radians.
 constexpr double least_bend = 2e-6;
+constexpr std::size_t share = 65536;  ///< turns between two looks at what is told and allowed
 
 }  // namespace
 
 template <class Real>
-MergedWindows<Real>::MergedWindows(const TriangleMesh<Real>& mesh, const VertexAngles& angles)
-    : triangles_(mesh.triangles()),
-      mesh_(mesh),
-      angles_(angles),
-      pseudo_source_(triangles_),
-      sentinel_(static_cast<Index>(mesh.face_count())) {
-  excess_.resize(mesh.vertex_count());
-  for (Index v = 0; v < mesh.vertex_count(); ++v) {
-    const double excess = angles.excess(v);
-    const bool ear = angles.kind[v] == VertexAngles::boundary && excess > least_bend;
+MergedWindows<Real>::MergedWindows(const Sheet<Real>& sheet)
+    : sheet_(sheet), triangles_(sheet.triangles), own_(sheet.own), pseudo_source_(triangles_) {
+  excess_.resize(sheet.vertex_count);
+  for (Index v = 0; v < sheet.vertex_count; ++v) {
+    const double excess = sheet.angles->excess(v);
+    const bool ear = sheet.angles->kind[v] == VertexAngles::boundary && excess > least_bend;
     excess_[v] = ear ? infinity<Real> : static_cast<Real>(excess);
   }
 }
@@ -49,23 +43,8 @@ MergedWindows<Real>::MergedWindows(const TriangleMesh<Real>& mesh, const VertexA
 template <class Real>
 bool MergedWindows<Real>::solve(const WindowSources& sources, const PropagateOptions& options,
                                 const MergeLimit& limit, KeptWindows<Real>* kept) {
-  limit_ = limit;
+  begin(sources, options, limit);
   kept_ = kept;
-  labels_ = sources.labels;
-  vertices_.assign(mesh_.vertex_count(), {infinity<Real>, none, {0, 0}});
-  error_.resize(mesh_.vertex_count());
-  if (labels_) source_.resize(mesh_.vertex_count());
-  if (pending_.empty() || !complete_) pending_.assign(4 * mesh_.face_count(), none);
-  blocks_.clear();
-  vertex_next_.assign(mesh_.vertex_count(), idle);
-  free_block_ = none;
-  complete_ = false;  // until all is done: a callback may throw
-  statistics_ = {};
-  radius_ = static_cast<Real>(options.radius / mesh_.unit());
-  least_offset_ = std::numeric_limits<double>::infinity();
-  for (const PointSource& s : sources.points)
-    least_offset_ = std::min(least_offset_, s.offset / mesh_.unit());
-  scale_ = scale_at(least_offset_);
   const auto solve_in = [&](auto& order) {
     order.start(bucket_width);
     seed(order, sources);
@@ -82,10 +61,8 @@ bool MergedWindows<Real>::solve(const WindowSources& sources, const PropagateOpt
     }
     case Schedule::priority:
       return solve_in(nearest_);
-    default: {
-      BucketRing ring;
-      return solve_in(ring);
-    }
+    default:
+      return solve_in(ring_);
   }
 }
 
@@ -128,25 +105,43 @@ template <class Real>
 template <class Order>
 typename MergedWindows<Real>::Outcome MergedWindows<Real>::run(Order& order,
                                                                const PropagateOptions& options) {
+  std::size_t report = statistics_.expansions / share * share + share;
+  for (;;) {
+    const std::size_t until = std::min(report, options.max_expansions);
+    if (spread(order, until - statistics_.expansions)) return Outcome::done;
+    if (statistics_.expansions == options.max_expansions) return left_over(order);
+    report += share;
+    if (options.progress &&
+        !options.progress({statistics_.expansions, statistics_.reached_simplices, own_,
+                           order.distance() * sheet_.mesh->unit()}))
+      throw Cancelled("cancelled by the progress callback");
+    if (too_many(statistics_.expansions, own_)) return Outcome::too_much;
+  }
+}
+
+/// Until nothing waits (true), or so many turns were taken: what was prepared last then waits to be
+/// committed.
+template <class Real>
+template <class Order>
+bool MergedWindows<Real>::spread(Order& order, std::size_t most) {
   const auto next_of = [this](Index n) -> Index& { return next(n); };
   const auto near_of = [this](Index n) { return static_cast<double>(near(n)); };
-  constexpr std::size_t share = 65536;
-  std::size_t report = statistics_.expansions / share * share + share;
   double before = -1;
   Real scale = 0;
   // One turn is prepared before the one ahead of it is committed: what a wrong guess there undoes
   // is then not the arithmetic.
-  std::size_t current = 0;
-  bool waits = false;
-  for (;;) {
+  std::size_t current = current_;
+  bool waits = waits_;
+  for (const std::size_t end = statistics_.expansions + most; statistics_.expansions != end;) {
     const Index n = order.pop(next_of, near_of);
     if (n == none) {
-      if (!waits) return Outcome::done;
+      current_ = current;
+      waits_ = false;
+      if (!waits) return true;
       waits = false;
       commit_any(order, turns_[current ^ 1]);
       continue;
     }
-    if (statistics_.expansions == options.max_expansions) return Outcome::stopped;
     ++statistics_.expansions;
     if (const Index after = order.peek(); after != none) fetch(after);
     if (order.distance() != before) scale = scale_at(before = order.distance());
@@ -154,46 +149,53 @@ typename MergedWindows<Real>::Outcome MergedWindows<Real>::run(Order& order,
     if (n & bent) {
       vertex_next_[n & ~bent] = idle;
       shine(order, n & ~bent);
-    } else {
-      Turn& turn = turns_[current];
-      const Block& block = start(turn, n);
-      if (block.count == 1) {
-        turn.windows.append({block.window[0], labels_ ? block.source[0] : 0});
-        turn.spread[0].go(turn.triangle, turn.windows[0].window);
-      } else {
-        gather(turn.windows, block);
-        if (turn.windows.size() == 1)
-          turn.spread[0].go(turn.triangle, turn.windows[0].window);
-        else
-          prepare(turn);
-      }
-      if (kept_) [[unlikely]] {
-        for (std::size_t i = 0; i < turn.windows.size(); ++i) {
-          const auto& [window, source] = turn.windows[i];
-          kept_->take(block.halfedge, window.beam, window.sigma, source);
-        }
-      }
-      current ^= 1;
-      if (waits) commit_any(order, turns_[current]);
-      waits = true;
+      continue;
     }
-    if (statistics_.expansions < report) continue;
-    report += share;
-    if (options.progress &&
-        !options.progress({statistics_.expansions, statistics_.reached_simplices,
-                           mesh_.face_count(), order.distance() * mesh_.unit()}))
-      throw Cancelled("cancelled by the progress callback");
-    if (statistics_.expansions > patience * 3 * mesh_.face_count() + share)
-      return Outcome::too_much;
+    Turn& turn = turns_[current];
+    const Block& block = start(turn, n);
+    if (block.count == 1) {
+      turn.windows.append({block.window[0], labels_ ? block.source[0] : 0});
+      turn.spread[0].go(turn.triangle, turn.windows[0].window);
+    } else {
+      gather(turn.windows, block);
+      if (turn.windows.size() == 1)
+        turn.spread[0].go(turn.triangle, turn.windows[0].window);
+      else
+        prepare(turn);
+    }
+    if (kept_) [[unlikely]] {
+      for (std::size_t i = 0; i < turn.windows.size(); ++i) {
+        const auto& [window, source] = turn.windows[i];
+        kept_->take(block.halfedge, window.beam, window.sigma, source);
+      }
+    }
+    current ^= 1;
+    if (waits) commit_any(order, turns_[current]);
+    waits = true;
   }
+  current_ = current;
+  waits_ = waits;
+  return false;
 }
 
 template <class Real>
 template <class Order>
 void MergedWindows<Real>::offer(Order& order, Index vertex, Real distance, Index corner,
                                 Towards<Real> from, Index source, Real error) {
+  if (know(order, vertex, distance, corner, from, source, error) && vertex < sheet_.shared)
+      [[unlikely]]
+    leaving_.tell(vertex);
+}
+
+/// Did the vertex get nearer?
+template <class Real>
+template <class Order>
+[[gnu::always_inline]] inline bool MergedWindows<Real>::know(Order& order, Index vertex,
+                                                             Real distance, Index corner,
+                                                             Towards<Real> from, Index source,
+                                                             Real error) {
   Vertex& v = vertices_[vertex];
-  if (!(distance < v.distance)) return;
+  if (!(distance < v.distance)) return false;
   v = {distance, corner, from};
   error_[vertex] = error;
   if (labels_) source_[vertex] = source;
@@ -202,6 +204,7 @@ void MergedWindows<Real>::offer(Order& order, Index vertex, Real distance, Index
       vertex_next_[vertex] == idle)
     order.push(vertex | bent, static_cast<double>(distance + static_cast<Real>(late)),
                [this](Index i) -> Index& { return next(i); });
+  return true;
 }
 
 /// All that waits in a block.
@@ -222,14 +225,12 @@ void MergedWindows<Real>::gather(Gathered<Real>& windows, const Block& block) co
 
 template <class Real>
 template <class Order>
-[[gnu::always_inline]] inline void MergedWindows<Real>::enter(Order& order, Index across,
+[[gnu::always_inline]] inline void MergedWindows<Real>::enter(Order& order, Index halfedge,
                                                               const Window<Real>& window,
                                                               Index source) {
-  const Index halfedge = across >> Across::face_shift << 2 | (across & Across::edge_mask);
   if (radius_ < infinity<Real> && window.nearest() > radius_) [[unlikely]]
     return;
-  const Real near = std::min(window.at_begin, window.at_end) * static_cast<Real>(1 - turn_at) +
-                    std::max(window.at_begin, window.at_end) * static_cast<Real>(turn_at);
+  const Real near = turn_of(window);
   const Index waiting = pending_[halfedge];
   if (waiting != none && blocks_[waiting].count < room) {
     Block& block = blocks_[waiting];
@@ -268,11 +269,10 @@ template <class Order>
                                                               const Window<Real>& window,
                                                               Index source) {
   const Index across = triangles_[f].across[edge];
-  if (across >> Across::face_shift == sentinel_) return;
-  if (across & Across::special) [[unlikely]]
+  if ((across & Across::special) || across >> Across::face_shift >= own_) [[unlikely]]
     leave_special(order, f, edge, window, source);
   else
-    enter(order, across, window, source);
+    enter(order, halfedge_of(across), window, source);
 }
 
 template <class Real>
@@ -280,9 +280,15 @@ template <class Order>
 [[gnu::noinline]] void MergedWindows<Real>::leave_special(Order& order, Index f, std::size_t edge,
                                                           const Window<Real>& window,
                                                           Index source) {
+  const Index sentinel = sheet_.sentinel();
+  if (triangles_[f].across[edge] >> Across::face_shift == sentinel) return;
   const Window<Real> mirrored = window.mirrored(triangles_[f].length[edge]);
   cross_edge(triangles_, f, edge, [&](Index across, bool turned) {
-    enter(order, across, turned ? mirrored : window, source);
+    const Window<Real>& seen = turned ? mirrored : window;
+    if (across >> Across::face_shift >= own_)
+      leaving_.windows.push_back({halfedge_of(across), source, none, seen});
+    else
+      enter(order, halfedge_of(across), seen, source);
   });
 }
 
@@ -419,8 +425,9 @@ void MergedWindows<Real>::shine(Order& order, Index vertex) {
   if (!anywhere && !(shadow > 0)) return;
   const Index source = labels_ ? source_[vertex] : 0;
   const Real error = error_[vertex];
-  const VertexAngles::Kind kind = angles_.kind[vertex];
+  const VertexAngles::Kind kind = sheet_.angles->kind[vertex];
   const auto lit = [&](const Lit& part) {
+    if (part.face >= own_) return;
     const TriangleRecord<Real>& t = triangles_[part.face];
     const Beam<Real> beam = {t.apex_x(part.edge), t.apex_h(part.edge),
                              static_cast<Real>(part.begin), static_cast<Real>(part.end)};
@@ -430,6 +437,7 @@ void MergedWindows<Real>::shine(Order& order, Index vertex) {
     leave(order, part.face, part.edge, window, source);
   };
   const auto along = [&](const FanWalk& walk) {
+    if (walk.face >= own_) return;
     const TriangleRecord<Real>& t = triangles_[walk.face];
     const Index e = walk.leaving_edge();
     const Index far = static_cast<Index>(walk.by_start ? edge_after(e) : e);
@@ -438,7 +446,7 @@ void MergedWindows<Real>::shine(Order& order, Index vertex) {
           error);
   };
   if (anywhere || kind == VertexAngles::irregular) {
-    mesh_.corners_at(vertex, corners_);
+    sheet_.corners_at(vertex, corners_);
     pseudo_source_.shine_all(corners_, lit, along);
   } else {
     const Arrival<double> arrival = {v.corner & ~bent, static_cast<double>(v.from.along),
@@ -453,7 +461,7 @@ template <class Real>
 std::size_t MergedWindows<Real>::bytes() const {
   const auto of = [](const auto& v) { return v.capacity() * sizeof(v[0]); };
   return sizeof(*this) + of(excess_) + of(vertices_) + of(source_) + of(error_) + of(pending_) +
-         of(blocks_) + of(vertex_next_) + of(corners_);
+         of(blocks_) + of(vertex_next_) + of(corners_) + leaving_.bytes();
 }
 
 }  // namespace plexway::windows

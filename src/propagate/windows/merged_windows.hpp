@@ -1,8 +1,11 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
+#include <limits>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include <plexway/complex/triangle_mesh.hpp>
@@ -13,9 +16,12 @@
 #include "propagate/windows/entered_triangle.hpp"
 #include "propagate/windows/gather.hpp"
 #include "propagate/windows/kept_windows.hpp"
+#include "propagate/windows/letters.hpp"
 #include "propagate/windows/node_orders.hpp"
 #include "propagate/windows/pseudo_source.hpp"
+#include "propagate/windows/sheet.hpp"
 #include "propagate/windows/spread.hpp"
+#include "propagate/windows/triangles_at.hpp"
 #include "propagate/windows/vertex_angles.hpp"
 #include "propagate/windows/window_sources.hpp"
 
@@ -35,18 +41,92 @@ struct MergeLimit {
 constexpr MergeLimit merge_limit(double error) { return {43 * error, 20}; }
 
 /// Distances by windows of which neighbours that nearly agree become one, so that an edge has one
-/// or two at a time.
+/// or two at a time. On a surface, or as one piece of it (pieced_windows.hpp).
 template <class Real>
 class MergedWindows {
  public:
-  /// `mesh` and `angles` must outlive this.
-  MergedWindows(const TriangleMesh<Real>& mesh, const VertexAngles& angles);
+  using Number = Real;
+  using Limit = MergeLimit;
+
+  /// What the sheet refers to must outlive this.
+  explicit MergedWindows(const Sheet<Real>& sheet);
 
   /// The sources must be checked. Windows are put into `kept` as well, unless it is null. Throws
   /// Cancelled as the progress callback says. False, and no result, where merging does not pay:
   /// among needles windows do not become fewer, and what comes out is no good.
   [[nodiscard]] bool solve(const WindowSources& sources, const PropagateOptions& options,
                            const MergeLimit& limit, KeptWindows<Real>* kept = nullptr);
+
+  // ---- As a piece, which others tell when to do what ----
+
+  /// A solve from `sources`, which are then given one by one.
+  void begin(const WindowSources& sources, const PropagateOptions& options,
+             const MergeLimit& limit);
+  /// Calls seed(g, barycentric) for the triangles that a source inside f is to be given to: where
+  /// it lies on an edge, all at that edge. As a window over that edge it would light them through a
+  /// single point, and what cuts off a part of the edge would cut off all light to one side.
+  template <class Seed>
+  static void for_each_place(std::span<const TriangleRecord<Real>> triangles, Index f,
+                             const std::array<double, 4>& barycentric, const Seed& seed) {
+    triangles_at(triangles, f, barycentric,
+                 [&](Index g, const std::array<double, 4>& b, std::size_t) { seed(g, b); });
+  }
+  /// A source at a vertex or inside a triangle of this piece.
+  void seed_vertex(Index vertex, double sigma, Index number) {
+    offer(ring_, vertex, static_cast<Real>(sigma), none, {0, 0}, number, 0);
+  }
+  void seed_inside(Index f, const std::array<double, 4>& barycentric, double sigma, Index number) {
+    seed_inside(ring_, f, barycentric, static_cast<Real>(sigma), number);
+  }
+  /// Light that reaches a vertex in no way that windows know.
+  void seed_hole(Index vertex, Real distance, Index source, Real error) {
+    offer(ring_, vertex, distance, none, {0, 0}, source, error);
+  }
+  /// From another piece; the letter's corner by the numbers here.
+  void take(const Letter<Real>& letter);
+  /// As far as the horizon, or so many turns.
+  void run_to(double horizon, std::size_t most);
+  /// Nothing waits that is nearer.
+  [[nodiscard]] double nearest() const {
+    return waits_ ? std::min(ring_.distance(), ring_.nearest()) : ring_.nearest();
+  }
+  /// When a window has its turn: between its nearest and its farthest distance.
+  [[nodiscard]] static Real turn_of(const Window<Real>& window) {
+    constexpr double at = 0.3;
+    return std::min(window.at_begin, window.at_end) * static_cast<Real>(1 - at) +
+           std::max(window.at_begin, window.at_end) * static_cast<Real>(at);
+  }
+  [[nodiscard]] Leaving<Real>& leaving() { return leaving_; }
+  [[nodiscard]] Real vertex_distance(Index vertex) const { return vertices_[vertex].distance; }
+  [[nodiscard]] Real vertex_error(Index vertex) const { return error_[vertex]; }
+  [[nodiscard]] Arrival<Real> arrival(Index vertex) const {
+    const Vertex& v = vertices_[vertex];
+    return {v.corner, v.from.along, v.from.off};
+  }
+  /// Is what arrived bent at that vertex? Part of Arrival::corner, beside `none`.
+  static constexpr Index corner_flags = Index{1} << 31;
+  /// Is this too much for so many triangles?
+  [[nodiscard]] static bool too_many(std::size_t turns, std::size_t triangles);
+
+  /// Calls fill(from, to, way) for vertices of these triangles that are reached along an edge and
+  /// in no other way; distance(v) may then be another. False if there are none.
+  template <class Distance, class Fill>
+  static bool fill_holes(std::span<const TriangleRecord<Real>> triangles, Index own,
+                         const Distance& distance, const Fill& fill) {
+    constexpr Real infinity = std::numeric_limits<Real>::infinity();
+    bool any = false;
+    for (Index f = 0; f < own; ++f) {
+      const TriangleRecord<Real>& t = triangles[f];
+      for (std::size_t e = 0; e < 3; ++e)
+        for (const auto& [from, to] : {std::pair(e, edge_after(e)), std::pair(edge_after(e), e)}) {
+          const Index v = t.corner[from], w = t.corner[to];
+          if (distance(w) < infinity || !(distance(v) < infinity)) continue;
+          fill(v, w, distance(v) + t.length[e]);
+          any = true;
+        }
+    }
+    return any;
+  }
 
   /// Afterwards, by the numbers inside, in mean edges; +inf where unreached.
   [[nodiscard]] Real distance(Index vertex) const { return vertices_[vertex].distance; }
@@ -65,7 +145,7 @@ class MergedWindows {
     Index corner;  ///< where the path comes from, as Arrival has it; `bent` may be added
     Towards<Real> from;
   };
-  static constexpr Index bent = Index{1} << 31;
+  static constexpr Index bent = corner_flags;
 
   /// The windows that wait on one halfedge, 4 f + i. What waits in the queue: the number of a
   /// block, or a vertex with `bent` set; each once.
@@ -91,15 +171,20 @@ class MergedWindows {
     Real to_apex;  ///< straight; +inf where the apex lies in shadow as far as these windows know
     std::size_t seen;  ///< from this window
   };
-  static constexpr std::size_t batch = 4;  ///< turns at a time
+  static constexpr std::size_t batch = 2;  ///< turns at a time
   enum class Outcome { done, stopped, too_much };
 
   template <class Order>
   Outcome run(Order& order, const PropagateOptions& options);
   template <class Order>
+  Outcome left_over(Order& order);
+  template <class Order>
+  bool spread(Order& order, std::size_t most);
+  template <class Order>
   void seed(Order& order, const WindowSources& sources);
   template <class Order>
-  void seed_in(Order& order, Index f, const std::array<double, 3>& place, Real sigma, Index number);
+  void seed_inside(Order& order, Index f, const std::array<double, 4>& barycentric, Real sigma,
+                   Index number);
   template <class Order>
   bool fill_holes(Order& order);
   Block& start(Turn& turn, Index block);
@@ -123,17 +208,19 @@ class MergedWindows {
   template <class Order>
   void offer(Order& order, Index vertex, Real distance, Index corner, Towards<Real> from,
              Index source, Real error);
+  template <class Order>
+  bool know(Order& order, Index vertex, Real distance, Index corner, Towards<Real> from,
+            Index source, Real error);
 
   void gather(Gathered<Real>& windows, const Block& block) const;
   [[nodiscard]] Real scale_at(double distance) const;
   [[nodiscard]] Real near(Index node) const;
   [[nodiscard]] Index& next(Index node);
 
+  Sheet<Real> sheet_;
   std::span<const TriangleRecord<Real>> triangles_;
-  const TriangleMesh<Real>& mesh_;
-  const VertexAngles& angles_;
+  Index own_;  ///< what lies behind is another piece's, or a boundary
   PseudoSource<Real> pseudo_source_;
-  Index sentinel_;  ///< beyond a boundary
   MergeLimit limit_;
   KeptWindows<Real>* kept_ = nullptr;
   bool labels_ = false;
@@ -151,9 +238,13 @@ class MergedWindows {
   std::vector<Index> corners_;
   Index free_block_ = none;
   std::array<Turn, batch> turns_;
+  std::size_t current_ = 0;  ///< the turn to be prepared next
+  bool waits_ = false;       ///< is the other one still to be committed?
   bool complete_ = true;
   PropagateStatistics statistics_;
   NearestOfAll nearest_;
+  BucketRing ring_;
+  Leaving<Real> leaving_;
 };
 
 extern template class MergedWindows<float>;

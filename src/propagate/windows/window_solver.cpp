@@ -2,20 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <string>
-#include <type_traits>
 
-#include <plexway/error.hpp>
-
-#include "complex/number_range.hpp"
-#include "propagate/alone.hpp"
-#include "propagate/mend_surface.hpp"
 #include "propagate/window_memory.hpp"
+
+#include "propagate/windows/solve_by.inl"
 
 namespace plexway {
 namespace windows {
-namespace {
 
 /// What exact windows may take. Scans and CAD parts need 2 to 80 windows a triangle, raw needles
 /// 500, two sheets with the same vertices 900, and all more as the root of their number grows; of
@@ -32,8 +25,6 @@ Patience patience(std::size_t triangles, bool by_name, bool kept) {
           std::min(windows(128, 22), most_kept / 2)};
 }
 
-}  // namespace
-
 template <class Real>
 WindowSolver<Real>::WindowSolver(const TriangleMesh<Real>& mesh)
     : mesh_(mesh),
@@ -47,103 +38,25 @@ bool WindowSolver<Real>::is_for(const TriangleMesh<Real>& mesh) const {
   return &mesh == &mesh_ && mesh.identity() == identity_ && mesh.triangles().data() == triangles_;
 }
 
-/// From the numbers and the unit inside to the caller's: nothing beyond the radius, an offset to
-/// the last bit.
 template <class Real>
-template <bool kLabels, class Windows>
-void WindowSolver<Real>::read_out(const Windows& windows, const WindowSources& sources,
-                                  const PropagateOptions& options, bool mends,
-                                  WorkspaceState<Real>& workspace,
-                                  DistanceField<Real>& field) const {
-  NumberRange<Real>::check_unit(mesh_.unit());
-  constexpr Real infinity = std::numeric_limits<Real>::infinity();
-  const Real radius = static_cast<Real>(options.radius);
-  const auto inside = mesh_.vertices_inside();
-  workspace.vertex.resize(inside.size());
-  if constexpr (kLabels) workspace.vertex_source.resize(inside.size());
-  for (Index v = 0; v < inside.size(); ++v) {
-    workspace.vertex[v] = static_cast<Real>(windows.distance(v));
-    if constexpr (kLabels) workspace.vertex_source[v] = windows.source(v);
-  }
-  field.statistics = windows.statistics();
-  if (mends) {
-    const auto mended = surface::mend<Real, kLabels>(
-        mesh_, sources.only_points() ? sources.points : std::span<const PointSource>(), workspace,
-        Alone{});
-    field.statistics.lowered_vertices = mended.lowered;
-    field.statistics.raised_vertices = mended.raised;
-  }
-  field.distance.resize(inside.size());
-  field.label.resize(kLabels ? inside.size() : 0);
-  for (std::size_t v = 0; v < inside.size(); ++v) {
-    const Real d =
-        static_cast<Real>(static_cast<double>(workspace.vertex[inside[v]]) * mesh_.unit());
-    const bool in = d <= radius;
-    field.distance[v] = in ? d : infinity;
-    if constexpr (kLabels)
-      field.label[v] = in && d < infinity ? workspace.vertex_source[inside[v]] : none;
-  }
-  const auto at_vertex = [&](const PointSource& s, Index number) {
-    const Index v = s.vertex;
-    return v != none && windows.source(mesh_.inside_vertex(v)) == number &&
-           s.offset <= options.radius;
-  };
-  for (std::size_t n = 0; n < sources.points.size(); ++n)
-    if (const PointSource& s = sources.points[n]; at_vertex(s, sources.number(n)))
-      field.distance[s.vertex] = static_cast<Real>(s.offset);
-  field.complete = windows.complete();
-  const auto triangles = mesh_.triangles();
-  for (std::size_t f = 0; f < mesh_.face_count(); ++f)
-    field.statistics.reached_simplices += windows.distance(triangles[f].corner[0]) < infinity;
+ExactWindows<Real>& WindowSolver<Real>::exact(const Alone&) {
+  if (!exact_) exact_.emplace(Sheet<Real>::whole(mesh_, angles_));
+  return *exact_;
 }
 
 template <class Real>
-bool WindowSolver<Real>::solve(const WindowSources& sources, Accuracy accuracy,
-                               const PropagateOptions& options, WorkspaceState<Real>& workspace,
-                               DistanceField<Real>& field) {
-  const bool merge = accuracy.kind() != Accuracy::Kind::exact;
-  const auto take = [&](const auto& windows) {
-    if (sources.labels)
-      read_out<true>(windows, sources, options, merge, workspace, field);
-    else
-      read_out<false>(windows, sources, options, merge, workspace, field);
-  };
-  if (merge && !merged_) merged_.emplace(mesh_, angles_);
-  const auto keep = [&]() -> KeptWindows<Real>* {
-    if (!kept_) return nullptr;
-    kept_->start(4 * mesh_.face_count());
-    return &*kept_;
-  };
-  // Merged light has no least distance: where lengths are no metric it may gain on itself.
-  const auto is_sound = [&] {
-    for (Index v = 0; v < mesh_.vertex_count(); ++v)
-      if (merged_->distance(v) < 0) return false;
-    return true;
-  };
-  if (!merge || !merged_->solve(sources, options, merge_limit(accuracy.error()), keep()) ||
-      !is_sound()) {
-    if (!exact_) exact_.emplace(mesh_, angles_);
-    const bool may_give_up = options.accuracy.kind() == Accuracy::Kind::usual;
-    const Patience limit = patience(mesh_.face_count(), !may_give_up, kept_.has_value());
-    if (!exact_->solve(sources, options, limit, keep())) {
-      if (may_give_up) return false;
-      throw EndlessError("stopped after " + std::to_string(exact_->statistics().expansions) +
-                         " windows on " + std::to_string(mesh_.face_count()) +
-                         " triangles: too many to wait for; use the accuracy fast, or look for "
-                         "triangles that lie on each other");
-    }
-    take(*exact_);
-    field.error.assign(mesh_.vertex_count(), 0);
-    return true;
+MergedWindows<Real>& WindowSolver<Real>::merged(const Alone&) {
+  if (!merged_) merged_.emplace(Sheet<Real>::whole(mesh_, angles_));
+  return *merged_;
+}
+
+template <class Real>
+typename WindowSolver<Real>::Pieces& WindowSolver<Real>::pieces(std::size_t size) {
+  if (!pieces_ || pieces_->patches.size() != size) {
+    pieces_.reset();  // its memory first
+    pieces_.reset(new Pieces{WindowPatches<Real>(mesh_, angles_, size), {}, {}});
   }
-  take(*merged_);
-  const auto inside = mesh_.vertices_inside();
-  field.error.resize(inside.size());
-  for (std::size_t v = 0; v < inside.size(); ++v)
-    field.error[v] = field.distance[v] < std::numeric_limits<Real>::infinity()
-                         ? merged_->error(inside[v]) * static_cast<Real>(mesh_.unit())
-                         : Real(0);
-  return true;
+  return *pieces_;
 }
 
 template <class Real>
@@ -158,11 +71,20 @@ template <class Real>
 std::size_t WindowSolver<Real>::bytes() const {
   return sizeof(*this) + angles_.total.capacity() * sizeof(double) + angles_.kind.capacity() +
          (exact_ ? exact_->bytes() : 0) + (merged_ ? merged_->bytes() : 0) +
-         (kept_ ? kept_->bytes() : 0);
+         (kept_ ? kept_->bytes() : 0) +
+         (pieces_ ? pieces_->patches.bytes() + (pieces_->exact ? pieces_->exact->bytes() : 0) +
+                        (pieces_->merged ? pieces_->merged->bytes() : 0)
+                  : 0);
 }
 
 template class WindowSolver<float>;
 template class WindowSolver<double>;
+template bool WindowSolver<float>::solve_by(const Alone&, const WindowSources&, Accuracy,
+                                            const PropagateOptions&, WorkspaceState<float>&,
+                                            DistanceField<float>&);
+template bool WindowSolver<double>::solve_by(const Alone&, const WindowSources&, Accuracy,
+                                             const PropagateOptions&, WorkspaceState<double>&,
+                                             DistanceField<double>&);
 
 }  // namespace windows
 

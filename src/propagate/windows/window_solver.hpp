@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <span>
 
@@ -10,17 +11,19 @@
 #include <plexway/propagate/distance_field.hpp>
 #include <plexway/propagate/options.hpp>
 
+#include "propagate/alone.hpp"
 #include "propagate/windows/exact_windows.hpp"
 #include "propagate/windows/kept_windows.hpp"
 #include "propagate/windows/merged_windows.hpp"
+#include "propagate/windows/pieced_windows.hpp"
 #include "propagate/windows/vertex_angles.hpp"
 #include "propagate/windows/window_sources.hpp"
 #include "propagate/workspace_state.hpp"
 
 namespace plexway::windows {
 
-/// Distances on a surface by windows, one solve after the other, on one thread. Keeps what depends
-/// on the surface alone, and its memory.
+/// Distances on a surface by windows, one solve after the other, by one thread or by a crew. Keeps
+/// what depends on the surface alone, and its memory.
 template <class Real>
 class WindowSolver {
  public:
@@ -44,7 +47,16 @@ class WindowSolver {
   /// hide it. `workspace` is for that.
   [[nodiscard]] bool solve(const WindowSources& sources, Accuracy accuracy,
                            const PropagateOptions& options, WorkspaceState<Real>& workspace,
-                           DistanceField<Real>& field);
+                           DistanceField<Real>& field) {
+    return solve_by(Alone{}, sources, accuracy, options, workspace, field);
+  }
+  /// Likewise by a crew (solve_by.inl): in pieces of about crew.piece_size() triangles, unless it
+  /// is Alone. Exact: the same bits. No windows are kept. What is not only from points is solved
+  /// as a whole, by one thread.
+  template <class Crew>
+  [[nodiscard]] bool solve_by(const Crew& crew, const WindowSources& sources, Accuracy accuracy,
+                              const PropagateOptions& options, WorkspaceState<Real>& workspace,
+                              DistanceField<Real>& field);
 
   /// Shall solves keep their windows?
   void keep_windows(bool keep);
@@ -55,10 +67,23 @@ class WindowSolver {
   [[nodiscard]] std::size_t bytes() const;
 
  private:
-  template <bool kLabels, class Windows>
+  struct Pieces {
+    WindowPatches<Real> patches;
+    std::optional<PiecedWindows<Real, ExactWindows<Real>>> exact;
+    std::optional<PiecedWindows<Real, MergedWindows<Real>>> merged;
+  };
+
+  template <bool kLabels, class Windows, class Crew>
   void read_out(const Windows& windows, const WindowSources& sources,
-                const PropagateOptions& options, bool mends, WorkspaceState<Real>& workspace,
-                DistanceField<Real>& field) const;
+                const PropagateOptions& options, bool mends, const Crew& crew,
+                WorkspaceState<Real>& workspace, DistanceField<Real>& field) const;
+  [[nodiscard]] ExactWindows<Real>& exact(const Alone&);
+  [[nodiscard]] MergedWindows<Real>& merged(const Alone&);
+  template <class Crew>
+  [[nodiscard]] auto& exact(const Crew& crew);
+  template <class Crew>
+  [[nodiscard]] auto& merged(const Crew& crew);
+  [[nodiscard]] Pieces& pieces(std::size_t size);
 
   const TriangleMesh<Real>& mesh_;
   std::uint64_t identity_;
@@ -67,9 +92,17 @@ class WindowSolver {
   std::optional<ExactWindows<Real>> exact_;
   std::optional<MergedWindows<Real>> merged_;
   std::optional<KeptWindows<Real>> kept_;
+  std::unique_ptr<Pieces> pieces_;  ///< of the last crew
 };
 
 extern template class WindowSolver<float>;
 extern template class WindowSolver<double>;
+extern template bool WindowSolver<float>::solve_by(const Alone&, const WindowSources&, Accuracy,
+                                                   const PropagateOptions&, WorkspaceState<float>&,
+                                                   DistanceField<float>&);
+extern template bool WindowSolver<double>::solve_by(const Alone&, const WindowSources&, Accuracy,
+                                                    const PropagateOptions&,
+                                                    WorkspaceState<double>&,
+                                                    DistanceField<double>&);
 
 }  // namespace plexway::windows

@@ -51,7 +51,7 @@ struct WindowSources {
   [[nodiscard]] Index number(std::size_t point) const {
     return numbers.empty() ? static_cast<Index>(point) : numbers[point];
   }
-  [[nodiscard]] bool only_points() const { return lights.empty(); }
+  [[nodiscard]] bool only_points() const { return lights.empty() && corners.empty(); }
 };
 
 }  // namespace plexway::windows

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <span>
+
+#include <plexway/complex/triangle_mesh.hpp>
+#include <plexway/executors.hpp>
+#include <plexway/propagate/accuracy.hpp>
+#include <plexway/propagate/distance_field.hpp>
+#include <plexway/propagate/options.hpp>
+#include <plexway/source/point_source.hpp>
+
+#include "propagate/workspace_state.hpp"
+
+namespace plexway {
+
+/// WindowSolver::solve by a team, in pieces, with the same result whatever the number of threads:
+/// in a single piece, or in an order that pieces cannot keep, by one thread.
+template <class Real>
+[[nodiscard]] bool solve_by_windows(const OpenMP& executor, const TriangleMesh<Real>& mesh,
+                                    std::span<const PointSource> sources, Accuracy accuracy,
+                                    const PropagateOptions& options,
+                                    WorkspaceState<Real>& workspace, DistanceField<Real>& field);
+
+}  // namespace plexway

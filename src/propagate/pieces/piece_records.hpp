@@ -1,0 +1,83 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include <plexway/complex/triangle_mesh.hpp>
+
+#include "complex/cut.hpp"
+
+namespace plexway {
+
+/// The triangles of a piece by its numbers: its own, ghosts, and a sentinel. keeps(f, e): is all
+/// that lies around edge e of a ghost f here? Its other edges are made boundaries.
+template <class Real, class Keeps>
+[[nodiscard]] std::vector<TriangleRecord<Real>> piece_records(const TriangleMesh<Real>& mesh,
+                                                              const Cut& cut, Index number,
+                                                              const Keeps& keeps) {
+  const CutPiece& piece = cut.pieces[number];
+  const auto records = mesh.triangles();
+  const Index sentinel = static_cast<Index>(mesh.face_count());
+  const Index end = static_cast<Index>(piece.simplices.size());
+  constexpr Index rest = (Index{1} << Across::face_shift) - 1;
+  std::vector<TriangleRecord<Real>> found(piece.simplices.size() + 1);
+  const auto here = [&](Index g) {
+    if (g == sentinel) return none;
+    return cut.piece_of[g] == number ? cut.number_of[g] : piece.ghost(g, cut.piece_of);
+  };
+  for (Index i = 0; i < end; ++i) {
+    const Index f = piece.simplices[i];
+    TriangleRecord<Real>& t = found[i];
+    t = records[f];
+    for (std::size_t e = 0; e < 3; ++e) {
+      const bool kept = i < piece.own || keeps(f, e);
+      const Index g = kept ? here(t.across[e] >> Across::face_shift) : none;
+      t.across[e] =
+          g == none ? end << Across::face_shift : g << Across::face_shift | (t.across[e] & rest);
+    }
+  }
+  found[end] = records[sentinel];
+  for (Index& across : found[end].across)
+    if (across >> Across::face_shift == sentinel)
+      across = end << Across::face_shift | (across & rest);
+  return found;
+}
+
+/// Numbers the vertices of each patch's own triangles anew, first those that other patches have as
+/// well, and puts the numbers into its records; ghosts get none. Patches have `triangles`,
+/// `vertices` (of each number the surface's) and `shared` (so many are others', too).
+template <class Patches>
+void number_vertices(const Cut& cut, std::size_t vertices, Patches& patches) {
+  std::vector<Index> piece(vertices, none), number(vertices);
+  std::vector<std::uint8_t> is_shared(vertices, 0);
+  for (Index p = 0; p < patches.size(); ++p)
+    for (std::size_t i = 0; i < cut.pieces[p].own; ++i)
+      for (const Index v : patches[p].triangles[i].corner) {
+        if (piece[v] == none) piece[v] = p;
+        if (piece[v] != p) is_shared[v] = 1;
+      }
+  piece.assign(vertices, none);
+  for (Index p = 0; p < patches.size(); ++p) {
+    auto& patch = patches[p];
+    const std::span own = std::span(patch.triangles).first(cut.pieces[p].own);
+    patch.vertices.reserve(own.size() / 2 + own.size() / 8 + 8);
+    for (const bool wanted : {true, false}) {
+      for (const auto& t : own)
+        for (const Index v : t.corner)
+          if ((is_shared[v] != 0) == wanted && piece[v] != p) {
+            piece[v] = p;
+            number[v] = static_cast<Index>(patch.vertices.size());
+            patch.vertices.push_back(v);
+          }
+      if (wanted) patch.shared = patch.vertices.size();
+    }
+    for (auto& t : own)
+      for (Index& v : t.corner) v = number[v];
+    for (auto& t : std::span(patch.triangles).subspan(own.size()))
+      for (Index& v : t.corner) v = none;
+  }
+}
+
+}  // namespace plexway

@@ -1,0 +1,171 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <deque>
+#include <limits>
+#include <span>
+#include <vector>
+
+#include <plexway/complex/triangle_mesh.hpp>
+#include <plexway/propagate/distance_field.hpp>
+#include <plexway/propagate/options.hpp>
+
+#include "propagate/windows/window_patches.hpp"
+#include "propagate/windows/window_piece.hpp"
+
+namespace plexway::windows {
+
+/// Windows on a surface in pieces, with what ExactWindows and MergedWindows tell after a solve.
+template <class Real, class Windows>
+class PiecedWindows {
+ public:
+  using Piece = WindowPiece<Real, Windows>;
+  using Number = typename Windows::Number;
+
+  /// `patches` and what they refer to must outlive this.
+  PiecedWindows(const TriangleMesh<Real>& mesh, const WindowPatches<Real>& patches)
+      : mesh_(mesh), patches_(patches) {
+    for (Index p = 0; p < patches.count(); ++p) pieces_.emplace_back(patches, p);
+  }
+
+  /// As Windows::solve, from points alone. The crew does the work: crew.run(pieces, statistics,
+  /// goes_on) until no window waits (true) or there is a reason to stop, and crew.each(count,
+  /// work).
+  template <class Crew>
+  [[nodiscard]] bool solve(const Crew& crew, const WindowSources& sources,
+                           const PropagateOptions& options, const typename Windows::Limit& limit) {
+    labels_ = sources.labels;
+    statistics_ = {};
+    complete_ = true;
+    crew.each(pieces_.size(), [&](std::size_t p) { pieces_[p].begin(sources, options, limit); });
+    for_each_seed(
+        mesh_, sources,
+        [&](Index v, double sigma, Index n) {
+          for (const auto& place : patches_.places(v))
+            pieces_[place.piece].windows().seed_vertex(place.number, sigma, n);
+        },
+        [&](Index f, const std::array<double, 4>& b, double sigma, Index n) {
+          const Cut& cut = patches_.cut();
+          Windows::for_each_place(
+              mesh_.triangles(), f, b, [&](Index g, const std::array<double, 4>& there) {
+                pieces_[cut.piece_of[g]].windows().seed_inside(cut.number_of[g], there, sigma, n);
+              });
+        });
+    bool too_many = false;
+    const auto goes_on = [&](std::size_t expansions) {
+      too_many = is_too_much(expansions, limit);
+      return !too_many;
+    };
+    do {
+      complete_ = crew.run(pieces_, mesh_.face_count(), statistics_, goes_on);
+      account();
+      if (too_many) return false;
+      gather(crew);
+    } while (complete_ && options.radius == std::numeric_limits<double>::infinity() &&
+             fill_holes(crew));
+    return true;
+  }
+
+  [[nodiscard]] Number distance(Index vertex) const { return distance_[vertex]; }
+  [[nodiscard]] Index source(Index vertex) const { return labels_ ? source_[vertex] : 0; }
+  [[nodiscard]] Number error(Index vertex) const { return error_[vertex]; }
+  [[nodiscard]] bool complete() const { return complete_; }
+  [[nodiscard]] const PropagateStatistics& statistics() const { return statistics_; }
+  [[nodiscard]] std::size_t bytes() const {
+    std::size_t sum = (distance_.capacity() + error_.capacity()) * sizeof(Number) +
+                      source_.capacity() * sizeof(Index);
+    for (const Piece& piece : pieces_) sum += piece.bytes();
+    return sum;
+  }
+
+ private:
+  /// Between supersteps.
+  bool is_too_much(std::size_t expansions, const typename Windows::Limit& limit) {
+    if constexpr (requires { limit.waiting; }) {
+      std::size_t waiting = 0;
+      for (const Piece& piece : pieces_) waiting += piece.windows().most_waiting();
+      if (Windows::ties_end(expansions, mesh_.face_count()))
+        for (Piece& piece : pieces_) piece.windows().end_ties();
+      return expansions > limit.windows || waiting > limit.waiting;
+    } else {
+      return Windows::too_many(expansions, mesh_.face_count());
+    }
+  }
+
+  void account() {
+    statistics_ = {};
+    for (const Piece& piece : pieces_) {
+      const PropagateStatistics own = piece.statistics();
+      statistics_.expansions += own.expansions;
+      statistics_.updates += own.updates;
+    }
+  }
+
+  template <class Crew>
+  void gather(const Crew& crew) {
+    constexpr Number infinity = std::numeric_limits<Number>::infinity();
+    const std::size_t vertices = mesh_.vertex_count();
+    distance_.assign(vertices, infinity);
+    error_.resize(vertices);
+    if (labels_) source_.resize(vertices);
+    const auto take = [&](Index v, const Windows& windows, Index i) {
+      distance_[v] = windows.vertex_distance(i);
+      error_[v] = windows.vertex_error(i);
+      if (labels_) source_[v] = windows.source(i);
+    };
+    crew.each(pieces_.size(), [&](std::size_t p) {
+      const auto& patch = patches_[p];
+      for (std::size_t i = patch.shared; i < patch.vertices.size(); ++i)
+        take(patch.vertices[i], pieces_[p].windows(), static_cast<Index>(i));
+    });
+    // Pieces differ where the radius or the budget ended the exchange, and in whose equal way they
+    // keep.
+    for (std::size_t p = 0; p < pieces_.size(); ++p) {
+      const auto& patch = patches_[p];
+      const Windows& windows = pieces_[p].windows();
+      for (Index i = 0; i < patch.shared; ++i) {
+        const Index v = patch.vertices[i];
+        const Number d = windows.vertex_distance(i);
+        if (d < distance_[v] ||
+            (labels_ && d == distance_[v] && d < infinity && windows.source(i) < source_[v]))
+          take(v, windows, i);
+      }
+    }
+  }
+
+  /// As one thread would, on the whole; if there is anything at all.
+  template <class Crew>
+  bool fill_holes(const Crew& crew) {
+    std::vector<char> any(pieces_.size(), 0);
+    crew.each(pieces_.size(), [&](std::size_t p) {
+      const Windows& windows = pieces_[p].windows();
+      any[p] = Windows::fill_holes(
+          std::span<const TriangleRecord<Real>>(patches_[p].triangles),
+          static_cast<Index>(patches_.cut().pieces[p].own),
+          [&](Index v) { return windows.vertex_distance(v); }, [](Index, Index, Number) {});
+    });
+    if (std::none_of(any.begin(), any.end(), [](char one) { return one != 0; })) return false;
+    return Windows::fill_holes(
+        mesh_.triangles(), static_cast<Index>(mesh_.face_count()),
+        [&](Index v) { return distance_[v]; },
+        [&](Index v, Index w, Number way) {
+          distance_[w] = way;
+          error_[w] = error_[v];
+          if (labels_) source_[w] = source_[v];
+          for (const auto& place : patches_.places(w))
+            pieces_[place.piece].windows().seed_hole(place.number, way, source(v), error_[v]);
+        });
+  }
+
+  const TriangleMesh<Real>& mesh_;
+  const WindowPatches<Real>& patches_;
+  std::deque<Piece> pieces_;
+  bool labels_ = false, complete_ = true;
+  PropagateStatistics statistics_;
+  std::vector<Number> distance_, error_;
+  std::vector<Index> source_;
+};
+
+}  // namespace plexway::windows

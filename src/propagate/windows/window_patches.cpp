@@ -1,0 +1,95 @@
+#include "propagate/windows/window_patches.hpp"
+
+#include <cstdint>
+
+#include "propagate/pieces/piece_records.hpp"
+#include "propagate/pieces/triangle_patches.hpp"
+
+namespace plexway::windows {
+namespace {
+
+template <class Real>
+Cut cut_of(const TriangleMesh<Real>& mesh, std::size_t size) {
+  Partition partition = partition_of(mesh, size);
+  // Only what lies around a vertex of several pieces can be a ghost.
+  std::vector<Index> piece(mesh.vertex_count(), none);
+  std::vector<std::uint8_t> is_shared(mesh.vertex_count(), 0);
+  const auto triangles = mesh.triangles();
+  for (Index f = 0; f < mesh.face_count(); ++f)
+    for (const Index v : triangles[f].corner) {
+      if (piece[v] == none) piece[v] = partition.piece_of[f];
+      if (piece[v] != partition.piece_of[f]) is_shared[v] = 1;
+    }
+  std::vector<Index> corners;
+  return cut(std::move(partition), [&](Index f, const auto& visit) {
+    for (const Index v : triangles[f].corner) {
+      if (is_shared[v] == 0) continue;
+      mesh.corners_at(v, corners);
+      for (const Index c : corners) visit(c / 3);
+    }
+  });
+}
+
+}  // namespace
+
+template <class Real>
+WindowPatches<Real>::WindowPatches(const TriangleMesh<Real>& mesh, const VertexAngles& angles,
+                                   std::size_t size)
+    : mesh_(mesh), size_(size), cut_(cut_of(mesh, size)), patches_(cut_.pieces.size()) {
+  const auto triangles = mesh.triangles();
+  std::vector<Index> last(mesh.vertex_count(), none);  // piece that a vertex was seen in
+  for (Index p = 0; p < patches_.size(); ++p) {
+    const CutPiece& piece = cut_.pieces[p];
+    for (std::size_t i = 0; i < piece.own; ++i)
+      for (const Index v : triangles[piece.simplices[i]].corner) last[v] = p;
+    patches_[p].triangles = piece_records(mesh, cut_, p, [&](Index f, std::size_t e) {
+      return last[triangles[f].corner[e]] == p || last[triangles[f].corner[edge_after(e)]] == p;
+    });
+  }
+  number_vertices(cut_, mesh.vertex_count(), patches_);
+  place_begin_.assign(mesh.vertex_count() + 1, 0);
+  for (Patch& patch : patches_) {
+    patch.angles.total.reserve(patch.vertices.size());
+    patch.angles.kind.reserve(patch.vertices.size());
+    for (const Index v : patch.vertices) {
+      patch.angles.total.push_back(angles.total[v]);
+      patch.angles.kind.push_back(angles.kind[v]);
+      ++place_begin_[v + 1];
+    }
+  }
+  for (std::size_t v = 0; v < mesh.vertex_count(); ++v) place_begin_[v + 1] += place_begin_[v];
+  places_.resize(place_begin_.back());
+  std::vector<Index> at(place_begin_.begin(), place_begin_.end() - 1);
+  for (Index p = 0; p < patches_.size(); ++p)
+    for (Index i = 0; i < patches_[p].vertices.size(); ++i)
+      places_[at[patches_[p].vertices[i]]++] = {p, i};
+}
+
+template <class Real>
+Sheet<Real> WindowPatches<Real>::sheet(Index piece) const {
+  const Patch& patch = patches_[piece];
+  return {.mesh = &mesh_,
+          .angles = &patch.angles,
+          .triangles = patch.triangles,
+          .own = static_cast<Index>(cut_.pieces[piece].own),
+          .vertex_count = static_cast<Index>(patch.vertices.size()),
+          .shared = static_cast<Index>(patch.shared),
+          .cut = &cut_,
+          .piece = piece,
+          .vertices = patch.vertices};
+}
+
+template <class Real>
+std::size_t WindowPatches<Real>::bytes() const {
+  const auto of = [](const auto& v) { return v.capacity() * sizeof(v[0]); };
+  std::size_t sum = cut_.bytes() + of(patches_) + of(place_begin_) + of(places_);
+  for (const Patch& patch : patches_)
+    sum +=
+        of(patch.triangles) + of(patch.vertices) + of(patch.angles.total) + of(patch.angles.kind);
+  return sum;
+}
+
+template class WindowPatches<float>;
+template class WindowPatches<double>;
+
+}  // namespace plexway::windows

@@ -1,0 +1,59 @@
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include <plexway/complex/triangle_mesh.hpp>
+
+#include "complex/cut.hpp"
+#include "propagate/windows/sheet.hpp"
+#include "propagate/windows/vertex_angles.hpp"
+
+namespace plexway::windows {
+
+/// A surface cut into pieces for windows: ghosts are the triangles that share a vertex with a
+/// piece.
+template <class Real>
+class WindowPatches {
+ public:
+  struct Patch {
+    std::vector<TriangleRecord<Real>> triangles;
+    std::vector<Index> vertices;  ///< of its own triangles: the surface's numbers inside
+    std::size_t shared = 0;       ///< so many of them, the first, are other pieces', too
+    VertexAngles angles;
+  };
+  /// A vertex of a piece.
+  struct Place {
+    Index piece, number;
+  };
+
+  /// About `size` triangles each. `mesh` must outlive this.
+  WindowPatches(const TriangleMesh<Real>& mesh, const VertexAngles& angles, std::size_t size);
+
+  [[nodiscard]] std::size_t size() const { return size_; }
+  [[nodiscard]] const Cut& cut() const { return cut_; }
+  [[nodiscard]] std::size_t count() const { return patches_.size(); }
+  [[nodiscard]] const Patch& operator[](std::size_t piece) const { return patches_[piece]; }
+  /// The pieces that have a vertex of the surface, in order.
+  [[nodiscard]] std::span<const Place> places(Index vertex) const {
+    return std::span(places_).subspan(place_begin_[vertex],
+                                      place_begin_[vertex + 1] - place_begin_[vertex]);
+  }
+  /// Refers to this.
+  [[nodiscard]] Sheet<Real> sheet(Index piece) const;
+  [[nodiscard]] std::size_t bytes() const;
+
+ private:
+  const TriangleMesh<Real>& mesh_;
+  std::size_t size_;
+  Cut cut_;
+  std::vector<Patch> patches_;
+  std::vector<Index> place_begin_;
+  std::vector<Place> places_;
+};
+
+extern template class WindowPatches<float>;
+extern template class WindowPatches<double>;
+
+}  // namespace plexway::windows

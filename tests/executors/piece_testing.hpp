@@ -1,0 +1,25 @@
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include <plexway/executors.hpp>
+
+#include "complex/test_meshes.hpp"
+
+namespace plexway::testing {
+
+/// By pieces so small that there are many even here.
+inline OpenMP pieces(int threads, std::size_t size) { return {.threads = threads, .piece = size}; }
+
+/// Surfaces of every kind: open, closed, one-sided, of several sheets, torn.
+inline std::vector<Surface> surfaces() {
+  std::vector<Surface> all = {grid(24, 24),     grid(40, 12, 3, 1), slit_square(12),
+                              cube(8),          sphere(4),          prism(24, 12, 2),
+                              moebius(60, 8),   sheets(3, 8),       bow_tie(10),
+                              soup(60, 120, 1), soup(80, 60, 2),    subdivide(tetrahedron())};
+  for (unsigned seed = 1; seed <= 4; ++seed) all.push_back(random_polygon(6, 120, 120, seed));
+  return all;
+}
+
+}  // namespace plexway::testing

@@ -1,0 +1,176 @@
+#include <catch2/catch.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+#include <plexway/error.hpp>
+#include <plexway/io/tets.hpp>
+#include <plexway/solve.hpp>
+
+#include "complex/test_solids.hpp"
+#include "exact_data.hpp"
+#include "executors/parity.hpp"
+#include "executors/piece_testing.hpp"
+#include "propagate/solid_solving.hpp"
+
+// Solids by pieces (OpenMP::piece).
+
+using namespace plexway;
+using namespace plexway::testing;
+
+namespace {
+
+struct Named {
+  const char* name;
+  Solid solid;
+};
+std::vector<Named> solids() {
+  return {{"cube", solid_cube(5)},
+          {"L", l_shape(6)},
+          {"wall", walled(8, 0.25)},
+          {"pipe", pipe(12, 3, 4)},
+          {"edge", edge_touch(6)},
+          {"vertex", vertex_touch(4)},
+          {"far", moved(l_shape(4), 1e3, {5e3, 0, 1e3})}};
+}
+
+}  // namespace
+
+TEMPLATE_TEST_CASE("pieces: solids have the same bits with any number of threads", "[threads]",
+                   float, double) {
+  unsigned seed = 0;
+  for (const Named& named : solids()) {
+    const char* const name = named.name;
+    const auto mesh = named.solid.mesh<TestType>();
+    Workspace<TestType> workspace;
+    DistanceField<TestType> first, field;
+    for (const Visibility visibility : solid_visibilities)
+      for (const std::size_t count : {1u, 4u}) {
+        PropagateOptions options;
+        options.visibility = visibility;
+        const auto sources = random_sources(mesh, count, ++seed);
+        solve(pieces(1, 60), mesh, sources, options, workspace, first);
+        for (const int threads : {2, 3, 8}) {
+          solve(pieces(threads, 60), mesh, sources, options, workspace, field);
+          INFO(name << ", seed " << seed << ", threads " << threads);
+          CHECK(same_bits(first, field));
+        }
+        // Whatever was solved before.
+        solve(pieces(2, 100), mesh, sources, options, workspace, field);
+        solve(Serial{}, mesh, sources, options, workspace, field);
+        solve(pieces(2, 60), mesh, sources, options, workspace, field);
+        CHECK(same_bits(first, field));
+        // A single piece is the serial loop.
+        CHECK(same_bits(solve(Serial{}, mesh, sources, options),
+                        solve(pieces(2, mesh.tet_count()), mesh, sources, options)));
+      }
+  }
+}
+
+TEST_CASE("pieces: 200 solves of a solid on eight threads are one", "[threads]") {
+  const auto mesh = walled(8, 0.25).mesh<float>();
+  const auto sources = random_sources(mesh, 3, 1);
+  Workspace<float> workspace;
+  DistanceField<float> first, field;
+  solve(pieces(8, 300), mesh, sources, {}, workspace, first);
+  std::size_t others = 0;
+  for (int i = 0; i < 200; ++i) {
+    solve(pieces(8, 300), mesh, sources, {}, workspace, field);
+    others += !same_bits(first, field);
+  }
+  CHECK(others == 0);
+}
+
+TEMPLATE_TEST_CASE("pieces: convex solids are exact", "", float, double) {
+  const Solid s = solid_cube(6, 0.3);
+  const auto mesh = s.mesh<TestType>();
+  for (const std::size_t size : {20u, 150u, 600u})
+    for (const Index source : {Index{0}, static_cast<Index>(s.positions.size() / 2)}) {
+      const auto field = solve(pieces(2, size), mesh, PointSource::at(source));
+      double worst = 0;
+      for (std::size_t v = 0; v < s.positions.size(); ++v) {
+        const auto &p = s.positions[v], &q = s.positions[source];
+        const double exact = std::hypot(p[0] - q[0], p[1] - q[1], p[2] - q[2]);
+        worst = std::max(worst, std::abs(static_cast<double>(field.distance[v]) - exact));
+      }
+      CHECK(worst < (sizeof(TestType) == 4 ? 2e-6 : 1e-13));
+    }
+}
+
+TEST_CASE("pieces: around one edge solids are exact, and as accurate as Serial around several") {
+  for (const auto& [name, s] : solids()) {
+    const auto mesh = s.mesh<double>();
+    const bool one_edge = std::string(name) == "cube" || std::string(name) == "L";
+    for (unsigned seed = 1; seed <= 2; ++seed) {
+      const auto sources = random_sources(mesh, 1, seed);
+      const Parity p = parity(solve(Serial{}, mesh, sources), solve(pieces(2, 60), mesh, sources));
+      INFO(name << ", seed " << seed << ": " << p.mean << ", worst " << p.worst);
+      CHECK(p.reached_by_one == 0);
+      CHECK(p.worst < (one_edge ? 1e-12 : 2e-2));
+      CHECK(p.mean < (one_edge ? 1e-13 : 1e-3));
+    }
+  }
+  double serial = 0, by_pieces = 0;
+  for (const auto& file : exact_files("solids", ".ele")) {
+    const auto read = io::read_tets(file);
+    if (read.tets.size() > 40'000) continue;
+    const TetMesh<double> mesh(read.positions, read.tets);
+    for (const ExactAnswer& exact : exact_answers(file)) {
+      const auto source = PointSource::at(static_cast<Index>(exact.source));
+      const auto mean = [&](const DistanceField<double>& field) {
+        double sum = 0;
+        std::size_t count = 0;
+        for (std::size_t v = 0; v < exact.distance.size(); ++v)
+          if (exact.distance[v] > 0 && std::isfinite(exact.distance[v]))
+            sum += std::abs(field.distance[v] / exact.distance[v] - 1), ++count;
+        return sum / static_cast<double>(count);
+      };
+      serial += mean(solve(Serial{}, mesh, source));
+      by_pieces += mean(solve(pieces(2, 1000), mesh, source));
+    }
+  }
+  REQUIRE(serial > 0);
+  INFO("Serial " << serial << ", pieces " << by_pieces);
+  CHECK(by_pieces < 1.05 * serial);
+}
+
+TEST_CASE("pieces: radius, offsets and budgets in solids", "[threads]") {
+  const Solid s = l_shape(8);
+  const auto mesh = s.mesh<double>();
+  const auto whole = solve(pieces(4, 100), mesh, PointSource::at(0));
+  PropagateOptions options;
+  options.radius = 0.5;
+  PointSource from = PointSource::at(0);
+  from.offset = 0.1;
+  const auto near = solve(pieces(4, 100), mesh, from, options);
+  CHECK(near.distance[0] == 0.1);
+  std::size_t wrong = 0, beyond = 0;
+  for (std::size_t v = 0; v < near.distance.size(); ++v) {
+    beyond += std::isinf(near.distance[v]);
+    const double exact = whole.distance[v] + 0.1;
+    if (std::isinf(near.distance[v]))
+      wrong += exact < 0.5 - 1e-9;
+    else
+      wrong += std::abs(near.distance[v] - exact) > 1e-9;
+  }
+  CHECK(wrong == 0);
+  CHECK(beyond > 10);
+  for (const std::size_t most : {0u, 1u, 300u}) {
+    options = {};
+    options.max_expansions = most;
+    const auto field = solve(pieces(4, 100), mesh, PointSource::at(0), options);
+    CHECK(!field.complete);
+    CHECK(field.statistics.expansions == most);
+    CHECK(same_bits(field, solve(pieces(1, 100), mesh, PointSource::at(0), options)));
+  }
+  options = {};
+  options.progress = [](const Progress&) { return false; };
+  Workspace<double> workspace;
+  DistanceField<double> field;
+  const PointSource source[] = {PointSource::at(0)};
+  const auto large = solid_cube(24).mesh<double>();
+  CHECK_THROWS_AS(solve(pieces(4, 2000), large, source, options, workspace, field), Cancelled);
+  solve(pieces(4, 100), mesh, source, {}, workspace, field);
+  CHECK(same_bits(field, whole));
+}
