@@ -7,6 +7,7 @@
 
 #include <plexway/complex/normals.hpp>
 #include <plexway/error.hpp>
+#include <plexway/support.hpp>
 
 #include "any/simplex_edges.hpp"
 #include "any/survey.hpp"
@@ -96,8 +97,7 @@ ShapeScene::ShapeScene(const AnyShape& shape, const SceneContent& content) {
             scene_.parts.push_back(part);
           }
         } else {
-          throw UsageError(
-              "pictures are of surfaces, solids, wireframes, clouds and mixed domains");
+          support(Purpose::pictures, shape.kind()).require();
         }
       },
       shape.data());
