@@ -50,15 +50,14 @@ enum class SourceKind {
     "of simplices of dimension 1 to 3 one of these")                                               \
   X(read_out_labels,                                                                               \
     "distances inside simplices need the labels of the policy saddles, by Serial or OpenMP")       \
-  X(read_out_lengths,                                                                              \
-    "inside tetrahedra that have lengths alone distances are read linearly: ask for "              \
-    "ReadOut::linear, or build the solid with coordinates")                                        \
   X(read_out_simplices,                                                                            \
     "in complexes of simplices distances are read linearly: ask for ReadOut::linear")              \
   X(read_out_cloud, "a cloud has distances at its points only: ask for a point by number")         \
   X(directions_domain,                                                                             \
     "directions are those in triangles, tetrahedra and simplices: make a surface of the cloud, "   \
     "and along edges compare the ends")                                                            \
+  X(directions_lengths,                                                                            \
+    "directions in tetrahedra need their coordinates: build the solid with them, or trace paths")  \
   X(directions_refraction,                                                                         \
     "directions are not told where paths are refracted: build the surface with one length an "     \
     "edge, "                                                                                       \
@@ -294,16 +293,16 @@ constexpr Support support(Purpose purpose, const Combination& c) {
     case Purpose::read_out:
       if (c.domain == simplices) return Refusal::read_out_simplices;
       if (c.domain == cloud) return Refusal::read_out_cloud;
-      if (c.domain == wireframe || c.domain == mixed || refracting) break;  // by ends, or by paths
+      if (c.domain == wireframe) break;                          // by the ends
+      if (c.domain == mixed || refracting || by_lengths) break;  // by paths
       if (!labels) return Refusal::read_out_labels;
-      if (by_lengths) return Refusal::read_out_lengths;
       break;
     case Purpose::directions:
       if (c.domain == wireframe || c.domain == cloud) return Refusal::directions_domain;
       if (c.domain == simplices || c.domain == mixed) break;  // of the linear field
       if (refracting) return Refusal::directions_refraction;
+      if (by_lengths) return Refusal::directions_lengths;
       if (!labels) return Refusal::read_out_labels;
-      if (by_lengths) return Refusal::read_out_lengths;
       break;
     case Purpose::simplex_labels:
       if (c.domain != surface && c.domain != solid) return Refusal::simplex_labels_domain;

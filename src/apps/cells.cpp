@@ -40,8 +40,31 @@ void place(const TriangleMesh<Real>& mesh, Index simplex, std::array<Point3, 4>&
   at[turned ? 1 : 2] = {static_cast<double>(t.apex_x(0)) * unit,
                         static_cast<double>(t.apex_h(0)) * unit, 0};
 }
+// By its edges (0,1) (0,2) (1,2) (0,3) (1,3) (2,3).
+template <class Real>
+void place_by_lengths(const TetMesh<Real>& mesh, Index simplex, std::array<Point3, 4>& at) {
+  const auto [t, turned] = mesh.inside_tet(simplex);
+  std::array<double, 6> squared;
+  for (std::size_t e = 0; e < 6; ++e)
+    squared[e] = static_cast<double>(mesh.squared_lengths()[t][e]) * mesh.unit() * mesh.unit();
+  const auto& [ab, ac, bc, ad, bd, cd] = squared;
+  const auto root = [](double x) { return std::sqrt(std::max(x, 0.)); };
+  const auto share = [](double of, double by) { return by > 0 ? of / by : 0; };
+  Point3& c = at[turned ? 3 : 2];
+  Point3& d = at[turned ? 2 : 3];
+  const double x = root(ab);
+  at[0] = {0, 0, 0};
+  at[1] = {x, 0, 0};
+  c[0] = share(ab + ac - bc, 2 * x);
+  c[1] = root(ac - c[0] * c[0]);
+  c[2] = 0;
+  d[0] = share(ab + ad - bd, 2 * x);
+  d[1] = share(ac + ad - cd - 2 * c[0] * d[0], 2 * c[1]);
+  d[2] = root(ad - d[0] * d[0] - d[1] * d[1]);
+}
 template <class Real>
 void place(const TetMesh<Real>& mesh, Index simplex, std::array<Point3, 4>& at) {
+  if (!mesh.embedded()) return place_by_lengths(mesh, simplex, at);
   const std::array<Index, 4> corner = corners_in(mesh, simplex);
   const auto point = [&](std::size_t i) {
     const Vector3<Real>& p = mesh.points()[corner[i]];
@@ -163,6 +186,12 @@ template <class Real>
 ComplexCells<Real>::ComplexCells(const TriangleMesh<Real>& surface)
     : ComplexCells({{&surface, 0, static_cast<Index>(surface.vertex_count()), 0,
                      static_cast<Index>(surface.face_count())}},
+                   {}) {}
+
+template <class Real>
+ComplexCells<Real>::ComplexCells(const TetMesh<Real>& solid)
+    : ComplexCells({{&solid, 0, static_cast<Index>(solid.vertex_count()), 0,
+                     static_cast<Index>(solid.tet_count())}},
                    {}) {}
 
 template <class Real>

@@ -114,8 +114,10 @@ template <template <class> class Domain, class Real>
 PathField<Domain<Real>>::PathField(const Domain<Real>& domain,
                                    std::span<const std::array<double, 3>> positions)
     : domain_(&domain), positions_(positions) {
-  if constexpr (std::is_same_v<Domain<Real>, TriangleMesh<Real>>)
-    if (domain.metric() == MetricKind::refracting)
+  // Without one space around that lines are straight in.
+  if constexpr (!std::is_same_v<Domain<Real>, Wireframe<Real>>)
+    if (domain.metric() ==
+        (Domain<Real>::kind == DomainKind::solid ? MetricKind::intrinsic : MetricKind::refracting))
       cells_ = std::make_shared<const ComplexCells<Real>>(domain);
   const std::span<const Index> inside = domain.vertices_inside();
   if (!positions.empty() && positions.size() != inside.size())

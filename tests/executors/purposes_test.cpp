@@ -3,7 +3,6 @@
 // its sentence. tests/any/purposes_test.cpp has the others, which take any domain.
 
 #include <catch2/catch.hpp>
-#include <limits>
 #include <vector>
 
 #include <plexway/apps/bounded_search.hpp>
@@ -42,23 +41,6 @@ std::vector<PointSource> some_points(std::size_t simplices, std::size_t corners)
   return points;
 }
 
-// The shortest ways along edges.
-template <class D>
-std::vector<double> edge_distances(const Scene<D>& scene, Index source) {
-  std::vector<double> distance(scene.places.size(), std::numeric_limits<double>::infinity());
-  distance[source] = 0;
-  for (bool changed = true; changed;) {
-    changed = false;
-    for (const auto& corners : scene.simplices)
-      for (const Index v : corners)
-        for (const Index w : corners) {
-          const double by = distance[v] + straight_between(scene.places[v], scene.places[w]);
-          if (by < distance[w]) distance[w] = by, changed = true;
-        }
-  }
-  return distance;
-}
-
 // What a field of a vertex can tell: ways, distances inside, directions, labels of simplices.
 template <class E, class D>
 void check_fields(const E& executor, const Scene<D>& scene, Visibility visibility, Count& count) {
@@ -77,11 +59,6 @@ void check_fields(const E& executor, const Scene<D>& scene, Visibility visibilit
       ++(found ? count.yes : count.no);
       return found;
     };
-    // Through a solid by lengths alone paths go along edges.
-    const std::vector<double> along_edges =
-        scene.domain.metric() == MetricKind::intrinsic && D::kind == DomainKind::solid
-            ? edge_distances(scene, source.vertex)
-            : std::vector<double>();
     const bool best = visibility == Visibility::saddles || D::kind == DomainKind::wireframe;
     const auto near = [&](double found, double exact) {
       INFO("found " << found << ", exact " << exact);
@@ -93,8 +70,7 @@ void check_fields(const E& executor, const Scene<D>& scene, Visibility visibilit
     for (Index v = 0; v < scene.places.size(); v += 17) {
       const Path path = field.trace(v);
       REQUIRE(path.source == 0);
-      near(path.length, along_edges.empty() ? scene.distance(scene.place(source), scene.places[v])
-                                            : along_edges[v]);
+      near(path.length, scene.distance(scene.place(source), scene.places[v]));
     }
     const std::size_t corners = scene.simplices[0].size();
     const auto inside = some_points(scene.simplices.size(), corners);

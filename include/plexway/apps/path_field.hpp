@@ -48,7 +48,8 @@ class PathField<Domain<Real>> {
   /// `positions`, one a vertex in the caller's order and unit, are those the domain was made from.
   /// With them paths have coordinates, and all lengths are taken from them in double. Throws
   /// UsageError for another count. Cost: linear; 4 bytes a vertex, and a tetrahedron, and 8 an edge
-  /// of a wireframe; 50 a triangle of a surface with refracting edges.
+  /// of a wireframe; 50 a triangle of a surface with refracting edges, 60 a tetrahedron without
+  /// coordinates.
   explicit PathField(const Domain<Real>& domain,
                      std::span<const std::array<double, 3>> positions = {});
 
@@ -96,8 +97,8 @@ class PathField<Domain<Real>> {
   /// surface on both sides, is at most 1 % longer than the shortest way along edges, and mostly the
   /// shortest of all (TraceOptions, which elsewhere do not matter). On surfaces with refracting
   /// edges it is refracted, as on mixed domains (mixed_path_field.hpp). In solids it bends only at
-  /// reflex edges and vertices. Solids without coordinates: a way along edges, as short as these
-  /// allow.
+  /// reflex edges and vertices. Solids without coordinates are as if refracting: each
+  /// tetrahedron is flat in its own lengths.
   ///
   /// Throws UsageError for a point that is not in the domain, or before a solve. Any number of
   /// threads may trace at once. Cost: about that of looking at each simplex on the way some ten
@@ -111,11 +112,12 @@ class PathField<Domain<Real>> {
   /// The distance of any point of the domain, in its unit; its offset does not count. +inf where no
   /// path leads. `linear` needs the vertices' distances only; the other levels ask the virtual
   /// sources that Visibility::saddles or windows left, with Serial and OpenMP. In solids `star`
-  /// asks what `neighbours` asks, and tetrahedra need their coordinates; along the edges of
+  /// asks what `neighbours` asks; along the edges of
   /// wireframes all levels but `linear` are exact. A solve's radius bounds the distances of
   /// vertices, so `linear`; the labels that other levels ask go on by about a simplex. After
   /// windows (Accuracy) all levels but `linear` ask those, and are as accurate as they are: exact
-  /// after Accuracy::exact(). On surfaces with refracting edges they are the lengths of paths.
+  /// after Accuracy::exact(). On surfaces with refracting edges and in solids by
+  /// lengths alone they are the lengths of paths.
   ///
   /// Across an edge `neighbours` and `star` are continuous where the labels on both sides are all
   /// that is asked; docs/apps/read_out.md has what jumps. Throws UsageError for a
@@ -166,7 +168,7 @@ class PathField<Domain<Real>> {
   Visibility visibility_ = Visibility::saddles;
   bool solved_ = false;
   Kept kept_ = Kept::nothing;
-  // Where paths are refracted.
+  // Where paths are refracted, and in solids by lengths alone.
   std::shared_ptr<const Cells> cells_;
   std::vector<double> cell_distance_;
 };
