@@ -182,7 +182,8 @@ class Page {
 
   std::string purpose_table() {
     std::string text =
-        "\n## Besides solving\n\nAfter a solve by `Serial` or `OpenMP`, by saddles.\n\n|  |";
+        "\n## Besides solving\n\nAfter a solve by `Serial` or `OpenMP`, by saddles. What draws or "
+        "measures in space needs positions besides.\n\n|  |";
     for (const auto& m : measured) text.append(" ").append(m.name).append(" |");
     text += "\n|---|";
     for (std::size_t i = 0; i < measured.size(); ++i) text += "---|";

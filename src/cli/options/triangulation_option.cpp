@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 
 #include <plexway/error.hpp>
+#include <plexway/support.hpp>
 
 namespace plexway::cli {
 
