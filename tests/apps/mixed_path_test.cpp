@@ -169,7 +169,7 @@ TEST_CASE("a path runs along a skin of another speed where that pays") {
 }
 
 TEST_CASE("targets inside simplices are held against the ways by their corners") {
-  constexpr std::size_t n = 6;
+  constexpr std::size_t n = 8;
   const Position from = {.25, .25, .75};
   for (const double c : {.5, 2.}) {
     Scene scene(1);
