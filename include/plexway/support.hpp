@@ -45,10 +45,51 @@ enum class SourceKind {
   X(refraction_visibility,                                                                         \
     "paths are refracted under Visibility::saddles only: use that, or build the surface with one " \
     "length an edge")                                                                              \
+  X(paths_simplices,                                                                               \
+    "paths are traced on surfaces, solids, wireframes, clouds and mixed domains: make a complex "  \
+    "of simplices of dimension 1 to 3 one of these")                                               \
+  X(read_out_labels,                                                                               \
+    "distances inside simplices need the labels of the policy saddles, by Serial or OpenMP")       \
+  X(read_out_simplices,                                                                            \
+    "in complexes of simplices distances are read linearly: ask for ReadOut::linear")              \
+  X(read_out_cloud, "a cloud has distances at its points only: ask for a point by number")         \
+  X(directions_domain,                                                                             \
+    "directions are those in triangles, tetrahedra and simplices: make a surface of the cloud, "   \
+    "and along edges compare the ends")                                                            \
+  X(directions_lengths,                                                                            \
+    "directions in tetrahedra need their coordinates: build the solid with them, or trace paths")  \
+  X(directions_refraction,                                                                         \
+    "directions are not told where paths are refracted: build the surface with one length an "     \
+    "edge, "                                                                                       \
+    "or trace paths")                                                                              \
+  X(simplex_labels_gl,                                                                             \
+    "the executor GL leaves no labels in simplices: use the executor Serial or OpenMP")            \
+  X(simplex_labels_domain,                                                                         \
+    "triangles of surfaces and tetrahedra have labels: elsewhere ask those of the vertices")       \
+  X(search_domain,                                                                                 \
+    "searches that end early are for surfaces: solve other domains, with a radius where one is "   \
+    "known")                                                                                       \
   X(search_refraction,                                                                             \
     "searches that end early, and samples, are not refracted: build the surface with one length "  \
     "an edge")                                                                                     \
   X(search_visibility, "searches that end early know the default visibility only: saddles")        \
+  X(samples_domain, "points are chosen on surfaces, solids and clouds: make one of these")         \
+  X(samples_lengths,                                                                               \
+    "points are chosen in solids that have coordinates: build the solid with them")                \
+  X(isolines_domain,                                                                               \
+    "isolines are drawn on surfaces, clouds and mixed domains: solids have isosurfaces")           \
+  X(pictures_domain, "pictures are of surfaces, solids, wireframes, clouds and mixed domains")     \
+  X(masks_domain,                                                                                  \
+    "masks are for surfaces, solids, wireframes and simplices: leave out what is closed when a "   \
+    "cloud or a mixed domain is made")                                                             \
+  X(metrics_domain,                                                                                \
+    "metrics measure surfaces, solids, wireframes and mixed domains: give simplices their "        \
+    "lengths, and make a surface of a cloud")                                                      \
+  X(triangulations_domain,                                                                         \
+    "only a surface has triangles to flip: leave the triangulation of other domains as it is")     \
+  X(kept_domain,                                                                                   \
+    "prepared files are for surfaces, solids, wireframes and clouds: other domains are built "     \
+    "each time")                                                                                   \
   X(cloud_point, "a source on a cloud is a point by number, not a place in a triangle")            \
   X(point_of_five,                                                                                 \
     "a source in four dimensions must be a vertex: a point of a 4-simplex has five coordinates")   \
@@ -217,13 +258,109 @@ template <ExecutorType E, DomainType D>
           accuracy};
 }
 
-/// Do searches go no farther there than is asked (BoundedSearch, PathSearch, and the fields that
-/// samples grow)? Else why not.
-constexpr Support support_of_searches(MetricKind metric,
-                                      Visibility visibility = Visibility::saddles) {
-  if (metric == MetricKind::refracting) return Refusal::search_refraction;
-  if (visibility != Visibility::saddles) return Refusal::search_visibility;
-  return Refusal::nothing;
+/// What is done on a domain besides solving. `X(name, what it is)`.
+#define PLEXWAY_PURPOSES(X)                                                            \
+  X(paths, "PathField::trace")                                                         \
+  X(read_out, "PathField::at by other levels than ReadOut::linear")                    \
+  X(directions, "PathField::gradient")                                                 \
+  X(simplex_labels, "PathField::simplex_labels")                                       \
+  X(searches, "BoundedSearch and PathSearch")                                          \
+  X(samples, "farthest_points, poisson_disks, centroidal_voronoi and distance_matrix") \
+  X(isolines, "isolines of a field (any/isolines.hpp)")                                \
+  X(pictures, "ShapeScene, and pages to turn")                                         \
+  X(masks, "BuildOptions::mask")                                                       \
+  X(metrics, "AnyShape::measure")                                                      \
+  X(triangulations, "other triangles than the shape's, BuildOptions::triangulation")   \
+  X(kept_builds, "AnyDomain::keep")
+
+#define PLEXWAY_NAME(name, what) name,
+/// The purposes of PLEXWAY_PURPOSES by name.
+enum class Purpose { PLEXWAY_PURPOSES(PLEXWAY_NAME) };
+#undef PLEXWAY_NAME
+
+/// Does a purpose go together with a domain, and with the solve that left what it asks? Schedule,
+/// precision, sources and accuracy do not matter.
+constexpr Support support(Purpose purpose, const Combination& c) {
+  using enum DomainKind;
+  const bool refracting = c.metric == MetricKind::refracting;
+  const bool saddles = c.visibility == Visibility::saddles, gl = c.executor == ExecutorKind::gl;
+  const bool by_lengths = c.domain == solid && c.metric != MetricKind::embedded;
+  const bool labels = saddles && !gl;
+  switch (purpose) {
+    case Purpose::paths:
+      if (c.domain == simplices) return Refusal::paths_simplices;
+      break;
+    case Purpose::read_out:
+      if (c.domain == simplices) return Refusal::read_out_simplices;
+      if (c.domain == cloud) return Refusal::read_out_cloud;
+      if (c.domain == wireframe) break;                          // by the ends
+      if (c.domain == mixed || refracting || by_lengths) break;  // by paths
+      if (!labels) return Refusal::read_out_labels;
+      break;
+    case Purpose::directions:
+      if (c.domain == wireframe || c.domain == cloud) return Refusal::directions_domain;
+      if (c.domain == simplices || c.domain == mixed) break;  // of the linear field
+      if (refracting) return Refusal::directions_refraction;
+      if (by_lengths) return Refusal::directions_lengths;
+      if (!labels) return Refusal::read_out_labels;
+      break;
+    case Purpose::simplex_labels:
+      if (c.domain != surface && c.domain != solid) return Refusal::simplex_labels_domain;
+      if (gl) return Refusal::simplex_labels_gl;
+      break;
+    case Purpose::searches:
+      if (c.domain != surface) return Refusal::search_domain;
+      if (refracting) return Refusal::search_refraction;
+      if (!saddles) return Refusal::search_visibility;
+      break;
+    case Purpose::samples:
+      if (c.domain != surface && c.domain != solid && c.domain != cloud)
+        return Refusal::samples_domain;
+      if (refracting) return Refusal::search_refraction;
+      if (by_lengths) return Refusal::samples_lengths;
+      break;
+    case Purpose::isolines:
+      if (c.domain != surface && c.domain != cloud && c.domain != mixed)
+        return Refusal::isolines_domain;
+      break;
+    case Purpose::pictures:
+      if (c.domain == simplices) return Refusal::pictures_domain;
+      break;
+    case Purpose::masks:
+      if (c.domain == cloud || c.domain == mixed) return Refusal::masks_domain;
+      break;
+    case Purpose::metrics:
+      if (c.domain == cloud || c.domain == simplices) return Refusal::metrics_domain;
+      break;
+    case Purpose::triangulations:
+      if (c.domain != surface) return Refusal::triangulations_domain;
+      break;
+    case Purpose::kept_builds:
+      if (c.domain == mixed || c.domain == simplices) return Refusal::kept_domain;
+      break;
+  }
+  return Support();
+}
+/// Where only the kind of the domain is known: counts as it is best.
+constexpr Support support(Purpose purpose, DomainKind domain) {
+  return support(purpose, {.executor = ExecutorKind::serial,
+                           .domain = domain,
+                           .dimension = 2,
+                           .single_precision = true,
+                           .metric = domain == DomainKind::solid ? MetricKind::embedded
+                                                                 : MetricKind::intrinsic});
+}
+/// The same of a complex, with everything that it tells.
+template <DomainType D>
+[[nodiscard]] constexpr Support support(Purpose purpose, const D& domain,
+                                        Visibility visibility = Visibility::saddles,
+                                        ExecutorKind executor = ExecutorKind::serial) {
+  return support(purpose, {.executor = executor,
+                           .domain = D::kind,
+                           .dimension = D::dimension,
+                           .single_precision = std::is_same_v<typename D::Number, float>,
+                           .metric = domain.metric(),
+                           .visibility = visibility});
 }
 
 /// Is there anything that an executor solves on a domain?

@@ -19,8 +19,7 @@ class SimplexSpeeds:
     ----------
     speed : array_like of float, shape (m,)
     refract : bool
-        Paths are refracted where speeds jump: on surfaces, which then tell distances but no ways, and
-        in solids of at most 64 speeds. False, and in solids of more (with a warning): an edge takes
+        Paths are refracted where speeds jump: on surfaces, and in solids of at most 64 speeds. False, and in solids of more (with a warning): an edge takes
         the mean of its simplices.
     """
 

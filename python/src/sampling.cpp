@@ -16,21 +16,6 @@
 namespace plexway::python {
 namespace {
 
-// Calls use(complex) for the kinds that points are spread over.
-template <class Use>
-auto with_sampled(const Domain& domain, const Use& use) {
-  using Result = decltype(use(std::declval<const TriangleMesh<float>&>()));
-  return with_complex(domain.any(), [&](const auto& complex) -> Result {
-    using Kind = std::decay_t<decltype(complex)>;
-    if constexpr (Kind::kind == DomainKind::surface || Kind::kind == DomainKind::solid ||
-                  Kind::kind == DomainKind::cloud)
-      return use(complex);
-    else
-      throw UsageError("points are spread over surfaces, solids and clouds, not over a " +
-                       std::string(domain.shape().kind_name()));
-  });
-}
-
 py::tuple poisson(const Domain& domain, double radius, std::size_t count, std::uint64_t seed,
                   bool at_vertices, bool by_simplices, const py::object& spacing,
                   py::object progress) {
@@ -46,8 +31,9 @@ py::tuple poisson(const Domain& domain, double radius, std::size_t count, std::u
   options.spacing = spacings;
   options.progress = watch.of_share();
   PoissonDisks disks = watch.run([&] {
-    return with_sampled(
-        domain, [&](const auto& complex) { return poisson_disks(Serial{}, complex, options); });
+    return with_sampled(domain.any(), [&](const auto& complex) {
+      return poisson_disks(Serial{}, complex, options);
+    });
   });
   return py::make_tuple(disks.darts, disks.radius, disks.maximal);
 }
@@ -62,7 +48,7 @@ py::tuple farthest(const Domain& domain, std::vector<Source> given, std::size_t 
   options.radius = radius;
   options.progress = watch.of_share();
   FarthestPoints found = watch.run([&] {
-    return with_sampled(domain, [&](const auto& complex) {
+    return with_sampled(domain.any(), [&](const auto& complex) {
       return farthest_points(Serial{}, complex, points, options);
     });
   });
@@ -82,7 +68,7 @@ py::tuple cvt(const Domain& domain, std::vector<Source> given, std::size_t itera
     return watch.tick(++done / static_cast<double>(iterations));
   };
   CentroidalVoronoi found = watch.run([&] {
-    return with_sampled(domain, [&](const auto& complex) {
+    return with_sampled(domain.any(), [&](const auto& complex) {
       return centroidal_voronoi(Serial{}, complex, points, options);
     });
   });

@@ -57,11 +57,6 @@ void each_of_data(Archive& archive, Data& data) {
   }
 }
 
-[[noreturn]] void cannot_be_kept(DomainKind kind) {
-  throw UsageError("prepared files are for surfaces, solids, wireframes and clouds: a " +
-                   std::string(kind_noun(kind)) + " is built each time");
-}
-
 // Calls use(data) for those kinds that can be kept.
 template <class Data, class Use>
 void with_kept_kind(Data& data, DomainKind kind, const Use& use) {
@@ -69,7 +64,7 @@ void with_kept_kind(Data& data, DomainKind kind, const Use& use) {
       [&](auto& of_kind) {
         using Kind = std::remove_const_t<std::remove_reference_t<decltype(of_kind)>>;
         if constexpr (std::is_same_v<Kind, SimplexShape> || std::is_same_v<Kind, MixedShape>)
-          cannot_be_kept(kind);
+          support(Purpose::kept_builds, kind).require();
         else
           use(of_kind);
       },

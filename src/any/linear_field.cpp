@@ -22,32 +22,25 @@ class LinearField final : public AnyPathField::State {
       : domain_(std::move(domain)), shape_(shape) {}
 
   void solve(const AnyExecutor& executor, std::span<const PointSource> sources,
-             const PropagateOptions& options, const MakeTrace& make) {
+             const PropagateOptions& options, const MakeWays& make) {
     domain_->solve(executor, SourceList(sources), options, field);
-    sources_.assign(sources.begin(), sources.end());
-    if (make) trace_ = make(field);
+    if (make) ways_ = make(field);
   }
 
   Path trace(const PointSource& point, const TraceOptions& options) const override {
-    if (!trace_)
-      throw UsageError(
-          "paths are traced on surfaces, solids, wireframes, clouds and mixed domains");
-    return trace_(point, options);
+    if (!ways_.trace) support(Purpose::paths, DomainKind::simplices).require();
+    return ways_.trace(point, options);
   }
 
   double at(const PointSource& point, ReadOut level) const override {
-    if (level != ReadOut::linear && !trace_)
-      throw UsageError("within a " + std::string(kind_noun(shape_.kind())) +
-                       " distances are read linearly: ask for ReadOut::linear");
+    if (level != ReadOut::linear && !ways_.at && point.vertex == none)
+      support(Purpose::read_out, DomainKind::simplices).require();
     PointSource where = point;
     where.offset = 0;
     check_source(where, {shape_.vertices(), shape_.simplices(), "simplex", 4});
     if (where.vertex != none) return field[where.vertex];
     if (const OpenSimplices* const open = domain_->open()) static_cast<void>(open->inside(where));
-    if (level != ReadOut::linear) {
-      const Path path = trace_(where, {});
-      return path.source == none ? infinity : path.length + sources_[path.source].offset;
-    }
+    if (level != ReadOut::linear) return ways_.at(where);
     const auto corners = shape_.corners(where.simplex);
     double sum = 0;
     for (std::size_t i = 0; i < where.barycentric.size(); ++i) {
@@ -99,17 +92,16 @@ class LinearField final : public AnyPathField::State {
  private:
   std::shared_ptr<const Prepared> domain_;
   AnyShape shape_;
-  std::vector<PointSource> sources_;
-  TraceFrom trace_;
+  Ways ways_;
 };
 
 }  // namespace
 
 std::shared_ptr<const AnyPathField::State> linear_field(
     std::shared_ptr<const Prepared> domain, const AnyShape& shape, const AnyExecutor& executor,
-    std::span<const PointSource> sources, const PropagateOptions& options, const MakeTrace& trace) {
+    std::span<const PointSource> sources, const PropagateOptions& options, const MakeWays& ways) {
   auto state = std::make_shared<LinearField>(std::move(domain), shape);
-  state->solve(executor, sources, options, trace);
+  state->solve(executor, sources, options, ways);
   return state;
 }
 

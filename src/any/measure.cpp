@@ -3,6 +3,8 @@
 #include <utility>
 #include <variant>
 
+#include <plexway/support.hpp>
+
 #include "any/shape_state.hpp"
 
 namespace plexway {
@@ -84,6 +86,7 @@ bool has_regions(const io::Tets& solid, const metric::Metric& metric) {
 }  // namespace
 
 MeasuredLengths AnyShape::measure(const metric::Metric& metric) const {
+  support(Purpose::metrics, kind()).require();
   MeasuredLengths lengths;
   if ((kind() == DomainKind::surface || kind() == DomainKind::solid) && positions().empty())
     throw UsageError(
@@ -108,11 +111,8 @@ MeasuredLengths AnyShape::measure(const metric::Metric& metric) const {
     lengths.edges = wireframe->lengths.empty()
                         ? metric::edge_lengths(wireframe->positions, wireframe->edges, metric)
                         : measure_lengths(*wireframe, metric);
-  } else if (kind() == DomainKind::mixed) {
-    lengths.speeds = speeds_of(*this, metric);
   } else {
-    throw UsageError("surfaces, solids, wireframes and mixed domains are measured, not a " +
-                     std::string(kind_noun(kind())));
+    lengths.speeds = speeds_of(*this, metric);
   }
   return lengths;
 }

@@ -5,14 +5,13 @@
 #include <variant>
 
 #include <plexway/error.hpp>
+#include <plexway/support.hpp>
 
 namespace plexway {
 
 OpenSimplices::OpenSimplices(const Mask& mask, const AnyShape& shape)
     : inside_(shape.simplices(), none), reached_(shape.vertices(), 0) {
-  if (shape.kind() == DomainKind::cloud || shape.kind() == DomainKind::mixed)
-    throw UsageError("masks are for surfaces, solids, wireframes and simplices, not for a " +
-                     std::string(kind_noun(shape.kind())));
+  support(Purpose::masks, shape.kind()).require();
   if (mask.closed_vertices().size() != shape.vertices() ||
       mask.closed_simplices().size() != shape.simplices())
     throw UsageError("a mask of " + std::to_string(mask.closed_vertices().size()) +

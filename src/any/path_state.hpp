@@ -13,13 +13,13 @@
 #include <plexway/error.hpp>
 
 #include "any/prepared.hpp"
+#include "executors/checks.hpp"
+
+#ifdef PLEXWAY_HAS_GL
+#include <plexway/executors/gl.hpp>
+#endif
 
 namespace plexway {
-
-template <class Complex>
-inline constexpr bool has_paths =
-    Complex::kind == DomainKind::surface || Complex::kind == DomainKind::solid ||
-    Complex::kind == DomainKind::wireframe || Complex::kind == DomainKind::cloud;
 
 /// Where paths are drawn; lengths of their own are not those between positions.
 inline std::span<const std::array<double, 3>> path_places(const AnyShape& shape, bool measured) {
@@ -97,8 +97,11 @@ class PathsOf final : public AnyPathField::State {
       if (adopted_ && field.accuracy() != Accuracy::fast())
         return with_windows().at(elsewhere_.place(point), level);
       return with_labels().at(point, level);
-    } else
-      throw UsageError("a cloud has distances at its points only");
+    } else {
+      if (outside.vertex == none) support(Purpose::read_out, complex_).require();
+      check_source(outside, {shape_.vertices(), 0, "face", 3});
+      return field[outside.vertex];
+    }
   }
 
   std::vector<std::array<double, 3>> gradient() const override {
@@ -109,8 +112,10 @@ class PathsOf final : public AnyPathField::State {
       std::vector<std::array<double, 3>> all(shape_.simplices(), {0, 0, 0});
       for (Index s = 0; s < found.size(); ++s) all[open->outside(s)] = found[s];
       return all;
-    } else
-      throw UsageError("a cloud has distances at its points only");
+    } else {
+      support(Purpose::directions, complex_).require();
+      return {};
+    }
   }
 
   std::size_t bytes() const override {
@@ -140,10 +145,10 @@ class PathsOf final : public AnyPathField::State {
             support(combination<E, Complex>()).require();
           else if constexpr (E::kind == ExecutorKind::openmp && !teams_built_in)
             static_cast<void>(team_size(chosen));  // says that it is not built in
-          else if constexpr (E::kind != ExecutorKind::gl)
-            paths.solve(chosen, sources, options);
+          else if constexpr (E::kind == ExecutorKind::gl && !gl_built_in)
+            refuse_gl();
           else
-            throw UsageError("paths are traced on what the executors Serial and OpenMP leave");
+            paths.solve(chosen, sources, options);
         },
         executor_);
   }

@@ -247,7 +247,7 @@ class PreparedMixed final : public PreparedKind<MixedComplex<Real>> {
   std::shared_ptr<const AnyPathField::State> path_field(
       const AnyExecutor& executor, std::span<const PointSource> sources,
       const PropagateOptions& options) const override {
-    const auto trace = [&](const AnyField& field) -> TraceFrom {
+    const auto ways = [&](const AnyField& field) -> Ways {
       DistanceField<Real> found;
       found.distance.assign(pieces_.complex.vertex_count(), std::numeric_limits<Real>::infinity());
       const auto& distance = std::get<DistanceField<Real>>(field.data).distance;
@@ -259,15 +259,18 @@ class PreparedMixed final : public PreparedKind<MixedComplex<Real>> {
       for (Index s = 0; s < pieces_.simplex.size(); ++s) outer[pieces_.simplex[s]] = s;
       auto paths = std::make_shared<PathField<MixedComplex<Real>>>(pieces_.complex);
       paths->adopt(std::move(found), inside);
-      return [this, paths, outer = std::move(outer)](PointSource point,
-                                                     const TraceOptions& tracing) -> Path {
+      const auto inner = [this](PointSource point) {
+        if (const OpenSimplices* const open = this->open()) point = open->inside(point);
+        move(point);
+        return point;
+      };
+      const auto trace = [this, paths, inner, outer = std::move(outer)](
+                             const PointSource& point, const TraceOptions& tracing) -> Path {
         const bool alone =
             point.vertex < pieces_.vertex.size() && pieces_.vertex[point.vertex] == none;
         if (alone) return {};  // in no simplex
+        Path path = paths->trace(inner(point), tracing);
         const OpenSimplices* const open = this->open();
-        if (open != nullptr) point = open->inside(point);
-        move(point);
-        Path path = paths->trace(point, tracing);
         for (PathPoint& at : path.points) {
           at.simplex = outer[at.simplex];
           if (open != nullptr) at.simplex = open->outside(at.simplex);
@@ -276,8 +279,9 @@ class PreparedMixed final : public PreparedKind<MixedComplex<Real>> {
         }
         return path;
       };
+      return {trace, [paths, inner](const PointSource& point) { return paths->at(inner(point)); }};
     };
-    return linear_field(this->shared_from_this(), this->shape_, executor, sources, options, trace);
+    return linear_field(this->shared_from_this(), this->shape_, executor, sources, options, ways);
   }
 
  private:
@@ -440,18 +444,15 @@ std::shared_ptr<Prepared> open_as(const AnyShape& shape, const KeptBuild& kept) 
 
 }  // namespace
 
+void refuse_gl() {
+  throw NotBuiltError("the executor GL is not built in; install libegl-dev and build again");
+}
+
 std::shared_ptr<const Prepared> prepare(const AnyShape& shape, const BuildOptions& options) {
   const bool asked = options.triangulation == Triangulation::delaunay ||
                      options.triangulation == Triangulation::refined;
-  if (asked && shape.kind() != DomainKind::surface)
-    throw UsageError("a " + std::string(kind_noun(shape.kind())) +
-                     " has no triangles to flip: leave its triangulation as it is");
-  const bool measurable =
-      shape.kind() == DomainKind::surface || shape.kind() == DomainKind::solid ||
-      shape.kind() == DomainKind::wireframe || shape.kind() == DomainKind::mixed;
-  if (options.lengths && !measurable)
-    throw UsageError("a metric is for surfaces, solids, wireframes and mixed domains, not a " +
-                     std::string(kind_noun(shape.kind())));
+  if (asked) support(Purpose::triangulations, shape.kind()).require();
+  if (options.lengths) support(Purpose::metrics, shape.kind()).require();
   if (const KeptBuild* const kept = shape.state().kept.get(); kept && kept->answers(options))
     return options.precision == Precision::single ? open_as<float>(shape, *kept)
                                                   : open_as<double>(shape, *kept);

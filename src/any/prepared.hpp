@@ -19,6 +19,14 @@ inline constexpr bool teams_built_in = true;
 inline constexpr bool teams_built_in = false;
 #endif
 
+/// Has it devices? Where it has none, says so.
+#ifdef PLEXWAY_HAS_GL
+inline constexpr bool gl_built_in = true;
+#else
+inline constexpr bool gl_built_in = false;
+#endif
+[[noreturn]] void refuse_gl();
+
 /// A complex made ready for distances, its precision and its kind hidden. Any number of threads may
 /// solve at once.
 class Prepared : public std::enable_shared_from_this<Prepared> {

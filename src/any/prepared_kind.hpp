@@ -69,12 +69,10 @@ void solve_on(const AnyExecutor& executor, const Complex& complex, const SourceL
         } else if constexpr (E::kind == ExecutorKind::openmp && !teams_built_in) {
           static_cast<void>(team_size(chosen));  // says that it is not built in
         } else if constexpr (E::kind == ExecutorKind::gl) {
-#ifdef PLEXWAY_HAS_GL
-          plexway::solve(chosen, complex, sources, options, room.gl, field);
-#else
-          throw NotBuiltError(
-              "the executor GL is not built in; install libegl-dev and build again");
-#endif
+          if constexpr (gl_built_in)
+            plexway::solve(chosen, complex, sources, options, room.gl, field);
+          else
+            refuse_gl();
         } else {
           plexway::solve(chosen, complex, sources, options, room.workspace, field);
         }
@@ -123,9 +121,7 @@ class PreparedKind : public Prepared {
   std::shared_ptr<const AnyPathField::State> path_field(
       const AnyExecutor& executor, std::span<const PointSource> sources,
       const PropagateOptions& options) const override {
-    if constexpr (Complex::kind == DomainKind::mixed) {
-      throw UsageError("a mixed domain has numbers of its own");  // PreparedMixed knows them
-    } else if constexpr (has_paths<Complex>) {
+    if constexpr (Complex::kind != DomainKind::mixed && support(Purpose::paths, Complex::kind)) {
       auto state = std::make_shared<PathsOf<Complex>>(shared_from_this(), shape_, of(), measured_);
       state->solve(executor, sources, options);
       return state;

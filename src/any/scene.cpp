@@ -7,6 +7,7 @@
 
 #include <plexway/complex/normals.hpp>
 #include <plexway/error.hpp>
+#include <plexway/support.hpp>
 
 #include "any/cloud_slopes.hpp"
 #include "any/simplex_edges.hpp"
@@ -101,8 +102,7 @@ ShapeScene::ShapeScene(const AnyShape& shape, const SceneContent& content) {
             scene_.parts.push_back(part);
           }
         } else {
-          throw UsageError(
-              "pictures are of surfaces, solids, wireframes, clouds and mixed domains");
+          support(Purpose::pictures, shape.kind()).require();
         }
       },
       shape.data());

@@ -8,6 +8,7 @@
 #include <plexway/apps/isolines.hpp>
 #include <plexway/error.hpp>
 #include <plexway/io/field.hpp>
+#include <plexway/support.hpp>
 
 #include "any/closest_point.hpp"
 #include "any/fill.hpp"
@@ -410,10 +411,10 @@ std::vector<Path> AnyShape::isolines(std::span<const double> distance,
     require_positions(*this);
     return plexway::isolines(surface->positions, surface->triangles, distance, values);
   }
+  support(Purpose::isolines, kind()).require();
   const auto* mixed = std::get_if<MixedShape>(&data());
   if (mixed == nullptr)
-    throw UsageError("isolines are drawn on surfaces and mixed domains, not on a " +
-                     std::string(kind_noun(kind())));
+    throw UsageError("a cloud has no triangles of its own: draw isolines of its domain");
   std::vector<std::array<Index, 3>> triangles;
   std::vector<Index> number;  // of each among all simplices
   Index simplex = 0;

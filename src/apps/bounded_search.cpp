@@ -21,7 +21,7 @@ namespace plexway {
 
 template <class Real>
 BoundedSearch<Real>::BoundedSearch(const TriangleMesh<Real>& mesh) : mesh_(&mesh) {
-  support_of_searches(mesh.metric()).require();
+  support(Purpose::searches, mesh).require();
   const std::size_t vertices = mesh.vertex_count();
   WorkspaceState<Real>& workspace = workspace_.state();
   workspace.start(mesh.face_count(), true);
@@ -40,7 +40,7 @@ const Surroundings<Real>& BoundedSearch<Real>::find(Serial, std::span<const Poin
                                                     const PropagateOptions& options,
                                                     bool simplices) {
   check(sources, options, {mesh_->vertex_count(), mesh_->face_count(), "face", 3});
-  support_of_searches(mesh_->metric(), options.visibility).require();
+  support(Purpose::searches, *mesh_, options.visibility).require();
   with_queue<Real>(options, workspace_.state().front, [&](auto queue) {
     find_with(LoggedQueue<Real, decltype(queue)>(queue, reached_), sources, options, simplices);
   });

@@ -40,8 +40,31 @@ void place(const TriangleMesh<Real>& mesh, Index simplex, std::array<Point3, 4>&
   at[turned ? 1 : 2] = {static_cast<double>(t.apex_x(0)) * unit,
                         static_cast<double>(t.apex_h(0)) * unit, 0};
 }
+// By its edges (0,1) (0,2) (1,2) (0,3) (1,3) (2,3).
+template <class Real>
+void place_by_lengths(const TetMesh<Real>& mesh, Index simplex, std::array<Point3, 4>& at) {
+  const auto [t, turned] = mesh.inside_tet(simplex);
+  std::array<double, 6> squared;
+  for (std::size_t e = 0; e < 6; ++e)
+    squared[e] = static_cast<double>(mesh.squared_lengths()[t][e]) * mesh.unit() * mesh.unit();
+  const auto& [ab, ac, bc, ad, bd, cd] = squared;
+  const auto root = [](double x) { return std::sqrt(std::max(x, 0.)); };
+  const auto share = [](double of, double by) { return by > 0 ? of / by : 0; };
+  Point3& c = at[turned ? 3 : 2];
+  Point3& d = at[turned ? 2 : 3];
+  const double x = root(ab);
+  at[0] = {0, 0, 0};
+  at[1] = {x, 0, 0};
+  c[0] = share(ab + ac - bc, 2 * x);
+  c[1] = root(ac - c[0] * c[0]);
+  c[2] = 0;
+  d[0] = share(ab + ad - bd, 2 * x);
+  d[1] = share(ac + ad - cd - 2 * c[0] * d[0], 2 * c[1]);
+  d[2] = root(ad - d[0] * d[0] - d[1] * d[1]);
+}
 template <class Real>
 void place(const TetMesh<Real>& mesh, Index simplex, std::array<Point3, 4>& at) {
+  if (!mesh.embedded()) return place_by_lengths(mesh, simplex, at);
   const std::array<Index, 4> corner = corners_in(mesh, simplex);
   const auto point = [&](std::size_t i) {
     const Vector3<Real>& p = mesh.points()[corner[i]];
@@ -59,13 +82,31 @@ void place(const Wireframe<Real>& wireframe, Index simplex, std::array<Point3, 4
   at[1] = {static_cast<double>(wireframe.inside_edge(simplex).length) * wireframe.unit(), 0, 0};
 }
 
+template <class Real>
+std::vector<CellPiece<Real>> pieces_of(const MixedComplex<Real>& domain) {
+  std::vector<CellPiece<Real>> pieces;
+  for (const auto& piece : domain.pieces())
+    std::visit(
+        [&](const auto& complex) {
+          pieces.push_back(
+              {&complex, piece.first_vertex, piece.vertices, piece.first_simplex, piece.simplices});
+        },
+        domain.complex(piece));
+  return pieces;
+}
+
+template <class Real>
+std::size_t vertices_of(std::span<const CellPiece<Real>> pieces) {
+  return pieces.empty() ? 0 : std::size_t{pieces.back().first_vertex} + pieces.back().vertices;
+}
+
 }  // namespace
 
 template <class Real>
-Cells::Cells(const MixedComplex<Real>& domain)
-    : outer_(domain.vertex_count()), vertex_(domain.vertex_count()) {
-  DisjointSets same(domain.vertex_count());
-  for (const auto& [v, w] : domain.outer_welds()) same.unite(v, w);
+Cells::Cells(std::span<const CellPiece<Real>> pieces, Welds welds)
+    : outer_(vertices_of(pieces)), vertex_(outer_.size()) {
+  DisjointSets same(outer_.size());
+  for (const auto& [v, w] : welds) same.unite(v, w);
   std::vector<Index> number(vertex_.size(), none);
   Index count = 0;
   for (Index v = 0; v < vertex_.size(); ++v) {
@@ -73,17 +114,16 @@ Cells::Cells(const MixedComplex<Real>& domain)
     if (n == none) n = count++;
     vertex_[v] = n;
   }
-  corner_begin_.reserve(domain.simplex_count() + 1);
   corner_begin_.push_back(0);
   around_begin_.assign(count + 1, 0);
-  for (const auto& piece : domain.pieces())
+  for (const CellPiece<Real>& piece : pieces)
     std::visit(
-        [&](const auto& complex) {
-          const std::span<const Index> inside = complex.vertices_inside();
+        [&](const auto* complex) {
+          const std::span<const Index> inside = complex->vertices_inside();
           for (Index v = 0; v < piece.vertices; ++v)
             outer_[piece.first_vertex + inside[v]] = piece.first_vertex + v;
           for (Index s = 0; s < piece.simplices; ++s) {
-            for (const Index v : corners_in(complex, s)) {
+            for (const Index v : corners_in(*complex, s)) {
               if (v == none) break;
               corner_.push_back(vertex_[outer_[piece.first_vertex + v]]);
               ++around_begin_[corner_.back() + 1];
@@ -91,7 +131,7 @@ Cells::Cells(const MixedComplex<Real>& domain)
             corner_begin_.push_back(static_cast<std::uint32_t>(corner_.size()));
           }
         },
-        domain.complex(piece));
+        piece.complex);
   for (std::size_t v = 0; v < count; ++v) around_begin_[v + 1] += around_begin_[v];
   around_.resize(corner_.size());
   std::vector<std::uint32_t> end(around_begin_.begin(), around_begin_.end() - 1);
@@ -135,38 +175,56 @@ std::size_t Cells::bytes() const {
 }
 
 template <class Real>
-auto MixedCells<Real>::piece_of(Index simplex) const -> const Piece& {
-  const auto pieces = domain_.pieces();
-  return *(std::upper_bound(pieces.begin(), pieces.end(), simplex,
-                            [](Index s, const Piece& piece) { return s < piece.first_simplex; }) -
+ComplexCells<Real>::ComplexCells(Pieces pieces, Welds welds)
+    : Cells(std::span<const CellPiece<Real>>(pieces), welds), pieces_(std::move(pieces)) {}
+
+template <class Real>
+ComplexCells<Real>::ComplexCells(const MixedComplex<Real>& domain)
+    : ComplexCells(pieces_of(domain), domain.outer_welds()) {}
+
+template <class Real>
+ComplexCells<Real>::ComplexCells(const TriangleMesh<Real>& surface)
+    : ComplexCells({{&surface, 0, static_cast<Index>(surface.vertex_count()), 0,
+                     static_cast<Index>(surface.face_count())}},
+                   {}) {}
+
+template <class Real>
+ComplexCells<Real>::ComplexCells(const TetMesh<Real>& solid)
+    : ComplexCells({{&solid, 0, static_cast<Index>(solid.vertex_count()), 0,
+                     static_cast<Index>(solid.tet_count())}},
+                   {}) {}
+
+template <class Real>
+const CellPiece<Real>& ComplexCells<Real>::piece_of(Index simplex) const {
+  return *(std::upper_bound(
+               pieces_.begin(), pieces_.end(), simplex,
+               [](Index s, const CellPiece<Real>& piece) { return s < piece.first_simplex; }) -
            1);
 }
 
 template <class Real>
-Cell MixedCells<Real>::cell(Index simplex) const {
+Cell ComplexCells<Real>::cell(Index simplex) const {
   Cell cell;
   for (const Index v : corners(simplex)) cell.vertex[cell.corners++] = v;
-  const Piece& piece = piece_of(simplex);
+  const CellPiece<Real>& piece = piece_of(simplex);
   std::visit(
-      [&](const auto& complex) { place(complex, simplex - piece.first_simplex, cell.place); },
-      domain_.complex(piece));
+      [&](const auto* complex) { place(*complex, simplex - piece.first_simplex, cell.place); },
+      piece.complex);
   return cell;
 }
 
 template <class Real>
-std::array<Index, 4> MixedCells<Real>::outer_corners(Index simplex) const {
-  const Piece& piece = piece_of(simplex);
+std::array<Index, 4> ComplexCells<Real>::outer_corners(Index simplex) const {
+  const CellPiece<Real>& piece = piece_of(simplex);
   std::array<Index, 4> corner = std::visit(
-      [&](const auto& complex) { return corners_in(complex, simplex - piece.first_simplex); },
-      domain_.complex(piece));
+      [&](const auto* complex) { return corners_in(*complex, simplex - piece.first_simplex); },
+      piece.complex);
   for (Index& v : corner)
     if (v != none) v = outer_[piece.first_vertex + v];
   return corner;
 }
 
-template Cells::Cells(const MixedComplex<float>&);
-template Cells::Cells(const MixedComplex<double>&);
-template class MixedCells<float>;
-template class MixedCells<double>;
+template class ComplexCells<float>;
+template class ComplexCells<double>;
 
 }  // namespace plexway

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <variant>
 #include <vector>
 
 #include <plexway/complex/mixed_complex.hpp>
@@ -42,13 +43,21 @@ struct CellFace {
   friend bool operator==(const CellFace&, const CellFace&) = default;
 };
 
+/// A complex that cells are taken from, and where its numbers begin among all.
+template <class Real>
+struct CellPiece {
+  std::variant<const TriangleMesh<Real>*, const TetMesh<Real>*, const Wireframe<Real>*> complex;
+  Index first_vertex = 0, vertices = 0, first_simplex = 0, simplices = 0;
+};
+
 /// The simplices of all pieces of a mixed domain as cells that meet where they have vertices in
 /// common: welded vertices are one. A wire meets others at vertices alone, as when distances are
 /// found. Numbers of simplices are the domain's, corners in the caller's order.
 class Cells {
  public:
+  using Welds = std::span<const std::array<Index, 2>>;
   template <class Real>
-  explicit Cells(const MixedComplex<Real>& domain);
+  Cells(std::span<const CellPiece<Real>> pieces, Welds welds);
   Cells(const Cells&) = delete;
   Cells& operator=(const Cells&) = delete;
   virtual ~Cells() = default;
@@ -84,19 +93,23 @@ class Cells {
   std::vector<Index> around_;
 };
 
-/// Of a domain that must outlive it.
+/// Of a mixed domain, a surface whose triangles may measure their edges differently, or a solid,
+/// which may have lengths alone; it must outlive them.
 template <class Real>
-class MixedCells final : public Cells {
+class ComplexCells final : public Cells {
  public:
-  explicit MixedCells(const MixedComplex<Real>& domain) : Cells(domain), domain_(domain) {}
+  explicit ComplexCells(const MixedComplex<Real>& domain);
+  explicit ComplexCells(const TriangleMesh<Real>& surface);
+  explicit ComplexCells(const TetMesh<Real>& solid);
   [[nodiscard]] Cell cell(Index simplex) const override;
   [[nodiscard]] std::array<Index, 4> outer_corners(Index simplex) const override;
 
  private:
-  using Piece = typename MixedComplex<Real>::Piece;
-  [[nodiscard]] const Piece& piece_of(Index simplex) const;
+  using Pieces = std::vector<CellPiece<Real>>;
+  ComplexCells(Pieces pieces, Welds welds);
+  [[nodiscard]] const CellPiece<Real>& piece_of(Index simplex) const;
 
-  const MixedComplex<Real>& domain_;
+  Pieces pieces_;
 };
 
 }  // namespace plexway

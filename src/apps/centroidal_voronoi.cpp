@@ -256,7 +256,7 @@ template <class Real>
 CentroidalVoronoi centroidal_voronoi(Serial, const TetMesh<Real>& mesh,
                                      std::span<const PointSource> seeds,
                                      const VoronoiOptions& options) {
-  if (!mesh.embedded()) throw UsageError("Voronoi cells in a solid need its coordinates");
+  support(Purpose::samples, mesh).require();
   return voronoi(mesh, seeds, options, {mesh.vertex_count(), mesh.tet_count(), "tet", 4});
 }
 

@@ -142,7 +142,7 @@ template <class Real>
 DistanceMatrix distance_matrix(Serial, const TetMesh<Real>& mesh,
                                std::span<const PointSource> points,
                                const std::function<bool(double)>& progress) {
-  if (!mesh.embedded()) throw UsageError("a distance matrix in a solid needs its coordinates");
+  support(Purpose::samples, mesh).require();
   return matrix(mesh, points, progress, {mesh.vertex_count(), mesh.tet_count(), "tet", 4});
 }
 

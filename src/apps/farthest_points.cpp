@@ -124,7 +124,7 @@ FarthestPoints farthest_points(Serial, const TriangleMesh<Real>& mesh,
 template <class Real>
 FarthestPoints farthest_points(Serial, const TetMesh<Real>& mesh,
                                std::span<const PointSource> start, const FarthestOptions& options) {
-  if (!mesh.embedded()) throw UsageError("farthest points in a solid need its coordinates");
+  support(Purpose::samples, mesh).require();
   return farthest(mesh, start, mesh.vertex_count(), options,
                   {mesh.vertex_count(), mesh.tet_count(), "tet", 4});
 }

@@ -1,7 +1,5 @@
 #include <plexway/apps/mixed_path_field.hpp>
 
-#include <algorithm>
-#include <limits>
 #include <string>
 #include <variant>
 
@@ -28,7 +26,7 @@ std::size_t corners_of(const MixedComplex<Real>& domain, Index simplex) {
 template <class Real>
 PathField<MixedComplex<Real>>::PathField(const MixedComplex<Real>& domain,
                                          std::span<const std::array<double, 3>> positions)
-    : domain_(&domain), positions_(positions), cells_(new MixedCells<Real>(domain)) {
+    : domain_(&domain), positions_(positions), cells_(new ComplexCells<Real>(domain)) {
   if (!positions.empty() && positions.size() != domain.vertex_count())
     throw UsageError(std::to_string(positions.size()) + " positions for " +
                      std::to_string(domain.vertex_count()) +
@@ -48,34 +46,32 @@ void PathField<MixedComplex<Real>>::adopt(DistanceField<Real> found,
                                           std::span<const PointSource> sources) {
   field_ = std::move(found);
   sources_.assign(sources.begin(), sources.end());
-  distance_.assign(cells_->vertex_count(), std::numeric_limits<double>::infinity());
-  for (std::size_t v = 0; v < field_.distance.size(); ++v) {
-    double& d = distance_[cells_->vertex(static_cast<Index>(v))];
-    d = std::min(d, static_cast<double>(field_.distance[v]));
-  }
+  distance_ = cell_distances<Real>(*cells_, field_.distance);
   solved_ = true;
 }
 
 template <class Real>
-Path PathField<MixedComplex<Real>>::trace(const PointSource& point,
-                                          const TraceOptions& options) const {
+PointSource PathField<MixedComplex<Real>>::checked(const PointSource& point) const {
   if (!solved_) throw UsageError("there is nothing to trace before a solve");
-  check(options);
   PointSource at = point;
   at.offset = 0;
   const std::size_t corners = at.vertex == none ? corners_of(*domain_, at.simplex) : 4;
   check_source(at, {domain_->vertex_count(), domain_->simplex_count(), "simplex",
                     corners == 0 ? 4 : corners});
-  Path path = trace_cells(*cells_, distance_, sources_, at);
-  if (positions_.empty()) return path;
-  for (const PathPoint& p : path.points) {
-    const std::array<Index, 4> outer = cells_->outer_corners(p.simplex);
-    std::array<double, 3> place = {0, 0, 0};
-    for (std::size_t i = 0; i < 4 && outer[i] != none; ++i)
-      for (std::size_t k = 0; k < 3; ++k) place[k] += p.barycentric[i] * positions_[outer[i]][k];
-    path.positions.push_back(place);
-  }
-  return path;
+  return at;
+}
+
+template <class Real>
+Path PathField<MixedComplex<Real>>::trace(const PointSource& point,
+                                          const TraceOptions& options) const {
+  const PointSource at = checked(point);
+  check(options);
+  return trace_cells({*cells_, distance_, sources_, positions_}, at);
+}
+
+template <class Real>
+double PathField<MixedComplex<Real>>::at(const PointSource& point, ReadOut level) const {
+  return read_cells({*cells_, distance_, sources_, positions_}, checked(point), level);
 }
 
 template <class Real>

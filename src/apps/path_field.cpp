@@ -9,6 +9,7 @@
 
 #include <plexway/error.hpp>
 
+#include "apps/cell_trace.hpp"
 #include "apps/solid_read_out.hpp"
 #include "apps/solid_trace.hpp"
 #include "apps/solved.hpp"
@@ -113,8 +114,11 @@ template <template <class> class Domain, class Real>
 PathField<Domain<Real>>::PathField(const Domain<Real>& domain,
                                    std::span<const std::array<double, 3>> positions)
     : domain_(&domain), positions_(positions) {
-  if constexpr (std::is_same_v<Domain<Real>, TriangleMesh<Real>>)
-    refuse_refraction(domain.summary(), "tracing paths");
+  // Without one space around that lines are straight in.
+  if constexpr (!std::is_same_v<Domain<Real>, Wireframe<Real>>)
+    if (domain.metric() ==
+        (Domain<Real>::kind == DomainKind::solid ? MetricKind::intrinsic : MetricKind::refracting))
+      cells_ = std::make_shared<const ComplexCells<Real>>(domain);
   const std::span<const Index> inside = domain.vertices_inside();
   if (!positions.empty() && positions.size() != inside.size())
     throw UsageError(std::to_string(positions.size()) + " positions for " +
@@ -143,6 +147,7 @@ void PathField<Domain<Real>>::took(std::span<const PointSource> sources, Visibil
   sources_.assign(sources.begin(), sources.end());
   visibility_ = visibility;
   kept_ = kept;
+  if (cells_) cell_distance_ = cell_distances<Real>(*cells_, field_.distance);
   solved_ = true;
 }
 
@@ -166,25 +171,30 @@ Solved<Real> PathField<Domain<Real>>::solved() const {
 template <template <class> class Domain, class Real>
 Path PathField<Domain<Real>>::trace(const PointSource& point, const TraceOptions& options) const {
   if (!solved_) throw UsageError("there is nothing to trace before a solve");
-  PointSource at = point;
-  at.offset = 0;
-  check_source(at, described(*domain_));
+  const PointSource at = checked(point);
+  if (cells_) {
+    check(options);
+    return trace_cells({*cells_, cell_distance_, sources_, positions_}, at);
+  }
   const Solved<Real> solved = this->solved();
   check(options);
   return or_no_way_at_all(trace_in(*domain_, solved, at, options), solved, at);
 }
 
+// What left no labels counts as GL, which does not either.
 template <template <class> class Domain, class Real>
-void PathField<Domain<Real>>::check_labels(ReadOut level) const {
+Support PathField<Domain<Real>>::support_of(Purpose purpose) const {
   if (!solved_) throw UsageError("there is nothing to read before a solve");
-  if (level == ReadOut::linear || std::is_same_v<Domain<Real>, Wireframe<Real>>) return;
-  if (kept_ == Kept::nothing || visibility_ != Visibility::saddles)
-    throw UsageError(
-        "distances inside simplices need the labels of the policy saddles, by Serial or OpenMP");
-  if constexpr (std::is_same_v<Domain<Real>, TetMesh<Real>>)
-    if (!domain_->embedded())
-      throw UsageError(
-          "distances inside tetrahedra need their coordinates: without them only linear");
+  return support(purpose, *domain_, visibility_,
+                 kept_ == Kept::nothing ? ExecutorKind::gl : ExecutorKind::serial);
+}
+
+template <template <class> class Domain, class Real>
+PointSource PathField<Domain<Real>>::checked(const PointSource& point) const {
+  PointSource at = point;
+  at.offset = 0;
+  check_source(at, described(*domain_));
+  return at;
 }
 
 template <template <class> class Domain, class Real>
@@ -195,26 +205,26 @@ double PathField<Domain<Real>>::at(const PointSource& point, ReadOut level) cons
 template <template <class> class Domain, class Real>
 std::vector<double> PathField<Domain<Real>>::at(std::span<const PointSource> points,
                                                 ReadOut level) const {
-  check_labels(level);
+  const Support supported = support_of(Purpose::read_out);
+  if (level != ReadOut::linear) supported.require();
   const Solved<Real> solved = this->solved();
   const ReadOutOf<Domain<Real>> read_out(*domain_, solved);
   std::vector<double> distance;
   distance.reserve(points.size());
-  for (PointSource at : points) {
-    at.offset = 0;
-    check_source(at, described(*domain_));
+  for (const PointSource& point : points) {
+    const PointSource at = checked(point);
     distance.push_back(at.vertex != none ? static_cast<double>(field_.distance[at.vertex])
-                                         : distance_in(*domain_, read_out, at, level));
+                       : cells_
+                           ? read_cells({*cells_, cell_distance_, sources_, positions_}, at, level)
+                           : distance_in(*domain_, read_out, at, level));
   }
   return distance;
 }
 
 template <template <class> class Domain, class Real>
 std::vector<std::array<double, 3>> PathField<Domain<Real>>::gradient() const {
-  check_labels(ReadOut::simplex);
+  support_of(Purpose::directions).require();
   std::vector<std::array<double, 3>> directions;
-  if constexpr (std::is_same_v<Domain<Real>, Wireframe<Real>>)
-    throw UsageError("directions are for surfaces and solids");
   if constexpr (std::is_same_v<Domain<Real>, TetMesh<Real>>) {
     const Solved<Real> solved = this->solved();
     const SolidReadOut<Real> read_out(*domain_, solved);
@@ -254,8 +264,7 @@ std::vector<std::array<double, 3>> PathField<Domain<Real>>::gradient() const {
 
 template <template <class> class Domain, class Real>
 std::vector<Index> PathField<Domain<Real>>::simplex_labels() const {
-  if (!solved_) throw UsageError("there is nothing to read before a solve");
-  if (kept_ == Kept::nothing) throw UsageError("the executor left no labels: use Serial or OpenMP");
+  support_of(Purpose::simplex_labels).require();
   std::vector<Index> labels;
   const auto take = [&](Index inside) {
     const bool many = sources_.size() > 1;
@@ -275,8 +284,6 @@ std::vector<Index> PathField<Domain<Real>>::simplex_labels() const {
     }
   } else if constexpr (std::is_same_v<Domain<Real>, TetMesh<Real>>) {
     for (Index t = 0; t < domain_->tet_count(); ++t) take(domain_->inside_tet(t).first);
-  } else {
-    throw UsageError("along wireframes vertices have labels, and edges none");
   }
   return labels;
 }
@@ -285,7 +292,8 @@ template <template <class> class Domain, class Real>
 std::size_t PathField<Domain<Real>>::bytes() const {
   return (outer_.capacity() + outer_simplices_.capacity()) * sizeof(Index) + workspace_.bytes() +
          field_.distance.capacity() * sizeof(Real) + field_.label.capacity() * sizeof(Index) +
-         sources_.capacity() * sizeof(PointSource);
+         sources_.capacity() * sizeof(PointSource) + (cells_ ? cells_->bytes() : 0) +
+         cell_distance_.capacity() * sizeof(double);
 }
 
 template class PathField<TriangleMesh<float>>;

@@ -177,7 +177,7 @@ struct PathSearch<Real>::State {
 template <class Real>
 PathSearch<Real>::PathSearch(const TriangleMesh<Real>& mesh)
     : state_(std::make_unique<State>(mesh)) {
-  support_of_searches(mesh.metric()).require();
+  support(Purpose::searches, mesh).require();
 }
 
 template <class Real>

@@ -238,7 +238,7 @@ PoissonDisks poisson_disks(Serial, const TriangleMesh<Real>& mesh, const Poisson
 template <class Real>
 PoissonDisks poisson_disks(Serial, const TetMesh<Real>& mesh, const PoissonOptions& options,
                            Workspace<Real>& workspace) {
-  if (!mesh.embedded()) throw UsageError("darts in a solid need its coordinates");
+  support(Purpose::samples, mesh).require();
   return poisson(mesh, options, workspace.state());
 }
 

@@ -59,11 +59,6 @@ class SolidTrace {
                        [&](Index w) { return distance(w) < infinity; }))
         return {};
     }
-    if (!mesh_.embedded()) {
-      Way way;
-      return descend(t, b, v, way) ? along_edges(way, t, b, v) : Path{};
-    }
-
     SolidPull<Real> puller(walk_);
     Way best;
     double shortest = infinity;
@@ -101,7 +96,6 @@ class SolidTrace {
   struct Way {
     std::vector<Knot> knots;
     Index source = none;
-    std::vector<Index> vertices = {};  // if it was found along edges
   };
 
   [[nodiscard]] double distance(Index v) const {
@@ -182,11 +176,7 @@ class SolidTrace {
 
   [[nodiscard]] double edge_length(Index corner, Index j) const {
     const Index t = corner / 4, i = corner % 4;
-    if (mesh_.embedded())
-      return norm(walk_.vertex(mesh_.tets()[t].corner[j]) -
-                  walk_.vertex(mesh_.tets()[t].corner[i]));
-    return std::sqrt(static_cast<double>(mesh_.squared_lengths()[t][tet_edge(i, j)])) *
-           mesh_.unit();
+    return norm(walk_.vertex(mesh_.tets()[t].corner[j]) - walk_.vertex(mesh_.tets()[t].corner[i]));
   }
   /// Between two points of a tetrahedron, from its edges alone.
   [[nodiscard]] double within(Index t, const Barycentric& a, const Barycentric& b) const {
@@ -242,13 +232,12 @@ class SolidTrace {
       }
       if (first == none) return false;
     }
-    way.vertices = descend_edges(
+    const std::vector<Index> vertices = descend_edges(
         first, [&](Index w) { return distance(w); }, end, edges);
-    if (way.vertices.empty()) return false;
-    way.source = ends.at(way.vertices.back()).number;
-    if (v == none && mesh_.embedded()) way.knots.push_back(Knot{walk_.place(t, b), {t}, none});
-    if (!mesh_.embedded()) return true;
-    for (const Index w : way.vertices) way.knots.push_back(knot_at_vertex(w));
+    if (vertices.empty()) return false;
+    way.source = ends.at(vertices.back()).number;
+    if (v == none) way.knots.push_back(Knot{walk_.place(t, b), {t}, none});
+    for (const Index w : vertices) way.knots.push_back(knot_at_vertex(w));
     const PointSource& s = solved_.sources[way.source];
     if (s.vertex == none) {
       const auto [tet, turned] = mesh_.inside_tet(s.simplex);
@@ -298,47 +287,6 @@ class SolidTrace {
       }
     }
     add(last, way.knots.back().at);
-    return path;
-  }
-
-  /// A way along edges, where there are no coordinates.
-  Path along_edges(const Way& way, Index t, const Barycentric& b, Index v) const {
-    Path path;
-    path.source = way.source;
-    path.length = 0;
-    const auto at = [&](Index tet, Index w) {
-      Barycentric c = {};
-      for (std::size_t i = 0; i < 4; ++i)
-        if (mesh_.tets()[tet].corner[i] == w) c[i] = 1;
-      return c;
-    };
-    if (v == none) {
-      push(path, t, b);
-      path.length += within(t, b, at(t, way.vertices.front()));
-    }
-    Index tet = t;
-    for (std::size_t k = 0; k + 1 < way.vertices.size(); ++k) {
-      // The shortest edge between the two.
-      double shortest = infinity;
-      for (const Index c : mesh_.corners_at(way.vertices[k]))
-        for (Index j = 0; j < 4; ++j)
-          if (mesh_.tets()[c / 4].corner[j] == way.vertices[k + 1] && j != c % 4 &&
-              edge_length(c, j) < shortest)
-            shortest = edge_length(c, j), tet = c / 4;
-      push(path, tet, at(tet, way.vertices[k]));
-      path.length += shortest;
-    }
-    const PointSource& s = solved_.sources[way.source];
-    if (s.vertex == none) {
-      const auto [last, turned] = mesh_.inside_tet(s.simplex);
-      const Barycentric end = inside(s.barycentric, turned), from = at(last, way.vertices.back());
-      push(path, last, from);
-      path.length += within(last, from, end);
-      push(path, last, end);
-    } else {
-      if (way.vertices.size() == 1) tet = mesh_.corners_at(way.vertices.back())[0] / 4;
-      push(path, tet, at(tet, way.vertices.back()));
-    }
     return path;
   }
 

@@ -43,9 +43,6 @@ class SurfaceTrace {
   /// The shortest of the ways that the labels around the point lead. Empty where none does.
   [[nodiscard]] Path trace(const PointSource& point, const TraceOptions& options) const;
 
-  /// Makes a strip from a target to a source locally shortest, for those who know the way.
-  [[nodiscard]] const Straightener<Real>& straightener() const { return straightener_; }
-
  private:
   /// A way from a point to a source: strips that meet in vertices.
   struct Way {

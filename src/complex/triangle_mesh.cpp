@@ -131,13 +131,6 @@ FaceLayout lay_out(std::span<const std::array<double, 3>> positions, Faces faces
   return {positions.size(), faces, order.empty() ? along_curve(positions, faces) : copy_of(order)};
 }
 
-void refuse_refraction(const SurfaceSummary& summary, const char* what) {
-  if (summary.refracting_edges > 0)
-    throw UsageError(std::string(what) + ": not on a surface with " +
-                     std::to_string(summary.refracting_edges) +
-                     " refracting edges; build it with one length an edge");
-}
-
 SaddleThresholds SaddleThresholds::standard() {
   return {
       .interior = 1e-5, .boundary = 1e-6, .noise_share = 1, .most_noise = 0.02, .agreement = 0.7};

@@ -205,7 +205,7 @@ class Growth<TriangleMesh<Real>>
 
   Growth(const TriangleMesh<Real>& mesh, WorkspaceState<Real>& workspace)
       : Base(mesh, mesh.face_count(), workspace, workspace.saddles.reserve(mesh.face_count() + 1)) {
-    support_of_searches(mesh.metric()).require();
+    support(Purpose::samples, mesh).require();
     this->clear();
   }
 

@@ -168,6 +168,52 @@ TEST_CASE("a path runs along a skin of another speed where that pays") {
     }
 }
 
+TEST_CASE("targets inside simplices are held against the ways by their corners") {
+  constexpr std::size_t n = 8;
+  const Position from = {.25, .25, .75};
+  for (const double c : {.5, 2.}) {
+    Scene scene(1);
+    const auto skin = scene.add(sheet({0, 0, 1}, {1, 0, 0}, {0, 1, 0}, n, n), c);
+    const auto solid = scene.add(block({0, 0, 0}, {1, 1, 1}, n));
+    scene.weld(skin, solid);
+    PathField field(scene.complex);
+    const Index source = scene.nearest(solid, from);
+    const Position start = scene.positions[source];
+    field.solve(Serial{}, PointSource::at(source));
+    std::mt19937 random(3);
+    double worst = 0, mean = 0;
+    constexpr int count = 60;
+    for (int k = 0; k < count; ++k) {
+      PointSource at{.simplex = static_cast<Index>(random() % scene.corners.size())};
+      const auto& corners = scene.corners[at.simplex];
+      double sum = 0;
+      for (std::size_t i = 0; i < corners.size(); ++i)
+        sum += at.barycentric[i] = 0.01 + static_cast<double>(random() % 1000) / 1000;
+      for (double& b : at.barycentric) b /= sum;
+      const Position p = scene.at({at.simplex, at.barycentric});
+      const double truth =
+          along_fast(1 - start[2], 1 - p[2], std::hypot(p[0] - start[0], p[1] - start[1]), c,
+                     distance(start, p));
+      const double scale = scene.move.scale, length = field.trace(at).length / scale;
+      const double read = field.at(at) / scale;
+      CAPTURE(c, at.simplex, truth, length, read);
+      CHECK(length > truth * (1 - 1e-8));
+      CHECK(read <= length * (1 + 1e-12));
+      CHECK(read > truth * (1 - 1e-3));  // no nearer than the corners' distances are right
+      for (std::size_t i = 0; i < corners.size(); ++i) {
+        const double leg = distance(p, scene.positions[corners[i]]) / scene.speed[at.simplex];
+        const double by = field.distances().distance[corners[i]] / scale + leg;
+        CHECK(length <= by * (1 + 1e-3));
+      }
+      worst = std::max(worst, length / truth - 1);
+      mean += (length / truth - 1) / count;
+    }
+    CAPTURE(c, mean, worst);
+    CHECK(mean < 1e-5);
+    CHECK(worst < 1e-4);
+  }
+}
+
 TEST_CASE("a path is refracted into a sheet that stands on a block") {
   constexpr std::size_t n = 8;
   for (const double c : {.5, 1., 2.})

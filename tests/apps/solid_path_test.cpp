@@ -149,17 +149,29 @@ TEST_CASE("paths in solids pass where parts touch") {
   for (Index v = 0; v < e.positions.size(); ++v) check_path(over.trace(v), e.positions, e.tets);
 }
 
-TEST_CASE("paths in a solid of lengths alone go along edges") {
-  const Solid s = solid_cube(3);
-  const TetMesh<double> mesh(s.positions.size(), s.tets, s.lengths());
-  PathField field(mesh);
-  field.solve(Serial{}, PointSource::at(0));
-  const auto edges = along_edges(s, 0);
-  for (Index v = 0; v < s.positions.size(); ++v) {
-    const Path path = field.trace(v);
-    CHECK(path.positions.empty());
-    CHECK(path.length >= apart(s.positions[v], s.positions[0]) * (1 - 1e-12));
-    CHECK(path.length <= 1.5 * edges[v] + 1e-12);
+TEST_CASE("paths in a solid of lengths alone are those in space") {
+  for (const Solid& s : {solid_cube(3), l_shape(4), walled(8)}) {
+    const TetMesh<double> mesh(s.positions.size(), s.tets, s.lengths()), placed = s.mesh<double>();
+    PathField field(mesh), in_space(placed, s.positions);
+    const Index source = s.nearest(0.9, 0.1, 0.3);
+    field.solve(Serial{}, PointSource::at(source));
+    in_space.solve(Serial{}, PointSource::at(source));
+    double worst = 0, inside = 0;
+    for (Index v = 0; v < s.positions.size(); v += 5) {
+      const Path path = field.trace(v), known = in_space.trace(v);
+      CAPTURE(v, path.length, known.length);
+      CHECK(path.positions.empty());
+      CHECK(path.length >= apart(s.positions[v], s.positions[source]) * (1 - 1e-12));
+      CHECK(path.length >= known.length * (1 - 1e-6) - 1e-12);
+      if (known.length > 0) worst = std::max(worst, path.length / known.length - 1);
+      PointSource at{.simplex = static_cast<Index>(v % s.tets.size()),
+                     .barycentric = {0.1, 0.2, 0.3, 0.4}};
+      inside = std::max(inside, field.at(at) / in_space.trace(at).length - 1);
+    }
+    CAPTURE(s.positions.size(), worst, inside);
+    CHECK(worst < 1e-4);
+    CHECK(inside < 1e-4);
+    CHECK_THROWS_WITH(field.gradient(), Catch::Contains("need their coordinates"));
   }
 }
 

@@ -104,7 +104,7 @@ TEST_CASE("along the edges of a wireframe distances are exact") {
   CHECK(at(0, 0.5) == Approx(2));
   CHECK(at(1, 0.75) == Approx(1.75));
   CHECK(field.at(0, {0.5, 0.5}, ReadOut::linear) == Approx(2));
-  CHECK_THROWS_WITH(field.gradient(), Catch::Contains("surfaces and solids"));
+  CHECK_THROWS_WITH(field.gradient(), Catch::Contains("along edges compare the ends"));
 }
 
 TEST_CASE("linear distances need no labels, and are those of the last solve") {
@@ -120,7 +120,7 @@ TEST_CASE("linear distances need no labels, and are those of the last solve") {
   CHECK_THROWS_WITH(field.at(5, middle), Catch::Contains("saddles"));
 }
 
-TEST_CASE("a solid of lengths is read out linearly") {
+TEST_CASE("a solid of lengths is read out by paths, or linearly") {
   const Solid s = solid_cube(3);
   const TetMesh<double> mesh(s.positions.size(), s.tets, s.lengths());
   PathField field(mesh);
@@ -129,5 +129,10 @@ TEST_CASE("a solid of lengths is read out linearly") {
   double mean = 0;
   for (const Index v : s.tets[5]) mean += field.distances().distance[v] / 4;
   CHECK(field.at(5, middle, ReadOut::linear) == Approx(mean));
-  CHECK_THROWS_WITH(field.at(5, middle), Catch::Contains("coordinates"));
+  Position centre{};
+  for (const Index v : s.tets[5])
+    for (std::size_t k = 0; k < 3; ++k) centre[k] += s.positions[v][k] / 4;
+  const Position& from = s.positions[0];
+  const double straight = std::hypot(centre[0] - from[0], centre[1] - from[1], centre[2] - from[2]);
+  CHECK(field.at(5, middle) == Approx(straight).epsilon(1e-9));
 }

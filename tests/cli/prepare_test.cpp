@@ -73,7 +73,7 @@ TEST_CASE("what is no prepared file, or asks for another one, is one line and it
   refused({"prepare", input, "--out", folder.at("one.ply").string()}, 2, ".plexway");
   refused(
       {"prepare", input, "--out", folder.at("b.plexway").string(), "--triangulation", "delaunay"},
-      2, "no triangles to flip");
+      2, "only a surface has triangles to flip");
   refused({"distance", prepared, "--as", "wireframe", "--source", "vertex:0"}, 2,
           "prepared already");
   std::string bytes = bytes_of(prepared);

@@ -8,6 +8,7 @@
 
 #include "complex/test_wires.hpp"
 #include "executors/parity.hpp"
+#include "executors/team_cases.hpp"
 #include "propagate/simplex_testing.hpp"
 #include "propagate/solid_solving.hpp"
 #include "propagate/solving.hpp"
@@ -109,42 +110,11 @@ TEST_CASE("200 solves on eight threads are one", "[threads]") {
 }
 
 TEST_CASE("queues grow when every vertex is a source", "[threads]") {
-  const auto mesh = grid(40, 40).mesh<float>();
-  std::vector<PointSource> sources;
-  for (Index v = 0; v < mesh.vertex_count(); ++v) sources.push_back(PointSource::at(v));
-  for (const int threads : {1, 8}) {
-    const auto field = solve(team(threads), mesh, sources, by_labels());
-    bool own = true;
-    for (Index v = 0; v < mesh.vertex_count(); ++v)
-      own = own && field.distance[v] == 0 && field.label[v] == v;
-    CHECK(own);
-  }
-  // Offsets that no source beats: all wait far apart, most in vain.
-  std::mt19937 random(3);
-  for (PointSource& s : sources) s.offset = 100 * uniform(random);
-  sources[7].offset = 0;
-  const auto field = solve(team(8), mesh, sources, by_labels());
-  CHECK(parity(solve(Serial{}, mesh, sources, by_labels()), field).worst < 1.5e-6);
+  for (const int threads : {1, 8}) check_every_vertex_a_source(team(threads));
 }
 
 TEST_CASE("a team keeps radius, offsets and sources inside triangles", "[threads]") {
-  const Surface s = grid(30, 30);
-  const auto mesh = s.mesh<double>();
-  PropagateOptions options = by_labels();
-  options.radius = 0.3;
-  const PointSource sources[] = {
-      {.vertex = 100, .offset = 0.05}, PointSource::in(700, {.2, .3, .5}), PointSource::at(900)};
-  const auto alone = solve(Serial{}, mesh, sources, options);
-  const auto field = solve(team(4), mesh, sources, options);
-  CHECK(field.distance[100] == 0.05);
-  const Parity p = parity(alone, field);
-  CHECK(p.reached_by_one == 0);
-  CHECK(p.worst < 1e-12);
-  std::size_t beyond = 0;
-  for (const double d : field.distance) beyond += std::isinf(d);
-  CHECK(beyond > 100);
-  for (std::size_t v = 0; v < field.distance.size(); ++v)
-    CHECK((field.label[v] == none) == std::isinf(field.distance[v]));
+  check_radius_and_offsets(team(4));
 }
 
 TEST_CASE("a team stops where it is told", "[threads]") {

@@ -12,6 +12,7 @@
 #include "exact_data.hpp"
 #include "executors/parity.hpp"
 #include "executors/piece_testing.hpp"
+#include "executors/team_cases.hpp"
 #include "propagate/solving.hpp"
 #include "propagate/workspace_state.hpp"
 #include "with_accuracy.hpp"
@@ -178,38 +179,11 @@ TEST_CASE("pieces: as accurate as Serial on curved surfaces") {
 }
 
 TEST_CASE("pieces: radius, offsets and sources inside triangles", "[threads]") {
-  const auto mesh = grid(30, 30).mesh<double>();
-  PropagateOptions options = fast();
-  options.radius = 0.3;
-  const PointSource sources[] = {
-      {.vertex = 100, .offset = 0.05}, PointSource::in(700, {.2, .3, .5}), PointSource::at(900)};
-  const auto alone = solve(Serial{}, mesh, sources, options);
-  const auto field = solve(pieces(4, 50), mesh, sources, options);
-  CHECK(field.distance[100] == 0.05);
-  const Parity p = parity(alone, field);
-  CHECK(p.reached_by_one == 0);
-  CHECK(p.worst < 1e-12);
-  std::size_t beyond = 0;
-  for (const double d : field.distance) beyond += std::isinf(d);
-  CHECK(beyond > 100);
-  for (std::size_t v = 0; v < field.distance.size(); ++v)
-    CHECK((field.label[v] == none) == std::isinf(field.distance[v]));
+  check_radius_and_offsets(pieces(4, 50));
 }
 
 TEST_CASE("pieces: every vertex a source, and offsets far apart", "[threads]") {
-  const auto mesh = grid(40, 40).mesh<float>();
-  std::vector<PointSource> sources;
-  for (Index v = 0; v < mesh.vertex_count(); ++v) sources.push_back(PointSource::at(v));
-  const auto all = solve(pieces(3, 100), mesh, sources, fast());
-  bool own = true;
-  for (Index v = 0; v < mesh.vertex_count(); ++v)
-    own = own && all.distance[v] == 0 && all.label[v] == v;
-  CHECK(own);
-  std::mt19937 random(3);
-  for (PointSource& s : sources) s.offset = 100 * uniform(random);
-  sources[7].offset = 0;
-  const auto field = solve(pieces(3, 100), mesh, sources, fast());
-  CHECK(parity(solve(Serial{}, mesh, sources, fast()), field).worst < 1.5e-6);
+  check_every_vertex_a_source(pieces(3, 100));
 }
 
 TEST_CASE("pieces: a budget is kept to the last expansion", "[threads]") {

@@ -49,6 +49,27 @@ constexpr std::array<Named<Accuracy::Kind>, 3> accuracies = {{{"fast", Accuracy:
                                                               {"accurate", Accuracy::Kind::merged},
                                                               {"exact", Accuracy::Kind::exact}}};
 
+// What is measured otherwise is a column of its own where only that matters.
+constexpr std::array<Named<Combination>, 8> measured = [] {
+  const auto of = [](DomainKind kind, int dimension, MetricKind metric) -> Combination {
+    return {ExecutorKind::serial, kind, dimension, true, metric};
+  };
+  using enum DomainKind;
+  using enum MetricKind;
+  return std::array<Named<Combination>, 8>{{{"surface", of(surface, 2, intrinsic)},
+                                            {"surface, refracting", of(surface, 2, refracting)},
+                                            {"solid", of(solid, 3, embedded)},
+                                            {"solid, lengths", of(solid, 3, intrinsic)},
+                                            {"wireframe", of(wireframe, 1, intrinsic)},
+                                            {"simplices", of(simplices, 3, intrinsic)},
+                                            {"cloud", of(cloud, 2, intrinsic)},
+                                            {"mixed", of(mixed, 3, intrinsic)}}};
+}();
+
+#define PLEXWAY_PURPOSE(name, what) {what, Purpose::name},
+constexpr Named<Purpose> purposes[] = {PLEXWAY_PURPOSES(PLEXWAY_PURPOSE)};
+#undef PLEXWAY_PURPOSE
+
 MetricKind usual_metric(DomainKind kind) {
   return kind == DomainKind::solid ? MetricKind::embedded : MetricKind::intrinsic;
 }
@@ -59,6 +80,7 @@ class Page {
   std::string text() {
     std::string tables = executor_table();  // one after another: numbers go in that order
     tables += option_tables();
+    tables += purpose_table();
     return "# What goes together\n\n"
            "Made from `include/plexway/support.hpp` by `ninja plexway_support_page`; a test of the "
            "house compares the\n"
@@ -158,6 +180,25 @@ class Page {
     return text;
   }
 
+  std::string purpose_table() {
+    std::string text =
+        "\n## Besides solving\n\nAfter a solve by `Serial` or `OpenMP`, by saddles. What draws or "
+        "measures in space needs positions besides.\n\n|  |";
+    for (const auto& m : measured) text.append(" ").append(m.name).append(" |");
+    text += "\n|---|";
+    for (std::size_t i = 0; i < measured.size(); ++i) text += "---|";
+    text += "\n";
+    for (const auto& purpose : purposes) {
+      text.append("| ").append(purpose.name).append(" |");
+      for (const auto& m : measured) {
+        const Support found = support(purpose.value, m.value);
+        text.append(" ").append(found ? "yes" : number(found.refusal())).append(" |");
+      }
+      text += "\n";
+    }
+    return text;
+  }
+
   std::string sentences() {
     std::string text = "\n## Sentences\n\n";
     for (std::size_t i = 0; i < order_.size(); ++i)
@@ -186,6 +227,15 @@ class Page {
                     if (!found && numbers_.count(found.refusal()) == 0)
                       rest.insert(found.refusal());
                   }
+    for (const auto& purpose : purposes)
+      for (const auto& m : measured)
+        for (const auto& v : visibilities)
+          for (const auto& e : executors) {
+            Combination c = m.value;
+            c.visibility = v.value, c.executor = e.value;
+            const Support found = support(purpose.value, c);
+            if (!found && numbers_.count(found.refusal()) == 0) rest.insert(found.refusal());
+          }
     return {rest.begin(), rest.end()};
   }
 

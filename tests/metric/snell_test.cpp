@@ -222,10 +222,60 @@ TEST_CASE("lengths that no triangle has are counted and survived") {
     }
 }
 
+TEMPLATE_TEST_CASE("paths are refracted, and go along the line where that pays", "", float,
+                   double) {
+  std::mt19937 random(7);
+  for (const double fast : {1.3, 2., 5.}) {
+    const HalvedSquare square(16, 0.3, 3);
+    const TwoSpeeds law{1, fast};
+    const auto mesh = two_speeds<TestType>(square, law);
+    PathField field(mesh, square.points);
+    double worst = 0, worst_inside = 0, against_field = 0;
+    for (int n = 0; n < 4; ++n) {
+      const Index source = static_cast<Index>(random() % square.points.size());
+      field.solve(Serial{}, PointSource::at(source));
+      const auto& from = square.points[source];
+      for (int m = 0; m < 12; ++m) {
+        const Index v = static_cast<Index>(random() % square.points.size());
+        const Path path = field.trace(v);
+        const double truth = law.time(from, square.points[v]);
+        CAPTURE(fast, source, v, truth, path.length);
+        REQUIRE(path.source == 0);
+        CHECK(path.length >= truth * (1 - 1e-6) - 1e-9);
+        if (truth > 0) worst = std::max(worst, path.length / truth - 1);
+        against_field = std::max(
+            against_field, std::abs(static_cast<double>(field.distances().distance[v]) - truth));
+        // What it says of itself.
+        double sum = 0;
+        for (std::size_t i = 0; i + 1 < path.positions.size(); ++i) {
+          const auto &p = path.positions[i], &q = path.positions[i + 1];
+          sum += std::hypot(q[0] - p[0], q[1] - p[1]) /
+                 (square.is_above(path.points[i].simplex) ? law.above : law.below);
+        }
+        CHECK(sum == Approx(path.length).epsilon(1e-5).margin(1e-9));
+
+        PointSource at{.simplex = static_cast<Index>(random() % square.faces.size()),
+                       .barycentric = {0.2, 0.3, 0.5}};
+        std::array<double, 3> place{};
+        for (std::size_t i = 0; i < 3; ++i)
+          for (std::size_t k = 0; k < 2; ++k)
+            place[k] += at.barycentric[i] * square.points[square.faces[at.simplex][i]][k];
+        const double there = law.time(from, place);
+        worst_inside = std::max(worst_inside, field.at(at) / there - 1);
+        CHECK(field.trace(at).length >= there * (1 - 1e-6) - 1e-9);
+        CHECK(field.at(at) >= there * (1 - 5e-2));  // as good as the vertices' distances
+      }
+    }
+    CAPTURE(fast, worst, worst_inside, against_field);
+    CHECK(worst < 1e-4);
+    CHECK(worst_inside < 1e-4);
+  }
+}
+
 TEST_CASE("what unfolds over edges is refused where they refract") {
   const HalvedSquare square(6, 0);
   const auto mesh = two_speeds<float>(square, {1, 2});
-  CHECK_THROWS_AS(PathField(mesh), UsageError);
+  CHECK_THROWS_WITH(PathField(mesh).gradient(), Catch::Contains("before a solve"));
   CHECK_THROWS_AS(PathSearch<float>(mesh), UsageError);
   PropagateOptions options;
   options.visibility = Visibility::centroid;

@@ -35,4 +35,18 @@ decltype(auto) with_complex(const AnyDomain& domain, const Use& use) {
       complex_of(domain));
 }
 
+/// The same where points are chosen (Purpose::samples). Throws UsageError where none are.
+template <class Use>
+decltype(auto) with_sampled(const AnyDomain& domain, const Use& use) {
+  using Result = decltype(use(std::declval<const TriangleMesh<float>&>()));
+  return with_complex(domain, [&](const auto& complex) -> Result {
+    constexpr DomainKind kind = std::decay_t<decltype(complex)>::kind;
+    support(Purpose::samples, complex).require();
+    if constexpr (support(Purpose::samples, kind))
+      return use(complex);
+    else
+      throw std::bad_variant_access();  // refused
+  });
+}
+
 }  // namespace plexway

@@ -62,8 +62,9 @@ class PathField<MixedComplex<Real>> {
   /// The way from a point back to its nearest source: no small change makes it shorter. It crosses
   /// a hinge between two speeds where Fermat says, runs along a fast sheet where that pays, and
   /// meets wires at their vertices only, as distances do. Where it is more than 5e-4 longer than
-  /// the distance it was looked for three times, each time more finely. Throws UsageError for a
-  /// point that is not in the domain, or before a solve. Any number of threads may trace at once.
+  /// the distance, or inside a simplex than a way by one of its corners, it was looked for three
+  /// times, each time more finely. Throws UsageError for a point that is not in the domain, or
+  /// before a solve. Any number of threads may trace at once.
   /// Cost: see search_cells; some milliseconds for a hundred cells.
   [[nodiscard]] Path trace(const PointSource& point, const TraceOptions& options = {}) const;
   /// From a vertex.
@@ -71,10 +72,17 @@ class PathField<MixedComplex<Real>> {
     return trace(PointSource::at(vertex), options);
   }
 
+  /// The distance of any point of the domain, in its unit; its offset does not count. `linear` by
+  /// the distances of its simplex's corners, other levels by its path. +inf where none leads.
+  /// Throws and costs as `trace`.
+  [[nodiscard]] double at(const PointSource& point, ReadOut level = ReadOut::neighbours) const;
+
   /// Bytes held, without those of the domain and the positions.
   [[nodiscard]] std::size_t bytes() const;
 
  private:
+  [[nodiscard]] PointSource checked(const PointSource& point) const;
+
   const MixedComplex<Real>* domain_;
   std::span<const std::array<double, 3>> positions_;
   std::unique_ptr<const Cells> cells_;

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstddef>
+#include <memory>
 #include <span>
 #include <type_traits>
 #include <utility>
@@ -20,6 +21,7 @@
 
 namespace plexway {
 
+class Cells;
 template <class Real>
 struct Solved;
 
@@ -34,22 +36,20 @@ struct Solved;
 /// Domain: TriangleMesh, TetMesh or Wireframe. The domain and the positions are referred to and
 /// must outlive it.
 template <class Domain>
-class PathField;
+class PathField {
+  static_assert(support(Purpose::paths, Domain::kind),
+                "paths are traced on surfaces, solids, wireframes, clouds and mixed domains");
+};
 
 /// On a surface, a solid or a wireframe.
 template <template <class> class Domain, class Real>
 class PathField<Domain<Real>> {
-  static_assert(Domain<Real>::kind == DomainKind::surface ||
-                    Domain<Real>::kind == DomainKind::solid ||
-                    Domain<Real>::kind == DomainKind::wireframe,
-                "paths are traced on surfaces, solids, wireframes and clouds");
-
  public:
   /// `positions`, one a vertex in the caller's order and unit, are those the domain was made from.
   /// With them paths have coordinates, and all lengths are taken from them in double. Throws
-  /// UsageError for another count. Cost: linear; 4 bytes a vertex, and a
-  /// tetrahedron, and 8 an edge of a wireframe.
-  /// UsageError for a surface with refracting edges, too.
+  /// UsageError for another count. Cost: linear; 4 bytes a vertex, and a tetrahedron, and 8 an edge
+  /// of a wireframe; 50 a triangle of a surface with refracting edges, 60 a tetrahedron without
+  /// coordinates.
   explicit PathField(const Domain<Real>& domain,
                      std::span<const std::array<double, 3>> positions = {});
 
@@ -95,9 +95,10 @@ class PathField<Domain<Real>> {
   ///
   /// On surfaces it is straight over every edge and bends only at vertices with at least pi of
   /// surface on both sides, is at most 1 % longer than the shortest way along edges, and mostly the
-  /// shortest of all (TraceOptions, which elsewhere do not matter); in solids
-  /// it bends only at reflex edges and vertices. Solids without coordinates: a way along edges, as
-  /// short as these allow.
+  /// shortest of all (TraceOptions, which elsewhere do not matter). On surfaces with refracting
+  /// edges it is refracted, as on mixed domains (mixed_path_field.hpp). In solids it bends only at
+  /// reflex edges and vertices. Solids without coordinates are as if refracting: each
+  /// tetrahedron is flat in its own lengths.
   ///
   /// Throws UsageError for a point that is not in the domain, or before a solve. Any number of
   /// threads may trace at once. Cost: about that of looking at each simplex on the way some ten
@@ -111,11 +112,12 @@ class PathField<Domain<Real>> {
   /// The distance of any point of the domain, in its unit; its offset does not count. +inf where no
   /// path leads. `linear` needs the vertices' distances only; the other levels ask the virtual
   /// sources that Visibility::saddles or windows left, with Serial and OpenMP. In solids `star`
-  /// asks what `neighbours` asks, and tetrahedra need their coordinates; along the edges of
+  /// asks what `neighbours` asks; along the edges of
   /// wireframes all levels but `linear` are exact. A solve's radius bounds the distances of
   /// vertices, so `linear`; the labels that other levels ask go on by about a simplex. After
   /// windows (Accuracy) all levels but `linear` ask those, and are as accurate as they are: exact
-  /// after Accuracy::exact().
+  /// after Accuracy::exact(). On surfaces with refracting edges and in solids by
+  /// lengths alone they are the lengths of paths.
   ///
   /// Across an edge `neighbours` and `star` are continuous where the labels on both sides are all
   /// that is asked; docs/apps/read_out.md has what jumps. Throws UsageError for a
@@ -145,17 +147,15 @@ class PathField<Domain<Real>> {
   /// Bytes held, without those of the domain and the positions.
   [[nodiscard]] std::size_t bytes() const;
 
-  // For the floors above and for further propagation.
-  /// What the last solve left, and the next one takes.
-  [[nodiscard]] Workspace<Real>& workspace() { return workspace_; }
   /// The domain that it refers to.
   [[nodiscard]] const Domain<Real>& domain() const { return *domain_; }
 
  private:
-  void check_labels(ReadOut level) const;
+  [[nodiscard]] Support support_of(Purpose purpose) const;
   /// What the workspace has of the field.
   enum class Kept { nothing, labels, windows };
   void took(std::span<const PointSource> sources, Visibility visibility, Kept kept);
+  [[nodiscard]] PointSource checked(const PointSource& point) const;
   [[nodiscard]] Solved<Real> solved() const;
 
   const Domain<Real>* domain_;
@@ -168,6 +168,9 @@ class PathField<Domain<Real>> {
   Visibility visibility_ = Visibility::saddles;
   bool solved_ = false;
   Kept kept_ = Kept::nothing;
+  // Where paths are refracted, and in solids by lengths alone.
+  std::shared_ptr<const Cells> cells_;
+  std::vector<double> cell_distance_;
 };
 
 /// The domain says which it is.

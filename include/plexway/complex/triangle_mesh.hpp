@@ -227,9 +227,6 @@ class TriangleMesh {
   Rows<ChordEnd> chords_;
 };
 
-/// Throws UsageError where a surface has refracting edges: `what` unfolds triangles over edges.
-void refuse_refraction(const SurfaceSummary& summary, const char* what);
-
 extern template class TriangleMesh<float>;
 extern template class TriangleMesh<double>;
 

@@ -12,6 +12,7 @@
 #include <plexway/any/open_simplices.hpp>
 #include <plexway/error.hpp>
 #include <plexway/io/labels.hpp>
+#include <plexway/support.hpp>
 
 #include "any/words.hpp"
 #include "io/number_rows.hpp"
@@ -129,9 +130,7 @@ std::string mask_file(const MaskArgument& argument) {
 std::shared_ptr<const Mask> read_mask(const MaskArgument& argument, const AnyShape& domain) {
   if (argument.text.empty()) return nullptr;
   const Parsed asked = parse(argument);
-  if (domain.kind() != DomainKind::surface && domain.kind() != DomainKind::solid &&
-      domain.kind() != DomainKind::wireframe)
-    throw UsageError("--mask: for surfaces, solids and wireframes; leave points out of a cloud");
+  support(Purpose::masks, domain.kind()).require();
   auto mask = std::make_shared<Mask>(domain.vertices(), domain.simplices());
   const auto close_vertex = [&](Index v) { mask->close_vertex(v); };
   const auto close_simplex = [&](Index s) { mask->close_simplex(s); };
@@ -173,6 +172,19 @@ AnyShape open_shape(const Mask& mask, const AnyShape& domain) {
     return own == nullptr
                ? AnyShape::solid(positions, mask.open(all))
                : AnyShape::solid(domain.vertices(), mask.open(all), rows(all, own->tets));
+  }
+  if (const auto* given = std::get_if<SimplexShape>(&domain.data())) {
+    SimplexShape open = *given;
+    open.corners.clear(), open.lengths.clear();
+    const std::size_t edges = given->lengths.size() / domain.simplices();
+    for (std::size_t s = 0; s < domain.simplices(); ++s) {
+      const auto corners = domain.corners(s);
+      if (!mask.is_open(corners, s)) continue;
+      open.corners.insert(open.corners.end(), corners.begin(), corners.end());
+      const auto first = given->lengths.begin() + static_cast<std::ptrdiff_t>(s * edges);
+      open.lengths.insert(open.lengths.end(), first, first + static_cast<std::ptrdiff_t>(edges));
+    }
+    return AnyShape::simplices(std::move(open));
   }
   const io::Edges& wire = std::get<io::Edges>(domain.data());
   return wire.lengths.empty() ? AnyShape::wireframe(positions, mask.open(wire.edges))

@@ -9,6 +9,7 @@
 #include <variant>
 
 #include <plexway/error.hpp>
+#include <plexway/support.hpp>
 
 #include "any/words.hpp"
 #include "io/number_rows.hpp"
@@ -154,8 +155,7 @@ std::shared_ptr<const MeasuredLengths> measure(const MetricArgument& argument,
                                                const AnyShape& domain, Jumps jumps) {
   if (argument.text.empty()) return nullptr;
   const Parsed asked = parse(argument);
-  if (domain.cloud() != nullptr)
-    throw UsageError("--metric: a cloud has no simplices of its own to measure; give a surface");
+  support(Purpose::metrics, domain.kind()).require();
   const bool refracts =
       (domain.kind() == DomainKind::surface || domain.kind() == DomainKind::solid) &&
       jumps == Jumps::refract && (asked.kind == Kind::speed || asked.kind == Kind::tensor);

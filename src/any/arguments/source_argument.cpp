@@ -7,6 +7,7 @@
 #include <system_error>
 
 #include <plexway/error.hpp>
+#include <plexway/support.hpp>
 
 #include "any/arguments/point_argument.hpp"
 #include "any/shape_state.hpp"
@@ -169,9 +170,12 @@ Source locate(const AnyShape& domain, const SetArgument& set) {
           .radius = set.numbers[3],
           .offset = set.offset};
     case Kind::simplex:
-      if (domain.kind() != DomainKind::surface && domain.kind() != DomainKind::wireframe)
-        throw UsageError("--source '" + set.text + "': for surfaces and wireframes, not a " +
-                         std::string(kind_noun(domain.kind())));
+      support({.executor = ExecutorKind::serial,
+               .domain = domain.kind(),
+               .dimension = 2,
+               .single_precision = false,
+               .source = SourceKind::simplex})
+          .require();
       if (set.simplex >= domain.simplices())
         throw InputError(domain.file().string() + ": source " + set.text +
                          " is out of range: the " + std::string(domain.simplex_name()) +

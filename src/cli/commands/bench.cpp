@@ -25,21 +25,14 @@
 namespace plexway::cli {
 namespace {
 
-struct BenchCommand {
-  std::string input;
-  std::string as;
+struct BenchCommand : InputCommand {
   std::vector<std::string> sources;
   std::vector<std::string> truths;
   std::size_t repeats = 20;
   std::size_t random_sources = 0;
-  FillArguments fill;
-  CloudPreparation cloud;
-  PieceArguments pieces;
   SolveOptions solve;
   TriangulationArgument triangulation;
   bool anatomy = false;
-  bool json = false;
-  bool quiet = false;
 };
 
 // Times of single runs, in ns a vertex.
@@ -194,8 +187,7 @@ void run_bench(const BenchCommand& command) {
 
   Result result;
   ProgressLine progress(command.quiet);
-  const Domain domain =
-      load_domain(command.input, command.as, command.fill, command.cloud, progress, command.pieces);
+  const Domain domain = load_domain(command, progress);
   std::vector<PointSource> sources = locate_sources(domain, arguments);
   const auto truths = read_truths(command, domain);
   if (command.anatomy && truths.empty())
@@ -248,8 +240,7 @@ void add_bench_command(CLI::App& tool, Action& action) {
   auto command = std::make_shared<BenchCommand>();
   CLI::App& app = *tool.add_subcommand(
       "bench", "Speed against Boost.Graph's Dijkstra, and error against truth");
-  app.add_option("INPUT", command->input, input_help)->type_name("FILE")->required();
-  add_piece_options(app, command->pieces);
+  add_inputs(app, *command);
   app.add_option("--source,-s", command->sources,
                  "vertex:ID or point:X,Y,Z; repeat it to take turns between sources")
       ->required()
@@ -267,17 +258,13 @@ void add_bench_command(CLI::App& tool, Action& action) {
   app.add_option("--repeats", command->repeats, "timed runs of each solver (default 20)")
       ->check(CLI::Range(1, 1'000'000))
       ->type_name("N");
-  app.add_option("--as", command->as, as_help)->type_name("KIND");
   app.add_flag("--anatomy", command->anatomy,
                "split the errors: above and below exact, near the source, where\n"
                "fronts meet, by the shape of simplices, by curvature, in solids by how\n"
                "far the path is from straight; needs --truth");
-  app.add_flag("--json", command->json, "print one JSON object");
-  app.add_flag("--quiet,-q", command->quiet, "no notes, no progress");
   add_solve_options(app, command->solve, false);
   add_triangulation_option(app, command->triangulation);
-  add_fill_options(app, command->fill);
-  add_cloud_options(app, command->cloud);
+  add_input_options(app, *command, "no notes, no progress");
   app.footer(
       "Examples:\n"
       "  plexway bench bunny.obj --source vertex:3160 --truth bunny.v3160.txt\n"

@@ -13,17 +13,14 @@
 namespace plexway::cli {
 namespace {
 
-struct ConvertCommand {
-  std::string input, out, as;
-  FillArguments fill;
-  bool json = false, quiet = false;
+struct ConvertCommand : InputCommand {
+  std::string out;
 };
 
 void run_convert(const ConvertCommand& command) {
   check_output_name(command.out, command.input, conversion_extensions(), "output");
   ProgressLine progress(command.quiet);
-  const Converted conversion =
-      convert(command.input, command.out, read_options(command.as, command.fill, {}, progress));
+  const Converted conversion = convert(command.input, command.out, read_options(command, progress));
   progress.clear();
   Json json;
   json["input"] = command.input;
@@ -53,7 +50,7 @@ void add_convert_command(CLI::App& tool, Action& action) {
   auto command = std::make_shared<ConvertCommand>();
   CLI::App& app = *tool.add_subcommand(
       "convert", "Writes a surface, solid, level set, wireframe or cloud in another format");
-  app.add_option("INPUT", command->input, input_help)->type_name("FILE")->required();
+  add_input(app, *command);
   app.add_option("OUT", command->out,
                  "by extension: a surface .obj .off .ply .stl .glb .gltf .vtu .vtk, a solid\n"
                  ".node .ele .mesh .msh .vtu .vtk, a level set .vdb, a wireframe .obj .edges\n"
@@ -62,8 +59,7 @@ void add_convert_command(CLI::App& tool, Action& action) {
       ->type_name("OUT")
       ->required();
   app.add_option("--as", command->as, as_help)->type_name("KIND");
-  app.add_flag("--json", command->json, "print the summary as one JSON object");
-  app.add_flag("--quiet,-q", command->quiet, "no summary or progress; errors stay");
+  add_report_options(app, *command);
   add_fill_options(app, command->fill);
   app.footer(
       "Examples:\n"

@@ -86,8 +86,7 @@ void run_cvt(const CvtCommand& command) {
 
   ProgressLine progress(command.quiet);
   Phases phases;
-  const Domain domain =
-      load_domain(command.input, command.as, command.fill, command.cloud, progress);
+  const Domain domain = load_domain(command, progress);
   phases.end("load");
   const auto* surface = std::get_if<io::Triangles>(&domain.data());
   if (!command.dual.empty() && surface == nullptr)

@@ -35,22 +35,15 @@
 namespace plexway::cli {
 namespace {
 
-struct DistanceCommand {
-  std::string input;
-  std::string as;
+struct DistanceCommand : InputCommand {
   std::vector<std::string> sources;
   std::string out;
   IsolineOptions isolines;
-  FillArguments fill;
-  CloudPreparation cloud;
-  PieceArguments pieces;
   SolveOptions solve;
   PictureArguments picture;
   MaskArgument mask;
   MetricArgument metric;
   TriangulationArgument triangulation;
-  bool json = false;
-  bool quiet = false;
 };
 
 // What came out, as far as a report tells it.
@@ -218,7 +211,7 @@ void run_distance(DistanceCommand command) {
   std::vector<std::string> read = {metric_file(command.metric), mask_file(command.mask),
                                    command.solve.table};
   for (const SetArgument& argument : arguments) read.push_back(argument.file);
-  read.insert(read.end(), command.pieces.more.begin(), command.pieces.more.end());
+  read.insert(read.end(), command.more.begin(), command.more.end());
   if (command.out != "-") check_output_place(command.out, read, "--out");
   check_output_place(command.isolines.out, read, "--isolines-out");
   check_outputs_differ(
@@ -226,8 +219,7 @@ void run_distance(DistanceCommand command) {
 
   command.fill.volume.writes_volume = is_vdb(command.out);
   ProgressLine progress(command.quiet);
-  const Domain domain =
-      load_domain(command.input, command.as, command.fill, command.cloud, progress, command.pieces);
+  const Domain domain = load_domain(command, progress);
   if (domain.cloud() == nullptr && command.out != "-")
     check_output_name(command.out, command.input, AnyShape::field_extensions(domain.kind()));
   check_isolines(command.isolines, domain);
@@ -352,8 +344,7 @@ void add_distance_command(CLI::App& tool, Action& action) {
   auto command = std::make_shared<DistanceCommand>();
   CLI::App& app = *tool.add_subcommand(
       "distance", "Geodesic distance of every vertex from one or more sources");
-  app.add_option("INPUT", command->input, input_help)->type_name("FILE")->required();
-  add_piece_options(app, command->pieces);
+  add_inputs(app, *command);
   app.add_option("--source,-s", command->sources, source_set_help)
       ->required()
       ->type_name("WHERE")
@@ -364,17 +355,13 @@ void add_distance_command(CLI::App& tool, Action& action) {
          ".vdb of solids) by extension, or - for CSV on standard output, ply:- for a .ply there,\n"
          "and so on (the summary then goes to standard error)")
       ->type_name("FILE");
-  app.add_option("--as", command->as, as_help)->type_name("KIND");
-  app.add_flag("--json", command->json, "print the summary as one JSON object");
-  app.add_flag("--quiet,-q", command->quiet, "no summary, notes or progress; errors stay");
   add_isoline_options(app, command->isolines);
   add_solve_options(app, command->solve, true);
   add_triangulation_option(app, command->triangulation);
   add_metric_option(app, command->metric);
   add_mask_option(app, command->mask);
-  add_fill_options(app, command->fill);
-  add_cloud_options(app, command->cloud);
   add_picture_options(app, command->picture, true);
+  add_input_options(app, *command);
   app.footer(
       "Examples:\n"
       "  plexway distance knot.ply --source vertex:0 --out distance.ply\n"

@@ -36,8 +36,7 @@ void run_farthest(const FarthestCommand& command) {
       command.sources.empty() ? std::vector<std::string>{"vertex:0"} : command.sources);
   ProgressLine progress(command.quiet);
   Phases phases;
-  const Domain domain =
-      load_domain(command.input, command.as, command.fill, command.cloud, progress);
+  const Domain domain = load_domain(command, progress);
   phases.end("load");
   const auto start = locate_sources(domain, arguments);
   FarthestOptions options;

@@ -16,15 +16,8 @@
 namespace plexway::cli {
 namespace {
 
-struct InfoCommand {
-  std::string input;
-  std::string as;
-  FillArguments fill;
-  CloudPreparation cloud;
-  PieceArguments pieces;
+struct InfoCommand : InputCommand {
   bool devices = false;
-  bool json = false;
-  bool quiet = false;
 };
 
 void run_info(const InfoCommand& command) {
@@ -37,8 +30,7 @@ void run_info(const InfoCommand& command) {
   }
   if (command.input.empty()) throw UsageError("INPUT is required; try 'plexway info --help'");
   ProgressLine progress(command.quiet);
-  const Domain domain =
-      load_domain(command.input, command.as, command.fill, command.cloud, progress, command.pieces);
+  const Domain domain = load_domain(command, progress);
   progress.phase("measuring");
   const InfoReport report =
       std::visit([&](const auto& shape) { return info_of(domain, shape); }, domain.data());
@@ -57,14 +49,10 @@ void run_info(const InfoCommand& command) {
 void add_info_command(CLI::App& tool, Action& action) {
   auto command = std::make_shared<InfoCommand>();
   CLI::App& app = *tool.add_subcommand("info", "What a domain is made of, and what may surprise");
-  app.add_option("INPUT", command->input, input_help)->type_name("FILE");
-  add_piece_options(app, command->pieces);
-  app.add_option("--as", command->as, as_help)->type_name("KIND");
+  add_inputs(app, *command);
+  app.get_option("INPUT")->required(false);
   app.add_flag("--devices", command->devices, "list executors and devices instead");
-  app.add_flag("--json", command->json, "print one JSON object");
-  app.add_flag("--quiet,-q", command->quiet, "no progress");
-  add_fill_options(app, command->fill);
-  add_cloud_options(app, command->cloud);
+  add_input_options(app, *command, "no progress");
   app.footer(
       "Examples:\n"
       "  plexway info knot.ply\n"

@@ -36,24 +36,18 @@ void run_pairs(const PairsCommand& pairs) {
   if (const std::string other = only_for_matrices(pairs); !other.empty())
     throw UsageError(other + " goes with --sources FILE|all, not with --source");
   SamplingCommand command;
-  command.input = pairs.input;
-  command.as = pairs.as;
+  static_cast<InputCommand&>(command) = pairs;
   command.out = pairs.out;
   command.precision = pairs.solve.precision;
   command.precision_given = pairs.solve.precision_given;
   command.accuracy = pairs.solve.accuracy;
-  command.fill = pairs.fill;
-  command.cloud = pairs.cloud;
-  command.json = pairs.json;
-  command.quiet = pairs.quiet;
   const Precision precision = precision_of(command);
   const Accuracy accuracy = accuracy_of(command.accuracy);
   check_output_name(command.out, command.input, matrix_file_extensions());
   const auto arguments = parse_sources(pairs.points);
   ProgressLine progress(command.quiet);
   Phases phases;
-  const Domain domain =
-      load_domain(command.input, command.as, command.fill, command.cloud, progress);
+  const Domain domain = load_domain(command, progress);
   phases.end("load");
   const auto points = locate_sources(domain, arguments);
   progress.phase("solving");
@@ -101,7 +95,7 @@ void add_pairs_command(CLI::App& tool, Action& action, const Among* among) {
   command->solve.executor.name = "auto";
   CLI::App& app = *tool.add_subcommand(
       "pairs", "Matrices of distances: between chosen points, or of any size, restartable");
-  app.add_option("INPUT", command->input, input_help)->type_name("FILE")->required();
+  add_input(app, *command);
   app.add_option("--source,-s", command->points,
                  "a point of a small symmetric matrix: vertex:ID or point:X,Y,Z; repeat it")
       ->type_name("WHERE")
@@ -111,16 +105,12 @@ void add_pairs_command(CLI::App& tool, Action& action, const Among* among) {
       "write the matrix: .csv or .npy of points (- for CSV on standard output); .npy or .h5\n"
       "(HDF5, compressed) of --sources, .npz or .mtx where it is sparse",
       "csv");
-  app.add_option("--as", command->as, as_help)->type_name("KIND");
-  app.add_flag("--json", command->json, "print the summary as one JSON object");
-  app.add_flag("--quiet,-q", command->quiet, "no summary, notes or progress; errors stay");
   add_mask_option(app, command->mask);
   add_matrix_options(app, *command);
   add_solve_options(app, command->solve, false);
   add_triangulation_option(app, command->triangulation);
   add_metric_option(app, command->metric);
-  add_fill_options(app, command->fill);
-  add_cloud_options(app, command->cloud);
+  add_input_options(app, *command);
   app.footer(
       "Run again after it was ended, the same command goes on where it was.\n\n"
       "Examples:\n"

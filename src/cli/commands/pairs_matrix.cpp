@@ -21,7 +21,6 @@
 #include "any/kept_build.hpp"
 #include "any/pair_files.hpp"
 #include "cli/among.hpp"
-#include "cli/options/input.hpp"
 #include "cli/report/console.hpp"
 #include "cli/report/distance_output.hpp"
 #include "cli/report/pairs_report.hpp"
@@ -200,9 +199,7 @@ void print(const MatrixCommand& command, const Domain& domain, const PairFiles& 
 // INPUT: where ranks share a node, one of them reads and builds it, and all map what it made. Not
 // so what is measured by a metric or masked, and kinds that cannot be kept: each rank has its own.
 Domain load(const MatrixCommand& command, const BuildOptions& building, ProgressLine& progress) {
-  const auto read = [&] {
-    return load_domain(command.input, command.as, command.fill, command.cloud, progress);
-  };
+  const auto read = [&] { return load_domain(command, progress); };
   if (command.among == nullptr || !command.among->once_a_node || is_kept_build(command.input) ||
       !command.metric.text.empty() || !command.mask.text.empty())
     return read();

@@ -4,8 +4,7 @@
 #include <optional>
 #include <string>
 
-#include "cli/options/cloud_options.hpp"
-#include "cli/options/fill_options.hpp"
+#include "cli/options/input.hpp"
 #include "cli/options/mask_option.hpp"
 #include "cli/options/metric_options.hpp"
 #include "cli/options/solve_options.hpp"
@@ -20,8 +19,7 @@ namespace plexway::cli {
 struct Among;
 
 /// What `plexway pairs --sources` is told, as typed.
-struct MatrixCommand {
-  std::string input, as;
+struct MatrixCommand : InputCommand {
   std::string sources, targets;  ///< FILE or "all"
   std::string out, stats, histogram, labels;
   std::string type = "float32";
@@ -30,9 +28,6 @@ struct MatrixCommand {
   std::optional<double> bin_width;
   std::size_t bins = 100;
   bool symmetric = false, estimate = false;
-  bool json = false, quiet = false;
-  FillArguments fill;
-  CloudPreparation cloud;
   SolveOptions solve;
   MaskArgument mask;
   MetricArgument metric;

@@ -36,14 +36,9 @@
 namespace plexway::cli {
 namespace {
 
-struct PathCommand {
-  std::string input;
-  std::string as;
+struct PathCommand : InputCommand {
   std::vector<std::string> from, to;
   std::string out;
-  PieceArguments pieces;
-  FillArguments fill;
-  CloudPreparation cloud;
   SolveOptions solve;
   TraceOptions trace;
   PictureArguments picture;
@@ -52,8 +47,6 @@ struct PathCommand {
   TriangulationArgument triangulation;
   bool astar = false;
   bool margin_given = false;
-  bool json = false;
-  bool quiet = false;
 };
 
 // Points as they were asked for, and where that is in the domain.
@@ -69,6 +62,7 @@ struct Outcome {
   TriangulationReport triangulation;
   PropagateStatistics statistics;
   Accuracy accuracy = Accuracy::fast();
+  std::string_view executor = "serial";
   double build = 0, solve = 0, trace = 0;
 };
 
@@ -124,7 +118,9 @@ Outcome find_paths(const Domain& domain, const BuildOptions& building, const Pat
   }
   progress.phase("solving");
   options.progress = progress.callback();
-  const AnyPathField field = built.path_field(Serial{}, sources, options);
+  const Executor executor = choose_executor(command.solve.executor, options, built, 1);
+  outcome.executor = executor_name(executor);
+  const AnyPathField field = built.path_field(executor, sources, options);
   outcome.solve = solving.seconds();
   outcome.statistics = field.field().statistics();
   outcome.accuracy = field.field().accuracy();
@@ -134,9 +130,10 @@ Outcome find_paths(const Domain& domain, const BuildOptions& building, const Pat
   const Stopwatch tracing;
   for (const PointSource& target : targets) {
     outcome.paths.push_back(field.trace(target, command.trace));
-    const ReadOut level = outcome.accuracy == Accuracy::fast() && built.kind() != DomainKind::mixed
-                              ? ReadOut::linear
-                              : ReadOut::neighbours;
+    const bool by_paths = built.kind() == DomainKind::mixed ||
+                          (building.lengths != nullptr && building.lengths->refracts);
+    const ReadOut level =
+        outcome.accuracy == Accuracy::fast() && !by_paths ? ReadOut::linear : ReadOut::neighbours;
     outcome.promised.push_back(target.vertex == none ? field.at(target, level)
                                                      : outcome.distance[target.vertex]);
   }
@@ -209,7 +206,7 @@ void report(const PathCommand& command, const Domain& domain, const Outcome& out
   json["seconds"]["trace"] = outcome.trace;
   json["expansions"] = outcome.statistics.expansions;
   json["updates"] = outcome.statistics.updates;
-  json["executor"] = "serial";
+  json["executor"] = outcome.executor;
   if (domain.kind() == DomainKind::surface) json["triangulation"] = name_of(outcome.triangulation);
   table.add("work", counted(outcome.statistics.expansions, "expansions"));
   table.add("time", "load " + short_time(domain.load_seconds()) + ", build " +
@@ -262,23 +259,21 @@ void run_path(const PathCommand& typed) {
   command.to = one_by_one(typed.to);
   const PropagateOptions options = propagate_options(command.solve);
   const Precision precision = precision_of(command.solve);
-  if (command.solve.executor.name != "serial" && command.solve.executor.name != "auto")
-    throw UsageError("--executor '" + command.solve.executor.name +
-                     "': paths are traced on what one thread leaves; choose serial");
   const std::vector<SourceArgument> from = parse_sources(command.from, "from");
   const std::vector<SourceArgument> to = parse_sources(command.to, "to");
   check_output_name(command.out, command.input, io::path_extensions());
   if (!(command.trace.margin >= 0 && command.trace.margin < 1))
     throw UsageError("--margin must be >= 0 and < 1");
-  if (command.astar && options.visibility != Visibility::saddles)
-    throw UsageError("--astar knows the default visibility only");
   if (command.astar && options.accuracy != Accuracy::usual() &&
       options.accuracy != Accuracy::fast())
     throw UsageError("--astar searches with one label a triangle: it knows --accuracy fast only");
 
-  if (command.astar && (command.solve.schedule_given || command.solve.step_given))
+  if (command.astar &&
+      (command.solve.schedule_given || command.solve.step_given ||
+       (command.solve.executor.name != "serial" && command.solve.executor.name != "auto")))
     throw UsageError(
-        "--astar takes simplices in an order of its own: leave out --schedule and --step");
+        "--astar takes simplices in an order of its own: leave out --executor, --schedule and "
+        "--step");
   const Triangulation triangulation = triangulation_of(command.triangulation);
   if (command.astar && triangulation != Triangulation::automatic &&
       triangulation != Triangulation::input)
@@ -286,16 +281,19 @@ void run_path(const PathCommand& typed) {
   check_picture(command.picture, command.input);
   std::vector<std::string> read = {metric_file(command.metric), mask_file(command.mask),
                                    command.solve.table};
-  read.insert(read.end(), command.pieces.more.begin(), command.pieces.more.end());
+  read.insert(read.end(), command.more.begin(), command.more.end());
   check_output_place(command.out, read, "--out");
   check_outputs_differ({command.out, command.picture.file, command.picture.html});
 
   ProgressLine progress(command.quiet);
-  const Domain domain =
-      load_domain(command.input, command.as, command.fill, command.cloud, progress, command.pieces);
-  if (command.astar && domain.kind() != DomainKind::surface)
-    throw UsageError("--astar: a " + std::string(kind_noun(domain.kind())) +
-                     " is solved as a whole; A* is for surfaces");
+  const Domain domain = load_domain(command, progress);
+  if (command.astar)
+    support(Purpose::searches, {.executor = ExecutorKind::serial,
+                                .domain = domain.kind(),
+                                .dimension = 2,
+                                .single_precision = precision == Precision::single,
+                                .visibility = options.visibility})
+        .require();
   check_triangulation(triangulation, domain);
   if (command.margin_given && domain.kind() != DomainKind::surface && domain.cloud() == nullptr)
     throw UsageError("--margin: for surfaces and clouds, not a " +
@@ -303,9 +301,8 @@ void run_path(const PathCommand& typed) {
   const std::vector<PointSource> sources = locate_sources(domain, from);
   const std::vector<PointSource> targets = locate_sources(domain, to);
   if (!command.metric.text.empty()) progress.phase("reading the metric");
-  // On a surface paths go straight over an edge: it has one length.
-  auto lengths = measure(command.metric, domain,
-                         domain.kind() == DomainKind::surface ? Jumps::smooth : Jumps::refract);
+  // A* goes straight over an edge: it has one length.
+  auto lengths = measure(command.metric, domain, command.astar ? Jumps::smooth : Jumps::refract);
   const std::shared_ptr<const Mask> mask = read_mask(command.mask, domain);
   require_open(mask.get(), domain, sources);
   require_open(mask.get(), domain, targets);
@@ -357,8 +354,7 @@ void run_path(const PathCommand& typed) {
 void add_path_command(CLI::App& tool, Action& action) {
   auto command = std::make_shared<PathCommand>();
   CLI::App& app = *tool.add_subcommand("path", "Shortest paths from sources to targets");
-  app.add_option("INPUT", command->input, input_help)->type_name("FILE")->required();
-  add_piece_options(app, command->pieces);
+  add_inputs(app, *command);
   app.add_option("--from,-f", command->from,
                  "vertex:ID (0-based, file order) or point:X,Y,Z (closest point of the\n"
                  "domain); repeat it for several sources, paths then lead to the nearest")
@@ -375,7 +371,6 @@ void add_path_command(CLI::App& tool, Action& action) {
              "write the paths: .obj (lines), .ply, .vtp or .json by extension, each from its\n"
              "target back to its source; - for JSON on standard output",
              "json");
-  app.add_option("--as", command->as, as_help)->type_name("KIND");
   app.add_flag("--astar", command->astar,
                "surfaces: look only at what a shortest path may pass, instead of everything");
   app.add_option(
@@ -384,15 +379,12 @@ void add_path_command(CLI::App& tool, Action& action) {
          "by no more than this share (default 0.003); 0 is quicker, and locally shortest")
       ->each([command](const std::string&) { command->margin_given = true; })
       ->type_name("X");
-  app.add_flag("--json", command->json, "print the summary as one JSON object");
-  app.add_flag("--quiet,-q", command->quiet, "no summary, notes or progress; errors stay");
   add_solve_options(app, command->solve, false);
   add_triangulation_option(app, command->triangulation);
   add_metric_option(app, command->metric);
   add_mask_option(app, command->mask);
-  add_fill_options(app, command->fill);
-  add_cloud_options(app, command->cloud);
   add_picture_options(app, command->picture);
+  add_input_options(app, *command);
   app.footer(
       "Examples:\n"
       "  plexway path knot.ply --from vertex:0 --to vertex:99 --out path.obj\n"

@@ -58,8 +58,7 @@ void run_poisson(const PoissonCommand& command) {
 
   ProgressLine progress(command.quiet);
   Phases phases;
-  const Domain domain =
-      load_domain(command.input, command.as, command.fill, command.cloud, progress);
+  const Domain domain = load_domain(command, progress);
   phases.end("load");
   if (!spacing.empty() && spacing.size() != domain.vertices())
     throw InputError(command.spacing + ": " + counted(spacing.size(), "numbers") + " for " +

@@ -22,16 +22,10 @@
 namespace plexway::cli {
 namespace {
 
-struct PrepareCommand {
-  std::string input;
+struct PrepareCommand : InputCommand {
   std::string out;
-  std::string as;
-  FillArguments fill;
-  CloudPreparation cloud;
   std::string precision = "float";
   TriangulationArgument triangulation;
-  bool json = false;
-  bool quiet = false;
 };
 
 Json to_json(const PrepareCommand& command, const AnyDomain& domain, std::uintmax_t bytes) {
@@ -71,8 +65,7 @@ void run_prepare(const PrepareCommand& command) {
   BuildOptions options{.precision = precision_of(precision),
                        .triangulation = triangulation_of(command.triangulation)};
   ProgressLine progress(command.quiet);
-  const Domain shape =
-      load_domain(command.input, command.as, command.fill, command.cloud, progress);
+  const Domain shape = load_domain(command, progress);
   check_triangulation(options.triangulation, shape);
   progress.phase("building");
   options.progress = progress.share_callback();
@@ -96,20 +89,16 @@ void add_prepare_command(CLI::App& tool, Action& action) {
   auto command = std::make_shared<PrepareCommand>();
   CLI::App& app = *tool.add_subcommand(
       "prepare", "Builds a domain once and keeps it in a file that opens at once");
-  app.add_option("INPUT", command->input, input_help)->type_name("FILE")->required();
+  add_input(app, *command);
   app.add_option("--out,-o", command->out,
                  "write NAME.plexway, an INPUT for every command: for this version of plexway and\n"
                  "machines of this byte order. A command that asks for another precision or\n"
                  "triangulation than what was prepared builds anew, from the file alone")
       ->required()
       ->type_name("FILE");
-  app.add_option("--as", command->as, as_help)->type_name("KIND");
   app.add_option("--precision", command->precision, "float (default) or double")->type_name("NAME");
   add_triangulation_option(app, command->triangulation);
-  app.add_flag("--json", command->json, "print the summary as one JSON object");
-  app.add_flag("--quiet,-q", command->quiet, "no summary or progress; errors stay");
-  add_fill_options(app, command->fill);
-  add_cloud_options(app, command->cloud);
+  add_input_options(app, *command);
   app.footer(
       "Examples:\n"
       "  plexway prepare scan.ply --out scan.plexway\n"

@@ -8,18 +8,12 @@
 namespace plexway::cli {
 
 void add_sampling_options(CLI::App& app, SamplingCommand& command, const char* out_help) {
-  app.add_option("INPUT", command.input, "a surface, a solid or a cloud, as for 'plexway distance'")
-      ->type_name("FILE")
-      ->required();
+  add_input(app, command, "a surface, a solid or a cloud, as for 'plexway distance'");
   add_output(app, "--out,-o", command.out, std::string(out_help) + output_help, "csv");
-  app.add_option("--as", command.as, as_help)->type_name("KIND");
   app.add_option("--precision", command.precision, "float (default) or double")
       ->each([&command](const std::string&) { command.precision_given = true; })
       ->type_name("NAME");
-  app.add_flag("--json", command.json, "print the summary as one JSON object");
-  app.add_flag("--quiet,-q", command.quiet, "no summary or progress; errors stay");
-  add_fill_options(app, command.fill);
-  add_cloud_options(app, command.cloud);
+  add_input_options(app, command);
 }
 
 Precision precision_of(const SamplingCommand& command) {

@@ -23,15 +23,12 @@ class App;
 namespace plexway::cli {
 
 /// What the commands that choose points have in common, as typed.
-struct SamplingCommand {
-  std::string input, as, out;
+struct SamplingCommand : InputCommand {
+  std::string out;
   std::string precision = "float";
   bool precision_given = false;
   std::string accuracy;  ///< where the command has the option
-  FillArguments fill;
-  CloudPreparation cloud;
   PictureArguments picture;
-  bool json = false, quiet = false;
 };
 
 inline constexpr const char* output_help = "; - for CSV on standard output";
@@ -42,23 +39,12 @@ void add_sampling_options(CLI::App& app, SamplingCommand& command, const char* o
 /// Throws UsageError where the precision does not exist.
 Precision precision_of(const SamplingCommand& command);
 
-/// Calls `use(complex)` with the surface, the solid or the cloud; throws InputError for another
-/// kind.
+/// Calls `use(complex)` on the domain's own triangles, as plexway::with_sampled.
 template <class Use>
-void with_sampled(const Domain& domain, Precision precision, Use use) {
-  if (domain.kind() == DomainKind::wireframe)
-    throw InputError(domain.file().string() +
-                     ": is a wireframe: points are chosen on surfaces, solids and clouds");
-  const AnyDomain built(domain, {.precision = precision, .triangulation = Triangulation::input});
-  with_complex(built, [&](const auto& complex) {
-    constexpr DomainKind kind = std::decay_t<decltype(complex)>::kind;
-    if constexpr (kind == DomainKind::surface || kind == DomainKind::solid ||
-                  kind == DomainKind::cloud)
-      use(complex);
-    else
-      throw InputError(domain.file().string() +
-                       ": points are chosen on surfaces, solids and clouds");
-  });
+void with_sampled(const Domain& domain, Precision precision, const Use& use) {
+  support(Purpose::samples, domain.kind()).require();
+  plexway::with_sampled(
+      AnyDomain(domain, {.precision = precision, .triangulation = Triangulation::input}), use);
 }
 
 /// A note about the parts of the domain in which none of the points lies, if there are any.

@@ -22,12 +22,8 @@
 namespace plexway::cli {
 namespace {
 
-struct TetrahedralizeCommand {
-  std::string input;
+struct TetrahedralizeCommand : InputCommand {
   std::string out;
-  FillArguments fill;
-  bool json = false;
-  bool quiet = false;
 };
 
 void run_tetrahedralize(const TetrahedralizeCommand& command) {
@@ -36,7 +32,7 @@ void run_tetrahedralize(const TetrahedralizeCommand& command) {
   if (!is_vdb(command.input) && !(command.fill.volume.repair && !command.fill.given()))
     require_tetgen("tetrahedralize");
   ProgressLine progress(command.quiet);
-  const Domain domain = load_domain(command.input, "solid", command.fill, {}, progress);
+  const Domain domain = load_domain(command, progress);
   if (!domain.mesh_seconds())
     throw InputError(command.input + ": is a solid already; give a surface, .poly or .smesh");
   const auto& solid = std::get<io::Tets>(domain.data());
@@ -71,20 +67,17 @@ void run_tetrahedralize(const TetrahedralizeCommand& command) {
 
 void add_tetrahedralize_command(CLI::App& tool, Action& action) {
   auto command = std::make_shared<TetrahedralizeCommand>();
+  command->as = "solid";
   CLI::App& app = *tool.add_subcommand("tetrahedralize",
                                        "Fills a closed surface with tetrahedra, by TetGen (AGPL)");
-  app.add_option(
-         "INPUT", command->input,
-         "a closed surface: .obj .off .ply .stl, or TetGen's .poly .smesh; a level set: .vdb")
-      ->type_name("FILE")
-      ->required();
+  add_input(app, *command,
+            "a closed surface: .obj .off .ply .stl, or TetGen's .poly .smesh; a level set: .vdb");
   add_output(app, "--out,-o", command->out,
              "write the solid: .node .ele .mesh .msh .vtu .vtk by extension (- for .mesh on\n"
              "standard output). The vertices of the surface come first, with their numbers",
              "mesh");
   app.get_option("--out")->required();
-  app.add_flag("--json", command->json, "print the summary as one JSON object");
-  app.add_flag("--quiet,-q", command->quiet, "no summary or progress; errors stay");
+  add_report_options(app, *command);
   add_fill_options(app, command->fill);
   app.footer(
       "Examples:\n"

@@ -19,26 +19,15 @@ namespace plexway::cli {
 /// What a user hands to the tool.
 using Domain = AnyShape;
 
-/// Further files than INPUT, as typed.
-struct PieceArguments {
-  std::vector<std::string> more;
+/// What the commands have in common that read a domain, as typed: how to read it, and what to tell.
+struct InputCommand {
+  std::string input, as;
+  std::vector<std::string> more;  ///< further files than INPUT, where the command takes them
   std::optional<double> weld;
+  FillArguments fill;
+  CloudPreparation cloud;
+  bool json = false, quiet = false;
 };
-
-/// Adds MORE and --weld to a command.
-void add_piece_options(CLI::App& command, PieceArguments& pieces);
-
-/// What the library tells while it works, on the line; `progress` must stay.
-[[nodiscard]] ReadProgress read_progress(ProgressLine& progress);
-
-/// How INPUT is to be read. Throws UsageError for a kind that does not exist.
-[[nodiscard]] ReadOptions read_options(const std::string& as, const FillArguments& fill,
-                                       const CloudPreparation& cloud, ProgressLine& progress);
-
-/// Reads INPUT as AnyShape::read does. Throws UsageError, too, for a kind that does not exist.
-Domain load_domain(const std::string& file, const std::string& as, const FillArguments& fill,
-                   const CloudPreparation& cloud, ProgressLine& progress,
-                   const PieceArguments& pieces = {});
 
 /// What INPUT may be, for the help of the commands.
 inline constexpr const char* input_help =
@@ -54,5 +43,24 @@ inline constexpr const char* as_help =
     "wireframe (the edges alone), cloud (the vertices of a surface alone) or mixed (all\n"
     "lines, triangles and tetrahedra of a .msh, .vtu or .vtk); default: what the extension\n"
     "says";
+inline constexpr const char* usual_quiet = "no summary, notes or progress; errors stay";
+
+///@{
+/// Adds INPUT; INPUT, MORE and --weld; --json and --quiet; or these and all that says how to read a
+/// domain: --as, and groups about filling and clouds.
+void add_input(CLI::App& app, InputCommand& command, const char* help = input_help);
+void add_inputs(CLI::App& app, InputCommand& command);
+void add_report_options(CLI::App& app, InputCommand& command, const char* quiet = usual_quiet);
+void add_input_options(CLI::App& app, InputCommand& command, const char* quiet = usual_quiet);
+///@}
+
+/// What the library tells while it works, on the line; `progress` must stay.
+[[nodiscard]] ReadProgress read_progress(ProgressLine& progress);
+
+/// How INPUT is to be read. Throws UsageError for a kind that does not exist.
+[[nodiscard]] ReadOptions read_options(const InputCommand& command, ProgressLine& progress);
+
+/// Reads INPUT as AnyShape::read does. Throws UsageError, too, for a kind that does not exist.
+Domain load_domain(const InputCommand& command, ProgressLine& progress);
 
 }  // namespace plexway::cli

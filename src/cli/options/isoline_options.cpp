@@ -69,10 +69,7 @@ void check_isolines(const IsolineOptions& options, const std::string& input) {
 void check_isolines(const IsolineOptions& options, const Domain& domain) {
   if (options.out.empty()) return;
   const bool solid = domain.kind() == DomainKind::solid;
-  if (!solid && domain.kind() != DomainKind::surface && domain.kind() != DomainKind::mixed &&
-      domain.kind() != DomainKind::cloud)
-    throw UsageError("--isoline-step: for surfaces, clouds, solids and mixed domains, not a " +
-                     std::string(kind_noun(domain.kind())));
+  if (!solid) support(Purpose::isolines, domain.kind()).require();  // it has isosurfaces
   check_output_name(options.out, domain.file().string(),
                     solid ? io::triangle_output_extensions() : io::path_extensions(),
                     "--isolines-out");

@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 
 #include <plexway/error.hpp>
+#include <plexway/support.hpp>
 
 namespace plexway::cli {
 
@@ -27,12 +28,8 @@ Triangulation triangulation_of(const TriangulationArgument& argument) {
 }
 
 void check_triangulation(Triangulation wanted, const Domain& domain) {
-  const bool asked = wanted == Triangulation::delaunay || wanted == Triangulation::refined;
-  if (asked && domain.kind() != DomainKind::surface)
-    throw UsageError(std::string("--triangulation ") +
-                     (wanted == Triangulation::delaunay ? "delaunay" : "refined") + ": a " +
-                     std::string(kind_noun(domain.kind())) +
-                     " has no triangles to flip; leave the option out");
+  if (wanted == Triangulation::delaunay || wanted == Triangulation::refined)
+    support(Purpose::triangulations, domain.kind()).require();
 }
 
 }  // namespace plexway::cli
