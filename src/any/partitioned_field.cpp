@@ -68,8 +68,7 @@ void PartitionedField::remove_whole() const {
   std::error_code failed;
   if (!std::filesystem::is_regular_file(target, failed)) return;
   std::filesystem::remove(target, failed);
-  if (failed)
-    throw Error("cannot write " + content_->file.string() + ": " + failed.message());
+  if (failed) throw Error("cannot write " + content_->file.string() + ": " + failed.message());
 }
 
 void PartitionedField::put_part() {

@@ -68,8 +68,7 @@ class OwnedCrew : public TeamCrew<Real, kLabels> {
       const typename Piece::Front::Base own(
           this->workspace_.marks, front.labels(), DualQueue<Real>(room.front, this->step_),
           this->workspace_.source.data(), simplices, this->unit_, this->options_);
-      by_number[p] =
-          &pieces.emplace_back(pieces_, static_cast<Index>(p), room, own, propagation);
+      by_number[p] = &pieces.emplace_back(pieces_, static_cast<Index>(p), room, own, propagation);
     }
     /// A superstep's, in edges of a cube of so many tetrahedra: mean edges.
     constexpr double pace = 1. / 8;

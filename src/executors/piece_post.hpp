@@ -98,8 +98,8 @@ class PiecePost {
         head.letters += box.template letters<Letter>(superstep, peer).size();
       to_[r].add(head);
       for (const Index peer : told_[r])
-        to_[r].add(Entry{peer, static_cast<Index>(
-                                   box.template letters<Letter>(superstep, peer).size())});
+        to_[r].add(
+            Entry{peer, static_cast<Index>(box.template letters<Letter>(superstep, peer).size())});
       for (const Index peer : told_[r]) to_[r].add(box.template letters<Letter>(superstep, peer));
       told_[r].clear();
     }

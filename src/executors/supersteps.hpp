@@ -75,8 +75,8 @@ class Supersteps {
   }
 
   /// Until no label waits. `before` is what was done by others. False if it ended early, as
-  /// max_expansions were spent or goes_on(expansions, weight), asked before each superstep, says no.
-  /// Throws Cancelled, and what goes_on throws.
+  /// max_expansions were spent or goes_on(expansions, weight), asked before each superstep, says
+  /// no. Throws Cancelled, and what goes_on throws.
   template <class GoesOn>
   bool run(const PropagateStatistics& before, const GoesOn& goes_on) {
     before_ = before;
@@ -139,7 +139,7 @@ class Supersteps {
   struct Sums {
     Real nearest;  ///< of what waits or was told
     std::size_t expansions = 0, first = 0, runs = 0, letters = 0, sent = 0;  // of a superstep
-    std::size_t updates = 0, reached = 0, weight = 0;                       // until now
+    std::size_t updates = 0, reached = 0, weight = 0;                        // until now
   };
 
   [[nodiscard]] static std::size_t weight_of(const Piece& piece) {
@@ -232,10 +232,16 @@ class Supersteps {
     std::array<std::uint64_t, 7> sums = {all.expansions, all.first,   all.runs,  all.letters,
                                          all.updates,    all.reached, all.weight};
     double nearest = static_cast<double>(all.nearest);
-    all.sent =
-        post_.meet(superstep_, sums, nearest, [&](std::size_t piece) { awake_[piece] = 1; });
-    return {static_cast<Real>(nearest), sums[0], sums[1], sums[2], sums[3], all.sent,
-            sums[4], sums[5], sums[6]};
+    all.sent = post_.meet(superstep_, sums, nearest, [&](std::size_t piece) { awake_[piece] = 1; });
+    return {static_cast<Real>(nearest),
+            sums[0],
+            sums[1],
+            sums[2],
+            sums[3],
+            all.sent,
+            sums[4],
+            sums[5],
+            sums[6]};
   }
 
   void advance() {

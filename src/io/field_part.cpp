@@ -33,9 +33,7 @@ std::string escaped(const std::string& text) {
 
 }  // namespace
 
-bool is_partitioned(const std::filesystem::path& file) {
-  return lower_extension(file) == ".pvtu";
-}
+bool is_partitioned(const std::filesystem::path& file) { return lower_extension(file) == ".pvtu"; }
 
 FieldPart::FieldPart(const std::filesystem::path& file, const Field& whole, std::size_t part,
                      std::size_t parts)

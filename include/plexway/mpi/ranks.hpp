@@ -66,8 +66,8 @@ class Ranks final : public RowRanks, public PieceRanks {
 
   /// As RowRanks has it. Cost: a message a row, from the others to the leader. Throws Absent if a
   /// rank does not come; UsageError for rows of 2 GB.
-  PairsReport share(const PairsRequest& request, std::size_t vertices, const PairsSink<RowRanks::Bytes>& sink,
-                    const Solve& solve) override;
+  PairsReport share(const PairsRequest& request, std::size_t vertices,
+                    const PairsSink<RowRanks::Bytes>& sink, const Solve& solve) override;
 
   /// As PieceRanks has it: MPI_Iallreduce, while messages go to and fro. Who waits sleeps soon, and
   /// so leaves its core to others.

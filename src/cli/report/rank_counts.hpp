@@ -10,7 +10,7 @@ namespace plexway::cli {
 
 /// What a field cost several processes.
 struct RankCounts {
-  std::size_t sent_bytes = 0;              ///< from each to the others, together
+  std::size_t sent_bytes = 0;             ///< from each to the others, together
   std::vector<std::uint64_t> peak_bytes;  ///< memory of each at its most
 };
 

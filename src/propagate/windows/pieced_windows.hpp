@@ -137,8 +137,7 @@ class PiecedWindows {
         },
         [&](std::size_t p, auto mail) {
           const auto& patch = patches_[p];
-          for (Index i = 0; i < patch.shared; ++i)
-            others[p].push_back(mail.template take<Known>());
+          for (Index i = 0; i < patch.shared; ++i) others[p].push_back(mail.template take<Known>());
           for (std::size_t i = patch.shared; i < patch.vertices.size(); ++i)
             take(patch.vertices[i], mail.template take<Known>());
         });

@@ -35,7 +35,11 @@ Cut cut_of(const TriangleMesh<Real>& mesh, std::size_t size) {
 template <class Real>
 WindowPatches<Real>::WindowPatches(const TriangleMesh<Real>& mesh, const VertexAngles& angles,
                                    std::size_t size, Deal deal)
-    : mesh_(mesh), size_(size), deal_(deal), cut_(cut_of(mesh, size)), patches_(cut_.pieces.size()) {
+    : mesh_(mesh),
+      size_(size),
+      deal_(deal),
+      cut_(cut_of(mesh, size)),
+      patches_(cut_.pieces.size()) {
   const auto triangles = mesh.triangles();
   std::vector<Index> last(mesh.vertex_count(), none);  // piece that a vertex was seen in
   for (Index p = 0; p < patches_.size(); ++p) {
