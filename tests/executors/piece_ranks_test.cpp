@@ -140,7 +140,8 @@ TEMPLATE_TEST_CASE("ranks: solids have the bits of one process", "[threads]", fl
     for (const Visibility visibility : {Visibility::saddles, Visibility::centroid}) {
       PropagateOptions options;
       options.visibility = visibility;
-      check_same_bits(mesh, random_sources(mesh, 1 + ++seed % 3, seed), options, 100);
+      ++seed;
+      check_same_bits(mesh, random_sources(mesh, 1 + seed % 3, seed), options, 100);
     }
   }
 }
@@ -154,7 +155,7 @@ TEST_CASE("ranks: a radius and a budget mean what they mean in one process", "[t
     options.radius = 0.7;
     check_same_bits(mesh, sources, options, 50);
     options = at(accuracy);
-    for (const std::size_t most : {1u, 37u, 500u, 3000u}) {
+    for (const std::size_t most : {37u, 1500u}) {
       options.max_expansions = most;
       INFO("at most " << most);
       check_same_bits(mesh, sources, options, 50);
@@ -164,7 +165,7 @@ TEST_CASE("ranks: a radius and a budget mean what they mean in one process", "[t
   options.radius = 0.5;
   check_same_bits(solid, inside, options, 60);
   options = {};
-  for (const std::size_t most : {1u, 100u, 900u}) {
+  for (const std::size_t most : {1u, 900u}) {
     options.max_expansions = most;
     check_same_bits(solid, inside, options, 60);
   }
