@@ -179,7 +179,7 @@ TEST_CASE("ranks write a field in parts, which one file names") {
   REQUIRE(run_tool(command(small_alone)).code == 0);
   REQUIRE(run_ranks(4, command(small)).code == 0);
   check_parts(small, 2, Vtu(small_alone));
-  CHECK(folder.files() == 10);
+  CHECK(folder.files() == 11);
   REQUIRE(run_ranks(1, command(small)).code == 0);
   check_parts(small, 1, Vtu(small_alone));
 }
@@ -228,15 +228,17 @@ TEST_CASE("a disk that gets full, or a rank that dies, leaves no field that look
   REQUIRE(run_tool(from(input, {"--executor", "openmp", "--quiet", "--out", alone})).code == 0);
   const Vtu whole(alone);
   folder.write("d.pvtu", "an older one");
-  const Outcome full =
-      run_ranks(2, from(input, {"--threads", "1", "--quiet", "--out", out}), 300'000);
+  fs::create_symlink("/dev/full", folder.at("d_1.vtu"));
+  const Outcome full = run_ranks(2, from(input, {"--threads", "1", "--quiet", "--out", out}));
   CAPTURE(full.err);
   CHECK(full.code == 1);
   const auto lines = complaints(full);
   REQUIRE(lines.size() == 1);
-  CHECK(lines[0].find("cannot write ") != std::string::npos);
+  CHECK(lines[0].find("rank 1: cannot write " + folder.at("d_1.vtu").string()) !=
+        std::string::npos);
   CHECK(content(out) == "an older one");  // nothing was lost
-  CHECK(folder.files() == 3);
+  CHECK(folder.files() == 4);
+  fs::remove(folder.at("d_1.vtu"));
 
   const Words tool =
       Words{PLEXWAY_TEST_MPI_TOOL} + from(input, {"--threads", "1", "--quiet", "--out", out});
