@@ -49,7 +49,7 @@ This program links TetGen, so the GNU Affero General Public License 3 holds for 
 plexway_deb(openvdb plexway-openvdb science "plexway reads, writes and repairs by level sets")
 plexway_deb(pcl plexway-pcl science "plexway reads and thins clouds by the Point Cloud Library")
 plexway_deb(hdf5 plexway-hdf5 science "plexway writes matrices of distances as HDF5 files")
-plexway_deb(mpi plexway-mpi science "plexway's matrices of distances by the ranks of MPI")
+plexway_deb(mpi plexway-mpi science "plexway's distances by the ranks of MPI")
 set(CPACK_DEBIAN_TOOL_PACKAGE_SUGGESTS "plexway-tetgen, plexway-openvdb, plexway-pcl, plexway-hdf5, plexway-mpi")
 foreach(part tetgen openvdb pcl hdf5 mpi)
   string(TOUPPER ${part} upper)

@@ -5,6 +5,8 @@
 
 namespace plexway {
 
+class PieceRanks;
+
 /// What runs a solve.
 enum class ExecutorKind {
   serial,  ///< Serial
@@ -62,6 +64,10 @@ struct OpenMP {
   /// other than Schedule::dual_queue, and a solve that keeps its windows for distances inside
   /// triangles, is one thread's.
   std::size_t piece = 0;
+  /// Null, or processes that share the pieces (executors/piece_ranks.hpp): piece p is that of rank
+  /// p modulo their number, and `threads` are this one's. Each gets the whole field, the same bits
+  /// as without. Must outlive the solve. What does not go in pieces each of them solves for itself.
+  PieceRanks* ranks = nullptr;
 };
 
 /// Is this executor in the build?

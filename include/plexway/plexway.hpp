@@ -39,6 +39,7 @@
 #include <plexway/complex/smoothing.hpp>
 #include <plexway/error.hpp>
 #include <plexway/executors/gl.hpp>
+#include <plexway/executors/piece_ranks.hpp>
 #include <plexway/io/block_journal.hpp>
 #include <plexway/io/edges.hpp>
 #include <plexway/io/field.hpp>

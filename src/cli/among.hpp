@@ -4,13 +4,17 @@
 #include <functional>
 
 #include <plexway/apps/row_ranks.hpp>
+#include <plexway/executors/piece_ranks.hpp>
 
 namespace plexway::cli {
 
 /// Where this process is one of several that run the same command.
 struct Among {
   RowRanks& ranks;
+  PieceRanks& pieces;
   int threads;  ///< of this one, unless the command says how many
+  /// As mpi::Ranks::all_come.
+  std::function<void()> all_come;
   /// As mpi::Ranks::once_a_node; empty where no two of them share memory.
   using WithFile = std::function<void(const std::filesystem::path&)>;
   std::function<void(const WithFile& make, const WithFile& take)> once_a_node;

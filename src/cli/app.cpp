@@ -109,7 +109,7 @@ void parse_and_run(int argc, const char* const* argv, const Among* among) {
       "  plexway bench bunny.obj --source vertex:3160 --truth bunny.v3160.txt\n\n"
       "Exit codes: 0 ok, 1 failure, 2 usage, 3 bad input, 4 not built in, 5 nothing reached, "
       "6 without end.");
-  add_distance_command(tool, action);
+  add_distance_command(tool, action, among);
   add_info_command(tool, action);
   add_bench_command(tool, action);
   add_path_command(tool, action);
@@ -132,8 +132,10 @@ void parse_and_run(int argc, const char* const* argv, const Among* among) {
   } catch (const CLI::ParseError& error) {
     throw UsageError(usage_complaint(tool, error));
   }
-  if (among != nullptr && !tool.got_subcommand("pairs"))
-    throw UsageError("ranks share the rows of 'pairs --sources'; all else is for plexway alone");
+  if (among != nullptr && !tool.got_subcommand("pairs") && !tool.got_subcommand("distance"))
+    throw UsageError(
+        "ranks share the rows of 'pairs --sources' and the pieces of 'distance'; all else is for "
+        "plexway alone");
   if (!page.empty()) {
     write_output(help_page(tool, page));
     flush_output();

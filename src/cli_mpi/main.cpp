@@ -1,4 +1,4 @@
-// The tool among ranks of MPI: mpirun -n 4 plexway-mpi pairs INPUT ...
+// The tool among ranks of MPI: mpirun -n 4 plexway-mpi distance INPUT ..., or pairs.
 
 #include <cstdio>
 #include <exception>
@@ -25,11 +25,15 @@ int ended(Ranks& ranks, int code, const char* message) {
     } catch (const plexway::mpi::Absent& absent) {
       return absent.verdict().code;
     } catch (...) {
-      plexway::cli::say_error(message);
-      ranks.end_all(code);
+      verdict = ranks.fail_together(code);
+      if (!verdict) {
+        plexway::cli::say_error(message);
+        ranks.end_all(code);
+      }
     }
+  } else {
+    verdict = ranks.stay_away(code);
   }
-  verdict = ranks.stay_away(code);
   if (code != 0 && verdict->rank == ranks.rank())
     plexway::cli::say_error(ranks.leads()
                                 ? std::string(message)
@@ -43,9 +47,12 @@ int main(int argc, char** argv) {
   try {
     Ranks ranks(argc, argv);
     using Among = plexway::cli::Among;
-    Among among{ranks, ranks.threads(), {}, [&](int code, const char* message) {
-                  return ended(ranks, code, message);
-                }};
+    Among among{ranks,
+                ranks,
+                ranks.threads(),
+                [&] { ranks.all_come(); },
+                {},
+                [&](int code, const char* message) { return ended(ranks, code, message); }};
     if (ranks.share_nodes())
       among.once_a_node = [&](const Among::WithFile& make, const Among::WithFile& take) {
         ranks.once_a_node(make, take);

@@ -15,6 +15,7 @@
 #include "complex/cut.hpp"
 #include "complex/partition.hpp"
 #include "executors/drive.hpp"
+#include "executors/piece_post.hpp"
 #include "executors/piece_size.hpp"
 #include "executors/supersteps.hpp"
 #include "propagate/pieces/owned_piece.hpp"
@@ -58,44 +59,44 @@ class OwnedCrew : public TeamCrew<Real, kLabels> {
   void run(Propagation& propagation, Front& front, std::size_t simplices) const {
     using Label = typename Front::Label;
     using Piece = OwnedPiece<Real, Label, Propagation, kLabels>;
-    std::deque<Piece> pieces;
-    for (Index p = 0; p < pieces_.rooms.size(); ++p) {
+    const Deal deal = this->team_.deal();
+    std::deque<Piece> pieces;  // ours
+    std::vector<Piece*> by_number(pieces_.rooms.size(), nullptr);
+    for (std::size_t p = deal.ours; p < by_number.size(); p += deal.count) {
       OwnedRoom& room = pieces_.rooms[p];
       room.front.reserve(pieces_.cut.pieces[p].own);
       const typename Piece::Front::Base own(
           this->workspace_.marks, front.labels(), DualQueue<Real>(room.front, this->step_),
           this->workspace_.source.data(), simplices, this->unit_, this->options_);
-      pieces.emplace_back(pieces_, p, room, own, propagation);
+      by_number[p] = &pieces.emplace_back(pieces_, static_cast<Index>(p), room, own, propagation);
     }
     /// A superstep's, in edges of a cube of so many tetrahedra: mean edges.
     constexpr double pace = 1. / 8;
     Supersteps<Piece> supersteps(
-        this->team_, pieces, static_cast<Real>(pace * std::cbrt(static_cast<double>(pieces_.size))),
-        simplices, this->unit_, this->options_, this->workspace_.pieces.counts());
-    const auto goes_on = [&](std::size_t expansions) {
+        this->team_, pieces_.cut, by_number,
+        static_cast<Real>(pace * std::cbrt(static_cast<double>(pieces_.size))), simplices,
+        this->unit_, this->options_, this->workspace_.pieces.counts());
+    const auto goes_on = [&](std::size_t expansions, std::size_t) {
       check_end(expansions, simplices);
       return true;
     };
     PropagateStatistics known;  // of the pieces
     const auto spread = [&](bool last_resort) {
       for (Piece& piece : pieces) piece.set_last_resort(last_resort);
-      front.drain([&](Index s) { pieces[pieces_.cut.piece_of[s]].give(s); });
+      front.drain([&](Index s) {
+        if (Piece* const piece = by_number[pieces_.cut.piece_of[s]]) piece->give(s);
+      });
       PropagateStatistics others = front.statistics();
       others.expansions -= known.expansions;
       others.updates -= known.updates;
       others.reached_simplices -= known.reached_simplices;
       const bool complete = supersteps.run(others, goes_on);
-      PropagateStatistics now;
-      for (const Piece& piece : pieces) {
-        const PropagateStatistics own = piece.statistics();
-        now.expansions += own.expansions;
-        now.updates += own.updates;
-        now.reached_simplices += own.reached_simplices;
-      }
+      const PropagateStatistics now = supersteps.statistics();
       front.account({now.expansions - known.expansions, now.updates - known.updates,
                      now.reached_simplices - known.reached_simplices},
                     !complete);
       known = now;
+      share_labels(front);
     };
     propagation.run(spread, [&](const auto& look) {
       this->search(
@@ -106,6 +107,32 @@ class OwnedCrew : public TeamCrew<Real, kLabels> {
   }
 
  private:
+  /// Repairs look at all labels: those of other processes' tetrahedra, too.
+  template <class Front>
+  void share_labels(Front& front) const {
+    using Label = typename Front::Label;
+    struct Known {
+      Index tet, hinge, source;
+      Label label;
+    };
+    if (this->team_.ranks() == nullptr) return;
+    const Deal deal = this->team_.deal();
+    const auto& cuts = pieces_.cut.pieces;
+    const SharedPieces shared(
+        *this->team_.ranks(), deal, cuts.size(), [&](std::size_t p, Parcel& parcel) {
+          for (const Index t : std::span(cuts[p].simplices).first(cuts[p].own))
+            if (front.reached(t))
+              parcel.add(
+                  Known{t, static_cast<Index>(front.hinge(t)), front.source(t), front.label(t)});
+        });
+    this->workspace_.pieces.counts().sent += shared.sent();
+    for (std::size_t p = 0; p < cuts.size(); ++p)
+      for (Unpacked mail = shared.of(p); !mail.empty();) {
+        const Known known = mail.template take<Known>();
+        front.know(known.tet, known.hinge, known.label, known.source);
+      }
+  }
+
   OwnedPieces& pieces_;
 };
 

@@ -12,12 +12,14 @@ void solve_points(const E& executor, const TetMesh<Real>& mesh,
                   Workspace<Real>& kept, DistanceField<Real>& field) {
   WorkspaceState<Real>& workspace = kept.state();
   check(sources, options, mesh);
+  workspace.pieces.counts().start();
   with_labels(sources, [&](auto labels) {
     constexpr bool kLabels = decltype(labels)::value;
     drive<kLabels>(executor, mesh, sources, options, workspace, [&](auto queue, const auto& crew) {
       solid::solve_with<Real, kLabels>(mesh, sources, options, workspace, queue, crew, field);
     });
   });
+  workspace.pieces.counts().tell(field.statistics);
 }
 
 namespace detail {

@@ -19,6 +19,8 @@ void solve_points(const E& executor, const TriangleMesh<Real>& mesh,
       options.accuracy,
       detail::with(combination<E, TriangleMesh<Real>>(SourceKind::point), mesh.metric(), options));
   const bool by_windows = accuracy.kind() != Accuracy::Kind::fast;
+  SuperstepCounts& counts = workspace.pieces.counts();
+  counts.start();
   if (by_windows) {
     const auto solved = [&] {
       if constexpr (E::kind == ExecutorKind::openmp)
@@ -28,6 +30,7 @@ void solve_points(const E& executor, const TriangleMesh<Real>& mesh,
     };
     if (solved()) {
       field.accuracy = accuracy;
+      counts.tell(field.statistics);
       return;
     }
     field.error.clear();
@@ -39,6 +42,7 @@ void solve_points(const E& executor, const TriangleMesh<Real>& mesh,
     });
   });
   field.statistics.windows_gave_up = by_windows;
+  counts.tell(field.statistics);
 }
 
 namespace detail {

@@ -26,7 +26,8 @@ bool openmp_built() {
 #endif
 }
 
-Team::Team(const OpenMP& executor) : size_(executor.threads), chunk_(executor.chunk) {
+Team::Team(const OpenMP& executor)
+    : size_(executor.threads), chunk_(executor.chunk), ranks_(executor.ranks) {
   if (!openmp_built())
     throw NotBuiltError(
         "the executor OpenMP is not built in: rebuild plexway with a compiler that has OpenMP");

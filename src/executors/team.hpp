@@ -9,6 +9,9 @@
 #include <thread>
 
 #include <plexway/executors.hpp>
+#include <plexway/executors/piece_ranks.hpp>
+
+#include "complex/deal.hpp"
 
 #include "executors/crowding.hpp"
 
@@ -81,6 +84,11 @@ class Team {
   /// At most so many threads.
   [[nodiscard]] int size() const { return size_; }
   [[nodiscard]] std::size_t chunk() const { return chunk_; }
+  /// The processes that share pieces, or null, and which pieces are ours.
+  [[nodiscard]] PieceRanks* ranks() const { return ranks_; }
+  [[nodiscard]] Deal deal() const {
+    return ranks_ == nullptr ? Deal{} : Deal{ranks_->rank(), ranks_->count()};
+  }
 
   /// Calls work(i, n) with i = 0 to n - 1 at once, 0 on the calling thread, and throws the first
   /// exception that one of them left behind.
@@ -200,6 +208,7 @@ class Team {
 
   int size_;
   std::size_t chunk_;
+  PieceRanks* ranks_;
   mutable Held* held_ = nullptr;
   mutable bool alone_ = false;  ///< held, but by one thread
 };

@@ -49,12 +49,14 @@ class OutputFile {
     write({bytes.data(), bytes.size()});
   }
 
+  /// Hands all to the system: what is left to do can hardly fail.
+  void flush();
+
   /// Flushes, closes, checks, and puts the file in its place.
   void commit();
 
  private:
   void write_through(std::string_view bytes);
-  void flush();
 
   file::NewFile file_;
   std::string buffer_;

@@ -15,6 +15,7 @@
 #include <mutex>
 #include <new>
 #include <optional>
+#include <span>
 #include <string>
 #include <thread>
 #include <type_traits>
@@ -53,6 +54,21 @@ void wait(MPI_Request& request) {
     std::this_thread::sleep_for(nap);
   }
 }
+
+// Looks again at once for a while, then lets others go first, then sleeps.
+class Patience {
+ public:
+  void wait() {
+    if (++times_ < 200) return;
+    if (times_ < 400)
+      std::this_thread::yield();
+    else
+      std::this_thread::sleep_for(std::chrono::microseconds(20));
+  }
+
+ private:
+  int times_ = 0;
+};
 
 // What was thrown, for the leader to throw again: its kind and its text.
 enum class Kind : char { other, usage, input, not_built, endless, memory };
@@ -284,14 +300,17 @@ PairsReport follow(const PairsRequest& request, const RowRanks::Solve& solve) {
 
 }  // namespace
 
-// What `meet` is told by who goes on.
+// What `compare` is told by who goes on.
 constexpr int here = -1;
 
 struct Ranks::State {
   int rank = 0, count = 1, on_node = 1;
   int rank_on_node = 0, maker = 0;  // the process that makes what its node needs once
   bool share_nodes = false;
-  bool met = false;
+  bool met = false, in_field = false;
+  MPI_Comm pieces = MPI_COMM_NULL;  // what belongs to fields
+  std::vector<MPI_Request> sending;
+  std::vector<std::size_t> waiting_for;
 };
 
 Ranks::Ranks(int& argc, char**& argv) : state_(std::make_unique<State>()) {
@@ -313,12 +332,14 @@ Ranks::Ranks(int& argc, char**& argv) : state_(std::make_unique<State>()) {
   int most = 1;
   MPI_Allreduce(&state_->on_node, &most, 1, MPI_INT, MPI_MAX, MPI_COMM_WORLD);
   state_->share_nodes = most > 1;
+  MPI_Comm_dup(MPI_COMM_WORLD, &state_->pieces);
 }
 
 Ranks::~Ranks() {
   MPI_Request all;
   MPI_Ibarrier(MPI_COMM_WORLD, &all);
   wait(all);
+  MPI_Comm_free(&state_->pieces);
   MPI_Finalize();
 }
 
@@ -348,43 +369,122 @@ void Ranks::once_a_node(const std::function<void(const std::filesystem::path&)>&
     const std::string path;
     const file::Unfinished by_signals{path.c_str()};
   };
-  const auto all_are_here = [this] {
-    const Verdict verdict = meet(here);
-    if (verdict.code != here) throw Absent{verdict};
-    state_->met = false;  // there is more to come
-  };
   std::optional<Removed> made;
   if (state_->rank_on_node == 0) {
     made.emplace(file);
     make(file);
   }
-  all_are_here();
+  all_come();
   take(file);
-  all_are_here();
+  all_come();
+}
+
+void Ranks::all_come() {
+  const Verdict verdict = compare(here);
+  if (verdict.code != here) throw Absent{verdict};
+  state_->met = state_->in_field = false;  // there is more to come
+}
+
+void Ranks::meet(std::span<const PieceRanks::Bytes> to, std::span<std::vector<std::byte>> from,
+                 std::span<std::uint64_t> sums, double& least) {
+  // A message is as long as MPI's counts allow, and goes on in another one if it is just so long.
+  constexpr std::size_t most = std::size_t{1} << 30;
+  constexpr int tag = 1;
+  static_assert(sizeof(std::uint64_t) == sizeof(unsigned long long));
+  state_->met = state_->in_field = true;  // now others wait for this one
+  std::vector<std::uint64_t> own(sums.begin(), sums.end());
+  const double own_least = least;
+  MPI_Request reductions[2];
+  MPI_Iallreduce(own.data(), sums.data(), static_cast<int>(own.size()), MPI_UINT64_T, MPI_SUM,
+                 state_->pieces, &reductions[0]);
+  MPI_Iallreduce(&own_least, &least, 1, MPI_DOUBLE, MPI_MIN, state_->pieces, &reductions[1]);
+  auto& sending = state_->sending;
+  auto& waiting_for = state_->waiting_for;
+  sending.clear();
+  waiting_for.clear();
+  for (std::size_t step = 1; step < count(); ++step) {  // not all to the same one at once
+    const std::size_t r = (rank() + step) % count();
+    for (std::size_t at = 0;; at += most) {
+      const std::size_t size = std::min(to[r].size() - at, most);
+      MPI_Isend(to[r].data() + at, static_cast<int>(size), MPI_BYTE, static_cast<int>(r), tag,
+                state_->pieces, &sending.emplace_back());
+      if (size < most) break;
+    }
+    from[r].clear();
+    waiting_for.push_back(r);
+  }
+  Patience patience;
+  const auto arrives = [&](std::size_t r) {
+    int here_now = 0, size = 0;
+    MPI_Status status;
+    MPI_Iprobe(static_cast<int>(r), tag, state_->pieces, &here_now, &status);
+    if (here_now == 0) return false;
+    MPI_Get_count(&status, MPI_BYTE, &size);
+    const std::size_t before = from[r].size();
+    from[r].resize(before + static_cast<std::size_t>(size));
+    MPI_Recv(from[r].data() + before, size, MPI_BYTE, static_cast<int>(r), tag, state_->pieces,
+             MPI_STATUS_IGNORE);
+    patience = {};
+    return static_cast<std::size_t>(size) < most;
+  };
+  for (int through = 0; !waiting_for.empty() || through == 0;) {
+    std::erase_if(waiting_for, arrives);
+    int sent = 0;
+    MPI_Testall(2, reductions, &through, MPI_STATUSES_IGNORE);
+    MPI_Testall(static_cast<int>(sending.size()), sending.data(), &sent, MPI_STATUSES_IGNORE);
+    through = through != 0 && sent != 0 ? 1 : 0;
+    if (!waiting_for.empty() || through == 0) patience.wait();
+  }
 }
 
 PairsReport Ranks::share(const PairsRequest& request, std::size_t vertices,
-                         const PairsSink<Bytes>& sink, const Solve& solve) {
-  const Verdict verdict = meet(here);
+                         const PairsSink<RowRanks::Bytes>& sink, const Solve& solve) {
+  const Verdict verdict = compare(here);
   if (verdict.code != here) throw Absent{verdict};
   if (!leads()) return follow(request, solve);
   return Leader(request, vertices, sink, state_->count - 1).run(solve);
 }
 
-Ranks::Verdict Ranks::stay_away(int code) { return meet(code); }
+Ranks::Verdict Ranks::stay_away(int code) { return compare(code); }
 
-Ranks::Verdict Ranks::meet(int code) {
-  state_->met = true;
-  std::vector<int> codes(count());
-  MPI_Request all;
-  MPI_Iallgather(&code, 1, MPI_INT, codes.data(), 1, MPI_INT, MPI_COMM_WORLD, &all);
-  wait(all);
-  // The leader's failure, or else the first; or else who is through; or nobody.
+namespace {
+
+// The leader's failure, or else the first; or else who is through; or nobody.
+Ranks::Verdict verdict_of(std::span<const int> codes, int code) {
   for (std::size_t r = 0; r < codes.size(); ++r)
     if (codes[r] > 0) return {r, codes[r]};
   for (std::size_t r = 0; r < codes.size(); ++r)
     if (codes[r] == 0) return {r, 0};
   return {0, code};
+}
+
+}  // namespace
+
+Ranks::Verdict Ranks::compare(int code) {
+  state_->met = true;
+  std::vector<int> codes(count());
+  MPI_Request all;
+  MPI_Iallgather(&code, 1, MPI_INT, codes.data(), 1, MPI_INT, MPI_COMM_WORLD, &all);
+  wait(all);
+  return verdict_of(codes, code);
+}
+
+std::optional<Ranks::Verdict> Ranks::fail_together(int code) {
+  if (!state_->in_field) return std::nullopt;
+  // Not on the stack: where others do not come MPI keeps it until the end.
+  static int own;
+  static std::vector<int> codes;
+  own = code;
+  codes.resize(count());
+  MPI_Request all;
+  MPI_Iallgather(&own, 1, MPI_INT, codes.data(), 1, MPI_INT, MPI_COMM_WORLD, &all);
+  const auto end = Clock::now() + std::chrono::milliseconds(500);
+  for (int ready = 0; Clock::now() < end;) {
+    MPI_Test(&all, &ready, MPI_STATUS_IGNORE);
+    if (ready != 0) return verdict_of(codes, code);
+    std::this_thread::sleep_for(nap);
+  }
+  return std::nullopt;
 }
 
 void Ranks::end_all(int code) {

@@ -5,6 +5,9 @@
 #include <vector>
 
 #include <plexway/complex/triangle_mesh.hpp>
+#include <plexway/propagate/distance_field.hpp>
+
+#include "complex/deal.hpp"
 
 namespace plexway {
 
@@ -17,9 +20,23 @@ struct SuperstepCounts {
   std::size_t runs = 0;     ///< of a piece in a superstep
   std::size_t letters = 0;  ///< labels told to other pieces
   std::size_t bytes = 0;    ///< of letters
+  std::size_t sent = 0;     ///< bytes from this process to others
   /// If it is kept: of each superstep the expansions of each piece that ran.
   std::vector<std::vector<std::size_t>> log;
   bool keeps_log = false;
+
+  /// Adds what a solve did.
+  void tell(PropagateStatistics& statistics) const {
+    statistics.supersteps += supersteps;
+    statistics.letters += letters;
+    statistics.letter_bytes += bytes;
+    statistics.sent_bytes += sent;
+  }
+  /// Before a solve.
+  void start() {
+    supersteps = runs = letters = bytes = sent = 0;
+    log.clear();
+  }
 };
 
 /// What solves by several threads keep of a surface that is cut into pieces, and the pieces' own
@@ -33,8 +50,9 @@ class PieceMemory {
   PieceMemory& operator=(PieceMemory&&) noexcept;
 
   /// The pieces of this surface: those of the last call, unless that was for another surface or
-  /// another size. About `size` triangles each. Cost of new ones: about a solve's.
-  TrianglePatches<Real>& of(const TriangleMesh<Real>& mesh, std::size_t size);
+  /// another size. About `size` triangles each, with room for those that are ours. Cost of new
+  /// ones: about a solve's.
+  TrianglePatches<Real>& of(const TriangleMesh<Real>& mesh, std::size_t size, Deal deal = {});
 
   /// What the last solve was like.
   [[nodiscard]] SuperstepCounts& counts() { return counts_; }

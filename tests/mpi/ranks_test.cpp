@@ -1,67 +1,13 @@
-// The tool among ranks, by mpirun. Where mpirun does not run a case says so and is through.
-
-#include <unistd.h>
+// Matrices by the tool among ranks.
 
 #include <catch2/catch.hpp>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
-#include <optional>
 #include <string>
-#include <vector>
 
-#include "cli/program.hpp"
 #include "folder.hpp"
+#include "mpi/running.hpp"
 
-namespace {
-
-using namespace cli_testing;
-namespace fs = std::filesystem;
-using Words = std::vector<std::string>;
-
-Words operator+(Words a, const Words& b) {
-  a.insert(a.end(), b.begin(), b.end());
-  return a;
-}
-
-std::string content(const fs::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), {}};
-}
-
-// mpirun with what lets it run here, or nothing.
-const std::optional<Words>& mpirun() {
-  static const std::optional<Words> found = []() -> std::optional<Words> {
-    Words words = {PLEXWAY_TEST_MPIRUN};
-    const Outcome version = run_program(words + Words{"--version"});
-    if (version.out.find("Open MPI") != std::string::npos ||
-        version.out.find("OpenRTE") != std::string::npos) {
-      words.push_back("--oversubscribe");
-      if (::geteuid() == 0) words.push_back("--allow-run-as-root");
-    }
-    if (run_program(words + Words{"-n", "2", "true"}).code == 0) return words;
-    return std::nullopt;
-  }();
-  if (!found) WARN("not tested: " << PLEXWAY_TEST_MPIRUN << " runs nothing here");
-  return found;
-}
-
-Outcome run_ranks(int count, const Words& arguments, std::size_t file_bytes = 0) {
-  return run_program(
-      *mpirun() + Words{"-n", std::to_string(count), PLEXWAY_TEST_MPI_TOOL} + arguments,
-      file_bytes);
-}
-
-// Lines that are ours: mpirun adds some of its own where ranks fail.
-std::vector<std::string> complaints(const Outcome& run) {
-  std::vector<std::string> ours;
-  for (std::size_t at = 0; (at = run.err.find("plexway: ", at)) != run.err.npos; at += 9)
-    if (at == 0 || run.err[at - 1] == '\n')
-      ours.push_back(run.err.substr(at, run.err.find('\n', at) - at));
-  return ours;
-}
-
-}  // namespace
+using namespace mpi_testing;
 
 TEST_CASE("ranks make bit for bit what threads make") {
   if (!mpirun()) return;

@@ -1,15 +1,20 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <memory>
+#include <optional>
+#include <span>
 #include <string>
+#include <vector>
 
 #include <plexway/apps/row_ranks.hpp>
 #include <plexway/error.hpp>
+#include <plexway/executors/piece_ranks.hpp>
 
-// Ranks of MPI that share the rows of a matrix.
+// Ranks of MPI that share the rows of a matrix, or the pieces of one field.
 //
 //   int main(int argc, char** argv) {
 //     plexway::mpi::Ranks ranks(argc, argv);
@@ -18,9 +23,12 @@
 //         ranks, request, mesh.vertex_count(), sink, [&](const auto& mine, const auto& rows) {
 //           return plexway::all_pairs(plexway::Serial{}, mesh, mine, rows);
 //         });
+//     ... or solve one field of it, which each gets ...
+//     auto field = plexway::solve(plexway::OpenMP{.threads = ranks.threads(), .ranks = &ranks},
+//                                 mesh, sources);
 //   }
 
-/// Ranks of MPI that share the rows of a matrix.
+/// Ranks of MPI that share the rows of a matrix, or the pieces of one field.
 namespace plexway::mpi {
 
 /// All ranks of a run (MPI_COMM_WORLD), one of which is this process. Rank 0 leads, and solves like
@@ -29,7 +37,7 @@ namespace plexway::mpi {
 /// Each rank has a domain of its own: what has many cores is best given one rank a node, whose
 /// threads share one. Only one thread at a time calls MPI (MPI_THREAD_SERIALIZED). A rank that dies
 /// takes the others along, as MPI has it.
-class Ranks final : public RowRanks {
+class Ranks final : public RowRanks, public PieceRanks {
  public:
   /// MPI_Init_thread. One in a process. Throws Error where threads are not allowed.
   Ranks(int& argc, char**& argv);
@@ -43,7 +51,7 @@ class Ranks final : public RowRanks {
   /// As many as mpirun began.
   [[nodiscard]] std::size_t count() const override;
   /// Which one this is.
-  [[nodiscard]] std::size_t rank() const;
+  [[nodiscard]] std::size_t rank() const override;
   /// Has any node more than one rank?
   [[nodiscard]] bool share_nodes() const;
   /// For what a node needs once, such as a domain that maps into memory (AnyDomain::keep): one rank
@@ -58,8 +66,16 @@ class Ranks final : public RowRanks {
 
   /// As RowRanks has it. Cost: a message a row, from the others to the leader. Throws Absent if a
   /// rank does not come; UsageError for rows of 2 GB.
-  PairsReport share(const PairsRequest& request, std::size_t vertices, const PairsSink<Bytes>& sink,
-                    const Solve& solve) override;
+  PairsReport share(const PairsRequest& request, std::size_t vertices,
+                    const PairsSink<RowRanks::Bytes>& sink, const Solve& solve) override;
+
+  /// As PieceRanks has it: MPI_Iallreduce, while messages go to and fro. Who waits sleeps soon, and
+  /// so leaves its core to others.
+  void meet(std::span<const PieceRanks::Bytes> to, std::span<std::vector<std::byte>> from,
+            std::span<std::uint64_t> sums, double& least) override;
+  /// Waits for all ranks, before what only makes sense if all get so far, as PieceRanks::meet does.
+  /// Throws Absent if one of them does not come.
+  void all_come();
 
   /// Why ranks do not come to `share`.
   struct Verdict {
@@ -69,14 +85,17 @@ class Ranks final : public RowRanks {
   /// This rank will not come to `share`, since it is through, with exit code 0, or failed, with
   /// another. Ranks that wait there go on by Absent. Once, and not after `share`.
   Verdict stay_away(int code);
-  /// Has this rank been in `share` or `stay_away`?
+  /// This rank failed in a field that all solve, as likely all do: what they say, or nothing where
+  /// they do not fail within half a second. Only `end_all` makes sense then.
+  std::optional<Verdict> fail_together(int code);
+  /// Has this rank been in `share`, `meet` or `stay_away`, and not in `all_come` since?
   [[nodiscard]] bool met() const;
   /// Ends all ranks at once.
   [[noreturn]] void end_all(int code);
 
  private:
   struct State;
-  Verdict meet(int code);
+  Verdict compare(int code);
 
   std::unique_ptr<State> state_;
 };
@@ -86,7 +105,7 @@ class Absent : public Error {
  public:
   /// What they said.
   explicit Absent(Ranks::Verdict verdict)
-      : Error("rank " + std::to_string(verdict.rank) + " does not come to share rows"),
+      : Error("rank " + std::to_string(verdict.rank) + " does not come to share the work"),
         verdict_(verdict) {}
   /// What they said.
   [[nodiscard]] Ranks::Verdict verdict() const { return verdict_; }

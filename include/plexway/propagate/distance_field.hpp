@@ -23,6 +23,11 @@ struct PropagateStatistics {
   /// Accuracy::usual: fields where windows became too many, so that labels did it, and the accuracy
   /// is `fast`. 0 or 1; more in sums over several fields.
   std::size_t windows_gave_up = 0;
+  ///@{
+  /// In pieces (OpenMP): how often they exchanged letters, how many of these there were, of how
+  /// many bytes, and how many bytes this process sent to others (OpenMP::ranks).
+  std::size_t supersteps = 0, letters = 0, letter_bytes = 0, sent_bytes = 0;
+  ///@}
 };
 
 /// Distances at the vertices, in the caller's order and the domain's unit.

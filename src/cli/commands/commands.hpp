@@ -13,7 +13,7 @@ struct Among;
 /// What the command line asks for; set while it is parsed, run afterwards.
 using Action = std::function<void()>;
 
-void add_distance_command(CLI::App& tool, Action& action);
+void add_distance_command(CLI::App& tool, Action& action, const Among* among);
 void add_info_command(CLI::App& tool, Action& action);
 void add_bench_command(CLI::App& tool, Action& action);
 void add_path_command(CLI::App& tool, Action& action);

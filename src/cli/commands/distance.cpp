@@ -18,7 +18,9 @@
 #include "any/field_remarks.hpp"
 #include "any/fill.hpp"
 #include "any/info/report.hpp"
+#include "any/partitioned_field.hpp"
 #include "any/shape_state.hpp"
+#include "cli/among.hpp"
 #include "cli/commands/commands.hpp"
 #include "cli/exit_codes.hpp"
 #include "cli/options/input.hpp"
@@ -31,6 +33,8 @@
 #include "cli/report/console.hpp"
 #include "cli/report/distance_output.hpp"
 #include "cli/report/progress.hpp"
+#include "cli/report/rank_counts.hpp"
+#include "io/field_part.hpp"
 
 namespace plexway::cli {
 namespace {
@@ -44,12 +48,18 @@ struct DistanceCommand : InputCommand {
   MaskArgument mask;
   MetricArgument metric;
   TriangulationArgument triangulation;
+  const Among* among = nullptr;  ///< who shares the pieces; null: nobody
+
+  [[nodiscard]] bool in_parts() const { return among != nullptr && io::is_partitioned(out); }
+  /// Is it this process that writes and reports?
+  [[nodiscard]] bool leads() const { return among == nullptr || among->ranks.leads(); }
 };
 
 // What came out, as far as a report tells it.
 struct Outcome : FieldReach {
   double build = 0, solve = 0;
   Executor executor = {};
+  RankCounts ranks = {};
 };
 
 std::string executor_text(const Executor& executor) {
@@ -76,6 +86,16 @@ Json to_json(const DistanceCommand& command, const Domain& domain, const AnyDoma
   json["max_distance"] = json_number(outcome.max_distance);
   json["expansions"] = field.statistics().expansions;
   json["updates"] = field.statistics().updates;
+  if (field.statistics().supersteps > 0) {
+    json["supersteps"] = field.statistics().supersteps;
+    json["letters"] = field.statistics().letters;
+    json["letter_bytes"] = field.statistics().letter_bytes;
+  }
+  if (command.among != nullptr) {
+    json["ranks"] = command.among->ranks.count();
+    json["sent_bytes"] = outcome.ranks.sent_bytes;
+    json["peak_bytes"] = outcome.ranks.peak_bytes;
+  }
   if (domain.kind() == DomainKind::surface) {
     json["lowered_vertices"] = field.statistics().lowered_vertices;
     json["raised_vertices"] = field.statistics().raised_vertices;
@@ -127,6 +147,13 @@ Table to_table(const DistanceCommand& command, const Domain& domain, const AnyDo
   table.add("reached", reached);
   table.add("work", counted(field.statistics().expansions, "expansions") + ", " +
                         counted(field.statistics().updates, "updates"));
+  if (command.among != nullptr) {
+    const PropagateStatistics& statistics = field.statistics();
+    table.add("ranks", std::to_string(command.among->ranks.count()) + ", " +
+                           counted(statistics.supersteps, "supersteps") + ", " +
+                           counted(statistics.letters, "letters") + ", " +
+                           counted(outcome.ranks.sent_bytes, "bytes") + " from rank to rank");
+  }
   std::string mesh = domain.mesh_seconds() ? ", mesh " + short_time(*domain.mesh_seconds()) : "";
   if (domain.neighbour_seconds()) mesh = ", neighbours " + short_time(*domain.neighbour_seconds());
   table.add("time", "load " + short_time(domain.load_seconds()) + mesh + ", build " +
@@ -197,14 +224,32 @@ bool knows_inside(const DistanceCommand& command, const AnyDomain& domain,
          (!command.picture.file.empty() && fine_in_picture(domain));
 }
 
+// All write their part; then one writes the file that names them.
+void write_in_parts(const Among& among, const Domain& domain, const std::string& out,
+                    std::span<const double> distance, std::span<const std::int32_t> label,
+                    std::span<const double> error) {
+  PartitionedField parts(domain, out, distance, label, error, among.pieces.rank(),
+                         among.pieces.count());
+  among.all_come();
+  if (among.ranks.leads()) parts.remove_whole();
+  among.all_come();
+  parts.put_part();
+  among.all_come();
+  if (among.ranks.leads()) parts.write_whole();
+}
+
 void run_distance(DistanceCommand command) {
+  if (command.among != nullptr && command.solve.executor.name != "openmp")
+    throw UsageError("--executor " + command.solve.executor.name +
+                     ": ranks share the pieces of openmp");
+  if (!command.leads()) command.quiet = true;
   const PropagateOptions wanted = propagate_options(command.solve);
   Precision precision = precision_of(command.solve);
   if (precision == Precision::twice && command.solve.precision == "float")
     command.solve.precision = "double, which exact distances need";
   Triangulation triangulation = triangulation_of(command.triangulation);
   const std::vector<SetArgument> arguments = parse_source_sets(command.sources);
-  if (command.out != "-" && !is_vdb(command.out))
+  if (command.out != "-" && !is_vdb(command.out) && !command.in_parts())
     check_output_name(command.out, command.input, AnyShape::field_extensions(DomainKind::cloud));
   check_picture(command.picture, command.input);
   check_isolines(command.isolines, command.input);
@@ -220,7 +265,8 @@ void run_distance(DistanceCommand command) {
   command.fill.volume.writes_volume = is_vdb(command.out);
   ProgressLine progress(command.quiet);
   const Domain domain = load_domain(command, progress);
-  if (domain.cloud() == nullptr && command.out != "-")
+  if (command.in_parts()) check_partitioned(domain, command.out);
+  if (domain.cloud() == nullptr && command.out != "-" && !command.in_parts())
     check_output_name(command.out, command.input, AnyShape::field_extensions(domain.kind()));
   check_isolines(command.isolines, domain);
   const std::vector<Source> sources =
@@ -259,8 +305,13 @@ void run_distance(DistanceCommand command) {
   PropagateOptions options = wanted;
   options.progress = progress.callback();
   const Stopwatch solving;
-  const Executor executor =
-      choose_executor(command.solve.executor, options, solver, sources.size());
+  Executor executor = choose_executor(command.solve.executor, options, solver, sources.size());
+  if (command.among != nullptr) {
+    OpenMP& team = std::get<OpenMP>(executor);
+    if (!command.solve.executor.threads) team.threads = command.among->threads;
+    team.ranks = &command.among->pieces;
+    command.among->all_come();
+  }
   // What draws arcs asks the field inside of triangles, too.
   std::optional<AnyPathField> paths;
   if (mask == nullptr && knows_inside(command, solver, points, executor))
@@ -273,6 +324,10 @@ void run_distance(DistanceCommand command) {
 
   const std::vector<double> distance = field.doubles();
   Outcome outcome{reach_of(distance, sources), solver.build_seconds(), solve, executor};
+  if (command.among != nullptr) {
+    outcome.ranks = rank_counts(command.among->pieces, field.statistics().sent_bytes);
+    command.among->all_come();
+  }
 
   // What is written and drawn is what is open.
   const bool shown_open =
@@ -281,7 +336,10 @@ void run_distance(DistanceCommand command) {
   const Domain shown = shown_open ? open_shape(*mask, domain) : domain;
   const bool plain = command.out == "-";
   const std::vector<double> isovalues = isoline_values(command.isolines, distance);
-  if (!command.out.empty()) {
+  if (command.in_parts()) {
+    progress.phase("writing " + command.out);
+    write_in_parts(*command.among, shown, command.out, distance, field.file_label(), field.error());
+  } else if (!command.out.empty() && command.leads()) {
     progress.phase("writing " + (plain ? "the distances" : command.out));
     const std::vector<std::int32_t> label = field.file_label();
     if (on_standard_output(command.out)) progress.clear();
@@ -295,11 +353,11 @@ void run_distance(DistanceCommand command) {
       shown.write_field(command.out, distance, label, field.error());
     }
   }
-  if (!command.isolines.out.empty()) {
+  if (!command.isolines.out.empty() && command.leads()) {
     progress.phase("writing " + command.isolines.out);
     write_isolines(command.isolines, shown, solver, field, paths ? &*paths : nullptr, isovalues);
   }
-  if (command.picture.wanted()) {
+  if (command.picture.wanted() && command.leads()) {
     progress.phase("drawing " + command.picture.file);
     SceneContent content;
     content.distance = distance;
@@ -316,6 +374,13 @@ void run_distance(DistanceCommand command) {
     write_picture(command.picture, shown, content, command.quiet);
   }
   progress.clear();
+  const auto check_reached = [&] {
+    if (outcome.beside_source == 0)
+      throw NothingReached(command.input +
+                           ": nothing reached: no vertex but the source itself has "
+                           "a finite distance");
+  };
+  if (!command.leads()) return check_reached();
 
   Json json = to_json(command, domain, solver, field, lengths.get(), outcome);
   Table table =
@@ -324,11 +389,7 @@ void run_distance(DistanceCommand command) {
   print_report(json, table, command.json, command.quiet,
                {command.out, command.isolines.out, command.picture.file, command.picture.html});
 
-  if (outcome.beside_source == 0) {
-    throw NothingReached(command.input +
-                         ": nothing reached: no vertex but the source itself has "
-                         "a finite distance");
-  }
+  check_reached();
   const bool bounded = command.solve.radius || command.solve.max_expansions;
   if (!command.quiet) say_violations(domain, lengths.get());
   if (!command.quiet && !command.isolines.out.empty() && isovalues.empty())
@@ -340,8 +401,10 @@ void run_distance(DistanceCommand command) {
 
 }  // namespace
 
-void add_distance_command(CLI::App& tool, Action& action) {
+void add_distance_command(CLI::App& tool, Action& action, const Among* among) {
   auto command = std::make_shared<DistanceCommand>();
+  command->among = among;
+  if (among != nullptr) command->solve.executor.name = "openmp";
   CLI::App& app = *tool.add_subcommand(
       "distance", "Geodesic distance of every vertex from one or more sources");
   add_inputs(app, *command);
@@ -353,7 +416,8 @@ void add_distance_command(CLI::App& tool, Action& action) {
          "--out,-o", command->out,
          "write the distances: .csv .npy .ply .vtk .vtu .glb .gltf (.pcd of clouds,\n"
          ".vdb of solids) by extension, or - for CSV on standard output, ply:- for a .ply there,\n"
-         "and so on (the summary then goes to standard error)")
+         "and so on (the summary then goes to standard error); among ranks also .pvtu,\n"
+         "of which each rank writes a part")
       ->type_name("FILE");
   add_isoline_options(app, command->isolines);
   add_solve_options(app, command->solve, true);

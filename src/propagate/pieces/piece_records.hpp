@@ -46,26 +46,27 @@ template <class Real, class Keeps>
 }
 
 /// Numbers the vertices of each patch's own triangles anew, first those that other patches have as
-/// well, and puts the numbers into its records; ghosts get none. Patches have `triangles`,
-/// `vertices` (of each number the surface's) and `shared` (so many are others', too).
-template <class Patches>
-void number_vertices(const Cut& cut, std::size_t vertices, Patches& patches) {
+/// well, and puts the numbers into its records, where it has any; ghosts get none. Patches have
+/// `triangles`, `vertices` (of each number the surface's) and `shared` (so many are others', too).
+template <class Real, class Patches>
+void number_vertices(const TriangleMesh<Real>& mesh, const Cut& cut, Patches& patches) {
+  const std::size_t vertices = mesh.vertex_count();
+  const auto records = mesh.triangles();
   std::vector<Index> piece(vertices, none), number(vertices);
   std::vector<std::uint8_t> is_shared(vertices, 0);
-  for (Index p = 0; p < patches.size(); ++p)
-    for (std::size_t i = 0; i < cut.pieces[p].own; ++i)
-      for (const Index v : patches[p].triangles[i].corner) {
-        if (piece[v] == none) piece[v] = p;
-        if (piece[v] != p) is_shared[v] = 1;
-      }
+  for (std::size_t f = 0; f < mesh.face_count(); ++f)
+    for (const Index v : records[f].corner) {
+      if (piece[v] == none) piece[v] = cut.piece_of[f];
+      if (piece[v] != cut.piece_of[f]) is_shared[v] = 1;
+    }
   piece.assign(vertices, none);
   for (Index p = 0; p < patches.size(); ++p) {
     auto& patch = patches[p];
-    const std::span own = std::span(patch.triangles).first(cut.pieces[p].own);
+    const std::span own = std::span(cut.pieces[p].simplices).first(cut.pieces[p].own);
     patch.vertices.reserve(own.size() / 2 + own.size() / 8 + 8);
     for (const bool wanted : {true, false}) {
-      for (const auto& t : own)
-        for (const Index v : t.corner)
+      for (const Index f : own)
+        for (const Index v : records[f].corner)
           if ((is_shared[v] != 0) == wanted && piece[v] != p) {
             piece[v] = p;
             number[v] = static_cast<Index>(patch.vertices.size());
@@ -73,10 +74,8 @@ void number_vertices(const Cut& cut, std::size_t vertices, Patches& patches) {
           }
       if (wanted) patch.shared = patch.vertices.size();
     }
-    for (auto& t : own)
-      for (Index& v : t.corner) v = number[v];
-    for (auto& t : std::span(patch.triangles).subspan(own.size()))
-      for (Index& v : t.corner) v = none;
+    for (std::size_t i = 0; i < patch.triangles.size(); ++i)
+      for (Index& v : patch.triangles[i].corner) v = i < own.size() ? number[v] : none;
   }
 }
 

@@ -53,13 +53,15 @@ Partition partition_of(const TriangleMesh<Real>& mesh, std::size_t size) {
 }
 
 template <class Real>
-TrianglePatches<Real>::TrianglePatches(const TriangleMesh<Real>& mesh, std::size_t size)
+TrianglePatches<Real>::TrianglePatches(const TriangleMesh<Real>& mesh, std::size_t size, Deal deal)
     : identity_(mesh.identity()),
       size_(size),
+      deal_(deal),
       cut_(plexway::cut(partition_of(mesh, size), neighbours_of(mesh))) {
   patches_.resize(cut_.pieces.size());
-  for (Index p = 0; p < patches_.size(); ++p) take_records(mesh, p);
-  number_vertices(cut_, mesh.vertex_count(), patches_);
+  for (Index p = 0; p < patches_.size(); ++p)
+    if (deal.is_ours(p)) take_records(mesh, p);
+  number_vertices(mesh, cut_, patches_);
 }
 
 template <class Real>
@@ -118,10 +120,11 @@ template <class Real>
 PieceMemory<Real>& PieceMemory<Real>::operator=(PieceMemory&&) noexcept = default;
 
 template <class Real>
-TrianglePatches<Real>& PieceMemory<Real>::of(const TriangleMesh<Real>& mesh, std::size_t size) {
-  if (!patches_ || !patches_->is_for(mesh, size)) {
+TrianglePatches<Real>& PieceMemory<Real>::of(const TriangleMesh<Real>& mesh, std::size_t size,
+                                             Deal deal) {
+  if (!patches_ || !patches_->is_for(mesh, size, deal)) {
     patches_.reset();  // its memory first
-    patches_ = std::make_unique<TrianglePatches<Real>>(mesh, size);
+    patches_ = std::make_unique<TrianglePatches<Real>>(mesh, size, deal);
   }
   return *patches_;
 }

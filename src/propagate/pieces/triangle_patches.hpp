@@ -8,6 +8,7 @@
 #include <plexway/complex/triangle_mesh.hpp>
 
 #include "complex/cut.hpp"
+#include "complex/deal.hpp"
 #include "propagate/front.hpp"
 #include "propagate/pieces/mail.hpp"
 #include "propagate/room.hpp"
@@ -43,11 +44,11 @@ struct TrianglePatch {
 template <class Real>
 class TrianglePatches {
  public:
-  /// About `size` triangles each.
-  TrianglePatches(const TriangleMesh<Real>& mesh, std::size_t size);
+  /// About `size` triangles each. Those that are not ours stay without triangles.
+  TrianglePatches(const TriangleMesh<Real>& mesh, std::size_t size, Deal deal = {});
 
-  [[nodiscard]] bool is_for(const TriangleMesh<Real>& mesh, std::size_t size) const {
-    return mesh.identity() == identity_ && size == size_;
+  [[nodiscard]] bool is_for(const TriangleMesh<Real>& mesh, std::size_t size, Deal deal) const {
+    return mesh.identity() == identity_ && size == size_ && deal == deal_;
   }
   [[nodiscard]] const Cut& cut() const { return cut_; }
   [[nodiscard]] std::size_t count() const { return cut_.pieces.size(); }
@@ -59,6 +60,7 @@ class TrianglePatches {
 
   std::uint64_t identity_;
   std::size_t size_;
+  Deal deal_;
   Cut cut_;
   std::vector<TrianglePatch<Real>> patches_;
 };

@@ -26,13 +26,16 @@ class PiecedWindows {
 
   /// `patches` and what they refer to must outlive this.
   PiecedWindows(const TriangleMesh<Real>& mesh, const WindowPatches<Real>& patches)
-      : mesh_(mesh), patches_(patches) {
-    for (Index p = 0; p < patches.count(); ++p) pieces_.emplace_back(patches, p);
+      : mesh_(mesh), patches_(patches), by_number_(patches.count(), nullptr) {
+    for (Index p = 0; p < patches.count(); ++p)
+      if (patches.deal().is_ours(p)) by_number_[p] = &pieces_.emplace_back(patches, p);
   }
+  PiecedWindows(const PiecedWindows&) = delete;
+  PiecedWindows& operator=(const PiecedWindows&) = delete;
 
-  /// As Windows::solve, from points alone. The crew does the work: crew.run(pieces, statistics,
-  /// goes_on) until no window waits (true) or there is a reason to stop, and crew.each(count,
-  /// work).
+  /// As Windows::solve, from points alone. The crew does the work: crew.run(cut, pieces,
+  /// triangles, statistics, goes_on) until no window waits (true) or there is a reason to stop,
+  /// crew.each(count, work), and for processes that share the pieces crew.share and crew.any.
   template <class Crew>
   [[nodiscard]] bool solve(const Crew& crew, const WindowSources& sources,
                            const PropagateOptions& options, const typename Windows::Limit& limit) {
@@ -44,23 +47,25 @@ class PiecedWindows {
         mesh_, sources,
         [&](Index v, double sigma, Index n) {
           for (const auto& place : patches_.places(v))
-            pieces_[place.piece].windows().seed_vertex(place.number, sigma, n);
+            if (Piece* const piece = by_number_[place.piece])
+              piece->windows().seed_vertex(place.number, sigma, n);
         },
         [&](Index f, const std::array<double, 4>& b, double sigma, Index n) {
           const Cut& cut = patches_.cut();
           Windows::for_each_place(
               mesh_.triangles(), f, b, [&](Index g, const std::array<double, 4>& there) {
-                pieces_[cut.piece_of[g]].windows().seed_inside(cut.number_of[g], there, sigma, n);
+                if (Piece* const piece = by_number_[cut.piece_of[g]])
+                  piece->windows().seed_inside(cut.number_of[g], there, sigma, n);
               });
         });
     bool too_many = false;
-    const auto goes_on = [&](std::size_t expansions) {
-      too_many = is_too_much(expansions, limit);
+    const auto goes_on = [&](std::size_t expansions, std::size_t waiting) {
+      too_many = is_too_much(expansions, waiting, limit);
       return !too_many;
     };
     do {
-      complete_ = crew.run(pieces_, mesh_.face_count(), statistics_, goes_on);
-      account();
+      complete_ = crew.run(patches_.cut(), std::span<Piece* const>(by_number_), mesh_.face_count(),
+                           statistics_, goes_on);
       if (too_many) return false;
       gather(crew);
     } while (complete_ && options.radius == std::numeric_limits<double>::infinity() &&
@@ -81,25 +86,21 @@ class PiecedWindows {
   }
 
  private:
+  /// Of a vertex.
+  struct Known {
+    Number distance, error;
+    Index source;
+  };
+
   /// Between supersteps.
-  bool is_too_much(std::size_t expansions, const typename Windows::Limit& limit) {
+  bool is_too_much(std::size_t expansions, [[maybe_unused]] std::size_t waiting,
+                   const typename Windows::Limit& limit) {
     if constexpr (requires { limit.waiting; }) {
-      std::size_t waiting = 0;
-      for (const Piece& piece : pieces_) waiting += piece.windows().most_waiting();
       if (Windows::ties_end(expansions, mesh_.face_count()))
         for (Piece& piece : pieces_) piece.windows().end_ties();
       return expansions > limit.windows || waiting > limit.waiting;
     } else {
       return Windows::too_many(expansions, mesh_.face_count());
-    }
-  }
-
-  void account() {
-    statistics_ = {};
-    for (const Piece& piece : pieces_) {
-      const PropagateStatistics own = piece.statistics();
-      statistics_.expansions += own.expansions;
-      statistics_.updates += own.updates;
     }
   }
 
@@ -110,27 +111,45 @@ class PiecedWindows {
     distance_.assign(vertices, infinity);
     error_.resize(vertices);
     if (labels_) source_.resize(vertices);
-    const auto take = [&](Index v, const Windows& windows, Index i) {
-      distance_[v] = windows.vertex_distance(i);
-      error_[v] = windows.vertex_error(i);
-      if (labels_) source_[v] = windows.source(i);
+    const auto take = [&](Index v, const Known& known) {
+      distance_[v] = known.distance;
+      error_[v] = known.error;
+      if (labels_) source_[v] = known.source;
     };
-    crew.each(pieces_.size(), [&](std::size_t p) {
+    const auto known_of = [&](std::size_t p, Index i) {
+      const Windows& windows = by_number_[p]->windows();
+      return Known{windows.vertex_distance(i), windows.vertex_error(i),
+                   labels_ ? windows.source(i) : none};
+    };
+    crew.each(pieces_.size(), [&](std::size_t k) {
+      const std::size_t p = pieces_[k].number();
       const auto& patch = patches_[p];
       for (std::size_t i = patch.shared; i < patch.vertices.size(); ++i)
-        take(patch.vertices[i], pieces_[p].windows(), static_cast<Index>(i));
+        take(patch.vertices[i], known_of(p, static_cast<Index>(i)));
     });
     // Pieces differ where the radius or the budget ended the exchange, and in whose equal way they
-    // keep.
-    for (std::size_t p = 0; p < pieces_.size(); ++p) {
+    // keep: the first's.
+    std::vector<std::vector<Known>> others(patches_.count());
+    crew.share(
+        patches_.count(),
+        [&](std::size_t p, auto& parcel) {
+          for (Index i = 0; i < patches_[p].vertices.size(); ++i) parcel.add(known_of(p, i));
+        },
+        [&](std::size_t p, auto mail) {
+          const auto& patch = patches_[p];
+          for (Index i = 0; i < patch.shared; ++i) others[p].push_back(mail.template take<Known>());
+          for (std::size_t i = patch.shared; i < patch.vertices.size(); ++i)
+            take(patch.vertices[i], mail.template take<Known>());
+        });
+    for (std::size_t p = 0; p < patches_.count(); ++p) {
       const auto& patch = patches_[p];
-      const Windows& windows = pieces_[p].windows();
       for (Index i = 0; i < patch.shared; ++i) {
         const Index v = patch.vertices[i];
-        const Number d = windows.vertex_distance(i);
+        const Known known = by_number_[p] != nullptr ? known_of(p, i) : others[p][i];
+        const Number d = known.distance;
         if (d < distance_[v] ||
-            (labels_ && d == distance_[v] && d < infinity && windows.source(i) < source_[v]))
-          take(v, windows, i);
+            (labels_ && d == distance_[v] && d < infinity && known.source < source_[v]))
+          take(v, known);
       }
     }
   }
@@ -139,14 +158,16 @@ class PiecedWindows {
   template <class Crew>
   bool fill_holes(const Crew& crew) {
     std::vector<char> any(pieces_.size(), 0);
-    crew.each(pieces_.size(), [&](std::size_t p) {
-      const Windows& windows = pieces_[p].windows();
-      any[p] = Windows::fill_holes(
+    crew.each(pieces_.size(), [&](std::size_t k) {
+      const Windows& windows = pieces_[k].windows();
+      const std::size_t p = pieces_[k].number();
+      any[k] = Windows::fill_holes(
           std::span<const TriangleRecord<Real>>(patches_[p].triangles),
           static_cast<Index>(patches_.cut().pieces[p].own),
           [&](Index v) { return windows.vertex_distance(v); }, [](Index, Index, Number) {});
     });
-    if (std::none_of(any.begin(), any.end(), [](char one) { return one != 0; })) return false;
+    if (!crew.any(std::any_of(any.begin(), any.end(), [](char one) { return one != 0; })))
+      return false;
     return Windows::fill_holes(
         mesh_.triangles(), static_cast<Index>(mesh_.face_count()),
         [&](Index v) { return distance_[v]; },
@@ -155,13 +176,15 @@ class PiecedWindows {
           error_[w] = error_[v];
           if (labels_) source_[w] = source_[v];
           for (const auto& place : patches_.places(w))
-            pieces_[place.piece].windows().seed_hole(place.number, way, source(v), error_[v]);
+            if (Piece* const piece = by_number_[place.piece])
+              piece->windows().seed_hole(place.number, way, source(v), error_[v]);
         });
   }
 
   const TriangleMesh<Real>& mesh_;
   const WindowPatches<Real>& patches_;
-  std::deque<Piece> pieces_;
+  std::deque<Piece> pieces_;  ///< ours
+  std::vector<Piece*> by_number_;
   bool labels_ = false, complete_ = true;
   PropagateStatistics statistics_;
   std::vector<Number> distance_, error_;

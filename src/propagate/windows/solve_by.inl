@@ -17,7 +17,7 @@ namespace plexway::windows {
 template <class Real>
 template <class Crew>
 auto& WindowSolver<Real>::exact(const Crew& crew) {
-  Pieces& all = pieces(crew.piece_size());
+  Pieces& all = pieces(crew.piece_size(), crew.deal());
   if (!all.exact) all.exact.emplace(mesh_, all.patches);
   return *all.exact;
 }
@@ -25,7 +25,7 @@ auto& WindowSolver<Real>::exact(const Crew& crew) {
 template <class Real>
 template <class Crew>
 auto& WindowSolver<Real>::merged(const Crew& crew) {
-  Pieces& all = pieces(crew.piece_size());
+  Pieces& all = pieces(crew.piece_size(), crew.deal());
   if (!all.merged) all.merged.emplace(mesh_, all.patches);
   return *all.merged;
 }

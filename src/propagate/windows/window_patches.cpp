@@ -34,11 +34,16 @@ Cut cut_of(const TriangleMesh<Real>& mesh, std::size_t size) {
 
 template <class Real>
 WindowPatches<Real>::WindowPatches(const TriangleMesh<Real>& mesh, const VertexAngles& angles,
-                                   std::size_t size)
-    : mesh_(mesh), size_(size), cut_(cut_of(mesh, size)), patches_(cut_.pieces.size()) {
+                                   std::size_t size, Deal deal)
+    : mesh_(mesh),
+      size_(size),
+      deal_(deal),
+      cut_(cut_of(mesh, size)),
+      patches_(cut_.pieces.size()) {
   const auto triangles = mesh.triangles();
   std::vector<Index> last(mesh.vertex_count(), none);  // piece that a vertex was seen in
   for (Index p = 0; p < patches_.size(); ++p) {
+    if (!deal.is_ours(p)) continue;
     const CutPiece& piece = cut_.pieces[p];
     for (std::size_t i = 0; i < piece.own; ++i)
       for (const Index v : triangles[piece.simplices[i]].corner) last[v] = p;
@@ -46,15 +51,17 @@ WindowPatches<Real>::WindowPatches(const TriangleMesh<Real>& mesh, const VertexA
       return last[triangles[f].corner[e]] == p || last[triangles[f].corner[edge_after(e)]] == p;
     });
   }
-  number_vertices(cut_, mesh.vertex_count(), patches_);
+  number_vertices(mesh, cut_, patches_);
   place_begin_.assign(mesh.vertex_count() + 1, 0);
-  for (Patch& patch : patches_) {
+  for (Index p = 0; p < patches_.size(); ++p) {
+    Patch& patch = patches_[p];
+    for (const Index v : patch.vertices) ++place_begin_[v + 1];
+    if (!deal.is_ours(p)) continue;
     patch.angles.total.reserve(patch.vertices.size());
     patch.angles.kind.reserve(patch.vertices.size());
     for (const Index v : patch.vertices) {
       patch.angles.total.push_back(angles.total[v]);
       patch.angles.kind.push_back(angles.kind[v]);
-      ++place_begin_[v + 1];
     }
   }
   for (std::size_t v = 0; v < mesh.vertex_count(); ++v) place_begin_[v + 1] += place_begin_[v];

@@ -7,6 +7,7 @@
 #include <plexway/complex/triangle_mesh.hpp>
 
 #include "complex/cut.hpp"
+#include "complex/deal.hpp"
 #include "propagate/windows/sheet.hpp"
 #include "propagate/windows/vertex_angles.hpp"
 
@@ -28,10 +29,13 @@ class WindowPatches {
     Index piece, number;
   };
 
-  /// About `size` triangles each. `mesh` must outlive this.
-  WindowPatches(const TriangleMesh<Real>& mesh, const VertexAngles& angles, std::size_t size);
+  /// About `size` triangles each. Those that are not ours have vertices alone. `mesh` must outlive
+  /// this.
+  WindowPatches(const TriangleMesh<Real>& mesh, const VertexAngles& angles, std::size_t size,
+                Deal deal);
 
   [[nodiscard]] std::size_t size() const { return size_; }
+  [[nodiscard]] Deal deal() const { return deal_; }
   [[nodiscard]] const Cut& cut() const { return cut_; }
   [[nodiscard]] std::size_t count() const { return patches_.size(); }
   [[nodiscard]] const Patch& operator[](std::size_t piece) const { return patches_[piece]; }
@@ -47,6 +51,7 @@ class WindowPatches {
  private:
   const TriangleMesh<Real>& mesh_;
   std::size_t size_;
+  Deal deal_;
   Cut cut_;
   std::vector<Patch> patches_;
   std::vector<Index> place_begin_;

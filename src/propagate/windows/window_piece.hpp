@@ -37,10 +37,18 @@ class WindowPiece {
     horizon_ = 0;
   }
 
+  [[nodiscard]] Index number() const { return number_; }
   [[nodiscard]] const CutPiece& cut() const { return patches_->cut().pieces[number_]; }
   [[nodiscard]] Outboxes& mail() { return mail_; }
   [[nodiscard]] double nearest() const { return windows_.nearest(); }
   [[nodiscard]] PropagateStatistics statistics() const { return windows_.statistics(); }
+  /// Windows that take room.
+  [[nodiscard]] std::size_t weight() const {
+    if constexpr (requires { windows_.most_waiting(); })
+      return windows_.most_waiting();
+    else
+      return 0;
+  }
 
   void take(Letter letter) {
     if (letter.tells_of_vertex() && letter.corner != none) {

@@ -51,10 +51,10 @@ MergedWindows<Real>& WindowSolver<Real>::merged(const Alone&) {
 }
 
 template <class Real>
-typename WindowSolver<Real>::Pieces& WindowSolver<Real>::pieces(std::size_t size) {
-  if (!pieces_ || pieces_->patches.size() != size) {
+typename WindowSolver<Real>::Pieces& WindowSolver<Real>::pieces(std::size_t size, Deal deal) {
+  if (!pieces_ || pieces_->patches.size() != size || pieces_->patches.deal() != deal) {
     pieces_.reset();  // its memory first
-    pieces_.reset(new Pieces{WindowPatches<Real>(mesh_, angles_, size), {}, {}});
+    pieces_.reset(new Pieces{WindowPatches<Real>(mesh_, angles_, size, deal), {}, {}});
   }
   return *pieces_;
 }

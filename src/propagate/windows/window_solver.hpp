@@ -83,7 +83,7 @@ class WindowSolver {
   [[nodiscard]] auto& exact(const Crew& crew);
   template <class Crew>
   [[nodiscard]] auto& merged(const Crew& crew);
-  [[nodiscard]] Pieces& pieces(std::size_t size);
+  [[nodiscard]] Pieces& pieces(std::size_t size, Deal deal);
 
   const TriangleMesh<Real>& mesh_;
   std::uint64_t identity_;

@@ -1,0 +1,196 @@
+#include <catch2/catch.hpp>
+
+#include <array>
+#include <atomic>
+#include <cstddef>
+#include <functional>
+#include <limits>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <plexway/error.hpp>
+#include <plexway/solve.hpp>
+
+#include "complex/jittered.hpp"
+#include "complex/test_solids.hpp"
+#include "executors/parity.hpp"
+#include "executors/piece_testing.hpp"
+#include "executors/thread_ranks.hpp"
+#include "propagate/solid_solving.hpp"
+#include "propagate/solving.hpp"
+#include "with_accuracy.hpp"
+
+// Pieces shared by several processes (OpenMP::ranks), which are threads here. By MPI: tests/mpi.
+
+using namespace plexway;
+using namespace plexway::testing;
+
+namespace {
+
+/// Ranks and the threads of each.
+using Crews = std::vector<std::pair<std::size_t, int>>;
+const Crews few = {{2, 1}, {3, 2}}, many = {{1, 1}, {1, 2}, {2, 1}, {2, 2}, {4, 1}, {4, 2}, {7, 1}};
+
+OpenMP among(OpenMP executor, PieceRanks& ranks) {
+  executor.ranks = &ranks;
+  return executor;
+}
+
+template <class Real>
+bool same_counts(const DistanceField<Real>& a, const DistanceField<Real>& b) {
+  return a.statistics.supersteps == b.statistics.supersteps &&
+         a.statistics.letters == b.statistics.letters &&
+         a.statistics.letter_bytes == b.statistics.letter_bytes;
+}
+
+/// Does every rank get what one process gets, also in a second solve with the same memory?
+template <class Domain>
+void check_same_bits(const Domain& domain, const std::vector<PointSource>& sources,
+                     const PropagateOptions& options, std::size_t size, const Crews& crews = few) {
+  using Real = typename Domain::Number;
+  const auto alone = solve(pieces(2, size), domain, sources, options);
+  REQUIRE(alone.statistics.sent_bytes == 0);
+  for (const auto& [count, threads] : crews) {
+    std::atomic<std::size_t> wrong{0}, sent{0};
+    ThreadRanks(count).run([&, threads = threads](PieceRanks& ranks) {
+      Workspace<Real> workspace;
+      DistanceField<Real> field;
+      for (int again = 0; again < 2; ++again) {
+        solve(among(pieces(threads, size), ranks), domain, sources, options, workspace, field);
+        wrong += !same_bits(alone, field) || !same_counts(alone, field) ||
+                 field.error != alone.error || !(field.accuracy == alone.accuracy);
+        sent += field.statistics.sent_bytes;
+        if (again == 0)  // whatever the workspace did before
+          solve(among(pieces(threads, 2 * size), ranks), domain, sources, options, workspace,
+                field);
+      }
+    });
+    INFO(count << " ranks, " << threads << " threads");
+    CHECK(wrong == 0);
+    CHECK((sent > 0) == (count > 1 && alone.statistics.supersteps > 0));
+  }
+}
+
+/// A square whose left half is slower: paths are refracted.
+TriangleMesh<float> two_speeds(Index n) {
+  const Surface s = grid(n, n);
+  auto lengths = lengths_of(s);
+  for (std::size_t f = 0; f < s.faces.size(); ++f) {
+    double x = 0;
+    for (const Index v : s.faces[f]) x += s.positions[v][0] / 3;
+    for (double& length : lengths[f]) length *= x < 0.5 ? 1.7 : 1;
+  }
+  SurfaceHints hints;
+  hints.refracts = true;
+  return {s.positions.size(), s.faces, lengths, hints};
+}
+
+}  // namespace
+
+TEST_CASE("ranks: any number of ranks and threads has the bits of one process", "[threads]") {
+  const auto mesh = jittered(20, 5).mesh<float>();
+  check_same_bits(mesh, random_sources(mesh, 3, 1), at(Accuracy::fast()), 50, many);
+  check_same_bits(mesh, random_sources(mesh, 3, 2), {}, 50, many);
+  const auto solid = l_shape(6).mesh<double>();
+  check_same_bits(solid, random_sources(solid, 3, 3), {}, 60, many);
+}
+
+TEMPLATE_TEST_CASE("ranks: labels on surfaces have the bits of one process", "[threads]", float,
+                   double) {
+  unsigned seed = 0;
+  for (const Surface& s : surfaces()) {
+    INFO("surface " << seed);
+    const auto mesh = s.mesh<TestType>();
+    const std::size_t count = ++seed % 2 == 0 ? 1 : 5;
+    check_same_bits(mesh, random_sources(mesh, count, seed), at(Accuracy::fast()), 70);
+  }
+}
+
+TEST_CASE("ranks: other rules, refraction, points inside of triangles", "[threads]") {
+  const auto mesh = jittered(24, 3).mesh<float>();
+  PropagateOptions options = at(Accuracy::fast());
+  options.visibility = Visibility::centroid;
+  check_same_bits(mesh, random_sources(mesh, 3, 1), options, 50);
+  options.visibility = Visibility::saddles;
+  check_same_bits(mesh, {PointSource::in(17, {0.2, 0.5, 0.3}), PointSource::at(3)}, options, 50);
+  check_same_bits(mesh, {PointSource::in(17, {0.2, 0.5, 0.3})}, {}, 50);
+  const auto refracting = two_speeds(16);
+  check_same_bits(refracting, random_sources(refracting, 2, 5), options, 30);
+}
+
+TEMPLATE_TEST_CASE("ranks: windows have the bits of one process", "[threads]", float, double) {
+  unsigned seed = 0;
+  for (const Surface& s : surfaces()) {
+    INFO("surface " << seed);
+    const auto mesh = s.mesh<TestType>();
+    const std::size_t count = ++seed % 2 == 0 ? 1 : 4;
+    check_same_bits(mesh, random_sources(mesh, count, seed), {}, 90);
+    if (sizeof(TestType) == 8 && mesh.face_count() < 700)
+      check_same_bits(mesh, random_sources(mesh, 2, seed), at(Accuracy::exact()), 90);
+  }
+}
+
+TEMPLATE_TEST_CASE("ranks: solids have the bits of one process", "[threads]", float, double) {
+  unsigned seed = 0;
+  for (const Solid& solid : {solid_cube(5), l_shape(6), walled(8, 0.25), pipe(12, 3, 4),
+                             edge_touch(6), vertex_touch(4)}) {
+    INFO("solid " << seed);
+    const auto mesh = solid.mesh<TestType>();
+    for (const Visibility visibility : {Visibility::saddles, Visibility::centroid}) {
+      PropagateOptions options;
+      options.visibility = visibility;
+      ++seed;
+      check_same_bits(mesh, random_sources(mesh, 1 + seed % 3, seed), options, 100);
+    }
+  }
+}
+
+TEST_CASE("ranks: a radius and a budget mean what they mean in one process", "[threads]") {
+  const auto mesh = sphere(3).mesh<double>();
+  const auto solid = walled(8, 0.25).mesh<double>();
+  const auto sources = random_sources(mesh, 2, 3), inside = random_sources(solid, 2, 4);
+  for (const Accuracy accuracy : {Accuracy::fast(), Accuracy::accurate(), Accuracy::exact()}) {
+    PropagateOptions options = at(accuracy);
+    options.radius = 0.7;
+    check_same_bits(mesh, sources, options, 50);
+    options = at(accuracy);
+    for (const std::size_t most : {37u, 1500u}) {
+      options.max_expansions = most;
+      INFO("at most " << most);
+      check_same_bits(mesh, sources, options, 50);
+    }
+  }
+  PropagateOptions options;
+  options.radius = 0.5;
+  check_same_bits(solid, inside, options, 60);
+  options = {};
+  for (const std::size_t most : {1u, 900u}) {
+    options.max_expansions = most;
+    check_same_bits(solid, inside, options, 60);
+  }
+}
+
+TEST_CASE("ranks: what is one piece, or not in pieces, each solves for itself", "[threads]") {
+  const auto mesh = grid(8, 8).mesh<float>();
+  check_same_bits(mesh, random_sources(mesh, 2, 1), {}, 1000);
+  std::vector<std::array<double, 3>> places;
+  std::vector<std::array<Index, 2>> edges;
+  for (Index i = 0; i < 60; ++i) {
+    places.push_back({i % 7 * 1., i % 5 * 1.3, i % 3 * 0.7});
+    if (i > 0) edges.push_back({i - 1, i});
+    if (i > 6) edges.push_back({i - 7, i});
+  }
+  const Wireframe<float> wires(places, edges);
+  check_same_bits(wires, random_sources(wires, 2, 1), {}, 20);
+}
+
+TEST_CASE("ranks: one that fails is heard", "[threads]") {
+  const auto mesh = sphere(4).mesh<float>();
+  CHECK_THROWS_AS(ThreadRanks(3).run([&](PieceRanks& ranks) {
+    PropagateOptions options;
+    if (ranks.rank() == 1) options.radius = -1;
+    (void)solve(among(pieces(1, 50), ranks), mesh, random_sources(mesh, 1, 1), options);
+  }),
+                  UsageError);
+}
