@@ -29,7 +29,12 @@ AnyDomain::AnyDomain(AnyShape shape, const BuildOptions& options) {
   auto prepared = with_file_name(shape, [&] { return prepare(shape, options); });
   state_ = std::make_shared<const State>(State{
       std::move(shape), std::move(prepared),
-      BuildOptions{options.precision, options.triangulation, options.lengths, options.mask, {}},
+      BuildOptions{options.precision,
+                   options.triangulation,
+                   options.lengths,
+                   options.mask,
+                   options.threads,
+                   {}},
       building.seconds()});
 }
 
