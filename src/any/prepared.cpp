@@ -130,9 +130,7 @@ class PreparedSurface final : public PreparedKind<TriangleMesh<Real>> {
   }
 
  private:
-  [[nodiscard]] Making making() const {
-    return {this->shape_, lengths_, mask_.get(), threads_};
-  }
+  [[nodiscard]] Making making() const { return {this->shape_, lengths_, mask_.get(), threads_}; }
   static TriangulatedSurface<Real> open(KeptIn& in, TriangulationReport& report) {
     std::uint32_t done = 0;
     bool delaunay = false;

@@ -4,14 +4,13 @@
 #include <array>
 #include <cstddef>
 #include <limits>
-#include <memory>
 #include <mutex>
 #include <span>
-#include <type_traits>
 #include <utility>
 #include <vector>
 
 #include <plexway/complex/blocks.hpp>
+#include <plexway/complex/detail/unfilled.hpp>
 #include <plexway/complex/ids.hpp>
 
 namespace plexway {
@@ -93,27 +92,5 @@ void tell_vertices(std::span<const Index> first_use, std::size_t simplices, int 
   for (const std::vector<Late>& others : late)
     for (const Late& one : others) apply(one.vertex, one.item);
 }
-
-/// Leaves new elements as memory has them, so that who fills them is the first to touch it. Plain
-/// data needs no more to be there.
-template <class T>
-struct UnfilledAllocator : std::allocator<T> {
-  template <class U>
-  struct rebind {
-    using other = UnfilledAllocator<U>;
-  };
-  using std::allocator<T>::allocator;
-  template <class U>
-  void construct(U*) {
-    static_assert(std::is_trivially_copyable_v<U> && std::is_trivially_destructible_v<U>);
-  }
-  template <class U, class... From>
-  void construct(U* place, From&&... from) {
-    ::new (static_cast<void*>(place)) U(std::forward<From>(from)...);
-  }
-};
-/// An array whose elements, plain data, are not set when it is made larger.
-template <class T>
-using Unfilled = std::vector<T, UnfilledAllocator<T>>;
 
 }  // namespace plexway

@@ -115,9 +115,7 @@ FaceLayout::FaceLayout(std::size_t vertices, std::vector<Index> order, Triples c
 void FaceLayout::take_gluing(std::size_t vertices, int threads) {
   name_vertices(vertices);
   const Index sentinel = pack(static_cast<Index>(face.size()), 0);
-  const auto over = [&](Index h) {
-    return across[h >> Across::face_shift][h & Across::edge_mask];
-  };
+  const auto over = [&](Index h) { return across[h >> Across::face_shift][h & Across::edge_mask]; };
   struct Count {
     bool turns = false, flips = false;
     std::size_t in_pairs = 0, single = 0, cycles = 0;
@@ -203,8 +201,7 @@ void FaceLayout::name_vertices(std::size_t vertices) {
 std::vector<Index> FaceLayout::vertices_outside(int threads) const {
   std::vector<Index> outside(vertex_to_inside.size());
   over_blocks(outside.size(), threads, [&](std::size_t first, std::size_t last) {
-    for (std::size_t v = first; v < last; ++v)
-      outside[vertex_to_inside[v]] = static_cast<Index>(v);
+    for (std::size_t v = first; v < last; ++v) outside[vertex_to_inside[v]] = static_cast<Index>(v);
   });
   return outside;
 }

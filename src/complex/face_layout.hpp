@@ -32,14 +32,14 @@ class FaceLayout {
   FaceLayout(std::size_t vertices, std::vector<Index> order, Triples corners, Triples gluing,
              int threads);
 
-  std::vector<Index> face;      ///< the caller's, of each inside
-  Triples corner;               ///< vertices inside
-  Triples across;               ///< packed as Across; face_count() on a boundary
-  std::vector<char> turned;     ///< empty if none is
+  std::vector<Index> face;   ///< the caller's, of each inside
+  Triples corner;            ///< vertices inside
+  Triples across;            ///< packed as Across; face_count() on a boundary
+  std::vector<char> turned;  ///< empty if none is
   std::vector<Index> vertex_to_inside;
   std::vector<Index> face_to_inside;
   std::vector<Index> first_use;  ///< vertices named before each block of faces: tell_vertices
-  std::size_t named = 0;  ///< vertices of faces; the others are behind them
+  std::size_t named = 0;         ///< vertices of faces; the others are behind them
   std::size_t edges = 0, boundary_edges = 0, non_manifold_edges = 0;
   bool orientable = true;
   bool flips = false;  ///< is Across::flip set anywhere?

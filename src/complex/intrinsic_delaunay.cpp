@@ -308,9 +308,9 @@ TriangleMesh<Real> IntrinsicDelaunay::mesh(const SaddleThresholds& saddles) cons
       }
     });
     std::vector<Index> order(state_->face_of_slot.begin(), state_->face_of_slot.end());
-    return {FaceLayout(vertices, std::move(order), std::move(faces), std::move(across),
-                       hints.threads),
-            shapes, hints};
+    return {
+        FaceLayout(vertices, std::move(order), std::move(faces), std::move(across), hints.threads),
+        shapes, hints};
   }
   // New triangles lie behind all others: they need a new order.
   const auto face_of = [&](Index slot) { return state_->face_of_slot[slot]; };
@@ -449,8 +449,8 @@ TriangulationShape measure(const FaceLayout& layout, const TriangleShapes& shape
     }
   });
   return measure<Real>(
-      static_cast<Index>(m), threads,
-      [&](std::size_t f, std::size_t i) -> const auto& { return corner[f][i]; },
+      static_cast<Index>(m),
+      threads, [&](std::size_t f, std::size_t i) -> const auto& { return corner[f][i]; },
       [&](std::size_t f, std::size_t i) { return layout.across[f][i]; });
 }
 
@@ -497,7 +497,8 @@ TriangulatedSurface<Real> triangulate(std::span<const std::array<double, 3>> pos
   const DelaunaySummary& summary = delaunay.summary();
   const bool same = summary.flips + summary.inserted_vertices == 0;
   if (same) delaunay.release_triangles();
-  TriangleMesh<Real> mesh = same ? TriangleMesh<Real>(positions, faces, hints) : delaunay.mesh<Real>();
+  TriangleMesh<Real> mesh =
+      same ? TriangleMesh<Real>(positions, faces, hints) : delaunay.mesh<Real>();
   if (!same) delaunay.release_triangles();
   return {std::move(mesh), std::move(delaunay), done};
 }

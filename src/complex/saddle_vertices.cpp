@@ -81,15 +81,13 @@ void mark_saddles(std::span<TriangleRecord<Real>> triangles, const VertexFans& f
 
   std::vector<char> saddle(vertices);
   {
-    const std::vector<Neighbourhood> around =
-        look_around<Real>(all.first(all.size() - 1), first_use, excess, fans.on_boundary,
-                          hints.threads);
+    const std::vector<Neighbourhood> around = look_around<Real>(
+        all.first(all.size() - 1), first_use, excess, fans.on_boundary, hints.threads);
     over_blocks(vertices, hints.threads, [&](std::size_t first, std::size_t last) {
       for (std::size_t v = first; v < last; ++v)
         saddle[v] = fans.on_boundary[v] ? excess[v] > hints.saddles.boundary
-                    : hints.samples
-                        ? excess[v] > 0 && around[v].sum > 0
-                        : is_inner_saddle(excess[v], around[v], least, hints.saddles);
+                    : hints.samples     ? excess[v] > 0 && around[v].sum > 0
+                                    : is_inner_saddle(excess[v], around[v], least, hints.saddles);
     });
   }
   for (std::size_t r = 0; r < fans.irregular.size(); ++r) {

@@ -75,7 +75,8 @@ std::array<std::uint64_t, 4> ascending(const std::array<Index, 4>& tet) {
       ": at most two can");
 }
 
-// Glues what is in the buckets of the vertices from `begin` to `stop`; end[v]: where that of v ends.
+// Glues what is in the buckets of the vertices from `begin` to `stop`; end[v]: where that of v
+// ends.
 void glue_buckets(FaceSide* sides, std::span<const Index> end, std::size_t begin, std::size_t stop,
                   TetGluing& across) {
   constexpr std::ptrdiff_t few = 96;

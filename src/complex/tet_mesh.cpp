@@ -214,9 +214,9 @@ void TetMesh<Real>::assemble(std::size_t vertices, std::span<const std::array<In
           for (Index i = 0; i < 4; ++i) {
             const Index k = corner_inside(t, i), o = across[t][i];
             corner[inside][k] = vertex_to_inside[tets[t][i]];
-            over[inside][k] = o == none ? none
-                                        : 4 * (tet_to_inside[o / 4] & ~turned) +
-                                              corner_inside(o / 4, o % 4);
+            over[inside][k] =
+                o == none ? none
+                          : 4 * (tet_to_inside[o / 4] & ~turned) + corner_inside(o / 4, o % 4);
             on_boundary += o == none;
           }
         }
@@ -257,19 +257,21 @@ void TetMesh<Real>::assemble(std::size_t vertices, std::span<const std::array<In
   };
   constexpr auto packed = [](Index tet, Index face) { return tet << TetAcross::tet_shift | face; };
   const Index sentinel = packed(static_cast<Index>(m), 0);
-  std::vector<TetRecord<Real>>& records = tets_.own();
-  records.reserve(m + 1);
-  for (std::size_t t = 0; t < m; ++t) {
-    Vector3<double> centre = {0, 0, 0};
-    if (summary_.embedded)
-      for (const Index v : corner[t]) centre = centre + 0.25 * at[v];
-    const auto side = [&](std::size_t i) { return over[t][i] == none ? sentinel : over[t][i]; };
-    records.push_back({{side(0), side(1), side(2), side(3)},
-                       {corner[t][0], corner[t][1], corner[t][2], corner[t][3]},
-                       rounded(centre),
-                       summary_.embedded ? topology.first_reflex[t] : none});
-  }
-  records.push_back({{sentinel, sentinel, sentinel, sentinel}, {0, 0, 0, 0}, {0, 0, 0}, none});
+  auto& records = tets_.own();
+  records.resize(m + 1);
+  over_blocks(m, threads, [&](std::size_t first, std::size_t last) {
+    for (std::size_t t = first; t < last; ++t) {
+      Vector3<double> centre = {0, 0, 0};
+      if (summary_.embedded)
+        for (const Index v : corner[t]) centre = centre + 0.25 * at[v];
+      const auto side = [&](std::size_t i) { return over[t][i] == none ? sentinel : over[t][i]; };
+      records[t] = {{side(0), side(1), side(2), side(3)},
+                    {corner[t][0], corner[t][1], corner[t][2], corner[t][3]},
+                    rounded(centre),
+                    summary_.embedded ? topology.first_reflex[t] : none};
+    }
+  });
+  records[m] = {{sentinel, sentinel, sentinel, sentinel}, {0, 0, 0, 0}, {0, 0, 0}, none};
 
   if (summary_.embedded) {
     points_.own().reserve(vertices);

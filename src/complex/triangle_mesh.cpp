@@ -194,10 +194,9 @@ TriangleMesh<Real>::TriangleMesh(std::size_t vertices, std::span<const std::arra
     shorten_each(agreed);
   else
     shorten_to_triangles(agreed, across);
-  assemble(
-      {vertices, faces, hints.order.empty() ? breadth_first(across) : copy_of(hints.order), across,
-       hints.threads},
-      ShapesOfLengths(agreed, violated), hints);
+  assemble({vertices, faces, hints.order.empty() ? breadth_first(across) : copy_of(hints.order),
+            across, hints.threads},
+           ShapesOfLengths(agreed, violated), hints);
 }
 
 template <class Real>
@@ -224,28 +223,31 @@ void TriangleMesh<Real>::assemble(FaceLayout layout, const TriangleShapes& shape
   VertexFans fans = find_vertex_fans(layout, hints.threads);
 
   // What the layout says goes into the records, so that it need not be held while they are filled.
-  std::vector<TriangleRecord<Real>>& triangles = triangles_.own();
-  triangles.reserve(m + 1);
-  for (std::size_t f = 0; f < m; ++f) {
-    const auto &o = layout.across[f], &v = layout.corner[f];
-    triangles.push_back({{o[0], o[1], o[2]},
-                         {},
-                         {},
-                         {},
-                         {v[0], v[1], v[2]},
-                         layout.face[f] | (layout.is_turned(f) ? reversed : 0)});
-  }
+  auto& triangles = triangles_.own();
+  triangles.resize(m + 1);
+  over_blocks(m, hints.threads, [&](std::size_t first, std::size_t last) {
+    for (std::size_t f = first; f < last; ++f) {
+      const auto &o = layout.across[f], &v = layout.corner[f];
+      triangles[f] = {{o[0], o[1], o[2]},
+                      {},
+                      {},
+                      {},
+                      {v[0], v[1], v[2]},
+                      layout.face[f] | (layout.is_turned(f) ? reversed : 0)};
+    }
+  });
   const Index sentinel = static_cast<Index>(m) << Across::face_shift;
-  triangles.push_back(
-      {{sentinel, sentinel, sentinel}, {1, 1, 1}, {0, 0, 0}, {1, 1, 1}, {0, 0, 0}, none});
+  triangles[m] = {{sentinel, sentinel, sentinel}, {1, 1, 1}, {0, 0, 0}, {1, 1, 1}, {0, 0, 0}, none};
   vertex_to_inside_ = std::move(layout.vertex_to_inside);
   face_to_inside_ = std::move(layout.face_to_inside);
   const std::vector<Index> first_use = std::move(layout.first_use);
   layout = {};
 
   std::vector<double> angle = take_shapes(shapes, first_use, hints.threads);
-  for (std::size_t v = 0; v < angle.size(); ++v)  // from here on what is more than flat
-    angle[v] -= (fans.on_boundary[v] ? 1 : 2) * std::numbers::pi;
+  over_blocks(angle.size(), hints.threads, [&](std::size_t first, std::size_t last) {
+    for (std::size_t v = first; v < last; ++v)  // from here on what is more than flat
+      angle[v] -= (fans.on_boundary[v] ? 1 : 2) * std::numbers::pi;
+  });
   mark_saddles<Real>(triangles, fans, first_use, std::move(angle), hints);
 
   corner_of_vertex_ = std::move(fans.corner);
@@ -266,7 +268,7 @@ template <class Real>
 std::vector<double> TriangleMesh<Real>::take_shapes(const TriangleShapes& shapes,
                                                     std::span<const Index> first_use, int threads) {
   const std::size_t m = face_count();
-  std::vector<TriangleRecord<Real>>& triangles = triangles_.own();
+  auto& triangles = triangles_.own();
   constexpr std::size_t size = ShapeBlock::size;
   static_assert(building_block % size == 0);
   // Of faces inside, edges as the caller numbers them.

@@ -10,6 +10,7 @@
 #include <plexway/complex/detail/identity.hpp>
 #include <plexway/complex/detail/rows.hpp>
 #include <plexway/complex/detail/tet_record.hpp>
+#include <plexway/complex/detail/unfilled.hpp>
 #include <plexway/complex/ids.hpp>
 #include <plexway/domain/concept.hpp>
 
@@ -153,7 +154,7 @@ class TetMesh {
 
   SolidSummary summary_;
   Identity identity_;
-  Rows<TetRecord<Real>> tets_;
+  Rows<TetRecord<Real>, Unfilled<TetRecord<Real>>> tets_;
   Rows<Vector3<Real>> points_;
   Rows<std::array<Real, 6>> lengths_;
   Rows<ReflexEdge<Real>> reflex_;

@@ -10,6 +10,7 @@
 #include <plexway/complex/detail/identity.hpp>
 #include <plexway/complex/detail/rows.hpp>
 #include <plexway/complex/detail/triangle_record.hpp>
+#include <plexway/complex/detail/unfilled.hpp>
 #include <plexway/complex/ids.hpp>
 #include <plexway/domain/concept.hpp>
 
@@ -218,7 +219,7 @@ class TriangleMesh {
 
   SurfaceSummary summary_;
   Identity identity_;
-  Rows<TriangleRecord<Real>> triangles_;
+  Rows<TriangleRecord<Real>, Unfilled<TriangleRecord<Real>>> triangles_;
   Rows<Index> vertex_to_inside_;
   Rows<Index> face_to_inside_;
   Rows<Index> corner_of_vertex_;  // one corner a vertex (inside), or none

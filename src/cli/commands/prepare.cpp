@@ -30,6 +30,7 @@ struct PrepareCommand {
   CloudPreparation cloud;
   std::string precision = "float";
   TriangulationArgument triangulation;
+  int threads = 0;
   bool json = false;
   bool quiet = false;
 };
@@ -69,7 +70,8 @@ void run_prepare(const PrepareCommand& command) {
   SolveOptions precision;
   precision.precision = command.precision;
   BuildOptions options{.precision = precision_of(precision),
-                       .triangulation = triangulation_of(command.triangulation)};
+                       .triangulation = triangulation_of(command.triangulation),
+                       .threads = command.threads};
   ProgressLine progress(command.quiet);
   const Domain shape =
       load_domain(command.input, command.as, command.fill, command.cloud, progress);
@@ -106,6 +108,9 @@ void add_prepare_command(CLI::App& tool, Action& action) {
   app.add_option("--as", command->as, as_help)->type_name("KIND");
   app.add_option("--precision", command->precision, "float (default) or double")->type_name("NAME");
   add_triangulation_option(app, command->triangulation);
+  app.add_option("--threads", command->threads, "that build it (default: all cores)")
+      ->check(CLI::Range(1, 1024))
+      ->type_name("N");
   app.add_flag("--json", command->json, "print the summary as one JSON object");
   app.add_flag("--quiet,-q", command->quiet, "no summary or progress; errors stay");
   add_fill_options(app, command->fill);
