@@ -1,10 +1,12 @@
 // What building costs before the first solve: surfaces, the same by way of Delaunay triangles, and
-// solids. Times are medians of the processor, one thread; instructions are those of the processor's
-// own counter, which other programs do not disturb (Linux; blank where it is not to be had); memory
-// is what is allocated beyond the input, at the peak and held.
+// solids. Times are medians of the processor, one thread, or with --threads of the clock;
+// instructions are those of the processor's own counter, which other programs do not disturb
+// (Linux; blank where it is not to be had); memory is what is allocated beyond the input, at the
+// peak and held.
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <atomic>
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
@@ -30,7 +32,13 @@
 
 namespace {
 
-std::size_t held = 0, peak = 0;
+std::atomic<std::size_t> held = 0, peak = 0;
+
+void reach(std::size_t now) {
+  std::size_t known = peak;
+  while (known < now && !peak.compare_exchange_weak(known, now)) {
+  }
+}
 
 void* counted(std::size_t size) {
   void* p = std::malloc(size > 0 ? size : 1);
@@ -38,7 +46,7 @@ void* counted(std::size_t size) {
 #ifdef __linux__
   held += malloc_usable_size(p);
 #endif
-  peak = std::max(peak, held);
+  reach(held);
   return p;
 }
 void release(void* p) {
@@ -54,13 +62,12 @@ void* counted(std::size_t size, std::align_val_t align) {
 #ifdef __linux__
   held += malloc_usable_size(p);
 #endif
-  peak = std::max(peak, held);
+  reach(held);
   return p;
 }
 
 }  // namespace
 
-// One thread allocates here.
 void* operator new(std::size_t size) { return counted(size); }
 void* operator new(std::size_t size, std::align_val_t align) { return counted(size, align); }
 void operator delete(void* p) noexcept { release(p); }
@@ -108,21 +115,22 @@ struct Cost {
 
 /// `make` returns what is built, so that what it holds can be told.
 template <class Make>
-Cost measure(std::size_t units, int repeats, const Make& make) {
+Cost measure(std::size_t units, int repeats, bool by_clock, const Make& make) {
   const Instructions counter;
   std::vector<double> times, counts;
   Cost cost;
   const double n = static_cast<double>(units);
   for (int i = 0; i < repeats; ++i) {
     const std::size_t before = held;
-    peak = held;
+    peak = held.load();
     const std::uint64_t start = counter.now();
     std::uint64_t end = start;
-    times.push_back(1e9 / n * bench::processor_seconds([&] {
-                      const auto made = make();
-                      end = counter.now();
-                      cost.held = static_cast<double>(held - before) / n;
-                    }));
+    const auto work = [&] {
+      const auto made = make();
+      end = counter.now();
+      cost.held = static_cast<double>(held - before) / n;
+    };
+    times.push_back(1e9 / n * (by_clock ? bench::seconds(work) : bench::processor_seconds(work)));
     counts.push_back(static_cast<double>(end - start) / n);
     cost.peak = static_cast<double>(peak - before) / n;
   }
@@ -147,13 +155,14 @@ bool is_solid(const std::filesystem::path& file) {
 int main(int argc, char** argv) {
   std::vector<std::string> meshes;
   std::vector<std::size_t> sizes = {400000};
-  int repeats = 5;
+  int repeats = 5, threads = 0;
   double limit = 600;
   bench::Report report;
   CLI::App app("What building costs: a vertex of a surface, a tetrahedron of a solid");
   app.add_option("MESH", meshes, "Surfaces (.obj .off .ply .stl), solids (.node .ele .mesh)");
   app.add_option("--sizes", sizes, "Vertices of generated surfaces besides")->delimiter(',');
   app.add_option("--repeats", repeats, "Of each")->capture_default_str();
+  app.add_option("--threads", threads, "By the clock with so many (default: one, processor time)");
   app.add_option("--limit", limit, "Seconds after which a row is given up")->capture_default_str();
   report.add_options(app);
   CLI11_PARSE(app, argc, argv);
@@ -169,19 +178,23 @@ int main(int argc, char** argv) {
   const auto add = [&](const std::string& input, const char* built, std::size_t units,
                        const auto& make) {
     nlohmann::ordered_json row = {{"input", input}, {"built", built}, {"units", units}};
-    row.update(bench::isolated(limit, [&] { return cells(measure(units, repeats, make)); }));
+    row.update(
+        bench::isolated(limit, [&] { return cells(measure(units, repeats, threads > 0, make)); }));
     table.add(std::move(row));
   };
+  plexway::SurfaceHints hints;
+  hints.threads = std::max(threads, 1);
   const auto add_surface = [&](const bench::Surface& s) {
     const std::size_t n = s.positions.size();
     add(s.name, "surface, float", n,
-        [&] { return plexway::TriangleMesh<float>(s.positions, s.faces); });
+        [&] { return plexway::TriangleMesh<float>(s.positions, s.faces, hints); });
     add(s.name, "surface, double", n,
-        [&] { return plexway::TriangleMesh<double>(s.positions, s.faces); });
+        [&] { return plexway::TriangleMesh<double>(s.positions, s.faces, hints); });
     add(s.name, "surface or what pays, float", n,
-        [&] { return plexway::triangulate<float>(s.positions, s.faces); });
+        [&] { return plexway::triangulate<float>(s.positions, s.faces, {}, hints.threads); });
     add(s.name, "by Delaunay, float", n, [&] {
-      return plexway::triangulate<float>(s.positions, s.faces, plexway::Retriangulation::flips);
+      return plexway::triangulate<float>(s.positions, s.faces, plexway::Retriangulation::flips,
+                                         hints.threads);
     });
   };
   return report.write(table, [&] {
@@ -192,7 +205,7 @@ int main(int argc, char** argv) {
       }
       const auto read = plexway::io::read_tets(mesh);
       add(mesh.stem().string(), "solid, float", read.tets.size(),
-          [&] { return plexway::TetMesh<float>(read.positions, read.tets); });
+          [&] { return plexway::TetMesh<float>(read.positions, read.tets, hints.threads); });
     }
     for (const std::size_t size : sizes) add_surface(bench::bumpy_surface(size));
   });

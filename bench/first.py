@@ -64,6 +64,20 @@ def building(build, scan, folder, data):
             yield "solid, float: instructions a tetrahedron", row.get("instructions")
 
 
+def threads(build, scan, folder, data):
+    """By the clock: what two threads gain; means something on a machine with two idle cores."""
+    solids = glob.glob(os.path.join(data, "solids", "notch_100k.node")) if data else []
+    name = os.path.splitext(os.path.basename(scan))[0]
+    ns = [{(row["input"], row["built"]): row["ns"]
+           for row in build.run("bench_build", scan, *solids, "--sizes", "100000", "--repeats", "3", "--threads", str(n))}
+          for n in (1, 2)]
+    for built in ("surface, float", "by Delaunay, float"):
+        yield f"{built}: two threads, share of the time of one", ns[1][name, built] / ns[0][name, built]
+    for key in ns[0]:
+        if key[1] == "solid, float":
+            yield "solid, float: two threads, share of the time of one", ns[1][key] / ns[0][key]
+
+
 def clouds(build, scan, folder, data):
     for row in build.run("bench_clouds", "--generated", "100000", "--kinds", "sphere", "--sources", "2", "--repeats", "1"):
         yield "cloud of 100,000 points after its neighbours: us a point", row["build_us"]
@@ -116,7 +130,7 @@ def fast(build, scan, folder, data):
     yield f"the same, worst ({max(ratios, key=ratios.get)})", max(ratios.values())
 
 
-PARTS = {"building": building, "clouds": clouds, "whole": whole, "opening": opening, "solids": solids, "fast": fast}
+PARTS = {"building": building, "threads": threads, "clouds": clouds, "whole": whole, "opening": opening, "solids": solids, "fast": fast}
 
 # Of the plan of this work; and what was before.
 ASKED = {
@@ -125,6 +139,7 @@ ASKED = {
     "surface, float: peak bytes a vertex beyond the input": ("220", "282"),
     "Delaunay, float: peak bytes a vertex beyond the input": ("480", "776"),
     "surface, float: held bytes a vertex": ("220", ""),
+    "surface, float: two threads, share of the time of one": ("0.625", "1"),
     "solid, float: ns a tetrahedron": ("200", "430 to 480"),
     "cloud of 100,000 points after its neighbours: us a point": ("2.4", "4.2"),
     "whole command, `fast`: s by the clock": ("0.6", "2.4"),

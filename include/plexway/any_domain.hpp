@@ -49,6 +49,9 @@ struct BuildOptions {
   /// Where no path may go, of surfaces, solids, wireframes and simplices; null: everywhere. Fields,
   /// sources and paths keep the numbers of the shape.
   std::shared_ptr<const Mask> mask = nullptr;
+  /// That build surfaces, solids and clouds; 0: as many as the machine has. The result does not
+  /// depend on it.
+  int threads = 0;
   /// Of clouds: called with the share that is done; returning false stops with Cancelled.
   std::function<bool(double)> progress = {};
 };
@@ -92,8 +95,8 @@ class AnyPathField {
 class AnyDomain {
  public:
   /// Throws InputError, after "FILE: " where the shape has a file, as the domains' constructors do,
-  /// and where a mask leaves nothing; UsageError for a triangulation of what is no surface, and a
-  /// mask of another size.
+  /// and where a mask leaves nothing; UsageError for a triangulation of what is no surface, a mask
+  /// of another size, and fewer than 0 threads.
   explicit AnyDomain(AnyShape shape, const BuildOptions& options = {});
   /// From a file; throws as AnyShape::read, too.
   [[nodiscard]] static AnyDomain read(const std::filesystem::path& file,

@@ -27,10 +27,14 @@ struct AnyDomain::State {
 AnyDomain::AnyDomain(AnyShape shape, const BuildOptions& options) {
   const Stopwatch building;
   auto prepared = with_file_name(shape, [&] { return prepare(shape, options); });
-  state_ = std::make_shared<const State>(State{
-      std::move(shape), std::move(prepared),
-      BuildOptions{options.precision, options.triangulation, options.lengths, options.mask, {}},
-      building.seconds()});
+  state_ = std::make_shared<const State>(State{std::move(shape), std::move(prepared),
+                                               BuildOptions{options.precision,
+                                                            options.triangulation,
+                                                            options.lengths,
+                                                            options.mask,
+                                                            options.threads,
+                                                            {}},
+                                               building.seconds()});
 }
 
 AnyDomain AnyDomain::masked(std::shared_ptr<const Mask> mask) const {

@@ -25,11 +25,13 @@ template <class Real>
 TriangulatedSurface<Real> triangulated(std::optional<Retriangulation> asked,
                                        const io::Triangles& surface, const Making& making) {
   if (making.lengths == nullptr)
-    return triangulate<Real>(surface.positions, making.open(surface.triangles), asked);
+    return triangulate<Real>(surface.positions, making.open(surface.triangles), asked,
+                             making.threads);
   TriangleMesh<Real> mesh = make_complex<Real>(surface, making);
   const Retriangulation done = asked ? *asked : what_pays(measure_triangulation(mesh));
   if (done == Retriangulation::keep) return {std::move(mesh), std::nullopt, done};
-  IntrinsicDelaunay delaunay(make_complex<double>(surface, making), refinement_for(done));
+  IntrinsicDelaunay delaunay(make_complex<double>(surface, making), refinement_for(done),
+                             making.threads);
   if (delaunay.summary().flips + delaunay.summary().inserted_vertices > 0)
     mesh = delaunay.mesh<Real>();
   delaunay.release_triangles();

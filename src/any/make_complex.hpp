@@ -42,6 +42,7 @@ struct Making {
   const AnyShape& shape;
   const MeasuredLengths* lengths = nullptr;  ///< by a metric, or those alone; null: in space
   const Mask* mask = nullptr;                ///< null: all is open
+  int threads = 0;                           ///< 0: all
   std::function<bool(double)> progress = {};
 
   /// Those of the shape that are open.
@@ -64,8 +65,9 @@ struct Making {
 template <class Real>
 TriangleMesh<Real> make_complex(const io::Triangles& surface, const Making& making) {
   const auto open = making.open(surface.triangles);
-  if (making.lengths == nullptr) return {surface.positions, open};
   SurfaceHints hints;
+  hints.threads = making.threads;
+  if (making.lengths == nullptr) return {surface.positions, open, hints};
   hints.refracts = making.lengths->refracts;
   return {making.shape.vertices(), open, making.open(surface.triangles, making.lengths->triangles),
           hints};
@@ -73,8 +75,9 @@ TriangleMesh<Real> make_complex(const io::Triangles& surface, const Making& maki
 template <class Real>
 TetMesh<Real> make_complex(const io::Tets& solid, const Making& making) {
   const auto open = making.open(solid.tets);
-  if (making.lengths == nullptr) return {solid.positions, open};
-  return {making.shape.vertices(), open, making.open(solid.tets, making.lengths->tets)};
+  if (making.lengths == nullptr) return {solid.positions, open, making.threads};
+  return {making.shape.vertices(), open, making.open(solid.tets, making.lengths->tets),
+          making.threads};
 }
 template <class Real>
 Wireframe<Real> make_complex(const io::Edges& wireframe, const Making& making) {
@@ -89,6 +92,7 @@ PointCloud<Real> make_complex(const CloudShape& cloud, const Making& making) {
   CloudOptions options;
   if (cloud.max_normal_angle) options.max_normal_angle = *cloud.max_normal_angle;
   options.normals = cloud.normals();
+  options.threads = making.threads;
   options.progress = making.progress;
   return {cloud.measured(), cloud.neighbours, options};
 }

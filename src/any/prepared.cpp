@@ -53,6 +53,7 @@ class PreparedSurface final : public PreparedKind<TriangleMesh<Real>> {
         kept_(options.lengths),
         lengths_(lengths),
         mask_(options.mask),
+        threads_(options.threads),
         left_open_(options.triangulation == Triangulation::automatic),
         made_(make_surface<Real>(options.triangulation, making(), report_)) {}
   PreparedSurface(const AnyShape& shape, Triangulation asked, KeptIn& in)
@@ -129,7 +130,7 @@ class PreparedSurface final : public PreparedKind<TriangleMesh<Real>> {
   }
 
  private:
-  [[nodiscard]] Making making() const { return {this->shape_, lengths_, mask_.get()}; }
+  [[nodiscard]] Making making() const { return {this->shape_, lengths_, mask_.get(), threads_}; }
   static TriangulatedSurface<Real> open(KeptIn& in, TriangulationReport& report) {
     std::uint32_t done = 0;
     bool delaunay = false;
@@ -195,6 +196,7 @@ class PreparedSurface final : public PreparedKind<TriangleMesh<Real>> {
   std::shared_ptr<const MeasuredLengths> kept_;
   const MeasuredLengths* lengths_;
   std::shared_ptr<const Mask> mask_;
+  int threads_ = 0;
   bool left_open_;
   TriangulationReport report_;
   TriangulatedSurface<Real> made_;
@@ -373,7 +375,7 @@ std::shared_ptr<Prepared> prepare_simplices(const AnyShape& shape, const Mask* m
 template <class Real>
 std::shared_ptr<Prepared> prepare_as(const AnyShape& shape, const BuildOptions& options) {
   const MeasuredLengths* const lengths = options.lengths ? options.lengths.get() : shape.lengths();
-  const Making making{shape, lengths, options.mask.get(), options.progress};
+  const Making making{shape, lengths, options.mask.get(), options.threads, options.progress};
   return std::visit(
       [&](const auto& data) -> std::shared_ptr<Prepared> {
         using Data = std::decay_t<decltype(data)>;
@@ -453,6 +455,7 @@ std::shared_ptr<const Prepared> prepare(const AnyShape& shape, const BuildOption
                      options.triangulation == Triangulation::refined;
   if (asked) support(Purpose::triangulations, shape.kind()).require();
   if (options.lengths) support(Purpose::metrics, shape.kind()).require();
+  if (options.threads < 0) throw UsageError("the number of threads must be 0 (all) or more");
   if (const KeptBuild* const kept = shape.state().kept.get(); kept && kept->answers(options))
     return options.precision == Precision::single ? open_as<float>(shape, *kept)
                                                   : open_as<double>(shape, *kept);

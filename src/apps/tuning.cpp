@@ -41,10 +41,12 @@ struct Prepared {
 Prepared prepare(const TuningSurface& surface, bool automatic) {
   Prepared made;
   if (!automatic) return made;
-  const TriangleMesh<double> input(surface.positions, surface.faces);
+  SurfaceHints hints;
+  hints.threads = 1;  // others are built at the same time
+  const TriangleMesh<double> input(surface.positions, surface.faces, hints);
   const Retriangulation pays = what_pays(measure_triangulation(input));
   if (pays == Retriangulation::keep) return made;
-  made.delaunay.emplace(input, refinement_for(pays));
+  made.delaunay.emplace(input, refinement_for(pays), hints.threads);
   if (made.delaunay->summary().flips + made.delaunay->summary().inserted_vertices == 0)
     made.delaunay.reset();
   return made;
@@ -57,6 +59,7 @@ void build(const TuningSurface& surface, const SaddleThresholds& saddles, Prepar
   }
   SurfaceHints hints;
   hints.saddles = saddles;
+  hints.threads = 1;  // others are built at the same time
   prepared.mesh.emplace(surface.positions, surface.faces, hints);
 }
 

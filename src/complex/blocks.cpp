@@ -11,6 +11,10 @@
 
 namespace plexway {
 
+int threads_for(int asked) {
+  return asked > 0 ? asked : static_cast<int>(std::max(std::thread::hardware_concurrency(), 1u));
+}
+
 void for_blocks(std::size_t count, std::size_t block, int threads,
                 const std::function<bool(double)>& progress,
                 const std::function<void(std::size_t, std::size_t)>& work) {
@@ -44,11 +48,9 @@ void for_blocks(std::size_t count, std::size_t block, int threads,
     }
   };
   const std::size_t blocks = count / block + (count % block != 0);
-  const std::size_t asked = threads > 0
-                                ? static_cast<std::size_t>(threads)
-                                : std::max<std::size_t>(std::thread::hardware_concurrency(), 1);
+  const std::size_t most = blocks > 1 ? static_cast<std::size_t>(threads_for(threads)) : 1;
   std::vector<std::thread> helpers;
-  for (std::size_t i = 1; i < std::min(asked, blocks); ++i) {
+  for (std::size_t i = 1; i < std::min(most, blocks); ++i) {
     try {
       helpers.emplace_back(work_on, false);
     } catch (const std::system_error&) {

@@ -15,24 +15,26 @@ namespace {
 Index pack(Index face, Index edge) { return face << Across::face_shift | edge; }
 
 // Which lie anywhere in memory: asked for some faces ahead.
-void take_corners(std::span<const Index> order, Faces faces,
-                  std::vector<std::array<Index, 3>>& corners) {
+void take_corners(std::span<const Index> order, Faces faces, int threads,
+                  FaceLayout::Triples& corners) {
   constexpr std::size_t ahead = 16;
-  corners.reserve(order.size());
-  for (std::size_t k = 0; k < order.size(); ++k) {
+  corners.resize(order.size());
+  over_blocks(order.size(), threads, [&](std::size_t first, std::size_t last) {
+    for (std::size_t k = first; k < last; ++k) {
 #ifdef __GNUC__
-    if (k + ahead < order.size()) __builtin_prefetch(&faces[order[k + ahead]]);
+      if (k + ahead < order.size()) __builtin_prefetch(&faces[order[k + ahead]]);
 #endif
-    corners.push_back(faces[order[k]]);
-  }
+      corners[k] = faces[order[k]];
+    }
+  });
 }
 
 }  // namespace
 
-FaceLayout::FaceLayout(std::size_t vertices, Faces faces, std::vector<Index> order)
+FaceLayout::FaceLayout(std::size_t vertices, Faces faces, std::vector<Index> order, int threads)
     : face(std::move(order)) {
-  number_faces();
-  take_corners(face, faces, corner);
+  number_faces(threads);
+  take_corners(face, faces, threads, corner);
   name_vertices(vertices);
   across.resize(faces.size());
   const auto number = [&](const EdgeSide& s) {  // the caller's: cycles are in its order
@@ -41,7 +43,8 @@ FaceLayout::FaceLayout(std::size_t vertices, Faces faces, std::vector<Index> ord
   struct Glue {
     FaceLayout& layout;
     Index sentinel;
-    bool turns = false;
+    bool turns = false, flips = false;
+    std::size_t single_edges = 0, inner_edges = 0, cycles = 0;
     void set(Index from, Index to) const {
       layout.across[from >> Across::face_shift][from & Across::edge_mask] = to;
     }
@@ -49,117 +52,157 @@ FaceLayout::FaceLayout(std::size_t vertices, Faces faces, std::vector<Index> ord
     static Index flip(Index a, Index b) { return ~(a ^ b) & Across::flip; }
     void single(Index, const EdgeSide& s) {
       set(s.halfedge, sentinel);
-      ++layout.boundary_edges;
+      ++single_edges;
     }
     void pair(const EdgeSide& a, const EdgeSide& b) {
       const Index same = flip(a.halfedge, b.halfedge);
       turns |= same != 0;
       set(a.halfedge, (b.halfedge & ~Across::flip) | same);
       set(b.halfedge, (a.halfedge & ~Across::flip) | same);
-      ++layout.edges;
+      ++inner_edges;
     }
     void cycle(Index, std::span<const EdgeSide> sides) {
-      ++layout.non_manifold_edges;
+      ++cycles;
       for (std::size_t k = 0; k < sides.size(); ++k) {
         const Index h = sides[k].halfedge, o = sides[k + 1 == sides.size() ? 0 : k + 1].halfedge;
         set(h, (o & ~Across::flip) | flip(h, o) | Across::fan);
-        layout.flips |= flip(h, o) != 0;
+        flips |= flip(h, o) != 0;
       }
+    }
+    void take(const Glue& other) {
+      turns |= other.turns;
+      flips |= other.flips;
+      single_edges += other.single_edges;
+      inner_edges += other.inner_edges;
+      cycles += other.cycles;
     }
   };
   Glue glue{*this, pack(static_cast<Index>(faces.size()), 0)};
   match_edges(
-      named, corner, [&](const EdgeSide& a, const EdgeSide& b) { return number(a) < number(b); },
-      glue);
-  edges += boundary_edges + non_manifold_edges;
+      named, corner, first_use, threads,
+      [&](const EdgeSide& a, const EdgeSide& b) { return number(a) < number(b); }, glue);
+  flips = glue.flips;
+  boundary_edges = glue.single_edges;
+  non_manifold_edges = glue.cycles;
+  edges = glue.inner_edges + boundary_edges + non_manifold_edges;
   if (glue.turns) orient();
 }
 
 FaceLayout::FaceLayout(std::size_t vertices, Faces faces, std::vector<Index> order,
-                       std::span<const std::array<Index, 3>> gluing)
+                       std::span<const std::array<Index, 3>> gluing, int threads)
     : face(std::move(order)) {
-  number_faces();
-  take_corners(face, faces, corner);
+  number_faces(threads);
+  take_corners(face, faces, threads, corner);
   across.resize(face.size());
-  for (std::size_t inside = 0; inside < face.size(); ++inside)
-    for (std::size_t i = 0; i < 3; ++i) {
-      const Index h = gluing[face[inside]][i];
-      across[inside][i] = h == none ? none : pack(face_to_inside[h / 3], h % 3);
-    }
-  take_gluing(vertices);
+  over_blocks(face.size(), threads, [&](std::size_t first, std::size_t last) {
+    for (std::size_t inside = first; inside < last; ++inside)
+      for (std::size_t i = 0; i < 3; ++i) {
+        const Index h = gluing[face[inside]][i];
+        across[inside][i] = h == none ? none : pack(face_to_inside[h / 3], h % 3);
+      }
+  });
+  take_gluing(vertices, threads);
 }
 
-FaceLayout::FaceLayout(std::size_t vertices, std::vector<Index> order,
-                       std::vector<std::array<Index, 3>> corners,
-                       std::vector<std::array<Index, 3>> gluing)
+FaceLayout::FaceLayout(std::size_t vertices, std::vector<Index> order, Triples corners,
+                       Triples gluing, int threads)
     : face(std::move(order)), corner(std::move(corners)), across(std::move(gluing)) {
-  number_faces();
-  take_gluing(vertices);
+  number_faces(threads);
+  take_gluing(vertices, threads);
 }
 
 // Marks the gluing and counts its edges.
-void FaceLayout::take_gluing(std::size_t vertices) {
+void FaceLayout::take_gluing(std::size_t vertices, int threads) {
   name_vertices(vertices);
   const Index sentinel = pack(static_cast<Index>(face.size()), 0);
-  const auto over = [&](Index h) {
-    return across[h >> Across::face_shift][h & Across::edge_mask] & ~Across::special;
+  const auto over = [&](Index h) { return across[h >> Across::face_shift][h & Across::edge_mask]; };
+  struct Count {
+    bool turns = false, flips = false;
+    std::size_t in_pairs = 0, single = 0, cycles = 0;
   };
-  bool turns = false;
-  std::size_t in_pairs = 0;
-  for (Index f = 0; f < face.size(); ++f)
-    for (Index i = 0; i < 3; ++i) {
-      const Index o = across[f][i], own = pack(f, i);
-      if (o == none) {
-        across[f][i] = sentinel;
-        ++boundary_edges;
-        continue;
-      }
-      // Opposite unless the vertices say otherwise. In a loop (both ends one vertex) they do not
-      // tell directions apart.
-      const Index v = corner[f][i];
-      const bool loop = v == corner[f][edge_after(i)];
-      const bool same_way = !loop && v == corner[o >> Across::face_shift][o & Across::edge_mask];
-      if (same_way) across[f][i] |= Across::flip;
-      if (over(o) == own) {
-        turns |= same_way;
-        ++in_pairs;
-        continue;
-      }
-      across[f][i] |= Across::fan;
-      flips |= same_way;
-      bool lowest = true;
-      for (Index k = o; k != own; k = over(k)) lowest &= own < k;
-      non_manifold_edges += lowest;
-    }
-  edges = in_pairs / 2 + boundary_edges + non_manifold_edges;
-  if (turns) orient();
+  // The marks are read where faces are another block's: they are made once all are known.
+  Unfilled<std::array<unsigned char, 3>> marks(face.size());
+  Count all;
+  gather_blocks<Count>(
+      face.size(), threads,
+      [&](std::size_t first, std::size_t last, Count& count) {
+        for (Index f = static_cast<Index>(first); f < last; ++f)
+          for (Index i = 0; i < 3; ++i) {
+            const Index o = across[f][i], own = pack(f, i);
+            marks[f][i] = 0;
+            if (o == none) {
+              ++count.single;
+              continue;
+            }
+            // Opposite unless the vertices say otherwise. In a loop (both ends one vertex) they do
+            // not tell directions apart.
+            const Index v = corner[f][i];
+            const bool loop = v == corner[f][edge_after(i)];
+            const bool same_way =
+                !loop && v == corner[o >> Across::face_shift][o & Across::edge_mask];
+            if (same_way) marks[f][i] |= Across::flip;
+            if (over(o) == own) {
+              count.turns |= same_way;
+              ++count.in_pairs;
+              continue;
+            }
+            marks[f][i] |= Across::fan;
+            count.flips |= same_way;
+            bool lowest = true;
+            for (Index k = o; k != own; k = over(k)) lowest &= own < k;
+            count.cycles += lowest;
+          }
+      },
+      [&](const Count& count) {
+        all.turns |= count.turns;
+        all.flips |= count.flips;
+        all.in_pairs += count.in_pairs;
+        all.single += count.single;
+        all.cycles += count.cycles;
+      });
+  over_blocks(face.size(), threads, [&](std::size_t first, std::size_t last) {
+    for (std::size_t f = first; f < last; ++f)
+      for (std::size_t i = 0; i < 3; ++i)
+        across[f][i] = across[f][i] == none ? sentinel : across[f][i] | marks[f][i];
+  });
+  flips = all.flips;
+  boundary_edges = all.single;
+  non_manifold_edges = all.cycles;
+  edges = all.in_pairs / 2 + boundary_edges + non_manifold_edges;
+  if (all.turns) orient();
 }
 
-void FaceLayout::number_faces() {
+void FaceLayout::number_faces(int threads) {
   face_to_inside.resize(face.size());
-  for (std::size_t inside = 0; inside < face.size(); ++inside)
-    face_to_inside[face[inside]] = static_cast<Index>(inside);
+  over_blocks(face.size(), threads, [&](std::size_t first, std::size_t last) {
+    for (std::size_t inside = first; inside < last; ++inside)
+      face_to_inside[face[inside]] = static_cast<Index>(inside);
+  });
 }
 
 // Replaces the caller's vertices at the corners.
 void FaceLayout::name_vertices(std::size_t vertices) {
   vertex_to_inside.assign(vertices, none);
   Index fresh = 0;
-  for (auto& corners : corner)
-    for (Index& v : corners) {
+  for (std::size_t f = 0; f < corner.size(); ++f) {
+    if (f % building_block == 0) first_use.push_back(fresh);
+    for (Index& v : corner[f]) {
       Index& name = vertex_to_inside[v];
       if (name == none) name = fresh++;
       v = name;
     }
+  }
   named = fresh;
   if (named < vertices)
     for (Index& name : vertex_to_inside)
       if (name == none) name = fresh++;
 }
 
-std::vector<Index> FaceLayout::vertices_outside() const {
+std::vector<Index> FaceLayout::vertices_outside(int threads) const {
   std::vector<Index> outside(vertex_to_inside.size());
-  for (Index v = 0; v < outside.size(); ++v) outside[vertex_to_inside[v]] = v;
+  over_blocks(outside.size(), threads, [&](std::size_t first, std::size_t last) {
+    for (std::size_t v = first; v < last; ++v) outside[vertex_to_inside[v]] = static_cast<Index>(v);
+  });
   return outside;
 }
 
@@ -204,15 +247,18 @@ void FaceLayout::orient() {
   }
 }
 
-std::size_t FaceLayout::mark_refraction(const TriangleShapes& shapes, RefractionCheck check) {
-  std::vector<std::array<double, 3>> lengths(face.size());  // edges as the caller numbers them
-  ShapeBlock block{};
-  for (std::size_t first = 0; first < face.size(); first += ShapeBlock::size) {
-    const std::size_t count = std::min(ShapeBlock::size, face.size() - first);
-    shapes.look_up(std::span(face).subspan(first, count), block);
-    for (std::size_t k = 0; k < count; ++k)
-      for (std::size_t i = 0; i < 3; ++i) lengths[first + k][i] = block.length[i][k];
-  }
+std::size_t FaceLayout::mark_refraction(const TriangleShapes& shapes, RefractionCheck check,
+                                        int threads) {
+  Unfilled<std::array<double, 3>> lengths(face.size());  // edges as the caller numbers them
+  over_blocks(face.size(), threads, [&](std::size_t begin, std::size_t end) {
+    ShapeBlock block{};
+    for (std::size_t first = begin; first < end; first += ShapeBlock::size) {
+      const std::size_t count = std::min(ShapeBlock::size, end - first);
+      shapes.look_up(std::span(face).subspan(first, count), block);
+      for (std::size_t k = 0; k < count; ++k)
+        for (std::size_t i = 0; i < 3; ++i) lengths[first + k][i] = block.length[i][k];
+    }
+  });
   const auto length = [&](Index f, Index edge) {
     return lengths[f][is_turned(f) ? 2 - edge : edge];
   };
@@ -220,19 +266,24 @@ std::size_t FaceLayout::mark_refraction(const TriangleShapes& shapes, Refraction
     const auto [least, most] = std::minmax_element(lengths[f].begin(), lengths[f].end());
     return *most / *least;
   };
-  std::size_t count = 0;
-  for (Index f = 0; f < face.size(); ++f)
-    for (Index i = 0; i < 3; ++i) {
-      Index& o = across[f][i];
-      const Index g = o >> Across::face_shift, j = o & Across::edge_mask;
-      if (g == face.size()) continue;
-      const double own = length(f, i), other = length(g, j);
-      if (!(std::abs(own - other) > 1e-9 * std::max(own, other))) continue;
-      check(face[f], face[g], own, other, std::max(aspect(f), aspect(g)));
-      count += (o & Across::fan) != 0 || pack(f, i) < pack(g, j);
-      o |= Across::fan;
-    }
-  return count;
+  std::size_t all = 0;
+  gather_blocks<std::size_t>(
+      face.size(), threads,
+      [&](std::size_t first, std::size_t last, std::size_t& count) {
+        for (Index f = static_cast<Index>(first); f < last; ++f)
+          for (Index i = 0; i < 3; ++i) {
+            Index& o = across[f][i];
+            const Index g = o >> Across::face_shift, j = o & Across::edge_mask;
+            if (g == face.size()) continue;
+            const double own = length(f, i), other = length(g, j);
+            if (!(std::abs(own - other) > 1e-9 * std::max(own, other))) continue;
+            check(face[f], face[g], own, other, std::max(aspect(f), aspect(g)));
+            count += (o & Across::fan) != 0 || pack(f, i) < pack(g, j);
+            o |= Across::fan;
+          }
+      },
+      [&](std::size_t count) { all += count; });
+  return all;
 }
 
 }  // namespace plexway

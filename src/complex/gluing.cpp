@@ -21,7 +21,7 @@ Gluing glue_by_vertices(std::size_t vertices, Faces faces) {
   };
   struct Glue {
     Gluing& across;
-    decltype(number)& name;
+    const decltype(number)& name;
     void set(const EdgeSide& from, Index to) const {
       across[from.halfedge >> Across::face_shift][from.halfedge & Across::edge_mask] = to;
     }
@@ -34,10 +34,12 @@ Gluing glue_by_vertices(std::size_t vertices, Faces faces) {
       for (std::size_t k = 0; k < sides.size(); ++k)
         set(sides[k], name(sides[k + 1 == sides.size() ? 0 : k + 1]));
     }
+    void take(const Glue&) const {}
   };
+  Glue glue{across, number};
   match_edges(
-      vertices, faces, [&](const EdgeSide& a, const EdgeSide& b) { return number(a) < number(b); },
-      Glue{across, number});
+      vertices, faces, {}, 1,
+      [&](const EdgeSide& a, const EdgeSide& b) { return number(a) < number(b); }, glue);
   return across;
 }
 

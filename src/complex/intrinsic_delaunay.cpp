@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <string>
 
 #include <plexway/error.hpp>
 
+#include "complex/building_blocks.hpp"
 #include "complex/delaunay_flips.hpp"
 #include "complex/face_layout.hpp"
 #include "complex/intrinsic_triangulation.hpp"
@@ -14,6 +14,7 @@
 #include "complex/lost_edges.hpp"
 #include "complex/shape_blocks.hpp"
 #include "complex/simplex_order.hpp"
+#include "complex/triangulation_shape.hpp"
 
 namespace plexway {
 namespace {
@@ -75,17 +76,19 @@ struct IntrinsicDelaunay::State {
   std::size_t faces = 0;  // of the input
   bool refracts = false;
   bool released = false;                         // are the triangles gone?
+  int threads = 0;                               // that make meshes
   std::vector<std::array<double, 3>> positions;  // of the input's vertices, where known
   std::vector<SurfaceChord> chords;
   DelaunaySummary summary;
 
   State() = default;
   template <class Real>
-  explicit State(const TriangleMesh<Real>& input)
+  State(const TriangleMesh<Real>& input, int by_threads)
       : unit(input.unit()),
         triangulation(input),
         faces(input.face_count()),
-        refracts(input.summary().refracting_edges > 0) {
+        refracts(input.summary().refracting_edges > 0),
+        threads(by_threads) {
     std::vector<Index> face(faces), slot(faces);
     for (Index s = 0; s < faces; ++s) {
       face[s] = input.triangles()[s].face & ~reversed;
@@ -145,7 +148,7 @@ struct IntrinsicDelaunay::State {
 
   /// `layout` without what the constructor took of it.
   void take_from_input(const FaceLayout& layout, const TriangleShapes& shapes) {
-    const std::vector<Index> outer = layout.vertices_outside();
+    const std::vector<Index> outer = layout.vertices_outside(threads);
     const auto corners = [&](Index slot) {
       const auto& c = layout.corner[slot];
       return std::pair(std::array{outer[c[0]], outer[c[1]], outer[c[2]]}, layout.is_turned(slot));
@@ -173,11 +176,12 @@ struct IntrinsicDelaunay::State {
     take_from_input(!positions.empty(), std::move(lines), corners);
   }
 
-  State(FaceLayout&& layout, const TriangleShapes& shapes)
-      : triangulation(layout, shapes, unit),
+  State(FaceLayout&& layout, const TriangleShapes& shapes, int by_threads)
+      : triangulation(layout, shapes, unit, by_threads),
         face_of_slot(std::move(layout.face)),
         slot_of_face(std::move(layout.face_to_inside)),
-        faces(face_of_slot.size()) {}
+        faces(face_of_slot.size()),
+        threads(by_threads) {}
 
   template <class Real>
   void flip(const Refinement& refinement) {
@@ -204,13 +208,14 @@ struct IntrinsicDelaunay::State {
 };
 
 template <class Real>
-IntrinsicDelaunay::IntrinsicDelaunay(const TriangleMesh<Real>& input, const Refinement& refinement)
-    : state_((check(refinement), std::make_unique<State>(input))) {
+IntrinsicDelaunay::IntrinsicDelaunay(const TriangleMesh<Real>& input, const Refinement& refinement,
+                                     int threads)
+    : state_((check(refinement), std::make_unique<State>(input, threads))) {
   state_->flip<Real>(refinement);
   state_->take_from_input(input);
 }
-template IntrinsicDelaunay::IntrinsicDelaunay(const TriangleMesh<float>&, const Refinement&);
-template IntrinsicDelaunay::IntrinsicDelaunay(const TriangleMesh<double>&, const Refinement&);
+template IntrinsicDelaunay::IntrinsicDelaunay(const TriangleMesh<float>&, const Refinement&, int);
+template IntrinsicDelaunay::IntrinsicDelaunay(const TriangleMesh<double>&, const Refinement&, int);
 
 IntrinsicDelaunay::IntrinsicDelaunay(IntrinsicDelaunay&&) noexcept = default;
 IntrinsicDelaunay& IntrinsicDelaunay::operator=(IntrinsicDelaunay&&) noexcept = default;
@@ -289,19 +294,23 @@ TriangleMesh<Real> IntrinsicDelaunay::mesh(const SaddleThresholds& saddles) cons
   hints.positions = state_->positions;
   hints.chords = state_->chords;
   hints.saddles = saddles;
+  hints.threads = state_->threads;
   const ShapesOfSlots shapes(triangles, state_->slot_of_face, state_->unit);
-  std::vector<std::array<Index, 3>> faces(m), across(m);
+  FaceLayout::Triples faces(m), across(m);
   if (state_->summary.inserted_vertices == 0) {
-    for (Index s = 0; s < m; ++s) {
-      faces[s] = triangles[s].corner;
-      for (std::size_t i = 0; i < 3; ++i) {
-        const Index o = triangles[s].across[i];
-        across[s][i] = o == none ? none : o & ~Across::special;
+    over_blocks(m, hints.threads, [&](std::size_t first, std::size_t last) {
+      for (std::size_t s = first; s < last; ++s) {
+        faces[s] = triangles[s].corner;
+        for (std::size_t i = 0; i < 3; ++i) {
+          const Index o = triangles[s].across[i];
+          across[s][i] = o == none ? none : o & ~Across::special;
+        }
       }
-    }
+    });
     std::vector<Index> order(state_->face_of_slot.begin(), state_->face_of_slot.end());
-    return {FaceLayout(vertices, std::move(order), std::move(faces), std::move(across)), shapes,
-            hints};
+    return {
+        FaceLayout(vertices, std::move(order), std::move(faces), std::move(across), hints.threads),
+        shapes, hints};
   }
   // New triangles lie behind all others: they need a new order.
   const auto face_of = [&](Index slot) { return state_->face_of_slot[slot]; };
@@ -315,7 +324,8 @@ TriangleMesh<Real> IntrinsicDelaunay::mesh(const SaddleThresholds& saddles) cons
           o == none ? none : 3 * face_of(o >> Across::face_shift) + (o & Across::edge_mask);
     }
   }
-  return {FaceLayout(vertices, faces, breadth_first<3>(across), across), shapes, hints};
+  return {FaceLayout(vertices, faces, breadth_first<3>(across), across, hints.threads), shapes,
+          hints};
 }
 template TriangleMesh<float> IntrinsicDelaunay::mesh(const SaddleThresholds&) const;
 template TriangleMesh<double> IntrinsicDelaunay::mesh(const SaddleThresholds&) const;
@@ -362,91 +372,6 @@ std::vector<IntrinsicDelaunay::Piece> IntrinsicDelaunay::line_to_input(
   return result;
 }
 
-namespace {
-
-// corner(f, i): cosine and sine of the angle there; across(f, i): packed as Across.
-template <class Real, class Corner, class AcrossOf>
-TriangulationShape measure(Index faces, Corner corner, AcrossOf across) {
-  TriangulationShape shape;
-  constexpr double degree = std::numbers::pi / 180;
-  const Real blunt = static_cast<Real>(std::cos(150 * degree));
-  const Real sharp = static_cast<Real>(std::cos(5 * degree));
-  constexpr Real blur = sizeof(Real) == 4 ? Real(1e-4) : Real(1e-9);
-  Real least = 1, most = -1;
-  std::size_t blunt_ones = 0, needles = 0;
-  for (Index f = 0; f < faces; ++f) {
-    std::array<Real, 3> cosine;
-    for (std::size_t i = 0; i < 3; ++i) cosine[i] = corner(f, i)[0];
-    const Real low = std::min({cosine[0], cosine[1], cosine[2]});
-    const Real high = std::max({cosine[0], cosine[1], cosine[2]});
-    least = std::min(least, low);
-    most = std::max(most, high);
-    blunt_ones += low < blunt;
-    needles += high > sharp;
-    for (std::size_t i = 0; i < 3; ++i) {
-      const Index o = across(f, i), g = o >> Across::face_shift;
-      if (g == faces || (o & Across::fan) != 0 || g < f) continue;
-      const std::size_t j = o & Across::edge_mask;
-      if (g == f && j < i) continue;
-      ++shape.inner_edges;
-      const auto [ca, sa] = corner(f, edge_before(i));
-      const auto [cb, sb] = corner(g, edge_before(j));
-      const Real sine = sa * cb + ca * sb;
-      if (g != f && (sine < -blur || (ca < -blur && cb < -blur))) ++shape.non_delaunay_edges;
-    }
-  }
-  const auto degrees = [](Real cosine) {
-    return std::acos(std::clamp(static_cast<double>(cosine), -1.0, 1.0)) / degree;
-  };
-  shape.largest_angle = degrees(least);
-  shape.smallest_angle = degrees(most);
-  shape.blunt_share = static_cast<double>(blunt_ones) / static_cast<double>(faces);
-  shape.needle_share = static_cast<double>(needles) / static_cast<double>(faces);
-  return shape;
-}
-
-// Before there is a mesh.
-template <class Real>
-TriangulationShape measure(const FaceLayout& layout, const TriangleShapes& shapes) {
-  const std::size_t m = layout.face_count();
-  std::vector<std::array<std::array<Real, 2>, 3>> corner(m);
-  ShapeBlock block{};
-  for (std::size_t first = 0; first < m; first += ShapeBlock::size) {
-    const std::size_t count = std::min(ShapeBlock::size, m - first);
-    shapes.look_up(std::span(layout.face).subspan(first, count), block);
-    for (std::size_t k = 0; k < count; ++k)
-      for (std::size_t i = 0; i < 3; ++i) {
-        const std::size_t own = layout.is_turned(first + k) && i != 0 ? 3 - i : i;
-        corner[first + k][i] = {static_cast<Real>(block.cosine[own][k]),
-                                static_cast<Real>(block.sine[own][k])};
-      }
-  }
-  return measure<Real>(
-      static_cast<Index>(m),
-      [&](std::size_t f, std::size_t i) -> const auto& { return corner[f][i]; },
-      [&](std::size_t f, std::size_t i) { return layout.across[f][i]; });
-}
-
-}  // namespace
-
-template <class Real>
-TriangulationShape measure_triangulation(const TriangleMesh<Real>& mesh) {
-  const auto triangles = mesh.triangles();
-  return measure<Real>(
-      static_cast<Index>(mesh.face_count()),
-      [&](std::size_t f, std::size_t i) {
-        return std::array{triangles[f].cosine[i], triangles[f].sine(i)};
-      },
-      [&](std::size_t f, std::size_t i) { return triangles[f].across[i]; });
-}
-template TriangulationShape measure_triangulation(const TriangleMesh<float>&);
-template TriangulationShape measure_triangulation(const TriangleMesh<double>&);
-
-Retriangulation what_pays(const TriangulationShape& shape) {
-  if (shape.needle_share > 0.1) return Retriangulation::refined;
-  return shape.non_delaunay_share() > 0.04 ? Retriangulation::flips : Retriangulation::keep;
-}
-
 Refinement refinement_for(Retriangulation wanted) {
   return wanted == Retriangulation::refined ? Refinement::moderate() : Refinement();
 }
@@ -454,29 +379,33 @@ Refinement refinement_for(Retriangulation wanted) {
 template <class Real>
 TriangulatedSurface<Real> triangulate(std::span<const std::array<double, 3>> positions,
                                       std::span<const std::array<Index, 3>> faces,
-                                      std::optional<Retriangulation> wanted) {
-  FaceLayout layout = lay_out(positions, faces);
+                                      std::optional<Retriangulation> wanted, int threads) {
+  SurfaceHints hints;
+  hints.threads = threads;
+  FaceLayout layout = lay_out(positions, faces, {}, threads);
   const ShapesInSpace shapes(positions, faces);
-  const Retriangulation done = wanted ? *wanted : what_pays(measure<Real>(layout, shapes));
+  const Retriangulation done =
+      wanted ? *wanted : what_pays(measure_triangulation<Real>(layout, shapes, threads));
   if (done == Retriangulation::keep)
-    return {TriangleMesh<Real>(std::move(layout), shapes, {}), std::nullopt, done};
+    return {TriangleMesh<Real>(std::move(layout), shapes, hints), std::nullopt, done};
   IntrinsicDelaunay delaunay;
-  delaunay.state_ = std::make_unique<IntrinsicDelaunay::State>(std::move(layout), shapes);
+  delaunay.state_ = std::make_unique<IntrinsicDelaunay::State>(std::move(layout), shapes, threads);
   delaunay.state_->template flip<double>(refinement_for(done));
   delaunay.state_->take_from_input(layout, shapes);
   layout = {};
   const DelaunaySummary& summary = delaunay.summary();
   const bool same = summary.flips + summary.inserted_vertices == 0;
   if (same) delaunay.release_triangles();
-  TriangleMesh<Real> mesh = same ? TriangleMesh<Real>(positions, faces) : delaunay.mesh<Real>();
+  TriangleMesh<Real> mesh =
+      same ? TriangleMesh<Real>(positions, faces, hints) : delaunay.mesh<Real>();
   if (!same) delaunay.release_triangles();
   return {std::move(mesh), std::move(delaunay), done};
 }
 template TriangulatedSurface<float> triangulate(std::span<const std::array<double, 3>>,
                                                 std::span<const std::array<Index, 3>>,
-                                                std::optional<Retriangulation>);
+                                                std::optional<Retriangulation>, int);
 template TriangulatedSurface<double> triangulate(std::span<const std::array<double, 3>>,
                                                  std::span<const std::array<Index, 3>>,
-                                                 std::optional<Retriangulation>);
+                                                 std::optional<Retriangulation>, int);
 
 }  // namespace plexway

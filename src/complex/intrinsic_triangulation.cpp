@@ -87,45 +87,51 @@ template IntrinsicTriangulation::IntrinsicTriangulation(const TriangleMesh<float
 template IntrinsicTriangulation::IntrinsicTriangulation(const TriangleMesh<double>&);
 
 IntrinsicTriangulation::IntrinsicTriangulation(const FaceLayout& layout,
-                                               const TriangleShapes& shapes, double& unit)
+                                               const TriangleShapes& shapes, double& unit,
+                                               int threads)
     : vertices_(layout.vertex_count()),
       flips_(layout.face_count(), 0),
       turned_(layout.face_count(), 0),
       history_(layout.face_count()) {
-  const std::vector<Index> outer = layout.vertices_outside();
+  const std::vector<Index> outer = layout.vertices_outside(threads);
   const std::size_t m = layout.face_count();
   const Index sentinel = static_cast<Index>(m);
-  triangles_.reserve(m);
+  triangles_.resize(m);
   double longest = 0;
-  ShapeBlock block{};
-  for (std::size_t first = 0; first < m; first += ShapeBlock::size) {
-    const std::size_t count = std::min(ShapeBlock::size, m - first);
-    const auto faces = std::span(layout.face).subspan(first, count);
-    shapes.look_up(faces, block);
-    for (std::size_t k = 0; k < count; ++k) {
-      const std::size_t f = first + k;
-      const bool turned = layout.is_turned(f);
-      turned_[f] = turned;
-      IntrinsicTriangle& mine = triangles_.emplace_back();
-      for (std::size_t i = 0; i < 3; ++i) {
-        const std::size_t corner = turned && i != 0 ? 3 - i : i;
-        mine.length[i] = block.length[turned ? 2 - i : i][k];
-        longest = std::max(longest, mine.length[i]);
-        mine.angle[i] = normalised({block.cosine[corner][k], block.sine[corner][k]});
-        const Index o = layout.across[f][i];
-        mine.across[i] = slot_of(o) == sentinel ? none : o;
-        mine.corner[i] = outer[layout.corner[f][i]];
+  const auto take = [&](std::size_t begin, std::size_t end, double& most) {
+    ShapeBlock block{};
+    for (std::size_t first = begin; first < end; first += ShapeBlock::size) {
+      const std::size_t count = std::min(ShapeBlock::size, end - first);
+      const auto faces = std::span(layout.face).subspan(first, count);
+      shapes.look_up(faces, block);
+      for (std::size_t k = 0; k < count; ++k) {
+        const std::size_t f = first + k;
+        const bool turned = layout.is_turned(f);
+        turned_[f] = turned;
+        IntrinsicTriangle& mine = triangles_[f];
+        for (std::size_t i = 0; i < 3; ++i) {
+          const std::size_t corner = turned && i != 0 ? 3 - i : i;
+          mine.length[i] = block.length[turned ? 2 - i : i][k];
+          most = std::max(most, mine.length[i]);
+          mine.angle[i] = normalised({block.cosine[corner][k], block.sine[corner][k]});
+          const Index o = layout.across[f][i];
+          mine.across[i] = slot_of(o) == sentinel ? none : o;
+          mine.corner[i] = outer[layout.corner[f][i]];
+        }
+        check_length(faces[k], mine.length);
       }
-      check_length(faces[k], mine.length);
     }
-  }
+  };
+  gather_blocks<double>(m, threads, take, [&](double most) { longest = std::max(longest, most); });
   unit = mean_edge(m, longest, [&](std::size_t f) {
     std::array<double, 3> length = triangles_[f].length;
     if (turned_[f]) std::swap(length[0], length[2]);
     return length;
   });
-  for (IntrinsicTriangle& t : triangles_)
-    for (double& l : t.length) l /= unit;
+  over_blocks(m, threads, [&](std::size_t first, std::size_t last) {
+    for (std::size_t f = first; f < last; ++f)
+      for (double& l : triangles_[f].length) l /= unit;
+  });
   if (!layout.orientable) take_callers_turns();
 }
 

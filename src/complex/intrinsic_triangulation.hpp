@@ -10,6 +10,7 @@
 #include <plexway/complex/ids.hpp>
 #include <plexway/complex/triangle_mesh.hpp>
 
+#include "complex/building_blocks.hpp"
 #include "complex/patch_history.hpp"
 #include "complex/planar.hpp"
 
@@ -43,7 +44,8 @@ class IntrinsicTriangulation {
   template <class Real>
   explicit IntrinsicTriangulation(const TriangleMesh<Real>& mesh);
   /// The same from what a mesh is made of, in units of its mean edge, which `unit` takes.
-  IntrinsicTriangulation(const FaceLayout& layout, const TriangleShapes& shapes, double& unit);
+  IntrinsicTriangulation(const FaceLayout& layout, const TriangleShapes& shapes, double& unit,
+                         int threads);
 
   [[nodiscard]] std::span<const IntrinsicTriangle> triangles() const { return triangles_; }
   /// Whether the slot had its corners the other way round in the input as the caller gave it.
@@ -53,7 +55,7 @@ class IntrinsicTriangulation {
   [[nodiscard]] std::size_t bytes() const;
   void release_counts() { std::vector<std::uint16_t>().swap(flips_); }
   /// What is left maps points.
-  void release_triangles() { std::vector<IntrinsicTriangle>().swap(triangles_); }
+  void release_triangles() { Unfilled<IntrinsicTriangle>().swap(triangles_); }
 
   /// By how much the angles opposite to an edge exceed pi, as a sine; negative where the edge is
   /// Delaunay or cannot be flipped.
@@ -88,7 +90,7 @@ class IntrinsicTriangulation {
   Index add_vertex(Index slot, const std::array<double, 3>& at);
 
   std::size_t vertices_ = 0;
-  std::vector<IntrinsicTriangle> triangles_;
+  Unfilled<IntrinsicTriangle> triangles_;
   std::vector<std::uint16_t> flips_;
   std::vector<char> turned_;
   PatchHistory history_;

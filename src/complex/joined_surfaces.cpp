@@ -160,7 +160,8 @@ TriangleMesh<Real> join_surfaces(std::size_t vertices, std::span<const SurfacePa
   std::vector<std::array<Index, 3>> across(faces.size());
   for (Index h = 0; h < after.size(); ++h) across[h / 3][h % 3] = after[h] == h ? none : after[h];
   const std::span<const std::array<Index, 3>> gluing = across;
-  return {FaceLayout(vertices, faces, breadth_first(gluing), gluing), ShapesOfParts(shapes), hints};
+  return {FaceLayout(vertices, faces, breadth_first(gluing), gluing, hints.threads),
+          ShapesOfParts(shapes), hints};
 }
 
 template TriangleMesh<float> join_surfaces(std::size_t, std::span<const SurfacePart<float>>,

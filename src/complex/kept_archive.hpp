@@ -68,8 +68,8 @@ class KeptOut {
   void put(const std::vector<T>& array) {
     put_elements(std::span(array));
   }
-  template <KeptElement T>
-  void put(const Rows<T>& array) {
+  template <KeptElement T, class Own>
+  void put(const Rows<T, Own>& array) {
     put_elements(std::span<const T>(array));
   }
   void put(const std::string& text) { put_elements(std::span(text)); }
@@ -142,10 +142,10 @@ class KeptIn {
     if (elements.count > 0)
       std::memcpy(static_cast<void*>(array.data()), elements.start, elements.count * sizeof(T));
   }
-  template <KeptElement T>
-  void take(Rows<T>& array) {
+  template <KeptElement T, class Own>
+  void take(Rows<T, Own>& array) {
     const auto elements = take_elements(sizeof(T));
-    array = Rows<T>({reinterpret_cast<const T*>(elements.start), elements.count}, keeper_);
+    array = Rows<T, Own>({reinterpret_cast<const T*>(elements.start), elements.count}, keeper_);
   }
   void take(std::string& text) {
     const auto elements = take_elements(1);

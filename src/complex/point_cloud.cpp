@@ -238,10 +238,10 @@ Sheet make_sheet(Points points, const Neighbours& neighbours, const CloudOptions
 }
 
 template <class Real>
-TriangleMesh<Real> mesh_of(Points points, Sheet&& sheet) {
+TriangleMesh<Real> mesh_of(Points points, int threads, Sheet&& sheet) {
   std::vector<Index> order(sheet.faces.size());
   std::iota(order.begin(), order.end(), Index{0});
-  const SurfaceHints hints = {.order = order, .samples = true};
+  const SurfaceHints hints = {.order = order, .samples = true, .threads = threads};
   if (!sheet.lengths.empty()) {
     const std::size_t vertices = points.size() + sheet.more.size();
     return TriangleMesh<Real>(vertices, sheet.faces, sheet.lengths,
@@ -259,7 +259,7 @@ template <class Real>
 PointCloud<Real>::PointCloud(Points points, const Neighbours& neighbours,
                              const CloudOptions& options)
     : surface_((check_input(points, neighbours, options),
-                mesh_of<Real>(points,
+                mesh_of<Real>(points, options.threads,
                               make_sheet(points, neighbours, options, summary_, twins_, more_)))) {
   if (options.progress) options.progress(1);
 }

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "complex/building_blocks.hpp"
+
 namespace plexway {
 namespace {
 
@@ -18,11 +20,11 @@ struct Neighbourhood {
 
 template <class Real>
 std::vector<Neighbourhood> look_around(std::span<const TriangleRecord<Real>> triangles,
+                                       std::span<const Index> first_use,
                                        std::span<const double> excess,
-                                       std::span<const char> boundary) {
+                                       std::span<const char> boundary, int threads) {
   std::vector<Neighbourhood> around(excess.size());
   const auto hear = [&](Index of, Index from) {
-    if (boundary[from]) return;
     const double mine = std::abs(excess[of]), theirs = excess[from];
     Neighbourhood& n = around[of];
     // An edge inside is met from both its triangles. Of one on the boundary both ends are there.
@@ -32,17 +34,24 @@ std::vector<Neighbourhood> look_around(std::span<const TriangleRecord<Real>> tri
     n.most += std::min(mine, std::abs(theirs)) / 2;
     n.count += 0.5;
   };
-  for (const TriangleRecord<Real>& t : triangles)
-    for (std::size_t i = 0; i < 3; ++i) {
-      const Index v = t.corner[i], w = t.corner[edge_after(i)];
-      hear(v, w);
-      hear(w, v);
+  tell_vertices<Index>(
+      first_use, triangles.size(), threads,
+      [&](std::size_t first, std::size_t last, const auto& tell) {
+        for (const TriangleRecord<Real>& t : triangles.subspan(first, last - first))
+          for (std::size_t i = 0; i < 3; ++i) {
+            const Index v = t.corner[i], w = t.corner[edge_after(i)];
+            if (!boundary[w]) tell(v, w);
+            if (!boundary[v]) tell(w, v);
+          }
+      },
+      hear);
+  over_blocks(excess.size(), threads, [&](std::size_t first, std::size_t last) {
+    for (std::size_t v = first; v < last; ++v) {
+      around[v].sum += excess[v];
+      around[v].agreement += excess[v];
+      around[v].most += std::abs(excess[v]);
     }
-  for (std::size_t v = 0; v < excess.size(); ++v) {
-    around[v].sum += excess[v];
-    around[v].agreement += excess[v];
-    around[v].most += std::abs(excess[v]);
-  }
+  });
   return around;
 }
 
@@ -59,7 +68,8 @@ bool is_inner_saddle(double excess, const Neighbourhood& n, double least,
 
 template <class Real>
 void mark_saddles(std::span<TriangleRecord<Real>> triangles, const VertexFans& fans,
-                  std::vector<double> excess, const SurfaceHints& hints) {
+                  std::span<const Index> first_use, std::vector<double> excess,
+                  const SurfaceHints& hints) {
   const std::size_t vertices = excess.size();
   const std::span<const TriangleRecord<Real>> all = triangles;
   // What is below this is below a thousandth of a sphere's curvature, all vertices together.
@@ -71,12 +81,14 @@ void mark_saddles(std::span<TriangleRecord<Real>> triangles, const VertexFans& f
 
   std::vector<char> saddle(vertices);
   {
-    const std::vector<Neighbourhood> around =
-        look_around<Real>(all.first(all.size() - 1), excess, fans.on_boundary);
-    for (std::size_t v = 0; v < vertices; ++v)
-      saddle[v] = fans.on_boundary[v] ? excess[v] > hints.saddles.boundary
-                  : hints.samples     ? excess[v] > 0 && around[v].sum > 0
-                                      : is_inner_saddle(excess[v], around[v], least, hints.saddles);
+    const std::vector<Neighbourhood> around = look_around<Real>(
+        all.first(all.size() - 1), first_use, excess, fans.on_boundary, hints.threads);
+    over_blocks(vertices, hints.threads, [&](std::size_t first, std::size_t last) {
+      for (std::size_t v = first; v < last; ++v)
+        saddle[v] = fans.on_boundary[v] ? excess[v] > hints.saddles.boundary
+                    : hints.samples     ? excess[v] > 0 && around[v].sum > 0
+                                    : is_inner_saddle(excess[v], around[v], least, hints.saddles);
+    });
   }
   for (std::size_t r = 0; r < fans.irregular.size(); ++r) {
     const auto corners = std::span<const Index>(fans.irregular_corners)
@@ -84,14 +96,16 @@ void mark_saddles(std::span<TriangleRecord<Real>> triangles, const VertexFans& f
                                       fans.irregular_begin[r + 1] - fans.irregular_begin[r]);
     saddle[fans.irregular[r]] = !is_open_book<Real>(all, corners);
   }
-  for (TriangleRecord<Real>& t : triangles.first(triangles.size() - 1))
-    for (std::size_t i = 0; i < 3; ++i)
-      if (saddle[t.corner[i]]) t.signed_sine[i] = std::copysign(t.signed_sine[i], Real(-1));
+  over_blocks(triangles.size() - 1, hints.threads, [&](std::size_t first, std::size_t last) {
+    for (TriangleRecord<Real>& t : triangles.subspan(first, last - first))
+      for (std::size_t i = 0; i < 3; ++i)
+        if (saddle[t.corner[i]]) t.signed_sine[i] = std::copysign(t.signed_sine[i], Real(-1));
+  });
 }
 
-template void mark_saddles(std::span<TriangleRecord<float>>, const VertexFans&, std::vector<double>,
-                           const SurfaceHints&);
+template void mark_saddles(std::span<TriangleRecord<float>>, const VertexFans&,
+                           std::span<const Index>, std::vector<double>, const SurfaceHints&);
 template void mark_saddles(std::span<TriangleRecord<double>>, const VertexFans&,
-                           std::vector<double>, const SurfaceHints&);
+                           std::span<const Index>, std::vector<double>, const SurfaceHints&);
 
 }  // namespace plexway

@@ -12,9 +12,11 @@ namespace plexway {
 /// Decides at which vertices shortest paths may bend, and sets the sign bits of their sines.
 ///
 /// `excess`, one number a vertex: the angle around it beyond 2 pi, or on a boundary beyond pi.
-/// `hints` has the thresholds and whether the vertices are samples. Cost: linear, two passes.
+/// `hints` has the thresholds and whether the vertices are samples; `first_use` is FaceLayout's.
+/// Cost: linear, two passes, by as many threads as `hints` say.
 template <class Real>
 void mark_saddles(std::span<TriangleRecord<Real>> triangles, const VertexFans& fans,
-                  std::vector<double> excess, const SurfaceHints& hints);
+                  std::span<const Index> first_use, std::vector<double> excess,
+                  const SurfaceHints& hints);
 
 }  // namespace plexway

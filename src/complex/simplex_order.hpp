@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -10,6 +11,8 @@
 #include <vector>
 
 #include <plexway/complex/ids.hpp>
+
+#include "complex/building_blocks.hpp"
 
 namespace plexway {
 
@@ -45,50 +48,69 @@ constexpr std::uint64_t coarse_curve_key(const CurveCell& cell) {
 }
 
 /// The numbers below `count` along the curve by the cells they are in, of those in one the lower
-/// number first. cell_of(number) may be asked for again. Cost: linear as long as most differ in the
-/// upper 36 bits of their keys (32 beyond 2^28 numbers), n log n else.
+/// number first. cell_of(number) may be asked for again, by several threads at once. Cost: linear
+/// as long as most differ in the upper 36 bits of their keys (32 beyond 2^28 numbers), n log n
+/// else.
 template <class CellOf>
-std::vector<Index> sorted_along_curve(std::size_t count, CellOf cell_of) {
+std::vector<Index> sorted_along_curve(std::size_t count, int threads, CellOf cell_of) {
   // The upper bits of the key and the number in one word, sorted in four passes by 9 bits.
   constexpr int digit = 9, passes = 4;
   const int key_bits = count <= std::size_t{1} << 28 ? 36 : 32;
   const int shift = 64 - key_bits;
   const std::uint64_t number = (std::uint64_t{1} << shift) - 1;
-  std::array<std::array<Index, 1 << digit>, passes> begin{};
   const auto place = [&](std::uint64_t word, int pass) {
     return (word >> shift >> (digit * pass)) & ((1 << digit) - 1);
   };
-  std::vector<std::uint64_t> words(count), other(count);
-  for (std::size_t i = 0; i < count; ++i) {
-    words[i] = coarse_curve_key(cell_of(i)) >> (36 - key_bits) << shift | i;
-    for (int pass = 0; pass < passes; ++pass)
-      ++begin[static_cast<std::size_t>(pass)][place(words[i], pass)];
-  }
+  Unfilled<std::uint64_t> words(count), other(count);
+  over_blocks(count, threads, [&](std::size_t first, std::size_t last) {
+    for (std::size_t i = first; i < last; ++i)
+      words[i] = coarse_curve_key(cell_of(i)) >> (36 - key_bits) << shift | i;
+  });
+  // Of each block, how many words have a digit, and then where the next of them goes.
+  std::vector<std::array<Index, 1 << digit>> at(
+      std::max<std::size_t>((count + building_block - 1) / building_block, 1));
   for (int pass = 0; pass < passes; ++pass) {
-    auto& at = begin[static_cast<std::size_t>(pass)];
-    if (std::find(at.begin(), at.end(), count) != at.end()) continue;  // all alike
+    over_blocks(count, threads, [&](std::size_t first, std::size_t last) {
+      auto& own = at[first / building_block];
+      own.fill(0);
+      for (std::size_t i = first; i < last; ++i) ++own[place(words[i], pass)];
+    });
     Index sum = 0;
-    for (Index& entry : at) sum += std::exchange(entry, sum);
-    for (const std::uint64_t word : words) other[at[place(word, pass)]++] = word;
+    bool alike = false;
+    for (std::size_t d = 0; d < at[0].size(); ++d) {
+      const Index before = sum;
+      for (auto& block : at) sum += std::exchange(block[d], sum);
+      alike = alike || sum - before == count;
+    }
+    if (alike) continue;
+    over_blocks(count, threads, [&](std::size_t first, std::size_t last) {
+      auto& own = at[first / building_block];
+      for (std::size_t i = first; i < last; ++i) other[own[place(words[i], pass)]++] = words[i];
+    });
     words.swap(other);
   }
-  std::vector<std::uint64_t>().swap(other);
+  Unfilled<std::uint64_t>().swap(other);
   std::vector<Index> order(count);
-  std::vector<std::pair<std::uint64_t, Index>> run;
-  for (std::size_t i = 0, end = 0; i < count; i = end) {
-    for (end = i + 1; end < count && words[end] >> shift == words[i] >> shift;) ++end;
-    if (end == i + 1) {
-      order[i] = static_cast<Index>(words[i] & number);
-      continue;
+  over_blocks(count, threads, [&](std::size_t first, std::size_t last) {
+    std::vector<std::pair<std::uint64_t, Index>> run;
+    const auto key = [&](std::size_t i) { return words[i] >> shift; };
+    std::size_t i = first;  // a run is the block's that it begins in
+    while (i > 0 && i < last && key(i) == key(i - 1)) ++i;
+    for (std::size_t end = i; i < last; i = end) {
+      for (end = i + 1; end < count && key(end) == key(i);) ++end;
+      if (end == i + 1) {
+        order[i] = static_cast<Index>(words[i] & number);
+        continue;
+      }
+      run.clear();  // by the rest of the key
+      for (std::size_t k = i; k < end; ++k) {
+        const Index one = static_cast<Index>(words[k] & number);
+        run.emplace_back(curve_key(cell_of(one)), one);
+      }
+      std::sort(run.begin(), run.end());
+      for (std::size_t k = i; k < end; ++k) order[k] = run[k - i].second;
     }
-    run.clear();  // by the rest of the key
-    for (std::size_t k = i; k < end; ++k) {
-      const Index at = static_cast<Index>(words[k] & number);
-      run.emplace_back(curve_key(cell_of(at)), at);
-    }
-    std::sort(run.begin(), run.end());
-    for (std::size_t k = i; k < end; ++k) order[k] = run[k - i].second;
-  }
+  });
   return order;
 }
 
@@ -96,32 +118,36 @@ std::vector<Index> sorted_along_curve(std::size_t count, CellOf cell_of) {
 /// Positions are finite; those of no simplex do not matter. Cost: that of sorted_along_curve.
 template <std::size_t N>
 std::vector<Index> along_curve(std::span<const std::array<double, 3>> positions,
-                               std::span<const std::array<Index, N>> simplices) {
+                               std::span<const std::array<Index, N>> simplices, int threads = 1) {
   std::vector<char> used(positions.size(), 0);
-  for (const auto& simplex : simplices)
-    for (const Index v : simplex) used[v] = 1;
-  std::array<double, 3> low{}, high{};
-  low.fill(std::numeric_limits<double>::infinity());
-  high.fill(-std::numeric_limits<double>::infinity());
-  for (std::size_t v = 0; v < positions.size(); ++v) {
-    if (used[v] == 0) continue;
-    for (std::size_t d = 0; d < 3; ++d) {
-      low[d] = std::min(low[d], positions[v][d]);
-      high[d] = std::max(high[d], positions[v][d]);
-    }
-  }
+  over_blocks(simplices.size(), threads, [&](std::size_t first, std::size_t last) {
+    for (std::size_t s = first; s < last; ++s)
+      for (const Index v : simplices[s])
+        std::atomic_ref(used[v]).store(1, std::memory_order_relaxed);
+  });
+  Box3 box;
+  gather_blocks<Box3>(
+      positions.size(), threads,
+      [&](std::size_t first, std::size_t last, Box3& own) {
+        for (std::size_t v = first; v < last; ++v)
+          if (used[v] != 0) own.take(positions[v]);
+      },
+      [&](const Box3& own) { box.take(own); });
   std::vector<char>().swap(used);
   // Divided first, and halves: no overflow near 1e308.
   constexpr double cells = 2097151;  // 21 bits
   constexpr double share = N > 1 ? N : 2;
   double width = 0;
-  for (std::size_t d = 0; d < 3; ++d) width = std::max(width, high[d] / 2 - low[d] / 2);
+  for (std::size_t d = 0; d < 3; ++d) width = std::max(width, box.high[d] / 2 - box.low[d] / 2);
   const double scale = width > 0 ? share / N * 0.5 * cells / width : 0;
-  for (double& x : low) x /= share;
-  std::vector<std::array<double, 3>> parts(positions.size());  // of a centroid, in cells
-  for (std::size_t v = 0; v < positions.size(); ++v)
-    for (std::size_t d = 0; d < 3; ++d) parts[v][d] = (positions[v][d] / share - low[d]) * scale;
-  return sorted_along_curve(simplices.size(), [&](std::size_t s) {
+  for (double& x : box.low) x /= share;
+  Unfilled<std::array<double, 3>> parts(positions.size());  // of a centroid, in cells
+  over_blocks(positions.size(), threads, [&](std::size_t first, std::size_t last) {
+    for (std::size_t v = first; v < last; ++v)
+      for (std::size_t d = 0; d < 3; ++d)
+        parts[v][d] = (positions[v][d] / share - box.low[d]) * scale;
+  });
+  return sorted_along_curve(simplices.size(), threads, [&](std::size_t s) {
     CurveCell cell;
     for (std::size_t d = 0; d < 3; ++d) {
       double centre = 0;

@@ -6,6 +6,7 @@
 #include <tuple>
 #include <utility>
 
+#include "complex/building_blocks.hpp"
 #include "complex/simplex_gluing.hpp"
 
 namespace plexway {
@@ -358,17 +359,21 @@ class Finder {
 
 }  // namespace
 
-TetCorners corners_of_vertices(std::size_t vertices, Corners corner) {
+TetCorners corners_of_vertices(std::size_t vertices, Corners corner,
+                               std::span<const Index> first_use, int threads) {
   TetCorners rows;
   rows.begin.assign(vertices + 1, 0);
-  for (const auto& tet : corner)
-    for (const Index v : tet) ++rows.begin[v + 1];
+  const auto tell_corners = [&](std::size_t first, std::size_t last, const auto& tell) {
+    for (std::size_t t = first; t < last; ++t)
+      for (std::size_t i = 0; i < 4; ++i) tell(corner[t][i], static_cast<Index>(4 * t + i));
+  };
+  tell_vertices<Index>(first_use, corner.size(), threads, tell_corners,
+                       [&](Index v, Index) { ++rows.begin[v + 1]; });
   for (std::size_t v = 0; v < vertices; ++v) rows.begin[v + 1] += rows.begin[v];
   rows.corner.resize(4 * corner.size());
   std::vector<Index> cursor(rows.begin.begin(), rows.begin.end() - 1);
-  for (std::size_t t = 0; t < corner.size(); ++t)
-    for (std::size_t i = 0; i < 4; ++i)
-      rows.corner[cursor[corner[t][i]]++] = static_cast<Index>(4 * t + i);
+  tell_vertices<Index>(first_use, corner.size(), threads, tell_corners,
+                       [&](Index v, Index c) { rows.corner[cursor[v]++] = c; });
   return rows;
 }
 

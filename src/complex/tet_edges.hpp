@@ -52,7 +52,9 @@ struct TetPlaces {
 struct TetCorners {
   std::vector<Index> begin, corner;
 };
-TetCorners corners_of_vertices(std::size_t vertices, std::span<const std::array<Index, 4>> corner);
+/// `first_use` as in tell_vertices.
+TetCorners corners_of_vertices(std::size_t vertices, std::span<const std::array<Index, 4>> corner,
+                               std::span<const Index> first_use, int threads);
 
 /// From corners and across (4 u + j, or none) of each tetrahedron.
 TetTopology find_tet_topology(std::span<const std::array<Index, 4>> corner,

@@ -1,12 +1,15 @@
 #include "complex/tet_gluing.hpp"
 
 #include <algorithm>
+#include <atomic>
 #include <cstdint>
 #include <string>
 #include <tuple>
 
 #include <plexway/complex/detail/tet_record.hpp>
 #include <plexway/error.hpp>
+
+#include "complex/building_blocks.hpp"
 
 namespace plexway {
 namespace {
@@ -72,50 +75,14 @@ std::array<std::uint64_t, 4> ascending(const std::array<Index, 4>& tet) {
       ": at most two can");
 }
 
-}  // namespace
-
-void check_tets(std::size_t vertices, Tets tets) {
-  if (tets.empty()) throw InputError("the solid has no tetrahedra");
-  if (vertices >= none) throw InputError("more than 4294967294 vertices");
-  if (tets.size() > TetAcross::limit - 2)
-    throw InputError(std::to_string(tets.size()) + " tetrahedra: at most " +
-                     std::to_string(TetAcross::limit - 2) + " fit the index");
-  for (std::size_t t = 0; t < tets.size(); ++t)
-    for (std::size_t i = 0; i < 4; ++i) {
-      if (tets[t][i] >= vertices)
-        throw InputError("tet " + std::to_string(t) + ": vertex " + std::to_string(tets[t][i]) +
-                         " is out of range, there are " + std::to_string(vertices));
-      for (std::size_t j = 0; j < i; ++j)
-        if (tets[t][i] == tets[t][j])
-          throw InputError("tet " + std::to_string(t) + ": vertex " + std::to_string(tets[t][i]) +
-                           " occurs twice");
-    }
-}
-
-TetGluing glue_tets(std::size_t vertices, Tets tets) {
-  // Faces in buckets by their lowest vertex, some twenty each: those are scanned for the other two.
-  // Only where many meet are they sorted.
-  std::vector<Index> end(vertices + 1, 0);
-  for (const auto& tet : tets) {
-    const auto v = ascending(tet);
-    end[(v[0] >> 2) + 1] += 3;
-    ++end[(v[1] >> 2) + 1];
-  }
-  for (std::size_t v = 0; v < vertices; ++v) end[v + 1] += end[v];
-  std::vector<FaceSide> sides(tets.size() * 4);
-  for (std::size_t t = 0; t < tets.size(); ++t) {
-    const auto v = ascending(tets[t]);
-    const auto add = [&](std::size_t low, std::size_t middle, std::size_t high, std::size_t rest) {
-      sides[end[v[low] >> 2]++] = {v[middle] >> 2 << 32 | v[high] >> 2,
-                                   static_cast<Index>(4 * t + (v[rest] & 3))};
-    };
-    add(0, 1, 2, 3), add(0, 1, 3, 2), add(0, 2, 3, 1), add(1, 2, 3, 0);
-  }
-  TetGluing across(tets.size(), {none, none, none, none});
+// Glues what is in the buckets of the vertices from `begin` to `stop`; end[v]: where that of v
+// ends.
+void glue_buckets(FaceSide* sides, std::span<const Index> end, std::size_t begin, std::size_t stop,
+                  TetGluing& across) {
   constexpr std::ptrdiff_t few = 96;
-  FaceSide* first = sides.data();
-  for (Index v = 0; v < vertices; ++v) {
-    FaceSide* const next = sides.data() + end[v];
+  FaceSide* first = sides + (begin == 0 ? 0 : end[begin - 1]);
+  for (Index v = static_cast<Index>(begin); v < stop; ++v) {
+    FaceSide* const next = sides + end[v];
     FaceSide* last = next;
     const auto glue = [&](const FaceSide& a, const FaceSide& b) {
       across[a.corner / 4][a.corner % 4] = b.corner;
@@ -124,10 +91,10 @@ TetGluing glue_tets(std::size_t vertices, Tets tets) {
     if (last - first > few) {
       std::sort(first, last,
                 [](const FaceSide& a, const FaceSide& b) { return a.others < b.others; });
-      for (FaceSide* stop = first; first != last; first = stop) {
-        while (stop != last && stop->others == first->others) ++stop;
-        if (stop - first > 2) refuse_third(v, {first, last});
-        if (stop - first == 2) glue(first[0], first[1]);
+      for (FaceSide* behind = first; first != last; first = behind) {
+        while (behind != last && behind->others == first->others) ++behind;
+        if (behind - first > 2) refuse_third(v, {first, last});
+        if (behind - first == 2) glue(first[0], first[1]);
       }
     }
     for (; first < last; ++first) {
@@ -145,31 +112,95 @@ TetGluing glue_tets(std::size_t vertices, Tets tets) {
     }
     first = next;
   }
+}
+
+}  // namespace
+
+void check_tets(std::size_t vertices, Tets tets, int threads) {
+  if (tets.empty()) throw InputError("the solid has no tetrahedra");
+  if (vertices >= none) throw InputError("more than 4294967294 vertices");
+  if (tets.size() > TetAcross::limit - 2)
+    throw InputError(std::to_string(tets.size()) + " tetrahedra: at most " +
+                     std::to_string(TetAcross::limit - 2) + " fit the index");
+  over_blocks(tets.size(), threads, [&](std::size_t first, std::size_t last) {
+    for (std::size_t t = first; t < last; ++t)
+      for (std::size_t i = 0; i < 4; ++i) {
+        if (tets[t][i] >= vertices)
+          throw InputError("tet " + std::to_string(t) + ": vertex " + std::to_string(tets[t][i]) +
+                           " is out of range, there are " + std::to_string(vertices));
+        for (std::size_t j = 0; j < i; ++j)
+          if (tets[t][i] == tets[t][j])
+            throw InputError("tet " + std::to_string(t) + ": vertex " + std::to_string(tets[t][i]) +
+                             " occurs twice");
+      }
+  });
+}
+
+TetGluing glue_tets(std::size_t vertices, Tets tets, int threads) {
+  // By several threads, buckets have what is in them in any order: who scans does not mind.
+  const bool alone = threads_for(threads) == 1 || tets.size() <= building_block;
+  const auto up = [alone](Index& count, Index by) {
+    if (!alone) return std::atomic_ref(count).fetch_add(by, std::memory_order_relaxed);
+    const Index before = count;
+    count += by;
+    return before;
+  };
+  // Faces in buckets by their lowest vertex, some twenty each: those are scanned for the other two.
+  // Only where many meet are they sorted.
+  std::vector<Index> end(vertices + 1, 0);
+  over_blocks(tets.size(), threads, [&](std::size_t first, std::size_t last) {
+    for (std::size_t t = first; t < last; ++t) {
+      const auto v = ascending(tets[t]);
+      up(end[(v[0] >> 2) + 1], 3);
+      up(end[(v[1] >> 2) + 1], 1);
+    }
+  });
+  for (std::size_t v = 0; v < vertices; ++v) end[v + 1] += end[v];
+  Unfilled<FaceSide> sides(tets.size() * 4);
+  over_blocks(tets.size(), threads, [&](std::size_t first, std::size_t last) {
+    for (std::size_t t = first; t < last; ++t) {
+      const auto v = ascending(tets[t]);
+      const auto add = [&](std::size_t low, std::size_t middle, std::size_t high,
+                           std::size_t rest) {
+        sides[up(end[v[low] >> 2], 1)] = {v[middle] >> 2 << 32 | v[high] >> 2,
+                                          static_cast<Index>(4 * t + (v[rest] & 3))};
+      };
+      add(0, 1, 2, 3), add(0, 1, 3, 2), add(0, 2, 3, 1), add(1, 2, 3, 0);
+    }
+  });
+  TetGluing across(tets.size(), {none, none, none, none});
+  over_blocks(vertices, threads, [&](std::size_t first, std::size_t last) {
+    glue_buckets(sides.data(), end, first, last, across);
+  });
   return across;
 }
 
 std::vector<char> orient_tets(Tets tets, const TetGluing& across,
-                              std::span<const signed char> volume) {
+                              std::span<const signed char> volume, int threads) {
   std::vector<char> turn(tets.size(), 0);
   std::vector<char> known(tets.size(), 0);
   std::vector<unsigned char> even(tets.size());  // turning over makes all faces the other
-  bool all_known = true;
-  for (std::size_t t = 0; t < tets.size(); ++t) {
-    turn[t] = volume[t] < 0;
-    known[t] = volume[t] != 0;
-    all_known = all_known && volume[t] != 0;
-    even[t] = static_cast<unsigned char>(even_faces(tets[t]));
-  }
+  std::atomic<bool> settled = true;              // are all known, and do all fit?
+  over_blocks(tets.size(), threads, [&](std::size_t first, std::size_t last) {
+    bool all_known = true;
+    for (std::size_t t = first; t < last; ++t) {
+      turn[t] = volume[t] < 0;
+      known[t] = volume[t] != 0;
+      all_known = all_known && volume[t] != 0;
+      even[t] = static_cast<unsigned char>(even_faces(tets[t]));
+    }
+    if (!all_known) settled = false;
+  });
   const auto fits = [&](std::size_t t, Index i, std::size_t u, Index j) {
     return ((even[t] >> i ^ turn[t]) & 1) != ((even[u] >> j ^ turn[u]) & 1);
   };
-  const auto fits_all = [&] {
-    for (std::size_t t = 0; t < tets.size(); ++t)
-      for (Index i = 0; i < 4; ++i)
-        if (const Index o = across[t][i]; o != none && !fits(t, i, o / 4, o % 4)) return false;
-    return true;
-  };
-  if (all_known && fits_all()) return turn;
+  if (settled)
+    over_blocks(tets.size(), threads, [&](std::size_t first, std::size_t last) {
+      for (std::size_t t = first; t < last; ++t)
+        for (Index i = 0; i < 4; ++i)
+          if (const Index o = across[t][i]; o != none && !fits(t, i, o / 4, o % 4)) settled = false;
+    });
+  if (settled) return turn;
   std::vector<Index> queue;
   const auto is_thin = [&](std::size_t t) { return volume[t] == 1 || volume[t] == -1; };
   for (std::size_t t = 0; t < tets.size(); ++t)

@@ -13,18 +13,18 @@ using Tets = std::span<const std::array<Index, 4>>;
 /// across[t][i]: 4 u + j if face i of tetrahedron t is face j of u, or none.
 using TetGluing = std::vector<std::array<Index, 4>>;
 
-/// Throws InputError for indices that no solid can have.
-void check_tets(std::size_t vertices, Tets tets);
+/// Throws InputError for indices that no solid can have. All of this by any number of threads.
+void check_tets(std::size_t vertices, Tets tets, int threads);
 
 /// Glues tetrahedra where two share three vertices. Throws InputError naming those of a face that
 /// has more than two.
-TetGluing glue_tets(std::size_t vertices, Tets tets);
+TetGluing glue_tets(std::size_t vertices, Tets tets, int threads);
 
 /// Which tetrahedra to turn over (their last two corners exchanged) so that all are positive.
 /// volume[t]: +2 or -2; +1 or -1 for so little that the rounding of a file may have folded it over;
 /// 0 for none. Those without take the side that their neighbours leave them, and so do thin ones
 /// that do not fit. Throws InputError where two others lie on the same side of a face.
 std::vector<char> orient_tets(Tets tets, const TetGluing& across,
-                              std::span<const signed char> volume);
+                              std::span<const signed char> volume, int threads);
 
 }  // namespace plexway

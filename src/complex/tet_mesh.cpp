@@ -7,6 +7,7 @@
 
 #include <plexway/error.hpp>
 
+#include "complex/building_blocks.hpp"
 #include "complex/number_range.hpp"
 #include "complex/simplex_order.hpp"
 #include "complex/tet_edges.hpp"
@@ -26,29 +27,34 @@ Vector3<double> vector(const std::array<double, 3>& p) { return {p[0], p[1], p[2
 // overflows.
 std::vector<std::array<double, 3>> centred(std::span<const std::array<double, 3>> positions,
                                            std::span<const std::array<Index, 4>> tets,
-                                           double& extent) {
-  std::array<double, 3> low{}, high{};
-  low.fill(std::numeric_limits<double>::infinity());
-  high.fill(-std::numeric_limits<double>::infinity());
-  for (std::size_t v = 0; v < positions.size(); ++v)
-    for (const double x : positions[v])
-      if (!std::isfinite(x))
-        throw InputError("vertex " + std::to_string(v) + ": a coordinate is not a finite number");
-  for (const auto& tet : tets)  // a stray vertex must not cost the others their digits
-    for (const Index v : tet)
-      for (std::size_t d = 0; d < 3; ++d) {
-        low[d] = std::min(low[d], positions[v][d]);
-        high[d] = std::max(high[d], positions[v][d]);
-      }
+                                           double& extent, int threads) {
+  over_blocks(positions.size(), threads, [&](std::size_t first, std::size_t last) {
+    for (std::size_t v = first; v < last; ++v)
+      for (const double x : positions[v])
+        if (!std::isfinite(x))
+          throw InputError("vertex " + std::to_string(v) + ": a coordinate is not a finite number");
+  });
+  Box3 box;
+  gather_blocks<Box3>(
+      tets.size(), threads,
+      [&](std::size_t first, std::size_t last, Box3& own) {
+        // A stray vertex must not cost the others their digits.
+        for (const auto& tet : tets.subspan(first, last - first))
+          for (const Index v : tet) own.take(positions[v]);
+      },
+      [&](const Box3& own) { box.take(own); });
+  const auto &low = box.low, &high = box.high;
   extent = 0;
   for (std::size_t d = 0; d < 3; ++d) extent = std::max(extent, high[d] / 2 - low[d] / 2);
   if (extent > std::numeric_limits<double>::max() / 16)
     throw InputError("the coordinates are too large to take distances: scale them down");
   if (!(extent > 0)) extent = 1;
   std::vector<std::array<double, 3>> scaled(positions.size());
-  for (std::size_t v = 0; v < positions.size(); ++v)
-    for (std::size_t d = 0; d < 3; ++d)
-      scaled[v][d] = (positions[v][d] - (low[d] / 2 + high[d] / 2)) / extent;
+  over_blocks(positions.size(), threads, [&](std::size_t first, std::size_t last) {
+    for (std::size_t v = first; v < last; ++v)
+      for (std::size_t d = 0; d < 3; ++d)
+        scaled[v][d] = (positions[v][d] - (low[d] / 2 + high[d] / 2)) / extent;
+  });
   return scaled;
 }
 
@@ -83,20 +89,19 @@ bool has_volume(const TetPoints& p) { return thickness(p, determinant(p)) > flat
 
 template <class Real>
 TetMesh<Real>::TetMesh(std::span<const std::array<double, 3>> positions,
-                       std::span<const std::array<Index, 4>> tets) {
-  check_tets(positions.size(), tets);
+                       std::span<const std::array<Index, 4>> tets, int threads) {
+  check_tets(positions.size(), tets, threads);
   double extent = 1;
-  auto scaled = centred(positions, tets, extent);
-  const auto across = glue_tets(positions.size(), tets);
+  auto scaled = centred(positions, tets, extent, threads);
+  const auto across = glue_tets(positions.size(), tets, threads);
   std::vector<signed char> volume(tets.size());
-  double sum = 0;
-  for (std::size_t t = 0; t < tets.size(); ++t) {
+  const auto measure = [&](std::size_t t, std::array<double, 6>& lengths) {
     TetPoints p;
     for (std::size_t i = 0; i < 4; ++i) p[i] = vector(scaled[tets[t][i]]);
     double longest = 0;
-    for (const auto& [i, j] : tet_edge_ends) {
-      const double length = norm(p[j] - p[i]);
-      sum += length;
+    for (std::size_t e = 0; e < 6; ++e) {
+      const auto& [i, j] = tet_edge_ends[e];
+      lengths[e] = norm(p[j] - p[i]);
       // Not as centred: what an extent leaves no digits for is not without length.
       const auto &a = positions[tets[t][i]], &b = positions[tets[t][j]];
       for (std::size_t d = 0; d < 3; ++d)
@@ -106,24 +111,42 @@ TetMesh<Real>::TetMesh(std::span<const std::array<double, 3>> positions,
     const double six_volumes = determinant(p), thick = thickness(p, six_volumes);
     volume[t] = static_cast<signed char>(thick <= flat ? 0 : thick < thin ? 1 : 2);
     if (six_volumes < 0) volume[t] = static_cast<signed char>(-volume[t]);
+  };
+  // Some blocks at a time, as the sum is in the order of the tetrahedra.
+  const std::size_t most = building_block * (threads_for(threads) == 1 ? 1 : 32);
+  Unfilled<std::array<double, 6>> lengths(std::min(most, tets.size()));
+  double sum = 0;
+  for (std::size_t begin = 0; begin < tets.size(); begin += most) {
+    const std::size_t count = std::min(most, tets.size() - begin);
+    over_blocks(count, threads, [&](std::size_t first, std::size_t last) {
+      for (std::size_t k = first; k < last; ++k) measure(begin + k, lengths[k]);
+    });
+    for (std::size_t k = 0; k < count; ++k)
+      for (const double length : lengths[k]) sum += length;
+  }
+  Unfilled<std::array<double, 6>>().swap(lengths);
+  for (std::size_t t = 0; t < tets.size(); ++t) {
     if (volume[t] == 0 && summary_.degenerate_tets++ == 0)
       summary_.first_degenerate = static_cast<Index>(t);
     if (volume[t] < 0 && summary_.inverted_tets++ == 0)
       summary_.first_inverted = static_cast<Index>(t);
   }
-  const auto turn = orient_tets(tets, across, volume);
+  const auto turn = orient_tets(tets, across, volume, threads);
   const double mean = sum > 0 ? sum / (6 * static_cast<double>(tets.size())) : 1;
-  for (auto& p : scaled)
-    for (double& x : p) x /= mean;
+  over_blocks(scaled.size(), threads, [&](std::size_t first, std::size_t last) {
+    for (std::size_t v = first; v < last; ++v)
+      for (double& x : scaled[v]) x /= mean;
+  });
   summary_.embedded = true;
   summary_.mean_edge = mean * extent;
-  assemble(positions.size(), tets, scaled, {}, across, along_curve<4>(scaled, tets), turn);
+  assemble(positions.size(), tets, scaled, {}, across, along_curve<4>(scaled, tets, threads), turn,
+           threads);
 }
 
 template <class Real>
 TetMesh<Real>::TetMesh(std::size_t vertices, std::span<const std::array<Index, 4>> tets,
-                       std::span<const std::array<double, 6>> lengths) {
-  check_tets(vertices, tets);
+                       std::span<const std::array<double, 6>> lengths, int threads) {
+  check_tets(vertices, tets, threads);
   if (lengths.size() != tets.size())
     throw InputError(std::to_string(tets.size()) + " tets but lengths for " +
                      std::to_string(lengths.size()));
@@ -144,11 +167,11 @@ TetMesh<Real>::TetMesh(std::size_t vertices, std::span<const std::array<Index, 4
   for (std::size_t t = 0; t < tets.size(); ++t)
     NumberRange<Real>::check_simplex("tet", t,
                                      *std::max_element(scaled[t].begin(), scaled[t].end()));
-  const auto across = glue_tets(vertices, tets);
+  const auto across = glue_tets(vertices, tets, threads);
   const std::vector<signed char> unknown(tets.size(), 0);
-  const auto turn = orient_tets(tets, across, unknown);
+  const auto turn = orient_tets(tets, across, unknown, threads);
   summary_.mean_edge = unit;
-  assemble(vertices, tets, {}, scaled, across, breadth_first<4>(across), turn);
+  assemble(vertices, tets, {}, scaled, across, breadth_first<4>(across), turn, threads);
 }
 
 template <class Real>
@@ -156,37 +179,49 @@ void TetMesh<Real>::assemble(std::size_t vertices, std::span<const std::array<In
                              std::span<const std::array<double, 3>> scaled,
                              std::span<const std::array<double, 6>> lengths,
                              std::span<const std::array<Index, 4>> across,
-                             const std::vector<Index>& order, const std::vector<char>& turn) {
+                             const std::vector<Index>& order, const std::vector<char>& turn,
+                             int threads) {
   const std::size_t m = tets.size();
   summary_.vertices = vertices;
   summary_.tets = m;
   std::vector<Index>& tet_to_inside = tet_to_inside_.own();
   tet_to_inside.resize(m);
-  for (std::size_t i = 0; i < m; ++i)
-    tet_to_inside[order[i]] = static_cast<Index>(i) | (turn[order[i]] ? turned : 0);
+  over_blocks(m, threads, [&](std::size_t first, std::size_t last) {
+    for (std::size_t i = first; i < last; ++i)
+      tet_to_inside[order[i]] = static_cast<Index>(i) | (turn[order[i]] ? turned : 0);
+  });
   std::vector<Index>& vertex_to_inside = vertex_to_inside_.own();
   vertex_to_inside.assign(vertices, none);
   Index named = 0;
-  for (const Index t : order)
-    for (const Index v : tets[t])
+  std::vector<Index> first_use;
+  for (std::size_t i = 0; i < m; ++i) {
+    if (i % building_block == 0) first_use.push_back(named);
+    for (const Index v : tets[order[i]])
       if (vertex_to_inside[v] == none) vertex_to_inside[v] = named++;
+  }
   summary_.unreferenced_vertices = vertices - named;
   for (Index& v : vertex_to_inside)
     if (v == none) v = named++;
 
   // A turned tetrahedron has its last two corners, and so faces, exchanged.
   const auto corner_inside = [&](Index t, Index i) { return turn[t] && i >= 2 ? 5 - i : i; };
-  std::vector<std::array<Index, 4>> corner(m), over(m);
-  for (std::size_t inside = 0; inside < m; ++inside) {
-    const Index t = order[inside];
-    for (Index i = 0; i < 4; ++i) {
-      const Index k = corner_inside(t, i), o = across[t][i];
-      corner[inside][k] = vertex_to_inside_[tets[t][i]];
-      over[inside][k] =
-          o == none ? none : 4 * (tet_to_inside_[o / 4] & ~turned) + corner_inside(o / 4, o % 4);
-      summary_.boundary_faces += o == none;
-    }
-  }
+  Unfilled<std::array<Index, 4>> corner(m), over(m);
+  gather_blocks<std::size_t>(
+      m, threads,
+      [&](std::size_t first, std::size_t last, std::size_t& on_boundary) {
+        for (std::size_t inside = first; inside < last; ++inside) {
+          const Index t = order[inside];
+          for (Index i = 0; i < 4; ++i) {
+            const Index k = corner_inside(t, i), o = across[t][i];
+            corner[inside][k] = vertex_to_inside[tets[t][i]];
+            over[inside][k] =
+                o == none ? none
+                          : 4 * (tet_to_inside[o / 4] & ~turned) + corner_inside(o / 4, o % 4);
+            on_boundary += o == none;
+          }
+        }
+      },
+      [&](std::size_t on_boundary) { summary_.boundary_faces += on_boundary; });
   summary_.faces = (4 * m + summary_.boundary_faces) / 2;
 
   std::vector<Vector3<double>> at;
@@ -202,7 +237,7 @@ void TetMesh<Real>::assemble(std::size_t vertices, std::span<const std::array<In
       for (Index i = 0; i < 4; ++i) points[inside][corner_inside(t, i)] = posed[i];
     }
   }
-  TetCorners rows = corners_of_vertices(vertices, corner);
+  TetCorners rows = corners_of_vertices(vertices, corner, first_use, threads);
   TetTopology topology = find_tet_topology(corner, over, rows, {at, points});
   corners_begin_ = std::move(rows.begin);
   corners_ = std::move(rows.corner);
@@ -222,19 +257,21 @@ void TetMesh<Real>::assemble(std::size_t vertices, std::span<const std::array<In
   };
   constexpr auto packed = [](Index tet, Index face) { return tet << TetAcross::tet_shift | face; };
   const Index sentinel = packed(static_cast<Index>(m), 0);
-  std::vector<TetRecord<Real>>& records = tets_.own();
-  records.reserve(m + 1);
-  for (std::size_t t = 0; t < m; ++t) {
-    Vector3<double> centre = {0, 0, 0};
-    if (summary_.embedded)
-      for (const Index v : corner[t]) centre = centre + 0.25 * at[v];
-    const auto side = [&](std::size_t i) { return over[t][i] == none ? sentinel : over[t][i]; };
-    records.push_back({{side(0), side(1), side(2), side(3)},
-                       {corner[t][0], corner[t][1], corner[t][2], corner[t][3]},
-                       rounded(centre),
-                       summary_.embedded ? topology.first_reflex[t] : none});
-  }
-  records.push_back({{sentinel, sentinel, sentinel, sentinel}, {0, 0, 0, 0}, {0, 0, 0}, none});
+  auto& records = tets_.own();
+  records.resize(m + 1);
+  over_blocks(m, threads, [&](std::size_t first, std::size_t last) {
+    for (std::size_t t = first; t < last; ++t) {
+      Vector3<double> centre = {0, 0, 0};
+      if (summary_.embedded)
+        for (const Index v : corner[t]) centre = centre + 0.25 * at[v];
+      const auto side = [&](std::size_t i) { return over[t][i] == none ? sentinel : over[t][i]; };
+      records[t] = {{side(0), side(1), side(2), side(3)},
+                    {corner[t][0], corner[t][1], corner[t][2], corner[t][3]},
+                    rounded(centre),
+                    summary_.embedded ? topology.first_reflex[t] : none};
+    }
+  });
+  records[m] = {{sentinel, sentinel, sentinel, sentinel}, {0, 0, 0, 0}, {0, 0, 0}, none};
 
   if (summary_.embedded) {
     points_.own().reserve(vertices);

@@ -3,11 +3,13 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <mutex>
 #include <numbers>
 #include <string>
 
 #include <plexway/error.hpp>
 
+#include "complex/building_blocks.hpp"
 #include "complex/face_layout.hpp"
 #include "complex/gluing.hpp"
 #include "complex/number_range.hpp"
@@ -21,40 +23,47 @@ namespace {
 
 Index next(Index i) { return i == 2 ? 0 : i + 1; }
 
-void check_faces(std::size_t vertices, Faces faces) {
+void check_faces(std::size_t vertices, Faces faces, int threads) {
   if (faces.empty()) throw InputError("the surface has no faces");
   if (vertices >= none) throw InputError("more than 4294967294 vertices");
   if (faces.size() > Across::limit - 2)
     throw InputError(std::to_string(faces.size()) + " faces: at most " +
                      std::to_string(Across::limit - 2) + " fit the index");
-  Index largest = 0;
-  for (const auto& [a, b, c] : faces) largest = std::max({largest, a, b, c});
-  if (largest < vertices) return;
-  for (std::size_t f = 0; f < faces.size(); ++f)
-    for (const Index v : faces[f])
-      if (v >= vertices)
-        throw InputError("face " + std::to_string(f) + ": vertex " + std::to_string(v) +
-                         " is out of range, there are " + std::to_string(vertices));
+  over_blocks(faces.size(), threads, [&](std::size_t first, std::size_t last) {
+    Index largest = 0;
+    for (const auto& [a, b, c] : faces.subspan(first, last - first))
+      largest = std::max({largest, a, b, c});
+    if (largest < vertices) return;
+    for (std::size_t f = first; f < last; ++f)
+      for (const Index v : faces[f])
+        if (v >= vertices)
+          throw InputError("face " + std::to_string(f) + ": vertex " + std::to_string(v) +
+                           " is out of range, there are " + std::to_string(vertices));
+  });
 }
 
 // In a surface given by vertices alone a repeated corner leaves nothing to glue by.
-void check_corners(Faces faces) {
-  for (std::size_t f = 0; f < faces.size(); ++f) {
-    const auto& [a, b, c] = faces[f];
-    if (a != b && b != c && c != a) continue;
-    for (Index i = 0; i < 3; ++i)
-      if (faces[f][i] == faces[f][next(i)])
-        throw InputError("face " + std::to_string(f) + ": vertex " + std::to_string(faces[f][i]) +
-                         " occurs twice");
-  }
+void check_corners(Faces faces, int threads) {
+  over_blocks(faces.size(), threads, [&](std::size_t first, std::size_t last) {
+    for (std::size_t f = first; f < last; ++f) {
+      const auto& [a, b, c] = faces[f];
+      if (a != b && b != c && c != a) continue;
+      for (Index i = 0; i < 3; ++i)
+        if (faces[f][i] == faces[f][next(i)])
+          throw InputError("face " + std::to_string(f) + ": vertex " + std::to_string(faces[f][i]) +
+                           " occurs twice");
+    }
+  });
 }
 
-void check_positions(std::span<const std::array<double, 3>> positions) {
-  for (std::size_t v = 0; v < positions.size(); ++v) {
-    const auto& [x, y, z] = positions[v];
-    if (!(std::isfinite(x) && std::isfinite(y) && std::isfinite(z)))
-      throw InputError("vertex " + std::to_string(v) + ": a coordinate is not finite");
-  }
+void check_positions(std::span<const std::array<double, 3>> positions, int threads) {
+  over_blocks(positions.size(), threads, [&](std::size_t first, std::size_t last) {
+    for (std::size_t v = first; v < last; ++v) {
+      const auto& [x, y, z] = positions[v];
+      if (!(std::isfinite(x) && std::isfinite(y) && std::isfinite(z)))
+        throw InputError("vertex " + std::to_string(v) + ": a coordinate is not finite");
+    }
+  });
 }
 
 std::vector<Index> copy_of(std::span<const Index> order) { return {order.begin(), order.end()}; }
@@ -124,11 +133,12 @@ void shorten_each(Lengths& lengths) {
 }  // namespace
 
 FaceLayout lay_out(std::span<const std::array<double, 3>> positions, Faces faces,
-                   std::span<const Index> order) {
-  check_faces(positions.size(), faces);
-  check_corners(faces);
-  check_positions(positions);
-  return {positions.size(), faces, order.empty() ? along_curve(positions, faces) : copy_of(order)};
+                   std::span<const Index> order, int threads) {
+  check_faces(positions.size(), faces, threads);
+  check_corners(faces, threads);
+  check_positions(positions, threads);
+  return {positions.size(), faces,
+          order.empty() ? along_curve(positions, faces, threads) : copy_of(order), threads};
 }
 
 SaddleThresholds SaddleThresholds::standard() {
@@ -140,15 +150,16 @@ template <class Real>
 TriangleMesh<Real>::TriangleMesh(std::span<const std::array<double, 3>> positions,
                                  std::span<const std::array<Index, 3>> faces,
                                  const SurfaceHints& hints) {
-  assemble(lay_out(positions, faces, hints.order), ShapesInSpace(positions, faces), hints);
+  assemble(lay_out(positions, faces, hints.order, hints.threads), ShapesInSpace(positions, faces),
+           hints);
 }
 
 template <class Real>
 TriangleMesh<Real>::TriangleMesh(std::size_t vertices, std::span<const std::array<Index, 3>> faces,
                                  std::span<const std::array<double, 3>> lengths,
                                  const SurfaceHints& hints) {
-  check_faces(vertices, faces);
-  check_corners(faces);
+  check_faces(vertices, faces, hints.threads);
+  check_corners(faces, hints.threads);
   *this = TriangleMesh(vertices, faces, lengths, glue_by_vertices(vertices, faces), hints);
 }
 
@@ -157,7 +168,7 @@ TriangleMesh<Real>::TriangleMesh(std::size_t vertices, std::span<const std::arra
                                  std::span<const std::array<double, 3>> lengths,
                                  std::span<const std::array<Index, 3>> across,
                                  const SurfaceHints& hints) {
-  check_faces(vertices, faces);
+  check_faces(vertices, faces, hints.threads);
   if (lengths.size() != faces.size() || across.size() != faces.size())
     throw InputError(std::to_string(faces.size()) + " faces with " +
                      std::to_string(lengths.size()) + " rows of lengths and " +
@@ -176,9 +187,9 @@ TriangleMesh<Real>::TriangleMesh(std::size_t vertices, std::span<const std::arra
     shorten_each(agreed);
   else
     shorten_to_triangles(agreed, across);
-  assemble(
-      {vertices, faces, hints.order.empty() ? breadth_first(across) : copy_of(hints.order), across},
-      ShapesOfLengths(agreed, violated), hints);
+  assemble({vertices, faces, hints.order.empty() ? breadth_first(across) : copy_of(hints.order),
+            across, hints.threads},
+           ShapesOfLengths(agreed, violated), hints);
 }
 
 template <class Real>
@@ -200,33 +211,37 @@ void TriangleMesh<Real>::assemble(FaceLayout layout, const TriangleShapes& shape
   summary_.non_manifold_edges = layout.non_manifold_edges;
   if (hints.refracts)
     summary_.refracting_edges =
-        layout.mark_refraction(shapes, &NumberRange<Real>::check_refraction);
+        layout.mark_refraction(shapes, &NumberRange<Real>::check_refraction, hints.threads);
 
-  VertexFans fans = find_vertex_fans(layout);
+  VertexFans fans = find_vertex_fans(layout, hints.threads);
 
   // What the layout says goes into the records, so that it need not be held while they are filled.
-  std::vector<TriangleRecord<Real>>& triangles = triangles_.own();
-  triangles.reserve(m + 1);
-  for (std::size_t f = 0; f < m; ++f) {
-    const auto &o = layout.across[f], &v = layout.corner[f];
-    triangles.push_back({{o[0], o[1], o[2]},
-                         {},
-                         {},
-                         {},
-                         {v[0], v[1], v[2]},
-                         layout.face[f] | (layout.is_turned(f) ? reversed : 0)});
-  }
+  auto& triangles = triangles_.own();
+  triangles.resize(m + 1);
+  over_blocks(m, hints.threads, [&](std::size_t first, std::size_t last) {
+    for (std::size_t f = first; f < last; ++f) {
+      const auto &o = layout.across[f], &v = layout.corner[f];
+      triangles[f] = {{o[0], o[1], o[2]},
+                      {},
+                      {},
+                      {},
+                      {v[0], v[1], v[2]},
+                      layout.face[f] | (layout.is_turned(f) ? reversed : 0)};
+    }
+  });
   const Index sentinel = static_cast<Index>(m) << Across::face_shift;
-  triangles.push_back(
-      {{sentinel, sentinel, sentinel}, {1, 1, 1}, {0, 0, 0}, {1, 1, 1}, {0, 0, 0}, none});
+  triangles[m] = {{sentinel, sentinel, sentinel}, {1, 1, 1}, {0, 0, 0}, {1, 1, 1}, {0, 0, 0}, none};
   vertex_to_inside_ = std::move(layout.vertex_to_inside);
   face_to_inside_ = std::move(layout.face_to_inside);
+  const std::vector<Index> first_use = std::move(layout.first_use);
   layout = {};
 
-  std::vector<double> angle = take_shapes(shapes);
-  for (std::size_t v = 0; v < angle.size(); ++v)  // from here on what is more than flat
-    angle[v] -= (fans.on_boundary[v] ? 1 : 2) * std::numbers::pi;
-  mark_saddles<Real>(triangles, fans, std::move(angle), hints);
+  std::vector<double> angle = take_shapes(shapes, first_use, hints.threads);
+  over_blocks(angle.size(), hints.threads, [&](std::size_t first, std::size_t last) {
+    for (std::size_t v = first; v < last; ++v)  // from here on what is more than flat
+      angle[v] -= (fans.on_boundary[v] ? 1 : 2) * std::numbers::pi;
+  });
+  mark_saddles<Real>(triangles, fans, first_use, std::move(angle), hints);
 
   corner_of_vertex_ = std::move(fans.corner);
   irregular_ = std::move(fans.irregular);
@@ -236,70 +251,87 @@ void TriangleMesh<Real>::assemble(FaceLayout layout, const TriangleShapes& shape
   summary_.pinched_vertices = pinched_.size();
   summary_.components = fans.components;
   const auto own = shapes.positions();
-  place(own.empty() ? hints.positions : own);
+  place(own.empty() ? hints.positions : own, hints.threads);
   in_space_ = !own.empty();
   take_chords(hints.chords);
 }
 
 // Fills in lengths, cosines and sines. Returns the angle around each vertex.
 template <class Real>
-std::vector<double> TriangleMesh<Real>::take_shapes(const TriangleShapes& shapes) {
+std::vector<double> TriangleMesh<Real>::take_shapes(const TriangleShapes& shapes,
+                                                    std::span<const Index> first_use, int threads) {
   const std::size_t m = face_count();
-  std::vector<TriangleRecord<Real>>& triangles = triangles_.own();
+  auto& triangles = triangles_.own();
   constexpr std::size_t size = ShapeBlock::size;
-  Lengths lengths(m);  // of faces inside, edges as the caller numbers them
-  double longest = 0;
+  static_assert(building_block % size == 0);
+  // Of faces inside, edges as the caller numbers them.
+  Unfilled<std::array<double, 3>> lengths(m);
   std::vector<double> around(vertex_count(), 0);
-  std::array<Index, size> faces;
-  ShapeBlock block{};
-  RoundedAngles<Real> rounded;
-  std::array<ShapeBlock::Row, 3> angle;
-  for (std::size_t first = 0; first < m; first += size) {
-    const std::size_t count = std::min(size, m - first);
-    for (std::size_t k = 0; k < count; ++k) faces[k] = triangles[first + k].face & ~reversed;
-    shapes.look_up(std::span(faces).first(count), block);
-    round_angles(block, rounded);
-    angles_of(block, angle);
-    for (std::size_t k = 0; k < count; ++k) {
-      TriangleRecord<Real>& t = triangles[first + k];
-      summary_.degenerate_faces += block.degenerate[k];
-      summary_.violated_faces += block.violated[k];
-      const bool turned = (t.face & reversed) != 0;
-      for (std::size_t i = 0; i < 3; ++i) {
-        const std::size_t corner = turned && i != 0 ? 3 - i : i;
-        const double length = lengths[first + k][i] = block.length[i][k];
-        longest = length > longest ? length : longest;
-        t.cosine[i] = rounded.cosine[corner][k];
-        t.signed_sine[i] = rounded.sine[corner][k];
-        around[t.corner[i]] += angle[corner][k];
+  double longest = 0;
+  std::mutex mutex;
+  const auto take = [&](std::size_t begin, std::size_t end, const auto& tell) {
+    std::array<Index, size> faces;
+    ShapeBlock block{};
+    RoundedAngles<Real> rounded;
+    std::array<ShapeBlock::Row, 3> angle;
+    double most = 0;
+    std::size_t degenerate = 0, violated = 0;
+    for (std::size_t first = begin; first < end; first += size) {
+      const std::size_t count = std::min(size, end - first);
+      for (std::size_t k = 0; k < count; ++k) faces[k] = triangles[first + k].face & ~reversed;
+      shapes.look_up(std::span(faces).first(count), block);
+      round_angles(block, rounded);
+      angles_of(block, angle);
+      for (std::size_t k = 0; k < count; ++k) {
+        TriangleRecord<Real>& t = triangles[first + k];
+        degenerate += block.degenerate[k];
+        violated += block.violated[k];
+        const bool turned = (t.face & reversed) != 0;
+        for (std::size_t i = 0; i < 3; ++i) {
+          const std::size_t corner = turned && i != 0 ? 3 - i : i;
+          const double length = lengths[first + k][i] = block.length[i][k];
+          most = length > most ? length : most;
+          t.cosine[i] = rounded.cosine[corner][k];
+          t.signed_sine[i] = rounded.sine[corner][k];
+          tell(t.corner[i], angle[corner][k]);
+        }
+        check_length(faces[k], lengths[first + k]);
       }
-      check_length(faces[k], lengths[first + k]);
     }
-  }
+    const std::lock_guard lock(mutex);
+    longest = std::max(longest, most);
+    summary_.degenerate_faces += degenerate;
+    summary_.violated_faces += violated;
+  };
+  tell_vertices<double>(first_use, m, threads, take, [&](Index v, double a) { around[v] += a; });
 
   const double unit = mean_edge(
       m, longest, [&](std::size_t f) -> const auto& { return lengths[f]; });
   summary_.mean_edge = unit;
-  for (std::size_t f = 0; f < m; ++f) {
-    TriangleRecord<Real>& t = triangles[f];
-    const auto& [a, b, c] = lengths[f];
-    NumberRange<Real>::check_simplex("face", t.face & ~reversed, std::max({a, b, c}) / unit);
-    for (std::size_t i = 0; i < 3; ++i) t.length[i] = static_cast<Real>(lengths[f][i] / unit);
-    if ((t.face & reversed) != 0) std::swap(t.length[0], t.length[2]);
-  }
+  over_blocks(m, threads, [&](std::size_t first, std::size_t last) {
+    for (std::size_t f = first; f < last; ++f) {
+      TriangleRecord<Real>& t = triangles[f];
+      const auto& [a, b, c] = lengths[f];
+      NumberRange<Real>::check_simplex("face", t.face & ~reversed, std::max({a, b, c}) / unit);
+      for (std::size_t i = 0; i < 3; ++i) t.length[i] = static_cast<Real>(lengths[f][i] / unit);
+      if ((t.face & reversed) != 0) std::swap(t.length[0], t.length[2]);
+    }
+  });
   return around;
 }
 
 // In double: next to a source, single precision would say nothing on a large surface.
 template <class Real>
-void TriangleMesh<Real>::place(std::span<const std::array<double, 3>> positions) {
+void TriangleMesh<Real>::place(std::span<const std::array<double, 3>> positions, int threads) {
   if (positions.empty()) return;
   constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
   std::vector<std::array<double, 3>>& at = positions_.own();
   at.assign(vertex_count(), {unknown, unknown, unknown});
-  for (std::size_t v = 0; v < positions.size(); ++v)
-    for (std::size_t i = 0; i < 3; ++i)
-      at[vertex_to_inside_[v]][i] = (positions[v][i] - positions[0][i]) / unit();
+  over_blocks(positions.size(), threads, [&](std::size_t first, std::size_t last) {
+    for (std::size_t v = first; v < last; ++v)
+      for (std::size_t i = 0; i < 3; ++i)
+        at[vertex_to_inside_[v]][i] = (positions[v][i] - positions[0][i]) / unit();
+  });
 }
 
 template <class Real>

@@ -46,12 +46,22 @@ Index fan_size(const FaceLayout& layout, Index start) {
 
 // The corners of a regular vertex are joined by edges, those of the others belong together: so
 // faces belong together if they share a vertex.
-std::size_t count_components(const FaceLayout& layout) {
+std::size_t count_components(const FaceLayout& layout, int threads) {
   DisjointSets sets(layout.named);
-  for (const auto& [a, b, c] : layout.corner) {
-    sets.unite(a, b);
-    sets.unite(a, c);
-  }
+  tell_vertices<Index>(
+      layout.first_use, layout.face_count(), threads,
+      [&](std::size_t first, std::size_t last, const auto& tell) {
+        for (std::size_t f = first; f < last; ++f) {
+          const auto& [a, b, c] = layout.corner[f];
+          tell(std::min({a, b, c}), static_cast<Index>(f));
+        }
+      },
+      // A set's numbers are those of one block, as long as it is told of its vertices alone.
+      [&](Index, Index f) {
+        const auto& [a, b, c] = layout.corner[f];
+        sets.unite(a, b);
+        sets.unite(a, c);
+      });
   std::size_t count = 0;
   for (Index v = 0; v < layout.named; ++v) count += sets.find(v) == v;
   return count;
@@ -59,29 +69,47 @@ std::size_t count_components(const FaceLayout& layout) {
 
 }  // namespace
 
-VertexFans find_vertex_fans(const FaceLayout& layout) {
+VertexFans find_vertex_fans(const FaceLayout& layout, int threads) {
   const std::size_t faces = layout.face_count(), vertices = layout.vertex_count();
   const Index end = static_cast<Index>(faces) << Across::face_shift;
   VertexFans fans;
   fans.corner.assign(vertices, none);
   fans.on_boundary.assign(vertices, 0);
   std::vector<Index> corners(vertices, 0);
-  for (std::size_t f = faces; f-- > 0;)
-    for (std::size_t i = 0; i < 3; ++i) {
-      const Index v = layout.corner[f][i];
-      fans.corner[v] = static_cast<Index>(3 * f + i);
-      ++corners[v];
-      if (layout.across[f][i] >= end)
-        fans.on_boundary[v] = fans.on_boundary[layout.corner[f][edge_after(i)]] = 1;
-    }
+  struct Corner {
+    Index face;
+    unsigned char corner, on_boundary;
+  };
+  tell_vertices<Corner>(
+      layout.first_use, faces, threads,
+      [&](std::size_t first, std::size_t last, const auto& tell) {
+        for (std::size_t f = first; f < last; ++f)
+          for (std::size_t i = 0; i < 3; ++i)
+            tell(layout.corner[f][i],
+                 Corner{static_cast<Index>(f), static_cast<unsigned char>(i),
+                        layout.across[f][i] >= end || layout.across[f][edge_before(i)] >= end});
+      },
+      [&](Index v, const Corner& c) {
+        ++corners[v];
+        fans.on_boundary[v] = static_cast<char>(fans.on_boundary[v] | c.on_boundary);
+        // The last one in the first face.
+        if (fans.corner[v] >= 3 * c.face) fans.corner[v] = 3 * c.face + c.corner;
+      });
+  gather_blocks<std::vector<Index>>(
+      layout.named, threads,
+      [&](std::size_t first, std::size_t last, std::vector<Index>& irregular) {
+        for (Index v = static_cast<Index>(first); v < last; ++v)
+          if (fan_size(layout, fans.corner[v]) != corners[v]) irregular.push_back(v);
+      },
+      [&](const std::vector<Index>& irregular) {
+        fans.irregular.insert(fans.irregular.end(), irregular.begin(), irregular.end());
+      });
+  std::sort(fans.irregular.begin(), fans.irregular.end());
   std::vector<Index> row;
-  for (Index v = 0; v < layout.named; ++v) {
-    if (fan_size(layout, fans.corner[v]) == corners[v]) continue;
-    if (row.empty()) row.assign(vertices, none);
-    row[v] = static_cast<Index>(fans.irregular.size());
-    fans.irregular.push_back(v);
-  }
-  fans.components = count_components(layout);
+  if (!fans.irregular.empty()) row.assign(vertices, none);
+  for (std::size_t r = 0; r < fans.irregular.size(); ++r)
+    row[fans.irregular[r]] = static_cast<Index>(r);
+  fans.components = count_components(layout, threads);
 
   fans.irregular_begin.assign(fans.irregular.size() + 1, 0);
   for (std::size_t r = 0; r < fans.irregular.size(); ++r)

@@ -21,7 +21,8 @@ struct VertexFans {
   std::size_t components = 0;  ///< joined by edges or pinched vertices
 };
 
-VertexFans find_vertex_fans(const FaceLayout& layout);
+/// By any number of threads.
+VertexFans find_vertex_fans(const FaceLayout& layout, int threads);
 
 /// Calls visit(corner) for the corners 3 f + i reached from `start` by crossing edges with two
 /// triangles, first one way around, then the other. across_of(face, edge) is packed as Across.

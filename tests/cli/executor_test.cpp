@@ -82,7 +82,7 @@ TEST_CASE("executors and options that do not go together are usage errors") {
     refused({"--executor", "openmp"}, 4, "--executor openmp");
   refused({"--device", "0"}, 2, "--device");
   refused({"--executor", "abacus"}, 2, "abacus");
-  refused({"--threads", "2"}, 2, "--threads");
+  refused({"--threads", "0"}, 2, "--threads");
   refused({"--executor", "auto", "--threads", "0"}, 2, "--threads");
   refused({"--executor", "auto", "--threads", "-2"}, 2, "--threads");
 }

@@ -5,6 +5,9 @@
 
 namespace plexway {
 
+/// How many threads are meant: as asked, or for 0 as many as the machine has.
+[[nodiscard]] int threads_for(int asked);
+
 /// Calls work(first, last) for all blocks of `block` numbers below `count`, on `threads` threads
 /// (0: as many as the machine has). Which thread does which block is left to chance, so that work
 /// must not depend on it. `progress`, if any, is called by the caller's thread with the share that

@@ -85,11 +85,12 @@ struct TriangulatedSurface;
 ///   mesh = delaunay.mesh<Real>();
 ///
 /// @endcode
-/// in a third of the time. Throws InputError as TriangleMesh does.
+/// in a third of the time. `threads` as SurfaceHints::threads. Throws InputError as TriangleMesh
+/// does.
 template <class Real>
 [[nodiscard]] TriangulatedSurface<Real> triangulate(
     std::span<const std::array<double, 3>> positions, std::span<const std::array<Index, 3>> faces,
-    std::optional<Retriangulation> wanted = std::nullopt);
+    std::optional<Retriangulation> wanted = std::nullopt, int threads = 0);
 
 /// The intrinsic Delaunay triangulation of a surface: other triangles over the same vertices in
 /// the same metric, such that the two angles opposite to an inner edge never exceed 180 degrees.
@@ -123,9 +124,11 @@ class IntrinsicDelaunay {
   /// With a refinement, circumcentres of bad triangles become vertices, numbered after the input's,
   /// or middles of boundary edges that are in between (Chew: Guaranteed-quality mesh generation for
   /// curved surfaces, 1993; on intrinsic triangulations Sharp, Soliman, Crane: Navigating intrinsic
-  /// triangulations, 2019, section 4.2). Throws UsageError for one that is out of range.
+  /// triangulations, 2019, section 4.2). Throws UsageError for one that is out of range. Flips are
+  /// one thread's work; meshes are made by `threads`, as SurfaceHints::threads.
   template <class Real>
-  explicit IntrinsicDelaunay(const TriangleMesh<Real>& input, const Refinement& refinement = {});
+  explicit IntrinsicDelaunay(const TriangleMesh<Real>& input, const Refinement& refinement = {},
+                             int threads = 0);
   /// Moves the triangulation; what is left may be assigned to or destroyed, no more.
   IntrinsicDelaunay(IntrinsicDelaunay&&) noexcept;
   /// Likewise.
@@ -171,7 +174,7 @@ class IntrinsicDelaunay {
   template <class Real>
   friend TriangulatedSurface<Real> triangulate(std::span<const std::array<double, 3>> positions,
                                                std::span<const std::array<Index, 3>> faces,
-                                               std::optional<Retriangulation> wanted);
+                                               std::optional<Retriangulation> wanted, int threads);
   friend struct KeptParts;
   IntrinsicDelaunay();
 

@@ -10,6 +10,7 @@
 #include <plexway/complex/detail/identity.hpp>
 #include <plexway/complex/detail/rows.hpp>
 #include <plexway/complex/detail/triangle_record.hpp>
+#include <plexway/complex/detail/unfilled.hpp>
 #include <plexway/complex/ids.hpp>
 #include <plexway/domain/concept.hpp>
 
@@ -88,6 +89,8 @@ struct SurfaceHints {
   std::span<const SurfaceChord> chords = {};
   /// Which vertices paths may bend at.
   SaddleThresholds saddles = SaddleThresholds::standard();
+  /// That build it; 0: as many as the machine has. The result does not depend on it.
+  int threads = 0;
 };
 
 /// A triangle surface as a metric space: triangles with edge lengths, glued along edges.
@@ -113,7 +116,8 @@ class TriangleMesh {
   /// From coordinates. Shapes: n positions in any unit, m triangles of vertex indices < n.
   /// Throws InputError naming the vertex or face for a coordinate that is not finite, an index out
   /// of range, the same vertex twice in a face, no face, or more than 2^28 - 2 faces.
-  /// Cost: linear, about 0.2 us a face.
+  /// Cost: linear, about 0.2 us a face on one thread; memory for a while is somewhat more with
+  /// several.
   TriangleMesh(std::span<const std::array<double, 3>> positions,
                std::span<const std::array<Index, 3>> faces, const SurfaceHints& hints = {});
 
@@ -208,13 +212,14 @@ class TriangleMesh {
   TriangleMesh() = default;
 
   void assemble(FaceLayout layout, const TriangleShapes& shapes, const SurfaceHints& hints);
-  std::vector<double> take_shapes(const TriangleShapes& shapes);
-  void place(std::span<const std::array<double, 3>> positions);
+  std::vector<double> take_shapes(const TriangleShapes& shapes, std::span<const Index> first_use,
+                                  int threads);
+  void place(std::span<const std::array<double, 3>> positions, int threads);
   void take_chords(std::span<const SurfaceChord> chords);
 
   SurfaceSummary summary_;
   Identity identity_;
-  Rows<TriangleRecord<Real>> triangles_;
+  Rows<TriangleRecord<Real>, Unfilled<TriangleRecord<Real>>> triangles_;
   Rows<Index> vertex_to_inside_;
   Rows<Index> face_to_inside_;
   Rows<Index> corner_of_vertex_;  // one corner a vertex (inside), or none

@@ -197,7 +197,9 @@ void run_bench(const BenchCommand& command) {
 
   progress.phase("building");
   check_triangulation(triangulation, domain);
-  const AnyDomain solver(domain, {.precision = precision, .triangulation = triangulation});
+  const AnyDomain solver(domain, {.precision = precision,
+                                  .triangulation = triangulation,
+                                  .threads = command.solve.executor.threads.value_or(0)});
   AnyField field;
   result.build = solver.build_seconds();
   const Stopwatch building_graph;

@@ -299,6 +299,7 @@ void run_distance(DistanceCommand command) {
                                   .triangulation = triangulation,
                                   .lengths = lengths,
                                   .mask = mask,
+                                  .threads = command.solve.executor.threads.value_or(0),
                                   .progress = progress.share_callback()});
 
   progress.phase("solving");

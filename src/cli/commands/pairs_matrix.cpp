@@ -100,6 +100,8 @@ PairFiles asked_for(const MatrixCommand& command) {
   files.solve = propagate_options(command.solve);
   files.building.precision = precision_of(command.solve);
   files.building.triangulation = triangulation_of(command.triangulation);
+  files.building.threads = command.solve.executor.threads.value_or(
+      command.among != nullptr ? command.among->threads : 0);
   files.radius = command.radius;
   files.nearest = command.nearest;
   files.symmetric = command.symmetric;

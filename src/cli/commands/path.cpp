@@ -312,6 +312,7 @@ void run_path(const PathCommand& typed) {
                   .triangulation = command.astar ? Triangulation::input : triangulation,
                   .lengths = lengths,
                   .mask = mask,
+                  .threads = command.solve.executor.threads.value_or(0),
                   .progress = progress.share_callback()},
                  command, sources, targets, options, progress);
   if (!command.out.empty()) {

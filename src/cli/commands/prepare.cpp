@@ -26,6 +26,7 @@ struct PrepareCommand : InputCommand {
   std::string out;
   std::string precision = "float";
   TriangulationArgument triangulation;
+  int threads = 0;
 };
 
 Json to_json(const PrepareCommand& command, const AnyDomain& domain, std::uintmax_t bytes) {
@@ -63,7 +64,8 @@ void run_prepare(const PrepareCommand& command) {
   SolveOptions precision;
   precision.precision = command.precision;
   BuildOptions options{.precision = precision_of(precision),
-                       .triangulation = triangulation_of(command.triangulation)};
+                       .triangulation = triangulation_of(command.triangulation),
+                       .threads = command.threads};
   ProgressLine progress(command.quiet);
   const Domain shape = load_domain(command, progress);
   check_triangulation(options.triangulation, shape);
@@ -98,6 +100,9 @@ void add_prepare_command(CLI::App& tool, Action& action) {
       ->type_name("FILE");
   app.add_option("--precision", command->precision, "float (default) or double")->type_name("NAME");
   add_triangulation_option(app, command->triangulation);
+  app.add_option("--threads", command->threads, "that build it (default: all cores)")
+      ->check(CLI::Range(1, 1024))
+      ->type_name("N");
   add_input_options(app, *command);
   app.footer(
       "Examples:\n"

@@ -42,7 +42,9 @@ void add_executor_options(CLI::App& command, ExecutorArgument& argument, const s
                   "for so many simplices and sources)")
       ->type_name("NAME")
       ->group(group);
-  command.add_option("--threads", argument.threads, "for openmp and auto (default: all cores)")
+  command
+      .add_option("--threads", argument.threads,
+                  "that build INPUT, and solve by openmp and auto (default: all cores)")
       ->check(CLI::Range(1, 1024))
       ->type_name("N")
       ->group(group);
@@ -61,8 +63,6 @@ void check_executor(const ExecutorArgument& argument, const PropagateOptions& op
     throw UsageError("--executor '" + name + "': choose one of serial, openmp, gl, auto");
   if ((name == "gl" && !gl_built) || (name == "openmp" && !openmp_built()))
     throw NotBuiltError("--executor " + name + ": not built in; see 'plexway info --devices'");
-  if (argument.threads && name != "openmp" && name != "auto")
-    throw UsageError("--threads needs --executor openmp or auto");
   if (argument.device && name != "gl") throw UsageError("--device needs --executor gl");
   if (name != "openmp" && name != "gl") return;
   // What any domain would refuse, in the words of the command line.

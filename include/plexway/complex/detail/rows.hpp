@@ -10,19 +10,19 @@ namespace plexway {
 
 /// An array that is its own, or lies in memory that something else keeps, such as a file that is
 /// mapped. It is read as a std::vector is, and may be changed while it is its own.
-template <class T>
+template <class T, class Own = std::vector<T>>
 class Rows {
  public:
   using value_type = T;
 
   Rows() = default;
-  Rows(std::vector<T> own) : own_(std::move(own)) {}
+  Rows(Own own) : own_(std::move(own)) {}
   /// What `keeper` keeps where it is.
   Rows(std::span<const T> lent, std::shared_ptr<const void> keeper)
       : lent_(lent), keeper_(std::move(keeper)) {}
 
   /// To change it; of one that is lent a copy, from then on.
-  [[nodiscard]] std::vector<T>& own() {
+  [[nodiscard]] Own& own() {
     if (keeper_) {
       own_.assign(lent_.begin(), lent_.end());
       keeper_.reset();
@@ -39,7 +39,7 @@ class Rows {
   [[nodiscard]] std::size_t capacity() const { return keeper_ ? lent_.size() : own_.capacity(); }
 
  private:
-  std::vector<T> own_;
+  Own own_;
   std::span<const T> lent_;
   std::shared_ptr<const void> keeper_;
 };
