@@ -141,7 +141,7 @@ constexpr std::array<const char*, 11> commands = {
 constexpr std::array<const char*, 9> inputs = {"square.off",  "apart.obj",   "two.mesh",
                                                "wires.obj",   "cloud.xyz",   "broken.ply",
                                                "nowhere.ply", "numbers.txt", "."};
-constexpr std::array<const char*, 56> values = {"vertex:0",
+constexpr std::array<const char*, 64> values = {"vertex:0",
                                                 "vertex:2",
                                                 "vertex:99",
                                                 "vertex:-1",
@@ -196,7 +196,15 @@ constexpr std::array<const char*, 56> values = {"vertex:0",
                                                 "speed:speeds.txt",
                                                 "square.off",
                                                 "input",
-                                                "delaunay"};
+                                                "delaunay",
+                                                "out.plexway",
+                                                "out.svg",
+                                                "out.mesh",
+                                                "out.off",
+                                                "out.stl",
+                                                "out.vtk",
+                                                "out.h5",
+                                                "auto"};
 
 std::vector<std::string> line_of(const std::uint8_t* data, std::size_t size) {
   static const std::vector<std::string> known = options();
