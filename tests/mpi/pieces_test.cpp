@@ -165,7 +165,7 @@ TEST_CASE("ranks write a field in parts, which one file names") {
   const std::string text = content(out);
   CHECK(text.find("<PUnstructuredGrid") != std::string::npos);
   std::string names = text;
-  for (std::size_t at; (at = names.find("&amp;")) != names.npos;) names.replace(at, 5, "&");
+  for (std::size_t at; (at = names.find("&amp;")) != names.npos;) names.erase(at + 1, 4);
   folder.write("a & b.pvtu", names);
   check_parts(out, 3, whole);
   CHECK(folder.files() == 6);
