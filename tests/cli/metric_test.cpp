@@ -99,7 +99,8 @@ TEST_CASE("two speeds refract, are told of, and a path goes the quicker way") {
     const auto path = run_tool(arguments);
     INFO(path.err);
     REQUIRE(path.code == 0);
-    CHECK(path.json()["paths"][0]["length"].get<double>() == Approx(best).epsilon(astar ? 5e-3 : 1e-7));
+    CHECK(path.json()["paths"][0]["length"].get<double>() ==
+          Approx(best).epsilon(astar ? 5e-3 : 1e-7));
   }
 }
 

@@ -12,8 +12,8 @@
 #include <plexway/any/open_simplices.hpp>
 #include <plexway/error.hpp>
 #include <plexway/io/labels.hpp>
-#include <plexway/support.hpp>
 
+#include "any/arguments/require.hpp"
 #include "any/words.hpp"
 #include "io/number_rows.hpp"
 
@@ -130,7 +130,7 @@ std::string mask_file(const MaskArgument& argument) {
 std::shared_ptr<const Mask> read_mask(const MaskArgument& argument, const AnyShape& domain) {
   if (argument.text.empty()) return nullptr;
   const Parsed asked = parse(argument);
-  support(Purpose::masks, domain.kind()).require();
+  require("--mask", support(Purpose::masks, domain.kind()));
   auto mask = std::make_shared<Mask>(domain.vertices(), domain.simplices());
   const auto close_vertex = [&](Index v) { mask->close_vertex(v); };
   const auto close_simplex = [&](Index s) { mask->close_simplex(s); };

@@ -9,8 +9,8 @@
 #include <variant>
 
 #include <plexway/error.hpp>
-#include <plexway/support.hpp>
 
+#include "any/arguments/require.hpp"
 #include "any/words.hpp"
 #include "io/number_rows.hpp"
 
@@ -155,7 +155,7 @@ std::shared_ptr<const MeasuredLengths> measure(const MetricArgument& argument,
                                                const AnyShape& domain, Jumps jumps) {
   if (argument.text.empty()) return nullptr;
   const Parsed asked = parse(argument);
-  support(Purpose::metrics, domain.kind()).require();
+  require("--metric", support(Purpose::metrics, domain.kind()));
   const bool refracts =
       (domain.kind() == DomainKind::surface || domain.kind() == DomainKind::solid) &&
       jumps == Jumps::refract && (asked.kind == Kind::speed || asked.kind == Kind::tensor);

@@ -18,6 +18,7 @@
 #include <plexway/io/paths.hpp>
 
 #include "any/arguments/point_argument.hpp"
+#include "any/arguments/require.hpp"
 #include "any/info/report.hpp"
 #include "any/shape_state.hpp"
 #include "cli/commands/commands.hpp"
@@ -288,12 +289,12 @@ void run_path(const PathCommand& typed) {
   ProgressLine progress(command.quiet);
   const Domain domain = load_domain(command, progress);
   if (command.astar)
-    support(Purpose::searches, {.executor = ExecutorKind::serial,
-                                .domain = domain.kind(),
-                                .dimension = 2,
-                                .single_precision = precision == Precision::single,
-                                .visibility = options.visibility})
-        .require();
+    require("--astar",
+            support(Purpose::searches, {.executor = ExecutorKind::serial,
+                                        .domain = domain.kind(),
+                                        .dimension = 2,
+                                        .single_precision = precision == Precision::single,
+                                        .visibility = options.visibility}));
   check_triangulation(triangulation, domain);
   if (command.margin_given && domain.kind() != DomainKind::surface && domain.cloud() == nullptr)
     throw UsageError("--margin: for surfaces and clouds, not a " +

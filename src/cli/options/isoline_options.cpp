@@ -12,6 +12,7 @@
 #include <plexway/io/field.hpp>
 #include <plexway/io/paths.hpp>
 
+#include "any/arguments/require.hpp"
 #include "cli/report/distance_output.hpp"
 #include "io/extension.hpp"
 
@@ -69,7 +70,8 @@ void check_isolines(const IsolineOptions& options, const std::string& input) {
 void check_isolines(const IsolineOptions& options, const Domain& domain) {
   if (options.out.empty()) return;
   const bool solid = domain.kind() == DomainKind::solid;
-  if (!solid) support(Purpose::isolines, domain.kind()).require();  // it has isosurfaces
+  if (!solid)
+    require("--isoline-step", support(Purpose::isolines, domain.kind()));  // it has isosurfaces
   check_output_name(options.out, domain.file().string(),
                     solid ? io::triangle_output_extensions() : io::path_extensions(),
                     "--isolines-out");

@@ -3,7 +3,8 @@
 #include <CLI/CLI.hpp>
 
 #include <plexway/error.hpp>
-#include <plexway/support.hpp>
+
+#include "any/arguments/require.hpp"
 
 namespace plexway::cli {
 
@@ -29,7 +30,7 @@ Triangulation triangulation_of(const TriangulationArgument& argument) {
 
 void check_triangulation(Triangulation wanted, const Domain& domain) {
   if (wanted == Triangulation::delaunay || wanted == Triangulation::refined)
-    support(Purpose::triangulations, domain.kind()).require();
+    require("--triangulation", support(Purpose::triangulations, domain.kind()));
 }
 
 }  // namespace plexway::cli
