@@ -22,6 +22,7 @@ in_all="${3:-0}"
   -DPLEXWAY_WITH_OPENVDB=OFF -DPLEXWAY_WITH_PCL=OFF -DPLEXWAY_WITH_GL=OFF \
   -DPLEXWAY_WITH_FLANN=OFF -DPLEXWAY_WITH_BOOST_GRAPH=OFF >/dev/null
 cmake --build "$folder" --parallel "$(nproc)" --target plexway_fuzzers
+folder="$(realpath "$folder")"  # that of argument lines moves to a folder of its own
 until="$(($(date +%s) + in_all))"
 ran=" "
 failed=" "
@@ -57,7 +58,7 @@ while [ "$in_all" = 0 ] || [ "$(($(date +%s) + seconds))" -le "$until" ]; do
   (
     code=0
     "$folder/bin/fuzz_$name" -max_total_time="$seconds" -timeout=25 -rss_limit_mb=3000 \
-      -max_len=4096 -artifact_prefix="$found/" "$found" "tests/fuzz/corpus/$name" \
+      -max_len=4096 -artifact_prefix="$found/" "$found" "$PWD/tests/fuzz/corpus/$name" \
       >"$log" 2>&1 || code=$?
     times >"$found.time"
     exit $code
@@ -67,6 +68,8 @@ while [ "$in_all" = 0 ] || [ "$(($(date +%s) + seconds))" -le "$until" ]; do
   if [ "$verdict" = FINDING ] && grep -q '^SUMMARY: libFuzzer: timeout' "$log"; then
     slow="$(sed -n 's/.*Test unit written to //p' "$log" | tail -1)"
     if (
+      # Dash and bash have it.
+      # shellcheck disable=SC3045
       ulimit -t 25
       "$folder/bin/fuzz_$name" -timeout=0 "$slow" >>"$log" 2>&1
     ); then
