@@ -83,6 +83,7 @@ TEST_CASE("executors and options that do not go together are usage errors") {
   refused({"--device", "0"}, 2, "--device");
   refused({"--executor", "abacus"}, 2, "abacus");
   refused({"--threads", "0"}, 2, "--threads");
+  CHECK(distance({"--threads", "2"}).code == 0);  // it builds by two
   refused({"--executor", "auto", "--threads", "0"}, 2, "--threads");
   refused({"--executor", "auto", "--threads", "-2"}, 2, "--threads");
 }
