@@ -8,6 +8,7 @@ the most that any one fuzzer reaches of it. Needs llvm-symbolizer.
 """
 
 import collections
+import os
 import pathlib
 import re
 import subprocess
@@ -16,7 +17,7 @@ import sys
 root = pathlib.Path(__file__).resolve().parent.parent
 folder = pathlib.Path(sys.argv[1] if len(sys.argv) > 1 else root / "build/fuzz").resolve()
 line_of = re.compile(r"^(UN)?COVERED_FUNC: hits: \d+ edges: (\d+)/(\d+) (.*) (\S+):(\d+)$")
-ours = re.compile(r".*/((?:src|complexes|include/plexway)/.*)$")
+ours = re.compile(r".*?/((?:src|complexes|include/plexway)/.*)$")
 
 reached = {}  # by function: edges taken, edges
 for program in sorted((folder / "bin").glob("fuzz_*")):
@@ -29,7 +30,7 @@ for program in sorted((folder / "bin").glob("fuzz_*")):
         print(f"fuzz_{name} ended with {run.returncode}", file=sys.stderr)
     for line in run.stderr.splitlines():
         found = line_of.match(line)
-        place = found and ours.match(found[5])
+        place = found and ours.match(os.path.normpath(found[5]))
         if not place:
             continue
         key = (place[1], found[6], found[4])
