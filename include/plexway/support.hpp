@@ -52,7 +52,7 @@ enum class SourceKind {
     "distances inside simplices need the labels of the policy saddles, by Serial or OpenMP")       \
   X(read_out_simplices,                                                                            \
     "in complexes of simplices distances are read linearly: ask for ReadOut::linear")              \
-  X(read_out_cloud, "a cloud has distances at its points only: ask for a point by number")         \
+  X(read_out_cloud, "a cloud has distances at its points only: take them from the field")          \
   X(directions_domain,                                                                             \
     "directions are those in triangles, tetrahedra and simplices: make a surface of the cloud, "   \
     "and along edges compare the ends")                                                            \

@@ -33,7 +33,7 @@ class LinearField final : public AnyPathField::State {
   }
 
   double at(const PointSource& point, ReadOut level) const override {
-    if (level != ReadOut::linear && !ways_.at && point.vertex == none)
+    if (level != ReadOut::linear && !ways_.at)
       support(Purpose::read_out, DomainKind::simplices).require();
     PointSource where = point;
     where.offset = 0;

@@ -13,7 +13,6 @@
 #include <plexway/error.hpp>
 
 #include "any/prepared.hpp"
-#include "executors/checks.hpp"
 
 #ifdef PLEXWAY_HAS_GL
 #include <plexway/executors/gl.hpp>
@@ -98,9 +97,8 @@ class PathsOf final : public AnyPathField::State {
         return with_windows().at(elsewhere_.place(point), level);
       return with_labels().at(point, level);
     } else {
-      if (outside.vertex == none) support(Purpose::read_out, complex_).require();
-      check_source(outside, {shape_.vertices(), 0, "face", 3});
-      return field[outside.vertex];
+      support(Purpose::read_out, complex_).require();
+      return 0;
     }
   }
 

@@ -149,7 +149,8 @@ TEST_CASE("what is done with a field of any domain") {
       const double read = field.at(at);
       CHECK(read == Approx(kind.distance(kind.places[0], kind.place(at))).epsilon(1e-6));
     });
-    CHECK(field.at(PointSource::at(7)) == Approx(kind.from_first(7)).epsilon(1e-6));
+    if (support(Purpose::read_out, kind.shape.kind()))
+      CHECK(field.at(PointSource::at(7)) == Approx(kind.from_first(7)).epsilon(1e-6));
     check(kind, Purpose::directions, [&] {
       const auto found = field.gradient();
       REQUIRE(found.size() == kind.shape.simplices());
