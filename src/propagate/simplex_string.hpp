@@ -210,6 +210,10 @@ class SimplexString {
   }
 
   /// The upper hull of what was found, from A to C, and what lies on it.
+  ///
+  /// A point goes if it is below the line from any point of the hull so far to the next one, not
+  /// from the last alone: where several faces meet in one point, or walls lie one over another,
+  /// only rounding tells which of two points is the last, and that they turn is no sign then.
   std::size_t hull() {
     std::sort(candidate_, candidate_ + found_, [](const Found& l, const Found& r) {
       if (l.x != r.x) return l.x < r.x;
@@ -222,8 +226,11 @@ class SimplexString {
     std::size_t kept = 0;
     for (std::size_t i = 0; i <= found_; ++i) {
       const Found next = i < found_ ? candidate_[i] : c;
-      while (kept > 0 && below(kept > 1 ? candidate_[kept - 2] : a, candidate_[kept - 1], next))
-        --kept;
+      const auto hidden = [&](const Found& p) {
+        return below(a, p, next) || std::any_of(candidate_, candidate_ + kept - 1,
+                                                [&](const Found& o) { return below(o, p, next); });
+      };
+      while (kept > 0 && hidden(candidate_[kept - 1])) --kept;
       if (i < found_) candidate_[kept++] = next;
     }
     return kept;

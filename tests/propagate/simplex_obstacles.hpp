@@ -100,6 +100,30 @@ struct Obstacles {
 };
 
 template <int N>
+Obstacles<N> sheared(Obstacles<N> o) {
+  for (std::size_t d = 0; d < N; ++d)
+    for (std::size_t e = 0; e < N; ++e)
+      if (d != e) o.map[d][e] = .35 * std::sin(static_cast<double>(1 + 3 * d + 5 * e));
+  return o;
+}
+
+/// So many boxes at most, thrown at random into a grid of so many cells a side, every other draw
+/// sheared.
+template <int N>
+Obstacles<N> random_obstacles(unsigned seed, std::size_t cells, unsigned most) {
+  std::mt19937 random(seed);
+  std::vector<typename Obstacles<N>::Block> blocks(1 + below(random, most));
+  for (auto& block : blocks)
+    for (std::size_t d = 0; d < N; ++d) {
+      const std::size_t width = 1 + below(random, static_cast<Index>(cells / 2));
+      block.from[d] = below(random, static_cast<Index>(cells + 1 - width));
+      block.to[d] = block.from[d] + width;
+    }
+  const Obstacles<N> obstacles(cube_grid<N>(cells, seed % 3), blocks);
+  return seed % 2 ? sheared(obstacles) : obstacles;
+}
+
+template <int N>
 class ShortestWays {
  public:
   using Point = typename Obstacles<N>::Point;

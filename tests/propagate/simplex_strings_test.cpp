@@ -17,14 +17,6 @@ struct Problem {
   Obstacles<N> obstacles;
 };
 
-template <int N>
-Obstacles<N> sheared(Obstacles<N> o) {
-  for (std::size_t d = 0; d < N; ++d)
-    for (std::size_t e = 0; e < N; ++e)
-      if (d != e) o.map[d][e] = .35 * std::sin(static_cast<double>(1 + 3 * d + 5 * e));
-  return o;
-}
-
 std::vector<Problem<3>> solids() {
   const KuhnGrid<3> grid = cube_grid<3>(8, 3);
   return {
@@ -111,16 +103,7 @@ Deviation random_deviation(unsigned problems, std::size_t cells, unsigned most, 
                            unsigned sources, unsigned targets) {
   Deviation all;
   for (unsigned seed = 1; seed <= problems; ++seed) {
-    std::mt19937 random(seed);
-    std::vector<typename Obstacles<N>::Block> blocks(1 + below(random, most));
-    for (auto& block : blocks)
-      for (std::size_t d = 0; d < N; ++d) {
-        const std::size_t width = 1 + below(random, static_cast<Index>(cells / 2));
-        block.from[d] = below(random, static_cast<Index>(cells + 1 - width));
-        block.to[d] = block.from[d] + width;
-      }
-    Obstacles<N> obstacles(cube_grid<N>(cells, seed % 3), blocks);
-    if (seed % 2) obstacles = sheared(obstacles);
+    const Obstacles<N> obstacles = random_obstacles<N>(seed, cells, most);
     CAPTURE(N, seed);
     const Deviation e = deviation(obstacles, density, sources, targets, seed);
     all.mean += e.mean / problems;
