@@ -23,22 +23,13 @@ constexpr double bucket_width = 0.125;
 constexpr double late = 0.25;
 /// So many turns a halfedge in the mean are too many: below one is usual.
 constexpr std::size_t patience = 4;
-/// Boundaries that turn by more than rounding bend paths, radians.
-constexpr double least_bend = 2e-6;
 constexpr std::size_t share = 65536;  ///< turns between two looks at what is told and allowed
 
 }  // namespace
 
 template <class Real>
 MergedWindows<Real>::MergedWindows(const Sheet<Real>& sheet)
-    : sheet_(sheet), triangles_(sheet.triangles), own_(sheet.own), pseudo_source_(triangles_) {
-  excess_.resize(sheet.vertex_count);
-  for (Index v = 0; v < sheet.vertex_count; ++v) {
-    const double excess = sheet.angles->excess(v);
-    const bool ear = sheet.angles->kind[v] == VertexAngles::boundary && excess > least_bend;
-    excess_[v] = ear ? infinity<Real> : static_cast<Real>(excess);
-  }
-}
+    : sheet_(sheet), triangles_(sheet.triangles), own_(sheet.own), pseudo_source_(triangles_) {}
 
 template <class Real>
 bool MergedWindows<Real>::solve(const WindowSources& sources, const PropagateOptions& options,
@@ -196,11 +187,11 @@ template <class Order>
                                                              Real error) {
   Vertex& v = vertices_[vertex];
   if (!(distance < v.distance)) return false;
-  v = {distance, corner, from};
-  error_[vertex] = error;
+  v = {distance, corner, {static_cast<float>(from.along), static_cast<float>(from.off)}};
+  error_[vertex] = static_cast<float>(error);
   if (labels_) source_[vertex] = source;
   ++statistics_.updates;
-  if ((corner == none || (corner & bent) || excess_[vertex] > 4 * scale_) &&
+  if ((corner == none || (corner & bent) || excess(vertex) > 4 * scale_) &&
       vertex_next_[vertex] == idle)
     order.push(vertex | bent, static_cast<double>(distance + static_cast<Real>(late)),
                [this](Index i) -> Index& { return next(i); });
@@ -231,7 +222,8 @@ template <class Order>
   if (radius_ < infinity<Real> && window.nearest() > radius_) [[unlikely]]
     return;
   const Real near = turn_of(window);
-  const Index waiting = pending_[halfedge];
+  Index& pending = pending_[place(halfedge)];
+  const Index waiting = pending;
   if (waiting != none && blocks_[waiting].count < room) {
     Block& block = blocks_[waiting];
     block.window[block.count] = window;
@@ -248,7 +240,7 @@ template <class Order>
   } else {
     free_block_ = blocks_[b].next;
   }
-  pending_[halfedge] = b;
+  pending = b;
   __builtin_prefetch(&triangles_[halfedge >> 2]);
   Block& block = blocks_[b];
   block.near = near;
@@ -298,7 +290,8 @@ template <class Real>
   Block& block = blocks_[b];
   block.next = std::exchange(free_block_, b);
   const Index halfedge = block.halfedge;
-  if (pending_[halfedge] == b) pending_[halfedge] = none;
+  Index& waiting = pending_[place(halfedge)];
+  if (waiting == b) waiting = none;
   turn.face = halfedge >> 2;
   turn.scale = scale_;
   const TriangleRecord<Real>& record = triangles_[turn.face];
@@ -306,8 +299,8 @@ template <class Real>
   const EnteredTriangle<Real>& t = turn.triangle;
   __builtin_prefetch(&vertices_[t.p]);
   const Index* const pending = pending_.data();  // a boundary leads to its end
-  __builtin_prefetch(pending + (record.across[t.before] >> Across::face_shift << 2));
-  __builtin_prefetch(pending + (record.across[t.after] >> Across::face_shift << 2));
+  __builtin_prefetch(pending + 3 * (record.across[t.before] >> Across::face_shift));
+  __builtin_prefetch(pending + 3 * (record.across[t.after] >> Across::face_shift));
   turn.windows.start(t.width, scale_);
   return block;
 }
@@ -421,10 +414,10 @@ void MergedWindows<Real>::shine(Order& order, Index vertex) {
   if (sigma > radius_) return;
   const bool anywhere = v.corner == none, is_bent = !anywhere && (v.corner & bent);
   // What is bent looks around both corners of what is lit; else only strong saddles shine.
-  const Real shadow = excess_[vertex] + (is_bent ? std::numbers::pi_v<Real> : -4 * scale_);
+  const Real shadow = excess(vertex) + (is_bent ? std::numbers::pi_v<Real> : -4 * scale_);
   if (!anywhere && !(shadow > 0)) return;
   const Index source = labels_ ? source_[vertex] : 0;
-  const Real error = error_[vertex];
+  const Real error = static_cast<Real>(error_[vertex]);
   const VertexAngles::Kind kind = sheet_.angles->kind[vertex];
   const auto lit = [&](const Lit& part) {
     if (part.face >= own_) return;
@@ -460,7 +453,7 @@ void MergedWindows<Real>::shine(Order& order, Index vertex) {
 template <class Real>
 std::size_t MergedWindows<Real>::bytes() const {
   const auto of = [](const auto& v) { return v.capacity() * sizeof(v[0]); };
-  return sizeof(*this) + of(excess_) + of(vertices_) + of(source_) + of(error_) + of(pending_) +
+  return sizeof(*this) + of(vertices_) + of(source_) + of(error_) + of(pending_) +
          of(blocks_) + of(vertex_next_) + of(corners_) + leaving_.bytes();
 }
 
