@@ -174,7 +174,8 @@ void ExactWindows<Real>::push(Order& order, const Node& node, double near, Index
   Index n = free_;
   if (n == none) {
     n = static_cast<Index>(nodes_.size());
-    if (nodes_.size() == nodes_.capacity()) [[unlikely]]  // doubled they would be most of the memory
+    if (nodes_.size() == nodes_.capacity())
+        [[unlikely]]  // doubled they would be most of the memory
       nodes_.reserve(nodes_.size() + nodes_.size() / 4 + 1024);
     nodes_.push_back(node);
     if (labels_) node_source_.push_back(source);
@@ -226,7 +227,8 @@ bool ExactWindows<Real>::know(Order& order, Index vertex, double distance,
   if (labels_) source_[vertex] = source;
   arrival_[vertex] = arrival;
   ++statistics_.updates;
-  if (arrival.corner == none || static_cast<double>(sheet_.angles->excess[vertex]) > Rounding<Real>::excess)
+  if (arrival.corner == none ||
+      static_cast<double>(sheet_.angles->excess[vertex]) > Rounding<Real>::excess)
     push(order, {{}, 0, distance, distance, vertex | vertex_bit, none}, distance, source);
   return true;
 }

@@ -202,6 +202,15 @@ template <class Order>
 template <class Real>
 void MergedWindows<Real>::gather(Gathered<Real>& windows, const Block& block) const {
   const std::size_t count = block.count;
+  const auto take = [&](std::size_t i) {
+    windows.take({block.window[i], labels_ ? block.source[i] : 0});
+  };
+  if (count == 2) {
+    const std::size_t first = block.window[1].beam.begin < block.window[0].beam.begin;
+    windows.append({block.window[first], labels_ ? block.source[first] : 0});
+    take(first ^ 1);
+    return;
+  }
   std::array<std::size_t, room> place{}, at;
   for (std::size_t i = 1; i < count; ++i)
     for (std::size_t j = 0; j < i; ++j) {
@@ -210,8 +219,7 @@ void MergedWindows<Real>::gather(Gathered<Real>& windows, const Block& block) co
       place[j] += before;
     }
   for (std::size_t i = 0; i < count; ++i) at[place[i]] = i;
-  for (std::size_t i = 0; i < count; ++i)
-    windows.take({block.window[at[i]], labels_ ? block.source[at[i]] : 0});
+  for (std::size_t i = 0; i < count; ++i) take(at[i]);
 }
 
 template <class Real>
@@ -335,12 +343,16 @@ template <class Real>
   turn.to_apex = infinity<Real>;
   turn.seen = 0;
   const auto sees = [&](std::size_t i, Real distance) {
-    if (distance < turn.to_apex) turn.to_apex = distance, turn.seen = i;
+    const std::size_t nearer = distance < turn.to_apex;
+    turn.to_apex = std::min(distance, turn.to_apex);
+    turn.seen += nearer * (i - turn.seen);
   };
+  using L = typename Spread<Real>::L;
+  constexpr Real if_not[2] = {infinity<Real>, 0};  // as good as random: no branch
   for (std::size_t i = 0; i < windows.size(); ++i) {
     Spread<Real>& s = turn.spread[i];
     s.go(t, windows[i].window);
-    if (s.left_reaches() && s.right_reaches()) sees(i, s.distance[1]);
+    sees(i, s.distance[1] + if_not[s.reaches_apex()]);
     if (i == 0 || !windows.joined(windows[i - 1], windows[i])) continue;
     // No gap opens between joined neighbours: both reach the apex if it lies there and they agree
     // on it, else they meet at the middle.
@@ -348,8 +360,8 @@ template <class Real>
     const Window<Real>&window_before = windows[i - 1].window, &window = windows[i].window;
     if (!before.left_reaches() && !s.right_reaches()) {
       const Spread<Real> dark_before = before, dark = s;
-      before.at.v[1] = t.left;
-      s.at.v[3] = t.right;
+      before.at = L(before.at[0], t.left, before.at[2], before.at[3]);
+      s.at = L(s.at[0], s.at[1], s.at[2], t.right);
       before.measure(t, window_before);
       s.measure(t, window);
       const Real from_left = before.distance[1], from_right = s.distance[3];
@@ -358,11 +370,15 @@ template <class Real>
       else
         before = dark_before, s = dark;
     } else if (before.at[1] < s.at[0]) {
-      before.at.v[1] = s.at.v[0] = (before.at[1] + s.at[0]) / 2;
+      const Real middle = (before.at[1] + s.at[0]) / 2;
+      before.at = L(before.at[0], middle, before.at[2], before.at[3]);
+      s.at = L(middle, s.at[1], s.at[2], s.at[3]);
       before.measure(t, window_before);
       s.measure(t, window);
     } else if (s.at[3] < before.at[2]) {
-      before.at.v[2] = s.at.v[3] = (before.at[2] + s.at[3]) / 2;
+      const Real middle = (before.at[2] + s.at[3]) / 2;
+      before.at = L(before.at[0], before.at[1], middle, before.at[3]);
+      s.at = L(s.at[0], s.at[1], s.at[2], middle);
       before.measure(t, window_before);
       s.measure(t, window);
     }
@@ -389,10 +405,9 @@ void MergedWindows<Real>::commit(Order& order, const Turn& turn) {
   for (std::size_t i = 0; i < windows.size(); ++i) {
     const Window<Real>& w = windows[i].window;
     const bool to_left = turn.spread[i].right_reaches();
-    if (to_left && turn.spread[i].left_reaches()) continue;
     const Real end = to_left ? w.beam.end : w.beam.begin, dx = t.apex_x - end;
     const Real way = (to_left ? w.at_end : w.at_begin) + std::sqrt(dx * dx + t.apex_h * t.apex_h);
-    if (way < bound)
+    if ((way < bound) & !(to_left & turn.spread[i].left_reaches())) [[unlikely]]
       offer(order, t.p, way, corner | bent, t.towards(end, 0), windows[i].source, w.error);
   }
   const Real to_a = vertices_[t.a].distance, to_b = vertices_[t.b].distance;
@@ -453,8 +468,8 @@ void MergedWindows<Real>::shine(Order& order, Index vertex) {
 template <class Real>
 std::size_t MergedWindows<Real>::bytes() const {
   const auto of = [](const auto& v) { return v.capacity() * sizeof(v[0]); };
-  return sizeof(*this) + of(vertices_) + of(source_) + of(error_) + of(pending_) +
-         of(blocks_) + of(vertex_next_) + of(corners_) + leaving_.bytes();
+  return sizeof(*this) + of(vertices_) + of(source_) + of(error_) + of(pending_) + of(blocks_) +
+         of(vertex_next_) + of(corners_) + leaving_.bytes();
 }
 
 }  // namespace plexway::windows

@@ -98,9 +98,7 @@ class MergedWindows {
   }
   [[nodiscard]] Leaving<Real>& leaving() { return leaving_; }
   [[nodiscard]] Real vertex_distance(Index vertex) const { return vertices_[vertex].distance; }
-  [[nodiscard]] Real vertex_error(Index vertex) const {
-    return static_cast<Real>(error_[vertex]);
-  }
+  [[nodiscard]] Real vertex_error(Index vertex) const { return static_cast<Real>(error_[vertex]); }
   [[nodiscard]] Arrival<Real> arrival(Index vertex) const {
     const Vertex& v = vertices_[vertex];
     return {v.corner, static_cast<Real>(v.from.along), static_cast<Real>(v.from.off)};
