@@ -91,7 +91,7 @@ TEST_CASE("by default real surfaces are near their exact distances") {
 
 TEST_CASE("where windows become too many labels take over, or it is said") {
   // Triangles thrown together: many on an edge, so that light comes back to where it was.
-  for (const auto& [points, seed] : {std::pair(10u, 81u), {6u, 88u}}) {
+  for (const auto& [points, seed] : {std::pair(10u, 52u), {6u, 45u}}) {
     const Surface s = soup(points, 60, seed);
     const auto mesh = s.mesh<double>();
     const PointSource source = PointSource::at(s.faces[0][0]);

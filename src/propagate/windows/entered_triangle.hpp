@@ -70,9 +70,12 @@ struct EnteredTriangle {
     cos_b = t.cosine[after];
     sin_b = t.sine(after);
     // From the nearer end: thin triangles keep their short edge that way.
-    const bool from_a = left <= right;
-    apex_x = from_a ? left * cos_a : width - right * cos_b;
-    apex_h = from_a ? left * sin_a : right * sin_b;
+    const bool from_b = right < left;
+    const std::size_t nearer = from_b ? after : in;
+    const Real shorter = std::min(left, right);
+    constexpr Real origin[2] = {0, 1}, way[2] = {1, -1};
+    apex_x = origin[from_b] * width + way[from_b] * (shorter * t.cosine[nearer]);
+    apex_h = shorter * t.sine(nearer);
   }
 
   /// From P back to the source; to (x, -h).

@@ -12,7 +12,7 @@ void ExactWindows<Real>::begin(const WindowSources& sources, const PropagateOpti
   arrival_.resize(sheet_.vertex_count);
   labels_ = sources.labels;
   if (labels_) source_.resize(sheet_.vertex_count);
-  split_.assign(3 * std::size_t{own_}, {infinity, 0});
+  split_.assign(3 * std::size_t{own_}, {std::numeric_limits<float>::infinity(), 0});
   nodes_.clear();
   node_source_.clear();
   free_ = none;

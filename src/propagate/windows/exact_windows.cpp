@@ -13,6 +13,8 @@ namespace plexway::windows {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
+/// What single precision may be off, relative.
+constexpr double single = static_cast<double>(std::numeric_limits<float>::epsilon());
 
 /// What the triangles' own numbers are worth.
 template <class Real>
@@ -172,6 +174,9 @@ void ExactWindows<Real>::push(Order& order, const Node& node, double near, Index
   Index n = free_;
   if (n == none) {
     n = static_cast<Index>(nodes_.size());
+    if (nodes_.size() == nodes_.capacity())
+        [[unlikely]]  // doubled they would be most of the memory
+      nodes_.reserve(nodes_.size() + nodes_.size() / 4 + 1024);
     nodes_.push_back(node);
     if (labels_) node_source_.push_back(source);
   } else {
@@ -222,7 +227,8 @@ bool ExactWindows<Real>::know(Order& order, Index vertex, double distance,
   if (labels_) source_[vertex] = source;
   arrival_[vertex] = arrival;
   ++statistics_.updates;
-  if (arrival.corner == none || sheet_.angles->excess(vertex) > Rounding<Real>::excess)
+  if (arrival.corner == none ||
+      static_cast<double>(sheet_.angles->excess[vertex]) > Rounding<Real>::excess)
     push(order, {{}, 0, distance, distance, vertex | vertex_bit, none}, distance, source);
   return true;
 }
@@ -372,16 +378,18 @@ void ExactWindows<Real>::expand_wide(Order& order, Window<double> w, Index halfe
   if (across <= until && across >= from) {
     Split& best = split_[3 * f + t.in];
     const double foot = x + across / down;
-    if (way < best.distance) best = {way, foot};
-    if (way > best.distance + rounding(t.width + way)) {
+    if (way < static_cast<double>(best.distance))
+      best = {static_cast<float>(way * (1 + single)), static_cast<float>(foot)};
+    if (way > static_cast<double>(best.distance) + rounding(t.width + way)) {
       // What starts between the two rays and crosses the nearer one's is needless. What starts
       // beyond that ray would have crossed it before, or met its source.
-      if (foot < best.foot) {
+      const double best_foot = static_cast<double>(best.foot), off = single * t.width;
+      if (foot < best_foot - off) {
         if (splits_whole_) go_right = false;
-        right_begin = std::max(right_begin, best.foot);
-      } else if (foot > best.foot) {
+        right_begin = std::max(right_begin, best_foot - off);
+      } else if (foot > best_foot + off) {
         if (splits_whole_) go_left = false;
-        left_end = std::min(left_end, best.foot);
+        left_end = std::min(left_end, best_foot + off);
       }
     }
   }

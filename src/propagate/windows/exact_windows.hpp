@@ -145,9 +145,10 @@ class ExactWindows {
     Index next;
   };
   static constexpr Index vertex_bit = Index{1} << 31;
-  /// The window that sees an edge's apex best.
+  /// The window that sees an edge's apex best: its distance there, rounded up, and where the ray to
+  /// the apex crosses the edge, off by single precision at most.
   struct Split {
-    double distance, foot;
+    float distance, foot;
   };
 
   template <class Order>

@@ -25,8 +25,8 @@ class Gathered : public Overlay<Real> {
   /// Are they neighbours between which distances go on? Then what lies in the gap is in no shadow
   /// worth a window.
   [[nodiscard]] bool joined(const Labelled<Real>& u, const Labelled<Real>& w) const {
-    return w.window.beam.begin - u.window.beam.end <= joint * length_ &&
-           std::abs(w.window.at_begin - u.window.at_end) <= 4 * scale_ * length_;
+    return (w.window.beam.begin - u.window.beam.end <= joint * length_) &
+           (std::abs(w.window.at_begin - u.window.at_end) <= 4 * scale_ * length_);
   }
 
   /// One more that begins no sooner than the others: merged with the last, or beside it.
@@ -42,8 +42,9 @@ class Gathered : public Overlay<Real> {
     if (overlap < joint * length_ && !nested && fits(last, added)) return;
     if (overlap > 0) {
       const Real end = nested ? w.beam.end : u.beam.end;
-      const bool u_first = u.at(w.beam.begin) <= w.at_begin;
-      const bool u_last = (nested ? u.at(end) : u.at_end) <= (nested ? w.at_end : w.at(end));
+      const Real farther_first = u.at(w.beam.begin) - w.at_begin;
+      const Real farther_last = nested ? u.at(end) - w.at_end : u.at_end - w.at(end);
+      const bool u_first = farther_first <= 0, u_last = farther_last <= 0;
       if (u_first && u_last) {
         if (nested) return;
         w.begin_at(end);
@@ -51,7 +52,7 @@ class Gathered : public Overlay<Real> {
         this->insert(added);
         return;
       } else if (u_first) {
-        const Real x = crossing(u, w, w.beam.begin, end);
+        const Real x = crossing(u, w, w.beam.begin, end, farther_first, farther_last);
         u.end_at(x);
         w.begin_at(x);
       } else {

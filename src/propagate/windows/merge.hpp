@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
+#include "kernel/lanes.hpp"
 #include "propagate/windows/entered_triangle.hpp"
 
 namespace plexway::windows {
@@ -55,6 +57,36 @@ template <class Real>
   return true;
 }
 
+/// A window much narrower than its neighbour takes the neighbour's source, if that is off by no
+/// more than `limit` at its ends; so does any where only rounding keeps the two from being the same
+/// light. The narrow one says nothing about where the source lies: three distances, two of which
+/// are a sliver apart, would move it by what rounding and earlier misses left, and then the light
+/// beside it misses vertices that it reaches. `p` and `q` are the widths. False, and nothing done,
+/// where that does not fit.
+template <class Real>
+[[nodiscard, gnu::always_inline]] inline bool absorb(Window<Real>& u, const Window<Real>& w, Real p,
+                                                     Real q, Real limit) {
+  constexpr Real narrow = Real(1) / 16, roundings = 4;
+  const bool by_w = q > p;
+  const Window<Real>& wide = by_w ? w : u;
+  const Real far = by_w ? wide.at(u.beam.begin) - u.at_begin : wide.at(w.beam.end) - w.at_end;
+  const Real near = by_w ? wide.at(u.beam.end) - u.at_end : wide.at(w.beam.begin) - w.at_begin;
+  const Real miss = std::max(std::abs(far), std::abs(near));
+  const Real share = std::min(p, q) / (p + q);
+  const Real rounding = roundings * std::numeric_limits<Real>::epsilon() * std::abs(wide.at_end);
+  if (!(miss <= (share < narrow ? limit : rounding)) || wide.beam.is_parallel()) return false;
+  const Real mean = share * (far + near) / 2;  // taken off, as below
+  u.beam.x = wide.beam.x;
+  u.beam.h = wide.beam.h;
+  u.beam.end = w.beam.end;
+  u.sigma = wide.sigma - mean;
+  u.at_begin += (by_w ? far : Real(0)) - mean;
+  u.at_end = w.at_end + (by_w ? Real(0) : far) - mean;
+  const Real error = std::max(u.error, w.error);
+  u.error = std::sqrt(error * error + miss * miss);
+  return true;
+}
+
 /// Makes one window of two neighbours, in place of the first: its source gives the same distances
 /// at both far ends and where the two meet. False, and nothing done, where they do not fit: where
 /// the new one would be off by more than `limit` at one of the places looked at.
@@ -70,7 +102,17 @@ template <class Real>
   if (u.beam.is_parallel() && join_parallel(u, w, limit)) return true;
   const Real a = u.beam.begin, b = (u.beam.end + w.beam.begin) / 2, c = w.beam.end;
   const Real p = b - a, q = c - b;
-  const Real by_u = u.at(b), by_w = w.at(b), middle = (by_u + by_w) / 2;
+  if (absorb(u, w, p, q, limit)) return true;
+  using L = kernel::Lanes<Real>;
+  // Both where they meet, and at their middles.
+  const L x_of(u.beam.x, w.beam.x, u.beam.x, w.beam.x), place(b, b, b - p / 2, b + q / 2);
+  const L along = place - x_of, off(u.beam.h, w.beam.h, u.beam.h, w.beam.h);
+  L before(u.sigma, w.sigma, u.sigma, w.sigma);
+  if (u.beam.is_parallel()) [[unlikely]]
+    before += place * x_of;
+  else
+    before += sqrt(along * along + off * off);
+  const Real by_u = before[0], by_w = before[1], middle = (by_u + by_w) / 2;
   const Real jump = std::abs(by_u - by_w) / 2;
   const Real rise = u.at_begin - middle, fall = w.at_end - middle;
   const Real bend = 2 * (p * fall + q * rise);
@@ -81,26 +123,25 @@ template <class Real>
   const Real h2 = r * r - x * x;
   if (!(area > 0) || !(h2 > 0)) return false;
   const Real sigma = middle - r;
-  const auto at = [&](Real from_b) {
-    const Real along = from_b - x;
-    return sigma + std::sqrt(along * along + h2);
-  };
-  const Real miss_u = at(-p / 2) - u.at(b - p / 2), miss_w = at(q / 2) - w.at(b + q / 2);
-  // Where r is cut the far ends, too.
+  // The middles, and where r is cut the far ends, too.
   const Real cut = bend < least_bend ? Real(1) : Real(0);
-  const Real miss_a = cut * (at(-p) - u.at_begin), miss_c = cut * (at(q) - w.at_end);
-  const Real miss_inside = std::max(std::max(std::abs(miss_u), std::abs(miss_w)), jump);
-  const Real miss = std::max(miss_inside, std::max(std::abs(miss_a), std::abs(miss_c)));
-  if (!(miss <= limit)) return false;
+  const L from_foot = L(-p / 2, q / 2, -p, q) - L(x);
+  const L after = sqrt(from_foot * from_foot + L(h2)) + L(sigma);
+  const L misses = (after - L(before[2], before[3], u.at_begin, w.at_end)) * L(1, 1, cut, cut);
+  const L size = abs(misses);
+  if (kernel::lane_bits(size.v <= L(limit).v) != 15 || !(jump <= limit)) return false;
+  const Real miss_u = misses[0], miss_w = misses[1], miss_a = misses[2], miss_c = misses[3];
+  const Real miss =
+      std::max(std::max(std::max(size[0], size[1]), std::max(size[2], size[3])), jump);
   const Real mean = ((4 * miss_u + miss_a) * p + (4 * miss_w + miss_c) * q) / (6 * (p + q));
-  const Real before = std::max(u.error, w.error);
+  const Real error = std::max(u.error, w.error);
   u.beam.x = b + x;
   u.beam.h = std::sqrt(h2);
   u.beam.end = c;
   u.sigma = sigma - mean;
   u.at_begin += miss_a - mean;
   u.at_end = w.at_end + miss_c - mean;
-  u.error = std::sqrt(before * before + miss * miss);
+  u.error = std::sqrt(error * error + miss * miss);
   return true;
 }
 

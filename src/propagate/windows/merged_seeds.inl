@@ -13,7 +13,7 @@ void MergedWindows<Real>::begin(const WindowSources& sources, const PropagateOpt
   vertices_.assign(sheet_.vertex_count, {infinity<Real>, none, {0, 0}});
   error_.resize(sheet_.vertex_count);
   if (labels_) source_.resize(sheet_.vertex_count);
-  if (pending_.empty() || !complete_) pending_.assign(4 * std::size_t{own_}, none);
+  if (pending_.empty() || !complete_) pending_.assign(3 * std::size_t{own_}, none);
   blocks_.clear();
   vertex_next_.assign(sheet_.vertex_count, idle);
   free_block_ = none;
@@ -139,7 +139,7 @@ bool MergedWindows<Real>::fill_holes(Order& order) {
   return fill_holes(
       triangles_, own_, [&](Index v) { return vertices_[v].distance; },
       [&](Index v, Index w, Real way) {
-        offer(order, w, way, none, {0, 0}, labels_ ? source_[v] : 0, error_[v]);
+        offer(order, w, way, none, {0, 0}, labels_ ? source_[v] : 0, vertex_error(v));
       });
 }
 

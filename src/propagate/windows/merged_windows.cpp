@@ -23,22 +23,13 @@ constexpr double bucket_width = 0.125;
 constexpr double late = 0.25;
 /// So many turns a halfedge in the mean are too many: below one is usual.
 constexpr std::size_t patience = 4;
-/// Boundaries that turn by more than rounding bend paths, radians.
-constexpr double least_bend = 2e-6;
 constexpr std::size_t share = 65536;  ///< turns between two looks at what is told and allowed
 
 }  // namespace
 
 template <class Real>
 MergedWindows<Real>::MergedWindows(const Sheet<Real>& sheet)
-    : sheet_(sheet), triangles_(sheet.triangles), own_(sheet.own), pseudo_source_(triangles_) {
-  excess_.resize(sheet.vertex_count);
-  for (Index v = 0; v < sheet.vertex_count; ++v) {
-    const double excess = sheet.angles->excess(v);
-    const bool ear = sheet.angles->kind[v] == VertexAngles::boundary && excess > least_bend;
-    excess_[v] = ear ? infinity<Real> : static_cast<Real>(excess);
-  }
-}
+    : sheet_(sheet), triangles_(sheet.triangles), own_(sheet.own), pseudo_source_(triangles_) {}
 
 template <class Real>
 bool MergedWindows<Real>::solve(const WindowSources& sources, const PropagateOptions& options,
@@ -196,11 +187,11 @@ template <class Order>
                                                              Real error) {
   Vertex& v = vertices_[vertex];
   if (!(distance < v.distance)) return false;
-  v = {distance, corner, from};
-  error_[vertex] = error;
+  v = {distance, corner, {static_cast<float>(from.along), static_cast<float>(from.off)}};
+  error_[vertex] = static_cast<float>(error);
   if (labels_) source_[vertex] = source;
   ++statistics_.updates;
-  if ((corner == none || (corner & bent) || excess_[vertex] > 4 * scale_) &&
+  if ((corner == none || (corner & bent) || excess(vertex) > 4 * scale_) &&
       vertex_next_[vertex] == idle)
     order.push(vertex | bent, static_cast<double>(distance + static_cast<Real>(late)),
                [this](Index i) -> Index& { return next(i); });
@@ -211,6 +202,15 @@ template <class Order>
 template <class Real>
 void MergedWindows<Real>::gather(Gathered<Real>& windows, const Block& block) const {
   const std::size_t count = block.count;
+  const auto take = [&](std::size_t i) {
+    windows.take({block.window[i], labels_ ? block.source[i] : 0});
+  };
+  if (count == 2) {
+    const std::size_t first = block.window[1].beam.begin < block.window[0].beam.begin;
+    windows.append({block.window[first], labels_ ? block.source[first] : 0});
+    take(first ^ 1);
+    return;
+  }
   std::array<std::size_t, room> place{}, at;
   for (std::size_t i = 1; i < count; ++i)
     for (std::size_t j = 0; j < i; ++j) {
@@ -219,8 +219,7 @@ void MergedWindows<Real>::gather(Gathered<Real>& windows, const Block& block) co
       place[j] += before;
     }
   for (std::size_t i = 0; i < count; ++i) at[place[i]] = i;
-  for (std::size_t i = 0; i < count; ++i)
-    windows.take({block.window[at[i]], labels_ ? block.source[at[i]] : 0});
+  for (std::size_t i = 0; i < count; ++i) take(at[i]);
 }
 
 template <class Real>
@@ -231,7 +230,8 @@ template <class Order>
   if (radius_ < infinity<Real> && window.nearest() > radius_) [[unlikely]]
     return;
   const Real near = turn_of(window);
-  const Index waiting = pending_[halfedge];
+  Index& pending = pending_[place(halfedge)];
+  const Index waiting = pending;
   if (waiting != none && blocks_[waiting].count < room) {
     Block& block = blocks_[waiting];
     block.window[block.count] = window;
@@ -248,7 +248,7 @@ template <class Order>
   } else {
     free_block_ = blocks_[b].next;
   }
-  pending_[halfedge] = b;
+  pending = b;
   __builtin_prefetch(&triangles_[halfedge >> 2]);
   Block& block = blocks_[b];
   block.near = near;
@@ -298,7 +298,8 @@ template <class Real>
   Block& block = blocks_[b];
   block.next = std::exchange(free_block_, b);
   const Index halfedge = block.halfedge;
-  if (pending_[halfedge] == b) pending_[halfedge] = none;
+  Index& waiting = pending_[place(halfedge)];
+  if (waiting == b) waiting = none;
   turn.face = halfedge >> 2;
   turn.scale = scale_;
   const TriangleRecord<Real>& record = triangles_[turn.face];
@@ -306,8 +307,8 @@ template <class Real>
   const EnteredTriangle<Real>& t = turn.triangle;
   __builtin_prefetch(&vertices_[t.p]);
   const Index* const pending = pending_.data();  // a boundary leads to its end
-  __builtin_prefetch(pending + (record.across[t.before] >> Across::face_shift << 2));
-  __builtin_prefetch(pending + (record.across[t.after] >> Across::face_shift << 2));
+  __builtin_prefetch(pending + 3 * (record.across[t.before] >> Across::face_shift));
+  __builtin_prefetch(pending + 3 * (record.across[t.after] >> Across::face_shift));
   turn.windows.start(t.width, scale_);
   return block;
 }
@@ -342,12 +343,16 @@ template <class Real>
   turn.to_apex = infinity<Real>;
   turn.seen = 0;
   const auto sees = [&](std::size_t i, Real distance) {
-    if (distance < turn.to_apex) turn.to_apex = distance, turn.seen = i;
+    const std::size_t nearer = distance < turn.to_apex;
+    turn.to_apex = std::min(distance, turn.to_apex);
+    turn.seen += nearer * (i - turn.seen);
   };
+  using L = typename Spread<Real>::L;
+  constexpr Real if_not[2] = {infinity<Real>, 0};  // as good as random: no branch
   for (std::size_t i = 0; i < windows.size(); ++i) {
     Spread<Real>& s = turn.spread[i];
     s.go(t, windows[i].window);
-    if (s.left_reaches() && s.right_reaches()) sees(i, s.distance[1]);
+    sees(i, s.distance[1] + if_not[s.reaches_apex()]);
     if (i == 0 || !windows.joined(windows[i - 1], windows[i])) continue;
     // No gap opens between joined neighbours: both reach the apex if it lies there and they agree
     // on it, else they meet at the middle.
@@ -355,8 +360,8 @@ template <class Real>
     const Window<Real>&window_before = windows[i - 1].window, &window = windows[i].window;
     if (!before.left_reaches() && !s.right_reaches()) {
       const Spread<Real> dark_before = before, dark = s;
-      before.at.v[1] = t.left;
-      s.at.v[3] = t.right;
+      before.at = L(before.at[0], t.left, before.at[2], before.at[3]);
+      s.at = L(s.at[0], s.at[1], s.at[2], t.right);
       before.measure(t, window_before);
       s.measure(t, window);
       const Real from_left = before.distance[1], from_right = s.distance[3];
@@ -365,11 +370,15 @@ template <class Real>
       else
         before = dark_before, s = dark;
     } else if (before.at[1] < s.at[0]) {
-      before.at.v[1] = s.at.v[0] = (before.at[1] + s.at[0]) / 2;
+      const Real middle = (before.at[1] + s.at[0]) / 2;
+      before.at = L(before.at[0], middle, before.at[2], before.at[3]);
+      s.at = L(middle, s.at[1], s.at[2], s.at[3]);
       before.measure(t, window_before);
       s.measure(t, window);
     } else if (s.at[3] < before.at[2]) {
-      before.at.v[2] = s.at.v[3] = (before.at[2] + s.at[3]) / 2;
+      const Real middle = (before.at[2] + s.at[3]) / 2;
+      before.at = L(before.at[0], before.at[1], middle, before.at[3]);
+      s.at = L(s.at[0], s.at[1], s.at[2], middle);
       before.measure(t, window_before);
       s.measure(t, window);
     }
@@ -396,10 +405,9 @@ void MergedWindows<Real>::commit(Order& order, const Turn& turn) {
   for (std::size_t i = 0; i < windows.size(); ++i) {
     const Window<Real>& w = windows[i].window;
     const bool to_left = turn.spread[i].right_reaches();
-    if (to_left && turn.spread[i].left_reaches()) continue;
     const Real end = to_left ? w.beam.end : w.beam.begin, dx = t.apex_x - end;
     const Real way = (to_left ? w.at_end : w.at_begin) + std::sqrt(dx * dx + t.apex_h * t.apex_h);
-    if (way < bound)
+    if ((way < bound) & !(to_left & turn.spread[i].left_reaches())) [[unlikely]]
       offer(order, t.p, way, corner | bent, t.towards(end, 0), windows[i].source, w.error);
   }
   const Real to_a = vertices_[t.a].distance, to_b = vertices_[t.b].distance;
@@ -421,10 +429,10 @@ void MergedWindows<Real>::shine(Order& order, Index vertex) {
   if (sigma > radius_) return;
   const bool anywhere = v.corner == none, is_bent = !anywhere && (v.corner & bent);
   // What is bent looks around both corners of what is lit; else only strong saddles shine.
-  const Real shadow = excess_[vertex] + (is_bent ? std::numbers::pi_v<Real> : -4 * scale_);
+  const Real shadow = excess(vertex) + (is_bent ? std::numbers::pi_v<Real> : -4 * scale_);
   if (!anywhere && !(shadow > 0)) return;
   const Index source = labels_ ? source_[vertex] : 0;
-  const Real error = error_[vertex];
+  const Real error = static_cast<Real>(error_[vertex]);
   const VertexAngles::Kind kind = sheet_.angles->kind[vertex];
   const auto lit = [&](const Lit& part) {
     if (part.face >= own_) return;
@@ -460,8 +468,8 @@ void MergedWindows<Real>::shine(Order& order, Index vertex) {
 template <class Real>
 std::size_t MergedWindows<Real>::bytes() const {
   const auto of = [](const auto& v) { return v.capacity() * sizeof(v[0]); };
-  return sizeof(*this) + of(excess_) + of(vertices_) + of(source_) + of(error_) + of(pending_) +
-         of(blocks_) + of(vertex_next_) + of(corners_) + leaving_.bytes();
+  return sizeof(*this) + of(vertices_) + of(source_) + of(error_) + of(pending_) + of(blocks_) +
+         of(vertex_next_) + of(corners_) + leaving_.bytes();
 }
 
 }  // namespace plexway::windows

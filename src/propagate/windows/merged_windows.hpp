@@ -98,10 +98,10 @@ class MergedWindows {
   }
   [[nodiscard]] Leaving<Real>& leaving() { return leaving_; }
   [[nodiscard]] Real vertex_distance(Index vertex) const { return vertices_[vertex].distance; }
-  [[nodiscard]] Real vertex_error(Index vertex) const { return error_[vertex]; }
+  [[nodiscard]] Real vertex_error(Index vertex) const { return static_cast<Real>(error_[vertex]); }
   [[nodiscard]] Arrival<Real> arrival(Index vertex) const {
     const Vertex& v = vertices_[vertex];
-    return {v.corner, v.from.along, v.from.off};
+    return {v.corner, static_cast<Real>(v.from.along), static_cast<Real>(v.from.off)};
   }
   /// Is what arrived bent at that vertex? Part of Arrival::corner, beside `none`.
   static constexpr Index corner_flags = Index{1} << 31;
@@ -133,17 +133,17 @@ class MergedWindows {
   /// The nearest source of a reached vertex.
   [[nodiscard]] Index source(Index vertex) const { return labels_ ? source_[vertex] : 0; }
   /// How far off the distance may be, estimated from what merging cost on the way. No bound.
-  [[nodiscard]] Real error(Index vertex) const { return error_[vertex]; }
+  [[nodiscard]] Real error(Index vertex) const { return vertex_error(vertex); }
   [[nodiscard]] bool complete() const { return complete_; }
   [[nodiscard]] const PropagateStatistics& statistics() const { return statistics_; }
   [[nodiscard]] std::size_t bytes() const;
 
  private:
-  /// 16 bytes in float.
+  /// 16 bytes in float. Of the direction single precision is enough: merged light is off by more.
   struct Vertex {
     Real distance;
     Index corner;  ///< where the path comes from, as Arrival has it; `bent` may be added
-    Towards<Real> from;
+    Towards<float> from;
   };
   static constexpr Index bent = corner_flags;
 
@@ -213,7 +213,12 @@ class MergedWindows {
             Index source, Real error);
 
   void gather(Gathered<Real>& windows, const Block& block) const;
+  /// Of a halfedge 4 f + i in pending_.
+  [[nodiscard]] static Index place(Index halfedge) { return halfedge - (halfedge >> 2); }
   [[nodiscard]] Real scale_at(double distance) const;
+  [[nodiscard]] Real excess(Index vertex) const {
+    return static_cast<Real>(sheet_.angles->excess[vertex]);
+  }
   [[nodiscard]] Real near(Index node) const;
   [[nodiscard]] Index& next(Index node);
 
@@ -228,11 +233,10 @@ class MergedWindows {
   double least_offset_ = 0;  ///< of a source: distances count from there for the limit
   Real radius_ = 0;
 
-  std::vector<Real> excess_;  ///< of each vertex, as VertexAngles has it
   std::vector<Vertex> vertices_;
   std::vector<Index> source_;
-  std::vector<Real> error_;
-  std::vector<Index> pending_;  ///< a block for each halfedge 4 f + i, or none; none after a solve
+  std::vector<float> error_;
+  std::vector<Index> pending_;  ///< a block for each halfedge 3 f + i, or none; none after a solve
   std::vector<Block> blocks_;
   std::vector<Index> vertex_next_;
   std::vector<Index> corners_;

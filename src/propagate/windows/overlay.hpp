@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <utility>
 
+#include "kernel/lanes.hpp"
 #include "propagate/windows/merge.hpp"
 
 namespace plexway::windows {
@@ -16,21 +17,22 @@ struct Labelled {
   Index source;
 };
 
-/// Where two windows give the same distance; which one is nearer differs between `low` and `high`.
+/// Where two windows give the same distance, between two places where u's is the larger one by
+/// `f_low` and `f_high`, of which one is below 0. Which place gives way is as good as random: no
+/// branch.
 template <class Real>
-[[nodiscard]] Real crossing(const Window<Real>& u, const Window<Real>& w, Real low, Real high) {
-  Real f_low = u.at(low) - w.at(low), f_high = u.at(high) - w.at(high);
-  Real x = low;
-  for (int i = 0; i < 3; ++i) {
-    const Real t = f_low / (f_low - f_high);
-    x = low + (high - low) * (t >= 0 && t <= 1 ? t : Real(0.5));
+[[nodiscard]] Real crossing(const Window<Real>& u, const Window<Real>& w, Real low, Real high,
+                            Real f_low, Real f_high) {
+  using L = kernel::Lanes<Real>;
+  L ends(low, f_low, high, f_high);
+  for (int i = 0;; ++i) {
+    const Real t = ends[1] / (ends[1] - ends[3]);
+    const Real x = ends[0] + (ends[2] - ends[0]) * (t >= 0 && t <= 1 ? t : Real(0.5));
+    if (i == 2) return x;
     const Real f = u.at(x) - w.at(x);
-    if ((f < 0) == (f_low < 0))
-      low = x, f_low = f, f_high /= 2;
-    else
-      high = x, f_high = f, f_low /= 2;
+    ends = select(L(f * ends[1]) > L(Real(0)), L(x, f, ends[2], ends[3] / 2),
+                  L(ends[0], ends[1] / 2, x, f));
   }
-  return x;
 }
 
 /// The windows on one edge that serve each of its points best: in order, none over another.
@@ -77,12 +79,13 @@ class Overlay {
       else
         add(v, beam.begin, from);
       const Real low = std::max(from, beam.begin), high = std::min(until, beam.end);
-      const bool low_new = added.window.at(low) < v.window.at(low);
-      const bool high_new = added.window.at(high) < v.window.at(high);
+      const Real farther_low = v.window.at(low) - added.window.at(low);
+      const Real farther_high = v.window.at(high) - added.window.at(high);
+      const bool low_new = farther_low > 0, high_new = farther_high > 0;
       if (low_new == high_new) {
         add(low_new ? added : v, low, high);
       } else {
-        const Real x = crossing(v.window, added.window, low, high);
+        const Real x = crossing(v.window, added.window, low, high, farther_low, farther_high);
         add(low_new ? added : v, low, x);
         add(low_new ? v : added, x, high);
       }

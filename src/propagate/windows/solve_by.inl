@@ -44,12 +44,17 @@ void WindowSolver<Real>::read_out(const Windows& windows, const WindowSources& s
   const auto inside = mesh_.vertices_inside();
   workspace.vertex.resize(inside.size());
   if constexpr (kLabels) workspace.vertex_source.resize(inside.size());
+  std::atomic<bool> everywhere{true};
   crew.over(inside.size(), [&](std::size_t begin, std::size_t end) {
+    bool all = true;
     for (std::size_t i = begin; i < end; ++i) {
       const Index v = static_cast<Index>(i);
-      workspace.vertex[v] = static_cast<Real>(windows.distance(v));
+      const auto d = windows.distance(v);
+      all &= d < infinity;
+      workspace.vertex[v] = static_cast<Real>(d);
       if constexpr (kLabels) workspace.vertex_source[v] = windows.source(v);
     }
+    if (!all) everywhere.store(false, std::memory_order_relaxed);
   });
   field.statistics = windows.statistics();
   if (mends) {
@@ -78,6 +83,8 @@ void WindowSolver<Real>::read_out(const Windows& windows, const WindowSources& s
       field.distance[s.vertex] = static_cast<Real>(s.offset);
   }
   field.complete = windows.complete();
+  field.statistics.reached_simplices = mesh_.face_count();
+  if (everywhere.load(std::memory_order_relaxed)) return;
   const auto triangles = mesh_.triangles();
   std::atomic<std::size_t> reached{0};
   crew.over(mesh_.face_count(), [&](std::size_t begin, std::size_t end) {

@@ -62,6 +62,7 @@ struct Spread {
   /// Does light on this side reach the apex?
   [[nodiscard]] bool left_reaches() const { return !(at[1] < length[1]); }
   [[nodiscard]] bool right_reaches() const { return !(at[3] < length[3]); }
+  [[nodiscard]] bool reaches_apex() const { return left_reaches() & right_reaches(); }
 
   /// Which sides have light that no vertex makes needless: bits 0 left, 1 right. A side's light is
   /// needless where its pivot serves the far end as well by more than `give`, or the apex the near
@@ -70,7 +71,8 @@ struct Spread {
     const L from(to_p + length[0], to_a, to_p + length[2], to_b), way(-1, 1, -1, 1);
     const L other = __builtin_shufflevector(at.v, at.v, 1, 0, 3, 2);
     const int needless = kernel::lane_bits((from + way * at < distance - give) | (at.v == other.v));
-    return ((needless & 3) == 0 ? 1 : 0) | ((needless & 12) == 0 ? 2 : 0);
+    // Bit 0 where 0 and 1 are not set, bit 1 where 2 and 3 are not: looked up, not branched on.
+    return sides[needless];
   }
 
   /// The window on the left edge from A, on the right edge from P: as triangles across see them.
@@ -89,6 +91,8 @@ struct Spread {
   }
 
  private:
+  static constexpr int sides[16] = {3, 2, 2, 2, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0};
+
   [[gnu::noinline]] void go_parallel(const EnteredTriangle<Real>& t, const Window<Real>& w) {
     const Beam<Real> to_left = t.seen_left(w.beam), to_right = t.seen_right(w.beam);
     x = L(to_left.x, to_left.x, to_right.x, to_right.x);

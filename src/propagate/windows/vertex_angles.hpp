@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -15,12 +16,16 @@ struct VertexAngles {
     irregular,  ///< several fans, or an edge with more than two triangles
   };
 
-  std::vector<double> total;  ///< the angles at a vertex in sum, radians
+  /// What a vertex has more than lets shortest paths pass straight, radians: above 2 pi inside,
+  /// above pi on a boundary. +inf where paths may bend at any angle: where sheets meet, and where a
+  /// boundary turns by more than rounding, since a sliver behind it may be reached along its edge
+  /// alone.
+  std::vector<float> excess;
   std::vector<Kind> kind;
 
-  /// What a vertex has more than lets shortest paths pass straight: above 2 pi inside, above pi on
-  /// a boundary. Where sheets meet paths may always bend.
-  [[nodiscard]] double excess(Index vertex) const;
+  [[nodiscard]] std::size_t bytes() const {
+    return excess.capacity() * sizeof(excess[0]) + kind.capacity() * sizeof(kind[0]);
+  }
 };
 
 /// Cost: one arc tangent a corner.

@@ -57,10 +57,10 @@ WindowPatches<Real>::WindowPatches(const TriangleMesh<Real>& mesh, const VertexA
     Patch& patch = patches_[p];
     for (const Index v : patch.vertices) ++place_begin_[v + 1];
     if (!deal.is_ours(p)) continue;
-    patch.angles.total.reserve(patch.vertices.size());
+    patch.angles.excess.reserve(patch.vertices.size());
     patch.angles.kind.reserve(patch.vertices.size());
     for (const Index v : patch.vertices) {
-      patch.angles.total.push_back(angles.total[v]);
+      patch.angles.excess.push_back(angles.excess[v]);
       patch.angles.kind.push_back(angles.kind[v]);
     }
   }
@@ -91,8 +91,7 @@ std::size_t WindowPatches<Real>::bytes() const {
   const auto of = [](const auto& v) { return v.capacity() * sizeof(v[0]); };
   std::size_t sum = cut_.bytes() + of(patches_) + of(place_begin_) + of(places_);
   for (const Patch& patch : patches_)
-    sum +=
-        of(patch.triangles) + of(patch.vertices) + of(patch.angles.total) + of(patch.angles.kind);
+    sum += of(patch.triangles) + of(patch.vertices) + patch.angles.bytes();
   return sum;
 }
 

@@ -69,9 +69,8 @@ void WindowSolver<Real>::keep_windows(bool keep) {
 
 template <class Real>
 std::size_t WindowSolver<Real>::bytes() const {
-  return sizeof(*this) + angles_.total.capacity() * sizeof(double) + angles_.kind.capacity() +
-         (exact_ ? exact_->bytes() : 0) + (merged_ ? merged_->bytes() : 0) +
-         (kept_ ? kept_->bytes() : 0) +
+  return sizeof(*this) + angles_.bytes() + (exact_ ? exact_->bytes() : 0) +
+         (merged_ ? merged_->bytes() : 0) + (kept_ ? kept_->bytes() : 0) +
          (pieces_ ? pieces_->patches.bytes() + (pieces_->exact ? pieces_->exact->bytes() : 0) +
                         (pieces_->merged ? pieces_->merged->bytes() : 0)
                   : 0);
