@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <memory>
 #include <mutex>
 #include <span>
 #include <utility>
@@ -34,7 +35,7 @@ class EdgeReadOut {
       : mesh_(mesh),
         triangles_(mesh.triangles()),
         workspace_(workspace),
-        rooms_(workspace.lowering),
+        rooms_(rooms_of(workspace)),
         distance_(workspace.vertex.data()) {}
 
   template <class Crew>
@@ -68,6 +69,10 @@ class EdgeReadOut {
 
  private:
   using Room = LoweringRoom<Real>;
+  static LoweringRooms<Real>& rooms_of(WorkspaceState<Real>& workspace) {
+    if (!workspace.lowering) workspace.lowering = std::make_unique<LoweringRooms<Real>>();
+    return *workspace.lowering;
+  }
   using Change = VertexDistance<Real>;
 
   [[nodiscard]] Real at(Index v) const {

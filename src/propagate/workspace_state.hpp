@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <memory>
 #include <vector>
 
 #include <plexway/complex/ids.hpp>
@@ -35,12 +36,12 @@ struct WorkspaceState {
   WindowMemory<Real> windows;  ///< on surfaces: accuracies but `fast`
   /// The queues.
   FrontStorage front;
-  TeamRooms team;                    ///< for executors with several threads
-  PieceMemory<Real> pieces;          ///< likewise, on surfaces
-  std::vector<Real> vertex;          ///< read-out, in the numbers inside
-  std::vector<Index> vertex_source;  ///< its labels
-  std::vector<Index> corners;        ///< around one vertex
-  LoweringRooms<Real> lowering;      ///< read_out_edges
+  TeamRooms team;                                 ///< for executors with several threads
+  PieceMemory<Real> pieces;                       ///< likewise, on surfaces
+  std::vector<Real> vertex;                       ///< read-out, in the numbers inside
+  std::vector<Index> vertex_source;               ///< its labels
+  std::vector<Index> corners;                     ///< around one vertex
+  std::unique_ptr<LoweringRooms<Real>> lowering;  ///< read_out_edges
   ///@{
   /// On mixed domains: one a piece that is propagated on, what a member of a hinge has offered
   /// already, and the read-out of one piece with its nearest sources.
@@ -67,7 +68,8 @@ struct WorkspaceState {
            saddles.count * sizeof(SaddleLabel<Real>) + plain.count * sizeof(PlainLabel<Real>) +
            solids.count * sizeof(SolidLabel<Real>) +
            plain_solids.count * sizeof(PlainSolidLabel<Real>) + simplex.bytes() + of(source) +
-           windows.bytes() + of(vertex) + of(vertex_source) + of(corners) + lowering.bytes() +
+           windows.bytes() + of(vertex) + of(vertex_source) + of(corners) +
+           (lowering ? sizeof(*lowering) + lowering->bytes() : 0) +
            front.capacity * 2 * sizeof(Index) + of(front.heap) + team.bytes() + pieces.bytes();
   }
 };

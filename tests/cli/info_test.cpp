@@ -120,8 +120,8 @@ TEST_CASE("info lists executors and devices") {
 
 // On a curved surface which of two paths a triangle keeps is a matter of the order of updates: the
 // serial executor's own steps and schedules give 2.907 to 2.945 for the farthest vertex of the
-// torus. A team has the device's order; where the surface is flat, order decides nothing.
-TEST_CASE("the gl executor gives what a team gives, or says why not") {
+// torus. Where the surface is flat, order decides nothing.
+TEST_CASE("the gl executor is as accurate as labels are, or says why not") {
   without_drivers_under_sanitizers();
   const auto json = run_tool({"info", "--devices", "--json"}).json();
   const auto solve_on = [](const std::string& file, const std::vector<std::string>& more) {
@@ -147,10 +147,7 @@ TEST_CASE("the gl executor gives what a team gives, or says why not") {
   INFO(gl.err);
   REQUIRE(gl.code == 0);
   CHECK(gl.json()["executor"] == "gl");
-  if (std::find(executors.begin(), executors.end(), "openmp") != executors.end())
-    CHECK(farthest(gl) ==
-          Approx(farthest(solve({"--executor", "openmp", "--threads", "2", "--accuracy", "fast"})))
-              .epsilon(1e-3));
+  CHECK(farthest(gl) == Approx(farthest(solve({"--accuracy", "exact"}))).epsilon(2e-2));
   const Folder folder;
   const std::string square = folder.write("square.off", square_off(20));
   CHECK(farthest(solve_on(square, {"--executor", "gl"})) ==

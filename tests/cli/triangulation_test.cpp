@@ -82,7 +82,7 @@ TEST_CASE("triangulation leaves good meshes alone, and says what it knows") {
   const auto wires = run_tool(
       {"distance", sample("vessels.obj"), "--source", "vertex:0", "--triangulation", "delaunay"});
   CHECK(wires.code == 2);
-  CHECK(wires.err.find("wireframe") != std::string::npos);
+  CHECK(wires.err.find("only a surface") != std::string::npos);
 }
 
 TEST_CASE("labels and unreached vertices survive a refinement") {

@@ -41,7 +41,7 @@ TEST_CASE("the same bits whoever works, and though that changes in between", "[t
       std::this_thread::sleep_for(std::chrono::microseconds(50 * (i % 7)));
     }
   });
-  const Surface s = sphere(16);
+  const Surface s = sphere(5);
   const auto mesh = s.mesh<float>();
   Workspace<float> workspace;
   DistanceField<float> first, field;

@@ -1,7 +1,7 @@
-// GL against OpenMP: the same rounds, so the same distances. On a device that rounds as the
-// processor does (llvmpipe), solids, wireframes and labels come out with the same bits; on surfaces
-// the read-out adds in another order. (`vectorised` off: the vectorised step rounds elsewhere, and
-// rounding decides between equal paths.)
+// GL against a team in rounds: the same rounds, so the same distances. On a device that rounds as
+// the processor does (llvmpipe), solids, wireframes and labels come out with the same bits; on
+// surfaces the read-out adds in another order. (`vectorised` off: the vectorised step rounds
+// elsewhere, and rounding decides between equal paths.)
 
 #include <catch2/catch.hpp>
 #include <filesystem>
@@ -15,6 +15,7 @@
 #include "complex/test_wires.hpp"
 #include "exact_data.hpp"
 #include "gl/device.hpp"
+#include "gl/rounds.hpp"
 #include "with_accuracy.hpp"
 
 using namespace plexway;
@@ -29,7 +30,7 @@ struct Together {
   Together(const Domain& domain, std::span<const PointSource> sources) {
     PropagateOptions options = by_labels();
     options.vectorised = false;
-    team = solve(OpenMP{.threads = 2}, domain, sources, options);
+    team = solve_in_rounds(domain, sources, options);
     device = solve(GL{}, domain, sources, options);
   }
   /// Relative differences at most these, where the arithmetic is the same.
