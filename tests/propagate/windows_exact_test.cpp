@@ -5,7 +5,7 @@
 #include <plexway/error.hpp>
 
 #include "data/corner_domains.hpp"
-#include "propagate/straight_lines.hpp"
+#include "propagate/unfolded_lines.hpp"
 #include "propagate/windows_solving.hpp"
 
 using namespace plexway;
@@ -83,7 +83,7 @@ TEST_CASE("exact windows: small surfaces of every kind against all straight line
       std::mt19937 random(seed);
       const Index v = s.faces[below(random, s.faces.size())][0], w = s.faces.back()[1];
       const Index f = below(random, s.faces.size());
-      StraightLines truth(s, longest_of(s, {v, w, s.faces[f][0]}));
+      UnfoldedLines truth(s, longest_of(s, {v, w, s.faces[f][0]}));
       const auto mesh = s.mesh<double>();
       CAPTURE(what, seed, v, w, f);
       check_exact(mesh, {PointSource::at(v)}, truth.from(v), 1e-9);

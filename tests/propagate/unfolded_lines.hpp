@@ -17,10 +17,10 @@ namespace plexway::testing {
 /// of triangles, as long as a line fits through and is not longer than the longest that may count,
 /// and the rest is shortest paths in a graph. Knows of no angles, no saddles, no windows that beat
 /// each other. Any number of triangles may share an edge.
-class StraightLines {
+class UnfoldedLines {
  public:
   /// Lines longer than `longest` are not looked for.
-  StraightLines(const Surface& surface, double longest) : surface_(surface), longest_(longest) {
+  UnfoldedLines(const Surface& surface, double longest) : surface_(surface), longest_(longest) {
     for (Index f = 0; f < surface.faces.size(); ++f)
       for (std::size_t i = 0; i < 3; ++i) {
         const Index a = surface.faces[f][i], b = surface.faces[f][(i + 1) % 3];
