@@ -45,6 +45,22 @@ void ExactWindows<Real>::take(const Letter<double>& letter) {
 }
 
 template <class Real>
+void ExactWindows<Real>::seed_vertex(Index vertex, double sigma, Index number) {
+  offer(ring_, vertex, sigma, {}, number);
+}
+
+template <class Real>
+void ExactWindows<Real>::seed_inside(Index f, const std::array<double, 4>& barycentric,
+                                     double sigma, Index number) {
+  seed_inside(ring_, f, barycentric, sigma, number);
+}
+
+template <class Real>
+void ExactWindows<Real>::seed_hole(Index vertex, double distance, Index source, double) {
+  offer(ring_, vertex, distance, {}, source);
+}
+
+template <class Real>
 void ExactWindows<Real>::run_to(double horizon, std::size_t most) {
   ring_.set_horizon(horizon);
   static_cast<void>(spread(ring_, most));

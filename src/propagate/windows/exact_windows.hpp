@@ -71,16 +71,10 @@ class ExactWindows {
     seed(f, barycentric);
   }
   /// A source at a vertex or inside a triangle of this piece.
-  void seed_vertex(Index vertex, double sigma, Index number) {
-    offer(ring_, vertex, sigma, {}, number);
-  }
-  void seed_inside(Index f, const std::array<double, 4>& barycentric, double sigma, Index number) {
-    seed_inside(ring_, f, barycentric, sigma, number);
-  }
+  void seed_vertex(Index vertex, double sigma, Index number);
+  void seed_inside(Index f, const std::array<double, 4>& barycentric, double sigma, Index number);
   /// Light that reaches a vertex in no way that windows know.
-  void seed_hole(Index vertex, double distance, Index source, double) {
-    offer(ring_, vertex, distance, {}, source);
-  }
+  void seed_hole(Index vertex, double distance, Index source, double);
   /// From another piece; the letter's corner by the numbers here.
   void take(const Letter<double>& letter);
   /// As far as the horizon, or so many windows.

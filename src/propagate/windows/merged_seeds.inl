@@ -52,6 +52,22 @@ void MergedWindows<Real>::take(const Letter<Real>& letter) {
 }
 
 template <class Real>
+void MergedWindows<Real>::seed_vertex(Index vertex, double sigma, Index number) {
+  offer(ring_, vertex, static_cast<Real>(sigma), none, {0, 0}, number, 0);
+}
+
+template <class Real>
+void MergedWindows<Real>::seed_inside(Index f, const std::array<double, 4>& barycentric,
+                                      double sigma, Index number) {
+  seed_inside(ring_, f, barycentric, static_cast<Real>(sigma), number);
+}
+
+template <class Real>
+void MergedWindows<Real>::seed_hole(Index vertex, Real distance, Index source, Real error) {
+  offer(ring_, vertex, distance, none, {0, 0}, source, error);
+}
+
+template <class Real>
 void MergedWindows<Real>::run_to(double horizon, std::size_t most) {
   ring_.set_horizon(horizon);
   if (!spread(ring_, most) && waits_ && !(ring_.nearest() < horizon)) {  // spent just so

@@ -72,16 +72,10 @@ class MergedWindows {
                  [&](Index g, const std::array<double, 4>& b, std::size_t) { seed(g, b); });
   }
   /// A source at a vertex or inside a triangle of this piece.
-  void seed_vertex(Index vertex, double sigma, Index number) {
-    offer(ring_, vertex, static_cast<Real>(sigma), none, {0, 0}, number, 0);
-  }
-  void seed_inside(Index f, const std::array<double, 4>& barycentric, double sigma, Index number) {
-    seed_inside(ring_, f, barycentric, static_cast<Real>(sigma), number);
-  }
+  void seed_vertex(Index vertex, double sigma, Index number);
+  void seed_inside(Index f, const std::array<double, 4>& barycentric, double sigma, Index number);
   /// Light that reaches a vertex in no way that windows know.
-  void seed_hole(Index vertex, Real distance, Index source, Real error) {
-    offer(ring_, vertex, distance, none, {0, 0}, source, error);
-  }
+  void seed_hole(Index vertex, Real distance, Index source, Real error);
   /// From another piece; the letter's corner by the numbers here.
   void take(const Letter<Real>& letter);
   /// As far as the horizon, or so many turns.
