@@ -31,7 +31,7 @@ constexpr To bit_cast(const From& from) noexcept {
 #endif
 
 #ifndef __cpp_lib_atomic_ref
-/// Only what the rounds of several threads ask for; the module runs one.
+/// Only what several threads ask for; the module runs one.
 template <class T>
 class atomic_ref {
  public:
@@ -50,6 +50,11 @@ class atomic_ref {
     }
     expected = *value_;
     return false;
+  }
+  T fetch_add(T by, memory_order = memory_order_seq_cst) const {
+    const T before = *value_;
+    *value_ += by;
+    return before;
   }
 
  private:
