@@ -109,7 +109,8 @@ class Supersteps {
       sums[2] += own.reached_simplices;
     }
     add_up(team_.ranks(), sums);
-    return {sums[0], sums[1], sums[2]};
+    const auto size = [&](std::size_t i) { return static_cast<std::size_t>(sums[i]); };
+    return {size(0), size(1), size(2)};
   }
 
  private:
@@ -260,15 +261,16 @@ class Supersteps {
                                          all.updates,    all.reached, all.weight};
     double nearest = static_cast<double>(all.nearest);
     all.sent = post_.meet(superstep_, sums, nearest, [&](std::size_t piece) { awake_[piece] = 1; });
+    const auto size = [&](std::size_t i) { return static_cast<std::size_t>(sums[i]); };
     return {static_cast<Real>(nearest),
-            sums[0],
-            sums[1],
-            sums[2],
-            sums[3],
+            size(0),
+            size(1),
+            size(2),
+            size(3),
             all.sent,
-            sums[4],
-            sums[5],
-            sums[6]};
+            size(4),
+            size(5),
+            size(6)};
   }
 
   void advance() {
