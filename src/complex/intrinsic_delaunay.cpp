@@ -104,9 +104,9 @@ struct IntrinsicDelaunay::State {
   }
 
   // From what was before the flips: corners(slot) are a slot's, by the caller's vertices, and
-  // whether they ran the other way; `lines` see lost_edges.
+  // whether they ran the other way.
   template <class CornersOf>
-  void take_from_input(bool in_space, std::vector<SurfaceChord> lines, CornersOf corners) {
+  void take_from_input(bool in_space, LostEdges lost, CornersOf corners) {
     if (in_space)  // vertices that were put in lie in space as well
       for (const SlotPoint& point : triangulation.inserted()) {
         const auto [corner, turned] = corners(point.slot);
@@ -118,7 +118,7 @@ struct IntrinsicDelaunay::State {
             at[k] += point.at[over && i > 0 ? 3 - i : i] * positions[corner[i]][k];
         positions.push_back(at);
       }
-    chords = lost_edges(std::move(lines), triangulation, faces);
+    chords = std::move(lost).found();
     for (SurfaceChord& chord : chords) chord.length *= unit;
   }
 
@@ -131,19 +131,20 @@ struct IntrinsicDelaunay::State {
       return std::pair(std::array{outer[t.corner[0]], outer[t.corner[1]], outer[t.corner[2]]},
                        (t.face & reversed) != 0);
     };
-    std::vector<SurfaceChord> lines;
+    LostEdges lost(triangulation, faces);
     for (Index v = 0; input.has_chords() && v < outer.size(); ++v)
       for (const auto& chord : input.chords_at(v))
         if (v < chord.vertex)
-          add_chord(lines, outer[v], outer[chord.vertex], static_cast<double>(chord.length));
+          lost.look_at(outer[v], outer[chord.vertex], static_cast<double>(chord.length));
     for (Index s = 0; s < faces; ++s) {
       if (!triangulation.history().changed(s)) continue;
       const auto corner = corners(s).first;
+      const TriangleRecord<Real>& t = input.triangles()[s];
       for (std::size_t i = 0; i < 3; ++i)
-        add_chord(lines, corner[i], corner[edge_after(i)],
-                  static_cast<double>(input.triangles()[s].length[i]));
+        if (!lost.told_by_other_side(s, t.across[i]))
+          lost.look_at(corner[i], corner[edge_after(i)], static_cast<double>(t.length[i]));
     }
-    take_from_input(input.faces_are_in_space(), std::move(lines), corners);
+    take_from_input(input.faces_are_in_space(), std::move(lost), corners);
   }
 
   /// `layout` without what the constructor took of it.
@@ -153,7 +154,7 @@ struct IntrinsicDelaunay::State {
       const auto& c = layout.corner[slot];
       return std::pair(std::array{outer[c[0]], outer[c[1]], outer[c[2]]}, layout.is_turned(slot));
     };
-    std::vector<SurfaceChord> lines;
+    LostEdges lost(triangulation, faces);
     std::array<Index, ShapeBlock::size> slots, listed;
     ShapeBlock block{};
     for (Index s = 0; s < faces;) {
@@ -168,12 +169,13 @@ struct IntrinsicDelaunay::State {
       for (std::size_t k = 0; k < count; ++k) {
         const auto [corner, turned] = corners(slots[k]);
         for (std::size_t i = 0; i < 3; ++i)
-          add_chord(lines, corner[i], corner[edge_after(i)],
-                    block.length[turned ? 2 - i : i][k] / unit);
+          if (!lost.told_by_other_side(slots[k], layout.across[slots[k]][i]))
+            lost.look_at(corner[i], corner[edge_after(i)],
+                         block.length[turned ? 2 - i : i][k] / unit);
       }
     }
     positions.assign(shapes.positions().begin(), shapes.positions().end());
-    take_from_input(!positions.empty(), std::move(lines), corners);
+    take_from_input(!positions.empty(), std::move(lost), corners);
   }
 
   State(FaceLayout&& layout, const TriangleShapes& shapes, int by_threads)
