@@ -77,7 +77,9 @@ struct IntrinsicDelaunay::State {
   bool refracts = false;
   bool released = false;                         // are the triangles gone?
   int threads = 0;                               // that make meshes
-  std::vector<std::array<double, 3>> positions;  // of the input's vertices, where known
+  std::vector<std::array<double, 3>> positions;  // of the vertices, where known
+  // The caller's, while a mesh is made of them: where no vertex was put in they need no copy.
+  std::span<const std::array<double, 3>> borrowed;
   std::vector<SurfaceChord> chords;
   DelaunaySummary summary;
 
@@ -174,7 +176,10 @@ struct IntrinsicDelaunay::State {
                          block.length[turned ? 2 - i : i][k] / unit);
       }
     }
-    positions.assign(shapes.positions().begin(), shapes.positions().end());
+    if (triangulation.inserted().empty())
+      borrowed = shapes.positions();
+    else
+      positions.assign(shapes.positions().begin(), shapes.positions().end());
     take_from_input(!positions.empty(), std::move(lost), corners);
   }
 
@@ -191,7 +196,7 @@ struct IntrinsicDelaunay::State {
     flips.all();
     if (refinement.smallest_angle > 0) refine(triangulation, flips, refinement);
     summary = {flips.count(), flips.stuck(), triangulation.inserted().size()};
-    triangulation.release_counts();
+    triangulation.settle();
     for (Index s = static_cast<Index>(faces); s < triangulation.triangles().size(); ++s) {
       face_of_slot.own().push_back(s);
       slot_of_face.own().push_back(s);
@@ -228,6 +233,7 @@ IntrinsicDelaunay::IntrinsicDelaunay() = default;
 void IntrinsicDelaunay::release_triangles() {
   state_->triangulation.release_triangles();
   std::vector<std::array<double, 3>>().swap(state_->positions);
+  state_->borrowed = {};
   std::vector<SurfaceChord>().swap(state_->chords);
   state_->released = true;
 }
@@ -293,7 +299,7 @@ TriangleMesh<Real> IntrinsicDelaunay::mesh(const SaddleThresholds& saddles) cons
   const std::size_t m = triangles.size(), vertices = state_->triangulation.vertices();
   SurfaceHints hints;
   hints.refracts = state_->refracts;
-  hints.positions = state_->positions;
+  hints.positions = state_->borrowed.empty() ? state_->positions : state_->borrowed;
   hints.chords = state_->chords;
   hints.saddles = saddles;
   hints.threads = state_->threads;

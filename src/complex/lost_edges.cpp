@@ -5,12 +5,6 @@
 
 namespace plexway {
 
-bool LostEdges::told_by_other_side(Index slot, Index across) const {
-  const Index other = across >> Across::face_shift;
-  return (across & Across::fan) == 0 && other < slot &&
-         (other >= input_faces_ || now_.history().changed(other));
-}
-
 // Calls visit(lower, upper, length), from one side of each, but for those from a vertex to itself.
 template <class Visit>
 void LostEdges::for_changed_edges(const Visit& visit) const {

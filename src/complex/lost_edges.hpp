@@ -18,7 +18,11 @@ class LostEdges {
 
   /// Are an edge's two sides slots that something happened to, and is the other one the lower? Then
   /// the edge is told from there. `across` as in a mesh's records.
-  [[nodiscard]] bool told_by_other_side(Index slot, Index across) const;
+  [[nodiscard]] bool told_by_other_side(Index slot, Index across) const {
+    const Index other = across >> Across::face_shift;
+    return (across & Across::fan) == 0 && other < slot &&
+           (other >= input_faces_ || now_.history().changed(other));
+  }
   /// A line that the input knew, or an edge of a slot that something happened to. Cost: that of the
   /// edges from its lower end.
   void look_at(Index v, Index w, double length);
