@@ -77,7 +77,9 @@ struct IntrinsicDelaunay::State {
   bool refracts = false;
   bool released = false;                         // are the triangles gone?
   int threads = 0;                               // that make meshes
-  std::vector<std::array<double, 3>> positions;  // of the input's vertices, where known
+  std::vector<std::array<double, 3>> positions;  // of the vertices, where known
+  // The caller's, while a mesh is made of them: where no vertex was put in they need no copy.
+  std::span<const std::array<double, 3>> borrowed;
   std::vector<SurfaceChord> chords;
   DelaunaySummary summary;
 
@@ -104,9 +106,9 @@ struct IntrinsicDelaunay::State {
   }
 
   // From what was before the flips: corners(slot) are a slot's, by the caller's vertices, and
-  // whether they ran the other way; `lines` see lost_edges.
+  // whether they ran the other way.
   template <class CornersOf>
-  void take_from_input(bool in_space, std::vector<SurfaceChord> lines, CornersOf corners) {
+  void take_from_input(bool in_space, LostEdges lost, CornersOf corners) {
     if (in_space)  // vertices that were put in lie in space as well
       for (const SlotPoint& point : triangulation.inserted()) {
         const auto [corner, turned] = corners(point.slot);
@@ -118,7 +120,7 @@ struct IntrinsicDelaunay::State {
             at[k] += point.at[over && i > 0 ? 3 - i : i] * positions[corner[i]][k];
         positions.push_back(at);
       }
-    chords = lost_edges(std::move(lines), triangulation, faces);
+    chords = std::move(lost).found();
     for (SurfaceChord& chord : chords) chord.length *= unit;
   }
 
@@ -131,19 +133,20 @@ struct IntrinsicDelaunay::State {
       return std::pair(std::array{outer[t.corner[0]], outer[t.corner[1]], outer[t.corner[2]]},
                        (t.face & reversed) != 0);
     };
-    std::vector<SurfaceChord> lines;
+    LostEdges lost(triangulation, faces);
     for (Index v = 0; input.has_chords() && v < outer.size(); ++v)
       for (const auto& chord : input.chords_at(v))
         if (v < chord.vertex)
-          add_chord(lines, outer[v], outer[chord.vertex], static_cast<double>(chord.length));
+          lost.look_at(outer[v], outer[chord.vertex], static_cast<double>(chord.length));
     for (Index s = 0; s < faces; ++s) {
       if (!triangulation.history().changed(s)) continue;
       const auto corner = corners(s).first;
+      const TriangleRecord<Real>& t = input.triangles()[s];
       for (std::size_t i = 0; i < 3; ++i)
-        add_chord(lines, corner[i], corner[edge_after(i)],
-                  static_cast<double>(input.triangles()[s].length[i]));
+        if (!lost.told_by_other_side(s, t.across[i]))
+          lost.look_at(corner[i], corner[edge_after(i)], static_cast<double>(t.length[i]));
     }
-    take_from_input(input.faces_are_in_space(), std::move(lines), corners);
+    take_from_input(input.faces_are_in_space(), std::move(lost), corners);
   }
 
   /// `layout` without what the constructor took of it.
@@ -153,7 +156,7 @@ struct IntrinsicDelaunay::State {
       const auto& c = layout.corner[slot];
       return std::pair(std::array{outer[c[0]], outer[c[1]], outer[c[2]]}, layout.is_turned(slot));
     };
-    std::vector<SurfaceChord> lines;
+    LostEdges lost(triangulation, faces);
     std::array<Index, ShapeBlock::size> slots, listed;
     ShapeBlock block{};
     for (Index s = 0; s < faces;) {
@@ -168,12 +171,16 @@ struct IntrinsicDelaunay::State {
       for (std::size_t k = 0; k < count; ++k) {
         const auto [corner, turned] = corners(slots[k]);
         for (std::size_t i = 0; i < 3; ++i)
-          add_chord(lines, corner[i], corner[edge_after(i)],
-                    block.length[turned ? 2 - i : i][k] / unit);
+          if (!lost.told_by_other_side(slots[k], layout.across[slots[k]][i]))
+            lost.look_at(corner[i], corner[edge_after(i)],
+                         block.length[turned ? 2 - i : i][k] / unit);
       }
     }
-    positions.assign(shapes.positions().begin(), shapes.positions().end());
-    take_from_input(!positions.empty(), std::move(lines), corners);
+    if (triangulation.inserted().empty())
+      borrowed = shapes.positions();
+    else
+      positions.assign(shapes.positions().begin(), shapes.positions().end());
+    take_from_input(!positions.empty(), std::move(lost), corners);
   }
 
   State(FaceLayout&& layout, const TriangleShapes& shapes, int by_threads)
@@ -189,7 +196,7 @@ struct IntrinsicDelaunay::State {
     flips.all();
     if (refinement.smallest_angle > 0) refine(triangulation, flips, refinement);
     summary = {flips.count(), flips.stuck(), triangulation.inserted().size()};
-    triangulation.release_counts();
+    triangulation.settle();
     for (Index s = static_cast<Index>(faces); s < triangulation.triangles().size(); ++s) {
       face_of_slot.own().push_back(s);
       slot_of_face.own().push_back(s);
@@ -226,6 +233,7 @@ IntrinsicDelaunay::IntrinsicDelaunay() = default;
 void IntrinsicDelaunay::release_triangles() {
   state_->triangulation.release_triangles();
   std::vector<std::array<double, 3>>().swap(state_->positions);
+  state_->borrowed = {};
   std::vector<SurfaceChord>().swap(state_->chords);
   state_->released = true;
 }
@@ -291,7 +299,7 @@ TriangleMesh<Real> IntrinsicDelaunay::mesh(const SaddleThresholds& saddles) cons
   const std::size_t m = triangles.size(), vertices = state_->triangulation.vertices();
   SurfaceHints hints;
   hints.refracts = state_->refracts;
-  hints.positions = state_->positions;
+  hints.positions = state_->borrowed.empty() ? state_->positions : state_->borrowed;
   hints.chords = state_->chords;
   hints.saddles = saddles;
   hints.threads = state_->threads;

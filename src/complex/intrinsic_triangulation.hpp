@@ -53,7 +53,11 @@ class IntrinsicTriangulation {
   [[nodiscard]] std::size_t vertices() const { return vertices_; }
   [[nodiscard]] const PatchHistory& history() const { return history_; }
   [[nodiscard]] std::size_t bytes() const;
-  void release_counts() { std::vector<std::uint16_t>().swap(flips_); }
+  /// After the last flip and split: what only these need.
+  void settle() {
+    std::vector<std::uint16_t>().swap(flips_);
+    history_.trim();
+  }
   /// What is left maps points.
   void release_triangles() { Unfilled<IntrinsicTriangle>().swap(triangles_); }
 

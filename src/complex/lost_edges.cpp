@@ -5,42 +5,48 @@
 
 namespace plexway {
 
-void add_chord(std::vector<SurfaceChord>& to, Index v, Index w, double length) {
-  if (v != w) to.push_back({std::min(v, w), std::max(v, w), length});
+// Calls visit(lower, upper, length), from one side of each, but for those from a vertex to itself.
+template <class Visit>
+void LostEdges::for_changed_edges(const Visit& visit) const {
+  for (Index s = 0; s < now_.triangles().size(); ++s) {
+    if (s < input_faces_ && !now_.history().changed(s)) continue;
+    const IntrinsicTriangle& t = now_.triangles()[s];
+    for (std::size_t i = 0; i < 3; ++i) {
+      const Index v = t.corner[i], w = t.corner[edge_after(i)];
+      if (v != w && !told_by_other_side(s, t.across[i]))
+        visit(std::min(v, w), std::max(v, w), t.length[i]);
+    }
+  }
 }
 
-std::vector<SurfaceChord> lost_edges(std::vector<SurfaceChord> then,
-                                     const IntrinsicTriangulation& now, std::size_t input_faces) {
-  std::vector<SurfaceChord> there;
-  for (Index s = 0; s < now.triangles().size(); ++s) {
-    if (s < input_faces && !now.history().changed(s)) continue;
-    const IntrinsicTriangle& t = now.triangles()[s];
-    for (std::size_t i = 0; i < 3; ++i)
-      add_chord(there, t.corner[i], t.corner[edge_after(i)], t.length[i]);
-  }
-  const auto less = [](const SurfaceChord& a, const SurfaceChord& b) {
+LostEdges::LostEdges(const IntrinsicTriangulation& now, std::size_t input_faces)
+    : now_(now), input_faces_(input_faces), end_(now.vertices() + 1, 0) {
+  for_changed_edges([&](Index lower, Index, double) { ++end_[lower + 1]; });
+  for (std::size_t v = 0; v + 1 < end_.size(); ++v) end_[v + 1] += end_[v];
+  edges_.resize(end_.back());
+  for_changed_edges([&](Index lower, Index upper, double length) {
+    edges_[end_[lower]++] = {upper, length};
+  });
+}
+
+void LostEdges::look_at(Index v, Index w, double length) {
+  if (v == w) return;
+  const Index lower = std::min(v, w), upper = std::max(v, w);
+  for (Index e = lower == 0 ? 0 : end_[lower - 1]; e < end_[lower]; ++e)
+    if (edges_[e].upper == upper && edges_[e].length <= length * (1 + 1e-12)) return;
+  lost_.push_back({lower, upper, length});
+}
+
+std::vector<SurfaceChord> LostEdges::found() && {
+  std::sort(lost_.begin(), lost_.end(), [](const SurfaceChord& a, const SurfaceChord& b) {
     return std::tie(a.from, a.to, a.length) < std::tie(b.from, b.to, b.length);
-  };
-  // Of several between the same ends the shortest counts.
-  const auto shortest = [&](std::vector<SurfaceChord>& all) {
-    std::sort(all.begin(), all.end(), less);
-    all.erase(std::unique(all.begin(), all.end(),
+  });
+  lost_.erase(std::unique(lost_.begin(), lost_.end(),
                           [](const SurfaceChord& a, const SurfaceChord& b) {
                             return a.from == b.from && a.to == b.to;
                           }),
-              all.end());
-  };
-  shortest(then);
-  shortest(there);
-  auto known = there.begin();
-  std::erase_if(then, [&](const SurfaceChord& chord) {
-    while (known != there.end() &&
-           std::tie(known->from, known->to) < std::tie(chord.from, chord.to))
-      ++known;
-    return known != there.end() && known->from == chord.from && known->to == chord.to &&
-           known->length <= chord.length * (1 + 1e-12);
-  });
-  return then;
+              lost_.end());
+  return std::move(lost_);
 }
 
 }  // namespace plexway

@@ -5,16 +5,45 @@
 
 #include <plexway/complex/triangle_mesh.hpp>
 
+#include "complex/building_blocks.hpp"
 #include "complex/intrinsic_triangulation.hpp"
 
 namespace plexway {
 
-/// Adds a line between two vertices, but none from a vertex to itself.
-void add_chord(std::vector<SurfaceChord>& to, Index v, Index w, double length);
+/// Edges of the input that are none any more: straight lines still.
+class LostEdges {
+ public:
+  /// After the flips. Cost: linear.
+  LostEdges(const IntrinsicTriangulation& now, std::size_t input_faces);
 
-/// Edges of the input that are none any more: straight lines still. `then` has those of slots that
-/// something happened to, and lines that the input knew.
-std::vector<SurfaceChord> lost_edges(std::vector<SurfaceChord> then,
-                                     const IntrinsicTriangulation& now, std::size_t input_faces);
+  /// Are an edge's two sides slots that something happened to, and is the other one the lower? Then
+  /// the edge is told from there. `across` as in a mesh's records.
+  [[nodiscard]] bool told_by_other_side(Index slot, Index across) const {
+    const Index other = across >> Across::face_shift;
+    return (across & Across::fan) == 0 && other < slot &&
+           (other >= input_faces_ || now_.history().changed(other));
+  }
+  /// A line that the input knew, or an edge of a slot that something happened to. Cost: that of the
+  /// edges from its lower end.
+  void look_at(Index v, Index w, double length);
+  /// Those that were lost, ascending by their ends. Of several between the same the shortest
+  /// counts.
+  [[nodiscard]] std::vector<SurfaceChord> found() &&;
+
+ private:
+  struct Edge {
+    Index upper;
+    double length;
+  };
+  template <class Visit>
+  void for_changed_edges(const Visit& visit) const;
+
+  const IntrinsicTriangulation& now_;
+  std::size_t input_faces_;
+  // Edges of changed slots by their lower ends: those of v before end_[v], some three each.
+  std::vector<Index> end_;
+  Unfilled<Edge> edges_;
+  std::vector<SurfaceChord> lost_;
+};
 
 }  // namespace plexway

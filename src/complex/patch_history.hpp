@@ -64,6 +64,9 @@ class PatchHistory {
   /// Links of the patch are made here. Slots beyond those known are new.
   void add(Patch patch);
 
+  /// Gives back what was room for more. Cost: linear.
+  void trim() { patches_.own().shrink_to_fit(); }
+
   /// From the first triangulation to the last.
   [[nodiscard]] SlotPoint forward(SlotPoint point) const;
   /// And back.

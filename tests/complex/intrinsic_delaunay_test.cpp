@@ -1,10 +1,14 @@
 #include <plexway/complex/intrinsic_delaunay.hpp>
 
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <map>
 #include <numbers>
 #include <random>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include <plexway/error.hpp>
 
@@ -271,4 +275,67 @@ TEST_CASE("measured shape of a triangulation") {
   const TriangulationShape one = measure_triangulation(s.mesh<float>());
   CHECK(one.non_delaunay_share() == 1);
   CHECK(one.largest_angle == Approx(2 * std::atan(3.) * 180 / std::numbers::pi));
+}
+
+namespace {
+
+// The shortest edge between each two vertices, by the caller's numbers.
+using ShortestEdges = std::map<std::pair<Index, Index>, double>;
+
+ShortestEdges shortest_edges(const Double& mesh) {
+  const Plain p = plain(mesh);
+  ShortestEdges found;
+  for (std::size_t f = 0; f < p.faces.size(); ++f)
+    for (std::size_t i = 0; i < 3; ++i) {
+      const auto [v, w] = std::minmax(p.faces[f][i], p.faces[f][(i + 1) % 3]);
+      if (v == w) continue;
+      const auto [at, fresh] = found.try_emplace({v, w}, p.length[f][i]);
+      if (!fresh) at->second = std::min(at->second, p.length[f][i]);
+    }
+  return found;
+}
+
+// Chords are the edges of the input that are gone, and both their ends know of them.
+void check_lost(const Double& input, const Double& now) {
+  ShortestEdges lost;
+  const ShortestEdges there = shortest_edges(now);
+  for (const auto& [ends, length] : shortest_edges(input)) {
+    const auto at = there.find(ends);
+    if (at == there.end() || at->second > length * (1 + 1e-9)) lost.emplace(ends, length);
+  }
+  REQUIRE(!lost.empty());
+  std::vector<Index> outer(now.vertex_count());
+  for (Index v = 0; v < outer.size(); ++v) outer[now.inside_vertex(v)] = v;
+  std::size_t ends = 0;
+  for (Index v = 0; v < outer.size(); ++v)
+    for (const auto& chord : now.chords_at(v)) {
+      ++ends;
+      const auto [a, b] = std::minmax(outer[v], outer[chord.vertex]);
+      const auto at = lost.find({a, b});
+      REQUIRE(at != lost.end());
+      CHECK(chord.length * now.unit() == Approx(at->second).epsilon(1e-9));
+    }
+  CHECK(ends == 2 * lost.size());
+}
+
+}  // namespace
+
+TEST_CASE("edges that flips took are chords, and no others") {
+  const std::size_t which = GENERATE(range(0, 6));
+  const Surface made[] = {random_polygon(6, 100, 1500, 11),
+                          random_polygon(30, 400, 9000, 5),
+                          prism(3, 4, 40),
+                          grid(20, 20, 300, 10),
+                          soup(40, 120, 3),
+                          moebius(12, 4)};
+  Surface s = made[which];
+  std::mt19937 random(static_cast<unsigned>(which));
+  for (auto& p : s.positions)  // no ties
+    for (double& x : p) x += 0.05 * uniform(random);
+  const Double input = s.mesh<double>();
+  const IntrinsicDelaunay flipped(input);
+  REQUIRE(flipped.summary().flips > 0);
+  check_lost(input, flipped.mesh<double>());
+  check_lost(input, triangulate<double>(s.positions, s.faces, Retriangulation::flips).mesh);
+  check_lost(input, triangulate<double>(s.positions, s.faces, Retriangulation::refined).mesh);
 }
