@@ -56,7 +56,7 @@ class MixedSolid final : public MixedPiece<Real> {
   Real nearest() const override { return wave_.queue().nearest() * unit_; }
   void hold() override { wave_.queue().set_horizon(0); }
   bool mend() override {
-    if (propagation_.mend(repairs_)) return true;
+    if (offer_around(infinity) || propagation_.mend(repairs_)) return true;
     repairs_ = 0;
     return false;
   }
@@ -213,13 +213,11 @@ class MixedSolid final : public MixedPiece<Real> {
     return workspace;
   }
 
-  // Labels that start on hinges are offered all around, once what waits is beyond them. True if
-  // some was accepted.
+  // Labels that start on hinges are offered all around, as far as the horizon. True if some was
+  // accepted.
   bool offer_around(Real horizon) {
     if (on_hinges_.empty()) return false;
     const std::size_t before = wave_.updates();
-    std::sort(on_hinges_.begin(), on_hinges_.end());
-    on_hinges_.erase(std::unique(on_hinges_.begin(), on_hinges_.end()), on_hinges_.end());
     std::erase_if(on_hinges_,
                   [&](Index t) { return rule_.offer_around(t, this->crossing_gain, horizon); });
     return wave_.updates() != before;
