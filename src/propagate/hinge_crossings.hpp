@@ -17,8 +17,8 @@
 
 namespace plexway {
 
-/// Where labels of a mixed domain start on hinges, at vertices too. They have numbers of their own behind the
-/// caller's sources.
+/// Where labels of a mixed domain start on hinges, at vertices too. They have numbers of their own
+/// behind the caller's sources.
 ///
 /// A label that starts on a hinge starts where it is best for one simplex there. What is behind may
 /// do better to cross a little farther on: each vertex looks for its own crossing when it is read
