@@ -124,6 +124,12 @@ class PriorityQueue {
     heap[at] = entry;
   }
 
+  /// No simplex that waits is nearer; it may be one that is out of date.
+  [[nodiscard]] Real nearest() const {
+    return heap_->empty() ? std::numeric_limits<Real>::infinity()
+                          : static_cast<Real>(heap_->front().first);
+  }
+
   template <class DistanceOf>
   bool pop(Index& simplex, DistanceOf distance_of) {
     while (!heap_->empty()) {

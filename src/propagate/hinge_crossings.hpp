@@ -17,8 +17,8 @@
 
 namespace plexway {
 
-/// Where labels of a mixed domain start on hinges. They have numbers of their own behind the
-/// caller's sources.
+/// Where labels of a mixed domain start on hinges, at vertices too. They have numbers of their own
+/// behind the caller's sources.
 ///
 /// A label that starts on a hinge starts where it is best for one simplex there. What is behind may
 /// do better to cross a little farther on: each vertex looks for its own crossing when it is read
@@ -33,20 +33,24 @@ class HingeCrossings {
   using Point = Vector3<Real>;
 
   struct Crossing {
-    Index source, hinge;
-    std::uint8_t side;  // that the front came from
-    Point start;        // in the piece beyond
+    Index source, hinge;  // no hinge: a welded vertex, where nothing is to be moved
+    std::uint8_t side;    // that the front came from
+    Point start;          // in the piece beyond
   };
 
-  HingeCrossings(const Domain& domain, const std::vector<std::unique_ptr<Piece>>& pieces)
-      : domain_(domain), pieces_(pieces), neighbours_(domain) {}
+  HingeCrossings(const Domain& domain, const std::vector<std::unique_ptr<Piece>>& pieces,
+                 const HingeNeighbours<Real>& neighbours)
+      : domain_(domain), pieces_(pieces), neighbours_(neighbours) {}
 
   /// `number` is one of the caller's sources.
   void keep_clear(Index number) { first_ = std::max(first_, number + 1); }
   /// The first number of a crossing, and the next one.
   [[nodiscard]] Index first() const { return first_; }
   [[nodiscard]] Index next() const { return first_ + static_cast<Index>(crossings_.size()); }
-  void add(const Crossing& crossing) { crossings_.push_back(crossing); }
+  void add(const Crossing& crossing) {
+    crossings_.push_back(crossing);
+    moves_ |= crossing.hinge != none;
+  }
   /// The caller's source that a label comes from.
   [[nodiscard]] Index root(Index number) const {
     const Crossing* crossing = find(number);
@@ -55,10 +59,10 @@ class HingeCrossings {
 
   /// Distances and labels of a piece's vertices, in its caller's order.
   void straighten(Index piece, std::vector<Real>& distance, std::vector<Index>& label) const {
-    if (crossings_.empty()) return;
+    if (!moves_) return;
     const auto& own = *pieces_[piece];
     const auto starts = [&](Index number) -> const Point* {
-      const Crossing* crossing = find(number);
+      const Crossing* crossing = on_hinge(number);
       return crossing != nullptr ? &crossing->start : nullptr;
     };
     const auto& complex = domain_.complex(domain_.pieces()[piece]);
@@ -118,6 +122,11 @@ class HingeCrossings {
 
   [[nodiscard]] const Crossing* find(Index number) const {
     return number == none || number < first_ ? nullptr : &crossings_[number - first_];
+  }
+  // One that may be moved.
+  [[nodiscard]] const Crossing* on_hinge(Index number) const {
+    const Crossing* crossing = find(number);
+    return crossing == nullptr || crossing->hinge == none ? nullptr : crossing;
   }
 
   // The least way over a hinge, from there over its neighbours as long as that is shorter.
@@ -214,7 +223,7 @@ class HingeCrossings {
   // The crossing that an eye is, if it may be moved: in a piece where all points see each other.
   [[nodiscard]] Index straight_from(const Piece& piece, const Member& member,
                                     const PosedSource<Real>& eye, int dimension) const {
-    const Crossing* crossing = find(eye.source);
+    const Crossing* crossing = on_hinge(eye.source);
     if (crossing == nullptr || !piece.sees_all()) return none;
     const HingeEnd<Real> start = piece.pose(member, dimension, crossing->start);
     const Real size = Real(1e-4) * piece.shape(member, dimension).length;
@@ -225,8 +234,9 @@ class HingeCrossings {
 
   const Domain& domain_;
   const std::vector<std::unique_ptr<Piece>>& pieces_;
-  HingeNeighbours<Real> neighbours_;
+  const HingeNeighbours<Real>& neighbours_;
   Index first_ = 0;
+  bool moves_ = false;  // is any on a hinge?
   std::vector<Crossing> crossings_;
 };
 

@@ -42,6 +42,7 @@ class HingeNeighbours {
   [[nodiscard]] std::span<const Index> over_vertices(Index hinge) const {
     return over_vertices_.of(hinge);
   }
+  [[nodiscard]] std::size_t bytes() const { return over_edges_.bytes() + over_vertices_.bytes(); }
 
  private:
   using Key = std::array<Index, 6>;  // all but the last say what is shared
@@ -71,6 +72,9 @@ class HingeNeighbours {
     }
     [[nodiscard]] std::span<const Index> of(Index hinge) const {
       return std::span(list_).subspan(begin_[hinge], begin_[hinge + 1] - begin_[hinge]);
+    }
+    [[nodiscard]] std::size_t bytes() const {
+      return (begin_.capacity() + list_.capacity()) * sizeof(Index);
     }
 
    private:

@@ -51,9 +51,17 @@ class MixedPiece {
 
   /// The caller's numbers in the piece.
   virtual void seed(const PointSource& source, Index number) = 0;
-  /// Until no label waits or `budget` expansions are spent. Sources from `first_front` on are
-  /// labels that start on a hinge. Throws Cancelled.
-  virtual void run(std::size_t budget, Index first_front) = 0;
+  /// Until no nearer label than `horizon` waits or `budget` expansions are spent. Sources from
+  /// `first_front` on are labels that start on a hinge. Throws Cancelled.
+  virtual void run(Real horizon, std::size_t budget, Index first_front) = 0;
+  /// No nearer label waits: +inf where none does.
+  [[nodiscard]] virtual Real nearest() const = 0;
+  /// Nothing waits in any piece: the horizon starts anew.
+  virtual void hold() = 0;
+  /// Where nothing waits, looks at the whole piece. True if labels wait then.
+  virtual bool mend() = 0;
+  /// What was expanded since this was emptied, some repeatedly: simplices, of a wireframe vertices.
+  [[nodiscard]] std::vector<Index>& expanded() { return expanded_; }
 
   /// K = 0: the best path to a vertex, and its source; and such a path from another piece. False
   /// if nothing got better by it. A path that `bends` may be of use to some simplices at the vertex
@@ -107,6 +115,8 @@ class MixedPiece {
   [[nodiscard]] virtual bool out_of_budget() const = 0;
 
  protected:
+  std::vector<Index> expanded_;
+
   /// By more than rounding: else offers would go to and fro for ever.
   static bool gains(Real known, Real offer) {
     return offer < known * (1 - 64 * std::numeric_limits<Real>::epsilon());

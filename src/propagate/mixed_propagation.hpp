@@ -3,15 +3,19 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <limits>
 #include <memory>
+#include <span>
+#include <utility>
+#include <variant>
 #include <vector>
 
 #include <plexway/complex/mixed_complex.hpp>
 
-#include "propagate/hinge_chains.hpp"
 #include "propagate/hinge_crossings.hpp"
+#include "propagate/mixed_hinges.hpp"
 #include "propagate/mixed_piece.hpp"
 #include "propagate/mixed_solid.hpp"
 #include "propagate/mixed_surface.hpp"
@@ -19,7 +23,8 @@
 
 namespace plexway {
 
-/// One propagation over a mixed domain: pieces take turns, and between them labels cross the welds.
+/// One propagation over a mixed domain. Pieces take turns up to a horizon, so that all of them know
+/// about as much; in between, what was expanded at the welds crosses them.
 template <class Real>
 class MixedPropagation {
  public:
@@ -32,62 +37,46 @@ class MixedPropagation {
       : domain_(domain),
         options_(options),
         offered_(offered),
+        pieces_(pieces_of(domain, workspaces)),
+        hinges_(domain, pieces_),
         posed_(domain.members().size()),
-        chains_(domain),
-        crossings_(domain, pieces_) {
-    const Real step =
-        options.schedule == Schedule::fifo ? infinity : static_cast<Real>(options.step);
-    // What pieces count and report is summed up here.
-    PropagateOptions mine = options;
-    if (options.progress) mine.progress = [this](const Progress& p) { return report(p); };
-    for (const auto& piece : domain.pieces()) {
-      WorkspaceState<Real>& workspace = workspaces[piece.number];
-      const auto& complex = domain.complex(piece);
-      if (const auto* surface = std::get_if<TriangleMesh<Real>>(&complex))
-        pieces_.push_back(std::make_unique<MixedSurface<Real>>(*surface, workspace, mine, step));
-      else if (const auto* solid = std::get_if<TetMesh<Real>>(&complex))
-        pieces_.push_back(std::make_unique<MixedSolid<Real>>(*solid, workspace, mine, step));
-      else
-        pieces_.push_back(std::make_unique<MixedWire<Real>>(std::get<Wireframe<Real>>(complex),
-                                                            workspace, mine, step));
-    }
-    waits_.assign(pieces_.size(), 0);
-    find_bends();
-    offered_.assign(domain.members().size() + 2 * domain.welds().size(), infinity);
+        listed_(slots(domain), 0),
+        crossings_(domain, pieces_, hinges_.neighbours()),
+        ran_(pieces_.size(), 0),
+        pace_(pace(domain)) {
+    offered_.assign(slots(domain), infinity);
   }
 
   /// A source in the piece's own numbers. A welded vertex is one in its other pieces too.
   void seed(Index piece, const PointSource& source, Index number) {
     crossings_.keep_clear(number);
     pieces_[piece]->seed(source, number);
-    waits_[piece] = 1;
     if (source.vertex == none) return;
     const Index vertex = std::visit([&](const auto& c) { return c.inside_vertex(source.vertex); },
                                     domain_.complex(domain_.pieces()[piece]));
     for (const auto& weld : domain_.welds())
       for (const std::size_t side : {0, 1})
         if (weld.piece[side] == piece && weld.vertex[side] == vertex)
-          if (pieces_[weld.piece[1 - side]]->enter_vertex(
-                  weld.vertex[1 - side], static_cast<Real>(source.offset), number, false))
-            waits_[weld.piece[1 - side]] = 1;
+          pieces_[weld.piece[1 - side]]->enter_vertex(
+              weld.vertex[1 - side], static_cast<Real>(source.offset), number, false);
   }
 
   void run() {
-    do {
-      for (std::size_t p = 0; p < pieces_.size(); ++p) {
-        if (!waits_[p]) continue;
-        waits_[p] = 0;
-        running_ = p;
-        const std::size_t spent = expansions();
-        const std::size_t left =
-            options_.max_expansions > spent ? options_.max_expansions - spent : 0;
-        const std::size_t own = pieces_[p]->statistics().expansions;
-        constexpr std::size_t most = std::numeric_limits<std::size_t>::max();
-        pieces_[p]->run(left > most - own ? most : own + left, crossings_.first());
-        if (pieces_[p]->out_of_budget()) complete_ = false;
+    while (complete_) {
+      Real nearest = infinity;
+      for (const auto& piece : pieces_) nearest = std::min(nearest, piece->nearest());
+      if (!(nearest < infinity)) {
+        if (!look_again()) return;
+        continue;
       }
-      // Bends at vertices last: they serve what nothing else reaches.
-    } while (complete_ && (cross() || bend()));
+      // By more than the pieces' units round.
+      const Real horizon =
+          std::max(nearest + pace_, nearest * (1 + 8 * std::numeric_limits<Real>::epsilon()));
+      do {
+        for (std::size_t p = 0; p < pieces_.size() && complete_; ++p)
+          if (pieces_[p]->nearest() < horizon) run(p, horizon);
+      } while (complete_ && cross());
+    }
   }
 
   /// One a vertex of the domain; `distance` and `label` are room for a piece.
@@ -126,7 +115,65 @@ class MixedPropagation {
 
  private:
   static constexpr Real infinity = std::numeric_limits<Real>::infinity();
-  static constexpr Real bend_loss = MixedPiece<Real>::bend_loss;
+
+  static std::size_t slots(const Domain& domain) {
+    return 2 * domain.welds().size() + domain.members().size();
+  }
+
+  std::vector<std::unique_ptr<MixedPiece<Real>>> pieces_of(
+      const Domain& domain, std::span<WorkspaceState<Real>> workspaces) {
+    const Real step =
+        options_.schedule == Schedule::fifo ? infinity : static_cast<Real>(options_.step);
+    // What pieces count and report is summed up here.
+    PropagateOptions mine = options_;
+    if (options_.progress) mine.progress = [this](const Progress& p) { return report(p); };
+    std::vector<std::unique_ptr<MixedPiece<Real>>> pieces;
+    for (const auto& piece : domain.pieces()) {
+      WorkspaceState<Real>& workspace = workspaces[piece.number];
+      const auto& complex = domain.complex(piece);
+      if (const auto* surface = std::get_if<TriangleMesh<Real>>(&complex))
+        pieces.push_back(std::make_unique<MixedSurface<Real>>(*surface, workspace, mine, step));
+      else if (const auto* solid = std::get_if<TetMesh<Real>>(&complex))
+        pieces.push_back(std::make_unique<MixedSolid<Real>>(*solid, workspace, mine, step));
+      else
+        pieces.push_back(std::make_unique<MixedWire<Real>>(std::get<Wireframe<Real>>(complex),
+                                                           workspace, mine, step));
+    }
+    return pieces;
+  }
+
+  // So far the horizon moves on at a time: the mean edge where most simplices are.
+  static Real pace(const Domain& domain) {
+    if (domain.pieces().size() == 1) return infinity;
+    double sum = 0;
+    for (const auto& piece : domain.pieces())
+      sum += static_cast<double>(piece.simplices) *
+             std::visit([](const auto& c) { return c.summary().mean_edge; }, domain.complex(piece));
+    const double mean = sum / static_cast<double>(domain.simplex_count());
+    return mean > 0 ? static_cast<Real>(mean) : infinity;
+  }
+
+  void run(std::size_t p, Real horizon) {
+    running_ = p;
+    ran_[p] = 1;
+    const std::size_t spent = expansions();
+    const std::size_t left = options_.max_expansions > spent ? options_.max_expansions - spent : 0;
+    const std::size_t own = pieces_[p]->statistics().expansions;
+    constexpr std::size_t most = std::numeric_limits<std::size_t>::max();
+    pieces_[p]->run(horizon, left > most - own ? most : own + left, crossings_.first());
+    if (pieces_[p]->out_of_budget()) complete_ = false;
+  }
+
+  // When nothing waits: what looks at whole pieces, then lines, and bends at vertices last, since
+  // they serve what nothing else reaches. True if something waits then.
+  bool look_again() {
+    if (pace_ < infinity)
+      for (const auto& piece : pieces_) piece->hold();
+    bool any = false;
+    for (std::size_t p = 0; p < pieces_.size(); ++p)
+      if (std::exchange(ran_[p], 0)) any |= pieces_[p]->mend();
+    return any || carry(late_) || bend();
+  }
 
   std::size_t expansions() const {
     std::size_t sum = 0;
@@ -147,84 +194,98 @@ class MixedPropagation {
 
   [[nodiscard]] Index root(Index number) const { return crossings_.root(number); }
 
-  [[nodiscard]] bool is_solid(Index piece) const {
-    return std::holds_alternative<TetMesh<Real>>(domain_.complex(domain_.pieces()[piece]));
-  }
-
-  // Which hinges the two pieces measure alike; at which welded vertices paths may bend: where they
-  // do not, and where a straight line of shared edges ends.
-  void find_bends() {
-    constexpr Real alike = Real(1e-6);
-    std::vector<std::array<Index, 5>> at;  // pieces, vertices, weld
-    for (Index w = 0; w < domain_.welds().size(); ++w) {
-      const auto& weld = domain_.welds()[w];
-      at.push_back({weld.piece[0], weld.piece[1], weld.vertex[0], weld.vertex[1], w});
-    }
-    std::sort(at.begin(), at.end());
-    bends_.assign(domain_.welds().size(), none);
-    isometric_.assign(domain_.hinges().size(), 0);
-    for (Index n = 0; n < domain_.hinges().size(); ++n) {
-      const auto& hinge = domain_.hinges()[n];
-      const Member* member[2];
-      for (const std::size_t side : {0, 1}) member[side] = &domain_.members()[hinge.begin[side]];
-      // Solids that could not be joined bend paths at edges of the face between them.
-      const bool window =
-          hinge.dimension == 2 && is_solid(hinge.piece[0]) && is_solid(hinge.piece[1]);
-      isometric_[n] =
-          !window && pieces_[hinge.piece[0]]
-                         ->shape(*member[0], hinge.dimension)
-                         .agrees(pieces_[hinge.piece[1]]->shape(*member[1], hinge.dimension),
-                                 hinge.dimension, alike);
-      for (std::size_t i = 0; i <= hinge.dimension; ++i) {
-        if (isometric_[n] && (hinge.dimension == 2 || !chains_.ends(n, i))) continue;
-        const std::array<Index, 5> key = {
-            hinge.piece[0], hinge.piece[1],
-            pieces_[hinge.piece[0]]->vertex_of(member[0]->simplex, member[0]->corner[i]),
-            pieces_[hinge.piece[1]]->vertex_of(member[1]->simplex, member[1]->corner[i]), 0};
-        const auto found = std::lower_bound(at.begin(), at.end(), key);
-        if (found != at.end() && std::equal(key.begin(), key.begin() + 4, found->begin()))
-          bends_[(*found)[4]] = n;
-      }
-    }
-  }
-
-  // Over all hinges what has got better since. True if something was accepted.
+  // Over the welds where something was expanded. True if something was accepted.
   bool cross() {
+    for (const auto& piece : domain_.pieces()) {
+      std::vector<Index>& expanded = pieces_[piece.number]->expanded();
+      for (const Index at : expanded)
+        for (const Index slot : hinges_.slots(piece.number, at)) list(slot, is_due, due_);
+      expanded.clear();
+    }
+    std::sort(due_.begin(), due_.end());
     bool any = false;
-    const auto accepted = [&](Index piece, bool yes) {
-      if (yes) waits_[piece] = 1, any = true;
-    };
-    std::size_t slot = 0;
-    for (const auto& weld : domain_.welds())
-      for (const std::size_t side : {0, 1}) {
-        Real& offered = offered_[slot++];
-        if (!weld.hinge) continue;
-        const auto found = pieces_[weld.piece[side]]->at_vertex(weld.vertex[side]);
-        if (!(found.distance < offered)) continue;
-        offered = found.distance;
-        if (static_cast<double>(found.distance) > options_.radius) continue;
-        const Index to = weld.piece[1 - side];
-        accepted(to, pieces_[to]->enter_vertex(weld.vertex[1 - side], found.distance,
-                                               root(found.source), false));
+    members_.clear();
+    for (const Index slot : due_) {
+      listed_[slot] &= ~is_due;
+      if (slot < 2 * domain_.welds().size()) {
+        const Index w = slot / 2;
+        if (domain_.welds()[w].hinge) any |= pass(w, slot % 2, false);
+        if (hinges_.bend_at(w) != none) list(slot, is_for_later, bends_);
+        continue;
       }
+      const Index m = slot - 2 * static_cast<Index>(domain_.welds().size());
+      const auto [hinge, side] = hinges_.place(m);
+      if (hinges_.is_late(hinge, side))
+        list(slot, is_for_later, late_);
+      else
+        members_.push_back(slot);
+    }
+    due_.clear();
+    return carry(members_) || any;
+  }
+
+  // Over a welded vertex, if that got better. True if it was accepted.
+  bool pass(Index w, std::size_t side, bool bends) {
+    const auto& weld = domain_.welds()[w];
+    Real& offered = offered_[2 * w + side];
+    const auto found = pieces_[weld.piece[side]]->at_vertex(weld.vertex[side]);
+    if (!(found.distance < offered)) return false;
+    offered = found.distance;
+    if (static_cast<double>(found.distance) > options_.radius) return false;
+    return tell(2 * w + static_cast<Index>(side), found.distance, root(found.source), bends);
+  }
+
+  // A path of a piece to a welded vertex, `slot`, is one of the other piece. All vertices that are
+  // one hear of it, even where no simplex in between is nearer by it. True if it was accepted.
+  bool tell(Index slot, Real distance, Index source, bool bends) {
+    offered_[slot] = distance;
+    const Index w = slot / 2;
+    const auto& weld = domain_.welds()[w];
+    const std::size_t side = slot % 2;
+    auto& to = *pieces_[weld.piece[1 - side]];
+    const Index vertex = weld.vertex[1 - side];
+    // Of many such vertices a tetrahedron keeps one, as of crossings: its label is offered around.
+    const bool starts = bends || to.sees_all();
+    bool any = to.enter_vertex(vertex, distance, starts ? crossings_.next() : source, bends);
+    if (any && starts)
+      crossings_.add({source, bends ? hinges_.bend_at(w) : none, static_cast<std::uint8_t>(side),
+                      to.place(vertex)});
+    if (!bends)
+      for (const Index other : hinges_.beside(slot ^ 1))
+        if (distance < offered_[other]) any |= tell(other, distance, source, false);
+    return any;
+  }
+
+  void list(Index slot, std::uint8_t why, std::vector<Index>& in) {
+    if ((listed_[slot] & why) != 0) return;
+    listed_[slot] |= why;
+    in.push_back(slot);
+  }
+
+  // Over the hinges of the members in these slots, where they got better. True if something was
+  // accepted.
+  bool carry(std::vector<Index>& slots) {
+    if (slots.empty()) return false;
+    std::sort(slots.begin(), slots.end());
     // First what has got better, then all of that goes over.
     changed_.clear();
-    for (Index n = 0; n < domain_.hinges().size(); ++n) {
+    for (const Index slot : slots) {
+      listed_[slot] &= ~is_for_later;
+      const Index m = slot - 2 * static_cast<Index>(domain_.welds().size());
+      const auto [n, side] = hinges_.place(m);
       const auto& hinge = domain_.hinges()[n];
-      for (const std::size_t side : {0, 1})
-        for (Index m = hinge.begin[side]; m < hinge.end[side]; ++m) {
-          const Member& member = domain_.members()[m];
-          Real& offered = offered_[2 * domain_.welds().size() + m];
-          const auto& piece = *pieces_[hinge.piece[side]];
-          const Real distance = piece.distance(member.simplex);
-          if (!(distance < offered)) continue;
-          offered = distance;
-          HingeFront<Real> front(piece, member, hinge.dimension, none, none);
-          const bool one = front.is_one_source(posed_[m]);
-          posed_[m].source = root(posed_[m].source);
-          changed_.push_back({n, static_cast<Index>(side), m, one && isometric_[n]});
-        }
+      const Member& member = domain_.members()[m];
+      const auto& piece = *pieces_[hinge.piece[side]];
+      const Real distance = piece.distance(member.simplex);
+      if (!(distance < offered_[slot])) continue;
+      offered_[slot] = distance;
+      HingeFront<Real> front(piece, member, hinge.dimension, none, none);
+      const bool one = front.is_one_source(posed_[m]);
+      posed_[m].source = root(posed_[m].source);
+      changed_.push_back({n, side, m, one && hinges_.is_isometric(n)});
     }
+    slots.clear();
+    bool any = false;
     // Over edges first: of equal paths, one with a ring serves more points than one that bends at
     // the best point for a single centre.
     std::stable_partition(changed_.begin(), changed_.end(), [&](const Change& change) {
@@ -235,8 +296,8 @@ class MixedPropagation {
       const Index to = hinge.piece[1 - side];
       if (as_it_is) {
         Index ring = none;
-        if (chains_.at_solid(n, 1 - side)) {
-          const auto [low, high] = chains_.visible(n, side, posed_, m);
+        if (hinges_.chains().at_solid(domain_, n, 1 - side)) {
+          const auto [low, high] = hinges_.chains().visible(domain_, n, side, posed_, m);
           ring = pieces_[to]->open_ring(domain_.members()[hinge.begin[1 - side]], low, high);
         }
         bool entered = false;
@@ -245,7 +306,7 @@ class MixedPropagation {
           posed.sigma += gain_over(n, side, m, k);
           entered |= pieces_[to]->enter(domain_.members()[k], hinge.dimension, posed, ring);
         }
-        accepted(to, entered);
+        any |= entered;
         if (ring != none && !entered) pieces_[to]->close_ring();
         continue;
       }
@@ -254,7 +315,7 @@ class MixedPropagation {
                                      hinge.dimension, posed_[m].source, crossings_.next());
         Vector3<Real> start = {0, 0, 0};
         if (!pieces_[to]->enter_front(domain_.members()[k], front, start)) continue;
-        accepted(to, true);
+        any = true;
         crossings_.add({posed_[m].source, n, static_cast<std::uint8_t>(side), start});
       }
     }
@@ -283,44 +344,35 @@ class MixedPropagation {
 
   // Over the vertices where paths may bend. True if something was accepted.
   bool bend() {
+    std::sort(bends_.begin(), bends_.end());
     bool any = false;
-    for (std::size_t w = 0; w < domain_.welds().size(); ++w) {
-      if (bends_[w] == none) continue;
-      const auto& weld = domain_.welds()[w];
-      for (const std::size_t side : {0, 1}) {
-        Real& offered = offered_[2 * w + side];
-        const auto found = pieces_[weld.piece[side]]->at_vertex(weld.vertex[side]);
-        if (!(found.distance < offered)) continue;
-        offered = found.distance;
-        if (static_cast<double>(found.distance) > options_.radius) continue;
-        const Index to = weld.piece[1 - side];
-        if (!pieces_[to]->enter_vertex(weld.vertex[1 - side], found.distance, crossings_.next(),
-                                       true))
-          continue;
-        crossings_.add({root(found.source), bends_[w], static_cast<std::uint8_t>(side),
-                        pieces_[to]->place(weld.vertex[1 - side])});
-        waits_[to] = 1;
-        any = true;
-      }
+    for (const Index slot : bends_) {
+      listed_[slot] &= ~is_for_later;
+      any |= pass(slot / 2, slot % 2, true);
     }
+    bends_.clear();
     return any;
   }
 
   const Domain& domain_;
   const PropagateOptions& options_;
-  std::vector<Real>& offered_;
-  std::vector<std::unique_ptr<MixedPiece<Real>>> pieces_;
+  std::vector<Real>& offered_;  // by slot
+  const std::vector<std::unique_ptr<MixedPiece<Real>>> pieces_;
+  const MixedHinges<Real> hinges_;
   struct Change {
     Index hinge, side, member;
     bool as_it_is;
   };
   std::vector<Change> changed_;
   std::vector<PosedSource<Real>> posed_;  // by member: what it offered last
-  HingeChains<Real> chains_;
+  // Where something was expanded: slots to look at, those of members among them, and what waits
+  // until nothing else does. By slot, in which of the lists it is.
+  static constexpr std::uint8_t is_due = 1, is_for_later = 2;
+  std::vector<std::uint8_t> listed_;
+  std::vector<Index> due_, members_, late_, bends_;
   HingeCrossings<Real> crossings_;
-  std::vector<char> isometric_;  // by hinge
-  std::vector<Index> bends_;     // by weld: a hinge at which a path may bend there, or none
-  std::vector<char> waits_;
+  std::vector<char> ran_;  // by piece, since it was mended
+  Real pace_;
   std::size_t running_ = 0;
   bool complete_ = true;
 };

@@ -7,6 +7,7 @@
 #include <limits>
 #include <vector>
 
+#include "propagate/mixed_front.hpp"
 #include "propagate/mixed_piece.hpp"
 #include "propagate/solid_propagation.hpp"
 #include "propagate/solid_read_out.hpp"
@@ -21,7 +22,7 @@ class MixedSolid final : public MixedPiece<Real> {
   using typename MixedPiece<Real>::Member;
   using typename MixedPiece<Real>::Found;
   using Point = Vector3<Real>;
-  using Wave = Wavefront<Real, SolidLabel<Real>, DualQueue<Real>, true>;
+  using Wave = MixedFront<Real, SolidLabel<Real>>;
   using Rule = SolidRule<Real, Wave>;
 
   MixedSolid(const TetMesh<Real>& mesh, WorkspaceState<Real>& workspace,
@@ -31,24 +32,33 @@ class MixedSolid final : public MixedPiece<Real> {
         options_(options),
         unit_(static_cast<Real>(mesh.unit())),
         rings_(mesh.reflex_edges().begin(), mesh.reflex_edges().end()),
-        wave_(workspace.marks, workspace.solids.reserve(mesh.tet_count() + 1),
-              DualQueue<Real>(workspace.front, step), workspace.source.data(), mesh.tet_count(),
-              mesh.unit(), options_),
+        wave_({workspace.marks, workspace.solids.reserve(mesh.tet_count() + 1),
+               DualQueue<Real>(workspace.front, step), workspace.source.data(), mesh.tet_count(),
+               mesh.unit(), options_},
+              this->expanded_),
         propagation_(mesh, Rule(mesh, wave_), wave_, options_),
         rule_(propagation_.rule()) {}
 
   void seed(const PointSource& source, Index number) override { propagation_.seed(source, number); }
-  void run(std::size_t budget, Index first_front) override {
+  void run(Real horizon, std::size_t budget, Index first_front) override {
     options_.max_expansions = budget;
-    for (std::size_t before = 0;;) {
-      propagation_.run();
-      before = wave_.updates();
+    wave_.withdraw_all_but(budget - wave_.expansions());
+    wave_.queue().set_horizon(horizon / unit_);
+    for (std::size_t before = this->expanded_.size();; before = this->expanded_.size()) {
+      propagation_.spread(propagation_.last_resort(repairs_));
       if (wave_.out_of_budget()) return;
-      for (Index t = 0; t < mesh_.tet_count(); ++t)
-        if (wave_.reached(t) && wave_.source(t) >= first_front)
-          rule_.offer_around(t, this->crossing_gain);
-      if (wave_.updates() == before) return;
+      for (std::size_t i = before; i < this->expanded_.size(); ++i)
+        if (wave_.source(this->expanded_[i]) >= first_front)
+          on_hinges_.push_back(this->expanded_[i]);
+      if (!offer_around(horizon / unit_)) return;
     }
+  }
+  Real nearest() const override { return wave_.queue().nearest() * unit_; }
+  void hold() override { wave_.queue().set_horizon(0); }
+  bool mend() override {
+    if (offer_around(infinity) || propagation_.mend(repairs_)) return true;
+    repairs_ = 0;
+    return false;
   }
 
   Found at_vertex(Index vertex) override {
@@ -203,6 +213,16 @@ class MixedSolid final : public MixedPiece<Real> {
     return workspace;
   }
 
+  // Labels that start on hinges are offered all around, as far as the horizon. True if some was
+  // accepted.
+  bool offer_around(Real horizon) {
+    if (on_hinges_.empty()) return false;
+    const std::size_t before = wave_.updates();
+    std::erase_if(on_hinges_,
+                  [&](Index t) { return rule_.offer_around(t, this->crossing_gain, horizon); });
+    return wave_.updates() != before;
+  }
+
   // The hinge's frame in space; `out` points away from the tetrahedron.
   struct Frame {
     Point origin, to[2] = {{0, 0, 0}, {0, 0, 0}};  // and from there to vertices 1 and 2
@@ -246,6 +266,8 @@ class MixedSolid final : public MixedPiece<Real> {
   Wave wave_;
   SolidPropagation<Real, Rule, Wave> propagation_;
   Rule& rule_;
+  int repairs_ = 0;
+  std::vector<Index> on_hinges_;  // expanded labels from there that may have more to offer
 };
 
 }  // namespace plexway

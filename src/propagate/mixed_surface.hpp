@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "propagate/alone.hpp"
+#include "propagate/mixed_front.hpp"
 #include "propagate/mixed_piece.hpp"
 #include "propagate/read_out.hpp"
 #include "propagate/read_out_edges.hpp"
@@ -20,7 +21,7 @@ class MixedSurface final : public MixedPiece<Real> {
  public:
   using typename MixedPiece<Real>::Member;
   using typename MixedPiece<Real>::Found;
-  using Wave = Wavefront<Real, SaddleLabel<Real>, DualQueue<Real>, true>;
+  using Wave = MixedFront<Real, SaddleLabel<Real>>;
   using Rule = SaddleRule<Real, Wave>;
 
   MixedSurface(const TriangleMesh<Real>& mesh, WorkspaceState<Real>& workspace,
@@ -29,16 +30,26 @@ class MixedSurface final : public MixedPiece<Real> {
         workspace_(prepare(mesh, workspace)),
         options_(options),
         unit_(static_cast<Real>(mesh.unit())),
-        wave_(workspace.marks, workspace.saddles.reserve(mesh.face_count() + 1),
-              DualQueue<Real>(workspace.front, step), workspace.source.data(), mesh.face_count(),
-              mesh.unit(), options_),
+        wave_({workspace.marks, workspace.saddles.reserve(mesh.face_count() + 1),
+               DualQueue<Real>(workspace.front, step), workspace.source.data(), mesh.face_count(),
+               mesh.unit(), options_},
+              this->expanded_),
         rule_(mesh.triangles(), wave_, options.vectorised),
         propagation_(mesh, workspace, rule_, wave_, options_) {}
 
   void seed(const PointSource& source, Index number) override { propagation_.seed(source, number); }
-  void run(std::size_t budget, Index) override {
+  void run(Real horizon, std::size_t budget, Index) override {
     options_.max_expansions = budget;
-    propagation_.run();
+    wave_.withdraw_all_but(budget - wave_.expansions());
+    wave_.queue().set_horizon(horizon / unit_);
+    propagation_.spread(propagation_.last_resort(revivals_));
+  }
+  Real nearest() const override { return wave_.queue().nearest() * unit_; }
+  void hold() override { wave_.queue().set_horizon(0); }
+  bool mend() override {
+    if (propagation_.mend(revivals_)) return true;
+    revivals_ = 0;
+    return false;
   }
 
   Found at_vertex(Index vertex) override {
@@ -345,6 +356,7 @@ class MixedSurface final : public MixedPiece<Real> {
   Wave wave_;
   Rule rule_;
   TrianglePropagation<Real, Rule, Wave, true> propagation_;
+  int revivals_ = 0;
 };
 
 }  // namespace plexway

@@ -1,7 +1,9 @@
 #pragma once
 
 #include <cmath>
+#include <cstddef>
 #include <limits>
+#include <vector>
 
 #include "propagate/mixed_piece.hpp"
 #include "propagate/wire_propagation.hpp"
@@ -22,30 +24,34 @@ class MixedWire final : public MixedPiece<Real> {
         workspace_(prepare(wireframe, workspace)),
         options_(options),
         unit_(static_cast<Real>(wireframe.unit())),
-        step_(step * static_cast<Real>(wireframe.summary().mean_edge / wireframe.unit())),
-        front_(empty_front()),
+        waiting_(workspace.front, step_of(wireframe, step), this->expanded_),
         propagation_(wireframe, workspace, options_) {}
 
   void seed(const PointSource& source, Index number) override {
-    propagation_.seed(source, number, front_);
+    propagation_.seed(source, number, waiting_);
   }
 
-  void run(std::size_t budget, Index) override {
+  void run(Real horizon, std::size_t budget, Index) override {
     options_.max_expansions = budget;
-    if (!propagation_.spread(front_, 8 * wireframe_.arcs().size())) {
-      PriorityQueue<Real> nearest_first(workspace_.front);
-      propagation_.hand_over(nearest_first);
-      propagation_.spread(nearest_first, std::numeric_limits<std::size_t>::max());
-    }
-    front_ = empty_front();
+    propagation_.withdraw_all_but(budget - propagation_.statistics().expansions);
+    waiting_.set_horizon(horizon / unit_);
+    constexpr std::size_t all = std::numeric_limits<std::size_t>::max();
+    const std::size_t patience = waiting_.sorted ? all : 8 * wireframe_.arcs().size();
+    if (propagation_.spread(NextWaiting{waiting_}, patience)) return;
+    waiting_.sorted = true;
+    propagation_.hand_over(waiting_);
+    propagation_.spread(NextWaiting{waiting_}, all);
   }
+  Real nearest() const override { return waiting_.nearest() * unit_; }
+  void hold() override { waiting_.set_horizon(0); }
+  bool mend() override { return false; }
 
   Found at_vertex(Index v) override {
     return {std::abs(workspace_.vertex[v]) * unit_, workspace_.vertex_source[v]};
   }
   bool enter_vertex(Index v, Real distance, Index source, bool) override {
     if (!this->gains(at_vertex(v).distance, distance)) return false;
-    return propagation_.seed_vertex(v, static_cast<double>(distance / unit_), source, front_);
+    return propagation_.seed_vertex(v, static_cast<double>(distance / unit_), source, waiting_);
   }
 
   Real distance(Index) const override { return std::numeric_limits<Real>::infinity(); }
@@ -74,15 +80,53 @@ class MixedWire final : public MixedPiece<Real> {
     workspace.front.reserve(wireframe.vertex_count());
     return workspace;
   }
-  DualQueue<Real> empty_front() {
-    return DualQueue<Real>(workspace_.front, step_ > 0 ? step_ : Real(1));
+  static Real step_of(const Wireframe<Real>& wireframe, Real step) {
+    const auto edge = static_cast<Real>(wireframe.summary().mean_edge / wireframe.unit());
+    return step * edge > 0 ? step * edge : Real(1);
   }
+
+  /// What waits beyond the horizon too: in two queues, and when those have looked too often nearest
+  /// first.
+  struct Waiting {
+    Waiting(FrontStorage& storage, Real step, std::vector<Index>& log)
+        : dual(storage, step), heap(storage), expanded(log) {}
+
+    void push(Index v, Real distance, bool wanted = true) {
+      if (sorted) return heap.push(v, distance);
+      if (!wanted) dual.note(distance);
+      dual.push(v, distance, wanted);
+    }
+    [[nodiscard]] Real nearest() const { return sorted ? heap.nearest() : dual.nearest(); }
+    void set_horizon(Real at) {
+      horizon = at;
+      dual.set_horizon(at);
+    }
+
+    DualQueue<Real> dual;
+    PriorityQueue<Real> heap;
+    std::vector<Index>& expanded;
+    Real horizon = std::numeric_limits<Real>::infinity();
+    bool sorted = false;
+  };
+  /// It, for one spread.
+  struct NextWaiting {
+    Waiting& waiting;
+    void push(Index v, Real distance, bool wanted) { waiting.push(v, distance, wanted); }
+    template <class DistanceOf>
+    bool pop(Index& v, const DistanceOf& distance_of) {
+      if (waiting.sorted && !(waiting.heap.nearest() < waiting.horizon)) return false;
+      if (!(waiting.sorted ? waiting.heap.pop(v, distance_of) : waiting.dual.pop(v, distance_of)))
+        return false;
+      waiting.expanded.push_back(v);
+      return true;
+    }
+  };
 
   const Wireframe<Real>& wireframe_;
   WorkspaceState<Real>& workspace_;
   PropagateOptions options_;
-  Real unit_, step_;
-  DualQueue<Real> front_;
+  Real unit_;
+  Waiting waiting_;
   WirePropagation<Real, WireStep<Real>, true> propagation_;
 };
 

@@ -58,10 +58,7 @@ class SolidPropagation {
 
   void run() {
     run([&](bool last_resort) { spread(last_resort); },
-        [&](const auto& look) {
-          const Index tets = static_cast<Index>(mesh_.tet_count());
-          for (Index t = 0; t < tets; ++t) look(t);
-        });
+        [&](const auto& look) { look_everywhere(look); });
   }
   /// With other ways to expand all that waits, spread(last_resort), and to find what to repair:
   /// look(t) at least at all tetrahedra that `may_need_repair` names, in order.
@@ -69,9 +66,23 @@ class SolidPropagation {
   void run(const Spread& spread_all, const Search& search) {
     int repairs = 0;
     do {
-      spread_all(repairs > 8);
+      spread_all(last_resort(repairs));
       if (front_.out_of_budget()) return;
-    } while (pass_pinches() || (++repairs < 64 && repair(repairs, search)));
+    } while (mend(repairs, search));
+  }
+
+  // The parts of run, for those who do more in between.
+
+  static bool last_resort(int repairs) { return repairs > 8; }
+  /// All that waits nearer than the queue's horizon.
+  void spread(bool last_resort) {
+    Index t = 0;
+    while (!spread_share(last_resort, t))
+      if (!front_.take_stock(rule_.distance(t))) return;
+  }
+  /// When none waits. True if some wait again; `repairs` counts how often.
+  bool mend(int& repairs) {
+    return mend(repairs, [&](const auto& look) { look_everywhere(look); });
   }
 
   /// Does t lack a label or know a better one than a neighbour has? For searches.
@@ -121,10 +132,14 @@ class SolidPropagation {
     void ahead(Index t) const { rule.prefetch_around(t); }
   };
 
-  void spread(bool last_resort) {
-    Index t = 0;
-    while (!spread_share(last_resort, t))
-      if (!front_.take_stock(rule_.distance(t))) return;
+  template <class Look>
+  void look_everywhere(const Look& look) const {
+    const Index tets = static_cast<Index>(mesh_.tet_count());
+    for (Index t = 0; t < tets; ++t) look(t);
+  }
+  template <class Search>
+  bool mend(int& repairs, const Search& search) {
+    return pass_pinches() || (++repairs < 64 && repair(repairs, search));
   }
 
   /// The hot loop, until none waits (true) or the share of the budget is spent.

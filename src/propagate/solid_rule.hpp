@@ -294,18 +294,23 @@ class SolidRule : public SolidPaths<Real> {
   /// Offers the source of t to its neighbours even where the line misses the face between. Of many
   /// sources of nearly the same distance each tetrahedron keeps one, and the strip that would bring
   /// another one may be taken. Without reflex edges nothing hides anything; else the path bends on
-  /// the face. A neighbour must gain the share `gain`.
-  void offer_around(Index t, Real gain) const {
+  /// the face. A neighbour must gain the share `gain`. Offers at `horizon` or beyond are not made:
+  /// false if there are such.
+  bool offer_around(Index t, Real gain, Real horizon) const {
+    bool all = true;
     for (Index i = 0; i < 4; ++i) {
       const Index across = tets_[t].across[i], u = across >> TetAcross::tet_shift;
       Label label = front_->label(t);
       label.centre = taut_to(label, tets_[u].centre).extent;
       if (!(label.centre < to_beat(u) * (1 - gain))) continue;
-      if (any_reflex_)
+      if (!(label.centre < horizon))
+        all = false;
+      else if (any_reflex_)
         cross(t, i, true);
       else
         front_->accept(u, across & TetAcross::face_mask, label, label.centre, front_->source(t));
     }
+    return all;
   }
 
   /// A source that is seen over an edge of t only: a ring about it.

@@ -71,10 +71,9 @@ class TrianglePropagation {
   void run(const Spread& spread_all) {
     int revivals = 0;
     do {
-      spread_all(revivals > 8);
+      spread_all(last_resort(revivals));
       if (front_.out_of_budget()) return;
-      ++revivals;
-    } while (pass_pinches(mesh_.pinched()) || revive());
+    } while (mend(revivals));
   }
 
   /// Expands triangles for the front of a thread. `rounds.updates()` says how much was done so far.
@@ -106,7 +105,14 @@ class TrianglePropagation {
     void ahead(Index f) const { rule.prefetch_around(f); }
   };
 
- public:  // the parts of run, for those who must not look at the whole surface
+ public:  // the parts of run, for those who do more in between or must not look at the whole
+  static bool last_resort(int revivals) { return revivals > 8; }
+  /// Once none waits: true if some wait again.
+  bool mend(int& revivals) {
+    ++revivals;
+    return pass_pinches(mesh_.pinched()) || revive();
+  }
+
   void spread(bool last_resort) {
     Index f = 0;
     while (!spread_.share(last_resort, f)) {

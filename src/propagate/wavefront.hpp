@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <functional>
 
@@ -146,6 +147,9 @@ class Wavefront {
     granted_ += expansions - countdown_;
     countdown_ = expansions;
   }
+
+  /// No more than so many from now on, of what was granted.
+  void withdraw_all_but(std::size_t expansions) { grant(std::min(countdown_, expansions)); }
 
   /// Grants the next share of the budget and reports progress. `distance` is where the front is.
   /// False if the budget is spent. Throws Cancelled, and EndlessError.

@@ -140,6 +140,13 @@ class WirePropagation {
     out_of_budget_ = out_of_budget;
   }
 
+  /// No more than so many expansions from now on, of what was granted.
+  void withdraw_all_but(std::size_t expansions) {
+    const std::size_t kept = std::min(left_, expansions);
+    granted_ -= left_ - kept;
+    left_ = kept;
+  }
+
   [[nodiscard]] bool out_of_budget() const { return out_of_budget_; }
   [[nodiscard]] PropagateStatistics statistics() const {
     return {granted_ - left_, updates_, reached_};
