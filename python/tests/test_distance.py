@@ -243,8 +243,11 @@ def test_masks_by_labels_and_regions(tmp_path):
             px.read(mesh, mask=wrong)
     cloud = tmp_path / "c.xyz"
     np.savetxt(cloud, np.random.default_rng(1).random((60, 3)))
-    with pytest.raises((TypeError, px.NotBuilt)):
+    with pytest.raises((px.UsageError, px.NotBuilt)):
         px.read(cloud, mask=f"{file}:3")
+    closed = tmp_path / "closed.txt"
+    np.savetxt(closed, np.flatnonzero(wall), fmt="%d")
+    assert np.array_equal(px.read(mesh, mask=f"vertices:{closed}").distance(0), truth)
 
 
 def test_mask():
