@@ -283,7 +283,7 @@ class Cloud(Domain):
 
 
 def _restored_cloud(recipe: Any, neighbours: Dict[str, Any]) -> Domain:
-    made = _restored("Cloud", recipe, None, 0)
+    made = _restored("Cloud", recipe)
     assert isinstance(made, Cloud)
     made._neighbours = neighbours
     return made
