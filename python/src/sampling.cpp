@@ -59,7 +59,8 @@ py::tuple farthest(const Domain& domain, std::vector<Source> given, std::size_t 
       return farthest_points(Serial{}, complex, points, options);
     });
   });
-  return py::make_tuple(domain.outside(std::move(found.points)), owned(std::move(found.distance)), found.covering);
+  return py::make_tuple(domain.outside(std::move(found.points)), owned(std::move(found.distance)),
+                        found.covering);
 }
 
 py::tuple cvt(const Domain& domain, std::vector<Source> given, std::size_t iterations,
@@ -89,8 +90,9 @@ py::tuple cvt(const Domain& domain, std::vector<Source> given, std::size_t itera
   std::vector<double> energy;
   for (const VoronoiStep& step : found.steps) energy.push_back(step.energy);
   energy.push_back(found.energy);
-  return py::make_tuple(domain.outside(std::move(found.seeds)), owned(std::move(label)), owned(std::move(found.cell_content)),
-                        owned(std::move(energy)), found.converged);
+  return py::make_tuple(domain.outside(std::move(found.seeds)), owned(std::move(label)),
+                        owned(std::move(found.cell_content)), owned(std::move(energy)),
+                        found.converged);
 }
 
 }  // namespace

@@ -147,7 +147,8 @@ std::shared_ptr<const Mask> read_mask(const std::string& text, const AnyShape& d
     close_numbered(asked, domain, *mask);
   for (std::size_t s = 0; s < domain.simplices(); ++s)
     if (mask->is_open(domain.corners(s), s)) return mask;
-  throw InputError(spelled(spelling, "mask") + " " + text + ": closes all of " + domain.file().string());
+  throw InputError(spelled(spelling, "mask") + " " + text + ": closes all of " +
+                   domain.file().string());
 }
 
 void require_open(const Mask* mask, const AnyShape& domain, std::span<const PointSource> points) {
