@@ -188,8 +188,7 @@ int main(int argc, char** argv) {
                  "Only this: lengths of paths against the exact distances in a folder of NAME.obj\n"
                  "and NAME.vID.txt");
   TraceOptions trace;
-  app.add_option("--margin", trace.margin, "With --truth: as of plexway path")
-      ->capture_default_str();
+  app.add_option("--margin", trace.margin, "With --truth: as of plexway path");
   app.add_flag("--bounded", only_bounded,
                "Only this: bounded searches on a surface of a million triangles");
   CLI11_PARSE(app, argc, argv);

@@ -134,6 +134,8 @@ class AnyDomain {
   [[nodiscard]] double mean_edge() const;
   /// Edges of a surface where paths are refracted.
   [[nodiscard]] std::size_t refracting_edges() const;
+  /// What a metric measured it by (BuildOptions::lengths); null without one.
+  [[nodiscard]] const MeasuredLengths* lengths() const;
   /// Which of its simplices are open; null where all are.
   [[nodiscard]] const OpenSimplices* open_simplices() const;
   /// What a cloud was made into, or null.

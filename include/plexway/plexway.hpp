@@ -5,8 +5,10 @@
 /// domain, what to do with distances, files and pictures. Link the components that you use.
 #include <plexway/any/complex.hpp>
 #include <plexway/any/isolines.hpp>
+#include <plexway/any/mask_text.hpp>
 #include <plexway/any/pairs.hpp>
 #include <plexway/any/scene.hpp>
+#include <plexway/any/search.hpp>
 #include <plexway/any_domain.hpp>
 #include <plexway/apps/all_pairs.hpp>
 #include <plexway/apps/block_rows.hpp>

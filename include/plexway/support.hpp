@@ -78,6 +78,9 @@ enum class SourceKind {
     "points are chosen in solids that have coordinates: build the solid with them")                \
   X(isolines_domain,                                                                               \
     "isolines are drawn on surfaces, clouds and mixed domains: solids have isosurfaces")           \
+  X(arcs_domain,                                                                                   \
+    "fields are known inside of triangles on surfaces: elsewhere draw straight isolines")          \
+  X(isosurfaces_domain, "isosurfaces are those of solids: other domains have isolines, or none")   \
   X(pictures_domain, "pictures are of surfaces, solids, wireframes, clouds and mixed domains")     \
   X(masks_domain,                                                                                  \
     "masks are for surfaces, solids, wireframes and simplices: leave out what is closed when a "   \
@@ -85,11 +88,36 @@ enum class SourceKind {
   X(metrics_domain,                                                                                \
     "metrics measure surfaces, solids, wireframes and mixed domains: give simplices their "        \
     "lengths, and make a surface of a cloud")                                                      \
+  X(metrics_speeds, "mixed domains are measured by speeds only: give one a simplex")               \
+  X(regions_domain,                                                                                \
+    "regions are those of surfaces, solids, wireframes and mixed domains: other domains have "     \
+    "none")                                                                                        \
   X(triangulations_domain,                                                                         \
     "only a surface has triangles to flip: leave the triangulation of other domains as it is")     \
   X(kept_domain,                                                                                   \
     "prepared files are for surfaces, solids, wireframes and clouds: other domains are built "     \
     "each time")                                                                                   \
+  X(parts_domain,                                                                                  \
+    "surfaces, solids and clouds are written in parts: write other domains to one file")           \
+  X(volumes_domain, "only the field of a solid fits a .vdb: take another format")                  \
+  X(conversions_domain,                                                                            \
+    "surfaces, solids, wireframes and clouds are converted: take mixed domains and simplices as "  \
+    "they are")                                                                                    \
+  X(boundaries_domain,                                                                             \
+    "boundaries are those of surfaces, solids and wireframes: name the vertices of other domains") \
+  X(margins_domain,                                                                                \
+    "margins are for paths on surfaces and clouds: leave the margin out, other paths have none")   \
+  X(margins_refraction,                                                                            \
+    "refracted paths are pulled taut and not searched for: leave the margin out")                  \
+  X(duals_domain,                                                                                  \
+    "only cells on a surface have a dual triangulation: take the cells of other domains as they "  \
+    "are")                                                                                         \
+  X(error_classes_domain,                                                                          \
+    "errors are told apart by place and shape on surfaces and in solids: elsewhere take their "    \
+    "mean")                                                                                        \
+  X(rows_gl,                                                                                       \
+    "rows are solved one a thread, and what is near is looked for by threads: use the executor "   \
+    "OpenMP or Serial")                                                                            \
   X(cloud_point, "a source on a cloud is a point by number, not a place in a triangle")            \
   X(point_of_five,                                                                                 \
     "a source in four dimensions must be a vertex: a point of a 4-simplex has five coordinates")   \
@@ -267,11 +295,24 @@ template <ExecutorType E, DomainType D>
   X(searches, "BoundedSearch and PathSearch")                                          \
   X(samples, "farthest_points, poisson_disks, centroidal_voronoi and distance_matrix") \
   X(isolines, "isolines of a field (any/isolines.hpp)")                                \
+  X(arcs, "isolines as arcs, and fine_field (any/isolines.hpp)")                       \
+  X(isosurfaces, "isosurfaces of a field (any/isolines.hpp)")                          \
   X(pictures, "ShapeScene, and pages to turn")                                         \
   X(masks, "BuildOptions::mask")                                                       \
   X(metrics, "AnyShape::measure")                                                      \
+  X(tensors, "AnyShape::measure by anything but speeds")                               \
+  X(regions, "AnyShape::regions")                                                      \
   X(triangulations, "other triangles than the shape's, BuildOptions::triangulation")   \
-  X(kept_builds, "AnyDomain::keep")
+  X(kept_builds, "AnyDomain::keep")                                                    \
+  X(parts, "fields in parts, .pvtu")                                                   \
+  X(volumes, "fields in a .vdb")                                                       \
+  X(conversions, "'plexway convert'")                                                  \
+  X(lines, "AnyShape::joined")                                                         \
+  X(boundaries, "AnyShape::boundary")                                                  \
+  X(margins, "TraceOptions::margin")                                                   \
+  X(duals, "the dual triangulation of cells, 'plexway cvt --dual'")                    \
+  X(error_classes, "errors by place and shape, 'plexway bench --anatomy'")             \
+  X(rows, "all_pairs and near_pairs (any/pairs.hpp)")
 
 #define PLEXWAY_NAME(name, what) name,
 /// The purposes of PLEXWAY_PURPOSES by name.
@@ -323,6 +364,12 @@ constexpr Support support(Purpose purpose, const Combination& c) {
       if (c.domain != surface && c.domain != cloud && c.domain != mixed)
         return Refusal::isolines_domain;
       break;
+    case Purpose::arcs:
+      if (c.domain != surface) return Refusal::arcs_domain;
+      break;
+    case Purpose::isosurfaces:
+      if (c.domain != solid) return Refusal::isosurfaces_domain;
+      break;
     case Purpose::pictures:
       if (c.domain == simplices) return Refusal::pictures_domain;
       break;
@@ -332,18 +379,55 @@ constexpr Support support(Purpose purpose, const Combination& c) {
     case Purpose::metrics:
       if (c.domain == cloud || c.domain == simplices) return Refusal::metrics_domain;
       break;
+    case Purpose::tensors:
+      if (c.domain == mixed) return Refusal::metrics_speeds;
+      return support(Purpose::metrics, c);
+    case Purpose::regions:
+      if (c.domain == cloud || c.domain == simplices) return Refusal::regions_domain;
+      break;
     case Purpose::triangulations:
       if (c.domain != surface) return Refusal::triangulations_domain;
       break;
     case Purpose::kept_builds:
       if (c.domain == mixed || c.domain == simplices) return Refusal::kept_domain;
       break;
+    case Purpose::parts:
+      if (c.domain != surface && c.domain != solid && c.domain != cloud)
+        return Refusal::parts_domain;
+      break;
+    case Purpose::volumes:
+      if (c.domain != solid) return Refusal::volumes_domain;
+      break;
+    case Purpose::conversions:
+      if (c.domain == mixed || c.domain == simplices) return Refusal::conversions_domain;
+      break;
+    case Purpose::lines:
+      if (c.domain != surface && c.domain != wireframe) return Refusal::shapes;
+      break;
+    case Purpose::boundaries:
+      if (c.domain != surface && c.domain != solid && c.domain != wireframe)
+        return Refusal::boundaries_domain;
+      break;
+    case Purpose::margins:
+      if (c.domain != surface && c.domain != cloud) return Refusal::margins_domain;
+      if (refracting) return Refusal::margins_refraction;
+      break;
+    case Purpose::duals:
+      if (c.domain != surface) return Refusal::duals_domain;
+      break;
+    case Purpose::error_classes:
+      if (c.domain != surface && c.domain != solid) return Refusal::error_classes_domain;
+      break;
+    case Purpose::rows:
+      if (gl) return Refusal::rows_gl;
+      break;
   }
   return Support();
 }
 /// Where only the kind of the domain is known: counts as it is best.
-constexpr Support support(Purpose purpose, DomainKind domain) {
-  return support(purpose, {.executor = ExecutorKind::serial,
+constexpr Support support(Purpose purpose, DomainKind domain,
+                          ExecutorKind executor = ExecutorKind::serial) {
+  return support(purpose, {.executor = executor,
                            .domain = domain,
                            .dimension = 2,
                            .single_precision = true,
@@ -361,6 +445,15 @@ template <DomainType D>
                            .single_precision = std::is_same_v<typename D::Number, float>,
                            .metric = domain.metric(),
                            .visibility = visibility});
+}
+
+/// Can what is one kind as a file has it be taken as another (ReadOptions::as)? A level set, which
+/// is a solid, as its surface, too.
+constexpr bool taken_as(DomainKind held, DomainKind wanted, bool level_set = false) {
+  using enum DomainKind;
+  if (held == wanted) return true;
+  if (held == surface) return wanted == solid || wanted == wireframe || wanted == cloud;
+  return held == solid && (wanted == wireframe || (level_set && wanted == surface));
 }
 
 /// Is there anything that an executor solves on a domain?

@@ -20,7 +20,6 @@ from ._results import (
     Path,
     Picture,
     Points,
-    made_path,
 )
 from ._sources import index, located
 
@@ -69,8 +68,6 @@ class Domain:
     """
 
     _native: Any
-    _kept: Optional[Array] = None  # with a mask: the caller's numbers of what is left
-    _given: int = 0  # and how many simplices there were
 
     def __init_subclass__(cls, **kwargs: Any) -> None:
         super().__init_subclass__(**kwargs)
@@ -534,7 +531,7 @@ class Domain:
             native = _plexway.path_field(self._native, sources, arguments, report)
         return Field(self, native)
 
-    def path(self, source: Any, target: Place, *, margin: float = 3e-3) -> Path:
+    def path(self, source: Any, target: Place, *, margin: Optional[float] = None) -> Path:
         """The shortest way from `target` to the nearest source. For several ways to one source keep
         a `field`.
 
@@ -544,7 +541,7 @@ class Domain:
             As in `distance`, vertices and points alone.
         target : Place
             A vertex, a point in space, or a `Point`.
-        margin : float
+        margin : float, optional
             See `Field.path`.
 
         Returns
@@ -591,7 +588,7 @@ class Domain:
             begin.
         """
         lines = _plexway.isolines(self._native, distance, np.atleast_1d(np.asarray(values, float)))
-        return [made_path(self, line) for line in lines]
+        return [Path(*line) for line in lines]
 
     def isosurfaces(self, distance: ArrayLike, values: ArrayLike) -> Isosurfaces:
         """Surfaces in a solid where a field has given values; see `isolines`.
@@ -721,8 +718,6 @@ class Domain:
             points, label, content, energy, converged = _plexway.cvt(
                 self._native, native, iterations, real(tolerance, "tolerance"), report
             )
-        if self.kind != "cloud":
-            label = self._scattered(label, -1)
         return Cells(Points(self, points), label, content, energy, converged)
 
     def closest(self, point: ArrayLike) -> Points:
@@ -825,37 +820,7 @@ class Domain:
         ----------
         file : path
         """
-        if self._kept is not None:
-            raise ValueError("keep: a domain with a mask is built each time")
         self._native.keep(os.fspath(file))
-
-    # -- Numbers of simplices with and without a mask.
-
-    def _inner_simplex(self, simplex: Any) -> int:
-        count = self._native.given_simplices if self._kept is None else self._given
-        number = index(simplex, count, "simplex")
-        if self._kept is None:
-            return number
-        inner = int(np.searchsorted(self._kept, number))
-        if inner == len(self._kept) or self._kept[inner] != number:
-            raise _plexway.UsageError(f"simplex {number} is left out by the mask")
-        return inner
-
-    def _outer_simplex(self, simplex: int) -> int:
-        return simplex if self._kept is None else int(self._kept[simplex])
-
-    def _outer_of(self, simplices: Array) -> Array:
-        if self._kept is None:
-            return simplices
-        return np.where(simplices < 0, simplices, self._kept[simplices])
-
-    def _scattered(self, rows: Array, fill: float = 0) -> Array:
-        """Rows of the simplices that are left as rows of all."""
-        if self._kept is None:
-            return rows
-        every = np.full((self._given, *rows.shape[1:]), fill, rows.dtype)
-        every[self._kept] = rows
-        return every
 
     def _options(self) -> Dict[str, Any]:
         """How it was built, for pickles."""
@@ -867,6 +832,7 @@ class Domain:
             "precision": "double" if native.double else "single",
             "triangulation": native.wanted_triangulation,
             "metric": metric,
+            "mask": native.mask,
             "progress": None,
         }
 
@@ -876,11 +842,11 @@ class Domain:
         given = native.lengths
         lengths = None if given is None else np.array(given)
         positions = None if native.positions is None else np.array(native.positions)
-        arrays = (positions, native.vertex_count, np.array(native.simplices), lengths)
+        arrays = (positions, native.vertex_count, np.array(native.all_simplices), lengths)
         return "from_arrays", (self.kind, *arrays), self._options()
 
     def __reduce__(self) -> Tuple[Any, ...]:
-        return _restored, (type(self).__name__, self._recipe(), self._kept, self._given)
+        return _restored, (type(self).__name__, self._recipe())
 
 
 def _warn_of_violations(domain: Domain) -> None:
@@ -898,7 +864,7 @@ def _warn_of_violations(domain: Domain) -> None:
     if count:
         warnings.warn(
             f"lengths break the triangle inequality in {count} of {domain._native.simplex_count} "
-            f"{domain._native.simplex_name}, such as number {domain._outer_simplex(first)}: they "
+            f"{domain._native.simplex_name}, such as number {first}: they "
             "were taken as those of the nearest flat ones",
             RuntimeWarning,
             stacklevel=4,
@@ -942,17 +908,12 @@ def _into(out: Array, found: Array) -> Array:
     return out
 
 
-def _restored(name: str, recipe: Any, kept: Optional[Array], given: int) -> Domain:
+def _restored(name: str, recipe: Any) -> Domain:
     function, arguments, options = recipe
-    native = getattr(_plexway, function)(*arguments, **options)
-    return _wrapped(_CLASSES[name], native, kept, given)
+    return _wrapped(_CLASSES[name], getattr(_plexway, function)(*arguments, **options))
 
 
-def _wrapped(
-    cls: Type[Domain], native: Any, kept: Optional[Array] = None, given: int = 0
-) -> Domain:
+def _wrapped(cls: Type[Domain], native: Any) -> Domain:
     made = cls.__new__(cls)
     made._native = native
-    made._kept = kept
-    made._given = given
     return made

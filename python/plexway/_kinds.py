@@ -21,7 +21,7 @@ _USUAL = {"precision": "single", "triangulation": "auto"}
 
 
 def _options_of(
-    precision: str, triangulation: str, metric: Any, report: Any
+    precision: str, triangulation: str, metric: Any, report: Any, mask: Any = None
 ) -> Dict[str, Any]:
     for name, value in (("precision", precision), ("triangulation", triangulation)):
         if not isinstance(value, str):
@@ -30,6 +30,7 @@ def _options_of(
         "precision": precision,
         "triangulation": triangulation,
         "metric": described(metric),
+        "mask": mask if mask is None or isinstance(mask, str) else np.asarray(mask),
         "progress": report,
     }
 
@@ -73,12 +74,6 @@ class _OfSimplices(Domain):
             vertices = len(V) if V.ndim else 0
         elif vertices is None:
             vertices = int(rows.max()) + 1 if rows.size else 0
-        if mask is not None:
-            self._given = len(rows)
-            self._kept = kept = np.flatnonzero(_mask_of(mask, rows, vertices))
-            rows = rows[kept]
-            lengths = None if lengths is None else plain(lengths, "lengths")[kept]
-            metric = _masked(metric, kept, self._given)
         with Progress(progress, "building") as report:
             self._native = _plexway.from_arrays(
                 self._kind,
@@ -86,72 +81,9 @@ class _OfSimplices(Domain):
                 vertices,
                 rows,
                 lengths,
-                **_options_of(precision, triangulation, metric, report),
+                **_options_of(precision, triangulation, metric, report, mask),
             )
         _warn_of_violations(self)
-
-
-def _labels_in(mask: str) -> Tuple[str, List[int]]:
-    """What "FILE:3,7" says."""
-    file, _, numbers = mask.rpartition(":")
-    try:
-        labels = [int(number) for number in numbers.split(",")]
-    except ValueError:
-        labels = []
-    if not file or not labels:
-        raise ValueError(
-            f"mask {mask!r}: expected truth values, or labels that are left out: 'FILE:3,7'"
-        )
-    return file, labels
-
-
-def _without(found: Array, labels: List[int], file: str, what: str) -> Array:
-    """Where none of the labels is; each must be somewhere."""
-    for label in labels:
-        if label not in found:
-            raise _plexway.InputError(f"{file}: nothing has the {what} {label}")
-    left: Array = ~np.isin(found, labels)
-    return left
-
-
-class _Left:
-    """A mask of simplices, which needs no guess."""
-
-    def __init__(self, rows: Array) -> None:
-        self.rows = rows
-
-
-def _mask_of(mask: Any, rows: Array, vertices: int) -> Array:
-    """Which simplices are left; by a mask of vertices those all of whose corners are."""
-    if isinstance(mask, _Left):
-        return mask.rows
-    if isinstance(mask, str):
-        file, labels = _labels_in(mask)
-        of_vertex = _without(_plexway.read_labels(file, vertices), labels, file, "label")
-        every: Array = of_vertex[rows].all(axis=1)
-        return every
-    mask = np.asarray(mask)
-    if mask.dtype.kind != "b" or mask.ndim != 1:
-        raise ValueError("mask: expected truth values, one a vertex or one a simplex")
-    if len(rows) == vertices and len(mask) == vertices:
-        raise ValueError(
-            "mask: there are as many simplices as vertices; leave the simplices out of the array"
-        )
-    if len(mask) in (len(rows), vertices):
-        left: Array = mask if len(mask) == len(rows) else mask[rows].all(axis=1)
-        return left
-    raise ValueError(f"mask: expected {vertices} or {len(rows)} truth values, got {len(mask)}")
-
-
-def _masked(metric: Any, kept: Array, given: int) -> Any:
-    """A metric with one value a simplex, for those that are left."""
-    for name in ("speed", "tensor"):
-        values = getattr(metric, name, None)
-        if values is None or type(metric).__name__ == "VertexTensors":
-            continue
-        if len(np.asarray(values)) == given:
-            return type(metric)(np.asarray(values)[kept], metric.refract)
-    return metric
 
 
 class Surface(_OfSimplices):
@@ -174,8 +106,9 @@ class Surface(_OfSimplices):
         point to a symmetric 3 x 3 matrix.
     mask : array_like of bool, shape (m,) or (n,), or str, optional
         Triangles that are left; or vertices, then triangles all of whose corners are. Or labels
-        that are left out, 'FILE:3,7', of a file that gives each vertex one (see `read_labels`).
-        Numbers of vertices and triangles stay.
+        that are left out, 'FILE:3,7', of a file that gives each vertex one (see `read_labels`); or
+        numbers in a file, 'vertices:FILE' and 'simplices:FILE'. Numbers of vertices and triangles
+        stay, and a metric measures all of them.
     precision : {'single', 'double'}
     triangulation : {'auto', 'input', 'delaunay', 'refined'}
         Which triangles over the same surface distances are found on.
@@ -350,7 +283,7 @@ class Cloud(Domain):
 
 
 def _restored_cloud(recipe: Any, neighbours: Dict[str, Any]) -> Domain:
-    made = _restored("Cloud", recipe, None, 0)
+    made = _restored("Cloud", recipe)
     assert isinstance(made, Cloud)
     made._neighbours = neighbours
     return made
@@ -402,11 +335,6 @@ class Simplicial(Domain):
                 raise ValueError(f"lengths: expected shape {wanted}, got {measured.shape}")
             if vertices is None:
                 vertices = int(rows.max()) + 1 if rows.size else 0
-        if mask is not None:
-            self._given = len(rows)
-            self._kept = kept = np.flatnonzero(_mask_of(mask, rows, vertices))
-            rows = rows[kept]
-            lengths = None if lengths is None else plain(lengths, "lengths")[kept]
         with Progress(progress, "building") as report:
             self._native = _plexway.from_simplices(
                 V,
@@ -415,14 +343,14 @@ class Simplicial(Domain):
                 dimension,
                 axes,
                 lengths,
-                **_options_of(precision, "auto", None, report),
+                **_options_of(precision, "auto", None, report, mask),
             )
 
     def _recipe(self) -> Tuple[str, Tuple[Any, ...], Dict[str, Any]]:
         native = self._native
         positions, lengths = native.positions, native.lengths
         axes = 0 if positions is None else positions.shape[1]
-        simplices = np.array(native.simplices)
+        simplices = np.array(native.all_simplices)
         return (
             "from_simplices",
             (

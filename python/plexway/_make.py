@@ -18,11 +18,8 @@ from ._kinds import (
     Solid,
     Surface,
     Wireframe,
-    _labels_in,
-    _Left,
     _OfSimplices,
     _options_of,
-    _without,
 )
 from ._progress import Progress, ProgressLike
 from ._sources import Boundary, Polyline, Segment, WholeSimplex
@@ -65,8 +62,7 @@ def read(
     precision, triangulation, metric, progress
         As in `Surface`.
     mask
-        As in `Surface`; 'regions:3,7' leaves out these regions of a .msh, .vtu or .vtk. Of
-        surfaces, solids and wireframes.
+        As in `Surface`; 'regions:3,7' leaves out these regions of a .msh, .vtu or .vtk.
     **options
         Of clouds: k, neighbour_radius, max_normal_angle, smooth, denoise, deviations, voxel. Of
         surfaces that are filled: max_volume. Of level sets: voxel, grid, repair.
@@ -95,39 +91,14 @@ def read(
             float(tolerance),
             kind,
             **options,
-            **_options_of(precision, triangulation, metric if mask is None else None, report),
+            **_options_of(precision, triangulation, metric, report, mask),
         )
-    if mask is not None:
-        return _read_masked(native, mask, metric, precision, triangulation, progress)
     made = _wrapped(_BY_KIND[native.kind], native)
     _warn_of_violations(made)
     if isinstance(made, Cloud):
         names = ("k", "neighbour_radius", "max_normal_angle", "smooth")
         made._neighbours = {name: options[name] for name in names if name in options}
     return made
-
-
-def _read_masked(
-    native: Any, mask: Any, metric: Any, precision: str, triangulation: str, progress: ProgressLike
-) -> Domain:
-    """What was read, built anew without what is masked."""
-    cls: Any = _BY_KIND[native.kind]
-    if not issubclass(cls, _OfSimplices):
-        raise TypeError(f"read: masks are for surfaces, solids and wireframes, not a {native.kind}")
-    if isinstance(mask, str) and mask.startswith("regions:"):
-        _, regions = _labels_in(mask)
-        mask = _Left(_without(native.regions(), regions, native.file, "region"))
-    given: Dict[str, Any] = {"metric": metric, "mask": mask, "precision": precision}
-    if cls is Surface:
-        given["triangulation"] = triangulation
-    if native.lengths is not None:
-        given.update(lengths=native.lengths, vertices=native.vertex_count)
-    return cls(  # type: ignore[no-any-return]
-        None if native.lengths is not None else native.positions,
-        native.simplices,
-        progress=progress,
-        **given,
-    )
 
 
 def read_labels(file: Union[str, os.PathLike[str]], vertices: int) -> Array:

@@ -76,11 +76,8 @@ class Points:
     def __init__(self, domain: Domain, native: List[Any]) -> None:
         self._domain = domain
         self._native = native
-        outer = domain._outer_simplex
         self.vertices = np.array([-1 if p.vertex is None else p.vertex for p in native], np.int64)
-        self.simplices = np.array(
-            [-1 if p.simplex is None else outer(p.simplex) for p in native], np.int64
-        )
+        self.simplices = np.array([-1 if p.simplex is None else p.simplex for p in native], np.int64)
         self.barycentric = np.array([p.barycentric for p in native], float).reshape(-1, 4)
 
     @property
@@ -228,22 +225,23 @@ class Field:
         array: Array = self._native.distance
         return array
 
-    def path(self, start: Place, *, margin: float = 3e-3) -> Path:
+    def path(self, start: Place, *, margin: Optional[float] = None) -> Path:
         """The shortest way from `start` back to the nearest source.
 
         Parameters
         ----------
         start : Place
             A vertex, a point in space (the closest of the domain is taken), or a `Point`.
-        margin : float
-            On a surface: the path is the shortest of all if nowhere near it the field is too long
-            by more than this share. 0: not looked for, some ten times faster, locally shortest.
+        margin : float, optional
+            On a surface or a cloud: the path is the shortest of all if nowhere near it the field is
+            too long by more than this share; 0.003 if not given. 0: not looked for, some ten times
+            faster, locally shortest. Refused on other domains.
 
         Returns
         -------
         Path
         """
-        return made_path(self._domain, self._native.trace(place(self._domain, start), margin))
+        return Path(*self._native.trace(place(self._domain, start), margin))
 
     def at(self, points: ArrayLike, *, level: str = "neighbours") -> Array:
         """Distances of any points of the domain.
@@ -270,20 +268,14 @@ class Field:
         ndarray of float64, shape (m, 3)
             Of length 1; 0 where no path leads, or the source is there.
         """
-        return self._domain._scattered(self._native.gradient())
+        directions: Array = self._native.gradient()
+        return directions
 
     def __repr__(self) -> str:
         return f"plexway.Field(on {self._domain!r})"
 
     def __reduce__(self) -> Tuple[Any, ...]:
         raise TypeError("a Field is not pickled: send the domain, and make it there by `field`")
-
-
-def made_path(domain: Domain, told: Any) -> Path:
-    positions, simplices, barycentric, length, source = told
-    if domain.kind != "cloud":
-        simplices = domain._outer_of(simplices)
-    return Path(positions, simplices, barycentric, length, source)
 
 
 class Picture(Array):

@@ -163,8 +163,8 @@ def place(domain: Any, at: Any) -> Any:
     if isinstance(at, Vertex):
         return _plexway.Point(index(at.vertex, domain.vertex_count, "vertex"), float(at.offset))
     if isinstance(at, Point):
-        inner = domain._inner_simplex(at.simplex)
-        return _plexway.Point(inner, [float(b) for b in at.barycentric], float(at.offset))
+        simplex = index(at.simplex, domain._native.given_simplices, "simplex")
+        return _plexway.Point(simplex, [float(b) for b in at.barycentric], float(at.offset))
     if isinstance(at, Source):
         raise TypeError(f"expected a vertex or a point, got {type(at).__name__}")
     if not isinstance(at, (bool, np.bool_)):
@@ -253,7 +253,8 @@ def _one(domain: Any, source: Source) -> Any:
             raise _plexway.UsageError("a line needs at least one point")
         return native.joined(points, float(source.offset))
     if isinstance(source, WholeSimplex):
-        return _plexway.WholeSimplex(domain._inner_simplex(source.simplex), float(source.offset))
+        simplex = index(source.simplex, native.given_simplices, "simplex")
+        return _plexway.WholeSimplex(simplex, float(source.offset))
     if isinstance(source, Boundary):
         return native.boundary(float(source.offset))
     raise TypeError(f"{type(source).__name__} is no source that plexway knows")

@@ -3,10 +3,12 @@
 
 #include <cmath>
 #include <memory>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include <plexway/any/mask_text.hpp>
 #include <plexway/error.hpp>
 #include <plexway/io/labels.hpp>
 
@@ -97,8 +99,48 @@ MeasuredLengths measured_before(const AnyShape& shape, const py::tuple& describe
 struct BuildArguments {
   std::string precision, triangulation;
   py::object metric;    // None, or a tuple as above
+  py::object mask;      // see mask_of
   py::object progress;  // None or a function
 };
+
+// None; a text (any/mask_text.hpp); truth values, which are left of the vertices or the simplices;
+// or those of both that are closed.
+std::shared_ptr<const Mask> mask_of(const py::object& given, const AnyShape& shape) {
+  if (given.is_none()) return nullptr;
+  if (py::isinstance<py::str>(given)) return read_mask(given.cast<std::string>(), shape);
+  const std::size_t vertices = shape.vertices(), simplices = shape.simplices();
+  auto mask = std::make_shared<Mask>(vertices, simplices);
+  if (py::isinstance<py::tuple>(given)) {
+    const auto both = given.cast<py::tuple>();
+    const std::vector<Index> of_vertices = indices_of(both[0], "mask");
+    const std::vector<Index> of_simplices = indices_of(both[1], "mask");
+    for (Index v = 0; v < of_vertices.size(); ++v)
+      if (of_vertices[v] != 0) mask->close_vertex(v);
+    for (Index s = 0; s < of_simplices.size(); ++s)
+      if (of_simplices[s] != 0) mask->close_simplex(s);
+    return mask;
+  }
+  const py::array array = py::array::ensure(given);
+  if (!array || array.dtype().kind() != 'b' || array.ndim() != 1)
+    throw py::value_error("mask: expected truth values, one a vertex or one a simplex");
+  const auto truth = array.cast<py::array_t<bool, py::array::c_style | py::array::forcecast>>();
+  const std::span<const bool> left(truth.data(), static_cast<std::size_t>(truth.size()));
+  if (vertices == simplices && left.size() == vertices)
+    throw py::value_error(
+        "mask: there are as many simplices as vertices; leave the simplices out of the array");
+  if (left.size() != vertices && left.size() != simplices)
+    throw py::value_error("mask: expected " + std::to_string(vertices) + " or " +
+                          std::to_string(simplices) + " truth values, got " +
+                          std::to_string(left.size()));
+  for (Index i = 0; i < left.size(); ++i) {
+    if (left[i]) continue;
+    if (left.size() == simplices)
+      mask->close_simplex(i);
+    else
+      mask->close_vertex(i);
+  }
+  return mask;
+}
 
 std::shared_ptr<Domain> build(AnyShape shape, const BuildArguments& arguments) {
   BuildOptions options;
@@ -118,6 +160,7 @@ std::shared_ptr<Domain> build(AnyShape shape, const BuildArguments& arguments) {
             : shape.measure(metric_of(described, shape.kind() == DomainKind::surface ||
                                                      shape.kind() == DomainKind::solid)));
   }
+  options.mask = mask_of(arguments.mask, shape);
   Watch watch(arguments.progress);
   options.progress = watch.of_share();
   return watch.run([&] { return std::make_shared<Domain>(std::move(shape), std::move(options)); });
@@ -125,7 +168,8 @@ std::shared_ptr<Domain> build(AnyShape shape, const BuildArguments& arguments) {
 
 BuildArguments arguments_of(const py::kwargs& given) {
   return {given["precision"].cast<std::string>(), given["triangulation"].cast<std::string>(),
-          given["metric"], given["progress"]};
+          given["metric"], given.contains("mask") ? py::object(given["mask"]) : py::none(),
+          given["progress"]};
 }
 
 CloudPreparation preparation_of(const py::kwargs& given) {

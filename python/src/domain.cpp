@@ -14,7 +14,9 @@
 namespace plexway::python {
 
 Domain::Domain(AnyShape shape, BuildOptions options)
-    : any_(std::move(shape), options), options_(std::move(options)) {
+    : any_(std::move(shape), options),
+      options_(std::move(options)),
+      open_(options_.mask ? any_.shape().open_part(*options_.mask) : any_.shape()) {
   options_.progress = {};  // it was the caller's while building
 }
 
@@ -32,7 +34,7 @@ const AnyDomain& Domain::for_sources(const AnyExecutor& executor, const SourceLi
 }
 
 Source Domain::boundary(double offset) const {
-  Source source = shape().boundary(offset);
+  Source source = open_.boundary(offset);
   auto* const walls = std::get_if<VertexSource>(&source);
   if (walls == nullptr || !options_.lengths) return source;
   // By a metric the nearest wall in space says nothing: its vertices are left.
@@ -41,6 +43,30 @@ Source Domain::boundary(double offset) const {
     if (walls->offsets.empty() || walls->offsets[i] == 0)
       rim.vertices.push_back(walls->vertices[i]);
   return rim;
+}
+
+PointSource Domain::inside(const PointSource& point) const {
+  const OpenSimplices* const open = any_.open_simplices();
+  return open == nullptr ? point : open->inside(point);
+}
+
+PointSource Domain::outside(const PointSource& point) const {
+  PointSource there = point;
+  if (const OpenSimplices* const open = any_.open_simplices(); open && point.simplex != none)
+    there.simplex = open->outside(point.simplex);
+  return there;
+}
+
+std::vector<PointSource> Domain::outside(std::vector<PointSource> points) const {
+  for (PointSource& point : points) point = outside(point);
+  return points;
+}
+
+Path Domain::outside(Path path) const {
+  if (const OpenSimplices* const open = any_.open_simplices())
+    for (PathPoint& at : path.points)
+      if (at.simplex != none) at.simplex = open->outside(at.simplex);
+  return path;
 }
 
 std::size_t Domain::bytes() const {
@@ -65,8 +91,7 @@ py::object rows(const std::vector<std::array<Index, N>>& simplices, const py::ob
   return view(simplices.data(), simplices.size(), owner);
 }
 
-py::object simplices(const std::shared_ptr<Domain>& domain) {
-  const py::object owner = py::cast(domain);
+py::object simplices(const AnyShape& shape, const py::object& owner) {
   return std::visit(
       [&](const auto& data) -> py::object {
         using Kind = std::decay_t<decltype(data)>;
@@ -83,7 +108,39 @@ py::object simplices(const std::shared_ptr<Domain>& domain) {
           return py::none();
         }
       },
-      domain->shape().data());
+      shape.data());
+}
+
+// Those that are no flat triangle or tetrahedron; of what is open.
+metric::Violations violations(const Domain& domain) {
+  const MeasuredLengths* lengths =
+      domain.options().lengths ? domain.options().lengths.get() : domain.shape().lengths();
+  if (lengths == nullptr) return {};
+  const Mask* const mask = domain.options().mask.get();
+  if (mask == nullptr || lengths->violations.count == 0) return lengths->violations;
+  metric::Violations found;
+  const auto count = [&](const auto& simplices, const auto& rows) {
+    using Corners = typename std::decay_t<decltype(simplices)>::value_type;
+    using Row = typename std::decay_t<decltype(rows)>::value_type;
+    const std::vector<Row> open = mask->open_rows(std::span<const Corners>(simplices), rows);
+    found = metric::find_violations(std::span<const Row>(open));
+  };
+  if (const auto* surface = std::get_if<io::Triangles>(&domain.shape().data()))
+    count(surface->triangles, lengths->triangles);
+  else if (const auto* solid = std::get_if<io::Tets>(&domain.shape().data()))
+    count(solid->tets, lengths->tets);
+  if (found.count > 0) found.first = domain.any().open_simplices()->outside(found.first);
+  return found;
+}
+
+// What is closed: as masks by vertices and by simplices, not 0 there; or None.
+py::object mask_of(const Domain& domain) {
+  const Mask* const mask = domain.options().mask.get();
+  if (mask == nullptr) return py::none();
+  const auto bytes = [](std::span<const char> closed) {
+    return owned(std::vector<std::uint8_t>(closed.begin(), closed.end()));
+  };
+  return py::make_tuple(bytes(mask->closed_vertices()), bytes(mask->closed_simplices()));
 }
 
 // One row a simplex, as the domain was made from; or None.
@@ -172,7 +229,11 @@ void bind_domain(py::module_& module) {
       .def_property_readonly("simplex_name",
                              [](const Domain& d) { return std::string(d.shape().simplex_name()); })
       .def_property_readonly("vertex_count", [](const Domain& d) { return d.any().vertices(); })
-      .def_property_readonly("simplex_count", [](const Domain& d) { return d.any().simplices(); })
+      .def_property_readonly("simplex_count",  // those that are open
+                             [](const Domain& d) {
+                               const OpenSimplices* const open = d.any().open_simplices();
+                               return open == nullptr ? d.any().simplices() : open->size();
+                             })
       .def_property_readonly("given_simplices",
                              [](const Domain& d) { return d.shape().simplices(); })
       .def_property_readonly("components", [](const Domain& d) { return d.any().components(); })
@@ -196,14 +257,11 @@ void bind_domain(py::module_& module) {
                              })
       .def_property_readonly("wanted_triangulation",
                              [](const Domain& d) { return name_of(d.options().triangulation); })
-      .def_property_readonly(
-          "violations",  // simplices whose lengths no flat one has, and the first
-          [](const Domain& d) {
-            const MeasuredLengths* lengths =
-                d.options().lengths ? d.options().lengths.get() : d.shape().lengths();
-            const metric::Violations found = lengths ? lengths->violations : metric::Violations{};
-            return py::make_tuple(found.count, found.first);
-          })
+      .def_property_readonly("violations",  // how many, and the first
+                             [](const Domain& d) {
+                               const metric::Violations found = violations(d);
+                               return py::make_tuple(found.count, found.first);
+                             })
       .def_property_readonly("measured",
                              [](const std::shared_ptr<Domain>& d) {
                                return lengths_of(d->options().lengths.get(), py::cast(d));
@@ -215,7 +273,13 @@ void bind_domain(py::module_& module) {
           "refracts",
           [](const Domain& d) { return d.options().lengths && d.options().lengths->refracts; })
       .def_property_readonly("positions", &positions)
-      .def_property_readonly("simplices", &simplices)
+      .def_property_readonly(
+          "simplices",
+          [](const std::shared_ptr<Domain>& d) { return simplices(d->open(), py::cast(d)); })
+      .def_property_readonly(
+          "all_simplices",
+          [](const std::shared_ptr<Domain>& d) { return simplices(d->shape(), py::cast(d)); })
+      .def_property_readonly("mask", &mask_of)
       .def_property_readonly("lengths", &given_lengths)
       .def_property_readonly("parts", &parts)
       .def_property_readonly("cloud", &cloud)
@@ -228,19 +292,21 @@ void bind_domain(py::module_& module) {
       .def("closest",
            [](const Domain& d, const std::array<double, 3>& point) {
              const py::gil_scoped_release free;
-             return d.shape().closest(point);
+             return d.outside(d.open().closest(point));
            })
       .def("position",
            [](const Domain& d, const PointSource& point) { return d.shape().position(point); })
       .def("joined",
            [](const Domain& d, const std::vector<PointSource>& points, double offset) {
              const py::gil_scoped_release free;
-             CurveSource curve = d.shape().joined(points);
+             std::vector<PointSource> inside;
+             for (const PointSource& point : points) inside.push_back(d.inside(point));
+             CurveSource curve = d.open().joined(inside);
+             curve.points = d.outside(std::move(curve.points));
              curve.offset = offset;
              return curve;
            })
       .def("boundary", &Domain::boundary)
-      .def("regions", [](const Domain& d) { return owned(d.shape().regions()); })
       .def("keep", [](const Domain& d, const std::filesystem::path& out) { d.any().keep(out); })
       .def("write_field", [](const Domain& d, const std::filesystem::path& out,
                              const py::object& distance, const py::object& label) {
@@ -250,7 +316,7 @@ void bind_domain(py::module_& module) {
           for (const double l : numbers_of(label, "label"))
             labels.push_back(static_cast<std::int32_t>(l));
         const py::gil_scoped_release free;
-        d.shape().write_field(out, values, labels);
+        d.open().write_field(out, values, labels);
       });
 }
 

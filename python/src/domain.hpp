@@ -22,6 +22,14 @@ class Domain {
   [[nodiscard]] const AnyDomain& any() const { return any_; }
   [[nodiscard]] const AnyShape& shape() const { return any_.shape(); }
   [[nodiscard]] const BuildOptions& options() const { return options_; }
+  /// What a mask leaves of the shape; all of it without one. Its simplices have numbers of their
+  /// own, `inside`; what Python sees are those of the shape, `outside`.
+  [[nodiscard]] const AnyShape& open() const { return open_; }
+  [[nodiscard]] PointSource inside(const PointSource& point) const;
+  [[nodiscard]] PointSource outside(const PointSource& point) const;
+  [[nodiscard]] std::vector<PointSource> outside(std::vector<PointSource> points) const;
+  /// The same of the corners of a path.
+  [[nodiscard]] Path outside(Path path) const;
   /// The domain that takes these sources and options: where they need double precision, and this
   /// has single, another one, built when it is first needed and then kept.
   [[nodiscard]] const AnyDomain& for_sources(const AnyExecutor& executor, const SourceList& sources,
@@ -33,6 +41,7 @@ class Domain {
  private:
   AnyDomain any_;
   BuildOptions options_;
+  AnyShape open_;
   mutable std::mutex mutex_;
   mutable std::unique_ptr<const AnyDomain> twice_;
 };

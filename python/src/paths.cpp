@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include <plexway/apps/isosurfaces.hpp>
+#include <plexway/any/isolines.hpp>
 #include <plexway/error.hpp>
 
 #include "arrays.hpp"
@@ -72,23 +72,20 @@ py::list isolines(const Domain& domain, const py::object& distance, const py::ob
   std::vector<Path> lines;
   {
     const py::gil_scoped_release free;
-    lines = domain.shape().isolines(field, wanted);
+    lines = domain.open().isolines(field, wanted);
   }
   py::list list;
-  for (Path& line : lines) list.append(told(std::move(line)));
+  for (Path& line : lines) list.append(told(domain.outside(std::move(line))));
   return list;
 }
 
 py::tuple isosurfaces(const Domain& domain, const py::object& distance, const py::object& values) {
-  const auto* solid = std::get_if<io::Tets>(&domain.shape().data());
-  if (solid == nullptr || domain.shape().positions().empty())
-    throw UsageError("isosurfaces are for solids with positions");
   const std::vector<double> field = numbers_of(distance, "distance");
   const std::vector<double> wanted = numbers_of(values, "values");
   Isosurfaces found;
   {
     const py::gil_scoped_release free;
-    found = plexway::isosurfaces(domain.shape().positions(), solid->tets, field, wanted);
+    found = plexway::isosurfaces(domain.open(), field, wanted);
   }
   return py::make_tuple(owned(std::move(found.positions)), owned(std::move(found.triangles)),
                         owned(std::move(found.value)));
@@ -102,7 +99,7 @@ void bind_paths(py::module_& module) {
       .def_property_readonly("bytes", [](const Field& f) { return f.any.bytes(); })
       .def("label", [](const Field& f) { return owned(f.any.field().file_label()); })
       .def("trace",
-           [](const Field& f, const PointSource& point, double margin) {
+           [](const Field& f, const PointSource& point, const std::optional<double>& margin) {
              Path path;
              {
                const py::gil_scoped_release free;

@@ -33,7 +33,7 @@ py::array_t<std::uint8_t> picture(const Domain& domain, const py::object& distan
   for (const PointSource& source : sources)
     content.sources.push_back(domain.shape().position(source));
   for (const py::handle& path : paths) content.paths.push_back(points_of(path, "paths"));
-  const ShapeScene scene(domain.shape(), content);
+  const ShapeScene scene(domain.open(), content);
   render::PictureOptions options;
   options.width = width;
   options.height = height;

@@ -16,6 +16,13 @@
 namespace plexway::python {
 namespace {
 
+// As the complex has them.
+std::vector<PointSource> inside(const Domain& domain, std::span<const PointSource> points) {
+  std::vector<PointSource> there;
+  for (const PointSource& point : points) there.push_back(domain.inside(point));
+  return there;
+}
+
 py::tuple poisson(const Domain& domain, double radius, std::size_t count, std::uint64_t seed,
                   bool at_vertices, bool by_simplices, const py::object& spacing,
                   py::object progress) {
@@ -35,13 +42,13 @@ py::tuple poisson(const Domain& domain, double radius, std::size_t count, std::u
       return poisson_disks(Serial{}, complex, options);
     });
   });
-  return py::make_tuple(disks.darts, disks.radius, disks.maximal);
+  return py::make_tuple(domain.outside(std::move(disks.darts)), disks.radius, disks.maximal);
 }
 
 py::tuple farthest(const Domain& domain, std::vector<Source> given, std::size_t count,
                    double radius, py::object progress) {
   const Sources start(std::move(given));
-  const auto points = start.points("farthest points");
+  const std::vector<PointSource> points = inside(domain, start.points("farthest points"));
   Watch watch(std::move(progress));
   FarthestOptions options;
   options.count = count;
@@ -52,13 +59,14 @@ py::tuple farthest(const Domain& domain, std::vector<Source> given, std::size_t 
       return farthest_points(Serial{}, complex, points, options);
     });
   });
-  return py::make_tuple(found.points, owned(std::move(found.distance)), found.covering);
+  return py::make_tuple(domain.outside(std::move(found.points)), owned(std::move(found.distance)),
+                        found.covering);
 }
 
 py::tuple cvt(const Domain& domain, std::vector<Source> given, std::size_t iterations,
               double tolerance, py::object progress) {
   const Sources seeds(std::move(given));
-  const auto points = seeds.points("cells");
+  const std::vector<PointSource> points = inside(domain, seeds.points("cells"));
   Watch watch(std::move(progress));
   VoronoiOptions options;
   options.max_iterations = iterations;
@@ -72,13 +80,19 @@ py::tuple cvt(const Domain& domain, std::vector<Source> given, std::size_t itera
       return centroidal_voronoi(Serial{}, complex, points, options);
     });
   });
-  std::vector<std::int32_t> label;
-  for (const Index l : found.label) label.push_back(l == none ? -1 : static_cast<std::int32_t>(l));
+  // A simplex each, or a point of a cloud; -1 where no seed is near, and behind a mask.
+  const OpenSimplices* const open = domain.any().open_simplices();
+  std::vector<std::int32_t> label(open == nullptr ? found.label.size() : domain.shape().simplices(),
+                                  -1);
+  for (Index s = 0; s < found.label.size(); ++s)
+    if (found.label[s] != none)
+      label[open == nullptr ? s : open->outside(s)] = static_cast<std::int32_t>(found.label[s]);
   std::vector<double> energy;
   for (const VoronoiStep& step : found.steps) energy.push_back(step.energy);
   energy.push_back(found.energy);
-  return py::make_tuple(found.seeds, owned(std::move(label)), owned(std::move(found.cell_content)),
-                        owned(std::move(energy)), found.converged);
+  return py::make_tuple(domain.outside(std::move(found.seeds)), owned(std::move(label)),
+                        owned(std::move(found.cell_content)), owned(std::move(energy)),
+                        found.converged);
 }
 
 }  // namespace

@@ -69,13 +69,7 @@ py::tuple solve(const Domain& domain, std::vector<Source> given, const SolveArgu
     return domain.for_sources(executor, list, options).solve(executor, list, options);
   });
   py::object label = py::none();
-  if (labels) {
-    std::vector<std::int32_t> numbers = field.file_label();
-    if (numbers.empty())  // a single source
-      for (std::size_t v = 0; v < field.size(); ++v)
-        numbers.push_back(field[v] < std::numeric_limits<double>::infinity() ? 0 : -1);
-    label = owned(std::move(numbers));
-  }
+  if (labels) label = owned(field.nearest());
   py::object error = py::none();
   if (errors) error = owned(field.error());
   py::array distance = taken(field);

@@ -243,8 +243,11 @@ def test_masks_by_labels_and_regions(tmp_path):
             px.read(mesh, mask=wrong)
     cloud = tmp_path / "c.xyz"
     np.savetxt(cloud, np.random.default_rng(1).random((60, 3)))
-    with pytest.raises((TypeError, px.NotBuilt)):
+    with pytest.raises((px.UsageError, px.NotBuilt)):
         px.read(cloud, mask=f"{file}:3")
+    closed = tmp_path / "closed.txt"
+    np.savetxt(closed, np.flatnonzero(wall), fmt="%d")
+    assert np.array_equal(px.read(mesh, mask=f"vertices:{closed}").distance(0), truth)
 
 
 def test_mask():
@@ -279,6 +282,44 @@ def test_mask():
     keep = V[:, 0] < 0.45 + 1e-9
     d = px.distance(V, F, 0, mask=keep)
     assert np.all(np.isfinite(d) == keep)
+
+
+def test_mask_and_the_callers_numbers():
+    # The left half of a sheet is closed: triangles that are left do not begin at 0.
+    V, F = meshes.grid(10)
+    left = (V[F][:, :, 0] > 0.5 - 1e-9).all(axis=1)
+    sheet = px.Surface(V, F, mask=left, precision="double", triangulation="input")
+    assert np.array_equal(sheet.simplices, F[left])
+    assert sheet.info()["simplices"] == left.sum()
+    # What a metric says of triangles that are left out does not matter.
+    speeds = np.where(left, 2.0, 7.0)
+    fast = px.Surface(V, F, mask=left, metric=px.SimplexSpeeds(speeds), precision="double")
+    corner = int(np.argmin(straight(V, [1, 0, 0])))
+    inside = np.isfinite(sheet.distance(corner))
+    assert np.array_equal(np.flatnonzero(inside), np.unique(F[left]))
+    assert np.abs(2 * fast.distance(corner) - straight(V, [1, 0, 0]))[inside].max() < 1e-9
+    # The closest point is one that is open.
+    at = sheet.closest([0.1, 0.25, 0])
+    assert left[at.simplices[at.simplices >= 0]].all()
+    assert at.positions[0] == pytest.approx([0.5, 0.25, 0])
+    inner = sheet.closest([0.83, 0.41, 0])
+    assert left[inner.simplices[0]] and inner.positions[0] == pytest.approx([0.83, 0.41, 0])
+    # Lines, rims, samples and level sets.
+    d = sheet.distance(px.Segment([0.6, 0.55, 0], [0.9, 0.55, 0]))
+    assert d[corner] == pytest.approx(np.hypot(0.1, 0.55), abs=1e-9)
+    rim = sheet.distance(px.Boundary())
+    truth = np.minimum.reduce([V[:, 0] - 0.5, 1 - V[:, 0], V[:, 1], 1 - V[:, 1]])
+    assert np.abs(rim - truth)[inside].max() < 1e-9
+    disks = sheet.poisson(0.2)
+    assert left[disks.points.simplices[disks.points.simplices >= 0]].all()
+    assert np.all(disks.points.positions[:, 0] > 0.5 - 1e-9)
+    cells = sheet.cvt(3, iterations=2)
+    assert left[cells.seeds.simplices[cells.seeds.simplices >= 0]].all()
+    assert len(cells.label) == len(F) and np.array_equal(cells.label >= 0, left)
+    for line in sheet.isolines(V[:, 0], 0.71):
+        assert left[line.simplices].all()
+        where = np.einsum("pk,pkx->px", line.barycentric[:, :3], V[F[line.simplices]])
+        assert np.abs(where - line.points).max() < 1e-9
 
 
 def test_unreached_is_inf_and_radius():

@@ -345,8 +345,9 @@ def test_pickle(number):
     assert np.array_equal(again.distances([0, 3, 7]), made.distances([0, 3, 7]))
     third = pickle.loads(pickle.dumps(again))
     assert np.array_equal(third.distances([0, 3, 7]), made.distances([0, 3, 7]))
-    if made._kept is not None:
+    if made._native.mask is not None:
         assert np.array_equal(third.gradient(0), made.gradient(0))
+        assert all(np.array_equal(*pair) for pair in zip(third._native.mask, made._native.mask))
 
 
 def test_without_numpy(tmp_path):

@@ -125,7 +125,7 @@ def test_it_goes_on_where_it_was_ended(tmp_path):
     for other in ({"accuracy": 0.123}, {"dtype": "float64"}, {"radius": 3.0}, {"columns": [0]}):
         with pytest.raises(px.Error, match="begun with"):
             domain.pairs(file, block=4, **other)
-    with pytest.raises(px.Error, match="begun with 'input"):
+    with pytest.raises(px.Error, match="now it is 'mask"):
         surface(40, mask=np.arange(3200) > 0).pairs(file, block=4)
     found = domain.pairs(file, block=4)
     assert np.all(found[7] == 42)

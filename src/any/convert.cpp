@@ -11,6 +11,7 @@
 #include <plexway/io/tets.hpp>
 #include <plexway/io/triangles.hpp>
 
+#include "any/arguments/require.hpp"
 #include "any/fill.hpp"
 #include "any/openvdb_functions.hpp"
 #include "any/solid_boundary.hpp"
@@ -77,6 +78,7 @@ class Conversion : public Converted {
       options.volume.voxel.reset();  // that of the output
     options.as = kind_for(input_, out_, options_.as);
     const AnyShape domain = AnyShape::read(input_, options);
+    require(input_, support(Purpose::conversions, domain.kind()));
     kind = domain.kind_name();
     simplex_name = domain.simplex_name();
     note = domain.level_set_note();
@@ -97,11 +99,6 @@ class Conversion : public Converted {
                      (has_edges && among(io::edge_output_extensions(), extension_)
                           ? "; its edges do: --as wireframe"
                           : ""));
-  }
-
-  [[noreturn]] void not_written() const {
-    throw UsageError(input_ +
-                     ": surfaces, solids, wireframes and clouds are converted, nothing else");
   }
 
   void count(std::size_t v, std::size_t s) {
@@ -152,8 +149,8 @@ class Conversion : public Converted {
     simplex_name.clear();
     io::write_points(out_, cloud.points);
   }
-  void write(const SimplexShape&) { not_written(); }
-  void write(const MixedShape&) { not_written(); }
+  void write(const SimplexShape&) {}  // refused
+  void write(const MixedShape&) {}
 
   void stage(const std::string& what) const {
     if (options_.progress.stage) options_.progress.stage(what);

@@ -7,6 +7,7 @@
 
 #include <plexway/apps/path_field.hpp>
 #include <plexway/solve.hpp>
+#include <plexway/support.hpp>
 
 #include "any/shape_state.hpp"
 #include "any/walls.hpp"
@@ -78,23 +79,22 @@ std::vector<PointSource> rim_lines(const io::Triangles& surface) {
 }  // namespace
 
 CurveSource AnyShape::joined(std::span<const PointSource> points) const {
-  const bool shown = !positions().empty() && !points.empty();
-  const auto* surface = std::get_if<io::Triangles>(&data());
-  const auto* wires = std::get_if<io::Edges>(&data());
-  if (!shown || (surface == nullptr && wires == nullptr))
-    throw UsageError("lines go along surfaces and wireframes with positions, not a " +
-                     std::string(kind_noun(kind())));
+  support(Purpose::lines, kind()).require();
+  if (positions().empty()) throw UsageError("lines go along shapes that have positions");
+  if (points.empty()) throw UsageError("a line needs at least one point");
   return with_file_name(*this, [&]() -> CurveSource {
-    if (surface != nullptr) {
+    if (const auto* surface = std::get_if<io::Triangles>(&data())) {
       const TriangleMesh<double> mesh(surface->positions, surface->triangles);
       return {.points = join(mesh, surface->positions, points)};
     }
-    const Wireframe<double> wireframe(wires->positions, wires->edges);
-    return {.points = join(wireframe, wires->positions, points)};
+    const auto& wires = std::get<io::Edges>(data());
+    const Wireframe<double> wireframe(wires.positions, wires.edges);
+    return {.points = join(wireframe, wires.positions, points)};
   });
 }
 
 Source AnyShape::boundary(double offset) const {
+  support(Purpose::boundaries, kind()).require();
   const auto nothing = [&]() -> InputError {
     return InputError("source boundary: the " + std::string(kind_noun(kind())) + " has none");
   };
@@ -106,12 +106,8 @@ Source AnyShape::boundary(double offset) const {
   VertexSource source;
   if (const auto* solid = std::get_if<io::Tets>(&data()))
     source = lengths() == nullptr ? walls_of(*solid) : VertexSource{.vertices = rim(solid->tets)};
-  else if (const auto* wires = std::get_if<io::Edges>(&data()))
-    source.vertices = rim(wires->edges);
-  else if (cloud() != nullptr)
-    throw UsageError("a cloud of points has no faces to tell its boundary by");
   else
-    throw UsageError("boundaries are those of surfaces, solids and wireframes");
+    source.vertices = rim(std::get<io::Edges>(data()).edges);
   source.offset = offset;
   if (source.vertices.empty()) throw nothing();
   return source;

@@ -60,6 +60,7 @@ Precision AnyDomain::precision() const { return state_->prepared->precision(); }
 std::size_t AnyDomain::simplices() const {
   return open_simplices() != nullptr ? shape().simplices() : state_->prepared->simplices();
 }
+const MeasuredLengths* AnyDomain::lengths() const { return state_->options.lengths.get(); }
 const OpenSimplices* AnyDomain::open_simplices() const { return state_->prepared->open(); }
 std::size_t AnyDomain::components() const { return state_->prepared->components(); }
 double AnyDomain::mean_edge() const { return state_->prepared->mean_edge(); }

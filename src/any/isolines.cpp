@@ -5,17 +5,22 @@
 #include <plexway/any/complex.hpp>
 #include <plexway/apps/isolines.hpp>
 #include <plexway/error.hpp>
+#include <plexway/support.hpp>
 
 namespace plexway {
 namespace {
 
+// What holds the shape, if a purpose goes together with its kind. UsageError without positions.
+template <class Data>
+const Data& data_for(Purpose purpose, const AnyShape& shape) {
+  support(purpose, shape.kind()).require();
+  const auto& data = std::get<Data>(shape.data());
+  if (data.positions.empty()) throw UsageError("lines and surfaces of a field need positions");
+  return data;
+}
+
 const io::Triangles& surface_of(const AnyShape& shape) {
-  const auto* surface = std::get_if<io::Triangles>(&shape.data());
-  if (surface == nullptr)
-    throw UsageError("a field is known inside of triangles on surfaces, not on a " +
-                     std::string(kind_noun(shape.kind())));
-  if (surface->positions.empty()) throw UsageError("isolines need positions");
-  return *surface;
+  return data_for<io::Triangles>(Purpose::arcs, shape);
 }
 
 DistanceInside inside(const AnyPathField& field) {
@@ -37,6 +42,12 @@ FineField fine_field(const AnyShape& shape, const AnyPathField& field, double to
   const io::Triangles& surface = surface_of(shape);
   return fine_field(surface.positions, surface.triangles, field.field().doubles(), inside(field),
                     {.tolerance = tolerance});
+}
+
+Isosurfaces isosurfaces(const AnyShape& shape, std::span<const double> distance,
+                        std::span<const double> values) {
+  const auto& solid = data_for<io::Tets>(Purpose::isosurfaces, shape);
+  return isosurfaces(solid.positions, solid.tets, distance, values);
 }
 
 std::vector<Path> isolines(const AnyDomain& domain, const AnyField& field,

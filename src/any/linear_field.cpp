@@ -28,6 +28,7 @@ class LinearField final : public AnyPathField::State {
   }
 
   Path trace(const PointSource& point, const TraceOptions& options) const override {
+    if (options.margin) support(Purpose::margins, shape_.kind()).require();
     if (!ways_.trace) support(Purpose::paths, DomainKind::simplices).require();
     return ways_.trace(point, options);
   }

@@ -68,12 +68,11 @@ std::size_t count_speeds(const metric::SimplexSpeeds& speeds, std::size_t simpli
 }
 
 std::vector<double> speeds_of(const AnyShape& shape, const metric::Metric& metric) {
-  const auto* speeds = std::get_if<metric::SimplexSpeeds>(&metric);
-  if (speeds == nullptr) throw UsageError("a mixed domain is measured by speeds only");
-  if (count_speeds(*speeds, shape.simplices()) > most_speeds)
+  const auto& speeds = std::get<metric::SimplexSpeeds>(metric);
+  if (count_speeds(speeds, shape.simplices()) > most_speeds)
     throw UsageError("a mixed domain takes at most " + std::to_string(most_speeds) +
                      " different speeds, a region each");
-  return speeds->speed;
+  return speeds.speed;
 }
 
 // Is a solid to be a mixed domain of regions of one speed each, at whose faces paths are refracted?
@@ -86,7 +85,8 @@ bool has_regions(const io::Tets& solid, const metric::Metric& metric) {
 }  // namespace
 
 MeasuredLengths AnyShape::measure(const metric::Metric& metric) const {
-  support(Purpose::metrics, kind()).require();
+  const bool speeds = std::holds_alternative<metric::SimplexSpeeds>(metric);
+  support(speeds ? Purpose::metrics : Purpose::tensors, kind()).require();
   MeasuredLengths lengths;
   if ((kind() == DomainKind::surface || kind() == DomainKind::solid) && positions().empty())
     throw UsageError(

@@ -1,16 +1,19 @@
 #include <plexway/any/open_simplices.hpp>
 
+#include <array>
+#include <span>
 #include <string>
 #include <type_traits>
 #include <variant>
+#include <vector>
 
 #include <plexway/error.hpp>
 #include <plexway/support.hpp>
 
 namespace plexway {
+namespace {
 
-OpenSimplices::OpenSimplices(const Mask& mask, const AnyShape& shape)
-    : inside_(shape.simplices(), none), reached_(shape.vertices(), 0) {
+void check(const Mask& mask, const AnyShape& shape) {
   support(Purpose::masks, shape.kind()).require();
   if (mask.closed_vertices().size() != shape.vertices() ||
       mask.closed_simplices().size() != shape.simplices())
@@ -18,6 +21,13 @@ OpenSimplices::OpenSimplices(const Mask& mask, const AnyShape& shape)
                      " vertices and " + std::to_string(mask.closed_simplices().size()) +
                      " simplices for a shape of " + std::to_string(shape.vertices()) + " and " +
                      std::to_string(shape.simplices()));
+}
+
+}  // namespace
+
+OpenSimplices::OpenSimplices(const Mask& mask, const AnyShape& shape)
+    : inside_(shape.simplices(), none), reached_(shape.vertices(), 0) {
+  check(mask, shape);
   for (std::size_t s = 0; s < inside_.size(); ++s) {
     const auto corners = shape.corners(s);
     if (!mask.is_open(corners, s)) continue;
@@ -59,6 +69,44 @@ Source OpenSimplices::inside(const Source& source) const {
       },
       there);
   return there;
+}
+
+AnyShape AnyShape::open_part(const Mask& mask) const {
+  check(mask, *this);
+  const std::vector<std::array<double, 3>> places(positions().begin(), positions().end());
+  const MeasuredLengths* const own = lengths();
+  const auto rows = [&](const auto& corners_of, const auto& all) {
+    using Corners = typename std::decay_t<decltype(corners_of)>::value_type;
+    return mask.open_rows(std::span<const Corners>(corners_of), all);
+  };
+  if (const auto* surface = std::get_if<io::Triangles>(&data())) {
+    const auto& all = surface->triangles;
+    return own == nullptr
+               ? AnyShape::surface(places, mask.open(all))
+               : AnyShape::surface(vertices(), mask.open(all), rows(all, own->triangles));
+  }
+  if (const auto* solid = std::get_if<io::Tets>(&data())) {
+    const auto& all = solid->tets;
+    return own == nullptr ? AnyShape::solid(places, mask.open(all))
+                          : AnyShape::solid(vertices(), mask.open(all), rows(all, own->tets));
+  }
+  if (const auto* given = std::get_if<SimplexShape>(&data())) {
+    SimplexShape open = *given;
+    open.corners.clear(), open.lengths.clear();
+    const std::size_t edges = given->lengths.size() / simplices();
+    for (std::size_t s = 0; s < simplices(); ++s) {
+      const auto row = this->corners(s);
+      if (!mask.is_open(row, s)) continue;
+      open.corners.insert(open.corners.end(), row.begin(), row.end());
+      const auto first = given->lengths.begin() + static_cast<std::ptrdiff_t>(s * edges);
+      open.lengths.insert(open.lengths.end(), first, first + static_cast<std::ptrdiff_t>(edges));
+    }
+    return AnyShape::simplices(std::move(open));
+  }
+  const io::Edges& wire = std::get<io::Edges>(data());
+  return wire.lengths.empty() ? AnyShape::wireframe(places, mask.open(wire.edges))
+                              : AnyShape::wireframe(wire.vertices, mask.open(wire.edges),
+                                                    rows(wire.edges, wire.lengths));
 }
 
 }  // namespace plexway

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include <plexway/any/complex.hpp>
-#include <plexway/error.hpp>
+#include <plexway/support.hpp>
 
 #include "any/inside.hpp"
 #include "apps/row_work.hpp"
@@ -17,10 +17,11 @@ namespace {
 
 // Calls run(executor) with one that takes a source a thread.
 template <class Run>
-PairsReport by(const AnyExecutor& executor, const Run& run) {
+PairsReport by(const AnyExecutor& executor, const AnyDomain& domain, const Run& run) {
   if (const auto* team = std::get_if<OpenMP>(&executor)) return run(*team);
-  if (std::holds_alternative<Serial>(executor)) return run(Serial{});
-  throw UsageError("rows of a matrix are solved one a thread: choose the executor openmp");
+  if (std::holds_alternative<GL>(executor))
+    support(Purpose::rows, domain.kind(), ExecutorKind::gl).require();
+  return run(Serial{});
 }
 
 // A row is a solve of all; `take(row, distances)`, all vertices.
@@ -51,7 +52,7 @@ PairsReport every_row(const AnyExecutor& executor, const AnyDomain& domain,
                       const Take& take) {
   using Worker = AnyWorker<Take>;
   apps::check(request, domain.vertices());
-  return by(executor, [&](const auto& with) {
+  return by(executor, domain, [&](const auto& with) {
     return apps::deal_rows<std::decay_t<decltype(with)>, Worker>(
         with, domain.vertices(), request, block, [&] {
           return std::unique_ptr<Worker>(new Worker{domain, take});
@@ -96,7 +97,7 @@ PairsReport near_pairs(const AnyExecutor& executor, const AnyDomain& domain,
                       request.rows.value_or(std::span<const PointSource>()));
   PairsRequest within = request;
   if (request.rows) within.rows = inside.list();
-  return by(executor, [&](const auto& with) {
+  return by(executor, domain, [&](const auto& with) {
     return with_complex(domain, [&](const auto& complex) {
       using Real = RealOf<std::decay_t<decltype(complex)>>;
       return near_pairs(with, complex, within, limits,

@@ -6,6 +6,7 @@
 
 #include <plexway/error.hpp>
 #include <plexway/io/mixed.hpp>
+#include <plexway/support.hpp>
 
 #include "any/fill.hpp"
 #include "any/kept_build.hpp"
@@ -118,14 +119,6 @@ bool is_read_as_cloud(const std::string& file, std::optional<DomainKind> asked) 
   if (is_cloud_file(file)) return true;
   if (asked == DomainKind::cloud) return has_extension(file, io::point_extensions());
   return !asked && io::is_ply_cloud(file);
-}
-
-bool can_be(DomainKind natural, DomainKind wanted) {
-  if (natural == wanted) return true;
-  if (natural == DomainKind::surface)
-    return wanted == DomainKind::solid || wanted == DomainKind::wireframe ||
-           wanted == DomainKind::cloud;
-  return natural == DomainKind::solid && wanted == DomainKind::wireframe;
 }
 
 [[noreturn]] void cannot_be(const std::string& file, DomainKind natural, DomainKind wanted) {
@@ -251,8 +244,7 @@ AnyShape::State Reading::read() {
                                  ? DomainKind::solid
                                  : static_cast<DomainKind>(state_.data.index());
   const DomainKind wanted = asked.value_or(natural);
-  const bool surface_of_vdb = is_vdb(file_) && wanted == DomainKind::surface;
-  if (!can_be(natural, wanted) && !surface_of_vdb) cannot_be(file_, natural, wanted);
+  if (!taken_as(natural, wanted, is_vdb(file_))) cannot_be(file_, natural, wanted);
   if (volume.repair && (natural != DomainKind::surface || wanted == DomainKind::cloud))
     throw UsageError(name("repair") + " needs a surface, and takes it as a surface or as a solid");
   check_cloud_options(wanted);

@@ -5,11 +5,13 @@
 #include <plexway/error.hpp>
 #include <plexway/io/mixed.hpp>
 #include <plexway/io/regions.hpp>
+#include <plexway/support.hpp>
 
 #include "any/words.hpp"
 
 namespace plexway {
 std::vector<std::int64_t> AnyShape::regions() const {
+  support(Purpose::regions, kind()).require();
   if (file().empty()) throw UsageError("regions are told by a file, and this shape has none");
   const std::string name = file().string();
   const auto foreign = [&](std::size_t cells) {
@@ -23,7 +25,7 @@ std::vector<std::int64_t> AnyShape::regions() const {
   } else if (kind() == DomainKind::mixed) {
     for (const auto* list : {&found.edges, &found.triangles, &found.tets})
       regions.insert(regions.end(), list->begin(), list->end());
-  } else if (kind() == DomainKind::surface || kind() == DomainKind::wireframe) {
+  } else {
     const io::Mixed cells = io::read_mixed(file());
     if (const auto* surface = std::get_if<io::Triangles>(&data())) {
       if (cells.triangles != surface->triangles) throw foreign(cells.triangles.size());
@@ -32,10 +34,6 @@ std::vector<std::int64_t> AnyShape::regions() const {
       if (cells.edges != std::get<io::Edges>(data()).edges) throw foreign(cells.edges.size());
       regions = std::move(found.edges);
     }
-  } else {
-    throw UsageError(
-        "regions are those of surfaces, solids, wireframes and mixed domains, not of a " +
-        std::string(kind_noun(kind())));
   }
   if (regions.size() != simplices()) throw foreign(regions.size());
   return regions;

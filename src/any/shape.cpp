@@ -10,6 +10,7 @@
 #include <plexway/io/field.hpp>
 #include <plexway/support.hpp>
 
+#include "any/arguments/require.hpp"
 #include "any/closest_point.hpp"
 #include "any/fill.hpp"
 #include "any/openvdb_functions.hpp"
@@ -436,11 +437,9 @@ void AnyShape::write_field(const std::filesystem::path& out, std::span<const dou
                            std::span<const std::int32_t> label,
                            std::span<const double> error) const {
   if (is_vdb(out.string())) {
-    const auto* solid = std::get_if<io::Tets>(&data());
-    if (solid == nullptr)
-      throw UsageError(out.string() + ": only the field of a solid fits a .vdb");
-    if (openvdb_functions(out.string()).write_field(out, *solid, distance, label, state_->voxel) ==
-        0)
+    require(out.string(), support(Purpose::volumes, kind()));
+    if (openvdb_functions(out.string())
+            .write_field(out, std::get<io::Tets>(data()), distance, label, state_->voxel) == 0)
       throw UsageError(out.string() +
                        ": no voxel has its centre in the solid: choose a smaller voxel");
     return;
@@ -482,7 +481,7 @@ std::span<const std::string_view> AnyShape::field_extensions(DomainKind kind) {
   };
   static const std::vector<std::string_view> of_clouds = with(".pcd"), of_solids = with(".vdb");
   if (kind == DomainKind::cloud) return of_clouds;
-  return kind == DomainKind::solid ? of_solids : io::field_extensions();
+  return support(Purpose::volumes, kind) ? of_solids : io::field_extensions();
 }
 
 }  // namespace plexway

@@ -65,7 +65,7 @@ template <class Real>
 Path PathField<PointCloud<Real>>::trace(const PointSource& point,
                                         const TraceOptions& options) const {
   if (!solved_) throw UsageError("there is nothing to trace before a solve");
-  check(options);
+  check(options, *cloud_);
   const PointSource at = first_at_place(*cloud_, std::span(&point, 1))[0];
   using Places = std::span<const std::array<double, 3>>;
   const bool more = cloud_->surface().vertex_count() != field_.distance.size();

@@ -65,7 +65,7 @@ template <class Real>
 Path PathField<MixedComplex<Real>>::trace(const PointSource& point,
                                           const TraceOptions& options) const {
   const PointSource at = checked(point);
-  check(options);
+  check(options, *domain_);
   return trace_cells({*cells_, distance_, sources_, positions_}, at);
 }
 

@@ -172,12 +172,9 @@ template <template <class> class Domain, class Real>
 Path PathField<Domain<Real>>::trace(const PointSource& point, const TraceOptions& options) const {
   if (!solved_) throw UsageError("there is nothing to trace before a solve");
   const PointSource at = checked(point);
-  if (cells_) {
-    check(options);
-    return trace_cells({*cells_, cell_distance_, sources_, positions_}, at);
-  }
+  check(options, *domain_);
+  if (cells_) return trace_cells({*cells_, cell_distance_, sources_, positions_}, at);
   const Solved<Real> solved = this->solved();
-  check(options);
   return or_no_way_at_all(trace_in(*domain_, solved, at, options), solved, at);
 }
 

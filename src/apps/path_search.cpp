@@ -223,7 +223,7 @@ SearchResult PathSearch<Real>::find(Serial, std::span<const PointSource> sources
   propagate.max_expansions = options.max_expansions;
   propagate.progress = options.progress;
   check(sources, propagate, domain);
-  plexway::check(options.trace);
+  plexway::check(options.trace, mesh);
   if (targets.empty()) throw UsageError("there is no target: name at least one");
 
   s.heuristic = options.heuristic ? &options.heuristic : nullptr;

@@ -8,6 +8,7 @@
 #include <plexway/propagate/distance_field.hpp>
 #include <plexway/propagate/options.hpp>
 #include <plexway/source/point_source.hpp>
+#include <plexway/support.hpp>
 
 #include "propagate/windows/kept_windows.hpp"
 #include "propagate/workspace_state.hpp"
@@ -50,9 +51,12 @@ Path or_no_way_at_all(Path found, const Solved<Real>& solved, const PointSource&
   return found;
 }
 
-/// Throws UsageError for a margin out of range.
-inline void check(const TraceOptions& options) {
-  if (!(options.margin >= 0 && options.margin < 1))
+/// Throws UsageError for a margin out of range, and one that means nothing on the domain.
+template <class Domain>
+void check(const TraceOptions& options, const Domain& domain) {
+  if (!options.margin) return;
+  support(Purpose::margins, domain).require();
+  if (!(*options.margin >= 0 && *options.margin < 1))
     throw UsageError("the margin of a trace must be >= 0 and < 1");
 }
 

@@ -107,14 +107,15 @@ void SurfaceTrace<Real>::search_windows(Index f, const std::array<double, 3>& b,
     double narrower = margin;
     for (int i = 0; i < 4 && !seen; ++i) look(narrower /= 2, options.max_windows);
   };
-  double margin = std::min(options.margin, TraceOptions().margin);
+  const double asked = options.margin.value_or(TraceOptions::usual_margin);
+  double margin = std::min(asked, TraceOptions::usual_margin);
   while (margin > 0 && seen && used < options.max_windows) {
     const double known = length();
     widen(margin);
     const double gain = 1 - length() / known;
     const double off = promise > 0 && promise < infinity ? std::abs(length() / promise - 1) : 0;
     const double next = std::min(4 * std::max(gain, off), widest);
-    const double wanted = margin < options.margin ? std::min(2 * margin, options.margin) : 0;
+    const double wanted = margin < asked ? std::min(2 * margin, asked) : 0;
     margin = next > margin ? std::max(next, 2 * margin) : wanted;
   }
   best.capped = !seen || margin > 0;

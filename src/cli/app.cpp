@@ -11,10 +11,10 @@
 #include <plexway/error.hpp>
 #include <plexway/version.hpp>
 
+#include "any/info/solve_words.hpp"
 #include "cli/among.hpp"
 #include "cli/commands/commands.hpp"
 #include "cli/exit_codes.hpp"
-#include "cli/options/executor_argument.hpp"
 #include "cli/report/console.hpp"
 #include "cli/report/help_pages.hpp"
 #include "io/did_you_mean.hpp"

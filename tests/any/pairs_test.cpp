@@ -90,7 +90,7 @@ TEST_CASE("matrices of any domain have the rows of solve") {
                 }});
     }
     CHECK_THROWS_WITH(all_pairs(GL{}, domain, request, {[](std::size_t, DenseRow<double>) {}}),
-                      Catch::Contains("openmp"));
+                      Catch::Contains("OpenMP"));
     const std::vector<Index> wrong = {static_cast<Index>(domain.vertices())};
     request.columns = wrong;
     CHECK_THROWS_AS(all_pairs(Serial{}, domain, request, {[](std::size_t, DenseRow<double>) {}}),

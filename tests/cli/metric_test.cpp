@@ -183,3 +183,25 @@ TEST_CASE("a metric that makes no sense is refused in one line") {
       {"distance", mesh, "--as", "cloud", "--source", "vertex:0", "--metric", "speed:" + speeds});
   CHECK((cloud.code == 2 || cloud.code == 4));  // 4 without FLANN
 }
+
+TEST_CASE("speeds by regions are speeds: refracted in solids and on surfaces, too") {
+  const Folder folder;
+  const std::string points =
+      "# vtk DataFile Version 3.0\nt\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 5 double\n"
+      "0 0 0\n1 0 0\n0 1 0\n0 0 1\n1 1 1\n";
+  const std::string regions = "CELL_DATA 2\nFIELD f 1\nregion 1 2 int\n4 7\n";
+  const std::string by_region = "regions:" + folder.write("r.txt", "7 3\n4 1\n").string();
+  const std::string by_cell = "speed:" + folder.write("s.txt", "1\n3\n").string();
+  const std::string solid = folder.write(
+      "solid.vtk", points + "CELLS 2 10\n4 0 1 2 3\n4 1 2 3 4\nCELL_TYPES 2\n10\n10\n" + regions);
+  const std::string sheet = folder.write(
+      "sheet.vtk", points + "CELLS 2 8\n3 0 1 2\n3 1 4 2\nCELL_TYPES 2\n5\n5\n" + regions);
+  for (const std::string& mesh : {solid, sheet}) {
+    const auto found = distances({"--metric", by_region}, mesh);
+    CHECK(found == distances({"--metric", by_cell}, mesh));
+    // By symmetry through the middle of the face, or of the edge, between.
+    const double before = mesh == solid ? 1 / std::sqrt(3.) : 1 / std::sqrt(2.);
+    const double behind = mesh == solid ? 2 / std::sqrt(3.) : std::sqrt(1.5);
+    CHECK(found[4] == Approx(before + behind / 3).epsilon(1e-6));
+  }
+}

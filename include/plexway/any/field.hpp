@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <string>
 #include <string_view>
@@ -79,6 +80,23 @@ class AnyField {
     labels.reserve(label().size());
     for (const Index l : label()) labels.push_back(l == none ? -1 : static_cast<std::int32_t>(l));
     return labels;
+  }
+  /// The same also of a single source, whose place is 0.
+  [[nodiscard]] std::vector<std::int32_t> nearest() const {
+    std::vector<std::int32_t> labels = file_label();
+    if (labels.empty())
+      for (const double d : doubles())
+        labels.push_back(d < std::numeric_limits<double>::infinity() ? 0 : -1);
+    return labels;
+  }
+  /// Bytes held.
+  [[nodiscard]] std::size_t bytes() const {
+    return std::visit(
+        [](const auto& f) {
+          return f.distance.capacity() * sizeof(f.distance[0]) +
+                 f.label.capacity() * sizeof(Index) + f.error.capacity() * sizeof(f.error[0]);
+        },
+        data);
   }
   /// False if max_expansions ended the solve early.
   [[nodiscard]] bool complete() const {

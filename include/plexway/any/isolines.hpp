@@ -5,6 +5,7 @@
 
 #include <plexway/any_domain.hpp>
 #include <plexway/apps/fine_field.hpp>
+#include <plexway/apps/isosurfaces.hpp>
 #include <plexway/apps/path.hpp>
 
 namespace plexway {
@@ -18,6 +19,10 @@ namespace plexway {
 /// Throws likewise.
 [[nodiscard]] FineField fine_field(const AnyShape& shape, const AnyPathField& field,
                                    double tolerance);
+
+/// Surfaces in a solid where a field has the values (isosurfaces.hpp). Throws likewise.
+[[nodiscard]] Isosurfaces isosurfaces(const AnyShape& shape, std::span<const double> distance,
+                                      std::span<const double> values);
 
 /// Lines where a field that was solved on `domain` has the values, straight in triangles: those of
 /// surfaces and mixed domains (AnyShape::isolines), and those of a cloud's sheet. UsageError for

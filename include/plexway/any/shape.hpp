@@ -15,6 +15,7 @@
 #include <plexway/any/cloud_shape.hpp>
 #include <plexway/any/read_options.hpp>
 #include <plexway/apps/path.hpp>
+#include <plexway/complex/mask.hpp>
 #include <plexway/io/edges.hpp>
 #include <plexway/io/simplices.hpp>
 #include <plexway/io/tets.hpp>
@@ -185,6 +186,11 @@ class AnyShape {
   /// than 64 speeds, and of tensors, an edge of a solid takes the mean of its simplices. Throws
   /// InputError as metric::triangle_lengths, and UsageError for what cannot be measured.
   [[nodiscard]] MeasuredLengths measure(const metric::Metric& metric) const;
+
+  /// What a mask leaves of it: its vertices, with their numbers, and the simplices that are open.
+  /// Throws UsageError for other kinds than surfaces, solids, wireframes and simplices, and for a
+  /// mask of another size. Cost: linear.
+  [[nodiscard]] AnyShape open_part(const Mask& mask) const;
 
   /// Lines on a surface where a field has the values. UsageError for other kinds; see isolines.hpp.
   [[nodiscard]] std::vector<Path> isolines(std::span<const double> distance,

@@ -95,7 +95,7 @@ class PathField<Domain<Real>> {
   ///
   /// On surfaces it is straight over every edge and bends only at vertices with at least pi of
   /// surface on both sides, is at most 1 % longer than the shortest way along edges, and mostly the
-  /// shortest of all (TraceOptions, which elsewhere do not matter). On surfaces with refracting
+  /// shortest of all (TraceOptions, whose margin is refused elsewhere). On surfaces with refracting
   /// edges it is refracted, as on mixed domains (mixed_path_field.hpp). In solids it bends only at
   /// reflex edges and vertices. Solids without coordinates are as if refracting: each
   /// tetrahedron is flat in its own lengths.

@@ -9,6 +9,7 @@
 #include <variant>
 #include <vector>
 
+#include <plexway/any/mask_text.hpp>
 #include <plexway/any/open_simplices.hpp>
 #include <plexway/error.hpp>
 #include <plexway/io/labels.hpp>
@@ -43,8 +44,7 @@ std::set<std::int64_t> whole_numbers(std::string_view text) {
   return {};
 }
 
-Parsed parse(const MaskArgument& argument) {
-  const std::string& text = argument.text;
+Parsed parse(const std::string& text, Spelling spelling) {
   const std::size_t first = text.find(':'), last = text.rfind(':');
   if (first != text.npos && first > 0 && first + 1 < text.size()) {
     const std::string kind = text.substr(0, first), rest = text.substr(first + 1);
@@ -55,7 +55,7 @@ Parsed parse(const MaskArgument& argument) {
       return {Kind::regions, "", std::move(labels)};
     if (!labels.empty()) return {Kind::labels, text.substr(0, last), std::move(labels)};
   }
-  throw UsageError("--mask '" + text +
+  throw UsageError(spelled(spelling, "mask") + " '" + text +
                    "': write vertices:FILE, simplices:FILE, FILE:3,7 (labels) or regions:3,7");
 }
 
@@ -124,13 +124,17 @@ void require_all(const Mask* mask, const AnyShape& domain, std::span<const Place
 }  // namespace
 
 std::string mask_file(const MaskArgument& argument) {
-  return argument.text.empty() ? std::string() : parse(argument).file;
+  return argument.text.empty() ? std::string() : parse(argument.text, Spelling::flags).file;
 }
 
 std::shared_ptr<const Mask> read_mask(const MaskArgument& argument, const AnyShape& domain) {
-  if (argument.text.empty()) return nullptr;
-  const Parsed asked = parse(argument);
-  require("--mask", support(Purpose::masks, domain.kind()));
+  return argument.text.empty() ? nullptr : read_mask(argument.text, domain, Spelling::flags);
+}
+
+std::shared_ptr<const Mask> read_mask(const std::string& text, const AnyShape& domain,
+                                      Spelling spelling) {
+  const Parsed asked = parse(text, spelling);
+  require(spelled(spelling, "mask"), support(Purpose::masks, domain.kind()));
   auto mask = std::make_shared<Mask>(domain.vertices(), domain.simplices());
   const auto close_vertex = [&](Index v) { mask->close_vertex(v); };
   const auto close_simplex = [&](Index s) { mask->close_simplex(s); };
@@ -143,7 +147,8 @@ std::shared_ptr<const Mask> read_mask(const MaskArgument& argument, const AnySha
     close_numbered(asked, domain, *mask);
   for (std::size_t s = 0; s < domain.simplices(); ++s)
     if (mask->is_open(domain.corners(s), s)) return mask;
-  throw InputError("--mask " + argument.text + ": closes all of " + domain.file().string());
+  throw InputError(spelled(spelling, "mask") + " " + text + ": closes all of " +
+                   domain.file().string());
 }
 
 void require_open(const Mask* mask, const AnyShape& domain, std::span<const PointSource> points) {
@@ -151,45 +156,6 @@ void require_open(const Mask* mask, const AnyShape& domain, std::span<const Poin
 }
 void require_open(const Mask* mask, const AnyShape& domain, std::span<const Source> sources) {
   require_all(mask, domain, sources);
-}
-
-AnyShape open_shape(const Mask& mask, const AnyShape& domain) {
-  const std::vector<std::array<double, 3>> positions(domain.positions().begin(),
-                                                     domain.positions().end());
-  const MeasuredLengths* const own = domain.lengths();
-  const auto rows = [&](const auto& simplices, const auto& all) {
-    using Corners = typename std::decay_t<decltype(simplices)>::value_type;
-    return mask.open_rows(std::span<const Corners>(simplices), all);
-  };
-  if (const auto* surface = std::get_if<io::Triangles>(&domain.data())) {
-    const auto& all = surface->triangles;
-    return own == nullptr
-               ? AnyShape::surface(positions, mask.open(all))
-               : AnyShape::surface(domain.vertices(), mask.open(all), rows(all, own->triangles));
-  }
-  if (const auto* solid = std::get_if<io::Tets>(&domain.data())) {
-    const auto& all = solid->tets;
-    return own == nullptr
-               ? AnyShape::solid(positions, mask.open(all))
-               : AnyShape::solid(domain.vertices(), mask.open(all), rows(all, own->tets));
-  }
-  if (const auto* given = std::get_if<SimplexShape>(&domain.data())) {
-    SimplexShape open = *given;
-    open.corners.clear(), open.lengths.clear();
-    const std::size_t edges = given->lengths.size() / domain.simplices();
-    for (std::size_t s = 0; s < domain.simplices(); ++s) {
-      const auto corners = domain.corners(s);
-      if (!mask.is_open(corners, s)) continue;
-      open.corners.insert(open.corners.end(), corners.begin(), corners.end());
-      const auto first = given->lengths.begin() + static_cast<std::ptrdiff_t>(s * edges);
-      open.lengths.insert(open.lengths.end(), first, first + static_cast<std::ptrdiff_t>(edges));
-    }
-    return AnyShape::simplices(std::move(open));
-  }
-  const io::Edges& wire = std::get<io::Edges>(domain.data());
-  return wire.lengths.empty() ? AnyShape::wireframe(positions, mask.open(wire.edges))
-                              : AnyShape::wireframe(wire.vertices, mask.open(wire.edges),
-                                                    rows(wire.edges, wire.lengths));
 }
 
 }  // namespace plexway

@@ -32,8 +32,4 @@ void require_open(const Mask* mask, const AnyShape& domain, std::span<const Poin
 void require_open(const Mask* mask, const AnyShape& domain, std::span<const Source> sources);
 ///@}
 
-/// What is left of a shape, with the vertices that it had: for pictures, lines and files, which
-/// show what there is. Without lengths of a metric.
-[[nodiscard]] AnyShape open_shape(const Mask& mask, const AnyShape& domain);
-
 }  // namespace plexway

@@ -96,8 +96,6 @@ std::vector<double> read_region_speeds(const std::string& file, const AnyShape& 
     if (!speed_of.try_emplace(static_cast<std::int64_t>(region), row.numbers[1]).second)
       fail_at(file, row, "region " + short_number(region) + " has a speed already");
   }
-  if (domain.kind() != DomainKind::mixed && domain.kind() != DomainKind::solid)
-    throw UsageError("--metric regions: for solids and mixed domains out of a .msh, .vtu or .vtk");
   std::vector<double> speeds;
   for (const std::int64_t region : domain.regions()) {
     const auto found = speed_of.find(region);
@@ -158,7 +156,7 @@ std::shared_ptr<const MeasuredLengths> measure(const MetricArgument& argument,
   require("--metric", support(Purpose::metrics, domain.kind()));
   const bool refracts =
       (domain.kind() == DomainKind::surface || domain.kind() == DomainKind::solid) &&
-      jumps == Jumps::refract && (asked.kind == Kind::speed || asked.kind == Kind::tensor);
+      jumps == Jumps::refract && asked.kind != Kind::vertex_tensor && asked.kind != Kind::lengths;
   const metric::Metric metric =
       read_metric(asked, domain, {refracts ? metric::Sides::own : metric::Sides::mean});
   try {

@@ -7,9 +7,9 @@
 
 namespace plexway {
 
-/// Throws UsageError "OPTION: sentence" unless it is yes.
-inline void require(const char* option, Support support) {
-  if (!support) throw UsageError(std::string(option) + ": " + support.sentence());
+/// Throws UsageError "NAME: sentence" unless it is yes; the name is an option's, or a file's.
+inline void require(const std::string& name, Support support) {
+  if (!support) throw UsageError(name + ": " + support.sentence());
 }
 
 }  // namespace plexway

@@ -150,7 +150,7 @@ auto at_option(const std::string& text, const Ask& ask) {
   }
 }
 
-Source locate(const AnyShape& domain, const SetArgument& set) {
+Source locate(const AnyShape& domain, const SetArgument& set, const Mask* mask) {
   using Kind = SetArgument::Kind;
   switch (set.kind) {
     case Kind::point: {
@@ -162,7 +162,8 @@ Source locate(const AnyShape& domain, const SetArgument& set) {
       return read_vertices(domain, set);
     case Kind::boundary:
       return with_file_name(domain, [&] {
-        return at_option("boundary", [&] { return domain.boundary(set.offset); });
+        const AnyShape open = mask == nullptr ? domain : domain.open_part(*mask);
+        return at_option("boundary", [&] { return open.boundary(set.offset); });
       });
     case Kind::circle:
       return BallSource{
@@ -209,10 +210,11 @@ std::vector<SetArgument> parse_source_sets(const std::vector<std::string>& texts
 }
 
 std::vector<Source> locate_source_sets(const AnyShape& domain,
-                                       std::span<const SetArgument> arguments, bool measured) {
+                                       std::span<const SetArgument> arguments, bool measured,
+                                       const Mask* mask) {
   std::vector<Source> sources;
   for (const SetArgument& argument : arguments) {
-    sources.push_back(locate(domain, argument));
+    sources.push_back(locate(domain, argument, mask));
     if (auto* const set = std::get_if<VertexSource>(&sources.back());
         set != nullptr && measured && argument.kind == SetArgument::Kind::boundary)
       *set = rim_of(*set);

@@ -34,9 +34,10 @@ std::vector<SetArgument> parse_source_sets(const std::vector<std::string>& texts
 /// The sources in `domain`. Points of segments and polylines are joined by shortest paths. Throws
 /// InputError for what the domain or a file has not, UsageError for what the kind of domain cannot
 /// start from. `measured`: by a metric, so boundaries of solids are their vertices alone.
+/// Boundaries are those of what a mask leaves open; it may be null.
 std::vector<Source> locate_source_sets(const AnyShape& domain,
                                        std::span<const SetArgument> arguments,
-                                       bool measured = false);
+                                       bool measured = false, const Mask* mask = nullptr);
 
 /// If all of them are points: as points.
 std::vector<PointSource> as_points(std::span<const Source> sources);

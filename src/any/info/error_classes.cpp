@@ -7,7 +7,7 @@
 #include <map>
 #include <numbers>
 
-#include <plexway/error.hpp>
+#include <plexway/support.hpp>
 
 #include "complex/point3.hpp"
 
@@ -45,9 +45,7 @@ constexpr double least_slope = 0.9;  // fronts meet where the exact distance ris
 
 ErrorClasses::ErrorClasses(const AnyShape& domain)
     : domain_(domain), solid_(domain.kind() == DomainKind::solid) {
-  if (!solid_ && domain.kind() != DomainKind::surface)
-    throw UsageError("--anatomy splits the errors of surfaces and solids, not those of a " +
-                     std::string(kind_noun(domain.kind())));
+  support(Purpose::error_classes, domain.kind()).require();
   const auto points = domain.positions();
   const std::size_t vertices = domain.vertices(), corners = solid_ ? 4 : 3;
   shape_.assign(vertices, 0);

@@ -37,6 +37,9 @@ InfoReport info_of(const AnyShape& domain, const CloudShape& cloud);
 InfoReport info_of(const AnyShape& domain, const SimplexShape& simplices);
 InfoReport info_of(const AnyShape& domain, const MixedShape& mixed);
 
+/// Executors and devices that can run solves here.
+InfoReport info_of_devices();
+
 // Pieces that several kinds have.
 
 Json to_json(const Bounds& box);

@@ -1,9 +1,6 @@
 #include <CLI/CLI.hpp>
-#include <algorithm>
-#include <cmath>
 #include <memory>
 #include <optional>
-#include <random>
 #include <string>
 #include <vector>
 
@@ -11,10 +8,12 @@
 #include <plexway/error.hpp>
 
 #include "any/arguments/point_argument.hpp"
-#include "any/errors/edge_dijkstra.hpp"
+#include "any/arguments/require.hpp"
+#include "any/errors/race.hpp"
 #include "any/errors/truth_file.hpp"
 #include "any/info/error_classes.hpp"
 #include "any/info/report.hpp"
+#include "any/info/solve_words.hpp"
 #include "cli/commands/commands.hpp"
 #include "cli/options/input.hpp"
 #include "cli/options/solve_options.hpp"
@@ -35,86 +34,20 @@ struct BenchCommand : InputCommand {
   bool anatomy = false;
 };
 
-// Times of single runs, in ns a vertex.
-struct Times {
-  std::vector<double> plexway, dijkstra;
-};
-
 struct Result {
   double build = 0, dijkstra_build = 0;
   bool has_dijkstra = false;
   Executor executor;
   std::size_t sources = 0;
-  Times times;
+  RaceTimes times;
   ErrorGauge errors;
 };
-
-double median(std::vector<double> values) {
-  if (values.empty()) return std::nan("");
-  std::sort(values.begin(), values.end());
-  const std::size_t half = values.size() / 2;
-  return values.size() % 2 == 1 ? values[half] : (values[half - 1] + values[half]) / 2;
-}
-
-// A graph search starts at a vertex: for a point of a simplex at the nearest corner, nearly.
-Index vertex_near(const Domain& domain, const PointSource& source) {
-  if (source.vertex != none) return source.vertex;
-  const auto& weight = source.barycentric;
-  const auto corner = std::max_element(weight.begin(), weight.end()) - weight.begin();
-  return domain.corners(source.simplex)[static_cast<std::size_t>(corner)];
-}
-
-// `count` vertices that a path from the first source leads to: times of empty fields mean nothing.
-void add_random_sources(std::vector<PointSource>& sources, std::size_t count,
-                        const std::vector<double>& distance_from_first) {
-  std::vector<Index> reached;
-  for (std::size_t v = 0; v < distance_from_first.size(); ++v) {
-    if (std::isfinite(distance_from_first[v])) reached.push_back(static_cast<Index>(v));
-  }
-  if (reached.empty()) return;
-  std::mt19937_64 random(20210712);
-  for (std::size_t i = 0; i < count; ++i)
-    sources.push_back(PointSource::at(reached[random() % reached.size()]));
-}
 
 std::vector<std::vector<double>> read_truths(const BenchCommand& command, const Domain& domain) {
   std::vector<std::vector<double>> truths;
   for (const std::string& file : command.truths)
     truths.push_back(read_truth(file, domain.vertices()));
   return truths;
-}
-
-std::size_t field_bytes(const AnyField& field) {
-  return std::visit(
-      [](const auto& f) {
-        return f.distance.capacity() * sizeof(f.distance[0]) + f.label.capacity() * sizeof(Index) +
-               f.error.capacity() * sizeof(f.error[0]);
-      },
-      field.data);
-}
-
-// Every source in turn, the two solvers in turn: one source again and again would train the branch
-// predictor, and blocks of one solver would see another clock than blocks of the other.
-Times measure(const BenchCommand& command, const AnyDomain& solver, AnyField& field,
-              EdgeDijkstra* dijkstra, const std::vector<PointSource>& sources,
-              const PropagateOptions& options, const Executor& executor, ProgressLine& progress) {
-  const Domain& domain = solver.shape();
-  Times times;
-  const double to_ns_a_vertex = 1e9 / static_cast<double>(domain.vertices());
-  for (std::size_t repeat = 0; repeat < command.repeats; ++repeat) {
-    const PointSource& source = sources[repeat % sources.size()];
-    if (dijkstra != nullptr) {
-      const Index start = vertex_near(domain, source);
-      const Stopwatch running;
-      dijkstra->run(start);
-      times.dijkstra.push_back(running.seconds() * to_ns_a_vertex);
-    }
-    const Stopwatch solving;
-    solver.solve(executor, source, options, field);
-    times.plexway.push_back(solving.seconds() * to_ns_a_vertex);
-    progress.done(static_cast<double>(repeat + 1) / static_cast<double>(command.repeats));
-  }
-  return times;
 }
 
 Json to_json(const BenchCommand& command, const AnyDomain& solver, const AnyField& field,
@@ -131,8 +64,7 @@ Json to_json(const BenchCommand& command, const AnyDomain& solver, const AnyFiel
   json["executor"] = executor_name(result.executor);
   json["threads"] = executor_threads(result.executor);
   json["visibility"] = command.solve.visibility;
-  if (domain.kind() == DomainKind::surface || domain.cloud() != nullptr)
-    json["accuracy"] = json_of(field.accuracy());
+  if (has_accuracies(domain.kind())) json["accuracy"] = json_of(field.accuracy());
   if (domain.kind() == DomainKind::surface) {
     json["triangulation"] = name_of(field.triangulation);
     json["flips"] = field.triangulation.flips;
@@ -147,8 +79,8 @@ Json to_json(const BenchCommand& command, const AnyDomain& solver, const AnyFiel
     json["seconds"]["triangulation"] = field.triangulation.seconds;
   json["seconds"]["dijkstra_build"] =
       result.has_dijkstra ? Json(result.dijkstra_build) : Json(nullptr);
-  json["bytes_per_vertex"] = static_cast<double>(solver.bytes() + field_bytes(field)) /
-                             static_cast<double>(domain.vertices());
+  json["bytes_per_vertex"] =
+      static_cast<double>(solver.bytes() + field.bytes()) / static_cast<double>(domain.vertices());
   json["ns_per_vertex"] = json_number(ns);
   json["dijkstra_ns_per_vertex"] = json_number(dijkstra_ns);
   json["ratio"] = json_number(ns / dijkstra_ns);
@@ -193,6 +125,7 @@ void run_bench(const BenchCommand& command) {
   if (command.anatomy && truths.empty())
     throw UsageError("--anatomy splits errors: give the exact distances with --truth");
   std::optional<ErrorClasses> anatomy;
+  if (command.anatomy) require("--anatomy", support(Purpose::error_classes, domain.kind()));
   if (command.anatomy) anatomy.emplace(domain);
 
   progress.phase("building");
@@ -223,8 +156,8 @@ void run_bench(const BenchCommand& command) {
   result.sources = sources.size();
 
   progress.phase("measuring");
-  result.times =
-      measure(command, solver, field, dijkstra.get(), sources, options, result.executor, progress);
+  result.times = race(solver, field, dijkstra.get(), sources, result.executor, options,
+                      command.repeats, [&](double share) { progress.done(share); });
   progress.clear();
 
   Json json = to_json(command, solver, field, result);

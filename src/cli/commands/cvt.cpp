@@ -11,6 +11,7 @@
 #include <plexway/io/field.hpp>
 #include <plexway/solve.hpp>
 
+#include "any/arguments/require.hpp"
 #include "any/point_file.hpp"
 #include "cli/commands/commands.hpp"
 #include "cli/commands/sampling_command.hpp"
@@ -88,9 +89,7 @@ void run_cvt(const CvtCommand& command) {
   Phases phases;
   const Domain domain = load_domain(command, progress);
   phases.end("load");
-  const auto* surface = std::get_if<io::Triangles>(&domain.data());
-  if (!command.dual.empty() && surface == nullptr)
-    throw UsageError("--dual: only a surface has a dual triangulation here");
+  if (!command.dual.empty()) require("--dual", support(Purpose::duals, domain.kind()));
   Result result;
   with_sampled(domain, precision,
                [&](const auto& complex) { result = compute(complex, command, progress, phases); });
@@ -112,7 +111,8 @@ void run_cvt(const CvtCommand& command) {
   }
   DualTriangulation dual;
   if (!command.dual.empty()) {
-    dual = dual_triangulation(surface->triangles, result.label, voronoi.seeds.size());
+    const auto& surface = std::get<io::Triangles>(domain.data());
+    dual = dual_triangulation(surface.triangles, result.label, voronoi.seeds.size());
     std::vector<std::array<double, 3>> points;
     for (const PointSource& seed : voronoi.seeds) points.push_back(domain.position(seed));
     write_surface(command.dual, points, dual.triangles);

@@ -7,7 +7,6 @@
 #include <string>
 #include <vector>
 
-#include <plexway/any/isolines.hpp>
 #include <plexway/any_domain.hpp>
 #include <plexway/complex/point_cloud.hpp>
 #include <plexway/error.hpp>
@@ -17,7 +16,10 @@
 #include "any/cloud_words.hpp"
 #include "any/field_remarks.hpp"
 #include "any/fill.hpp"
-#include "any/info/report.hpp"
+#include "any/info/rank_counts.hpp"
+#include "any/info/solve_words.hpp"
+#include "any/inside_field.hpp"
+#include "any/level_set_file.hpp"
 #include "any/partitioned_field.hpp"
 #include "any/shape_state.hpp"
 #include "cli/among.hpp"
@@ -33,7 +35,6 @@
 #include "cli/report/console.hpp"
 #include "cli/report/distance_output.hpp"
 #include "cli/report/progress.hpp"
-#include "cli/report/rank_counts.hpp"
 #include "io/field_part.hpp"
 
 namespace plexway::cli {
@@ -61,12 +62,6 @@ struct Outcome : FieldReach {
   Executor executor = {};
   RankCounts ranks = {};
 };
-
-std::string executor_text(const Executor& executor) {
-  const std::size_t threads = executor_threads(executor);
-  return std::string(executor_name(executor)) +
-         (threads > 1 ? " with " + counted(threads, "threads") : "");
-}
 
 Json to_json(const DistanceCommand& command, const Domain& domain, const AnyDomain& solver,
              const AnyField& field, const MeasuredLengths* lengths, const Outcome& outcome) {
@@ -103,8 +98,7 @@ Json to_json(const DistanceCommand& command, const Domain& domain, const AnyDoma
   json["executor"] = executor_name(outcome.executor);
   json["threads"] = executor_threads(outcome.executor);
   json["precision"] = command.solve.precision == "float" ? "float" : "double";
-  if (domain.kind() == DomainKind::surface || domain.cloud() != nullptr)
-    add_accuracy(field.accuracy(), field.statistics(), json);
+  add_accuracy(domain.kind(), field.accuracy(), field.statistics(), json);
   if (domain.kind() == DomainKind::surface) json["triangulation"] = name_of(field.triangulation);
   add_metric(command.metric, lengths, solver.refracting_edges(), json);
   if (!domain.level_set_note().empty()) json["voxels"] = domain.level_set_note();
@@ -158,10 +152,8 @@ Table to_table(const DistanceCommand& command, const Domain& domain, const AnyDo
   if (domain.neighbour_seconds()) mesh = ", neighbours " + short_time(*domain.neighbour_seconds());
   table.add("time", "load " + short_time(domain.load_seconds()) + mesh + ", build " +
                         short_time(outcome.build) + ", solve " + short_time(outcome.solve) + " (" +
-                        executor_text(outcome.executor) + ", " +
-                        (domain.kind() == DomainKind::surface || domain.cloud() != nullptr
-                             ? name_of(field.accuracy()) + ", "
-                             : std::string()) +
+                        describe(outcome.executor) + ", " +
+                        (has_accuracies(domain.kind()) ? name_of(field.accuracy()) + ", " : "") +
                         command.solve.precision + ")");
   add_written(table,
               {command.out, command.isolines.out, command.picture.file, command.picture.html});
@@ -172,70 +164,8 @@ Table to_table(const DistanceCommand& command, const Domain& domain, const AnyDo
 void note_choices(const AnyDomain& solver, const AnyField& field, const Executor& executor,
                   bool accuracy_given) {
   note_accuracy(field.statistics());
-  const DomainKind kind = solver.shape().kind();
-  if (std::holds_alternative<GL>(executor) && !accuracy_given &&
-      (kind == DomainKind::surface || kind == DomainKind::cloud))
+  if (std::holds_alternative<GL>(executor) && !accuracy_given && has_accuracies(solver.kind()))
     say_note("--executor gl knows --accuracy fast only; serial is more accurate");
-}
-
-// Also where there is one source only.
-std::vector<std::int32_t> labels_of(const AnyField& field, const std::vector<double>& distance) {
-  std::vector<std::int32_t> label = field.file_label();
-  if (label.empty())
-    for (const double d : distance) label.push_back(std::isfinite(d) ? 0 : -1);
-  return label;
-}
-
-struct Extent {
-  double diagonal = 0;  ///< of the box around the shape
-  bool flat = false;
-};
-
-Extent extent_of(const Domain& domain) {
-  std::array<double, 3> low = domain.positions()[0], high = low;
-  for (const auto& p : domain.positions())
-    for (std::size_t k = 0; k < 3; ++k) {
-      low[k] = std::min(low[k], p[k]);
-      high[k] = std::max(high[k], p[k]);
-    }
-  const std::array<double, 3> size = {high[0] - low[0], high[1] - low[1], high[2] - low[2]};
-  const double diagonal = std::hypot(size[0], size[1], size[2]);
-  return {diagonal, *std::min_element(size.begin(), size.end()) < 1e-3 * diagonal};
-}
-
-// About a pixel of a picture, in the shape's unit.
-double a_pixel_of(const Domain& domain) { return extent_of(domain).diagonal / 600; }
-
-// Triangles are large enough in a picture to see that lines bend in them. Where the surface bends,
-// too, smaller triangles in the same planes would show as facets.
-bool fine_in_picture(const AnyDomain& domain) {
-  return domain.mean_edge() > 4 * a_pixel_of(domain.shape()) && extent_of(domain.shape()).flat;
-}
-
-// Whether something is drawn that asks for the field inside of triangles, and it can be known: from
-// points, without a device, on a surface that lies in space as it is measured.
-bool knows_inside(const DistanceCommand& command, const AnyDomain& domain,
-                  const std::vector<PointSource>& points, const Executor& executor) {
-  if (domain.kind() != DomainKind::surface || domain.shape().positions().empty() ||
-      points.empty() || std::holds_alternative<GL>(executor) || domain.refracting_edges() > 0 ||
-      !command.metric.text.empty() || command.solve.radius || command.solve.max_expansions)
-    return false;
-  return !command.isolines.out.empty() ||
-         (!command.picture.file.empty() && fine_in_picture(domain));
-}
-
-// All write their part; then one writes the file that names them.
-void write_in_parts(const Among& among, const Domain& domain, const std::string& out,
-                    std::span<const double> distance, std::span<const std::int32_t> label,
-                    std::span<const double> error) {
-  PartitionedField parts(domain, out, distance, label, error, among.pieces.rank(),
-                         among.pieces.count());
-  among.all_come();
-  if (among.ranks.leads()) parts.remove_whole();
-  among.all_come();
-  parts.put_part();
-  among.all_come();
-  if (among.ranks.leads()) parts.write_whole();
 }
 
 void run_distance(DistanceCommand command) {
@@ -269,15 +199,10 @@ void run_distance(DistanceCommand command) {
   if (domain.cloud() == nullptr && command.out != "-" && !command.in_parts())
     check_output_name(command.out, command.input, AnyShape::field_extensions(domain.kind()));
   check_isolines(command.isolines, domain);
-  const std::vector<Source> sources =
-      locate_source_sets(domain, arguments, !command.metric.text.empty());
   const std::shared_ptr<const Mask> mask = read_mask(command.mask, domain);
+  const std::vector<Source> sources =
+      locate_source_sets(domain, arguments, !command.metric.text.empty(), mask.get());
   require_open(mask.get(), domain, sources);
-  if (mask != nullptr && domain.kind() == DomainKind::solid)
-    // Its distances were measured in the whole domain.
-    for (const SetArgument& argument : arguments)
-      if (argument.kind == SetArgument::Kind::boundary)
-        throw UsageError("--mask: the boundary of a solid is a source of the whole solid alone");
   const std::vector<PointSource> points = as_points(sources);
   if (have_shapes(domain, sources)) {
     if (triangulation == Triangulation::automatic) triangulation = Triangulation::input;
@@ -285,7 +210,8 @@ void run_distance(DistanceCommand command) {
     // Labels start from them in double precision, and go where paths are refracted.
     const bool by_labels =
         wanted.accuracy.kind() == Accuracy::Kind::fast || !command.metric.text.empty();
-    if (by_labels && precision == Precision::single && !command.solve.precision_given) {
+    if (by_labels && precision == Precision::single && !command.solve.precision_given &&
+        command.solve.executor.name != "gl") {
       precision = Precision::twice;
       command.solve.precision = "double, which labels of lines need";
     }
@@ -315,7 +241,9 @@ void run_distance(DistanceCommand command) {
   }
   // What draws arcs asks the field inside of triangles, too.
   std::optional<AnyPathField> paths;
-  if (mask == nullptr && knows_inside(command, solver, points, executor))
+  const bool draws_inside = !command.isolines.out.empty() || !command.picture.file.empty();
+  if (draws_inside && !points.empty() && is_known_inside(solver, executor, points, options) &&
+      (!command.isolines.out.empty() || shows_inside(solver)))
     paths.emplace(solver.path_field(executor, points, options));
   const AnyField field =
       paths ? paths->field()
@@ -334,12 +262,14 @@ void run_distance(DistanceCommand command) {
   const bool shown_open =
       mask != nullptr &&
       (!command.out.empty() || !command.isolines.out.empty() || command.picture.wanted());
-  const Domain shown = shown_open ? open_shape(*mask, domain) : domain;
+  const Domain shown = shown_open ? domain.open_part(*mask) : domain;
   const bool plain = command.out == "-";
   const std::vector<double> isovalues = isoline_values(command.isolines, distance);
   if (command.in_parts()) {
     progress.phase("writing " + command.out);
-    write_in_parts(*command.among, shown, command.out, distance, field.file_label(), field.error());
+    write_partitioned(
+        shown, command.out, distance, field.file_label(), field.error(),
+        {command.among->pieces.rank(), command.among->pieces.count(), command.among->all_come});
   } else if (!command.out.empty() && command.leads()) {
     progress.phase("writing " + (plain ? "the distances" : command.out));
     const std::vector<std::int32_t> label = field.file_label();
@@ -356,19 +286,19 @@ void run_distance(DistanceCommand command) {
   }
   if (!command.isolines.out.empty() && command.leads()) {
     progress.phase("writing " + command.isolines.out);
-    write_isolines(command.isolines, shown, solver, field, paths ? &*paths : nullptr, isovalues);
+    write_level_sets(command.isolines.out, shown, solver, field, paths ? &*paths : nullptr,
+                     isovalues, 1e-3 * *command.isolines.step);  // which no eye sees
   }
   if (command.picture.wanted() && command.leads()) {
     progress.phase("drawing " + command.picture.file);
     SceneContent content;
     content.distance = distance;
     const bool cells = command.picture.colour == "cells";
-    const std::vector<std::int32_t> label =
-        cells ? labels_of(field, distance) : std::vector<std::int32_t>();
+    const std::vector<std::int32_t> label = cells ? field.nearest() : std::vector<std::int32_t>();
     content.label = label;
     std::optional<FineField> fine;
-    if (paths && !cells && fine_in_picture(solver)) {
-      fine = fine_field(domain, *paths, a_pixel_of(domain) / 4);
+    if (paths && !cells && shows_inside(solver)) {
+      fine = field_for_picture(domain, *paths);
       content.fine = &*fine;
     }
     for (const Source& source : sources) content.mark(domain, source);

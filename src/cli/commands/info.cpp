@@ -10,7 +10,6 @@
 #include "cli/commands/commands.hpp"
 #include "cli/options/input.hpp"
 #include "cli/report/console.hpp"
-#include "cli/report/info_devices.hpp"
 #include "cli/report/progress.hpp"
 
 namespace plexway::cli {

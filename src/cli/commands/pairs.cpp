@@ -8,6 +8,7 @@
 #include <plexway/error.hpp>
 
 #include "any/arguments/point_argument.hpp"
+#include "any/info/solve_words.hpp"
 #include "any/point_file.hpp"
 #include "cli/among.hpp"
 #include "cli/commands/commands.hpp"
@@ -74,8 +75,7 @@ void run_pairs(const PairsCommand& pairs) {
   progress.clear();
 
   PointSummary summary(command, domain, points.size());
-  if (domain.kind() == DomainKind::surface || domain.cloud() != nullptr)
-    add_accuracy(matrix.accuracy, matrix.statistics, summary.json);
+  add_accuracy(domain.kind(), matrix.accuracy, matrix.statistics, summary.json);
   summary.json["asymmetry"] = matrix.asymmetry;
   summary.table.add("two ways",
                     "differ by " + short_number(matrix.asymmetry) + " of the shorter at most");

@@ -16,6 +16,7 @@
 #include <plexway/io/sparse_file.hpp>
 
 #include "any/arguments/point_list.hpp"
+#include "any/arguments/require.hpp"
 #include "any/hdf5_functions.hpp"
 #include "any/info/report.hpp"
 #include "any/kept_build.hpp"
@@ -82,11 +83,8 @@ void check_names(const MatrixCommand& command) {
 Executor executor_of(const MatrixCommand& command) {
   const ExecutorArgument& argument = command.solve.executor;
   if (argument.name == "gl") {
-    if (precision_of(command.solve) == Precision::twice)
-      throw UsageError("--executor gl computes in single precision: use --precision float");
     if (command.radius || command.nearest)
-      throw UsageError(
-          "--executor gl: --radius and --nearest are looked for by threads; choose openmp");
+      require("--executor gl", support(Purpose::rows, DomainKind::surface, ExecutorKind::gl));
     return GL{.device = argument.device.value_or(-1)};
   }
   if (argument.name == "serial" || !openmp_built()) return Serial{};

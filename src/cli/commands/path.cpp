@@ -7,19 +7,17 @@
 #include <span>
 #include <string>
 #include <string_view>
-#include <type_traits>
 #include <utility>
 #include <vector>
 
-#include <plexway/any/complex.hpp>
+#include <plexway/any/search.hpp>
 #include <plexway/any_domain.hpp>
-#include <plexway/apps/path_search.hpp>
 #include <plexway/error.hpp>
 #include <plexway/io/paths.hpp>
 
 #include "any/arguments/point_argument.hpp"
 #include "any/arguments/require.hpp"
-#include "any/info/report.hpp"
+#include "any/info/solve_words.hpp"
 #include "any/shape_state.hpp"
 #include "cli/commands/commands.hpp"
 #include "cli/exit_codes.hpp"
@@ -47,7 +45,6 @@ struct PathCommand : InputCommand {
   MetricArgument metric;
   TriangulationArgument triangulation;
   bool astar = false;
-  bool margin_given = false;
 };
 
 // Points as they were asked for, and where that is in the domain.
@@ -67,53 +64,21 @@ struct Outcome {
   double build = 0, solve = 0, trace = 0;
 };
 
-// Without looking at all of the surface.
-template <class Real>
-void search(const TriangleMesh<Real>& mesh, const Domain& domain, const PathCommand& command,
-            const std::vector<PointSource>& sources, const std::vector<PointSource>& targets,
-            ProgressLine& progress, Outcome& outcome) {
-  // Under a metric a straight line in space is no lower bound.
-  PathSearch<Real> search = command.metric.text.empty() ? PathSearch<Real>(mesh, domain.positions())
-                                                        : PathSearch<Real>(mesh);
-  progress.phase("searching");
-  SearchOptions options;
-  options.progress = progress.callback();
-  options.trace = command.trace;
-  SearchResult found = search.find(Serial{}, sources, targets, options);
-  outcome.paths = std::move(found.paths);
-  outcome.promised = std::move(found.distance);
-  outcome.statistics = found.statistics;
-}
-
-Outcome find_paths(const Domain& domain, const BuildOptions& building, const PathCommand& command,
-                   const std::vector<PointSource>& sources, const std::vector<PointSource>& targets,
-                   PropagateOptions options, ProgressLine& progress) {
+Outcome run_paths(const Domain& domain, const BuildOptions& building, const PathCommand& command,
+                  const std::vector<PointSource>& sources, const std::vector<PointSource>& targets,
+                  PropagateOptions options, ProgressLine& progress) {
   Outcome outcome;
   progress.phase("building");
   const AnyDomain built(domain, building);
   outcome.build = built.build_seconds();
   const Stopwatch solving;
   if (command.astar) {
-    const OpenSimplices* const open = built.open_simplices();
-    const auto inside = [&](std::vector<PointSource> points) {
-      for (PointSource& point : points)
-        if (open != nullptr) point = open->inside(point);
-      return points;
-    };
-    with_complex(built, [&](const auto& complex) {
-      if constexpr (std::decay_t<decltype(complex)>::kind == DomainKind::surface)
-        search(complex, domain, command, inside(sources), inside(targets), progress, outcome);
-    });
-    if (open != nullptr)
-      for (Path& path : outcome.paths)
-        for (PathPoint& at : path.points) at.simplex = open->outside(at.simplex);
-    // Under a metric the search knows no positions.
-    for (Path& path : outcome.paths) {
-      if (command.metric.text.empty()) break;
-      for (const PathPoint& at : path.points)
-        path.positions.push_back(
-            domain.position({.simplex = at.simplex, .barycentric = at.barycentric}));
-    }
+    progress.phase("searching");
+    SearchResult found = find_paths(built, sources, targets,
+                                    {.trace = command.trace, .progress = progress.callback()});
+    outcome.paths = std::move(found.paths);
+    outcome.promised = std::move(found.distance);
+    outcome.statistics = found.statistics;
     outcome.solve = solving.seconds();
     return outcome;
   }
@@ -132,7 +97,7 @@ Outcome find_paths(const Domain& domain, const BuildOptions& building, const Pat
   for (const PointSource& target : targets) {
     outcome.paths.push_back(field.trace(target, command.trace));
     const bool by_paths = built.kind() == DomainKind::mixed ||
-                          (building.lengths != nullptr && building.lengths->refracts);
+                          (built.lengths() != nullptr && built.lengths()->refracts);
     const ReadOut level =
         outcome.accuracy == Accuracy::fast() && !by_paths ? ReadOut::linear : ReadOut::neighbours;
     outcome.promised.push_back(target.vertex == none ? field.at(target, level)
@@ -197,8 +162,7 @@ void report(const PathCommand& command, const Domain& domain, const Outcome& out
                             short_number(path.length) + ", " + counted(path.points.size(), "points")
                       : place(to, k) + " is not reached");
   }
-  if (domain.kind() == DomainKind::surface || domain.cloud() != nullptr)
-    add_accuracy(outcome.accuracy, outcome.statistics, json);
+  add_accuracy(domain.kind(), outcome.accuracy, outcome.statistics, json);
   if (!command.metric.text.empty()) json["metric"] = command.metric.text;
   json["seconds"]["load"] = domain.load_seconds();
   if (domain.mesh_seconds()) json["seconds"]["mesh"] = *domain.mesh_seconds();
@@ -263,7 +227,7 @@ void run_path(const PathCommand& typed) {
   const std::vector<SourceArgument> from = parse_sources(command.from, "from");
   const std::vector<SourceArgument> to = parse_sources(command.to, "to");
   check_output_name(command.out, command.input, io::path_extensions());
-  if (!(command.trace.margin >= 0 && command.trace.margin < 1))
+  if (const auto margin = command.trace.margin; margin && !(*margin >= 0 && *margin < 1))
     throw UsageError("--margin must be >= 0 and < 1");
   if (command.astar && options.accuracy != Accuracy::usual() &&
       options.accuracy != Accuracy::fast())
@@ -296,9 +260,7 @@ void run_path(const PathCommand& typed) {
                                         .single_precision = precision == Precision::single,
                                         .visibility = options.visibility}));
   check_triangulation(triangulation, domain);
-  if (command.margin_given && domain.kind() != DomainKind::surface && domain.cloud() == nullptr)
-    throw UsageError("--margin: for surfaces and clouds, not a " +
-                     std::string(kind_noun(domain.kind())));
+  if (command.trace.margin) require("--margin", support(Purpose::margins, domain.kind()));
   const std::vector<PointSource> sources = locate_sources(domain, from);
   const std::vector<PointSource> targets = locate_sources(domain, to);
   if (!command.metric.text.empty()) progress.phase("reading the metric");
@@ -308,14 +270,14 @@ void run_path(const PathCommand& typed) {
   require_open(mask.get(), domain, sources);
   require_open(mask.get(), domain, targets);
   Outcome outcome =
-      find_paths(domain,
-                 {.precision = precision,
-                  .triangulation = command.astar ? Triangulation::input : triangulation,
-                  .lengths = lengths,
-                  .mask = mask,
-                  .threads = command.solve.executor.threads.value_or(0),
-                  .progress = progress.share_callback()},
-                 command, sources, targets, options, progress);
+      run_paths(domain,
+                {.precision = precision,
+                 .triangulation = command.astar ? Triangulation::input : triangulation,
+                 .lengths = lengths,
+                 .mask = mask,
+                 .threads = command.solve.executor.threads.value_or(0),
+                 .progress = progress.share_callback()},
+                command, sources, targets, options, progress);
   if (!command.out.empty()) {
     progress.phase("writing " + command.out);
     io::write_paths(command.out, outcome.paths);
@@ -330,8 +292,7 @@ void run_path(const PathCommand& typed) {
       for (const PointSource& source : sources) content.sources.push_back(domain.position(source));
       for (const PointSource& target : targets) content.targets.push_back(domain.position(target));
     }
-    write_picture(command.picture, mask ? open_shape(*mask, domain) : domain, content,
-                  command.quiet);
+    write_picture(command.picture, mask ? domain.open_part(*mask) : domain, content, command.quiet);
   }
   progress.clear();
   Json json;
@@ -379,7 +340,6 @@ void add_path_command(CLI::App& tool, Action& action) {
          "--margin", command->trace.margin,
          "surfaces and clouds: the path is the shortest of all where distances are too long\n"
          "by no more than this share (default 0.003); 0 is quicker, and locally shortest")
-      ->each([command](const std::string&) { command->margin_given = true; })
       ->type_name("X");
   add_solve_options(app, command->solve, false);
   add_triangulation_option(app, command->triangulation);

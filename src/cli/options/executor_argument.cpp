@@ -8,32 +8,19 @@
 #include <plexway/support.hpp>
 
 #include "any/fastest_executor.hpp"
+#include "any/info/solve_words.hpp"
 
 namespace plexway::cli {
 namespace {
 
 constexpr std::array<std::string_view, 4> names = {"serial", "openmp", "gl", "auto"};
-#ifdef PLEXWAY_HAS_GL
-constexpr bool gl_built = true;
-#else
-constexpr bool gl_built = false;
-#endif
+
+bool is_built(const std::string& name) {
+  const auto built = built_executors();
+  return name == "auto" || std::find(built.begin(), built.end(), name) != built.end();
+}
 
 }  // namespace
-
-std::string_view executor_name(const Executor& executor) { return names[executor.index()]; }
-
-std::size_t executor_threads(const Executor& executor) {
-  const OpenMP* const team = std::get_if<OpenMP>(&executor);
-  return team == nullptr ? 1 : team_size(*team);
-}
-
-std::vector<std::string_view> built_executors() {
-  std::vector<std::string_view> built = {"serial"};
-  if (openmp_built()) built.push_back("openmp");
-  if (gl_built) built.push_back("gl");
-  return built;
-}
 
 void add_executor_options(CLI::App& command, ExecutorArgument& argument, const std::string& group) {
   command
@@ -57,11 +44,12 @@ void add_executor_options(CLI::App& command, ExecutorArgument& argument, const s
       ->group(group);
 }
 
-void check_executor(const ExecutorArgument& argument, const PropagateOptions& options) {
+void check_executor(const ExecutorArgument& argument, const PropagateOptions& options,
+                    bool single_precision) {
   const std::string& name = argument.name;
   if (std::find(names.begin(), names.end(), name) == names.end())
     throw UsageError("--executor '" + name + "': choose one of serial, openmp, gl, auto");
-  if ((name == "gl" && !gl_built) || (name == "openmp" && !openmp_built()))
+  if (!is_built(name))
     throw NotBuiltError("--executor " + name + ": not built in; see 'plexway info --devices'");
   if (argument.device && name != "gl") throw UsageError("--device needs --executor gl");
   if (name != "openmp" && name != "gl") return;
@@ -70,7 +58,7 @@ void check_executor(const ExecutorArgument& argument, const PropagateOptions& op
       support({.executor = name == "gl" ? ExecutorKind::gl : ExecutorKind::openmp,
                .domain = DomainKind::surface,
                .dimension = 2,
-               .single_precision = true,
+               .single_precision = single_precision,
                .visibility = options.visibility,
                .schedule = options.schedule,
                .accuracy = options.accuracy.kind()})
@@ -82,17 +70,15 @@ void check_executor(const ExecutorArgument& argument, const PropagateOptions& op
     throw UsageError("--executor gl knows --visibility saddles only");
   if (refusal == Refusal::windows_gl)
     throw UsageError("--executor " + name + " knows --accuracy fast only");
+  if (refusal == Refusal::gl_double)
+    throw UsageError("--executor gl computes in single precision: use --precision float");
 }
 
 Executor choose_executor(const ExecutorArgument& argument, const PropagateOptions& options,
                          const AnyDomain& domain, std::size_t sources) {
   const OpenMP team{.threads = argument.threads.value_or(0)};
   if (argument.name == "openmp") return team;
-  if (argument.name == "gl") {
-    if (domain.precision() == Precision::twice)
-      throw UsageError("--executor gl computes in single precision: use --precision float");
-    return GL{.device = argument.device.value_or(-1)};
-  }
+  if (argument.name == "gl") return GL{.device = argument.device.value_or(-1)};
   return argument.name == "auto" ? fastest_executor(domain, sources, options, team) : Serial{};
 }
 

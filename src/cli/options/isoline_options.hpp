@@ -33,11 +33,4 @@ void check_isolines(const IsolineOptions& options, const Domain& domain);
 /// Throws UsageError for more than 10000, and for none where the file cannot be empty.
 std::vector<double> isoline_values(const IsolineOptions& options, std::span<const double> distance);
 
-/// Lines at these values on `shown`, which is the shape of `domain` or what of it is open; arcs
-/// where `paths` knows the field inside of triangles (else null); in a solid triangles. Throws as
-/// io::write_paths and io::write_triangles.
-void write_isolines(const IsolineOptions& options, const Domain& shown, const AnyDomain& domain,
-                    const AnyField& field, const AnyPathField* paths,
-                    std::span<const double> values);
-
 }  // namespace plexway::cli

@@ -10,9 +10,9 @@ void add_metric_option(CLI::App& command, MetricArgument& argument) {
   command
       .add_option(
           "--metric", argument.text,
-          "what a step costs: speed:FILE (a number a simplex), regions:FILE (a region of the\n"
-          "INPUT and its speed a line; solids, mixed), tensor:FILE (xx xy xz yy\n"
-          "yz zz a simplex; xx xy yy in the plane), vertex-tensor:FILE (a vertex) or\n"
+          "what a step costs: speed:FILE (a number a simplex), regions:FILE (a region of a\n"
+          ".msh, .vtu or .vtk and its speed a line), tensor:FILE (xx xy xz yy yz zz a simplex;\n"
+          "xx xy yy in the plane), vertex-tensor:FILE (a vertex) or\n"
           "lengths:FILE (vertex vertex length an edge); default: lengths in space")
       ->type_name("KIND:FILE")
       ->group("How to solve");

@@ -11,6 +11,7 @@
 #include <plexway/render/picture.hpp>
 #endif
 
+#include "any/arguments/require.hpp"
 #include "any/shape_page.hpp"
 #include "any/up_axis.hpp"
 #include "cli/report/console.hpp"
@@ -256,8 +257,8 @@ void write_picture(const PictureArguments& arguments, const Domain& domain,
   options.up = arguments.up_of(domain);
   if (domain.positions().empty())
     throw UsageError("--picture: " + domain.file().string() + " has no positions to draw");
-  if (!options.isosurfaces.empty() && domain.kind() != DomainKind::solid)
-    throw UsageError("--isosurfaces: for solids, not a " + std::string(kind_noun(domain.kind())));
+  if (!options.isosurfaces.empty())
+    require("--isosurfaces", support(Purpose::isosurfaces, domain.kind()));
   SceneContent shown = content;
   shown.look_inside = content.look_inside && !options.clip;
   const ShapeScene scene(domain, shown);

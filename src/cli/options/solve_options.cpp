@@ -8,7 +8,10 @@
 #include <utility>
 
 #include <plexway/error.hpp>
+#include <plexway/support.hpp>
 
+#include "any/arguments/require.hpp"
+#include "any/info/solve_words.hpp"
 #include "any/tuning/policy_file.hpp"
 #include "cli/report/console.hpp"
 
@@ -54,34 +57,8 @@ Accuracy accuracy_of(const std::string& typed) {
   return Accuracy(error);
 }
 
-Json json_of(Accuracy accuracy) {
-  if (accuracy == Accuracy::accurate()) return "accurate";
-  switch (accuracy.kind()) {
-    case Accuracy::Kind::fast:
-      return "fast";
-    case Accuracy::Kind::exact:
-      return "exact";
-    default:
-      return accuracy.error();
-  }
-}
-
-std::string name_of(Accuracy accuracy) {
-  const Json json = json_of(accuracy);
-  return json.is_string() ? json.get<std::string>() : short_number(json.get<double>());
-}
-
-void add_accuracy(Accuracy accuracy, const PropagateStatistics& statistics, Json& json) {
-  json["accuracy"] = json_of(accuracy);
-  if (statistics.windows_gave_up > 0) json["windows_gave_up"] = statistics.windows_gave_up;
-}
-
 void note_accuracy(const PropagateStatistics& statistics) {
-  const std::size_t fields = statistics.windows_gave_up;
-  if (fields > 0)
-    say_note("windows became too many to wait for" +
-             (fields > 1 ? " from " + counted(fields, "sources") : std::string()) +
-             ": the distances are those of --accuracy fast; --accuracy exact waits longer");
+  if (const std::string note = accuracy_note(statistics); !note.empty()) say_note(note);
 }
 
 void add_solve_options(CLI::App& command, SolveOptions& options, bool bounded) {
@@ -153,7 +130,7 @@ PropagateOptions propagate_options(const SolveOptions& options) {
     made.radius = *options.radius;
   }
   if (options.max_expansions) made.max_expansions = *options.max_expansions;
-  check_executor(options.executor, made);
+  check_executor(options.executor, made, options.precision != "double");
   return made;
 }
 
@@ -161,9 +138,13 @@ Precision precision_of(const SolveOptions& options) {
   const Precision typed =
       choose<Precision>("--precision", options.precision,
                         {{"float", Precision::single}, {"double", Precision::twice}});
-  if (accuracy_of(options.accuracy).kind() != Accuracy::Kind::exact) return typed;
-  if (options.precision_given && typed == Precision::single)
-    throw UsageError("--precision float: exact distances need double");
+  const Support support = support_of_windows({.executor = ExecutorKind::serial,
+                                              .domain = DomainKind::surface,
+                                              .dimension = 2,
+                                              .single_precision = typed == Precision::single,
+                                              .accuracy = accuracy_of(options.accuracy).kind()});
+  if (support.refusal() != Refusal::windows_float) return typed;
+  if (options.precision_given) require("--precision float", support);
   return Precision::twice;
 }
 

@@ -6,7 +6,6 @@
 #include <plexway/any/field.hpp>
 #include <plexway/propagate/options.hpp>
 
-#include "any/info/report.hpp"
 #include "cli/options/executor_argument.hpp"
 
 namespace CLI {
@@ -36,11 +35,6 @@ void add_solve_options(CLI::App& command, SolveOptions& options, bool bounded);
 void add_accuracy_option(CLI::App& command, std::string& accuracy, const std::string& group);
 /// As typed; the usual one where nothing was. Throws UsageError.
 Accuracy accuracy_of(const std::string& typed);
-/// `fast`, `accurate`, `exact`, or the number.
-std::string name_of(Accuracy accuracy);
-Json json_of(Accuracy accuracy);
-/// The keys `accuracy`, and `windows_gave_up` if they did, in one field or some of several.
-void add_accuracy(Accuracy accuracy, const PropagateStatistics& statistics, Json& json);
 /// A note to who did not choose an accuracy and did not get the usual one.
 void note_accuracy(const PropagateStatistics& statistics);
 

@@ -1,5 +1,3 @@
-#include "cli/report/info_devices.hpp"
-
 #include <algorithm>
 #include <string>
 #include <string_view>
@@ -7,9 +5,10 @@
 
 #include <plexway/error.hpp>
 
-#include "cli/options/executor_argument.hpp"
+#include "any/info/info_report.hpp"
+#include "any/info/solve_words.hpp"
 
-namespace plexway::cli {
+namespace plexway {
 namespace {
 
 #ifdef PLEXWAY_HAS_GL
@@ -62,4 +61,4 @@ InfoReport info_of_devices() {
   return report;
 }
 
-}  // namespace plexway::cli
+}  // namespace plexway

@@ -6,7 +6,7 @@
 
 #include <plexway/executors/piece_ranks.hpp>
 
-namespace plexway::cli {
+namespace plexway {
 
 /// What a field cost several processes.
 struct RankCounts {
@@ -17,4 +17,4 @@ struct RankCounts {
 /// All processes call it, each with what it sent.
 [[nodiscard]] RankCounts rank_counts(PieceRanks& ranks, std::size_t sent_bytes);
 
-}  // namespace plexway::cli
+}  // namespace plexway
