@@ -6,7 +6,9 @@
 #include <cmath>
 #include <cstdio>
 #include <ctime>
+#include <functional>
 #include <limits>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -18,6 +20,7 @@
 
 #include "../data/shapes.hpp"
 #include "harness.hpp"
+#include "isolate.hpp"
 
 using namespace plexway;
 
@@ -102,17 +105,76 @@ void measure(const std::string& name, const std::vector<std::array<double, 3>>& 
   std::printf("  pairs     %.3f solves a point of 50\n", pairs / 50 / solve);
 }
 
+// ---- Memory ----
+
+/// What a sample takes at its peak beyond its domain, in a process of its own.
+template <class Domain>
+void measure_memory(const char* name, const std::function<Domain()>& make,
+                    const std::vector<double>& radii) {
+  double before_peak = 0, before_darts = 0;
+  for (const double radius : radii) {
+    const auto result = bench::isolated(600, [&] {
+      const Domain domain = make();
+      bench::return_free_memory();
+      const double start = bench::status_bytes("VmHWM").value_or(0);
+      const PoissonDisks disks = poisson_disks(Serial{}, domain, {.radius = radius});
+      return nlohmann::ordered_json{{"darts", disks.darts.size()},
+                                    {"start", start},
+                                    {"peak", bench::status_bytes("VmHWM").value_or(0)}};
+    });
+    if (result.contains("note")) {
+      std::printf("%s: %s\n", name, result["note"].template get<std::string>().c_str());
+      return;
+    }
+    const double darts = result["darts"], peak = result["peak"];
+    std::printf("%-22s radius %-8.4g %9.0f darts, peak %7.1f MB (domain %.1f MB)", name, radius,
+                darts, peak / 1e6, result["start"].template get<double>() / 1e6);
+    if (before_darts > 0)
+      std::printf(", %.0f bytes more a dart", (peak - before_peak) / (darts - before_darts));
+    std::printf("\n");
+    std::fflush(stdout);
+    before_peak = peak, before_darts = darts;
+  }
+}
+
+void measure_memory() {
+  std::vector<std::array<double, 3>> corners;
+  for (int i = 0; i < 8; ++i)
+    corners.push_back({i & 1 ? 1. : 0., i & 2 ? 1. : 0., i & 4 ? 1. : 0.});
+  const std::vector<std::array<Index, 4>> kuhn = {{0, 1, 3, 7}, {0, 3, 2, 7}, {0, 2, 6, 7},
+                                                  {0, 6, 4, 7}, {0, 4, 5, 7}, {0, 5, 1, 7}};
+  measure_memory<TetMesh<float>>("cube of 6 tetrahedra",
+                                 [&] { return TetMesh<float>(corners, kuhn); },
+                                 {0.2, 0.06, 0.045, 0.036});
+  const std::vector<std::array<Index, 3>> halves = {{0, 1, 3}, {0, 3, 2}};
+  measure_memory<TriangleMesh<float>>(
+      "square of 2 triangles",
+      [&] { return TriangleMesh<float>(std::span(corners).first(4), halves); },
+      {0.05, 0.008, 0.004, 0.002});
+  const samples::Shape sphere = samples::geodesic_sphere(200);
+  const double edge = 1. / 200;
+  measure_memory<TriangleMesh<float>>(
+      "sphere, 800k triangles", [&] { return TriangleMesh<float>(sphere.points, sphere.faces); },
+      {0.2, 8 * edge, 4 * edge});
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
   std::size_t count = 1000;
+  bool memory = false;
   std::vector<std::string> meshes;
   CLI::App app("What sampling costs, in solves from one source on the same surface");
   app.add_option("MESH", meshes,
                  "Surfaces (.obj .off .ply .stl); none: two of 200 thousand triangles");
   app.add_option("--count", count, "Points")->capture_default_str()->check(CLI::PositiveNumber);
+  app.add_flag("--memory", memory, "Only bytes a dart: the peak over samples of several radii");
   CLI11_PARSE(app, argc, argv);
   try {
+    if (memory) {
+      measure_memory();
+      return 0;
+    }
     for (const std::string& mesh : meshes) {
       const bench::Surface s = bench::read_surface(mesh);
       measure(s.name, s.positions, s.faces, count);

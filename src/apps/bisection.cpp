@@ -10,14 +10,43 @@
 
 namespace plexway {
 
+void Splits::halve(Index simplex, std::size_t i, std::size_t j) {
+  const Index split = static_cast<Index>(splits_.size());
+  const Index before = last_[simplex];
+  (before == none ? first_[simplex] : splits_[before / 2].next[before % 2]) = split;
+  splits_.push_back({static_cast<Index>(last_.size()),
+                     {none, none},
+                     static_cast<std::uint8_t>(i),
+                     static_cast<std::uint8_t>(j)});
+  last_[simplex] = 2 * split;
+  last_.push_back(2 * split + 1);
+}
+
+Index Splits::part(Index simplex, std::array<double, 4>& weights) const {
+  for (Index n = first_[simplex]; n != none;) {
+    const Split& split = splits_[n];
+    double &a = weights[split.i], &b = weights[split.j];
+    if (a >= b) {
+      a -= b, b *= 2;
+      n = split.next[0];
+    } else {
+      b -= a, a *= 2;
+      simplex = split.other;
+      n = split.next[1];
+    }
+  }
+  return simplex;
+}
+
 template <int N>
 Bisection<N>::Bisection(std::size_t vertices, std::span<const std::array<Index, corners>> simplices,
                         std::span<const std::array<Index, sides>> edges, std::vector<Edge> lengths,
-                        const Excess& excess, std::size_t most)
+                        const Excess& excess, std::size_t most, bool shape_kept)
     : vertices_(vertices),
       most_(std::min(most, most_parts)),
       edges_(std::move(lengths)),
-      around_(edges_.size()) {
+      around_(edges_.size()),
+      splits_(simplices.size()) {
   simplices_.reserve(simplices.size());
   for (std::size_t s = 0; s < simplices.size(); ++s) {
     for (const Index e : edges[s]) around_[e].push_back(static_cast<Index>(s));
@@ -30,14 +59,29 @@ Bisection<N>::Bisection(std::size_t vertices, std::span<const std::array<Index, 
   };
   for (Index e = 0; e < edges_.size(); ++e) consider(e);
   while (!longest.empty()) {
-    const Index e = longest.top().second;
+    const Index wanted = longest.top().second;
     longest.pop();
+    const Index e = shape_kept ? longest_near(wanted) : wanted;
     const std::size_t before = edges_.size();
     bisect(e);
+    if (e != wanted) consider(wanted);
     consider(e);  // now its first half
     for (std::size_t n = before; n < edges_.size(); ++n) consider(static_cast<Index>(n));
   }
   around_ = {};
+  splits_.end();
+}
+
+template <int N>
+Index Bisection<N>::longest_near(Index edge) const {
+  for (;;) {
+    Index longest = edge;
+    for (const Index s : around_[edge])
+      for (const Index e : simplices_[s].edge)
+        if (edges_[e].length > edges_[longest].length * (1 + 1e-9)) longest = e;
+    if (longest == edge) return edge;
+    edge = longest;
+  }
 }
 
 template <int N>
@@ -99,6 +143,7 @@ void Bisection<N>::bisect(Index edge) {
       }
     around_[edge].push_back(s);
     around_[second].push_back(other);
+    splits_.halve(s, i, j);
     simplices_[s] = first;
     simplices_.push_back(last);
   }

@@ -2,11 +2,16 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <tuple>
 #include <utility>
 
 namespace plexway {
 namespace {
+
+std::array<double, 3> middle(const std::array<double, 3>& a, const std::array<double, 3>& b) {
+  return {(a[0] + b[0]) / 2, (a[1] + b[1]) / 2, (a[2] + b[2]) / 2};
+}
 
 /// Cuts edges that are longer than the limit of either end; a new vertex takes the mean of two.
 template <int N>
@@ -29,9 +34,42 @@ class Limits {
 template <class Complex, int N>
 void take_parts(const Bisection<N>& fine, CutDomain<Complex>& domain) {
   domain.halved = fine.halved();
+  domain.splits = fine.splits();
   domain.parent.reserve(fine.simplices().size());
   for (const auto& simplex : fine.simplices()) domain.parent.push_back(simplex.parent);
 }
+
+/// The same for a part of a solid: beyond `width` from the box edges may be as much longer as they
+/// are farther away.
+class LimitsNear {
+ public:
+  LimitsNear(std::vector<double>& limits, std::vector<std::array<double, 3>>& positions,
+             const Box<3>& box, double width)
+      : limits_(limits), positions_(positions), box_(box), width_(width) {
+    for (const auto& at : positions_) away_.push_back(away(at));
+  }
+  double operator()(const Bisection<3>& fine, Index edge) const {
+    const auto& [ends, length] = fine.edges()[edge];
+    if (std::max(ends[0], ends[1]) == limits_.size()) {
+      const auto [v, w] = fine.halved().back();
+      limits_.push_back((limits_[v] + limits_[w]) / 2);
+      positions_.push_back(middle(positions_[v], positions_[w]));
+      away_.push_back(away(positions_.back()));
+    }
+    return length / std::min(limits_[ends[0]] + away_[ends[0]], limits_[ends[1]] + away_[ends[1]]);
+  }
+
+ private:
+  [[nodiscard]] double away(const std::array<double, 3>& at) const {
+    return std::max(0., box_.distance(at) - width_);
+  }
+
+  std::vector<double>& limits_;
+  std::vector<std::array<double, 3>>& positions_;
+  mutable std::vector<double> away_;
+  Box<3> box_;
+  double width_;
+};
 
 template <class Real>
 double length_of(const TetMesh<Real>& mesh, Index v, Index w) {
@@ -39,9 +77,22 @@ double length_of(const TetMesh<Real>& mesh, Index v, Index w) {
 }
 
 template <class Real>
-Bisection<3> bisected(const TetMesh<Real>& mesh, std::vector<double>& limits, std::size_t most) {
-  const auto tets = mesh.tets();
-  const Index count = static_cast<Index>(mesh.tet_count());
+std::array<double, 3> position(const TetMesh<Real>& mesh, Index v) {
+  const Vector3<Real>& p = mesh.points()[v];
+  return {static_cast<double>(p.x), static_cast<double>(p.y), static_cast<double>(p.z)};
+}
+
+std::array<double, 3> scaled(const std::array<double, 3>& at, double unit) {
+  return {at[0] * unit, at[1] * unit, at[2] * unit};
+}
+
+/// Some tetrahedra of a solid, all their vertices numbered anew by `number`.
+template <class Real, class Number>
+Bisection<3> bisected(const TetMesh<Real>& mesh, std::span<const Index> chosen,
+                      std::size_t vertices, const Number& number,
+                      const Bisection<3>::Excess& excess, std::size_t most,
+                      bool shape_kept = false) {
+  const Index count = static_cast<Index>(chosen.size());
   struct Side {
     Index v, w, at;  // at: 6 t + edge
   };
@@ -49,9 +100,10 @@ Bisection<3> bisected(const TetMesh<Real>& mesh, std::vector<double>& limits, st
   all.reserve(std::size_t{6} * count);
   std::vector<std::array<Index, 4>> simplices(count);
   for (Index t = 0; t < count; ++t) {
-    std::copy(tets[t].corner, tets[t].corner + 4, simplices[t].begin());
+    const Index* corner = mesh.tets()[chosen[t]].corner;
+    std::transform(corner, corner + 4, simplices[t].begin(), number);
     for (Index e = 0; e < 6; ++e) {
-      const Index v = tets[t].corner[tet_edge_ends[e][0]], w = tets[t].corner[tet_edge_ends[e][1]];
+      const Index v = corner[tet_edge_ends[e][0]], w = corner[tet_edge_ends[e][1]];
       all.push_back({std::min(v, w), std::max(v, w), 6 * t + e});
     }
   }
@@ -59,14 +111,21 @@ Bisection<3> bisected(const TetMesh<Real>& mesh, std::vector<double>& limits, st
     return std::tie(a.v, a.w, a.at) < std::tie(b.v, b.w, b.at);
   });
   std::vector<std::array<Index, 6>> sides(count);
-  std::vector<typename Bisection<3>::Edge> edges;
+  std::vector<Bisection<3>::Edge> edges;
   for (std::size_t n = 0; n < all.size(); ++n) {
     const Side& s = all[n];
     if (n == 0 || s.v != all[n - 1].v || s.w != all[n - 1].w)
-      edges.push_back({{s.v, s.w}, length_of(mesh, s.v, s.w)});
+      edges.push_back({{number(s.v), number(s.w)}, length_of(mesh, s.v, s.w)});
     sides[s.at / 6][s.at % 6] = static_cast<Index>(edges.size() - 1);
   }
-  return Bisection<3>(limits.size(), simplices, sides, std::move(edges), Limits<3>(limits), most);
+  return Bisection<3>(vertices, simplices, sides, std::move(edges), excess, most, shape_kept);
+}
+
+std::vector<std::array<Index, 4>> tets_of(const Bisection<3>& fine) {
+  std::vector<std::array<Index, 4>> tets;
+  tets.reserve(fine.simplices().size());
+  for (const auto& simplex : fine.simplices()) tets.push_back(simplex.vertex);
+  return tets;
 }
 
 }  // namespace
@@ -173,21 +232,55 @@ CutDomain<TetMesh<Real>> cut(const TetMesh<Real>& mesh, std::vector<double> limi
   std::vector<std::array<Index, 4>> cut;
   {  // What cut it need not be there while a copy is built.
     domain.limits = std::move(limits);
-    const Bisection<3> fine = bisected(mesh, domain.limits, most);
+    std::vector<Index> all(count);
+    std::iota(all.begin(), all.end(), Index{0});
+    const Bisection<3> fine = bisected(
+        mesh, all, domain.limits.size(), [](Index v) { return v; }, Limits<3>(domain.limits), most);
     take_parts(fine, domain);
-    cut.reserve(fine.simplices().size());
-    for (const auto& simplex : fine.simplices()) cut.push_back(simplex.vertex);
+    cut = tets_of(fine);
   }
   std::vector<std::array<double, 3>> positions;
   positions.reserve(domain.limits.size());
-  for (const Vector3<Real>& p : points)
-    positions.push_back({static_cast<double>(p.x) * mesh.unit(),
-                         static_cast<double>(p.y) * mesh.unit(),
-                         static_cast<double>(p.z) * mesh.unit()});
-  for (const auto& [v, w] : domain.halved) {
-    const auto a = positions[v], b = positions[w];
-    positions.push_back({(a[0] + b[0]) / 2, (a[1] + b[1]) / 2, (a[2] + b[2]) / 2});
+  for (Index v = 0; v < mesh.vertex_count(); ++v)
+    positions.push_back(scaled(position(mesh, v), mesh.unit()));
+  for (const auto& [v, w] : domain.halved) positions.push_back(middle(positions[v], positions[w]));
+  domain.copy = std::make_unique<TetMesh<Real>>(positions, cut);
+  domain.complex = domain.copy.get();
+  return domain;
+}
+
+template <class Real>
+CutDomain<TetMesh<Real>> cut_near(const TetMesh<Real>& mesh, std::span<const double> limits,
+                                  const Box<3>& box, double width, std::size_t most) {
+  CutDomain<TetMesh<Real>> domain;
+  domain.partial = true;
+  for (Index t = 0; t < mesh.tet_count(); ++t) {
+    Box<3> around = Box<3>::empty();
+    for (const Index v : mesh.tets()[t].corner) around.add(position(mesh, v));
+    if (!(box.distance(around) <= width)) continue;
+    domain.simplices.push_back(t);
+    for (const Index v : mesh.tets()[t].corner) domain.vertices.push_back(v);
   }
+  std::sort(domain.vertices.begin(), domain.vertices.end());
+  domain.vertices.erase(std::unique(domain.vertices.begin(), domain.vertices.end()),
+                        domain.vertices.end());
+  std::vector<std::array<double, 3>> positions;
+  for (const Index v : domain.vertices) {
+    domain.limits.push_back(limits[v]);
+    positions.push_back(position(mesh, v));
+  }
+  if (domain.simplices.empty()) return domain;
+  std::vector<std::array<Index, 4>> cut;
+  {
+    const Bisection<3> fine = bisected(
+        mesh, domain.simplices, domain.vertices.size(),
+        [&](Index v) { return domain.vertex_in_copy(v); },
+        LimitsNear(domain.limits, positions, box, width), most, true);
+    take_parts(fine, domain);
+    for (Index& s : domain.parent) s = domain.simplices[s];
+    cut = tets_of(fine);
+  }
+  for (auto& at : positions) at = scaled(at, mesh.unit());
   domain.copy = std::make_unique<TetMesh<Real>>(positions, cut);
   domain.complex = domain.copy.get();
   return domain;
@@ -199,5 +292,9 @@ template CutDomain<TriangleMesh<double>> cut(const TriangleMesh<double>&, std::v
                                              std::size_t);
 template CutDomain<TetMesh<float>> cut(const TetMesh<float>&, std::vector<double>, std::size_t);
 template CutDomain<TetMesh<double>> cut(const TetMesh<double>&, std::vector<double>, std::size_t);
+template CutDomain<TetMesh<float>> cut_near(const TetMesh<float>&, std::span<const double>,
+                                            const Box<3>&, double, std::size_t);
+template CutDomain<TetMesh<double>> cut_near(const TetMesh<double>&, std::span<const double>,
+                                             const Box<3>&, double, std::size_t);
 
 }  // namespace plexway

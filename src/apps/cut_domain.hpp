@@ -1,7 +1,9 @@
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <memory>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -9,11 +11,12 @@
 #include <plexway/complex/triangle_mesh.hpp>
 
 #include "apps/bisection.hpp"
+#include "complex/box_tree.hpp"
 
 namespace plexway {
 
-/// A domain whose edges are no longer than asked for: itself, or a copy cut into smaller simplices.
-/// Numbers are those inside.
+/// A domain whose edges are no longer than asked for: itself, or a copy of all or of a part of it,
+/// cut into smaller simplices. Numbers are those inside.
 template <class Complex>
 struct CutDomain {
   const Complex* complex = nullptr;  ///< to work on
@@ -24,6 +27,26 @@ struct CutDomain {
   /// part of, and between which two vertices each new one lies halfway, after those given.
   std::vector<Index> parent;
   std::vector<std::pair<Index, Index>> halved;
+  Splits splits;
+  /// Of a copy of a part: the domain's vertices and simplices that it began with, ascending.
+  bool partial = false;
+  std::vector<Index> vertices, simplices;
+
+  /// A vertex of the domain, or a point of a simplex of it, by the numbers that the copy's caller
+  /// knows. They must be in the part.
+  [[nodiscard]] Index vertex_in_copy(Index v) const { return partial ? place(vertices, v) : v; }
+  [[nodiscard]] Index vertex_in_domain(Index v) const { return partial ? vertices[v] : v; }
+  [[nodiscard]] bool has_vertex(Index v) const {
+    return !partial || std::binary_search(vertices.begin(), vertices.end(), v);
+  }
+  [[nodiscard]] Index simplex_in_copy(Index s, Weights& weights) const {
+    return splits.part(partial ? place(simplices, s) : s, weights);
+  }
+
+ private:
+  static Index place(const std::vector<Index>& list, Index number) {
+    return static_cast<Index>(std::lower_bound(list.begin(), list.end(), number) - list.begin());
+  }
 };
 
 /// `limits`: the longest edge wanted at each vertex, in the unit inside. Throws TooManyParts where
@@ -34,5 +57,11 @@ CutDomain<TriangleMesh<Real>> cut(const TriangleMesh<Real>& mesh, std::vector<do
 template <class Real>
 CutDomain<TetMesh<Real>> cut(const TetMesh<Real>& mesh, std::vector<double> limits,
                              std::size_t most = most_parts);
+
+/// A copy of what lies within `width` of a box, in any case; what sticks out of that is cut more
+/// and more coarsely. Of a solid with coordinates.
+template <class Real>
+CutDomain<TetMesh<Real>> cut_near(const TetMesh<Real>& mesh, std::span<const double> limits,
+                                  const Box<3>& box, double width, std::size_t most);
 
 }  // namespace plexway

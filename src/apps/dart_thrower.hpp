@@ -7,6 +7,8 @@
 #include <cstdint>
 #include <limits>
 #include <numeric>
+#include <span>
+#include <utility>
 #include <vector>
 
 #include <plexway/apps/poisson_disk.hpp>
@@ -30,30 +32,47 @@ class DartThrower {
   static constexpr std::size_t corners = Field::corners;
 
  public:
-  /// `radii` has one value a vertex, in the unit inside; `vertices` are those that darts may hit if
-  /// the options want them there; `report(share)` is told how much is covered.
-  template <class Report>
-  DartThrower(Field& field, std::span<const double> radii, std::span<const Index> vertices,
-              const PoissonOptions& options, std::size_t most, Report report)
-      : field_(field),
-        radii_(radii),
-        limit_(static_cast<Real>(*std::max_element(radii.begin(), radii.end()))),
-        most_(most),
-        random_(options.seed) {
-    field_.clear();
-    if (options.at_vertices)
-      throw_at_vertices(vertices, report);
-    else
-      throw_everywhere(options.order, report);
-  }
-
   struct Dart {
     Index vertex;   ///< or none
     Index simplex;  ///< numbers inside
     Weights weights;
   };
-  [[nodiscard]] const std::vector<Dart>& darts() const { return darts_; }
-  [[nodiscard]] bool maximal() const { return maximal_; }
+  /// Where darts go. Numbers and unit inside.
+  struct Target {
+    std::span<const double> radii;    ///< one a vertex
+    std::span<const Index> vertices;  ///< that darts may hit if the options want them there
+    /// Into which simplices they go; empty: all.
+    std::vector<bool> open;
+    std::vector<Dart> earlier;  ///< that are there already
+  };
+
+  /// `report(share)` is told how much is covered.
+  template <class Report>
+  DartThrower(Field& field, Target target, const PoissonOptions& options, Random& random,
+              Report report)
+      : field_(field),
+        radii_(target.radii),
+        open_(std::move(target.open)),
+        limit_(static_cast<Real>(*std::max_element(radii_.begin(), radii_.end()))),
+        random_(random),
+        darts_(std::move(target.earlier)),
+        earlier_(darts_.size()) {
+    field_.clear();
+    for (Index n = 0; n < darts_.size(); ++n) {
+      const Dart& dart = darts_[n];
+      if (dart.vertex != none)
+        field_.add_vertex(dart.vertex, limit_ - radius_of(n), n, limit_);
+      else
+        field_.add(dart.simplex, dart.weights, limit_ - radius_of(n), n, limit_);
+    }
+    if (options.at_vertices)
+      throw_at_vertices(target.vertices, report);
+    else
+      throw_everywhere(options.order, report);
+  }
+
+  /// Those that were thrown.
+  [[nodiscard]] std::span<const Dart> darts() const { return std::span(darts_).subspan(earlier_); }
   [[nodiscard]] std::size_t thrown() const { return thrown_; }
   [[nodiscard]] std::size_t taken_back() const { return taken_back_; }
 
@@ -71,7 +90,7 @@ class DartThrower {
   };
   static constexpr int most_levels = 64 / static_cast<int>(corners - 1);
 
-  [[nodiscard]] bool full() const { return darts_.size() >= most_; }
+  [[nodiscard]] bool open(Index s) const { return open_.empty() || open_[s]; }
 
   template <class Report>
   void throw_at_vertices(std::span<const Index> vertices, Report& report) {
@@ -79,10 +98,6 @@ class DartThrower {
     random_.shuffle(std::span(order));
     for (std::size_t n = 0; n < order.size(); ++n) {
       const Index v = order[n];
-      if (full()) {
-        maximal_ = false;
-        return;
-      }
       if (n % 4096 == 0) report(static_cast<double>(n) / static_cast<double>(order.size()));
       ++thrown_;
       Real nearest = std::numeric_limits<Real>::infinity(), size = 0;
@@ -104,9 +119,10 @@ class DartThrower {
     std::vector<double> sum(simplices);
     double total = 0;
     for (Index s = 0; s < simplices; ++s) {
-      sum[s] = total += static_cast<double>(field_.measure(s));
+      sum[s] = total += open(s) ? static_cast<double>(field_.measure(s)) : 0;
       largest_ = std::max(largest_, field_.size(s));
     }
+    if (!(total > 0)) return;
     if (order == DartOrder::simplices)
       throw_into_each(report);
     else
@@ -119,9 +135,9 @@ class DartThrower {
     std::vector<Index> order(field_.simplices());
     std::iota(order.begin(), order.end(), Index{0});
     random_.shuffle(std::span(order));
-    for (std::size_t n = 0; n < order.size() && !full(); ++n) {
+    for (std::size_t n = 0; n < order.size(); ++n) {
       if (n % 4096 == 0) report(static_cast<double>(n) / static_cast<double>(order.size()));
-      throw_into(order[n], whole());
+      if (open(order[n])) throw_into(order[n], whole());
     }
   }
 
@@ -136,9 +152,9 @@ class DartThrower {
       mark[std::min(marks, static_cast<std::size_t>(sum[s] * scale))] = static_cast<Index>(s);
     for (std::size_t m = marks; m-- > 0;) mark[m] = std::min(mark[m], mark[m + 1]);
     constexpr std::size_t round = 256, enough = 5;
-    for (std::size_t hits = round; hits >= enough && !full();) {
+    for (std::size_t hits = round; hits >= enough;) {
       hits = 0;
-      for (std::size_t n = 0; n < round && !full(); ++n) {
+      for (std::size_t n = 0; n < round; ++n) {
         const double at = random_.uniform() * sum.back();
         Index s = mark[static_cast<std::size_t>(at * scale)];
         while (s + 1 < sum.size() && !(at < sum[s])) ++s;
@@ -160,9 +176,9 @@ class DartThrower {
       if (field_.reached(s) && (field_.distance(s) + largest_ <= limit_ ||
                                 field_.distance(s) + field_.size(s) <= limit_))
         continue;
-      if (!covered(s, whole())) add(Piece{.simplex = s});
+      if (open(s) && !covered(s, whole())) add(Piece{.simplex = s});
     }
-    for (std::size_t n = 0; !pieces.empty() && !full(); ++n) {
+    for (std::size_t n = 0; !pieces.empty(); ++n) {
       if (n % 4096 == 0) report(std::max(0., 1 - pieces.bound() / total));
       const Piece piece = pieces.draw(random_);
       const Corners corner = corners_of(piece);
@@ -175,7 +191,6 @@ class DartThrower {
         continue;
       add_open_parts(piece, corner, add);
     }
-    maximal_ = pieces.empty();
   }
 
   static Corners whole() {
@@ -303,11 +318,11 @@ class DartThrower {
 
   Field& field_;
   std::span<const double> radii_;
+  std::vector<bool> open_;
   Real limit_, largest_ = 0;
-  std::size_t most_;
-  Random random_;
+  Random& random_;
   std::vector<Dart> darts_;
-  bool maximal_ = true;
+  std::size_t earlier_;  // darts that were there
   std::size_t thrown_ = 0, taken_back_ = 0;
 };
 

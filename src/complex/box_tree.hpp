@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <limits>
 #include <numeric>
@@ -35,6 +36,18 @@ struct Box {
   }
   void widen(double by) {
     for (std::size_t d = 0; d < N; ++d) low[d] -= by, high[d] += by;
+  }
+  /// From another box, or a point; 0 where they meet.
+  [[nodiscard]] double distance(const Box& other) const {
+    double sum = 0;
+    for (std::size_t d = 0; d < N; ++d) {
+      const double gap = std::max({0., other.low[d] - high[d], low[d] - other.high[d]});
+      sum += gap * gap;
+    }
+    return std::sqrt(sum);
+  }
+  [[nodiscard]] double distance(const std::array<double, N>& point) const {
+    return distance(Box{point, point});
   }
 };
 

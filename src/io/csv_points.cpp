@@ -9,6 +9,7 @@
 
 #include <plexway/io/points.hpp>
 
+#include "io/text_scanner.hpp"
 #include "quote.hpp"
 #include "surface_checks.hpp"
 
@@ -26,7 +27,8 @@ std::string_view trimmed(std::string_view text) {
 
 class CsvReader {
  public:
-  CsvReader(std::string_view text, std::string_view name) : text_(text), name_(name) {}
+  CsvReader(std::string_view text, std::string_view name)
+      : text_(without_mark(text)), name_(name) {}
 
   Points read() && {
     std::vector<std::string_view> fields;

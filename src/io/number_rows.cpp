@@ -12,6 +12,7 @@
 
 #include "io/file_bytes.hpp"
 #include "io/quote.hpp"
+#include "io/text_scanner.hpp"
 
 namespace plexway::io {
 
@@ -21,7 +22,7 @@ std::vector<NumberRow> read_number_rows(const std::string& file, std::size_t lea
   constexpr std::string_view blank = " \t\r,";
   std::vector<NumberRow> rows;
   std::size_t line = 0;
-  for (std::string_view text = bytes.view(); !text.empty();) {
+  for (std::string_view text = without_mark(bytes.view()); !text.empty();) {
     std::string_view left = text.substr(0, text.find('\n'));
     text.remove_prefix(std::min(left.size() + 1, text.size()));
     ++line;
@@ -39,7 +40,7 @@ std::vector<NumberRow> read_number_rows(const std::string& file, std::size_t lea
       double value = 0;
       const char* const end = digits.data() + digits.size();
       const auto [rest, error] = std::from_chars(digits.data(), end, value);
-      if (error != std::errc{} || rest != end || !std::isfinite(value))
+      if (error != std::errc{} || rest != end || !std::isfinite(value) || word.starts_with("+-"))
         fail("not a number: " + io::quote(word));
       row.numbers.push_back(value);
       left.remove_prefix(word.size());

@@ -15,6 +15,12 @@
 
 namespace plexway::io {
 
+/// A text without the byte order mark (UTF-8) that some editors put in front.
+inline std::string_view without_mark(std::string_view text) {
+  if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);
+  return text;
+}
+
 /// Walks over the fields of a text, line by line, and knows the number of the line it is on.
 ///
 /// Nothing is copied. A field ends at a blank, at the line's end, or at `#`, which starts a
@@ -31,7 +37,7 @@ class TextScanner {
         name_(name),
         line_(first_line),
         joins_lines_(backslash == Backslash::joins_lines) {
-    if (first_line == 1 && text.starts_with("\xEF\xBB\xBF")) at_ += 3;  // byte order mark
+    if (first_line == 1) at_ += text.size() - without_mark(text).size();
   }
 
   std::size_t line() const { return line_; }

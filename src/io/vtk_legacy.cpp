@@ -320,6 +320,7 @@ Mixed parse(std::string_view bytes, std::string_view name, Take take, Regions* r
     throw InputError(std::string(name) + ":" + std::to_string(line) + ": " + cause);
   };
   constexpr std::string_view magic = "# vtk DataFile Version ";
+  bytes = without_mark(bytes);
   if (!lower(bytes.substr(0, magic.size())).starts_with(lower(magic)))
     fail(1, "expected '# vtk DataFile Version', found " + quote(bytes.substr(0, bytes.find('\n'))));
   TextScanner first(bytes.substr(magic.size()), name);

@@ -6,6 +6,7 @@
 #include <plexway/error.hpp>
 
 #include "apps/sampling_testing.hpp"
+#include "complex/test_solids.hpp"
 #include "data/solid_shapes.hpp"
 
 using namespace plexway;
@@ -22,6 +23,50 @@ std::vector<Point> throw_on(const samples::Shape& shape, const PoissonOptions& o
 }
 
 Point noise_in_square(samples::Noise& noise) { return {(noise() + 1) / 2, (noise() + 1) / 2, 0}; }
+
+samples::Shape unit_cube() {  // of six tetrahedra
+  samples::Shape cube;
+  for (int i = 0; i < 8; ++i)
+    cube.add(
+        {static_cast<double>(i & 1), static_cast<double>(i >> 1 & 1), static_cast<double>(i >> 2)});
+  cube.tets = {{0, 1, 3, 7}, {0, 3, 2, 7}, {0, 2, 6, 7}, {0, 6, 4, 7}, {0, 4, 5, 7}, {0, 5, 1, 7}};
+  return cube;
+}
+
+double farthest_in_cube(const std::vector<Point>& darts) {
+  samples::Noise noise(14);
+  double farthest = 0;
+  for (int n = 0; n < 20000; ++n)
+    farthest = std::max(farthest, nearest({(noise() + 1) / 2, (noise() + 1) / 2, (noise() + 1) / 2},
+                                          darts, euclid));
+  return farthest;
+}
+
+/// Around the edge x = y = 1 where the straight line leaves the L.
+double inside_elbow(const Point& a, const Point& b) {
+  const double side_a = a[0] - 1, up_a = a[1] - 1, side_b = b[0] - 1, up_b = b[1] - 1;
+  const bool opposite = (side_a > 0 && up_b > 0) || (up_a > 0 && side_b > 0);
+  const double turn = side_a * up_b - up_a * side_b;
+  if (!(opposite && (side_a > 0 ? turn > 0 : turn < 0))) return euclid(a, b);
+  return std::hypot(std::hypot(side_a, up_a) + std::hypot(side_b, up_b), a[2] - b[2]);
+}
+
+template <class Distance>
+double farthest_in(const samples::Shape& solid, const std::vector<Point>& darts,
+                   Distance distance) {
+  samples::Noise noise(16);
+  double farthest = 0;
+  for (int n = 0; n < 20000; ++n) {
+    const auto& tet = solid.tets[static_cast<std::size_t>(n) % solid.tets.size()];
+    double w[4], sum = 0;
+    for (double& x : w) sum += x = noise() + 1;
+    Point at = {0, 0, 0};
+    for (std::size_t i = 0; i < 4; ++i)
+      for (std::size_t k = 0; k < 3; ++k) at[k] += w[i] / sum * solid.points[tet[i]][k];
+    farthest = std::max(farthest, nearest(at, darts, distance));
+  }
+  return farthest;
+}
 
 }  // namespace
 
@@ -66,22 +111,13 @@ TEST_CASE("darts on a sphere are neither nearer nor farther than the radius") {
 }
 
 TEST_CASE("darts in a cube are neither nearer nor farther than the radius") {
-  samples::Shape cube;
-  for (int i = 0; i < 8; ++i)
-    cube.add(
-        {static_cast<double>(i & 1), static_cast<double>(i >> 1 & 1), static_cast<double>(i >> 2)});
-  cube.tets = {{0, 1, 3, 7}, {0, 3, 2, 7}, {0, 2, 6, 7}, {0, 6, 4, 7}, {0, 4, 5, 7}, {0, 5, 1, 7}};
+  const samples::Shape cube = unit_cube();
   const TetMesh<float> mesh(cube.points, cube.tets);
   const PoissonDisks disks = poisson_disks(Serial{}, mesh, {.radius = 0.25});
   const auto darts = positions(disks.darts, cube.points, cube.tets);
   INFO(darts.size() << " darts");
   CHECK(least_distance(darts, euclid) >= 0.25 * (1 - 1e-3));
-  samples::Noise noise(14);
-  double farthest = 0;
-  for (int n = 0; n < 20000; ++n)
-    farthest = std::max(farthest, nearest({(noise() + 1) / 2, (noise() + 1) / 2, (noise() + 1) / 2},
-                                          darts, euclid));
-  CHECK(farthest <= 0.25 * (1 + 1e-5));
+  CHECK(farthest_in_cube(darts) <= 0.25 * (1 + 1e-5));
 }
 
 TEST_CASE("darts in a bent solid keep apart around the bend") {
@@ -90,28 +126,75 @@ TEST_CASE("darts in a bent solid keep apart around the bend") {
   constexpr double radius = 0.35;
   const PoissonDisks disks = poisson_disks(Serial{}, mesh, {.radius = radius});
   const auto darts = positions(disks.darts, elbow.points, elbow.tets);
-  // Around the edge x = y = 1 where the straight line leaves the L.
-  const auto inside = [](const Point& a, const Point& b) {
-    const double side_a = a[0] - 1, up_a = a[1] - 1, side_b = b[0] - 1, up_b = b[1] - 1;
-    const bool opposite = (side_a > 0 && up_b > 0) || (up_a > 0 && side_b > 0);
-    const double turn = side_a * up_b - up_a * side_b;
-    if (!(opposite && (side_a > 0 ? turn > 0 : turn < 0))) return euclid(a, b);
-    return std::hypot(std::hypot(side_a, up_a) + std::hypot(side_b, up_b), a[2] - b[2]);
-  };
   INFO(darts.size() << " darts");
-  CHECK(least_distance(darts, inside) >= radius * (1 - 1e-3));
-  samples::Noise noise(16);
+  CHECK(least_distance(darts, inside_elbow) >= radius * (1 - 1e-3));
+  CHECK(farthest_in(elbow, darts, inside_elbow) <= radius * (1 + 1e-3));
+}
+
+TEST_CASE("a solid done box by box is covered as one done at once") {
+  const samples::Shape cube = unit_cube();
+  const TetMesh<float> mesh(cube.points, cube.tets);
+  constexpr double radius = 0.22;
+  const PoissonDisks whole = poisson_disks(Serial{}, mesh, {.radius = radius});
+  const PoissonDisks disks = poisson_disks(Serial{}, mesh, {.radius = radius, .at_once = 26000});
+  const auto darts = positions(disks.darts, cube.points, cube.tets);
+  INFO(darts.size() << " darts, at once " << whole.darts.size());
+  CHECK(disks.thrown != whole.thrown);  // it was done in boxes
+  // Boxes hardly wider than the radius fill more densely from one to the next.
+  CHECK(static_cast<double>(darts.size()) ==
+        Approx(static_cast<double>(whole.darts.size())).epsilon(0.15));
+  CHECK(least_distance(darts, euclid) >= radius * (1 - 1e-3));
+  CHECK(farthest_in_cube(darts) <= radius * (1 + 1e-5));
+}
+
+TEST_CASE("boxes of a bent solid are told from what is behind a corner") {
+  const samples::Shape elbow = samples::elbow_solid();
+  const TetMesh<double> mesh(elbow.points, elbow.tets);
+  constexpr double radius = 0.35;
+  const PoissonDisks disks = poisson_disks(
+      Serial{}, mesh, {.radius = radius, .order = DartOrder::simplices, .at_once = 20000});
+  const auto darts = positions(disks.darts, elbow.points, elbow.tets);
+  CHECK(least_distance(darts, inside_elbow) >= radius * (1 - 1e-3));
+  CHECK(farthest_in(elbow, darts, inside_elbow) <= radius * (1 + 1e-3));
+}
+
+TEST_CASE("boxes agree with a spacing, and with darts at vertices") {
+  const testing::Solid cube = testing::solid_cube(2);
+  const auto radius_at = [](const Point& p) { return 0.3 * (0.7 + p[0] / 2); };
+  std::vector<double> spacing;
+  for (const Point& p : cube.positions) spacing.push_back(0.7 + p[0] / 2);
+  const TetMesh<double> mesh(cube.positions, cube.tets);
+  const PoissonDisks disks =
+      poisson_disks(Serial{}, mesh, {.radius = 0.3, .spacing = spacing, .at_once = 30000});
+  const auto darts = positions(disks.darts, cube.positions, cube.tets);
+  double nearest_pair = 2;
+  for (std::size_t i = 0; i < darts.size(); ++i)
+    for (std::size_t j = 0; j < i; ++j)
+      nearest_pair = std::min(nearest_pair, euclid(darts[i], darts[j]) / radius_at(darts[j]));
+  CHECK(nearest_pair >= 1 - 1e-3);
+  samples::Noise noise(18);
   double farthest = 0;
-  for (int n = 0; n < 20000; ++n) {
-    const auto& tet = elbow.tets[static_cast<std::size_t>(n) % elbow.tets.size()];
-    double w[4], sum = 0;
-    for (double& x : w) sum += x = noise() + 1;
-    Point at = {0, 0, 0};
-    for (std::size_t i = 0; i < 4; ++i)
-      for (std::size_t k = 0; k < 3; ++k) at[k] += w[i] / sum * elbow.points[tet[i]][k];
-    farthest = std::max(farthest, nearest(at, darts, inside));
+  for (int n = 0; n < 10000; ++n) {
+    const Point at = {(noise() + 1) / 2, (noise() + 1) / 2, (noise() + 1) / 2};
+    double nearest = 2;
+    for (const Point& dart : darts) nearest = std::min(nearest, euclid(at, dart) / radius_at(dart));
+    farthest = std::max(farthest, nearest);
   }
-  CHECK(farthest <= radius * (1 + 1e-3));
+  CHECK(farthest <= 1 + 1e-5);
+
+  const PoissonDisks at_vertices =
+      poisson_disks(Serial{}, mesh, {.radius = 0.6, .at_vertices = true, .at_once = 6000});
+  std::set<Index> chosen;
+  std::vector<Point> there;
+  for (const PointSource& dart : at_vertices.darts) {
+    chosen.insert(dart.vertex);
+    there.push_back(cube.positions[dart.vertex]);
+  }
+  CHECK(chosen.size() == at_vertices.darts.size());
+  CHECK(least_distance(there, euclid) >= 0.6 * (1 - 1e-3));
+  double apart = 0;
+  for (const Point& p : cube.positions) apart = std::max(apart, nearest(p, there, euclid));
+  CHECK(apart <= 0.6 * (1 + 1e-5));
 }
 
 TEST_CASE("a seed makes the same darts again and another seed other ones") {

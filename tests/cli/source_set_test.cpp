@@ -124,6 +124,32 @@ TEST_CASE("the boundary of a solid and of a wireframe, and one of its edges") {
   CHECK(from(wires, "simplex:1+0.5") == std::vector<double>{1.5, 0.5, 0.5, 4.5});
 }
 
+TEST_CASE("a byte order mark before numbers, points or a grid is passed over") {
+  const Folder folder;
+  const std::string mark = "\xEF\xBB\xBF";
+  const std::string points =
+      folder.write("points.csv", mark + "x,y,z\r\n0,0,0\r\n3,0,0\r\n0,4,0\r\n");
+  const std::string grid =
+      folder.write("grid.vtk", mark +
+                                   "# vtk DataFile Version 3.0\ngrid\nASCII\nDATASET POLYDATA\n"
+                                   "POINTS 3 float\n0 0 0 3 0 0 0 4 0\nPOLYGONS 1 4\n3 0 1 2\n");
+  const std::string sources = folder.write("sources.txt", mark + "1\r\n");
+  for (const std::string& file : {points, grid}) {
+    const auto run =
+        run_tool({"distance", file, "-s", "vertices:" + sources, "--quiet", "--out", "-"});
+    INFO(file << ": " << run.err);
+    REQUIRE(run.code == 0);
+    const auto distance = csv_column(run.out, "distance");
+    REQUIRE(distance.size() == 3);
+    CHECK(distance[0] == Approx(3));
+    CHECK(distance[1] == 0);
+    CHECK(distance[2] == Approx(5));
+  }
+  const std::string twice = folder.write("twice.txt", "+-1\n");
+  CHECK_THAT(run_tool({"distance", grid, "-s", "vertices:" + twice}).err,
+             Catch::Contains("not a number: '+-1'"));
+}
+
 TEST_CASE("sources that are none or not there are told by name") {
   const Folder folder;
   const std::string square = folder.write("square.off", square_off(5)).string();

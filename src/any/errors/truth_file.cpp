@@ -11,6 +11,7 @@
 
 #include "io/file_bytes.hpp"
 #include "io/quote.hpp"
+#include "io/text_scanner.hpp"
 
 namespace plexway {
 namespace {
@@ -43,7 +44,7 @@ std::vector<double> read_truth(const std::string& file, std::size_t vertices) {
   std::vector<double> truth;
   std::size_t line = 0;
   std::size_t empty = 0;  // the first empty line, which must have nothing behind it
-  for (std::string_view text = bytes.view(); !text.empty();) {
+  for (std::string_view text = io::without_mark(bytes.view()); !text.empty();) {
     const std::string_view whole = text.substr(0, text.find('\n'));
     text.remove_prefix(std::min(whole.size() + 1, text.size()));
     ++line;
