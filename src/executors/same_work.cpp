@@ -134,7 +134,7 @@ void check_same_work(PieceRanks& ranks, const D& domain, const SourceList& sourc
                                     .append(what[i])
                                     .append(": rank ")
                                     .append(std::to_string(r))
-                                    .append(" has others than rank 0");
+                                    .append(" differs from rank 0");
       if (i == 0) throw InputError(cause);
       throw UsageError(cause);
     }
