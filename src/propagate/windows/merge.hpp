@@ -124,10 +124,11 @@ template <class Real>
   if (!(area > 0) || !(h2 > 0)) return false;
   const Real sigma = middle - r;
   // The middles, and where r is cut the far ends, too.
-  const Real cut = bend < least_bend ? Real(1) : Real(0);
+  // Chosen as a whole: Clang 14 does not come to an end over a vector of two such choices.
+  const L counted = bend < least_bend ? L(1) : L(1, 1, 0, 0);
   const L from_foot = L(-p / 2, q / 2, -p, q) - L(x);
   const L after = sqrt(from_foot * from_foot + L(h2)) + L(sigma);
-  const L misses = (after - L(before[2], before[3], u.at_begin, w.at_end)) * L(1, 1, cut, cut);
+  const L misses = (after - L(before[2], before[3], u.at_begin, w.at_end)) * counted;
   const L size = abs(misses);
   if (kernel::lane_bits(size.v <= L(limit).v) != 15 || !(jump <= limit)) return false;
   const Real miss_u = misses[0], miss_w = misses[1], miss_a = misses[2], miss_c = misses[3];
