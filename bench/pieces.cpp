@@ -6,8 +6,6 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <cmath>
-#include <functional>
 #include <map>
 #include <string>
 #include <vector>
@@ -15,6 +13,7 @@
 #include <plexway/solve.hpp>
 
 #include "compare.hpp"
+#include "piece_model.hpp"
 #include "propagate/workspace_state.hpp"
 
 namespace {
@@ -31,23 +30,7 @@ struct Settings {
   int threads = 2;
   std::size_t repeats = 4;  // of solves that must have the same bits
   std::string accuracy = "fast";
-  double run_cost = 12, barrier_cost = 60;  // in expansions
 };
-
-/// How many times as fast as `expansions` one after the other.
-double modelled(const std::vector<std::vector<std::size_t>>& log, std::size_t threads,
-                double expansions, const Settings& settings) {
-  double time = 0;
-  for (std::vector<std::size_t> runs : log) {
-    std::sort(runs.begin(), runs.end(), std::greater<>());
-    std::vector<double> busy(threads, 0);
-    for (const std::size_t run : runs)
-      *std::min_element(busy.begin(), busy.end()) += static_cast<double>(run) + settings.run_cost;
-    time += *std::max_element(busy.begin(), busy.end());
-    if (threads > 1 && runs.size() > 1) time += settings.barrier_cost;
-  }
-  return expansions / time;
-}
 
 template <class Real>
 void measure(const bench::Surface& surface, const bench::Effort& effort, const Settings& settings,
@@ -89,7 +72,7 @@ void measure(const bench::Surface& surface, const bench::Effort& effort, const S
       letters += static_cast<double>(counts.letters) / faces;
       bytes += static_cast<double>(counts.bytes) / faces;
       for (std::size_t i = 0; const std::size_t threads : {2, 4, 8, 64})
-        model[i++] += modelled(counts.log, threads, expansions, settings);
+        model[i++] += expansions / bench::modelled(counts.log, threads, {});
     }
     counts.keeps_log = false;
     const bench::Times times =

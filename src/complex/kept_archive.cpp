@@ -55,10 +55,12 @@ void seal(std::span<std::byte> file) {
   std::memcpy(file.data() + end, &trailer, block);
 }
 
-KeptOut::KeptOut(const std::filesystem::path& file) : file_(file) {
+KeptOut::KeptOut() {
   const Header header;
   write(bytes_of(header), block);
 }
+
+KeptOut::KeptOut(const std::filesystem::path& file) : KeptOut() { file_.emplace(file); }
 
 void KeptOut::begin_part(std::size_t element, std::size_t count) {
   const PartHead head{element, count};
@@ -82,8 +84,9 @@ void KeptOut::end_part() { pending_.resize((pending_.size() + block - 1) / block
 void KeptOut::flush() {
   const std::size_t size = pending_.size() / block * block;
   checksum_.add(pending_.data(), size);
-  if (const int code = file_.write(reinterpret_cast<const char*>(pending_.data()), size))
-    file_.refuse(code);
+  if (file_)
+    if (const int code = file_->write(reinterpret_cast<const char*>(pending_.data()), size))
+      file_->refuse(code);
   written_ += size;
   pending_.erase(pending_.begin(), pending_.begin() + static_cast<std::ptrdiff_t>(size));
 }
@@ -91,9 +94,14 @@ void KeptOut::flush() {
 void KeptOut::commit() {
   flush();
   const Trailer trailer{magic, written_ + block, checksum_.value(), {}};
-  if (const int code = file_.write(reinterpret_cast<const char*>(&trailer), block))
-    file_.refuse(code);
-  file_.commit();
+  if (const int code = file_->write(reinterpret_cast<const char*>(&trailer), block))
+    file_->refuse(code);
+  file_->commit();
+}
+
+std::uint64_t KeptOut::checksum() {
+  flush();
+  return checksum_.value();
 }
 
 KeptIn::KeptIn(const std::filesystem::path& file) : name_(file.string()) {

@@ -6,6 +6,7 @@
 #include <cstring>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <type_traits>
@@ -51,13 +52,17 @@ class KeptOut {
   static constexpr bool reads = false;
 
   explicit KeptOut(const std::filesystem::path& file);
+  /// For the checksum alone.
+  KeptOut();
 
   template <class... Part>
   void operator()(const Part&... parts) {
     (put(parts), ...);
   }
-  /// The last part was given.
+  /// The last part was given. For a file.
   void commit();
+  /// Of all parts given so far.
+  [[nodiscard]] std::uint64_t checksum();
 
  private:
   template <KeptElement T>
@@ -98,7 +103,7 @@ class KeptOut {
   void end_part();
   void flush();
 
-  file::NewFile file_;
+  std::optional<file::NewFile> file_;
   file::Checksum checksum_;
   std::vector<std::byte> pending_;
   std::uint64_t written_ = 0;

@@ -64,6 +64,17 @@ class Unpacked {
   std::span<const std::byte> bytes_;
 };
 
+/// In a message, of a piece that posted: then come entries, and then the letters of each in turn.
+struct MailHead {
+  Index piece;
+  Index peers;  ///< so many entries
+  std::uint64_t letters;
+};
+struct MailEntry {
+  Index peer;  ///< of the piece's
+  Index letters;
+};
+
 /// What pieces of one process tell those of others in supersteps: one message to each, and the sums
 /// and minima by the way. Of a piece that is another's there is a copy of what it posted to ours.
 /// Does nothing for a process alone.
@@ -93,13 +104,13 @@ class PiecePost {
         told_[owner].push_back(static_cast<Index>(peer));
     for (std::size_t r = 0; r < told_.size(); ++r) {
       if (told_[r].empty()) continue;
-      Head head{piece, static_cast<Index>(told_[r].size()), 0};
+      MailHead head{piece, static_cast<Index>(told_[r].size()), 0};
       for (const Index peer : told_[r])
         head.letters += box.template letters<Letter>(superstep, peer).size();
       to_[r].add(head);
       for (const Index peer : told_[r])
-        to_[r].add(
-            Entry{peer, static_cast<Index>(box.template letters<Letter>(superstep, peer).size())});
+        to_[r].add(MailEntry{
+            peer, static_cast<Index>(box.template letters<Letter>(superstep, peer).size())});
       for (const Index peer : told_[r]) to_[r].add(box.template letters<Letter>(superstep, peer));
       told_[r].clear();
     }
@@ -121,24 +132,14 @@ class PiecePost {
   }
 
  private:
-  struct Head {
-    Index piece;
-    Index peers;  ///< so many entries follow, and then the letters
-    std::uint64_t letters;
-  };
-  struct Entry {
-    Index peer;  ///< of the piece's
-    Index letters;
-  };
-
   template <class Got>
   void unpack(std::size_t superstep, Unpacked mail, const Got& got) {
     while (!mail.empty()) {
-      const Head head = mail.take<Head>();
+      const MailHead head = mail.take<MailHead>();
       const CutPiece& cut = cut_.pieces[head.piece];
       Outbox& box = foreign_[head.piece].of(superstep);
       entries_.clear();
-      for (Index i = 0; i < head.peers; ++i) entries_.push_back(mail.take<Entry>());
+      for (Index i = 0; i < head.peers; ++i) entries_.push_back(mail.take<MailEntry>());
       box.start<Letter>(superstep, cut.peer_count(), head.letters);
       auto entry = entries_.begin();
       for (std::size_t peer = 0; peer < cut.peer_count(); ++peer) {
@@ -160,7 +161,7 @@ class PiecePost {
   std::vector<PieceRanks::Bytes> out_;
   std::vector<std::vector<std::byte>> from_;
   std::vector<std::vector<Index>> told_;  // of one piece: its peers there
-  std::vector<Entry> entries_;
+  std::vector<MailEntry> entries_;
 };
 
 /// What each process knows of its own pieces, for all of them.

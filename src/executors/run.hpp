@@ -11,6 +11,7 @@
 
 #include <plexway/solve.hpp>
 
+#include "executors/same_work.hpp"
 #include "executors/share_out.hpp"
 #include "executors/source_parts.hpp"
 #include "executors/supported.hpp"
@@ -99,6 +100,9 @@ void run(const E& executor, const D& domain, const SourceList& sources,
          const PropagateOptions& options, WorkspaceOf<E, D>& workspace,
          DistanceField<RealOf<D>>& field) {
   require_support(combination<E, D>(), domain.metric(), sources, options);
+  if constexpr (E::kind == ExecutorKind::openmp)
+    if (executor.ranks != nullptr)
+      check_same_work(*executor.ranks, domain, sources, options, executor.piece);
   field.error.clear();
   field.accuracy = Accuracy::fast();
   if (sources.only_points()) {

@@ -2,8 +2,10 @@
 
 #include <cstddef>
 #include <memory>
+#include <utility>
 #include <vector>
 
+#include <plexway/complex/ids.hpp>
 #include <plexway/complex/triangle_mesh.hpp>
 #include <plexway/propagate/distance_field.hpp>
 
@@ -21,8 +23,16 @@ struct SuperstepCounts {
   std::size_t letters = 0;  ///< labels told to other pieces
   std::size_t bytes = 0;    ///< of letters
   std::size_t sent = 0;     ///< bytes from this process to others
-  /// If it is kept: of each superstep the expansions of each piece that ran.
-  std::vector<std::vector<std::size_t>> log;
+  /// A piece in a superstep: how many letters it posted to which others.
+  struct Run {
+    Index piece;
+    std::size_t expansions;
+    std::vector<std::pair<Index, std::size_t>> letters;
+  };
+  /// If it is kept: of each superstep the pieces of this process that ran, and the calling thread's
+  /// time in all of them.
+  std::vector<std::vector<Run>> log;
+  double seconds = 0;
   bool keeps_log = false;
 
   /// Adds what a solve did.
@@ -35,6 +45,7 @@ struct SuperstepCounts {
   /// Before a solve.
   void start() {
     supersteps = runs = letters = bytes = sent = 0;
+    seconds = 0;
     log.clear();
   }
 };

@@ -194,3 +194,51 @@ TEST_CASE("ranks: one that fails is heard", "[threads]") {
   }),
                   UsageError);
 }
+
+TEST_CASE("ranks: who has another domain, other sources or options is told", "[threads]") {
+  const auto surface = jittered(20, 3), other = jittered(20, 4), larger = jittered(30, 3);
+  const auto mesh = surface.mesh<float>(), moved = other.mesh<float>(), more = larger.mesh<float>();
+  const auto solid = walled(8, 0.25).mesh<double>(), shaken = walled(8, 0.2).mesh<double>();
+  const auto told = [](const auto& all, const auto& one, const PropagateOptions& others,
+                       const std::vector<PointSource>& from, std::size_t size) -> std::string {
+    std::atomic<int> ended{0};
+    std::string what;
+    try {
+      ThreadRanks(3).run([&](PieceRanks& ranks) {
+        const bool odd = ranks.rank() == 1;
+        try {
+          (void)solve(among(pieces(1, odd ? size : 60), ranks), odd ? one : all,
+                      odd ? from : std::vector{PointSource::at(0)},
+                      odd ? others : PropagateOptions());
+        } catch (const UsageError&) {
+          ++ended;
+          throw;
+        } catch (const InputError&) {
+          ended += 10;
+          throw;
+        }
+      });
+    } catch (const std::exception& error) {
+      what = error.what();
+    }
+    // All of them say so, and none goes on.
+    return std::to_string(ended).append(" ").append(what.substr(0, what.find(':')));
+  };
+  const std::vector<PointSource> origin = {PointSource::at(0)};
+  const std::string begin = "the ranks of one solve need the same ";
+  CHECK(told(mesh, mesh, {}, origin, 60) == "0 ");
+  CHECK(told(mesh, moved, {}, origin, 60) == "30 " + begin + "domain");
+  CHECK(told(mesh, more, {}, origin, 60) == "30 " + begin + "domain");
+  CHECK(told(solid, shaken, {}, origin, 60) == "30 " + begin + "domain");
+  CHECK(told(mesh, mesh, {}, {PointSource::at(5)}, 60) == "3 " + begin + "sources");
+  CHECK(told(mesh, mesh, {}, {PointSource::in(0, {0.5, 0.25, 0.25})}, 60) ==
+        "3 " + begin + "sources");
+  PropagateOptions options;
+  options.radius = 0.5;
+  CHECK(told(mesh, mesh, options, origin, 60) == "3 " + begin + "options");
+  CHECK(told(mesh, mesh, at(Accuracy::fast()), origin, 60) == "3 " + begin + "options");
+  CHECK(told(mesh, mesh, {}, origin, 70) == "3 " + begin + "options");
+  // The same, built twice.
+  const auto again = surface.mesh<float>();
+  CHECK(told(mesh, again, {}, origin, 60) == "0 ");
+}

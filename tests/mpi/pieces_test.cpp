@@ -214,6 +214,16 @@ TEST_CASE("what ranks cannot solve together is said once, and no file is left") 
   refused_by(Words{"-n", "1", PLEXWAY_TEST_MPI_TOOL} + distance(input) +
                  Words{":", "-n", "1", PLEXWAY_TEST_MPI_TOOL} + distance(folder.at("none.off")),
              3, "rank 1: ");
+  // Two of one name that are not the same.
+  const fs::path other = folder.write("other.off", square_off(6));
+  const Outcome differs =
+      run_program(*mpirun() + Words{"-n", "1", PLEXWAY_TEST_MPI_TOOL} + distance(input) +
+                  Words{":", "-n", "1", PLEXWAY_TEST_MPI_TOOL} + distance(other));
+  CHECK(differs.code == 3);
+  REQUIRE(complaints(differs).size() == 1);
+  CHECK(complaints(differs)[0].find("the same domain: rank 1 differs") != std::string::npos);
+  fs::remove(other);
+  CHECK(folder.files() == 2);
   // Alone there are no parts.
   const Outcome alone = run_tool(distance(input));
   CHECK(alone.code == 2);

@@ -1,0 +1,149 @@
+#include "executors/same_work.hpp"
+
+#include <array>
+#include <bit>
+#include <cstdint>
+#include <limits>
+#include <string>
+#include <type_traits>
+#include <variant>
+#include <vector>
+
+#include <plexway/error.hpp>
+
+#include "complex/kept_parts.hpp"
+#include "file/checksum.hpp"
+
+namespace plexway {
+namespace {
+
+/// A number for a list of numbers.
+class Digest {
+ public:
+  void add(std::uint64_t word) { words_.push_back(word); }
+  void add(double number) { add(std::bit_cast<std::uint64_t>(number)); }
+  void add(const PointSource& point) {
+    add(std::uint64_t{point.vertex});
+    add(std::uint64_t{point.simplex});
+    if (point.vertex == none)
+      for (const double b : point.barycentric) add(b);
+    add(point.offset);
+  }
+  void add(const VertexSource& set) {
+    add(std::uint64_t{set.vertices.size()});
+    for (const Index v : set.vertices) add(std::uint64_t{v});
+    add(std::uint64_t{set.offsets.size()});
+    for (const double offset : set.offsets) add(offset);
+    add(set.offset);
+  }
+  void add(const BallSource& ball) {
+    add(ball.centre);
+    add(ball.radius);
+    add(ball.offset);
+  }
+  void add(const CurveSource& curve) {
+    add(std::uint64_t{curve.points.size()});
+    for (const PointSource& point : curve.points) add(point);
+    add(curve.offset);
+  }
+  void add(const SimplexSource& simplex) {
+    add(std::uint64_t{simplex.simplex});
+    add(simplex.offset);
+  }
+  [[nodiscard]] std::uint64_t value() {
+    add(std::uint64_t{words_.size()});
+    constexpr std::size_t in_block = file::Checksum::block / sizeof(std::uint64_t);
+    words_.resize((words_.size() + in_block - 1) / in_block * in_block);
+    const auto bytes = std::as_bytes(std::span(words_));
+    file::Checksum checksum;
+    checksum.add(bytes.data(), bytes.size());
+    return checksum.value();
+  }
+
+ private:
+  std::vector<std::uint64_t> words_;
+};
+
+std::uint64_t digest_of(const SourceList& sources) {
+  Digest digest;
+  if (sources.only_points()) {
+    for (const PointSource& point : sources.points()) digest.add(point);
+  } else {
+    for (const Source& source : sources.sources()) {
+      digest.add(std::uint64_t{source.index()});
+      std::visit([&](const auto& one) { digest.add(one); }, source);
+    }
+  }
+  return digest.value();
+}
+
+std::uint64_t digest_of(const PropagateOptions& options, std::size_t piece) {
+  Digest digest;
+  digest.add(static_cast<std::uint64_t>(options.accuracy.kind()));
+  digest.add(options.accuracy.error());
+  digest.add(static_cast<std::uint64_t>(options.visibility));
+  digest.add(static_cast<std::uint64_t>(options.schedule));
+  digest.add(options.step);
+  digest.add(options.radius);
+  digest.add(std::uint64_t{options.max_expansions});
+  digest.add(std::uint64_t{options.vectorised});
+  for (const double number : {options.probe.slender, options.probe.uneven, options.probe.low})
+    digest.add(number);
+  for (const double share : options.probe.share) digest.add(share);
+  digest.add(std::uint64_t{piece});
+  return digest.value();
+}
+
+/// Of all that a complex is made of, where that can be kept and goes in pieces; else of its counts.
+template <class D>
+std::uint64_t digest_of(const D& domain) {
+  if constexpr (D::kind == DomainKind::surface || D::kind == DomainKind::solid) {
+    thread_local std::uint64_t identity = 0, digest = 0;
+    if (identity != domain.identity()) {
+      KeptOut nowhere;
+      KeptParts::keep(nowhere, domain);
+      digest = nowhere.checksum();
+      identity = domain.identity();
+    }
+    return digest;
+  } else {
+    Digest digest;
+    digest.add(std::uint64_t{domain.vertex_count()});
+    return digest.value();
+  }
+}
+
+}  // namespace
+
+template <class D>
+void check_same_work(PieceRanks& ranks, const D& domain, const SourceList& sources,
+                     const PropagateOptions& options, std::size_t piece) {
+  const std::array own = {digest_of(domain), digest_of(sources), digest_of(options, piece)};
+  // Each rank's in its own places, and zeros elsewhere.
+  std::vector<std::uint64_t> all(own.size() * ranks.count());
+  for (std::size_t i = 0; i < own.size(); ++i) all[own.size() * ranks.rank() + i] = own[i];
+  const std::vector<PieceRanks::Bytes> to(ranks.count());
+  std::vector<std::vector<std::byte>> from(ranks.count());
+  double least = std::numeric_limits<double>::infinity();
+  ranks.meet(to, from, all, least);
+  constexpr std::array what = {"domain", "sources", "options"};
+  for (std::size_t i = 0; i < own.size(); ++i)
+    for (std::size_t r = 1; r < ranks.count(); ++r) {
+      if (all[own.size() * r + i] == all[i]) continue;
+      const std::string cause = std::string("the ranks of one solve need the same ")
+                                    .append(what[i])
+                                    .append(": rank ")
+                                    .append(std::to_string(r))
+                                    .append(" differs from rank 0");
+      if (i == 0) throw InputError(cause);
+      throw UsageError(cause);
+    }
+}
+
+#define PLEXWAY_SAME_WORK(...)                                                      \
+  template void check_same_work(PieceRanks&, const __VA_ARGS__&, const SourceList&, \
+                                const PropagateOptions&, std::size_t);
+PLEXWAY_DOMAINS(PLEXWAY_SAME_WORK)
+#undef PLEXWAY_SAME_WORK
+
+}  // namespace plexway

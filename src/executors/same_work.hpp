@@ -1,0 +1,26 @@
+#pragma once
+
+#include <cstddef>
+
+#include <plexway/domain/domains.hpp>
+#include <plexway/executors/piece_ranks.hpp>
+#include <plexway/propagate/options.hpp>
+#include <plexway/source/source_list.hpp>
+
+namespace plexway {
+
+/// Have all processes the same work? Those that solve one field together would else wait for each
+/// other without end, or make one of two. All call it, with what each has. Throws InputError where
+/// a domain differs, UsageError where sources or options do, in every process. Cost: a reduction,
+/// and reading the domain where it was not the one of the last call.
+template <class D>
+void check_same_work(PieceRanks& ranks, const D& domain, const SourceList& sources,
+                     const PropagateOptions& options, std::size_t piece);
+
+#define PLEXWAY_SAME_WORK(...)                                                             \
+  extern template void check_same_work(PieceRanks&, const __VA_ARGS__&, const SourceList&, \
+                                       const PropagateOptions&, std::size_t);
+PLEXWAY_DOMAINS(PLEXWAY_SAME_WORK)
+#undef PLEXWAY_SAME_WORK
+
+}  // namespace plexway
