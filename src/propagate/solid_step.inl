@@ -160,13 +160,15 @@ HINGE_METHOD Index edge_before(HINGE_IN(Taut) s, int leg) HINGE_READS {
 HINGE_CONST int most_halvings = 8;
 HINGE_CONST int most_tries = 4;
 // What find_taut tries: the label's own string, one to a point on the way, one that passes the ends
-// of edges, one with a further edge, the same not pulled, and without a neighbour of that edge.
+// of edges, one with a further edge, the same with no edge left out, and without a neighbour of
+// that edge; where a string lifts off edges by no more than it may touch them, one around them all.
 HINGE_CONST int own_string = 0;
 HINGE_CONST int halved = 1;
 HINGE_CONST int loose = 2;
 HINGE_CONST int further = 3;
 HINGE_CONST int touching = 4;
 HINGE_CONST int thinned = 5;
+HINGE_CONST int whole = 6;
 
 /// The string of a label of t to a point of u, which is t or its neighbour over a face; `end` is
 /// where it is walked from. False where it is not below `known`, or where what is in its way is not
@@ -192,13 +194,11 @@ bool find_taut(HINGE_IN(Label) label, Index t, HINGE_IN(Point) middle, Index u, 
   Real low = Real(0);
   Real high = Real(2);
   Real bound = known;
-  for (int turn = 0; turn < HINGE_ROLLED(most_tries * (most_halvings + 5)); ++turn) {
-    if (trying == touching) {
-      slide(s);
-      measure(s, label.sigma);
-    } else {
-      pull(s, label.sigma, kept, trying <= halved);
-    }
+  bool last = false;  // nothing else is left to try
+  for (int turn = 0; turn < HINGE_ROLLED(most_tries * (most_halvings + 7)); ++turn) {
+    int stay = kept;
+    if (trying == touching || trying == whole) stay = s.bends;
+    pull(s, label.sigma, stay, trying <= halved);
     if (trying == further && !bends_at(s, edge)) {
       // Only touched, or lifted off by the bends around it.
       bound = min(known, s.extent + touch);
@@ -210,27 +210,15 @@ bool find_taut(HINGE_IN(Label) label, Index t, HINGE_IN(Point) middle, Index u, 
     if (below && is_free(s, label, from, start, hit)) {
       if (trying != halved) return true;
       low = Real(0.5) * (low + high);
-    } else if (trying == touching) {
-      // One of the bends around the edge is not needed.
-      bound = known;
-      s = base;
-      int place = 0;
-      for (int i = 0; i < HINGE_ROLLED(s.bends); ++i)
-        if (s.edge[i] == edge) place = i;
-      if (place + 1 < s.bends)
-        leave_out(s, place + 1);
-      else if (place > kept)
-        leave_out(s, place - 1);
-      trying = thinned;
-      continue;
     } else {
-      bool inside = trying != loose;
-      if (trying == halved) {
+      bool squeezed = trying == touching;
+      bool inside = !last && trying != loose && !squeezed;
+      bool look = true;
+      if (squeezed) {
+        look = below && tries < most_tries && s.bends < most_bends;
+      } else if (trying == halved) {
         high = Real(0.5) * (low + high);
-      } else if (trying == loose) {
-        s = base;
-        hit = base_hit;
-      } else {
+      } else if (trying != loose && trying != whole) {
         if (!below || tries == most_tries || s.bends == most_bends) return false;
         if (trying == own_string) all = edges_of(label, q);
         ++tries;
@@ -239,9 +227,47 @@ bool find_taut(HINGE_IN(Label) label, Index t, HINGE_IN(Point) middle, Index u, 
         low = Real(0);
         high = Real(2);
         halvings = 0;
+        last = false;
+      }
+      bool pulled = trying == own_string || trying == loose;
+      if (pulled && below && all.bends > s.bends) {
+        // It lifts off some of the edges, perhaps by no more than rounding.
+        bound = min(known, s.extent + touch);
+        s = all;
+        last = trying == loose;
+        trying = whole;
+        continue;
+      }
+      if (trying == loose) last = true;
+      if (trying == loose || trying == whole) {
+        s = base;
+        hit = base_hit;
+        bound = known;
       }
       Index before = edge_before(s, hit.leg);
-      edge = edge_in_the_way(s, hit, inside);
+      Index found = none;
+      if (look) found = edge_in_the_way(s, hit, inside);
+      if (squeezed) {
+        if (found != none) {
+          // Walked beside the one edge, it touches another one on the other side.
+          ++tries;
+          put_in(s, hit.leg, found);
+          continue;
+        }
+        // One of the bends around the edge is not needed.
+        bound = known;
+        s = base;
+        int place = 0;
+        for (int i = 0; i < HINGE_ROLLED(s.bends); ++i)
+          if (s.edge[i] == edge) place = i;
+        if (place + 1 < s.bends)
+          leave_out(s, place + 1);
+        else if (place > kept)
+          leave_out(s, place - 1);
+        trying = thinned;
+        continue;
+      }
+      edge = found;
       if (edge != none) {
         put_behind(all, before, edge);
         put_behind(base, before, edge);
@@ -251,7 +277,7 @@ bool find_taut(HINGE_IN(Label) label, Index t, HINGE_IN(Point) middle, Index u, 
         trying = further;
         continue;
       }
-      if (trying == loose) return false;
+      if (last) return false;
     }
     // On the way there, then; or around the end of an edge.
     s = all;

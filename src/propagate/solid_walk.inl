@@ -102,14 +102,16 @@ bool walk(HINGE_INOUT(Index) t, HINGE_IN(Point) from, HINGE_IN(Point) to) HINGE_
     Index next = neighbour(t, face);
     bool ends = next == no_tet();
     if (HINGE_RARE(ends || !(top < Real(1)))) {
-      // Is the end before this face?
+      // Is the end before this face? A face that the line lies in, by rounding, cannot tell; what
+      // comes behind it can.
       Real wa = turn_of(b, c);
       Real wb = turn_of(c, a);
       Real wc = turn_of(a, b);
       Real sum = wa + wb + wc;
-      if (!(sum > Real(0))) return false;
+      bool edge_on = !(sum > Real(0));
+      if (edge_on && ends) return false;
       Real beyond = wa * (Real(1) - a.z) + wb * (Real(1) - b.z) + wc * (Real(1) - c.z);
-      if (beyond <= Real(0)) return true;
+      if (!edge_on && beyond <= Real(0)) return true;
       if (ends) {
         // What remains may be no more than rounding: in length, or in depth below the face.
         if (beyond * far <= Real(4) * nudge * sum) return true;

@@ -1,0 +1,78 @@
+// Prisms over plans where everything is on a lattice: lines of sight that lie in faces of
+// tetrahedra, and that two obstacles touch from both sides. Found by fuzzing.
+
+#include <catch2/catch.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <vector>
+
+#include <plexway/complex/tet_mesh.hpp>
+#include <plexway/solve.hpp>
+
+#include "data/corner_domains.hpp"
+#include "propagate/solving.hpp"
+
+using namespace plexway;
+using namespace plexway::testing;
+
+namespace {
+
+/// One layer over a grid of eight cells a side; heights and distances add up by their squares.
+template <class Real>
+Errors errors_over(const samples::CornerDomain& plan, double jitter, std::uint64_t seed,
+                   double height) {
+  const samples::Shape flat = plan.grid(8, jitter, seed);
+  const std::vector<double> truth = plan.distances(flat.points);
+  const auto n = static_cast<Index>(flat.points.size());
+  std::vector<std::array<double, 3>> places;
+  std::vector<double> exact;
+  for (const double z : {0., height})
+    for (Index v = 0; v < n; ++v) {
+      places.push_back({flat.points[v][0], flat.points[v][1], z});
+      exact.push_back(std::hypot(truth[v], z));
+    }
+  std::vector<std::array<Index, 4>> tets;
+  for (std::array<Index, 3> f : flat.faces) {
+    std::sort(f.begin(), f.end());
+    tets.push_back({f[0], f[1], f[2], f[2] + n});
+    tets.push_back({f[0], f[1], f[1] + n, f[2] + n});
+    tets.push_back({f[0], f[0] + n, f[1] + n, f[2] + n});
+  }
+  const TetMesh<Real> solid(places, tets);
+  return compare(solve(Serial{}, solid, PointSource::at(0)).distance, exact);
+}
+
+}  // namespace
+
+TEST_CASE("a line of sight in the plane of a face of a tetrahedron is free") {
+  const samples::CornerDomain plan = {
+      "", {{.125, .375, .25, .375}, {.125, .375, .75, .875}, {.625, .875, .25, .375}}, {0, .25}};
+  const Errors e = errors_over<double>(plan, 0.16, 0xca, 0.551171875);  // was 0.107
+  CAPTURE(e.mean, e.max, e.below);
+  CHECK(e.fits);
+  CHECK(e.max <= 0.02);
+  CHECK(e.below >= -1e-12);
+}
+
+TEST_CASE("a path that obstacles touch from both sides") {
+  const samples::CornerDomain plan = {
+      "", {{.25, .375, .75, .875}, {.625, .875, .25, .375}, {.625, .875, .625, .75}}, {.75, .5}};
+  const Errors e = errors_over<double>(plan, 0.08, 0xb9, 0.56484375);  // was 0.071
+  CAPTURE(e.mean, e.max, e.below);
+  CHECK(e.fits);
+  CHECK(e.mean <= 2e-4);
+  CHECK(e.max <= 0.03);
+  CHECK(e.below >= -1e-12);
+}
+
+TEST_CASE("a path along the floor, over ends of edges that it only touches") {
+  const samples::CornerDomain plan = {
+      "", {{.25, .375, .25, .375}, {.125, .375, .625, .75}, {.75, .875, .25, .375}}, {.5, .125}};
+  const Errors e = errors_over<double>(plan, 0.16, 0x87, 0.4515625);  // was 0.056
+  CAPTURE(e.mean, e.max, e.below);
+  CHECK(e.fits);
+  CHECK(e.max <= 1e-9);
+  CHECK(e.below >= -1e-12);
+}
