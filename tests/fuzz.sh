@@ -9,6 +9,8 @@
 # as crash-* or timeout-*, and belongs into tests/fuzz/corpus/<format> once it is mended. A line for
 # each run, also in <format>.runs: seconds of the processor, inputs, edges, finding or none.
 #
+# With CI set they draw the same each time, so that a change is judged by what it changed.
+#
 # PLEXWAY_FUZZ_TOOL=ON: argument lines, too, for which the tool is built.
 set -eu
 cd "$(dirname "$0")/.."
@@ -58,7 +60,7 @@ while [ "$in_all" = 0 ] || [ "$(($(date +%s) + seconds))" -le "$until" ]; do
   (
     code=0
     "$folder/bin/fuzz_$name" -max_total_time="$seconds" -timeout=25 -rss_limit_mb=3000 \
-      -max_len=4096 -artifact_prefix="$found/" "$found" "$PWD/tests/fuzz/corpus/$name" \
+      -max_len=4096 ${CI:+-seed=1} -artifact_prefix="$found/" "$found" "$PWD/tests/fuzz/corpus/$name" \
       >"$log" 2>&1 || code=$?
     times >"$found.time"
     exit $code
