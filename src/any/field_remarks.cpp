@@ -90,6 +90,16 @@ std::vector<std::string> field_remarks(const AnyDomain& solver, const AnyField& 
              " hang together by single edges: no surface was found there, and ways go from point "
              "to point; more neighbours may help (--k " +
              std::to_string(4 * std::max<std::size_t>(domain.cloud()->k, 16)) + ")");
+    if (cloud->torn_points > 0)
+      remark(counted(cloud->torn_points, "points") + " (" + std::to_string(cloud->first_torn) +
+             " is the first) around holes that could not be closed, as points there do not tell "
+             "which side of the surface they are on: distances near them may be far off; normals "
+             "in the file tell (columns nx ny nz)");
+    if (cloud->joints > 0)
+      remark(counted(cloud->joints, "pairs") +
+             " of points join parts that have no triangles between them: all ways from one to the "
+             "other go over these; normals in the file (columns nx ny nz) or points along the edge "
+             "where they meet would join them");
   }
   if (!field.complete()) {
     remark("stopped after " + counted(field.statistics().expansions, "expansions") +

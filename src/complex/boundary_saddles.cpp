@@ -5,6 +5,8 @@
 #include <numbers>
 #include <vector>
 
+#include "complex/crease.hpp"
+
 namespace plexway {
 namespace {
 
@@ -32,9 +34,8 @@ std::vector<Saddle> find_saddles(const Places& places, const SheetWedges& sheet)
   std::vector<Saddle> saddles;
   for (Index p = 0; p < places.near.point_count(); ++p) {
     if (!sheet.open(p)) continue;
-    double sum = 0;
-    sheet.around(p, [&](const SheetWedges::Wedge& w) { sum += angle(places, p, w.a, w.b); });
-    if (sum > least_angle) saddles.push_back({sum, p});
+    const double taken = sheet.angle_taken(p);
+    if (taken > least_angle) saddles.push_back({taken, p});
   }
   std::stable_sort(saddles.begin(), saddles.end(),
                    [](const Saddle& a, const Saddle& b) { return a.angle > b.angle; });
@@ -64,7 +65,7 @@ bool can_flip(const Places& places, Index c, Index x, Index y, Index z) {
 }  // namespace
 
 void widen_boundary_saddles(const Places& places, std::span<const TangentFrame> frames,
-                            SheetWedges& sheet) {
+                            const SheetRule& rule, SheetWedges& sheet) {
   const std::vector<Saddle> saddles = find_saddles(places, sheet);
   std::vector<char> is_saddle(places.at.size(), 0);
   for (const Saddle& s : saddles) is_saddle[s.place] = 1;
@@ -85,6 +86,9 @@ void widen_boundary_saddles(const Places& places, std::span<const TangentFrame> 
         if (z == c || is_saddle[x] || is_saddle[y] || is_saddle[z]) continue;
         const Point3 far = minus(places.at[z], places.at[c]);
         if (dot(far, far) > most * most || !can_flip(places, c, x, y, z)) continue;
+        // Over a crease the edge would be no straight line on the sheet.
+        if (crease_between(places, frames, rule, c, z) || !same_sheet(places, frames, rule, c, z))
+          continue;
         sheet.remove(f);
         sheet.remove(other.triangle);
         sheet.add({c, x, z});

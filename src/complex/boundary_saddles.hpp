@@ -11,6 +11,6 @@ namespace plexway {
 /// passes a corner one triangle further out does not know of it, and some way behind the corner its
 /// neighbour in the shadow would take the source over. In a flat sheet any triangles do.
 void widen_boundary_saddles(const Places& places, std::span<const TangentFrame> frames,
-                            SheetWedges& sheet);
+                            const SheetRule& rule, SheetWedges& sheet);
 
 }  // namespace plexway

@@ -79,6 +79,7 @@ CloudParts bridge_parts(const SheetRule& rule, std::span<const TangentFrame> fra
     parts.join(a, b);
     ++result.bridges;
     const bool at_a = sheet.used(a), at_b = sheet.used(b);
+    result.joints += at_a && at_b;
     if (!at_a && !at_b) {
       const Index halfway = static_cast<Index>(places.at.size());
       const Point3 &p = places.at[a], &q = places.at[b];

@@ -15,6 +15,7 @@ namespace plexway {
 struct CloudParts {
   std::vector<Index> part;  ///< of each place, one of its places
   std::size_t bridges = 0;
+  std::size_t joints = 0;  ///< of these, between places that were in triangles
 };
 
 /// Connects parts of the sheet, and places in no triangle, over neighbours on one sheet, the

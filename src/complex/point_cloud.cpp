@@ -11,8 +11,8 @@
 
 #include "complex/boundary_saddles.hpp"
 #include "complex/cloud_bridges.hpp"
-#include "complex/crease.hpp"
 #include "complex/gluing.hpp"
+#include "complex/sheet_lengths.hpp"
 #include "complex/tangent_lengths.hpp"
 #include "complex/umbrella.hpp"
 #include "complex/umbrella_sheet.hpp"
@@ -127,6 +127,7 @@ void count_parts(const CloudParts& parts, const DistinctPoints& distinct, CloudS
   summary.components = summary.component_sizes.size();
   summary.largest_component = summary.component_sizes[0];
   summary.bridges = parts.bridges;
+  summary.joints = parts.joints;
 }
 
 void count_pairs(const Places& places, std::span<const TangentFrame> frames, const SheetRule& rule,
@@ -141,16 +142,6 @@ void count_pairs(const Places& places, std::span<const TangentFrame> frames, con
     }
   }
   summary.mean_spacing = spacing / static_cast<double>(places.near.point_count());
-}
-
-// Does an edge of the sheet go over a crease?
-bool any_creases(const Places& places, std::span<const TangentFrame> frames, const SheetRule& rule,
-                 std::span<const Triangle> faces) {
-  return std::any_of(faces.begin(), faces.end(), [&](const Triangle& t) {
-    for (std::size_t i = 0; i < 3; ++i)
-      if (crease_between(places, frames, rule, t[i], t[(i + 1) % 3])) return true;
-    return false;
-  });
 }
 
 Sheet make_sheet(Points points, const Neighbours& neighbours, const CloudOptions& options,
@@ -185,9 +176,11 @@ Sheet make_sheet(Points points, const Neighbours& neighbours, const CloudOptions
   }
   done = 0.6;
   fill_holes(options.widest_circle, sheet);
+  close_tears(options.widest_boundary_circle, sheet);
+  const std::vector<Index> torn = torn_places(options.widest_boundary_circle, sheet);
   trim_boundary(options.widest_boundary_circle, sheet);
   fill_notches(deepest_notch, sheet);
-  widen_boundary_saddles(places, frames, sheet);
+  widen_boundary_saddles(places, frames, rule, sheet);
   const CloudParts parts = bridge_parts(rule, frames, places, sheet);
   if (sheet.triangles().empty()) add_placeholder(places, sheet);
   if (options.progress && !options.progress(0.7))
@@ -201,6 +194,8 @@ Sheet make_sheet(Points points, const Neighbours& neighbours, const CloudOptions
   count_parts(parts, distinct, summary);
   summary.mean_spacing /= scale;
   for (Index p = 0; p < n; ++p) summary.boundary_points += sheet.open(p);
+  summary.torn_points = torn.size();
+  for (const Index p : torn) summary.first_torn = std::min(summary.first_torn, distinct.order[p]);
 
   Sheet result;
   for (std::size_t p = n; p < places.at.size(); ++p)
@@ -218,17 +213,9 @@ Sheet make_sheet(Points points, const Neighbours& neighbours, const CloudOptions
   const double flat = options.lengths == EdgeLengths::in_space     ? 0
                       : options.lengths == EdgeLengths::tangential ? 1
                                                                    : noise.share;
-  if (flat > 0 || any_creases(places, frames, rule, result.faces)) {
-    const auto length = [&](Index a, Index b) {
-      if (a > b) std::swap(a, b);  // the same bits from both sides
-      if (const auto crease = crease_between(places, frames, rule, a, b))
-        return length_over(*crease, places, frames, a, b) / scale;
-      return tangent_length(places, frames, a, b, flat) / scale;
-    };
-    result.lengths.reserve(result.faces.size());
-    for (const auto& [a, b, c] : result.faces)
-      result.lengths.push_back({length(a, b), length(b, c), length(c, a)});
-  }
+  result.lengths = sheet_lengths(places, frames, rule, result.faces, flat);
+  for (auto& lengths : result.lengths)
+    for (double& l : lengths) l /= scale;
   for (Triangle& t : result.faces)
     for (Index& v : t) v = v < n ? distinct.order[v] : static_cast<Index>(points.size() + (v - n));
   for (Index i = 0; i < points.size(); ++i)

@@ -62,6 +62,17 @@ void SheetWedges::remove(Index triangle) {
   triangles_[triangle] = {none, none, none};
 }
 
+double SheetWedges::angle_taken(Index place) const {
+  double sum = 0;
+  around(place, [&](const Wedge& w) {
+    const Point3 p = minus(places_.at[w.a], places_.at[place]),
+                 q = minus(places_.at[w.b], places_.at[place]);
+    const Point3 n = cross(p, q);
+    sum += std::atan2(std::sqrt(dot(n, n)), dot(p, q));
+  });
+  return sum;
+}
+
 Index SheetWedges::only_triangle(Index a, Index b) const {
   Index found = none;
   bool several = false;

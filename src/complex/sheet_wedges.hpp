@@ -48,6 +48,8 @@ class SheetWedges {
     return unpaired != 0;
   }
 
+  /// The angles of its triangles together.
+  [[nodiscard]] double angle_taken(Index place) const;
   /// The only triangle on an edge, or none if there is no such one.
   [[nodiscard]] Index only_triangle(Index a, Index b) const;
   /// Would it overlap none at any of its corners?

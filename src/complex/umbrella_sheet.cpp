@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <numbers>
 #include <span>
 #include <tuple>
 #include <vector>
@@ -105,7 +106,9 @@ bool trace_hole(const SheetWedges& sheet, Index u, Index v, Index w, std::vector
   return false;
 }
 
-void fill_hole(double widest, SheetWedges& sheet, std::vector<Index>& loop) {
+// Closes it ear by ear, the smallest circle first, with triangles that fit.
+template <class Fits>
+void fill_hole(double widest, const Fits& fits, SheetWedges& sheet, std::vector<Index>& loop) {
   while (loop.size() >= 3) {
     const std::size_t m = loop.size();
     std::size_t best = m;
@@ -116,7 +119,7 @@ void fill_hole(double widest, SheetWedges& sheet, std::vector<Index>& loop) {
       std::sort(t.begin(), t.end());
       if (t[0] == t[1] || t[1] == t[2]) continue;
       const double circle = sheet.circle(t);
-      if (!(circle < least) || !sheet.has_room(t)) continue;
+      if (!(circle < least) || !fits(t)) continue;
       best = i;
       least = circle;
       ear = t;
@@ -128,9 +131,25 @@ void fill_hole(double widest, SheetWedges& sheet, std::vector<Index>& loop) {
   }
 }
 
-}  // namespace
+// Would each of its edges have two triangles at most, and those not the same?
+bool can_join(const SheetWedges& sheet, const Triangle& t) {
+  for (std::size_t i = 0; i < 3; ++i) {
+    int count = 0;
+    bool same = false;
+    sheet.around(t[i], [&](const SheetWedges::Wedge& w) {
+      const Index next = t[(i + 1) % 3], last = t[(i + 2) % 3];
+      if (w.a != next && w.b != next) return;
+      ++count;
+      same |= w.a == last || w.b == last;
+    });
+    if (count > 1 || same) return false;
+  }
+  return true;
+}
 
-void fill_holes(double widest, SheetWedges& sheet) {
+// visit(loop) for holes, from each of their edges until it is closed.
+template <class Visit>
+void for_holes(SheetWedges& sheet, const Visit& visit) {
   struct Edge {
     Index v, w;  // of the triangle that it belongs to: the far end, and the apex
   };
@@ -144,9 +163,73 @@ void fill_holes(double widest, SheetWedges& sheet) {
       edges.push_back({w.b, w.a});
     });
     for (const auto [v, w] : edges)  // what fills one hole closes edges of it
-      if (sheet.only_triangle(u, v) != none && trace_hole(sheet, u, v, w, loop))
-        fill_hole(widest, sheet, loop);
+      if (sheet.only_triangle(u, v) != none && trace_hole(sheet, u, v, w, loop)) visit(loop);
   }
+}
+
+// visit(loop) for the parts of a loop that pass no place twice.
+template <class Visit>
+void for_simple_loops(const std::vector<Index>& loop, const Visit& visit) {
+  std::vector<Index> way, part;
+  for (const Index place : loop) {
+    const auto at = std::find(way.begin(), way.end(), place);
+    if (at != way.end()) {
+      part.assign(at, way.end());
+      way.erase(at, way.end());
+      visit(part);
+    }
+    way.push_back(place);
+  }
+  visit(way);
+}
+
+}  // namespace
+
+void fill_holes(double widest, SheetWedges& sheet) {
+  for_holes(sheet, [&](std::vector<Index>& loop) {
+    fill_hole(
+        widest, [&](const Triangle& t) { return sheet.has_room(t); }, sheet, loop);
+  });
+}
+
+namespace {
+
+// Is a loop the rim of a hole in the sheet, not of the sheet or of the end of a tube? Angles of a
+// flat sheet around a hole of m edges are (m + 2) pi, around an open end m pi.
+bool is_hole(const SheetWedges& sheet, const std::vector<Index>& loop) {
+  double taken = 0;
+  for (const Index place : loop) taken += sheet.angle_taken(place);
+  return taken > static_cast<double>(loop.size() + 1) * std::numbers::pi;
+}
+
+}  // namespace
+
+void close_tears(double widest, SheetWedges& sheet) {
+  constexpr std::size_t longest = 8;  // edges
+  for_holes(sheet, [&](const std::vector<Index>& loop) {
+    for_simple_loops(loop, [&](std::vector<Index>& part) {
+      if (part.size() <= longest && is_hole(sheet, part))
+        fill_hole(
+            widest, [&](const Triangle& t) { return can_join(sheet, t); }, sheet, part);
+    });
+  });
+}
+
+std::vector<Index> torn_places(double widest, SheetWedges& sheet) {
+  std::vector<Index> torn;
+  for_holes(sheet, [&](const std::vector<Index>& loop) {
+    if (!is_hole(sheet, loop)) return;
+    const std::size_t m = loop.size();
+    for (std::size_t i = 0; i < m; ++i) {
+      const Triangle ear = {loop[i], loop[(i + 1) % m], loop[(i + 2) % m]};
+      if (ear[0] == ear[2] || !(sheet.circle(ear) < widest)) continue;
+      torn.insert(torn.end(), loop.begin(), loop.end());
+      return;
+    }
+  });
+  std::sort(torn.begin(), torn.end());
+  torn.erase(std::unique(torn.begin(), torn.end()), torn.end());
+  return torn;
 }
 
 void trim_boundary(double widest, SheetWedges& sheet) {

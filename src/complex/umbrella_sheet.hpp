@@ -1,5 +1,7 @@
 #pragma once
 
+#include <vector>
+
 #include "complex/sheet_wedges.hpp"
 #include "complex/umbrella.hpp"
 
@@ -16,6 +18,14 @@ void add_umbrellas(const Umbrellas& umbrellas, int threads, SheetWedges& sheet);
 /// Closes holes of few edges where umbrellas could not agree, ear by ear, with circles of at most
 /// `widest` spacings.
 void fill_holes(double widest, SheetWedges& sheet);
+
+/// Closes holes of at most eight edges where places leave no room in their tangent planes, with
+/// circles of at most `widest` spacings: what is around a corner of several sides fits no plane.
+void close_tears(double widest, SheetWedges& sheet);
+
+/// The places around holes of few edges that circles of less than `widest` spacings would close, if
+/// the places left room; ascending.
+[[nodiscard]] std::vector<Index> torn_places(double widest, SheetWedges& sheet);
 
 /// Takes triangles with circles of more than `widest` spacings away from the boundary: there they
 /// stand for places where the cloud has no points. Inside they close what chance left open.

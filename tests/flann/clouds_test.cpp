@@ -2,6 +2,7 @@
 
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <map>
@@ -15,6 +16,7 @@
 
 namespace {
 
+using plexway::Index;
 using plexway::PointCloud;
 using plexway::PointSource;
 using plexway::Serial;
@@ -69,6 +71,73 @@ TEST_CASE("clouds with exact answers come out as well as asked") {
     CHECK(errors.unreached == 0);
     CHECK(errors.mean <= mean);
     CHECK(errors.beyond <= 0.02);
+  }
+}
+
+TEST_CASE("a crease beside another side: the vertices of a part as a cloud") {
+  const std::filesystem::path file = plexway::testing::exact_file("surfaces", "fandisk.obj");
+  if (file.empty()) {
+    WARN("not measured: no fandisk.obj; a roof with a hole is measured below");
+    return;
+  }
+  std::vector<std::array<double, 3>> points;
+  std::ifstream obj(file);
+  for (std::string line; std::getline(obj, line);) {
+    std::array<double, 3> p{};
+    if (std::sscanf(line.c_str(), "v %lf %lf %lf", &p[0], &p[1], &p[2]) == 3) points.push_back(p);
+  }
+  const PointCloud<float> cloud(points, plexway::flann::surface_neighbours(points));
+  CHECK(cloud.summary().components == 1);
+  CHECK(cloud.summary().torn_points == 0);
+  CHECK(cloud.summary().joints == 0);
+  for (const Index source : {3045u, 2095u, 2415u}) {
+    const std::vector<double> exact = plexway::testing::exact_values(
+        plexway::testing::exact_file("surfaces", "fandisk.v" + std::to_string(source) + ".txt"));
+    REQUIRE(exact.size() == points.size());
+    const auto found = plexway::solve(Serial{}, cloud, PointSource::at(source)).distance;
+    double mean = 0, worst = 0;
+    for (std::size_t v = 0; v < exact.size(); ++v) {
+      if (!(exact[v] > 0)) continue;
+      const double error = std::abs(double(found[v]) / exact[v] - 1);
+      mean += error / static_cast<double>(exact.size());
+      worst = std::max(worst, error);
+    }
+    CAPTURE(source, mean, worst);
+    CHECK(mean < 1e-3);
+    CHECK(worst < 0.05);
+  }
+}
+
+TEST_CASE("a hole beside a sharp edge takes no way through the inside") {
+  // Triangles around the hole were flipped over the edge: those at the rim were chords in space.
+  for (const std::uint64_t seed : {1, 2, 3}) {
+    samples::Uniform u(seed);
+    std::vector<std::array<double, 3>> points;
+    std::vector<std::array<double, 2>> flat;
+    while (points.size() < 3000) {
+      const double across = u(-1, 1), along = u();
+      if (std::hypot(across - .05, along - .5) < .1) continue;
+      // A roof of 60 degrees, turned about two axes.
+      const double x = across / 2, z = -std::abs(across) * std::sqrt(.75);
+      const double a = .7 + double(seed), b = 1.9 * double(seed);
+      const double y = std::cos(a) * along - std::sin(a) * z;
+      const double w = std::sin(a) * along + std::cos(a) * z;
+      points.push_back({std::cos(b) * x - std::sin(b) * y, std::sin(b) * x + std::cos(b) * y, w});
+      flat.push_back({across, along});
+    }
+    const PointCloud<double> cloud(points, plexway::flann::surface_neighbours(points));
+    CHECK(cloud.summary().torn_points == 0);
+    for (const Index source : {0u, 1000u, 2000u}) {
+      const auto found = plexway::solve(Serial{}, cloud, PointSource::at(source)).distance;
+      double low = 0;
+      for (std::size_t v = 0; v < points.size(); ++v) {
+        const double straight =
+            std::hypot(flat[v][0] - flat[source][0], flat[v][1] - flat[source][1]);
+        if (straight > .1) low = std::min(low, found[v] / straight - 1);
+      }
+      CAPTURE(seed, source, low);
+      CHECK(low > -1e-3);
+    }
   }
 }
 

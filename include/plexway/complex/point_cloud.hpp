@@ -54,8 +54,13 @@ struct CloudSummary {
   std::size_t refused_pairs = 0;    ///< of these, not on one sheet
   /// Of the sheet.
   std::size_t triangles = 0;
-  std::size_t bridges = 0;                   ///< pairs that only an edge connects, not a sheet
-  std::size_t boundary_points = 0;           ///< places on the boundary of the sheet
+  std::size_t bridges = 0;          ///< pairs that only an edge connects, not a sheet
+  std::size_t joints = 0;           ///< of these, between two parts that are sheets
+  std::size_t boundary_points = 0;  ///< places on the boundary of the sheet
+  /// Of these, around holes of at most 24 edges where places could not agree on a sheet: as a rule
+  /// near a crease with another side close by.
+  std::size_t torn_points = 0;
+  Index first_torn = none;                   ///< the lowest of these points
   std::size_t isolated_points = 0;           ///< places that are connected to no other
   std::size_t components = 0;                ///< places that paths connect; isolated ones count
   std::size_t largest_component = 0;         ///< its points

@@ -1,0 +1,94 @@
+#include "complex/sheet_lengths.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <iterator>
+
+#include "complex/crease.hpp"
+#include "complex/tangent_lengths.hpp"
+
+namespace plexway {
+namespace {
+
+using Edge = std::array<Index, 2>;
+
+// The same from both sides: then lengths have the same bits.
+Edge edge_of(const std::array<Index, 3>& face, std::size_t i) {
+  const Index a = face[i], b = face[(i + 1) % 3];
+  return {std::min(a, b), std::max(a, b)};
+}
+
+// Do two places both lie in the plane of a third?
+bool share_plane(const Places& places, std::span<const TangentFrame> frames, Index c, Index a,
+                 Index b) {
+  constexpr double near = 0.1;  // spacings
+  if (c >= frames.size()) return false;
+  const double most = near * static_cast<double>(frames[c].spacing);
+  const auto height = [&](Index p) {
+    return std::abs(dot(frames[c].normal, minus(places.at[p], places.at[c])));
+  };
+  return height(a) <= most && height(b) <= most;
+}
+
+// At a corner of three sides two places may both lie on the one that is neither's own, as the third
+// corner of a triangle knows. They see each other straight; the way over the line in which their
+// own sides meet goes around the corner, and is as long as that over the third corner beyond.
+std::vector<Edge> straight_edges(const Places& places, std::span<const TangentFrame> frames,
+                                 std::span<const std::array<Index, 3>> faces,
+                                 std::span<const std::array<double, 3>> lengths) {
+  constexpr double around = 0.995;
+  std::vector<Edge> long_ones, seen, both;
+  for (std::size_t f = 0; f < faces.size(); ++f)
+    for (std::size_t i = 0; i < 3; ++i) {
+      const auto& l = lengths[f];
+      if (l[i] > around * (l[(i + 1) % 3] + l[(i + 2) % 3]))
+        long_ones.push_back(edge_of(faces[f], i));
+      if (share_plane(places, frames, faces[f][(i + 2) % 3], faces[f][i], faces[f][(i + 1) % 3]))
+        seen.push_back(edge_of(faces[f], i));
+    }
+  std::sort(long_ones.begin(), long_ones.end());
+  std::sort(seen.begin(), seen.end());
+  std::set_intersection(long_ones.begin(), long_ones.end(), seen.begin(), seen.end(),
+                        std::back_inserter(both));
+  return both;
+}
+
+}  // namespace
+
+std::vector<std::array<double, 3>> sheet_lengths(const Places& places,
+                                                 std::span<const TangentFrame> frames,
+                                                 const SheetRule& rule,
+                                                 std::span<const std::array<Index, 3>> faces,
+                                                 double flat) {
+  const auto for_creases = [&](const auto& visit) {
+    for (std::size_t f = 0; f < faces.size(); ++f)
+      for (std::size_t i = 0; i < 3; ++i) {
+        const Edge e = edge_of(faces[f], i);
+        if (const auto crease = crease_between(places, frames, rule, e[0], e[1]))
+          visit(f, i, e, *crease);
+      }
+  };
+  bool any = false;
+  for_creases([&](std::size_t, std::size_t, const Edge&, const Crease&) { any = true; });
+  if (!any && !(flat > 0)) return {};
+  std::vector<std::array<double, 3>> lengths(faces.size());
+  for (std::size_t f = 0; f < faces.size(); ++f)
+    for (std::size_t i = 0; i < 3; ++i) {
+      const Edge e = edge_of(faces[f], i);
+      lengths[f][i] = tangent_length(places, frames, e[0], e[1], flat);
+    }
+  if (!any) return lengths;
+  auto over = lengths;
+  for_creases([&](std::size_t f, std::size_t i, const Edge& e, const Crease& crease) {
+    over[f][i] = length_over(crease, places, frames, e[0], e[1]);
+  });
+  const std::vector<Edge> straight = straight_edges(places, frames, faces, over);
+  for (std::size_t f = 0; f < faces.size(); ++f)
+    for (std::size_t i = 0; i < 3; ++i)
+      if (!std::binary_search(straight.begin(), straight.end(), edge_of(faces[f], i)))
+        lengths[f][i] = over[f][i];
+  return lengths;
+}
+
+}  // namespace plexway

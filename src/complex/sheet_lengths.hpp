@@ -1,0 +1,20 @@
+#pragma once
+
+#include <array>
+#include <span>
+#include <vector>
+
+#include "complex/umbrella.hpp"
+
+namespace plexway {
+
+/// How long the edges of a cloud's triangles are, 0 1, 1 2 and 2 0 of each: over creases, and
+/// without a share `flat` of what is taken for noise (`tangent_length`). None if all are as in
+/// space.
+std::vector<std::array<double, 3>> sheet_lengths(const Places& places,
+                                                 std::span<const TangentFrame> frames,
+                                                 const SheetRule& rule,
+                                                 std::span<const std::array<Index, 3>> faces,
+                                                 double flat);
+
+}  // namespace plexway
