@@ -4,6 +4,7 @@
 #include <array>
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <random>
 #include <string>
 #include <utility>
 #include <vector>
@@ -35,20 +36,41 @@ struct Strip {
   }
 };
 
-bool warns_of_rounding(AnyShape shape, Precision precision, Accuracy accuracy) {
-  BuildOptions building;
-  building.precision = precision;
-  building.triangulation = Triangulation::input;
+/// Is this among what is remarked on a field from vertex 0?
+bool remarks(AnyShape shape, const BuildOptions& building, Accuracy accuracy,
+             const std::string& words) {
   const AnyDomain domain(std::move(shape), building);
   const Source source = PointSource::at(0);
   PropagateOptions options;
   options.accuracy = accuracy;
   const AnyField field = domain.solve(Serial{}, source, options);
   const std::vector<double> distance = field.doubles();
-  const auto remarks = field_remarks(domain, field, reach_of(distance, {&source, 1}), false);
-  return std::any_of(remarks.begin(), remarks.end(), [](const std::string& r) {
-    return r.find("use --precision double") != std::string::npos;
-  });
+  const auto told = field_remarks(domain, field, reach_of(distance, {&source, 1}), false);
+  return std::any_of(told.begin(), told.end(),
+                     [&](const std::string& r) { return r.find(words) != std::string::npos; });
+}
+
+bool warns_of_rounding(AnyShape shape, Precision precision, Accuracy accuracy) {
+  BuildOptions building;
+  building.precision = precision;
+  building.triangulation = Triangulation::input;
+  return remarks(std::move(shape), building, accuracy, "use --precision double");
+}
+
+/// A roof with so many degrees on either side of its ridge, and a hole there.
+io::Points roof(unsigned seed, double degrees) {
+  constexpr int side = 30;
+  const double slope = degrees * std::acos(-1.) / 180, half = .5 * (side - 1);
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<double> off(-.15, .15);
+  io::Points points;
+  for (int i = 0; i < side; ++i)
+    for (int j = 0; j < side; ++j) {
+      const double x = i - half + off(random), y = j + off(random);
+      if (std::hypot(x - .3, y - 15) <= 1.6) continue;
+      points.positions.push_back({x * std::cos(slope), y, -std::abs(x) * std::sin(slope)});
+    }
+  return points;
 }
 
 }  // namespace
@@ -69,4 +91,17 @@ TEST_CASE("strips longer than single precision can hold are told") {
   CHECK_FALSE(warns_of_rounding(in_space(longer), Precision::single, accurate));
   CHECK(warns_of_rounding(in_space(longest), Precision::single, accurate));
   CHECK(warns_of_rounding(in_space(longest), Precision::single, fast));
+}
+
+TEST_CASE("holes of a cloud that points do not tell how to close are told") {
+  const auto warns = [](io::Points points) {
+    return remarks(AnyShape::cloud(std::move(points)), {}, Accuracy::fast(),
+                   "around holes that could not be closed");
+  };
+  std::size_t warned = 0;
+  for (unsigned seed = 1; seed <= 12; ++seed) {
+    warned += warns(roof(seed, 75));
+    CHECK_FALSE(warns(roof(seed, 0)));
+  }
+  CHECK(warned > 0);
 }
