@@ -90,11 +90,17 @@ std::vector<std::string> field_remarks(const AnyDomain& solver, const AnyField& 
              " hang together by single edges: no surface was found there, and ways go from point "
              "to point; more neighbours may help (--k " +
              std::to_string(4 * std::max<std::size_t>(domain.cloud()->k, 16)) + ")");
+    const bool refused =
+        !domain.cloud()->points.normals.empty() && domain.cloud()->normals().empty();
+    const std::string cure = refused
+                                 ? "normals that all point to one side would tell (those in the "
+                                   "file do not, and are not taken)"
+                                 : "normals in the file tell (columns nx ny nz)";
     if (cloud->torn_points > 0)
       remark(counted(cloud->torn_points, "points") + " (" + std::to_string(cloud->first_torn) +
              " is the first) around holes that could not be closed, as points there do not tell "
-             "which side of the surface they are on: distances near them may be far off; normals "
-             "in the file tell (columns nx ny nz)");
+             "which side of the surface they are on: distances near them may be far off; " +
+             cure);
     if (cloud->joints > 0)
       remark(counted(cloud->joints, "pairs") +
              " of points join parts that have no triangles between them: all ways from one to the "

@@ -94,14 +94,20 @@ TEST_CASE("strips longer than single precision can hold are told") {
 }
 
 TEST_CASE("holes of a cloud that points do not tell how to close are told") {
-  const auto warns = [](io::Points points) {
-    return remarks(AnyShape::cloud(std::move(points)), {}, Accuracy::fast(),
-                   "around holes that could not be closed");
+  const auto warns = [](io::Points points,
+                        const std::string& words = "around holes that could not be closed") {
+    return remarks(AnyShape::cloud(std::move(points)), {}, Accuracy::fast(), words);
   };
-  std::size_t warned = 0;
+  std::size_t warned = 0, refused = 0;
   for (unsigned seed = 1; seed <= 12; ++seed) {
     warned += warns(roof(seed, 75));
+    // Normals of no use are not named as the cure.
+    io::Points points = roof(seed, 75);
+    for (std::size_t i = 0; i < points.positions.size(); ++i)
+      points.normals.push_back({0, 0, i % 2 == 0 ? 1. : -1.});
+    refused += warns(std::move(points), "and are not taken");
     CHECK_FALSE(warns(roof(seed, 0)));
   }
   CHECK(warned > 0);
+  CHECK(refused == warned);
 }
