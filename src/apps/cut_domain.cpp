@@ -6,6 +6,8 @@
 #include <tuple>
 #include <utility>
 
+#include "apps/simplex_places.hpp"
+
 namespace plexway {
 namespace {
 
@@ -39,8 +41,9 @@ void take_parts(const Bisection<N>& fine, CutDomain<Complex>& domain) {
   for (const auto& simplex : fine.simplices()) domain.parent.push_back(simplex.parent);
 }
 
-/// The same for a part of a solid: beyond `width` from the box edges may be as much longer as they
+/// The same for a part of a domain: beyond `width` from the box edges may be as much longer as they
 /// are farther away.
+template <int N>
 class LimitsNear {
  public:
   LimitsNear(std::vector<double>& limits, std::vector<std::array<double, 3>>& positions,
@@ -48,7 +51,7 @@ class LimitsNear {
       : limits_(limits), positions_(positions), box_(box), width_(width) {
     for (const auto& at : positions_) away_.push_back(away(at));
   }
-  double operator()(const Bisection<3>& fine, Index edge) const {
+  double operator()(const Bisection<N>& fine, Index edge) const {
     const auto& [ends, length] = fine.edges()[edge];
     if (std::max(ends[0], ends[1]) == limits_.size()) {
       const auto [v, w] = fine.halved().back();
@@ -74,12 +77,6 @@ class LimitsNear {
 template <class Real>
 double length_of(const TetMesh<Real>& mesh, Index v, Index w) {
   return static_cast<double>(norm(mesh.points()[v] - mesh.points()[w]));
-}
-
-template <class Real>
-std::array<double, 3> position(const TetMesh<Real>& mesh, Index v) {
-  const Vector3<Real>& p = mesh.points()[v];
-  return {static_cast<double>(p.x), static_cast<double>(p.y), static_cast<double>(p.z)};
 }
 
 std::array<double, 3> scaled(const std::array<double, 3>& at, double unit) {
@@ -128,72 +125,69 @@ std::vector<std::array<Index, 4>> tets_of(const Bisection<3>& fine) {
   return tets;
 }
 
-}  // namespace
+/// Triangles with their edges numbered, as they are glued.
+struct TriangleSides {
+  std::vector<std::array<Index, 3>> simplices, sides;
+  std::vector<Bisection<2>::Edge> edges;
+  bool apart = true;  ///< no edge begins and ends at one vertex or is two sides of one triangle
+};
 
-template <class Real>
-CutDomain<TriangleMesh<Real>> cut(const TriangleMesh<Real>& mesh, std::vector<double> limits,
-                                  std::size_t most) {
-  CutDomain<TriangleMesh<Real>> domain;
-  domain.complex = &mesh;
+constexpr std::size_t triangle_side(std::size_t i) { return Bisection<2>::side(i, edge_after(i)); }
+
+/// Some triangles of a surface, ascending, all their vertices numbered anew by `number`.
+template <class Real, class Number>
+TriangleSides sides_of(const TriangleMesh<Real>& mesh, std::span<const Index> chosen,
+                       const Number& number) {
   const auto triangles = mesh.triangles();
   const Index faces = static_cast<Index>(mesh.face_count());
-  // Most of the time nothing is near any limit.
-  const double least = *std::min_element(limits.begin(), limits.end());
-  bool fits = true;
-  for (Index f = 0; f < faces && fits; ++f) {
-    const Real* length = triangles[f].length;
-    if (static_cast<double>(std::max({length[0], length[1], length[2]})) <= least) continue;
-    for (std::size_t i = 0; i < 3; ++i) {
-      const Index v = triangles[f].corner[i], w = triangles[f].corner[edge_after(i)];
-      fits = fits && static_cast<double>(triangles[f].length[i]) <= std::min(limits[v], limits[w]);
-    }
-  }
-  std::vector<std::array<Index, 3>> simplices(fits ? 0 : faces), sides(simplices.size());
-  std::vector<typename Bisection<2>::Edge> edges;
-  constexpr auto side_of = [](std::size_t i) { return Bisection<2>::side(i, edge_after(i)); };
-  for (auto& s : sides) s.fill(none);
-  for (Index f = 0; f < simplices.size(); ++f) {
+  std::vector<Index> place(faces, none);
+  for (std::size_t n = 0; n < chosen.size(); ++n) place[chosen[n]] = static_cast<Index>(n);
+  TriangleSides found;
+  found.simplices.resize(chosen.size()), found.sides.resize(chosen.size());
+  for (auto& s : found.sides) s.fill(none);
+  for (std::size_t n = 0; n < chosen.size(); ++n) {
+    const Index f = chosen[n];
     const TriangleRecord<Real>& t = triangles[f];
-    std::copy(t.corner, t.corner + 3, simplices[f].begin());
+    std::transform(t.corner, t.corner + 3, found.simplices[n].begin(), number);
     for (std::size_t i = 0; i < 3; ++i) {
-      if (sides[f][side_of(i)] != none) continue;
+      if (found.sides[n][triangle_side(i)] != none) continue;
       const Index v = t.corner[i], w = t.corner[edge_after(i)];
-      if (v == w) fits = true;
-      const Index edge = static_cast<Index>(edges.size());
-      edges.push_back({{v, w}, static_cast<double>(t.length[i])});
-      sides[f][side_of(i)] = edge;
+      if (v == w) found.apart = false;
+      const Index edge = static_cast<Index>(found.edges.size());
+      found.edges.push_back({{number(v), number(w)}, static_cast<double>(t.length[i])});
+      found.sides[n][triangle_side(i)] = edge;
       for (Index across = t.across[i]; (across >> Across::face_shift) != faces;) {
         const Index g = across >> Across::face_shift;
         const std::size_t k = across & Across::edge_mask;
         if (g == f) {
-          if (k != i) fits = true;  // glued to itself
+          if (k != i) found.apart = false;  // glued to itself
           break;
         }
-        sides[g][side_of(k)] = edge;
+        if (place[g] != none) found.sides[place[g]][triangle_side(k)] = edge;
         if (!(across & Across::fan)) break;
         across = triangles[g].across[k];
       }
     }
   }
-  if (fits) {  // or there is no way to cut it
-    domain.limits = std::move(limits);
-    return domain;
-  }
-  std::vector<std::array<Index, 3>> faces_cut, across;
+  return found;
+}
+
+/// Cut triangles as a surface is made of them.
+struct CutTriangles {
+  std::vector<std::array<Index, 3>> faces, across;
   std::vector<std::array<double, 3>> lengths;
-  {  // What cut it need not be there while a copy is built.
-    domain.limits = std::move(limits);
-    const Bisection<2> fine(domain.limits.size(), simplices, sides, std::move(edges),
-                            Limits<2>(domain.limits), most);
-    take_parts(fine, domain);
+
+  CutTriangles() = default;
+  CutTriangles(const Bisection<2>& fine, double unit) {
     const auto& cut = fine.simplices();
-    faces_cut.resize(cut.size()), across.resize(cut.size()), lengths.resize(cut.size());
+    faces.resize(cut.size()), across.resize(cut.size()), lengths.resize(cut.size());
     std::vector<Index> first(fine.edges().size(), none), last = first;  // cycles of halfedges
     for (Index f = 0; f < cut.size(); ++f) {
-      faces_cut[f] = cut[f].vertex;
+      faces[f] = cut[f].vertex;
       for (std::size_t i = 0; i < 3; ++i) {
-        const Index edge = cut[f].edge[side_of(i)], halfedge = 3 * f + static_cast<Index>(i);
-        lengths[f][i] = fine.edges()[edge].length * mesh.unit();
+        const Index edge = cut[f].edge[triangle_side(i)];
+        const Index halfedge = 3 * f + static_cast<Index>(i);
+        lengths[f][i] = fine.edges()[edge].length * unit;
         across[f][i] = none;
         if (first[edge] == none) {
           first[edge] = halfedge;
@@ -205,9 +199,71 @@ CutDomain<TriangleMesh<Real>> cut(const TriangleMesh<Real>& mesh, std::vector<do
       }
     }
   }
-  domain.copy =
-      std::make_unique<TriangleMesh<Real>>(domain.limits.size(), faces_cut, lengths, across);
+};
+
+template <class Real>
+void take_copy(const CutTriangles& cut, CutDomain<TriangleMesh<Real>>& domain) {
+  domain.copy = std::make_unique<TriangleMesh<Real>>(domain.limits.size(), cut.faces, cut.lengths,
+                                                     cut.across);
   domain.complex = domain.copy.get();
+}
+
+/// Begins a part of a domain: what lies within `width` of a box.
+template <class Complex>
+CutDomain<Complex> part_near(const Complex& complex, std::span<const double> limits,
+                             const Box<3>& box, double width) {
+  CutDomain<Complex> domain;
+  domain.partial = true;
+  for (Index s = 0; s < complex.simplex_count(); ++s) {
+    if (!(box.distance(box_around(complex, s)) <= width)) continue;
+    domain.simplices.push_back(s);
+    for (const Index v : corners_in(complex, s)) domain.vertices.push_back(v);
+  }
+  std::sort(domain.vertices.begin(), domain.vertices.end());
+  domain.vertices.erase(std::unique(domain.vertices.begin(), domain.vertices.end()),
+                        domain.vertices.end());
+  for (const Index v : domain.vertices) {
+    domain.limits.push_back(limits[v]);
+    domain.places.push_back(place_of(complex, v));
+  }
+  return domain;
+}
+
+}  // namespace
+
+template <class Real>
+CutDomain<TriangleMesh<Real>> cut(const TriangleMesh<Real>& mesh, std::vector<double> limits,
+                                  std::size_t most) {
+  CutDomain<TriangleMesh<Real>> domain;
+  domain.complex = &mesh;
+  const auto triangles = mesh.triangles();
+  // Most of the time nothing is near any limit.
+  const double least = *std::min_element(limits.begin(), limits.end());
+  bool fits = true;
+  for (Index f = 0; f < mesh.face_count() && fits; ++f) {
+    const Real* length = triangles[f].length;
+    if (static_cast<double>(std::max({length[0], length[1], length[2]})) <= least) continue;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const Index v = triangles[f].corner[i], w = triangles[f].corner[edge_after(i)];
+      fits = fits && static_cast<double>(triangles[f].length[i]) <= std::min(limits[v], limits[w]);
+    }
+  }
+  TriangleSides sides;
+  if (!fits) {
+    std::vector<Index> all(mesh.face_count());
+    std::iota(all.begin(), all.end(), Index{0});
+    sides = sides_of(mesh, all, [](Index v) { return v; });
+  }
+  domain.limits = std::move(limits);
+  if (fits || !sides.apart) return domain;  // in the second case there is no way to cut it
+  CutTriangles cut;
+  {  // What cut it need not be there while a copy is built.
+    const Bisection<2> fine(domain.limits.size(), sides.simplices, sides.sides,
+                            std::move(sides.edges), Limits<2>(domain.limits), most);
+    take_parts(fine, domain);
+    cut = CutTriangles(fine, mesh.unit());
+  }
+  take_copy(cut, domain);
   return domain;
 }
 
@@ -242,7 +298,7 @@ CutDomain<TetMesh<Real>> cut(const TetMesh<Real>& mesh, std::vector<double> limi
   std::vector<std::array<double, 3>> positions;
   positions.reserve(domain.limits.size());
   for (Index v = 0; v < mesh.vertex_count(); ++v)
-    positions.push_back(scaled(position(mesh, v), mesh.unit()));
+    positions.push_back(scaled(place_of(mesh, v), mesh.unit()));
   for (const auto& [v, w] : domain.halved) positions.push_back(middle(positions[v], positions[w]));
   domain.copy = std::make_unique<TetMesh<Real>>(positions, cut);
   domain.complex = domain.copy.get();
@@ -250,37 +306,44 @@ CutDomain<TetMesh<Real>> cut(const TetMesh<Real>& mesh, std::vector<double> limi
 }
 
 template <class Real>
+CutDomain<TriangleMesh<Real>> cut_near(const TriangleMesh<Real>& mesh,
+                                       std::span<const double> limits, const Box<3>& box,
+                                       double width, std::size_t most) {
+  CutDomain<TriangleMesh<Real>> domain = part_near(mesh, limits, box, width);
+  if (domain.simplices.empty()) return domain;
+  CutTriangles cut;
+  {
+    TriangleSides sides =
+        sides_of(mesh, domain.simplices, [&](Index v) { return domain.vertex_in_copy(v); });
+    const Bisection<2> fine(domain.vertices.size(), sides.simplices, sides.sides,
+                            std::move(sides.edges),
+                            LimitsNear<2>(domain.limits, domain.places, box, width), most, true);
+    take_parts(fine, domain);
+    for (Index& s : domain.parent) s = domain.simplices[s];
+    cut = CutTriangles(fine, mesh.unit());
+  }
+  take_copy(cut, domain);
+  return domain;
+}
+
+template <class Real>
 CutDomain<TetMesh<Real>> cut_near(const TetMesh<Real>& mesh, std::span<const double> limits,
                                   const Box<3>& box, double width, std::size_t most) {
-  CutDomain<TetMesh<Real>> domain;
-  domain.partial = true;
-  for (Index t = 0; t < mesh.tet_count(); ++t) {
-    Box<3> around = Box<3>::empty();
-    for (const Index v : mesh.tets()[t].corner) around.add(position(mesh, v));
-    if (!(box.distance(around) <= width)) continue;
-    domain.simplices.push_back(t);
-    for (const Index v : mesh.tets()[t].corner) domain.vertices.push_back(v);
-  }
-  std::sort(domain.vertices.begin(), domain.vertices.end());
-  domain.vertices.erase(std::unique(domain.vertices.begin(), domain.vertices.end()),
-                        domain.vertices.end());
-  std::vector<std::array<double, 3>> positions;
-  for (const Index v : domain.vertices) {
-    domain.limits.push_back(limits[v]);
-    positions.push_back(position(mesh, v));
-  }
+  CutDomain<TetMesh<Real>> domain = part_near(mesh, limits, box, width);
   if (domain.simplices.empty()) return domain;
   std::vector<std::array<Index, 4>> cut;
   {
     const Bisection<3> fine = bisected(
         mesh, domain.simplices, domain.vertices.size(),
         [&](Index v) { return domain.vertex_in_copy(v); },
-        LimitsNear(domain.limits, positions, box, width), most, true);
+        LimitsNear<3>(domain.limits, domain.places, box, width), most, true);
     take_parts(fine, domain);
     for (Index& s : domain.parent) s = domain.simplices[s];
     cut = tets_of(fine);
   }
-  for (auto& at : positions) at = scaled(at, mesh.unit());
+  std::vector<std::array<double, 3>> positions;
+  positions.reserve(domain.places.size());
+  for (const auto& at : domain.places) positions.push_back(scaled(at, mesh.unit()));
   domain.copy = std::make_unique<TetMesh<Real>>(positions, cut);
   domain.complex = domain.copy.get();
   return domain;
@@ -292,6 +355,12 @@ template CutDomain<TriangleMesh<double>> cut(const TriangleMesh<double>&, std::v
                                              std::size_t);
 template CutDomain<TetMesh<float>> cut(const TetMesh<float>&, std::vector<double>, std::size_t);
 template CutDomain<TetMesh<double>> cut(const TetMesh<double>&, std::vector<double>, std::size_t);
+template CutDomain<TriangleMesh<float>> cut_near(const TriangleMesh<float>&,
+                                                 std::span<const double>, const Box<3>&, double,
+                                                 std::size_t);
+template CutDomain<TriangleMesh<double>> cut_near(const TriangleMesh<double>&,
+                                                  std::span<const double>, const Box<3>&, double,
+                                                  std::size_t);
 template CutDomain<TetMesh<float>> cut_near(const TetMesh<float>&, std::span<const double>,
                                             const Box<3>&, double, std::size_t);
 template CutDomain<TetMesh<double>> cut_near(const TetMesh<double>&, std::span<const double>,

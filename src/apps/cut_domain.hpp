@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <memory>
 #include <span>
@@ -31,6 +32,8 @@ struct CutDomain {
   /// Of a copy of a part: the domain's vertices and simplices that it began with, ascending.
   bool partial = false;
   std::vector<Index> vertices, simplices;
+  /// Of a copy of a part: where its vertices lie, in the unit inside the domain.
+  std::vector<std::array<double, 3>> places;
 
   /// A vertex of the domain, or a point of a simplex of it, by the numbers that the copy's caller
   /// knows. They must be in the part.
@@ -59,7 +62,11 @@ CutDomain<TetMesh<Real>> cut(const TetMesh<Real>& mesh, std::vector<double> limi
                              std::size_t most = most_parts);
 
 /// A copy of what lies within `width` of a box, in any case; what sticks out of that is cut more
-/// and more coarsely. Of a solid with coordinates.
+/// and more coarsely. Of a domain that has places.
+template <class Real>
+CutDomain<TriangleMesh<Real>> cut_near(const TriangleMesh<Real>& mesh,
+                                       std::span<const double> limits, const Box<3>& box,
+                                       double width, std::size_t most);
 template <class Real>
 CutDomain<TetMesh<Real>> cut_near(const TetMesh<Real>& mesh, std::span<const double> limits,
                                   const Box<3>& box, double width, std::size_t most);

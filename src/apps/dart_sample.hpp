@@ -14,7 +14,8 @@
 
 #include "apps/cut_domain.hpp"
 #include "apps/dart_thrower.hpp"
-#include "apps/solid_blocks.hpp"
+#include "apps/domain_blocks.hpp"
+#include "apps/simplex_places.hpp"
 
 namespace plexway {
 
@@ -61,15 +62,6 @@ void check_radii(std::size_t simplices, std::vector<double>& radii) {
   for (double& radius : radii) radius = std::min(radius, widest);
 }
 
-template <class Real>
-std::span<const Index> corners_in(const TriangleMesh<Real>& mesh, Index s) {
-  return mesh.triangles()[s].corner;
-}
-template <class Real>
-std::span<const Index> corners_in(const TetMesh<Real>& mesh, Index s) {
-  return mesh.tets()[s].corner;
-}
-
 /// One sample with one radius, of a domain that is cut where its simplices are too large: all at
 /// once, or block by block where that would take too much memory.
 template <class Complex>
@@ -103,7 +95,7 @@ class DartSample {
     }
     // A copy may be somewhat larger than the domain in any case.
     const std::size_t at_once =
-        blocks ? std::min(parts, std::max(options.at_once, 4 * simplices)) : parts;
+        has_places(domain) ? std::min(parts, std::max(options.at_once, 4 * simplices)) : parts;
     if (least <= static_cast<double>(at_once)) {
       try {
         throw_at(cut(domain, limits_, at_once));
@@ -112,13 +104,13 @@ class DartSample {
         if (at_once == parts) throw;
       }
     }
-    if constexpr (blocks)
-      SolidBlocks<Real>(domain, limits_, reach / longest_edge, options.at_once)
-          .each([&](const auto& fine, const Box<3>& box, double share) {
-            share_ = share;
-            throw_at(fine, &box);
-            done_ += share;
-          });
+    DomainBlocks<Complex>(domain, limits_, reach / longest_edge, options.at_once)
+        .each([&](const auto& fine, const Box<3>& box, double share) {
+          share_ = share;
+          throw_at(fine, &box);
+          done_ += share;
+        });
+    take_loose_vertices();
   }
 
   /// Darts in the caller's numbers.
@@ -131,7 +123,6 @@ class DartSample {
   }
 
  private:
-  static constexpr bool blocks = corners == 4;  // boxes need coordinates
   /// In radii: darts go into simplices that stick out of a box by an edge; so much farther away
   /// are those that matter, and the paths from them.
   static constexpr double reach = 1 + longest_edge;
@@ -146,8 +137,7 @@ class DartSample {
     std::vector<Index> vertices;
     for (const Index v : candidates_) {
       const Index w = domain_.inside_vertex(v);
-      if constexpr (blocks)
-        if (box && box->distance(place(domain_, w, 1)) > 0) continue;
+      if (box && (!fine.has_vertex(w) || box->distance(place_of(domain_, w)) > 0)) continue;
       vertices.push_back(inside(fine.vertex_in_copy(w)));
     }
 
@@ -156,11 +146,10 @@ class DartSample {
     SimplexNumbers<Complex> own(complex);
     typename Thrower::Target target{
         .radii = radii, .vertices = vertices, .open = {}, .earlier = {}};
-    if constexpr (blocks)
-      if (box) {
-        target.open = simplices_in(fine, *box);
-        target.earlier = darts_near(fine, *box, own);
-      }
+    if (box) {
+      target.open = simplices_in(fine, *box, own);
+      target.earlier = darts_near(fine, *box, own);
+    }
     const Thrower thrower(field, std::move(target), options_, random_, [&](double share) {
       const double all = done_ + share_ * std::clamp(share, 0., 1.);
       if (options_.progress && !options_.progress(std::min(all, 1.)))
@@ -173,6 +162,18 @@ class DartSample {
     result_.statistics.updates += totals.updates;
     result_.statistics.reached_simplices += totals.reached_simplices;
     for (const auto& dart : thrower.darts()) result_.darts.push_back(in_domain(dart, fine, own));
+  }
+
+  /// Candidates of no simplex are in no box; each is its own dart, as where all is done at once.
+  void take_loose_vertices() {
+    std::vector<bool> used(domain_.vertex_count());
+    for (Index s = 0; s < domain_.simplex_count(); ++s)
+      for (const Index v : corners_in(domain_, s)) used[v] = true;
+    for (const Index v : candidates_) {
+      if (used[domain_.inside_vertex(v)]) continue;
+      result_.darts.push_back(PointSource::at(domain_.inside_vertex(v)));
+      ++result_.thrown;
+    }
   }
 
   /// Numbers inside the domain.
@@ -197,23 +198,15 @@ class DartSample {
     return {.simplex = parent, .barycentric = weights};
   }
 
-  /// Those of a block's copy that meet its box. The copy has its own unit and origin.
-  [[nodiscard]] std::vector<bool> simplices_in(const CutDomain<Complex>& fine,
-                                               const Box<3>& box) const {
+  /// Those of a block's copy that meet its box.
+  [[nodiscard]] std::vector<bool> simplices_in(const CutDomain<Complex>& fine, const Box<3>& box,
+                                               const SimplexNumbers<Complex>& own) const {
     const Complex& complex = *fine.complex;
-    const double scale = complex.unit() / domain_.unit();
-    std::array<double, 3> origin = place(domain_, fine.vertex_in_domain(0), 1);
-    for (std::size_t k = 0; k < 3; ++k)
-      origin[k] -= place(complex, complex.inside_vertex(0), scale)[k];
-    std::vector<bool> found(complex.tet_count());
-    for (Index t = 0; t < found.size(); ++t) {
+    std::vector<bool> found(complex.simplex_count());
+    for (Index s = 0; s < found.size(); ++s) {
       Box<3> around = Box<3>::empty();
-      for (const Index v : corners_in(complex, t)) {
-        std::array<double, 3> at = place(complex, v, scale);
-        for (std::size_t k = 0; k < 3; ++k) at[k] += origin[k];
-        around.add(at);
-      }
-      found[t] = !(box.distance(around) > 0);
+      for (const Index v : corners_in(complex, s)) around.add(fine.places[own.outside_vertex(v)]);
+      found[s] = !(box.distance(around) > 0);
     }
     return found;
   }
@@ -226,7 +219,7 @@ class DartSample {
     for (const PointSource& dart : result_.darts) {
       if (dart.vertex != none) {
         if (!fine.has_vertex(dart.vertex) ||
-            box.distance(place(domain_, dart.vertex, 1)) > reach_of(limits_[dart.vertex]))
+            box.distance(place_of(domain_, dart.vertex)) > reach_of(limits_[dart.vertex]))
           continue;
         const Index v = fine.vertex_in_copy(dart.vertex);
         found.push_back({fine.copy->inside_vertex(v), none, {}});
@@ -237,7 +230,7 @@ class DartSample {
       for (std::size_t i = 0; i < corners; ++i) {
         const Index v = corners_in(domain_, dart.simplex)[i];
         limit += dart.barycentric[i] * limits_[v];
-        for (std::size_t k = 0; k < 3; ++k) at[k] += dart.barycentric[i] * place(domain_, v, 1)[k];
+        for (std::size_t k = 0; k < 3; ++k) at[k] += dart.barycentric[i] * place_of(domain_, v)[k];
       }
       if (box.distance(at) > reach_of(limit)) continue;
       Weights weights = dart.barycentric;
@@ -248,12 +241,6 @@ class DartSample {
     return found;
   }
   static double reach_of(double limit) { return limit * (reach / longest_edge); }
-
-  static std::array<double, 3> place(const Complex& complex, Index v, double scale) {
-    const auto& p = complex.points()[v];
-    return {static_cast<double>(p.x) * scale, static_cast<double>(p.y) * scale,
-            static_cast<double>(p.z) * scale};
-  }
 
   const Complex& domain_;
   std::span<const Index> candidates_;

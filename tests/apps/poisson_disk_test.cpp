@@ -197,6 +197,62 @@ TEST_CASE("boxes agree with a spacing, and with darts at vertices") {
   CHECK(apart <= 0.6 * (1 + 1e-5));
 }
 
+TEST_CASE("a surface done box by box is covered as one done at once") {
+  const samples::Shape sphere = samples::geodesic_sphere(24);
+  const TriangleMesh<float> mesh(sphere.points, sphere.faces);
+  constexpr double radius = 0.05;
+  const PoissonDisks whole = poisson_disks(Serial{}, mesh, {.radius = radius});
+  const PoissonDisks disks = poisson_disks(Serial{}, mesh, {.radius = radius, .at_once = 30000});
+  const auto darts = positions(disks.darts, sphere.points, sphere.faces);
+  INFO(darts.size() << " darts, at once " << whole.darts.size());
+  CHECK(disks.thrown != whole.thrown);  // it was done in boxes
+  CHECK(static_cast<double>(darts.size()) ==
+        Approx(static_cast<double>(whole.darts.size())).epsilon(0.05));
+  CHECK(least_distance(darts, great_circle) >= radius * (1 - 1e-3));
+  samples::Noise noise(14);
+  double farthest = 0;
+  for (int n = 0; n < 5000; ++n)
+    farthest = std::max(farthest, nearest({noise(), noise(), noise()}, darts, great_circle));
+  CHECK(farthest <= radius * (1 + 2e-4));
+}
+
+TEST_CASE("boxes of a surface are told from what is near in space alone") {
+  // Two sheets much nearer than the radius, joined nowhere, and a vertex of no triangle.
+  samples::Shape sheets = square(2);
+  const Index corners = static_cast<Index>(sheets.points.size());
+  const std::size_t faces = sheets.faces.size();
+  for (Index v = 0; v < corners; ++v) {
+    const Point p = sheets.points[v];
+    sheets.points.push_back({p[0], p[1], 0.01});
+  }
+  for (std::size_t f = 0; f < faces; ++f) {
+    auto face = sheets.faces[f];
+    for (Index& v : face) v += corners;
+    sheets.faces.push_back(face);
+  }
+  sheets.points.push_back({0.5, 0.5, 3});
+  constexpr double radius = 0.06;
+  const TriangleMesh<double> mesh(sheets.points, sheets.faces);
+  const PoissonDisks disks = poisson_disks(Serial{}, mesh, {.radius = radius, .at_once = 4000});
+  const auto all = positions(disks.darts, sheets.points, sheets.faces);
+  for (const double height : {0., 0.01}) {
+    std::vector<Point> darts;
+    for (const Point& p : all)
+      if (p[2] == Approx(height).margin(1e-9)) darts.push_back(p);
+    INFO(darts.size() << " darts at " << height);
+    CHECK(least_distance(darts, euclid) >= radius * (1 - 1e-3));
+    samples::Noise noise(15);
+    double farthest = 0;
+    for (int n = 0; n < 5000; ++n)
+      farthest = std::max(farthest,
+                          nearest({(noise() + 1) / 2, (noise() + 1) / 2, height}, darts, euclid));
+    CHECK(farthest <= radius * (1 + 1e-5));
+  }
+  const PoissonDisks at_vertices =
+      poisson_disks(Serial{}, mesh, {.radius = radius, .at_vertices = true, .at_once = 4000});
+  CHECK(at_vertices.darts.size() == sheets.points.size());
+}
+
 TEST_CASE("a seed makes the same darts again and another seed other ones") {
   const samples::Shape shape = square(20);
   const auto one = throw_on<double>(shape, {.radius = 0.1, .seed = 1});

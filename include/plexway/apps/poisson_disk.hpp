@@ -37,8 +37,9 @@ struct PoissonOptions {
   /// vertices. For a density of darts, give its power -1/2 on surfaces and -1/3 in solids. It
   /// should grow more slowly than the distance.
   std::span<const double> spacing = {};
-  /// A solid that would be cut into more tetrahedra than this, of 300 to 400 bytes each, is done
-  /// box by box, so that memory does not grow with the number of darts but for themselves.
+  /// A solid, or a surface by coordinates, that would be cut into more simplices than this, of 200
+  /// to 400 bytes each, is done box by box, so that memory does not grow with the number of darts
+  /// but for themselves.
   std::size_t at_once = std::size_t{1} << 21;
   /// Called now and then with the share of the domain that is covered; false stops with Cancelled.
   std::function<bool(double share)> progress = {};

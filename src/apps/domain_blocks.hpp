@@ -7,9 +7,8 @@
 #include <span>
 #include <vector>
 
-#include <plexway/complex/tet_mesh.hpp>
-
 #include "apps/cut_domain.hpp"
+#include "apps/simplex_places.hpp"
 
 namespace plexway {
 
@@ -21,23 +20,23 @@ double least_parts(double content, double limit) {
   return std::max(1., content / (regular * std::pow(limit, double{Corners - 1})));
 }
 
-/// A solid in boxes of which each is cut for itself, with as much around it as decides what happens
-/// inside. Numbers, coordinates and unit inside.
-template <class Real>
-class SolidBlocks {
+/// A domain that has places, in boxes of which each is cut for itself, with as much around it as
+/// decides what happens inside. Numbers, coordinates and unit inside.
+template <class Complex>
+class DomainBlocks {
  public:
   /// Edges are cut to `limits`, one a vertex, into no more than `most` parts a box. What is farther
   /// from a box than `reach` of these limits does not matter to it.
-  SolidBlocks(const TetMesh<Real>& solid, std::span<const double> limits, double reach,
-              std::size_t most)
-      : solid_(solid), limits_(limits), reach_(reach), most_(most) {}
+  DomainBlocks(const Complex& domain, std::span<const double> limits, double reach,
+               std::size_t most)
+      : domain_(domain), limits_(limits), reach_(reach), most_(most) {}
 
   /// visit(fine, box, share): what is within the box and about it, and which share of the box
-  /// around the solid that is. Throws TooManyParts where what is about a box is too much already.
+  /// around the domain that is. Throws TooManyParts where what is about a box is too much already.
   template <class Visit>
   void each(const Visit& visit) const {
     Box<3> whole = Box<3>::empty();
-    for (Index v = 0; v < solid_.vertex_count(); ++v) whole.add(at(v));
+    for (Index s = 0; s < domain_.simplex_count(); ++s) whole.add(box_around(domain_, s));
     struct Block {
       Box<3> box;
       double share;
@@ -52,10 +51,10 @@ class SolidBlocks {
         if (box.high[k] - box.low[k] > box.high[longest] - box.low[longest]) longest = k;
       const double side = box.high[longest] - box.low[longest];
       const bool small = side < width;  // smaller ones would consist of what is about them
-      CutDomain<TetMesh<Real>> fine;
+      CutDomain<Complex> fine;
       try {
         if (!small && expected_parts(box) > static_cast<double>(most_)) throw TooManyParts("");
-        fine = cut_near(solid_, limits_, box, width, small ? most_parts : most_);
+        fine = cut_near(domain_, limits_, box, width, small ? most_parts : most_);
       } catch (const TooManyParts&) {
         if (small) throw;
         Block low = {box, share / 2}, high = low;
@@ -69,54 +68,41 @@ class SolidBlocks {
   }
 
  private:
-  [[nodiscard]] std::array<double, 3> at(Index v) const {
-    const Vector3<Real>& p = solid_.points()[v];
-    return {static_cast<double>(p.x), static_cast<double>(p.y), static_cast<double>(p.z)};
-  }
-  [[nodiscard]] Box<3> around(Index t) const {
-    Box<3> box = Box<3>::empty();
-    for (const Index v : solid_.tets()[t].corner) box.add(at(v));
-    return box;
-  }
-  [[nodiscard]] double limit(Index t) const {
+  [[nodiscard]] double limit(Index s) const {
     double limit = 0;
-    for (const Index v : solid_.tets()[t].corner) limit = std::max(limit, limits_[v]);
+    for (const Index v : corners_in(domain_, s)) limit = std::max(limit, limits_[v]);
     return limit;
-  }
-  [[nodiscard]] double content(Index t) const {
-    const Index* v = solid_.tets()[t].corner;
-    const auto p = solid_.points();
-    return static_cast<double>(
-               dot(p[v[1]] - p[v[0]], cross(p[v[2]] - p[v[0]], p[v[3]] - p[v[0]]))) /
-           6;
   }
 
   /// Of all that reach a box.
   [[nodiscard]] double greatest_limit(const Box<3>& box) const {
     double greatest = 0;
-    for (Index t = 0; t < solid_.tet_count(); ++t)
-      if (const double own = limit(t); own > greatest && box.distance(around(t)) <= reach_ * own)
+    for (Index s = 0; s < domain_.simplex_count(); ++s)
+      if (const double own = limit(s);
+          own > greatest && box.distance(box_around(domain_, s)) <= reach_ * own)
         greatest = own;
     return greatest;
   }
 
-  /// As if tetrahedra filled the boxes around them evenly.
+  /// As if simplices filled the boxes around them evenly.
   [[nodiscard]] double expected_parts(const Box<3>& box) const {
     double parts = 0;
-    for (Index t = 0; t < solid_.tet_count(); ++t) {
-      const Box<3> all = around(t);
+    for (Index s = 0; s < domain_.simplex_count(); ++s) {
+      const Box<3> all = box_around(domain_, s);
       double share = 1;
       for (std::size_t k = 0; k < 3; ++k) {
         const double both = std::min(box.high[k], all.high[k]) - std::max(box.low[k], all.low[k]);
         const double side = all.high[k] - all.low[k];
         share *= side > 0 ? std::max(0., both / side) : 1;
       }
-      if (share > 0) parts += share * least_parts<4>(content(t), limit(t));
+      if (share > 0)
+        parts +=
+            share * least_parts<Complex::dimension + 1>(content_in_space(domain_, s), limit(s));
     }
     return parts;
   }
 
-  const TetMesh<Real>& solid_;
+  const Complex& domain_;
   std::span<const double> limits_;
   double reach_;
   std::size_t most_;
