@@ -33,7 +33,7 @@ foreach(source IN LISTS fuzzers)
   if(format STREQUAL "arguments")
     target_sources(${target} PRIVATE $<TARGET_OBJECTS:plexway_cli>)
     plexway_link_all(${target} EXCEPT pcl openvdb hdf5 mpi)
-  elseif(format STREQUAL "solve_plane")
+  elseif(format MATCHES "^solve_(plane|mixed)$")
     target_include_directories(${target} PRIVATE "${PROJECT_SOURCE_DIR}/data")
   elseif(format STREQUAL "pcd")  # without PCL, what is looked at before PCL
     set(folder "${PROJECT_SOURCE_DIR}/complexes/pcl")

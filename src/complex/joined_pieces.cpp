@@ -244,31 +244,38 @@ class Joiner {
     return {std::move(points), std::move(tets)};
   }
 
-  // Not where faces contradict each other; and not where an edge of the weld would bend paths, as
-  // at a window: which such edge a tetrahedron knows is a matter of luck, where fronts over the
-  // faces between pieces (HingeFront) are exact.
+  // Where one face of a crack lies on the other, coordinates do not tell from which of the two a
+  // path begins.
+  static bool is_crack(const ReflexEdge<Real>& edge) {
+    return dot(edge.normal[0], edge.normal[1]) < Real(-1 + 1e-6);
+  }
+
+  // Not where faces contradict each other, and not where the weld leaves a crack, as the wall
+  // around a window: fronts over the faces between pieces (HingeFront) are exact there.
   [[nodiscard]] bool can_be_built(const std::vector<Index>& pieces) const {
     const Vertices vertices = vertices_of(pieces);
     const auto [points, tets] = solid_of(pieces, vertices);
-    std::vector<char> bends(vertices.count, 0);
+    std::vector<char> cracked(vertices.count, 0);
     std::size_t pinches = 0;
     for (std::size_t i = 0; i < pieces.size(); ++i) {
       const Solid& solid = *get<Solid>(pieces[i]);
       pinches += solid.summary().pinched_edges + solid.summary().pinched_vertices;
       std::vector<char> inside(solid.vertex_count(), 0);
       for (const auto& edge : solid.reflex_edges())
-        for (const Index v : edge.vertex) inside[v] = 1;
+        if (is_crack(edge))
+          for (const Index v : edge.vertex) inside[v] = 1;
       for (Index v = 0; v < inside.size(); ++v)
-        if (inside[solid.inside_vertex(v)]) bends[vertices.of_piece[i][v]] = 1;
+        if (inside[solid.inside_vertex(v)]) cracked[vertices.of_piece[i][v]] = 1;
     }
     try {
       const Solid solid(points, tets);
       if (solid.summary().pinched_edges + solid.summary().pinched_vertices > pinches) return false;
       std::vector<char> inside(solid.vertex_count(), 0);
-      for (Index v = 0; v < inside.size(); ++v) inside[solid.inside_vertex(v)] = bends[v];
+      for (Index v = 0; v < inside.size(); ++v) inside[solid.inside_vertex(v)] = cracked[v];
       for (const auto& edge : solid.reflex_edges())
-        for (const Index v : edge.vertex)
-          if (!inside[v]) return false;
+        if (is_crack(edge))
+          for (const Index v : edge.vertex)
+            if (!inside[v]) return false;
       return true;
     } catch (const InputError&) {
       return false;

@@ -36,6 +36,15 @@ Vector3<double> inward_normal(const TetPoints& p, Index face) {
   return length > 0 ? 1 / length * n : n;
 }
 
+/// Within a face, from its edge ij and square to that, unit.
+Vector3<double> into_face(const TetPoints& p, Index face, Index i, Index j) {
+  const auto edge = p[j] - p[i], side = p[6 - face - i - j] - p[i];
+  const double square = dot(edge, edge);
+  const auto w = square > 0 ? side - dot(side, edge) / square * edge : side;
+  const double length = norm(w);
+  return length > 0 ? 1 / length * w : w;
+}
+
 class Finder {
  public:
   Finder(Corners corner, Corners across, const TetCorners& corners, const TetPlaces& places)
@@ -232,10 +241,16 @@ class Finder {
 
   void add_reflex(Index a, Index b, Index t, Index k, Index u, Index l) {
     const Index edge = static_cast<Index>(found_.reflex.size());
-    const TetPoints p = points(t);
-    found_.reflex.push_back({{p[corner_of(corner_[t], a)], p[corner_of(corner_[t], b)]},
-                             {inward_normal(p, k), inward_normal(points(u), l)},
-                             {a, b}});
+    const TetPoints p = points(t), q = points(u);
+    const Index i = corner_of(corner_[t], a), j = corner_of(corner_[t], b);
+    const Vector3<double> normal[2] = {inward_normal(p, k), inward_normal(q, l)};
+    // At the end of a crack, whose faces lie on each other, normals leave nothing.
+    constexpr double closed_crack = 1e-3;
+    Vector3<double> solid = normal[0] + normal[1];
+    if (dot(solid, solid) < closed_crack * closed_crack)
+      solid = -0.5 * (into_face(p, k, i, j) +
+                      into_face(q, l, corner_of(corner_[u], a), corner_of(corner_[u], b)));
+    found_.reflex.push_back({{p[i], p[j]}, {normal[0], normal[1]}, {a, b}, solid});
     on_reflex_[a] = on_reflex_[b] = 1;
     for (const auto& [tet, slot] : fan_)
       entries_.push_back({tet, edge << ReflexEntry::edge_shift | slot << ReflexEntry::slot_shift});
@@ -287,6 +302,7 @@ class Finder {
     const auto u = a.end[i] - a.end[1 - i], w = b.end[1 - j] - b.end[j];
     constexpr double near = 1e-6;
     if (!(dot(u, w) > 0) || !(norm(cross(u, w)) < near * dot(u, w))) return false;
+    if (!(dot(a.solid, b.solid) > 0)) return false;  // cracks on either side of a line
     const auto same = [](const Vector3<double>& m, const Vector3<double>& n) {
       return norm(m - n) < near;
     };

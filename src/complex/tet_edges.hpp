@@ -24,6 +24,7 @@ struct TetTopology {
   struct Reflex {
     std::array<Vector3<double>, 2> end, normal;
     std::array<Index, 2> vertex;
+    Vector3<double> solid;  ///< away from the edge into the solid, between both faces
   };
   std::vector<Reflex> reflex;       ///< those in a straight row are one
   std::vector<Index> reflex_list;   ///< ReflexEntry, by tetrahedron

@@ -280,7 +280,7 @@ void TetMesh<Real>::assemble(std::size_t vertices, std::span<const std::array<In
     for (const auto& e : topology.reflex) {
       const auto along = e.end[1] - e.end[0];
       const double length = norm(along);
-      reflex_.own().push_back({rounded(e.normal[0] + e.normal[1]),
+      reflex_.own().push_back({rounded(e.solid),
                                rounded(length > 0 ? 1 / length * along : along),
                                {rounded(e.end[0]), rounded(e.end[1])},
                                static_cast<Real>(length),

@@ -55,7 +55,7 @@ struct TetRecord {
 template <class Real>
 struct ReflexEdge {
   // First what says that a point is not in its shadow.
-  Vector3<Real> solid;      ///< sum of the normals
+  Vector3<Real> solid;      ///< away from it: sum of the normals, or out of a crack
   Vector3<Real> direction;  ///< from the first end to the second, unit; 0 without length
   Vector3<Real> end[2];
   Real extent;              ///< its length; named so that shaders can have it

@@ -1,0 +1,206 @@
+// Pieces welded to a whole whose distances are known: a square with rectangles cut out, dealt among
+// sheets, and the prism over it among solids (the truth is the visibility graph of the corners);
+// layers of two speeds, as sheets and as solids (Snell's law and head waves); a square with wires
+// of a speed of their own from vertex to vertex (a graph of straight lines and wires).
+
+#include <map>
+
+#include <plexway/complex/mixed_complex.hpp>
+
+#include "fuzz_plan.hpp"
+#include "speed_times.hpp"
+
+namespace {
+
+using namespace fuzz;
+using plexway::PointSource;
+using Mixed = plexway::MixedComplex<double>;
+
+/// Simplices of numbered places in pieces of their own, each with a speed, welded all to all.
+class Whole {
+ public:
+  explicit Whole(const std::vector<Place>& places) : places_(places) {}
+
+  /// A piece on which paths run at `speed`; nothing where there are no simplices.
+  template <std::size_t Corners>
+  void add(const std::vector<std::array<Index, Corners>>& simplices, double speed) {
+    if (simplices.empty()) return;
+    std::map<Index, Index> number;
+    std::vector<Place> at, timed;
+    std::vector<std::array<Index, Corners>> own = simplices;
+    for (auto& simplex : own)
+      for (Index& v : simplex) {
+        const auto [found, is_new] = number.try_emplace(v, static_cast<Index>(at.size()));
+        if (is_new) {
+          at.push_back(places_[v]);
+          timed.push_back({at.back()[0] / speed, at.back()[1] / speed, at.back()[2] / speed});
+          place_.push_back(v);
+        }
+        v = found->second;
+      }
+    const auto complex = [&] {
+      if constexpr (Corners == 2)
+        return plexway::Wireframe<double>(timed, own);
+      else if constexpr (Corners == 3)
+        return plexway::TriangleMesh<double>(timed, own);
+      else
+        return plexway::TetMesh<double>(timed, own);
+    }();
+    pieces_.push_back(mixed_.add(complex, at));
+    for (std::size_t i = 0; i + 1 < pieces_.size(); ++i)
+      mixed_.weld(pieces_[i], pieces_.back(), plexway::WeldOptions{.tolerance = 1e-9});
+  }
+
+  /// From a place to each, by `truth`; a place of no piece counts for nothing.
+  void check(Index source, const std::vector<double>& truth, Bounds bounds) const {
+    const auto at = std::find(place_.begin(), place_.end(), source);
+    if (at == place_.end()) return;
+    const auto from = PointSource::at(static_cast<Index>(at - place_.begin()));
+    const auto d = plexway::solve(plexway::Serial{}, mixed_, from).distance;
+    require(d.size() == place_.size(), "one distance a vertex");
+    std::vector<double> known;
+    for (const Index v : place_) known.push_back(truth[v]);
+    check_truth(d, known, bounds);
+    std::map<Index, double> once;  // welded vertices are as far
+    for (std::size_t v = 0; v < d.size(); ++v)
+      require(once.try_emplace(place_[v], d[v]).first->second == d[v],
+              "one distance for what is welded: vertex " + std::to_string(v));
+  }
+
+ private:
+  const std::vector<Place>& places_;
+  Mixed mixed_;
+  std::vector<Mixed::Piece> pieces_;
+  std::vector<Index> place_;  // of each vertex of the whole
+};
+
+/// Deals simplices among as many pieces as `label` has values.
+template <std::size_t Corners, class Label>
+std::vector<std::vector<std::array<Index, Corners>>> dealt(
+    const std::vector<std::array<Index, Corners>>& simplices, const std::vector<Place>& places,
+    std::size_t pieces, const Label& label) {
+  std::vector<std::vector<std::array<Index, Corners>>> parts(pieces);
+  for (const auto& s : simplices) {
+    Place middle{};
+    for (const Index v : s)
+      for (std::size_t k = 0; k < 3; ++k) middle[k] += places[v][k] / double{Corners};
+    parts[label(middle)].push_back(s);
+  }
+  return parts;
+}
+
+/// Which piece each quarter of a tile belongs to.
+struct Patchwork {
+  static constexpr int across = plan_cells / 2;
+  std::vector<std::size_t> piece;
+
+  Patchwork(Choices& choices, std::size_t pieces) : piece(across * across) {
+    for (std::size_t& p : piece) p = choices.byte() % pieces;
+  }
+  std::size_t operator()(const Place& at) const {
+    const auto step = [](double x) {
+      return std::clamp(static_cast<int>(std::floor(x * across)), 0, across - 1);
+    };
+    return piece[static_cast<std::size_t>(step(at[1]) * across + step(at[0]))];
+  }
+};
+
+void solve_patches(Choices& choices, bool solid) {
+  const auto plan = plan_of(choices);
+  if (!plan) return;
+  const samples::Shape shape = plan->grid(plan_cells, choices.byte() % 4 * 0.08, choices.byte());
+  const std::vector<Place> flat(shape.points.begin(), shape.points.end());
+  const std::vector<double> truth = plan->distances(shape.points);
+  const std::size_t pieces = 2 + choices.byte() % 3;
+  const Patchwork patches(choices, pieces);
+  if (!solid) {
+    Whole whole(flat);
+    for (const auto& part : dealt(shape.faces, flat, pieces, patches)) whole.add(part, 1);
+    whole.check(0, truth, {1e-3, 5e-2});
+    return;
+  }
+  const Prism prism = prism_of(shape, 0.1 + choices.byte() / 512.);
+  Whole whole(prism.places);
+  for (const auto& part : dealt(prism.tets, prism.places, pieces, patches)) whole.add(part, 1);
+  std::vector<double> over;
+  for (std::size_t v = 0; v < prism.places.size(); ++v)
+    over.push_back(std::hypot(truth[prism.below[v]], prism.places[v][2]));
+  whole.check(0, over, {1e-3, 8e-2});
+}
+
+void solve_layers(Choices& choices, bool solid) {
+  samples::CornerDomain plan;  // nothing is cut out
+  plan.source = source_of(choices);
+  samples::Shape shape = plan.grid(plan_cells, choices.byte() % 4 * 0.08, choices.byte());
+  const double middle = static_cast<double>(1 + choices.byte() % (plan_cells - 1)) / plan_cells;
+  const std::array<double, 2> speed = {1, std::exp2((choices.byte() - 127.5) / 80)};
+  // Vertices of the line between stay on it.
+  for (auto& p : shape.points)
+    if (std::abs(p[1] - middle) < 0.4 / plan_cells) p[1] = middle;
+  const std::vector<Place> flat(shape.points.begin(), shape.points.end());
+  const samples::Layers layers{{middle}, {speed[0], speed[1]}};
+  const auto layer_of = [&](const Place& at) { return std::size_t{at[1] > middle}; };
+  const auto solve = [&](const std::vector<Place>& places, const auto& simplices, Bounds bounds) {
+    Whole whole(places);
+    const auto parts = dealt(simplices, places, 2, layer_of);
+    whole.add(parts[0], speed[0]);
+    whole.add(parts[1], speed[1]);
+    std::vector<double> truth;
+    const Place& s = places[0];
+    for (const Place& p : places)
+      truth.push_back(layers.time({s[0], s[2], s[1]}, {p[0], p[2], p[1]}));
+    whole.check(0, truth, bounds);
+  };
+  if (solid) {
+    const Prism prism = prism_of(shape, 0.1 + choices.byte() / 512.);
+    solve(prism.places, prism.tets, {1e-3, 8e-2});
+  } else {
+    solve(flat, shape.faces, {1e-3, 5e-2});
+  }
+}
+
+void solve_wires(Choices& choices) {
+  samples::CornerDomain plan;
+  plan.source = source_of(choices);
+  const samples::Shape shape = plan.grid(plan_cells, choices.byte() % 4 * 0.08, choices.byte());
+  const std::vector<Place> flat(shape.points.begin(), shape.points.end());
+  const double speed = std::exp2((choices.byte() - 64) / 64.);
+  std::vector<std::array<Index, 2>> wires;
+  for (int left = choices.byte() % 8; left > 0; --left) {
+    const Index a = choices.below(flat.size()), b = choices.below(flat.size());
+    // Along an edge a wire could be taken and left anywhere.
+    if (Graph::straight(flat[a], flat[b]) > 2.5 / plan_cells) wires.push_back({a, b});
+  }
+  std::vector<double> truth;
+  for (const Place& p : flat) truth.push_back(Graph::straight(flat[0], p));
+  for (bool better = true; better;) {
+    better = false;
+    for (const auto& wire : wires)
+      for (const auto& [a, b] : {std::pair(wire[0], wire[1]), std::pair(wire[1], wire[0])}) {
+        const double there = truth[a] + Graph::straight(flat[a], flat[b]) / speed;
+        if (!(there < truth[b])) continue;
+        better = true;
+        for (std::size_t v = 0; v < flat.size(); ++v)
+          truth[v] = std::min(truth[v], there + Graph::straight(flat[b], flat[v]));
+      }
+  }
+  Whole whole(flat);
+  whole.add(shape.faces, 1);
+  whole.add(wires, speed);
+  whole.check(0, truth, {1e-3, 5e-2});
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  Choices choices(data, size);
+  const int kind = choices.byte() % 5;
+  return check_input({}, [&] {
+    if (kind < 2)
+      solve_patches(choices, kind == 1);
+    else if (kind < 4)
+      solve_layers(choices, kind == 3);
+    else
+      solve_wires(choices);
+  });
+}
