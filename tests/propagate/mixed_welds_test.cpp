@@ -7,6 +7,7 @@
 
 #include <plexway/solve.hpp>
 
+#include "data/corner_domains.hpp"
 #include "mixed_domains.hpp"
 
 // Corners that exist only once pieces are welded.
@@ -218,6 +219,60 @@ TEST_CASE("a sheet behind an obstacle in a solid") {
         CHECK(field.distance[v] > truth * (1 - 1e-5));
       }
     }
+}
+
+TEST_CASE("a prism dealt among solids in patches is as right as one solid") {
+  // Around two posts; patches of two cells a side, so welds make reflex edges. Found by fuzzing.
+  const samples::CornerDomain plan = {
+      "", {{.25, .375, .125, .375}, {.625, .75, .5, .75}}, {0, .25}};
+  samples::Shape flat = plan.grid(8, 0.16, 5);
+  const std::vector<double> truth = plan.distances(flat.points);
+  const auto n = Index(flat.points.size());
+  const double height = 0.3;
+  for (const int pieces : {2, 3}) {
+    std::vector<Block> parts(static_cast<std::size_t>(pieces));
+    std::vector<std::vector<Index>> number(parts.size(), std::vector<Index>(2 * n, none));
+    std::vector<double> exact;
+    Welded domain(0);
+    const auto add_tet = [&](std::size_t part, std::array<Index, 4> tet) {
+      for (Index& v : tet) {
+        Index& own = number[part][v];
+        if (own == none) {
+          own = Index(parts[part].positions.size());
+          const auto& p = flat.points[v % n];
+          parts[part].positions.push_back({p[0], p[1], v < n ? 0 : height});
+        }
+        v = own;
+      }
+      parts[part].tets.push_back(tet);
+    };
+    for (std::array<Index, 3> f : flat.faces) {
+      std::sort(f.begin(), f.end());
+      const double x = (flat.points[f[0]][0] + flat.points[f[1]][0] + flat.points[f[2]][0]) / 3;
+      const double y = (flat.points[f[0]][1] + flat.points[f[1]][1] + flat.points[f[2]][1]) / 3;
+      const auto part = std::size_t(int(x * 4) * 2 + int(y * 4) * 3) % std::size_t(pieces);
+      add_tet(part, {f[0], f[1], f[2], f[2] + n});
+      add_tet(part, {f[0], f[1], f[1] + n, f[2] + n});
+      add_tet(part, {f[0], f[0] + n, f[1] + n, f[2] + n});
+    }
+    std::vector<Welded::Piece> welded;
+    Index source = none;
+    for (std::size_t part = 0; part < parts.size(); ++part) {
+      welded.push_back(domain.add(parts[part]));
+      for (std::size_t other = 0; other < part; ++other) domain.weld(welded[other], welded.back());
+      std::vector<double> own(parts[part].positions.size());
+      for (Index v = 0; v < 2 * n; ++v)
+        if (number[part][v] != none)
+          own[number[part][v]] = std::hypot(truth[v % n], v < n ? 0 : height);
+      exact.insert(exact.end(), own.begin(), own.end());
+      if (number[part][0] != none) source = welded.back().vertex(number[part][0]);
+    }
+    const Errors e = errors(domain, source, [&](Index v) { return exact[v]; });
+    CAPTURE(pieces, e.mean, e.worst, e.low);
+    CHECK(e.mean < 1e-4);
+    CHECK(e.worst < 1e-2);
+    CHECK(e.low > -1e-9);
+  }
 }
 
 TEST_CASE("random rooms in a row, folded in space, are exact") {
