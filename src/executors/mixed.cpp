@@ -95,29 +95,21 @@ class Turns {
  private:
   void run(std::span<const Index> pieces, const std::function<void(Index)>& work) {
     ++turn_;
-    const auto owner = [&](std::size_t i) { return pieces[i]; };
-    const auto part = [&](int i, int threads) {
-      owned_->share(turn_, i, threads, pieces.size(), owner,
-                    [&](std::size_t k) { work(pieces[k]); });
-    };
-    // What is done sooner than others wake is not worth it.
-    constexpr double least = 3e-5;
     const double since = seconds_on_wall();
-    if (last_ < least) {
-      part(0, 1);
-      last_ = seconds_on_wall() - since;
-      return;
-    }
-    team_->run([&](int i, int threads) { watch_->watch(i, [&] { part(i, threads); }); });
-    last_ = seconds_on_wall() - since;
-    watch_->end_turn(last_);
+    team_->run([&](int i, int threads) {
+      watch_->watch(i, [&] {
+        owned_->share(
+            turn_, i, threads, pieces.size(), [&](std::size_t k) { return pieces[k]; },
+            [&](std::size_t k) { work(pieces[k]); });
+      });
+    });
+    watch_->end_turn(seconds_on_wall() - since);
   }
 
   std::optional<Team> team_;
   std::optional<CrowdWatch> watch_;
   std::optional<OwnedWork> owned_;
   std::size_t turn_ = 0;
-  double last_ = 1;  // seconds that the last turn took
 };
 
 // On a domain whose pieces are joined.

@@ -163,10 +163,10 @@ class MixedPropagation {
     return std::span(field.label).subspan(piece.first_vertex, piece.vertices);
   }
 
-  // work(p) for those in turn_. Where it is a single piece it runs here.
+  // work(p) for those in turn_, on this thread unless it is worth waking others.
   template <class Work>
-  void each_in_turn(const Work& work) {
-    if (!at_once_ || turn_.size() < 2) {
+  void each_in_turn(bool worth, const Work& work) {
+    if (!at_once_ || !worth || turn_.size() < 2) {
       for (const Index p : turn_) {
         running_ = p;
         work(p);
@@ -182,7 +182,7 @@ class MixedPropagation {
     turn_.clear();
     for (Index p = 0; p < pieces_.size(); ++p) turn_.push_back(p);
     said_.assign(pieces_.size(), 0);
-    each_in_turn(work);
+    each_in_turn(true, work);
   }
   [[nodiscard]] bool any_said() const {
     return std::any_of(said_.begin(), said_.end(), [](char said) { return said != 0; });
@@ -204,12 +204,14 @@ class MixedPropagation {
     share_.resize(pieces_.size());
     for (std::size_t i = 0; i < turn_.size(); ++i)
       share_[turn_[i]] = left / turn_.size() + (i < left % turn_.size());
-    each_in_turn([&](Index p) {
+    constexpr std::size_t worth_waking = 128;
+    each_in_turn(spent - spent_before_ >= worth_waking, [&](Index p) {
       ran_[p] = 1;
       const std::size_t own = pieces_[p]->statistics().expansions;
       constexpr std::size_t most = std::numeric_limits<std::size_t>::max();
       pieces_[p]->run(horizon, share_[p] > most - own ? most : own + share_[p], crossings_.first());
     });
+    spent_before_ = spent;
     if (running_ == none)
       told_.count(expansions(), [&] { return progress(static_cast<double>(horizon)); });
   }
@@ -433,6 +435,7 @@ class MixedPropagation {
   std::vector<Index> due_, members_, late_, bends_;
   HingeCrossings<Real> crossings_;
   std::vector<Index> turn_;         // pieces at work
+  std::size_t spent_before_ = 0;    // when the last turn began
   std::vector<std::size_t> share_;  // by piece: of what may be expanded, in this turn
   std::vector<char> said_;          // by piece: its answer
   std::vector<char> ran_;           // by piece, since it was mended
