@@ -54,13 +54,6 @@ constexpr void check() {
   PLEXWAY_REFUSALS(PLEXWAY_ASSERT)
 #undef PLEXWAY_ASSERT
 }
-/// What each of many solves runs on: by OpenMP each is one thread's.
-template <ExecutorType E, DomainType D>
-inline constexpr Refusal refusal_of_each =
-    support(combination<E, D>()).refusal() == Refusal::mixed_threads
-        ? Refusal::nothing
-        : support(combination<E, D>()).refusal();
-
 }  // namespace detail
 
 /// ONE field: the distance of every vertex from the *nearest* of `sources`, and which one that is,
@@ -112,7 +105,7 @@ template <ExecutorType E, DomainType D>
 bool solve_each(const E& executor, const D& domain, const SourceList& sources,
                 const PropagateOptions& options, WorkspaceOf<E, D>& workspace,
                 std::span<RealOf<D>> distance) {
-  detail::check<detail::refusal_of_each<E, D>>();
+  detail::check<support(combination<E, D>()).refusal()>();
   return detail::run_each(executor, domain, sources, options, workspace, distance);
 }
 

@@ -34,9 +34,6 @@ enum class SourceKind {
   X(order,                                                                                         \
     "the schedule priority needs one thread that takes the nearest label: use the executor "       \
     "Serial, or the schedules dual_queue or fifo")                                                 \
-  X(mixed_threads,                                                                                 \
-    "mixed domains are not propagated on by several threads: use the executor Serial, or "         \
-    "solve_each, which takes one thread a source")                                                 \
   X(mixed_visibility, "mixed domains know the default visibility only")                            \
   X(mixed_order, "mixed domains are not propagated nearest first: use the dual queue")             \
   X(table,                                                                                         \
@@ -243,7 +240,6 @@ constexpr Support support(const Combination& c) {
   // What the types of executor and domain say.
   if (gl && (c.domain == simplices || c.domain == mixed)) return Refusal::gl_domain;
   if (gl && !c.single_precision) return Refusal::gl_double;
-  if (c.executor == ExecutorKind::openmp && c.domain == mixed) return Refusal::mixed_threads;
   // Rules.
   if (tuned && c.domain != surface && c.domain != cloud) return Refusal::table;
   if (c.domain == mixed && !saddles) return Refusal::mixed_visibility;

@@ -1,16 +1,34 @@
 #include <algorithm>
+#include <functional>
 #include <limits>
+#include <optional>
+#include <span>
 #include <string>
+#include <variant>
 
 #include <plexway/error.hpp>
 
 #include "complex/joined_pieces.hpp"
 #include "executors/checks.hpp"
+#include "executors/crowd_watch.hpp"
+#include "executors/owned_work.hpp"
 #include "executors/run.hpp"
+#include "executors/team.hpp"
 #include "propagate/mixed_propagation.hpp"
-#include "propagate/windows/window_solver.hpp"
 
 namespace plexway {
+namespace detail {
+
+// A domain of one piece is solved as what it is.
+#define PLEXWAY_ONE_PIECE(...)           \
+  PLEXWAY_ELSEWHERE(Serial, __VA_ARGS__) \
+  PLEXWAY_ELSEWHERE(OpenMP, __VA_ARGS__)
+PLEXWAY_SURFACES(PLEXWAY_ONE_PIECE)
+PLEXWAY_SOLIDS(PLEXWAY_ONE_PIECE)
+PLEXWAY_WIREFRAMES(PLEXWAY_ONE_PIECE)
+#undef PLEXWAY_ONE_PIECE
+
+}  // namespace detail
 namespace {
 
 // The piece that a source lies in, and the source in that piece's numbers.
@@ -38,52 +56,75 @@ std::size_t corners_of(const typename MixedComplex<Real>::Complex& complex) {
   return std::holds_alternative<TriangleMesh<Real>>(complex) ? 3 : 4;
 }
 
-// Sheets that are one surface, where windows go: one label a triangle leaks light from room to
-// room.
-template <class Real>
-const TriangleMesh<Real>* one_surface(const MixedComplex<Real>& domain,
-                                      const PropagateOptions& options) {
-  if (options.accuracy == Accuracy::fast() || domain.pieces().size() != 1) return nullptr;
-  const auto* mesh = std::get_if<TriangleMesh<Real>>(&domain.complex(domain.pieces()[0]));
-  if (mesh == nullptr) return nullptr;
-  const auto cell = combination<Serial, TriangleMesh<Real>>(SourceKind::point);
-  return support_of_windows(detail::with(cell, mesh->metric(), options)) ? mesh : nullptr;
+// Sheets that are one surface go by windows where these go: one label a triangle leaks light from
+// room to room.
+template <class E, class Real>
+void solve_single(const E& executor, const typename MixedComplex<Real>::Complex& complex,
+                  std::span<const PointSource> sources, PropagateOptions options,
+                  Workspace<Real>& workspace, DistanceField<Real>& field) {
+  std::visit(
+      [&]<class D>(const D& domain) {
+        const auto cell = combination<E, D>(SourceKind::point);
+        if (std::is_same_v<Real, double> && options.accuracy == Accuracy::usual() &&
+            support_of_windows(detail::with(cell, domain.metric(), options)))
+          options.accuracy = Accuracy::exact();
+        solve(executor, domain, sources, options, workspace, field);
+      },
+      complex);
 }
 
-template <class Real>
-bool solve_by_windows(const TriangleMesh<Real>& mesh, std::span<const PointSource> sources,
-                      const PropagateOptions& options, WorkspaceState<Real>& workspace,
-                      DistanceField<Real>& field) {
-  const Accuracy accuracy = std::is_same_v<Real, double> ? Accuracy::exact() : Accuracy::accurate();
-  workspace.parts.resize(1);
-  WorkspaceState<Real>& own = workspace.parts[0];
-  if (!own.windows.on(mesh).solve(sources, accuracy, options, own, field)) return false;
-  field.accuracy = accuracy;
-  if (field.label.empty())
-    for (const Real d : field.distance)
-      field.label.push_back(d < std::numeric_limits<Real>::infinity() ? 0 : none);
-  return true;
-}
+// Pieces of several dimensions and speeds, by one thread or a team.
+class Turns {
+ public:
+  Turns(const Serial&, std::size_t) {}
+  Turns(const OpenMP& executor, std::size_t pieces)
+      : team_(executor), watch_(team_->size()), owned_(pieces) {}
+
+  /// While `body` runs its pieces may take their turns at once.
+  template <class Body>
+  void hold(const Body& body) {
+    if (!team_ || team_->size() == 1)
+      body(PiecesAtOnce());
+    else
+      team_->hold([&] {
+        body(PiecesAtOnce([&](std::span<const Index> pieces,
+                              const std::function<void(Index)>& work) { run(pieces, work); }));
+      });
+  }
+
+ private:
+  void run(std::span<const Index> pieces, const std::function<void(Index)>& work) {
+    ++turn_;
+    const double since = seconds_on_wall();
+    team_->run([&](int i, int threads) {
+      watch_->watch(i, [&] {
+        owned_->share(
+            turn_, i, threads, pieces.size(), [&](std::size_t k) { return pieces[k]; },
+            [&](std::size_t k) { work(pieces[k]); });
+      });
+    });
+    watch_->end_turn(seconds_on_wall() - since);
+  }
+
+  std::optional<Team> team_;
+  std::optional<CrowdWatch> watch_;
+  std::optional<OwnedWork> owned_;
+  std::size_t turn_ = 0;
+};
 
 // On a domain whose pieces are joined.
 template <class Real>
-void solve_joined(const MixedComplex<Real>& domain, std::span<const PointSource> sources,
+void solve_pieces(const MixedComplex<Real>& domain, std::span<const PointSource> sources,
                   const PropagateOptions& options, WorkspaceState<Real>& workspace,
-                  DistanceField<Real>& field) {
-  bool gave_up = false;
-  if (const auto* mesh = one_surface(domain, options)) {
-    if (solve_by_windows(*mesh, sources, options, workspace, field)) return;
-    gave_up = true;
-  }
+                  const PiecesAtOnce& at_once, DistanceField<Real>& field) {
   workspace.parts.resize(domain.pieces().size());
-  MixedPropagation<Real> propagation(domain, workspace.parts, workspace.offered, options);
+  MixedPropagation<Real> propagation(domain, workspace.parts, workspace.offered, options, at_once);
   for (std::size_t n = 0; n < sources.size(); ++n) {
     const auto [piece, source] = find_piece(domain, sources[n]);
     propagation.seed(piece, source, static_cast<Index>(n));
   }
   propagation.run();
-  propagation.read_out(workspace.distance, workspace.label, field);
-  field.statistics.windows_gave_up = gave_up;
+  propagation.read_out(field);
 
   const auto offer = [&](std::size_t v, Real d, Index label) {
     if (!(d < field.distance[v])) return false;
@@ -117,13 +158,27 @@ void solve_joined(const MixedComplex<Real>& domain, std::span<const PointSource>
       field.label[v] = none;
 }
 
-}  // namespace
-
-template <class Real>
-void solve_points(const Serial&, const MixedComplex<Real>& domain,
+template <class E, class Real>
+void solve_joined(E executor, const MixedComplex<Real>& domain,
                   std::span<const PointSource> sources, const PropagateOptions& options,
                   Workspace<Real>& kept, DistanceField<Real>& field) {
-  WorkspaceState<Real>& workspace = kept.state();
+  if constexpr (E::kind == ExecutorKind::openmp) executor.ranks = nullptr;
+  if (domain.pieces().size() == 1) {
+    solve_single<E, Real>(executor, domain.complex(domain.pieces()[0]), sources, options, kept,
+                          field);
+    return;
+  }
+  Turns(executor, domain.pieces().size()).hold([&](const PiecesAtOnce& at_once) {
+    solve_pieces(domain, sources, options, kept.state(), at_once, field);
+  });
+}
+
+}  // namespace
+
+template <class E, class Real>
+void solve_points(const E& executor, const MixedComplex<Real>& domain,
+                  std::span<const PointSource> sources, const PropagateOptions& options,
+                  Workspace<Real>& kept, DistanceField<Real>& field) {
   check(sources, options);
   for (const PointSource& source : sources) {
     const auto [number, own] = find_piece(domain, source);
@@ -139,30 +194,26 @@ void solve_points(const Serial&, const MixedComplex<Real>& domain,
       else
         source.simplex = joined->simplex[source.simplex];
     DistanceField<Real> all;
-    solve_joined(joined->domain, std::span<const PointSource>(own), options, workspace, all);
+    solve_joined(executor, joined->domain, std::span<const PointSource>(own), options, kept, all);
     field.complete = all.complete;
     field.statistics = all.statistics;
     field.accuracy = all.accuracy;
     field.distance.resize(domain.vertex_count());
-    field.label.resize(domain.vertex_count());
+    field.label.resize(all.label.empty() ? 0 : domain.vertex_count());
     field.error.resize(all.error.empty() ? 0 : domain.vertex_count());
     for (std::size_t v = 0; v < field.distance.size(); ++v) {
       field.distance[v] = all.distance[joined->vertex[v]];
-      field.label[v] = all.label[joined->vertex[v]];
+      if (!all.label.empty()) field.label[v] = all.label[joined->vertex[v]];
       if (!all.error.empty()) field.error[v] = all.error[joined->vertex[v]];
     }
   } else {
-    solve_joined(domain, sources, options, workspace, field);
+    solve_joined(executor, domain, sources, options, kept, field);
   }
   if (sources.size() == 1) field.label.clear();
 }
 
 namespace detail {
-#define PLEXWAY_COMPILE_MIXED(...)     \
-  PLEXWAY_COMPILE(Serial, __VA_ARGS__) \
-  PLEXWAY_EACH_OF(OpenMP, __VA_ARGS__)
-PLEXWAY_MIXED(PLEXWAY_COMPILE_MIXED)
-#undef PLEXWAY_COMPILE_MIXED
+PLEXWAY_MIXED(PLEXWAY_COMPILE_HERE)
 }  // namespace detail
 
 }  // namespace plexway

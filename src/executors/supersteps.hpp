@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <atomic>
 #include <bit>
 #include <cmath>
 #include <cstddef>
@@ -20,7 +19,8 @@
 
 #include "complex/cut.hpp"
 #include "complex/deal.hpp"
-#include "executors/crowding.hpp"
+#include "executors/crowd_watch.hpp"
+#include "executors/owned_work.hpp"
 #include "executors/piece_post.hpp"
 #include "executors/team.hpp"
 #include "propagate/endless.hpp"
@@ -67,12 +67,12 @@ class Supersteps {
         unit_(unit),
         options_(options),
         told_(options, 65536),
-        counts_(counts) {
+        counts_(counts),
+        owned_(pieces.size()) {
     for (Index p = 0; p < pieces_.size(); ++p)
       if (pieces_[p] != nullptr) ours_.push_back(p);
     after_.resize(pieces_.size());
     awake_.resize(pieces_.size());
-    taken_ = std::vector<std::atomic<std::size_t>>(pieces_.size());
     if (pieces_.size() == 1) pace_ = std::numeric_limits<Real>::infinity();
   }
 
@@ -116,9 +116,6 @@ class Supersteps {
   }
 
  private:
-  struct alignas(64) Worked {
-    double seconds = 0;
-  };
   struct alignas(64) After {
     Real nearest;  ///< of what waits there
     Real told;     ///< of what it posted
@@ -154,27 +151,18 @@ class Supersteps {
   /// Until it ends, or one thread is better.
   void together() {
     Gate gate(team_.size());
-    std::vector<Worked> worked(static_cast<std::size_t>(team_.size()));
-    double passed = 0, since = seconds_on_wall();  // without what is done between supersteps
+    CrowdWatch watch(team_.size());
+    double since = seconds_on_wall();  // without what is done between supersteps
     bool apart = false;
     team_.run([&](int i, int threads) {
       while (!ended_ && !apart) {
-        const double before = seconds_of_thread();
-        attempt([&] { work(i, threads); });
-        worked[static_cast<std::size_t>(i)].seconds += seconds_of_thread() - before;
+        watch.watch(i, [&] { attempt([&] { work(i, threads); }); });
         if (i != 0) {
           gate.pass(threads);
           continue;
         }
         gate.lead(threads, [&] {
-          passed += seconds_on_wall() - since;
-          constexpr double enough = 1.5e-3;
-          if (passed > enough) {
-            double sum = 0;
-            for (Worked& w : worked) sum += std::exchange(w.seconds, 0);
-            Crowding::report(sum, passed);
-            passed = 0;
-          }
+          watch.end_turn(seconds_on_wall() - since);
           attempt([&] {
             if (!failure_) advance();
           });
@@ -187,18 +175,10 @@ class Supersteps {
   }
 
   void work(int thread, int threads) {
-    const auto take = [&](std::size_t i) {
-      std::atomic<std::size_t>& taken = taken_[i];
-      if (taken.load(std::memory_order_relaxed) != superstep_ &&
-          taken.exchange(superstep_, std::memory_order_relaxed) != superstep_)
-        step(active_[i], grants_.empty() ? share_ : grants_[i]);
-    };
-    for (std::size_t i = 0; i < active_.size(); ++i)
-      if (deal_.place(active_[i]) % static_cast<std::size_t>(threads) ==
-          static_cast<std::size_t>(thread))
-        take(i);
-    if (threads > 1)
-      for (std::size_t i = active_.size(); i-- > 0;) take(i);
+    owned_.share(
+        superstep_, thread, threads, active_.size(),
+        [&](std::size_t i) { return deal_.place(active_[i]); },
+        [&](std::size_t i) { step(active_[i], grants_.empty() ? share_ : grants_[i]); });
   }
 
   void step(std::size_t p, std::size_t most) {
@@ -386,7 +366,7 @@ class Supersteps {
 
   std::exception_ptr failure_;
   std::mutex failing_;
-  std::vector<std::atomic<std::size_t>> taken_;  // of each that is active: in which superstep last
+  OwnedWork owned_;
 };
 
 }  // namespace plexway

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <limits>
 #include <memory>
+#include <span>
 #include <variant>
 #include <vector>
 
@@ -58,7 +59,7 @@ class HingeCrossings {
   }
 
   /// Distances and labels of a piece's vertices, in its caller's order.
-  void straighten(Index piece, std::vector<Real>& distance, std::vector<Index>& label) const {
+  void straighten(Index piece, std::span<Real> distance, std::span<Index> label) const {
     if (!moves_) return;
     const auto& own = *pieces_[piece];
     const auto starts = [&](Index number) -> const Point* {

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <limits>
 #include <memory>
 #include <span>
@@ -20,22 +21,32 @@
 #include "propagate/mixed_solid.hpp"
 #include "propagate/mixed_surface.hpp"
 #include "propagate/mixed_wire.hpp"
+#include "propagate/progress_counter.hpp"
 
 namespace plexway {
 
+/// Calls work(piece) for each of these pieces, several at once; returns when all are done.
+using PiecesAtOnce =
+    std::function<void(std::span<const Index> pieces, const std::function<void(Index)>& work)>;
+
 /// One propagation over a mixed domain. Pieces take turns up to a horizon, so that all of them know
-/// about as much; in between, what was expanded at the welds crosses them.
+/// about as much; in between, what was expanded at the welds crosses them. In its turn a piece
+/// looks at nothing but itself, so turns may be at once, and the result is the same.
 template <class Real>
 class MixedPropagation {
  public:
   using Domain = MixedComplex<Real>;
   using Member = typename Domain::Member;
 
-  /// `offered` is room for what has crossed already.
+  /// `offered` is room for what has crossed already. Without `at_once` pieces are one after the
+  /// other's.
   MixedPropagation(const Domain& domain, std::span<WorkspaceState<Real>> workspaces,
-                   std::vector<Real>& offered, const PropagateOptions& options)
+                   std::vector<Real>& offered, const PropagateOptions& options,
+                   const PiecesAtOnce& at_once = {})
       : domain_(domain),
         options_(options),
+        at_once_(at_once),
+        told_(options, 4096),
         offered_(offered),
         pieces_(pieces_of(domain, workspaces)),
         hinges_(domain, pieces_),
@@ -73,26 +84,20 @@ class MixedPropagation {
       const Real horizon =
           std::max(nearest + pace_, nearest * (1 + 8 * std::numeric_limits<Real>::epsilon()));
       do {
-        for (std::size_t p = 0; p < pieces_.size() && complete_; ++p)
-          if (pieces_[p]->nearest() < horizon) run(p, horizon);
+        take_turns(horizon);
       } while (complete_ && cross());
     }
   }
 
-  /// One a vertex of the domain; `distance` and `label` are room for a piece.
-  void read_out(std::vector<Real>& distance, std::vector<Index>& label,
-                DistanceField<Real>& field) const {
+  /// One a vertex of the domain.
+  void read_out(DistanceField<Real>& field) {
     field.distance.assign(domain_.vertex_count(), infinity);
     field.label.assign(domain_.vertex_count(), none);
-    for (const auto& piece : domain_.pieces()) {
-      distance.resize(piece.vertices);
-      label.resize(piece.vertices);
-      pieces_[piece.number]->read_out(distance, label);
-      crossings_.straighten(piece.number, distance, label);
-      for (Index& l : label) l = root(l);
-      std::copy(distance.begin(), distance.end(), field.distance.begin() + piece.first_vertex);
-      std::copy(label.begin(), label.end(), field.label.begin() + piece.first_vertex);
-    }
+    each([&](Index p) { pieces_[p]->read_out(distances(field, p), labels(field, p)); });
+    each([&](Index p) {
+      crossings_.straighten(p, distances(field, p), labels(field, p));
+      for (Index& l : labels(field, p)) l = root(l);
+    });
     field.complete = complete_;
     field.statistics = {};
     for (const auto& piece : pieces_) {
@@ -104,13 +109,9 @@ class MixedPropagation {
   }
 
   /// After sources and welded vertices have had their say. True if some vertex got nearer.
-  bool relax(DistanceField<Real>& field) const {
-    bool any = false;
-    for (const auto& piece : domain_.pieces())
-      any |= pieces_[piece.number]->relax(
-          std::span(field.distance).subspan(piece.first_vertex, piece.vertices),
-          std::span(field.label).subspan(piece.first_vertex, piece.vertices));
-    return any;
+  bool relax(DistanceField<Real>& field) {
+    each([&](Index p) { said_[p] = pieces_[p]->relax(distances(field, p), labels(field, p)); });
+    return any_said();
   }
 
  private:
@@ -153,15 +154,66 @@ class MixedPropagation {
     return mean > 0 ? static_cast<Real>(mean) : infinity;
   }
 
-  void run(std::size_t p, Real horizon) {
-    running_ = p;
-    ran_[p] = 1;
-    const std::size_t spent = expansions();
-    const std::size_t left = options_.max_expansions > spent ? options_.max_expansions - spent : 0;
-    const std::size_t own = pieces_[p]->statistics().expansions;
-    constexpr std::size_t most = std::numeric_limits<std::size_t>::max();
-    pieces_[p]->run(horizon, left > most - own ? most : own + left, crossings_.first());
-    if (pieces_[p]->out_of_budget()) complete_ = false;
+  std::span<Real> distances(DistanceField<Real>& field, Index p) const {
+    const auto& piece = domain_.pieces()[p];
+    return std::span(field.distance).subspan(piece.first_vertex, piece.vertices);
+  }
+  std::span<Index> labels(DistanceField<Real>& field, Index p) const {
+    const auto& piece = domain_.pieces()[p];
+    return std::span(field.label).subspan(piece.first_vertex, piece.vertices);
+  }
+
+  // work(p) for those in turn_, on this thread unless it is worth waking others.
+  template <class Work>
+  void each_in_turn(bool worth, const Work& work) {
+    if (!at_once_ || !worth || turn_.size() < 2) {
+      for (const Index p : turn_) {
+        running_ = p;
+        work(p);
+      }
+    } else {
+      running_ = none;
+      at_once_(turn_, work);
+    }
+  }
+  // The same for all pieces.
+  template <class Work>
+  void each(const Work& work) {
+    turn_.clear();
+    for (Index p = 0; p < pieces_.size(); ++p) turn_.push_back(p);
+    said_.assign(pieces_.size(), 0);
+    each_in_turn(true, work);
+  }
+  [[nodiscard]] bool any_said() const {
+    return std::any_of(said_.begin(), said_.end(), [](char said) { return said != 0; });
+  }
+
+  // Those with something to do, as far as the horizon. What is left of the budget is dealt to them
+  // by number: who works, and when, changes nothing.
+  void take_turns(Real horizon) {
+    turn_.clear();
+    for (Index p = 0; p < pieces_.size(); ++p)
+      if (pieces_[p]->nearest() < horizon) turn_.push_back(p);
+    if (turn_.empty()) return;
+    const std::size_t spent = expansions(), budget = options_.max_expansions;
+    const std::size_t left = budget - std::min(budget, spent);
+    if (left == 0) {
+      complete_ = false;
+      return;
+    }
+    share_.resize(pieces_.size());
+    for (std::size_t i = 0; i < turn_.size(); ++i)
+      share_[turn_[i]] = left / turn_.size() + (i < left % turn_.size());
+    constexpr std::size_t worth_waking = 128;
+    each_in_turn(spent - spent_before_ >= worth_waking, [&](Index p) {
+      ran_[p] = 1;
+      const std::size_t own = pieces_[p]->statistics().expansions;
+      constexpr std::size_t most = std::numeric_limits<std::size_t>::max();
+      pieces_[p]->run(horizon, share_[p] > most - own ? most : own + share_[p], crossings_.first());
+    });
+    spent_before_ = spent;
+    if (running_ == none)
+      told_.count(expansions(), [&] { return progress(static_cast<double>(horizon)); });
   }
 
   // When nothing waits: what looks at whole pieces, then lines, and bends at vertices last, since
@@ -169,10 +221,10 @@ class MixedPropagation {
   bool look_again() {
     if (pace_ < infinity)
       for (const auto& piece : pieces_) piece->hold();
-    bool any = false;
-    for (std::size_t p = 0; p < pieces_.size(); ++p)
-      if (std::exchange(ran_[p], 0)) any |= pieces_[p]->mend();
-    return any || carry(late_) || bend();
+    each([&](Index p) {
+      if (std::exchange(ran_[p], 0)) said_[p] = pieces_[p]->mend();
+    });
+    return any_said() || carry(late_) || bend();
   }
 
   std::size_t expansions() const {
@@ -181,14 +233,23 @@ class MixedPropagation {
     return sum;
   }
 
-  bool report(const Progress& of_piece) const {
-    Progress all = of_piece;
-    all.simplices = domain_.simplex_count();
-    for (std::size_t p = 0; p < pieces_.size(); ++p) {
-      if (p == running_) continue;
-      all.expansions += pieces_[p]->statistics().expansions;
-      all.reached += pieces_[p]->statistics().reached_simplices;
+  Progress progress(double distance) const {
+    Progress all = {0, 0, domain_.simplex_count(), distance};
+    for (const auto& piece : pieces_) {
+      const PropagateStatistics own = piece->statistics();
+      all.expansions += own.expansions;
+      all.reached += own.reached_simplices;
     }
+    return all;
+  }
+
+  // A piece wants to tell. Where several run that is done in between.
+  bool report(const Progress& of_piece) const {
+    if (running_ == none) return true;
+    Progress all = progress(of_piece.distance);
+    const PropagateStatistics own = pieces_[running_]->statistics();
+    all.expansions += of_piece.expansions - own.expansions;
+    all.reached += of_piece.reached - own.reached_simplices;
     return options_.progress(all);
   }
 
@@ -356,6 +417,8 @@ class MixedPropagation {
 
   const Domain& domain_;
   const PropagateOptions& options_;
+  const PiecesAtOnce at_once_;
+  ProgressCounter told_;
   std::vector<Real>& offered_;  // by slot
   const std::vector<std::unique_ptr<MixedPiece<Real>>> pieces_;
   const MixedHinges<Real> hinges_;
@@ -371,9 +434,13 @@ class MixedPropagation {
   std::vector<std::uint8_t> listed_;
   std::vector<Index> due_, members_, late_, bends_;
   HingeCrossings<Real> crossings_;
-  std::vector<char> ran_;  // by piece, since it was mended
+  std::vector<Index> turn_;         // pieces at work
+  std::size_t spent_before_ = 0;    // when the last turn began
+  std::vector<std::size_t> share_;  // by piece: of what may be expanded, in this turn
+  std::vector<char> said_;          // by piece: its answer
+  std::vector<char> ran_;           // by piece, since it was mended
   Real pace_;
-  std::size_t running_ = 0;
+  Index running_ = none;  // alone, and on this thread
   bool complete_ = true;
 };
 

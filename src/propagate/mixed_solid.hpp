@@ -46,11 +46,10 @@ class MixedSolid final : public MixedPiece<Real> {
     wave_.queue().set_horizon(horizon / unit_);
     for (std::size_t before = this->expanded_.size();; before = this->expanded_.size()) {
       propagation_.spread(propagation_.last_resort(repairs_));
-      if (wave_.out_of_budget()) return;
       for (std::size_t i = before; i < this->expanded_.size(); ++i)
         if (wave_.source(this->expanded_[i]) >= first_front)
           on_hinges_.push_back(this->expanded_[i]);
-      if (!offer_around(horizon / unit_)) return;
+      if (wave_.out_of_budget() || !offer_around(horizon / unit_)) return;
     }
   }
   Real nearest() const override { return wave_.queue().nearest() * unit_; }

@@ -90,7 +90,10 @@ class WirePropagation {
       if (left == 0) [[unlikely]] {
         keep();
         updates = reached = 0;
-        if (!take_stock(sigma)) return true;
+        if (!take_stock(sigma)) {
+          front.push(v, sigma, true);  // it waits on
+          return true;
+        }
         left = left_;
       }
       --left;

@@ -46,8 +46,7 @@ struct WorkspaceState {
   /// On mixed domains: one a piece that is propagated on, what a member of a hinge has offered
   /// already, and the read-out of one piece with its nearest sources.
   std::vector<WorkspaceState> parts;
-  std::vector<Real> offered, distance;
-  std::vector<Index> label;
+  std::vector<Real> offered;
   ///@}
 
   /// Room for a front and marks over so many simplices and a sentinel behind them; all unreached
@@ -64,7 +63,7 @@ struct WorkspaceState {
     const auto of = [](const auto& v) { return v.capacity() * sizeof(v[0]); };
     std::size_t of_parts = 0;
     for (const WorkspaceState& part : parts) of_parts += part.bytes();
-    return of_parts + of(offered) + of(distance) + of(label) + sizeof(*this) + marks.bytes() +
+    return of_parts + of(offered) + sizeof(*this) + marks.bytes() +
            saddles.count * sizeof(SaddleLabel<Real>) + plain.count * sizeof(PlainLabel<Real>) +
            solids.count * sizeof(SolidLabel<Real>) +
            plain_solids.count * sizeof(PlainSolidLabel<Real>) + simplex.bytes() + of(source) +

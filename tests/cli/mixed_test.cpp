@@ -227,7 +227,7 @@ TEST_CASE("several files are welded to a mixed domain") {
   fails({left, right, "--weld", "0", "--as", "solid"}, 2, "--as");
   fails({left, right, "--weld", "0.3"}, 2, "which lie apart");
   fails({left, sample("roll.xyz"), "--weld", "0"}, 3, "roll.xyz");
-  fails({left, right, "--weld", "0", "--executor", "openmp"}, 2, "mixed domains");
+  fails({left, right, "--weld", "0", "--executor", "gl"}, 2, "the executor GL takes");
   const std::string third = folder.write("third.vtk", flag);
   fails({left, third, "--weld", "0", "-o", third}, 2, "overwrite");
   fails({left, "--as", "mixed"}, 3, "cannot be taken as a mixed domain");

@@ -81,9 +81,10 @@ struct Welded {
 struct Errors {
   double mean = 0, worst = 0, low = 0;
 };
-inline Errors errors(const Welded& domain, Index source,
-                     const std::function<double(Index)>& exact) {
-  const auto field = solve(Serial{}, domain.complex, PointSource::at(source));
+template <class E = Serial>
+Errors errors(const Welded& domain, Index source, const std::function<double(Index)>& exact,
+              const E& executor = {}) {
+  const auto field = solve(executor, domain.complex, PointSource::at(source));
   Errors e;
   for (Index v = 0; v < domain.positions.size(); ++v) {
     const double truth = exact(v);

@@ -12,7 +12,7 @@ void call(const TriangleMesh<float>& surface, [[maybe_unused]] const TriangleMes
 #if defined(PLEXWAY_FITS)
   (void)solve(GL{}, surface, VertexSource{.vertices = {1, 2}});
   (void)solve(OpenMP{}, precise, BallSource{.centre = source, .radius = 1});
-  (void)solve_each(OpenMP{}, mixed, source);
+  (void)solve(OpenMP{}, mixed, source);
   (void)solve_each(GL{}, surface, source);
 #elif defined(PLEXWAY_GL_DOMAIN)
   (void)solve(GL{}, simplices, source);
@@ -20,8 +20,6 @@ void call(const TriangleMesh<float>& surface, [[maybe_unused]] const TriangleMes
   (void)solve(GL{}, precise, source);
 #elif defined(PLEXWAY_GL_EACH)
   (void)solve_each(GL{}, precise, source);
-#elif defined(PLEXWAY_MIXED_THREADS)
-  (void)solve(OpenMP{}, mixed, source);
 #elif defined(PLEXWAY_ORDER)
   (void)solve(OpenMP{}, surface, source, NearestFirst{});
 #elif defined(PLEXWAY_GL_ORDER)
