@@ -34,7 +34,8 @@ struct Serial {
 /// Several threads of one process.
 ///
 /// The step is that of Serial. Surfaces, clouds and solids are cut into pieces, which exchange
-/// labels or windows over their borders; elsewhere threads take the front in chunks, in rounds.
+/// labels or windows over their borders; pieces of a mixed domain, as they are, take their turns at
+/// once, with Serial's bits; elsewhere threads take the front in chunks, in rounds.
 /// Either way the result does not depend on the number of threads or on their timing: it is the
 /// same to the last bit, also where a propagation is cut short by max_expansions. Exact windows and
 /// a domain of a single piece have Serial's bits. Else it differs from Serial's where the order of

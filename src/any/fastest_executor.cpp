@@ -15,7 +15,7 @@ AnyExecutor fastest_executor(const AnyDomain& domain, std::size_t sources,
   const bool pays = in_pieces && domain.simplices() >= auto_in_pieces;
   const bool many = domain.simplices() >= auto_simplices && sources >= auto_sources;
   if (!(pays || many) || bounded || team_size(team) < 2) return Serial{};
-  // Several threads are not for every domain: a solid of several speeds is a mixed one.
+  // A solid of several speeds is a mixed domain, and several threads are not for all options.
   if (!domain.support(team, PointSource::at(0), options)) return Serial{};
   return team;
 }

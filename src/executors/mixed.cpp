@@ -126,30 +126,13 @@ void solve_pieces(const MixedComplex<Real>& domain, std::span<const PointSource>
   propagation.run();
   propagation.read_out(field);
 
-  const auto offer = [&](std::size_t v, Real d, Index label) {
-    if (!(d < field.distance[v])) return false;
-    field.distance[v] = d;
-    field.label[v] = label;
-    return true;
-  };
-  for (std::size_t n = 0; n < sources.size(); ++n)
-    if (sources[n].vertex != none)
-      offer(sources[n].vertex, static_cast<Real>(sources[n].offset), static_cast<Index>(n));
-  // Welded vertices are one. A chain of welds may need several rounds.
-  const auto weld = [&] {
-    bool any = false, again = true;
-    while (again) {
-      again = false;
-      for (const auto& [v, w] : domain.outer_welds())
-        again |= offer(v, field.distance[w], field.label[w]) ||
-                 offer(w, field.distance[v], field.label[v]);
-      any |= again;
-    }
-    return any;
-  };
-  weld();
-  while (propagation.relax(field) && weld()) {
+  for (std::size_t n = 0; n < sources.size(); ++n) {
+    const Index v = sources[n].vertex;
+    const Real offset = static_cast<Real>(sources[n].offset);
+    if (v != none && offset < field.distance[v])
+      field.distance[v] = offset, field.label[v] = static_cast<Index>(n);
   }
+  propagation.settle(field);
   const Real infinity = std::numeric_limits<Real>::infinity();
   for (std::size_t v = 0; v < field.distance.size(); ++v)
     if (!(static_cast<double>(field.distance[v]) <= options.radius))

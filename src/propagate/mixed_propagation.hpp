@@ -8,6 +8,7 @@
 #include <functional>
 #include <limits>
 #include <memory>
+#include <numeric>
 #include <span>
 #include <utility>
 #include <variant>
@@ -22,6 +23,7 @@
 #include "propagate/mixed_surface.hpp"
 #include "propagate/mixed_wire.hpp"
 #include "propagate/progress_counter.hpp"
+#include "propagate/slot_set.hpp"
 
 namespace plexway {
 
@@ -51,7 +53,9 @@ class MixedPropagation {
         pieces_(pieces_of(domain, workspaces)),
         hinges_(domain, pieces_),
         posed_(domain.members().size()),
-        listed_(slots(domain), 0),
+        due_(slots(domain)),
+        late_(slots(domain)),
+        bends_(slots(domain)),
         crossings_(domain, pieces_, hinges_.neighbours()),
         ran_(pieces_.size(), 0),
         pace_(pace(domain)) {
@@ -108,10 +112,20 @@ class MixedPropagation {
     }
   }
 
-  /// After sources and welded vertices have had their say. True if some vertex got nearer.
-  bool relax(DistanceField<Real>& field) {
-    each([&](Index p) { said_[p] = pieces_[p]->relax(distances(field, p), labels(field, p)); });
-    return any_said();
+  /// When sources have had their say: welded vertices are one, and none is farther than a neighbour
+  /// and the edge between.
+  void settle(DistanceField<Real>& field) {
+    weld(field);
+    std::vector<Index> changed(pieces_.size());
+    std::iota(changed.begin(), changed.end(), 0);
+    while (!changed.empty()) {
+      turn_ = changed;
+      said_.assign(pieces_.size(), 0);
+      each_in_turn(true, [&](Index p) {
+        said_[p] = pieces_[p]->relax(distances(field, p), labels(field, p));
+      });
+      changed = any_said() ? weld(field) : std::vector<Index>();
+    }
   }
 
  private:
@@ -161,6 +175,28 @@ class MixedPropagation {
   std::span<Index> labels(DistanceField<Real>& field, Index p) const {
     const auto& piece = domain_.pieces()[p];
     return std::span(field.label).subspan(piece.first_vertex, piece.vertices);
+  }
+
+  // A chain of welds may need several rounds. Gives the pieces where a vertex got nearer.
+  std::vector<Index> weld(DistanceField<Real>& field) const {
+    std::vector<Index> changed;
+    const auto offer = [&](Index v, Index from) {
+      if (!(field.distance[from] < field.distance[v])) return false;
+      field.distance[v] = field.distance[from];
+      field.label[v] = field.label[from];
+      const auto piece =
+          std::upper_bound(domain_.pieces().begin(), domain_.pieces().end(), v,
+                           [](Index vertex, const auto& p) { return vertex < p.first_vertex; });
+      changed.push_back(std::prev(piece)->number);
+      return true;
+    };
+    for (bool again = true; again;) {
+      again = false;
+      for (const auto& [v, w] : domain_.outer_welds()) again |= offer(v, w) || offer(w, v);
+    }
+    std::sort(changed.begin(), changed.end());
+    changed.erase(std::unique(changed.begin(), changed.end()), changed.end());
+    return changed;
   }
 
   // work(p) for those in turn_, on this thread unless it is worth waking others.
@@ -224,7 +260,7 @@ class MixedPropagation {
     each([&](Index p) {
       if (std::exchange(ran_[p], 0)) said_[p] = pieces_[p]->mend();
     });
-    return any_said() || carry(late_) || bend();
+    return any_said() || carry_late() || bend();
   }
 
   std::size_t expansions() const {
@@ -260,28 +296,27 @@ class MixedPropagation {
     for (const auto& piece : domain_.pieces()) {
       std::vector<Index>& expanded = pieces_[piece.number]->expanded();
       for (const Index at : expanded)
-        for (const Index slot : hinges_.slots(piece.number, at)) list(slot, is_due, due_);
+        for (const Index slot : hinges_.slots(piece.number, at)) due_.add(slot);
       expanded.clear();
     }
-    std::sort(due_.begin(), due_.end());
+    list_.clear();
+    due_.drain(list_);
     bool any = false;
     members_.clear();
-    for (const Index slot : due_) {
-      listed_[slot] &= ~is_due;
+    for (const Index slot : list_) {
       if (slot < 2 * domain_.welds().size()) {
         const Index w = slot / 2;
         if (domain_.welds()[w].hinge) any |= pass(w, slot % 2, false);
-        if (hinges_.bend_at(w) != none) list(slot, is_for_later, bends_);
+        if (hinges_.bend_at(w) != none) bends_.add(slot);
         continue;
       }
       const Index m = slot - 2 * static_cast<Index>(domain_.welds().size());
       const auto [hinge, side] = hinges_.place(m);
       if (hinges_.is_late(hinge, side))
-        list(slot, is_for_later, late_);
+        late_.add(slot);
       else
         members_.push_back(slot);
     }
-    due_.clear();
     return carry(members_) || any;
   }
 
@@ -317,21 +352,12 @@ class MixedPropagation {
     return any;
   }
 
-  void list(Index slot, std::uint8_t why, std::vector<Index>& in) {
-    if ((listed_[slot] & why) != 0) return;
-    listed_[slot] |= why;
-    in.push_back(slot);
-  }
-
   // Over the hinges of the members in these slots, where they got better. True if something was
   // accepted.
-  bool carry(std::vector<Index>& slots) {
-    if (slots.empty()) return false;
-    std::sort(slots.begin(), slots.end());
+  bool carry(std::span<const Index> slots) {
     // First what has got better, then all of that goes over.
     changed_.clear();
     for (const Index slot : slots) {
-      listed_[slot] &= ~is_for_later;
       const Index m = slot - 2 * static_cast<Index>(domain_.welds().size());
       const auto [n, side] = hinges_.place(m);
       const auto& hinge = domain_.hinges()[n];
@@ -345,7 +371,6 @@ class MixedPropagation {
       posed_[m].source = root(posed_[m].source);
       changed_.push_back({n, side, m, one && hinges_.is_isometric(n)});
     }
-    slots.clear();
     bool any = false;
     // Over edges first: of equal paths, one with a ring serves more points than one that bends at
     // the best point for a single centre.
@@ -403,15 +428,18 @@ class MixedPropagation {
     return most;
   }
 
+  bool carry_late() {
+    list_.clear();
+    late_.drain(list_);
+    return carry(list_);
+  }
+
   // Over the vertices where paths may bend. True if something was accepted.
   bool bend() {
-    std::sort(bends_.begin(), bends_.end());
+    list_.clear();
+    bends_.drain(list_);
     bool any = false;
-    for (const Index slot : bends_) {
-      listed_[slot] &= ~is_for_later;
-      any |= pass(slot / 2, slot % 2, true);
-    }
-    bends_.clear();
+    for (const Index slot : list_) any |= pass(slot / 2, slot % 2, true);
     return any;
   }
 
@@ -428,11 +456,9 @@ class MixedPropagation {
   };
   std::vector<Change> changed_;
   std::vector<PosedSource<Real>> posed_;  // by member: what it offered last
-  // Where something was expanded: slots to look at, those of members among them, and what waits
-  // until nothing else does. By slot, in which of the lists it is.
-  static constexpr std::uint8_t is_due = 1, is_for_later = 2;
-  std::vector<std::uint8_t> listed_;
-  std::vector<Index> due_, members_, late_, bends_;
+  // Where something was expanded: slots to look at, and what waits until nothing else does.
+  SlotSet due_, late_, bends_;
+  std::vector<Index> list_, members_;
   HingeCrossings<Real> crossings_;
   std::vector<Index> turn_;         // pieces at work
   std::size_t spent_before_ = 0;    // when the last turn began

@@ -48,7 +48,7 @@ class MixedSolid final : public MixedPiece<Real> {
       propagation_.spread(propagation_.last_resort(repairs_));
       for (std::size_t i = before; i < this->expanded_.size(); ++i)
         if (wave_.source(this->expanded_[i]) >= first_front)
-          on_hinges_.push_back(this->expanded_[i]);
+          on_hinges_.push_back({this->expanded_[i], 0});
       if (wave_.out_of_budget() || !offer_around(horizon / unit_)) return;
     }
   }
@@ -217,8 +217,11 @@ class MixedSolid final : public MixedPiece<Real> {
   bool offer_around(Real horizon) {
     if (on_hinges_.empty()) return false;
     const std::size_t before = wave_.updates();
-    std::erase_if(on_hinges_,
-                  [&](Index t) { return rule_.offer_around(t, this->crossing_gain, horizon); });
+    std::erase_if(on_hinges_, [&](OnHinge& label) {
+      if (label.next < horizon)
+        label.next = rule_.offer_around(label.tet, this->crossing_gain, horizon);
+      return !(label.next < infinity);
+    });
     return wave_.updates() != before;
   }
 
@@ -266,7 +269,12 @@ class MixedSolid final : public MixedPiece<Real> {
   SolidPropagation<Real, Rule, Wave> propagation_;
   Rule& rule_;
   int repairs_ = 0;
-  std::vector<Index> on_hinges_;  // expanded labels from there that may have more to offer
+  // Expanded labels from there that have more to offer, the nearest at `next`.
+  struct OnHinge {
+    Index tet;
+    Real next;
+  };
+  std::vector<OnHinge> on_hinges_;
 };
 
 }  // namespace plexway

@@ -295,22 +295,23 @@ class SolidRule : public SolidPaths<Real> {
   /// sources of nearly the same distance each tetrahedron keeps one, and the strip that would bring
   /// another one may be taken. Without reflex edges nothing hides anything; else the path bends on
   /// the face. A neighbour must gain the share `gain`. Offers at `horizon` or beyond are not made:
-  /// false if there are such.
-  bool offer_around(Index t, Real gain, Real horizon) const {
-    bool all = true;
+  /// gives the nearest such, or +inf. Labels of t's source start all at one point.
+  Real offer_around(Index t, Real gain, Real horizon) const {
+    Real left = std::numeric_limits<Real>::infinity();
     for (Index i = 0; i < 4; ++i) {
       const Index across = tets_[t].across[i], u = across >> TetAcross::tet_shift;
+      if (!any_reflex_ && front_->reached(u) && front_->source(u) == front_->source(t)) continue;
       Label label = front_->label(t);
       label.centre = taut_to(label, tets_[u].centre).extent;
       if (!(label.centre < to_beat(u) * (1 - gain))) continue;
       if (!(label.centre < horizon))
-        all = false;
+        left = std::min(left, label.centre);
       else if (any_reflex_)
         cross(t, i, true);
       else
         front_->accept(u, across & TetAcross::face_mask, label, label.centre, front_->source(t));
     }
-    return all;
+    return left;
   }
 
   /// A source that is seen over an edge of t only: a ring about it.

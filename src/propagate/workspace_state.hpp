@@ -43,8 +43,8 @@ struct WorkspaceState {
   std::vector<Index> corners;                     ///< around one vertex
   std::unique_ptr<LoweringRooms<Real>> lowering;  ///< read_out_edges
   ///@{
-  /// On mixed domains: one a piece that is propagated on, what a member of a hinge has offered
-  /// already, and the read-out of one piece with its nearest sources.
+  /// On mixed domains: one a piece that is propagated on, and what a member of a hinge has offered
+  /// already.
   std::vector<WorkspaceState> parts;
   std::vector<Real> offered;
   ///@}
