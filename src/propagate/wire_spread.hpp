@@ -49,8 +49,8 @@ class WireSpread {
   /// along an arc or at what waits. where.has(v): is this vertex ours? If not, where.tell(v,
   /// distance, source) hears what is offered.
   template <class Front, class Where, class More>
-  bool run(Front& front, const Where& where, std::size_t& left, std::size_t patience,
-           const More& more) {
+  [[gnu::always_inline]] bool run(Front& front, const Where& where, std::size_t& left,
+                                  std::size_t patience, const More& more) {
     const Index* const begin = wireframe_->begin().data();
     const WireArc<Real>* const arcs = wireframe_->arcs().data();
     Real* const label = label_;
