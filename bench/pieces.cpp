@@ -1,17 +1,21 @@
-// One source on a surface by pieces (OpenMP::piece) against Serial, by labels or windows. Counts
-// are the same on any machine and with any number of threads, and so must be the bits: `--repeats`
-// solves with 1, 2, 3 and 8 threads are compared (0 differ). Times are taken in turns. The model
-// says what recorded counts come to on more threads: each superstep's runs are dealt to the threads
-// longest first, a run costs its expansions and some, a superstep what a barrier does.
+// One source by pieces (OpenMP::piece) against Serial, on a surface by labels or windows, and on a
+// wireframe. Counts are the same on any machine and with any number of threads, and so must be the
+// bits: `--repeats` solves with 1, 2, 3 and 8 threads are compared (0 differ). Times are taken in
+// turns. The model says what recorded counts come to on more threads: each superstep's runs are
+// dealt to the threads longest first, a run costs its expansions and some, a superstep what a
+// barrier does.
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <array>
 #include <map>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <plexway/solve.hpp>
 
+#include "../data/shapes.hpp"
 #include "compare.hpp"
 #include "piece_model.hpp"
 #include "propagate/workspace_state.hpp"
@@ -32,14 +36,13 @@ struct Settings {
   std::string accuracy = "fast";
 };
 
-template <class Real>
-void measure(const bench::Surface& surface, const bench::Effort& effort, const Settings& settings,
-             bench::Table& table) {
-  const TriangleMesh<Real> mesh(surface.positions, surface.faces);
-  const double faces = static_cast<double>(mesh.face_count());
-  PropagateOptions options;
-  options.accuracy = accuracies.at(settings.accuracy);
-  const auto sources = bench::rotating_sources(surface, effort.sources);
+/// A simplex is what pieces count: a triangle, a vertex of a wireframe.
+template <class Domain>
+void measure(const std::string& name, const Domain& mesh, std::size_t simplices,
+             const std::vector<Index>& sources, const PropagateOptions& options,
+             const bench::Effort& effort, const Settings& settings, bench::Table& table) {
+  using Real = typename Domain::Number;
+  const double faces = static_cast<double>(simplices);
   Workspace<Real> alone;
   DistanceField<Real> field, first;
   const auto solve_by = [&](const auto& executor, Workspace<Real>& workspace) {
@@ -79,8 +82,8 @@ void measure(const bench::Surface& surface, const bench::Effort& effort, const S
         bench::take_turns(sources, effort, solve_by(Serial{}, alone),
                           solve_by(OpenMP{settings.threads, 128, size}, workspace));
     const double n = static_cast<double>(sources.size());
-    table.add({{"mesh", surface.name},
-               {"faces", mesh.face_count()},
+    table.add({{"mesh", name},
+               {"faces", simplices},
                {"size", size},
                {"supersteps", supersteps / n},
                {"serial", serial / n},
@@ -101,17 +104,54 @@ void measure(const bench::Surface& surface, const bench::Effort& effort, const S
   }
 }
 
+template <class Real>
+void measure(const bench::Surface& surface, const bench::Effort& effort, const Settings& settings,
+             bench::Table& table) {
+  const TriangleMesh<Real> mesh(surface.positions, surface.faces);
+  PropagateOptions options;
+  options.accuracy = accuracies.at(settings.accuracy);
+  measure(surface.name, mesh, mesh.face_count(), bench::rotating_sources(surface, effort.sources),
+          options, effort, settings, table);
+}
+
+/// Points a unit apart, each pushed by up to 0.3, and struts between them; `layers` of n x n.
+void measure_wires(std::size_t n, std::size_t layers, const bench::Effort& effort,
+                   const Settings& settings, bench::Table& table) {
+  samples::Noise noise(1);
+  std::vector<std::array<double, 3>> positions;
+  std::vector<std::array<Index, 2>> edges;
+  for (std::size_t k = 0; k < layers; ++k)
+    for (std::size_t j = 0; j < n; ++j)
+      for (std::size_t i = 0; i < n; ++i) {
+        const auto v = positions.size();
+        const auto pushed = [&](std::size_t at) { return static_cast<double>(at) + 0.3 * noise(); };
+        const double x = pushed(i), y = pushed(j), z = layers > 1 ? pushed(k) : 0;
+        positions.push_back({x, y, z});
+        for (const auto& [there, to] :
+             {std::pair(i > 0, v - 1), {j > 0, v - n}, {k > 0, v - n * n}})
+          if (there) edges.push_back({static_cast<Index>(to), static_cast<Index>(v)});
+      }
+  const Wireframe<float> wires(positions, edges);
+  measure(layers > 1 ? "lattice" : "grid", wires, positions.size(),
+          bench::spread_numbers(effort.sources, positions.size()), {}, effort, settings, table);
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
   Settings settings;
+  std::vector<std::size_t> grids, lattices;
   bench::Effort effort;
   effort.sources = 3;
   bench::Report report;
-  CLI::App app("Surfaces by pieces: counts, a model of more threads, times beside Serial");
+  CLI::App app(
+      "Surfaces and wireframes by pieces: counts, a model of more threads, times beside Serial");
   app.add_option("MESH", settings.meshes, "Surfaces");
   app.add_option("--generated", settings.generated, "Bumpy spheres of about so many vertices");
-  app.add_option("--sizes", settings.sizes, "Triangles a piece")->capture_default_str();
+  app.add_option("--grid", grids, "Wireframes: grids of so many points squared");
+  app.add_option("--lattice", lattices, "Wireframes: lattices of so many points cubed");
+  app.add_option("--sizes", settings.sizes, "Triangles (vertices of wireframes) a piece")
+      ->capture_default_str();
   app.add_option("--threads", settings.threads, "Threads of the runs that are timed")
       ->capture_default_str();
   app.add_option("--accuracy", settings.accuracy, "fast, accurate or exact (in double)")
@@ -151,5 +191,7 @@ int main(int argc, char** argv) {
     };
     for (const std::string& mesh : settings.meshes) any(bench::read_surface(mesh));
     for (const std::size_t vertices : settings.generated) any(bench::bumpy_surface(vertices));
+    for (const std::size_t n : grids) measure_wires(n, 1, effort, settings, table);
+    for (const std::size_t n : lattices) measure_wires(n, n, effort, settings, table);
   });
 }

@@ -33,19 +33,19 @@ struct Serial {
 
 /// Several threads of one process.
 ///
-/// The step is that of Serial. Surfaces, clouds and solids are cut into pieces, which exchange
-/// labels or windows over their borders; pieces of a mixed domain, as they are, take their turns at
-/// once, with Serial's bits; elsewhere threads take the front in chunks, in rounds.
+/// The step is that of Serial. Surfaces, clouds, solids and wireframes are cut into pieces, which
+/// exchange labels or windows over their borders; pieces of a mixed domain, as they are, take their
+/// turns at once, with Serial's bits; elsewhere threads take the front in chunks, in rounds.
 /// Either way the result does not depend on the number of threads or on their timing: it is the
-/// same to the last bit, also where a propagation is cut short by max_expansions. Exact windows and
-/// a domain of a single piece have Serial's bits. Else it differs from Serial's where the order of
-/// work decides, and is as accurate. The workspace is the one that Serial takes.
+/// same to the last bit, also where a propagation is cut short by max_expansions. Exact windows, a
+/// domain of a single piece and distances in wireframes have Serial's bits. Else it differs where
+/// the order of work decides, and is as accurate. The workspace is the one that Serial takes.
 ///
 /// Cost: on one thread 1.05 to 1.2 times that of Serial in pieces, up to 1.35 in rounds. Rounds
 /// wait for each other several times for each step of the front, so they want large domains with
 /// long fronts, and cores that nobody else wants. Many fields of one domain are best had by
 /// `solve_each`, which takes one thread a source. Memory in float, beyond Serial's: pieces of
-/// surfaces 130 to 150 bytes a triangle, of solids 20 a tetrahedron, kept from solve to solve;
+/// surfaces 130 to 150 bytes a triangle, of solids and wireframes 20, kept from solve to solve;
 /// rounds 8 bytes a simplex and 48 to 64 for each label that waits; in double about twice that.
 ///
 /// Solving throws UsageError for less than one thread or an empty chunk, and NotBuiltError in a
@@ -57,13 +57,13 @@ struct OpenMP {
   int threads = 0;  ///< 0: as many as OpenMP would take (OMP_NUM_THREADS, or one a core)
   /// In rounds: simplices that a thread takes at a time. Fronts up to this size are one thread's.
   std::size_t chunk = 128;
-  /// Surfaces, clouds, solids: about so many simplices a piece. 0: by the size of the domain, and a
-  /// single piece below 32,768 simplices, which is the serial loop. Threads wait for each other
-  /// once a superstep, some dozens to hundreds of times a solve. Another size gives other labels
-  /// and merged windows, all of them as accurate. The first solve cuts the domain, which takes
-  /// about as long as a solve. Other domains go in rounds whatever this says. By windows an order
-  /// other than Schedule::dual_queue, and a solve that keeps its windows for distances inside
-  /// triangles, is one thread's.
+  /// About so many simplices (vertices of wireframes) a piece. 0: by the domain, and a single piece
+  /// where it is small (32,768) or pieces do not pay, which is the serial loop. Threads wait for
+  /// each other once a superstep, some dozens to hundreds of times a solve. Another size gives
+  /// other labels and merged windows, all of them as accurate. The first solve cuts the domain,
+  /// which takes about as long as a solve. Other domains go in rounds whatever this says. By
+  /// windows an order other than Schedule::dual_queue, and a solve that keeps its windows for
+  /// distances inside triangles, is one thread's.
   std::size_t piece = 0;
   /// Null, or processes that share the pieces (executors/piece_ranks.hpp): piece p is that of rank
   /// p modulo their number, and `threads` are this one's. Each gets the whole field, the same bits

@@ -8,7 +8,8 @@ AnyExecutor fastest_executor(const AnyDomain& domain, std::size_t sources,
                              const PropagateOptions& options, const OpenMP& team) {
   if (!openmp_built() || options.schedule == Schedule::priority) return Serial{};
   const bool in_pieces = domain.kind() == DomainKind::surface ||
-                         domain.kind() == DomainKind::cloud || domain.kind() == DomainKind::solid;
+                         domain.kind() == DomainKind::cloud || domain.kind() == DomainKind::solid ||
+                         domain.kind() == DomainKind::wireframe;
   const bool bounded =
       options.radius < PropagateOptions{}.radius ||
       options.max_expansions < PropagateOptions{}.max_expansions;  // fronts may stay short

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <span>
 #include <vector>
 
@@ -11,8 +12,10 @@ namespace plexway {
 /// Vertices along a space-filling (Morton) curve. Positions are finite.
 std::vector<Index> vertices_along_curve(std::span<const std::array<double, 3>> positions);
 
-/// Vertices by component and, in each, breadth first from the lowest number.
-std::vector<Index> vertices_breadth_first(std::size_t vertices,
-                                          std::span<const std::array<Index, 2>> edges);
+/// Vertices in blocks of so many that lie together: breadth first, but each block begins where the
+/// oldest neighbour that is left is, or in the next component at its lowest number.
+std::vector<Index> vertices_in_blocks(std::size_t vertices,
+                                      std::span<const std::array<Index, 2>> edges,
+                                      std::size_t block);
 
 }  // namespace plexway

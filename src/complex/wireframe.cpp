@@ -83,7 +83,8 @@ Wireframe<Real>::Wireframe(std::size_t vertices, std::span<const std::array<Inde
   for (std::size_t e = 0; e < edges.size(); ++e)
     if (!std::isfinite(lengths[e]) || lengths[e] < 0)
       throw InputError("edge " + std::to_string(e) + ": its length is negative or not finite");
-  vertex_to_inside_ = inverse(vertices_breadth_first(vertices, edges));
+  const std::size_t block = std::max<std::size_t>(4096, vertices / 64);  // what pieces are by then
+  vertex_to_inside_ = inverse(vertices_in_blocks(vertices, edges, block));
   assemble(edges, lengths);
 }
 

@@ -52,6 +52,14 @@ class Unpacked {
     bytes_ = bytes_.subspan(sizeof value);
     return value;
   }
+  /// As many as there is room for.
+  template <class Value>
+  void take(std::span<Value> values) {
+    static_assert(std::is_trivially_copyable_v<Value>);
+    if (values.empty()) return;
+    std::memcpy(values.data(), bytes_.data(), values.size_bytes());
+    bytes_ = bytes_.subspan(values.size_bytes());
+  }
   /// The next so many bytes.
   [[nodiscard]] std::span<const std::byte> cut_off(std::size_t count) {
     const auto first = bytes_.first(count);

@@ -13,6 +13,9 @@ struct PieceChoice {
   std::size_t count;  ///< so many pieces where they are larger: enough for a dozen threads
 };
 
+/// Of wireframes, in vertices.
+inline constexpr PieceChoice wire_pieces = {4096, 64};
+
 /// About so many simplices a piece, of so many. Of the domain alone, never of threads. What one
 /// thread does in some milliseconds is a single piece.
 inline std::size_t piece_size(const OpenMP& executor, std::size_t simplices,

@@ -3,6 +3,7 @@
 
 #include "executors/checks.hpp"
 #include "executors/run.hpp"
+#include "executors/solve_wireframe.hpp"
 #include "propagate/alone.hpp"
 #include "propagate/wire_propagation.hpp"
 #include "propagate/wire_step.hpp"
@@ -45,11 +46,9 @@ void solve(const Wireframe<Real>& wireframe, std::span<const PointSource> source
 }  // namespace
 
 template <class Real>
-void solve_points(const Serial&, const Wireframe<Real>& wireframe,
-                  std::span<const PointSource> sources, const PropagateOptions& options,
-                  Workspace<Real>& kept, DistanceField<Real>& field) {
-  WorkspaceState<Real>& workspace = kept.state();
-  check(sources, options, wireframe);
+void solve_alone(const Wireframe<Real>& wireframe, std::span<const PointSource> sources,
+                 const PropagateOptions& options, WorkspaceState<Real>& workspace,
+                 DistanceField<Real>& field) {
   const auto with_step = [&](auto labels, auto step) {
     solve<Real, decltype(step), decltype(labels)::value>(wireframe, sources, options, workspace,
                                                          field);
@@ -59,6 +58,19 @@ void solve_points(const Serial&, const Wireframe<Real>& wireframe,
                        : with_step(labels, KernelWireStep<Real>{});
   };
   sources.size() > 1 ? with_labels(std::true_type{}) : with_labels(std::false_type{});
+}
+
+template void solve_alone(const Wireframe<float>&, std::span<const PointSource>,
+                          const PropagateOptions&, WorkspaceState<float>&, DistanceField<float>&);
+template void solve_alone(const Wireframe<double>&, std::span<const PointSource>,
+                          const PropagateOptions&, WorkspaceState<double>&, DistanceField<double>&);
+
+template <class Real>
+void solve_points(const Serial&, const Wireframe<Real>& wireframe,
+                  std::span<const PointSource> sources, const PropagateOptions& options,
+                  Workspace<Real>& kept, DistanceField<Real>& field) {
+  check(sources, options, wireframe);
+  solve_alone(wireframe, sources, options, kept.state(), field);
 }
 
 namespace detail {

@@ -1,68 +1,29 @@
+#include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <deque>
 #include <limits>
+#include <span>
 #include <type_traits>
 #include <vector>
 
 #include "executors/checks.hpp"
-#include "executors/crew.hpp"
+#include "executors/piece_post.hpp"
+#include "executors/piece_size.hpp"
 #include "executors/run.hpp"
+#include "executors/solve_wireframe.hpp"
+#include "executors/supersteps.hpp"
+#include "executors/team.hpp"
 #include "executors/unordered.hpp"
+#include "propagate/pieces/wire_piece.hpp"
 #include "propagate/wire_propagation.hpp"
 #include "propagate/wire_step.hpp"
 
 namespace plexway {
+
 namespace {
 
-// In a wireframe the distance of a vertex is all that there is to a label.
-struct NoLabel {};
-
-template <class Real, bool kLabels>
-class WireStore {
- public:
-  using Label = NoLabel;
-
-  WireStore(Real* distance, Index* source) : distance_(distance), source_(source) {}
-  [[nodiscard]] Real distance(Index v) const { return distance_[v]; }
-  [[nodiscard]] Index source(Index v) const {
-    if constexpr (kLabels) return source_[v];
-    return 0;
-  }
-  template <class Offer>
-  bool settle(const Offer& offer) const {
-    const bool known = distance_[offer.simplex] < std::numeric_limits<Real>::infinity();
-    distance_[offer.simplex] = OfferKey<Real>::distance(offer.key);
-    if constexpr (kLabels) source_[offer.simplex] = offer.tie >> OfferTie::source_shift;
-    return !known;
-  }
-  void prefetch(Index v) const { __builtin_prefetch(&distance_[v], 1); }
-
- private:
-  Real* distance_;
-  Index* source_;
-};
-
-// Offers along all edges of a vertex.
-template <class Real, class Step, class Front>
-struct WireExpander {
-  const Index* begin;
-  const WireArc<Real>* arcs;
-  Real radius;
-  Front& front;
-
-  void operator()(Index v) const {
-    const Real sigma = front.distance(v);
-    if (sigma > radius) return;
-    const Index source = front.source(v);
-    for (Index k = begin[v]; k < begin[v + 1]; ++k) {
-      const Real offer = Step::over(sigma, arcs[k].length);
-      if (offer < front.distance(arcs[k].to)) front.accept(arcs[k].to, 0, {}, offer, source);
-    }
-  }
-  void far_ahead(Index v) const { __builtin_prefetch(&begin[v]); }
-  void ahead(Index v) const { __builtin_prefetch(&arcs[begin[v]]); }
-};
-
-// What seeds wait in until the team takes over.
+// What seeds wait in until pieces take them.
 template <class Real>
 struct Seeds {
   std::vector<Index> vertex;
@@ -71,49 +32,90 @@ struct Seeds {
   }
 };
 
+struct Readers {
+  const Team& team;
+  template <class Work>
+  void over(std::size_t count, const Work& work) const {
+    team.over(count, work);
+  }
+};
+
+/// How far the horizon moves on in a superstep: a piece is so many edges across as there are arcs
+/// for one at the cut.
+double pace_of(const RangeCut& cut) {
+  constexpr double pace = 1. / 8;
+  return pace * static_cast<double>(cut.hinges) /
+         static_cast<double>(std::max<std::size_t>(cut.at_cut, 1));
+}
+
+/// Do several threads gain anything? Not where an eighth of the arcs leads to other pieces, as
+/// between any two vertices; where fewer do than in a plane grid, as in trees, so that the front is
+/// a few vertices; nor where lengths are of very different size, and a pace says nothing.
+template <class Real>
+bool pays(const Wireframe<Real>& wireframe, const RangeCut& cut) {
+  const double across =
+      static_cast<double>(cut.hinges) / static_cast<double>(std::max<std::size_t>(cut.at_cut, 1));
+  return across >= 8 && across <= 1.5 * std::sqrt(static_cast<double>(cut.size)) &&
+         4 * wireframe.typical_edge() >= wireframe.summary().mean_edge / wireframe.unit();
+}
+
+/// The labels of other processes' vertices, and ours to them. Returns the bytes sent.
+template <bool kLabels, class Propagation>
+std::size_t share_labels(PieceRanks& ranks, Deal deal, const RangeCut& cut,
+                         const Propagation& propagation) {
+  const auto own = [&cut](auto* of, std::size_t p) {
+    return std::span(of + cut.begin(p), of + cut.end(p));
+  };
+  const std::size_t count = cut.cut.pieces.size();
+  const SharedPieces shared(ranks, deal, count, [&](std::size_t p, Parcel& parcel) {
+    const auto add = [&parcel](auto values) {
+      parcel.add(std::span<const typename decltype(values)::element_type>(values));
+    };
+    add(own(propagation.labels(), p));
+    if constexpr (kLabels) add(own(propagation.sources(), p));
+  });
+  for (std::size_t p = 0; p < count; ++p) {
+    if (deal.is_ours(p)) continue;
+    Unpacked mail = shared.of(p);
+    mail.take(own(propagation.labels(), p));
+    if constexpr (kLabels) mail.take(own(propagation.sources(), p));
+  }
+  return shared.sent();
+}
+
 template <class Real, class Step, bool kLabels>
 void solve(const Team& team, const Wireframe<Real>& wireframe, std::span<const PointSource> sources,
-           const PropagateOptions& options, WorkspaceState<Real>& workspace,
+           const PropagateOptions& options, WorkspaceState<Real>& workspace, WirePieces<Real>& kept,
            DistanceField<Real>& field) {
-  const std::size_t n = wireframe.vertex_count();
+  using Piece = WirePiece<Real, Step, kLabels>;
   WirePropagation<Real, Step, kLabels> propagation(wireframe, workspace, options);
   Seeds<Real> seeds;
   for (std::size_t i = 0; i < sources.size(); ++i)
     propagation.seed(sources[i], static_cast<Index>(i), seeds);
 
-  workspace.front.reserve(n);
+  const Deal deal = team.deal();
+  const RangeCut& cut = kept.cut;
   const Real step = step_of<Real>(options, wireframe.typical_edge());
-  const TeamCrew<Real, kLabels> crew(team, workspace, step, wireframe.unit(), options);
-  Real* const label = propagation.labels();
-  const WireStore<Real, kLabels> store(label, propagation.sources());
-  using WireRounds = Rounds<Real, WireStore<Real, kLabels>>;
-  WireRounds rounds(team, workspace.team, store, workspace.front.far.get(), n, step,
-                    wireframe.unit(), options);
-  for (const Index v : seeds.vertex) {
-    label[v] = std::abs(label[v]);
-    rounds.add(v, 0, {}, label[v], store.source(v));
+  std::deque<Piece> pieces;  // ours
+  std::vector<Piece*> by_number(kept.rooms.size(), nullptr);
+  for (std::size_t p = deal.ours; p < by_number.size(); p += deal.count) {
+    const std::size_t arcs = wireframe.begin()[cut.end(p)] - wireframe.begin()[cut.begin(p)];
+    by_number[p] = &pieces.emplace_back(
+        kept, static_cast<Index>(p), propagation.labels(), propagation.spread(), step,
+        options.schedule == Schedule::fifo ? std::numeric_limits<std::size_t>::max()
+                                           : wire_patience * arcs);
   }
-  const std::size_t patience = options.schedule == Schedule::fifo
-                                   ? std::numeric_limits<std::size_t>::max()
-                                   : wire_patience * n;
-  const bool complete = rounds.run(
-      [&](auto& front) {
-        return WireExpander<Real, Step, std::decay_t<decltype(front)>>{
-            wireframe.begin().data(), wireframe.arcs().data(), propagation.radius(), front};
-      },
-      propagation.statistics(), patience);
-  // What a label waits for is not kept beside it; where rounds end early, its sign says so again.
-  if (!complete) rounds.hand_over([&](Index v) { label[v] = -std::abs(label[v]); });
-  PropagateStatistics done = rounds.done();
-  done.updates -= std::min(done.updates, seeds.vertex.size());
-  propagation.account(done, rounds.out_of_budget());
-  if (!complete && !rounds.out_of_budget()) {
-    // Lengths of very different size: one thread, nearest first, is what helps.
-    PriorityQueue<Real> nearest_first(workspace.front);
-    propagation.hand_over(nearest_first);
-    propagation.spread(nearest_first, std::numeric_limits<std::size_t>::max());
-  }
-  propagation.read_out(sources, crew, field);
+  for (const Index v : seeds.vertex)
+    if (Piece* const piece = by_number[cut.piece_of(v)]) piece->give(v);
+  Supersteps<Piece> supersteps(
+      team, cut.cut, by_number, static_cast<Real>(pace_of(cut) * wireframe.typical_edge()),
+      wireframe.vertex_count(), wireframe.unit(), options, workspace.pieces.counts());
+  const bool complete =
+      supersteps.run(propagation.statistics(), [](std::size_t, std::size_t) { return true; });
+  propagation.account(supersteps.statistics(), !complete);
+  if (PieceRanks* const ranks = team.ranks())
+    workspace.pieces.counts().sent += share_labels<kLabels>(*ranks, deal, cut, propagation);
+  propagation.read_out(sources, Readers{team}, field);
 }
 
 }  // namespace
@@ -125,16 +127,28 @@ void solve_points(const OpenMP& executor, const Wireframe<Real>& wireframe,
   WorkspaceState<Real>& workspace = kept.state();
   const Team team(executor);
   check(sources, options, wireframe);
-  check_ties(sources);
+  workspace.pieces.counts().start();
+  const std::size_t n = wireframe.vertex_count();
+  const std::size_t size = piece_size(executor, n, wire_pieces);
+  thread_local WirePieces<Real> of_the_last;  // so that a second solve cuts nothing
+  WirePieces<Real>& pieces = of_the_last;
+  const bool one = is_one_piece(size, n);
+  if (!one) pieces.of(wireframe, size);
+  if (one || (executor.piece == 0 && !pays(wireframe, pieces.cut))) {
+    solve_alone(wireframe, sources, options, workspace, field);
+    return;
+  }
   const auto with_step = [&](auto labels, auto step) {
     solve<Real, decltype(step), decltype(labels)::value>(team, wireframe, sources, options,
-                                                         workspace, field);
+                                                         workspace, pieces, field);
   };
   const auto with_labels = [&](auto labels) {
     options.vectorised ? with_step(labels, WireStep<Real>{})
                        : with_step(labels, KernelWireStep<Real>{});
   };
-  sources.size() > 1 ? with_labels(std::true_type{}) : with_labels(std::false_type{});
+  team.hold(
+      [&] { sources.size() > 1 ? with_labels(std::true_type{}) : with_labels(std::false_type{}); });
+  workspace.pieces.counts().tell(field.statistics);
 }
 
 namespace detail {

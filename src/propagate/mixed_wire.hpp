@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "propagate/mixed_piece.hpp"
+#include "propagate/wire_front.hpp"
 #include "propagate/wire_propagation.hpp"
 #include "propagate/wire_step.hpp"
 
@@ -24,7 +25,7 @@ class MixedWire final : public MixedPiece<Real> {
         workspace_(prepare(wireframe, workspace)),
         options_(options),
         unit_(static_cast<Real>(wireframe.unit())),
-        waiting_(workspace.front, step_of(wireframe, step), this->expanded_),
+        waiting_(workspace.front, step_of(wireframe, step)),
         propagation_(wireframe, workspace, options_) {}
 
   void seed(const PointSource& source, Index number) override {
@@ -36,11 +37,11 @@ class MixedWire final : public MixedPiece<Real> {
     propagation_.withdraw_all_but(budget - propagation_.statistics().expansions);
     waiting_.set_horizon(horizon / unit_);
     constexpr std::size_t all = std::numeric_limits<std::size_t>::max();
-    const std::size_t patience = waiting_.sorted ? all : 8 * wireframe_.arcs().size();
-    if (propagation_.spread(NextWaiting{waiting_}, patience)) return;
-    waiting_.sorted = true;
+    const std::size_t patience = waiting_.sorted() ? all : 8 * wireframe_.arcs().size();
+    if (propagation_.spread(NextWaiting{waiting_, this->expanded_}, patience)) return;
+    waiting_.sort();
     propagation_.hand_over(waiting_);
-    propagation_.spread(NextWaiting{waiting_}, all);
+    propagation_.spread(NextWaiting{waiting_, this->expanded_}, all);
   }
   Real nearest() const override { return waiting_.nearest() * unit_; }
   void hold() override { waiting_.set_horizon(0); }
@@ -85,39 +86,15 @@ class MixedWire final : public MixedPiece<Real> {
     return step * edge > 0 ? step * edge : Real(1);
   }
 
-  /// What waits beyond the horizon too: in two queues, and when those have looked too often nearest
-  /// first.
-  struct Waiting {
-    Waiting(FrontStorage& storage, Real step, std::vector<Index>& log)
-        : dual(storage, step), heap(storage), expanded(log) {}
-
-    void push(Index v, Real distance, bool wanted = true) {
-      if (sorted) return heap.push(v, distance);
-      if (!wanted) dual.note(distance);
-      dual.push(v, distance, wanted);
-    }
-    [[nodiscard]] Real nearest() const { return sorted ? heap.nearest() : dual.nearest(); }
-    void set_horizon(Real at) {
-      horizon = at;
-      dual.set_horizon(at);
-    }
-
-    DualQueue<Real> dual;
-    PriorityQueue<Real> heap;
-    std::vector<Index>& expanded;
-    Real horizon = std::numeric_limits<Real>::infinity();
-    bool sorted = false;
-  };
-  /// It, for one spread.
+  /// What waits, for one spread; what it expands is listed.
   struct NextWaiting {
-    Waiting& waiting;
+    WireFront<Real>& waiting;
+    std::vector<Index>& expanded;
     void push(Index v, Real distance, bool wanted) { waiting.push(v, distance, wanted); }
     template <class DistanceOf>
     bool pop(Index& v, const DistanceOf& distance_of) {
-      if (waiting.sorted && !(waiting.heap.nearest() < waiting.horizon)) return false;
-      if (!(waiting.sorted ? waiting.heap.pop(v, distance_of) : waiting.dual.pop(v, distance_of)))
-        return false;
-      waiting.expanded.push_back(v);
+      if (!waiting.pop(v, distance_of)) return false;
+      expanded.push_back(v);
       return true;
     }
   };
@@ -126,7 +103,7 @@ class MixedWire final : public MixedPiece<Real> {
   WorkspaceState<Real>& workspace_;
   PropagateOptions options_;
   Real unit_;
-  Waiting waiting_;
+  WireFront<Real> waiting_;
   WirePropagation<Real, WireStep<Real>, true> propagation_;
 };
 

@@ -14,6 +14,7 @@
 
 #include "complex/number_range.hpp"
 #include "propagate/progress_counter.hpp"
+#include "propagate/wire_spread.hpp"
 #include "propagate/workspace_state.hpp"
 
 namespace plexway {
@@ -23,9 +24,6 @@ namespace plexway {
 inline constexpr std::size_t wire_patience = 4;
 
 /// One propagation over a wireframe, for any front.
-///
-/// Labels sit at the hinges, the vertices. A label that waits to be expanded is kept with its sign
-/// turned: what an offer must look up, distance and whether it waits, is then one number.
 template <class Real, class Step, bool kLabels>
 class WirePropagation {
  public:
@@ -35,13 +33,9 @@ class WirePropagation {
                   const PropagateOptions& options)
       : wireframe_(wireframe),
         options_(options),
-        radius_(static_cast<Real>(options.radius / wireframe.unit())) {
-    const std::size_t n = wireframe.vertex_count();
-    workspace.vertex.assign(n, infinity);
-    if constexpr (kLabels) workspace.vertex_source.assign(n, none);
-    label_ = workspace.vertex.data();
-    source_ = workspace.vertex_source.data();
-  }
+        label_(start(workspace)),
+        source_(workspace.vertex_source.data()),
+        spread_(wireframe, label_, source_, static_cast<Real>(options.radius / wireframe.unit())) {}
 
   template <class Front>
   void seed(const PointSource& source, Index number, Front& front) {
@@ -60,69 +54,18 @@ class WirePropagation {
   /// A path of this length ends at a vertex (number inside); false if it knows a better one.
   template <class Front>
   bool seed_vertex(Index v, double distance, Index number, Front& front) {
-    const Real sigma = static_cast<Real>(distance), known = label_[v];
-    if (!(sigma < std::abs(known))) return false;
-    label_[v] = -sigma;
-    if constexpr (kLabels) source_[v] = number;
-    front.push(v, sigma, !std::signbit(known));
-    ++updates_;
-    reached_ += known == infinity;
-    return true;
+    return spread_.offer(v, static_cast<Real>(distance), number, front);
   }
 
   /// Until no label waits or the budget is spent. False, with labels still waiting, if it took more
   /// than `patience` looks along an edge or at what waits. Throws Cancelled.
   template <class Front>
   bool spread(Front front, std::size_t patience) {
-    const Index* const begin = wireframe_.begin().data();
-    const WireArc<Real>* const arcs = wireframe_.arcs().data();
-    Real* const label = label_;
-    const Real radius = radius_;
-    std::size_t left = left_, updates = 0, reached = 0, looks = 0;
-    const auto keep = [&] { left_ = left, updates_ += updates, reached_ += reached; };
-    const auto distance_of = [label, &looks](Index v) {
-      ++looks;  // some queues look several times before it is a label's turn
-      return std::abs(label[v]);
-    };
-    Index v = 0;
-    while (front.pop(v, distance_of)) {
-      const Real sigma = std::abs(label[v]);
-      if (left == 0) [[unlikely]] {
-        keep();
-        updates = reached = 0;
-        if (!take_stock(sigma)) {
-          front.push(v, sigma, true);  // it waits on
-          return true;
-        }
-        left = left_;
-      }
-      --left;
-      label[v] = sigma;
-      if (sigma > radius) [[unlikely]]
-        continue;
-      const Index first = begin[v], last = begin[v + 1];
-      for (Index k = first; k < last; ++k) {
-        const Index to = arcs[k].to;
-        const Real offer = Step::over(sigma, arcs[k].length);
-        const Real known = label[to];
-        if (!(offer < std::abs(known))) continue;
-        // It is expanded soon: its row, and where the row says that its arcs are.
-        __builtin_prefetch(&begin[to]);
-        __builtin_prefetch(&arcs[begin[to]]);
-        label[to] = -offer;
-        if constexpr (kLabels) source_[to] = source_[v];
-        front.push(to, offer, !std::signbit(known));
-        ++updates;
-        reached += known == infinity;
-      }
-      looks += last - first;
-      if (looks > patience) [[unlikely]] {
-        keep();
-        return false;
-      }
-    }
-    keep();
-    return true;
+    return spread_.run(front, AllVertices{}, left_, patience, [&](Index v, Real sigma) {
+      if (take_stock(sigma)) return true;
+      front.push(v, sigma, true);  // it waits on
+      return false;
+    });
   }
 
   /// Hands all that waits to another front.
@@ -135,11 +78,11 @@ class WirePropagation {
   /// For other ways to spread: the labels, and what was done to them.
   [[nodiscard]] Real* labels() const { return label_; }
   [[nodiscard]] Index* sources() const { return source_; }
-  [[nodiscard]] Real radius() const { return radius_; }
+  [[nodiscard]] const WireSpread<Real, Step, kLabels>& spread() const { return spread_; }
   void account(const PropagateStatistics& done, bool out_of_budget) {
     granted_ += done.expansions;
-    updates_ += done.updates;
-    reached_ += done.reached_simplices;
+    others_.updates += done.updates;
+    others_.reached_simplices += done.reached_simplices;
     out_of_budget_ = out_of_budget;
   }
 
@@ -152,7 +95,8 @@ class WirePropagation {
 
   [[nodiscard]] bool out_of_budget() const { return out_of_budget_; }
   [[nodiscard]] PropagateStatistics statistics() const {
-    return {granted_ - left_, updates_, reached_};
+    return {granted_ - left_, spread_.updates() + others_.updates,
+            spread_.reached() + others_.reached_simplices};
   }
 
   template <class Crew>
@@ -182,10 +126,17 @@ class WirePropagation {
   }
 
  private:
+  [[nodiscard]] Real* start(WorkspaceState<Real>& workspace) const {
+    const std::size_t n = wireframe_.vertex_count();
+    workspace.vertex.assign(n, infinity);
+    if constexpr (kLabels) workspace.vertex_source.assign(n, none);
+    return workspace.vertex.data();
+  }
+
   /// Grants the next share of the budget and reports progress; false if the budget is spent.
   bool take_stock(Real distance) {
     if (options_.progress && granted_ > 0)
-      tell_progress(options_, {granted_, reached_, wireframe_.vertex_count(),
+      tell_progress(options_, {granted_, statistics().reached_simplices, wireframe_.vertex_count(),
                                static_cast<double>(distance) * wireframe_.unit()});
     constexpr std::size_t share = 65536;
     left_ = granted_ < options_.max_expansions ? std::min(share, options_.max_expansions - granted_)
@@ -197,10 +148,11 @@ class WirePropagation {
 
   const Wireframe<Real>& wireframe_;
   const PropagateOptions& options_;
-  Real radius_;
   Real* label_;
   Index* source_;
-  std::size_t left_ = 0, granted_ = 0, updates_ = 0, reached_ = 0;
+  WireSpread<Real, Step, kLabels> spread_;
+  std::size_t left_ = 0, granted_ = 0;
+  PropagateStatistics others_;  // what others did, without expansions
   bool out_of_budget_ = false;
 };
 

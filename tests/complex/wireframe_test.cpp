@@ -1,11 +1,15 @@
 #include <plexway/complex/wireframe.hpp>
 
+#include <algorithm>
 #include <catch2/catch.hpp>
+#include <cmath>
 #include <limits>
+#include <random>
 
 #include <plexway/error.hpp>
 
 #include "complex/test_wires.hpp"
+#include "complex/vertex_order.hpp"
 
 using namespace plexway;
 using namespace plexway::testing;
@@ -123,4 +127,33 @@ TEMPLATE_TEST_CASE("the ends of what a number can hold", "", float, double) {
   CHECK(points.unit() == 1);
   CHECK(points.summary().zero_length_edges == 2);
   CHECK(points.summary().components == 1);
+}
+
+TEST_CASE("vertices of lengths alone are numbered in blocks that lie together") {
+  // A grid whose vertices come in any order, and components that are smaller than a block.
+  constexpr Index n = 80;
+  std::mt19937 random(3);
+  std::vector<Index> place(std::size_t{n} * n + 20);
+  for (std::size_t v = 0; v < place.size(); ++v) place[v] = static_cast<Index>(v);
+  std::shuffle(place.begin(), place.end(), random);
+  Edges edges;
+  for (Index v = 0; v < n * n; ++v) {
+    if (v % n > 0) edges.push_back({place[v - 1], place[v]});
+    if (v >= n) edges.push_back({place[v], place[v - n]});
+  }
+  for (Index v = n * n; v + 1 < place.size(); v += 2) edges.push_back({place[v], place[v + 1]});
+  for (const std::size_t block : {1u, 100u, 400u, 100000u}) {
+    const auto order = vertices_in_blocks(place.size(), edges, block);
+    REQUIRE(order.size() == place.size());
+    std::vector<Index> at(order.size(), none);
+    for (std::size_t i = 0; i < order.size(); ++i) at[order[i]] = static_cast<Index>(i);
+    CHECK(std::find(at.begin(), at.end(), none) == at.end());
+    std::size_t cut = 0;
+    for (const auto& [a, b] : edges) cut += at[a] / block != at[b] / block;
+    INFO("blocks of " << block << " cut " << cut << " of " << edges.size() << " edges");
+    // Squares of that size would cut two edges for each row of theirs.
+    if (block == 100 || block == 400)
+      CHECK(static_cast<double>(cut) < 1.75 * 2 * n * n / std::sqrt(static_cast<double>(block)));
+    if (block > place.size()) CHECK(cut == 0);
+  }
 }

@@ -14,6 +14,7 @@
 
 #include "complex/jittered.hpp"
 #include "complex/test_solids.hpp"
+#include "complex/test_wires.hpp"
 #include "executors/parity.hpp"
 #include "executors/piece_testing.hpp"
 #include "executors/thread_ranks.hpp"
@@ -171,18 +172,25 @@ TEST_CASE("ranks: a radius and a budget mean what they mean in one process", "[t
   }
 }
 
-TEST_CASE("ranks: what is one piece, or not in pieces, each solves for itself", "[threads]") {
+TEMPLATE_TEST_CASE("ranks: wireframes have the bits of one process", "[threads]", float, double) {
+  for (unsigned seed = 1; seed <= 4; ++seed) {
+    INFO("wires " << seed);
+    const auto wires = random_wires(seed, 600, 500 * seed, seed).wireframe<TestType>();
+    check_same_bits(wires, random_sources(wires, 1 + seed % 3, seed), {}, 40);
+    PropagateOptions options;
+    options.radius = 2;
+    check_same_bits(wires, random_sources(wires, 2, seed), options, 40);
+    options = {};
+    options.max_expansions = 100 * seed;
+    check_same_bits(wires, random_sources(wires, 3, seed), options, 40);
+  }
+}
+
+TEST_CASE("ranks: what is one piece each solves for itself", "[threads]") {
   const auto mesh = grid(8, 8).mesh<float>();
   check_same_bits(mesh, random_sources(mesh, 2, 1), {}, 1000);
-  std::vector<std::array<double, 3>> places;
-  std::vector<std::array<Index, 2>> edges;
-  for (Index i = 0; i < 60; ++i) {
-    places.push_back({i % 7 * 1., i % 5 * 1.3, i % 3 * 0.7});
-    if (i > 0) edges.push_back({i - 1, i});
-    if (i > 6) edges.push_back({i - 7, i});
-  }
-  const Wireframe<float> wires(places, edges);
-  check_same_bits(wires, random_sources(wires, 2, 1), {}, 20);
+  const auto wires = random_wires(1, 60, 100).wireframe<float>();
+  check_same_bits(wires, random_sources(wires, 2, 1), {}, 1000);
 }
 
 TEST_CASE("ranks: one that fails is heard", "[threads]") {

@@ -8,7 +8,7 @@
 #include "executors/solve_solid.hpp"
 #include "executors/solve_surface.hpp"
 
-/// A device's rounds, by a team on processors. On surfaces and in solids OpenMP goes by pieces.
+/// A device's rounds, by a team on processors, where OpenMP goes by pieces.
 namespace plexway::testing {
 
 template <class Mesh>
@@ -30,11 +30,6 @@ DistanceField<float> solve_in_rounds(const Mesh& mesh, std::span<const PointSour
                              });
   });
   return field;
-}
-inline DistanceField<float> solve_in_rounds(const Wireframe<float>& wires,
-                                            std::span<const PointSource> sources,
-                                            const PropagateOptions& options) {
-  return solve(OpenMP{.threads = 2}, wires, sources, options);
 }
 
 }  // namespace plexway::testing

@@ -45,6 +45,20 @@ std::string blocks() {
   return text.str();
 }
 
+// A net whose knots are not quite in rows.
+std::string net() {
+  constexpr int n = 200;
+  std::ostringstream text;
+  for (int j = 0; j < n; ++j)
+    for (int i = 0; i < n; ++i)
+      text << "v " << i + 0.3 * std::sin(7 * j + i) << ' ' << j + 0.3 * std::cos(5 * i) << " 0\n";
+  for (int v = 0; v < n * n; ++v) {
+    if (v % n > 0) text << "l " << v << ' ' << v + 1 << '\n';
+    if (v >= n) text << "l " << v - n + 1 << ' ' << v + 1 << '\n';
+  }
+  return text.str();
+}
+
 // The arrays of a .vtu that the tool wrote.
 struct Vtu {
   explicit Vtu(const fs::path& file) : bytes(content(file)) {
@@ -148,6 +162,7 @@ TEST_CASE("ranks solve one field, bit for bit what threads solve") {
   same(surface, {"--accuracy", "fast"}, {{1, 1}, {2, 2}, {4, 1}});
   same(surface, {"--precision", "double"}, {{2, 1}, {4, 2}});
   same(solid, {}, {{2, 2}, {4, 1}});
+  same(folder.write("net.obj", net()), {}, {{1, 2}, {2, 1}, {4, 2}});
 }
 
 TEST_CASE("ranks write a field in parts, which one file names") {

@@ -1,0 +1,20 @@
+#pragma once
+
+#include <span>
+
+#include <plexway/complex/wireframe.hpp>
+#include <plexway/propagate/distance_field.hpp>
+#include <plexway/propagate/options.hpp>
+#include <plexway/source/point_source.hpp>
+
+#include "propagate/workspace_state.hpp"
+
+namespace plexway {
+
+/// On one thread, from sources that were checked.
+template <class Real>
+void solve_alone(const Wireframe<Real>& wireframe, std::span<const PointSource> sources,
+                 const PropagateOptions& options, WorkspaceState<Real>& workspace,
+                 DistanceField<Real>& field);
+
+}  // namespace plexway
