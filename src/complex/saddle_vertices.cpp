@@ -11,29 +11,52 @@ namespace {
 
 // What a vertex and its inner neighbours say about it.
 struct Neighbourhood {
-  double sum = 0;        // of the excess, its own included
-  double lack = 0;       // by how much neighbours are below flat
-  double agreement = 0;  // the sum again, where none counts more than the vertex itself,
-  double most = 0;       // and what that would be if all had one sign
-  double count = 0;      // of neighbours
+  double sum;        // of the excess, its own included
+  double lack;       // by how much neighbours are below flat
+  double agreement;  // the sum again, where none counts more than the vertex itself,
+  double most;       // and what that would be if all had one sign
+  double count;      // of neighbours
+};
+
+// In arrays of at most 16 bytes a vertex: those find room where the layout's were, and so do not
+// add to the peak.
+class Neighbourhoods {
+ public:
+  explicit Neighbourhoods(std::span<const double> excess)
+      : excess_(excess), sums_(excess.size()), agreements_(excess.size()), heard_(excess.size()) {}
+
+  // An edge inside is met from both its triangles. Of one on the boundary both ends are there.
+  void hear(Index of, Index from) {
+    const double mine = std::abs(excess_[of]), theirs = excess_[from];
+    sums_[of].all += theirs / 2;
+    sums_[of].lack += std::max(0.0, -theirs) / 2;
+    agreements_[of].all += std::clamp(theirs, -mine, mine) / 2;
+    agreements_[of].most += std::min(mine, std::abs(theirs)) / 2;
+    ++heard_[of];
+  }
+  [[nodiscard]] Neighbourhood operator[](std::size_t v) const {
+    return {sums_[v].all + excess_[v], sums_[v].lack, agreements_[v].all + excess_[v],
+            agreements_[v].most + std::abs(excess_[v]), 0.5 * heard_[v]};
+  }
+
+ private:
+  struct Sum {
+    double all = 0, lack = 0;
+  };
+  struct Agreement {
+    double all = 0, most = 0;
+  };
+  std::span<const double> excess_;
+  std::vector<Sum> sums_;
+  std::vector<Agreement> agreements_;
+  std::vector<Index> heard_;
 };
 
 template <class Real>
-std::vector<Neighbourhood> look_around(std::span<const TriangleRecord<Real>> triangles,
-                                       std::span<const Index> first_use,
-                                       std::span<const double> excess,
-                                       std::span<const char> boundary, int threads) {
-  std::vector<Neighbourhood> around(excess.size());
-  const auto hear = [&](Index of, Index from) {
-    const double mine = std::abs(excess[of]), theirs = excess[from];
-    Neighbourhood& n = around[of];
-    // An edge inside is met from both its triangles. Of one on the boundary both ends are there.
-    n.sum += theirs / 2;
-    n.lack += std::max(0.0, -theirs) / 2;
-    n.agreement += std::clamp(theirs, -mine, mine) / 2;
-    n.most += std::min(mine, std::abs(theirs)) / 2;
-    n.count += 0.5;
-  };
+Neighbourhoods look_around(std::span<const TriangleRecord<Real>> triangles,
+                           std::span<const Index> first_use, std::span<const double> excess,
+                           std::span<const char> boundary, int threads) {
+  Neighbourhoods around(excess);
   tell_vertices<Index>(
       first_use, triangles.size(), threads,
       [&](std::size_t first, std::size_t last, const auto& tell) {
@@ -44,14 +67,7 @@ std::vector<Neighbourhood> look_around(std::span<const TriangleRecord<Real>> tri
             if (!boundary[v]) tell(w, v);
           }
       },
-      hear);
-  over_blocks(excess.size(), threads, [&](std::size_t first, std::size_t last) {
-    for (std::size_t v = first; v < last; ++v) {
-      around[v].sum += excess[v];
-      around[v].agreement += excess[v];
-      around[v].most += std::abs(excess[v]);
-    }
-  });
+      [&](Index of, Index from) { around.hear(of, from); });
   return around;
 }
 
@@ -81,8 +97,8 @@ void mark_saddles(std::span<TriangleRecord<Real>> triangles, const VertexFans& f
 
   std::vector<char> saddle(vertices);
   {
-    const std::vector<Neighbourhood> around = look_around<Real>(
-        all.first(all.size() - 1), first_use, excess, fans.on_boundary, hints.threads);
+    const Neighbourhoods around = look_around<Real>(all.first(all.size() - 1), first_use, excess,
+                                                    fans.on_boundary, hints.threads);
     over_blocks(vertices, hints.threads, [&](std::size_t first, std::size_t last) {
       for (std::size_t v = first; v < last; ++v)
         saddle[v] = fans.on_boundary[v] ? excess[v] > hints.saddles.boundary

@@ -107,8 +107,8 @@ void ShapesOfLengths::look_up(std::span<const Index> faces, ShapeBlock& block) c
   }
 }
 
-void check_length(Index face, const std::array<double, 3>& lengths) {
-  const auto& [a, b, c] = lengths;
+void check_length(Index face, std::span<const double, 3> lengths) {
+  const double a = lengths[0], b = lengths[1], c = lengths[2];
   if (std::isfinite(a + b + c) || (std::isfinite(a) && std::isfinite(b) && std::isfinite(c)))
     return;
   throw InputError("face " + std::to_string(face) + ": too long for a number");

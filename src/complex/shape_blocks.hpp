@@ -77,7 +77,7 @@ double mean_edge(std::size_t faces, double longest, Row row) {
 }
 
 /// Throws InputError where a length is not finite.
-void check_length(Index face, const std::array<double, 3>& lengths);
+void check_length(Index face, std::span<const double, 3> lengths);
 
 /// The angle at each corner, in radians.
 void angles_of(const ShapeBlock& block, std::array<ShapeBlock::Row, 3>& angle);

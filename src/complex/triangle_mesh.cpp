@@ -6,6 +6,7 @@
 #include <mutex>
 #include <numbers>
 #include <string>
+#include <type_traits>
 
 #include <plexway/error.hpp>
 
@@ -264,8 +265,15 @@ std::vector<double> TriangleMesh<Real>::take_shapes(const TriangleShapes& shapes
   auto& triangles = triangles_.own();
   constexpr std::size_t size = ShapeBlock::size;
   static_assert(building_block % size == 0);
-  // Of faces inside, edges as the caller numbers them.
-  Unfilled<std::array<double, 3>> lengths(m);
+  // Of faces inside, edges as the caller numbers them. Records in double hold them meanwhile.
+  constexpr bool in_records = std::is_same_v<Real, double>;
+  Unfilled<std::array<double, 3>> apart(in_records ? 0 : m);
+  const auto lengths = [&](std::size_t f) -> std::span<double, 3> {
+    if constexpr (in_records)
+      return triangles[f].length;
+    else
+      return apart[f];
+  };
   std::vector<double> around(vertex_count(), 0);
   double longest = 0;
   std::mutex mutex;
@@ -289,13 +297,13 @@ std::vector<double> TriangleMesh<Real>::take_shapes(const TriangleShapes& shapes
         const bool turned = (t.face & reversed) != 0;
         for (std::size_t i = 0; i < 3; ++i) {
           const std::size_t corner = turned && i != 0 ? 3 - i : i;
-          const double length = lengths[first + k][i] = block.length[i][k];
+          const double length = lengths(first + k)[i] = block.length[i][k];
           most = length > most ? length : most;
           t.cosine[i] = rounded.cosine[corner][k];
           t.signed_sine[i] = rounded.sine[corner][k];
           tell(t.corner[i], angle[corner][k]);
         }
-        check_length(faces[k], lengths[first + k]);
+        check_length(faces[k], lengths(first + k));
       }
     }
     const std::lock_guard lock(mutex);
@@ -305,15 +313,18 @@ std::vector<double> TriangleMesh<Real>::take_shapes(const TriangleShapes& shapes
   };
   tell_vertices<double>(first_use, m, threads, take, [&](Index v, double a) { around[v] += a; });
 
-  const double unit = mean_edge(
-      m, longest, [&](std::size_t f) -> const auto& { return lengths[f]; });
+  const double unit = mean_edge(m, longest, [&](std::size_t f) {
+    const auto l = lengths(f);
+    return std::array{l[0], l[1], l[2]};
+  });
   summary_.mean_edge = unit;
   over_blocks(m, threads, [&](std::size_t first, std::size_t last) {
     for (std::size_t f = first; f < last; ++f) {
       TriangleRecord<Real>& t = triangles[f];
-      const auto& [a, b, c] = lengths[f];
-      NumberRange<Real>::check_simplex("face", t.face & ~reversed, std::max({a, b, c}) / unit);
-      for (std::size_t i = 0; i < 3; ++i) t.length[i] = static_cast<Real>(lengths[f][i] / unit);
+      const auto l = lengths(f);
+      NumberRange<Real>::check_simplex("face", t.face & ~reversed,
+                                       std::max({l[0], l[1], l[2]}) / unit);
+      for (std::size_t i = 0; i < 3; ++i) t.length[i] = static_cast<Real>(l[i] / unit);
       if ((t.face & reversed) != 0) std::swap(t.length[0], t.length[2]);
     }
   });

@@ -5,18 +5,21 @@ namespace plexway::windows {
 
 template <class Real>
 void MergedWindows<Real>::begin(const WindowSources& sources, const PropagateOptions& options,
-                                const MergeLimit& limit) {
+                                const MergeLimit& limit, std::vector<Real>& distance) {
   const double unit = sheet_.mesh->unit();
   limit_ = limit;
   kept_ = nullptr;
   labels_ = sources.labels;
-  vertices_.assign(sheet_.vertex_count, {infinity<Real>, none, {0, 0}});
+  distance.assign(sheet_.vertex_count, infinity<Real>);
+  distance_ = distance.data();
   error_.resize(sheet_.vertex_count);
   if (labels_) source_.resize(sheet_.vertex_count);
-  if (pending_.empty() || !complete_) pending_.assign(3 * std::size_t{own_}, none);
+  if (!complete_) waiting_.clear();
   blocks_.clear();
-  vertex_next_.assign(sheet_.vertex_count, idle);
-  free_block_ = none;
+  shines_.assign(sheet_.vertex_count, none);
+  shining_.clear();
+  arrivals_.resize(sheet_.shared);
+  free_block_ = free_shining_ = none;
   waits_ = false;
   complete_ = false;  // until all is done: a callback may throw
   statistics_ = {};
@@ -148,12 +151,11 @@ void MergedWindows<Real>::seed(Order& order, const WindowSources& sources) {
 template <class Real>
 template <class Order>
 bool MergedWindows<Real>::fill_holes(Order& order) {
-  if (radius_ < infinity<Real> ||
-      std::all_of(vertices_.begin(), vertices_.end(),
-                  [](const Vertex& v) { return v.distance < infinity<Real>; }))
+  if (radius_ < infinity<Real> || std::all_of(distance_, distance_ + sheet_.vertex_count,
+                                              [](Real d) { return d < infinity<Real>; }))
     return false;
   return fill_holes(
-      triangles_, own_, [&](Index v) { return vertices_[v].distance; },
+      triangles_, own_, [&](Index v) { return distance_[v]; },
       [&](Index v, Index w, Real way) {
         offer(order, w, way, none, {0, 0}, labels_ ? source_[v] : 0, vertex_error(v));
       });

@@ -33,8 +33,9 @@ MergedWindows<Real>::MergedWindows(const Sheet<Real>& sheet)
 
 template <class Real>
 bool MergedWindows<Real>::solve(const WindowSources& sources, const PropagateOptions& options,
-                                const MergeLimit& limit, KeptWindows<Real>* kept) {
-  begin(sources, options, limit);
+                                const MergeLimit& limit, std::vector<Real>& distance,
+                                KeptWindows<Real>* kept) {
+  begin(sources, options, limit, distance);
   kept_ = kept;
   const auto solve_in = [&](auto& order) {
     order.start(bucket_width);
@@ -66,13 +67,13 @@ Real MergedWindows<Real>::scale_at(double distance) const {
 
 template <class Real>
 Real MergedWindows<Real>::near(Index node) const {
-  return node & bent ? vertices_[node & ~bent].distance + static_cast<Real>(late)
+  return node & bent ? distance_[shining_[node & ~bent].vertex] + static_cast<Real>(late)
                      : blocks_[node].near;
 }
 
 template <class Real>
 [[gnu::always_inline]] inline Index& MergedWindows<Real>::next(Index node) {
-  return node & bent ? vertex_next_[node & ~bent] : blocks_[node].next;
+  return node & bent ? shining_[node & ~bent].next : blocks_[node].next;
 }
 
 /// What the next turn will look up.
@@ -138,8 +139,10 @@ bool MergedWindows<Real>::spread(Order& order, std::size_t most) {
     if (order.distance() != before) scale = scale_at(before = order.distance());
     scale_ = scale;
     if (n & bent) {
-      vertex_next_[n & ~bent] = idle;
-      shine(order, n & ~bent);
+      const Shining waited = shining_[n & ~bent];
+      shining_[n & ~bent].next = std::exchange(free_shining_, n & ~bent);
+      shines_[waited.vertex] = none;
+      shine(order, waited.vertex, waited.arrival);
       continue;
     }
     Turn& turn = turns_[current];
@@ -185,17 +188,37 @@ template <class Order>
                                                              Real distance, Index corner,
                                                              Towards<Real> from, Index source,
                                                              Real error) {
-  Vertex& v = vertices_[vertex];
-  if (!(distance < v.distance)) return false;
-  v = {distance, corner, {static_cast<float>(from.along), static_cast<float>(from.off)}};
+  if (!(distance < distance_[vertex])) return false;
+  distance_[vertex] = distance;
   error_[vertex] = static_cast<float>(error);
   if (labels_) source_[vertex] = source;
   ++statistics_.updates;
-  if ((corner == none || (corner & bent) || excess(vertex) > 4 * scale_) &&
-      vertex_next_[vertex] == idle)
-    order.push(vertex | bent, static_cast<double>(distance + static_cast<Real>(late)),
+  const Arrival<float> arrival = {corner, static_cast<float>(from.along),
+                                  static_cast<float>(from.off)};
+  if (vertex < sheet_.shared) [[unlikely]]
+    arrivals_[vertex] = arrival;
+  Index& shines = shines_[vertex];
+  if (shines != none) {
+    shining_[shines].arrival = arrival;
+  } else if (corner == none || (corner & bent) || excess(vertex) > 4 * scale_) {
+    shines = will_shine({vertex, arrival, none});
+    order.push(shines | bent, static_cast<double>(distance + static_cast<Real>(late)),
                [this](Index i) -> Index& { return next(i); });
+  }
   return true;
+}
+
+/// The number that it gets.
+template <class Real>
+[[gnu::noinline]] Index MergedWindows<Real>::will_shine(const Shining& vertex) {
+  const Index number = free_shining_;
+  if (number == none) {
+    shining_.push_back(vertex);
+    return static_cast<Index>(shining_.size() - 1);
+  }
+  free_shining_ = shining_[number].next;
+  shining_[number] = vertex;
+  return number;
 }
 
 /// All that waits in a block.
@@ -223,6 +246,13 @@ void MergedWindows<Real>::gather(Gathered<Real>& windows, const Block& block) co
 }
 
 template <class Real>
+[[gnu::noinline]] Index MergedWindows<Real>::one_more_block() {
+  waiting_.make_room(blocks_.size() + 1, blocks_);
+  blocks_.emplace_back();
+  return static_cast<Index>(blocks_.size() - 1);
+}
+
+template <class Real>
 template <class Order>
 [[gnu::always_inline]] inline void MergedWindows<Real>::enter(Order& order, Index halfedge,
                                                               const Window<Real>& window,
@@ -230,8 +260,8 @@ template <class Order>
   if (radius_ < infinity<Real> && window.nearest() > radius_) [[unlikely]]
     return;
   const Real near = turn_of(window);
-  Index& pending = pending_[place(halfedge)];
-  const Index waiting = pending;
+  Index* list = &waiting_.list(halfedge);
+  const Index waiting = WaitingBlocks::find(*list, halfedge, blocks_);
   if (waiting != none && blocks_[waiting].count < room) {
     Block& block = blocks_[waiting];
     block.window[block.count] = window;
@@ -243,16 +273,16 @@ template <class Order>
   // The first, or one more than there is room for: that begins another turn.
   Index b = free_block_;
   if (b == none) [[unlikely]] {
-    b = static_cast<Index>(blocks_.size());
-    blocks_.emplace_back();
+    b = one_more_block();
+    list = &waiting_.list(halfedge);
   } else {
     free_block_ = blocks_[b].next;
   }
-  pending = b;
   __builtin_prefetch(&triangles_[halfedge >> 2]);
   Block& block = blocks_[b];
   block.near = near;
   block.halfedge = halfedge;
+  block.link = std::exchange(*list, b);
   block.count = 1;
   block.window[0] = window;
   if (labels_) block.source[0] = source;
@@ -298,17 +328,13 @@ template <class Real>
   Block& block = blocks_[b];
   block.next = std::exchange(free_block_, b);
   const Index halfedge = block.halfedge;
-  Index& waiting = pending_[place(halfedge)];
-  if (waiting == b) waiting = none;
+  waiting_.remove(b, blocks_);
   turn.face = halfedge >> 2;
   turn.scale = scale_;
   const TriangleRecord<Real>& record = triangles_[turn.face];
   turn.triangle.enter(record, halfedge & 3);
   const EnteredTriangle<Real>& t = turn.triangle;
-  __builtin_prefetch(&vertices_[t.p]);
-  const Index* const pending = pending_.data();  // a boundary leads to its end
-  __builtin_prefetch(pending + 3 * (record.across[t.before] >> Across::face_shift));
-  __builtin_prefetch(pending + 3 * (record.across[t.after] >> Across::face_shift));
+  __builtin_prefetch(&distance_[t.p]);
   turn.windows.start(t.width, scale_);
   return block;
 }
@@ -324,13 +350,12 @@ template <class Order>
   const Real ends[2] = {w.beam.begin, w.beam.end}, to_ends[2] = {w.at_begin, w.at_end};
   const Real dx = t.apex_x - ends[right];
   const Real ways[2] = {to_ends[right] + std::sqrt(dx * dx + t.apex_h * t.apex_h), s.distance[1]};
-  if (ways[seen] < vertices_[t.p].distance) {
+  if (ways[seen] < distance_[t.p]) {
     const Index corner = static_cast<Index>(3 * turn.face + t.before);
     offer(order, t.p, ways[seen], seen ? corner : corner | bent,
           seen ? t.towards(w.beam) : t.towards(ends[right], 0), source, w.error);
   }
-  const int wanted = s.wanted(vertices_[t.a].distance, vertices_[t.b].distance,
-                              vertices_[t.p].distance, scale_ * s.length);
+  const int wanted = s.wanted(distance_[t.a], distance_[t.b], distance_[t.p], scale_ * s.length);
   if (wanted & 1) leave(order, turn.face, t.before, s.left(w), source);
   if (wanted & 2) leave(order, turn.face, t.after, s.right(w), source);
 }
@@ -391,7 +416,7 @@ void MergedWindows<Real>::commit(Order& order, const Turn& turn) {
   const EnteredTriangle<Real>& t = turn.triangle;
   const Gathered<Real>& windows = turn.windows;
   const Index corner = static_cast<Index>(3 * turn.face + t.before);
-  Real bound = vertices_[t.p].distance;
+  Real bound = distance_[t.p];
   const bool is_lit = turn.to_apex < infinity<Real>;
   if (turn.to_apex < bound) {
     const Labelled<Real>& seen = windows[turn.seen];
@@ -410,8 +435,8 @@ void MergedWindows<Real>::commit(Order& order, const Turn& turn) {
     if ((way < bound) & !(to_left & turn.spread[i].left_reaches())) [[unlikely]]
       offer(order, t.p, way, corner | bent, t.towards(end, 0), windows[i].source, w.error);
   }
-  const Real to_a = vertices_[t.a].distance, to_b = vertices_[t.b].distance;
-  const Real to_p = vertices_[t.p].distance;
+  const Real to_a = distance_[t.a], to_b = distance_[t.b];
+  const Real to_p = distance_[t.p];
   using L = typename Spread<Real>::L;
   for (std::size_t i = 0; i < windows.size(); ++i) {
     const Labelled<Real>& w = windows[i];
@@ -423,11 +448,10 @@ void MergedWindows<Real>::commit(Order& order, const Turn& turn) {
 
 template <class Real>
 template <class Order>
-void MergedWindows<Real>::shine(Order& order, Index vertex) {
-  const Vertex v = vertices_[vertex];
-  const Real sigma = v.distance;
+void MergedWindows<Real>::shine(Order& order, Index vertex, const Arrival<float>& from) {
+  const Real sigma = distance_[vertex];
   if (sigma > radius_) return;
-  const bool anywhere = v.corner == none, is_bent = !anywhere && (v.corner & bent);
+  const bool anywhere = from.corner == none, is_bent = !anywhere && (from.corner & bent);
   // What is bent looks around both corners of what is lit; else only strong saddles shine.
   const Real shadow = excess(vertex) + (is_bent ? std::numbers::pi_v<Real> : -4 * scale_);
   if (!anywhere && !(shadow > 0)) return;
@@ -457,8 +481,8 @@ void MergedWindows<Real>::shine(Order& order, Index vertex) {
     sheet_.corners_at(vertex, corners_);
     pseudo_source_.shine_all(corners_, lit, along);
   } else {
-    const Arrival<double> arrival = {v.corner & ~bent, static_cast<double>(v.from.along),
-                                     static_cast<double>(v.from.off)};
+    const Arrival<double> arrival = {from.corner & ~bent, static_cast<double>(from.along),
+                                     static_cast<double>(from.off)};
     const Towards<double> wider =
         is_bent ? Towards<double>{0, 1} : Towards<double>{1, static_cast<double>(scale_)};
     pseudo_source_.shine(arrival, kind == VertexAngles::boundary, wider, lit, along);
@@ -468,8 +492,8 @@ void MergedWindows<Real>::shine(Order& order, Index vertex) {
 template <class Real>
 std::size_t MergedWindows<Real>::bytes() const {
   const auto of = [](const auto& v) { return v.capacity() * sizeof(v[0]); };
-  return sizeof(*this) + of(vertices_) + of(source_) + of(error_) + of(pending_) + of(blocks_) +
-         of(vertex_next_) + of(corners_) + leaving_.bytes();
+  return sizeof(*this) + of(source_) + of(error_) + of(shines_) + of(shining_) + of(arrivals_) +
+         of(own_distance_) + waiting_.bytes() + of(blocks_) + of(corners_) + leaving_.bytes();
 }
 
 }  // namespace plexway::windows

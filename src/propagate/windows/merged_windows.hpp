@@ -23,6 +23,7 @@
 #include "propagate/windows/spread.hpp"
 #include "propagate/windows/triangles_at.hpp"
 #include "propagate/windows/vertex_angles.hpp"
+#include "propagate/windows/waiting_blocks.hpp"
 #include "propagate/windows/window_sources.hpp"
 
 namespace plexway::windows {
@@ -53,15 +54,19 @@ class MergedWindows {
 
   /// The sources must be checked. Windows are put into `kept` as well, unless it is null. Throws
   /// Cancelled as the progress callback says. False, and no result, where merging does not pay:
-  /// among needles windows do not become fewer, and what comes out is no good.
+  /// among needles windows do not become fewer, and what comes out is no good. Works in `distance`,
+  /// which must outlive what is asked afterwards.
   [[nodiscard]] bool solve(const WindowSources& sources, const PropagateOptions& options,
-                           const MergeLimit& limit, KeptWindows<Real>* kept = nullptr);
+                           const MergeLimit& limit, std::vector<Real>& distance,
+                           KeptWindows<Real>* kept = nullptr);
 
   // ---- As a piece, which others tell when to do what ----
 
   /// A solve from `sources`, which are then given one by one.
   void begin(const WindowSources& sources, const PropagateOptions& options,
-             const MergeLimit& limit);
+             const MergeLimit& limit) {
+    begin(sources, options, limit, own_distance_);
+  }
   /// Calls seed(g, barycentric) for the triangles that a source inside f is to be given to: where
   /// it lies on an edge, all at that edge. As a window over that edge it would light them through a
   /// single point, and what cuts off a part of the edge would cut off all light to one side.
@@ -91,11 +96,12 @@ class MergedWindows {
            std::max(window.at_begin, window.at_end) * static_cast<Real>(at);
   }
   [[nodiscard]] Leaving<Real>& leaving() { return leaving_; }
-  [[nodiscard]] Real vertex_distance(Index vertex) const { return vertices_[vertex].distance; }
+  [[nodiscard]] Real vertex_distance(Index vertex) const { return distance_[vertex]; }
   [[nodiscard]] Real vertex_error(Index vertex) const { return static_cast<Real>(error_[vertex]); }
-  [[nodiscard]] Arrival<Real> arrival(Index vertex) const {
-    const Vertex& v = vertices_[vertex];
-    return {v.corner, static_cast<Real>(v.from.along), static_cast<Real>(v.from.off)};
+  /// At a vertex that other pieces have, too.
+  [[nodiscard]] Arrival<Real> arrival(Index shared) const {
+    const Arrival<float>& a = arrivals_[shared];
+    return {a.corner, static_cast<Real>(a.along), static_cast<Real>(a.off)};
   }
   /// Is what arrived bent at that vertex? Part of Arrival::corner, beside `none`.
   static constexpr Index corner_flags = Index{1} << 31;
@@ -123,7 +129,7 @@ class MergedWindows {
   }
 
   /// Afterwards, by the numbers inside, in mean edges; +inf where unreached.
-  [[nodiscard]] Real distance(Index vertex) const { return vertices_[vertex].distance; }
+  [[nodiscard]] Real distance(Index vertex) const { return distance_[vertex]; }
   /// The nearest source of a reached vertex.
   [[nodiscard]] Index source(Index vertex) const { return labels_ ? source_[vertex] : 0; }
   /// How far off the distance may be, estimated from what merging cost on the way. No bound.
@@ -133,27 +139,29 @@ class MergedWindows {
   [[nodiscard]] std::size_t bytes() const;
 
  private:
-  /// 16 bytes in float. Of the direction single precision is enough: merged light is off by more.
-  struct Vertex {
-    Real distance;
-    Index corner;  ///< where the path comes from, as Arrival has it; `bent` may be added
-    Towards<float> from;
-  };
   static constexpr Index bent = corner_flags;
 
+  /// A vertex that waits for its turn to shine, and from where its path comes, as Arrival has it;
+  /// `bent` may be added to the corner. Of the direction single precision is enough: merged light
+  /// is off by more.
+  struct Shining {
+    Index vertex;
+    Arrival<float> arrival;
+    Index next;  ///< in the queue, or of the free ones
+  };
+
   /// The windows that wait on one halfedge, 4 f + i. What waits in the queue: the number of a
-  /// block, or a vertex with `bent` set; each once.
+  /// block, or that of a Shining with `bent` set; each once.
   static constexpr std::size_t room = 8;
   struct alignas(64) Block {
     Real near;  ///< when it has its turn: told by the window that came first
     Index halfedge;
     Index count;
     Index next;  ///< in the queue, or of the free ones
+    Index link;  ///< of waiting_
     std::array<Window<Real>, room> window;
     std::array<Index, room> source;  ///< where there are several
   };
-  static constexpr Index idle = none - 1;  ///< next of a vertex that does not wait
-
   /// One halfedge's turn: what its windows come to on the triangle's other edges, before vertices
   /// are looked at.
   struct Turn {
@@ -168,6 +176,8 @@ class MergedWindows {
   static constexpr std::size_t batch = 2;  ///< turns at a time
   enum class Outcome { done, stopped, too_much };
 
+  void begin(const WindowSources& sources, const PropagateOptions& options, const MergeLimit& limit,
+             std::vector<Real>& distance);
   template <class Order>
   Outcome run(Order& order, const PropagateOptions& options);
   template <class Order>
@@ -191,7 +201,7 @@ class MergedWindows {
   template <class Order>
   void commit(Order& order, const Turn& turn);
   template <class Order>
-  void shine(Order& order, Index vertex);
+  void shine(Order& order, Index vertex, const Arrival<float>& arrival);
   template <class Order>
   void leave(Order& order, Index f, std::size_t edge, const Window<Real>& window, Index source);
   template <class Order>
@@ -206,9 +216,9 @@ class MergedWindows {
   bool know(Order& order, Index vertex, Real distance, Index corner, Towards<Real> from,
             Index source, Real error);
 
+  Index one_more_block();
+  Index will_shine(const Shining& vertex);
   void gather(Gathered<Real>& windows, const Block& block) const;
-  /// Of a halfedge 4 f + i in pending_.
-  [[nodiscard]] static Index place(Index halfedge) { return halfedge - (halfedge >> 2); }
   [[nodiscard]] Real scale_at(double distance) const;
   [[nodiscard]] Real excess(Index vertex) const {
     return static_cast<Real>(sheet_.angles->excess[vertex]);
@@ -227,14 +237,17 @@ class MergedWindows {
   double least_offset_ = 0;  ///< of a source: distances count from there for the limit
   Real radius_ = 0;
 
-  std::vector<Vertex> vertices_;
-  std::vector<Index> source_;
+  Real* distance_ = nullptr;  ///< one a vertex, as are:
   std::vector<float> error_;
-  std::vector<Index> pending_;  ///< a block for each halfedge 3 f + i, or none; none after a solve
+  std::vector<Index> source_;
+  std::vector<Index> shines_;  ///< the number of its Shining, or none
+  std::vector<Shining> shining_;
+  std::vector<Arrival<float>> arrivals_;  ///< at the first vertices, which are shared
+  std::vector<Real> own_distance_;        ///< of a piece
+  WaitingBlocks waiting_;
   std::vector<Block> blocks_;
-  std::vector<Index> vertex_next_;
   std::vector<Index> corners_;
-  Index free_block_ = none;
+  Index free_block_ = none, free_shining_ = none;
   std::array<Turn, batch> turns_;
   std::size_t current_ = 0;  ///< the turn to be prepared next
   bool waits_ = false;       ///< is the other one still to be committed?

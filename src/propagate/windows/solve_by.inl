@@ -30,6 +30,12 @@ auto& WindowSolver<Real>::merged(const Crew& crew) {
   return *all.merged;
 }
 
+/// Does it solve in the memory that distances are read out from?
+template <class Windows>
+inline constexpr bool works_in_place = false;
+template <class Real>
+inline constexpr bool works_in_place<MergedWindows<Real>> = true;
+
 /// From the numbers and the unit inside to the caller's: nothing beyond the radius, an offset to
 /// the last bit.
 template <class Real>
@@ -42,7 +48,7 @@ void WindowSolver<Real>::read_out(const Windows& windows, const WindowSources& s
   constexpr Real infinity = std::numeric_limits<Real>::infinity();
   const Real radius = static_cast<Real>(options.radius);
   const auto inside = mesh_.vertices_inside();
-  workspace.vertex.resize(inside.size());
+  if constexpr (!works_in_place<Windows>) workspace.vertex.resize(inside.size());
   if constexpr (kLabels) workspace.vertex_source.resize(inside.size());
   std::atomic<bool> everywhere{true};
   crew.over(inside.size(), [&](std::size_t begin, std::size_t end) {
@@ -51,7 +57,7 @@ void WindowSolver<Real>::read_out(const Windows& windows, const WindowSources& s
       const Index v = static_cast<Index>(i);
       const auto d = windows.distance(v);
       all &= d < infinity;
-      workspace.vertex[v] = static_cast<Real>(d);
+      if constexpr (!works_in_place<Windows>) workspace.vertex[v] = static_cast<Real>(d);
       if constexpr (kLabels) workspace.vertex_source[v] = windows.source(v);
     }
     if (!all) everywhere.store(false, std::memory_order_relaxed);
@@ -108,7 +114,11 @@ bool WindowSolver<Real>::solve_by(const Crew& crew, const WindowSources& sources
   const auto solved = [&](auto& windows, const auto& limit) {
     if constexpr (alone) {
       if (kept_) kept_->start(4 * mesh_.face_count());
-      return windows.solve(sources, options, limit, kept_ ? &*kept_ : nullptr);
+      KeptWindows<Real>* const kept = kept_ ? &*kept_ : nullptr;
+      if constexpr (works_in_place<std::remove_cvref_t<decltype(windows)>>)
+        return windows.solve(sources, options, limit, workspace.vertex, kept);
+      else
+        return windows.solve(sources, options, limit, kept);
     } else {
       return windows.solve(crew, sources, options, limit);
     }
