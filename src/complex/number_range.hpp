@@ -44,11 +44,13 @@ class NumberRange {
            "scale it up or leave it out");
   }
 
+  /// The least of the longest edge of a simplex kept by coordinates, beside their extent.
+  static constexpr double least_of_extent = 256 * double{std::numeric_limits<Real>::epsilon()};
+
   /// The longest edge of a simplex kept by coordinates, and how far these reach from the middle.
   static void check_coordinates(const char* simplex, std::size_t number, double longest,
                                 double extent) {
-    constexpr double least = 256 * double{std::numeric_limits<Real>::epsilon()};
-    if (longest == 0 || longest >= least * extent) return;
+    if (longest == 0 || longest >= least_of_extent * extent) return;
     refuse(named(simplex, number) + "its longest edge, " + text(longest / extent) +
                " of the extent of all, is",
            "look for a vertex far off");

@@ -1,7 +1,9 @@
 #include "complex/tet_edges.hpp"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
+#include <mutex>
 #include <numbers>
 #include <tuple>
 #include <utility>
@@ -47,8 +49,10 @@ Vector3<double> into_face(const TetPoints& p, Index face, Index i, Index j) {
 
 class Finder {
  public:
-  Finder(Corners corner, Corners across, const TetCorners& corners, const TetPlaces& places)
+  Finder(Corners corner, Corners across, const TetCorners& corners, const TetPlaces& places,
+         int threads)
       : vertices_(corners.begin.size() - 1),
+        threads_(threads),
         corner_(corner),
         across_(across),
         corners_(corners),
@@ -83,14 +87,27 @@ class Finder {
             if (i != k) on_boundary_[corner_[t][i]] = 1;
   }
 
+  // Vertices in as few parts as there are threads, and few at most: each has marks for all.
+  [[nodiscard]] std::size_t part() const {
+    constexpr int most = 16;
+    const auto parts = static_cast<std::size_t>(std::min(threads_for(threads_), most));
+    return std::max(building_block, (vertices_ + parts - 1) / parts);
+  }
+
   void count_edges() {
-    std::vector<Index> seen(vertices_, none);  // the last lower vertex that it shared an edge with
-    for (Index v = 0; v < vertices_; ++v)
-      for (const Index c : corners_at(v))
-        for (const Index w : corner_[c / 4]) {
-          found_.edges += w > v && seen[w] != v;
-          if (w > v) seen[w] = v;
-        }
+    std::atomic<std::size_t> edges = 0;
+    for_blocks(vertices_, part(), threads_, {}, [&](std::size_t first, std::size_t last) {
+      std::vector<Index> seen(vertices_, none);  // the last vertex that it shared an edge with
+      std::size_t own = 0;
+      for (Index v = static_cast<Index>(first); v < last; ++v)
+        for (const Index c : corners_at(v))
+          for (const Index w : corner_[c / 4]) {
+            own += static_cast<std::size_t>(w > v) & static_cast<std::size_t>(seen[w] != v);
+            seen[w] = v;
+          }
+      edges += own;
+    });
+    found_.edges = edges;
   }
 
   // In ascending order of their ends. Where all is in one frame paths bend at the boundary only.
@@ -321,47 +338,98 @@ class Finder {
     }
   }
 
+  // Are all tetrahedra at a vertex joined by faces there? met[t] is 0 before and after.
+  [[nodiscard]] bool is_one_fan(Index v, std::vector<char>& met, std::vector<Index>& stack) const {
+    const auto row = corners_at(v);
+    stack.resize(std::max(stack.size(), row.size() + 1));
+    std::size_t top = 0, count = 0;
+    stack[top++] = row[0];
+    met[row[0] / 4] = 1;
+    while (top > 0) {
+      const Index c = stack[--top], own = c % 4;
+      ++count;
+      for (Index k = 0; k < 4; ++k) {
+        const Index o = across_[c / 4][k];
+        if (k == own || o == none) continue;
+        const auto& corner = corner_[o / 4];
+        const Index i = static_cast<Index>(corner[1] == v) |
+                        static_cast<Index>(corner[2] == v) * 2 |
+                        static_cast<Index>(corner[3] == v) * 3;
+        stack[top] = o - o % 4 + i;
+        top += met[o / 4] == 0;
+        met[o / 4] = 1;
+      }
+    }
+    for (const Index c : row) met[c / 4] = 0;
+    return count == row.size();
+  }
+
+  // Vertices at the boundary whose tetrahedra are not all joined by faces there, ascending.
+  [[nodiscard]] std::vector<Index> torn_vertices() const {
+    std::vector<Index> torn;
+    std::mutex mutex;
+    for_blocks(vertices_, part(), threads_, {}, [&](std::size_t first, std::size_t last) {
+      std::vector<char> met(corner_.size(), 0);
+      std::vector<Index> stack, own;
+      for (Index v = static_cast<Index>(first); v < last; ++v)
+        if (on_boundary_[v] && !is_one_fan(v, met, stack)) own.push_back(v);
+      const std::lock_guard lock(mutex);
+      torn.insert(torn.end(), own.begin(), own.end());
+    });
+    std::sort(torn.begin(), torn.end());
+    return torn;
+  }
+
   // Tetrahedra at a vertex that are joined neither by faces nor by edges there touch in it only.
   void find_vertices() {
-    DisjointSets fans(corner_.size() * 4), solids(corner_.size());
-    for (Index t = 0; t < corner_.size(); ++t) {
-      const auto& corner = corner_[t];
-      const bool touches = (on_boundary_[corner[0]] | on_boundary_[corner[1]] |
-                            on_boundary_[corner[2]] | on_boundary_[corner[3]]) != 0;
-      for (Index k = 0; k < 4; ++k) {
-        const Index o = across_[t][k];
-        if (o == none || o / 4 < t) continue;
-        solids.unite(t, o / 4);
-        if (!touches) continue;
-        for (Index i = 0; i < 4; ++i)
-          if (const Index v = corner[i]; i != k && on_boundary_[v])
-            fans.unite(4 * t + i, o - o % 4 + corner_of(corner_[o / 4], v));
-      }
+    const std::vector<Index> torn = torn_vertices();
+    DisjointSets solids(corner_.size());
+    for (Index t = 0; t < corner_.size(); ++t)
+      for (const Index o : across_[t])
+        if (o != none) solids.unite(t, o / 4);
+    std::vector<std::pair<Index, std::size_t>> edges_at;  // of vertices: pinched edges
+    for (std::size_t e = 0; e < found_.pinched_edges.size(); ++e) {
+      const auto& edge = found_.pinched_edges[e];
+      for (const Index v : edge.vertex) edges_at.emplace_back(v, e);
+      for (Index n = edge.begin + 1; n < edge.end; ++n)
+        solids.unite(found_.pinched_edge_tets[n - 1], found_.pinched_edge_tets[n]);
     }
-    for (const auto& edge : found_.pinched_edges)
-      for (Index n = edge.begin + 1; n < edge.end; ++n) {
-        const Index t = found_.pinched_edge_tets[n - 1], u = found_.pinched_edge_tets[n];
-        solids.unite(t, u);
-        for (const Index v : edge.vertex)
-          fans.unite(4 * t + corner_of(corner_[t], v), 4 * u + corner_of(corner_[u], v));
+    std::sort(edges_at.begin(), edges_at.end());
+    auto edge = edges_at.begin();
+    for (const Index v : torn) {
+      const auto row = corners_at(v);
+      DisjointSets fans(row.size());
+      const auto unite = [&](Index t, Index u) {
+        const auto place = [&](Index tet) {  // rows are ascending
+          return static_cast<Index>(std::lower_bound(row.begin(), row.end(), 4 * tet) -
+                                    row.begin());
+        };
+        fans.unite(place(t), place(u));
+      };
+      for (const Index c : row) {
+        solids.unite(c / 4, row[0] / 4);
+        for (Index k = 0; k < 4; ++k)
+          if (const Index o = across_[c / 4][k]; o != none && k != c % 4) unite(c / 4, o / 4);
       }
-    for (Index v = 0; v < vertices_; ++v) {
-      bool pinched = false;
-      if (on_boundary_[v]) {
-        const auto row = corners_at(v);
-        for (const Index c : row) {
-          if (fans.find(c) == fans.find(row[0])) continue;
-          pinched = true;
-          solids.unite(c / 4, row[0] / 4);
+      while (edge != edges_at.end() && edge->first < v) ++edge;
+      for (; edge != edges_at.end() && edge->first == v; ++edge) {
+        const auto& pinched = found_.pinched_edges[edge->second];
+        for (Index n = pinched.begin + 1; n < pinched.end; ++n)
+          unite(found_.pinched_edge_tets[n - 1], found_.pinched_edge_tets[n]);
+      }
+      for (Index n = 0; n < row.size(); ++n)
+        if (fans.find(n) != fans.find(0)) {
+          found_.pinched_vertices.push_back(v);
+          found_.reflex_vertices += !on_reflex_[v];
+          break;
         }
-      }
-      if (pinched) found_.pinched_vertices.push_back(v);
-      found_.reflex_vertices += on_reflex_[v] || pinched;
     }
+    for (const char on : on_reflex_) found_.reflex_vertices += on != 0;
     for (Index t = 0; t < corner_.size(); ++t) found_.components += solids.find(t) == t;
   }
 
   std::size_t vertices_;
+  int threads_;
   Corners corner_, across_;
   const TetCorners& corners_;
   const TetPlaces& places_;
@@ -394,8 +462,8 @@ TetCorners corners_of_vertices(std::size_t vertices, Corners corner,
 }
 
 TetTopology find_tet_topology(Corners corner, Corners across, const TetCorners& corners,
-                              const TetPlaces& places) {
-  return Finder(corner, across, corners, places).find();
+                              const TetPlaces& places, int threads) {
+  return Finder(corner, across, corners, places, threads).find();
 }
 
 }  // namespace plexway

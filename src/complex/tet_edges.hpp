@@ -57,9 +57,10 @@ struct TetCorners {
 TetCorners corners_of_vertices(std::size_t vertices, std::span<const std::array<Index, 4>> corner,
                                std::span<const Index> first_use, int threads);
 
-/// From corners and across (4 u + j, or none) of each tetrahedron.
+/// From corners and across (4 u + j, or none) of each tetrahedron. The same by any number of
+/// threads.
 TetTopology find_tet_topology(std::span<const std::array<Index, 4>> corner,
                               std::span<const std::array<Index, 4>> across,
-                              const TetCorners& corners, const TetPlaces& places);
+                              const TetCorners& corners, const TetPlaces& places, int threads);
 
 }  // namespace plexway

@@ -24,10 +24,10 @@ constexpr double thin = 1e-6;
 Vector3<double> vector(const std::array<double, 3>& p) { return {p[0], p[1], p[2]}; }
 
 // In units of the largest extent and about the middle, so that an offset does no harm and nothing
-// overflows.
+// overflows. `reach`: the farthest coordinate as given, in the same units.
 std::vector<std::array<double, 3>> centred(std::span<const std::array<double, 3>> positions,
                                            std::span<const std::array<Index, 4>> tets,
-                                           double& extent, int threads) {
+                                           double& extent, double& reach, int threads) {
   over_blocks(positions.size(), threads, [&](std::size_t first, std::size_t last) {
     for (std::size_t v = first; v < last; ++v)
       for (const double x : positions[v])
@@ -49,6 +49,9 @@ std::vector<std::array<double, 3>> centred(std::span<const std::array<double, 3>
   if (extent > std::numeric_limits<double>::max() / 16)
     throw InputError("the coordinates are too large to take distances: scale them down");
   if (!(extent > 0)) extent = 1;
+  reach = 0;
+  for (std::size_t d = 0; d < 3; ++d)
+    reach = std::max({reach, std::abs(low[d]) / extent, std::abs(high[d]) / extent});
   std::vector<std::array<double, 3>> scaled(positions.size());
   over_blocks(positions.size(), threads, [&](std::size_t first, std::size_t last) {
     for (std::size_t v = first; v < last; ++v)
@@ -77,13 +80,14 @@ TetPoints pose(const std::array<double, 6>& length) {
 
 double determinant(const TetPoints& p) { return dot(cross(p[1] - p[0], p[2] - p[0]), p[3] - p[0]); }
 
-// Its volume beside that of three edges at right angles.
-double thickness(const TetPoints& p, double six_volumes) {
-  double product = 1;
-  for (std::size_t i = 1; i < 4; ++i) product *= norm(p[i] - p[0]);
+// Its volume beside that of three edges at right angles, by those from the first corner.
+double thickness(double a, double b, double c, double six_volumes) {
+  const double product = a * b * c;
   return product > 0 ? std::abs(six_volumes) / product : 0;
 }
-bool has_volume(const TetPoints& p) { return thickness(p, determinant(p)) > flat; }
+bool has_volume(const TetPoints& p) {
+  return thickness(norm(p[1] - p[0]), norm(p[2] - p[0]), norm(p[3] - p[0]), determinant(p)) > flat;
+}
 
 }  // namespace
 
@@ -91,10 +95,23 @@ template <class Real>
 TetMesh<Real>::TetMesh(std::span<const std::array<double, 3>> positions,
                        std::span<const std::array<Index, 4>> tets, int threads) {
   check_tets(positions.size(), tets, threads);
-  double extent = 1;
-  auto scaled = centred(positions, tets, extent, threads);
+  double extent = 1, reach = 0;
+  auto scaled = centred(positions, tets, extent, reach, threads);
+  // An edge longer than this passes the check of its coordinates, as these are off by a rounding of
+  // `reach` at most: so that few tetrahedra are checked.
+  const double surely =
+      4 * (NumberRange<Real>::least_of_extent + 8 * std::numeric_limits<double>::epsilon() * reach);
   const auto across = glue_tets(positions.size(), tets, threads);
   std::vector<signed char> volume(tets.size());
+  // Not as centred: what an extent leaves no digits for is not without length.
+  const auto check_extent = [&](std::size_t t) {
+    double longest = 0;
+    for (const auto& [i, j] : tet_edge_ends)
+      for (std::size_t d = 0; d < 3; ++d)
+        longest = std::max(longest, std::abs(positions[tets[t][j]][d] / extent -
+                                             positions[tets[t][i]][d] / extent));
+    NumberRange<Real>::check_coordinates("tet", t, longest, 1);
+  };
   const auto measure = [&](std::size_t t, std::array<double, 6>& lengths) {
     TetPoints p;
     for (std::size_t i = 0; i < 4; ++i) p[i] = vector(scaled[tets[t][i]]);
@@ -102,13 +119,11 @@ TetMesh<Real>::TetMesh(std::span<const std::array<double, 3>> positions,
     for (std::size_t e = 0; e < 6; ++e) {
       const auto& [i, j] = tet_edge_ends[e];
       lengths[e] = norm(p[j] - p[i]);
-      // Not as centred: what an extent leaves no digits for is not without length.
-      const auto &a = positions[tets[t][i]], &b = positions[tets[t][j]];
-      for (std::size_t d = 0; d < 3; ++d)
-        longest = std::max(longest, std::abs(b[d] / extent - a[d] / extent));
+      longest = std::max(longest, lengths[e]);
     }
-    NumberRange<Real>::check_coordinates("tet", t, longest, 1);
-    const double six_volumes = determinant(p), thick = thickness(p, six_volumes);
+    if (!(longest > surely)) check_extent(t);
+    const double six_volumes = determinant(p),
+                 thick = thickness(lengths[0], lengths[1], lengths[3], six_volumes);
     volume[t] = static_cast<signed char>(thick <= flat ? 0 : thick < thin ? 1 : 2);
     if (six_volumes < 0) volume[t] = static_cast<signed char>(-volume[t]);
   };
@@ -238,7 +253,7 @@ void TetMesh<Real>::assemble(std::size_t vertices, std::span<const std::array<In
     }
   }
   TetCorners rows = corners_of_vertices(vertices, corner, first_use, threads);
-  TetTopology topology = find_tet_topology(corner, over, rows, {at, points});
+  TetTopology topology = find_tet_topology(corner, over, rows, {at, points}, threads);
   corners_begin_ = std::move(rows.begin);
   corners_ = std::move(rows.corner);
   summary_.edges = topology.edges;

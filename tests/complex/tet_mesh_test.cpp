@@ -1,9 +1,13 @@
 #include <catch2/catch.hpp>
 
+#include <algorithm>
 #include <limits>
+#include <map>
+#include <random>
 #include <set>
 #include <string>
 
+#include <plexway/complex/kuhn_grid.hpp>
 #include <plexway/error.hpp>
 #include <plexway/solve.hpp>
 
@@ -150,4 +154,107 @@ TEMPLATE_TEST_CASE("bad solids name what is wrong", "", float, double) {
   CHECK_THAT(error_of([&] { return TetMesh<TestType>(27, c.tets, lengths); }), Contains("tet 4"));
   lengths.pop_back();
   CHECK_THAT(error_of([&] { return TetMesh<TestType>(27, c.tets, lengths); }), Contains("lengths"));
+}
+
+// By what tetrahedra have in common alone: sets of vertices, no faces and no fans.
+TEST_CASE("edges, pinched vertices and components of solids full of holes, by brute force", "") {
+  struct Grid {
+    std::size_t cells;
+    double kept;
+    std::vector<int> threads;
+  };
+  // The last has vertices enough for several threads.
+  const std::vector<Grid> grids = {
+      {4, 0.9, {1}}, {5, 0.5, {1}}, {6, 0.2, {1}}, {6, 0.05, {1}}, {27, 0.08, {1, 2, 5}}};
+  std::minstd_rand random(3);
+  std::uniform_real_distribution<double> share(0, 1);
+  for (const Grid& grid : grids) {
+    const KuhnGrid<3> kuhn({grid.cells, grid.cells, grid.cells}, {1, 1, 1});
+    std::vector<Tet> tets;
+    for (const Tet& t : kuhn.simplices())
+      if (share(random) < grid.kept) tets.push_back(t);
+    std::vector<std::array<double, 3>> positions;
+    for (Index v = 0; v < kuhn.vertex_count(); ++v) positions.push_back(kuhn.position(v));
+
+    // Tetrahedra with a vertex in common are of one component; those at a vertex touch nowhere else
+    // unless chains of them have a second vertex in common.
+    std::vector<std::vector<Index>> at(positions.size());
+    std::set<std::pair<Index, Index>> edges;
+    for (Index t = 0; t < tets.size(); ++t) {
+      for (const Index v : tets[t]) at[v].push_back(t);
+      for (const auto& [i, j] : tet_edge_ends) edges.insert(std::minmax(tets[t][i], tets[t][j]));
+    }
+    const auto groups = [&](const std::vector<Index>& of, auto&& keys_of) {
+      std::map<Index, Index> above;
+      const auto top = [&](Index k) {
+        while (above.at(k) != k) k = above.at(k);
+        return k;
+      };
+      for (const Index t : of) {
+        Index first = none;
+        for (const Index k : keys_of(t)) {
+          above.try_emplace(k, k);
+          if (first == none)
+            first = top(k);
+          else if (const Index other = top(k); other != first)
+            above[std::max(first, other)] = std::min(first, other), first = std::min(first, other);
+        }
+      }
+      return std::count_if(above.begin(), above.end(),
+                           [](const auto& k) { return k.first == k.second; });
+    };
+    std::size_t pinched = 0;
+    for (Index v = 0; v < at.size(); ++v)
+      pinched += groups(at[v], [&](Index t) {
+                   std::vector<Index> others;
+                   std::ranges::copy_if(tets[t], std::back_inserter(others),
+                                        [&](Index w) { return w != v; });
+                   return others;
+                 }) > 1;
+    std::vector<Index> all(tets.size());
+    for (Index t = 0; t < all.size(); ++t) all[t] = t;
+    const auto components = groups(all, [&](Index t) { return tets[t]; });
+    CAPTURE(grid.cells, grid.kept, tets.size(), pinched, components);
+    CHECK((pinched > 0 || grid.kept > 0.8));
+
+    for (const int threads : grid.threads) {
+      const TetMesh<float> mesh(positions, tets, threads);
+      CHECK(mesh.summary().edges == edges.size());
+      CHECK(mesh.summary().pinched_vertices == pinched);
+      CHECK(mesh.pinched().size() == pinched);
+      CHECK(std::ranges::is_sorted(mesh.pinched()));
+      CHECK(mesh.summary().components == static_cast<std::size_t>(components));
+      const Solid solid = {positions, tets};
+      const TetMesh<float> by_lengths(positions.size(), tets, solid.lengths(), threads);
+      CHECK(by_lengths.summary().edges == edges.size());
+      CHECK(by_lengths.summary().pinched_vertices == pinched);
+      CHECK(by_lengths.summary().components == static_cast<std::size_t>(components));
+    }
+  }
+}
+
+// Lengths between centred coordinates may pass a tetrahedron at once, so near and far offsets must
+// not change what is refused.
+TEST_CASE("small tetrahedra are refused by their size beside the extent, whatever the offset", "") {
+  const auto error = [](double offset, double size) {
+    std::vector<std::array<double, 3>> positions;
+    for (const double scale : {1.0, size}) {
+      positions.push_back({offset, offset, -offset});
+      for (std::size_t d = 0; d < 3; ++d) {
+        positions.push_back(positions.back());
+        positions.back() = {offset, offset, -offset};
+        positions.back()[d] += scale;
+      }
+    }
+    const std::vector<Tet> tets = {{0, 1, 2, 3}, {4, 5, 6, 7}};
+    return error_of([&] { TetMesh<float>(positions, tets); });
+  };
+  constexpr double least = 128 * double{std::numeric_limits<float>::epsilon()};
+  for (const double offset : {0.0, 10.0, 1e5}) {
+    CAPTURE(offset);
+    for (const double share : {1.01, 2.5, 3.5, 5.0, 100.0})
+      CHECK(error(offset, share * least) == "");
+    for (const double share : {0.99, 0.3})
+      CHECK_THAT(error(offset, share * least), Contains("tet 1"));
+  }
 }
