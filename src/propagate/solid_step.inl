@@ -247,6 +247,8 @@ bool find_taut(HINGE_IN(Label) label, Index t, HINGE_IN(Point) middle, Index u, 
       Index before = edge_before(s, hit.leg);
       Index found = none;
       if (look) found = edge_in_the_way(s, hit, inside);
+      // One that the string on the way lifts off, and only touches: not what hides the end.
+      if (trying == halved && found != none && bends_at(all, found)) found = none;
       if (squeezed) {
         if (found != none) {
           // Walked beside the one edge, it touches another one on the other side.

@@ -100,3 +100,40 @@ TEST_CASE("at the end of a crack, open or closed") {
       CHECK(e.below >= -1e-7);
     }
 }
+
+TEST_CASE("a path along the floor that touches one obstacle and bends at another") {
+  struct Plan {
+    samples::CornerDomain plan;
+    std::uint64_t seed;
+    double height, was;
+  };
+  const std::vector<Plan> plans = {
+      {{"", {{.25, .375, .125, .375}, {.625, .875, .125, .375}, {.75, .875, .75, .875}}, {.25, 0}},
+       0x98,
+       0.36953125,
+       0.080},
+      {{"", {{.25, .375, .625, .875}, {.75, .875, .25, .375}, {.625, .75, .625, .875}}, {.75, 1}},
+       0x52,
+       0.437890625,
+       0.061},
+      {{"",
+        {{.25, .375, .25, .375},
+         {.125, .25, .75, .875},
+         {.75, .875, .25, .375},
+         {.625, .75, .625, .875}},
+        {0, .25}},
+       0x7e,
+       0.43984375,
+       0.053},
+      {{"", {{.25, .375, .25, .375}, {.25, .375, .75, .875}, {.625, .875, .625, .875}}, {.25, 1}},
+       0xa2,
+       0.31875,
+       0.050}};
+  for (const auto& [plan, seed, height, was] : plans) {
+    const Errors e = errors_over<double>(plan, 0.24, seed, height);
+    CAPTURE(seed, was, e.mean, e.max, e.below);
+    CHECK(e.fits);
+    CHECK(e.max <= 1e-6);
+    CHECK(e.below >= -1e-12);
+  }
+}
