@@ -23,7 +23,11 @@ int ended(Ranks& ranks, int code, const char* message) {
     try {
       throw;
     } catch (const plexway::mpi::Absent& absent) {
-      return absent.verdict().code;
+      const Ranks::Verdict& absence = absent.verdict();
+      if (absence.code != 0) return absence.code;
+      // It was through with other work, and this one's is not done.
+      plexway::cli::say_error("another rank took no part: all ranks need the same command");
+      return 2;
     } catch (...) {
       verdict = ranks.fail_together(code);
       if (!verdict) {

@@ -244,12 +244,6 @@ class Joiner {
     return {std::move(points), std::move(tets)};
   }
 
-  // Where one face of a crack lies on the other, coordinates do not tell from which of the two a
-  // path begins.
-  static bool is_crack(const ReflexEdge<Real>& edge) {
-    return dot(edge.normal[0], edge.normal[1]) < Real(-1 + 1e-6);
-  }
-
   // Not where faces contradict each other, and not where the weld leaves a crack, as the wall
   // around a window: fronts over the faces between pieces (HingeFront) are exact there.
   [[nodiscard]] bool can_be_built(const std::vector<Index>& pieces) const {

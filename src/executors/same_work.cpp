@@ -4,7 +4,9 @@
 #include <bit>
 #include <cstdint>
 #include <limits>
+#include <span>
 #include <string>
+#include <string_view>
 #include <type_traits>
 #include <variant>
 #include <vector>
@@ -113,12 +115,9 @@ std::uint64_t digest_of(const D& domain) {
   }
 }
 
-}  // namespace
-
-template <class D>
-void check_same_work(PieceRanks& ranks, const D& domain, const SourceList& sources,
-                     const PropagateOptions& options, std::size_t piece) {
-  const std::array own = {digest_of(domain), digest_of(sources), digest_of(options, piece)};
+/// Throws in every rank where one has another number; `what[i]` says of what the i-th is one.
+void compare(PieceRanks& ranks, std::span<const std::uint64_t> own,
+             std::span<const char* const> what) {
   // Each rank's in its own places, and zeros elsewhere.
   std::vector<std::uint64_t> all(own.size() * ranks.count());
   for (std::size_t i = 0; i < own.size(); ++i) all[own.size() * ranks.rank() + i] = own[i];
@@ -126,7 +125,6 @@ void check_same_work(PieceRanks& ranks, const D& domain, const SourceList& sourc
   std::vector<std::vector<std::byte>> from(ranks.count());
   double least = std::numeric_limits<double>::infinity();
   ranks.meet(to, from, all, least);
-  constexpr std::array what = {"domain", "sources", "options"};
   for (std::size_t i = 0; i < own.size(); ++i)
     for (std::size_t r = 1; r < ranks.count(); ++r) {
       if (all[own.size() * r + i] == all[i]) continue;
@@ -135,9 +133,30 @@ void check_same_work(PieceRanks& ranks, const D& domain, const SourceList& sourc
                                     .append(": rank ")
                                     .append(std::to_string(r))
                                     .append(" differs from rank 0");
-      if (i == 0) throw InputError(cause);
+      if (std::string_view(what[i]) == "domain") throw InputError(cause);
       throw UsageError(cause);
     }
+}
+
+}  // namespace
+
+void check_same_words(PieceRanks& ranks, std::span<const std::string> words, const char* what) {
+  Digest digest;
+  for (const std::string& word : words) {
+    digest.add(std::uint64_t{word.size()});
+    for (const char c : word) digest.add(std::uint64_t{static_cast<unsigned char>(c)});
+  }
+  const std::array own = {digest.value()};
+  const std::array names = {what};
+  compare(ranks, own, names);
+}
+
+template <class D>
+void check_same_work(PieceRanks& ranks, const D& domain, const SourceList& sources,
+                     const PropagateOptions& options, std::size_t piece) {
+  const std::array own = {digest_of(domain), digest_of(sources), digest_of(options, piece)};
+  constexpr std::array what = {"domain", "sources", "options"};
+  compare(ranks, own, what);
 }
 
 #define PLEXWAY_SAME_WORK(...)                                                      \

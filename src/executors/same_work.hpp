@@ -1,6 +1,8 @@
 #pragma once
 
 #include <cstddef>
+#include <span>
+#include <string>
 
 #include <plexway/domain/domains.hpp>
 #include <plexway/executors/piece_ranks.hpp>
@@ -16,6 +18,10 @@ namespace plexway {
 template <class D>
 void check_same_work(PieceRanks& ranks, const D& domain, const SourceList& sources,
                      const PropagateOptions& options, std::size_t piece);
+
+/// Likewise for words, such as the names of outputs: throws UsageError that says of `what` they
+/// differ, in every process.
+void check_same_words(PieceRanks& ranks, std::span<const std::string> words, const char* what);
 
 #define PLEXWAY_SAME_WORK(...)                                                             \
   extern template void check_same_work(PieceRanks&, const __VA_ARGS__&, const SourceList&, \

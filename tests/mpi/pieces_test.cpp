@@ -239,6 +239,21 @@ TEST_CASE("what ranks cannot solve together is said once, and no file is left") 
   CHECK(complaints(differs)[0].find("the same domain: rank 1 differs") != std::string::npos);
   fs::remove(other);
   CHECK(folder.files() == 2);
+  // Two outputs, or one: what is in parts would miss some.
+  const auto to = [&](const Words& output) {
+    return Words{"-n", "1", PLEXWAY_TEST_MPI_TOOL, "distance", input, "-s", "vertex:0"} + output;
+  };
+  for (const auto& [one, another] :
+       {std::pair(Words{"-o", out}, Words{}), std::pair(Words{}, Words{"-o", out}),
+        std::pair(Words{"-o", out}, Words{"-o", folder.at("e.pvtu")}),
+        std::pair(Words{}, Words{"-o", folder.at("e.csv")})}) {
+    const Outcome apart = run_program(*mpirun() + to(one) + Words{":"} + to(another));
+    CAPTURE(apart.err);
+    CHECK(apart.code == 2);
+    REQUIRE(complaints(apart).size() == 1);
+    CHECK(complaints(apart)[0].find("the same outputs: rank 1 differs") != std::string::npos);
+    CHECK(folder.files() == 2);
+  }
   // Alone there are no parts.
   const Outcome alone = run_tool(distance(input));
   CHECK(alone.code == 2);

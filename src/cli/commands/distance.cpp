@@ -35,6 +35,7 @@
 #include "cli/report/console.hpp"
 #include "cli/report/distance_output.hpp"
 #include "cli/report/progress.hpp"
+#include "executors/same_work.hpp"
 #include "io/field_part.hpp"
 
 namespace plexway::cli {
@@ -238,6 +239,10 @@ void run_distance(DistanceCommand command) {
     if (!command.solve.executor.threads) team.threads = command.among->threads;
     team.ranks = &command.among->pieces;
     command.among->all_come();
+    // One that writes parts waits for all others to write theirs; what is drawn is solved for.
+    const std::array outputs = {command.out, command.isolines.out, command.picture.file,
+                                command.picture.html};
+    check_same_words(command.among->pieces, outputs, "outputs");
   }
   // What draws arcs asks the field inside of triangles, too.
   std::optional<AnyPathField> paths;

@@ -63,6 +63,12 @@ struct ReflexEdge {
   Index vertex[2];          ///< numbers inside
 };
 
+/// Do both faces at it lie on each other, so that the solid goes all around?
+template <class Real>
+bool is_crack(const ReflexEdge<Real>& edge) {
+  return dot(edge.normal[0], edge.normal[1]) < Real(-1 + 1e-6);
+}
+
 /// An entry of TetMesh::reflex_list, packed.
 struct ReflexEntry {
   static constexpr Index last = 1;  ///< the tetrahedron's list ends here
