@@ -35,8 +35,8 @@ FaceLayout::FaceLayout(std::size_t vertices, Faces faces, std::vector<Index> ord
     : face(std::move(order)) {
   number_faces(threads);
   take_corners(face, faces, threads, corner);
+  across.resize(faces.size());  // side by side with the corners, so both leave one large room
   name_vertices(vertices);
-  across.resize(faces.size());
   const auto number = [&](const EdgeSide& s) {  // the caller's: cycles are in its order
     return std::pair(face[s.halfedge >> Across::face_shift], s.halfedge & Across::edge_mask);
   };
