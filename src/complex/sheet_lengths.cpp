@@ -61,11 +61,13 @@ std::vector<std::array<double, 3>> sheet_lengths(const Places& places,
                                                  const SheetRule& rule,
                                                  std::span<const std::array<Index, 3>> faces,
                                                  double flat) {
+  // What closes a hole beside a ridge may be long, and is no chord for that.
+  constexpr double farthest = 12;  // spacings
   const auto for_creases = [&](const auto& visit) {
     for (std::size_t f = 0; f < faces.size(); ++f)
       for (std::size_t i = 0; i < 3; ++i) {
         const Edge e = edge_of(faces[f], i);
-        if (const auto crease = crease_between(places, frames, rule, e[0], e[1]))
+        if (const auto crease = crease_between(places, frames, rule, e[0], e[1], farthest))
           visit(f, i, e, *crease);
       }
   };
