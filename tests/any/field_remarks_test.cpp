@@ -112,25 +112,6 @@ TEST_CASE("holes of a cloud that points do not tell how to close are told") {
   CHECK(refused == warned);
 }
 
-TEST_CASE("parts of a cloud that only edges join are told") {
-  // Two squares of points, farther apart than circles of a sheet are wide, not than neighbours.
-  const auto squares = [](double gap) {
-    std::mt19937 random(7);
-    std::uniform_real_distribution<double> off(-.15, .15);
-    io::Points points;
-    for (int i = 0; i < 24; ++i)
-      for (int j = 0; j < 12; ++j)
-        points.positions.push_back({i + (i < 12 ? 0 : gap - 1) + off(random), j + off(random), 0});
-    return points;
-  };
-  const auto warns = [](io::Points points) {
-    return remarks(AnyShape::cloud(std::move(points)), {}, Accuracy::fast(),
-                   "join parts that have no triangles between them");
-  };
-  CHECK(warns(squares(2.8)));
-  CHECK_FALSE(warns(squares(1)));
-}
-
 TEST_CASE("noise at a sharp ridge of a cloud is told") {
   const auto warns = [](double degrees, double noise) {
     io::Points points = roof(5, degrees);
