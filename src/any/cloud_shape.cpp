@@ -1,6 +1,7 @@
 #include <plexway/any/cloud_shape.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 
@@ -85,17 +86,27 @@ Neighbours find_neighbours([[maybe_unused]] const CloudShape& cloud,
 }
 
 // Normals that only fit a plane have arbitrary signs, half of them the wrong one; those of a
-// scanner or a mesh agree with the nearest point's all but across a gap.
+// scanner or a mesh agree with the nearest point's on the same sheet. Over a sharp edge they may
+// well oppose it, and so they do across a thin gap: what is no continuation of the sheet says
+// nothing.
 bool all_point_to_one_side(const CloudShape& cloud) {
+  constexpr double least_cosine = 0.95, most_rise = 0.5;
   const auto& normals = cloud.points.normals;
+  const auto& at = cloud.points.positions;
+  const auto dot = [](const auto& a, const auto& b) {
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+  };
   std::size_t compared = 0, against = 0;
   for (Index i = 0; i < normals.size(); ++i) {
     const auto around = cloud.neighbours.around(i);
     if (around.empty()) continue;
-    const auto& a = normals[i];
-    const auto& b = normals[around.front()];
-    const double along = a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-    compared += along != 0 ? 1 : 0;  // 0 where one is unknown
+    const Index j = around.front();
+    const auto &a = normals[i], &b = normals[j];
+    const std::array<double, 3> q = {at[j][0] - at[i][0], at[j][1] - at[i][1], at[j][2] - at[i][2]};
+    const double along = dot(a, b), rise = dot(a, q), sizes = dot(a, a) * dot(b, b);
+    if (!(along * along > least_cosine * least_cosine * sizes)) continue;  // or one is unknown
+    if (rise * rise > most_rise * most_rise * dot(a, a) * dot(q, q)) continue;
+    ++compared;
     against += along < 0 ? 1 : 0;
   }
   return compared > 0 && 20 * against < compared;

@@ -101,6 +101,12 @@ std::vector<std::string> field_remarks(const AnyDomain& solver, const AnyField& 
              " is the first) around holes that could not be closed, as points there do not tell "
              "which side of the surface they are on: distances near them may be far off; " +
              cure);
+    if (cloud->chord_points > 0)
+      remark(counted(cloud->chord_points, "points") + " (" + std::to_string(cloud->first_chord) +
+             " is the first) at sharp ridges where points do not tell how the surface runs: edges "
+             "cut through the inside, and distances over them may be far too short; more points "
+             "near the ridge or less noise (--smooth) help, and " +
+             cure);
     if (cloud->joints > 0)
       remark(counted(cloud->joints, "pairs") +
              " of points join parts that have no triangles between them: all ways from one to the "

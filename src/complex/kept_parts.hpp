@@ -97,8 +97,8 @@ struct KeptParts {
       static_assert(Kind::kind == DomainKind::cloud);
       archive(s.points, s.distinct, s.duplicates, s.near_duplicates, s.neighbour_pairs,
               s.refused_pairs, s.triangles, s.bridges, s.joints, s.boundary_points, s.torn_points,
-              s.first_torn, s.isolated_points, s.components, s.largest_component, s.component_sizes,
-              s.noise, s.mean_spacing);
+              s.first_torn, s.chord_points, s.first_chord, s.isolated_points, s.components,
+              s.largest_component, s.component_sizes, s.noise, s.mean_spacing);
       archive(complex.twins_, complex.more_);
       each(archive, complex.surface_);
     }

@@ -214,6 +214,11 @@ Sheet make_sheet(Points points, const Neighbours& neighbours, const CloudOptions
                       : options.lengths == EdgeLengths::tangential ? 1
                                                                    : noise.share;
   result.lengths = sheet_lengths(places, frames, rule, result.faces, flat);
+  const std::vector<Index> chords = chord_places(places, frames, rule, result.faces, result.lengths,
+                                                 summary.noise / summary.mean_spacing);
+  summary.chord_points = chords.size();
+  for (const Index p : chords)
+    summary.first_chord = std::min(summary.first_chord, distinct.order[p]);
   for (auto& lengths : result.lengths)
     for (double& l : lengths) l /= scale;
   for (Triangle& t : result.faces)

@@ -61,11 +61,15 @@ std::vector<std::array<double, 3>> sheet_lengths(const Places& places,
                                                  const SheetRule& rule,
                                                  std::span<const std::array<Index, 3>> faces,
                                                  double flat) {
+  // What closes a hole beside a ridge may be long, and is no chord for that.
+  constexpr double farthest = 12;  // spacings
   const auto for_creases = [&](const auto& visit) {
     for (std::size_t f = 0; f < faces.size(); ++f)
       for (std::size_t i = 0; i < 3; ++i) {
         const Edge e = edge_of(faces[f], i);
-        if (const auto crease = crease_between(places, frames, rule, e[0], e[1]))
+        if (e[1] >= frames.size() || !may_crease(dot(frames[e[0]].normal, frames[e[1]].normal)))
+          continue;
+        if (const auto crease = crease_between(places, frames, rule, e[0], e[1], farthest))
           visit(f, i, e, *crease);
       }
   };
@@ -89,6 +93,27 @@ std::vector<std::array<double, 3>> sheet_lengths(const Places& places,
       if (!std::binary_search(straight.begin(), straight.end(), edge_of(faces[f], i)))
         lengths[f][i] = over[f][i];
   return lengths;
+}
+
+std::vector<Index> chord_places(const Places& places, std::span<const TangentFrame> frames,
+                                const SheetRule& rule, std::span<const std::array<Index, 3>> faces,
+                                std::span<const std::array<double, 3>> lengths, double noise) {
+  constexpr double shorter = 0.85;
+  std::vector<Index> found;
+  for (std::size_t f = 0; f < faces.size(); ++f)
+    for (std::size_t i = 0; i < 3; ++i) {
+      const Edge e = edge_of(faces[f], i);
+      if (e[1] >= frames.size() || !may_crease(dot(frames[e[0]].normal, frames[e[1]].normal)))
+        continue;
+      const double way = way_over_ridge(places, frames, rule, e[0], e[1], noise);
+      if (!(way > 0)) continue;
+      const Point3 q = minus(places.at[e[1]], places.at[e[0]]);
+      const double length = lengths.empty() ? std::sqrt(dot(q, q)) : lengths[f][i];
+      if (length < shorter * way) found.insert(found.end(), e.begin(), e.end());
+    }
+  std::sort(found.begin(), found.end());
+  found.erase(std::unique(found.begin(), found.end()), found.end());
+  return found;
 }
 
 }  // namespace plexway

@@ -17,4 +17,13 @@ std::vector<std::array<double, 3>> sheet_lengths(const Places& places,
                                                  std::span<const std::array<Index, 3>> faces,
                                                  double flat);
 
+/// The places, ascending, with edges that lead from one side of a sharp ridge to the other and are
+/// far shorter than the way over it, by so much `noise` (spacings).
+[[nodiscard]] std::vector<Index> chord_places(const Places& places,
+                                              std::span<const TangentFrame> frames,
+                                              const SheetRule& rule,
+                                              std::span<const std::array<Index, 3>> faces,
+                                              std::span<const std::array<double, 3>> lengths,
+                                              double noise);
+
 }  // namespace plexway

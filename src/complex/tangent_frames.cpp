@@ -295,6 +295,7 @@ bool same_sheet(const Places& places, std::span<const TangentFrame> frames, cons
   const double cosine = dot(a.normal, b.normal);
   if ((rule.oriented ? cosine : std::abs(cosine)) < rule.least_cosine)
     return crease_between(places, frames, rule, i, j).has_value();
+  if (may_crease(cosine) && crease_between(places, frames, rule, i, j)) return true;
   const Point3 q = minus(places.at[j], places.at[i]);
   const auto fits = [&](const TangentFrame& f) {
     return std::abs(dot(f.normal, q)) <= rule.most_offset * static_cast<double>(f.spacing);

@@ -111,3 +111,40 @@ TEST_CASE("holes of a cloud that points do not tell how to close are told") {
   CHECK(warned > 0);
   CHECK(refused == warned);
 }
+
+TEST_CASE("noise at a sharp ridge of a cloud is told") {
+  const auto warns = [](double degrees, double noise) {
+    io::Points points = roof(5, degrees);
+    std::mt19937 random(9);
+    std::normal_distribution<double> off(0, noise);
+    for (auto& p : points.positions)
+      for (double& x : p) x += noise > 0 ? off(random) : 0;
+    return remarks(AnyShape::cloud(std::move(points)), {}, Accuracy::fast(),
+                   "cut through the inside");
+  };
+  CHECK(warns(75, .06));
+  CHECK(warns(60, .06));
+  CHECK_FALSE(warns(0, .06));
+  CHECK_FALSE(warns(60, 0));
+  CHECK_FALSE(warns(0, 0));
+}
+
+TEST_CASE("normals of a small cloud with a sharp ridge are told from those of arbitrary signs") {
+  for (const double degrees : {0., 30., 60., 75.}) {
+    const double slope = degrees * std::acos(-1.) / 180;
+    io::Points points = roof(3, degrees), thin;
+    // A narrow strip along the ridge: many nearest neighbours are beyond it.
+    for (const auto& p : points.positions)
+      if (std::abs(p[0]) < 3 * std::cos(slope)) thin.positions.push_back(p);
+    for (const auto& p : thin.positions)
+      thin.normals.push_back({(p[0] < 0 ? -1 : 1) * std::sin(slope), 0, std::cos(slope)});
+    io::Points arbitrary = thin;
+    std::mt19937 random(4);
+    for (auto& n : arbitrary.normals)
+      if (random() % 2 == 0)
+        for (double& x : n) x = -x;
+    CAPTURE(degrees);
+    CHECK(AnyShape::cloud(std::move(thin)).cloud()->normals_agree);
+    CHECK_FALSE(AnyShape::cloud(std::move(arbitrary)).cloud()->normals_agree);
+  }
+}

@@ -141,6 +141,44 @@ TEST_CASE("a hole beside a sharp edge takes no way through the inside") {
   }
 }
 
+TEST_CASE("ways over roofs of 30 to 110 degrees with a hole at the ridge are as on the paper") {
+  const double pi = std::acos(-1.);
+  for (const double degrees : {30., 45., 60., 90., 110.})
+    for (const bool normals : {false, true}) {
+      samples::Uniform u(static_cast<std::uint64_t>(degrees) + 3);
+      std::vector<std::array<double, 3>> points, normal;
+      std::vector<std::array<double, 2>> flat;
+      const double half = degrees / 2 * pi / 180, h = std::sqrt(2. / 2500);
+      while (points.size() < 2500) {
+        const double across = u(-1, 1), along = u();
+        if (std::hypot(across - .03, along - .5) < .08) continue;
+        const double side = across < 0 ? -1 : 1;
+        points.push_back({across * std::sin(half), along, -std::abs(across) * std::cos(half)});
+        normal.push_back({side * std::cos(half), 0, std::sin(half)});
+        flat.push_back({across, along});
+      }
+      plexway::CloudOptions options;
+      if (normals) options.normals = normal;
+      const PointCloud<double> cloud(points, plexway::flann::surface_neighbours(points), options);
+      CHECK(cloud.summary().components == 1);
+      double low = 0, mean = 0;
+      for (const Index source : {0u, 900u, 1800u}) {
+        const auto found = plexway::solve(Serial{}, cloud, PointSource::at(source)).distance;
+        for (std::size_t v = 0; v < points.size(); ++v) {
+          const double straight =
+              std::hypot(flat[v][0] - flat[source][0], flat[v][1] - flat[source][1]);
+          if (straight < 5 * h) continue;
+          low = std::min(low, found[v] / straight - 1);
+          mean += std::min(0., found[v] / straight - 1) / static_cast<double>(3 * points.size());
+        }
+      }
+      CAPTURE(degrees, normals, low, mean);
+      CHECK(mean > -1e-3);
+      CHECK((low > -.05 || cloud.summary().chord_points > 0));
+      if (normals) CHECK(low > -.02);
+    }
+}
+
 TEST_CASE("errors on clouds fall as points are added") {
   // At a quarter of the spacing.
   CHECK(solve(samples::sphere_cloud(80000)).mean < solve(samples::sphere_cloud(5000)).mean / 4);

@@ -60,7 +60,11 @@ struct CloudSummary {
   /// Of these, around holes of at most 24 edges where places could not agree on a sheet: as a rule
   /// near a crease with another side close by.
   std::size_t torn_points = 0;
-  Index first_torn = none;                   ///< the lowest of these points
+  Index first_torn = none;  ///< the lowest of these points
+  /// Places with edges from one side of a sharp ridge to the other that are less than 0.9 of the
+  /// way over it: noise or too few points do not tell where the ridge is.
+  std::size_t chord_points = 0;
+  Index first_chord = none;                  ///< the lowest of these points
   std::size_t isolated_points = 0;           ///< places that are connected to no other
   std::size_t components = 0;                ///< places that paths connect; isolated ones count
   std::size_t largest_component = 0;         ///< its points
