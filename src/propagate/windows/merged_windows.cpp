@@ -494,7 +494,6 @@ void MergedWindows<Real>::shine(Order& order, Index vertex, const Arrival<float>
 #include "propagate/windows/merged_seeds.inl"
 
 namespace plexway::windows {
-
 template class MergedWindows<float>;
 template class MergedWindows<double>;
 
