@@ -1,5 +1,5 @@
 // Where merged windows begin and end: at the sources, at letters, and again at what no window
-// reached. Part of merged_windows.cpp.
+// reached; what they hold. Part of merged_windows.cpp.
 
 namespace plexway::windows {
 
@@ -159,6 +159,13 @@ bool MergedWindows<Real>::fill_holes(Order& order) {
       [&](Index v, Index w, Real way) {
         offer(order, w, way, none, {0, 0}, labels_ ? source_[v] : 0, vertex_error(v));
       });
+}
+
+template <class Real>
+std::size_t MergedWindows<Real>::bytes() const {
+  const auto of = [](const auto& v) { return v.capacity() * sizeof(v[0]); };
+  return sizeof(*this) + of(source_) + of(error_) + of(shines_) + of(shining_) + of(arrivals_) +
+         of(own_distance_) + waiting_.bytes() + of(blocks_) + of(corners_) + leaving_.bytes();
 }
 
 }  // namespace plexway::windows

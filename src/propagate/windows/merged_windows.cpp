@@ -489,19 +489,11 @@ void MergedWindows<Real>::shine(Order& order, Index vertex, const Arrival<float>
   }
 }
 
-template <class Real>
-std::size_t MergedWindows<Real>::bytes() const {
-  const auto of = [](const auto& v) { return v.capacity() * sizeof(v[0]); };
-  return sizeof(*this) + of(source_) + of(error_) + of(shines_) + of(shining_) + of(arrivals_) +
-         of(own_distance_) + waiting_.bytes() + of(blocks_) + of(corners_) + leaving_.bytes();
-}
-
 }  // namespace plexway::windows
 
 #include "propagate/windows/merged_seeds.inl"
 
 namespace plexway::windows {
-
 template class MergedWindows<float>;
 template class MergedWindows<double>;
 
