@@ -126,7 +126,7 @@ PropagateOptions propagate_options(const SolveOptions& options) {
     throw UsageError("--step goes with --schedule dual_queue");
   made.step = options.step;
   if (options.radius) {
-    if (!(*options.radius >= 0)) throw UsageError("--radius must not be negative");
+    if (!(*options.radius >= 0)) throw UsageError("--radius must be a number >= 0");
     made.radius = *options.radius;
   }
   if (options.max_expansions) made.max_expansions = *options.max_expansions;
