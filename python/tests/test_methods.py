@@ -195,12 +195,9 @@ def test_keywords(kind, precision):
     short = domain.distance(source, radius=0.5)
     assert np.all(np.isinf(short[here & (truth > 0.5 + bound)]))
     assert np.abs(short - truth)[here & (truth < 0.5 - bound)].max() < bound
-    # threads: the same, but for a mixed domain, whose fields take one each.
+    # threads: the same.
     for threads in (1, 2, 0, np.int64(2)):
-        if kind == "mixed" and threads != 1:
-            with pytest.raises(px.UsageError, match="mixed"):
-                domain.distance(source, threads=threads)
-        elif domain.kind in ("surface", "cloud") and threads != 1:
+        if domain.kind in ("surface", "cloud") and threads != 1:
             found = domain.distance(source, threads=threads, accuracy="fast")
             assert np.abs(found - truth)[here].max() < max(bound, 1e-4)
         else:

@@ -109,18 +109,18 @@ TEST_CASE("holes of a cloud that points do not tell how to close are told") {
                         const std::string& words = "around holes that could not be closed") {
     return remarks(AnyShape::cloud(std::move(points)), {}, Accuracy::fast(), words);
   };
-  std::size_t warned = 0, refused = 0;
+  std::size_t warned = 0;
   for (unsigned seed = 1; seed <= 12; ++seed) {
-    warned += warns(layers(seed));
+    CHECK_FALSE(warns(roof(seed, 0)));
+    if (!warns(layers(seed))) continue;
+    ++warned;
     // Normals of no use are not named as the cure.
     io::Points points = layers(seed);
     for (std::size_t i = 0; i < points.positions.size(); ++i)
       points.normals.push_back({0, 0, i % 3 == 0 ? 1. : -1.});
-    refused += warns(std::move(points), "and are not taken");
-    CHECK_FALSE(warns(roof(seed, 0)));
+    CHECK(warns(std::move(points), "and are not taken"));
   }
   CHECK(warned > 0);
-  CHECK(refused == warned);
 }
 
 TEST_CASE("noise at a sharp ridge of a cloud is told") {

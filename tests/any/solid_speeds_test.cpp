@@ -82,5 +82,5 @@ TEST_CASE("any domain: paths are refracted where the speeds of a solid jump") {
   const AnyField field = any.solve(Serial{}, PointSource::at(100));
   for (Index v = 0; v < positions.size(); ++v)
     CHECK(field[v] == Approx(samples::distance(positions[100], positions[v]) / 3).epsilon(1e-9));
-  CHECK_THROWS_AS(any.solve(OpenMP{2}, PointSource::at(0)), UsageError);
+  CHECK(any.solve(OpenMP{2}, PointSource::at(100)).doubles() == field.doubles());
 }
