@@ -64,6 +64,8 @@ TEST_CASE("cells of several dimensions in one file are a mixed domain") {
   CHECK(distance[0] == Approx(4 + std::sqrt(2)));
   CHECK(std::isinf(distance[6]));
   // From a point of the line, and from a point of a triangle.
+  CHECK(distance == distances({file, "--as", "mixed", "-s", "vertex:5", "--executor", "openmp",
+                               "--threads", "2"}));
   CHECK(distances({file, "--as", "mixed", "-s", "point:1,1,3"})[0] == Approx(3 + std::sqrt(2)));
   CHECK(distances({file, "--as", "mixed", "-s", "point:0.5,0.25,0"})[5] ==
         Approx(4 + std::hypot(0.5, 0.75)));
