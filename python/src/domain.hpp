@@ -64,8 +64,8 @@ class Sources {
   [[nodiscard]] SourceList list() const {
     return points_.empty() ? SourceList(sources_) : SourceList(points_);
   }
-  /// UsageError unless all are points; `what` is for the message.
-  [[nodiscard]] std::span<const PointSource> points(const char* what) const;
+  /// UsageError unless all are points where the purpose needs them.
+  [[nodiscard]] std::span<const PointSource> points(Purpose purpose) const;
 
  private:
   std::vector<Source> sources_;
