@@ -49,6 +49,7 @@ constexpr std::array others = {
     Other{"src/cli/options/solve_options.cpp", "goes with", "grammar"},
     Other{"src/cli/commands/pairs_matrix.cpp", "leave out --labels", "grammar"},
     Other{"web/module/module.cpp", "is not known", "a word that is unknown"},
+    Other{"python/src/build.cpp", "as many simplices as vertices", "an array that could be either"},
 };
 
 // What the table is about, and how refusals of its kind are put.
