@@ -138,7 +138,7 @@ TEST_CASE("what domains themselves are asked") {
   std::vector<std::array<double, 6>> rows;
   for (const auto& t : cube.tets) {
     const auto& p = cube.positions;
-    const auto length = [&](int i, int j) { return between(p[t[i]], p[t[j]]); };
+    const auto length = [&](std::size_t i, std::size_t j) { return between(p[t[i]], p[t[j]]); };
     rows.push_back(
         {length(0, 1), length(0, 2), length(1, 2), length(0, 3), length(1, 3), length(2, 3)});
   }
