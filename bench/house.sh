@@ -1,6 +1,7 @@
 #!/bin/sh
 # house.sh [REVISION...]: how large the house is, as Markdown: lines of C++ and GLSL by folder, public
-# headers, and declarations of the verbs, one column a revision (default: HEAD).
+# headers, and declarations of the verbs, one column a revision (default: HEAD). The last one before
+# one `solve` is 8fa164a.
 set -eu
 cd "$(dirname "$0")/.."
 [ $# -gt 0 ] || set -- HEAD
@@ -8,7 +9,9 @@ cd "$(dirname "$0")/.."
 # Files of a revision that are code, under a folder.
 files() { git ls-tree -r --name-only "$1" -- $2 | grep -E '\.(hpp|cpp|inl|comp|vert|frag)$' || true; }
 lines() {
-  files "$1" "$2" | while read -r file; do git show "$1:$file"; done | wc -l
+  revision="$1"; shift
+  for folder; do files "$revision" "$folder"; done |
+    while read -r file; do git show "$revision:$file"; done | wc -l
 }
 headers() { git ls-tree -r --name-only "$1" -- include complexes | grep -c '/\?include/.*\.hpp$' || true; }
 implementation() {  # those that the API reference leaves out: by a list, or in folders named detail
@@ -30,11 +33,14 @@ row() {
 revisions="$*"
 printf '| |'; for r in $revisions; do printf ' %s |' "$(git show -s --format='%h, %as' "$r" | tail -1)"; done
 printf '\n|---|'; for r in $revisions; do printf -- '---:|'; done; printf '\n'
-for folder in include src/kernel src/complex src/metric src/propagate src/executors src/apps src/io src/file \
-  src/render src/any src/cli shaders complexes python/src web/module tests bench examples; do
+library='include src/kernel src/complex src/metric src/propagate src/executors src/apps src/io src/file
+  src/render src/any src/mpi shaders complexes'
+for folder in $library src/cli src/cli_mpi python/src web/module tests bench examples; do
   row "\`$folder\`" lines "$folder"
 done
+row 'the library, `include` to `complexes`' lines $library
 row 'public headers' headers
 row 'of them implementation' implementation
 row 'declarations of `solve`, `solve_each`' verbs 'solve|solve_each'
-row 'of `propagate`, `propagate_each`, `field`, `fields`' verbs 'propagate|propagate_each|field|fields|surface_field|solid_field'
+row 'of `propagate`, `propagate_each`' verbs 'propagate|propagate_each'
+row 'of `field`, `fields`' verbs 'field|fields|surface_field|solid_field'

@@ -3,13 +3,16 @@
 #include <type_traits>
 
 #include <plexway/domain/concept.hpp>
+#include <plexway/domain/support.hpp>
 #include <plexway/executors.hpp>
 #include <plexway/propagate/options.hpp>
 
 /// @file
-/// The table of what goes together, and the sentence that says why something does not.
-// What goes with what. Everything that can be solved, and everything that is refused and why, is
-// decided here and nowhere else.
+/// The table of what goes together. The sentences that say why something does not, and what domains
+/// themselves are asked, are in domain/support.hpp; what files, builds and shapes are, in
+/// any/support.hpp.
+// Everything that can be solved, and everything that is refused and why, is decided in these three
+// and nowhere else; tests/house/one_table_test.cpp looks for other places.
 namespace plexway {
 
 /// What a field starts from, as far as it matters here (source/source.hpp).
@@ -18,167 +21,6 @@ enum class SourceKind {
   point,    ///< a point of a simplex; balls about one
   curve,    ///< a CurveSource of more than one point
   simplex,  ///< a SimplexSource
-};
-
-/// Why not, each in one sentence that says what to do instead. `X(name, sentence)`.
-#define PLEXWAY_REFUSALS(X)                                                                        \
-  X(gl_domain,                                                                                     \
-    "the executor GL takes surfaces, solids, wireframes and clouds: use the executor Serial")      \
-  X(gl_double, "the executor GL computes in single precision: make the domain of float")           \
-  X(gl_lengths,                                                                                    \
-    "the executor GL needs coordinates of a solid, not lengths alone: use the executor Serial")    \
-  X(gl_refraction,                                                                                 \
-    "the executor GL does not refract paths: use the executor Serial, or build the surface with "  \
-    "one length an edge")                                                                          \
-  X(gl_visibility, "the executor GL knows Visibility::saddles only: use another executor")         \
-  X(order,                                                                                         \
-    "the schedule priority needs one thread that takes the nearest label: use the executor "       \
-    "Serial, or the schedules dual_queue or fifo")                                                 \
-  X(mixed_visibility, "mixed domains know the default visibility only")                            \
-  X(mixed_order, "mixed domains are not propagated nearest first: use the dual queue")             \
-  X(table,                                                                                         \
-    "the tuned policy is a table for triangles: use saddles, centroid or upper_bound on other "    \
-    "domains")                                                                                     \
-  X(refraction_visibility,                                                                         \
-    "paths are refracted under Visibility::saddles only: use that, or build the surface with one " \
-    "length an edge")                                                                              \
-  X(paths_simplices,                                                                               \
-    "paths are traced on surfaces, solids, wireframes, clouds and mixed domains: make a complex "  \
-    "of simplices of dimension 1 to 3 one of these")                                               \
-  X(read_out_labels,                                                                               \
-    "distances inside simplices need the labels of the policy saddles, by Serial or OpenMP")       \
-  X(read_out_simplices,                                                                            \
-    "in complexes of simplices distances are read linearly: ask for ReadOut::linear")              \
-  X(read_out_cloud, "a cloud has distances at its points only: take them from the field")          \
-  X(directions_domain,                                                                             \
-    "directions are those in triangles, tetrahedra and simplices: make a surface of the cloud, "   \
-    "and along edges compare the ends")                                                            \
-  X(directions_lengths,                                                                            \
-    "directions in tetrahedra need their coordinates: build the solid with them, or trace paths")  \
-  X(directions_refraction,                                                                         \
-    "directions are not told where paths are refracted: build the surface with one length an "     \
-    "edge, "                                                                                       \
-    "or trace paths")                                                                              \
-  X(simplex_labels_gl,                                                                             \
-    "the executor GL leaves no labels in simplices: use the executor Serial or OpenMP")            \
-  X(simplex_labels_domain,                                                                         \
-    "triangles of surfaces and tetrahedra have labels: elsewhere ask those of the vertices")       \
-  X(search_domain,                                                                                 \
-    "searches that end early are for surfaces: solve other domains, with a radius where one is "   \
-    "known")                                                                                       \
-  X(search_refraction,                                                                             \
-    "searches that end early, and samples, are not refracted: build the surface with one length "  \
-    "an edge")                                                                                     \
-  X(search_visibility, "searches that end early know the default visibility only: saddles")        \
-  X(samples_domain, "points are chosen on surfaces, solids and clouds: make one of these")         \
-  X(samples_lengths,                                                                               \
-    "points are chosen in solids that have coordinates: build the solid with them")                \
-  X(isolines_domain,                                                                               \
-    "isolines are drawn on surfaces, clouds and mixed domains: solids have isosurfaces")           \
-  X(arcs_domain,                                                                                   \
-    "fields are known inside of triangles on surfaces: elsewhere draw straight isolines")          \
-  X(isosurfaces_domain, "isosurfaces are those of solids: other domains have isolines, or none")   \
-  X(pictures_domain, "pictures are of surfaces, solids, wireframes, clouds and mixed domains")     \
-  X(masks_domain,                                                                                  \
-    "masks are for surfaces, solids, wireframes and simplices: leave out what is closed when a "   \
-    "cloud or a mixed domain is made")                                                             \
-  X(metrics_domain,                                                                                \
-    "metrics measure surfaces, solids, wireframes and mixed domains: give simplices their "        \
-    "lengths, and make a surface of a cloud")                                                      \
-  X(metrics_speeds, "mixed domains are measured by speeds only: give one a simplex")               \
-  X(regions_domain,                                                                                \
-    "regions are those of surfaces, solids, wireframes and mixed domains: other domains have "     \
-    "none")                                                                                        \
-  X(triangulations_domain,                                                                         \
-    "only a surface has triangles to flip: leave the triangulation of other domains as it is")     \
-  X(kept_domain,                                                                                   \
-    "prepared files are for surfaces, solids, wireframes and clouds: other domains are built "     \
-    "each time")                                                                                   \
-  X(parts_domain,                                                                                  \
-    "surfaces, solids and clouds are written in parts: write other domains to one file")           \
-  X(volumes_domain, "only the field of a solid fits a .vdb: take another format")                  \
-  X(conversions_domain,                                                                            \
-    "surfaces, solids, wireframes and clouds are converted: take mixed domains and simplices as "  \
-    "they are")                                                                                    \
-  X(boundaries_domain,                                                                             \
-    "boundaries are those of surfaces, solids and wireframes: name the vertices of other domains") \
-  X(margins_domain,                                                                                \
-    "margins are for paths on surfaces and clouds: leave the margin out, other paths have none")   \
-  X(margins_refraction,                                                                            \
-    "refracted paths are pulled taut and not searched for: leave the margin out")                  \
-  X(duals_domain,                                                                                  \
-    "only cells on a surface have a dual triangulation: take the cells of other domains as they "  \
-    "are")                                                                                         \
-  X(error_classes_domain,                                                                          \
-    "errors are told apart by place and shape on surfaces and in solids: elsewhere take their "    \
-    "mean")                                                                                        \
-  X(rows_gl,                                                                                       \
-    "rows are solved one a thread, and what is near is looked for by threads: use the executor "   \
-    "OpenMP or Serial")                                                                            \
-  X(cloud_point, "a source on a cloud is a point by number, not a place in a triangle")            \
-  X(point_of_five,                                                                                 \
-    "a source in four dimensions must be a vertex: a point of a 4-simplex has five coordinates")   \
-  X(shapes,                                                                                        \
-    "curves and simplices as sources are for surfaces and wireframes: name points or vertices "    \
-    "here")                                                                                        \
-  X(shapes_gl,                                                                                     \
-    "the executor GL starts from points and sets of vertices: use the executor Serial for curves " \
-    "and simplices")                                                                               \
-  X(shapes_float,                                                                                  \
-    "labels start from curves and triangles in double precision, since their virtual sources are " \
-    "far away: make the domain of double, or ask for windows (accurate)")                          \
-  X(shapes_threads,                                                                                \
-    "labels start from curves and triangles on the executor Serial: use that, or ask for windows " \
-    "(accurate)")                                                                                  \
-  X(shapes_visibility,                                                                             \
-    "curves and triangles as sources need labels with limits: use the policy saddles")             \
-  X(windows_domain,                                                                                \
-    "accuracies other than fast are for surfaces and clouds: other domains have one, ask for "     \
-    "fast")                                                                                        \
-  X(windows_gl,                                                                                    \
-    "the executor GL keeps one label a triangle: use the executor Serial, or the accuracy fast")   \
-  X(windows_refraction, "windows are not refracted: use the accuracy fast")                        \
-  X(windows_visibility,                                                                            \
-    "windows know what they see: use the policy saddles, or the accuracy fast")                    \
-  X(windows_labels,                                                                                \
-    "the step of the dual queue and `vectorised` are of labels: leave them as they are, or use "   \
-    "the accuracy fast")                                                                           \
-  X(windows_float,                                                                                 \
-    "exact distances need double precision: make the domain of double, or ask for accurate")
-
-#define PLEXWAY_NAME(name, sentence) name,
-/// The reasons of PLEXWAY_REFUSALS by name; `nothing` is none.
-enum class Refusal { nothing, PLEXWAY_REFUSALS(PLEXWAY_NAME) };
-#undef PLEXWAY_NAME
-
-/// Yes, or the reason why not.
-class Support {
- public:
-  /// Yes, unless there is a reason.
-  constexpr Support(Refusal refusal = Refusal::nothing) : refusal_(refusal) {}
-
-  /// Does it go together?
-  [[nodiscard]] constexpr explicit operator bool() const { return refusal_ == Refusal::nothing; }
-  /// The reason by name.
-  [[nodiscard]] constexpr Refusal refusal() const { return refusal_; }
-  /// One sentence; empty for yes.
-  [[nodiscard]] constexpr const char* sentence() const {
-    switch (refusal_) {
-      case Refusal::nothing:
-        break;
-#define PLEXWAY_CASE(name, sentence) \
-  case Refusal::name:                \
-    return sentence;
-        PLEXWAY_REFUSALS(PLEXWAY_CASE)
-#undef PLEXWAY_CASE
-    }
-    return "";
-  }
-  /// Throws UsageError with the sentence unless it is yes.
-  void require() const;
-
- private:
-  Refusal refusal_;
 };
 
 /// A cell of the table: what a field is to be solved on, by what, from what and how.
@@ -202,6 +44,8 @@ struct Combination {
   Accuracy::Kind accuracy = Accuracy::Kind::usual;
   /// Is an option given that only labels know: a step, or not vectorised?
   bool label_options = false;
+  /// Do its vertices have positions in space? Else purposes that draw or measure there have none.
+  bool positions = true;
 };
 
 /// Could windows solve it (Accuracy)? Else why not. A team takes them in pieces, or has one thread
@@ -296,7 +140,7 @@ template <ExecutorType E, DomainType D>
   X(pictures, "ShapeScene, and pages to turn")                                         \
   X(masks, "BuildOptions::mask")                                                       \
   X(metrics, "AnyShape::measure")                                                      \
-  X(tensors, "AnyShape::measure by anything but speeds")                               \
+  X(tensors, "AnyShape::measure by tensors")                                           \
   X(regions, "AnyShape::regions")                                                      \
   X(triangulations, "other triangles than the shape's, BuildOptions::triangulation")   \
   X(kept_builds, "AnyDomain::keep")                                                    \
@@ -308,21 +152,37 @@ template <ExecutorType E, DomainType D>
   X(margins, "TraceOptions::margin")                                                   \
   X(duals, "the dual triangulation of cells, 'plexway cvt --dual'")                    \
   X(error_classes, "errors by place and shape, 'plexway bench --anatomy'")             \
-  X(rows, "all_pairs and near_pairs (any/pairs.hpp)")
+  X(rows, "all_pairs and near_pairs (any/pairs.hpp)")                                  \
+  X(ranks, "OpenMP::ranks, by pieces where a domain has some")                         \
+  X(pieces, "MixedComplex::add")                                                       \
+  X(places, "AnyShape::closest and AnyShape::position")                                \
+  X(astar, "find_paths (any/search.hpp), 'plexway path --astar'")                      \
+  X(darts, "poisson_disks by DartOrder::simplices")                                    \
+  X(given_lengths, "AnyShape::measure by metric::GivenLengths")
 
 #define PLEXWAY_NAME(name, what) name,
 /// The purposes of PLEXWAY_PURPOSES by name.
 enum class Purpose { PLEXWAY_PURPOSES(PLEXWAY_NAME) };
 #undef PLEXWAY_NAME
 
-/// Does a purpose go together with a domain, and with the solve that left what it asks? Schedule,
-/// precision, sources and accuracy do not matter.
+/// Does a purpose draw or measure in space?
+constexpr bool needs_positions(Purpose purpose) {
+  using enum Purpose;
+  return purpose == directions || purpose == isolines || purpose == arcs ||
+         purpose == isosurfaces || purpose == pictures || purpose == parts || purpose == volumes ||
+         purpose == lines || purpose == places;
+}
+
+/// Does a purpose go together with a domain, and with the solve that left what it asks? Precision
+/// and kinds of sources do not matter (those: support_of_sources); schedule, step and accuracy do
+/// for searches alone.
 constexpr Support support(Purpose purpose, const Combination& c) {
   using enum DomainKind;
   const bool refracting = c.metric == MetricKind::refracting;
   const bool saddles = c.visibility == Visibility::saddles, gl = c.executor == ExecutorKind::gl;
   const bool by_lengths = c.domain == solid && c.metric != MetricKind::embedded;
   const bool labels = saddles && !gl;
+  const bool windows = c.accuracy == Accuracy::Kind::merged || c.accuracy == Accuracy::Kind::exact;
   switch (purpose) {
     case Purpose::paths:
       if (c.domain == simplices) return Refusal::paths_simplices;
@@ -349,13 +209,22 @@ constexpr Support support(Purpose purpose, const Combination& c) {
       if (c.domain != surface) return Refusal::search_domain;
       if (refracting) return Refusal::search_refraction;
       if (!saddles) return Refusal::search_visibility;
+      if (windows) return Refusal::search_accuracy;
       break;
+    case Purpose::astar:
+      if (c.executor != ExecutorKind::serial || c.schedule != Schedule::dual_queue ||
+          c.label_options)
+        return Refusal::search_order;
+      return support(Purpose::searches, c);
     case Purpose::samples:
       if (c.domain != surface && c.domain != solid && c.domain != cloud)
         return Refusal::samples_domain;
       if (refracting) return Refusal::search_refraction;
       if (by_lengths) return Refusal::samples_lengths;
       break;
+    case Purpose::darts:
+      if (c.domain == cloud) return Refusal::darts_cloud;
+      return support(Purpose::samples, c);
     case Purpose::isolines:
       if (c.domain != surface && c.domain != cloud && c.domain != mixed)
         return Refusal::isolines_domain;
@@ -374,9 +243,14 @@ constexpr Support support(Purpose purpose, const Combination& c) {
       break;
     case Purpose::metrics:
       if (c.domain == cloud || c.domain == simplices) return Refusal::metrics_domain;
+      if (!c.positions && c.domain != wireframe) return Refusal::metrics_lengths;
       break;
+    case Purpose::given_lengths:
+      if (c.domain == mixed) return Refusal::metrics_speeds;
+      return support(Purpose::metrics, c);
     case Purpose::tensors:
       if (c.domain == mixed) return Refusal::metrics_speeds;
+      if (!c.positions && c.domain == wireframe) return Refusal::metrics_lengths;
       return support(Purpose::metrics, c);
     case Purpose::regions:
       if (c.domain == cloud || c.domain == simplices) return Refusal::regions_domain;
@@ -417,8 +291,15 @@ constexpr Support support(Purpose purpose, const Combination& c) {
     case Purpose::rows:
       if (gl) return Refusal::rows_gl;
       break;
+    case Purpose::ranks:
+      if (c.executor != ExecutorKind::openmp) return Refusal::ranks_executor;
+      break;
+    case Purpose::pieces:
+      return support_of_piece(c.domain, c.metric);
+    case Purpose::places:
+      break;
   }
-  return Support();
+  return needs_positions(purpose) && !c.positions ? Refusal::positions : Refusal::nothing;
 }
 /// Where only the kind of the domain is known: counts as it is best.
 constexpr Support support(Purpose purpose, DomainKind domain,
@@ -434,22 +315,27 @@ constexpr Support support(Purpose purpose, DomainKind domain,
 template <DomainType D>
 [[nodiscard]] constexpr Support support(Purpose purpose, const D& domain,
                                         Visibility visibility = Visibility::saddles,
-                                        ExecutorKind executor = ExecutorKind::serial) {
+                                        ExecutorKind executor = ExecutorKind::serial,
+                                        bool positions = true,
+                                        Accuracy::Kind accuracy = Accuracy::Kind::usual) {
   return support(purpose, {.executor = executor,
                            .domain = D::kind,
                            .dimension = D::dimension,
                            .single_precision = std::is_same_v<typename D::Number, float>,
                            .metric = domain.metric(),
-                           .visibility = visibility});
+                           .visibility = visibility,
+                           .accuracy = accuracy,
+                           .positions = positions});
 }
 
-/// Can what is one kind as a file has it be taken as another (ReadOptions::as)? A level set, which
-/// is a solid, as its surface, too.
-constexpr bool taken_as(DomainKind held, DomainKind wanted, bool level_set = false) {
-  using enum DomainKind;
-  if (held == wanted) return true;
-  if (held == surface) return wanted == solid || wanted == wireframe || wanted == cloud;
-  return held == solid && (wanted == wireframe || (level_set && wanted == surface));
+/// What a purpose starts from: points alone, or vertex sets, balls, curves or simplices among them.
+/// (In C++ types tell; programs that take any source ask.)
+constexpr Support support_of_sources(Purpose purpose, bool only_points) {
+  const bool by_points = purpose == Purpose::paths || purpose == Purpose::read_out ||
+                         purpose == Purpose::directions || purpose == Purpose::searches ||
+                         purpose == Purpose::astar || purpose == Purpose::samples ||
+                         purpose == Purpose::darts;
+  return by_points && !only_points ? Refusal::points_alone : Refusal::nothing;
 }
 
 /// Is there anything that an executor solves on a domain?

@@ -572,7 +572,7 @@ class Domain:
     # -- What people do with distances.
 
     def isolines(self, distance: ArrayLike, values: ArrayLike) -> List[Path]:
-        """Lines on a surface where a field has given values.
+        """Lines on a surface, a cloud's sheet or a mixed domain where a field has given values.
 
         Parameters
         ----------
@@ -585,7 +585,7 @@ class Domain:
         -------
         list of Path
             Value by value; `Path.source` is the place of its value. Closed lines end where they
-            begin.
+            begin. Of a cloud `Path.simplices` are triangles of its sheet.
         """
         lines = _plexway.isolines(self._native, distance, np.atleast_1d(np.asarray(values, float)))
         return [Path(*line) for line in lines]

@@ -62,13 +62,6 @@ std::vector<PointSource> Domain::outside(std::vector<PointSource> points) const 
   return points;
 }
 
-Path Domain::outside(Path path) const {
-  if (const OpenSimplices* const open = any_.open_simplices())
-    for (PathPoint& at : path.points)
-      if (at.simplex != none) at.simplex = open->outside(at.simplex);
-  return path;
-}
-
 std::size_t Domain::bytes() const {
   const std::scoped_lock lock(mutex_);
   return any_.bytes() + (twice_ ? twice_->bytes() : 0);

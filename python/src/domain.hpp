@@ -28,8 +28,6 @@ class Domain {
   [[nodiscard]] PointSource inside(const PointSource& point) const;
   [[nodiscard]] PointSource outside(const PointSource& point) const;
   [[nodiscard]] std::vector<PointSource> outside(std::vector<PointSource> points) const;
-  /// The same of the corners of a path.
-  [[nodiscard]] Path outside(Path path) const;
   /// The domain that takes these sources and options: where they need double precision, and this
   /// has single, another one, built when it is first needed and then kept.
   [[nodiscard]] const AnyDomain& for_sources(const AnyExecutor& executor, const SourceList& sources,
@@ -64,8 +62,8 @@ class Sources {
   [[nodiscard]] SourceList list() const {
     return points_.empty() ? SourceList(sources_) : SourceList(points_);
   }
-  /// UsageError unless all are points; `what` is for the message.
-  [[nodiscard]] std::span<const PointSource> points(const char* what) const;
+  /// UsageError unless all are points where the purpose needs them.
+  [[nodiscard]] std::span<const PointSource> points(Purpose purpose) const;
 
  private:
   std::vector<Source> sources_;

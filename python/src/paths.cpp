@@ -52,7 +52,7 @@ std::shared_ptr<Field> path_field(const std::shared_ptr<Domain>& domain, std::ve
   return watch.run([&] {
     return std::make_shared<Field>(
         Field{domain, domain->for_sources(executor, sources.list(), options)
-                          .path_field(executor, sources.points("paths"), options)});
+                          .path_field(executor, sources.points(Purpose::paths), options)});
   });
 }
 
@@ -72,10 +72,10 @@ py::list isolines(const Domain& domain, const py::object& distance, const py::ob
   std::vector<Path> lines;
   {
     const py::gil_scoped_release free;
-    lines = domain.open().isolines(field, wanted);
+    lines = plexway::isolines(domain.any(), field, wanted);
   }
   py::list list;
-  for (Path& line : lines) list.append(told(domain.outside(std::move(line))));
+  for (Path& line : lines) list.append(told(std::move(line)));
   return list;
 }
 

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include <plexway/any/scene.hpp>
+#include <plexway/any/support.hpp>
 #include <plexway/error.hpp>
 
 #include "arrays.hpp"
@@ -24,8 +25,7 @@ py::array_t<std::uint8_t> picture(const Domain& domain, const py::object& distan
                                   std::size_t width, std::size_t height, const py::object& view,
                                   const py::object& isolines, const std::string& map,
                                   bool transparent, const std::string& title, bool clip) {
-  if (domain.shape().positions().empty())
-    throw UsageError("there is nothing to draw: the vertices have no positions in space");
+  support(Purpose::pictures, domain.shape()).require();
   std::vector<double> value;
   if (!distance.is_none()) value = numbers_of(distance, "distance");
   SceneContent content;

@@ -48,7 +48,7 @@ py::tuple poisson(const Domain& domain, double radius, std::size_t count, std::u
 py::tuple farthest(const Domain& domain, std::vector<Source> given, std::size_t count,
                    double radius, py::object progress) {
   const Sources start(std::move(given));
-  const std::vector<PointSource> points = inside(domain, start.points("farthest points"));
+  const std::vector<PointSource> points = inside(domain, start.points(Purpose::samples));
   Watch watch(std::move(progress));
   FarthestOptions options;
   options.count = count;
@@ -66,7 +66,7 @@ py::tuple farthest(const Domain& domain, std::vector<Source> given, std::size_t 
 py::tuple cvt(const Domain& domain, std::vector<Source> given, std::size_t iterations,
               double tolerance, py::object progress) {
   const Sources seeds(std::move(given));
-  const std::vector<PointSource> points = inside(domain, seeds.points("cells"));
+  const std::vector<PointSource> points = inside(domain, seeds.points(Purpose::samples));
   Watch watch(std::move(progress));
   VoronoiOptions options;
   options.max_iterations = iterations;

@@ -18,9 +18,8 @@ Sources::Sources(std::vector<Source> sources) : sources_(std::move(sources)) {
   if (points_.size() != sources_.size()) points_.clear();
 }
 
-std::span<const PointSource> Sources::points(const char* what) const {
-  if (points_.empty() && !sources_.empty())
-    throw UsageError(std::string(what) + " start from vertices and points alone");
+std::span<const PointSource> Sources::points(Purpose purpose) const {
+  support_of_sources(purpose, points_.size() == sources_.size()).require();
   return points_;
 }
 

@@ -408,6 +408,16 @@ def test_isolines_and_isosurfaces():
     for line in lines:
         assert np.abs(line.points[:, 0] - [0.31, 0.77][line.source]).max() < 1e-12
         assert line.length == pytest.approx(1)
+    try:
+        sheet = px.Cloud(V)
+    except px.NotBuilt:
+        sheet = None
+    if sheet is not None:  # straight in the triangles of its sheet, numbers rounded to single
+        lines = sheet.isolines(V[:, 0], [0.31, 0.77])
+        assert sorted({line.source for line in lines}) == [0, 1]
+        for line in lines:
+            assert np.abs(line.points[:, 0] - [0.31, 0.77][line.source]).max() < 1e-6
+            assert line.length == pytest.approx(1, abs=1e-5)
     V, T = meshes.kuhn(5, 3)
     found = px.Solid(V, T).isosurfaces(V[:, 2], 0.43)
     assert np.abs(found.positions[:, 2] - 0.43).max() < 1e-12

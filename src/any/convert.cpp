@@ -5,6 +5,7 @@
 #include <variant>
 
 #include <plexway/any/shape.hpp>
+#include <plexway/any/support.hpp>
 #include <plexway/error.hpp>
 #include <plexway/io/edges.hpp>
 #include <plexway/io/points.hpp>
@@ -46,9 +47,9 @@ class Conversion : public Converted {
     stage("reading " + input_);
     const VolumeOptions& volume = options_.volume;
     if (options_.fill.given() || volume.repair || volume.voxel || !volume.grid.empty())
-      throw UsageError(input_ +
-                       ": points are copied as they are: --repair, --voxel, --grid and what TetGen "
-                       "is told mean nothing here");
+      require(input_,
+              support(Reading::voxel,
+                      {.held = DomainKind::cloud, .wanted = DomainKind::cloud, .copied = true}));
     if (!among(io::point_output_extensions(), extension_))
       cannot("cloud", io::point_output_extensions());
     io::Points points;

@@ -5,9 +5,9 @@
 #include <utility>
 #include <variant>
 
+#include <plexway/any/support.hpp>
 #include <plexway/apps/path_field.hpp>
 #include <plexway/solve.hpp>
-#include <plexway/support.hpp>
 
 #include "any/shape_state.hpp"
 #include "any/walls.hpp"
@@ -79,8 +79,7 @@ std::vector<PointSource> rim_lines(const io::Triangles& surface) {
 }  // namespace
 
 CurveSource AnyShape::joined(std::span<const PointSource> points) const {
-  support(Purpose::lines, kind()).require();
-  if (positions().empty()) throw UsageError("lines go along shapes that have positions");
+  support(Purpose::lines, *this).require();
   if (points.empty()) throw UsageError("a line needs at least one point");
   return with_file_name(*this, [&]() -> CurveSource {
     if (const auto* surface = std::get_if<io::Triangles>(&data())) {

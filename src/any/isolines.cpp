@@ -1,26 +1,46 @@
 #include <plexway/any/isolines.hpp>
 
+#include <array>
+#include <type_traits>
 #include <variant>
+#include <vector>
 
 #include <plexway/any/complex.hpp>
+#include <plexway/any/support.hpp>
 #include <plexway/apps/isolines.hpp>
-#include <plexway/error.hpp>
-#include <plexway/support.hpp>
 
 namespace plexway {
 namespace {
 
-// What holds the shape, if a purpose goes together with its kind. UsageError without positions.
+// What holds the shape, if a purpose goes together with it.
 template <class Data>
 const Data& data_for(Purpose purpose, const AnyShape& shape) {
-  support(purpose, shape.kind()).require();
-  const auto& data = std::get<Data>(shape.data());
-  if (data.positions.empty()) throw UsageError("lines and surfaces of a field need positions");
-  return data;
+  support(purpose, shape).require();
+  return std::get<Data>(shape.data());
 }
 
 const io::Triangles& surface_of(const AnyShape& shape) {
   return data_for<io::Triangles>(Purpose::arcs, shape);
+}
+
+// Triangles of a shape, with their numbers among all simplices.
+struct Triangles {
+  std::vector<std::array<Index, 3>> corners;
+  std::vector<Index> number;
+};
+
+// Lines on the sheet of a cloud.
+std::vector<Path> on_sheet(const AnyDomain& domain, std::span<const std::array<double, 3>> points,
+                           std::span<const double> distance, std::span<const double> values) {
+  std::vector<Path> lines;
+  const auto along = [&]<class Real>(const PointCloud<Real>& sheet) {
+    const std::vector<Real> rounded(distance.begin(), distance.end());
+    lines = isolines(sheet, points, std::span<const Real>(rounded), values);
+  };
+  with_complex(domain, [&](const auto& complex) {
+    if constexpr (std::decay_t<decltype(complex)>::kind == DomainKind::cloud) along(complex);
+  });
+  return lines;
 }
 
 DistanceInside inside(const AnyPathField& field) {
@@ -50,19 +70,40 @@ Isosurfaces isosurfaces(const AnyShape& shape, std::span<const double> distance,
   return isosurfaces(solid.positions, solid.tets, distance, values);
 }
 
+std::vector<Path> isolines(const AnyDomain& domain, std::span<const double> distance,
+                           std::span<const double> values) {
+  const AnyShape& shape = domain.shape();
+  support(Purpose::isolines, shape).require();
+  if (const CloudShape* const cloud = shape.cloud())
+    return on_sheet(domain, cloud->measured(), distance, values);
+  Triangles open;
+  Index simplex = 0;
+  const auto take = [&](std::span<const std::array<Index, 3>> triangles) {
+    for (const auto& triangle : triangles) {
+      if (domain.open_simplices() == nullptr || domain.open_simplices()->inside(simplex) != none) {
+        open.corners.push_back(triangle);
+        open.number.push_back(simplex);
+      }
+      ++simplex;
+    }
+  };
+  if (const auto* const surface = std::get_if<io::Triangles>(&shape.data()))
+    take(surface->triangles);
+  else
+    for (const MixedShape::Part& part : std::get<MixedShape>(shape.data()).parts) {
+      simplex += static_cast<Index>(part.edges.size());
+      take(part.triangles);
+      simplex += static_cast<Index>(part.tets.size());
+    }
+  std::vector<Path> lines = isolines(shape.positions(), open.corners, distance, values);
+  for (Path& line : lines)
+    for (PathPoint& point : line.points) point.simplex = open.number[point.simplex];
+  return lines;
+}
+
 std::vector<Path> isolines(const AnyDomain& domain, const AnyField& field,
                            std::span<const double> values) {
-  const CloudShape* cloud = domain.shape().cloud();
-  if (cloud == nullptr) return domain.shape().isolines(field.doubles(), values);
-  std::vector<Path> lines;
-  const auto along = [&]<class Real>(const PointCloud<Real>& sheet) {
-    const auto& found = std::get<DistanceField<Real>>(field.data);
-    lines = isolines(sheet, cloud->measured(), std::span<const Real>(found.distance), values);
-  };
-  with_complex(domain, [&](const auto& complex) {
-    if constexpr (std::decay_t<decltype(complex)>::kind == DomainKind::cloud) along(complex);
-  });
-  return lines;
+  return isolines(domain, field.doubles(), values);
 }
 
 }  // namespace plexway

@@ -7,6 +7,7 @@
 #include <utility>
 #include <variant>
 
+#include <plexway/any/support.hpp>
 #include <plexway/any_domain.hpp>
 #include <plexway/error.hpp>
 
@@ -157,12 +158,7 @@ bool is_kept_build(const std::filesystem::path& file) {
 }
 
 void write_kept_shape(KeptOut& out, const AnyShape& shape, const BuildOptions& options) {
-  if (options.lengths != nullptr)
-    throw UsageError(
-        "a domain measured by a metric cannot be kept: its shape does not tell the "
-        "lengths");
-  if (options.mask != nullptr)
-    throw UsageError("a domain with a mask cannot be kept: keep it without, and mask it then");
+  support_of_keeping(shape.kind(), options.lengths != nullptr, options.mask != nullptr).require();
   const AnyShape::State& state = shape.state();
   DomainKind kind = shape.kind();
   Precision precision = options.precision;

@@ -63,9 +63,7 @@ void write_level_sets(const std::filesystem::path& out, const AnyShape& shown,
   if (support(Purpose::isosurfaces, shown.kind()))
     return write_isosurfaces(out, shown, field.doubles(), values);
   const std::vector<Path> lines = paths != nullptr ? isolines(shown, *paths, values, tolerance)
-                                  : shown.cloud() != nullptr
-                                      ? isolines(domain, field, values)
-                                      : shown.isolines(field.doubles(), values);
+                                                   : isolines(domain, field, values);
   io::write_isolines(out, lines, values);
 }
 

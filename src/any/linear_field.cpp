@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include <plexway/any/support.hpp>
 #include <plexway/error.hpp>
 
 #include "complex/point3.hpp"
@@ -58,7 +59,7 @@ class LinearField final : public AnyPathField::State {
   // rise is the gradient's component.
   std::vector<std::array<double, 3>> gradient() const override {
     const auto positions = shape_.positions();
-    if (positions.empty()) throw UsageError("directions in space need positions");
+    support(Purpose::directions, shape_).require();
     std::vector<std::array<double, 3>> all(shape_.simplices(), {0, 0, 0});
     const OpenSimplices* const open = domain_->open();
     for (std::size_t s = 0; s < all.size(); ++s) {

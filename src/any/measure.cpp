@@ -3,7 +3,7 @@
 #include <utility>
 #include <variant>
 
-#include <plexway/support.hpp>
+#include <plexway/any/support.hpp>
 
 #include "any/shape_state.hpp"
 
@@ -35,17 +35,15 @@ std::vector<double> measure_lengths(const io::Edges& wireframe, const metric::Me
     const std::vector<metric::Point> anywhere(wireframe.vertices);
     return metric::edge_lengths(anywhere, wireframe.edges, metric);
   }
-  const auto* speeds = std::get_if<metric::SimplexSpeeds>(&metric);
-  if (speeds == nullptr)
-    throw UsageError("tensors measure directions, and this wireframe has no positions");
+  const auto& speed = std::get<metric::SimplexSpeeds>(metric).speed;
   std::vector<double> lengths = wireframe.lengths;
-  if (speeds->speed.size() != lengths.size())
-    throw InputError(std::to_string(speeds->speed.size()) + " speeds for " +
+  if (speed.size() != lengths.size())
+    throw InputError(std::to_string(speed.size()) + " speeds for " +
                      std::to_string(lengths.size()) + " edges");
   for (std::size_t e = 0; e < lengths.size(); ++e) {
-    if (!(speeds->speed[e] > 0))
+    if (!(speed[e] > 0))
       throw InputError("edge " + std::to_string(e) + ": a speed must be above 0");
-    lengths[e] /= speeds->speed[e];
+    lengths[e] /= speed[e];
   }
   return lengths;
 }
@@ -86,12 +84,13 @@ bool has_regions(const io::Tets& solid, const metric::Metric& metric) {
 
 MeasuredLengths AnyShape::measure(const metric::Metric& metric) const {
   const bool speeds = std::holds_alternative<metric::SimplexSpeeds>(metric);
-  support(speeds ? Purpose::metrics : Purpose::tensors, kind()).require();
+  const bool given = std::holds_alternative<metric::GivenLengths>(metric);
+  support(speeds  ? Purpose::metrics
+          : given ? Purpose::given_lengths
+                  : Purpose::tensors,
+          *this)
+      .require();
   MeasuredLengths lengths;
-  if ((kind() == DomainKind::surface || kind() == DomainKind::solid) && positions().empty())
-    throw UsageError(
-        "a metric is measured between positions, and there are lengths alone: measure "
-        "them by it before");
   if (const auto* surface = std::get_if<io::Triangles>(&data())) {
     lengths.refracts = keeps_sides(metric);
     lengths.triangles = metric::triangle_lengths(surface->positions, surface->triangles, metric);

@@ -8,8 +8,8 @@
 #include <variant>
 #include <vector>
 
+#include <plexway/any/support.hpp>
 #include <plexway/error.hpp>
-#include <plexway/support.hpp>
 
 #include "any/arguments/require.hpp"
 #include "any/shape_state.hpp"
@@ -66,9 +66,7 @@ void write_partitioned(const AnyShape& shape, const std::filesystem::path& file,
 }
 
 void check_partitioned(const AnyShape& shape, const std::filesystem::path& file) {
-  require(file.string(), support(Purpose::parts, shape.kind()));
-  if (shape.positions().empty())
-    throw UsageError(file.string() + ": a .pvtu holds positions, and there are lengths alone");
+  require(file.string(), support(Purpose::parts, shape));
 }
 
 }  // namespace plexway

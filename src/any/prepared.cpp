@@ -7,6 +7,7 @@
 #include <type_traits>
 #include <utility>
 
+#include <plexway/any/support.hpp>
 #include <plexway/apps/mixed_path_field.hpp>
 #include <plexway/error.hpp>
 
@@ -99,10 +100,8 @@ class PreparedSurface final : public PreparedKind<TriangleMesh<Real>> {
       return;
     }
     if (!sources.only_points() && has_shapes(sources.sources())) {
-      if (!left_open_)
-        throw UsageError(
-            "curves and triangles lie in the triangles of the shape: leave its triangulation as "
-            "it is");
+      support(left_open_ ? Triangulation::automatic : Triangulation::delaunay, SourceKind::curve)
+          .require();
       field.triangulation = {};
       solve_on(executor, input(), sources, options, room, found);
       return;

@@ -4,10 +4,11 @@
 #include <system_error>
 #include <utility>
 
+#include <plexway/any/support.hpp>
 #include <plexway/error.hpp>
 #include <plexway/io/mixed.hpp>
-#include <plexway/support.hpp>
 
+#include "any/arguments/require.hpp"
 #include "any/fill.hpp"
 #include "any/kept_build.hpp"
 #include "any/openvdb_functions.hpp"
@@ -121,9 +122,48 @@ bool is_read_as_cloud(const std::string& file, std::optional<DomainKind> asked) 
   return !asked && io::is_ply_cloud(file);
 }
 
-[[noreturn]] void cannot_be(const std::string& file, DomainKind natural, DomainKind wanted) {
-  throw InputError(file + ": is a " + std::string(kind_noun(natural)) +
-                   ", which cannot be taken as a " + std::string(kind_noun(wanted)));
+FileForm form_of(const std::string& file) {
+  return is_kept_build(file) ? FileForm::prepared
+         : is_vdb(file)      ? FileForm::level_set
+         : is_poly(file)     ? FileForm::boundary
+                             : FileForm::plain;
+}
+
+// What of the options goes together with a file, by the table (any/support.hpp).
+void check_use(const ReadOptions& options, const std::string& file, FileUse use) {
+  const auto name = [&](std::string_view field) { return spelled(options.spelling, field); };
+  const auto ask = [&](bool given, Reading reading, const std::string& names) {
+    if (given) require(names, support(reading, use));
+  };
+  const std::string as = name("as") + " ";
+  use.repaired = options.volume.repair;
+  use.writes_volume = options.volume.writes_volume;
+  ask(!options.volume.grid.empty(), Reading::grid, name("grid"));
+  if (use.form == FileForm::prepared || use.several)
+    ask(options.as.has_value(), Reading::kind, file + ": " + name("as"));
+  ask(options.volume.repair, Reading::repair, name("repair"));
+  ask(options.cloud.given(), Reading::connecting,
+      name("k") + ", " + name("neighbour_radius") + ", " + name("max_normal_angle") + ", " +
+          name("denoise") + " and " + name("smooth") + " go with " + as +
+          std::string(kind_name(DomainKind::cloud)));
+  ask(options.fill.given(), Reading::filling,
+      name("max_volume") + ", " + name("quality") + ", " + name("keep_surface") + ", " +
+          name("max_seconds") + " and " +
+          name(options.spelling == Spelling::flags ? "hole" : "holes") + " go with " + as +
+          std::string(kind_name(DomainKind::solid)));
+  ask(options.volume.voxel.has_value(), Reading::voxel, name("voxel"));
+}
+
+void check_kind(const std::string& file, const FileUse& use) {
+  require_input(file + ": is a " + std::string(kind_noun(use.held)) +
+                    ", which cannot be taken as a " + std::string(kind_noun(use.wanted)),
+                support(Reading::kind, use));
+}
+
+// May what a file holds be a part of a mixed domain?
+void check_part(const std::string& file, FileUse use) {
+  use.several = true;
+  require_input(file, support(Reading::joining, use));
 }
 
 // One more file of a mixed domain.
@@ -138,13 +178,16 @@ void append(Kind data, const std::string& file, MixedShape& shape) {
   } else if constexpr (std::is_same_v<Kind, io::Tets>) {
     part.tets = std::move(data.tets);
   } else if constexpr (std::is_same_v<Kind, io::Edges>) {
-    if (positions.empty())
-      throw InputError(file + ": has lengths alone; parts of a mixed domain need positions");
+    check_part(file, {.held = DomainKind::wireframe,
+                      .wanted = DomainKind::mixed,
+                      .positions = !positions.empty()});
     part.edges = std::move(data.edges);
   } else if constexpr (std::is_same_v<Kind, MixedShape>) {
     part = std::move(data.parts.front());
   } else {
-    throw InputError(file + ": a mixed domain is made of surfaces, solids and wireframes");
+    check_part(
+        file, {.held = std::is_same_v<Kind, CloudShape> ? DomainKind::cloud : DomainKind::simplices,
+               .wanted = DomainKind::mixed});
   }
   part.first_vertex = shape.positions.size();
   part.vertices = positions.size();
@@ -160,9 +203,9 @@ void append(Kind data, const std::string& file, MixedShape& shape) {
 }
 
 // Makes a shape of a file; what is asked for is in `options`.
-class Reading {
+class ShapeFile {
  public:
-  Reading(std::string file, const ReadOptions& options)
+  ShapeFile(std::string file, const ReadOptions& options)
       : file_(std::move(file)), options_(options) {}
 
   AnyShape::State read();
@@ -177,8 +220,6 @@ class Reading {
   void begin(const std::string& what) const {
     if (options_.progress.stage) options_.progress.stage(what);
   }
-  void check_cloud_options(DomainKind wanted) const;
-  void refuse_preparation() const;
   void take_level_set(bool surface);
   void fill();
 
@@ -187,31 +228,15 @@ class Reading {
   AnyShape::State state_;
 };
 
-void Reading::check_cloud_options(DomainKind wanted) const {
-  if (!options_.cloud.given() || wanted == DomainKind::cloud) return;
-  throw UsageError(name("k") + ", " + name("neighbour_radius") + ", " + name("max_normal_angle") +
-                   ", " + name("voxel") + ", " + name("denoise") + " and " + name("smooth") +
-                   " need a cloud: a file of points, or a surface with " + as(DomainKind::cloud));
-}
-
-void Reading::refuse_preparation() const {
-  if (options_.as || options_.fill.given() || options_.cloud.given() || options_.volume.repair ||
-      (options_.volume.voxel && !options_.volume.writes_volume))
-    throw UsageError(file_ + ": is prepared already: " + name("as") +
-                     " and what fills, repairs and connects points go with the file that it was "
-                     "made of");
-}
-
-AnyShape::State Reading::read() {
+AnyShape::State ShapeFile::read() {
   const VolumeOptions& volume = options_.volume;
   const std::optional<DomainKind> asked = options_.as;
   check(options_);
   state_.file = file_;
   state_.voxel = volume.voxel.value_or(0);
-  if (!volume.grid.empty() && !is_vdb(file_))
-    throw UsageError(name("grid") + " needs a .vdb: other files have no grids");
-  if (is_kept_build(file_)) {
-    refuse_preparation();
+  const FileForm form = form_of(file_);
+  if (form == FileForm::prepared) {
+    check_use(options_, file_, {DomainKind::surface, DomainKind::surface, form});
     AnyShape::State kept = read_kept_build(std::filesystem::path(file_));
     if (volume.voxel) kept.voxel = *volume.voxel;
     return kept;
@@ -222,6 +247,8 @@ AnyShape::State Reading::read() {
     throw InputError(file_ + ": a " + io::InputName(file_).extension +
                      " must be a file with that extension: it is not read from end to end, or not "
                      "alone");
+  if (!volume.grid.empty())  // before a file is read that has none
+    require(name("grid"), support(Reading::grid, {DomainKind::solid, DomainKind::solid, form}));
   begin("reading " + file_);
   const Stopwatch loading;
   bool is_cloud = is_read_as_cloud(file_, asked);
@@ -244,24 +271,14 @@ AnyShape::State Reading::read() {
                                  ? DomainKind::solid
                                  : static_cast<DomainKind>(state_.data.index());
   const DomainKind wanted = asked.value_or(natural);
-  if (!taken_as(natural, wanted, is_vdb(file_))) cannot_be(file_, natural, wanted);
-  if (volume.repair && (natural != DomainKind::surface || wanted == DomainKind::cloud))
-    throw UsageError(name("repair") + " needs a surface, and takes it as a surface or as a solid");
-  check_cloud_options(wanted);
+  const FileUse use{natural, wanted, form};
+  check_kind(file_, use);
+  check_use(options_, file_, use);
 
   const bool wants_solid = natural == DomainKind::surface && wanted == DomainKind::solid;
   // Without a word about how TetGen should do it, a repaired solid is cut from its level set.
   const bool cut = is_vdb(file_) || (volume.repair && !(wants_solid && options_.fill.given()));
   const bool fills = is_poly(file_) || (wants_solid && !cut);
-  if (options_.fill.given() && !fills)
-    throw UsageError(name("max_volume") + ", " + name("quality") + ", " + name("keep_surface") +
-                     ", " + name("max_seconds") + " and " +
-                     name(options_.spelling == Spelling::flags ? "hole" : "holes") +
-                     " need a surface to fill: give one with " + as(DomainKind::solid));
-  if (volume.voxel && !cut && !volume.repair && !volume.writes_volume &&
-      wanted != DomainKind::cloud)
-    throw UsageError(name("voxel") + " needs a cloud, " + name("repair") +
-                     ", or a .vdb to read or to write");
   if (cut || volume.repair)
     take_level_set(fills || wanted == DomainKind::surface ||
                    (natural == DomainKind::surface && wanted != DomainKind::solid));
@@ -278,6 +295,8 @@ AnyShape::State Reading::read() {
     state_.data = make_cloud(file_, std::move(points), options_);
     state_.neighbour_seconds = looking.seconds();
   }
+  if (const auto* simplices = std::get_if<SimplexShape>(&state_.data))
+    state_.places = places_of(*simplices);
   state_.vertices = std::visit(
       [](const auto& data) -> std::size_t {
         using Kind = std::decay_t<decltype(data)>;
@@ -292,7 +311,7 @@ AnyShape::State Reading::read() {
   return std::move(state_);
 }
 
-void Reading::fill() {
+void ShapeFile::fill() {
   require_tetgen(options_.as ? as(*options_.as) : file_);
   begin("filling " + file_ + " with tetrahedra");
   const Stopwatch meshing;
@@ -302,7 +321,7 @@ void Reading::fill() {
   state_.mesh_seconds = meshing.seconds();
 }
 
-void Reading::take_level_set(bool surface) {
+void ShapeFile::take_level_set(bool surface) {
   const double voxel = options_.volume.voxel.value_or(0);
   std::string& note = state_.level_set_note;
   const Stopwatch meshing;
@@ -343,12 +362,10 @@ AnyShape AnyShape::read(std::span<const std::filesystem::path> files, double tol
   check(options);
   if (!(tolerance >= 0) || std::isinf(tolerance))
     throw UsageError(name("weld") + " must be a number >= 0");
-  if (options.as.value_or(DomainKind::mixed) != DomainKind::mixed || options.fill.given() ||
-      options.cloud.given() || options.volume.repair || options.volume.voxel ||
-      !options.volume.grid.empty())
-    throw UsageError(
-        "several files are parts of a mixed domain, each as its file has it: " + name("as") +
-        " and what is made of surfaces, level sets and points go with one");
+  check_use(options, name("weld"),
+            {.held = DomainKind::mixed,
+             .wanted = options.as.value_or(DomainKind::mixed),
+             .several = true});
   State state;
   MixedShape shape;
   shape.tolerance = tolerance;
@@ -358,8 +375,10 @@ AnyShape AnyShape::read(std::span<const std::filesystem::path> files, double tol
     const std::string file = path.string();
     names += (names.empty() ? "" : ", ") + file;
     if (options.progress.stage) options.progress.stage("reading " + file);
-    if (is_cloud_file(file) || io::is_ply_cloud(file) || is_poly(file) || is_vdb(file))
-      throw InputError(file + ": a mixed domain is made of surfaces, solids and wireframes");
+    const bool points = is_cloud_file(file) || io::is_ply_cloud(file);
+    check_part(file, {.held = points ? DomainKind::cloud : DomainKind::surface,
+                      .wanted = DomainKind::mixed,
+                      .form = form_of(file)});
     std::visit([&](auto&& data) { append(std::move(data), file, shape); },
                read_mesh(file, has_extension(file, io::mixed_extensions())
                                    ? std::optional(DomainKind::mixed)
@@ -373,7 +392,7 @@ AnyShape AnyShape::read(std::span<const std::filesystem::path> files, double tol
 }
 
 AnyShape AnyShape::read(const std::filesystem::path& file, const ReadOptions& options) {
-  return of(Reading(file.string(), options).read());
+  return of(ShapeFile(file.string(), options).read());
 }
 
 AnyShape AnyShape::of(State state) { return AnyShape(std::make_shared<State>(std::move(state))); }

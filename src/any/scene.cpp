@@ -5,10 +5,11 @@
 #include <utility>
 #include <variant>
 
+#include <plexway/any/support.hpp>
 #include <plexway/complex/normals.hpp>
 #include <plexway/error.hpp>
-#include <plexway/support.hpp>
 
+#include "any/arguments/require.hpp"
 #include "any/cloud_slopes.hpp"
 #include "any/simplex_edges.hpp"
 #include "any/survey.hpp"
@@ -64,9 +65,8 @@ void SceneContent::mark(const AnyShape& shape, const Source& source) {
 ShapeScene::ShapeScene(const AnyShape& shape, const SceneContent& content) {
   render::Part part;
   part.positions = shape.positions();
-  if (part.positions.empty())
-    throw UsageError((shape.file().empty() ? "the domain" : shape.file().string()) +
-                     " has no positions to draw");
+  require(shape.file().empty() ? "the domain" : shape.file().string(),
+          support(Purpose::pictures, shape));
   part.value = content.distance;
   part.label = content.label;
   std::visit(

@@ -3,7 +3,7 @@
 #include <type_traits>
 
 #include <plexway/any/complex.hpp>
-#include <plexway/support.hpp>
+#include <plexway/any/support.hpp>
 
 #include "any/inside.hpp"
 

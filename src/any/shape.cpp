@@ -5,10 +5,9 @@
 #include <limits>
 #include <utility>
 
-#include <plexway/apps/isolines.hpp>
+#include <plexway/any/support.hpp>
 #include <plexway/error.hpp>
 #include <plexway/io/field.hpp>
-#include <plexway/support.hpp>
 
 #include "any/arguments/require.hpp"
 #include "any/closest_point.hpp"
@@ -111,11 +110,6 @@ PointSource nearest_of_points(std::span<const std::array<double, 3>> points,
   return PointSource::at(best);
 }
 
-void require_positions(const AnyShape& shape) {
-  if (shape.positions().empty())
-    throw UsageError("the vertices have no positions in space: name one by its number");
-}
-
 // Parts of a mixed domain as the writer wants them, in numbers of their own.
 void write_mixed(const std::filesystem::path& out, const MixedShape& shape,
                  std::span<const double> distance, std::span<const std::int32_t> label) {
@@ -148,6 +142,15 @@ AnyShape::State of_data(AnyShape::Data data, std::size_t vertices) {
 }
 
 }  // namespace
+
+AnyShape::Points places_of(const SimplexShape& shape) {
+  AnyShape::Points places;
+  if (shape.axes == 0 || shape.axes > 3) return places;
+  places.assign(shape.vertices, {0, 0, 0});
+  for (std::size_t v = 0; v < shape.vertices; ++v)
+    for (std::size_t k = 0; k < shape.axes; ++k) places[v][k] = shape.positions[v * shape.axes + k];
+  return places;
+}
 
 AnyShape AnyShape::surface(Points positions, std::vector<std::array<Index, 3>> triangles) {
   const std::size_t n = positions.size();
@@ -236,12 +239,7 @@ AnyShape AnyShape::simplices(SimplexShape shape) {
     check_count(shape.lengths.size(), count * corners * (corners - 1) / 2, "edges");
   State state;
   state.vertices = shape.vertices;
-  if (shape.axes > 0 && shape.axes <= 3) {
-    state.places.assign(shape.vertices, {0, 0, 0});
-    for (std::size_t v = 0; v < shape.vertices; ++v)
-      for (std::size_t k = 0; k < shape.axes; ++k)
-        state.places[v][k] = shape.positions[v * shape.axes + k];
-  }
+  state.places = places_of(shape);
   state.data = std::move(shape);
   return AnyShape(std::make_shared<State>(std::move(state)));
 }
@@ -378,7 +376,7 @@ std::span<const std::array<double, 3>> AnyShape::positions() const {
 }
 
 PointSource AnyShape::closest(const std::array<double, 3>& point) const {
-  require_positions(*this);
+  support(Purpose::places, *this).require();
   if (cloud() != nullptr) return nearest_of_points(positions(), point);
   if (simplices() == 0) throw UsageError("there is no simplex to be close to");
   const SimplexPoint found = closest_of(*this, point);
@@ -391,7 +389,7 @@ PointSource AnyShape::closest(const std::array<double, 3>& point) const {
 }
 
 std::array<double, 3> AnyShape::position(const PointSource& source) const {
-  require_positions(*this);
+  support(Purpose::places, *this).require();
   const auto place = positions();
   if (source.vertex != none) {
     if (source.vertex >= place.size()) throw UsageError("there is no such vertex");
@@ -406,38 +404,11 @@ std::array<double, 3> AnyShape::position(const PointSource& source) const {
   return at;
 }
 
-std::vector<Path> AnyShape::isolines(std::span<const double> distance,
-                                     std::span<const double> values) const {
-  if (const auto* surface = std::get_if<io::Triangles>(&data())) {
-    require_positions(*this);
-    return plexway::isolines(surface->positions, surface->triangles, distance, values);
-  }
-  support(Purpose::isolines, kind()).require();
-  const auto* mixed = std::get_if<MixedShape>(&data());
-  if (mixed == nullptr)
-    throw UsageError("a cloud has no triangles of its own: draw isolines of its domain");
-  std::vector<std::array<Index, 3>> triangles;
-  std::vector<Index> number;  // of each among all simplices
-  Index simplex = 0;
-  for (const MixedShape::Part& part : mixed->parts) {
-    simplex += static_cast<Index>(part.edges.size());
-    for (const auto& triangle : part.triangles) {
-      triangles.push_back(triangle);
-      number.push_back(simplex++);
-    }
-    simplex += static_cast<Index>(part.tets.size());
-  }
-  std::vector<Path> lines = plexway::isolines(mixed->positions, triangles, distance, values);
-  for (Path& line : lines)
-    for (PathPoint& point : line.points) point.simplex = number[point.simplex];
-  return lines;
-}
-
 void AnyShape::write_field(const std::filesystem::path& out, std::span<const double> distance,
                            std::span<const std::int32_t> label,
                            std::span<const double> error) const {
   if (is_vdb(out.string())) {
-    require(out.string(), support(Purpose::volumes, kind()));
+    require(out.string(), support(Purpose::volumes, *this));
     if (openvdb_functions(out.string())
             .write_field(out, std::get<io::Tets>(data()), distance, label, state_->voxel) == 0)
       throw UsageError(out.string() +

@@ -2,17 +2,18 @@
 
 #include <variant>
 
+#include <plexway/any/support.hpp>
 #include <plexway/error.hpp>
 
+#include "any/arguments/require.hpp"
 #include "any/solid_boundary.hpp"
 
 namespace plexway {
 
 void fill_page(io::Page& page, const AnyShape& shape, const SceneContent& content) {
   page.positions = shape.positions();
-  if (page.positions.empty())
-    throw UsageError((shape.file().empty() ? "the domain" : shape.file().string()) +
-                     " has no positions to draw");
+  require(shape.file().empty() ? "the domain" : shape.file().string(),
+          support(Purpose::pictures, shape));
   page.value = content.distance;
   page.label = content.label;
   if (const auto* surface = std::get_if<io::Triangles>(&shape.data())) {

@@ -26,6 +26,9 @@ struct AnyShape::State {
   std::shared_ptr<const KeptBuild> kept;  ///< of a prepared file
 };
 
+/// Where the vertices of simplices are: AnyShape::State::places.
+[[nodiscard]] AnyShape::Points places_of(const SimplexShape& shape);
+
 /// What `build` makes of a shape, with its file's name put in front of what is wrong with it: a
 /// complex knows vertices and faces, but not where they came from.
 template <class Build>

@@ -40,7 +40,9 @@ const Surroundings<Real>& BoundedSearch<Real>::find(Serial, std::span<const Poin
                                                     const PropagateOptions& options,
                                                     bool simplices) {
   check(sources, options, {mesh_->vertex_count(), mesh_->face_count(), "face", 3});
-  support(Purpose::searches, *mesh_, options.visibility).require();
+  support(Purpose::searches, *mesh_, options.visibility, ExecutorKind::serial, true,
+          options.accuracy.kind())
+      .require();
   with_queue<Real>(options, workspace_.state().front, [&](auto queue) {
     find_with(LoggedQueue<Real, decltype(queue)>(queue, reached_), sources, options, simplices);
   });

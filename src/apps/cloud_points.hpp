@@ -7,6 +7,7 @@
 #include <plexway/complex/point_cloud.hpp>
 #include <plexway/error.hpp>
 #include <plexway/source/point_source.hpp>
+#include <plexway/support.hpp>
 
 namespace plexway {
 
@@ -18,7 +19,7 @@ std::vector<PointSource> first_at_place(const PointCloud<Real>& cloud,
   std::vector<PointSource> first(points.begin(), points.end());
   for (PointSource& p : first) {
     if (p.vertex == none)
-      throw UsageError("a place on a cloud is a point by number, not a place in a triangle");
+      support(combination<Serial, PointCloud<Real>>(SourceKind::point)).require();
     if (p.vertex >= cloud.point_count())
       throw UsageError("point " + std::to_string(p.vertex) + " is out of range, there are " +
                        std::to_string(cloud.point_count()));

@@ -87,8 +87,8 @@ class NearWorker {
     const TriangleMesh<Real>* sheet = sheet_of(domain_);
     if (source.point() != nullptr && sheet != nullptr &&
         (D::kind == DomainKind::surface || source.point()->vertex != none) &&
-        sheet->summary().refracting_edges == 0 && options.visibility == Visibility::saddles &&
-        (options.accuracy == Accuracy::usual() || options.accuracy == Accuracy::fast()))
+        support(Purpose::searches, *sheet, options.visibility, ExecutorKind::serial, true,
+                options.accuracy.kind()))
       search(*sheet, *source.point(), options);
     else
       solve_all(source.list(), options);

@@ -232,7 +232,12 @@ std::vector<std::array<double, 3>> PathField<Domain<Real>>::gradient() const {
     }
   }
   if constexpr (std::is_same_v<Domain<Real>, TriangleMesh<Real>>) {
-    if (positions_.empty()) throw UsageError("directions in space need positions");
+    support(Purpose::directions, {.executor = ExecutorKind::serial,
+                                  .domain = DomainKind::surface,
+                                  .dimension = 2,
+                                  .single_precision = true,
+                                  .positions = !positions_.empty()})
+        .require();
     const Solved<Real> solved = this->solved();
     const SurfaceReadOut<Real> read_out(*domain_, solved);
     directions.assign(domain_->face_count(), {0, 0, 0});

@@ -123,10 +123,7 @@ PoissonDisks poisson_disks(Serial, const TetMesh<Real>& mesh, const PoissonOptio
 template <class Real>
 PoissonDisks poisson_disks(Serial, const PointCloud<Real>& cloud, const PoissonOptions& options,
                            Workspace<Real>& workspace) {
-  if (options.order == DartOrder::simplices)
-    throw UsageError(
-        "darts on a cloud are its points, so none is thrown into simplices: leave the order "
-        "uniform");
+  if (options.order == DartOrder::simplices) support(Purpose::darts, cloud).require();
   PoissonOptions at_points = options;
   at_points.at_vertices = true;
   check(at_points, cloud.point_count());

@@ -6,6 +6,7 @@
 #include <mutex>
 #include <string>
 
+#include <plexway/domain/support.hpp>
 #include <plexway/error.hpp>
 
 #include "complex/joined_pieces.hpp"
@@ -54,8 +55,7 @@ Index MixedComplex<Real>::Piece::simplex(Index of_piece) const {
 template <class Real>
 typename MixedComplex<Real>::Piece MixedComplex<Real>::add(
     Complex complex, std::span<const std::array<double, 3>> positions) {
-  if (const auto* solid = std::get_if<TetMesh<Real>>(&complex); solid && !solid->embedded())
-    throw UsageError("a solid in a mixed domain needs coordinates, not lengths alone");
+  std::visit([](const auto& c) { support_of_piece(c.kind, c.metric()).require(); }, complex);
   const std::size_t vertices = std::visit([](const auto& c) { return c.vertex_count(); }, complex);
   const std::size_t simplices = std::visit(
       [](const auto& c) {

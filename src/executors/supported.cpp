@@ -7,10 +7,6 @@
 
 namespace plexway {
 
-void Support::require() const {
-  if (!*this) throw UsageError(sentence());
-}
-
 Accuracy resolved(Accuracy accuracy, const Combination& c) {
   if (accuracy.kind() != Accuracy::Kind::usual) return accuracy;
   return support_of_windows(c) ? Accuracy::accurate() : Accuracy::fast();

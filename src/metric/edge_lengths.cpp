@@ -8,6 +8,7 @@
 #include <string_view>
 #include <utility>
 
+#include <plexway/domain/support.hpp>
 #include <plexway/error.hpp>
 
 namespace plexway::metric {
@@ -263,10 +264,7 @@ std::vector<std::array<double, 6>> tet_lengths(std::span<const Point> positions,
     if constexpr (requires { m.agreement; }) return m.agreement.sides == Sides::own;
     return false;
   };
-  if (std::visit(own, metric))
-    throw UsageError(
-        "tetrahedra keep no lengths of their own for an edge that they share: take Sides::mean, or "
-        "a mixed domain of a solid for each speed, as AnyShape::measure does");
+  if (std::visit(own, metric)) support_of_own_sides(DomainKind::solid).require();
   return measured<4>(positions, tets, metric);
 }
 

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include <plexway/any/complex.hpp>
+#include <plexway/any/support.hpp>
 #include <plexway/any_domain.hpp>
 #include <plexway/apps/cloud_path_field.hpp>
 #include <plexway/apps/path_field.hpp>
@@ -232,7 +233,9 @@ TEST_CASE("any domain: a surface is solved on the triangles that pay") {
   const CurveSource line = shape.joined(ends);
   const AnyDomain twice(shape,
                         {.precision = Precision::twice, .triangulation = Triangulation::refined});
-  CHECK_THROWS_AS(twice.solve(Serial{}, line), UsageError);
+  CHECK_THROWS_WITH(twice.solve(Serial{}, line),
+                    support(Triangulation::refined, SourceKind::curve).sentence());
+  CHECK(static_cast<bool>(support(Triangulation::automatic, SourceKind::curve)));
   const AnyDomain open(shape, {.precision = Precision::twice});
   const AnyField from_line = open.solve(Serial{}, line);
   CHECK(from_line.triangulation.done == Triangulation::input);

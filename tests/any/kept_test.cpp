@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include <plexway/any/support.hpp>
 #include <plexway/any_domain.hpp>
 #include <plexway/error.hpp>
 
@@ -179,7 +180,12 @@ TEST_CASE("what cannot be kept is refused with the reason") {
   BuildOptions measured;
   measured.lengths = std::make_shared<const MeasuredLengths>(MeasuredLengths{
       .triangles = {{1, 1, 1}}, .tets = {}, .edges = {}, .speeds = {}, .violations = {}});
-  CHECK_THROWS_AS(AnyDomain(triangle, measured).keep(file), UsageError);
+  CHECK_THROWS_WITH(AnyDomain(triangle, measured).keep(file),
+                    support_of_keeping(DomainKind::surface, true, false).sentence());
+  BuildOptions masked;
+  masked.mask = std::make_shared<const Mask>(3, 1);
+  CHECK_THROWS_WITH(AnyDomain(triangle, masked).keep(file),
+                    support_of_keeping(DomainKind::surface, false, true).sentence());
   CHECK(folder.files() == 0);
   AnyDomain(triangle).keep(file);
   ReadOptions as;

@@ -13,6 +13,7 @@
 #include <plexway/any/complex.hpp>
 #include <plexway/any/isolines.hpp>
 #include <plexway/any/scene.hpp>
+#include <plexway/any/search.hpp>
 #include <plexway/any_domain.hpp>
 #include <plexway/apps/farthest_points.hpp>
 #include <plexway/error.hpp>
@@ -61,6 +62,22 @@ TEST_CASE("what is done with a field of any domain") {
       for (const Path& line : lines)
         for (const auto& p : line.positions)
           CHECK(std::hypot(p[0], p[1]) == Approx(value).epsilon(1e-2));
+      // Of any numbers: heights have straight lines.
+      std::vector<double> height;
+      for (const Position& p : kind.places) height.push_back(p[1]);
+      const auto levels = isolines(domain, height, std::span(&value, 1));
+      REQUIRE_FALSE(levels.empty());
+      for (const Path& line : levels)
+        for (const auto& p : line.positions) CHECK(p[1] == Approx(value).epsilon(1e-9));
+    });
+    check(kind, Purpose::places, [&] {
+      CHECK(kind.shape.closest(kind.places[7]).vertex == 7);
+      CHECK(kind.shape.position(PointSource::at(7)) == kind.places[7]);
+    });
+    check(kind, Purpose::astar, [&] {
+      const PointSource far = PointSource::at(static_cast<Index>(kind.places.size() - 1));
+      const SearchResult found = find_paths(domain, std::span(&source, 1), std::span(&far, 1));
+      CHECK(found.distance[0] == Approx(kind.from_first(far.vertex)).epsilon(1e-5));
     });
     check(kind, Purpose::pictures, [&] {
       const auto distance = field.field().doubles();

@@ -137,11 +137,19 @@ void check_searches(const Scene<D>& scene, Visibility visibility, Count& count) 
     const auto path = [&] {
       return PathSearch<Real>(scene.domain).find(Serial{}, source, PointSource::at(far));
     };
+    PropagateOptions windows = options;
+    windows.accuracy = Accuracy::accurate();
+    const Support by_windows = support(Purpose::searches, scene.domain, visibility,
+                                       ExecutorKind::serial, true, Accuracy::Kind::merged);
+    CHECK_FALSE(static_cast<bool>(by_windows));
     if (!found) {
       CHECK_THROWS_WITH(search(), found.sentence());
       if (visibility == Visibility::saddles) CHECK_THROWS_WITH(path(), found.sentence());
       return;
     }
+    BoundedSearch<Real> other(scene.domain);
+    CHECK_THROWS_WITH(other.find(Serial{}, std::span<const PointSource>(&source, 1), windows),
+                      by_windows.sentence());
     const auto near = search();
     CHECK(near.vertices.size() > 3);
     for (const auto& [vertex, distance, label] : near.vertices) {
@@ -180,6 +188,12 @@ void check_samples(const Scene<D>& scene, Count& count) {
               Approx(scene.distance(scene.place(points.points[i]), scene.place(points.points[j])))
                   .epsilon(1e-5)
                   .margin(1e-12));
+    const Support darts = support(Purpose::darts, scene.domain);
+    const PoissonOptions in_simplices{.radius = 0.3, .order = DartOrder::simplices};
+    if (darts)
+      CHECK(poisson_disks(Serial{}, scene.domain, in_simplices).darts.size() > 2);
+    else
+      CHECK_THROWS_WITH(poisson_disks(Serial{}, scene.domain, in_simplices), darts.sentence());
     const PoissonDisks disks = poisson_disks(Serial{}, scene.domain, radius);
     CHECK(disks.darts.size() > 2);
     for (std::size_t i = 0; i < disks.darts.size(); ++i)

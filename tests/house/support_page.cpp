@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include <plexway/any/support.hpp>
 #include <plexway/support.hpp>
 
 namespace house {
@@ -66,6 +67,33 @@ constexpr std::array<Named<Combination>, 8> measured = [] {
                                             {"mixed", of(mixed, 3, intrinsic)}}};
 }();
 
+// Files as they are, and as they may be taken.
+constexpr std::array<Named<FileUse>, 14> files = [] {
+  using enum DomainKind;
+  return std::array<Named<FileUse>, 14>{{{"surface", {surface, surface}},
+                                         {"surface as solid", {surface, solid}},
+                                         {"surface as wireframe", {surface, wireframe}},
+                                         {"surface as cloud", {surface, cloud}},
+                                         {"solid", {solid, solid}},
+                                         {"solid as surface", {solid, surface}},
+                                         {"wireframe", {wireframe, wireframe}},
+                                         {"simplices", {simplices, simplices}},
+                                         {"cloud", {cloud, cloud}},
+                                         {"mixed", {mixed, mixed}},
+                                         {".poly", {solid, solid, FileForm::boundary}},
+                                         {".vdb", {solid, solid, FileForm::level_set}},
+                                         {".vdb as surface", {solid, surface, FileForm::level_set}},
+                                         {".plexway", {surface, surface, FileForm::prepared}}}};
+}();
+#define PLEXWAY_READING(name, what) {what, Reading::name},
+constexpr Named<Reading> readings[] = {PLEXWAY_READINGS(PLEXWAY_READING)};
+#undef PLEXWAY_READING
+constexpr std::array<Named<Triangulation>, 4> triangulations = {
+    {{"input", Triangulation::input},
+     {"delaunay", Triangulation::delaunay},
+     {"refined", Triangulation::refined},
+     {"automatic", Triangulation::automatic}}};
+
 #define PLEXWAY_PURPOSE(name, what) {what, Purpose::name},
 constexpr Named<Purpose> purposes[] = {PLEXWAY_PURPOSES(PLEXWAY_PURPOSE)};
 #undef PLEXWAY_PURPOSE
@@ -81,10 +109,15 @@ class Page {
     std::string tables = executor_table();  // one after another: numbers go in that order
     tables += option_tables();
     tables += purpose_table();
+    tables += lengths_table();
+    tables += file_table();
+    tables += build_table();
     return "# What goes together\n\n"
-           "Made from `include/plexway/support.hpp` by `ninja plexway_support_page`; a test of the "
-           "house compares the\n"
-           "two. What does not go together is refused with the sentence of the number, by the "
+           "Made from `support.hpp`, `domain/support.hpp` and `any/support.hpp` in "
+           "`include/plexway` by "
+           "`ninja plexway_support_page`;\n"
+           "a test of the house compares them. What does not go together is refused with the "
+           "sentence of the number, by the "
            "compiler where types\n"
            "alone tell. `float` and `double`: only domains of that precision.\n" +
            tables + sentences();
@@ -191,12 +224,92 @@ class Page {
     for (const auto& purpose : purposes) {
       text.append("| ").append(purpose.name).append(" |");
       for (const auto& m : measured) {
-        const Support found = support(purpose.value, m.value);
+        Support found = support(purpose.value, m.value);
+        if (!found) {
+          Combination team = m.value;
+          team.executor = ExecutorKind::openmp;
+          if (support(purpose.value, team)) found = Support();
+        }
         text.append(" ").append(found ? "yes" : number(found.refusal())).append(" |");
       }
       text += "\n";
     }
     return text;
+  }
+
+  std::string verdict(Support found) { return found ? "yes" : number(found.refusal()); }
+
+  static std::string head(const char* first, const auto& columns) {
+    std::string text = std::string("\n|") + first + "|", rule = "|---|";
+    for (const auto& column : columns) {
+      text.append(" ").append(column.name).append(" |");
+      rule += "---|";
+    }
+    return text + "\n" + rule + "\n";
+  }
+
+  // What changes without positions.
+  std::string lengths_table() {
+    std::array<Named<Combination>, 4> alone = {
+        {measured[0], measured[3], measured[4], measured[5]}};
+    for (auto& m : alone) m.value.positions = false;
+    std::string text =
+        "\n## By lengths alone\n\nWithout positions in space; what is not in this table is as "
+        "above.\n" +
+        head(" ", alone);
+    for (const auto& purpose : purposes) {
+      bool other = false;
+      std::string row = std::string("| ") + purpose.name + " |";
+      for (const auto& m : alone) {
+        Combination placed = m.value;
+        placed.positions = true;
+        const Support found = support(purpose.value, m.value);
+        other |= found.refusal() != support(purpose.value, placed).refusal();
+        row += " " + verdict(found) + " |";
+      }
+      if (other) text += row + "\n";
+    }
+    return text;
+  }
+
+  std::string file_table() {
+    std::string text =
+        "\n## Files\n\nWhat may be asked for as one is read. A voxel goes with a repair, too, and "
+        "with a field to be written as a `.vdb`.\n\n| file |";
+    for (const auto& reading : readings) text.append(" ").append(reading.name).append(" |");
+    text += "\n|---|";
+    for (std::size_t i = 0; i < std::size(readings); ++i) text += "---|";
+    text += "\n";
+    for (const auto& file : files) {
+      text.append("| ").append(file.name).append(" |");
+      for (const auto& reading : readings)
+        text += " " + verdict(support(reading.value, file.value)) + " |";
+      text += "\n";
+    }
+    FileUse several{DomainKind::mixed, DomainKind::surface, FileForm::plain};
+    several.several = true;
+    FileUse copied{DomainKind::cloud, DomainKind::cloud};
+    copied.copied = true;
+    text += "\nOf several files: " + verdict(support(Reading::filling, several));
+    text += "; of points that are converted to points: ";
+    return text + verdict(support(Reading::filling, copied)) + ".\n";
+  }
+
+  std::string build_table() {
+    std::string text = "\n## How a domain was built\n" + head(" on triangles ", triangulations);
+    text += "| a curve or a triangle as source |";
+    for (const auto& t : triangulations)
+      text += " " + verdict(support(t.value, SourceKind::curve)) + " |";
+    text += "\n| searches that end early |";
+    for (const auto& t : triangulations)
+      text += " " + verdict(support(Purpose::searches, t.value)) + " |";
+    // One after another: numbers go in that order.
+    text += "\n\n`AnyDomain::keep` after a metric: ";
+    text += verdict(support_of_keeping(DomainKind::surface, true, false));
+    text += ", behind a mask: " + verdict(support_of_keeping(DomainKind::surface, false, true));
+    text += ". Sides::own in solids: " + verdict(support_of_own_sides(DomainKind::solid));
+    text += ". Paths, samples and searches from anything but points: ";
+    return text + verdict(support_of_sources(Purpose::paths, false)) + ".\n";
   }
 
   std::string sentences() {
@@ -231,10 +344,14 @@ class Page {
       for (const auto& m : measured)
         for (const auto& v : visibilities)
           for (const auto& e : executors) {
-            Combination c = m.value;
-            c.visibility = v.value, c.executor = e.value;
-            const Support found = support(purpose.value, c);
-            if (!found && numbers_.count(found.refusal()) == 0) rest.insert(found.refusal());
+            for (const auto& a : accuracies)
+              for (const auto& o : schedules) {
+                Combination c = m.value;
+                c.visibility = v.value, c.executor = e.value;
+                c.accuracy = a.value, c.schedule = o.value;
+                const Support found = support(purpose.value, c);
+                if (!found && numbers_.count(found.refusal()) == 0) rest.insert(found.refusal());
+              }
           }
     return {rest.begin(), rest.end()};
   }

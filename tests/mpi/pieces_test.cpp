@@ -221,7 +221,7 @@ TEST_CASE("what ranks cannot solve together is said once, and no file is left") 
     return Words{"distance", file, "-s", "vertex:0", "-o", out};
   };
   refused(distance(folder.at("none.off")), 3, "none.off");
-  refused(distance(input) + Words{"--executor", "serial"}, 2, "openmp");
+  refused(distance(input) + Words{"--executor", "serial"}, 2, "OpenMP");
   refused(distance(wires), 2, ".pvtu");
   refused({"distance", input, "-s", "vertex:77", "-o", out}, 3, "77");
   refused({"distance", input, "-s", "vertex:0", "-o", folder.at("no/d.pvtu")}, 1, "no");

@@ -5,16 +5,13 @@
 #include <limits>
 #include <variant>
 
-#include <plexway/error.hpp>
+#include <plexway/any/support.hpp>
 
 namespace plexway::web {
 
 Drawing::Drawing(const AnyShape& shape) {
   const auto positions = shape.positions();
-  if (positions.size() != shape.vertices() || positions.empty())
-    throw UsageError(
-        "a domain by lengths, or of more than three dimensions, can be solved but not "
-        "drawn: take the command-line tool");
+  support(Purpose::places, shape).require();
   constexpr double infinity = std::numeric_limits<double>::infinity();
   std::array<double, 3> low = {infinity, infinity, infinity},
                         high = {-infinity, -infinity, -infinity};

@@ -24,9 +24,14 @@ namespace plexway {
 [[nodiscard]] Isosurfaces isosurfaces(const AnyShape& shape, std::span<const double> distance,
                                       std::span<const double> values);
 
-/// Lines where a field that was solved on `domain` has the values, straight in triangles: those of
-/// surfaces and mixed domains (AnyShape::isolines), and those of a cloud's sheet. UsageError for
-/// other kinds.
+/// Lines where a field has the values, straight in triangles: those of surfaces and mixed domains
+/// that a mask leaves open, by their numbers in the shape (PathPoint::simplex), and those of a
+/// cloud's sheet. `distance` has any number a vertex, +inf where there is none; for clouds it is
+/// rounded to the domain's precision. UsageError for other kinds and without positions, else throws
+/// and costs as plexway::isolines.
+[[nodiscard]] std::vector<Path> isolines(const AnyDomain& domain, std::span<const double> distance,
+                                         std::span<const double> values);
+/// The same of a field that was solved on `domain`.
 [[nodiscard]] std::vector<Path> isolines(const AnyDomain& domain, const AnyField& field,
                                          std::span<const double> values);
 

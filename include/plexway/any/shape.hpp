@@ -14,7 +14,6 @@
 
 #include <plexway/any/cloud_shape.hpp>
 #include <plexway/any/read_options.hpp>
-#include <plexway/apps/path.hpp>
 #include <plexway/complex/mask.hpp>
 #include <plexway/io/edges.hpp>
 #include <plexway/io/simplices.hpp>
@@ -191,10 +190,6 @@ class AnyShape {
   /// Throws UsageError for other kinds than surfaces, solids, wireframes and simplices, and for a
   /// mask of another size. Cost: linear.
   [[nodiscard]] AnyShape open_part(const Mask& mask) const;
-
-  /// Lines on a surface where a field has the values. UsageError for other kinds; see isolines.hpp.
-  [[nodiscard]] std::vector<Path> isolines(std::span<const double> distance,
-                                           std::span<const double> values) const;
 
   /// Writes one distance a vertex, and of surfaces and clouds its `error` where there is one; the
   /// extension of `out` picks the format. Throws as

@@ -48,7 +48,8 @@ class BoundedSearch {
 
   /// Vertices within options.radius of the nearest of `sources`. The result stays until the next
   /// search; with `simplices`, triangles are listed too. Throws as `solve`, and UsageError
-  /// unless options.visibility is the default. Cost: about 0.2 us a triangle that is reached.
+  /// for another visibility than the default, and for an accuracy by windows. Cost: about 0.2 us a
+  /// triangle that is reached.
   const Surroundings<Real>& find(Serial, std::span<const PointSource> sources,
                                  const PropagateOptions& options, bool simplices = false);
   /// From one source, with the options that are the default but for the radius.

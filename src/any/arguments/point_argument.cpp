@@ -5,8 +5,10 @@
 #include <optional>
 #include <string_view>
 
+#include <plexway/any/support.hpp>
 #include <plexway/error.hpp>
 
+#include "any/arguments/require.hpp"
 #include "any/words.hpp"
 
 namespace plexway {
@@ -70,9 +72,8 @@ std::vector<SourceArgument> parse_sources(const std::vector<std::string>& texts,
 
 PointSource locate_source(const AnyShape& domain, const SourceArgument& argument) {
   if (const auto* point = std::get_if<1>(&argument.where)) {
-    if (domain.positions().empty())
-      throw InputError(domain.file().string() + ": " + argument.role + " " + argument.text +
-                       ": the vertices have no positions; name one by vertex:ID");
+    require_input(domain.file().string() + ": " + argument.role + " " + argument.text,
+                  support(Purpose::places, domain));
     return domain.closest(*point);
   }
   const Index vertex = std::get<0>(argument.where);

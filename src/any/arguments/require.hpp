@@ -12,4 +12,9 @@ inline void require(const std::string& name, Support support) {
   if (!support) throw UsageError(name + ": " + support.sentence());
 }
 
+/// The same where a file is to blame: InputError.
+inline void require_input(const std::string& name, Support support) {
+  if (!support) throw InputError(name + ": " + support.sentence());
+}
+
 }  // namespace plexway

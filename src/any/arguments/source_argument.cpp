@@ -6,10 +6,11 @@
 #include <string_view>
 #include <system_error>
 
+#include <plexway/any/support.hpp>
 #include <plexway/error.hpp>
-#include <plexway/support.hpp>
 
 #include "any/arguments/point_argument.hpp"
+#include "any/arguments/require.hpp"
 #include "any/shape_state.hpp"
 #include "any/walls.hpp"
 #include "any/words.hpp"
@@ -134,9 +135,7 @@ VertexSource read_vertices(const AnyShape& domain, const SetArgument& set) {
 
 PointSource closest(const AnyShape& domain, const SetArgument& set,
                     const std::array<double, 3>& point) {
-  if (domain.positions().empty())
-    throw InputError(domain.file().string() + ": source " + set.text +
-                     ": the vertices have no positions; name one by vertex:ID");
+  require_input(domain.file().string() + ": source " + set.text, support(Purpose::places, domain));
   return domain.closest(point);
 }
 

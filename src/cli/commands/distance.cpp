@@ -7,11 +7,13 @@
 #include <string>
 #include <vector>
 
+#include <plexway/any/support.hpp>
 #include <plexway/any_domain.hpp>
 #include <plexway/complex/point_cloud.hpp>
 #include <plexway/error.hpp>
 #include <plexway/io/field.hpp>
 
+#include "any/arguments/require.hpp"
 #include "any/arguments/source_argument.hpp"
 #include "any/cloud_words.hpp"
 #include "any/field_remarks.hpp"
@@ -170,9 +172,9 @@ void note_choices(const AnyDomain& solver, const AnyField& field, const Executor
 }
 
 void run_distance(DistanceCommand command) {
-  if (command.among != nullptr && command.solve.executor.name != "openmp")
-    throw UsageError("--executor " + command.solve.executor.name +
-                     ": ranks share the pieces of openmp");
+  if (command.among != nullptr)
+    require("--executor " + command.solve.executor.name,
+            support(Purpose::ranks, DomainKind::surface, kind_of(command.solve.executor)));
   if (!command.leads()) command.quiet = true;
   const PropagateOptions wanted = propagate_options(command.solve);
   Precision precision = precision_of(command.solve);

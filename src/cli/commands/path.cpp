@@ -11,6 +11,7 @@
 #include <vector>
 
 #include <plexway/any/search.hpp>
+#include <plexway/any/support.hpp>
 #include <plexway/any_domain.hpp>
 #include <plexway/error.hpp>
 #include <plexway/io/paths.hpp>
@@ -219,6 +220,20 @@ std::vector<std::string> one_by_one(const std::vector<std::string>& places) {
   return single;
 }
 
+// May A* search such a domain, by such options?
+void check_search(DomainKind kind, const PathCommand& command, const PropagateOptions& options,
+                  Triangulation triangulation) {
+  require("--astar", support(Purpose::astar, {.executor = kind_of(command.solve.executor),
+                                              .domain = kind,
+                                              .dimension = 2,
+                                              .single_precision = true,
+                                              .visibility = options.visibility,
+                                              .schedule = options.schedule,
+                                              .accuracy = options.accuracy.kind(),
+                                              .label_options = command.solve.step_given}));
+  require("--astar", support(Purpose::astar, triangulation));
+}
+
 void run_path(const PathCommand& typed) {
   PathCommand command = typed;
   command.to = one_by_one(typed.to);
@@ -229,20 +244,8 @@ void run_path(const PathCommand& typed) {
   check_output_name(command.out, command.input, io::path_extensions());
   if (const auto margin = command.trace.margin; margin && !(*margin >= 0 && *margin < 1))
     throw UsageError("--margin must be >= 0 and < 1");
-  if (command.astar && options.accuracy != Accuracy::usual() &&
-      options.accuracy != Accuracy::fast())
-    throw UsageError("--astar searches with one label a triangle: it knows --accuracy fast only");
-
-  if (command.astar &&
-      (command.solve.schedule_given || command.solve.step_given ||
-       (command.solve.executor.name != "serial" && command.solve.executor.name != "auto")))
-    throw UsageError(
-        "--astar takes simplices in an order of its own: leave out --executor, --schedule and "
-        "--step");
   const Triangulation triangulation = triangulation_of(command.triangulation);
-  if (command.astar && triangulation != Triangulation::automatic &&
-      triangulation != Triangulation::input)
-    throw UsageError("--astar searches the triangles of the file: leave out --triangulation");
+  if (command.astar) check_search(DomainKind::surface, command, options, triangulation);
   check_picture(command.picture, command.input);
   std::vector<std::string> read = {metric_file(command.metric), mask_file(command.mask),
                                    command.solve.table};
@@ -252,13 +255,7 @@ void run_path(const PathCommand& typed) {
 
   ProgressLine progress(command.quiet);
   const Domain domain = load_domain(command, progress);
-  if (command.astar)
-    require("--astar",
-            support(Purpose::searches, {.executor = ExecutorKind::serial,
-                                        .domain = domain.kind(),
-                                        .dimension = 2,
-                                        .single_precision = precision == Precision::single,
-                                        .visibility = options.visibility}));
+  if (command.astar) check_search(domain.kind(), command, options, triangulation);
   check_triangulation(triangulation, domain);
   if (command.trace.margin) require("--margin", support(Purpose::margins, domain.kind()));
   const std::vector<PointSource> sources = locate_sources(domain, from);

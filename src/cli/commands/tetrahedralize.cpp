@@ -7,9 +7,10 @@
 #include <string>
 #include <variant>
 
-#include <plexway/error.hpp>
+#include <plexway/any/support.hpp>
 #include <plexway/io/tets.hpp>
 
+#include "any/arguments/require.hpp"
 #include "any/fill.hpp"
 #include "any/info/report.hpp"
 #include "any/solid_survey.hpp"
@@ -34,7 +35,8 @@ void run_tetrahedralize(const TetrahedralizeCommand& command) {
   ProgressLine progress(command.quiet);
   const Domain domain = load_domain(command, progress);
   if (!domain.mesh_seconds())
-    throw InputError(command.input + ": is a solid already; give a surface, .poly or .smesh");
+    require_input(command.input + ": is a solid already",
+                  support(Reading::filling, {DomainKind::solid, DomainKind::solid}));
   const auto& solid = std::get<io::Tets>(domain.data());
   progress.phase("writing " + command.out);
   io::write_tets(command.out, solid);

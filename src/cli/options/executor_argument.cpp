@@ -7,6 +7,7 @@
 #include <plexway/error.hpp>
 #include <plexway/support.hpp>
 
+#include "any/arguments/require.hpp"
 #include "any/fastest_executor.hpp"
 #include "any/info/solve_words.hpp"
 
@@ -44,6 +45,12 @@ void add_executor_options(CLI::App& command, ExecutorArgument& argument, const s
       ->group(group);
 }
 
+ExecutorKind kind_of(const ExecutorArgument& argument) {
+  return argument.name == "gl"       ? ExecutorKind::gl
+         : argument.name == "openmp" ? ExecutorKind::openmp
+                                     : ExecutorKind::serial;
+}
+
 void check_executor(const ExecutorArgument& argument, const PropagateOptions& options,
                     bool single_precision) {
   const std::string& name = argument.name;
@@ -53,25 +60,17 @@ void check_executor(const ExecutorArgument& argument, const PropagateOptions& op
     throw NotBuiltError("--executor " + name + ": not built in; see 'plexway info --devices'");
   if (argument.device && name != "gl") throw UsageError("--device needs --executor gl");
   if (name != "openmp" && name != "gl") return;
-  // What any domain would refuse, in the words of the command line.
-  const Refusal refusal =
-      support({.executor = name == "gl" ? ExecutorKind::gl : ExecutorKind::openmp,
-               .domain = DomainKind::surface,
-               .dimension = 2,
-               .single_precision = single_precision,
-               .visibility = options.visibility,
-               .schedule = options.schedule,
-               .accuracy = options.accuracy.kind()})
-          .refusal();
-  if (refusal == Refusal::order)
-    throw UsageError("--schedule priority needs --executor serial: " + name +
-                     " does not take labels in order");
-  if (refusal == Refusal::gl_visibility)
-    throw UsageError("--executor gl knows --visibility saddles only");
-  if (refusal == Refusal::windows_gl)
-    throw UsageError("--executor " + name + " knows --accuracy fast only");
-  if (refusal == Refusal::gl_double)
-    throw UsageError("--executor gl computes in single precision: use --precision float");
+  // What any domain would refuse: no need to read one.
+  const Support found = support({.executor = kind_of(argument),
+                                 .domain = DomainKind::surface,
+                                 .dimension = 2,
+                                 .single_precision = single_precision,
+                                 .visibility = options.visibility,
+                                 .schedule = options.schedule,
+                                 .accuracy = options.accuracy.kind()});
+  for (const Refusal any :
+       {Refusal::order, Refusal::gl_visibility, Refusal::windows_gl, Refusal::gl_double})
+    if (found.refusal() == any) require("--executor " + name, found);
 }
 
 Executor choose_executor(const ExecutorArgument& argument, const PropagateOptions& options,

@@ -29,6 +29,9 @@ using Executor = AnyExecutor;
 
 void add_executor_options(CLI::App& command, ExecutorArgument& argument, const std::string& group);
 
+/// What it is in the table; `auto` is Serial, which any of its choices could be.
+[[nodiscard]] ExecutorKind kind_of(const ExecutorArgument& argument);
+
 /// Throws UsageError for an executor that does not exist or cannot do what the options ask for, and
 /// NotBuiltError for one that this build lacks. Before anything is read.
 void check_executor(const ExecutorArgument& argument, const PropagateOptions& options,

@@ -47,9 +47,10 @@ ReadOptions read_options(const InputCommand& command, ProgressLine& progress) {
   options.spelling = Spelling::flags;
   if (!command.as.empty()) {
     options.as = kind_named(command.as);
-    if (!options.as || *options.as == DomainKind::simplices)
+    if (!options.as)
       throw UsageError("--as " + command.as +
-                       ": no such kind; the kinds are surface, solid, cloud, wireframe, mixed");
+                       ": no such kind; the kinds are surface, solid, cloud, wireframe, simplices, "
+                       "mixed");
   }
   options.fill = filling(command.fill);
   options.volume = command.fill.volume;

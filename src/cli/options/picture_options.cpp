@@ -4,6 +4,7 @@
 #include <cmath>
 #include <string_view>
 
+#include <plexway/any/support.hpp>
 #include <plexway/error.hpp>
 #include <plexway/io/page.hpp>
 
@@ -255,8 +256,7 @@ void write_picture(const PictureArguments& arguments, const Domain& domain,
   if (arguments.file.empty()) return;
   render::PictureOptions options = options_of(arguments);
   options.up = arguments.up_of(domain);
-  if (domain.positions().empty())
-    throw UsageError("--picture: " + domain.file().string() + " has no positions to draw");
+  require("--picture: " + domain.file().string(), support(Purpose::pictures, domain));
   if (!options.isosurfaces.empty())
     require("--isosurfaces", support(Purpose::isosurfaces, domain.kind()));
   SceneContent shown = content;
