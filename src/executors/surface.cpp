@@ -45,8 +45,6 @@ void solve_points(const E& executor, const TriangleMesh<Real>& mesh,
   counts.tell(field.statistics);
 }
 
-namespace detail {
 PLEXWAY_SURFACES(PLEXWAY_COMPILE_HERE)
-}
 
 }  // namespace plexway
