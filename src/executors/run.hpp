@@ -5,9 +5,7 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
-#include <memory>
 #include <span>
-#include <vector>
 
 #include <plexway/solve.hpp>
 
@@ -152,22 +150,15 @@ bool run_rows_at_once(const OpenMP& executor, const D& domain, const SourceList&
   };
   const std::size_t vertices = domain.vertex_count();
   check_rows(distance.size(), sources.size(), vertices);
-  std::vector<std::unique_ptr<Own>> own(team_size(executor));
-  std::atomic<bool> complete{true}, stop{false};
-  share_out(executor, sources.size(), [&](std::size_t k, std::size_t thread) {
-    std::unique_ptr<Own>& mine = own[thread];
-    if (!mine) {
-      mine = std::make_unique<Own>();
-      mine->options = options;
-      if (options.progress)
-        mine->options.progress = shared_progress(options.progress, thread, stop);
-    }
-    solve(Serial{}, domain, sources.only(k), mine->options,
-          thread == 0 ? workspace : mine->workspace, mine->field);
-    std::copy(mine->field.distance.begin(), mine->field.distance.end(),
-              distance.begin() + static_cast<std::ptrdiff_t>(k * vertices));
-    if (!mine->field.complete) complete = false;
-  });
+  std::atomic<bool> complete{true};
+  share_out_solves<Own>(executor, sources.size(), options,
+                        [&](std::size_t k, Own& own, std::size_t thread) {
+                          solve(Serial{}, domain, sources.only(k), own.options,
+                                thread == 0 ? workspace : own.workspace, own.field);
+                          std::copy(own.field.distance.begin(), own.field.distance.end(),
+                                    distance.begin() + static_cast<std::ptrdiff_t>(k * vertices));
+                          if (!own.field.complete) complete = false;
+                        });
   return complete;
 }
 
