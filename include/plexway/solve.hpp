@@ -37,24 +37,21 @@ struct WorkspaceFor<E, D> {
   using type = typename E::Workspace;
 };
 
-// Compiled in the library for every executor and every domain that go together.
-template <class E, class D>
-void run(const E& executor, const D& domain, const SourceList& sources,
-         const PropagateOptions& options, WorkspaceOf<E, D>& workspace,
-         DistanceField<RealOf<D>>& field);
-template <class E, class D>
-bool run_each(const E& executor, const D& domain, const SourceList& sources,
-              const PropagateOptions& options, WorkspaceOf<E, D>& workspace,
-              std::span<RealOf<D>> distance);
-
 /// An error of the compiler, in one sentence, where the types alone say that it cannot be.
 template <Refusal refusal>
-constexpr void check() {
+constexpr bool check() {
 #define PLEXWAY_ASSERT(name, sentence) static_assert(refusal != Refusal::name, sentence);
   PLEXWAY_REFUSALS(PLEXWAY_ASSERT)
 #undef PLEXWAY_ASSERT
+  return true;
 }
+
 }  // namespace detail
+
+/// Do executor and domain go together? Where types alone say that they do not, asking is an error
+/// of the compiler, which says why; `supports` (support.hpp) answers instead.
+template <class E, class D>
+concept GoTogether = detail::check<support(combination<E, D>()).refusal()>();
 
 /// ONE field: the distance of every vertex from the *nearest* of `sources`, and which one that is,
 /// by its place in the list.
@@ -71,13 +68,13 @@ constexpr void check() {
 /// does not go together, and Cancelled when the progress callback says so. Cost: see the executors.
 /// Source: Trettner, Bommes, Kobbelt: Geodesic Distance Computation via Virtual Source Propagation,
 /// SGP 2021.
+//
+// Both verbs are compiled in the library (src/executors/run.hpp).
 template <ExecutorType E, DomainType D>
+requires GoTogether<E, D>
 void solve(const E& executor, const D& domain, const SourceList& sources,
            const PropagateOptions& options, WorkspaceOf<E, D>& workspace,
-           DistanceField<RealOf<D>>& field) {
-  detail::check<support(combination<E, D>()).refusal()>();
-  detail::run(executor, domain, sources, options, workspace, field);
-}
+           DistanceField<RealOf<D>>& field);
 
 /// The same with a workspace of its own.
 template <ExecutorType E, DomainType D>
@@ -102,12 +99,10 @@ template <ExecutorType E, DomainType D>
 /// tetrahedron, and 12 a vertex). Its progress is that of the source which the calling thread is
 /// at; Cancelled ends all. Throws as `solve`, and UsageError for a `distance` of another size.
 template <ExecutorType E, DomainType D>
+requires GoTogether<E, D>
 bool solve_each(const E& executor, const D& domain, const SourceList& sources,
                 const PropagateOptions& options, WorkspaceOf<E, D>& workspace,
-                std::span<RealOf<D>> distance) {
-  detail::check<support(combination<E, D>()).refusal()>();
-  return detail::run_each(executor, domain, sources, options, workspace, distance);
-}
+                std::span<RealOf<D>> distance);
 
 /// The same with a workspace and rows of its own.
 template <ExecutorType E, DomainType D>

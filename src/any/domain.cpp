@@ -1,10 +1,6 @@
 #include <plexway/any_domain.hpp>
 
-#include <algorithm>
-#include <atomic>
 #include <memory>
-#include <mutex>
-#include <string>
 #include <utility>
 #include <vector>
 
@@ -12,17 +8,9 @@
 #include "any/kept_build.hpp"
 #include "any/prepared.hpp"
 #include "any/shape_state.hpp"
-#include "executors/share_out.hpp"
 #include "executors/supported.hpp"
 
 namespace plexway {
-
-struct AnyDomain::State {
-  AnyShape shape;
-  std::shared_ptr<const Prepared> prepared;
-  BuildOptions options;  // as asked for, without progress
-  double build_seconds = 0;
-};
 
 AnyDomain::AnyDomain(AnyShape shape, const BuildOptions& options) {
   const Stopwatch building;
@@ -77,90 +65,6 @@ Support AnyDomain::support(const AnyExecutor& executor, const SourceList& source
   const ExecutorKind kind = std::visit([](const auto& e) { return e.kind; }, executor);
   return detail::support_of(state_->prepared->combination(kind), state_->prepared->metric(),
                             sources, options);
-}
-
-AnyField AnyDomain::solve(const AnyExecutor& executor, const SourceList& sources,
-                          const PropagateOptions& options) const {
-  AnyField field;
-  solve(executor, sources, options, field);
-  return field;
-}
-
-void AnyDomain::solve(const AnyExecutor& executor, const SourceList& sources,
-                      const PropagateOptions& options, AnyField& field) const {
-  const Inside inside(open_simplices(), sources);
-  with_file_name(shape(),
-                 [&] { state_->prepared->solve(executor, inside.list(), options, field); });
-}
-
-namespace {
-
-// What a thread has of its own.
-struct Own {
-  AnyField field;
-  PropagateOptions options;
-};
-
-}  // namespace
-
-void AnyDomain::solve_each(const AnyExecutor& executor, const SourceList& sources,
-                           const PropagateOptions& options, const TakeField& take) const {
-  const auto* team = std::get_if<OpenMP>(&executor);
-  if (team == nullptr) {
-    AnyField field;
-    for (std::size_t k = 0; k < sources.size(); ++k) {
-      solve(executor, sources.only(k), options, field);
-      take(k, field);
-    }
-    return;
-  }
-  std::vector<std::unique_ptr<Own>> own(team_size(*team));
-  std::mutex taking;
-  std::atomic<bool> stop{false};
-  detail::share_out(*team, sources.size(), [&](std::size_t k, std::size_t thread) {
-    std::unique_ptr<Own>& mine = own[thread];
-    if (!mine) {
-      mine = std::make_unique<Own>();
-      mine->options = options;
-      if (options.progress)
-        mine->options.progress = detail::shared_progress(options.progress, thread, stop);
-    }
-    solve(Serial{}, sources.only(k), mine->options, mine->field);
-    const std::scoped_lock lock(taking);
-    take(k, mine->field);
-  });
-}
-
-namespace {
-
-template <class Real>
-bool solve_rows(const AnyDomain& domain, const AnyExecutor& executor, const SourceList& sources,
-                const PropagateOptions& options, std::span<Real> rows) {
-  const std::size_t vertices = domain.vertices();
-  detail::check_rows(rows.size(), sources.size(), vertices);
-  bool complete = true;
-  domain.solve_each(executor, sources, options, [&](std::size_t k, const AnyField& field) {
-    std::visit(
-        [&](const auto& f) {
-          std::transform(f.distance.begin(), f.distance.end(),
-                         rows.begin() + static_cast<std::ptrdiff_t>(k * vertices),
-                         [](auto d) { return static_cast<Real>(d); });
-        },
-        field.data);
-    complete = complete && field.complete();
-  });
-  return complete;
-}
-
-}  // namespace
-
-bool AnyDomain::solve_each(const AnyExecutor& executor, const SourceList& sources,
-                           const PropagateOptions& options, std::span<double> rows) const {
-  return solve_rows(*this, executor, sources, options, rows);
-}
-bool AnyDomain::solve_each(const AnyExecutor& executor, const SourceList& sources,
-                           const PropagateOptions& options, std::span<float> rows) const {
-  return solve_rows(*this, executor, sources, options, rows);
 }
 
 AnyPathField AnyDomain::path_field(const AnyExecutor& executor,

@@ -13,10 +13,7 @@
 #include <plexway/error.hpp>
 
 #include "any/prepared.hpp"
-
-#ifdef PLEXWAY_HAS_GL
-#include <plexway/executors/gl.hpp>
-#endif
+#include "any/with_executor.hpp"
 
 namespace plexway {
 
@@ -136,19 +133,8 @@ class PathsOf final : public AnyPathField::State {
 
   void solve_in(PathField<Complex>& paths, std::span<const PointSource> sources,
                 const PropagateOptions& options) const {
-    std::visit(
-        [&](const auto& chosen) {
-          using E = std::decay_t<decltype(chosen)>;
-          if constexpr (!supports<E, Complex>)
-            support(combination<E, Complex>()).require();
-          else if constexpr (E::kind == ExecutorKind::openmp && !teams_built_in)
-            static_cast<void>(team_size(chosen));  // says that it is not built in
-          else if constexpr (E::kind == ExecutorKind::gl && !gl_built_in)
-            refuse_gl();
-          else
-            paths.solve(chosen, sources, options);
-        },
-        executor_);
+    with_executor<Complex>(executor_,
+                           [&](const auto& chosen) { paths.solve(chosen, sources, options); });
   }
 
   // Solved on the complex itself.

@@ -89,27 +89,6 @@ class PreparedSurface final : public PreparedKind<TriangleMesh<Real>> {
     return {&made_.mesh, std::move(points)};
   }
 
-  void solve(const AnyExecutor& executor, const SourceList& sources,
-             const PropagateOptions& options, AnyField& field) const override {
-    typename Workspaces<SolveRoom<TriangleMesh<Real>>>::Taken taken(this->rooms_);
-    SolveRoom<TriangleMesh<Real>>& room = *taken;
-    DistanceField<Real>& found = as<Real>(field);
-    field.triangulation = report_;
-    if (!made_.delaunay) {
-      solve_on(executor, made_.mesh, sources, options, room, found);
-      return;
-    }
-    if (!sources.only_points() && has_shapes(sources.sources())) {
-      support(left_open_ ? Triangulation::automatic : Triangulation::delaunay, SourceKind::curve)
-          .require();
-      field.triangulation = {};
-      solve_on(executor, input(), sources, options, room, found);
-      return;
-    }
-    solve_on(executor, made_.mesh, moved(sources, room), options, room, found);
-    cut(found, this->shape_.vertices());
-  }
-
   std::shared_ptr<const AnyPathField::State> path_field(
       const AnyExecutor& executor, std::span<const PointSource> sources,
       const PropagateOptions& options) const override {
@@ -120,7 +99,7 @@ class PreparedSurface final : public PreparedKind<TriangleMesh<Real>> {
       return state;
     }
     AnyField field;
-    solve(executor, SourceList(sources), options, field);
+    this->solve(executor, SourceList(sources), options, field);
     state->adopt(executor, std::move(field), sources, options,
                  {&made_.mesh, [this](const PointSource& point) {
                     return made_.delaunay->to_intrinsic(point);
@@ -152,6 +131,21 @@ class PreparedSurface final : public PreparedKind<TriangleMesh<Real>> {
   }
   const TriangleMesh<Real>& of() const override { return made_.mesh; }
 
+  Placed place(const SourceList& sources, SolveRoom& room, AnyField& field) const override {
+    field.triangulation = report_;
+    if (!made_.delaunay) return {&made_.mesh, sources, field};
+    if (!sources.only_points() && has_shapes(sources.sources())) {
+      support(left_open_ ? Triangulation::automatic : Triangulation::delaunay, SourceKind::curve)
+          .require();
+      field.triangulation = {};
+      return {&input(), sources, field};
+    }
+    return {&made_.mesh, moved(sources, room), field};
+  }
+  void take_back(SolveRoom&, AnyField& field) const override {
+    if (made_.delaunay) cut(as<DistanceField<Real>>(field.data), this->shape_.vertices());
+  }
+
   // Are there other triangles than the shape's?
   [[nodiscard]] bool elsewhere() const { return report_.flips + report_.inserted_vertices > 0; }
 
@@ -178,7 +172,7 @@ class PreparedSurface final : public PreparedKind<TriangleMesh<Real>> {
     return made_.delaunay->to_intrinsic(point);
   }
 
-  SourceList moved(const SourceList& sources, SolveRoom<TriangleMesh<Real>>& room) const {
+  SourceList moved(const SourceList& sources, SolveRoom& room) const {
     if (sources.only_points()) {
       room.points.clear();
       for (const PointSource& point : sources.points()) room.points.push_back(moved(point));
@@ -225,26 +219,6 @@ class PreparedMixed final : public PreparedKind<MixedComplex<Real>> {
     return Base::bytes() + (pieces_.vertex.capacity() + pieces_.simplex.capacity()) * sizeof(Index);
   }
 
-  void solve(const AnyExecutor& executor, const SourceList& sources,
-             const PropagateOptions& options, AnyField& field) const override {
-    typename Workspaces<SolveRoom<MixedComplex<Real>>>::Taken taken(this->rooms_);
-    SolveRoom<MixedComplex<Real>>& room = *taken;
-    DistanceField<Real>& found = as<Real>(field);
-    solve_on(executor, pieces_.complex, moved(sources, room), options, room, room.other);
-    const auto pick = [&](const auto& from, auto& to, auto nothing) {
-      to.clear();
-      if (from.empty()) return;
-      for (const Index v : pieces_.vertex) to.push_back(v == none ? nothing : from[v]);
-    };
-    pick(room.other.distance, found.distance, std::numeric_limits<Real>::infinity());
-    pick(room.other.label, found.label, none);
-    pick(room.other.error, found.error, Real(0));
-    found.accuracy = room.other.accuracy;
-    found.complete = room.other.complete;
-    found.statistics = room.other.statistics;
-    field.triangulation = {};
-  }
-
   std::shared_ptr<const AnyPathField::State> path_field(
       const AnyExecutor& executor, std::span<const PointSource> sources,
       const PropagateOptions& options) const override {
@@ -288,6 +262,26 @@ class PreparedMixed final : public PreparedKind<MixedComplex<Real>> {
  private:
   const MixedComplex<Real>& of() const override { return pieces_.complex; }
 
+  Placed place(const SourceList& sources, SolveRoom& room, AnyField& field) const override {
+    field.triangulation = {};
+    return {&pieces_.complex, moved(sources, room), room.other};
+  }
+  void take_back(SolveRoom& room, AnyField& field) const override {
+    const auto& inner = as<DistanceField<Real>>(room.other.data);
+    auto& found = as<DistanceField<Real>>(field.data);
+    const auto pick = [&](const auto& from, auto& to, auto nothing) {
+      to.clear();
+      if (from.empty()) return;
+      for (const Index v : pieces_.vertex) to.push_back(v == none ? nothing : from[v]);
+    };
+    pick(inner.distance, found.distance, std::numeric_limits<Real>::infinity());
+    pick(inner.label, found.label, none);
+    pick(inner.error, found.error, Real(0));
+    found.accuracy = inner.accuracy;
+    found.complete = inner.complete;
+    found.statistics = inner.statistics;
+  }
+
   [[nodiscard]] Index vertex(Index outer) const {
     if (outer >= pieces_.vertex.size())
       throw UsageError("vertex " + std::to_string(outer) + " is not in the domain");
@@ -307,7 +301,7 @@ class PreparedMixed final : public PreparedKind<MixedComplex<Real>> {
       point.simplex = simplex(point.simplex);
   }
 
-  SourceList moved(const SourceList& sources, SolveRoom<MixedComplex<Real>>& room) const {
+  SourceList moved(const SourceList& sources, SolveRoom& room) const {
     if (sources.only_points()) {
       room.points.assign(sources.points().begin(), sources.points().end());
       for (PointSource& point : room.points) move(point);
@@ -444,10 +438,6 @@ std::shared_ptr<Prepared> open_as(const AnyShape& shape, const KeptBuild& kept) 
 }
 
 }  // namespace
-
-void refuse_gl() {
-  throw NotBuiltError("the executor GL is not built in; install libegl-dev and build again");
-}
 
 std::shared_ptr<const Prepared> prepare(const AnyShape& shape, const BuildOptions& options) {
   const bool asked = options.triangulation == Triangulation::delaunay ||

@@ -1,31 +1,64 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <span>
+#include <tuple>
+#include <utility>
+#include <variant>
+#include <vector>
 
 #include <plexway/any/complex.hpp>
 #include <plexway/any_domain.hpp>
+#include <plexway/propagate/workspace.hpp>
 
 #include "any/row_complex.hpp"
+#include "any/workspaces.hpp"
 #include "complex/kept_archive.hpp"
+
+#ifdef PLEXWAY_HAS_GL
+#include <plexway/executors/gl.hpp>
+#endif
 
 namespace plexway {
 
-/// Has this build teams of threads? Where it has none their code is not compiled in either, which
-/// is a seventh of the page's module.
-#ifdef PLEXWAY_HAS_TEAMS
-inline constexpr bool teams_built_in = true;
-#else
-inline constexpr bool teams_built_in = false;
-#endif
+/// The one of type T, with the memory that it had.
+template <class T, class... Types>
+T& as(std::variant<Types...>& any) {
+  if (T* const kept = std::get_if<T>(&any)) return *kept;
+  return any.template emplace<T>();
+}
 
-/// Has it devices? Where it has none, says so.
+/// What a solve changes.
+struct SolveRoom {
 #ifdef PLEXWAY_HAS_GL
-inline constexpr bool gl_built_in = true;
+  using Device = GLWorkspace;
 #else
-inline constexpr bool gl_built_in = false;
+  using Device = std::monostate;
 #endif
-[[noreturn]] void refuse_gl();
+  std::tuple<std::optional<Workspace<float>>, std::optional<Workspace<double>>,
+             std::optional<Device>>
+      workspaces;
+  std::vector<PointSource> points;  ///< where they are in the complex
+  std::vector<Source> sources;
+  AnyField other;  ///< where the complex numbers vertices in its own way
+
+  /// Of executors that keep one such.
+  template <class Kept>
+  [[nodiscard]] Kept& workspace() {
+    auto& own = std::get<std::optional<Kept>>(workspaces);
+    if (!own) own.emplace();
+    return *own;
+  }
+  [[nodiscard]] std::size_t bytes() const;
+};
+
+/// What is solved for a field of the shape.
+struct Placed {
+  AnyComplex complex;
+  SourceList sources;
+  AnyField& field;
+};
 
 /// A complex made ready for distances, its precision and its kind hidden. Any number of threads may
 /// solve at once.
@@ -60,19 +93,38 @@ class Prepared : public std::enable_shared_from_this<Prepared> {
 
   /// Sources are in the complex: see `open`. So in path_field; what is asked of that is in the
   /// shape.
-  virtual void solve(const AnyExecutor& executor, const SourceList& sources,
-                     const PropagateOptions& options, AnyField& field) const = 0;
+  void solve(const AnyExecutor& executor, const SourceList& sources,
+             const PropagateOptions& options, AnyField& field) const;
   /// The complex alone.
   virtual void keep(KeptOut& out) const = 0;
   [[nodiscard]] virtual std::shared_ptr<const AnyPathField::State> path_field(
       const AnyExecutor& executor, std::span<const PointSource> sources,
       const PropagateOptions& options) const = 0;
 
+ protected:
+  [[nodiscard]] std::size_t room_bytes() const { return rooms_.bytes(); }
+
  private:
+  /// On what a field from `sources` is solved; take_back makes it one of the shape.
+  [[nodiscard]] virtual Placed place(const SourceList& sources, SolveRoom& /*room*/,
+                                     AnyField& field) const {
+    field.triangulation = {};
+    return {complex(), sources, field};
+  }
+  virtual void take_back(SolveRoom& /*room*/, AnyField& /*field*/) const {}
+
   friend std::shared_ptr<const Prepared> prepare(const AnyShape& shape,
                                                  const BuildOptions& options);
 
   std::unique_ptr<const OpenSimplices> open_;
+  mutable Workspaces<SolveRoom> rooms_;
+};
+
+struct AnyDomain::State {
+  AnyShape shape;
+  std::shared_ptr<const Prepared> prepared;
+  BuildOptions options;  // as asked for, without progress
+  double build_seconds = 0;
 };
 
 struct AnyPathField::State {

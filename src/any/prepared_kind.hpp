@@ -12,13 +12,7 @@
 #include "any/linear_field.hpp"
 #include "any/path_state.hpp"
 #include "any/prepared.hpp"
-#include "any/workspaces.hpp"
 #include "complex/kept_parts.hpp"
-#include "executors/supported.hpp"
-
-#ifdef PLEXWAY_HAS_GL
-#include <plexway/executors/gl.hpp>
-#endif
 
 namespace plexway {
 
@@ -28,56 +22,6 @@ void cut(DistanceField<Real>& field, std::size_t vertices) {
   field.distance.resize(vertices);
   if (!field.label.empty()) field.label.resize(vertices);
   if (!field.error.empty()) field.error.resize(vertices);
-}
-
-// A field of the right precision, with the memory that it had.
-template <class Real>
-DistanceField<Real>& as(AnyField& field) {
-  if (auto* const kept = std::get_if<DistanceField<Real>>(&field.data)) return *kept;
-  return field.data.template emplace<DistanceField<Real>>();
-}
-
-/// What a solve changes.
-template <class Complex>
-struct SolveRoom {
-  WorkspaceOf<Serial, Complex> workspace;
-  std::vector<PointSource> points;  // where they are in the complex
-  std::vector<Source> sources;
-  DistanceField<RealOf<Complex>> other;
-#ifdef PLEXWAY_HAS_GL
-  GLWorkspace gl;
-#endif
-
-  [[nodiscard]] std::size_t bytes() const {
-    std::size_t sum = other.distance.capacity() * sizeof(RealOf<Complex>);
-    sum += workspace.bytes();
-#ifdef PLEXWAY_HAS_GL
-    sum += gl.bytes();
-#endif
-    return sum;
-  }
-};
-
-template <class Complex, class Room>
-void solve_on(const AnyExecutor& executor, const Complex& complex, const SourceList& sources,
-              const PropagateOptions& options, Room& room, DistanceField<RealOf<Complex>>& field) {
-  std::visit(
-      [&](const auto& chosen) {
-        using E = std::decay_t<decltype(chosen)>;
-        if constexpr (!supports<E, Complex>) {
-          support(combination<E, Complex>()).require();
-        } else if constexpr (E::kind == ExecutorKind::openmp && !teams_built_in) {
-          static_cast<void>(team_size(chosen));  // says that it is not built in
-        } else if constexpr (E::kind == ExecutorKind::gl) {
-          if constexpr (gl_built_in)
-            plexway::solve(chosen, complex, sources, options, room.gl, field);
-          else
-            refuse_gl();
-        } else {
-          plexway::solve(chosen, complex, sources, options, room.workspace, field);
-        }
-      },
-      executor);
 }
 
 /// What all kinds have in common. A kind brings `complex_`, and says where sources are in it.
@@ -104,18 +48,11 @@ class PreparedKind : public Prepared {
     if constexpr (Complex::kind == DomainKind::cloud) return &of().summary();
     return nullptr;
   }
-  std::size_t bytes() const override { return of().bytes() + rooms_.bytes(); }
+  std::size_t bytes() const override { return of().bytes() + room_bytes(); }
   AnyComplex complex() const override { return &of(); }
 
   void keep(KeptOut& out) const override {
     if constexpr (KeptParts::knows<Complex>) KeptParts::keep(out, of());
-  }
-
-  void solve(const AnyExecutor& executor, const SourceList& sources,
-             const PropagateOptions& options, AnyField& field) const override {
-    typename Workspaces<SolveRoom<Complex>>::Taken room(rooms_);
-    solve_on(executor, of(), sources, options, *room, as<Real>(field));
-    field.triangulation = {};
   }
 
   std::shared_ptr<const AnyPathField::State> path_field(
@@ -137,7 +74,6 @@ class PreparedKind : public Prepared {
 
   AnyShape shape_;
   bool measured_;  // by a metric: positions do not tell lengths
-  mutable Workspaces<SolveRoom<Complex>> rooms_;
 };
 
 }  // namespace plexway

@@ -3,13 +3,11 @@
 
 namespace plexway {
 
-namespace detail {
 #define PLEXWAY_SHEETS(...)              \
   PLEXWAY_ELSEWHERE(Serial, __VA_ARGS__) \
   PLEXWAY_ELSEWHERE(OpenMP, __VA_ARGS__)
 PLEXWAY_SURFACES(PLEXWAY_SHEETS)
 #undef PLEXWAY_SHEETS
-}  // namespace detail
 
 template <class E, class Real>
 void solve_points(const E& executor, const PointCloud<Real>& cloud,
@@ -17,12 +15,10 @@ void solve_points(const E& executor, const PointCloud<Real>& cloud,
                   Workspace<Real>& workspace, DistanceField<Real>& field) {
   solve_on_cloud(cloud, sources, field,
                  [&](const TriangleMesh<Real>& surface, std::span<const PointSource> moved) {
-                   detail::run(executor, surface, moved, options, workspace, field);
+                   solve(executor, surface, moved, options, workspace, field);
                  });
 }
 
-namespace detail {
 PLEXWAY_CLOUDS(PLEXWAY_COMPILE_HERE)
-}
 
 }  // namespace plexway

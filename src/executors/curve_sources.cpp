@@ -99,7 +99,7 @@ bool solve_by_windows(const TriangleMesh<Real>& mesh, std::span<const Source> so
   from.lights = seeds.lights;
   from.corners = seeds.corners;
   from.labels = sources.size() > 1;
-  return workspace.windows.on(mesh).solve(from, accuracy, options, workspace, field);
+  return workspace.windows.on(mesh).solve_by(Alone{}, from, accuracy, options, workspace, field);
 }
 
 // A front that keeps light out of triangles that a curve crosses: there it would count heights from

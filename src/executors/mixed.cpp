@@ -17,7 +17,6 @@
 #include "propagate/mixed_propagation.hpp"
 
 namespace plexway {
-namespace detail {
 
 // A domain of one piece is solved as what it is.
 #define PLEXWAY_ONE_PIECE(...)           \
@@ -28,7 +27,6 @@ PLEXWAY_SOLIDS(PLEXWAY_ONE_PIECE)
 PLEXWAY_WIREFRAMES(PLEXWAY_ONE_PIECE)
 #undef PLEXWAY_ONE_PIECE
 
-}  // namespace detail
 namespace {
 
 // The piece that a source lies in, and the source in that piece's numbers.
@@ -195,8 +193,6 @@ void solve_points(const E& executor, const MixedComplex<Real>& domain,
   if (sources.size() == 1) field.label.clear();
 }
 
-namespace detail {
 PLEXWAY_MIXED(PLEXWAY_COMPILE_HERE)
-}  // namespace detail
 
 }  // namespace plexway

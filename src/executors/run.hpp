@@ -5,9 +5,7 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
-#include <memory>
 #include <span>
-#include <vector>
 
 #include <plexway/solve.hpp>
 
@@ -20,7 +18,8 @@
 /// declared before, for its domains:
 ///
 ///   void solve_points(executor, domain, span of PointSource, options, workspace, field);
-namespace plexway::detail {
+namespace plexway {
+namespace detail {
 
 /// Takes the distances from one more ball into the field.
 template <class Real>
@@ -59,20 +58,25 @@ void take_ball(const SourceParts::Ball& ball, const DistanceField<Real>& alone, 
   field.complete = field.complete && alone.complete;
 }
 
-/// From points, sets and balls; `shapes` solves from what is neither, and the points with it.
-template <class E, class D, class Shapes>
+/// From sources of any kind. Where a domain has them, curves and simplices are what its
+/// solve_shapes takes, and the points with them.
+template <class E, class D>
 void run_parts(const E& executor, const D& domain, std::span<const Source> sources,
                const PropagateOptions& options, WorkspaceOf<E, D>& workspace,
-               DistanceField<RealOf<D>>& field, const Shapes& shapes) {
+               DistanceField<RealOf<D>>& field) {
   using Real = RealOf<D>;
   SourceParts parts = take_apart(sources, D::kind == DomainKind::wireframe);
   const bool labels = sources.size() > 1;
   field.distance.clear();
-  if (!parts.shapes.empty())
-    shapes(parts);
-  else if (!parts.points.empty())
+  if (!parts.shapes.empty()) {
+    if constexpr (requires {
+                    solve_shapes(executor, domain, sources, parts, options, workspace, field);
+                  })
+      solve_shapes(executor, domain, sources, parts, options, workspace, field);
+  } else if (!parts.points.empty()) {
     solve_points(executor, domain, std::span<const PointSource>(parts.points), options, workspace,
                  field);
+  }
   if (!labels) field.label.clear();
   if (labels && !field.distance.empty()) {
     field.label.resize(field.distance.size());
@@ -95,11 +99,14 @@ void run_parts(const E& executor, const D& domain, std::span<const Source> sourc
   }
 }
 
-template <class E, class D>
-void run(const E& executor, const D& domain, const SourceList& sources,
-         const PropagateOptions& options, WorkspaceOf<E, D>& workspace,
-         DistanceField<RealOf<D>>& field) {
-  require_support(combination<E, D>(), domain.metric(), sources, options);
+}  // namespace detail
+
+template <ExecutorType E, DomainType D>
+requires GoTogether<E, D>
+void solve(const E& executor, const D& domain, const SourceList& sources,
+           const PropagateOptions& options, WorkspaceOf<E, D>& workspace,
+           DistanceField<RealOf<D>>& field) {
+  detail::require_support(combination<E, D>(), domain.metric(), sources, options);
   if constexpr (E::kind == ExecutorKind::openmp)
     if (executor.ranks != nullptr)
       check_same_work(*executor.ranks, domain, sources, options, executor.piece);
@@ -109,15 +116,10 @@ void run(const E& executor, const D& domain, const SourceList& sources,
     solve_points(executor, domain, sources.points(), options, workspace, field);
     return;
   }
-  run_parts(executor, domain, sources.sources(), options, workspace, field,
-            [&](SourceParts& parts) {
-              if constexpr (requires {
-                              solve_shapes(executor, domain, sources.sources(), parts, options,
-                                           workspace, field);
-                            })
-                solve_shapes(executor, domain, sources.sources(), parts, options, workspace, field);
-            });
+  detail::run_parts(executor, domain, sources.sources(), options, workspace, field);
 }
+
+namespace detail {
 
 /// One source after the other.
 template <class E, class D>
@@ -128,7 +130,7 @@ bool run_rows(const E& executor, const D& domain, const SourceList& sources,
   DistanceField<RealOf<D>> field;
   bool complete = true;
   for (std::size_t k = 0; k < sources.size(); ++k) {
-    run(executor, domain, sources.only(k), options, workspace, field);
+    solve(executor, domain, sources.only(k), options, workspace, field);
     std::copy(field.distance.begin(), field.distance.end(),
               distance.begin() + static_cast<std::ptrdiff_t>(k * domain.vertex_count()));
     complete = complete && field.complete;
@@ -148,55 +150,52 @@ bool run_rows_at_once(const OpenMP& executor, const D& domain, const SourceList&
   };
   const std::size_t vertices = domain.vertex_count();
   check_rows(distance.size(), sources.size(), vertices);
-  std::vector<std::unique_ptr<Own>> own(team_size(executor));
-  std::atomic<bool> complete{true}, stop{false};
-  share_out(executor, sources.size(), [&](std::size_t k, std::size_t thread) {
-    std::unique_ptr<Own>& mine = own[thread];
-    if (!mine) {
-      mine = std::make_unique<Own>();
-      mine->options = options;
-      if (options.progress)
-        mine->options.progress = shared_progress(options.progress, thread, stop);
-    }
-    run(Serial{}, domain, sources.only(k), mine->options, thread == 0 ? workspace : mine->workspace,
-        mine->field);
-    std::copy(mine->field.distance.begin(), mine->field.distance.end(),
-              distance.begin() + static_cast<std::ptrdiff_t>(k * vertices));
-    if (!mine->field.complete) complete = false;
-  });
+  std::atomic<bool> complete{true};
+  share_out_solves<Own>(executor, sources.size(), options,
+                        [&](std::size_t k, Own& own, std::size_t thread) {
+                          solve(Serial{}, domain, sources.only(k), own.options,
+                                thread == 0 ? workspace : own.workspace, own.field);
+                          std::copy(own.field.distance.begin(), own.field.distance.end(),
+                                    distance.begin() + static_cast<std::ptrdiff_t>(k * vertices));
+                          if (!own.field.complete) complete = false;
+                        });
   return complete;
 }
 
-template <class E, class D>
-bool run_each(const E& executor, const D& domain, const SourceList& sources,
-              const PropagateOptions& options, WorkspaceOf<E, D>& workspace,
-              std::span<RealOf<D>> distance) {
+}  // namespace detail
+
+template <ExecutorType E, DomainType D>
+requires GoTogether<E, D>
+bool solve_each(const E& executor, const D& domain, const SourceList& sources,
+                const PropagateOptions& options, WorkspaceOf<E, D>& workspace,
+                std::span<RealOf<D>> distance) {
   if constexpr (E::kind == ExecutorKind::openmp) {
-    return run_rows_at_once(executor, domain, sources, options, workspace, distance);
+    return detail::run_rows_at_once(executor, domain, sources, options, workspace, distance);
   } else if constexpr (requires {
                          each_point(executor, domain, sources.points(), options, workspace,
                                     distance);
                        }) {
     if (sources.only_points()) {
-      require_support(combination<E, D>(), domain.metric(), sources, options);
-      check_rows(distance.size(), sources.size(), domain.vertex_count());
+      detail::require_support(combination<E, D>(), domain.metric(), sources, options);
+      detail::check_rows(distance.size(), sources.size(), domain.vertex_count());
       return each_point(executor, domain, sources.points(), options, workspace, distance);
     }
-    return run_rows(executor, domain, sources, options, workspace, distance);
+    return detail::run_rows(executor, domain, sources, options, workspace, distance);
   } else {
-    return run_rows(executor, domain, sources, options, workspace, distance);
+    return detail::run_rows(executor, domain, sources, options, workspace, distance);
   }
 }
 
-}  // namespace plexway::detail
+}  // namespace plexway
 
-/// Compiles one verb, or both, for an executor and a domain; in namespace plexway::detail.
-#define PLEXWAY_SOLVE_OF(E, ...)                                                              \
-  template void run(const E&, const __VA_ARGS__&, const SourceList&, const PropagateOptions&, \
-                    WorkspaceOf<E, __VA_ARGS__>&, DistanceField<RealOf<__VA_ARGS__>>&);
-#define PLEXWAY_EACH_OF(E, ...)                                                                    \
-  template bool run_each(const E&, const __VA_ARGS__&, const SourceList&, const PropagateOptions&, \
-                         WorkspaceOf<E, __VA_ARGS__>&, std::span<RealOf<__VA_ARGS__>>);
+/// Compiles one verb, or both, for an executor and a domain; in namespace plexway.
+#define PLEXWAY_SOLVE_OF(E, ...)                                                                \
+  template void solve(const E&, const __VA_ARGS__&, const SourceList&, const PropagateOptions&, \
+                      WorkspaceOf<E, __VA_ARGS__>&, DistanceField<RealOf<__VA_ARGS__>>&);
+#define PLEXWAY_EACH_OF(E, ...)                                                   \
+  template bool solve_each(const E&, const __VA_ARGS__&, const SourceList&,       \
+                           const PropagateOptions&, WorkspaceOf<E, __VA_ARGS__>&, \
+                           std::span<RealOf<__VA_ARGS__>>);
 #define PLEXWAY_COMPILE(E, ...)    \
   PLEXWAY_SOLVE_OF(E, __VA_ARGS__) \
   PLEXWAY_EACH_OF(E, __VA_ARGS__)

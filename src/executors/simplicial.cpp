@@ -16,8 +16,6 @@ void solve_points(const E& executor, const SimplicialComplex<Real, N>& domain,
   });
 }
 
-namespace detail {
 PLEXWAY_SIMPLICES(PLEXWAY_COMPILE_HERE)
-}
 
 }  // namespace plexway

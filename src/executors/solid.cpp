@@ -22,8 +22,6 @@ void solve_points(const E& executor, const TetMesh<Real>& mesh,
   workspace.pieces.counts().tell(field.statistics);
 }
 
-namespace detail {
 PLEXWAY_SOLIDS(PLEXWAY_COMPILE_HERE)
-}
 
 }  // namespace plexway

@@ -26,7 +26,8 @@ void solve_points(const E& executor, const TriangleMesh<Real>& mesh,
       if constexpr (E::kind == ExecutorKind::openmp)
         return solve_by_windows(executor, mesh, sources, accuracy, options, workspace, field);
       else
-        return workspace.windows.on(mesh).solve(sources, accuracy, options, workspace, field);
+        return workspace.windows.on(mesh).solve_by(Alone{}, sources, accuracy, options, workspace,
+                                                   field);
     };
     if (solved()) {
       field.accuracy = accuracy;
@@ -45,8 +46,6 @@ void solve_points(const E& executor, const TriangleMesh<Real>& mesh,
   counts.tell(field.statistics);
 }
 
-namespace detail {
 PLEXWAY_SURFACES(PLEXWAY_COMPILE_HERE)
-}
 
 }  // namespace plexway

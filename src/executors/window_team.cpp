@@ -77,7 +77,7 @@ bool solve_by_windows(const OpenMP& executor, const TriangleMesh<Real>& mesh,
   const std::size_t size = piece_size(executor, mesh.face_count(), {2048, 128});
   if (is_one_piece(size, mesh.face_count()) || options.schedule != Schedule::dual_queue ||
       solver.kept() != nullptr)
-    return solver.solve(sources, accuracy, options, workspace, field);
+    return solver.solve_by(Alone{}, sources, accuracy, options, workspace, field);
   workspace.front.reserve(mesh.face_count());
   const TeamCrew<Real, false> crew(team, workspace, 0, mesh.unit(), options);
   bool solved = false;

@@ -13,7 +13,7 @@
 
 namespace plexway {
 
-/// WindowSolver::solve by a team, in pieces, with the same result whatever the number of threads:
+/// WindowSolver::solve_by with a team, in pieces, the same result whatever the number of threads:
 /// in a single piece, or in an order that pieces cannot keep, by one thread.
 template <class Real>
 [[nodiscard]] bool solve_by_windows(const OpenMP& executor, const TriangleMesh<Real>& mesh,

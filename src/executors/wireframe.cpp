@@ -73,10 +73,8 @@ void solve_points(const Serial&, const Wireframe<Real>& wireframe,
   solve_alone(wireframe, sources, options, kept.state(), field);
 }
 
-namespace detail {
 #define PLEXWAY_COMPILE_WIRES(...) PLEXWAY_COMPILE(Serial, __VA_ARGS__)
 PLEXWAY_WIREFRAMES(PLEXWAY_COMPILE_WIRES)
 #undef PLEXWAY_COMPILE_WIRES
-}  // namespace detail
 
 }  // namespace plexway

@@ -151,12 +151,10 @@ void solve_points(const OpenMP& executor, const Wireframe<Real>& wireframe,
   workspace.pieces.counts().tell(field.statistics);
 }
 
-namespace detail {
 #define PLEXWAY_COMPILE_WIRES(...)       \
   PLEXWAY_ELSEWHERE(Serial, __VA_ARGS__) \
   PLEXWAY_COMPILE(OpenMP, __VA_ARGS__)
 PLEXWAY_WIREFRAMES(PLEXWAY_COMPILE_WIRES)
 #undef PLEXWAY_COMPILE_WIRES
-}  // namespace detail
 
 }  // namespace plexway

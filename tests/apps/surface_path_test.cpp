@@ -19,9 +19,9 @@ struct Forgetful {
   struct Workspace {};
 };
 template <>
-void plexway::detail::run(const Forgetful&, const TriangleMesh<double>& mesh,
-                          const SourceList& sources, const PropagateOptions& options,
-                          Forgetful::Workspace&, DistanceField<double>& field) {
+void plexway::solve(const Forgetful&, const TriangleMesh<double>& mesh, const SourceList& sources,
+                    const PropagateOptions& options, Forgetful::Workspace&,
+                    DistanceField<double>& field) {
   field = solve(Serial{}, mesh, sources, options);
 }
 

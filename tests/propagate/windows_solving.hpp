@@ -27,7 +27,8 @@ void solve_windows(const TriangleMesh<Real>& mesh, std::span<const PointSource> 
   options.accuracy = accuracy;
   if (std::is_same_v<Real, float> && accuracy == Accuracy::exact()) {
     WorkspaceState<Real>& state = workspace.state();
-    const bool solved = state.windows.on(mesh).solve(sources, accuracy, options, state, field);
+    const bool solved =
+        state.windows.on(mesh).solve_by(Alone{}, sources, accuracy, options, state, field);
     CHECK(solved);
   } else {
     plexway::solve(Serial{}, mesh, sources, options, workspace, field);

@@ -8,16 +8,14 @@
 
 namespace plexway {
 
-namespace detail {
 PLEXWAY_ELSEWHERE(GL, TriangleMesh<float>)
-}
 
 void solve_points(const GL& executor, const PointCloud<float>& cloud,
                   std::span<const PointSource> sources, const PropagateOptions& options,
                   GLWorkspace& workspace, DistanceField<float>& field) {
   solve_on_cloud(cloud, sources, field,
                  [&](const TriangleMesh<float>& surface, std::span<const PointSource> moved) {
-                   detail::run(executor, surface, moved, options, workspace, field);
+                   solve(executor, surface, moved, options, workspace, field);
                  });
 }
 
@@ -29,12 +27,11 @@ bool each_point(const GL& executor, const PointCloud<float>& cloud,
   solve_on_surface_of(
       cloud, sources, [&](const TriangleMesh<float>& surface, std::span<const PointSource> moved) {
         if (vertices == points) {
-          complete = detail::run_each(executor, surface, moved, options, workspace, distance);
+          complete = solve_each(executor, surface, moved, options, workspace, distance);
           return;
         }
         std::vector<float> rows(sources.size() * vertices);
-        complete =
-            detail::run_each(executor, surface, moved, options, workspace, std::span<float>(rows));
+        complete = solve_each(executor, surface, moved, options, workspace, std::span<float>(rows));
         for (std::size_t k = 0; k < sources.size(); ++k)
           std::copy_n(&rows[k * vertices], points, &distance[k * points]);
       });
@@ -44,8 +41,6 @@ bool each_point(const GL& executor, const PointCloud<float>& cloud,
   return complete;
 }
 
-namespace detail {
 PLEXWAY_COMPILE(GL, PointCloud<float>)
-}
 
 }  // namespace plexway

@@ -229,8 +229,6 @@ bool each_point(const GL& executor, const TetMesh<float>& domain,
   return gl::solve_each<SolidRun>(executor, domain, sources, options, workspace, distance);
 }
 
-namespace detail {
 PLEXWAY_COMPILE(GL, TetMesh<float>)
-}
 
 }  // namespace plexway

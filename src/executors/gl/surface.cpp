@@ -185,8 +185,6 @@ bool each_point(const GL& executor, const TriangleMesh<float>& domain,
   return gl::solve_each<SurfaceRun>(executor, domain, sources, options, workspace, distance);
 }
 
-namespace detail {
 PLEXWAY_COMPILE(GL, TriangleMesh<float>)
-}
 
 }  // namespace plexway

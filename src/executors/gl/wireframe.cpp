@@ -118,8 +118,6 @@ bool each_point(const GL& executor, const Wireframe<float>& domain,
   return gl::solve_each<WireRun>(executor, domain, sources, options, workspace, distance);
 }
 
-namespace detail {
 PLEXWAY_COMPILE(GL, Wireframe<float>)
-}
 
 }  // namespace plexway

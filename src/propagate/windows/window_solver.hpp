@@ -45,14 +45,9 @@ class WindowSolver {
   /// What was to be merged is read out as labels are: no vertex is left below the straight line in
   /// space, and none farther than a neighbour and the edge between, where triangles without an area
   /// hide it. `workspace` is for that.
-  [[nodiscard]] bool solve(const WindowSources& sources, Accuracy accuracy,
-                           const PropagateOptions& options, WorkspaceState<Real>& workspace,
-                           DistanceField<Real>& field) {
-    return solve_by(Alone{}, sources, accuracy, options, workspace, field);
-  }
-  /// Likewise by a crew (solve_by.inl): in pieces of about crew.piece_size() triangles, unless it
-  /// is Alone. Exact: the same bits. No windows are kept. What is not only from points is solved
-  /// as a whole, by one thread.
+  ///
+  /// A crew that is not Alone works in pieces of about crew.piece_size() triangles. Exact: the same
+  /// bits. No windows are kept. What is not only from points is solved as a whole, by one thread.
   template <class Crew>
   [[nodiscard]] bool solve_by(const Crew& crew, const WindowSources& sources, Accuracy accuracy,
                               const PropagateOptions& options, WorkspaceState<Real>& workspace,
