@@ -1,6 +1,9 @@
 #include "complex/delaunay_flips.hpp"
 
 #include <cmath>
+#include <vector>
+
+#include "complex/building_blocks.hpp"
 
 namespace plexway {
 namespace {
@@ -18,14 +21,30 @@ bool DelaunayFlips::should_flip(Halfedge h) {
   return excess > std::ldexp(tolerance_, static_cast<int>((flips - patience) / growth));
 }
 
-void DelaunayFlips::all() {
+void DelaunayFlips::all(int threads) {
   const auto triangles = triangulation_.triangles();
-  for (Index slot = 0; slot < triangles.size(); ++slot)
+  // What is Delaunay before the first flip, and whose slot no flip changes, stays so: a flip looks
+  // at all edges around it. So slots are looked at by all threads first.
+  const std::size_t slots = triangles.size();
+  std::vector<char> suspects(slots);
+  over_blocks(slots, threads, [&](std::size_t first, std::size_t last) {
+    for (std::size_t slot = first; slot < last; ++slot) {
+      bool any = false;
+      for (Index edge = 0; edge < 3; ++edge) {
+        const Halfedge h = static_cast<Index>(slot) << Across::face_shift | edge;
+        any |= triangles[slot].across[edge] > h && triangulation_.excess(h) > tolerance_;
+      }
+      suspects[slot] = any;
+    }
+  });
+  for (Index slot = 0; slot < slots; ++slot) {
+    if (suspects[slot] == 0 && !triangulation_.history().changed(slot)) continue;
     for (Index edge = 0; edge < 3; ++edge) {
       // From its lower side: what a flip moves is looked at again by itself.
       const Halfedge h = slot << Across::face_shift | edge;
       if (triangles[slot].across[edge] > h) from(h, [](Index) {});
     }
+  }
 }
 
 std::size_t DelaunayFlips::stuck() const {

@@ -193,7 +193,7 @@ struct IntrinsicDelaunay::State {
   template <class Real>
   void flip(const Refinement& refinement) {
     DelaunayFlips flips(triangulation, tolerance_of<Real>);
-    flips.all();
+    flips.all(threads);
     if (refinement.smallest_angle > 0) refine(triangulation, flips, refinement);
     summary = {flips.count(), flips.stuck(), triangulation.inserted().size()};
     triangulation.settle();
@@ -201,6 +201,14 @@ struct IntrinsicDelaunay::State {
       face_of_slot.own().push_back(s);
       slot_of_face.own().push_back(s);
     }
+  }
+
+  /// Of a mesh whose triangles lie as the slots do: its numbers are these, and kept once.
+  template <class Real>
+  void share_numbers(TriangleMesh<Real>& mesh) {
+    auto numbers = std::make_shared<const std::vector<Index>>(std::move(slot_of_face.own()));
+    slot_of_face = {*numbers, numbers};
+    mesh.face_to_inside_ = {*numbers, numbers};
   }
 
   [[nodiscard]] SlotPoint slot_point(Index face, const std::array<double, 4>& b) const {
@@ -239,11 +247,6 @@ void IntrinsicDelaunay::release_triangles() {
 }
 
 template <>
-struct KeptGap<PatchHistory::Patch> {
-  static constexpr std::size_t begin = offsetof(PatchHistory::Patch, kind) + 1,
-                               end = sizeof(PatchHistory::Patch);
-};
-template <>
 struct KeptGap<SlotPoint> {
   static constexpr std::size_t begin = sizeof(Index), end = offsetof(SlotPoint, at);
 };
@@ -254,8 +257,7 @@ void KeptParts::each_of_delaunay(Archive& archive, Delaunay& delaunay) {
   archive(s.unit, s.face_of_slot, s.slot_of_face, s.faces, s.refracts, s.summary.flips,
           s.summary.stuck_edges, s.summary.inserted_vertices);
   auto& t = s.triangulation;
-  archive(t.vertices_, t.turned_, t.inserted_, t.history_.patches_, t.history_.first_,
-          t.history_.last_);
+  archive(t.vertices_, t.turned_, t.inserted_, t.history_.patches_, t.history_.last_);
 }
 
 void KeptParts::keep(KeptOut& out, const IntrinsicDelaunay& delaunay) {
@@ -278,7 +280,7 @@ IntrinsicDelaunay KeptParts::open_delaunay(KeptIn& in, std::size_t triangles,
   for (const Index face : s.face_of_slot) bad |= face >= slots;
   for (std::size_t f = 0; f < s.faces; ++f) bad |= s.slot_of_face[f] >= s.faces;
   for (const SlotPoint& point : s.triangulation.inserted()) bad |= point.slot >= s.faces;
-  in.require(!bad && s.triangulation.history().sound());
+  in.require(!bad && s.triangulation.history().sound(s.faces));
   return delaunay;
 }
 
@@ -407,6 +409,7 @@ TriangulatedSurface<Real> triangulate(std::span<const std::array<double, 3>> pos
   TriangleMesh<Real> mesh =
       same ? TriangleMesh<Real>(positions, faces, hints) : delaunay.mesh<Real>();
   if (!same) delaunay.release_triangles();
+  if (!same && summary.inserted_vertices == 0) delaunay.state_->share_numbers(mesh);
   return {std::move(mesh), std::move(delaunay), done};
 }
 template TriangulatedSurface<float> triangulate(std::span<const std::array<double, 3>>,
