@@ -23,28 +23,31 @@ bool DelaunayFlips::should_flip(Halfedge h) {
 
 void DelaunayFlips::all(int threads) {
   const auto triangles = triangulation_.triangles();
-  // What is Delaunay before the first flip, and whose slot no flip changes, stays so: a flip looks
-  // at all edges around it. So slots are looked at by all threads first.
   const std::size_t slots = triangles.size();
-  std::vector<char> suspects(slots);
+  // Which edges are not Delaunay before the first flip, bit by bit.
+  std::vector<unsigned char> suspects(slots);
   over_blocks(slots, threads, [&](std::size_t first, std::size_t last) {
     for (std::size_t slot = first; slot < last; ++slot) {
-      bool any = false;
+      unsigned bits = 0;
       for (Index edge = 0; edge < 3; ++edge) {
         const Halfedge h = static_cast<Index>(slot) << Across::face_shift | edge;
-        any |= triangles[slot].across[edge] > h && triangulation_.excess(h) > tolerance_;
+        if (triangles[slot].across[edge] > h && triangulation_.excess(h) > tolerance_)
+          bits |= 1u << edge;
       }
-      suspects[slot] = any;
+      suspects[slot] = static_cast<unsigned char>(bits);
     }
   });
-  for (Index slot = 0; slot < slots; ++slot) {
-    if (suspects[slot] == 0 && !triangulation_.history().changed(slot)) continue;
+  // A flip has the four edges around it looked at. So all that is left are those that were suspect
+  // and, of a slot that was flipped, the edge that came of its last flip.
+  constexpr unsigned of_flip = 1u << 1;
+  for (Index slot = 0; slot < slots; ++slot)
     for (Index edge = 0; edge < 3; ++edge) {
+      const unsigned looks = triangulation_.history().changed(slot) ? of_flip : suspects[slot];
+      if ((looks >> edge & 1) == 0) continue;
       // From its lower side: what a flip moves is looked at again by itself.
       const Halfedge h = slot << Across::face_shift | edge;
       if (triangles[slot].across[edge] > h) from(h, [](Index) {});
     }
-  }
 }
 
 std::size_t DelaunayFlips::stuck() const {

@@ -108,7 +108,7 @@ struct IntrinsicDelaunay::State {
   // From what was before the flips: corners(slot) are a slot's, by the caller's vertices, and
   // whether they ran the other way.
   template <class CornersOf>
-  void take_from_input(bool in_space, LostEdges lost, CornersOf corners) {
+  void take_from_input(bool in_space, std::vector<SurfaceChord> lost, CornersOf corners) {
     if (in_space)  // vertices that were put in lie in space as well
       for (const SlotPoint& point : triangulation.inserted()) {
         const auto [corner, turned] = corners(point.slot);
@@ -120,7 +120,7 @@ struct IntrinsicDelaunay::State {
             at[k] += point.at[over && i > 0 ? 3 - i : i] * positions[corner[i]][k];
         positions.push_back(at);
       }
-    chords = std::move(lost).found();
+    chords = LostEdges::sorted(std::move(lost));
     for (SurfaceChord& chord : chords) chord.length *= unit;
   }
 
@@ -133,18 +133,19 @@ struct IntrinsicDelaunay::State {
       return std::pair(std::array{outer[t.corner[0]], outer[t.corner[1]], outer[t.corner[2]]},
                        (t.face & reversed) != 0);
     };
-    LostEdges lost(triangulation, faces);
+    const LostEdges edges(triangulation, faces, threads);
+    std::vector<SurfaceChord> lost;
     for (Index v = 0; input.has_chords() && v < outer.size(); ++v)
       for (const auto& chord : input.chords_at(v))
         if (v < chord.vertex)
-          lost.look_at(outer[v], outer[chord.vertex], static_cast<double>(chord.length));
+          edges.look_at(outer[v], outer[chord.vertex], static_cast<double>(chord.length), lost);
     for (Index s = 0; s < faces; ++s) {
       if (!triangulation.history().changed(s)) continue;
       const auto corner = corners(s).first;
       const TriangleRecord<Real>& t = input.triangles()[s];
       for (std::size_t i = 0; i < 3; ++i)
-        if (!lost.told_by_other_side(s, t.across[i]))
-          lost.look_at(corner[i], corner[edge_after(i)], static_cast<double>(t.length[i]));
+        if (!edges.told_by_other_side(s, t.across[i]))
+          edges.look_at(corner[i], corner[edge_after(i)], static_cast<double>(t.length[i]), lost);
     }
     take_from_input(input.faces_are_in_space(), std::move(lost), corners);
   }
@@ -156,26 +157,33 @@ struct IntrinsicDelaunay::State {
       const auto& c = layout.corner[slot];
       return std::pair(std::array{outer[c[0]], outer[c[1]], outer[c[2]]}, layout.is_turned(slot));
     };
-    LostEdges lost(triangulation, faces);
-    std::array<Index, ShapeBlock::size> slots, listed;
-    ShapeBlock block{};
-    for (Index s = 0; s < faces;) {
-      std::size_t count = 0;
-      for (; s < faces && count < slots.size(); ++s)
-        if (triangulation.history().changed(s)) {
-          slots[count] = s;
-          listed[count++] = face_of_slot[s];
+    const LostEdges edges(triangulation, faces, threads);
+    std::vector<SurfaceChord> lost;
+    const auto look = [&](std::size_t first, std::size_t last, std::vector<SurfaceChord>& own) {
+      std::array<Index, ShapeBlock::size> slots, listed;
+      ShapeBlock block{};
+      for (Index s = static_cast<Index>(first); s < last;) {
+        std::size_t count = 0;
+        for (; s < last && count < slots.size(); ++s)
+          if (triangulation.history().changed(s)) {
+            slots[count] = s;
+            listed[count++] = face_of_slot[s];
+          }
+        if (count == 0) break;
+        shapes.look_up(std::span(listed).first(count), block);
+        for (std::size_t k = 0; k < count; ++k) {
+          const auto [corner, turned] = corners(slots[k]);
+          for (std::size_t i = 0; i < 3; ++i)
+            if (!edges.told_by_other_side(slots[k], layout.across[slots[k]][i]))
+              edges.look_at(corner[i], corner[edge_after(i)],
+                            block.length[turned ? 2 - i : i][k] / unit, own);
         }
-      if (count == 0) break;
-      shapes.look_up(std::span(listed).first(count), block);
-      for (std::size_t k = 0; k < count; ++k) {
-        const auto [corner, turned] = corners(slots[k]);
-        for (std::size_t i = 0; i < 3; ++i)
-          if (!lost.told_by_other_side(slots[k], layout.across[slots[k]][i]))
-            lost.look_at(corner[i], corner[edge_after(i)],
-                         block.length[turned ? 2 - i : i][k] / unit);
       }
-    }
+    };
+    gather_blocks<std::vector<SurfaceChord>>(faces, threads, look,
+                                             [&](const std::vector<SurfaceChord>& own) {
+                                               lost.insert(lost.end(), own.begin(), own.end());
+                                             });
     if (triangulation.inserted().empty())
       borrowed = shapes.positions();
     else
