@@ -1,8 +1,11 @@
 // What building costs before the first solve: surfaces, the same by way of Delaunay triangles, and
 // solids. Times are medians of the processor, one thread, or with --threads of the clock;
-// instructions are those of the processor's own counter, which other programs do not disturb
-// (Linux; blank where it is not to be had); memory is what is allocated beyond the input, at the
-// peak and held.
+// instructions and cycles are those of the processor's own counters for the thread that calls,
+// which other programs disturb not at all and little (Linux; blank where they are not to be had);
+// memory is what is allocated beyond the input, at the peak and held.
+//
+// bench/first.py --before builds this file with the library of an earlier commit: what is asked of
+// the library stands in built.hpp.
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -23,12 +26,11 @@
 #include <unistd.h>
 #endif
 
-#include <plexway/complex/intrinsic_delaunay.hpp>
-#include <plexway/complex/tet_mesh.hpp>
-#include <plexway/complex/triangle_mesh.hpp>
 #include <plexway/io/tets.hpp>
 
+#include "built.hpp"
 #include "compare.hpp"
+#include "processor_time.hpp"
 
 namespace {
 
@@ -77,22 +79,23 @@ void operator delete(void* p, std::size_t, std::align_val_t) noexcept { release(
 
 namespace {
 
-/// Instructions of this thread outside the kernel.
-class Instructions {
+/// What the processor counts of this thread outside the kernel.
+class Counter {
  public:
-  Instructions() {
+  enum class Of { instructions, cycles };
+  explicit Counter([[maybe_unused]] Of what) {
 #ifdef __linux__
     perf_event_attr wanted{};
     wanted.type = PERF_TYPE_HARDWARE;
     wanted.size = sizeof wanted;
-    wanted.config = PERF_COUNT_HW_INSTRUCTIONS;
+    wanted.config = what == Of::cycles ? PERF_COUNT_HW_CPU_CYCLES : PERF_COUNT_HW_INSTRUCTIONS;
     wanted.exclude_kernel = 1;
     file_ = static_cast<int>(syscall(SYS_perf_event_open, &wanted, 0, -1, -1, 0));
 #endif
   }
-  Instructions(const Instructions&) = delete;
-  Instructions& operator=(const Instructions&) = delete;
-  ~Instructions() {
+  Counter(const Counter&) = delete;
+  Counter& operator=(const Counter&) = delete;
+  ~Counter() {
 #ifdef __linux__
     if (file_ >= 0) close(file_);
 #endif
@@ -110,32 +113,35 @@ class Instructions {
 };
 
 struct Cost {
-  double ns = 0, instructions = 0, peak = 0, held = 0;  // a unit
+  double ns = 0, instructions = 0, cycles = 0, peak = 0, held = 0;  // a unit
 };
 
 /// `make` returns what is built, so that what it holds can be told.
 template <class Make>
 Cost measure(std::size_t units, int repeats, bool by_clock, const Make& make) {
-  const Instructions counter;
-  std::vector<double> times, counts;
+  const Counter instructions(Counter::Of::instructions), cycles(Counter::Of::cycles);
+  std::vector<double> times, counts, cycle_counts;
   Cost cost;
   const double n = static_cast<double>(units);
   for (int i = 0; i < repeats; ++i) {
     const std::size_t before = held;
     peak = held.load();
-    const std::uint64_t start = counter.now();
-    std::uint64_t end = start;
+    const std::uint64_t start = instructions.now(), first_cycle = cycles.now();
+    std::uint64_t end = start, last_cycle = first_cycle;
     const auto work = [&] {
       const auto made = make();
-      end = counter.now();
+      end = instructions.now();
+      last_cycle = cycles.now();
       cost.held = static_cast<double>(held - before) / n;
     };
     times.push_back(1e9 / n * (by_clock ? bench::seconds(work) : bench::processor_seconds(work)));
     counts.push_back(static_cast<double>(end - start) / n);
+    cycle_counts.push_back(static_cast<double>(last_cycle - first_cycle) / n);
     cost.peak = static_cast<double>(peak - before) / n;
   }
   cost.ns = bench::median(times);
   cost.instructions = bench::median(counts);
+  cost.cycles = bench::median(cycle_counts);
   return cost;
 }
 
@@ -143,6 +149,7 @@ nlohmann::ordered_json cells(const Cost& cost) {
   nlohmann::ordered_json row = {
       {"ns", cost.ns}, {"peak_bytes", cost.peak}, {"held_bytes", cost.held}};
   if (cost.instructions > 0) row["instructions"] = cost.instructions;
+  if (cost.cycles > 0) row["cycles"] = cost.cycles;
   return row;
 }
 
@@ -172,6 +179,7 @@ int main(int argc, char** argv) {
                       {"units", "vertices or tets", "%.0f"},
                       {"ns", "ns each", "%.0f"},
                       {"instructions", "instructions each", "%.0f"},
+                      {"cycles", "cycles each", "%.0f"},
                       {"peak_bytes", "peak bytes each", "%.0f"},
                       {"held_bytes", "held bytes each", "%.0f"},
                       {"note", "note"}});
@@ -182,19 +190,9 @@ int main(int argc, char** argv) {
         bench::isolated(limit, [&] { return cells(measure(units, repeats, threads > 0, make)); }));
     table.add(std::move(row));
   };
-  plexway::SurfaceHints hints;
-  hints.threads = std::max(threads, 1);
   const auto add_surface = [&](const bench::Surface& s) {
-    const std::size_t n = s.positions.size();
-    add(s.name, "surface, float", n,
-        [&] { return plexway::TriangleMesh<float>(s.positions, s.faces, hints); });
-    add(s.name, "surface, double", n,
-        [&] { return plexway::TriangleMesh<double>(s.positions, s.faces, hints); });
-    add(s.name, "surface or what pays, float", n,
-        [&] { return plexway::triangulate<float>(s.positions, s.faces, {}, hints.threads); });
-    add(s.name, "by Delaunay, float", n, [&] {
-      return plexway::triangulate<float>(s.positions, s.faces, plexway::Retriangulation::flips,
-                                         hints.threads);
+    bench::built_of_surface(s, std::max(threads, 1), [&](const char* built, const auto& make) {
+      add(s.name, built, s.positions.size(), make);
     });
   };
   return report.write(table, [&] {
@@ -204,8 +202,10 @@ int main(int argc, char** argv) {
         continue;
       }
       const auto read = plexway::io::read_tets(mesh);
-      add(mesh.stem().string(), "solid, float", read.tets.size(),
-          [&] { return plexway::TetMesh<float>(read.positions, read.tets, hints.threads); });
+      bench::built_of_solid(read.positions, read.tets, std::max(threads, 1),
+                            [&](const char* built, const auto& make) {
+                              add(mesh.stem().string(), built, read.tets.size(), make);
+                            });
     }
     for (const std::size_t size : sizes) add_surface(bench::bumpy_surface(size));
   });

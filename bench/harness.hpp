@@ -9,7 +9,6 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <ctime>
 #include <filesystem>
 #include <fstream>
 #include <limits>
@@ -25,6 +24,8 @@
 #include <plexway/complex/ids.hpp>
 #include <plexway/io/triangles.hpp>
 #include <plexway/propagate/options.hpp>
+
+#include "processor_time.hpp"
 
 #ifdef __GLIBC__
 #include <malloc.h>
@@ -69,14 +70,6 @@ double seconds(const Work& work) {
   const auto start = std::chrono::steady_clock::now();
   work();
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-}
-
-/// Seconds of the processor that `work` takes, of all threads: what else runs does not count.
-template <class Work>
-double processor_seconds(const Work& work) {
-  const std::clock_t start = std::clock();
-  work();
-  return static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
 }
 
 /// How often to measure: every source `repeats` times, but no longer than `budget` seconds.

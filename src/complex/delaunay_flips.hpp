@@ -19,8 +19,9 @@ class DelaunayFlips {
   DelaunayFlips(IntrinsicTriangulation& triangulation, double tolerance)
       : triangulation_(triangulation), tolerance_(tolerance) {}
 
-  /// All edges. Cost: linear, and the flips.
-  void all();
+  /// All edges, those that are Delaunay already by any number of threads. Cost: linear, and the
+  /// flips, which are one thread's.
+  void all(int threads);
   /// The edges of a slot and all that follows from them. Tells `changed(slot)` of slots flipped.
   template <class Changed>
   void around(Index slot, Changed changed) {

@@ -108,7 +108,7 @@ struct IntrinsicDelaunay::State {
   // From what was before the flips: corners(slot) are a slot's, by the caller's vertices, and
   // whether they ran the other way.
   template <class CornersOf>
-  void take_from_input(bool in_space, LostEdges lost, CornersOf corners) {
+  void take_from_input(bool in_space, std::vector<SurfaceChord> lost, CornersOf corners) {
     if (in_space)  // vertices that were put in lie in space as well
       for (const SlotPoint& point : triangulation.inserted()) {
         const auto [corner, turned] = corners(point.slot);
@@ -120,7 +120,7 @@ struct IntrinsicDelaunay::State {
             at[k] += point.at[over && i > 0 ? 3 - i : i] * positions[corner[i]][k];
         positions.push_back(at);
       }
-    chords = std::move(lost).found();
+    chords = LostEdges::sorted(std::move(lost));
     for (SurfaceChord& chord : chords) chord.length *= unit;
   }
 
@@ -133,18 +133,19 @@ struct IntrinsicDelaunay::State {
       return std::pair(std::array{outer[t.corner[0]], outer[t.corner[1]], outer[t.corner[2]]},
                        (t.face & reversed) != 0);
     };
-    LostEdges lost(triangulation, faces);
+    const LostEdges edges(triangulation, faces, threads);
+    std::vector<SurfaceChord> lost;
     for (Index v = 0; input.has_chords() && v < outer.size(); ++v)
       for (const auto& chord : input.chords_at(v))
         if (v < chord.vertex)
-          lost.look_at(outer[v], outer[chord.vertex], static_cast<double>(chord.length));
+          edges.look_at(outer[v], outer[chord.vertex], static_cast<double>(chord.length), lost);
     for (Index s = 0; s < faces; ++s) {
       if (!triangulation.history().changed(s)) continue;
       const auto corner = corners(s).first;
       const TriangleRecord<Real>& t = input.triangles()[s];
       for (std::size_t i = 0; i < 3; ++i)
-        if (!lost.told_by_other_side(s, t.across[i]))
-          lost.look_at(corner[i], corner[edge_after(i)], static_cast<double>(t.length[i]));
+        if (!edges.told_by_other_side(s, t.across[i]))
+          edges.look_at(corner[i], corner[edge_after(i)], static_cast<double>(t.length[i]), lost);
     }
     take_from_input(input.faces_are_in_space(), std::move(lost), corners);
   }
@@ -156,26 +157,33 @@ struct IntrinsicDelaunay::State {
       const auto& c = layout.corner[slot];
       return std::pair(std::array{outer[c[0]], outer[c[1]], outer[c[2]]}, layout.is_turned(slot));
     };
-    LostEdges lost(triangulation, faces);
-    std::array<Index, ShapeBlock::size> slots, listed;
-    ShapeBlock block{};
-    for (Index s = 0; s < faces;) {
-      std::size_t count = 0;
-      for (; s < faces && count < slots.size(); ++s)
-        if (triangulation.history().changed(s)) {
-          slots[count] = s;
-          listed[count++] = face_of_slot[s];
+    const LostEdges edges(triangulation, faces, threads);
+    std::vector<SurfaceChord> lost;
+    const auto look = [&](std::size_t first, std::size_t last, std::vector<SurfaceChord>& own) {
+      std::array<Index, ShapeBlock::size> slots, listed;
+      ShapeBlock block{};
+      for (Index s = static_cast<Index>(first); s < last;) {
+        std::size_t count = 0;
+        for (; s < last && count < slots.size(); ++s)
+          if (triangulation.history().changed(s)) {
+            slots[count] = s;
+            listed[count++] = face_of_slot[s];
+          }
+        if (count == 0) break;
+        shapes.look_up(std::span(listed).first(count), block);
+        for (std::size_t k = 0; k < count; ++k) {
+          const auto [corner, turned] = corners(slots[k]);
+          for (std::size_t i = 0; i < 3; ++i)
+            if (!edges.told_by_other_side(slots[k], layout.across[slots[k]][i]))
+              edges.look_at(corner[i], corner[edge_after(i)],
+                            block.length[turned ? 2 - i : i][k] / unit, own);
         }
-      if (count == 0) break;
-      shapes.look_up(std::span(listed).first(count), block);
-      for (std::size_t k = 0; k < count; ++k) {
-        const auto [corner, turned] = corners(slots[k]);
-        for (std::size_t i = 0; i < 3; ++i)
-          if (!lost.told_by_other_side(slots[k], layout.across[slots[k]][i]))
-            lost.look_at(corner[i], corner[edge_after(i)],
-                         block.length[turned ? 2 - i : i][k] / unit);
       }
-    }
+    };
+    gather_blocks<std::vector<SurfaceChord>>(faces, threads, look,
+                                             [&](const std::vector<SurfaceChord>& own) {
+                                               lost.insert(lost.end(), own.begin(), own.end());
+                                             });
     if (triangulation.inserted().empty())
       borrowed = shapes.positions();
     else
@@ -193,7 +201,7 @@ struct IntrinsicDelaunay::State {
   template <class Real>
   void flip(const Refinement& refinement) {
     DelaunayFlips flips(triangulation, tolerance_of<Real>);
-    flips.all();
+    flips.all(threads);
     if (refinement.smallest_angle > 0) refine(triangulation, flips, refinement);
     summary = {flips.count(), flips.stuck(), triangulation.inserted().size()};
     triangulation.settle();
@@ -201,6 +209,14 @@ struct IntrinsicDelaunay::State {
       face_of_slot.own().push_back(s);
       slot_of_face.own().push_back(s);
     }
+  }
+
+  /// Of a mesh whose triangles lie as the slots do: its numbers are these, and kept once.
+  template <class Real>
+  void share_numbers(TriangleMesh<Real>& mesh) {
+    auto numbers = std::make_shared<const std::vector<Index>>(std::move(slot_of_face.own()));
+    slot_of_face = {*numbers, numbers};
+    mesh.face_to_inside_ = {*numbers, numbers};
   }
 
   [[nodiscard]] SlotPoint slot_point(Index face, const std::array<double, 4>& b) const {
@@ -239,11 +255,6 @@ void IntrinsicDelaunay::release_triangles() {
 }
 
 template <>
-struct KeptGap<PatchHistory::Patch> {
-  static constexpr std::size_t begin = offsetof(PatchHistory::Patch, kind) + 1,
-                               end = sizeof(PatchHistory::Patch);
-};
-template <>
 struct KeptGap<SlotPoint> {
   static constexpr std::size_t begin = sizeof(Index), end = offsetof(SlotPoint, at);
 };
@@ -254,8 +265,7 @@ void KeptParts::each_of_delaunay(Archive& archive, Delaunay& delaunay) {
   archive(s.unit, s.face_of_slot, s.slot_of_face, s.faces, s.refracts, s.summary.flips,
           s.summary.stuck_edges, s.summary.inserted_vertices);
   auto& t = s.triangulation;
-  archive(t.vertices_, t.turned_, t.inserted_, t.history_.patches_, t.history_.first_,
-          t.history_.last_);
+  archive(t.vertices_, t.turned_, t.inserted_, t.history_.patches_, t.history_.last_);
 }
 
 void KeptParts::keep(KeptOut& out, const IntrinsicDelaunay& delaunay) {
@@ -278,7 +288,7 @@ IntrinsicDelaunay KeptParts::open_delaunay(KeptIn& in, std::size_t triangles,
   for (const Index face : s.face_of_slot) bad |= face >= slots;
   for (std::size_t f = 0; f < s.faces; ++f) bad |= s.slot_of_face[f] >= s.faces;
   for (const SlotPoint& point : s.triangulation.inserted()) bad |= point.slot >= s.faces;
-  in.require(!bad && s.triangulation.history().sound());
+  in.require(!bad && s.triangulation.history().sound(s.faces));
   return delaunay;
 }
 
@@ -407,6 +417,7 @@ TriangulatedSurface<Real> triangulate(std::span<const std::array<double, 3>> pos
   TriangleMesh<Real> mesh =
       same ? TriangleMesh<Real>(positions, faces, hints) : delaunay.mesh<Real>();
   if (!same) delaunay.release_triangles();
+  if (!same && summary.inserted_vertices == 0) delaunay.state_->share_numbers(mesh);
   return {std::move(mesh), std::move(delaunay), done};
 }
 template TriangulatedSurface<float> triangulate(std::span<const std::array<double, 3>>,

@@ -275,12 +275,8 @@ bool IntrinsicTriangulation::flip(Halfedge h) {
     order.first = static_cast<std::uint8_t>(order.mirrored ? (3 - first) % 3 : first);
     return order;
   };
-  PatchHistory::Patch patch;
-  patch.point = {Planar{0, 0}, Planar{length, 0}, c, d, Planar{}};
-  patch.slot = {f, g, none};
-  patch.order = {in_old(order_f, fa), in_old(order_g, gb)};
-  patch.kind = PatchHistory::Kind::flip;
-  history_.add(patch);
+  history_.add(
+      {PatchHistory::Kind::flip, {f, g}, length, c, d, {in_old(order_f, fa), in_old(order_g, gb)}});
 
   const std::array<Halfedge, 4> from = {halfedge(f, fb), halfedge(f, fc), halfedge(g, ga),
                                         halfedge(g, gd)};
@@ -321,11 +317,7 @@ void IntrinsicTriangulation::split(Index f, const std::array<double, 3>& at) {
   const Planar a, b = {t.length[0], 0};
   const Planar c = apex(t.length[0], t.length[2], t.angle[0], t.length[1], t.angle[1]);
   const Planar p = at[1] * b + at[2] * c;
-  PatchHistory::Patch patch;
-  patch.point = {a, b, c, Planar{}, p};
-  patch.slot = {f, g, h};
-  patch.kind = PatchHistory::Kind::split;
-  history_.add(patch);
+  history_.add({PatchHistory::Kind::split, {f, g}, b.x, c, p, {}});
 
   const double pa = norm(p), pb = norm(p - b), pc = norm(p - c);
   const Turn a_first = clamped(turn_between(b - a, p - a)),
@@ -370,12 +362,8 @@ void IntrinsicTriangulation::split_border(Halfedge e) {
   const IntrinsicTriangle t = triangles_[f];
   const Planar a, b = {t.length[fa], 0}, p = {t.length[fa] / 2, 0};
   const Planar c = apex(t.length[fa], t.length[fc], t.angle[fa], t.length[fb], t.angle[fb]);
-  PatchHistory::Patch patch;
-  patch.point = {a, b, c, Planar{}, p};
-  patch.slot = {f, g, none};
-  patch.order[0].first = static_cast<std::uint8_t>(fa);
-  patch.kind = PatchHistory::Kind::split_border;
-  history_.add(patch);
+  const CornerOrder order{static_cast<std::uint8_t>(fa), 0};
+  history_.add({PatchHistory::Kind::split_border, {f, g}, b.x, c, p, {order, {}}});
 
   const Turn c_first = clamped(turn_between(a - c, p - c)),
              c_rest = clamped(difference(t.angle[fc], c_first));

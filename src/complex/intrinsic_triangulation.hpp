@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -56,6 +57,8 @@ class IntrinsicTriangulation {
   /// After the last flip and split: what only these need.
   void settle() {
     std::vector<std::uint16_t>().swap(flips_);
+    if (std::find(turned_.begin(), turned_.end(), char{1}) == turned_.end())
+      std::vector<char>().swap(turned_);
     history_.trim();
   }
   /// What is left maps points.

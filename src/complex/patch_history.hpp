@@ -43,26 +43,27 @@ struct CornerOrder {
 /// the patch at most, thin triangles included.
 class PatchHistory {
  public:
-  /// What a patch's triangles are over its points a, b, c, d, p. a is the origin, b on the x axis.
+  /// What a patch's triangles are over its points a, b, c, d or p. a is the origin, b on the x
+  /// axis.
   enum class Kind : std::uint8_t {
     flip,         ///< abc, bad become adc, bcd
     split,        ///< abc becomes abp, bcp, cap
     split_border  ///< abc becomes apc, pbc
   };
-  struct Patch {
-    std::array<Planar, 5> point;
-    std::array<Index, 3> slot = {none, none, none};  ///< before and after, first to last
-    std::array<Index, 2> earlier = {none, none};
-    std::array<Index, 3> later = {none, none, none};
-    std::array<CornerOrder, 2> order;  ///< of the triangles before; those after are as listed
+  /// A patch as it is told.
+  struct Change {
     Kind kind = Kind::flip;
+    std::array<Index, 2> slot = {none, none};  ///< of the triangles after, in order; a split's
+                                               ///< third is the one behind its second
+    double length = 0;                         ///< from a to b
+    Planar c, other;                           ///< `other`: d of a flip, else p
+    std::array<CornerOrder, 2> order;  ///< of the triangles before; after they are as listed
   };
 
-  explicit PatchHistory(std::size_t slots = 0)
-      : first_(std::vector<Index>(slots, none)), last_(std::vector<Index>(slots, none)) {}
+  explicit PatchHistory(std::size_t slots = 0) : last_(std::vector<Index>(slots, none)) {}
 
-  /// Links of the patch are made here. Slots beyond those known are new.
-  void add(Patch patch);
+  /// Slots beyond those known are new.
+  void add(const Change& change);
 
   /// Gives back what was room for more. Cost: linear.
   void trim() { patches_.own().shrink_to_fit(); }
@@ -83,20 +84,45 @@ class PatchHistory {
   [[nodiscard]] std::size_t size() const { return patches_.size(); }
   /// Slots of the last triangulation.
   [[nodiscard]] std::size_t slots() const { return last_.size(); }
-  /// For one that comes from a file: do all ways through it stay within it, and end?
-  [[nodiscard]] bool sound() const;
+  /// For one that comes from a file: do all ways through it stay within it, and end? `first_slots`:
+  /// of the first triangulation.
+  [[nodiscard]] bool sound(std::size_t first_slots) const;
   /// Has anything happened to a slot of the first triangulation?
-  [[nodiscard]] bool changed(Index slot) const { return first_[slot] != none; }
+  [[nodiscard]] bool changed(Index slot) const { return last_[slot] != none; }
   [[nodiscard]] std::size_t bytes() const {
-    return patches_.capacity() * sizeof(Patch) +
-           (first_.capacity() + last_.capacity()) * sizeof(Index);
+    return patches_.capacity() * sizeof(Patch) + last_.capacity() * sizeof(Index);
   }
 
  private:
   friend struct KeptParts;
 
+  // In 64 bytes, as there are many.
+  struct Patch {
+    double length;
+    Planar c, other;
+    std::array<Index, 4> link;    // the patches before it of the slots that were, then those behind
+                                  // it of the slots that are
+    std::array<Index, 2> packed;  // slot << 4 | bit of the kind << 3 | order
+
+    [[nodiscard]] std::size_t kind() const { return (packed[0] >> 3 & 1) | (packed[1] >> 2 & 2); }
+    [[nodiscard]] Index slot(std::size_t k) const {
+      return k == 2 ? (packed[1] >> 4) + 1 : packed[k] >> 4;
+    }
+    [[nodiscard]] CornerOrder order(std::size_t k) const {
+      return {static_cast<std::uint8_t>(packed[k] & 3),
+              static_cast<std::uint8_t>(packed[k] >> 2 & 1)};
+    }
+  };
+  struct Form;
+  static const std::array<Form, 3> forms;
+  static const Form& form_of(const Patch& patch);
+  static std::array<Planar, 3> points_of(const Patch& patch,
+                                         const std::array<std::uint8_t, 3>& corners);
+  static std::size_t place_of(const Patch& patch, Index slot);
+  [[nodiscard]] Index first_of(Index slot) const;
+
   Rows<Patch> patches_;
-  Rows<Index> first_, last_;  // patches of each slot
+  Rows<Index> last_;  // the last patch of each slot
 };
 
 }  // namespace plexway

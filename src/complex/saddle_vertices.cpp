@@ -13,7 +13,8 @@ namespace {
 struct Neighbourhood {
   double sum;        // of the excess, its own included
   double lack;       // by how much neighbours are below flat
-  double agreement;  // the sum again, where none counts more than the vertex itself,
+  double agreement;  // the sum again, where none counts more than the vertex itself, of vertices
+                     // that have little,
   double most;       // and what that would be if all had one sign
   double count;      // of neighbours
 };
@@ -22,17 +23,23 @@ struct Neighbourhood {
 // add to the peak.
 class Neighbourhoods {
  public:
-  explicit Neighbourhoods(std::span<const double> excess)
-      : excess_(excess), sums_(excess.size()), agreements_(excess.size()), heard_(excess.size()) {}
+  /// `little`: up to which excess agreement is asked for.
+  Neighbourhoods(std::span<const double> excess, double little)
+      : excess_(excess),
+        little_(little),
+        sums_(excess.size()),
+        agreements_(excess.size()),
+        heard_(excess.size()) {}
 
   // An edge inside is met from both its triangles. Of one on the boundary both ends are there.
   void hear(Index of, Index from) {
     const double mine = std::abs(excess_[of]), theirs = excess_[from];
     sums_[of].all += theirs / 2;
     sums_[of].lack += std::max(0.0, -theirs) / 2;
+    ++heard_[of];
+    if (mine > little_) return;
     agreements_[of].all += std::clamp(theirs, -mine, mine) / 2;
     agreements_[of].most += std::min(mine, std::abs(theirs)) / 2;
-    ++heard_[of];
   }
   [[nodiscard]] Neighbourhood operator[](std::size_t v) const {
     return {sums_[v].all + excess_[v], sums_[v].lack, agreements_[v].all + excess_[v],
@@ -47,6 +54,7 @@ class Neighbourhoods {
     double all = 0, most = 0;
   };
   std::span<const double> excess_;
+  double little_;
   std::vector<Sum> sums_;
   std::vector<Agreement> agreements_;
   std::vector<Index> heard_;
@@ -55,8 +63,8 @@ class Neighbourhoods {
 template <class Real>
 Neighbourhoods look_around(std::span<const TriangleRecord<Real>> triangles,
                            std::span<const Index> first_use, std::span<const double> excess,
-                           std::span<const char> boundary, int threads) {
-  Neighbourhoods around(excess);
+                           std::span<const char> boundary, double little, int threads) {
+  Neighbourhoods around(excess, little);
   tell_vertices<Index>(
       first_use, triangles.size(), threads,
       [&](std::size_t first, std::size_t last, const auto& tell) {
@@ -97,8 +105,9 @@ void mark_saddles(std::span<TriangleRecord<Real>> triangles, const VertexFans& f
 
   std::vector<char> saddle(vertices);
   {
-    const Neighbourhoods around = look_around<Real>(all.first(all.size() - 1), first_use, excess,
-                                                    fans.on_boundary, hints.threads);
+    const Neighbourhoods around =
+        look_around<Real>(all.first(all.size() - 1), first_use, excess, fans.on_boundary,
+                          hints.saddles.interior, hints.threads);
     over_blocks(vertices, hints.threads, [&](std::size_t first, std::size_t last) {
       for (std::size_t v = first; v < last; ++v)
         saddle[v] = fans.on_boundary[v] ? excess[v] > hints.saddles.boundary

@@ -2,89 +2,51 @@
 
 #include <algorithm>
 #include <atomic>
-#include <cmath>
 #include <mutex>
-#include <numbers>
-#include <tuple>
 #include <utility>
 
 #include "complex/building_blocks.hpp"
 #include "complex/simplex_gluing.hpp"
+#include "complex/tet_edge_fans.hpp"
 
 namespace plexway {
 namespace {
 
-// A path may bend at an edge with more than pi of solid around it (2 pi inside a metric that is not
-// flat). The excess is rounding on flat boundaries of files with seven digits.
-constexpr double excess = 1e-5;
-
-using Corners = std::span<const std::array<Index, 4>>;
-
-Index corner_of(const std::array<Index, 4>& corner, Index vertex) {
-  return static_cast<Index>(std::find(corner.begin(), corner.end(), vertex) - corner.begin());
-}
-
-double dihedral(const TetPoints& p, Index i, Index j, Index k, Index l) {
-  const auto edge = p[j] - p[i];
-  const auto a = cross(edge, p[k] - p[i]), b = cross(edge, p[l] - p[i]);
-  return std::atan2(norm(cross(a, b)), dot(a, b));
-}
-
-Vector3<double> inward_normal(const TetPoints& p, Index face) {
-  constexpr Index order[4][3] = {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}};  // seen from outside
-  const auto& [a, b, c] = order[face];
-  const auto n = cross(p[c] - p[a], p[b] - p[a]);
-  const double length = norm(n);
-  return length > 0 ? 1 / length * n : n;
-}
-
-/// Within a face, from its edge ij and square to that, unit.
-Vector3<double> into_face(const TetPoints& p, Index face, Index i, Index j) {
-  const auto edge = p[j] - p[i], side = p[6 - face - i - j] - p[i];
-  const double square = dot(edge, edge);
-  const auto w = square > 0 ? side - dot(side, edge) / square * edge : side;
-  const double length = norm(w);
-  return length > 0 ? 1 / length * w : w;
-}
+using Corners = TetSolid::Corners;
 
 class Finder {
  public:
   Finder(Corners corner, Corners across, const TetCorners& corners, const TetPlaces& places,
          int threads)
-      : vertices_(corners.begin.size() - 1),
+      : solid_{corner, across, corners, places, {}},
+        vertices_(corners.begin.size() - 1),
         threads_(threads),
-        corner_(corner),
-        across_(across),
-        corners_(corners),
-        places_(places),
-        embedded_(places.embedded()),
-        on_reflex_(vertices_, 0) {}
+        on_reflex_(vertices_, 0),
+        on_boundary_(vertices_, 0) {}
 
   TetTopology find() {
     mark_boundary();
+    solid_.on_boundary = on_boundary_;
     count_edges();
     look_around_edges();
     found_.reflex_edges = found_.reflex.size();
-    if (embedded_) merge_straight();
+    if (solid_.places.embedded()) merge_straight();
     list_by_tet();
     find_vertices();
     return std::move(found_);
   }
 
  private:
-  [[nodiscard]] TetPoints points(std::size_t t) const { return places_.of(t, corner_[t]); }
-  [[nodiscard]] std::span<const Index> corners_at(Index v) const {
-    return std::span(corners_.corner)
-        .subspan(corners_.begin[v], corners_.begin[v + 1] - corners_.begin[v]);
-  }
-
   void mark_boundary() {
-    on_boundary_.assign(vertices_, 0);
-    for (std::size_t t = 0; t < corner_.size(); ++t)
-      for (std::size_t k = 0; k < 4; ++k)
-        if (across_[t][k] == none)
-          for (std::size_t i = 0; i < 4; ++i)
-            if (i != k) on_boundary_[corner_[t][i]] = 1;
+    over_blocks(solid_.corner.size(), threads_, [&](std::size_t first, std::size_t last) {
+      for (std::size_t t = first; t < last; ++t)
+        for (std::size_t k = 0; k < 4; ++k)
+          if (solid_.across[t][k] == none)
+            for (std::size_t i = 0; i < 4; ++i)
+              if (i != k)
+                std::atomic_ref(on_boundary_[solid_.corner[t][i]])
+                    .store(1, std::memory_order_relaxed);
+    });
   }
 
   // Vertices in as few parts as there are threads, and few at most: each has marks for all.
@@ -100,8 +62,8 @@ class Finder {
       std::vector<Index> seen(vertices_, none);  // the last vertex that it shared an edge with
       std::size_t own = 0;
       for (Index v = static_cast<Index>(first); v < last; ++v)
-        for (const Index c : corners_at(v))
-          for (const Index w : corner_[c / 4]) {
+        for (const Index c : solid_.corners_at(v))
+          for (const Index w : solid_.corner[c / 4]) {
             own += static_cast<std::size_t>(w > v) & static_cast<std::size_t>(seen[w] != v);
             seen[w] = v;
           }
@@ -110,167 +72,26 @@ class Finder {
     found_.edges = edges;
   }
 
-  // In ascending order of their ends. Where all is in one frame paths bend at the boundary only.
+  // In ascending order of their ends.
   void look_around_edges() {
-    std::vector<Index> degree(vertices_, 0);  // tetrahedra around the edge to each vertex
-    std::vector<Index> ends;
-    std::vector<Start> starts;
-    for (Index v = 0; v < vertices_; ++v) {
-      if (embedded_ && !on_boundary_[v]) continue;
-      starts.clear();
-      ends.clear();
-      for (const Index c : corners_at(v)) {
-        const Index t = c / 4, own = c % 4;
-        for (Index i = 0; i < 4; ++i) {
-          const Index w = corner_[t][i];
-          if (w <= v) continue;
-          if (degree[w]++ == 0) ends.push_back(w);
-          for (Index k = 0; k < 4; ++k)
-            if (k != i && k != own && across_[t][k] == none)
-              starts.push_back({w, t, k, 6 - i - own - k});
-        }
-      }
-      std::sort(starts.begin(), starts.end(), [](const Start& a, const Start& b) {
-        return std::tie(a.end, a.tet, a.enter) < std::tie(b.end, b.tet, b.enter);
-      });
-      if (!embedded_) std::sort(ends.begin(), ends.end());
-      auto first = starts.begin();
-      const auto look_at = [&](Index w) {
-        auto last = first;
-        while (last != starts.end() && last->end == w) ++last;
-        around_edge(
-            v, w,
-            std::span<const Start>(starts).subspan(static_cast<std::size_t>(first - starts.begin()),
-                                                   static_cast<std::size_t>(last - first)),
-            degree[w]);
-        first = last;
-      };
-      if (embedded_)
-        while (first != starts.end()) look_at(first->end);
-      else
-        for (const Index w : ends) look_at(w);
-      for (const Index w : ends) degree[w] = 0;
+    const std::size_t size = part();
+    std::vector<TetEdgeFans::Found> parts((vertices_ + size - 1) / size);
+    for_blocks(vertices_, size, threads_, {}, [&](std::size_t first, std::size_t last) {
+      parts[first / size] =
+          TetEdgeFans(solid_).look(static_cast<Index>(first), static_cast<Index>(last));
+    });
+    for (const TetEdgeFans::Found& own : parts) {
+      const Index edges = static_cast<Index>(found_.reflex.size()) << ReflexEntry::edge_shift,
+                  tets = static_cast<Index>(found_.pinched_edge_tets.size());
+      for (const auto& [tet, packed] : own.entries) entries_.emplace_back(tet, packed + edges);
+      for (const auto& e : own.pinched)
+        found_.pinched_edges.push_back({e.vertex, e.begin + tets, e.end + tets});
+      for (const auto& e : own.reflex)
+        for (const Index v : e.vertex) on_reflex_[v] = 1;
+      found_.reflex.insert(found_.reflex.end(), own.reflex.begin(), own.reflex.end());
+      found_.pinched_edge_tets.insert(found_.pinched_edge_tets.end(), own.pinched_tets.begin(),
+                                      own.pinched_tets.end());
     }
-  }
-
-  // A fan of tetrahedra around an edge to `end` starts at a boundary face of one of them and leaves
-  // that by another.
-  struct Start {
-    Index end, tet, enter, leave;
-  };
-
-  // The fans of tetrahedra around one edge, each from boundary to boundary or closed.
-  void around_edge(Index a, Index b, std::span<const Start> starts, std::size_t tets) {
-    std::size_t fans = 0, seen = 0;
-    fan_ends_.clear();
-    for (const Start& s : starts) {  // a fan is seen from both its ends and counts from the first
-      if (std::find(fan_ends_.begin(), fan_ends_.end(), 4 * s.tet + s.enter) != fan_ends_.end())
-        continue;
-      seen += walk(s.tet, s.enter, s.leave, a, b);
-      ++fans;
-    }
-    if (seen == tets && fans == 1) return;
-    const auto around = tets_around(a, b);
-    if (seen < tets) {
-      fans += 1;  // what is left is closed; more than one such fan only under a strange metric
-      if (!embedded_) closed(a, b, around);
-    }
-    if (fans > 1) {
-      const Index begin = static_cast<Index>(found_.pinched_edge_tets.size());
-      found_.pinched_edge_tets.insert(found_.pinched_edge_tets.end(), around.begin(), around.end());
-      found_.pinched_edges.push_back(
-          {{a, b}, begin, static_cast<Index>(found_.pinched_edge_tets.size())});
-    }
-  }
-
-  [[nodiscard]] std::vector<Index> tets_around(Index a, Index b) const {
-    std::vector<Index> around;
-    for (const Index c : corners_at(a))
-      if (corner_of(corner_[c / 4], b) < 4) around.push_back(c / 4);
-    return around;
-  }
-
-  // Starts at boundary face k of tetrahedron t and leaves by face l.
-  std::size_t walk(Index t, Index k, Index l, Index a, Index b) {
-    const Index first_tet = t, first_face = k, first_apex = corner_[t][l];
-    fan_.clear();
-    apexes_.clear();
-    for (;;) {
-      const Index i = corner_of(corner_[t], a), j = corner_of(corner_[t], b);
-      fan_.push_back({t, tet_edge(i, j)});
-      const Index o = across_[t][l], shared = corner_[t][k];
-      apexes_.push_back(shared);
-      if (o == none) break;
-      t = o / 4;
-      k = o % 4;
-      l = corner_of(corner_[t], shared);
-    }
-    fan_ends_.push_back(4 * t + l);
-    if (is_reflex(a, b, first_apex)) add_reflex(a, b, first_tet, first_face, t, l);
-    return fan_.size();
-  }
-
-  // Does the fan just walked span more than pi? In one frame a look at each of its faces mostly
-  // tells, on which side of the first they are; only what is neither clear nor nearly straight is
-  // summed.
-  [[nodiscard]] bool is_reflex(Index a, Index b, Index first_apex) const {
-    constexpr double clear = 1e-3;  // of a sine
-    if (embedded_) {
-      const Vector3<double> origin = places_.vertex[a], edge = places_.vertex[b] - origin;
-      const Vector3<double> normal = cross(edge, places_.vertex[first_apex] - origin);
-      const double least = clear * clear * dot(normal, normal);
-      double side = 0;  // of the first face after it
-      for (std::size_t n = 0;; ++n) {
-        if (n == apexes_.size()) return false;
-        const Vector3<double> y = places_.vertex[apexes_[n]] - origin;
-        const double height = dot(normal, y);
-        if (height * height > least * dot(y, y)) {
-          if (side == 0) side = height;
-          if ((height < 0) != (side < 0)) return true;
-          continue;
-        }
-        const Vector3<double> other = cross(edge, y);
-        if (side == 0 || n + 1 < apexes_.size() || !(dot(normal, other) < 0)) break;
-        const double beyond = (side < 0 ? height : -height) * norm(edge);
-        return beyond > excess * norm(normal) * norm(other);
-      }
-    }
-    double angle = 0;
-    for (const auto& [t, slot] : fan_) angle += dihedral_at(t, a, b);
-    return angle > std::numbers::pi + excess;
-  }
-
-  [[nodiscard]] double dihedral_at(Index t, Index a, Index b) const {
-    const Index i = corner_of(corner_[t], a), j = corner_of(corner_[t], b);
-    Index k = 0;
-    while (k == i || k == j) ++k;
-    return dihedral(points(t), i, j, k, 6 - i - j - k);
-  }
-
-  void closed(Index a, Index b, std::span<const Index> around) {
-    double angle = 0;
-    for (const Index t : around) angle += dihedral_at(t, a, b);
-    if (angle > 2 * std::numbers::pi + excess) {
-      on_reflex_[a] = on_reflex_[b] = 1;
-      found_.reflex.emplace_back();
-    }
-  }
-
-  void add_reflex(Index a, Index b, Index t, Index k, Index u, Index l) {
-    const Index edge = static_cast<Index>(found_.reflex.size());
-    const TetPoints p = points(t), q = points(u);
-    const Index i = corner_of(corner_[t], a), j = corner_of(corner_[t], b);
-    const Vector3<double> normal[2] = {inward_normal(p, k), inward_normal(q, l)};
-    // At the end of a crack, whose faces lie on each other, normals leave nothing.
-    constexpr double closed_crack = 1e-3;
-    Vector3<double> solid = normal[0] + normal[1];
-    if (dot(solid, solid) < closed_crack * closed_crack)
-      solid = -0.5 * (into_face(p, k, i, j) +
-                      into_face(q, l, corner_of(corner_[u], a), corner_of(corner_[u], b)));
-    found_.reflex.push_back({{p[i], p[j]}, {normal[0], normal[1]}, {a, b}, solid});
-    on_reflex_[a] = on_reflex_[b] = 1;
-    for (const auto& [tet, slot] : fan_)
-      entries_.push_back({tet, edge << ReflexEntry::edge_shift | slot << ReflexEntry::slot_shift});
   }
 
   // Edges in a straight row, between the same planes, are one to a path.
@@ -329,7 +150,7 @@ class Finder {
 
   void list_by_tet() {
     std::sort(entries_.begin(), entries_.end());
-    found_.first_reflex.assign(corner_.size(), none);
+    found_.first_reflex.assign(solid_.corner.size(), none);
     for (std::size_t e = 0; e < entries_.size(); ++e) {
       const auto [tet, packed] = entries_[e];
       if (e == 0 || entries_[e - 1].first != tet) found_.first_reflex[tet] = static_cast<Index>(e);
@@ -340,7 +161,7 @@ class Finder {
 
   // Are all tetrahedra at a vertex joined by faces there? met[t] is 0 before and after.
   [[nodiscard]] bool is_one_fan(Index v, std::vector<char>& met, std::vector<Index>& stack) const {
-    const auto row = corners_at(v);
+    const auto row = solid_.corners_at(v);
     stack.resize(std::max(stack.size(), row.size() + 1));
     std::size_t top = 0, count = 0;
     stack[top++] = row[0];
@@ -349,9 +170,9 @@ class Finder {
       const Index c = stack[--top], own = c % 4;
       ++count;
       for (Index k = 0; k < 4; ++k) {
-        const Index o = across_[c / 4][k];
+        const Index o = solid_.across[c / 4][k];
         if (k == own || o == none) continue;
-        const auto& corner = corner_[o / 4];
+        const auto& corner = solid_.corner[o / 4];
         const Index i = static_cast<Index>(corner[1] == v) |
                         static_cast<Index>(corner[2] == v) * 2 |
                         static_cast<Index>(corner[3] == v) * 3;
@@ -369,7 +190,7 @@ class Finder {
     std::vector<Index> torn;
     std::mutex mutex;
     for_blocks(vertices_, part(), threads_, {}, [&](std::size_t first, std::size_t last) {
-      std::vector<char> met(corner_.size(), 0);
+      std::vector<char> met(solid_.corner.size(), 0);
       std::vector<Index> stack, own;
       for (Index v = static_cast<Index>(first); v < last; ++v)
         if (on_boundary_[v] && !is_one_fan(v, met, stack)) own.push_back(v);
@@ -380,13 +201,34 @@ class Finder {
     return torn;
   }
 
+  // A block's tetrahedra first, of which the sets are its own, then what joins two blocks.
+  [[nodiscard]] DisjointSets sets_joined_by_faces() const {
+    const std::size_t tets = solid_.across.size();
+    DisjointSets sets(tets);
+    std::vector<std::vector<std::array<Index, 2>>> between((tets + building_block - 1) /
+                                                           building_block);
+    over_blocks(tets, threads_, [&](std::size_t first, std::size_t last) {
+      std::vector<std::array<Index, 2>> others;
+      for (Index t = static_cast<Index>(first); t < last; ++t)
+        for (const Index o : solid_.across[t]) {
+          const Index lower = o / 4;
+          if (lower >= t) continue;  // told by the other; or none
+          if (lower >= first)
+            sets.unite(t, lower);
+          else
+            others.push_back({t, lower});
+        }
+      between[first / building_block] = std::move(others);
+    });
+    for (const auto& others : between)
+      for (const auto& [t, lower] : others) sets.unite(t, lower);
+    return sets;
+  }
+
   // Tetrahedra at a vertex that are joined neither by faces nor by edges there touch in it only.
   void find_vertices() {
     const std::vector<Index> torn = torn_vertices();
-    DisjointSets solids(corner_.size());
-    for (Index t = 0; t < corner_.size(); ++t)
-      for (const Index o : across_[t])
-        if (o != none) solids.unite(t, o / 4);
+    DisjointSets solids = sets_joined_by_faces();
     std::vector<std::pair<Index, std::size_t>> edges_at;  // of vertices: pinched edges
     for (std::size_t e = 0; e < found_.pinched_edges.size(); ++e) {
       const auto& edge = found_.pinched_edges[e];
@@ -397,7 +239,7 @@ class Finder {
     std::sort(edges_at.begin(), edges_at.end());
     auto edge = edges_at.begin();
     for (const Index v : torn) {
-      const auto row = corners_at(v);
+      const auto row = solid_.corners_at(v);
       DisjointSets fans(row.size());
       const auto unite = [&](Index t, Index u) {
         const auto place = [&](Index tet) {  // rows are ascending
@@ -409,7 +251,7 @@ class Finder {
       for (const Index c : row) {
         solids.unite(c / 4, row[0] / 4);
         for (Index k = 0; k < 4; ++k)
-          if (const Index o = across_[c / 4][k]; o != none && k != c % 4) unite(c / 4, o / 4);
+          if (const Index o = solid_.across[c / 4][k]; o != none && k != c % 4) unite(c / 4, o / 4);
       }
       while (edge != edges_at.end() && edge->first < v) ++edge;
       for (; edge != edges_at.end() && edge->first == v; ++edge) {
@@ -425,19 +267,14 @@ class Finder {
         }
     }
     for (const char on : on_reflex_) found_.reflex_vertices += on != 0;
-    for (Index t = 0; t < corner_.size(); ++t) found_.components += solids.find(t) == t;
+    for (Index t = 0; t < solid_.corner.size(); ++t) found_.components += solids.find(t) == t;
   }
 
+  TetSolid solid_;
   std::size_t vertices_;
   int threads_;
-  Corners corner_, across_;
-  const TetCorners& corners_;
-  const TetPlaces& places_;
-  bool embedded_;
   std::vector<char> on_reflex_, on_boundary_;
-  std::vector<Index> fan_ends_;  // of the fans around an edge, boundary faces 4 t + k
-  std::vector<Index> apexes_;    // vertices around the edge, of the fan being walked
-  std::vector<std::pair<Index, Index>> fan_, entries_;
+  std::vector<std::pair<Index, Index>> entries_;
   TetTopology found_;
 };
 

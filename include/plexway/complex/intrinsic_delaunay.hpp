@@ -119,7 +119,7 @@ template <class Real>
 class IntrinsicDelaunay {
  public:
   /// Cost: a few flips a vertex at most on usual meshes, 0.1 us each, and 0.1 us a triangle;
-  /// quadratic at worst. Memory while it lives: 120 bytes a triangle, 120 a flip.
+  /// quadratic at worst. Memory while it lives: 120 bytes a triangle, 64 a flip.
   ///
   /// With a refinement, circumcentres of bad triangles become vertices, numbered after the input's,
   /// or middles of boundary edges that are in between (Chew: Guaranteed-quality mesh generation for

@@ -17,6 +17,7 @@
 namespace plexway {
 
 class FaceLayout;
+class IntrinsicDelaunay;
 class TriangleShapes;
 
 /// What a surface is made of, counted while it is built.
@@ -209,6 +210,7 @@ class TriangleMesh {
 
  private:
   friend struct KeptParts;
+  friend class IntrinsicDelaunay;
   TriangleMesh() = default;
 
   void assemble(FaceLayout layout, const TriangleShapes& shapes, const SurfaceHints& hints);
