@@ -57,9 +57,17 @@ HINGE_METHOD Seen seen_along(HINGE_IN(Line) line, HINGE_IN(Point) from,
 /// On which side of b is a, seen from the line?
 HINGE_FN Real turn_of(HINGE_IN(Seen) a, HINGE_IN(Seen) b) { return a.x * b.y - a.y * b.x; }
 
+/// Lines begin so far inside of their tetrahedron, as a share of the way to its centre. On a lattice
+/// a line between two edges may run exactly into others, and be led around these to anywhere; this
+/// one passes beside them.
+HINGE_CONST Real inset = Real(1e-5);
+/// A line that misses a face of the boundary by more than this share of it does not end there.
+HINGE_CONST Real face_missed = Real(1e-2);
+
 /// From a point of t straight to another; t is then the tetrahedron it came to. False if that is
 /// outside of the solid, or behind a part of the boundary.
-bool walk(HINGE_INOUT(Index) t, HINGE_IN(Point) from, HINGE_IN(Point) to) HINGE_READS {
+bool walk(HINGE_INOUT(Index) t, HINGE_IN(Point) begin, HINGE_IN(Point) to) HINGE_READS {
+  Point from = begin + inset * (centre_of(t) - begin);
   Point g = to - from;
   Real far = norm(g);
   if (!(far > Real(1e-2) * nudge)) return true;
@@ -113,6 +121,7 @@ bool walk(HINGE_INOUT(Index) t, HINGE_IN(Point) from, HINGE_IN(Point) to) HINGE_
       Real beyond = wa * (Real(1) - a.z) + wb * (Real(1) - b.z) + wc * (Real(1) - c.z);
       if (!edge_on && beyond <= Real(0)) return true;
       if (ends) {
+        if (min(min(wa, wb), wc) < -face_missed * sum) return false;
         // What remains may be no more than rounding: in length, or in depth below the face.
         if (beyond * far <= Real(4) * nudge * sum) return true;
         Point at = face_corner(t, face, 0u);

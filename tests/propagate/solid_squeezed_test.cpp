@@ -86,6 +86,38 @@ TEST_CASE("a path along the floor, over ends of edges that it only touches") {
   CHECK(e.below >= -1e-12);
 }
 
+TEST_CASE("a path that would run along a block's diagonal goes around it") {
+  struct Plan {
+    samples::CornerDomain plan;
+    double jitter;
+    std::uint64_t seed;
+    double height, was;
+  };
+  const std::vector<Plan> plans = {
+      {{"", {{.125, .375, .25, .375}, {.25, .375, .75, .875}}, {.625, .5}},
+       0.24,
+       0xc6,
+       0.57265625,
+       -0.032},
+      {{"",
+        {{.125, .25, .25, .375},
+         {.25, .375, .625, .875},
+         {.625, .75, .25, .375},
+         {.75, .875, .75, .875}},
+        {.875, .25}},
+       0.08,
+       0x63,
+       0.273828125,
+       -0.018}};
+  for (const auto& [plan, jitter, seed, height, was] : plans) {
+    const Errors e = errors_over<double>(plan, jitter, seed, height);
+    CAPTURE(seed, was, e.mean, e.max, e.below);
+    CHECK(e.fits);
+    CHECK(e.max <= 1e-6);
+    CHECK(e.below >= -1e-12);
+  }
+}
+
 TEST_CASE("at the end of a crack, open or closed") {
   for (const samples::CornerDomain& plan :
        {samples::CornerDomain{"", {{.5, .5, 0, .5}}, {.25, .125}},
