@@ -91,13 +91,18 @@ std::string text_of(double number) {
 int main(int argc, char** argv) {
   using namespace samples;
   std::size_t n = 40;
+  std::size_t slabs = 20;
+  double thick = .25;
   std::vector<double> speeds = {.3, 1.1, 3};
   std::vector<std::string> only;
   bench::Report report;
   CLI::App app("Mixed domains of several speeds against closed forms: one table");
   app.add_option("--cells", n, "Cells a side")->capture_default_str();
   app.add_option("--speeds", speeds, "Of skins and sheets; blocks have 1")->delimiter(',');
-  app.add_option("--only", only, "block, ball, standing, layers")->delimiter(',');
+  app.add_option("--only", only, "block, ball, standing, layers, slabs, one")->delimiter(',');
+  app.add_option("--slabs", slabs, "How many, of so many cells a side each, only if asked for")
+      ->capture_default_str();
+  app.add_option("--thick", thick, "Of slabs, if they are 1 wide")->capture_default_str();
   report.add_options(app);
   CLI11_PARSE(app, argc, argv);
   const auto asked = [&](const char* name) {
@@ -108,7 +113,7 @@ int main(int argc, char** argv) {
                       {"mean", "mean"},
                       {"worst", "worst"},
                       {"low", "lowest"},
-                      {"seconds", "s", "%.1f"}});
+                      {"seconds", "s", "%.3f"}});
   const double cell = 1. / static_cast<double>(n);
 
   return report.write(table, [&] {
@@ -150,6 +155,26 @@ int main(int argc, char** argv) {
               return along_fast(r, std::hypot(q[0] - .5, 1 - q[2]), x, c, distance(p, q));
             });
       }
+    }
+    // Many layers, and as many slabs of one speed, which are joined to one solid.
+    for (const bool one : {false, true}) {
+      if (only.empty() || !asked(one ? "one" : "slabs")) continue;
+      Domain domain;
+      std::vector<Domain::Piece> pieces;
+      Layers layers;
+      for (std::size_t k = 0; k < slabs; ++k) {
+        constexpr double of_five[] = {1, 2.5, 1.7, .8, 2};
+        layers.v.push_back(one ? 1 : of_five[k % 5]);
+        if (k > 0) layers.z.push_back(thick * static_cast<double>(k));
+        const double z = thick * static_cast<double>(k);
+        pieces.push_back(domain.add(block({0, 0, z}, {1, 1, z + thick}, n), layers.v[k]));
+        if (k > 0) domain.weld(pieces[k - 1], pieces[k]);
+      }
+      const double height = thick * static_cast<double>(slabs);
+      for (const double z : {0., height / 3})
+        fields.measure(
+            one ? "slabs of one speed" : "slabs of five speeds", domain, {.4, .3, z},
+            [&](const Position& p, const Position& q, Index) { return layers.time(p, q); });
     }
     const Layers stacks[] = {
         {{.4}, {1, 2}}, {{.45}, {2, 1}}, {{.3, .65}, {1, 2, 1}}, {{.3, .65}, {2, 1, 1.5}}};

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -15,6 +14,7 @@
 
 #include "propagate/hinge_neighbours.hpp"
 #include "propagate/mixed_piece.hpp"
+#include "propagate/taut_crossings.hpp"
 
 namespace plexway {
 
@@ -23,8 +23,8 @@ namespace plexway {
 ///
 /// A label that starts on a hinge starts where it is best for one simplex there. What is behind may
 /// do better to cross a little farther on: each vertex looks for its own crossing when it is read
-/// out. If the path to there crossed other hinges before, all its crossings are moved until it is
-/// taut.
+/// out. A crossing knows which one the path came over before, so that all crossings of a path are
+/// moved until it is taut.
 template <class Real>
 class HingeCrossings {
  public:
@@ -49,13 +49,33 @@ class HingeCrossings {
   [[nodiscard]] Index first() const { return first_; }
   [[nodiscard]] Index next() const { return first_ + static_cast<Index>(crossings_.size()); }
   void add(const Crossing& crossing) {
-    crossings_.push_back(crossing);
+    crossings_.push_back({crossing, {0, 0}, none, {0, 0, 0}, infinity});
     moves_ |= crossing.hinge != none;
+  }
+  /// One that a front from member m made for member k beyond.
+  void add(const Crossing& crossing, Index m, Index k) {
+    add(crossing);
+    const auto& hinge = domain_.hinges()[crossing.hinge];
+    const Piece& from = *pieces_[hinge.piece[crossing.side]];
+    const Piece& to = *pieces_[hinge.piece[1 - crossing.side]];
+    const Member& beyond = domain_.members()[k];
+    Known& known = crossings_.back();
+    if (!to.sees_all()) return;
+    const HingeEnd<Real> at = to.pose(beyond, hinge.dimension, crossing.start);
+    known.place = to.shape(beyond, hinge.dimension).point(at.x, at.y);
+    if (hinge.dimension == 1) known.place[1] = 0;
+    Index before = none;
+    if (!from.eye(domain_.members()[m], known.eye, known.sigma, before)) return;
+    if (on_hinge(before) != nullptr) known.before = before;
   }
   /// The caller's source that a label comes from.
   [[nodiscard]] Index root(Index number) const {
-    const Crossing* crossing = find(number);
+    const Known* crossing = find(number);
     return crossing != nullptr ? crossing->source : number;
+  }
+  /// All crossings are there: vertices may be read out, those of several pieces at once.
+  void end() {
+    if (moves_) taut_ = std::make_unique<Taut>(domain_, pieces_, neighbours_);
   }
 
   /// Distances and labels of a piece's vertices, in its caller's order.
@@ -63,7 +83,7 @@ class HingeCrossings {
     if (!moves_) return;
     const auto& own = *pieces_[piece];
     const auto starts = [&](Index number) -> const Point* {
-      const Crossing* crossing = on_hinge(number);
+      const Known* crossing = on_hinge(number);
       return crossing != nullptr ? &crossing->start : nullptr;
     };
     const auto& complex = domain_.complex(domain_.pieces()[piece]);
@@ -72,121 +92,174 @@ class HingeCrossings {
     };
     std::vector<Index> outside(distance.size());
     for (Index v = 0; v < distance.size(); ++v) outside[inside(v)] = v;
-    std::vector<Via> via(distance.size());
+    std::vector<Index> via(distance.size(), none);
     std::vector<Index> front;
+    Room room;
     for (Index v = 0; v < distance.size(); ++v) {
-      const Crossing* c = find(own.crossing_seen(inside(v), starts));
-      if (c == nullptr) continue;
-      via[v] = least_over({c->hinge, c->source, c->side, 0}, own.place(inside(v)));
-      if (via[v].distance < distance[v]) distance[v] = via[v].distance, label[v] = c->source;
+      const Index number = own.crossing_seen(inside(v), starts);
+      if (find(number) == nullptr) continue;
+      via[v] = number;
+      const Real there = least_by(number, own.place(inside(v)), own.unit(), room);
+      if (there < distance[v]) distance[v] = there, label[v] = find(number)->source;
       front.push_back(v);
     }
     // A vertex none of whose simplices came over the hinge may itself be nearer that way.
-    if (!own.sees_all()) return;
+    if (!own.sees_all() || front.size() == distance.size()) return;
     std::vector<Index> around;
     for (std::size_t i = 0; i < front.size(); ++i) {
-      const Via from = via[front[i]];
+      const Index number = via[front[i]];
       own.vertices_around(inside(front[i]), around);
       for (const Index inner : around) {
         const Index w = outside[inner];
-        if (via[w].hinge != none) continue;
-        const Via there = least_over(from, own.place(inner));
-        if (!(there.distance < distance[w] * (1 - Piece::bend_loss))) continue;
-        via[w] = there;
-        distance[w] = via[w].distance;
-        label[w] = from.source;
+        if (via[w] != none) continue;
+        const Real there = least_by(number, own.place(inner), own.unit(), room);
+        if (!(there < distance[w] * (1 - Piece::bend_loss))) continue;
+        via[w] = number;
+        distance[w] = there;
+        label[w] = find(number)->source;
         front.push_back(w);
       }
     }
   }
 
  private:
+  using Taut = TautCrossings<Real>;
+  using Step = typename Taut::Step;
   static constexpr Real infinity = std::numeric_limits<Real>::infinity();
 
-  struct Via {
-    Index hinge = none, source = none;
-    std::uint8_t side = 0;
-    Real distance = 0;
+  struct Known : Crossing {
+    HingePlace<Real> place;
+    Index before;  // the crossing that the path came over before
+    Point eye;     // or what it came from, in the piece before and the domain's unit
+    Real sigma;    // and the way to it; +inf where only labels tell
   };
-  /// A path over a hinge: from a start or from what a label knows, to a target.
+  /// A path over a hinge: from what a label knows to a target.
   struct Over {
     Real distance = infinity, before = infinity;  // all, and as far as the hinge
     HingePlace<Real> place = {0, 0};
     int rims = 0;        // of the hinge that the crossing lies on: a neighbour may be better
     Index label = none;  // where the label that knows starts, if that is on a hinge
   };
-  struct Step {
-    Index hinge;
-    std::uint8_t side;
-    Over over = {};
+  /// The path of a vertex: what it starts from, and its crossings.
+  struct Path {
+    Point eye;
+    Real sigma = infinity;
+    std::vector<Step> steps;
+  };
+  /// Of a piece that is read out.
+  struct Room {
+    Path path, last;
+    typename Taut::Room taut;
   };
 
-  [[nodiscard]] const Crossing* find(Index number) const {
+  [[nodiscard]] const Known* find(Index number) const {
     return number == none || number < first_ ? nullptr : &crossings_[number - first_];
   }
   // One that may be moved.
-  [[nodiscard]] const Crossing* on_hinge(Index number) const {
-    const Crossing* crossing = find(number);
+  [[nodiscard]] const Known* on_hinge(Index number) const {
+    const Known* crossing = find(number);
     return crossing == nullptr || crossing->hinge == none ? nullptr : crossing;
   }
 
-  // The least way over a hinge, from there over its neighbours as long as that is shorter.
-  [[nodiscard]] Via least_over(Via via, const Point& target) const {
-    constexpr std::size_t most = 6;
+  // The crossings as far as a path is known, in its order.
+  void follow(Index number, Path& path) const {
+    path.steps.clear();
+    for (const Known* c = find(number); c != nullptr; c = find(c->before)) {
+      path.steps.push_back({c->hinge, c->side, c->place});
+      path.eye = c->eye;
+      path.sigma = c->sigma;
+    }
+    std::reverse(path.steps.begin(), path.steps.end());
+  }
+
+  // The length of the shortest path to a target by way of a crossing.
+  [[nodiscard]] Real least_by(Index number, const Point& target, Real unit, Room& room) const {
+    Path& path = room.path;
+    follow(number, path);
+    Real least = infinity;
+    if (path.steps.size() == 1 || !(path.sigma < infinity)) {
+      // Labels tell from where it comes, and may know of a better way.
+      const bool is_last = path.steps.size() == 1;
+      Step first = path.steps[0];
+      const Over over = move(first, is_last ? target : inner_place(path.steps[1]));
+      if (is_last) least = over.distance;
+      if (over.label != none) {
+        const std::vector<Step> behind(path.steps.begin() + 1, path.steps.end());
+        follow(over.label, path);
+        path.steps.push_back(first);
+        path.steps.insert(path.steps.end(), behind.begin(), behind.end());
+      } else if (is_last) {
+        return least;
+      } else {
+        path.steps[0] = first;
+      }
+    }
+    const Point end = unit * target;
+    if (path.sigma < infinity) return std::min(least, pull_all(path, end, room));
+    // Up to the first crossing labels tell; then the rest is moved, and again.
+    if (path.steps.size() < 2) return least;
     constexpr int rounds = 24;
     constexpr Real gain = sizeof(Real) == 4 ? Real(1e-6) : Real(1e-9);
-    std::array<Step, most> path;  // from its end
-    std::size_t count = 1;
-    path[0] = {via.hinge, via.side, {}};
-    move(path[0], target, nullptr);
-    via.hinge = path[0].hinge;
-    via.distance = path[0].over.distance;
-    for (int round = 0; round < rounds; ++round) {
-      bool longer = false;
-      if (const Crossing* c = find(path[count - 1].over.label); c != nullptr && count < most)
-        path[count++] = {c->hinge, c->side, {}}, longer = true;
-      if (count == 1) break;
-      // Each crossing between its neighbours, from the first on the way to the last.
-      Real sum = 0;
-      Point start;
-      for (std::size_t i = count; i-- > 0;) {
-        move(path[i], i == 0 ? target : place_on(path[i - 1], path[i - 1].side),
-             i + 1 == count ? nullptr : &start);
-        sum += i == 0 ? path[i].over.distance : path[i].over.before;
-        start = place_on(path[i], 1 - path[i].side);
-      }
-      const bool enough = !(sum < via.distance * (1 - gain));
-      if (sum < via.distance) via.distance = sum, via.hinge = path[0].hinge;
-      if (enough && !longer) break;
+    for (int i = 0; i < rounds; ++i) {
+      const Over over = move(path.steps[0], inner_place(path.steps[1]));
+      if (!(over.before < infinity)) break;
+      const Real there =
+          over.before + taut_->pull(taut_->place(path.steps[0], 1 - path.steps[0].side),
+                                    std::span(path.steps).subspan(1), end, room.taut);
+      const bool enough = !(there < least * (1 - gain));
+      least = std::min(least, there);
+      if (enough) break;
     }
-    return via;
+    return least;
   }
 
-  // Where a step crosses, as the piece on a side has it.
-  [[nodiscard]] Point place_on(const Step& step, std::size_t side) const {
+  // All crossings of a path whose start is known.
+  Real pull_all(Path& path, const Point& target, Room& room) const {
+    Real now = taut_->length(path.eye, path.steps, target);
+    if (alike(path, room.last))
+      if (const Real there = taut_->length(path.eye, room.last.steps, target); there < now)
+        path.steps = room.last.steps, now = there;
+    now = taut_->pull(path.eye, path.steps, target, room.taut);
+    room.last = path;
+    return path.sigma + now;
+  }
+  // Do two paths start at one point and cross the same pieces?
+  [[nodiscard]] bool alike(const Path& a, const Path& b) const {
+    return a.steps.size() == b.steps.size() && a.sigma == b.sigma && a.eye.x == b.eye.x &&
+           a.eye.y == b.eye.y && a.eye.z == b.eye.z &&
+           std::equal(a.steps.begin(), a.steps.end(), b.steps.begin(),
+                      [&](const Step& s, const Step& t) {
+                        const auto &h = domain_.hinges()[s.hinge], &g = domain_.hinges()[t.hinge];
+                        return s.side == t.side && h.dimension == g.dimension &&
+                               h.piece[0] == g.piece[0] && h.piece[1] == g.piece[1];
+                      });
+  }
+
+  // Where a step crosses, as the piece before has it.
+  [[nodiscard]] Point inner_place(const Step& step) const {
     const auto& hinge = domain_.hinges()[step.hinge];
-    return pieces_[hinge.piece[side]]->place(domain_.members()[hinge.begin[side]], hinge.dimension,
-                                             step.over.place);
+    return pieces_[hinge.piece[step.side]]->place(domain_.members()[hinge.begin[step.side]],
+                                                  hinge.dimension, step.place);
   }
 
-  // To where it is best for a target, on its hinge or a neighbour's.
-  void move(Step& step, const Point& target, const Point* start) const {
-    step.over = way_over(step.hinge, step.side, target, start);
-    for (int steps = 0; steps < 64 && step.over.rims > 0; ++steps) {
+  // To where it is best for a target, on its hinge or a neighbour's, by what labels know.
+  Over move(Step& step, const Point& target) const {
+    Over over = way_over(step.hinge, step.side, target);
+    for (int steps = 0; steps < 64 && over.rims > 0; ++steps) {
       Index better = none;
       // At an end of the hinge: another one there may be better that shares no edge with it.
-      for (const Index other : step.over.rims > 1 ? neighbours_.over_vertices(step.hinge)
-                                                  : neighbours_.over_edges(step.hinge))
-        if (const Over there = way_over(other, step.side, target, start);
-            there.distance < step.over.distance)
-          step.over = there, better = other;
+      for (const Index other : over.rims > 1 ? neighbours_.over_vertices(step.hinge)
+                                             : neighbours_.over_edges(step.hinge))
+        if (const Over there = way_over(other, step.side, target); there.distance < over.distance)
+          over = there, better = other;
       if (better == none) break;
       step.hinge = better;
     }
+    step.place = over.place;
+    return over;
   }
 
-  [[nodiscard]] Over way_over(Index n, std::size_t side, const Point& target,
-                              const Point* start) const {
+  [[nodiscard]] Over way_over(Index n, std::size_t side, const Point& target) const {
     const auto& hinge = domain_.hinges()[n];
     const Piece& from = *pieces_[hinge.piece[side]];
     const Piece& to = *pieces_[hinge.piece[1 - side]];
@@ -194,26 +267,14 @@ class HingeCrossings {
     const HingeShape<Real> shape = to.shape(beyond, hinge.dimension);
     const HingeEnd<Real> end = to.pose(beyond, hinge.dimension, target);
     Over least;
-    if (start != nullptr) {
-      const Member& member = domain_.members()[hinge.begin[side]];
-      const HingeEnd<Real> eye = from.pose(member, hinge.dimension, *start);
-      const HingeShape<Real> before = from.shape(member, hinge.dimension);
-      const HingeFermat<Real> fermat(before, shape, hinge.dimension);
-      least.place = fermat.crossing(eye, end);
-      least.distance = fermat.way(eye, end, least.place);
-      const auto p = before.place(least.place);
-      least.before = std::sqrt((p[0] - eye.x) * (p[0] - eye.x) + (p[1] - eye.y) * (p[1] - eye.y) +
-                               eye.h * eye.h);
-    } else {
-      for (Index m = hinge.begin[side]; m < hinge.end[side]; ++m) {
-        const Member& member = domain_.members()[m];
-        if (!(from.distance(member.simplex) < infinity)) continue;
-        const HingeFront<Real> front(from, member, hinge.dimension, none, none);
-        const auto path = front.shortest(shape, end);
-        if (!(path.extent < least.distance)) continue;
-        least = {path.extent, path.before, path.crossing, 0,
-                 straight_from(from, member, front.seen_from(path.crossing), hinge.dimension)};
-      }
+    for (Index m = hinge.begin[side]; m < hinge.end[side]; ++m) {
+      const Member& member = domain_.members()[m];
+      if (!(from.distance(member.simplex) < infinity)) continue;
+      const HingeFront<Real> front(from, member, hinge.dimension, none, none);
+      const auto path = front.shortest(shape, end);
+      if (!(path.extent < least.distance)) continue;
+      least = {path.extent, path.before, path.crossing, 0,
+               straight_from(from, member, front.seen_from(path.crossing), hinge.dimension)};
     }
     constexpr Real rim = 16 * std::numeric_limits<Real>::epsilon();
     const HingePlace<Real>& b = least.place;
@@ -224,7 +285,7 @@ class HingeCrossings {
   // The crossing that an eye is, if it may be moved: in a piece where all points see each other.
   [[nodiscard]] Index straight_from(const Piece& piece, const Member& member,
                                     const PosedSource<Real>& eye, int dimension) const {
-    const Crossing* crossing = on_hinge(eye.source);
+    const Known* crossing = on_hinge(eye.source);
     if (crossing == nullptr || !piece.sees_all()) return none;
     const HingeEnd<Real> start = piece.pose(member, dimension, crossing->start);
     const Real size = Real(1e-4) * piece.shape(member, dimension).length;
@@ -238,7 +299,8 @@ class HingeCrossings {
   const HingeNeighbours<Real>& neighbours_;
   Index first_ = 0;
   bool moves_ = false;  // is any on a hinge?
-  std::vector<Crossing> crossings_;
+  std::vector<Known> crossings_;
+  std::unique_ptr<Taut> taut_;
 };
 
 }  // namespace plexway

@@ -103,6 +103,11 @@ class MixedPiece {
     return none;
   }
   virtual Point place(Index) const { return {}; }
+  /// What a length inside the piece is in the domain's unit.
+  [[nodiscard]] virtual Real unit() const { return 1; }
+  /// The point that the label of a hinge's member starts at and the way to it, both in the domain's
+  /// unit, and its source. False where not all of the hinge need see it.
+  virtual bool eye(const Member&, Point&, Real&, Index&) const { return false; }
   /// Does every point see every other?
   [[nodiscard]] virtual bool sees_all() const { return false; }
   virtual void vertices_around(Index, std::vector<Index>&) const {}

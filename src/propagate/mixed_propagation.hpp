@@ -98,6 +98,7 @@ class MixedPropagation {
     field.distance.assign(domain_.vertex_count(), infinity);
     field.label.assign(domain_.vertex_count(), none);
     each([&](Index p) { pieces_[p]->read_out(distances(field, p), labels(field, p)); });
+    crossings_.end();
     each([&](Index p) {
       crossings_.straighten(p, distances(field, p), labels(field, p));
       for (Index& l : labels(field, p)) l = root(l);
@@ -402,7 +403,7 @@ class MixedPropagation {
         Vector3<Real> start = {0, 0, 0};
         if (!pieces_[to]->enter_front(domain_.members()[k], front, start)) continue;
         any = true;
-        crossings_.add({posed_[m].source, n, static_cast<std::uint8_t>(side), start});
+        crossings_.add({posed_[m].source, n, static_cast<std::uint8_t>(side), start}, m, k);
       }
     }
     return any;

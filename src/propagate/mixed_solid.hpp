@@ -127,6 +127,15 @@ class MixedSolid final : public MixedPiece<Real> {
   }
 
   Point place(Index vertex) const override { return mesh_.points()[vertex]; }
+  Real unit() const override { return unit_; }
+  bool eye(const Member& m, Point& at, Real& sigma, Index& source) const override {
+    if (!sees_all() || !wave_.reached(m.simplex)) return false;
+    const auto sight = rule_.seen_from(m.simplex, mesh_.tets()[m.simplex].centre);
+    at = unit_ * sight.eye;
+    sigma = unit_ * sight.sigma;
+    source = wave_.source(m.simplex);
+    return true;
+  }
 
   bool sees_all() const override { return !rule_.drops() && mesh_.summary().components == 1; }
   void vertices_around(Index vertex, std::vector<Index>& around) const override {

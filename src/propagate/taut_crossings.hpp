@@ -1,0 +1,285 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include <plexway/complex/mixed_complex.hpp>
+
+#include "propagate/hinge_neighbours.hpp"
+#include "propagate/mixed_piece.hpp"
+
+namespace plexway {
+
+/// Paths over many hinges between solids in which every point sees every other, pulled taut: the
+/// sum of straight lines from crossing to crossing is least by Newton's steps for all crossings at
+/// once. Each crossing meets the one before and the one behind only, so a step takes a time in
+/// proportion to their number. Crossings go from hinge to hinge.
+template <class Real>
+class TautCrossings {
+ public:
+  using Domain = MixedComplex<Real>;
+  using Pieces = std::vector<std::unique_ptr<MixedPiece<Real>>>;
+  using Point = Vector3<Real>;
+
+  struct Step {
+    Index hinge;
+    std::uint8_t side;  // that the path comes from
+    HingePlace<Real> place;
+  };
+  /// Of each thread: what is kept from path to path so that nothing is allocated.
+  struct Room {
+    std::vector<Step> trial;
+    struct Row {
+      Real inverse[3], right[2], next[2][2];  // of the pivot; what couples with the next crossing
+      Real step[2];
+    };
+    std::vector<Row> rows, trial_rows;
+  };
+
+  TautCrossings(const Domain& domain, const Pieces& pieces, const HingeNeighbours<Real>& neighbours)
+      : facets_(domain.hinges().size()) {
+    for (Index n = 0; n < facets_.size(); ++n) fill(domain, pieces, n);
+    for (Index n = 0; n < facets_.size(); ++n)
+      if (facets_[n].dimension == 2)
+        for (const Index other : neighbours.over_edges(n)) facets_[n].link(other, facets_[other]);
+  }
+
+  /// A crossing, in the coordinates of the piece on a side of its hinge times that piece's unit.
+  [[nodiscard]] Point place(const Step& step, std::size_t side) const {
+    return facets_[step.hinge].at(side, step.place);
+  }
+
+  [[nodiscard]] Real length(const Point& eye, std::span<const Step> path,
+                            const Point& target) const {
+    Real sum = 0;
+    Point from = eye;
+    for (const Step& step : path) {
+      const Facet& facet = facets_[step.hinge];
+      sum += norm(facet.at(step.side, step.place) - from);
+      from = facet.at(1 - step.side, step.place);
+    }
+    return sum + norm(target - from);
+  }
+
+  /// Moves the crossings of a path from `eye`, in the piece that it starts in, to `target`. Gives
+  /// the path's length. Not all of it may be taut where a crossing is held up, as by a ridge
+  /// between hinges.
+  Real pull(const Point& eye, std::span<Step> path, const Point& target, Room& room) const {
+    // What the last step still wins: the error is about the square of it then.
+    constexpr Real gain = Real(1e-6);
+    constexpr int most_steps = 24, most_halvings = 6;
+    room.trial.resize(path.size());
+    Quadratic now = newton(eye, path, target, room.rows);
+    for (int i = 0; i < most_steps && now.wins > 0; ++i) {
+      const bool last = now.wins <= gain * now.length;
+      Quadratic there = now;
+      Real share = 1;
+      for (int halvings = 0; halvings < most_halvings; ++halvings, share /= 2) {
+        for (std::size_t k = 0; k < path.size(); ++k) {
+          room.trial[k] = path[k];
+          const Real* step = room.rows[k].step;
+          go(room.trial[k],
+             {path[k].place[0] + share * step[0], path[k].place[1] + share * step[1]});
+        }
+        if (last)
+          there.length = length(eye, room.trial, target);
+        else
+          there = newton(eye, room.trial, target, room.trial_rows);
+        if (there.length < now.length || last) break;
+      }
+      if (!(there.length < now.length)) break;
+      std::copy(room.trial.begin(), room.trial.end(), path.begin());
+      std::swap(room.rows, room.trial_rows);
+      now = there;
+      if (last) break;
+    }
+    return now.length;
+  }
+
+  [[nodiscard]] std::size_t bytes() const { return facets_.capacity() * sizeof(Facet); }
+
+ private:
+  using Row = typename Room::Row;
+
+  struct Facet {
+    Point origin[2], along[2][2];  // on either side
+    Point dual[2];                 // on side 0: what tells a place
+    Index vertex[3] = {none, none, none};
+    Index across[3] = {none, none, none};  // over the edge that vertex i is not an end of
+    int dimension = 0;
+
+    [[nodiscard]] Point at(std::size_t side, const HingePlace<Real>& b) const {
+      return origin[side] + b[0] * along[side][0] + b[1] * along[side][1];
+    }
+    void link(Index number, const Facet& other) {
+      for (std::size_t i = 0; i < 3; ++i) {
+        int shared = 0;
+        for (std::size_t k = 0; k < 3; ++k)
+          shared +=
+              k != i && std::find(other.vertex, other.vertex + 3, vertex[k]) != other.vertex + 3;
+        if (shared == 2) across[i] = number;
+      }
+    }
+  };
+
+  void fill(const Domain& domain, const Pieces& pieces, Index n) {
+    const auto& hinge = domain.hinges()[n];
+    Facet& facet = facets_[n];
+    facet.dimension = hinge.dimension;
+    for (const std::size_t side : {0, 1}) {
+      const auto& piece = *pieces[hinge.piece[side]];
+      const auto& member = domain.members()[hinge.begin[side]];
+      const Real unit = piece.unit();
+      const auto at = [&](Real a, Real b) {
+        return unit * piece.place(member, hinge.dimension, HingePlace<Real>{a, b});
+      };
+      facet.origin[side] = at(0, 0);
+      facet.along[side][0] = at(1, 0) - facet.origin[side];
+      facet.along[side][1] = hinge.dimension == 2 ? at(0, 1) - facet.origin[side] : Point{0, 0, 0};
+      if (side == 0)
+        for (std::size_t i = 0; i <= hinge.dimension; ++i)
+          facet.vertex[i] = piece.vertex_of(member.simplex, member.corner[i]);
+    }
+    const Point &u = facet.along[0][0], &w = facet.along[0][1];
+    const Real uu = dot(u, u), uw = dot(u, w), ww = dot(w, w), det = uu * ww - uw * uw;
+    facet.dual[0] = facet.dual[1] = {0, 0, 0};
+    if (!(det > 0)) return;
+    facet.dual[0] = (ww / det) * u - (uw / det) * w;
+    facet.dual[1] = (uu / det) * w - (uw / det) * u;
+  }
+
+  // To a place that may lie beyond the hinge: on over its neighbours, or no farther than the rim.
+  void go(Step& step, HingePlace<Real> b) const {
+    constexpr int most_hinges = 64;
+    for (int i = 0;; ++i) {
+      const Facet& facet = facets_[step.hinge];
+      if (facet.dimension == 1) b = {std::clamp(b[0], Real(0), Real(1)), 0};
+      Real weight[3] = {1 - b[0] - b[1], b[0], b[1]};
+      const std::size_t out =
+          static_cast<std::size_t>(std::min_element(weight, weight + 3) - weight);
+      if (facet.dimension == 1 || weight[out] >= 0) break;
+      const Index next = facet.across[out];
+      if (next == none || i == most_hinges) {
+        Real sum = 0;
+        for (Real& w : weight) sum += w = std::max(w, Real(0));
+        b = {weight[1] / sum, weight[2] / sum};
+        break;
+      }
+      const Facet& beyond = facets_[next];
+      const Point off = facet.at(0, b) - beyond.origin[0];
+      b = {dot(beyond.dual[0], off), dot(beyond.dual[1], off)};
+      step.hinge = next;
+    }
+    step.place = b;
+  }
+
+  // A straight line and what it adds to gradients and second derivatives at its ends.
+  struct Line {
+    Point forward;
+    Real length, one_over;
+    Line(const Point& from, const Point& to, Real least) {
+      const Point way = to - from;
+      length = norm(way);
+      one_over = 1 / std::max(length, least);
+      forward = one_over * way;
+    }
+    // Of the second derivative: a times it times b, where these have such shares of `forward`.
+    [[nodiscard]] Real bend(const Point& a, Real a_forward, const Point& b, Real b_forward) const {
+      return (dot(a, b) - a_forward * b_forward) * one_over;
+    }
+  };
+
+  // A path's length, and what it would win if that were quadratic.
+  struct Quadratic {
+    Real length, wins;
+  };
+
+  // Steps to where the length is least if it were quadratic.
+  Quadratic newton(const Point& eye, std::span<const Step> path, const Point& target,
+                   std::vector<Row>& rows) const {
+    rows.resize(path.size());
+    Real fall = 0, sum = 0;
+    Point from = eye;
+    Real diagonal[3] = {0, 0, 0}, right[2] = {0, 0};  // from the line before
+    for (std::size_t k = 0; k < path.size(); ++k) {
+      const Facet& facet = facets_[path[k].hinge];
+      const std::size_t side = path[k].side;
+      const Point *in = facet.along[side], *out = facet.along[1 - side];
+      const Real least = Real(1e-9) * norm(in[0]);
+      if (k == 0) {
+        const Line line(eye, facet.at(side, path[0].place), least);
+        sum += line.length;
+        const Real f[2] = {dot(in[0], line.forward), dot(in[1], line.forward)};
+        for (std::size_t i = 0; i < 2; ++i) right[i] = -f[i];
+        diagonal[0] = line.bend(in[0], f[0], in[0], f[0]);
+        diagonal[1] = line.bend(in[0], f[0], in[1], f[1]);
+        diagonal[2] = line.bend(in[1], f[1], in[1], f[1]);
+      }
+      from = facet.at(1 - side, path[k].place);
+      const bool is_last = k + 1 == path.size();
+      const Facet* next = is_last ? nullptr : &facets_[path[k + 1].hinge];
+      const Point to = is_last ? target : next->at(path[k + 1].side, path[k + 1].place);
+      const Line line(from, to, least);
+      sum += line.length;
+      const Real f[2] = {dot(out[0], line.forward), dot(out[1], line.forward)};
+      Row& row = rows[k];
+      Real d[3] = {diagonal[0] + line.bend(out[0], f[0], out[0], f[0]),
+                   diagonal[1] + line.bend(out[0], f[0], out[1], f[1]),
+                   diagonal[2] + line.bend(out[1], f[1], out[1], f[1])};
+      for (std::size_t i = 0; i < 2; ++i) row.right[i] = right[i] + f[i];
+      if (facet.dimension == 1) d[2] += dot(in[0], in[0]) * line.one_over;
+      // Where lines lie in the hinge nothing may hold a crossing along them.
+      constexpr Real little = sizeof(Real) == 4 ? Real(1e-4) : Real(1e-9);
+      Real det = d[0] * d[2] - d[1] * d[1];
+      if (!(det > little * d[0] * d[2])) {
+        const Real more = std::sqrt(little) * (d[0] + d[2]);
+        d[0] += more;
+        d[2] += more;
+        det = d[0] * d[2] - d[1] * d[1];
+      }
+      row.inverse[0] = d[2] / det;
+      row.inverse[1] = -d[1] / det;
+      row.inverse[2] = d[0] / det;
+      const Real solved[2] = {row.inverse[0] * row.right[0] + row.inverse[1] * row.right[1],
+                              row.inverse[1] * row.right[0] + row.inverse[2] * row.right[1]};
+      fall += solved[0] * row.right[0] + solved[1] * row.right[1];
+      if (is_last) break;
+      const Point* on = next->along[path[k + 1].side];
+      const Real g[2] = {dot(on[0], line.forward), dot(on[1], line.forward)};
+      for (std::size_t i = 0; i < 2; ++i)
+        for (std::size_t j = 0; j < 2; ++j) row.next[i][j] = -line.bend(out[i], f[i], on[j], g[j]);
+      // Eliminated: what the next crossing has of it.
+      const auto product = [&](std::size_t i, std::size_t j) {
+        const Real half[2] = {row.inverse[0] * row.next[0][j] + row.inverse[1] * row.next[1][j],
+                              row.inverse[1] * row.next[0][j] + row.inverse[2] * row.next[1][j]};
+        return row.next[0][i] * half[0] + row.next[1][i] * half[1];
+      };
+      diagonal[0] = line.bend(on[0], g[0], on[0], g[0]) - product(0, 0);
+      diagonal[1] = line.bend(on[0], g[0], on[1], g[1]) - product(0, 1);
+      diagonal[2] = line.bend(on[1], g[1], on[1], g[1]) - product(1, 1);
+      for (std::size_t i = 0; i < 2; ++i)
+        right[i] = -g[i] - (row.next[0][i] * solved[0] + row.next[1][i] * solved[1]);
+    }
+    for (std::size_t k = path.size(); k-- > 0;) {
+      Row& row = rows[k];
+      Real r[2] = {row.right[0], row.right[1]};
+      if (k + 1 < path.size())
+        for (std::size_t i = 0; i < 2; ++i)
+          r[i] -= row.next[i][0] * rows[k + 1].step[0] + row.next[i][1] * rows[k + 1].step[1];
+      row.step[0] = row.inverse[0] * r[0] + row.inverse[1] * r[1];
+      row.step[1] = row.inverse[1] * r[0] + row.inverse[2] * r[1];
+    }
+    return {sum, fall / 2};
+  }
+
+  std::vector<Facet> facets_;
+};
+
+}  // namespace plexway
