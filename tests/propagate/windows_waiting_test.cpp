@@ -7,20 +7,20 @@
 #include <plexway/solve.hpp>
 
 #include "data/shapes.hpp"
-#include "propagate/windows/waiting_blocks.hpp"
+#include "propagate/windows/waiting_table.hpp"
 
 namespace {
 
 using namespace plexway;
 
 struct Block {
-  Index halfedge, link;
+  Index place, link;
 };
 
 }  // namespace
 
 TEST_CASE("blocks that wait are found by their halfedge, the latest first", "[windows]") {
-  windows::WaitingBlocks waiting;
+  windows::WaitingTable waiting;
   std::vector<Block> blocks;
   std::map<Index, std::vector<Index>> truth;  // the latest last
   std::vector<Index> free;
@@ -31,7 +31,7 @@ TEST_CASE("blocks that wait are found by their halfedge, the latest first", "[wi
     const auto k = static_cast<Index>(random() % 1500);
     const Index h = kind == 0 ? k % 40 : kind == 1 ? 4 * k + k % 3 : k << 12;
     auto& own = truth[h];
-    const Index found = windows::WaitingBlocks::find(waiting.list(h), h, blocks);
+    const Index found = windows::WaitingTable::find(waiting.list(h), h, blocks);
     REQUIRE(found == (own.empty() ? none : own.back()));
     if (own.empty() || random() % 5 < 3) {
       Index b = static_cast<Index>(blocks.size());
@@ -56,7 +56,7 @@ TEST_CASE("blocks that wait are found by their halfedge, the latest first", "[wi
   }
   waiting.clear();
   for (const auto& [h, own] : truth)
-    REQUIRE(windows::WaitingBlocks::find(waiting.list(h), h, blocks) == none);
+    REQUIRE(windows::WaitingTable::find(waiting.list(h), h, blocks) == none);
 }
 
 TEMPLATE_TEST_CASE("merged windows hold few bytes a vertex", "[windows]", float, double) {

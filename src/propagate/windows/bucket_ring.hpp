@@ -80,10 +80,11 @@ class BucketRing {
 
   template <class Next>
   [[gnu::always_inline]] void push(Index node, double near, const Next& next) {
-    const double place = near * per_width_;
+    // What is nearer than the bucket in turn belongs there: said of numbers, since the whole number
+    // then needs no second look.
+    const double place = std::max(near * per_width_, first_);
     if (place < last_) [[likely]] {
-      const std::int64_t bucket = std::max(static_cast<std::int64_t>(std::max(place, 0.)), at_);
-      Index& head = head_[static_cast<std::size_t>(bucket) % buckets];
+      Index& head = head_[static_cast<std::size_t>(static_cast<std::int64_t>(place)) % buckets];
       next(node) = head;
       head = node;
       ++near_count_;
@@ -134,6 +135,7 @@ class BucketRing {
 
   void go_to(std::int64_t bucket) {
     at_ = bucket;
+    first_ = static_cast<double>(at_);
     last_ = static_cast<double>(at_ + static_cast<std::int64_t>(buckets) - 1);
   }
 
@@ -187,7 +189,7 @@ class BucketRing {
   double width_ = 1, per_width_ = 1;
   std::int64_t at_ = 0;  // the bucket in turn, counted from distance 0
   std::int64_t horizon_ = std::numeric_limits<std::int64_t>::max();
-  double last_ = 0;  // the ring ends there, in buckets
+  double first_ = 0, last_ = 0;  // the ring begins and ends there, in buckets
   std::size_t near_count_ = 0, far_count_ = 0;
   double nearest_far_ = 0;
 };

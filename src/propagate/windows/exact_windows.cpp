@@ -128,10 +128,10 @@ template <class Order>
 bool ExactWindows<Real>::spread(Order& order, std::size_t most) {
   const auto next = [this](Index n) -> Index& { return nodes_[n].next; };
   const auto near = [this](Index n) { return nearest(nodes_[n]); };
-  for (const std::size_t end = statistics_.expansions + most; statistics_.expansions != end;) {
+  std::size_t turns = 0;
+  for (; turns != most; ++turns) {
     const Index n = order.pop(next, near);
-    if (n == none) return true;
-    ++statistics_.expansions;
+    if (n == none) break;
     if (const Index after = order.peek(); after != none) {
       const Node& node = nodes_[after];
       __builtin_prefetch(&nodes_[node.next != none ? node.next : after]);
@@ -150,7 +150,8 @@ bool ExactWindows<Real>::spread(Order& order, std::size_t most) {
       expand(order, n);
     }
   }
-  return false;
+  statistics_.expansions += turns;
+  return turns != most;
 }
 
 template <class Real>
@@ -238,7 +239,7 @@ template <class Order>
 void ExactWindows<Real>::enter(Order& order, Index halfedge, const Window<double>& w,
                                Index source) {
   const double near = w.nearest();
-  if (near <= radius_)
+  if (near <= radius_ && w.beam.begin < w.beam.end)
     push(order, {w.beam, w.sigma, w.at_begin, w.at_end, halfedge, none}, near, source);
 }
 
@@ -280,21 +281,16 @@ template <class Order>
   const bool served =
       to_a + least + begin < node.at_begin || to_b + least + (width - end) < node.at_end;
 
-  const double left = static_cast<double>(t.length[before]);
-  const double right = static_cast<double>(t.length[after]);
-  const bool from_a = left <= right;
-  const std::size_t nearer = from_a ? in : after;
-  const double edge = std::min(left, right), from_b = from_pivot[!from_a].shift * width;
-  const double apex_x =
-      from_b + from_pivot[!from_a].factor * (edge * static_cast<double>(t.cosine[nearer]));
-  const double apex_h = edge * static_cast<double>(t.sine(nearer));
-  const double across = (apex_x - x) * h, down = apex_h + h;
-  const double slack = Rounding<Real>::cover * width * down;
-  // All on the same side of the ray to the apex, and not near it.
-  const std::size_t to_right = across < (begin - x) * down - slack;
-  const std::size_t to_left = across > (end - x) * down + slack;
+  // All on the same side of the ray to the apex, and so far from it that the apex need not be
+  // placed from its nearer end.
+  const double side = static_cast<double>(t.length[before]);
+  const double apex_x = side * static_cast<double>(t.cosine[in]);
+  const double across = (apex_x - x) * h, down = side * static_cast<double>(t.sine(in)) + h;
+  const double slack = Rounding<Real>::cover * width;
+  const std::size_t to_right = across < (begin - x - slack) * down;
+  const std::size_t to_left = across > (end - x + slack) * down;
   const bool parallel = node.beam.is_parallel();
-  if (served || (to_left ^ to_right) == 0 || !(begin < end) || parallel) [[unlikely]] {
+  if (served || (to_left ^ to_right) == 0 || parallel) [[unlikely]] {
     const Window<double> window = {
         {x, parallel ? node.beam.h : h, begin, end}, sigma, node.at_begin, node.at_end, 0};
     const Index halfedge = node.edge, source = labels_ ? node_source_[n] : 0;

@@ -14,9 +14,8 @@ void MergedWindows<Real>::begin(const WindowSources& sources, const PropagateOpt
   distance_ = distance.data();
   error_.resize(sheet_.vertex_count);
   if (labels_) source_.resize(sheet_.vertex_count);
-  if (!complete_) waiting_.clear();
+  if (!complete_) waiting_at_.clear(), shining_at_.clear();
   blocks_.clear();
-  shines_.assign(sheet_.vertex_count, none);
   shining_.clear();
   arrivals_.resize(sheet_.shared);
   free_block_ = free_shining_ = none;
@@ -162,10 +161,19 @@ bool MergedWindows<Real>::fill_holes(Order& order) {
 }
 
 template <class Real>
+[[gnu::noinline]] Index MergedWindows<Real>::one_more_block() {
+  waiting_at_.make_room(blocks_.size() + 1, blocks_);
+  if (blocks_.size() == blocks_.capacity())  // doubled they would be 10 bytes a vertex
+    blocks_.reserve(blocks_.size() + blocks_.size() / 4 + 64);
+  blocks_.emplace_back();
+  return static_cast<Index>(blocks_.size() - 1);
+}
+
+template <class Real>
 std::size_t MergedWindows<Real>::bytes() const {
   const auto of = [](const auto& v) { return v.capacity() * sizeof(v[0]); };
-  return sizeof(*this) + of(source_) + of(error_) + of(shines_) + of(shining_) + of(arrivals_) +
-         of(own_distance_) + waiting_.bytes() + of(blocks_) + of(corners_) + leaving_.bytes();
+  return sizeof(*this) + of(source_) + of(error_) + of(shining_) + of(arrivals_) +
+         of(own_distance_) + waiting_at_.bytes() + shining_at_.bytes() + of(blocks_) + of(corners_) + leaving_.bytes();
 }
 
 }  // namespace plexway::windows

@@ -67,7 +67,7 @@ Real MergedWindows<Real>::scale_at(double distance) const {
 
 template <class Real>
 Real MergedWindows<Real>::near(Index node) const {
-  return node & bent ? distance_[shining_[node & ~bent].vertex] + static_cast<Real>(late)
+  return node & bent ? distance_[shining_[node & ~bent].place] + static_cast<Real>(late)
                      : blocks_[node].near;
 }
 
@@ -80,7 +80,7 @@ template <class Real>
 template <class Real>
 [[gnu::always_inline]] inline void MergedWindows<Real>::fetch(Index node) const {
   if (node & bent) return;
-  __builtin_prefetch(&triangles_[blocks_[node].halfedge >> 2]);
+  __builtin_prefetch(&triangles_[blocks_[node].place >> 2]);
 }
 
 template <class Real>
@@ -140,9 +140,9 @@ bool MergedWindows<Real>::spread(Order& order, std::size_t most) {
     scale_ = scale;
     if (n & bent) {
       const Shining waited = shining_[n & ~bent];
+      shining_at_.remove(n & ~bent, shining_);
       shining_[n & ~bent].next = std::exchange(free_shining_, n & ~bent);
-      shines_[waited.vertex] = none;
-      shine(order, waited.vertex, waited.arrival);
+      shine(order, waited.place, waited.arrival);
       continue;
     }
     Turn& turn = turns_[current];
@@ -160,7 +160,7 @@ bool MergedWindows<Real>::spread(Order& order, std::size_t most) {
     if (kept_) [[unlikely]] {
       for (std::size_t i = 0; i < turn.windows.size(); ++i) {
         const auto& [window, source] = turn.windows[i];
-        kept_->take(block.halfedge, window.beam, window.sigma, source);
+        kept_->take(block.place, window.beam, window.sigma, source);
       }
     }
     current ^= 1;
@@ -197,12 +197,12 @@ template <class Order>
                                   static_cast<float>(from.off)};
   if (vertex < sheet_.shared) [[unlikely]]
     arrivals_[vertex] = arrival;
-  Index& shines = shines_[vertex];
-  if (shines != none) {
-    shining_[shines].arrival = arrival;
+  const Index waits = WaitingTable::find(shining_at_.list(vertex), vertex, shining_);
+  if (waits != none) {
+    shining_[waits].arrival = arrival;
   } else if (corner == none || (corner & bent) || excess(vertex) > 4 * scale_) {
-    shines = will_shine({vertex, arrival, none});
-    order.push(shines | bent, static_cast<double>(distance + static_cast<Real>(late)),
+    order.push(will_shine({vertex, arrival, none, none}) | bent,
+               static_cast<double>(distance + static_cast<Real>(late)),
                [this](Index i) -> Index& { return next(i); });
   }
   return true;
@@ -211,13 +211,16 @@ template <class Order>
 /// The number that it gets.
 template <class Real>
 [[gnu::noinline]] Index MergedWindows<Real>::will_shine(const Shining& vertex) {
-  const Index number = free_shining_;
+  Index number = free_shining_;
   if (number == none) {
+    number = static_cast<Index>(shining_.size());
+    shining_at_.make_room(shining_.size() + 1, shining_);
     shining_.push_back(vertex);
-    return static_cast<Index>(shining_.size() - 1);
+  } else {
+    free_shining_ = shining_[number].next;
+    shining_[number] = vertex;
   }
-  free_shining_ = shining_[number].next;
-  shining_[number] = vertex;
+  shining_[number].link = std::exchange(shining_at_.list(vertex.place), number);
   return number;
 }
 
@@ -246,13 +249,6 @@ void MergedWindows<Real>::gather(Gathered<Real>& windows, const Block& block) co
 }
 
 template <class Real>
-[[gnu::noinline]] Index MergedWindows<Real>::one_more_block() {
-  waiting_.make_room(blocks_.size() + 1, blocks_);
-  blocks_.emplace_back();
-  return static_cast<Index>(blocks_.size() - 1);
-}
-
-template <class Real>
 template <class Order>
 [[gnu::always_inline]] inline void MergedWindows<Real>::enter(Order& order, Index halfedge,
                                                               const Window<Real>& window,
@@ -260,8 +256,8 @@ template <class Order>
   if (radius_ < infinity<Real> && window.nearest() > radius_) [[unlikely]]
     return;
   const Real near = turn_of(window);
-  Index* list = &waiting_.list(halfedge);
-  const Index waiting = WaitingBlocks::find(*list, halfedge, blocks_);
+  Index* list = &waiting_at_.list(halfedge);
+  const Index waiting = WaitingTable::find(*list, halfedge, blocks_);
   if (waiting != none && blocks_[waiting].count < room) {
     Block& block = blocks_[waiting];
     block.window[block.count] = window;
@@ -274,14 +270,14 @@ template <class Order>
   Index b = free_block_;
   if (b == none) [[unlikely]] {
     b = one_more_block();
-    list = &waiting_.list(halfedge);
+    list = &waiting_at_.list(halfedge);
   } else {
     free_block_ = blocks_[b].next;
   }
   __builtin_prefetch(&triangles_[halfedge >> 2]);
   Block& block = blocks_[b];
   block.near = near;
-  block.halfedge = halfedge;
+  block.place = halfedge;
   block.link = std::exchange(*list, b);
   block.count = 1;
   block.window[0] = window;
@@ -327,8 +323,8 @@ template <class Real>
 [[gnu::always_inline]] inline auto MergedWindows<Real>::start(Turn& turn, Index b) -> Block& {
   Block& block = blocks_[b];
   block.next = std::exchange(free_block_, b);
-  const Index halfedge = block.halfedge;
-  waiting_.remove(b, blocks_);
+  const Index halfedge = block.place;
+  waiting_at_.remove(b, blocks_);
   turn.face = halfedge >> 2;
   turn.scale = scale_;
   const TriangleRecord<Real>& record = triangles_[turn.face];

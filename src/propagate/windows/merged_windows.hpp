@@ -23,7 +23,7 @@
 #include "propagate/windows/spread.hpp"
 #include "propagate/windows/triangles_at.hpp"
 #include "propagate/windows/vertex_angles.hpp"
-#include "propagate/windows/waiting_blocks.hpp"
+#include "propagate/windows/waiting_table.hpp"
 #include "propagate/windows/window_sources.hpp"
 
 namespace plexway::windows {
@@ -145,20 +145,21 @@ class MergedWindows {
   /// `bent` may be added to the corner. Of the direction single precision is enough: merged light
   /// is off by more.
   struct Shining {
-    Index vertex;
+    Index place;  ///< the vertex
     Arrival<float> arrival;
     Index next;  ///< in the queue, or of the free ones
+    Index link;  ///< of shining_at_
   };
 
   /// The windows that wait on one halfedge, 4 f + i. What waits in the queue: the number of a
   /// block, or that of a Shining with `bent` set; each once.
   static constexpr std::size_t room = 8;
   struct alignas(64) Block {
-    Real near;  ///< when it has its turn: told by the window that came first
-    Index halfedge;
+    Real near;    ///< when it has its turn: told by the window that came first
+    Index place;  ///< the halfedge
     Index count;
     Index next;  ///< in the queue, or of the free ones
-    Index link;  ///< of waiting_
+    Index link;  ///< of waiting_at_
     std::array<Window<Real>, room> window;
     std::array<Index, room> source;  ///< where there are several
   };
@@ -240,12 +241,11 @@ class MergedWindows {
   Real* distance_ = nullptr;  ///< one a vertex, as are:
   std::vector<float> error_;
   std::vector<Index> source_;
-  std::vector<Index> shines_;  ///< the number of its Shining, or none
-  std::vector<Shining> shining_;
   std::vector<Arrival<float>> arrivals_;  ///< at the first vertices, which are shared
   std::vector<Real> own_distance_;        ///< of a piece
-  WaitingBlocks waiting_;
+  WaitingTable waiting_at_, shining_at_;
   std::vector<Block> blocks_;
+  std::vector<Shining> shining_;
   std::vector<Index> corners_;
   Index free_block_ = none, free_shining_ = none;
   std::array<Turn, batch> turns_;

@@ -7,33 +7,32 @@
 
 namespace plexway::windows {
 
-/// Which block waits at a halfedge: a table of the few that have one, not a place for each of all
-/// (24 bytes a vertex). Halfedges hash by triangles, sixteen that follow each other side by side.
-/// Blocks of one place form a list by their `link`, the latest first; Blocks is indexed by their
-/// numbers and tells the `halfedge`, 4 f + i, that each waits at.
-class WaitingBlocks {
+/// What waits at a place, a halfedge (4 f + i) or a vertex: a table of the few where anything does,
+/// not a number for each of all (24 bytes a vertex, and 4). Of places 64 that follow each other
+/// hash side by side. What waits at one place forms a list by `link`, the latest first; Blocks is
+/// indexed by their numbers and tells the `place` that each waits at.
+class WaitingTable {
  public:
   /// Nothing waits.
   void clear() { heads_.assign(heads_.size(), none); }
 
-  /// Where the list begins that has the blocks of this halfedge. Until the next `make_room`.
-  [[nodiscard, gnu::always_inline]] Index& list(Index halfedge) {
-    const Index row = (halfedge >> together) * Index{0x9E3779B1} >> shift_;
-    return heads_[row ^ (halfedge & ((Index{1} << together) - 1))];
+  /// Where the list begins that has what waits there. Until the next `make_room`.
+  [[nodiscard, gnu::always_inline]] Index& list(Index place) {
+    const Index row = (place >> together) * Index{0x9E3779B1} >> shift_;
+    return heads_[row ^ (place & ((Index{1} << together) - 1))];
   }
 
-  /// The latest of that halfedge, or none.
+  /// The latest there, or none.
   template <class Blocks>
-  [[nodiscard, gnu::always_inline]] static Index find(Index block, Index halfedge,
+  [[nodiscard, gnu::always_inline]] static Index find(Index block, Index place,
                                                       const Blocks& blocks) {
-    while (block != none && blocks[block].halfedge != halfedge)
-      [[unlikely]] block = blocks[block].link;
+    while (block != none && blocks[block].place != place) [[unlikely]] block = blocks[block].link;
     return block;
   }
 
   template <class Blocks>
   [[gnu::always_inline]] void remove(Index block, Blocks& blocks) {
-    Index* at = &list(blocks[block].halfedge);
+    Index* at = &list(blocks[block].place);
     while (*at != block) [[unlikely]] at = &blocks[*at].link;
     *at = blocks[block].link;
   }
@@ -50,7 +49,7 @@ class WaitingBlocks {
         for (; block != none; block = blocks[block].link) blocks_of_one.push_back(block);
         for (; !blocks_of_one.empty(); blocks_of_one.pop_back()) {  // the latest last
           const Index last = blocks_of_one.back();
-          Index& head = list(blocks[last].halfedge);
+          Index& head = list(blocks[last].place);
           blocks[last].link = head;
           head = last;
         }
