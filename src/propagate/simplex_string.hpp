@@ -196,17 +196,28 @@ class SimplexString {
   }
 
   /// From a point of the hull away from A-C, where the triangle is free: by a clearance, or half as
-  /// far as the triangle goes.
+  /// far as the triangle goes. Straight away, as long as both A and C see past the point there:
+  /// where an angle of the triangle is obtuse they may not, but halfway between both their
+  /// directions.
   Point aside(const Point& p, const Found& f) const {
     const Point base = minus(c_, a_);
     const double share = inner(minus(b_, a_), base) / inner(base, base);
-    const Point up = minus(minus(b_, a_), plus(Point{}, share, base));
-    const double height = std::sqrt(inner(up, up));
-    if (!(height > 0)) return p;
-    double most = domain_.clearance / height;  // of `up`
-    if (share > 0) most = std::min(most, f.x / share / 2);
-    if (share < 1) most = std::min(most, (1 - f.x - f.y) / (1 - share) / 2);
-    return plus(p, std::max(most, 0.), up);
+    double x = -share, y = 1;  // of the way, as shares of A-C and A-B
+    const double foot = f.x + f.y * share;
+    if (foot <= 0 || foot >= 1) {
+      const double from_a = distance_of(a_, p), from_c = distance_of(c_, p);
+      if (!(from_a > 0 && from_c > 0)) return p;
+      x = f.x / from_a + (f.x - 1) / from_c;
+      y = f.y / from_a + f.y / from_c;
+    }
+    Point way{};
+    for (std::size_t d = 0; d < N; ++d) way[d] = x * base[d] + y * (b_[d] - a_[d]);
+    const double length = std::sqrt(inner(way, way));
+    if (!(length > 0)) return p;
+    double most = domain_.clearance / length;
+    if (x < 0) most = std::min(most, f.x / -x / 2);
+    if (x + y > 0) most = std::min(most, (1 - f.x - f.y) / (x + y) / 2);
+    return plus(p, std::max(most, 0.), way);
   }
 
   /// The upper hull of what was found, from A to C, and what lies on it.

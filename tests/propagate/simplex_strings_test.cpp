@@ -165,6 +165,20 @@ TEST_CASE("among random boxes in space and beyond no distance is short and few a
   }
 }
 
+TEST_CASE("a bend at a corner where edges meet is held where both its neighbours see it") {
+  // Straight away from the line between these, the bend was where one leg cut the corner off.
+  const auto obstacles = random_obstacles<3>(209, 12, 4);
+  const Index source = 1425;
+  ShortestWays<3> ways(obstacles, 24);
+  ways.start(obstacles.grid.position(source));
+  const auto found = solve(obstacles.complex<double>(), PointSource::at(source));
+  for (const Index v : {1159U, 1329U}) {
+    const double right = ways.to(obstacles.grid.position(v));
+    CAPTURE(v, right, found[v]);
+    CHECK(found[v] == Approx(right).epsilon(1e-7));  // 1159 was 1 % short
+  }
+}
+
 TEST_CASE("a way passes between blocks that touch in an edge, at any point of it") {
   // In line, and one shorter than the other; beyond their ends they are passed as usual.
   const KuhnGrid<3> grid = cube_grid<3>(8, 3);
