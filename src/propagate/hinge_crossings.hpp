@@ -93,6 +93,7 @@ class HingeCrossings {
     std::vector<Index> outside(distance.size());
     for (Index v = 0; v < distance.size(); ++v) outside[inside(v)] = v;
     std::vector<Index> via(distance.size(), none);
+    std::vector<Point> last(distance.size());  // where the path crossed
     std::vector<Index> front;
     Room room;
     for (Index v = 0; v < distance.size(); ++v) {
@@ -100,22 +101,32 @@ class HingeCrossings {
       if (find(number) == nullptr) continue;
       via[v] = number;
       const Real there = least_by(number, own.place(inside(v)), own.unit(), room);
+      last[v] = room.crossing;
       if (there < distance[v]) distance[v] = there, label[v] = find(number)->source;
       front.push_back(v);
     }
-    // A vertex none of whose simplices came over the hinge may itself be nearer that way.
-    if (!own.sees_all() || front.size() == distance.size()) return;
+    // A vertex may be nearer by the way of a neighbour: because none of its simplices came over the
+    // hinge, or because the label that it kept was of a way that is longer once all are taut.
+    if (!own.sees_all()) return;
     std::vector<Index> around;
-    for (std::size_t i = 0; i < front.size(); ++i) {
-      const Index number = via[front[i]];
-      own.vertices_around(inside(front[i]), around);
+    const std::size_t most = 16 * distance.size();
+    for (std::size_t i = 0; i < front.size() && i < most; ++i) {
+      const Index v = front[i], number = via[v];
+      const Point at = own.unit() * own.place(inside(v));
+      const Real before = distance[v] - norm(at - last[v]);
+      own.vertices_around(inside(v), around);
       for (const Index inner : around) {
         const Index w = outside[inner];
-        if (via[w] != none) continue;
-        const Real there = least_by(number, own.place(inner), own.unit(), room);
-        if (!(there < distance[w] * (1 - Piece::bend_loss))) continue;
+        const Real known = distance[w] * (1 - Piece::bend_loss);
+        const Point there = own.place(inner);
+        // Straight from that crossing is a path.
+        const Real straight = before + norm(own.unit() * there - last[v]);
+        if (via[w] != none && !(straight < known * (1 - Piece::crossing_gain))) continue;
+        const Real way = least_by(number, there, own.unit(), room);
+        if (!(way < known)) continue;
         via[w] = number;
-        distance[w] = there;
+        last[w] = room.crossing;
+        distance[w] = way;
         label[w] = find(number)->source;
         front.push_back(w);
       }
@@ -150,6 +161,7 @@ class HingeCrossings {
   struct Room {
     Path path, last;
     typename Taut::Room taut;
+    Point crossing;  // the last one of the path found last, in the domain's unit
   };
 
   [[nodiscard]] const Known* find(Index number) const {
@@ -182,7 +194,10 @@ class HingeCrossings {
       const bool is_last = path.steps.size() == 1;
       Step first = path.steps[0];
       const Over over = move(first, is_last ? target : inner_place(path.steps[1]));
-      if (is_last) least = over.distance;
+      if (is_last) {
+        least = over.distance;
+        room.crossing = taut_->place(first, 1 - first.side);
+      }
       if (over.label != none) {
         const std::vector<Step> behind(path.steps.begin() + 1, path.steps.end());
         follow(over.label, path);
@@ -195,7 +210,15 @@ class HingeCrossings {
       }
     }
     const Point end = unit * target;
-    if (path.sigma < infinity) return std::min(least, pull_all(path, end, room));
+    const auto take = [&](Real there) {
+      if (!(there < least)) return;
+      least = there;
+      room.crossing = taut_->place(path.steps.back(), 1 - path.steps.back().side);
+    };
+    if (path.sigma < infinity) {
+      take(pull_all(path, end, room));
+      return least;
+    }
     // Up to the first crossing labels tell; then the rest is moved, and again.
     if (path.steps.size() < 2) return least;
     constexpr int rounds = 24;
@@ -207,7 +230,7 @@ class HingeCrossings {
           over.before + taut_->pull(taut_->place(path.steps[0], 1 - path.steps[0].side),
                                     std::span(path.steps).subspan(1), end, room.taut);
       const bool enough = !(there < least * (1 - gain));
-      least = std::min(least, there);
+      take(there);
       if (enough) break;
     }
     return least;

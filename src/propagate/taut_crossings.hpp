@@ -41,6 +41,7 @@ class TautCrossings {
       Real step[2];
     };
     std::vector<Row> rows, trial_rows;
+    std::vector<char> blunt;  // lines that a step turned around
   };
 
   TautCrossings(const Domain& domain, const Pieces& pieces, const HingeNeighbours<Real>& neighbours)
@@ -74,30 +75,34 @@ class TautCrossings {
   Real pull(const Point& eye, std::span<Step> path, const Point& target, Room& room) const {
     // What the last step still wins: the error is about the square of it then.
     constexpr Real gain = Real(1e-6);
-    constexpr int most_steps = 24, most_halvings = 6;
+    constexpr int most_steps = 32;
     room.trial.resize(path.size());
-    Quadratic now = newton(eye, path, target, room.rows);
+    room.blunt.assign(path.size() + 1, 0);
+    Quadratic now = newton(eye, path, target, room.blunt, room.rows);
+    Real share = 1;
     for (int i = 0; i < most_steps && now.wins > 0; ++i) {
       const bool last = now.wins <= gain * now.length;
-      Quadratic there = now;
-      Real share = 1;
-      for (int halvings = 0; halvings < most_halvings; ++halvings, share /= 2) {
-        for (std::size_t k = 0; k < path.size(); ++k) {
-          room.trial[k] = path[k];
-          const Real* step = room.rows[k].step;
-          go(room.trial[k],
-             {path[k].place[0] + share * step[0], path[k].place[1] + share * step[1]});
-        }
-        if (last)
-          there.length = length(eye, room.trial, target);
-        else
-          there = newton(eye, room.trial, target, room.trial_rows);
-        if (there.length < now.length || last) break;
+      for (std::size_t k = 0; k < path.size(); ++k) {
+        room.trial[k] = path[k];
+        const Real* step = room.rows[k].step;
+        go(room.trial[k], {path[k].place[0] + share * step[0], path[k].place[1] + share * step[1]});
       }
-      if (!(there.length < now.length)) break;
-      std::copy(room.trial.begin(), room.trial.end(), path.begin());
-      std::swap(room.rows, room.trial_rows);
-      now = there;
+      Quadratic there = now;
+      if (last)
+        there.length = length(eye, room.trial, target);
+      else
+        there = newton(eye, room.trial, target, room.blunt, room.trial_rows);
+      if (there.length < now.length) {
+        std::copy(room.trial.begin(), room.trial.end(), path.begin());
+        std::swap(room.rows, room.trial_rows);
+        now = there;
+        share = 1;
+      } else if (!last) {
+        if (blunt(eye, path, target, room))
+          now = newton(eye, path, target, room.blunt, room.rows);
+        else
+          share /= 2;
+      }
       if (last) break;
     }
     return now.length;
@@ -184,7 +189,8 @@ class TautCrossings {
   struct Line {
     Point forward;
     Real length, one_over;
-    Line(const Point& from, const Point& to, Real least) {
+    Real sharp;
+    Line(const Point& from, const Point& to, Real least, char blunt) : sharp(blunt ? 0 : 1) {
       const Point way = to - from;
       length = norm(way);
       one_over = 1 / std::max(length, least);
@@ -192,9 +198,38 @@ class TautCrossings {
     }
     // Of the second derivative: a times it times b, where these have such shares of `forward`.
     [[nodiscard]] Real bend(const Point& a, Real a_forward, const Point& b, Real b_forward) const {
-      return (dot(a, b) - a_forward * b_forward) * one_over;
+      return (dot(a, b) - sharp * a_forward * b_forward) * one_over;
     }
   };
+
+  // A line that is short beside what a step does to it, at a kink of the length as where a crossing
+  // is the target itself, is from now on taken to bend no less than it does anywhere on the way.
+  // True if any is found.
+  bool blunt(const Point& eye, std::span<const Step> path, const Point& target, Room& room) const {
+    bool any = false;
+    Point from = eye, moved = {0, 0, 0};
+    for (std::size_t k = 0; k <= path.size(); ++k) {
+      Point to = target, moves = {0, 0, 0};
+      const Facet* facet = k < path.size() ? &facets_[path[k].hinge] : nullptr;
+      const auto along = [&](std::size_t side) {
+        const Real* step = room.rows[k].step;
+        return step[0] * facet->along[side][0] + step[1] * facet->along[side][1];
+      };
+      if (facet != nullptr) {
+        to = facet->at(path[k].side, path[k].place);
+        moves = along(path[k].side);
+      }
+      if (!room.blunt[k] && norm(moves - moved) > norm(to - from) / 2) {
+        room.blunt[k] = 1;
+        any = true;
+      }
+      if (facet != nullptr) {
+        from = facet->at(1 - path[k].side, path[k].place);
+        moved = along(1 - path[k].side);
+      }
+    }
+    return any;
+  }
 
   // A path's length, and what it would win if that were quadratic.
   struct Quadratic {
@@ -203,7 +238,7 @@ class TautCrossings {
 
   // Steps to where the length is least if it were quadratic.
   Quadratic newton(const Point& eye, std::span<const Step> path, const Point& target,
-                   std::vector<Row>& rows) const {
+                   const std::vector<char>& blunt, std::vector<Row>& rows) const {
     rows.resize(path.size());
     Real fall = 0, sum = 0;
     Point from = eye;
@@ -214,7 +249,7 @@ class TautCrossings {
       const Point *in = facet.along[side], *out = facet.along[1 - side];
       const Real least = Real(1e-9) * norm(in[0]);
       if (k == 0) {
-        const Line line(eye, facet.at(side, path[0].place), least);
+        const Line line(eye, facet.at(side, path[0].place), least, blunt[0]);
         sum += line.length;
         const Real f[2] = {dot(in[0], line.forward), dot(in[1], line.forward)};
         for (std::size_t i = 0; i < 2; ++i) right[i] = -f[i];
@@ -226,7 +261,7 @@ class TautCrossings {
       const bool is_last = k + 1 == path.size();
       const Facet* next = is_last ? nullptr : &facets_[path[k + 1].hinge];
       const Point to = is_last ? target : next->at(path[k + 1].side, path[k + 1].place);
-      const Line line(from, to, least);
+      const Line line(from, to, least, blunt[k + 1]);
       sum += line.length;
       const Real f[2] = {dot(out[0], line.forward), dot(out[1], line.forward)};
       Row& row = rows[k];
