@@ -13,6 +13,7 @@
 
 #include <plexway/any/isolines.hpp>
 #include <plexway/any/pairs.hpp>
+#include <plexway/any/support.hpp>
 #include <plexway/any_domain.hpp>
 #include <plexway/error.hpp>
 

@@ -124,6 +124,8 @@ class Page {
   }
 
  private:
+  static std::string in_cell(std::string text) { return text.insert(0, 1, ' ').append(" |"); }
+
   std::string number(Refusal refusal) {
     const auto [found, fresh] = numbers_.try_emplace(refusal, numbers_.size() + 1);
     if (fresh) order_.push_back(refusal);
@@ -265,9 +267,9 @@ class Page {
         placed.positions = true;
         const Support found = support(purpose.value, m.value);
         other |= found.refusal() != support(purpose.value, placed).refusal();
-        row += " " + verdict(found) + " |";
+        row += in_cell(verdict(found));
       }
-      if (other) text += row + "\n";
+      if (other) text.append(row).append("\n");
     }
     return text;
   }
@@ -283,7 +285,7 @@ class Page {
     for (const auto& file : files) {
       text.append("| ").append(file.name).append(" |");
       for (const auto& reading : readings)
-        text += " " + verdict(support(reading.value, file.value)) + " |";
+        text += in_cell(verdict(support(reading.value, file.value)));
       text += "\n";
     }
     FileUse several{DomainKind::mixed, DomainKind::surface, FileForm::plain};
@@ -299,10 +301,10 @@ class Page {
     std::string text = "\n## How a domain was built\n" + head(" on triangles ", triangulations);
     text += "| a curve or a triangle as source |";
     for (const auto& t : triangulations)
-      text += " " + verdict(support(t.value, SourceKind::curve)) + " |";
+      text += in_cell(verdict(support(t.value, SourceKind::curve)));
     text += "\n| searches that end early |";
     for (const auto& t : triangulations)
-      text += " " + verdict(support(Purpose::searches, t.value)) + " |";
+      text += in_cell(verdict(support(Purpose::searches, t.value)));
     // One after another: numbers go in that order.
     text += "\n\n`AnyDomain::keep` after a metric: ";
     text += verdict(support_of_keeping(DomainKind::surface, true, false));
