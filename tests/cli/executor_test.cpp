@@ -77,7 +77,7 @@ TEST_CASE("executors and options that do not go together are usage errors") {
     CHECK(run.err.find('\n') == run.err.size() - 1);
   };
   if (has_openmp())
-    refused({"--executor", "openmp", "--schedule", "priority"}, 2, "--schedule priority");
+    refused({"--executor", "openmp", "--schedule", "priority"}, 2, "the schedule priority");
   else
     refused({"--executor", "openmp"}, 4, "--executor openmp");
   refused({"--device", "0"}, 2, "--device");

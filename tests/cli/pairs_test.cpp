@@ -201,7 +201,7 @@ TEST_CASE("rows by a device are its fields, and go on where they were") {
   }
   for (const auto& [more, text] :
        {std::pair<std::vector<std::string>, std::string>{{"--precision", "double"}, "precision"},
-        {{"--accuracy", "accurate"}, "--accuracy fast"},
+        {{"--accuracy", "accurate"}, "the accuracy fast"},
         {{"--radius", "1", "--out", folder.at("d.npz")}, "threads"}}) {
     std::vector<std::string> words = {"pairs", input, "--sources", "all", "--executor", "gl"};
     if (more[0] != "--radius") words.insert(words.end(), {"--out", out});
