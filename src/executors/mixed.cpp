@@ -5,11 +5,13 @@
 #include <span>
 #include <string>
 #include <variant>
+#include <vector>
 
 #include <plexway/error.hpp>
 
 #include "complex/joined_pieces.hpp"
 #include "executors/checks.hpp"
+#include "executors/crack_sources.hpp"
 #include "executors/crowd_watch.hpp"
 #include "executors/owned_work.hpp"
 #include "executors/run.hpp"
@@ -110,6 +112,20 @@ class Turns {
   std::size_t turn_ = 0;
 };
 
+// Solids stay pieces where their weld leaves a crack, among others.
+template <class Real>
+void check_cracks(const MixedComplex<Real>& domain, std::span<const PointSource> sources,
+                  const PropagateOptions& options) {
+  std::vector<std::vector<PointSource>> own(domain.pieces().size());
+  for (const PointSource& source : sources) {
+    const auto [piece, in_piece] = find_piece(domain, source);
+    own[piece].push_back(in_piece);
+  }
+  for (const auto& piece : domain.pieces())
+    if (const auto* solid = std::get_if<TetMesh<Real>>(&domain.complex(piece)))
+      plexway::check_cracks(*solid, std::span<const PointSource>(own[piece.number]), options);
+}
+
 // On a domain whose pieces are joined.
 template <class Real>
 void solve_pieces(const MixedComplex<Real>& domain, std::span<const PointSource> sources,
@@ -149,6 +165,7 @@ void solve_joined(E executor, const MixedComplex<Real>& domain,
                           field);
     return;
   }
+  check_cracks(domain, sources, options);
   Turns(executor, domain.pieces().size()).hold([&](const PiecesAtOnce& at_once) {
     solve_pieces(domain, sources, options, kept.state(), at_once, field);
   });

@@ -1,0 +1,218 @@
+// Sources on the faces of cracks, which are refused, and beside them, which are not. On a crack two
+// faces of the boundary lie on each other, and coordinates do not tell one from the other.
+
+#include <algorithm>
+#include <array>
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include <plexway/complex/mixed_complex.hpp>
+#include <plexway/complex/tet_mesh.hpp>
+#include <plexway/error.hpp>
+#include <plexway/solve.hpp>
+
+#include "data/corner_domains.hpp"
+#include "propagate/solving.hpp"
+
+using namespace plexway;
+using namespace plexway::testing;
+
+namespace {
+
+/// One layer over a plan of eight cells a side whose slits are closed.
+struct Cracked {
+  samples::CornerDomain plan;
+  std::vector<samples::Point> beside;  // of the floor, lips 2e-9 apart
+  std::vector<std::array<double, 3>> places;
+  std::vector<std::array<Index, 4>> tets;
+  std::vector<char> on_lip;  // of the floor
+
+  Cracked(samples::CornerDomain slits, double jitter, std::uint64_t seed, double height)
+      : plan(std::move(slits)) {
+    samples::Shape flat = plan.grid(8, jitter, seed);
+    beside = flat.points;
+    on_lip.assign(beside.size(), 0);
+    for (std::size_t v = 0; v < beside.size(); ++v)
+      for (const auto& b : plan.blocks) {
+        const double off = beside[v][0] - b.left;
+        if (b.left != b.right || off == 0 || std::abs(off) > 1e-12) continue;
+        beside[v][0] = b.left + (off > 0 ? 1e-9 : -1e-9);
+        flat.points[v][0] = b.left;
+        on_lip[v] = 1;
+      }
+    const auto n = floor();
+    for (const double z : {0., height})
+      for (Index v = 0; v < n; ++v) places.push_back({flat.points[v][0], flat.points[v][1], z});
+    for (std::array<Index, 3> f : flat.faces) {
+      std::sort(f.begin(), f.end());
+      tets.push_back({f[0], f[1], f[2], f[2] + n});
+      tets.push_back({f[0], f[1], f[1] + n, f[2] + n});
+      tets.push_back({f[0], f[0] + n, f[1] + n, f[2] + n});
+    }
+  }
+
+  [[nodiscard]] Index floor() const { return static_cast<Index>(beside.size()); }
+
+  /// From a place over the floor: heights and distances add up by their squares.
+  [[nodiscard]] std::vector<double> exact(const samples::Point& from) const {
+    std::vector<samples::Point> points = {{from[0], from[1], 0}};
+    points.insert(points.end(), beside.begin(), beside.end());
+    const std::vector<double> truth = plan.distances(points);
+    std::vector<double> distance(places.size());
+    for (std::size_t v = 0; v < places.size(); ++v)
+      distance[v] = std::hypot(truth[1 + v % beside.size()], places[v][2] - from[2]);
+    return distance;
+  }
+};
+
+const samples::CornerDomain one_slit = {"", {{.5, .5, -1, .5}}, {.25, .125}};
+const samples::CornerDomain two_slits = {
+    "", {{.25, .25, -1, .75}, {.625, .625, -1, .375}}, {.125, .25}};
+
+template <class Domain, class Sources>
+std::string refusal(const Domain& domain, const Sources& sources) {
+  try {
+    static_cast<void>(solve(Serial{}, domain, sources));
+  } catch (const UsageError& error) {
+    return error.what();
+  }
+  return {};
+}
+
+}  // namespace
+
+TEMPLATE_TEST_CASE("sources on a crack are refused, all others are right", "", float, double) {
+  constexpr bool single = std::is_same_v<TestType, float>;
+  for (const auto& plan : {one_slit, two_slits}) {
+    const Cracked cracked(plan, 0.16, 3, 0.3);
+    const TetMesh<TestType> solid(cracked.places, cracked.tets);
+    std::size_t refused = 0;
+    for (Index v = 0; v < cracked.floor(); ++v) {
+      const std::string said = refusal(solid, PointSource::at(v));
+      CAPTURE(v, said);
+      if (cracked.on_lip[v] != 0) {
+        ++refused;
+        CHECK(said.find("source vertex " + std::to_string(v) + " lies on the face of a crack") ==
+              0);
+        CHECK_THROWS_AS(static_cast<void>(solve(OpenMP{2}, solid, PointSource::at(v))), UsageError);
+        continue;
+      }
+      CHECK(said.empty());
+      if (v % 5 != 0) continue;
+      const Errors e = compare(solve(Serial{}, solid, PointSource::at(v)).distance,
+                               cracked.exact(cracked.beside[v]));
+      CAPTURE(e.mean, e.max, e.below);
+      CHECK(e.fits);
+      CHECK(e.max <= (single ? 1e-4 : 1e-6));
+      CHECK(e.below >= (single ? -1e-4 : -1e-7));
+    }
+    CHECK(refused > 6);
+  }
+}
+
+TEST_CASE("at the end of a crack a source sees both sides") {
+  const Cracked cracked(one_slit, 0.16, 3, 0.3);
+  const TetMesh<double> solid(cracked.places, cracked.tets);
+  const auto end = std::find_if(cracked.places.begin(), cracked.places.end(), [](const auto& p) {
+    return p[0] == .5 && p[1] == .5 && p[2] == 0;
+  });
+  REQUIRE(end != cracked.places.end());
+  const auto v = static_cast<Index>(end - cracked.places.begin());
+  const Errors e =
+      compare(solve(Serial{}, solid, PointSource::at(v)).distance, cracked.exact({.5, .5, 0}));
+  CHECK(e.fits);
+  CHECK(e.max <= 1e-6);
+}
+
+TEST_CASE("points in tetrahedra at a crack: as near as a fiftieth of an edge they are refused") {
+  const Cracked cracked(two_slits, 0.16, 3, 0.3);
+  const TetMesh<double> solid(cracked.places, cracked.tets);
+  std::size_t near = 0, beside = 0;
+  for (Index t = 0; t < cracked.tets.size(); t += 2) {
+    const auto& tet = cracked.tets[t];
+    const auto corner = std::find_if(tet.begin(), tet.end(), [&](Index v) {
+      return v < cracked.floor() && cracked.on_lip[v] != 0;
+    });
+    if (corner == tet.end()) continue;
+    const auto at = static_cast<std::size_t>(corner - tet.begin());
+    for (const double share : {.004, .1}) {
+      std::array<double, 4> b;
+      b.fill(share / 4);
+      b[at] += 1 - share;
+      const PointSource source = PointSource::in(t, b);
+      const std::string said = refusal(solid, source);
+      CAPTURE(t, share, said);
+      if (share < .01) {
+        CHECK(said.find("a source in tet " + std::to_string(t) + " lies on the face of a crack") ==
+              0);
+        ++near;
+        continue;
+      }
+      samples::Point from = {0, 0, 0};
+      for (std::size_t i = 0; i < 4; ++i)
+        for (std::size_t k = 0; k < 3; ++k) from[k] += b[i] * cracked.places[tet[i]][k];
+      if (!said.empty()) continue;  // flat tetrahedra along the crack
+      ++beside;
+      const Errors e = compare(solve(Serial{}, solid, source).distance, cracked.exact(from));
+      CAPTURE(e.mean, e.max, e.below);
+      CHECK(e.max <= 1e-6);
+      CHECK(e.below >= -1e-7);
+    }
+  }
+  CHECK(near > 10);
+  CHECK(beside > 10);
+}
+
+TEST_CASE("sources on both sides of a crack do no harm") {
+  const Cracked cracked(one_slit, 0.16, 3, 0.3);
+  const TetMesh<double> solid(cracked.places, cracked.tets);
+  std::vector<PointSource> all;
+  std::vector<double> exact(cracked.places.size(), 1e300);
+  for (Index v = 0; v < cracked.floor(); ++v) {
+    if (cracked.on_lip[v] == 0) continue;
+    all.push_back(PointSource::at(v));
+    const auto from = cracked.exact(cracked.beside[v]);
+    for (std::size_t w = 0; w < exact.size(); ++w) exact[w] = std::min(exact[w], from[w]);
+  }
+  const auto field = solve(Serial{}, solid, all);
+  const Errors e = compare(field.distance, exact);
+  CAPTURE(e.mean, e.max, e.below);
+  // Nothing is too near; between sources a tetrahedron's one label makes it longer, crack or not.
+  CHECK(e.below >= -1e-7);
+  CHECK(e.mean <= 2e-3);
+  CHECK(e.max <= 6e-2);
+  for (const PointSource& source : all) CHECK(field.distance[source.vertex] == 0);
+  // Without one of them its other side is not enough.
+  all.pop_back();
+  CHECK_FALSE(refusal(solid, all).empty());
+}
+
+TEST_CASE("solids without cracks take sources anywhere, also where they touch another") {
+  const samples::CornerDomain plan = {"", {{.25, .375, .25, .75}, {.625, .75, -1, .5}}, {.5, .5}};
+  const Cracked notched(plan, 0.16, 5, 0.3);
+  const TetMesh<double> solid(notched.places, notched.tets);
+  for (Index v = 0; v < notched.floor(); ++v) {
+    if (solid.corners_at(solid.inside_vertex(v)).empty()) continue;
+    CHECK(refusal(solid, PointSource::at(v)).empty());
+  }
+
+  // A cracked solid, and another block right beside it that shares no vertex with it.
+  Cracked pair(one_slit, 0.16, 3, 0.3);
+  const auto first = static_cast<Index>(pair.places.size());
+  const std::size_t tets = pair.tets.size();
+  for (Index v = 0; v < first; ++v) {
+    auto p = pair.places[v];
+    p[0] = -p[0];
+    pair.places.push_back(p);
+  }
+  for (std::size_t t = 0; t < tets; ++t) {
+    auto tet = pair.tets[t];
+    for (Index& v : tet) v += first;
+    pair.tets.push_back(tet);
+  }
+  const TetMesh<double> both(pair.places, pair.tets);
+  for (Index v = 0; v < pair.floor(); ++v)
+    if (pair.places[v][0] == 0) CHECK(refusal(both, PointSource::at(v)).empty());
+}
