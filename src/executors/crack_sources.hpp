@@ -107,9 +107,10 @@ class CrackSources {
       };
       if (std::all_of(p->support.begin(), p->support.end(), is_corner)) continue;  // lies in it
       Point inward = cross(b - a, c - a);
-      if (dot(inward, point(tets_[t].corner[face]) - a) < 0) inward = -1. * inward;
+      double volume = dot(inward, point(tets_[t].corner[face]) - a);
+      if (volume < 0) inward = -1. * inward, volume = -volume;
       const double area = norm(inward);
-      if (!(area > 0)) continue;
+      if (!(volume > rounding_ * area)) continue;  // flat: nothing to see there
       const double height = dot(inward, p->at - a) / area;
       if (height < -near || height > rounding_) continue;
       // Where a perpendicular meets the face.
@@ -125,9 +126,8 @@ class CrackSources {
           (source.vertex != none ? "source vertex " + std::to_string(source.vertex)
                                  : "a source in tet " + std::to_string(source.simplex)) +
           " lies on the face of a crack in the solid, through which paths would start: take a "
-          "point "
-          "in a tetrahedron beside it, a tenth of the way to its centre, or the vertices on both "
-          "sides");
+          "point in a tetrahedron beside it, a tenth of the way to its centre, or the vertices on "
+          "both sides");
     }
   }
 
