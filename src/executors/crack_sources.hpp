@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <limits>
 #include <span>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -29,16 +30,19 @@ class CrackSources {
   CrackSources(const TetMesh<Real>& mesh, std::span<const PointSource> sources)
       : mesh_(mesh), tets_(mesh.tets().first(mesh.tet_count())), sources_(sources) {}
 
-  /// Throws UsageError that names the first such source. One whose other side is a source as well
-  /// does no harm. Cost: the mesh's edges at which paths bend; with a crack among them linear, plus
-  /// sources beside each other.
+  /// Throws UsageError that names the first such source. One whose other side is a source as well,
+  /// with no greater offset, does no harm. Cost: the mesh's edges at which paths bend; with a crack
+  /// among them linear, plus boundary faces and sources that have about the same x.
   void check() {
     const auto edges = mesh_.reflex_edges();
     if (std::none_of(edges.begin(), edges.end(), [](const auto& e) { return is_crack(e); })) return;
     place();
-    for (Index t = 0; t < tets_.size(); ++t)
-      for (Index face = 0; face < 4; ++face)
-        if (is_boundary(t, face)) look_behind(t, face);
+    over_boundary([&](const Face& face, Placed& p) {
+      if (lies_in(p, face.corner)) p.normals.push_back(face.inward);
+    });
+    over_boundary([&](const Face& face, const Placed& p) {
+      if (is_behind(face, p) && !is_shared(p, face.tet) && connected(p, face.tet)) refuse(p);
+    });
   }
 
  private:
@@ -47,6 +51,14 @@ class CrackSources {
     Point at;
     std::array<Index, 4> support;  // corners that it lies between, then none
     Index number;
+    double offset;
+    std::vector<Point> normals;  // into the solid, of the faces that it lies in
+  };
+  struct Face {
+    Index tet;
+    std::array<Index, 3> corner;
+    Point a, b, c;
+    Point inward;  // unit
   };
 
   bool is_boundary(Index t, Index face) const {
@@ -58,18 +70,22 @@ class CrackSources {
   }
   static double least(double a, double b, double c) { return std::min(a, std::min(b, c)); }
   static double most(double a, double b, double c) { return std::max(a, std::max(b, c)); }
+  template <std::size_t N>
+  static bool lies_in(const Placed& p, const std::array<Index, N>& corners) {
+    return std::all_of(p.support.begin(), p.support.end(), [&](Index v) {
+      return v == none || std::find(corners.begin(), corners.end(), v) != corners.end();
+    });
+  }
 
   void place() {
-    is_source_.assign(mesh_.points().size(), 0);
     for (Index n = 0; n < sources_.size(); ++n) {
       const PointSource& source = sources_[n];
-      Placed placed{{0, 0, 0}, {none, none, none, none}, n};
+      Placed placed{{0, 0, 0}, {none, none, none, none}, n, source.offset, {}};
       if (source.vertex != none) {
         const Index v = mesh_.inside_vertex(source.vertex);
         if (mesh_.corners_at(v).empty()) continue;
         placed.support[0] = v;
         placed.at = point(v);
-        is_source_[v] = 1;
       } else {
         std::array<double, 4> b = source.barycentric;
         const auto [t, turned] = mesh_.inside_tet(source.simplex);
@@ -92,54 +108,62 @@ class CrackSources {
     rounding_ = 64 * double(std::numeric_limits<Real>::epsilon()) * far;
   }
 
-  // Sources behind a face of the boundary, or on it without being its own.
-  void look_behind(Index t, Index face) const {
-    std::array<Index, 3> corner{};
-    for (Index i = 0, k = 0; i < 4; ++i)
-      if (i != face) corner[k++] = tets_[t].corner[i];
-    const Point a = point(corner[0]), b = point(corner[1]), c = point(corner[2]);
-    const double begin = least(a.x, b.x, c.x) - near, end = most(a.x, b.x, c.x) + near;
-    auto p = std::lower_bound(placed_.begin(), placed_.end(), begin,
-                              [](const Placed& placed, double x) { return placed.at.x < x; });
-    for (; p != placed_.end() && p->at.x <= end; ++p) {
-      const auto is_corner = [&](Index v) {
-        return v == none || std::find(corner.begin(), corner.end(), v) != corner.end();
-      };
-      if (std::all_of(p->support.begin(), p->support.end(), is_corner)) continue;  // lies in it
-      Point inward = cross(b - a, c - a);
-      double volume = dot(inward, point(tets_[t].corner[face]) - a);
-      if (volume < 0) inward = -1. * inward, volume = -volume;
-      const double area = norm(inward);
-      if (!(volume > rounding_ * area)) continue;  // flat: nothing to see there
-      const double height = dot(inward, p->at - a) / area;
-      if (height < -near || height > rounding_) continue;
-      // Where a perpendicular meets the face.
-      const std::array<double, 3> share = {dot(inward, cross(c - b, p->at - b)),
-                                           dot(inward, cross(a - c, p->at - c)),
-                                           dot(inward, cross(b - a, p->at - a))};
-      const double sum = share[0] + share[1] + share[2];
-      const double missed = 1e-9 + rounding_;
-      if (least(share[0] / sum, share[1] / sum, share[2] / sum) < -missed) continue;
-      if (is_shared(*p, corner) || !connected(*p, t)) continue;
-      const PointSource& source = sources_[p->number];
-      throw UsageError(
-          (source.vertex != none ? "source vertex " + std::to_string(source.vertex)
-                                 : "a source in tet " + std::to_string(source.simplex)) +
-          " lies on the face of a crack in the solid, through which paths would start: take a "
-          "point in a tetrahedron beside it, a tenth of the way to its centre, or the vertices on "
-          "both sides");
-    }
+  auto from_x(double x) {
+    return std::lower_bound(placed_.begin(), placed_.end(), x,
+                            [](const Placed& placed, double least) { return placed.at.x < least; });
   }
 
-  // Is the place of p, as the face has it, a source as well?
-  bool is_shared(const Placed& p, const std::array<Index, 3>& corner) const {
-    std::size_t started = 0;
-    for (const Index v : corner) {
-      if (!is_source_[v]) continue;
-      ++started;
-      if (norm(point(v) - p.at) <= near) return true;
-    }
-    return started == corner.size();
+  // Calls look(face, source) for faces of the boundary, and sources at most so near along x.
+  template <class Look>
+  void over_boundary(const Look& look) {
+    for (Index t = 0; t < tets_.size(); ++t)
+      for (Index i = 0; i < 4; ++i) {
+        if (!is_boundary(t, i)) continue;
+        Face face{t, {}, {}, {}, {}, {}};
+        for (Index k = 0, n = 0; k < 4; ++k)
+          if (k != i) face.corner[n++] = tets_[t].corner[k];
+        face.a = point(face.corner[0]);
+        face.b = point(face.corner[1]);
+        face.c = point(face.corner[2]);
+        const double end = most(face.a.x, face.b.x, face.c.x) + near;
+        auto p = from_x(least(face.a.x, face.b.x, face.c.x) - near);
+        if (p == placed_.end() || p->at.x > end) continue;
+        face.inward = cross(face.b - face.a, face.c - face.a);
+        double volume = dot(face.inward, point(tets_[t].corner[i]) - face.a);
+        if (volume < 0) face.inward = -1. * face.inward, volume = -volume;
+        const double area = norm(face.inward);
+        if (!(volume > rounding_ * area)) continue;  // flat: nothing to see there
+        face.inward = 1 / area * face.inward;
+        for (; p != placed_.end() && p->at.x <= end; ++p) look(face, *p);
+      }
+  }
+
+  // Is a source behind a face of the boundary, or on it without being of its tetrahedron?
+  bool is_behind(const Face& face, const Placed& p) const {
+    if (lies_in(p, std::to_array(tets_[face.tet].corner))) return false;
+    const double height = dot(face.inward, p.at - face.a);
+    if (height < -near || height > rounding_) return false;
+    // On the boundary itself there must be a face the other way round: not beside a notch.
+    const auto opposed = [&](const Point& normal) { return dot(normal, face.inward) < -.5; };
+    if (!p.normals.empty() && std::none_of(p.normals.begin(), p.normals.end(), opposed))
+      return false;
+    // Where a perpendicular meets the face.
+    const auto share = [&](const Point& from, const Point& to) {
+      return dot(face.inward, cross(to - from, p.at - from));
+    };
+    const std::array<double, 3> shares = {share(face.b, face.c), share(face.c, face.a),
+                                          share(face.a, face.b)};
+    const double sum = shares[0] + shares[1] + shares[2];
+    return least(shares[0] / sum, shares[1] / sum, shares[2] / sum) >= -1e-9 - rounding_;
+  }
+
+  // Is its place, as tetrahedron t has it, a source as well, and no later?
+  bool is_shared(const Placed& p, Index t) {
+    for (auto q = from_x(p.at.x - near); q != placed_.end() && q->at.x <= p.at.x + near; ++q)
+      if (q->offset <= p.offset && norm(q->at - p.at) <= near &&
+          lies_in(*q, std::to_array(tets_[t].corner)))
+        return true;
+    return false;
   }
 
   // Does a way through tetrahedra lead from p to t? Rarely asked.
@@ -163,11 +187,21 @@ class CrackSources {
     return seen[t] != 0;
   }
 
+  [[noreturn]] void refuse(const Placed& p) const {
+    const PointSource& source = sources_[p.number];
+    std::ostringstream away;
+    away << near * mesh_.unit();
+    throw UsageError((source.vertex != none ? "source vertex " + std::to_string(source.vertex)
+                                            : "a source in tet " + std::to_string(source.simplex)) +
+                     " lies on a crack in the solid, or nearer to one than " + away.str() +
+                     ", and would be seen through it: take a point farther from it, or the same "
+                     "point on both sides");
+  }
+
   const TetMesh<Real>& mesh_;
   std::span<const TetRecord<Real>> tets_;
   std::span<const PointSource> sources_;
   std::vector<Placed> placed_;  // by x
-  std::vector<char> is_source_;
   double rounding_ = 0;
 };
 

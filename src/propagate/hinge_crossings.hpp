@@ -189,6 +189,9 @@ class HingeCrossings {
     Path& path = room.path;
     follow(number, path);
     Real least = infinity;
+    // Where something may be in the way behind it, the last crossing stays where the label that the
+    // target sees has it.
+    if (stays(path.steps.back())) return least_before(find(number)->start, unit, target, room);
     if (path.steps.size() == 1 || !(path.sigma < infinity)) {
       // Labels tell from where it comes, and may know of a better way.
       const bool is_last = path.steps.size() == 1;
@@ -234,6 +237,20 @@ class HingeCrossings {
       if (enough) break;
     }
     return least;
+  }
+
+  [[nodiscard]] bool stays(const Step& last) const {
+    return !pieces_[domain_.hinges()[last.hinge].piece[1 - last.side]]->sees_all();
+  }
+  // The same with the last crossing, which is at `start`, where it is.
+  [[nodiscard]] Real least_before(const Point& start, Real unit, const Point& target,
+                                  Room& room) const {
+    Path& path = room.path;
+    room.crossing = unit * start;
+    if (path.steps.size() < 2 || !(path.sigma < infinity)) return infinity;
+    const Point at = taut_->place(path.steps.back(), path.steps.back().side);
+    const auto before = std::span(path.steps).first(path.steps.size() - 1);
+    return path.sigma + taut_->pull(path.eye, before, at, room.taut) + unit * norm(target - start);
   }
 
   // All crossings of a path whose start is known.

@@ -94,8 +94,7 @@ TEMPLATE_TEST_CASE("sources on a crack are refused, all others are right", "", f
       CAPTURE(v, said);
       if (cracked.on_lip[v] != 0) {
         ++refused;
-        CHECK(said.find("source vertex " + std::to_string(v) + " lies on the face of a crack") ==
-              0);
+        CHECK(said.find("source vertex " + std::to_string(v) + " lies on a crack") == 0);
         CHECK_THROWS_AS(static_cast<void>(solve(OpenMP{2}, solid, PointSource::at(v))), UsageError);
         continue;
       }
@@ -145,8 +144,7 @@ TEST_CASE("points in tetrahedra at a crack: as near as a fiftieth of an edge the
       const std::string said = refusal(solid, source);
       CAPTURE(t, share, said);
       if (share < .01) {
-        CHECK(said.find("a source in tet " + std::to_string(t) + " lies on the face of a crack") ==
-              0);
+        CHECK(said.find("a source in tet " + std::to_string(t) + " lies on a crack") == 0);
         ++near;
         continue;
       }
@@ -184,7 +182,9 @@ TEST_CASE("sources on both sides of a crack do no harm") {
   CHECK(e.mean <= 2e-3);
   CHECK(e.max <= 6e-2);
   for (const PointSource& source : all) CHECK(field.distance[source.vertex] == 0);
-  // Without one of them its other side is not enough.
+  // A later one on the other side is not enough, nor none.
+  all.back().offset = 1;
+  CHECK_FALSE(refusal(solid, all).empty());
   all.pop_back();
   CHECK_FALSE(refusal(solid, all).empty());
 }
@@ -215,4 +215,28 @@ TEST_CASE("solids without cracks take sources anywhere, also where they touch an
   const TetMesh<double> both(pair.places, pair.tets);
   for (Index v = 0; v < pair.floor(); ++v)
     if (pair.places[v][0] == 0) CHECK(refusal(both, PointSource::at(v)).empty());
+}
+
+TEST_CASE("away from its crack a cracked solid takes sources at walls and notches") {
+  const samples::CornerDomain plan = {
+      "", {{.625, .625, -1, .375}, {.25, .375, .25, .75}}, {.125, .125}};
+  const Cracked cracked(plan, 0.16, 5, 0.3);
+  const TetMesh<double> solid(cracked.places, cracked.tets);
+  const auto is_far = [&](Index v) { return std::abs(cracked.places[v][0] - .625) > .2; };
+  for (Index t = 0; t < cracked.tets.size(); ++t) {
+    const auto& tet = cracked.tets[t];
+    if (!std::all_of(tet.begin(), tet.end(), is_far)) continue;
+    for (std::size_t i = 0; i < 4; ++i) {
+      CHECK(refusal(solid, PointSource::at(tet[i])).empty());
+      for (const double share : {1e-9, 1e-3}) {  // beside the corner, and beside the face opposite
+        std::array<double, 4> at, off;
+        at.fill(share);
+        at[i] = 1 - 3 * share;
+        off.fill((1 - share) / 3);
+        off[i] = share;
+        CHECK(refusal(solid, PointSource::in(t, at)).empty());
+        CHECK(refusal(solid, PointSource::in(t, off)).empty());
+      }
+    }
+  }
 }
