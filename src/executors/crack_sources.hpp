@@ -38,7 +38,7 @@ class CrackSources {
     if (std::none_of(edges.begin(), edges.end(), [](const auto& e) { return is_crack(e); })) return;
     place();
     over_boundary([&](const Face& face, Placed& p) {
-      if (lies_in(p, face.corner)) p.normals.push_back(face.inward);
+      if (is_in_front(face, p)) p.normals.push_back(face.inward);
     });
     over_boundary([&](const Face& face, const Placed& p) {
       if (is_behind(face, p) && !is_shared(p, face.tet) && connected(p, face.tet)) refuse(p);
@@ -52,7 +52,7 @@ class CrackSources {
     std::array<Index, 4> support;  // corners that it lies between, then none
     Index number;
     double offset;
-    std::vector<Point> normals;  // into the solid, of the faces that it lies in
+    std::vector<Point> normals;  // into the solid, of faces that it lies in or right in front of
   };
   struct Face {
     Index tet;
@@ -138,16 +138,11 @@ class CrackSources {
       }
   }
 
-  // Is a source behind a face of the boundary, or on it without being of its tetrahedron?
-  bool is_behind(const Face& face, const Placed& p) const {
-    if (lies_in(p, std::to_array(tets_[face.tet].corner))) return false;
-    const double height = dot(face.inward, p.at - face.a);
-    if (height < -near || height > rounding_) return false;
-    // On the boundary itself there must be a face the other way round: not beside a notch.
-    const auto opposed = [&](const Point& normal) { return dot(normal, face.inward) < -.5; };
-    if (!p.normals.empty() && std::none_of(p.normals.begin(), p.normals.end(), opposed))
-      return false;
-    // Where a perpendicular meets the face.
+  static double height(const Face& face, const Placed& p) {
+    return dot(face.inward, p.at - face.a);
+  }
+  // Does a perpendicular from the source meet the face?
+  bool is_over(const Face& face, const Placed& p) const {
     const auto share = [&](const Point& from, const Point& to) {
       return dot(face.inward, cross(to - from, p.at - from));
     };
@@ -155,6 +150,19 @@ class CrackSources {
                                           share(face.a, face.b)};
     const double sum = shares[0] + shares[1] + shares[2];
     return least(shares[0] / sum, shares[1] / sum, shares[2] / sum) >= -1e-9 - rounding_;
+  }
+  bool is_in_front(const Face& face, const Placed& p) const {
+    if (lies_in(p, face.corner)) return true;
+    const double h = height(face, p);
+    return h >= -rounding_ && h <= near && is_over(face, p);
+  }
+  // Is a source right behind a face of the boundary, and in front of one the other way round?
+  bool is_behind(const Face& face, const Placed& p) const {
+    const auto opposed = [&](const Point& normal) { return dot(normal, face.inward) < -.5; };
+    const double h = height(face, p);
+    return h >= -near && h <= rounding_ &&
+           std::any_of(p.normals.begin(), p.normals.end(), opposed) &&
+           !lies_in(p, std::to_array(tets_[face.tet].corner)) && is_over(face, p);
   }
 
   // Is its place, as tetrahedron t has it, a source as well, and no later?
