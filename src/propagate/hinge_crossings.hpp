@@ -189,9 +189,7 @@ class HingeCrossings {
     Path& path = room.path;
     follow(number, path);
     Real least = infinity;
-    // Where something may be in the way behind it, the last crossing stays where the label that the
-    // target sees has it.
-    if (stays(path.steps.back())) return least_before(find(number)->start, unit, target, room);
+    if (is_obstructed(path.steps.back())) return least_step_by_step(unit, target, room);
     if (path.steps.size() == 1 || !(path.sigma < infinity)) {
       // Labels tell from where it comes, and may know of a better way.
       const bool is_last = path.steps.size() == 1;
@@ -239,18 +237,23 @@ class HingeCrossings {
     return least;
   }
 
-  [[nodiscard]] bool stays(const Step& last) const {
+  // May something be in the way behind the last crossing?
+  [[nodiscard]] bool is_obstructed(const Step& last) const {
     return !pieces_[domain_.hinges()[last.hinge].piece[1 - last.side]]->sees_all();
   }
-  // The same with the last crossing, which is at `start`, where it is.
-  [[nodiscard]] Real least_before(const Point& start, Real unit, const Point& target,
-                                  Room& room) const {
+  // The same where it may be: the last crossing goes from hinge to hinge as labels tell, not by
+  // Newton's steps, which would go through what is in the way. The others are pulled taut to it.
+  [[nodiscard]] Real least_step_by_step(Real unit, const Point& target, Room& room) const {
     Path& path = room.path;
-    room.crossing = unit * start;
-    if (path.steps.size() < 2 || !(path.sigma < infinity)) return infinity;
-    const Point at = taut_->place(path.steps.back(), path.steps.back().side);
+    Step& last = path.steps.back();
+    const Over over = move(last, target);
+    room.crossing = taut_->place(last, 1 - last.side);
+    if (path.steps.size() < 2 || !(path.sigma < infinity)) return over.distance;
     const auto before = std::span(path.steps).first(path.steps.size() - 1);
-    return path.sigma + taut_->pull(path.eye, before, at, room.taut) + unit * norm(target - start);
+    const Real there = path.sigma +
+                       taut_->pull(path.eye, before, taut_->place(last, last.side), room.taut) +
+                       norm(unit * target - room.crossing);
+    return std::min(over.distance, there);
   }
 
   // All crossings of a path whose start is known.
