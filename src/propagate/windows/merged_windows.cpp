@@ -258,11 +258,12 @@ template <class Order>
   const Real near = turn_of(window);
   Index* list = &waiting_at_.list(halfedge);
   const Index waiting = WaitingTable::find(*list, halfedge, blocks_);
-  if (waiting != none && blocks_[waiting].count < room) {
+  if (waiting != none) {
     Block& block = blocks_[waiting];
     block.window[block.count] = window;
     if (labels_) block.source[block.count] = source;
-    ++block.count;
+    // Full ones need not be found: edges of many triangles have thousands.
+    if (++block.count == room) waiting_at_.remove(waiting, blocks_);
     block.near = std::min(block.near, near);
     return;
   }
@@ -324,7 +325,7 @@ template <class Real>
   Block& block = blocks_[b];
   block.next = std::exchange(free_block_, b);
   const Index halfedge = block.place;
-  waiting_at_.remove(b, blocks_);
+  if (block.count < room) waiting_at_.remove(b, blocks_);
   turn.face = halfedge >> 2;
   turn.scale = scale_;
   const TriangleRecord<Real>& record = triangles_[turn.face];

@@ -152,7 +152,7 @@ class MergedWindows {
   };
 
   /// The windows that wait on one halfedge, 4 f + i. What waits in the queue: the number of a
-  /// block, or that of a Shining with `bent` set; each once.
+  /// block, or that of a Shining with `bent` set; each once. Only blocks with room are found.
   static constexpr std::size_t room = 8;
   struct alignas(64) Block {
     Real near;    ///< when it has its turn: told by the window that came first
