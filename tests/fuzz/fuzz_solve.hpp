@@ -28,7 +28,10 @@ class Choices {
   Choices(const std::uint8_t* data, std::size_t size) : at_(data), end_(data + size) {}
   [[nodiscard]] bool more() const { return at_ != end_; }
   std::uint8_t byte() { return at_ == end_ ? std::uint8_t{0} : *at_++; }
-  Index below(std::size_t n) { return static_cast<Index>((byte() << 8 | byte()) % n); }
+  Index below(std::size_t n) {
+    const std::size_t high = byte();  // first, whatever the compiler
+    return static_cast<Index>((high << 8 | byte()) % n);
+  }
   /// Mostly on a coarse lattice, where much coincides; now and then of another size by far.
   double number() {
     const std::uint8_t b = byte();

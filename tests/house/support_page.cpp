@@ -152,15 +152,24 @@ class Page {
     return number(found[found[0].refusal() == Refusal::gl_double].refusal());
   }
 
+  static std::string head(std::string_view first, const auto& columns, const char* quote = "") {
+    std::string text = "\n|", rule = "|---|";
+    text.append(first).append("|");
+    for (const char c : first)
+      if (c == '|') rule += "---|";
+    for (const auto& column : columns) {
+      text.append(" ").append(quote).append(column.name).append(quote).append(" |");
+      rule += "---|";
+    }
+    return text.append("\n").append(rule).append("\n");
+  }
+
   std::string executor_table() {
-    std::string text =
-        "\n## Executors\n\nAnything at all: from a vertex, by default options.\n\n| domain |";
-    for (const auto& e : executors) text.append(" `").append(e.name).append("` |");
-    text += "\n|---|---|---|---|\n";
+    std::string text = "\n## Executors\n\nAnything at all: from a vertex, by default options.\n";
+    text += head(" domain ", executors, "`");
     for (const Row& row : rows) {
       text.append("| ").append(row.name).append(" |");
-      for (const auto& e : executors)
-        text.append(" ").append(entry(e.value, row, [](Combination&) {})).append(" |");
+      for (const auto& e : executors) text += in_cell(entry(e.value, row, [](Combination&) {}));
       text += "\n";
     }
     return text;
@@ -168,19 +177,14 @@ class Page {
 
   template <class Values, class Change>
   std::string table(const char* heading, const Values& values, const Change& change) {
-    std::string text = std::string("\n## ") + heading + "\n\n| domain | executor |";
-    for (const auto& v : values) text.append(" ").append(v.name).append(" |");
-    text += "\n|---|---|";
-    for (std::size_t i = 0; i < values.size(); ++i) text += "---|";
-    text += "\n";
+    std::string text = std::string("\n## ") + heading + "\n";
+    text += head(" domain | executor ", values);
     for (const Row& row : rows)
       for (const auto& e : executors) {
         if (!support(cell(e.value, row, true))) continue;
         text.append("| ").append(row.name).append(" | `").append(e.name).append("` |");
         for (const auto& v : values)
-          text.append(" ")
-              .append(entry(e.value, row, [&](Combination& c) { change(c, v.value); }))
-              .append(" |");
+          text += in_cell(entry(e.value, row, [&](Combination& c) { change(c, v.value); }));
         text += "\n";
       }
     return text;
@@ -197,19 +201,16 @@ class Page {
   }
 
   std::string metric_table() {
-    std::string text =
-        "\n## Metric\n\nSurfaces that refract, and solids by lengths alone.\n\n| domain |";
-    for (const auto& e : executors) text.append(" `").append(e.name).append("` |");
-    text += "\n|---|---|---|---|\n";
+    std::string text = "\n## Metric\n\nSurfaces that refract, and solids by lengths alone.\n";
+    text += head(" domain ", executors, "`");
     const std::array<Named<MetricKind>, 2> metrics = {
         {{"surface, refracting", MetricKind::refracting},
          {"solid, lengths", MetricKind::intrinsic}}};
     for (std::size_t i = 0; i < metrics.size(); ++i) {
       text.append("| ").append(metrics[i].name).append(" |");
       for (const auto& e : executors)
-        text.append(" ")
-            .append(entry(e.value, rows[i], [&](Combination& c) { c.metric = metrics[i].value; }))
-            .append(" |");
+        text +=
+            in_cell(entry(e.value, rows[i], [&](Combination& c) { c.metric = metrics[i].value; }));
       text += "\n";
     }
     return text;
@@ -218,11 +219,8 @@ class Page {
   std::string purpose_table() {
     std::string text =
         "\n## Besides solving\n\nAfter a solve by `Serial` or `OpenMP`, by saddles. What draws or "
-        "measures in space needs positions besides.\n\n|  |";
-    for (const auto& m : measured) text.append(" ").append(m.name).append(" |");
-    text += "\n|---|";
-    for (std::size_t i = 0; i < measured.size(); ++i) text += "---|";
-    text += "\n";
+        "measures in space needs positions besides.\n";
+    text += head("  ", measured);
     for (const auto& purpose : purposes) {
       text.append("| ").append(purpose.name).append(" |");
       for (const auto& m : measured) {
@@ -232,7 +230,7 @@ class Page {
           team.executor = ExecutorKind::openmp;
           if (support(purpose.value, team)) found = Support();
         }
-        text.append(" ").append(found ? "yes" : number(found.refusal())).append(" |");
+        text += in_cell(verdict(found));
       }
       text += "\n";
     }
@@ -240,15 +238,6 @@ class Page {
   }
 
   std::string verdict(Support found) { return found ? "yes" : number(found.refusal()); }
-
-  static std::string head(const char* first, const auto& columns) {
-    std::string text = std::string("\n|") + first + "|", rule = "|---|";
-    for (const auto& column : columns) {
-      text.append(" ").append(column.name).append(" |");
-      rule += "---|";
-    }
-    return text + "\n" + rule + "\n";
-  }
 
   // What changes without positions.
   std::string lengths_table() {
@@ -277,11 +266,8 @@ class Page {
   std::string file_table() {
     std::string text =
         "\n## Files\n\nWhat may be asked for as one is read. A voxel goes with a repair, too, and "
-        "with a field to be written as a `.vdb`.\n\n| file |";
-    for (const auto& reading : readings) text.append(" ").append(reading.name).append(" |");
-    text += "\n|---|";
-    for (std::size_t i = 0; i < std::size(readings); ++i) text += "---|";
-    text += "\n";
+        "with a field to be written as a `.vdb`.\n";
+    text += head(" file ", readings);
     for (const auto& file : files) {
       text.append("| ").append(file.name).append(" |");
       for (const auto& reading : readings)
