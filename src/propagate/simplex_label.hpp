@@ -57,10 +57,12 @@ struct SimplexVertexWay {
 template <int N>
 struct SimplexTelling {
   std::vector<Index> waiting;
-  // Around one vertex, by simplex: the way there, whether it came there, and in which order.
+  // Around one vertex, by simplex: the way there, whether it came there, and in which order; and
+  // the simplices that might gain by it.
   std::vector<SimplexStringLabel<N>> star;
   std::vector<char> seen;
   std::vector<std::size_t> line;
+  std::vector<Index> wanted;
 };
 
 /// Labels, and ways of vertices, for whichever dimension a domain has and whichever rule is asked;

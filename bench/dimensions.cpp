@@ -1,0 +1,213 @@
+// Flat domains of two, three and four dimensions with boxes as obstacles: errors of strings and of
+// the plain step against the shortest ways by brute force, and how much longer strings take. Around
+// a ball of cells, whose faces are many and small, only the time.
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <random>
+#include <string>
+#include <vector>
+
+#include <plexway/solve.hpp>
+
+#include "harness.hpp"
+#include "propagate/simplex_obstacles.hpp"
+#include "table.hpp"
+
+namespace {
+
+using bench::Index;
+using plexway::PointSource;
+using plexway::SimplicialComplex;
+
+struct Effort {
+  unsigned first = 1, draws = 40, sources = 2, targets = 100;
+  std::size_t density = 1;
+  int dimension = 0;
+  bool in_float = false;
+};
+
+plexway::PropagateOptions plain_step() {
+  plexway::PropagateOptions options = bench::one_label();
+  options.visibility = plexway::Visibility::centroid;
+  return options;
+}
+
+/// Relative errors of many draws.
+struct Deviations {
+  double sum = 0, worst = 0, below = 0;
+  unsigned worst_draw = 0, below_draw = 0;
+  std::size_t count = 0, long_by_1e_3 = 0;
+
+  void add(double found, double right, unsigned draw) {
+    const double e = std::isinf(right) == std::isinf(found)
+                         ? std::isinf(right) ? 0 : found / right - 1
+                         : std::numeric_limits<double>::infinity();
+    sum += std::abs(e);
+    if (e > worst) worst = e, worst_draw = draw;
+    if (e < below) below = e, below_draw = draw;
+    long_by_1e_3 += e > 1e-3;
+    ++count;
+  }
+  [[nodiscard]] double mean() const { return sum / static_cast<double>(count); }
+};
+
+/// Processor time of both, in turns.
+template <class Real, int N>
+class Race {
+ public:
+  void run(const SimplicialComplex<Real, N>& domain, Index source) {
+    const auto timed = [&](const plexway::PropagateOptions& options, double& sum) {
+      sum += bench::processor_seconds([&] {
+        plexway::solve(plexway::Serial{}, domain, PointSource::at(source), options, space_, field_);
+      });
+    };
+    for (int turn = 0; turn < 3; ++turn) {
+      timed({}, strings_);
+      timed(plain_step(), plain_);
+    }
+    simplices_ += static_cast<double>(domain.simplex_count());
+    ++solves_;
+  }
+  [[nodiscard]] nlohmann::ordered_json row() const {
+    return {{"simplices", simplices_ / solves_},
+            {"ns", 1e9 * strings_ / (3 * simplices_)},
+            {"ratio", strings_ / plain_}};
+  }
+
+ private:
+  plexway::WorkspaceOf<plexway::Serial, SimplicialComplex<Real, N>> space_;
+  plexway::DistanceField<Real> field_;
+  double strings_ = 0, plain_ = 0, simplices_ = 0, solves_ = 0;
+};
+
+template <class Real, int N>
+nlohmann::ordered_json boxes(const Effort& effort, std::size_t cells, unsigned most,
+                             std::size_t density) {
+  Deviations strings, plain;
+  Race<Real, N> race;
+  for (unsigned seed = effort.first; seed < effort.first + effort.draws; ++seed) {
+    const auto obstacles = plexway::testing::random_obstacles<N>(seed, cells, most);
+    const auto domain = obstacles.template complex<Real>();
+    plexway::testing::ShortestWays<N> ways(obstacles, effort.density * density);
+    std::mt19937 random(seed);
+    const auto any = [&] {
+      for (;;) {
+        const Index v = plexway::testing::below(random, obstacles.grid.vertex_count());
+        if (!domain.corners_at(domain.inside_vertex(v)).empty()) return v;
+      }
+    };
+    for (unsigned n = 0; n < effort.sources; ++n) {
+      const Index source = any();
+      ways.start(obstacles.grid.position(source));
+      const auto by_strings = plexway::testing::solve(domain, PointSource::at(source));
+      const auto by_steps = plexway::testing::solve(domain, PointSource::at(source), plain_step());
+      if (n == 0) race.run(domain, source);
+      for (unsigned k = 0; k < effort.targets; ++k) {
+        const Index v = any();
+        if (v == source) continue;
+        const double right = ways.to(obstacles.grid.position(v));
+        strings.add(by_strings[v], right, seed);
+        plain.add(by_steps[v], right, seed);
+      }
+    }
+  }
+  nlohmann::ordered_json row = {{"domain", "1 to " + std::to_string(most) + " boxes"},
+                                {"N", N},
+                                {"cells", cells},
+                                {"distances", strings.count},
+                                {"mean", strings.mean()},
+                                {"worst", strings.worst},
+                                {"worst_draw", strings.worst_draw},
+                                {"below", strings.below},
+                                {"below_draw", strings.below_draw},
+                                {"long", strings.long_by_1e_3},
+                                {"plain_mean", plain.mean()},
+                                {"plain_worst", plain.worst}};
+  row.update(race.row());
+  return row;
+}
+
+/// The cube without the cells whose centres are within `radius` of its own centre.
+template <class Real, int N>
+nlohmann::ordered_json ball(const Effort& effort, std::size_t cells, double radius) {
+  const auto grid = plexway::testing::cube_grid<N>(cells);
+  const auto domain = grid.template complex<Real>([&](const auto& cell) {
+    double sum = 0;
+    for (const double x : grid.centre(cell)) sum += (x - .5) * (x - .5);
+    return sum < radius * radius;
+  });
+  Race<Real, N> race;
+  for (const Index source : bench::spread_numbers(effort.sources, grid.vertex_count()))
+    if (!domain.corners_at(domain.inside_vertex(source)).empty()) race.run(domain, source);
+  nlohmann::ordered_json row = {{"domain", "a ball of cells"}, {"N", N}, {"cells", cells}};
+  row.update(race.row());
+  return row;
+}
+
+template <class Real>
+void fill(bench::Table& table, const Effort& effort) {
+  const auto wanted = [&](int dimension) {
+    return effort.dimension == 0 || effort.dimension == dimension;
+  };
+  if (wanted(2)) {
+    table.add(boxes<Real, 2>(effort, 16, 4, 2));
+    table.add(ball<Real, 2>(effort, 60, .3));
+  }
+  if (wanted(3)) {
+    table.add(boxes<Real, 3>(effort, 8, 3, 24));
+    table.add(boxes<Real, 3>(effort, 12, 4, 24));
+    table.add(boxes<Real, 3>(effort, 16, 4, 24));
+    table.add(ball<Real, 3>(effort, 20, .3));
+  }
+  if (wanted(4)) {
+    table.add(boxes<Real, 4>(effort, 6, 2, 5));
+    table.add(boxes<Real, 4>(effort, 8, 2, 5));
+    table.add(ball<Real, 4>(effort, 8, .3));
+  }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  Effort effort;
+  bench::Report report;
+  CLI::App app("Boxes as obstacles in two, three and four dimensions, against brute force");
+  app.add_option("--draws", effort.draws, "Random domains of each kind")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  app.add_option("--first", effort.first, "The first of them")->capture_default_str();
+  app.add_option("--dimension", effort.dimension, "2, 3 or 4 alone");
+  app.add_option("--density", effort.density, "So many times the points on faces for the truth")
+      ->capture_default_str();
+  app.add_option("--sources", effort.sources, "Sources in each")->capture_default_str();
+  app.add_option("--targets", effort.targets, "Random vertices for each")->capture_default_str();
+  app.add_flag("--float", effort.in_float, "Lengths in float instead of double");
+  report.add_options(app);
+  CLI11_PARSE(app, argc, argv);
+
+  bench::Table table({{"domain", "domain"},
+                      {"N", "N"},
+                      {"cells", "cells a side"},
+                      {"simplices", "simplices", "%.0f"},
+                      {"distances", "distances"},
+                      {"mean", "strings: mean", "%.1e"},
+                      {"worst", "worst", "%.1e"},
+                      {"worst_draw", "draw"},
+                      {"below", "most below", "%.1e"},
+                      {"below_draw", "draw"},
+                      {"long", "> 1e-3 long"},
+                      {"plain_mean", "plain step: mean", "%.1e"},
+                      {"plain_worst", "worst", "%.1e"},
+                      {"ns", "strings: ns/simplex", "%.0f"},
+                      {"ratio", "x plain step", "%.1f"}});
+  return report.write(table, [&] {
+    if (effort.in_float)
+      fill<float>(table, effort);
+    else
+      fill<double>(table, effort);
+  });
+}
