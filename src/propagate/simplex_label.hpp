@@ -53,6 +53,12 @@ struct SimplexVertexWay {
   }
 };
 
+/// A simplex that might gain by a vertex's way: its centre, or only a corner?
+struct SimplexWanted {
+  Index simplex;
+  bool centre;
+};
+
 /// Lists that vertices need to tell others, kept from solve to solve.
 template <int N>
 struct SimplexTelling {
@@ -62,7 +68,7 @@ struct SimplexTelling {
   std::vector<SimplexStringLabel<N>> star;
   std::vector<char> seen;
   std::vector<std::size_t> line;
-  std::vector<Index> wanted;
+  std::vector<SimplexWanted> wanted;
 };
 
 /// Labels, and ways of vertices, for whichever dimension a domain has and whichever rule is asked;

@@ -137,7 +137,9 @@ class SimplexVertexWays {
         const std::size_t at = place(t);
         if (telling_.seen[at]) continue;
         telling_.seen[at] = 1;
-        const bool is_wanted = std::erase(telling_.wanted, t) > 0;
+        const bool is_wanted = std::erase_if(telling_.wanted, [t](const SimplexWanted& w) {
+                                 return w.simplex == t;
+                               }) > 0;
         Label& label = telling_.star[at];
         if (has(t, way)) {
           label = rule_.front().label(t);
@@ -184,8 +186,10 @@ class SimplexVertexWays {
     };
     telling_.wanted.clear();
     for (const Index c : domain_.corners_at(v))
-      if (const Index t = c / sides; !has(t, way) && gains(t, way.label, way.source, is_shorter))
-        telling_.wanted.push_back(t);
+      if (const Index t = c / sides; !has(t, way)) {
+        const SimplexWanted wanted = {t, !was_offered(t, way)};
+        if (gains(wanted, way.label, way.source, is_shorter)) telling_.wanted.push_back(wanted);
+      }
   }
   /// Might one of these gain yet by a label of s?
   [[nodiscard]] bool leads_on(const Label& label, Index source, Index s) const {
@@ -193,14 +197,22 @@ class SimplexVertexWays {
       return least_over<N>(rule_.flat(), label, rule_.centre(s), to) < limit;
     };
     return std::any_of(telling_.wanted.begin(), telling_.wanted.end(),
-                       [&](Index t) { return gains(t, label, source, is_shorter); });
+                       [&](const SimplexWanted& t) { return gains(t, label, source, is_shorter); });
   }
-  /// Would the centre of t, or a corner that has another way?
+  /// A neighbour that keeps the way has offered it already, as everything that is kept.
+  [[nodiscard]] bool was_offered(Index t, const Way& way) const {
+    const auto& across = domain_.records()[t].across;
+    return std::any_of(std::begin(across), std::end(across), [&](Index other) {
+      return other != none && has(other >> FacetAcross::simplex_shift, way);
+    });
+  }
+  /// Would the centre, or a corner that has another way?
   template <class IsShorter>
-  [[nodiscard]] bool gains(Index t, const Label& label, Index source,
+  [[nodiscard]] bool gains(const SimplexWanted& t, const Label& label, Index source,
                            const IsShorter& is_shorter) const {
-    if (is_shorter(rule_.centre(t), rule_.to_beat(t))) return true;
-    const auto& corners = domain_.records()[t].corner;
+    const Index s = t.simplex;
+    if (t.centre && is_shorter(rule_.centre(s), rule_.to_beat(s))) return true;
+    const auto& corners = domain_.records()[s].corner;
     return std::any_of(std::begin(corners), std::end(corners), [&](Index w) {
       const Way& there = ways_[w];
       return !(there.source == source && same_way(there.label, label)) &&
