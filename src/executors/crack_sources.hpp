@@ -5,9 +5,9 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <optional>
 #include <span>
 #include <sstream>
-#include <string>
 #include <vector>
 
 #include <plexway/complex/tet_mesh.hpp>
@@ -16,6 +16,26 @@
 #include <plexway/source/point_source.hpp>
 
 namespace plexway {
+
+/// A source on a crack: its place in the list, and how near is too near.
+struct OnCrack {
+  Index number;
+  double near;
+};
+
+/// Throws UsageError that names it.
+[[noreturn]] inline void refuse(const OnCrack& found, const PointSource& source,
+                                const char* simplex) {
+  std::ostringstream text;
+  if (source.vertex != none)
+    text << "source vertex " << source.vertex;
+  else
+    text << "a source in " << simplex << ' ' << source.simplex;
+  text << " lies on a crack in the solid, or nearer to one than " << found.near
+       << ", and would be seen through it: take a point farther from it, or the same point on both "
+          "sides";
+  throw UsageError(text.str());
+}
 
 /// Sources on the faces of cracks: two faces of the boundary lie on each other there, and
 /// coordinates do not say on which of them a source is. Strings would be walked to it through the
@@ -30,19 +50,23 @@ class CrackSources {
   CrackSources(const TetMesh<Real>& mesh, std::span<const PointSource> sources)
       : mesh_(mesh), tets_(mesh.tets().first(mesh.tet_count())), sources_(sources) {}
 
-  /// Throws UsageError that names the first such source. One whose other side is a source as well,
-  /// with no greater offset, does no harm. Cost: the mesh's edges at which paths bend; with a crack
-  /// among them linear, plus boundary faces and sources that have about the same x.
-  void check() {
+  /// One such source. One whose other side is a source as well, with no greater offset, does no
+  /// harm. Cost: the mesh's edges at which paths bend; with a crack among them linear, plus
+  /// boundary faces and sources that have about the same x.
+  std::optional<OnCrack> find() {
     const auto edges = mesh_.reflex_edges();
-    if (std::none_of(edges.begin(), edges.end(), [](const auto& e) { return is_crack(e); })) return;
+    if (std::none_of(edges.begin(), edges.end(), [](const auto& e) { return is_crack(e); }))
+      return {};
     place();
+    std::optional<OnCrack> found;
     over_boundary([&](const Face& face, Placed& p) {
       if (is_in_front(face, p)) p.normals.push_back(face.inward);
     });
     over_boundary([&](const Face& face, const Placed& p) {
-      if (is_behind(face, p) && !is_shared(p, face.tet) && connected(p, face.tet)) refuse(p);
+      if (!found && is_behind(face, p) && !is_shared(p, face.tet) && connected(p, face.tet))
+        found = {p.number, near * mesh_.unit()};
     });
+    return found;
   }
 
  private:
@@ -195,17 +219,6 @@ class CrackSources {
     return seen[t] != 0;
   }
 
-  [[noreturn]] void refuse(const Placed& p) const {
-    const PointSource& source = sources_[p.number];
-    std::ostringstream away;
-    away << near * mesh_.unit();
-    throw UsageError((source.vertex != none ? "source vertex " + std::to_string(source.vertex)
-                                            : "a source in tet " + std::to_string(source.simplex)) +
-                     " lies on a crack in the solid, or nearer to one than " + away.str() +
-                     ", and would be seen through it: take a point farther from it, or the same "
-                     "point on both sides");
-  }
-
   const TetMesh<Real>& mesh_;
   std::span<const TetRecord<Real>> tets_;
   std::span<const PointSource> sources_;
@@ -213,12 +226,13 @@ class CrackSources {
   double rounding_ = 0;
 };
 
-/// Throws UsageError for a source on a crack where strings are walked to sources.
+/// One on a crack, where strings are walked to sources.
 template <class Real>
-void check_cracks(const TetMesh<Real>& mesh, std::span<const PointSource> sources,
-                  const PropagateOptions& options) {
-  if (mesh.embedded() && options.visibility == Visibility::saddles)
-    CrackSources<Real>(mesh, sources).check();
+std::optional<OnCrack> source_on_crack(const TetMesh<Real>& mesh,
+                                       std::span<const PointSource> sources,
+                                       const PropagateOptions& options) {
+  if (!mesh.embedded() || options.visibility != Visibility::saddles) return {};
+  return CrackSources<Real>(mesh, sources).find();
 }
 
 }  // namespace plexway

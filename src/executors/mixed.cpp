@@ -11,7 +11,6 @@
 
 #include "complex/joined_pieces.hpp"
 #include "executors/checks.hpp"
-#include "executors/crack_sources.hpp"
 #include "executors/crowd_watch.hpp"
 #include "executors/owned_work.hpp"
 #include "executors/run.hpp"
@@ -114,16 +113,26 @@ class Turns {
 
 // Solids stay pieces where their weld leaves a crack, among others.
 template <class Real>
-void check_cracks(const MixedComplex<Real>& domain, std::span<const PointSource> sources,
-                  const PropagateOptions& options) {
-  std::vector<std::vector<PointSource>> own(domain.pieces().size());
-  for (const PointSource& source : sources) {
-    const auto [piece, in_piece] = find_piece(domain, source);
-    own[piece].push_back(in_piece);
+std::optional<OnCrack> source_on_crack(const MixedComplex<Real>& domain,
+                                       std::span<const PointSource> sources,
+                                       const PropagateOptions& options) {
+  for (const auto& piece : domain.pieces()) {
+    const auto* const solid = std::get_if<TetMesh<Real>>(&domain.complex(piece));
+    if (solid == nullptr) continue;
+    std::vector<PointSource> own;
+    std::vector<Index> number;
+    for (Index n = 0; n < sources.size(); ++n) {
+      const auto [holder, in_piece] = find_piece(domain, sources[n]);
+      if (holder != piece.number) continue;
+      own.push_back(in_piece);
+      number.push_back(n);
+    }
+    if (auto found = plexway::source_on_crack(*solid, std::span<const PointSource>(own), options)) {
+      found->number = number[found->number];
+      return found;
+    }
   }
-  for (const auto& piece : domain.pieces())
-    if (const auto* solid = std::get_if<TetMesh<Real>>(&domain.complex(piece)))
-      plexway::check_cracks(*solid, std::span<const PointSource>(own[piece.number]), options);
+  return {};
 }
 
 // On a domain whose pieces are joined.
@@ -165,7 +174,6 @@ void solve_joined(E executor, const MixedComplex<Real>& domain,
                           field);
     return;
   }
-  check_cracks(domain, sources, options);
   Turns(executor, domain.pieces().size()).hold([&](const PiecesAtOnce& at_once) {
     solve_pieces(domain, sources, options, kept.state(), at_once, field);
   });
@@ -184,6 +192,11 @@ void solve_points(const E& executor, const MixedComplex<Real>& domain,
     check_source(
         own, {piece.vertices, piece.simplices, "simplex", corners_of<Real>(domain.complex(piece))});
   }
+  const auto check_cracks = [&](const MixedComplex<Real>& solved,
+                                std::span<const PointSource> there) {
+    if (const auto found = source_on_crack(solved, there, options))
+      refuse(*found, sources[found->number], "simplex");  // as it was named
+  };
   if (const auto joined = domain.joined()) {
     std::vector<PointSource> own(sources.begin(), sources.end());
     for (PointSource& source : own)
@@ -191,6 +204,7 @@ void solve_points(const E& executor, const MixedComplex<Real>& domain,
         source.vertex = joined->vertex[source.vertex];
       else
         source.simplex = joined->simplex[source.simplex];
+    check_cracks(joined->domain, own);
     DistanceField<Real> all;
     solve_joined(executor, joined->domain, std::span<const PointSource>(own), options, kept, all);
     field.complete = all.complete;
@@ -205,6 +219,7 @@ void solve_points(const E& executor, const MixedComplex<Real>& domain,
       if (!all.error.empty()) field.error[v] = all.error[joined->vertex[v]];
     }
   } else {
+    check_cracks(domain, sources);
     solve_joined(executor, domain, sources, options, kept, field);
   }
   if (sources.size() == 1) field.label.clear();

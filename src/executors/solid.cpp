@@ -1,5 +1,4 @@
 #include "executors/checks.hpp"
-#include "executors/crack_sources.hpp"
 #include "executors/drive.hpp"
 #include "executors/owned_crew.hpp"
 #include "executors/run.hpp"
@@ -13,7 +12,6 @@ void solve_points(const E& executor, const TetMesh<Real>& mesh,
                   Workspace<Real>& kept, DistanceField<Real>& field) {
   WorkspaceState<Real>& workspace = kept.state();
   check(sources, options, mesh);
-  check_cracks(mesh, sources, options);
   workspace.pieces.counts().start();
   with_labels(sources, [&](auto labels) {
     constexpr bool kLabels = decltype(labels)::value;

@@ -5,13 +5,16 @@
 // other schedules. Where that is less than 1e-4 (mean) and 1e-3 (worst), the device must be as
 // close as that; elsewhere within twice of it.
 
+#include <array>
 #include <catch2/catch.hpp>
 #include <random>
+#include <vector>
 
 #include <plexway/executors/gl.hpp>
 #include <plexway/solve.hpp>
 
 #include "gl/device.hpp"
+#include "propagate/cracked_solid.hpp"
 #include "propagate/solid_closed_forms.hpp"
 #include "propagate/solid_truth.hpp"
 
@@ -209,6 +212,23 @@ TEST_CASE("solids on a device: radius, budget, what is refused", "[gl]") {
   CHECK_THROWS_AS(solve(GL{}, mesh, source, options), UsageError);
   const TetMesh<float> metric(s.positions.size(), s.tets, s.lengths());
   CHECK_THROWS_WITH(solve(GL{}, metric, source), Catch::Contains("needs coordinates"));
+}
+
+TEST_CASE("on a device a source on a crack is refused, whatever other fields start from", "[gl]") {
+  if (!device()) return;
+  const Cracked cracked(one_slit, 0.16, 3, 0.3);
+  const TetMesh<float> mesh(cracked.places, cracked.tets);
+  GLWorkspace workspace;
+  for (Index v = 0; v < cracked.floor(); ++v)
+    for (Index w = 0; w < v; ++w) {
+      if (cracked.on_lip[v] == 0 || cracked.places[v] != cracked.places[w]) continue;
+      const std::array sources = {PointSource::at(v), PointSource::at(w)};  // both sides
+      CHECK_NOTHROW(static_cast<void>(solve(GL{}, mesh, Sources(sources))));
+      std::vector<float> each(2 * mesh.vertex_count());
+      CHECK_THROWS_AS(solve_each(GL{}, mesh, Sources(sources), {}, workspace, each), UsageError);
+      return;
+    }
+  FAIL("no two vertices in one place");
 }
 
 TEST_CASE("one field a source in a solid on a device", "[gl]") {

@@ -4,7 +4,6 @@
 #include <plexway/executors/gl.hpp>
 
 #include "executors/checks.hpp"
-#include "executors/crack_sources.hpp"
 #include "executors/gl/solid_seeds.hpp"
 #include "executors/gl/solve.hpp"
 #include "executors/run.hpp"
@@ -37,7 +36,6 @@ class SolidRun {
   static void check(const Domain& mesh, std::span<const PointSource> sources,
                     const PropagateOptions& options) {
     plexway::check(sources, options, mesh);
-    check_cracks(mesh, sources, options);
     check_number(sources.size());
   }
   static std::size_t cells(const Domain& mesh) { return mesh.tet_count(); }

@@ -44,7 +44,8 @@ bool solve_each(const GL& executor, const typename Run::Domain& domain,
                 std::span<const PointSource> sources, const PropagateOptions& options,
                 GLWorkspace& workspace, std::span<float> distance) {
   const std::size_t vertices = domain.vertex_count();
-  Run::check(domain, sources, options);
+  for (std::size_t k = 0; k < sources.size(); ++k)  // each has a field of its own
+    Run::check(domain, sources.subspan(k, 1), options);
   GLWorkspace::Implementation& there = workspace.implementation();
   there.use(Context::of(executor.device));
   const Session session(*there.context);
