@@ -245,13 +245,11 @@ class PreparedMixed final : public PreparedKind<MixedComplex<Real>> {
             point.vertex < pieces_.vertex.size() && pieces_.vertex[point.vertex] == none;
         if (alone) return {};  // in no simplex
         Path path = paths->trace(inner(point), tracing);
-        const OpenSimplices* const open = this->open();
-        for (PathPoint& at : path.points) {
-          at.simplex = outer[at.simplex];
-          if (open != nullptr) at.simplex = open->outside(at.simplex);
+        for (PathPoint& at : path.points) at.simplex = outer[at.simplex];
+        if (const OpenSimplices* const open = this->open()) open->outside(path);
+        for (const PathPoint& at : path.points)
           path.positions.push_back(
               this->shape_.position({.simplex = at.simplex, .barycentric = at.barycentric}));
-        }
         return path;
       };
       return {trace, [paths, inner](const PointSource& point) { return paths->at(inner(point)); }};

@@ -27,8 +27,7 @@ SearchResult find_paths(const AnyDomain& domain, std::span<const PointSource> so
     if constexpr (std::decay_t<decltype(complex)>::kind == DomainKind::surface) search(complex);
   });
   for (Path& path : found.paths) {
-    for (PathPoint& at : path.points)
-      if (open != nullptr && at.simplex != none) at.simplex = open->outside(at.simplex);
+    if (open != nullptr) open->outside(path);
     if (!path.positions.empty() || shape.positions().empty()) continue;
     for (const PathPoint& at : path.points)  // the search knew none
       path.positions.push_back(
