@@ -438,9 +438,8 @@ std::shared_ptr<Prepared> open_as(const AnyShape& shape, const KeptBuild& kept) 
 }  // namespace
 
 std::shared_ptr<const Prepared> prepare(const AnyShape& shape, const BuildOptions& options) {
-  const bool asked = options.triangulation == Triangulation::delaunay ||
-                     options.triangulation == Triangulation::refined;
-  if (asked) support(Purpose::triangulations, shape.kind()).require();
+  if (on_other_triangles(options.triangulation))
+    support(Purpose::triangulations, shape.kind()).require();
   if (options.lengths) support(Purpose::metrics, shape.kind()).require();
   if (options.threads < 0) throw UsageError("the number of threads must be 0 (all) or more");
   if (const KeptBuild* const kept = shape.state().kept.get(); kept && kept->answers(options))

@@ -11,7 +11,7 @@ namespace plexway {
 
 SearchResult find_paths(const AnyDomain& domain, std::span<const PointSource> sources,
                         std::span<const PointSource> targets, const SearchOptions& options) {
-  support(Purpose::searches, domain.kind()).require();
+  support(Purpose::astar, domain.kind()).require();
   const AnyShape& shape = domain.shape();
   const OpenSimplices* const open = domain.open_simplices();
   const Inside from(open, sources), to(open, targets);
