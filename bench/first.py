@@ -6,7 +6,7 @@
 BUILD is a build folder with bin/plexway, bin/bench_build, bin/bench_clouds, bin/bench_solids and bin/bench_peers (or
 bench_cgal); --before another one, which takes turns with it. Of a COMMIT bench_build is built and kept (bench/before),
 and building alone is measured, beside how many times as fast it was to become; `rewritten` is the commit before building
-was rewritten, which the plan's figures are of. FOLDER has `surfaces` and `solids` with their exact
+was rewritten, which the figures asked for are of. FOLDER has `surfaces` and `solids` with their exact
 answers; what needs it is left out without. FILE is a scan, by default the dragon of data/fetch.sh, or a surface made here. The least of the
 turns counts; ratios to Dijkstra are medians inside one process (bench/harness.hpp), of which the least counts too.
 """
@@ -177,7 +177,7 @@ def fast(build, scan, folder, data):
 
 PARTS = {"building": building, "threads": threads, "clouds": clouds, "whole": whole, "opening": opening, "solids": solids, "fast": fast}
 
-# Of the plan of this work; and what was before.
+# What was asked for, and what was before.
 ASKED = {
     "surface, float: ns a vertex": ("400", "1,600"),
     "Delaunay, float: ns a vertex": ("800", "4,700"),
@@ -198,7 +198,7 @@ ASKED = {
 }
 
 
-# How many times as fast the plan wanted building, by its own figures on its own machine: 1,600 to 400, 4,700 to 800, and
+# How many times as fast building was asked to be, by figures of another machine: 1,600 to 400, 4,700 to 800, and
 # 430 to 480 to 200. What another machine needs it does not tell, so this is what to hold beside the version before.
 BEFORE = "6e7533e"
 WANTED_FASTER = {"surface, float": 4.0, "Delaunay, float": 5.9, "solid, float": 2.2}

@@ -100,7 +100,8 @@ int main(int argc, char** argv) {
   app.add_option("--cells", n, "Cells a side")->capture_default_str();
   app.add_option("--speeds", speeds, "Of skins and sheets; blocks have 1")->delimiter(',');
   app.add_option("--only", only, "block, ball, standing, layers, slabs, one")->delimiter(',');
-  app.add_option("--slabs", slabs, "How many, of so many cells a side each, only if asked for")
+  app.add_option("--slabs", slabs,
+                 "How many there are in slabs and one, which run only if --only names them")
       ->capture_default_str();
   app.add_option("--thick", thick, "Of slabs, if they are 1 wide")->capture_default_str();
   report.add_options(app);

@@ -93,6 +93,7 @@ peers=$bin/bench_cgal
   [ -z "$data" ] || run parity "$bin/bench_parity" "$@"
   run corners "$bin/bench_corners" $corners
   run dimensions "$bin/bench_dimensions"
+  run random_plans "$bin/bench_random_plans"
   run metrics "$bin/bench_metrics" $metrics
   run curves "$bin/bench_curves" $curves
   # Two good scans, cut into four until they have a million vertices; otherwise the sphere alone.

@@ -34,7 +34,7 @@ foreach(source IN LISTS fuzzers)
     target_sources(${target} PRIVATE $<TARGET_OBJECTS:plexway_cli>)
     plexway_link_all(${target} EXCEPT pcl openvdb hdf5 mpi)
   elseif(format MATCHES "^solve_(plane|mixed)$")
-    target_include_directories(${target} PRIVATE "${PROJECT_SOURCE_DIR}/data")
+    target_include_directories(${target} PRIVATE "${PROJECT_SOURCE_DIR}")
   elseif(format STREQUAL "pcd")  # without PCL, what is looked at before PCL
     set(folder "${PROJECT_SOURCE_DIR}/complexes/pcl")
     target_include_directories(${target} PRIVATE "${folder}/src")

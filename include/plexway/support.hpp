@@ -48,6 +48,9 @@ struct Combination {
   bool positions = true;
 };
 
+/// A cell with what a solve's options tell.
+[[nodiscard]] Combination with(Combination what, const PropagateOptions& options);
+
 /// Could windows solve it (Accuracy)? Else why not. A team takes them in pieces, or has one thread
 /// do it where the order asked for is not theirs.
 constexpr Support support_of_windows(const Combination& c) {
@@ -153,7 +156,7 @@ template <ExecutorType E, DomainType D>
   X(duals, "the dual triangulation of cells, 'plexway cvt --dual'")                    \
   X(error_classes, "errors by place and shape, 'plexway bench --anatomy'")             \
   X(rows, "all_pairs and near_pairs (any/pairs.hpp)")                                  \
-  X(ranks, "OpenMP::ranks, by pieces where a domain has some")                         \
+  X(ranks, "OpenMP::ranks")                                                            \
   X(pieces, "MixedComplex::add")                                                       \
   X(places, "AnyShape::closest and AnyShape::position")                                \
   X(astar, "find_paths (any/search.hpp), 'plexway path --astar'")                      \
@@ -165,12 +168,16 @@ template <ExecutorType E, DomainType D>
 enum class Purpose { PLEXWAY_PURPOSES(PLEXWAY_NAME) };
 #undef PLEXWAY_NAME
 
-/// Does a purpose draw or measure in space?
-constexpr bool needs_positions(Purpose purpose) {
+/// Is what a purpose gives in space?
+constexpr bool draws(Purpose purpose) {
   using enum Purpose;
   return purpose == directions || purpose == isolines || purpose == arcs ||
-         purpose == isosurfaces || purpose == pictures || purpose == parts || purpose == volumes ||
-         purpose == lines || purpose == places;
+         purpose == isosurfaces || purpose == pictures || purpose == parts || purpose == volumes;
+}
+
+/// Does a purpose draw or measure in space?
+constexpr bool needs_positions(Purpose purpose) {
+  return draws(purpose) || purpose == Purpose::lines || purpose == Purpose::places;
 }
 
 /// Does a purpose go together with a domain, and with the solve that left what it asks? Precision
@@ -299,7 +306,8 @@ constexpr Support support(Purpose purpose, const Combination& c) {
     case Purpose::places:
       break;
   }
-  return needs_positions(purpose) && !c.positions ? Refusal::positions : Refusal::nothing;
+  if (c.positions || !needs_positions(purpose)) return Refusal::nothing;
+  return draws(purpose) ? Refusal::drawn_lengths : Refusal::positions;
 }
 /// Where only the kind of the domain is known: counts as it is best.
 constexpr Support support(Purpose purpose, DomainKind domain,
@@ -311,21 +319,31 @@ constexpr Support support(Purpose purpose, DomainKind domain,
                            .metric = domain == DomainKind::solid ? MetricKind::embedded
                                                                  : MetricKind::intrinsic});
 }
-/// The same of a complex, with everything that it tells.
+/// The cell of a complex, with everything that it tells, by default options.
+template <DomainType D>
+[[nodiscard]] constexpr Combination combination_of(const D& domain, ExecutorKind executor) {
+  return {.executor = executor,
+          .domain = D::kind,
+          .dimension = D::dimension,
+          .single_precision = std::is_same_v<typename D::Number, float>,
+          .metric = domain.metric()};
+}
+/// Does a purpose go together with a complex?
 template <DomainType D>
 [[nodiscard]] constexpr Support support(Purpose purpose, const D& domain,
                                         Visibility visibility = Visibility::saddles,
                                         ExecutorKind executor = ExecutorKind::serial,
-                                        bool positions = true,
-                                        Accuracy::Kind accuracy = Accuracy::Kind::usual) {
-  return support(purpose, {.executor = executor,
-                           .domain = D::kind,
-                           .dimension = D::dimension,
-                           .single_precision = std::is_same_v<typename D::Number, float>,
-                           .metric = domain.metric(),
-                           .visibility = visibility,
-                           .accuracy = accuracy,
-                           .positions = positions});
+                                        bool positions = true) {
+  Combination what = combination_of(domain, executor);
+  what.visibility = visibility;
+  what.positions = positions;
+  return support(purpose, what);
+}
+/// And with the options of a solve?
+template <DomainType D>
+[[nodiscard]] Support support(Purpose purpose, const D& domain, const PropagateOptions& options,
+                              ExecutorKind executor = ExecutorKind::serial) {
+  return support(purpose, with(combination_of(domain, executor), options));
 }
 
 /// What a purpose starts from: points alone, or vertex sets, balls, curves or simplices among them.

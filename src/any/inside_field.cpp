@@ -5,7 +5,7 @@
 #include <cmath>
 #include <variant>
 
-#include <plexway/support.hpp>
+#include <plexway/any/support.hpp>
 
 #include "any/survey.hpp"
 
@@ -31,10 +31,10 @@ constexpr double pixels = 600;  // of a picture, about: the diagonal
 bool is_known_inside(const AnyDomain& domain, const AnyExecutor& executor,
                      const SourceList& sources, const PropagateOptions& options) {
   const PropagateOptions unbounded;
-  return support(Purpose::arcs, domain.kind()) && !domain.shape().positions().empty() &&
-         sources.only_points() && !std::holds_alternative<GL>(executor) &&
-         domain.lengths() == nullptr && domain.open_simplices() == nullptr &&
-         options.radius == unbounded.radius && options.max_expansions == unbounded.max_expansions;
+  return support(Purpose::arcs, domain.shape()) && sources.only_points() &&
+         !std::holds_alternative<GL>(executor) && domain.lengths() == nullptr &&
+         domain.open_simplices() == nullptr && options.radius == unbounded.radius &&
+         options.max_expansions == unbounded.max_expansions;
 }
 
 bool shows_inside(const AnyDomain& domain) {

@@ -23,11 +23,25 @@ const io::Triangles& surface_of(const AnyShape& shape) {
   return data_for<io::Triangles>(Purpose::arcs, shape);
 }
 
-// Triangles of a shape, with their numbers among all simplices.
-struct Triangles {
-  std::vector<std::array<Index, 3>> corners;
-  std::vector<Index> number;
-};
+// On the triangles of a mixed domain, whose simplices are edges and tetrahedra besides.
+std::vector<Path> on_parts(const MixedShape& shape, std::span<const double> distance,
+                           std::span<const double> values) {
+  std::vector<std::array<Index, 3>> triangles;
+  std::vector<Index> number;  // among all simplices
+  Index simplex = 0;
+  for (const MixedShape::Part& part : shape.parts) {
+    simplex += static_cast<Index>(part.edges.size());
+    for (const auto& triangle : part.triangles) {
+      triangles.push_back(triangle);
+      number.push_back(simplex++);
+    }
+    simplex += static_cast<Index>(part.tets.size());
+  }
+  std::vector<Path> lines = isolines(shape.positions, triangles, distance, values);
+  for (Path& line : lines)
+    for (PathPoint& point : line.points) point.simplex = number[point.simplex];
+  return lines;
+}
 
 // Lines on the sheet of a cloud.
 std::vector<Path> on_sheet(const AnyDomain& domain, std::span<const std::array<double, 3>> points,
@@ -76,28 +90,15 @@ std::vector<Path> isolines(const AnyDomain& domain, std::span<const double> dist
   support(Purpose::isolines, shape).require();
   if (const CloudShape* const cloud = shape.cloud())
     return on_sheet(domain, cloud->measured(), distance, values);
-  Triangles open;
-  Index simplex = 0;
-  const auto take = [&](std::span<const std::array<Index, 3>> triangles) {
-    for (const auto& triangle : triangles) {
-      if (domain.open_simplices() == nullptr || domain.open_simplices()->inside(simplex) != none) {
-        open.corners.push_back(triangle);
-        open.number.push_back(simplex);
-      }
-      ++simplex;
-    }
-  };
-  if (const auto* const surface = std::get_if<io::Triangles>(&shape.data()))
-    take(surface->triangles);
-  else
-    for (const MixedShape::Part& part : std::get<MixedShape>(shape.data()).parts) {
-      simplex += static_cast<Index>(part.edges.size());
-      take(part.triangles);
-      simplex += static_cast<Index>(part.tets.size());
-    }
-  std::vector<Path> lines = isolines(shape.positions(), open.corners, distance, values);
-  for (Path& line : lines)
-    for (PathPoint& point : line.points) point.simplex = open.number[point.simplex];
+  if (const auto* const mixed = std::get_if<MixedShape>(&shape.data()))
+    return on_parts(*mixed, distance, values);
+  const io::Triangles& surface = std::get<io::Triangles>(shape.data());
+  const OpenSimplices* const open = domain.open_simplices();
+  if (open == nullptr) return isolines(surface.positions, surface.triangles, distance, values);
+  std::vector<std::array<Index, 3>> triangles;
+  for (Index n = 0; n < open->size(); ++n) triangles.push_back(surface.triangles[open->outside(n)]);
+  std::vector<Path> lines = isolines(surface.positions, triangles, distance, values);
+  for (Path& line : lines) open->outside(line);
   return lines;
 }
 

@@ -38,6 +38,11 @@ OpenSimplices::OpenSimplices(const Mask& mask, const AnyShape& shape)
   if (outside_.empty()) throw InputError("the mask closes all of it");
 }
 
+void OpenSimplices::outside(Path& path) const {
+  for (PathPoint& at : path.points)
+    if (at.simplex != none) at.simplex = outside_[at.simplex];
+}
+
 Index OpenSimplices::numbered(Index simplex) const {
   if (simplex >= inside_.size())
     throw UsageError("simplex " + std::to_string(simplex) + " is out of range, there are " +

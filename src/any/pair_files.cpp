@@ -26,6 +26,7 @@
 #include "any/hdf5_functions.hpp"
 #include "any/row_complex.hpp"
 #include "any/stopwatch.hpp"
+#include "any/with_executor.hpp"
 #include "any/words.hpp"
 #include "io/extension.hpp"
 
@@ -347,44 +348,28 @@ class PairRun {
   PairFilesReport report_;
 };
 
-template <class Complex>
-PairFilesReport run_on_device(const PairWork& work, const GL& device, const Complex& complex,
-                              const std::vector<PointSource>& rows) {
-#ifdef PLEXWAY_HAS_GL
-  if constexpr (std::is_same_v<Complex, AnyDomain>) {
-    complex.support(device, SourceList(rows), work.files.solve).require();
-  } else {
-    if constexpr (supports<GL, Complex>) return PairRun(work, device, complex, rows).run();
-    support(combination<GL, Complex>()).require();
-  }
-#endif
-  throw NotBuiltError("the executor GL is not built in; install libegl-dev and build again");
-}
-
 PairFilesReport run_on(const PairWork& work, const AnyExecutor& executor) {
   work.stage("building");
   BuildOptions building = work.files.building;
   if (work.domain.kind() != DomainKind::surface) building.triangulation = Triangulation::input;
   const AnyDomain built(work.domain, building);
   const RowComplex of_rows = row_complex(built, work.files.rows);
-  const auto run = [&](const auto& complex) {
-    return std::visit(
-        [&](const auto& chosen) {
-          if constexpr (std::is_same_v<std::decay_t<decltype(chosen)>, GL>)
-            return run_on_device(work, chosen, complex, of_rows.rows);
-          else
-            return PairRun(work, chosen, complex, of_rows.rows).run();
-        },
-        executor);
+  PairFilesReport report;
+  const auto run = [&](const auto& chosen, const auto& complex) {
+    report = PairRun(work, chosen, complex, of_rows.rows).run();
   };
-  return std::visit(
+  std::visit(
       [&](const auto& complex) {
-        if constexpr (std::is_same_v<std::decay_t<decltype(complex)>, std::monostate>)
-          return run(built);
+        using Pointer = std::decay_t<decltype(complex)>;
+        if constexpr (std::is_same_v<Pointer, std::monostate>)  // a mixed domain
+          with_executor<MixedComplex<float>>(executor,
+                                             [&](const auto& chosen) { run(chosen, built); });
         else
-          return run(*complex);
+          with_executor<std::decay_t<decltype(*complex)>>(
+              executor, [&](const auto& chosen) { run(chosen, *complex); });
       },
       of_rows.complex);
+  return report;
 }
 
 PairFilesReport run_on_named(const PairWork& work, const AnyExecutor& executor) {

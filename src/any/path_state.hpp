@@ -73,9 +73,7 @@ class PathsOf final : public AnyPathField::State {
       Path other = with_labels().trace(point, options);
       if (other.source != none && length(other) < length(path)) path = std::move(other);
     }
-    if (const OpenSimplices* const open = keep_->open())
-      for (PathPoint& at : path.points)
-        if (at.simplex != none) at.simplex = open->outside(at.simplex);
+    if (const OpenSimplices* const open = keep_->open()) open->outside(path);
     if (measured_ && !shape_.positions().empty() && shape_.cloud() == nullptr) {
       path.positions.clear();
       for (const PathPoint& at : path.points)

@@ -245,13 +245,11 @@ class PreparedMixed final : public PreparedKind<MixedComplex<Real>> {
             point.vertex < pieces_.vertex.size() && pieces_.vertex[point.vertex] == none;
         if (alone) return {};  // in no simplex
         Path path = paths->trace(inner(point), tracing);
-        const OpenSimplices* const open = this->open();
-        for (PathPoint& at : path.points) {
-          at.simplex = outer[at.simplex];
-          if (open != nullptr) at.simplex = open->outside(at.simplex);
+        for (PathPoint& at : path.points) at.simplex = outer[at.simplex];
+        if (const OpenSimplices* const open = this->open()) open->outside(path);
+        for (const PathPoint& at : path.points)
           path.positions.push_back(
               this->shape_.position({.simplex = at.simplex, .barycentric = at.barycentric}));
-        }
         return path;
       };
       return {trace, [paths, inner](const PointSource& point) { return paths->at(inner(point)); }};
@@ -440,9 +438,8 @@ std::shared_ptr<Prepared> open_as(const AnyShape& shape, const KeptBuild& kept) 
 }  // namespace
 
 std::shared_ptr<const Prepared> prepare(const AnyShape& shape, const BuildOptions& options) {
-  const bool asked = options.triangulation == Triangulation::delaunay ||
-                     options.triangulation == Triangulation::refined;
-  if (asked) support(Purpose::triangulations, shape.kind()).require();
+  if (on_other_triangles(options.triangulation))
+    support(Purpose::triangulations, shape.kind()).require();
   if (options.lengths) support(Purpose::metrics, shape.kind()).require();
   if (options.threads < 0) throw UsageError("the number of threads must be 0 (all) or more");
   if (const KeptBuild* const kept = shape.state().kept.get(); kept && kept->answers(options))

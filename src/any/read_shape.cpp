@@ -129,30 +129,49 @@ FileForm form_of(const std::string& file) {
                              : FileForm::plain;
 }
 
-// What of the options goes together with a file, by the table (any/support.hpp).
-void check_use(const ReadOptions& options, const std::string& file, FileUse use) {
-  const auto name = [&](std::string_view field) { return spelled(options.spelling, field); };
-  const auto ask = [&](bool given, Reading reading, const std::string& names) {
+// What is asked for as files are read, by the names that the caller knows.
+class Asked {
+ public:
+  explicit Asked(const ReadOptions& options) : options_(options) {}
+
+  [[nodiscard]] std::string name(std::string_view field) const {
+    return spelled(options_.spelling, field);
+  }
+  [[nodiscard]] std::string as(DomainKind kind) const {
+    return name("as") + " " + std::string(kind_name(kind));
+  }
+
+  // What goes together with a file, or several, by the table (any/support.hpp). In two parts: of
+  // grids the form of a file tells before it is read.
+  void check_grid(const FileUse& use) const {
+    ask(!options_.volume.grid.empty(), Reading::grid, name("grid"), use);
+  }
+  void check(const std::string& file, FileUse use) const {
+    use.repaired = options_.volume.repair;
+    use.writes_volume = options_.volume.writes_volume;
+    if (use.form == FileForm::prepared || use.several)
+      ask(options_.as.has_value(), Reading::kind, file + ": " + name("as"), use);
+    ask(options_.volume.repair, Reading::repair, name("repair"), use);
+    ask(options_.cloud.given(), Reading::connecting,
+        name("k") + ", " + name("neighbour_radius") + ", " + name("max_normal_angle") + ", " +
+            name("denoise") + " and " + name("smooth") + " go with " + as(DomainKind::cloud),
+        use);
+    ask(options_.fill.given(), Reading::filling,
+        name("max_volume") + ", " + name("quality") + ", " + name("keep_surface") + ", " +
+            name("max_seconds") + " and " +
+            name(options_.spelling == Spelling::flags ? "hole" : "holes") + " go with " +
+            as(DomainKind::solid),
+        use);
+    ask(options_.volume.voxel.has_value(), Reading::voxel, name("voxel"), use);
+  }
+
+ private:
+  static void ask(bool given, Reading reading, const std::string& names, const FileUse& use) {
     if (given) require(names, support(reading, use));
-  };
-  const std::string as = name("as") + " ";
-  use.repaired = options.volume.repair;
-  use.writes_volume = options.volume.writes_volume;
-  ask(!options.volume.grid.empty(), Reading::grid, name("grid"));
-  if (use.form == FileForm::prepared || use.several)
-    ask(options.as.has_value(), Reading::kind, file + ": " + name("as"));
-  ask(options.volume.repair, Reading::repair, name("repair"));
-  ask(options.cloud.given(), Reading::connecting,
-      name("k") + ", " + name("neighbour_radius") + ", " + name("max_normal_angle") + ", " +
-          name("denoise") + " and " + name("smooth") + " go with " + as +
-          std::string(kind_name(DomainKind::cloud)));
-  ask(options.fill.given(), Reading::filling,
-      name("max_volume") + ", " + name("quality") + ", " + name("keep_surface") + ", " +
-          name("max_seconds") + " and " +
-          name(options.spelling == Spelling::flags ? "hole" : "holes") + " go with " + as +
-          std::string(kind_name(DomainKind::solid)));
-  ask(options.volume.voxel.has_value(), Reading::voxel, name("voxel"));
-}
+  }
+
+  const ReadOptions& options_;
+};
 
 void check_kind(const std::string& file, const FileUse& use) {
   require_input(file + ": is a " + std::string(kind_noun(use.held)) +
@@ -206,17 +225,11 @@ void append(Kind data, const std::string& file, MixedShape& shape) {
 class ShapeFile {
  public:
   ShapeFile(std::string file, const ReadOptions& options)
-      : file_(std::move(file)), options_(options) {}
+      : file_(std::move(file)), options_(options), asked_(options) {}
 
   AnyShape::State read();
 
  private:
-  [[nodiscard]] std::string name(std::string_view field) const {
-    return spelled(options_.spelling, field);
-  }
-  [[nodiscard]] std::string as(DomainKind kind) const {
-    return name("as") + " " + std::string(kind_name(kind));
-  }
   void begin(const std::string& what) const {
     if (options_.progress.stage) options_.progress.stage(what);
   }
@@ -225,6 +238,7 @@ class ShapeFile {
 
   std::string file_;
   const ReadOptions& options_;
+  const Asked asked_;
   AnyShape::State state_;
 };
 
@@ -235,8 +249,10 @@ AnyShape::State ShapeFile::read() {
   state_.file = file_;
   state_.voxel = volume.voxel.value_or(0);
   const FileForm form = form_of(file_);
+  const FileUse unread{DomainKind::solid, DomainKind::solid, form};
+  asked_.check_grid(unread);
   if (form == FileForm::prepared) {
-    check_use(options_, file_, {DomainKind::surface, DomainKind::surface, form});
+    asked_.check(file_, unread);
     AnyShape::State kept = read_kept_build(std::filesystem::path(file_));
     if (volume.voxel) kept.voxel = *volume.voxel;
     return kept;
@@ -247,8 +263,6 @@ AnyShape::State ShapeFile::read() {
     throw InputError(file_ + ": a " + io::InputName(file_).extension +
                      " must be a file with that extension: it is not read from end to end, or not "
                      "alone");
-  if (!volume.grid.empty())  // before a file is read that has none
-    require(name("grid"), support(Reading::grid, {DomainKind::solid, DomainKind::solid, form}));
   begin("reading " + file_);
   const Stopwatch loading;
   bool is_cloud = is_read_as_cloud(file_, asked);
@@ -273,7 +287,7 @@ AnyShape::State ShapeFile::read() {
   const DomainKind wanted = asked.value_or(natural);
   const FileUse use{natural, wanted, form};
   check_kind(file_, use);
-  check_use(options_, file_, use);
+  asked_.check(file_, use);
 
   const bool wants_solid = natural == DomainKind::surface && wanted == DomainKind::solid;
   // Without a word about how TetGen should do it, a repaired solid is cut from its level set.
@@ -312,7 +326,7 @@ AnyShape::State ShapeFile::read() {
 }
 
 void ShapeFile::fill() {
-  require_tetgen(options_.as ? as(*options_.as) : file_);
+  require_tetgen(options_.as ? asked_.as(*options_.as) : file_);
   begin("filling " + file_ + " with tetrahedra");
   const Stopwatch meshing;
   state_.data = is_poly(file_)
@@ -339,7 +353,7 @@ void ShapeFile::take_level_set(bool surface) {
       throw InputError(cause.starts_with(file_) ? cause : file_ + ": " + cause);
     }
   } else {
-    const OpenvdbFunctions& openvdb = openvdb_functions(name("repair"));
+    const OpenvdbFunctions& openvdb = openvdb_functions(asked_.name("repair"));
     begin("repairing " + file_);
     const auto broken = std::get<io::Triangles>(std::move(state_.data));
     try {
@@ -358,22 +372,23 @@ void ShapeFile::take_level_set(bool surface) {
 
 AnyShape AnyShape::read(std::span<const std::filesystem::path> files, double tolerance,
                         const ReadOptions& options) {
-  const auto name = [&](std::string_view field) { return spelled(options.spelling, field); };
+  const Asked asked(options);
   check(options);
   if (!(tolerance >= 0) || std::isinf(tolerance))
-    throw UsageError(name("weld") + " must be a number >= 0");
-  check_use(options, name("weld"),
-            {.held = DomainKind::mixed,
-             .wanted = options.as.value_or(DomainKind::mixed),
-             .several = true});
+    throw UsageError(asked.name("weld") + " must be a number >= 0");
+  std::string names;
+  for (const std::filesystem::path& path : files)
+    names += (names.empty() ? "" : ", ") + path.string();
+  const FileUse parts{
+      .held = DomainKind::mixed, .wanted = options.as.value_or(DomainKind::mixed), .several = true};
+  asked.check_grid(parts);
+  asked.check(names, parts);
   State state;
   MixedShape shape;
   shape.tolerance = tolerance;
   const Stopwatch loading;
-  std::string names;
   for (const std::filesystem::path& path : files) {
     const std::string file = path.string();
-    names += (names.empty() ? "" : ", ") + file;
     if (options.progress.stage) options.progress.stage("reading " + file);
     const bool points = is_cloud_file(file) || io::is_ply_cloud(file);
     check_part(file, {.held = points ? DomainKind::cloud : DomainKind::surface,

@@ -11,7 +11,7 @@ namespace plexway {
 
 SearchResult find_paths(const AnyDomain& domain, std::span<const PointSource> sources,
                         std::span<const PointSource> targets, const SearchOptions& options) {
-  support(Purpose::searches, domain.kind()).require();
+  support(Purpose::astar, domain.kind()).require();
   const AnyShape& shape = domain.shape();
   const OpenSimplices* const open = domain.open_simplices();
   const Inside from(open, sources), to(open, targets);
@@ -27,8 +27,7 @@ SearchResult find_paths(const AnyDomain& domain, std::span<const PointSource> so
     if constexpr (std::decay_t<decltype(complex)>::kind == DomainKind::surface) search(complex);
   });
   for (Path& path : found.paths) {
-    for (PathPoint& at : path.points)
-      if (open != nullptr && at.simplex != none) at.simplex = open->outside(at.simplex);
+    if (open != nullptr) open->outside(path);
     if (!path.positions.empty() || shape.positions().empty()) continue;
     for (const PathPoint& at : path.points)  // the search knew none
       path.positions.push_back(

@@ -40,9 +40,7 @@ const Surroundings<Real>& BoundedSearch<Real>::find(Serial, std::span<const Poin
                                                     const PropagateOptions& options,
                                                     bool simplices) {
   check(sources, options, {mesh_->vertex_count(), mesh_->face_count(), "face", 3});
-  support(Purpose::searches, *mesh_, options.visibility, ExecutorKind::serial, true,
-          options.accuracy.kind())
-      .require();
+  support(Purpose::searches, *mesh_, options).require();
   with_queue<Real>(options, workspace_.state().front, [&](auto queue) {
     find_with(LoggedQueue<Real, decltype(queue)>(queue, reached_), sources, options, simplices);
   });

@@ -87,8 +87,7 @@ class NearWorker {
     const TriangleMesh<Real>* sheet = sheet_of(domain_);
     if (source.point() != nullptr && sheet != nullptr &&
         (D::kind == DomainKind::surface || source.point()->vertex != none) &&
-        support(Purpose::searches, *sheet, options.visibility, ExecutorKind::serial, true,
-                options.accuracy.kind()))
+        support(Purpose::searches, *sheet, options))
       search(*sheet, *source.point(), options);
     else
       solve_all(source.list(), options);

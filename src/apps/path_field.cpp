@@ -178,12 +178,13 @@ Path PathField<Domain<Real>>::trace(const PointSource& point, const TraceOptions
   return or_no_way_at_all(trace_in(*domain_, solved, at, options), solved, at);
 }
 
-// What left no labels counts as GL, which does not either.
+// What left no labels counts as GL, which does not either. A solid has positions of its own.
 template <template <class> class Domain, class Real>
 Support PathField<Domain<Real>>::support_of(Purpose purpose) const {
   if (!solved_) throw UsageError("there is nothing to read before a solve");
   return support(purpose, *domain_, visibility_,
-                 kept_ == Kept::nothing ? ExecutorKind::gl : ExecutorKind::serial);
+                 kept_ == Kept::nothing ? ExecutorKind::gl : ExecutorKind::serial,
+                 Domain<Real>::kind == DomainKind::solid || !positions_.empty());
 }
 
 template <template <class> class Domain, class Real>
@@ -232,12 +233,6 @@ std::vector<std::array<double, 3>> PathField<Domain<Real>>::gradient() const {
     }
   }
   if constexpr (std::is_same_v<Domain<Real>, TriangleMesh<Real>>) {
-    support(Purpose::directions, {.executor = ExecutorKind::serial,
-                                  .domain = DomainKind::surface,
-                                  .dimension = 2,
-                                  .single_precision = true,
-                                  .positions = !positions_.empty()})
-        .require();
     const Solved<Real> solved = this->solved();
     const SurfaceReadOut<Real> read_out(*domain_, solved);
     directions.assign(domain_->face_count(), {0, 0, 0});

@@ -12,6 +12,14 @@ Accuracy resolved(Accuracy accuracy, const Combination& c) {
   return support_of_windows(c) ? Accuracy::accurate() : Accuracy::fast();
 }
 
+Combination with(Combination what, const PropagateOptions& options) {
+  what.visibility = options.visibility;
+  what.schedule = options.schedule;
+  what.accuracy = options.accuracy.kind();
+  what.label_options = options.step != PropagateOptions{}.step || !options.vectorised;
+  return what;
+}
+
 namespace detail {
 namespace {
 
@@ -30,11 +38,7 @@ SourceKind kind_of(const SimplexSource&) { return SourceKind::simplex; }
 
 Combination with(Combination what, MetricKind metric, const PropagateOptions& options) {
   what.metric = metric;
-  what.visibility = options.visibility;
-  what.schedule = options.schedule;
-  what.accuracy = options.accuracy.kind();
-  what.label_options = options.step != PropagateOptions{}.step || !options.vectorised;
-  return what;
+  return plexway::with(what, options);
 }
 
 Support support_of(Combination what, MetricKind metric, const SourceList& sources,

@@ -179,12 +179,24 @@ TEST_CASE("what may be asked for as several files are read, and which they may b
        {Reading::connecting, Reading::filling, Reading::repair, Reading::voxel, Reading::grid})
     CHECK_THROWS_WITH(AnyShape::read(twice, 0, asking(reading, {})),
                       EndsWith(Support(Refusal::several_files).sentence()));
-  CHECK_THROWS_WITH(AnyShape::read(twice, 0, {.as = DomainKind::solid}),
-                    EndsWith(Support(Refusal::several_files).sentence()));
+  for (const Spelling spelling : {Spelling::fields, Spelling::flags}) {
+    ReadOptions as_solid;
+    as_solid.as = DomainKind::solid;
+    as_solid.spelling = spelling;
+    CHECK_THROWS_WITH(AnyShape::read(twice, 0, as_solid),
+                      solid.string() + ", " + solid.string() +
+                          (spelling == Spelling::flags ? ": --as: " : ": as: ") +
+                          Support(Refusal::several_files).sentence());
+  }
   CHECK(AnyShape::read(twice, 0, {.as = DomainKind::mixed}).kind() == DomainKind::mixed);
   const auto lengths = folder.write("lengths.edges", "vertices 2\n0 1 0.5\n").string();
   const std::array<std::filesystem::path, 2> alone = {solid, lengths};
-  CHECK_THROWS_AS(AnyShape::read(alone, 0), InputError);
+  const FileUse use{.held = DomainKind::wireframe,
+                    .wanted = DomainKind::mixed,
+                    .several = true,
+                    .positions = false};
+  CHECK_THROWS_WITH(AnyShape::read(alone, 0),
+                    lengths + ": " + support(Reading::joining, use).sentence());
 }
 
 TEST_CASE("points that are converted are copied") {

@@ -139,8 +139,7 @@ void check_searches(const Scene<D>& scene, Visibility visibility, Count& count) 
     };
     PropagateOptions windows = options;
     windows.accuracy = Accuracy::accurate();
-    const Support by_windows = support(Purpose::searches, scene.domain, visibility,
-                                       ExecutorKind::serial, true, Accuracy::Kind::merged);
+    const Support by_windows = support(Purpose::searches, scene.domain, windows);
     CHECK_FALSE(static_cast<bool>(by_windows));
     if (!found) {
       CHECK_THROWS_WITH(search(), found.sentence());

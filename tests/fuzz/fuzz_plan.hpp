@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "corner_domains.hpp"
+#include "data/corner_domains.hpp"
 #include "fuzz_solve.hpp"
 
 /// A square with rectangles cut out, made of a fuzzer's bytes, and the prism over it.
@@ -44,11 +44,36 @@ inline std::optional<samples::CornerDomain> plan_of(Choices& choices) {
   return plan;
 }
 
+/// The plan on a grid, its vertices moved.
+inline samples::Shape meshed(const samples::CornerDomain& plan, Choices& choices) {
+  const double jitter = choices.byte() % 4 * 0.08;  // first, whatever the compiler
+  return plan.grid(plan_cells, jitter, choices.byte());
+}
+
+/// That, and the distances from its first vertex: the visibility graph of the corners.
+struct Cut {
+  samples::Shape shape;
+  std::vector<Place> places;
+  std::vector<double> truth;
+};
+
+inline std::optional<Cut> cut_of(Choices& choices) {
+  const auto plan = plan_of(choices);
+  if (!plan) return {};
+  Cut cut;
+  cut.shape = meshed(*plan, choices);
+  cut.places.assign(cut.shape.points.begin(), cut.shape.points.end());
+  cut.truth = plan->distances(cut.shape.points);
+  return cut;
+}
+
 struct Prism {
   std::vector<Place> places;
   std::vector<std::array<Index, 4>> tets;
   std::vector<Index> below;  // the plan's vertex
 };
+
+inline double height_of(Choices& choices) { return 0.1 + choices.byte() / 512.; }
 
 /// One layer over the plan, each prism cut by the order of its vertices' numbers.
 inline Prism prism_of(const samples::Shape& plan, double height) {
@@ -66,6 +91,21 @@ inline Prism prism_of(const samples::Shape& plan, double height) {
     prism.tets.push_back({f[0], f[0] + n, f[1] + n, f[2] + n});
   }
   return prism;
+}
+
+/// Distances in a prism, of those in its plan: they and heights add up by their squares.
+inline std::vector<double> over(const Prism& prism, const std::vector<double>& truth) {
+  std::vector<double> distance;
+  for (std::size_t v = 0; v < prism.places.size(); ++v)
+    distance.push_back(std::hypot(truth[prism.below[v]], prism.places[v][2]));
+  return distance;
+}
+
+/// A plan as a complex of triangles in the plane takes it.
+inline std::vector<double> flattened(const std::vector<Place>& places) {
+  std::vector<double> flat;
+  for (const Place& p : places) flat.insert(flat.end(), {p[0], p[1]});
+  return flat;
 }
 
 /// How much a distance may be off, as shares of it.

@@ -7,8 +7,8 @@
 
 #include <plexway/complex/mixed_complex.hpp>
 
+#include "data/speed_times.hpp"
 #include "fuzz_plan.hpp"
-#include "speed_times.hpp"
 
 namespace {
 
@@ -106,32 +106,27 @@ struct Patchwork {
 };
 
 void solve_patches(Choices& choices, bool solid) {
-  const auto plan = plan_of(choices);
-  if (!plan) return;
-  const samples::Shape shape = plan->grid(plan_cells, choices.byte() % 4 * 0.08, choices.byte());
-  const std::vector<Place> flat(shape.points.begin(), shape.points.end());
-  const std::vector<double> truth = plan->distances(shape.points);
+  const auto cut = cut_of(choices);
+  if (!cut) return;
   const std::size_t pieces = 2 + choices.byte() % 3;
   const Patchwork patches(choices, pieces);
   if (!solid) {
-    Whole whole(flat);
-    for (const auto& part : dealt(shape.faces, flat, pieces, patches)) whole.add(part, 1);
-    whole.check(0, truth, {1e-3, 5e-2});
+    Whole whole(cut->places);
+    for (const auto& part : dealt(cut->shape.faces, cut->places, pieces, patches))
+      whole.add(part, 1);
+    whole.check(0, cut->truth, {1e-3, 5e-2});
     return;
   }
-  const Prism prism = prism_of(shape, 0.1 + choices.byte() / 512.);
+  const Prism prism = prism_of(cut->shape, height_of(choices));
   Whole whole(prism.places);
   for (const auto& part : dealt(prism.tets, prism.places, pieces, patches)) whole.add(part, 1);
-  std::vector<double> over;
-  for (std::size_t v = 0; v < prism.places.size(); ++v)
-    over.push_back(std::hypot(truth[prism.below[v]], prism.places[v][2]));
-  whole.check(0, over, {1e-3, 1e-1});
+  whole.check(0, over(prism, cut->truth), {1e-3, 1e-1});
 }
 
 void solve_layers(Choices& choices, bool solid) {
   samples::CornerDomain plan;  // nothing is cut out
   plan.source = source_of(choices);
-  samples::Shape shape = plan.grid(plan_cells, choices.byte() % 4 * 0.08, choices.byte());
+  samples::Shape shape = meshed(plan, choices);
   const double middle = static_cast<double>(1 + choices.byte() % (plan_cells - 1)) / plan_cells;
   const std::array<double, 2> speed = {1, std::exp2((choices.byte() - 127.5) / 80)};
   // Vertices of the line between stay on it.
@@ -152,7 +147,7 @@ void solve_layers(Choices& choices, bool solid) {
     whole.check(0, truth, bounds);
   };
   if (solid) {
-    const Prism prism = prism_of(shape, 0.1 + choices.byte() / 512.);
+    const Prism prism = prism_of(shape, height_of(choices));
     solve(prism.places, prism.tets, {1e-3, 2e-1});  // a vertex in a thousand plans is 15 % long
   } else {
     solve(flat, shape.faces, {1e-3, 8e-2});
@@ -162,7 +157,7 @@ void solve_layers(Choices& choices, bool solid) {
 void solve_wires(Choices& choices) {
   samples::CornerDomain plan;
   plan.source = source_of(choices);
-  const samples::Shape shape = plan.grid(plan_cells, choices.byte() % 4 * 0.08, choices.byte());
+  const samples::Shape shape = meshed(plan, choices);
   const std::vector<Place> flat(shape.points.begin(), shape.points.end());
   const double speed = std::exp2((choices.byte() - 64) / 64.);
   std::vector<std::array<Index, 2>> wires;

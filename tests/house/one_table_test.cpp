@@ -1,6 +1,7 @@
 // Nothing but the table (support.hpp, domain/support.hpp, any/support.hpp) decides what goes with
 // what. Looks for other places: refusals whose words are those of such a decision.
 
+#include <algorithm>
 #include <array>
 #include <catch2/catch.hpp>
 #include <cctype>
@@ -18,14 +19,41 @@ namespace {
 // Refusals that sound like the table's and decide something else.
 struct Other {
   const char* place;  // how the file begins
-  const char* text;   // a part of what it says; empty: all of it
+  const char* text;   // a part of what it says
   const char* why;
 };
 constexpr std::array others = {
-    // Folders.
-    Other{"src/io/", "", "what formats hold, and what is wrong in a file"},
-    Other{"complexes/", "", "what a provider's library takes, and what is wrong in its input"},
-    Other{"src/executors/gl/", "", "what a device has room for, and which there are"},
+    // Files: empty, of another format, or what a format does not hold.
+    Other{"src/io/", "needs at least one", "an empty file"},
+    Other{"src/io/", "single precision only", "numbers that do not fit a format"},
+    Other{"src/io/field.cpp", "do without", "which formats hold what has no positions"},
+    Other{"src/io/mesh_writers.cpp", "does without", "which formats hold what has no positions"},
+    Other{"src/io/paths.cpp", "only .json can hold", "which formats hold what has no positions"},
+    Other{"src/io/", "the dimension is", "a file of the plane"},
+    Other{"src/io/freesurfer.cpp", "is no surface", "another format"},
+    Other{"src/io/freesurfer_labels.cpp", "has no table of colours", "a part that is not there"},
+    Other{"src/io/gifti.cpp", "has no points and triangles", "a part that is not there"},
+    Other{"src/io/labels.cpp", "is no label of FreeSurfer", "another format"},
+    Other{"src/io/simplices.cpp", "coordinates a vertex", "a count"},
+    Other{"src/io/stl.cpp", "neither ascii STL", "another format"},
+    Other{"src/io/tet_checks.hpp", "has no tetrahedra", "cells of other shapes"},
+    Other{"src/io/tet_checks.hpp", "is made of lines, polygons", "cells of other shapes"},
+    Other{"src/io/tet_checks.hpp", "has no lines, triangles", "an empty file"},
+    Other{"src/io/tets.cpp", "must lie beside it", "a second file that is not there"},
+    Other{"src/io/vtk_legacy.cpp", "the dataset is", "what formats hold"},
+    Other{"src/io/vtu.cpp", "the file is of type", "what formats hold"},
+    Other{"complexes/tetgen/src/poly_file.cpp", "the dimension is not 3", "a file of the plane"},
+    // What is to be filled, cut or written encloses nothing or is empty.
+    Other{"complexes/tetgen/src/surface_check.cpp", "no solid to fill", "an empty list"},
+    Other{"complexes/tetgen/src/surface_check.cpp", "the surface is open", "its shape"},
+    Other{"complexes/openvdb/src/closing.cpp", "there is no surface", "an empty list"},
+    Other{"complexes/openvdb/src/closing.cpp", "it encloses nothing", "its shape"},
+    Other{"complexes/openvdb/src/write.cpp", "a solid with tetrahedra", "an empty list"},
+    Other{"complexes/openvdb/src/write.cpp", "names no vertex", "a number out of range"},
+    Other{"complexes/pcl/include/plexway/pcl/cloud.hpp", "no finite point", "an empty list"},
+    // Devices.
+    Other{"src/executors/gl/context.cpp", "there is no GL device", "which devices there are"},
+    Other{"src/executors/gl/run.cpp", "2^27 sources", "a count"},
     // Something is empty or out of range.
     Other{"src/complex/", "has no", "an empty domain"},
     Other{"src/complex/mixed_complex.cpp", "came without positions", "one call, which has another"},

@@ -278,7 +278,10 @@ class Page {
     several.several = true;
     FileUse copied{DomainKind::cloud, DomainKind::cloud};
     copied.copied = true;
+    FileUse lengths{DomainKind::surface, DomainKind::mixed};
+    lengths.several = true, lengths.positions = false;
     text += "\nOf several files: " + verdict(support(Reading::filling, several));
+    text += "; joining one without positions: " + verdict(support(Reading::joining, lengths));
     text += "; of points that are converted to points: ";
     return text + verdict(support(Reading::filling, copied)) + ".\n";
   }

@@ -11,7 +11,7 @@ namespace plexway::web {
 
 Drawing::Drawing(const AnyShape& shape) {
   const auto positions = shape.positions();
-  support(Purpose::places, shape).require();
+  support(Purpose::pictures, shape).require();
   constexpr double infinity = std::numeric_limits<double>::infinity();
   std::array<double, 3> low = {infinity, infinity, infinity},
                         high = {-infinity, -infinity, -infinity};

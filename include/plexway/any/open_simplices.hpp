@@ -4,6 +4,7 @@
 #include <vector>
 
 #include <plexway/any/shape.hpp>
+#include <plexway/apps/path.hpp>
 #include <plexway/complex/ids.hpp>
 #include <plexway/complex/mask.hpp>
 #include <plexway/source/point_source.hpp>
@@ -26,6 +27,8 @@ class OpenSimplices {
   [[nodiscard]] Index inside(Index simplex) const { return inside_[simplex]; }
   /// The number in the shape of one inside, which must be one (not checked).
   [[nodiscard]] Index outside(Index simplex) const { return outside_[simplex]; }
+  /// The same of every point of a path inside; a vertex without a simplex stays as it is.
+  void outside(Path& path) const;
   /// Is a vertex in an open simplex? If not it reaches nothing but itself. It must be one (not
   /// checked).
   [[nodiscard]] bool reach(Index vertex) const { return reached_[vertex] != 0; }

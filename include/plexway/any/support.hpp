@@ -20,7 +20,7 @@ namespace plexway {
   X(joining, "parts of a mixed domain, AnyShape::read of several files")
 
 #define PLEXWAY_NAME(name, what) name,
-/// What is asked for of PLEXWAY_READINGS by name.
+/// The rows of PLEXWAY_READINGS by name.
 enum class Reading { PLEXWAY_READINGS(PLEXWAY_NAME) };
 #undef PLEXWAY_NAME
 
@@ -45,15 +45,6 @@ struct FileUse {
   bool positions = true;       ///< not lengths alone
 };
 
-/// Can what is one kind as a file has it be taken as another (ReadOptions::as)? A level set, which
-/// is a solid, as its surface, too.
-constexpr bool taken_as(DomainKind held, DomainKind wanted, bool level_set = false) {
-  using enum DomainKind;
-  if (held == wanted) return true;
-  if (held == surface) return wanted == solid || wanted == wireframe || wanted == cloud;
-  return held == solid && (wanted == wireframe || (level_set && wanted == surface));
-}
-
 /// Does what is asked for while files are read go together with a file?
 constexpr Support support(Reading reading, const FileUse& f) {
   using enum DomainKind;
@@ -63,11 +54,16 @@ constexpr Support support(Reading reading, const FileUse& f) {
     return reading == Reading::kind && f.wanted == mixed ? Refusal::nothing
                                                          : Refusal::several_files;
   if (f.copied && reading != Reading::kind) return Refusal::copied_points;
-  if (reading == Reading::grid) return level_set ? Refusal::nothing : Refusal::grid_domain;
-  if (f.form == FileForm::prepared && !thinned) return Refusal::prepared;
+  if (f.form == FileForm::prepared && !thinned && reading != Reading::grid)
+    return Refusal::prepared;
   switch (reading) {
-    case Reading::kind:
-      return taken_as(f.held, f.wanted, level_set) ? Refusal::nothing : Refusal::taken_as;
+    case Reading::kind: {
+      const bool of_surface =
+          f.held == surface && (f.wanted == solid || f.wanted == wireframe || f.wanted == cloud);
+      const bool of_solid =
+          f.held == solid && (f.wanted == wireframe || (level_set && f.wanted == surface));
+      return f.held == f.wanted || of_surface || of_solid ? Refusal::nothing : Refusal::taken_as;
+    }
     case Reading::connecting:
       return f.wanted == cloud ? Refusal::nothing : Refusal::connecting_domain;
     case Reading::filling:
@@ -82,27 +78,31 @@ constexpr Support support(Reading reading, const FileUse& f) {
     case Reading::joining:
       if (f.held == cloud || f.held == simplices || boundary || level_set)
         return Refusal::pieces_domain;
-      return f.positions ? Refusal::nothing : Refusal::positions;
+      return f.positions ? Refusal::nothing : Refusal::pieces_positions;
     case Reading::grid:
-      break;
+      return level_set ? Refusal::nothing : Refusal::grid_domain;
   }
   return Support();
 }
 
-/// May sources of a kind start on such triangles of a surface? Triangulation::automatic gives way.
-constexpr Support support(Triangulation triangulation, SourceKind source) {
-  const bool shape = source == SourceKind::curve || source == SourceKind::simplex;
-  const bool other =
-      triangulation == Triangulation::delaunay || triangulation == Triangulation::refined;
-  return shape && other ? Refusal::shapes_triangulation : Refusal::nothing;
+/// Are these other triangles than the shape's? Triangulation::automatic gives way where they may
+/// not be.
+constexpr bool on_other_triangles(Triangulation triangulation) {
+  return triangulation == Triangulation::delaunay || triangulation == Triangulation::refined;
 }
 
-/// Is a purpose served on such triangles of a surface? Triangulation::automatic gives way.
+/// May sources of a kind start on such triangles of a surface?
+constexpr Support support(Triangulation triangulation, SourceKind source) {
+  const bool shape = source == SourceKind::curve || source == SourceKind::simplex;
+  return shape && on_other_triangles(triangulation) ? Refusal::shapes_triangulation
+                                                    : Refusal::nothing;
+}
+
+/// Is a purpose served on such triangles of a surface?
 constexpr Support support(Purpose purpose, Triangulation triangulation) {
   const bool search = purpose == Purpose::searches || purpose == Purpose::astar;
-  const bool other =
-      triangulation == Triangulation::delaunay || triangulation == Triangulation::refined;
-  return search && other ? Refusal::search_triangulation : Refusal::nothing;
+  return search && on_other_triangles(triangulation) ? Refusal::search_triangulation
+                                                     : Refusal::nothing;
 }
 
 /// May a domain be kept that was measured by a metric (BuildOptions::lengths), or masked?

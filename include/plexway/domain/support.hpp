@@ -142,6 +142,12 @@ namespace plexway {
     "tetrahedra keep no lengths of their own for an edge that they share: take Sides::mean, or a " \
     "mixed domain of a solid for each speed, as AnyShape::measure does")                           \
   X(positions, "the vertices have no positions in space: give them, or name vertices by number")   \
+  X(drawn_lengths,                                                                                 \
+    "a domain by lengths alone can be solved, but has no directions and cannot be drawn: give "    \
+    "its "                                                                                         \
+    "vertices positions in space, or take its distances as .csv or .npy")                          \
+  X(pieces_positions,                                                                              \
+    "files are joined where their vertices lie in space: give the vertices positions")             \
   X(metrics_lengths,                                                                               \
     "a metric is measured between positions, and there are lengths alone: measure them by it "     \
     "before")                                                                                      \
@@ -153,8 +159,8 @@ namespace plexway {
   X(search_accuracy,                                                                               \
     "searches that end early keep one label a triangle: ask for the accuracy fast")                \
   X(search_order,                                                                                  \
-    "a search for a path takes simplices in an order of its own: leave out the executor, the "     \
-    "schedule and its step")                                                                       \
+    "a search for a path takes simplices in an order of its own: leave out any other executor, "   \
+    "schedule or step than the default")                                                           \
   X(search_triangulation,                                                                          \
     "searches that end early are on the triangles of the shape: leave its triangulation as it is") \
   X(shapes_triangulation,                                                                          \

@@ -29,7 +29,8 @@ using Executor = AnyExecutor;
 
 void add_executor_options(CLI::App& command, ExecutorArgument& argument, const std::string& group);
 
-/// What it is in the table; `auto` is Serial, which any of its choices could be.
+/// The row of the table of what goes together. For `auto` that of Serial: whatever is asked for,
+/// `auto` may choose it.
 [[nodiscard]] ExecutorKind kind_of(const ExecutorArgument& argument);
 
 /// Throws UsageError for an executor that does not exist or cannot do what the options ask for, and

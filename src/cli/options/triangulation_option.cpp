@@ -2,6 +2,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include <plexway/any/support.hpp>
 #include <plexway/error.hpp>
 
 #include "any/arguments/require.hpp"
@@ -29,7 +30,7 @@ Triangulation triangulation_of(const TriangulationArgument& argument) {
 }
 
 void check_triangulation(Triangulation wanted, const Domain& domain) {
-  if (wanted == Triangulation::delaunay || wanted == Triangulation::refined)
+  if (on_other_triangles(wanted))
     require("--triangulation", support(Purpose::triangulations, domain.kind()));
 }
 

@@ -161,19 +161,11 @@ bool MergedWindows<Real>::fill_holes(Order& order) {
 }
 
 template <class Real>
-[[gnu::noinline]] Index MergedWindows<Real>::one_more_block() {
-  waiting_at_.make_room(blocks_.size() + 1, blocks_);
-  if (blocks_.size() == blocks_.capacity())  // doubled they would be 10 bytes a vertex
-    blocks_.reserve(blocks_.size() + blocks_.size() / 4 + 64);
-  blocks_.emplace_back();
-  return static_cast<Index>(blocks_.size() - 1);
-}
-
-template <class Real>
 std::size_t MergedWindows<Real>::bytes() const {
   const auto of = [](const auto& v) { return v.capacity() * sizeof(v[0]); };
   return sizeof(*this) + of(source_) + of(error_) + of(shining_) + of(arrivals_) +
-         of(own_distance_) + waiting_at_.bytes() + shining_at_.bytes() + of(blocks_) + of(corners_) + leaving_.bytes();
+         of(own_distance_) + waiting_at_.bytes() + shining_at_.bytes() + of(blocks_) +
+         of(corners_) + leaving_.bytes();
 }
 
 }  // namespace plexway::windows

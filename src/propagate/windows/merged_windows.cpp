@@ -270,7 +270,7 @@ template <class Order>
   // The first, or one more than there is room for: that begins another turn.
   Index b = free_block_;
   if (b == none) [[unlikely]] {
-    b = one_more_block();
+    b = waiting_at_.one_more(blocks_);
     list = &waiting_at_.list(halfedge);
   } else {
     free_block_ = blocks_[b].next;

@@ -217,7 +217,6 @@ class MergedWindows {
   bool know(Order& order, Index vertex, Real distance, Index corner, Towards<Real> from,
             Index source, Real error);
 
-  Index one_more_block();
   Index will_shine(const Shining& vertex);
   void gather(Gathered<Real>& windows, const Block& block) const;
   [[nodiscard]] Real scale_at(double distance) const;

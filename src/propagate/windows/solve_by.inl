@@ -109,7 +109,8 @@ bool WindowSolver<Real>::solve_by(const Crew& crew, const WindowSources& sources
                                   DistanceField<Real>& field) {
   constexpr bool alone = std::is_same_v<Crew, Alone>;
   if constexpr (!alone)
-    if (!sources.only_points()) return solve_by(Alone{}, sources, accuracy, options, workspace, field);
+    if (!sources.only_points())
+      return solve_by(Alone{}, sources, accuracy, options, workspace, field);
   const bool merge = accuracy.kind() != Accuracy::Kind::exact;
   const auto solved = [&](auto& windows, const auto& limit) {
     if constexpr (alone) {

@@ -57,6 +57,16 @@ class WaitingTable {
     }
   }
 
+  /// A block more, and room for it here. What `list` gave is no longer good.
+  template <class Block>
+  [[nodiscard, gnu::noinline]] Index one_more(std::vector<Block>& blocks) {
+    make_room(blocks.size() + 1, blocks);
+    if (blocks.size() == blocks.capacity())  // doubled they would be 10 bytes a vertex
+      blocks.reserve(blocks.size() + blocks.size() / 4 + 64);
+    blocks.emplace_back();
+    return static_cast<Index>(blocks.size() - 1);
+  }
+
   [[nodiscard]] std::size_t bytes() const { return heads_.capacity() * sizeof(heads_[0]); }
 
  private:
