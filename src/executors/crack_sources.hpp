@@ -54,9 +54,7 @@ class CrackSources {
   /// harm. Cost: the mesh's edges at which paths bend; with a crack among them linear, plus
   /// boundary faces and sources that have about the same x.
   std::optional<OnCrack> find() {
-    const auto edges = mesh_.reflex_edges();
-    if (std::none_of(edges.begin(), edges.end(), [](const auto& e) { return is_crack(e); }))
-      return {};
+    if (!mesh_.has_crack()) return {};
     place();
     std::optional<OnCrack> found;
     over_boundary([&](const Face& face, Placed& p) {

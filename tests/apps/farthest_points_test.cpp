@@ -2,11 +2,18 @@
 
 #include <catch2/catch.hpp>
 #include <limits>
+#include <string>
+#include <vector>
 
+#include <plexway/apps/centroidal_voronoi.hpp>
 #include <plexway/apps/distance_matrix.hpp>
+#include <plexway/apps/poisson_disk.hpp>
+#include <plexway/complex/tet_mesh.hpp>
+#include <plexway/domain/support.hpp>
 #include <plexway/error.hpp>
 
 #include "apps/sampling_testing.hpp"
+#include "propagate/cracked_solid.hpp"
 
 using namespace plexway;
 using namespace sampling_testing;
@@ -94,4 +101,16 @@ TEST_CASE("a matrix of parts apart says inf and never nan") {
   CHECK(matrix(0, 1) == std::numeric_limits<double>::infinity());
   CHECK(matrix(0, 0) == 0);
   CHECK_THROWS_AS(distance_matrix(Serial{}, mesh, {}), UsageError);
+}
+
+TEST_CASE("no points are spread over a solid with a crack: they would be seen through it") {
+  const testing::Cracked cracked(testing::one_slit, 0.16, 3, 0.3);
+  const TetMesh<double> solid(cracked.places, cracked.tets);
+  CHECK(solid.has_crack());
+  const std::vector<PointSource> start = {PointSource::at(0), PointSource::at(1)};
+  const std::string sentence = Support(Refusal::samples_crack).sentence();
+  CHECK_THROWS_WITH(farthest_points(Serial{}, solid, start, {.count = 3}), sentence);
+  CHECK_THROWS_WITH(poisson_disks(Serial{}, solid, {.radius = .2}), sentence);
+  CHECK_THROWS_WITH(centroidal_voronoi(Serial{}, solid, start, {.max_iterations = 1}), sentence);
+  CHECK_THROWS_WITH(distance_matrix(Serial{}, solid, start), sentence);
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -116,6 +117,10 @@ class TetMesh {
   [[nodiscard]] std::span<const std::array<Real, 6>> squared_lengths() const { return lengths_; }
   /// The edges at which paths may bend, an entry a reflex fan.
   [[nodiscard]] std::span<const ReflexEdge<Real>> reflex_edges() const { return reflex_; }
+  /// Do two faces of the boundary lie on each other at an edge? Cost: the reflex edges.
+  [[nodiscard]] bool has_crack() const {
+    return std::any_of(reflex_.begin(), reflex_.end(), [](const auto& e) { return is_crack(e); });
+  }
   /// Which of them each tetrahedron has: ReflexEntry, packed, a row a tetrahedron that has any.
   [[nodiscard]] std::span<const Index> reflex_list() const { return reflex_list_; }
   /// The number inside of each vertex, in the caller's order.
