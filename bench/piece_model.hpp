@@ -27,7 +27,7 @@ struct ThreadCosts {
 /// Of MPI, in seconds; bandwidth in bytes a second of one rank.
 struct RankCosts {
   double latency = 2e-6;    ///< a step of a reduction, of which there are log2 of the ranks
-  double message = 0.5e-6;  ///< one of a rank's, empty or not
+  double message = 0.5e-6;  ///< one that a rank sends or gets
   double bandwidth = 5e9;
 };
 
@@ -68,7 +68,7 @@ inline AmongRanks among_ranks(const Log& log, std::size_t letter_bytes, std::siz
   AmongRanks all;
   const plexway::Deal deal{0, ranks};
   std::vector<std::vector<double>> work(ranks);
-  std::vector<std::size_t> sends(ranks), gets(ranks);
+  std::vector<std::size_t> sends(ranks), gets(ranks), calls(ranks);
   std::vector<std::size_t> letters(ranks), peers(ranks), message(ranks * ranks);
   for (const auto& runs : log) {
     for (auto& own : work) own.clear();
@@ -98,12 +98,15 @@ inline AmongRanks among_ranks(const Log& log, std::size_t letter_bytes, std::siz
     }
     std::fill(sends.begin(), sends.end(), 0);
     std::fill(gets.begin(), gets.end(), 0);
+    std::fill(calls.begin(), calls.end(), 0);
     for (std::size_t from = 0; from < ranks; ++from)
       for (std::size_t to = 0; to < ranks; ++to) {
         const std::size_t bytes = message[from * ranks + to];
         sends[from] += bytes;
         gets[to] += bytes;
         all.messages += bytes > 0;
+        calls[from] += bytes > 0;
+        calls[to] += bytes > 0;
         all.bytes += bytes;
       }
     const std::size_t most = *std::max_element(sends.begin(), sends.end());
@@ -111,8 +114,8 @@ inline AmongRanks among_ranks(const Log& log, std::size_t letter_bytes, std::siz
     all.seconds += slowest;
     if (ranks > 1)
       all.seconds +=
-          mpi.latency * static_cast<double>(std::bit_width(ranks - 1)) +
-          mpi.message * static_cast<double>(ranks - 1) +
+          mpi.latency * static_cast<double>(1 + std::bit_width(ranks - 1)) +
+          mpi.message * static_cast<double>(*std::max_element(calls.begin(), calls.end())) +
           static_cast<double>(std::max(most, *std::max_element(gets.begin(), gets.end()))) /
               mpi.bandwidth;
   }

@@ -5,7 +5,8 @@
 // as processes do) really send them, and the table says how many more or fewer bytes that were.
 //
 // The model: an expansion takes what the recorded solve took for one; a superstep what the slowest
-// rank does, log2(n) latencies, n - 1 messages, and the most bytes that a rank sends or gets.
+// rank does, log2(n) latencies and one until what was sent is known to have arrived, the most
+// messages and the most bytes of a rank.
 // `with_whole` adds what each rank does for the whole domain today (seeds, repairs, the last
 // field).
 

@@ -15,9 +15,9 @@
 namespace plexway {
 namespace {
 
-/// A superstep's, in roots of the number of triangles: mean edges. Half of what labels take:
+/// A superstep's, in roots of the number of triangles: mean edges. A third of what labels take:
 /// windows that come late do not merge with those that were there.
-constexpr double pace = 1. / 32;
+constexpr double pace = 1. / 48;
 
 template <class Real>
 class WindowCrew : public TeamCrew<Real, false> {
@@ -74,7 +74,7 @@ bool solve_by_windows(const OpenMP& executor, const TriangleMesh<Real>& mesh,
                       DistanceField<Real>& field) {
   const Team team(executor);
   auto& solver = workspace.windows.on(mesh);
-  const std::size_t size = piece_size(executor, mesh.face_count(), {2048, 128});
+  const std::size_t size = piece_size(executor, mesh.face_count(), {4096, 64});
   if (is_one_piece(size, mesh.face_count()) || options.schedule != Schedule::dual_queue ||
       solver.kept() != nullptr)
     return solver.solve_by(Alone{}, sources, accuracy, options, workspace, field);

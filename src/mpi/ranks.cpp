@@ -309,8 +309,8 @@ struct Ranks::State {
   bool share_nodes = false;
   bool met = false, in_field = false;
   MPI_Comm pieces = MPI_COMM_NULL;  // what belongs to fields
+  int tag = 0;                      // of a meeting: 0 and 1 in turns
   std::vector<MPI_Request> sending;
-  std::vector<std::size_t> waiting_for;
 };
 
 Ranks::Ranks(int& argc, char**& argv) : state_(std::make_unique<State>()) {
@@ -387,53 +387,56 @@ void Ranks::all_come() {
 
 void Ranks::meet(std::span<const PieceRanks::Bytes> to, std::span<std::vector<std::byte>> from,
                  std::span<std::uint64_t> sums, double& least) {
-  // A message is as long as MPI's counts allow, and goes on in another one if it is just so long.
+  // A message is as long as MPI's counts allow, and goes on in another one.
   constexpr std::size_t most = std::size_t{1} << 30;
-  constexpr int tag = 1;
   static_assert(sizeof(std::uint64_t) == sizeof(unsigned long long));
   state_->met = state_->in_field = true;  // now others wait for this one
-  std::vector<std::uint64_t> own(sums.begin(), sums.end());
-  const double own_least = least;
-  MPI_Request reductions[2];
-  MPI_Iallreduce(own.data(), sums.data(), static_cast<int>(own.size()), MPI_UINT64_T, MPI_SUM,
-                 state_->pieces, &reductions[0]);
-  MPI_Iallreduce(&own_least, &least, 1, MPI_DOUBLE, MPI_MIN, state_->pieces, &reductions[1]);
+  // Nobody is told that nothing comes. A rank joins the reductions once what it sent has arrived,
+  // so when they end, all has. Who is a meeting ahead by then sends by the other tag.
+  const int tag = state_->tag ^= 1;
   auto& sending = state_->sending;
-  auto& waiting_for = state_->waiting_for;
   sending.clear();
-  waiting_for.clear();
   for (std::size_t step = 1; step < count(); ++step) {  // not all to the same one at once
     const std::size_t r = (rank() + step) % count();
-    for (std::size_t at = 0;; at += most) {
-      const std::size_t size = std::min(to[r].size() - at, most);
-      MPI_Isend(to[r].data() + at, static_cast<int>(size), MPI_BYTE, static_cast<int>(r), tag,
-                state_->pieces, &sending.emplace_back());
-      if (size < most) break;
-    }
     from[r].clear();
-    waiting_for.push_back(r);
+    for (std::size_t at = 0; at < to[r].size(); at += most)
+      MPI_Issend(to[r].data() + at, static_cast<int>(std::min(to[r].size() - at, most)), MPI_BYTE,
+                 static_cast<int>(r), tag, state_->pieces, &sending.emplace_back());
   }
-  Patience patience;
-  const auto arrives = [&](std::size_t r) {
+  const std::vector<std::uint64_t> own(sums.begin(), sums.end());
+  const double own_least = least;
+  MPI_Request reductions[2];
+  const auto hear = [&] {
     int here_now = 0, size = 0;
     MPI_Status status;
-    MPI_Iprobe(static_cast<int>(r), tag, state_->pieces, &here_now, &status);
+    MPI_Iprobe(MPI_ANY_SOURCE, tag, state_->pieces, &here_now, &status);
     if (here_now == 0) return false;
     MPI_Get_count(&status, MPI_BYTE, &size);
-    const std::size_t before = from[r].size();
-    from[r].resize(before + static_cast<std::size_t>(size));
-    MPI_Recv(from[r].data() + before, size, MPI_BYTE, static_cast<int>(r), tag, state_->pieces,
+    auto& bytes = from[static_cast<std::size_t>(status.MPI_SOURCE)];
+    const std::size_t before = bytes.size();
+    bytes.resize(before + static_cast<std::size_t>(size));
+    MPI_Recv(bytes.data() + before, size, MPI_BYTE, status.MPI_SOURCE, tag, state_->pieces,
              MPI_STATUS_IGNORE);
-    patience = {};
-    return static_cast<std::size_t>(size) < most;
+    return true;
   };
-  for (int through = 0; !waiting_for.empty() || through == 0;) {
-    std::erase_if(waiting_for, arrives);
-    int sent = 0;
-    MPI_Testall(2, reductions, &through, MPI_STATUSES_IGNORE);
-    MPI_Testall(static_cast<int>(sending.size()), sending.data(), &sent, MPI_STATUSES_IGNORE);
-    through = through != 0 && sent != 0 ? 1 : 0;
-    if (!waiting_for.empty() || through == 0) patience.wait();
+  Patience patience;
+  for (bool joined = false;;) {
+    while (hear()) patience = {};
+    int through = 0;
+    if (joined) {
+      MPI_Testall(2, reductions, &through, MPI_STATUSES_IGNORE);
+      if (through != 0) return;
+    } else {
+      MPI_Testall(static_cast<int>(sending.size()), sending.data(), &through, MPI_STATUSES_IGNORE);
+      if (through != 0) {
+        MPI_Iallreduce(own.data(), sums.data(), static_cast<int>(own.size()), MPI_UINT64_T, MPI_SUM,
+                       state_->pieces, &reductions[0]);
+        MPI_Iallreduce(&own_least, &least, 1, MPI_DOUBLE, MPI_MIN, state_->pieces, &reductions[1]);
+        joined = true;
+        continue;
+      }
+    }
+    patience.wait();
   }
 }
 

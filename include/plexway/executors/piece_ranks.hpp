@@ -27,8 +27,8 @@ class PieceRanks {
   [[nodiscard]] virtual std::size_t count() const = 0;
   /// Sends `to[r]` to each rank r and puts into `from[r]` what that one sent here; nothing goes to
   /// this one itself. Meanwhile each of `sums` becomes the sum, and `least` the least, over all
-  /// ranks. Both spans have `count()` entries. Cost: a message to each other rank, even an empty
-  /// one, and a reduction.
+  /// ranks. Both spans have `count()` entries. Cost: a message to each rank that something goes
+  /// to, and a reduction.
   virtual void meet(std::span<const Bytes> to, std::span<std::vector<std::byte>> from,
                     std::span<std::uint64_t> sums, double& least) = 0;
 };

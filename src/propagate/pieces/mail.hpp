@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <numeric>
 #include <span>
 #include <type_traits>
 #include <vector>
@@ -32,6 +33,20 @@ class Outbox {
     letters_.reserve<Letter>(0)[count_++] = letter;
   }
   void end_peer() { begin_[++peer_] = count_; }
+  /// As `start`, where it is known how many each peer gets: they may then be put in any order.
+  template <class Letter>
+  void start(std::size_t superstep, std::span<const std::size_t> counts) {
+    start<Letter>(superstep, counts.size(),
+                  std::accumulate(counts.begin(), counts.end(), std::size_t{0}));
+    std::partial_sum(counts.begin(), counts.end(), begin_.begin() + 1);
+    next_.assign(begin_.begin(), begin_.end());
+    count_ = begin_.back();
+  }
+  /// One more to that peer, behind those that it has.
+  template <class Letter>
+  void put(std::size_t peer, const Letter& letter) {
+    letters_.reserve<Letter>(0)[next_[peer]++] = letter;
+  }
   /// There are none in any other superstep.
   void forget() { superstep_ = never; }
 
@@ -45,13 +60,13 @@ class Outbox {
   }
   [[nodiscard]] std::size_t count() const { return count_; }
   [[nodiscard]] std::size_t bytes() const {
-    return letters_.bytes() + begin_.capacity() * sizeof(std::size_t);
+    return letters_.bytes() + (begin_.capacity() + next_.capacity()) * sizeof(std::size_t);
   }
 
  private:
   static constexpr std::size_t never = std::numeric_limits<std::size_t>::max();
   Room letters_;
-  std::vector<std::size_t> begin_;
+  std::vector<std::size_t> begin_, next_;
   std::size_t superstep_ = never, peer_ = 0, count_ = 0;
 };
 

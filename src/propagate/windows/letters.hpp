@@ -50,6 +50,15 @@ struct Leaving {
     if (is_told_[vertex] == 0) vertices.push_back(vertex);
     is_told_[vertex] = 1;
   }
+  /// Forgets the vertices of which known(vertex) is true.
+  template <class Known>
+  void leave_out(const Known& known) {
+    std::erase_if(vertices, [&](Index v) {
+      if (!known(v)) return false;
+      is_told_[v] = 0;
+      return true;
+    });
+  }
   /// All has been posted.
   void clear() {
     windows.clear();

@@ -58,6 +58,7 @@ class PiecedWindows {
                   piece->windows().seed_inside(cut.number_of[g], there, sigma, n);
               });
         });
+    const bool is_bounded = options.radius < std::numeric_limits<double>::infinity();
     bool too_many = false;
     const auto goes_on = [&](std::size_t expansions, std::size_t waiting) {
       too_many = is_too_much(expansions, waiting, limit);
@@ -67,9 +68,8 @@ class PiecedWindows {
       complete_ = crew.run(patches_.cut(), std::span<Piece* const>(by_number_), mesh_.face_count(),
                            statistics_, goes_on);
       if (too_many) return false;
-      gather(crew);
-    } while (complete_ && options.radius == std::numeric_limits<double>::infinity() &&
-             fill_holes(crew));
+      gather(crew, is_bounded);
+    } while (complete_ && !is_bounded && fill_holes(crew));
     return true;
   }
 
@@ -105,7 +105,7 @@ class PiecedWindows {
   }
 
   template <class Crew>
-  void gather(const Crew& crew) {
+  void gather(const Crew& crew, bool is_bounded) {
     constexpr Number infinity = std::numeric_limits<Number>::infinity();
     const std::size_t vertices = mesh_.vertex_count();
     distance_.assign(vertices, infinity);
@@ -121,14 +121,19 @@ class PiecedWindows {
       return Known{windows.vertex_distance(i), windows.vertex_error(i),
                    labels_ ? windows.source(i) : none};
     };
+    // Pieces differ where the radius or the budget ended the exchange, and in whose equal way they
+    // keep: the first's, or that of the first source.
+    const bool agree = complete_ && !is_bounded && !labels_;
+    const auto is_first = [&](std::size_t p, Index v) { return patches_.places(v)[0].piece == p; };
     crew.each(pieces_.size(), [&](std::size_t k) {
       const std::size_t p = pieces_[k].number();
       const auto& patch = patches_[p];
+      for (std::size_t i = 0; i < patch.shared; ++i)
+        if (agree && is_first(p, patch.vertices[i]))
+          take(patch.vertices[i], known_of(p, static_cast<Index>(i)));
       for (std::size_t i = patch.shared; i < patch.vertices.size(); ++i)
         take(patch.vertices[i], known_of(p, static_cast<Index>(i)));
     });
-    // Pieces differ where the radius or the budget ended the exchange, and in whose equal way they
-    // keep: the first's.
     std::vector<std::vector<Known>> others(patches_.count());
     crew.share(
         patches_.count(),
@@ -137,10 +142,17 @@ class PiecedWindows {
         },
         [&](std::size_t p, auto mail) {
           const auto& patch = patches_[p];
-          for (Index i = 0; i < patch.shared; ++i) others[p].push_back(mail.template take<Known>());
+          for (Index i = 0; i < patch.shared; ++i) {
+            const Known known = mail.template take<Known>();
+            if (!agree)
+              others[p].push_back(known);
+            else if (is_first(p, patch.vertices[i]))
+              take(patch.vertices[i], known);
+          }
           for (std::size_t i = patch.shared; i < patch.vertices.size(); ++i)
             take(patch.vertices[i], mail.template take<Known>());
         });
+    if (agree) return;
     for (std::size_t p = 0; p < patches_.count(); ++p) {
       const auto& patch = patches_[p];
       for (Index i = 0; i < patch.shared; ++i) {
@@ -161,10 +173,14 @@ class PiecedWindows {
     crew.each(pieces_.size(), [&](std::size_t k) {
       const Windows& windows = pieces_[k].windows();
       const std::size_t p = pieces_[k].number();
-      any[k] = Windows::fill_holes(
-          std::span<const TriangleRecord<Real>>(patches_[p].triangles),
-          static_cast<Index>(patches_.cut().pieces[p].own),
-          [&](Index v) { return windows.vertex_distance(v); }, [](Index, Index, Number) {});
+      bool all = true;  // usual: no look at edges
+      for (Index i = 0; i < patches_[p].vertices.size(); ++i)
+        all &= windows.vertex_distance(i) < std::numeric_limits<Number>::infinity();
+      any[k] = !all && Windows::fill_holes(
+                           std::span<const TriangleRecord<Real>>(patches_[p].triangles),
+                           static_cast<Index>(patches_.cut().pieces[p].own),
+                           [&](Index v) { return windows.vertex_distance(v); },
+                           [](Index, Index, Number) {});
     });
     if (!crew.any(std::any_of(any.begin(), any.end(), [](char one) { return one != 0; })))
       return false;

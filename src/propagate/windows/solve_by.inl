@@ -132,9 +132,14 @@ bool WindowSolver<Real>::solve_by(const Crew& crew, const WindowSources& sources
   };
   // Merged light has no least distance: where lengths are no metric it may gain on itself.
   const auto is_sound = [&](const auto& windows) {
-    for (Index v = 0; v < mesh_.vertex_count(); ++v)
-      if (windows.distance(v) < 0) return false;
-    return true;
+    std::atomic<bool> sound{true};
+    crew.over(mesh_.vertex_count(), [&](std::size_t begin, std::size_t end) {
+      bool all = true;
+      for (std::size_t v = begin; v < end; ++v)
+        all &= !(windows.distance(static_cast<Index>(v)) < 0);
+      if (!all) sound.store(false, std::memory_order_relaxed);
+    });
+    return sound.load(std::memory_order_relaxed);
   };
   if (merge) {
     auto& windows = merged(crew);

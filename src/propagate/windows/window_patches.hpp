@@ -18,15 +18,28 @@ namespace plexway::windows {
 template <class Real>
 class WindowPatches {
  public:
+  /// A vertex or a triangle of a piece: by the piece's number, or in a patch by its place among the
+  /// peers.
+  struct Place {
+    Index piece, number;
+  };
+  /// Who else has it, one list after another.
+  struct Elsewhere {
+    std::vector<Index> begin;
+    std::vector<Place> places;
+    [[nodiscard]] std::span<const Place> of(Index i) const {
+      return std::span(places).subspan(begin[i], begin[i + 1] - begin[i]);
+    }
+  };
   struct Patch {
     std::vector<TriangleRecord<Real>> triangles;
     std::vector<Index> vertices;  ///< of its own triangles: the surface's numbers inside
     std::size_t shared = 0;       ///< so many of them, the first, are other pieces', too
     VertexAngles angles;
-  };
-  /// A vertex of a piece.
-  struct Place {
-    Index piece, number;
+    // What letters are addressed by, so that posting reads nothing but this:
+    Elsewhere vertex_elsewhere;    ///< of shared vertices
+    Elsewhere triangle_elsewhere;  ///< of own triangles at the cut: as ghosts
+    std::vector<Place> at_home;    ///< of ghosts, where they are a piece's own
   };
 
   /// About `size` triangles each. Those that are not ours have vertices alone. `mesh` must outlive
@@ -49,6 +62,8 @@ class WindowPatches {
   [[nodiscard]] std::size_t bytes() const;
 
  private:
+  void tell_places(Index piece);
+
   const TriangleMesh<Real>& mesh_;
   std::size_t size_;
   Deal deal_;

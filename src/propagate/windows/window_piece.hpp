@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cstddef>
 #include <limits>
-#include <span>
 #include <vector>
 
 #include <plexway/propagate/distance_field.hpp>
@@ -50,15 +49,7 @@ class WindowPiece {
       return 0;
   }
 
-  void take(Letter letter) {
-    if (letter.tells_of_vertex() && letter.corner != none) {
-      // In a triangle of the other piece, which is a ghost here since it has the vertex.
-      const Index corner = letter.corner & ~Windows::corner_flags;
-      const Index f = cut().ghost(corner / 3, patches_->cut().piece_of);
-      letter.corner = (3 * f + corner % 3) | (letter.corner & Windows::corner_flags);
-    }
-    windows_.take(letter);
-  }
+  void take(const Letter& letter) { windows_.take(letter); }
 
   /// What is nearer than the horizon before comes late: it repeats what was done without it.
   PieceWork run(double horizon, std::size_t most, std::size_t) {
@@ -76,64 +67,69 @@ class WindowPiece {
 
   double post(std::size_t superstep, PieceWork& work) {
     Leaving<typename Windows::Number>& leaving = windows_.leaving();
-    const Cut& cut = patches_->cut();
-    const CutPiece& own = cut.pieces[number_];
     double least = std::numeric_limits<double>::infinity();
     if (leaving.windows.empty() && leaving.vertices.empty()) return least;
-    out_.clear();
-    for (Letter letter : leaving.windows) {
-      const Index ghost = own.simplices[letter.to >> 2];
-      least = std::min(least, static_cast<double>(Windows::turn_of(letter.window)));
-      letter.to = cut.number_of[ghost] << 2 | (letter.to & 3);
-      out_.push_back({own.place_of(cut.piece_of[ghost]), letter});
-    }
+    const CutPiece& own = cut();
     const auto& patch = (*patches_)[number_];
+    const auto home = [&](const Letter& letter) {
+      return patch.at_home[(letter.to >> 2) - own.own];
+    };
+    // What a letter has told since was told to all by who wrote it.
+    leaving.leave_out([&](Index v) {
+      const Index corner = windows_.arrival(v).corner;
+      return corner != none && (corner & ~Windows::corner_flags) / 3 >= own.own;
+    });
+    counts_.assign(own.peer_count(), 0);
+    for (const Letter& letter : leaving.windows) ++counts_[home(letter).piece];
+    for (const Index v : leaving.vertices)
+      for (const auto& place : patch.vertex_elsewhere.of(v)) ++counts_[place.piece];
+    Outbox& box = mail_.of(superstep);
+    box.start<Letter>(superstep, counts_);
+    for (Letter& letter : leaving.windows) {
+      least = std::min(least, static_cast<double>(Windows::turn_of(letter.window)));
+      const auto [peer, f] = home(letter);
+      letter.to = f << 2 | (letter.to & 3);
+      box.put(peer, letter);
+    }
     for (const Index v : leaving.vertices) {
       const auto distance = windows_.vertex_distance(v);
       least = std::min(least, static_cast<double>(distance));
-      auto arrival = windows_.arrival(v);
-      if (arrival.corner != none) {
-        const Index corner = arrival.corner & ~Windows::corner_flags;
-        arrival.corner =
-            (3 * own.simplices[corner / 3] + corner % 3) | (arrival.corner & Windows::corner_flags);
+      const auto arrival = windows_.arrival(v);
+      for (const auto& [peer, number] : patch.vertex_elsewhere.of(v)) {
+        auto there = arrival;
+        there.corner = corner_elsewhere(patch, arrival.corner, peer);
+        box.put(peer, Letter::of_vertex(number, distance, there, windows_.source(v),
+                                        windows_.vertex_error(v)));
       }
-      for (const auto& place : patches_->places(patch.vertices[v]))
-        if (place.piece != number_)
-          out_.push_back({own.place_of(place.piece),
-                          Letter::of_vertex(place.number, distance, arrival, windows_.source(v),
-                                            windows_.vertex_error(v))});
     }
     leaving.clear();
-    std::stable_sort(out_.begin(), out_.end(),
-                     [](const Posted& a, const Posted& b) { return a.peer < b.peer; });
-    Outbox& box = mail_.of(superstep);
-    box.start<Letter>(superstep, own.peer_count(), out_.size());
-    auto next = out_.begin();
-    for (std::size_t peer = 0; peer < own.peer_count(); ++peer) {
-      for (; next != out_.end() && next->peer == peer; ++next) box.add(next->letter);
-      box.end_peer();
-    }
     work.letters = box.count();
     return least;
   }
 
   [[nodiscard]] std::size_t bytes() const {
     return windows_.bytes() + mail_.box[0].bytes() + mail_.box[1].bytes() +
-           out_.capacity() * sizeof(Posted);
+           counts_.capacity() * sizeof(counts_[0]);
   }
 
  private:
-  struct Posted {
-    std::size_t peer;
-    Letter letter;
-  };
+  /// A corner of this piece's triangles by the numbers of a peer that has the vertex there, to
+  /// which the triangle is a ghost.
+  template <class Patch>
+  [[nodiscard]] static Index corner_elsewhere(const Patch& patch, Index corner, Index peer) {
+    if (corner == none) return none;
+    const Index flags = corner & Windows::corner_flags, c = corner & ~Windows::corner_flags;
+    for (const auto& [other, f] : patch.triangle_elsewhere.of(c / 3))
+      if (other == peer) return (3 * f + c % 3) | flags;
+    return none;  // not reached: who has the vertex has what lies around it
+  }
 
   const WindowPatches<Real>* patches_;
   Index number_;
   Windows windows_;
   Outboxes mail_;
-  std::vector<Posted> out_;
-  double horizon_ = 0;  ///< of the superstep before
+  std::vector<std::size_t> counts_;  ///< letters to each peer
+  double horizon_ = 0;               ///< of the superstep before
 };
 
 }  // namespace plexway::windows
