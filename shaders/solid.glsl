@@ -142,6 +142,7 @@ bool comes_in(SolidLabel label, uint t) { return false; }
 
 //@include propagate/solid_sight.inl
 //@include propagate/solid_paths.inl
+bool is_lit(uint t, HINGE_IN(Point) p) { return false; }
 //@include propagate/solid_walk.inl
 
 bool go(HINGE_INOUT(Index) t, HINGE_IN(Point) from, HINGE_IN(Point) to) {

@@ -35,7 +35,7 @@ void main() {
     if (!reached(t)) continue;
     SolidLabel label = label_of(t);
     label.centre = uintBitsToFloat(cells[cell_base + t].w);
-    float d = corner_reach(label, t, corner & 3u, least);
+    float d = corner_reach(label, t, corner & 3u, least, nowhere());
     if (!(d < least)) continue;
     least = d;
     any = true;

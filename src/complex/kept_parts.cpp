@@ -68,7 +68,11 @@ bool glued(std::span<const TriangleRecord<Real>> triangles, std::size_t vertices
   const Index sentinel = m << Across::face_shift;
   std::vector<std::array<Index, 2>> fans;
   bool bad = false;
+  constexpr Index ahead = 24;  // neighbours come from memory, a few at once
   for (Index f = 0; f < m; ++f) {
+    if (f + ahead < m)
+      for (const Index o : triangles[f + ahead].across)
+        if (const Index g = o >> Across::face_shift; g < m) __builtin_prefetch(triangles[g].across);
     const TriangleRecord<Real>& t = triangles[f];
     bad |= (t.face & ~reversed) >= m;
     bad |= bad_numbers(t);

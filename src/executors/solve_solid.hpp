@@ -77,6 +77,13 @@ void solve_with(const TetMesh<Real>& mesh, std::span<const PointSource> sources,
     thread_local SolidClearSpace<Real> clear;  // so that a second solve allocates nothing
     if (clear.identity() != mesh.identity()) clear.measure(mesh);
     rule.skip(clear);
+    if constexpr (!requires { crew.team(); }) {
+      thread_local LitTets<Real> lit;
+      if (!mesh.reflex_edges().empty()) {
+        lit.start(mesh.tet_count());
+        rule.keep_lit(lit);
+      }
+    }
     solve<Real, kLabels>(mesh, sources, options, workspace, rule, wave, crew, field);
   } else {
     auto wave = front(workspace.plain_solids.reserve(records));

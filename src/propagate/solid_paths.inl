@@ -41,18 +41,23 @@ void slide(HINGE_INOUT(Taut) s) HINGE_READS {
 void settle(HINGE_INOUT(Taut) s, Real sigma) HINGE_READS {
   int k = s.bends;
   Point end = s.at[k + 1];
-  measure(s, sigma);
+  Real way[most_bends + 1];  // from bend to bend
+  s.extent = sigma;
+  for (int i = 0; i <= HINGE_ROLLED(k); ++i) {
+    way[i] = norm(s.at[i + 1] - s.at[i]);
+    s.extent += way[i];
+  }
   for (int round = 0; round < HINGE_ROLLED(8); ++round) {
     // Rows of the Hessian, eliminated as they come: diagonal, to the next, right side.
     Real upper[most_bends];
     Real right[most_bends];
     Point come = s.at[1] - s.at[0];
-    Real way_in = max(norm(come), Real(1e-9));
+    Real way_in = max(way[0], Real(1e-9));
     come = Real(1) / way_in * come;
     for (int i = 0; i < HINGE_ROLLED(k); ++i) {
       HINGE_IN(Edge) e = reflex_edge(s.edge[i]);
       Point on = s.at[i + 2] - s.at[i + 1];
-      Real way_on = max(norm(on), Real(1e-9));
+      Real way_on = max(way[i + 1], Real(1e-9));
       on = Real(1) / way_on * on;
       Real a = dot(e.direction, come);
       Real b = dot(e.direction, on);
@@ -103,10 +108,12 @@ void settle(HINGE_INOUT(Taut) s, Real sigma) HINGE_READS {
     Real extent = sigma;
     Point last = s.at[0];
     for (int i = 0; i < HINGE_ROLLED(k); ++i) {
-      extent += norm(moved[i] - last);
+      way[i] = norm(moved[i] - last);
+      extent += way[i];
       last = moved[i];
     }
-    extent += norm(end - last);
+    way[k] = norm(end - last);
+    extent += way[k];
     if (!(extent < s.extent)) break;
     s.extent = extent;
     for (int i = 0; i < HINGE_ROLLED(k); ++i) s.at[i + 1] = moved[i];

@@ -9,6 +9,7 @@
 
 #include <plexway/complex/tet_mesh.hpp>
 
+#include "propagate/lit_tets.hpp"
 #include "propagate/solid_clear_space.hpp"
 #include "propagate/solid_label.hpp"
 #include "propagate/solid_paths.hpp"
@@ -68,7 +69,7 @@ class SolidRule : public SolidPaths<Real> {
     constexpr Real worth_it = 3;  // mean edges
     const Point way = to - from;
     const Real far = norm(way);
-    if (clear_ == nullptr || !(far > worth_it)) return walk(t, from, to);
+    if (clear_ == nullptr || !(far > worth_it) || is_lit(t, to)) return walk(t, from, to);
     Point at = from;
     for (Real s = 0; s < 1;) {
       const auto run = clear_->next(from, to, s, worth_it / far);
@@ -89,6 +90,9 @@ class SolidRule : public SolidPaths<Real> {
   }
   /// Where lines need not be walked; referred to.
   void skip(const SolidClearSpace<Real>& clear) { clear_ = clear.empty() ? nullptr : &clear; }
+
+  /// Where to keep what is seen whole; referred to. By one thread.
+  void keep_lit(LitTets<Real>& lit) { lit_ = &lit; }
 
 #include "propagate/solid_step.inl"
 
@@ -121,6 +125,13 @@ class SolidRule : public SolidPaths<Real> {
   /// Offers the label of t over all faces but the one it came by.
   [[gnu::always_inline]] void expand(Index t, bool last_resort) const {
     const Index in = static_cast<Index>(front_->hinge(t));
+    if (lit_ != nullptr) {
+      const Label& label = front_->label(t);
+      if (label.bend[0] == none && label.door == none)
+        lit_->look(*mesh_, t, label.source, [&](Index u) {
+          return !front_->reached(u) || same_way(front_->label(u), label);
+        });
+    }
     for (Index i = 0; i < 4; ++i)
       if (i != in) cross(t, i, last_resort);
   }
@@ -170,7 +181,7 @@ class SolidRule : public SolidPaths<Real> {
   /// Length of the path to corner i of a reached tetrahedron, as far as it is below `known`.
   [[nodiscard]] Real corner_distance(Index t, Index i,
                                      Real known = std::numeric_limits<Real>::infinity()) const {
-    return corner_reach(front_->label(t), t, i, known);
+    return corner_reach(front_->label(t), t, i, known, nowhere());
   }
   /// Do paths bend at edges?
   [[nodiscard]] bool bends() const { return any_reflex_; }
@@ -193,27 +204,29 @@ class SolidRule : public SolidPaths<Real> {
       if (!front_->reached(t)) continue;
       const Label& label = front_->label(t);
       if (by != none && same_way(label, front_->label(by))) continue;
-      bool hides = false;
-      const Real d = corner_sight(label, t, c % 4, best, hides);
-      if (!hides)
+      Hit own;
+      const Real d = corner_sight(label, t, c % 4, best, own);
+      if (own.tet == none)
         take(t, d);
       else if (count < most_hidden)
-        hidden[count++] = {d, c};
+        hidden[count++] = {d, c, own};
       else
-        take(t, corner_distance(t, c % 4, best));
+        take(t, corner_reach(label, t, c % 4, best, own));
     }
     std::sort(hidden, hidden + count, [](const Hidden& a, const Hidden& b) {
       return a.distance < b.distance || (a.distance == b.distance && a.corner < b.corner);
     });
 
-    for (std::size_t n = 0; n < count && hidden[n].distance < best; ++n)
-      take(hidden[n].corner / 4, corner_distance(hidden[n].corner / 4, hidden[n].corner % 4, best));
+    for (std::size_t n = 0; n < count && hidden[n].distance < best; ++n) {
+      const Index t = hidden[n].corner / 4;
+      take(t, corner_reach(front_->label(t), t, hidden[n].corner % 4, best, hidden[n].own));
+    }
     if (by != none) offer(by, best);
   }
   /// The same to any point of u: t, or one that touches it.
   [[nodiscard]] Real distance_at(Index t, Index u, const Point& q,
                                  Real known = std::numeric_limits<Real>::infinity()) const {
-    return reach_at(front_->label(t), t, common_point(t, u), u, q, known);
+    return reach_at(front_->label(t), t, common_point(t, u), u, q, known, nowhere());
   }
 
   /// Length of the path from the source of t through a face to that of the neighbour; +inf if none
@@ -347,10 +360,11 @@ class SolidRule : public SolidPaths<Real> {
         clear_(rule.clear_),
         front_(&front) {}
 
-  /// A corner whose string is hidden, and its length.
+  /// A corner whose string is hidden, its length, and where it leaves the solid.
   struct Hidden {
     Real distance;
     Index corner;
+    Hit own;
   };
   static constexpr std::size_t most_hidden = 32;
 
@@ -362,7 +376,8 @@ class SolidRule : public SolidPaths<Real> {
     Taut s;
     if (!any_reflex_)
       s = taut_to(label, q);
-    else if (!find_taut(label, t, middle, u, end, q, std::numeric_limits<Real>::infinity(), s))
+    else if (!find_taut(label, t, middle, u, end, q, std::numeric_limits<Real>::infinity(),
+                        nowhere(), s))
       s = taut_to(label, tets_[t].centre);
     const Point eye = s.at[s.bends];
     return {eye, s.extent - norm(taut_end(s) - eye)};
@@ -432,6 +447,9 @@ class SolidRule : public SolidPaths<Real> {
     return tets_[t].across[i] & TetAcross::face_mask;
   }
   Index no_tet() const { return sentinel_; }
+  [[gnu::always_inline]] bool is_lit(Index t, const Point& p) const {
+    return lit_ != nullptr && lit_->by(t, p);
+  }
   [[gnu::always_inline]] Index first_reflex(Index t) const { return tets_[t].reflex; }
   [[gnu::always_inline]] Index reflex_entry(Index e) const { return list_[e]; }
   static Index entry_edge(Index entry) { return entry >> ReflexEntry::edge_shift; }
@@ -456,6 +474,7 @@ class SolidRule : public SolidPaths<Real> {
   Index sentinel_;
   bool any_reflex_;
   const SolidClearSpace<Real>* clear_ = nullptr;
+  LitTets<Real>* lit_ = nullptr;
   Front* front_;
 };
 

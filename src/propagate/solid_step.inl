@@ -174,11 +174,12 @@ HINGE_CONST int whole = 6;
 /// where it is walked from. False where it is not below `known`, or where what is in its way is not
 /// found. A string that is free is a path; what it must still go around is found where it leaves
 /// the solid, or, by halving, where it would do so first on the way from the centre of t, which it
-/// reaches, over `middle`.
+/// reaches, over `middle`. `own`: where the label's own string is known to leave the solid, or
+/// `nowhere`.
 ///
 /// One loop that pulls and walks a string in one place each: shader compilers copy every call.
 bool find_taut(HINGE_IN(Label) label, Index t, HINGE_IN(Point) middle, Index u, HINGE_IN(Point) end,
-               HINGE_IN(Point) q, Real known, HINGE_INOUT(Taut) s) HINGE_READS {
+               HINGE_IN(Point) q, Real known, HINGE_IN(Hit) own, HINGE_INOUT(Taut) s) HINGE_READS {
   int kept = fixed_bends(label);
   s = edges_of(label, q);
   Taut all;   // the label's edges and the further ones, not pulled
@@ -207,7 +208,9 @@ bool find_taut(HINGE_IN(Label) label, Index t, HINGE_IN(Point) middle, Index u, 
       continue;
     }
     bool below = trying == halved || s.extent < bound;
-    if (below && is_free(s, label, from, start, hit)) {
+    bool hidden = trying == own_string && own.tet != none;
+    if (hidden) hit = own;
+    if (below && !hidden && is_free(s, label, from, start, hit)) {
       if (trying != halved) return true;
       low = Real(0.5) * (low + high);
     } else {
@@ -328,7 +331,7 @@ HINGE_FAST bool offer_bent(HINGE_IN(Label) from, Index t, Index face, Index u, R
   Taut s;
   label = from;
   for (int n = 0; n < HINGE_ROLLED(2); ++n) {
-    bool found = find_taut(from, t, over, in_tet, end, end, n == 0 ? known : sigma, s);
+    bool found = find_taut(from, t, over, in_tet, end, end, n == 0 ? known : sigma, nowhere(), s);
     if (found && n == 0) {
       keep(s, label);
       return true;
@@ -351,28 +354,30 @@ HINGE_METHOD Point within(Index u, HINGE_IN(Point) q) HINGE_READS {
 /// Length of the path to a point of u, which is the reached tetrahedron t or has the point
 /// `middle` with it, as far as it is below `known`; else no less than that.
 HINGE_FAST Real reach_at(HINGE_IN(Label) from, Index t, HINGE_IN(Point) middle, Index u,
-                         HINGE_IN(Point) q, Real known) HINGE_READS {
+                         HINGE_IN(Point) q, Real known, HINGE_IN(Hit) own) HINGE_READS {
   Real straight = from.sigma + norm(q - from.source);
   if (!any_reflex() || !(straight < known)) return straight;
   Taut s;
-  if (find_taut(from, t, middle, u, within(u, q), q, known, s)) return s.extent;
+  if (find_taut(from, t, middle, u, within(u, q), q, known, own, s)) return s.extent;
   if (t != u) return HINGE_INFINITY;
   return from.centre + norm(q - centre_of(t));
 }
 /// To its corner i.
-HINGE_FAST Real corner_reach(HINGE_IN(Label) from, Index t, Index i, Real known) HINGE_READS {
-  return reach_at(from, t, centre_of(t), t, corner_of(t, i), known);
+HINGE_FAST Real corner_reach(HINGE_IN(Label) from, Index t, Index i, Real known,
+                             HINGE_IN(Hit) own) HINGE_READS {
+  return reach_at(from, t, centre_of(t), t, corner_of(t, i), known, own);
 }
-/// The same by the label's own string alone; `hidden`: that is below `known`, but not free.
+/// The same by the label's own string alone. `own`: where that leaves the solid if it is below
+/// `known`, but not free.
 HINGE_FAST Real corner_sight(HINGE_IN(Label) from, Index t, Index i, Real known,
-                             HINGE_INOUT(bool) hidden) HINGE_READS {
+                             HINGE_INOUT(Hit) own) HINGE_READS {
   Point q = corner_of(t, i);
-  hidden = false;
+  own = nowhere();
   Real straight = from.sigma + norm(q - from.source);
   if (!any_reflex() || !(straight < known)) return straight;
   Taut s = taut_to(from, q);
   Hit hit;
   if (!(s.extent < known) || is_free(s, from, t, within(t, q), hit)) return s.extent;
-  hidden = true;
+  own = hit;
   return s.extent;
 }

@@ -6,6 +6,7 @@
 //   face_corner_number(face, k)      which corners those of a face are
 //   neighbour(t, i), face_beyond(t, i)  over face i, or no_tet(); the number of the face there
 //   component(p, i)                  coordinate i of a point
+//   is_lit(t, p)                     is all of t known to be seen from p?
 
 /// So far from an edge, into the solid, strings are walked: then a line along a face of an obstacle
 /// does not cross it by rounding. In mean edges.
@@ -15,6 +16,10 @@ struct Hit {
   Index tet;  // in which the line left the solid
   int leg;    // of the string: it begins at bend number `leg`
 };
+HINGE_FN Hit nowhere() {
+  Hit hit = {none, 0};
+  return hit;
+}
 
 /// A point as seen along a line: across it, and along it from 0 to 1 at its end. Not a rotation but
 /// a shear along the axis that the line runs along most, which is less work and turns as well.
@@ -65,8 +70,10 @@ HINGE_CONST Real inset = Real(1e-5);
 HINGE_CONST Real face_missed = Real(1e-2);
 
 /// From a point of t straight to another; t is then the tetrahedron it came to. False if that is
-/// outside of the solid, or behind a part of the boundary.
+/// outside of the solid, or behind a part of the boundary. Where a tetrahedron on the way is known to
+/// be seen from there it is not gone on.
 bool walk(HINGE_INOUT(Index) t, HINGE_IN(Point) begin, HINGE_IN(Point) to) HINGE_READS {
+  if (is_lit(t, to)) return true;
   Point from = begin + inset * (centre_of(t) - begin);
   Point g = to - from;
   Real far = norm(g);
@@ -131,6 +138,7 @@ bool walk(HINGE_INOUT(Index) t, HINGE_IN(Point) begin, HINGE_IN(Point) to) HINGE
     }
     Index j = face_beyond(t, face);
     t = next;
+    if (is_lit(t, to)) return true;
     if (HINGE_RARE(t == passed)) return false;
     if ((steps & (steps - 1)) == 0) passed = t;
     Seen d = seen_along(line, from, corner_of(t, j));
