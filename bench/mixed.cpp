@@ -93,6 +93,7 @@ int main(int argc, char** argv) {
   std::size_t n = 40;
   std::size_t slabs = 20;
   double thick = .25;
+  std::size_t up = 0;
   std::vector<double> speeds = {.3, 1.1, 3};
   std::vector<std::string> only;
   bench::Report report;
@@ -104,8 +105,11 @@ int main(int argc, char** argv) {
                  "How many there are in slabs and one, which run only if --only names them")
       ->capture_default_str();
   app.add_option("--thick", thick, "Of slabs, if they are 1 wide")->capture_default_str();
+  app.add_option("--up", up, "Cells over the thickness of a slab; 0: as many as along a side")
+      ->capture_default_str();
   report.add_options(app);
   CLI11_PARSE(app, argc, argv);
+  if (up == 0) up = n;
   const auto asked = [&](const char* name) {
     return only.empty() || std::find(only.begin(), only.end(), name) != only.end();
   };
@@ -168,7 +172,7 @@ int main(int argc, char** argv) {
         layers.v.push_back(one ? 1 : of_five[k % 5]);
         if (k > 0) layers.z.push_back(thick * static_cast<double>(k));
         const double z = thick * static_cast<double>(k);
-        pieces.push_back(domain.add(block({0, 0, z}, {1, 1, z + thick}, n), layers.v[k]));
+        pieces.push_back(domain.add(block({0, 0, z}, {1, 1, z + thick}, {n, n, up}), layers.v[k]));
         if (k > 0) domain.weld(pieces[k - 1], pieces[k]);
       }
       const double height = thick * static_cast<double>(slabs);

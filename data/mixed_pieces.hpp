@@ -23,23 +23,24 @@ struct Block {
   std::vector<std::array<Index, 4>> tets;
 };
 
-/// The box from `low` to `high` in n cells a side, each cut into six tetrahedra about a diagonal.
-inline Block block(const Position& low, const Position& high, std::size_t n) {
+/// The box from `low` to `high` in so many cells along each axis, each cut into six tetrahedra
+/// about a diagonal.
+inline Block block(const Position& low, const Position& high, const std::array<std::size_t, 3>& n) {
   Block b;
-  const std::size_t m = n + 1;
-  for (std::size_t i = 0; i < m; ++i)
-    for (std::size_t j = 0; j < m; ++j)
-      for (std::size_t k = 0; k < m; ++k) {
+  const std::size_t m[3] = {n[0] + 1, n[1] + 1, n[2] + 1};
+  for (std::size_t i = 0; i < m[0]; ++i)
+    for (std::size_t j = 0; j < m[1]; ++j)
+      for (std::size_t k = 0; k < m[2]; ++k) {
         const auto at = [&](std::size_t axis, std::size_t step) {
-          return low[axis] + (high[axis] - low[axis]) * double(step) / double(n);
+          return low[axis] + (high[axis] - low[axis]) * double(step) / double(n[axis]);
         };
         b.positions.push_back({at(0, i), at(1, j), at(2, k)});
       }
-  const std::size_t stride[3] = {m * m, m, 1};
+  const std::size_t stride[3] = {m[1] * m[2], m[2], 1};
   constexpr int orders[6][3] = {{0, 1, 2}, {0, 2, 1}, {1, 0, 2}, {1, 2, 0}, {2, 0, 1}, {2, 1, 0}};
-  for (std::size_t i = 0; i < n; ++i)
-    for (std::size_t j = 0; j < n; ++j)
-      for (std::size_t k = 0; k < n; ++k)
+  for (std::size_t i = 0; i < n[0]; ++i)
+    for (std::size_t j = 0; j < n[1]; ++j)
+      for (std::size_t k = 0; k < n[2]; ++k)
         for (const auto& order : orders) {
           std::size_t v = i * stride[0] + j * stride[1] + k;
           std::array<Index, 4> tet = {Index(v), 0, 0, 0};
@@ -47,6 +48,9 @@ inline Block block(const Position& low, const Position& high, std::size_t n) {
           b.tets.push_back(tet);
         }
   return b;
+}
+inline Block block(const Position& low, const Position& high, std::size_t n) {
+  return block(low, high, {n, n, n});
 }
 
 struct Sheet {

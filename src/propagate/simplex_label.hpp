@@ -63,12 +63,14 @@ struct SimplexWanted {
 template <int N>
 struct SimplexTelling {
   std::vector<Index> waiting;
-  // Around one vertex, by simplex: the way there, whether it came there, and in which order; and
-  // the simplices that might gain by it.
-  std::vector<SimplexStringLabel<N>> star;
-  std::vector<char> seen;
-  std::vector<std::size_t> line;
-  std::vector<SimplexWanted> wanted;
+  // Around one vertex, by simplex: the way there, and whether it came there.
+  struct Around {
+    SimplexStringLabel<N> label;
+    bool seen;
+  };
+  std::vector<Around> star;
+  std::vector<std::size_t> line;      // in which order
+  std::vector<SimplexWanted> wanted;  // those that might gain by it
 };
 
 /// Labels, and ways of vertices, for whichever dimension a domain has and whichever rule is asked;

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <iterator>
 #include <limits>
+#include <utility>
 #include <vector>
 
 #include <plexway/complex/simplicial_complex.hpp>
@@ -123,24 +124,21 @@ class SimplexVertexWays {
           star.begin());
     };
     telling_.star.assign(star.size(), {});
-    telling_.seen.assign(star.size(), 0);
     telling_.line.assign(1, place(way.simplex));
-    telling_.star[telling_.line[0]] = way.label;
-    telling_.seen[telling_.line[0]] = 1;
+    telling_.star[telling_.line[0]] = {way.label, true};
     for (std::size_t n = 0; n < telling_.line.size() && !telling_.wanted.empty(); ++n) {
       const Index s = star[telling_.line[n]] / sides;
-      const Label from = telling_.star[telling_.line[n]];
+      const Label from = telling_.star[telling_.line[n]].label;
       for (std::size_t facet = 0; facet < sides; ++facet) {
         const Index across = domain_.records()[s].across[facet];
         if (facet == star[telling_.line[n]] % sides || across == none) continue;
         const Index t = across >> FacetAcross::simplex_shift;
         const std::size_t at = place(t);
-        if (telling_.seen[at]) continue;
-        telling_.seen[at] = 1;
+        if (std::exchange(telling_.star[at].seen, true)) continue;
         const bool is_wanted = std::erase_if(telling_.wanted, [t](const SimplexWanted& w) {
                                  return w.simplex == t;
                                }) > 0;
-        Label& label = telling_.star[at];
+        Label& label = telling_.star[at].label;
         if (has(t, way)) {
           label = rule_.front().label(t);
         } else {

@@ -70,7 +70,6 @@ constexpr std::array others = {
     Other{"src/any/shape.cpp", "number their vertices through", "numbers"},
     Other{"src/any/shape.cpp", "no voxel has its centre", "a voxel that is too large"},
     Other{"src/any/arguments/mask_argument.cpp", "no path passes", "a vertex that is masked"},
-    Other{"src/executors/crack_sources.hpp", "a crack in the solid", "where a point lies"},
     // The grammar of the command line: words that mean nothing without another.
     Other{"src/cli/options/executor_argument.cpp", "--device needs", "grammar"},
     Other{"src/cli/options/input.cpp", "no such kind", "a word that is unknown"},

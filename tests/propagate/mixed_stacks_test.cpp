@@ -66,10 +66,11 @@ double over_planes(const std::vector<std::array<double, 3>>& planes,
 TEST_CASE("twenty slabs of five speeds, each several cells thick or one") {
   constexpr double of_five[] = {1, 2.5, 1.7, .8, 2};
   struct Case {
-    Index slabs, cells;
+    Index slabs, cells, up;
     double thick, mean, worst;  // set after seeing
   };
-  for (const Case& c : {Case{20, 4, 1, 1e-6, 1e-3}, Case{20, 6, .1, 2e-3, 5e-2}}) {
+  for (const Case& c : {Case{20, 4, 4, 1, 1e-6, 1e-3}, Case{20, 6, 6, .1, 2e-3, 5e-2},
+                        Case{20, 6, 1, .1, 2e-3, 5e-2}}) {
     Welded domain(4);
     Layers layers;
     std::vector<Welded::Piece> pieces;
@@ -77,7 +78,8 @@ TEST_CASE("twenty slabs of five speeds, each several cells thick or one") {
       const double z = c.thick * double(k);
       layers.v.push_back(of_five[k % 5]);
       if (k > 0) layers.z.push_back(z);
-      pieces.push_back(domain.add(block({0, 0, z}, {1, 1, z + c.thick}, c.cells), of_five[k % 5]));
+      pieces.push_back(domain.add(block({0, 0, z}, {1, 1, z + c.thick}, {c.cells, c.cells, c.up}),
+                                  of_five[k % 5]));
       if (k > 0) domain.weld(pieces[k - 1], pieces[k]);
     }
     const Index sources[] = {pieces[0].vertex(c.cells + 1), pieces[9].vertex(3)};
