@@ -109,7 +109,7 @@ class HingeCrossings {
     // hinge, or because the label that it kept was of a way that is longer once all are taut.
     if (!own.sees_all()) return;
     std::vector<Index> around;
-    const std::size_t most = 16 * distance.size();
+    const std::size_t most = 16 * distance.size();  // some may win by less and less, in turns
     for (std::size_t i = 0; i < front.size() && i < most; ++i) {
       const Index v = front[i], number = via[v];
       const Point at = own.unit() * own.place(inside(v));
@@ -119,7 +119,7 @@ class HingeCrossings {
         const Index w = outside[inner];
         const Real known = distance[w] * (1 - Piece::bend_loss);
         const Point there = own.place(inner);
-        // Straight from that crossing is a path.
+        // Only to choose whom to ask: what is taken is a way that was pulled taut.
         const Real straight = before + norm(own.unit() * there - last[v]);
         if (via[w] != none && !(straight < known * (1 - Piece::crossing_gain))) continue;
         const Real way = least_by(number, there, own.unit(), room);

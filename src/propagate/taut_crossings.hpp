@@ -108,8 +108,6 @@ class TautCrossings {
     return now.length;
   }
 
-  [[nodiscard]] std::size_t bytes() const { return facets_.capacity() * sizeof(Facet); }
-
  private:
   using Row = typename Room::Row;
 
