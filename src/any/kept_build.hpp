@@ -1,10 +1,12 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
 
 #include <plexway/any/field.hpp>
 #include <plexway/any/shape.hpp>
 
+#include "any/kept_shape.hpp"
 #include "complex/kept_archive.hpp"
 
 namespace plexway {
@@ -16,7 +18,8 @@ struct KeptBuild {
   Precision precision = Precision::single;
   Triangulation triangulation = Triangulation::automatic;  ///< as it was asked for
   bool is_surface = false;                                 ///< else that means nothing
-  KeptIn complex;                                          ///< at its first part
+  std::unique_ptr<const KeptShape> shape;  ///< what AnyShape::State::data leaves out
+  KeptIn complex;                          ///< at its first part
 
   /// Is it what they ask for? If not, the shape is built anew.
   [[nodiscard]] bool answers(const BuildOptions& options) const;

@@ -12,6 +12,7 @@
 #include "any/arguments/require.hpp"
 #include "any/closest_point.hpp"
 #include "any/fill.hpp"
+#include "any/kept_build.hpp"
 #include "any/openvdb_functions.hpp"
 #include "any/pcl_functions.hpp"
 #include "any/shape_state.hpp"
@@ -267,7 +268,9 @@ AnyShape AnyShape::mixed(MixedShape shape) {
 }
 
 const std::filesystem::path& AnyShape::file() const { return state_->file; }
-const AnyShape::Data& AnyShape::data() const { return state_->data; }
+const AnyShape::Data& AnyShape::data() const {
+  return state_->kept ? state_->kept->shape->data() : state_->data;
+}
 DomainKind AnyShape::kind() const { return kind_of(state_->data); }
 std::size_t AnyShape::vertices() const { return state_->vertices; }
 const MeasuredLengths* AnyShape::lengths() const {
@@ -308,6 +311,7 @@ std::string_view AnyShape::simplex_name() const {
 }
 
 std::size_t AnyShape::simplices() const {
+  if (state_->kept) return state_->kept->shape->simplices();
   return std::visit(
       [](const auto& data) -> std::size_t {
         using Kind = std::decay_t<decltype(data)>;
@@ -362,6 +366,7 @@ std::span<const Index> AnyShape::corners(std::size_t simplex) const {
 }
 
 std::span<const std::array<double, 3>> AnyShape::positions() const {
+  if (state_->kept) return state_->kept->shape->positions();
   return std::visit(
       [&](const auto& data) -> std::span<const std::array<double, 3>> {
         using Kind = std::decay_t<decltype(data)>;

@@ -17,7 +17,7 @@ struct AnyShape::State {
   std::filesystem::path file;
   double voxel = 0;  ///< of a .vdb to write; 0: to be chosen
   std::string level_set_note;
-  Data data;
+  Data data;  ///< of a prepared file its kind alone: KeptBuild::shape has what is in it
   std::optional<MeasuredLengths> lengths;  ///< alone, without positions
   std::size_t vertices = 0;
   Points places;  ///< of a SimplexShape of three coordinates or fewer

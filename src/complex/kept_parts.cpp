@@ -48,12 +48,16 @@ template <class Real>
 bool bad_numbers(const TriangleRecord<Real>& t) {
   bool bad = false;
   if constexpr (sizeof(Real) == 4) {
-    // By their bits, which is half the work: exponents that are all ones.
-    std::array<std::uint32_t, 9> bits;
-    std::memcpy(bits.data(), t.length, sizeof(bits));
-    std::uint32_t found = (bits[0] | bits[1] | bits[2]) >> 31;
-    for (const std::uint32_t b : bits) found |= static_cast<std::uint32_t>((b << 1) >= 0xff000000U);
-    bad = found != 0;
+    // By their bits, two at a time: an exponent of ones and one more is the sign's bit.
+    constexpr std::uint64_t exponents = 0x7f8000007f800000, one = 0x0080000000800000;
+    std::uint32_t first;
+    std::array<std::uint64_t, 4> bits;
+    std::memcpy(&first, t.length, sizeof(first));
+    std::memcpy(bits.data(), t.length + 1, sizeof(bits));
+    // Of lengths the sign as well.
+    std::uint64_t found = bits[0] | first | ((first & exponents) + one);
+    for (const std::uint64_t b : bits) found |= (b & exponents) + one;
+    bad = (found & 0x8000000080000000) != 0;
   } else {
     for (std::size_t i = 0; i < 3; ++i)
       bad |= !is_length(t.length[i]) || !std::isfinite(t.cosine[i]) ||
@@ -68,24 +72,27 @@ bool glued(std::span<const TriangleRecord<Real>> triangles, std::size_t vertices
   const Index sentinel = m << Across::face_shift;
   std::vector<std::array<Index, 2>> fans;
   bool bad = false;
-  constexpr Index ahead = 24;  // neighbours come from memory, a few at once
+  // Neighbours come from memory, a few at once, and what names them before.
+  constexpr Index ahead = 24, farther = 64;
   for (Index f = 0; f < m; ++f) {
     if (f + ahead < m)
       for (const Index o : triangles[f + ahead].across)
-        if (const Index g = o >> Across::face_shift; g < m) __builtin_prefetch(triangles[g].across);
+        __builtin_prefetch(triangles[std::min(o >> Across::face_shift, m)].across);
+    __builtin_prefetch(triangles[std::min(f + farther, m)].across);
     const TriangleRecord<Real>& t = triangles[f];
     bad |= (t.face & ~reversed) >= m;
     bad |= bad_numbers(t);
+    bad |= std::max({t.corner[0], t.corner[1], t.corner[2]}) >= vertices;
     for (Index i = 0; i < 3; ++i) {
-      bad |= t.corner[i] >= vertices;
       const Index o = t.across[i], own = f << Across::face_shift | i;
-      if (o == sentinel) continue;
-      const Index g = o >> Across::face_shift, j = o & Across::edge_mask;
-      if (g >= m || j > 2) return false;
-      if ((o & Across::fan) != 0)
+      // No boundary, no fan and no fourth edge.
+      if (o < sentinel && (o & (Across::fan | Across::edge_mask)) < 3) [[likely]] {
+        bad |= triangles[o >> Across::face_shift].across[o & Across::edge_mask] !=
+               (own | (o & Across::flip));
+      } else if (o != sentinel) {
+        if (o > sentinel || (o & Across::edge_mask) > 2) return false;
         fans.push_back({own, o & ~Across::special});
-      else
-        bad |= triangles[g].across[j] != (own | (o & Across::flip));
+      }
     }
   }
   for (const Index o : triangles[m].across) bad |= o != sentinel;

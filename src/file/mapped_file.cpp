@@ -12,6 +12,16 @@
 #include <plexway/error.hpp>
 
 namespace plexway::file {
+namespace {
+
+// No fault for each few pages, as all of them are read soon; and what is asked for ahead is there.
+#ifdef MAP_POPULATE
+constexpr int all_at_once = MAP_POPULATE;
+#else
+constexpr int all_at_once = 0;
+#endif
+
+}  // namespace
 
 MappedFile::MappedFile(const std::filesystem::path& file) {
   const auto fail = [&](const std::string& cause) {
@@ -32,7 +42,7 @@ MappedFile::MappedFile(const std::filesystem::path& file) {
   const bool regular = known && S_ISREG(status.st_mode);
   if (regular && status.st_size > 0) {
     size_ = static_cast<std::size_t>(status.st_size);
-    start = ::mmap(nullptr, size_, PROT_READ, MAP_PRIVATE, descriptor, 0);
+    start = ::mmap(nullptr, size_, PROT_READ, MAP_PRIVATE | all_at_once, descriptor, 0);
     code = errno;
   }
   ::close(descriptor);

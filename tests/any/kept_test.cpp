@@ -7,6 +7,7 @@
 #include <iterator>
 #include <random>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include <plexway/any/support.hpp>
@@ -42,6 +43,19 @@ void check_same(const AnyDomain& built, const AnyDomain& opened,
   CHECK(opened.triangulation().inserted_vertices == built.triangulation().inserted_vertices);
   CHECK(opened.shape().data().index() == built.shape().data().index());
   CHECK(std::ranges::equal(opened.shape().positions(), built.shape().positions()));
+  // The rest of the shape is copied from the file by the first of any number that ask.
+  const auto same_corners = [&] {
+    std::size_t same = 0;
+    for (std::size_t s = 0; s < built.shape().simplices(); ++s)
+      same += std::ranges::equal(opened.shape().corners(s), built.shape().corners(s));
+    return same;
+  };
+  std::size_t elsewhere = 0;
+  std::thread second([&] { elsewhere = same_corners(); });
+  CHECK(same_corners() == built.shape().simplices());
+  second.join();
+  CHECK(elsewhere == built.shape().simplices());
+  CHECK(opened.shape().simplices() == built.shape().simplices());
   for (const Accuracy accuracy : {Accuracy::fast(), Accuracy::accurate()}) {
     if (accuracy == Accuracy::accurate() && built.kind() != DomainKind::surface &&
         built.kind() != DomainKind::cloud)
