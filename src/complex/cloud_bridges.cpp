@@ -5,6 +5,8 @@
 #include <limits>
 #include <numeric>
 
+#include "complex/crease.hpp"
+
 namespace plexway {
 namespace {
 
@@ -57,11 +59,17 @@ CloudParts bridge_parts(const SheetRule& rule, std::span<const TangentFrame> fra
   for (const auto& [a, b, c] : sheet.triangles())
     if (a != none) parts.join(a, b), parts.join(b, c);
 
-  std::vector<Pair> pairs;
+  std::vector<Index> of(n);
+  bool several = false;
   for (Index i = 0; i < n; ++i) {
+    of[i] = parts.find(i);
+    several |= of[i] != of[0];
+  }
+  std::vector<Pair> pairs;
+  for (Index i = 0; i < n && several; ++i) {
     bool alone = !sheet.used(i);
     for (const Index j : places.near.around(i)) {
-      if (parts.find(i) == parts.find(j)) continue;
+      if (of[i] == of[j]) continue;
       if (!same_sheet(places, frames, rule, i, j)) continue;
       alone = false;
       pairs.push_back({length(places, i, j), std::min(i, j), std::max(i, j)});

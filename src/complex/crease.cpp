@@ -162,8 +162,8 @@ double way_over_ridge(const Places& places, std::span<const TangentFrame> frames
   return folds(places, line, m, i, n, j, spacing, less_clear + 2 * noise) ? way : 0;
 }
 
-Point3 unfolded(const Places& places, std::span<const TangentFrame> frames, const SheetRule& rule,
-                Index i, Index j) {
+Point3 over_crease(const Places& places, std::span<const TangentFrame> frames,
+                   const SheetRule& rule, Index i, Index j) {
   const Point3 q = minus(places.at[j], places.at[i]);
   const auto crease = crease_between(places, frames, rule, i, j);
   if (!crease) return q;

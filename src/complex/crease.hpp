@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <optional>
 
 #include "complex/umbrella.hpp"
@@ -43,8 +44,30 @@ double length_over(const Crease& crease, const Places& places, std::span<const T
 double way_over_ridge(const Places& places, std::span<const TangentFrame> frames,
                       const SheetRule& rule, Index i, Index j, double noise);
 
+/// Are two neighbours on the same sheet, by the tangent planes of both, or beside the same crease?
+inline bool same_sheet(const Places& places, std::span<const TangentFrame> frames,
+                       const SheetRule& rule, Index i, Index j) {
+  const TangentFrame &a = frames[i], &b = frames[j];
+  const double cosine = dot(a.normal, b.normal);
+  const bool beside = may_crease(cosine) && crease_between(places, frames, rule, i, j);
+  if (beside || (rule.oriented ? cosine : std::abs(cosine)) < rule.least_cosine) return beside;
+  const Point3 q = minus(places.at[j], places.at[i]);
+  const auto fits = [&](const TangentFrame& f) {
+    return std::abs(dot(f.normal, q)) <= rule.most_offset * static_cast<double>(f.spacing);
+  };
+  return fits(a) && fits(b);
+}
+
+/// The offset of neighbour j from i, unfolded about the crease between them, if there is one.
+Point3 over_crease(const Places& places, std::span<const TangentFrame> frames,
+                   const SheetRule& rule, Index i, Index j);
+
 /// Neighbour j as i sees it: the offset in space, or the one unfolded about the crease between.
-Point3 unfolded(const Places& places, std::span<const TangentFrame> frames, const SheetRule& rule,
-                Index i, Index j);
+inline Point3 unfolded(const Places& places, std::span<const TangentFrame> frames,
+                       const SheetRule& rule, Index i, Index j) {
+  if (i < frames.size() && j < frames.size() && may_crease(dot(frames[i].normal, frames[j].normal)))
+    return over_crease(places, frames, rule, i, j);
+  return minus(places.at[j], places.at[i]);
+}
 
 }  // namespace plexway

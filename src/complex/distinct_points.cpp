@@ -10,6 +10,7 @@
 
 #include <plexway/error.hpp>
 
+#include "complex/near_twins.hpp"
 #include "complex/simplex_order.hpp"
 
 namespace plexway {
@@ -17,37 +18,22 @@ namespace {
 
 using Points = std::span<const std::array<double, 3>>;
 
-struct Keyed {
-  std::uint64_t key;
-  Index point;
-};
-
 // A cell of the Morton curve for each point; equal points share one.
-std::vector<Keyed> along_curve_with_keys(Points points) {
-  std::array<double, 3> low{}, high{};
-  low.fill(std::numeric_limits<double>::infinity());
-  high.fill(-std::numeric_limits<double>::infinity());
-  for (const auto& p : points)
-    for (std::size_t d = 0; d < 3; ++d) {
-      low[d] = std::min(low[d], p[d]);
-      high[d] = std::max(high[d], p[d]);
-    }
+using Cell = std::array<std::uint32_t, 3>;
+
+std::vector<Cell> cells_of(Points points) {
+  Box3 box;
+  for (const auto& p : points) box.take(p);
   double width = 0;  // halves: no overflow near 1e308
-  for (std::size_t d = 0; d < 3; ++d) width = std::max(width, high[d] / 2 - low[d] / 2);
+  for (std::size_t d = 0; d < 3; ++d) width = std::max(width, box.high[d] / 2 - box.low[d] / 2);
   constexpr double cells = 2097151;
-  std::vector<Keyed> keyed(points.size());
-  for (Index i = 0; i < points.size(); ++i) {
-    std::uint64_t key = 0;
-    for (std::size_t d = 0; d < 3 && width > 0; ++d) {
-      const double share = (points[i][d] / 2 - low[d] / 2) / width;
-      key |= every_third_bit(static_cast<std::uint64_t>(share * cells)) << d;
+  std::vector<Cell> cell(points.size(), Cell{0, 0, 0});
+  for (std::size_t i = 0; i < points.size() && width > 0; ++i)
+    for (std::size_t d = 0; d < 3; ++d) {
+      const double share = (points[i][d] / 2 - box.low[d] / 2) / width;
+      cell[i][d] = static_cast<std::uint32_t>(share * cells);
     }
-    keyed[i] = {key, i};
-  }
-  std::sort(keyed.begin(), keyed.end(), [](const Keyed& a, const Keyed& b) {
-    return a.key != b.key ? a.key < b.key : a.point < b.point;
-  });
-  return keyed;
+  return cell;
 }
 
 }  // namespace
@@ -59,33 +45,61 @@ DistinctPoints distinct_points(Points points) {
       if (!std::isfinite(x))
         throw InputError("point " + std::to_string(i) +
                          ": a coordinate is not finite; remove such points first");
-  std::vector<Keyed> keyed = along_curve_with_keys(points);
+  const std::vector<Cell> cells = cells_of(points);
+  std::vector<Index> order = sorted_along_curve(points.size(), 1, [&](std::size_t i) {
+    return CurveCell{cells[i][0], cells[i][1], cells[i][2]};
+  });
   DistinctPoints result;
   result.first.resize(points.size());
   result.order.reserve(points.size());
-  for (std::size_t begin = 0, end = 0; begin < keyed.size(); begin = end) {
-    for (end = begin + 1; end < keyed.size() && keyed[end].key == keyed[begin].key;) ++end;
-    const auto at = [&](std::size_t i) -> const auto& { return points[keyed[i].point]; };
+  for (std::size_t begin = 0, end = 0; begin < order.size(); begin = end) {
+    for (end = begin + 1; end < order.size() && cells[order[end]] == cells[order[begin]];) ++end;
+    const auto at = [&](std::size_t i) -> const auto& { return points[order[i]]; };
     if (end - begin > 1)
-      std::sort(keyed.begin() + static_cast<std::ptrdiff_t>(begin),
-                keyed.begin() + static_cast<std::ptrdiff_t>(end),
-                [&](const Keyed& a, const Keyed& b) {
-                  const auto &p = points[a.point], &q = points[b.point];
-                  return p != q ? p < q : a.point < b.point;
+      std::sort(order.begin() + static_cast<std::ptrdiff_t>(begin),
+                order.begin() + static_cast<std::ptrdiff_t>(end), [&](Index a, Index b) {
+                  const auto &p = points[a], &q = points[b];
+                  return p != q ? p < q : a < b;
                 });
     for (std::size_t i = begin; i < end; ++i) {
-      const Index point = keyed[i].point;
+      const Index point = order[i];
       const bool twin = i > begin && at(i) == at(i - 1);
-      result.first[point] = twin ? result.first[keyed[i - 1].point] : point;
+      result.first[point] = twin ? result.first[order[i - 1]] : point;
       if (!twin) result.order.push_back(point);
     }
   }
   return result;
 }
 
+namespace {
+
+constexpr double gap = 1e-4;
+
+// By its largest coordinate, which is at least 1 / sqrt(3) of its length.
+double size_of(const std::array<double, 3>& p, const std::array<double, 3>& q) {
+  return std::max({std::abs(q[0] - p[0]), std::abs(q[1] - p[1]), std::abs(q[2] - p[2])});
+}
+
+// Of the nearest and the farthest neighbour by that.
+bool may_be_near(double nearest, double farthest) { return nearest < 2 * gap * farthest; }
+
+}  // namespace
+
+bool may_have_near_twins(Points points, const Neighbours& neighbours) {
+  for (Index i = 0; i < points.size(); ++i) {
+    double nearest = std::numeric_limits<double>::infinity(), farthest = 0;
+    for (const Index j : neighbours.around(i)) {
+      const double away = size_of(points[i], points[j]);
+      nearest = std::min(nearest, away);
+      farthest = std::max(farthest, away);
+    }
+    if (may_be_near(nearest, farthest)) return true;
+  }
+  return false;
+}
+
 DistinctPoints without_near_twins(Points points, const Neighbours& neighbours,
                                   const DistinctPoints& places) {
-  constexpr double gap = 1e-4;
   constexpr std::size_t most = 3;  // one in so many neighbours
   std::vector<Index> parent(points.size());
   std::iota(parent.begin(), parent.end(), Index{0});
@@ -100,15 +114,12 @@ DistinctPoints without_near_twins(Points points, const Neighbours& neighbours,
     double nearest = std::numeric_limits<double>::infinity(), farthest = 0;
     for (const Index j : neighbours.around(i)) {
       if (places.first[j] == i) continue;
-      const auto &p = points[i], &q = points[j];
-      const double away =
-          std::max({std::abs(q[0] - p[0]), std::abs(q[1] - p[1]), std::abs(q[2] - p[2])});
+      const double away = size_of(points[i], points[j]);
       nearest = std::min(nearest, away);
       farthest = std::max(farthest, away);
       row.emplace_back(away, places.first[j]);
     }
-    // By the largest coordinate the gap is at most so much wider than by length.
-    if (!(nearest < 2 * gap * farthest)) continue;
+    if (!may_be_near(nearest, farthest)) continue;
     for (auto& [away, j] : row) {
       const auto &p = points[i], &q = points[j];
       away = std::hypot(q[0] - p[0], q[1] - p[1], q[2] - p[2]);

@@ -12,6 +12,7 @@
 #include "complex/boundary_saddles.hpp"
 #include "complex/cloud_bridges.hpp"
 #include "complex/gluing.hpp"
+#include "complex/near_twins.hpp"
 #include "complex/sheet_lengths.hpp"
 #include "complex/tangent_lengths.hpp"
 #include "complex/umbrella.hpp"
@@ -52,13 +53,28 @@ double scale_of(Points points) {
 
 Point3 times(double scale, const Point3& p) { return {scale * p[0], scale * p[1], scale * p[2]}; }
 
+// Points may be in any order: what is read of them soon, in three steps of which each needs what
+// the one before it brought.
+void fetch_ahead(Points points, const Neighbours& neighbours, std::span<const Index> order,
+                 std::span<const Index> place, std::size_t p) {
+  constexpr std::size_t first = 24, second = 16, third = 8;
+  if (p + first >= order.size()) return;
+  __builtin_prefetch(&neighbours.begin[order[p + first]]);
+  __builtin_prefetch(&points[order[p + first]]);
+  const auto row = neighbours.around(order[p + second]);
+  for (std::size_t k = 0; k < row.size(); k += 16) __builtin_prefetch(&row[k]);
+  for (const Index j : neighbours.around(order[p + third])) __builtin_prefetch(&place[j]);
+}
+
 // Neighbours between places: points that are not the first at theirs are left out.
 Places places_of(Points points, double scale, const Neighbours& neighbours,
                  const DistinctPoints& distinct) {
   const std::size_t n = distinct.order.size();
   std::vector<Index> place(points.size());
   for (std::size_t p = 0; p < n; ++p) place[distinct.order[p]] = static_cast<Index>(p);
-  const auto of = [&](Index point) { return place[distinct.first[point]]; };
+  for (Index i = 0; i < points.size() && points.size() > n; ++i)
+    if (distinct.first[i] != i) place[i] = place[distinct.first[i]];
+  const auto of = [&](Index point) { return place[point]; };
   // What the twins of a place have as neighbours counts, too.
   std::vector<std::array<Index, 2>> more;  // place, neighbour
   for (Index i = 0; i < points.size(); ++i)
@@ -74,6 +90,7 @@ Places places_of(Points points, double scale, const Neighbours& neighbours,
   places.near.of.reserve(neighbours.of.size());
   std::size_t next = 0;
   for (Index p = 0; p < n; ++p) {
+    fetch_ahead(points, neighbours, distinct.order, place, p);
     places.at.push_back(times(scale, points[distinct.order[p]]));
     const std::size_t start = places.near.of.size();
     const auto row = [&] { return std::span<const Index>(places.near.of).subspan(start); };
@@ -130,18 +147,25 @@ void count_parts(const CloudParts& parts, const DistinctPoints& distinct, CloudS
   summary.joints = parts.joints;
 }
 
-void count_pairs(const Places& places, std::span<const TangentFrame> frames, const SheetRule& rule,
+void count_pairs(const Places& places, std::span<const TangentFrame> frames,
                  CloudSummary& summary) {
   double spacing = 0;
   for (Index i = 0; i < places.near.point_count(); ++i) {
     spacing += static_cast<double>(frames[i].spacing);
-    for (const Index j : places.near.around(i)) {
-      if (j < i) continue;  // lists are symmetric
-      ++summary.neighbour_pairs;
-      summary.refused_pairs += !same_sheet(places, frames, rule, i, j);
-    }
+    for (const Index j : places.near.around(i)) summary.neighbour_pairs += j > i;
   }
   summary.mean_spacing = spacing / static_cast<double>(places.near.point_count());
+}
+
+// Along the curve that the places lie along: by the first of each triangle's places.
+std::vector<Triangle> along_places(std::span<const Triangle> faces, std::size_t places) {
+  const auto first_of = [](const Triangle& t) { return std::min({t[0], t[1], t[2]}); };
+  std::vector<Index> begin(places + 1, 0);
+  for (const Triangle& t : faces) ++begin[first_of(t) + 1];
+  for (std::size_t p = 0; p < places; ++p) begin[p + 1] += begin[p];
+  std::vector<Triangle> sorted(faces.size());
+  for (const Triangle& t : faces) sorted[begin[first_of(t)]++] = t;
+  return sorted;
 }
 
 Sheet make_sheet(Points points, const Neighbours& neighbours, const CloudOptions& options,
@@ -160,9 +184,15 @@ Sheet make_sheet(Points points, const Neighbours& neighbours, const CloudOptions
     };
   };
   const DistinctPoints equal = distinct_points(points);
-  const DistinctPoints distinct = without_near_twins(points, neighbours, equal);
   const double scale = scale_of(points);
-  Places places = places_of(points, scale, neighbours, distinct);
+  Places places = places_of(points, scale, neighbours, equal);
+  DistinctPoints distinct = equal;
+  // Asked of places, which lie beside their neighbours; points lie anywhere.
+  if (equal.order.size() < points.size() || may_have_near_twins(places.at, places.near)) {
+    distinct = without_near_twins(points, neighbours, equal);
+    if (distinct.order.size() < equal.order.size())
+      places = places_of(points, scale, neighbours, distinct);
+  }
   const std::size_t n = places.at.size();
   std::vector<TangentFrame> frames = tangent_frames(places, normals_of(options.normals, distinct),
                                                     rule, options.threads, share(0.1));
@@ -171,6 +201,7 @@ Sheet make_sheet(Points points, const Neighbours& neighbours, const CloudOptions
   {
     const Umbrellas umbrellas =
         local_umbrellas(places, frames, rule, options.widest_circle, options.threads, share(0.5));
+    summary.refused_pairs = umbrellas.refused;
     set_reach(places, umbrellas, options.threads, frames);
     add_umbrellas(umbrellas, options.threads, sheet);
   }
@@ -190,7 +221,7 @@ Sheet make_sheet(Points points, const Neighbours& neighbours, const CloudOptions
   summary.distinct = n;
   summary.duplicates = points.size() - n;
   summary.near_duplicates = equal.order.size() - n;
-  count_pairs(places, frames, rule, summary);
+  count_pairs(places, frames, summary);
   count_parts(parts, distinct, summary);
   summary.mean_spacing /= scale;
   for (Index p = 0; p < n; ++p) summary.boundary_points += sheet.open(p);
@@ -203,11 +234,7 @@ Sheet make_sheet(Points points, const Neighbours& neighbours, const CloudOptions
   for (const Triangle& t : sheet.triangles())
     if (t[0] != none) result.faces.push_back(t);
   summary.triangles = result.faces.size();
-  // Along the curve that the places lie along.
-  const auto before = [](const Triangle& a, const Triangle& b) {
-    return std::min({a[0], a[1], a[2]}) < std::min({b[0], b[1], b[2]});
-  };
-  std::stable_sort(result.faces.begin(), result.faces.end(), before);
+  result.faces = along_places(result.faces, places.at.size());
   const HeightNoise noise = height_noise(places, frames);
   summary.noise = noise.height / scale;
   const double flat = options.lengths == EdgeLengths::in_space     ? 0

@@ -50,14 +50,17 @@ void SheetWedges::add(const Triangle& t) {
   for (std::size_t i = 0; i < 3; ++i) {
     wedges_.push_back({t[(i + 1) % 3], t[(i + 2) % 3], head_[t[i]], number});
     head_[t[i]] = static_cast<Index>(wedges_.size() - 1);
+    unpaired_[t[i]] ^= mixed(t[(i + 1) % 3]) ^ mixed(t[(i + 2) % 3]);
   }
 }
 
 void SheetWedges::remove(Index triangle) {
-  for (const Index place : triangles_[triangle]) {
-    Index* link = &head_[place];
+  const Triangle& t = triangles_[triangle];
+  for (std::size_t i = 0; i < 3; ++i) {
+    Index* link = &head_[t[i]];
     while (wedges_[*link].triangle != triangle) link = &wedges_[*link].next;
     *link = wedges_[*link].next;
+    unpaired_[t[i]] ^= mixed(t[(i + 1) % 3]) ^ mixed(t[(i + 2) % 3]);
   }
   triangles_[triangle] = {none, none, none};
 }

@@ -24,7 +24,11 @@ class SheetWedges {
   };
 
   SheetWedges(const Places& places, std::span<const TangentFrame> frames, const SheetRule& rule)
-      : places_(places), frames_(frames), rule_(rule), head_(places.at.size(), none) {}
+      : places_(places),
+        frames_(frames),
+        rule_(rule),
+        head_(places.at.size(), none),
+        unpaired_(head_.size(), 0) {}
 
   [[nodiscard]] std::span<const Triangle> triangles() const { return triangles_; }
   void reserve(std::size_t triangles);
@@ -33,7 +37,10 @@ class SheetWedges {
   [[nodiscard]] std::size_t place_count() const { return head_.size(); }
   [[nodiscard]] bool used(Index place) const { return head_[place] != none; }
   /// Places that came after the constructor.
-  void add_place() { head_.push_back(none); }
+  void add_place() {
+    head_.push_back(none);
+    unpaired_.push_back(0);
+  }
 
   /// Calls visit(wedge) for the triangles at a place.
   template <class Visit>
@@ -42,11 +49,7 @@ class SheetWedges {
   }
 
   /// Is a place on the boundary? (On an edge with one triangle.)
-  [[nodiscard]] bool open(Index place) const {
-    std::uint64_t unpaired = 0;  // neighbours that occur twice cancel
-    around(place, [&](const Wedge& w) { unpaired ^= mixed(w.a) ^ mixed(w.b); });
-    return unpaired != 0;
-  }
+  [[nodiscard]] bool open(Index place) const { return unpaired_[place] != 0; }
 
   /// The angles of its triangles together.
   [[nodiscard]] double angle_taken(Index place) const;
@@ -80,6 +83,7 @@ class SheetWedges {
   SheetRule rule_;
   std::vector<Triangle> triangles_;
   std::vector<Index> head_;
+  std::vector<std::uint64_t> unpaired_;  // of each place, neighbours: those that occur twice cancel
   std::vector<Wedge> wedges_;
 };
 

@@ -6,8 +6,6 @@
 
 #include <plexway/complex/blocks.hpp>
 
-#include "complex/crease.hpp"
-
 namespace plexway {
 namespace {
 
@@ -287,20 +285,6 @@ std::vector<TangentFrame> tangent_frames(const Places& places, std::span<const P
                                          const SheetRule& rule, int threads,
                                          const std::function<bool(double)>& progress) {
   return Frames(places, given, rule, threads).make(progress);
-}
-
-bool same_sheet(const Places& places, std::span<const TangentFrame> frames, const SheetRule& rule,
-                Index i, Index j) {
-  const TangentFrame &a = frames[i], &b = frames[j];
-  const double cosine = dot(a.normal, b.normal);
-  if ((rule.oriented ? cosine : std::abs(cosine)) < rule.least_cosine)
-    return crease_between(places, frames, rule, i, j).has_value();
-  if (may_crease(cosine) && crease_between(places, frames, rule, i, j)) return true;
-  const Point3 q = minus(places.at[j], places.at[i]);
-  const auto fits = [&](const TangentFrame& f) {
-    return std::abs(dot(f.normal, q)) <= rule.most_offset * static_cast<double>(f.spacing);
-  };
-  return fits(a) && fits(b);
 }
 
 }  // namespace plexway

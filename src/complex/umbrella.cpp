@@ -1,6 +1,7 @@
 #include "complex/umbrella.hpp"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 
 #include <plexway/complex/blocks.hpp>
@@ -27,6 +28,9 @@ class Umbrella {
   Umbrella(const Places& places, std::span<const TangentFrame> frames, const SheetRule& rule,
            double widest)
       : places_(places), frames_(frames), rule_(rule), widest_(widest) {}
+
+  /// Pairs of neighbours of which the first was asked for, and that are not on the same sheet.
+  [[nodiscard]] std::size_t refused() const { return refused_; }
 
   void build(Index place, std::vector<Index>& ring) {
     gather(place);
@@ -60,15 +64,26 @@ class Umbrella {
     return r > 0;
   }
 
+  // Is place j surely outside of the circle through a and what is (eu, ev) from its image? Without
+  // a division: most are.
+  bool is_outside(Index place, Index j, const Spoke& a, double eu, double ev, double e) const {
+    const Point3 q = unfolded(places_, frames_, rule_, place, j);
+    const double x = dot(ex_, q), y = dot(ey_, q), r = x * x + y * y;
+    const double size = r * (std::abs(a.u) + std::abs(a.v)) + std::abs(x) + std::abs(y);
+    return eu * (y - a.v * r) - ev * (x - a.u * r) > 1e-12 * e * size;
+  }
+
   void gather(Index place) {
     const auto& n = frames_[place].normal;
     const Point3 normal = {n[0], n[1], n[2]};
     ex_ = some_perpendicular(normal), ey_ = cross(normal, ex_);
     spokes_.clear();
     Spoke spoke;
-    for (const Index j : places_.near.around(place))
-      if (same_sheet(places_, frames_, rule_, place, j) && project(place, j, spoke))
-        spokes_.push_back(spoke);
+    for (const Index j : places_.near.around(place)) {
+      const bool same = same_sheet(places_, frames_, rule_, place, j);
+      refused_ += static_cast<std::size_t>(!same) & static_cast<std::size_t>(j > place);
+      if (same && project(place, j, spoke)) spokes_.push_back(spoke);
+    }
     // All neighbours within this are known; a list made symmetric is longer than it is complete.
     const std::size_t known = spokes_.size() * 2 / 3;
     known_ = spokes_.empty() ? 0 : length(spokes_[known].x, spokes_[known].y);
@@ -87,6 +102,7 @@ class Umbrella {
       for (const Index end : {a.place, b.place})
         for (const Index c : places_.near.around(end)) {
           Spoke spoke;
+          if (is_outside(place, c, a, eu, ev, e)) continue;
           if (c == place || c == a.place || c == b.place || !project(place, c, spoke)) continue;
           const double u = spoke.u - a.u, v = spoke.v - a.v;
           if (!(eu * v - ev * u < -1e-9 * e * length(u, v))) continue;
@@ -102,12 +118,15 @@ class Umbrella {
   // The hull of the images, counterclockwise from the nearest neighbour.
   void wrap(Index place) {
     hull_.clear();
+    us_.resize(spokes_.size()), vs_.resize(spokes_.size());
     std::size_t first = 0;
-    const auto size = [&](std::size_t i) {
-      return spokes_[i].u * spokes_[i].u + spokes_[i].v * spokes_[i].v;
-    };
-    for (std::size_t i = 1; i < spokes_.size(); ++i)
-      if (size(i) > size(first)) first = i;
+    largest_ = 0;
+    for (std::size_t i = 0; i < spokes_.size(); ++i) {
+      const double u = us_[i] = spokes_[i].u, v = vs_[i] = spokes_[i].v, size = u * u + v * v;
+      if (size > largest_) first = i, largest_ = size;
+    }
+    largest_ = std::sqrt(largest_);
+    was_clear_ = false;
     std::size_t at = first;
     do {
       hull_.push_back(at);
@@ -120,6 +139,46 @@ class Umbrella {
   }
 
   std::size_t next_on_hull(Index place, std::size_t at) {
+    const std::size_t next = clear_next(at);
+    was_clear_ = next != none;
+    return was_clear_ ? next : next_of_ties(place, at);
+  }
+
+  // Where one image has all others to its left, by far more than a tie: nothing else is to be
+  // asked. Else none. It rarely changes its mind, so that is a branch.
+  std::size_t clear_next(std::size_t at) const {
+    const std::size_t count = us_.size();
+    const double *const us = us_.data(), *const vs = vs_.data(), au = us[at], av = vs[at];
+    std::size_t best = at == 0 ? 1 : 0;
+    if (best >= count) return none;
+    double bu = us[best] - au, bv = vs[best] - av, least = clear_of(bu, bv);
+    for (std::size_t i = best + 1; i < count; ++i) {
+      const double u = us[i] - au, v = vs[i] - av, turn = bu * v - bv * u;
+      if (turn > least) [[likely]]
+        continue;
+      if (i == at) continue;
+      if (!(turn < -least)) return none;
+      best = i, bu = u, bv = v, least = clear_of(u, v);
+    }
+    // All are to the left of what was best when they were asked, and that of this one. So they are
+    // unless they are nearly behind; then so is the place before on the hull, if it was clear
+    // that all are to the left of the way from there.
+    if (!was_clear_) {
+      for (std::size_t i = 0; i < best; ++i)
+        if (i != at && !(bu * (vs[i] - av) - bv * (us[i] - au) > least)) return none;
+    } else {
+      const std::size_t before = hull_[hull_.size() - 2];
+      if (before != best && !(bu * (vs[before] - av) - bv * (us[before] - au) > least)) return none;
+    }
+    return best;
+  }
+  // More than a turn from (u, v) to any image that would be a tie: none is farther away than twice
+  // the largest is from the place.
+  [[nodiscard]] double clear_of(double u, double v) const {
+    return 2.2e-6 * largest_ * (std::abs(u) + std::abs(v));
+  }
+
+  std::size_t next_of_ties(Index place, std::size_t at) {
     const Spoke& a = spokes_[at];
     std::size_t best = spokes_.size();
     double bu = 0, bv = 0, bb = 0;
@@ -186,8 +245,11 @@ class Umbrella {
   SheetRule rule_;
   double widest_;
   Point3 ex_{}, ey_{};
-  double known_ = 0;
+  double known_ = 0, largest_ = 0;  // the latter of images
+  std::size_t refused_ = 0;
+  bool was_clear_ = false;  // what is next on the hull, at the place before
   std::vector<Spoke> spokes_;
+  std::vector<double> us_, vs_;  // of the spokes, side by side
   std::vector<std::size_t> hull_, ties_;
   std::vector<Index> keep_;
 };
@@ -201,6 +263,7 @@ Umbrellas local_umbrellas(const Places& places, std::span<const TangentFrame> fr
   Umbrellas umbrellas;
   umbrellas.begin.assign(n + 1, 0);
   std::vector<std::vector<Index>> found((n + block - 1) / block);
+  std::atomic<std::size_t> refused = 0;
   for_blocks(n, block, threads, progress, [&](std::size_t first, std::size_t last) {
     Umbrella umbrella(places, frames, rule, widest);
     std::vector<Index>& rings = found[first / block];
@@ -210,7 +273,9 @@ Umbrellas local_umbrellas(const Places& places, std::span<const TangentFrame> fr
       umbrella.build(static_cast<Index>(i), rings);
       umbrellas.begin[i + 1] = rings.size() - before;
     }
+    refused += umbrella.refused();
   });
+  umbrellas.refused = refused;
   for (std::size_t i = 0; i < n; ++i) umbrellas.begin[i + 1] += umbrellas.begin[i];
   umbrellas.ring.reserve(umbrellas.begin[n]);
   for (std::vector<Index>& rings : found) {
@@ -229,6 +294,15 @@ double circle_radius(const Point3& a, const Point3& b) {
 }
 
 double median(std::vector<double>& values) {
+  // Of a few by how many are less, which takes no branch for each two.
+  constexpr std::size_t few = 12;
+  const std::size_t half = values.size() / 2;
+  if (values.size() <= few)
+    for (const double x : values) {
+      std::size_t less = 0, most = 0;
+      for (const double y : values) less += y < x, most += y <= x;
+      if (less <= half && half < most) return x;
+    }
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
   std::nth_element(values.begin(), middle, values.end());
   return *middle;

@@ -33,15 +33,12 @@ struct SheetRule {
   bool oriented;        ///< normals tell inside from outside
 };
 
-/// Are two neighbours on the same sheet, by the tangent planes of both, or beside the same crease?
-bool same_sheet(const Places& places, std::span<const TangentFrame> frames, const SheetRule& rule,
-                Index i, Index j);
-
 /// Delaunay umbrellas: the neighbours that a place shares triangles with, in order around it.
 struct Umbrellas {
   static constexpr Index gap = Index{1} << 31;  ///< no triangle between this one and the next
   std::vector<std::size_t> begin;
   std::vector<Index> ring;
+  std::size_t refused = 0;  ///< pairs of neighbours that are not on the same sheet
 
   [[nodiscard]] std::span<const Index> around(Index place) const {
     return std::span<const Index>(ring).subspan(begin[place], begin[place + 1] - begin[place]);

@@ -45,14 +45,18 @@ void count_votes(const Umbrellas& umbrellas, const SheetWedges& sheet, Index p, 
   for (std::size_t i = 0; i < ring.size(); ++i) {
     if (ring[i] & Umbrellas::gap) continue;
     const Index a = ring[i], b = ring[i + 1 == ring.size() ? 0 : i + 1] & ~Umbrellas::gap;
-    const bool by_a = votes_for(umbrellas, a, p, b), by_b = votes_for(umbrellas, b, p, a);
-    if ((by_a && a < p) || (by_b && b < p)) continue;  // counted there
+    // The lower number first: what has a vote from there is counted there.
+    const Index low = std::min(a, b), high = std::max(a, b);
+    const bool by_low = votes_for(umbrellas, low, p, high);
+    if (by_low && low < p) continue;
+    const bool by_high = votes_for(umbrellas, high, p, low);
+    if (by_high && high < p) continue;
     Triangle t = {p, a, b};
     std::sort(t.begin(), t.end());
-    if (by_a && by_b)
+    if (by_low && by_high)
       votes.agreed.push_back(t);
     else
-      votes.others.push_back({by_a || by_b ? 1 : 2, sheet.circle(t), t});
+      votes.others.push_back({by_low || by_high ? 1 : 2, sheet.circle(t), t});
   }
 }
 
