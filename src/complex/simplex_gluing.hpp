@@ -69,6 +69,12 @@ class DisjointSets {
     j = find(j);
     if (i != j) parent_[std::max(i, j)] = std::min(i, j);
   }
+  /// With the set whose root is known, which may then be another one: that is returned.
+  Index join(Index root, Index j) {
+    j = find(j);
+    if (j == root) return root;
+    return parent_[std::max(root, j)] = std::min(root, j);
+  }
 
  private:
   std::vector<Index> parent_;

@@ -80,6 +80,7 @@ void TetEdgeFans::look_at(Index v) {
     std::sort(ends_.begin(), ends_.end());
     for (const Index w : ends_) look_at_edge(w);
   }
+  found_.edges += ends_.size();
   for (const Index w : ends_) degree_[w] = 0;
 }
 

@@ -39,6 +39,7 @@ class TetEdgeFans {
     std::vector<std::pair<Index, Index>> entries;   ///< tetrahedron, ReflexEntry of `reflex`
     std::vector<TetTopology::PinchedEdge> pinched;  ///< into `pinched_tets`
     std::vector<Index> pinched_tets;
+    std::size_t edges = 0;  ///< at the vertices that were looked at, to higher ones
   };
 
   explicit TetEdgeFans(const TetSolid& solid)

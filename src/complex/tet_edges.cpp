@@ -27,8 +27,8 @@ class Finder {
   TetTopology find() {
     mark_boundary();
     solid_.on_boundary = on_boundary_;
-    count_edges();
     look_around_edges();
+    if (solid_.places.embedded()) count_inner_edges();
     found_.reflex_edges = found_.reflex.size();
     if (solid_.places.embedded()) merge_straight();
     list_by_tet();
@@ -56,20 +56,23 @@ class Finder {
     return std::max(building_block, (vertices_ + parts - 1) / parts);
   }
 
-  void count_edges() {
+  // Those from vertices inside, around which nobody looks, to vertices with higher numbers.
+  void count_inner_edges() {
     std::atomic<std::size_t> edges = 0;
     for_blocks(vertices_, part(), threads_, {}, [&](std::size_t first, std::size_t last) {
       std::vector<Index> seen(vertices_, none);  // the last vertex that it shared an edge with
       std::size_t own = 0;
-      for (Index v = static_cast<Index>(first); v < last; ++v)
+      for (Index v = static_cast<Index>(first); v < last; ++v) {
+        if (on_boundary_[v]) continue;
         for (const Index c : solid_.corners_at(v))
           for (const Index w : solid_.corner[c / 4]) {
             own += static_cast<std::size_t>(w > v) & static_cast<std::size_t>(seen[w] != v);
             seen[w] = v;
           }
+      }
       edges += own;
     });
-    found_.edges = edges;
+    found_.edges += edges;
   }
 
   // In ascending order of their ends.
@@ -81,6 +84,7 @@ class Finder {
           TetEdgeFans(solid_).look(static_cast<Index>(first), static_cast<Index>(last));
     });
     for (const TetEdgeFans::Found& own : parts) {
+      found_.edges += own.edges;
       const Index edges = static_cast<Index>(found_.reflex.size()) << ReflexEntry::edge_shift,
                   tets = static_cast<Index>(found_.pinched_edge_tets.size());
       for (const auto& [tet, packed] : own.entries) entries_.emplace_back(tet, packed + edges);
@@ -209,15 +213,17 @@ class Finder {
                                                            building_block);
     over_blocks(tets, threads_, [&](std::size_t first, std::size_t last) {
       std::vector<std::array<Index, 2>> others;
-      for (Index t = static_cast<Index>(first); t < last; ++t)
+      for (Index t = static_cast<Index>(first); t < last; ++t) {
+        Index root = t;
         for (const Index o : solid_.across[t]) {
           const Index lower = o / 4;
           if (lower >= t) continue;  // told by the other; or none
           if (lower >= first)
-            sets.unite(t, lower);
+            root = sets.join(root, lower);
           else
             others.push_back({t, lower});
         }
+      }
       between[first / building_block] = std::move(others);
     });
     for (const auto& others : between)

@@ -175,32 +175,56 @@ TetGluing glue_tets(std::size_t vertices, Tets tets, int threads) {
   return across;
 }
 
-std::vector<char> orient_tets(Tets tets, const TetGluing& across,
-                              std::span<const signed char> volume, int threads) {
-  std::vector<char> turn(tets.size(), 0);
-  std::vector<char> known(tets.size(), 0);
-  std::vector<unsigned char> even(tets.size());  // turning over makes all faces the other
-  std::atomic<bool> settled = true;              // are all known, and do all fit?
-  over_blocks(tets.size(), threads, [&](std::size_t first, std::size_t last) {
-    bool all_known = true;
-    for (std::size_t t = first; t < last; ++t) {
-      turn[t] = volume[t] < 0;
-      known[t] = volume[t] != 0;
-      all_known = all_known && volume[t] != 0;
-      even[t] = static_cast<unsigned char>(even_faces(tets[t]));
-    }
-    if (!all_known) settled = false;
-  });
-  const auto fits = [&](std::size_t t, Index i, std::size_t u, Index j) {
-    return ((even[t] >> i ^ turn[t]) & 1) != ((even[u] >> j ^ turn[u]) & 1);
-  };
-  if (settled)
+namespace {
+
+/// On which side of its faces a tetrahedron lies: turning it over makes all faces the other.
+class FaceSides {
+ public:
+  FaceSides(Tets tets, std::span<const char> turn, int threads) : turn_(turn), even_(tets.size()) {
     over_blocks(tets.size(), threads, [&](std::size_t first, std::size_t last) {
       for (std::size_t t = first; t < last; ++t)
-        for (Index i = 0; i < 4; ++i)
-          if (const Index o = across[t][i]; o != none && !fits(t, i, o / 4, o % 4)) settled = false;
+        even_[t] = static_cast<unsigned char>(even_faces(tets[t]));
     });
-  if (settled) return turn;
+  }
+  /// Does t lie on the other side of its face i than u, of which it is face j?
+  [[nodiscard]] bool fit(std::size_t t, Index i, std::size_t u, Index j) const {
+    return ((even_[t] >> i ^ turn_[t]) & 1) != ((even_[u] >> j ^ turn_[u]) & 1);
+  }
+
+ private:
+  std::span<const char> turn_;
+  Unfilled<unsigned char> even_;
+};
+
+}  // namespace
+
+bool faces_fit(Tets tets, const TetGluing& across, std::span<const char> turn, int threads) {
+  const FaceSides sides(tets, turn, threads);
+  std::atomic<bool> fit = true;
+  over_blocks(tets.size(), threads, [&](std::size_t first, std::size_t last) {
+    bool own = true;
+    for (std::size_t t = first; t < last; ++t)
+      for (Index i = 0; i < 4; ++i)
+        if (const Index o = across[t][i]; o != none) own = own && sides.fit(t, i, o / 4, o % 4);
+    if (!own) fit = false;
+  });
+  return fit;
+}
+
+std::vector<char> orient_tets(Tets tets, const TetGluing& across,
+                              std::span<const signed char> volume, int threads) {
+  std::vector<char> turn(tets.size(), 0), known(tets.size(), 0);
+  for (std::size_t t = 0; t < tets.size(); ++t) {
+    turn[t] = volume[t] < 0;
+    known[t] = volume[t] != 0;
+  }
+  if (std::find(known.begin(), known.end(), 0) == known.end() &&
+      faces_fit(tets, across, turn, threads))
+    return turn;
+  const FaceSides sides(tets, turn, threads);
+  const auto fits = [&](std::size_t t, Index i, std::size_t u, Index j) {
+    return sides.fit(t, i, u, j);
+  };
   std::vector<Index> queue;
   const auto is_thin = [&](std::size_t t) { return volume[t] == 1 || volume[t] == -1; };
   for (std::size_t t = 0; t < tets.size(); ++t)

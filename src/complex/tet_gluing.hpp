@@ -20,6 +20,10 @@ void check_tets(std::size_t vertices, Tets tets, int threads);
 /// has more than two.
 TetGluing glue_tets(std::size_t vertices, Tets tets, int threads);
 
+/// Do the tetrahedra lie on two sides of each face they share, those in `turn` turned over?
+[[nodiscard]] bool faces_fit(Tets tets, const TetGluing& across, std::span<const char> turn,
+                             int threads);
+
 /// Which tetrahedra to turn over (their last two corners exchanged) so that all are positive.
 /// volume[t]: +2 or -2; +1 or -1 for so little that the rounding of a file may have folded it over;
 /// 0 for none. Those without take the side that their neighbours leave them, and so do thin ones

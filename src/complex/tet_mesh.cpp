@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <string>
+#include <utility>
 
 #include <plexway/error.hpp>
 
@@ -12,6 +13,7 @@
 #include "complex/simplex_order.hpp"
 #include "complex/tet_edges.hpp"
 #include "complex/tet_gluing.hpp"
+#include "complex/tet_layout.hpp"
 
 namespace plexway {
 namespace {
@@ -89,6 +91,26 @@ bool has_volume(const TetPoints& p) {
   return thickness(norm(p[1] - p[0]), norm(p[2] - p[0]), norm(p[3] - p[0]), determinant(p)) > flat;
 }
 
+// Along a curve. What is not in order as it is glued and turned by its volumes, is settled or
+// refused by the numbers that the caller knows.
+TetLayout lay_out(std::span<const std::array<double, 3>> scaled, Tets tets,
+                  std::span<const signed char> volume, int threads) {
+  std::vector<Index> order = along_curve<4>(scaled, tets, threads);
+  const auto laid_out = [&](std::span<const char> turn) {
+    return TetLayout(scaled.size(), tets, order, turn, threads);
+  };
+  if (std::find(volume.begin(), volume.end(), 0) == volume.end()) {
+    std::vector<char> inverted(tets.size());
+    for (std::size_t t = 0; t < tets.size(); ++t) inverted[t] = volume[t] < 0;
+    TetLayout layout = laid_out(inverted);
+    if (layout.glue(threads)) return layout;
+  }
+  const TetGluing across = glue_tets(scaled.size(), tets, threads);
+  TetLayout layout = laid_out(orient_tets(tets, across, volume, threads));
+  layout.take_gluing(across, threads);
+  return layout;
+}
+
 }  // namespace
 
 template <class Real>
@@ -101,7 +123,6 @@ TetMesh<Real>::TetMesh(std::span<const std::array<double, 3>> positions,
   // `reach` at most: so that few tetrahedra are checked.
   const double surely =
       4 * (NumberRange<Real>::least_of_extent + 8 * std::numeric_limits<double>::epsilon() * reach);
-  const auto across = glue_tets(positions.size(), tets, threads);
   std::vector<signed char> volume(tets.size());
   // Not as centred: what an extent leaves no digits for is not without length.
   const auto check_extent = [&](std::size_t t) {
@@ -131,13 +152,18 @@ TetMesh<Real>::TetMesh(std::span<const std::array<double, 3>> positions,
   const std::size_t most = building_block * (threads_for(threads) == 1 ? 1 : 32);
   Unfilled<std::array<double, 6>> lengths(std::min(most, tets.size()));
   double sum = 0;
-  for (std::size_t begin = 0; begin < tets.size(); begin += most) {
-    const std::size_t count = std::min(most, tets.size() - begin);
-    over_blocks(count, threads, [&](std::size_t first, std::size_t last) {
-      for (std::size_t k = first; k < last; ++k) measure(begin + k, lengths[k]);
-    });
-    for (std::size_t k = 0; k < count; ++k)
-      for (const double length : lengths[k]) sum += length;
+  try {
+    for (std::size_t begin = 0; begin < tets.size(); begin += most) {
+      const std::size_t count = std::min(most, tets.size() - begin);
+      over_blocks(count, threads, [&](std::size_t first, std::size_t last) {
+        for (std::size_t k = first; k < last; ++k) measure(begin + k, lengths[k]);
+      });
+      for (std::size_t k = 0; k < count; ++k)
+        for (const double length : lengths[k]) sum += length;
+    }
+  } catch (const InputError&) {  // what cannot be glued is told first
+    (void)glue_tets(positions.size(), tets, threads);
+    throw;
   }
   Unfilled<std::array<double, 6>>().swap(lengths);
   for (std::size_t t = 0; t < tets.size(); ++t) {
@@ -146,7 +172,6 @@ TetMesh<Real>::TetMesh(std::span<const std::array<double, 3>> positions,
     if (volume[t] < 0 && summary_.inverted_tets++ == 0)
       summary_.first_inverted = static_cast<Index>(t);
   }
-  const auto turn = orient_tets(tets, across, volume, threads);
   const double mean = sum > 0 ? sum / (6 * static_cast<double>(tets.size())) : 1;
   over_blocks(scaled.size(), threads, [&](std::size_t first, std::size_t last) {
     for (std::size_t v = first; v < last; ++v)
@@ -154,8 +179,7 @@ TetMesh<Real>::TetMesh(std::span<const std::array<double, 3>> positions,
   });
   summary_.embedded = true;
   summary_.mean_edge = mean * extent;
-  assemble(positions.size(), tets, scaled, {}, across, along_curve<4>(scaled, tets, threads), turn,
-           threads);
+  assemble(lay_out(scaled, tets, volume, threads), scaled, {}, threads);
 }
 
 template <class Real>
@@ -186,55 +210,25 @@ TetMesh<Real>::TetMesh(std::size_t vertices, std::span<const std::array<Index, 4
   const std::vector<signed char> unknown(tets.size(), 0);
   const auto turn = orient_tets(tets, across, unknown, threads);
   summary_.mean_edge = unit;
-  assemble(vertices, tets, {}, scaled, across, breadth_first<4>(across), turn, threads);
+  TetLayout layout(vertices, tets, breadth_first<4>(across), turn, threads);
+  layout.take_gluing(across, threads);
+  assemble(std::move(layout), {}, scaled, threads);
 }
 
 template <class Real>
-void TetMesh<Real>::assemble(std::size_t vertices, std::span<const std::array<Index, 4>> tets,
-                             std::span<const std::array<double, 3>> scaled,
-                             std::span<const std::array<double, 6>> lengths,
-                             std::span<const std::array<Index, 4>> across,
-                             const std::vector<Index>& order, const std::vector<char>& turn,
-                             int threads) {
-  const std::size_t m = tets.size();
+void TetMesh<Real>::assemble(TetLayout&& layout, std::span<const std::array<double, 3>> scaled,
+                             std::span<const std::array<double, 6>> lengths, int threads) {
+  const std::size_t m = layout.tet.size(), vertices = layout.vertex_to_inside.size();
   summary_.vertices = vertices;
   summary_.tets = m;
-  std::vector<Index>& tet_to_inside = tet_to_inside_.own();
-  tet_to_inside.resize(m);
-  over_blocks(m, threads, [&](std::size_t first, std::size_t last) {
-    for (std::size_t i = first; i < last; ++i)
-      tet_to_inside[order[i]] = static_cast<Index>(i) | (turn[order[i]] ? turned : 0);
-  });
-  std::vector<Index>& vertex_to_inside = vertex_to_inside_.own();
-  vertex_to_inside.assign(vertices, none);
-  Index named = 0;
-  std::vector<Index> first_use;
-  for (std::size_t i = 0; i < m; ++i) {
-    if (i % building_block == 0) first_use.push_back(named);
-    for (const Index v : tets[order[i]])
-      if (vertex_to_inside[v] == none) vertex_to_inside[v] = named++;
-  }
-  summary_.unreferenced_vertices = vertices - named;
-  for (Index& v : vertex_to_inside)
-    if (v == none) v = named++;
-
-  // A turned tetrahedron has its last two corners, and so faces, exchanged.
-  const auto corner_inside = [&](Index t, Index i) { return turn[t] && i >= 2 ? 5 - i : i; };
-  Unfilled<std::array<Index, 4>> corner(m), over(m);
+  summary_.unreferenced_vertices = vertices - layout.named;
+  const auto& corner = layout.corner;
+  const TetGluing& over = layout.across;
   gather_blocks<std::size_t>(
       m, threads,
       [&](std::size_t first, std::size_t last, std::size_t& on_boundary) {
-        for (std::size_t inside = first; inside < last; ++inside) {
-          const Index t = order[inside];
-          for (Index i = 0; i < 4; ++i) {
-            const Index k = corner_inside(t, i), o = across[t][i];
-            corner[inside][k] = vertex_to_inside[tets[t][i]];
-            over[inside][k] =
-                o == none ? none
-                          : 4 * (tet_to_inside[o / 4] & ~turned) + corner_inside(o / 4, o % 4);
-            on_boundary += o == none;
-          }
-        }
+        for (std::size_t t = first; t < last; ++t)
+          for (const Index o : over[t]) on_boundary += o == none;
       },
       [&](std::size_t on_boundary) { summary_.boundary_faces += on_boundary; });
   summary_.faces = (4 * m + summary_.boundary_faces) / 2;
@@ -243,16 +237,16 @@ void TetMesh<Real>::assemble(std::size_t vertices, std::span<const std::array<In
   std::vector<TetPoints> points;
   if (summary_.embedded) {
     at.resize(vertices);
-    for (std::size_t v = 0; v < vertices; ++v) at[vertex_to_inside_[v]] = vector(scaled[v]);
+    for (std::size_t v = 0; v < vertices; ++v) at[layout.vertex_to_inside[v]] = vector(scaled[v]);
   } else {
     points.resize(m);
     for (std::size_t inside = 0; inside < m; ++inside) {
-      const Index t = order[inside];
+      const Index t = layout.tet[inside];
       const TetPoints posed = pose(lengths[t]);
-      for (Index i = 0; i < 4; ++i) points[inside][corner_inside(t, i)] = posed[i];
+      for (Index i = 0; i < 4; ++i) points[inside][layout.corner_inside(t, i)] = posed[i];
     }
   }
-  TetCorners rows = corners_of_vertices(vertices, corner, first_use, threads);
+  TetCorners rows = corners_of_vertices(vertices, corner, layout.first_use, threads);
   TetTopology topology = find_tet_topology(corner, over, rows, {at, points}, threads);
   corners_begin_ = std::move(rows.begin);
   corners_ = std::move(rows.corner);
@@ -288,6 +282,9 @@ void TetMesh<Real>::assemble(std::size_t vertices, std::span<const std::array<In
   });
   records[m] = {{sentinel, sentinel, sentinel, sentinel}, {0, 0, 0, 0}, {0, 0, 0}, none};
 
+  tet_to_inside_ = std::move(layout.tet_to_inside);
+  vertex_to_inside_ = std::move(layout.vertex_to_inside);
+
   if (summary_.embedded) {
     points_.own().reserve(vertices);
     for (const Vector3<double>& p : at) points_.own().push_back(rounded(p));
@@ -309,7 +306,7 @@ void TetMesh<Real>::assemble(std::size_t vertices, std::span<const std::array<In
       // Through the pose, so that they are those of a tetrahedron.
       if (!has_volume(points[t])) {
         ++summary_.degenerate_tets;
-        summary_.first_degenerate = std::min(summary_.first_degenerate, order[t]);
+        summary_.first_degenerate = std::min(summary_.first_degenerate, layout.tet[t]);
       }
       for (std::size_t e = 0; e < 6; ++e) {
         const auto d = points[t][tet_edge_ends[e][1]] - points[t][tet_edge_ends[e][0]];

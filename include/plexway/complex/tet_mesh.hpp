@@ -17,6 +17,8 @@
 
 namespace plexway {
 
+struct TetLayout;
+
 /// What a solid is made of, counted while it is built.
 struct SolidSummary {
   /// Referenced or not: as many as were given.
@@ -151,11 +153,8 @@ class TetMesh {
   friend struct KeptParts;
   TetMesh() = default;
 
-  void assemble(std::size_t vertices, std::span<const std::array<Index, 4>> tets,
-                std::span<const std::array<double, 3>> scaled,
-                std::span<const std::array<double, 6>> lengths,
-                std::span<const std::array<Index, 4>> across, const std::vector<Index>& order,
-                const std::vector<char>& turn, int threads);
+  void assemble(TetLayout&& layout, std::span<const std::array<double, 3>> scaled,
+                std::span<const std::array<double, 6>> lengths, int threads);
 
   SolidSummary summary_;
   Identity identity_;
