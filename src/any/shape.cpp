@@ -307,7 +307,7 @@ int AnyShape::dimension() const {
 std::string_view AnyShape::simplex_name() const {
   constexpr std::array<std::string_view, 6> names = {"triangles", "tetrahedra", "edges",
                                                      "simplices", "triangles",  "simplices"};
-  return names[data().index()];
+  return names[static_cast<std::size_t>(kind())];
 }
 
 std::size_t AnyShape::simplices() const {

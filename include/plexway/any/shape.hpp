@@ -133,7 +133,9 @@ class AnyShape {
   /// The name of its kind: see plexway::kind_name.
   [[nodiscard]] std::string_view kind_name() const { return plexway::kind_name(kind()); }
   /// The cloud if it is one, else null.
-  [[nodiscard]] const CloudShape* cloud() const { return std::get_if<CloudShape>(&data()); }
+  [[nodiscard]] const CloudShape* cloud() const {
+    return kind() == DomainKind::cloud ? std::get_if<CloudShape>(&data()) : nullptr;
+  }
   /// Of its simplices; of a mixed domain the greatest.
   [[nodiscard]] int dimension() const;
   /// What its simplices are called, in the plural.
