@@ -12,6 +12,7 @@
 #include "propagate/lit_tets.hpp"
 #include "propagate/solid_clear_space.hpp"
 #include "propagate/solid_label.hpp"
+#include "propagate/solid_obstacles.hpp"
 #include "propagate/solid_paths.hpp"
 #include "propagate/solid_sight.hpp"
 
@@ -90,6 +91,11 @@ class SolidRule : public SolidPaths<Real> {
   }
   /// Where lines need not be walked; referred to.
   void skip(const SolidClearSpace<Real>& clear) { clear_ = clear.empty() ? nullptr : &clear; }
+
+  /// What lines can run into; referred to.
+  void mind(const SolidObstacles<Real>& obstacles) {
+    obstacles_ = obstacles.empty() ? nullptr : &obstacles;
+  }
 
   /// Where to keep what is seen whole; referred to. By one thread.
   void keep_lit(LitTets<Real>& lit) { lit_ = &lit; }
@@ -358,6 +364,7 @@ class SolidRule : public SolidPaths<Real> {
         sentinel_(rule.sentinel_),
         any_reflex_(rule.any_reflex_),
         clear_(rule.clear_),
+        obstacles_(rule.obstacles_),
         front_(&front) {}
 
   /// A corner whose string is hidden, its length, and where it leaves the solid.
@@ -450,6 +457,10 @@ class SolidRule : public SolidPaths<Real> {
   [[gnu::always_inline]] bool is_lit(Index t, const Point& p) const {
     return lit_ != nullptr && lit_->by(t, p);
   }
+  [[gnu::always_inline]] bool is_clear(Index edge, const Point& at, const Point& other) const {
+    return obstacles_ != nullptr && edge < own_edges_ &&
+           obstacles_->clear(edge, reflex_[edge], at, other);
+  }
   [[gnu::always_inline]] Index first_reflex(Index t) const { return tets_[t].reflex; }
   [[gnu::always_inline]] Index reflex_entry(Index e) const { return list_[e]; }
   static Index entry_edge(Index entry) { return entry >> ReflexEntry::edge_shift; }
@@ -474,6 +485,7 @@ class SolidRule : public SolidPaths<Real> {
   Index sentinel_;
   bool any_reflex_;
   const SolidClearSpace<Real>* clear_ = nullptr;
+  const SolidObstacles<Real>* obstacles_ = nullptr;
   LitTets<Real>* lit_ = nullptr;
   Front* front_;
 };

@@ -6,6 +6,7 @@
 //   go(t, from, to)                  `walk`, perhaps by a shorter way to the same tetrahedron
 //   reached(t), label_of(t)          what is known
 //   same_way(label, label)           do they have the same S and bends?
+//   is_clear(edge, p, q)             is a line from p, on a reflex edge, to q known to be free?
 
 HINGE_CONST Real face_tolerance = Real(0.1);
 
@@ -54,14 +55,32 @@ HINGE_METHOD Point beside(HINGE_IN(Edge) e, HINGE_IN(Point) bend) HINGE_READS {
   return e.end[0] + clamp(along, off, e.extent - off) * e.direction + off * e.solid;
 }
 
-/// Walks the string back from its end, seen as `end` in tetrahedron u, to the source.
+/// So many of the legs of a string, counted from S, are known to be free: on the way back from its
+/// end none of them needs a walk.
+int clear_legs(HINGE_IN(Taut) s, HINGE_IN(Label) label) HINGE_READS {
+  int clear = 0;
+  if (s.bends == 0 || label.door != none) return 0;
+  for (int n = 0; n <= HINGE_ROLLED(s.bends); ++n) {
+    // Seen from the one end or the other.
+    bool known = n > 0 && is_clear(s.edge[max(n, 1) - 1], s.at[n], s.at[n + 1]);
+    if (!known && n < s.bends) known = is_clear(s.edge[n], s.at[n + 1], s.at[n]);
+    if (!known) break;
+    clear = n + 1;
+  }
+  return clear;
+}
+
+/// Walks the string back from its end, seen as `end` in tetrahedron u, to the source, as far as that
+/// is not known.
 bool is_free(HINGE_IN(Taut) s, HINGE_IN(Label) label, Index u, HINGE_IN(Point) end,
              HINGE_INOUT(Hit) hit) HINGE_READS {
   Point from = end;
   hit.tet = u;
   hit.leg = s.bends;
+  int clear = clear_legs(s, label);
   for (int n = 0; n <= HINGE_ROLLED(s.bends); ++n) {
     hit.leg = s.bends - n;
+    if (hit.leg < clear) break;
     Point to = s.at[hit.leg];
     bool last = hit.leg == 0;
     if (hit.leg > 0) {
