@@ -149,7 +149,8 @@ bool go(HINGE_INOUT(Index) t, HINGE_IN(Point) from, HINGE_IN(Point) to) {
   return walk(t, from, to);
 }
 
-bool is_clear(uint edge, HINGE_IN(Point) at, HINGE_IN(Point) other) { return false; }
+bool is_clear(HINGE_IN(Point) p, HINGE_IN(Point) q) { return false; }
+bool is_clear(uint edge, HINGE_IN(Point) p, HINGE_IN(Point) q) { return false; }
 
 //@include propagate/solid_step.inl
 

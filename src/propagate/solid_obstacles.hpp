@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <numeric>
@@ -15,13 +16,14 @@
 namespace plexway {
 
 /// What lines in a solid can run into: the faces of its boundary that have some of the solid behind
-/// them, in parts that hang together. Where a plane has all of a part on one side, no line between
-/// two points on its other side meets that part. So for a reflex edge with such planes, those of its
-/// two faces, it is known without a walk that its own part is not in the way of a line from it.
+/// them, in parts that hang together. Where a plane has all of a part behind it, no line between
+/// two points in front of it meets that part. Planes are those of the faces at reflex edges: so for
+/// a line from such an edge it is clear which ones to ask, and for others one that faces the line
+/// is.
 ///
 /// Empty where no reflex edge has such a plane: for lengths alone, in convex solids, and where the
-/// boundary is one part with dents and bumps. Cost: n log n in vertices of the boundary, about 30 ns
-/// a tetrahedron; memory: of parts and reflex edges.
+/// boundary is one part with dents and bumps. Cost: n log n in vertices of the boundary, about 30
+/// ns a tetrahedron; memory: of parts and reflex edges.
 template <class Real>
 class SolidObstacles {
  public:
@@ -33,16 +35,18 @@ class SolidObstacles {
   /// Of another solid, in the memory that there is.
   void measure(const TetMesh<Real>& mesh);
 
-  /// Does the line between a point of reflex edge `number`, which is `edge`, and another point of
-  /// the solid, or of the boundary, surely meet no face of the boundary? False: it may.
-  [[nodiscard]] bool clear(Index number, const ReflexEdge<Real>& edge, const Point& at,
-                           const Point& other) const {
+  /// Does the line between two points of the solid, or of its boundary, surely meet no face of the
+  /// boundary? False: it may.
+  [[nodiscard]] bool clear(const Point& p, const Point& q) const { return passes(none, p, q); }
+  /// The same where p is a point of reflex edge `number`, which is `edge`.
+  [[nodiscard]] bool clear(Index number, const ReflexEdge<Real>& edge, const Point& p,
+                           const Point& q) const {
     const Index sides = sides_[number];
     if ((sides & both) == 0) return false;
-    const Point off = other - edge.end[0];
+    const Point off = q - edge.end[0];
     const bool before = ((sides & 1) != 0 && dot(edge.normal[0], off) >= -on_plane) ||
                         ((sides & 2) != 0 && dot(edge.normal[1], off) >= -on_plane);
-    return before && (boxes_.size() == 1 || passes_others(sides >> part_shift, at, other));
+    return before && (parts_.size() == 1 || passes(sides >> part_shift, p, q));
   }
 
  private:
@@ -53,6 +57,19 @@ class SolidObstacles {
   /// plane lies in it.
   static constexpr Real on_plane = Real(1e-5);
 
+  struct Plane {
+    Point normal;
+    Real height;  // dot(normal, p) of its points
+  };
+  struct Part {
+    Box<3> box;
+    Point middle, per_size;  // of its box: 1 / half of each side
+    Index begin, end;        // of its planes
+    Index cells;             // of its cube in facing_, or none
+  };
+  static constexpr Index few = 12;  // planes that are all asked
+  static constexpr int along = 12;  // cells along a side of a cube
+
   static std::array<double, 3> place(const Point& p) {
     return {static_cast<double>(p.x), static_cast<double>(p.y), static_cast<double>(p.z)};
   }
@@ -60,7 +77,13 @@ class SolidObstacles {
   static Tree tree_of(std::span<const Point> points, std::span<const Index> at);
   static bool behind(const Tree& tree, std::span<const Point> points, std::span<const Index> at,
                      const Point& normal, const Point& on);
-  [[nodiscard]] bool passes_others(Index own, const Point& p, const Point& q) const;
+  /// Does the line miss all parts but one?
+  [[nodiscard]] bool passes(Index but, const Point& p, const Point& q) const;
+  /// Is there a plane, of those looked at, that a part is behind and both points are in front of?
+  [[nodiscard]] bool parted(Index part, const Point& p, const Point& q) const;
+  void add_part(const Box<3>& box, std::vector<Plane>& planes);
+  static Point way_of(int cell);
+  static int cell_of(const Point& way);
 
   Index part_of(Index vertex) {
     while (parent_[vertex] != vertex) vertex = parent_[vertex] = parent_[parent_[vertex]];
@@ -68,15 +91,16 @@ class SolidObstacles {
   }
 
   std::uint64_t identity_ = 0;
-  std::vector<Index> sides_;    // by reflex edge
-  std::vector<Box<3>> boxes_;   // by part
-  Tree tree_;                   // of them
-  std::vector<Index> parent_;   // of vertices: while it is made
+  std::vector<Index> sides_;  // by reflex edge
+  std::vector<Part> parts_;
+  std::vector<Plane> planes_;  // by part
+  std::vector<Index> facing_;  // planes by directions: parts with many have a cube of cells
+  Tree tree_;                  // of boxes around parts
+  std::vector<Index> parent_;  // of vertices: while it is made
 };
 
 template <class Real>
-BoxTree<3> SolidObstacles<Real>::tree_of(std::span<const Point> points,
-                                         std::span<const Index> at) {
+BoxTree<3> SolidObstacles<Real>::tree_of(std::span<const Point> points, std::span<const Index> at) {
   std::vector<Box<3>> boxes;
   boxes.reserve(at.size());
   for (const Index v : at) boxes.push_back({place(points[v]), place(points[v])});
@@ -86,8 +110,7 @@ BoxTree<3> SolidObstacles<Real>::tree_of(std::span<const Point> points,
 // Is none of the points in front of a plane?
 template <class Real>
 bool SolidObstacles<Real>::behind(const Tree& tree, std::span<const Point> points,
-                                  std::span<const Index> at, const Point& normal,
-                                  const Point& on) {
+                                  std::span<const Index> at, const Point& normal, const Point& on) {
   const auto n = place(normal);
   const double most = static_cast<double>(dot(normal, on) + on_plane);
   bool all = true;
@@ -107,7 +130,9 @@ void SolidObstacles<Real>::measure(const TetMesh<Real>& mesh) {
   constexpr Index corners[4][3] = {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}};  // from outside
   identity_ = mesh.identity();
   sides_.clear();
-  boxes_.clear();
+  parts_.clear();
+  planes_.clear();
+  facing_.clear();
   if (!mesh.embedded() || mesh.reflex_edges().empty()) return;
   const std::span<const Point> points = mesh.points();
   const std::span<const TetRecord<Real>> tets = mesh.tets();
@@ -145,6 +170,7 @@ void SolidObstacles<Real>::measure(const TetMesh<Real>& mesh) {
 
   std::vector<Tree> trees;
   std::vector<std::span<const Index>> of_part;
+  std::vector<Box<3>> boxes;
   for (std::size_t begin = 0, end = 0; begin < met.size(); begin = end) {
     const Index root = parent_[met[begin]];
     Box<3> box = Box<3>::empty();
@@ -152,31 +178,113 @@ void SolidObstacles<Real>::measure(const TetMesh<Real>& mesh) {
     of_part.push_back(std::span<const Index>(met).subspan(begin, end - begin));
     trees.push_back(tree_of(points, of_part.back()));
     box.widen(10 * static_cast<double>(on_plane));
-    boxes_.push_back(box);
+    boxes.push_back(box);
   }
   std::vector<Index> number(points.size(), none);
   for (Index part = 0; part < of_part.size(); ++part)
     for (const Index v : of_part[part]) number[v] = part;
 
-  bool any = false;
+  std::vector<std::vector<Plane>> planes(of_part.size());
   for (const ReflexEdge<Real>& edge : mesh.reflex_edges()) {
     const Index part = number[edge.vertex[0]];
     Index sides = part << part_shift;
     // Through a crack's end a plane has the crack in it, and both of its sides.
     if (part != none && part == number[edge.vertex[1]] && !is_crack(edge))
       for (std::size_t k = 0; k < 2; ++k)
-        if (behind(trees[part], points, of_part[part], edge.normal[k], edge.end[0]))
+        if (behind(trees[part], points, of_part[part], edge.normal[k], edge.end[0])) {
           sides |= Index{1} << k;
-    any |= (sides & both) != 0;
+          planes[part].push_back({edge.normal[k], dot(edge.normal[k], edge.end[0])});
+        }
     sides_.push_back(sides);
   }
-  if (!any) sides_.clear();
-  tree_ = Tree(boxes_);
+  for (Index part = 0; part < of_part.size(); ++part) add_part(boxes[part], planes[part]);
+  if (planes_.empty()) sides_.clear();
+  tree_ = Tree(boxes);
   std::vector<Index>().swap(parent_);
 }
 
 template <class Real>
-bool SolidObstacles<Real>::passes_others(Index own, const Point& p, const Point& q) const {
+void SolidObstacles<Real>::add_part(const Box<3>& box, std::vector<Plane>& planes) {
+  // Each once, but for rounding.
+  const auto key = [](const Plane& p) {
+    const auto near = [](Real x) { return std::round(x / on_plane); };
+    return std::array<Real, 4>{near(p.height), near(p.normal.x), near(p.normal.y),
+                               near(p.normal.z)};
+  };
+  std::sort(planes.begin(), planes.end(),
+            [&](const Plane& a, const Plane& b) { return key(a) < key(b); });
+  planes.erase(std::unique(planes.begin(), planes.end(),
+                           [&](const Plane& a, const Plane& b) { return key(a) == key(b); }),
+               planes.end());
+  Part part = {box, {}, {}, static_cast<Index>(planes_.size()), 0, none};
+  planes_.insert(planes_.end(), planes.begin(), planes.end());
+  part.end = static_cast<Index>(planes_.size());
+  const auto middle = [&](std::size_t d) {
+    return static_cast<Real>((box.low[d] + box.high[d]) / 2);
+  };
+  const auto per_size = [&](std::size_t d) {
+    return static_cast<Real>(2 / (box.high[d] - box.low[d]));
+  };
+  part.middle = {middle(0), middle(1), middle(2)};
+  part.per_size = {per_size(0), per_size(1), per_size(2)};
+  if (part.end - part.begin > few) {
+    part.cells = static_cast<Index>(facing_.size());
+    for (int cell = 0; cell < 6 * along * along; ++cell) {
+      const Point way = way_of(cell);
+      Index best = part.begin;
+      for (Index i = part.begin; i < part.end; ++i)
+        if (dot(planes_[i].normal, way) > dot(planes_[best].normal, way)) best = i;
+      facing_.push_back(best);
+    }
+  }
+  parts_.push_back(part);
+}
+
+// Cells of a cube around the origin: six faces, each a square of them.
+template <class Real>
+Vector3<Real> SolidObstacles<Real>::way_of(int cell) {
+  const auto middle = [](int i) { return (2 * static_cast<Real>(i) + 1) / along - 1; };
+  const int face = cell / (along * along);
+  const Real x = face % 2 == 0 ? Real(1) : Real(-1), y = middle(cell % along),
+             z = middle(cell / along % along);
+  const Point way = face < 2 ? Point{x, y, z} : face < 4 ? Point{z, x, y} : Point{y, z, x};
+  return Real(1) / norm(way) * way;
+}
+template <class Real>
+int SolidObstacles<Real>::cell_of(const Point& way) {
+  const Real size[3] = {std::abs(way.x), std::abs(way.y), std::abs(way.z)};
+  const int axis = size[0] >= size[1] && size[0] >= size[2] ? 0 : size[1] >= size[2] ? 1 : 2;
+  const Real to[5] = {way.x, way.y, way.z, way.x, way.y};
+  const auto place_of = [&](Real x) {
+    return std::min(static_cast<int>((x / size[axis] + 1) / 2 * along), along - 1);
+  };
+  const int face = 2 * axis + (to[axis] < 0);
+  return (face * along + place_of(to[axis + 2])) * along + place_of(to[axis + 1]);
+}
+
+template <class Real>
+bool SolidObstacles<Real>::parted(Index number, const Point& p, const Point& q) const {
+  const Part& part = parts_[number];
+  const auto before = [&](const Plane& plane) {
+    const Real least = plane.height - on_plane;
+    return dot(plane.normal, p) >= least && dot(plane.normal, q) >= least;
+  };
+  if (part.cells == none)
+    return std::any_of(planes_.begin() + part.begin, planes_.begin() + part.end, before);
+  // The plane that faces the line where that is nearest to the middle, the box being a cube.
+  const auto scaled = [&](const Point& x) {
+    return Point{x.x * part.per_size.x, x.y * part.per_size.y, x.z * part.per_size.z};
+  };
+  const Point from = scaled(p - part.middle), on = scaled(q - p);
+  const Real along2 = dot(on, on);
+  const Real share = along2 > 0 ? std::clamp(-dot(from, on) / along2, Real(0), Real(1)) : Real(0);
+  const Point way = scaled(from + share * on);
+  if (!(dot(way, way) > 0)) return false;
+  return before(planes_[facing_[part.cells + static_cast<Index>(cell_of(way))]]);
+}
+
+template <class Real>
+bool SolidObstacles<Real>::passes(Index but, const Point& p, const Point& q) const {
   const auto from = place(p), to = place(q);
   const auto meets = [&](const Box<3>& box) {
     double begin = 0, end = 1;
@@ -192,10 +300,12 @@ bool SolidObstacles<Real>::passes_others(Index own, const Point& p, const Point&
     }
     return begin <= end;
   };
-  bool any = false;
-  tree_.search([&](const Box<3>& box) { return !any && meets(box); },
-               [&](Index part) { any |= part != own && meets(boxes_[part]); });
-  return !any;
+  bool missed = true;
+  tree_.search([&](const Box<3>& box) { return missed && meets(box); },
+               [&](Index part) {
+                 missed = missed && (part == but || !meets(parts_[part].box) || parted(part, p, q));
+               });
+  return missed;
 }
 
 }  // namespace plexway

@@ -223,8 +223,14 @@ class SolidRule : public SolidPaths<Real> {
       return a.distance < b.distance || (a.distance == b.distance && a.corner < b.corner);
     });
 
+    const Real worth = count == 0 ? 0 : on_boundary(around) ? Real(1e-4) : Real(1e-3);
     for (std::size_t n = 0; n < count && hidden[n].distance < best; ++n) {
       const Index t = hidden[n].corner / 4;
+      // From the same S as the best one, which is in sight: what hides it, the best one has gone
+      // around. Where it is much shorter, the best one is poor.
+      if (by != none && hidden[n].distance > best * (1 - worth) &&
+          same_source(front_->label(t), front_->label(by)))
+        continue;
       take(t, corner_reach(front_->label(t), t, hidden[n].corner % 4, best, hidden[n].own));
     }
     if (by != none) offer(by, best);
@@ -375,6 +381,14 @@ class SolidRule : public SolidPaths<Real> {
   };
   static constexpr std::size_t most_hidden = 32;
 
+  /// Is the vertex that is corner c % 4 of c / 4 for each c of `around` one of the boundary?
+  [[nodiscard]] bool on_boundary(std::span<const Index> around) const {
+    return std::any_of(around.begin(), around.end(), [&](Index c) {
+      for (Index i = 0; i < 4; ++i)
+        if (i != c % 4 && neighbour(c / 4, i) == sentinel_) return true;
+      return false;
+    });
+  }
   /// The last bend on the way from the source of t over `middle` to q, which is walked from `end`
   /// in u.
   [[nodiscard]] Sight sight(Index t, const Point& middle, Index u, const Point& end,
@@ -460,6 +474,9 @@ class SolidRule : public SolidPaths<Real> {
   [[gnu::always_inline]] bool is_clear(Index edge, const Point& at, const Point& other) const {
     return obstacles_ != nullptr && edge < own_edges_ &&
            obstacles_->clear(edge, reflex_[edge], at, other);
+  }
+  [[gnu::always_inline]] bool is_clear(const Point& p, const Point& q) const {
+    return obstacles_ != nullptr && obstacles_->clear(p, q);
   }
   [[gnu::always_inline]] Index first_reflex(Index t) const { return tets_[t].reflex; }
   [[gnu::always_inline]] Index reflex_entry(Index e) const { return list_[e]; }

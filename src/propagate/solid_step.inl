@@ -6,7 +6,8 @@
 //   go(t, from, to)                  `walk`, perhaps by a shorter way to the same tetrahedron
 //   reached(t), label_of(t)          what is known
 //   same_way(label, label)           do they have the same S and bends?
-//   is_clear(edge, p, q)             is a line from p, on a reflex edge, to q known to be free?
+//   is_clear(p, q)                   is the line from p to q known to be free?
+//   is_clear(edge, p, q)             the same where p is a point of that reflex edge
 
 HINGE_CONST Real face_tolerance = Real(0.1);
 
@@ -59,7 +60,8 @@ HINGE_METHOD Point beside(HINGE_IN(Edge) e, HINGE_IN(Point) bend) HINGE_READS {
 /// end none of them needs a walk.
 int clear_legs(HINGE_IN(Taut) s, HINGE_IN(Label) label) HINGE_READS {
   int clear = 0;
-  if (s.bends == 0 || label.door != none) return 0;
+  if (label.door != none) return 0;
+  if (s.bends == 0) return is_clear(s.at[0], s.at[1]) ? 1 : 0;
   for (int n = 0; n <= HINGE_ROLLED(s.bends); ++n) {
     // Seen from the one end or the other.
     bool known = n > 0 && is_clear(s.edge[max(n, 1) - 1], s.at[n], s.at[n + 1]);
