@@ -149,6 +149,7 @@ bool go(HINGE_INOUT(Index) t, HINGE_IN(Point) from, HINGE_IN(Point) to) {
   return walk(t, from, to);
 }
 
+bool stand_beside(uint edge, HINGE_IN(Point) p, HINGE_INOUT(Index) t) { return false; }
 bool is_clear(HINGE_IN(Point) p, HINGE_IN(Point) q) { return false; }
 bool is_clear(uint edge, HINGE_IN(Point) p, HINGE_IN(Point) q) { return false; }
 

@@ -49,6 +49,13 @@ class SolidObstacles {
     return before && (parts_.size() == 1 || passes(sides >> part_shift, p, q));
   }
 
+  /// A tetrahedron at a reflex edge of the solid's own, near the point so far along it.
+  [[nodiscard]] Index beside(Index number, const ReflexEdge<Real>& edge, Real along) const {
+    const Index begin = rows_[number], count = rows_[number + 1] - begin;
+    const Real at = along / edge.extent * static_cast<Real>(count);
+    return beside_[begin + std::min(static_cast<Index>(std::max(at, Real(0))), count - 1)];
+  }
+
  private:
   using Tree = BoxTree<3>;
   static constexpr Index both = 3;  // flags of an edge's two faces, below the number of its part
@@ -82,6 +89,7 @@ class SolidObstacles {
   /// Is there a plane, of those looked at, that a part is behind and both points are in front of?
   [[nodiscard]] bool parted(Index part, const Point& p, const Point& q) const;
   void add_part(const Box<3>& box, std::vector<Plane>& planes);
+  void line_up(const TetMesh<Real>& mesh);
   static Point way_of(int cell);
   static int cell_of(const Point& way);
 
@@ -93,10 +101,11 @@ class SolidObstacles {
   std::uint64_t identity_ = 0;
   std::vector<Index> sides_;  // by reflex edge
   std::vector<Part> parts_;
-  std::vector<Plane> planes_;  // by part
-  std::vector<Index> facing_;  // planes by directions: parts with many have a cube of cells
-  Tree tree_;                  // of boxes around parts
-  std::vector<Index> parent_;  // of vertices: while it is made
+  std::vector<Plane> planes_;         // by part
+  std::vector<Index> facing_;         // planes by directions: parts with many have a cube of cells
+  Tree tree_;                         // of boxes around parts
+  std::vector<Index> rows_, beside_;  // tetrahedra along each reflex edge, about one a mean edge
+  std::vector<Index> parent_;         // of vertices: while it is made
 };
 
 template <class Real>
@@ -198,9 +207,51 @@ void SolidObstacles<Real>::measure(const TetMesh<Real>& mesh) {
     sides_.push_back(sides);
   }
   for (Index part = 0; part < of_part.size(); ++part) add_part(boxes[part], planes[part]);
-  if (planes_.empty()) sides_.clear();
+  if (planes_.empty()) {
+    sides_.clear();
+    return;
+  }
+  line_up(mesh);
   tree_ = Tree(boxes);
   std::vector<Index>().swap(parent_);
+}
+
+// Of the tetrahedra at an edge the one that lies most in the middle of its fan, where lines to the
+// edge are walked to.
+template <class Real>
+void SolidObstacles<Real>::line_up(const TetMesh<Real>& mesh) {
+  const std::span<const ReflexEdge<Real>> edges = mesh.reflex_edges();
+  rows_.assign(1, 0);
+  for (const ReflexEdge<Real>& edge : edges)
+    rows_.push_back(rows_.back() + static_cast<Index>(edge.extent) + 1);
+  beside_.assign(rows_.back(), none);
+  std::vector<Real> best(rows_.back(), -2);
+  for (Index t = 0; t < mesh.tet_count(); ++t) {
+    Index e = mesh.tets()[t].reflex;
+    if (e == none) continue;
+    for (;; ++e) {
+      const Index entry = mesh.reflex_list()[e], number = entry >> ReflexEntry::edge_shift;
+      const ReflexEdge<Real>& edge = edges[number];
+      const Point off = mesh.tets()[t].centre - edge.end[0];
+      const Real along = dot(off, edge.direction);
+      const Point out = off - along * edge.direction;
+      const Index begin = rows_[number], count = rows_[number + 1] - begin;
+      const Real at = std::clamp(along / edge.extent, Real(0), Real(1)) * static_cast<Real>(count);
+      const Index place = begin + std::min(static_cast<Index>(at), count - 1);
+      const Real towards = dot(out, edge.solid) / norm(out);
+      if (towards > best[place]) {
+        best[place] = towards;
+        beside_[place] = t;
+      }
+      if ((entry & ReflexEntry::last) != 0) break;
+    }
+  }
+  for (std::size_t i = 0; i < edges.size(); ++i) {  // where none has its centre
+    for (Index k = rows_[i] + 1; k < rows_[i + 1]; ++k)
+      if (beside_[k] == none) beside_[k] = beside_[k - 1];
+    for (Index k = rows_[i + 1] - 1; k-- > rows_[i];)
+      if (beside_[k] == none) beside_[k] = beside_[k + 1];
+  }
 }
 
 template <class Real>

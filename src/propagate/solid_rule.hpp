@@ -475,6 +475,13 @@ class SolidRule : public SolidPaths<Real> {
     return obstacles_ != nullptr && edge < own_edges_ &&
            obstacles_->clear(edge, reflex_[edge], at, other);
   }
+  /// A tetrahedron to begin lines in that go from beside an edge; false if none is known.
+  bool stand_beside(Index edge, const Point& p, Index& t) const {
+    if (obstacles_ == nullptr || edge >= own_edges_) return false;
+    const Edge& e = reflex_[edge];
+    t = obstacles_->beside(edge, e, dot(p - e.end[0], e.direction));
+    return t != none && walk(t, tets_[t].centre, p);
+  }
   [[gnu::always_inline]] bool is_clear(const Point& p, const Point& q) const {
     return obstacles_ != nullptr && obstacles_->clear(p, q);
   }
