@@ -142,6 +142,7 @@ bool comes_in(SolidLabel label, uint t) { return false; }
 
 //@include propagate/solid_sight.inl
 //@include propagate/solid_paths.inl
+bool any_lit(HINGE_IN(Point) p) { return false; }
 bool is_lit(uint t, HINGE_IN(Point) p) { return false; }
 //@include propagate/solid_walk.inl
 

@@ -489,6 +489,9 @@ class SolidRule : public SolidPaths<Real> {
   [[gnu::always_inline]] Index reflex_entry(Index e) const { return list_[e]; }
   static Index entry_edge(Index entry) { return entry >> ReflexEntry::edge_shift; }
   static bool entry_is_last(Index entry) { return (entry & ReflexEntry::last) != 0; }
+  [[gnu::always_inline]] bool any_lit(const Point& p) const {
+    return lit_ != nullptr && lit_->any_by(p);
+  }
   bool any_reflex() const { return any_reflex_; }
   [[gnu::always_inline]] bool reached(Index t) const { return front_->reached(t); }
   [[gnu::always_inline]] const Label& label_of(Index t) const { return front_->label(t); }
