@@ -151,7 +151,6 @@ bool go(HINGE_INOUT(Index) t, HINGE_IN(Point) from, HINGE_IN(Point) to) {
 }
 
 bool stand_beside(uint edge, HINGE_IN(Point) p, HINGE_INOUT(Index) t) { return false; }
-bool is_clear(HINGE_IN(Point) p, HINGE_IN(Point) q) { return false; }
 bool is_clear(uint edge, HINGE_IN(Point) p, HINGE_IN(Point) q) { return false; }
 
 //@include propagate/solid_step.inl

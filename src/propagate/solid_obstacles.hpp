@@ -15,6 +15,9 @@
 
 namespace plexway {
 
+/// Corners of face i, anticlockwise as seen from outside.
+inline constexpr Index tet_face_corners[4][3] = {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}};
+
 /// What lines in a solid can run into: the faces of its boundary that have some of the solid behind
 /// them, in parts that hang together. Where a plane has all of a part behind it, no line between
 /// two points in front of it meets that part. Planes are those of the faces at reflex edges: so for
@@ -36,16 +39,17 @@ class SolidObstacles {
   void measure(const TetMesh<Real>& mesh);
 
   /// Does the line between two points of the solid, or of its boundary, surely meet no face of the
-  /// boundary? False: it may.
-  [[nodiscard]] bool clear(const Point& p, const Point& q) const { return passes(none, p, q); }
-  /// The same where p is a point of reflex edge `number`, which is `edge`.
-  [[nodiscard]] bool clear(Index number, const ReflexEdge<Real>& edge, const Point& p,
+  /// boundary? False: it may. p is a point of that one of the solid's reflex edges; none, or one
+  /// beyond them, is of no help.
+  [[nodiscard]] bool clear(Index edge, const ReflexEdge<Real>* edges, const Point& p,
                            const Point& q) const {
-    const Index sides = sides_[number];
-    if ((sides & both) == 0) return false;
-    const Point off = q - edge.end[0];
-    const bool before = ((sides & 1) != 0 && dot(edge.normal[0], off) >= -on_plane) ||
-                        ((sides & 2) != 0 && dot(edge.normal[1], off) >= -on_plane);
+    if (edge == none) return passes(none, p, q);
+    if (edge >= sides_.size() || (sides_[edge] & both) == 0) return false;
+    const Index sides = sides_[edge];
+    const ReflexEdge<Real>& e = edges[edge];
+    const Point off = q - e.end[0];
+    const bool before = ((sides & 1) != 0 && dot(e.normal[0], off) >= -on_plane) ||
+                        ((sides & 2) != 0 && dot(e.normal[1], off) >= -on_plane);
     return before && (parts_.size() == 1 || passes(sides >> part_shift, p, q));
   }
 
@@ -74,8 +78,8 @@ class SolidObstacles {
     Index begin, end;        // of its planes
     Index cells;             // of its cube in facing_, or none
   };
-  static constexpr Index few = 12;  // planes that are all asked
-  static constexpr int along = 12;  // cells along a side of a cube
+  static constexpr Index few = 12;        // planes that are all asked
+  static constexpr int cells_along = 16;  // cells along a side of a cube
 
   static std::array<double, 3> place(const Point& p) {
     return {static_cast<double>(p.x), static_cast<double>(p.y), static_cast<double>(p.z)};
@@ -136,7 +140,6 @@ bool SolidObstacles<Real>::behind(const Tree& tree, std::span<const Point> point
 
 template <class Real>
 void SolidObstacles<Real>::measure(const TetMesh<Real>& mesh) {
-  constexpr Index corners[4][3] = {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}};  // from outside
   identity_ = mesh.identity();
   sides_.clear();
   parts_.clear();
@@ -151,8 +154,9 @@ void SolidObstacles<Real>::measure(const TetMesh<Real>& mesh) {
   for (Index t = 0; t < sentinel; ++t)
     for (std::size_t i = 0; i < 4; ++i)
       if (tets[t].across[i] >> TetAcross::tet_shift == sentinel)
-        faces.push_back({tets[t].corner[corners[i][0]], tets[t].corner[corners[i][1]],
-                         tets[t].corner[corners[i][2]]});
+        faces.push_back({tets[t].corner[tet_face_corners[i][0]],
+                         tets[t].corner[tet_face_corners[i][1]],
+                         tets[t].corner[tet_face_corners[i][2]]});
   std::vector<Index> rim;  // vertices of the boundary
   for (const auto& face : faces) rim.insert(rim.end(), face.begin(), face.end());
   std::sort(rim.begin(), rim.end());
@@ -280,7 +284,7 @@ void SolidObstacles<Real>::add_part(const Box<3>& box, std::vector<Plane>& plane
   part.per_size = {per_size(0), per_size(1), per_size(2)};
   if (part.end - part.begin > few) {
     part.cells = static_cast<Index>(facing_.size());
-    for (int cell = 0; cell < 6 * along * along; ++cell) {
+    for (int cell = 0; cell < 6 * cells_along * cells_along; ++cell) {
       const Point way = way_of(cell);
       Index best = part.begin;
       for (Index i = part.begin; i < part.end; ++i)
@@ -294,10 +298,10 @@ void SolidObstacles<Real>::add_part(const Box<3>& box, std::vector<Plane>& plane
 // Cells of a cube around the origin: six faces, each a square of them.
 template <class Real>
 Vector3<Real> SolidObstacles<Real>::way_of(int cell) {
-  const auto middle = [](int i) { return (2 * static_cast<Real>(i) + 1) / along - 1; };
-  const int face = cell / (along * along);
-  const Real x = face % 2 == 0 ? Real(1) : Real(-1), y = middle(cell % along),
-             z = middle(cell / along % along);
+  const auto middle = [](int i) { return (2 * static_cast<Real>(i) + 1) / cells_along - 1; };
+  const int face = cell / (cells_along * cells_along);
+  const Real x = face % 2 == 0 ? Real(1) : Real(-1), y = middle(cell % cells_along),
+             z = middle(cell / cells_along % cells_along);
   const Point way = face < 2 ? Point{x, y, z} : face < 4 ? Point{z, x, y} : Point{y, z, x};
   return Real(1) / norm(way) * way;
 }
@@ -307,10 +311,10 @@ int SolidObstacles<Real>::cell_of(const Point& way) {
   const int axis = size[0] >= size[1] && size[0] >= size[2] ? 0 : size[1] >= size[2] ? 1 : 2;
   const Real to[5] = {way.x, way.y, way.z, way.x, way.y};
   const auto place_of = [&](Real x) {
-    return std::min(static_cast<int>((x / size[axis] + 1) / 2 * along), along - 1);
+    return std::min(static_cast<int>((x / size[axis] + 1) / 2 * cells_along), cells_along - 1);
   };
   const int face = 2 * axis + (to[axis] < 0);
-  return (face * along + place_of(to[axis + 2])) * along + place_of(to[axis + 1]);
+  return (face * cells_along + place_of(to[axis + 2])) * cells_along + place_of(to[axis + 1]);
 }
 
 template <class Real>

@@ -20,9 +20,6 @@ namespace plexway {
 
 #include "kernel/text_begin.inl"
 
-/// Corners of face i, anticlockwise as seen from outside.
-inline constexpr Index tet_face_corners[4][3] = {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}};
-
 /// Visibility::saddles on solids in space: a label is a string from a point around reflex edges,
 /// which are the only places where paths bend, and is walked through the tetrahedra before it
 /// counts.
@@ -89,14 +86,9 @@ class SolidRule : public SolidPaths<Real> {
     }
     return walk(t, at, to);
   }
-  /// Where lines need not be walked; referred to.
+  /// Where lines need not be walked, and what they can run into; referred to.
   void skip(const SolidClearSpace<Real>& clear) { clear_ = clear.empty() ? nullptr : &clear; }
-
-  /// What lines can run into; referred to.
-  void mind(const SolidObstacles<Real>& obstacles) {
-    obstacles_ = obstacles.empty() ? nullptr : &obstacles;
-  }
-
+  void mind(const SolidObstacles<Real>& all) { obstacles_ = all.empty() ? nullptr : &all; }
   /// Where to keep what is seen whole; referred to. By one thread.
   void keep_lit(LitTets<Real>& lit) { lit_ = &lit; }
 
@@ -223,11 +215,9 @@ class SolidRule : public SolidPaths<Real> {
       return a.distance < b.distance || (a.distance == b.distance && a.corner < b.corner);
     });
 
-    const Real worth = count == 0 ? 0 : on_boundary(around) ? Real(1e-4) : Real(1e-3);
+    constexpr Real worth = Real(1e-4);  // what hides it, one from the same S has gone around
     for (std::size_t n = 0; n < count && hidden[n].distance < best; ++n) {
       const Index t = hidden[n].corner / 4;
-      // From the same S as the best one, which is in sight: what hides it, the best one has gone
-      // around. Where it is much shorter, the best one is poor.
       if (by != none && hidden[n].distance > best * (1 - worth) &&
           same_source(front_->label(t), front_->label(by)))
         continue;
@@ -381,14 +371,6 @@ class SolidRule : public SolidPaths<Real> {
   };
   static constexpr std::size_t most_hidden = 32;
 
-  /// Is the vertex that is corner c % 4 of c / 4 for each c of `around` one of the boundary?
-  [[nodiscard]] bool on_boundary(std::span<const Index> around) const {
-    return std::any_of(around.begin(), around.end(), [&](Index c) {
-      for (Index i = 0; i < 4; ++i)
-        if (i != c % 4 && neighbour(c / 4, i) == sentinel_) return true;
-      return false;
-    });
-  }
   /// The last bend on the way from the source of t over `middle` to q, which is walked from `end`
   /// in u.
   [[nodiscard]] Sight sight(Index t, const Point& middle, Index u, const Point& end,
@@ -471,9 +453,8 @@ class SolidRule : public SolidPaths<Real> {
   [[gnu::always_inline]] bool is_lit(Index t, const Point& p) const {
     return lit_ != nullptr && lit_->by(t, p);
   }
-  [[gnu::always_inline]] bool is_clear(Index edge, const Point& at, const Point& other) const {
-    return obstacles_ != nullptr && edge < own_edges_ &&
-           obstacles_->clear(edge, reflex_[edge], at, other);
+  [[gnu::always_inline]] bool is_clear(Index edge, const Point& p, const Point& q) const {
+    return obstacles_ != nullptr && obstacles_->clear(edge, reflex_, p, q);
   }
   /// A tetrahedron to begin lines in that go from beside an edge; false if none is known.
   bool stand_beside(Index edge, const Point& p, Index& t) const {
@@ -481,9 +462,6 @@ class SolidRule : public SolidPaths<Real> {
     const Edge& e = reflex_[edge];
     t = obstacles_->beside(edge, e, dot(p - e.end[0], e.direction));
     return t != none && walk(t, tets_[t].centre, p);
-  }
-  [[gnu::always_inline]] bool is_clear(const Point& p, const Point& q) const {
-    return obstacles_ != nullptr && obstacles_->clear(p, q);
   }
   [[gnu::always_inline]] Index first_reflex(Index t) const { return tets_[t].reflex; }
   [[gnu::always_inline]] Index reflex_entry(Index e) const { return list_[e]; }

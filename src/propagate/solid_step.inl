@@ -8,8 +8,8 @@
 //   same_way(label, label)           do they have the same S and bends?
 //   stand_beside(edge, p, t)         finds a tetrahedron t to begin lines in that go from p, beside
 //                                    an edge
-//   is_clear(p, q)                   is the line from p to q known to be free?
-//   is_clear(edge, p, q)             the same where p is a point of that reflex edge
+//   is_clear(edge, p, q)             is the line from p, a point of that reflex edge or of none, to q
+//                                    known to be free?
 
 HINGE_CONST Real face_tolerance = Real(0.1);
 
@@ -61,7 +61,7 @@ HINGE_METHOD Point beside(HINGE_IN(Edge) e, HINGE_IN(Point) bend) HINGE_READS {
 /// Legs of a string that are known to be free, a bit each.
 int clear_legs(HINGE_IN(Taut) s, HINGE_IN(Label) label) HINGE_READS {
   if (label.door != none) return 0;
-  if (s.bends == 0) return is_clear(s.at[0], s.at[1]) ? 1 : 0;
+  if (s.bends == 0) return is_clear(none, s.at[0], s.at[1]) ? 1 : 0;
   int clear = 0;
   for (int n = 0; n <= HINGE_ROLLED(s.bends); ++n) {
     // Seen from the one end or the other.
