@@ -142,12 +142,16 @@ bool comes_in(SolidLabel label, uint t) { return false; }
 
 //@include propagate/solid_sight.inl
 //@include propagate/solid_paths.inl
+bool any_lit(HINGE_IN(Point) p) { return false; }
 bool is_lit(uint t, HINGE_IN(Point) p) { return false; }
 //@include propagate/solid_walk.inl
 
 bool go(HINGE_INOUT(Index) t, HINGE_IN(Point) from, HINGE_IN(Point) to) {
   return walk(t, from, to);
 }
+
+bool stand_beside(uint edge, HINGE_IN(Point) p, HINGE_INOUT(Index) t) { return false; }
+bool is_clear(uint edge, HINGE_IN(Point) p, HINGE_IN(Point) q) { return false; }
 
 //@include propagate/solid_step.inl
 

@@ -77,6 +77,9 @@ void solve_with(const TetMesh<Real>& mesh, std::span<const PointSource> sources,
     thread_local SolidClearSpace<Real> clear;  // so that a second solve allocates nothing
     if (clear.identity() != mesh.identity()) clear.measure(mesh);
     rule.skip(clear);
+    thread_local SolidObstacles<Real> obstacles;
+    if (obstacles.identity() != mesh.identity()) obstacles.measure(mesh);
+    rule.mind(obstacles);
     if constexpr (!requires { crew.team(); }) {
       thread_local LitTets<Real> lit;
       if (!mesh.reflex_edges().empty()) {

@@ -1,9 +1,13 @@
 #pragma once
 
 #include <algorithm>
+#include <bit>
+#include <bitset>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <limits>
+#include <type_traits>
 #include <vector>
 
 #include <plexway/complex/tet_mesh.hpp>
@@ -25,6 +29,12 @@ class LitTets {
     constexpr Real nan = std::numeric_limits<Real>::quiet_NaN();
     known_.assign(tets + 1, Known{Point{nan, nan, nan}, false});
     sentinel_ = static_cast<Index>(tets);
+    sources_.reset();
+  }
+
+  /// May any be lit by this source? Cheap, so that lines to other points need not ask each.
+  [[nodiscard, gnu::always_inline]] bool any_by(const Point& source) const {
+    return sources_[name_of(source)];
   }
 
   [[nodiscard, gnu::always_inline]] bool by(Index t, const Point& source) const {
@@ -60,7 +70,9 @@ class LitTets {
       behind_one = true;
     }
     const Point off = source - record.centre;
-    return known_[t].lit = behind_one || dot(off, off) <= widest;
+    if (!behind_one && !(dot(off, off) <= widest)) return false;
+    sources_.set(name_of(source));
+    return known_[t].lit = true;
   }
 
  private:
@@ -68,6 +80,13 @@ class LitTets {
     Point source;
     bool lit;
   };
+  static constexpr int names = 12;  // bits
+  [[nodiscard, gnu::always_inline]] static std::size_t name_of(const Point& p) {
+    const Real sum = p.x + Real(1.618) * p.y + Real(2.718) * p.z;
+    using Bits = std::conditional_t<sizeof(Real) == 4, std::uint32_t, std::uint64_t>;
+    return static_cast<std::size_t>(std::bit_cast<Bits>(sum) * std::uint64_t{0x9e3779b97f4a7c15} >>
+                                    (64 - names));
+  }
   [[nodiscard, gnu::always_inline]] bool asked(Index t, const Point& source) const {
     const Point& p = known_[t].source;
     return p.x == source.x && p.y == source.y && p.z == source.z;
@@ -80,6 +99,7 @@ class LitTets {
   static constexpr Real on_plane = sizeof(Real) == sizeof(double) ? Real(1e-6) : Real(1e-5);
 
   std::vector<Known> known_;
+  std::bitset<std::size_t{1} << names> sources_;  // that light any, by names that some share
   Index sentinel_ = 0;
 };
 

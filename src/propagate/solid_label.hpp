@@ -17,11 +17,16 @@ struct SolidLabel {
   Index door;         ///< how the way begins: none, if S is a point of the solid, or SolidDoor's
 };
 
+/// Do both have the same S?
+template <class Real>
+[[nodiscard]] bool same_source(const SolidLabel<Real>& a, const SolidLabel<Real>& b) {
+  return a.sigma == b.sigma && a.source.x == b.source.x && a.source.y == b.source.y &&
+         a.source.z == b.source.z;
+}
 /// Do both have the same S and bends? Then they look at the same scene.
 template <class Real>
 [[nodiscard]] bool same_way(const SolidLabel<Real>& a, const SolidLabel<Real>& b) {
-  return a.sigma == b.sigma && a.source.x == b.source.x && a.source.y == b.source.y &&
-         a.source.z == b.source.z && a.bend[0] == b.bend[0] && a.bend[1] == b.bend[1];
+  return same_source(a, b) && a.bend[0] == b.bend[0] && a.bend[1] == b.bend[1];
 }
 
 /// Where S is not a point that strings can be walked to.

@@ -12,15 +12,13 @@
 #include "propagate/lit_tets.hpp"
 #include "propagate/solid_clear_space.hpp"
 #include "propagate/solid_label.hpp"
+#include "propagate/solid_obstacles.hpp"
 #include "propagate/solid_paths.hpp"
 #include "propagate/solid_sight.hpp"
 
 namespace plexway {
 
 #include "kernel/text_begin.inl"
-
-/// Corners of face i, anticlockwise as seen from outside.
-inline constexpr Index tet_face_corners[4][3] = {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}};
 
 /// Visibility::saddles on solids in space: a label is a string from a point around reflex edges,
 /// which are the only places where paths bend, and is walked through the tetrahedra before it
@@ -88,9 +86,9 @@ class SolidRule : public SolidPaths<Real> {
     }
     return walk(t, at, to);
   }
-  /// Where lines need not be walked; referred to.
+  /// Where lines need not be walked, and what they can run into; referred to.
   void skip(const SolidClearSpace<Real>& clear) { clear_ = clear.empty() ? nullptr : &clear; }
-
+  void mind(const SolidObstacles<Real>& all) { obstacles_ = all.empty() ? nullptr : &all; }
   /// Where to keep what is seen whole; referred to. By one thread.
   void keep_lit(LitTets<Real>& lit) { lit_ = &lit; }
 
@@ -217,8 +215,12 @@ class SolidRule : public SolidPaths<Real> {
       return a.distance < b.distance || (a.distance == b.distance && a.corner < b.corner);
     });
 
+    constexpr Real worth = Real(1e-4);  // what hides it, one from the same S has gone around
     for (std::size_t n = 0; n < count && hidden[n].distance < best; ++n) {
       const Index t = hidden[n].corner / 4;
+      if (by != none && hidden[n].distance > best * (1 - worth) &&
+          same_source(front_->label(t), front_->label(by)))
+        continue;
       take(t, corner_reach(front_->label(t), t, hidden[n].corner % 4, best, hidden[n].own));
     }
     if (by != none) offer(by, best);
@@ -358,6 +360,7 @@ class SolidRule : public SolidPaths<Real> {
         sentinel_(rule.sentinel_),
         any_reflex_(rule.any_reflex_),
         clear_(rule.clear_),
+        obstacles_(rule.obstacles_),
         front_(&front) {}
 
   /// A corner whose string is hidden, its length, and where it leaves the solid.
@@ -450,10 +453,23 @@ class SolidRule : public SolidPaths<Real> {
   [[gnu::always_inline]] bool is_lit(Index t, const Point& p) const {
     return lit_ != nullptr && lit_->by(t, p);
   }
+  [[gnu::always_inline]] bool is_clear(Index edge, const Point& p, const Point& q) const {
+    return obstacles_ != nullptr && obstacles_->clear(edge, reflex_, p, q);
+  }
+  /// A tetrahedron to begin lines in that go from beside an edge; false if none is known.
+  bool stand_beside(Index edge, const Point& p, Index& t) const {
+    if (obstacles_ == nullptr || edge >= own_edges_) return false;
+    const Edge& e = reflex_[edge];
+    t = obstacles_->beside(edge, e, dot(p - e.end[0], e.direction));
+    return t != none && walk(t, tets_[t].centre, p);
+  }
   [[gnu::always_inline]] Index first_reflex(Index t) const { return tets_[t].reflex; }
   [[gnu::always_inline]] Index reflex_entry(Index e) const { return list_[e]; }
   static Index entry_edge(Index entry) { return entry >> ReflexEntry::edge_shift; }
   static bool entry_is_last(Index entry) { return (entry & ReflexEntry::last) != 0; }
+  [[gnu::always_inline]] bool any_lit(const Point& p) const {
+    return lit_ != nullptr && lit_->any_by(p);
+  }
   bool any_reflex() const { return any_reflex_; }
   [[gnu::always_inline]] bool reached(Index t) const { return front_->reached(t); }
   [[gnu::always_inline]] const Label& label_of(Index t) const { return front_->label(t); }
@@ -474,6 +490,7 @@ class SolidRule : public SolidPaths<Real> {
   Index sentinel_;
   bool any_reflex_;
   const SolidClearSpace<Real>* clear_ = nullptr;
+  const SolidObstacles<Real>* obstacles_ = nullptr;
   LitTets<Real>* lit_ = nullptr;
   Front* front_;
 };

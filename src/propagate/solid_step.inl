@@ -6,6 +6,10 @@
 //   go(t, from, to)                  `walk`, perhaps by a shorter way to the same tetrahedron
 //   reached(t), label_of(t)          what is known
 //   same_way(label, label)           do they have the same S and bends?
+//   stand_beside(edge, p, t)         finds a tetrahedron t to begin lines in that go from p, beside
+//                                    an edge
+//   is_clear(edge, p, q)             is the line from p, a point of that reflex edge or of none, to q
+//                                    known to be free?
 
 HINGE_CONST Real face_tolerance = Real(0.1);
 
@@ -54,14 +58,48 @@ HINGE_METHOD Point beside(HINGE_IN(Edge) e, HINGE_IN(Point) bend) HINGE_READS {
   return e.end[0] + clamp(along, off, e.extent - off) * e.direction + off * e.solid;
 }
 
-/// Walks the string back from its end, seen as `end` in tetrahedron u, to the source.
+/// Legs of a string that are known to be free, a bit each.
+int clear_legs(HINGE_IN(Taut) s, HINGE_IN(Label) label) HINGE_READS {
+  if (label.door != none) return 0;
+  if (s.bends == 0) return is_clear(none, s.at[0], s.at[1]) ? 1 : 0;
+  int clear = 0;
+  for (int n = 0; n <= HINGE_ROLLED(s.bends); ++n) {
+    // Seen from the one end or the other.
+    bool known = n > 0 && is_clear(s.edge[max(n, 1) - 1], s.at[n], s.at[n + 1]);
+    if (!known && n < s.bends) known = is_clear(s.edge[n], s.at[n + 1], s.at[n]);
+    if (known) clear |= 1 << n;
+  }
+  return clear;
+}
+
+/// Walks the string back from its end, seen as `end` in tetrahedron u, to the source, but for legs
+/// that are known to be free.
 bool is_free(HINGE_IN(Taut) s, HINGE_IN(Label) label, Index u, HINGE_IN(Point) end,
              HINGE_INOUT(Hit) hit) HINGE_READS {
   Point from = end;
   hit.tet = u;
   hit.leg = s.bends;
+  int clear = clear_legs(s, label);
+  bool there = true;  // hit.tet is where `from` is
   for (int n = 0; n <= HINGE_ROLLED(s.bends); ++n) {
     hit.leg = s.bends - n;
+    if ((clear >> hit.leg & 1) != 0) {
+      there = false;
+      continue;
+    }
+    if (!there) {
+      Index edge = s.edge[hit.leg];
+      from = beside(reflex_edge(edge), s.at[hit.leg + 1]);
+      there = stand_beside(edge, from, hit.tet);
+      if (!there) {  // then all the way
+        clear = 0;
+        from = end;
+        hit.tet = u;
+        there = true;
+        n = -1;
+        continue;
+      }
+    }
     Point to = s.at[hit.leg];
     bool last = hit.leg == 0;
     if (hit.leg > 0) {

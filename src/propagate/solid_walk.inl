@@ -7,6 +7,7 @@
 //   neighbour(t, i), face_beyond(t, i)  over face i, or no_tet(); the number of the face there
 //   component(p, i)                  coordinate i of a point
 //   is_lit(t, p)                     is all of t known to be seen from p?
+//   any_lit(p)                       is any, perhaps?
 
 /// So far from an edge, into the solid, strings are walked: then a line along a face of an obstacle
 /// does not cross it by rounding. In mean edges.
@@ -73,7 +74,8 @@ HINGE_CONST Real face_missed = Real(1e-2);
 /// outside of the solid, or behind a part of the boundary. Where a tetrahedron on the way is known to
 /// be seen from there it is not gone on.
 bool walk(HINGE_INOUT(Index) t, HINGE_IN(Point) begin, HINGE_IN(Point) to) HINGE_READS {
-  if (is_lit(t, to)) return true;
+  bool lit = any_lit(to);
+  if (lit && is_lit(t, to)) return true;
   Point from = begin + inset * (centre_of(t) - begin);
   Point g = to - from;
   Real far = norm(g);
@@ -138,7 +140,7 @@ bool walk(HINGE_INOUT(Index) t, HINGE_IN(Point) begin, HINGE_IN(Point) to) HINGE
     }
     Index j = face_beyond(t, face);
     t = next;
-    if (is_lit(t, to)) return true;
+    if (lit && is_lit(t, to)) return true;
     if (HINGE_RARE(t == passed)) return false;
     if ((steps & (steps - 1)) == 0) passed = t;
     Seen d = seen_along(line, from, corner_of(t, j));

@@ -1,0 +1,115 @@
+// Lines that are known to pass all obstacles of a solid are walked to their ends.
+
+#include <catch2/catch.hpp>
+#include <random>
+#include <vector>
+
+#include "complex/test_solids.hpp"
+#include "propagate/solid_closed_forms.hpp"
+#include "propagate/solid_obstacles.hpp"
+#include "propagate/solid_rule.hpp"
+#include "propagate/solid_truth.hpp"
+
+namespace {
+
+using namespace plexway;
+using plexway::testing::Solid;
+
+// No label.
+template <class Real>
+struct NoFront {
+  void put(Index, const SolidLabel<Real>&) {}
+};
+
+template <class Real>
+Vector3<Real> point_in(const TetMesh<Real>& mesh, Index t, std::mt19937& random) {
+  Real weight[4], sum = 0;
+  for (Real& w : weight) sum += w = static_cast<Real>(0.05 + plexway::testing::uniform(random));
+  Vector3<Real> p = {0, 0, 0};
+  for (std::size_t i = 0; i < 4; ++i)
+    p = p + weight[i] / sum * mesh.points()[mesh.tets()[t].corner[i]];
+  return p;
+}
+
+// Of random lines, and of lines from reflex edges: how many are free, and known to be.
+struct Shares {
+  double lines, from_edges;
+};
+template <class Real>
+Shares known_of_free(const Solid& solid, unsigned seed) {
+  const auto mesh = solid.mesh<Real>();
+  SolidObstacles<Real> obstacles;
+  obstacles.measure(mesh);
+  REQUIRE(!obstacles.empty());
+  NoFront<Real> front;
+  const SolidRule<Real, NoFront<Real>> rule(mesh, front);
+  std::mt19937 random(seed);
+  const auto tets = static_cast<Index>(mesh.tet_count());
+  const auto edges = mesh.reflex_edges();
+  std::size_t free[2] = {0, 0}, known[2] = {0, 0}, wrong = 0;
+  for (int n = 0; n < 10000; ++n) {
+    const Index home = plexway::testing::below(random, tets);
+    const auto p = point_in(mesh, home, random);
+    const Index there = plexway::testing::below(random, tets);
+    const auto q = point_in(mesh, there, random);
+    const Index number = plexway::testing::below(random, static_cast<Index>(edges.size()));
+    const ReflexEdge<Real>& edge = edges[number];
+    const Real share = static_cast<Real>(.05 + .9 * plexway::testing::uniform(random));
+    const auto bend = edge.end[0] + share * edge.extent * edge.direction;
+    const auto count = [&](int kind, bool clear, bool reaches) {
+      free[kind] += reaches;
+      known[kind] += clear;
+      wrong += clear && !reaches;
+    };
+    Index t = home;
+    count(0, obstacles.clear(none, edges.data(), p, q), rule.walk(t, p, q));
+    t = home;
+    count(1, obstacles.clear(number, edges.data(), bend, p),
+          rule.walk(t, p, rule.beside(edge, bend)));
+  }
+  CAPTURE(known[0], free[0], known[1], free[1]);
+  CHECK(wrong == 0);
+  return {static_cast<double>(known[0]) / static_cast<double>(free[0]),
+          static_cast<double>(known[1]) / static_cast<double>(free[1])};
+}
+
+// Blocks of cells taken out of a cube, which touch neither each other nor, all but one, the rim.
+Solid blocks(Index n) {
+  return plexway::testing::cubes(n, n, n, 1.0 / n, 0.2, [n](Index i, Index j, Index k) {
+    const auto within = [n](Index x, double low, double high) {
+      return x >= low * n && x < high * n;
+    };
+    return !(within(i, .2, .4) && within(j, .2, .5) && within(k, .3, .6)) &&
+           !(within(i, .6, .8) && within(j, .6, .7) && within(k, .2, .8)) &&
+           !(within(i, .6, .8) && within(j, .2, .4) && within(k, 0, .4));
+  });
+}
+
+}  // namespace
+
+TEMPLATE_TEST_CASE("lines that are known to be free are", "", float, double) {
+  const Shares around_blocks = known_of_free<TestType>(blocks(20), 1);
+  CHECK(around_blocks.lines > .8);
+  CHECK(around_blocks.from_edges > .8);
+  const Shares around_corner = known_of_free<TestType>(plexway::testing::l_shape(12), 2);
+  CHECK(around_corner.lines > .8);
+  CHECK(around_corner.from_edges > .99);
+}
+
+TEMPLATE_TEST_CASE("lines around a ball that are known to be free are", "", float, double) {
+  const auto truth = plexway::testing::read_solid_truth("cavity_10k", 170).value();
+  const Shares shares = known_of_free<TestType>(truth.solid, 3);
+  CHECK(shares.lines > .8);
+  CHECK(shares.from_edges > .9);
+}
+
+TEST_CASE("a solid without obstacles, or of lengths alone, has nothing that lines run into") {
+  SolidObstacles<double> obstacles;
+  obstacles.measure(blocks(10).mesh<double>());
+  CHECK(!obstacles.empty());
+  obstacles.measure(plexway::testing::solid_cube(8).mesh<double>());
+  CHECK(obstacles.empty());
+  const Solid s = blocks(10);
+  obstacles.measure(TetMesh<double>(s.positions.size(), s.tets, s.lengths()));
+  CHECK(obstacles.empty());
+}
