@@ -60,10 +60,10 @@ class HingeCrossings {
     const Piece& to = *pieces_[hinge.piece[1 - crossing.side]];
     const Member& beyond = domain_.members()[k];
     Known& known = crossings_.back();
-    if (!to.sees_all()) return;
     const HingeEnd<Real> at = to.pose(beyond, hinge.dimension, crossing.start);
     known.place = to.shape(beyond, hinge.dimension).point(at.x, at.y);
     if (hinge.dimension == 1) known.place[1] = 0;
+    if (!to.sees_all()) return;
     Index before = none;
     if (!from.eye(domain_.members()[m], known.eye, known.sigma, before)) return;
     if (on_hinge(before) != nullptr) known.before = before;
@@ -100,7 +100,7 @@ class HingeCrossings {
       const Index number = own.crossing_seen(inside(v), starts);
       if (find(number) == nullptr) continue;
       via[v] = number;
-      const Real there = least_by(number, own.place(inside(v)), own.unit(), room);
+      const Real there = least_by(number, own, inside(v), room);
       last[v] = room.crossing;
       if (there < distance[v]) distance[v] = there, label[v] = find(number)->source;
       front.push_back(v);
@@ -122,7 +122,7 @@ class HingeCrossings {
         // Only to choose whom to ask: what is taken is a way that was pulled taut.
         const Real straight = before + norm(own.unit() * there - last[v]);
         if (via[w] != none && !(straight < known * (1 - Piece::crossing_gain))) continue;
-        const Real way = least_by(number, there, own.unit(), room);
+        const Real way = least_by(number, own, inner, room);
         if (!(way < known)) continue;
         via[w] = number;
         last[w] = room.crossing;
@@ -184,12 +184,13 @@ class HingeCrossings {
     std::reverse(path.steps.begin(), path.steps.end());
   }
 
-  // The length of the shortest path to a target by way of a crossing.
-  [[nodiscard]] Real least_by(Index number, const Point& target, Real unit, Room& room) const {
+  // The length of the shortest path to a vertex by way of a crossing.
+  [[nodiscard]] Real least_by(Index number, const Piece& own, Index vertex, Room& room) const {
     Path& path = room.path;
     follow(number, path);
     Real least = infinity;
-    if (is_obstructed(path.steps.back())) return least_step_by_step(unit, target, room);
+    if (!own.sees_all()) return least_in_sight(own, vertex, room);
+    const Point target = own.place(vertex);
     if (path.steps.size() == 1 || !(path.sigma < infinity)) {
       // Labels tell from where it comes, and may know of a better way.
       const bool is_last = path.steps.size() == 1;
@@ -210,7 +211,7 @@ class HingeCrossings {
         path.steps[0] = first;
       }
     }
-    const Point end = unit * target;
+    const Point end = own.unit() * target;
     const auto take = [&](Real there) {
       if (!(there < least)) return;
       least = there;
@@ -237,23 +238,47 @@ class HingeCrossings {
     return least;
   }
 
-  // May something be in the way behind the last crossing?
-  [[nodiscard]] bool is_obstructed(const Step& last) const {
-    return !pieces_[domain_.hinges()[last.hinge].piece[1 - last.side]]->sees_all();
-  }
-  // The same where it may be: the last crossing goes from hinge to hinge as labels tell, not by
-  // Newton's steps, which would go through what is in the way. The others are pulled taut to it.
-  [[nodiscard]] Real least_step_by_step(Real unit, const Point& target, Room& room) const {
+  // The same where something may be in the way behind the last crossing: that goes from hinge to
+  // hinge as labels tell, and only as far as the vertex sees it. Newton's steps would go through
+  // what is in the way. The others are pulled taut to it.
+  [[nodiscard]] Real least_in_sight(const Piece& own, Index vertex, Room& room) const {
     Path& path = room.path;
     Step& last = path.steps.back();
-    const Over over = move(last, target);
+    const Step start = last;
+    const Point target = own.place(vertex), end = own.unit() * target;
+    Over over = move(last, target);
+    if (!(over.distance < infinity)) return infinity;
+    if (!in_sight(last, own, vertex)) {
+      // The way is convex: the farther towards the least, the better.
+      const Step best = last;
+      last = start;
+      over = at_place(last, target);
+      Real low = 0, high = 1;
+      constexpr int halvings = 8;
+      for (int i = 0; i < halvings; ++i) {
+        const Real share = (low + high) / 2;
+        Step step = start;
+        taut_->towards(step, best, share);
+        const Over there = at_place(step, target);
+        const bool seen = there.distance < over.distance && in_sight(step, own, vertex);
+        (seen ? low : high) = share;
+        if (seen) over = there, last = step;
+      }
+      if (low == 0 && !in_sight(last, own, vertex)) return infinity;
+    }
     room.crossing = taut_->place(last, 1 - last.side);
     if (path.steps.size() < 2 || !(path.sigma < infinity)) return over.distance;
     const auto before = std::span(path.steps).first(path.steps.size() - 1);
     const Real there = path.sigma +
                        taut_->pull(path.eye, before, taut_->place(last, last.side), room.taut) +
-                       norm(unit * target - room.crossing);
+                       norm(end - room.crossing);
     return std::min(over.distance, there);
+  }
+  [[nodiscard]] bool in_sight(const Step& step, const Piece& own, Index vertex) const {
+    const auto& hinge = domain_.hinges()[step.hinge];
+    for (Index m = hinge.begin[1 - step.side]; m < hinge.end[1 - step.side]; ++m)
+      if (own.sees(domain_.members()[m], hinge.dimension, step.place, vertex)) return true;
+    return false;
   }
 
   // All crossings of a path whose start is known.
@@ -300,6 +325,23 @@ class HingeCrossings {
     }
     step.place = over.place;
     return over;
+  }
+
+  // By a place as it is.
+  [[nodiscard]] Over at_place(const Step& step, const Point& target) const {
+    const auto& hinge = domain_.hinges()[step.hinge];
+    const Piece& from = *pieces_[hinge.piece[step.side]];
+    const Piece& to = *pieces_[hinge.piece[1 - step.side]];
+    Over least;
+    for (Index m = hinge.begin[step.side]; m < hinge.end[step.side]; ++m) {
+      const Member& member = domain_.members()[m];
+      if (!(from.distance(member.simplex) < infinity)) continue;
+      const HingeFront<Real> front(from, member, hinge.dimension, none, none);
+      const Real before = front.distance(step.place);
+      if (before < least.before) least.before = before, least.place = step.place;
+    }
+    least.distance = least.before + norm(to.unit() * target - taut_->place(step, 1 - step.side));
+    return least;
   }
 
   [[nodiscard]] Over way_over(Index n, std::size_t side, const Point& target) const {

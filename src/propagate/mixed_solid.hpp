@@ -98,7 +98,7 @@ class MixedSolid final : public MixedPiece<Real> {
   PosedSource<Real> leave(const Member& m, int dimension,
                           const HingePlace<Real>& b) const override {
     const Frame frame(*this, m, dimension);
-    const auto sight = rule_.seen_from(m.simplex, frame.place(b));
+    const auto sight = rule_.reached_from(m.simplex, frame.place(b));
     const HingeEnd<Real> end = frame.pose(sight.eye, unit_);
     return {end.x, end.y, end.h, sight.sigma * unit_, wave_.source(m.simplex)};
   }
@@ -137,6 +137,13 @@ class MixedSolid final : public MixedPiece<Real> {
     return true;
   }
 
+  bool sees(const Member& m, int dimension, const HingePlace<Real>& b,
+            Index vertex) const override {
+    const auto around = mesh_.corners_at(vertex);
+    const Point from = place(m, dimension, b);
+    return std::any_of(around.begin(), around.end(),
+                       [&](Index c) { return rule_.sees(m.simplex, from, c / 4, c % 4); });
+  }
   bool sees_all() const override { return !rule_.drops() && mesh_.summary().components == 1; }
   void vertices_around(Index vertex, std::vector<Index>& around) const override {
     around.clear();

@@ -57,6 +57,17 @@ class TautCrossings {
     return facets_[step.hinge].at(side, step.place);
   }
 
+  /// Moves a crossing by a share of the straight line to another one.
+  void towards(Step& step, const Step& other, Real share) const {
+    const Facet& facet = facets_[step.hinge];
+    const Point from = facet.at(0, step.place);
+    const Point off =
+        from + share * (facets_[other.hinge].at(0, other.place) - from) - facet.origin[0];
+    go(step, facet.dimension == 1
+                 ? HingePlace<Real>{dot(facet.dual[0], off), 0}
+                 : HingePlace<Real>{dot(facet.dual[0], off), dot(facet.dual[1], off)});
+  }
+
   [[nodiscard]] Real length(const Point& eye, std::span<const Step> path,
                             const Point& target) const {
     Real sum = 0;
@@ -153,6 +164,7 @@ class TautCrossings {
     const Point &u = facet.along[0][0], &w = facet.along[0][1];
     const Real uu = dot(u, u), uw = dot(u, w), ww = dot(w, w), det = uu * ww - uw * uw;
     facet.dual[0] = facet.dual[1] = {0, 0, 0};
+    if (facet.dimension == 1 && uu > 0) facet.dual[0] = 1 / uu * u;
     if (!(det > 0)) return;
     facet.dual[0] = (ww / det) * u - (uw / det) * w;
     facet.dual[1] = (uu / det) * w - (uw / det) * u;
