@@ -12,6 +12,7 @@
 
 #include <plexway/complex/mixed_complex.hpp>
 
+#include "propagate/crossing_ways.hpp"
 #include "propagate/hinge_neighbours.hpp"
 #include "propagate/mixed_piece.hpp"
 #include "propagate/taut_crossings.hpp"
@@ -43,8 +44,11 @@ class HingeCrossings {
                  const HingeNeighbours<Real>& neighbours)
       : domain_(domain), pieces_(pieces), neighbours_(neighbours) {}
 
-  /// `number` is one of the caller's sources.
-  void keep_clear(Index number) { first_ = std::max(first_, number + 1); }
+  /// `number` is one of the caller's sources: a point of a piece, in the domain's unit.
+  void seed(Index piece, const Point& at, Real offset, Index number) {
+    first_ = std::max(first_, number + 1);
+    seeds_.push_back({piece, number, at, offset});
+  }
   /// The first number of a crossing, and the next one.
   [[nodiscard]] Index first() const { return first_; }
   [[nodiscard]] Index next() const { return first_ + static_cast<Index>(crossings_.size()); }
@@ -74,12 +78,22 @@ class HingeCrossings {
     return crossing != nullptr ? crossing->source : number;
   }
   /// All crossings are there: vertices may be read out, those of several pieces at once.
-  void end() {
-    if (moves_) taut_ = std::make_unique<Taut>(domain_, pieces_, neighbours_);
+  void end(Real radius) {
+    if (!moves_) return;
+    taut_ = std::make_unique<Taut>(domain_, pieces_, neighbours_);
+    ways_ = std::make_unique<Ways>(domain_, pieces_, *taut_, radius);
+    std::stable_sort(seeds_.begin(), seeds_.end(), [](const Seed& a, const Seed& b) {
+      return std::pair(a.piece, a.number) < std::pair(b.piece, b.number);
+    });
   }
+  /// Then ways are handed on, round by round.
+  void hand_on(Index piece, std::span<Real> distance, std::span<Index> label) {
+    if (moves_) ways_->hand_on(piece, distance, label);
+  }
+  bool deliver() { return moves_ && ways_->deliver(); }
 
   /// Distances and labels of a piece's vertices, in its caller's order.
-  void straighten(Index piece, std::span<Real> distance, std::span<Index> label) const {
+  void straighten(Index piece, std::span<Real> distance, std::span<Index> label) {
     if (!moves_) return;
     const auto& own = *pieces_[piece];
     const auto starts = [&](Index number) -> const Point* {
@@ -98,12 +112,17 @@ class HingeCrossings {
     Room room;
     for (Index v = 0; v < distance.size(); ++v) {
       const Index number = own.crossing_seen(inside(v), starts);
-      if (find(number) == nullptr) continue;
+      if (find(number) == nullptr) {
+        keep_straight(piece, v, inside(v), distance[v], label[v]);
+        continue;
+      }
       via[v] = number;
       const Real there = least_by(number, own, inside(v), room);
       last[v] = room.crossing;
+      if (!keep(piece, v, there, distance[v], number, room))
+        keep_straight(piece, v, inside(v), distance[v], label[v]);
       if (there < distance[v]) distance[v] = there, label[v] = find(number)->source;
-      front.push_back(v);
+      if (!ways_->known(piece, v)) front.push_back(v);
     }
     // A vertex may be nearer by the way of a neighbour: because none of its simplices came over the
     // hinge, or because the label that it kept was of a way that is longer once all are taut.
@@ -126,6 +145,7 @@ class HingeCrossings {
         if (!(way < known)) continue;
         via[w] = number;
         last[w] = room.crossing;
+        keep(piece, w, way, way, number, room);
         distance[w] = way;
         label[w] = find(number)->source;
         front.push_back(w);
@@ -136,6 +156,7 @@ class HingeCrossings {
  private:
   using Taut = TautCrossings<Real>;
   using Step = typename Taut::Step;
+  using Ways = CrossingWays<Real>;
   static constexpr Real infinity = std::numeric_limits<Real>::infinity();
 
   struct Known : Crossing {
@@ -162,7 +183,35 @@ class HingeCrossings {
     Path path, last;
     typename Taut::Room taut;
     Point crossing;  // the last one of the path found last, in the domain's unit
+    bool all;        // was that pulled as a whole? It is `last` then.
   };
+  struct Seed {
+    Index piece, number;
+    Point at;
+    Real offset;
+  };
+
+  // A path was found for a vertex: if it is its distance's, and known from its start.
+  bool keep(Index piece, Index v, Real length, Real distance, Index number, const Room& room) {
+    const bool is = room.all && length <= distance * (1 + Piece::crossing_gain);
+    if (is)
+      ways_->keep(piece, v, room.last.eye, room.last.sigma, room.last.steps, find(number)->source);
+    else
+      ways_->forget(piece, v);
+    return is;
+  }
+  // The same where it is a straight line from a source in the piece.
+  void keep_straight(Index piece, Index v, Index inside, Real distance, Index number) {
+    const auto seed = std::lower_bound(
+        seeds_.begin(), seeds_.end(), std::pair(piece, number),
+        [](const Seed& s, const auto& key) { return std::pair(s.piece, s.number) < key; });
+    if (seed == seeds_.end() || seed->piece != piece || seed->number != number) return;
+    const Piece& own = *pieces_[piece];
+    if (!own.sees_all()) return;
+    const Real length = seed->offset + norm(own.unit() * own.place(inside) - seed->at);
+    if (length <= distance * (1 + Piece::crossing_gain))
+      ways_->keep(piece, v, seed->at, seed->offset, {}, number);
+  }
 
   [[nodiscard]] const Known* find(Index number) const {
     return number == none || number < first_ ? nullptr : &crossings_[number - first_];
@@ -188,6 +237,7 @@ class HingeCrossings {
   [[nodiscard]] Real least_by(Index number, const Piece& own, Index vertex, Room& room) const {
     Path& path = room.path;
     follow(number, path);
+    room.all = false;
     Real least = infinity;
     if (!own.sees_all()) return least_in_sight(own, vertex, room);
     const Point target = own.place(vertex);
@@ -213,6 +263,7 @@ class HingeCrossings {
     }
     const Point end = own.unit() * target;
     const auto take = [&](Real there) {
+      room.all = there < least && path.sigma < infinity;
       if (!(there < least)) return;
       least = there;
       room.crossing = taut_->place(path.steps.back(), 1 - path.steps.back().side);
@@ -385,7 +436,9 @@ class HingeCrossings {
   Index first_ = 0;
   bool moves_ = false;  // is any on a hinge?
   std::vector<Known> crossings_;
+  std::vector<Seed> seeds_;  // by piece and number
   std::unique_ptr<Taut> taut_;
+  std::unique_ptr<Ways> ways_;
 };
 
 }  // namespace plexway

@@ -103,6 +103,8 @@ class MixedPiece {
     return none;
   }
   virtual Point place(Index) const { return {}; }
+  /// A source in the domain's unit, by the caller's numbers.
+  virtual Point place(const PointSource&) const { return {}; }
   /// What a length inside the piece is in the domain's unit.
   [[nodiscard]] virtual Real unit() const { return 1; }
   /// The point that the label of a hinge's member starts at and the way to it, both in the domain's

@@ -127,9 +127,21 @@ class MixedSolid final : public MixedPiece<Real> {
   }
 
   Point place(Index vertex) const override { return mesh_.points()[vertex]; }
+  Point place(const PointSource& source) const override {
+    if (source.vertex != none) return unit_ * place(mesh_.inside_vertex(source.vertex));
+    std::array<double, 4> b = source.barycentric;
+    const auto [t, turned] = mesh_.inside_tet(source.simplex);
+    if (turned) std::swap(b[2], b[3]);
+    Point at = {0, 0, 0};
+    for (std::size_t i = 0; i < 4; ++i)
+      at = at + static_cast<Real>(b[i]) * mesh_.points()[mesh_.tets()[t].corner[i]];
+    return unit_ * at;
+  }
   Real unit() const override { return unit_; }
   bool eye(const Member& m, Point& at, Real& sigma, Index& source) const override {
     if (!sees_all() || !wave_.reached(m.simplex)) return false;
+    // A source that was handed on over a hinge is seen through that hinge only.
+    if (wave_.label(m.simplex).door != none) return false;
     const auto sight = rule_.seen_from(m.simplex, mesh_.tets()[m.simplex].centre);
     at = unit_ * sight.eye;
     sigma = unit_ * sight.sigma;
