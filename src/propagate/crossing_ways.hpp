@@ -254,9 +254,11 @@ class CrossingWays {
       for (const Index inner : around_) {
         const Index w = outside_[inner];
         const Point there = piece_.unit() * piece_.place(inner);
-        const Real enough = distance_[w] * (1 - Piece::crossing_gain);
+        // One whose way is not known may take what explains its distance.
+        const bool known = own_.ways[w].known();
+        const Real enough = distance_[w] * (1 + (known ? -1 : 1) * Piece::crossing_gain);
         if (!(before + norm(there - from) < enough)) {
-          if (own_.ways[w].known() && own_.ways[w].kin == way.kin) continue;
+          if (known && own_.ways[w].kin == way.kin) continue;
           if (!(time + slope.least(there - at) < enough)) continue;
         }
         path_.assign(way.steps.begin(), way.steps.end());
@@ -267,14 +269,14 @@ class CrossingWays {
       }
     }
     bool take_if(Index v, const Way& way, Real time) {
-      if (!(time < distance_[v] * (1 - Piece::crossing_gain)) || time > all_.radius_) return false;
+      const Real gain = (own_.ways[v].known() ? -1 : 1) * Piece::crossing_gain;
+      if (!(time < distance_[v] * (1 + gain)) || time > all_.radius_) return false;
       take(v, way, time);
       return true;
     }
     void take(Index v, const Way& way, Real time) {
       own_.ways[v] = way;
-      distance_[v] = time;
-      label_[v] = way.source;
+      if (time < distance_[v]) distance_[v] = time, label_[v] = way.source;
       add(v);
     }
 

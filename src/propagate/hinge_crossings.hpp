@@ -200,17 +200,29 @@ class HingeCrossings {
       ways_->forget(piece, v);
     return is;
   }
-  // The same where it is a straight line from a source in the piece.
-  void keep_straight(Index piece, Index v, Index inside, Real distance, Index number) {
-    const auto seed = std::lower_bound(
-        seeds_.begin(), seeds_.end(), std::pair(piece, number),
-        [](const Seed& s, const auto& key) { return std::pair(s.piece, s.number) < key; });
-    if (seed == seeds_.end() || seed->piece != piece || seed->number != number) return;
+  // The same where it is a straight line from a source in the piece: of few, whichever is nearest,
+  // whatever label was kept; of many, that of the label.
+  void keep_straight(Index piece, Index v, Index inside, Real& distance, Index& label) {
     const Piece& own = *pieces_[piece];
     if (!own.sees_all()) return;
-    const Real length = seed->offset + norm(own.unit() * own.place(inside) - seed->at);
-    if (length <= distance * (1 + Piece::crossing_gain))
-      ways_->keep(piece, v, seed->at, seed->offset, {}, number);
+    constexpr std::ptrdiff_t few = 8;
+    const auto before = [](const Seed& s, const auto& key) {
+      return std::pair(s.piece, s.number) < key;
+    };
+    const auto at = [&](Index p, Index number) {
+      return std::lower_bound(seeds_.begin(), seeds_.end(), std::pair(p, number), before);
+    };
+    auto first = at(piece, 0), last = at(piece + 1, 0);
+    if (last - first > few) {
+      first = at(piece, label);
+      last = first == last || first->number != label ? first : first + 1;
+    }
+    for (auto seed = first; seed != last; ++seed) {
+      const Real length = seed->offset + norm(own.unit() * own.place(inside) - seed->at);
+      if (!(length <= distance * (1 + Piece::crossing_gain))) continue;
+      ways_->keep(piece, v, seed->at, seed->offset, {}, seed->number);
+      if (length < distance) distance = length, label = seed->number;
+    }
   }
 
   [[nodiscard]] const Known* find(Index number) const {
