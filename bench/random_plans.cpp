@@ -1,7 +1,8 @@
 // Random plans as the fuzzers make them (tests/fuzz/fuzz_plan.hpp), with errors in a table where
 // those only hold bounds: rectangles cut out of a square, as a surface, as a complex of triangles
-// and as the prism over it, against the visibility graph of the corners. And several sources at
-// once in a cube, against straight lines.
+// and as the prism over it, against the visibility graph of the corners. Several sources at once in
+// a cube, against straight lines. And solids of several speeds: stacks of slabs, against Snell's
+// law and head waves; two with rectangles or slits cut out of both, against a refined graph.
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -10,6 +11,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <random>
 #include <string>
 #include <vector>
@@ -20,7 +22,9 @@
 #include <plexway/complex/triangle_mesh.hpp>
 #include <plexway/solve.hpp>
 
-#include "fuzz/fuzz_plan.hpp"
+#include "data/pierced_layers.hpp"
+#include "data/random_stacks.hpp"
+#include "fuzz/fuzz_whole.hpp"
 #include "table.hpp"
 
 namespace {
@@ -42,6 +46,7 @@ class Errors {
       ++vertices_;
       sum_ += std::abs(off);
       far_ += off > bounds[0];
+      off_ += std::abs(off) > 1e-3;
       longest = std::max(longest, off);
       shortest_ = std::min(shortest_, off);
     }
@@ -56,6 +61,7 @@ class Errors {
                {"mean", sum_ / static_cast<double>(std::max<std::size_t>(vertices_, 1))},
                {"long", longest_},
                {"short", shortest_},
+               {"off", off_},
                {"far", far_},
                {"above1", above_[0]},
                {"above3", above_[1]},
@@ -64,7 +70,7 @@ class Errors {
 
  private:
   static constexpr std::array<double, 3> bounds = {.01, .03, .05};
-  std::size_t plans_ = 0, vertices_ = 0, far_ = 0;
+  std::size_t plans_ = 0, vertices_ = 0, off_ = 0, far_ = 0;
   double sum_ = 0, longest_ = 0, shortest_ = 0;
   std::array<std::size_t, 3> above_{};
 };
@@ -124,6 +130,97 @@ void solve_cube(Random& random, std::size_t count, Errors& errors) {
   errors.add(plexway::solve(plexway::Serial{}, cube, sources).distance, truth);
 }
 
+// From a vertex on a plane between two slabs, or from any.
+void solve_stack(Random& random, double thinnest, double thickest, bool on_plane, Errors& errors) {
+  const samples::Stack stack = samples::random_stack(random, 20, thinnest, thickest);
+  plexway::MixedComplex<double> domain;
+  std::vector<samples::Position> places;
+  std::vector<plexway::MixedComplex<double>::Piece> pieces;
+  for (std::size_t k = 0; k < stack.blocks.size(); ++k) {
+    const auto& [positions, tets] = stack.blocks[k];
+    places.insert(places.end(), positions.begin(), positions.end());
+    auto timed = positions;
+    for (auto& p : timed)
+      for (double& x : p) x /= stack.layers.v[k];
+    pieces.push_back(domain.add(plexway::TetMesh<double>(timed, tets), positions));
+    if (k > 0) domain.weld(pieces[k - 1], pieces[k], plexway::WeldOptions{.tolerance = 1e-9});
+  }
+  const auto& planes = stack.layers.z;
+  Index source;
+  do {
+    source = static_cast<Index>(random() % places.size());
+  } while (on_plane && std::find(planes.begin(), planes.end(), places[source][2]) == planes.end());
+  Distances truth;
+  for (const auto& p : places) truth.push_back(stack.layers.time(places[source], p));
+  errors.add(plexway::solve(plexway::Serial{}, domain, PointSource::at(source)).distance, truth);
+}
+
+// Two solids whose plans meet in a line. Rectangles may reach over it, but no side of one lies in
+// it; slits come from the rim and end anywhere. Paths from the floor to the floor stay on it. False
+// for one that does not count.
+bool solve_pierced(const samples::CornerDomain& plan, fuzz::Choices& choices, Errors& errors) {
+  samples::Shape shape = fuzz::meshed(plan, choices);
+  const double middle =
+      static_cast<double>(1 + choices.byte() % (fuzz::plan_cells - 1)) / fuzz::plan_cells;
+  for (auto& p : shape.points)
+    if (std::abs(p[1] - middle) < 0.4 / fuzz::plan_cells) p[1] = middle;
+  for (const auto& b : plan.blocks)
+    if (b.left < b.right && (b.bottom == middle || b.top == middle)) return false;
+  const samples::PiercedLayers layers = {
+      plan, middle, {1, std::exp2((choices.byte() - 127.5) / 80)}};
+  // The lips of slits lie on each other; what is told of them lies beside.
+  std::vector<samples::Point> beside = shape.points;
+  for (std::size_t v = 0; v < beside.size(); ++v)
+    for (const auto& b : plan.blocks) {
+      const double off = beside[v][0] - b.left;
+      if (b.left != b.right || off == 0 || std::abs(off) > 1e-12) continue;
+      shape.points[v][0] = b.left;
+      beside[v][0] = b.left + (off > 0 ? 1e-8 : -1e-8);
+    }
+  const Distances known = layers.times(beside);
+  const fuzz::Prism prism = fuzz::prism_of(shape, fuzz::height_of(choices));
+  fuzz::Whole whole(prism.places);
+  const auto parts = fuzz::dealt(prism.tets, prism.places, 2, [&](const fuzz::Place& at) {
+    return std::size_t{at[1] > middle};
+  });
+  for (const std::size_t k : {0, 1}) whole.add(parts[k], layers.speed[k]);
+  const Distances all = whole.solve(0);
+  Distances found, truth;
+  for (std::size_t v = 0; v < all.size(); ++v)
+    if (const Index place = whole.places()[v]; place < known.size()) {
+      found.push_back(all[v]);
+      truth.push_back(known[place]);
+    }
+  errors.add(found, truth);
+  return true;
+}
+
+// From the rim to where they end, the longest of those on a line.
+std::vector<samples::CornerDomain::Block> slits_of(
+    const std::vector<samples::CornerDomain::Block>& blocks) {
+  std::map<double, double> top;
+  for (const auto& b : blocks) top[b.left] = std::max(top[b.left], b.top);
+  std::vector<samples::CornerDomain::Block> slits;
+  for (const auto& [x, y] : top) slits.push_back({x, x, -1, y});
+  return slits;
+}
+
+void solve_pierced(Random& random, bool slits, std::size_t plans, Errors& errors) {
+  while (plans > 0) {
+    std::array<std::uint8_t, 16> bytes;
+    for (std::uint8_t& b : bytes) b = static_cast<std::uint8_t>(random() >> 24);
+    fuzz::Choices choices(bytes.data(), bytes.size());
+    auto plan = fuzz::plan_of(choices);
+    if (!plan) continue;
+    if (slits) plan->blocks = slits_of(plan->blocks);
+    if (std::any_of(plan->blocks.begin(), plan->blocks.end(), [&](const auto& b) {
+          return b.left == b.right && std::abs(plan->source[0] - b.left) < 1e-9;
+        }))
+      continue;  // from a slit, or in its line
+    plans -= solve_pierced(*plan, choices, errors);
+  }
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -134,7 +231,8 @@ int main(int argc, char** argv) {
   CLI::App app("Random plans as the fuzzers make them: how far distances are off");
   app.add_option("--plans", plans, "How many of each kind")->capture_default_str();
   app.add_option("--seed", seed, "Other plans by another number")->capture_default_str();
-  app.add_option("--only", only, "accurate, exact, plane, prism, sources")->delimiter(',');
+  app.add_option("--only", only, "accurate, exact, plane, prism, sources, stack, holes, slits")
+      ->delimiter(',');
   report.add_options(app);
   CLI11_PARSE(app, argc, argv);
   bench::Table table({{"domain", "domain"},
@@ -143,7 +241,8 @@ int main(int argc, char** argv) {
                       {"mean", "mean"},
                       {"long", "most too long"},
                       {"short", "most too short"},
-                      {"far", "vertices above 1 %"},
+                      {"off", "vertices off by .1 %"},
+                      {"far", "above 1 %"},
                       {"above1", "plans above 1 %"},
                       {"above3", "above 3 %"},
                       {"above5", "above 5 %"}});
@@ -175,5 +274,18 @@ int main(int argc, char** argv) {
       measure("sources " + std::to_string(count), [&](Random& random, Errors& errors) {
         for (std::size_t i = 0; i < plans; ++i) solve_cube(random, count, errors);
       });
+    const auto stacks = [&](const std::string& name, double thinnest, double thickest,
+                            bool on_plane) {
+      measure("stack " + name, [&](Random& random, Errors& errors) {
+        for (std::size_t i = 0; i < plans; ++i)
+          solve_stack(random, thinnest, thickest, on_plane, errors);
+      });
+    };
+    stacks("thin, from a plane", .02, 1.5, true);
+    stacks("of cells, from a plane", .7, 1.5, true);
+    stacks("thin, from anywhere", .02, 1.5, false);
+    for (const bool slits : {false, true})
+      measure(slits ? "slits in two speeds" : "holes in two speeds",
+              [&](Random& random, Errors& errors) { solve_pierced(random, slits, plans, errors); });
   });
 }

@@ -12,6 +12,7 @@
 
 #include <plexway/complex/mixed_complex.hpp>
 
+#include "propagate/crossing_ways.hpp"
 #include "propagate/hinge_neighbours.hpp"
 #include "propagate/mixed_piece.hpp"
 #include "propagate/taut_crossings.hpp"
@@ -43,8 +44,11 @@ class HingeCrossings {
                  const HingeNeighbours<Real>& neighbours)
       : domain_(domain), pieces_(pieces), neighbours_(neighbours) {}
 
-  /// `number` is one of the caller's sources.
-  void keep_clear(Index number) { first_ = std::max(first_, number + 1); }
+  /// `number` is one of the caller's sources: a point of a piece, in the domain's unit.
+  void seed(Index piece, const Point& at, Real offset, Index number) {
+    first_ = std::max(first_, number + 1);
+    seeds_.push_back({piece, number, at, offset});
+  }
   /// The first number of a crossing, and the next one.
   [[nodiscard]] Index first() const { return first_; }
   [[nodiscard]] Index next() const { return first_ + static_cast<Index>(crossings_.size()); }
@@ -60,10 +64,10 @@ class HingeCrossings {
     const Piece& to = *pieces_[hinge.piece[1 - crossing.side]];
     const Member& beyond = domain_.members()[k];
     Known& known = crossings_.back();
-    if (!to.sees_all()) return;
     const HingeEnd<Real> at = to.pose(beyond, hinge.dimension, crossing.start);
     known.place = to.shape(beyond, hinge.dimension).point(at.x, at.y);
     if (hinge.dimension == 1) known.place[1] = 0;
+    if (!to.sees_all()) return;
     Index before = none;
     if (!from.eye(domain_.members()[m], known.eye, known.sigma, before)) return;
     if (on_hinge(before) != nullptr) known.before = before;
@@ -74,12 +78,22 @@ class HingeCrossings {
     return crossing != nullptr ? crossing->source : number;
   }
   /// All crossings are there: vertices may be read out, those of several pieces at once.
-  void end() {
-    if (moves_) taut_ = std::make_unique<Taut>(domain_, pieces_, neighbours_);
+  void end(Real radius) {
+    if (!moves_) return;
+    taut_ = std::make_unique<Taut>(domain_, pieces_, neighbours_);
+    ways_ = std::make_unique<Ways>(domain_, pieces_, *taut_, radius);
+    std::stable_sort(seeds_.begin(), seeds_.end(), [](const Seed& a, const Seed& b) {
+      return std::pair(a.piece, a.number) < std::pair(b.piece, b.number);
+    });
   }
+  /// Then ways are handed on, round by round.
+  void hand_on(Index piece, std::span<Real> distance, std::span<Index> label) {
+    if (moves_) ways_->hand_on(piece, distance, label);
+  }
+  bool deliver() { return moves_ && ways_->deliver(); }
 
   /// Distances and labels of a piece's vertices, in its caller's order.
-  void straighten(Index piece, std::span<Real> distance, std::span<Index> label) const {
+  void straighten(Index piece, std::span<Real> distance, std::span<Index> label) {
     if (!moves_) return;
     const auto& own = *pieces_[piece];
     const auto starts = [&](Index number) -> const Point* {
@@ -98,12 +112,17 @@ class HingeCrossings {
     Room room;
     for (Index v = 0; v < distance.size(); ++v) {
       const Index number = own.crossing_seen(inside(v), starts);
-      if (find(number) == nullptr) continue;
+      if (find(number) == nullptr) {
+        keep_straight(piece, v, inside(v), distance[v], label[v]);
+        continue;
+      }
       via[v] = number;
-      const Real there = least_by(number, own.place(inside(v)), own.unit(), room);
+      const Real there = least_by(number, own, inside(v), room);
       last[v] = room.crossing;
+      if (!keep(piece, v, there, distance[v], number, room))
+        keep_straight(piece, v, inside(v), distance[v], label[v]);
       if (there < distance[v]) distance[v] = there, label[v] = find(number)->source;
-      front.push_back(v);
+      if (!ways_->known(piece, v)) front.push_back(v);
     }
     // A vertex may be nearer by the way of a neighbour: because none of its simplices came over the
     // hinge, or because the label that it kept was of a way that is longer once all are taut.
@@ -122,10 +141,11 @@ class HingeCrossings {
         // Only to choose whom to ask: what is taken is a way that was pulled taut.
         const Real straight = before + norm(own.unit() * there - last[v]);
         if (via[w] != none && !(straight < known * (1 - Piece::crossing_gain))) continue;
-        const Real way = least_by(number, there, own.unit(), room);
+        const Real way = least_by(number, own, inner, room);
         if (!(way < known)) continue;
         via[w] = number;
         last[w] = room.crossing;
+        keep(piece, w, way, way, number, room);
         distance[w] = way;
         label[w] = find(number)->source;
         front.push_back(w);
@@ -136,6 +156,7 @@ class HingeCrossings {
  private:
   using Taut = TautCrossings<Real>;
   using Step = typename Taut::Step;
+  using Ways = CrossingWays<Real>;
   static constexpr Real infinity = std::numeric_limits<Real>::infinity();
 
   struct Known : Crossing {
@@ -162,7 +183,47 @@ class HingeCrossings {
     Path path, last;
     typename Taut::Room taut;
     Point crossing;  // the last one of the path found last, in the domain's unit
+    bool all;        // was that pulled as a whole? It is `last` then.
   };
+  struct Seed {
+    Index piece, number;
+    Point at;
+    Real offset;
+  };
+
+  // A path was found for a vertex: if it is its distance's, and known from its start.
+  bool keep(Index piece, Index v, Real length, Real distance, Index number, const Room& room) {
+    const bool is = room.all && length <= distance * (1 + Piece::crossing_gain);
+    if (is)
+      ways_->keep(piece, v, room.last.eye, room.last.sigma, room.last.steps, find(number)->source);
+    else
+      ways_->forget(piece, v);
+    return is;
+  }
+  // The same where it is a straight line from a source in the piece: of few, whichever is nearest,
+  // whatever label was kept; of many, that of the label.
+  void keep_straight(Index piece, Index v, Index inside, Real& distance, Index& label) {
+    const Piece& own = *pieces_[piece];
+    if (!own.sees_all()) return;
+    constexpr std::ptrdiff_t few = 8;
+    const auto before = [](const Seed& s, const auto& key) {
+      return std::pair(s.piece, s.number) < key;
+    };
+    const auto at = [&](Index p, Index number) {
+      return std::lower_bound(seeds_.begin(), seeds_.end(), std::pair(p, number), before);
+    };
+    auto first = at(piece, 0), last = at(piece + 1, 0);
+    if (last - first > few) {
+      first = at(piece, label);
+      last = first == last || first->number != label ? first : first + 1;
+    }
+    for (auto seed = first; seed != last; ++seed) {
+      const Real length = seed->offset + norm(own.unit() * own.place(inside) - seed->at);
+      if (!(length <= distance * (1 + Piece::crossing_gain))) continue;
+      ways_->keep(piece, v, seed->at, seed->offset, {}, seed->number);
+      if (length < distance) distance = length, label = seed->number;
+    }
+  }
 
   [[nodiscard]] const Known* find(Index number) const {
     return number == none || number < first_ ? nullptr : &crossings_[number - first_];
@@ -184,12 +245,14 @@ class HingeCrossings {
     std::reverse(path.steps.begin(), path.steps.end());
   }
 
-  // The length of the shortest path to a target by way of a crossing.
-  [[nodiscard]] Real least_by(Index number, const Point& target, Real unit, Room& room) const {
+  // The length of the shortest path to a vertex by way of a crossing.
+  [[nodiscard]] Real least_by(Index number, const Piece& own, Index vertex, Room& room) const {
     Path& path = room.path;
     follow(number, path);
+    room.all = false;
     Real least = infinity;
-    if (is_obstructed(path.steps.back())) return least_step_by_step(unit, target, room);
+    if (!own.sees_all()) return least_in_sight(own, vertex, room);
+    const Point target = own.place(vertex);
     if (path.steps.size() == 1 || !(path.sigma < infinity)) {
       // Labels tell from where it comes, and may know of a better way.
       const bool is_last = path.steps.size() == 1;
@@ -210,8 +273,9 @@ class HingeCrossings {
         path.steps[0] = first;
       }
     }
-    const Point end = unit * target;
+    const Point end = own.unit() * target;
     const auto take = [&](Real there) {
+      room.all = there < least && path.sigma < infinity;
       if (!(there < least)) return;
       least = there;
       room.crossing = taut_->place(path.steps.back(), 1 - path.steps.back().side);
@@ -237,23 +301,47 @@ class HingeCrossings {
     return least;
   }
 
-  // May something be in the way behind the last crossing?
-  [[nodiscard]] bool is_obstructed(const Step& last) const {
-    return !pieces_[domain_.hinges()[last.hinge].piece[1 - last.side]]->sees_all();
-  }
-  // The same where it may be: the last crossing goes from hinge to hinge as labels tell, not by
-  // Newton's steps, which would go through what is in the way. The others are pulled taut to it.
-  [[nodiscard]] Real least_step_by_step(Real unit, const Point& target, Room& room) const {
+  // The same where something may be in the way behind the last crossing: that goes from hinge to
+  // hinge as labels tell, and only as far as the vertex sees it. Newton's steps would go through
+  // what is in the way. The others are pulled taut to it.
+  [[nodiscard]] Real least_in_sight(const Piece& own, Index vertex, Room& room) const {
     Path& path = room.path;
     Step& last = path.steps.back();
-    const Over over = move(last, target);
+    const Step start = last;
+    const Point target = own.place(vertex), end = own.unit() * target;
+    Over over = move(last, target);
+    if (!(over.distance < infinity)) return infinity;
+    if (!in_sight(last, own, vertex)) {
+      // The way is convex: the farther towards the least, the better.
+      const Step best = last;
+      last = start;
+      over = at_place(last, target);
+      Real low = 0, high = 1;
+      constexpr int halvings = 8;
+      for (int i = 0; i < halvings; ++i) {
+        const Real share = (low + high) / 2;
+        Step step = start;
+        taut_->towards(step, best, share);
+        const Over there = at_place(step, target);
+        const bool seen = there.distance < over.distance && in_sight(step, own, vertex);
+        (seen ? low : high) = share;
+        if (seen) over = there, last = step;
+      }
+      if (low == 0 && !in_sight(last, own, vertex)) return infinity;
+    }
     room.crossing = taut_->place(last, 1 - last.side);
     if (path.steps.size() < 2 || !(path.sigma < infinity)) return over.distance;
     const auto before = std::span(path.steps).first(path.steps.size() - 1);
     const Real there = path.sigma +
                        taut_->pull(path.eye, before, taut_->place(last, last.side), room.taut) +
-                       norm(unit * target - room.crossing);
+                       norm(end - room.crossing);
     return std::min(over.distance, there);
+  }
+  [[nodiscard]] bool in_sight(const Step& step, const Piece& own, Index vertex) const {
+    const auto& hinge = domain_.hinges()[step.hinge];
+    for (Index m = hinge.begin[1 - step.side]; m < hinge.end[1 - step.side]; ++m)
+      if (own.sees(domain_.members()[m], hinge.dimension, step.place, vertex)) return true;
+    return false;
   }
 
   // All crossings of a path whose start is known.
@@ -302,6 +390,23 @@ class HingeCrossings {
     return over;
   }
 
+  // By a place as it is.
+  [[nodiscard]] Over at_place(const Step& step, const Point& target) const {
+    const auto& hinge = domain_.hinges()[step.hinge];
+    const Piece& from = *pieces_[hinge.piece[step.side]];
+    const Piece& to = *pieces_[hinge.piece[1 - step.side]];
+    Over least;
+    for (Index m = hinge.begin[step.side]; m < hinge.end[step.side]; ++m) {
+      const Member& member = domain_.members()[m];
+      if (!(from.distance(member.simplex) < infinity)) continue;
+      const HingeFront<Real> front(from, member, hinge.dimension, none, none);
+      const Real before = front.distance(step.place);
+      if (before < least.before) least.before = before, least.place = step.place;
+    }
+    least.distance = least.before + norm(to.unit() * target - taut_->place(step, 1 - step.side));
+    return least;
+  }
+
   [[nodiscard]] Over way_over(Index n, std::size_t side, const Point& target) const {
     const auto& hinge = domain_.hinges()[n];
     const Piece& from = *pieces_[hinge.piece[side]];
@@ -343,7 +448,9 @@ class HingeCrossings {
   Index first_ = 0;
   bool moves_ = false;  // is any on a hinge?
   std::vector<Known> crossings_;
+  std::vector<Seed> seeds_;  // by piece and number
   std::unique_ptr<Taut> taut_;
+  std::unique_ptr<Ways> ways_;
 };
 
 }  // namespace plexway

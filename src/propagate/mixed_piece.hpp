@@ -103,11 +103,15 @@ class MixedPiece {
     return none;
   }
   virtual Point place(Index) const { return {}; }
+  /// A source in the domain's unit, by the caller's numbers.
+  virtual Point place(const PointSource&) const { return {}; }
   /// What a length inside the piece is in the domain's unit.
   [[nodiscard]] virtual Real unit() const { return 1; }
   /// The point that the label of a hinge's member starts at and the way to it, both in the domain's
   /// unit, and its source. False where not all of the hinge need see it.
   virtual bool eye(const Member&, Point&, Real&, Index&) const { return false; }
+  /// Is a vertex in a straight line from a place of a hinge?
+  virtual bool sees(const Member&, int, const HingePlace<Real>&, Index) const { return true; }
   /// Does every point see every other?
   [[nodiscard]] virtual bool sees_all() const { return false; }
   virtual void vertices_around(Index, std::vector<Index>&) const {}

@@ -64,16 +64,20 @@ class MixedPropagation {
 
   /// A source in the piece's own numbers. A welded vertex is one in its other pieces too.
   void seed(Index piece, const PointSource& source, Index number) {
-    crossings_.keep_clear(number);
+    const Real offset = static_cast<Real>(source.offset);
+    crossings_.seed(piece, pieces_[piece]->place(source), offset, number);
     pieces_[piece]->seed(source, number);
     if (source.vertex == none) return;
     const Index vertex = std::visit([&](const auto& c) { return c.inside_vertex(source.vertex); },
                                     domain_.complex(domain_.pieces()[piece]));
     for (const auto& weld : domain_.welds())
       for (const std::size_t side : {0, 1})
-        if (weld.piece[side] == piece && weld.vertex[side] == vertex)
-          pieces_[weld.piece[1 - side]]->enter_vertex(
-              weld.vertex[1 - side], static_cast<Real>(source.offset), number, false);
+        if (weld.piece[side] == piece && weld.vertex[side] == vertex) {
+          auto& other = *pieces_[weld.piece[1 - side]];
+          crossings_.seed(weld.piece[1 - side], other.unit() * other.place(weld.vertex[1 - side]),
+                          offset, number);
+          other.enter_vertex(weld.vertex[1 - side], offset, number, false);
+        }
   }
 
   void run() {
@@ -98,11 +102,14 @@ class MixedPropagation {
     field.distance.assign(domain_.vertex_count(), infinity);
     field.label.assign(domain_.vertex_count(), none);
     each([&](Index p) { pieces_[p]->read_out(distances(field, p), labels(field, p)); });
-    crossings_.end();
+    crossings_.end(static_cast<Real>(options_.radius));
     each([&](Index p) {
       crossings_.straighten(p, distances(field, p), labels(field, p));
       for (Index& l : labels(field, p)) l = root(l);
     });
+    do {
+      each([&](Index p) { crossings_.hand_on(p, distances(field, p), labels(field, p)); });
+    } while (crossings_.deliver());
     field.complete = complete_;
     field.statistics = {};
     for (const auto& piece : pieces_) {

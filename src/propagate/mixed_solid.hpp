@@ -98,7 +98,7 @@ class MixedSolid final : public MixedPiece<Real> {
   PosedSource<Real> leave(const Member& m, int dimension,
                           const HingePlace<Real>& b) const override {
     const Frame frame(*this, m, dimension);
-    const auto sight = rule_.seen_from(m.simplex, frame.place(b));
+    const auto sight = rule_.reached_from(m.simplex, frame.place(b));
     const HingeEnd<Real> end = frame.pose(sight.eye, unit_);
     return {end.x, end.y, end.h, sight.sigma * unit_, wave_.source(m.simplex)};
   }
@@ -127,9 +127,21 @@ class MixedSolid final : public MixedPiece<Real> {
   }
 
   Point place(Index vertex) const override { return mesh_.points()[vertex]; }
+  Point place(const PointSource& source) const override {
+    if (source.vertex != none) return unit_ * place(mesh_.inside_vertex(source.vertex));
+    std::array<double, 4> b = source.barycentric;
+    const auto [t, turned] = mesh_.inside_tet(source.simplex);
+    if (turned) std::swap(b[2], b[3]);
+    Point at = {0, 0, 0};
+    for (std::size_t i = 0; i < 4; ++i)
+      at = at + static_cast<Real>(b[i]) * mesh_.points()[mesh_.tets()[t].corner[i]];
+    return unit_ * at;
+  }
   Real unit() const override { return unit_; }
   bool eye(const Member& m, Point& at, Real& sigma, Index& source) const override {
     if (!sees_all() || !wave_.reached(m.simplex)) return false;
+    // A source that was handed on over a hinge is seen through that hinge only.
+    if (wave_.label(m.simplex).door != none) return false;
     const auto sight = rule_.seen_from(m.simplex, mesh_.tets()[m.simplex].centre);
     at = unit_ * sight.eye;
     sigma = unit_ * sight.sigma;
@@ -137,6 +149,13 @@ class MixedSolid final : public MixedPiece<Real> {
     return true;
   }
 
+  bool sees(const Member& m, int dimension, const HingePlace<Real>& b,
+            Index vertex) const override {
+    const auto around = mesh_.corners_at(vertex);
+    const Point from = place(m, dimension, b);
+    return std::any_of(around.begin(), around.end(),
+                       [&](Index c) { return rule_.sees(m.simplex, from, c / 4, c % 4); });
+  }
   bool sees_all() const override { return !rule_.drops() && mesh_.summary().components == 1; }
   void vertices_around(Index vertex, std::vector<Index>& around) const override {
     around.clear();

@@ -276,11 +276,25 @@ class SolidRule : public SolidPaths<Real> {
   };
   /// The last bend on the way from the source of t to q, a point of its boundary.
   [[nodiscard]] Sight seen_from(Index t, const Point& q) const {
-    return sight(t, tets_[t].centre, t, q + nudge * (tets_[t].centre - q), q);
+    return sight(t, tets_[t].centre, t, within(t, q), q);
+  }
+  /// The same so that it is the length of a path in any case: by way of the centre where no other
+  /// is found.
+  [[nodiscard]] Sight reached_from(Index t, const Point& q) const {
+    Taut s;
+    if (find_sight(t, tets_[t].centre, t, within(t, q), q, s)) return last_bend(s);
+    return {tets_[t].centre, front_->label(t).centre};
   }
   /// The same on the way to the centre of a neighbour over the face with that middle.
   [[nodiscard]] Sight seen_over(Index t, const Point& middle, Index u) const {
     return sight(t, middle, u, tets_[u].centre, tets_[u].centre);
+  }
+  /// Is corner i of u in a straight line from a point of t? On a crack another vertex may lie where
+  /// it does: the line must come to a tetrahedron that has this one.
+  [[nodiscard]] bool sees(Index t, const Point& from, Index u, Index i) const {
+    const Index v = tets_[u].corner[i];
+    return go(t, from, within(u, points_[v])) &&
+           std::find(tets_[t].corner, tets_[t].corner + 4, v) != tets_[t].corner + 4;
   }
 
   /// A source at `eye`, outside, comes in over a face of t.
@@ -375,13 +389,20 @@ class SolidRule : public SolidPaths<Real> {
   /// in u.
   [[nodiscard]] Sight sight(Index t, const Point& middle, Index u, const Point& end,
                             const Point& q) const {
-    const Label& label = front_->label(t);
     Taut s;
-    if (!any_reflex_)
-      s = taut_to(label, q);
-    else if (!find_taut(label, t, middle, u, end, q, std::numeric_limits<Real>::infinity(),
-                        nowhere(), s))
-      s = taut_to(label, tets_[t].centre);
+    if (!find_sight(t, middle, u, end, q, s)) s = taut_to(front_->label(t), tets_[t].centre);
+    return last_bend(s);
+  }
+  bool find_sight(Index t, const Point& middle, Index u, const Point& end, const Point& q,
+                  Taut& s) const {
+    const Label& label = front_->label(t);
+    if (any_reflex_)
+      return find_taut(label, t, middle, u, end, q, std::numeric_limits<Real>::infinity(),
+                       nowhere(), s);
+    s = taut_to(label, q);
+    return true;
+  }
+  [[nodiscard]] Sight last_bend(const Taut& s) const {
     const Point eye = s.at[s.bends];
     return {eye, s.extent - norm(taut_end(s) - eye)};
   }

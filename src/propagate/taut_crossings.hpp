@@ -42,6 +42,7 @@ class TautCrossings {
     };
     std::vector<Row> rows, trial_rows;
     std::vector<char> blunt;  // lines that a step turned around
+    std::vector<Step> round;  // the path that is least where kinks are rounded
   };
 
   TautCrossings(const Domain& domain, const Pieces& pieces, const HingeNeighbours<Real>& neighbours)
@@ -55,6 +56,68 @@ class TautCrossings {
   /// A crossing, in the coordinates of the piece on a side of its hinge times that piece's unit.
   [[nodiscard]] Point place(const Step& step, std::size_t side) const {
     return facets_[step.hinge].at(side, step.place);
+  }
+
+  /// Where a path's last line begins.
+  [[nodiscard]] Point last_place(const Point& eye, std::span<const Step> path) const {
+    return path.empty() ? eye : place(path.back(), 1 - path.back().side);
+  }
+  /// Of the hinge that is crossed: the length of an edge.
+  [[nodiscard]] Real size(const Step& step) const {
+    return norm(facets_[step.hinge].along[1 - step.side][0]);
+  }
+
+  /// How the length of a taut path grows with its target: since it is convex, by no less than this.
+  struct Slope {
+    Point along = {0, 0, 0}, normal = {0, 0, 0};
+    Real across = 0;  // along the normal, to either side of a hinge that the path ends on
+    bool known = false;
+    [[nodiscard]] Real least(const Point& way) const {
+      return known ? dot(along, way) + across * std::abs(dot(normal, way))
+                   : -std::numeric_limits<Real>::infinity();
+    }
+  };
+  [[nodiscard]] Slope slope(const Point& eye, std::span<const Step> path,
+                            const Point& target) const {
+    Slope slope;
+    const Point way = target - last_place(eye, path);
+    const Real length = norm(way);
+    if (length > (path.empty() ? Real(0) : Real(1e-6) * size(path.back()))) {
+      slope.along = 1 / length * way;
+      slope.known = true;
+      return slope;
+    }
+    // It ends on the hinge: refracted there, as any path that goes on.
+    if (path.empty() || facets_[path.back().hinge].dimension != 2) return slope;
+    const Step& last = path.back();
+    const Facet& facet = facets_[last.hinge];
+    const Point before = place(last, last.side) - last_place(eye, path.first(path.size() - 1));
+    const Real far = norm(before);
+    const Point *in = facet.along[last.side], *out = facet.along[1 - last.side];
+    if (!(far > Real(1e-6) * norm(in[0]))) return slope;
+    const Real d[2] = {dot(in[0], before) / far, dot(in[1], before) / far};
+    const Real uu = dot(out[0], out[0]), uw = dot(out[0], out[1]), ww = dot(out[1], out[1]);
+    const Real det = uu * ww - uw * uw;
+    if (!(det > 0)) return slope;
+    slope.along = (ww * d[0] - uw * d[1]) / det * out[0] + (uu * d[1] - uw * d[0]) / det * out[1];
+    const Real rest = 1 - dot(slope.along, slope.along);
+    if (!(rest >= 0)) return slope;  // it would not cross here
+    const Point normal = cross(out[0], out[1]);
+    slope.normal = 1 / norm(normal) * normal;
+    slope.across = std::sqrt(rest);
+    slope.known = true;
+    return slope;
+  }
+
+  /// Moves a crossing by a share of the straight line to another one.
+  void towards(Step& step, const Step& other, Real share) const {
+    const Facet& facet = facets_[step.hinge];
+    const Point from = facet.at(0, step.place);
+    const Point off =
+        from + share * (facets_[other.hinge].at(0, other.place) - from) - facet.origin[0];
+    go(step, facet.dimension == 1
+                 ? HingePlace<Real>{dot(facet.dual[0], off), 0}
+                 : HingePlace<Real>{dot(facet.dual[0], off), dot(facet.dual[1], off)});
   }
 
   [[nodiscard]] Real length(const Point& eye, std::span<const Step> path,
@@ -76,6 +139,7 @@ class TautCrossings {
     // What the last step still wins: the error is about the square of it then.
     constexpr Real gain = Real(1e-6);
     constexpr int most_steps = 32;
+    if (path.empty()) return norm(target - eye);
     room.trial.resize(path.size());
     room.blunt.assign(path.size() + 1, 0);
     Quadratic now = newton(eye, path, target, room.blunt, room.rows);
@@ -105,7 +169,12 @@ class TautCrossings {
       }
       if (last) break;
     }
-    return now.length;
+    const bool kinks = std::find(room.blunt.begin(), room.blunt.end(), 1) != room.blunt.end();
+    if (!kinks && now.wins <= gain * now.length) return now.length;
+    const Real rounded = pull_rounded(eye, path, target, now.length, room);
+    if (!(rounded < now.length)) return now.length;
+    std::copy(room.round.begin(), room.round.end(), path.begin());
+    return rounded;
   }
 
  private:
@@ -153,6 +222,7 @@ class TautCrossings {
     const Point &u = facet.along[0][0], &w = facet.along[0][1];
     const Real uu = dot(u, u), uw = dot(u, w), ww = dot(w, w), det = uu * ww - uw * uw;
     facet.dual[0] = facet.dual[1] = {0, 0, 0};
+    if (facet.dimension == 1 && uu > 0) facet.dual[0] = 1 / uu * u;
     if (!(det > 0)) return;
     facet.dual[0] = (ww / det) * u - (uw / det) * w;
     facet.dual[1] = (uu / det) * w - (uw / det) * u;
@@ -188,9 +258,10 @@ class TautCrossings {
     Point forward;
     Real length, one_over;
     Real sharp;
-    Line(const Point& from, const Point& to, Real least, char blunt) : sharp(blunt ? 0 : 1) {
+    Line(const Point& from, const Point& to, Real least, char blunt, Real round)
+        : sharp(blunt ? 0 : 1) {
       const Point way = to - from;
-      length = norm(way);
+      length = round > 0 ? std::sqrt(dot(way, way) + round * round) : norm(way);
       one_over = 1 / std::max(length, least);
       forward = one_over * way;
     }
@@ -229,6 +300,43 @@ class TautCrossings {
     return any;
   }
 
+  // Past kinks, where a line has no length and Newton's steps creep or stop: with sqrt(l^2 + e^2)
+  // for a length l, and e less and less. Gives the length of `room.round`.
+  Real pull_rounded(const Point& eye, std::span<const Step> path, const Point& target, Real known,
+                    Room& room) const {
+    constexpr Real first = Real(.1), less = Real(.2), enough = Real(.01);
+    constexpr Real last = sizeof(Real) == 4 ? Real(1e-5) : Real(1e-9);
+    constexpr int most_steps = 8, most_halvings = 6;
+    room.round.assign(path.begin(), path.end());
+    room.trial.resize(path.size());
+    room.blunt.assign(path.size() + 1, 0);
+    for (Real e = first * known; e > last * known; e *= less) {
+      Quadratic now = newton(eye, room.round, target, room.blunt, room.rows, e);
+      int halvings = 0;
+      Real share = 1;
+      for (int i = 0; i < most_steps && now.wins > enough * e && halvings < most_halvings; ++i) {
+        for (std::size_t k = 0; k < path.size(); ++k) {
+          room.trial[k] = room.round[k];
+          const Real* step = room.rows[k].step;
+          const HingePlace<Real>& at = room.round[k].place;
+          go(room.trial[k], {at[0] + share * step[0], at[1] + share * step[1]});
+        }
+        const Quadratic there = newton(eye, room.trial, target, room.blunt, room.trial_rows, e);
+        if (there.length < now.length) {
+          std::swap(room.round, room.trial);
+          std::swap(room.rows, room.trial_rows);
+          now = there;
+          share = 1;
+          halvings = 0;
+        } else {
+          share /= 2;
+          ++halvings;
+        }
+      }
+    }
+    return length(eye, room.round, target);
+  }
+
   // A path's length, and what it would win if that were quadratic.
   struct Quadratic {
     Real length, wins;
@@ -236,7 +344,7 @@ class TautCrossings {
 
   // Steps to where the length is least if it were quadratic.
   Quadratic newton(const Point& eye, std::span<const Step> path, const Point& target,
-                   const std::vector<char>& blunt, std::vector<Row>& rows) const {
+                   const std::vector<char>& blunt, std::vector<Row>& rows, Real round = 0) const {
     rows.resize(path.size());
     Real fall = 0, sum = 0;
     Point from = eye;
@@ -247,7 +355,7 @@ class TautCrossings {
       const Point *in = facet.along[side], *out = facet.along[1 - side];
       const Real least = Real(1e-9) * norm(in[0]);
       if (k == 0) {
-        const Line line(eye, facet.at(side, path[0].place), least, blunt[0]);
+        const Line line(eye, facet.at(side, path[0].place), least, blunt[0], round);
         sum += line.length;
         const Real f[2] = {dot(in[0], line.forward), dot(in[1], line.forward)};
         for (std::size_t i = 0; i < 2; ++i) right[i] = -f[i];
@@ -259,7 +367,7 @@ class TautCrossings {
       const bool is_last = k + 1 == path.size();
       const Facet* next = is_last ? nullptr : &facets_[path[k + 1].hinge];
       const Point to = is_last ? target : next->at(path[k + 1].side, path[k + 1].place);
-      const Line line(from, to, least, blunt[k + 1]);
+      const Line line(from, to, least, blunt[k + 1], round);
       sum += line.length;
       const Real f[2] = {dot(out[0], line.forward), dot(out[1], line.forward)};
       Row& row = rows[k];

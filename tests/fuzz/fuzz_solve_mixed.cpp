@@ -3,91 +3,12 @@
 // layers of two speeds, as sheets and as solids (Snell's law and head waves); a square with wires
 // of a speed of their own from vertex to vertex (a graph of straight lines and wires).
 
-#include <map>
-
-#include <plexway/complex/mixed_complex.hpp>
-
 #include "data/speed_times.hpp"
-#include "fuzz_plan.hpp"
+#include "fuzz_whole.hpp"
 
 namespace {
 
 using namespace fuzz;
-using plexway::PointSource;
-using Mixed = plexway::MixedComplex<double>;
-
-/// Simplices of numbered places in pieces of their own, each with a speed, welded all to all.
-class Whole {
- public:
-  explicit Whole(const std::vector<Place>& places) : places_(places) {}
-
-  /// A piece on which paths run at `speed`; nothing where there are no simplices.
-  template <std::size_t Corners>
-  void add(const std::vector<std::array<Index, Corners>>& simplices, double speed) {
-    if (simplices.empty()) return;
-    std::map<Index, Index> number;
-    std::vector<Place> at, timed;
-    std::vector<std::array<Index, Corners>> own = simplices;
-    for (auto& simplex : own)
-      for (Index& v : simplex) {
-        const auto [found, is_new] = number.try_emplace(v, static_cast<Index>(at.size()));
-        if (is_new) {
-          at.push_back(places_[v]);
-          timed.push_back({at.back()[0] / speed, at.back()[1] / speed, at.back()[2] / speed});
-          place_.push_back(v);
-        }
-        v = found->second;
-      }
-    const auto complex = [&] {
-      if constexpr (Corners == 2)
-        return plexway::Wireframe<double>(timed, own);
-      else if constexpr (Corners == 3)
-        return plexway::TriangleMesh<double>(timed, own);
-      else
-        return plexway::TetMesh<double>(timed, own);
-    }();
-    pieces_.push_back(mixed_.add(complex, at));
-    for (std::size_t i = 0; i + 1 < pieces_.size(); ++i)
-      mixed_.weld(pieces_[i], pieces_.back(), plexway::WeldOptions{.tolerance = 1e-9});
-  }
-
-  /// From a place to each, by `truth`; a place of no piece counts for nothing.
-  void check(Index source, const std::vector<double>& truth, Bounds bounds) const {
-    const auto at = std::find(place_.begin(), place_.end(), source);
-    if (at == place_.end()) return;
-    const auto from = PointSource::at(static_cast<Index>(at - place_.begin()));
-    const auto d = plexway::solve(plexway::Serial{}, mixed_, from).distance;
-    require(d.size() == place_.size(), "one distance a vertex");
-    std::vector<double> known;
-    for (const Index v : place_) known.push_back(truth[v]);
-    check_truth(d, known, bounds);
-    std::map<Index, double> once;  // welded vertices are as far
-    for (std::size_t v = 0; v < d.size(); ++v)
-      require(once.try_emplace(place_[v], d[v]).first->second == d[v],
-              "one distance for what is welded: vertex " + std::to_string(v));
-  }
-
- private:
-  const std::vector<Place>& places_;
-  Mixed mixed_;
-  std::vector<Mixed::Piece> pieces_;
-  std::vector<Index> place_;  // of each vertex of the whole
-};
-
-/// Deals simplices among as many pieces as `label` has values.
-template <std::size_t Corners, class Label>
-std::vector<std::vector<std::array<Index, Corners>>> dealt(
-    const std::vector<std::array<Index, Corners>>& simplices, const std::vector<Place>& places,
-    std::size_t pieces, const Label& label) {
-  std::vector<std::vector<std::array<Index, Corners>>> parts(pieces);
-  for (const auto& s : simplices) {
-    Place middle{};
-    for (const Index v : s)
-      for (std::size_t k = 0; k < 3; ++k) middle[k] += places[v][k] / double{Corners};
-    parts[label(middle)].push_back(s);
-  }
-  return parts;
-}
 
 /// Which piece each quarter of a tile belongs to.
 struct Patchwork {
