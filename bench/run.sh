@@ -104,6 +104,7 @@ peers=$bin/bench_cgal
   run scale "$bin/bench_scale" "$@" $scale
   run scale_shuffled "$bin/bench_scale" --shuffle $scale
   run refinement "$bin/bench_refinement" --parts 100,400,800
+  run strips "$bin/bench_strips"
   solids=
   [ -z "$data" ] || [ ! -d "$data/../solids" ] || solids=$data/../solids
   run solids "$bin/bench_solids" $solids $solid_sizes

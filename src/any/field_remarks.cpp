@@ -10,6 +10,7 @@
 
 #include "any/arguments/source_argument.hpp"
 #include "any/cloud_words.hpp"
+#include "any/rim_detours.hpp"
 #include "any/words.hpp"
 
 namespace plexway {
@@ -36,6 +37,7 @@ FieldReach reach_of(std::span<const double> distance, std::span<const Source> so
   // Where sets leave nothing to reach, nothing failed.
   const bool covered = at.size() == distance.size() && as_points(sources).empty();
   outcome.beside_source = covered ? at.size() : outcome.reached - at.size();
+  outcome.from.assign(at.begin(), at.end());
   return outcome;
 }
 
@@ -112,6 +114,15 @@ std::vector<std::string> field_remarks(const AnyDomain& solver, const AnyField& 
              " of points join parts that have no triangles between them: all ways from one to the "
              "other go over these; normals in the file (columns nx ny nz) or points along the edge "
              "where they meet would join them");
+    const RimDetours detours =
+        rim_detours(domain.positions(), cloud->mean_spacing, field.doubles(), outcome.from);
+    if (detours.points > 0)
+      remark(counted(detours.points, "points") + " (" + std::to_string(detours.first) +
+             " is the first) are 5 to " +
+             std::to_string(static_cast<int>(std::ceil(100 * detours.most))) +
+             " % farther from the source than straight, though the cloud is flat there: ways go "
+             "around a notch in its rim or a void; that is too far if the surface does not end "
+             "there, and more points there help");
   }
   if (!field.complete()) {
     remark("stopped after " + counted(field.statistics().expansions, "expansions") +

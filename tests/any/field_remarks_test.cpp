@@ -159,3 +159,43 @@ TEST_CASE("normals of a small cloud with a sharp ridge are told from those of ar
     CHECK_FALSE(AnyShape::cloud(std::move(arbitrary)).cloud()->normals_agree);
   }
 }
+
+TEST_CASE("parts of a cloud that no triangles join are told") {
+  // Two squares in one plane, corner to corner.
+  const auto warns = [](double gap) {
+    io::Points points;
+    for (int i = 0; i < 12; ++i)
+      for (int j = 0; j < 12; ++j) {
+        points.positions.push_back({double(i), double(j), 0});
+        points.positions.push_back({11 + gap + i, 11 + gap + j, 0});
+      }
+    return remarks(AnyShape::cloud(std::move(points)), {}, Accuracy::fast(),
+                   "join parts that have no triangles between them");
+  };
+  CHECK(warns(2.5));
+  CHECK_FALSE(warns(1));
+  CHECK_FALSE(warns(3));  // two components
+}
+
+TEST_CASE("points of a cloud behind a notch in its rim are told") {
+  // A flat grid with a notch three spacings deep; a source beside it, and one far away.
+  const auto warns = [](std::size_t from, double bent) {
+    io::Points points;
+    for (int i = 0; i < 40; ++i)
+      for (int j = 0; j < 20; ++j)
+        if (j > 2 || i < 18 || i > 21)
+          points.positions.push_back({double(i), double(j), bent * (i - 20.) * (i - 20.)});
+    const AnyDomain domain(AnyShape::cloud(std::move(points)));
+    const Source source = PointSource::at(static_cast<Index>(from));
+    const AnyField field = domain.solve(Serial{}, source);
+    const std::vector<double> distance = field.doubles();
+    const auto told = field_remarks(domain, field, reach_of(distance, {&source, 1}), false);
+    return std::any_of(told.begin(), told.end(), [](const std::string& r) {
+      return r.find("around a notch in its rim") != std::string::npos;
+    });
+  };
+  CHECK(warns(17 * 20, 0));
+  CHECK_FALSE(warns(19, 0));
+  // Curved so that straight lines are shorter by more: that is no notch.
+  CHECK_FALSE(warns(0, .05));
+}

@@ -60,9 +60,10 @@ bool MergedWindows<Real>::solve(const WindowSources& sources, const PropagateOpt
 
 template <class Real>
 Real MergedWindows<Real>::scale_at(double distance) const {
+  if (!(limit_.reach < infinity<double>)) return static_cast<Real>(limit_.limit);
   const double way = std::max(distance - least_offset_, 0.);
-  return static_cast<Real>(limit_.limit *
-                           (limit_.reach < infinity<double> ? std::sqrt(way / limit_.reach) : 1));
+  const double scale = limit_.limit * std::sqrt(way / limit_.reach);
+  return static_cast<Real>(way > limit_.far ? scale * limit_.share_far : scale);
 }
 
 template <class Real>

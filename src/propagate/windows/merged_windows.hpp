@@ -35,6 +35,9 @@ struct MergeLimit {
   /// times sqrt(D / reach) at distance D, in mean edges: misses add up at random, so this makes
   /// relative errors even. Infinite: the limit alone, at any distance.
   double reach = 20;
+  /// Beyond so many edges only this share of it. Of what waits the nearest is kept, so misses to
+  /// the short side stay: little, but the same at each of so many edges.
+  double far = 4096, share_far = .05;
 };
 
 /// The limit that gives this mean relative error, as measured on scans and CAD parts from 2e-5 to

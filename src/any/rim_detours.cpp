@@ -1,0 +1,70 @@
+#include "any/rim_detours.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "complex/local_frame.hpp"
+#include "complex/point3.hpp"
+
+namespace plexway {
+namespace {
+
+constexpr std::size_t most_sources = 16;
+constexpr double nearest = 3, farthest = 25;  // spacings
+constexpr double longer = 0.05, behind_walls = 0.5;
+
+/// Do the points near the line from a source to another point lie in one plane? On a surface that
+/// is bent so much that a straight line is a twentieth too short they do not at its ends.
+bool in_one_plane(const std::vector<Point3>& points, const Point3& to, double spacing) {
+  constexpr double beside = 2, height = 0.4;  // spacings
+  constexpr std::size_t least = 6;
+  const double length2 = dot(to, to);
+  std::vector<Point3> near;
+  for (const Point3& p : points) {
+    const double along = std::clamp(dot(p, to) / length2, 0., 1.);
+    const Point3 off = {p[0] - along * to[0], p[1] - along * to[1], p[2] - along * to[2]};
+    if (dot(off, off) <= beside * beside * spacing * spacing) near.push_back(p);
+  }
+  if (near.size() < least) return false;
+  const Point3 normal = fit_frame(near, std::vector<double>(near.size(), 1)).normal;
+  double low = 0, high = 0;
+  for (const Point3& p : near) {
+    low = std::min(low, dot(normal, p));
+    high = std::max(high, dot(normal, p));
+  }
+  return high - low <= height * spacing;
+}
+
+}  // namespace
+
+RimDetours rim_detours(std::span<const std::array<double, 3>> positions, double spacing,
+                       std::span<const double> distance, std::span<const std::size_t> sources) {
+  RimDetours detours;
+  std::vector<bool> found(positions.size(), false);
+  std::vector<std::size_t> patch;
+  std::vector<Point3> offsets;
+  for (const std::size_t s : sources.first(std::min(most_sources, sources.size()))) {
+    patch.clear();
+    offsets.clear();
+    for (std::size_t v = 0; v < positions.size(); ++v) {
+      const Point3 q = minus(positions[v], positions[s]);
+      if (!(dot(q, q) <= farthest * farthest * spacing * spacing)) continue;
+      patch.push_back(v);
+      offsets.push_back(q);
+    }
+    for (std::size_t i = 0; i < patch.size(); ++i) {
+      const std::size_t v = patch[i];
+      const double straight = std::sqrt(dot(offsets[i], offsets[i]));
+      const double share = distance[v] / straight - 1;
+      if (straight < nearest * spacing || !(share > longer && share < behind_walls)) continue;
+      if (found[v] || !in_one_plane(offsets, offsets[i], spacing)) continue;
+      found[v] = true;
+      if (detours.points++ == 0 || v < detours.first) detours.first = v;
+      detours.most = std::max(detours.most, share);
+    }
+  }
+  return detours;
+}
+
+}  // namespace plexway
