@@ -283,7 +283,7 @@ TEST_CASE("parts: pieces are even, and each process has its share") {
   const Index v = far.add(1e9, 0);
   far.triangle(0, 1, v);
   const auto apart = solve_in_parts<double>(far, {3, 1, 100}, {PointSource::at(7)});
-  CHECK(apart.summary.pieces > 15);
+  CHECK(apart.summary.pieces > 5);
   CHECK(apart.sound());
 }
 
@@ -406,9 +406,6 @@ TEST_CASE("parts: merged windows are as accurate as Serial's on curved surfaces"
   for (const auto& file : exact_files("surfaces", ".obj")) {
     const io::Triangles soup = io::read_triangles(file);
     if (soup.triangles.size() > 60'000) continue;
-    // Needles: merged windows give way to exact ones, which are too many where 7 pieces of needles
-    // lie among each other; that ends with an error. By itself it is one piece.
-    if (file.stem() == "t79741") continue;
     const Surface s{soup.positions, soup.triangles};
     const TriangleMesh<float> mesh(soup.positions, soup.triangles);
     for (const ExactAnswer& exact : exact_answers(file)) {

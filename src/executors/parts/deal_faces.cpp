@@ -33,23 +33,33 @@ std::vector<Corners> read_faces(const SurfaceRows& rows, std::size_t begin, std:
   return faces;
 }
 
-// Of each face the sum of its corners' shares of the middle, from positions of their vertices.
-std::vector<std::array<double, 3>> middles_of(std::span<const Corners> faces,
-                                              const VertexHomes& homes) {
+/// The vertices of some faces, ascending, where they lie, and of each face which they are.
+struct CornerPlaces {
   std::vector<Index> vertices;
-  vertices.reserve(3 * faces.size());
-  for (const Corners& corners : faces)
-    vertices.insert(vertices.end(), corners.begin(), corners.end());
-  std::sort(vertices.begin(), vertices.end());
-  vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
-  const auto positions = homes.fetch(vertices);
-  std::vector<std::array<double, 3>> middles(faces.size());
-  for (std::size_t f = 0; f < faces.size(); ++f)
-    for (const Index v : faces[f]) {
-      const auto at = static_cast<std::size_t>(
-          std::lower_bound(vertices.begin(), vertices.end(), v) - vertices.begin());
-      for (std::size_t d = 0; d < 3; ++d) middles[f][d] += positions[at][d] / 3;
-    }
+  std::vector<std::array<double, 3>> positions;
+  std::vector<Corners> faces;  ///< by place in `vertices`
+
+  CornerPlaces(std::span<const Corners> named, const VertexHomes& homes)
+      : faces(named.begin(), named.end()) {
+    vertices.reserve(3 * faces.size());
+    for (const Corners& corners : faces)
+      vertices.insert(vertices.end(), corners.begin(), corners.end());
+    std::sort(vertices.begin(), vertices.end());
+    vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
+    vertices.shrink_to_fit();
+    positions = homes.fetch(vertices);
+    for (Corners& corners : faces)
+      for (Index& v : corners)
+        v = static_cast<Index>(std::lower_bound(vertices.begin(), vertices.end(), v) -
+                               vertices.begin());
+  }
+};
+
+std::vector<std::array<double, 3>> middles_of(const CornerPlaces& corners) {
+  std::vector<std::array<double, 3>> middles(corners.faces.size());
+  for (std::size_t f = 0; f < middles.size(); ++f)
+    for (const Index v : corners.faces[f])
+      for (std::size_t d = 0; d < 3; ++d) middles[f][d] += corners.positions[v][d] / 3;
   return middles;
 }
 
@@ -63,6 +73,20 @@ Box3 box_of_all(PieceRanks* ranks, std::span<const std::array<double, 3>> points
   return box;
 }
 
+/// Numbers pieces anew without those that no face of any process went to; how many each has.
+std::vector<std::uint64_t> leave_out_empty(PieceRanks* ranks, std::size_t pieces,
+                                           std::span<Index> pieces_of) {
+  std::vector<std::uint64_t> sizes(pieces, 0);
+  for (const Index p : pieces_of) ++sizes[p];
+  add_up(ranks, sizes);
+  std::vector<Index> name(pieces);
+  Index named = 0;
+  for (std::size_t p = 0; p < pieces; ++p) name[p] = sizes[p] > 0 ? named++ : none;
+  for (Index& p : pieces_of) p = name[p];
+  std::erase(sizes, 0u);
+  return sizes;
+}
+
 }  // namespace
 
 DealtFaces deal_faces(PieceRanks* ranks, const SurfaceRows& rows, const VertexHomes& homes,
@@ -74,28 +98,44 @@ DealtFaces deal_faces(PieceRanks* ranks, const SurfaceRows& rows, const VertexHo
   const std::vector<Corners> faces = read_faces(rows, begin, count * (deal.ours + 1) / deal.count);
 
   std::vector<CurvePlace> places(faces.size());
+  std::vector<Index> pieces_of(faces.size());
+  std::size_t cut_into = 0;
   {
-    const auto middles = middles_of(faces, homes);
+    const CornerPlaces corners(faces, homes);
+    const auto middles = middles_of(corners);
     const Box3 box = box_of_all(ranks, middles);
     constexpr double cells = 2097151;  // 21 bits
     double width = 0;                  // halves: no overflow near 1e308
     for (std::size_t d = 0; d < 3; ++d) width = std::max(width, box.high[d] / 2 - box.low[d] / 2);
     const double scale = width > 0 ? 0.5 * cells / width : 0;
-    for (std::size_t f = 0; f < faces.size(); ++f) {
+    const auto key_of = [&](const std::array<double, 3>& point) {
       std::array<std::uint32_t, 3> cell;
       for (std::size_t d = 0; d < 3; ++d)
         cell[d] =
-            static_cast<std::uint32_t>(std::clamp((middles[f][d] - box.low[d]) * scale, 0., cells));
-      places[f] = {hilbert_key(cell), static_cast<Index>(begin + f)};
+            static_cast<std::uint32_t>(std::clamp((point[d] - box.low[d]) * scale, 0., cells));
+      return hilbert_key(cell);
+    };
+    for (std::size_t f = 0; f < faces.size(); ++f)
+      places[f] = {key_of(middles[f]), static_cast<Index>(begin + f)};
+    const std::size_t wanted = size == 0 || count < size + size / 2 ? 1 : (count + size / 2) / size;
+    const CurveCells curve(ranks, places, count, wanted);
+    cut_into = curve.pieces();
+    // A face is its corners' first piece's, so that cuts run along edges from vertex to vertex and
+    // not to and fro between them.
+    std::vector<Index> piece(corners.vertices.size());
+    for (std::size_t v = 0; v < piece.size(); ++v)
+      piece[v] = curve.piece_of({key_of(corners.positions[v]), corners.vertices[v]});
+    for (std::size_t f = 0; f < faces.size(); ++f) {
+      const auto& [a, b, c] = corners.faces[f];
+      pieces_of[f] = std::min({piece[a], piece[b], piece[c]});
     }
   }
-  const std::size_t pieces = size == 0 || count < size + size / 2 ? 1 : (count + size / 2) / size;
-  const CurveCells cells(ranks, places, count, pieces);
+  const std::vector<std::uint64_t> sizes = leave_out_empty(ranks, cut_into, pieces_of);
 
   DealtFaces dealt;
-  dealt.pieces = cells.pieces();
+  dealt.pieces = sizes.size();
   std::size_t own = 0;
-  for (std::size_t p = deal.ours; p < cells.pieces(); p += deal.count) own += cells.sizes()[p];
+  for (std::size_t p = deal.ours; p < sizes.size(); p += deal.count) own += sizes[p];
   dealt.faces.reserve(own);
   // Some at a time: what is on its way takes room twice. The largest range has the most turns.
   constexpr std::size_t batch = std::size_t{1} << 17;
@@ -104,7 +144,7 @@ DealtFaces deal_faces(PieceRanks* ranks, const SurfaceRows& rows, const VertexHo
     PartMail mail(ranks);
     const std::size_t last = std::min((turn + 1) * batch, faces.size());
     for (std::size_t f = turn * batch; f < last; ++f) {
-      const Index piece = cells.piece_of(places[f]);
+      const Index piece = pieces_of[f];
       mail.to(deal.owner(piece)).add(DealtFace{places[f].key, piece, places[f].face, faces[f]});
     }
     mail.meet();
