@@ -42,6 +42,7 @@
 #include <plexway/error.hpp>
 #include <plexway/executors/gl.hpp>
 #include <plexway/executors/piece_ranks.hpp>
+#include <plexway/executors/surface_parts.hpp>
 #include <plexway/io/block_journal.hpp>
 #include <plexway/io/edges.hpp>
 #include <plexway/io/field.hpp>
@@ -50,6 +51,7 @@
 #include <plexway/io/page.hpp>
 #include <plexway/io/part_file.hpp>
 #include <plexway/io/paths.hpp>
+#include <plexway/io/ply_rows.hpp>
 #include <plexway/io/points.hpp>
 #include <plexway/io/regions.hpp>
 #include <plexway/io/simplices.hpp>

@@ -28,6 +28,17 @@ void remove_whole(const std::filesystem::path& file) {
   if (failed) throw Error("cannot write " + file.string() + ": " + failed.message());
 }
 
+// All have written theirs.
+void put_in_place(const std::filesystem::path& file, const io::Field& field,
+                  std::optional<io::FieldPart>& own, std::size_t parts, const PartOf& part) {
+  part.all_come();
+  if (part.number == 0) remove_whole(file);
+  part.all_come();
+  if (own) own->commit();
+  part.all_come();
+  if (part.number == 0) io::write_pvtu(file, field, parts);
+}
+
 }  // namespace
 
 void write_partitioned(const AnyShape& shape, const std::filesystem::path& file,
@@ -57,12 +68,17 @@ void write_partitioned(const AnyShape& shape, const std::filesystem::path& file,
   const std::size_t parts = std::clamp(cells->count(), std::size_t{1}, part.count);
   std::optional<io::FieldPart> own;  // none where there are more processes than cells
   if (part.number < parts) own.emplace(file, field, part.number, parts);
-  part.all_come();
-  if (part.number == 0) remove_whole(file);
-  part.all_come();
-  if (own) own->commit();
-  part.all_come();
-  if (part.number == 0) io::write_pvtu(file, field, parts);
+  put_in_place(file, field, own, parts, part);
+}
+
+void write_part(const SurfacePart& surface, const std::filesystem::path& file,
+                std::span<const double> distance, std::span<const std::int32_t> label,
+                std::span<const double> error, const PartOf& part) {
+  const io::Cells cells = io::cells_of<3>(5, surface.triangle);
+  const io::Field field = {
+      surface.vertex.size(), surface.position, {&cells, 1}, distance, label, surface.vertex, error};
+  std::optional<io::FieldPart> own(std::in_place, file, field, part.number);
+  put_in_place(file, field, own, part.count, part);
 }
 
 void check_partitioned(const AnyShape& shape, const std::filesystem::path& file) {

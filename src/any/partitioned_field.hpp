@@ -7,6 +7,7 @@
 #include <span>
 
 #include <plexway/any/shape.hpp>
+#include <plexway/executors/surface_parts.hpp>
 
 namespace plexway {
 
@@ -23,6 +24,12 @@ struct PartOf {
 void write_partitioned(const AnyShape& shape, const std::filesystem::path& file,
                        std::span<const double> distance, std::span<const std::int32_t> label,
                        std::span<const double> error, const PartOf& part);
+
+/// The same of a surface that no process has as a whole: each writes what it has. Throws Error as
+/// above.
+void write_part(const SurfacePart& surface, const std::filesystem::path& file,
+                std::span<const double> distance, std::span<const std::int32_t> label,
+                std::span<const double> error, const PartOf& part);
 
 /// Throws UsageError unless the shape can be written so.
 void check_partitioned(const AnyShape& shape, const std::filesystem::path& file);

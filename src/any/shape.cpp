@@ -10,13 +10,13 @@
 #include <plexway/io/field.hpp>
 
 #include "any/arguments/require.hpp"
-#include "any/closest_point.hpp"
 #include "any/fill.hpp"
 #include "any/kept_build.hpp"
 #include "any/openvdb_functions.hpp"
 #include "any/pcl_functions.hpp"
 #include "any/shape_state.hpp"
 #include "any/words.hpp"
+#include "complex/closest_point.hpp"
 #include "io/extension.hpp"
 
 namespace plexway {

@@ -7,9 +7,9 @@
 #include <limits>
 #include <vector>
 
-#include "any/closest_point.hpp"
 #include "any/solid_boundary.hpp"
 #include "complex/box_tree.hpp"
+#include "complex/closest_point.hpp"
 
 namespace plexway {
 namespace {

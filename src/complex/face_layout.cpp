@@ -31,7 +31,8 @@ void take_corners(std::span<const Index> order, Faces faces, int threads,
 
 }  // namespace
 
-FaceLayout::FaceLayout(std::size_t vertices, Faces faces, std::vector<Index> order, int threads)
+FaceLayout::FaceLayout(std::size_t vertices, Faces faces, std::vector<Index> order, int threads,
+                       bool may_turn)
     : face(std::move(order)) {
   number_faces(threads);
   take_corners(face, faces, threads, corner);
@@ -85,7 +86,10 @@ FaceLayout::FaceLayout(std::size_t vertices, Faces faces, std::vector<Index> ord
   boundary_edges = glue.single_edges;
   non_manifold_edges = glue.cycles;
   edges = glue.inner_edges + boundary_edges + non_manifold_edges;
-  if (glue.turns) orient();
+  if (!may_turn)
+    flips |= glue.turns;
+  else if (glue.turns)
+    orient();
 }
 
 FaceLayout::FaceLayout(std::size_t vertices, Faces faces, std::vector<Index> order,

@@ -22,8 +22,9 @@ class FaceLayout {
   FaceLayout() = default;
   using Triples = Unfilled<std::array<Index, 3>>;
   /// `order` lists all faces. Glued where two corners share both vertices, which in each face are
-  /// three.
-  FaceLayout(std::size_t vertices, Faces faces, std::vector<Index> order, int threads);
+  /// three. Unless they `may_turn` faces stay as they are, and neighbours may run the same way.
+  FaceLayout(std::size_t vertices, Faces faces, std::vector<Index> order, int threads,
+             bool may_turn = true);
   /// Glued as `across` says.
   FaceLayout(std::size_t vertices, Faces faces, std::vector<Index> order,
              std::span<const std::array<Index, 3>> across, int threads);

@@ -27,6 +27,8 @@ class TriangleShapes {
   virtual void look_up(std::span<const Index> faces, ShapeBlock& block) const = 0;
   /// Where the vertices lie in space, if the triangles do.
   [[nodiscard]] virtual std::span<const std::array<double, 3>> positions() const { return {}; }
+  /// What counts as one inside; 0: the mean edge. A part of a surface has the whole's.
+  [[nodiscard]] virtual double unit() const { return 0; }
 
  protected:
   TriangleShapes() = default;

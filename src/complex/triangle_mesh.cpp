@@ -313,7 +313,7 @@ std::vector<double> TriangleMesh<Real>::take_shapes(const TriangleShapes& shapes
   };
   tell_vertices<double>(first_use, m, threads, take, [&](Index v, double a) { around[v] += a; });
 
-  const double unit = mean_edge(m, longest, [&](std::size_t f) {
+  const double unit = shapes.unit() > 0 ? shapes.unit() : mean_edge(m, longest, [&](std::size_t f) {
     const auto l = lengths(f);
     return std::array{l[0], l[1], l[2]};
   });

@@ -79,6 +79,12 @@ FieldPart::FieldPart(const std::filesystem::path& file, const Field& whole, std:
   out_->flush();
 }
 
+FieldPart::FieldPart(const std::filesystem::path& file, const Field& own, std::size_t part)
+    : out_(std::make_unique<OutputFile>(file.parent_path() / part_name(file, part))) {
+  write_vtu(*out_, own);
+  out_->flush();
+}
+
 void write_pvtu(const std::filesystem::path& file, const Field& whole, std::size_t parts) {
   OutputFile out(file);
   const auto array = [&](std::string_view type, std::string_view name, std::string_view more = "") {

@@ -19,6 +19,8 @@ class FieldPart {
   /// reason".
   FieldPart(const std::filesystem::path& file, const Field& whole, std::size_t part,
             std::size_t parts);
+  /// The same of what a process has by itself, with its `original` numbers.
+  FieldPart(const std::filesystem::path& file, const Field& own, std::size_t part);
   /// Puts it in its place. Throws as above.
   void commit() { out_->commit(); }
 

@@ -9,26 +9,9 @@
 namespace plexway::io {
 namespace {
 
-/// The vertex and face elements of the header, checked, with the properties that matter.
-struct Layout {
-  PlyVertex vertex;
-  const PlyElement* face = nullptr;
-  const PlyProperty* corners = nullptr;
-
-  Layout(const PlyHeader& header, std::string_view name) : vertex(header, name) {
-    for (const auto& element : header.elements)
-      if (element.name == "face") face = &element;
-    if (face == nullptr) return;  // reported as "has no faces" once the rest is known to be sound
-    corners = find_property(*face, "vertex_indices");
-    if (corners == nullptr) corners = find_property(*face, "vertex_index");
-    if (corners == nullptr || !corners->is_list)
-      fail_ply_header(name, face->line,
-                      "element 'face' has no list 'vertex_indices' or 'vertex_index'");
-  }
-};
-
 template <class Source>
-void read_corners(Source& source, const Layout& layout, std::uint64_t face, Triangles& surface) {
+void read_corners(Source& source, const PlySurface& layout, std::uint64_t face,
+                  Triangles& surface) {
   const PlyProperty& property = *layout.corners;
   const std::uint64_t vertices = layout.vertex.element->count;
   const std::int64_t corners = source.whole(property.count_type, "the number of corners");
@@ -44,7 +27,7 @@ void read_corners(Source& source, const Layout& layout, std::uint64_t face, Tria
 }
 
 template <class Source>
-Triangles read_body(Source source, const PlyHeader& header, const Layout& layout) {
+Triangles read_body(Source source, const PlyHeader& header, const PlySurface& layout) {
   Triangles surface;
   const auto begin = [&](const PlyElement& element) {
     if (&element == layout.vertex.element) surface.positions.reserve(element.count);
@@ -67,7 +50,7 @@ Triangles read_body(Source source, const PlyHeader& header, const Layout& layout
 
 Triangles parse_ply(std::string_view bytes, std::string_view name) {
   const PlyHeader header = parse_ply_header(bytes, name);
-  const Layout layout(header, name);
+  const PlySurface layout(header, name);
   Triangles surface = header.format == PlyFormat::ascii
                           ? read_body(PlyText(bytes, name, header), header, layout)
                           : read_body(PlyBytes(bytes, name, header), header, layout);

@@ -157,6 +157,24 @@ struct PlyVertex {
   }
 };
 
+/// The vertex and face elements of a header, checked, with the properties that matter.
+struct PlySurface {
+  PlyVertex vertex;
+  const PlyElement* face = nullptr;
+  const PlyProperty* corners = nullptr;
+
+  PlySurface(const PlyHeader& header, std::string_view name) : vertex(header, name) {
+    for (const auto& element : header.elements)
+      if (element.name == "face") face = &element;
+    if (face == nullptr) return;  // reported as "has no faces" once the rest is known to be sound
+    corners = find_property(*face, "vertex_indices");
+    if (corners == nullptr) corners = find_property(*face, "vertex_index");
+    if (corners == nullptr || !corners->is_list)
+      fail_ply_header(name, face->line,
+                      "element 'face' has no list 'vertex_indices' or 'vertex_index'");
+  }
+};
+
 inline constexpr std::string_view last_property = "the last property";
 
 template <class Source>

@@ -16,6 +16,12 @@
 
 namespace plexway {
 
+/// Where a source lies in space, in units of the mean edge, and its offset.
+struct SourcePlace {
+  std::array<double, 3> at{};
+  double sigma = 0;
+};
+
 /// No path on a surface in space is shorter than the straight line: a distance that is can only be
 /// wrong, and gets the line's length, which is nearer to the truth. Where coordinates are not known
 /// nothing is checked.
@@ -23,13 +29,17 @@ template <class Real>
 class StraightLines {
  public:
   StraightLines(const TriangleMesh<Real>& mesh, std::span<const PointSource> sources)
-      : mesh_(mesh), positions_(mesh.positions()), sources_(sources) {}
+      : mesh_(&mesh), positions_(mesh.positions()), sources_(sources), count_(sources.size()) {}
+  /// To vertices at these positions, from sources of which their places are known.
+  StraightLines(std::span<const std::array<double, 3>> positions,
+                std::span<const SourcePlace> places)
+      : positions_(positions), places_(places), count_(places.size()) {}
 
   /// Raises what is below, by more than rounding. Returns how many were by more than 1e-4. Cost: 24
   /// bytes read a vertex, and all sources for a vertex that is below the line to its own.
   template <bool kLabels, class Crew>
   std::size_t raise(WorkspaceState<Real>& workspace, const Crew& crew) const {
-    if (positions_.empty() || sources_.empty()) return 0;
+    if (positions_.empty() || count_ == 0) return 0;
     std::atomic<std::size_t> raised{0};
     crew.over(workspace.vertex.size(), [&](std::size_t begin, std::size_t end) {
       std::size_t some = 0;
@@ -37,7 +47,7 @@ class StraightLines {
       for (std::size_t v = begin; v < end; ++v) {
         Real& d = workspace.vertex[v];
         if constexpr (kLabels) {
-          if (workspace.vertex_source[v] >= sources_.size()) continue;
+          if (workspace.vertex_source[v] >= count_) continue;
           if (workspace.vertex_source[v] != line.source)
             line = Line(*this, workspace.vertex_source[v]);
         }
@@ -54,7 +64,7 @@ class StraightLines {
 
   /// One vertex, by its number inside, at distance d from a source.
   [[nodiscard]] Real raised(std::size_t v, Real d, Index source) const {
-    if (positions_.empty() || source >= sources_.size()) return d;
+    if (positions_.empty() || source >= count_) return d;
     if (!Line(*this, source).longer_than(d, positions_[v])) return d;
     return std::max(d, static_cast<Real>(least_line(v)));
   }
@@ -64,7 +74,7 @@ class StraightLines {
 
   [[nodiscard]] double least_line(std::size_t v) const {
     double least = infinity;
-    for (std::size_t n = 0; n < sources_.size(); ++n)
+    for (std::size_t n = 0; n < count_; ++n)
       least = std::min(least, Line(*this, static_cast<Index>(n)).length(positions_[v]));
     return least;
   }
@@ -72,17 +82,22 @@ class StraightLines {
   // From one source to any vertex.
   struct Line {
     Line(const StraightLines& lines, Index number) : source(number) {
-      const PointSource& s = lines.sources_[number];
-      sigma = s.offset / lines.mesh_.unit();
-      if (s.vertex != none) {
-        at[0] = lines.positions_[lines.mesh_.inside_vertex(s.vertex)];
+      if (lines.mesh_ == nullptr) {
+        sigma = lines.places_[number].sigma;
+        at[0] = lines.places_[number].at;
         return;
       }
-      const auto [f, turned] = lines.mesh_.inside_face(s.simplex);
-      const TriangleRecord<Real>& t = lines.mesh_.triangles()[f];
+      const PointSource& s = lines.sources_[number];
+      sigma = s.offset / lines.mesh_->unit();
+      if (s.vertex != none) {
+        at[0] = lines.positions_[lines.mesh_->inside_vertex(s.vertex)];
+        return;
+      }
+      const auto [f, turned] = lines.mesh_->inside_face(s.simplex);
+      const TriangleRecord<Real>& t = lines.mesh_->triangles()[f];
       std::array<double, 4> b = s.barycentric;
       if (turned) std::swap(b[1], b[2]);
-      if (lines.mesh_.faces_are_in_space()) {
+      if (lines.mesh_->faces_are_in_space()) {
         at[0] = {0, 0, 0};
         for (std::size_t i = 0; i < 3; ++i)
           for (std::size_t k = 0; k < 3; ++k) at[0][k] += b[i] * lines.positions_[t.corner[i]][k];
@@ -129,9 +144,11 @@ class StraightLines {
     std::array<double, 3> back{};
   };
 
-  const TriangleMesh<Real>& mesh_;
+  const TriangleMesh<Real>* mesh_ = nullptr;
   std::span<const std::array<double, 3>> positions_;
   std::span<const PointSource> sources_;
+  std::span<const SourcePlace> places_;
+  std::size_t count_ = 0;  ///< of sources
 };
 
 }  // namespace plexway

@@ -56,6 +56,7 @@ constexpr std::array others = {
     Other{"src/executors/gl/run.cpp", "2^27 sources", "a count"},
     // Something is empty or out of range.
     Other{"src/complex/", "has no", "an empty domain"},
+    Other{"src/executors/parts/deal_faces.cpp", "has no", "an empty domain"},
     Other{"src/complex/mixed_complex.cpp", "came without positions", "one call, which has another"},
     Other{"src/apps/", "positions for", "a count"},
     Other{"src/apps/tuning.cpp", "there is no surface", "an empty list"},
@@ -76,6 +77,7 @@ constexpr std::array others = {
     Other{"src/cli/options/isoline_options.cpp", "would hold nothing", "an empty file"},
     Other{"src/cli/options/solve_options.cpp", "goes with", "grammar"},
     Other{"src/cli/commands/pairs_matrix.cpp", "leave out --labels", "grammar"},
+    Other{"src/cli/commands/distance_in_parts.cpp", "--in-parts goes without", "grammar"},
     Other{"web/module/module.cpp", "is not known", "a word that is unknown"},
     Other{"python/src/build.cpp", "as many simplices as vertices", "an array that could be either"},
 };

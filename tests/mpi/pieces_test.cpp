@@ -10,26 +10,14 @@
 #include <string>
 #include <vector>
 
-#include "complex/jittered.hpp"
 #include "complex/test_solids.hpp"
 #include "folder.hpp"
 #include "mpi/running.hpp"
+#include "mpi/surfaces.hpp"
 
 using namespace mpi_testing;
 
 namespace {
-
-// Hills of more triangles than a single piece has.
-std::string hills() {
-  auto s = plexway::testing::jittered(130, 7);
-  std::ostringstream text;
-  text << "OFF\n" << s.positions.size() + 1 << ' ' << s.faces.size() << " 0\n";
-  for (const auto& p : s.positions)
-    text << p[0] << ' ' << p[1] << ' ' << 0.1 * std::sin(9 * p[0]) * std::cos(7 * p[1]) << '\n';
-  text << "2 2 2\n";  // a vertex of no triangle
-  for (const auto& f : s.faces) text << "3 " << f[0] << ' ' << f[1] << ' ' << f[2] << '\n';
-  return text.str();
-}
 
 std::string blocks() {
   const auto s = plexway::testing::l_shape(24);
@@ -58,29 +46,6 @@ std::string net() {
   }
   return text.str();
 }
-
-// The arrays of a .vtu that the tool wrote.
-struct Vtu {
-  explicit Vtu(const fs::path& file) : bytes(content(file)) {
-    begin = bytes.find("<AppendedData encoding=\"raw\">");
-    REQUIRE(begin != std::string::npos);
-    begin = bytes.find('_', begin) + 1;
-  }
-  template <class Value>
-  [[nodiscard]] std::vector<Value> array(const std::string& name) const {
-    const std::size_t tag = bytes.find("Name=\"" + name + "\"");
-    if (tag == std::string::npos) return {};
-    const std::size_t at = bytes.find("offset=\"", tag) + 8;
-    const char* const block = bytes.data() + begin + std::stoull(bytes.substr(at, 20));
-    std::uint64_t size = 0;
-    std::memcpy(&size, block, sizeof size);
-    std::vector<Value> values(size / sizeof(Value));
-    if (size > 0) std::memcpy(values.data(), block + sizeof size, size);
-    return values;
-  }
-  std::string bytes;
-  std::size_t begin;
-};
 
 // Are the parts beside `file` the whole that one process wrote?
 void check_parts(const fs::path& file, int parts, const Vtu& whole) {

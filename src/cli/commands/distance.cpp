@@ -24,40 +24,16 @@
 #include "any/level_set_file.hpp"
 #include "any/partitioned_field.hpp"
 #include "any/shape_state.hpp"
-#include "cli/among.hpp"
 #include "cli/commands/commands.hpp"
+#include "cli/commands/distance_command.hpp"
 #include "cli/exit_codes.hpp"
-#include "cli/options/input.hpp"
-#include "cli/options/isoline_options.hpp"
-#include "cli/options/mask_option.hpp"
-#include "cli/options/metric_options.hpp"
-#include "cli/options/picture_options.hpp"
-#include "cli/options/solve_options.hpp"
-#include "cli/options/triangulation_option.hpp"
 #include "cli/report/console.hpp"
 #include "cli/report/distance_output.hpp"
 #include "cli/report/progress.hpp"
 #include "executors/same_work.hpp"
-#include "io/field_part.hpp"
 
 namespace plexway::cli {
 namespace {
-
-struct DistanceCommand : InputCommand {
-  std::vector<std::string> sources;
-  std::string out;
-  IsolineOptions isolines;
-  SolveOptions solve;
-  PictureArguments picture;
-  MaskArgument mask;
-  MetricArgument metric;
-  TriangulationArgument triangulation;
-  const Among* among = nullptr;  ///< who shares the pieces; null: nobody
-
-  [[nodiscard]] bool in_parts() const { return among != nullptr && io::is_partitioned(out); }
-  /// Is it this process that writes and reports?
-  [[nodiscard]] bool leads() const { return among == nullptr || among->ranks.leads(); }
-};
 
 // What came out, as far as a report tells it.
 struct Outcome : FieldReach {
@@ -182,7 +158,7 @@ void run_distance(DistanceCommand command) {
     command.solve.precision = "double, which exact distances need";
   Triangulation triangulation = triangulation_of(command.triangulation);
   const std::vector<SetArgument> arguments = parse_source_sets(command.sources);
-  if (command.out != "-" && !is_vdb(command.out) && !command.in_parts())
+  if (command.out != "-" && !is_vdb(command.out) && !command.writes_parts())
     check_output_name(command.out, command.input, AnyShape::field_extensions(DomainKind::cloud));
   check_picture(command.picture, command.input);
   check_isolines(command.isolines, command.input);
@@ -198,8 +174,8 @@ void run_distance(DistanceCommand command) {
   command.fill.volume.writes_volume = is_vdb(command.out);
   ProgressLine progress(command.quiet);
   const Domain domain = load_domain(command, progress);
-  if (command.in_parts()) check_partitioned(domain, command.out);
-  if (domain.cloud() == nullptr && command.out != "-" && !command.in_parts())
+  if (command.writes_parts()) check_partitioned(domain, command.out);
+  if (domain.cloud() == nullptr && command.out != "-" && !command.writes_parts())
     check_output_name(command.out, command.input, AnyShape::field_extensions(domain.kind()));
   check_isolines(command.isolines, domain);
   const std::shared_ptr<const Mask> mask = read_mask(command.mask, domain);
@@ -272,7 +248,7 @@ void run_distance(DistanceCommand command) {
   const Domain shown = shown_open ? domain.open_part(*mask) : domain;
   const bool plain = command.out == "-";
   const std::vector<double> isovalues = isoline_values(command.isolines, distance);
-  if (command.in_parts()) {
+  if (command.writes_parts()) {
     progress.phase("writing " + command.out);
     write_partitioned(
         shown, command.out, distance, field.file_label(), field.error(),
@@ -357,6 +333,9 @@ void add_distance_command(CLI::App& tool, Action& action, const Among* among) {
          "and so on (the summary then goes to standard error); among ranks also .pvtu,\n"
          "of which each rank writes a part")
       ->type_name("FILE");
+  app.add_flag("--in-parts", command->in_parts,
+               "among ranks: none reads or holds the whole, each has its part. A binary .ply of\n"
+               "triangles; sources vertex:ID and point:X,Y,Z; by windows; results as a .pvtu");
   add_isoline_options(app, command->isolines);
   add_solve_options(app, command->solve, true);
   add_triangulation_option(app, command->triangulation);
@@ -382,7 +361,11 @@ void add_distance_command(CLI::App& tool, Action& action, const Among* among) {
       "  plexway distance knot.ply --source vertex:0 --picture knot.png --view iso\n"
       "  plexway distance scan.pcd --voxel 0.01 --denoise --source point:0,0,0 --out d.ply\n"
       "  plexway distance knot.ply --source vertex:0 --quiet --out - | sort -t, -gk2 | tail -1");
-  app.callback([command, &action] { action = [command] { run_distance(*command); }; });
+  app.callback([command, &action] {
+    action = [command] {
+      command->in_parts ? run_distance_in_parts(*command) : run_distance(*command);
+    };
+  });
 }
 
 }  // namespace plexway::cli

@@ -78,30 +78,25 @@ template <class Real>
 void WindowPatches<Real>::tell_places(Index number) {
   const CutPiece& piece = cut_.pieces[number];
   Patch& patch = patches_[number];
-  const auto begin_next = [](Elsewhere& lists) {
-    lists.begin.push_back(static_cast<Index>(lists.places.size()));
-  };
-  begin_next(patch.vertex_elsewhere);
+  auto& [vertices, triangles, at_home] = patch.addresses;
+  vertices.end();
   for (std::size_t i = 0; i < patch.shared; ++i) {
     for (const Place& place : places(patch.vertices[i]))
       if (place.piece != number)
-        patch.vertex_elsewhere.places.push_back(
-            {static_cast<Index>(piece.place_of(place.piece)), place.number});
-    begin_next(patch.vertex_elsewhere);
+        vertices.places.push_back({static_cast<Index>(piece.place_of(place.piece)), place.number});
+    vertices.end();
   }
   std::vector<std::vector<Place>> ghosts(piece.at_cut);
   for (Index peer = 0; peer < piece.peer_count(); ++peer)
     for (const auto& [here, there] : piece.slots_of(peer)) ghosts[here].push_back({peer, there});
-  begin_next(patch.triangle_elsewhere);
+  triangles.end();
   for (const auto& list : ghosts) {
-    auto& all = patch.triangle_elsewhere.places;
-    all.insert(all.end(), list.begin(), list.end());
-    begin_next(patch.triangle_elsewhere);
+    triangles.places.insert(triangles.places.end(), list.begin(), list.end());
+    triangles.end();
   }
   for (std::size_t i = piece.own; i < piece.simplices.size(); ++i) {
     const Index f = piece.simplices[i];
-    patch.at_home.push_back(
-        {static_cast<Index>(piece.place_of(cut_.piece_of[f])), cut_.number_of[f]});
+    at_home.push_back({static_cast<Index>(piece.place_of(cut_.piece_of[f])), cut_.number_of[f]});
   }
 }
 
@@ -124,9 +119,8 @@ std::size_t WindowPatches<Real>::bytes() const {
   const auto of = [](const auto& v) { return v.capacity() * sizeof(v[0]); };
   std::size_t sum = cut_.bytes() + of(patches_) + of(place_begin_) + of(places_);
   for (const Patch& patch : patches_)
-    sum += of(patch.triangles) + of(patch.vertices) + patch.angles.bytes() + of(patch.at_home) +
-           of(patch.vertex_elsewhere.begin) + of(patch.vertex_elsewhere.places) +
-           of(patch.triangle_elsewhere.begin) + of(patch.triangle_elsewhere.places);
+    sum +=
+        of(patch.triangles) + of(patch.vertices) + patch.angles.bytes() + patch.addresses.bytes();
   return sum;
 }
 

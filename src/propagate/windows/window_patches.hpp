@@ -13,33 +13,49 @@
 
 namespace plexway::windows {
 
+/// A vertex or a triangle of a piece: by the piece's number, or in a patch by its place among the
+/// peers.
+struct PatchPlace {
+  Index piece, number;
+};
+
+/// Who else has it, one list after another.
+struct Elsewhere {
+  std::vector<Index> begin;
+  std::vector<PatchPlace> places;
+  [[nodiscard]] std::span<const PatchPlace> of(Index i) const {
+    return std::span(places).subspan(begin[i], begin[i + 1] - begin[i]);
+  }
+  /// The list of the next one is through.
+  void end() { begin.push_back(static_cast<Index>(places.size())); }
+  [[nodiscard]] std::size_t bytes() const {
+    return begin.capacity() * sizeof(Index) + places.capacity() * sizeof(PatchPlace);
+  }
+};
+
+/// What letters of a piece are addressed by, so that posting reads nothing but this.
+struct PatchAddresses {
+  Elsewhere vertices;               ///< of shared vertices
+  Elsewhere triangles;              ///< of own triangles at the cut: as ghosts
+  std::vector<PatchPlace> at_home;  ///< of ghosts, where they are a piece's own
+
+  [[nodiscard]] std::size_t bytes() const {
+    return vertices.bytes() + triangles.bytes() + at_home.capacity() * sizeof(PatchPlace);
+  }
+};
+
 /// A surface cut into pieces for windows: ghosts are the triangles that share a vertex with a
 /// piece.
 template <class Real>
 class WindowPatches {
  public:
-  /// A vertex or a triangle of a piece: by the piece's number, or in a patch by its place among the
-  /// peers.
-  struct Place {
-    Index piece, number;
-  };
-  /// Who else has it, one list after another.
-  struct Elsewhere {
-    std::vector<Index> begin;
-    std::vector<Place> places;
-    [[nodiscard]] std::span<const Place> of(Index i) const {
-      return std::span(places).subspan(begin[i], begin[i + 1] - begin[i]);
-    }
-  };
+  using Place = PatchPlace;
   struct Patch {
     std::vector<TriangleRecord<Real>> triangles;
     std::vector<Index> vertices;  ///< of its own triangles: the surface's numbers inside
     std::size_t shared = 0;       ///< so many of them, the first, are other pieces', too
     VertexAngles angles;
-    // What letters are addressed by, so that posting reads nothing but this:
-    Elsewhere vertex_elsewhere;    ///< of shared vertices
-    Elsewhere triangle_elsewhere;  ///< of own triangles at the cut: as ghosts
-    std::vector<Place> at_home;    ///< of ghosts, where they are a piece's own
+    PatchAddresses addresses;
   };
 
   /// About `size` triangles each. Those that are not ours have vertices alone. `mesh` must outlive

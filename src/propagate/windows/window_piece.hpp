@@ -22,9 +22,13 @@ class WindowPiece {
   using Number = double;
   using Letter = windows::Letter<typename Windows::Number>;
 
-  /// `patches` must outlive this.
+  /// All of which must outlive this.
+  WindowPiece(const Sheet<Real>& sheet, const CutPiece& cut, const PatchAddresses& addresses,
+              Index number)
+      : cut_(&cut), addresses_(&addresses), number_(number), windows_(sheet) {}
   WindowPiece(const WindowPatches<Real>& patches, Index number)
-      : patches_(&patches), number_(number), windows_(patches.sheet(number)) {}
+      : WindowPiece(patches.sheet(number), patches.cut().pieces[number], patches[number].addresses,
+                    number) {}
 
   [[nodiscard]] Windows& windows() { return windows_; }
   [[nodiscard]] const Windows& windows() const { return windows_; }
@@ -37,7 +41,7 @@ class WindowPiece {
   }
 
   [[nodiscard]] Index number() const { return number_; }
-  [[nodiscard]] const CutPiece& cut() const { return patches_->cut().pieces[number_]; }
+  [[nodiscard]] const CutPiece& cut() const { return *cut_; }
   [[nodiscard]] Outboxes& mail() { return mail_; }
   [[nodiscard]] double nearest() const { return windows_.nearest(); }
   [[nodiscard]] PropagateStatistics statistics() const { return windows_.statistics(); }
@@ -70,9 +74,9 @@ class WindowPiece {
     double least = std::numeric_limits<double>::infinity();
     if (leaving.windows.empty() && leaving.vertices.empty()) return least;
     const CutPiece& own = cut();
-    const auto& patch = (*patches_)[number_];
+    const PatchAddresses& addresses = *addresses_;
     const auto home = [&](const Letter& letter) {
-      return patch.at_home[(letter.to >> 2) - own.own];
+      return addresses.at_home[(letter.to >> 2) - own.own];
     };
     // What a letter has told since was told to all by who wrote it.
     leaving.leave_out([&](Index v) {
@@ -82,7 +86,7 @@ class WindowPiece {
     counts_.assign(own.peer_count(), 0);
     for (const Letter& letter : leaving.windows) ++counts_[home(letter).piece];
     for (const Index v : leaving.vertices)
-      for (const auto& place : patch.vertex_elsewhere.of(v)) ++counts_[place.piece];
+      for (const auto& place : addresses.vertices.of(v)) ++counts_[place.piece];
     Outbox& box = mail_.of(superstep);
     box.start<Letter>(superstep, counts_);
     for (Letter& letter : leaving.windows) {
@@ -92,12 +96,13 @@ class WindowPiece {
       box.put(peer, letter);
     }
     for (const Index v : leaving.vertices) {
+      if (addresses.vertices.of(v).empty()) continue;
       const auto distance = windows_.vertex_distance(v);
       least = std::min(least, static_cast<double>(distance));
       const auto arrival = windows_.arrival(v);
-      for (const auto& [peer, number] : patch.vertex_elsewhere.of(v)) {
+      for (const auto& [peer, number] : addresses.vertices.of(v)) {
         auto there = arrival;
-        there.corner = corner_elsewhere(patch, arrival.corner, peer);
+        there.corner = corner_elsewhere(arrival.corner, peer);
         box.put(peer, Letter::of_vertex(number, distance, there, windows_.source(v),
                                         windows_.vertex_error(v)));
       }
@@ -115,16 +120,16 @@ class WindowPiece {
  private:
   /// A corner of this piece's triangles by the numbers of a peer that has the vertex there, to
   /// which the triangle is a ghost.
-  template <class Patch>
-  [[nodiscard]] static Index corner_elsewhere(const Patch& patch, Index corner, Index peer) {
+  [[nodiscard]] Index corner_elsewhere(Index corner, Index peer) const {
     if (corner == none) return none;
     const Index flags = corner & Windows::corner_flags, c = corner & ~Windows::corner_flags;
-    for (const auto& [other, f] : patch.triangle_elsewhere.of(c / 3))
+    for (const auto& [other, f] : addresses_->triangles.of(c / 3))
       if (other == peer) return (3 * f + c % 3) | flags;
     return none;  // not reached: who has the vertex has what lies around it
   }
 
-  const WindowPatches<Real>* patches_;
+  const CutPiece* cut_;
+  const PatchAddresses* addresses_;
   Index number_;
   Windows windows_;
   Outboxes mail_;

@@ -1,4 +1,4 @@
-#include "any/closest_point.hpp"
+#include "complex/closest_point.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,0 +1,240 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+#include <plexway/error.hpp>
+#include <plexway/executors/surface_parts.hpp>
+#include <plexway/io/ply_rows.hpp>
+#include <plexway/support.hpp>
+
+#include "any/arguments/point_argument.hpp"
+#include "any/arguments/require.hpp"
+#include "any/arguments/source_argument.hpp"
+#include "any/info/rank_counts.hpp"
+#include "any/info/report.hpp"
+#include "any/info/solve_words.hpp"
+#include "any/partitioned_field.hpp"
+#include "any/stopwatch.hpp"
+#include "cli/commands/distance_command.hpp"
+#include "cli/exit_codes.hpp"
+#include "cli/report/console.hpp"
+#include "cli/report/distance_output.hpp"
+#include "cli/report/progress.hpp"
+#include "executors/same_work.hpp"
+
+namespace plexway::cli {
+namespace {
+
+// What was asked for that takes the whole.
+void refuse_whole(const DistanceCommand& command, std::span<const SetArgument> arguments) {
+  const auto refuse = [](const std::string& option, bool given) {
+    if (given)
+      throw UsageError("--in-parts goes without " + option + ", which takes the whole surface");
+  };
+  const Triangulation triangulation = triangulation_of(command.triangulation);
+  refuse("--isolines-out", !command.isolines.out.empty() || command.isolines.step.has_value());
+  refuse("--picture", command.picture.wanted());
+  refuse("--mask", !command.mask.text.empty());
+  refuse("--metric", !command.metric.text.empty());
+  refuse("--triangulation " + command.triangulation.name,
+         triangulation != Triangulation::automatic && triangulation != Triangulation::input);
+  refuse("--weld", command.weld.has_value() || !command.more.empty());
+  refuse("--as " + command.as, !command.as.empty() && command.as != "surface");
+  refuse("--repair", command.fill.volume.repair);
+  refuse("--max-volume and the like", command.fill.given());
+  refuse("points and their neighbours", command.cloud.given());
+  refuse("--accuracy fast", command.solve.accuracy == "fast");
+  refuse("--schedule " + command.solve.schedule, command.solve.schedule != "dual_queue");
+  refuse("--out " + command.out, !command.out.empty() && !io::is_partitioned(command.out));
+  for (const SetArgument& argument : arguments)
+    refuse("--source " + argument.text, argument.kind != SetArgument::Kind::point);
+}
+
+/// Numbers of vertices are the file's; points are looked for.
+template <class Real>
+std::vector<PointSource> sources_on(const SurfaceParts<Real>& surface,
+                                    const DistanceCommand& command,
+                                    std::span<const SetArgument> arguments) {
+  std::vector<PointSource> sources;
+  for (const SetArgument& argument : arguments) {
+    const SourceArgument where = parse_source(argument.place);
+    PointSource source;
+    if (const Index* const vertex = std::get_if<Index>(&where.where)) {
+      if (*vertex >= surface.summary().vertices)
+        throw InputError(command.input + ": source " + argument.place +
+                         " is out of range: the vertices are 0 to " +
+                         std::to_string(surface.summary().vertices - 1));
+      source = PointSource::at(*vertex);
+    } else {
+      source = surface.nearest(std::get<std::array<double, 3>>(where.where));
+    }
+    source.offset = argument.offset;
+    sources.push_back(source);
+  }
+  return sources;
+}
+
+template <class Real>
+void solve_in_parts(DistanceCommand& command, const PropagateOptions& wanted,
+                    std::span<const SetArgument> arguments) {
+  const Among& among = *command.among;
+  ProgressLine progress(command.quiet);
+  progress.phase("reading " + command.input);
+  const Stopwatch building;
+  const io::PlyRows rows(command.input);
+  among.all_come();
+  // Another file of that name, or another command, would end in a wait without end.
+  std::vector<std::string> words = {std::to_string(rows.vertex_count()),
+                                    std::to_string(rows.face_count())};
+  check_same_words(among.pieces, words, "domain");
+  words = command.sources;
+  check_same_words(among.pieces, words, "sources");
+  words = {command.solve.accuracy, command.solve.precision, std::to_string(wanted.radius),
+           std::to_string(wanted.max_expansions)};
+  check_same_words(among.pieces, words, "options");
+  words = {command.out};
+  check_same_words(among.pieces, words, "outputs");
+
+  OpenMP team{.threads = command.solve.executor.threads.value_or(among.threads)};
+  team.ranks = &among.pieces;
+  SurfaceParts<Real> surface(team, rows);
+  const SurfacePartsSummary& summary = surface.summary();
+  const std::vector<PointSource> sources = sources_on(surface, command, arguments);
+  const double build = building.seconds();
+
+  progress.phase("solving");
+  PropagateOptions options = wanted;
+  options.progress = progress.callback();
+  const Stopwatch solving;
+  const PartField<Real> field = surface.solve(sources, options);
+  const double solve = solving.seconds();
+
+  SurfacePart part;
+  if (!command.out.empty()) part = surface.part(rows);
+  const RankCounts ranks = rank_counts(among.pieces, field.statistics.sent_bytes);
+  among.all_come();
+  if (!command.out.empty()) {
+    progress.phase("writing " + command.out);
+    const std::vector<double> distance(field.distance.begin(), field.distance.end()),
+        error(field.error.begin(), field.error.end());
+    std::vector<std::int32_t> label;
+    for (const Index one : field.label) label.push_back(static_cast<std::int32_t>(one));
+    write_part(part, command.out, distance, label, error,
+               {among.pieces.rank(), among.pieces.count(), among.all_come});
+  }
+  progress.clear();
+  const auto check_reached = [&] {
+    if (field.beside_source == 0)
+      throw NothingReached(command.input +
+                           ": nothing reached: no vertex but the source itself has "
+                           "a finite distance");
+  };
+  if (!command.leads()) return check_reached();
+
+  const PropagateStatistics& statistics = field.statistics;
+  Json json;
+  json["input"] = command.input;
+  json["kind"] = "surface";
+  json["in_parts"] = true;
+  json["vertices"] = summary.vertices;
+  json["simplices"] = summary.faces;
+  json["pieces"] = summary.pieces;
+  json["ghosts"] = summary.ghosts;
+  json["seconds"]["build"] = build;
+  json["seconds"]["solve"] = solve;
+  json["reached"] = field.reached;
+  json["unreached"] = summary.vertices - field.reached;
+  json["max_distance"] = json_number(field.max_distance);
+  json["mean_distance"] = json_number(field.mean_distance);
+  json["expansions"] = statistics.expansions;
+  json["updates"] = statistics.updates;
+  json["supersteps"] = statistics.supersteps;
+  json["letters"] = statistics.letters;
+  json["letter_bytes"] = statistics.letter_bytes;
+  json["ranks"] = among.ranks.count();
+  json["sent_bytes"] = ranks.sent_bytes;
+  json["peak_bytes"] = ranks.peak_bytes;
+  json["lowered_vertices"] = statistics.lowered_vertices;
+  json["raised_vertices"] = statistics.raised_vertices;
+  json["executor"] = "openmp";
+  json["threads"] = team_size(team);
+  json["precision"] = std::is_same_v<Real, float> ? "float" : "double";
+  add_accuracy(DomainKind::surface, field.accuracy, statistics, json);
+
+  Table table;
+  table.add("input", command.input);
+  table.add("surface", counted(summary.vertices, "vertices") + ", " +
+                           counted(summary.faces, "triangles") + ", in " +
+                           counted(summary.pieces, "pieces") + " with " +
+                           counted(summary.ghosts, "ghosts"));
+  for (std::size_t i = 0; i < sources.size(); ++i) {
+    std::string text = arguments[i].place;
+    if (sources[i].vertex == none) text += " (triangle " + std::to_string(sources[i].simplex) + ")";
+    if (arguments[i].offset > 0) text += " + " + short_number(arguments[i].offset);
+    table.add(sources.size() == 1 ? "source" : "source " + std::to_string(i), text);
+  }
+  std::string reached =
+      std::to_string(field.reached) + " of " + counted(summary.vertices, "vertices");
+  if (field.reached > 0)
+    reached += "; the farthest is vertex " + std::to_string(field.farthest) + " at " +
+               short_number(field.max_distance) + ", the mean " + short_number(field.mean_distance);
+  table.add("reached", reached);
+  table.add("work", counted(statistics.expansions, "expansions") + ", " +
+                        counted(statistics.updates, "updates"));
+  const std::uint64_t most = *std::max_element(ranks.peak_bytes.begin(), ranks.peak_bytes.end());
+  table.add("ranks", std::to_string(among.ranks.count()) + ", " +
+                         counted(statistics.supersteps, "supersteps") + ", " +
+                         counted(statistics.letters, "letters") + ", " +
+                         counted(ranks.sent_bytes, "bytes") + " from rank to rank, at most " +
+                         std::to_string((most + 500'000) / 1'000'000) + " MB in one");
+  table.add("time", "build " + short_time(build) + ", solve " + short_time(solve) + " (" +
+                        describe(team) + ", " + name_of(field.accuracy) + ", " +
+                        command.solve.precision + ")");
+  add_written(table, {command.out});
+  print_report(json, table, command.json, command.quiet, {command.out});
+  check_reached();
+  if (command.quiet) return;
+  if (!field.complete)
+    say_note("stopped after " + counted(statistics.expansions, "expansions") +
+             ": distances may still be too long");
+  if (const std::size_t left = summary.vertices - field.reached; left > 0)
+    say_note(counted(left, "vertices") + " not reached (inf)" +
+             (summary.unreferenced_vertices > 0
+                  ? ": " + counted(summary.unreferenced_vertices, "vertices") +
+                        " in none of its triangles"
+                  : std::string()));
+}
+
+}  // namespace
+
+void run_distance_in_parts(DistanceCommand command) {
+  if (command.among == nullptr)
+    throw UsageError(
+        "--in-parts is for ranks: mpirun -n 4 plexway-mpi distance FILE.ply --in-parts ...");
+  if (!command.leads()) command.quiet = true;
+  const std::vector<SetArgument> arguments = parse_source_sets(command.sources);
+  refuse_whole(command, arguments);
+  const PropagateOptions options = propagate_options(command.solve);
+  const Precision precision = precision_of(command.solve);
+  if (precision == Precision::twice && command.solve.precision == "float")
+    command.solve.precision = "double, which exact distances need";
+  const Combination cell = with({.executor = kind_of(command.solve.executor),
+                                 .domain = DomainKind::surface,
+                                 .dimension = 2,
+                                 .single_precision = precision == Precision::single},
+                                options);
+  require("--executor " + command.solve.executor.name, support(Purpose::ranks, cell));
+  require("--in-parts", support_of_windows(cell));
+  const std::vector<std::string> read = {command.input};
+  check_output_place(command.out, read, "--out");
+  if (precision == Precision::single)
+    solve_in_parts<float>(command, options, arguments);
+  else
+    solve_in_parts<double>(command, options, arguments);
+}
+
+}  // namespace plexway::cli

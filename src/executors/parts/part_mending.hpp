@@ -1,0 +1,113 @@
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <span>
+#include <vector>
+
+#include "executors/parts/parted_windows.hpp"
+#include "propagate/alone.hpp"
+#include "propagate/mend_surface.hpp"
+
+namespace plexway {
+
+/// As surface::mend, on a surface in parts: vertices are raised to straight lines where they are,
+/// and lowered along edges piece by piece until none hears of anything nearer. What comes out of
+/// that is the least over all ways, whoever goes first.
+template <class Real, bool kLabels>
+class PartMending {
+ public:
+  PartMending(const Team& team, const PartPieces<Real>& pieces, const PartSources& sources,
+              std::span<PartDistances<Real>> known)
+      : team_(team), pieces_(pieces), sources_(sources), known_(known) {}
+
+  surface::Mended run(std::size_t& sent) {
+    std::uint64_t sums[2] = {raise(), 0};  // also those that end lower
+    std::vector<std::vector<Real>> before(known_.size());
+    for (std::size_t i = 0; i < known_.size(); ++i) before[i] = known_[i].distance;
+    bool any = false;
+    do any |= lower();
+    while (agree(team_.ranks(), pieces_, known_, sent));
+    std::uint64_t lowered[] = {any ? 1u : 0u};
+    add_up(team_.ranks(), lowered);
+    if (lowered[0] > 0) {
+      for (std::size_t i = 0; i < known_.size(); ++i) sums[1] += count_lowered(i, before[i]);
+      raise();
+      agree(team_.ranks(), pieces_, known_, sent);  // pieces see lines from where they are
+    }
+    add_up(team_.ranks(), sums);
+    return {sums[0], sums[1]};
+  }
+
+ private:
+  /// Returns how many vertices were below by more than 1e-4, each in its first piece.
+  std::size_t raise() {
+    std::vector<std::size_t> raised(known_.size(), 0);
+    each([&](std::size_t i, WorkspaceState<Real>& workspace) {
+      const PartPiece<Real>& part = pieces_.parts()[i];
+      const auto places = sources_.places(part, pieces_.unit());
+      const StraightLines<Real> lines(part.mesh->positions(), places);
+      std::vector<Real> before = workspace.vertex;
+      if (lines.template raise<kLabels>(workspace, Alone{}) > 0)
+        raised[i] = count(
+            i, [&](std::size_t v) { return before[v] < workspace.vertex[v] * Real(1 - 1e-4); });
+    });
+    std::size_t sum = 0;
+    for (const std::size_t one : raised) sum += one;
+    return sum;
+  }
+
+  bool lower() {
+    std::vector<char> any(known_.size(), 0);
+    each([&](std::size_t i, WorkspaceState<Real>& workspace) {
+      const TriangleMesh<Real>& mesh = *pieces_.parts()[i].mesh;
+      workspace.front.reserve(mesh.face_count());
+      any[i] = read_out_edges<Real, kLabels>(mesh, workspace, Alone{}).any;
+    });
+    return std::any_of(any.begin(), any.end(), [](char one) { return one != 0; });
+  }
+
+  std::size_t count_lowered(std::size_t i, std::span<const Real> before) const {
+    return count(i,
+                 [&](std::size_t v) { return known_[i].distance[v] < before[v] * Real(1 - 1e-4); });
+  }
+  /// Vertices that this piece is the first to have.
+  template <class Wanted>
+  std::size_t count(std::size_t i, const Wanted& wanted) const {
+    const PartPiece<Real>& part = pieces_.parts()[i];
+    std::size_t sum = 0;
+    for (Index v = 0; v < part.vertices.size(); ++v)
+      sum += wanted(v) && part.is_first(v, pieces_.cut_of(part));
+    return sum;
+  }
+
+  /// Calls work(i, workspace) with the distances of each of our pieces as a surface's: nothing is
+  /// known of vertices that only ghosts have.
+  template <class Work>
+  void each(const Work& work) {
+    team_.each(known_.size(), [&](std::size_t i) {
+      PartDistances<Real>& known = known_[i];
+      const std::size_t own = known.distance.size();
+      const std::size_t all = pieces_.parts()[i].mesh->vertex_count();
+      WorkspaceState<Real> workspace;
+      workspace.vertex.swap(known.distance);
+      workspace.vertex.resize(all, std::numeric_limits<Real>::infinity());
+      workspace.vertex_source.swap(known.source);
+      if constexpr (kLabels) workspace.vertex_source.resize(all, none);
+      work(i, workspace);
+      workspace.vertex.resize(own);
+      workspace.vertex.swap(known.distance);
+      if constexpr (kLabels) workspace.vertex_source.resize(own);
+      workspace.vertex_source.swap(known.source);
+    });
+  }
+
+  const Team& team_;
+  const PartPieces<Real>& pieces_;
+  const PartSources& sources_;
+  std::span<PartDistances<Real>> known_;
+};
+
+}  // namespace plexway

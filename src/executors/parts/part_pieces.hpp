@@ -1,0 +1,115 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include <plexway/complex/triangle_mesh.hpp>
+#include <plexway/executors/surface_parts.hpp>
+
+#include "complex/cut.hpp"
+#include "complex/deal.hpp"
+#include "executors/parts/part_mail.hpp"
+#include "executors/team.hpp"
+#include "propagate/windows/sheet.hpp"
+#include "propagate/windows/vertex_angles.hpp"
+#include "propagate/windows/window_patches.hpp"
+
+namespace plexway {
+
+/// One piece of a surface in parts: a small surface of its own triangles, those at the cut first,
+/// and behind them the ghosts, all that share a vertex with them. Vertices are numbered as they are
+/// named.
+template <class Real>
+struct PartPiece {
+  Index number = 0;                        ///< among the pieces
+  std::optional<TriangleMesh<Real>> mesh;  ///< in the whole surface's unit
+  std::array<double, 3> origin{};          ///< of the mesh's positions, in the input's unit
+  std::size_t own = 0, shared = 0;         ///< triangles; vertices that others may have, the first
+  std::vector<Index> vertices;             ///< of own triangles: the surface's numbers
+  windows::VertexAngles angles;            ///< of these
+  windows::PatchAddresses addresses;
+  /// Of each peer the vertices that it has, too, by their numbers here, in the order of the
+  /// surface's.
+  std::vector<std::vector<Index>> common;
+
+  /// Is it the first of the pieces that have this vertex?
+  [[nodiscard]] bool is_first(Index vertex, const CutPiece& cut) const {
+    if (vertex >= shared) return true;
+    const auto places = addresses.vertices.of(vertex);
+    return places.empty() || cut.peers[places[0].piece].piece > number;
+  }
+  [[nodiscard]] std::size_t bytes() const;
+};
+
+/// The pieces of a surface in parts: this process's.
+template <class Real>
+class PartPieces {
+ public:
+  /// As SurfaceParts is made. About `size` triangles a piece.
+  PartPieces(const Team& team, const SurfaceRows& rows, std::size_t size);
+
+  [[nodiscard]] const SurfacePartsSummary& summary() const { return summary_; }
+  [[nodiscard]] double unit() const { return summary_.mean_edge; }
+  [[nodiscard]] Deal deal() const { return deal_; }
+  /// The pieces of others have nothing but their peers.
+  [[nodiscard]] const Cut& cut() const { return cut_; }
+  [[nodiscard]] const CutPiece& cut_of(const PartPiece<Real>& part) const {
+    return cut_.pieces[part.number];
+  }
+  /// Ours, in order.
+  [[nodiscard]] std::span<const PartPiece<Real>> parts() const { return parts_; }
+  [[nodiscard]] windows::Sheet<Real> sheet(const PartPiece<Real>& part) const {
+    return {.mesh = &*part.mesh,
+            .angles = &part.angles,
+            .triangles = part.mesh->triangles(),
+            .own = static_cast<Index>(part.own),
+            .vertex_count = static_cast<Index>(part.vertices.size()),
+            .shared = static_cast<Index>(part.shared),
+            .vertices = {}};
+  }
+  /// Vertices of no triangle that this process has read, ascending.
+  [[nodiscard]] std::span<const Index> unreferenced() const { return unreferenced_; }
+
+  /// Pieces tell each of their peers something: write(i, peer, parcel) of our piece i for the peer
+  /// at that place, read(i, peer, mail) what that one wrote, all of it. All processes call it.
+  /// Returns the bytes sent to other processes.
+  template <class Write, class Read>
+  std::size_t tell_peers(PieceRanks* ranks, const Write& write, const Read& read) const {
+    PartMail mail(ranks);
+    for (std::size_t i = 0; i < parts_.size(); ++i) {
+      const CutPiece& cut = cut_of(parts_[i]);
+      for (std::size_t peer = 0; peer < cut.peer_count(); ++peer) {
+        const Index other = cut.peers[peer].piece;
+        Parcel& parcel = mail.to(deal_.owner(other));
+        parcel.add(other);
+        parcel.add(parts_[i].number);
+        write(i, peer, parcel);
+      }
+    }
+    mail.meet();
+    for (std::size_t r = 0; r < mail.count(); ++r)
+      for (Unpacked in = mail.from(r); !in.empty();) {
+        const std::size_t i = deal_.place(in.take<Index>());
+        const std::size_t peer = cut_of(parts_[i]).place_of(in.take<Index>());
+        read(i, peer, in);
+      }
+    return mail.sent();
+  }
+
+  [[nodiscard]] std::size_t bytes() const;
+
+ private:
+  SurfacePartsSummary summary_;
+  Deal deal_;
+  Cut cut_;
+  std::vector<PartPiece<Real>> parts_;
+  std::vector<Index> unreferenced_;
+};
+
+extern template class PartPieces<float>;
+extern template class PartPieces<double>;
+
+}  // namespace plexway

@@ -1,0 +1,154 @@
+#include "executors/parts/part_sources.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <utility>
+
+#include <plexway/error.hpp>
+
+#include "complex/closest_point.hpp"
+
+namespace plexway {
+namespace {
+
+/// Numbers of the surface that sources name, and which these are.
+class Named {
+ public:
+  void add(Index number, std::size_t source) {
+    all_.push_back({number, static_cast<Index>(source)});
+  }
+  void sort() { std::sort(all_.begin(), all_.end()); }
+  /// Calls visit(source) for each that names it.
+  template <class Visit>
+  void at(Index number, const Visit& visit) const {
+    for (auto found = std::lower_bound(all_.begin(), all_.end(), std::pair(number, Index{0}));
+         found != all_.end() && found->first == number; ++found)
+      visit(found->second);
+  }
+
+ private:
+  std::vector<std::pair<Index, Index>> all_;
+};
+
+}  // namespace
+
+template <class Real>
+PartSources part_sources(PieceRanks* ranks, const PartPieces<Real>& pieces,
+                         std::span<const PointSource> sources) {
+  PartSources found{sources, std::vector<PartSources::Here>(pieces.parts().size()), {}};
+  Named vertices, faces;
+  for (std::size_t n = 0; n < sources.size(); ++n)
+    sources[n].vertex != none ? vertices.add(sources[n].vertex, n)
+                              : faces.add(sources[n].simplex, n);
+  vertices.sort();
+  faces.sort();
+  // Bits of numbers that one process knows: the first piece at a vertex, or whose triangle it is.
+  constexpr std::size_t each = 7;
+  std::vector<std::uint64_t> told(each * sources.size(), 0);
+  const auto tell = [&](Index n, const std::array<double, 3>& at,
+                        const std::array<double, 3>& origin) {
+    std::uint64_t* const own = &told[each * n];
+    own[0] = 1;
+    for (std::size_t d = 0; d < 3; ++d) {
+      own[1 + d] = std::bit_cast<std::uint64_t>(at[d]);
+      own[4 + d] = std::bit_cast<std::uint64_t>(origin[d]);
+    }
+  };
+  for (std::size_t i = 0; i < pieces.parts().size(); ++i) {
+    const PartPiece<Real>& part = pieces.parts()[i];
+    const CutPiece& cut = pieces.cut_of(part);
+    PartSources::Here& here = found.here[i];
+    const auto positions = part.mesh->positions();
+    for (Index v = 0; v < part.vertices.size(); ++v)
+      vertices.at(part.vertices[v], [&](Index n) {
+        PointSource source = sources[n];
+        source.vertex = v;
+        here.points.push_back(source);
+        here.numbers.push_back(n);
+        if (part.is_first(v, cut)) tell(n, positions[v], part.origin);
+      });
+    for (Index f = 0; f < cut.simplices.size(); ++f)
+      faces.at(cut.simplices[f], [&](Index n) {
+        PointSource source = sources[n];
+        source.simplex = f;
+        here.points.push_back(source);
+        here.numbers.push_back(n);
+        if (f >= part.own) return;
+        std::array<double, 3> at{};
+        for (std::size_t c = 0; c < 3; ++c)
+          for (std::size_t d = 0; d < 3; ++d)
+            at[d] += source.barycentric[c] * positions[part.mesh->triangles()[f].corner[c]][d];
+        tell(n, at, part.origin);
+      });
+  }
+  add_up(ranks, told);
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  found.sites.assign(sources.size(), {{infinity, infinity, infinity}, {0, 0, 0}});
+  for (std::size_t n = 0; n < sources.size(); ++n) {
+    const std::uint64_t* const own = &told[each * n];
+    if (own[0] == 0) continue;
+    for (std::size_t d = 0; d < 3; ++d) {
+      found.sites[n].at[d] = std::bit_cast<double>(own[1 + d]);
+      found.sites[n].origin[d] = std::bit_cast<double>(own[4 + d]);
+    }
+  }
+  return found;
+}
+
+template <class Real>
+PointSource nearest_on(const Team& team, const PartPieces<Real>& pieces,
+                       const std::array<double, 3>& point) {
+  for (const double x : point)
+    if (!std::isfinite(x)) throw UsageError("a point's coordinates must be finite");
+  struct Found {
+    double distance = std::numeric_limits<double>::infinity();
+    PointSource source;
+    [[nodiscard]] bool operator<(const Found& other) const {
+      return std::pair(distance, source.simplex) < std::pair(other.distance, other.source.simplex);
+    }
+  };
+  std::vector<Found> of_part(pieces.parts().size());
+  team.each(of_part.size(), [&](std::size_t i) {
+    const PartPiece<Real>& part = pieces.parts()[i];
+    const auto positions = part.mesh->positions();
+    std::array<double, 3> from;
+    for (std::size_t d = 0; d < 3; ++d) from[d] = (point[d] - part.origin[d]) / pieces.unit();
+    std::vector<std::array<std::uint32_t, 3>> triangles(part.own);
+    for (std::size_t f = 0; f < part.own; ++f) {
+      const auto& corner = part.mesh->triangles()[f].corner;
+      triangles[f] = {corner[0], corner[1], corner[2]};
+    }
+    const SimplexPoint best = closest_point(positions, triangles, from);
+    std::array<double, 3> way{};
+    for (std::size_t d = 0; d < 3; ++d) {
+      for (std::size_t c = 0; c < 3; ++c)
+        way[d] += best.barycentric[c] * positions[triangles[best.simplex][c]][d];
+      way[d] -= from[d];
+    }
+    of_part[i].distance = std::hypot(way[0], way[1], way[2]);
+    of_part[i].source = PointSource{.simplex = pieces.cut_of(part).simplices[best.simplex],
+                                    .barycentric = best.barycentric};
+  });
+  PartMail mail(team.ranks());
+  Found best;
+  for (const Found& one : of_part) best = std::min(best, one);
+  for (std::size_t r = 0; r < mail.count(); ++r) mail.to(r).add(best);
+  mail.meet();
+  for (std::size_t r = 0; r < mail.count(); ++r)
+    best = std::min(best, mail.from(r).template take<Found>());
+  return best.source;
+}
+
+template PartSources part_sources(PieceRanks*, const PartPieces<float>&,
+                                  std::span<const PointSource>);
+template PartSources part_sources(PieceRanks*, const PartPieces<double>&,
+                                  std::span<const PointSource>);
+template PointSource nearest_on(const Team&, const PartPieces<float>&,
+                                const std::array<double, 3>&);
+template PointSource nearest_on(const Team&, const PartPieces<double>&,
+                                const std::array<double, 3>&);
+
+}  // namespace plexway

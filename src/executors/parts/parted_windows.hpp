@@ -1,0 +1,190 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <deque>
+#include <limits>
+#include <span>
+#include <vector>
+
+#include "executors/parts/part_pieces.hpp"
+#include "executors/parts/part_sources.hpp"
+#include "propagate/windows/window_piece.hpp"
+
+namespace plexway {
+
+/// What is known of the vertices of one piece, by its numbers.
+template <class Number>
+struct PartDistances {
+  std::vector<Number> distance, error;  ///< in mean edges
+  std::vector<Index> source;            ///< empty for a single one
+
+  /// Takes what is nearer, or as near from an earlier source, or as near with a larger error. Did
+  /// it?
+  bool take(std::size_t vertex, Number d, Number e, Index s) {
+    if (!(d <= distance[vertex]) || !(d < std::numeric_limits<Number>::infinity())) return false;
+    if (d == distance[vertex]) {
+      const Index own = source.empty() ? s : source[vertex];
+      if (s > own || (s == own && !(e > error[vertex]))) return false;
+    }
+    distance[vertex] = d;
+    error[vertex] = e;
+    if (!source.empty()) source[vertex] = s;
+    return true;
+  }
+};
+
+/// Pieces tell each other what they know of vertices that both have, and keep the better. Did any
+/// learn something, anywhere? All processes call it.
+template <class Real, class Number>
+bool agree(PieceRanks* ranks, const PartPieces<Real>& pieces,
+           std::span<PartDistances<Number>> known, std::size_t& sent) {
+  struct Told {
+    Number distance, error;
+    Index source;
+  };
+  std::uint64_t changed[] = {0};
+  sent += pieces.tell_peers(
+      ranks,
+      [&](std::size_t i, std::size_t peer, Parcel& parcel) {
+        const PartDistances<Number>& own = known[i];
+        for (const Index v : pieces.parts()[i].common[peer])
+          parcel.add(
+              Told{own.distance[v], own.error[v], own.source.empty() ? none : own.source[v]});
+      },
+      [&](std::size_t i, std::size_t peer, Unpacked& mail) {
+        for (const Index v : pieces.parts()[i].common[peer]) {
+          const Told told = mail.template take<Told>();
+          changed[0] += known[i].take(v, told.distance, told.error, told.source);
+        }
+      });
+  add_up(ranks, changed);
+  return changed[0] > 0;
+}
+
+/// Windows on a surface in parts: the pieces of this process. As windows::PiecedWindows, but that
+/// nobody looks at the whole.
+template <class Real, class Windows>
+class PartedWindows {
+ public:
+  using Number = typename Windows::Number;
+  using Piece = windows::WindowPiece<Real, Windows>;
+
+  /// `pieces` must outlive this.
+  explicit PartedWindows(const PartPieces<Real>& pieces)
+      : pieces_(pieces), by_number_(pieces.cut().pieces.size(), nullptr) {
+    for (const PartPiece<Real>& part : pieces.parts())
+      by_number_[part.number] = &windows_.emplace_back(pieces.sheet(part), pieces.cut_of(part),
+                                                       part.addresses, part.number);
+  }
+  PartedWindows(const PartedWindows&) = delete;
+  PartedWindows& operator=(const PartedWindows&) = delete;
+
+  /// As Windows::solve. `crew` as PiecedWindows has it.
+  template <class Crew>
+  [[nodiscard]] bool solve(const Crew& crew, const PartSources& sources,
+                           const PropagateOptions& options, const typename Windows::Limit& limit) {
+    labels_ = sources.all.size() > 1;
+    statistics_ = {};
+    const windows::WindowSources all(sources.all);
+    crew.each(windows_.size(), [&](std::size_t i) {
+      windows_[i].begin(all, options, limit);
+      seed(i, sources.here[i]);
+    });
+    const bool is_bounded = options.radius < std::numeric_limits<double>::infinity();
+    bool too_many = false;
+    const auto goes_on = [&](std::size_t expansions, std::size_t waiting) {
+      too_many = is_too_much(expansions, waiting, limit);
+      return !too_many;
+    };
+    do {
+      complete_ = crew.run(pieces_.cut(), std::span<Piece* const>(by_number_),
+                           pieces_.summary().faces, statistics_, goes_on);
+      if (too_many) return false;
+    } while (complete_ && !is_bounded && fill_holes(crew));
+    return true;
+  }
+
+  /// What our piece i knows. Pieces may differ where a radius or a budget ended the exchange.
+  [[nodiscard]] PartDistances<Number> known(std::size_t i) const {
+    const Windows& windows = windows_[i].windows();
+    const std::size_t count = pieces_.parts()[i].vertices.size();
+    PartDistances<Number> known;
+    known.distance.resize(count);
+    known.error.resize(count);
+    known.source.resize(labels_ ? count : 0);
+    for (Index v = 0; v < count; ++v) {
+      known.distance[v] = windows.vertex_distance(v);
+      known.error[v] = windows.vertex_error(v);
+      if (labels_) known.source[v] = windows.source(v);
+    }
+    return known;
+  }
+  [[nodiscard]] bool complete() const { return complete_; }
+  [[nodiscard]] const PropagateStatistics& statistics() const { return statistics_; }
+  [[nodiscard]] std::size_t bytes() const {
+    std::size_t sum = 0;
+    for (const Piece& piece : windows_) sum += piece.bytes();
+    return sum;
+  }
+
+ private:
+  void seed(std::size_t i, const PartSources::Here& here) {
+    const PartPiece<Real>& part = pieces_.parts()[i];
+    Windows& windows = windows_[i].windows();
+    windows::WindowSources sources(here.points);
+    sources.numbers = here.numbers;
+    windows::for_each_seed(
+        *part.mesh, sources,
+        [&](Index v, double sigma, Index n) {
+          if (v < part.vertices.size()) windows.seed_vertex(v, sigma, n);
+        },
+        [&](Index f, const std::array<double, 4>& b, double sigma, Index n) {
+          Windows::for_each_place(part.mesh->triangles(), f, b,
+                                  [&](Index g, const std::array<double, 4>& there) {
+                                    if (g < part.own) windows.seed_inside(g, there, sigma, n);
+                                  });
+        });
+  }
+
+  /// Between supersteps.
+  bool is_too_much(std::size_t expansions, [[maybe_unused]] std::size_t waiting,
+                   [[maybe_unused]] const typename Windows::Limit& limit) {
+    if constexpr (requires { limit.waiting; }) {
+      if (Windows::ties_end(expansions, pieces_.summary().faces))
+        for (Piece& piece : windows_) piece.windows().end_ties();
+      return expansions > limit.windows || waiting > limit.waiting;
+    } else {
+      return Windows::too_many(expansions, pieces_.summary().faces);
+    }
+  }
+
+  /// Each in its piece; the others hear of it by letters.
+  template <class Crew>
+  bool fill_holes(const Crew& crew) {
+    std::vector<char> any(windows_.size(), 0);
+    crew.each(windows_.size(), [&](std::size_t i) {
+      const PartPiece<Real>& part = pieces_.parts()[i];
+      Windows& windows = windows_[i].windows();
+      bool all = true;  // usual: no look at edges
+      for (Index v = 0; v < part.vertices.size(); ++v)
+        all &= windows.vertex_distance(v) < std::numeric_limits<Number>::infinity();
+      any[i] = !all && Windows::fill_holes(
+                           part.mesh->triangles(), static_cast<Index>(part.own),
+                           [&](Index v) { return windows.vertex_distance(v); },
+                           [&](Index v, Index w, Number way) {
+                             windows.seed_hole(w, way, windows.source(v), windows.vertex_error(v));
+                           });
+    });
+    return crew.any(std::any_of(any.begin(), any.end(), [](char one) { return one != 0; }));
+  }
+
+  const PartPieces<Real>& pieces_;
+  std::deque<Piece> windows_;  ///< of our pieces
+  std::vector<Piece*> by_number_;
+  bool labels_ = false, complete_ = true;
+  PropagateStatistics statistics_;
+};
+
+}  // namespace plexway

@@ -1,0 +1,136 @@
+#pragma once
+
+#include <algorithm>
+#include <atomic>
+#include <cstddef>
+#include <limits>
+#include <mutex>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include <plexway/executors/surface_parts.hpp>
+
+#include "complex/test_meshes.hpp"
+#include "executors/thread_ranks.hpp"
+
+namespace plexway::testing {
+
+/// A surface as it would be read from a file; counts what is read.
+class RowsOf final : public SurfaceRows {
+ public:
+  explicit RowsOf(const Surface& surface) : surface_(surface) {}
+  [[nodiscard]] std::size_t vertex_count() const override { return surface_.positions.size(); }
+  [[nodiscard]] std::size_t face_count() const override { return surface_.faces.size(); }
+  void read_vertices(std::size_t first, std::span<Position> positions) const override {
+    std::copy_n(surface_.positions.begin() + static_cast<std::ptrdiff_t>(first), positions.size(),
+                positions.begin());
+    vertices_read += positions.size();
+  }
+  void read_faces(std::size_t first, std::span<Face> corners) const override {
+    std::copy_n(surface_.faces.begin() + static_cast<std::ptrdiff_t>(first), corners.size(),
+                corners.begin());
+    faces_read += corners.size();
+  }
+
+  mutable std::size_t vertices_read = 0, faces_read = 0;
+
+ private:
+  const Surface& surface_;
+};
+
+/// What several processes found, put together.
+template <class Real>
+struct Joined : PartField<Real> {
+  SurfacePartsSummary summary;
+  std::vector<std::size_t> own_faces;  ///< of each process
+  bool agree = true;                   ///< where several have a vertex
+  bool geometry = true;                ///< is what parts have what was read, each triangle once?
+  bool reads_little = true;            ///< does each process read its share alone?
+
+  [[nodiscard]] bool sound() const { return agree && geometry && reads_little; }
+};
+
+struct Crew {
+  std::size_t ranks = 1;
+  int threads = 1;
+  std::size_t piece = 0;
+};
+
+/// Solves in parts by threads that meet as processes do; one alone has no ranks.
+template <class Real>
+Joined<Real> solve_in_parts(const Surface& surface, const Crew& crew,
+                            const std::vector<PointSource>& sources,
+                            const PropagateOptions& options = {}, int times = 1) {
+  Joined<Real> all;
+  std::mutex mutex;
+  std::vector<char> known(surface.positions.size(), 0);
+  std::vector<Face> faces;
+  const auto take = [&](const SurfacePart& part, const PartField<Real>& field,
+                        const SurfacePartsSummary& summary) {
+    const std::scoped_lock lock(mutex);
+    if (all.distance.empty()) {
+      static_cast<PartField<Real>&>(all) = field;
+      all.distance.assign(known.size(), 0);
+      all.error.assign(known.size(), 0);
+      all.label.assign(sources.size() > 1 ? known.size() : 0, none);
+      all.summary = summary;
+    }
+    all.own_faces.push_back(summary.own_faces);
+    all.agree &= field.reached == all.reached && field.mean_distance == all.mean_distance &&
+                 field.max_distance == all.max_distance && field.farthest == all.farthest &&
+                 field.statistics.expansions == all.statistics.expansions &&
+                 summary.ghosts == all.summary.ghosts;
+    all.geometry &= part.vertex.size() == field.distance.size() &&
+                    std::is_sorted(part.vertex.begin(), part.vertex.end());
+    for (std::size_t i = 0; i < part.vertex.size(); ++i) {
+      const Index v = part.vertex[i];
+      all.geometry &= part.position[i] == surface.positions[v];
+      if (known[v] != 0)
+        all.agree &= all.distance[v] == field.distance[i] && all.error[v] == field.error[i] &&
+                     (all.label.empty() || all.label[v] == field.label[i]);
+      known[v] = 1;
+      all.distance[v] = field.distance[i];
+      all.error[v] = field.error[i];
+      if (!all.label.empty()) all.label[v] = field.label[i];
+    }
+    for (const Face& f : part.triangle)
+      faces.push_back({part.vertex[f[0]], part.vertex[f[1]], part.vertex[f[2]]});
+  };
+  const auto work = [&](PieceRanks* ranks) {
+    OpenMP executor{.threads = crew.threads, .piece = crew.piece};
+    executor.ranks = ranks;
+    const RowsOf rows(surface);
+    SurfaceParts<Real> parts(executor, rows);
+    const std::size_t n = ranks == nullptr ? 1 : ranks->count();
+    {
+      const std::scoped_lock lock(mutex);
+      all.reads_little &= rows.faces_read <= surface.faces.size() / n + 1 &&
+                          rows.vertices_read <= surface.positions.size() / n + 1;
+    }
+    PartField<Real> field;
+    for (int i = 0; i < times; ++i) field = parts.solve(sources, options);
+    take(parts.part(rows), field, parts.summary());
+  };
+  if (crew.ranks == 1)
+    work(nullptr);
+  else
+    ThreadRanks(crew.ranks).run([&](PieceRanks& own) { work(&own); });
+  auto expected = surface.faces;
+  std::sort(expected.begin(), expected.end());
+  std::sort(faces.begin(), faces.end());
+  all.geometry &=
+      faces == expected && std::find(known.begin(), known.end(), char{0}) == known.end();
+  return all;
+}
+
+template <class Real>
+bool same_bits(const Joined<Real>& a, const Joined<Real>& b) {
+  return a.distance == b.distance && a.error == b.error && a.label == b.label &&
+         a.reached == b.reached && a.mean_distance == b.mean_distance &&
+         a.max_distance == b.max_distance && a.farthest == b.farthest &&
+         a.statistics.expansions == b.statistics.expansions &&
+         a.statistics.lowered_vertices == b.statistics.lowered_vertices;
+}
+
+}  // namespace plexway::testing

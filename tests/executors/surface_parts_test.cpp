@@ -1,0 +1,449 @@
+#include <catch2/catch.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <random>
+#include <string>
+#include <vector>
+
+#include <plexway/error.hpp>
+#include <plexway/io/triangles.hpp>
+#include <plexway/solve.hpp>
+
+#include "complex/jittered.hpp"
+#include "exact_data.hpp"
+#include "executors/parity.hpp"
+#include "executors/parts_testing.hpp"
+#include "executors/piece_testing.hpp"
+#include "with_accuracy.hpp"
+
+// Surfaces in parts (executors/surface_parts.hpp): what the whole says, with the same bits whatever
+// the processes and threads.
+
+using namespace plexway;
+using namespace plexway::testing;
+
+namespace {
+
+constexpr Crew crews[] = {{1, 1, 25}, {2, 1, 25}, {3, 2, 25}, {4, 1, 25}, {1, 3, 120}, {3, 1, 120}};
+
+std::vector<PointSource> mixed_sources(const Surface& s, std::size_t count, unsigned seed) {
+  std::mt19937 random(seed);
+  std::vector<PointSource> sources;
+  for (std::size_t i = 0; i < count; ++i) {
+    // A vertex of a triangle: others are reached from nowhere.
+    const Face& f = s.faces[below(random, s.faces.size())];
+    sources.push_back(PointSource::at(f[below(random, 3)]));
+  }
+  if (count == 1) return sources;
+  sources[1] = PointSource::in(below(random, s.faces.size()), {.2, .3, .5});
+  sources.back().offset = 0.01;
+  return sources;
+}
+
+template <class Real>
+double worst_of(const std::vector<Real>& found, const std::vector<Real>& expected) {
+  double worst = 0;
+  for (std::size_t v = 0; v < expected.size(); ++v) {
+    if (std::isfinite(found[v]) != std::isfinite(expected[v])) return 1e300;
+    if (!std::isfinite(expected[v])) continue;
+    const double miss = std::abs(static_cast<double>(found[v]) - static_cast<double>(expected[v]));
+    worst = std::max(worst, miss / std::max(1e-3, static_cast<double>(expected[v])));
+  }
+  return worst;
+}
+
+template <class Exact>
+std::vector<double> at_vertices(const Surface& s, const Exact& exact) {
+  std::vector<double> all;
+  for (const Position& p : s.positions) all.push_back(exact(p));
+  return all;
+}
+
+/// Exactly and merged, in pieces of a triangle or two (each vertex is at a cut) and larger ones, by
+/// several processes: what is known.
+void check_known(const Surface& s, const PointSource& source, const std::vector<double>& known,
+                 double merged_within) {
+  for (const std::size_t piece : {2u, 9u, 60u})
+    for (const std::size_t ranks : {1u, 3u}) {
+      CAPTURE(piece, ranks);
+      const Crew crew{ranks, 1, piece};
+      const auto exact = solve_in_parts<double>(s, crew, {source}, at(Accuracy::exact()));
+      CHECK(worst_of(exact.distance, known) < 1e-12);
+      CHECK(exact.sound());
+      CHECK(exact.reached == known.size());
+      const auto merged = solve_in_parts<double>(s, crew, {source}, at(Accuracy::accurate()));
+      CHECK(worst_of(merged.distance, known) < merged_within);
+      CHECK(merged.sound());
+    }
+}
+
+}  // namespace
+
+TEST_CASE("parts: exact windows are those of the whole") {
+  unsigned seed = 0;
+  for (const Surface& s : surfaces()) {
+    const auto mesh = s.mesh<double>();
+    for (const std::size_t count : {1u, 5u}) {
+      const auto sources = mixed_sources(s, count, ++seed);
+      const auto options = at(Accuracy::exact());
+      const auto whole = solve(Serial{}, mesh, sources, options);
+      std::vector<Joined<double>> found;
+      for (const Crew& crew : crews) {
+        found.push_back(solve_in_parts<double>(s, crew, sources, options));
+        INFO("surface " << seed << ", ranks " << crew.ranks << ", pieces of " << crew.piece);
+        const auto& field = found.back();
+        CHECK(worst_of(field.distance, whole.distance) < 1e-12);
+        CHECK(field.sound());
+        CHECK(field.complete);
+        CHECK(field.accuracy == Accuracy::exact());
+        CHECK(field.summary.mean_edge == Approx(mesh.unit()).epsilon(1e-12));
+        CHECK(same_bits(field, found[crew.piece == 25 ? 0 : 4]));
+      }
+      // Whose a vertex is, where two are not all but as near.
+      if (count == 1) continue;
+      std::vector<DistanceField<double>> alone;
+      for (const PointSource& one : sources) alone.push_back(solve(Serial{}, mesh, one, options));
+      std::size_t wrong = 0;
+      for (std::size_t v = 0; v < whole.distance.size(); ++v) {
+        if (!std::isfinite(whole.distance[v])) {
+          wrong += found[0].label[v] != none;
+          continue;
+        }
+        const Index label = found[0].label[v];
+        REQUIRE(label < sources.size());
+        wrong += alone[label].distance[v] > whole.distance[v] * (1 + 1e-9) + 1e-12;
+      }
+      CHECK(wrong == 0);
+    }
+  }
+}
+
+TEMPLATE_TEST_CASE("parts: merged windows have the same bits whatever the processes and threads",
+                   "[threads]", float, double) {
+  unsigned seed = 0;
+  for (const Surface& s : surfaces()) {
+    const auto mesh = s.mesh<double>();
+    for (const std::size_t count : {1u, 5u}) {
+      const auto sources = mixed_sources(s, count, ++seed);
+      const auto in_double = solve(Serial{}, mesh, sources, at(Accuracy::exact()));
+      DistanceField<TestType> exact;
+      exact.distance.assign(in_double.distance.begin(), in_double.distance.end());
+      const auto serial = solve(Serial{}, s.mesh<TestType>(), sources, at(Accuracy::accurate()));
+      std::vector<Joined<TestType>> found;
+      for (const Crew& crew : crews) {
+        found.push_back(solve_in_parts<TestType>(s, crew, sources, at(Accuracy::accurate())));
+        INFO("surface " << seed << ", ranks " << crew.ranks << ", pieces of " << crew.piece);
+        CHECK((found.back().sound() && found.back().complete));
+        CHECK(same_bits(found.back(), found[crew.piece == 25 ? 0 : 4]));
+      }
+      for (const std::size_t i : {0u, 4u}) {
+        const Parity p = parity(exact, found[i]), q = parity(exact, serial);
+        INFO("surface " << seed << ", worst " << p.worst << ", of Serial " << q.worst);
+        CHECK(p.reached_by_one == 0);
+        CHECK(p.worst < std::max(2 * q.worst, 1e-3));
+      }
+    }
+  }
+}
+
+TEST_CASE("parts: a plane, from vertices and from inside") {
+  std::mt19937 random(5);
+  for (unsigned seed = 1; seed <= 2; ++seed) {
+    const Surface s = jittered(11, seed);
+    for (int i = 0; i < 2; ++i) {
+      const Index v = below(random, s.positions.size()), f = below(random, s.faces.size());
+      const double b = .1 + .8 * uniform(random), c = (1 - b) * (i == 0 ? uniform(random) : 0);
+      const Position inside = [&] {
+        Position p{};
+        const double share[] = {b, c, 1 - b - c};
+        for (std::size_t k = 0; k < 3; ++k)
+          for (std::size_t d = 0; d < 2; ++d) p[d] += share[k] * s.positions[s.faces[f][k]][d];
+        return p;
+      }();
+      const auto from = [&](const Position& p) {
+        return at_vertices(s,
+                           [=](const Position& q) { return std::hypot(q[0] - p[0], q[1] - p[1]); });
+      };
+      check_known(s, PointSource::at(v), from(s.positions[v]), 1e-4);
+      check_known(s, PointSource::in(f, {b, c, 1 - b - c}), from(inside), 1e-4);
+    }
+  }
+}
+
+TEST_CASE("parts: an L, around its corner") {
+  Surface s = grid(12, 12);
+  std::mt19937 random(8);
+  for (Position& p : s.positions)
+    for (std::size_t d = 0; d < 2; ++d)
+      if (p[0] > 0 && p[0] < 1 && p[1] > 0 && p[1] < 1 && p[0] != .5 && p[1] != .5)
+        p[d] += (uniform(random) - .5) / 24;
+  s = cut(s, [](double x, double y) { return x < .5 || y < .5; });
+  // Vertices of no triangle are another test's.
+  std::vector<Index> name(s.positions.size(), none);
+  Surface all;
+  for (Face& f : s.faces)
+    for (Index& v : f) {
+      if (name[v] == none) name[v] = all.add(s.positions[v][0], s.positions[v][1]);
+      v = name[v];
+    }
+  all.faces = s.faces;
+  for (const Position& near : {Position{.9, .1, 0}, Position{.1, .9, 0}, Position{.5, .5, 0}}) {
+    const Index v = all.nearest(near[0], near[1]);
+    const Position p = all.positions[v];
+    const auto known = at_vertices(all, [&](const Position& q) {
+      // Where the straight line passes the corner on the wrong side the path goes by way of it.
+      const double side = (q[0] - p[0]) * (.5 - p[1]) - (q[1] - p[1]) * (.5 - p[0]);
+      const bool apart = (p[0] > .5 && q[1] > .5) || (p[1] > .5 && q[0] > .5);
+      const bool hidden = apart && (p[0] > .5 ? side > 0 : side < 0);
+      const double straight = std::hypot(q[0] - p[0], q[1] - p[1]);
+      return hidden ? std::hypot(p[0] - .5, p[1] - .5) + std::hypot(q[0] - .5, q[1] - .5)
+                    : straight;
+    });
+    check_known(all, PointSource::at(v), known, 1e-4);
+  }
+}
+
+TEST_CASE("parts: a prism, unrolled") {
+  constexpr Index sides = 9, rows = 10;
+  constexpr double height = 4;
+  const Surface s = prism(sides, rows, height);
+  for (const Index v : {0u, 4 * sides + 3, rows * sides + 8}) {
+    std::vector<double> known;
+    for (Index w = 0; w < s.positions.size(); ++w) {
+      double around = std::abs(static_cast<double>(w % sides) - static_cast<double>(v % sides));
+      around = std::min(around, sides - around);
+      known.push_back(std::hypot(around, s.positions[w][2] - s.positions[v][2]));
+    }
+    check_known(s, PointSource::at(v), known, 1e-4);
+  }
+}
+
+TEST_CASE("parts: what is apart is not reached, whoever has it") {
+  // Two squares far from each other, the second smaller than a piece; and vertices of no triangle.
+  Surface s = jittered(10, 3);
+  const Surface far = jittered(2, 4);
+  const auto shift = static_cast<Index>(s.positions.size());
+  for (const Position& p : far.positions) s.add(p[0] + 100, p[1]);
+  for (const Face& f : far.faces) s.triangle(f[0] + shift, f[1] + shift, f[2] + shift);
+  const Index alone = s.add(3, 3), last = s.add(200, 0);
+  for (const std::size_t ranks : {1u, 2u, 4u}) {
+    CAPTURE(ranks);
+    const Crew crew{ranks, 1, 20};
+    const auto field = solve_in_parts<double>(s, crew, {PointSource::at(5)});
+    CHECK(field.sound());
+    CHECK(field.reached == shift);
+    CHECK(field.beside_source == shift - 1);
+    CHECK(field.summary.unreferenced_vertices == 2);
+    for (Index v = 0; v < s.positions.size(); ++v)
+      CHECK(std::isfinite(field.distance[v]) == (v < shift));
+    // From there, and from a vertex of no triangle.
+    const auto other =
+        solve_in_parts<double>(s, crew, {PointSource::at(shift), {.vertex = last, .offset = .25}});
+    CHECK(other.reached == far.positions.size() + 1);
+    CHECK(other.distance[last] == .25);
+    CHECK(other.label[last] == 1);
+    CHECK(std::isinf(other.distance[alone]));
+    CHECK(other.label[alone] == none);
+    CHECK(std::isinf(other.distance[5]));
+    const auto nothing = solve_in_parts<double>(s, crew, {PointSource::at(last)});
+    CHECK(nothing.reached == 1);
+    CHECK(nothing.beside_source == 0);
+    CHECK(nothing.distance[last] == 0);
+  }
+}
+
+TEST_CASE("parts: more processes than pieces") {
+  const Surface s = jittered(6, 9);
+  const auto one = solve_in_parts<float>(s, {1, 1, 0}, {PointSource::at(3)});
+  CHECK(one.summary.pieces == 1);
+  CHECK(one.summary.ghosts == 0);
+  for (const std::size_t ranks : {2u, 5u}) {
+    const auto many = solve_in_parts<float>(s, {ranks, 1, 0}, {PointSource::at(3)});
+    CHECK(same_bits(one, many));
+    CHECK(many.sound());
+    CHECK(std::count(many.own_faces.begin(), many.own_faces.end(), 0) ==
+          static_cast<std::ptrdiff_t>(ranks - 1));
+  }
+}
+
+TEST_CASE("parts: pieces are even, and each process has its share") {
+  const Surface s = sphere(6);
+  const auto field = solve_in_parts<float>(s, {4, 1, 500}, {PointSource::at(7)});
+  CHECK(field.summary.pieces == Approx(static_cast<double>(s.faces.size()) / 500).epsilon(.05));
+  for (const std::size_t own : field.own_faces)
+    CHECK(own == Approx(static_cast<double>(s.faces.size()) / 4).epsilon(.15));
+  CHECK(field.summary.ghosts < s.faces.size() / 2);
+  // A vertex far off leaves all others in one cell of the curve: triangles' numbers tell them
+  // apart.
+  Surface far = jittered(30, 2);
+  const Index v = far.add(1e9, 0);
+  far.triangle(0, 1, v);
+  const auto apart = solve_in_parts<double>(far, {3, 1, 100}, {PointSource::at(7)});
+  CHECK(apart.summary.pieces > 5);
+  CHECK(apart.sound());
+}
+
+TEST_CASE("parts: the same bits every time") {
+  Surface s = jittered(12, 6);
+  for (Position& p : s.positions) p[2] = .2 * std::sin(7 * p[0]) * std::cos(5 * p[1]);
+  const std::vector<PointSource> sources = {PointSource::at(20), PointSource::at(150)};
+  const auto once = solve_in_parts<float>(s, {1, 1, 30}, sources);
+  for (const Crew& crew : {Crew{2, 1, 30}, Crew{2, 2, 30}}) {
+    CHECK(same_bits(once, solve_in_parts<float>(s, crew, sources, {}, 100)));
+  }
+}
+
+TEST_CASE("parts: a radius and a budget are kept") {
+  const Surface s = sphere(4);
+  const auto whole = solve(Serial{}, s.mesh<double>(), PointSource::at(5), at(Accuracy::exact()));
+  for (const Accuracy accuracy : {Accuracy::exact(), Accuracy::accurate()}) {
+    PropagateOptions options = at(accuracy);
+    options.radius = 1;
+    std::vector<Joined<double>> found;
+    for (const std::size_t ranks : {1u, 3u}) {
+      const Crew crew{ranks, 1, 40};
+      found.push_back(solve_in_parts<double>(s, crew, {PointSource::at(5)}, options));
+      CHECK(found.back().sound());
+      std::size_t wrong = 0;
+      for (std::size_t v = 0; v < s.positions.size(); ++v) {
+        const double d = whole.distance[v];
+        if (std::abs(d - 1) < 1e-3) continue;
+        wrong += std::isfinite(found.back().distance[v]) != (d < 1) ||
+                 (d < 1 && std::abs(found.back().distance[v] - d) > 1e-3 * d);
+      }
+      CHECK(wrong == 0);
+    }
+    CHECK(same_bits(found[0], found[1]));
+  }
+  for (const std::size_t most : {0u, 1u, 100u, 1500u}) {
+    PropagateOptions options;
+    options.max_expansions = most;
+    const auto one = solve_in_parts<float>(s, {1, 1, 40}, {PointSource::at(5)}, options);
+    CHECK(!one.complete);
+    CHECK(one.statistics.expansions == most);
+    CHECK(one.distance[5] == 0);
+    CHECK(same_bits(one, solve_in_parts<float>(s, {3, 1, 40}, {PointSource::at(5)}, options)));
+  }
+}
+
+TEST_CASE("parts: the nearest point, whoever has it") {
+  const Surface s = jittered(9, 2);
+  const std::vector<Position> points = {{.31, .77, .5}, {-1, .4, 0}, {.5, .5, 0}};
+  for (const std::size_t ranks : {1u, 3u}) {
+    std::vector<std::vector<PointSource>> found(ranks);
+    std::vector<char> refused(ranks, 0);
+    ThreadRanks(ranks).run([&](PieceRanks& own) {
+      OpenMP executor{.threads = 1, .piece = 20};
+      executor.ranks = &own;
+      const SurfaceParts<double> parts(executor, RowsOf(s));
+      for (const Position& p : points) found[own.rank()].push_back(parts.nearest(p));
+      try {
+        static_cast<void>(parts.nearest({0, NAN, 0}));
+      } catch (const UsageError&) {
+        refused[own.rank()] = 1;
+      }
+    });
+    for (std::size_t r = 0; r < ranks; ++r) {
+      CHECK(refused[r] != 0);
+      for (std::size_t i = 0; i < points.size(); ++i) {
+        const PointSource& one = found[r][i];
+        REQUIRE(one.simplex < s.faces.size());
+        CHECK(one.simplex == found[0][i].simplex);
+        CHECK(one.barycentric == found[0][i].barycentric);
+        Position at{};
+        for (std::size_t k = 0; k < 3; ++k)
+          for (std::size_t d = 0; d < 3; ++d)
+            at[d] += one.barycentric[k] * s.positions[s.faces[one.simplex][k]][d];
+        CHECK(at[0] == Approx(std::clamp(points[i][0], 0., 1.)).margin(1e-12));
+        CHECK(at[1] == Approx(std::clamp(points[i][1], 0., 1.)).margin(1e-12));
+      }
+    }
+  }
+}
+
+TEST_CASE("parts: what is wrong is named as in the whole") {
+  const Surface good = grid(8, 8);
+  const auto refused = [&](const Surface& s, const std::string& text) {
+    for (const std::size_t ranks : {1u, 3u}) {
+      CAPTURE(ranks, text);
+      try {
+        solve_in_parts<float>(s, {ranks, 1, 20}, {PointSource::at(0)});
+        FAIL("not refused");
+      } catch (const Error& error) {
+        CHECK(std::string(error.what()).find(text) != std::string::npos);
+      }
+    }
+  };
+  Surface s = good;
+  s.faces[77][1] = 81;
+  refused(s, "face 77: vertex 81 is out of range, there are 81");
+  s = good;
+  s.faces[101][2] = s.faces[101][0];
+  refused(s, "face 101: vertex " + std::to_string(s.faces[101][0]) + " occurs twice");
+  s = good;
+  s.positions[66][1] = NAN;
+  refused(s, "vertex 66: a coordinate is not finite");
+  s = good;
+  s.faces.clear();
+  refused(s, "the surface has no faces");
+  s = good;  // a triangle too small beside the mean edge
+  const Index a = s.add(5, 5), b = s.add(5 + 1e-12, 5), c = s.add(5, 5 + 1e-12);
+  s.triangle(a, b, c);
+  refused(s, "face 128: its longest edge");
+  CHECK_THROWS_AS(solve_in_parts<float>(good, {2, 1, 20}, {PointSource::at(81)}), UsageError);
+  CHECK_THROWS_AS(solve_in_parts<float>(good, {2, 1, 20}, {}), UsageError);
+  CHECK_THROWS_AS(
+      solve_in_parts<float>(good, {2, 1, 20}, {PointSource::at(0)}, at(Accuracy::fast())),
+      UsageError);
+}
+
+TEST_CASE("parts: merged windows are as accurate as Serial's on curved surfaces") {
+  double serial = 0, in_parts = 0, worst_serial = 0, worst = 0;
+  for (const auto& file : exact_files("surfaces", ".obj")) {
+    const io::Triangles soup = io::read_triangles(file);
+    if (soup.triangles.size() > 60'000 || file.stem() == "t79741") continue;  // needles: below
+    const Surface s{soup.positions, soup.triangles};
+    const TriangleMesh<float> mesh(soup.positions, soup.triangles);
+    for (const ExactAnswer& exact : exact_answers(file)) {
+      const PointSource source = PointSource::at(static_cast<Index>(exact.source));
+      const auto error = [&](const DistanceField<float>& field, double& most) {
+        CHECK(field.accuracy == Accuracy::accurate());
+        double sum = 0;
+        std::size_t count = 0;
+        for (std::size_t v = 0; v < exact.distance.size(); ++v) {
+          if (!(exact.distance[v] > 0)) continue;
+          const double e = std::abs(static_cast<double>(field.distance[v]) / exact.distance[v] - 1);
+          sum += e, ++count;
+          most = std::max(most, e);
+        }
+        return sum / static_cast<double>(count);
+      };
+      serial += error(solve(Serial{}, mesh, source), worst_serial);
+      in_parts += error(solve_in_parts<float>(s, {2, 1, 2048}, {source}), worst);
+    }
+  }
+  REQUIRE(serial > 0);
+  INFO("mean " << in_parts / serial << " of Serial's, worst " << worst << ", Serial's "
+               << worst_serial);
+  CHECK(in_parts < 1.05 * serial);
+  CHECK(worst <= 5e-3);  // as of pieces; which vertex is worst is chance
+}
+
+// Merged windows give way to exact ones there. In single precision what lengths are rounded to
+// moves some vertices by more than 1e-3, of the whole, too.
+TEST_CASE("parts: needles, exactly") {
+  for (const auto& file : exact_files("surfaces", ".obj")) {
+    if (file.stem() != "t79741") continue;
+    const io::Triangles soup = io::read_triangles(file);
+    const Surface s{soup.positions, soup.triangles};
+    const auto options = at(Accuracy::exact());
+    const auto whole = solve(Serial{}, s.mesh<double>(), PointSource::at(1928), options);
+    const auto parts = solve_in_parts<double>(s, {2, 1, 2048}, {PointSource::at(1928)}, options);
+    CHECK(parts.sound());
+    CHECK(worst_of(parts.distance, whole.distance) < 1e-12);
+  }
+}

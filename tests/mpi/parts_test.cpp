@@ -1,0 +1,177 @@
+// A surface in parts by the tool: no rank has the whole.
+
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <filesystem>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "folder.hpp"
+#include "mpi/running.hpp"
+#include "mpi/surfaces.hpp"
+
+using namespace mpi_testing;
+
+namespace {
+
+Words from(const std::string& input, const Words& more) {
+  return Words{"distance", input, "--source", "vertex:0", "--source", "point:0.4,0.3,0.2"} + more;
+}
+
+// The field in parts, by the surface's numbers, and how many triangles the parts have.
+struct Parts {
+  Parts(const fs::path& file, int parts, std::size_t vertices)
+      : distance(vertices, std::numeric_limits<double>::quiet_NaN()), label(vertices, -7) {
+    const std::string names = content(file);
+    for (int p = 0; p < parts; ++p) {
+      CAPTURE(p);
+      const std::string name = file.stem().string() + "_" + std::to_string(p) + ".vtu";
+      CHECK(names.find("<Piece Source=\"" + name + "\"/>") != std::string::npos);
+      const Vtu part(file.parent_path() / name);
+      const auto original = part.array<std::uint32_t>("original");
+      const auto d = part.array<double>("distance");
+      const auto l = part.array<std::int32_t>("label");
+      const auto at = part.array<double>("Points");
+      REQUIRE((d.size() == original.size() && l.size() == d.size() && at.size() == 3 * d.size()));
+      triangles += part.array<std::int64_t>("connectivity").size() / 3;
+      for (std::size_t i = 0; i < d.size(); ++i) {
+        REQUIRE(original[i] < vertices);
+        if (label[original[i]] != -7)
+          agree &= distance[original[i]] == d[i] && label[original[i]] == l[i];
+        distance[original[i]] = d[i];
+        label[original[i]] = l[i];
+      }
+    }
+  }
+  std::vector<double> distance;
+  std::vector<std::int32_t> label;
+  std::size_t triangles = 0;
+  bool agree = true;
+};
+
+}  // namespace
+
+TEST_CASE("ranks solve a surface in parts as one process solves the whole") {
+  if (!mpirun()) return;
+  const testing::Folder folder;
+  const std::string text = folder.write("hills.off", hills()), input = folder.at("hills.ply"),
+                    alone = folder.at("alone.vtu"), out = folder.at("d.pvtu");
+  REQUIRE(run_tool({"convert", text, input, "--quiet"}).code == 0);
+  const Words exact = {"--accuracy", "exact"};
+  REQUIRE(run_tool(from(input, exact + Words{"--quiet", "--out", alone})).code == 0);
+  const Vtu whole(alone);
+  const auto known = whole.array<double>("distance");
+  const auto label = whole.array<std::int32_t>("label");
+  for (const Words& accuracy : {exact, Words{}}) {
+    std::vector<double> first;
+    for (const auto& [ranks, threads] : {std::pair(1, 2), std::pair(3, 1), std::pair(4, 1)}) {
+      CAPTURE(ranks, threads);
+      const Outcome run = run_ranks(
+          ranks, from(input, accuracy + Words{"--in-parts", "--threads", std::to_string(threads),
+                                              "--json", "--out", out}));
+      INFO(run.err);
+      REQUIRE(run.code == 0);
+      CHECK(run.err.find("1 vertex not reached") != std::string::npos);
+      const auto json = run.json();
+      CHECK(json["in_parts"] == true);
+      CHECK(json["ranks"] == ranks);
+      CHECK(json["vertices"] == known.size());
+      CHECK(json["reached"] == known.size() - 1);
+      CHECK(json["pieces"] > 1);
+      CHECK(json["letters"] > 100);
+      CHECK((json["sent_bytes"] > 0) == (ranks > 1));
+      REQUIRE(json["peak_bytes"].size() == static_cast<std::size_t>(ranks));
+      const Parts parts(out, ranks, known.size());
+      CHECK(parts.agree);
+      CHECK(json["simplices"] == parts.triangles);
+      double worst = 0, sum = 0;
+      std::size_t other = 0;
+      for (std::size_t v = 0; v < known.size(); ++v) {
+        REQUIRE(std::isinf(known[v]) == std::isinf(parts.distance[v]));
+        if (std::isinf(known[v])) continue;
+        const double miss = std::abs(parts.distance[v] - known[v]) / std::max(known[v], 1e-3);
+        worst = std::max(worst, miss);
+        sum += miss;
+        other += parts.label[v] != label[v];
+      }
+      CHECK(worst < (accuracy.empty() ? 3e-3 : 1e-12));
+      CHECK(sum < 1e-4 * static_cast<double>(known.size()));
+      CHECK(other <= known.size() / 500);
+      if (first.empty()) first = parts.distance;
+      CHECK(parts.distance == first);
+    }
+  }
+}
+
+TEST_CASE("what ranks cannot do in parts is said once, and no file is left") {
+  if (!mpirun()) return;
+  const testing::Folder folder;
+  const std::string text = folder.write("square.off", square_off(5)),
+                    input = folder.at("square.ply"), out = folder.at("d.pvtu");
+  REQUIRE(run_tool({"convert", text, input, "--quiet"}).code == 0);
+  const std::size_t files = folder.files();
+  const auto refused_by = [&](const Words& arguments, int code, const std::string& why) {
+    const Outcome run = run_program(*mpirun() + arguments);
+    CAPTURE(run.err);
+    CHECK(run.code == code);
+    const auto lines = complaints(run);
+    REQUIRE(lines.size() == 1);
+    CHECK(lines[0].find(why) != std::string::npos);
+    CHECK(folder.files() == files);
+  };
+  const auto distance = [&](const std::string& file) {
+    return Words{PLEXWAY_TEST_MPI_TOOL, "distance", file, "-s", "vertex:0",
+                 "--in-parts",          "-o",       out};
+  };
+  const auto refused = [&](const Words& more, int code, const std::string& why) {
+    refused_by(Words{"-n", "2"} + distance(input) + more, code, why);
+  };
+  refused({"--source", "boundary"}, 2, "--source boundary");
+  refused({"--metric", "speed:none.txt"}, 2, "--metric");
+  refused({"--triangulation", "delaunay"}, 2, "--triangulation");
+  refused({"--accuracy", "fast"}, 2, "--accuracy");
+  refused({"--executor", "serial"}, 2, "OpenMP");
+  refused({"--source", "vertex:25"}, 3, "vertex:25");
+  refused_by(Words{"-n", "2"} + distance(text), 3, "square.off");
+  refused_by(Words{"-n", "2"} + distance(folder.at("none.ply")), 3, "none.ply");
+  // A rank without its file; two of one name that are not the same.
+  refused_by(
+      Words{"-n", "1"} + distance(input) + Words{":", "-n", "1"} + distance(folder.at("none.ply")),
+      3, "rank 1: ");
+  const Outcome alone = run_tool({"distance", input, "-s", "vertex:0", "--in-parts", "-o", out});
+  CHECK(alone.code == 2);
+  CHECK(folder.files() == files);
+  // A file that is cut short.
+  const std::string bytes = content(input);
+  const std::string cut = folder.write("cut.ply", bytes.substr(0, bytes.size() - 1));
+  const Outcome shorter = run_program(*mpirun() + Words{"-n", "2"} + distance(cut));
+  CHECK(shorter.code == 3);
+  CHECK(complaints(shorter).size() == 1);
+  fs::remove(cut);
+  // A disk that gets full.
+  folder.write("d.pvtu", "an older one");
+  fs::create_symlink("/dev/full", folder.at("d_1.vtu"));
+  const Outcome full = run_program(*mpirun() + Words{"-n", "2"} + distance(input));
+  CAPTURE(full.err);
+  CHECK(full.code == 1);
+  REQUIRE(complaints(full).size() == 1);
+  CHECK(complaints(full)[0].find("rank 1: cannot write " + folder.at("d_1.vtu").string()) !=
+        std::string::npos);
+  CHECK(content(out) == "an older one");
+}
+
+TEST_CASE("a rank that dies in parts leaves no field that looks whole") {
+  if (!mpirun()) return;
+  const testing::Folder folder;
+  const std::string text = folder.write("hills.off", hills()), input = folder.at("hills.ply"),
+                    out = folder.at("d.pvtu");
+  REQUIRE(run_tool({"convert", text, input, "--quiet"}).code == 0);
+  const Words tool = Words{PLEXWAY_TEST_MPI_TOOL} +
+                     from(input, {"--in-parts", "--threads", "1", "--quiet", "--out", out});
+  const std::string script = "\"$@\" & rank=$!\nsleep 0.3\nkill -9 $rank 2>/dev/null\nwait $rank";
+  const Outcome killed = run_program(*mpirun() + Words{"-n", "1"} + tool +
+                                     Words{":", "-n", "1", "sh", "-c", script, "sh"} + tool);
+  if (killed.code != 0) CHECK(killed.err.find("mpi") != std::string::npos);
+  if (killed.code == 0 || fs::exists(out)) CHECK(Parts(out, 2, 131 * 131 + 1).agree);
+}
