@@ -1,7 +1,8 @@
 // Random plans as the fuzzers make them (tests/fuzz/fuzz_plan.hpp), with errors in a table where
 // those only hold bounds: rectangles cut out of a square, as a surface, as a complex of triangles
-// and as the prism over it, against the visibility graph of the corners. And several sources at
-// once in a cube, against straight lines.
+// and as the prism over it, against the visibility graph of the corners; prisms over plans with
+// cracks that may join, and paths in these. And several sources at once: in a cube against straight
+// lines, in prisms over plans against the least of a field from each.
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -21,53 +22,18 @@
 #include <plexway/solve.hpp>
 
 #include "fuzz/fuzz_plan.hpp"
+#include "plan_errors.hpp"
+#include "random_cracks.hpp"
+#include "random_sources.hpp"
 #include "table.hpp"
 
 namespace {
 
+using bench::Distances, bench::Random;
 using plexway::Accuracy;
 using plexway::Index;
 using plexway::PointSource;
-using Distances = std::vector<double>;
-using Random = std::mt19937;  // the same numbers with every library
-
-// What fields are off, as a share of the distance; a row of the table.
-class Errors {
- public:
-  void add(const Distances& found, const Distances& truth) {
-    double longest = 0;
-    for (std::size_t v = 0; v < truth.size(); ++v) {
-      if (!(truth[v] > 1e-12)) continue;
-      const double off = found[v] / truth[v] - 1;
-      ++vertices_;
-      sum_ += std::abs(off);
-      far_ += off > bounds[0];
-      longest = std::max(longest, off);
-      shortest_ = std::min(shortest_, off);
-    }
-    ++plans_;
-    longest_ = std::max(longest_, longest);
-    for (std::size_t i = 0; i < bounds.size(); ++i) above_[i] += longest > bounds[i];
-  }
-  void print(const std::string& name, bench::Table& table) const {
-    table.add({{"domain", name},
-               {"plans", plans_},
-               {"vertices", vertices_},
-               {"mean", sum_ / static_cast<double>(std::max<std::size_t>(vertices_, 1))},
-               {"long", longest_},
-               {"short", shortest_},
-               {"far", far_},
-               {"above1", above_[0]},
-               {"above3", above_[1]},
-               {"above5", above_[2]}});
-  }
-
- private:
-  static constexpr std::array<double, 3> bounds = {.01, .03, .05};
-  std::size_t plans_ = 0, vertices_ = 0, far_ = 0;
-  double sum_ = 0, longest_ = 0, shortest_ = 0;
-  std::array<std::size_t, 3> above_{};
-};
+using Errors = bench::PlanErrors;
 
 // Plans with enough room for the source, by `solve(cut, choices, errors)`.
 template <class Solve>
@@ -104,26 +70,6 @@ void solve_prism(const fuzz::Cut& cut, fuzz::Choices& choices, Errors& errors) {
              fuzz::over(prism, cut.truth));
 }
 
-// So many vertices of a cube of 6 to 20 cells a side.
-void solve_cube(Random& random, std::size_t count, Errors& errors) {
-  const std::size_t n = 6 + random() % 15;
-  const double cell = 1. / static_cast<double>(n);
-  const plexway::KuhnGrid<3> grid({n, n, n}, {cell, cell, cell});
-  std::vector<fuzz::Place> places;
-  for (Index v = 0; v < grid.vertex_count(); ++v) places.push_back(grid.position(v));
-  const plexway::TetMesh<double> cube(places, grid.simplices());
-  std::vector<PointSource> sources(count);
-  for (PointSource& source : sources)
-    source = PointSource::at(static_cast<Index>(random() % grid.vertex_count()));
-  Distances truth;
-  for (const fuzz::Place& p : places) {
-    truth.push_back(10);
-    for (const PointSource& source : sources)
-      truth.back() = std::min(truth.back(), fuzz::Graph::straight(p, places[source.vertex]));
-  }
-  errors.add(plexway::solve(plexway::Serial{}, cube, sources).distance, truth);
-}
-
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -134,7 +80,9 @@ int main(int argc, char** argv) {
   CLI::App app("Random plans as the fuzzers make them: how far distances are off");
   app.add_option("--plans", plans, "How many of each kind")->capture_default_str();
   app.add_option("--seed", seed, "Other plans by another number")->capture_default_str();
-  app.add_option("--only", only, "accurate, exact, plane, prism, sources")->delimiter(',');
+  app.add_option("--only", only,
+                 "accurate, exact, plane, prism, sources, moved, boundary, least, crack, path")
+      ->delimiter(',');
   report.add_options(app);
   CLI11_PARSE(app, argc, argv);
   bench::Table table({{"domain", "domain"},
@@ -171,9 +119,31 @@ int main(int argc, char** argv) {
     of_plans("prism", [](const auto& cut, auto& choices, Errors& errors) {
       solve_prism(cut, choices, errors);
     });
-    for (const std::size_t count : {1, 2, 5, 20})
-      measure("sources " + std::to_string(count), [&](Random& random, Errors& errors) {
-        for (std::size_t i = 0; i < plans; ++i) solve_cube(random, count, errors);
+    const auto of_counts = [&](const std::string& name, const std::vector<std::size_t>& counts,
+                               const auto& solve) {
+      for (const std::size_t count : counts)
+        measure(name + ' ' + std::to_string(count), [&](Random& random, Errors& errors) {
+          for (std::size_t i = 0; i < plans; ++i) solve(random, count, errors);
+        });
+    };
+    of_counts("sources", {1, 2, 5, 20, 200, 2000}, bench::solve_cube);
+    of_counts("moved", {2, 5, 20, 200, 2000}, bench::solve_moved_cube);
+    measure("boundary", [&](Random& random, Errors& errors) {
+      for (std::size_t i = 0; i < plans; ++i) bench::solve_from_boundary(random, errors);
+    });
+    for (const std::size_t count : {2, 5, 20, 200})
+      measure("least " + std::to_string(count), [&](Random& random, Errors& errors) {
+        solve_plans(random, plans, errors, [&](const auto& cut, auto& choices, Errors& into) {
+          bench::solve_least(cut, random, count, fuzz::height_of(choices), into);
+        });
       });
+    for (const std::string kind : {"slit", "L", "T", "U", "any"}) {
+      measure("crack " + kind, [&](Random& random, Errors& errors) {
+        bench::solve_cracked(random, plans, kind, errors);
+      });
+      measure("path " + kind, [&](Random& random, Errors& errors) {
+        bench::trace_cracked(random, plans, kind, errors);
+      });
+    }
   });
 }

@@ -63,6 +63,8 @@ class LitTets {
     return known_[t].lit = behind_one || dot(off, off) <= widest;
   }
 
+  [[nodiscard]] std::size_t bytes() const { return known_.capacity() * sizeof(Known); }
+
  private:
   struct Known {
     Point source;
