@@ -1,8 +1,10 @@
 // Random plans as the fuzzers make them (tests/fuzz/fuzz_plan.hpp), with errors in a table where
 // those only hold bounds: rectangles cut out of a square, as a surface, as a complex of triangles
-// and as the prism over it, against the visibility graph of the corners. Several sources at once in
-// a cube, against straight lines. And solids of several speeds: stacks of slabs, against Snell's
-// law and head waves; two with rectangles or slits cut out of both, against a refined graph.
+// and as the prism over it, against the visibility graph of the corners; prisms over plans with
+// cracks that may join, and paths in these. Several sources at once: in a cube against straight
+// lines, in prisms over plans against the least of a field from each. And solids of several speeds:
+// stacks of slabs, against Snell's law and head waves; two with rectangles or slits cut out of
+// both, against a refined graph.
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -11,69 +13,29 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
-#include <map>
 #include <random>
 #include <string>
 #include <vector>
 
-#include <plexway/complex/kuhn_grid.hpp>
 #include <plexway/complex/simplicial_complex.hpp>
 #include <plexway/complex/tet_mesh.hpp>
 #include <plexway/complex/triangle_mesh.hpp>
 #include <plexway/solve.hpp>
 
-#include "data/pierced_layers.hpp"
-#include "data/random_stacks.hpp"
-#include "fuzz/fuzz_whole.hpp"
+#include "fuzz/fuzz_plan.hpp"
+#include "plan_errors.hpp"
+#include "random_cracks.hpp"
+#include "random_layers.hpp"
+#include "random_sources.hpp"
 #include "table.hpp"
 
 namespace {
 
+using bench::Distances, bench::Random;
 using plexway::Accuracy;
 using plexway::Index;
 using plexway::PointSource;
-using Distances = std::vector<double>;
-using Random = std::mt19937;  // the same numbers with every library
-
-// What fields are off, as a share of the distance; a row of the table.
-class Errors {
- public:
-  void add(const Distances& found, const Distances& truth) {
-    double longest = 0;
-    for (std::size_t v = 0; v < truth.size(); ++v) {
-      if (!(truth[v] > 1e-12)) continue;
-      const double off = found[v] / truth[v] - 1;
-      ++vertices_;
-      sum_ += std::abs(off);
-      far_ += off > bounds[0];
-      off_ += std::abs(off) > 1e-3;
-      longest = std::max(longest, off);
-      shortest_ = std::min(shortest_, off);
-    }
-    ++plans_;
-    longest_ = std::max(longest_, longest);
-    for (std::size_t i = 0; i < bounds.size(); ++i) above_[i] += longest > bounds[i];
-  }
-  void print(const std::string& name, bench::Table& table) const {
-    table.add({{"domain", name},
-               {"plans", plans_},
-               {"vertices", vertices_},
-               {"mean", sum_ / static_cast<double>(std::max<std::size_t>(vertices_, 1))},
-               {"long", longest_},
-               {"short", shortest_},
-               {"off", off_},
-               {"far", far_},
-               {"above1", above_[0]},
-               {"above3", above_[1]},
-               {"above5", above_[2]}});
-  }
-
- private:
-  static constexpr std::array<double, 3> bounds = {.01, .03, .05};
-  std::size_t plans_ = 0, vertices_ = 0, off_ = 0, far_ = 0;
-  double sum_ = 0, longest_ = 0, shortest_ = 0;
-  std::array<std::size_t, 3> above_{};
-};
+using Errors = bench::PlanErrors;
 
 // Plans with enough room for the source, by `solve(cut, choices, errors)`.
 template <class Solve>
@@ -110,117 +72,6 @@ void solve_prism(const fuzz::Cut& cut, fuzz::Choices& choices, Errors& errors) {
              fuzz::over(prism, cut.truth));
 }
 
-// So many vertices of a cube of 6 to 20 cells a side.
-void solve_cube(Random& random, std::size_t count, Errors& errors) {
-  const std::size_t n = 6 + random() % 15;
-  const double cell = 1. / static_cast<double>(n);
-  const plexway::KuhnGrid<3> grid({n, n, n}, {cell, cell, cell});
-  std::vector<fuzz::Place> places;
-  for (Index v = 0; v < grid.vertex_count(); ++v) places.push_back(grid.position(v));
-  const plexway::TetMesh<double> cube(places, grid.simplices());
-  std::vector<PointSource> sources(count);
-  for (PointSource& source : sources)
-    source = PointSource::at(static_cast<Index>(random() % grid.vertex_count()));
-  Distances truth;
-  for (const fuzz::Place& p : places) {
-    truth.push_back(10);
-    for (const PointSource& source : sources)
-      truth.back() = std::min(truth.back(), fuzz::Graph::straight(p, places[source.vertex]));
-  }
-  errors.add(plexway::solve(plexway::Serial{}, cube, sources).distance, truth);
-}
-
-// From a vertex on a plane between two slabs, or from any.
-void solve_stack(Random& random, double thinnest, double thickest, bool on_plane, Errors& errors) {
-  const samples::Stack stack = samples::random_stack(random, 20, thinnest, thickest);
-  plexway::MixedComplex<double> domain;
-  std::vector<samples::Position> places;
-  std::vector<plexway::MixedComplex<double>::Piece> pieces;
-  for (std::size_t k = 0; k < stack.blocks.size(); ++k) {
-    const auto& [positions, tets] = stack.blocks[k];
-    places.insert(places.end(), positions.begin(), positions.end());
-    auto timed = positions;
-    for (auto& p : timed)
-      for (double& x : p) x /= stack.layers.v[k];
-    pieces.push_back(domain.add(plexway::TetMesh<double>(timed, tets), positions));
-    if (k > 0) domain.weld(pieces[k - 1], pieces[k], plexway::WeldOptions{.tolerance = 1e-9});
-  }
-  const auto& planes = stack.layers.z;
-  Index source;
-  do {
-    source = static_cast<Index>(random() % places.size());
-  } while (on_plane && std::find(planes.begin(), planes.end(), places[source][2]) == planes.end());
-  Distances truth;
-  for (const auto& p : places) truth.push_back(stack.layers.time(places[source], p));
-  errors.add(plexway::solve(plexway::Serial{}, domain, PointSource::at(source)).distance, truth);
-}
-
-// Two solids whose plans meet in a line. Rectangles may reach over it, but no side of one lies in
-// it; slits come from the rim and end anywhere. Paths from the floor to the floor stay on it. False
-// for one that does not count.
-bool solve_pierced(const samples::CornerDomain& plan, fuzz::Choices& choices, Errors& errors) {
-  samples::Shape shape = fuzz::meshed(plan, choices);
-  const double middle =
-      static_cast<double>(1 + choices.byte() % (fuzz::plan_cells - 1)) / fuzz::plan_cells;
-  for (auto& p : shape.points)
-    if (std::abs(p[1] - middle) < 0.4 / fuzz::plan_cells) p[1] = middle;
-  for (const auto& b : plan.blocks)
-    if (b.left < b.right && (b.bottom == middle || b.top == middle)) return false;
-  const samples::PiercedLayers layers = {
-      plan, middle, {1, std::exp2((choices.byte() - 127.5) / 80)}};
-  // The lips of slits lie on each other; what is told of them lies beside.
-  std::vector<samples::Point> beside = shape.points;
-  for (std::size_t v = 0; v < beside.size(); ++v)
-    for (const auto& b : plan.blocks) {
-      const double off = beside[v][0] - b.left;
-      if (b.left != b.right || off == 0 || std::abs(off) > 1e-12) continue;
-      shape.points[v][0] = b.left;
-      beside[v][0] = b.left + (off > 0 ? 1e-8 : -1e-8);
-    }
-  const Distances known = layers.times(beside);
-  const fuzz::Prism prism = fuzz::prism_of(shape, fuzz::height_of(choices));
-  fuzz::Whole whole(prism.places);
-  const auto parts = fuzz::dealt(prism.tets, prism.places, 2, [&](const fuzz::Place& at) {
-    return std::size_t{at[1] > middle};
-  });
-  for (const std::size_t k : {0, 1}) whole.add(parts[k], layers.speed[k]);
-  const Distances all = whole.solve(0);
-  Distances found, truth;
-  for (std::size_t v = 0; v < all.size(); ++v)
-    if (const Index place = whole.places()[v]; place < known.size()) {
-      found.push_back(all[v]);
-      truth.push_back(known[place]);
-    }
-  errors.add(found, truth);
-  return true;
-}
-
-// From the rim to where they end, the longest of those on a line.
-std::vector<samples::CornerDomain::Block> slits_of(
-    const std::vector<samples::CornerDomain::Block>& blocks) {
-  std::map<double, double> top;
-  for (const auto& b : blocks) top[b.left] = std::max(top[b.left], b.top);
-  std::vector<samples::CornerDomain::Block> slits;
-  for (const auto& [x, y] : top) slits.push_back({x, x, -1, y});
-  return slits;
-}
-
-void solve_pierced(Random& random, bool slits, std::size_t plans, Errors& errors) {
-  while (plans > 0) {
-    std::array<std::uint8_t, 16> bytes;
-    for (std::uint8_t& b : bytes) b = static_cast<std::uint8_t>(random() >> 24);
-    fuzz::Choices choices(bytes.data(), bytes.size());
-    auto plan = fuzz::plan_of(choices);
-    if (!plan) continue;
-    if (slits) plan->blocks = slits_of(plan->blocks);
-    if (std::any_of(plan->blocks.begin(), plan->blocks.end(), [&](const auto& b) {
-          return b.left == b.right && std::abs(plan->source[0] - b.left) < 1e-9;
-        }))
-      continue;  // from a slit, or in its line
-    plans -= solve_pierced(*plan, choices, errors);
-  }
-}
-
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -231,7 +82,9 @@ int main(int argc, char** argv) {
   CLI::App app("Random plans as the fuzzers make them: how far distances are off");
   app.add_option("--plans", plans, "How many of each kind")->capture_default_str();
   app.add_option("--seed", seed, "Other plans by another number")->capture_default_str();
-  app.add_option("--only", only, "accurate, exact, plane, prism, sources, stack, holes, slits")
+  app.add_option("--only", only,
+                 "accurate, exact, plane, prism, sources, moved, boundary, least, stack, holes, "
+                 "slits, crack, path")
       ->delimiter(',');
   report.add_options(app);
   CLI11_PARSE(app, argc, argv);
@@ -270,15 +123,29 @@ int main(int argc, char** argv) {
     of_plans("prism", [](const auto& cut, auto& choices, Errors& errors) {
       solve_prism(cut, choices, errors);
     });
-    for (const std::size_t count : {1, 2, 5, 20})
-      measure("sources " + std::to_string(count), [&](Random& random, Errors& errors) {
-        for (std::size_t i = 0; i < plans; ++i) solve_cube(random, count, errors);
+    const auto of_counts = [&](const std::string& name, const std::vector<std::size_t>& counts,
+                               const auto& solve) {
+      for (const std::size_t count : counts)
+        measure(name + ' ' + std::to_string(count), [&](Random& random, Errors& errors) {
+          for (std::size_t i = 0; i < plans; ++i) solve(random, count, errors);
+        });
+    };
+    of_counts("sources", {1, 2, 5, 20, 200, 2000}, bench::solve_cube);
+    of_counts("moved", {2, 5, 20, 200, 2000}, bench::solve_moved_cube);
+    measure("boundary", [&](Random& random, Errors& errors) {
+      for (std::size_t i = 0; i < plans; ++i) bench::solve_from_boundary(random, errors);
+    });
+    for (const std::size_t count : {2, 5, 20, 200})
+      measure("least " + std::to_string(count), [&](Random& random, Errors& errors) {
+        solve_plans(random, plans, errors, [&](const auto& cut, auto& choices, Errors& into) {
+          bench::solve_least(cut, random, count, fuzz::height_of(choices), into);
+        });
       });
     const auto stacks = [&](const std::string& name, double thinnest, double thickest,
                             bool on_plane) {
       measure("stack " + name, [&](Random& random, Errors& errors) {
         for (std::size_t i = 0; i < plans; ++i)
-          solve_stack(random, thinnest, thickest, on_plane, errors);
+          bench::solve_stack(random, thinnest, thickest, on_plane, errors);
       });
     };
     stacks("thin, from a plane", .02, 1.5, true);
@@ -286,6 +153,16 @@ int main(int argc, char** argv) {
     stacks("thin, from anywhere", .02, 1.5, false);
     for (const bool slits : {false, true})
       measure(slits ? "slits in two speeds" : "holes in two speeds",
-              [&](Random& random, Errors& errors) { solve_pierced(random, slits, plans, errors); });
+              [&](Random& random, Errors& errors) {
+                bench::solve_pierced(random, slits, plans, errors);
+              });
+    for (const std::string kind : {"slit", "L", "T", "U", "any"}) {
+      measure("crack " + kind, [&](Random& random, Errors& errors) {
+        bench::solve_cracked(random, plans, kind, errors);
+      });
+      measure("path " + kind, [&](Random& random, Errors& errors) {
+        bench::trace_cracked(random, plans, kind, errors);
+      });
+    }
   });
 }

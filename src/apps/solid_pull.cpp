@@ -31,15 +31,34 @@ double SolidPull<Real>::length(const std::vector<Knot>& way) {
   return sum;
 }
 
+/// A new knot there.
 template <class Real>
-bool SolidPull<Real>::sees(const Knot& from, const Point& to, Knot* arrived) const {
+bool SolidPull<Real>::sees(const Knot& from, const Point& to, Knot& arrived) const {
   const auto walked = walk_.walk(from.tets, from.at, to);
-  if (walked.arrived && arrived != nullptr) {
-    arrived->at = to;
-    arrived->vertex = none;
-    walk_.around(walked.tet, to, arrived->tets);
-  }
-  return walked.arrived;
+  if (!walked.arrived) return false;
+  arrived.at = to;
+  arrived.vertex = none;
+  walk_.around(walked.tet, to, arrived.tets);
+  return true;
+}
+
+/// A line may run between both sides of a crack and choose the wrong one; from there it does not.
+template <class Real>
+bool SolidPull<Real>::sees(const Knot& from, const Knot& to) const {
+  bool arrived = false;
+  const auto meets = [&](const Knot& a, const Knot& b) {
+    const auto walked = walk_.walk(a.tets, a.at, b.at);
+    arrived |= walked.arrived;
+    if (!walked.arrived) return false;
+    const auto goes_on = [&](Index t) {
+      return std::find(b.tets.begin(), b.tets.end(), t) != b.tets.end();
+    };
+    if (goes_on(walked.tet)) return true;
+    std::vector<Index> around;
+    walk_.around(walked.tet, b.at, around);
+    return std::any_of(around.begin(), around.end(), goes_on);
+  };
+  return meets(from, to) || (arrived && meets(to, from));
 }
 
 /// From each knot to the farthest that it sees.
@@ -48,15 +67,15 @@ void SolidPull<Real>::skip(std::vector<Knot>& way) const {
   std::vector<Knot> kept = {way.front()};
   for (std::size_t i = 0; i + 1 < way.size();) {
     std::size_t next = way.size() - 1;
-    if (next > i + 1 && !sees(way[i], way[next].at, nullptr)) {
+    if (next > i + 1 && !sees(way[i], way[next])) {
       next = i + 1;
       for (std::size_t reach = 2; i + reach < way.size(); reach *= 2) {
-        if (!sees(way[i], way[i + reach].at, nullptr)) break;
+        if (!sees(way[i], way[i + reach])) break;
         next = i + reach;
       }
       // Between the last that is seen and the first that is not.
       for (std::size_t step = (next - i) / 2; step > 0; step /= 2)
-        if (next + step < way.size() && sees(way[i], way[next + step].at, nullptr)) next += step;
+        if (next + step < way.size() && sees(way[i], way[next + step])) next += step;
     }
     kept.push_back(way[next]);
     i = next;
@@ -132,20 +151,20 @@ bool SolidPull<Real>::chain(const Knot& a, const Point& b, const Knot& c, bool w
   Knot from = a;
   for (const Point& p : string) {
     Knot knot;
-    if (!sees(from, p, &knot)) return false;
+    if (!sees(from, p, knot)) return false;
     sum += distance(from.at, p);
     between.push_back(knot);
     from = std::move(knot);
   }
   sum += distance(from.at, c.at);
-  return sum < by_b * (1 - 1e-13) && sees(from, c.at, nullptr);
+  return sum < by_b * (1 - 1e-13) && sees(from, c);
 }
 
 /// Tries to do without knot k.
 template <class Real>
 bool SolidPull<Real>::tighten(std::vector<Knot>& way, std::size_t k) const {
   const Knot &a = way[k - 1], &b = way[k], &c = way[k + 1];
-  if (distance(a.at, b.at) == 0 || distance(b.at, c.at) == 0 || sees(a, c.at, nullptr)) {
+  if (distance(a.at, b.at) == 0 || distance(b.at, c.at) == 0 || sees(a, c)) {
     way.erase(way.begin() + static_cast<std::ptrdiff_t>(k));
     return true;
   }
@@ -156,9 +175,8 @@ bool SolidPull<Real>::tighten(std::vector<Knot>& way, std::size_t k) const {
     const double close = 1e-3 * std::min(distance(a.at, b.at), distance(b.at, c.at));
     const Point before = b.at + close / distance(a.at, b.at) * (a.at - b.at);
     const Point after = b.at + close / distance(b.at, c.at) * (c.at - b.at);
-    Knot start;
-    found =
-        sees(b, before, &start) && sees(start, after, nullptr) && chain(a, b.at, c, true, between);
+    Knot start, end;
+    found = sees(b, before, start) && sees(start, after, end) && chain(a, b.at, c, true, between);
   }
   if (!found) return false;
   const auto at = way.erase(way.begin() + static_cast<std::ptrdiff_t>(k));
@@ -183,15 +201,15 @@ bool SolidPull<Real>::slide(std::vector<Knot>& way, std::size_t k) const {
       const Point to = b.at + share * (best - b.at);
       if (!(distance(a.at, to) + distance(to, c.at) < known * (1 - least_gain))) break;
       Knot moved;
-      if (!sees(b, to, &moved)) continue;  // it lies in the solid, so the way there does
-      if (sees(a, to, nullptr) && sees(moved, c.at, nullptr)) {
+      if (!sees(b, to, moved)) continue;  // it lies in the solid, so the way there does
+      if (sees(a, moved) && sees(moved, c)) {
         way[k] = moved;
         return true;
       }
       // Something is in the way: over b first, then tight on both sides.
       std::vector<Knot> first, second;
-      if (!sees(a, to, nullptr) && !chain(a, b.at, moved, false, first)) continue;
-      if (!sees(moved, c.at, nullptr) && !chain(moved, b.at, c, false, second)) continue;
+      if (!sees(a, moved) && !chain(a, b.at, moved, false, first)) continue;
+      if (!sees(moved, c) && !chain(moved, b.at, c, false, second)) continue;
       std::vector<Knot> part = {a};
       part.insert(part.end(), first.begin(), first.end());
       part.push_back(moved);

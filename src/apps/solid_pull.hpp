@@ -24,7 +24,9 @@ struct Knot {
 ///    have a corner of its own there, and that is a reflex edge, so the hull is free.)
 ///  * a corner on a reflex edge slides along it to where the way unfolds to a straight line, which
 ///    is a convex problem.
-/// Lines are walked through the tetrahedra before a move counts, so rounding cannot lead outside.
+/// Lines are walked through the tetrahedra before a move counts, so rounding cannot lead outside;
+/// and to a knot that is there already, into a tetrahedron from which the way goes on: the other
+/// side of a crack is at the same place.
 /// It ends when a round gains less than 1e-10 of the length, or after 200 rounds.
 template <class Real>
 class SolidPull {
@@ -43,7 +45,8 @@ class SolidPull {
     Point end[2];
   };
 
-  bool sees(const Knot& from, const Point& to, Knot* arrived) const;
+  bool sees(const Knot& from, const Point& to, Knot& arrived) const;
+  bool sees(const Knot& from, const Knot& to) const;
   void skip(std::vector<Knot>& way) const;
   bool tighten(std::vector<Knot>& way, std::size_t k) const;
   bool slide(std::vector<Knot>& way, std::size_t k) const;

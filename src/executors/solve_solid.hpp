@@ -8,6 +8,7 @@
 
 #include "propagate/finish.hpp"
 #include "propagate/plain_solid_rule.hpp"
+#include "propagate/solid_borders.hpp"
 #include "propagate/solid_propagation.hpp"
 #include "propagate/solid_read_out.hpp"
 #include "propagate/solid_rule.hpp"
@@ -28,6 +29,17 @@ void read_out_sources(const TetMesh<Real>& mesh, std::span<const PointSource> so
     });
 }
 
+/// Between the cells of several sources.
+template <class Real, class Rule, class Front>
+void read_out_borders(const TetMesh<Real>& mesh, std::span<const PointSource> sources,
+                      const PropagateOptions& options, WorkspaceState<Real>& workspace,
+                      const Rule& rule, const Front& front) {
+  const auto tetrahedron = [&](Index v) { return workspace.vertex_tet[v]; };
+  SolidBorders(mesh, rule, front, workspace, static_cast<Real>(options.radius / mesh.unit()),
+               tetrahedron)
+      .run(sources);
+}
+
 template <class Real, bool kLabels, class Rule, class Front, class Crew>
 void solve(const TetMesh<Real>& mesh, std::span<const PointSource> sources,
            const PropagateOptions& options, WorkspaceState<Real>& workspace, const Rule& rule,
@@ -39,8 +51,7 @@ void solve(const TetMesh<Real>& mesh, std::span<const PointSource> sources,
 
   if constexpr (requires { crew.team(); }) {
     const std::size_t vertices = mesh.vertex_count();
-    workspace.vertex.assign(vertices, std::numeric_limits<Real>::infinity());
-    if constexpr (kLabels) workspace.vertex_source.assign(vertices, none);
+    start_read_out<kLabels>(vertices, workspace);
     crew.over(vertices, [&](std::size_t begin, std::size_t end) {
       read_out_around<Real, kLabels>(mesh, rule, front, static_cast<Index>(begin),
                                      static_cast<Index>(end), workspace);
@@ -49,8 +60,10 @@ void solve(const TetMesh<Real>& mesh, std::span<const PointSource> sources,
     read_out<Real, kLabels>(mesh, rule, front, workspace);
   }
   read_out_sources<Real, kLabels>(mesh, sources, workspace);
-  // The full rule is exact where nothing bends a path.
   constexpr bool plain = std::is_same_v<Rule, PlainSolidRule<Real, Front>>;
+  if constexpr (kLabels && !plain)
+    if (!front.out_of_budget()) read_out_borders(mesh, sources, options, workspace, rule, front);
+  // The full rule is exact where nothing bends a path.
   if (plain || rule.drops())
     read_out_tet_edges<Real, kLabels>(mesh, workspace, [&](const auto& wrong, const auto& look) {
       crew.search(mesh.tet_count(), wrong, look);
@@ -81,10 +94,9 @@ void solve_with(const TetMesh<Real>& mesh, std::span<const PointSource> sources,
     if (obstacles.identity() != mesh.identity()) obstacles.measure(mesh);
     rule.mind(obstacles);
     if constexpr (!requires { crew.team(); }) {
-      thread_local LitTets<Real> lit;
       if (!mesh.reflex_edges().empty()) {
-        lit.start(mesh.tet_count());
-        rule.keep_lit(lit);
+        workspace.lit.start(mesh.tet_count());
+        rule.keep_lit(workspace.lit);
       }
     }
     solve<Real, kLabels>(mesh, sources, options, workspace, rule, wave, crew, field);

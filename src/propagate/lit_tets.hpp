@@ -75,6 +75,8 @@ class LitTets {
     return known_[t].lit = true;
   }
 
+  [[nodiscard]] std::size_t bytes() const { return known_.capacity() * sizeof(Known); }
+
  private:
   struct Known {
     Point source;

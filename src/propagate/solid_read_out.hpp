@@ -15,6 +15,16 @@
 
 namespace plexway {
 
+/// No vertex has a distance.
+template <bool kLabels, class Real>
+void start_read_out(std::size_t vertices, WorkspaceState<Real>& workspace) {
+  workspace.vertex.assign(vertices, std::numeric_limits<Real>::infinity());
+  if constexpr (kLabels) {
+    workspace.vertex_source.assign(vertices, none);
+    workspace.vertex_tet.assign(vertices, none);
+  }
+}
+
 /// Every corner of every reached tetrahedron offers a distance; vertices keep the least. Before,
 /// they are at infinity.
 template <class Real, bool kLabels, class Rule, class Front>
@@ -28,7 +38,10 @@ void read_out_tets(const TetMesh<Real>& mesh, const Rule& rule, const Front& fro
       const Real d = rule.corner_distance(t, i, workspace.vertex[v]);
       if (!(d < workspace.vertex[v])) continue;
       workspace.vertex[v] = d;
-      if constexpr (kLabels) workspace.vertex_source[v] = front.source(t);
+      if constexpr (kLabels) {
+        workspace.vertex_source[v] = front.source(t);
+        workspace.vertex_tet[v] = t;
+      }
     }
   }
 }
@@ -74,7 +87,10 @@ void read_out_around(const TetMesh<Real>& mesh, const Rule& rule, const Front& f
   for (Index v = begin; v < end; ++v) {
     rule.ask_around(mesh.corners_at(v), [&](Index t, Real distance) {
       workspace.vertex[v] = distance;
-      if constexpr (kLabels) workspace.vertex_source[v] = front.source(t);
+      if constexpr (kLabels) {
+        workspace.vertex_source[v] = front.source(t);
+        workspace.vertex_tet[v] = t;
+      }
     });
   }
 }
@@ -84,8 +100,7 @@ template <class Real, bool kLabels, class Rule, class Front>
 void read_out(const TetMesh<Real>& mesh, const Rule& rule, const Front& front,
               WorkspaceState<Real>& workspace) {
   const std::size_t vertices = mesh.vertex_count();
-  workspace.vertex.assign(vertices, std::numeric_limits<Real>::infinity());
-  if constexpr (kLabels) workspace.vertex_source.assign(vertices, none);
+  start_read_out<kLabels>(vertices, workspace);
   if (rule.bends())
     read_out_around<Real, kLabels>(mesh, rule, front, 0, static_cast<Index>(vertices), workspace);
   else

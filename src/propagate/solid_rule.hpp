@@ -28,10 +28,10 @@ class SolidRule : public SolidPaths<Real> {
   using Paths = SolidPaths<Real>;
   using View = kernel::SolidSight<Real>;
   using Paths::abs, Paths::clamp, Paths::max, Paths::min, Paths::sqrt;
-  using Paths::at_an_end, Paths::clear_bends, Paths::edges_of, Paths::fixed_bends, Paths::keep,
-      Paths::label_bends, Paths::leave_out, Paths::measure, Paths::most_bends, Paths::own_edges,
-      Paths::own_edges_, Paths::pull, Paths::reflex_, Paths::reflex_edge, Paths::slide,
-      Paths::taut_end, Paths::taut_to, Paths::unfolded_door;
+  using Paths::at_an_end, Paths::clear_bends, Paths::edges_of, Paths::fixed_bends, Paths::is_beside,
+      Paths::keep, Paths::label_bends, Paths::leave_out, Paths::measure, Paths::most_bends,
+      Paths::own_edges, Paths::own_edges_, Paths::pull, Paths::reflex_, Paths::reflex_edge,
+      Paths::slide, Paths::taut_end, Paths::taut_to, Paths::unfolded_door;
   using typename Paths::Edge, typename Paths::Taut;
   using typename View::FromEdge;
   using View::bend_point, View::normal_to, View::passes, View::presses;
@@ -93,6 +93,8 @@ class SolidRule : public SolidPaths<Real> {
   void keep_lit(LitTets<Real>& lit) { lit_ = &lit; }
 
 #include "propagate/solid_step.inl"
+
+#include "propagate/solid_carry.inl"
 
   [[nodiscard]] Real distance(Index t) const { return front_->label(t).centre; }
   /// What a label for t must be below: by more than rounding.
@@ -157,12 +159,23 @@ class SolidRule : public SolidPaths<Real> {
   bool seed_corner(Index t, Index i, Real sigma, Index source) const {
     return seed(t, points_[tets_[t].corner[i]], (i + 1) & 3, sigma, source);
   }
-  /// A path of length sigma ends inside t.
-  void seed_inside(Index t, const std::array<double, 4>& barycentric, Real sigma,
-                   Index source) const {
+  /// A point of t.
+  [[nodiscard]] Point place(Index t, const std::array<double, 4>& barycentric) const {
     Point at = {0, 0, 0};
     for (std::size_t i = 0; i < 4; ++i)
       at = at + static_cast<Real>(barycentric[i]) * points_[tets_[t].corner[i]];
+    return at;
+  }
+  /// S at that point.
+  [[nodiscard]] static Label point_label(const Point& at, Real sigma) {
+    Label label = {at, sigma, 0, {}, none};
+    clear_bends(label);
+    return label;
+  }
+  /// A path of length sigma ends inside t.
+  void seed_inside(Index t, const std::array<double, 4>& barycentric, Real sigma,
+                   Index source) const {
+    const Point at = place(t, barycentric);
     // Farther from the centre than another source here, it may still be the nearer one beyond.
     const bool better = seed(t, at, 0, sigma, source);
     const Label kept = front_->label(t);
@@ -433,12 +446,6 @@ class SolidRule : public SolidPaths<Real> {
     if (!offer_bent(front_->label(t), t, face, u, known, last_resort, label)) return;
     front_->accept(u, across & TetAcross::face_mask, label, label.centre, front_->source(t));
     if (front_->expands_soon()) prefetch_around(u);
-  }
-
-  static Label point_label(const Point& at, Real sigma) {
-    Label label = {at, sigma, 0, {}, none};
-    clear_bends(label);
-    return label;
   }
 
   bool seed(Index t, const Point& at, Index hinge, Real sigma, Index source) const {

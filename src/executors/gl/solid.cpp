@@ -69,7 +69,7 @@ class SolidRun {
       complete = front.spread(session_, rule, share, "#define PLEXWAY_SOLIDS\n", report);
     } while (complete && (pass_pinches() || (++repairs < 64 && repair(repairs))));
     workspace_.rounds = front.state().rounds;
-    return complete;
+    return complete_ = complete;
   }
 
   /// Fields times vertices, in the caller's order; `label` may be empty.
@@ -80,6 +80,7 @@ class SolidRun {
     offer_vertices(job_, seeds.offers, false, labels_);
     ask_tets(vertices);
     if (labels_) offer_vertices(job_, seeds.offers, true, labels_);
+    if (labels_ && complete_) pass_borders(seeds, vertices);
     // The full rule is exact where nothing bends a path.
     while (drops_ && relax(false)) {
     }
@@ -173,6 +174,21 @@ class SolidRun {
     return repaired > 0 && (front.state().spare > 0 || (round < 4 && repaired > cells() / 1024));
   }
 
+  // A front over few vertices, in an order: the host sees to them.
+  void pass_borders(const SolidSeeds& seeds, std::size_t vertices) {
+    std::vector<Cell> best(cells());
+    std::vector<SolidCell> known(cells());
+    std::vector<float> distance(vertices);
+    std::vector<Index> source(vertices);
+    workspace_.front.cells().read(session_, std::span<Cell>(best));
+    workspace_.front.labels().read(session_, std::span<SolidCell>(known));
+    workspace_.vertex_best.read(session_, std::span<float>(distance));
+    workspace_.vertex_source.read(session_, std::span<Index>(source));
+    seeds.pass_borders(mesh_, job_.options, best, known, workspace_.host, distance, source);
+    workspace_.vertex_best.write(session_, std::span<const float>(distance));
+    workspace_.vertex_source.write(session_, std::span<const Index>(source));
+  }
+
   void bind_vertices() {
     workspace_.vertex_best.bind(session_, 0);
     if (labels_) workspace_.vertex_source.bind(session_, 1);
@@ -212,6 +228,7 @@ class SolidRun {
   float radius_;
   bool drops_;  // can an offer be dropped that another does not make up for?
   bool labels_ = false;
+  bool complete_ = true;
   std::size_t fields_ = 1;
 };
 

@@ -5,6 +5,7 @@
 #include <iterator>
 #include <limits>
 
+#include "propagate/solid_borders.hpp"
 #include "propagate/solid_propagation.hpp"
 #include "propagate/solid_read_out.hpp"
 #include "propagate/solid_rule.hpp"
@@ -36,6 +37,15 @@ class HostFront {
                      : none;
     front_.accept(t, cell.state & SolidCell::face_mask, label, label.centre, cell.source);
   }
+
+  /// What is known of all tetrahedra of a field.
+  void know(std::span<const Cell> best, std::span<const SolidCell> known) {
+    for (Index t = 0; t < best.size(); ++t)
+      if (best[t].known != FrontControl::unreached) know(t, best[t].known, known[t]);
+    drain([](Index, GLuint, const SolidCell&) {});
+  }
+  [[nodiscard]] const Wave& front() const { return front_; }
+  [[nodiscard]] const Rule& rule() const { return rule_; }
 
   /// Takes what waits.
   template <class Take>
@@ -91,6 +101,7 @@ void SolidSeeds::add(const TetMesh<float>& mesh, std::span<const PointSource> so
                      std::size_t field, WorkspaceState<float>& workspace) {
   const PropagateOptions options;
   HostFront host(mesh, options, workspace);
+  sources_.assign(sources.begin(), sources.end());
   for (std::size_t n = 0; n < sources.size(); ++n) {
     host.propagation.seed(sources[n], static_cast<Index>(n));
     offer_corners(mesh, sources[n], [&](Index v, double d) {
@@ -110,15 +121,33 @@ void SolidSeeds::add_pinches(const TetMesh<float>& mesh, const PropagateOptions&
   const std::size_t tets = mesh.tet_count(), first = field * tets;
   const PropagateOptions all = without_limits(options);
   HostFront host(mesh, all, workspace);
-  for (Index t = 0; t < tets; ++t)
-    if (best[first + t].known != FrontControl::unreached)
-      host.know(t, best[first + t].known, known[first + t]);
-  host.drain([](Index, GLuint, const SolidCell&) {});
+  host.know(best.subspan(first, tets), known.subspan(first, tets));
   if (!host.propagation.pass_pinches()) return;
   host.drain([&](Index t, GLuint distance, const SolidCell& cell) {
     waiting.push_back({static_cast<GLuint>(first + t), distance});
     labels.push_back(cell);
   });
+}
+
+void SolidSeeds::pass_borders(const TetMesh<float>& mesh, const PropagateOptions& options,
+                              std::span<const Cell> best, std::span<const SolidCell> known,
+                              WorkspaceState<float>& workspace, std::span<float> distance,
+                              std::span<Index> label) const {
+  const PropagateOptions all = without_limits(options);
+  HostFront host(mesh, all, workspace);
+  host.know(best, known);
+  workspace.vertex.assign(distance.begin(), distance.end());
+  workspace.vertex_source.assign(label.begin(), label.end());
+  const auto tetrahedron = [&](Index v) {
+    Index found = none;
+    host.rule().ask_around(mesh.corners_at(v), [&](Index t, float) { found = t; });
+    return found;
+  };
+  SolidBorders(mesh, host.rule(), host.front(), workspace,
+               static_cast<float>(options.radius / mesh.unit()), tetrahedron)
+      .run(sources_);
+  std::copy(workspace.vertex.begin(), workspace.vertex.end(), distance.begin());
+  std::copy(workspace.vertex_source.begin(), workspace.vertex_source.end(), label.begin());
 }
 
 }  // namespace plexway::gl

@@ -2,8 +2,10 @@
 
 #include <array>
 #include <span>
+#include <vector>
 
 #include <plexway/complex/tet_mesh.hpp>
+#include <plexway/propagate/options.hpp>
 #include <plexway/source/point_source.hpp>
 
 #include "executors/gl/seeds.hpp"
@@ -32,6 +34,15 @@ struct SolidSeeds : SeedsOf<SolidCell> {
   void add_pinches(const TetMesh<float>& mesh, const PropagateOptions& options, std::size_t field,
                    std::span<const Cell> best, std::span<const SolidCell> known,
                    WorkspaceState<float>& workspace);
+  /// Between the cells of the sources of the only field: distances and sources of its vertices as
+  /// they were read out, and after.
+  void pass_borders(const TetMesh<float>& mesh, const PropagateOptions& options,
+                    std::span<const Cell> best, std::span<const SolidCell> known,
+                    WorkspaceState<float>& workspace, std::span<float> distance,
+                    std::span<Index> label) const;
+
+ private:
+  std::vector<PointSource> sources_;  // of the last field
 };
 
 }  // namespace plexway::gl

@@ -1,0 +1,119 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <plexway/apps/path_field.hpp>
+#include <plexway/complex/tet_mesh.hpp>
+#include <plexway/solve.hpp>
+
+#include "data/crack_plans.hpp"
+#include "plan_errors.hpp"
+
+/// Prisms over plans with cracks that may join, one source and all vertices, or paths.
+namespace bench {
+
+using Cracks = std::vector<samples::CrackPlan::Crack>;
+constexpr int crack_cells = 8;
+
+/// A crack of two to five cells from a corner, along x or y; may reach the rim.
+inline samples::CrackPlan::Crack random_crack(Random& random, std::array<int, 2> begin,
+                                              std::size_t along) {
+  samples::CrackPlan::Crack crack = {begin, begin};
+  const int far = 2 + static_cast<int>(random() % 4);
+  crack.end[along] = std::clamp(begin[along] + (random() % 2 == 0 ? far : -far), 0, crack_cells);
+  return crack;
+}
+inline std::array<int, 2> random_corner(Random& random) {
+  const auto one = [&] { return 1 + static_cast<int>(random() % (crack_cells - 1)); };
+  const int x = one();
+  return {x, one()};
+}
+
+/// One crack, or two or three joined to an L, a T or a U; or four anywhere.
+inline Cracks random_cracks(Random& random, const std::string& kind) {
+  Cracks cracks;
+  if (kind == "any") {
+    for (int n = 0; n < 4; ++n) {
+      const auto begin = random_corner(random);
+      cracks.push_back(random_crack(random, begin, random() % 2));
+    }
+    return cracks;
+  }
+  const auto begin = random_corner(random);
+  const std::size_t along = random() % 2;
+  cracks.push_back(random_crack(random, begin, along));
+  if (kind == "T") {  // from its middle
+    std::array<int, 2> middle = begin;
+    middle[along] = (begin[along] + cracks[0].end[along]) / 2;
+    cracks.push_back(random_crack(random, middle, 1 - along));
+  } else if (kind != "slit") {
+    cracks.push_back(random_crack(random, begin, 1 - along));
+    if (kind == "U") {
+      samples::CrackPlan::Crack third = cracks[1];
+      third.begin[along] = third.end[along] = cracks[0].end[along];
+      cracks.push_back(third);
+    }
+  }
+  return cracks;
+}
+
+/// `use(plan, prism, source, truth)` for so many draws from which all is reached.
+template <class Use>
+void each_cracked(Random& random, std::size_t plans, const std::string& kind, const Use& use) {
+  while (plans > 0) {
+    const Cracks cracks = random_cracks(random, kind);
+    const double jitter = static_cast<double>(random() % 4) * .08;
+    const samples::CrackPlan plan(crack_cells, cracks, jitter, [&] { return share(random); });
+    const auto solid = plan.solid(.1 + share(random) / 2);
+    const auto floor = static_cast<plexway::Index>(plan.places().size());
+    plexway::Index source = 0;
+    do source = static_cast<plexway::Index>(random() % floor);
+    while (plan.on_crack(source));
+    const Distances flat = plan.distances(source);
+    if (std::any_of(flat.begin(), flat.end(), [](double d) { return !std::isfinite(d); })) continue;
+    Distances truth;
+    for (std::size_t v = 0; v < solid.places.size(); ++v)
+      truth.push_back(std::hypot(flat[v % floor], solid.places[v][2]));
+    use(plan, solid, source, truth);
+    --plans;
+  }
+}
+
+inline void solve_cracked(Random& random, std::size_t plans, const std::string& kind,
+                          PlanErrors& errors) {
+  each_cracked(
+      random, plans, kind,
+      [&](const auto&, const auto& prism, plexway::Index source, const Distances& truth) {
+        const plexway::TetMesh<double> solid(prism.places, prism.tets);
+        errors.add(
+            plexway::solve(plexway::Serial{}, solid, plexway::PointSource::at(source)).distance,
+            truth);
+      });
+}
+
+/// Lengths of paths from four vertices a plan.
+inline void trace_cracked(Random& random, std::size_t plans, const std::string& kind,
+                          PlanErrors& errors) {
+  each_cracked(random, plans, kind,
+               [&](const auto&, const auto& prism, plexway::Index source, const Distances& truth) {
+                 const plexway::TetMesh<double> solid(prism.places, prism.tets);
+                 plexway::PathField field(solid, prism.places);
+                 field.solve(plexway::Serial{}, plexway::PointSource::at(source));
+                 Distances found, exact;
+                 for (int n = 0; n < 4; ++n) {
+                   const auto v = static_cast<plexway::Index>(random() % prism.places.size());
+                   found.push_back(field.trace(v).length);
+                   exact.push_back(truth[v]);
+                 }
+                 errors.add(found, exact);
+               });
+}
+
+}  // namespace bench

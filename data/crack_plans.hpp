@@ -1,0 +1,218 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <utility>
+#include <vector>
+
+/// Plans of cracks without width that may join, on a square of cells, with a vertex on each side of
+/// them, the prisms over them, and exact distances: a visibility graph in which each side of a
+/// crack is apart from the other.
+namespace samples {
+
+/// A square of n by n cells of size 1 / n, cut along straight cracks.
+class CrackPlan {
+ public:
+  using Number = std::uint32_t;
+  using Point2 = std::array<double, 2>;
+  /// From one corner of cells to another, in cells, along x or y.
+  struct Crack {
+    std::array<int, 2> begin, end;
+  };
+
+  /// Vertices that are on no crack and inside are moved at random by up to `jitter` of a cell;
+  /// `random()` is in [0, 1).
+  template <class Random>
+  CrackPlan(int cells, std::vector<Crack> cracks, double jitter, Random&& random)
+      : n_(cells), cracks_(std::move(cracks)) {
+    for (int j = 0; j <= n_; ++j)
+      for (int i = 0; i <= n_; ++i) {
+        Point2 at = {double(i) / n_, double(j) / n_};
+        if (i > 0 && j > 0 && i < n_ && j < n_ && !on_crack({i, j}))
+          for (double& x : at) x += (2 * random() - 1) * jitter / n_;
+        corners_.push_back(at);
+      }
+    std::vector<std::array<Number, 3>> faces;
+    for (int j = 0; j < n_; ++j)
+      for (int i = 0; i < n_; ++i) {
+        const Number a = corner(i, j), b = corner(i + 1, j), c = corner(i + 1, j + 1),
+                     d = corner(i, j + 1);
+        if (random() < .5) {
+          faces.push_back({a, b, c});
+          faces.push_back({a, c, d});
+        } else {
+          faces.push_back({a, b, d});
+          faces.push_back({b, c, d});
+        }
+      }
+    split(faces);
+  }
+
+  /// A place each; those on two sides of a crack are the same.
+  [[nodiscard]] const std::vector<Point2>& places() const { return places_; }
+  [[nodiscard]] const std::vector<std::array<Number, 3>>& faces() const { return faces_; }
+  /// Is a vertex on a crack? Its ends are.
+  [[nodiscard]] bool on_crack(Number vertex) const { return on_crack_[vertex]; }
+
+  /// Exact distances from a vertex off all cracks; +inf where no way leads. As long as 1e-7 a bend.
+  [[nodiscard]] std::vector<double> distances(Number from) const {
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    std::vector<double> distance(places_.size(), infinity);
+    std::vector<Number> bends = {from};
+    for (Number v = 0; v < places_.size(); ++v)
+      if (on_crack_[v]) bends.push_back(v);
+    std::vector<char> done(bends.size(), 0);
+    distance[from] = 0;
+    for (;;) {
+      std::size_t next = bends.size();
+      for (std::size_t k = 0; k < bends.size(); ++k)
+        if (!done[k] && distance[bends[k]] < infinity &&
+            (next == bends.size() || distance[bends[k]] < distance[bends[next]]))
+          next = k;
+      if (next == bends.size()) return distance;
+      done[next] = 1;
+      const Number b = bends[next];
+      for (Number v = 0; v < places_.size(); ++v) {
+        const double by =
+            distance[b] + std::hypot(places_[v][0] - places_[b][0], places_[v][1] - places_[b][1]);
+        if (by < distance[v] && sees(beside_[b], beside_[v])) distance[v] = by;
+      }
+    }
+  }
+
+  /// One layer over the plan, each prism cut by the order of its vertices' numbers: vertex
+  /// v + places().size() is over v.
+  struct Solid {
+    std::vector<std::array<double, 3>> places;
+    std::vector<std::array<Number, 4>> tets;
+  };
+  [[nodiscard]] Solid solid(double height) const {
+    Solid solid;
+    const auto n = static_cast<Number>(places_.size());
+    for (const double z : {0., height})
+      for (const Point2& p : places_) solid.places.push_back({p[0], p[1], z});
+    for (std::array<Number, 3> f : faces_) {
+      std::sort(f.begin(), f.end());
+      solid.tets.push_back({f[0], f[1], f[2], f[2] + n});
+      solid.tets.push_back({f[0], f[1], f[1] + n, f[2] + n});
+      solid.tets.push_back({f[0], f[0] + n, f[1] + n, f[2] + n});
+    }
+    return solid;
+  }
+
+ private:
+  [[nodiscard]] Number corner(int i, int j) const { return static_cast<Number>(j * (n_ + 1) + i); }
+  /// Is a point, in half cells, on a crack? And one that is strictly between corners.
+  [[nodiscard]] bool on_crack(std::array<int, 2> corner_at) const {
+    return std::any_of(cracks_.begin(), cracks_.end(), [&](const Crack& c) {
+      for (std::size_t i = 0; i < 2; ++i)
+        if (corner_at[i] < std::min(c.begin[i], c.end[i]) ||
+            corner_at[i] > std::max(c.begin[i], c.end[i]))
+          return false;
+      return true;
+    });
+  }
+  [[nodiscard]] bool is_cut(Number v, Number w) const {
+    const auto at = [&](Number c) {
+      return std::array<int, 2>{int(c) % (n_ + 1), int(c) / (n_ + 1)};
+    };
+    const auto a = at(v), b = at(w);
+    if (a[0] != b[0] && a[1] != b[1]) return false;
+    return std::any_of(cracks_.begin(), cracks_.end(), [&](const Crack& c) {
+      const std::size_t along = c.begin[0] == c.end[0] ? 1 : 0, off = 1 - along;
+      return a[off] == c.begin[off] && b[off] == c.begin[off] &&
+             std::min(a[along], b[along]) >= std::min(c.begin[along], c.end[along]) &&
+             std::max(a[along], b[along]) <= std::max(c.begin[along], c.end[along]);
+    });
+  }
+
+  /// A vertex for each fan of triangles around a corner that cracks leave.
+  void split(const std::vector<std::array<Number, 3>>& faces) {
+    faces_ = faces;
+    std::vector<std::vector<std::size_t>> at(corners_.size());
+    for (std::size_t f = 0; f < faces.size(); ++f)
+      for (const Number v : faces[f]) at[v].push_back(f);
+    for (Number v = 0; v < corners_.size(); ++v) {
+      std::vector<std::size_t> left = at[v];
+      const bool cracked = on_crack({int(v) % (n_ + 1), int(v) / (n_ + 1)});
+      while (!left.empty()) {
+        std::vector<std::size_t> fan = {left.back()};
+        left.pop_back();
+        for (std::size_t k = 0; k < fan.size(); ++k)
+          for (std::size_t m = 0; m < left.size();) {
+            if (!joined(faces[fan[k]], faces[left[m]], v)) {
+              ++m;
+              continue;
+            }
+            fan.push_back(left[m]);
+            left.erase(left.begin() + static_cast<std::ptrdiff_t>(m));
+          }
+        const auto number = static_cast<Number>(places_.size());
+        places_.push_back(corners_[v]);
+        on_crack_.push_back(cracked);
+        beside_.push_back(corners_[v]);
+        if (cracked) step_aside(v, fan, faces, beside_.back());
+        for (const std::size_t f : fan)
+          for (std::size_t i = 0; i < 3; ++i)
+            if (faces[f][i] == v) faces_[f][i] = number;
+      }
+    }
+  }
+  /// Do triangles at v share an edge there that is not cut?
+  [[nodiscard]] bool joined(const std::array<Number, 3>& f, const std::array<Number, 3>& g,
+                            Number v) const {
+    return std::any_of(f.begin(), f.end(), [&](Number w) {
+      return w != v && std::find(g.begin(), g.end(), w) != g.end() && !is_cut(v, w);
+    });
+  }
+  /// From a corner a little into the middle of a fan. At the end of a crack straight on from it.
+  void step_aside(Number v, const std::vector<std::size_t>& fan,
+                  const std::vector<std::array<Number, 3>>& faces, Point2& at) const {
+    // Where the fan begins, and how far around it goes.
+    constexpr double pi = 3.14159265358979323846;
+    double begin = 0, angle = 0;
+    bool closed = true;
+    for (const std::size_t f : fan) {
+      const auto& face = faces[f];
+      const std::size_t i =
+          static_cast<std::size_t>(std::find(face.begin(), face.end(), v) - face.begin());
+      const Number first = face[(i + 1) % 3], last = face[(i + 2) % 3];
+      const auto direction = [&](Number w) {
+        return std::atan2(corners_[w][1] - corners_[v][1], corners_[w][0] - corners_[v][0]);
+      };
+      angle += std::remainder(direction(last) - direction(first), 2 * pi);
+      const bool begins =
+          is_cut(v, first) || std::none_of(fan.begin(), fan.end(), [&](std::size_t g) {
+            return g != f && std::find(faces[g].begin(), faces[g].end(), first) != faces[g].end();
+          });
+      if (begins) begin = direction(first), closed = false;
+    }
+    if (closed) return;
+    constexpr double aside = 1e-8;
+    at[0] += aside * std::cos(begin + angle / 2);
+    at[1] += aside * std::sin(begin + angle / 2);
+  }
+
+  [[nodiscard]] bool sees(const Point2& p, const Point2& q) const {
+    const auto side = [](const Point2& a, const Point2& b, const Point2& c) {
+      return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
+    };
+    return std::none_of(cracks_.begin(), cracks_.end(), [&](const Crack& c) {
+      const Point2 a = {double(c.begin[0]) / n_, double(c.begin[1]) / n_},
+                   b = {double(c.end[0]) / n_, double(c.end[1]) / n_};
+      return side(p, q, a) * side(p, q, b) < 0 && side(a, b, p) * side(a, b, q) < 0;
+    });
+  }
+
+  int n_;
+  std::vector<Crack> cracks_;
+  std::vector<Point2> corners_, places_, beside_;
+  std::vector<std::array<Number, 3>> faces_;
+  std::vector<char> on_crack_;
+};
+
+}  // namespace samples
