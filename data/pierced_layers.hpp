@@ -42,14 +42,15 @@ struct PiercedLayers {
         along.insert(along.end(), {b.left - off, b.right + off});
       }
     for (const double x : along) node.push_back({x, middle, 0});
-    constexpr double never = std::numeric_limits<double>::infinity();
-    std::vector<double> time(node.size(), never);
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    std::vector<double> time(node.size(), infinity);
     std::vector<char> done(node.size(), 0);
     time[0] = 0;
     for (;;) {
       std::size_t next = node.size();
       for (std::size_t i = 0; i < node.size(); ++i)
-        if (!done[i] && time[i] < never && (next == node.size() || time[i] < time[next])) next = i;
+        if (!done[i] && time[i] < infinity && (next == node.size() || time[i] < time[next]))
+          next = i;
       if (next == node.size()) break;
       done[next] = 1;
       for (std::size_t i = 0; i < node.size(); ++i)
@@ -57,7 +58,7 @@ struct PiercedLayers {
     }
     std::vector<double> found;
     for (const Point& p : points) {
-      double least = never;
+      double least = infinity;
       for (std::size_t i = 0; i < node.size(); ++i) {
         const double low = time[i] + std::hypot(p[0] - node[i][0], p[1] - node[i][1]) /
                                          std::max(speed[0], speed[1]);

@@ -291,8 +291,7 @@ class SolidRule : public SolidPaths<Real> {
   [[nodiscard]] Sight seen_from(Index t, const Point& q) const {
     return sight(t, tets_[t].centre, t, within(t, q), q);
   }
-  /// The same so that it is the length of a path in any case: by way of the centre where no other
-  /// is found.
+  /// The same, a path's in any case: by way of the centre where no other is found.
   [[nodiscard]] Sight reached_from(Index t, const Point& q) const {
     Taut s;
     if (find_sight(t, tets_[t].centre, t, within(t, q), q, s)) return last_bend(s);
@@ -302,8 +301,7 @@ class SolidRule : public SolidPaths<Real> {
   [[nodiscard]] Sight seen_over(Index t, const Point& middle, Index u) const {
     return sight(t, middle, u, tets_[u].centre, tets_[u].centre);
   }
-  /// Is corner i of u in a straight line from a point of t? On a crack another vertex may lie where
-  /// it does: the line must come to a tetrahedron that has this one.
+  /// Is corner i of u in a straight line from a point of t? (On a crack another may lie there.)
   [[nodiscard]] bool sees(Index t, const Point& from, Index u, Index i) const {
     const Index v = tets_[u].corner[i];
     return go(t, from, within(u, points_[v])) &&
@@ -403,8 +401,8 @@ class SolidRule : public SolidPaths<Real> {
   [[nodiscard]] Sight sight(Index t, const Point& middle, Index u, const Point& end,
                             const Point& q) const {
     Taut s;
-    if (!find_sight(t, middle, u, end, q, s)) s = taut_to(front_->label(t), tets_[t].centre);
-    return last_bend(s);
+    const bool found = find_sight(t, middle, u, end, q, s);
+    return last_bend(found ? s : taut_to(front_->label(t), tets_[t].centre));
   }
   bool find_sight(Index t, const Point& middle, Index u, const Point& end, const Point& q,
                   Taut& s) const {
@@ -416,8 +414,7 @@ class SolidRule : public SolidPaths<Real> {
     return true;
   }
   [[nodiscard]] Sight last_bend(const Taut& s) const {
-    const Point eye = s.at[s.bends];
-    return {eye, s.extent - norm(taut_end(s) - eye)};
+    return {s.at[s.bends], s.extent - norm(taut_end(s) - s.at[s.bends])};
   }
   /// A point that t has with u, which touches it: the middle of their common corners.
   [[nodiscard]] Point common_point(Index t, Index u) const {
