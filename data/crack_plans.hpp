@@ -202,9 +202,16 @@ class CrackPlan {
       return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
     };
     return std::none_of(cracks_.begin(), cracks_.end(), [&](const Crack& c) {
-      const Point2 a = {double(c.begin[0]) / n_, double(c.begin[1]) / n_},
-                   b = {double(c.end[0]) / n_, double(c.end[1]) / n_};
-      return side(p, q, a) * side(p, q, b) < 0 && side(a, b, p) * side(a, b, q) < 0;
+      // One that ends on the rim is longer: lines along the rim do not pass it.
+      const auto end = [&](const std::array<int, 2>& corner) {
+        Point2 at = {double(corner[0]) / n_, double(corner[1]) / n_};
+        for (std::size_t i = 0; i < 2; ++i)
+          if (c.begin[1 - i] == c.end[1 - i])
+            at[i] += corner[i] == 0 ? -1 : corner[i] == n_ ? 1 : 0;
+        return at;
+      };
+      const Point2 a = end(c.begin), b = end(c.end);
+      return side(p, q, a) * side(p, q, b) <= 0 && side(a, b, p) * side(a, b, q) < 0;
     });
   }
 
