@@ -173,7 +173,7 @@ class CrackPlan {
   void step_aside(Number v, const std::vector<std::size_t>& fan,
                   const std::vector<std::array<Number, 3>>& faces, Point2& at) const {
     // Where the fan begins, and how far around it goes.
-    constexpr double pi = 3.14159265358979323846;
+    constexpr double half_turn = 3.14159265358979323846;
     double begin = 0, angle = 0;
     bool closed = true;
     for (const std::size_t f : fan) {
@@ -184,7 +184,7 @@ class CrackPlan {
       const auto direction = [&](Number w) {
         return std::atan2(corners_[w][1] - corners_[v][1], corners_[w][0] - corners_[v][0]);
       };
-      angle += std::remainder(direction(last) - direction(first), 2 * pi);
+      angle += std::remainder(direction(last) - direction(first), 2 * half_turn);
       const bool begins =
           is_cut(v, first) || std::none_of(fan.begin(), fan.end(), [&](std::size_t g) {
             return g != f && std::find(faces[g].begin(), faces[g].end(), first) != faces[g].end();
