@@ -173,7 +173,7 @@ class CrackPlan {
   void step_aside(Number v, const std::vector<std::size_t>& fan,
                   const std::vector<std::array<Number, 3>>& faces, Point2& at) const {
     // Where the fan begins, and how far around it goes.
-    constexpr double pi = 3.14159265358979323846;
+    constexpr double half_turn = 3.14159265358979323846;
     double begin = 0, angle = 0;
     bool closed = true;
     for (const std::size_t f : fan) {
@@ -184,7 +184,7 @@ class CrackPlan {
       const auto direction = [&](Number w) {
         return std::atan2(corners_[w][1] - corners_[v][1], corners_[w][0] - corners_[v][0]);
       };
-      angle += std::remainder(direction(last) - direction(first), 2 * pi);
+      angle += std::remainder(direction(last) - direction(first), 2 * half_turn);
       const bool begins =
           is_cut(v, first) || std::none_of(fan.begin(), fan.end(), [&](std::size_t g) {
             return g != f && std::find(faces[g].begin(), faces[g].end(), first) != faces[g].end();
@@ -202,9 +202,16 @@ class CrackPlan {
       return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
     };
     return std::none_of(cracks_.begin(), cracks_.end(), [&](const Crack& c) {
-      const Point2 a = {double(c.begin[0]) / n_, double(c.begin[1]) / n_},
-                   b = {double(c.end[0]) / n_, double(c.end[1]) / n_};
-      return side(p, q, a) * side(p, q, b) < 0 && side(a, b, p) * side(a, b, q) < 0;
+      // One that ends on the rim is longer: lines along the rim do not pass it.
+      const auto end = [&](const std::array<int, 2>& corner) {
+        Point2 at = {double(corner[0]) / n_, double(corner[1]) / n_};
+        for (std::size_t i = 0; i < 2; ++i)
+          if (c.begin[1 - i] == c.end[1 - i])
+            at[i] += corner[i] == 0 ? -1 : corner[i] == n_ ? 1 : 0;
+        return at;
+      };
+      const Point2 a = end(c.begin), b = end(c.end);
+      return side(p, q, a) * side(p, q, b) <= 0 && side(a, b, p) * side(a, b, q) < 0;
     });
   }
 
