@@ -155,7 +155,7 @@ class SolidRule : public SolidPaths<Real> {
     if (front_->expands_soon()) prefetch_around(u);
   }
 
-  /// A path of length sigma ends at corner i of t; false if t knows a better one.
+  /// A path of that length ends at corner i of t; false if t knows a better one.
   bool seed_corner(Index t, Index i, Real sigma, Index source) const {
     return seed(t, points_[tets_[t].corner[i]], (i + 1) & 3, sigma, source);
   }
@@ -286,11 +286,11 @@ class SolidRule : public SolidPaths<Real> {
   [[nodiscard]] Sight seen_over(Index t, const Point& middle, Index u) const {
     return sight(t, middle, u, tets_[u].centre, tets_[u].centre);
   }
-  /// Is corner i of u in a straight line from a point of t? (On a crack another may lie there.)
+  /// Is corner i of u in sight from a point of t? On a crack another may lie there.
   [[nodiscard]] bool sees(Index t, const Point& from, Index u, Index i) const {
     const Index v = tets_[u].corner[i];
-    return go(t, from, within(u, points_[v])) &&
-           std::find(tets_[t].corner, tets_[t].corner + 4, v) != tets_[t].corner + 4;
+    if (!go(t, from, within(u, points_[v]))) return false;
+    return std::count(tets_[t].corner, tets_[t].corner + 4, v) > 0;
   }
 
   /// A source at `eye`, outside, comes in over a face of t.
@@ -385,15 +385,14 @@ class SolidRule : public SolidPaths<Real> {
   [[nodiscard]] Sight sight(Index t, const Point& middle, Index u, const Point& end,
                             const Point& q) const {
     Taut s;
-    const bool found = find_sight(t, middle, u, end, q, s);
-    return last_bend(found ? s : taut_to(front_->label(t), tets_[t].centre));
+    return last_bend(
+        find_sight(t, middle, u, end, q, s) ? s : taut_to(front_->label(t), tets_[t].centre));
   }
   bool find_sight(Index t, const Point& middle, Index u, const Point& end, const Point& q,
                   Taut& s) const {
     const Label& label = front_->label(t);
-    if (any_reflex_)
-      return find_taut(label, t, middle, u, end, q, std::numeric_limits<Real>::infinity(),
-                       nowhere(), s);
+    constexpr Real most = std::numeric_limits<Real>::infinity();
+    if (any_reflex_) return find_taut(label, t, middle, u, end, q, most, nowhere(), s);
     s = taut_to(label, q);
     return true;
   }
