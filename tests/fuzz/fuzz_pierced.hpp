@@ -18,8 +18,8 @@ struct Pierced {
 };
 
 /// Two solids whose plans meet in a line. Rectangles may reach over it; where a side of one lies in
-/// it there is no answer. Slits come from the rim and end anywhere. Paths from the floor to the floor
-/// stay on it.
+/// it there is no answer. Slits come from the rim and end anywhere. Paths from the floor to the
+/// floor stay on it.
 inline std::optional<Pierced> solve_pierced(const samples::CornerDomain& plan, Choices& choices) {
   samples::Shape shape = meshed(plan, choices);
   const double middle = static_cast<double>(1 + choices.byte() % (plan_cells - 1)) / plan_cells;
