@@ -13,6 +13,7 @@ namespace {
 constexpr std::size_t most_sources = 16;
 constexpr double nearest = 3, farthest = 25;  // spacings
 constexpr double longer = 0.05, behind_walls = 0.5;
+constexpr std::size_t most_points = 10000;  // an even cloud has 2000 within `farthest`
 
 /// Do the points near the line from a source to another point lie in one plane? On a surface that
 /// is bent so much that a straight line is a twentieth too short they do not at its ends.
@@ -53,10 +54,11 @@ RimDetours rim_detours(std::span<const std::array<double, 3>> positions, double 
       patch.push_back(v);
       offsets.push_back(q);
     }
+    if (patch.size() > most_points) continue;
     for (std::size_t i = 0; i < patch.size(); ++i) {
       const std::size_t v = patch[i];
       const double straight = std::sqrt(dot(offsets[i], offsets[i]));
-      const double share = distance[v] / straight - 1;
+      const double share = (distance[v] - distance[s]) / straight - 1;
       if (straight < nearest * spacing || !(share > longer && share < behind_walls)) continue;
       if (found[v] || !in_one_plane(offsets, offsets[i], spacing)) continue;
       found[v] = true;

@@ -179,14 +179,14 @@ TEST_CASE("parts of a cloud that no triangles join are told") {
 
 TEST_CASE("points of a cloud behind a notch in its rim are told") {
   // A flat grid with a notch three spacings deep; a source beside it, and one far away.
-  const auto warns = [](std::size_t from, double bent) {
+  const auto warns = [](std::size_t from, double bent, double offset = 0) {
     io::Points points;
     for (int i = 0; i < 40; ++i)
       for (int j = 0; j < 20; ++j)
         if (j > 2 || i < 18 || i > 21)
           points.positions.push_back({double(i), double(j), bent * (i - 20.) * (i - 20.)});
     const AnyDomain domain(AnyShape::cloud(std::move(points)));
-    const Source source = PointSource::at(static_cast<Index>(from));
+    const Source source = PointSource::at(static_cast<Index>(from), offset);
     const AnyField field = domain.solve(Serial{}, source);
     const std::vector<double> distance = field.doubles();
     const auto told = field_remarks(domain, field, reach_of(distance, {&source, 1}), false);
@@ -196,6 +196,9 @@ TEST_CASE("points of a cloud behind a notch in its rim are told") {
   };
   CHECK(warns(17 * 20, 0));
   CHECK_FALSE(warns(19, 0));
+  // What a source has walked before is no detour.
+  CHECK(warns(17 * 20, 0, 1));
+  CHECK_FALSE(warns(19, 0, 1));
   // Curved so that straight lines are shorter by more: that is no notch.
   CHECK_FALSE(warns(0, .05));
 }
