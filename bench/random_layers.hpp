@@ -6,8 +6,6 @@
 #include <cstdint>
 #include <vector>
 
-#include <plexway/complex/mixed_complex.hpp>
-#include <plexway/complex/tet_mesh.hpp>
 #include <plexway/solve.hpp>
 
 #include "data/random_stacks.hpp"
@@ -21,18 +19,8 @@ namespace bench {
 inline void solve_stack(Random& random, double thinnest, double thickest, bool on_plane,
                         PlanErrors& errors) {
   const samples::Stack stack = samples::random_stack(random, 20, thinnest, thickest);
-  plexway::MixedComplex<double> domain;
-  std::vector<samples::Position> places;
-  std::vector<plexway::MixedComplex<double>::Piece> pieces;
-  for (std::size_t k = 0; k < stack.blocks.size(); ++k) {
-    const auto& [positions, tets] = stack.blocks[k];
-    places.insert(places.end(), positions.begin(), positions.end());
-    auto timed = positions;
-    for (auto& p : timed)
-      for (double& x : p) x /= stack.layers.v[k];
-    pieces.push_back(domain.add(plexway::TetMesh<double>(timed, tets), positions));
-    if (k > 0) domain.weld(pieces[k - 1], pieces[k], plexway::WeldOptions{.tolerance = 1e-9});
-  }
+  const samples::StackDomain whole(stack);
+  const auto& places = whole.places;
   const auto& planes = stack.layers.z;
   plexway::Index source;
   do {
@@ -40,8 +28,9 @@ inline void solve_stack(Random& random, double thinnest, double thickest, bool o
   } while (on_plane && std::find(planes.begin(), planes.end(), places[source][2]) == planes.end());
   Distances truth;
   for (const auto& p : places) truth.push_back(stack.layers.time(places[source], p));
-  errors.add(plexway::solve(plexway::Serial{}, domain, plexway::PointSource::at(source)).distance,
-             truth);
+  errors.add(
+      plexway::solve(plexway::Serial{}, whole.domain, plexway::PointSource::at(source)).distance,
+      truth);
 }
 
 /// Two solids of two speeds with rectangles or slits cut out of both.

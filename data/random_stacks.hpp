@@ -5,6 +5,9 @@
 #include <random>
 #include <vector>
 
+#include <plexway/complex/mixed_complex.hpp>
+#include <plexway/complex/tet_mesh.hpp>
+
 #include "mixed_pieces.hpp"
 
 /// Stacks of slabs of random speeds, as coarse as one likes. Distances are Layers::time.
@@ -57,5 +60,23 @@ inline Stack random_stack(std::mt19937& random, std::size_t most, double thinnes
   }
   return stack;
 }
+
+/// The slabs as solids that are welded, each of its speed.
+struct StackDomain {
+  explicit StackDomain(const Stack& stack) {
+    for (std::size_t k = 0; k < stack.blocks.size(); ++k) {
+      const auto& [positions, tets] = stack.blocks[k];
+      places.insert(places.end(), positions.begin(), positions.end());
+      auto timed = positions;
+      for (auto& p : timed)
+        for (double& x : p) x /= stack.layers.v[k];
+      pieces.push_back(domain.add(plexway::TetMesh<double>(timed, tets), positions));
+      if (k > 0) domain.weld(pieces[k - 1], pieces[k], plexway::WeldOptions{.tolerance = 1e-9});
+    }
+  }
+  plexway::MixedComplex<double> domain;
+  std::vector<plexway::MixedComplex<double>::Piece> pieces;
+  std::vector<Position> places;  // by vertex of the domain
+};
 
 }  // namespace samples

@@ -35,9 +35,7 @@ void read_out_borders(const TetMesh<Real>& mesh, std::span<const PointSource> so
                       const PropagateOptions& options, WorkspaceState<Real>& workspace,
                       const Rule& rule, const Front& front) {
   const auto tetrahedron = [&](Index v) { return workspace.vertex_tet[v]; };
-  SolidBorders(mesh, rule, front, workspace, static_cast<Real>(options.radius / mesh.unit()),
-               tetrahedron)
-      .run(sources);
+  SolidBorders(mesh, rule, front, workspace, options, tetrahedron).run(sources);
 }
 
 template <class Real, bool kLabels, class Rule, class Front, class Crew>

@@ -75,7 +75,7 @@ class CrossingWays {
   /// Hands on what is new in a piece, as far as that goes inside.
   void hand_on(Index piece, std::span<Real> distance, std::span<Index> label) {
     Held& own = held_[piece];
-    if (own.ways.empty()) return;
+    if (own.ways.empty() || (own.begun && own.letters.empty())) return;
     Work work(*this, piece, distance, label);
     if (!own.begun) {
       own.begun = true;

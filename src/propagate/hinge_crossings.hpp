@@ -71,6 +71,7 @@ class HingeCrossings {
     Index before = none;
     if (!from.eye(domain_.members()[m], known.eye, known.sigma, before)) return;
     if (on_hinge(before) != nullptr) known.before = before;
+    known.source = root(before);
   }
   /// The caller's source that a label comes from.
   [[nodiscard]] Index root(Index number) const {
@@ -121,7 +122,7 @@ class HingeCrossings {
       last[v] = room.crossing;
       if (!keep(piece, v, there, distance[v], number, room))
         keep_straight(piece, v, inside(v), distance[v], label[v]);
-      if (there < distance[v]) distance[v] = there, label[v] = find(number)->source;
+      if (there < distance[v]) distance[v] = there, label[v] = room.source;
       if (!ways_->known(piece, v)) front.push_back(v);
     }
     // A vertex may be nearer by the way of a neighbour: because none of its simplices came over the
@@ -147,7 +148,7 @@ class HingeCrossings {
         last[w] = room.crossing;
         keep(piece, w, way, way, number, room);
         distance[w] = way;
-        label[w] = find(number)->source;
+        label[w] = room.source;
         front.push_back(w);
       }
     }
@@ -169,8 +170,9 @@ class HingeCrossings {
   struct Over {
     Real distance = infinity, before = infinity;  // all, and as far as the hinge
     HingePlace<Real> place = {0, 0};
-    int rims = 0;        // of the hinge that the crossing lies on: a neighbour may be better
-    Index label = none;  // where the label that knows starts, if that is on a hinge
+    int rims = 0;         // of the hinge that the crossing lies on: a neighbour may be better
+    Index label = none;   // where the label that knows starts, if that is on a hinge
+    Index source = none;  // of that label
   };
   /// The path of a vertex: what it starts from, and its crossings.
   struct Path {
@@ -184,6 +186,7 @@ class HingeCrossings {
     typename Taut::Room taut;
     Point crossing;  // the last one of the path found last, in the domain's unit
     bool all;        // was that pulled as a whole? It is `last` then.
+    Index source;    // whose it is
   };
   struct Seed {
     Index piece, number;
@@ -195,7 +198,7 @@ class HingeCrossings {
   bool keep(Index piece, Index v, Real length, Real distance, Index number, const Room& room) {
     const bool is = room.all && length <= distance * (1 + Piece::crossing_gain);
     if (is)
-      ways_->keep(piece, v, room.last.eye, room.last.sigma, room.last.steps, find(number)->source);
+      ways_->keep(piece, v, room.last.eye, room.last.sigma, room.last.steps, room.source);
     else
       ways_->forget(piece, v);
     return is;
@@ -250,6 +253,7 @@ class HingeCrossings {
     Path& path = room.path;
     follow(number, path);
     room.all = false;
+    room.source = find(number)->source;
     Real least = infinity;
     if (!own.sees_all()) return least_in_sight(own, vertex, room);
     const Point target = own.place(vertex);
@@ -258,6 +262,7 @@ class HingeCrossings {
       const bool is_last = path.steps.size() == 1;
       Step first = path.steps[0];
       const Over over = move(first, is_last ? target : inner_place(path.steps[1]));
+      if (over.source != none) room.source = root(over.source);
       if (is_last) {
         least = over.distance;
         room.crossing = taut_->place(first, 1 - first.side);
@@ -291,6 +296,7 @@ class HingeCrossings {
     for (int i = 0; i < rounds; ++i) {
       const Over over = move(path.steps[0], inner_place(path.steps[1]));
       if (!(over.before < infinity)) break;
+      if (over.source != none) room.source = root(over.source);
       const Real there =
           over.before + taut_->pull(taut_->place(path.steps[0], 1 - path.steps[0].side),
                                     std::span(path.steps).subspan(1), end, room.taut);
@@ -329,13 +335,9 @@ class HingeCrossings {
       }
       if (low == 0 && !in_sight(last, own, vertex)) return infinity;
     }
+    if (over.source != none) room.source = root(over.source);
     room.crossing = taut_->place(last, 1 - last.side);
-    if (path.steps.size() < 2 || !(path.sigma < infinity)) return over.distance;
-    const auto before = std::span(path.steps).first(path.steps.size() - 1);
-    const Real there = path.sigma +
-                       taut_->pull(path.eye, before, taut_->place(last, last.side), room.taut) +
-                       norm(end - room.crossing);
-    return std::min(over.distance, there);
+    return over.distance;
   }
   [[nodiscard]] bool in_sight(const Step& step, const Piece& own, Index vertex) const {
     const auto& hinge = domain_.hinges()[step.hinge];
@@ -401,7 +403,9 @@ class HingeCrossings {
       if (!(from.distance(member.simplex) < infinity)) continue;
       const HingeFront<Real> front(from, member, hinge.dimension, none, none);
       const Real before = front.distance(step.place);
-      if (before < least.before) least.before = before, least.place = step.place;
+      if (before < least.before)
+        least.before = before, least.place = step.place,
+        least.source = from.leave(member, hinge.dimension, step.place).source;
     }
     least.distance = least.before + norm(to.unit() * target - taut_->place(step, 1 - step.side));
     return least;
@@ -421,8 +425,13 @@ class HingeCrossings {
       const HingeFront<Real> front(from, member, hinge.dimension, none, none);
       const auto path = front.shortest(shape, end);
       if (!(path.extent < least.distance)) continue;
-      least = {path.extent, path.before, path.crossing, 0,
-               straight_from(from, member, front.seen_from(path.crossing), hinge.dimension)};
+      const PosedSource<Real> eye = front.seen_from(path.crossing);
+      least = {path.extent,
+               path.before,
+               path.crossing,
+               0,
+               straight_from(from, member, eye, hinge.dimension),
+               eye.source};
     }
     constexpr Real rim = 16 * std::numeric_limits<Real>::epsilon();
     const HingePlace<Real>& b = least.place;

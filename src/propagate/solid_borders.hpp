@@ -11,8 +11,10 @@
 #include <vector>
 
 #include <plexway/complex/tet_mesh.hpp>
+#include <plexway/propagate/options.hpp>
 #include <plexway/source/point_source.hpp>
 
+#include "propagate/progress_counter.hpp"
 #include "propagate/solid_border_memory.hpp"
 #include "propagate/solid_read_out.hpp"
 #include "propagate/workspace_state.hpp"
@@ -29,7 +31,7 @@ namespace plexway {
 /// that tapers off between vertices is followed to its end.
 ///
 /// By one thread, so with any number of them the same. Cost: the vertices at borders, times the
-/// cells around each.
+/// cells around each. It can be cancelled; a budget of expansions does not count it.
 ///
 /// TetOf: tetrahedron(v) is the one whose label gave vertex v its distance, or none.
 template <class Real, class Rule, class Front, class TetOf>
@@ -40,8 +42,10 @@ class SolidBorders {
 
  public:
   SolidBorders(const TetMesh<Real>& mesh, const Rule& rule, const Front& front,
-               WorkspaceState<Real>& workspace, Real radius, const TetOf& tetrahedron)
+               WorkspaceState<Real>& workspace, const PropagateOptions& options,
+               const TetOf& tetrahedron)
       : mesh_(mesh),
+        options_(options),
         tets_(mesh.tets()),
         rule_(rule),
         front_(front),
@@ -49,16 +53,23 @@ class SolidBorders {
         distance_(workspace.vertex),
         source_(workspace.vertex_source),
         memory_(workspace.borders),
-        radius_(radius),
+        radius_(static_cast<Real>(options.radius / mesh.unit())),
         walks_(rule.walks()) {}
 
-  /// What vertices know was read out, and the distances at the sources.
+  /// What vertices know was read out, and the distances at the sources. Throws Cancelled.
   void run(std::span<const PointSource> sources) {
     memory_.start(mesh_.vertex_count());
     start_at_borders();
     for (std::size_t n = 0; n < sources.size(); ++n) start_at(sources[n], static_cast<Index>(n));
-    for (std::size_t next = 0; next < memory_.waiting.size(); ++next)
-      hand_on(memory_.waiting[next]);
+    ProgressCounter told(options_, 1024);  // that takes some hundredths of a second
+    for (std::size_t next = 0; next < memory_.waiting.size(); ++next) {
+      const Waiting waiting = memory_.waiting[next];
+      told.count(next, [&] {
+        return Progress{front_.expansions(), mesh_.tet_count(), mesh_.tet_count(),
+                        static_cast<double>(waiting.distance) * mesh_.unit()};
+      });
+      hand_on(waiting);
+    }
   }
 
  private:
@@ -259,6 +270,7 @@ class SolidBorders {
   }
 
   const TetMesh<Real>& mesh_;
+  const PropagateOptions& options_;
   const std::span<const TetRecord<Real>> tets_;
   const Rule& rule_;
   const Front& front_;

@@ -52,6 +52,7 @@ class SolidClearSpace {
           std::clamp((x[d] - low_[d]) * per_length_, Real(0), static_cast<Real>(count_[d] - 1)));
     return c;
   }
+  void fill(const TetMesh<Real>& mesh);
   bool mark_boundary(const TetMesh<Real>& mesh);
   void spread();
   void settle_tets(const TetMesh<Real>& mesh);
@@ -68,7 +69,13 @@ class SolidClearSpace {
 
 template <class Real>
 void SolidClearSpace<Real>::measure(const TetMesh<Real>& mesh) {
+  identity_ = 0;  // of none, should memory run out
+  fill(mesh);
   identity_ = mesh.identity();
+}
+
+template <class Real>
+void SolidClearSpace<Real>::fill(const TetMesh<Real>& mesh) {
   level_.clear();
   tet_.clear();
   if (!mesh.embedded() || mesh.reflex_edges().empty() || mesh.tet_count() < 1000) return;

@@ -24,6 +24,8 @@ inline constexpr Index tet_face_corners[4][3] = {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}
 /// a line from such an edge it is clear which ones to ask, and for others one that faces the line
 /// is.
 ///
+/// A plane that has faces of a part in it that look both ways, as a crack's, is none of these.
+///
 /// Empty where no reflex edge has such a plane: for lengths alone, in convex solids, and where the
 /// boundary is one part with dents and bumps. Cost: n log n in vertices of the boundary, about 30
 /// ns a tetrahedron; memory: of parts and reflex edges.
@@ -62,7 +64,8 @@ class SolidObstacles {
 
  private:
   using Tree = BoxTree<3>;
-  static constexpr Index both = 3;  // flags of an edge's two faces, below the number of its part
+  using Face = std::array<Index, 3>;  // anticlockwise as seen from outside
+  static constexpr Index both = 3;    // flags of an edge's two faces, below the number of its part
   static constexpr int part_shift = 2;
   /// In mean edges, far below what lines are walked beside edges: what is no farther in front of a
   /// plane lies in it.
@@ -88,6 +91,9 @@ class SolidObstacles {
   static Tree tree_of(std::span<const Point> points, std::span<const Index> at);
   static bool behind(const Tree& tree, std::span<const Point> points, std::span<const Index> at,
                      const Point& normal, const Point& on);
+  static bool has_lip(const Tree& tree, std::span<const Point> points, std::span<const Face> faces,
+                      const Point& normal, const Point& on);
+  void fill(const TetMesh<Real>& mesh);
   /// Does the line miss all parts but one?
   [[nodiscard]] bool passes(Index but, const Point& p, const Point& q) const;
   /// Is there a plane, of those looked at, that a part is behind and both points are in front of?
@@ -138,9 +144,45 @@ bool SolidObstacles<Real>::behind(const Tree& tree, std::span<const Point> point
   return all;
 }
 
+// Does a face in the plane have the solid behind it? It is a crack's then, whose other side points
+// in front of the plane, as those on the face are, do not see.
+template <class Real>
+bool SolidObstacles<Real>::has_lip(const Tree& tree, std::span<const Point> points,
+                                   std::span<const Face> faces, const Point& normal,
+                                   const Point& on) {
+  const auto n = place(normal);
+  const double height = static_cast<double>(dot(normal, on));
+  constexpr double near = 4 * static_cast<double>(on_plane);
+  bool found = false;
+  tree.search(
+      [&](const Box<3>& box) {
+        double low = 0, high = 0;
+        for (std::size_t d = 0; d < 3; ++d) {
+          low += n[d] * (n[d] > 0 ? box.low[d] : box.high[d]);
+          high += n[d] * (n[d] > 0 ? box.high[d] : box.low[d]);
+        }
+        return !found && low <= height + near && high >= height - near;
+      },
+      [&](Index i) {
+        const auto [a, b, c] = faces[i];
+        const auto off = [&](Index v) {
+          return std::abs(static_cast<double>(dot(normal, points[v] - on)));
+        };
+        found = found || (off(a) <= near && off(b) <= near && off(c) <= near &&
+                          dot(normal, cross(points[b] - points[a], points[c] - points[a])) > 0);
+      });
+  return found;
+}
+
 template <class Real>
 void SolidObstacles<Real>::measure(const TetMesh<Real>& mesh) {
+  identity_ = 0;  // of none, should memory run out
+  fill(mesh);
   identity_ = mesh.identity();
+}
+
+template <class Real>
+void SolidObstacles<Real>::fill(const TetMesh<Real>& mesh) {
   sides_.clear();
   parts_.clear();
   planes_.clear();
@@ -150,7 +192,7 @@ void SolidObstacles<Real>::measure(const TetMesh<Real>& mesh) {
   const std::span<const TetRecord<Real>> tets = mesh.tets();
   const Index sentinel = static_cast<Index>(mesh.tet_count());
 
-  std::vector<std::array<Index, 3>> faces;
+  std::vector<Face> faces;
   for (Index t = 0; t < sentinel; ++t)
     for (std::size_t i = 0; i < 4; ++i)
       if (tets[t].across[i] >> TetAcross::tet_shift == sentinel)
@@ -165,31 +207,47 @@ void SolidObstacles<Real>::measure(const TetMesh<Real>& mesh) {
 
   parent_.resize(points.size());
   std::iota(parent_.begin(), parent_.end(), Index{0});
-  std::vector<Index> met;  // vertices of faces that lines can run into
-  for (const auto& [a, b, c] : faces) {
+  std::vector<Index> met;  // vertices of faces that lines can run into, which stay in `faces`
+  std::size_t kept = 0;
+  for (const Face face : faces) {
+    const auto [a, b, c] = face;
     const Point across = cross(points[b] - points[a], points[c] - points[a]);
     const Real size = norm(across);
     if (size > 0 && behind(all, points, rim, Real(1) / size * across, points[a])) continue;
     parent_[part_of(b)] = part_of(a);
     parent_[part_of(c)] = part_of(a);
     met.insert(met.end(), {a, b, c});
+    faces[kept++] = face;
   }
+  faces.resize(kept);
   std::sort(met.begin(), met.end());
   met.erase(std::unique(met.begin(), met.end()), met.end());
   for (const Index v : met) parent_[v] = part_of(v);
   std::sort(met.begin(), met.end(), [&](Index v, Index w) {
     return parent_[v] != parent_[w] ? parent_[v] < parent_[w] : v < w;
   });
+  std::stable_sort(faces.begin(), faces.end(),
+                   [&](const Face& a, const Face& b) { return parent_[a[0]] < parent_[b[0]]; });
 
-  std::vector<Tree> trees;
+  std::vector<Tree> trees, face_trees;
   std::vector<std::span<const Index>> of_part;
+  std::vector<std::span<const Face>> faces_of;
   std::vector<Box<3>> boxes;
+  auto face = faces.begin();
   for (std::size_t begin = 0, end = 0; begin < met.size(); begin = end) {
     const Index root = parent_[met[begin]];
     Box<3> box = Box<3>::empty();
     for (; end < met.size() && parent_[met[end]] == root; ++end) box.add(place(points[met[end]]));
     of_part.push_back(std::span<const Index>(met).subspan(begin, end - begin));
     trees.push_back(tree_of(points, of_part.back()));
+    const auto first = face;
+    std::vector<Box<3>> around;
+    for (; face != faces.end() && parent_[(*face)[0]] == root; ++face) {
+      around.push_back(Box<3>::empty());
+      for (const Index v : *face) around.back().add(place(points[v]));
+    }
+    faces_of.push_back({first, face});
+    face_trees.push_back(Tree(around));
     box.widen(10 * static_cast<double>(on_plane));
     boxes.push_back(box);
   }
@@ -201,10 +259,10 @@ void SolidObstacles<Real>::measure(const TetMesh<Real>& mesh) {
   for (const ReflexEdge<Real>& edge : mesh.reflex_edges()) {
     const Index part = number[edge.vertex[0]];
     Index sides = part << part_shift;
-    // Through a crack's end a plane has the crack in it, and both of its sides.
-    if (part != none && part == number[edge.vertex[1]] && !is_crack(edge))
+    if (part != none && part == number[edge.vertex[1]])
       for (std::size_t k = 0; k < 2; ++k)
-        if (behind(trees[part], points, of_part[part], edge.normal[k], edge.end[0])) {
+        if (behind(trees[part], points, of_part[part], edge.normal[k], edge.end[0]) &&
+            !has_lip(face_trees[part], points, faces_of[part], edge.normal[k], edge.end[0])) {
           sides |= Index{1} << k;
           planes[part].push_back({edge.normal[k], dot(edge.normal[k], edge.end[0])});
         }

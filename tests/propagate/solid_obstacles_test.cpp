@@ -1,10 +1,15 @@
 // Lines that are known to pass all obstacles of a solid are walked to their ends.
 
+#include <algorithm>
 #include <catch2/catch.hpp>
+#include <cmath>
 #include <random>
 #include <vector>
 
+#include <plexway/solve.hpp>
+
 #include "complex/test_solids.hpp"
+#include "data/crack_plans.hpp"
 #include "propagate/solid_closed_forms.hpp"
 #include "propagate/solid_obstacles.hpp"
 #include "propagate/solid_rule.hpp"
@@ -112,4 +117,36 @@ TEST_CASE("a solid without obstacles, or of lengths alone, has nothing that line
   const Solid s = blocks(10);
   obstacles.measure(TetMesh<double>(s.positions.size(), s.tets, s.lengths()));
   CHECK(obstacles.empty());
+}
+
+// Planes that a crack's faces lie in have its other side behind them as well.
+TEST_CASE("no line is known to be free through cracks that fold, or from a block's side") {
+  std::mt19937 random(7);
+  const auto share = [&] { return plexway::testing::uniform(random); };
+  using Cracks = std::vector<samples::CrackPlan::Crack>;
+  const Cracks plans[] = {
+      {{{2, 4}, {6, 4}}},                                      // a slit
+      {{{2, 2}, {6, 2}}, {{6, 2}, {6, 6}}},                    // an L
+      {{{2, 2}, {6, 2}}, {{4, 2}, {4, 6}}},                    // a T
+      {{{2, 2}, {6, 2}}, {{2, 2}, {2, 5}}, {{6, 2}, {6, 5}}},  // a U
+  };
+  for (const Cracks& cracks : plans)
+    for (int n = 0; n < 6; ++n) {
+      const samples::CrackPlan plan(8, cracks, .08 * (n % 3), share);
+      const auto solid = plan.solid(.1 + share() / 2);
+      const TetMesh<double> mesh(solid.places, solid.tets);
+      const auto floor = static_cast<Index>(plan.places().size());
+      Index source = 0;
+      do source = plexway::testing::below(random, floor);
+      while (plan.on_crack(source));
+      const auto truth = plan.distances(source);
+      const auto found = solve(Serial{}, mesh, PointSource::at(source)).distance;
+      double most_short = 0;
+      for (Index v = 0; v < solid.places.size(); ++v) {
+        const double exact = std::hypot(truth[v % floor], solid.places[v][2]);
+        if (v != source) most_short = std::max(most_short, 1 - found[v] / exact);
+      }
+      CAPTURE(cracks.size(), n, source);
+      CHECK(most_short < 1e-6);
+    }
 }

@@ -143,9 +143,7 @@ void SolidSeeds::pass_borders(const TetMesh<float>& mesh, const PropagateOptions
     host.rule().ask_around(mesh.corners_at(v), [&](Index t, float) { found = t; });
     return found;
   };
-  SolidBorders(mesh, host.rule(), host.front(), workspace,
-               static_cast<float>(options.radius / mesh.unit()), tetrahedron)
-      .run(sources_);
+  SolidBorders(mesh, host.rule(), host.front(), workspace, options, tetrahedron).run(sources_);
   std::copy(workspace.vertex.begin(), workspace.vertex.end(), distance.begin());
   std::copy(workspace.vertex_source.begin(), workspace.vertex_source.end(), label.begin());
 }
