@@ -120,7 +120,7 @@ class HingeCrossings {
       via[v] = number;
       const Real there = least_by(number, own, inside(v), room);
       last[v] = room.crossing;
-      if (!keep(piece, v, there, distance[v], number, room))
+      if (!keep(piece, v, there, distance[v], room))
         keep_straight(piece, v, inside(v), distance[v], label[v]);
       if (there < distance[v]) distance[v] = there, label[v] = room.source;
       if (!ways_->known(piece, v)) front.push_back(v);
@@ -146,7 +146,7 @@ class HingeCrossings {
         if (!(way < known)) continue;
         via[w] = number;
         last[w] = room.crossing;
-        keep(piece, w, way, way, number, room);
+        keep(piece, w, way, way, room);
         distance[w] = way;
         label[w] = room.source;
         front.push_back(w);
@@ -195,7 +195,7 @@ class HingeCrossings {
   };
 
   // A path was found for a vertex: if it is its distance's, and known from its start.
-  bool keep(Index piece, Index v, Real length, Real distance, Index number, const Room& room) {
+  bool keep(Index piece, Index v, Real length, Real distance, const Room& room) {
     const bool is = room.all && length <= distance * (1 + Piece::crossing_gain);
     if (is)
       ways_->keep(piece, v, room.last.eye, room.last.sigma, room.last.steps, room.source);
@@ -314,7 +314,7 @@ class HingeCrossings {
     Path& path = room.path;
     Step& last = path.steps.back();
     const Step start = last;
-    const Point target = own.place(vertex), end = own.unit() * target;
+    const Point target = own.place(vertex);
     Over over = move(last, target);
     if (!(over.distance < infinity)) return infinity;
     if (!in_sight(last, own, vertex)) {
