@@ -309,7 +309,7 @@ class HingeCrossings {
 
   // The same where something may be in the way behind the last crossing: that goes from hinge to
   // hinge as labels tell, and only as far as the vertex sees it. Newton's steps would go through
-  // what is in the way. The others are pulled taut to it.
+  // what is in the way.
   [[nodiscard]] Real least_in_sight(const Piece& own, Index vertex, Room& room) const {
     Path& path = room.path;
     Step& last = path.steps.back();

@@ -186,7 +186,9 @@ TEST_CASE("points of a cloud behind a notch in its rim are told") {
         if (j > 2 || i < 18 || i > 21)
           points.positions.push_back({double(i), double(j), bent * (i - 20.) * (i - 20.)});
     const AnyDomain domain(AnyShape::cloud(std::move(points)));
-    const Source source = PointSource::at(static_cast<Index>(from), offset);
+    PointSource at = PointSource::at(static_cast<Index>(from));
+    at.offset = offset;
+    const Source source = at;
     const AnyField field = domain.solve(Serial{}, source);
     const std::vector<double> distance = field.doubles();
     const auto told = field_remarks(domain, field, reach_of(distance, {&source, 1}), false);
