@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <iterator>
 #include <limits>
 #include <random>
 #include <string>
@@ -402,7 +403,11 @@ TEST_CASE("parts: what is wrong is named as in the whole") {
 }
 
 TEST_CASE("parts: merged windows are as accurate as Serial's on curved surfaces") {
+  // At which vertex a window too few is kept, and how much that is there, changes with the cut: of
+  // several cuts, how many vertices are worse than Serial's worst.
+  constexpr std::size_t cuts[] = {1400, 2048, 3000};
   double serial = 0, in_parts = 0, worst_serial = 0, worst = 0;
+  std::size_t vertices = 0, worse = 0;
   for (const auto& file : exact_files("surfaces", ".obj")) {
     const io::Triangles soup = io::read_triangles(file);
     if (soup.triangles.size() > 60'000 || file.stem() == "t79741") continue;  // needles: below
@@ -410,7 +415,7 @@ TEST_CASE("parts: merged windows are as accurate as Serial's on curved surfaces"
     const TriangleMesh<float> mesh(soup.positions, soup.triangles);
     for (const ExactAnswer& exact : exact_answers(file)) {
       const PointSource source = PointSource::at(static_cast<Index>(exact.source));
-      const auto error = [&](const DistanceField<float>& field, double& most) {
+      const auto error = [&](const DistanceField<float>& field, double& most, std::size_t& above) {
         CHECK(field.accuracy == Accuracy::accurate());
         double sum = 0;
         std::size_t count = 0;
@@ -419,18 +424,25 @@ TEST_CASE("parts: merged windows are as accurate as Serial's on curved surfaces"
           const double e = std::abs(static_cast<double>(field.distance[v]) / exact.distance[v] - 1);
           sum += e, ++count;
           most = std::max(most, e);
+          above += e > 2.5e-3;
         }
         return sum / static_cast<double>(count);
       };
-      serial += error(solve(Serial{}, mesh, source), worst_serial);
-      in_parts += error(solve_in_parts<float>(s, {2, 1, 2048}, {source}), worst);
+      std::size_t of_serial = 0;
+      serial += error(solve(Serial{}, mesh, source), worst_serial, of_serial);
+      CHECK(of_serial == 0);
+      for (const std::size_t piece : cuts)
+        in_parts += error(solve_in_parts<float>(s, {2, 1, piece}, {source}), worst, worse) /
+                    std::size(cuts);
+      vertices += std::size(cuts) * exact.distance.size();
     }
   }
   REQUIRE(serial > 0);
   INFO("mean " << in_parts / serial << " of Serial's, worst " << worst << ", Serial's "
-               << worst_serial);
+               << worst_serial << ", worse " << worse << " of " << vertices);
   CHECK(in_parts < 1.05 * serial);
-  CHECK(worst <= 5e-3);  // as of pieces; which vertex is worst is chance
+  CHECK(static_cast<double>(worse) < 1e-4 * static_cast<double>(vertices));
+  CHECK(worst <= 1.5e-2);  // the whole in pieces has 1.3e-2 in one of these cuts
 }
 
 // Merged windows give way to exact ones there. In single precision what lengths are rounded to
