@@ -331,41 +331,6 @@ TEST_CASE("parts: a radius and a budget are kept") {
   }
 }
 
-TEST_CASE("parts: the nearest point, whoever has it") {
-  const Surface s = jittered(9, 2);
-  const std::vector<Position> points = {{.31, .77, .5}, {-1, .4, 0}, {.5, .5, 0}};
-  for (const std::size_t ranks : {1u, 3u}) {
-    std::vector<std::vector<PointSource>> found(ranks);
-    std::vector<char> refused(ranks, 0);
-    ThreadRanks(ranks).run([&](PieceRanks& own) {
-      OpenMP executor{.threads = 1, .piece = 20};
-      executor.ranks = &own;
-      const SurfaceParts<double> parts(executor, RowsOf(s));
-      for (const Position& p : points) found[own.rank()].push_back(parts.nearest(p));
-      try {
-        static_cast<void>(parts.nearest({0, NAN, 0}));
-      } catch (const UsageError&) {
-        refused[own.rank()] = 1;
-      }
-    });
-    for (std::size_t r = 0; r < ranks; ++r) {
-      CHECK(refused[r] != 0);
-      for (std::size_t i = 0; i < points.size(); ++i) {
-        const PointSource& one = found[r][i];
-        REQUIRE(one.simplex < s.faces.size());
-        CHECK(one.simplex == found[0][i].simplex);
-        CHECK(one.barycentric == found[0][i].barycentric);
-        Position at{};
-        for (std::size_t k = 0; k < 3; ++k)
-          for (std::size_t d = 0; d < 3; ++d)
-            at[d] += one.barycentric[k] * s.positions[s.faces[one.simplex][k]][d];
-        CHECK(at[0] == Approx(std::clamp(points[i][0], 0., 1.)).margin(1e-12));
-        CHECK(at[1] == Approx(std::clamp(points[i][1], 0., 1.)).margin(1e-12));
-      }
-    }
-  }
-}
-
 TEST_CASE("parts: what is wrong is named as in the whole") {
   const Surface good = grid(8, 8);
   const auto refused = [&](const Surface& s, const std::string& text) {
