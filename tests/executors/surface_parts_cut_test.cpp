@@ -78,7 +78,7 @@ TEST_CASE("parts: sums over sources in no triangle, whoever has read them") {
   std::mt19937 random(4);
   std::vector<PointSource> sources = {PointSource::at(7)};
   for (int i = 0; i < 500; ++i)
-    sources.push_back({.vertex = s.add(100 + i, 0), .offset = uniform(random)});
+    sources.push_back({.vertex = s.add(100 + i, 0), .offset = std::sqrt(uniform(random))});
   sources.push_back({.vertex = sources[9].vertex, .offset = 2});  // there is a nearer one
   const auto one = solve_in_parts<double>(s, {1, 1, 20}, sources);
   CHECK(one.reached == s.positions.size());
