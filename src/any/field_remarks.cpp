@@ -65,9 +65,7 @@ std::string why_unreached(const AnyDomain& solver, bool bounded) {
       why.append(" in none of its ").append(domain.simplex_name());
     }
   }
-  if (bounded)
-    why.append(why.empty() ? "" : ", and ")
-        .append("--radius or --max-expansions ends the search early");
+  if (bounded) why.append(why.empty() ? "" : ", and ").append(bounded_search);
   return why;
 }
 

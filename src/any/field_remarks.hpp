@@ -20,6 +20,9 @@ struct FieldReach {
 [[nodiscard]] FieldReach reach_of(std::span<const double> distance,
                                   std::span<const Source> sources);
 
+/// Why vertices may not be reached where a radius or a number of expansions was given.
+inline constexpr const char* bounded_search = "--radius or --max-expansions ends the search early";
+
 /// What a user should know of a field though nothing failed, a sentence each: points dropped, work
 /// that ended early, distances that are poor, vertices that no path reaches and why. `bounded`: a
 /// radius or a number of expansions was given.

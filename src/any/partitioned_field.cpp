@@ -30,7 +30,8 @@ void remove_whole(const std::filesystem::path& file) {
 
 // All have written theirs.
 void put_in_place(const std::filesystem::path& file, const io::Field& field,
-                  std::optional<io::FieldPart>& own, std::size_t parts, const PartOf& part) {
+                  std::optional<io::FieldPart>& own, std::span<const std::size_t> parts,
+                  const PartOf& part) {
   part.all_come();
   if (part.number == 0) remove_whole(file);
   part.all_come();
@@ -65,20 +66,23 @@ void write_partitioned(const AnyShape& shape, const std::filesystem::path& file,
       shape.data());
   const io::Field field = {
       shape.positions().size(), shape.positions(), {&*cells, 1}, distance, label, original, error};
-  const std::size_t parts = std::clamp(cells->count(), std::size_t{1}, part.count);
+  std::vector<std::size_t> parts(std::clamp(cells->count(), std::size_t{1}, part.count));
+  std::iota(parts.begin(), parts.end(), std::size_t{0});
   std::optional<io::FieldPart> own;  // none where there are more processes than cells
-  if (part.number < parts) own.emplace(file, field, part.number, parts);
+  if (part.number < parts.size()) own.emplace(file, field, part.number, parts.size());
   put_in_place(file, field, own, parts, part);
 }
 
 void write_part(const SurfacePart& surface, const std::filesystem::path& file,
                 std::span<const double> distance, std::span<const std::int32_t> label,
-                std::span<const double> error, const PartOf& part) {
+                std::span<const double> error, const PartOf& part,
+                std::span<const std::size_t> parts) {
   const io::Cells cells = io::cells_of<3>(5, surface.triangle);
   const io::Field field = {
       surface.vertex.size(), surface.position, {&cells, 1}, distance, label, surface.vertex, error};
-  std::optional<io::FieldPart> own(std::in_place, file, field, part.number);
-  put_in_place(file, field, own, part.count, part);
+  std::optional<io::FieldPart> own;
+  if (!surface.vertex.empty()) own.emplace(file, field, part.number);
+  put_in_place(file, field, own, parts, part);
 }
 
 void check_partitioned(const AnyShape& shape, const std::filesystem::path& file) {

@@ -25,11 +25,13 @@ void write_partitioned(const AnyShape& shape, const std::filesystem::path& file,
                        std::span<const double> distance, std::span<const std::int32_t> label,
                        std::span<const double> error, const PartOf& part);
 
-/// The same of a surface that no process has as a whole: each writes what it has. Throws Error as
-/// above.
+/// The same of a surface that no process has as a whole: each writes what it has. `parts`: the
+/// processes that have a vertex, ascending, the first among them; others write nothing. Throws
+/// Error as above.
 void write_part(const SurfacePart& surface, const std::filesystem::path& file,
                 std::span<const double> distance, std::span<const std::int32_t> label,
-                std::span<const double> error, const PartOf& part);
+                std::span<const double> error, const PartOf& part,
+                std::span<const std::size_t> parts);
 
 /// Throws UsageError unless the shape can be written so.
 void check_partitioned(const AnyShape& shape, const std::filesystem::path& file);

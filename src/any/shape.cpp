@@ -387,8 +387,7 @@ PointSource AnyShape::closest(const std::array<double, 3>& point) const {
   const SimplexPoint found = closest_of(*this, point);
   const auto at = corners(found.simplex);
   for (std::size_t i = 0; i < at.size(); ++i) {
-    // Nearer to the corner than a rounding error of the coordinates.
-    if (found.barycentric[i] >= 1 - 1e-12) return PointSource::at(at[i]);
+    if (found.barycentric[i] >= corner_share) return PointSource::at(at[i]);
   }
   return PointSource::in(static_cast<Index>(found.simplex), found.barycentric);
 }

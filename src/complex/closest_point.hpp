@@ -8,6 +8,10 @@
 
 namespace plexway {
 
+/// With such a share of a corner a point is the corner: nearer than a rounding error of the
+/// coordinates.
+inline constexpr double corner_share = 1 - 1e-12;
+
 /// A point of a simplex.
 struct SimplexPoint {
   std::size_t simplex = 0;

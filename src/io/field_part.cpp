@@ -85,7 +85,8 @@ FieldPart::FieldPart(const std::filesystem::path& file, const Field& own, std::s
   out_->flush();
 }
 
-void write_pvtu(const std::filesystem::path& file, const Field& whole, std::size_t parts) {
+void write_pvtu(const std::filesystem::path& file, const Field& whole,
+                std::span<const std::size_t> parts) {
   OutputFile out(file);
   const auto array = [&](std::string_view type, std::string_view name, std::string_view more = "") {
     out.write("      <PDataArray type=\"");
@@ -109,7 +110,7 @@ void write_pvtu(const std::filesystem::path& file, const Field& whole, std::size
   out.write("    </PPointData>\n    <PPoints>\n");
   array("Float64", "Points", " NumberOfComponents=\"3\"");
   out.write("    </PPoints>\n");
-  for (std::size_t part = 0; part < parts; ++part)
+  for (const std::size_t part : parts)
     out.write("    <Piece Source=\"" + escaped(part_name(file, part)) + "\"/>\n");
   out.write("  </PUnstructuredGrid>\n</VTKFile>\n");
   out.commit();

@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <filesystem>
 #include <memory>
+#include <span>
 
 #include "io/field_formats.hpp"
 #include "io/output_file.hpp"
@@ -31,7 +32,9 @@ class FieldPart {
 /// Does a name end in .pvtu, in any case?
 [[nodiscard]] bool is_partitioned(const std::filesystem::path& file);
 
-/// The file that names the parts. Write it when they are all in place. Throws as above.
-void write_pvtu(const std::filesystem::path& file, const Field& whole, std::size_t parts);
+/// The file that names the parts of these numbers. Write it when they are all in place. Throws as
+/// above.
+void write_pvtu(const std::filesystem::path& file, const Field& whole,
+                std::span<const std::size_t> parts);
 
 }  // namespace plexway::io

@@ -71,6 +71,9 @@ class PlyText {
   TextScanner scanner_;
 };
 
+/// What may follow the last element.
+inline constexpr std::string_view ply_padding{"\n\r \0", 4};
+
 /// The body as bytes.
 class PlyBytes : public BinaryNumbers<PlyBytes> {
  public:
@@ -101,7 +104,7 @@ class PlyBytes : public BinaryNumbers<PlyBytes> {
 
   void finish() {
     for (std::size_t i = at_; i < bytes_.size(); ++i)
-      if (const char c = bytes_[i]; c != '\n' && c != '\r' && c != ' ' && c != '\0')
+      if (ply_padding.find(bytes_[i]) == ply_padding.npos)
         fail("the file goes on after its last element");
   }
 

@@ -87,14 +87,23 @@ struct PlyRows::State {
     }
   }
 
-  void read_header() {
+  /// Of more and more bytes, until it ends in them.
+  void parse_header() {
     constexpr std::uint64_t most = std::uint64_t{1} << 24;
     for (std::uint64_t room = std::uint64_t{1} << 16;; room *= 4) {
       head.resize(static_cast<std::size_t>(std::min(room, size)));
       read(0, head);
-      if (head.find("end_header") != head.npos || room >= std::min(most, size)) break;
+      try {
+        header = parse_ply_header(head, name);
+        return;
+      } catch (const InputError&) {
+        if (room >= std::min(most, size)) throw;
+      }
     }
-    header = parse_ply_header(head, name);
+  }
+
+  void read_header() {
+    parse_header();
     if (header.format == PlyFormat::ascii)
       fail("is text, which is not read in parts: convert it to a binary .ply");
     surface = std::make_unique<PlySurface>(header, name);
@@ -102,16 +111,29 @@ struct PlyRows::State {
       fail("has no faces; a surface needs at least one triangle");
     std::uint64_t at = header.size;
     for (const PlyElement& element : header.elements) {
-      if (element.properties.empty()) continue;
+      const bool has_vertices = &element == surface->vertex.element;
+      if (element.properties.empty() || (element.count == 0 && !has_vertices)) continue;
       const std::uint64_t row = row_size(element, surface->corners, name);
       if (element.count > (size - at) / row)
         fail("the header says " + std::to_string(element.count) + " " + quote(element.name) +
              " elements, but only " + std::to_string(size - at) + " bytes follow");
-      if (&element == surface->vertex.element) vertices = {at, row};
+      if (has_vertices) vertices = {at, row};
       if (&element == surface->face) faces = {at, row};
       at += element.count * row;
-      // What follows both does not matter.
-      if (vertices.size != 0 && faces.size != 0) break;
+    }
+    check_end(at);
+  }
+
+  /// As PlyBytes::finish.
+  void check_end(std::uint64_t at) const {
+    std::string some;
+    for (; at < size; at += some.size()) {
+      some.resize(static_cast<std::size_t>(std::min(size - at, std::uint64_t{1} << 16)));
+      read(at, some);
+      if (const std::size_t other = some.find_first_not_of(ply_padding); other != some.npos)
+        fail("byte " + std::to_string(at + other) +
+             ": the file goes on after its last element: it has more than its header says, or "
+             "faces with more than three corners, and in parts only triangles are read");
     }
   }
 

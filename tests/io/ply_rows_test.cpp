@@ -96,6 +96,33 @@ TEST_CASE("ranges of a binary .ply are rows of the whole") {
   }
 }
 
+TEST_CASE("a .ply is read in parts whatever its header's length, and what comments say") {
+  const testing::Folder folder;
+  const std::string good = made(false), file = folder.at("a.ply").string();
+  const std::string said = "comment of ours", last = "end_header";
+  const auto check = [&](const std::string& comment) {
+    std::string text = good;
+    text.replace(text.find(said), said.size(), "comment " + comment);
+    folder.write("a.ply", text);
+    CAPTURE(text.find(last), text.size());
+    std::string cause;
+    try {
+      const io::PlyRows rows(file);
+      CHECK(rows.face_count() == faces);
+      std::vector<std::array<Index, 3>> corners(faces);
+      rows.read_faces(0, corners);
+      CHECK(corners[8] == std::array<Index, 3>{1, 2, 3});
+    } catch (const InputError& error) {
+      cause = error.what();
+    }
+    CHECK(cause.substr(0, 200).empty());
+  };
+  // The header ends about where the first look at it does.
+  const std::size_t at = good.find(last) + last.size() - said.size() + 8;
+  for (std::size_t end = 65536 - 12; end <= 65536 + 60; ++end) check(std::string(end - at, 'c'));
+  check("on the end_header line" + std::string(300'000, ' '));
+}
+
 TEST_CASE("a .ply that has no rows of one size, or not all of them, is refused") {
   const testing::Folder folder;
   const auto has = [](const std::string& text, const std::string& part) {
@@ -122,6 +149,25 @@ TEST_CASE("a .ply that has no rows of one size, or not all of them, is refused")
   has(changed("property int m", "property list uchar int m"), "has a list 'm'");
   has(changed("vertex_indices", "corners"), "vertex_indices");
   has(changed("element face 9", "element face 0"), "has no faces");
+  // More than the header says; what is blank, or not read but said, may follow.
+  has(changed("element face 9", "element face 8"), "goes on after its last element");
+  folder.write("a.ply", good + "x");
+  has(complaint(file), "goes on after its last element");
+  folder.write("a.ply", good + std::string(200'000, '\0') + "x");
+  has(complaint(file), "byte " + std::to_string(good.size() + 200'000));
+  folder.write("a.ply", good + std::string(200'000, '\0') + "\n \r\n");
+  CHECK(complaint(file, 0, faces).empty());
+  const auto with_more = [&](const std::string& element, const std::string& rows) {
+    std::string text = good + rows;
+    text.insert(text.find("end_header"), element);
+    folder.write("a.ply", text);
+    return complaint(file, 0, faces);
+  };
+  CHECK(with_more("element edge 2\nproperty short a\n", "1234").empty());
+  has(with_more("element edge 2\nproperty short a\n", "12345"), "goes on");
+  has(with_more("element edge 2\nproperty short a\n", "123"), "elements, but only 3");
+  has(with_more("element strip 1\nproperty list uchar int a\n", "\1abcd"), "has a list 'a'");
+  CHECK(with_more("element strip 0\nproperty list uchar int a\n", "").empty());
   folder.write("a.ply", "");
   has(complaint(file), "is empty");
   has(complaint(folder.at("none.ply").string()), "no such file");

@@ -1,10 +1,13 @@
 // A surface in parts by the tool: no rank has the whole.
 
+#include <array>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <filesystem>
 #include <limits>
+#include <sstream>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "folder.hpp"
@@ -19,7 +22,8 @@ Words from(const std::string& input, const Words& more) {
   return Words{"distance", input, "--source", "vertex:0", "--source", "point:0.4,0.3,0.2"} + more;
 }
 
-// The field in parts, by the surface's numbers, and how many triangles the parts have.
+// The field in parts, by the surface's numbers, and how many triangles the parts have. What no part
+// has is no number.
 struct Parts {
   Parts(const fs::path& file, int parts, std::size_t vertices)
       : distance(vertices, std::numeric_limits<double>::quiet_NaN()), label(vertices, -7) {
@@ -27,7 +31,7 @@ struct Parts {
     for (int p = 0; p < parts; ++p) {
       CAPTURE(p);
       const std::string name = file.stem().string() + "_" + std::to_string(p) + ".vtu";
-      CHECK(names.find("<Piece Source=\"" + name + "\"/>") != std::string::npos);
+      if (names.find("<Piece Source=\"" + name + "\"/>") == std::string::npos) continue;
       const Vtu part(file.parent_path() / name);
       const auto original = part.array<std::uint32_t>("original");
       const auto d = part.array<double>("distance");
@@ -49,6 +53,31 @@ struct Parts {
   std::size_t triangles = 0;
   bool agree = true;
 };
+
+// An .off with its last two vertices in the other order, and the same triangles.
+std::string swapped(const std::string& off) {
+  std::istringstream in(off);
+  std::string word;
+  std::size_t vertices = 0, faces = 0, edges = 0;
+  in >> word >> vertices >> faces >> edges;
+  std::vector<std::array<double, 3>> at(vertices);
+  for (auto& p : at) in >> p[0] >> p[1] >> p[2];
+  std::swap(at[vertices - 1], at[vertices - 2]);
+  std::ostringstream out;
+  out << "OFF\n" << vertices << ' ' << faces << " 0\n";
+  for (const auto& p : at) out << p[0] << ' ' << p[1] << ' ' << p[2] << '\n';
+  for (std::size_t f = 0; f < faces; ++f) {
+    std::size_t count = 0;
+    in >> count;
+    out << count;
+    for (std::size_t v = 0, i = 0; i < count; ++i) {
+      in >> v;
+      out << ' ' << (v == vertices - 1 ? v - 1 : v == vertices - 2 ? v + 1 : v);
+    }
+    out << '\n';
+  }
+  return out.str();
+}
 
 }  // namespace
 
@@ -135,10 +164,17 @@ TEST_CASE("what ranks cannot do in parts is said once, and no file is left") {
   refused({"--source", "vertex:25"}, 3, "vertex:25");
   refused_by(Words{"-n", "2"} + distance(text), 3, "square.off");
   refused_by(Words{"-n", "2"} + distance(folder.at("none.ply")), 3, "none.ply");
-  // A rank without its file; two of one name that are not the same.
+  // A rank without its file.
   refused_by(
       Words{"-n", "1"} + distance(input) + Words{":", "-n", "1"} + distance(folder.at("none.ply")),
       3, "rank 1: ");
+  refused({"--voxel", "1"}, 2, "--voxel");
+  refused({"--grid", "a"}, 2, "--grid");
+  refused({"--view", "1,2"}, 2, "--view");
+  refused({"--isoline-step", "1"}, 2, "--isolines-out");
+  refused_by(Words{"-n", "2", PLEXWAY_TEST_MPI_TOOL, "distance", input, text} +
+                 Words{"-s", "vertex:0", "--in-parts", "-o", out},
+             2, "the further file " + text);
   const Outcome alone = run_tool({"distance", input, "-s", "vertex:0", "--in-parts", "-o", out});
   CHECK(alone.code == 2);
   CHECK(folder.files() == files);
@@ -149,16 +185,65 @@ TEST_CASE("what ranks cannot do in parts is said once, and no file is left") {
   CHECK(shorter.code == 3);
   CHECK(complaints(shorter).size() == 1);
   fs::remove(cut);
+  // Two files of as many vertices and triangles, of which one is numbered in another way; and what
+  // is wrong with the content of one file, which several ranks read.
+  const auto refused_for = [&](const Words& ranks, const std::string& why) {
+    const Outcome run = run_program(*mpirun() + ranks);
+    CAPTURE(run.err);
+    CHECK(run.code == 3);
+    REQUIRE(complaints(run).size() == 1);
+    CHECK(complaints(run)[0].find(why) != std::string::npos);
+    CHECK(!fs::exists(out));
+  };
+  const std::string other = folder.at("other.ply"), huge = folder.at("huge.ply"),
+                    wrong = folder.at("wrong.ply");
+  const std::string other_text = folder.write("other.off", swapped(content(text)));
+  REQUIRE(run_tool({"convert", other_text, other, "--quiet"}).code == 0);
+  REQUIRE(content(other).size() == bytes.size());
+  refused_for(Words{"-n", "1"} + distance(input) + Words{":", "-n", "1"} + distance(other),
+              "the ranks of one solve need the same domain");
+  std::string broken = bytes;
+  broken.back() = '\x7f';  // of the last corner
+  folder.write("wrong.ply", broken);
+  refused_for(Words{"-n", "3"} + distance(wrong), "wrong.ply");
+  // A corner occurs twice: what only the surface looks at names the file, too.
+  broken = bytes;
+  broken.replace(broken.size() - 4, 4, broken.substr(broken.size() - 8, 4));
+  folder.write("huge.ply", broken);
+  refused_for(Words{"-n", "3"} + distance(huge), "huge.ply: face ");
+  for (const std::string& file : {other, other_text, wrong, huge}) fs::remove(file);
   // A disk that gets full.
+  const std::string large_text = folder.write("hills.off", hills()), large = folder.at("hills.ply");
+  REQUIRE(run_tool({"convert", large_text, large, "--quiet"}).code == 0);
   folder.write("d.pvtu", "an older one");
   fs::create_symlink("/dev/full", folder.at("d_1.vtu"));
-  const Outcome full = run_program(*mpirun() + Words{"-n", "2"} + distance(input));
+  const Outcome full = run_program(*mpirun() + Words{"-n", "2"} + distance(large));
   CAPTURE(full.err);
   CHECK(full.code == 1);
   REQUIRE(complaints(full).size() == 1);
   CHECK(complaints(full)[0].find("rank 1: cannot write " + folder.at("d_1.vtu").string()) !=
         std::string::npos);
   CHECK(content(out) == "an older one");
+}
+
+TEST_CASE("a rank that has nothing in parts writes nothing, and why a vertex is not reached") {
+  if (!mpirun()) return;
+  const testing::Folder folder;
+  const std::string text = folder.write("square.off", square_off(5)),
+                    input = folder.at("square.ply"), out = folder.at("d.pvtu");
+  REQUIRE(run_tool({"convert", text, input, "--quiet"}).code == 0);
+  const Outcome run = run_ranks(3, {"distance", input, "--source", "vertex:0", "--source",
+                                    "point:1,1,7", "--in-parts", "--radius", "0.3", "--out", out});
+  INFO(run.err << run.out);
+  REQUIRE(run.code == 0);
+  const std::string names = content(out);
+  CHECK(names.find("d_0.vtu") != std::string::npos);
+  CHECK(names.find("d_1.vtu") == std::string::npos);
+  CHECK(!fs::exists(folder.at("d_1.vtu")));
+  CHECK(!fs::exists(folder.at("d_2.vtu")));
+  const auto said = run.err + run.out;
+  CHECK(said.find("not reached (inf): --radius or --max-expansions") != std::string::npos);
+  CHECK(said.find(" 7 away)") != std::string::npos);
 }
 
 TEST_CASE("a rank that dies in parts leaves no field that looks whole") {

@@ -52,6 +52,12 @@ struct SurfacePartsSummary {
   ///@}
 };
 
+/// A point of a surface in parts.
+struct PartPoint {
+  PointSource source;   ///< by the surface's numbers
+  double distance = 0;  ///< from the point that was asked for, in the input's unit
+};
+
 /// What a process has of a surface, as it was read: the triangles of its pieces and their vertices,
 /// and of vertices of no triangle those that it read.
 struct SurfacePart {
@@ -80,12 +86,12 @@ struct PartField : DistanceField<Real> {
 
 /// A triangle surface in parts, of which each of several processes has its own and nobody all.
 ///
-/// Faces are dealt by the place of their middles on a space-filling curve: it is cut into pieces of
-/// about `OpenMP::piece` triangles (0: 16384, at most 65536 pieces), and piece p is that of process
-/// p modulo their number (`OpenMP::ranks`). A piece also has the triangles of others that share a
-/// vertex with it. The cut depends on the surface alone; so do the distances, which are the same to
-/// the last bit with any number of processes and threads. They are as accurate as those of a
-/// TriangleMesh.
+/// A space-filling curve is cut so that about `OpenMP::piece` triangles (0: 16384, at most 65536
+/// pieces) have their middles between two cuts. A triangle goes to the first of the pieces that its
+/// corners are in, and piece p is that of process p modulo their number (`OpenMP::ranks`, which
+/// must outlive this). A piece also has the triangles of others that share a vertex with it. The
+/// cut depends on the surface alone; so do the distances, which are the same to the last bit with
+/// any number of processes and threads. They are as accurate as those of a TriangleMesh.
 ///
 /// All processes must call everything here, in the same order, with the same arguments; of what
 /// throws on one only, the others must be ended.
@@ -103,9 +109,10 @@ class SurfaceParts {
 
   /// What it is made of.
   [[nodiscard]] const SurfacePartsSummary& summary() const;
-  /// The nearest point of the surface: of several that of the lowest face. Throws UsageError for
-  /// coordinates that are not finite. Cost: a look at each triangle.
-  [[nodiscard]] PointSource nearest(const std::array<double, 3>& point) const;
+  /// The nearest point of the surface: a vertex where rounding makes no difference, as AnyShape
+  /// does; of several, which rounding does not tell apart, that of the lowest face. Throws
+  /// UsageError for coordinates that are not finite. Cost: two looks at each triangle.
+  [[nodiscard]] PartPoint nearest(const std::array<double, 3>& point) const;
   /// The distance of every vertex of this part from the nearest of `sources`, which have the
   /// surface's numbers. Of the options count accuracy (by windows), radius, max_expansions and
   /// progress. Throws as plexway::solve does; EndlessError where windows become too many.

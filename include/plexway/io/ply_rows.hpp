@@ -17,8 +17,8 @@ namespace plexway::io {
 class PlyRows final : public SurfaceRows {
  public:
   /// Throws InputError "FILE:LINE: cause" or "FILE: cause" when it is missing, no regular file,
-  /// malformed or too short, has no face, or when its rows have no fixed size: it is text, or has
-  /// lists besides the corners of faces.
+  /// malformed, too short or longer than its header says, has no face, or when its rows have no
+  /// fixed size: it is text, or has lists besides the corners of faces.
   explicit PlyRows(const std::filesystem::path& file);
   ~PlyRows() override;
   PlyRows(const PlyRows&) = delete;

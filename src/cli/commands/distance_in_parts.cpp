@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <string>
 #include <type_traits>
 #include <utility>
@@ -14,6 +15,7 @@
 #include "any/arguments/point_argument.hpp"
 #include "any/arguments/require.hpp"
 #include "any/arguments/source_argument.hpp"
+#include "any/field_remarks.hpp"
 #include "any/info/rank_counts.hpp"
 #include "any/info/report.hpp"
 #include "any/info/solve_words.hpp"
@@ -24,6 +26,8 @@
 #include "cli/report/console.hpp"
 #include "cli/report/distance_output.hpp"
 #include "cli/report/progress.hpp"
+#include "executors/parts/same_rows.hpp"
+#include "executors/piece_post.hpp"
 #include "executors/same_work.hpp"
 
 namespace plexway::cli {
@@ -42,9 +46,13 @@ void refuse_whole(const DistanceCommand& command, std::span<const SetArgument> a
   refuse("--metric", !command.metric.text.empty());
   refuse("--triangulation " + command.triangulation.name,
          triangulation != Triangulation::automatic && triangulation != Triangulation::input);
-  refuse("--weld", command.weld.has_value() || !command.more.empty());
+  refuse("the further file " + (command.more.empty() ? "" : command.more.front()),
+         !command.more.empty());
+  refuse("--weld", command.weld.has_value());
   refuse("--as " + command.as, !command.as.empty() && command.as != "surface");
   refuse("--repair", command.fill.volume.repair);
+  refuse("--voxel", command.fill.volume.voxel.has_value());
+  refuse("--grid", !command.fill.volume.grid.empty());
   refuse("--max-volume and the like", command.fill.given());
   refuse("points and their neighbours", command.cloud.given());
   refuse("--accuracy fast", command.solve.accuracy == "fast");
@@ -54,15 +62,32 @@ void refuse_whole(const DistanceCommand& command, std::span<const SetArgument> a
     refuse("--source " + argument.text, argument.kind != SetArgument::Kind::point);
 }
 
+/// The surface does not know which file it is of; its rows do.
+template <class Work>
+auto with_file_name(const std::string& file, const Work& work) {
+  try {
+    return work();
+  } catch (const InputError& error) {
+    const std::string text = error.what();
+    throw InputError(text.starts_with(file) ? text : file + ": " + text);
+  }
+}
+
+/// Where a solve starts, and how that is told.
+struct Sources {
+  std::vector<PointSource> points;
+  std::vector<std::string> texts;
+};
+
 /// Numbers of vertices are the file's; points are looked for.
 template <class Real>
-std::vector<PointSource> sources_on(const SurfaceParts<Real>& surface,
-                                    const DistanceCommand& command,
-                                    std::span<const SetArgument> arguments) {
-  std::vector<PointSource> sources;
+Sources sources_on(const SurfaceParts<Real>& surface, const DistanceCommand& command,
+                   std::span<const SetArgument> arguments) {
+  Sources sources;
   for (const SetArgument& argument : arguments) {
     const SourceArgument where = parse_source(argument.place);
-    PointSource source;
+    PointSource& source = sources.points.emplace_back();
+    std::string& text = sources.texts.emplace_back(argument.place);
     if (const Index* const vertex = std::get_if<Index>(&where.where)) {
       if (*vertex >= surface.summary().vertices)
         throw InputError(command.input + ": source " + argument.place +
@@ -70,10 +95,14 @@ std::vector<PointSource> sources_on(const SurfaceParts<Real>& surface,
                          std::to_string(surface.summary().vertices - 1));
       source = PointSource::at(*vertex);
     } else {
-      source = surface.nearest(std::get<std::array<double, 3>>(where.where));
+      const PartPoint found = surface.nearest(std::get<std::array<double, 3>>(where.where));
+      source = found.source;
+      text += source.vertex != none ? " (vertex " + std::to_string(source.vertex)
+                                    : " (triangle " + std::to_string(source.simplex);
+      text += ", " + short_number(found.distance) + " away)";
     }
     source.offset = argument.offset;
-    sources.push_back(source);
+    if (argument.offset > 0) text += " + " + short_number(argument.offset);
   }
   return sources;
 }
@@ -88,10 +117,8 @@ void solve_in_parts(DistanceCommand& command, const PropagateOptions& wanted,
   const io::PlyRows rows(command.input);
   among.all_come();
   // Another file of that name, or another command, would end in a wait without end.
-  std::vector<std::string> words = {std::to_string(rows.vertex_count()),
-                                    std::to_string(rows.face_count())};
-  check_same_words(among.pieces, words, "domain");
-  words = command.sources;
+  check_same_rows(among.pieces, rows);
+  std::vector<std::string> words = command.sources;
   check_same_words(among.pieces, words, "sources");
   words = {command.solve.accuracy, command.solve.precision, std::to_string(wanted.radius),
            std::to_string(wanted.max_expansions)};
@@ -101,20 +128,30 @@ void solve_in_parts(DistanceCommand& command, const PropagateOptions& wanted,
 
   OpenMP team{.threads = command.solve.executor.threads.value_or(among.threads)};
   team.ranks = &among.pieces;
-  SurfaceParts<Real> surface(team, rows);
+  SurfaceParts<Real> surface =
+      with_file_name(command.input, [&] { return SurfaceParts<Real>(team, rows); });
   const SurfacePartsSummary& summary = surface.summary();
-  const std::vector<PointSource> sources = sources_on(surface, command, arguments);
+  const Sources sources = sources_on(surface, command, arguments);
   const double build = building.seconds();
 
   progress.phase("solving");
   PropagateOptions options = wanted;
   options.progress = progress.callback();
   const Stopwatch solving;
-  const PartField<Real> field = surface.solve(sources, options);
+  const PartField<Real> field =
+      with_file_name(command.input, [&] { return surface.solve(sources.points, options); });
   const double solve = solving.seconds();
 
   SurfacePart part;
-  if (!command.out.empty()) part = surface.part(rows);
+  std::vector<std::size_t> parts;  // that have a vertex
+  if (!command.out.empty()) {
+    part = surface.part(rows);
+    std::vector<std::uint64_t> vertices(among.pieces.count(), 0);
+    vertices[among.pieces.rank()] = part.vertex.size();
+    add_up(&among.pieces, vertices);
+    for (std::size_t r = 0; r < vertices.size(); ++r)
+      if (vertices[r] > 0) parts.push_back(r);
+  }
   const RankCounts ranks = rank_counts(among.pieces, field.statistics.sent_bytes);
   among.all_come();
   if (!command.out.empty()) {
@@ -124,7 +161,7 @@ void solve_in_parts(DistanceCommand& command, const PropagateOptions& wanted,
     std::vector<std::int32_t> label;
     for (const Index one : field.label) label.push_back(static_cast<std::int32_t>(one));
     write_part(part, command.out, distance, label, error,
-               {among.pieces.rank(), among.pieces.count(), among.all_come});
+               {among.pieces.rank(), among.pieces.count(), among.all_come}, parts);
   }
   progress.clear();
   const auto check_reached = [&] {
@@ -171,12 +208,9 @@ void solve_in_parts(DistanceCommand& command, const PropagateOptions& wanted,
                            counted(summary.faces, "triangles") + ", in " +
                            counted(summary.pieces, "pieces") + " with " +
                            counted(summary.ghosts, "ghosts"));
-  for (std::size_t i = 0; i < sources.size(); ++i) {
-    std::string text = arguments[i].place;
-    if (sources[i].vertex == none) text += " (triangle " + std::to_string(sources[i].simplex) + ")";
-    if (arguments[i].offset > 0) text += " + " + short_number(arguments[i].offset);
-    table.add(sources.size() == 1 ? "source" : "source " + std::to_string(i), text);
-  }
+  for (std::size_t i = 0; i < sources.texts.size(); ++i)
+    table.add(sources.texts.size() == 1 ? "source" : "source " + std::to_string(i),
+              sources.texts[i]);
   std::string reached =
       std::to_string(field.reached) + " of " + counted(summary.vertices, "vertices");
   if (field.reached > 0)
@@ -201,12 +235,14 @@ void solve_in_parts(DistanceCommand& command, const PropagateOptions& wanted,
   if (!field.complete)
     say_note("stopped after " + counted(statistics.expansions, "expansions") +
              ": distances may still be too long");
-  if (const std::size_t left = summary.vertices - field.reached; left > 0)
-    say_note(counted(left, "vertices") + " not reached (inf)" +
-             (summary.unreferenced_vertices > 0
-                  ? ": " + counted(summary.unreferenced_vertices, "vertices") +
-                        " in none of its triangles"
-                  : std::string()));
+  const std::size_t left = summary.vertices - field.reached;
+  if (left == 0) return;
+  std::string why;
+  if (summary.unreferenced_vertices > 0)
+    why = counted(summary.unreferenced_vertices, "vertices") + " in none of its triangles";
+  if (command.solve.radius || command.solve.max_expansions)
+    why.append(why.empty() ? "" : ", and ").append(bounded_search);
+  say_note(counted(left, "vertices") + " not reached (inf)" + (why.empty() ? "" : ": " + why));
 }
 
 }  // namespace
@@ -217,6 +253,8 @@ void run_distance_in_parts(DistanceCommand command) {
         "--in-parts is for ranks: mpirun -n 4 plexway-mpi distance FILE.ply --in-parts ...");
   if (!command.leads()) command.quiet = true;
   const std::vector<SetArgument> arguments = parse_source_sets(command.sources);
+  check_picture(command.picture, command.input);
+  check_isolines(command.isolines, command.input);
   refuse_whole(command, arguments);
   const PropagateOptions options = propagate_options(command.solve);
   const Precision precision = precision_of(command.solve);

@@ -40,7 +40,7 @@ std::size_t CurveCells::digit(const CurvePlace& place, int depth) {
 
 CurveCells::CurveCells(PieceRanks* ranks, std::span<const CurvePlace> places, std::size_t count,
                        std::size_t pieces)
-    : nodes_{{count, none, 0}} {
+    : nodes_{{count, none, none}} {
   // Finer than a piece, so that pieces come out even.
   const std::uint64_t most = std::max<std::uint64_t>(count / (16 * pieces), 1);
   std::vector<Index> node(places.size(), 0);  // the finest that holds it
@@ -50,7 +50,7 @@ CurveCells::CurveCells(PieceRanks* ranks, std::span<const CurvePlace> places, st
     for (std::size_t n = begin; n < end; ++n)
       if (nodes_[n].count > most && pieces > 1) {
         nodes_[n].first = static_cast<Index>(nodes_.size());
-        nodes_.resize(nodes_.size() + ways, {0, none, 0});
+        nodes_.resize(nodes_.size() + ways, {0, none, none});
       }
     if (nodes_.size() == end) break;
     std::vector<std::uint64_t> counts(nodes_.size() - end);

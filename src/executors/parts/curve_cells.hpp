@@ -34,6 +34,7 @@ class CurveCells {
   [[nodiscard]] std::size_t pieces() const { return sizes_.size(); }
   /// Triangles of each.
   [[nodiscard]] std::span<const std::uint64_t> sizes() const { return sizes_; }
+  /// `none` in a cell where none of the places is.
   [[nodiscard]] Index piece_of(const CurvePlace& place) const;
 
  private:

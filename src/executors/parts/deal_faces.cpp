@@ -1,6 +1,7 @@
 #include "executors/parts/deal_faces.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <string>
 #include <tuple>
 
@@ -107,12 +108,15 @@ DealtFaces deal_faces(PieceRanks* ranks, const SurfaceRows& rows, const VertexHo
     constexpr double cells = 2097151;  // 21 bits
     double width = 0;                  // halves: no overflow near 1e308
     for (std::size_t d = 0; d < 3; ++d) width = std::max(width, box.high[d] / 2 - box.low[d] / 2);
-    const double scale = width > 0 ? 0.5 * cells / width : 0;
+    // To about 1 first, by a power of two: what divides by a width may overflow.
+    int exponent = 0;
+    const double share = std::frexp(width, &exponent);
+    const double scale = width > 0 ? 0.5 * cells / share : 0;
     const auto key_of = [&](const std::array<double, 3>& point) {
       std::array<std::uint32_t, 3> cell;
       for (std::size_t d = 0; d < 3; ++d)
-        cell[d] =
-            static_cast<std::uint32_t>(std::clamp((point[d] - box.low[d]) * scale, 0., cells));
+        cell[d] = static_cast<std::uint32_t>(
+            std::clamp(std::ldexp(point[d] - box.low[d], -exponent) * scale, 0., cells));
       return hilbert_key(cell);
     };
     for (std::size_t f = 0; f < faces.size(); ++f)
@@ -121,13 +125,14 @@ DealtFaces deal_faces(PieceRanks* ranks, const SurfaceRows& rows, const VertexHo
     const CurveCells curve(ranks, places, count, wanted);
     cut_into = curve.pieces();
     // A face is its corners' first piece's, so that cuts run along edges from vertex to vertex and
-    // not to and fro between them.
+    // not to and fro between them. Corners where no middles are, as of long faces, do not count.
     std::vector<Index> piece(corners.vertices.size());
     for (std::size_t v = 0; v < piece.size(); ++v)
       piece[v] = curve.piece_of({key_of(corners.positions[v]), corners.vertices[v]});
     for (std::size_t f = 0; f < faces.size(); ++f) {
       const auto& [a, b, c] = corners.faces[f];
-      pieces_of[f] = std::min({piece[a], piece[b], piece[c]});
+      const Index first = std::min({piece[a], piece[b], piece[c]});
+      pieces_of[f] = first != none ? first : curve.piece_of(places[f]);
     }
   }
   const std::vector<std::uint64_t> sizes = leave_out_empty(ranks, cut_into, pieces_of);

@@ -26,8 +26,9 @@ struct DealtFaces {
   std::size_t pieces = 0;        ///< of all processes
 };
 
-/// Reads this process's range of faces and deals all to pieces of about `size` by the place of
-/// their middles along a curve. All processes call it. Throws InputError naming the face for a
+/// Reads this process's range of faces and deals all to pieces of about `size`: along a curve that
+/// is cut by where their middles lie, each to the first of its corners' pieces. All processes call
+/// it. Throws InputError naming the face for a
 /// vertex out of range or twice in it, no face, or too many.
 [[nodiscard]] DealtFaces deal_faces(PieceRanks* ranks, const SurfaceRows& rows,
                                     const VertexHomes& homes, std::size_t size);

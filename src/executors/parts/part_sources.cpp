@@ -99,56 +99,88 @@ PartSources part_sources(PieceRanks* ranks, const PartPieces<Real>& pieces,
 }
 
 template <class Real>
-PointSource nearest_on(const Team& team, const PartPieces<Real>& pieces,
-                       const std::array<double, 3>& point) {
+PartPoint nearest_on(const Team& team, const PartPieces<Real>& pieces,
+                     const std::array<double, 3>& point) {
   for (const double x : point)
     if (!std::isfinite(x)) throw UsageError("a point's coordinates must be finite");
-  struct Found {
-    double distance = std::numeric_limits<double>::infinity();
-    PointSource source;
-    [[nodiscard]] bool operator<(const Found& other) const {
-      return std::pair(distance, source.simplex) < std::pair(other.distance, other.source.simplex);
-    }
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  // As a piece sees it; in mean edges.
+  const auto from = [&](const PartPiece<Real>& part) {
+    std::array<double, 3> seen;
+    for (std::size_t d = 0; d < 3; ++d) seen[d] = (point[d] - part.origin[d]) / pieces.unit();
+    return seen;
   };
-  std::vector<Found> of_part(pieces.parts().size());
+  std::vector<double> of_part(pieces.parts().size(), infinity);
+  std::vector<std::vector<double>> distances(of_part.size());  // of own triangles
   team.each(of_part.size(), [&](std::size_t i) {
     const PartPiece<Real>& part = pieces.parts()[i];
     const auto positions = part.mesh->positions();
-    std::array<double, 3> from;
-    for (std::size_t d = 0; d < 3; ++d) from[d] = (point[d] - part.origin[d]) / pieces.unit();
-    std::vector<std::array<std::uint32_t, 3>> triangles(part.own);
+    const auto seen = from(part);
+    distances[i].resize(part.own);
     for (std::size_t f = 0; f < part.own; ++f) {
-      const auto& corner = part.mesh->triangles()[f].corner;
-      triangles[f] = {corner[0], corner[1], corner[2]};
-    }
-    const SimplexPoint best = closest_point(positions, triangles, from);
-    std::array<double, 3> way{};
-    for (std::size_t d = 0; d < 3; ++d) {
+      std::array<std::array<double, 3>, 3> corners;
+      double size = 0;
       for (std::size_t c = 0; c < 3; ++c)
-        way[d] += best.barycentric[c] * positions[triangles[best.simplex][c]][d];
-      way[d] -= from[d];
+        for (std::size_t d = 0; d < 3; ++d) {
+          corners[c][d] = positions[part.mesh->triangles()[f].corner[c]][d] - seen[d];
+          size = std::max(size, std::abs(corners[c][d]));
+        }
+      if (size > 0)
+        for (auto& corner : corners)
+          for (double& x : corner) x /= size;
+      distances[i][f] = size * std::sqrt(squared_distance(corners));
+      of_part[i] = std::min(of_part[i], distances[i][f]);
     }
-    of_part[i].distance = std::hypot(way[0], way[1], way[2]);
-    of_part[i].source = PointSource{.simplex = pieces.cut_of(part).simplices[best.simplex],
-                                    .barycentric = best.barycentric};
   });
-  PartMail mail(team.ranks());
+  double least = infinity;
+  for (const double one : of_part) least = std::min(least, one);
+  least = least_of(team.ranks(), least);
+  // What two pieces compute for one point of an edge differs by rounding.
+  struct Found {
+    Index face = none;
+    double distance = 0;
+    PointSource source;
+  };
   Found best;
-  for (const Found& one : of_part) best = std::min(best, one);
+  for (std::size_t i = 0; i < of_part.size(); ++i) {
+    const PartPiece<Real>& part = pieces.parts()[i];
+    const auto positions = part.mesh->positions();
+    const auto seen = from(part);
+    double size = 1;
+    for (const double x : seen) size = std::max(size, std::abs(x));
+    const double near = least + 1e-14 * size;
+    if (!(of_part[i] <= near)) continue;
+    const auto& numbers = pieces.cut_of(part).simplices;
+    std::size_t first = part.own;
+    for (std::size_t f = 0; f < part.own; ++f)
+      if (distances[i][f] <= near && (first == part.own || numbers[f] < numbers[first])) first = f;
+    if (numbers[first] > best.face) continue;
+    const auto& corner = part.mesh->triangles()[first].corner;
+    const std::array<std::array<double, 3>, 3> at = {positions[corner[0]], positions[corner[1]],
+                                                     positions[corner[2]]};
+    constexpr std::array<std::array<std::uint32_t, 3>, 1> alone = {{{0, 1, 2}}};
+    const SimplexPoint place = closest_point(at, alone, seen);
+    best = {numbers[first], distances[i][first] * pieces.unit(),
+            PointSource::in(numbers[first], place.barycentric)};
+    for (std::size_t c = 0; c < 3; ++c)
+      if (place.barycentric[c] >= corner_share)
+        best.source = PointSource::at(part.vertices[corner[c]]);
+  }
+  PartMail mail(team.ranks());
   for (std::size_t r = 0; r < mail.count(); ++r) mail.to(r).add(best);
   mail.meet();
-  for (std::size_t r = 0; r < mail.count(); ++r)
-    best = std::min(best, mail.from(r).template take<Found>());
-  return best.source;
+  for (std::size_t r = 0; r < mail.count(); ++r) {
+    const Found other = mail.from(r).template take<Found>();
+    if (other.face < best.face) best = other;
+  }
+  return {best.source, best.distance};
 }
 
 template PartSources part_sources(PieceRanks*, const PartPieces<float>&,
                                   std::span<const PointSource>);
 template PartSources part_sources(PieceRanks*, const PartPieces<double>&,
                                   std::span<const PointSource>);
-template PointSource nearest_on(const Team&, const PartPieces<float>&,
-                                const std::array<double, 3>&);
-template PointSource nearest_on(const Team&, const PartPieces<double>&,
-                                const std::array<double, 3>&);
+template PartPoint nearest_on(const Team&, const PartPieces<float>&, const std::array<double, 3>&);
+template PartPoint nearest_on(const Team&, const PartPieces<double>&, const std::array<double, 3>&);
 
 }  // namespace plexway

@@ -48,7 +48,7 @@ template <class Real>
 
 /// As SurfaceParts::nearest.
 template <class Real>
-[[nodiscard]] PointSource nearest_on(const Team& team, const PartPieces<Real>& pieces,
-                                     const std::array<double, 3>& point);
+[[nodiscard]] PartPoint nearest_on(const Team& team, const PartPieces<Real>& pieces,
+                                   const std::array<double, 3>& point);
 
 }  // namespace plexway

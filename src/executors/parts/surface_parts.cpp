@@ -185,37 +185,47 @@ class PartSolve {
     sum_up(vertices);
   }
 
-  /// Each vertex once, in its first piece; in sums piece by piece, whosever they are.
+  /// Each vertex once, in its first piece; in sums piece by piece and source by source, whosever
+  /// they are.
   void sum_up(std::span<const Index> vertices) {
     const auto distance_of = [&](Index vertex) {
       return static_cast<double>(field_.distance[static_cast<std::size_t>(
           std::lower_bound(vertices.begin(), vertices.end(), vertex) - vertices.begin())]);
     };
-    std::vector<Index> at_sources;
-    for (const PointSource& s : sources_.all)
-      if (s.vertex != none) at_sources.push_back(s.vertex);
+    std::vector<std::pair<Index, std::size_t>> at_sources;  // each vertex, and whose it is
+    for (std::size_t n = 0; n < sources_.all.size(); ++n)
+      if (sources_.all[n].vertex != none) at_sources.push_back({sources_.all[n].vertex, n});
     std::sort(at_sources.begin(), at_sources.end());
+    // The first source there, or the end.
+    const auto source_at = [&](Index vertex) {
+      const auto first =
+          std::lower_bound(at_sources.begin(), at_sources.end(), std::pair(vertex, std::size_t{0}));
+      return first != at_sources.end() && first->first == vertex ? first : at_sources.end();
+    };
     std::uint64_t counts[] = {0, 0};
     double most = -1;
     const auto look = [&](Index vertex) {
       const double d = distance_of(vertex);
       if (!(d < std::numeric_limits<double>::infinity())) return 0.;
       ++counts[0];
-      counts[1] += !std::binary_search(at_sources.begin(), at_sources.end(), vertex);
+      counts[1] += source_at(vertex) == at_sources.end();
       most = std::max(most, d);
       return d;
     };
-    std::vector<std::uint64_t> sums(pieces_.cut().pieces.size(), 0);  // bits, each of one process
+    // Bits, each of one process: of pieces, and of sources in no triangle.
+    const std::size_t pieces = pieces_.cut().pieces.size();
+    std::vector<std::uint64_t> sums(pieces + sources_.all.size(), 0);
     for (const PartPiece<Real>& part : pieces_.parts()) {
       double sum = 0;
       for (Index v = 0; v < part.vertices.size(); ++v)
         if (part.is_first(v, pieces_.cut_of(part))) sum += look(part.vertices[v]);
       sums[part.number] = std::bit_cast<std::uint64_t>(sum);
     }
-    double alone = 0;  // sources in no triangle, one process after the other
-    for (const Index v : pieces_.unreferenced()) alone += look(v);
-    sums.resize(sums.size() + pieces_.deal().count, 0);
-    sums[pieces_.cut().pieces.size() + pieces_.deal().ours] = std::bit_cast<std::uint64_t>(alone);
+    for (const Index v : pieces_.unreferenced()) {
+      const auto source = source_at(v);
+      if (source != at_sources.end())
+        sums[pieces + source->second] = std::bit_cast<std::uint64_t>(look(v));
+    }
     add_up(team_.ranks(), sums);
     add_up(team_.ranks(), counts);
     double sum = 0;
@@ -260,7 +270,7 @@ const SurfacePartsSummary& SurfaceParts<Real>::summary() const {
 }
 
 template <class Real>
-PointSource SurfaceParts<Real>::nearest(const std::array<double, 3>& point) const {
+PartPoint SurfaceParts<Real>::nearest(const std::array<double, 3>& point) const {
   return nearest_on(state_->team, state_->pieces, point);
 }
 
