@@ -116,7 +116,7 @@ std::vector<std::string> field_remarks(const AnyDomain& solver, const AnyField& 
         rim_detours(domain.positions(), cloud->mean_spacing, field.doubles(), outcome.from);
     if (detours.points > 0)
       remark(counted(detours.points, "points") + " (" + std::to_string(detours.first) +
-             " is the first) are 5 to " +
+             " is the first) " + (detours.points == 1 ? "is" : "are") + " 5 to " +
              std::to_string(static_cast<int>(std::ceil(100 * detours.most))) +
              " % farther from the source than straight, though the cloud is flat there: ways go "
              "around a notch in its rim or a void; that is too far if the surface does not end "
