@@ -194,7 +194,7 @@ TEST_CASE("the workspace tells its size") {
   const std::size_t empty = workspace.bytes();
   plexway::solve(Serial{}, mesh, source, {}, workspace, field);
   const double faces = static_cast<double>(mesh.face_count());
-  CHECK(empty < 2048);  // lists without entries
+  CHECK(empty < 2048);                           // lists without entries
   CHECK(double(workspace.bytes()) > 8 * faces);  // measured: 10
   // All in all a closed surface, two faces a vertex, takes at most 274 bytes a vertex.
   CHECK(double(workspace.bytes() + mesh.bytes()) < 274 * double(mesh.vertex_count()));
