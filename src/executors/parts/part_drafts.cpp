@@ -132,7 +132,8 @@ std::vector<PartDraft> drafts_of(DealtFaces& dealt, Deal deal) {
     PartDraft& draft = drafts.emplace_back();
     const auto end = std::find_if(begin, dealt.faces.end(),
                                   [&](const DealtFace& face) { return face.piece != p; });
-    draft.faces = std::span(begin, end);
+    draft.faces = {dealt.faces.data() + (begin - dealt.faces.begin()),
+                   static_cast<std::size_t>(end - begin)};
     begin = end;
     for (const DealtFace& face : draft.faces)
       draft.vertices.insert(draft.vertices.end(), face.corner.begin(), face.corner.end());

@@ -38,7 +38,7 @@ class PartMending {
       agree(team_.ranks(), pieces_, known_, sent);  // pieces see lines from where they are
     }
     add_up(team_.ranks(), sums);
-    return {sums[0], sums[1]};
+    return {static_cast<std::size_t>(sums[0]), static_cast<std::size_t>(sums[1])};
   }
 
  private:
