@@ -246,7 +246,8 @@ void SolidObstacles<Real>::fill(const TetMesh<Real>& mesh) {
       around.push_back(Box<3>::empty());
       for (const Index v : *face) around.back().add(place(points[v]));
     }
-    faces_of.push_back({first, face});
+    faces_of.push_back(std::span<const Face>(faces).subspan(
+        static_cast<std::size_t>(first - faces.begin()), static_cast<std::size_t>(face - first)));
     face_trees.push_back(Tree(around));
     box.widen(10 * static_cast<double>(on_plane));
     boxes.push_back(box);
