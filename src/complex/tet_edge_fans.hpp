@@ -20,11 +20,10 @@ struct TetSolid {
   const TetPlaces& places;
   std::span<const char> on_boundary;  ///< vertices
 
-  [[nodiscard]] std::size_t vertices() const { return corners.begin.size() - 1; }
+  [[nodiscard]] std::size_t vertices() const { return corners.vertices(); }
   [[nodiscard]] TetPoints points(std::size_t t) const { return places.of(t, corner[t]); }
   [[nodiscard]] std::span<const Index> corners_at(Index v) const {
-    return std::span(corners.corner)
-        .subspan(corners.begin[v], corners.begin[v + 1] - corners.begin[v]);
+    return corners.at(v);
   }
 };
 

@@ -286,24 +286,6 @@ class Finder {
 
 }  // namespace
 
-TetCorners corners_of_vertices(std::size_t vertices, Corners corner,
-                               std::span<const Index> first_use, int threads) {
-  TetCorners rows;
-  rows.begin.assign(vertices + 1, 0);
-  const auto tell_corners = [&](std::size_t first, std::size_t last, const auto& tell) {
-    for (std::size_t t = first; t < last; ++t)
-      for (std::size_t i = 0; i < 4; ++i) tell(corner[t][i], static_cast<Index>(4 * t + i));
-  };
-  tell_vertices<Index>(first_use, corner.size(), threads, tell_corners,
-                       [&](Index v, Index) { ++rows.begin[v + 1]; });
-  for (std::size_t v = 0; v < vertices; ++v) rows.begin[v + 1] += rows.begin[v];
-  rows.corner.resize(4 * corner.size());
-  std::vector<Index> cursor(rows.begin.begin(), rows.begin.end() - 1);
-  tell_vertices<Index>(first_use, corner.size(), threads, tell_corners,
-                       [&](Index v, Index c) { rows.corner[cursor[v]++] = c; });
-  return rows;
-}
-
 TetTopology find_tet_topology(Corners corner, Corners across, const TetCorners& corners,
                               const TetPlaces& places, int threads) {
   return Finder(corner, across, corners, places, threads).find();

@@ -8,6 +8,8 @@
 #include <plexway/complex/detail/tet_record.hpp>
 #include <plexway/complex/ids.hpp>
 
+#include "complex/tet_corners.hpp"
+
 namespace plexway {
 
 /// Four corners of a tetrahedron in space.
@@ -48,14 +50,6 @@ struct TetPlaces {
     return {vertex[corner[0]], vertex[corner[1]], vertex[corner[2]], vertex[corner[3]]};
   }
 };
-
-/// The tetrahedra at each vertex: corners 4 t + i, row by row, ascending.
-struct TetCorners {
-  std::vector<Index> begin, corner;
-};
-/// `first_use` as in tell_vertices.
-TetCorners corners_of_vertices(std::size_t vertices, std::span<const std::array<Index, 4>> corner,
-                               std::span<const Index> first_use, int threads);
 
 /// From corners and across (4 u + j, or none) of each tetrahedron. The same by any number of
 /// threads.

@@ -40,20 +40,9 @@ unsigned even_faces(const std::array<Index, 4>& tet) {
 struct FaceSide {
   std::uint64_t others;
   Index corner;
+  Index side;  // which of the two that its tetrahedron lies on: one_side or other_side
 };
-
-// The vertices in ascending order, each with the corner that it is in its last two bits.
-std::array<std::uint64_t, 4> ascending(const std::array<Index, 4>& tet) {
-  std::array<std::uint64_t, 4> v;
-  for (std::size_t i = 0; i < 4; ++i) v[i] = std::uint64_t{tet[i]} << 2 | i;
-  const auto order = [&](std::size_t i, std::size_t j) {
-    const std::uint64_t low = std::min(v[i], v[j]);
-    v[j] = std::max(v[i], v[j]);
-    v[i] = low;
-  };
-  order(0, 1), order(2, 3), order(0, 2), order(1, 3), order(1, 2);
-  return v;
-}
+constexpr Index one_side = 1, other_side = 1 << 16;
 
 [[noreturn]] void refuse_third(Index lowest, std::span<FaceSide> sides) {
   std::sort(sides.begin(), sides.end(), [](const FaceSide& a, const FaceSide& b) {
@@ -75,44 +64,100 @@ std::array<std::uint64_t, 4> ascending(const std::array<Index, 4>& tet) {
       ": at most two can");
 }
 
-// Glues what is in the buckets of the vertices from `begin` to `stop`; end[v]: where that of v
-// ends.
-void glue_buckets(FaceSide* sides, std::span<const Index> end, std::size_t begin, std::size_t stop,
-                  TetGluing& across) {
-  constexpr std::ptrdiff_t few = 96;
-  FaceSide* first = sides + (begin == 0 ? 0 : end[begin - 1]);
-  for (Index v = static_cast<Index>(begin); v < stop; ++v) {
-    FaceSide* const next = sides + end[v];
-    FaceSide* last = next;
-    const auto glue = [&](const FaceSide& a, const FaceSide& b) {
-      across[a.corner / 4][a.corner % 4] = b.corner;
-      across[b.corner / 4][b.corner % 4] = a.corner;
-    };
-    if (last - first > few) {
-      std::sort(first, last,
-                [](const FaceSide& a, const FaceSide& b) { return a.others < b.others; });
-      for (FaceSide* behind = first; first != last; first = behind) {
-        while (behind != last && behind->others == first->others) ++behind;
-        if (behind - first > 2) refuse_third(v, {first, last});
-        if (behind - first == 2) glue(first[0], first[1]);
-      }
-    }
-    for (; first < last; ++first) {
-      const std::uint64_t others = first->others;
-      const auto after = [&](FaceSide* s) {
-        do ++s;
-        while (s < last && s->others != others);
-        return s;
-      };
-      FaceSide* const second = after(first);
-      if (second >= last) continue;
-      if (after(second) < last) refuse_third(v, {first, last});
-      glue(*first, *second);
-      *second = *--last;
-    }
-    first = next;
+/// Glues the faces whose lowest vertex is one of some, vertex by vertex.
+class FaceGluer {
+ public:
+  FaceGluer(Tets tets, const TetCorners& rows, TetGluing& across)
+      : tets_(tets), rows_(rows), across_(across) {}
+
+  /// Writes all faces of which `v` is the lowest vertex.
+  void glue_at(Index v) {
+    const auto sides = collect(v);
+    if (sides.size() > few || !glue_by_table(sides)) glue_by_order(v, sides);
   }
-}
+  /// Did those glued so far lie on two sides of each face?
+  [[nodiscard]] bool fit() const { return fit_; }
+
+ private:
+  static constexpr std::size_t few = 96;
+  static constexpr int table_bits = 10;
+  // What is known of the faces that fall into one place: all in one word or two, so that a pair
+  // is told without asking which of the two came first.
+  struct Place {
+    std::uint64_t others = 0;  // xor
+    Index corner = 0;          // xor
+    Index sides = 0;           // sum
+  };
+
+  std::span<FaceSide> collect(Index v) {
+    // The other corners as the face opposite to a corner has them, seen from inside.
+    constexpr std::uint8_t turn[4][3] = {{1, 3, 2}, {0, 2, 3}, {0, 3, 1}, {0, 1, 2}};
+    const auto row = rows_.at(v);
+    if (sides_.size() < 3 * row.size() + 1) sides_.resize(6 * row.size() + 64);
+    const std::uint64_t lowest = std::uint64_t{v} << 32 | none;
+    FaceSide* end = sides_.data();
+    for (const Index c : row) {
+      const auto& tet = tets_[c / 4];
+      const auto& [p, q, r] = turn[c % 4];
+      const auto add = [&](Index x, Index y, Index rest) {
+        // The lower into the upper half without a branch, which would be guessed wrong half the
+        // time: the halves change places or not.
+        const Index ascends = x < y;
+        const std::uint64_t both = std::uint64_t{x} << 32 | y;
+        const unsigned by = 32 * (1 - ascends);
+        const std::uint64_t others = both << by | both >> ((64 - by) & 63);
+        *end = {others, (c & ~Index{3}) | rest, other_side - ascends * (other_side - one_side)};
+        end += others > lowest;  // else it is another vertex's to glue
+      };
+      add(tet[p], tet[q], r), add(tet[q], tet[r], p), add(tet[r], tet[p], q);
+    }
+    return {sides_.data(), end};
+  }
+
+  // False, and nothing of it holds, where two faces fall into one place that are not one, where
+  // more than two are, or where two lie on one side.
+  bool glue_by_table(std::span<const FaceSide> sides) {
+    const auto place = [&](const FaceSide& s) -> Place& {
+      return table_[s.others * 0x9e3779b97f4a7c15 >> (64 - table_bits)];
+    };
+    for (const FaceSide& s : sides) {
+      Place& p = place(s);
+      p.others ^= s.others;
+      p.corner ^= s.corner;
+      p.sides += s.side;
+    }
+    bool clear = true;
+    for (const FaceSide& s : sides) {
+      const Place& p = place(s);
+      const bool pair = (p.sides == one_side + other_side) & (p.others == 0);
+      across_[s.corner / 4][s.corner % 4] = pair ? p.corner ^ s.corner : none;
+      clear &= pair | (p.sides == s.side);
+    }
+    for (const FaceSide& s : sides) place(s) = {};
+    return clear;
+  }
+
+  void glue_by_order(Index v, std::span<FaceSide> sides) {
+    std::sort(sides.begin(), sides.end(),
+              [](const FaceSide& a, const FaceSide& b) { return a.others < b.others; });
+    for (auto run = sides.begin(), end = run; run != sides.end(); run = end) {
+      while (end != sides.end() && end->others == run->others) ++end;
+      if (end - run > 2) refuse_third(v, sides);
+      const auto& other = *(end - 1);
+      const bool pair = end - run == 2;
+      across_[run->corner / 4][run->corner % 4] = pair ? other.corner : none;
+      across_[other.corner / 4][other.corner % 4] = pair ? run->corner : none;
+      fit_ = fit_ && !(pair && other.side == run->side);
+    }
+  }
+
+  Tets tets_;
+  const TetCorners& rows_;
+  TetGluing& across_;
+  std::vector<FaceSide> sides_;
+  std::vector<Place> table_ = std::vector<Place>(std::size_t{1} << table_bits);
+  bool fit_ = true;
+};
 
 }  // namespace
 
@@ -136,43 +181,20 @@ void check_tets(std::size_t vertices, Tets tets, int threads) {
   });
 }
 
-TetGluing glue_tets(std::size_t vertices, Tets tets, int threads) {
-  // By several threads, buckets have what is in them in any order: who scans does not mind.
-  const bool alone = threads_for(threads) == 1 || tets.size() <= building_block;
-  const auto up = [alone](Index& count, Index by) {
-    if (!alone) return std::atomic_ref(count).fetch_add(by, std::memory_order_relaxed);
-    const Index before = count;
-    count += by;
-    return before;
-  };
-  // Faces in buckets by their lowest vertex, some twenty each: those are scanned for the other two.
-  // Only where many meet are they sorted.
-  std::vector<Index> end(vertices + 1, 0);
-  over_blocks(tets.size(), threads, [&](std::size_t first, std::size_t last) {
-    for (std::size_t t = first; t < last; ++t) {
-      const auto v = ascending(tets[t]);
-      up(end[(v[0] >> 2) + 1], 3);
-      up(end[(v[1] >> 2) + 1], 1);
-    }
+TetGluing glue_tets(Tets tets, const TetCorners& rows, int threads, bool* fit) {
+  TetGluing across(tets.size());
+  std::atomic<bool> all_fit = true;
+  over_blocks(rows.vertices(), threads, [&](std::size_t first, std::size_t last) {
+    FaceGluer gluer(tets, rows, across);
+    for (Index v = static_cast<Index>(first); v < last; ++v) gluer.glue_at(v);
+    if (!gluer.fit()) all_fit = false;
   });
-  for (std::size_t v = 0; v < vertices; ++v) end[v + 1] += end[v];
-  Unfilled<FaceSide> sides(tets.size() * 4);
-  over_blocks(tets.size(), threads, [&](std::size_t first, std::size_t last) {
-    for (std::size_t t = first; t < last; ++t) {
-      const auto v = ascending(tets[t]);
-      const auto add = [&](std::size_t low, std::size_t middle, std::size_t high,
-                           std::size_t rest) {
-        sides[up(end[v[low] >> 2], 1)] = {v[middle] >> 2 << 32 | v[high] >> 2,
-                                          static_cast<Index>(4 * t + (v[rest] & 3))};
-      };
-      add(0, 1, 2, 3), add(0, 1, 3, 2), add(0, 2, 3, 1), add(1, 2, 3, 0);
-    }
-  });
-  TetGluing across(tets.size(), {none, none, none, none});
-  over_blocks(vertices, threads, [&](std::size_t first, std::size_t last) {
-    glue_buckets(sides.data(), end, first, last, across);
-  });
+  if (fit != nullptr) *fit = all_fit;
   return across;
+}
+
+TetGluing glue_tets(std::size_t vertices, Tets tets, int threads) {
+  return glue_tets(tets, corners_of_vertices(vertices, tets, {}, threads), threads, nullptr);
 }
 
 namespace {
@@ -196,8 +218,6 @@ class FaceSides {
   Unfilled<unsigned char> even_;
 };
 
-}  // namespace
-
 bool faces_fit(Tets tets, const TetGluing& across, std::span<const char> turn, int threads) {
   const FaceSides sides(tets, turn, threads);
   std::atomic<bool> fit = true;
@@ -210,6 +230,8 @@ bool faces_fit(Tets tets, const TetGluing& across, std::span<const char> turn, i
   });
   return fit;
 }
+
+}  // namespace
 
 std::vector<char> orient_tets(Tets tets, const TetGluing& across,
                               std::span<const signed char> volume, int threads) {

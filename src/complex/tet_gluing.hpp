@@ -5,13 +5,15 @@
 #include <span>
 #include <vector>
 
+#include <plexway/complex/detail/unfilled.hpp>
 #include <plexway/complex/ids.hpp>
+
+#include "complex/tet_corners.hpp"
 
 namespace plexway {
 
-using Tets = std::span<const std::array<Index, 4>>;
 /// across[t][i]: 4 u + j if face i of tetrahedron t is face j of u, or none.
-using TetGluing = std::vector<std::array<Index, 4>>;
+using TetGluing = Unfilled<std::array<Index, 4>>;
 
 /// Throws InputError for indices that no solid can have. All of this by any number of threads.
 void check_tets(std::size_t vertices, Tets tets, int threads);
@@ -19,10 +21,9 @@ void check_tets(std::size_t vertices, Tets tets, int threads);
 /// Glues tetrahedra where two share three vertices. Throws InputError naming those of a face that
 /// has more than two.
 TetGluing glue_tets(std::size_t vertices, Tets tets, int threads);
-
-/// Do the tetrahedra lie on two sides of each face they share, those in `turn` turned over?
-[[nodiscard]] bool faces_fit(Tets tets, const TetGluing& across, std::span<const char> turn,
-                             int threads);
+/// The same where the corners at each vertex are known. `fit`, unless null: do the tetrahedra lie
+/// on two sides of each face they share? Cost: linear as long as few meet at a vertex.
+TetGluing glue_tets(Tets tets, const TetCorners& rows, int threads, bool* fit);
 
 /// Which tetrahedra to turn over (their last two corners exchanged) so that all are positive.
 /// volume[t]: +2 or -2; +1 or -1 for so little that the rounding of a file may have folded it over;

@@ -42,18 +42,17 @@ TetLayout::TetLayout(std::size_t vertices, Tets tets, std::vector<Index> order,
     for (std::size_t i = first; i < last; ++i)
       if (turn[tet[i]] != 0) std::swap(corner[i][2], corner[i][3]);
   });
+  rows = corners_of_vertices(vertices, corner, first_use, threads);
 }
 
 bool TetLayout::glue(int threads) {
+  bool fit = false;
   try {
-    across = glue_tets(named, corner, threads);
+    across = glue_tets(corner, rows, threads, &fit);
   } catch (const InputError&) {  // tells of other numbers than the caller's
-    return false;
   }
-  const std::vector<char> none_turned(corner.size(), 0);
-  if (faces_fit(corner, across, none_turned, threads)) return true;
-  across = {};
-  return false;
+  if (!fit) across = {};
+  return fit;
 }
 
 void TetLayout::take_gluing(const TetGluing& callers, int threads) {

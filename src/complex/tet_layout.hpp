@@ -29,6 +29,7 @@ struct TetLayout {
   std::vector<Index> first_use;         ///< vertices named before each block: tell_vertices
   std::size_t named = 0;                ///< vertices of tetrahedra
   Unfilled<std::array<Index, 4>> corner;
+  TetCorners rows;  ///< of the vertices inside
   TetGluing across;
 
   /// Glued by their corners, which is quick, as neighbours lie beside each other here. False, and

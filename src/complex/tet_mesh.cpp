@@ -246,7 +246,7 @@ void TetMesh<Real>::assemble(TetLayout&& layout, std::span<const std::array<doub
       for (Index i = 0; i < 4; ++i) points[inside][layout.corner_inside(t, i)] = posed[i];
     }
   }
-  TetCorners rows = corners_of_vertices(vertices, corner, layout.first_use, threads);
+  TetCorners& rows = layout.rows;
   TetTopology topology = find_tet_topology(corner, over, rows, {at, points}, threads);
   corners_begin_ = std::move(rows.begin);
   corners_ = std::move(rows.corner);
