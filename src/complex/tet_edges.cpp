@@ -16,10 +16,11 @@ using Corners = TetSolid::Corners;
 
 class Finder {
  public:
-  Finder(Corners corner, Corners across, const TetCorners& corners, const TetPlaces& places,
-         int threads)
+  Finder(Corners corner, Corners across, const TetCorners& corners,
+         std::span<const Index> first_use, const TetPlaces& places, int threads)
       : solid_{corner, across, corners, places, {}},
-        vertices_(corners.begin.size() - 1),
+        first_use_(first_use),
+        vertices_(corners.vertices()),
         threads_(threads),
         on_reflex_(vertices_, 0),
         on_boundary_(vertices_, 0) {}
@@ -33,6 +34,7 @@ class Finder {
     if (solid_.places.embedded()) merge_straight();
     list_by_tet();
     find_vertices();
+    found_.components = count_components();
     return std::move(found_);
   }
 
@@ -205,42 +207,29 @@ class Finder {
     return torn;
   }
 
-  // A block's tetrahedra first, of which the sets are its own, then what joins two blocks.
-  [[nodiscard]] DisjointSets sets_joined_by_faces() const {
-    const std::size_t tets = solid_.across.size();
-    DisjointSets sets(tets);
-    std::vector<std::vector<std::array<Index, 2>>> between((tets + building_block - 1) /
-                                                           building_block);
-    over_blocks(tets, threads_, [&](std::size_t first, std::size_t last) {
-      std::vector<std::array<Index, 2>> others;
-      for (Index t = static_cast<Index>(first); t < last; ++t) {
-        Index root = t;
-        for (const Index o : solid_.across[t]) {
-          const Index lower = o / 4;
-          if (lower >= t) continue;  // told by the other; or none
-          if (lower >= first)
-            root = sets.join(root, lower);
-          else
-            others.push_back({t, lower});
-        }
-      }
-      between[first / building_block] = std::move(others);
-    });
-    for (const auto& others : between)
-      for (const auto& [t, lower] : others) sets.unite(t, lower);
-    return sets;
+  // Tetrahedra that share a vertex are of one component: joined by faces there, or the vertex or an
+  // edge at it is pinched. So vertices are united.
+  [[nodiscard]] std::size_t count_components() const {
+    DisjointSets sets(vertices_);
+    const auto tell_edges = [&](std::size_t first, std::size_t last, const auto& tell) {
+      for (const auto& [a, b, c, d] : solid_.corner.subspan(first, last - first))
+        for (const Index other : {b, c, d}) tell(std::min(a, other), std::max(a, other));
+    };
+    tell_vertices<Index>(first_use_, solid_.corner.size(), threads_, tell_edges,
+                         [&](Index lower, Index higher) { sets.unite(lower, higher); });
+    std::size_t components = 0;
+    for (Index v = 0; v < vertices_; ++v)
+      components += sets.find(v) == v && !solid_.corners_at(v).empty();
+    return components;
   }
 
   // Tetrahedra at a vertex that are joined neither by faces nor by edges there touch in it only.
   void find_vertices() {
     const std::vector<Index> torn = torn_vertices();
-    DisjointSets solids = sets_joined_by_faces();
     std::vector<std::pair<Index, std::size_t>> edges_at;  // of vertices: pinched edges
     for (std::size_t e = 0; e < found_.pinched_edges.size(); ++e) {
       const auto& edge = found_.pinched_edges[e];
       for (const Index v : edge.vertex) edges_at.emplace_back(v, e);
-      for (Index n = edge.begin + 1; n < edge.end; ++n)
-        solids.unite(found_.pinched_edge_tets[n - 1], found_.pinched_edge_tets[n]);
     }
     std::sort(edges_at.begin(), edges_at.end());
     auto edge = edges_at.begin();
@@ -255,7 +244,6 @@ class Finder {
         fans.unite(place(t), place(u));
       };
       for (const Index c : row) {
-        solids.unite(c / 4, row[0] / 4);
         for (Index k = 0; k < 4; ++k)
           if (const Index o = solid_.across[c / 4][k]; o != none && k != c % 4) unite(c / 4, o / 4);
       }
@@ -273,10 +261,10 @@ class Finder {
         }
     }
     for (const char on : on_reflex_) found_.reflex_vertices += on != 0;
-    for (Index t = 0; t < solid_.corner.size(); ++t) found_.components += solids.find(t) == t;
   }
 
   TetSolid solid_;
+  std::span<const Index> first_use_;
   std::size_t vertices_;
   int threads_;
   std::vector<char> on_reflex_, on_boundary_;
@@ -287,8 +275,9 @@ class Finder {
 }  // namespace
 
 TetTopology find_tet_topology(Corners corner, Corners across, const TetCorners& corners,
-                              const TetPlaces& places, int threads) {
-  return Finder(corner, across, corners, places, threads).find();
+                              std::span<const Index> first_use, const TetPlaces& places,
+                              int threads) {
+  return Finder(corner, across, corners, first_use, places, threads).find();
 }
 
 }  // namespace plexway
