@@ -48,7 +48,54 @@ TetEdgeFans::Found TetEdgeFans::look(Index first, Index last) {
   return std::move(found_);
 }
 
+// Where one fan is at each edge of the boundary, which is so but at pinched ones: a fan begins where
+// its edge ascends along the boundary's faces as seen from inside and ends where it descends, and
+// all tetrahedra at the edge are in it. False, and nothing is found, where it is not so.
+bool TetEdgeFans::look_at_boundary(Index v) {
+  constexpr Index turn[4][3] = {{1, 3, 2}, {0, 2, 3}, {0, 3, 1}, {0, 1, 2}};  // around a corner
+  constexpr Index begins = 1, ends = 2;
+  const auto row = solid_.corners_at(v);
+  starts_.clear();
+  bool clear = true;
+  const auto mark = [&](Index w, Index side) {
+    if (degree_[w] == 0) ends_.push_back(w);
+    clear = clear && (degree_[w] & side) == 0;
+    degree_[w] |= side;
+  };
+  ends_.clear();
+  for (const Index c : row) {
+    const Index t = c / 4, own = c % 4;
+    const auto& across = solid_.across[t];
+    if (std::max({across[0], across[1], across[2], across[3]}) != none) continue;
+    for (Index n = 0; n < 3; ++n) {
+      const Index k = turn[own][n], from = turn[own][(n + 1) % 3], to = turn[own][(n + 2) % 3];
+      if (across[k] != none) continue;
+      const Index w = solid_.corner[t][from], x = solid_.corner[t][to];
+      if (w > v) {
+        mark(w, begins);
+        starts_.push_back({w, t, k, to});
+      }
+      if (x > v) mark(x, ends);
+    }
+  }
+  for (const Index w : ends_) clear = clear && degree_[w] == (begins | ends);
+  std::size_t tets = 0;  // at those edges
+  for (const Index c : row)
+    for (const Index w : solid_.corner[c / 4]) tets += degree_[w] != 0;
+  for (const Index w : ends_) degree_[w] = 0;
+  std::sort(starts_.begin(), starts_.end(),
+            [](const Start& a, const Start& b) { return a.end < b.end; });
+  const std::size_t reflex = found_.reflex.size(), entries = found_.entries.size();
+  for (std::size_t n = 0; clear && n < starts_.size(); ++n)
+    tets -= walk(starts_[n], v, starts_[n].end);
+  if (clear && tets == 0) return true;
+  found_.reflex.resize(reflex);
+  found_.entries.resize(entries);
+  return false;
+}
+
 void TetEdgeFans::look_at(Index v) {
+  if (embedded_ && look_at_boundary(v)) return;
   starts_.clear();
   ends_.clear();
   for (const Index c : solid_.corners_at(v)) {
@@ -80,7 +127,7 @@ void TetEdgeFans::look_at(Index v) {
     std::sort(ends_.begin(), ends_.end());
     for (const Index w : ends_) look_at_edge(w);
   }
-  found_.edges += ends_.size();
+  if (!embedded_) found_.edges += ends_.size();
   for (const Index w : ends_) degree_[w] = 0;
 }
 
@@ -117,35 +164,42 @@ std::vector<Index> TetEdgeFans::tets_around(Index a, Index b) const {
 
 std::size_t TetEdgeFans::walk(const Start& start, Index a, Index b) {
   Index t = start.tet, k = start.enter, l = start.leave;
-  const Index first_apex = solid_.corner[t][l];
   fan_.clear();
-  apexes_.clear();
+  apexes_.assign(1, solid_.corner[t][l]);
   for (;;) {
-    const Index i = corner_of(solid_.corner[t], a), j = corner_of(solid_.corner[t], b);
-    fan_.push_back({t, tet_edge(i, j)});
+    fan_.push_back(t);
     const Index o = solid_.across[t][l], shared = solid_.corner[t][k];
     apexes_.push_back(shared);
     if (o == none) break;
     t = o / 4;
     k = o % 4;
-    l = corner_of(solid_.corner[t], shared);
+    const auto& corner = solid_.corner[t];
+    l = static_cast<Index>(corner[1] == shared) | static_cast<Index>(corner[2] == shared) * 2 |
+        static_cast<Index>(corner[3] == shared) * 3;
   }
-  fan_ends_.push_back(4 * t + l);
-  if (is_reflex(a, b, first_apex)) add_reflex(a, b, start.tet, start.enter, t, l);
+  // From the lower of both its ends, whichever it was walked from.
+  Index from = 4 * start.tet + start.enter, to = 4 * t + l;
+  if (to < from) {
+    std::swap(from, to);
+    std::reverse(apexes_.begin(), apexes_.end());
+  }
+  fan_ends_.push_back(from);
+  fan_ends_.push_back(to);
+  if (is_reflex(a, b)) add_reflex(a, b, from, to);
   return fan_.size();
 }
 
 // Does the fan just walked span more than pi? In one frame a look at each of its faces mostly
 // tells, on which side of the first they are; only what is neither clear nor nearly straight is
 // summed.
-bool TetEdgeFans::is_reflex(Index a, Index b, Index first_apex) const {
+bool TetEdgeFans::is_reflex(Index a, Index b) const {
   constexpr double clear = 1e-3;  // of a sine
   if (embedded_) {
     const Vector3<double> origin = solid_.places.vertex[a], edge = solid_.places.vertex[b] - origin;
-    const Vector3<double> normal = cross(edge, solid_.places.vertex[first_apex] - origin);
+    const Vector3<double> normal = cross(edge, solid_.places.vertex[apexes_[0]] - origin);
     const double least = clear * clear * dot(normal, normal);
     double side = 0;  // of the first face after it
-    for (std::size_t n = 0;; ++n) {
+    for (std::size_t n = 1;; ++n) {
       if (n == apexes_.size()) return false;
       const Vector3<double> y = solid_.places.vertex[apexes_[n]] - origin;
       const double height = dot(normal, y);
@@ -161,7 +215,7 @@ bool TetEdgeFans::is_reflex(Index a, Index b, Index first_apex) const {
     }
   }
   double angle = 0;
-  for (const auto& [t, slot] : fan_) angle += dihedral_at(t, a, b);
+  for (const Index t : fan_) angle += dihedral_at(t, a, b);
   return angle > std::numbers::pi + excess;
 }
 
@@ -180,7 +234,8 @@ void TetEdgeFans::closed(Index a, Index b, std::span<const Index> around) {
   }
 }
 
-void TetEdgeFans::add_reflex(Index a, Index b, Index t, Index k, Index u, Index l) {
+void TetEdgeFans::add_reflex(Index a, Index b, Index from, Index to) {
+  const Index t = from / 4, k = from % 4, u = to / 4, l = to % 4;
   const Index edge = static_cast<Index>(found_.reflex.size());
   const TetPoints p = solid_.points(t), q = solid_.points(u);
   const Index i = corner_of(solid_.corner[t], a), j = corner_of(solid_.corner[t], b);
@@ -192,9 +247,12 @@ void TetEdgeFans::add_reflex(Index a, Index b, Index t, Index k, Index u, Index 
     solid = -0.5 * (into_face(p, k, i, j) + into_face(q, l, corner_of(solid_.corner[u], a),
                                                       corner_of(solid_.corner[u], b)));
   found_.reflex.push_back({{p[i], p[j]}, {normal[0], normal[1]}, {a, b}, solid});
-  for (const auto& [tet, slot] : fan_)
+  for (const Index tet : fan_) {
+    const auto& corner = solid_.corner[tet];
+    const Index slot = tet_edge(corner_of(corner, a), corner_of(corner, b));
     found_.entries.push_back(
         {tet, edge << ReflexEntry::edge_shift | slot << ReflexEntry::slot_shift});
+  }
 }
 
 }  // namespace plexway

@@ -38,7 +38,7 @@ class TetEdgeFans {
     std::vector<std::pair<Index, Index>> entries;   ///< tetrahedron, ReflexEntry of `reflex`
     std::vector<TetTopology::PinchedEdge> pinched;  ///< into `pinched_tets`
     std::vector<Index> pinched_tets;
-    std::size_t edges = 0;  ///< at the vertices that were looked at, to higher ones
+    std::size_t edges = 0;  ///< without a frame: from those vertices to higher ones
   };
 
   explicit TetEdgeFans(const TetSolid& solid)
@@ -53,13 +53,14 @@ class TetEdgeFans {
     Index end, tet, enter, leave;
   };
   void look_at(Index v);
+  bool look_at_boundary(Index v);
   void around_edge(Index a, Index b, std::span<const Start> starts);
   [[nodiscard]] std::vector<Index> tets_around(Index a, Index b) const;
   std::size_t walk(const Start& start, Index a, Index b);
-  [[nodiscard]] bool is_reflex(Index a, Index b, Index first_apex) const;
+  [[nodiscard]] bool is_reflex(Index a, Index b) const;
   [[nodiscard]] double dihedral_at(Index t, Index a, Index b) const;
   void closed(Index a, Index b, std::span<const Index> around);
-  void add_reflex(Index a, Index b, Index t, Index k, Index u, Index l);
+  void add_reflex(Index a, Index b, Index from, Index to);
 
   const TetSolid& solid_;
   std::vector<Index> degree_;  // tetrahedra around the edge to each vertex
@@ -68,7 +69,7 @@ class TetEdgeFans {
   std::vector<Start> starts_;
   std::vector<Index> fan_ends_;  // of the fans around an edge, boundary faces 4 t + k
   std::vector<Index> apexes_;    // vertices around the edge, of the fan being walked
-  std::vector<std::pair<Index, Index>> fan_;
+  std::vector<Index> fan_;       // its tetrahedra
   Found found_;
 };
 

@@ -29,7 +29,7 @@ class Finder {
     mark_boundary();
     solid_.on_boundary = on_boundary_;
     look_around_edges();
-    if (solid_.places.embedded()) count_inner_edges();
+    if (solid_.places.embedded()) count_edges();
     found_.reflex_edges = found_.reflex.size();
     if (solid_.places.embedded()) merge_straight();
     list_by_tet();
@@ -58,20 +58,18 @@ class Finder {
     return std::max(building_block, (vertices_ + parts - 1) / parts);
   }
 
-  // Those from vertices inside, around which nobody looks, to vertices with higher numbers.
-  void count_inner_edges() {
+  // From each vertex to those with higher numbers.
+  void count_edges() {
     std::atomic<std::size_t> edges = 0;
     for_blocks(vertices_, part(), threads_, {}, [&](std::size_t first, std::size_t last) {
       std::vector<Index> seen(vertices_, none);  // the last vertex that it shared an edge with
       std::size_t own = 0;
-      for (Index v = static_cast<Index>(first); v < last; ++v) {
-        if (on_boundary_[v]) continue;
+      for (Index v = static_cast<Index>(first); v < last; ++v)
         for (const Index c : solid_.corners_at(v))
           for (const Index w : solid_.corner[c / 4]) {
             own += static_cast<std::size_t>(w > v) & static_cast<std::size_t>(seen[w] != v);
             seen[w] = v;
           }
-      }
       edges += own;
     });
     found_.edges += edges;
@@ -165,9 +163,23 @@ class Finder {
     }
   }
 
+  // How many of the tetrahedra at a vertex have no lower one behind a face there: those joined by
+  // faces have at least one that has not.
+  [[nodiscard]] std::size_t lowest_at(std::span<const Index> row) const {
+    std::size_t lowest = 0;
+    for (const Index c : row) {
+      const auto& across = solid_.across[c / 4];
+      Index lower = 0;
+      for (Index k = 0; k < 4; ++k) lower |= static_cast<Index>(across[k] < (c & ~Index{3})) << k;
+      lowest += (lower & ~(Index{1} << c % 4)) == 0;
+    }
+    return lowest;
+  }
+
   // Are all tetrahedra at a vertex joined by faces there? met[t] is 0 before and after.
   [[nodiscard]] bool is_one_fan(Index v, std::vector<char>& met, std::vector<Index>& stack) const {
     const auto row = solid_.corners_at(v);
+    if (lowest_at(row) == 1) return true;
     stack.resize(std::max(stack.size(), row.size() + 1));
     std::size_t top = 0, count = 0;
     stack[top++] = row[0];
