@@ -127,7 +127,6 @@ void TetEdgeFans::look_at(Index v) {
     std::sort(ends_.begin(), ends_.end());
     for (const Index w : ends_) look_at_edge(w);
   }
-  if (!embedded_) found_.edges += ends_.size();
   for (const Index w : ends_) degree_[w] = 0;
 }
 

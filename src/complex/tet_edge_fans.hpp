@@ -38,7 +38,6 @@ class TetEdgeFans {
     std::vector<std::pair<Index, Index>> entries;   ///< tetrahedron, ReflexEntry of `reflex`
     std::vector<TetTopology::PinchedEdge> pinched;  ///< into `pinched_tets`
     std::vector<Index> pinched_tets;
-    std::size_t edges = 0;  ///< without a frame: from those vertices to higher ones
   };
 
   explicit TetEdgeFans(const TetSolid& solid)

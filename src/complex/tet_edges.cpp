@@ -29,7 +29,7 @@ class Finder {
     mark_boundary();
     solid_.on_boundary = on_boundary_;
     look_around_edges();
-    if (solid_.places.embedded()) count_edges();
+    count_edges();
     found_.reflex_edges = found_.reflex.size();
     if (solid_.places.embedded()) merge_straight();
     list_by_tet();
@@ -58,21 +58,28 @@ class Finder {
     return std::max(building_block, (vertices_ + parts - 1) / parts);
   }
 
-  // From each vertex to those with higher numbers.
+  // From each vertex to those with higher numbers. Vertices that share edges with higher ones alone
+  // are counted too.
   void count_edges() {
-    std::atomic<std::size_t> edges = 0;
+    std::atomic<std::size_t> edges = 0, lowest = 0;
     for_blocks(vertices_, part(), threads_, {}, [&](std::size_t first, std::size_t last) {
       std::vector<Index> seen(vertices_, none);  // the last vertex that it shared an edge with
-      std::size_t own = 0;
-      for (Index v = static_cast<Index>(first); v < last; ++v)
+      std::size_t own = 0, own_lowest = 0;
+      for (Index v = static_cast<Index>(first); v < last; ++v) {
+        Index least = none;
         for (const Index c : solid_.corners_at(v))
           for (const Index w : solid_.corner[c / 4]) {
             own += static_cast<std::size_t>(w > v) & static_cast<std::size_t>(seen[w] != v);
             seen[w] = v;
+            least = std::min(least, w);
           }
+        own_lowest += least == v;
+      }
       edges += own;
+      lowest += own_lowest;
     });
-    found_.edges += edges;
+    found_.edges = edges;
+    lowest_ = lowest;
   }
 
   // In ascending order of their ends.
@@ -84,7 +91,6 @@ class Finder {
           TetEdgeFans(solid_).look(static_cast<Index>(first), static_cast<Index>(last));
     });
     for (const TetEdgeFans::Found& own : parts) {
-      found_.edges += own.edges;
       const Index edges = static_cast<Index>(found_.reflex.size()) << ReflexEntry::edge_shift,
                   tets = static_cast<Index>(found_.pinched_edge_tets.size());
       for (const auto& [tet, packed] : own.entries) entries_.emplace_back(tet, packed + edges);
@@ -176,31 +182,32 @@ class Finder {
     return lowest;
   }
 
-  // Are all tetrahedra at a vertex joined by faces there? met[t] is 0 before and after.
-  [[nodiscard]] bool is_one_fan(Index v, std::vector<char>& met, std::vector<Index>& stack) const {
+  // Are all tetrahedra at a vertex joined by faces there? place[t]: where t is in the row of the
+  // vertex that it was written for last.
+  [[nodiscard]] bool is_one_fan(Index v, std::span<Index> place, std::vector<Index>& sets) const {
     const auto row = solid_.corners_at(v);
-    if (lowest_at(row) == 1) return true;
-    stack.resize(std::max(stack.size(), row.size() + 1));
-    std::size_t top = 0, count = 0;
-    stack[top++] = row[0];
-    met[row[0] / 4] = 1;
-    while (top > 0) {
-      const Index c = stack[--top], own = c % 4;
-      ++count;
+    std::size_t fans = lowest_at(row);
+    if (fans == 1) return true;
+    sets.resize(std::max(sets.size(), row.size()));
+    const auto find = [&](Index n) {
+      while (sets[n] != n) n = sets[n] = sets[sets[n]];
+      return n;
+    };
+    fans = row.size();
+    for (Index n = 0; n < row.size(); ++n) {
+      const Index t = row[n] / 4, own = row[n] % 4;
+      place[t] = sets[n] = n;
+      Index root = n;
       for (Index k = 0; k < 4; ++k) {
-        const Index o = solid_.across[c / 4][k];
-        if (k == own || o == none) continue;
-        const auto& corner = solid_.corner[o / 4];
-        const Index i = static_cast<Index>(corner[1] == v) |
-                        static_cast<Index>(corner[2] == v) * 2 |
-                        static_cast<Index>(corner[3] == v) * 3;
-        stack[top] = o - o % 4 + i;
-        top += met[o / 4] == 0;
-        met[o / 4] = 1;
+        const Index o = solid_.across[t][k] / 4;
+        const Index other = find(place[o < t && k != own ? o : t]);
+        fans -= other != root;
+        const Index lower = std::min(root, other);
+        sets[std::max(root, other)] = lower;
+        root = lower;
       }
     }
-    for (const Index c : row) met[c / 4] = 0;
-    return count == row.size();
+    return fans == 1;
   }
 
   // Vertices at the boundary whose tetrahedra are not all joined by faces there, ascending.
@@ -208,10 +215,10 @@ class Finder {
     std::vector<Index> torn;
     std::mutex mutex;
     for_blocks(vertices_, part(), threads_, {}, [&](std::size_t first, std::size_t last) {
-      std::vector<char> met(solid_.corner.size(), 0);
-      std::vector<Index> stack, own;
+      Unfilled<Index> place(solid_.corner.size());
+      std::vector<Index> sets, own;
       for (Index v = static_cast<Index>(first); v < last; ++v)
-        if (on_boundary_[v] && !is_one_fan(v, met, stack)) own.push_back(v);
+        if (on_boundary_[v] && !is_one_fan(v, place, sets)) own.push_back(v);
       const std::lock_guard lock(mutex);
       torn.insert(torn.end(), own.begin(), own.end());
     });
@@ -222,6 +229,7 @@ class Finder {
   // Tetrahedra that share a vertex are of one component: joined by faces there, or the vertex or an
   // edge at it is pinched. So vertices are united.
   [[nodiscard]] std::size_t count_components() const {
+    if (lowest_ == 1) return 1;  // each has at least one
     DisjointSets sets(vertices_);
     const auto tell_edges = [&](std::size_t first, std::size_t last, const auto& tell) {
       for (const auto& [a, b, c, d] : solid_.corner.subspan(first, last - first))
@@ -278,6 +286,7 @@ class Finder {
   TetSolid solid_;
   std::span<const Index> first_use_;
   std::size_t vertices_;
+  std::size_t lowest_ = 0;  // vertices without a lower neighbour
   int threads_;
   std::vector<char> on_reflex_, on_boundary_;
   std::vector<std::pair<Index, Index>> entries_;

@@ -4,7 +4,7 @@
 #include <atomic>
 #include <cstdint>
 #include <string>
-#include <tuple>
+#include <utility>
 
 #include <plexway/complex/detail/tet_record.hpp>
 #include <plexway/error.hpp>
@@ -36,17 +36,24 @@ unsigned even_faces(const std::array<Index, 4>& tet) {
   return (bc ^ cd ^ bd) | (ad ^ cd ^ 1 ^ ac) << 1 | (ab ^ bd ^ ad) << 2 | (ac ^ bc ^ 1 ^ ab) << 3;
 }
 
-// A face by its vertices but for the lowest: the middle one in the upper half.
+// A face of a tetrahedron by its vertices but for the lowest: the middle one in the upper half.
 struct FaceSide {
+  // Upper half: corner 4 t + i; then bits 16 to 31: on which side of the face it lies; then 1. So
+  // sums of up to 65,535 tell how many there are, how many of them lie on one side, and of two
+  // which the other is.
+  static constexpr std::uint64_t one = 1, ascending = one << 16, several = ascending;
+  static constexpr int corner_shift = 32;
+
   std::uint64_t others;
-  Index corner;
-  Index side;  // which of the two that its tetrahedron lies on: one_side or other_side
+  std::uint64_t told;
+
+  [[nodiscard]] Index corner() const { return static_cast<Index>(told >> corner_shift); }
+  [[nodiscard]] bool ascends() const { return (told & ascending) != 0; }
 };
-constexpr Index one_side = 1, other_side = 1 << 16;
 
 [[noreturn]] void refuse_third(Index lowest, std::span<FaceSide> sides) {
   std::sort(sides.begin(), sides.end(), [](const FaceSide& a, const FaceSide& b) {
-    return std::tie(a.others, a.corner) < std::tie(b.others, b.corner);
+    return std::pair(a.others, a.corner()) < std::pair(b.others, b.corner());
   });
   auto run = sides.begin(), end = run;
   while (end - run < 3)
@@ -55,7 +62,7 @@ constexpr Index one_side = 1, other_side = 1 << 16;
   std::string list;
   for (auto k = run; k != end && k - run < listed; ++k) {
     const bool last = k + 1 == end;
-    list += (k == run ? "" : last ? " and " : ", ") + std::to_string(k->corner / 4);
+    list += (k == run ? "" : last ? " and " : ", ") + std::to_string(k->corner() / 4);
   }
   if (end - run > listed) list += " and " + std::to_string(end - run - listed) + " more";
   throw InputError(
@@ -72,21 +79,18 @@ class FaceGluer {
 
   /// Writes all faces of which `v` is the lowest vertex.
   void glue_at(Index v) {
-    const auto sides = collect(v);
-    if (sides.size() > few || !glue_by_table(sides)) glue_by_order(v, sides);
+    glue_by_order(v, glue_by_table(collect(v)));
   }
   /// Did those glued so far lie on two sides of each face?
   [[nodiscard]] bool fit() const { return fit_; }
 
  private:
-  static constexpr std::size_t few = 96;
   static constexpr int table_bits = 10;
-  // What is known of the faces that fall into one place: all in one word or two, so that a pair
-  // is told without asking which of the two came first.
+  // What the faces that fall into one place come to, so that a pair is told without asking which
+  // of the two came first.
   struct Place {
     std::uint64_t others = 0;  // xor
-    Index corner = 0;          // xor
-    Index sides = 0;           // sum
+    std::uint64_t told = 0;    // sum
   };
 
   std::span<FaceSide> collect(Index v) {
@@ -94,47 +98,53 @@ class FaceGluer {
     constexpr std::uint8_t turn[4][3] = {{1, 3, 2}, {0, 2, 3}, {0, 3, 1}, {0, 1, 2}};
     const auto row = rows_.at(v);
     if (sides_.size() < 3 * row.size() + 1) sides_.resize(6 * row.size() + 64);
-    const std::uint64_t lowest = std::uint64_t{v} << 32 | none;
     FaceSide* end = sides_.data();
     for (const Index c : row) {
       const auto& tet = tets_[c / 4];
       const auto& [p, q, r] = turn[c % 4];
-      const auto add = [&](Index x, Index y, Index rest) {
+      const Index x = tet[p], y = tet[q], z = tet[r];
+      const std::uint64_t first = std::uint64_t{c & ~Index{3}} << FaceSide::corner_shift | 1;
+      const auto add = [&](Index from, Index to, std::uint64_t rest, std::size_t ours) {
         // The lower into the upper half without a branch, which would be guessed wrong half the
         // time: the halves change places or not.
-        const Index ascends = x < y;
-        const std::uint64_t both = std::uint64_t{x} << 32 | y;
-        const unsigned by = 32 * (1 - ascends);
-        const std::uint64_t others = both << by | both >> ((64 - by) & 63);
-        *end = {others, (c & ~Index{3}) | rest, other_side - ascends * (other_side - one_side)};
-        end += others > lowest;  // else it is another vertex's to glue
+        const std::uint64_t ascends = from < to;
+        const std::uint64_t both = std::uint64_t{to} << 32 | from;
+        const std::uint64_t by = ascends << 5;
+        *end = {both << by | both >> (-by & 63),
+                first + (rest << FaceSide::corner_shift) + (ascends << 16)};
+        end += ours;
       };
-      add(tet[p], tet[q], r), add(tet[q], tet[r], p), add(tet[r], tet[p], q);
+      const std::size_t over_x = x > v, over_y = y > v, over_z = z > v;  // else another vertex's
+      add(x, y, r, over_x & over_y), add(y, z, p, over_y & over_z), add(z, x, q, over_z & over_x);
     }
     return {sides_.data(), end};
   }
 
-  // False, and nothing of it holds, where two faces fall into one place that are not one, where
-  // more than two are, or where two lie on one side.
-  bool glue_by_table(std::span<const FaceSide> sides) {
+  // Returns those that are not glued so: where faces of several fall into one place, where more
+  // than two are one, and where two lie on one side.
+  std::span<FaceSide> glue_by_table(std::span<FaceSide> sides) {
+    if (sides.size() >= FaceSide::several) return sides;
+    left_.resize(sides_.size());
     const auto place = [&](const FaceSide& s) -> Place& {
       return table_[s.others * 0x9e3779b97f4a7c15 >> (64 - table_bits)];
     };
     for (const FaceSide& s : sides) {
       Place& p = place(s);
       p.others ^= s.others;
-      p.corner ^= s.corner;
-      p.sides += s.side;
+      p.told += s.told;
     }
-    bool clear = true;
+    constexpr std::uint64_t two_sides = 2 * FaceSide::one + FaceSide::ascending;
+    std::size_t left = 0;
     for (const FaceSide& s : sides) {
       const Place& p = place(s);
-      const bool pair = (p.sides == one_side + other_side) & (p.others == 0);
-      across_[s.corner / 4][s.corner % 4] = pair ? p.corner ^ s.corner : none;
-      clear &= pair | (p.sides == s.side);
+      const bool pair = (static_cast<std::uint32_t>(p.told) == two_sides) & (p.others == 0);
+      const Index other = static_cast<Index>((p.told - s.told) >> FaceSide::corner_shift);
+      glue(s, pair ? other : none);
+      left_[left] = s;
+      left += !(pair | (p.told == s.told));
     }
     for (const FaceSide& s : sides) place(s) = {};
-    return clear;
+    return {left_.data(), left};
   }
 
   void glue_by_order(Index v, std::span<FaceSide> sides) {
@@ -145,16 +155,20 @@ class FaceGluer {
       if (end - run > 2) refuse_third(v, sides);
       const auto& other = *(end - 1);
       const bool pair = end - run == 2;
-      across_[run->corner / 4][run->corner % 4] = pair ? other.corner : none;
-      across_[other.corner / 4][other.corner % 4] = pair ? run->corner : none;
-      fit_ = fit_ && !(pair && other.side == run->side);
+      glue(*run, pair ? other.corner() : none);
+      if (pair) glue(other, run->corner());
+      fit_ = fit_ && !(pair && other.ascends() == run->ascends());
     }
+  }
+
+  void glue(const FaceSide& side, Index other) {
+    across_[side.corner() / 4][side.corner() % 4] = other;
   }
 
   Tets tets_;
   const TetCorners& rows_;
   TetGluing& across_;
-  std::vector<FaceSide> sides_;
+  std::vector<FaceSide> sides_, left_;
   std::vector<Place> table_ = std::vector<Place>(std::size_t{1} << table_bits);
   bool fit_ = true;
 };
