@@ -66,7 +66,7 @@ bool TetEdgeFans::look_at_boundary(Index v) {
   for (const Index c : row) {
     const Index t = c / 4, own = c % 4;
     const auto& across = solid_.across[t];
-    if (std::max({across[0], across[1], across[2], across[3]}) != none) continue;
+    if (!has_boundary(across)) continue;
     for (Index n = 0; n < 3; ++n) {
       const Index k = turn[own][n], from = turn[own][(n + 1) % 3], to = turn[own][(n + 2) % 3];
       if (across[k] != none) continue;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <span>
@@ -26,6 +27,11 @@ struct TetSolid {
     return corners.at(v);
   }
 };
+
+/// Is one of a tetrahedron's faces on the boundary? `none` is the highest number.
+inline bool has_boundary(const std::array<Index, 4>& across) {
+  return std::max(std::max(across[0], across[1]), std::max(across[2], across[3])) == none;
+}
 
 /// Fans of tetrahedra around the edges from some vertices to higher ones: where more than pi of
 /// solid is around an edge, and where its tetrahedra are not all joined by faces there. Where all

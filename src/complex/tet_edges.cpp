@@ -42,12 +42,13 @@ class Finder {
   void mark_boundary() {
     over_blocks(solid_.corner.size(), threads_, [&](std::size_t first, std::size_t last) {
       for (std::size_t t = first; t < last; ++t)
-        for (std::size_t k = 0; k < 4; ++k)
-          if (solid_.across[t][k] == none)
-            for (std::size_t i = 0; i < 4; ++i)
-              if (i != k)
-                std::atomic_ref(on_boundary_[solid_.corner[t][i]])
-                    .store(1, std::memory_order_relaxed);
+        if (has_boundary(solid_.across[t]))
+          for (std::size_t k = 0; k < 4; ++k)
+            if (solid_.across[t][k] == none)
+              for (std::size_t i = 0; i < 4; ++i)
+                if (i != k)
+                  std::atomic_ref(on_boundary_[solid_.corner[t][i]])
+                      .store(1, std::memory_order_relaxed);
     });
   }
 

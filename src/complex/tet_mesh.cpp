@@ -148,18 +148,25 @@ TetMesh<Real>::TetMesh(std::span<const std::array<double, 3>> positions,
     volume[t] = static_cast<signed char>(thick <= flat ? 0 : thick < thin ? 1 : 2);
     if (six_volumes < 0) volume[t] = static_cast<signed char>(-volume[t]);
   };
-  // Some blocks at a time, as the sum is in the order of the tetrahedra.
-  const std::size_t most = building_block * (threads_for(threads) == 1 ? 1 : 32);
+  // The sum is in the order of the tetrahedra: by one thread along with the rest, which hides that
+  // each addition waits for the last, by several behind some blocks at a time.
+  const std::size_t most = threads_for(threads) == 1 ? 1 : 32 * building_block;
   Unfilled<std::array<double, 6>> lengths(std::min(most, tets.size()));
   double sum = 0;
+  const auto add = [&](const std::array<double, 6>& six) {
+    for (const double length : six) sum += length;
+  };
   try {
-    for (std::size_t begin = 0; begin < tets.size(); begin += most) {
-      const std::size_t count = std::min(most, tets.size() - begin);
-      over_blocks(count, threads, [&](std::size_t first, std::size_t last) {
-        for (std::size_t k = first; k < last; ++k) measure(begin + k, lengths[k]);
-      });
-      for (std::size_t k = 0; k < count; ++k)
-        for (const double length : lengths[k]) sum += length;
+    if (most == 1) {
+      for (std::size_t t = 0; t < tets.size(); ++t) measure(t, lengths[0]), add(lengths[0]);
+    } else {
+      for (std::size_t begin = 0; begin < tets.size(); begin += most) {
+        const std::size_t count = std::min(most, tets.size() - begin);
+        over_blocks(count, threads, [&](std::size_t first, std::size_t last) {
+          for (std::size_t k = first; k < last; ++k) measure(begin + k, lengths[k]);
+        });
+        for (std::size_t k = 0; k < count; ++k) add(lengths[k]);
+      }
     }
   } catch (const InputError&) {  // what cannot be glued is told first
     (void)glue_tets(positions.size(), tets, threads);
