@@ -63,17 +63,13 @@ class DisjointSets {
     while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
     return i;
   }
-  void unite(Index i, Index j) {
-    if (parent_[i] == parent_[j]) return;
+  /// Were they apart?
+  bool unite(Index i, Index j) {
+    if (parent_[i] == parent_[j]) return false;
     i = find(i);
     j = find(j);
     if (i != j) parent_[std::max(i, j)] = std::min(i, j);
-  }
-  /// With the set whose root is known, which may then be another one: that is returned.
-  Index join(Index root, Index j) {
-    j = find(j);
-    if (j == root) return root;
-    return parent_[std::max(root, j)] = std::min(root, j);
+    return i != j;
   }
 
  private:

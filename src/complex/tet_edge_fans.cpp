@@ -12,10 +12,6 @@ namespace {
 // flat). The excess is rounding on flat boundaries of files with seven digits.
 constexpr double excess = 1e-5;
 
-Index corner_of(const std::array<Index, 4>& corner, Index vertex) {
-  return static_cast<Index>(std::find(corner.begin(), corner.end(), vertex) - corner.begin());
-}
-
 double dihedral(const TetPoints& p, Index i, Index j, Index k, Index l) {
   const auto edge = p[j] - p[i];
   const auto a = cross(edge, p[k] - p[i]), b = cross(edge, p[l] - p[i]);
@@ -156,8 +152,10 @@ void TetEdgeFans::around_edge(Index a, Index b, std::span<const Start> starts) {
 
 std::vector<Index> TetEdgeFans::tets_around(Index a, Index b) const {
   std::vector<Index> around;
-  for (const Index c : solid_.corners_at(a))
-    if (corner_of(solid_.corner[c / 4], b) < 4) around.push_back(c / 4);
+  for (const Index c : solid_.corners_at(a)) {
+    const auto& corner = solid_.corner[c / 4];
+    if (std::find(corner.begin(), corner.end(), b) != corner.end()) around.push_back(c / 4);
+  }
   return around;
 }
 
@@ -172,9 +170,7 @@ std::size_t TetEdgeFans::walk(const Start& start, Index a, Index b) {
     if (o == none) break;
     t = o / 4;
     k = o % 4;
-    const auto& corner = solid_.corner[t];
-    l = static_cast<Index>(corner[1] == shared) | static_cast<Index>(corner[2] == shared) * 2 |
-        static_cast<Index>(corner[3] == shared) * 3;
+    l = corner_of(solid_.corner[t], shared);
   }
   // From the lower of both its ends, whichever it was walked from.
   Index from = 4 * start.tet + start.enter, to = 4 * t + l;

@@ -28,6 +28,12 @@ struct TetSolid {
   }
 };
 
+/// Which corner of a tetrahedron a vertex of it is.
+inline Index corner_of(const std::array<Index, 4>& corner, Index vertex) {
+  return static_cast<Index>(corner[1] == vertex) | static_cast<Index>(corner[2] == vertex) * 2 |
+         static_cast<Index>(corner[3] == vertex) * 3;
+}
+
 /// Is one of a tetrahedron's faces on the boundary? `none` is the highest number.
 inline bool has_boundary(const std::array<Index, 4>& across) {
   return std::max(std::max(across[0], across[1]), std::max(across[2], across[3])) == none;

@@ -16,10 +16,9 @@ using Corners = TetSolid::Corners;
 
 class Finder {
  public:
-  Finder(Corners corner, Corners across, const TetCorners& corners,
-         std::span<const Index> first_use, const TetPlaces& places, int threads)
+  Finder(Corners corner, Corners across, const TetCorners& corners, const TetPlaces& places,
+         int threads)
       : solid_{corner, across, corners, places, {}},
-        first_use_(first_use),
         vertices_(corners.vertices()),
         threads_(threads),
         on_reflex_(vertices_, 0),
@@ -59,13 +58,13 @@ class Finder {
     return std::max(building_block, (vertices_ + parts - 1) / parts);
   }
 
-  // From each vertex to those with higher numbers. Vertices that share edges with higher ones alone
-  // are counted too.
+  // From each vertex to those with higher numbers; and the lowest at each, itself included.
   void count_edges() {
-    std::atomic<std::size_t> edges = 0, lowest = 0;
+    lowest_.resize(vertices_);
+    std::atomic<std::size_t> edges = 0;
     for_blocks(vertices_, part(), threads_, {}, [&](std::size_t first, std::size_t last) {
       std::vector<Index> seen(vertices_, none);  // the last vertex that it shared an edge with
-      std::size_t own = 0, own_lowest = 0;
+      std::size_t own = 0;
       for (Index v = static_cast<Index>(first); v < last; ++v) {
         Index least = none;
         for (const Index c : solid_.corners_at(v))
@@ -74,13 +73,11 @@ class Finder {
             seen[w] = v;
             least = std::min(least, w);
           }
-        own_lowest += least == v;
+        lowest_[v] = least;
       }
       edges += own;
-      lowest += own_lowest;
     });
     found_.edges = edges;
-    lowest_ = lowest;
   }
 
   // In ascending order of their ends.
@@ -170,45 +167,37 @@ class Finder {
     }
   }
 
-  // How many of the tetrahedra at a vertex have no lower one behind a face there: those joined by
-  // faces have at least one that has not.
-  [[nodiscard]] std::size_t lowest_at(std::span<const Index> row) const {
-    std::size_t lowest = 0;
-    for (const Index c : row) {
-      const auto& across = solid_.across[c / 4];
-      Index lower = 0;
-      for (Index k = 0; k < 4; ++k) lower |= static_cast<Index>(across[k] < (c & ~Index{3})) << k;
-      lowest += (lower & ~(Index{1} << c % 4)) == 0;
-    }
-    return lowest;
-  }
-
-  // Are all tetrahedra at a vertex joined by faces there? place[t]: where t is in the row of the
-  // vertex that it was written for last.
-  [[nodiscard]] bool is_one_fan(Index v, std::span<Index> place, std::vector<Index>& sets) const {
+  // Are all tetrahedra at a vertex joined by faces there? So they are if each but the lowest leads
+  // to a lower one, and most have one behind a face. met[t] is 0 before and after.
+  [[nodiscard]] bool is_one_fan(Index v, std::vector<char>& met, std::vector<Index>& queue) const {
     const auto row = solid_.corners_at(v);
-    std::size_t fans = lowest_at(row);
-    if (fans == 1) return true;
-    sets.resize(std::max(sets.size(), row.size()));
-    const auto find = [&](Index n) {
-      while (sets[n] != n) n = sets[n] = sets[sets[n]];
-      return n;
-    };
-    fans = row.size();
-    for (Index n = 0; n < row.size(); ++n) {
-      const Index t = row[n] / 4, own = row[n] % 4;
-      place[t] = sets[n] = n;
-      Index root = n;
+    for (const Index c : row.subspan(1)) {
+      const auto& across = solid_.across[c / 4];
+      unsigned lower = 0;
+      for (unsigned k = 0; k < 4; ++k) lower |= unsigned{across[k] < (c & ~Index{3})} << k;
+      if ((lower & ~(1u << c % 4)) == 0 && !leads_lower(c, v, met, queue)) return false;
+    }
+    return true;
+  }
+  // By faces at the vertex. Cost: the tetrahedra on the way.
+  [[nodiscard]] bool leads_lower(Index start, Index v, std::vector<char>& met,
+                                 std::vector<Index>& queue) const {
+    bool found = false;
+    queue.assign(1, start);
+    met[start / 4] = 1;
+    for (std::size_t head = 0; head < queue.size() && !found; ++head) {
+      const Index c = queue[head], own = c % 4;
       for (Index k = 0; k < 4; ++k) {
-        const Index o = solid_.across[t][k] / 4;
-        const Index other = find(place[o < t && k != own ? o : t]);
-        fans -= other != root;
-        const Index lower = std::min(root, other);
-        sets[std::max(root, other)] = lower;
-        root = lower;
+        const Index o = solid_.across[c / 4][k], t = o / 4;
+        if (k == own || o == none) continue;
+        found = found || t < start / 4;
+        if (met[t]) continue;
+        met[t] = 1;
+        queue.push_back(4 * t + corner_of(solid_.corner[t], v));
       }
     }
-    return fans == 1;
+    for (const Index c : queue) met[c / 4] = 0;
+    return found;
   }
 
   // Vertices at the boundary whose tetrahedra are not all joined by faces there, ascending.
@@ -216,10 +205,10 @@ class Finder {
     std::vector<Index> torn;
     std::mutex mutex;
     for_blocks(vertices_, part(), threads_, {}, [&](std::size_t first, std::size_t last) {
-      Unfilled<Index> place(solid_.corner.size());
-      std::vector<Index> sets, own;
+      std::vector<char> met(solid_.corner.size(), 0);
+      std::vector<Index> queue, own;
       for (Index v = static_cast<Index>(first); v < last; ++v)
-        if (on_boundary_[v] && !is_one_fan(v, place, sets)) own.push_back(v);
+        if (on_boundary_[v] && !is_one_fan(v, met, queue)) own.push_back(v);
       const std::lock_guard lock(mutex);
       torn.insert(torn.end(), own.begin(), own.end());
     });
@@ -228,19 +217,27 @@ class Finder {
   }
 
   // Tetrahedra that share a vertex are of one component: joined by faces there, or the vertex or an
-  // edge at it is pinched. So vertices are united.
-  [[nodiscard]] std::size_t count_components() const {
-    if (lowest_ == 1) return 1;  // each has at least one
-    DisjointSets sets(vertices_);
-    const auto tell_edges = [&](std::size_t first, std::size_t last, const auto& tell) {
-      for (const auto& [a, b, c, d] : solid_.corner.subspan(first, last - first))
-        for (const Index other : {b, c, d}) tell(std::min(a, other), std::max(a, other));
-    };
-    tell_vertices<Index>(first_use_, solid_.corner.size(), threads_, tell_edges,
-                         [&](Index lower, Index higher) { sets.unite(lower, higher); });
+  // edge at it is pinched. So each vertex goes with the lowest that it shares an edge with, and
+  // where that leaves several sets, with all others.
+  [[nodiscard]] std::size_t count_components() {
+    std::vector<Index>& root = lowest_;
     std::size_t components = 0;
-    for (Index v = 0; v < vertices_; ++v)
-      components += sets.find(v) == v && !solid_.corners_at(v).empty();
+    for (Index v = 0; v < vertices_; ++v) {
+      components += root[v] == v;
+      if (root[v] != none) root[v] = root[root[v]];  // of a lower one, which is known
+    }
+    if (components == 1) return 1;
+    DisjointSets sets(vertices_);
+    gather_blocks<std::vector<std::array<Index, 2>>>(
+        solid_.corner.size(), threads_,
+        [&](std::size_t first, std::size_t last, auto& differ) {
+          for (const auto& [a, b, c, d] : solid_.corner.subspan(first, last - first))
+            for (const Index other : {b, c, d})
+              if (root[other] != root[a]) differ.push_back({root[a], root[other]});
+        },
+        [&](const auto& differ) {
+          for (const auto& [one, other] : differ) components -= sets.unite(one, other);
+        });
     return components;
   }
 
@@ -285,11 +282,10 @@ class Finder {
   }
 
   TetSolid solid_;
-  std::span<const Index> first_use_;
   std::size_t vertices_;
-  std::size_t lowest_ = 0;  // vertices without a lower neighbour
   int threads_;
   std::vector<char> on_reflex_, on_boundary_;
+  std::vector<Index> lowest_;
   std::vector<std::pair<Index, Index>> entries_;
   TetTopology found_;
 };
@@ -297,9 +293,8 @@ class Finder {
 }  // namespace
 
 TetTopology find_tet_topology(Corners corner, Corners across, const TetCorners& corners,
-                              std::span<const Index> first_use, const TetPlaces& places,
-                              int threads) {
-  return Finder(corner, across, corners, first_use, places, threads).find();
+                              const TetPlaces& places, int threads) {
+  return Finder(corner, across, corners, places, threads).find();
 }
 
 }  // namespace plexway

@@ -51,11 +51,10 @@ struct TetPlaces {
   }
 };
 
-/// From corners and across (4 u + j, or none) of each tetrahedron; `first_use` as in tell_vertices.
-/// The same by any number of threads.
+/// From corners and across (4 u + j, or none) of each tetrahedron. The same by any number of
+/// threads.
 TetTopology find_tet_topology(std::span<const std::array<Index, 4>> corner,
                               std::span<const std::array<Index, 4>> across,
-                              const TetCorners& corners, std::span<const Index> first_use,
-                              const TetPlaces& places, int threads);
+                              const TetCorners& corners, const TetPlaces& places, int threads);
 
 }  // namespace plexway

@@ -254,7 +254,7 @@ void TetMesh<Real>::assemble(TetLayout&& layout, std::span<const std::array<doub
     }
   }
   TetCorners& rows = layout.rows;
-  TetTopology topology = find_tet_topology(corner, over, rows, layout.first_use, {at, points}, threads);
+  TetTopology topology = find_tet_topology(corner, over, rows, {at, points}, threads);
   corners_begin_ = std::move(rows.begin);
   corners_ = std::move(rows.corner);
   summary_.edges = topology.edges;
