@@ -62,29 +62,42 @@ std::vector<Index> sorted_along_curve(std::size_t count, int threads, CellOf cel
     return (word >> shift >> (digit * pass)) & ((1 << digit) - 1);
   };
   Unfilled<std::uint64_t> words(count), other(count);
-  over_blocks(count, threads, [&](std::size_t first, std::size_t last) {
-    for (std::size_t i = first; i < last; ++i)
+  // Of each block, how many words have a digit, and then where the next of them goes. One thread
+  // takes all as one block, of which a pass does not change how many words have which digits.
+  using Digits = std::array<Index, 1 << digit>;
+  const std::size_t block = threads_for(threads) == 1 ? std::max<std::size_t>(count, 1)
+                                                      : building_block;
+  std::vector<Digits> at(std::max<std::size_t>((count + block - 1) / block, 1));
+  std::array<Digits, passes> of_all{};
+  const bool in_one = at.size() == 1;
+  const auto over = [&](const auto& work) { for_blocks(count, block, threads, {}, work); };
+  over([&](std::size_t first, std::size_t last) {
+    for (std::size_t i = first; i < last; ++i) {
       words[i] = coarse_curve_key(cell_of(i)) >> (36 - key_bits) << shift | i;
+      if (in_one)
+        for (int pass = 0; pass < passes; ++pass)
+          ++of_all[static_cast<std::size_t>(pass)][place(words[i], pass)];
+    }
   });
-  // Of each block, how many words have a digit, and then where the next of them goes.
-  std::vector<std::array<Index, 1 << digit>> at(
-      std::max<std::size_t>((count + building_block - 1) / building_block, 1));
   for (int pass = 0; pass < passes; ++pass) {
-    over_blocks(count, threads, [&](std::size_t first, std::size_t last) {
-      auto& own = at[first / building_block];
-      own.fill(0);
-      for (std::size_t i = first; i < last; ++i) ++own[place(words[i], pass)];
-    });
+    if (in_one)
+      at[0] = of_all[static_cast<std::size_t>(pass)];
+    else
+      over([&](std::size_t first, std::size_t last) {
+        auto& own = at[first / block];
+        own.fill(0);
+        for (std::size_t i = first; i < last; ++i) ++own[place(words[i], pass)];
+      });
     Index sum = 0;
     bool alike = false;
     for (std::size_t d = 0; d < at[0].size(); ++d) {
       const Index before = sum;
-      for (auto& block : at) sum += std::exchange(block[d], sum);
+      for (Digits& own : at) sum += std::exchange(own[d], sum);
       alike = alike || sum - before == count;
     }
     if (alike) continue;
-    over_blocks(count, threads, [&](std::size_t first, std::size_t last) {
-      auto& own = at[first / building_block];
+    over([&](std::size_t first, std::size_t last) {
+      auto& own = at[first / block];
       for (std::size_t i = first; i < last; ++i) other[own[place(words[i], pass)]++] = words[i];
     });
     words.swap(other);
