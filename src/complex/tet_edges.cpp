@@ -51,11 +51,13 @@ class Finder {
     });
   }
 
-  // Vertices in as few parts as there are threads, and few at most: each has marks for all.
+  // Vertices in a few parts for each thread, as their tetrahedra take unlike times, and few at most:
+  // each has marks for all.
   [[nodiscard]] std::size_t part() const {
-    constexpr int most = 16;
-    const auto parts = static_cast<std::size_t>(std::min(threads_for(threads_), most));
-    return std::max(building_block, (vertices_ + parts - 1) / parts);
+    constexpr std::size_t most = 16, least = 512;
+    const auto threads = static_cast<std::size_t>(threads_for(threads_));
+    const std::size_t parts = threads == 1 ? 1 : std::min(4 * threads, most);
+    return std::max(least, (vertices_ + parts - 1) / parts);
   }
 
   // From each vertex to those with higher numbers; and the lowest at each, itself included.

@@ -198,7 +198,8 @@ void check_tets(std::size_t vertices, Tets tets, int threads) {
 TetGluing glue_tets(Tets tets, const TetCorners& rows, int threads, bool* fit) {
   TetGluing across(tets.size());
   std::atomic<bool> all_fit = true;
-  over_blocks(rows.vertices(), threads, [&](std::size_t first, std::size_t last) {
+  constexpr std::size_t block = 2048;  // of vertices, of which a solid has few
+  for_blocks(rows.vertices(), block, threads, {}, [&](std::size_t first, std::size_t last) {
     FaceGluer gluer(tets, rows, across);
     for (Index v = static_cast<Index>(first); v < last; ++v) gluer.glue_at(v);
     if (!gluer.fit()) all_fit = false;
