@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "complex/building_blocks.hpp"
+#include "complex/components.hpp"
 #include "complex/simplex_gluing.hpp"
 #include "complex/tet_edge_fans.hpp"
 
@@ -33,7 +34,9 @@ class Finder {
     if (solid_.places.embedded()) merge_straight();
     list_by_tet();
     find_vertices();
-    found_.components = count_components();
+    // Tetrahedra that share a vertex are of one: joined by faces there, or the vertex or an edge at
+    // it is pinched.
+    found_.components = count_components<4>(solid_.corner, lowest_, threads_);
     return std::move(found_);
   }
 
@@ -216,31 +219,6 @@ class Finder {
     });
     std::sort(torn.begin(), torn.end());
     return torn;
-  }
-
-  // Tetrahedra that share a vertex are of one component: joined by faces there, or the vertex or an
-  // edge at it is pinched. So each vertex goes with the lowest that it shares an edge with, and
-  // where that leaves several sets, with all others.
-  [[nodiscard]] std::size_t count_components() {
-    std::vector<Index>& root = lowest_;
-    std::size_t components = 0;
-    for (Index v = 0; v < vertices_; ++v) {
-      components += root[v] == v;
-      if (root[v] != none) root[v] = root[root[v]];  // of a lower one, which is known
-    }
-    if (components == 1) return 1;
-    DisjointSets sets(vertices_);
-    gather_blocks<std::vector<std::array<Index, 2>>>(
-        solid_.corner.size(), threads_,
-        [&](std::size_t first, std::size_t last, auto& differ) {
-          for (const auto& [a, b, c, d] : solid_.corner.subspan(first, last - first))
-            for (const Index other : {b, c, d})
-              if (root[other] != root[a]) differ.push_back({root[a], root[other]});
-        },
-        [&](const auto& differ) {
-          for (const auto& [one, other] : differ) components -= sets.unite(one, other);
-        });
-    return components;
   }
 
   // Tetrahedra at a vertex that are joined neither by faces nor by edges there touch in it only.

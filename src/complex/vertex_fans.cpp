@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "complex/components.hpp"
 #include "complex/face_layout.hpp"
 #include "complex/simplex_gluing.hpp"
 
@@ -44,29 +45,6 @@ Index fan_size(const FaceLayout& layout, Index start) {
   return found;
 }
 
-// The corners of a regular vertex are joined by edges, those of the others belong together: so
-// faces belong together if they share a vertex.
-std::size_t count_components(const FaceLayout& layout, int threads) {
-  DisjointSets sets(layout.named);
-  tell_vertices<Index>(
-      layout.first_use, layout.face_count(), threads,
-      [&](std::size_t first, std::size_t last, const auto& tell) {
-        for (std::size_t f = first; f < last; ++f) {
-          const auto& [a, b, c] = layout.corner[f];
-          tell(std::min({a, b, c}), static_cast<Index>(f));
-        }
-      },
-      // A set's numbers are those of one block, as long as it is told of its vertices alone.
-      [&](Index, Index f) {
-        const auto& [a, b, c] = layout.corner[f];
-        sets.unite(a, b);
-        sets.unite(a, c);
-      });
-  std::size_t count = 0;
-  for (Index v = 0; v < layout.named; ++v) count += sets.find(v) == v;
-  return count;
-}
-
 }  // namespace
 
 VertexFans find_vertex_fans(const FaceLayout& layout, int threads) {
@@ -75,23 +53,27 @@ VertexFans find_vertex_fans(const FaceLayout& layout, int threads) {
   VertexFans fans;
   fans.corner.assign(vertices, none);
   fans.on_boundary.assign(vertices, 0);
-  std::vector<Index> corners(vertices, 0);
+  std::vector<Index> corners(vertices, 0), lowest(vertices, none);
   struct Corner {
-    Index face;
+    Index face, lowest;
     unsigned char corner, on_boundary;
   };
   tell_vertices<Corner>(
       layout.first_use, faces, threads,
       [&](std::size_t first, std::size_t last, const auto& tell) {
-        for (std::size_t f = first; f < last; ++f)
+        for (std::size_t f = first; f < last; ++f) {
+          const auto& [a, b, c] = layout.corner[f];
+          const Index least = std::min({a, b, c});
           for (std::size_t i = 0; i < 3; ++i)
             tell(layout.corner[f][i],
-                 Corner{static_cast<Index>(f), static_cast<unsigned char>(i),
+                 Corner{static_cast<Index>(f), least, static_cast<unsigned char>(i),
                         layout.across[f][i] >= end || layout.across[f][edge_before(i)] >= end});
+        }
       },
       [&](Index v, const Corner& c) {
         ++corners[v];
         fans.on_boundary[v] = static_cast<char>(fans.on_boundary[v] | c.on_boundary);
+        lowest[v] = std::min(lowest[v], c.lowest);
         // The last one in the first face.
         if (fans.corner[v] >= 3 * c.face) fans.corner[v] = 3 * c.face + c.corner;
       });
@@ -109,7 +91,7 @@ VertexFans find_vertex_fans(const FaceLayout& layout, int threads) {
   if (!fans.irregular.empty()) row.assign(vertices, none);
   for (std::size_t r = 0; r < fans.irregular.size(); ++r)
     row[fans.irregular[r]] = static_cast<Index>(r);
-  fans.components = count_components(layout, threads);
+  fans.components = count_components<3>(layout.corner, lowest, threads);
 
   fans.irregular_begin.assign(fans.irregular.size() + 1, 0);
   for (std::size_t r = 0; r < fans.irregular.size(); ++r)
