@@ -32,8 +32,10 @@ class Neighbourhoods {
         heard_(excess.size()) {}
 
   // An edge inside is met from both its triangles. Of one on the boundary both ends are there.
+  // Nobody asks for that of a vertex which is no saddle by itself.
   void hear(Index of, Index from) {
-    const double mine = std::abs(excess_[of]), theirs = excess_[from];
+    const double mine = excess_[of], theirs = excess_[from];
+    if (!(mine > 0)) return;
     sums_[of].all += theirs / 2;
     sums_[of].lack += std::max(0.0, -theirs) / 2;
     ++heard_[of];
