@@ -65,8 +65,8 @@ std::vector<Index> sorted_along_curve(std::size_t count, int threads, CellOf cel
   // Of each block, how many words have a digit, and then where the next of them goes. One thread
   // takes all as one block, of which a pass does not change how many words have which digits.
   using Digits = std::array<Index, 1 << digit>;
-  const std::size_t block = threads_for(threads) == 1 ? std::max<std::size_t>(count, 1)
-                                                      : building_block;
+  const std::size_t block =
+      threads_for(threads) == 1 ? std::max<std::size_t>(count, 1) : building_block;
   std::vector<Digits> at(std::max<std::size_t>((count + block - 1) / block, 1));
   std::array<Digits, passes> of_all{};
   const bool in_one = at.size() == 1;

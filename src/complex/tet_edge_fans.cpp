@@ -44,9 +44,9 @@ TetEdgeFans::Found TetEdgeFans::look(Index first, Index last) {
   return std::move(found_);
 }
 
-// Where one fan is at each edge of the boundary, which is so but at pinched ones: a fan begins where
-// its edge ascends along the boundary's faces as seen from inside and ends where it descends, and
-// all tetrahedra at the edge are in it. False, and nothing is found, where it is not so.
+// Where one fan is at each edge of the boundary, which is so but at pinched ones: a fan begins
+// where its edge ascends along the boundary's faces as seen from inside and ends where it descends,
+// and all tetrahedra at the edge are in it. False, and nothing is found, where it is not so.
 bool TetEdgeFans::look_at_boundary(Index v) {
   constexpr Index turn[4][3] = {{1, 3, 2}, {0, 2, 3}, {0, 3, 1}, {0, 1, 2}};  // around a corner
   constexpr Index begins = 1, ends = 2;

@@ -23,9 +23,7 @@ struct TetSolid {
 
   [[nodiscard]] std::size_t vertices() const { return corners.vertices(); }
   [[nodiscard]] TetPoints points(std::size_t t) const { return places.of(t, corner[t]); }
-  [[nodiscard]] std::span<const Index> corners_at(Index v) const {
-    return corners.at(v);
-  }
+  [[nodiscard]] std::span<const Index> corners_at(Index v) const { return corners.at(v); }
 };
 
 /// Which corner of a tetrahedron a vertex of it is.

@@ -54,8 +54,8 @@ class Finder {
     });
   }
 
-  // Vertices in a few parts for each thread, as their tetrahedra take unlike times, and few at most:
-  // each has marks for all.
+  // Vertices in a few parts for each thread, as their tetrahedra take unlike times, and few at
+  // most: each has marks for all.
   [[nodiscard]] std::size_t part() const {
     constexpr std::size_t most = 16, least = 512;
     const auto threads = static_cast<std::size_t>(threads_for(threads_));

@@ -78,9 +78,7 @@ class FaceGluer {
       : tets_(tets), rows_(rows), across_(across) {}
 
   /// Writes all faces of which `v` is the lowest vertex.
-  void glue_at(Index v) {
-    glue_by_order(v, glue_by_table(collect(v)));
-  }
+  void glue_at(Index v) { glue_by_order(v, glue_by_table(collect(v))); }
   /// Did those glued so far lie on two sides of each face?
   [[nodiscard]] bool fit() const { return fit_; }
 
@@ -126,7 +124,7 @@ class FaceGluer {
     if (sides.size() >= FaceSide::several) return sides;
     left_.resize(sides_.size());
     const auto place = [&](const FaceSide& s) -> Place& {
-      return table_[s.others * 0x9e3779b97f4a7c15 >> (64 - table_bits)];
+      return table_[static_cast<std::size_t>(s.others * 0x9e3779b97f4a7c15 >> (64 - table_bits))];
     };
     for (const FaceSide& s : sides) {
       Place& p = place(s);

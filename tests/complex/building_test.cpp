@@ -22,6 +22,7 @@
 #include "complex/simplex_order.hpp"
 #include "complex/test_meshes.hpp"
 #include "complex/test_solids.hpp"
+#include "complex/tet_gluing.hpp"
 #include "complex/triangle_shape.hpp"
 
 // How meshes are built fast, beside the slow ways of saying the same.
@@ -41,6 +42,38 @@ Gluing glued_by_map(const Surface& s) {
     for (std::size_t k = 0; list.size() > 1 && k < list.size(); ++k)
       across[list[k] / 3][list[k] % 3] = list[(k + 1) % list.size()];
   return across;
+}
+
+struct GluedByMap {
+  std::vector<std::array<Index, 4>> across;
+  bool fit = true;     // two lie on two sides of what they share
+  bool third = false;  // more than two share a face
+};
+GluedByMap glued_by_map(std::span<const Tet> tets) {
+  constexpr Index seen[4][3] = {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}};  // from inside
+  struct Side {
+    Index corner;
+    bool even;
+  };
+  std::map<std::array<Index, 3>, std::vector<Side>> sides;
+  for (Index t = 0; t < tets.size(); ++t)
+    for (Index i = 0; i < 4; ++i) {
+      std::array<Index, 3> face;
+      for (std::size_t k = 0; k < 3; ++k) face[k] = tets[t][seen[i][k]];
+      const bool even = ((face[0] < face[1]) + (face[1] < face[2]) + (face[0] < face[2])) % 2 == 1;
+      std::sort(face.begin(), face.end());
+      sides[face].push_back({4 * t + i, even});
+    }
+  GluedByMap glued;
+  glued.across.assign(tets.size(), {none, none, none, none});
+  for (const auto& [face, list] : sides) {
+    glued.third |= list.size() > 2;
+    if (list.size() != 2) continue;
+    glued.fit &= list[0].even != list[1].even;
+    for (std::size_t k = 0; k < 2; ++k)
+      glued.across[list[k].corner / 4][list[k].corner % 4] = list[1 - k].corner;
+  }
+  return glued;
 }
 
 // `count` triangles around vertex 0, some of them several times.
@@ -342,4 +375,57 @@ TEST_CASE("many tetrahedra at one vertex are glued like few") {
   const std::string last = std::to_string(ball.tets.size() - 1);
   CHECK_THROWS_WITH(ball.mesh<double>(), Catch::Contains("17") && Catch::Contains(last) &&
                                              Catch::Contains("at most two can"));
+}
+
+TEST_CASE("tetrahedra are glued at their vertices as by a map") {
+  std::mt19937 random(5);
+  std::vector<std::vector<Tet>> all;
+  for (const double kept : {0.1, 0.5, 0.9, 1.0})
+    for (const bool mixed : {false, true}) {
+      Solid solid = solid_cube(5);
+      std::erase_if(solid.tets, [&](const Tet&) { return uniform(random) > kept; });
+      // Vertices in any order, and corners too, or all in positive order.
+      std::vector<Index> name(solid.positions.size());
+      for (Index v = 0; v < name.size(); ++v) name[v] = v;
+      std::shuffle(name.begin(), name.end(), random);
+      for (Tet& t : solid.tets) {
+        for (Index& v : t) v = name[v];
+        if (mixed) std::shuffle(t.begin(), t.end(), random);
+      }
+      all.push_back(solid.tets);
+    }
+  // A ball about vertex 0: at the last more faces than a table can tell of.
+  for (const unsigned fineness : {0u, 2u, 6u}) {
+    std::vector<Tet>& ball = all.emplace_back();
+    for (const Face& f : sphere(fineness).faces) ball.push_back({0, f[0] + 1, f[1] + 1, f[2] + 1});
+  }
+  // Two and three on one face, on one side and on both.
+  all.push_back({{0, 1, 2, 3}, {0, 1, 2, 4}});
+  all.push_back({{0, 1, 2, 3}, {1, 0, 2, 4}});
+  all.push_back({{0, 1, 2, 3}, {1, 0, 2, 4}, {0, 1, 2, 5}});
+  all.push_back({{0, 1, 2, 3}, {1, 0, 2, 4}, {0, 1, 2, 5}, {1, 0, 2, 6}});
+  std::size_t unfit = 0, refused = 0;
+  for (const std::vector<Tet>& tets : all) {
+    Index vertices = 0;
+    for (const Tet& t : tets)
+      for (const Index v : t) vertices = std::max(vertices, v + 1);
+    const GluedByMap expected = glued_by_map(tets);
+    const TetCorners rows = corners_of_vertices(vertices, tets, {}, 1);
+    CAPTURE(tets.size(), vertices);
+    for (const int threads : {1, 3}) {
+      bool fit = false;
+      const auto glue = [&] { return glue_tets(tets, rows, threads, &fit); };
+      if (expected.third) {
+        CHECK_THROWS_WITH(glue(), Catch::Contains("at most two can"));
+        continue;
+      }
+      const TetGluing across = glue();
+      REQUIRE(std::ranges::equal(across, expected.across));
+      CHECK(fit == expected.fit);
+    }
+    unfit += !expected.third && !expected.fit;
+    refused += expected.third;
+  }
+  CHECK(unfit >= 4);
+  CHECK(refused == 2);
 }
