@@ -1,11 +1,12 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <span>
 #include <vector>
 
-#include <plexway/complex/detail/unfilled.hpp>
+#include <plexway/complex/blocks.hpp>
 #include <plexway/complex/ids.hpp>
 
 namespace plexway {
@@ -25,5 +26,14 @@ struct TetCorners {
 /// `first_use` as in tell_vertices; none given: by one thread.
 TetCorners corners_of_vertices(std::size_t vertices, Tets tets, std::span<const Index> first_use,
                                int threads);
+
+/// How many vertices to look at at once where each share of them has marks for all: a few shares
+/// for each thread, as their tetrahedra take unlike times, and few in all.
+inline std::size_t vertex_part(std::size_t vertices, int threads) {
+  constexpr std::size_t most = 16, least = 512;
+  const auto count = static_cast<std::size_t>(threads_for(threads));
+  const std::size_t parts = count == 1 ? 1 : std::min(4 * count, most);
+  return std::max(least, (vertices + parts - 1) / parts);
+}
 
 }  // namespace plexway

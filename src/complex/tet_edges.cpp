@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "complex/building_blocks.hpp"
-#include "complex/components.hpp"
 #include "complex/simplex_gluing.hpp"
 #include "complex/tet_edge_fans.hpp"
 
@@ -29,14 +28,10 @@ class Finder {
     mark_boundary();
     solid_.on_boundary = on_boundary_;
     look_around_edges();
-    count_edges();
     found_.reflex_edges = found_.reflex.size();
     if (solid_.places.embedded()) merge_straight();
     list_by_tet();
     find_vertices();
-    // Tetrahedra that share a vertex are of one: joined by faces there, or the vertex or an edge at
-    // it is pinched.
-    found_.components = count_components<4>(solid_.corner, lowest_, threads_);
     return std::move(found_);
   }
 
@@ -54,40 +49,9 @@ class Finder {
     });
   }
 
-  // Vertices in a few parts for each thread, as their tetrahedra take unlike times, and few at
-  // most: each has marks for all.
-  [[nodiscard]] std::size_t part() const {
-    constexpr std::size_t most = 16, least = 512;
-    const auto threads = static_cast<std::size_t>(threads_for(threads_));
-    const std::size_t parts = threads == 1 ? 1 : std::min(4 * threads, most);
-    return std::max(least, (vertices_ + parts - 1) / parts);
-  }
-
-  // From each vertex to those with higher numbers; and the lowest at each, itself included.
-  void count_edges() {
-    lowest_.resize(vertices_);
-    std::atomic<std::size_t> edges = 0;
-    for_blocks(vertices_, part(), threads_, {}, [&](std::size_t first, std::size_t last) {
-      std::vector<Index> seen(vertices_, none);  // the last vertex that it shared an edge with
-      std::size_t own = 0;
-      for (Index v = static_cast<Index>(first); v < last; ++v) {
-        Index least = none;
-        for (const Index c : solid_.corners_at(v))
-          for (const Index w : solid_.corner[c / 4]) {
-            own += static_cast<std::size_t>(w > v) & static_cast<std::size_t>(seen[w] != v);
-            seen[w] = v;
-            least = std::min(least, w);
-          }
-        lowest_[v] = least;
-      }
-      edges += own;
-    });
-    found_.edges = edges;
-  }
-
   // In ascending order of their ends.
   void look_around_edges() {
-    const std::size_t size = part();
+    const std::size_t size = vertex_part(vertices_, threads_);
     std::vector<TetEdgeFans::Found> parts((vertices_ + size - 1) / size);
     for_blocks(vertices_, size, threads_, {}, [&](std::size_t first, std::size_t last) {
       parts[first / size] =
@@ -209,14 +173,15 @@ class Finder {
   [[nodiscard]] std::vector<Index> torn_vertices() const {
     std::vector<Index> torn;
     std::mutex mutex;
-    for_blocks(vertices_, part(), threads_, {}, [&](std::size_t first, std::size_t last) {
-      std::vector<char> met(solid_.corner.size(), 0);
-      std::vector<Index> queue, own;
-      for (Index v = static_cast<Index>(first); v < last; ++v)
-        if (on_boundary_[v] && !is_one_fan(v, met, queue)) own.push_back(v);
-      const std::lock_guard lock(mutex);
-      torn.insert(torn.end(), own.begin(), own.end());
-    });
+    for_blocks(vertices_, vertex_part(vertices_, threads_), threads_, {},
+               [&](std::size_t first, std::size_t last) {
+                 std::vector<char> met(solid_.corner.size(), 0);
+                 std::vector<Index> queue, own;
+                 for (Index v = static_cast<Index>(first); v < last; ++v)
+                   if (on_boundary_[v] && !is_one_fan(v, met, queue)) own.push_back(v);
+                 const std::lock_guard lock(mutex);
+                 torn.insert(torn.end(), own.begin(), own.end());
+               });
     std::sort(torn.begin(), torn.end());
     return torn;
   }
@@ -265,7 +230,6 @@ class Finder {
   std::size_t vertices_;
   int threads_;
   std::vector<char> on_reflex_, on_boundary_;
-  std::vector<Index> lowest_;
   std::vector<std::pair<Index, Index>> entries_;
   TetTopology found_;
 };

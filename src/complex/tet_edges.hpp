@@ -15,13 +15,12 @@ namespace plexway {
 /// Four corners of a tetrahedron in space.
 using TetPoints = std::array<Vector3<double>, 4>;
 
-/// Edges, vertices and components of a solid whose tetrahedra are in positive order.
+/// What is at edges and vertices of a solid whose tetrahedra are in positive order.
 struct TetTopology {
   struct PinchedEdge {
     std::array<Index, 2> vertex;
     Index begin, end;  ///< in pinched_edge_tets
   };
-  std::size_t edges = 0;
   std::size_t reflex_edges = 0;
   struct Reflex {
     std::array<Vector3<double>, 2> end, normal;
@@ -35,7 +34,6 @@ struct TetTopology {
   std::vector<Index> pinched_edge_tets;
   std::vector<Index> pinched_vertices;
   std::size_t reflex_vertices = 0;
-  std::size_t components = 0;
 };
 
 /// Where the corners of tetrahedra are, in units of about an edge: all in one frame by their

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cstdint>
+#include <mutex>
 #include <string>
 #include <utility>
 
@@ -10,6 +11,7 @@
 #include <plexway/error.hpp>
 
 #include "complex/building_blocks.hpp"
+#include "complex/components.hpp"
 
 namespace plexway {
 namespace {
@@ -74,13 +76,16 @@ struct FaceSide {
 /// Glues the faces whose lowest vertex is one of some, vertex by vertex.
 class FaceGluer {
  public:
-  FaceGluer(Tets tets, const TetCorners& rows, TetGluing& across)
-      : tets_(tets), rows_(rows), across_(across) {}
+  FaceGluer(Tets tets, const TetCorners& rows, TetGluing& across, std::span<Index> lowest)
+      : tets_(tets), rows_(rows), across_(across), lowest_(lowest), met_(rows.vertices(), none) {}
 
-  /// Writes all faces of which `v` is the lowest vertex.
+  /// Writes all faces of which `v` is the lowest vertex, and the lowest that shares an edge with
+  /// it.
   void glue_at(Index v) { glue_by_order(v, glue_by_table(collect(v))); }
   /// Did those glued so far lie on two sides of each face?
   [[nodiscard]] bool fit() const { return fit_; }
+  /// From the vertices so far to higher ones.
+  [[nodiscard]] std::size_t edges() const { return edges_; }
 
  private:
   static constexpr int table_bits = 10;
@@ -97,6 +102,8 @@ class FaceGluer {
     const auto row = rows_.at(v);
     if (sides_.size() < 3 * row.size() + 1) sides_.resize(6 * row.size() + 64);
     FaceSide* end = sides_.data();
+    Index least = row.empty() ? none : v;
+    std::size_t edges = 0;
     for (const Index c : row) {
       const auto& tet = tets_[c / 4];
       const auto& [p, q, r] = turn[c % 4];
@@ -114,7 +121,16 @@ class FaceGluer {
       };
       const std::size_t over_x = x > v, over_y = y > v, over_z = z > v;  // else another vertex's
       add(x, y, r, over_x & over_y), add(y, z, p, over_y & over_z), add(z, x, q, over_z & over_x);
+      edges += over_x & std::size_t{met_[x] != v};
+      met_[x] = v;
+      edges += over_y & std::size_t{met_[y] != v};
+      met_[y] = v;
+      edges += over_z & std::size_t{met_[z] != v};
+      met_[z] = v;
+      least = std::min(std::min(least, x), std::min(y, z));
     }
+    edges_ += edges;
+    lowest_[v] = least;
     return {sides_.data(), end};
   }
 
@@ -166,8 +182,11 @@ class FaceGluer {
   Tets tets_;
   const TetCorners& rows_;
   TetGluing& across_;
+  std::span<Index> lowest_;
+  std::vector<Index> met_;  // the last vertex that each shared an edge with
   std::vector<FaceSide> sides_, left_;
   std::vector<Place> table_ = std::vector<Place>(std::size_t{1} << table_bits);
+  std::size_t edges_ = 0;
   bool fit_ = true;
 };
 
@@ -193,21 +212,25 @@ void check_tets(std::size_t vertices, Tets tets, int threads) {
   });
 }
 
-TetGluing glue_tets(Tets tets, const TetCorners& rows, int threads, bool* fit) {
-  TetGluing across(tets.size());
-  std::atomic<bool> all_fit = true;
-  constexpr std::size_t block = 2048;  // of vertices, of which a solid has few
-  for_blocks(rows.vertices(), block, threads, {}, [&](std::size_t first, std::size_t last) {
-    FaceGluer gluer(tets, rows, across);
-    for (Index v = static_cast<Index>(first); v < last; ++v) gluer.glue_at(v);
-    if (!gluer.fit()) all_fit = false;
-  });
-  if (fit != nullptr) *fit = all_fit;
-  return across;
+GluedTets glue_tets(Tets tets, const TetCorners& rows, int threads) {
+  GluedTets glued;
+  glued.across.resize(tets.size());
+  std::vector<Index> lowest(rows.vertices());
+  std::mutex mutex;
+  for_blocks(rows.vertices(), vertex_part(rows.vertices(), threads), threads, {},
+             [&](std::size_t first, std::size_t last) {
+               FaceGluer gluer(tets, rows, glued.across, lowest);
+               for (Index v = static_cast<Index>(first); v < last; ++v) gluer.glue_at(v);
+               const std::lock_guard lock(mutex);
+               glued.fit &= gluer.fit();
+               glued.edges += gluer.edges();
+             });
+  glued.components = count_components<4>(tets, lowest, threads);
+  return glued;
 }
 
-TetGluing glue_tets(std::size_t vertices, Tets tets, int threads) {
-  return glue_tets(tets, corners_of_vertices(vertices, tets, {}, threads), threads, nullptr);
+GluedTets glue_tets(std::size_t vertices, Tets tets, int threads) {
+  return glue_tets(tets, corners_of_vertices(vertices, tets, {}, threads), threads);
 }
 
 namespace {

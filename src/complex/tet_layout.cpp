@@ -46,25 +46,27 @@ TetLayout::TetLayout(std::size_t vertices, Tets tets, std::vector<Index> order,
 }
 
 bool TetLayout::glue(int threads) {
-  bool fit = false;
   try {
-    across = glue_tets(corner, rows, threads, &fit);
+    glued = glue_tets(corner, rows, threads);
+    if (glued.fit) return true;
   } catch (const InputError&) {  // tells of other numbers than the caller's
   }
-  if (!fit) across = {};
-  return fit;
+  glued = {};
+  return false;
 }
 
-void TetLayout::take_gluing(const TetGluing& callers, int threads) {
-  across.resize(tet.size());
+void TetLayout::take_gluing(GluedTets callers, int threads) {
+  TetGluing across(tet.size());
   over_blocks(tet.size(), threads, [&](std::size_t first, std::size_t last) {
     for (std::size_t inside = first; inside < last; ++inside)
       for (Index i = 0; i < 4; ++i) {
-        const Index t = tet[inside], o = callers[t][i];
+        const Index t = tet[inside], o = callers.across[t][i];
         across[inside][corner_inside(t, i)] =
             o == none ? none : 4 * (tet_to_inside[o / 4] & ~turned) + corner_inside(o / 4, o % 4);
       }
   });
+  glued = std::move(callers);
+  glued.across = std::move(across);
 }
 
 }  // namespace plexway

@@ -30,13 +30,13 @@ struct TetLayout {
   std::size_t named = 0;                ///< vertices of tetrahedra
   Unfilled<std::array<Index, 4>> corner;
   TetCorners rows;  ///< of the vertices inside
-  TetGluing across;
+  GluedTets glued;
 
   /// Glued by their corners, which is quick, as neighbours lie beside each other here. False, and
   /// nothing is glued, where glue_tets or orient_tets have something to say or to change.
   [[nodiscard]] bool glue(int threads);
   /// Glued as the caller's tetrahedra are.
-  void take_gluing(const TetGluing& callers, int threads);
+  void take_gluing(GluedTets callers, int threads);
 
   /// Of a tetrahedron of the caller: the corner or face inside.
   [[nodiscard]] Index corner_inside(Index callers_tet, Index i) const {

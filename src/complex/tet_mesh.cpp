@@ -105,9 +105,9 @@ TetLayout lay_out(std::span<const std::array<double, 3>> scaled, Tets tets,
     TetLayout layout = laid_out(inverted);
     if (layout.glue(threads)) return layout;
   }
-  const TetGluing across = glue_tets(scaled.size(), tets, threads);
-  TetLayout layout = laid_out(orient_tets(tets, across, volume, threads));
-  layout.take_gluing(across, threads);
+  GluedTets glued = glue_tets(scaled.size(), tets, threads);
+  TetLayout layout = laid_out(orient_tets(tets, glued.across, volume, threads));
+  layout.take_gluing(std::move(glued), threads);
   return layout;
 }
 
@@ -213,12 +213,12 @@ TetMesh<Real>::TetMesh(std::size_t vertices, std::span<const std::array<Index, 4
   for (std::size_t t = 0; t < tets.size(); ++t)
     NumberRange<Real>::check_simplex("tet", t,
                                      *std::max_element(scaled[t].begin(), scaled[t].end()));
-  const auto across = glue_tets(vertices, tets, threads);
+  GluedTets glued = glue_tets(vertices, tets, threads);
   const std::vector<signed char> unknown(tets.size(), 0);
-  const auto turn = orient_tets(tets, across, unknown, threads);
+  const auto turn = orient_tets(tets, glued.across, unknown, threads);
   summary_.mean_edge = unit;
-  TetLayout layout(vertices, tets, breadth_first<4>(across), turn, threads);
-  layout.take_gluing(across, threads);
+  TetLayout layout(vertices, tets, breadth_first<4>(glued.across), turn, threads);
+  layout.take_gluing(std::move(glued), threads);
   assemble(std::move(layout), {}, scaled, threads);
 }
 
@@ -230,7 +230,7 @@ void TetMesh<Real>::assemble(TetLayout&& layout, std::span<const std::array<doub
   summary_.tets = m;
   summary_.unreferenced_vertices = vertices - layout.named;
   const auto& corner = layout.corner;
-  const TetGluing& over = layout.across;
+  const TetGluing& over = layout.glued.across;
   gather_blocks<std::size_t>(
       m, threads,
       [&](std::size_t first, std::size_t last, std::size_t& on_boundary) {
@@ -257,12 +257,14 @@ void TetMesh<Real>::assemble(TetLayout&& layout, std::span<const std::array<doub
   TetTopology topology = find_tet_topology(corner, over, rows, {at, points}, threads);
   corners_begin_ = std::move(rows.begin);
   corners_ = std::move(rows.corner);
-  summary_.edges = topology.edges;
+  summary_.edges = layout.glued.edges;
   summary_.reflex_edges = topology.reflex_edges;
   summary_.reflex_vertices = topology.reflex_vertices;
   summary_.pinched_vertices = topology.pinched_vertices.size();
   summary_.pinched_edges = topology.pinched_edges.size();
-  summary_.components = topology.components;
+  // Tetrahedra that share a vertex are of one: joined by faces there, or the vertex or an edge at
+  // it is pinched.
+  summary_.components = layout.glued.components;
   pinched_ = std::move(topology.pinched_vertices);
   for (const auto& e : topology.pinched_edges)
     pinched_edges_.own().push_back({{e.vertex[0], e.vertex[1]}, e.begin, e.end});

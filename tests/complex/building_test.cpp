@@ -413,15 +413,14 @@ TEST_CASE("tetrahedra are glued at their vertices as by a map") {
     const TetCorners rows = corners_of_vertices(vertices, tets, {}, 1);
     CAPTURE(tets.size(), vertices);
     for (const int threads : {1, 3}) {
-      bool fit = false;
-      const auto glue = [&] { return glue_tets(tets, rows, threads, &fit); };
+      const auto glue = [&] { return glue_tets(tets, rows, threads); };
       if (expected.third) {
         CHECK_THROWS_WITH(glue(), Catch::Contains("at most two can"));
         continue;
       }
-      const TetGluing across = glue();
-      REQUIRE(std::ranges::equal(across, expected.across));
-      CHECK(fit == expected.fit);
+      const GluedTets glued = glue();
+      REQUIRE(std::ranges::equal(glued.across, expected.across));
+      CHECK(glued.fit == expected.fit);
     }
     unfit += !expected.third && !expected.fit;
     refused += expected.third;
