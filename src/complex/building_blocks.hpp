@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cstddef>
 #include <limits>
 #include <mutex>
@@ -19,9 +20,19 @@ namespace plexway {
 /// and as few as any number of threads can share out.
 inline constexpr std::size_t building_block = 16384;
 
-/// Calls work(first, last) for the blocks below `count`, by any number of threads (0: all).
+/// Sets a mark that any thread may set. One that is set is only read, so that threads need not send
+/// each other what they have in their caches.
+inline void set_mark(char& mark) {
+  const std::atomic_ref shared(mark);
+  if (shared.load(std::memory_order_relaxed) == 0) shared.store(1, std::memory_order_relaxed);
+}
+
+/// Calls work(first, last) for the blocks below `count`, by any number of threads (0: all), of
+/// which each has a whole block at least.
 template <class Work>
 void over_blocks(std::size_t count, int threads, const Work& work) {
+  const std::size_t whole = std::max<std::size_t>(count / building_block, 1);
+  if (whole < static_cast<std::size_t>(threads_for(threads))) threads = static_cast<int>(whole);
   for_blocks(count, building_block, threads, {}, work);
 }
 

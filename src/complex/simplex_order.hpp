@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <atomic>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -135,8 +134,7 @@ std::vector<Index> along_curve(std::span<const std::array<double, 3>> positions,
   std::vector<char> used(positions.size(), 0);
   over_blocks(simplices.size(), threads, [&](std::size_t first, std::size_t last) {
     for (std::size_t s = first; s < last; ++s)
-      for (const Index v : simplices[s])
-        std::atomic_ref(used[v]).store(1, std::memory_order_relaxed);
+      for (const Index v : simplices[s]) set_mark(used[v]);
   });
   Box3 box;
   gather_blocks<Box3>(

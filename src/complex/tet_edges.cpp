@@ -1,7 +1,6 @@
 #include "complex/tet_edges.hpp"
 
 #include <algorithm>
-#include <atomic>
 #include <mutex>
 #include <utility>
 
@@ -43,9 +42,7 @@ class Finder {
           for (std::size_t k = 0; k < 4; ++k)
             if (solid_.across[t][k] == none)
               for (std::size_t i = 0; i < 4; ++i)
-                if (i != k)
-                  std::atomic_ref(on_boundary_[solid_.corner[t][i]])
-                      .store(1, std::memory_order_relaxed);
+                if (i != k) set_mark(on_boundary_[solid_.corner[t][i]]);
     });
   }
 
