@@ -224,9 +224,9 @@ void leave_first(HINGE_INOUT(Taut) s, HINGE_INOUT(Label) label, bool turns) HING
     // As far along the edge and off it as it was, wherever the bends are by rounding.
     HINGE_IN(Edge) e = reflex_edge(s.edge[0]);
     FromEdge source = from_edge(e, label.source);
-    Point out = e.end[0] - reflex_edge(s.edge[1]).end[0];
-    out = out - dot(out, e.direction) * e.direction;
-    label.source = e.end[0] + source.along * e.direction + source.off / norm(out) * out;
+    Point across = e.end[0] - reflex_edge(s.edge[1]).end[0];
+    across = across - dot(across, e.direction) * e.direction;
+    label.source = e.end[0] + source.along * e.direction + source.off / norm(across) * across;
     label.door = unfolded_door + s.edge[0];
   } else {
     label.sigma += norm(s.at[1] - label.source);

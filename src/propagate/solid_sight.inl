@@ -67,9 +67,9 @@ HINGE_CONST Real in_crack = Real(16) * solid_rounding;
 /// Does p lie in the plane of the crack that ends in this edge, on the side of the crack?
 HINGE_FN bool is_along(HINGE_IN(Edge) edge, HINGE_IN(Point) p) {
   Point off = p - edge.end[0];
-  Point out = off - dot(off, edge.direction) * edge.direction;
-  Real height = dot(out, edge.normal[0]);
-  return height * height <= in_crack * in_crack * dot(out, out) && dot(out, edge.solid) < Real(0);
+  Point across = off - dot(off, edge.direction) * edge.direction;
+  Real height = dot(across, edge.normal[0]);
+  return height * height <= in_crack * in_crack * dot(across, across) && dot(across, edge.solid) < Real(0);
 }
 
 /// Does a string from p over the edge to q press against what is behind it? Else it would lift off:

@@ -66,7 +66,7 @@ class Lattice {
   std::vector<bool> has_;
 };
 
-std::array<int, 3> place(const Position& p) {
+std::array<int, 3> place(const plexway::testing::Position& p) {
   return {int(std::lround(p[0])), int(std::lround(p[1])), int(std::lround(p[2]))};
 }
 
