@@ -69,7 +69,8 @@ HINGE_FN bool is_along(HINGE_IN(Edge) edge, HINGE_IN(Point) p) {
   Point off = p - edge.end[0];
   Point across = off - dot(off, edge.direction) * edge.direction;
   Real height = dot(across, edge.normal[0]);
-  return height * height <= in_crack * in_crack * dot(across, across) && dot(across, edge.solid) < Real(0);
+  return height * height <= in_crack * in_crack * dot(across, across) &&
+         dot(across, edge.solid) < Real(0);
 }
 
 /// Does a string from p over the edge to q press against what is behind it? Else it would lift off:
