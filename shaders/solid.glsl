@@ -57,6 +57,7 @@ layout(std430, binding = 7) readonly buffer ReflexWords { uint reflex_words[]; }
 
 uniform uint tet_count;  // also the number of the sentinel: "no tetrahedron"
 uniform uint reflex_count;
+uniform uint cracks;  // are there any: 1
 
 const uint REFLEX_SIZE = 21u;
 const int label_bends = 2;
@@ -127,6 +128,7 @@ uint reflex_entry(uint e) { return reflex_words[reflex_count * REFLEX_SIZE + e];
 uint entry_edge(uint entry) { return entry >> 4; }
 bool entry_is_last(uint entry) { return (entry & 1u) != 0u; }
 bool any_reflex() { return reflex_count != 0u; }
+bool any_cracks() { return cracks != 0u; }
 uint own_edges() { return reflex_count; }
 bool reached(uint t) { return (labels[2u * (cell_base + t) + 1u].x & KNOWN) != 0u; }
 SolidLabel label_of(uint t) {

@@ -87,6 +87,6 @@ Real carry_on(Label& label, Index from, Index t, Index i, Real known,
   if (find_taut(label, before, within(t, points_[from]), t, end, q, best.extent, own, s))
     best = s;
   if (!(best.extent < known)) return infinity;
-  keep(best, label);
+  keep(best, label, t, end);
   return best.extent;
 }

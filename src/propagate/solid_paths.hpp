@@ -18,7 +18,8 @@ template <class Real>
 class SolidPaths : protected kernel::SolidSight<Real> {
  protected:
   using Sight = kernel::SolidSight<Real>;
-  using Sight::bend_point, Sight::parallel, Sight::point_on, Sight::presses;
+  using Sight::bend_point, Sight::from_edge, Sight::parallel, Sight::point_on, Sight::presses;
+  using typename Sight::FromEdge;
 
  public:
   using Label = SolidLabel<Real>;

@@ -210,29 +210,49 @@ bool may_turn(HINGE_IN(Label) label, HINGE_IN(Edge) e) HINGE_READS {
          is_beside(before, e.end[1]);
 }
 
-/// Makes a label of a string. What is too long loses its first bends: about an edge parallel to the
-/// next one S turns, which is exact; else the bend becomes S.
-void keep(HINGE_IN(Taut) s, HINGE_INOUT(Label) label) HINGE_READS {
-  int first = 0;
-  for (; s.bends - first > label_bends; ++first) {
-    HINGE_IN(Edge) e = reflex_edge(s.edge[first]);
-    Point b = s.at[first + 1];
-    Point c = s.at[first + 2];
-    Real walked = norm(b - label.source);
-    Real on = norm(c - b);
-    if (on > Real(0) && parallel(e, reflex_edge(s.edge[first + 1])) && !at_an_end(e, b) &&
-        may_turn(label, e)) {
-      label.source = b + walked / on * (b - c);
-      label.door = unfolded_door + s.edge[first];
-    } else {
-      label.source = b;
-      label.sigma += walked;
-      label.door = none;
-    }
+/// May S turn about the first edge of its string into the plane of that and the second? Then it
+/// stays exact for all paths over both.
+bool may_turn(HINGE_IN(Taut) s, HINGE_IN(Label) label) HINGE_READS {
+  HINGE_IN(Edge) e = reflex_edge(s.edge[0]);
+  HINGE_IN(Edge) next = reflex_edge(s.edge[1]);
+  return parallel(e, next) && from_edge(e, next.end[0]).off > Real(0) && !at_an_end(e, s.at[1]) &&
+         may_turn(label, e);
+}
+/// Takes the first bend out: S turns, or the bend becomes S.
+void leave_first(HINGE_INOUT(Taut) s, HINGE_INOUT(Label) label, bool turns) HINGE_READS {
+  if (turns) {
+    // As far along the edge and off it as it was, wherever the bends are by rounding.
+    HINGE_IN(Edge) e = reflex_edge(s.edge[0]);
+    FromEdge source = from_edge(e, label.source);
+    Point across = e.end[0] - reflex_edge(s.edge[1]).end[0];
+    across = across - dot(across, e.direction) * e.direction;
+    label.source = e.end[0] + source.along * e.direction + source.off / norm(across) * across;
+    label.door = unfolded_door + s.edge[0];
+  } else {
+    label.sigma += norm(s.at[1] - label.source);
+    label.source = s.at[1];
+    label.door = none;
   }
+  s.at[0] = label.source;
+  for (int i = 1; i < HINGE_ROLLED(s.bends + 1); ++i) s.at[i] = s.at[i + 1];
+  for (int i = 1; i < HINGE_ROLLED(s.bends); ++i) s.edge[i - 1] = s.edge[i];
+  --s.bends;
+}
+/// The string with one more bend on its first edge, which comes first.
+Taut bent_along(HINGE_IN(Taut) s, HINGE_IN(Point) at) HINGE_READS {
+  Taut along = s;
+  for (int i = 1; i < HINGE_ROLLED(s.bends + 2); ++i) along.at[i + 1] = s.at[i];
+  for (int i = 0; i < HINGE_ROLLED(s.bends); ++i) along.edge[i + 1] = s.edge[i];
+  along.at[1] = at;
+  ++along.bends;
+  return along;
+}
+
+/// Makes a label of a string that has no more bends than it can keep.
+void set_bends(HINGE_IN(Taut) s, HINGE_INOUT(Label) label) HINGE_READS {
   for (int i = 0; i < label_bends; ++i) {
     label.bend[i] = none;
-    if (first + i < s.bends) label.bend[i] = s.edge[first + i];
+    if (i < s.bends) label.bend[i] = s.edge[i];
   }
   label.centre = s.extent;
 }

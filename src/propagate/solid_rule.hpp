@@ -29,12 +29,14 @@ class SolidRule : public SolidPaths<Real> {
   using View = kernel::SolidSight<Real>;
   using Paths::abs, Paths::clamp, Paths::max, Paths::min, Paths::sqrt;
   using Paths::at_an_end, Paths::clear_bends, Paths::edges_of, Paths::fixed_bends, Paths::is_beside,
-      Paths::keep, Paths::label_bends, Paths::leave_out, Paths::measure, Paths::most_bends,
-      Paths::own_edges, Paths::own_edges_, Paths::pull, Paths::reflex_, Paths::reflex_edge,
-      Paths::slide, Paths::taut_end, Paths::taut_to, Paths::unfolded_door;
+      Paths::bent_along, Paths::label_bends, Paths::leave_first, Paths::leave_out, Paths::may_turn,
+      Paths::measure, Paths::most_bends, Paths::own_edges, Paths::own_edges_, Paths::pull,
+      Paths::reflex_, Paths::reflex_edge, Paths::set_bends, Paths::slide, Paths::taut_end,
+      Paths::taut_to, Paths::unfolded_door;
   using typename Paths::Edge, typename Paths::Taut;
   using typename View::FromEdge;
-  using View::bend_point, View::normal_to, View::passes, View::presses;
+  using View::bend_point, View::in_crack, View::is_along, View::is_cracks, View::normal_to,
+      View::passes, View::presses;
   using View::crossing_along, View::from_edge, View::point_on, Paths::is_unfolded;
 
  public:
@@ -49,6 +51,7 @@ class SolidRule : public SolidPaths<Real> {
         list_(mesh.reflex_list().data()),
         sentinel_(static_cast<Index>(mesh.tet_count())),
         any_reflex_(!mesh.reflex_edges().empty()),
+        any_cracks_(mesh.has_crack()),
         front_(&front) {
     Label nearest = point_label({0, 0, 0}, 0);
     nearest.centre = -1;  // nothing is nearer: never accepted
@@ -297,6 +300,7 @@ class SolidRule : public SolidPaths<Real> {
         list_(rule.list_),
         sentinel_(rule.sentinel_),
         any_reflex_(rule.any_reflex_),
+        any_cracks_(rule.any_cracks_),
         clear_(rule.clear_),
         obstacles_(rule.obstacles_),
         front_(&front) {}
@@ -409,6 +413,7 @@ class SolidRule : public SolidPaths<Real> {
     return lit_ != nullptr && lit_->any_by(p);
   }
   bool any_reflex() const { return any_reflex_; }
+  bool any_cracks() const { return any_cracks_; }
   [[gnu::always_inline]] bool reached(Index t) const { return front_->reached(t); }
   [[gnu::always_inline]] const Label& label_of(Index t) const { return front_->label(t); }
   /// A line that left the solid in t on its way to the label's source: did it leave by the door?
@@ -426,7 +431,7 @@ class SolidRule : public SolidPaths<Real> {
   const Point* points_;
   const Index* list_;
   Index sentinel_;
-  bool any_reflex_;
+  bool any_reflex_, any_cracks_;
   const SolidClearSpace<Real>* clear_ = nullptr;
   const SolidObstacles<Real>* obstacles_ = nullptr;
   LitTets<Real>* lit_ = nullptr;

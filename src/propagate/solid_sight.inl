@@ -57,11 +57,33 @@ HINGE_COLD bool parallel(HINGE_IN(Edge) a, HINGE_IN(Edge) b) {
   return abs(dot(a.direction, b.direction)) > Real(1 - 1e-6);
 }
 
+/// Do both faces at an edge lie on each other, so that the solid goes all around?
+HINGE_FN bool is_cracks(HINGE_IN(Edge) edge) {
+  return dot(edge.normal[0], edge.normal[1]) < Real(-1 + 1e-6);
+}
+/// So near to a crack's plane, in lengths from its end, does a point lie in it.
+HINGE_CONST Real in_crack = Real(16) * solid_rounding;
+
+/// Does p lie in the plane of the crack that ends in this edge, on the side of the crack?
+HINGE_FN bool is_along(HINGE_IN(Edge) edge, HINGE_IN(Point) p) {
+  Point off = p - edge.end[0];
+  Point across = off - dot(off, edge.direction) * edge.direction;
+  Real height = dot(across, edge.normal[0]);
+  return height * height <= in_crack * in_crack * dot(across, across) &&
+         dot(across, edge.solid) < Real(0);
+}
+
 /// Does a string from p over the edge to q press against what is behind it? Else it would lift off:
-/// q lies in front of the plane through p and the edge.
+/// q lies in front of the plane through p and the edge. Along a crack to its end it may come on
+/// either side, and then to the other one it presses.
 HINGE_FN bool presses(HINGE_IN(Edge) edge, HINGE_IN(Point) p, HINGE_IN(Point) q) {
   Point n = cross(edge.end[0] - p, edge.direction);
-  return dot(n, edge.solid) * dot(n, q - p) < Real(0);
+  Real side = dot(n, edge.solid);
+  Real on = dot(n, q - p);
+  if (HINGE_RARE(side * side <= in_crack * in_crack * dot(n, n)) && is_cracks(edge) &&
+      is_along(edge, p))
+    return on * on > in_crack * in_crack * dot(n, n) * dot(q - p, q - p) || is_along(edge, q);
+  return side * on < Real(0);
 }
 
 /// Does the line from `eye` to q, on the other side, pass triangle (a, b, c)? Give or take

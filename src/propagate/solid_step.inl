@@ -3,6 +3,7 @@
 // GLSL, after solid_walk.inl. Before it stand also
 //   first_reflex(t), reflex_entry(e), entry_edge(entry), entry_is_last(entry)
 //   any_reflex()                     are there reflex edges
+//   any_cracks()                     and faces of the boundary that lie on each other
 //   go(t, from, to)                  `walk`, perhaps by a shorter way to the same tetrahedron
 //   reached(t), label_of(t)          what is known
 //   same_way(label, label)           do they have the same S and bends?
@@ -72,6 +73,20 @@ int clear_legs(HINGE_IN(Taut) s, HINGE_IN(Label) label) HINGE_READS {
   return clear;
 }
 
+/// Where a leg to or from a bend is walked to, if `other` is where the string is on the other side
+/// of it. At the end of a crack it comes along one face and goes along the other one, or it would
+/// not bend: there it is walked on the side where `other` is not.
+HINGE_METHOD Point beside(HINGE_IN(Edge) e, HINGE_IN(Point) bend,
+                          HINGE_IN(Point) other) HINGE_READS {
+  Point at = beside(e, bend);
+  if (HINGE_LIKELY(!is_cracks(e))) return at;
+  Point way = other - e.end[0];
+  Real height = dot(way, e.normal[0]);
+  if (!(abs(height) > in_crack * norm(way))) return at;
+  Real off = nudge * min(e.extent, Real(1));
+  return at + (height > Real(0) ? -off : off) * e.normal[0];
+}
+
 /// Walks the string back from its end, seen as `end` in tetrahedron u, to the source, but for legs
 /// that are known to be free.
 bool is_free(HINGE_IN(Taut) s, HINGE_IN(Label) label, Index u, HINGE_IN(Point) end,
@@ -89,7 +104,8 @@ bool is_free(HINGE_IN(Taut) s, HINGE_IN(Label) label, Index u, HINGE_IN(Point) e
     }
     if (!there) {
       Index edge = s.edge[hit.leg];
-      from = beside(reflex_edge(edge), s.at[hit.leg + 1]);
+      from = beside(reflex_edge(edge), s.at[hit.leg + 1],
+                    hit.leg + 1 == s.bends ? end : s.at[hit.leg + 2]);
       there = stand_beside(edge, from, hit.tet);
       if (!there) {  // then all the way
         clear = 0;
@@ -101,12 +117,19 @@ bool is_free(HINGE_IN(Taut) s, HINGE_IN(Label) label, Index u, HINGE_IN(Point) e
       }
     }
     Point to = s.at[hit.leg];
+    Point turn = to;  // at the end of a crack: and on from there
+    bool turns = false;
     bool last = hit.leg == 0;
     if (hit.leg > 0) {
       // What lies before a further edge is not of this solid.
       Index edge = s.edge[max(hit.leg, 1) - 1];
       last = edge >= own_edges();
-      if (!last) to = beside(reflex_edge(edge), to);
+      if (!last) {
+        HINGE_IN(Edge) e = reflex_edge(edge);
+        turns = is_cracks(e);
+        turn = beside(e, to, hit.leg == s.bends ? end : s.at[hit.leg + 1]);
+        to = beside(e, to, s.at[max(hit.leg, 1) - 1]);
+      }
     } else if (is_unfolded(label)) {
       // What is before the edge that S was turned about was walked when it was.
       HINGE_IN(Edge) e = reflex_edge(label.door - unfolded_door);
@@ -116,9 +139,13 @@ bool is_free(HINGE_IN(Taut) s, HINGE_IN(Label) label, Index u, HINGE_IN(Point) e
       if (!(along >= Real(0) && along <= e.extent)) return false;
       to = beside(e, point_on(e, along));
     }
-    if (!go(hit.tet, from, to)) return hit.leg == 0 && comes_in(label, hit.tet);
+    for (int stop = 0; stop < HINGE_ROLLED(2); ++stop) {
+      if (!go(hit.tet, from, to)) return hit.leg == 0 && comes_in(label, hit.tet);
+      from = to;
+      if (last || !turns) break;
+      to = turn;
+    }
     if (last) break;
-    from = to;
   }
   return true;
 }
@@ -196,6 +223,8 @@ HINGE_METHOD Index edge_before(HINGE_IN(Taut) s, int leg) HINGE_READS {
 }
 
 HINGE_CONST int most_halvings = 8;
+/// Strings from the end of a crack graze it: down to as far as they are walked beside it.
+HINGE_CONST int most_at_cracks = 11;
 HINGE_CONST int most_tries = 4;
 // What find_taut tries: the label's own string, one to a point on the way, one that passes the ends
 // of edges, one with a further edge, the same with no edge left out, and without a neighbour of
@@ -234,7 +263,7 @@ bool find_taut(HINGE_IN(Label) label, Index t, HINGE_IN(Point) middle, Index u, 
   Real high = Real(2);
   Real bound = known;
   bool last = false;  // nothing else is left to try
-  for (int turn = 0; turn < HINGE_ROLLED(most_tries * (most_halvings + 7)); ++turn) {
+  for (int turn = 0; turn < HINGE_ROLLED(most_tries * (most_at_cracks + 7)); ++turn) {
     int stay = kept;
     if (trying == touching || trying == whole) stay = s.bends;
     pull(s, label.sigma, stay, trying <= halved);
@@ -287,7 +316,8 @@ bool find_taut(HINGE_IN(Label) label, Index t, HINGE_IN(Point) middle, Index u, 
       }
       Index before = edge_before(s, hit.leg);
       Index found = none;
-      if (look) found = edge_in_the_way(s, hit, inside);
+      // A turned S sees nothing but the edge that it was turned to.
+      if (look && !(hit.leg == 0 && is_unfolded(label))) found = edge_in_the_way(s, hit, inside);
       // One that the string on the way lifts off, and only touches: not what hides the end.
       if (trying == halved && found != none && bends_at(all, found)) found = none;
       if (squeezed) {
@@ -326,7 +356,7 @@ bool find_taut(HINGE_IN(Label) label, Index t, HINGE_IN(Point) middle, Index u, 
     s = all;
     from = u;
     start = end;
-    trying = halvings < most_halvings ? halved : loose;
+    trying = halvings < (any_cracks() ? most_at_cracks : most_halvings) ? halved : loose;
     if (trying == halved) {
       ++halvings;
       Real at = Real(0.5) * (low + high);
@@ -341,6 +371,36 @@ bool find_taut(HINGE_IN(Label) label, Index t, HINGE_IN(Point) middle, Index u, 
     }
   }
   return false;
+}
+
+/// Is the first edge of a free string seen from S all along, as far as lines over the second one
+/// pass? `end` in u is where the string is walked from. Where the way is free at both ends of that
+/// part and at the bend, it is taken to be so between.
+bool sees_first_edge(HINGE_IN(Taut) s, HINGE_IN(Label) label, Index u,
+                     HINGE_IN(Point) end) HINGE_READS {
+  if (s.bends == most_bends) return false;
+  HINGE_IN(Edge) e = reflex_edge(s.edge[0]);
+  HINGE_IN(Edge) next = reflex_edge(s.edge[1]);
+  FromEdge source = from_edge(e, s.at[0]);
+  for (int n = 0; n < HINGE_ROLLED(2); ++n) {
+    FromEdge beyond = from_edge(e, next.end[n]);
+    Taut along = bent_along(s, point_on(e, crossing_along(source, beyond)));
+    Hit hit;
+    if (!is_free(along, label, u, end, hit)) return false;
+  }
+  return true;
+}
+
+/// Makes a label of a free string, walked from `end` in u. What is too long loses its first bends:
+/// about an edge parallel to the next one S turns, which is exact, if it sees that edge; else the
+/// bend becomes S.
+void keep(HINGE_INOUT(Taut) s, HINGE_INOUT(Label) label, Index u, HINGE_IN(Point) end) HINGE_READS {
+  for (int n = 0; n < HINGE_ROLLED(most_bends - label_bends); ++n) {
+    if (s.bends <= label_bends) break;
+    bool turns = may_turn(s, label) && sees_first_edge(s, label, u, end);
+    leave_first(s, label, turns);
+  }
+  set_bends(s, label);
 }
 
 /// A virtual source in a tetrahedron, or on its boundary.
@@ -371,7 +431,7 @@ HINGE_FAST bool offer_bent(HINGE_IN(Label) from, Index t, Index face, Index u, R
   for (int n = 0; n < HINGE_ROLLED(2); ++n) {
     bool found = find_taut(from, t, over, in_tet, end, end, n == 0 ? known : sigma, nowhere(), s);
     if (found && n == 0) {
-      keep(s, label);
+      keep(s, label, in_tet, end);
       return true;
     }
     if (!last_resort) return false;

@@ -63,10 +63,16 @@ HINGE_METHOD Seen seen_along(HINGE_IN(Line) line, HINGE_IN(Point) from,
 /// On which side of b is a, seen from the line?
 HINGE_FN Real turn_of(HINGE_IN(Seen) a, HINGE_IN(Seen) b) { return a.x * b.y - a.y * b.x; }
 
-/// Lines begin so far inside of their tetrahedron, as a share of the way to its centre. On a lattice
-/// a line between two edges may run exactly into others, and be led around these to anywhere; this
-/// one passes beside them.
+/// Lines begin so far inside of their tetrahedron, as a share of the way to a point of it. On a
+/// lattice a line between two edges may run exactly into others, and be led around these to
+/// anywhere; this one passes beside them. A point that is in no plane of such a lattice: the centre
+/// is in many.
 HINGE_CONST Real inset = Real(1e-5);
+HINGE_METHOD Point point_inside(Index t) HINGE_READS {
+  Point centre = centre_of(t);
+  return centre + Real(0.3094) * (corner_of(t, 0u) - centre) +
+         Real(0.1732) * (corner_of(t, 1u) - centre);
+}
 /// A line that misses a face of the boundary by more than this share of it does not end there.
 HINGE_CONST Real face_missed = Real(1e-2);
 
@@ -76,7 +82,7 @@ HINGE_CONST Real face_missed = Real(1e-2);
 bool walk(HINGE_INOUT(Index) t, HINGE_IN(Point) begin, HINGE_IN(Point) to) HINGE_READS {
   bool lit = any_lit(to);
   if (lit && is_lit(t, to)) return true;
-  Point from = begin + inset * (centre_of(t) - begin);
+  Point from = begin + inset * (point_inside(t) - begin);
   Point g = to - from;
   Real far = norm(g);
   if (!(far > Real(1e-2) * nudge)) return true;
@@ -128,11 +134,12 @@ bool walk(HINGE_INOUT(Index) t, HINGE_IN(Point) begin, HINGE_IN(Point) to) HINGE
       bool edge_on = !(sum > Real(0));
       if (edge_on && ends) return false;
       Real beyond = wa * (Real(1) - a.z) + wb * (Real(1) - b.z) + wc * (Real(1) - c.z);
-      if (!edge_on && beyond <= Real(0)) return true;
+      bool missed = min(min(wa, wb), wc) < -face_missed * sum;
+      if (!edge_on && beyond <= Real(0)) return !missed;
       if (ends) {
-        if (min(min(wa, wb), wc) < -face_missed * sum) return false;
+        if (missed) return false;
         // What remains may be no more than rounding: in length, or in depth below the face.
-        if (beyond * far <= Real(4) * nudge * sum) return true;
+        if (beyond * far <= Real(1e-2) * nudge * sum) return true;
         Point at = face_corner(t, face, 0u);
         Point n = normal_to(face_corner(t, face, 1u) - at, face_corner(t, face, 2u) - at);
         return dot(n, to - at) <= Real(1e-2) * nudge * norm(n);
@@ -140,7 +147,13 @@ bool walk(HINGE_INOUT(Index) t, HINGE_IN(Point) begin, HINGE_IN(Point) to) HINGE
     }
     Index j = face_beyond(t, face);
     t = next;
-    if (lit && is_lit(t, to)) return true;
+    if (lit && is_lit(t, to)) {
+      // If it is in there: led around an edge it may be beside it.
+      Real wa = turn_of(b, c);
+      Real wb = turn_of(c, a);
+      Real wc = turn_of(a, b);
+      if (min(min(wa, wb), wc) >= -face_missed * abs(wa + wb + wc)) return true;
+    }
     if (HINGE_RARE(t == passed)) return false;
     if ((steps & (steps - 1)) == 0) passed = t;
     Seen d = seen_along(line, from, corner_of(t, j));

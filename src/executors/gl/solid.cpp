@@ -124,6 +124,7 @@ class SolidRun {
   void set_solid_uniforms(const Uniforms& program) const {
     program.set("tet_count", mesh_.tet_count());
     program.set("reflex_count", mesh_.reflex_edges().size());
+    program.set("cracks", static_cast<std::size_t>(mesh_.has_crack()));
     program.set("cell_count", cells());
     program.set("vertex_count", mesh_.vertex_count());
   }
