@@ -59,6 +59,13 @@ struct SimplexWanted {
   bool centre;
 };
 
+/// A vertex next to the one that tells, in one of the simplices that may hear of it, and whether it
+/// would gain.
+struct SimplexHearer {
+  Index vertex, simplex;
+  bool gains;
+};
+
 /// Lists that vertices need to tell others, kept from solve to solve.
 template <int N>
 struct SimplexTelling {
@@ -69,8 +76,9 @@ struct SimplexTelling {
     bool seen;
   };
   std::vector<Around> star;
-  std::vector<std::size_t> line;      // in which order
-  std::vector<SimplexWanted> wanted;  // those that might gain by it
+  std::vector<std::size_t> line;       // in which order
+  std::vector<SimplexWanted> wanted;   // those that might gain by it
+  std::vector<SimplexHearer> hearers;  // their corners, by number
 };
 
 /// Labels, and ways of vertices, for whichever dimension a domain has and whichever rule is asked;

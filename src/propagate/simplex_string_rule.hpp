@@ -139,6 +139,11 @@ class SimplexStringRule {
     if (front_->expands_soon()) prefetch_around(t);
     return true;
   }
+  /// The string of a way at the centre of s on to a vertex of it, pulled taut.
+  void draw_to_corner(const Label& label, Index s, Index vertex, SimplexString<N>& string) const {
+    draw_on(label, s, flat_->positions[vertex], string);
+    string.pull(infinity);
+  }
   /// The length of a way at the centre of s on to its corner i, +inf beyond `limit`. Has it other
   /// bends there?
   double reach(const Label& label, Index s, std::size_t i, double limit, bool& bent) const {
@@ -147,9 +152,7 @@ class SimplexStringRule {
     bent = false;
     if (!any_faces_) return label.sigma + distance_of(label.source, at);
     SimplexString<N> string(*flat_);
-    draw(*flat_, label, string);
-    string.add_point(centre(s), centre(s));
-    string.add_point(plus(at, flat_->clearance, direction<N>(at, centre(s))), at);
+    draw_on(label, s, at, string);
     switch (string.pull(limit - label.sigma)) {
       case Pulled::taut:
         bent = string.bends() != label.bends;
@@ -201,6 +204,12 @@ class SimplexStringRule {
   static constexpr double infinity = std::numeric_limits<double>::infinity();
   static constexpr double gain = 1 - std::max(1e-10, 8. * std::numeric_limits<Real>::epsilon());
 
+  /// The end is held off the vertex, towards s.
+  void draw_on(const Label& label, Index s, const Point& at, SimplexString<N>& string) const {
+    draw(*flat_, label, string);
+    string.add_point(centre(s), centre(s));
+    string.add_point(plus(at, flat_->clearance, direction<N>(at, centre(s))), at);
+  }
   [[nodiscard]] double least(const Label& label, Index s, const Point& to) const {
     return least_over<N>(*flat_, label, centre(s), to);
   }

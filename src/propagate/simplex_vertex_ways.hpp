@@ -111,9 +111,6 @@ class SimplexVertexWays {
     if (contains(domain_.pinched(), v) || contains(rule_.flat().corners, v))
       for (const Index c : domain_.corners_at(v))
         any |= rule_.seed_corner(c / sides, c % sides, static_cast<Real>(way.distance), way.source);
-    // In four dimensions a way that is not the shortest may be pulled through a face (1.7 % short
-    // was seen among boxes), so there only those that simplices keep are carried on.
-    if (N > 3) return any;
     find_wanted(v, way);
     if (telling_.wanted.empty()) return any;
 
@@ -169,33 +166,71 @@ class SimplexVertexWays {
     if (!waits && d <= radius) waiting.push_back(w);
   }
 
-  /// Those around v for which the way, if nothing were in it, might be the shorter one, or for a
-  /// corner of theirs.
+  /// Those around v for which the way is the shorter one, or for a corner of theirs: first by a
+  /// bound, as if nothing were in it, then by its string drawn on from v. (At walls the ends of
+  /// strings and of faces are all within some clearances of v, so that string only tells whom to
+  /// ask: what they get goes from centre to centre.)
   void find_wanted(Index v, const Way& way) const {
     const FlatDomain<N>& flat = rule_.flat();
     Taut<N> taut(flat);
-    const auto is_shorter = [&](const StringPoint<N>& to, double limit) {
+    SimplexString<N> to_vertex(flat);
+    bool is_drawn = false;
+    const auto is_shorter = [&](Index t, const StringPoint<N>& to, double limit) {
       if (!(least_over<N>(flat, way.label, rule_.centre(way.simplex), to) < limit)) return false;
-      if (way.label.bends == 0) return true;
       taut.start(way.label.source, to);
       for (std::size_t i = 0; i < way.label.bends; ++i)
         taut.add(way.label.face[i], way.label.along[i]);
-      return way.label.sigma + taut.solve() < limit;
+      if (!(way.label.sigma + taut.solve() < limit)) return false;
+      if (!std::exchange(is_drawn, true))
+        rule_.draw_to_corner(way.label, way.simplex, v, to_vertex);
+      SimplexString<N> string = to_vertex;
+      string.add_point(plus(to, flat.clearance, direction<N>(to, rule_.centre(t))), to);
+      return string.pull(limit - way.label.sigma) != SimplexString<N>::Pulled::longer;
+    };
+    auto& hearers = telling_.hearers;
+    hearers.clear();
+    for (const Index c : domain_.corners_at(v))
+      if (const Index t = c / sides; !has(t, way))
+        for (const Index w : domain_.records()[t].corner) hearers.push_back({w, t, false});
+    std::sort(hearers.begin(), hearers.end(), [](const SimplexHearer& l, const SimplexHearer& r) {
+      return l.vertex != r.vertex ? l.vertex < r.vertex : l.simplex < r.simplex;
+    });
+    hearers.erase(std::unique(hearers.begin(), hearers.end(),
+                              [](const SimplexHearer& l, const SimplexHearer& r) {
+                                return l.vertex == r.vertex;
+                              }),
+                  hearers.end());
+    for (SimplexHearer& h : hearers)
+      h.gains = gains(h.simplex, h.vertex, way.label, way.source, is_shorter);
+    const auto any_gains = [&](Index t) {
+      const auto& corners = domain_.records()[t].corner;
+      return std::any_of(std::begin(corners), std::end(corners), [&](Index w) {
+        return std::lower_bound(hearers.begin(), hearers.end(), w,
+                                [](const SimplexHearer& h, Index x) { return h.vertex < x; })
+            ->gains;
+      });
     };
     telling_.wanted.clear();
-    for (const Index c : domain_.corners_at(v))
-      if (const Index t = c / sides; !has(t, way)) {
-        const SimplexWanted wanted = {t, !was_offered(t, way)};
-        if (gains(wanted, way.label, way.source, is_shorter)) telling_.wanted.push_back(wanted);
-      }
+    for (const Index c : domain_.corners_at(v)) {
+      const Index t = c / sides;
+      if (has(t, way)) continue;
+      const bool centre = !was_offered(t, way);
+      if (any_gains(t) || (centre && is_shorter(t, rule_.centre(t), rule_.to_beat(t))))
+        telling_.wanted.push_back({t, centre});
+    }
   }
   /// Might one of these gain yet by a label of s?
   [[nodiscard]] bool leads_on(const Label& label, Index source, Index s) const {
-    const auto is_shorter = [&](const StringPoint<N>& to, double limit) {
+    const auto is_shorter = [&](Index, const StringPoint<N>& to, double limit) {
       return least_over<N>(rule_.flat(), label, rule_.centre(s), to) < limit;
     };
-    return std::any_of(telling_.wanted.begin(), telling_.wanted.end(),
-                       [&](const SimplexWanted& t) { return gains(t, label, source, is_shorter); });
+    return std::any_of(telling_.wanted.begin(), telling_.wanted.end(), [&](const SimplexWanted& t) {
+      if (t.centre && is_shorter(t.simplex, rule_.centre(t.simplex), rule_.to_beat(t.simplex)))
+        return true;
+      const auto& corners = domain_.records()[t.simplex].corner;
+      return std::any_of(std::begin(corners), std::end(corners),
+                         [&](Index w) { return gains(t.simplex, w, label, source, is_shorter); });
+    });
   }
   /// A neighbour that keeps the way has offered it already, as everything that is kept.
   [[nodiscard]] bool was_offered(Index t, const Way& way) const {
@@ -204,18 +239,13 @@ class SimplexVertexWays {
       return other != none && has(other >> FacetAcross::simplex_shift, way);
     });
   }
-  /// Would the centre, or a corner that has another way?
+  /// Would a corner of s that has another way?
   template <class IsShorter>
-  [[nodiscard]] bool gains(const SimplexWanted& t, const Label& label, Index source,
+  [[nodiscard]] bool gains(Index s, Index w, const Label& label, Index source,
                            const IsShorter& is_shorter) const {
-    const Index s = t.simplex;
-    if (t.centre && is_shorter(rule_.centre(s), rule_.to_beat(s))) return true;
-    const auto& corners = domain_.records()[s].corner;
-    return std::any_of(std::begin(corners), std::end(corners), [&](Index w) {
-      const Way& there = ways_[w];
-      return !(there.source == source && same_way(there.label, label)) &&
-             is_shorter(rule_.flat().positions[w], there.distance * gain);
-    });
+    const Way& there = ways_[w];
+    return !(there.source == source && same_way(there.label, label)) &&
+           is_shorter(s, rule_.flat().positions[w], there.distance * gain);
   }
 
   template <class Vertices>
