@@ -14,15 +14,15 @@
 
 #include <plexway/complex/mixed_complex.hpp>
 
+#include "propagate/bent_ways.hpp"
 #include "propagate/mixed_piece.hpp"
 #include "propagate/taut_crossings.hpp"
 
 namespace plexway {
 
-/// The ways of vertices in solids in which every point sees every other, handed on from vertex to
-/// vertex and over hinges. A tetrahedron keeps one label, so of the ways that cross it most are
-/// lost; a vertex that is nearer by the way of another one takes that, pulled taut. It only gets
-/// nearer.
+/// The ways of vertices in solids, handed on from vertex to vertex and over hinges. A tetrahedron
+/// keeps one label, so of the ways that cross it most are lost; a vertex that is nearer by the way
+/// of another one takes that, pulled taut. It only gets nearer.
 ///
 /// In rounds: in each a piece looks at its own vertices only, then letters go over the hinges. So
 /// pieces may be several at once, and the result is the same.
@@ -45,10 +45,16 @@ class CrossingWays {
   };
 
   CrossingWays(const Domain& domain, const std::vector<std::unique_ptr<Piece>>& pieces,
-               const Taut& taut, Real radius)
-      : domain_(domain), pieces_(pieces), taut_(taut), radius_(radius), held_(pieces.size()) {
+               const Taut& taut, const BentWays<Real>& bent, Real radius)
+      : domain_(domain),
+        pieces_(pieces),
+        taut_(taut),
+        bent_(bent),
+        radius_(radius),
+        held_(pieces.size()) {
     for (const auto& piece : domain.pieces())
-      if (pieces_[piece.number]->sees_all()) held_[piece.number].ways.resize(piece.vertices);
+      if (std::holds_alternative<TetMesh<Real>>(domain.complex(piece)))
+        held_[piece.number].ways.resize(piece.vertices);
     find_links();
   }
 
@@ -62,8 +68,7 @@ class CrossingWays {
     way.sigma = sigma;
     way.source = source;
     way.steps.assign(steps.begin(), steps.end());
-    way.kin = mixed(mixed(mixed(mixed(0, eye.x), eye.y), eye.z), sigma);
-    for (const Step& step : steps) way.kin = longer(way.kin, step);
+    find_kin(way);
   }
   void forget(Index piece, Index v) {
     if (!held_[piece].ways.empty()) held_[piece].ways[v].sigma = infinity;
@@ -136,7 +141,12 @@ class CrossingWays {
   static std::uint64_t mixed(std::uint64_t kin, Real number) {
     return mixed(kin, std::bit_cast<std::uint64_t>(static_cast<double>(number)));
   }
+  void find_kin(Way& way) const {
+    way.kin = mixed(mixed(mixed(mixed(0, way.eye.x), way.eye.y), way.eye.z), way.sigma);
+    for (const Step& step : way.steps) way.kin = longer(way.kin, step);
+  }
   [[nodiscard]] std::uint64_t longer(std::uint64_t kin, const Step& step) const {
+    if (taut_.is_bend(step)) return mixed(kin, std::uint64_t{step.hinge} << 32);
     const auto& hinge = domain_.hinges()[step.hinge];
     return mixed(
         mixed(kin, std::uint64_t{hinge.piece[step.side]} << 32 | hinge.piece[1 - step.side]),
@@ -192,6 +202,7 @@ class CrossingWays {
     Work(CrossingWays& ways, Index piece, std::span<Real> distance, std::span<Index> label)
         : all_(ways),
           own_(ways.held_[piece]),
+          number_(piece),
           piece_(*ways.pieces_[piece]),
           solid_(std::get<TetMesh<Real>>(ways.domain_.complex(ways.domain_.pieces()[piece]))),
           distance_(distance),
@@ -262,10 +273,12 @@ class CrossingWays {
           if (!(time + slope.least(there - at) < enough)) continue;
         }
         path_.assign(way.steps.begin(), way.steps.end());
-        const Real length = way.sigma + all_.taut_.pull(way.eye, path_, there, room_);
+        const Real length =
+            all_.bent_.pull(way.eye, way.sigma, path_, number_, inner, enough, room_);
         if (!(length < enough) || length > all_.radius_) continue;
         take(w, way, length);
         own_.ways[w].steps = path_;
+        all_.find_kin(own_.ways[w]);
       }
     }
     bool take_if(Index v, const Way& way, Real time) {
@@ -282,24 +295,27 @@ class CrossingWays {
 
     CrossingWays& all_;
     Held& own_;
+    Index number_;
     const Piece& piece_;
     const TetMesh<Real>& solid_;
     std::span<Real> distance_;
     std::span<Index> label_;
     std::vector<Index> outside_, around_;
     std::vector<Step> path_;
-    typename Taut::Room room_;
+    typename BentWays<Real>::Room room_;
   };
 
   // Is the last crossing where the way ends?
   [[nodiscard]] bool ends_at(const Way& way, const Point& target) const {
     const Step& last = way.steps.back();
-    return norm(target - taut_.place(last, 1 - last.side)) <= Real(1e-6) * taut_.size(last);
+    return !taut_.is_bend(last) &&
+           norm(target - taut_.place(last, 1 - last.side)) <= Real(1e-6) * taut_.size(last);
   }
 
   const Domain& domain_;
   const std::vector<std::unique_ptr<Piece>>& pieces_;
   const Taut& taut_;
+  const BentWays<Real>& bent_;
   Real radius_;
   std::vector<Held> held_;
   std::size_t rounds_ = 0;
