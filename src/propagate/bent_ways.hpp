@@ -46,9 +46,11 @@ class BentWays {
     const Piece& own = *pieces_[piece];
     const Point target = own.unit() * own.place(vertex);
     constexpr int most_changes = 12;
+    constexpr Real end = Real(1e-6);
     room.stays.assign(steps.size(), 0);
     room.given.assign(steps.begin(), steps.end());
     std::size_t left_out = none;
+    bool at_end = false;
     for (int i = 0; i < most_changes; ++i) {
       const Real length = sigma + taut_.pull(eye, steps, target, room.taut);
       Change change = look(eye, steps, piece, vertex, room.stays);
@@ -56,11 +58,12 @@ class BentWays {
       if (change.is == Look::lifts) {
         room.before.assign(steps.begin(), steps.end());
         left_out = change.step;
+        at_end = !(steps[left_out].place[0] > end && steps[left_out].place[0] < 1 - end);
         take_out(steps, room, left_out);
         continue;
       }
-      if (change.edge == none && left_out != none) {
-        // It lifts off by rounding, or does not get past the edge's end.
+      if (left_out != none && (at_end || change.edge == none)) {
+        // It does not get past the edge's end, or lifts off by rounding.
         steps.assign(room.before.begin(), room.before.end());
         room.stays.insert(room.stays.begin() + static_cast<std::ptrdiff_t>(left_out), 1);
         left_out = none;
@@ -138,7 +141,6 @@ class BentWays {
       change = first;
       return true;
     }
-    if (!(low > 0)) return false;
     room.between.assign(room.given.begin(), room.given.end());
     for (std::size_t k = 0; k < steps.size(); ++k) taut_.towards(room.between[k], steps[k], low);
     steps.assign(room.between.begin(), room.between.end());

@@ -113,7 +113,8 @@ class CrossingWays {
   static constexpr Real infinity = std::numeric_limits<Real>::infinity();
   static constexpr std::size_t most_rounds = 4096;
 
-  /// A welded vertex, the one beyond, and a hinge at both.
+  /// A welded vertex, the one beyond, and a hinge at both; the first of several such stands for
+  /// all.
   struct Link {
     Index vertex, piece, other;
     Step step;
@@ -187,12 +188,6 @@ class CrossingWays {
       };
       std::sort(own.links.begin(), own.links.end(),
                 [&](const Link& a, const Link& b) { return by(a) < by(b); });
-      own.links.erase(std::unique(own.links.begin(), own.links.end(),
-                                  [](const Link& a, const Link& b) {
-                                    return a.vertex == b.vertex && a.piece == b.piece &&
-                                           a.other == b.other;
-                                  }),
-                      own.links.end());
     }
   }
 
@@ -231,27 +226,39 @@ class CrossingWays {
     void receive(const Letter& letter) {
       const Index v = letter.vertex;
       if (take_if(v, letter.way, letter.time)) return;
-      if (!(own_.ways[v].known() && own_.ways[v].kin == letter.way.kin))
-        offer_around(v, letter.way, letter.time);
+      if (own_.ways[v].known() && own_.ways[v].kin == letter.way.kin) return;
+      offer_around(v, letter.way, letter.time);
+      send(v, letter.way, letter.time);
     }
     /// A vertex's way to the pieces beyond.
     void send(Index v) {
-      const Way& way = own_.ways[v];
-      if (!way.known()) return;
+      if (own_.ways[v].known()) send(v, own_.ways[v], distance_[v]);
+    }
+
+   private:
+    void send(Index v, const Way& way, Real time) {
+      // What has just come over this hinge does not go back, but once around a crack that ends
+      // there.
+      const bool arrives = !way.steps.empty() && all_.ends_at(way, place(v));
+      if (arrives && all_.turns(way)) return;
       auto link = std::lower_bound(own_.links.begin(), own_.links.end(), v,
                                    [](const Link& l, Index vertex) { return l.vertex < vertex; });
+      const Link* before = nullptr;
       for (; link != own_.links.end() && link->vertex == v; ++link) {
-        // What has just come over this hinge does not go back.
-        if (!way.steps.empty() && all_.ends_at(way, place(v))) continue;
+        const bool first =
+            before == nullptr || before->piece != link->piece || before->other != link->other;
+        before = &*link;
+        const bool back = !all_.pieces_[link->piece]->sees_all() && arrives &&
+                          way.steps.back().hinge != link->step.hinge;
+        if (arrives ? !back : !first) continue;
         if (way.steps.empty() && !(norm(place(v) - way.eye) > 0)) continue;
-        Letter letter = {link->other, distance_[v], way};
+        Letter letter = {link->other, time, way};
         letter.way.steps.push_back(link->step);
         letter.way.kin = all_.longer(way.kin, link->step);
         own_.letters_out.push_back({link->piece, std::move(letter)});
       }
     }
 
-   private:
     [[nodiscard]] Point place(Index v) const {
       return piece_.unit() * piece_.place(solid_.inside_vertex(v));
     }
@@ -310,6 +317,15 @@ class CrossingWays {
     const Step& last = way.steps.back();
     return !taut_.is_bend(last) &&
            norm(target - taut_.place(last, 1 - last.side)) <= Real(1e-6) * taut_.size(last);
+  }
+
+  // Are the last two crossings at one place?
+  [[nodiscard]] bool turns(const Way& way) const {
+    if (way.steps.size() < 2) return false;
+    const Step &last = way.steps.back(), &before = way.steps[way.steps.size() - 2];
+    return !taut_.is_bend(before) &&
+           norm(taut_.place(before, 1 - before.side) - taut_.place(last, last.side)) <=
+               Real(1e-6) * taut_.size(last);
   }
 
   const Domain& domain_;
