@@ -9,6 +9,7 @@
 #include <plexway/complex/point_cloud.hpp>
 
 #include "any/arguments/source_argument.hpp"
+#include "any/bent_crossings.hpp"
 #include "any/cloud_words.hpp"
 #include "any/rim_detours.hpp"
 #include "any/words.hpp"
@@ -122,6 +123,11 @@ std::vector<std::string> field_remarks(const AnyDomain& solver, const AnyField& 
              "around a notch in its rim or a void; that is too far if the surface does not end "
              "there, and more points there help");
   }
+  if (const BentCrossings bent = bent_crossings(solver); bent.hinges > 0)
+    remark("solids have " + counted(bent.edges, "edges") +
+           " around which ways bend, and faces or edges where the speed changes: single vertices "
+           "whose ways do both may be up to a tenth too far, never too near" +
+           (bent.cracks > 0 ? ", most of all where cracks end on such faces" : ""));
   if (!field.complete()) {
     remark("stopped after " + counted(field.statistics().expansions, "expansions") +
            ": distances may still be too long");

@@ -14,15 +14,15 @@
 
 #include <plexway/complex/mixed_complex.hpp>
 
+#include "propagate/bent_ways.hpp"
 #include "propagate/mixed_piece.hpp"
 #include "propagate/taut_crossings.hpp"
 
 namespace plexway {
 
-/// The ways of vertices in solids in which every point sees every other, handed on from vertex to
-/// vertex and over hinges. A tetrahedron keeps one label, so of the ways that cross it most are
-/// lost; a vertex that is nearer by the way of another one takes that, pulled taut. It only gets
-/// nearer.
+/// The ways of vertices in solids, handed on from vertex to vertex and over hinges. A tetrahedron
+/// keeps one label, so of the ways that cross it most are lost; a vertex that is nearer by the way
+/// of another one takes that, pulled taut. It only gets nearer.
 ///
 /// In rounds: in each a piece looks at its own vertices only, then letters go over the hinges. So
 /// pieces may be several at once, and the result is the same.
@@ -45,10 +45,16 @@ class CrossingWays {
   };
 
   CrossingWays(const Domain& domain, const std::vector<std::unique_ptr<Piece>>& pieces,
-               const Taut& taut, Real radius)
-      : domain_(domain), pieces_(pieces), taut_(taut), radius_(radius), held_(pieces.size()) {
+               const Taut& taut, const BentWays<Real>& bent, Real radius)
+      : domain_(domain),
+        pieces_(pieces),
+        taut_(taut),
+        bent_(bent),
+        radius_(radius),
+        held_(pieces.size()) {
     for (const auto& piece : domain.pieces())
-      if (pieces_[piece.number]->sees_all()) held_[piece.number].ways.resize(piece.vertices);
+      if (std::holds_alternative<TetMesh<Real>>(domain.complex(piece)))
+        held_[piece.number].ways.resize(piece.vertices);
     find_links();
   }
 
@@ -62,8 +68,7 @@ class CrossingWays {
     way.sigma = sigma;
     way.source = source;
     way.steps.assign(steps.begin(), steps.end());
-    way.kin = mixed(mixed(mixed(mixed(0, eye.x), eye.y), eye.z), sigma);
-    for (const Step& step : steps) way.kin = longer(way.kin, step);
+    find_kin(way);
   }
   void forget(Index piece, Index v) {
     if (!held_[piece].ways.empty()) held_[piece].ways[v].sigma = infinity;
@@ -108,7 +113,8 @@ class CrossingWays {
   static constexpr Real infinity = std::numeric_limits<Real>::infinity();
   static constexpr std::size_t most_rounds = 4096;
 
-  /// A welded vertex, the one beyond, and a hinge at both.
+  /// A welded vertex, the one beyond, and a hinge at both; the first of several such stands for
+  /// all.
   struct Link {
     Index vertex, piece, other;
     Step step;
@@ -136,7 +142,12 @@ class CrossingWays {
   static std::uint64_t mixed(std::uint64_t kin, Real number) {
     return mixed(kin, std::bit_cast<std::uint64_t>(static_cast<double>(number)));
   }
+  void find_kin(Way& way) const {
+    way.kin = mixed(mixed(mixed(mixed(0, way.eye.x), way.eye.y), way.eye.z), way.sigma);
+    for (const Step& step : way.steps) way.kin = longer(way.kin, step);
+  }
   [[nodiscard]] std::uint64_t longer(std::uint64_t kin, const Step& step) const {
+    if (taut_.is_bend(step)) return mixed(kin, std::uint64_t{step.hinge} << 32);
     const auto& hinge = domain_.hinges()[step.hinge];
     return mixed(
         mixed(kin, std::uint64_t{hinge.piece[step.side]} << 32 | hinge.piece[1 - step.side]),
@@ -177,12 +188,6 @@ class CrossingWays {
       };
       std::sort(own.links.begin(), own.links.end(),
                 [&](const Link& a, const Link& b) { return by(a) < by(b); });
-      own.links.erase(std::unique(own.links.begin(), own.links.end(),
-                                  [](const Link& a, const Link& b) {
-                                    return a.vertex == b.vertex && a.piece == b.piece &&
-                                           a.other == b.other;
-                                  }),
-                      own.links.end());
     }
   }
 
@@ -192,6 +197,7 @@ class CrossingWays {
     Work(CrossingWays& ways, Index piece, std::span<Real> distance, std::span<Index> label)
         : all_(ways),
           own_(ways.held_[piece]),
+          number_(piece),
           piece_(*ways.pieces_[piece]),
           solid_(std::get<TetMesh<Real>>(ways.domain_.complex(ways.domain_.pieces()[piece]))),
           distance_(distance),
@@ -220,27 +226,39 @@ class CrossingWays {
     void receive(const Letter& letter) {
       const Index v = letter.vertex;
       if (take_if(v, letter.way, letter.time)) return;
-      if (!(own_.ways[v].known() && own_.ways[v].kin == letter.way.kin))
-        offer_around(v, letter.way, letter.time);
+      if (own_.ways[v].known() && own_.ways[v].kin == letter.way.kin) return;
+      offer_around(v, letter.way, letter.time);
+      send(v, letter.way, letter.time);
     }
     /// A vertex's way to the pieces beyond.
     void send(Index v) {
-      const Way& way = own_.ways[v];
-      if (!way.known()) return;
+      if (own_.ways[v].known()) send(v, own_.ways[v], distance_[v]);
+    }
+
+   private:
+    void send(Index v, const Way& way, Real time) {
+      // What has just come over this hinge does not go back, but once around a crack that ends
+      // there.
+      const bool arrives = !way.steps.empty() && all_.ends_at(way, place(v));
+      if (arrives && all_.turns(way)) return;
       auto link = std::lower_bound(own_.links.begin(), own_.links.end(), v,
                                    [](const Link& l, Index vertex) { return l.vertex < vertex; });
+      const Link* before = nullptr;
       for (; link != own_.links.end() && link->vertex == v; ++link) {
-        // What has just come over this hinge does not go back.
-        if (!way.steps.empty() && all_.ends_at(way, place(v))) continue;
+        const bool first =
+            before == nullptr || before->piece != link->piece || before->other != link->other;
+        before = &*link;
+        const bool back = !all_.pieces_[link->piece]->sees_all() && arrives &&
+                          way.steps.back().hinge != link->step.hinge;
+        if (arrives ? !back : !first) continue;
         if (way.steps.empty() && !(norm(place(v) - way.eye) > 0)) continue;
-        Letter letter = {link->other, distance_[v], way};
+        Letter letter = {link->other, time, way};
         letter.way.steps.push_back(link->step);
         letter.way.kin = all_.longer(way.kin, link->step);
         own_.letters_out.push_back({link->piece, std::move(letter)});
       }
     }
 
-   private:
     [[nodiscard]] Point place(Index v) const {
       return piece_.unit() * piece_.place(solid_.inside_vertex(v));
     }
@@ -262,10 +280,12 @@ class CrossingWays {
           if (!(time + slope.least(there - at) < enough)) continue;
         }
         path_.assign(way.steps.begin(), way.steps.end());
-        const Real length = way.sigma + all_.taut_.pull(way.eye, path_, there, room_);
+        const Real length =
+            all_.bent_.pull(way.eye, way.sigma, path_, number_, inner, enough, room_);
         if (!(length < enough) || length > all_.radius_) continue;
         take(w, way, length);
         own_.ways[w].steps = path_;
+        all_.find_kin(own_.ways[w]);
       }
     }
     bool take_if(Index v, const Way& way, Real time) {
@@ -282,24 +302,36 @@ class CrossingWays {
 
     CrossingWays& all_;
     Held& own_;
+    Index number_;
     const Piece& piece_;
     const TetMesh<Real>& solid_;
     std::span<Real> distance_;
     std::span<Index> label_;
     std::vector<Index> outside_, around_;
     std::vector<Step> path_;
-    typename Taut::Room room_;
+    typename BentWays<Real>::Room room_;
   };
 
   // Is the last crossing where the way ends?
   [[nodiscard]] bool ends_at(const Way& way, const Point& target) const {
     const Step& last = way.steps.back();
-    return norm(target - taut_.place(last, 1 - last.side)) <= Real(1e-6) * taut_.size(last);
+    return !taut_.is_bend(last) &&
+           norm(target - taut_.place(last, 1 - last.side)) <= Real(1e-6) * taut_.size(last);
+  }
+
+  // Are the last two crossings at one place?
+  [[nodiscard]] bool turns(const Way& way) const {
+    if (way.steps.size() < 2) return false;
+    const Step &last = way.steps.back(), &before = way.steps[way.steps.size() - 2];
+    return !taut_.is_bend(before) &&
+           norm(taut_.place(before, 1 - before.side) - taut_.place(last, last.side)) <=
+               Real(1e-6) * taut_.size(last);
   }
 
   const Domain& domain_;
   const std::vector<std::unique_ptr<Piece>>& pieces_;
   const Taut& taut_;
+  const BentWays<Real>& bent_;
   Real radius_;
   std::vector<Held> held_;
   std::size_t rounds_ = 0;

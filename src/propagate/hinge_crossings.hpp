@@ -12,10 +12,12 @@
 
 #include <plexway/complex/mixed_complex.hpp>
 
+#include "propagate/bent_ways.hpp"
 #include "propagate/crossing_ways.hpp"
 #include "propagate/hinge_neighbours.hpp"
 #include "propagate/mixed_piece.hpp"
 #include "propagate/taut_crossings.hpp"
+#include "propagate/whole_ways.hpp"
 
 namespace plexway {
 
@@ -42,23 +44,24 @@ class HingeCrossings {
 
   HingeCrossings(const Domain& domain, const std::vector<std::unique_ptr<Piece>>& pieces,
                  const HingeNeighbours<Real>& neighbours)
-      : domain_(domain), pieces_(pieces), neighbours_(neighbours) {}
+      : domain_(domain), pieces_(pieces), neighbours_(neighbours), whole_(domain, pieces) {}
 
   /// `number` is one of the caller's sources: a point of a piece, in the domain's unit.
   void seed(Index piece, const Point& at, Real offset, Index number) {
     first_ = std::max(first_, number + 1);
+    whole_.start(first_);
     seeds_.push_back({piece, number, at, offset});
   }
   /// The first number of a crossing, and the next one.
   [[nodiscard]] Index first() const { return first_; }
   [[nodiscard]] Index next() const { return first_ + static_cast<Index>(crossings_.size()); }
   void add(const Crossing& crossing) {
-    crossings_.push_back({crossing, {0, 0}, none, {0, 0, 0}, infinity});
-    moves_ |= crossing.hinge != none;
+    keep(crossing);
+    whole_.skip();
   }
   /// One that a front from member m made for member k beyond.
   void add(const Crossing& crossing, Index m, Index k) {
-    add(crossing);
+    keep(crossing);
     const auto& hinge = domain_.hinges()[crossing.hinge];
     const Piece& from = *pieces_[hinge.piece[crossing.side]];
     const Piece& to = *pieces_[hinge.piece[1 - crossing.side]];
@@ -67,6 +70,7 @@ class HingeCrossings {
     const HingeEnd<Real> at = to.pose(beyond, hinge.dimension, crossing.start);
     known.place = to.shape(beyond, hinge.dimension).point(at.x, at.y);
     if (hinge.dimension == 1) known.place[1] = 0;
+    whole_.add(crossing.hinge, crossing.side, known.place, to.unit() * crossing.start, m);
     if (!to.sees_all()) return;
     Index before = none;
     if (!from.eye(domain_.members()[m], known.eye, known.sigma, before)) return;
@@ -82,7 +86,8 @@ class HingeCrossings {
   void end(Real radius) {
     if (!moves_) return;
     taut_ = std::make_unique<Taut>(domain_, pieces_, neighbours_);
-    ways_ = std::make_unique<Ways>(domain_, pieces_, *taut_, radius);
+    bent_ = std::make_unique<BentWays<Real>>(domain_, pieces_, *taut_);
+    ways_ = std::make_unique<Ways>(domain_, pieces_, *taut_, *bent_, radius);
     std::stable_sort(seeds_.begin(), seeds_.end(), [](const Seed& a, const Seed& b) {
       return std::pair(a.piece, a.number) < std::pair(b.piece, b.number);
     });
@@ -125,6 +130,9 @@ class HingeCrossings {
       if (there < distance[v]) distance[v] = there, label[v] = room.source;
       if (!ways_->known(piece, v)) front.push_back(v);
     }
+    if (whole_.any())
+      for (Index v = 0; v < distance.size(); ++v)
+        keep_whole(piece, v, inside(v), distance[v], label[v]);
     // A vertex may be nearer by the way of a neighbour: because none of its simplices came over the
     // hinge, or because the label that it kept was of a way that is longer once all are taut.
     if (!own.sees_all()) return;
@@ -194,6 +202,23 @@ class HingeCrossings {
     Real offset;
   };
 
+  void keep(const Crossing& crossing) {
+    crossings_.push_back({crossing, {0, 0}, none, {0, 0, 0}, infinity});
+    moves_ |= crossing.hinge != none;
+  }
+  // The whole way that labels tell, pulled taut, if it is the vertex's distance or less.
+  void keep_whole(Index piece, Index v, Index inside, Real& distance, Index& label) {
+    typename WholeWays<Real>::Way way;
+    typename BentWays<Real>::Room room;
+    whole_.find(piece, inside, *bent_, way);
+    if (!way.known()) return;
+    const Real enough = distance * (1 + Piece::crossing_gain);
+    const Real length = bent_->pull(way.eye, way.sigma, way.steps, piece, inside, enough, room);
+    if (!(length < enough)) return;
+    const Index source = root(way.source);
+    ways_->keep(piece, v, way.eye, way.sigma, way.steps, source);
+    if (length < distance) distance = length, label = source;
+  }
   // A path was found for a vertex: if it is its distance's, and known from its start.
   bool keep(Index piece, Index v, Real length, Real distance, const Room& room) {
     const bool is = room.all && length <= distance * (1 + Piece::crossing_gain);
@@ -458,7 +483,9 @@ class HingeCrossings {
   bool moves_ = false;  // is any on a hinge?
   std::vector<Known> crossings_;
   std::vector<Seed> seeds_;  // by piece and number
+  WholeWays<Real> whole_;
   std::unique_ptr<Taut> taut_;
+  std::unique_ptr<BentWays<Real>> bent_;
   std::unique_ptr<Ways> ways_;
 };
 

@@ -87,3 +87,46 @@ bool enter_edge(Index t, std::size_t face, Index ring, const Point& eye, Real si
   label.centre = taut_to(label, tets_[t].centre).extent;
   return enter(t, face, label, source);
 }
+
+/// The string to a point of t's boundary as it is walked, around what hides the label's own.
+[[nodiscard]] bool string_to(Index t, const Point& q, Taut& s) const {
+  return find_sight(t, tets_[t].centre, t, within(t, q), q, s);
+}
+/// That of a label of t to its centre. False if it does not begin at a point of the solid.
+[[nodiscard]] bool string_of(Index t, Taut& s) const {
+  const Label& label = front_->label(t);
+  if (label.door != none || fixed_bends(label) > 0) return false;
+  s = taut_to(label, tets_[t].centre);
+  return true;
+}
+/// Does a string that was pulled taut lift off a bend? One at an edge's end counts: it may get past.
+[[nodiscard]] bool lifts_off(const Taut& s, int bend) const {
+  const Edge& e = reflex_edge(s.edge[bend]);
+  return !presses(e, s.at[bend], s.at[bend + 2]) || at_an_end(e, s.at[bend + 1]);
+}
+/// Is a string free, from its end, a point of u's boundary, to its start? That is one of the boundary
+/// of `start`, or any point if that is none. Else gives the edge to go around, none if that is not
+/// known, and before which bend.
+[[nodiscard]] bool is_free_from(const Taut& s, Index start, Index u, Index& edge, int& leg) const {
+  Taut walked = s;
+  if (start != none) walked.at[0] = within(start, s.at[0]);
+  const Point end = within(u, taut_end(s));
+  Hit hit;
+  bool there = is_free(walked, point_label(walked.at[0], 0), u, end, hit);
+  if (there && start != none) {
+    // Lines may end a little before a boundary: from there, too, that of a crack's other side is
+    // not passed. Where that is all of the way, it is told by points farther inside.
+    const Real depth = s.bends == 0 && norm(end - walked.at[0]) < 16 * nudge ? Real(.3) : nudge;
+    const auto inside = [&](Index t, const Point& p) { return p + depth * (tets_[t].centre - p); };
+    hit = {start, 0};
+    there = go(hit.tet, inside(start, s.at[0]),
+               s.bends == 0 ? inside(u, taut_end(s)) : beside(reflex_edge(s.edge[0]), s.at[1]));
+  }
+  if (there) return true;
+  edge = edge_in_the_way(s, hit, true);
+  if (edge == none) edge = edge_in_the_way(s, hit, false);
+  leg = hit.leg;
+  return false;
+}
+/// The tetrahedron at a vertex that a line to a point begins in.
+[[nodiscard]] Index begin_at(Index vertex, const Point& to) const { return facing(vertex, to); }

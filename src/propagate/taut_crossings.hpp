@@ -20,7 +20,9 @@ namespace plexway {
 /// Paths over many hinges between solids in which every point sees every other, pulled taut: the
 /// sum of straight lines from crossing to crossing is least by Newton's steps for all crossings at
 /// once. Each crossing meets the one before and the one behind only, so a step takes a time in
-/// proportion to their number. Crossings go from hinge to hinge.
+/// proportion to their number. Crossings go from hinge to hinge. A bend at an edge of a solid is
+/// one as well, on a line, with the same piece on either side; what is in the way of lines is not
+/// looked at here.
 template <class Real>
 class TautCrossings {
  public:
@@ -29,7 +31,7 @@ class TautCrossings {
   using Point = Vector3<Real>;
 
   struct Step {
-    Index hinge;
+    Index hinge;        // or a bend's number
     std::uint8_t side;  // that the path comes from
     HingePlace<Real> place;
   };
@@ -46,11 +48,29 @@ class TautCrossings {
   };
 
   TautCrossings(const Domain& domain, const Pieces& pieces, const HingeNeighbours<Real>& neighbours)
-      : facets_(domain.hinges().size()) {
-    for (Index n = 0; n < facets_.size(); ++n) fill(domain, pieces, n);
-    for (Index n = 0; n < facets_.size(); ++n)
+      : hinges_(static_cast<Index>(domain.hinges().size())), facets_(hinges_) {
+    for (Index n = 0; n < hinges_; ++n) fill(domain, pieces, n);
+    for (Index n = 0; n < hinges_; ++n)
       if (facets_[n].dimension == 2)
         for (const Index other : neighbours.over_edges(n)) facets_[n].link(other, facets_[other]);
+    for (const auto& piece : pieces) {
+      first_bend_.push_back(static_cast<Index>(facets_.size()));
+      for (Index e = 0; e < piece->bend_edges(); ++e) fill(*piece, e);
+    }
+  }
+
+  /// A bend of a piece at one of its edges, `share` along it.
+  [[nodiscard]] Step bend(Index piece, Index edge, Real share) const {
+    return {first_bend_[piece] + edge, 0, {share, 0}};
+  }
+  [[nodiscard]] bool is_bend(const Step& step) const { return step.hinge >= hinges_; }
+  /// The edge that a bend of a piece is at.
+  [[nodiscard]] Index edge_of(Index piece, const Step& bend) const {
+    return bend.hinge - first_bend_[piece];
+  }
+  [[nodiscard]] Index piece_of(const Step& bend) const {
+    return static_cast<Index>(std::upper_bound(first_bend_.begin(), first_bend_.end(), bend.hinge) -
+                              first_bend_.begin() - 1);
   }
 
   /// A crossing, in the coordinates of the piece on a side of its hinge times that piece's unit.
@@ -226,6 +246,21 @@ class TautCrossings {
     if (!(det > 0)) return;
     facet.dual[0] = (ww / det) * u - (uw / det) * w;
     facet.dual[1] = (uu / det) * w - (uw / det) * u;
+  }
+
+  void fill(const MixedPiece<Real>& piece, Index edge) {
+    Facet& facet = facets_.emplace_back();
+    facet.dimension = 1;
+    const auto [a, b] = piece.bend_edge(edge);
+    for (const std::size_t side : {0, 1}) {
+      facet.origin[side] = piece.unit() * a;
+      facet.along[side][0] = piece.unit() * (b - a);
+      facet.along[side][1] = {0, 0, 0};
+    }
+    const Point& u = facet.along[0][0];
+    const Real uu = dot(u, u);
+    facet.dual[0] = uu > 0 ? 1 / uu * u : Point{0, 0, 0};
+    facet.dual[1] = {0, 0, 0};
   }
 
   // To a place that may lie beyond the hinge: on over its neighbours, or no farther than the rim.
@@ -420,7 +455,9 @@ class TautCrossings {
     return {sum, fall / 2};
   }
 
-  std::vector<Facet> facets_;
+  Index hinges_;
+  std::vector<Facet> facets_;      // of hinges, then of each piece's edges
+  std::vector<Index> first_bend_;  // by piece
 };
 
 }  // namespace plexway

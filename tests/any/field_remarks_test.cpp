@@ -4,6 +4,7 @@
 #include <array>
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <memory>
 #include <random>
 #include <string>
 #include <utility>
@@ -71,6 +72,41 @@ io::Points roof(unsigned seed, double degrees) {
       points.positions.push_back({x * std::cos(slope), y, -std::abs(x) * std::sin(slope)});
     }
   return points;
+}
+
+/// A block of cubes that are there, each of six tetrahedra, and a skin on the whole of its floor.
+template <class There>
+MixedShape block(std::array<std::size_t, 3> cubes, const There& there, bool skin) {
+  MixedShape shape;
+  MixedShape::Part part;
+  const auto at = [&](std::size_t x, std::size_t y, std::size_t z) {
+    return static_cast<Index>((z * (cubes[1] + 1) + y) * (cubes[0] + 1) + x);
+  };
+  for (std::size_t z = 0; z <= cubes[2]; ++z)
+    for (std::size_t y = 0; y <= cubes[1]; ++y)
+      for (std::size_t x = 0; x <= cubes[0]; ++x)
+        shape.positions.push_back({double(x), double(y), double(z)});
+  for (std::size_t z = 0; z < cubes[2]; ++z)
+    for (std::size_t y = 0; y < cubes[1]; ++y)
+      for (std::size_t x = 0; x < cubes[0]; ++x) {
+        if (!there(x, y, z)) continue;
+        std::array<std::size_t, 3> axes = {0, 1, 2};
+        do {
+          std::array<std::size_t, 3> corner = {x, y, z};
+          std::array<Index, 4> tet = {at(x, y, z)};
+          for (std::size_t i = 0; i < 3; ++i) {
+            ++corner[axes[i]];
+            tet[i + 1] = at(corner[0], corner[1], corner[2]);
+          }
+          part.tets.push_back(tet);
+        } while (std::next_permutation(axes.begin(), axes.end()));
+        if (!skin || z > 0) continue;
+        part.triangles.push_back({at(x, y, 0), at(x + 1, y, 0), at(x + 1, y + 1, 0)});
+        part.triangles.push_back({at(x, y, 0), at(x + 1, y + 1, 0), at(x, y + 1, 0)});
+      }
+  part.vertices = shape.positions.size();
+  shape.parts = {part};
+  return shape;
 }
 
 /// Two layers of points at random, half a spacing apart.
@@ -203,4 +239,43 @@ TEST_CASE("points of a cloud behind a notch in its rim are told") {
   CHECK_FALSE(warns(19, 0, 1));
   // Curved so that straight lines are shorter by more: that is no notch.
   CHECK_FALSE(warns(0, .05));
+}
+
+TEST_CASE("ways that are refracted and bend around edges of a solid are told") {
+  const auto told = [](const AnyShape& shape, const std::vector<double>& speed) {
+    BuildOptions building{.precision = Precision::twice};
+    metric::SimplexSpeeds speeds{.speed = speed, .agreement = {metric::Sides::own}};
+    building.lengths = std::make_shared<const MeasuredLengths>(shape.measure(speeds));
+    return remarks(shape, building, Accuracy::fast(), "around which ways bend, and faces");
+  };
+  const auto whole = [](std::size_t, std::size_t, std::size_t) { return true; };
+  const auto pierced = [](std::size_t x, std::size_t y, std::size_t) {
+    return !(x == 1 && (y == 1 || y == 2));
+  };
+  const auto notched = [](std::size_t x, std::size_t, std::size_t z) { return x != 1 || z < 1; };
+  // Of a half a speed each, the upper one by `fast`.
+  const auto in_halves = [&](const auto& there, double fast) {
+    const MixedShape cubes = block({3, 4, 2}, there, false);
+    const auto& tets = cubes.parts[0].tets;
+    std::vector<double> speed;
+    for (const auto& tet : tets) {
+      double y = 0;
+      for (const Index v : tet) y += cubes.positions[v][1] / 4;
+      speed.push_back(y > 2 ? fast : 1);
+    }
+    return told(AnyShape::solid(cubes.positions, tets), speed);
+  };
+  CHECK(in_halves(pierced, 2));
+  CHECK(in_halves(notched, .8));
+  CHECK_FALSE(in_halves(whole, 2));
+  CHECK_FALSE(in_halves(pierced, 1));
+  const auto with_skin = [&](const auto& there, double fast) {
+    const MixedShape cubes = block({3, 4, 2}, there, true);
+    std::vector<double> speed(cubes.parts[0].triangles.size(), fast);
+    speed.resize(speed.size() + cubes.parts[0].tets.size(), 1);
+    return told(AnyShape::mixed(cubes), speed);
+  };
+  CHECK(with_skin(notched, 2));
+  CHECK_FALSE(with_skin(notched, 1));
+  CHECK_FALSE(with_skin(whole, 2));
 }

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <cstddef>
+
+#include <plexway/any_domain.hpp>
+
+namespace plexway {
+
+/// Where ways of a mixed domain may be refracted and bend around a solid's edges besides.
+struct BentCrossings {
+  std::size_t hinges = 0;  ///< faces and edges where refracted ways enter or leave such solids
+  std::size_t edges = 0;   ///< of these solids, with more than pi of solid around
+  std::size_t cracks = 0;  ///< of those, ends of cracks
+};
+
+/// Those of all solids with such edges that share faces with a solid of another speed, or faces or
+/// edges with a surface that measures them otherwise. A way over such a hinge and around such an
+/// edge is not always the shortest (docs/methods/mixed.md). None in a domain that is not mixed.
+/// Cost: a look at each hinge.
+[[nodiscard]] BentCrossings bent_crossings(const AnyDomain& domain);
+
+}  // namespace plexway
