@@ -118,7 +118,8 @@ std::vector<Index> chord_places(const Places& places, std::span<const TangentFra
                                 double noise) {
   // Who is farther from the plane of a side than noise lifts anyone is not of that side.
   constexpr double shorter = 0.85, unclear = 0.8, farthest = 4, most_off = 2.5;
-  NoisyRidges ridges(places, frames);
+  // One side a place, but only where they are asked for.
+  NoisyRidges ridges(places, noise > 0 ? frames : std::span<const TangentFrame>());
   std::vector<Index> found;
   for (std::size_t f = 0; f < faces.size(); ++f)
     for (std::size_t i = 0; i < 3; ++i) {
