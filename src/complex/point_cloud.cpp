@@ -240,9 +240,14 @@ Sheet make_sheet(Points points, const Neighbours& neighbours, const CloudOptions
   const double flat = options.lengths == EdgeLengths::in_space     ? 0
                       : options.lengths == EdgeLengths::tangential ? 1
                                                                    : noise.share;
-  result.lengths = sheet_lengths(places, frames, rule, result.faces, flat);
-  const std::vector<Index> chords = chord_places(places, frames, rule, result.faces, result.lengths,
-                                                 summary.noise / summary.mean_spacing);
+  // Noise everywhere, and enough of it to hide how sharp a ridge is.
+  constexpr double least_noise = 0.02;
+  const double height = summary.noise / summary.mean_spacing;
+  const bool noisy = options.lengths == EdgeLengths::automatic && noise.share >= 1;
+  const double hidden = noisy && height > least_noise ? height : 0;
+  result.lengths = sheet_lengths(places, frames, rule, result.faces, flat, hidden);
+  const std::vector<Index> chords =
+      chord_places(places, frames, rule, result.faces, result.lengths, height, hidden);
   summary.chord_points = chords.size();
   for (const Index p : chords)
     summary.first_chord = std::min(summary.first_chord, distinct.order[p]);

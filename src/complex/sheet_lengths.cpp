@@ -6,6 +6,7 @@
 #include <iterator>
 
 #include "complex/crease.hpp"
+#include "complex/noisy_ridge.hpp"
 #include "complex/tangent_lengths.hpp"
 
 namespace plexway {
@@ -54,13 +55,28 @@ std::vector<Edge> straight_edges(const Places& places, std::span<const TangentFr
   return both;
 }
 
+// In a noisy cloud, as far as planes meet there.
+void lengthen_over_ridges(const Places& places, std::span<const TangentFrame> frames,
+                          std::span<const std::array<Index, 3>> faces, double farthest,
+                          std::vector<std::array<double, 3>>& lengths) {
+  NoisyRidges ridges(places, frames);
+  for (std::size_t f = 0; f < faces.size(); ++f)
+    for (std::size_t i = 0; i < 3; ++i) {
+      const Edge e = edge_of(faces[f], i);
+      const NoisyRidge ridge = ridges.between(e[0], e[1], farthest);
+      if (!(ridge.sharp > 0)) continue;
+      const double square = lengths[f][i] * lengths[f][i];
+      lengths[f][i] = std::sqrt(square + ridge.sharp * (ridge.way * ridge.way - square));
+    }
+}
+
 }  // namespace
 
 std::vector<std::array<double, 3>> sheet_lengths(const Places& places,
                                                  std::span<const TangentFrame> frames,
                                                  const SheetRule& rule,
                                                  std::span<const std::array<Index, 3>> faces,
-                                                 double flat) {
+                                                 double flat, double noise) {
   // What closes a hole beside a ridge may be long, and is no chord for that.
   constexpr double farthest = 12;  // spacings
   const auto for_creases = [&](const auto& visit) {
@@ -75,18 +91,19 @@ std::vector<std::array<double, 3>> sheet_lengths(const Places& places,
   };
   bool any = false;
   for_creases([&](std::size_t, std::size_t, const Edge&, const Crease&) { any = true; });
-  if (!any && !(flat > 0)) return {};
+  if (!any && !(flat > 0) && !(noise > 0)) return {};
   std::vector<std::array<double, 3>> lengths(faces.size());
   for (std::size_t f = 0; f < faces.size(); ++f)
     for (std::size_t i = 0; i < 3; ++i) {
       const Edge e = edge_of(faces[f], i);
       lengths[f][i] = tangent_length(places, frames, e[0], e[1], flat);
     }
-  if (!any) return lengths;
+  if (!any && !(noise > 0)) return lengths;
   auto over = lengths;
   for_creases([&](std::size_t f, std::size_t i, const Edge& e, const Crease& crease) {
     over[f][i] = length_over(crease, places, frames, e[0], e[1]);
   });
+  if (noise > 0) lengthen_over_ridges(places, frames, faces, farthest, over);
   const std::vector<Edge> straight = straight_edges(places, frames, faces, over);
   for (std::size_t f = 0; f < faces.size(); ++f)
     for (std::size_t i = 0; i < 3; ++i)
@@ -97,19 +114,27 @@ std::vector<std::array<double, 3>> sheet_lengths(const Places& places,
 
 std::vector<Index> chord_places(const Places& places, std::span<const TangentFrame> frames,
                                 const SheetRule& rule, std::span<const std::array<Index, 3>> faces,
-                                std::span<const std::array<double, 3>> lengths, double noise) {
-  constexpr double shorter = 0.85;
+                                std::span<const std::array<double, 3>> lengths, double height,
+                                double noise) {
+  // Who is farther from the plane of a side than noise lifts anyone is not of that side.
+  constexpr double shorter = 0.85, unclear = 0.8, farthest = 4, most_off = 2.5;
+  // One side a place, but only where they are asked for.
+  NoisyRidges ridges(places, noise > 0 ? frames : std::span<const TangentFrame>());
   std::vector<Index> found;
   for (std::size_t f = 0; f < faces.size(); ++f)
     for (std::size_t i = 0; i < 3; ++i) {
       const Edge e = edge_of(faces[f], i);
       if (e[1] >= frames.size() || !may_crease(dot(frames[e[0]].normal, frames[e[1]].normal)))
         continue;
-      const double way = way_over_ridge(places, frames, rule, e[0], e[1], noise);
-      if (!(way > 0)) continue;
       const Point3 q = minus(places.at[e[1]], places.at[e[0]]);
       const double length = lengths.empty() ? std::sqrt(dot(q, q)) : lengths[f][i];
-      if (length < shorter * way) found.insert(found.end(), e.begin(), e.end());
+      bool chord = length < shorter * way_over_ridge(places, frames, rule, e[0], e[1], height);
+      if (noise > 0) {
+        const NoisyRidge ridge = ridges.between(e[0], e[1], farthest);
+        chord = (ridge.sharp < 1 && (chord || length < unclear * ridge.way)) ||
+                (ridge.sharp > 0 && ridge.off > most_off * noise);
+      }
+      if (chord) found.insert(found.end(), e.begin(), e.end());
     }
   std::sort(found.begin(), found.end());
   found.erase(std::unique(found.begin(), found.end()), found.end());

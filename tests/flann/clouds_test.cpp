@@ -179,6 +179,83 @@ TEST_CASE("ways over roofs of 30 to 110 degrees with a hole at the ridge are as 
     }
 }
 
+namespace {
+
+// A roof whose planes make so many degrees, a hole beside its ridge, and points that noise moved in
+// all directions: the way between two is that between where they are on the unfolded roof.
+struct NoisyRoof {
+  std::vector<std::array<double, 3>> points;
+  std::vector<std::array<double, 2>> flat;
+  double spacing = std::sqrt(2. / 2500);
+
+  NoisyRoof(double degrees, double noise, std::uint64_t seed) {
+    samples::Uniform u(seed);
+    const double half = degrees / 2 * std::acos(-1.) / 180;
+    const auto off = [&] {  // nearly normal
+      double sum = -6;
+      for (int i = 0; i < 12; ++i) sum += u();
+      return noise * spacing * sum;
+    };
+    while (points.size() < 2500) {
+      double across = u(-1, 1), along = u();
+      if (std::hypot(across - .03, along - .5) < .08) continue;
+      across += off(), along += off();
+      const double up = off(), side = across < 0 ? -1 : 1;
+      points.push_back({across * std::sin(half) + up * side * std::cos(half), along,
+                        -std::abs(across) * std::cos(half) + up * std::sin(half)});
+      flat.push_back({across, along});
+    }
+  }
+  // How much too short at worst, five spacings away.
+  [[nodiscard]] double most_short(const PointCloud<double>& cloud) const {
+    double low = 0;
+    for (const Index source : {0u, 500u, 1250u, 1800u}) {
+      const auto found = plexway::solve(Serial{}, cloud, PointSource::at(source)).distance;
+      for (std::size_t v = 0; v < points.size(); ++v) {
+        const double straight =
+            std::hypot(flat[v][0] - flat[source][0], flat[v][1] - flat[source][1]);
+        if (straight > 5 * spacing) low = std::min(low, found[v] / straight - 1);
+      }
+    }
+    return low;
+  }
+};
+
+}  // namespace
+
+TEST_CASE("ways over the ridges of noisy roofs are no short cuts, or told") {
+  for (const double noise : {.03, .05})
+    for (const double degrees : {60., 75., 90., 105., 120., 130., 145., 160.})
+      for (const std::uint64_t seed : {11, 12, 13}) {
+        const NoisyRoof roof(degrees, noise, seed);
+        const PointCloud<double> cloud(roof.points,
+                                       plexway::flann::surface_neighbours(roof.points));
+        const double low = roof.most_short(cloud);
+        CAPTURE(noise, degrees, seed, low, cloud.summary().chord_points);
+        CHECK((low > -.05 || cloud.summary().chord_points > 0));
+        if (degrees >= 120) CHECK(low > -.05);
+      }
+}
+
+TEST_CASE("noisy clouds without ridges have no chords") {
+  for (const double noise : {.05, .1})
+    for (const std::uint64_t seed : {21, 22, 23}) {
+      samples::Uniform u(seed);
+      for (samples::Cloud cloud :
+           {samples::plane_cloud(2500, seed), samples::sphere_cloud(2500, seed),
+            samples::swiss_cloud(2500, seed), samples::cylinder_cloud(2500, seed)}) {
+        const double reach = noise * cloud.spacing() * std::sqrt(3.);
+        for (auto& p : cloud.points)
+          for (double& x : p) x += u(-reach, reach);
+        const PointCloud<double> domain(cloud.points,
+                                        plexway::flann::surface_neighbours(cloud.points));
+        CAPTURE(cloud.name, noise, seed);
+        CHECK(domain.summary().noise > 0);
+        CHECK(domain.summary().chord_points == 0);
+      }
+    }
+}
+
 TEST_CASE("errors on clouds fall as points are added") {
   // At a quarter of the spacing.
   CHECK(solve(samples::sphere_cloud(80000)).mean < solve(samples::sphere_cloud(5000)).mean / 4);
