@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include <plexway/any/support.hpp>
 #include <plexway/error.hpp>
 #include <plexway/executors/surface_parts.hpp>
 #include <plexway/io/ply_rows.hpp>
@@ -33,33 +34,44 @@
 namespace plexway::cli {
 namespace {
 
-// What was asked for that takes the whole.
-void refuse_whole(const DistanceCommand& command, std::span<const SetArgument> arguments) {
-  const auto refuse = [](const std::string& option, bool given) {
-    if (given)
-      throw UsageError("--in-parts goes without " + option + ", which takes the whole surface");
+/// The table's word on all that was asked for.
+void check_support(const DistanceCommand& command, std::span<const SetArgument> arguments,
+                   const Combination& cell) {
+  require("--executor " + command.solve.executor.name, support(Purpose::ranks, cell));
+  require("--in-parts", support(Purpose::in_parts, cell));
+  const auto purpose = [&](const std::string& option, bool given, Purpose what) {
+    if (given) require(option, support(what, cell));
   };
   const Triangulation triangulation = triangulation_of(command.triangulation);
-  refuse("--isolines-out", !command.isolines.out.empty() || command.isolines.step.has_value());
-  refuse("--picture", command.picture.wanted());
-  refuse("--mask", !command.mask.text.empty());
-  refuse("--metric", !command.metric.text.empty());
-  refuse("--triangulation " + command.triangulation.name,
-         triangulation != Triangulation::automatic && triangulation != Triangulation::input);
-  refuse("the further file " + (command.more.empty() ? "" : command.more.front()),
-         !command.more.empty());
-  refuse("--weld", command.weld.has_value());
-  refuse("--as " + command.as, !command.as.empty() && command.as != "surface");
-  refuse("--repair", command.fill.volume.repair);
-  refuse("--voxel", command.fill.volume.voxel.has_value());
-  refuse("--grid", !command.fill.volume.grid.empty());
-  refuse("--max-volume and the like", command.fill.given());
-  refuse("points and their neighbours", command.cloud.given());
-  refuse("--accuracy fast", command.solve.accuracy == "fast");
-  refuse("--schedule " + command.solve.schedule, command.solve.schedule != "dual_queue");
-  refuse("--out " + command.out, !command.out.empty() && !io::is_partitioned(command.out));
+  purpose("--isolines-out", !command.isolines.out.empty() || command.isolines.step.has_value(),
+          Purpose::isolines);
+  purpose("--picture", command.picture.wanted(), Purpose::pictures);
+  purpose("--mask", !command.mask.text.empty(), Purpose::masks);
+  purpose("--metric", !command.metric.text.empty(), Purpose::metrics);
+  purpose("--triangulation " + command.triangulation.name,
+          triangulation != Triangulation::automatic && triangulation != Triangulation::input,
+          Purpose::triangulations);
+  FileUse file{DomainKind::surface, DomainKind::surface, FileForm::parts};
+  const auto reading = [&](const std::string& option, bool given, Reading what) {
+    if (given) require(option, support(what, file));
+  };
+  reading("the further file " + (command.more.empty() ? "" : command.more.front()),
+          !command.more.empty(), Reading::joining);
+  reading("--weld", command.weld.has_value(), Reading::joining);
+  reading("--repair", command.fill.volume.repair, Reading::repair);
+  reading("--voxel", command.fill.volume.voxel.has_value(), Reading::voxel);
+  reading("--grid", !command.fill.volume.grid.empty(), Reading::grid);
+  reading("--max-volume and the like", command.fill.given(), Reading::filling);
+  reading("points and their neighbours", command.cloud.given(), Reading::connecting);
+  ProgressLine silent(true);
+  file.wanted = read_options(command, silent).as.value_or(file.held);
+  reading("--as " + command.as, true, Reading::kind);
   for (const SetArgument& argument : arguments)
-    refuse("--source " + argument.text, argument.kind != SetArgument::Kind::point);
+    require("--source " + argument.text,
+            support_of_sources(Purpose::in_parts, argument.kind == SetArgument::Kind::point));
+  if (!command.out.empty() && !io::is_partitioned(command.out))
+    throw UsageError("--out " + command.out +
+                     ": with --in-parts each rank writes its own: name a .pvtu");
 }
 
 /// The surface does not know which file it is of; its rows do.
@@ -120,8 +132,7 @@ void solve_in_parts(DistanceCommand& command, const PropagateOptions& wanted,
   check_same_rows(among.pieces, rows);
   std::vector<std::string> words = command.sources;
   check_same_words(among.pieces, words, "sources");
-  words = {command.solve.accuracy, command.solve.precision, std::to_string(wanted.radius),
-           std::to_string(wanted.max_expansions)};
+  words = {command.solve.precision};
   check_same_words(among.pieces, words, "options");
   words = {command.out};
   check_same_words(among.pieces, words, "outputs");
@@ -232,6 +243,7 @@ void solve_in_parts(DistanceCommand& command, const PropagateOptions& wanted,
   print_report(json, table, command.json, command.quiet, {command.out});
   check_reached();
   if (command.quiet) return;
+  note_accuracy(statistics);
   if (!field.complete)
     say_note("stopped after " + counted(statistics.expansions, "expansions") +
              ": distances may still be too long");
@@ -255,7 +267,6 @@ void run_distance_in_parts(DistanceCommand command) {
   const std::vector<SetArgument> arguments = parse_source_sets(command.sources);
   check_picture(command.picture, command.input);
   check_isolines(command.isolines, command.input);
-  refuse_whole(command, arguments);
   const PropagateOptions options = propagate_options(command.solve);
   const Precision precision = precision_of(command.solve);
   if (precision == Precision::twice && command.solve.precision == "float")
@@ -263,10 +274,10 @@ void run_distance_in_parts(DistanceCommand command) {
   const Combination cell = with({.executor = kind_of(command.solve.executor),
                                  .domain = DomainKind::surface,
                                  .dimension = 2,
-                                 .single_precision = precision == Precision::single},
+                                 .single_precision = precision == Precision::single,
+                                 .in_parts = true},
                                 options);
-  require("--executor " + command.solve.executor.name, support(Purpose::ranks, cell));
-  require("--in-parts", support_of_windows(cell));
+  check_support(command, arguments, cell);
   const std::vector<std::string> read = {command.input};
   check_output_place(command.out, read, "--out");
   if (precision == Precision::single)
