@@ -233,6 +233,67 @@ TEST_CASE("what ranks cannot do in parts is said once, and no file is left") {
   CHECK(content(out) == "an older one");
 }
 
+TEST_CASE("ranks solve in parts what others have written in parts") {
+  if (!mpirun()) return;
+  const testing::Folder folder;
+  const std::string text = folder.write("hills.off", hills()), ply = folder.at("hills.ply"),
+                    alone = folder.at("alone.vtu"), input = folder.at("in.pvtu"),
+                    out = folder.at("d.pvtu");
+  REQUIRE(run_tool({"convert", text, ply, "--quiet"}).code == 0);
+  const Words exact = {"--accuracy", "exact", "--quiet", "--out"};
+  REQUIRE(run_tool(from(ply, exact + Words{alone})).code == 0);
+  const auto known = Vtu(alone).array<double>("distance");
+  REQUIRE(run_ranks(3, from(ply, exact + Words{input, "--in-parts"})).code == 0);
+  std::vector<double> first;
+  for (const int ranks : {1, 2, 4}) {
+    CAPTURE(ranks);
+    const Outcome run = run_ranks(
+        ranks, from(input, {"--accuracy", "exact", "--in-parts", "--json", "--out", out}));
+    INFO(run.err);
+    REQUIRE(run.code == 0);
+    CHECK(run.json()["vertices"] == known.size());
+    const Parts parts(out, ranks, known.size());
+    CHECK(parts.agree);
+    CHECK(run.json()["simplices"] == parts.triangles);
+    double worst = 0;
+    for (std::size_t v = 0; v < known.size(); ++v) {
+      REQUIRE(std::isinf(known[v]) == std::isinf(parts.distance[v]));
+      if (!std::isinf(known[v])) worst = std::max(worst, std::abs(parts.distance[v] - known[v]));
+    }
+    CHECK(worst < 1e-12);
+    if (first.empty()) first = parts.distance;
+    CHECK(parts.distance == first);
+  }
+  // In the place of what is read.
+  fs::copy_file(input, folder.at("other.pvtu"));
+  const Outcome taken =
+      run_ranks(2, from(folder.at("other.pvtu"), {"--in-parts", "--quiet", "--out", input}));
+  CHECK(taken.code == 2);
+  REQUIRE(complaints(taken).size() == 1);
+  CHECK(complaints(taken)[0].find("in_0.vtu") != std::string::npos);
+  // What is wrong with one of the files.
+  const auto refused = [&](const std::string& why) {
+    fs::remove(out);
+    const Outcome run = run_ranks(2, from(input, {"--in-parts", "--quiet", "--out", out}));
+    CAPTURE(run.err, why);
+    CHECK(run.code == 3);
+    REQUIRE(complaints(run).size() == 1);
+    CHECK(complaints(run)[0].find(why) != std::string::npos);
+    CHECK(!fs::exists(out));
+  };
+  const std::string part = content(folder.at("in_1.vtu"));
+  folder.write("in_1.vtu", part.substr(0, part.size() / 2));
+  refused("in_1.vtu");
+  std::string other = part;  // not the same numbers
+  other.replace(other.find("Name=\"original\""), 15, "Name=\"Original\"");
+  folder.write("in_1.vtu", other);
+  refused("number their points");
+  fs::remove(folder.at("in_1.vtu"));
+  refused("in_1.vtu");
+  folder.write("in.pvtu", "<VTKFile type=\"PPolyData\"/>");
+  refused("in.pvtu");
+}
+
 TEST_CASE("a rank that has nothing in parts writes nothing, and why a vertex is not reached") {
   if (!mpirun()) return;
   const testing::Folder folder;

@@ -335,7 +335,7 @@ void add_distance_command(CLI::App& tool, Action& action, const Among* among) {
       ->type_name("FILE");
   app.add_flag("--in-parts", command->in_parts,
                "among ranks: none reads or holds the whole, each has its part. A binary .ply of\n"
-               "triangles; sources vertex:ID and point:X,Y,Z; results as a .pvtu");
+               "triangles, or a .pvtu; sources vertex:ID and point:X,Y,Z; results as a .pvtu");
   add_isoline_options(app, command->isolines);
   add_solve_options(app, command->solve, true);
   add_triangulation_option(app, command->triangulation);

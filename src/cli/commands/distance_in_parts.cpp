@@ -2,15 +2,20 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <filesystem>
+#include <memory>
 #include <string>
+#include <system_error>
 #include <type_traits>
 #include <utility>
 #include <vector>
 
 #include <plexway/any/support.hpp>
 #include <plexway/error.hpp>
+#include <plexway/executors/joined_rows.hpp>
 #include <plexway/executors/surface_parts.hpp>
 #include <plexway/io/ply_rows.hpp>
+#include <plexway/io/pvtu.hpp>
 #include <plexway/support.hpp>
 
 #include "any/arguments/point_argument.hpp"
@@ -119,6 +124,40 @@ Sources sources_on(const SurfaceParts<Real>& surface, const DistanceCommand& com
   return sources;
 }
 
+/// Throws UsageError if what the ranks write would take the place of what they read.
+void check_apart(std::span<const std::filesystem::path> files, const std::filesystem::path& out,
+                 std::size_t ranks) {
+  for (std::size_t r = 0; r < ranks; ++r)
+    for (const std::filesystem::path& file : files)
+      if (std::error_code absent;
+          std::filesystem::equivalent(io::part_of(out, r), file, absent) && !absent)
+        throw UsageError("--out " + out.string() + ": would take the place of the input's " +
+                         file.string());
+}
+
+/// A file that each rank reads some rows of, or files that each reads some of.
+std::unique_ptr<SurfaceRows> open_rows(const DistanceCommand& command) {
+  const Among& among = *command.among;
+  if (!io::is_partitioned(command.input)) {
+    auto rows = std::make_unique<io::PlyRows>(command.input);
+    among.all_come();
+    // Another file of that name, or another command, would end in a wait without end.
+    check_same_rows(among.pieces, *rows);
+    return rows;
+  }
+  const std::vector<std::filesystem::path> files = io::read_pvtu(command.input);
+  if (!command.out.empty()) check_apart(files, command.out, among.pieces.count());
+  std::vector<SurfaceFilePart> parts;
+  for (std::size_t p = among.pieces.rank(); p < files.size(); p += among.pieces.count())
+    parts.push_back(io::read_surface_part(files[p], p));
+  among.all_come();
+  std::vector<std::string> names;
+  for (const std::filesystem::path& file : files) names.push_back(file.filename().string());
+  check_same_words(among.pieces, names, "domain");
+  return with_file_name(
+      command.input, [&] { return std::make_unique<JoinedRows>(&among.pieces, std::move(parts)); });
+}
+
 template <class Real>
 void solve_in_parts(DistanceCommand& command, const PropagateOptions& wanted,
                     std::span<const SetArgument> arguments) {
@@ -126,10 +165,7 @@ void solve_in_parts(DistanceCommand& command, const PropagateOptions& wanted,
   ProgressLine progress(command.quiet);
   progress.phase("reading " + command.input);
   const Stopwatch building;
-  const io::PlyRows rows(command.input);
-  among.all_come();
-  // Another file of that name, or another command, would end in a wait without end.
-  check_same_rows(among.pieces, rows);
+  const std::unique_ptr<SurfaceRows> rows = open_rows(command);
   std::vector<std::string> words = command.sources;
   check_same_words(among.pieces, words, "sources");
   words = {command.solve.precision};
@@ -140,7 +176,7 @@ void solve_in_parts(DistanceCommand& command, const PropagateOptions& wanted,
   OpenMP team{.threads = command.solve.executor.threads.value_or(among.threads)};
   team.ranks = &among.pieces;
   SurfaceParts<Real> surface =
-      with_file_name(command.input, [&] { return SurfaceParts<Real>(team, rows); });
+      with_file_name(command.input, [&] { return SurfaceParts<Real>(team, *rows); });
   const SurfacePartsSummary& summary = surface.summary();
   const Sources sources = sources_on(surface, command, arguments);
   const double build = building.seconds();
@@ -156,7 +192,7 @@ void solve_in_parts(DistanceCommand& command, const PropagateOptions& wanted,
   SurfacePart part;
   std::vector<std::size_t> parts;  // that have a vertex
   if (!command.out.empty()) {
-    part = surface.part(rows);
+    part = surface.part(*rows);
     std::vector<std::uint64_t> vertices(among.pieces.count(), 0);
     vertices[among.pieces.rank()] = part.vertex.size();
     add_up(&among.pieces, vertices);
