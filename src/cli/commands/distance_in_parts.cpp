@@ -1,4 +1,3 @@
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
@@ -31,6 +30,7 @@
 #include "cli/exit_codes.hpp"
 #include "cli/report/console.hpp"
 #include "cli/report/distance_output.hpp"
+#include "cli/report/distance_report.hpp"
 #include "cli/report/progress.hpp"
 #include "executors/parts/same_rows.hpp"
 #include "executors/piece_post.hpp"
@@ -230,20 +230,16 @@ void solve_in_parts(DistanceCommand& command, const PropagateOptions& wanted,
   json["ghosts"] = summary.ghosts;
   json["seconds"]["build"] = build;
   json["seconds"]["solve"] = solve;
-  json["reached"] = field.reached;
-  json["unreached"] = summary.vertices - field.reached;
-  json["max_distance"] = json_number(field.max_distance);
-  json["mean_distance"] = json_number(field.mean_distance);
-  json["expansions"] = statistics.expansions;
-  json["updates"] = statistics.updates;
-  json["supersteps"] = statistics.supersteps;
-  json["letters"] = statistics.letters;
-  json["letter_bytes"] = statistics.letter_bytes;
-  json["ranks"] = among.ranks.count();
-  json["sent_bytes"] = ranks.sent_bytes;
-  json["peak_bytes"] = ranks.peak_bytes;
-  json["lowered_vertices"] = statistics.lowered_vertices;
-  json["raised_vertices"] = statistics.raised_vertices;
+  const DistanceReport report = {.vertices = summary.vertices,
+                                 .reached = field.reached,
+                                 .farthest = field.farthest,
+                                 .max_distance = field.max_distance,
+                                 .mean_distance = field.mean_distance,
+                                 .statistics = statistics,
+                                 .ranks = among.ranks.count(),
+                                 .counts = ranks,
+                                 .of_surface = true};
+  add_report(report, json);
   json["executor"] = "openmp";
   json["threads"] = team_size(team);
   json["precision"] = std::is_same_v<Real, float> ? "float" : "double";
@@ -258,20 +254,7 @@ void solve_in_parts(DistanceCommand& command, const PropagateOptions& wanted,
   for (std::size_t i = 0; i < sources.texts.size(); ++i)
     table.add(sources.texts.size() == 1 ? "source" : "source " + std::to_string(i),
               sources.texts[i]);
-  std::string reached =
-      std::to_string(field.reached) + " of " + counted(summary.vertices, "vertices");
-  if (field.reached > 0)
-    reached += "; the farthest is vertex " + std::to_string(field.farthest) + " at " +
-               short_number(field.max_distance) + ", the mean " + short_number(field.mean_distance);
-  table.add("reached", reached);
-  table.add("work", counted(statistics.expansions, "expansions") + ", " +
-                        counted(statistics.updates, "updates"));
-  const std::uint64_t most = *std::max_element(ranks.peak_bytes.begin(), ranks.peak_bytes.end());
-  table.add("ranks", std::to_string(among.ranks.count()) + ", " +
-                         counted(statistics.supersteps, "supersteps") + ", " +
-                         counted(statistics.letters, "letters") + ", " +
-                         counted(ranks.sent_bytes, "bytes") + " from rank to rank, at most " +
-                         std::to_string((most + 500'000) / 1'000'000) + " MB in one");
+  add_report(report, table);
   table.add("time", "build " + short_time(build) + ", solve " + short_time(solve) + " (" +
                         describe(team) + ", " + name_of(field.accuracy) + ", " +
                         command.solve.precision + ")");
