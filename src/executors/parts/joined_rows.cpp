@@ -255,19 +255,20 @@ void check_count(const char* what, std::uint64_t count) {
 }  // namespace
 
 JoinedRows::JoinedRows(PieceRanks* ranks, std::vector<SurfaceFilePart> parts) {
-  std::uint64_t largest = 0;  // of all parts: their number
-  for (const SurfaceFilePart& part : parts)
-    largest = std::max<std::uint64_t>(largest, part.number + 1);
-  largest = static_cast<std::uint64_t>(-least_of(ranks, -static_cast<double>(largest)));
+  std::size_t largest = 0;  // of all parts: their number
+  for (const SurfaceFilePart& part : parts) largest = std::max(largest, part.number + 1);
+  largest = static_cast<std::size_t>(-least_of(ranks, -static_cast<double>(largest)));
   std::vector<std::uint64_t> begin(largest + 1, 0);  // of each part's triangles
   for (const SurfaceFilePart& part : parts) begin[part.number] = part.triangles.size();
   add_up(ranks, begin);
   std::exclusive_scan(begin.begin(), begin.end(), begin.begin(), std::uint64_t{0});
-  faces_ = begin.back();
+  const std::uint64_t faces_in_all = begin.back();
   Numbering numbers(ranks, parts);
-  vertices_ = numbers.run();
-  check_count("vertices", vertices_);
-  check_count("faces", faces_);
+  const std::uint64_t vertices_in_all = numbers.run();
+  check_count("vertices", vertices_in_all);
+  check_count("faces", faces_in_all);
+  vertices_ = static_cast<std::size_t>(vertices_in_all);
+  faces_ = static_cast<std::size_t>(faces_in_all);
 
   PartMail vertices(ranks), faces(ranks);
   const std::size_t n = vertices.count(), ours = vertices.ours();
@@ -294,13 +295,13 @@ JoinedRows::JoinedRows(PieceRanks* ranks, std::vector<SurfaceFilePart> parts) {
   for (std::size_t r = 0; r < n; ++r)
     for (Unpacked in = vertices.from(r); !in.empty();) {
       const auto vertex = in.take<Vertex>();
-      positions_[vertex.number - first_vertex_] = vertex.position;
+      positions_[static_cast<std::size_t>(vertex.number) - first_vertex_] = vertex.position;
     }
   faces.meet();
   for (std::size_t r = 0; r < n; ++r)
     for (Unpacked in = faces.from(r); !in.empty();) {
       const auto triangle = in.take<Triangle>();
-      corners_[triangle.number - first_face_] = triangle.corner;
+      corners_[static_cast<std::size_t>(triangle.number) - first_face_] = triangle.corner;
     }
 }
 

@@ -237,7 +237,7 @@ class PartedLabels {
     std::uint64_t sum[] = {0};
     for (const Piece& piece : labels_) sum[0] += piece.count_reached();
     add_up(team_.ranks(), sum);
-    return sum[0];
+    return static_cast<std::size_t>(sum[0]);
   }
 
   const Team& team_;
