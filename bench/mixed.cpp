@@ -45,7 +45,8 @@ struct Domain {
 /// Rows of the table: what fields are off, as a share of the distance.
 class Fields {
  public:
-  explicit Fields(bench::Table& table) : table_(table) {}
+  /// `repeats`: of solves by 1, 2 and 3 threads in turn, whose bits must be Serial's.
+  Fields(bench::Table& table, std::size_t repeats) : table_(table), repeats_(repeats) {}
 
   /// From the vertex next to `from`; exact(vertex, source).
   void measure(const std::string& name, const Domain& domain, const Position& from,
@@ -59,6 +60,12 @@ class Fields {
     const double seconds = bench::seconds([&] {
       field = plexway::solve(plexway::Serial{}, domain.complex, plexway::PointSource::at(source));
     });
+    std::size_t others = 0;
+    for (std::size_t i = 0; i < repeats_; ++i) {
+      const plexway::OpenMP team{.threads = 1 + static_cast<int>(i % 3)};
+      others += plexway::solve(team, domain.complex, plexway::PointSource::at(source)).distance !=
+                field.distance;
+    }
     double mean = 0, worst = 0, low = 0;
     for (Index v = 0; v < domain.positions.size(); ++v) {
       const double truth = exact(domain.positions[source], domain.positions[v], v);
@@ -73,11 +80,13 @@ class Fields {
                 {"mean", mean},
                 {"worst", worst},
                 {"low", low},
-                {"seconds", seconds}});
+                {"seconds", seconds},
+                {"others", others}});
   }
 
  private:
   bench::Table& table_;
+  std::size_t repeats_;
 };
 
 std::string text_of(double number) {
@@ -107,6 +116,10 @@ int main(int argc, char** argv) {
   app.add_option("--thick", thick, "Of slabs, if they are 1 wide")->capture_default_str();
   app.add_option("--up", up, "Cells over the thickness of a slab; 0: as many as along a side")
       ->capture_default_str();
+  std::size_t repeats = 0;
+  app.add_option("--repeats", repeats,
+                 "Solves by 1, 2 and 3 threads in turn, to be Serial's to the last bit")
+      ->capture_default_str();
   report.add_options(app);
   CLI11_PARSE(app, argc, argv);
   if (up == 0) up = n;
@@ -118,11 +131,12 @@ int main(int argc, char** argv) {
                       {"mean", "mean"},
                       {"worst", "worst"},
                       {"low", "lowest"},
-                      {"seconds", "s", "%.3f"}});
+                      {"seconds", "s", "%.3f"},
+                      {"others", "other bits"}});
   const double cell = 1. / static_cast<double>(n);
 
   return report.write(table, [&] {
-    Fields fields(table);
+    Fields fields(table, repeats);
     for (const double c : speeds) {
       const std::string at = ", c = " + text_of(c);
       if (asked("block")) {

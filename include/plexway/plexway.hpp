@@ -41,6 +41,7 @@
 #include <plexway/complex/smoothing.hpp>
 #include <plexway/error.hpp>
 #include <plexway/executors/gl.hpp>
+#include <plexway/executors/joined_rows.hpp>
 #include <plexway/executors/piece_ranks.hpp>
 #include <plexway/executors/surface_parts.hpp>
 #include <plexway/io/block_journal.hpp>
@@ -53,6 +54,7 @@
 #include <plexway/io/paths.hpp>
 #include <plexway/io/ply_rows.hpp>
 #include <plexway/io/points.hpp>
+#include <plexway/io/pvtu.hpp>
 #include <plexway/io/regions.hpp>
 #include <plexway/io/simplices.hpp>
 #include <plexway/io/sparse_file.hpp>

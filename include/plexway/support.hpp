@@ -48,6 +48,8 @@ struct Combination {
   bool positions = true;
   /// Is it a solid with a crack: two faces of its boundary that lie on each other?
   bool cracked = false;
+  /// Is it in parts over processes, of which none has the whole (SurfaceParts)?
+  bool in_parts = false;
 };
 
 /// A cell with what a solve's options tell.
@@ -86,6 +88,15 @@ constexpr Support support(const Combination& c) {
       c.accuracy == Accuracy::Kind::merged || c.accuracy == Accuracy::Kind::exact;
   const bool shape = c.source == SourceKind::curve || c.source == SourceKind::simplex;
 
+  // In parts over processes.
+  if (c.in_parts) {
+    if (c.domain != surface) return Refusal::in_parts_domain;
+    if (c.executor != ExecutorKind::openmp) return Refusal::ranks_executor;
+    if (c.metric != MetricKind::intrinsic) return Refusal::in_parts_whole;
+    if (shape) return Refusal::points_alone;
+    const bool windows = c.accuracy != Accuracy::Kind::fast && support_of_windows(c);
+    if (windows && c.schedule != Schedule::dual_queue) return Refusal::in_parts_order;
+  }
   // What the types of executor and domain say.
   if (gl && (c.domain == simplices || c.domain == mixed)) return Refusal::gl_domain;
   if (gl && !c.single_precision) return Refusal::gl_double;
@@ -159,6 +170,7 @@ template <ExecutorType E, DomainType D>
   X(error_classes, "errors by place and shape, 'plexway bench --anatomy'")             \
   X(rows, "all_pairs and near_pairs (any/pairs.hpp)")                                  \
   X(ranks, "OpenMP::ranks")                                                            \
+  X(in_parts, "SurfaceParts, 'plexway-mpi distance --in-parts'")                       \
   X(pieces, "MixedComplex::add")                                                       \
   X(places, "AnyShape::closest and AnyShape::position")                                \
   X(astar, "find_paths (any/search.hpp), 'plexway path --astar'")                      \
@@ -182,6 +194,12 @@ constexpr bool needs_positions(Purpose purpose) {
   return draws(purpose) || purpose == Purpose::lines || purpose == Purpose::places;
 }
 
+/// Does a purpose need no more of a domain than each of several processes has of its part?
+constexpr bool goes_in_parts(Purpose purpose) {
+  using enum Purpose;
+  return purpose == in_parts || purpose == ranks || purpose == parts || purpose == places;
+}
+
 /// Does a purpose go together with a domain, and with the solve that left what it asks? Precision
 /// and kinds of sources do not matter (those: support_of_sources); schedule, step and accuracy do
 /// for searches alone.
@@ -192,6 +210,7 @@ constexpr Support support(Purpose purpose, const Combination& c) {
   const bool by_lengths = c.domain == solid && c.metric != MetricKind::embedded;
   const bool labels = saddles && !gl;
   const bool windows = c.accuracy == Accuracy::Kind::merged || c.accuracy == Accuracy::Kind::exact;
+  if (c.in_parts && !goes_in_parts(purpose)) return Refusal::in_parts_whole;
   switch (purpose) {
     case Purpose::paths:
       if (c.domain == simplices) return Refusal::paths_simplices;
@@ -304,6 +323,12 @@ constexpr Support support(Purpose purpose, const Combination& c) {
     case Purpose::ranks:
       if (c.executor != ExecutorKind::openmp) return Refusal::ranks_executor;
       break;
+    case Purpose::in_parts: {
+      Combination parted = c;
+      parted.in_parts = true;
+      if (const Support found = support(parted); !found) return found;
+      break;
+    }
     case Purpose::pieces:
       return support_of_piece(c.domain, c.metric);
     case Purpose::places:
@@ -357,7 +382,7 @@ constexpr Support support_of_sources(Purpose purpose, bool only_points) {
   const bool by_points = purpose == Purpose::paths || purpose == Purpose::read_out ||
                          purpose == Purpose::directions || purpose == Purpose::searches ||
                          purpose == Purpose::astar || purpose == Purpose::samples ||
-                         purpose == Purpose::darts;
+                         purpose == Purpose::darts || purpose == Purpose::in_parts;
   return by_points && !only_points ? Refusal::points_alone : Refusal::nothing;
 }
 

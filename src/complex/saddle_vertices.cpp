@@ -95,11 +95,12 @@ bool is_inner_saddle(double excess, const Neighbourhood& n, double least,
 template <class Real>
 void mark_saddles(std::span<TriangleRecord<Real>> triangles, const VertexFans& fans,
                   std::span<const Index> first_use, std::vector<double> excess,
-                  const SurfaceHints& hints) {
+                  const SurfaceHints& hints, std::size_t of_whole) {
   const std::size_t vertices = excess.size();
   const std::span<const TriangleRecord<Real>> all = triangles;
   // What is below this is below a thousandth of a sphere's curvature, all vertices together.
-  const double least = 4e-3 * std::numbers::pi / static_cast<double>(vertices);
+  const double least =
+      4e-3 * std::numbers::pi / static_cast<double>(of_whole > 0 ? of_whole : vertices);
   // Samples count by what they and their neighbourhood have beyond rounding.
   const double rounding = hints.samples ? hints.saddles.interior : 0;
   for (std::size_t v = 0; v < vertices; ++v)
@@ -131,8 +132,10 @@ void mark_saddles(std::span<TriangleRecord<Real>> triangles, const VertexFans& f
 }
 
 template void mark_saddles(std::span<TriangleRecord<float>>, const VertexFans&,
-                           std::span<const Index>, std::vector<double>, const SurfaceHints&);
+                           std::span<const Index>, std::vector<double>, const SurfaceHints&,
+                           std::size_t);
 template void mark_saddles(std::span<TriangleRecord<double>>, const VertexFans&,
-                           std::span<const Index>, std::vector<double>, const SurfaceHints&);
+                           std::span<const Index>, std::vector<double>, const SurfaceHints&,
+                           std::size_t);
 
 }  // namespace plexway

@@ -13,10 +13,11 @@ namespace plexway {
 ///
 /// `excess`, one number a vertex: the angle around it beyond 2 pi, or on a boundary beyond pi.
 /// `hints` has the thresholds and whether the vertices are samples; `first_use` is FaceLayout's.
-/// Cost: linear, two passes, by as many threads as `hints` say.
+/// `vertices`: so many has the whole surface that this is a part of; 0: it is the whole. Sines must
+/// be >= 0. Cost: linear, two passes, by as many threads as `hints` say.
 template <class Real>
 void mark_saddles(std::span<TriangleRecord<Real>> triangles, const VertexFans& fans,
                   std::span<const Index> first_use, std::vector<double> excess,
-                  const SurfaceHints& hints);
+                  const SurfaceHints& hints, std::size_t vertices = 0);
 
 }  // namespace plexway

@@ -47,7 +47,7 @@ class PieceCrew : public TeamCrew<Real, kLabels> {
     std::vector<Piece*> by_number(patches.count(), nullptr);
     for (std::size_t p = deal.ours; p < patches.count(); p += deal.count)
       by_number[p] = &pieces.emplace_back(
-          cut.pieces[p], patches[p], propagation.rule(),
+          cut.pieces[p], patches[p].sheet(), patches[p], propagation.rule(),
           typename Piece::Settings{&this->options_, this->step_,
                                    static_cast<Real>(this->options_.radius / this->unit_),
                                    mesh_.summary().refracting_edges > 0, simplices, this->unit_});

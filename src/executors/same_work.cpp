@@ -159,6 +159,13 @@ void check_same_work(PieceRanks& ranks, const D& domain, const SourceList& sourc
   compare(ranks, own, what);
 }
 
+void check_same_work(PieceRanks& ranks, const SourceList& sources, const PropagateOptions& options,
+                     std::size_t piece) {
+  const std::array own = {digest_of(sources), digest_of(options, piece)};
+  constexpr std::array what = {"sources", "options"};
+  compare(ranks, own, what);
+}
+
 #define PLEXWAY_SAME_WORK(...)                                                      \
   template void check_same_work(PieceRanks&, const __VA_ARGS__&, const SourceList&, \
                                 const PropagateOptions&, std::size_t);

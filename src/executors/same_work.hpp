@@ -19,6 +19,10 @@ template <class D>
 void check_same_work(PieceRanks& ranks, const D& domain, const SourceList& sources,
                      const PropagateOptions& options, std::size_t piece);
 
+/// Likewise where the domain is in parts.
+void check_same_work(PieceRanks& ranks, const SourceList& sources, const PropagateOptions& options,
+                     std::size_t piece);
+
 /// Likewise for words, such as the names of outputs: throws UsageError that says of `what` they
 /// differ, in every process.
 void check_same_words(PieceRanks& ranks, std::span<const std::string> words, const char* what);

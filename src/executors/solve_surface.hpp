@@ -18,16 +18,18 @@
 /// A solve on a surface, for any crew.
 namespace plexway::surface {
 
-/// The sources themselves, exactly, and the corners of triangles they lie in.
+/// The sources themselves, exactly, and the corners of triangles they lie in. `numbers`: which they
+/// are, ascending; empty for all.
 template <class Real, bool kLabels>
 void read_out_sources(const TriangleMesh<Real>& mesh, std::span<const PointSource> sources,
-                      WorkspaceState<Real>& workspace) {
+                      WorkspaceState<Real>& workspace, std::span<const Index> numbers = {}) {
   const auto offer = [&](Index v, double d, std::size_t number) {
     if (!(static_cast<Real>(d) < workspace.vertex[v]) &&
         !(kLabels && static_cast<Real>(d) == workspace.vertex[v]))
       return;
     workspace.vertex[v] = static_cast<Real>(d);
-    if constexpr (kLabels) workspace.vertex_source[v] = static_cast<Index>(number);
+    if constexpr (kLabels)
+      workspace.vertex_source[v] = numbers.empty() ? static_cast<Index>(number) : numbers[number];
   };
   for (std::size_t n = sources.size(); n-- > 0;) {
     const double sigma = sources[n].offset / mesh.unit();

@@ -35,9 +35,13 @@ std::string escaped(const std::string& text) {
 
 bool is_partitioned(const std::filesystem::path& file) { return lower_extension(file) == ".pvtu"; }
 
+std::filesystem::path part_of(const std::filesystem::path& file, std::size_t part) {
+  return file.parent_path() / part_name(file, part);
+}
+
 FieldPart::FieldPart(const std::filesystem::path& file, const Field& whole, std::size_t part,
                      std::size_t parts)
-    : out_(std::make_unique<OutputFile>(file.parent_path() / part_name(file, part))) {
+    : out_(std::make_unique<OutputFile>(part_of(file, part))) {
   constexpr std::uint32_t nowhere = std::numeric_limits<std::uint32_t>::max();
   std::vector<std::uint32_t> number(whole.vertices, nowhere), original;
   std::vector<std::vector<std::uint32_t>> corners(whole.cells.size());
@@ -80,7 +84,7 @@ FieldPart::FieldPart(const std::filesystem::path& file, const Field& whole, std:
 }
 
 FieldPart::FieldPart(const std::filesystem::path& file, const Field& own, std::size_t part)
-    : out_(std::make_unique<OutputFile>(file.parent_path() / part_name(file, part))) {
+    : out_(std::make_unique<OutputFile>(part_of(file, part))) {
   write_vtu(*out_, own);
   out_->flush();
 }

@@ -32,6 +32,9 @@ class FieldPart {
 /// Does a name end in .pvtu, in any case?
 [[nodiscard]] bool is_partitioned(const std::filesystem::path& file);
 
+/// Where the part of a number lies.
+[[nodiscard]] std::filesystem::path part_of(const std::filesystem::path& file, std::size_t part);
+
 /// The file that names the parts of these numbers. Write it when they are all in place. Throws as
 /// above.
 void write_pvtu(const std::filesystem::path& file, const Field& whole,

@@ -17,6 +17,7 @@
 #include "region_parsers.hpp"
 #include "vtk_cells.hpp"
 #include "vtu_data.hpp"
+#include "vtu_part.hpp"
 
 namespace plexway::io {
 namespace {
@@ -31,6 +32,12 @@ class VtuReader {
         regions_(regions),
         room_(least_room + most_packed * bytes.size()) {}
 
+  /// As a part of several files: what numbers its points have in the whole comes along, and its
+  /// ghosts, which are another's, do not. It may be empty.
+  Mixed read_part(std::vector<std::uint64_t>& ids) {
+    ids_ = &ids;
+    return read();
+  }
   Mixed read() {
     load();
     const pugi::xml_node root = document_.child("VTKFile");
@@ -47,7 +54,7 @@ class VtuReader {
     for (const pugi::xml_node piece :
          root.child(polygons ? "PolyData" : "UnstructuredGrid").children("Piece"))
       read_piece(piece, polygons);
-    require_cells(solid_, others_, take_, name_);
+    if (ids_ == nullptr || !others_.empty()) require_cells(solid_, others_, take_, name_);
     return std::move(solid_);
   }
 
@@ -125,6 +132,7 @@ class VtuReader {
         fail(array, "points need NumberOfComponents=\"3\"");
       values(array, "points", points, 3,
              [&](auto& in, NumberType type) { read_vtk_points(in, type, points, solid_); });
+      if (ids_ != nullptr) read_ids(piece, points);
     }
     if (polygons) {
       if (regions_ != nullptr) no_regions(name_);
@@ -134,6 +142,47 @@ class VtuReader {
     } else if (const std::uint64_t cells = number(piece, "NumberOfCells"); cells != 0) {
       read_cells(piece, points, cells, base);
     }
+  }
+
+  void read_ids(pugi::xml_node piece, std::uint64_t points) {
+    const pugi::xml_node data = piece.child("PointData");
+    pugi::xml_node array;
+    for (const char* const known :
+         {data.attribute("GlobalIds").value(), "GlobalPointIds", "original"})
+      if (!array) array = data.find_child_by_attribute("DataArray", "Name", known);
+    if (!array) {
+      if (!ids_->empty()) fail(piece, "this piece does not number its points, others do");
+      return;
+    }
+    if (ids_->size() + points != solid_.positions.size())
+      fail(array, "this piece numbers its points, others do not");
+    values(array, "numbers of points", points, 1, [&](auto& in, NumberType type) {
+      for (std::uint64_t i = 0; i < points; ++i) {
+        const std::int64_t id = in.whole(type, "the number of a point");
+        if (id < 0) in.fail("the number of a point is " + std::to_string(id));
+        ids_->push_back(static_cast<std::uint64_t>(id));
+      }
+    });
+  }
+
+  /// Which cells of a piece are another's.
+  std::vector<bool> ghosts_of(pugi::xml_node piece, std::uint64_t cells) {
+    std::vector<bool> ghosts(cells, false);
+    if (ids_ == nullptr) return ghosts;
+    const pugi::xml_node data = piece.child("CellData");
+    // Formerly levels, from 1 on.
+    for (const char* const name : {"vtkGhostType", "vtkGhostLevels"}) {
+      const pugi::xml_node array = data.find_child_by_attribute("DataArray", "Name", name);
+      if (!array) continue;
+      const bool levels = std::string_view(name) == "vtkGhostLevels";
+      values(array, "ghosts of cells", cells, 1, [&](auto& in, NumberType type) {
+        for (std::uint64_t c = 0; c < cells; ++c) {
+          const std::int64_t mark = in.whole(type, "the ghost type of a cell");
+          if (levels ? mark > 0 : (mark & 1) != 0) ghosts[c] = true;
+        }
+      });
+    }
+    return ghosts;
   }
 
   /// What PolyData has of one kind, whose cells all have this type. A kind that is not counted is
@@ -151,12 +200,14 @@ class VtuReader {
   void read_cells(pugi::xml_node piece, std::uint64_t points, std::uint64_t cells,
                   std::size_t base) {
     const VtkCells list = read_list(piece, "Cells", points, cells, base);
+    const std::vector<bool> ghosts = ghosts_of(piece, cells);
     values(cell_array(piece, "Cells", "types"), "types of cells", cells, 1,
            [&](auto& in, NumberType type) {
              VtkTets tets(solid_, others_, take_);
              for (std::uint64_t c = 0; c < cells; ++c) {
-               if (const auto wrong = tets.add(list, c, in.whole(type, "the type of a cell")))
-                 in.fail(*wrong);
+               const std::int64_t kind = in.whole(type, "the type of a cell");
+               if (ghosts[c]) continue;
+               if (const auto wrong = tets.add(list, c, kind)) in.fail(*wrong);
                if (regions_ != nullptr) owners_.take(solid_, regions_of_cells_.size() + c);
              }
            });
@@ -278,6 +329,7 @@ class VtuReader {
   std::string_view compressor_;
   Mixed solid_;
   OtherCells others_;
+  std::vector<std::uint64_t>* ids_ = nullptr;
 };
 
 }  // namespace
@@ -294,6 +346,17 @@ Mixed parse_vtu_mixed(std::string_view bytes, std::string_view name) {
   return VtuReader(bytes, name, Take::mixed).read();
 }
 
+SurfaceFilePart parse_vtu_part(std::string_view bytes, std::string_view name) {
+  SurfaceFilePart part;
+  part.name = name;
+  Mixed cells = VtuReader(bytes, name, Take::mixed).read_part(part.ids);
+  if (!cells.edges.empty() || !cells.tets.empty())
+    throw InputError(part.name + ": has cells besides polygons, of which a part is made");
+  part.positions = std::move(cells.positions);
+  part.triangles = std::move(cells.triangles);
+  return part;
+}
+
 Regions parse_vtu_regions(std::string_view bytes, std::string_view name, Take take) {
   Regions regions;
   (void)VtuReader(bytes, name, take, &regions).read();
@@ -305,8 +368,14 @@ Regions parse_vtu_regions(std::string_view bytes, std::string_view name, Take ta
 #else
 
 #include "region_parsers.hpp"
+#include "vtu_part.hpp"
 
 namespace plexway::io {
+
+SurfaceFilePart parse_vtu_part(std::string_view bytes, std::string_view name) {
+  (void)parse_vtu_mixed(bytes, name);
+  return {};
+}
 
 Mixed parse_vtu_cells(std::string_view bytes, std::string_view name) {
   return parse_vtu_mixed(bytes, name);

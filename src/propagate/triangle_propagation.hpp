@@ -125,29 +125,45 @@ class TrianglePropagation {
   /// dimension 0). True if some triangle got a better label.
   bool pass_pinches(std::span<const Index> pinched) {
     bool any = false;
-    for (const Index v : pinched) {
-      mesh_.corners_at(v, workspace_.corners);
-      Real best = std::numeric_limits<Real>::infinity();
-      Index number = none;
-      for (const Index c : workspace_.corners) {
-        if (!front_.reached(c / 3)) continue;
-        const Real d = spread_.rule().corner_distance(c / 3, c % 3);
-        if (d < best) best = d, number = front_.source(c / 3);
-      }
-      if (!(best < std::numeric_limits<Real>::infinity()) || best > radius_) continue;
-      for (const Index c : workspace_.corners) {
-        const std::size_t i = c % 3;
-        // Within rounding of its own path it stays with that one; else this would not end.
-        if (front_.reached(c / 3) && spread_.rule().corner_distance(c / 3, i) <=
-                                         best * (1 + 64 * std::numeric_limits<Real>::epsilon()))
-          continue;
-        any |= spread_.rule().seed_corner(c / 3, i, best, number);
-      }
+    for (const Index v : pinched) any |= bend_at(v, path_to(v));
+    return any;
+  }
+
+  /// The best path to a vertex, of those in its triangles.
+  struct Path {
+    Real distance = std::numeric_limits<Real>::infinity();
+    Index source = none;
+  };
+  /// Of its triangles count those below `end`.
+  [[nodiscard]] Path path_to(Index vertex, Index end = none) const {
+    mesh_.corners_at(vertex, workspace_.corners);
+    Path best;
+    for (const Index c : workspace_.corners) {
+      if (c / 3 >= end || !front_.reached(c / 3)) continue;
+      const Real d = spread_.rule().corner_distance(c / 3, c % 3);
+      if (d < best.distance) best = {d, front_.source(c / 3)};
+    }
+    return best;
+  }
+  /// Goes on from there into all of them. True if one got a better label.
+  bool bend_at(Index vertex, const Path& best, Index end = none) {
+    if (!(best.distance < std::numeric_limits<Real>::infinity()) || best.distance > radius_)
+      return false;
+    bool any = false;
+    mesh_.corners_at(vertex, workspace_.corners);
+    for (const Index c : workspace_.corners) {
+      if (c / 3 >= end) continue;
+      const std::size_t i = c % 3;
+      // Within rounding of its own path it stays with that one; else this would not end.
+      if (front_.reached(c / 3) &&
+          spread_.rule().corner_distance(c / 3, i) <=
+              best.distance * (1 + 64 * std::numeric_limits<Real>::epsilon()))
+        continue;
+      any |= spread_.rule().seed_corner(c / 3, i, best.distance, best.source);
     }
     return any;
   }
 
- private:
   /// Updates that turn around a vertex where no path bends are dropped. Where that leaves a
   /// triangle without any label, they are taken after all; after some rounds of it, everywhere, so
   /// that rounds end.
@@ -155,8 +171,12 @@ class TrianglePropagation {
     const std::size_t faces = mesh_.face_count();
     if (front_.reached_count() == faces || radius_ < std::numeric_limits<Real>::infinity())
       return false;
+    return revive_all();
+  }
+  /// Without a look whether there are any.
+  bool revive_all() {
     const std::size_t before = front_.updates();
-    for (Index f = 0; f < faces; ++f) {
+    for (Index f = 0; f < mesh_.face_count(); ++f) {
       if (!front_.reached(f)) continue;
       for (std::size_t e = 0; e < 3; ++e) {
         const Index g = triangles_[f].across[e] >> Across::face_shift;
@@ -166,6 +186,7 @@ class TrianglePropagation {
     return front_.updates() != before;
   }
 
+ private:
   const TriangleMesh<Real>& mesh_;
   std::span<const TriangleRecord<Real>> triangles_;
   WorkspaceState<Real>& workspace_;

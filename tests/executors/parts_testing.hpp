@@ -83,15 +83,16 @@ Joined<Real> solve_in_parts(const Surface& surface, const Crew& crew,
                  summary.ghosts == all.summary.ghosts;
     all.geometry &= part.vertex.size() == field.distance.size() &&
                     std::is_sorted(part.vertex.begin(), part.vertex.end());
+    const auto error = [&](std::size_t i) { return field.error.empty() ? 0 : field.error[i]; };
     for (std::size_t i = 0; i < part.vertex.size(); ++i) {
       const Index v = part.vertex[i];
       all.geometry &= part.position[i] == surface.positions[v];
       if (known[v] != 0)
-        all.agree &= all.distance[v] == field.distance[i] && all.error[v] == field.error[i] &&
+        all.agree &= all.distance[v] == field.distance[i] && all.error[v] == error(i) &&
                      (all.label.empty() || all.label[v] == field.label[i]);
       known[v] = 1;
       all.distance[v] = field.distance[i];
-      all.error[v] = field.error[i];
+      all.error[v] = error(i);
       if (!all.label.empty()) all.label[v] = field.label[i];
     }
     for (const Face& f : part.triangle)

@@ -77,7 +77,6 @@ constexpr std::array others = {
     Other{"src/cli/options/isoline_options.cpp", "would hold nothing", "an empty file"},
     Other{"src/cli/options/solve_options.cpp", "goes with", "grammar"},
     Other{"src/cli/commands/pairs_matrix.cpp", "leave out --labels", "grammar"},
-    Other{"src/cli/commands/distance_in_parts.cpp", "--in-parts goes without", "grammar"},
     Other{"web/module/module.cpp", "is not known", "a word that is unknown"},
     Other{"python/src/build.cpp", "as many simplices as vertices", "an array that could be either"},
 };

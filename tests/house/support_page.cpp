@@ -68,22 +68,24 @@ constexpr std::array<Named<Combination>, 8> measured = [] {
 }();
 
 // Files as they are, and as they may be taken.
-constexpr std::array<Named<FileUse>, 14> files = [] {
+constexpr std::array<Named<FileUse>, 15> files = [] {
   using enum DomainKind;
-  return std::array<Named<FileUse>, 14>{{{"surface", {surface, surface}},
-                                         {"surface as solid", {surface, solid}},
-                                         {"surface as wireframe", {surface, wireframe}},
-                                         {"surface as cloud", {surface, cloud}},
-                                         {"solid", {solid, solid}},
-                                         {"solid as surface", {solid, surface}},
-                                         {"wireframe", {wireframe, wireframe}},
-                                         {"simplices", {simplices, simplices}},
-                                         {"cloud", {cloud, cloud}},
-                                         {"mixed", {mixed, mixed}},
-                                         {".poly", {solid, solid, FileForm::boundary}},
-                                         {".vdb", {solid, solid, FileForm::level_set}},
-                                         {".vdb as surface", {solid, surface, FileForm::level_set}},
-                                         {".plexway", {surface, surface, FileForm::prepared}}}};
+  return std::array<Named<FileUse>, 15>{
+      {{"surface", {surface, surface}},
+       {"surface as solid", {surface, solid}},
+       {"surface as wireframe", {surface, wireframe}},
+       {"surface as cloud", {surface, cloud}},
+       {"solid", {solid, solid}},
+       {"solid as surface", {solid, surface}},
+       {"wireframe", {wireframe, wireframe}},
+       {"simplices", {simplices, simplices}},
+       {"cloud", {cloud, cloud}},
+       {"mixed", {mixed, mixed}},
+       {".poly", {solid, solid, FileForm::boundary}},
+       {".vdb", {solid, solid, FileForm::level_set}},
+       {".vdb as surface", {solid, surface, FileForm::level_set}},
+       {".plexway", {surface, surface, FileForm::prepared}},
+       {"surface in parts", {surface, surface, FileForm::parts}}}};
 }();
 #define PLEXWAY_READING(name, what) {what, Reading::name},
 constexpr Named<Reading> readings[] = {PLEXWAY_READINGS(PLEXWAY_READING)};
@@ -110,6 +112,7 @@ class Page {
     tables += option_tables();
     tables += purpose_table();
     tables += lengths_table();
+    tables += parts_text();
     tables += file_table();
     tables += build_table();
     return "# What goes together\n\n"
@@ -228,7 +231,9 @@ class Page {
         if (!found) {
           Combination team = m.value;
           team.executor = ExecutorKind::openmp;
-          if (support(purpose.value, team)) found = Support();
+          // Where the executor alone is not it, the reason is the team's.
+          const Support by_team = support(purpose.value, team);
+          if (by_team || found.refusal() == Refusal::ranks_executor) found = by_team;
         }
         text += in_cell(verdict(found));
       }
@@ -261,6 +266,20 @@ class Page {
       if (other) text.append(row).append("\n");
     }
     return text;
+  }
+
+  // What is left in parts.
+  std::string parts_text() {
+    Combination parted = measured[0].value;
+    parted.executor = ExecutorKind::openmp, parted.in_parts = true;
+    std::string kept, sentence;
+    for (const auto& purpose : purposes) {
+      const Support found = support(purpose.value, parted);
+      if (found) kept.append(kept.empty() ? "" : "; ").append(purpose.name);
+      if (found.refusal() == Refusal::in_parts_whole) sentence = verdict(found);
+    }
+    return "\n## In parts over processes\n\nA surface that no process has as a whole goes with: " +
+           kept + ". All else of the tables above: " + sentence + ".\n";
   }
 
   std::string file_table() {

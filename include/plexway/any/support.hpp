@@ -30,6 +30,7 @@ enum class FileForm {
   boundary,   ///< facets around a solid: .poly, .smesh
   level_set,  ///< a solid by a function on a grid: .vdb
   prepared,   ///< AnyDomain::keep
+  parts,      ///< a surface of which each process reads its part: SurfaceRows
 };
 
 /// A file, as far as it matters here.
@@ -50,6 +51,9 @@ constexpr Support support(Reading reading, const FileUse& f) {
   using enum DomainKind;
   const bool level_set = f.form == FileForm::level_set, boundary = f.form == FileForm::boundary;
   const bool thinned = reading == Reading::voxel && f.writes_volume;  // that is for the result
+  if (f.form == FileForm::parts)
+    return reading == Reading::kind && f.wanted == f.held ? Refusal::nothing
+                                                          : Refusal::in_parts_whole;
   if (f.several && reading != Reading::joining)
     return reading == Reading::kind && f.wanted == mixed ? Refusal::nothing
                                                          : Refusal::several_files;

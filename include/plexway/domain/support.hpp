@@ -157,8 +157,8 @@ namespace plexway {
   X(darts_cloud,                                                                                   \
     "darts on a cloud are its points, so none is thrown into simplices: leave the order uniform")  \
   X(points_alone,                                                                                  \
-    "paths, samples and cells start from points: name each vertex or point as a source of its "    \
-    "own")                                                                                         \
+    "paths, samples, cells and distances in parts start from points: name each vertex or point "   \
+    "as a source of its own")                                                                      \
   X(search_accuracy,                                                                               \
     "searches that end early keep one label a triangle: ask for the accuracy fast")                \
   X(search_order,                                                                                  \
@@ -169,6 +169,14 @@ namespace plexway {
   X(shapes_triangulation,                                                                          \
     "curves and triangles lie in the triangles of the shape: leave its triangulation as it is")    \
   X(ranks_executor, "ranks share the pieces of a team: use the executor OpenMP")                   \
+  X(in_parts_domain,                                                                               \
+    "in parts over processes, of which none has the whole, are surfaces: let each process have "   \
+    "all of another domain")                                                                       \
+  X(in_parts_order,                                                                                \
+    "in parts over processes windows go in their own order: leave the schedule dual_queue, or "    \
+    "use the accuracy fast")                                                                       \
+  X(in_parts_whole,                                                                                \
+    "this takes the whole, which in parts no process has: leave it out, or let each have all")     \
   X(kept_metric,                                                                                   \
     "a domain measured by a metric cannot be kept: its shape does not tell the lengths")           \
   X(kept_mask, "a domain with a mask cannot be kept: keep it without, and mask it then")           \

@@ -114,8 +114,9 @@ class SurfaceParts {
   /// UsageError for coordinates that are not finite. Cost: two looks at each triangle.
   [[nodiscard]] PartPoint nearest(const std::array<double, 3>& point) const;
   /// The distance of every vertex of this part from the nearest of `sources`, which have the
-  /// surface's numbers. Of the options count accuracy (by windows), radius, max_expansions and
-  /// progress. Throws as plexway::solve does; EndlessError where windows become too many.
+  /// surface's numbers. Options, and what it throws, are those of plexway::solve; windows go in
+  /// their own order (Schedule::dual_queue). Where windows become too many, labels do it, as there
+  /// (`fast`; statistics.windows_gave_up).
   [[nodiscard]] PartField<Real> solve(std::span<const PointSource> sources,
                                       const PropagateOptions& options = {});
   /// What this process has. Reads positions anew.

@@ -29,6 +29,7 @@
 #include "cli/exit_codes.hpp"
 #include "cli/report/console.hpp"
 #include "cli/report/distance_output.hpp"
+#include "cli/report/distance_report.hpp"
 #include "cli/report/progress.hpp"
 #include "executors/same_work.hpp"
 
@@ -41,6 +42,19 @@ struct Outcome : FieldReach {
   Executor executor = {};
   RankCounts ranks = {};
 };
+
+DistanceReport report_of(const DistanceCommand& command, const Domain& domain,
+                         const AnyField& field, const Outcome& outcome) {
+  return {.vertices = domain.vertices(),
+          .reached = outcome.reached,
+          .farthest = static_cast<Index>(outcome.farthest),
+          .max_distance = outcome.max_distance,
+          .mean_distance = {},
+          .statistics = field.statistics(),
+          .ranks = command.among != nullptr ? command.among->ranks.count() : 0,
+          .counts = outcome.ranks,
+          .of_surface = domain.kind() == DomainKind::surface};
+}
 
 Json to_json(const DistanceCommand& command, const Domain& domain, const AnyDomain& solver,
              const AnyField& field, const MeasuredLengths* lengths, const Outcome& outcome) {
@@ -55,25 +69,7 @@ Json to_json(const DistanceCommand& command, const Domain& domain, const AnyDoma
   if (domain.neighbour_seconds()) json["seconds"]["neighbours"] = *domain.neighbour_seconds();
   json["seconds"]["build"] = outcome.build;
   json["seconds"]["solve"] = outcome.solve;
-  json["reached"] = outcome.reached;
-  json["unreached"] = domain.vertices() - outcome.reached;
-  json["max_distance"] = json_number(outcome.max_distance);
-  json["expansions"] = field.statistics().expansions;
-  json["updates"] = field.statistics().updates;
-  if (field.statistics().supersteps > 0) {
-    json["supersteps"] = field.statistics().supersteps;
-    json["letters"] = field.statistics().letters;
-    json["letter_bytes"] = field.statistics().letter_bytes;
-  }
-  if (command.among != nullptr) {
-    json["ranks"] = command.among->ranks.count();
-    json["sent_bytes"] = outcome.ranks.sent_bytes;
-    json["peak_bytes"] = outcome.ranks.peak_bytes;
-  }
-  if (domain.kind() == DomainKind::surface) {
-    json["lowered_vertices"] = field.statistics().lowered_vertices;
-    json["raised_vertices"] = field.statistics().raised_vertices;
-  }
+  add_report(report_of(command, domain, field, outcome), json);
   json["executor"] = executor_name(outcome.executor);
   json["threads"] = executor_threads(outcome.executor);
   json["precision"] = command.solve.precision == "float" ? "float" : "double";
@@ -111,22 +107,7 @@ Table to_table(const DistanceCommand& command, const Domain& domain, const AnyDo
   }
   if (field.triangulation.done != Triangulation::input)
     table.add("triangles", describe(field.triangulation));
-  std::string reached =
-      std::to_string(outcome.reached) + " of " + counted(domain.vertices(), "vertices");
-  if (outcome.reached > 0) {
-    reached += "; the farthest is vertex " + std::to_string(outcome.farthest) + " at " +
-               short_number(outcome.max_distance);
-  }
-  table.add("reached", reached);
-  table.add("work", counted(field.statistics().expansions, "expansions") + ", " +
-                        counted(field.statistics().updates, "updates"));
-  if (command.among != nullptr) {
-    const PropagateStatistics& statistics = field.statistics();
-    table.add("ranks", std::to_string(command.among->ranks.count()) + ", " +
-                           counted(statistics.supersteps, "supersteps") + ", " +
-                           counted(statistics.letters, "letters") + ", " +
-                           counted(outcome.ranks.sent_bytes, "bytes") + " from rank to rank");
-  }
+  add_report(report_of(command, domain, field, outcome), table);
   std::string mesh = domain.mesh_seconds() ? ", mesh " + short_time(*domain.mesh_seconds()) : "";
   if (domain.neighbour_seconds()) mesh = ", neighbours " + short_time(*domain.neighbour_seconds());
   table.add("time", "load " + short_time(domain.load_seconds()) + mesh + ", build " +
@@ -335,7 +316,7 @@ void add_distance_command(CLI::App& tool, Action& action, const Among* among) {
       ->type_name("FILE");
   app.add_flag("--in-parts", command->in_parts,
                "among ranks: none reads or holds the whole, each has its part. A binary .ply of\n"
-               "triangles; sources vertex:ID and point:X,Y,Z; by windows; results as a .pvtu");
+               "triangles, or a .pvtu; sources vertex:ID and point:X,Y,Z; results as a .pvtu");
   add_isoline_options(app, command->isolines);
   add_solve_options(app, command->solve, true);
   add_triangulation_option(app, command->triangulation);

@@ -1,15 +1,20 @@
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <filesystem>
+#include <memory>
 #include <string>
+#include <system_error>
 #include <type_traits>
 #include <utility>
 #include <vector>
 
+#include <plexway/any/support.hpp>
 #include <plexway/error.hpp>
+#include <plexway/executors/joined_rows.hpp>
 #include <plexway/executors/surface_parts.hpp>
 #include <plexway/io/ply_rows.hpp>
+#include <plexway/io/pvtu.hpp>
 #include <plexway/support.hpp>
 
 #include "any/arguments/point_argument.hpp"
@@ -25,6 +30,7 @@
 #include "cli/exit_codes.hpp"
 #include "cli/report/console.hpp"
 #include "cli/report/distance_output.hpp"
+#include "cli/report/distance_report.hpp"
 #include "cli/report/progress.hpp"
 #include "executors/parts/same_rows.hpp"
 #include "executors/piece_post.hpp"
@@ -33,33 +39,44 @@
 namespace plexway::cli {
 namespace {
 
-// What was asked for that takes the whole.
-void refuse_whole(const DistanceCommand& command, std::span<const SetArgument> arguments) {
-  const auto refuse = [](const std::string& option, bool given) {
-    if (given)
-      throw UsageError("--in-parts goes without " + option + ", which takes the whole surface");
+/// The table's word on all that was asked for.
+void check_support(const DistanceCommand& command, std::span<const SetArgument> arguments,
+                   const Combination& cell) {
+  require("--executor " + command.solve.executor.name, support(Purpose::ranks, cell));
+  require("--in-parts", support(Purpose::in_parts, cell));
+  const auto purpose = [&](const std::string& option, bool given, Purpose what) {
+    if (given) require(option, support(what, cell));
   };
   const Triangulation triangulation = triangulation_of(command.triangulation);
-  refuse("--isolines-out", !command.isolines.out.empty() || command.isolines.step.has_value());
-  refuse("--picture", command.picture.wanted());
-  refuse("--mask", !command.mask.text.empty());
-  refuse("--metric", !command.metric.text.empty());
-  refuse("--triangulation " + command.triangulation.name,
-         triangulation != Triangulation::automatic && triangulation != Triangulation::input);
-  refuse("the further file " + (command.more.empty() ? "" : command.more.front()),
-         !command.more.empty());
-  refuse("--weld", command.weld.has_value());
-  refuse("--as " + command.as, !command.as.empty() && command.as != "surface");
-  refuse("--repair", command.fill.volume.repair);
-  refuse("--voxel", command.fill.volume.voxel.has_value());
-  refuse("--grid", !command.fill.volume.grid.empty());
-  refuse("--max-volume and the like", command.fill.given());
-  refuse("points and their neighbours", command.cloud.given());
-  refuse("--accuracy fast", command.solve.accuracy == "fast");
-  refuse("--schedule " + command.solve.schedule, command.solve.schedule != "dual_queue");
-  refuse("--out " + command.out, !command.out.empty() && !io::is_partitioned(command.out));
+  purpose("--isolines-out", !command.isolines.out.empty() || command.isolines.step.has_value(),
+          Purpose::isolines);
+  purpose("--picture", command.picture.wanted(), Purpose::pictures);
+  purpose("--mask", !command.mask.text.empty(), Purpose::masks);
+  purpose("--metric", !command.metric.text.empty(), Purpose::metrics);
+  purpose("--triangulation " + command.triangulation.name,
+          triangulation != Triangulation::automatic && triangulation != Triangulation::input,
+          Purpose::triangulations);
+  FileUse file{DomainKind::surface, DomainKind::surface, FileForm::parts};
+  const auto reading = [&](const std::string& option, bool given, Reading what) {
+    if (given) require(option, support(what, file));
+  };
+  reading("the further file " + (command.more.empty() ? "" : command.more.front()),
+          !command.more.empty(), Reading::joining);
+  reading("--weld", command.weld.has_value(), Reading::joining);
+  reading("--repair", command.fill.volume.repair, Reading::repair);
+  reading("--voxel", command.fill.volume.voxel.has_value(), Reading::voxel);
+  reading("--grid", !command.fill.volume.grid.empty(), Reading::grid);
+  reading("--max-volume and the like", command.fill.given(), Reading::filling);
+  reading("points and their neighbours", command.cloud.given(), Reading::connecting);
+  ProgressLine silent(true);
+  file.wanted = read_options(command, silent).as.value_or(file.held);
+  reading("--as " + command.as, true, Reading::kind);
   for (const SetArgument& argument : arguments)
-    refuse("--source " + argument.text, argument.kind != SetArgument::Kind::point);
+    require("--source " + argument.text,
+            support_of_sources(Purpose::in_parts, argument.kind == SetArgument::Kind::point));
+  if (!command.out.empty() && !io::is_partitioned(command.out))
+    throw UsageError("--out " + command.out +
+                     ": with --in-parts each rank writes its own: name a .pvtu");
 }
 
 /// The surface does not know which file it is of; its rows do.
@@ -107,6 +124,40 @@ Sources sources_on(const SurfaceParts<Real>& surface, const DistanceCommand& com
   return sources;
 }
 
+/// Throws UsageError if what the ranks write would take the place of what they read.
+void check_apart(std::span<const std::filesystem::path> files, const std::filesystem::path& out,
+                 std::size_t ranks) {
+  for (std::size_t r = 0; r < ranks; ++r)
+    for (const std::filesystem::path& file : files)
+      if (std::error_code absent;
+          std::filesystem::equivalent(io::part_of(out, r), file, absent) && !absent)
+        throw UsageError("--out " + out.string() + ": would take the place of the input's " +
+                         file.string());
+}
+
+/// A file that each rank reads some rows of, or files that each reads some of.
+std::unique_ptr<SurfaceRows> open_rows(const DistanceCommand& command) {
+  const Among& among = *command.among;
+  if (!io::is_partitioned(command.input)) {
+    auto rows = std::make_unique<io::PlyRows>(command.input);
+    among.all_come();
+    // Another file of that name, or another command, would end in a wait without end.
+    check_same_rows(among.pieces, *rows);
+    return rows;
+  }
+  const std::vector<std::filesystem::path> files = io::read_pvtu(command.input);
+  if (!command.out.empty()) check_apart(files, command.out, among.pieces.count());
+  std::vector<SurfaceFilePart> parts;
+  for (std::size_t p = among.pieces.rank(); p < files.size(); p += among.pieces.count())
+    parts.push_back(io::read_surface_part(files[p], p));
+  among.all_come();
+  std::vector<std::string> names;
+  for (const std::filesystem::path& file : files) names.push_back(file.filename().string());
+  check_same_words(among.pieces, names, "domain");
+  return with_file_name(
+      command.input, [&] { return std::make_unique<JoinedRows>(&among.pieces, std::move(parts)); });
+}
+
 template <class Real>
 void solve_in_parts(DistanceCommand& command, const PropagateOptions& wanted,
                     std::span<const SetArgument> arguments) {
@@ -114,14 +165,10 @@ void solve_in_parts(DistanceCommand& command, const PropagateOptions& wanted,
   ProgressLine progress(command.quiet);
   progress.phase("reading " + command.input);
   const Stopwatch building;
-  const io::PlyRows rows(command.input);
-  among.all_come();
-  // Another file of that name, or another command, would end in a wait without end.
-  check_same_rows(among.pieces, rows);
+  const std::unique_ptr<SurfaceRows> rows = open_rows(command);
   std::vector<std::string> words = command.sources;
   check_same_words(among.pieces, words, "sources");
-  words = {command.solve.accuracy, command.solve.precision, std::to_string(wanted.radius),
-           std::to_string(wanted.max_expansions)};
+  words = {command.solve.precision};
   check_same_words(among.pieces, words, "options");
   words = {command.out};
   check_same_words(among.pieces, words, "outputs");
@@ -129,7 +176,7 @@ void solve_in_parts(DistanceCommand& command, const PropagateOptions& wanted,
   OpenMP team{.threads = command.solve.executor.threads.value_or(among.threads)};
   team.ranks = &among.pieces;
   SurfaceParts<Real> surface =
-      with_file_name(command.input, [&] { return SurfaceParts<Real>(team, rows); });
+      with_file_name(command.input, [&] { return SurfaceParts<Real>(team, *rows); });
   const SurfacePartsSummary& summary = surface.summary();
   const Sources sources = sources_on(surface, command, arguments);
   const double build = building.seconds();
@@ -145,7 +192,7 @@ void solve_in_parts(DistanceCommand& command, const PropagateOptions& wanted,
   SurfacePart part;
   std::vector<std::size_t> parts;  // that have a vertex
   if (!command.out.empty()) {
-    part = surface.part(rows);
+    part = surface.part(*rows);
     std::vector<std::uint64_t> vertices(among.pieces.count(), 0);
     vertices[among.pieces.rank()] = part.vertex.size();
     add_up(&among.pieces, vertices);
@@ -183,20 +230,16 @@ void solve_in_parts(DistanceCommand& command, const PropagateOptions& wanted,
   json["ghosts"] = summary.ghosts;
   json["seconds"]["build"] = build;
   json["seconds"]["solve"] = solve;
-  json["reached"] = field.reached;
-  json["unreached"] = summary.vertices - field.reached;
-  json["max_distance"] = json_number(field.max_distance);
-  json["mean_distance"] = json_number(field.mean_distance);
-  json["expansions"] = statistics.expansions;
-  json["updates"] = statistics.updates;
-  json["supersteps"] = statistics.supersteps;
-  json["letters"] = statistics.letters;
-  json["letter_bytes"] = statistics.letter_bytes;
-  json["ranks"] = among.ranks.count();
-  json["sent_bytes"] = ranks.sent_bytes;
-  json["peak_bytes"] = ranks.peak_bytes;
-  json["lowered_vertices"] = statistics.lowered_vertices;
-  json["raised_vertices"] = statistics.raised_vertices;
+  const DistanceReport report = {.vertices = summary.vertices,
+                                 .reached = field.reached,
+                                 .farthest = field.farthest,
+                                 .max_distance = field.max_distance,
+                                 .mean_distance = field.mean_distance,
+                                 .statistics = statistics,
+                                 .ranks = among.ranks.count(),
+                                 .counts = ranks,
+                                 .of_surface = true};
+  add_report(report, json);
   json["executor"] = "openmp";
   json["threads"] = team_size(team);
   json["precision"] = std::is_same_v<Real, float> ? "float" : "double";
@@ -211,20 +254,7 @@ void solve_in_parts(DistanceCommand& command, const PropagateOptions& wanted,
   for (std::size_t i = 0; i < sources.texts.size(); ++i)
     table.add(sources.texts.size() == 1 ? "source" : "source " + std::to_string(i),
               sources.texts[i]);
-  std::string reached =
-      std::to_string(field.reached) + " of " + counted(summary.vertices, "vertices");
-  if (field.reached > 0)
-    reached += "; the farthest is vertex " + std::to_string(field.farthest) + " at " +
-               short_number(field.max_distance) + ", the mean " + short_number(field.mean_distance);
-  table.add("reached", reached);
-  table.add("work", counted(statistics.expansions, "expansions") + ", " +
-                        counted(statistics.updates, "updates"));
-  const std::uint64_t most = *std::max_element(ranks.peak_bytes.begin(), ranks.peak_bytes.end());
-  table.add("ranks", std::to_string(among.ranks.count()) + ", " +
-                         counted(statistics.supersteps, "supersteps") + ", " +
-                         counted(statistics.letters, "letters") + ", " +
-                         counted(ranks.sent_bytes, "bytes") + " from rank to rank, at most " +
-                         std::to_string((most + 500'000) / 1'000'000) + " MB in one");
+  add_report(report, table);
   table.add("time", "build " + short_time(build) + ", solve " + short_time(solve) + " (" +
                         describe(team) + ", " + name_of(field.accuracy) + ", " +
                         command.solve.precision + ")");
@@ -232,6 +262,7 @@ void solve_in_parts(DistanceCommand& command, const PropagateOptions& wanted,
   print_report(json, table, command.json, command.quiet, {command.out});
   check_reached();
   if (command.quiet) return;
+  note_accuracy(statistics);
   if (!field.complete)
     say_note("stopped after " + counted(statistics.expansions, "expansions") +
              ": distances may still be too long");
@@ -255,7 +286,6 @@ void run_distance_in_parts(DistanceCommand command) {
   const std::vector<SetArgument> arguments = parse_source_sets(command.sources);
   check_picture(command.picture, command.input);
   check_isolines(command.isolines, command.input);
-  refuse_whole(command, arguments);
   const PropagateOptions options = propagate_options(command.solve);
   const Precision precision = precision_of(command.solve);
   if (precision == Precision::twice && command.solve.precision == "float")
@@ -263,10 +293,10 @@ void run_distance_in_parts(DistanceCommand command) {
   const Combination cell = with({.executor = kind_of(command.solve.executor),
                                  .domain = DomainKind::surface,
                                  .dimension = 2,
-                                 .single_precision = precision == Precision::single},
+                                 .single_precision = precision == Precision::single,
+                                 .in_parts = true},
                                 options);
-  require("--executor " + command.solve.executor.name, support(Purpose::ranks, cell));
-  require("--in-parts", support_of_windows(cell));
+  check_support(command, arguments, cell);
   const std::vector<std::string> read = {command.input};
   check_output_place(command.out, read, "--out");
   if (precision == Precision::single)

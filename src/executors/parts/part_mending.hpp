@@ -7,7 +7,8 @@
 #include <span>
 #include <vector>
 
-#include "executors/parts/parted_windows.hpp"
+#include "executors/parts/part_distances.hpp"
+#include "executors/parts/part_sources.hpp"
 #include "propagate/alone.hpp"
 #include "propagate/mend_surface.hpp"
 
@@ -83,25 +84,9 @@ class PartMending {
     return sum;
   }
 
-  /// Calls work(i, workspace) with the distances of each of our pieces as a surface's: nothing is
-  /// known of vertices that only ghosts have.
   template <class Work>
   void each(const Work& work) {
-    team_.each(known_.size(), [&](std::size_t i) {
-      PartDistances<Real>& known = known_[i];
-      const std::size_t own = known.distance.size();
-      const std::size_t all = pieces_.parts()[i].mesh->vertex_count();
-      WorkspaceState<Real> workspace;
-      workspace.vertex.swap(known.distance);
-      workspace.vertex.resize(all, std::numeric_limits<Real>::infinity());
-      workspace.vertex_source.swap(known.source);
-      if constexpr (kLabels) workspace.vertex_source.resize(all, none);
-      work(i, workspace);
-      workspace.vertex.resize(own);
-      workspace.vertex.swap(known.distance);
-      if constexpr (kLabels) workspace.vertex_source.resize(own);
-      workspace.vertex_source.swap(known.source);
-    });
+    each_as_surface(team_, pieces_, known_, work);
   }
 
   const Team& team_;

@@ -15,6 +15,7 @@
 #include "executors/parts/deal_faces.hpp"
 #include "executors/parts/part_drafts.hpp"
 #include "executors/parts/vertex_homes.hpp"
+#include "propagate/pieces/triangle_patches.hpp"
 
 namespace plexway {
 namespace {
@@ -193,6 +194,31 @@ void tell_addresses(PieceRanks* ranks, const PartPieces<Real>& pieces,
   }
 }
 
+/// What letters of labels are addressed by: of own triangles that share an edge with one of a peer
+/// the numbers that they have there as ghosts.
+template <class Real>
+void list_slots(const PartPiece<Real>& part, CutPiece& cut) {
+  const auto& elsewhere = part.addresses.triangles;
+  std::vector<std::vector<CutPiece::Slot>> slots(cut.peer_count());
+  std::vector<Index> beside;  // peers over the edges of one
+  for (Index f = 0; f < cut.at_cut; ++f) {
+    beside.clear();
+    for (std::size_t e = 0; e < 3; ++e)
+      any_over_edge(part.mesh->triangles(), f, e, [&](Index g) {
+        if (g >= part.own) beside.push_back(part.addresses.at_home[g - part.own].piece);
+        return false;
+      });
+    for (const auto& [peer, number] : elsewhere.of(f))
+      if (std::find(beside.begin(), beside.end(), peer) != beside.end())
+        slots[peer].push_back({f, number});
+  }
+  for (std::size_t peer = 0; peer < slots.size(); ++peer) {
+    cut.peers[peer].slot_begin = static_cast<Index>(cut.slots.size());
+    cut.slots.insert(cut.slots.end(), slots[peer].begin(), slots[peer].end());
+  }
+  cut.peers.back().slot_begin = static_cast<Index>(cut.slots.size());
+}
+
 /// The peers of all pieces, for who carries letters between them.
 void share_peers(PieceRanks* ranks, Deal deal, std::vector<CutPiece>& cuts) {
   if (ranks == nullptr) return;
@@ -255,6 +281,7 @@ PartPieces<Real>::PartPieces(const Team& team, const SurfaceRows& rows, std::siz
     drafts[i] = {};
   });
   tell_addresses<Real>(ranks, *this, parts_, cut_.pieces);
+  for (const PartPiece<Real>& part : parts_) list_slots(part, cut_.pieces[part.number]);
   share_peers(ranks, deal_, cut_.pieces);
   std::uint64_t sums[] = {unreferenced_.size(), 0};
   for (const PartPiece<Real>& part : parts_) sums[1] += part.addresses.at_home.size();

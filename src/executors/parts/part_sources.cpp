@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <numeric>
 #include <utility>
 
 #include <plexway/error.hpp>
@@ -35,6 +36,19 @@ class Named {
 
 }  // namespace
 
+PartSources::Here PartSources::Here::ascending() const {
+  std::vector<std::size_t> order(numbers.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::sort(order.begin(), order.end(),
+            [&](std::size_t a, std::size_t b) { return numbers[a] < numbers[b]; });
+  Here sorted;
+  for (const std::size_t n : order) {
+    sorted.points.push_back(points[n]);
+    sorted.numbers.push_back(numbers[n]);
+  }
+  return sorted;
+}
+
 template <class Real>
 PartSources part_sources(PieceRanks* ranks, const PartPieces<Real>& pieces,
                          std::span<const PointSource> sources) {
@@ -62,27 +76,31 @@ PartSources part_sources(PieceRanks* ranks, const PartPieces<Real>& pieces,
     const CutPiece& cut = pieces.cut_of(part);
     PartSources::Here& here = found.here[i];
     const auto positions = part.mesh->positions();
-    for (Index v = 0; v < part.vertices.size(); ++v)
-      vertices.at(part.vertices[v], [&](Index n) {
-        PointSource source = sources[n];
-        source.vertex = v;
-        here.points.push_back(source);
-        here.numbers.push_back(n);
-        if (part.is_first(v, cut)) tell(n, positions[v], part.origin);
-      });
-    for (Index f = 0; f < cut.simplices.size(); ++f)
-      faces.at(cut.simplices[f], [&](Index n) {
-        PointSource source = sources[n];
-        source.simplex = f;
-        here.points.push_back(source);
-        here.numbers.push_back(n);
-        if (f >= part.own) return;
-        std::array<double, 3> at{};
-        for (std::size_t c = 0; c < 3; ++c)
-          for (std::size_t d = 0; d < 3; ++d)
-            at[d] += source.barycentric[c] * positions[part.mesh->triangles()[f].corner[c]][d];
-        tell(n, at, part.origin);
-      });
+    // Those named by numbers that the piece has; here_as(source) is which it is there.
+    const auto take = [&](const Named& named, std::span<const Index> numbers, const auto& here_as,
+                          const auto& is_told, const auto& where) {
+      for (Index k = 0; k < numbers.size(); ++k)
+        named.at(numbers[k], [&](Index n) {
+          here.points.push_back(sources[n]);
+          here_as(here.points.back()) = k;
+          here.numbers.push_back(n);
+          if (is_told(k)) tell(n, where(here.points.back()), part.origin);
+        });
+    };
+    take(
+        vertices, part.vertices, [](PointSource& s) -> Index& { return s.vertex; },
+        [&](Index v) { return part.is_first(v, cut); },
+        [&](const PointSource& s) { return positions[s.vertex]; });
+    take(
+        faces, cut.simplices, [](PointSource& s) -> Index& { return s.simplex; },
+        [&](Index f) { return f < part.own; },
+        [&](const PointSource& s) {
+          std::array<double, 3> at{};
+          for (std::size_t c = 0; c < 3; ++c)
+            for (std::size_t d = 0; d < 3; ++d)
+              at[d] += s.barycentric[c] * positions[part.mesh->triangles()[s.simplex].corner[c]][d];
+          return at;
+        });
   }
   add_up(ranks, told);
   constexpr double infinity = std::numeric_limits<double>::infinity();

@@ -18,6 +18,9 @@ struct PartSources {
   struct Here {
     std::vector<PointSource> points;
     std::vector<Index> numbers;  ///< among all
+
+    /// The same by numbers.
+    [[nodiscard]] Here ascending() const;
   };
   /// Where a source lies: so many units from the origin of some piece. Infinitely far at a vertex
   /// of no triangle.

@@ -8,60 +8,12 @@
 #include <span>
 #include <vector>
 
+#include "executors/parts/part_distances.hpp"
 #include "executors/parts/part_pieces.hpp"
 #include "executors/parts/part_sources.hpp"
 #include "propagate/windows/window_piece.hpp"
 
 namespace plexway {
-
-/// What is known of the vertices of one piece, by its numbers.
-template <class Number>
-struct PartDistances {
-  std::vector<Number> distance, error;  ///< in mean edges
-  std::vector<Index> source;            ///< empty for a single one
-
-  /// Takes what is nearer, or as near from an earlier source, or as near with a larger error. Did
-  /// it?
-  bool take(std::size_t vertex, Number d, Number e, Index s) {
-    if (!(d <= distance[vertex]) || !(d < std::numeric_limits<Number>::infinity())) return false;
-    if (d == distance[vertex]) {
-      const Index own = source.empty() ? s : source[vertex];
-      if (s > own || (s == own && !(e > error[vertex]))) return false;
-    }
-    distance[vertex] = d;
-    error[vertex] = e;
-    if (!source.empty()) source[vertex] = s;
-    return true;
-  }
-};
-
-/// Pieces tell each other what they know of vertices that both have, and keep the better. Did any
-/// learn something, anywhere? All processes call it.
-template <class Real, class Number>
-bool agree(PieceRanks* ranks, const PartPieces<Real>& pieces,
-           std::span<PartDistances<Number>> known, std::size_t& sent) {
-  struct Told {
-    Number distance, error;
-    Index source;
-  };
-  std::uint64_t changed[] = {0};
-  sent += pieces.tell_peers(
-      ranks,
-      [&](std::size_t i, std::size_t peer, Parcel& parcel) {
-        const PartDistances<Number>& own = known[i];
-        for (const Index v : pieces.parts()[i].common[peer])
-          parcel.add(
-              Told{own.distance[v], own.error[v], own.source.empty() ? none : own.source[v]});
-      },
-      [&](std::size_t i, std::size_t peer, Unpacked& mail) {
-        for (const Index v : pieces.parts()[i].common[peer]) {
-          const Told told = mail.template take<Told>();
-          changed[0] += known[i].take(v, told.distance, told.error, told.source);
-        }
-      });
-  add_up(ranks, changed);
-  return changed[0] > 0;
-}
 
 /// Windows on a surface in parts: the pieces of this process. As windows::PiecedWindows, but that
 /// nobody looks at the whole.
@@ -95,7 +47,8 @@ class PartedWindows {
     const bool is_bounded = options.radius < std::numeric_limits<double>::infinity();
     bool too_many = false;
     const auto goes_on = [&](std::size_t expansions, std::size_t waiting) {
-      too_many = is_too_much(expansions, waiting, limit);
+      too_many = windows::is_too_much<Windows>(windows_, pieces_.summary().faces, expansions,
+                                               waiting, limit);
       return !too_many;
     };
     do {
@@ -146,18 +99,6 @@ class PartedWindows {
                                     if (g < part.own) windows.seed_inside(g, there, sigma, n);
                                   });
         });
-  }
-
-  /// Between supersteps.
-  bool is_too_much(std::size_t expansions, [[maybe_unused]] std::size_t waiting,
-                   [[maybe_unused]] const typename Windows::Limit& limit) {
-    if constexpr (requires { limit.waiting; }) {
-      if (Windows::ties_end(expansions, pieces_.summary().faces))
-        for (Piece& piece : windows_) piece.windows().end_ties();
-      return expansions > limit.windows || waiting > limit.waiting;
-    } else {
-      return Windows::too_many(expansions, pieces_.summary().faces);
-    }
   }
 
   /// Each in its piece; the others hear of it by letters.

@@ -13,17 +13,12 @@ namespace {
 /// Visits the triangles over the edges of one.
 template <class Real>
 auto neighbours_of(const TriangleMesh<Real>& mesh) {
-  return [triangles = mesh.triangles().data(), sentinel = static_cast<Index>(mesh.face_count())](
-             Index f, const auto& visit) {
+  return [triangles = mesh.triangles()](Index f, const auto& visit) {
     for (std::size_t e = 0; e < 3; ++e)
-      for (Index across = triangles[f].across[e];;) {
-        const Index g = across >> Across::face_shift;
-        const std::size_t k = across & Across::edge_mask;
-        if (g == sentinel || (g == f && k == e)) break;
+      any_over_edge(triangles, f, e, [&](Index g) {
         visit(g);
-        if (!(across & Across::fan)) break;
-        across = triangles[g].across[k];
-      }
+        return false;
+      });
   };
 }
 
@@ -68,17 +63,10 @@ template <class Real>
 void TrianglePatches<Real>::take_records(const TriangleMesh<Real>& mesh, Index number) {
   const CutPiece& piece = cut_.pieces[number];
   TrianglePatch<Real>& patch = patches_[number];
-  const auto records = mesh.triangles();
-  const Index sentinel = static_cast<Index>(mesh.face_count());
   /// All triangles over an edge of a ghost are here if one of them is the piece's own.
   const auto is_own_over = [&](Index f, std::size_t e) {
-    for (Index across = records[f].across[e];;) {
-      const Index g = across >> Across::face_shift;
-      if (g == sentinel || (g == f && (across & Across::edge_mask) == e)) return false;
-      if (cut_.piece_of[g] == number) return true;
-      if (!(across & Across::fan)) return false;
-      across = records[g].across[across & Across::edge_mask];
-    }
+    return any_over_edge(mesh.triangles(), f, e,
+                         [&](Index g) { return cut_.piece_of[g] == number; });
   };
   patch.triangles = piece_records(mesh, cut_, number, is_own_over);
   patch.leads_in.assign(piece.simplices.size() - piece.own, 0);
@@ -89,11 +77,17 @@ void TrianglePatches<Real>::take_records(const TriangleMesh<Real>& mesh, Index n
 }
 
 template <class Real>
+std::size_t TriangleRoom<Real>::bytes() const {
+  const auto of = [](const auto& v) { return v.capacity() * sizeof(v[0]); };
+  return marks.bytes() + front.capacity * 2 * sizeof(Index) + labels.bytes() + of(source) +
+         of(posted) + of(is_new) + of(vertex) + of(vertex_source) + mail.box[0].bytes() +
+         mail.box[1].bytes();
+}
+
+template <class Real>
 std::size_t TrianglePatch<Real>::bytes() const {
   const auto of = [](const auto& v) { return v.capacity() * sizeof(v[0]); };
-  return of(triangles) + of(leads_in) + marks.bytes() + front.capacity * 2 * sizeof(Index) +
-         labels.bytes() + of(source) + of(posted) + of(is_new) + of(vertices) + of(vertex) +
-         of(vertex_source) + mail.box[0].bytes() + mail.box[1].bytes();
+  return TriangleRoom<Real>::bytes() + of(triangles) + of(leads_in) + of(vertices);
 }
 
 template <class Real>
@@ -103,6 +97,8 @@ std::size_t TrianglePatches<Real>::bytes() const {
   return sum;
 }
 
+template struct TriangleRoom<float>;
+template struct TriangleRoom<double>;
 template struct TrianglePatch<float>;
 template struct TrianglePatch<double>;
 template class TrianglePatches<float>;

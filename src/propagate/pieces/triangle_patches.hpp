@@ -16,17 +16,32 @@
 
 namespace plexway {
 
-/// What a piece of a surface keeps from solve to solve.
-template <class Real>
-struct TrianglePatch {
-  /// By the piece's numbers, and a sentinel. A ghost's other neighbours are cut off; corners are
-  /// numbers in `vertices`, those of ghosts `none`.
-  std::vector<TriangleRecord<Real>> triangles;
-  /// Of each ghost: bit e, if a triangle of the piece lies over its edge e.
-  std::vector<std::uint8_t> leads_in;
-  std::vector<Index> vertices;  ///< of its own triangles: the surface's numbers inside
-  std::size_t shared = 0;       ///< so many of them, the first, are other pieces', too
+/// Visits the triangles over edge e of triangle f, until visit(triangle) says true. Did it?
+template <class Real, class Visit>
+bool any_over_edge(std::span<const TriangleRecord<Real>> triangles, Index f, std::size_t e,
+                   const Visit& visit) {
+  for (Index across = triangles[f].across[e];;) {
+    const Index g = across >> Across::face_shift;
+    const std::size_t k = across & Across::edge_mask;
+    if (g + std::size_t{1} == triangles.size() || (g == f && k == e)) return false;
+    if (visit(g)) return true;
+    if (!(across & Across::fan)) return false;
+    across = triangles[g].across[k];
+  }
+}
 
+/// The triangles of a piece by its numbers, its own and ghosts, and a sentinel.
+template <class Real>
+struct TriangleSheet {
+  std::span<const TriangleRecord<Real>> triangles;
+  std::span<const std::uint8_t> leads_in;  ///< of each ghost: bit e, if one of the piece's own
+                                           ///< lies over its edge e
+  std::size_t vertices;                    ///< of its own triangles: their corners are below
+};
+
+/// What a piece of a surface writes on as labels propagate, kept from solve to solve.
+template <class Real>
+struct TriangleRoom {
   VisitMarks marks;
   FrontStorage front;
   Room labels;
@@ -37,6 +52,20 @@ struct TrianglePatch {
   std::vector<Real> vertex;  ///< read-out, and its labels
   std::vector<Index> vertex_source;
 
+  [[nodiscard]] std::size_t bytes() const;
+};
+
+/// A piece of a surface that one process has.
+template <class Real>
+struct TrianglePatch : TriangleRoom<Real> {
+  /// A ghost's other neighbours are cut off; corners are numbers in `vertices`, those of ghosts
+  /// `none`.
+  std::vector<TriangleRecord<Real>> triangles;
+  std::vector<std::uint8_t> leads_in;  ///< as TriangleSheet has it
+  std::vector<Index> vertices;         ///< of its own triangles: the surface's numbers inside
+  std::size_t shared = 0;              ///< so many of them, the first, are other pieces', too
+
+  [[nodiscard]] TriangleSheet<Real> sheet() const { return {triangles, leads_in, vertices.size()}; }
   [[nodiscard]] std::size_t bytes() const;
 };
 
@@ -69,6 +98,8 @@ class TrianglePatches {
 template <class Real>
 [[nodiscard]] Partition partition_of(const TriangleMesh<Real>& mesh, std::size_t size);
 
+extern template struct TriangleRoom<float>;
+extern template struct TriangleRoom<double>;
 extern template class TrianglePatches<float>;
 extern template class TrianglePatches<double>;
 

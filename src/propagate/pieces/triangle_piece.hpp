@@ -41,27 +41,54 @@ class TrianglePiece {
 
   /// `like` is the rule, on any front.
   template <class Like>
-  TrianglePiece(const CutPiece& cut, TrianglePatch<Real>& patch, const Like& like,
-                const Settings& settings)
+  TrianglePiece(const CutPiece& cut, const TriangleSheet<Real>& sheet, TriangleRoom<Real>& room,
+                const Like& like, const Settings& settings)
       : cut_(cut),
-        patch_(patch),
-        front_(base(cut, patch, settings), cut.own),
-        spread_(patch.triangles, like.over(patch.triangles, front_), front_, settings.radius,
+        sheet_(sheet),
+        room_(room),
+        front_(base(cut, room, settings), cut.own),
+        spread_(sheet.triangles, like.over(sheet.triangles, front_), front_, settings.radius,
                 settings.refracts, settings.faces) {
-    patch.posted.assign(cut.at_cut, std::numeric_limits<Real>::infinity());
-    patch.is_new.assign(cut.at_cut, 0);
-    for (Outbox& box : patch.mail.box) box.forget();
+    // What is no ghost anywhere has told all.
+    room.posted.assign(cut.at_cut, -std::numeric_limits<Real>::infinity());
+    for (const CutPiece::Slot& slot : cut.slots)
+      room.posted[slot.here] = std::numeric_limits<Real>::infinity();
+    room.is_new.assign(cut.at_cut, 0);
+    for (Outbox& box : room.mail.box) box.forget();
   }
   TrianglePiece(const TrianglePiece&) = delete;
   TrianglePiece& operator=(const TrianglePiece&) = delete;
 
   [[nodiscard]] const CutPiece& cut() const { return cut_; }
-  [[nodiscard]] Outboxes& mail() { return patch_.mail; }
+  [[nodiscard]] Outboxes& mail() { return room_.mail; }
 
   /// A label from outside the supersteps.
   void give(Index i, std::size_t hinge, const SimplexLabel& label, Real distance, Index source) {
     from_outside([&] { front_.take(i, hinge, label, distance, source); });
   }
+  /// Between runs work() may offer labels to its own triangles, by rule() on front(); if `ghosts`
+  /// to those as well. What is reached by that with ghosts does not count.
+  template <class Work>
+  void offer(bool ghosts, const Work& work) {
+    if (ghosts) {
+      front_.set_open(cut_.simplices.size());
+      from_outside(work);
+      front_.set_open(cut_.own);
+    } else {
+      work();
+    }
+    for (Index i = 0; i < cut_.simplices.size(); ++i)
+      if (front_.reached(i) && front_.waits(i)) front_.queue().note(spread_.rule().distance(i));
+  }
+  [[nodiscard]] const Rule& rule() const { return spread_.rule(); }
+  [[nodiscard]] Front& front() { return front_; }
+  /// Of its own triangles.
+  [[nodiscard]] std::size_t count_reached() const {
+    std::size_t count = 0;
+    for (Index i = 0; i < cut_.own; ++i) count += front_.reached(i);
+    return count;
+  }
+
   /// Before the first superstep of a run: by the full rule everywhere?
   void set_last_resort(bool last_resort) { last_resort_ = last_resort; }
 
@@ -73,7 +100,7 @@ class TrianglePiece {
     front_.put(letter.to, letter.label);
     const Real d = spread_.rule().distance(letter.to);
     // Nothing is offered back over the hinge that it came by.
-    const unsigned ways = patch_.leads_in[letter.to - cut_.own] & ~(1u << letter.hinge);
+    const unsigned ways = sheet_.leads_in[letter.to - cut_.own] & ~(1u << letter.hinge);
     if (ways == 0)
       front_.know(letter.to, letter.hinge, letter.label, letter.source);
     else
@@ -98,26 +125,26 @@ class TrianglePiece {
   /// Tells the peers of labels at the cut that got better. The least of their distances.
   Real post(std::size_t superstep, PieceWork& work) {
     constexpr Real infinity = std::numeric_limits<Real>::infinity();
-    Outbox& box = patch_.mail.of(superstep);
+    Outbox& box = room_.mail.of(superstep);
     Real least = infinity;
     for (Index i = 0; i < cut_.at_cut; ++i) {
       if (!front_.reached(i) || front_.waits(i)) continue;
       const Real d = spread_.rule().distance(i);
-      if (!(d < patch_.posted[i])) continue;
-      patch_.posted[i] = d;
-      patch_.is_new[i] = 1;
+      if (!(d < room_.posted[i])) continue;
+      room_.posted[i] = d;
+      room_.is_new[i] = 1;
       least = std::min(least, d);
     }
     if (!(least < infinity)) return least;
     box.start<Letter>(superstep, cut_.peer_count(), cut_.slots.size());
     for (std::size_t peer = 0; peer < cut_.peer_count(); ++peer) {
       for (const CutPiece::Slot& slot : cut_.slots_of(peer))
-        if (patch_.is_new[slot.here] != 0)
+        if (room_.is_new[slot.here] != 0)
           box.add(Letter{slot.there, front_.source(slot.here),
                          static_cast<Index>(front_.hinge(slot.here)), front_.label(slot.here)});
       box.end_peer();
     }
-    std::fill(patch_.is_new.begin(), patch_.is_new.end(), 0);
+    std::fill(room_.is_new.begin(), room_.is_new.end(), 0);
     work.letters = box.count();
     return least;
   }
@@ -129,12 +156,12 @@ class TrianglePiece {
   }
 
   /// The least distance that its own triangles offer each of their vertices, and of equal ones that
-  /// from the first source, into the patch.
+  /// from the first source, into the room.
   void read_out() {
-    patch_.vertex.assign(patch_.vertices.size(), std::numeric_limits<Real>::infinity());
-    if constexpr (kLabels) patch_.vertex_source.assign(patch_.vertices.size(), none);
-    Real* const vertex = patch_.vertex.data();
-    Index* const owner = patch_.vertex_source.data();
+    room_.vertex.assign(sheet_.vertices, std::numeric_limits<Real>::infinity());
+    if constexpr (kLabels) room_.vertex_source.assign(sheet_.vertices, none);
+    Real* const vertex = room_.vertex.data();
+    Index* const owner = room_.vertex_source.data();
     Front front = front_;  // that nothing points to
     const auto rule = spread_.rule().on(front);
     const auto offer = [=, &front](Index v, Real d, Index f) {
@@ -146,12 +173,11 @@ class TrianglePiece {
         vertex[v] = std::min(vertex[v], d);
       }
     };
-    const std::span<const TriangleRecord<Real>> triangles = patch_.triangles;
     const Index end = static_cast<Index>(cut_.own);
     if constexpr (requires { rule.label(0).x; })
-      offer_apexes(triangles, rule, front, 0, end, offer);
+      offer_apexes(sheet_.triangles, rule, front, 0, end, offer);
     else
-      offer_corners(triangles, rule, front, 0, end, offer);
+      offer_corners(sheet_.triangles, rule, front, 0, end, offer);
   }
 
   /// take(triangle of the surface, hinge, label, source) for each of its own that is reached.
@@ -171,25 +197,26 @@ class TrianglePiece {
     outside_.reached_simplices += front_.reached_count() - reached;
   }
 
-  static typename Front::Base base(const CutPiece& cut, TrianglePatch<Real>& patch,
+  static typename Front::Base base(const CutPiece& cut, TriangleRoom<Real>& room,
                                    const Settings& settings) {
     const std::size_t count = cut.simplices.size();
-    patch.marks.resize(count + 1);
-    patch.marks.start();
-    patch.marks.data()[count] = patch.marks.current();
-    if constexpr (kLabels) patch.source.resize(count + 1);
-    patch.front.reserve(count);
-    return {patch.marks,
-            patch.labels.template reserve<SimplexLabel>(count + 1),
-            DualQueue<Real>(patch.front, settings.step),
-            patch.source.data(),
+    room.marks.resize(count + 1);
+    room.marks.start();
+    room.marks.data()[count] = room.marks.current();
+    if constexpr (kLabels) room.source.resize(count + 1);
+    room.front.reserve(count);
+    return {room.marks,
+            room.labels.template reserve<SimplexLabel>(count + 1),
+            DualQueue<Real>(room.front, settings.step),
+            room.source.data(),
             settings.faces,
             settings.unit,
             *settings.options};
   }
 
   const CutPiece& cut_;
-  TrianglePatch<Real>& patch_;
+  TriangleSheet<Real> sheet_;
+  TriangleRoom<Real>& room_;
   bool last_resort_ = false;
   Front front_;
   TriangleSpread<Real, Rule, Front> spread_;

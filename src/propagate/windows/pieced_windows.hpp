@@ -61,7 +61,7 @@ class PiecedWindows {
     const bool is_bounded = options.radius < std::numeric_limits<double>::infinity();
     bool too_many = false;
     const auto goes_on = [&](std::size_t expansions, std::size_t waiting) {
-      too_many = is_too_much(expansions, waiting, limit);
+      too_many = is_too_much<Windows>(pieces_, mesh_.face_count(), expansions, waiting, limit);
       return !too_many;
     };
     do {
@@ -91,18 +91,6 @@ class PiecedWindows {
     Number distance, error;
     Index source;
   };
-
-  /// Between supersteps.
-  bool is_too_much(std::size_t expansions, [[maybe_unused]] std::size_t waiting,
-                   const typename Windows::Limit& limit) {
-    if constexpr (requires { limit.waiting; }) {
-      if (Windows::ties_end(expansions, mesh_.face_count()))
-        for (Piece& piece : pieces_) piece.windows().end_ties();
-      return expansions > limit.windows || waiting > limit.waiting;
-    } else {
-      return Windows::too_many(expansions, mesh_.face_count());
-    }
-  }
 
   template <class Crew>
   void gather(const Crew& crew, bool is_bounded) {

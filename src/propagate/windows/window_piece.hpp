@@ -137,4 +137,19 @@ class WindowPiece {
   double horizon_ = 0;               ///< of the superstep before
 };
 
+/// Between supersteps of `pieces` on so many triangles: is it too much to wait for? Ends ties where
+/// it takes long.
+template <class Windows, class Pieces>
+[[nodiscard]] bool is_too_much(Pieces& pieces, std::size_t triangles, std::size_t expansions,
+                               [[maybe_unused]] std::size_t waiting,
+                               [[maybe_unused]] const typename Windows::Limit& limit) {
+  if constexpr (requires { limit.waiting; }) {
+    if (Windows::ties_end(expansions, triangles))
+      for (auto& piece : pieces) piece.windows().end_ties();
+    return expansions > limit.windows || waiting > limit.waiting;
+  } else {
+    return Windows::too_many(expansions, triangles);
+  }
+}
+
 }  // namespace plexway::windows

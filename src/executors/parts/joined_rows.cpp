@@ -1,0 +1,319 @@
+#include <plexway/executors/joined_rows.hpp>
+
+#include <algorithm>
+#include <bit>
+#include <numeric>
+#include <tuple>
+#include <utility>
+
+#include <plexway/error.hpp>
+
+#include "executors/parts/part_mail.hpp"
+
+namespace plexway {
+namespace {
+
+using Point = std::array<double, 3>;
+using Key = std::array<std::uint64_t, 3>;
+
+/// A point of a part, on its way to who numbers all that have its key.
+struct Asked {
+  Key key;  ///< its id, or the bits of where it lies
+  Point position;
+  std::uint32_t part, point;
+};
+/// And back.
+struct Answer {
+  std::uint32_t part, point;
+  std::uint64_t number;
+};
+struct Vertex {
+  std::uint64_t number;
+  Point position;
+};
+struct Triangle {
+  std::uint64_t number;
+  std::array<Index, 3> corner;
+};
+
+Key key_of(const Point& position) {
+  Key key;
+  for (std::size_t d = 0; d < 3; ++d) key[d] = std::bit_cast<std::uint64_t>(position[d] + 0.0);
+  return key;  // -0 is 0
+}
+
+std::size_t mixed(const Key& key) {
+  std::uint64_t sum = 0;
+  for (const std::uint64_t word : key)
+    sum = (std::rotl(sum, 21) ^ word) * std::uint64_t{0x9e3779b97f4a7c15};
+  return static_cast<std::size_t>(sum >> 20);
+}
+
+/// Who has number i of `count` in its range.
+std::size_t home_of(std::uint64_t i, std::uint64_t count, std::size_t ranks) {
+  auto r = static_cast<std::size_t>(static_cast<double>(i) / static_cast<double>(count) *
+                                    static_cast<double>(ranks));
+  r = std::min(r, ranks - 1);
+  while (i < count * r / ranks) --r;
+  while (i >= count * (r + 1) / ranks) ++r;
+  return r;
+}
+
+/// Gives points of all parts their numbers.
+class Numbering {
+ public:
+  Numbering(PieceRanks* ranks, std::span<const SurfaceFilePart> parts)
+      : ranks_(ranks), parts_(parts) {
+    for (const SurfaceFilePart& part : parts_) all_parts_ = std::max(all_parts_, part.number + 1);
+    all_parts_ = static_cast<std::size_t>(-least_of(ranks_, -static_cast<double>(all_parts_)));
+    for (std::size_t i = 0; i < parts_.size(); ++i) {
+      place_.push_back({static_cast<std::uint32_t>(parts_[i].number), i});
+      numbers_.emplace_back(parts_[i].positions.size());
+    }
+    std::sort(place_.begin(), place_.end());
+    by_ids_ = have_ids();
+  }
+
+  /// How many vertices there are.
+  std::uint64_t run() {
+    ask();
+    by_ids_ ? number_by_ids() : number_by_parts();
+    return count_;
+  }
+  /// Of point v of our part i.
+  [[nodiscard]] std::uint64_t of(std::size_t i, std::size_t v) const { return numbers_[i][v]; }
+
+ private:
+  [[noreturn]] static void fail(const SurfaceFilePart& part, const std::string& cause) {
+    throw InputError(part.name + ": " + cause);
+  }
+
+  bool have_ids() const {
+    std::uint64_t counts[] = {0, 0};  // of parts with and without
+    for (const SurfaceFilePart& part : parts_)
+      if (!part.positions.empty()) ++counts[part.ids.empty()];
+    add_up(ranks_, counts);
+    if (counts[0] > 0 && counts[1] > 0)
+      throw InputError("of the parts " + std::to_string(counts[0]) + " number their points and " +
+                       std::to_string(counts[1]) +
+                       " do not: save all with GlobalPointIds, or all without");
+    return counts[0] > 0;
+  }
+
+  /// Each point goes to who has its key; there sorted by key, part and point.
+  void ask() {
+    std::uint64_t largest = 0;
+    for (const SurfaceFilePart& part : parts_)
+      for (const std::uint64_t id : part.ids) largest = std::max(largest, id);
+    // As a double, and so rounded: homes are ranges of ids all the same.
+    const double ids = 1 - least_of(ranks_, -static_cast<double>(largest));
+    PartMail mail(ranks_);
+    std::vector<Key> own;
+    for (const SurfaceFilePart& part : parts_) {
+      own.clear();
+      for (std::size_t v = 0; v < part.positions.size(); ++v)
+        own.push_back(by_ids_ ? Key{part.ids[v], 0, 0} : key_of(part.positions[v]));
+      for (std::size_t v = 0; v < own.size(); ++v) {
+        const std::size_t to =
+            by_ids_ ? std::min(static_cast<std::size_t>(static_cast<double>(own[v][0]) / ids *
+                                                        static_cast<double>(mail.count())),
+                               mail.count() - 1)
+                    : mixed(own[v]) % mail.count();
+        mail.to(to).add(Asked{own[v], part.positions[v], static_cast<std::uint32_t>(part.number),
+                              static_cast<std::uint32_t>(v)});
+      }
+      check_apart(part, own);
+    }
+    mail.meet();
+    for (std::size_t r = 0; r < mail.count(); ++r)
+      for (Unpacked in = mail.from(r); !in.empty();) asked_.push_back(in.take<Asked>());
+    std::sort(asked_.begin(), asked_.end(), [](const Asked& a, const Asked& b) {
+      return std::tie(a.key, a.part, a.point) < std::tie(b.key, b.part, b.point);
+    });
+    for (std::size_t i = 1; i < asked_.size(); ++i)
+      if (asked_[i].key == asked_[i - 1].key && asked_[i].position != asked_[i - 1].position)
+        throw InputError("point " + std::to_string(asked_[i].key[0]) +
+                         " of the whole lies in part " + std::to_string(asked_[i - 1].part) +
+                         " elsewhere than in part " + std::to_string(asked_[i].part));
+  }
+
+  void check_apart(const SurfaceFilePart& part, std::vector<Key>& keys) const {
+    std::vector<std::uint32_t> order(keys.size());
+    std::iota(order.begin(), order.end(), 0u);
+    std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
+      return std::tie(keys[a], a) < std::tie(keys[b], b);
+    });
+    for (std::size_t i = 1; i < order.size(); ++i) {
+      if (keys[order[i]] != keys[order[i - 1]]) continue;
+      const std::string both =
+          "points " + std::to_string(order[i - 1]) + " and " + std::to_string(order[i]);
+      if (by_ids_) fail(part, both + " have the same number " + std::to_string(keys[order[i]][0]));
+      fail(part, both +
+                     " lie in the same place, so which of them goes on in another part is open: "
+                     "save it with GlobalPointIds");
+    }
+  }
+
+  /// The first point of each key.
+  template <class Visit>
+  void each_key(const Visit& visit) const {
+    for (std::size_t i = 0; i < asked_.size();) {
+      const std::size_t first = i;
+      while (i < asked_.size() && asked_[i].key == asked_[first].key) ++i;
+      visit(first, i);
+    }
+  }
+
+  void number_by_ids() {
+    std::vector<std::uint64_t> keys(ranks_ == nullptr ? 1 : ranks_->count(), 0);
+    const std::size_t ours = ranks_ == nullptr ? 0 : ranks_->rank();
+    each_key([&](std::size_t, std::size_t) { ++keys[ours]; });
+    add_up(ranks_, keys);
+    count_ = std::accumulate(keys.begin(), keys.end(), std::uint64_t{0});
+    std::uint64_t next = std::accumulate(
+        keys.begin(), keys.begin() + static_cast<std::ptrdiff_t>(ours), std::uint64_t{0});
+    PartMail mail(ranks_);
+    each_key([&](std::size_t first, std::size_t last) {
+      for (std::size_t i = first; i < last; ++i) answer(mail, asked_[i], next);
+      ++next;
+    });
+    hear(mail);
+  }
+
+  /// A vertex is numbered where it comes first, and by that part.
+  void number_by_parts() {
+    PartMail firsts(ranks_);
+    each_key([&](std::size_t first, std::size_t last) {
+      for (std::size_t i = first; i < last; ++i)  // of whom: of the first
+        answer(firsts, asked_[i], std::uint64_t{asked_[first].part} << 32 | asked_[first].point);
+    });
+    hear(firsts);
+    std::vector<std::uint64_t> counts(all_parts_, 0);
+    const auto is_first = [&](std::size_t i, std::size_t v) {
+      return numbers_[i][v] == (std::uint64_t{parts_[i].number} << 32 | v);
+    };
+    for (std::size_t i = 0; i < parts_.size(); ++i)
+      for (std::size_t v = 0; v < numbers_[i].size(); ++v)
+        counts[parts_[i].number] += is_first(i, v);
+    add_up(ranks_, counts);
+    count_ = std::accumulate(counts.begin(), counts.end(), std::uint64_t{0});
+    std::exclusive_scan(counts.begin(), counts.end(), counts.begin(), std::uint64_t{0});
+    // To who has the key, which tells the others.
+    PartMail told(ranks_);
+    for (std::size_t i = 0; i < parts_.size(); ++i) {
+      std::uint64_t next = counts[parts_[i].number];
+      for (std::size_t v = 0; v < numbers_[i].size(); ++v)
+        if (is_first(i, v))
+          told.to(mixed(key_of(parts_[i].positions[v])) % told.count())
+              .add(Answer{static_cast<std::uint32_t>(parts_[i].number),
+                          static_cast<std::uint32_t>(v), next++});
+    }
+    told.meet();
+    std::vector<Answer> known;
+    for (std::size_t r = 0; r < told.count(); ++r)
+      for (Unpacked in = told.from(r); !in.empty();) known.push_back(in.take<Answer>());
+    const auto less = [](const auto& a, const auto& b) {
+      return std::tie(a.part, a.point) < std::tie(b.part, b.point);
+    };
+    std::sort(known.begin(), known.end(), less);
+    PartMail mail(ranks_);
+    each_key([&](std::size_t first, std::size_t last) {
+      const auto number = std::lower_bound(known.begin(), known.end(), asked_[first], less)->number;
+      for (std::size_t i = first; i < last; ++i) answer(mail, asked_[i], number);
+    });
+    hear(mail);
+  }
+
+  void answer(PartMail& mail, const Asked& to, std::uint64_t number) const {
+    mail.to(to.part % mail.count()).add(Answer{to.part, to.point, number});
+  }
+  void hear(PartMail& mail) {
+    mail.meet();
+    for (std::size_t r = 0; r < mail.count(); ++r)
+      for (Unpacked in = mail.from(r); !in.empty();) {
+        const auto told = in.take<Answer>();
+        const auto found =
+            std::lower_bound(place_.begin(), place_.end(), std::pair(told.part, std::size_t{0}));
+        numbers_[found->second][told.point] = told.number;
+      }
+  }
+
+  PieceRanks* ranks_;
+  std::span<const SurfaceFilePart> parts_;
+  std::size_t all_parts_ = 0;
+  std::vector<std::pair<std::uint32_t, std::size_t>> place_;  ///< of a part by number, among ours
+  std::vector<std::vector<std::uint64_t>> numbers_;
+  std::vector<Asked> asked_;
+  bool by_ids_ = false;
+  std::uint64_t count_ = 0;
+};
+
+void check_count(const char* what, std::uint64_t count) {
+  if (count >= none) throw InputError("more than 4294967294 " + std::string(what));
+}
+
+}  // namespace
+
+JoinedRows::JoinedRows(PieceRanks* ranks, std::vector<SurfaceFilePart> parts) {
+  std::size_t largest = 0;  // of all parts: their number
+  for (const SurfaceFilePart& part : parts) largest = std::max(largest, part.number + 1);
+  largest = static_cast<std::size_t>(-least_of(ranks, -static_cast<double>(largest)));
+  std::vector<std::uint64_t> begin(largest + 1, 0);  // of each part's triangles
+  for (const SurfaceFilePart& part : parts) begin[part.number] = part.triangles.size();
+  add_up(ranks, begin);
+  std::exclusive_scan(begin.begin(), begin.end(), begin.begin(), std::uint64_t{0});
+  const std::uint64_t faces_in_all = begin.back();
+  Numbering numbers(ranks, parts);
+  const std::uint64_t vertices_in_all = numbers.run();
+  check_count("vertices", vertices_in_all);
+  check_count("faces", faces_in_all);
+  vertices_ = static_cast<std::size_t>(vertices_in_all);
+  faces_ = static_cast<std::size_t>(faces_in_all);
+
+  PartMail vertices(ranks), faces(ranks);
+  const std::size_t n = vertices.count(), ours = vertices.ours();
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    const SurfaceFilePart& part = parts[i];
+    for (std::size_t v = 0; v < part.positions.size(); ++v)
+      vertices.to(home_of(numbers.of(i, v), vertices_, n))
+          .add(Vertex{numbers.of(i, v), part.positions[v]});
+    for (std::size_t f = 0; f < part.triangles.size(); ++f) {
+      Triangle triangle{begin[part.number] + f, {}};
+      for (std::size_t c = 0; c < 3; ++c)
+        triangle.corner[c] = static_cast<Index>(numbers.of(i, part.triangles[f][c]));
+      faces.to(home_of(triangle.number, faces_, n)).add(triangle);
+    }
+  }
+  parts = {};
+  const auto range = [&](std::size_t count, std::size_t& first) {
+    first = count * ours / n;
+    return count * (ours + 1) / n - first;
+  };
+  positions_.resize(range(vertices_, first_vertex_));
+  corners_.resize(range(faces_, first_face_));
+  vertices.meet();
+  for (std::size_t r = 0; r < n; ++r)
+    for (Unpacked in = vertices.from(r); !in.empty();) {
+      const auto vertex = in.take<Vertex>();
+      positions_[static_cast<std::size_t>(vertex.number) - first_vertex_] = vertex.position;
+    }
+  faces.meet();
+  for (std::size_t r = 0; r < n; ++r)
+    for (Unpacked in = faces.from(r); !in.empty();) {
+      const auto triangle = in.take<Triangle>();
+      corners_[static_cast<std::size_t>(triangle.number) - first_face_] = triangle.corner;
+    }
+}
+
+void JoinedRows::read_vertices(std::size_t first,
+                               std::span<std::array<double, 3>> positions) const {
+  std::copy_n(positions_.begin() + static_cast<std::ptrdiff_t>(first - first_vertex_),
+              positions.size(), positions.begin());
+}
+
+void JoinedRows::read_faces(std::size_t first, std::span<std::array<Index, 3>> corners) const {
+  std::copy_n(corners_.begin() + static_cast<std::ptrdiff_t>(first - first_face_), corners.size(),
+              corners.begin());
+}
+
+}  // namespace plexway
