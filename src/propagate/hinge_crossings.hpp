@@ -128,6 +128,7 @@ class HingeCrossings {
       if (!keep(piece, v, there, distance[v], room))
         keep_straight(piece, v, inside(v), distance[v], label[v]);
       if (there < distance[v]) distance[v] = there, label[v] = room.source;
+      keep_nearer_source(piece, v, inside(v), distance[v], label[v]);
       if (!ways_->known(piece, v)) front.push_back(v);
     }
     if (whole_.any())
@@ -228,21 +229,24 @@ class HingeCrossings {
       ways_->forget(piece, v);
     return is;
   }
+  // Of more sources in a piece than this only the one that a label tells is looked at.
+  static constexpr std::ptrdiff_t few = 8;
+  [[nodiscard]] auto seed_at(Index piece, Index number) const {
+    return std::lower_bound(
+        seeds_.begin(), seeds_.end(), std::pair(piece, number),
+        [](const Seed& s, const auto& key) { return std::pair(s.piece, s.number) < key; });
+  }
+  [[nodiscard]] auto seeds_of(Index piece) const {
+    return std::pair(seed_at(piece, 0), seed_at(piece + 1, 0));
+  }
   // The same where it is a straight line from a source in the piece: of few, whichever is nearest,
   // whatever label was kept; of many, that of the label.
   void keep_straight(Index piece, Index v, Index inside, Real& distance, Index& label) {
     const Piece& own = *pieces_[piece];
     if (!own.sees_all()) return;
-    constexpr std::ptrdiff_t few = 8;
-    const auto before = [](const Seed& s, const auto& key) {
-      return std::pair(s.piece, s.number) < key;
-    };
-    const auto at = [&](Index p, Index number) {
-      return std::lower_bound(seeds_.begin(), seeds_.end(), std::pair(p, number), before);
-    };
-    auto first = at(piece, 0), last = at(piece + 1, 0);
+    auto [first, last] = seeds_of(piece);
     if (last - first > few) {
-      first = at(piece, label);
+      first = seed_at(piece, label);
       last = first == last || first->number != label ? first : first + 1;
     }
     for (auto seed = first; seed != last; ++seed) {
@@ -250,6 +254,26 @@ class HingeCrossings {
       if (!(length <= distance * (1 + Piece::crossing_gain))) continue;
       ways_->keep(piece, v, seed->at, seed->offset, {}, seed->number);
       if (length < distance) distance = length, label = seed->number;
+    }
+  }
+
+  // Of few sources in the piece one that is nearer than a way that crosses: beside a thin fast
+  // layer all tetrahedra may have labels that came through that.
+  void keep_nearer_source(Index piece, Index v, Index inside, Real& distance, Index& label) {
+    const Piece& own = *pieces_[piece];
+    const auto [first, last] = seeds_of(piece);
+    if (last - first > few) return;
+    typename BentWays<Real>::Room room;
+    std::vector<Step> steps;
+    for (auto seed = first; seed != last; ++seed) {
+      const Real enough = distance * (1 - Piece::crossing_gain);
+      if (!(seed->offset + norm(own.unit() * own.place(inside) - seed->at) < enough)) continue;
+      steps.clear();
+      const Real length = bent_->pull(seed->at, seed->offset, steps, piece, inside, enough, room);
+      if (!(length < enough)) continue;
+      ways_->keep(piece, v, seed->at, seed->offset, steps, seed->number);
+      distance = length;
+      label = seed->number;
     }
   }
 
