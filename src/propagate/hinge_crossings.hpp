@@ -16,6 +16,7 @@
 #include "propagate/crossing_ways.hpp"
 #include "propagate/hinge_neighbours.hpp"
 #include "propagate/mixed_piece.hpp"
+#include "propagate/piece_sources.hpp"
 #include "propagate/taut_crossings.hpp"
 #include "propagate/whole_ways.hpp"
 
@@ -50,7 +51,7 @@ class HingeCrossings {
   void seed(Index piece, const Point& at, Real offset, Index number) {
     first_ = std::max(first_, number + 1);
     whole_.start(first_);
-    seeds_.push_back({piece, number, at, offset});
+    sources_.add({piece, number, at, offset});
   }
   /// The first number of a crossing, and the next one.
   [[nodiscard]] Index first() const { return first_; }
@@ -88,9 +89,7 @@ class HingeCrossings {
     taut_ = std::make_unique<Taut>(domain_, pieces_, neighbours_);
     bent_ = std::make_unique<BentWays<Real>>(domain_, pieces_, *taut_);
     ways_ = std::make_unique<Ways>(domain_, pieces_, *taut_, *bent_, radius);
-    std::stable_sort(seeds_.begin(), seeds_.end(), [](const Seed& a, const Seed& b) {
-      return std::pair(a.piece, a.number) < std::pair(b.piece, b.number);
-    });
+    sources_.sort();
   }
   /// Then ways are handed on, round by round.
   void hand_on(Index piece, std::span<Real> distance, std::span<Index> label) {
@@ -197,12 +196,6 @@ class HingeCrossings {
     bool all;        // was that pulled as a whole? It is `last` then.
     Index source;    // whose it is
   };
-  struct Seed {
-    Index piece, number;
-    Point at;
-    Real offset;
-  };
-
   void keep(const Crossing& crossing) {
     crossings_.push_back({crossing, {0, 0}, none, {0, 0, 0}, infinity});
     moves_ |= crossing.hinge != none;
@@ -229,31 +222,17 @@ class HingeCrossings {
       ways_->forget(piece, v);
     return is;
   }
-  // Of more sources in a piece than this only the one that a label tells is looked at.
-  static constexpr std::ptrdiff_t few = 8;
-  [[nodiscard]] auto seed_at(Index piece, Index number) const {
-    return std::lower_bound(
-        seeds_.begin(), seeds_.end(), std::pair(piece, number),
-        [](const Seed& s, const auto& key) { return std::pair(s.piece, s.number) < key; });
-  }
-  [[nodiscard]] auto seeds_of(Index piece) const {
-    return std::pair(seed_at(piece, 0), seed_at(piece + 1, 0));
-  }
   // The same where it is a straight line from a source in the piece: of few, whichever is nearest,
   // whatever label was kept; of many, that of the label.
   void keep_straight(Index piece, Index v, Index inside, Real& distance, Index& label) {
     const Piece& own = *pieces_[piece];
     if (!own.sees_all()) return;
-    auto [first, last] = seeds_of(piece);
-    if (last - first > few) {
-      first = seed_at(piece, label);
-      last = first == last || first->number != label ? first : first + 1;
-    }
-    for (auto seed = first; seed != last; ++seed) {
-      const Real length = seed->offset + norm(own.unit() * own.place(inside) - seed->at);
+    const auto [first, last] = sources_.few_or(piece, label);
+    for (auto source = first; source != last; ++source) {
+      const Real length = source->offset + norm(own.unit() * own.place(inside) - source->at);
       if (!(length <= distance * (1 + Piece::crossing_gain))) continue;
-      ways_->keep(piece, v, seed->at, seed->offset, {}, seed->number);
-      if (length < distance) distance = length, label = seed->number;
+      ways_->keep(piece, v, source->at, source->offset, {}, source->number);
+      if (length < distance) distance = length, label = source->number;
     }
   }
 
@@ -261,19 +240,20 @@ class HingeCrossings {
   // layer all tetrahedra may have labels that came through that.
   void keep_nearer_source(Index piece, Index v, Index inside, Real& distance, Index& label) {
     const Piece& own = *pieces_[piece];
-    const auto [first, last] = seeds_of(piece);
-    if (last - first > few) return;
+    const auto [first, last] = sources_.few(piece);
+    if (first == last) return;
     typename BentWays<Real>::Room room;
     std::vector<Step> steps;
-    for (auto seed = first; seed != last; ++seed) {
+    for (auto source = first; source != last; ++source) {
       const Real enough = distance * (1 - Piece::crossing_gain);
-      if (!(seed->offset + norm(own.unit() * own.place(inside) - seed->at) < enough)) continue;
+      if (!(source->offset + norm(own.unit() * own.place(inside) - source->at) < enough)) continue;
       steps.clear();
-      const Real length = bent_->pull(seed->at, seed->offset, steps, piece, inside, enough, room);
+      const Real length =
+          bent_->pull(source->at, source->offset, steps, piece, inside, enough, room);
       if (!(length < enough)) continue;
-      ways_->keep(piece, v, seed->at, seed->offset, steps, seed->number);
+      ways_->keep(piece, v, source->at, source->offset, steps, source->number);
       distance = length;
-      label = seed->number;
+      label = source->number;
     }
   }
 
@@ -506,7 +486,7 @@ class HingeCrossings {
   Index first_ = 0;
   bool moves_ = false;  // is any on a hinge?
   std::vector<Known> crossings_;
-  std::vector<Seed> seeds_;  // by piece and number
+  PieceSources<Point, Real> sources_;
   WholeWays<Real> whole_;
   std::unique_ptr<Taut> taut_;
   std::unique_ptr<BentWays<Real>> bent_;

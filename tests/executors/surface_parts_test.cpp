@@ -257,6 +257,20 @@ TEST_CASE("parts: what is apart is not reached, whoever has it") {
   }
 }
 
+TEST_CASE("parts: a source in a triangle whose neighbours are all in other pieces") {
+  // All that it sends out leaves, so nothing waits in any piece: nothing was reached.
+  for (const unsigned seed : {3u, 4u, 5u}) {
+    const Surface s = jittered(6, seed);
+    for (Index f = 0; f < s.faces.size(); ++f)
+      for (const Accuracy& accuracy : {Accuracy::exact(), Accuracy::accurate()}) {
+        CAPTURE(seed, f);
+        const auto source = PointSource::in(f, {.3, .3, .4});
+        const auto field = solve_in_parts<double>(s, {1, 1, 3}, {source}, at(accuracy));
+        CHECK(field.reached == s.positions.size());
+      }
+  }
+}
+
 TEST_CASE("parts: more processes than pieces") {
   const Surface s = jittered(6, 9);
   const auto one = solve_in_parts<float>(s, {1, 1, 0}, {PointSource::at(3)});

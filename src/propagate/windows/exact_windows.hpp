@@ -84,6 +84,7 @@ class ExactWindows {
   /// When a window has its turn.
   [[nodiscard]] static double turn_of(const Window<double>& window) { return window.nearest(); }
   [[nodiscard]] Leaving<double>& leaving() { return leaving_; }
+  [[nodiscard]] const Leaving<double>& leaving() const { return leaving_; }
   [[nodiscard]] double vertex_distance(Index vertex) const { return distance_[vertex]; }
   [[nodiscard]] double vertex_error(Index) const { return 0; }
   [[nodiscard]] Arrival<double> arrival(Index vertex) const { return arrival_[vertex]; }

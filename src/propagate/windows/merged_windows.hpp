@@ -99,6 +99,7 @@ class MergedWindows {
            std::max(window.at_begin, window.at_end) * static_cast<Real>(at);
   }
   [[nodiscard]] Leaving<Real>& leaving() { return leaving_; }
+  [[nodiscard]] const Leaving<Real>& leaving() const { return leaving_; }
   [[nodiscard]] Real vertex_distance(Index vertex) const { return distance_[vertex]; }
   [[nodiscard]] Real vertex_error(Index vertex) const { return static_cast<Real>(error_[vertex]); }
   /// At a vertex that other pieces have, too.

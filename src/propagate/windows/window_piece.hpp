@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <limits>
+#include <utility>
 #include <vector>
 
 #include <plexway/propagate/distance_field.hpp>
@@ -43,7 +44,17 @@ class WindowPiece {
   [[nodiscard]] Index number() const { return number_; }
   [[nodiscard]] const CutPiece& cut() const { return *cut_; }
   [[nodiscard]] Outboxes& mail() { return mail_; }
-  [[nodiscard]] double nearest() const { return windows_.nearest(); }
+  /// Of what waits here, or leaves: where a source's triangle has none but ghosts around it, all
+  /// that it sends out leaves.
+  [[nodiscard]] double nearest() const {
+    double least = windows_.nearest();
+    const auto& leaving = std::as_const(windows_).leaving();
+    for (const Letter& letter : leaving.windows)
+      least = std::min(least, static_cast<double>(Windows::turn_of(letter.window)));
+    for (const Index v : leaving.vertices)
+      least = std::min(least, static_cast<double>(windows_.vertex_distance(v)));
+    return least;
+  }
   [[nodiscard]] PropagateStatistics statistics() const { return windows_.statistics(); }
   /// Windows that take room.
   [[nodiscard]] std::size_t weight() const {
