@@ -126,8 +126,10 @@ std::vector<std::string> field_remarks(const AnyDomain& solver, const AnyField& 
   if (const BentCrossings bent = bent_crossings(solver); bent.hinges > 0)
     remark("solids have " + counted(bent.edges, "edges") +
            " around which ways bend, and faces or edges where the speed changes: single vertices "
-           "whose ways do both may be up to a tenth too far, never too near" +
-           (bent.cracks > 0 ? ", most of all where cracks end on such faces" : ""));
+           "whose ways do both may be up to a tenth too far" +
+           (bent.cracks > 0 ? ", most of all where cracks end on such faces; where cracks join on "
+                              "one, single vertices may be too near, by two thirds at worst"
+                            : ""));
   if (!field.complete()) {
     remark("stopped after " + counted(field.statistics().expansions, "expansions") +
            ": distances may still be too long");

@@ -115,6 +115,7 @@ class HingeCrossings {
     std::vector<Point> last(distance.size());  // where the path crossed
     std::vector<Index> front;
     Room room;
+    WholeRoom whole;
     for (Index v = 0; v < distance.size(); ++v) {
       const Index number = own.crossing_seen(inside(v), starts);
       if (find(number) == nullptr) {
@@ -127,12 +128,13 @@ class HingeCrossings {
       if (!keep(piece, v, there, distance[v], room))
         keep_straight(piece, v, inside(v), distance[v], label[v]);
       if (there < distance[v]) distance[v] = there, label[v] = room.source;
-      keep_nearer_source(piece, v, inside(v), distance[v], label[v]);
+      // Beside a thin fast layer all tetrahedra may have labels that came through that.
+      keep_straight(piece, v, inside(v), distance[v], label[v], 1 - Piece::crossing_gain);
       if (!ways_->known(piece, v)) front.push_back(v);
     }
     if (whole_.any())
       for (Index v = 0; v < distance.size(); ++v)
-        keep_whole(piece, v, inside(v), distance[v], label[v]);
+        keep_whole(piece, v, inside(v), distance[v], label[v], whole);
     // A vertex may be nearer by the way of a neighbour: because none of its simplices came over the
     // hinge, or because the label that it kept was of a way that is longer once all are taut.
     if (!own.sees_all()) return;
@@ -201,13 +203,18 @@ class HingeCrossings {
     moves_ |= crossing.hinge != none;
   }
   // The whole way that labels tell, pulled taut, if it is the vertex's distance or less.
-  void keep_whole(Index piece, Index v, Index inside, Real& distance, Index& label) {
+  struct WholeRoom {
     typename WholeWays<Real>::Way way;
-    typename BentWays<Real>::Room room;
+    typename BentWays<Real>::Room bent;
+  };
+  void keep_whole(Index piece, Index v, Index inside, Real& distance, Index& label,
+                  WholeRoom& room) {
+    auto& way = room.way;
     whole_.find(piece, inside, *bent_, way);
     if (!way.known()) return;
     const Real enough = distance * (1 + Piece::crossing_gain);
-    const Real length = bent_->pull(way.eye, way.sigma, way.steps, piece, inside, enough, room);
+    const Real length =
+        bent_->pull(way.eye, way.sigma, way.steps, piece, inside, enough, room.bent);
     if (!(length < enough)) return;
     const Index source = root(way.source);
     ways_->keep(piece, v, way.eye, way.sigma, way.steps, source);
@@ -224,36 +231,16 @@ class HingeCrossings {
   }
   // The same where it is a straight line from a source in the piece: of few, whichever is nearest,
   // whatever label was kept; of many, that of the label.
-  void keep_straight(Index piece, Index v, Index inside, Real& distance, Index& label) {
+  void keep_straight(Index piece, Index v, Index inside, Real& distance, Index& label,
+                     Real within = 1 + Piece::crossing_gain) {
     const Piece& own = *pieces_[piece];
     if (!own.sees_all()) return;
     const auto [first, last] = sources_.few_or(piece, label);
     for (auto source = first; source != last; ++source) {
       const Real length = source->offset + norm(own.unit() * own.place(inside) - source->at);
-      if (!(length <= distance * (1 + Piece::crossing_gain))) continue;
+      if (!(length <= distance * within)) continue;
       ways_->keep(piece, v, source->at, source->offset, {}, source->number);
       if (length < distance) distance = length, label = source->number;
-    }
-  }
-
-  // Of few sources in the piece one that is nearer than a way that crosses: beside a thin fast
-  // layer all tetrahedra may have labels that came through that.
-  void keep_nearer_source(Index piece, Index v, Index inside, Real& distance, Index& label) {
-    const Piece& own = *pieces_[piece];
-    const auto [first, last] = sources_.few(piece);
-    if (first == last) return;
-    typename BentWays<Real>::Room room;
-    std::vector<Step> steps;
-    for (auto source = first; source != last; ++source) {
-      const Real enough = distance * (1 - Piece::crossing_gain);
-      if (!(source->offset + norm(own.unit() * own.place(inside) - source->at) < enough)) continue;
-      steps.clear();
-      const Real length =
-          bent_->pull(source->at, source->offset, steps, piece, inside, enough, room);
-      if (!(length < enough)) continue;
-      ways_->keep(piece, v, source->at, source->offset, steps, source->number);
-      distance = length;
-      label = source->number;
     }
   }
 

@@ -305,12 +305,14 @@ class MixedSolid final : public MixedPiece<Real> {
 
   // A string of t's label, in the domain's unit. False where it bends at what is none of the edges.
   bool is_string(Index t, const Taut& s, String& string) const {
+    // Nothing is written but a whole string: one that was found before stays as it is.
+    for (int i = 0; i < s.bends; ++i)
+      if (s.edge[i] >= bend_edges()) return false;
     string.from = unit_ * s.at[0];
     string.sigma = unit_ * wave_.label(t).sigma;
     string.source = wave_.source(t);
     string.bends = s.bends;
     for (int i = 0; i < s.bends; ++i) {
-      if (s.edge[i] >= bend_edges()) return false;
       const auto& edge = mesh_.reflex_edges()[s.edge[i]];
       string.edge[i] = s.edge[i];
       string.stays[i] = false;
