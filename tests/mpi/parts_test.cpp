@@ -252,6 +252,9 @@ TEST_CASE("ranks solve in parts what others have written in parts") {
     INFO(run.err);
     REQUIRE(run.code == 0);
     CHECK(run.json()["vertices"] == known.size());
+    CHECK(run.json()["files"]["joined_by"] == "ids");
+    CHECK(run.json()["files"]["alone"] == 0);
+    CHECK(run.err.find("one place") == std::string::npos);
     const Parts parts(out, ranks, known.size());
     CHECK(parts.agree);
     CHECK(run.json()["simplices"] == parts.triangles);
@@ -264,6 +267,22 @@ TEST_CASE("ranks solve in parts what others have written in parts") {
     if (first.empty()) first = parts.distance;
     CHECK(parts.distance == first);
   }
+  // Without numbers points are one by their places, which is told.
+  for (const char* const file : {"in.pvtu", "in_0.vtu", "in_1.vtu", "in_2.vtu"}) {
+    std::string bytes = content(folder.at(file));
+    for (std::size_t at = 0; (at = bytes.find("Name=\"original\"", at)) != std::string::npos;)
+      bytes.replace(at, 15, "Name=\"Original\"");
+    for (std::size_t at = 0; (at = bytes.find("\"in_", at)) != std::string::npos;)
+      bytes.replace(at, 4, "\"no_");
+    folder.write("no" + std::string(file).substr(2), bytes);
+  }
+  const Outcome no = run_ranks(2, from(folder.at("no.pvtu"), {"--in-parts", "--json"}));
+  INFO(no.err);
+  REQUIRE(no.code == 0);
+  CHECK(no.json()["vertices"] == known.size());
+  CHECK(no.json()["files"]["joined_by"] == "places");
+  CHECK(no.json()["files"]["shared_points"] > 0);
+  CHECK(no.err.find("taken as one, for they lie in one place: ") != std::string::npos);
   // In the place of what is read.
   fs::copy_file(input, folder.at("other.pvtu"));
   const Outcome taken =

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <system_error>
 #include <type_traits>
@@ -135,8 +136,31 @@ void check_apart(std::span<const std::filesystem::path> files, const std::filesy
                          file.string());
 }
 
-/// A file that each rank reads some rows of, or files that each reads some of.
-std::unique_ptr<SurfaceRows> open_rows(const DistanceCommand& command) {
+/// What the user should know of how several files became one surface.
+std::vector<std::string> remarks_on(const JoinedCounts& joined) {
+  std::vector<std::string> remarks;
+  if (!joined.by_ids && joined.shared > 0)
+    remarks.push_back(
+        "taken as one, for they lie in one place: " + counted(joined.shared, "points") +
+        " of several files; GlobalPointIds in the files would tell");
+  if (joined.apart > 0)
+    remarks.push_back("in " + counted(joined.apart, "places") +
+                      " points of several files have different numbers and are not taken as one" +
+                      (joined.shared > 0 ? ""
+                                         : "; no number is in two files: is each file "
+                                           "numbered on its own?"));
+  if (joined.parts > 1 && joined.alone > 0)
+    remarks.push_back(std::to_string(joined.alone) + " of " + counted(joined.parts, "files") +
+                      (joined.alone == 1 ? " shares" : " share") +
+                      " no point with another, so no path leads there" +
+                      (joined.by_ids ? "" : " (points are one where they are so to the last bit)"));
+  return remarks;
+}
+
+/// A file that each rank reads some rows of, or files that each reads some of. `joined`: what
+/// became of the points of several.
+std::unique_ptr<SurfaceRows> open_rows(const DistanceCommand& command,
+                                       std::optional<JoinedCounts>& joined) {
   const Among& among = *command.among;
   if (!io::is_partitioned(command.input)) {
     auto rows = std::make_unique<io::PlyRows>(command.input);
@@ -154,8 +178,10 @@ std::unique_ptr<SurfaceRows> open_rows(const DistanceCommand& command) {
   std::vector<std::string> names;
   for (const std::filesystem::path& file : files) names.push_back(file.filename().string());
   check_same_words(among.pieces, names, "domain");
-  return with_file_name(
+  auto rows = with_file_name(
       command.input, [&] { return std::make_unique<JoinedRows>(&among.pieces, std::move(parts)); });
+  joined = rows->joined();
+  return rows;
 }
 
 template <class Real>
@@ -165,7 +191,8 @@ void solve_in_parts(DistanceCommand& command, const PropagateOptions& wanted,
   ProgressLine progress(command.quiet);
   progress.phase("reading " + command.input);
   const Stopwatch building;
-  const std::unique_ptr<SurfaceRows> rows = open_rows(command);
+  std::optional<JoinedCounts> joined;
+  const std::unique_ptr<SurfaceRows> rows = open_rows(command, joined);
   std::vector<std::string> words = command.sources;
   check_same_words(among.pieces, words, "sources");
   words = {command.solve.precision};
@@ -228,6 +255,12 @@ void solve_in_parts(DistanceCommand& command, const PropagateOptions& wanted,
   json["simplices"] = summary.faces;
   json["pieces"] = summary.pieces;
   json["ghosts"] = summary.ghosts;
+  if (joined) {
+    json["files"]["joined_by"] = joined->by_ids ? "ids" : "places";
+    json["files"]["shared_points"] = joined->shared;
+    json["files"]["apart"] = joined->apart;
+    json["files"]["alone"] = joined->alone;
+  }
   json["seconds"]["build"] = build;
   json["seconds"]["solve"] = solve;
   const DistanceReport report = {.vertices = summary.vertices,
@@ -260,6 +293,9 @@ void solve_in_parts(DistanceCommand& command, const PropagateOptions& wanted,
                         command.solve.precision + ")");
   add_written(table, {command.out});
   print_report(json, table, command.json, command.quiet, {command.out});
+  // Also where nothing is reached: that may be why.
+  if (joined && !command.quiet)
+    for (const std::string& remark : remarks_on(*joined)) say_note(remark);
   check_reached();
   if (command.quiet) return;
   note_accuracy(statistics);
