@@ -196,6 +196,8 @@ TEST_CASE("joined rows: how parts hold together is told") {
   check_told(parts, {false, 2, 0, 2, 0});
   for (auto& at : parts[1].positions) at[0] += 1e-12;
   check_told(parts, {false, 2, 2, 0, 0});
+  parts[1].triangles.clear();  // a point alone is no part torn off
+  check_told(parts, {false, 1, 1, 0, 0});
   parts.pop_back();
   check_told(parts, {false, 1, 1, 0, 0});
   // A slit that goes on from one part to the next tears nothing: each has both sides.

@@ -169,7 +169,8 @@ TEST_CASE("what ranks cannot do in parts is said once, and no file is left") {
   refused({"--mask", "vertices:none.txt"}, 2, "--mask");
   refused({"--executor", "serial"}, 2, "OpenMP");
   refused({"--source", "vertex:25"}, 3, "vertex:25");
-  refused_by(Words{"-n", "2"} + distance(text), 3, "square.off");
+  refused_by(Words{"-n", "2"} + distance(text), 3,
+             "square.off: in parts a binary .ply of triangles or a .pvtu is read, no .off");
   refused_by(Words{"-n", "2"} + distance(folder.at("none.ply")), 3, "none.ply");
   // A rank without its file.
   refused_by(
@@ -283,6 +284,35 @@ TEST_CASE("ranks solve in parts what others have written in parts") {
   CHECK(no.json()["files"]["joined_by"] == "places");
   CHECK(no.json()["files"]["shared_points"] > 0);
   CHECK(no.err.find("taken as one, for they lie in one place: ") != std::string::npos);
+  // The tool that reads wholes names the one that does not; so does this one, of one rank's whole.
+  for (const Outcome& whole :
+       {run_tool(from(input, {"--quiet"})), run_ranks(2, from(input, {"--quiet"}))}) {
+    CHECK(whole.code == 3);
+    REQUIRE(complaints(whole).size() == 1);
+    CHECK(complaints(whole)[0].find("in.pvtu --in-parts") != std::string::npos);
+  }
+  // Ranks whose files have the same names, but not all the same sizes; or other names.
+  fs::create_directory(folder.at("far"));
+  for (const char* const file : {"in.pvtu", "in_0.vtu", "in_1.vtu", "in_2.vtu"})
+    fs::copy_file(folder.at(file), folder.at("far") / file);
+  const auto differs = [&](const std::string& why) {
+    const Words rank = {"-n", "1", PLEXWAY_TEST_MPI_TOOL};
+    const Words more = {"--in-parts", "--quiet"};
+    const Outcome run = run_program(*mpirun() + rank + from(input, more) + Words{":"} + rank +
+                                    from((folder.at("far") / "in.pvtu").string(), more));
+    CAPTURE(run.err, why);
+    CHECK(run.code == (why.empty() ? 0 : 3));
+    REQUIRE(complaints(run).size() == (why.empty() ? 0 : 1));
+    if (!why.empty()) CHECK(complaints(run)[0].find(why) != std::string::npos);
+  };
+  fs::remove(folder.at("far") / "in_0.vtu");  // which the first rank reads
+  differs("");
+  folder.write("far/in_2.vtu", content(folder.at("in_2.vtu")) + "\n");
+  differs("in_2.vtu has other sizes");
+  folder.write("far/in.pvtu", content(folder.at("no.pvtu")));
+  for (const char* const file : {"no_0.vtu", "no_1.vtu", "no_2.vtu"})
+    fs::copy_file(folder.at(file), folder.at("far") / file);
+  differs("the ranks of one solve need the same domain");
   // In the place of what is read.
   fs::copy_file(input, folder.at("other.pvtu"));
   const Outcome taken =

@@ -28,7 +28,7 @@ struct SurfaceFilePart {
 /// What became of the points of parts, of all processes.
 struct JoinedCounts {
   bool by_ids = false;       ///< else points are one by where they lie
-  std::uint64_t parts = 0;   ///< that have points
+  std::uint64_t parts = 0;   ///< that have triangles
   std::uint64_t alone = 0;   ///< of these: those that share no point with another
   std::uint64_t shared = 0;  ///< vertices that are points of several parts
   /// With ids: places where a part has points, others have some too, and none of an id of its own.

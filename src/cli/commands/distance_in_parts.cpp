@@ -136,6 +136,36 @@ void check_apart(std::span<const std::filesystem::path> files, const std::filesy
                          file.string());
 }
 
+/// Throws InputError, in all ranks, if what they have by the name of a .pvtu names other files or
+/// files of other sizes: parts of several surfaces would else make one. A rank need not have the
+/// files that others read.
+void check_same_files(PieceRanks& ranks, const std::filesystem::path& input,
+                      std::span<const std::filesystem::path> files) {
+  std::vector<std::string> names;
+  for (const std::filesystem::path& file : files)
+    names.push_back(file.lexically_relative(input.parent_path()).string());
+  check_same_words(ranks, names, "domain");
+  constexpr auto absent = static_cast<std::uintmax_t>(-1);
+  std::vector<std::uintmax_t> sizes;
+  std::vector<std::uint64_t> sums;  // of a file: how many ranks see it, and how large in all
+  for (const std::filesystem::path& file : files) {
+    std::error_code ignored;
+    sizes.push_back(std::filesystem::file_size(file, ignored));
+    sums.push_back(sizes.back() != absent);
+    sums.push_back(sizes.back() != absent ? sizes.back() : 0);
+  }
+  add_up(&ranks, sums);
+  // Where sizes are not all the same, some rank's is not their mean.
+  std::vector<std::uint64_t> differ(files.size(), 0);
+  for (std::size_t i = 0; i < files.size(); ++i)
+    differ[i] = sizes[i] != absent && sizes[i] * sums[2 * i] != sums[2 * i + 1];
+  add_up(&ranks, differ);
+  for (std::size_t i = 0; i < files.size(); ++i)
+    if (differ[i] != 0)
+      throw InputError("the ranks of one solve need the same domain: " + files[i].string() +
+                       " has other sizes on some");
+}
+
 /// What the user should know of how several files became one surface.
 std::vector<std::string> remarks_on(const JoinedCounts& joined) {
   std::vector<std::string> remarks;
@@ -163,6 +193,10 @@ std::unique_ptr<SurfaceRows> open_rows(const DistanceCommand& command,
                                        std::optional<JoinedCounts>& joined) {
   const Among& among = *command.among;
   if (!io::is_partitioned(command.input)) {
+    const std::string extension = std::filesystem::path(command.input).extension().string();
+    if (!extension.empty() && extension != ".ply" && extension != ".PLY")
+      throw InputError(command.input +
+                       ": in parts a binary .ply of triangles or a .pvtu is read, no " + extension);
     auto rows = std::make_unique<io::PlyRows>(command.input);
     among.all_come();
     // Another file of that name, or another command, would end in a wait without end.
@@ -175,9 +209,7 @@ std::unique_ptr<SurfaceRows> open_rows(const DistanceCommand& command,
   for (std::size_t p = among.pieces.rank(); p < files.size(); p += among.pieces.count())
     parts.push_back(io::read_surface_part(files[p], p));
   among.all_come();
-  std::vector<std::string> names;
-  for (const std::filesystem::path& file : files) names.push_back(file.filename().string());
-  check_same_words(among.pieces, names, "domain");
+  check_same_files(among.pieces, command.input, files);
   auto rows = with_file_name(
       command.input, [&] { return std::make_unique<JoinedRows>(&among.pieces, std::move(parts)); });
   joined = rows->joined();

@@ -161,14 +161,13 @@ class Numbering {
 
   /// What points of several parts became one, and which parts have none of these.
   void count_shared() {
-    std::vector<std::uint64_t> sums(2 * all_parts_ + 1, 0);  // of parts: shared, all; vertices
+    // Of parts: points shared, triangles (what has none need not hang together); vertices shared.
+    std::vector<std::uint64_t> sums(2 * all_parts_ + 1, 0);
+    for (const SurfaceFilePart& part : parts_) sums[2 * part.number + 1] = part.triangles.size();
     each_key([&](std::size_t first, std::size_t last) {
       // A part has a key once.
       sums.back() += last - first > 1;
-      for (std::size_t i = first; i < last; ++i) {
-        sums[2 * asked_[i].part] += last - first > 1;
-        ++sums[2 * asked_[i].part + 1];
-      }
+      for (std::size_t i = first; i < last; ++i) sums[2 * asked_[i].part] += last - first > 1;
     });
     add_up(ranks_, sums);
     joined_.shared = sums.back();
