@@ -100,6 +100,10 @@ Data read_mesh(const std::string& file, std::optional<DomainKind> asked) {
   if (extension == ".3mf" || extension == ".dae" || extension == ".fbx" || extension == ".step")
     throw InputError(file + ": a " + extension +
                      " is not read; save the surface as .stl, .ply or .glb");
+  if (extension == ".pvtu")
+    throw InputError(file +
+                     ": a .pvtu is read in parts, by ranks: mpirun -n 4 plexway-mpi distance " +
+                     file + " --in-parts ...");
   static constexpr std::array<std::string_view, 25> known = {
       ".obj", ".off", ".ply", ".stl", ".gii",       ".node",  ".ele",    ".mesh",  ".msh",
       ".vtu", ".vtk", ".vtp", ".glb", ".gltf",      ".vdb",   ".poly",   ".smesh", ".edges",

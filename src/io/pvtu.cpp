@@ -7,6 +7,7 @@
 #if PLEXWAY_IO_PUGIXML
 #include <algorithm>
 #include <pugixml.hpp>
+#include <set>
 #include <string>
 #include <string_view>
 #endif
@@ -38,11 +39,15 @@ std::vector<std::filesystem::path> read_pvtu(const std::filesystem::path& file) 
     throw InputError(file.string() + ": the file is of type " + quote(type) +
                      "; a .pvtu is a PUnstructuredGrid");
   std::vector<std::filesystem::path> files;
+  std::set<std::filesystem::path> seen;
   for (const pugi::xml_node piece : root.child("PUnstructuredGrid").children("Piece")) {
     const std::string_view source = piece.attribute("Source").value();
     if (source.empty())
       throw InputError(file.string() + ":" + line_of(piece.offset_debug()) +
                        ": a piece has no Source");
+    if (!seen.insert(std::filesystem::path(source).lexically_normal()).second)
+      throw InputError(file.string() + ":" + line_of(piece.offset_debug()) + ": names " +
+                       quote(source) + " a second time");
     files.push_back(file.parent_path() / std::filesystem::path(source));
   }
   if (files.empty()) throw InputError(file.string() + ": names no pieces");

@@ -34,8 +34,9 @@ class VtuReader {
 
   /// As a part of several files: what numbers its points have in the whole comes along, and its
   /// ghosts, which are another's, do not. It may be empty.
-  Mixed read_part(std::vector<std::uint64_t>& ids) {
-    ids_ = &ids;
+  Mixed read_part(SurfaceFilePart& part) {
+    ids_ = &part.ids;
+    ids_name_ = &part.ids_name;
     return read();
   }
   Mixed read() {
@@ -156,6 +157,7 @@ class VtuReader {
     }
     if (ids_->size() + points != solid_.positions.size())
       fail(array, "this piece numbers its points, others do not");
+    *ids_name_ = array.attribute("Name").value();
     values(array, "numbers of points", points, 1, [&](auto& in, NumberType type) {
       for (std::uint64_t i = 0; i < points; ++i) {
         const std::int64_t id = in.whole(type, "the number of a point");
@@ -330,6 +332,7 @@ class VtuReader {
   Mixed solid_;
   OtherCells others_;
   std::vector<std::uint64_t>* ids_ = nullptr;
+  std::string* ids_name_ = nullptr;  ///< where ids_ is
 };
 
 }  // namespace
@@ -349,7 +352,7 @@ Mixed parse_vtu_mixed(std::string_view bytes, std::string_view name) {
 SurfaceFilePart parse_vtu_part(std::string_view bytes, std::string_view name) {
   SurfaceFilePart part;
   part.name = name;
-  Mixed cells = VtuReader(bytes, name, Take::mixed).read_part(part.ids);
+  Mixed cells = VtuReader(bytes, name, Take::mixed).read_part(part);
   if (!cells.edges.empty() || !cells.tets.empty())
     throw InputError(part.name + ": has cells besides polygons, of which a part is made");
   part.positions = std::move(cells.positions);

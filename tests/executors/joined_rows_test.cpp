@@ -61,7 +61,8 @@ std::vector<SurfaceFilePart> parts_of(const Surface& s, std::size_t count, bool 
 }
 
 // All rows, as processes that have read the parts in turn have them.
-Surface joined(const std::vector<SurfaceFilePart>& parts, std::size_t ranks) {
+Surface joined(const std::vector<SurfaceFilePart>& parts, std::size_t ranks,
+               JoinedCounts* counts = nullptr) {
   Surface all;
   std::mutex mutex;
   const auto work = [&](PieceRanks* own) {
@@ -75,6 +76,7 @@ Surface joined(const std::vector<SurfaceFilePart>& parts, std::size_t ranks) {
     const auto [vertex, vertices] = range(rows.vertex_count());
     const auto [face, faces] = range(rows.face_count());
     const std::scoped_lock lock(mutex);
+    if (counts != nullptr) *counts = rows.joined();
     all.positions.resize(rows.vertex_count());
     all.faces.resize(rows.face_count());
     rows.read_vertices(vertex, std::span(all.positions).subspan(vertex, vertices));
@@ -153,10 +155,80 @@ TEST_CASE("joined rows: without ids parts hold together where they lie in the sa
   CHECK(worst < 1e-12);
 }
 
+namespace {
+
+struct Told {
+  bool by_ids;
+  std::uint64_t parts, alone, shared, apart;
+};
+
+void check_told(const std::vector<SurfaceFilePart>& parts, const Told& known) {
+  for (const std::size_t ranks : {1u, 2u, 3u}) {
+    CAPTURE(ranks);
+    JoinedCounts found;
+    (void)joined(parts, ranks, &found);
+    CHECK(found.by_ids == known.by_ids);
+    CHECK(found.parts == known.parts);
+    CHECK(found.alone == known.alone);
+    CHECK(found.shared == known.shared);
+    CHECK(found.apart == known.apart);
+  }
+}
+
+// Four points each, two of them where the other has them, too.
+std::vector<SurfaceFilePart> two_squares() {
+  std::vector<SurfaceFilePart> parts(2);
+  parts[0] = {"a", 0, {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}}, {0, 1, 2, 3}, {{0, 1, 2}}, "n"};
+  parts[1] = {"b", 1, {{1, 0, 0}, {2, 0, 0}, {1, 1, 0}, {2, 1, 0}}, {1, 4, 3, 5}, {{0, 1, 2}}, "n"};
+  return parts;
+}
+
+}  // namespace
+
+TEST_CASE("joined rows: how parts hold together is told") {
+  auto parts = two_squares();
+  check_told(parts, {true, 2, 0, 2, 0});
+  parts[1].ids = {1, 4, 6, 5};  // one of two torn
+  check_told(parts, {true, 2, 0, 1, 1});
+  parts[1].ids = {10, 14, 16, 15};  // numbered on their own
+  check_told(parts, {true, 2, 2, 0, 2});
+  for (SurfaceFilePart& part : parts) part.ids.clear();
+  check_told(parts, {false, 2, 0, 2, 0});
+  for (auto& at : parts[1].positions) at[0] += 1e-12;
+  check_told(parts, {false, 2, 2, 0, 0});
+  parts[1].triangles.clear();  // a point alone is no part torn off
+  check_told(parts, {false, 1, 1, 0, 0});
+  parts.pop_back();
+  check_told(parts, {false, 1, 1, 0, 0});
+  // A slit that goes on from one part to the next tears nothing: each has both sides.
+  parts = two_squares();
+  for (SurfaceFilePart& part : parts) {
+    part.positions.push_back({1, 1, 0});
+    part.ids.push_back(7);
+  }
+  check_told(parts, {true, 2, 0, 3, 0});
+}
+
+TEST_CASE("joined rows: a triangle that two parts have is refused") {
+  const Surface s = jittered(6, 2);
+  for (const bool ids : {true, false}) {
+    auto parts = parts_of(s, 4, ids);
+    // The last part's first triangle in another order, in the second as well.
+    for (const std::size_t c : {1u, 2u, 0u}) {
+      const Index v = parts[3].triangles[0][c];
+      parts[1].positions.push_back(parts[3].positions[v]);
+      if (ids) parts[1].ids.push_back(parts[3].ids[v]);
+    }
+    const auto last = static_cast<Index>(parts[1].positions.size());
+    parts[1].triangles.push_back({last - 3, last - 2, last - 1});
+    CHECK(refused(parts) == "a triangle is in parts 1 and 3: mark ghost cells by vtkGhostType");
+  }
+}
+
 TEST_CASE("joined rows: minus zero is zero") {
   std::vector<SurfaceFilePart> parts(2);
-  parts[0] = {"a", 0, {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {}, {{0, 1, 2}}};
-  parts[1] = {"b", 1, {{-0., 0, 0}, {0, 1, -0.}, {-1, 0, 0}}, {}, {{0, 1, 2}}};
+  parts[0] = {"a", 0, {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {}, {{0, 1, 2}}, {}};
+  parts[1] = {"b", 1, {{-0., 0, 0}, {0, 1, -0.}, {-1, 0, 0}}, {}, {{0, 1, 2}}, {}};
   CHECK(joined(parts, 2).positions.size() == 4);
 }
 
@@ -167,7 +239,9 @@ TEST_CASE("joined rows: what is open is refused") {
   CHECK(refused(parts).find("number their points") != std::string::npos);
   parts = parts_of(s, 3, true);
   parts[2].ids[4] = parts[2].ids[7];
-  CHECK(refused(parts).find("have the same number") != std::string::npos);
+  parts[2].ids_name = "original";
+  CHECK(refused(parts).find("have the same number " + std::to_string(parts[2].ids[4]) +
+                            " in 'original'") != std::string::npos);
   parts = parts_of(s, 3, false);
   parts[2].positions[4] = parts[2].positions[7];
   CHECK(refused(parts).find("part 2: points 4 and 7 lie in the same place") != std::string::npos);

@@ -73,6 +73,10 @@ TEST_CASE("a .pvtu names its files beside it") {
       "<VTKFile "
       "type=\"PUnstructuredGrid\"><PUnstructuredGrid>\n<Piece/></PUnstructuredGrid></VTKFile>",
       "wrong.pvtu:2: a piece has no Source");
+  refused(
+      "<VTKFile type=\"PUnstructuredGrid\"><PUnstructuredGrid><Piece Source=\"a.vtu\"/>\n"
+      "<Piece Source=\"./a.vtu\"/></PUnstructuredGrid></VTKFile>",
+      "wrong.pvtu:2: names './a.vtu' a second time");
   refused("<VTKFile", "the XML is broken");
   CHECK_THROWS_AS(io::read_pvtu(folder.at("none.pvtu")), InputError);
 }
@@ -97,6 +101,8 @@ TEST_CASE("a part has the ids of its points, and not its neighbours' cells") {
             array("Int64", "GlobalPointIds", numbers) + "</PointData>",
         "<PointData>" + array("UInt64", "original", numbers) + "</PointData>"})
     CHECK(read(part(data, "")).ids == ids);
+  CHECK(read(part("<PointData>" + array("UInt64", "original", numbers) + "</PointData>", ""))
+            .ids_name == "original");
   // A duplicate cell (1), not one that is refined or hidden (8, 32); levels as they were.
   const auto with_ghosts = [&](const std::string& name, const std::string& marks) {
     return read(part("", "<CellData>" + array("UInt8", name, marks) + "</CellData>")).triangles;

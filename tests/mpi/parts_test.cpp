@@ -169,7 +169,8 @@ TEST_CASE("what ranks cannot do in parts is said once, and no file is left") {
   refused({"--mask", "vertices:none.txt"}, 2, "--mask");
   refused({"--executor", "serial"}, 2, "OpenMP");
   refused({"--source", "vertex:25"}, 3, "vertex:25");
-  refused_by(Words{"-n", "2"} + distance(text), 3, "square.off");
+  refused_by(Words{"-n", "2"} + distance(text), 3,
+             "square.off: in parts a binary .ply of triangles or a .pvtu is read, no .off");
   refused_by(Words{"-n", "2"} + distance(folder.at("none.ply")), 3, "none.ply");
   // A rank without its file.
   refused_by(
@@ -252,6 +253,9 @@ TEST_CASE("ranks solve in parts what others have written in parts") {
     INFO(run.err);
     REQUIRE(run.code == 0);
     CHECK(run.json()["vertices"] == known.size());
+    CHECK(run.json()["files"]["joined_by"] == "ids");
+    CHECK(run.json()["files"]["alone"] == 0);
+    CHECK(run.err.find("one place") == std::string::npos);
     const Parts parts(out, ranks, known.size());
     CHECK(parts.agree);
     CHECK(run.json()["simplices"] == parts.triangles);
@@ -264,6 +268,51 @@ TEST_CASE("ranks solve in parts what others have written in parts") {
     if (first.empty()) first = parts.distance;
     CHECK(parts.distance == first);
   }
+  // Without numbers points are one by their places, which is told.
+  for (const char* const file : {"in.pvtu", "in_0.vtu", "in_1.vtu", "in_2.vtu"}) {
+    std::string bytes = content(folder.at(file));
+    for (std::size_t at = 0; (at = bytes.find("Name=\"original\"", at)) != std::string::npos;)
+      bytes.replace(at, 15, "Name=\"Original\"");
+    for (std::size_t at = 0; (at = bytes.find("\"in_", at)) != std::string::npos;)
+      bytes.replace(at, 4, "\"no_");
+    folder.write("no" + std::string(file).substr(2), bytes);
+  }
+  const Outcome no = run_ranks(2, from(folder.at("no.pvtu"), {"--in-parts", "--json"}));
+  INFO(no.err);
+  REQUIRE(no.code == 0);
+  CHECK(no.json()["vertices"] == known.size());
+  CHECK(no.json()["files"]["joined_by"] == "places");
+  CHECK(no.json()["files"]["shared_points"] > 0);
+  CHECK(no.err.find("taken as one, for they lie in one place: ") != std::string::npos);
+  // The tool that reads wholes names the one that does not; so does this one, of one rank's whole.
+  for (const Outcome& whole :
+       {run_tool(from(input, {"--quiet"})), run_ranks(2, from(input, {"--quiet"}))}) {
+    CHECK(whole.code == 3);
+    REQUIRE(complaints(whole).size() == 1);
+    CHECK(complaints(whole)[0].find("in.pvtu --in-parts") != std::string::npos);
+  }
+  // Ranks whose files have the same names, but not all the same sizes; or other names.
+  fs::create_directory(folder.at("far"));
+  for (const char* const file : {"in.pvtu", "in_0.vtu", "in_1.vtu", "in_2.vtu"})
+    fs::copy_file(folder.at(file), folder.at("far") / file);
+  const auto differs = [&](const std::string& why) {
+    const Words rank = {"-n", "1", PLEXWAY_TEST_MPI_TOOL};
+    const Words more = {"--in-parts", "--quiet"};
+    const Outcome run = run_program(*mpirun() + rank + from(input, more) + Words{":"} + rank +
+                                    from((folder.at("far") / "in.pvtu").string(), more));
+    CAPTURE(run.err, why);
+    CHECK(run.code == (why.empty() ? 0 : 3));
+    REQUIRE(complaints(run).size() == (why.empty() ? 0 : 1));
+    if (!why.empty()) CHECK(complaints(run)[0].find(why) != std::string::npos);
+  };
+  fs::remove(folder.at("far") / "in_0.vtu");  // which the first rank reads
+  differs("");
+  folder.write("far/in_2.vtu", content(folder.at("in_2.vtu")) + "\n");
+  differs("in_2.vtu has other sizes");
+  folder.write("far/in.pvtu", content(folder.at("no.pvtu")));
+  for (const char* const file : {"no_0.vtu", "no_1.vtu", "no_2.vtu"})
+    fs::copy_file(folder.at(file), folder.at("far") / file);
+  differs("the ranks of one solve need the same domain");
   // In the place of what is read.
   fs::copy_file(input, folder.at("other.pvtu"));
   const Outcome taken =

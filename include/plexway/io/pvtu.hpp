@@ -9,8 +9,8 @@
 namespace plexway::io {
 
 /// The files that a .pvtu names (VTK's partitioned unstructured grid), in order. Throws InputError
-/// "FILE:LINE: cause" or "FILE: cause" when it is missing, malformed or names none, NotBuiltError
-/// without libpugixml.
+/// "FILE:LINE: cause" or "FILE: cause" when it is missing, malformed or names none, or one
+/// twice, NotBuiltError without libpugixml.
 [[nodiscard]] std::vector<std::filesystem::path> read_pvtu(const std::filesystem::path& file);
 
 /// One of these files, the number-th, as a part of a surface: its triangles and polygons (cut into

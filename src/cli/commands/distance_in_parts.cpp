@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <system_error>
 #include <type_traits>
@@ -135,10 +136,67 @@ void check_apart(std::span<const std::filesystem::path> files, const std::filesy
                          file.string());
 }
 
-/// A file that each rank reads some rows of, or files that each reads some of.
-std::unique_ptr<SurfaceRows> open_rows(const DistanceCommand& command) {
+/// Throws InputError, in all ranks, if what they have by the name of a .pvtu names other files or
+/// files of other sizes: parts of several surfaces would else make one. A rank need not have the
+/// files that others read.
+void check_same_files(PieceRanks& ranks, const std::filesystem::path& input,
+                      std::span<const std::filesystem::path> files) {
+  std::vector<std::string> names;
+  for (const std::filesystem::path& file : files)
+    names.push_back(file.lexically_relative(input.parent_path()).string());
+  check_same_words(ranks, names, "domain");
+  constexpr auto absent = static_cast<std::uintmax_t>(-1);
+  std::vector<std::uintmax_t> sizes;
+  std::vector<std::uint64_t> sums;  // of a file: how many ranks see it, and how large in all
+  for (const std::filesystem::path& file : files) {
+    std::error_code ignored;
+    sizes.push_back(std::filesystem::file_size(file, ignored));
+    sums.push_back(sizes.back() != absent);
+    sums.push_back(sizes.back() != absent ? sizes.back() : 0);
+  }
+  add_up(&ranks, sums);
+  // Where sizes are not all the same, some rank's is not their mean.
+  std::vector<std::uint64_t> differ(files.size(), 0);
+  for (std::size_t i = 0; i < files.size(); ++i)
+    differ[i] = sizes[i] != absent && sizes[i] * sums[2 * i] != sums[2 * i + 1];
+  add_up(&ranks, differ);
+  for (std::size_t i = 0; i < files.size(); ++i)
+    if (differ[i] != 0)
+      throw InputError("the ranks of one solve need the same domain: " + files[i].string() +
+                       " has other sizes on some");
+}
+
+/// What the user should know of how several files became one surface.
+std::vector<std::string> remarks_on(const JoinedCounts& joined) {
+  std::vector<std::string> remarks;
+  if (!joined.by_ids && joined.shared > 0)
+    remarks.push_back(
+        "taken as one, for they lie in one place: " + counted(joined.shared, "points") +
+        " of several files; GlobalPointIds in the files would tell");
+  if (joined.apart > 0)
+    remarks.push_back("in " + counted(joined.apart, "places") +
+                      " points of several files have different numbers and are not taken as one" +
+                      (joined.shared > 0 ? ""
+                                         : "; no number is in two files: is each file "
+                                           "numbered on its own?"));
+  if (joined.parts > 1 && joined.alone > 0)
+    remarks.push_back(std::to_string(joined.alone) + " of " + counted(joined.parts, "files") +
+                      (joined.alone == 1 ? " shares" : " share") +
+                      " no point with another, so no path leads there" +
+                      (joined.by_ids ? "" : " (points are one where they are so to the last bit)"));
+  return remarks;
+}
+
+/// A file that each rank reads some rows of, or files that each reads some of. `joined`: what
+/// became of the points of several.
+std::unique_ptr<SurfaceRows> open_rows(const DistanceCommand& command,
+                                       std::optional<JoinedCounts>& joined) {
   const Among& among = *command.among;
   if (!io::is_partitioned(command.input)) {
+    const std::string extension = std::filesystem::path(command.input).extension().string();
+    if (!extension.empty() && extension != ".ply" && extension != ".PLY")
+      throw InputError(command.input +
+                       ": in parts a binary .ply of triangles or a .pvtu is read, no " + extension);
     auto rows = std::make_unique<io::PlyRows>(command.input);
     among.all_come();
     // Another file of that name, or another command, would end in a wait without end.
@@ -151,11 +209,11 @@ std::unique_ptr<SurfaceRows> open_rows(const DistanceCommand& command) {
   for (std::size_t p = among.pieces.rank(); p < files.size(); p += among.pieces.count())
     parts.push_back(io::read_surface_part(files[p], p));
   among.all_come();
-  std::vector<std::string> names;
-  for (const std::filesystem::path& file : files) names.push_back(file.filename().string());
-  check_same_words(among.pieces, names, "domain");
-  return with_file_name(
+  check_same_files(among.pieces, command.input, files);
+  auto rows = with_file_name(
       command.input, [&] { return std::make_unique<JoinedRows>(&among.pieces, std::move(parts)); });
+  joined = rows->joined();
+  return rows;
 }
 
 template <class Real>
@@ -165,7 +223,8 @@ void solve_in_parts(DistanceCommand& command, const PropagateOptions& wanted,
   ProgressLine progress(command.quiet);
   progress.phase("reading " + command.input);
   const Stopwatch building;
-  const std::unique_ptr<SurfaceRows> rows = open_rows(command);
+  std::optional<JoinedCounts> joined;
+  const std::unique_ptr<SurfaceRows> rows = open_rows(command, joined);
   std::vector<std::string> words = command.sources;
   check_same_words(among.pieces, words, "sources");
   words = {command.solve.precision};
@@ -228,6 +287,12 @@ void solve_in_parts(DistanceCommand& command, const PropagateOptions& wanted,
   json["simplices"] = summary.faces;
   json["pieces"] = summary.pieces;
   json["ghosts"] = summary.ghosts;
+  if (joined) {
+    json["files"]["joined_by"] = joined->by_ids ? "ids" : "places";
+    json["files"]["shared_points"] = joined->shared;
+    json["files"]["apart"] = joined->apart;
+    json["files"]["alone"] = joined->alone;
+  }
   json["seconds"]["build"] = build;
   json["seconds"]["solve"] = solve;
   const DistanceReport report = {.vertices = summary.vertices,
@@ -260,6 +325,9 @@ void solve_in_parts(DistanceCommand& command, const PropagateOptions& wanted,
                         command.solve.precision + ")");
   add_written(table, {command.out});
   print_report(json, table, command.json, command.quiet, {command.out});
+  // Also where nothing is reached: that may be why.
+  if (joined && !command.quiet)
+    for (const std::string& remark : remarks_on(*joined)) say_note(remark);
   check_reached();
   if (command.quiet) return;
   note_accuracy(statistics);

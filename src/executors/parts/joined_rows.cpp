@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <limits>
 #include <numeric>
 #include <tuple>
 #include <utility>
@@ -34,6 +35,18 @@ struct Vertex {
 struct Triangle {
   std::uint64_t number;
   std::array<Index, 3> corner;
+};
+/// A numbered point, on its way to who looks at all in its place.
+struct Placed {
+  Key place;
+  std::uint64_t id;
+  std::uint32_t part;
+  std::uint32_t unused = 0;  ///< so that no byte sent is left open
+};
+/// A triangle by its corners in order, on its way to who looks for others of these.
+struct Cornered {
+  std::array<std::uint64_t, 3> corners;
+  std::uint64_t part;
 };
 
 Key key_of(const Point& position) {
@@ -76,10 +89,15 @@ class Numbering {
 
   /// How many vertices there are.
   std::uint64_t run() {
+    joined_.by_ids = by_ids_;
+    if (by_ids_) count_apart();
     ask();
+    count_shared();
     by_ids_ ? number_by_ids() : number_by_parts();
     return count_;
   }
+  /// After `run`, the same for all.
+  [[nodiscard]] const JoinedCounts& joined() const { return joined_; }
   /// Of point v of our part i.
   [[nodiscard]] std::uint64_t of(std::size_t i, std::size_t v) const { return numbers_[i][v]; }
 
@@ -98,6 +116,65 @@ class Numbering {
                        std::to_string(counts[1]) +
                        " do not: save all with GlobalPointIds, or all without");
     return counts[0] > 0;
+  }
+
+  /// Numbers that are each file's own tear a surface where files meet, and nothing else shows it:
+  /// so looks at places as well. A slit that ends at a border of files is none of it: there each
+  /// file has both of its sides.
+  void count_apart() {
+    PartMail mail(ranks_);
+    for (const SurfaceFilePart& part : parts_)
+      for (std::size_t v = 0; v < part.positions.size(); ++v) {
+        const Key place = key_of(part.positions[v]);
+        mail.to(mixed(place) % mail.count())
+            .add(Placed{place, part.ids[v], static_cast<std::uint32_t>(part.number)});
+      }
+    mail.meet();
+    std::vector<Placed> placed;
+    for (std::size_t r = 0; r < mail.count(); ++r)
+      for (Unpacked in = mail.from(r); !in.empty();) placed.push_back(in.take<Placed>());
+    std::sort(placed.begin(), placed.end(), [](const Placed& a, const Placed& b) {
+      return std::tie(a.place, a.id, a.part) < std::tie(b.place, b.id, b.part);
+    });
+    std::uint64_t apart = 0;
+    std::vector<std::uint32_t> here, met;  // parts in a place, and those with another's number
+    for (std::size_t i = 0; i < placed.size();) {
+      here.clear(), met.clear();
+      const std::size_t first = i;
+      while (i < placed.size() && placed[i].place == placed[first].place) {
+        const std::size_t same = i;
+        while (i < placed.size() && placed[i].place == placed[first].place &&
+               placed[i].id == placed[same].id)
+          here.push_back(placed[i++].part);
+        if (placed[i - 1].part != placed[same].part)
+          met.insert(met.end(), here.end() - static_cast<std::ptrdiff_t>(i - same), here.end());
+      }
+      for (std::vector<std::uint32_t>* const some : {&here, &met}) {
+        std::sort(some->begin(), some->end());
+        some->erase(std::unique(some->begin(), some->end()), some->end());
+      }
+      apart += here.size() > 1 && met.size() < here.size();
+    }
+    add_up(ranks_, std::span(&apart, 1));
+    joined_.apart = apart;
+  }
+
+  /// What points of several parts became one, and which parts have none of these.
+  void count_shared() {
+    // Of parts: points shared, triangles (what has none need not hang together); vertices shared.
+    std::vector<std::uint64_t> sums(2 * all_parts_ + 1, 0);
+    for (const SurfaceFilePart& part : parts_) sums[2 * part.number + 1] = part.triangles.size();
+    each_key([&](std::size_t first, std::size_t last) {
+      // A part has a key once.
+      sums.back() += last - first > 1;
+      for (std::size_t i = first; i < last; ++i) sums[2 * asked_[i].part] += last - first > 1;
+    });
+    add_up(ranks_, sums);
+    joined_.shared = sums.back();
+    for (std::size_t p = 0; p < all_parts_; ++p) {
+      joined_.parts += sums[2 * p + 1] > 0;
+      joined_.alone += sums[2 * p + 1] > 0 && sums[2 * p] == 0;
+    }
   }
 
   /// Each point goes to who has its key; there sorted by key, part and point.
@@ -147,7 +224,9 @@ class Numbering {
       if (keys[order[i]] != keys[order[i - 1]]) continue;
       const std::string both =
           "points " + std::to_string(order[i - 1]) + " and " + std::to_string(order[i]);
-      if (by_ids_) fail(part, both + " have the same number " + std::to_string(keys[order[i]][0]));
+      if (by_ids_)
+        fail(part, both + " have the same number " + std::to_string(keys[order[i]][0]) +
+                       (part.ids_name.empty() ? "" : " in '" + part.ids_name + "'"));
       fail(part, both +
                      " lie in the same place, so which of them goes on in another part is open: "
                      "save it with GlobalPointIds");
@@ -246,7 +325,42 @@ class Numbering {
   std::vector<Asked> asked_;
   bool by_ids_ = false;
   std::uint64_t count_ = 0;
+  JoinedCounts joined_;
 };
+
+/// A triangle that two parts have would be there twice, and paths go on over either.
+void check_no_overlap(PieceRanks* ranks, std::span<const SurfaceFilePart> parts,
+                      const Numbering& numbers) {
+  PartMail mail(ranks);
+  for (std::size_t i = 0; i < parts.size(); ++i)
+    for (const std::array<Index, 3>& triangle : parts[i].triangles) {
+      Cornered one{{}, parts[i].number};
+      for (std::size_t c = 0; c < 3; ++c) one.corners[c] = numbers.of(i, triangle[c]);
+      std::sort(one.corners.begin(), one.corners.end());
+      mail.to(mixed(one.corners) % mail.count()).add(one);
+    }
+  mail.meet();
+  std::vector<Cornered> all;
+  for (std::size_t r = 0; r < mail.count(); ++r)
+    for (Unpacked in = mail.from(r); !in.empty();) all.push_back(in.take<Cornered>());
+  std::sort(all.begin(), all.end(), [](const Cornered& a, const Cornered& b) {
+    return std::tie(a.corners, a.part) < std::tie(b.corners, b.part);
+  });
+  // The least pair, so that all say the same with any number of processes.
+  const double none_found = std::numeric_limits<double>::infinity();
+  double first = none_found, second = none_found;
+  for (std::size_t i = 1; i < all.size(); ++i) {
+    if (all[i].corners != all[i - 1].corners || all[i].part == all[i - 1].part) continue;
+    const auto a = static_cast<double>(all[i - 1].part), b = static_cast<double>(all[i].part);
+    if (std::tie(a, b) < std::tie(first, second)) first = a, second = b;
+  }
+  const double least = least_of(ranks, first);
+  second = least_of(ranks, first == least ? second : none_found);
+  if (second == none_found) return;
+  const auto text = [](double part) { return std::to_string(static_cast<std::uint64_t>(part)); };
+  throw InputError("a triangle is in parts " + text(least) + " and " + text(second) +
+                   ": mark ghost cells by vtkGhostType");
+}
 
 void check_count(const char* what, std::uint64_t count) {
   if (count >= none) throw InputError("more than 4294967294 " + std::string(what));
@@ -265,10 +379,13 @@ JoinedRows::JoinedRows(PieceRanks* ranks, std::vector<SurfaceFilePart> parts) {
   const std::uint64_t faces_in_all = begin.back();
   Numbering numbers(ranks, parts);
   const std::uint64_t vertices_in_all = numbers.run();
+  joined_ = numbers.joined();
   check_count("vertices", vertices_in_all);
   check_count("faces", faces_in_all);
   vertices_ = static_cast<std::size_t>(vertices_in_all);
   faces_ = static_cast<std::size_t>(faces_in_all);
+
+  check_no_overlap(ranks, parts, numbers);
 
   PartMail vertices(ranks), faces(ranks);
   const std::size_t n = vertices.count(), ours = vertices.ours();
