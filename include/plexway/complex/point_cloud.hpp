@@ -61,8 +61,8 @@ struct CloudSummary {
   /// near a crease with another side close by.
   std::size_t torn_points = 0;
   Index first_torn = none;  ///< the lowest of these points
-  /// Places with edges from one side of a sharp ridge to the other that are less than 0.9 of the
-  /// way over it: noise or too few points do not tell where the ridge is.
+  /// Places with edges from one side of a sharp ridge to the other that are well short of the way
+  /// over it, or that noise puts off their side's plane: where the ridge is is not told.
   std::size_t chord_points = 0;
   Index first_chord = none;                  ///< the lowest of these points
   std::size_t isolated_points = 0;           ///< places that are connected to no other
