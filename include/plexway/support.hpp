@@ -197,7 +197,7 @@ constexpr bool needs_positions(Purpose purpose) {
 /// Does a purpose need no more of a domain than each of several processes has of its part?
 constexpr bool goes_in_parts(Purpose purpose) {
   using enum Purpose;
-  return purpose == in_parts || purpose == ranks || purpose == parts || purpose == places;
+  return purpose == in_parts || purpose == ranks || purpose == parts;
 }
 
 /// Does a purpose go together with a domain, and with the solve that left what it asks? Precision
