@@ -111,6 +111,8 @@ class SimplexVertexWays {
     if (contains(domain_.pinched(), v) || contains(rule_.flat().corners, v))
       for (const Index c : domain_.corners_at(v))
         any |= rule_.seed_corner(c / sides, c % sides, static_cast<Real>(way.distance), way.source);
+    // In four dimensions it takes seconds in which nothing can be cancelled, and few gain.
+    if (N > 3) return any;
     find_wanted(v, way);
     if (telling_.wanted.empty()) return any;
 
