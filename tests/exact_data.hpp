@@ -1,8 +1,11 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
+#include <cstddef>
 #include <filesystem>
 #include <fstream>
+#include <limits>
 #include <string>
 #include <utility>
 #include <vector>
@@ -64,6 +67,27 @@ inline std::vector<ExactAnswer> exact_answers(const std::filesystem::path& file)
            std::make_pair(b.source, b.distance.size());
   });
   return answers;
+}
+
+/// Relative errors of distances, but at the source.
+struct ExactError {
+  double mean = 0, worst = 0;
+  std::size_t above = 0;  ///< vertices with more than a limit
+};
+template <class Real>
+ExactError error_of(const std::vector<Real>& found, const ExactAnswer& exact,
+                    double limit = std::numeric_limits<double>::infinity()) {
+  ExactError error;
+  std::size_t count = 0;
+  for (std::size_t v = 0; v < exact.distance.size(); ++v) {
+    if (!(exact.distance[v] > 0)) continue;
+    const double e = std::abs(static_cast<double>(found[v]) / exact.distance[v] - 1);
+    error.mean += e, ++count;
+    error.worst = std::max(error.worst, e);
+    error.above += e > limit;
+  }
+  error.mean /= static_cast<double>(count);
+  return error;
 }
 
 }  // namespace plexway::testing

@@ -111,7 +111,7 @@ class SimplexVertexWays {
     if (contains(domain_.pinched(), v) || contains(rule_.flat().corners, v))
       for (const Index c : domain_.corners_at(v))
         any |= rule_.seed_corner(c / sides, c % sides, static_cast<Real>(way.distance), way.source);
-    // In four dimensions it takes seconds in which nothing can be cancelled, and few gain.
+    // In four dimensions few gain, and it takes so long that one would wait for it to be cancelled.
     if (N > 3) return any;
     find_wanted(v, way);
     if (telling_.wanted.empty()) return any;

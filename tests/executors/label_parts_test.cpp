@@ -163,15 +163,9 @@ TEST_CASE("label parts: as accurate on curved surfaces as the whole in pieces") 
       // Raw needles: at one vertex any order may be a quarter too long (pieces_test.cpp).
       const bool needles = file.stem() == "t79741" || file.stem() == "t908460";
       const auto error = [&](const DistanceField<float>& field, double& most) {
-        double sum = 0;
-        std::size_t count = 0;
-        for (std::size_t v = 0; v < exact.distance.size(); ++v) {
-          if (!(exact.distance[v] > 0)) continue;
-          const double e = std::abs(static_cast<double>(field.distance[v]) / exact.distance[v] - 1);
-          sum += e, ++count;
-          if (!needles) most = std::max(most, e);
-        }
-        return sum / static_cast<double>(count);
+        const ExactError e = error_of(field.distance, exact);
+        if (!needles) most = std::max(most, e.worst);
+        return e.mean;
       };
       double unused = 0;
       serial += error(solve(Serial{}, mesh, source, by_labels()), unused);
@@ -192,33 +186,8 @@ TEST_CASE("label parts: as accurate on curved surfaces as the whole in pieces") 
 }
 
 TEST_CASE("label parts: a radius and a budget are kept") {
-  const Surface s = sphere(4);
-  const auto whole = solve(Serial{}, s.mesh<double>(), PointSource::at(5), at(Accuracy::exact()));
-  PropagateOptions options = by_labels();
-  options.radius = 1;
-  std::vector<Joined<double>> found;
-  for (const std::size_t ranks : {1u, 3u}) {
-    found.push_back(solve_in_parts<double>(s, {ranks, 1, 40}, {PointSource::at(5)}, options));
-    CHECK(found.back().sound());
-    std::size_t wrong = 0;
-    for (std::size_t v = 0; v < s.positions.size(); ++v) {
-      const double d = whole.distance[v];
-      if (std::abs(d - 1) < 3e-2) continue;
-      wrong += std::isfinite(found.back().distance[v]) != (d < 1) ||
-               (d < 1 && std::abs(found.back().distance[v] - d) > 3e-2 * d);
-    }
-    CHECK(wrong == 0);
-  }
-  CHECK(same_bits(found[0], found[1]));
-  options = by_labels();
-  for (const std::size_t most : {0u, 1u, 100u, 1500u}) {
-    options.max_expansions = most;
-    const auto one = solve_in_parts<float>(s, {1, 1, 40}, {PointSource::at(5)}, options);
-    CHECK(!one.complete);
-    CHECK(one.statistics.expansions == most);
-    CHECK(one.distance[5] == 0);
-    CHECK(same_bits(one, solve_in_parts<float>(s, {3, 1, 40}, {PointSource::at(5)}, options)));
-  }
+  check_radius_in_parts(by_labels(), 3e-2);
+  check_budget_in_parts(by_labels());
 }
 
 TEST_CASE("label parts: every vertex a source, the same bits every time", "[threads]") {

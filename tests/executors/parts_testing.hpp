@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <atomic>
+#include <catch2/catch.hpp>
+#include <cmath>
 #include <cstddef>
 #include <limits>
 #include <mutex>
@@ -10,9 +12,11 @@
 #include <vector>
 
 #include <plexway/executors/surface_parts.hpp>
+#include <plexway/solve.hpp>
 
 #include "complex/test_meshes.hpp"
 #include "executors/thread_ranks.hpp"
+#include "with_accuracy.hpp"
 
 namespace plexway::testing {
 
@@ -132,6 +136,40 @@ bool same_bits(const Joined<Real>& a, const Joined<Real>& b) {
          a.max_distance == b.max_distance && a.farthest == b.farthest &&
          a.statistics.expansions == b.statistics.expansions &&
          a.statistics.lowered_vertices == b.statistics.lowered_vertices;
+}
+
+/// A sphere within a radius: what is nearer is within a share of the exact distance, what is
+/// farther is not reached; the same bits by one process and by three.
+inline void check_radius_in_parts(PropagateOptions options, double within) {
+  const Surface s = sphere(4);
+  const auto whole = solve(Serial{}, s.mesh<double>(), PointSource::at(5), at(Accuracy::exact()));
+  options.radius = 1;
+  std::vector<Joined<double>> found;
+  for (const std::size_t ranks : {1u, 3u}) {
+    found.push_back(solve_in_parts<double>(s, {ranks, 1, 40}, {PointSource::at(5)}, options));
+    CHECK(found.back().sound());
+    std::size_t wrong = 0;
+    for (std::size_t v = 0; v < s.positions.size(); ++v) {
+      const double d = whole.distance[v];
+      if (std::abs(d - 1) < within) continue;
+      wrong += std::isfinite(found.back().distance[v]) != (d < 1) ||
+               (d < 1 && std::abs(found.back().distance[v] - d) > within * d);
+    }
+    CHECK(wrong == 0);
+  }
+  CHECK(same_bits(found[0], found[1]));
+}
+/// No more is expanded than may be, whatever the processes.
+inline void check_budget_in_parts(PropagateOptions options) {
+  const Surface s = sphere(4);
+  for (const std::size_t most : {0u, 1u, 100u, 1500u}) {
+    options.max_expansions = most;
+    const auto one = solve_in_parts<float>(s, {1, 1, 40}, {PointSource::at(5)}, options);
+    CHECK(!one.complete);
+    CHECK(one.statistics.expansions == most);
+    CHECK(one.distance[5] == 0);
+    CHECK(same_bits(one, solve_in_parts<float>(s, {3, 1, 40}, {PointSource::at(5)}, options)));
+  }
 }
 
 }  // namespace plexway::testing

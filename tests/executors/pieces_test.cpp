@@ -151,15 +151,9 @@ TEST_CASE("pieces: as accurate as Serial on curved surfaces") {
       const std::string name = file.stem().string();
       const bool needles = name == "t79741" || name == "t908460";
       const auto error = [&](double& most) {
-        double sum = 0;
-        std::size_t count = 0;
-        for (std::size_t v = 0; v < exact.distance.size(); ++v) {
-          if (!(exact.distance[v] > 0)) continue;
-          const double e = std::abs(static_cast<double>(field.distance[v]) / exact.distance[v] - 1);
-          sum += e, ++count;
-          if (!needles) most = std::max(most, e);
-        }
-        return sum / static_cast<double>(count);
+        const ExactError e = error_of(field.distance, exact);
+        if (!needles) most = std::max(most, e.worst);
+        return e.mean;
       };
       solve(Serial{}, mesh, source, fast(), workspace, field);
       serial += error(worst_serial);

@@ -313,36 +313,9 @@ TEST_CASE("parts: the same bits every time") {
 }
 
 TEST_CASE("parts: a radius and a budget are kept") {
-  const Surface s = sphere(4);
-  const auto whole = solve(Serial{}, s.mesh<double>(), PointSource::at(5), at(Accuracy::exact()));
-  for (const Accuracy accuracy : {Accuracy::exact(), Accuracy::accurate()}) {
-    PropagateOptions options = at(accuracy);
-    options.radius = 1;
-    std::vector<Joined<double>> found;
-    for (const std::size_t ranks : {1u, 3u}) {
-      const Crew crew{ranks, 1, 40};
-      found.push_back(solve_in_parts<double>(s, crew, {PointSource::at(5)}, options));
-      CHECK(found.back().sound());
-      std::size_t wrong = 0;
-      for (std::size_t v = 0; v < s.positions.size(); ++v) {
-        const double d = whole.distance[v];
-        if (std::abs(d - 1) < 1e-3) continue;
-        wrong += std::isfinite(found.back().distance[v]) != (d < 1) ||
-                 (d < 1 && std::abs(found.back().distance[v] - d) > 1e-3 * d);
-      }
-      CHECK(wrong == 0);
-    }
-    CHECK(same_bits(found[0], found[1]));
-  }
-  for (const std::size_t most : {0u, 1u, 100u, 1500u}) {
-    PropagateOptions options;
-    options.max_expansions = most;
-    const auto one = solve_in_parts<float>(s, {1, 1, 40}, {PointSource::at(5)}, options);
-    CHECK(!one.complete);
-    CHECK(one.statistics.expansions == most);
-    CHECK(one.distance[5] == 0);
-    CHECK(same_bits(one, solve_in_parts<float>(s, {3, 1, 40}, {PointSource::at(5)}, options)));
-  }
+  for (const Accuracy accuracy : {Accuracy::exact(), Accuracy::accurate()})
+    check_radius_in_parts(at(accuracy), 1e-3);
+  check_budget_in_parts({});
 }
 
 TEST_CASE("parts: what is wrong is named as in the whole") {
@@ -394,25 +367,20 @@ TEST_CASE("parts: merged windows are as accurate as Serial's on curved surfaces"
     const TriangleMesh<float> mesh(soup.positions, soup.triangles);
     for (const ExactAnswer& exact : exact_answers(file)) {
       const PointSource source = PointSource::at(static_cast<Index>(exact.source));
-      const auto error = [&](const DistanceField<float>& field, double& most, std::size_t& above) {
+      const auto error = [&](const DistanceField<float>& field, double& most) {
         CHECK(field.accuracy == Accuracy::accurate());
-        double sum = 0;
-        std::size_t count = 0;
-        for (std::size_t v = 0; v < exact.distance.size(); ++v) {
-          if (!(exact.distance[v] > 0)) continue;
-          const double e = std::abs(static_cast<double>(field.distance[v]) / exact.distance[v] - 1);
-          sum += e, ++count;
-          most = std::max(most, e);
-          above += e > 2.5e-3;
-        }
-        return sum / static_cast<double>(count);
+        const ExactError e = error_of(field.distance, exact, 2.5e-3);
+        most = std::max(most, e.worst);
+        return e;
       };
-      std::size_t of_serial = 0;
-      serial += error(solve(Serial{}, mesh, source), worst_serial, of_serial);
-      CHECK(of_serial == 0);
-      for (const std::size_t piece : cuts)
-        in_parts += error(solve_in_parts<float>(s, {2, 1, piece}, {source}), worst, worse) /
-                    std::size(cuts);
+      const ExactError of_serial = error(solve(Serial{}, mesh, source), worst_serial);
+      serial += of_serial.mean;
+      CHECK(of_serial.above == 0);
+      for (const std::size_t piece : cuts) {
+        const ExactError e = error(solve_in_parts<float>(s, {2, 1, piece}, {source}), worst);
+        in_parts += e.mean / std::size(cuts);
+        worse += e.above;
+      }
       vertices += std::size(cuts) * exact.distance.size();
     }
   }

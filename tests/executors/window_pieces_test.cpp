@@ -299,15 +299,9 @@ TEST_CASE("pieces: merged windows are as accurate as Serial's on curved surfaces
       const PointSource source[] = {PointSource::at(static_cast<Index>(exact.source))};
       const auto error = [&](double& most) {
         CHECK(field.accuracy == Accuracy::accurate());
-        double sum = 0;
-        std::size_t count = 0;
-        for (std::size_t v = 0; v < exact.distance.size(); ++v) {
-          if (!(exact.distance[v] > 0)) continue;
-          const double e = std::abs(static_cast<double>(field.distance[v]) / exact.distance[v] - 1);
-          sum += e, ++count;
-          most = std::max(most, e);
-        }
-        return sum / static_cast<double>(count);
+        const ExactError e = error_of(field.distance, exact);
+        most = std::max(most, e.worst);
+        return e.mean;
       };
       solve(Serial{}, mesh, source, {}, workspace, field);
       serial += error(worst_serial);
