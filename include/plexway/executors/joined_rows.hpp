@@ -15,9 +15,9 @@ namespace plexway {
 
 /// A part of a surface as some file has it, with points of its own.
 struct SurfaceFilePart {
-  std::string name;        ///< for messages
-  std::size_t number = 0;  ///< among all parts
-  std::vector<std::array<double, 3>> positions;
+  std::string name;                              ///< for messages
+  std::size_t number = 0;                        ///< among all parts
+  std::vector<std::array<double, 3>> positions;  ///< of its points, in the file's order
   /// The number of each point in the whole; empty if the file does not say.
   std::vector<std::uint64_t> ids;
   /// Corners by place in `positions`.
@@ -54,6 +54,7 @@ class JoinedRows final : public SurfaceRows {
 
   [[nodiscard]] std::size_t vertex_count() const override { return vertices_; }
   [[nodiscard]] std::size_t face_count() const override { return faces_; }
+  /// What became of the points, the same in all processes.
   [[nodiscard]] const JoinedCounts& joined() const { return joined_; }
   /// Of this process's range.
   void read_vertices(std::size_t first, std::span<std::array<double, 3>> positions) const override;
