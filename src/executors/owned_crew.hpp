@@ -80,22 +80,12 @@ class OwnedCrew : public TeamCrew<Real, kLabels> {
       check_end(expansions, simplices);
       return true;
     };
-    PropagateStatistics known;  // of the pieces
     const auto spread = [&](bool last_resort) {
       for (Piece& piece : pieces) piece.set_last_resort(last_resort);
       front.drain([&](Index s) {
         if (Piece* const piece = by_number[pieces_.cut.piece_of[s]]) piece->give(s);
       });
-      PropagateStatistics others = front.statistics();
-      others.expansions -= known.expansions;
-      others.updates -= known.updates;
-      others.reached_simplices -= known.reached_simplices;
-      const bool complete = supersteps.run(others, goes_on);
-      const PropagateStatistics now = supersteps.statistics();
-      front.account({now.expansions - known.expansions, now.updates - known.updates,
-                     now.reached_simplices - known.reached_simplices},
-                    !complete);
-      known = now;
+      supersteps.run_beside(front, goes_on);
       share_labels(front);
     };
     propagation.run(spread, [&](const auto& look) {

@@ -58,7 +58,6 @@ class PieceCrew : public TeamCrew<Real, kLabels> {
       check_end(expansions, simplices);
       return true;
     };
-    PropagateStatistics known;  // of the pieces
     propagation.run([&](bool last_resort) {
       front.drain([&](Index f) {
         if (Piece* const piece = by_number[cut.piece_of[f]])
@@ -66,16 +65,7 @@ class PieceCrew : public TeamCrew<Real, kLabels> {
                       propagation.rule().distance(f), front.source(f));
       });
       for (Piece& piece : pieces) piece.set_last_resort(last_resort);
-      PropagateStatistics others = front.statistics();
-      others.expansions -= known.expansions;
-      others.updates -= known.updates;
-      others.reached_simplices -= known.reached_simplices;
-      const bool complete = supersteps.run(others, goes_on);
-      const PropagateStatistics now = supersteps.statistics();
-      front.account({now.expansions - known.expansions, now.updates - known.updates,
-                     now.reached_simplices - known.reached_simplices},
-                    !complete);
-      known = now;
+      supersteps.run_beside(front, goes_on);
       // Where all is reached and fans do not touch, nobody looks at labels any more. And what was
       // just read is read out at once.
       const bool whole =

@@ -101,6 +101,22 @@ class Supersteps {
     return complete_;
   }
 
+  /// run() for a front that does the rest of a solve, beside which pieces work: what they do is
+  /// counted there as well.
+  template <class Front, class GoesOn>
+  void run_beside(Front& front, const GoesOn& goes_on) {
+    PropagateStatistics others = front.statistics();
+    others.expansions -= counted_.expansions;
+    others.updates -= counted_.updates;
+    others.reached_simplices -= counted_.reached_simplices;
+    const bool complete = run(others, goes_on);
+    const PropagateStatistics now = statistics();
+    front.account({now.expansions - counted_.expansions, now.updates - counted_.updates,
+                   now.reached_simplices - counted_.reached_simplices},
+                  !complete);
+    counted_ = now;
+  }
+
   /// Of all pieces until now, those of other processes too, which must call it as well.
   [[nodiscard]] PropagateStatistics statistics() const {
     std::array<std::uint64_t, 3> sums{};
@@ -360,8 +376,8 @@ class Supersteps {
   Real horizon_ = 0;
   std::size_t superstep_ = 1, share_ = 0, updates_ = 0;
   bool ended_ = false, complete_ = false;
-  PropagateStatistics before_;
-  std::size_t done_ = 0;  // expansions
+  PropagateStatistics before_, counted_;  // by others; of pieces, in a front
+  std::size_t done_ = 0;                  // expansions
   SuperstepCounts& counts_;
 
   std::exception_ptr failure_;

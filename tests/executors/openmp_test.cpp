@@ -8,6 +8,7 @@
 
 #include "complex/test_wires.hpp"
 #include "executors/parity.hpp"
+#include "executors/piece_testing.hpp"
 #include "executors/team_cases.hpp"
 #include "propagate/simplex_testing.hpp"
 #include "propagate/solid_solving.hpp"
@@ -35,24 +36,6 @@ void check_same_bits(const Domain& domain, const PropagateOptions& options, unsi
     solve(team(2), domain, sources, options, workspace, field);
     CHECK(same_bits(first, field));
   }
-}
-
-std::vector<Surface> surfaces() {
-  std::vector<Surface> all = {grid(24, 24),
-                              grid(40, 12, 3, 1),
-                              slit_square(12),
-                              cube(8),
-                              sphere(4),
-                              prism(24, 12, 2),
-                              moebius(60, 8),
-                              sheets(3, 8),
-                              bow_tie(10),
-                              soup(60, 120, 1),
-                              soup(80, 60, 2),
-                              tetrahedron(),
-                              subdivide(tetrahedron())};
-  for (unsigned seed = 1; seed <= 4; ++seed) all.push_back(random_polygon(6, 120, 120, seed));
-  return all;
 }
 
 }  // namespace
@@ -138,33 +121,7 @@ TEST_CASE("a team stops where it is told", "[threads]") {
 }
 
 TEST_CASE("a team reports to the calling thread and can be cancelled", "[threads]") {
-  const auto mesh = grid(200, 200).mesh<float>();
-  PropagateOptions options = by_labels();
-  const auto caller = std::this_thread::get_id();
-  std::size_t calls = 0, last = 0;
-  bool in_order = true;
-  options.progress = [&](const Progress& p) {
-    ++calls;
-    in_order = in_order && std::this_thread::get_id() == caller && p.expansions > last &&
-               p.simplices == mesh.face_count() && p.reached <= p.simplices && p.distance > 0;
-    last = p.expansions;
-    return true;
-  };
-  const auto whole = solve(team(4), mesh, PointSource::at(0), options);
-  CHECK(calls >= 1);
-  CHECK(in_order);
-
-  Workspace<float> workspace;
-  DistanceField<float> field;
-  const PointSource source[] = {PointSource::at(0)};
-  options.progress = [](const Progress&) { return false; };
-  CHECK_THROWS_AS(solve(team(4), mesh, source, options, workspace, field), Cancelled);
-  struct Own {};
-  options.progress = [](const Progress&) -> bool { throw Own{}; };
-  CHECK_THROWS_AS(solve(team(4), mesh, source, options, workspace, field), Own);
-  options.progress = nullptr;
-  solve(team(4), mesh, source, options, workspace, field);
-  CHECK(same_bits(whole, field));
+  check_reports(team(4), by_labels());
 }
 
 TEST_CASE("a team refuses what needs order, and settings that make no sense", "[threads]") {

@@ -73,20 +73,6 @@ void check_same_bits(const Domain& domain, const std::vector<PointSource>& sourc
   }
 }
 
-/// A square whose left half is slower: paths are refracted.
-TriangleMesh<float> two_speeds(Index n) {
-  const Surface s = grid(n, n);
-  auto lengths = lengths_of(s);
-  for (std::size_t f = 0; f < s.faces.size(); ++f) {
-    double x = 0;
-    for (const Index v : s.faces[f]) x += s.positions[v][0] / 3;
-    for (double& length : lengths[f]) length *= x < 0.5 ? 1.7 : 1;
-  }
-  SurfaceHints hints;
-  hints.refracts = true;
-  return {s.positions.size(), s.faces, lengths, hints};
-}
-
 }  // namespace
 
 TEST_CASE("ranks: any number of ranks and threads has the bits of one process", "[threads]") {
@@ -116,7 +102,7 @@ TEST_CASE("ranks: other rules, refraction, points inside of triangles", "[thread
   options.visibility = Visibility::saddles;
   check_same_bits(mesh, {PointSource::in(17, {0.2, 0.5, 0.3}), PointSource::at(3)}, options, 50);
   check_same_bits(mesh, {PointSource::in(17, {0.2, 0.5, 0.3})}, {}, 50);
-  const auto refracting = two_speeds(16);
+  const auto refracting = two_speeds<float>(16);
   check_same_bits(refracting, random_sources(refracting, 2, 5), options, 30);
 }
 

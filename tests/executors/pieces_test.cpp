@@ -26,21 +26,6 @@ namespace {
 
 PropagateOptions fast() { return at(Accuracy::fast()); }
 
-/// A square whose left half is slower: lengths jump, paths are refracted.
-template <class Real>
-TriangleMesh<Real> two_speeds(Index n) {
-  const Surface s = grid(n, n);
-  auto lengths = lengths_of(s);
-  for (std::size_t f = 0; f < s.faces.size(); ++f) {
-    double x = 0;
-    for (const Index v : s.faces[f]) x += s.positions[v][0] / 3;
-    for (double& length : lengths[f]) length *= x < 0.5 ? 1.7 : 1;
-  }
-  SurfaceHints hints;
-  hints.refracts = true;
-  return {s.positions.size(), s.faces, lengths, hints};
-}
-
 template <class Real>
 void check_same_bits(const TriangleMesh<Real>& mesh, const PropagateOptions& options,
                      std::size_t size, unsigned seed) {
@@ -203,35 +188,9 @@ TEST_CASE("pieces: a budget is kept to the last expansion", "[threads]") {
 }
 
 TEST_CASE("pieces: reports to the calling thread, and can be cancelled", "[threads]") {
-  const auto mesh = grid(200, 200).mesh<float>();
-  PropagateOptions options = fast();
-  const auto caller = std::this_thread::get_id();
-  std::size_t calls = 0, last = 0;
-  bool in_order = true;
-  options.progress = [&](const Progress& p) {
-    ++calls;
-    in_order = in_order && std::this_thread::get_id() == caller && p.expansions > last &&
-               p.simplices == mesh.face_count() && p.reached <= p.simplices && p.distance > 0;
-    last = p.expansions;
-    return true;
-  };
-  const auto whole = solve(pieces(4, 2000), mesh, PointSource::at(0), options);
-  CHECK(calls >= 1);
-  CHECK(in_order);
-
-  Workspace<float> workspace;
-  DistanceField<float> field;
-  const PointSource source[] = {PointSource::at(0)};
-  options.progress = [](const Progress&) { return false; };
-  CHECK_THROWS_AS(solve(pieces(4, 2000), mesh, source, options, workspace, field), Cancelled);
-  struct Own {};
-  options.progress = [](const Progress&) -> bool { throw Own{}; };
-  CHECK_THROWS_AS(solve(pieces(4, 2000), mesh, source, options, workspace, field), Own);
-  options.progress = nullptr;
-  solve(pieces(4, 2000), mesh, source, options, workspace, field);
-  CHECK(same_bits(whole, field));
+  const Workspace<float> workspace = check_reports(pieces(4, 2000), fast());
   const std::size_t bytes = workspace.state().pieces.bytes();
-  CHECK(bytes > 64 * mesh.face_count());
+  CHECK(bytes > 64 * grid(200, 200).faces.size());
   CHECK(workspace.bytes() > bytes);
 }
 

@@ -3,8 +3,10 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <random>
+#include <thread>
 #include <vector>
 
+#include <plexway/error.hpp>
 #include <plexway/solve.hpp>
 
 #include "complex/test_meshes.hpp"
@@ -50,6 +52,38 @@ inline void check_every_vertex_a_source(const OpenMP& executor) {
   sources[7].offset = 0;
   const auto field = solve(executor, mesh, sources, by_labels());
   CHECK(parity(solve(Serial{}, mesh, sources, by_labels()), field).worst < 1.5e-6);
+}
+
+/// Progress comes to the calling thread, in order; what it throws or refuses ends the solve, and
+/// the workspace, which is returned, serves the next one.
+inline Workspace<float> check_reports(const OpenMP& executor, PropagateOptions options) {
+  const auto mesh = grid(200, 200).mesh<float>();
+  const auto caller = std::this_thread::get_id();
+  std::size_t calls = 0, last = 0;
+  bool in_order = true;
+  options.progress = [&](const Progress& p) {
+    ++calls;
+    in_order = in_order && std::this_thread::get_id() == caller && p.expansions > last &&
+               p.simplices == mesh.face_count() && p.reached <= p.simplices && p.distance > 0;
+    last = p.expansions;
+    return true;
+  };
+  const auto whole = solve(executor, mesh, PointSource::at(0), options);
+  CHECK(calls >= 1);
+  CHECK(in_order);
+
+  Workspace<float> workspace;
+  DistanceField<float> field;
+  const PointSource source[] = {PointSource::at(0)};
+  options.progress = [](const Progress&) { return false; };
+  CHECK_THROWS_AS(solve(executor, mesh, source, options, workspace, field), Cancelled);
+  struct Own {};
+  options.progress = [](const Progress&) -> bool { throw Own{}; };
+  CHECK_THROWS_AS(solve(executor, mesh, source, options, workspace, field), Own);
+  options.progress = nullptr;
+  solve(executor, mesh, source, options, workspace, field);
+  CHECK(same_bits(whole, field));
+  return workspace;
 }
 
 }  // namespace plexway::testing

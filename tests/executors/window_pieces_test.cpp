@@ -17,6 +17,7 @@
 #include "exact_data.hpp"
 #include "executors/parity.hpp"
 #include "executors/piece_testing.hpp"
+#include "executors/team_cases.hpp"
 #include "with_accuracy.hpp"
 
 // Windows by pieces (OpenMP::piece): the bits of Serial where they are exact, as accurate where
@@ -357,33 +358,7 @@ TEST_CASE("pieces: a budget of windows is kept to the last one", "[threads]") {
 }
 
 TEST_CASE("pieces: windows report to the calling thread, and can be cancelled", "[threads]") {
-  const auto mesh = grid(200, 200).mesh<float>();
-  PropagateOptions options;
-  const auto caller = std::this_thread::get_id();
-  std::size_t calls = 0, last = 0;
-  bool in_order = true;
-  options.progress = [&](const Progress& p) {
-    ++calls;
-    in_order = in_order && std::this_thread::get_id() == caller && p.expansions > last &&
-               p.simplices == mesh.face_count() && p.reached <= p.simplices && p.distance > 0;
-    last = p.expansions;
-    return true;
-  };
-  const auto whole = solve(pieces(4, 2000), mesh, PointSource::at(0), options);
-  CHECK(calls >= 1);
-  CHECK(in_order);
-
-  Workspace<float> workspace;
-  DistanceField<float> field;
-  const PointSource source[] = {PointSource::at(0)};
-  options.progress = [](const Progress&) { return false; };
-  CHECK_THROWS_AS(solve(pieces(4, 2000), mesh, source, options, workspace, field), Cancelled);
-  struct Own {};
-  options.progress = [](const Progress&) -> bool { throw Own{}; };
-  CHECK_THROWS_AS(solve(pieces(4, 2000), mesh, source, options, workspace, field), Own);
-  options.progress = nullptr;
-  solve(pieces(4, 2000), mesh, source, options, workspace, field);
-  CHECK(same_bits(whole, field));
+  check_reports(pieces(4, 2000), {});
 }
 
 TEST_CASE("pieces: every vertex a source of windows, and offsets far apart", "[threads]") {

@@ -2,6 +2,7 @@
 
 #include <numeric>
 
+#include "propagate/awkward_surfaces.hpp"
 #include "propagate/solving.hpp"
 
 using namespace plexway;
@@ -54,13 +55,7 @@ TEMPLATE_TEST_CASE("soups of triangles: finite exactly where a path leads", "", 
 #else
   const unsigned seeds = 60;
 #endif
-  for (unsigned seed = 1; seed <= seeds; ++seed) {
-    std::mt19937 random(seed);
-    const Index points = 6 + below(random, 60);
-    const Surface s = soup(points, 2 + below(random, 3 * points), seed);
-    check_reach<TestType>(s, below(random, points));
-    check_reach<TestType>(s, s.faces[0][0]);
-  }
+  each_soup(seeds, 60, check_reach<TestType>);
 }
 
 TEMPLATE_TEST_CASE("crumpled grids: finite everywhere", "", float, double) {
@@ -69,35 +64,11 @@ TEMPLATE_TEST_CASE("crumpled grids: finite everywhere", "", float, double) {
 #else
   const unsigned seeds = 20;
 #endif
-  // Manifold, with angles from next to nothing to far beyond a full turn, and folded over.
-  for (unsigned seed = 1; seed <= seeds; ++seed) {
-    std::mt19937 random(seed);
-    Surface s = grid(14, 14);
-    for (Position& p : s.positions)
-      for (double& c : p) c = uniform(random) * (seed % 2 ? 1 : std::pow(10, 6 * uniform(random)));
-    check_reach<TestType>(s, below(random, s.positions.size()));
-    Surface closed = sphere(2);
-    for (Position& p : closed.positions)
-      for (double& c : p) c *= std::pow(10, 3 * uniform(random));
-    check_reach<TestType>(closed, below(random, closed.positions.size()));
-  }
+  each_crumpled(seeds, 14, check_reach<TestType>);
 }
 
 TEMPLATE_TEST_CASE("zero-area triangles and zero-length edges", "", float, double) {
-  std::mt19937 random(4);
-  for (int kind = 0; kind < 5; ++kind) {
-    Surface s = grid(8, 8);
-    for (Position& p : s.positions) {
-      if (kind == 0) p[1] = 0;                                 // all on a line
-      if (kind == 1) p = {0, 0, 0};                            // all in a point
-      if (kind == 2 && uniform(random) < .4) p = {.5, .5, 0};  // many in one
-      if (kind == 3) p[0] = std::round(3 * p[0]) / 3;          // rows of slivers
-      if (kind == 4) p[1] = p[1] < .5 ? 0 : p[1];
-    }
-    CAPTURE(kind);
-    check_reach<TestType>(s, 0);
-    check_reach<TestType>(s, 40);
-  }
+  each_flat(check_reach<TestType>);
 }
 
 TEMPLATE_TEST_CASE("on a line distances are along it", "", float, double) {

@@ -11,6 +11,7 @@
 #include "complex/test_solids.hpp"
 #include "data/crack_plans.hpp"
 #include "propagate/solid_closed_forms.hpp"
+#include "propagate/solid_lines.hpp"
 #include "propagate/solid_obstacles.hpp"
 #include "propagate/solid_rule.hpp"
 #include "propagate/solid_truth.hpp"
@@ -18,23 +19,9 @@
 namespace {
 
 using namespace plexway;
+using plexway::testing::NoFront;
+using plexway::testing::point_in;
 using plexway::testing::Solid;
-
-// No label.
-template <class Real>
-struct NoFront {
-  void put(Index, const SolidLabel<Real>&) {}
-};
-
-template <class Real>
-Vector3<Real> point_in(const TetMesh<Real>& mesh, Index t, std::mt19937& random) {
-  Real weight[4], sum = 0;
-  for (Real& w : weight) sum += w = static_cast<Real>(0.05 + plexway::testing::uniform(random));
-  Vector3<Real> p = {0, 0, 0};
-  for (std::size_t i = 0; i < 4; ++i)
-    p = p + weight[i] / sum * mesh.points()[mesh.tets()[t].corner[i]];
-  return p;
-}
 
 // Of random lines, and of lines from reflex edges: how many are free, and known to be.
 struct Shares {

@@ -5,6 +5,7 @@
 #include <plexway/error.hpp>
 
 #include "data/corner_domains.hpp"
+#include "propagate/cone.hpp"
 #include "propagate/unfolded_lines.hpp"
 #include "propagate/windows_solving.hpp"
 
@@ -148,36 +149,11 @@ TEST_CASE("exact windows: a cube from one of its corners, and from any point") {
 TEST_CASE("exact windows: cones, convex and saddle") {
   for (const double turns : {0.3, 0.8, 1.0, 1.5, 2.7}) {
     const Index rings = 9, around = 30;
-    const double theta = turns * 2 * std::numbers::pi;
-    std::vector<double> radius{0}, angle{0};
-    std::vector<Face> faces;
-    for (Index i = 0; i < rings; ++i)
-      for (Index j = 0; j < around; ++j) {
-        radius.push_back(double(i + 1) / rings);
-        angle.push_back(theta * j / around);
-      }
-    for (Index j = 0; j < around; ++j) {
-      const Index k = (j + 1) % around;
-      faces.push_back({0, 1 + j, 1 + k});
-      for (Index i = 0; i + 1 < rings; ++i) {
-        const Index a = 1 + i * around + j, b = 1 + i * around + k;
-        faces.push_back({a, a + around, b + around});
-        faces.push_back({a, b + around, b});
-      }
-    }
-    const auto distance = [&](Index v, Index w) {
-      double turn = std::abs(angle[v] - angle[w]);
-      turn = std::min(turn, theta - turn);
-      if (turn >= std::numbers::pi || v == 0 || w == 0) return radius[v] + radius[w];
-      return std::hypot(radius[v] - radius[w] * std::cos(turn), radius[w] * std::sin(turn));
-    };
-    std::vector<std::array<double, 3>> lengths;
-    for (const Face& f : faces)
-      lengths.push_back({distance(f[0], f[1]), distance(f[1], f[2]), distance(f[2], f[0])});
-    const TriangleMesh<double> mesh(radius.size(), faces, lengths);
+    const Cone<double> cone(rings, around, turns * 2 * std::numbers::pi);
+    const auto mesh = cone.mesh();
     for (const Index source : {0u, 1u, 1 + 4 * around + 7, 1 + 8 * around + 20}) {
       std::vector<double> exact;
-      for (Index v = 0; v < radius.size(); ++v) exact.push_back(distance(source, v));
+      for (Index v = 0; v < cone.radius.size(); ++v) exact.push_back(cone.distance(source, v));
       exact[source] = 0;
       CAPTURE(turns, source);
       check_exact(mesh, {PointSource::at(source)}, exact);

@@ -2,6 +2,7 @@
 
 #include <plexway/error.hpp>
 
+#include "propagate/awkward_surfaces.hpp"
 #include "propagate/windows_solving.hpp"
 
 using namespace plexway;
@@ -32,45 +33,16 @@ void check_reach(const Surface& s, Index source) {
 
 TEMPLATE_TEST_CASE("windows reach what the default reaches: soups of triangles", "", float,
                    double) {
-  for (unsigned seed = 1; seed <= 20; ++seed) {
-    std::mt19937 random(seed);
-    const Index points = 6 + below(random, 40);
-    const Surface s = soup(points, 2 + below(random, 3 * points), seed);
-    check_reach<TestType>(s, below(random, points));
-    check_reach<TestType>(s, s.faces[0][0]);
-  }
+  each_soup(20, 40, check_reach<TestType>);
 }
 
 TEMPLATE_TEST_CASE("windows reach what the default reaches: crumpled surfaces", "", float, double) {
-  for (unsigned seed = 1; seed <= 8; ++seed) {
-    std::mt19937 random(seed);
-    Surface s = grid(10, 10);
-    for (Position& p : s.positions)
-      for (double& c : p) c = uniform(random) * (seed % 2 ? 1 : std::pow(10, 6 * uniform(random)));
-    check_reach<TestType>(s, below(random, s.positions.size()));
-    Surface closed = sphere(2);
-    for (Position& p : closed.positions)
-      for (double& c : p) c *= std::pow(10, 3 * uniform(random));
-    check_reach<TestType>(closed, below(random, closed.positions.size()));
-  }
+  each_crumpled(8, 10, check_reach<TestType>);
 }
 
 TEMPLATE_TEST_CASE("windows reach what the default reaches: nothing with an area", "", float,
                    double) {
-  std::mt19937 random(4);
-  for (int kind = 0; kind < 5; ++kind) {
-    Surface s = grid(8, 8);
-    for (Position& p : s.positions) {
-      if (kind == 0) p[1] = 0;                                 // all on a line
-      if (kind == 1) p = {0, 0, 0};                            // all in a point
-      if (kind == 2 && uniform(random) < .4) p = {.5, .5, 0};  // many in one
-      if (kind == 3) p[0] = std::round(3 * p[0]) / 3;          // rows of slivers
-      if (kind == 4) p[1] = p[1] < .5 ? 0 : p[1];
-    }
-    CAPTURE(kind);
-    check_reach<TestType>(s, 0);
-    check_reach<TestType>(s, 40);
-  }
+  each_flat(check_reach<TestType>);
 }
 
 TEMPLATE_TEST_CASE("windows end where lengths are those of no triangle", "", float, double) {

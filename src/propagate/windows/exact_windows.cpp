@@ -88,16 +88,7 @@ bool ExactWindows<Real>::solve(const WindowSources& sources, const PropagateOpti
     while (complete_ && fill_holes(order));
     return true;
   };
-  switch (options.schedule) {
-    case Schedule::fifo: {
-      FirstIn line;
-      return solve_in(line);
-    }
-    case Schedule::priority:
-      return solve_in(nearest_);
-    default:
-      return solve_in(ring_);
-  }
+  return in_order(options.schedule, nearest_, ring_, solve_in);
 }
 
 template <class Real>

@@ -46,16 +46,7 @@ bool MergedWindows<Real>::solve(const WindowSources& sources, const PropagateOpt
     complete_ = outcome == Outcome::done;
     return outcome != Outcome::too_much;
   };
-  switch (options.schedule) {
-    case Schedule::fifo: {
-      FirstIn line;
-      return solve_in(line);
-    }
-    case Schedule::priority:
-      return solve_in(nearest_);
-    default:
-      return solve_in(ring_);
-  }
+  return in_order(options.schedule, nearest_, ring_, solve_in);
 }
 
 template <class Real>

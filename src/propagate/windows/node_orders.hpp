@@ -6,6 +6,7 @@
 #include <vector>
 
 #include <plexway/complex/ids.hpp>
+#include <plexway/propagate/options.hpp>
 
 namespace plexway::windows {
 
@@ -67,5 +68,19 @@ class NearestOfAll {
   std::vector<Entry> heap_;
   double distance_ = 0;
 };
+
+/// What work(order) returns, in the order of a schedule.
+template <class Ring, class Work>
+auto in_order(Schedule schedule, NearestOfAll& nearest, Ring& ring, const Work& work) {
+  FirstIn line;
+  switch (schedule) {
+    case Schedule::fifo:
+      return work(line);
+    case Schedule::priority:
+      return work(nearest);
+    default:
+      return work(ring);
+  }
+}
 
 }  // namespace plexway::windows
