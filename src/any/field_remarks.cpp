@@ -120,8 +120,8 @@ std::vector<Remark> domain_remarks(const AnyDomain& solver, Reader reader) {
     const bool refused =
         !domain.cloud()->points.normals.empty() && domain.cloud()->normals().empty();
     const std::string given = said(Advice::in_the_file), columns = said(Advice::columns);
-    const std::string cure = refused ? "normals that all point to one side would tell (those" +
-                                           given + " do not, and are not taken)"
+    const std::string cure = refused ? "normals that all point to one side would tell (" +
+                                           said(Advice::those) + " do not, and are not taken)"
                                      : "normals" + given + " tell " + columns;
     if (cloud->torn_points > 0)
       remark(counted(cloud->torn_points, "points") + " (" + std::to_string(cloud->first_torn) +

@@ -16,7 +16,8 @@ namespace plexway {
   X(neighbour_radius, "their radius", "--neighbour-radius", "neighbour_radius=")                 \
   X(normal_angle, "the largest angle of normals", "--max-normal-angle", "max_normal_angle=")     \
   X(smooth, "smoothing", "--smooth", "smooth=True")                                              \
-  X(in_the_file, " given", " in the file", " given")                                             \
+  X(in_the_file, "", " in the file", "")                                                         \
+  X(those, "those given", "those in the file", "those given")                                    \
   X(columns, "(in a file the columns nx ny nz)", "(columns nx ny nz)",                           \
     "(normals=, in a file the columns nx ny nz)")                                                \
   X(original, "`original` of the points has", "the column original has", "`original` has")       \

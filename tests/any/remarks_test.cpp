@@ -56,7 +56,7 @@ TEST_CASE("advice is spelled for who reads it") {
     REQUIRE(told.size() == 1);
     CHECK(told[0].doubtful);
     CHECK(tells(told, "join parts that have no triangles between them"));
-    CHECK(tells(told, "in the file (columns nx ny nz)") == (reader == Reader::tool));
+    CHECK(tells(told, "normals in the file (columns nx ny nz)") == (reader == Reader::tool));
     CHECK(tells(told, "normals=") == (reader == Reader::python));
   }
   // The same advice to everybody, options of the tool to nobody else.
