@@ -181,6 +181,12 @@ std::vector<Remark> work_remarks(const FieldWork& work, Reader reader) {
            " came out farther than a neighbour and the edge between, and were given that way: "
            "distances here are less accurate" +
            cure);
+  // Rounding turns a line of sight a little at each edge. Where a straight line in space is known
+  // it mends what windows lose by that.
+  const bool by_labels = work.accuracy == Accuracy::fast();
+  if (work.edges > (!work.in_space && !by_labels ? 1e4 : 5e4))
+    remark("distances of up to " + short_number(work.edges) +
+           " edges: single precision may be off by more than 1e-4; use " + said(Advice::twice));
   return remarks;
 }
 
@@ -229,17 +235,10 @@ std::vector<Remark> field_remarks(const AnyDomain& solver, const AnyField& field
   }
   FieldWork work = work_of(solver, field.statistics(), field.accuracy());
   work.complete = field.complete();
+  work.in_space = !domain.positions().empty();
+  if (const double edge = solver.mean_edge(); solver.precision() == Precision::single && edge > 0)
+    work.edges = largest(field) / edge;
   for (Remark& one : work_remarks(work, reader)) remarks.push_back(std::move(one));
-  // Rounding turns a line of sight a little at each edge. Where a straight line in space is known
-  // it mends what windows lose by that.
-  const double edge = solver.mean_edge();
-  if (solver.precision() != Precision::single || !(edge > 0)) return remarks;
-  const bool by_labels = field.accuracy() == Accuracy::fast();
-  const double too_many = domain.positions().empty() && !by_labels ? 1e4 : 5e4;
-  if (const double most = largest(field); most > too_many * edge)
-    remark("distances of up to " + short_number(most / edge) +
-           " edges: single precision may be off by more than 1e-4; use " +
-           spelled(Advice::twice, reader));
   return remarks;
 }
 

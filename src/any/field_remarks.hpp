@@ -29,6 +29,9 @@ struct FieldWork {
   bool has_windows = false;  ///< may the domain be solved by them?
   std::size_t vertices = 0;
   std::size_t fields = 1;
+  /// The longest distance in mean edges, of a surface in single precision; else 0.
+  double edges = 0;
+  bool in_space = true;  ///< have the vertices positions?
 };
 /// What it says of their distances.
 [[nodiscard]] std::vector<Remark> work_remarks(const FieldWork& work, Reader reader);

@@ -331,7 +331,10 @@ void solve_in_parts(DistanceCommand& command, const PropagateOptions& wanted,
                           .accuracy = field.accuracy,
                           .complete = field.complete,
                           .has_windows = true,
-                          .vertices = summary.vertices},
+                          .vertices = summary.vertices,
+                          .edges = std::is_same_v<Real, float> && summary.mean_edge > 0
+                                       ? field.max_distance / summary.mean_edge
+                                       : 0},
                          Reader::tool));
   if (const std::size_t left = summary.vertices - field.reached; left > 0)
     notes.add({unreached_remark(
