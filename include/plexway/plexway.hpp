@@ -7,6 +7,7 @@
 #include <plexway/any/isolines.hpp>
 #include <plexway/any/mask_text.hpp>
 #include <plexway/any/pairs.hpp>
+#include <plexway/any/remarks.hpp>
 #include <plexway/any/scene.hpp>
 #include <plexway/any/search.hpp>
 #include <plexway/any_domain.hpp>

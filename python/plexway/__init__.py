@@ -53,8 +53,10 @@ from ._sources import (
     Vertices,
     WholeSimplex,
 )
+from ._warnings import AccuracyWarning
 
 __all__ = [
+    "AccuracyWarning",
     "Ball",
     "Boundary",
     "Cancelled",

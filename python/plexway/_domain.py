@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import os
-import warnings
 from typing import TYPE_CHECKING, Any, Dict, List, Optional, Sequence, Tuple, Type, Union
 
 import numpy as np
@@ -22,6 +21,7 @@ from ._results import (
     Points,
 )
 from ._sources import index, located
+from ._warnings import warn
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike
@@ -114,6 +114,14 @@ class Domain:
     def dtype(self) -> np.dtype[Any]:
         """Of its distances: float32, or float64 with precision='double'."""
         return np.dtype(np.float64 if self._native.double else np.float32)
+
+    @property
+    def remarks(self) -> Tuple[str, ...]:
+        """What to know of all its distances, a sentence each: where they may be far off and what to
+        do, which points count as others. What says that they may be wrong was an `AccuracyWarning`
+        when the domain was made."""
+        told: Tuple[str, ...] = self._native.remarks
+        return told
 
     def info(self) -> Dict[str, Any]:
         """What it is made of.
@@ -212,19 +220,25 @@ class Domain:
 
         Notes
         -----
-        The interpreter is free meanwhile, and Ctrl-C ends the work.
+        The interpreter is free meanwhile, and Ctrl-C ends the work. Where distances may be wrong by
+        more than the accuracy promises there is an `AccuracyWarning`; `Field.remarks` has all that
+        is known.
         """
         if type(source) is int and radius == _INFINITY and threads is None and progress is None:
             if executor is None and visibility == "saddles" and accuracy is None:
                 vertex = _plexway.Point(index(source, self._native.vertex_count, "vertex"), 0.0)
-                found = _plexway.solve(self._native, [vertex], _DEFAULT, False, False, None)[0]
+                found, _, _, doubts = _plexway.solve(
+                    self._native, [vertex], _DEFAULT, False, False, None
+                )
+                warn(doubts)
                 return found if out is None else _into(out, found)
         arguments = _arguments(threads, executor, radius, visibility, accuracy)
         sources = located(self, source)
         with Progress(progress, "solving") as report:
-            found = _plexway.solve(
+            found, _, _, doubts = _plexway.solve(
                 self._native, sources, arguments, False, False, report
-            )[0]
+            )
+        warn(doubts)
         return found if out is None else _into(out, found)
 
     def nearest(
@@ -256,9 +270,10 @@ class Domain:
         arguments = _arguments(threads, executor, radius, visibility, accuracy)
         located_sources = located(self, sources)
         with Progress(progress, "solving") as report:
-            found, label, _ = _plexway.solve(
+            found, label, _, doubts = _plexway.solve(
                 self._native, located_sources, arguments, True, False, report
             )
+        warn(doubts)
         return found, label
 
     def estimate(
@@ -289,9 +304,12 @@ class Domain:
         arguments = _arguments(None, None, radius, "saddles", accuracy)
         sources = located(self, source)
         with Progress(progress, "solving") as report:
-            found, _, error = _plexway.solve(self._native, sources, arguments, False, True, report)
+            found, _, error, doubts = _plexway.solve(
+                self._native, sources, arguments, False, True, report
+            )
         if len(error) != len(found):
             raise _plexway.UsageError("accuracy 'fast' has no estimate of its error")
+        warn(doubts)
         return found, error
 
     def distances(
@@ -354,7 +372,10 @@ class Domain:
         if not out.flags.writeable:
             raise ValueError("out: the array is read only")
         with Progress(progress, "solving") as report:
-            _plexway.solve_each(self._native, located_sources, arguments, out, columns, report)
+            doubtful, first, doubts = _plexway.solve_each(
+                self._native, located_sources, arguments, out, columns, report
+            )
+        warn(f"{doubtful} of {len(out)} rows, as row {first}: {text}" for text in doubts)
         return out
 
     def pairs(
@@ -430,7 +451,7 @@ class Domain:
         arguments = _arguments(threads, None, reach, visibility, accuracy, many=True)
         every = np.arange(self.vertex_count) if sources is None else sources
         with Progress(progress, "solving") as report:
-            _plexway.pairs_file(
+            doubts = _plexway.pairs_file(
                 self._native,
                 located(self, every),
                 columns,
@@ -443,6 +464,7 @@ class Domain:
                 arguments,
                 report,
             )
+        warn(doubts)
         if dense:
             return np.load(file, mmap_mode="r")
         return _loaded_sparse(file)
@@ -490,7 +512,7 @@ class Domain:
         every = np.arange(self.vertex_count) if sources is None else sources
         located_sources = located(self, every)
         with Progress(progress, "solving") as report:
-            rows = _plexway.near(
+            *rows, doubts = _plexway.near(
                 self._native,
                 located_sources,
                 columns,
@@ -500,7 +522,8 @@ class Domain:
                 report,
             )
         width = self.vertex_count if columns is None else len(plain(columns, "columns"))
-        return csr_matrix(rows, shape=(len(located_sources), width))
+        warn(doubts)
+        return csr_matrix(tuple(rows), shape=(len(located_sources), width))
 
     def field(
         self,
@@ -529,6 +552,7 @@ class Domain:
         sources = located(self, source)
         with Progress(progress, "solving") as report:
             native = _plexway.path_field(self._native, sources, arguments, report)
+        warn(native.doubts)
         return Field(self, native)
 
     def path(self, source: Any, target: Place, *, margin: Optional[float] = None) -> Path:
@@ -847,28 +871,6 @@ class Domain:
 
     def __reduce__(self) -> Tuple[Any, ...]:
         return _restored, (type(self).__name__, self._recipe())
-
-
-def _warn_of_violations(domain: Domain) -> None:
-    """Says it where lengths are no metric, and were taken as those of the nearest flat simplices; and
-    where paths in a solid were to be refracted, but are not."""
-    if domain._native.smoothed:
-        warnings.warn(
-            "in solids paths are refracted between regions of at most 64 speeds: here each edge takes "
-            "the mean of its tetrahedra, which is of first order where they jump; refract=False says "
-            "that this is meant",
-            RuntimeWarning,
-            stacklevel=4,
-        )
-    count, first = domain._native.violations
-    if count:
-        warnings.warn(
-            f"lengths break the triangle inequality in {count} of {domain._native.simplex_count} "
-            f"{domain._native.simplex_name}, such as number {first}: they "
-            "were taken as those of the nearest flat ones",
-            RuntimeWarning,
-            stacklevel=4,
-        )
 
 
 def _check_near(radius: Any, count: Any) -> None:

@@ -8,10 +8,11 @@ import numpy as np
 
 from . import _plexway
 from ._arrays import Array, plain, real, whole
-from ._domain import Domain, _restored, _warn_of_violations
+from ._domain import Domain, _restored
 from ._interop import arrays_of, looks_like_mesh
 from ._metrics import described
 from ._progress import Progress, ProgressLike
+from ._warnings import warn
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike
@@ -83,7 +84,7 @@ class _OfSimplices(Domain):
                 lengths,
                 **_options_of(precision, triangulation, metric, report, mask),
             )
-        _warn_of_violations(self)
+        warn(self._native.doubts)
 
 
 class Surface(_OfSimplices):
@@ -268,8 +269,16 @@ class Cloud(Domain):
                 denoise=bool(denoise),
                 **_options_of(precision, "auto", None, report),
             )
+        warn(self._native.doubts)
 
     _neighbours: Dict[str, Any] = {}
+
+    @property
+    def original(self) -> Optional[Array]:
+        """The number of each point among those given or in the file: uint32, shape (n,); None where
+        all are there, or points are means of several."""
+        original: Optional[Array] = self._native.cloud["original"]
+        return original
 
     def _recipe(self) -> Tuple[str, Tuple[Any, ...], Dict[str, Any]]:
         native = self._native
@@ -345,6 +354,7 @@ class Simplicial(Domain):
                 lengths,
                 **_options_of(precision, "auto", None, report, mask),
             )
+        warn(self._native.doubts)
 
     def _recipe(self) -> Tuple[str, Tuple[Any, ...], Dict[str, Any]]:
         native = self._native
@@ -421,6 +431,7 @@ class Mixed(Domain):
             self._native = _plexway.from_parts(
                 made, real(tolerance, "tolerance"), **_options_of(precision, "auto", metric, report)
             )
+        warn(self._native.doubts)
 
     def _recipe(self) -> Tuple[str, Tuple[Any, ...], Dict[str, Any]]:
         return "from_parts", tuple(self._native.parts), self._options()

@@ -9,7 +9,7 @@ import numpy as np
 
 from . import _plexway
 from ._arrays import Array, whole
-from ._domain import _INFINITY, AccuracyLike, Domain, _warn_of_violations, _wrapped
+from ._domain import _INFINITY, AccuracyLike, Domain, _wrapped
 from ._interop import arrays_of, looks_like_mesh
 from ._kinds import (
     Cloud,
@@ -23,6 +23,7 @@ from ._kinds import (
 )
 from ._progress import Progress, ProgressLike
 from ._sources import Boundary, Polyline, Segment, WholeSimplex
+from ._warnings import warn
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike
@@ -94,7 +95,7 @@ def read(
             **_options_of(precision, triangulation, metric, report, mask),
         )
     made = _wrapped(_BY_KIND[native.kind], native)
-    _warn_of_violations(made)
+    warn(native.doubts)
     if isinstance(made, Cloud):
         names = ("k", "neighbour_radius", "max_normal_angle", "smooth")
         made._neighbours = {name: options[name] for name in names if name in options}

@@ -225,6 +225,14 @@ class Field:
         array: Array = self._native.distance
         return array
 
+    @property
+    def remarks(self) -> Tuple[str, ...]:
+        """What to know of its distances, a sentence each: where they may be far off and what to do,
+        which vertices are not reached and why; those of the domain first. What says that they may be
+        wrong was an `AccuracyWarning` when the field was made, or the domain."""
+        told: Tuple[str, ...] = self._native.remarks
+        return told
+
     def path(self, start: Place, *, margin: Optional[float] = None) -> Path:
         """The shortest way from `start` back to the nearest source.
 

@@ -62,6 +62,30 @@ std::vector<PointSource> Domain::outside(std::vector<PointSource> points) const 
   return points;
 }
 
+namespace {
+
+template <class Wanted>
+py::tuple texts(const std::vector<Remark>& remarks, const Wanted& wanted) {
+  py::list found;
+  for (const Remark& remark : remarks)
+    if (wanted(remark)) found.append(remark.text);
+  return py::tuple(found);
+}
+
+std::vector<Remark> told_of(const Domain& domain) {
+  const py::gil_scoped_release free;
+  return domain_remarks(domain.any(), Reader::python);
+}
+
+}  // namespace
+
+py::tuple texts_of(const std::vector<Remark>& remarks) {
+  return texts(remarks, [](const Remark&) { return true; });
+}
+py::tuple doubts_of(const std::vector<Remark>& remarks) {
+  return texts(remarks, [](const Remark& remark) { return remark.doubtful; });
+}
+
 std::size_t Domain::bytes() const {
   const std::scoped_lock lock(mutex_);
   return any_.bytes() + (twice_ ? twice_->bytes() : 0);
@@ -102,28 +126,6 @@ py::object simplices(const AnyShape& shape, const py::object& owner) {
         }
       },
       shape.data());
-}
-
-// Those that are no flat triangle or tetrahedron; of what is open.
-metric::Violations violations(const Domain& domain) {
-  const MeasuredLengths* lengths =
-      domain.options().lengths ? domain.options().lengths.get() : domain.shape().lengths();
-  if (lengths == nullptr) return {};
-  const Mask* const mask = domain.options().mask.get();
-  if (mask == nullptr || lengths->violations.count == 0) return lengths->violations;
-  metric::Violations found;
-  const auto count = [&](const auto& simplices, const auto& rows) {
-    using Corners = typename std::decay_t<decltype(simplices)>::value_type;
-    using Row = typename std::decay_t<decltype(rows)>::value_type;
-    const std::vector<Row> open = mask->open_rows(std::span<const Corners>(simplices), rows);
-    found = metric::find_violations(std::span<const Row>(open));
-  };
-  if (const auto* surface = std::get_if<io::Triangles>(&domain.shape().data()))
-    count(surface->triangles, lengths->triangles);
-  else if (const auto* solid = std::get_if<io::Tets>(&domain.shape().data()))
-    count(solid->tets, lengths->tets);
-  if (found.count > 0) found.first = domain.any().open_simplices()->outside(found.first);
-  return found;
 }
 
 // What is closed: as masks by vertices and by simplices, not 0 there; or None.
@@ -252,16 +254,15 @@ void bind_domain(py::module_& module) {
                              [](const Domain& d) { return name_of(d.options().triangulation); })
       .def_property_readonly("violations",  // how many, and the first
                              [](const Domain& d) {
-                               const metric::Violations found = violations(d);
+                               const metric::Violations found = violations_of(d.any());
                                return py::make_tuple(found.count, found.first);
                              })
       .def_property_readonly("measured",
                              [](const std::shared_ptr<Domain>& d) {
                                return lengths_of(d->options().lengths.get(), py::cast(d));
                              })
-      .def_property_readonly(
-          "smoothed",  // an edge takes the mean of its tetrahedra, though speeds jump
-          [](const Domain& d) { return d.options().lengths && d.options().lengths->smoothed; })
+      .def_property_readonly("remarks", [](const Domain& d) { return texts_of(told_of(d)); })
+      .def_property_readonly("doubts", [](const Domain& d) { return doubts_of(told_of(d)); })
       .def_property_readonly(
           "refracts",
           [](const Domain& d) { return d.options().lengths && d.options().lengths->refracts; })

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include <plexway/any/remarks.hpp>
 #include <plexway/any_domain.hpp>
 
 #include "watch.hpp"
@@ -69,6 +70,12 @@ class Sources {
   std::vector<Source> sources_;
   std::vector<PointSource> points_;
 };
+
+///@{
+/// Texts of remarks, and of those alone that say distances may be wrong: what Python warns of.
+[[nodiscard]] pybind11::tuple texts_of(const std::vector<Remark>& remarks);
+[[nodiscard]] pybind11::tuple doubts_of(const std::vector<Remark>& remarks);
+///@}
 
 void bind_sources(pybind11::module_& module);
 void bind_domain(pybind11::module_& module);

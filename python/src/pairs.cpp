@@ -41,6 +41,10 @@ struct Matrix {
     };
     any = &domain.for_sources(executor, sources.list(), request.solve);
   }
+  [[nodiscard]] std::vector<Remark> remarks(const PairsReport& report) const {
+    return rows_remarks(*any, report.statistics, arguments.accuracy, report.rows, Reader::python);
+  }
+
   Matrix(const Matrix&) = delete;
   Matrix& operator=(const Matrix&) = delete;
 
@@ -58,17 +62,17 @@ NearLimits limits_of(double radius, const std::optional<std::size_t>& nearest) {
   return {.radius = radius, .nearest = nearest.value_or(none)};
 }
 
-// Rows of few entries, as scipy.sparse.csr_matrix takes them: (data, columns, starts).
+// Rows of few entries, as scipy.sparse.csr_matrix takes them: (data, columns, starts), and doubts.
 py::tuple near(const Domain& domain, std::vector<Source> given, const py::object& columns,
                double radius, const std::optional<std::size_t>& nearest,
                const SolveArguments& arguments, py::object progress) {
   Matrix matrix(domain, std::move(given), columns, arguments, std::move(progress));
   std::vector<std::vector<NearEntry<double>>> rows(matrix.sources.list().size());
-  matrix.watch.run([&] {
-    (void)near_pairs(matrix.executor, *matrix.any, matrix.request, limits_of(radius, nearest),
-                     {.row = [&](std::size_t row, SparseRow<double> content) {
-                       rows[row].assign(content.begin(), content.end());
-                     }});
+  const PairsReport report = matrix.watch.run([&] {
+    return near_pairs(matrix.executor, *matrix.any, matrix.request, limits_of(radius, nearest),
+                      {.row = [&](std::size_t row, SparseRow<double> content) {
+                        rows[row].assign(content.begin(), content.end());
+                      }});
   });
   std::vector<double> data;
   std::vector<std::int64_t> indices, starts = {0};
@@ -80,8 +84,8 @@ py::tuple near(const Domain& domain, std::vector<Source> given, const py::object
     starts.push_back(static_cast<std::int64_t>(indices.size()));
     row = {};
   }
-  return py::make_tuple(owned(std::move(data)), owned(std::move(indices)),
-                        owned(std::move(starts)));
+  return py::make_tuple(owned(std::move(data)), owned(std::move(indices)), owned(std::move(starts)),
+                        doubts_of(matrix.remarks(report)));
 }
 
 // All that the file depends on.
@@ -98,11 +102,11 @@ io::BlockJournal::Description description_of(const Domain& domain, const Matrix&
   return lines;
 }
 
-std::size_t write_dense(const Matrix& matrix, const std::filesystem::path& out, std::size_t rows,
+PairsReport write_dense(const Matrix& matrix, const std::filesystem::path& out, std::size_t rows,
                         std::size_t columns, io::MatrixNumber number, io::BlockJournal& journal) {
   if (journal.is_complete() && !std::filesystem::exists(io::PartFile::path_of(out))) {
     journal.remove();  // ended when all was in its place
-    return 0;
+    return {};
   }
   io::MatrixFile file(out, rows, columns, number, journal.resumed());
   const PairsReport report =
@@ -110,10 +114,10 @@ std::size_t write_dense(const Matrix& matrix, const std::filesystem::path& out, 
   journal.complete([&] { file.sync(); });
   file.commit();
   journal.remove();
-  return report.rows;
+  return report;
 }
 
-std::size_t write_sparse(const Matrix& matrix, const std::filesystem::path& out, std::size_t rows,
+PairsReport write_sparse(const Matrix& matrix, const std::filesystem::path& out, std::size_t rows,
                          std::size_t columns, io::MatrixNumber number, const NearLimits& limits,
                          io::BlockJournal& journal) {
   io::SparseFile file(out, rows, columns, matrix.request.block, number, journal);
@@ -122,16 +126,16 @@ std::size_t write_sparse(const Matrix& matrix, const std::filesystem::path& out,
   file.commit(journal);
   journal.remove();  // first: a journal without its part could not be gone on with
   file.remove();
-  return report.rows;
+  return report;
 }
 
 // Into `out`, going on with what an earlier call left. The extension tells dense from sparse.
-// Returns how many rows were solved.
-std::size_t pairs_file(const Domain& domain, std::vector<Source> given, const py::object& columns,
-                       const std::filesystem::path& out, double radius,
-                       const std::optional<std::size_t>& nearest, const std::string& type,
-                       std::size_t block, bool restart, const SolveArguments& arguments,
-                       py::object progress) {
+// Returns doubts of the rows that were solved.
+py::tuple pairs_file(const Domain& domain, std::vector<Source> given, const py::object& columns,
+                     const std::filesystem::path& out, double radius,
+                     const std::optional<std::size_t>& nearest, const std::string& type,
+                     std::size_t block, bool restart, const SolveArguments& arguments,
+                     py::object progress) {
   Matrix matrix(domain, std::move(given), columns, arguments, std::move(progress));
   if (block == 0) throw UsageError("block: a block of rows must have at least one");
   matrix.request.block = block;
@@ -144,7 +148,7 @@ std::size_t pairs_file(const Domain& domain, std::vector<Source> given, const py
   std::string what = dense ? "dense" : "sparse";
   if (nearest) what += ", nearest " + std::to_string(*nearest);
   what += " in blocks of " + std::to_string(block);
-  return matrix.watch.run([&]() -> std::size_t {
+  const PairsReport report = matrix.watch.run([&]() -> PairsReport {
     if (!restart) io::BlockJournal::discard(out);
     if (dense) io::check_room(out, io::MatrixFile::bytes(rows, width, number));
     io::BlockJournal journal(out, description_of(domain, matrix, radius, what, type),
@@ -161,6 +165,7 @@ std::size_t pairs_file(const Domain& domain, std::vector<Source> given, const py
       throw;
     }
   });
+  return doubts_of(matrix.remarks(report));
 }
 
 }  // namespace

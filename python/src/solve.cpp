@@ -64,57 +64,69 @@ py::tuple solve(const Domain& domain, std::vector<Source> given, const SolveArgu
   const AnyExecutor executor = executor_of(arguments);
   Watch watch(std::move(progress));
   const PropagateOptions options = options_of(arguments, watch);
+  std::vector<Remark> told;
   AnyField field = watch.run([&] {
     const SourceList list = sources.list();
-    return domain.for_sources(executor, list, options).solve(executor, list, options);
+    const AnyDomain& any = domain.for_sources(executor, list, options);
+    AnyField solved = any.solve(executor, list, options);
+    told = field_remarks(any, solved, list, Reader::python);
+    return solved;
   });
   py::object label = py::none();
   if (labels) label = owned(field.nearest());
   py::object error = py::none();
   if (errors) error = owned(field.error());
   py::array distance = taken(field);
-  return py::make_tuple(std::move(distance), std::move(label), std::move(error));
+  return py::make_tuple(std::move(distance), std::move(label), std::move(error), doubts_of(told));
 }
 
+// (how many fields have doubts, the first of these, its doubts)
 template <class Real>
-bool each(const Domain& domain, const Sources& sources, const AnyExecutor& executor,
-          const SolveArguments& arguments, py::array_t<Real>& out,
-          const std::vector<Index>* columns, py::object progress) {
+py::tuple each(const Domain& domain, const Sources& sources, const AnyExecutor& executor,
+               const SolveArguments& arguments, py::array_t<Real>& out,
+               const std::vector<Index>* columns, py::object progress) {
   auto rows = out.template mutable_unchecked<2>();
   const std::size_t width = columns != nullptr ? columns->size() : domain.any().vertices();
   Watch watch(std::move(progress));
   const SourceList list = sources.list();
   const double count = static_cast<double>(list.size());
   std::atomic<std::size_t> done{0};
-  bool complete = true;
+  std::size_t doubtful = 0, first = sources.list().size();
+  std::vector<Remark> told;  // of the first
   PropagateOptions options = options_of(arguments, watch);
   // The share that counts is that of the rows.
   options.progress = [&](const Progress&) {
     return watch.tick(static_cast<double>(done.load()) / count);
   };
   watch.run([&] {
-    domain.for_sources(executor, list, options)
-        .solve_each(executor, list, options, [&](std::size_t k, const AnyField& field) {
-          const auto row = static_cast<py::ssize_t>(k);
-          std::visit(
-              [&](const auto& f) {
-                for (std::size_t c = 0; c < width; ++c)
-                  rows(row, static_cast<py::ssize_t>(c)) =
-                      static_cast<Real>(f.distance[columns != nullptr ? (*columns)[c] : c]);
-              },
-              field.data);
-          complete = complete && field.complete();
-          if (!watch.tick(static_cast<double>(++done) / count))
-            throw Cancelled("stopped by the progress function");
-        });
+    const AnyDomain& any = domain.for_sources(executor, list, options);
+    any.solve_each(executor, list, options, [&](std::size_t k, const AnyField& field) {
+      const auto row = static_cast<py::ssize_t>(k);
+      std::visit(
+          [&](const auto& f) {
+            for (std::size_t c = 0; c < width; ++c)
+              rows(row, static_cast<py::ssize_t>(c)) =
+                  static_cast<Real>(f.distance[columns != nullptr ? (*columns)[c] : c]);
+          },
+          field.data);
+      std::vector<Remark> own = field_remarks(any, field, list.only(k), Reader::python);
+      doubtful += !own.empty();
+      if (!own.empty() && k < first) {
+        first = k;
+        told = std::move(own);
+      }
+      if (!watch.tick(static_cast<double>(++done) / count))
+        throw Cancelled("stopped by the progress function");
+    });
   });
-  return complete;
+  return py::make_tuple(doubtful, first, doubts_of(told));
 }
 
 // Row k of `out`, (K, N) of float32 or float64 in any order of memory: the distances from source k
 // to all vertices, or to the columns.
-bool solve_each(const Domain& domain, std::vector<Source> given, const SolveArguments& arguments,
-                py::array out, const py::object& wanted, py::object progress) {
+py::tuple solve_each(const Domain& domain, std::vector<Source> given,
+                     const SolveArguments& arguments, py::array out, const py::object& wanted,
+                     py::object progress) {
   std::vector<Index> columns;
   if (!wanted.is_none()) {
     columns = indices_of(wanted, "columns");

@@ -268,7 +268,7 @@ def test_parts_keep_no_metric_in_silence():
 
 def test_lengths_that_are_no_metric_are_told():
     F = [[0, 1, 2], [0, 2, 3]]
-    with pytest.warns(RuntimeWarning, match="triangle inequality in 1 of 2 triangles, such as number 0"):
+    with pytest.warns(RuntimeWarning, match="triangle inequality in 1 triangle of 2, such as triangle 0"):
         sheet = px.Surface(F=F, lengths=[[4, 3, 50], [5, 4, 3]])
     assert sheet.info()["violations"] == 1
 

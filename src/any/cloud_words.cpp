@@ -1,5 +1,6 @@
 #include "any/cloud_words.hpp"
 
+#include "any/spelling.hpp"
 #include "any/words.hpp"
 
 namespace plexway {
@@ -17,17 +18,19 @@ std::string kept_points(const CloudShape& cloud) {
   return std::to_string(kept) + " of " + counted(cloud.points_in_file, "points") + ": " + why;
 }
 
-std::string why_disconnected(const CloudShape& cloud, std::size_t components) {
+std::string why_disconnected(const CloudShape& cloud, std::size_t components, Reader reader) {
   std::string text = "the cloud has " + counted(components, "components");
   const auto k = connecting_k(cloud);
   if (!k)
     text += ", which even 256 neighbours do not connect";
   else if (cloud.k != 0 && *k > cloud.k)
-    text += "; --k " + std::to_string(*k) + " is the least that connects its points";
+    text += std::string("; ") + spelled(Advice::k, reader) + std::to_string(*k) +
+            " is the least that connects its points";
   else
     text += ", though " + std::to_string(*k) +
-            " neighbours connect its points: --neighbour-radius or --max-normal-angle keeps them "
-            "apart, or the points are no surface there";
+            " neighbours connect its points: " + spelled(Advice::neighbour_radius, reader) +
+            " or " + spelled(Advice::normal_angle, reader) +
+            " keeps them apart, or the points are no surface there";
   return text;
 }
 

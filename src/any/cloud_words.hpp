@@ -4,6 +4,7 @@
 #include <string>
 
 #include <plexway/any/cloud_shape.hpp>
+#include <plexway/any/remarks.hpp>
 
 namespace plexway {
 
@@ -13,6 +14,6 @@ std::string kept_points(const CloudShape& cloud);
 
 /// Why some points are not reached, and what would help, for people. `components` are those of the
 /// complex. Cost: several times that of finding the neighbours.
-std::string why_disconnected(const CloudShape& cloud, std::size_t components);
+std::string why_disconnected(const CloudShape& cloud, std::size_t components, Reader reader);
 
 }  // namespace plexway

@@ -8,15 +8,43 @@
 
 #include <plexway/complex/point_cloud.hpp>
 
-#include "any/arguments/source_argument.hpp"
 #include "any/bent_crossings.hpp"
 #include "any/cloud_words.hpp"
 #include "any/rim_detours.hpp"
+#include "any/spelling.hpp"
+#include "any/violations.hpp"
 #include "any/words.hpp"
 
 namespace plexway {
 
-FieldReach reach_of(std::span<const double> distance, std::span<const Source> sources) {
+namespace {
+
+// Vertices that are sources, and reached by `distance`: a function of a vertex.
+template <class Distance>
+std::vector<std::size_t> reached_sources(const Distance& distance, const SourceList& sources) {
+  std::set<std::size_t> at;
+  const auto take = [&](Index v) {
+    if (v != none && std::isfinite(distance(v))) at.insert(v);
+  };
+  for (const PointSource& point : sources.points()) take(point.vertex);
+  for (const Source& source : sources.sources()) {
+    if (const auto* point = std::get_if<PointSource>(&source)) take(point->vertex);
+    if (const auto* set = std::get_if<VertexSource>(&source))
+      for (const Index v : set->vertices) take(v);
+  }
+  return {at.begin(), at.end()};
+}
+
+bool are_points(const SourceList& sources) {
+  const auto all = sources.sources();
+  return std::all_of(all.begin(), all.end(), [](const Source& source) {
+    return std::holds_alternative<PointSource>(source);
+  });
+}
+
+}  // namespace
+
+FieldReach reach_of(std::span<const double> distance, const SourceList& sources) {
   FieldReach outcome;
   outcome.max_distance = -std::numeric_limits<double>::infinity();
   for (std::size_t v = 0; v < distance.size(); ++v) {
@@ -26,19 +54,10 @@ FieldReach reach_of(std::span<const double> distance, std::span<const Source> so
     outcome.max_distance = distance[v];
     outcome.farthest = v;
   }
-  std::set<Index> at;
-  const auto take = [&](Index v) {
-    if (v != none && std::isfinite(distance[v])) at.insert(v);
-  };
-  for (const Source& source : sources) {
-    if (const auto* point = std::get_if<PointSource>(&source)) take(point->vertex);
-    if (const auto* set = std::get_if<VertexSource>(&source))
-      for (const Index v : set->vertices) take(v);
-  }
+  outcome.from = reached_sources([&](Index v) { return distance[v]; }, sources);
   // Where sets leave nothing to reach, nothing failed.
-  const bool covered = at.size() == distance.size() && as_points(sources).empty();
-  outcome.beside_source = covered ? at.size() : outcome.reached - at.size();
-  outcome.from.assign(at.begin(), at.end());
+  const bool covered = outcome.from.size() == distance.size() && !are_points(sources);
+  outcome.beside_source = covered ? outcome.from.size() : outcome.reached - outcome.from.size();
   return outcome;
 }
 
@@ -53,11 +72,12 @@ std::size_t count_apart(const AnyShape& domain) {
 }
 
 // Why not all was reached.
-std::string why_unreached(const AnyDomain& solver, bool bounded) {
+std::string why_unreached(const AnyDomain& solver, Reader reader) {
   const AnyShape& domain = solver.shape();
   std::string why;
   if (domain.cloud() != nullptr) {
-    if (solver.components() > 1) why = why_disconnected(*domain.cloud(), solver.components());
+    if (solver.components() > 1)
+      why = why_disconnected(*domain.cloud(), solver.components(), reader);
   } else {
     why = "the " + std::string(kind_noun(domain.kind())) + " has " +
           counted(solver.components(), "components");
@@ -66,37 +86,43 @@ std::string why_unreached(const AnyDomain& solver, bool bounded) {
       why.append(" in none of its ").append(domain.simplex_name());
     }
   }
-  if (bounded) why.append(why.empty() ? "" : ", and ").append(bounded_search);
   return why;
 }
 
 }  // namespace
 
-std::vector<std::string> field_remarks(const AnyDomain& solver, const AnyField& field,
-                                       const FieldReach& outcome, bool bounded) {
-  std::vector<std::string> remarks;
-  const auto remark = [&](std::string text) { remarks.push_back(std::move(text)); };
-  const bool single = solver.precision() == Precision::single;
+std::vector<Remark> domain_remarks(const AnyDomain& solver, Reader reader) {
+  std::vector<Remark> remarks;
+  const auto remark = [&](std::string text, bool doubtful = true) {
+    remarks.push_back({std::move(text), doubtful});
+  };
+  const auto said = [&](Advice advice) { return std::string(spelled(advice, reader)); };
   const AnyShape& domain = solver.shape();
+  if (const MeasuredLengths* lengths = solver.lengths(); lengths != nullptr && lengths->smoothed)
+    remark(smoothed_sentence() + said(Advice::meant));
+  if (std::string broken = violations_sentence(solver); !broken.empty()) remark(std::move(broken));
   if (domain.cloud() != nullptr && domain.cloud()->not_finite > 0)
     remark(counted(domain.cloud()->not_finite, "points") +
-           " not finite, and dropped: vertices count those that are left; the column original "
-           "has their numbers in the file");
+               " not finite, and dropped: vertices count those that are left; " +
+               said(Advice::original) + " their numbers in the file",
+           false);
   if (const CloudSummary* cloud = solver.cloud()) {
     if (cloud->near_duplicates > 0)
       remark(counted(cloud->near_duplicates, "points") +
-             " much nearer to an earlier one than all others are: they count as that one");
+                 " much nearer to an earlier one than all others are: they count as that one",
+             false);
     if (100 * cloud->bridges > cloud->distinct)
       remark(counted(cloud->bridges, "points") +
              " hang together by single edges: no surface was found there, and ways go from point "
-             "to point; more neighbours may help (--k " +
-             std::to_string(4 * std::max<std::size_t>(domain.cloud()->k, 16)) + ")");
+             "to point; more neighbours may help (" +
+             said(Advice::k) + std::to_string(4 * std::max<std::size_t>(domain.cloud()->k, 16)) +
+             ")");
     const bool refused =
         !domain.cloud()->points.normals.empty() && domain.cloud()->normals().empty();
-    const std::string cure = refused
-                                 ? "normals that all point to one side would tell (those in the "
-                                   "file do not, and are not taken)"
-                                 : "normals in the file tell (columns nx ny nz)";
+    const std::string given = said(Advice::in_the_file), columns = said(Advice::columns);
+    const std::string cure = refused ? "normals that all point to one side would tell (" +
+                                           said(Advice::those) + " do not, and are not taken)"
+                                     : "normals" + given + " tell " + columns;
     if (cloud->torn_points > 0)
       remark(counted(cloud->torn_points, "points") + " (" + std::to_string(cloud->first_torn) +
              " is the first) around holes that could not be closed, as points there do not tell "
@@ -106,22 +132,13 @@ std::vector<std::string> field_remarks(const AnyDomain& solver, const AnyField& 
       remark(counted(cloud->chord_points, "points") + " (" + std::to_string(cloud->first_chord) +
              " is the first) at sharp ridges where points do not tell how the surface runs: edges "
              "cut through the inside, and distances over them may be far too short; more points "
-             "near the ridge or less noise (--smooth) help, and " +
-             cure);
+             "near the ridge or less noise (" +
+             said(Advice::smooth) + ") help, and " + cure);
     if (cloud->joints > 0)
       remark(counted(cloud->joints, "pairs") +
              " of points join parts that have no triangles between them: all ways from one to the "
-             "other go over these; normals in the file (columns nx ny nz) or points along the edge "
-             "where they meet would join them");
-    const RimDetours detours =
-        rim_detours(domain.positions(), cloud->mean_spacing, field.doubles(), outcome.from);
-    if (detours.points > 0)
-      remark(counted(detours.points, "points") + " (" + std::to_string(detours.first) +
-             " is the first) " + (detours.points == 1 ? "is" : "are") + " 5 to " +
-             std::to_string(static_cast<int>(std::ceil(100 * detours.most))) +
-             " % farther from the source than straight, though the cloud is flat there: ways go "
-             "around a notch in its rim or a void; that is too far if the surface does not end "
-             "there, and more points there help");
+             "other go over these; normals" +
+             given + " " + columns + " or points along the edge where they meet would join them");
   }
   if (const BentCrossings bent = bent_crossings(solver); bent.hinges > 0)
     remark("solids have " + counted(bent.edges, "edges") +
@@ -130,40 +147,142 @@ std::vector<std::string> field_remarks(const AnyDomain& solver, const AnyField& 
            (bent.cracks > 0 ? ", most of all where cracks end on such faces; where cracks join on "
                               "one, single vertices may be too near, by two thirds at worst"
                             : ""));
-  if (!field.complete()) {
-    remark("stopped after " + counted(field.statistics().expansions, "expansions") +
+  return remarks;
+}
+
+std::vector<Remark> work_remarks(const FieldWork& work, Reader reader) {
+  std::vector<Remark> remarks;
+  const auto remark = [&](std::string text) { remarks.push_back({std::move(text)}); };
+  const auto said = [&](Advice advice) { return std::string(spelled(advice, reader)); };
+  const PropagateStatistics& done = work.statistics;
+  const std::size_t all = work.vertices * work.fields;
+  const std::string rows = work.fields > 1 ? " of " + counted(work.fields, "rows") : "";
+  if (const std::size_t fields = done.windows_gave_up; fields > 0)
+    remark("windows became too many to wait for" +
+           (fields > 1 ? " from " + counted(fields, "sources") : std::string()) +
+           ": the distances are those of " + said(Advice::fast) + "; " + said(Advice::exact) +
+           " waits longer");
+  if (!work.complete)
+    remark("stopped after " + counted(done.expansions, "expansions") +
            ": distances may still be too long");
-  }
   // Labels that got much wrong say so, and windows are the cure where there are any. Where speeds
   // jump there are none, and what travels along an edge is lowered though nothing is wrong.
-  const bool has_windows =
-      (domain.kind() == DomainKind::surface || domain.kind() == DomainKind::cloud) &&
-      solver.refracting_edges() == 0;
-  const bool by_labels = field.accuracy() == Accuracy::fast();
-  const std::string cure = has_windows && by_labels ? "; --accuracy accurate has none of this" : "";
-  const std::size_t raised = field.statistics().raised_vertices;
-  if (100 * raised > domain.vertices())
-    remark(counted(raised, "vertices") +
+  const bool cured = work.has_windows && work.accuracy == Accuracy::fast();
+  const std::string cure = cured ? "; " + said(Advice::accurate) + " has none of this" : "";
+  const std::size_t raised = done.raised_vertices;
+  if (100 * raised > all)
+    remark(counted(raised, "vertices") + rows +
            " came out nearer than the straight line through space, and were given its length: "
            "distances here are poor" +
-           (cure.empty() ? "; another --triangulation may do better" : cure));
-  const std::size_t lowered = field.statistics().lowered_vertices;
-  if ((cure.empty() ? 20 : 50) * lowered > domain.vertices())
-    remark(counted(lowered, "vertices") +
+           (cured ? cure : "; another " + said(Advice::triangulation) + " may do better"));
+  const std::size_t lowered = done.lowered_vertices;
+  if ((cured ? 50 : 20) * lowered > all)
+    remark(counted(lowered, "vertices") + rows +
            " came out farther than a neighbour and the edge between, and were given that way: "
            "distances here are less accurate" +
            cure);
   // Rounding turns a line of sight a little at each edge. Where a straight line in space is known
   // it mends what windows lose by that.
-  const double too_many = domain.positions().empty() && !by_labels ? 1e4 : 5e4;
-  if (single && outcome.max_distance > too_many * solver.mean_edge() && solver.mean_edge() > 0)
-    remark("distances of up to " + short_number(outcome.max_distance / solver.mean_edge()) +
-           " edges: single precision may be off by more than 1e-4; use --precision double");
-  const std::size_t unreached = domain.vertices() - outcome.reached;
-  if (unreached == 0) return remarks;
-  const std::string why = why_unreached(solver, bounded);
-  remark(counted(unreached, "vertices") + " not reached (inf)" + (why.empty() ? "" : ": " + why));
+  const bool by_labels = work.accuracy == Accuracy::fast();
+  if (work.edges > (!work.in_space && !by_labels ? 1e4 : 5e4))
+    remark("distances of up to " + short_number(work.edges) +
+           " edges: single precision may be off by more than 1e-4; use " + said(Advice::twice));
   return remarks;
+}
+
+namespace {
+
+FieldWork work_of(const AnyDomain& domain, const PropagateStatistics& statistics,
+                  Accuracy accuracy) {
+  const bool has_windows =
+      (domain.kind() == DomainKind::surface || domain.kind() == DomainKind::cloud) &&
+      domain.refracting_edges() == 0;
+  return {.statistics = statistics,
+          .accuracy = accuracy,
+          .has_windows = has_windows,
+          .vertices = domain.vertices()};
+}
+
+double largest(const AnyField& field) {
+  return std::visit(
+      [](const auto& f) {
+        double most = 0;
+        for (const auto d : f.distance)
+          if (std::isfinite(d)) most = std::max(most, static_cast<double>(d));
+        return most;
+      },
+      field.data);
+}
+
+}  // namespace
+
+std::vector<Remark> field_remarks(const AnyDomain& solver, const AnyField& field,
+                                  const SourceList& sources, Reader reader) {
+  std::vector<Remark> remarks;
+  const auto remark = [&](std::string text) { remarks.push_back({std::move(text)}); };
+  const AnyShape& domain = solver.shape();
+  if (const CloudSummary* cloud = solver.cloud()) {
+    const auto from = reached_sources([&](Index v) { return field[v]; }, sources);
+    const RimDetours detours =
+        rim_detours(domain.positions(), cloud->mean_spacing, field.doubles(), from);
+    if (detours.points > 0)
+      remark(counted(detours.points, "points") + " (" + std::to_string(detours.first) +
+             " is the first) " + (detours.points == 1 ? "is" : "are") + " 5 to " +
+             std::to_string(static_cast<int>(std::ceil(100 * detours.most))) +
+             " % farther from the source than straight, though the cloud is flat there: ways go "
+             "around a notch in its rim or a void; that is too far if the surface does not end "
+             "there, and more points there help");
+  }
+  FieldWork work = work_of(solver, field.statistics(), field.accuracy());
+  work.complete = field.complete();
+  work.in_space = !domain.positions().empty();
+  if (const double edge = solver.mean_edge(); solver.precision() == Precision::single && edge > 0)
+    work.edges = largest(field) / edge;
+  for (Remark& one : work_remarks(work, reader)) remarks.push_back(std::move(one));
+  return remarks;
+}
+
+bool is_bounded(const PropagateOptions& options) {
+  return std::isfinite(options.radius) ||
+         options.max_expansions != PropagateOptions{}.max_expansions;
+}
+
+Remark unreached_remark(std::size_t count, std::string why, bool bounded, Reader reader) {
+  if (bounded)
+    why.append(why.empty() ? "" : ", and ")
+        .append(spelled(Advice::bounds, reader))
+        .append(" ends the search early");
+  return {counted(count, "vertices") + " not reached (inf)" + (why.empty() ? "" : ": " + why),
+          false};
+}
+
+std::vector<Remark> reach_remarks(const AnyDomain& domain, const AnyField& field,
+                                  const PropagateOptions& options, Reader reader) {
+  const std::size_t unreached = std::visit(
+      [](const auto& f) {
+        return static_cast<std::size_t>(std::count_if(f.distance.begin(), f.distance.end(),
+                                                      [](auto d) { return !std::isfinite(d); }));
+      },
+      field.data);
+  if (unreached == 0) return {};
+  return {unreached_remark(unreached, why_unreached(domain, reader), is_bounded(options), reader)};
+}
+
+std::vector<Remark> remarks(const AnyDomain& domain, const AnyField& field,
+                            const SourceList& sources, const PropagateOptions& options,
+                            Reader reader) {
+  std::vector<Remark> all = domain_remarks(domain, reader);
+  for (auto& some : {field_remarks(domain, field, sources, reader),
+                     reach_remarks(domain, field, options, reader)})
+    all.insert(all.end(), some.begin(), some.end());
+  return all;
+}
+
+std::vector<Remark> rows_remarks(const AnyDomain& domain, const PropagateStatistics& sum,
+                                 Accuracy accuracy, std::size_t rows, Reader reader) {
+  FieldWork work = work_of(domain, sum, accuracy);
+  work.fields = rows;
+  return work_remarks(work, reader);
 }
 
 }  // namespace plexway

@@ -3,8 +3,10 @@
 #include <cstddef>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
+#include <plexway/any/remarks.hpp>
 #include <plexway/any_domain.hpp>
 
 namespace plexway {
@@ -17,16 +19,28 @@ struct FieldReach {
   std::size_t farthest = 0;       ///< a vertex at that distance
   std::vector<std::size_t> from;  ///< vertices that are sources, and reached; ascending
 };
-[[nodiscard]] FieldReach reach_of(std::span<const double> distance,
-                                  std::span<const Source> sources);
+[[nodiscard]] FieldReach reach_of(std::span<const double> distance, const SourceList& sources);
 
-/// Why vertices may not be reached where a radius or a number of expansions was given.
-inline constexpr const char* bounded_search = "--radius or --max-expansions ends the search early";
+/// The work of fields, whoever has their domain.
+struct FieldWork {
+  const PropagateStatistics& statistics;  ///< a sum over the fields
+  Accuracy accuracy;
+  bool complete = true;
+  bool has_windows = false;  ///< may the domain be solved by them?
+  std::size_t vertices = 0;
+  std::size_t fields = 1;
+  /// The longest distance in mean edges, of a surface in single precision; else 0.
+  double edges = 0;
+  bool in_space = true;  ///< have the vertices positions?
+};
+/// What it says of their distances.
+[[nodiscard]] std::vector<Remark> work_remarks(const FieldWork& work, Reader reader);
 
-/// What a user should know of a field though nothing failed, a sentence each: points dropped, work
-/// that ended early, distances that are poor, vertices that no path reaches and why. `bounded`: a
-/// radius or a number of expansions was given.
-[[nodiscard]] std::vector<std::string> field_remarks(const AnyDomain& domain, const AnyField& field,
-                                                     const FieldReach& reach, bool bounded);
+/// So many vertices are not reached; `why` may be empty. `bounded`: a radius or a number of
+/// expansions was given.
+[[nodiscard]] Remark unreached_remark(std::size_t count, std::string why, bool bounded,
+                                      Reader reader);
+/// Was one?
+[[nodiscard]] bool is_bounded(const PropagateOptions& options);
 
 }  // namespace plexway

@@ -369,6 +369,10 @@ PairFilesReport run_on(const PairWork& work, const AnyExecutor& executor) {
               executor, [&](const auto& chosen) { run(chosen, *complex); });
       },
       of_rows.complex);
+  report.remarks = domain_remarks(built, work.files.reader);
+  for (Remark& one : rows_remarks(built, report.solved.statistics, work.files.solve.accuracy,
+                                  report.solved.rows, work.files.reader))
+    report.remarks.push_back(std::move(one));
   return report;
 }
 

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include <plexway/any/pairs.hpp>
+#include <plexway/any/remarks.hpp>
 #include <plexway/any_domain.hpp>
 #include <plexway/apps/row_ranks.hpp>
 #include <plexway/io/matrix_file.hpp>
@@ -39,7 +40,8 @@ struct PairFiles {
   std::string histogram;   ///< of all distances, .csv
   double bin_width = 1;    ///< of the histogram
   std::size_t bins = 100;
-  std::size_t block = 32;  ///< rows that are finished together
+  std::size_t block = 32;          ///< rows that are finished together
+  Reader reader = Reader::people;  ///< of what is remarked
 
   [[nodiscard]] bool sparse() const { return radius || nearest; }
   /// Are rows and columns the same vertices, in the same order?
@@ -69,6 +71,7 @@ struct PairFilesReport {
   std::uint64_t entries = 0;  ///< of a sparse matrix
   std::optional<StatisticsSummary> statistics = {};
   std::size_t threads = 1, ranks = 1;
+  std::vector<Remark> remarks = {};  ///< on the domain, and on the rows that were solved
 
   /// "2 threads" or "4 ranks, here of 2 threads".
   [[nodiscard]] std::string team() const;

@@ -15,10 +15,51 @@ constexpr double nearest = 3, farthest = 25;  // spacings
 constexpr double longer = 0.05, behind_walls = 0.5;
 constexpr std::size_t most_points = 10000;  // an even cloud has 2000 within `farthest`
 
+constexpr double beside = 2, height = 0.4;  // spacings
+
+/// Tells quickly that a point does not lie in one plane with what is around a source: all that is
+/// within `beside` of the source is near every line from it.
+class AroundSource {
+ public:
+  AroundSource(const std::vector<Point3>& offsets, double spacing) : height_(height * spacing) {
+    const double reach = 0.999 * beside * spacing;
+    double longest = 0, widest = 0;
+    std::vector<Point3> near;
+    for (const Point3& p : offsets)
+      if (dot(p, p) <= reach * reach) near.push_back(p);
+    for (const Point3& p : near)
+      if (dot(p, p) > longest) longest = dot(p, p), a_ = p;
+    for (const Point3& p : near)
+      if (const Point3 across = cross(a_, p); dot(across, across) > widest)
+        widest = dot(across, across), b_ = p, normal_ = across;
+    if (!(widest > 0)) return;
+    // A direction in which a and b are at most `height_` high is so far from the normal at most:
+    // what it has in their plane is a sum of these along the dual basis.
+    const double aa = dot(a_, a_), ab = dot(a_, b_), bb = dot(b_, b_);
+    const double tilt = height_ * (std::sqrt(aa) + std::sqrt(bb)) / std::sqrt(widest);
+    if (!(tilt < 1)) return;
+    least_ = std::sqrt(1 - tilt * tilt);
+    for (double& x : normal_) x /= std::sqrt(widest);
+    for (std::size_t i = 0; i < 3; ++i) {
+      dual_a_[i] = (bb * a_[i] - ab * b_[i]) / widest;
+      dual_b_[i] = (aa * b_[i] - ab * a_[i]) / widest;
+    }
+  }
+
+  /// Is there a plane that could have all of them? No is sure.
+  [[nodiscard]] bool may_be_flat(const Point3& to) const {
+    const double along = std::abs(dot(dual_a_, to)) + std::abs(dot(dual_b_, to));
+    return least_ * std::abs(dot(normal_, to)) <= 1.001 * height_ * (1 + along);
+  }
+
+ private:
+  double height_, least_ = 0;  // of a plane's normal along ours
+  Point3 a_ = {}, b_ = {}, normal_ = {}, dual_a_ = {}, dual_b_ = {};
+};
+
 /// Do the points near the line from a source to another point lie in one plane? On a surface that
 /// is bent so much that a straight line is a twentieth too short they do not at its ends.
 bool in_one_plane(const std::vector<Point3>& points, const Point3& to, double spacing) {
-  constexpr double beside = 2, height = 0.4;  // spacings
   constexpr std::size_t least = 6;
   const double length2 = dot(to, to);
   std::vector<Point3> near;
@@ -55,12 +96,14 @@ RimDetours rim_detours(std::span<const std::array<double, 3>> positions, double 
       offsets.push_back(q);
     }
     if (patch.size() > most_points) continue;
+    const AroundSource around(offsets, spacing);
     for (std::size_t i = 0; i < patch.size(); ++i) {
       const std::size_t v = patch[i];
       const double straight = std::sqrt(dot(offsets[i], offsets[i]));
       const double share = (distance[v] - distance[s]) / straight - 1;
       if (straight < nearest * spacing || !(share > longer && share < behind_walls)) continue;
-      if (found[v] || !in_one_plane(offsets, offsets[i], spacing)) continue;
+      if (found[v] || !around.may_be_flat(offsets[i])) continue;
+      if (!in_one_plane(offsets, offsets[i], spacing)) continue;
       found[v] = true;
       if (detours.points++ == 0 || v < detours.first) detours.first = v;
       detours.most = std::max(detours.most, share);

@@ -1,5 +1,3 @@
-#include "any/field_remarks.hpp"
-
 #include <algorithm>
 #include <array>
 #include <catch2/catch.hpp>
@@ -9,6 +7,8 @@
 #include <string>
 #include <utility>
 #include <vector>
+
+#include <plexway/any/remarks.hpp>
 
 using namespace plexway;
 
@@ -45,10 +45,10 @@ bool remarks(AnyShape shape, const BuildOptions& building, Accuracy accuracy,
   PropagateOptions options;
   options.accuracy = accuracy;
   const AnyField field = domain.solve(Serial{}, source, options);
-  const std::vector<double> distance = field.doubles();
-  const auto told = field_remarks(domain, field, reach_of(distance, {&source, 1}), false);
-  return std::any_of(told.begin(), told.end(),
-                     [&](const std::string& r) { return r.find(words) != std::string::npos; });
+  const auto told = plexway::remarks(domain, field, source, options, Reader::tool);
+  return std::any_of(told.begin(), told.end(), [&](const Remark& remark) {
+    return remark.text.find(words) != std::string::npos;
+  });
 }
 
 bool warns_of_rounding(AnyShape shape, Precision precision, Accuracy accuracy) {
@@ -226,10 +226,9 @@ TEST_CASE("points of a cloud behind a notch in its rim are told") {
     at.offset = offset;
     const Source source = at;
     const AnyField field = domain.solve(Serial{}, source);
-    const std::vector<double> distance = field.doubles();
-    const auto told = field_remarks(domain, field, reach_of(distance, {&source, 1}), false);
-    return std::any_of(told.begin(), told.end(), [](const std::string& r) {
-      return r.find("around a notch in its rim") != std::string::npos;
+    const auto told = field_remarks(domain, field, source);
+    return std::any_of(told.begin(), told.end(), [](const Remark& remark) {
+      return remark.text.find("around a notch in its rim") != std::string::npos;
     });
   };
   CHECK(warns(17 * 20, 0));

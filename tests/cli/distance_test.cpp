@@ -82,7 +82,7 @@ TEST_CASE("the JSON of distance has its keys, in order") {
                                          "seconds", "reached", "unreached", "max_distance",
                                          "expansions", "updates", "lowered_vertices",
                                          "raised_vertices", "executor", "threads", "precision",
-                                         "accuracy", "triangulation"});
+                                         "accuracy", "triangulation", "notes"});
   CHECK(json["input"] == sample("knot.ply"));
   CHECK(json["kind"] == "surface");
   CHECK(json["vertices"] == 5120);

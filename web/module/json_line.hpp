@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace plexway::web {
 
@@ -14,12 +15,7 @@ class JsonLine {
  public:
   void add(std::string_view name, std::string_view value) {
     begin(name);
-    text_ += '"';
-    for (const char c : value) {
-      if (c == '"' || c == '\\') text_ += '\\';
-      if (static_cast<unsigned char>(c) >= ' ') text_ += c;
-    }
-    text_ += '"';
+    quoted(value);
   }
   void add(std::string_view name, bool value) {
     begin(name);
@@ -45,6 +41,15 @@ class JsonLine {
     }
     text_ += ']';
   }
+  void add(std::string_view name, const std::vector<std::string>& values) {
+    begin(name);
+    text_ += '[';
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      if (i != 0) text_ += ',';
+      quoted(values[i]);
+    }
+    text_ += ']';
+  }
   [[nodiscard]] std::string text() const { return text_ + "}"; }
 
  private:
@@ -53,6 +58,14 @@ class JsonLine {
     text_ += '"';
     text_ += name;
     text_ += "\":";
+  }
+  void quoted(std::string_view value) {
+    text_ += '"';
+    for (const char c : value) {
+      if (c == '"' || c == '\\') text_ += '\\';
+      if (static_cast<unsigned char>(c) >= ' ') text_ += c;
+    }
+    text_ += '"';
   }
   void number(double value) {
     char digits[32];

@@ -21,6 +21,7 @@
 #include <variant>
 #include <vector>
 
+#include <plexway/any/remarks.hpp>
 #include <plexway/any_domain.hpp>
 #include <plexway/error.hpp>
 #include <plexway/executors.hpp>
@@ -93,6 +94,12 @@ int answered(const Body& body) {
   }
 }
 
+std::vector<std::string> texts_of(const std::vector<Remark>& remarks) {
+  std::vector<std::string> texts;
+  for (const Remark& remark : remarks) texts.push_back(remark.text);
+  return texts;
+}
+
 const AnyDomain& opened() {
   if (!session().domain) throw UsageError("open a file first");
   return *session().domain;
@@ -158,6 +165,7 @@ PLEXWAY_PAGE_CALLS int plexway_open(const char* file, const char* as, int twice)
     line.add("buildMs", build);
     line.add("bytes", now.domain->bytes());
     line.add("note", opened.level_set_note());
+    line.add("notes", texts_of(domain_remarks(*now.domain)));
     line.add("centre", now.drawing.centre());
     line.add("size", now.drawing.size());
     return line.text();
@@ -247,6 +255,7 @@ PLEXWAY_PAGE_CALLS int plexway_solve(const char* accuracy) {
     line.add("solveMs", solve);
     line.add("farthest", farthest);
     line.add("unreached", unreached);
+    line.add("notes", texts_of(field_remarks(domain, now.field, now.sources)));
     return line.text();
   });
 }

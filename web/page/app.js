@@ -116,6 +116,17 @@ function solved(answer) {
   at('farthest').textContent = shortNumber(answer.farthest) +
     (answer.unreached > 0 ? `, ${answer.unreached} unreached` : '');
   at('solve').textContent = milliseconds(answer.solveMs);
+  tellNotes([...state.domain.notes, ...answer.notes]);
+}
+
+// What to know of the distances though nothing failed.
+function tellNotes(notes) {
+  at('notes').hidden = notes.length === 0;
+  at('notes').replaceChildren(...notes.map((note) => {
+    const line = document.createElement('li');
+    line.textContent = note;
+    return line;
+  }));
 }
 
 async function afterSolve() {

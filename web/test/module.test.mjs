@@ -76,6 +76,19 @@ test('lines and triangles of one file are a mixed domain', () => {
   assert.ok(Math.abs(distance[4] - (Math.SQRT2 + 1)) < 1e-6);
 });
 
+test('what distances may be far off by is told', () => {
+  // Two squares of points, corner to corner: no triangles join them.
+  const points = [];
+  for (let i = 0; i < 12; ++i)
+    for (let j = 0; j < 12; ++j) points.push(`${i} ${j} 0`, `${13.5 + i} ${13.5 + j} 0`);
+  const { notes } = engine.open([{ name: 'squares.xyz', bytes: Buffer.from(points.join('\n') + '\n') }]);
+  assert.ok(notes.some((note) => note.includes('no triangles between them')), notes.join());
+  assert.ok(notes.every((note) => !note.includes('--')), 'options of the tool are not the page\'s');
+  engine.setSource(0, 0);
+  assert.ok(Array.isArray(engine.solve('usual').notes));
+  assert.deepEqual(engine.open(read('knot.ply')).notes, []);
+});
+
 for (const accuracy of ['fast', 'accurate', 'exact'])
   test(`${accuracy}: the module and the tool write the same bytes`, () => {
     engine.open(read('exact/surfaces/spot.obj'));

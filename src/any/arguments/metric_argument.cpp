@@ -168,19 +168,4 @@ std::shared_ptr<const MeasuredLengths> measure(const MetricArgument& argument,
   }
 }
 
-std::string smoothed_note(const MeasuredLengths* lengths) {
-  if (lengths == nullptr || !lengths->smoothed) return {};
-  return "in solids paths are refracted between regions of at most 64 speeds: here each edge takes "
-         "the mean of its tetrahedra, which is of first order where they jump";
-}
-
-std::string violations_note(const AnyShape& domain, const MeasuredLengths* lengths) {
-  if (lengths == nullptr || lengths->violations.count == 0) return {};
-  const std::string_view what = domain.simplex_name();
-  return "the metric breaks the triangle inequality in " +
-         counted(lengths->violations.count, what) + " of " + std::to_string(domain.simplices()) +
-         ", such as " + singular(what) + " " + std::to_string(lengths->violations.first) +
-         ": their lengths were taken as those of the nearest flat ones";
-}
-
 }  // namespace plexway

@@ -27,9 +27,4 @@ std::string metric_file(const MetricArgument& argument);
 std::shared_ptr<const MeasuredLengths> measure(const MetricArgument& argument,
                                                const AnyShape& domain, Jumps jumps);
 
-/// A sentence for people where paths were to be refracted in a solid, and are not; else empty.
-std::string smoothed_note(const MeasuredLengths* lengths);
-/// A sentence for people where lengths break the triangle inequality; else empty.
-std::string violations_note(const AnyShape& domain, const MeasuredLengths* lengths);
-
 }  // namespace plexway

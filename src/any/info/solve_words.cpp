@@ -61,12 +61,4 @@ void add_accuracy(DomainKind kind, Accuracy accuracy, const PropagateStatistics&
   if (statistics.windows_gave_up > 0) json["windows_gave_up"] = statistics.windows_gave_up;
 }
 
-std::string accuracy_note(const PropagateStatistics& statistics) {
-  const std::size_t fields = statistics.windows_gave_up;
-  if (fields == 0) return {};
-  return "windows became too many to wait for" +
-         (fields > 1 ? " from " + counted(fields, "sources") : std::string()) +
-         ": the distances are those of --accuracy fast; --accuracy exact waits longer";
-}
-
 }  // namespace plexway

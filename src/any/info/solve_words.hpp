@@ -31,7 +31,5 @@ namespace plexway {
 void add_accuracy(DomainKind kind, Accuracy accuracy, const PropagateStatistics& statistics,
                   Json& json);
 ///@}
-/// For people, where windows gave up; else empty.
-[[nodiscard]] std::string accuracy_note(const PropagateStatistics& statistics);
 
 }  // namespace plexway

@@ -91,8 +91,9 @@ void run_cvt(const CvtCommand& command) {
   phases.end("load");
   if (!command.dual.empty()) require("--dual", support(Purpose::duals, domain.kind()));
   Result result;
-  with_sampled(domain, precision,
-               [&](const auto& complex) { result = compute(complex, command, progress, phases); });
+  Notes notes = with_sampled(domain, precision, [&](const auto& complex) {
+    result = compute(complex, command, progress, phases);
+  });
   const CentroidalVoronoi& voronoi = result.voronoi;
   if (!command.out.empty())
     write_points(command.out, domain, voronoi.seeds, "content", voronoi.cell_content);
@@ -150,10 +151,12 @@ void run_cvt(const CvtCommand& command) {
   report_picture(command.picture, domain, json, table);
   add_written(table, {command.out, command.cells, command.dual, command.picture.file,
                       command.picture.html});
+  add_parts_without(notes, domain, voronoi.seeds, "seeds");
+  notes.tell(json);
   print_report(
       json, table, command.json, command.quiet,
       {command.out, command.cells, command.dual, command.picture.file, command.picture.html});
-  if (!command.quiet) say_parts_without(domain, voronoi.seeds, "seeds");
+  notes.say(command.quiet);
 }
 
 }  // namespace

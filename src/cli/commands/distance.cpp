@@ -27,9 +27,9 @@
 #include "cli/commands/commands.hpp"
 #include "cli/commands/distance_command.hpp"
 #include "cli/exit_codes.hpp"
-#include "cli/report/console.hpp"
 #include "cli/report/distance_output.hpp"
 #include "cli/report/distance_report.hpp"
+#include "cli/report/notes.hpp"
 #include "cli/report/progress.hpp"
 #include "executors/same_work.hpp"
 
@@ -120,12 +120,20 @@ Table to_table(const DistanceCommand& command, const Domain& domain, const AnyDo
   return table;
 }
 
-// Who did not choose learns what was chosen, and what another choice would bring.
-void note_choices(const AnyDomain& solver, const AnyField& field, const Executor& executor,
-                  bool accuracy_given) {
-  note_accuracy(field.statistics());
-  if (std::holds_alternative<GL>(executor) && !accuracy_given && has_accuracies(solver.kind()))
-    say_note("--executor gl knows --accuracy fast only; serial is more accurate");
+// What there is to tell of a field; `options` are those that it was solved by.
+Notes notes_on(const DistanceCommand& command, const AnyDomain& solver, const AnyField& field,
+               const std::vector<Source>& sources, const PropagateOptions& options,
+               const Executor& executor, bool isolines_are_empty) {
+  Notes notes;
+  if (command.quiet && !command.json) return notes;
+  if (!command.isolines.out.empty() && isolines_are_empty)
+    notes.add("--isolines-out holds nothing: no distance is as large as the step");
+  // Who did not choose learns what was chosen, and what another choice would bring.
+  if (std::holds_alternative<GL>(executor) && command.solve.accuracy.empty() &&
+      has_accuracies(solver.kind()))
+    notes.add("--executor gl knows --accuracy fast only; serial is more accurate");
+  notes.add(remarks(solver, field, sources, options, Reader::tool));
+  return notes;
 }
 
 void run_distance(DistanceCommand command) {
@@ -281,17 +289,14 @@ void run_distance(DistanceCommand command) {
   Table table =
       to_table(command, domain, solver, field, lengths.get(), arguments, sources, outcome);
   report_picture(command.picture, shown, json, table);
+  const Notes notes =
+      notes_on(command, solver, field, sources, options, outcome.executor, isovalues.empty());
+  notes.tell(json);
   print_report(json, table, command.json, command.quiet,
                {command.out, command.isolines.out, command.picture.file, command.picture.html});
 
   check_reached();
-  const bool bounded = command.solve.radius || command.solve.max_expansions;
-  if (!command.quiet) say_violations(domain, lengths.get());
-  if (!command.quiet && !command.isolines.out.empty() && isovalues.empty())
-    say_note("--isolines-out holds nothing: no distance is as large as the step");
-  if (command.quiet) return;
-  note_choices(solver, field, outcome.executor, !command.solve.accuracy.empty());
-  for (const std::string& remark : field_remarks(solver, field, outcome, bounded)) say_note(remark);
+  notes.say(command.quiet);
 }
 
 }  // namespace

@@ -29,9 +29,9 @@
 #include "any/stopwatch.hpp"
 #include "cli/commands/distance_command.hpp"
 #include "cli/exit_codes.hpp"
-#include "cli/report/console.hpp"
 #include "cli/report/distance_output.hpp"
 #include "cli/report/distance_report.hpp"
+#include "cli/report/notes.hpp"
 #include "cli/report/progress.hpp"
 #include "executors/parts/same_rows.hpp"
 #include "executors/piece_post.hpp"
@@ -324,24 +324,33 @@ void solve_in_parts(DistanceCommand& command, const PropagateOptions& wanted,
                         describe(team) + ", " + name_of(field.accuracy) + ", " +
                         command.solve.precision + ")");
   add_written(table, {command.out});
+  Notes on_files, notes;
+  if (joined)
+    for (const std::string& remark : remarks_on(*joined)) on_files.add(remark);
+  notes.add(work_remarks({.statistics = statistics,
+                          .accuracy = field.accuracy,
+                          .complete = field.complete,
+                          .has_windows = true,
+                          .vertices = summary.vertices,
+                          .edges = std::is_same_v<Real, float> && summary.mean_edge > 0
+                                       ? field.max_distance / summary.mean_edge
+                                       : 0},
+                         Reader::tool));
+  if (const std::size_t left = summary.vertices - field.reached; left > 0)
+    notes.add({unreached_remark(
+        left,
+        summary.unreferenced_vertices > 0
+            ? counted(summary.unreferenced_vertices, "vertices") + " in none of its triangles"
+            : "",
+        is_bounded(options), Reader::tool)});
+  Notes all = on_files;
+  all.add(notes);
+  all.tell(json);
   print_report(json, table, command.json, command.quiet, {command.out});
   // Also where nothing is reached: that may be why.
-  if (joined && !command.quiet)
-    for (const std::string& remark : remarks_on(*joined)) say_note(remark);
+  on_files.say(command.quiet);
   check_reached();
-  if (command.quiet) return;
-  note_accuracy(statistics);
-  if (!field.complete)
-    say_note("stopped after " + counted(statistics.expansions, "expansions") +
-             ": distances may still be too long");
-  const std::size_t left = summary.vertices - field.reached;
-  if (left == 0) return;
-  std::string why;
-  if (summary.unreferenced_vertices > 0)
-    why = counted(summary.unreferenced_vertices, "vertices") + " in none of its triangles";
-  if (command.solve.radius || command.solve.max_expansions)
-    why.append(why.empty() ? "" : ", and ").append(bounded_search);
-  say_note(counted(left, "vertices") + " not reached (inf)" + (why.empty() ? "" : ": " + why));
+  notes.say(command.quiet);
 }
 
 }  // namespace

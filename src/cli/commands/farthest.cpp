@@ -49,7 +49,7 @@ void run_farthest(const FarthestCommand& command) {
   progress.phase("looking for the farthest points");
   FarthestPoints found;
   std::vector<double> nearest;  // to the points found, where a picture shows it
-  with_sampled(domain, precision, [&](const auto& complex) {
+  Notes notes = with_sampled(domain, precision, [&](const auto& complex) {
     phases.end("build");
     found = farthest_points(Serial{}, complex, start, options);
     phases.end("search");
@@ -72,8 +72,8 @@ void run_farthest(const FarthestCommand& command) {
   summary.json["covering"] = json_number(found.covering);
   summary.table.add("covering", "no vertex is farther than " + short_number(found.covering));
   report_picture(command.picture, domain, summary.json, summary.table);
-  summary.finish(command, found.statistics, phases);
-  if (!command.quiet) say_parts_without(domain, found.points, "points");
+  add_parts_without(notes, domain, found.points, "points");
+  summary.finish(command, found.statistics, phases, notes);
 }
 
 }  // namespace

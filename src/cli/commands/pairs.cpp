@@ -8,13 +8,13 @@
 #include <plexway/error.hpp>
 
 #include "any/arguments/point_argument.hpp"
+#include "any/field_remarks.hpp"
 #include "any/info/solve_words.hpp"
 #include "any/point_file.hpp"
 #include "cli/among.hpp"
 #include "cli/commands/commands.hpp"
 #include "cli/commands/pairs_matrix.hpp"
 #include "cli/commands/sampling_command.hpp"
-#include "cli/report/console.hpp"
 #include "cli/report/distance_output.hpp"
 #include "cli/report/progress.hpp"
 
@@ -53,7 +53,7 @@ void run_pairs(const PairsCommand& pairs) {
   const auto points = locate_sources(domain, arguments);
   progress.phase("solving");
   DistanceMatrix matrix;
-  with_sampled(domain, precision, [&](const auto& complex) {
+  Notes notes = with_sampled(domain, precision, [&](const auto& complex) {
     phases.end("build");
     const auto tell = [&](double share) {
       progress.done(share);
@@ -79,12 +79,17 @@ void run_pairs(const PairsCommand& pairs) {
   summary.json["asymmetry"] = matrix.asymmetry;
   summary.table.add("two ways",
                     "differ by " + short_number(matrix.asymmetry) + " of the shorter at most");
-  summary.finish(command, matrix.statistics, phases);
-  if (!command.quiet) note_accuracy(matrix.statistics);
-  if (matrix.asymmetry > 0.01 && !command.quiet)
-    say_note("the two ways between some points, there and back, differ by " +
-             short_number(100 * matrix.asymmetry) +
-             " %, so one of them is off by half of that or more: 'plexway path' is more exact");
+  notes.add(work_remarks({.statistics = matrix.statistics,
+                          .accuracy = matrix.accuracy,
+                          .has_windows = has_accuracies(domain.kind()),
+                          .vertices = domain.vertices(),
+                          .fields = points.size()},
+                         Reader::tool));
+  if (matrix.asymmetry > 0.01)
+    notes.add("the two ways between some points, there and back, differ by " +
+              short_number(100 * matrix.asymmetry) +
+              " %, so one of them is off by half of that or more: 'plexway path' is more exact");
+  summary.finish(command, matrix.statistics, phases, notes);
 }
 
 }  // namespace

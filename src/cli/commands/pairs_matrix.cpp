@@ -24,6 +24,7 @@
 #include "cli/among.hpp"
 #include "cli/report/console.hpp"
 #include "cli/report/distance_output.hpp"
+#include "cli/report/notes.hpp"
 #include "cli/report/pairs_report.hpp"
 #include "cli/report/progress.hpp"
 
@@ -107,6 +108,7 @@ PairFiles asked_for(const MatrixCommand& command) {
   files.matrix = command.out;
   files.statistics = command.stats;
   files.histogram = command.histogram;
+  files.reader = Reader::tool;
   files.bin_width = command.bin_width.value_or(files.bin_width);
   files.bins = command.bins;
   return files;
@@ -140,6 +142,8 @@ void take_rows(const MatrixCommand& command, const Domain& domain, ProgressLine&
 
 void print(const MatrixCommand& command, const Domain& domain, const PairFiles& files,
            const PairFilesReport& report) {
+  Notes notes;
+  notes.add(report.remarks);
   Json json;
   Table table;
   json["input"] = command.input;
@@ -189,11 +193,13 @@ void print(const MatrixCommand& command, const Domain& domain, const PairFiles& 
     if (report.statistics) add_statistics(*report.statistics, json, table);
     add_written(table, {command.out, command.stats, command.histogram});
   }
+  notes.tell(json);
   if (command.json)
     write_output(json_text(json));
   else if (!command.quiet)
     write_output(table.text());
   flush_output();
+  notes.say(command.quiet);
 }
 
 // INPUT: where ranks share a node, one of them reads and builds it, and all map what it made. Not
@@ -314,8 +320,6 @@ void run_matrix(const MatrixCommand& command) {
   progress.clear();
   if (ranks != nullptr && !ranks->leads()) return;
   print(command, domain, files, report);
-  if (!command.quiet) say_violations(domain, files.building.lengths.get());
-  if (!command.quiet) note_accuracy(report.solved.statistics);
 }
 
 }  // namespace plexway::cli

@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include <plexway/any/remarks.hpp>
 #include <plexway/any/search.hpp>
 #include <plexway/any/support.hpp>
 #include <plexway/any_domain.hpp>
@@ -28,8 +29,8 @@
 #include "cli/options/picture_options.hpp"
 #include "cli/options/solve_options.hpp"
 #include "cli/options/triangulation_option.hpp"
-#include "cli/report/console.hpp"
 #include "cli/report/distance_output.hpp"
+#include "cli/report/notes.hpp"
 #include "cli/report/progress.hpp"
 #include "io/number_rows.hpp"
 
@@ -60,6 +61,7 @@ struct Outcome {
   std::vector<double> promised;  // of each target, as the field has it
   TriangulationReport triangulation;
   PropagateStatistics statistics;
+  std::vector<Remark> remarks;
   Accuracy accuracy = Accuracy::fast();
   std::string_view executor = "serial";
   double build = 0, solve = 0, trace = 0;
@@ -72,6 +74,7 @@ Outcome run_paths(const Domain& domain, const BuildOptions& building, const Path
   progress.phase("building");
   const AnyDomain built(domain, building);
   outcome.build = built.build_seconds();
+  outcome.remarks = domain_remarks(built, Reader::tool);
   const Stopwatch solving;
   if (command.astar) {
     progress.phase("searching");
@@ -93,6 +96,8 @@ Outcome run_paths(const Domain& domain, const BuildOptions& building, const Path
   outcome.accuracy = field.field().accuracy();
   outcome.triangulation = field.field().triangulation;
   outcome.distance = field.field().doubles();
+  for (Remark& one : field_remarks(built, field.field(), sources, Reader::tool))
+    outcome.remarks.push_back(std::move(one));
   progress.phase("tracing");
   const Stopwatch tracing;
   for (const PointSource& target : targets) {
@@ -182,7 +187,8 @@ void report(const PathCommand& command, const Domain& domain, const Outcome& out
 }
 
 // Things the user should know about paths that were found.
-void say_notes(const Outcome& outcome, const std::vector<PointSource>& sources) {
+Notes notes_on(const Outcome& outcome, const std::vector<PointSource>& sources,
+               std::size_t unreached) {
   std::size_t capped = 0, apart = 0;
   double most = 0;
   for (std::size_t k = 0; k < outcome.paths.size(); ++k) {
@@ -195,13 +201,16 @@ void say_notes(const Outcome& outcome, const std::vector<PointSource>& sources) 
     ++apart;
     most = std::max(most, gap);
   }
-  note_accuracy(outcome.statistics);
+  Notes notes;
+  notes.add(outcome.remarks);
   if (capped > 0)
-    say_note(counted(capped, "paths") +
-             ": the search for a shorter one ended early, so there may be one");
+    notes.add(counted(capped, "paths") +
+              ": the search for a shorter one ended early, so there may be one");
   if (apart > 0)
-    say_note(counted(apart, "paths") + ": the length differs from the distance by up to " +
-             short_number(100 * most) + " %; the length is the more exact");
+    notes.add(counted(apart, "paths") + ": the length differs from the distance by up to " +
+              short_number(100 * most) + " %; the length is the more exact");
+  if (unreached > 0) notes.add(counted(unreached, "targets") + " not reached: no path leads there");
+  return notes;
 }
 
 // Each of vertices:FILE as the vertex that it is.
@@ -296,17 +305,16 @@ void run_path(const PathCommand& typed) {
   Table table;
   report(command, domain, outcome, {from, sources}, {to, targets}, json, table);
   report_picture(command.picture, domain, json, table);
+  std::size_t unreached = 0;
+  for (const Path& path : outcome.paths) unreached += path.source == none;
+  const Notes notes = notes_on(outcome, sources, unreached);
+  notes.tell(json);
   print_report(json, table, command.json, command.quiet,
                {command.out, command.picture.file, command.picture.html});
 
-  std::size_t unreached = 0;
-  for (const Path& path : outcome.paths) unreached += path.source == none;
   if (unreached == outcome.paths.size())
     throw NothingReached(command.input + ": nothing reached: no path leads to any target");
-  if (!command.quiet) say_violations(domain, lengths.get());
-  if (!command.quiet) say_notes(outcome, sources);
-  if (unreached > 0 && !command.quiet)
-    say_note(counted(unreached, "targets") + " not reached: no path leads there");
+  notes.say(command.quiet);
 }
 
 }  // namespace

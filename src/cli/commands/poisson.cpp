@@ -76,7 +76,7 @@ void run_poisson(const PoissonCommand& command) {
   };
   progress.phase("throwing darts");
   PoissonDisks disks;
-  with_sampled(domain, precision, [&](const auto& complex) {
+  Notes notes = with_sampled(domain, precision, [&](const auto& complex) {
     phases.end("build");
     disks = poisson_disks(Serial{}, complex, options);
     phases.end("throw");
@@ -110,9 +110,11 @@ void run_poisson(const PoissonCommand& command) {
   phases.tell(json, table);
   report_picture(command.picture, domain, json, table);
   add_written(table, {command.out, command.picture.file, command.picture.html});
+  add_parts_without(notes, domain, disks.darts, "darts");
+  notes.tell(json);
   print_report(json, table, command.json, command.quiet,
                {command.out, command.picture.file, command.picture.html});
-  if (!command.quiet) say_parts_without(domain, disks.darts, "darts");
+  notes.say(command.quiet);
 }
 
 }  // namespace

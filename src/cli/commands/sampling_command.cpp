@@ -24,14 +24,14 @@ Precision precision_of(const SamplingCommand& command) {
   return precision_of(options);
 }
 
-void say_parts_without(const Domain& domain, std::span<const PointSource> points,
+void add_parts_without(Notes& notes, const Domain& domain, std::span<const PointSource> points,
                        std::string_view plural) {
   const Parts left = parts_without(domain, points);
   if (left.count == 0) return;
-  say_note("no " + singular(plural) + " in " + counted(left.count, "parts") + " of the " +
-           std::string(kind_noun(domain.kind())) + " (" + counted(left.vertices, "vertices") +
-           "): there are more parts than " + std::string(plural) +
-           ", or they went to larger ones; what lies there belongs to none");
+  notes.add("no " + singular(plural) + " in " + counted(left.count, "parts") + " of the " +
+            std::string(kind_noun(domain.kind())) + " (" + counted(left.vertices, "vertices") +
+            "): there are more parts than " + std::string(plural) +
+            ", or they went to larger ones; what lies there belongs to none");
 }
 
 PointSummary::PointSummary(const SamplingCommand& command, const Domain& domain,
@@ -44,13 +44,15 @@ PointSummary::PointSummary(const SamplingCommand& command, const Domain& domain,
 }
 
 void PointSummary::finish(const SamplingCommand& command, const PropagateStatistics& work,
-                          const Phases& phases) {
+                          const Phases& phases, const Notes& notes) {
   json["expansions"] = work.expansions;
   table.add("work", counted(work.expansions, "expansions"));
   phases.tell(json, table);
   add_written(table, {command.out, command.picture.file, command.picture.html});
+  notes.tell(json);
   print_report(json, table, command.json, command.quiet,
                {command.out, command.picture.file, command.picture.html});
+  notes.say(command.quiet);
 }
 
 }  // namespace plexway::cli

@@ -14,7 +14,7 @@
 #include "cli/options/input.hpp"
 #include "cli/options/picture_options.hpp"
 #include "cli/options/solve_options.hpp"
-#include "cli/report/console.hpp"
+#include "cli/report/notes.hpp"
 
 namespace CLI {
 class App;
@@ -39,16 +39,20 @@ void add_sampling_options(CLI::App& app, SamplingCommand& command, const char* o
 /// Throws UsageError where the precision does not exist.
 Precision precision_of(const SamplingCommand& command);
 
-/// Calls `use(complex)` on the domain's own triangles, as plexway::with_sampled.
+/// Calls `use(complex)` on the domain's own triangles, as plexway::with_sampled. Returns what is to
+/// be told of it.
 template <class Use>
-void with_sampled(const Domain& domain, Precision precision, const Use& use) {
+Notes with_sampled(const Domain& domain, Precision precision, const Use& use) {
   support(Purpose::samples, domain.kind()).require();
-  plexway::with_sampled(
-      AnyDomain(domain, {.precision = precision, .triangulation = Triangulation::input}), use);
+  const AnyDomain built(domain, {.precision = precision, .triangulation = Triangulation::input});
+  plexway::with_sampled(built, use);
+  Notes notes;
+  notes.add(domain_remarks(built, Reader::tool));
+  return notes;
 }
 
 /// A note about the parts of the domain in which none of the points lies, if there are any.
-void say_parts_without(const Domain& domain, std::span<const PointSource> points,
+void add_parts_without(Notes& notes, const Domain& domain, std::span<const PointSource> points,
                        std::string_view plural);
 
 /// A summary of so many points: what the commands say first, and what they say last.
@@ -57,8 +61,8 @@ struct PointSummary {
   Table table;
 
   PointSummary(const SamplingCommand& command, const Domain& domain, std::size_t points);
-  void finish(const SamplingCommand& command, const PropagateStatistics& work,
-              const Phases& phases);
+  void finish(const SamplingCommand& command, const PropagateStatistics& work, const Phases& phases,
+              const Notes& notes);
 };
 
 }  // namespace plexway::cli

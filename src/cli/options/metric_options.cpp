@@ -2,8 +2,6 @@
 
 #include <CLI/CLI.hpp>
 
-#include "cli/report/console.hpp"
-
 namespace plexway::cli {
 
 void add_metric_option(CLI::App& command, MetricArgument& argument) {
@@ -36,11 +34,6 @@ void add_metric(const MetricArgument& argument, const MeasuredLengths* lengths,
 void add_metric(const MetricArgument& argument, const MeasuredLengths* lengths,
                 std::size_t refracting_edges, Table& table) {
   if (lengths != nullptr) table.add("metric", name_of_metric(argument, *lengths, refracting_edges));
-}
-
-void say_violations(const AnyShape& domain, const MeasuredLengths* lengths) {
-  for (const std::string& note : {smoothed_note(lengths), violations_note(domain, lengths)})
-    if (!note.empty()) say_note(note);
 }
 
 }  // namespace plexway::cli

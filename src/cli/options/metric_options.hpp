@@ -18,7 +18,5 @@ void add_metric(const MetricArgument& argument, const MeasuredLengths* lengths,
                 std::size_t refracting_edges, Json& json);
 void add_metric(const MetricArgument& argument, const MeasuredLengths* lengths,
                 std::size_t refracting_edges, Table& table);
-/// Notes for people: where paths are not refracted, where lengths break the triangle inequality.
-void say_violations(const AnyShape& domain, const MeasuredLengths* lengths);
 
 }  // namespace plexway::cli

@@ -11,9 +11,7 @@
 #include <plexway/support.hpp>
 
 #include "any/arguments/require.hpp"
-#include "any/info/solve_words.hpp"
 #include "any/tuning/policy_file.hpp"
-#include "cli/report/console.hpp"
 
 namespace plexway::cli {
 namespace {
@@ -55,10 +53,6 @@ Accuracy accuracy_of(const std::string& typed) {
     throw UsageError("--accuracy '" + typed +
                      "': choose fast, accurate, exact, or a mean error from 0 to below 1");
   return Accuracy(error);
-}
-
-void note_accuracy(const PropagateStatistics& statistics) {
-  if (const std::string note = accuracy_note(statistics); !note.empty()) say_note(note);
 }
 
 void add_solve_options(CLI::App& command, SolveOptions& options, bool bounded) {

@@ -35,8 +35,6 @@ void add_solve_options(CLI::App& command, SolveOptions& options, bool bounded);
 void add_accuracy_option(CLI::App& command, std::string& accuracy, const std::string& group);
 /// As typed; the usual one where nothing was. Throws UsageError.
 Accuracy accuracy_of(const std::string& typed);
-/// A note to who did not choose an accuracy and did not get the usual one.
-void note_accuracy(const PropagateStatistics& statistics);
 
 /// Throw UsageError for a value that does not exist or is out of range; the first also as
 /// check_executor and read_probe_table. What is exact is double.

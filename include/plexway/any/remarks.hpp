@@ -1,0 +1,65 @@
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include <plexway/any_domain.hpp>
+
+/// @file
+/// What a user should know of distances though nothing failed: where they may be far off, what was
+/// left out, why vertices are not reached.
+///
+///   for (const Remark& remark : remarks(domain, field, sources)) log(remark.text);
+namespace plexway {
+
+/// Who reads a remark: what it advises is named as it is asked for there.
+enum class Reader {
+  people,  ///< of a program that stands on the library: plain words
+  tool,    ///< options of the command line, such as --accuracy fast
+  python,  ///< arguments of the Python package, such as accuracy='fast'
+};
+
+/// One thing to know.
+struct Remark {
+  /// A sentence without a full stop, of one line.
+  std::string text;
+  /// Does it say that distances may be wrong by more than their accuracy promises? Else what was
+  /// left out, or why vertices are not reached.
+  bool doubtful = true;
+};
+
+/// What holds for every field on a domain. Cost: of a mixed domain a look at each of its welds.
+[[nodiscard]] std::vector<Remark> domain_remarks(const AnyDomain& domain,
+                                                 Reader reader = Reader::people);
+
+/// What holds for one of its fields besides; `sources` are those that it was solved from. Cost: a
+/// look at each vertex, and of a cloud one for each of up to 16 sources.
+[[nodiscard]] std::vector<Remark> field_remarks(const AnyDomain& domain, const AnyField& field,
+                                                const SourceList& sources,
+                                                Reader reader = Reader::people);
+
+/// Which vertices of a field are not reached, and why; empty where all are. `options` are those of
+/// the solve. Cost: linear, of a cloud in several parts several times that of finding neighbours.
+[[nodiscard]] std::vector<Remark> reach_remarks(const AnyDomain& domain, const AnyField& field,
+                                                const PropagateOptions& options = {},
+                                                Reader reader = Reader::people);
+
+/// All of these, in this order.
+[[nodiscard]] std::vector<Remark> remarks(const AnyDomain& domain, const AnyField& field,
+                                          const SourceList& sources,
+                                          const PropagateOptions& options = {},
+                                          Reader reader = Reader::people);
+
+/// What holds for several fields besides what does for their domain, as far as sums of their
+/// statistics tell: rows of a matrix (PairsReport). Few poor ones among many good are not seen.
+/// `accuracy` is what was asked for.
+[[nodiscard]] std::vector<Remark> rows_remarks(const AnyDomain& domain,
+                                               const PropagateStatistics& sum, Accuracy accuracy,
+                                               std::size_t rows, Reader reader = Reader::people);
+
+/// Simplices whose lengths no flat one has, of those that a mask leaves open, by their numbers in
+/// the shape.
+[[nodiscard]] metric::Violations violations_of(const AnyDomain& domain);
+
+}  // namespace plexway
