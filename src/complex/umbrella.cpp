@@ -130,18 +130,20 @@ class Umbrella {
     return 1 / (2 * widest_ * static_cast<double>(spacings) / 3);
   }
 
-  // Neighbour j in the tangent plane. `calm`: there is surely no crease between the two.
-  std::array<double, 2> flat(Index place, Index j, bool calm) const {
-    const Point3 q = calm ? minus(places_.at[j], places_.at[place])
-                          : unfolded(places_, frames_, rule_, place, j);
+  // Neighbour j as the place sees it. `calm`: there is surely no crease between the two.
+  Point3 seen(Index place, Index j, bool calm) const {
+    return calm ? minus(places_.at[j], places_.at[place])
+                : unfolded(places_, frames_, rule_, place, j);
+  }
+  // In the tangent plane.
+  std::array<double, 2> flat(const Point3& q) const {
     std::array<double, 2> at;
     for (std::size_t k = 0; k < 2; ++k)  // both at once, where a processor can
       at[k] = axes_[0][k] * q[0] + axes_[1][k] * q[1] + axes_[2][k] * q[2];
     return at;
   }
-
-  bool project(Index place, Index j, bool calm, Spoke& spoke) const {
-    const auto [x, y] = flat(place, j, calm);
+  static bool set_spoke(const std::array<double, 2>& at, Index j, Spoke& spoke) {
+    const auto [x, y] = at;
     const double r = x * x + y * y;
     spoke = {x, y, x / r, y / r, j};
     return r > 0;
@@ -168,17 +170,26 @@ class Umbrella {
     const Point3 normal = {n[0], n[1], n[2]};
     const Point3 ex = some_perpendicular(normal), ey = cross(normal, ex);
     for (std::size_t d = 0; d < 3; ++d) axes_[d] = {ex[d], ey[d]};
-    spokes_.clear();
-    Spoke spoke;
     const bool calm = bends_.at(place) < Bends::least;
     // Then normals tell nothing, unless of the side or nearly the same is asked of them.
     const bool plain = calm && !rule_.oriented && rule_.least_cosine < 0.95;
-    for (const Index j : places_.near.around(place)) {
-      const bool same = plain ? in_both_planes(places_, frames_, rule_, place, j)
-                              : same_sheet(places_, frames_, rule_, place, j);
+    const auto row = places_.near.around(place);
+    spokes_.resize(row.size());
+    Spoke* end = spokes_.data();
+    for (const Index j : row) {
+      Point3 q;
+      bool same;
+      if (plain) {
+        q = minus(places_.at[j], places_.at[place]);
+        same = in_both_planes(frames_[place], frames_[j], rule_, q);
+      } else {
+        same = same_sheet(places_, frames_, rule_, place, j);
+        if (same) q = seen(place, j, calm);
+      }
       refused_ += static_cast<std::size_t>(!same) & static_cast<std::size_t>(j > place);
-      if (same && project(place, j, calm, spoke)) spokes_.push_back(spoke);
+      if (same && set_spoke(flat(q), j, *end)) ++end;
     }
+    spokes_.resize(static_cast<std::size_t>(end - spokes_.data()));
     // All neighbours within this are known; a list made symmetric is longer than it is complete.
     const std::size_t known = spokes_.size() * 2 / 3;
     known_ = spokes_.empty() ? 0 : length(spokes_[known].x, spokes_[known].y);
@@ -199,10 +210,9 @@ class Umbrella {
       for (const Index end : {a.place, b.place}) {
         const bool calm = bends_.between(place, end) + bends_.at(end) < Bends::least;
         for (const Index c : asked_.others(places_.near.around(end))) {
-          const auto [x, y] = flat(place, c, calm);
-          if (outside.holds(x, y)) continue;
+          const auto at = flat(seen(place, c, calm));
           Spoke spoke;
-          if (!project(place, c, calm, spoke)) continue;
+          if (outside.holds(at[0], at[1]) || !set_spoke(at, c, spoke)) continue;
           const double u = spoke.u - a.u, v = spoke.v - a.v;
           if (!(eu * v - ev * u < -1e-9 * e * length(u, v))) continue;
           if (std::any_of(spokes_.begin(), spokes_.end(),
