@@ -44,6 +44,15 @@ double length_over(const Crease& crease, const Places& places, std::span<const T
 double way_over_ridge(const Places& places, std::span<const TangentFrame> frames,
                       const SheetRule& rule, Index i, Index j, double noise);
 
+/// Is each of two places, which are q apart, in the tangent plane of the other, nearly?
+inline bool in_both_planes(const TangentFrame& a, const TangentFrame& b, const SheetRule& rule,
+                           const Point3& q) {
+  const auto fits = [&](const TangentFrame& f) {
+    return std::abs(dot(f.normal, q)) <= rule.most_offset * static_cast<double>(f.spacing);
+  };
+  return fits(a) && fits(b);
+}
+
 /// Are two neighbours on the same sheet, by the tangent planes of both, or beside the same crease?
 inline bool same_sheet(const Places& places, std::span<const TangentFrame> frames,
                        const SheetRule& rule, Index i, Index j) {
@@ -51,11 +60,7 @@ inline bool same_sheet(const Places& places, std::span<const TangentFrame> frame
   const double cosine = dot(a.normal, b.normal);
   const bool beside = may_crease(cosine) && crease_between(places, frames, rule, i, j);
   if (beside || (rule.oriented ? cosine : std::abs(cosine)) < rule.least_cosine) return beside;
-  const Point3 q = minus(places.at[j], places.at[i]);
-  const auto fits = [&](const TangentFrame& f) {
-    return std::abs(dot(f.normal, q)) <= rule.most_offset * static_cast<double>(f.spacing);
-  };
-  return fits(a) && fits(b);
+  return in_both_planes(a, b, rule, minus(places.at[j], places.at[i]));
 }
 
 /// The offset of neighbour j from i, unfolded about the crease between them, if there is one.

@@ -86,14 +86,19 @@ bool may_be_near(double nearest, double farthest) { return nearest < 2 * gap * f
 }  // namespace
 
 bool may_have_near_twins(Points points, const Neighbours& neighbours) {
+  // By squares of lengths: largest coordinates are at most sqrt(3) less.
+  constexpr double gaps = 3 * (2 * gap) * (2 * gap) * (1 + 1e-9);
   for (Index i = 0; i < points.size(); ++i) {
     double nearest = std::numeric_limits<double>::infinity(), farthest = 0;
+    const auto p = points[i];
     for (const Index j : neighbours.around(i)) {
-      const double away = size_of(points[i], points[j]);
-      nearest = std::min(nearest, away);
-      farthest = std::max(farthest, away);
+      const auto& q = points[j];
+      const double x = q[0] - p[0], y = q[1] - p[1], z = q[2] - p[2];
+      const double square = x * x + y * y + z * z;
+      nearest = std::min(nearest, square);
+      farthest = std::max(farthest, square);
     }
-    if (may_be_near(nearest, farthest)) return true;
+    if (nearest <= gaps * farthest) return true;
   }
   return false;
 }

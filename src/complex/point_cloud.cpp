@@ -87,22 +87,26 @@ Places places_of(Points points, double scale, const Neighbours& neighbours,
   places.at.reserve(n);
   places.near.begin.reserve(n + 1);
   places.near.begin.push_back(0);
-  places.near.of.reserve(neighbours.of.size());
-  std::size_t next = 0;
+  places.near.of.resize(neighbours.of.size() + more.size());
+  Index* const all = places.near.of.data();
+  std::size_t end = 0, next = 0;
+  const bool twins = points.size() > n;
   for (Index p = 0; p < n; ++p) {
     fetch_ahead(points, neighbours, distinct.order, place, p);
     places.at.push_back(times(scale, points[distinct.order[p]]));
-    const std::size_t start = places.near.of.size();
-    const auto row = [&] { return std::span<const Index>(places.near.of).subspan(start); };
-    const auto add = [&](Index q, bool twins) {
-      if (q == p) return;
-      if (twins && std::find(row().begin(), row().end(), q) != row().end()) return;
-      places.near.of.push_back(q);
+    const std::size_t start = end;
+    const auto add_once = [&](Index q) {
+      if (q != p && std::find(all + start, all + end, q) == all + end) all[end++] = q;
     };
-    for (const Index j : neighbours.around(distinct.order[p])) add(of(j), points.size() > n);
-    for (; next < more.size() && more[next][0] == p; ++next) add(more[next][1], true);
-    places.near.begin.push_back(static_cast<Index>(places.near.of.size()));
+    for (const Index j : neighbours.around(distinct.order[p]))
+      if (twins)
+        add_once(of(j));
+      else
+        all[end++] = of(j);
+    for (; next < more.size() && more[next][0] == p; ++next) add_once(more[next][1]);
+    places.near.begin.push_back(static_cast<Index>(end));
   }
+  places.near.of.resize(end);
   return places;
 }
 

@@ -1,33 +1,105 @@
 #include "complex/umbrella.hpp"
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <cmath>
+#include <cstdint>
+#include <limits>
 
 #include <plexway/complex/blocks.hpp>
 
 #include "complex/crease.hpp"
+#include "complex/spoke_hull.hpp"
 
 namespace plexway {
 namespace {
 
 constexpr std::size_t block = 1024;
 
-// A neighbour in the tangent plane, and its image in the circle around the place: the Delaunay
-// umbrella is the hull of these images.
-struct Spoke {
-  double x, y, u, v;
-  Index place;
-};
-
 // By a root: std::hypot costs ten times as much, and images are inverse squares as it is.
 double length(double x, double y) { return std::sqrt(x * x + y * y); }
+
+// How much normals turn around places: where that is little there is no crease, without a look at
+// each pair.
+class Bends {
+ public:
+  // A sine, below that of a crease by more than normals in float are off.
+  static constexpr double least = 0.29;
+
+  Bends(const Places& places, std::span<const TangentFrame> frames, int threads)
+      : frames_(frames), sines_(frames.size()) {
+    for_blocks(frames.size(), block, threads, {}, [&](std::size_t first, std::size_t last) {
+      for (Index p = static_cast<Index>(first); p < last; ++p) {
+        double least_square = 1;
+        for (const Index q : places.near.around(p)) {
+          const double cosine = dot(frames[p].normal, frames[q].normal);
+          least_square = std::min(least_square, cosine * cosine);
+        }
+        sines_[p] = static_cast<float>(std::sqrt(1 - least_square));
+      }
+    });
+  }
+
+  // The largest sine of the angle between the normal of a place and those of its neighbours.
+  [[nodiscard]] double at(Index place) const { return static_cast<double>(sines_[place]); }
+  [[nodiscard]] double between(Index i, Index j) const {
+    const double cosine = dot(frames_[i].normal, frames_[j].normal);
+    return std::sqrt(std::max(0.0, 1 - cosine * cosine));
+  }
+
+ private:
+  std::span<const TangentFrame> frames_;
+  std::vector<float> sines_;
+};
+
+// Who need not be looked at for a circle: the place, its own neighbours, and who was looked at. By
+// the numbers' low bits; whose slot another took is looked at again. Without a branch for each, as
+// about one in four is left.
+class Asked {
+ public:
+  // A circle of a place, with the place's neighbours.
+  void begin(Index place, std::span<const Index> neighbours) {
+    if (place != place_) {
+      place_ = place;
+      own_ = next_turn();
+      slots_[place % slots] = own_ | place;
+      for (const Index j : neighbours) slots_[j % slots] = own_ | j;
+    }
+    circle_ = next_turn();
+  }
+
+  // Those of a row that are not yet asked, which then they are. Until the next call.
+  std::span<const Index> others(std::span<const Index> around) {
+    if (row_.size() < around.size()) row_.resize(around.size());
+    Index* const row = row_.data();
+    std::size_t count = 0;
+    for (const Index c : around) {
+      std::uint64_t& slot = slots_[c % slots];
+      const std::uint64_t was = slot, now = circle_ | c;
+      const std::uint64_t is_own = was == (own_ | c), is_asked = was == now;
+      slot = now ^ ((was ^ now) & (0 - is_own));
+      row[count] = c;
+      count += 1 ^ (is_own | is_asked);
+    }
+    return std::span<const Index>(row_).first(count);
+  }
+
+ private:
+  static constexpr std::size_t slots = 1024;
+  std::uint64_t next_turn() { return (turn_ += std::uint64_t{1} << 32); }
+
+  std::array<std::uint64_t, slots> slots_{};  // a turn in the high bits, who was asked in the low
+  std::uint64_t turn_ = 0, own_ = 0, circle_ = 0;
+  Index place_ = none;
+  std::vector<Index> row_;
+};
 
 class Umbrella {
  public:
   Umbrella(const Places& places, std::span<const TangentFrame> frames, const SheetRule& rule,
-           double widest)
-      : places_(places), frames_(frames), rule_(rule), widest_(widest) {}
+           const Bends& bends, double widest)
+      : places_(places), frames_(frames), rule_(rule), bends_(bends), widest_(widest) {}
 
   /// Pairs of neighbours of which the first was asked for, and that are not on the same sheet.
   [[nodiscard]] std::size_t refused() const { return refused_; }
@@ -35,8 +107,9 @@ class Umbrella {
   void build(Index place, std::vector<Index>& ring) {
     gather(place);
     if (spokes_.empty()) return;
-    wrap(place);
-    for (int round = 0; round < 8 && look_further(place); ++round) wrap(place);
+    hull_ = wrap_.wrap(place, spokes_);
+    for (int round = 0; round < 8 && look_further(place); ++round)
+      hull_ = wrap_.wrap(place, spokes_);
     const std::size_t start = ring.size();
     for (std::size_t i = 0; i < hull_.size(); ++i) {
       const Spoke &a = spokes_[hull_[i]], &b = spokes_[hull_[i + 1 == hull_.size() ? 0 : i + 1]];
@@ -57,33 +130,66 @@ class Umbrella {
     return 1 / (2 * widest_ * static_cast<double>(spacings) / 3);
   }
 
-  bool project(Index place, Index j, Spoke& spoke) const {
-    const Point3 q = unfolded(places_, frames_, rule_, place, j);
-    const double x = dot(ex_, q), y = dot(ey_, q), r = x * x + y * y;
+  // Neighbour j as the place sees it. `calm`: there is surely no crease between the two.
+  Point3 seen(Index place, Index j, bool calm) const {
+    return calm ? minus(places_.at[j], places_.at[place])
+                : unfolded(places_, frames_, rule_, place, j);
+  }
+  // In the tangent plane.
+  std::array<double, 2> flat(const Point3& q) const {
+    std::array<double, 2> at;
+    for (std::size_t k = 0; k < 2; ++k)  // both at once, where a processor can
+      at[k] = axes_[0][k] * q[0] + axes_[1][k] * q[1] + axes_[2][k] * q[2];
+    return at;
+  }
+  static bool set_spoke(const std::array<double, 2>& at, Index j, Spoke& spoke) {
+    const auto [x, y] = at;
+    const double r = x * x + y * y;
     spoke = {x, y, x / r, y / r, j};
     return r > 0;
   }
 
-  // Is place j surely outside of the circle through a and what is (eu, ev) from its image? Without
-  // a division: most are.
-  bool is_outside(Index place, Index j, const Spoke& a, double eu, double ev, double e) const {
-    const Point3 q = unfolded(places_, frames_, rule_, place, j);
-    const double x = dot(ex_, q), y = dot(ey_, q), r = x * x + y * y;
-    const double size = r * (std::abs(a.u) + std::abs(a.v)) + std::abs(x) + std::abs(y);
-    return eu * (y - a.v * r) - ev * (x - a.u * r) > 1e-12 * e * size;
-  }
+  // Which places are surely outside of the circle through the place, a and b, without a division:
+  // most are. Beside rounding, which is 1e-15 of all terms together, as of those it is made of.
+  struct Outside {
+    double u, v, square, least;
+    Outside(const Spoke& a, double eu, double ev, double e) : u(-ev), v(eu) {
+      // |x| + |y| is at most 0.71 (r size + 1 / size).
+      constexpr double sure = 1e-12;
+      const double size = std::abs(a.u) + std::abs(a.v);
+      square = ev * a.u - eu * a.v - 1.71 * sure * e * size;
+      least = 0.71 * sure * e / size;
+    }
+    [[nodiscard]] bool holds(double x, double y) const {
+      return u * x + v * y + square * (x * x + y * y) > least;
+    }
+  };
 
   void gather(Index place) {
     const auto& n = frames_[place].normal;
     const Point3 normal = {n[0], n[1], n[2]};
-    ex_ = some_perpendicular(normal), ey_ = cross(normal, ex_);
-    spokes_.clear();
-    Spoke spoke;
-    for (const Index j : places_.near.around(place)) {
-      const bool same = same_sheet(places_, frames_, rule_, place, j);
+    const Point3 ex = some_perpendicular(normal), ey = cross(normal, ex);
+    for (std::size_t d = 0; d < 3; ++d) axes_[d] = {ex[d], ey[d]};
+    const bool calm = bends_.at(place) < Bends::least;
+    // Then normals tell nothing, unless of the side or nearly the same is asked of them.
+    const bool plain = calm && !rule_.oriented && rule_.least_cosine < 0.95;
+    const auto row = places_.near.around(place);
+    spokes_.resize(row.size());
+    Spoke* end = spokes_.data();
+    for (const Index j : row) {
+      Point3 q;
+      bool same;
+      if (plain) {
+        q = minus(places_.at[j], places_.at[place]);
+        same = in_both_planes(frames_[place], frames_[j], rule_, q);
+      } else {
+        same = same_sheet(places_, frames_, rule_, place, j);
+        if (same) q = seen(place, j, calm);
+      }
       refused_ += static_cast<std::size_t>(!same) & static_cast<std::size_t>(j > place);
-      if (same && project(place, j, spoke)) spokes_.push_back(spoke);
+      if (same && set_spoke(flat(q), j, *end)) ++end;
     }
+    spokes_.resize(static_cast<std::size_t>(end - spokes_.data()));
     // All neighbours within this are known; a list made symmetric is longer than it is complete.
     const std::size_t known = spokes_.size() * 2 / 3;
     known_ = spokes_.empty() ? 0 : length(spokes_[known].x, spokes_[known].y);
@@ -99,11 +205,14 @@ class Umbrella {
       const double eu = b.u - a.u, ev = b.v - a.v, e = length(eu, ev);
       const double turn = a.u * b.v - a.v * b.u;  // e by the inverse of the circle's width
       if (turn * known_ > e) continue;
-      for (const Index end : {a.place, b.place})
-        for (const Index c : places_.near.around(end)) {
+      const Outside outside(a, eu, ev, e);
+      asked_.begin(place, places_.near.around(place));
+      for (const Index end : {a.place, b.place}) {
+        const bool calm = bends_.between(place, end) + bends_.at(end) < Bends::least;
+        for (const Index c : asked_.others(places_.near.around(end))) {
+          const auto at = flat(seen(place, c, calm));
           Spoke spoke;
-          if (is_outside(place, c, a, eu, ev, e)) continue;
-          if (c == place || c == a.place || c == b.place || !project(place, c, spoke)) continue;
+          if (outside.holds(at[0], at[1]) || !set_spoke(at, c, spoke)) continue;
           const double u = spoke.u - a.u, v = spoke.v - a.v;
           if (!(eu * v - ev * u < -1e-9 * e * length(u, v))) continue;
           if (std::any_of(spokes_.begin(), spokes_.end(),
@@ -111,121 +220,9 @@ class Umbrella {
             continue;
           if (same_sheet(places_, frames_, rule_, place, c)) spokes_.push_back(spoke);
         }
+      }
     }
     return spokes_.size() != before;
-  }
-
-  // The hull of the images, counterclockwise from the nearest neighbour.
-  void wrap(Index place) {
-    hull_.clear();
-    us_.resize(spokes_.size()), vs_.resize(spokes_.size());
-    std::size_t first = 0;
-    largest_ = 0;
-    for (std::size_t i = 0; i < spokes_.size(); ++i) {
-      const double u = us_[i] = spokes_[i].u, v = vs_[i] = spokes_[i].v, size = u * u + v * v;
-      if (size > largest_) first = i, largest_ = size;
-    }
-    largest_ = std::sqrt(largest_);
-    was_clear_ = false;
-    std::size_t at = first;
-    do {
-      hull_.push_back(at);
-      if (hull_.size() > spokes_.size()) {  // rounding: no way around
-        hull_.clear();
-        return;
-      }
-      at = next_on_hull(place, at);
-    } while (at != first && at != spokes_.size());
-  }
-
-  std::size_t next_on_hull(Index place, std::size_t at) {
-    const std::size_t next = clear_next(at);
-    was_clear_ = next != none;
-    return was_clear_ ? next : next_of_ties(place, at);
-  }
-
-  // Where one image has all others to its left, by far more than a tie: nothing else is to be
-  // asked. Else none. It rarely changes its mind, so that is a branch.
-  std::size_t clear_next(std::size_t at) const {
-    const std::size_t count = us_.size();
-    const double *const us = us_.data(), *const vs = vs_.data(), au = us[at], av = vs[at];
-    std::size_t best = at == 0 ? 1 : 0;
-    if (best >= count) return none;
-    double bu = us[best] - au, bv = vs[best] - av, least = clear_of(bu, bv);
-    for (std::size_t i = best + 1; i < count; ++i) {
-      const double u = us[i] - au, v = vs[i] - av, turn = bu * v - bv * u;
-      if (turn > least) [[likely]]
-        continue;
-      if (i == at) continue;
-      if (!(turn < -least)) return none;
-      best = i, bu = u, bv = v, least = clear_of(u, v);
-    }
-    // All are to the left of what was best when they were asked, and that of this one. So they are
-    // unless they are nearly behind; then so is the place before on the hull, if it was clear
-    // that all are to the left of the way from there.
-    if (!was_clear_) {
-      for (std::size_t i = 0; i < best; ++i)
-        if (i != at && !(bu * (vs[i] - av) - bv * (us[i] - au) > least)) return none;
-    } else {
-      const std::size_t before = hull_[hull_.size() - 2];
-      if (before != best && !(bu * (vs[before] - av) - bv * (us[before] - au) > least)) return none;
-    }
-    return best;
-  }
-  // More than a turn from (u, v) to any image that would be a tie: none is farther away than twice
-  // the largest is from the place.
-  [[nodiscard]] double clear_of(double u, double v) const {
-    return 2.2e-6 * largest_ * (std::abs(u) + std::abs(v));
-  }
-
-  std::size_t next_of_ties(Index place, std::size_t at) {
-    const Spoke& a = spokes_[at];
-    std::size_t best = spokes_.size();
-    double bu = 0, bv = 0, bb = 0;
-    ties_.clear();
-    for (std::size_t i = 0; i < spokes_.size(); ++i) {
-      if (i == at) continue;
-      const double u = spokes_[i].u - a.u, v = spokes_[i].v - a.v;
-      const double turn = bu * v - bv * u, square = u * u + v * v;
-      constexpr double tie = 1e-12;  // squares
-      if (best != spokes_.size() && turn * turn <= tie * bb * square) {
-        if (bu * u + bv * v > 0) {
-          ties_.push_back(square > bb ? best : i);
-          if (!(square > bb)) continue;
-        } else if (a.u * v <= a.v * u) {  // two ways along a line: one has the place to the left
-          continue;
-        } else {
-          ties_.clear();
-        }
-      } else if (best != spokes_.size() && turn >= 0) {
-        continue;
-      } else {
-        ties_.clear();
-      }
-      best = i;
-      bu = u, bv = v, bb = square;
-    }
-    if (!ties_.empty()) return break_ties(place, at, best);
-    return best;
-  }
-
-  // Several on one circle with the place. All agree that the lowest of them sees all others.
-  std::size_t break_ties(Index place, std::size_t at, std::size_t best) {
-    std::size_t lowest = ties_[0];
-    for (const std::size_t i : ties_)
-      if (spokes_[i].place < spokes_[lowest].place) lowest = i;
-    const Index others = std::min({spokes_[at].place, spokes_[best].place, spokes_[lowest].place});
-    if (place < others) {
-      const Spoke& a = spokes_[at];  // all of them: the nearest image is next
-      const auto far = [&](std::size_t i) {
-        return length(spokes_[i].u - a.u, spokes_[i].v - a.v);
-      };
-      std::size_t nearest = best;
-      for (const std::size_t i : ties_)
-        if (far(i) < far(nearest)) nearest = i;
-      return nearest;
-    }
-    return spokes_[lowest].place == others ? lowest : best;
   }
 
   // Who has a gap on both sides is in no triangle.
@@ -243,14 +240,15 @@ class Umbrella {
   const Places& places_;
   std::span<const TangentFrame> frames_;
   SheetRule rule_;
+  const Bends& bends_;
   double widest_;
-  Point3 ex_{}, ey_{};
-  double known_ = 0, largest_ = 0;  // the latter of images
+  std::array<std::array<double, 2>, 3> axes_{};  // of the tangent plane, by coordinates in space
+  double known_ = 0;
   std::size_t refused_ = 0;
-  bool was_clear_ = false;  // what is next on the hull, at the place before
   std::vector<Spoke> spokes_;
-  std::vector<double> us_, vs_;  // of the spokes, side by side
-  std::vector<std::size_t> hull_, ties_;
+  Asked asked_;
+  SpokeHull wrap_;
+  std::span<const std::size_t> hull_;  // the Delaunay umbrella, as images
   std::vector<Index> keep_;
 };
 
@@ -264,8 +262,9 @@ Umbrellas local_umbrellas(const Places& places, std::span<const TangentFrame> fr
   umbrellas.begin.assign(n + 1, 0);
   std::vector<std::vector<Index>> found((n + block - 1) / block);
   std::atomic<std::size_t> refused = 0;
+  const Bends bends(places, frames, threads);
   for_blocks(n, block, threads, progress, [&](std::size_t first, std::size_t last) {
-    Umbrella umbrella(places, frames, rule, widest);
+    Umbrella umbrella(places, frames, rule, bends, widest);
     std::vector<Index>& rings = found[first / block];
     rings.reserve((last - first) * 7);
     for (std::size_t i = first; i < last; ++i) {
@@ -293,16 +292,26 @@ double circle_radius(const Point3& a, const Point3& b) {
          (2 * std::sqrt(dot(n, n)));
 }
 
+// The one in the middle of at most eight, by comparators without branches: a network of Batcher.
+double median_of_few(std::span<const double> values) {
+  constexpr std::size_t few = 8;
+  constexpr unsigned char pairs[][2] = {{0, 1}, {2, 3}, {4, 5}, {6, 7}, {0, 2}, {1, 3}, {4, 6},
+                                        {5, 7}, {1, 2}, {5, 6}, {0, 4}, {1, 5}, {2, 6}, {3, 7},
+                                        {2, 4}, {3, 5}, {1, 2}, {3, 4}, {5, 6}};
+  std::array<double, few> v;
+  v.fill(std::numeric_limits<double>::infinity());
+  std::copy(values.begin(), values.end(), v.begin());
+#pragma GCC unroll 19
+  for (const auto& [i, j] : pairs) {
+    // Asked twice, or compilers make one branch of both.
+    const double low = v[j] < v[i] ? v[j] : v[i], high = v[i] < v[j] ? v[j] : v[i];
+    v[i] = low, v[j] = high;
+  }
+  return v[values.size() / 2];
+}
+
 double median(std::vector<double>& values) {
-  // Of a few by how many are less, which takes no branch for each two.
-  constexpr std::size_t few = 12;
-  const std::size_t half = values.size() / 2;
-  if (values.size() <= few)
-    for (const double x : values) {
-      std::size_t less = 0, most = 0;
-      for (const double y : values) less += y < x, most += y <= x;
-      if (less <= half && half < most) return x;
-    }
+  if (values.size() <= 8) return median_of_few(values);
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
   std::nth_element(values.begin(), middle, values.end());
   return *middle;

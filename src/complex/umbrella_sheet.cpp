@@ -24,52 +24,86 @@ struct Candidate {
   }
 };
 
-// Does the umbrella of `place` have the triangle with a and b?
-bool votes_for(const Umbrellas& umbrellas, Index place, Index a, Index b) {
-  const std::span<const Index> ring = umbrellas.around(place);
-  for (std::size_t i = 0; i < ring.size(); ++i) {
-    if (ring[i] != a && ring[i] != b) continue;  // with the bit of a gap it is neither
-    const Index next = ring[i + 1 == ring.size() ? 0 : i + 1] & ~Umbrellas::gap;
-    if (next == (ring[i] == a ? b : a)) return true;
-  }
-  return false;
-}
-
 struct Votes {
   std::vector<Triangle> agreed;
   std::vector<Candidate> others;
 };
 
-void count_votes(const Umbrellas& umbrellas, const SheetWedges& sheet, Index p, Votes& votes) {
-  const std::span<const Index> ring = umbrellas.around(p);
-  for (std::size_t i = 0; i < ring.size(); ++i) {
-    if (ring[i] & Umbrellas::gap) continue;
-    const Index a = ring[i], b = ring[i + 1 == ring.size() ? 0 : i + 1] & ~Umbrellas::gap;
-    // The lower number first: what has a vote from there is counted there.
-    const Index low = std::min(a, b), high = std::max(a, b);
-    const bool by_low = votes_for(umbrellas, low, p, high);
-    if (by_low && low < p) continue;
-    const bool by_high = votes_for(umbrellas, high, p, low);
-    if (by_high && high < p) continue;
+class VoteCount {
+ public:
+  VoteCount(const Umbrellas& umbrellas, const SheetWedges& sheet)
+      : umbrellas_(umbrellas), sheet_(sheet), counted_(umbrellas.ring.size(), 0) {}
+
+  // The triangles of which a place is the lowest corner, if it votes for them. By several threads.
+  void count_lowest(Index p, Votes& votes) {
+    for_wedges(p, [&](std::size_t, Index a, Index b) {
+      if ((p > a) | (p > b)) return;
+      const std::size_t at_a = find(a, p, b), at_b = find(b, p, a);
+      if (at_a != nowhere) counted_[at_a] = 1;
+      if (at_b != nowhere) counted_[at_b] = 1;
+      if (at_a != nowhere && at_b != nowhere)
+        votes.agreed.push_back(a < b ? Triangle{p, a, b} : Triangle{p, b, a});
+      else
+        add(p, a, b, at_a != nowhere || at_b != nowhere, votes);
+    });
+  }
+  // Those that have no vote from their lowest corner, once all of those above are counted.
+  void count_others(Index p, Votes& votes) const {
+    for_wedges(p, [&](std::size_t i, Index a, Index b) {
+      if (((p < a) & (p < b)) | (counted_[i] != 0)) return;
+      const Index low = std::min(a, b), high = std::max(a, b);
+      const bool by_high = find(high, p, low) != nowhere;
+      if (!by_high || p < high) add(p, a, b, by_high, votes);
+    });
+  }
+
+ private:
+  static constexpr std::size_t nowhere = ~std::size_t{0};
+
+  template <class Visit>
+  void for_wedges(Index p, const Visit& visit) const {
+    const std::span<const Index> ring = umbrellas_.around(p);
+    for (std::size_t i = 0; i < ring.size(); ++i) {
+      if (ring[i] & Umbrellas::gap) continue;
+      const Index next = ring[i + 1 == ring.size() ? 0 : i + 1] & ~Umbrellas::gap;
+      visit(umbrellas_.begin[p] + i, ring[i], next);
+    }
+  }
+  // Where in the ring of `place` its umbrella has the triangle with a and b.
+  [[nodiscard]] std::size_t find(Index place, Index a, Index b) const {
+    const std::span<const Index> ring = umbrellas_.around(place);
+    for (std::size_t i = 0; i < ring.size(); ++i) {
+      if (ring[i] != a && ring[i] != b) continue;  // with the bit of a gap it is neither
+      const Index next = ring[i + 1 == ring.size() ? 0 : i + 1] & ~Umbrellas::gap;
+      if (next == (ring[i] == a ? b : a)) return umbrellas_.begin[place] + i;
+    }
+    return nowhere;
+  }
+  void add(Index p, Index a, Index b, bool second, Votes& votes) const {
     Triangle t = {p, a, b};
     std::sort(t.begin(), t.end());
-    if (by_low && by_high)
-      votes.agreed.push_back(t);
-    else
-      votes.others.push_back({by_low || by_high ? 1 : 2, sheet.circle(t), t});
+    votes.others.push_back({second ? 1 : 2, sheet_.circle(t), t});
   }
-}
+
+  const Umbrellas& umbrellas_;
+  const SheetWedges& sheet_;
+  std::vector<char> counted_;  // of each wedge: its triangle has a vote from the lowest corner
+};
 
 }  // namespace
 
 void add_umbrellas(const Umbrellas& umbrellas, int threads, SheetWedges& sheet) {
   const std::size_t n = umbrellas.begin.size() - 1;
   std::vector<Votes> found((n + block - 1) / block);
+  VoteCount count(umbrellas, sheet);
   for_blocks(n, block, threads, {}, [&](std::size_t first, std::size_t last) {
     Votes& votes = found[first / block];
     votes.agreed.reserve(2 * (last - first));
+    for (Index p = static_cast<Index>(first); p < last; ++p) count.count_lowest(p, votes);
+  });
+  for_blocks(n, block, threads, {}, [&](std::size_t first, std::size_t last) {
     for (Index p = static_cast<Index>(first); p < last; ++p)
-      count_votes(umbrellas, sheet, p, votes);
+      count.count_others(p, found[first / block]);
   });
   std::size_t agreed = 0;
   for (const Votes& votes : found) agreed += votes.agreed.size();
