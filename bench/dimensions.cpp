@@ -24,9 +24,10 @@ using plexway::PointSource;
 using plexway::SimplicialComplex;
 
 struct Effort {
-  unsigned first = 1, draws = 40, sources = 2, targets = 100;
-  std::size_t density = 1;
+  unsigned first = 1, draws = 40, sources = 2, targets = 100, turns = 3;
+  std::size_t density = 1, cells = 0;
   int dimension = 0;
+  std::string domains = "all";
   bool in_float = false;
 };
 
@@ -55,17 +56,19 @@ struct Deviations {
   [[nodiscard]] double mean() const { return sum / static_cast<double>(count); }
 };
 
-/// Processor time of both, in turns.
+/// Processor time of both, in so many turns.
 template <class Real, int N>
 class Race {
  public:
+  explicit Race(unsigned turns) : turns_(turns) {}
+
   void run(const SimplicialComplex<Real, N>& domain, Index source) {
     const auto timed = [&](const plexway::PropagateOptions& options, double& sum) {
       sum += bench::processor_seconds([&] {
         plexway::solve(plexway::Serial{}, domain, PointSource::at(source), options, space_, field_);
       });
     };
-    for (int turn = 0; turn < 3; ++turn) {
+    for (unsigned turn = 0; turn < turns_; ++turn) {
       timed({}, strings_);
       timed(plain_step(), plain_);
     }
@@ -73,14 +76,18 @@ class Race {
     ++solves_;
   }
   [[nodiscard]] nlohmann::ordered_json row() const {
-    return {{"simplices", simplices_ / solves_},
-            {"ns", 1e9 * strings_ / (3 * simplices_)},
-            {"ratio", strings_ / plain_}};
+    nlohmann::ordered_json row = {{"simplices", simplices_ / solves_}};
+    if (turns_ > 0) {
+      row["ns"] = 1e9 * strings_ / (turns_ * simplices_);
+      row["ratio"] = strings_ / plain_;
+    }
+    return row;
   }
 
  private:
   plexway::WorkspaceOf<plexway::Serial, SimplicialComplex<Real, N>> space_;
   plexway::DistanceField<Real> field_;
+  unsigned turns_;
   double strings_ = 0, plain_ = 0, simplices_ = 0, solves_ = 0;
 };
 
@@ -88,7 +95,7 @@ template <class Real, int N>
 nlohmann::ordered_json boxes(const Effort& effort, std::size_t cells, unsigned most,
                              std::size_t density) {
   Deviations strings, plain;
-  Race<Real, N> race;
+  Race<Real, N> race(effort.turns);
   for (unsigned seed = effort.first; seed < effort.first + effort.draws; ++seed) {
     const auto obstacles = plexway::testing::random_obstacles<N>(seed, cells, most);
     const auto domain = obstacles.template complex<Real>();
@@ -140,7 +147,7 @@ nlohmann::ordered_json ball(const Effort& effort, std::size_t cells, double radi
     for (const double x : grid.centre(cell)) sum += (x - .5) * (x - .5);
     return sum < radius * radius;
   });
-  Race<Real, N> race;
+  Race<Real, N> race(effort.turns);
   for (const Index source : bench::spread_numbers(effort.sources, grid.vertex_count()))
     if (!domain.corners_at(domain.inside_vertex(source)).empty()) race.run(domain, source);
   nlohmann::ordered_json row = {{"domain", "a ball of cells"}, {"N", N}, {"cells", cells}};
@@ -148,26 +155,29 @@ nlohmann::ordered_json ball(const Effort& effort, std::size_t cells, double radi
   return row;
 }
 
+/// So many cells a side, and boxes at most.
+struct Boxes {
+  std::size_t cells;
+  unsigned most;
+};
+
+template <class Real, int N>
+void fill(bench::Table& table, const Effort& effort, std::vector<Boxes> usual, std::size_t density,
+          std::size_t ball_cells) {
+  if (effort.dimension != 0 && effort.dimension != N) return;
+  if (effort.cells != 0) {
+    usual = {{effort.cells, usual.back().most}};
+    ball_cells = effort.cells;
+  }
+  if (effort.domains != "ball")
+    for (const auto& [cells, most] : usual) table.add(boxes<Real, N>(effort, cells, most, density));
+  if (effort.domains != "boxes") table.add(ball<Real, N>(effort, ball_cells, .3));
+}
 template <class Real>
 void fill(bench::Table& table, const Effort& effort) {
-  const auto wanted = [&](int dimension) {
-    return effort.dimension == 0 || effort.dimension == dimension;
-  };
-  if (wanted(2)) {
-    table.add(boxes<Real, 2>(effort, 16, 4, 2));
-    table.add(ball<Real, 2>(effort, 60, .3));
-  }
-  if (wanted(3)) {
-    table.add(boxes<Real, 3>(effort, 8, 3, 24));
-    table.add(boxes<Real, 3>(effort, 12, 4, 24));
-    table.add(boxes<Real, 3>(effort, 16, 4, 24));
-    table.add(ball<Real, 3>(effort, 20, .3));
-  }
-  if (wanted(4)) {
-    table.add(boxes<Real, 4>(effort, 6, 2, 5));
-    table.add(boxes<Real, 4>(effort, 8, 2, 5));
-    table.add(ball<Real, 4>(effort, 8, .3));
-  }
+  fill<Real, 2>(table, effort, {{16, 4}}, 2, 60);
+  fill<Real, 3>(table, effort, {{8, 3}, {12, 4}, {16, 4}}, 24, 20);
+  fill<Real, 4>(table, effort, {{6, 2}, {8, 2}}, 5, 8);
 }
 
 }  // namespace
@@ -181,10 +191,16 @@ int main(int argc, char** argv) {
       ->capture_default_str();
   app.add_option("--first", effort.first, "The first of them")->capture_default_str();
   app.add_option("--dimension", effort.dimension, "2, 3 or 4 alone");
+  app.add_option("--cells", effort.cells, "So many a side instead of the usual numbers");
+  app.add_option("--domains", effort.domains, "boxes or ball alone")
+      ->check(CLI::IsMember({"all", "boxes", "ball"}))
+      ->capture_default_str();
   app.add_option("--density", effort.density, "So many times the points on faces for the truth")
       ->capture_default_str();
   app.add_option("--sources", effort.sources, "Sources in each")->capture_default_str();
   app.add_option("--targets", effort.targets, "Random vertices for each")->capture_default_str();
+  app.add_option("--turns", effort.turns, "How often each is timed, 0: errors alone")
+      ->capture_default_str();
   app.add_flag("--float", effort.in_float, "Lengths in float instead of double");
   report.add_options(app);
   CLI11_PARSE(app, argc, argv);

@@ -12,6 +12,8 @@
 #include <plexway/propagate/options.hpp>
 #include <plexway/source/point_source.hpp>
 
+#include "propagate/shared_progress_counter.hpp"
+
 namespace plexway {
 
 /// A source that is no vertex, N < 4: its coordinates by the corners of the record.
@@ -33,6 +35,7 @@ class SimplexPropagation {
       : domain_(domain),
         rule_(rule),
         front_(front),
+        options_(options),
         radius_(static_cast<Real>(options.radius / domain.unit())) {
     front.expect_slow_steps();
   }
@@ -145,8 +148,15 @@ class SimplexPropagation {
   /// rules may know more of vertices. True if some simplex got a better label.
   template <class Over>
   bool pass_vertices(const Over& over) {
-    if constexpr (requires { rule_.pass_vertices(0., over); }) {
-      return rule_.pass_vertices(static_cast<double>(radius_), over);
+    SharedProgressCounter progress(options_, 1024);  // some hundredths of a second
+    const auto goes_on = [&](std::size_t simplices, double distance) {
+      return progress.count(simplices, [&] {
+        return Progress{front_.expansions(), front_.reached_count(), domain_.simplex_count(),
+                        distance * domain_.unit()};
+      });
+    };
+    if constexpr (requires { rule_.pass_vertices(0., over, goes_on); }) {
+      return rule_.pass_vertices(static_cast<double>(radius_), over, goes_on);
     } else {
       bool any = false;
       for (const Index v : domain_.pinched()) any |= pass(v);
@@ -176,6 +186,7 @@ class SimplexPropagation {
   const SimplicialComplex<Real, N>& domain_;
   Rule rule_;
   Front& front_;
+  const PropagateOptions& options_;
   Real radius_;
 };
 

@@ -108,10 +108,11 @@ class SimplexStringRule {
   }
 
   /// The vertices' own ways (SimplexVertexWays): true if some simplex got a better label by them.
-  template <class Over>
-  bool pass_vertices(double radius, const Over& over) {
+  template <class Over, class GoesOn>
+  bool pass_vertices(double radius, const Over& over, const GoesOn& goes_on) {
     if (!any_faces_ && domain_->pinched().empty()) return false;
-    return SimplexVertexWays<Real, N, SimplexStringRule>(*this, ways_, telling_).pass(radius, over);
+    return SimplexVertexWays<Real, N, SimplexStringRule>(*this, ways_, telling_)
+        .pass(radius, over, goes_on);
   }
 
   /// The least that is known of a vertex, and from which source.

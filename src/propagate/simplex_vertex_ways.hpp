@@ -39,10 +39,17 @@ class SimplexVertexWays {
   }
 
   /// All vertices look around, and tell each other until nobody gains. True if a simplex did.
-  template <class Over>
-  bool pass(double radius, const Over& over) {
+  /// goes_on(simplices, distance) is told around how many a thread looked since last time and how
+  /// far the vertex is, and throws Cancelled, or is false where another thread does.
+  template <class Over, class GoesOn>
+  bool pass(double radius, const Over& over, const GoesOn& goes_on) {
+    const auto is_watched = [&](Index v) {
+      const double distance = ways_[v].distance;
+      return goes_on(domain_.corners_at(v).size(), distance < infinity ? distance : 0);
+    };
     over(domain_.vertex_count(), [&](std::size_t begin, std::size_t end) {
-      for (std::size_t v = begin; v < end; ++v) look(static_cast<Index>(v));
+      for (std::size_t v = begin; v < end && is_watched(static_cast<Index>(v)); ++v)
+        look(static_cast<Index>(v));
     });
     std::vector<Index>& waiting = telling_.waiting;
     waiting.clear();
@@ -53,7 +60,8 @@ class SimplexVertexWays {
       return to_a != to_b ? to_a < to_b : a < b;
     });
     bool any = false;
-    for (std::size_t i = 0; i < waiting.size(); ++i) any |= tell(waiting[i], radius, waiting);
+    for (std::size_t i = 0; i < waiting.size() && is_watched(waiting[i]); ++i)
+      any |= tell(waiting[i], radius, waiting);
     return any;
   }
 
@@ -111,8 +119,6 @@ class SimplexVertexWays {
     if (contains(domain_.pinched(), v) || contains(rule_.flat().corners, v))
       for (const Index c : domain_.corners_at(v))
         any |= rule_.seed_corner(c / sides, c % sides, static_cast<Real>(way.distance), way.source);
-    // In four dimensions few gain, and it takes so long that one would wait for it to be cancelled.
-    if (N > 3) return any;
     find_wanted(v, way);
     if (telling_.wanted.empty()) return any;
 

@@ -124,6 +124,40 @@ TEST_CASE("a team reports to the calling thread and can be cancelled", "[threads
   check_reports(team(4), by_labels());
 }
 
+TEST_CASE("so it is while vertices of a flat domain tell each other", "[threads]") {
+  const HoledCube<3> cube(24);  // vertices for several threads
+  const auto domain = cube.complex<double>();
+  const PointSource source = PointSource::at(0);
+  const auto caller = std::this_thread::get_id();
+  bool by_caller = true;
+  PauseWatch watch;
+  PropagateOptions options;
+  options.progress = [&](const Progress& p) {
+    by_caller = by_caller && std::this_thread::get_id() == caller;
+    return watch(p);
+  };
+  const auto whole = solve(team(4), domain, source, options);
+  CHECK(by_caller);
+  const int calls = watch.calls;
+  CHECK(calls > 0);
+  for (const int cancelled_at : {1, (calls + 1) / 2}) {
+    watch = {};
+    watch.cancelled_at = cancelled_at;
+    CHECK_THROWS_AS(solve(team(4), domain, source, options), Cancelled);
+    CHECK(watch.calls == cancelled_at);
+  }
+  struct Own {};
+  watch = {};
+  options.progress = [&](const Progress& p) -> bool {
+    watch(p);
+    if (watch.calls > 0) throw Own{};
+    return true;
+  };
+  CHECK_THROWS_AS(solve(team(4), domain, source, options), Own);
+  options.progress = nullptr;
+  CHECK(same_bits(whole, solve(team(4), domain, source, options)));
+}
+
 TEST_CASE("a team refuses what needs order, and settings that make no sense", "[threads]") {
   const auto mesh = grid(3, 3).mesh<float>();
   PropagateOptions options = by_labels();

@@ -172,6 +172,26 @@ TEST_CASE("behind blocks that meet vertices in space carry the shortest way on")
   CHECK(e.worst < 1e-7);
 }
 
+TEST_CASE("in four dimensions as well, where no centre kept it") {
+  struct {
+    unsigned draw;
+    Index source;
+    std::vector<Index> vertices;  // 2e-3 to 1.1e-2 too long before
+  } const problems[] = {{2, 1214, {2403, 3132, 3213, 3294, 3375, 3420}},
+                        {4, 5908, {801, 1615, 2254, 2335, 2344}}};
+  for (const auto& problem : problems) {
+    const auto obstacles = random_obstacles<4>(problem.draw, 8, 2);
+    ShortestWays<4> ways(obstacles, 5);
+    ways.start(obstacles.grid.position(problem.source));
+    const auto found = solve(obstacles.complex<double>(), PointSource::at(problem.source));
+    for (const Index v : problem.vertices) {
+      const double right = ways.to(obstacles.grid.position(v));
+      CAPTURE(problem.draw, v, right, found[v]);
+      CHECK(found[v] == Approx(right).epsilon(1e-9));
+    }
+  }
+}
+
 TEST_CASE("a bend at a corner where edges meet is held where both its neighbours see it") {
   // Straight away from the line between these, the bend was where one leg cut the corner off.
   const auto obstacles = random_obstacles<3>(209, 12, 4);
