@@ -102,6 +102,7 @@ class SimplexString {
 
   /// Moves the bends to their places, one after another.
   bool place(const Taut<N>& taut) {
+    if (bends() > 1 && sweeps_nothing(taut)) return true;
     std::size_t i = 1;
     for (std::size_t k = 0, bends = count_ - 2; k < bends; ++k) {
       const BendingFace<N>& face = domain_.faces[node_[i].face];
@@ -112,6 +113,46 @@ class SimplexString {
       node_[i].sharp = face.at(along);
       node_[i].placed = true;
       i = count_ - behind;
+    }
+    return true;
+  }
+
+  /// The same at once, if nothing is in between: all legs are looked at, each with both the
+  /// triangles that it sweeps.
+  bool sweeps_nothing(const Taut<N>& taut) {
+    const std::size_t last = count_ - 1;
+    Point to[room];
+    to[0] = node_[0].at;
+    to[last] = node_[last].at;
+    bool moves[room] = {};
+    for (std::size_t i = 1; i < last; ++i) {
+      to[i] = domain_.held(domain_.faces[node_[i].face], taut.along(i - 1));
+      moves[i] = distance_of(node_[i].at, to[i]) > domain_.rounding;
+    }
+    for (std::size_t i = 0; i < last; ++i) {
+      const Node &a = node_[i], &b = node_[i + 1];
+      if (!moves[i] && !moves[i + 1]) continue;
+      Point from, way, half;
+      for (std::size_t d = 0; d < N; ++d) {
+        from[d] = (a.at[d] + to[i][d]) / 2;
+        way[d] = (b.at[d] + to[i + 1][d]) / 2 - from[d];
+        half[d] = std::max(std::abs(a.at[d] - to[i][d]), std::abs(b.at[d] - to[i + 1][d])) / 2;
+      }
+      bool is_free = true;
+      search(from, way, half, [&](Index f) {
+        Found found;
+        const bool near = f != a.face && f != b.face;
+        is_free = is_free && !(moves[i] && pierces(f, to[i], a.at, b.at, near, found)) &&
+                  !(moves[i + 1] && pierces(f, to[i], b.at, to[i + 1], near, found));
+      });
+      if (!is_free) return false;
+    }
+    for (std::size_t i = 1; i < last; ++i) {
+      Node& node = node_[i];
+      node.at = to[i];
+      node.along = taut.along(i - 1);
+      node.sharp = domain_.faces[node.face].at(node.along);
+      node.placed = true;
     }
     return true;
   }
@@ -257,30 +298,39 @@ class SimplexString {
     const Point& apex = bc <= ab && bc <= ca ? a : ca <= ab ? b : c;
     const Point& l = &apex == &a ? b : a;
     const Point& r = &apex == &c ? b : c;
-    Point way_over, low, high;  // boxes are met where the line from the apex is in all slabs
+    Point way, half;
     for (std::size_t d = 0; d < N; ++d) {
-      const double way = (l[d] + r[d]) / 2 - apex[d], half = std::abs(l[d] - r[d]) / 2;
-      way_over[d] = std::abs(way) > 1e-200 ? 1 / way : 1e200;
-      low[d] = -half - apex[d];
-      high[d] = half - apex[d];
+      way[d] = (l[d] + r[d]) / 2 - apex[d];
+      half[d] = std::abs(l[d] - r[d]) / 2;
     }
-    const auto meets = [&](const Box<N>& box) {
-      double from = 0, to = 1;
-      for (std::size_t d = 0; d < N; ++d) {
-        const double s = (box.low[d] + low[d]) * way_over[d];
-        const double t = (box.high[d] + high[d]) * way_over[d];
-        from = std::max(from, std::min(s, t));
-        to = std::min(to, std::max(s, t));
-        if (from > to) return false;
-      }
-      return true;
-    };
-    domain_.tree.search(meets, [&](Index f) {
+    search(apex, way, half, [&](Index f) {
       Found found;
       if (!pierces(f, a, b, c, f != face_a && f != face_c, found)) return;
       if (found_ < most_found) candidate_[found_] = found;
       ++found_;
     });
+  }
+  /// Faces whose boxes come as near to a line as that.
+  template <class Visit>
+  void search(const Point& from, const Point& way, const Point& near, const Visit& visit) const {
+    Point way_over, low, high;  // boxes are met where the line is in all slabs
+    for (std::size_t d = 0; d < N; ++d) {
+      way_over[d] = std::abs(way[d]) > 1e-200 ? 1 / way[d] : 1e200;
+      low[d] = -near[d] - from[d];
+      high[d] = near[d] - from[d];
+    }
+    const auto meets = [&](const Box<N>& box) {
+      double first = 0, last = 1;
+      for (std::size_t d = 0; d < N; ++d) {
+        const double s = (box.low[d] + low[d]) * way_over[d];
+        const double t = (box.high[d] + high[d]) * way_over[d];
+        first = std::max(first, std::min(s, t));
+        last = std::min(last, std::max(s, t));
+        if (first > last) return false;
+      }
+      return true;
+    };
+    domain_.tree.search(meets, visit);
   }
   static double square(const Point& a, const Point& b) {
     const Point d = minus(a, b);

@@ -45,12 +45,14 @@ class Taut {
       for (std::size_t i = 0; i < count_; ++i) relax(i);
       return length();
     }
-    double best = std::numeric_limits<double>::infinity();
+    double best = infinity;
     for (int round = 0; round < 40; ++round) {
       double moved = 0;
       for (std::size_t i = 0; i < count_; ++i) moved = std::max(moved, relax(i));
-      if (moved < 1e-12) break;
-      newton();
+      if (moved < enough) break;
+      double off = newton();
+      while (off >= enough && off < near) off = newton();
+      if (off < enough) break;
       const double now = length();
       if (now > best * (1 - 1e-15) && round > 4) break;
       best = now;
@@ -60,6 +62,9 @@ class Taut {
 
  private:
   static constexpr std::size_t K = N - 2;
+  static constexpr double infinity = std::numeric_limits<double>::infinity();
+  static constexpr double enough = 1e-12;  // how well places are known
+  static constexpr double near = 1e-3;     // how far off what is off is the square of it next
 
   [[nodiscard]] const Point& before(std::size_t i) const { return i > 0 ? point_[i - 1] : from_; }
   [[nodiscard]] const Point& behind(std::size_t i) const {
@@ -112,7 +117,7 @@ class Taut {
   [[nodiscard]] Along at_rim(const Face& face, const Along& ap, double op, const Along& aq,
                              double oq) const {
     Along best{};
-    double least = std::numeric_limits<double>::infinity();
+    double least = infinity;
     for (const BendingRim<N>& rim : domain_.rims_of(face)) {
       const Along way = minus(rim.to, rim.from);
       const double length = std::sqrt(inner(way, way));
@@ -132,8 +137,10 @@ class Taut {
     return best;
   }
 
-  /// One step for the bends that are not at a rim; half of it, and so on, until it is a gain.
-  void newton() {
+  /// One step for the bends that are not at a rim; half of it, and so on, until it is a gain. If
+  /// there are no others and all of it was taken: how far off they may still be, its square by the
+  /// shortest leg. Else +inf.
+  double newton() {
     if constexpr (K > 0) {
       constexpr std::size_t size = most * K;
       std::size_t place[most], unknowns = 0;
@@ -141,18 +148,20 @@ class Taut {
         place[i] = unknowns;
         if (free_[i]) unknowns += K;
       }
-      if (unknowns < 2) return;
+      if (unknowns < 2) return infinity;
       double matrix[size][size], right[size];
       for (std::size_t r = 0; r < unknowns; ++r) {
         right[r] = 0;
         std::fill(matrix[r], matrix[r] + unknowns, 0.);
       }
+      double shortest = infinity;
       // Leg j goes from bend j - 1 to bend j.
       for (std::size_t j = 0; j <= count_; ++j) {
         const Point &p = before(j), &q = j < count_ ? point_[j] : to_;
         const Point leg = minus(q, p);
         const double length = std::sqrt(inner(leg, leg));
-        if (!(length > 1e-9)) return;
+        if (!(length > 1e-9)) return infinity;
+        shortest = std::min(shortest, length);
         const bool ends[2] = {j > 0 && free_[j - 1], j < count_ && free_[j]};
         double part[2][K];
         for (std::size_t e = 0; e < 2; ++e)
@@ -180,7 +189,7 @@ class Taut {
           if (c < r) {
             matrix[r][c] = sum / matrix[c][c];
           } else {
-            if (!(sum > 1e-14)) return;
+            if (!(sum > 1e-14)) return infinity;
             matrix[r][r] = std::sqrt(sum);
           }
         }
@@ -188,24 +197,31 @@ class Taut {
         for (std::size_t k = 0; k < r; ++k) right[r] -= matrix[r][k] * right[k];
         right[r] /= matrix[r][r];
       }
+      double step2 = 0;
       for (std::size_t r = unknowns; r-- > 0;) {
         for (std::size_t k = r + 1; k < unknowns; ++k) right[r] -= matrix[k][r] * right[k];
         right[r] /= matrix[r][r];
+        step2 += right[r] * right[r];
       }
+      const double off = unknowns == count_ * K ? step2 / shortest : infinity;
       Along old[most];
       std::copy(along_, along_ + count_, old);
       const double before_it = length();
       for (double share = 1; share > .05; share /= 2) {
+        bool whole = share == 1;
         for (std::size_t i = 0; i < count_; ++i) {
           if (!free_[i]) continue;
           Along a = old[i];
           for (std::size_t k = 0; k < K; ++k) a[k] += share * right[place[i] + k];
-          put(i, within(*face_[i], old[i], a));
+          const Along b = within(*face_[i], old[i], a);
+          whole = whole && a == b;
+          put(i, b);
         }
-        if (length() <= before_it) return;
+        if (off < enough || length() <= before_it) return whole ? off : infinity;
       }
       for (std::size_t i = 0; i < count_; ++i) put(i, old[i]);
     }
+    return infinity;
   }
 
   /// As far from `from` to `to` as the face goes.

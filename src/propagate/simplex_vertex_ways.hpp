@@ -174,8 +174,8 @@ class SimplexVertexWays {
     if (!waits && d <= radius) waiting.push_back(w);
   }
 
-  /// Those around v for which the way is the shorter one, or for a corner of theirs: first by a
-  /// bound, as if nothing were in it, then by its string drawn on from v. (At walls the ends of
+  /// Those around v for which the way is the shorter one, or for a corner of theirs: first by
+  /// bounds, as if nothing were in it, then by its string drawn on from v. (At walls the ends of
   /// strings and of faces are all within some clearances of v, so that string only tells whom to
   /// ask: what they get goes from centre to centre.)
   void find_wanted(Index v, const Way& way) const {
@@ -184,7 +184,10 @@ class SimplexVertexWays {
     SimplexString<N> to_vertex(flat);
     bool is_drawn = false;
     const auto is_shorter = [&](Index t, const StringPoint<N>& to, double limit) {
-      if (!(least_over<N>(flat, way.label, rule_.centre(way.simplex), to) < limit)) return false;
+      const StringPoint<N>& end = rule_.centre(way.simplex);
+      if (!(least_over<N>(flat, way.label, end, to) < limit) ||
+          !(least_around<N>(flat, way.label, end, to) < limit))
+        return false;
       taut.start(way.label.source, to);
       for (std::size_t i = 0; i < way.label.bends; ++i)
         taut.add(way.label.face[i], way.label.along[i]);

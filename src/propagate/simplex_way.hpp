@@ -92,4 +92,24 @@ double least_over(const FlatDomain<N>& flat, const SimplexStringLabel<N>& label,
   return label.centre + (length > 0 ? inner(leg, minus(to, end)) / length : 0);
 }
 
+/// Nor is one that bends on all of them, and goes around the last as far as it likes: distances to
+/// the other bends are convex, and that one unfolds.
+template <int N>
+double least_around(const FlatDomain<N>& flat, const SimplexStringLabel<N>& label,
+                    const StringPoint<N>& end, const StringPoint<N>& to) {
+  if (label.bends == 0) return label.sigma + distance_of(label.source, to);
+  const Index last = label.bends - 1;
+  const BendingFace<N>& face = flat.faces[label.face[last]];
+  const StringPoint<N> eye = face.at(label.along[last]);
+  const StringPoint<N> leg = minus(end, eye), way = minus(to, eye);
+  const double length2 = inner(leg, leg);
+  if (!(length2 > 0)) return least_over<N>(flat, label, end, to);
+  const double leg_into = inner(leg, face.into), leg_side = inner(leg, face.side);
+  const double way_into = inner(way, face.into), way_side = inner(way, face.side);
+  const double off_face = std::sqrt((leg_into * leg_into + leg_side * leg_side) *
+                                    (way_into * way_into + way_side * way_side));
+  const double along_face = inner(leg, way) - (leg_into * way_into + leg_side * way_side);
+  return label.centre + (along_face + off_face - length2) / std::sqrt(length2);
+}
+
 }  // namespace plexway
