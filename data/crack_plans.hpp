@@ -25,15 +25,17 @@ class CrackPlan {
   };
 
   /// Vertices that are on no crack and inside are moved at random by up to `jitter` of a cell;
-  /// `random()` is in [0, 1).
+  /// `random()` is in [0, 1). Those of a row of corners `straight` stay on their line.
   template <class Random>
-  CrackPlan(int cells, std::vector<Crack> cracks, double jitter, Random&& random)
+  CrackPlan(int cells, std::vector<Crack> cracks, double jitter, Random&& random, int straight = -1)
       : n_(cells), cracks_(std::move(cracks)) {
     for (int j = 0; j <= n_; ++j)
       for (int i = 0; i <= n_; ++i) {
         Point2 at = {double(i) / n_, double(j) / n_};
         if (i > 0 && j > 0 && i < n_ && j < n_ && !on_crack({i, j}))
-          for (double& x : at) x += (2 * random() - 1) * jitter / n_;
+          for (const std::size_t k : {0, 1})
+            if (const double by = (2 * random() - 1) * jitter / n_; k == 0 || j != straight)
+              at[k] += by;
         corners_.push_back(at);
       }
     std::vector<std::array<Number, 3>> faces;
@@ -82,6 +84,62 @@ class CrackPlan {
         if (by < distance[v] && sees(beside_[b], beside_[v])) distance[v] = by;
       }
     }
+  }
+
+  /// The same where the speed is `speed[0]` below a row of corners and `speed[1]` above: also by
+  /// points of the line between, `points` of them; too long by about the square of how far these
+  /// are apart. Cracks may cross the line, end on it or lie in it.
+  [[nodiscard]] std::vector<double> times(Number from, int row, const std::array<double, 2>& speed,
+                                          int points) const {
+    constexpr double infinity = std::numeric_limits<double>::infinity(), aside = 1e-8;
+    const double middle = double(row) / n_, fast = std::max(speed[0], speed[1]);
+    const auto length = [](const Point2& a, const Point2& b) {
+      return std::hypot(a[0] - b[0], a[1] - b[1]);
+    };
+    const auto way = [&](const Point2& a, const Point2& b) {
+      const bool below = a[1] <= middle && b[1] <= middle, above = a[1] >= middle && b[1] >= middle;
+      if ((!below && !above) || !sees(a, b)) return infinity;
+      return length(a, b) / (below && above ? fast : speed[below ? 0 : 1]);
+    };
+    std::vector<double> along;
+    for (int i = 0; i <= points; ++i) along.push_back(double(i) / points);
+    for (const Crack& c : cracks_)
+      if (std::min(c.begin[1], c.end[1]) <= row && std::max(c.begin[1], c.end[1]) >= row)
+        for (const auto& end : {c.begin, c.end})
+          for (const double off : {-aside, aside}) along.push_back(double(end[0]) / n_ + off);
+    // On a crack a point would be on both of its sides.
+    for (const Crack& c : cracks_) {
+      const auto [low, high] = std::minmax(c.begin[0], c.end[0]);
+      if (std::min(c.begin[1], c.end[1]) > row || std::max(c.begin[1], c.end[1]) < row) continue;
+      std::erase_if(along, [&](double x) {
+        return x > double(low) / n_ - aside / 2 && x < double(high) / n_ + aside / 2;
+      });
+    }
+    std::vector<Point2> nodes = {beside_[from]};
+    for (Number v = 0; v < places_.size(); ++v)
+      if (on_crack_[v]) nodes.push_back(beside_[v]);
+    for (const double x : along)
+      if (x >= 0 && x <= 1) nodes.push_back({x, middle});
+    std::vector<double> time(nodes.size(), infinity);
+    std::vector<char> done(nodes.size(), 0);
+    time[0] = 0;
+    for (;;) {
+      std::size_t next = nodes.size();
+      for (std::size_t i = 0; i < nodes.size(); ++i)
+        if (!done[i] && time[i] < infinity && (next == nodes.size() || time[i] < time[next]))
+          next = i;
+      if (next == nodes.size()) break;
+      done[next] = 1;
+      for (std::size_t i = 0; i < nodes.size(); ++i)
+        if (time[next] + length(nodes[next], nodes[i]) / fast < time[i])
+          time[i] = std::min(time[i], time[next] + way(nodes[next], nodes[i]));
+    }
+    std::vector<double> found(places_.size(), infinity);
+    for (Number v = 0; v < places_.size(); ++v)
+      for (std::size_t i = 0; i < nodes.size(); ++i)
+        if (time[i] + length(nodes[i], beside_[v]) / fast < found[v])
+          found[v] = std::min(found[v], time[i] + way(nodes[i], beside_[v]));
+    return found;
   }
 
   /// One layer over the plan, each prism cut by the order of its vertices' numbers: vertex

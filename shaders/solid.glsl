@@ -62,6 +62,7 @@ uniform uint cracks;  // are there any: 1
 const uint REFLEX_SIZE = 21u;
 const int label_bends = 2;
 const uint unfolded_door = 0x80000000u;
+const uint beside_door = 0xc0000000u;
 
 struct ReflexEdge {
   vec3 solid, direction, end[2];

@@ -144,9 +144,7 @@ std::vector<Remark> domain_remarks(const AnyDomain& solver, Reader reader) {
     remark("solids have " + counted(bent.edges, "edges") +
            " around which ways bend, and faces or edges where the speed changes: single vertices "
            "whose ways do both may be up to a tenth too far" +
-           (bent.cracks > 0 ? ", most of all where cracks end on such faces; where cracks join on "
-                              "one, single vertices may be too near, by two thirds at worst"
-                            : ""));
+           (bent.cracks > 0 ? ", most of all where cracks end on such faces" : ""));
   return remarks;
 }
 

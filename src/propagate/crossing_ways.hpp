@@ -106,7 +106,13 @@ class CrossingWays {
         held_[to].letters.push_back(std::move(letter));
         any = true;
       }
-    return any && ++rounds_ < most_rounds;
+    if (any && ++rounds_ >= most_rounds) held_[0].cut_short = true;
+    return any && rounds_ < most_rounds;
+  }
+  /// A piece's vertices were looked at more often than is any use: some may be nearer.
+  void cut_short(Index piece) { held_[piece].cut_short = true; }
+  [[nodiscard]] bool is_cut_short() const {
+    return std::any_of(held_.begin(), held_.end(), [](const Held& own) { return own.cut_short; });
   }
 
  private:
@@ -132,7 +138,7 @@ class CrossingWays {
     std::size_t looked_at = 0;
     std::vector<Letter> letters;
     std::vector<std::pair<Index, Letter>> letters_out;
-    bool begun = false;
+    bool begun = false, cut_short = false;
   };
 
   static std::uint64_t mixed(std::uint64_t kin, std::uint64_t more) {
@@ -217,7 +223,10 @@ class CrossingWays {
       for (std::size_t i = 0; i < own_.front.size(); ++i) {
         const Index v = own_.front[i];
         own_.waits[v] = 0;
-        if (own_.looked_at++ > most) continue;
+        if (own_.looked_at++ > most) {
+          own_.cut_short = true;
+          continue;
+        }
         const Way way = own_.ways[v];
         offer_around(v, way, distance_[v]);
       }
@@ -228,6 +237,7 @@ class CrossingWays {
       if (take_if(v, letter.way, letter.time)) return;
       if (own_.ways[v].known() && own_.ways[v].kin == letter.way.kin) return;
       offer_around(v, letter.way, letter.time);
+      if (!(letter.time > letter.way.sigma) && piece_.sees_all()) offer_to_straight(v, letter.way);
       send(v, letter.way, letter.time);
     }
     /// A vertex's way to the pieces beyond.
@@ -251,7 +261,6 @@ class CrossingWays {
         const bool back = !all_.pieces_[link->piece]->sees_all() && arrives &&
                           way.steps.back().hinge != link->step.hinge;
         if (arrives ? !back : !first) continue;
-        if (way.steps.empty() && !(norm(place(v) - way.eye) > 0)) continue;
         Letter letter = {link->other, time, way};
         letter.way.steps.push_back(link->step);
         letter.way.kin = all_.longer(way.kin, link->step);
@@ -279,14 +288,35 @@ class CrossingWays {
           if (known && own_.ways[w].kin == way.kin) continue;
           if (!(time + slope.least(there - at) < enough)) continue;
         }
-        path_.assign(way.steps.begin(), way.steps.end());
-        const Real length =
-            all_.bent_.pull(way.eye, way.sigma, path_, number_, inner, enough, room_);
-        if (!(length < enough) || length > all_.radius_) continue;
-        take(w, way, length);
-        own_.ways[w].steps = path_;
-        all_.find_kin(own_.ways[w]);
+        offer(w, inner, way, enough);
       }
+    }
+    // From a source on a hinge, at v: to all that see it straight, and their neighbours. Beside a
+    // faster piece it is nearer along that, and none in between need keep that way.
+    void offer_to_straight(Index v, const Way& way) {
+      if (!own_.ways[v].known() || !own_.ways[v].steps.empty()) return;
+      const std::uint64_t straight = own_.ways[v].kin;
+      std::vector<Index> front = {v};
+      seen_.resize(own_.ways.size(), 0);
+      seen_[v] = ++looks_;
+      for (std::size_t i = 0; i < front.size(); ++i) {
+        piece_.vertices_around(solid_.inside_vertex(front[i]), around_);
+        for (const Index inner : around_) {
+          const Index w = outside_[inner];
+          if (std::exchange(seen_[w], looks_) == looks_) continue;
+          const bool known = own_.ways[w].known();
+          if (known && own_.ways[w].kin == straight) front.push_back(w);
+          offer(w, inner, way, distance_[w] * (1 + (known ? -1 : 1) * Piece::crossing_gain));
+        }
+      }
+    }
+    void offer(Index w, Index inner, const Way& way, Real enough) {
+      path_.assign(way.steps.begin(), way.steps.end());
+      const Real length = all_.bent_.pull(way.eye, way.sigma, path_, number_, inner, enough, room_);
+      if (!(length < enough) || length > all_.radius_) return;
+      take(w, way, length);
+      own_.ways[w].steps = path_;
+      all_.find_kin(own_.ways[w]);
     }
     bool take_if(Index v, const Way& way, Real time) {
       const Real gain = (own_.ways[v].known() ? -1 : 1) * Piece::crossing_gain;
@@ -308,6 +338,8 @@ class CrossingWays {
     std::span<Real> distance_;
     std::span<Index> label_;
     std::vector<Index> outside_, around_;
+    std::vector<Index> seen_;  // by vertex: in which look
+    Index looks_ = 0;
     std::vector<Step> path_;
     typename BentWays<Real>::Room room_;
   };

@@ -96,6 +96,8 @@ class HingeCrossings {
     if (moves_) ways_->hand_on(piece, distance, label);
   }
   bool deliver() { return moves_ && ways_->deliver(); }
+  /// Was there no end to it? Some vertices may be nearer then.
+  [[nodiscard]] bool is_cut_short() const { return moves_ && ways_->is_cut_short(); }
 
   /// Distances and labels of a piece's vertices, in its caller's order.
   void straighten(Index piece, std::span<Real> distance, std::span<Index> label) {
@@ -162,6 +164,7 @@ class HingeCrossings {
         front.push_back(w);
       }
     }
+    if (front.size() > most) ways_->cut_short(piece);
   }
 
  private:

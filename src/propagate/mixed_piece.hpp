@@ -121,8 +121,9 @@ class MixedPiece {
   struct String {
     static constexpr int most = 5;
     Point from;
-    Real sigma;    // the way to it
-    Index source;  // of the label that tells it
+    Real sigma;         // the way to it
+    Index source;       // of the label that tells it
+    bool torn = false;  // is `from` a place of several vertices?
     int bends = 0;
     Index edge[most];
     Real share[most];  // where it bends, from 0 to 1 along each edge

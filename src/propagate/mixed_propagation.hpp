@@ -110,7 +110,7 @@ class MixedPropagation {
     do {
       each([&](Index p) { crossings_.hand_on(p, distances(field, p), labels(field, p)); });
     } while (crossings_.deliver());
-    field.complete = complete_;
+    field.complete = complete_ && !crossings_.is_cut_short();
     field.statistics = {};
     for (const auto& piece : pieces_) {
       const PropagateStatistics s = piece->statistics();

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <numeric>
 #include <vector>
 
 #include "propagate/mixed_front.hpp"
@@ -27,6 +28,7 @@ class MixedSolid final : public MixedPiece<Real> {
   using Point = Vector3<Real>;
   using Wave = MixedFront<Real, SolidLabel<Real>>;
   using Rule = SolidRule<Real, Wave>;
+  using Label = SolidLabel<Real>;
   using Taut = typename SolidPaths<Real>::Taut;
 
   MixedSolid(const TetMesh<Real>& mesh, WorkspaceState<Real>& workspace,
@@ -41,7 +43,9 @@ class MixedSolid final : public MixedPiece<Real> {
                mesh.unit(), options_},
               this->expanded_),
         propagation_(mesh, Rule(mesh, wave_), wave_, options_),
-        rule_(propagation_.rule()) {}
+        rule_(propagation_.rule()) {
+    find_torn();
+  }
 
   void seed(const PointSource& source, Index number) override { propagation_.seed(source, number); }
   void run(Real horizon, std::size_t budget, Index first_front) override {
@@ -179,7 +183,9 @@ class MixedSolid final : public MixedPiece<Real> {
     std::vector<Index> asked;  // of one way only the first
     for (const Index c : mesh_.corners_at(vertex)) {
       const Index t = c / 4;
-      if (!wave_.reached(t) || wave_.label(t).door != none) continue;
+      if (!wave_.reached(t) ||
+          !(wave_.label(t).door == none || rule_.begins_beside(wave_.label(t))))
+        continue;
       const auto same = [&](Index u) {
         return wave_.source(u) == wave_.source(t) && same_way(wave_.label(u), wave_.label(t));
       };
@@ -303,6 +309,37 @@ class MixedSolid final : public MixedPiece<Real> {
     return workspace;
   }
 
+  // Places of several vertices, as on the faces of a crack or where holes touch. Where every point
+  // sees every other there are none.
+  void find_torn() {
+    if (sees_all()) return;
+    const auto points = mesh_.points();
+    std::vector<Index> order(points.size());
+    std::iota(order.begin(), order.end(), 0);
+    const auto key = [&](Index v) { return std::array{points[v].x, points[v].y, points[v].z}; };
+    std::sort(order.begin(), order.end(), [&](Index v, Index w) { return key(v) < key(w); });
+    for (std::size_t i = 1; i < order.size(); ++i) {
+      const Index v = order[i - 1], w = order[i];
+      if (key(v) != key(w)) continue;
+      torn_.resize(points.size(), 0);
+      torn_[v] = torn_[w] = 1;
+      torn_places_.push_back(points[v]);
+      for (const Real x : key(v)) farthest_torn_ = std::max(farthest_torn_, std::abs(x));
+    }
+    rule_.tell_sides(torn_);
+  }
+  // Does t's label not tell on which side its S is, or only by the tetrahedron that it begins in?
+  [[nodiscard]] bool is_torn(Index t) const {
+    const Label& label = wave_.label(t);
+    if (rule_.begins_beside(label)) return true;
+    const Real near = 16 * std::numeric_limits<Real>::epsilon() * farthest_torn_;
+    auto p = std::lower_bound(torn_places_.begin(), torn_places_.end(), label.source.x - near,
+                              [](const Point& point, Real x) { return point.x < x; });
+    for (; p != torn_places_.end() && p->x <= label.source.x + near; ++p)
+      if (norm(*p - label.source) <= near) return true;
+    return false;
+  }
+
   // A string of t's label, in the domain's unit. False where it bends at what is none of the edges.
   bool is_string(Index t, const Taut& s, String& string) const {
     // Nothing is written but a whole string: one that was found before stays as it is.
@@ -311,6 +348,7 @@ class MixedSolid final : public MixedPiece<Real> {
     string.from = unit_ * s.at[0];
     string.sigma = unit_ * wave_.label(t).sigma;
     string.source = wave_.source(t);
+    string.torn = is_torn(t);
     string.bends = s.bends;
     for (int i = 0; i < s.bends; ++i) {
       const auto& edge = mesh_.reflex_edges()[s.edge[i]];
@@ -385,6 +423,9 @@ class MixedSolid final : public MixedPiece<Real> {
     Real next;
   };
   std::vector<OnHinge> on_hinges_;
+  std::vector<char> torn_;          // by vertex, if any
+  std::vector<Point> torn_places_;  // by x
+  Real farthest_torn_ = 0;          // their largest coordinate
 };
 
 }  // namespace plexway

@@ -36,6 +36,9 @@ struct SolidDoor {
   /// S was turned about a reflex edge, which is parallel to bend[0]: `unfolded` + edge. More than
   /// 4 x 2^29 faces would take 30 GB at least.
   static constexpr Index unfolded = Index{1} << 31;
+  /// S is a place of several vertices, as on a crack, which does not tell the sides: strings begin
+  /// beside it, inside of that tetrahedron. `beside` + tet.
+  static constexpr Index beside = Index{3} << 30;
 };
 
 }  // namespace plexway

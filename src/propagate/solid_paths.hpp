@@ -30,6 +30,7 @@ class SolidPaths : protected kernel::SolidSight<Real> {
 
   static constexpr int label_bends = Label::bends;
   static constexpr Index unfolded_door = SolidDoor::unfolded;
+  static constexpr Index beside_door = SolidDoor::beside;
   [[nodiscard, gnu::always_inline]] const Edge& reflex_edge(Index edge) const {
     return reflex_[edge];
   }

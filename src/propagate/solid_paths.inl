@@ -4,6 +4,7 @@
 //   Label               a SolidLabel (propagate/solid_label.hpp), and `label_bends`, how many
 //   none                no edge
 //   unfolded_door       with an edge added: the door of a label whose S was turned about it
+//   beside_door         with a tetrahedron added: of one whose strings begin in that, beside S
 //   reflex_edge(Index)  an Edge
 //   own_edges()         edges from there on are further ones, which only bend paths
 
@@ -161,7 +162,11 @@ void pull(HINGE_INOUT(Taut) s, Real sigma, int kept, bool strict) HINGE_READS {
 }
 
 HINGE_METHOD bool is_unfolded(HINGE_IN(Label) label) HINGE_READS {
-  return label.door != none && label.door >= unfolded_door;
+  return label.door >= unfolded_door && label.door < beside_door;
+}
+/// Do strings begin beside S, in a tetrahedron?
+HINGE_METHOD bool begins_beside(HINGE_IN(Label) label) HINGE_READS {
+  return label.door != none && label.door >= beside_door;
 }
 
 /// Edges of a label that belong to its S.

@@ -33,6 +33,7 @@ class SolidRule : public SolidPaths<Real> {
       Paths::measure, Paths::most_bends, Paths::own_edges, Paths::own_edges_, Paths::pull,
       Paths::reflex_, Paths::reflex_edge, Paths::set_bends, Paths::slide, Paths::taut_end,
       Paths::taut_to, Paths::unfolded_door;
+  using Paths::beside_door;
   using typename Paths::Edge, typename Paths::Taut;
   using typename View::FromEdge;
   using View::bend_point, View::in_crack, View::is_along, View::is_cracks, View::normal_to,
@@ -40,6 +41,7 @@ class SolidRule : public SolidPaths<Real> {
   using View::crossing_along, View::from_edge, View::point_on, Paths::is_unfolded;
 
  public:
+  using Paths::begins_beside;
   using Label = SolidLabel<Real>;
   using Point = Vector3<Real>;
 
@@ -92,6 +94,9 @@ class SolidRule : public SolidPaths<Real> {
   /// Where lines need not be walked, and what they can run into; referred to.
   void skip(const SolidClearSpace<Real>& clear) { clear_ = clear.empty() ? nullptr : &clear; }
   void mind(const SolidObstacles<Real>& all) { obstacles_ = all.empty() ? nullptr : &all; }
+  /// Vertices, a mark each, that share their place with others, as on the faces of a crack;
+  /// referred to. A source there is seen from the side alone that it is on.
+  void tell_sides(std::span<const char> torn) { torn_ = torn.empty() ? nullptr : torn.data(); }
   /// Where to keep what is seen whole; referred to. By one thread.
   void keep_lit(LitTets<Real>& lit) { lit_ = &lit; }
 
@@ -175,6 +180,12 @@ class SolidRule : public SolidPaths<Real> {
     clear_bends(label);
     return label;
   }
+  /// The same where S is a point of t: of several places in one it is on the side of t.
+  [[nodiscard]] Label point_label(Index t, const Point& at, Real sigma) const {
+    Label label = point_label(at, sigma);
+    if (torn_ != nullptr && is_torn(t, at)) label.door = SolidDoor::beside + t;
+    return label;
+  }
   /// A path of length sigma ends inside t.
   void seed_inside(Index t, const std::array<double, 4>& barycentric, Real sigma,
                    Index source) const {
@@ -184,7 +195,7 @@ class SolidRule : public SolidPaths<Real> {
     const Label kept = front_->label(t);
     const Index kept_source = front_->source(t);
     if (!better) {
-      front_->put(t, point_label(at, sigma));
+      front_->put(t, point_label(t, at, sigma));
       front_->set_source(t, source);
     }
     for (Index i = 0; i < 4; ++i) cross(t, i, false);
@@ -267,7 +278,7 @@ class SolidRule : public SolidPaths<Real> {
     const Point b = bend_point(points_[v], points_[w], seen_from(u, tets_[u].centre).eye, q);
     const Real walked = distance_at(u, u, b);
     if (!(walked < std::numeric_limits<Real>::infinity())) return false;
-    Label label = point_label(b, walked);
+    Label label = point_label(t, b, walked);
     label.centre = label.sigma + norm(q - b);
     if (!(label.centre < to_beat(t) * known_gain)) return false;
     Index face = 0;  // one that contains the edge
@@ -303,6 +314,7 @@ class SolidRule : public SolidPaths<Real> {
         any_cracks_(rule.any_cracks_),
         clear_(rule.clear_),
         obstacles_(rule.obstacles_),
+        torn_(rule.torn_),
         front_(&front) {}
 
   /// A corner whose string is hidden, its length, and where it leaves the solid.
@@ -365,10 +377,23 @@ class SolidRule : public SolidPaths<Real> {
   bool seed(Index t, const Point& at, Index hinge, Real sigma, Index source) const {
     const Real d = sigma + norm(tets_[t].centre - at);
     if (!(d < to_beat(t))) return false;
-    Label label = point_label(at, sigma);
+    Label label = point_label(t, at, sigma);
     label.centre = d;
     front_->accept(t, hinge, label, d, source);
     return true;
+  }
+  /// Does a point of t lie where all corners nearby share their places with others?
+  [[nodiscard]] bool is_torn(Index t, const Point& at) const {
+    const Index* const corner = tets_[t].corner;
+    Real weight = 0, others = 0;
+    for (Index i = 0; i < 4; ++i) {
+      const Point &a = points_[corner[(i + 1) & 3]], &b = points_[corner[(i + 2) & 3]],
+                  &c = points_[corner[(i + 3) & 3]];
+      const Real share = abs(dot(at - a, normal_to(b - a, c - a)));
+      weight += share;
+      if (torn_[corner[i]] == 0) others += share;
+    }
+    return others <= nudge * weight;
   }
 
   // What solid_step.inl reads.
@@ -418,7 +443,7 @@ class SolidRule : public SolidPaths<Real> {
   [[gnu::always_inline]] const Label& label_of(Index t) const { return front_->label(t); }
   /// A line that left the solid in t on its way to the label's source: did it leave by the door?
   [[nodiscard]] bool comes_in(const Label& label, Index t) const {
-    if (label.door == none || is_unfolded(label)) return false;
+    if (label.door >= unfolded_door) return false;
     const Index door = label.door / 4, face = label.door % 4;
     const Point &a = face_corner(door, face, 0), &b = face_corner(door, face, 1),
                 &c = face_corner(door, face, 2);
@@ -435,6 +460,7 @@ class SolidRule : public SolidPaths<Real> {
   const SolidClearSpace<Real>* clear_ = nullptr;
   const SolidObstacles<Real>* obstacles_ = nullptr;
   LitTets<Real>* lit_ = nullptr;
+  const char* torn_ = nullptr;
   Front* front_;
 };
 

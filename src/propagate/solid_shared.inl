@@ -51,7 +51,8 @@ bool enter_face(Index t, std::size_t face, const Point& eye, Real sigma, Index s
     const auto way = [&](const Point& p) { return norm(p - eye) + norm(q - p); };
     const Point& at = *std::min_element(
         over, over + 3, [&](const Point& p, const Point& r) { return way(p) < way(r); });
-    start_at(label, at, sigma + norm(at - eye), q);
+    label = point_label(t, at, sigma + norm(at - eye));
+    label.centre = label.sigma + norm(q - at);
   }
   return enter(t, face, label, source);
 }
@@ -95,7 +96,7 @@ bool enter_edge(Index t, std::size_t face, Index ring, const Point& eye, Real si
 /// That of a label of t to its centre. False if it does not begin at a point of the solid.
 [[nodiscard]] bool string_of(Index t, Taut& s) const {
   const Label& label = front_->label(t);
-  if (label.door != none || fixed_bends(label) > 0) return false;
+  if ((label.door != none && !begins_beside(label)) || fixed_bends(label) > 0) return false;
   s = taut_to(label, tets_[t].centre);
   return true;
 }

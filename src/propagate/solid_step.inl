@@ -87,6 +87,11 @@ HINGE_METHOD Point beside(HINGE_IN(Edge) e, HINGE_IN(Point) bend,
   return at + (height > Real(0) ? -off : off) * e.normal[0];
 }
 
+/// A point q of u's boundary as strings are walked from it.
+HINGE_METHOD Point within(Index u, HINGE_IN(Point) q) HINGE_READS {
+  return q + nudge * (centre_of(u) - q);
+}
+
 /// Walks the string back from its end, seen as `end` in tetrahedron u, to the source, but for legs
 /// that are known to be free.
 bool is_free(HINGE_IN(Taut) s, HINGE_IN(Label) label, Index u, HINGE_IN(Point) end,
@@ -138,6 +143,8 @@ bool is_free(HINGE_IN(Taut) s, HINGE_IN(Label) label, Index u, HINGE_IN(Point) e
       Real along = crossing_along(source, bend);
       if (!(along >= Real(0) && along <= e.extent)) return false;
       to = beside(e, point_on(e, along));
+    } else if (HINGE_RARE(begins_beside(label))) {
+      to = within(label.door - beside_door, to);
     }
     for (int stop = 0; stop < HINGE_ROLLED(2); ++stop) {
       if (!go(hit.tet, from, to)) return hit.leg == 0 && comes_in(label, hit.tet);
@@ -225,6 +232,8 @@ HINGE_METHOD Index edge_before(HINGE_IN(Taut) s, int leg) HINGE_READS {
 HINGE_CONST int most_halvings = 8;
 /// Strings from the end of a crack graze it: down to as far as they are walked beside it.
 HINGE_CONST int most_at_cracks = 11;
+/// Those that begin beside a place on a crack run along its face, and near its end from farther on.
+HINGE_CONST int most_beside = 16;
 HINGE_CONST int most_tries = 4;
 // What find_taut tries: the label's own string, one to a point on the way, one that passes the ends
 // of edges, one with a further edge, the same with no edge left out, and without a neighbour of
@@ -263,7 +272,7 @@ bool find_taut(HINGE_IN(Label) label, Index t, HINGE_IN(Point) middle, Index u, 
   Real high = Real(2);
   Real bound = known;
   bool last = false;  // nothing else is left to try
-  for (int turn = 0; turn < HINGE_ROLLED(most_tries * (most_at_cracks + 7)); ++turn) {
+  for (int turn = 0; turn < HINGE_ROLLED(most_tries * (most_beside + 7)); ++turn) {
     int stay = kept;
     if (trying == touching || trying == whole) stay = s.bends;
     pull(s, label.sigma, stay, trying <= halved);
@@ -356,7 +365,9 @@ bool find_taut(HINGE_IN(Label) label, Index t, HINGE_IN(Point) middle, Index u, 
     s = all;
     from = u;
     start = end;
-    trying = halvings < (any_cracks() ? most_at_cracks : most_halvings) ? halved : loose;
+    int most = any_cracks() ? most_at_cracks : most_halvings;
+    if (begins_beside(label)) most = most_beside;
+    trying = halvings < most ? halved : loose;
     if (trying == halved) {
       ++halvings;
       Real at = Real(0.5) * (low + high);
@@ -442,11 +453,6 @@ HINGE_FAST bool offer_bent(HINGE_IN(Label) from, Index t, Index face, Index u, R
   }
   start_at(label, middle, sigma, q);
   return label.centre < known;
-}
-
-/// A point q of u's boundary as strings are walked from it.
-HINGE_METHOD Point within(Index u, HINGE_IN(Point) q) HINGE_READS {
-  return q + nudge * (centre_of(u) - q);
 }
 
 /// Length of the path to a point of u, which is the reached tetrahedron t or has the point

@@ -12,6 +12,7 @@
 
 #include <plexway/complex/mixed_complex.hpp>
 
+#include "propagate/hinge_facet.hpp"
 #include "propagate/hinge_neighbours.hpp"
 #include "propagate/mixed_piece.hpp"
 
@@ -189,7 +190,8 @@ class TautCrossings {
       }
       if (last) break;
     }
-    const bool kinks = std::find(room.blunt.begin(), room.blunt.end(), 1) != room.blunt.end();
+    const bool kinks = std::find(room.blunt.begin(), room.blunt.end(), 1) != room.blunt.end() ||
+                       leaves_an_end(eye, path, target);
     if (!kinks && now.wins <= gain * now.length) return now.length;
     const Real rounded = pull_rounded(eye, path, target, now.length, room);
     if (!(rounded < now.length)) return now.length;
@@ -200,26 +202,7 @@ class TautCrossings {
  private:
   using Row = typename Room::Row;
 
-  struct Facet {
-    Point origin[2], along[2][2];  // on either side
-    Point dual[2];                 // on side 0: what tells a place
-    Index vertex[3] = {none, none, none};
-    Index across[3] = {none, none, none};  // over the edge that vertex i is not an end of
-    int dimension = 0;
-
-    [[nodiscard]] Point at(std::size_t side, const HingePlace<Real>& b) const {
-      return origin[side] + b[0] * along[side][0] + b[1] * along[side][1];
-    }
-    void link(Index number, const Facet& other) {
-      for (std::size_t i = 0; i < 3; ++i) {
-        int shared = 0;
-        for (std::size_t k = 0; k < 3; ++k)
-          shared +=
-              k != i && std::find(other.vertex, other.vertex + 3, vertex[k]) != other.vertex + 3;
-        if (shared == 2) across[i] = number;
-      }
-    }
-  };
+  using Facet = HingeFacet<Real>;
 
   void fill(const Domain& domain, const Pieces& pieces, Index n) {
     const auto& hinge = domain.hinges()[n];
@@ -335,6 +318,32 @@ class TautCrossings {
     return any;
   }
 
+  // Would a path be shorter whose first or last crossing, which is the eye or the target itself,
+  // left it? There it is at a kink, where Newton's steps see no slope.
+  bool leaves_an_end(const Point& eye, std::span<const Step> path, const Point& target) const {
+    const auto leaves = [&](const Step& step, const Point& end, const Point& other, bool first) {
+      const Facet& facet = facets_[step.hinge];
+      const std::size_t near = first ? step.side : 1 - step.side;
+      const Point* const on = facet.along[near];
+      if (norm(facet.at(near, step.place) - end) > Real(1e-6) * norm(on[0])) return false;
+      const Point way = other - facet.at(1 - near, step.place);
+      const Real far = norm(way);
+      if (!(far > 0)) return false;
+      const Point* const along = facet.along[1 - near];
+      const Real pull[2] = {dot(along[0], way) / far, dot(along[1], way) / far};
+      const Real uu = dot(on[0], on[0]), uw = dot(on[0], on[1]), ww = dot(on[1], on[1]);
+      // The other line gets shorter by more than this one longer.
+      constexpr Real more = Real(1 + 1e-6);
+      if (facet.dimension == 1) return pull[0] * pull[0] > more * uu;
+      return ww * pull[0] * pull[0] - 2 * uw * pull[0] * pull[1] + uu * pull[1] * pull[1] >
+             more * (uu * ww - uw * uw);
+    };
+    const Step &first = path.front(), &last = path.back();
+    const std::size_t n = path.size();
+    return leaves(first, eye, n > 1 ? place(path[1], path[1].side) : target, true) ||
+           leaves(last, target, n > 1 ? place(path[n - 2], 1 - path[n - 2].side) : eye, false);
+  }
+
   // Past kinks, where a line has no length and Newton's steps creep or stop: with sqrt(l^2 + e^2)
   // for a length l, and e less and less. Gives the length of `room.round`.
   Real pull_rounded(const Point& eye, std::span<const Step> path, const Point& target, Real known,
@@ -384,6 +393,7 @@ class TautCrossings {
     Real fall = 0, sum = 0;
     Point from = eye;
     Real diagonal[3] = {0, 0, 0}, right[2] = {0, 0};  // from the line before
+    Real pulled[2] = {0, 0};                          // and how that alone pulls
     for (std::size_t k = 0; k < path.size(); ++k) {
       const Facet& facet = facets_[path[k].hinge];
       const std::size_t side = path[k].side;
@@ -393,7 +403,7 @@ class TautCrossings {
         const Line line(eye, facet.at(side, path[0].place), least, blunt[0], round);
         sum += line.length;
         const Real f[2] = {dot(in[0], line.forward), dot(in[1], line.forward)};
-        for (std::size_t i = 0; i < 2; ++i) right[i] = -f[i];
+        for (std::size_t i = 0; i < 2; ++i) pulled[i] = right[i] = -f[i];
         diagonal[0] = line.bend(in[0], f[0], in[0], f[0]);
         diagonal[1] = line.bend(in[0], f[0], in[1], f[1]);
         diagonal[2] = line.bend(in[1], f[1], in[1], f[1]);
@@ -423,6 +433,14 @@ class TautCrossings {
       row.inverse[0] = d[2] / det;
       row.inverse[1] = -d[1] / det;
       row.inverse[2] = d[0] / det;
+      if (Real free[2]; facet.held(path[k].place, {pulled[0] + f[0], pulled[1] + f[1]}, free)) {
+        const Real stiff =
+            d[0] * free[0] * free[0] + 2 * d[1] * free[0] * free[1] + d[2] * free[1] * free[1];
+        const Real one_over = stiff > 0 ? 1 / stiff : 0;
+        row.inverse[0] = free[0] * free[0] * one_over;
+        row.inverse[1] = free[0] * free[1] * one_over;
+        row.inverse[2] = free[1] * free[1] * one_over;
+      }
       const Real solved[2] = {row.inverse[0] * row.right[0] + row.inverse[1] * row.right[1],
                               row.inverse[1] * row.right[0] + row.inverse[2] * row.right[1]};
       fall += solved[0] * row.right[0] + solved[1] * row.right[1];
@@ -442,6 +460,7 @@ class TautCrossings {
       diagonal[2] = line.bend(on[1], g[1], on[1], g[1]) - product(1, 1);
       for (std::size_t i = 0; i < 2; ++i)
         right[i] = -g[i] - (row.next[0][i] * solved[0] + row.next[1][i] * solved[1]);
+      for (std::size_t i = 0; i < 2; ++i) pulled[i] = -g[i];
     }
     for (std::size_t k = path.size(); k-- > 0;) {
       Row& row = rows[k];

@@ -37,10 +37,8 @@ class WholeWays {
   };
 
   WholeWays(const Domain& domain, const Pieces& pieces) : domain_(domain), pieces_(pieces) {
-    for (const auto& piece : pieces) {
+    for (const auto& piece : pieces)
       bends_ |= piece->bend_edges() > 0 || (piece->is_solid() && !piece->sees_all());
-      find_torn(*piece, domain.pieces()[torn_.size()].vertices);
-    }
   }
   /// Is any more to tell than in solids in which every point sees every other?
   [[nodiscard]] bool any() const { return bends_; }
@@ -66,7 +64,7 @@ class WholeWays {
     way.sigma = infinity;
     way.steps.clear();
     if (String string; pieces_[piece]->string_to(vertex, string)) {
-      lead_to(piece, string, bent, way);
+      lead_to(string, bent, way);
       bent.append(piece, string, way.steps);
     }
   }
@@ -77,7 +75,7 @@ class WholeWays {
     const Part* const part = at(number);
     if (part == nullptr || !part->known) return;
     const Index piece = domain_.hinges()[part->step.hinge].piece[part->step.side];
-    lead_to(piece, part->string, bent, way);
+    lead_to(part->string, bent, way);
     bent.append(piece, part->string, way.steps);
     way.steps.push_back(part->step);
   }
@@ -92,36 +90,11 @@ class WholeWays {
     String string;  // before the crossing
     bool known = false;
   };
-  // Places of several vertices, as on the faces of a crack or where holes touch. What comes from
-  // one of these is seen on its side alone, but a place does not tell which that is: ways from
-  // there went through cracks (up to 73 % too short).
-  void find_torn(const Piece& piece, Index vertices) {
-    std::vector<Point>& torn = torn_.emplace_back();
-    if (!piece.is_solid() || piece.sees_all()) return;
-    std::vector<Point> all;
-    for (Index v = 0; v < vertices; ++v) all.push_back(piece.unit() * piece.place(v));
-    std::sort(all.begin(), all.end(), [](const Point& a, const Point& b) {
-      return std::array{a.x, a.y, a.z} < std::array{b.x, b.y, b.z};
-    });
-    for (std::size_t i = 1; i < all.size(); ++i)
-      if (all[i].x == all[i - 1].x && all[i].y == all[i - 1].y && all[i].z == all[i - 1].z)
-        torn.push_back(all[i]);
-    for (const Point& p : torn)
-      near_ = std::max({near_, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
-  }
-  [[nodiscard]] bool is_torn(Index piece, const Point& at) const {
-    const Real near = 16 * std::numeric_limits<Real>::epsilon() * near_;
-    auto p = std::lower_bound(torn_[piece].begin(), torn_[piece].end(), at.x - near,
-                              [](const Point& point, Real x) { return point.x < x; });
-    for (; p != torn_[piece].end() && p->x <= at.x + near; ++p)
-      if (norm(*p - at) <= near) return true;
-    return false;
-  }
   [[nodiscard]] const Part* at(Index number) const {
     return number == none || number < first_ ? nullptr : &parts_[number - first_];
   }
   // Where a string begins: at the crossing of its label, or at a point that the label was put to.
-  void lead_to(Index piece, const String& string, const BentWays<Real>& bent, Way& way) const {
+  void lead_to(const String& string, const BentWays<Real>& bent, Way& way) const {
     const Part* const before = at(string.source);
     const auto same = [](const Point& a, const Point& b) {
       return a.x == b.x && a.y == b.y && a.z == b.z;
@@ -130,7 +103,9 @@ class WholeWays {
       find(string.source, bent, way);
       return;
     }
-    if (is_torn(piece, string.from)) return;
+    // A place of several vertices is seen on its side alone, and does not tell which that is: ways
+    // from there went through cracks (up to 73 % too short).
+    if (string.torn) return;
     way.eye = string.from;
     way.sigma = string.sigma;
     way.source = string.source;
@@ -139,8 +114,6 @@ class WholeWays {
   const Domain& domain_;
   const Pieces& pieces_;
   bool bends_ = false;
-  Real near_ = 0;                         // the largest coordinate of a torn place
-  std::vector<std::vector<Point>> torn_;  // of each piece, by x
   Index first_ = 0;
   std::vector<Part> parts_;  // by crossing
 };

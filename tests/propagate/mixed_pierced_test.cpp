@@ -84,30 +84,33 @@ TEST_CASE("vertices of coarse slabs do not miss head waves") {
   CHECK(far == 0);
 }
 
-TEST_CASE("a source beside a thin fast layer is known in the slab on its other side") {
-  // All tetrahedra of the slow slab keep labels that came through the layer above.
+TEST_CASE("a source on the plane of thin slabs is known on both sides of it") {
+  // Plan 26: all tetrahedra of the slow slab keep labels that came through the layer above. Others:
+  // along the plane is the nearest way to single vertices, and no neighbour of these keeps that.
   std::mt19937 random(1);
-  samples::Stack stack;
-  std::vector<samples::Position> places;
-  std::size_t source = 0;
-  for (int plan = 0; plan <= 26; ++plan) {
-    stack = samples::random_stack(random, 20, .02, 1.5);
-    places.clear();
+  for (int plan = 0; plan <= 89; ++plan) {
+    const samples::Stack stack = samples::random_stack(random, 20, .02, 1.5);
+    std::vector<samples::Position> places;
     for (const auto& b : stack.blocks)
       places.insert(places.end(), b.positions.begin(), b.positions.end());
     const auto& planes = stack.layers.z;
+    std::size_t source = 0;
     do {
       source = random() % places.size();
     } while (std::find(planes.begin(), planes.end(), places[source][2]) == planes.end());
-  }
-  const samples::StackDomain whole(stack);
-  const auto field = plexway::solve(plexway::Serial{}, whole.domain,
-                                    plexway::PointSource::at(static_cast<plexway::Index>(source)));
-  for (std::size_t v = 0; v < places.size(); ++v) {
-    const double truth = stack.layers.time(places[source], places[v]);
-    CAPTURE(v, truth, field.distance[v]);
-    CHECK(field.distance[v] >= truth * (1 - 1e-12));
-    CHECK(field.distance[v] <= truth * (1 + 1e-6) + 1e-15);  // 180 of 464 were up to 13 % too long
+    if (plan != 26 && plan != 31 && plan != 34 && plan != 89) continue;
+    const samples::StackDomain whole(stack);
+    const auto field =
+        plexway::solve(plexway::Serial{}, whole.domain,
+                       plexway::PointSource::at(static_cast<plexway::Index>(source)));
+    CHECK(field.complete);
+    for (std::size_t v = 0; v < places.size(); ++v) {
+      const double truth = stack.layers.time(places[source], places[v]);
+      CAPTURE(plan, v, truth, field.distance[v]);
+      CHECK(field.distance[v] >= truth * (1 - 1e-12));
+      // 180 of 464 were up to 13 % too long, then 1, 4 and 2 up to 20, 43 and 25 %.
+      CHECK(field.distance[v] <= truth * (1 + 1e-6) + 1e-15);
+    }
   }
 }
 

@@ -139,3 +139,51 @@ TEST_CASE("cracks that join are not seen through where a solid is cut across the
   CAPTURE(low);
   CHECK(low > -1e-6);  // -.3 with places alone
 }
+
+TEST_CASE("an arm of cracks in the face between two speeds is not seen through") {
+  // Where a crack leaves that face the corner is one place with a vertex on either side.
+  using Cracks = std::vector<samples::CrackPlan::Crack>;
+  constexpr int cells = 8;
+  struct {
+    Cracks cracks;
+    int row;  // of the face
+  } const problems[] = {
+      {{{{1, 7}, {6, 7}}, {{1, 7}, {1, 4}}}, 7},
+      {{{{6, 5}, {1, 5}}, {{6, 5}, {6, 2}}}, 5},
+      {{{{5, 3}, {2, 3}}, {{5, 3}, {5, 2}}}, 3},
+      {{{{6, 3}, {3, 3}}, {{6, 3}, {6, 0}}, {{3, 3}, {3, 1}}}, 3},
+      {{{{3, 5}, {5, 5}}, {{3, 5}, {3, 8}}, {{5, 5}, {5, 7}}}, 5},
+      {{{{5, 4}, {2, 4}}, {{5, 4}, {5, 6}}, {{2, 4}, {2, 6}}}, 4},
+      {{{{2, 4}, {6, 4}}, {{4, 2}, {4, 6}}}, 4},
+  };
+  std::mt19937 random(19);
+  const auto share = [&] { return uniform(random); };
+  double low = 0, high = 0, sum = 0, count = 0;
+  for (int round = 0; round < 6; ++round)
+    for (const auto& [cracks, row] : problems) {
+      const samples::CrackPlan plan(cells, cracks, .08 * (round % 3), share, row);
+      const auto solid = plan.solid(.1 + share() / 2);
+      const double speed = std::exp2((share() - .5) * 3);
+      const CutInTwo cut(solid.places, solid.tets, 1, static_cast<double>(row) / cells, speed);
+      const auto floor = static_cast<Index>(plan.places().size());
+      Index from = 0;
+      do from = static_cast<Index>(random() % cut.vertex.size());
+      while (cut.vertex[from] >= floor || plan.on_crack(cut.vertex[from]));
+      const auto truth = plan.times(cut.vertex[from], row, {1, speed}, 1000);
+      const auto found = solve(Serial{}, cut.domain, PointSource::at(from)).distance;
+      for (std::size_t w = 0; w < found.size(); ++w) {
+        const Index v = cut.vertex[w];
+        if (v >= floor || !(truth[v] > 1e-9)) continue;
+        const double off = found[w] / truth[v] - 1;
+        low = std::min(low, off);
+        high = std::max(high, off);
+        sum += std::abs(off);
+        ++count;
+      }
+    }
+  CAPTURE(low, high, sum / count);
+  CHECK(low > -2e-5);  // what the truth is good for; it was -.66
+  // Set after seeing: .012 and 1.2e-5, before .055 and 1.2e-3.
+  CHECK(high < .03);
+  CHECK(sum / count < 1e-4);
+}
