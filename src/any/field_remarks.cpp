@@ -31,9 +31,14 @@ FieldReach reach_of(std::span<const double> distance, std::span<const Source> so
     if (v != none && std::isfinite(distance[v])) at.insert(v);
   };
   for (const Source& source : sources) {
-    if (const auto* point = std::get_if<PointSource>(&source)) take(point->vertex);
-    if (const auto* set = std::get_if<VertexSource>(&source))
+    if (const auto* point = std::get_if<PointSource>(&source)) {
+      ++outcome.sources;
+      take(point->vertex);
+    }
+    if (const auto* set = std::get_if<VertexSource>(&source)) {
+      outcome.sources += set->vertices.size();
       for (const Index v : set->vertices) take(v);
+    }
   }
   // Where sets leave nothing to reach, nothing failed.
   const bool covered = at.size() == distance.size() && as_points(sources).empty();
@@ -130,6 +135,17 @@ std::vector<std::string> field_remarks(const AnyDomain& solver, const AnyField& 
            (bent.cracks > 0 ? ", most of all where cracks end on such faces; where cracks join on "
                               "one, single vertices may be too near, by two thirds at worst"
                             : ""));
+  // A single crack has two ends.
+  const SolidBends bends = solid_bends(solver);
+  if (bends.cracks > 0 && bends.edges > 2)
+    remark("the solid has cracks, and " + counted(bends.edges, "edges") +
+           " around which ways bend: single vertices behind several of them may be up to a tenth "
+           "too far");
+  if (bends.edges > 0 && outcome.sources > 1)
+    remark(
+        "ways from several sources bend around " + counted(bends.edges, "edges") +
+        " of the solid: single vertices between what is nearest to the one and to the other "
+        "may be up to a quarter too far; the least of a field from each source is more accurate");
   if (!field.complete()) {
     remark("stopped after " + counted(field.statistics().expansions, "expansions") +
            ": distances may still be too long");

@@ -14,6 +14,7 @@ struct FieldReach {
   std::size_t reached = 0;        ///< vertices, sources included
   std::size_t beside_source = 0;  ///< reached, and not a source
   double max_distance = 0;        ///< -inf where nothing is reached
+  std::size_t sources = 0;        ///< points, and vertices of sets
   std::size_t farthest = 0;       ///< a vertex at that distance
   std::vector<std::size_t> from;  ///< vertices that are sources, and reached; ascending
 };

@@ -223,8 +223,9 @@ HINGE_METHOD Index edge_before(HINGE_IN(Taut) s, int leg) HINGE_READS {
 }
 
 HINGE_CONST int most_halvings = 8;
-/// Strings from the end of a crack graze it: down to as far as they are walked beside it.
-HINGE_CONST int most_at_cracks = 11;
+/// Strings from the end of a crack graze it: down to as far as they are walked beside it. The last
+/// is another look, see find_taut.
+HINGE_CONST int most_at_cracks = 12;
 HINGE_CONST int most_tries = 4;
 // What find_taut tries: the label's own string, one to a point on the way, one that passes the ends
 // of edges, one with a further edge, the same with no edge left out, and without a neighbour of
@@ -314,6 +315,9 @@ bool find_taut(HINGE_IN(Label) label, Index t, HINGE_IN(Point) middle, Index u, 
         hit = base_hit;
         bound = known;
       }
+      // Along a crack, from a point in its plane, a string is free on one side of it, and on the other
+      // runs into what the crack joins, however near to it: at its end then, which is nearer.
+      if (trying == halved && halvings == most_at_cracks) hit.tet = from;
       Index before = edge_before(s, hit.leg);
       Index found = none;
       // A turned S sees nothing but the edge that it was turned to.
@@ -360,6 +364,7 @@ bool find_taut(HINGE_IN(Label) label, Index t, HINGE_IN(Point) middle, Index u, 
     if (trying == halved) {
       ++halvings;
       Real at = Real(0.5) * (low + high);
+      if (halvings == most_at_cracks) at = high;  // hidden, that is known
       bool here = at < Real(1);
       if (here) {
         from = t;
