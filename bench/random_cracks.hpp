@@ -16,10 +16,12 @@
 #include "data/crack_plans.hpp"
 #include "plan_errors.hpp"
 
-/// Prisms over plans with cracks that may join, one source and all vertices, or paths.
+/// Prisms over plans with cracks that may join, or end at corners of holes, one source and all
+/// vertices, or paths.
 namespace bench {
 
 using Cracks = std::vector<samples::CrackPlan::Crack>;
+using Holes = std::vector<samples::CrackPlan::Hole>;
 constexpr int crack_cells = 8;
 
 /// A crack of two to five cells from a corner, along x or y; may reach the rim.
@@ -64,13 +66,50 @@ inline Cracks random_cracks(Random& random, const std::string& kind) {
   return cracks;
 }
 
+/// One or two holes of one to three cells a side, apart from each other.
+inline Holes random_holes(Random& random) {
+  Holes holes(1 + random() % 2);
+  for (auto& hole : holes)
+    for (std::size_t i = 0; i < 2; ++i) {
+      const int wide = 1 + static_cast<int>(random() % 3);
+      hole.begin[i] = 1 + static_cast<int>(random() % (crack_cells - 1 - wide));
+      hole.end[i] = hole.begin[i] + wide;
+    }
+  const auto apart = [&](std::size_t i) {
+    return holes[0].end[i] < holes[1].begin[i] || holes[1].end[i] < holes[0].begin[i];
+  };
+  if (holes.size() > 1 && !apart(0) && !apart(1)) holes.pop_back();
+  return holes;
+}
+/// Cracks that each begin at a corner of a hole, and lead away from it.
+inline Cracks cracks_at(Random& random, const Holes& holes) {
+  Cracks cracks;
+  for (std::size_t n = 1 + random() % 2; n > 0; --n) {
+    const auto& hole = holes[random() % holes.size()];
+    std::array<int, 2> begin, away;
+    for (std::size_t i = 0; i < 2; ++i) {
+      const bool low = random() % 2 == 0;
+      begin[i] = low ? hole.begin[i] : hole.end[i];
+      away[i] = low ? -1 : 1;
+    }
+    const std::size_t along = random() % 2;
+    samples::CrackPlan::Crack crack = {begin, begin};
+    const int far = 2 + static_cast<int>(random() % 3);
+    crack.end[along] = std::clamp(begin[along] + away[along] * far, 0, crack_cells);
+    cracks.push_back(crack);
+  }
+  return cracks;
+}
+
 /// `use(plan, prism, source, truth)` for so many draws from which all is reached.
 template <class Use>
 void each_cracked(Random& random, std::size_t plans, const std::string& kind, const Use& use) {
   while (plans > 0) {
-    const Cracks cracks = random_cracks(random, kind);
+    const Holes holes = kind == "hole" ? random_holes(random) : Holes{};
+    const Cracks cracks = kind == "hole" ? cracks_at(random, holes) : random_cracks(random, kind);
     const double jitter = static_cast<double>(random() % 4) * .08;
-    const samples::CrackPlan plan(crack_cells, cracks, jitter, [&] { return share(random); });
+    const samples::CrackPlan plan(
+        crack_cells, cracks, jitter, [&] { return share(random); }, holes);
     const auto solid = plan.solid(.1 + share(random) / 2);
     const auto floor = static_cast<plexway::Index>(plan.places().size());
     plexway::Index source = 0;

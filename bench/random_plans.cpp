@@ -156,9 +156,10 @@ int main(int argc, char** argv) {
               [&](Random& random, Errors& errors) {
                 bench::solve_pierced(random, slits, plans, errors);
               });
-    measure("crack slit", [&](Random& random, Errors& errors) {
-      bench::solve_cracked(random, plans, "slit", errors);
-    });
+    for (const std::string kind : {"slit", "L", "T", "U", "any", "hole"})
+      measure("crack " + kind, [&](Random& random, Errors& errors) {
+        bench::solve_cracked(random, plans, kind, errors);
+      });
     measure("path slit", [&](Random& random, Errors& errors) {
       bench::trace_cracked(random, plans, "slit", errors);
     });

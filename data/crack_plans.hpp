@@ -9,12 +9,12 @@
 #include <utility>
 #include <vector>
 
-/// Plans of cracks without width that may join, on a square of cells, with a vertex on each side of
-/// them, the prisms over them, and exact distances: a visibility graph in which each side of a
-/// crack is apart from the other.
+/// Plans of cracks without width that may join, and holes that they may end at, on a square of
+/// cells, with a vertex on each side of cracks, the prisms over them, and exact distances: a
+/// visibility graph in which each side of a crack is apart from the other.
 namespace samples {
 
-/// A square of n by n cells of size 1 / n, cut along straight cracks.
+/// A square of n by n cells of size 1 / n, cut along straight cracks, without some rectangles.
 class CrackPlan {
  public:
   using Number = std::uint32_t;
@@ -23,16 +23,22 @@ class CrackPlan {
   struct Crack {
     std::array<int, 2> begin, end;
   };
+  /// From its lowest corner of cells to its highest. Neither reaches the rim.
+  struct Hole {
+    std::array<int, 2> begin, end;
+  };
 
-  /// Vertices that are on no crack and inside are moved at random by up to `jitter` of a cell;
-  /// `random()` is in [0, 1). Those of a row of corners `straight` stay on their line.
+  /// Vertices that are on no crack or side of a hole and inside are moved at random by up to
+  /// `jitter` of a cell; `random()` is in [0, 1). Those of a row of corners `straight` stay on
+  /// their line.
   template <class Random>
-  CrackPlan(int cells, std::vector<Crack> cracks, double jitter, Random&& random, int straight = -1)
-      : n_(cells), cracks_(std::move(cracks)) {
+  CrackPlan(int cells, std::vector<Crack> cracks, double jitter, Random&& random,
+            std::vector<Hole> holes = {}, int straight = -1)
+      : n_(cells), cracks_(std::move(cracks)), holes_(std::move(holes)) {
     for (int j = 0; j <= n_; ++j)
       for (int i = 0; i <= n_; ++i) {
         Point2 at = {double(i) / n_, double(j) / n_};
-        if (i > 0 && j > 0 && i < n_ && j < n_ && !on_crack({i, j}))
+        if (i > 0 && j > 0 && i < n_ && j < n_ && !on_crack({i, j}) && !in_hole({i, j}))
           for (const std::size_t k : {0, 1})
             if (const double by = (2 * random() - 1) * jitter / n_; k == 0 || j != straight)
               at[k] += by;
@@ -41,9 +47,11 @@ class CrackPlan {
     std::vector<std::array<Number, 3>> faces;
     for (int j = 0; j < n_; ++j)
       for (int i = 0; i < n_; ++i) {
+        const bool left_out = is_left_out(i, j), other_way = random() < .5;
+        if (left_out) continue;
         const Number a = corner(i, j), b = corner(i + 1, j), c = corner(i + 1, j + 1),
                      d = corner(i, j + 1);
-        if (random() < .5) {
+        if (other_way) {
           faces.push_back({a, b, c});
           faces.push_back({a, c, d});
         } else {
@@ -66,7 +74,7 @@ class CrackPlan {
     std::vector<double> distance(places_.size(), infinity);
     std::vector<Number> bends = {from};
     for (Number v = 0; v < places_.size(); ++v)
-      if (on_crack_[v]) bends.push_back(v);
+      if (may_bend_[v]) bends.push_back(v);
     std::vector<char> done(bends.size(), 0);
     distance[from] = 0;
     for (;;) {
@@ -174,6 +182,25 @@ class CrackPlan {
       return true;
     });
   }
+  /// Is a corner of cells in a hole or on its side?
+  [[nodiscard]] bool in_hole(std::array<int, 2> at) const {
+    return std::any_of(holes_.begin(), holes_.end(), [&](const Hole& h) {
+      return at[0] >= h.begin[0] && at[0] <= h.end[0] && at[1] >= h.begin[1] && at[1] <= h.end[1];
+    });
+  }
+  [[nodiscard]] bool in_one_hole(const std::array<int, 2>& a, const std::array<int, 2>& b) const {
+    return std::any_of(holes_.begin(), holes_.end(), [&](const Hole& h) {
+      for (std::size_t i = 0; i < 2; ++i)
+        if (std::min(a[i], b[i]) < h.begin[i] || std::max(a[i], b[i]) > h.end[i]) return false;
+      return true;
+    });
+  }
+  /// Is a cell?
+  [[nodiscard]] bool is_left_out(int i, int j) const {
+    return std::any_of(holes_.begin(), holes_.end(), [&](const Hole& h) {
+      return i >= h.begin[0] && i < h.end[0] && j >= h.begin[1] && j < h.end[1];
+    });
+  }
   [[nodiscard]] bool is_cut(Number v, Number w) const {
     const auto at = [&](Number c) {
       return std::array<int, 2>{int(c) % (n_ + 1), int(c) / (n_ + 1)};
@@ -196,7 +223,8 @@ class CrackPlan {
       for (const Number v : faces[f]) at[v].push_back(f);
     for (Number v = 0; v < corners_.size(); ++v) {
       std::vector<std::size_t> left = at[v];
-      const bool cracked = on_crack({int(v) % (n_ + 1), int(v) / (n_ + 1)});
+      const std::array<int, 2> place = {int(v) % (n_ + 1), int(v) / (n_ + 1)};
+      const bool cracked = on_crack(place), bends = cracked || in_hole(place);
       while (!left.empty()) {
         std::vector<std::size_t> fan = {left.back()};
         left.pop_back();
@@ -212,8 +240,9 @@ class CrackPlan {
         const auto number = static_cast<Number>(places_.size());
         places_.push_back(corners_[v]);
         on_crack_.push_back(cracked);
+        may_bend_.push_back(bends);
         beside_.push_back(corners_[v]);
-        if (cracked) step_aside(v, fan, faces, beside_.back());
+        if (bends) step_aside(v, fan, faces, beside_.back());
         for (const std::size_t f : fan)
           for (std::size_t i = 0; i < 3; ++i)
             if (faces[f][i] == v) faces_[f][i] = number;
@@ -259,13 +288,22 @@ class CrackPlan {
     const auto side = [](const Point2& a, const Point2& b, const Point2& c) {
       return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
     };
+    if (std::any_of(holes_.begin(), holes_.end(), [&](const Hole& h) { return passes(h, p, q); }))
+      return false;
     return std::none_of(cracks_.begin(), cracks_.end(), [&](const Crack& c) {
       // One that ends on the rim is longer: lines along the rim do not pass it.
       const auto end = [&](const std::array<int, 2>& corner) {
         Point2 at = {double(corner[0]) / n_, double(corner[1]) / n_};
-        for (std::size_t i = 0; i < 2; ++i)
+        for (std::size_t i = 0; i < 2; ++i) {
           if (c.begin[1 - i] == c.end[1 - i])
             at[i] += corner[i] == 0 ? -1 : corner[i] == n_ ? 1 : 0;
+          // One that ends at a hole is too: lines through the corner do not pass between.
+          const int other = corner == c.begin ? c.end[i] : c.begin[i];
+          std::array<int, 2> beyond = corner;
+          beyond[i] += (corner[i] > other) - (corner[i] < other);
+          if (beyond != corner && in_one_hole(corner, beyond))
+            at[i] += .01 * (beyond[i] - corner[i]) / n_;
+        }
         return at;
       };
       const Point2 a = end(c.begin), b = end(c.end);
@@ -273,11 +311,28 @@ class CrackPlan {
     });
   }
 
+  [[nodiscard]] bool passes(const Hole& hole, const Point2& p, const Point2& q) const {
+    double begin = 0, end = 1;  // the part of the line within the hole
+    for (std::size_t i = 0; i < 2; ++i) {
+      const double low = double(hole.begin[i]) / n_, high = double(hole.end[i]) / n_;
+      const double way = q[i] - p[i];
+      if (std::abs(way) < 1e-14) {
+        if (p[i] <= low || p[i] >= high) return false;
+        continue;
+      }
+      const double s = (low - p[i]) / way, t = (high - p[i]) / way;
+      begin = std::max(begin, std::min(s, t));
+      end = std::min(end, std::max(s, t));
+    }
+    return begin < end;
+  }
+
   int n_;
   std::vector<Crack> cracks_;
+  std::vector<Hole> holes_;
   std::vector<Point2> corners_, places_, beside_;
   std::vector<std::array<Number, 3>> faces_;
-  std::vector<char> on_crack_;
+  std::vector<char> on_crack_, may_bend_;  // of places_
 };
 
 }  // namespace samples

@@ -78,6 +78,18 @@ BentCrossings find(const MixedComplex<Real>& domain) {
 
 }  // namespace
 
+SolidBends solid_bends(const AnyDomain& domain) {
+  return with_complex(domain, []<class C>(const C& complex) {
+    SolidBends found;
+    if constexpr (std::is_same_v<C, TetMesh<float>> || std::is_same_v<C, TetMesh<double>>)
+      for (const auto& edge : complex.reflex_edges()) {
+        ++found.edges;
+        found.cracks += is_crack(edge);
+      }
+    return found;
+  });
+}
+
 BentCrossings bent_crossings(const AnyDomain& domain) {
   return with_complex(domain, []<class C>(const C& complex) -> BentCrossings {
     if constexpr (std::is_same_v<C, MixedComplex<float>> ||

@@ -6,6 +6,14 @@
 
 namespace plexway {
 
+/// Edges of a solid around which ways bend: those with more than pi of solid around.
+struct SolidBends {
+  std::size_t edges = 0;
+  std::size_t cracks = 0;  ///< of those, ends of cracks
+};
+/// None in a domain that is not one solid in space. Cost: those edges.
+[[nodiscard]] SolidBends solid_bends(const AnyDomain& domain);
+
 /// Where ways of a mixed domain may be refracted and bend around a solid's edges besides.
 struct BentCrossings {
   std::size_t hinges = 0;  ///< faces and edges where refracted ways enter or leave such solids

@@ -35,6 +35,16 @@ std::vector<std::size_t> reached_sources(const Distance& distance, const SourceL
   return {at.begin(), at.end()};
 }
 
+// More than one point, or vertex of a set?
+bool are_several(const SourceList& sources) {
+  std::size_t count = sources.points().size();
+  for (const Source& source : sources.sources()) {
+    count += std::holds_alternative<PointSource>(source) ? 1 : 0;
+    if (const auto* set = std::get_if<VertexSource>(&source)) count += set->vertices.size();
+  }
+  return count > 1;
+}
+
 bool are_points(const SourceList& sources) {
   const auto all = sources.sources();
   return std::all_of(all.begin(), all.end(), [](const Source& source) {
@@ -145,6 +155,11 @@ std::vector<Remark> domain_remarks(const AnyDomain& solver, Reader reader) {
            " around which ways bend, and faces or edges where the speed changes: single vertices "
            "whose ways do both may be up to a tenth too far" +
            (bent.cracks > 0 ? ", most of all where cracks end on such faces" : ""));
+  // A single crack has two ends.
+  if (const SolidBends bends = solid_bends(solver); bends.cracks > 0 && bends.edges > 2)
+    remark("the solid has cracks, and " + counted(bends.edges, "edges") +
+           " around which ways bend: single vertices behind several of them may be up to a tenth "
+           "too far");
   return remarks;
 }
 
@@ -231,6 +246,11 @@ std::vector<Remark> field_remarks(const AnyDomain& solver, const AnyField& field
              "around a notch in its rim or a void; that is too far if the surface does not end "
              "there, and more points there help");
   }
+  if (const SolidBends bends = solid_bends(solver); bends.edges > 0 && are_several(sources))
+    remark(
+        "ways from several sources bend around " + counted(bends.edges, "edges") +
+        " of the solid: single vertices between what is nearest to the one and to the other "
+        "may be up to a quarter too far; the least of a field from each source is more accurate");
   FieldWork work = work_of(solver, field.statistics(), field.accuracy());
   work.complete = field.complete();
   work.in_space = !domain.positions().empty();

@@ -32,6 +32,47 @@ bool bend_at(const Label& label, Index vertex, Index t, const Point& q, Real kno
   return found;
 }
 
+/// Offers the shortest way to a vertex to the tetrahedra there that know a longer one, around an
+/// edge: those between may keep others, as each has one label. True if some took it.
+bool pass_bends(Index vertex, Real radius) const {
+  const Point& at = points_[vertex];
+  Real best = std::numeric_limits<Real>::infinity();
+  Index by = none;
+  for (const Index c : mesh_->corners_at(vertex)) {
+    if (!front_->reached(c / 4)) continue;
+    const Label& label = front_->label(c / 4);
+    if (by != none && same_way(label, front_->label(by))) continue;
+    Hit own;
+    const Real d = corner_sight(label, c / 4, c % 4, best, own);
+    if (own.tet == none && d < best) best = d, by = c / 4;
+  }
+  if (by == none || best > radius) return false;
+  const Label way = front_->label(by);
+  const Index source = front_->source(by);
+  bool any = false;
+  for (const Index c : mesh_->corners_at(vertex)) {
+    const Index t = c / 4;
+    if (front_->reached(t)) {
+      const Label& label = front_->label(t);
+      if (same_way(label, way) || !(taut_to(label, at).extent * way_gain > best)) continue;
+    }
+    Label label = way;
+    Taut s;
+    if (!bend_at(way, vertex, t, tets_[t].centre, to_beat(t), s)) continue;
+    keep(s, label, t, tets_[t].centre);
+    any |= enter(t, 0, label, source);
+  }
+  return any;
+}
+/// Within rounding ways to a vertex are the same.
+static constexpr Real way_gain = 1 - 64 * std::numeric_limits<Real>::epsilon();
+/// May ways bend at an edge of a tetrahedron at a vertex?
+[[nodiscard]] bool bends_near(Index vertex) const {
+  const auto corners = mesh_->corners_at(vertex);
+  return std::any_of(corners.begin(), corners.end(),
+                     [&](Index c) { return tets_[c / 4].reflex != none; });
+}
+
 /// Which tetrahedron at a vertex does the line to a point go through, or nearest to?
 [[nodiscard]] Index facing(Index vertex, const Point& to) const {
   const Point& at = points_[vertex];

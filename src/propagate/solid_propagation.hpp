@@ -68,7 +68,7 @@ class SolidPropagation {
     do {
       spread_all(last_resort(repairs));
       if (front_.out_of_budget()) return;
-    } while (mend(repairs, search));
+    } while (mend(repairs, search) || (!last_resort(repairs) && pass_bends()));
   }
 
   // The parts of run, for those who do more in between.
@@ -185,6 +185,19 @@ class SolidPropagation {
         for (const Index u : around)
           if (u != t) any |= rule_.pass_edge(t, u, edge.vertex[0], edge.vertex[1], gain);
       }
+    }
+    return any;
+  }
+
+  /// In solids with cracks vertices near edges where paths bend pass the shortest way to them on,
+  /// as pass_pinches does. Cost: nothing without cracks, else a look at the tetrahedra there.
+  bool pass_bends() {
+    bool any = false;
+    if constexpr (requires { rule_.bends_near(0); }) {
+      if (!mesh_.has_crack()) return false;
+      const auto vertices = static_cast<Index>(mesh_.vertex_count());
+      for (Index v = 0; v < vertices; ++v)
+        if (rule_.bends_near(v)) any |= rule_.pass_bends(v, radius_);
     }
     return any;
   }

@@ -10,6 +10,8 @@
 
 #include <plexway/any/remarks.hpp>
 
+#include "data/crack_plans.hpp"
+
 using namespace plexway;
 
 namespace {
@@ -277,4 +279,33 @@ TEST_CASE("ways that are refracted and bend around edges of a solid are told") {
   CHECK(with_skin(notched, 2));
   CHECK_FALSE(with_skin(notched, 1));
   CHECK_FALSE(with_skin(whole, 2));
+}
+
+TEST_CASE("where vertices of a solid may be too far behind several edges is told") {
+  const auto told = [](const AnyDomain& domain, const std::vector<Source>& sources,
+                       const std::string& words) {
+    const AnyField field = domain.solve(Serial{}, sources, {});
+    const auto all = plexway::remarks(domain, field, sources);
+    return std::any_of(all.begin(), all.end(), [&](const Remark& remark) {
+      return remark.text.find(words) != std::string::npos;
+    });
+  };
+  const auto prism = [](const std::vector<samples::CrackPlan::Crack>& cracks) {
+    const samples::CrackPlan plan(8, cracks, 0, [] { return .3; });
+    const auto solid = plan.solid(.38);
+    return AnyDomain(AnyShape::solid(solid.places, solid.tets), {});
+  };
+  const std::string cracks = "the solid has cracks", several = "ways from several sources bend";
+  const std::vector<Source> one = {PointSource::at(0)};
+  const std::vector<Source> two = {PointSource::at(0), PointSource::at(8)};
+  const AnyDomain slit = prism({{{2, 4}, {6, 4}}});
+  CHECK_FALSE(told(slit, one, cracks));
+  CHECK(told(slit, two, several));
+  const AnyDomain many =
+      prism({{{7, 3}, {7, 0}}, {{4, 4}, {2, 4}}, {{4, 6}, {8, 6}}, {{6, 3}, {3, 3}}});
+  CHECK(told(many, one, cracks));
+  CHECK_FALSE(told(many, one, several));
+  const AnyDomain whole = prism({});
+  CHECK_FALSE(told(whole, two, cracks));
+  CHECK_FALSE(told(whole, two, several));
 }

@@ -161,7 +161,7 @@ TEST_CASE("an arm of cracks in the face between two speeds is not seen through")
   double low = 0, high = 0, sum = 0, count = 0;
   for (int round = 0; round < 6; ++round)
     for (const auto& [cracks, row] : problems) {
-      const samples::CrackPlan plan(cells, cracks, .08 * (round % 3), share, row);
+      const samples::CrackPlan plan(cells, cracks, .08 * (round % 3), share, {}, row);
       const auto solid = plan.solid(.1 + share() / 2);
       const double speed = std::exp2((share() - .5) * 3);
       const CutInTwo cut(solid.places, solid.tets, 1, static_cast<double>(row) / cells, speed);

@@ -137,9 +137,10 @@ class SolidRun {
     program.set("repair", repaired_cells);
   }
 
-  // Few solids have such places: the host sees to them.
+  // Few solids have such places, or cracks: the host sees to them.
   bool pass_pinches() {
-    if (mesh_.pinched().empty() && mesh_.pinched_edges().empty()) return false;
+    if (mesh_.pinched().empty() && mesh_.pinched_edges().empty() && !mesh_.has_crack())
+      return false;
     std::vector<Cell> best(cells());
     std::vector<SolidCell> known(cells());
     workspace_.front.cells().read(session_, std::span<Cell>(best));

@@ -122,7 +122,8 @@ void SolidSeeds::add_pinches(const TetMesh<float>& mesh, const PropagateOptions&
   const PropagateOptions all = without_limits(options);
   HostFront host(mesh, all, workspace);
   host.know(best.subspan(first, tets), known.subspan(first, tets));
-  if (!host.propagation.pass_pinches()) return;
+  const bool pinches = host.propagation.pass_pinches();
+  if (!host.propagation.pass_bends() && !pinches) return;
   host.drain([&](Index t, GLuint distance, const SolidCell& cell) {
     waiting.push_back({static_cast<GLuint>(first + t), distance});
     labels.push_back(cell);

@@ -29,8 +29,8 @@ struct SolidSeeds : SeedsOf<SolidCell> {
   /// Sources of one field.
   void add(const TetMesh<float>& mesh, std::span<const PointSource> sources, std::size_t field,
            WorkspaceState<float>& workspace);
-  /// What passes the vertices and edges of one field where tetrahedra only touch, given what is
-  /// known of all tetrahedra: distances, and labels.
+  /// What passes the vertices and edges of one field where tetrahedra only touch, and near cracks
+  /// those where paths bend, given what is known of all tetrahedra: distances, and labels.
   void add_pinches(const TetMesh<float>& mesh, const PropagateOptions& options, std::size_t field,
                    std::span<const Cell> best, std::span<const SolidCell> known,
                    WorkspaceState<float>& workspace);
