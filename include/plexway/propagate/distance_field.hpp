@@ -43,7 +43,7 @@ struct DistanceField {
   /// large, now and then too small, no bound. 0 where unreached or exact. Empty for Accuracy::fast.
   std::vector<Real> error;
   Accuracy accuracy = Accuracy::fast();  ///< by which it was solved, never `usual`
-  bool complete = true;                  ///< false if max_expansions ended the propagation early
+  bool complete = true;                  ///< false if max_expansions, or limits of ours, ended it
   /// What it cost.
   PropagateStatistics statistics;
 };
