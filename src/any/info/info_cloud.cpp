@@ -14,7 +14,8 @@ std::vector<std::string> warnings_of(const CloudShape& cloud, const CloudSummary
   const auto warn = [&](std::size_t count, std::string_view plural, const char* meaning) {
     if (count > 0) warnings.push_back(counted(count, plural) + meaning);
   };
-  if (summary.components > 1) warnings.push_back(why_disconnected(cloud, summary.components, Reader::tool));
+  if (summary.components > 1)
+    warnings.push_back(why_disconnected(cloud, summary.components, Reader::tool));
   warn(summary.isolated_points, "points", " connected to no other: no path leads there");
   warn(cloud.not_finite, "points", " not finite, and dropped: vertices count those that are left");
   warn(summary.duplicates - summary.near_duplicates, "points",
