@@ -230,7 +230,7 @@ class Domain:
                 found, _, _, doubts = _plexway.solve(
                     self._native, [vertex], _DEFAULT, False, False, None
                 )
-                warn(doubts)
+                warn(doubts, self)
                 return found if out is None else _into(out, found)
         arguments = _arguments(threads, executor, radius, visibility, accuracy)
         sources = located(self, source)
@@ -238,7 +238,7 @@ class Domain:
             found, _, _, doubts = _plexway.solve(
                 self._native, sources, arguments, False, False, report
             )
-        warn(doubts)
+        warn(doubts, self)
         return found if out is None else _into(out, found)
 
     def nearest(
@@ -273,7 +273,7 @@ class Domain:
             found, label, _, doubts = _plexway.solve(
                 self._native, located_sources, arguments, True, False, report
             )
-        warn(doubts)
+        warn(doubts, self)
         return found, label
 
     def estimate(
@@ -309,7 +309,7 @@ class Domain:
             )
         if len(error) != len(found):
             raise _plexway.UsageError("accuracy 'fast' has no estimate of its error")
-        warn(doubts)
+        warn(doubts, self)
         return found, error
 
     def distances(
@@ -375,7 +375,8 @@ class Domain:
             doubtful, first, doubts = _plexway.solve_each(
                 self._native, located_sources, arguments, out, columns, report
             )
-        warn(f"{doubtful} of {len(out)} rows, as row {first}: {text}" for text in doubts)
+        rows = f"{doubtful} of {len(out)} rows, such as row {first}: "
+        warn((rows + text for text in doubts), self)
         return out
 
     def pairs(
@@ -464,7 +465,7 @@ class Domain:
                 arguments,
                 report,
             )
-        warn(doubts)
+        warn(doubts, self)
         if dense:
             return np.load(file, mmap_mode="r")
         return _loaded_sparse(file)
@@ -522,7 +523,7 @@ class Domain:
                 report,
             )
         width = self.vertex_count if columns is None else len(plain(columns, "columns"))
-        warn(doubts)
+        warn(doubts, self)
         return csr_matrix(tuple(rows), shape=(len(located_sources), width))
 
     def field(
@@ -552,7 +553,7 @@ class Domain:
         sources = located(self, source)
         with Progress(progress, "solving") as report:
             native = _plexway.path_field(self._native, sources, arguments, report)
-        warn(native.doubts)
+        warn(native.doubts, self)
         return Field(self, native)
 
     def path(self, source: Any, target: Place, *, margin: Optional[float] = None) -> Path:

@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+import re
 import sys
 import warnings
+from threading import Lock
 from types import FrameType
-from typing import Iterable, Optional
+from typing import Iterable, Optional, Set, Tuple
+from weakref import WeakKeyDictionary
 
 
 class AccuracyWarning(RuntimeWarning):
@@ -21,12 +24,30 @@ def _is_own(frame: FrameType) -> bool:
     return name == "plexway" or name.startswith("plexway.")
 
 
-def warn(texts: Iterable[str]) -> None:
-    """Warns at the line that called the package."""
+# What was said of fields of a domain, figures aside, and at which line: a loop over sources says it
+# once.
+_said: "WeakKeyDictionary[object, Set[Tuple[str, str, int]]]" = WeakKeyDictionary()
+_lock = Lock()
+
+
+def warn(texts: Iterable[str], domain: Optional[object] = None) -> None:
+    """Warns at the line that called the package; of fields of a domain there once, whatever the
+    figures."""
     for text in texts:
         level = 1
         frame: Optional[FrameType] = sys._getframe()
         while frame is not None and _is_own(frame):
             level += 1
             frame = frame.f_back
+        if domain is None or frame is None:
+            warnings.warn(text, AccuracyWarning, stacklevel=level)
+            continue
+        kind = re.sub("[0-9][0-9.]*", "#", text)
+        key = (kind, frame.f_code.co_filename, frame.f_lineno)
+        with _lock:
+            if key in _said.get(domain, ()):
+                continue
         warnings.warn(text, AccuracyWarning, stacklevel=level)
+        # Not where a filter makes it an error: that it is each time.
+        with _lock:
+            _said.setdefault(domain, set()).add(key)

@@ -69,7 +69,7 @@ def test_every_row_of_many_is_looked_at():
     told = warned(lambda: cloud.distances([0, 287, 5]))
     assert len(told) == 1 and told[0].filename == __file__
     text = str(told[0].message)
-    assert text.startswith("3 of 3 rows, as row 0: ") and "farther from the source" in text
+    assert text.startswith("3 of 3 rows, such as row 0: ") and "farther from the source" in text
 
 
 def test_a_doubtful_field_warns_at_the_line_that_solves_it():
@@ -160,3 +160,22 @@ DATA ascii
     assert any("`original` has their numbers" in text for text in cloud.remarks)
     assert cloud.original[4] == 4 and cloud.original[5] == 6
     assert px.Cloud(V).original is None
+
+
+def test_a_loop_over_sources_warns_once():
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", px.AccuracyWarning)
+        cloud, other, third = (px.Cloud(squares()) for _ in range(3))
+
+    def all_of(domain):
+        for source in range(0, 288, 40):
+            domain.distance(source)
+
+    assert len(warned(lambda: all_of(cloud))) == 1
+    assert warned(lambda: all_of(cloud)) == []
+    assert len(warned(lambda: all_of(other))) == 1
+    with warnings.catch_warnings():
+        warnings.simplefilter("error", px.AccuracyWarning)
+        for _ in range(2):
+            with pytest.raises(px.AccuracyWarning):
+                all_of(third)

@@ -6,12 +6,13 @@
 
 namespace plexway {
 
-/// Edges of a solid around which ways bend: those with more than pi of solid around.
+/// Edges of solids around which ways bend: those with more than pi of solid around.
 struct SolidBends {
   std::size_t edges = 0;
   std::size_t cracks = 0;  ///< of those, ends of cracks
 };
-/// None in a domain that is not one solid in space. Cost: those edges.
+/// Of all solids of a mixed domain; none where there is no solid in space. Cost: those edges, and
+/// what joins pieces of a mixed domain.
 [[nodiscard]] SolidBends solid_bends(const AnyDomain& domain);
 
 /// Where ways of a mixed domain may be refracted and bend around a solid's edges besides.

@@ -147,19 +147,23 @@ std::vector<Remark> domain_remarks(const AnyDomain& solver, Reader reader) {
     if (cloud->joints > 0)
       remark(counted(cloud->joints, "pairs") +
              " of points join parts that have no triangles between them: all ways from one to the "
-             "other go over these; normals" +
-             given + " " + columns + " or points along the edge where they meet would join them");
+             "other go over these; " +
+             (refused ? "" : "normals" + given + " " + columns + " or ") +
+             "points along the edge where they meet would join them");
   }
   if (const BentCrossings bent = bent_crossings(solver); bent.hinges > 0)
     remark("solids have " + counted(bent.edges, "edges") +
            " around which ways bend, and faces or edges where the speed changes: single vertices "
-           "whose ways do both may be up to a tenth too far" +
-           (bent.cracks > 0 ? ", most of all where cracks end on such faces" : ""));
+           "whose ways do both may be up to a sixth too far" +
+           (bent.cracks > 0 ? ", most of all where cracks end on such faces; where cracks join on "
+                              "one, single vertices may be too near, by a quarter at worst"
+                            : ""));
   // A single crack has two ends.
   if (const SolidBends bends = solid_bends(solver); bends.cracks > 0 && bends.edges > 2)
-    remark("the solid has cracks, and " + counted(bends.edges, "edges") +
-           " around which ways bend: single vertices behind several of them may be up to a tenth "
-           "too far");
+    remark(
+        "the solid has cracks, and " + counted(bends.edges, "edges") +
+        " around which ways bend: vertices behind several of them, or from a source in a crack's "
+        "plane, may be up to a quarter too far");
   return remarks;
 }
 
@@ -182,12 +186,18 @@ std::vector<Remark> work_remarks(const FieldWork& work, Reader reader) {
   // jump there are none, and what travels along an edge is lowered though nothing is wrong.
   const bool cured = work.has_windows && work.accuracy == Accuracy::fast();
   const std::string cure = cured ? "; " + said(Advice::accurate) + " has none of this" : "";
+  // By windows it is rounding alone that makes distances too short.
+  const bool rounds = work.edges > 0 && work.accuracy != Accuracy::fast();
   const std::size_t raised = done.raised_vertices;
   if (100 * raised > all)
     remark(counted(raised, "vertices") + rows +
            " came out nearer than the straight line through space, and were given its length: "
            "distances here are poor" +
-           (cured ? cure : "; another " + said(Advice::triangulation) + " may do better"));
+           (cured    ? cure
+            : rounds ? "; " + said(Advice::twice) + " may do better"
+            : work.has_triangulations
+                ? "; another " + said(Advice::triangulation) + " may do better"
+                : ""));
   const std::size_t lowered = done.lowered_vertices;
   if ((cured ? 50 : 20) * lowered > all)
     remark(counted(lowered, "vertices") + rows +
@@ -213,6 +223,7 @@ FieldWork work_of(const AnyDomain& domain, const PropagateStatistics& statistics
   return {.statistics = statistics,
           .accuracy = accuracy,
           .has_windows = has_windows,
+          .has_triangulations = domain.kind() == DomainKind::surface,
           .vertices = domain.vertices()};
 }
 
@@ -240,7 +251,8 @@ std::vector<Remark> field_remarks(const AnyDomain& solver, const AnyField& field
         rim_detours(domain.positions(), cloud->mean_spacing, field.doubles(), from);
     if (detours.points > 0)
       remark(counted(detours.points, "points") + " (" + std::to_string(detours.first) +
-             " is the first) " + (detours.points == 1 ? "is" : "are") + " 5 to " +
+             " is the first) " +
+             (detours.all ? detours.points == 1 ? "is" : "are" : "and more are") + " 5 to " +
              std::to_string(static_cast<int>(std::ceil(100 * detours.most))) +
              " % farther from the source than straight, though the cloud is flat there: ways go "
              "around a notch in its rim or a void; that is too far if the surface does not end "

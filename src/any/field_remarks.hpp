@@ -26,7 +26,8 @@ struct FieldWork {
   const PropagateStatistics& statistics;  ///< a sum over the fields
   Accuracy accuracy;
   bool complete = true;
-  bool has_windows = false;  ///< may the domain be solved by them?
+  bool has_windows = false;         ///< may the domain be solved by them?
+  bool has_triangulations = false;  ///< may it be solved on others?
   std::size_t vertices = 0;
   std::size_t fields = 1;
   /// The longest distance in mean edges, of a surface in single precision; else 0.

@@ -14,6 +14,7 @@ constexpr std::size_t most_sources = 16;
 constexpr double nearest = 3, farthest = 25;  // spacings
 constexpr double longer = 0.05, behind_walls = 0.5;
 constexpr std::size_t most_points = 10000;  // an even cloud has 2000 within `farthest`
+constexpr std::size_t most_looks = 64;      // at one point each, a source
 
 constexpr double beside = 2, height = 0.4;  // spacings
 
@@ -32,7 +33,9 @@ class AroundSource {
     for (const Point3& p : near)
       if (const Point3 across = cross(a_, p); dot(across, across) > widest)
         widest = dot(across, across), b_ = p, normal_ = across;
-    if (!(widest > 0)) return;
+    // From points in a line, as in scans by rows, nobody can tell.
+    is_line_ = !(std::sqrt(widest) >= 0.25 * longest);
+    if (is_line_) return;
     // A direction in which a and b are at most `height_` high is so far from the normal at most:
     // what it has in their plane is a sum of these along the dual basis.
     const double aa = dot(a_, a_), ab = dot(a_, b_), bb = dot(b_, b_);
@@ -46,14 +49,17 @@ class AroundSource {
     }
   }
 
-  /// Is there a plane that could have all of them? No is sure.
+  /// Is there a plane that could have all of them, and is told by those around the source? No is
+  /// sure.
   [[nodiscard]] bool may_be_flat(const Point3& to) const {
+    if (is_line_) return false;
     const double along = std::abs(dot(dual_a_, to)) + std::abs(dot(dual_b_, to));
     return least_ * std::abs(dot(normal_, to)) <= 1.001 * height_ * (1 + along);
   }
 
  private:
   double height_, least_ = 0;  // of a plane's normal along ours
+  bool is_line_ = true;
   Point3 a_ = {}, b_ = {}, normal_ = {}, dual_a_ = {}, dual_b_ = {};
 };
 
@@ -84,7 +90,7 @@ RimDetours rim_detours(std::span<const std::array<double, 3>> positions, double 
                        std::span<const double> distance, std::span<const std::size_t> sources) {
   RimDetours detours;
   std::vector<bool> found(positions.size(), false);
-  std::vector<std::size_t> patch;
+  std::vector<std::size_t> patch, farther;
   std::vector<Point3> offsets;
   for (const std::size_t s : sources.first(std::min(most_sources, sources.size()))) {
     patch.clear();
@@ -97,17 +103,25 @@ RimDetours rim_detours(std::span<const std::array<double, 3>> positions, double 
     }
     if (patch.size() > most_points) continue;
     const AroundSource around(offsets, spacing);
+    const auto share_of = [&](std::size_t i) {
+      return (distance[patch[i]] - distance[s]) / std::sqrt(dot(offsets[i], offsets[i])) - 1;
+    };
+    farther.clear();
     for (std::size_t i = 0; i < patch.size(); ++i) {
-      const std::size_t v = patch[i];
-      const double straight = std::sqrt(dot(offsets[i], offsets[i]));
-      const double share = (distance[v] - distance[s]) / straight - 1;
-      if (straight < nearest * spacing || !(share > longer && share < behind_walls)) continue;
-      if (found[v] || !around.may_be_flat(offsets[i])) continue;
-      if (!in_one_plane(offsets, offsets[i], spacing)) continue;
-      found[v] = true;
-      if (detours.points++ == 0 || v < detours.first) detours.first = v;
-      detours.most = std::max(detours.most, share);
+      if (dot(offsets[i], offsets[i]) < nearest * nearest * spacing * spacing) continue;
+      if (const double share = share_of(i); !(share > longer && share < behind_walls)) continue;
+      if (!found[patch[i]] && around.may_be_flat(offsets[i])) farther.push_back(i);
     }
+    const std::size_t looks = std::min(most_looks, farther.size());
+    bool any = false;
+    for (std::size_t k = 0; k < looks; ++k) {
+      const std::size_t i = farther[k * farther.size() / looks], v = patch[i];
+      if (!in_one_plane(offsets, offsets[i], spacing)) continue;
+      found[v] = any = true;
+      if (detours.points++ == 0 || v < detours.first) detours.first = v;
+      detours.most = std::max(detours.most, share_of(i));
+    }
+    if (any && looks < farther.size()) detours.all = false;
   }
   return detours;
 }

@@ -230,8 +230,7 @@ HINGE_METHOD Index edge_before(HINGE_IN(Taut) s, int leg) HINGE_READS {
 }
 
 HINGE_CONST int most_halvings = 8;
-/// Strings from the end of a crack graze it: down to as far as they are walked beside it. Where there
-/// are cracks, another look follows, see find_taut.
+/// Strings from the end of a crack graze it: down to as far as they are walked beside it.
 HINGE_CONST int most_at_cracks = 11;
 /// Those that begin beside a place on a crack run along its face, and near its end from farther on.
 HINGE_CONST int most_beside = 16;
@@ -275,7 +274,7 @@ bool find_taut(HINGE_IN(Label) label, Index t, HINGE_IN(Point) middle, Index u, 
   bool last = false;  // nothing else is left to try
   int most = any_cracks() ? most_at_cracks : most_halvings;
   if (begins_beside(label)) most = most_beside;
-  for (int turn = 0; turn < HINGE_ROLLED(most_tries * (most_beside + 8)); ++turn) {
+  for (int turn = 0; turn < HINGE_ROLLED(most_tries * (most_beside + 7)); ++turn) {
     int stay = kept;
     if (trying == touching || trying == whole) stay = s.bends;
     pull(s, label.sigma, stay, trying <= halved);
@@ -326,9 +325,6 @@ bool find_taut(HINGE_IN(Label) label, Index t, HINGE_IN(Point) middle, Index u, 
         hit = base_hit;
         bound = known;
       }
-      // Along a crack, from a point in its plane, a string is free on one side of it, and on the other
-      // runs into what the crack joins, however near to it: at its end then, which is nearer.
-      if (trying == halved && halvings > most) hit.tet = from;
       Index before = edge_before(s, hit.leg);
       Index found = none;
       // A turned S sees nothing but the edge that it was turned to.
@@ -371,11 +367,10 @@ bool find_taut(HINGE_IN(Label) label, Index t, HINGE_IN(Point) middle, Index u, 
     s = all;
     from = u;
     start = end;
-    trying = halvings < (any_cracks() ? most + 1 : most) ? halved : loose;
+    trying = halvings < most ? halved : loose;
     if (trying == halved) {
       ++halvings;
       Real at = Real(0.5) * (low + high);
-      if (halvings > most) at = high;  // hidden, that is known
       bool here = at < Real(1);
       if (here) {
         from = t;
