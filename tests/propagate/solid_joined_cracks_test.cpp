@@ -79,8 +79,6 @@ struct CrackFields {
         CAPTURE(problem.cracks.size(), problem.cracks[0].begin, problem.holes.size(), n, source,
                 e.max, e.mean);
         CHECK(e.below >= -1e-6);
-        // From there it may be longer, see docs/RELIABILITY.md.
-        if (in_plane(problem.cracks, plan.places()[source])) continue;
         CHECK(e.max <= longest);
         sum += e.mean;
         ++fields;
@@ -97,7 +95,7 @@ TEST_CASE("paths around cracks that join, also from their planes") {
   CrackFields all;
   for (const Cracks& cracks : joined) all.add({cracks, {}}, 16, 2e-2, random);
   CAPTURE(all.fields, all.in_planes);
-  CHECK(all.fields > 60);
+  CHECK(all.fields > 150);
   CHECK(all.in_planes > 30);
   CHECK(all.sum / static_cast<double>(all.fields) <= 1e-5);
 }
@@ -107,7 +105,7 @@ TEST_CASE("paths around cracks that end at corners of holes") {
   CrackFields all;
   for (const Problem& problem : at_holes) all.add(problem, 24, 5e-2, random);
   CAPTURE(all.fields, all.in_planes);
-  CHECK(all.fields > 60);
+  CHECK(all.fields > 150);
   CHECK(all.in_planes > 30);
   CHECK(all.sum / static_cast<double>(all.fields) <= 1e-5);
 }
