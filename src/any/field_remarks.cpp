@@ -160,10 +160,9 @@ std::vector<Remark> domain_remarks(const AnyDomain& solver, Reader reader) {
                             : ""));
   // A single crack has two ends.
   if (const SolidBends bends = solid_bends(solver); bends.cracks > 0 && bends.edges > 2)
-    remark(
-        "the solid has cracks, and " + counted(bends.edges, "edges") +
-        " around which ways bend: vertices behind several of them, or from a source in a crack's "
-        "plane, may be up to a quarter too far");
+    remark("the solid has cracks, and " + counted(bends.edges, "edges") +
+           " around which ways bend: single vertices behind several of them may be up to a quarter "
+           "too far");
   return remarks;
 }
 
