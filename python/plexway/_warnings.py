@@ -24,8 +24,8 @@ def _is_own(frame: FrameType) -> bool:
     return name == "plexway" or name.startswith("plexway.")
 
 
-# What was said of fields of a domain, figures aside, and at which line: a loop over sources says it
-# once.
+# What was said of fields of a domain, by its words behind all figures, and at which line: a loop over
+# sources says it once.
 _said: "WeakKeyDictionary[object, Set[Tuple[str, str, int]]]" = WeakKeyDictionary()
 _lock = Lock()
 
@@ -42,7 +42,7 @@ def warn(texts: Iterable[str], domain: Optional[object] = None) -> None:
         if domain is None or frame is None:
             warnings.warn(text, AccuracyWarning, stacklevel=level)
             continue
-        kind = re.sub("[0-9][0-9.]*", "#", text)
+        kind = re.split("[0-9]", text)[-1]
         key = (kind, frame.f_code.co_filename, frame.f_lineno)
         with _lock:
             if key in _said.get(domain, ()):

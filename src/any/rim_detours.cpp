@@ -34,7 +34,7 @@ class AroundSource {
       if (const Point3 across = cross(a_, p); dot(across, across) > widest)
         widest = dot(across, across), b_ = p, normal_ = across;
     // From points in a line, as in scans by rows, nobody can tell.
-    is_line_ = !(std::sqrt(widest) >= 0.25 * longest);
+    is_line_ = !(std::sqrt(widest) >= 0.05 * longest);
     if (is_line_) return;
     // A direction in which a and b are at most `height_` high is so far from the normal at most:
     // what it has in their plane is a sum of these along the dual basis.
