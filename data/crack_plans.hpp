@@ -96,7 +96,7 @@ class CrackPlan {
 
   /// The same where the speed is `speed[0]` below a row of corners and `speed[1]` above: also by
   /// points of the line between, `points` of them; too long by about the square of how far these
-  /// are apart. Cracks may cross the line, end on it or lie in it.
+  /// are apart. Cracks may cross the line, end on it or lie in it. For plans without holes.
   [[nodiscard]] std::vector<double> times(Number from, int row, const std::array<double, 2>& speed,
                                           int points) const {
     constexpr double infinity = std::numeric_limits<double>::infinity(), aside = 1e-8;

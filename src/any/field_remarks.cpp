@@ -257,9 +257,9 @@ std::vector<Remark> field_remarks(const AnyDomain& solver, const AnyField& field
              "around a notch in its rim or a void; that is too far if the surface does not end "
              "there, and more points there help");
   }
-  if (const SolidBends bends = solid_bends(solver); bends.edges > 0 && are_several(sources))
+  if (const std::size_t edges = are_several(sources) ? solid_bends(solver).edges : 0; edges > 0)
     remark(
-        "ways from several sources bend around " + counted(bends.edges, "edges") +
+        "ways from several sources bend around " + counted(edges, "edges") +
         " of the solid: single vertices between what is nearest to the one and to the other "
         "may be up to a quarter too far; the least of a field from each source is more accurate");
   FieldWork work = work_of(solver, field.statistics(), field.accuracy());
