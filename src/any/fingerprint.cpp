@@ -62,7 +62,7 @@ std::string name_in(const Names& names, Enum value) {
   return std::string(names[static_cast<std::size_t>(value)]);
 }
 
-std::string text_of(Accuracy accuracy) {
+std::string text_of_value(Accuracy accuracy) {
   switch (accuracy.kind()) {
     case Accuracy::Kind::usual:
       return "usual";
@@ -139,7 +139,7 @@ io::BlockJournal::Description description_of(const AnyShape& shape, const BuildO
       {"columns", std::to_string(request.column_count(shape.vertices())) + " " +
                       fingerprint_of_numbers(request.columns)},
       {"precision", building.precision == Precision::twice ? "double" : "float"},
-      {"accuracy", text_of(solve.accuracy)},
+      {"accuracy", text_of_value(solve.accuracy)},
       {"visibility", name_in(visibilities, solve.visibility)},
       {"schedule", name_in(schedules, solve.schedule) + " " + exact_number(solve.step)},
       {"triangulation", name_in(triangulations, building.triangulation)}};

@@ -35,7 +35,7 @@ void with_kept_kind(Data& data, DomainKind kind, const Use& use) {
 }
 
 // Rows of finite numbers, one a vertex or none at all.
-bool are_points(std::span<const std::array<double, 3>> rows, std::size_t vertices) {
+bool is_cloud_block(std::span<const std::array<double, 3>> rows, std::size_t vertices) {
   if (!rows.empty() && rows.size() != vertices) return false;
   bool finite = true;
   for (const auto& [x, y, z] : rows)
@@ -69,8 +69,8 @@ bool is_sound_cloud(const CloudShape& cloud, std::size_t n) {
   } catch (const InputError&) {
     return false;
   }
-  return are_points(cloud.points.positions, n) && are_points(cloud.points.normals, n) &&
-         are_points(cloud.smoothed, n) && cloud.max_normal_angle.value_or(1) > 0 &&
+  return is_cloud_block(cloud.points.positions, n) && is_cloud_block(cloud.points.normals, n) &&
+         is_cloud_block(cloud.smoothed, n) && cloud.max_normal_angle.value_or(1) > 0 &&
          cloud.max_normal_angle.value_or(1) <= 180;
 }
 
@@ -124,17 +124,17 @@ KeptShape::KeptShape(KeptIn& in, DomainKind kind)
 
 bool KeptShape::is_sound(std::size_t n, const MeasuredLengths* lengths) const {
   if (const auto* surface = std::get_if<Triangles>(&lent_))
-    return are_simplices<3>(surface->triangles, n) && are_points(surface->positions, n) &&
+    return are_simplices<3>(surface->triangles, n) && is_cloud_block(surface->positions, n) &&
            (lengths == nullptr ? !surface->positions.empty()
                                : are_lengths(lengths->triangles, surface->triangles.size()));
   if (const auto* solid = std::get_if<Tets>(&lent_))
-    return are_simplices<4>(solid->tets, n) && are_points(solid->positions, n) &&
+    return are_simplices<4>(solid->tets, n) && is_cloud_block(solid->positions, n) &&
            (lengths == nullptr ? !solid->positions.empty()
                                : are_lengths(lengths->tets, solid->tets.size()));
   if (const auto* wires = std::get_if<Edges>(&lent_)) {
     bool sound = lengths == nullptr && wires->vertices == n;
     for (const double length : wires->lengths) sound &= length >= 0 && std::isfinite(length);
-    return sound && are_simplices<2>(wires->edges, n) && are_points(wires->positions, n) &&
+    return sound && are_simplices<2>(wires->edges, n) && is_cloud_block(wires->positions, n) &&
            (wires->lengths.empty() ? !wires->positions.empty()
                                    : wires->lengths.size() == wires->edges.size());
   }

@@ -12,7 +12,7 @@ namespace {
 
 using Vector = Point3;
 
-double norm(const Vector& a) { return std::hypot(a[0], a[1], a[2]); }
+double length_of(const Vector& a) { return std::hypot(a[0], a[1], a[2]); }
 
 struct Measure {
   double volume = 0;
@@ -24,7 +24,8 @@ Measure measure(const std::array<Vector, 4>& corners) {
   constexpr std::array<std::array<std::size_t, 2>, 6> edges = {
       {{0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 3}, {2, 3}}};
   double longest = 0;
-  for (const auto& [i, j] : edges) longest = std::max(longest, norm(minus(corners[j], corners[i])));
+  for (const auto& [i, j] : edges)
+    longest = std::max(longest, length_of(minus(corners[j], corners[i])));
   Measure found;
   if (!(longest > 0)) return found;
   std::array<Vector, 4> at = corners;
@@ -35,7 +36,7 @@ Measure measure(const std::array<Vector, 4>& corners) {
   for (std::size_t i = 0; i < 4; ++i) {
     const Vector& p = at[(i + 1) % 4];
     const Vector normal = cross(minus(at[(i + 2) % 4], p), minus(at[(i + 3) % 4], p));
-    largest_face = std::max(largest_face, norm(normal));
+    largest_face = std::max(largest_face, length_of(normal));
   }
   constexpr double most = 10;
   const double lowest_height = six_volumes / largest_face;

@@ -8,10 +8,10 @@
 namespace plexway {
 namespace {
 
-struct Box {
+struct Extents {
   std::array<double, 3> low, high;
 
-  Box() {
+  Extents() {
     low.fill(std::numeric_limits<double>::infinity());
     high.fill(-std::numeric_limits<double>::infinity());
   }
@@ -25,7 +25,7 @@ struct Box {
 };
 
 // How widely a part is spread across axis k, as a share of the whole.
-double spread(const Box& part, const Box& whole, std::size_t k) {
+double spread(const Extents& part, const Extents& whole, std::size_t k) {
   const std::size_t a = (k + 1) % 3, b = (k + 2) % 3;
   return part.size(a) / whole.size(a) * (part.size(b) / whole.size(b));
 }
@@ -35,7 +35,7 @@ double spread(const Box& part, const Box& whole, std::size_t k) {
 char probable_up(const AnyShape& shape) {
   const auto positions = shape.positions();
   if (positions.empty()) return 'z';
-  Box whole;
+  Extents whole;
   for (const auto& p : positions) whole.add(p);
   const std::array<double, 3> size = {whole.size(0), whole.size(1), whole.size(2)};
   const auto least =
@@ -46,7 +46,7 @@ char probable_up(const AnyShape& shape) {
   if (size[least] < flat * next) return least == 1 ? 'y' : 'z';
 
   constexpr double slab = 0.02;  // of the extent
-  std::array<Box, 3> lower, upper;
+  std::array<Extents, 3> lower, upper;
   for (const auto& p : positions)
     for (std::size_t k = 0; k < 3; ++k) {
       if (p[k] <= whole.low[k] + slab * size[k]) lower[k].add(p);

@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <utility>
 
 #include <plexway/error.hpp>
 
+#include "apps/infinity.hpp"
 #include "apps/logged_queue.hpp"
 #include "executors/checks.hpp"
 #include "propagate/finish.hpp"
@@ -51,7 +51,6 @@ template <class Real>
 template <class Queue>
 void BoundedSearch<Real>::find_with(Queue queue, std::span<const PointSource> sources,
                                     const PropagateOptions& options, bool simplices) {
-  constexpr Real infinity = std::numeric_limits<Real>::infinity();
   const TriangleMesh<Real>& mesh = *mesh_;
   const std::span<const TriangleRecord<Real>> triangles = mesh.triangles();
   reached_.clear();

@@ -13,8 +13,6 @@ namespace {
 constexpr double touching = 1e-5;  // coordinates, and lengths as a share of a cell
 constexpr double worth = 1e-10;    // what a change must gain, of the length
 
-double norm(const Point3& a) { return std::sqrt(dot(a, a)); }
-
 // The vertices that a crossing's point has coordinates of.
 CellFace held_by(const CellCrossing& crossing) {
   CellFace face;

@@ -2,15 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <queue>
 #include <unordered_map>
 #include <utility>
 
+#include "apps/infinity.hpp"
+
 namespace plexway {
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 double apart(const Point3& a, const Point3& b) {
   const Point3 d = minus(a, b);

@@ -6,8 +6,6 @@
 namespace plexway {
 namespace {
 
-double norm(const Point3& a) { return std::sqrt(dot(a, a)); }
-
 /// The crossings of a string as numbers that may vary: all coordinates on a face but the first.
 class Taut {
  public:

@@ -1,16 +1,14 @@
 #include "apps/cell_trace.hpp"
 
 #include <cmath>
-#include <limits>
 #include <vector>
 
 #include "apps/cell_detours.hpp"
 #include "apps/cell_search.hpp"
+#include "apps/infinity.hpp"
 
 namespace plexway {
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 CellPoint in_cells(const Cells& all, const PointSource& point) {
   if (point.vertex != none) return {all.vertex(point.vertex), none, {}};

@@ -13,19 +13,19 @@ namespace {
 
 // Corners of a simplex of a piece, vertices inside, in the caller's order.
 template <class Real>
-std::array<Index, 4> corners_in(const TriangleMesh<Real>& mesh, Index simplex) {
+std::array<Index, 4> four_corners(const TriangleMesh<Real>& mesh, Index simplex) {
   const auto [f, turned] = mesh.inside_face(simplex);
   const Index* const c = mesh.triangles()[f].corner;
   return {c[0], c[turned ? 2 : 1], c[turned ? 1 : 2], none};
 }
 template <class Real>
-std::array<Index, 4> corners_in(const TetMesh<Real>& mesh, Index simplex) {
+std::array<Index, 4> four_corners(const TetMesh<Real>& mesh, Index simplex) {
   const auto [t, turned] = mesh.inside_tet(simplex);
   const Index* const c = mesh.tets()[t].corner;
   return {c[0], c[1], c[turned ? 3 : 2], c[turned ? 2 : 3]};
 }
 template <class Real>
-std::array<Index, 4> corners_in(const Wireframe<Real>& wireframe, Index simplex) {
+std::array<Index, 4> four_corners(const Wireframe<Real>& wireframe, Index simplex) {
   const auto ends = wireframe.inside_edge(simplex);
   return {ends.from, ends.to, none, none};
 }
@@ -65,7 +65,7 @@ void place_by_lengths(const TetMesh<Real>& mesh, Index simplex, std::array<Point
 template <class Real>
 void place(const TetMesh<Real>& mesh, Index simplex, std::array<Point3, 4>& at) {
   if (!mesh.embedded()) return place_by_lengths(mesh, simplex, at);
-  const std::array<Index, 4> corner = corners_in(mesh, simplex);
+  const std::array<Index, 4> corner = four_corners(mesh, simplex);
   const auto point = [&](std::size_t i) {
     const Vector3<Real>& p = mesh.points()[corner[i]];
     return Point3{static_cast<double>(p.x), static_cast<double>(p.y), static_cast<double>(p.z)};
@@ -123,7 +123,7 @@ Cells::Cells(std::span<const CellPiece<Real>> pieces, Welds welds)
           for (Index v = 0; v < piece.vertices; ++v)
             outer_[piece.first_vertex + inside[v]] = piece.first_vertex + v;
           for (Index s = 0; s < piece.simplices; ++s) {
-            for (const Index v : corners_in(*complex, s)) {
+            for (const Index v : four_corners(*complex, s)) {
               if (v == none) break;
               corner_.push_back(vertex_[outer_[piece.first_vertex + v]]);
               ++around_begin_[corner_.back() + 1];
@@ -217,7 +217,7 @@ template <class Real>
 std::array<Index, 4> ComplexCells<Real>::outer_corners(Index simplex) const {
   const CellPiece<Real>& piece = piece_of(simplex);
   std::array<Index, 4> corner = std::visit(
-      [&](const auto* complex) { return corners_in(*complex, simplex - piece.first_simplex); },
+      [&](const auto* complex) { return four_corners(*complex, simplex - piece.first_simplex); },
       piece.complex);
   for (Index& v : corner)
     if (v != none) v = outer_[piece.first_vertex + v];

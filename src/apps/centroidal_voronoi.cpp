@@ -12,6 +12,7 @@
 #include "apps/cell_contents.hpp"
 #include "apps/cell_moments.hpp"
 #include "apps/cloud_points.hpp"
+#include "apps/infinity.hpp"
 #include "executors/checks.hpp"
 
 namespace plexway {
@@ -85,7 +86,6 @@ class Lloyd {
 
   /// Cells, and what they are around their seeds.
   void divide(PropagateStatistics& statistics) {
-    constexpr Real infinity = std::numeric_limits<Real>::infinity();
     field_.clear();
     field_.add_all(places_, farthest_ * Real(1.1));
     add(statistics, field_.totals());

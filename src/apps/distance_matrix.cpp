@@ -8,13 +8,12 @@
 #include <plexway/error.hpp>
 
 #include "apps/cloud_points.hpp"
+#include "apps/infinity.hpp"
 #include "executors/checks.hpp"
 #include "executors/growth.hpp"
 
 namespace plexway {
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 // Calls row(i, radius), which is to write row i as far as that, for all rows.
 template <class Row>

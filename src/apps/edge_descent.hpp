@@ -1,13 +1,14 @@
 #pragma once
 
 #include <algorithm>
-#include <limits>
 #include <queue>
 #include <unordered_map>
 #include <utility>
 #include <vector>
 
 #include <plexway/complex/ids.hpp>
+
+#include "apps/infinity.hpp"
 
 namespace plexway {
 
@@ -23,7 +24,6 @@ namespace plexway {
 /// at worst those of the whole domain.
 template <class Distance, class End, class Edges>
 std::vector<Index> descend_edges(Index from, Distance distance, End end, Edges edges) {
-  constexpr double infinity = std::numeric_limits<double>::infinity();
   std::vector<Index> way = {from};
   // Vertices that edges without length join are as good as one: (vertex, where it was seen from).
   std::vector<std::pair<Index, std::size_t>> level;

@@ -10,6 +10,7 @@
 #include <plexway/error.hpp>
 
 #include "apps/cloud_points.hpp"
+#include "apps/infinity.hpp"
 #include "executors/checks.hpp"
 #include "executors/growth.hpp"
 
@@ -28,7 +29,6 @@ class Traversal {
   /// Vertices below `vertices` are chosen from.
   FarthestPoints run(std::span<const PointSource> start, std::size_t vertices,
                      const FarthestOptions& options) {
-    constexpr double infinity = std::numeric_limits<double>::infinity();
     FarthestPoints result;
     // What the field starts with at vertices: where points get as dense as simplices, the label
     // there is another's.
@@ -76,7 +76,6 @@ class Traversal {
 
  private:
   void add(const PointSource& point, Index number) {
-    constexpr Real infinity = std::numeric_limits<Real>::infinity();
     const Real sigma = static_cast<Real>(point.offset / domain_.unit());
     if (point.vertex != none) {
       field_.add_vertex(domain_.inside_vertex(point.vertex), sigma, number, infinity);

@@ -66,9 +66,9 @@ struct Sheet {
 };
 
 // What one value cuts: in each face at most one straight piece, from edge to edge.
-class Cut {
+class LineCut {
  public:
-  Cut(const Sheet& sheet, double value) : sheet_(sheet), value_(value) {
+  LineCut(const Sheet& sheet, double value) : sheet_(sheet), value_(value) {
     for (Index f = 0; f < sheet.faces.size(); ++f) {
       const auto& face = sheet.faces[f];
       if (!std::all_of(face.begin(), face.end(),
@@ -159,7 +159,7 @@ class Cut {
 std::vector<Path> lines_of(const Sheet& sheet, std::span<const double> values) {
   std::vector<Path> lines;
   for (std::size_t n = 0; n < values.size(); ++n)
-    Cut(sheet, values[n]).lines(static_cast<Index>(n), lines);
+    LineCut(sheet, values[n]).lines(static_cast<Index>(n), lines);
   return lines;
 }
 

@@ -13,10 +13,10 @@ namespace {
 using Position = std::array<double, 3>;
 
 // What one value cuts: in each tetrahedron a triangle or a quadrilateral.
-class Cut {
+class SurfaceCut {
  public:
-  Cut(std::span<const Position> positions, std::span<const double> distance, double value,
-      Index number, Isosurfaces& out)
+  SurfaceCut(std::span<const Position> positions, std::span<const double> distance, double value,
+             Index number, Isosurfaces& out)
       : positions_(positions), distance_(distance), value_(value), number_(number), out_(out) {}
 
   void tet(const std::array<Index, 4>& corner) {
@@ -95,7 +95,7 @@ Isosurfaces isosurfaces(std::span<const Position> positions,
   check_level_sets(positions.size(), tets, distance, values, "tetrahedron", "isosurface");
   Isosurfaces found;
   for (std::size_t n = 0; n < values.size(); ++n) {
-    Cut cut(positions, distance, values[n], static_cast<Index>(n), found);
+    SurfaceCut cut(positions, distance, values[n], static_cast<Index>(n), found);
     for (const auto& tet : tets) cut.tet(tet);
   }
   return found;

@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <memory>
 #include <string>
 #include <utility>
@@ -10,6 +9,7 @@
 #include <plexway/apps/bounded_search.hpp>
 #include <plexway/solve.hpp>
 
+#include "apps/infinity.hpp"
 #include "apps/row_work.hpp"
 
 namespace plexway {
@@ -71,7 +71,6 @@ template <class D>
 class NearWorker {
  public:
   using Real = RealOf<D>;
-  static constexpr double infinity = std::numeric_limits<double>::infinity();
 
   NearWorker(const D& domain, const ColumnsOfVertex& columns, std::size_t column_count,
              const NearLimits& limits, const PairsSink<SparseRow<Real>>& sink)

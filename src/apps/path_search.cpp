@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <string>
 #include <utility>
 
@@ -11,6 +10,7 @@
 #include <plexway/solve.hpp>
 
 #include "apps/guided_queue.hpp"
+#include "apps/infinity.hpp"
 #include "apps/surface_trace.hpp"
 #include "executors/checks.hpp"
 #include "propagate/saddle_rule.hpp"
@@ -19,8 +19,6 @@
 
 namespace plexway {
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 // What single precision may have done to lengths.
 constexpr double rounding = 1e-5;

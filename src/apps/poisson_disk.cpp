@@ -15,7 +15,7 @@
 namespace plexway {
 namespace {
 
-void check(const PoissonOptions& options, std::size_t vertices) {
+void check_options(const PoissonOptions& options, std::size_t vertices) {
   if ((options.radius != 0) == (options.count != 0))
     throw UsageError("give either a radius or a count of darts");
   if (options.count == 0 && (!(options.radius > 0) || !std::isfinite(options.radius)))
@@ -99,7 +99,7 @@ PoissonDisks poisson(const Complex& domain, std::span<const Index> candidates,
 template <class Complex>
 PoissonDisks poisson(const Complex& domain, const PoissonOptions& options,
                      WorkspaceState<typename Growth<Complex>::Number>& workspace) {
-  check(options, domain.vertex_count());
+  check_options(options, domain.vertex_count());
   std::vector<Index> all(options.at_vertices ? domain.vertex_count() : 0);
   std::iota(all.begin(), all.end(), Index{0});
   return poisson(domain, all, options, workspace);
@@ -126,7 +126,7 @@ PoissonDisks poisson_disks(Serial, const PointCloud<Real>& cloud, const PoissonO
   if (options.order == DartOrder::simplices) support(Purpose::darts, cloud).require();
   PoissonOptions at_points = options;
   at_points.at_vertices = true;
-  check(at_points, cloud.point_count());
+  check_options(at_points, cloud.point_count());
   // Of points at one place the first stands for all.
   std::vector<Index> candidates;
   candidates.reserve(cloud.point_count());

@@ -11,7 +11,7 @@ namespace {
 using Point = Vector3<double>;
 
 constexpr double least_gain = 1e-10;
-constexpr int most_rounds = 200;
+constexpr int most_pulls = 200;
 
 double distance(const Point& a, const Point& b) { return norm(b - a); }
 
@@ -242,7 +242,7 @@ void SolidPull<Real>::pull(std::vector<Knot>& way) {
   skip(way);
   double before = length(way);
   look_near(way);
-  for (int round = 0; round < most_rounds; ++round) {
+  for (int round = 0; round < most_pulls; ++round) {
     if (round == 1) look_near(way);  // the first gains most
     for (std::size_t k = 1; k + 1 < way.size();) {
       const std::size_t size = way.size();

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <limits>
 #include <optional>
 #include <unordered_map>
 #include <unordered_set>
@@ -10,20 +9,20 @@
 #include <vector>
 
 #include "apps/edge_descent.hpp"
+#include "apps/infinity.hpp"
 #include "apps/solid_pull.hpp"
 #include "apps/solid_walk.hpp"
 
 namespace plexway {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr double doubt = 0.98;            // promises of labels are not exact
-constexpr double disappointment = 1.002;  // a reason to look for another way
+constexpr double label_margin = 0.98;   // promises of labels are not exact
+constexpr double retry_factor = 1.002;  // a reason to look for another way
 
 using Barycentric = std::array<double, 4>;
 
 // The last two corners of a tetrahedron that is turned inside are exchanged.
-Barycentric inside(Barycentric b, bool turned) {
+Barycentric inside_turned(Barycentric b, bool turned) {
   if (turned) std::swap(b[2], b[3]);
   return b;
 }
@@ -41,7 +40,7 @@ class SolidTrace {
     if (vertex == none) {
       const auto [tet, turned] = mesh_.inside_tet(point.simplex);
       t = tet;
-      b = inside(point.barycentric, turned);
+      b = inside_turned(point.barycentric, turned);
       if (const std::size_t i = corner_of(b); i < 4)
         vertex = solved_.outer[mesh_.tets()[t].corner[i]];
     }
@@ -77,7 +76,7 @@ class SolidTrace {
       if (!order.empty()) promise = order[0].first;
       std::vector<Index> tried;
       for (const auto& [promised, begin] : order) {
-        if (promised * doubt > shortest) break;
+        if (promised * label_margin > shortest) break;
         const auto alike = [&, t = begin](Index u) { return same_scene(t, u); };
         if (std::any_of(tried.begin(), tried.end(), alike)) continue;
         tried.push_back(begin);
@@ -85,7 +84,7 @@ class SolidTrace {
         if (follow(begin, at, v, way)) keep(std::move(way));
       }
     }
-    if (!(shortest <= promise * disappointment)) {
+    if (!(shortest <= promise * retry_factor)) {
       Way way;
       if (descend(t, b, v, way)) keep(std::move(way));
     }
@@ -121,7 +120,7 @@ class SolidTrace {
     Index vertex = s.vertex;
     if (vertex == none) {
       const auto [tet, turned] = mesh_.inside_tet(s.simplex);
-      const Barycentric b = inside(s.barycentric, turned);
+      const Barycentric b = inside_turned(s.barycentric, turned);
       if (t == tet) return b;
       if (const std::size_t i = corner_of(b); i < 4)
         vertex = solved_.outer[mesh_.tets()[tet].corner[i]];
@@ -212,7 +211,7 @@ class SolidTrace {
       const auto [tet, turned] = mesh_.inside_tet(s.simplex);
       for (std::size_t i = 0; i < 4; ++i)
         offer(mesh_.tets()[tet].corner[i],
-              s.offset + within(tet, inside(s.barycentric, turned), corner(i)), n);
+              s.offset + within(tet, inside_turned(s.barycentric, turned), corner(i)), n);
     }
     const auto end = [&](Index w) {
       const auto found = ends.find(w);
@@ -241,7 +240,7 @@ class SolidTrace {
     const PointSource& s = solved_.sources[way.source];
     if (s.vertex == none) {
       const auto [tet, turned] = mesh_.inside_tet(s.simplex);
-      way.knots.push_back(knot_at(tet, inside(s.barycentric, turned)));
+      way.knots.push_back(knot_at(tet, inside_turned(s.barycentric, turned)));
     }
     if (way.knots.size() == 1) way.knots.push_back(way.knots.front());
     return true;
@@ -249,7 +248,7 @@ class SolidTrace {
 
   void push(Path& path, Index t, const Barycentric& b) const {
     const Index number = solved_.outer_simplices[t];
-    path.points.push_back({number, inside(b, mesh_.inside_tet(number).second)});
+    path.points.push_back({number, inside_turned(b, mesh_.inside_tet(number).second)});
     if (solved_.positions.empty()) return;
     const Vector3<double> p = walk_.place(t, b);
     path.positions.push_back({p.x, p.y, p.z});

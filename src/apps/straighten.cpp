@@ -10,7 +10,8 @@ namespace {
 // Less than this is not worth a move: it shortens the path by its square.
 constexpr double angle_worth_moving = 1e-6;
 constexpr double shorter = 1 - 1e-14;
-constexpr std::size_t most_rounds = 10000;  // each of them shortens; this is for the impossible
+constexpr std::size_t most_shortenings =
+    10000;  // each of them shortens; this is for the impossible
 
 // A triangle at a vertex, come in by one of its two edges there.
 struct Visit {
@@ -96,7 +97,7 @@ PulledStrip Straightener<Real>::straighten(Strip& strip) const {
   std::vector<Crossing> way;
   bool one_by_one = false;  // after a round that did not shorten
   std::size_t skipped = 0;
-  for (std::size_t round = 0; round < most_rounds; ++round) {
+  for (std::size_t round = 0; round < most_shortenings; ++round) {
     Strip moved;
     moved.first = strip.first;
     moved.start = strip.start;

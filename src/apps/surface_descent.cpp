@@ -1,18 +1,14 @@
 // The way of last resort: along edges.
 
-#include <limits>
 #include <unordered_map>
 #include <utility>
 
 #include "apps/edge_descent.hpp"
+#include "apps/infinity.hpp"
 #include "apps/surface_trace.hpp"
 
 namespace plexway {
-namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
-
-}  // namespace
+namespace {}  // namespace
 
 /// A triangle with the edge (v, w), and the direction of w at v.
 template <class Real>

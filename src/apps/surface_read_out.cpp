@@ -2,16 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <tuple>
 #include <utility>
 
+#include "apps/infinity.hpp"
 #include "apps/window_read_out.hpp"
 
 namespace plexway {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
 using Kernel = kernel::SaddleKernel<double>;
 
 }  // namespace

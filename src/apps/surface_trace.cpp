@@ -1,16 +1,14 @@
 #include "apps/surface_trace.hpp"
 
 #include <algorithm>
-#include <limits>
 #include <unordered_set>
 #include <utility>
 
+#include "apps/infinity.hpp"
 #include "apps/window_read_out.hpp"
 
 namespace plexway {
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 // A label is tried if its path promises to be shorter than the best so far, times this: promises
 // are not exact.

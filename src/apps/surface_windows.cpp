@@ -2,18 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <utility>
 
+#include "apps/infinity.hpp"
 #include "apps/surface_trace.hpp"
 #include "apps/window_search.hpp"
 
 namespace plexway {
-namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
-
-}  // namespace
+namespace {}  // namespace
 
 /// One way of straight strips that meet in vertices.
 template <class Real>

@@ -78,7 +78,7 @@ double field_error(const std::vector<double>& truth, const std::vector<float>& f
   return count > 0 ? sum / static_cast<double>(count) : 0;
 }
 
-void check(const TuningSurface& surface) {
+void check_surface(const TuningSurface& surface) {
   const std::string prefix = surface.name + ": ";
   if (surface.truths.empty()) throw UsageError(prefix + "no exact distances to compare with");
   for (const TuningSurface::Truth& truth : surface.truths) {
@@ -108,7 +108,7 @@ TuningSet::TuningSet(std::vector<TuningSurface> surfaces, bool automatic, std::s
   s.automatic = automatic;
   s.threads = threads;
   for (std::size_t i = 0; i < s.surfaces.size(); ++i) {
-    check(s.surfaces[i]);
+    check_surface(s.surfaces[i]);
     for (std::size_t t = 0; t < s.surfaces[i].truths.size(); ++t) s.fields.emplace_back(i, t);
   }
   s.prepared.resize(s.surfaces.size());

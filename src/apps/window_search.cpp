@@ -2,14 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
 #include <utility>
 
+#include "apps/infinity.hpp"
+
 namespace plexway {
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 constexpr auto later = [](const auto& a, const auto& b) { return a.bound > b.bound; };
 

@@ -2,16 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <unordered_map>
 #include <vector>
 
 #include "apps/edge_descent.hpp"
+#include "apps/infinity.hpp"
 
 namespace plexway {
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 template <class Real>
 class WireTrace {

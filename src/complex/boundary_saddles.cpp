@@ -12,7 +12,7 @@ namespace {
 
 using Triangle = SheetWedges::Triangle;
 
-double angle(const Places& places, Index corner, Index a, Index b) {
+double corner_angle(const Places& places, Index corner, Index a, Index b) {
   const Point3 p = minus(places.at[a], places.at[corner]),
                q = minus(places.at[b], places.at[corner]);
   const Point3 n = cross(p, q);
@@ -58,8 +58,8 @@ SheetWedges::Wedge beyond(const SheetWedges& sheet, Index x, Index y, Index f) {
 // Could the edge from c to z take the place of that from x to y, between them?
 bool can_flip(const Places& places, Index c, Index x, Index y, Index z) {
   constexpr double most = std::numbers::pi - 0.04;
-  return angle(places, x, c, y) + angle(places, x, y, z) < most &&
-         angle(places, y, c, x) + angle(places, y, x, z) < most;
+  return corner_angle(places, x, c, y) + corner_angle(places, x, y, z) < most &&
+         corner_angle(places, y, c, x) + corner_angle(places, y, x, z) < most;
 }
 
 }  // namespace

@@ -14,13 +14,13 @@ using Vector = Point3;
 
 // A point of a simplex with N corners. All that follows looks for the one closest to the origin.
 template <std::size_t N>
-struct Candidate {
+struct ClosestSoFar {
   double squared_distance = std::numeric_limits<double>::infinity();
   std::array<double, N> barycentric = {1};
 
   // Takes a point of the simplex that has only those corners, if it is closer.
   template <std::size_t M>
-  void improve(const Candidate<M>& other, const std::array<std::size_t, M>& corners) {
+  void improve(const ClosestSoFar<M>& other, const std::array<std::size_t, M>& corners) {
     if (!(other.squared_distance < squared_distance)) return;
     squared_distance = other.squared_distance;
     barycentric = {};
@@ -28,7 +28,7 @@ struct Candidate {
   }
 };
 
-Candidate<2> closest(const std::array<Vector, 2>& corners) {
+ClosestSoFar<2> closest(const std::array<Vector, 2>& corners) {
   const Vector along = minus(corners[1], corners[0]);
   const double length2 = dot(along, along);
   const double t = length2 > 0 ? std::clamp(-dot(corners[0], along) / length2, 0.0, 1.0) : 0.0;
@@ -40,7 +40,7 @@ Candidate<2> closest(const std::array<Vector, 2>& corners) {
 
 // The foot of the perpendicular where it lies inside, else the best of the three edges. A triangle
 // without area has only edges.
-Candidate<3> closest(const std::array<Vector, 3>& corners) {
+ClosestSoFar<3> closest(const std::array<Vector, 3>& corners) {
   const Vector normal = cross(minus(corners[1], corners[0]), minus(corners[2], corners[0]));
   const double normal2 = dot(normal, normal);
   if (normal2 > 0) {
@@ -54,7 +54,7 @@ Candidate<3> closest(const std::array<Vector, 3>& corners) {
       return {height * height / normal2, {weight[0] / sum, weight[1] / sum, weight[2] / sum}};
     }
   }
-  Candidate<3> best;
+  ClosestSoFar<3> best;
   for (std::size_t i = 0; i < 3; ++i) {
     const std::size_t j = (i + 1) % 3;
     best.improve(closest(std::array{corners[i], corners[j]}), std::array{i, j});
@@ -63,7 +63,7 @@ Candidate<3> closest(const std::array<Vector, 3>& corners) {
 }
 
 // The origin itself where it lies inside, else the best of the four faces.
-Candidate<4> closest(const std::array<Vector, 4>& corners) {
+ClosestSoFar<4> closest(const std::array<Vector, 4>& corners) {
   constexpr std::array<std::array<std::size_t, 3>, 4> faces = {
       {{1, 3, 2}, {0, 2, 3}, {0, 3, 1}, {0, 1, 2}}};  // seen from the corner across, one way round
   std::array<double, 4> weight;
@@ -77,7 +77,7 @@ Candidate<4> closest(const std::array<Vector, 4>& corners) {
     for (double& w : weight) w /= sum;
     if (*std::min_element(weight.begin(), weight.end()) >= 0) return {0, weight};
   }
-  Candidate<4> best;
+  ClosestSoFar<4> best;
   for (const auto& face : faces) {
     const auto& [a, b, c] = face;
     best.improve(closest(std::array{corners[a], corners[b], corners[c]}), face);
@@ -107,7 +107,7 @@ SimplexPoint closest_of_all(std::span<const Vector> positions,
       const Vector& position = positions[simplices[simplex][i]];
       for (std::size_t k = 0; k < 3; ++k) corners[i][k] = (position[k] / 2 - point[k] / 2) / scale;
     }
-    const Candidate<N> found = closest(corners);
+    const ClosestSoFar<N> found = closest(corners);
     if (found.squared_distance < best.squared_distance) {
       best = {simplex, {}, found.squared_distance};
       std::copy(found.barycentric.begin(), found.barycentric.end(), best.barycentric.begin());

@@ -30,12 +30,12 @@ class Parts {
 };
 
 struct Pair {
-  double length;
+  double distance_between;
   Index a, b;
   friend auto operator<=>(const Pair&, const Pair&) = default;
 };
 
-double length(const Places& places, Index a, Index b) {
+double distance_between(const Places& places, Index a, Index b) {
   const Point3 q = minus(places.at[a], places.at[b]);
   return std::sqrt(dot(q, q));
 }
@@ -45,7 +45,7 @@ Index beside(const Places& places, const SheetWedges& sheet, Index a, Index b) {
   Pair best = {std::numeric_limits<double>::infinity(), none, none};
   sheet.around(a, [&](const SheetWedges::Wedge& w) {
     for (const Index x : {w.a, w.b})
-      if (x != b) best = std::min(best, {length(places, x, b), x, a});
+      if (x != b) best = std::min(best, {distance_between(places, x, b), x, a});
   });
   return best.a;
 }
@@ -72,11 +72,11 @@ CloudParts bridge_parts(const SheetRule& rule, std::span<const TangentFrame> fra
       if (of[i] == of[j]) continue;
       if (!same_sheet(places, frames, rule, i, j)) continue;
       alone = false;
-      pairs.push_back({length(places, i, j), std::min(i, j), std::max(i, j)});
+      pairs.push_back({distance_between(places, i, j), std::min(i, j), std::max(i, j)});
     }
     if (alone && !places.near.around(i).empty()) {
       const Index j = places.near.around(i)[0];
-      pairs.push_back({length(places, i, j), std::min(i, j), std::max(i, j)});
+      pairs.push_back({distance_between(places, i, j), std::min(i, j), std::max(i, j)});
     }
   }
   std::sort(pairs.begin(), pairs.end());

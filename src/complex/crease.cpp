@@ -7,11 +7,6 @@
 namespace plexway {
 namespace {
 
-Point3 normal_of(const TangentFrame& frame) {
-  const auto& n = frame.normal;
-  return {n[0], n[1], n[2]};
-}
-
 // On which side of a place do the neighbours of its own plane lie, by a direction in that plane?
 double own_side(const Places& places, std::span<const TangentFrame> frames, Index i,
                 const Point3& direction) {

@@ -73,7 +73,7 @@ DistinctPoints distinct_points(Points points) {
 
 namespace {
 
-constexpr double gap = 1e-4;
+constexpr double nearness = 1e-4;
 
 // By its largest coordinate, which is at least 1 / sqrt(3) of its length.
 double size_of(const std::array<double, 3>& p, const std::array<double, 3>& q) {
@@ -81,13 +81,13 @@ double size_of(const std::array<double, 3>& p, const std::array<double, 3>& q) {
 }
 
 // Of the nearest and the farthest neighbour by that.
-bool may_be_near(double nearest, double farthest) { return nearest < 2 * gap * farthest; }
+bool may_be_near(double nearest, double farthest) { return nearest < 2 * nearness * farthest; }
 
 }  // namespace
 
 bool may_have_near_twins(Points points, const Neighbours& neighbours) {
   // By squares of lengths: largest coordinates are at most sqrt(3) less.
-  constexpr double gaps = 3 * (2 * gap) * (2 * gap) * (1 + 1e-9);
+  constexpr double gaps = 3 * (2 * nearness) * (2 * nearness) * (1 + 1e-9);
   for (Index i = 0; i < points.size(); ++i) {
     double nearest = std::numeric_limits<double>::infinity(), farthest = 0;
     const auto p = points[i];
@@ -133,7 +133,7 @@ DistinctPoints without_near_twins(Points points, const Neighbours& neighbours,
     // One far from all is nobody's reason: most neighbours are beyond the gap.
     std::size_t near = 0;
     for (std::size_t k = 1; k <= row.size() / most; ++k)
-      if (row[k - 1].first < gap * row[k].first) near = k;
+      if (row[k - 1].first < nearness * row[k].first) near = k;
     for (std::size_t k = 0; k < near; ++k) {
       const Index a = root(i), b = root(row[k].second);
       if (a == b) continue;

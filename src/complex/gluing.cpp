@@ -10,7 +10,7 @@
 namespace plexway {
 namespace {
 
-Index next(Index corner) { return corner == 2 ? 0 : corner + 1; }
+Index next_corner(Index corner) { return corner == 2 ? 0 : corner + 1; }
 
 }  // namespace
 
@@ -55,8 +55,8 @@ void check_gluing(Faces faces, std::span<const std::array<Index, 3>> across) {
     if (entered[to]++) throw InputError(where + ": its other side is glued twice");
     const auto& a = faces[h / 3];
     const auto& b = faces[to / 3];
-    const auto p = std::minmax(a[h % 3], a[next(static_cast<Index>(h % 3))]);
-    const auto q = std::minmax(b[to % 3], b[next(to % 3)]);
+    const auto p = std::minmax(a[h % 3], a[next_corner(static_cast<Index>(h % 3))]);
+    const auto q = std::minmax(b[to % 3], b[next_corner(to % 3)]);
     if (p != q) throw InputError(where + ": glued to an edge with other vertices");
   }
   for (std::size_t h = 0; h < halfedges; ++h)

@@ -18,7 +18,7 @@ constexpr Halfedge halfedge(Index slot, std::size_t edge) {
 }
 constexpr Halfedge plain(Index packed) { return packed & ~Across::special; }
 constexpr Index slot_of(Halfedge h) { return h >> Across::face_shift; }
-constexpr std::size_t edge_of(Halfedge h) { return h & Across::edge_mask; }
+constexpr std::size_t edge_in(Halfedge h) { return h & Across::edge_mask; }
 
 // The third corner of a triangle that stands on the x axis from 0 to `length`, with the angle
 // `start` at 0, and `end` at the other end. Taken from the nearer end: far away its place would be
@@ -153,8 +153,8 @@ double IntrinsicTriangulation::excess(Halfedge h) const {
   constexpr double never = -std::numeric_limits<double>::infinity();
   const Index o = across(h);
   if (o == none || (o & Across::fan) != 0 || slot_of(o) == slot_of(h)) return never;
-  const Turn a = triangles_[slot_of(h)].angle[previous(edge_of(h))];
-  const Turn b = triangles_[slot_of(o)].angle[previous(edge_of(o))];
+  const Turn a = triangles_[slot_of(h)].angle[previous(edge_in(h))];
+  const Turn b = triangles_[slot_of(o)].angle[previous(edge_in(o))];
   // Beyond 3/2 pi the sine turns back, but then both are obtuse.
   if (a.c < 0 && b.c < 0) return std::fmax(-(a.s * b.c + a.c * b.s), std::fmin(-a.c, -b.c));
   return -(a.s * b.c + a.c * b.s);
@@ -225,12 +225,12 @@ bool IntrinsicTriangulation::flip(Halfedge h) {
     if (!turn_g && !may_turn_over(slot_of(h))) return false;
     (turn_g ? order_g : order_f).mirrored = true;
     turn_over(slot_of(turn_g ? o : h));
-    if (!turn_g) h = halfedge(slot_of(h), 2 - edge_of(h));
+    if (!turn_g) h = halfedge(slot_of(h), 2 - edge_in(h));
   }
   const Halfedge o = plain(across(h));
   const Index f = slot_of(h), g = slot_of(o);
-  const std::size_t fa = edge_of(h), fb = next(fa), fc = next(fb);
-  const std::size_t gb = edge_of(o), ga = next(gb), gd = next(ga);
+  const std::size_t fa = edge_in(h), fb = next(fa), fc = next(fb);
+  const std::size_t gb = edge_in(o), ga = next(gb), gd = next(ga);
   IntrinsicTriangle &tf = triangles_[f], &tg = triangles_[g];
 
   // a is the origin, b on the x axis, c above, d below.
@@ -354,7 +354,7 @@ void IntrinsicTriangulation::split(Index f, const std::array<double, 3>& at) {
 
 void IntrinsicTriangulation::split_border(Halfedge e) {
   const Index f = slot_of(e);
-  const std::size_t fa = edge_of(e), fb = next(fa), fc = next(fb);
+  const std::size_t fa = edge_in(e), fb = next(fa), fc = next(fb);
   std::array<double, 3> middle{};
   middle[fa] = middle[fb] = 0.5;
   const Index vertex = add_vertex(f, middle);

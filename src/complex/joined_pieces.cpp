@@ -290,7 +290,7 @@ class Joiner {
       const auto [points, tets] = solid_of(pieces, vertices);
       return joined.domain.add(TetMesh<Real>(points, tets));
     }
-    std::vector<SurfacePart<Real>> surfaces;
+    std::vector<JoinedPart<Real>> surfaces;
     for (std::size_t i = 0; i < pieces.size(); ++i)
       surfaces.push_back({get<Surface>(pieces[i]), vertices.of_piece[i]});
     std::vector<SurfaceSeam> seams;

@@ -46,9 +46,9 @@ class ShapesOfParts final : public TriangleShapes {
 
 // What edges of one surface and its faces are called in the whole.
 template <class Real>
-class Numbering {
+class CornerNumbers {
  public:
-  Numbering(const TriangleMesh<Real>& mesh, Index first_face) : first_(first_face) {
+  CornerNumbers(const TriangleMesh<Real>& mesh, Index first_face) : first_(first_face) {
     given_.resize(mesh.face_count());
     for (Index f = 0; f < mesh.face_count(); ++f) {
       const auto [inside, turned] = mesh.inside_face(f);
@@ -68,7 +68,7 @@ class Numbering {
 // Lengths of one edge that differ by rounding, or by what a weld tolerates, become their mean;
 // triangles with such an edge get the angles of their lengths.
 template <class Real>
-bool agree(std::vector<TriangleShape>& shapes, const std::vector<Index>& after) {
+bool shapes_agree(std::vector<TriangleShape>& shapes, const std::vector<Index>& after) {
   constexpr double rounding = 64 * std::numeric_limits<Real>::epsilon(), alike = 1e-6;
   bool refracts = false;
   std::vector<char> changed(shapes.size(), 0);
@@ -103,12 +103,12 @@ bool agree(std::vector<TriangleShape>& shapes, const std::vector<Index>& after) 
 }  // namespace
 
 template <class Real>
-TriangleMesh<Real> join_surfaces(std::size_t vertices, std::span<const SurfacePart<Real>> parts,
+TriangleMesh<Real> join_surfaces(std::size_t vertices, std::span<const JoinedPart<Real>> parts,
                                  std::span<const SurfaceSeam> seams) {
   std::vector<std::array<Index, 3>> faces;
   std::vector<TriangleShape> shapes;
   std::vector<Index> after;  // the next halfedge around an edge, itself if there is none
-  std::vector<Numbering<Real>> numbering;
+  std::vector<CornerNumbers<Real>> numbering;
   for (const auto& part : parts) {
     const TriangleMesh<Real>& mesh = *part.mesh;
     const auto first = static_cast<Index>(faces.size());
@@ -156,7 +156,7 @@ TriangleMesh<Real> join_surfaces(std::size_t vertices, std::span<const SurfacePa
     }
 
   SurfaceHints hints;
-  hints.refracts = agree<Real>(shapes, after);
+  hints.refracts = shapes_agree<Real>(shapes, after);
   std::vector<std::array<Index, 3>> across(faces.size());
   for (Index h = 0; h < after.size(); ++h) across[h / 3][h % 3] = after[h] == h ? none : after[h];
   const std::span<const std::array<Index, 3>> gluing = across;
@@ -164,9 +164,9 @@ TriangleMesh<Real> join_surfaces(std::size_t vertices, std::span<const SurfacePa
           ShapesOfParts(shapes), hints};
 }
 
-template TriangleMesh<float> join_surfaces(std::size_t, std::span<const SurfacePart<float>>,
+template TriangleMesh<float> join_surfaces(std::size_t, std::span<const JoinedPart<float>>,
                                            std::span<const SurfaceSeam>);
-template TriangleMesh<double> join_surfaces(std::size_t, std::span<const SurfacePart<double>>,
+template TriangleMesh<double> join_surfaces(std::size_t, std::span<const JoinedPart<double>>,
                                             std::span<const SurfaceSeam>);
 
 }  // namespace plexway

@@ -11,7 +11,7 @@ namespace plexway {
 
 /// Surfaces to become one: their vertices' numbers in it, in the caller's order of each.
 template <class Real>
-struct SurfacePart {
+struct JoinedPart {
   const TriangleMesh<Real>* mesh;
   std::span<const Index> vertex;
 };
@@ -26,7 +26,7 @@ struct SurfaceSeam {
 /// lengths and angles, faces the order of parts. Where lengths of an edge differ by more than 1e-6
 /// paths are refracted.
 template <class Real>
-TriangleMesh<Real> join_surfaces(std::size_t vertices, std::span<const SurfacePart<Real>> parts,
+TriangleMesh<Real> join_surfaces(std::size_t vertices, std::span<const JoinedPart<Real>> parts,
                                  std::span<const SurfaceSeam> seams);
 
 }  // namespace plexway

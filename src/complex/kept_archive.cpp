@@ -7,27 +7,27 @@
 namespace plexway {
 namespace {
 
-constexpr std::size_t block = file::Checksum::block;
+constexpr std::size_t archive_block = file::Checksum::block;
 constexpr std::array<char, 8> magic = {'p', 'l', 'e', 'x', 'w', 'a', 'y', '\x1a'};
 // On a machine with the other byte order the bytes are those of another number.
 constexpr std::uint32_t byte_order = 0x01020304;
 
-struct alignas(block) Header {
+struct alignas(archive_block) Header {
   std::array<char, 8> name = magic;
   std::uint32_t order = byte_order, version = kept_version;
-  std::array<char, block - 16> rest = {};
+  std::array<char, archive_block - 16> rest = {};
 };
 struct PartHead {
   std::uint64_t element = 0, count = 0;
 };
 // What fits into the block of its head.
-constexpr std::size_t short_part = block - sizeof(PartHead);
-struct alignas(block) Trailer {
+constexpr std::size_t short_part = archive_block - sizeof(PartHead);
+struct alignas(archive_block) Trailer {
   std::array<char, 8> name = magic;
   std::uint64_t size = 0, checksum = 0;
-  std::array<char, block - 24> rest = {};
+  std::array<char, archive_block - 24> rest = {};
 };
-static_assert(sizeof(Header) == block && sizeof(Trailer) == block);
+static_assert(sizeof(Header) == archive_block && sizeof(Trailer) == archive_block);
 
 template <class Block>
 Block block_at(std::span<const std::byte> bytes, std::size_t at) {
@@ -47,17 +47,17 @@ bool is_kept(std::span<const std::byte> bytes) {
 }
 
 void seal(std::span<std::byte> file) {
-  if (file.size() < 2 * block || file.size() % block != 0) return;
-  const std::size_t end = file.size() - block;
+  if (file.size() < 2 * archive_block || file.size() % archive_block != 0) return;
+  const std::size_t end = file.size() - archive_block;
   file::Checksum checksum;
   checksum.add(file.data(), end);
   const Trailer trailer{magic, file.size(), checksum.value(), {}};
-  std::memcpy(file.data() + end, &trailer, block);
+  std::memcpy(file.data() + end, &trailer, archive_block);
 }
 
 KeptOut::KeptOut() {
   const Header header;
-  write(bytes_of(header), block);
+  write(bytes_of(header), archive_block);
 }
 
 KeptOut::KeptOut(const std::filesystem::path& file) : KeptOut() { file_.emplace(file); }
@@ -79,10 +79,12 @@ void KeptOut::write(const std::byte* bytes, std::size_t size) {
   }
 }
 
-void KeptOut::end_part() { pending_.resize((pending_.size() + block - 1) / block * block); }
+void KeptOut::end_part() {
+  pending_.resize((pending_.size() + archive_block - 1) / archive_block * archive_block);
+}
 
 void KeptOut::flush() {
-  const std::size_t size = pending_.size() / block * block;
+  const std::size_t size = pending_.size() / archive_block * archive_block;
   checksum_.add(pending_.data(), size);
   if (file_)
     if (const int code = file_->write(reinterpret_cast<const char*>(pending_.data()), size))
@@ -93,8 +95,8 @@ void KeptOut::flush() {
 
 void KeptOut::commit() {
   flush();
-  const Trailer trailer{magic, written_ + block, checksum_.value(), {}};
-  if (const int code = file_->write(reinterpret_cast<const char*>(&trailer), block))
+  const Trailer trailer{magic, written_ + archive_block, checksum_.value(), {}};
+  if (const int code = file_->write(reinterpret_cast<const char*>(&trailer), archive_block))
     file_->refuse(code);
   file_->commit();
 }
@@ -121,7 +123,7 @@ void KeptIn::refuse(const std::string& cause) const { throw InputError(name_ + "
 
 void KeptIn::check() {
   if (!is_kept(bytes_)) refuse("is no prepared domain of plexway");
-  if (bytes_.size() < 2 * block) refuse("is cut short");
+  if (bytes_.size() < 2 * archive_block) refuse("is cut short");
   const auto header = block_at<Header>(bytes_, 0);
   if (header.order != byte_order)
     refuse("was prepared on a machine with another byte order: prepare it here");
@@ -129,26 +131,26 @@ void KeptIn::check() {
     refuse("was prepared by another version of plexway (its format is " +
            std::to_string(header.version) + ", here it is " + std::to_string(kept_version) +
            "): prepare it again");
-  if (bytes_.size() % block != 0) refuse("is cut short or damaged");
-  at_ = block;
-  end_ = bytes_.size() - block;
+  if (bytes_.size() % archive_block != 0) refuse("is cut short or damaged");
+  at_ = archive_block;
+  end_ = bytes_.size() - archive_block;
   const auto trailer = block_at<Trailer>(bytes_, end_);
   if (trailer.name != magic || trailer.size != bytes_.size()) refuse("is cut short or damaged");
   file::Checksum checksum;
   checksum.add(bytes_.data(), end_);
   require(checksum.value() == trailer.checksum);
   const Trailer whole{magic, trailer.size, trailer.checksum, {}};
-  require(std::memcmp(bytes_.data() + end_, &whole, block) == 0);
+  require(std::memcmp(bytes_.data() + end_, &whole, archive_block) == 0);
 }
 
 KeptIn::Elements KeptIn::take_elements(std::size_t size) {
-  require(end_ - at_ >= block);
+  require(end_ - at_ >= archive_block);
   const auto head = block_at<PartHead>(bytes_, at_);
   require(head.element == size && head.count <= (end_ - at_) / size);
   const std::size_t bytes = static_cast<std::size_t>(head.count) * size;
-  const std::size_t start = at_ + (bytes > short_part ? block : sizeof(head));
+  const std::size_t start = at_ + (bytes > short_part ? archive_block : sizeof(head));
   require(bytes <= end_ - start);
-  at_ = (start + bytes + block - 1) / block * block;
+  at_ = (start + bytes + archive_block - 1) / archive_block * archive_block;
   return {bytes_.data() + start, static_cast<std::size_t>(head.count)};
 }
 

@@ -33,10 +33,6 @@ struct LinearFit {
   }
 };
 
-Point3 normal_of(const TangentFrame& frame) {
-  return {frame.normal[0], frame.normal[1], frame.normal[2]};
-}
-
 }  // namespace
 
 NoisyRidges::NoisyRidges(const Places& places, std::span<const TangentFrame> frames)

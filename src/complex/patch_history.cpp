@@ -7,7 +7,7 @@
 namespace plexway {
 namespace {
 
-using Corners = std::array<std::uint8_t, 3>;
+using PatchCorners = std::array<std::uint8_t, 3>;
 
 Planar place(const std::array<Planar, 3>& corner, const std::array<double, 3>& at) {
   return at[0] * corner[0] + at[1] * corner[1] + at[2] * corner[2];
@@ -39,8 +39,8 @@ double depth(const std::array<Planar, 3>& corner, const std::array<double, 3>& a
 
 struct PatchHistory::Form {
   std::size_t before_count, after_count;
-  std::array<Corners, 2> before;
-  std::array<Corners, 3> after;
+  std::array<PatchCorners, 2> before;
+  std::array<PatchCorners, 3> after;
 
   // The triangle before the patch that a point is in: the one above the x axis, or the one below.
   [[nodiscard]] std::size_t side(double y) const { return before_count == 2 && y < 0 ? 1 : 0; }
@@ -64,7 +64,7 @@ const std::array<PatchHistory::Form, 3> PatchHistory::forms = {{
 
 const PatchHistory::Form& PatchHistory::form_of(const Patch& patch) { return forms[patch.kind()]; }
 
-std::array<Planar, 3> PatchHistory::points_of(const Patch& patch, const Corners& corners) {
+std::array<Planar, 3> PatchHistory::points_of(const Patch& patch, const PatchCorners& corners) {
   const std::array<Planar, 4> point = {Planar{0, 0}, Planar{patch.length, 0}, patch.c, patch.other};
   return {point[corners[0]], point[corners[1]], point[corners[2]]};
 }

@@ -18,8 +18,9 @@ template <class A, class B>
 double dot(const A& a, const B& b) {
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
+inline double norm(const Point3& a) { return std::sqrt(dot(a, a)); }
 inline Point3 unit(const Point3& a) {
-  const double length = std::sqrt(dot(a, a));
+  const double length = norm(a);
   return {a[0] / length, a[1] / length, a[2] / length};
 }
 /// A unit vector across a, always the same for the same a.

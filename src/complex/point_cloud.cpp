@@ -22,7 +22,7 @@ namespace plexway {
 namespace {
 
 using Points = std::span<const Point3>;
-using Triangle = std::array<Index, 3>;
+using Corners3 = std::array<Index, 3>;
 
 constexpr double deepest_notch = 0.35;  // spacings
 
@@ -130,7 +130,7 @@ void add_placeholder(Places& places, SheetWedges& sheet) {
 
 struct Sheet {
   std::vector<Point3> more;  // places that are no points
-  std::vector<Triangle> faces;
+  std::vector<Corners3> faces;
   std::vector<std::array<double, 3>> lengths;  // empty: as in space
 };
 
@@ -162,13 +162,13 @@ void count_pairs(const Places& places, std::span<const TangentFrame> frames,
 }
 
 // Along the curve that the places lie along: by the first of each triangle's places.
-std::vector<Triangle> along_places(std::span<const Triangle> faces, std::size_t places) {
-  const auto first_of = [](const Triangle& t) { return std::min({t[0], t[1], t[2]}); };
+std::vector<Corners3> along_places(std::span<const Corners3> faces, std::size_t places) {
+  const auto first_of = [](const Corners3& t) { return std::min({t[0], t[1], t[2]}); };
   std::vector<Index> begin(places + 1, 0);
-  for (const Triangle& t : faces) ++begin[first_of(t) + 1];
+  for (const Corners3& t : faces) ++begin[first_of(t) + 1];
   for (std::size_t p = 0; p < places; ++p) begin[p + 1] += begin[p];
-  std::vector<Triangle> sorted(faces.size());
-  for (const Triangle& t : faces) sorted[begin[first_of(t)]++] = t;
+  std::vector<Corners3> sorted(faces.size());
+  for (const Corners3& t : faces) sorted[begin[first_of(t)]++] = t;
   return sorted;
 }
 
@@ -235,7 +235,7 @@ Sheet make_sheet(Points points, const Neighbours& neighbours, const CloudOptions
   Sheet result;
   for (std::size_t p = n; p < places.at.size(); ++p)
     result.more.push_back(times(1 / scale, places.at[p]));
-  for (const Triangle& t : sheet.triangles())
+  for (const Corners3& t : sheet.triangles())
     if (t[0] != none) result.faces.push_back(t);
   summary.triangles = result.faces.size();
   result.faces = along_places(result.faces, places.at.size());
@@ -257,7 +257,7 @@ Sheet make_sheet(Points points, const Neighbours& neighbours, const CloudOptions
     summary.first_chord = std::min(summary.first_chord, distinct.order[p]);
   for (auto& lengths : result.lengths)
     for (double& l : lengths) l /= scale;
-  for (Triangle& t : result.faces)
+  for (Corners3& t : result.faces)
     for (Index& v : t) v = v < n ? distinct.order[v] : static_cast<Index>(points.size() + (v - n));
   for (Index i = 0; i < points.size(); ++i)
     if (distinct.first[i] != i) twins.push_back({i, distinct.first[i]});

@@ -10,7 +10,7 @@ namespace plexway {
 namespace {
 
 // What a vertex and its inner neighbours say about it.
-struct Neighbourhood {
+struct SaddleSupport {
   double sum;        // of the excess, its own included
   double lack;       // by how much neighbours are below flat
   double agreement;  // the sum again, where none counts more than the vertex itself, of vertices
@@ -43,7 +43,7 @@ class Neighbourhoods {
     agreements_[of].all += std::clamp(theirs, -mine, mine) / 2;
     agreements_[of].most += std::min(mine, std::abs(theirs)) / 2;
   }
-  [[nodiscard]] Neighbourhood operator[](std::size_t v) const {
+  [[nodiscard]] SaddleSupport operator[](std::size_t v) const {
     return {sums_[v].all + excess_[v], sums_[v].lack, agreements_[v].all + excess_[v],
             agreements_[v].most + std::abs(excess_[v]), 0.5 * heard_[v]};
   }
@@ -82,7 +82,7 @@ Neighbourhoods look_around(std::span<const TriangleRecord<Real>> triangles,
 }
 
 // May paths bend at this inner vertex? See docs/methods/surfaces.md, "Which vertices are saddles".
-bool is_inner_saddle(double excess, const Neighbourhood& n, double least,
+bool is_inner_saddle(double excess, const SaddleSupport& n, double least,
                      const SaddleThresholds& saddles) {
   if (!(excess > 0)) return false;
   if (n.count == 0) return excess > saddles.interior;

@@ -9,24 +9,24 @@
 namespace plexway {
 namespace {
 
-using Plane = std::array<double, 2>;
+using InPlane = std::array<double, 2>;
 
-double turn(const Plane& p, const Plane& q) { return p[0] * q[1] - p[1] * q[0]; }
+double turn(const InPlane& p, const InPlane& q) { return p[0] * q[1] - p[1] * q[0]; }
 
 // Strictly between the sides of the wedge from p to q, which is less than half a circle.
-bool inside(const Plane& p, const Plane& q, const Plane& x) {
+bool inside(const InPlane& p, const InPlane& q, const InPlane& x) {
   const double way = turn(p, q) < 0 ? -1 : 1;
   return way * turn(p, x) > 0 && way * turn(x, q) > 0;
 }
 
-Plane middle(const Plane& p, const Plane& q) {
+InPlane middle(const InPlane& p, const InPlane& q) {
   const double l = std::hypot(p[0], p[1]), m = std::hypot(q[0], q[1]);
   return {p[0] / l + q[0] / m, p[1] / l + q[1] / m};
 }
 
 struct Sides {
   Index a, b;
-  Plane pa, pb;
+  InPlane pa, pb;
 };
 
 bool overlap(const Sides& s, const Sides& t) {
@@ -118,13 +118,13 @@ bool SheetWedges::has_room(Index place, Index a, Index b) const {
 
 Index SheetWedges::next_around(Index place, Index u, Index w) const {
   const Axes plane = axes(place);
-  const Plane pu = flat(plane, place, u);
+  const InPlane pu = flat(plane, place, u);
   const double way = turn(pu, flat(plane, place, w)) > 0 ? -1 : 1;
   Index next = none;
   double least = 3 * std::numbers::pi;
   const auto look = [&](Index x) {
     if (x == u) return;
-    const Plane p = flat(plane, place, x);
+    const InPlane p = flat(plane, place, x);
     double angle = std::atan2(way * turn(pu, p), pu[0] * p[0] + pu[1] * p[1]);
     if (angle < 0) angle += 2 * std::numbers::pi;
     if (angle < least) least = angle, next = x;
@@ -144,7 +144,7 @@ double SheetWedges::notch(Index place, Triangle& t) const {
   double taken = 0;
   std::vector<Index> ends;
   around(place, [&](const Wedge& w) {
-    const Plane p = flat(plane, place, w.a), q = flat(plane, place, w.b);
+    const InPlane p = flat(plane, place, w.a), q = flat(plane, place, w.b);
     taken += std::abs(std::atan2(turn(p, q), p[0] * q[0] + p[1] * q[1]));
     for (const Index end : {w.a, w.b})
       if (only_triangle(place, end) != none) ends.push_back(end);
@@ -153,7 +153,7 @@ double SheetWedges::notch(Index place, Triangle& t) const {
   if (!same_sheet(places_, frames_, rule_, ends[0], ends[1])) return none_there;
   t = {place, ends[0], ends[1]};
   std::sort(t.begin(), t.end());
-  const Plane a = flat(plane, place, ends[0]), b = flat(plane, place, ends[1]);
+  const InPlane a = flat(plane, place, ends[0]), b = flat(plane, place, ends[1]);
   if (a[0] * b[0] + a[1] * b[1] > 0) return none_there;  // the end of a slit
   return std::abs(turn(a, b)) / std::hypot(b[0] - a[0], b[1] - a[1]) /
          static_cast<double>(frames_[place].reach);

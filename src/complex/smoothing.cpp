@@ -10,6 +10,7 @@
 #include <plexway/error.hpp>
 
 #include "complex/local_frame.hpp"
+#include "complex/median.hpp"
 #include "complex/neighbourhood.hpp"
 
 namespace plexway {
@@ -17,13 +18,9 @@ namespace {
 
 constexpr int terms = 6;
 constexpr std::size_t fewest = terms + 2;  // points around: with fewer, a quadric meets them all
-constexpr std::size_t block = 1024;
+constexpr std::size_t smoothing_block = 1024;
 
 using Terms = Eigen::Matrix<double, terms, 1>;
-
-double dot(const std::array<double, 3>& a, const std::array<double, 3>& b) {
-  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
 
 /// A surface over the tangent plane, of second order, that fits a neighbourhood best.
 class Quadric {
@@ -96,12 +93,9 @@ double deviation2(const Neighbourhood& around) {
 }
 
 /// Of those that are not negative; 0 without any.
-double median(std::vector<double>& values) {
+double known_median(std::vector<double>& values) {
   std::erase_if(values, [](double v) { return v < 0; });
-  if (values.empty()) return 0;
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
+  return values.empty() ? 0 : median(values);
 }
 
 }  // namespace
@@ -112,7 +106,7 @@ double noise_level(std::span<const std::array<double, 3>> points, const Neighbou
   // Squares: of the deviation among the nearer half and among all, and of their radii in
   // proportion.
   std::vector<double> near(points.size(), -1), all = near, wider = near;
-  for_blocks(points.size(), block, threads, {}, [&](std::size_t first, std::size_t last) {
+  for_blocks(points.size(), smoothing_block, threads, {}, [&](std::size_t first, std::size_t last) {
     Neighbourhood around;
     for (std::size_t i = first; i < last; ++i) {
       around.set_neighbours(points, neighbours, static_cast<Index>(i));
@@ -126,7 +120,8 @@ double noise_level(std::span<const std::array<double, 3>> points, const Neighbou
       wider[i] = radius / around.mean_square;
     }
   });
-  const double variance = median(near), spread = median(all), ratio = median(wider);
+  const double variance = known_median(near), spread = known_median(all),
+               ratio = known_median(wider);
   if (!(variance > 0)) return 0;
   // Noise is the same at both scales. What a smooth surface has beyond second order grows with the
   // third power of the radius.
@@ -150,7 +145,7 @@ std::vector<std::array<double, 3>> smooth(std::span<const std::array<double, 3>>
     std::function<bool(double)> progress;
     if (options.progress)
       progress = [&](double share) { return options.progress((round + share) / options.rounds); };
-    for_blocks(now.size(), block, options.threads, progress,
+    for_blocks(now.size(), smoothing_block, options.threads, progress,
                [&](std::size_t first, std::size_t last) {
                  Neighbourhood around;
                  for (std::size_t i = first; i < last; ++i) {

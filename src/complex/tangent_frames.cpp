@@ -9,7 +9,7 @@
 namespace plexway {
 namespace {
 
-constexpr std::size_t block = 1024;
+constexpr std::size_t frame_block = 1024;
 
 // A symmetric matrix: xx, yy, zz, xy, xz, yz.
 using Symmetric = std::array<double, 6>;
@@ -167,10 +167,11 @@ class Frames {
   };
   template <class Visit>
   void for_all(const std::function<bool(double)>& progress, const Visit& visit) const {
-    for_blocks(frames_.size(), block, threads_, progress, [&](std::size_t first, std::size_t last) {
-      Room room;
-      for (std::size_t i = first; i < last; ++i) visit(static_cast<Index>(i), room);
-    });
+    for_blocks(frames_.size(), frame_block, threads_, progress,
+               [&](std::size_t first, std::size_t last) {
+                 Room room;
+                 for (std::size_t i = first; i < last; ++i) visit(static_cast<Index>(i), room);
+               });
   }
 
   [[nodiscard]] bool is_given(Index i) const {

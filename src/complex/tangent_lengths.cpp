@@ -4,19 +4,22 @@
 #include <cmath>
 #include <vector>
 
+#include "complex/median.hpp"
+
 namespace plexway {
 namespace {
 
 constexpr double least_cosine = 0.9;  // of the angle between two normals
 
-struct Edge {
+struct TangentEdge {
   double square, height;  // length and height, squared
   bool known;
 };
 
-Edge edge_between(const Places& places, std::span<const TangentFrame> frames, Index a, Index b) {
+TangentEdge edge_between(const Places& places, std::span<const TangentFrame> frames, Index a,
+                         Index b) {
   const Point3 q = minus(places.at[b], places.at[a]);
-  Edge edge = {dot(q, q), 0, false};
+  TangentEdge edge = {dot(q, q), 0, false};
   if (a >= frames.size() || b >= frames.size()) return edge;  // a place that is no point
   const auto &m = frames[a].normal, &n = frames[b].normal;
   const double cosine = dot(m, n);
@@ -30,12 +33,6 @@ Edge edge_between(const Places& places, std::span<const TangentFrame> frames, In
   return edge;
 }
 
-double median(std::vector<double>& values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
 }  // namespace
 
 HeightNoise height_noise(const Places& places, std::span<const TangentFrame> frames) {
@@ -44,7 +41,7 @@ HeightNoise height_noise(const Places& places, std::span<const TangentFrame> fra
   const std::size_t n = places.near.point_count();
   for (std::size_t i = 0; i < n; i += n / sampled + 1)
     for (const Index j : places.near.around(static_cast<Index>(i))) {
-      const Edge e = edge_between(places, frames, static_cast<Index>(i), j);
+      const TangentEdge e = edge_between(places, frames, static_cast<Index>(i), j);
       const double spacing = static_cast<double>(frames[i].spacing);
       const double length = std::sqrt(e.square) / spacing;
       if (!e.known) continue;
@@ -66,7 +63,7 @@ HeightNoise height_noise(const Places& places, std::span<const TangentFrame> fra
 
 double tangent_length(const Places& places, std::span<const TangentFrame> frames, Index a, Index b,
                       double share) {
-  const Edge e = edge_between(places, frames, a, b);
+  const TangentEdge e = edge_between(places, frames, a, b);
   return std::sqrt(std::max(e.square - share * e.height, 0.0));
 }
 

@@ -10,7 +10,7 @@ namespace {
 
 // A path may bend at an edge with more than pi of solid around it (2 pi inside a metric that is not
 // flat). The excess is rounding on flat boundaries of files with seven digits.
-constexpr double excess = 1e-5;
+constexpr double angle_tolerance = 1e-5;
 
 double dihedral(const TetPoints& p, Index i, Index j, Index k, Index l) {
   const auto edge = p[j] - p[i];
@@ -206,12 +206,12 @@ bool TetEdgeFans::is_reflex(Index a, Index b) const {
       const Vector3<double> other = cross(edge, y);
       if (side == 0 || n + 1 < apexes_.size() || !(dot(normal, other) < 0)) break;
       const double beyond = (side < 0 ? height : -height) * norm(edge);
-      return beyond > excess * norm(normal) * norm(other);
+      return beyond > angle_tolerance * norm(normal) * norm(other);
     }
   }
   double angle = 0;
   for (const Index t : fan_) angle += dihedral_at(t, a, b);
-  return angle > std::numbers::pi + excess;
+  return angle > std::numbers::pi + angle_tolerance;
 }
 
 double TetEdgeFans::dihedral_at(Index t, Index a, Index b) const {
@@ -224,7 +224,7 @@ double TetEdgeFans::dihedral_at(Index t, Index a, Index b) const {
 void TetEdgeFans::closed(Index a, Index b, std::span<const Index> around) {
   double angle = 0;
   for (const Index t : around) angle += dihedral_at(t, a, b);
-  if (angle > 2 * std::numbers::pi + excess) {
+  if (angle > 2 * std::numbers::pi + angle_tolerance) {
     found_.reflex.emplace_back().vertex = {a, b};
   }
 }

@@ -11,12 +11,12 @@
 namespace plexway {
 namespace {
 
-using Corners = TetSolid::Corners;
+using SolidCorners = TetSolid::Corners;
 
 class Finder {
  public:
-  Finder(Corners corner, Corners across, const TetCorners& corners, const TetPlaces& places,
-         int threads)
+  Finder(SolidCorners corner, SolidCorners across, const TetCorners& corners,
+         const TetPlaces& places, int threads)
       : solid_{corner, across, corners, places, {}},
         vertices_(corners.vertices()),
         threads_(threads),
@@ -233,7 +233,7 @@ class Finder {
 
 }  // namespace
 
-TetTopology find_tet_topology(Corners corner, Corners across, const TetCorners& corners,
+TetTopology find_tet_topology(SolidCorners corner, SolidCorners across, const TetCorners& corners,
                               const TetPlaces& places, int threads) {
   return Finder(corner, across, corners, places, threads).find();
 }

@@ -22,7 +22,7 @@
 namespace plexway {
 namespace {
 
-Index next(Index i) { return i == 2 ? 0 : i + 1; }
+Index next_side(Index i) { return i == 2 ? 0 : i + 1; }
 
 void check_faces(std::size_t vertices, Faces faces, int threads) {
   if (faces.empty()) throw InputError("the surface has no faces");
@@ -50,7 +50,7 @@ void check_corners(Faces faces, int threads) {
       const auto& [a, b, c] = faces[f];
       if (a != b && b != c && c != a) continue;
       for (Index i = 0; i < 3; ++i)
-        if (faces[f][i] == faces[f][next(i)])
+        if (faces[f][i] == faces[f][next_side(i)])
           throw InputError("face " + std::to_string(f) + ": vertex " + std::to_string(faces[f][i]) +
                            " occurs twice");
     }
@@ -80,7 +80,7 @@ void around_edge(GluingView across, Index h, Visit visit) {
 }
 
 // Both sides of an edge must agree to the last bit: the mean of what they say.
-void agree_on_edges(Lengths& lengths, GluingView across) {
+void agree_on_sides(Lengths& lengths, GluingView across) {
   for (Index h = 0; h < lengths.size() * 3; ++h) {
     double sum = 0;
     int count = 0;
@@ -181,7 +181,7 @@ TriangleMesh<Real>::TriangleMesh(std::size_t vertices, std::span<const std::arra
                          ": an edge length is negative or not finite");
   check_gluing(faces, across);
   std::vector<std::array<double, 3>> agreed(lengths.begin(), lengths.end());
-  if (!hints.refracts) agree_on_edges(agreed, across);
+  if (!hints.refracts) agree_on_sides(agreed, across);
   std::vector<char> violated(faces.size(), 0);
   for (std::size_t f = 0; f < faces.size(); ++f) violated[f] = longest_excess(agreed[f]) > 0;
   if (hints.refracts)

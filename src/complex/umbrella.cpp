@@ -10,15 +10,16 @@
 #include <plexway/complex/blocks.hpp>
 
 #include "complex/crease.hpp"
+#include "complex/median.hpp"
 #include "complex/spoke_hull.hpp"
 
 namespace plexway {
 namespace {
 
-constexpr std::size_t block = 1024;
+constexpr std::size_t umbrella_block = 1024;
 
 // By a root: std::hypot costs ten times as much, and images are inverse squares as it is.
-double length(double x, double y) { return std::sqrt(x * x + y * y); }
+double norm2(double x, double y) { return std::sqrt(x * x + y * y); }
 
 // How much normals turn around places: where that is little there is no crease, without a look at
 // each pair.
@@ -29,16 +30,17 @@ class Bends {
 
   Bends(const Places& places, std::span<const TangentFrame> frames, int threads)
       : frames_(frames), sines_(frames.size()) {
-    for_blocks(frames.size(), block, threads, {}, [&](std::size_t first, std::size_t last) {
-      for (Index p = static_cast<Index>(first); p < last; ++p) {
-        double least_square = 1;
-        for (const Index q : places.near.around(p)) {
-          const double cosine = dot(frames[p].normal, frames[q].normal);
-          least_square = std::min(least_square, cosine * cosine);
-        }
-        sines_[p] = static_cast<float>(std::sqrt(1 - least_square));
-      }
-    });
+    for_blocks(frames.size(), umbrella_block, threads, {},
+               [&](std::size_t first, std::size_t last) {
+                 for (Index p = static_cast<Index>(first); p < last; ++p) {
+                   double least_square = 1;
+                   for (const Index q : places.near.around(p)) {
+                     const double cosine = dot(frames[p].normal, frames[q].normal);
+                     least_square = std::min(least_square, cosine * cosine);
+                   }
+                   sines_[p] = static_cast<float>(std::sqrt(1 - least_square));
+                 }
+               });
   }
 
   // The largest sine of the angle between the normal of a place and those of its neighbours.
@@ -116,7 +118,7 @@ class Umbrella {
       // Half the inverse of the circle's radius is how far the hull's edge is from the place.
       const double turn = a.u * b.v - a.v * b.u;
       const bool wedge = hull_.size() > 2 || (hull_.size() == 2 && turn > 0);
-      const bool triangle = wedge && turn > least(place, a, b) * length(b.u - a.u, b.v - a.v);
+      const bool triangle = wedge && turn > least(place, a, b) * norm2(b.u - a.u, b.v - a.v);
       ring.push_back(a.place | (triangle ? 0 : Umbrellas::gap));
     }
     drop_lonely(ring, start);
@@ -192,7 +194,7 @@ class Umbrella {
     spokes_.resize(static_cast<std::size_t>(end - spokes_.data()));
     // All neighbours within this are known; a list made symmetric is longer than it is complete.
     const std::size_t known = spokes_.size() * 2 / 3;
-    known_ = spokes_.empty() ? 0 : length(spokes_[known].x, spokes_[known].y);
+    known_ = spokes_.empty() ? 0 : norm2(spokes_[known].x, spokes_[known].y);
   }
 
   // Circles that reach beyond what is known of the neighbours are looked through for neighbours
@@ -202,7 +204,7 @@ class Umbrella {
     for (std::size_t i = 0; i < hull_.size(); ++i) {
       const std::size_t j = i + 1 == hull_.size() ? 0 : i + 1;
       const Spoke a = spokes_[hull_[i]], b = spokes_[hull_[j]];
-      const double eu = b.u - a.u, ev = b.v - a.v, e = length(eu, ev);
+      const double eu = b.u - a.u, ev = b.v - a.v, e = norm2(eu, ev);
       const double turn = a.u * b.v - a.v * b.u;  // e by the inverse of the circle's width
       if (turn * known_ > e) continue;
       const Outside outside(a, eu, ev, e);
@@ -214,7 +216,7 @@ class Umbrella {
           Spoke spoke;
           if (outside.holds(at[0], at[1]) || !set_spoke(at, c, spoke)) continue;
           const double u = spoke.u - a.u, v = spoke.v - a.v;
-          if (!(eu * v - ev * u < -1e-9 * e * length(u, v))) continue;
+          if (!(eu * v - ev * u < -1e-9 * e * norm2(u, v))) continue;
           if (std::any_of(spokes_.begin(), spokes_.end(),
                           [&](const Spoke& s) { return s.place == c; }))
             continue;
@@ -260,12 +262,12 @@ Umbrellas local_umbrellas(const Places& places, std::span<const TangentFrame> fr
   const std::size_t n = places.at.size();
   Umbrellas umbrellas;
   umbrellas.begin.assign(n + 1, 0);
-  std::vector<std::vector<Index>> found((n + block - 1) / block);
+  std::vector<std::vector<Index>> found((n + umbrella_block - 1) / umbrella_block);
   std::atomic<std::size_t> refused = 0;
   const Bends bends(places, frames, threads);
-  for_blocks(n, block, threads, progress, [&](std::size_t first, std::size_t last) {
+  for_blocks(n, umbrella_block, threads, progress, [&](std::size_t first, std::size_t last) {
     Umbrella umbrella(places, frames, rule, bends, widest);
-    std::vector<Index>& rings = found[first / block];
+    std::vector<Index>& rings = found[first / umbrella_block];
     rings.reserve((last - first) * 7);
     for (std::size_t i = first; i < last; ++i) {
       const std::size_t before = rings.size();
@@ -310,11 +312,8 @@ double median_of_few(std::span<const double> values) {
   return v[values.size() / 2];
 }
 
-double median(std::vector<double>& values) {
-  if (values.size() <= 8) return median_of_few(values);
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
+double median_of(std::vector<double>& values) {
+  return values.size() <= 8 ? median_of_few(values) : median(values);
 }
 
 }  // namespace
@@ -323,7 +322,7 @@ void set_reach(const Places& places, const Umbrellas& umbrellas, int threads,
                std::span<TangentFrame> frames) {
   constexpr double wide = 1.1, more = 1.3;
   std::vector<double> usual(frames.size(), 0);
-  for_blocks(frames.size(), block, threads, {}, [&](std::size_t first, std::size_t last) {
+  for_blocks(frames.size(), umbrella_block, threads, {}, [&](std::size_t first, std::size_t last) {
     std::vector<double> circles;
     for (Index p = static_cast<Index>(first); p < last; ++p) {
       const auto ring = umbrellas.around(p);
@@ -334,15 +333,15 @@ void set_reach(const Places& places, const Umbrellas& umbrellas, int threads,
         circles.push_back(circle_radius(minus(places.at[ring[i]], places.at[p]),
                                         minus(places.at[next], places.at[p])));
       }
-      if (!circles.empty()) usual[p] = median(circles);
+      if (!circles.empty()) usual[p] = median_of(circles);
     }
   });
-  for_blocks(frames.size(), block, threads, {}, [&](std::size_t first, std::size_t last) {
+  for_blocks(frames.size(), umbrella_block, threads, {}, [&](std::size_t first, std::size_t last) {
     std::vector<double> around;
     for (Index p = static_cast<Index>(first); p < last; ++p) {
       around.assign(1, usual[p]);
       for (const Index q : umbrellas.around(p)) around.push_back(usual[q & ~Umbrellas::gap]);
-      const double circle = median(around), spacing = static_cast<double>(frames[p].spacing);
+      const double circle = median_of(around), spacing = static_cast<double>(frames[p].spacing);
       frames[p].reach =
           circle > wide * spacing ? static_cast<float>(more * circle) : frames[p].spacing;
     }

@@ -26,6 +26,10 @@ struct TangentFrame {
   float reach = 0;              ///< what the circles of triangles are measured in: see set_reach
 };
 
+inline Point3 normal_of(const TangentFrame& frame) {
+  return {frame.normal[0], frame.normal[1], frame.normal[2]};
+}
+
 /// Which neighbours are on the same sheet.
 struct SheetRule {
   double most_offset;   ///< from the tangent planes, in spacings

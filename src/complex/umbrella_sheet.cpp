@@ -12,7 +12,7 @@
 namespace plexway {
 namespace {
 
-constexpr std::size_t block = 1024;
+constexpr std::size_t sheet_block = 1024;
 using Triangle = SheetWedges::Triangle;
 
 struct Candidate {
@@ -94,16 +94,16 @@ class VoteCount {
 
 void add_umbrellas(const Umbrellas& umbrellas, int threads, SheetWedges& sheet) {
   const std::size_t n = umbrellas.begin.size() - 1;
-  std::vector<Votes> found((n + block - 1) / block);
+  std::vector<Votes> found((n + sheet_block - 1) / sheet_block);
   VoteCount count(umbrellas, sheet);
-  for_blocks(n, block, threads, {}, [&](std::size_t first, std::size_t last) {
-    Votes& votes = found[first / block];
+  for_blocks(n, sheet_block, threads, {}, [&](std::size_t first, std::size_t last) {
+    Votes& votes = found[first / sheet_block];
     votes.agreed.reserve(2 * (last - first));
     for (Index p = static_cast<Index>(first); p < last; ++p) count.count_lowest(p, votes);
   });
-  for_blocks(n, block, threads, {}, [&](std::size_t first, std::size_t last) {
+  for_blocks(n, sheet_block, threads, {}, [&](std::size_t first, std::size_t last) {
     for (Index p = static_cast<Index>(first); p < last; ++p)
-      count.count_others(p, found[first / block]);
+      count.count_others(p, found[first / sheet_block]);
   });
   std::size_t agreed = 0;
   for (const Votes& votes : found) agreed += votes.agreed.size();

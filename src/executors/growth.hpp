@@ -28,10 +28,10 @@ namespace plexway {
 
 /// A dual queue that keeps a list of what came to wait, the latest as many as there is room for.
 template <class Real>
-class LoggedQueue {
+class RecentQueue {
  public:
   /// `room` is a power of two.
-  LoggedQueue(FrontStorage& storage, Real step, Index* log, std::size_t room)
+  RecentQueue(FrontStorage& storage, Real step, Index* log, std::size_t room)
       : queue_(storage, step), log_(log), mask_(room - 1) {}
   /// Written in any case and kept if wanted: no branch to mispredict.
   [[gnu::always_inline]] void push(Index simplex, Real distance, bool wanted = true) {
@@ -61,7 +61,7 @@ class LoggedQueue {
 template <class Derived, class Real, class Complex, class Label>
 class GrowthBase {
  public:
-  using Queue = LoggedQueue<Real>;
+  using Queue = RecentQueue<Real>;
   using Wave = Wavefront<Real, Label, Queue, true>;
 
   [[nodiscard]] const Complex& complex() const { return complex_; }

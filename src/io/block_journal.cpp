@@ -32,7 +32,7 @@ std::string one_line(std::string text) {
   return text;
 }
 
-std::string header_of(const BlockJournal::Description& description, std::size_t blocks) {
+std::string journal_header_of(const BlockJournal::Description& description, std::size_t blocks) {
   std::string text(first_line);
   for (const auto& [name, value] : description)
     text += one_line(name) + ": " + one_line(value) + "\n";
@@ -89,7 +89,7 @@ BlockJournal::BlockJournal(const std::filesystem::path& out, const Description& 
     : BlockJournal(out) {
   finished_.assign(blocks, 0);
   place_.resize(blocks);
-  read(header_of(description, blocks));
+  read(journal_header_of(description, blocks));
 }
 
 void BlockJournal::discard(const std::filesystem::path& out) {

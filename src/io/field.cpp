@@ -12,12 +12,12 @@
 namespace plexway::io {
 namespace {
 
-using Writer = void (*)(OutputFile&, const Field&);
+using FieldWriter = void (*)(OutputFile&, const Field&);
 
-constexpr std::array<std::string_view, 7> extensions = {".csv", ".npy", ".ply", ".vtk",
-                                                        ".vtu", ".glb", ".gltf"};
-constexpr std::array<Writer, 7> writers = {write_csv, write_npy, write_ply, write_vtk,
-                                           write_vtu, write_glb, write_gltf};
+constexpr std::array<std::string_view, 7> field_suffixes = {".csv", ".npy", ".ply", ".vtk",
+                                                            ".vtu", ".glb", ".gltf"};
+constexpr std::array<FieldWriter, 7> field_writers = {write_csv, write_npy, write_ply, write_vtk,
+                                                      write_vtu, write_glb, write_gltf};
 constexpr std::size_t without_positions = 2;  ///< so many at the front need none
 
 void require_length(std::string_view what, std::size_t length, std::size_t vertices) {
@@ -28,7 +28,7 @@ void require_length(std::string_view what, std::size_t length, std::size_t verti
 
 }  // namespace
 
-std::span<const std::string_view> field_extensions() { return extensions; }
+std::span<const std::string_view> field_extensions() { return field_suffixes; }
 
 void write_field_of(const std::filesystem::path& file, const Field& field) {
   require_length("distances", field.distance.size(), field.vertices);
@@ -37,17 +37,17 @@ void write_field_of(const std::filesystem::path& file, const Field& field) {
     require_length("original numbers", field.original.size(), field.vertices);
   if (!field.error.empty()) require_length("errors", field.error.size(), field.vertices);
   const std::string extension = lower_extension(file);
-  for (std::size_t i = 0; i < extensions.size(); ++i) {
-    if (extension != extensions[i]) continue;
+  for (std::size_t i = 0; i < field_suffixes.size(); ++i) {
+    if (extension != field_suffixes[i]) continue;
     if (i >= without_positions && field.positions.size() != field.vertices)
       throw UsageError(file.string() + ": " + extension +
                        " needs positions, and these vertices have none; .csv and .npy do without");
     OutputFile out(file);
-    writers[i](out, field);
+    field_writers[i](out, field);
     out.commit();
     return;
   }
-  throw UsageError(unknown_extension(file, extensions));
+  throw UsageError(unknown_extension(file, field_suffixes));
 }
 
 void write_field(const std::filesystem::path& file, const Triangles& surface,

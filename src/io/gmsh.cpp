@@ -304,7 +304,7 @@ class GmshReader {
 };
 
 /// Reads the line under $MeshFormat and leaves the scanner on the next.
-Format read_format(TextScanner& scanner) {
+Format read_gmsh_format(TextScanner& scanner) {
   if (!scanner.to_content()) scanner.fail("expected $MeshFormat, found the end of the file");
   const std::string_view word = scanner.field();
   if (word == "$NOD") scanner.fail("version 1 of .msh is not read; save it as version 4.1 or 2.2");
@@ -324,9 +324,10 @@ Format read_format(TextScanner& scanner) {
   return format;
 }
 
-Mixed parse(std::string_view bytes, std::string_view name, Take take, Regions* regions = nullptr) {
+Mixed parse_gmsh_body(std::string_view bytes, std::string_view name, Take take,
+                      Regions* regions = nullptr) {
   TextScanner scanner(bytes, name);
-  const Format format = read_format(scanner);
+  const Format format = read_gmsh_format(scanner);
   const bool version4 = format.version > 3;
   if (!format.binary) {
     if (!scanner.to_content() || scanner.field() != "$EndMeshFormat")
@@ -349,20 +350,20 @@ Mixed parse(std::string_view bytes, std::string_view name, Take take, Regions* r
 }  // namespace
 
 Tets parse_gmsh(std::string_view bytes, std::string_view name) {
-  return tets_of(parse(bytes, name, Take::tets));
+  return tets_of(parse_gmsh_body(bytes, name, Take::tets));
 }
 
 Mixed parse_gmsh_cells(std::string_view bytes, std::string_view name) {
-  return parse(bytes, name, Take::any);
+  return parse_gmsh_body(bytes, name, Take::any);
 }
 
 Mixed parse_gmsh_mixed(std::string_view bytes, std::string_view name) {
-  return parse(bytes, name, Take::mixed);
+  return parse_gmsh_body(bytes, name, Take::mixed);
 }
 
 Regions parse_gmsh_regions(std::string_view bytes, std::string_view name, Take take) {
   Regions regions;
-  (void)parse(bytes, name, take, &regions);
+  (void)parse_gmsh_body(bytes, name, take, &regions);
   return regions;
 }
 

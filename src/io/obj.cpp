@@ -33,8 +33,8 @@ constexpr ObjElement face = {"face", "a vertex of the face"};
 
 /// Reads all statements. A face may name vertices that come later, so `limit` is the number of
 /// vertices of the whole file, if known. Returns one more than the highest vertex named.
-std::uint64_t read_statements(std::string_view text, std::string_view name, std::uint64_t limit,
-                              Triangles& surface) {
+std::uint64_t read_obj_statements(std::string_view text, std::string_view name, std::uint64_t limit,
+                                  Triangles& surface) {
   TextScanner scanner(text, name, TextScanner::Backslash::joins_lines);
   std::uint64_t needed = 0;
   std::size_t faces = 0;
@@ -61,14 +61,14 @@ std::uint64_t read_statements(std::string_view text, std::string_view name, std:
 Triangles parse_obj(std::string_view text, std::string_view name) {
   Triangles surface;
   reserve_by_lines(text, surface);
-  const std::uint64_t needed = read_statements(text, name, no_limit, surface);
+  const std::uint64_t needed = read_obj_statements(text, name, no_limit, surface);
   require_faces(surface, name);
   const std::size_t vertices = surface.positions.size();
   if (needed > vertices) {
     // Some face names a vertex that never came. Only now that is certain; the second reading
     // stops at its line.
     surface = {};
-    read_statements(text, name, vertices, surface);
+    read_obj_statements(text, name, vertices, surface);
   }
   return surface;
 }

@@ -22,7 +22,7 @@ struct Paths {
   [[nodiscard]] auto end() const { return all.end(); }
 };
 
-constexpr std::array<std::string_view, 4> extensions = {".obj", ".ply", ".vtp", ".json"};
+constexpr std::array<std::string_view, 4> path_suffixes = {".obj", ".ply", ".vtp", ".json"};
 
 std::size_t count_points(const Paths& paths) {
   std::size_t count = 0;
@@ -30,19 +30,19 @@ std::size_t count_points(const Paths& paths) {
   return count;
 }
 
-void write_row(OutputFile& out, const std::array<double, 3>& p, std::string_view between) {
+void write_path_row(OutputFile& out, const std::array<double, 3>& p, std::string_view between) {
   for (std::size_t i = 0; i < 3; ++i) {
     if (i > 0) out.write(between);
     out.write_text(p[i]);
   }
 }
 
-void write_obj(OutputFile& out, const Paths& paths) {
+void write_path_obj(OutputFile& out, const Paths& paths) {
   out.write("# geodesic paths by plexway\n");
   for (const Path& path : paths)
     for (const auto& p : path.positions) {
       out.write("v ");
-      write_row(out, p, " ");
+      write_path_row(out, p, " ");
       out.write("\n");
     }
   std::size_t next = 1;
@@ -68,7 +68,7 @@ void write_ply(OutputFile& out, const Paths& paths) {
             std::to_string(edges) + "\nproperty int vertex1\nproperty int vertex2\nend_header\n");
   for (const Path& path : paths)
     for (const auto& p : path.positions) {
-      write_row(out, p, " ");
+      write_path_row(out, p, " ");
       out.write("\n");
     }
   std::size_t next = 0;
@@ -99,7 +99,7 @@ void write_vtp(OutputFile& out, const Paths& paths) {
       "<DataArray type=\"Float64\" NumberOfComponents=\"3\" format=\"ascii\">\n");
   for (const Path& path : paths)
     for (const auto& p : path.positions) {
-      write_row(out, p, " ");
+      write_path_row(out, p, " ");
       out.write("\n");
     }
   out.write("</DataArray>\n</Points>\n<Lines>\n");
@@ -178,7 +178,7 @@ void write_json(OutputFile& out, const Paths& paths) {
     out.write("], \"positions\": [");
     for (std::size_t i = 0; i < path.positions.size(); ++i) {
       out.write(i == 0 ? "[" : ", [");
-      write_row(out, path.positions[i], ", ");
+      write_path_row(out, path.positions[i], ", ");
       out.write("]");
     }
     out.write("]}");
@@ -186,28 +186,29 @@ void write_json(OutputFile& out, const Paths& paths) {
   out.write("\n]}\n");
 }
 
-using Writer = void (*)(OutputFile&, const Paths&);
-constexpr std::array<Writer, 4> writers = {write_obj, write_ply, write_vtp, write_json};
+using PathWriter = void (*)(OutputFile&, const Paths&);
+constexpr std::array<PathWriter, 4> path_writers = {write_path_obj, write_ply, write_vtp,
+                                                    write_json};
 
 void write_lines(const std::filesystem::path& file, const Paths& paths) {
   const std::string extension = lower_extension(file);
-  for (std::size_t i = 0; i < extensions.size(); ++i) {
-    if (extension != extensions[i]) continue;
+  for (std::size_t i = 0; i < path_suffixes.size(); ++i) {
+    if (extension != path_suffixes[i]) continue;
     for (const Path& path : paths)
       if (extension != ".json" && path.positions.size() != path.points.size())
         throw UsageError(file.string() +
                          ": the vertices have no positions; only .json can hold these paths");
     OutputFile out(file);
-    writers[i](out, paths);
+    path_writers[i](out, paths);
     out.commit();
     return;
   }
-  throw UsageError(unknown_extension(file, extensions));
+  throw UsageError(unknown_extension(file, path_suffixes));
 }
 
 }  // namespace
 
-std::span<const std::string_view> path_extensions() { return extensions; }
+std::span<const std::string_view> path_extensions() { return path_suffixes; }
 
 void write_paths(const std::filesystem::path& file, std::span<const Path> paths) {
   write_lines(file, {paths});

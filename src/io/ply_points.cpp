@@ -37,7 +37,7 @@ struct Normals {
 };
 
 template <class Source>
-Points read_body(Source source, const PlyHeader& header, const PlyVertex& vertex) {
+Points read_point_body(Source source, const PlyHeader& header, const PlyVertex& vertex) {
   const Normals normals(*vertex.element);
   Points points;
   const auto begin = [&](const PlyElement& element) {
@@ -64,8 +64,8 @@ Points parse_ply_points(std::string_view bytes, std::string_view name) {
   const PlyHeader header = parse_ply_header(bytes, name);
   const PlyVertex vertex(header, name);
   Points points = header.format == PlyFormat::ascii
-                      ? read_body(PlyText(bytes, name, header), header, vertex)
-                      : read_body(PlyBytes(bytes, name, header), header, vertex);
+                      ? read_point_body(PlyText(bytes, name, header), header, vertex)
+                      : read_point_body(PlyBytes(bytes, name, header), header, vertex);
   if (points.positions.empty())
     throw InputError(std::string(name) + ": has no vertices; a cloud needs at least one point");
   return points;

@@ -11,11 +11,11 @@ namespace plexway::io {
 namespace {
 
 namespace fs = std::filesystem;
-using Parser = Points (*)(std::string_view, std::string_view);
+using PointParser = Points (*)(std::string_view, std::string_view);
 
-constexpr std::array<std::string_view, 5> extensions = {".xyz", ".ply", ".csv", ".las", ".laz"};
-constexpr std::array<Parser, 5> parsers = {parse_xyz, parse_ply_points, parse_csv_points, parse_las,
-                                           parse_las};
+constexpr std::array<std::string_view, 5> point_suffixes = {".xyz", ".ply", ".csv", ".las", ".laz"};
+constexpr std::array<PointParser, 5> point_parsers = {parse_xyz, parse_ply_points, parse_csv_points,
+                                                      parse_las, parse_las};
 constexpr std::array<std::string_view, 2> output_extensions = {".xyz", ".ply"};
 
 void refuse_pcd(const fs::path& file) {
@@ -25,7 +25,7 @@ void refuse_pcd(const fs::path& file) {
                         "needs libpcl-dev; without it, .ply and .xyz");
 }
 
-void require_sound(const Points& points) {
+void require_sound_points(const Points& points) {
   const auto fail = [](const std::string& cause) { throw UsageError("write_points: " + cause); };
   if (!points.normals.empty() && points.normals.size() != points.positions.size())
     fail(std::to_string(points.normals.size()) + " normals for " +
@@ -68,12 +68,12 @@ void write_ply_cloud(OutputFile& out, const Points& points) {
 
 }  // namespace
 
-std::span<const std::string_view> point_extensions() { return extensions; }
+std::span<const std::string_view> point_extensions() { return point_suffixes; }
 std::span<const std::string_view> point_output_extensions() { return output_extensions; }
 
 Points read_points(const fs::path& file) {
   refuse_pcd(file);
-  return read_by_extension<Points>(file, extensions, parsers);
+  return read_by_extension<Points>(file, point_suffixes, point_parsers);
 }
 
 void write_points(const fs::path& file, const Points& points) {
@@ -82,7 +82,7 @@ void write_points(const fs::path& file, const Points& points) {
   const bool text = extension == output_extensions[0];
   if (!text && extension != output_extensions[1])
     throw UsageError(unknown_extension(file, output_extensions));
-  require_sound(points);
+  require_sound_points(points);
   OutputFile out(file);
   if (text)
     write_xyz(out, points);

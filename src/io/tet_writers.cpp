@@ -12,7 +12,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-void require_sound(const Tets& solid) {
+void require_sound_tets(const Tets& solid) {
   const auto fail = [](const char* what, std::size_t i, const std::string& cause) {
     throw UsageError("write_tets: " + std::string(what) + " " + std::to_string(i) + cause);
   };
@@ -29,7 +29,7 @@ void require_sound(const Tets& solid) {
 
 /// Numbers with blanks between them.
 template <class Numbers>
-void write_row(OutputFile& out, const Numbers& numbers, std::uint32_t base = 0) {
+void write_tet_row(OutputFile& out, const Numbers& numbers, std::uint32_t base = 0) {
   std::string_view separator = "";
   for (const auto number : numbers) {
     out.write(separator);
@@ -54,14 +54,14 @@ void write_pair(const fs::path& file, const Tets& solid) {
   for (std::size_t i = 0; i < solid.positions.size(); ++i) {
     node.write_text(i);
     node.write(" ");
-    write_row(node, solid.positions[i]);
+    write_tet_row(node, solid.positions[i]);
     node.write("\n");
   }
   ele.write(std::to_string(solid.tets.size()) + " 4 0\n");
   for (std::size_t i = 0; i < solid.tets.size(); ++i) {
     ele.write_text(i);
     ele.write(" ");
-    write_row(ele, solid.tets[i]);
+    write_tet_row(ele, solid.tets[i]);
     ele.write("\n");
   }
   node.commit();
@@ -73,12 +73,12 @@ void write_medit(OutputFile& out, const Tets& solid) {
   out.write("MeshVersionFormatted 2\nDimension 3\n\nVertices\n" +
             std::to_string(solid.positions.size()) + "\n");
   for (const auto& position : solid.positions) {
-    write_row(out, position);
+    write_tet_row(out, position);
     out.write(" 0\n");
   }
   out.write("\nTetrahedra\n" + std::to_string(solid.tets.size()) + "\n");
   for (const auto& tet : solid.tets) {
-    write_row(out, tet, 1);
+    write_tet_row(out, tet, 1);
     out.write(" 0\n");
   }
   out.write("\nEnd\n");
@@ -92,14 +92,14 @@ void write_gmsh(OutputFile& out, const Tets& solid) {
   for (std::size_t i = 0; i < solid.positions.size(); ++i) {
     out.write_text(i + 1);
     out.write(" ");
-    write_row(out, solid.positions[i]);
+    write_tet_row(out, solid.positions[i]);
     out.write("\n");
   }
   out.write("$EndNodes\n$Elements\n" + std::to_string(solid.tets.size()) + "\n");
   for (std::size_t i = 0; i < solid.tets.size(); ++i) {
     out.write_text(i + 1);
     out.write(" 4 2 1 1 ");
-    write_row(out, solid.tets[i], 1);
+    write_tet_row(out, solid.tets[i], 1);
     out.write("\n");
   }
   out.write("$EndElements\n");
@@ -108,7 +108,7 @@ void write_gmsh(OutputFile& out, const Tets& solid) {
 }  // namespace
 
 void write_tets(const fs::path& file, const Tets& solid) {
-  require_sound(solid);
+  require_sound_tets(solid);
   const std::string extension = lower_extension(file);
   if (extension == ".node" || extension == ".ele") return write_pair(file, solid);
   const Cells cells = cells_of<4>(10, solid.tets);

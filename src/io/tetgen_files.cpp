@@ -11,7 +11,7 @@
 namespace plexway::io {
 namespace {
 
-std::uint64_t read_count(TextScanner& scanner, std::string_view what) {
+std::uint64_t read_tetgen_count(TextScanner& scanner, std::string_view what) {
   const std::int64_t count = scanner.integer("the number of " + std::string(what));
   if (count < 0)
     scanner.fail("the number of " + std::string(what) + " is negative: " + std::to_string(count));
@@ -64,7 +64,7 @@ Tets parse_node_ele(NamedText node, NamedText ele) {
 
   TextScanner nodes(node.text, node.name);
   if (!nodes.to_content()) nodes.fail("expected the number of vertices, found the end of the file");
-  const std::uint64_t vertices = read_count(nodes, "vertices");
+  const std::uint64_t vertices = read_tetgen_count(nodes, "vertices");
   if (nodes.to_field()) {  // the other three may be missing
     const std::int64_t dimension = nodes.integer("the dimension");
     if (dimension != 3)
@@ -87,8 +87,9 @@ Tets parse_node_ele(NamedText node, NamedText ele) {
   TextScanner elements(ele.text, ele.name);
   if (!elements.to_content())
     elements.fail("expected the number of tetrahedra, found the end of the file");
-  const std::uint64_t tets = read_count(elements, "tetrahedra");
-  const std::uint64_t corners = elements.to_field() ? read_count(elements, "nodes a cell") : 4;
+  const std::uint64_t tets = read_tetgen_count(elements, "tetrahedra");
+  const std::uint64_t corners =
+      elements.to_field() ? read_tetgen_count(elements, "nodes a cell") : 4;
   if (corners != 4 && corners != 10)
     elements.fail("cells have " + std::to_string(corners) +
                   " nodes; a tetrahedron has 4, or 10 when it is quadratic");

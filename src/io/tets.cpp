@@ -12,13 +12,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
-using Parser = Tets (*)(std::string_view, std::string_view);
+using TetParser = Tets (*)(std::string_view, std::string_view);
 
-constexpr std::array<std::string_view, 6> extensions = {".node", ".ele", ".mesh",
-                                                        ".msh",  ".vtu", ".vtk"};
+constexpr std::array<std::string_view, 6> tet_suffixes = {".node", ".ele", ".mesh",
+                                                          ".msh",  ".vtu", ".vtk"};
 /// In the order of the extensions; a pair of files is none of these.
-constexpr std::array<Parser, 6> parsers = {nullptr,    nullptr,   parse_medit,
-                                           parse_gmsh, parse_vtu, parse_vtk};
+constexpr std::array<TetParser, 6> tet_parsers = {nullptr,    nullptr,   parse_medit,
+                                                  parse_gmsh, parse_vtu, parse_vtk};
 
 /// The file beside `file` that makes it whole; its extension may be in capitals.
 fs::path partner(fs::path file, std::string_view lower, std::string_view upper) {
@@ -46,7 +46,7 @@ Tets read_node_ele(const fs::path& file, bool is_node) {
 
 }  // namespace
 
-std::span<const std::string_view> tet_extensions() { return extensions; }
+std::span<const std::string_view> tet_extensions() { return tet_suffixes; }
 
 Tets read_tets(const fs::path& file) {
   const std::string extension = InputName(file).extension;
@@ -54,7 +54,7 @@ Tets read_tets(const fs::path& file) {
   std::error_code ignored;
   if (extension == ".meshb" && !fs::is_directory(file, ignored))
     throw InputError(file.string() + ": binary .meshb is not read; save it as ascii .mesh");
-  return read_by_extension<Tets>(file, extensions, parsers);
+  return read_by_extension<Tets>(file, tet_suffixes, tet_parsers);
 }
 
 }  // namespace plexway::io

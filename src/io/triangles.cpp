@@ -5,22 +5,22 @@
 namespace plexway::io {
 namespace {
 
-using Parser = Triangles (*)(std::string_view, std::string_view);
+using TriangleParser = Triangles (*)(std::string_view, std::string_view);
 
-constexpr std::array<std::string_view, 10> extensions = {
+constexpr std::array<std::string_view, 10> triangle_suffixes = {
     ".obj", ".off", ".ply", ".stl", ".gii",
     // FreeSurfer's files have no extension; these stand behind lh. and rh.
     ".white", ".pial", ".inflated", ".sphere", ".orig"};
-constexpr std::array<Parser, 10> parsers = {
+constexpr std::array<TriangleParser, 10> triangle_parsers = {
     parse_obj,        parse_off,        parse_ply,        parse_stl,        parse_gifti,
     parse_freesurfer, parse_freesurfer, parse_freesurfer, parse_freesurfer, parse_freesurfer};
 
 }  // namespace
 
-std::span<const std::string_view> triangle_extensions() { return extensions; }
+std::span<const std::string_view> triangle_extensions() { return triangle_suffixes; }
 
 Triangles read_triangles(const std::filesystem::path& file) {
-  return read_by_extension<Triangles>(file, extensions, parsers);
+  return read_by_extension<Triangles>(file, triangle_suffixes, triangle_parsers);
 }
 
 }  // namespace plexway::io

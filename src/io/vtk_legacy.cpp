@@ -13,7 +13,7 @@ namespace {
 
 using enum NumberType;
 
-std::string lower(std::string_view word) {
+std::string lower_case(std::string_view word) {
   std::string text(word);
   for (char& c : text)
     if (c >= 'A' && c <= 'Z') c = static_cast<char>(c + ('a' - 'A'));
@@ -32,11 +32,11 @@ class LegacyReader {
     // What comes after these three is data at points and cells.
     while (!(has_points_ && has_cells_ && has_types_)) {
       const std::string_view word = in_.word();
-      const std::string keyword = lower(word);
+      const std::string keyword = lower_case(word);
       if (keyword == "dataset") {
         const std::string_view kind = in_.word();
-        if (lower(kind) == "polydata" && take_ != Take::tets) return read_polydata(version5);
-        if (lower(kind) != "unstructured_grid")
+        if (lower_case(kind) == "polydata" && take_ != Take::tets) return read_polydata(version5);
+        if (lower_case(kind) != "unstructured_grid")
           in_.fail("the dataset is " + quote(kind) +
                    (take_ == Take::tets ? "; tetrahedra need an UNSTRUCTURED_GRID"
                                         : "; read are UNSTRUCTURED_GRID and POLYDATA"));
@@ -85,7 +85,7 @@ class LegacyReader {
     };
     for (;;) {
       const std::string_view word = in_.word();
-      const std::string keyword = lower(word);
+      const std::string keyword = lower_case(word);
       if (keyword.empty()) break;
       if (keyword == "cell_data" || keyword == "point_data") {
         at_cells = keyword == "cell_data";
@@ -115,12 +115,12 @@ class LegacyReader {
         const NumberType type = number_type();
         // How many components, if it says so, and a table of colours.
         std::uint64_t components = 1;
-        std::string next = lower(in_.word());
+        std::string next = lower_case(in_.word());
         if (next != "lookup_table") {
           if (next.size() != 1 || next[0] < '1' || next[0] > '4')
             in_.fail("expected LOOKUP_TABLE, found " + quote(next));
           components = static_cast<std::uint64_t>(next[0] - '0');
-          next = lower(in_.word());
+          next = lower_case(in_.word());
           if (next != "lookup_table") in_.fail("expected LOOKUP_TABLE, found " + quote(next));
         }
         in_.word();
@@ -145,7 +145,7 @@ class LegacyReader {
     if (regions_ != nullptr) no_regions(name_);
     for (;;) {
       const std::string_view word = in_.word();
-      const std::string keyword = lower(word);
+      const std::string keyword = lower_case(word);
       const std::int64_t type = keyword == "vertices"          ? 2
                                 : keyword == "lines"           ? 4
                                 : keyword == "polygons"        ? 7
@@ -181,7 +181,7 @@ class LegacyReader {
 
   NumberType number_type() {
     const std::string_view word = in_.word();
-    const auto type = vtk_number_type(lower(word));
+    const auto type = vtk_number_type(lower_case(word));
     if (!type) in_.fail("numbers of type " + quote(word) + " are not read");
     return *type;
   }
@@ -272,11 +272,12 @@ class LegacyReader {
 
   NumberType list(std::string_view keyword) {
     std::string_view word = in_.word();
-    if (lower(word) == "metadata") {
+    if (lower_case(word) == "metadata") {
       in_.skip_to_blank_line();
       word = in_.word();
     }
-    if (lower(word) != keyword) in_.fail("expected " + quote(keyword) + ", found " + quote(word));
+    if (lower_case(word) != keyword)
+      in_.fail("expected " + quote(keyword) + ", found " + quote(word));
     const NumberType type = number_type();
     in_.end_line();
     return type;
@@ -321,7 +322,7 @@ Mixed parse(std::string_view bytes, std::string_view name, Take take, Regions* r
   };
   constexpr std::string_view magic = "# vtk DataFile Version ";
   bytes = without_mark(bytes);
-  if (!lower(bytes.substr(0, magic.size())).starts_with(lower(magic)))
+  if (!lower_case(bytes.substr(0, magic.size())).starts_with(lower_case(magic)))
     fail(1, "expected '# vtk DataFile Version', found " + quote(bytes.substr(0, bytes.find('\n'))));
   TextScanner first(bytes.substr(magic.size()), name);
   const double version = first.number("the version");
@@ -331,7 +332,7 @@ Mixed parse(std::string_view bytes, std::string_view name, Take take, Regions* r
   if (!scanner.next_line() || !scanner.next_line())
     scanner.fail("the file ends before ASCII or BINARY");
   const std::string_view word = scanner.field();
-  const std::string mode = lower(word);
+  const std::string mode = lower_case(word);
   if (mode != "ascii" && mode != "binary")
     scanner.fail("expected ASCII or BINARY, found " + quote(word));
   scanner.next_line();

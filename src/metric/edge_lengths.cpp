@@ -46,11 +46,12 @@ Point step(const Point& a, const Point& b) { return {b[0] - a[0], b[1] - a[1], b
   throw InputError(std::string(what) + " " + std::to_string(number) +
                    ": its tensor gives the step (" + std::to_string(d[0]) + ", " +
                    std::to_string(d[1]) + ", " + std::to_string(d[2]) +
-                   ") no positive length; tensors must be positive definite");
+                   ") no positive tensor_length; tensors must be positive definite");
 }
 
 // An edge between points at the same place has no length under any tensor.
-double length(const Tensor& tensor, const Point& d, std::string_view what, std::size_t number) {
+double tensor_length(const Tensor& tensor, const Point& d, std::string_view what,
+                     std::size_t number) {
   const double squared = tensor.squared(d);
   const bool is_step = d[0] != 0 || d[1] != 0 || d[2] != 0;
   if (!std::isfinite(squared) || squared < 0 || (squared == 0 && is_step))
@@ -126,8 +127,8 @@ class Measure {
   void operator()(const SimplexTensors& metric) {
     check_count(metric.tensor.size(), simplices_.size(), "tensors", "simplices");
     each_edge([&](std::size_t s, Index a, Index b) {
-      return length(metric.tensor[s], step(positions_[a], positions_[b]), Ends<Corners>::simplex,
-                    s);
+      return tensor_length(metric.tensor[s], step(positions_[a], positions_[b]),
+                           Ends<Corners>::simplex, s);
     });
     agree<Corners>(simplices_, metric.agreement, rows_);
   }
@@ -149,8 +150,8 @@ class Measure {
     check_count(metric.tensor.size(), positions_.size(), "tensors", "vertices");
     each_edge([&](std::size_t, Index a, Index b) {
       const Point d = step(positions_[a], positions_[b]);
-      return linear_between(length(metric.tensor[a], d, "vertex", a),
-                            length(metric.tensor[b], d, "vertex", b));
+      return linear_between(tensor_length(metric.tensor[a], d, "vertex", a),
+                            tensor_length(metric.tensor[b], d, "vertex", b));
     });
   }
 
@@ -161,7 +162,7 @@ class Measure {
       const Point &p = positions_[a], &q = positions_[b], d = step(p, q);
       const auto at = [&](double t) {
         const Point x = {p[0] + t * d[0], p[1] + t * d[1], p[2] + t * d[2]};
-        return length(metric.at(x), d, Ends<Corners>::simplex, s);
+        return tensor_length(metric.at(x), d, Ends<Corners>::simplex, s);
       };
       return weight * (at(0.5 - out) + at(0.5 + out)) + (1 - 2 * weight) * at(0.5);
     });
@@ -183,7 +184,7 @@ class Measure {
       auto found = std::upper_bound(given.begin(), given.end(), key(a, b),
                                     [](std::uint64_t k, const auto& row) { return k < row.first; });
       if (found == given.begin() || (--found)->first != key(a, b))
-        throw InputError("no length is given for the edge " + std::to_string(a) + " - " +
+        throw InputError("no tensor_length is given for the edge " + std::to_string(a) + " - " +
                          std::to_string(b) + " of " + std::string(Ends<Corners>::simplex) + " " +
                          std::to_string(s));
       return found->second;
@@ -202,7 +203,7 @@ class Measure {
         if (!std::isfinite(l) || l < 0)
           throw InputError("the edge " + std::to_string(a) + " - " + std::to_string(b) + " of " +
                            std::string(Ends<Corners>::simplex) + " " + std::to_string(s) +
-                           ": its length is negative or not finite");
+                           ": its tensor_length is negative or not finite");
         rows_[s][e] = l;
       }
   }

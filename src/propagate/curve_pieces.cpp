@@ -80,7 +80,7 @@ std::vector<Spot> spots_of(const TriangleMesh<Real>& mesh, const PointSource& po
 }
 
 template <class Real>
-double size_of(const TriangleRecord<Real>& t) {
+double extent_of(const TriangleRecord<Real>& t) {
   return static_cast<double>(std::max({t.length[0], t.length[1], t.length[2]}));
 }
 
@@ -134,7 +134,7 @@ std::optional<double> angle_between(const TriangleMesh<Real>& mesh, const CurveP
 template <class Real>
 std::size_t place_of(const TriangleRecord<Real>& t, const Plane& p) {
   const auto at = corners_of(t);
-  const double near = 1e-8 * size_of(t);
+  const double near = 1e-8 * extent_of(t);
   for (std::size_t i = 0; i < 3; ++i)
     if (std::abs(p - at[i]) < near) return i;
   for (std::size_t e = 0; e < 3; ++e) {
@@ -189,7 +189,7 @@ bool runs_straight(const TriangleMesh<Real>& mesh, const CurvePiece& piece, cons
     const auto angle = angle_between(mesh, piece, next, place, side);
     return angle && std::abs(*angle - std::numbers::pi) < straight<Real>;
   }
-  const double near = apart<Real> * size_of(t);
+  const double near = apart<Real> * extent_of(t);
   if (next.face == piece.face)
     return std::abs(next.from - piece.to) < near &&
            std::abs(next.direction() - piece.direction()) < straight<Real>;

@@ -11,7 +11,7 @@ constexpr double far_away = 1e7;  // lengths of a line that its virtual source i
 // beyond the ends both offer the same distance, and a point is seen from more sides. It is more
 // than rounding does to light.
 constexpr double yields = 1e-7;
-constexpr double tolerance = 1e-9;
+constexpr double seed_tolerance = 1e-9;
 
 // In the coordinates of a straight line: s along it, h off it on the side that is lit.
 struct LinePoint {
@@ -38,9 +38,9 @@ bool leaves_over(const LitLine& line, const Plane& a, const Plane& b, double siz
   LinePoint p = line.of(a), q = line.of(b);
   if (p.s > q.s) std::swap(p, q);
   const double first = std::max(p.s, 0.), last = std::min(q.s, line.length);
-  if (!(last - first > tolerance * size)) return false;
+  if (!(last - first > seed_tolerance * size)) return false;
   const auto height = [&](double s) { return p.h + (q.h - p.h) * (s - p.s) / (q.s - p.s); };
-  return std::min(height(first), height(last)) >= -tolerance * size;
+  return std::min(height(first), height(last)) >= -seed_tolerance * size;
 }
 
 class Lighting {
@@ -158,7 +158,8 @@ void CurveSeeds::add_curve(const TriangleMesh<double>& mesh, std::span<const Cur
     }
     for (std::size_t i = 0; i < 3; ++i) {
       const double d = std::abs(nearest_point(piece, at[i]) - at[i]);
-      corners_.push_back({t.corner[i], sigma + (d > tolerance * std::abs(at[1]) ? d : 0), number});
+      corners_.push_back(
+          {t.corner[i], sigma + (d > seed_tolerance * std::abs(at[1]) ? d : 0), number});
     }
   }
 }

@@ -17,15 +17,15 @@ struct Count {
 };
 
 /// A range of the list of colours.
-struct Box {
+struct ColourBox {
   std::size_t begin = 0, end = 0;
   Mean mean{};
   std::size_t widest = 0;  ///< the channel that spreads most
   double spread = 0;       ///< its sum of squares
 };
 
-Box box_of(const std::vector<Count>& all, std::size_t begin, std::size_t end) {
-  Box box;
+ColourBox box_of(const std::vector<Count>& all, std::size_t begin, std::size_t end) {
+  ColourBox box;
   box.begin = begin, box.end = end;
   Mean sum{}, squares{};
   double pixels = 0;
@@ -72,12 +72,13 @@ std::size_t nearest(const std::vector<Mean>& means, const Pixel& colour) {
 
 Indexed with_few_colours(const Image& image, std::size_t colours) {
   std::vector<Count> all = counted(image);
-  std::vector<Box> boxes = {box_of(all, 0, all.size())};
+  std::vector<ColourBox> boxes = {box_of(all, 0, all.size())};
   while (boxes.size() < colours) {
     const auto widest = std::max_element(
-        boxes.begin(), boxes.end(), [](const Box& a, const Box& b) { return a.spread < b.spread; });
+        boxes.begin(), boxes.end(),
+        [](const ColourBox& a, const ColourBox& b) { return a.spread < b.spread; });
     if (!(widest->spread > 0)) break;
-    const Box box = *widest;
+    const ColourBox box = *widest;
     const auto at = [&](std::size_t k) { return all.begin() + static_cast<std::ptrdiff_t>(k); };
     const auto middle = std::stable_partition(at(box.begin), at(box.end), [&](const Count& count) {
       return count.colour[box.widest] <= box.mean[box.widest];
@@ -87,7 +88,7 @@ Indexed with_few_colours(const Image& image, std::size_t colours) {
     boxes.push_back(box_of(all, cut, box.end));
   }
   std::vector<Mean> means;
-  for (const Box& box : boxes) means.push_back(box.mean);
+  for (const ColourBox& box : boxes) means.push_back(box.mean);
   std::vector<std::size_t> place(all.size());
   constexpr int rounds = 4;
   for (int round = 0; round < rounds; ++round) {

@@ -21,10 +21,10 @@
 namespace plexway {
 namespace {
 
-enum class Kind { vertices, simplices, labels, regions };
+enum class MaskKind { vertices, simplices, labels, regions };
 
-struct Parsed {
-  Kind kind;
+struct ParsedMask {
+  MaskKind kind;
   std::string file;
   std::set<std::int64_t> labels;
 };
@@ -44,16 +44,16 @@ std::set<std::int64_t> whole_numbers(std::string_view text) {
   return {};
 }
 
-Parsed parse(const std::string& text, Spelling spelling) {
+ParsedMask parse_mask(const std::string& text, Spelling spelling) {
   const std::size_t first = text.find(':'), last = text.rfind(':');
   if (first != text.npos && first > 0 && first + 1 < text.size()) {
     const std::string kind = text.substr(0, first), rest = text.substr(first + 1);
-    if (kind == "vertices") return {Kind::vertices, rest, {}};
-    if (kind == "simplices") return {Kind::simplices, rest, {}};
+    if (kind == "vertices") return {MaskKind::vertices, rest, {}};
+    if (kind == "simplices") return {MaskKind::simplices, rest, {}};
     std::set<std::int64_t> labels = whole_numbers(std::string_view(text).substr(last + 1));
     if (!labels.empty() && kind == "regions" && first == last)
-      return {Kind::regions, "", std::move(labels)};
-    if (!labels.empty()) return {Kind::labels, text.substr(0, last), std::move(labels)};
+      return {MaskKind::regions, "", std::move(labels)};
+    if (!labels.empty()) return {MaskKind::labels, text.substr(0, last), std::move(labels)};
   }
   throw UsageError(spelled(spelling, "mask") + " '" + text +
                    "': write vertices:FILE, simplices:FILE, FILE:3,7 (labels) or regions:3,7");
@@ -73,8 +73,8 @@ void close_labelled(const std::vector<std::int64_t>& label, const std::set<std::
     throw InputError(file + ": nothing has the " + what + " " + std::to_string(*unseen.begin()));
 }
 
-void close_numbered(const Parsed& asked, const AnyShape& domain, Mask& mask) {
-  const bool vertices = asked.kind == Kind::vertices;
+void close_numbered(const ParsedMask& asked, const AnyShape& domain, Mask& mask) {
+  const bool vertices = asked.kind == MaskKind::vertices;
   const std::string what = vertices ? "vertices" : "simplices";
   for (const io::NumberRow& row : io::read_number_rows(
            asked.file, 1, 1, "the number (0-based) of one of the " + what + " a line")) {
@@ -124,7 +124,7 @@ void require_all(const Mask* mask, const AnyShape& domain, std::span<const Place
 }  // namespace
 
 std::string mask_file(const MaskArgument& argument) {
-  return argument.text.empty() ? std::string() : parse(argument.text, Spelling::flags).file;
+  return argument.text.empty() ? std::string() : parse_mask(argument.text, Spelling::flags).file;
 }
 
 std::shared_ptr<const Mask> read_mask(const MaskArgument& argument, const AnyShape& domain) {
@@ -133,15 +133,15 @@ std::shared_ptr<const Mask> read_mask(const MaskArgument& argument, const AnySha
 
 std::shared_ptr<const Mask> read_mask(const std::string& text, const AnyShape& domain,
                                       Spelling spelling) {
-  const Parsed asked = parse(text, spelling);
+  const ParsedMask asked = parse_mask(text, spelling);
   require(spelled(spelling, "mask"), support(Purpose::masks, domain.kind()));
   auto mask = std::make_shared<Mask>(domain.vertices(), domain.simplices());
   const auto close_vertex = [&](Index v) { mask->close_vertex(v); };
   const auto close_simplex = [&](Index s) { mask->close_simplex(s); };
-  if (asked.kind == Kind::labels)
+  if (asked.kind == MaskKind::labels)
     close_labelled(io::read_vertex_labels(asked.file, domain.vertices()), asked.labels, asked.file,
                    "label", close_vertex);
-  else if (asked.kind == Kind::regions)
+  else if (asked.kind == MaskKind::regions)
     close_labelled(domain.regions(), asked.labels, domain.file().string(), "region", close_simplex);
   else
     close_numbered(asked, domain, *mask);

@@ -17,23 +17,23 @@
 namespace plexway {
 namespace {
 
-enum class Kind { tensor, vertex_tensor, speed, regions, lengths };
+enum class MetricSyntax { tensor, vertex_tensor, speed, regions, lengths };
 
-struct Parsed {
-  Kind kind;
+struct ParsedMetric {
+  MetricSyntax kind;
   std::string file;
 };
 
-Parsed parse(const MetricArgument& argument) {
+ParsedMetric parse_metric(const MetricArgument& argument) {
   const std::size_t colon = argument.text.find(':');
   const std::string kind = argument.text.substr(0, colon);
   const std::string file = colon == argument.text.npos ? "" : argument.text.substr(colon + 1);
   if (!file.empty()) {
-    if (kind == "tensor") return {Kind::tensor, file};
-    if (kind == "vertex-tensor") return {Kind::vertex_tensor, file};
-    if (kind == "speed") return {Kind::speed, file};
-    if (kind == "regions") return {Kind::regions, file};
-    if (kind == "lengths") return {Kind::lengths, file};
+    if (kind == "tensor") return {MetricSyntax::tensor, file};
+    if (kind == "vertex-tensor") return {MetricSyntax::vertex_tensor, file};
+    if (kind == "speed") return {MetricSyntax::speed, file};
+    if (kind == "regions") return {MetricSyntax::regions, file};
+    if (kind == "lengths") return {MetricSyntax::lengths, file};
   }
   throw UsageError(
       "--metric '" + argument.text +
@@ -124,20 +124,20 @@ metric::GivenLengths read_lengths(const std::string& file, std::size_t vertices)
   return given;
 }
 
-metric::Metric read_metric(const Parsed& asked, const AnyShape& domain,
+metric::Metric read_metric(const ParsedMetric& asked, const AnyShape& domain,
                            const metric::Agreement& by) {
   switch (asked.kind) {
-    case Kind::tensor:
+    case MetricSyntax::tensor:
       return metric::SimplexTensors{
           read_tensors(asked.file, domain.simplices(), domain.simplex_name()), by};
-    case Kind::vertex_tensor:
+    case MetricSyntax::vertex_tensor:
       return metric::VertexTensors{read_tensors(asked.file, domain.vertices(), "vertices")};
-    case Kind::speed:
+    case MetricSyntax::speed:
       return metric::SimplexSpeeds{
           read_speeds(asked.file, domain.simplices(), domain.simplex_name()), by};
-    case Kind::regions:
+    case MetricSyntax::regions:
       return metric::SimplexSpeeds{read_region_speeds(asked.file, domain), by};
-    case Kind::lengths:
+    case MetricSyntax::lengths:
       break;
   }
   return read_lengths(asked.file, domain.vertices());
@@ -146,17 +146,18 @@ metric::Metric read_metric(const Parsed& asked, const AnyShape& domain,
 }  // namespace
 
 std::string metric_file(const MetricArgument& argument) {
-  return argument.text.empty() ? "" : parse(argument).file;
+  return argument.text.empty() ? "" : parse_metric(argument).file;
 }
 
 std::shared_ptr<const MeasuredLengths> measure(const MetricArgument& argument,
                                                const AnyShape& domain, Jumps jumps) {
   if (argument.text.empty()) return nullptr;
-  const Parsed asked = parse(argument);
+  const ParsedMetric asked = parse_metric(argument);
   require("--metric", support(Purpose::metrics, domain.kind()));
   const bool refracts =
       (domain.kind() == DomainKind::surface || domain.kind() == DomainKind::solid) &&
-      jumps == Jumps::refract && asked.kind != Kind::vertex_tensor && asked.kind != Kind::lengths;
+      jumps == Jumps::refract && asked.kind != MetricSyntax::vertex_tensor &&
+      asked.kind != MetricSyntax::lengths;
   const metric::Metric metric =
       read_metric(asked, domain, {refracts ? metric::Sides::own : metric::Sides::mean});
   try {

@@ -27,7 +27,7 @@ const char* const source_set_help =
 
 namespace {
 
-[[noreturn]] void malformed(const std::string& text) {
+[[noreturn]] void malformed_source(const std::string& text) {
   throw UsageError("--source '" + text +
                    "': write vertex:ID (0-based), point:X,Y,Z, vertices:FILE, boundary, "
                    "segment:X,Y,Z,X,Y,Z, polyline:FILE, triangle:ID or circle:X,Y,Z,R, and "
@@ -82,12 +82,12 @@ SetArgument parse_one(const std::string& text) {
   const std::string_view rest = colon == place.npos ? "" : place.substr(colon + 1);
   const auto take_numbers = [&](Kind kind, std::size_t count) {
     const auto numbers = numbers_of(rest, count);
-    if (!numbers) malformed(text);
+    if (!numbers) malformed_source(text);
     set.kind = kind;
     set.numbers = *numbers;
   };
   const auto take_file = [&](Kind kind) {
-    if (rest.empty()) malformed(text);
+    if (rest.empty()) malformed_source(text);
     set.kind = kind;
     set.file = rest;
   };
@@ -105,17 +105,17 @@ SetArgument parse_one(const std::string& text) {
   } else if (name == "triangle" || name == "simplex") {
     const auto number = number_of(rest);
     if (!number || *number < 0 || *number != std::floor(*number) || *number >= none)
-      malformed(text);
+      malformed_source(text);
     set.kind = Kind::simplex;
     set.simplex = static_cast<Index>(*number);
   } else if (name == "vertex" || name == "point") {
     try {
       (void)parse_source(set.place);
     } catch (const UsageError&) {
-      malformed(text);
+      malformed_source(text);
     }
   } else {
-    malformed(text);
+    malformed_source(text);
   }
   return set;
 }

@@ -16,8 +16,6 @@ namespace {
 
 using Vector = Point3;
 
-double norm(const Vector& a) { return std::sqrt(dot(a, a)); }
-
 // Longest edge to least height: 1.15 for an equilateral triangle, 1.22 for a regular tetrahedron.
 double aspect(std::span<const Vector> p) {
   double longest = 0, base = 0;

@@ -8,8 +8,8 @@
 namespace plexway {
 namespace {
 
-std::vector<std::string> warnings_of(const CloudShape& cloud, const CloudSummary& summary,
-                                     double noise) {
+std::vector<std::string> cloud_warnings(const CloudShape& cloud, const CloudSummary& summary,
+                                        double noise) {
   std::vector<std::string> warnings;
   const auto warn = [&](std::size_t count, std::string_view plural, const char* meaning) {
     if (count > 0) warnings.push_back(counted(count, plural) + meaning);
@@ -46,7 +46,7 @@ InfoReport info_of(const AnyShape& domain, const CloudShape& cloud) {
   const double noise = noise_level(cloud.measured(), cloud.neighbours);
   const auto share =
       static_cast<double>(summary.largest_component) / static_cast<double>(positions.size());
-  const auto warnings = warnings_of(cloud, summary, noise);
+  const auto warnings = cloud_warnings(cloud, summary, noise);
 
   InfoReport report;
   Json& json = report.json;

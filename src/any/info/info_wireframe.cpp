@@ -7,7 +7,8 @@
 namespace plexway {
 namespace {
 
-std::vector<std::string> warnings_of(const WireframeSummary& summary, std::size_t coincident) {
+std::vector<std::string> wireframe_warnings(const WireframeSummary& summary,
+                                            std::size_t coincident) {
   std::vector<std::string> warnings;
   const auto warn = [&](std::size_t count, std::string_view plural, const char* meaning) {
     if (count > 0) warnings.push_back(counted(count, plural) + meaning);
@@ -56,7 +57,7 @@ InfoReport info_of(const AnyShape& domain, const io::Edges& wireframe) {
       placed ? count_coincident(wireframe.positions, wireframe.edges) : 0;
   const Bounds box = bounding_box(wireframe.positions);
   const auto sizes = component_sizes(domain);
-  const auto warnings = warnings_of(summary, coincident);
+  const auto warnings = wireframe_warnings(summary, coincident);
 
   InfoReport report;
   Json& json = report.json;

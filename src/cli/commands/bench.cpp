@@ -34,7 +34,7 @@ struct BenchCommand : InputCommand {
   bool anatomy = false;
 };
 
-struct Result {
+struct BenchResult {
   double build = 0, dijkstra_build = 0;
   bool has_dijkstra = false;
   Executor executor;
@@ -50,8 +50,8 @@ std::vector<std::vector<double>> read_truths(const BenchCommand& command, const 
   return truths;
 }
 
-Json to_json(const BenchCommand& command, const AnyDomain& solver, const AnyField& field,
-             const Result& result) {
+Json bench_json(const BenchCommand& command, const AnyDomain& solver, const AnyField& field,
+                const BenchResult& result) {
   const Domain& domain = solver.shape();
   const double ns = median(result.times.plexway);
   const double dijkstra_ns = median(result.times.dijkstra);
@@ -94,7 +94,7 @@ Json to_json(const BenchCommand& command, const AnyDomain& solver, const AnyFiel
 }
 
 // The same object for people, a line a value.
-std::string to_text(const Json& json) {
+std::string bench_text(const Json& json) {
   Table table;
   for (const auto& [key, value] : json.items()) {
     if (value.is_object()) continue;
@@ -117,7 +117,7 @@ void run_bench(const BenchCommand& command) {
   if (command.truths.size() > arguments.size())
     throw UsageError("more --truth than --source: give one file for each source, in order");
 
-  Result result;
+  BenchResult result;
   ProgressLine progress(command.quiet);
   const Domain domain = load_domain(command, progress);
   std::vector<PointSource> sources = locate_sources(domain, arguments);
@@ -160,8 +160,8 @@ void run_bench(const BenchCommand& command) {
                       command.repeats, [&](double share) { progress.done(share); });
   progress.clear();
 
-  Json json = to_json(command, solver, field, result);
-  const std::string text = to_text(json) + (anatomy ? "\n" + anatomy->text() : "");
+  Json json = bench_json(command, solver, field, result);
+  const std::string text = bench_text(json) + (anatomy ? "\n" + anatomy->text() : "");
   if (anatomy) json["anatomy"] = anatomy->json();
   write_output(command.json ? json_text(json) : text);
   flush_output();

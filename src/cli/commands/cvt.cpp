@@ -28,16 +28,16 @@ struct CvtCommand : SamplingCommand {
   std::string centre = "centroid", cells, dual;
 };
 
-struct Result {
+struct CvtResult {
   CentroidalVoronoi voronoi;
   std::vector<double> distance;
   std::vector<Index> label;
 };
 
 template <class Complex>
-Result compute(const Complex& complex, const CvtCommand& command, ProgressLine& progress,
-               Phases& phases) {
-  Result result;
+CvtResult compute(const Complex& complex, const CvtCommand& command, ProgressLine& progress,
+                  Phases& phases) {
+  CvtResult result;
   phases.end("build");
   PoissonOptions throwing;
   throwing.count = command.count;
@@ -90,7 +90,7 @@ void run_cvt(const CvtCommand& command) {
   const Domain domain = load_domain(command, progress);
   phases.end("load");
   if (!command.dual.empty()) require("--dual", support(Purpose::duals, domain.kind()));
-  Result result;
+  CvtResult result;
   Notes notes = with_sampled(domain, precision, [&](const auto& complex) {
     result = compute(complex, command, progress, phases);
   });

@@ -37,14 +37,14 @@ namespace plexway::cli {
 namespace {
 
 // What came out, as far as a report tells it.
-struct Outcome : FieldReach {
+struct DistanceOutcome : FieldReach {
   double build = 0, solve = 0;
   Executor executor = {};
   RankCounts ranks = {};
 };
 
 DistanceReport report_of(const DistanceCommand& command, const Domain& domain,
-                         const AnyField& field, const Outcome& outcome) {
+                         const AnyField& field, const DistanceOutcome& outcome) {
   return {.vertices = domain.vertices(),
           .reached = outcome.reached,
           .farthest = static_cast<Index>(outcome.farthest),
@@ -57,7 +57,8 @@ DistanceReport report_of(const DistanceCommand& command, const Domain& domain,
 }
 
 Json to_json(const DistanceCommand& command, const Domain& domain, const AnyDomain& solver,
-             const AnyField& field, const MeasuredLengths* lengths, const Outcome& outcome) {
+             const AnyField& field, const MeasuredLengths* lengths,
+             const DistanceOutcome& outcome) {
   Json json;
   json["input"] = domain.file().string();
   json["kind"] = domain.kind_name();
@@ -90,7 +91,7 @@ Json to_json(const DistanceCommand& command, const Domain& domain, const AnyDoma
 Table to_table(const DistanceCommand& command, const Domain& domain, const AnyDomain& solver,
                const AnyField& field, const MeasuredLengths* lengths,
                const std::vector<SetArgument>& arguments, const std::vector<Source>& sources,
-               const Outcome& outcome) {
+               const DistanceOutcome& outcome) {
   Table table;
   table.add("input", domain.file().string());
   table.add(std::string(domain.kind_name()),
@@ -224,7 +225,7 @@ void run_distance(DistanceCommand command) {
   const double solve = solving.seconds();
 
   const std::vector<double> distance = field.doubles();
-  Outcome outcome{reach_of(distance, sources), solver.build_seconds(), solve, executor};
+  DistanceOutcome outcome{reach_of(distance, sources), solver.build_seconds(), solve, executor};
   if (command.among != nullptr) {
     outcome.ranks = rank_counts(command.among->pieces, field.statistics().sent_bytes);
     command.among->all_come();

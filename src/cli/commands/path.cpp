@@ -55,7 +55,7 @@ struct Places {
   std::vector<PointSource> found;
 };
 
-struct Outcome {
+struct PathOutcome {
   std::vector<Path> paths;
   std::vector<double> distance;  // none where only a part was searched
   std::vector<double> promised;  // of each target, as the field has it
@@ -67,10 +67,11 @@ struct Outcome {
   double build = 0, solve = 0, trace = 0;
 };
 
-Outcome run_paths(const Domain& domain, const BuildOptions& building, const PathCommand& command,
-                  const std::vector<PointSource>& sources, const std::vector<PointSource>& targets,
-                  PropagateOptions options, ProgressLine& progress) {
-  Outcome outcome;
+PathOutcome run_paths(const Domain& domain, const BuildOptions& building,
+                      const PathCommand& command, const std::vector<PointSource>& sources,
+                      const std::vector<PointSource>& targets, PropagateOptions options,
+                      ProgressLine& progress) {
+  PathOutcome outcome;
   progress.phase("building");
   const AnyDomain built(domain, building);
   outcome.build = built.build_seconds();
@@ -129,7 +130,7 @@ double length_in_space(const Path& path) {
 }
 
 // What is printed: as JSON, and for people.
-void report(const PathCommand& command, const Domain& domain, const Outcome& outcome,
+void report(const PathCommand& command, const Domain& domain, const PathOutcome& outcome,
             const Places& from, const Places& to, Json& json, Table& table) {
   json["input"] = command.input;
   json["kind"] = domain.kind_name();
@@ -187,8 +188,8 @@ void report(const PathCommand& command, const Domain& domain, const Outcome& out
 }
 
 // Things the user should know about paths that were found.
-Notes notes_on(const Outcome& outcome, const std::vector<PointSource>& sources,
-               std::size_t unreached) {
+Notes path_notes_on(const PathOutcome& outcome, const std::vector<PointSource>& sources,
+                    std::size_t unreached) {
   std::size_t capped = 0, apart = 0;
   double most = 0;
   for (std::size_t k = 0; k < outcome.paths.size(); ++k) {
@@ -275,7 +276,7 @@ void run_path(const PathCommand& typed) {
   const std::shared_ptr<const Mask> mask = read_mask(command.mask, domain);
   require_open(mask.get(), domain, sources);
   require_open(mask.get(), domain, targets);
-  Outcome outcome =
+  PathOutcome outcome =
       run_paths(domain,
                 {.precision = precision,
                  .triangulation = command.astar ? Triangulation::input : triangulation,
@@ -307,7 +308,7 @@ void run_path(const PathCommand& typed) {
   report_picture(command.picture, domain, json, table);
   std::size_t unreached = 0;
   for (const Path& path : outcome.paths) unreached += path.source == none;
-  const Notes notes = notes_on(outcome, sources, unreached);
+  const Notes notes = path_notes_on(outcome, sources, unreached);
   notes.tell(json);
   print_report(json, table, command.json, command.quiet,
                {command.out, command.picture.file, command.picture.html});

@@ -29,7 +29,7 @@ struct PrepareCommand : InputCommand {
   int threads = 0;
 };
 
-Json to_json(const PrepareCommand& command, const AnyDomain& domain, std::uintmax_t bytes) {
+Json prepare_json(const PrepareCommand& command, const AnyDomain& domain, std::uintmax_t bytes) {
   Json json;
   json["input"] = command.input;
   json["out"] = command.out;
@@ -43,7 +43,8 @@ Json to_json(const PrepareCommand& command, const AnyDomain& domain, std::uintma
   return json;
 }
 
-std::string to_text(const PrepareCommand& command, const AnyDomain& domain, std::uintmax_t bytes) {
+std::string prepare_text(const PrepareCommand& command, const AnyDomain& domain,
+                         std::uintmax_t bytes) {
   Table table;
   table.add("input", command.input);
   table.add(std::string(kind_noun(domain.kind())),
@@ -79,9 +80,9 @@ void run_prepare(const PrepareCommand& command) {
   std::uintmax_t bytes = std::filesystem::file_size(command.out, unknown);
   if (unknown) bytes = 0;
   if (command.json)
-    write_output(json_text(to_json(command, domain, bytes)));
+    write_output(json_text(prepare_json(command, domain, bytes)));
   else if (!command.quiet)
-    write_output(to_text(command, domain, bytes));
+    write_output(prepare_text(command, domain, bytes));
   flush_output();
 }
 

@@ -15,7 +15,7 @@ std::vector<const CLI::App*> commands_of(const CLI::App& tool) {
 }
 
 // Those that --help shows.
-std::vector<const CLI::Option*> options_of(const CLI::App& app) {
+std::vector<const CLI::Option*> options_in(const CLI::App& app) {
   return app.get_options([](const CLI::Option* option) { return !option->get_group().empty(); });
 }
 
@@ -65,7 +65,7 @@ std::string roff(std::string_view text) {
 std::string roff_options(const CLI::App& app) {
   std::string page;
   for (const bool arguments : {true, false})
-    for (const CLI::Option* option : options_of(app)) {
+    for (const CLI::Option* option : options_in(app)) {
       if (is_argument(*option) != arguments) continue;
       const std::string value = value_of(*option);
       page += ".TP\n";
@@ -110,7 +110,7 @@ std::string man_page(const CLI::App& tool) {
 
 std::vector<std::string> flags_of(const CLI::App& app) {
   std::vector<std::string> flags;
-  for (const CLI::Option* option : options_of(app))
+  for (const CLI::Option* option : options_in(app))
     if (!is_argument(*option))
       for (const std::string& name : names_of(*option)) flags.push_back(name);
   return flags;
@@ -179,7 +179,7 @@ std::string zsh_completion(const CLI::App& tool) {
       "case $command in\n";
   for (const CLI::App* command : commands_of(tool)) {
     script += "  " + command->get_name() + ")\n    _arguments '*:file:_files'";
-    for (const CLI::Option* option : options_of(*command)) {
+    for (const CLI::Option* option : options_in(*command)) {
       if (is_argument(*option)) continue;
       const std::string value = value_of(*option);
       for (const std::string& name : names_of(*option)) {
@@ -199,7 +199,7 @@ std::string fish_completion(const CLI::App& tool) {
     script += "complete -c plexway -n __fish_use_subcommand -a " + command->get_name() + " -d '" +
               quoted(command->get_description()) + "'\n";
   for (const CLI::App* command : commands_of(tool))
-    for (const CLI::Option* option : options_of(*command)) {
+    for (const CLI::Option* option : options_in(*command)) {
       if (is_argument(*option)) continue;
       script += "complete -c plexway -n '__fish_seen_subcommand_from " + command->get_name() + "'";
       for (const std::string& name : option->get_lnames()) script += " -l " + name;

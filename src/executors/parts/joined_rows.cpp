@@ -18,7 +18,7 @@ using Point = std::array<double, 3>;
 using Key = std::array<std::uint64_t, 3>;
 
 /// A point of a part, on its way to who numbers all that have its key.
-struct Asked {
+struct VertexQuery {
   Key key;  ///< its id, or the bits of where it lies
   Point position;
   std::uint32_t part, point;
@@ -32,7 +32,7 @@ struct Vertex {
   std::uint64_t number;
   Point position;
 };
-struct Triangle {
+struct Row3 {
   std::uint64_t number;
   std::array<Index, 3> corner;
 };
@@ -55,7 +55,7 @@ Key key_of(const Point& position) {
   return key;  // -0 is 0
 }
 
-std::size_t mixed(const Key& key) {
+std::size_t hash_of(const Key& key) {
   std::uint64_t sum = 0;
   for (const std::uint64_t word : key)
     sum = (std::rotl(sum, 21) ^ word) * std::uint64_t{0x9e3779b97f4a7c15};
@@ -126,7 +126,7 @@ class Numbering {
     for (const SurfaceFilePart& part : parts_)
       for (std::size_t v = 0; v < part.positions.size(); ++v) {
         const Key place = key_of(part.positions[v]);
-        mail.to(mixed(place) % mail.count())
+        mail.to(hash_of(place) % mail.count())
             .add(Placed{place, part.ids[v], static_cast<std::uint32_t>(part.number)});
       }
     mail.meet();
@@ -195,16 +195,17 @@ class Numbering {
             by_ids_ ? std::min(static_cast<std::size_t>(static_cast<double>(own[v][0]) / ids *
                                                         static_cast<double>(mail.count())),
                                mail.count() - 1)
-                    : mixed(own[v]) % mail.count();
-        mail.to(to).add(Asked{own[v], part.positions[v], static_cast<std::uint32_t>(part.number),
-                              static_cast<std::uint32_t>(v)});
+                    : hash_of(own[v]) % mail.count();
+        mail.to(to).add(VertexQuery{own[v], part.positions[v],
+                                    static_cast<std::uint32_t>(part.number),
+                                    static_cast<std::uint32_t>(v)});
       }
       check_apart(part, own);
     }
     mail.meet();
     for (std::size_t r = 0; r < mail.count(); ++r)
-      for (Unpacked in = mail.from(r); !in.empty();) asked_.push_back(in.take<Asked>());
-    std::sort(asked_.begin(), asked_.end(), [](const Asked& a, const Asked& b) {
+      for (Unpacked in = mail.from(r); !in.empty();) asked_.push_back(in.take<VertexQuery>());
+    std::sort(asked_.begin(), asked_.end(), [](const VertexQuery& a, const VertexQuery& b) {
       return std::tie(a.key, a.part, a.point) < std::tie(b.key, b.part, b.point);
     });
     for (std::size_t i = 1; i < asked_.size(); ++i)
@@ -283,7 +284,7 @@ class Numbering {
       std::uint64_t next = counts[parts_[i].number];
       for (std::size_t v = 0; v < numbers_[i].size(); ++v)
         if (is_first(i, v))
-          told.to(mixed(key_of(parts_[i].positions[v])) % told.count())
+          told.to(hash_of(key_of(parts_[i].positions[v])) % told.count())
               .add(Answer{static_cast<std::uint32_t>(parts_[i].number),
                           static_cast<std::uint32_t>(v), next++});
     }
@@ -303,7 +304,7 @@ class Numbering {
     hear(mail);
   }
 
-  void answer(PartMail& mail, const Asked& to, std::uint64_t number) const {
+  void answer(PartMail& mail, const VertexQuery& to, std::uint64_t number) const {
     mail.to(to.part % mail.count()).add(Answer{to.part, to.point, number});
   }
   void hear(PartMail& mail) {
@@ -322,7 +323,7 @@ class Numbering {
   std::size_t all_parts_ = 0;
   std::vector<std::pair<std::uint32_t, std::size_t>> place_;  ///< of a part by number, among ours
   std::vector<std::vector<std::uint64_t>> numbers_;
-  std::vector<Asked> asked_;
+  std::vector<VertexQuery> asked_;
   bool by_ids_ = false;
   std::uint64_t count_ = 0;
   JoinedCounts joined_;
@@ -337,7 +338,7 @@ void check_no_overlap(PieceRanks* ranks, std::span<const SurfaceFilePart> parts,
       Cornered one{{}, parts[i].number};
       for (std::size_t c = 0; c < 3; ++c) one.corners[c] = numbers.of(i, triangle[c]);
       std::sort(one.corners.begin(), one.corners.end());
-      mail.to(mixed(one.corners) % mail.count()).add(one);
+      mail.to(hash_of(one.corners) % mail.count()).add(one);
     }
   mail.meet();
   std::vector<Cornered> all;
@@ -362,7 +363,7 @@ void check_no_overlap(PieceRanks* ranks, std::span<const SurfaceFilePart> parts,
                    ": mark ghost cells by vtkGhostType");
 }
 
-void check_count(const char* what, std::uint64_t count) {
+void check_row_count(const char* what, std::uint64_t count) {
   if (count >= none) throw InputError("more than 4294967294 " + std::string(what));
 }
 
@@ -380,8 +381,8 @@ JoinedRows::JoinedRows(PieceRanks* ranks, std::vector<SurfaceFilePart> parts) {
   Numbering numbers(ranks, parts);
   const std::uint64_t vertices_in_all = numbers.run();
   joined_ = numbers.joined();
-  check_count("vertices", vertices_in_all);
-  check_count("faces", faces_in_all);
+  check_row_count("vertices", vertices_in_all);
+  check_row_count("faces", faces_in_all);
   vertices_ = static_cast<std::size_t>(vertices_in_all);
   faces_ = static_cast<std::size_t>(faces_in_all);
 
@@ -395,7 +396,7 @@ JoinedRows::JoinedRows(PieceRanks* ranks, std::vector<SurfaceFilePart> parts) {
       vertices.to(home_of(numbers.of(i, v), vertices_, n))
           .add(Vertex{numbers.of(i, v), part.positions[v]});
     for (std::size_t f = 0; f < part.triangles.size(); ++f) {
-      Triangle triangle{begin[part.number] + f, {}};
+      Row3 triangle{begin[part.number] + f, {}};
       for (std::size_t c = 0; c < 3; ++c)
         triangle.corner[c] = static_cast<Index>(numbers.of(i, part.triangles[f][c]));
       faces.to(home_of(triangle.number, faces_, n)).add(triangle);
@@ -417,7 +418,7 @@ JoinedRows::JoinedRows(PieceRanks* ranks, std::vector<SurfaceFilePart> parts) {
   faces.meet();
   for (std::size_t r = 0; r < n; ++r)
     for (Unpacked in = faces.from(r); !in.empty();) {
-      const auto triangle = in.take<Triangle>();
+      const auto triangle = in.take<Row3>();
       corners_[static_cast<std::size_t>(triangle.number) - first_face_] = triangle.corner;
     }
 }

@@ -21,7 +21,7 @@ struct Around {
 
 /// Of each vertex of a piece's own triangles; others have nothing yet.
 template <class Real>
-std::vector<Around> look_around(const PartPiece<Real>& part) {
+std::vector<Around> pieces_around(const PartPiece<Real>& part) {
   const TriangleMesh<Real>& mesh = *part.mesh;
   const auto triangles = mesh.triangles();
   const std::size_t faces = mesh.face_count();
@@ -108,7 +108,7 @@ void PartLabelRooms<Real>::mark_saddles(const Team& team) {
   // Of vertices that only ghosts have, whose word it is: the first peer's.
   std::vector<std::vector<std::size_t>> told_by(all_.size());
   team.each(all_.size(), [&](std::size_t i) {
-    around[i] = look_around(parts[i]);
+    around[i] = pieces_around(parts[i]);
     told_by[i].assign(around[i].size() - parts[i].vertices.size(), ~std::size_t{0});
   });
   tell_of_ghosts(

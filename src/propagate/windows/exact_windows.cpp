@@ -47,7 +47,7 @@ struct FromPivot {
 };
 constexpr FromPivot from_pivot[2] = {{1, 0}, {-1, 1}};
 
-Window<double> measured(const Beam<double>& beam, double sigma) {
+Window<double> measured_window(const Beam<double>& beam, double sigma) {
   Window<double> window = {beam, sigma, 0, 0, 0};
   window.begin_at(beam.begin);
   window.end_at(beam.end);
@@ -429,7 +429,7 @@ void ExactWindows<Real>::shine(Order& order, Index vertex) {
     const Beam<double> beam = {static_cast<double>(t.apex_x(part.edge)),
                                static_cast<double>(t.apex_h(part.edge)), part.begin, part.end};
     leave(order, part.face, part.edge,
-          measured(beam.mirrored(static_cast<double>(t.length[part.edge])), sigma), source);
+          measured_window(beam.mirrored(static_cast<double>(t.length[part.edge])), sigma), source);
   };
   const auto along = [&](const FanWalk& walk) {
     if (walk.face >= own_) return;

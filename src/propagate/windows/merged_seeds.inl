@@ -10,7 +10,7 @@ void MergedWindows<Real>::begin(const WindowSources& sources, const PropagateOpt
   limit_ = limit;
   kept_ = nullptr;
   labels_ = sources.labels;
-  distance.assign(sheet_.vertex_count, infinity<Real>);
+  distance.assign(sheet_.vertex_count, unreached<Real>);
   distance_ = distance.data();
   error_.resize(sheet_.vertex_count);
   if (labels_) source_.resize(sheet_.vertex_count);
@@ -27,13 +27,13 @@ void MergedWindows<Real>::begin(const WindowSources& sources, const PropagateOpt
   for (const PointSource& s : sources.points)
     least_offset_ = std::min(least_offset_, s.offset / unit);
   scale_ = scale_at(least_offset_);
-  ring_.start(bucket_width);
+  ring_.start(merged_bucket_width);
   leaving_.start(sheet_.shared);
 }
 
 template <class Real>
 bool MergedWindows<Real>::too_many(std::size_t turns, std::size_t triangles) {
-  return turns > patience * 3 * triangles + share;
+  return turns > merge_patience * 3 * triangles + merged_share;
 }
 
 template <class Real>
@@ -76,7 +76,7 @@ void MergedWindows<Real>::run_to(double horizon, std::size_t most) {
     waits_ = false;
     commit_any(ring_, turns_[current_ ^ 1]);
   }
-  complete_ = nearest() == infinity<double>;
+  complete_ = nearest() == unreached<double>;
 }
 
 /// After the last turn allowed: is there anything else to do?
@@ -150,8 +150,8 @@ void MergedWindows<Real>::seed(Order& order, const WindowSources& sources) {
 template <class Real>
 template <class Order>
 bool MergedWindows<Real>::fill_holes(Order& order) {
-  if (radius_ < infinity<Real> || std::all_of(distance_, distance_ + sheet_.vertex_count,
-                                              [](Real d) { return d < infinity<Real>; }))
+  if (radius_ < unreached<Real> || std::all_of(distance_, distance_ + sheet_.vertex_count,
+                                              [](Real d) { return d < unreached<Real>; }))
     return false;
   return fill_holes(
       triangles_, own_, [&](Index v) { return distance_[v]; },

@@ -14,16 +14,17 @@ namespace plexway::windows {
 namespace {
 
 template <class Real>
-constexpr Real infinity = std::numeric_limits<Real>::infinity();
+constexpr Real unreached = std::numeric_limits<Real>::infinity();
 
 /// In mean edges. Wider ones take more turns, since halfedges have theirs before all is there.
-constexpr double bucket_width = 0.125;
+constexpr double merged_bucket_width = 0.125;
 /// Vertices have their turn so much later than their distance, in mean edges: after the light that
 /// may reach them straight.
 constexpr double late = 0.25;
 /// So many turns a halfedge in the mean are too many: below one is usual.
-constexpr std::size_t patience = 4;
-constexpr std::size_t share = 65536;  ///< turns between two looks at what is told and allowed
+constexpr std::size_t merge_patience = 4;
+constexpr std::size_t merged_share =
+    65536;  ///< turns between two looks at what is told and allowed
 
 }  // namespace
 
@@ -38,7 +39,7 @@ bool MergedWindows<Real>::solve(const WindowSources& sources, const PropagateOpt
   begin(sources, options, limit, distance);
   kept_ = kept;
   const auto solve_in = [&](auto& order) {
-    order.start(bucket_width);
+    order.start(merged_bucket_width);
     seed(order, sources);
     Outcome outcome;
     do outcome = run(order, options);
@@ -51,7 +52,7 @@ bool MergedWindows<Real>::solve(const WindowSources& sources, const PropagateOpt
 
 template <class Real>
 Real MergedWindows<Real>::scale_at(double distance) const {
-  if (!(limit_.reach < infinity<double>)) return static_cast<Real>(limit_.limit);
+  if (!(limit_.reach < unreached<double>)) return static_cast<Real>(limit_.limit);
   const double way = std::max(distance - least_offset_, 0.);
   const double scale = limit_.limit * std::sqrt(way / limit_.reach);
   return static_cast<Real>(way > limit_.far ? scale * limit_.share_far : scale);
@@ -89,12 +90,12 @@ template <class Real>
 template <class Order>
 typename MergedWindows<Real>::Outcome MergedWindows<Real>::run(Order& order,
                                                                const PropagateOptions& options) {
-  std::size_t report = statistics_.expansions / share * share + share;
+  std::size_t report = statistics_.expansions / merged_share * merged_share + merged_share;
   for (;;) {
     const std::size_t until = std::min(report, options.max_expansions);
     if (spread(order, until - statistics_.expansions)) return Outcome::done;
     if (statistics_.expansions == options.max_expansions) return left_over(order);
-    report += share;
+    report += merged_share;
     if (options.progress &&
         !options.progress({statistics_.expansions, statistics_.reached_simplices, own_,
                            order.distance() * sheet_.mesh->unit()}))
@@ -245,7 +246,7 @@ template <class Order>
 [[gnu::always_inline]] inline void MergedWindows<Real>::enter(Order& order, Index halfedge,
                                                               const Window<Real>& window,
                                                               Index source) {
-  if (radius_ < infinity<Real> && window.nearest() > radius_) [[unlikely]]
+  if (radius_ < unreached<Real> && window.nearest() > radius_) [[unlikely]]
     return;
   const Real near = turn_of(window);
   Index* list = &waiting_at_.list(halfedge);
@@ -354,7 +355,7 @@ template <class Real>
 [[gnu::always_inline]] inline void MergedWindows<Real>::prepare(Turn& turn) {
   const EnteredTriangle<Real>& t = turn.triangle;
   const Gathered<Real>& windows = turn.windows;
-  turn.to_apex = infinity<Real>;
+  turn.to_apex = unreached<Real>;
   turn.seen = 0;
   const auto sees = [&](std::size_t i, Real distance) {
     const std::size_t nearer = distance < turn.to_apex;
@@ -362,7 +363,7 @@ template <class Real>
     turn.seen += nearer * (i - turn.seen);
   };
   using L = typename Spread<Real>::L;
-  constexpr Real if_not[2] = {infinity<Real>, 0};  // as good as random: no branch
+  constexpr Real if_not[2] = {unreached<Real>, 0};  // as good as random: no branch
   for (std::size_t i = 0; i < windows.size(); ++i) {
     Spread<Real>& s = turn.spread[i];
     s.go(t, windows[i].window);
@@ -406,7 +407,7 @@ void MergedWindows<Real>::commit(Order& order, const Turn& turn) {
   const Gathered<Real>& windows = turn.windows;
   const Index corner = static_cast<Index>(3 * turn.face + t.before);
   Real bound = distance_[t.p];
-  const bool is_lit = turn.to_apex < infinity<Real>;
+  const bool is_lit = turn.to_apex < unreached<Real>;
   if (turn.to_apex < bound) {
     const Labelled<Real>& seen = windows[turn.seen];
     offer(order, t.p, turn.to_apex, corner, t.towards(seen.window.beam), seen.source,

@@ -1,0 +1,10 @@
+#pragma once
+
+#include <limits>
+
+namespace plexway {
+
+/// The distance of what cannot be reached.
+inline constexpr double infinity = std::numeric_limits<double>::infinity();
+
+}  // namespace plexway
