@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdio>
 #include <filesystem>
+#include <functional>
 #include <limits>
 #include <span>
 #include <type_traits>
@@ -127,15 +128,42 @@ struct PairWork {
   }
 };
 
-/// Solves on a complex, by an executor, whatever is missing, and finishes the files.
+/// Rows of a complex by an executor, in this process; both are known to these functions alone.
+template <class Real>
+struct RowSolver {
+  std::size_t threads;
+  std::function<PairsReport(const PairsRequest&, const PairsSink<DenseRow<Real>>&)> dense;
+  std::function<PairsReport(const PairsRequest&, const NearLimits&,
+                            const PairsSink<SparseRow<Real>>&)>
+      near;
+};
+
 template <class E, class Complex>
+RowSolver<io::RowReal<Complex>> row_solver(const E& executor, const Complex& complex) {
+  RowSolver<io::RowReal<Complex>> solver = {1, {}, {}};
+  if constexpr (std::is_same_v<E, OpenMP>) solver.threads = team_size(executor);
+  solver.dense = [&](const PairsRequest& request, const auto& sink) {
+    if constexpr (RowExecutor<E>)
+      return all_pairs(executor, complex, request, sink);
+    else
+      return all_pairs_by_blocks(executor, complex, request, sink);
+  };
+  solver.near = [&](const PairsRequest& request, const NearLimits& limits, const auto& sink) {
+    if constexpr (RowExecutor<E>)
+      return near_pairs(executor, complex, request, limits, sink);
+    else
+      return PairsReport{};  // refused
+  };
+  return solver;
+}
+
+/// Solves whatever is missing, and finishes the files.
+template <class Real>
 class PairRun {
  public:
-  using Real = io::RowReal<Complex>;
-
-  PairRun(const PairWork& work, const E& executor, const Complex& complex,
+  PairRun(const PairWork& work, const AnyExecutor& executor, const RowSolver<Real>& solver,
           const std::vector<PointSource>& rows)
-      : work_(work), files_(work.files), executor_(executor), complex_(complex) {
+      : work_(work), files_(work.files), executor_(executor), solver_(solver) {
     request_.rows = SourceList(rows);
     request_.columns = files_.columns;
     request_.solve = files_.solve;
@@ -148,7 +176,7 @@ class PairRun {
       return report_;
     }
     report_.expected_bytes = work_.expected_bytes();
-    if constexpr (std::is_same_v<E, OpenMP>) report_.threads = team_size(executor_);
+    report_.threads = solver_.threads;
     report_.ranks = work_.ranks == nullptr ? 1 : work_.ranks->count();
     estimate();
     if (work_.only_estimate) return report_;
@@ -209,9 +237,9 @@ class PairRun {
     few.block = 1;
     const Stopwatch watch;
     if (files_.sparse())
-      own_near_rows(few, {[](std::size_t, SparseRow<Real>) {}});
+      solver_.near(few, limits(), {[](std::size_t, SparseRow<Real>) {}});
     else
-      own_rows(few, {[](std::size_t, DenseRow<Real>) {}});
+      solver_.dense(few, {[](std::size_t, DenseRow<Real>) {}});
     return watch.seconds();
   }
 
@@ -220,28 +248,15 @@ class PairRun {
             .nearest = files_.nearest.value_or(none)};
   }
 
-  // By this process.
-  PairsReport own_rows(const PairsRequest& request, const PairsSink<DenseRow<Real>>& sink) {
-    if constexpr (RowExecutor<E>)
-      return all_pairs(executor_, complex_, request, sink);
-    else
-      return all_pairs_by_blocks(executor_, complex_, request, sink);
-  }
-  PairsReport own_near_rows(const PairsRequest& request, const PairsSink<SparseRow<Real>>& sink) {
-    if constexpr (RowExecutor<E>)
-      return near_pairs(executor_, complex_, request, limits(), sink);
-    else
-      return {};  // refused
-  }
-
   // Alone or among others.
   PairsReport dense_rows(const PairsRequest& request, const PairsSink<DenseRow<Real>>& sink) {
-    const auto solve = [&](const auto& mine, const auto& out) { return own_rows(mine, out); };
-    if (work_.ranks == nullptr) return solve(request, sink);
-    return share_rows(*work_.ranks, request, work_.domain.vertices(), sink, solve);
+    if (work_.ranks == nullptr) return solver_.dense(request, sink);
+    return share_rows(*work_.ranks, request, work_.domain.vertices(), sink, solver_.dense);
   }
   PairsReport near_rows(const PairsRequest& request, const PairsSink<SparseRow<Real>>& sink) {
-    const auto solve = [&](const auto& mine, const auto& out) { return own_near_rows(mine, out); };
+    const auto solve = [&](const PairsRequest& mine, const PairsSink<SparseRow<Real>>& out) {
+      return solver_.near(mine, limits(), out);
+    };
     if (work_.ranks == nullptr) return solve(request, sink);
     return share_rows(*work_.ranks, request, work_.domain.vertices(), sink, solve);
   }
@@ -342,8 +357,8 @@ class PairRun {
 
   const PairWork& work_;
   const PairFiles& files_;
-  const E& executor_;
-  const Complex& complex_;
+  const AnyExecutor& executor_;
+  const RowSolver<Real>& solver_;
   PairsRequest request_;
   PairFilesReport report_;
 };
@@ -356,7 +371,8 @@ PairFilesReport run_on(const PairWork& work, const AnyExecutor& executor) {
   const RowComplex of_rows = row_complex(built, work.files.rows);
   PairFilesReport report;
   const auto run = [&](const auto& chosen, const auto& complex) {
-    report = PairRun(work, chosen, complex, of_rows.rows).run();
+    const auto solver = row_solver(chosen, complex);
+    report = PairRun(work, executor, solver, of_rows.rows).run();
   };
   std::visit(
       [&](const auto& complex) {
