@@ -23,7 +23,7 @@ template <bool kLabels, class D, class Real, class Solve>
 void drive(const Serial&, const D& domain, std::span<const PointSource>,
            const PropagateOptions& options, WorkspaceState<Real>& workspace, const Solve& solve) {
   workspace.front.reserve(domain.simplex_count());
-  with_queue<Real>(options, workspace.front, [&](auto queue) { solve(queue, Alone{}); });
+  solve(queue_for<Real>(options, workspace.front), Alone{});
 }
 
 template <bool kLabels, class D, class Real, class Solve>
@@ -33,7 +33,8 @@ void drive_in_rounds(const OpenMP& executor, const D& domain, std::span<const Po
   const Team team(executor);
   check_ties(sources);
   workspace.front.reserve(domain.simplex_count());
-  const DualQueue<Real> queue(workspace.front, std::numeric_limits<Real>::infinity());
+  constexpr Real infinity = std::numeric_limits<Real>::infinity();
+  const ChosenQueue<Real> queue(workspace.front, infinity, false);
   const TeamCrew<Real, kLabels> crew(team, workspace, step_of<Real>(options), domain.unit(),
                                      options);
   team.hold([&] { solve(queue, crew); });
@@ -45,7 +46,15 @@ void drive(const OpenMP& executor, const D& domain, std::span<const PointSource>
   drive_in_rounds<kLabels>(executor, domain, sources, options, workspace, solve);
 }
 
-/// On surfaces by pieces: a single one is the serial loop.
+/// On surfaces a queue of its own for each order: the loop is short.
+template <bool kLabels, class Real, class Solve>
+void drive(const Serial&, const TriangleMesh<Real>& mesh, std::span<const PointSource>,
+           const PropagateOptions& options, WorkspaceState<Real>& workspace, const Solve& solve) {
+  workspace.front.reserve(mesh.face_count());
+  with_queue<Real>(options, workspace.front, [&](auto queue) { solve(queue, Alone{}); });
+}
+
+/// By pieces: a single one is the serial loop.
 template <bool kLabels, class Real, class Solve>
 void drive(const OpenMP& executor, const TriangleMesh<Real>& mesh,
            std::span<const PointSource> sources, const PropagateOptions& options,

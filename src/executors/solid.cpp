@@ -13,12 +13,10 @@ void solve_points(const E& executor, const TetMesh<Real>& mesh,
   WorkspaceState<Real>& workspace = kept.state();
   check(sources, options, mesh);
   workspace.pieces.counts().start();
-  with_labels(sources, [&](auto labels) {
-    constexpr bool kLabels = decltype(labels)::value;
-    drive<kLabels>(executor, mesh, sources, options, workspace, [&](auto queue, const auto& crew) {
-      solid::solve_with<Real, kLabels>(mesh, sources, options, workspace, queue, crew, field);
-    });
+  drive<true>(executor, mesh, sources, options, workspace, [&](auto queue, const auto& crew) {
+    solid::solve_with<Real, true>(mesh, sources, options, workspace, queue, crew, field);
   });
+  if (sources.size() == 1) field.label.clear();
   workspace.pieces.counts().tell(field.statistics);
 }
 

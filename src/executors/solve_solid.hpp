@@ -60,7 +60,8 @@ void solve(const TetMesh<Real>& mesh, std::span<const PointSource> sources,
   read_out_sources<Real, kLabels>(mesh, sources, workspace);
   constexpr bool plain = std::is_same_v<Rule, PlainSolidRule<Real, Front>>;
   if constexpr (kLabels && !plain)
-    if (!front.out_of_budget()) read_out_borders(mesh, sources, options, workspace, rule, front);
+    if (sources.size() > 1 && !front.out_of_budget())
+      read_out_borders(mesh, sources, options, workspace, rule, front);
   // The full rule is exact where nothing bends a path.
   if (plain || rule.drops())
     read_out_tet_edges<Real, kLabels>(mesh, workspace, [&](const auto& wrong, const auto& look) {

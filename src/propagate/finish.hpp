@@ -26,6 +26,14 @@ void with_queue(const PropagateOptions& options, FrontStorage& storage, Solve so
                                        : static_cast<Real>(options.step)));
 }
 
+/// Likewise as one type.
+template <class Real>
+ChosenQueue<Real> queue_for(const PropagateOptions& options, FrontStorage& storage) {
+  const Real step = options.schedule == Schedule::fifo ? std::numeric_limits<Real>::infinity()
+                                                       : static_cast<Real>(options.step);
+  return {storage, step, options.schedule == Schedule::priority};
+}
+
 /// From what was read out, in the numbers and the unit inside, to the caller's: nothing beyond the
 /// radius, +inf where unreached, a source's own offset to the last bit.
 template <class Real, bool kLabels, class Complex, class Front, class Crew>

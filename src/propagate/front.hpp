@@ -169,4 +169,29 @@ class PriorityQueue {
   std::vector<Entry>* heap_;
 };
 
+/// Either of the two, chosen at run time: for loops that a branch more does not slow down, so that
+/// they are compiled once.
+template <class Real>
+class ChosenQueue {
+ public:
+  ChosenQueue(FrontStorage& storage, Real step, bool by_priority)
+      : dual_(storage, step), heap_(storage), by_priority_(by_priority) {}
+
+  void push(Index simplex, Real distance, bool wanted = true) {
+    if (by_priority_) [[unlikely]]
+      heap_.push(simplex, distance, wanted);
+    else
+      dual_.push(simplex, distance, wanted);
+  }
+  template <class DistanceOf>
+  bool pop(Index& simplex, DistanceOf distance_of) {
+    return by_priority_ ? heap_.pop(simplex, distance_of) : dual_.pop(simplex, distance_of);
+  }
+
+ private:
+  DualQueue<Real> dual_;
+  PriorityQueue<Real> heap_;
+  bool by_priority_;
+};
+
 }  // namespace plexway
