@@ -19,14 +19,31 @@ function(plexway_compile_options target)
     $<$<BOOL:${PLEXWAY_NATIVE}>:-march=native>)
 endfunction()
 
-# plexway_add_component(NAME SOURCES ... HEADERS_FROM dir... DEPENDS component...)
+# Compiles the sources of a target together, so many at a time: what headers and templates cost is
+# paid once a batch. Names in anonymous namespaces are therefore unique within a target.
+function(plexway_compile_together target files)
+  set_target_properties(${target} PROPERTIES
+    UNITY_BUILD ${PLEXWAY_UNITY} UNITY_BUILD_BATCH_SIZE ${files})
+  # A local name may be that of another file's anonymous namespace; and g++ takes each file for a
+  # header, which may not name what is in one.
+  if(PLEXWAY_UNITY AND NOT MSVC)
+    target_compile_options(${target} PRIVATE -Wno-shadow
+      $<$<CXX_COMPILER_ID:GNU>:-Wshadow=local -Wno-subobject-linkage>)
+  endif()
+endfunction()
+
+# plexway_add_component(NAME SOURCES ... HEADERS_FROM dir... DEPENDS component... BATCH n)
+# BATCH is how many of the sources are compiled at a time (1 without it).
 # A library plexway_NAME, also known as plexway::NAME, installed as the package component NAME.
 function(plexway_add_component name)
-  cmake_parse_arguments(arg "" "" "SOURCES;HEADERS_FROM;DEPENDS" ${ARGN})
+  cmake_parse_arguments(arg "" "BATCH" "SOURCES;HEADERS_FROM;DEPENDS" ${ARGN})
   set(target plexway_${name})
   add_library(${target} ${arg_SOURCES})
   add_library(plexway::${name} ALIAS ${target})
   plexway_compile_options(${target})
+  if(arg_BATCH)
+    plexway_compile_together(${target} ${arg_BATCH})
+  endif()
   set_target_properties(${target} PROPERTIES
     EXPORT_NAME ${name}
     POSITION_INDEPENDENT_CODE ON
@@ -86,18 +103,19 @@ function(plexway_add_tool)
   plexway_require(nlohmann_json PACKAGE nlohmann-json3-dev FOR PLEXWAY_BUILD_TOOL)
   add_library(plexway_cli OBJECT ${sources})
   plexway_compile_options(plexway_cli)
+  plexway_compile_together(plexway_cli 20)
+  if(NOT MSVC)  # nothing there is hot
+    target_compile_options(plexway_cli PRIVATE $<$<CONFIG:Release>:-O1>)
+  endif()
   target_include_directories(plexway_cli PRIVATE "${PROJECT_SOURCE_DIR}/src")
   target_link_libraries(plexway_cli PRIVATE CLI11::CLI11 nlohmann_json::nlohmann_json)
   plexway_link_all(plexway_cli EXCEPT pcl openvdb hdf5 mpi)
-  set(built "")
   foreach(module pcl openvdb hdf5)
     if(TARGET plexway_${module}_module)
       string(TOUPPER ${module} upper)
-      list(APPEND built PLEXWAY_HAS_${upper}=1)
+      target_compile_definitions(plexway_cli PRIVATE PLEXWAY_HAS_${upper}=1)
     endif()
   endforeach()
-  set_source_files_properties("${PROJECT_SOURCE_DIR}/src/cli/app.cpp"  # which lists them
-    PROPERTIES COMPILE_DEFINITIONS "${built}")
 
   plexway_add_tool_program(plexway_tool plexway "${PROJECT_SOURCE_DIR}/src/cli/main.cpp")
   if(TARGET plexway_mpi)
@@ -142,7 +160,7 @@ function(plexway_add_any)
     file(GLOB reports CONFIGURE_DEPENDS "${folder}/info/*.cpp" "${folder}/tuning/*.cpp")
     list(APPEND sources ${reports})
   endif()
-  plexway_add_component(any SOURCES ${sources} DEPENDS ${depends})
+  plexway_add_component(any SOURCES ${sources} DEPENDS ${depends} BATCH 18)
   target_include_directories(plexway_any PRIVATE "${PROJECT_SOURCE_DIR}/src")
   if(TARGET nlohmann_json::nlohmann_json)
     target_include_directories(plexway_any SYSTEM PRIVATE
