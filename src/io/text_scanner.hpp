@@ -65,7 +65,7 @@ class TextScanner {
   }
 
   /// Moves to the next field of this line or of any later one; false at the end of the text.
-  bool to_content() {
+  [[gnu::always_inline]] bool to_content() {
     while (!to_field()) {
       if (!next_line()) return false;
     }
@@ -148,7 +148,7 @@ class TextScanner {
     return c == ' ' || c == '\t' || c == '\r' || c == '\v' || c == '\f';
   }
 
-  bool ends_field(const char* at) const {
+  [[gnu::always_inline]] bool ends_field(const char* at) const {
     return at == end_ || is_blank(*at) || *at == '\n' || *at == '#' || joined(at) != nullptr;
   }
 
