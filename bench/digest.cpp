@@ -1,13 +1,17 @@
-// What building makes, as an oracle for changes to it: every array of surfaces, their Delaunay
-// triangulations and solids, of shapes made on the spot and of files, in both precisions.
+// What building makes and what solving finds, as an oracle for changes to them: a line with a
+// checksum for every array of surfaces, their Delaunay triangulations and solids, and for fields on
+// them, on wireframes, complexes of simplices and mixed domains, of shapes made on the spot and of
+// files, in both precisions.
 //
-//   bench_digest --save NEW [FILE...]    (the same built before the change: --save OLD)
-//   bench_digest --compare OLD NEW
+//   bench_digest [FILE...] > NEW    (the same built before the change: > OLD)
+//   diff OLD NEW
 //
-// Comparing counts what differs, and how far apart numbers lie in units in the last place.
+// Beside the checksum stand how many numbers there are, and their mean, which tells whether another
+// checksum means another rounding.
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
@@ -17,26 +21,63 @@
 #include <random>
 #include <span>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include <plexway/complex/intrinsic_delaunay.hpp>
+#include <plexway/complex/simplicial_complex.hpp>
 #include <plexway/complex/tet_mesh.hpp>
 #include <plexway/complex/triangle_mesh.hpp>
 #include <plexway/io/tets.hpp>
 #include <plexway/io/triangles.hpp>
-
-#include "digest_arrays.hpp"
+#include <plexway/solve.hpp>
 
 #include "complex/test_meshes.hpp"
 #include "complex/test_solids.hpp"
+#include "data/random_stacks.hpp"
 
 namespace {
 
 using namespace plexway;
-using digest::Writer;
 using testing::Solid;
 using testing::Surface;
+
+/// Prints lines, each under the name of what was entered last.
+class Writer {
+ public:
+  void enter(std::string name) { prefix_ = std::move(name); }
+  template <class Make>
+  void integers(const char* name, std::size_t count, Make make) {
+    Sum sum;
+    for (std::size_t i = 0; i < count; ++i) sum.add(static_cast<std::uint64_t>(make(i)));
+    std::printf("%s %s: %zu %016llx\n", prefix_.c_str(), name, count, sum.bits);
+  }
+  template <class Real, class Make>
+  void numbers(const char* name, std::size_t count, Make make) {
+    Sum sum;
+    double all = 0;
+    std::size_t finite = 0;
+    for (std::size_t i = 0; i < count; ++i) {
+      const Real value = make(i);
+      if constexpr (sizeof(Real) == 4)
+        sum.add(std::bit_cast<std::uint32_t>(value));
+      else
+        sum.add(std::bit_cast<std::uint64_t>(value));
+      if (std::isfinite(value)) all += static_cast<double>(value), ++finite;
+    }
+    std::printf("%s %s: %zu %016llx %.12g\n", prefix_.c_str(), name, count, sum.bits,
+                all / static_cast<double>(std::max<std::size_t>(finite, 1)));
+  }
+
+ private:
+  struct Sum {  // Fowler, Noll and Vo's, by words, each mixed
+    unsigned long long bits = 14695981039346656037u;
+    void add(std::uint64_t word) {
+      bits = (bits ^ word) * 1099511628211u;
+      bits ^= bits >> 29;
+    }
+  };
+  std::string prefix_;
+};
 
 template <class Real>
 void add(Writer& out, const TriangleMesh<Real>& mesh) {
@@ -167,14 +208,52 @@ void attempt(Writer& out, const std::string& name, Work work) {
   try {
     work();
   } catch (const std::exception& error) {
-    out.text(error.what());
+    std::printf("%s: %s\n", name.c_str(), error.what());
   }
+}
+
+/// Fields from one vertex.
+template <class Domain>
+void fields(Writer& out, const Domain& domain, Index source,
+            const std::vector<std::pair<const char*, Accuracy>>& accuracies = {
+                {"field", Accuracy::usual()}}) {
+  using Real = RealOf<Domain>;
+  for (const auto& [name, accuracy] : accuracies) {
+    PropagateOptions options;
+    options.accuracy = accuracy;
+    const auto field = solve(Serial{}, domain, PointSource::at(source), options);
+    out.template numbers<Real>(name, field.distance.size(),
+                               [&](std::size_t v) { return field.distance[v]; });
+  }
+}
+
+std::vector<double> flat(const std::vector<std::array<double, 3>>& positions) {
+  std::vector<double> numbers;
+  for (const auto& p : positions) numbers.insert(numbers.end(), p.begin(), p.end());
+  return numbers;
+}
+
+/// One that something is at.
+template <class Simplices>
+Index first_of(const Simplices& simplices) {
+  return simplices.empty() ? 0 : simplices[0][0];
 }
 
 template <class Real>
 void surfaces(Writer& out, const std::string& name, const Surface& s) {
   const std::string real = sizeof(Real) == 4 ? " float" : " double";
-  attempt(out, name + real, [&] { add(out, TriangleMesh<Real>(s.positions, s.faces)); });
+  attempt(out, name + real, [&] {
+    const TriangleMesh<Real> mesh(s.positions, s.faces);
+    add(out, mesh);
+    fields(out, mesh, first_of(s.faces),
+           {{"fast", Accuracy::fast()},
+            {"accurate", Accuracy::usual()},
+            {"exact", Accuracy::exact()}});
+  });
+  attempt(out, name + " complex" + real, [&] {
+    const SimplicialComplex<Real, 2> complex(flat(s.positions), 3, s.faces);
+    fields(out, complex, first_of(s.faces));
+  });
   attempt(out, name + " samples" + real, [&] {
     SurfaceHints hints;
     hints.samples = true;
@@ -224,7 +303,15 @@ void surfaces(Writer& out, const std::string& name, const Surface& s) {
 template <class Real>
 void solids(Writer& out, const std::string& name, const Solid& s) {
   const std::string real = sizeof(Real) == 4 ? " float" : " double";
-  attempt(out, name + real, [&] { add(out, TetMesh<Real>(s.positions, s.tets)); });
+  attempt(out, name + real, [&] {
+    const TetMesh<Real> mesh(s.positions, s.tets);
+    add(out, mesh);
+    fields(out, mesh, first_of(s.tets));
+  });
+  attempt(out, name + " complex" + real, [&] {
+    const SimplicialComplex<Real, 3> complex(flat(s.positions), 3, s.tets);
+    fields(out, complex, first_of(s.tets));
+  });
   for (const auto& t : s.tets)
     for (const Index v : t)
       if (v >= s.positions.size()) return;
@@ -374,6 +461,16 @@ void made_solids(Writer& out) {
   solid(out, "same side", bad);
 }
 
+void made_stacks(Writer& out) {
+  std::mt19937 random(1);
+  for (int n = 0; n < 8; ++n)
+    attempt(out, "stack" + std::to_string(n), [&] {
+      const samples::Stack stack = samples::random_stack(random, 20, .1, 1.5);
+      const samples::StackDomain whole(stack);
+      fields(out, whole.domain, 0);
+    });
+}
+
 void file(Writer& out, const std::string& path) {
   const std::string name = std::filesystem::path(path).filename().string();
   const std::string extension = std::filesystem::path(path).extension().string();
@@ -389,18 +486,11 @@ void file(Writer& out, const std::string& path) {
 }  // namespace
 
 int main(int argc, char** argv) try {
-  const std::vector<std::string> arguments(argv + 1, argv + argc);
-  if (arguments.size() == 3 && arguments[0] == "--compare")
-    return digest::compare(arguments[1], arguments[2]);
-  if (arguments.size() < 2 || arguments[0] != "--save") {
-    std::fputs("usage: bench_digest --save OUT [MESH...]\n       bench_digest --compare OLD NEW\n",
-               stderr);
-    return 2;
-  }
-  Writer out(arguments[1]);
+  Writer out;
   made_surfaces(out);
   made_solids(out);
-  for (std::size_t i = 2; i < arguments.size(); ++i) file(out, arguments[i]);
+  made_stacks(out);
+  for (int i = 1; i < argc; ++i) file(out, argv[i]);
   return 0;
 } catch (const std::exception& error) {
   std::fprintf(stderr, "bench_digest: %s\n", error.what());
