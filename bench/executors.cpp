@@ -186,7 +186,8 @@ void run(Arguments& arguments) {
   arguments.option("--batch", &settings.batch, "Fields in the batch");
   arguments.option("--repeats", &settings.repeats, "Turns; the least time counts");
   arguments.option("--threads", &settings.threads, "Teams (default: 1 and one a core)");
-  arguments.option("--chunks", &settings.chunks, "Chunks for the last team; none leaves that out");
+  arguments.option("--chunks", &settings.chunks,
+                   "Chunks for the last team; `none` leaves that out");
   arguments.option("--sizes", &settings.sizes, "Vertices of surfaces that teams are tried on");
   arguments.option("--counts", &settings.counts, "Sources on each of them");
   arguments.option("--double", &twice, "Double instead of float");

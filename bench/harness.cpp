@@ -268,11 +268,11 @@ CLI::Option* add(CLI::App& app, const std::string& name, Arguments::Variable var
               [to](const CLI::results_t& words) {
                 to->clear();
                 for (const std::string& word : words)
-                  if (!word.empty() && !read(word, to->emplace_back())) return false;
+                  if (word != "none" && !read(word, to->emplace_back())) return false;
                 return true;
               },
               about);
-          option->expected(named ? 0 : 1, -1);
+          option->type_size(1)->expected(1, -1)->allow_extra_args();
           std::string usual;
           for (const auto& one : *to) usual += (usual.empty() ? "" : ",") + written(one);
           if constexpr (!std::is_same_v<T, std::vector<std::string>>) option->delimiter(',');
@@ -281,7 +281,7 @@ CLI::Option* add(CLI::App& app, const std::string& name, Arguments::Variable var
         } else {
           CLI::Option* option = app.add_option(
               name, [to](const CLI::results_t& words) { return read(words.back(), *to); }, about);
-          option->expected(1);
+          option->type_size(1)->expected(1);
           if (named) option->default_str(written(*to));
           return option;
         }

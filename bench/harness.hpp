@@ -113,7 +113,8 @@ class Arguments {
   ~Arguments();
 
   void option(const std::string& name, bool* flag, const std::string& about);
-  /// Lists of numbers may have commas. A name without dashes is positional.
+  /// Lists of numbers may have commas; `none` is an empty list. A name without dashes is
+  /// positional.
   void option(const std::string& name, Variable variable, const std::string& about,
               const std::vector<std::string>& choices = {});
   void required(const std::string& name, Variable variable, const std::string& about);
