@@ -45,160 +45,97 @@ using testing::Surface;
 class Writer {
  public:
   void enter(std::string name) { prefix_ = std::move(name); }
-  template <class Make>
-  void integers(const char* name, std::size_t count, Make make) {
-    Sum sum;
-    for (std::size_t i = 0; i < count; ++i) sum.add(static_cast<std::uint64_t>(make(i)));
-    std::printf("%s %s: %zu %016llx\n", prefix_.c_str(), name, count, sum.bits);
-  }
-  template <class Real, class Make>
-  void numbers(const char* name, std::size_t count, Make make) {
-    Sum sum;
-    double all = 0;
-    std::size_t finite = 0;
-    for (std::size_t i = 0; i < count; ++i) {
-      const Real value = make(i);
-      if constexpr (sizeof(Real) == 4)
-        sum.add(std::bit_cast<std::uint32_t>(value));
-      else
-        sum.add(std::bit_cast<std::uint64_t>(value));
-      if (std::isfinite(value)) all += static_cast<double>(value), ++finite;
+  template <class T>
+  void array(const char* name, const std::vector<T>& values) {
+    unsigned long long bits = 14695981039346656037u;  // Fowler, Noll and Vo's, by words, each mixed
+    double sum = 0, finite = 0;
+    for (const T value : values) {
+      std::uint64_t word = 0;
+      std::memcpy(&word, &value, sizeof value);
+      bits = (bits ^ word) * 1099511628211u;
+      bits ^= bits >> 29;
+      const auto number = static_cast<double>(value);
+      if (std::isfinite(number)) sum += number, ++finite;
     }
-    std::printf("%s %s: %zu %016llx %.12g\n", prefix_.c_str(), name, count, sum.bits,
-                all / static_cast<double>(std::max<std::size_t>(finite, 1)));
+    std::printf("%s %s: %zu %016llx %.12g\n", prefix_.c_str(), name, values.size(), bits,
+                finite > 0 ? sum / finite : 0);
   }
 
  private:
-  struct Sum {  // Fowler, Noll and Vo's, by words, each mixed
-    unsigned long long bits = 14695981039346656037u;
-    void add(std::uint64_t word) {
-      bits = (bits ^ word) * 1099511628211u;
-      bits ^= bits >> 29;
-    }
-  };
   std::string prefix_;
 };
 
+template <class T, class Range>
+void append(std::vector<T>& to, const Range& more) {
+  for (const auto& one : more) to.push_back(static_cast<T>(one));
+}
+
 template <class Real>
 void add(Writer& out, const TriangleMesh<Real>& mesh) {
-  const auto t = mesh.triangles();
-  const auto of = [&](auto member) {
-    return [&t, member](std::size_t i) { return (t[i / 3].*member)[i % 3]; };
-  };
-  using Record = TriangleRecord<Real>;
-  out.integers("across", 3 * t.size(), of(&Record::across));
-  out.integers("corner", 3 * t.size(), of(&Record::corner));
-  out.integers("face", t.size(), [&](std::size_t f) { return t[f].face; });
-  out.integers("saddle", 3 * t.size(), [&](std::size_t i) { return t[i / 3].saddle(i % 3); });
-  out.template numbers<Real>("length", 3 * t.size(), of(&Record::length));
-  out.template numbers<Real>("cosine", 3 * t.size(), of(&Record::cosine));
-  out.template numbers<Real>("sine", 3 * t.size(),
-                             [&](std::size_t i) { return t[i / 3].sine(i % 3); });
-  const auto names = mesh.vertices_inside();
-  out.integers("vertices", names.size(), [&](std::size_t v) { return names[v]; });
-  out.integers("faces", mesh.face_count(), [&](std::size_t f) {
-    const auto [inside, turned] = mesh.inside_face(static_cast<Index>(f));
-    return 2ull * inside + turned;
-  });
-  out.integers("corner_at", names.size(),
-               [&](std::size_t v) { return mesh.corner_at(static_cast<Index>(v)); });
-  std::vector<Index> all, corners;
+  std::vector<Index> glued, corners, at, names;
+  std::vector<Real> shape;
+  for (const auto& t : mesh.triangles())
+    for (std::size_t i = 0; i < 3; ++i) {
+      append(glued, std::array{t.across[i], t.corner[i], Index{t.saddle(i)}});
+      append(shape, std::array<Real, 3>{t.length[i], t.cosine[i], t.sine(i)});
+    }
+  append(names, mesh.vertices_inside());
   for (Index v = 0; v < names.size(); ++v) {
-    mesh.corners_at(v, corners);
-    all.push_back(static_cast<Index>(corners.size()));
-    all.insert(all.end(), corners.begin(), corners.end());
+    mesh.corners_at(v, at);
+    corners.push_back(static_cast<Index>(at.size()));
+    append(corners, at);
   }
-  out.integers("corners_at", all.size(), [&](std::size_t i) { return all[i]; });
-  const auto pinched = mesh.pinched();
-  out.integers("pinched", pinched.size(), [&](std::size_t i) { return pinched[i]; });
+  append(corners, mesh.pinched());
+  for (Index f = 0; f < mesh.face_count(); ++f) {
+    const auto [inside, turned] = mesh.inside_face(f);
+    append(names, std::array<std::size_t, 2>{inside, turned});
+  }
   const SurfaceSummary& s = mesh.summary();
-  const std::array<std::size_t, 12> counts = {s.vertices,
-                                              s.faces,
-                                              s.edges,
-                                              s.boundary_edges,
-                                              s.non_manifold_edges,
-                                              s.pinched_vertices,
-                                              s.unreferenced_vertices,
-                                              s.degenerate_faces,
-                                              s.violated_faces,
-                                              s.refracting_edges,
-                                              s.components,
-                                              s.orientable};
-  out.integers("summary", counts.size(), [&](std::size_t i) { return counts[i]; });
-  out.template numbers<double>("unit", 1, [&](std::size_t) { return mesh.unit(); });
+  out.array("gluing", glued);
+  out.array("shape", shape);
+  out.array("corners", corners);
+  out.array("names", names);
+  out.array("summary", std::vector<std::size_t>{
+                           s.vertices, s.faces, s.edges, s.boundary_edges, s.non_manifold_edges,
+                           s.pinched_vertices, s.unreferenced_vertices, s.degenerate_faces,
+                           s.violated_faces, s.refracting_edges, s.components, s.orientable});
 }
 
 template <class Real>
 void add(Writer& out, const TetMesh<Real>& mesh) {
-  const auto t = mesh.tets();
-  using Record = TetRecord<Real>;
-  const auto of = [&](auto member) {
-    return [&t, member](std::size_t i) { return (t[i / 4].*member)[i % 4]; };
-  };
-  out.integers("across", 4 * t.size(), of(&Record::across));
-  out.integers("corner", 4 * t.size(), of(&Record::corner));
-  out.integers("first_reflex", t.size(), [&](std::size_t i) { return t[i].reflex; });
-  const auto vector = [&](const char* name, std::size_t n, auto make) {
-    out.template numbers<Real>(name, 3 * n, [&](std::size_t i) {
-      const Vector3<Real> v = make(i / 3);
-      return i % 3 == 0 ? v.x : i % 3 == 1 ? v.y : v.z;
-    });
-  };
-  vector("centre", t.size(), [&](std::size_t i) { return t[i].centre; });
-  vector("points", mesh.points().size(), [&](std::size_t i) { return mesh.points()[i]; });
-  const auto lengths = mesh.squared_lengths();
-  out.template numbers<Real>("lengths", 6 * lengths.size(),
-                             [&](std::size_t i) { return lengths[i / 6][i % 6]; });
-  const auto reflex = mesh.reflex_edges();
-  const auto* words = reinterpret_cast<const Real*>(reflex.data());
-  constexpr std::size_t width = sizeof(ReflexEdge<Real>) / sizeof(Real);
-  out.template numbers<Real>("reflex", width * reflex.size(), [&](std::size_t i) {
-    Real value;
-    std::memcpy(&value, words + i, sizeof value);
-    return value;
-  });
-  const auto list = mesh.reflex_list();
-  out.integers("reflex_list", list.size(), [&](std::size_t i) { return list[i]; });
-  const auto names = mesh.vertices_inside();
-  out.integers("vertices", names.size(), [&](std::size_t v) { return names[v]; });
-  out.integers("tets", mesh.tet_count(), [&](std::size_t i) {
-    const auto [inside, turned] = mesh.inside_tet(static_cast<Index>(i));
-    return 2ull * inside + turned;
-  });
-  std::vector<Index> all;
-  for (Index v = 0; v < names.size(); ++v) {
-    const auto corners = mesh.corners_at(v);
-    all.push_back(static_cast<Index>(corners.size()));
-    all.insert(all.end(), corners.begin(), corners.end());
+  std::vector<Index> glued, corners, names;
+  std::vector<Real> shape;
+  for (const auto& t : mesh.tets()) {
+    append(glued, t.across);
+    append(glued, t.corner);
   }
-  out.integers("corners_at", all.size(), [&](std::size_t i) { return all[i]; });
-  const auto pinched = mesh.pinched();
-  out.integers("pinched", pinched.size(), [&](std::size_t i) { return pinched[i]; });
-  std::vector<Index> edges;
+  for (const auto& p : mesh.points()) append(shape, std::array<Real, 3>{p.x, p.y, p.z});
+  for (const auto& lengths : mesh.squared_lengths()) append(shape, lengths);
+  append(names, mesh.vertices_inside());
+  for (Index v = 0; v < names.size(); ++v) {
+    const auto at = mesh.corners_at(v);
+    corners.push_back(static_cast<Index>(at.size()));
+    append(corners, at);
+  }
+  append(corners, mesh.pinched());
+  append(corners, mesh.reflex_list());
   for (const auto& e : mesh.pinched_edges())
-    edges.insert(edges.end(), {e.vertex[0], e.vertex[1], e.begin, e.end});
-  out.integers("pinched_edges", edges.size(), [&](std::size_t i) { return edges[i]; });
-  const auto tets = mesh.pinched_edge_tets();
-  out.integers("pinched_edge_tets", tets.size(), [&](std::size_t i) { return tets[i]; });
+    append(corners, std::array{e.vertex[0], e.vertex[1], e.begin, e.end});
+  append(corners, mesh.pinched_edge_tets());
+  for (Index t = 0; t < mesh.tet_count(); ++t) {
+    const auto [inside, turned] = mesh.inside_tet(t);
+    append(names, std::array<std::size_t, 2>{inside, turned});
+  }
   const SolidSummary& s = mesh.summary();
-  const std::array<std::size_t, 16> counts = {s.vertices,
-                                              s.tets,
-                                              s.edges,
-                                              s.faces,
-                                              s.boundary_faces,
-                                              s.reflex_edges,
-                                              s.reflex_vertices,
-                                              s.pinched_vertices,
-                                              s.pinched_edges,
-                                              s.unreferenced_vertices,
-                                              s.degenerate_tets,
-                                              s.inverted_tets,
-                                              s.first_degenerate,
-                                              s.first_inverted,
-                                              s.components,
-                                              s.embedded};
-  out.integers("summary", counts.size(), [&](std::size_t i) { return counts[i]; });
-  out.template numbers<double>("unit", 1, [&](std::size_t) { return mesh.unit(); });
+  out.array("gluing", glued);
+  out.array("shape", shape);
+  out.array("corners", corners);
+  out.array("names", names);
+  out.array("summary", std::vector<std::size_t>{
+                           s.vertices, s.tets, s.edges, s.faces, s.boundary_faces, s.reflex_edges,
+                           s.reflex_vertices, s.pinched_vertices, s.pinched_edges,
+                           s.unreferenced_vertices, s.degenerate_tets, s.inverted_tets,
+                           s.first_degenerate, s.first_inverted, s.components, s.embedded});
 }
 
 // What is refused is refused with the same words.
@@ -217,13 +154,10 @@ template <class Domain>
 void fields(Writer& out, const Domain& domain, Index source,
             const std::vector<std::pair<const char*, Accuracy>>& accuracies = {
                 {"field", Accuracy::usual()}}) {
-  using Real = RealOf<Domain>;
   for (const auto& [name, accuracy] : accuracies) {
     PropagateOptions options;
     options.accuracy = accuracy;
-    const auto field = solve(Serial{}, domain, PointSource::at(source), options);
-    out.template numbers<Real>(name, field.distance.size(),
-                               [&](std::size_t v) { return field.distance[v]; });
+    out.array(name, solve(Serial{}, domain, PointSource::at(source), options).distance);
   }
 }
 
@@ -246,9 +180,8 @@ void surfaces(Writer& out, const std::string& name, const Surface& s) {
     const TriangleMesh<Real> mesh(s.positions, s.faces);
     add(out, mesh);
     fields(out, mesh, first_of(s.faces),
-           {{"fast", Accuracy::fast()},
-            {"accurate", Accuracy::usual()},
-            {"exact", Accuracy::exact()}});
+           {{"fast", Accuracy::fast()}, {"accurate", Accuracy::usual()}});
+    if (sizeof(Real) == 8) fields(out, mesh, first_of(s.faces), {{"exact", Accuracy::exact()}});
   });
   attempt(out, name + " complex" + real, [&] {
     const SimplicialComplex<Real, 2> complex(flat(s.positions), 3, s.faces);
@@ -282,9 +215,8 @@ void surfaces(Writer& out, const std::string& name, const Surface& s) {
     const TriangleMesh<double> input(s.positions, s.faces);
     const IntrinsicDelaunay delaunay(input);
     add(out, delaunay.mesh<Real>());
-    const std::array<std::size_t, 2> counts = {delaunay.summary().flips,
-                                               delaunay.summary().stuck_edges};
-    out.integers("flips", 2, [&](std::size_t i) { return counts[i]; });
+    out.array("flips",
+              std::vector<std::size_t>{delaunay.summary().flips, delaunay.summary().stuck_edges});
     std::vector<double> mapped;
     for (Index f = 0; f < s.faces.size(); f += 1 + static_cast<Index>(s.faces.size() / 999)) {
       const PointSource p = delaunay.to_intrinsic(PointSource::in(f, {0.2, 0.5, 0.3}));
@@ -292,7 +224,7 @@ void surfaces(Writer& out, const std::string& name, const Surface& s) {
       const PointSource q = delaunay.to_input(PointSource::in(f, {0.2, 0.5, 0.3}));
       mapped.insert(mapped.end(), {double(q.simplex), q.barycentric[0], q.barycentric[1]});
     }
-    out.numbers<double>("mapped", mapped.size(), [&](std::size_t i) { return mapped[i]; });
+    out.array("mapped", mapped);
   });
   attempt(out, name + " refined" + real, [&] {
     const TriangleMesh<Real> input(s.positions, s.faces);
@@ -337,12 +269,8 @@ void solid(Writer& out, const std::string& name, const Solid& s) {
 
 std::string exponent(double x) { return std::to_string(std::lround(std::log10(x))); }
 
-Surface scaled(Surface s, double by) {
-  for (auto& p : s.positions)
-    for (double& x : p) x *= by;
-  return s;
-}
-Solid scaled(Solid s, double by) {
+template <class Shape>
+Shape scaled(Shape s, double by) {
   for (auto& p : s.positions)
     for (double& x : p) x *= by;
   return s;

@@ -10,6 +10,7 @@
 #include <plexway/apps/path_search.hpp>
 #include <plexway/error.hpp>
 
+#include "scenes.hpp"
 #include "solver.hpp"
 
 namespace bench::paths {
@@ -126,17 +127,8 @@ void lengths(const std::filesystem::path& folder, const plexway::TraceOptions& t
 // 1,000 searches that reach about 500 triangles each, against full solves.
 Row bounded() {
   constexpr Index n = 708;  // squares a side
-  Surface surface;
-  for (Index j = 0; j <= n; ++j)
-    for (Index i = 0; i <= n; ++i)
-      surface.positions.push_back(
-          {i / double(n), j / double(n), 0.02 * std::sin(40. * i / n) * std::cos(30. * j / n)});
-  for (Index j = 0; j < n; ++j)
-    for (Index i = 0; i < n; ++i) {
-      const Index a = j * (n + 1) + i, b = a + 1, c = a + n + 1, d = c + 1;
-      surface.faces.push_back({a, b, d});
-      surface.faces.push_back({a, d, c});
-    }
+  const Surface surface = height_field(
+      n, [](double x, double y) { return 0.02 * std::sin(40 * x) * std::cos(30 * y); });
   const Mesh mesh(surface.positions, surface.faces);
   plexway::BoundedSearch<float> search(mesh);
   Solver solver(mesh, one_label());

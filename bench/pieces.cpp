@@ -5,9 +5,9 @@
 // dealt to the threads longest first, a run costs its expansions and some, a superstep what a
 // barrier does.
 
-#include "../data/shapes.hpp"
 #include "piece_model.hpp"
 #include "propagate/workspace_state.hpp"
+#include "scenes.hpp"
 #include "solver.hpp"
 
 namespace bench::pieces {
@@ -95,31 +95,18 @@ void measure_surface(const Surface& surface, const Settings& settings, Table& ta
           by_accuracy(settings.accuracy), settings, table);
 }
 
-/// Points a unit apart, each pushed by up to 0.3, and struts between them; `layers` of n x n.
-void measure_wires(std::size_t n, std::size_t layers, const Settings& settings, Table& table) {
-  samples::Noise noise(1);
-  std::vector<std::array<double, 3>> positions;
-  std::vector<std::array<Index, 2>> edges;
-  for (std::size_t k = 0; k < layers; ++k)
-    for (std::size_t j = 0; j < n; ++j)
-      for (std::size_t i = 0; i < n; ++i) {
-        const auto v = positions.size();
-        const auto pushed = [&](std::size_t at) { return static_cast<double>(at) + 0.3 * noise(); };
-        const double x = pushed(i), y = pushed(j), z = layers > 1 ? pushed(k) : 0;
-        positions.push_back({x, y, z});
-        for (const auto& [there, to] :
-             {std::pair(i > 0, v - 1), {j > 0, v - n}, {k > 0, v - n * n}})
-          if (there) edges.push_back({static_cast<Index>(to), static_cast<Index>(v)});
-      }
-  const plexway::Wireframe<float> wires(positions, edges);
-  measure(layers > 1 ? "lattice" : "grid", wires, positions.size(),
-          spread_numbers(settings.effort.sources, positions.size()), {}, settings, table);
+/// A grid, or a lattice, of n points a side, each pushed by up to 0.3.
+void measure_wires(Index n, bool cubed, const Settings& settings, Table& table) {
+  const Wires made = lattice(cubed ? "lattice" : "grid", n, n, cubed ? n : 1, 0.3);
+  const plexway::Wireframe<float> wires(made.positions, made.edges);
+  measure(made.name, wires, made.positions.size(),
+          spread_numbers(settings.effort.sources, made.positions.size()), {}, settings, table);
 }
 
 void run(Arguments& arguments) {
   Settings settings;
   Meshes meshes;
-  std::vector<std::size_t> grids, lattices;
+  std::vector<Index> grids, lattices;
   arguments.option("MESH", &meshes.files, "Surfaces");
   arguments.option("--generated", &meshes.sizes, "Bumpy spheres of about so many vertices");
   arguments.option("--grid", &grids, "Wireframes: grids of so many points squared");
@@ -143,8 +130,8 @@ void run(Arguments& arguments) {
     settings.accuracy == "exact" ? measure_surface<double>(surface, settings, table)
                                  : measure_surface<float>(surface, settings, table);
   });
-  for (const std::size_t n : grids) measure_wires(n, 1, settings, table);
-  for (const std::size_t n : lattices) measure_wires(n, n, settings, table);
+  for (const Index n : grids) measure_wires(n, false, settings, table);
+  for (const Index n : lattices) measure_wires(n, true, settings, table);
 }
 const Command command("pieces", "one source by pieces beside Serial: counts, bits, times", run);
 

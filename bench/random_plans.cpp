@@ -9,7 +9,6 @@
 #include <plexway/complex/kuhn_grid.hpp>
 #include <plexway/complex/simplicial_complex.hpp>
 
-#include "data/corner_domains.hpp"
 #include "data/random_stacks.hpp"
 #include "fuzz/fuzz_pierced.hpp"
 #include "fuzz/fuzz_plan.hpp"

@@ -3,11 +3,10 @@
 
 #include <algorithm>
 #include <map>
-#include <numeric>
 #include <utility>
 
-#include "../data/shapes.hpp"
 #include "peers.hpp"
+#include "scenes.hpp"
 #include "solver.hpp"
 
 namespace bench::scale {
@@ -46,19 +45,10 @@ Surface subdivide(const Surface& surface) {
 /// Vertices and faces in an order that says nothing about where they are.
 void shuffle(Surface& surface) {
   samples::Noise noise(1);
-  const auto permutation = [&](std::size_t n) {
-    std::vector<Index> order(n);
-    std::iota(order.begin(), order.end(), Index{0});
-    for (std::size_t i = n; i > 1; --i) {
-      const double place = (noise() + 1) / 2 * static_cast<double>(i);
-      std::swap(order[i - 1], order[std::min(i - 1, static_cast<std::size_t>(place))]);
-    }
-    return order;
-  };
-  const auto place = permutation(surface.positions.size());
+  const auto place = shuffled(surface.positions.size(), noise);
   const auto old_positions = surface.positions;
   for (std::size_t v = 0; v < place.size(); ++v) surface.positions[place[v]] = old_positions[v];
-  const auto face_place = permutation(surface.faces.size());
+  const auto face_place = shuffled(surface.faces.size(), noise);
   const auto old_faces = surface.faces;
   for (std::size_t f = 0; f < face_place.size(); ++f) {
     auto face = old_faces[f];
@@ -111,12 +101,12 @@ void run(Arguments& arguments) {
   std::vector<std::string> meshes;
   std::vector<std::size_t> sizes = {50000, 400000, 1000000};
   Effort effort{8, 2, 20};
-  bool twice = false, shuffled = false;
+  bool twice = false, in_any_order = false;
   arguments.option("MESH", &meshes, "Surfaces to subdivide up to the largest size");
   arguments.option("--sizes", &sizes, "Vertices of the bumpy sphere, about");
   effort.add_options(arguments);
   arguments.add_limit();
-  arguments.option("--shuffle", &shuffled, "Vertices and faces in random order");
+  arguments.option("--shuffle", &in_any_order, "Vertices and faces in random order");
   arguments.option("--double", &twice, "Double instead of float");
   Table& table = arguments.table(
       "mesh; vertices; build_ns_per_vertex: build ns/V %.0f; ns_per_vertex: solve ns/V %.1f;"
@@ -125,7 +115,7 @@ void run(Arguments& arguments) {
       "build_peak_per_vertex: peak of the build bytes/V %.0f; note");
   std::map<std::string, double> smallest;  // ns a vertex of the smallest surface of a family
   const auto on = [&](const std::string& family, Surface surface) {
-    if (shuffled) shuffle(surface);
+    if (in_any_order) shuffle(surface);
     Row& row = table.measure(
         {{"mesh", surface.name}, {"vertices", surface.positions.size()}}, arguments.limit,
         [&] { return twice ? measure<double>(surface, effort) : measure<float>(surface, effort); });

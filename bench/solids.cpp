@@ -3,7 +3,6 @@
 
 #include <cmath>
 #include <fstream>
-#include <numeric>
 
 #ifdef PLEXWAY_HAS_GL
 #include <plexway/executors/gl.hpp>
@@ -12,7 +11,7 @@
 #include <plexway/boost_graph/dijkstra.hpp>
 #endif
 
-#include "../data/shapes.hpp"
+#include "scenes.hpp"
 #include "solver.hpp"
 
 namespace bench::solids {
@@ -83,18 +82,14 @@ Solid generated(Index n, bool notched, bool shuffled) {
       }
   if (shuffled) {
     s.name += ", shuffled";
-    std::vector<Index> place(s.positions.size());
-    std::iota(place.begin(), place.end(), Index{0});
-    const auto any = [&](std::size_t limit) {
-      const double at = (noise() + 1) / 2 * static_cast<double>(limit);
-      return std::min(limit - 1, static_cast<std::size_t>(at));
-    };
-    for (std::size_t i = place.size(); i > 1; --i) std::swap(place[i - 1], place[any(i)]);
+    const auto place = bench::shuffled(s.positions.size(), noise);
     const auto old = s.positions;
     for (std::size_t v = 0; v < place.size(); ++v) s.positions[place[v]] = old[v];
     for (auto& t : s.tets)
       for (Index& v : t) v = place[v];
-    for (std::size_t i = s.tets.size(); i > 1; --i) std::swap(s.tets[i - 1], s.tets[any(i)]);
+    const auto tets = s.tets;
+    const auto order = bench::shuffled(tets.size(), noise);
+    for (std::size_t t = 0; t < tets.size(); ++t) s.tets[t] = tets[order[t]];
   }
   // From the vertex nearest to the far end of one arm.
   Truth truth;

@@ -5,6 +5,7 @@
 
 #include <plexway/complex/intrinsic_delaunay.hpp>
 
+#include "scenes.hpp"
 #include "solver.hpp"
 
 namespace bench::triangulation {
@@ -50,24 +51,6 @@ Row measure(const Surface& surface, Retriangulation kind, const std::vector<Trut
   return row;
 }
 
-// A height field on a square grid, all cells cut the same way.
-Surface wavy(Index n) {
-  Surface s;
-  s.name = "wavy_" + std::to_string((n + 1) * (n + 1));
-  for (Index j = 0; j <= n; ++j)
-    for (Index i = 0; i <= n; ++i) {
-      const double x = i * 1.0 / n, y = j * 1.0 / n;
-      s.positions.push_back({x, y, 0.05 * std::sin(12 * x) * std::cos(9 * y + 3 * x)});
-    }
-  for (Index j = 0; j < n; ++j)
-    for (Index i = 0; i < n; ++i) {
-      const Index a = j * (n + 1) + i, b = a + n + 1;
-      s.faces.push_back({a, a + 1, b + 1});
-      s.faces.push_back({a, b + 1, b});
-    }
-  return s;
-}
-
 void run(Arguments& arguments) {
   Meshes meshes;
   std::vector<std::size_t> sizes = {500000};
@@ -94,7 +77,11 @@ void run(Arguments& arguments) {
   meshes.each(on);
   for (const std::size_t size : sizes) {
     on(bumpy_surface(size), {});
-    on(wavy(static_cast<Index>(std::sqrt(static_cast<double>(size))) - 1), {});
+    Surface wavy = height_field(
+        static_cast<Index>(std::sqrt(static_cast<double>(size))) - 1,
+        [](double x, double y) { return 0.05 * std::sin(12 * x) * std::cos(9 * y + 3 * x); });
+    wavy.name = "wavy_" + std::to_string(wavy.positions.size());
+    on(wavy, {});
   }
 }
 const Command command("triangulation", "the input's triangles, Delaunay flips, refinement", run);

@@ -5,38 +5,13 @@
 #ifdef PLEXWAY_HAS_BOOST_GRAPH
 
 #include <cmath>
-#include <numeric>
 
 #include <plexway/boost_graph/dijkstra.hpp>
 
-#include "../data/shapes.hpp"
+#include "scenes.hpp"
 #include "solver.hpp"
 
 namespace bench::wireframes {
-
-struct Wires {
-  std::string name;
-  std::vector<std::array<double, 3>> positions;
-  std::vector<std::array<Index, 2>> edges;
-  std::vector<double> lengths;  // empty: from the positions
-};
-
-/// nx by ny by nz points a unit apart, each pushed by up to `push` along each axis that there is.
-Wires lattice(std::string name, Index nx, Index ny, Index nz, double push) {
-  Wires wires{std::move(name), {}, {}, {}};
-  samples::Noise noise(1);
-  for (Index k = 0; k < nz; ++k)
-    for (Index j = 0; j < ny; ++j)
-      for (Index i = 0; i < nx; ++i) {
-        const Index v = static_cast<Index>(wires.positions.size());
-        const double x = push * noise(), y = push * noise(), z = nz > 1 ? push * noise() : 0;
-        wires.positions.push_back({i + x, j + y, k + z});
-        if (i > 0) wires.edges.push_back({v - 1, v});
-        if (j > 0) wires.edges.push_back({v - nx, v});
-        if (k > 0) wires.edges.push_back({v - nx * ny, v});
-      }
-  return wires;
-}
 
 /// A path through all vertices in a row, and twice as many edges between any two of them.
 Wires spread_lengths(Index n) {
@@ -56,12 +31,7 @@ Wires spread_lengths(Index n) {
 /// Vertices in an order that says nothing about where they are.
 void shuffle(Wires& wires) {
   samples::Noise noise(3);
-  std::vector<Index> place(wires.positions.size());
-  std::iota(place.begin(), place.end(), Index{0});
-  for (std::size_t i = place.size(); i > 1; --i) {
-    const double at = (noise() + 1) / 2 * static_cast<double>(i);
-    std::swap(place[i - 1], place[std::min(i - 1, static_cast<std::size_t>(at))]);
-  }
+  const auto place = shuffled(wires.positions.size(), noise);
   const auto old = wires.positions;
   for (std::size_t v = 0; v < old.size(); ++v) wires.positions[place[v]] = old[v];
   for (auto& edge : wires.edges)
