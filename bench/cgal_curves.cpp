@@ -7,14 +7,13 @@
 #include <algorithm>
 #include <cmath>
 
-#include <plexway/apps/path_field.hpp>
-
 #include "cgal_exact.hpp"
+#include "path_points.hpp"
 #include "solver.hpp"
 
 namespace bench::cgal_curves {
 
-using cgal::Kernel, cgal::Mesh;
+using cgal::Mesh;
 
 // Relative, beyond `near`, where the truth itself is good.
 double mean_error(const std::vector<double>& found, const std::vector<double>& exact, double near) {
@@ -35,44 +34,9 @@ Row compare(const Surface& surface) {
   plexway::PathField field(mesh, surface.positions);
   field.solve(plexway::Serial{}, plexway::PointSource::at(from));
   const plexway::Path path = field.trace(to);
-  plexway::CurveSource curve;
-  curve.points.push_back(plexway::PointSource::at(to));
-  for (std::size_t i = 1; i + 1 < path.points.size(); ++i)
-    curve.points.push_back(
-        {.simplex = path.points[i].simplex, .barycentric = path.points[i].barycentric});
-  curve.points.push_back(plexway::PointSource::at(from));
-
-  // Points at equal steps; each lies in the simplex of the point before it.
   constexpr std::size_t samples = 2000, few = 200;
-  std::vector<plexway::PointSource> points;
-  double walked = 0;
-  for (std::size_t i = 0; i + 1 < path.points.size(); ++i) {
-    const auto &p = path.positions[i], &q = path.positions[i + 1];
-    const double step = std::hypot(p[0] - q[0], p[1] - q[1], p[2] - q[2]);
-    const Index f = path.points[i].simplex;
-    const auto& corners = surface.faces[f];
-    while (points.size() < samples) {
-      const double t =
-          (path.length * (static_cast<double>(points.size()) + 0.5) / samples - walked) / step;
-      if (t > 1) break;
-      // Barycentric coordinates by areas.
-      const auto at = [&](std::size_t k) { return p[k] + t * (q[k] - p[k]); };
-      Kernel::Point_3 x(at(0), at(1), at(2));
-      Kernel::Point_3 c[3];
-      for (std::size_t k = 0; k < 3; ++k) {
-        const auto& r = surface.positions[corners[k]];
-        c[k] = {r[0], r[1], r[2]};
-      }
-      std::array<double, 3> w;
-      double sum = 0;
-      for (std::size_t k = 0; k < 3; ++k)
-        sum += w[k] = std::sqrt(CGAL::squared_area(x, c[(k + 1) % 3], c[(k + 2) % 3]));
-      for (double& b : w) b /= sum;
-      points.push_back(plexway::PointSource::in(f, w));
-    }
-    walked += step;
-  }
-
+  const plexway::CurveSource curve = curve_of(path, from, to);
+  const auto points = points_along(path, surface.positions, surface.faces, samples);
   std::vector<plexway::PointSource> some;
   for (std::size_t n = samples / few / 2; n < points.size(); n += samples / few)
     some.push_back(points[n]);

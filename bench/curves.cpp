@@ -5,9 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include <plexway/apps/path_field.hpp>
-
-#include "../data/shapes.hpp"
+#include "path_points.hpp"
 #include "solver.hpp"
 
 namespace bench::curves {
@@ -94,35 +92,8 @@ Case segment(const Unrolled& s, const plexway::TriangleMesh<double>& mesh) {
                d = std::min(d, to_segment({p[0] + turn, p[1], 0}, a, b));
              return d;
            }};
-  plexway::CurveSource curve;
-  const auto at = [&](std::size_t i) {
-    if (i == 0) return PointSource::at(to);
-    if (i + 1 == path.points.size()) return PointSource::at(from);
-    return PointSource::in(path.points[i].simplex, path.points[i].barycentric);
-  };
-  for (std::size_t i = 0; i < path.points.size(); ++i) curve.points.push_back(at(i));
-  one.source = curve;
-  // Points at equal steps. The piece after a point is in the simplex that the path names there.
-  double walked = 0;
-  for (std::size_t i = 0; i + 1 < path.points.size(); ++i) {
-    const Point p = path.positions[i], step = path.positions[i + 1] - p;
-    const double length = std::sqrt(samples::dot(step, step));
-    for (; one.points.size() < count;) {
-      const double t =
-          (path.length * (static_cast<double>(one.points.size()) + 0.5) / count - walked) / length;
-      if (t > 1) break;
-      const auto& f = s.shape.faces[path.points[i].simplex];
-      const auto area = [&](const Point& x, const Point& y, const Point& z) {
-        const Point n = samples::cross(y - x, z - x);
-        return std::sqrt(samples::dot(n, n));
-      };
-      const Point x = p + t * step, &a = s.shape.points[f[0]], &b = s.shape.points[f[1]],
-                  &c = s.shape.points[f[2]];
-      const double u = area(x, b, c), v = area(a, x, c), w = area(a, b, x), sum = u + v + w;
-      one.points.push_back(PointSource::in(path.points[i].simplex, {u / sum, v / sum, w / sum}));
-    }
-    walked += length;
-  }
+  one.source = curve_of(path, from, to);
+  one.points = points_along(path, s.shape.points, s.shape.faces, count);
   return one;
 }
 
